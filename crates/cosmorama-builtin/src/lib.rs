@@ -1,0 +1,1 @@
+//! Procedural worlds for cosmorama: radiance by direction, given by formula.

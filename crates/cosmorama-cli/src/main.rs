@@ -1,0 +1,2 @@
+//! The `cosmorama` program.
+fn main() {}

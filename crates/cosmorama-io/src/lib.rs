@@ -1,0 +1,1 @@
+//! Image files for cosmorama: formats, metadata, face sets and frame sequences.

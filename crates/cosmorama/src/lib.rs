@@ -1,0 +1,7 @@
+//! Cosmorama: world projections, resampled with the elliptical weighted average (EWA) filter.
+
+pub mod projection;
+pub mod raster;
+pub mod resample;
+pub mod sphere;
+pub mod world;

@@ -1,0 +1,85 @@
+use std::ops::{Add, AddAssign, Mul};
+
+use bytemuck::{Pod, Zeroable};
+
+/// A pixel of linear light, premultiplied by alpha: red, green, blue, alpha.
+///
+/// Rec. 709 primaries unless a file says otherwise; 1 is the white of an integer image, HDR goes beyond.
+/// Missing pixels are transparent: all four are zero.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+#[repr(transparent)]
+pub struct Rgba(pub [f32; 4]);
+
+/// The largest finite half: what an infinite sample becomes.
+const LARGEST: f32 = 65504.0;
+
+impl Rgba {
+    /// Nothing: no light, no coverage.
+    pub const TRANSPARENT: Self = Self([0.0; 4]);
+    /// Opaque black.
+    pub const BLACK: Self = Self([0.0, 0.0, 0.0, 1.0]);
+
+    /// An opaque pixel.
+    pub const fn opaque(red: f32, green: f32, blue: f32) -> Self {
+        Self([red, green, blue, 1.0])
+    }
+
+    /// Alpha: the covered part, 0 to 1.
+    pub const fn alpha(self) -> f32 {
+        self.0[3]
+    }
+
+    /// The one rule for non-finite samples: a pixel with a NaN is missing (transparent), and ±∞ becomes
+    /// ±65504, the largest half.
+    #[must_use]
+    pub fn finite(self) -> Self {
+        if self.0.iter().any(|c| c.is_nan()) {
+            return Self::TRANSPARENT;
+        }
+        Self(self.0.map(|c| if c.is_infinite() { LARGEST.copysign(c) } else { c }))
+    }
+
+    /// Colour with alpha divided out; black where nothing is.
+    pub fn unpremultiplied(self) -> [f32; 3] {
+        let [red, green, blue, alpha] = self.0;
+        if alpha <= 0.0 { [0.0; 3] } else { [red / alpha, green / alpha, blue / alpha] }
+    }
+
+    /// This pixel in front of another (Porter & Duff's *over*).
+    #[must_use]
+    pub fn over(self, behind: Self) -> Self {
+        self + behind * (1.0 - self.alpha())
+    }
+}
+
+impl Add for Rgba {
+    type Output = Self;
+    fn add(self, other: Self) -> Self {
+        Self(std::array::from_fn(|c| self.0[c] + other.0[c]))
+    }
+}
+
+impl AddAssign for Rgba {
+    fn add_assign(&mut self, other: Self) {
+        *self = *self + other;
+    }
+}
+
+impl Mul<f32> for Rgba {
+    type Output = Self;
+    fn mul(self, factor: f32) -> Self {
+        Self(self.0.map(|c| c * factor))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn nan_is_missing_and_infinity_is_the_largest_half() {
+        assert_eq!(Rgba([1.0, f32::NAN, 0.0, 1.0]).finite(), Rgba::TRANSPARENT);
+        let clamped = Rgba([f32::INFINITY, f32::NEG_INFINITY, 3.0, 1.0]).finite();
+        assert_eq!(clamped, Rgba([65504.0, -65504.0, 3.0, 1.0]));
+    }
+}

@@ -1,0 +1,95 @@
+use glam::DVec3;
+
+use super::Angle;
+
+/// A direction from the centre of the world: a unit vector, never a point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Direction(DVec3);
+
+impl Direction {
+    /// −Z, where an unturned view looks.
+    pub const FRONT: Self = Self(DVec3::NEG_Z);
+    /// +Z.
+    pub const BACK: Self = Self(DVec3::Z);
+    /// +X.
+    pub const RIGHT: Self = Self(DVec3::X);
+    /// −X.
+    pub const LEFT: Self = Self(DVec3::NEG_X);
+    /// +Y.
+    pub const UP: Self = Self(DVec3::Y);
+    /// −Y.
+    pub const DOWN: Self = Self(DVec3::NEG_Y);
+
+    /// The direction of a vector, which need not have length one; `None` for zero, NaN or infinity.
+    pub fn new(vector: DVec3) -> Option<Self> {
+        vector.try_normalize().map(Self)
+    }
+
+    /// A vector that has length one already, up to rounding.
+    pub fn from_unit(unit: DVec3) -> Self {
+        debug_assert!((unit.length_squared() - 1.0).abs() < 1e-9, "{unit}");
+        Self(unit)
+    }
+
+    /// Longitude (0 at the front, positive to the right) and latitude (positive up).
+    pub fn from_longitude_latitude(longitude: Angle, latitude: Angle) -> Self {
+        let (sin_lon, cos_lon) = longitude.sin_cos();
+        let (sin_lat, cos_lat) = latitude.sin_cos();
+        Self(DVec3::new(sin_lon * cos_lat, sin_lat, -cos_lon * cos_lat))
+    }
+
+    /// The unit vector.
+    pub const fn vector(self) -> DVec3 {
+        self.0
+    }
+
+    /// Cosine of the angle to another direction.
+    pub fn dot(self, other: Self) -> f64 {
+        self.0.dot(other.0)
+    }
+
+    /// Angle to another direction, exact for small and large angles alike.
+    pub fn angle_to(self, other: Self) -> Angle {
+        let sine = self.0.cross(other.0).length();
+        Angle::from_radians(sine.atan2(self.dot(other)))
+    }
+
+    /// The opposite direction.
+    pub fn opposite(self) -> Self {
+        Self(-self.0)
+    }
+}
+
+/// ∂direction/∂(x, y): how a direction moves as a point of a plane or a pixel of a screen moves.
+/// Both columns are tangent to the sphere at the direction.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DirectionJacobian {
+    /// Change of the direction for a unit step along x.
+    pub dx: DVec3,
+    /// Change of the direction for a unit step along y.
+    pub dy: DVec3,
+}
+
+impl DirectionJacobian {
+    /// Solid angle covered by a unit square of the plane, in steradians (to first order).
+    pub fn solid_angle(&self) -> f64 {
+        self.dx.cross(self.dy).length()
+    }
+
+    /// Derivative for other axes: the new x moves the plane point by `x`, the new y by `y` (chain rule).
+    pub fn compose(&self, x: glam::DVec2, y: glam::DVec2) -> Self {
+        Self { dx: self.dx * x.x + self.dy * x.y, dy: self.dx * y.x + self.dy * y.y }
+    }
+
+    /// The plane step that moves the direction by `tangent` (least squares: the pseudo-inverse JᵀJ⁻¹Jᵀ).
+    /// `None` where the mapping is singular.
+    pub fn pseudo_inverse(&self, tangent: DVec3) -> Option<glam::DVec2> {
+        let (xx, xy, yy) = (self.dx.dot(self.dx), self.dx.dot(self.dy), self.dy.dot(self.dy));
+        let determinant = xx * yy - xy * xy;
+        if determinant <= 1e-24 * xx * yy {
+            return None;
+        }
+        let (tx, ty) = (self.dx.dot(tangent), self.dy.dot(tangent));
+        Some(glam::DVec2::new(yy * tx - xy * ty, xx * ty - xy * tx) / determinant)
+    }
+}

@@ -1,0 +1,101 @@
+use glam::{DMat3, DVec3};
+
+use super::{Angle, Direction, DirectionJacobian};
+
+/// How a view is turned in the world.
+///
+/// Yaw, then pitch, then roll: yaw > 0 turns right, pitch > 0 looks up, roll > 0 turns the camera
+/// clockwise as the photographer sees it (so the picture's content turns counter-clockwise).
+///
+/// ```
+/// use cosmorama::sphere::{Angle, Direction, Orientation};
+/// let right = Orientation::from_yaw_pitch_roll(Angle::from_degrees(90.0), Angle::ZERO, Angle::ZERO);
+/// assert!(right.to_world(Direction::FRONT).angle_to(Direction::RIGHT).degrees() < 1e-9);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Orientation {
+    world_from_view: DMat3,
+}
+
+impl Orientation {
+    /// Looking to the front, up is up.
+    pub const IDENTITY: Self = Self { world_from_view: DMat3::IDENTITY };
+
+    /// The orientation of a camera turned by yaw, then pitched, then rolled about its own axes.
+    pub fn from_yaw_pitch_roll(yaw: Angle, pitch: Angle, roll: Angle) -> Self {
+        let world_from_view = DMat3::from_rotation_y(-yaw.radians())
+            * DMat3::from_rotation_x(pitch.radians())
+            * DMat3::from_rotation_z(-roll.radians());
+        Self { world_from_view }
+    }
+
+    /// The orientation whose image right, up and forward are these directions (an orthonormal, right-handed set).
+    pub fn from_axes(right: Direction, up: Direction, forward: Direction) -> Self {
+        let world_from_view = DMat3::from_cols(right.vector(), up.vector(), -forward.vector());
+        debug_assert!((world_from_view.determinant() - 1.0).abs() < 1e-9, "axes are not right-handed");
+        Self { world_from_view }
+    }
+
+    /// This orientation as seen from a frame that is itself turned by `outer`.
+    pub fn within(self, outer: Self) -> Self {
+        Self { world_from_view: outer.world_from_view * self.world_from_view }
+    }
+
+    /// From the view's frame to the world's.
+    pub fn to_world(&self, direction: Direction) -> Direction {
+        Direction::from_unit(self.world_from_view * direction.vector())
+    }
+
+    /// From the world's frame to the view's.
+    pub fn to_view(&self, direction: Direction) -> Direction {
+        Direction::from_unit(self.vector_to_view(direction.vector()))
+    }
+
+    /// A tangent vector from the world's frame to the view's.
+    pub fn vector_to_view(&self, vector: DVec3) -> DVec3 {
+        self.world_from_view.transpose() * vector
+    }
+
+    /// Both derivatives from the view's frame to the world's.
+    pub fn jacobian_to_world(&self, jacobian: DirectionJacobian) -> DirectionJacobian {
+        DirectionJacobian { dx: self.world_from_view * jacobian.dx, dy: self.world_from_view * jacobian.dy }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn oriented(yaw: f64, pitch: f64, roll: f64) -> Orientation {
+        Orientation::from_yaw_pitch_roll(
+            Angle::from_degrees(yaw),
+            Angle::from_degrees(pitch),
+            Angle::from_degrees(roll),
+        )
+    }
+
+    fn assert_close(a: Direction, b: Direction) {
+        assert!(a.angle_to(b).degrees() < 1e-9, "{a:?} is not {b:?}");
+    }
+
+    #[test]
+    fn yaw_turns_right() {
+        assert_close(oriented(90.0, 0.0, 0.0).to_world(Direction::FRONT), Direction::RIGHT);
+    }
+
+    #[test]
+    fn pitch_looks_up() {
+        assert_close(oriented(0.0, 90.0, 0.0).to_world(Direction::FRONT), Direction::UP);
+    }
+
+    #[test]
+    fn roll_turns_the_camera_clockwise() {
+        // The camera's top leans to its right, as a clock's hand goes from twelve to three.
+        assert_close(oriented(0.0, 0.0, 90.0).to_world(Direction::UP), Direction::RIGHT);
+    }
+
+    #[test]
+    fn pitch_is_about_the_yawed_axis() {
+        assert_close(oriented(90.0, 45.0, 0.0).to_world(Direction::RIGHT), Direction::BACK);
+    }
+}

@@ -1,0 +1,1 @@
+//! Worlds with closed-form answers, comparators and oracles for cosmorama's own tests.
