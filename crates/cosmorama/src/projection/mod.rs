@@ -1,1 +1,43 @@
-//! (under construction)
+//! Projections: invertible mappings between directions and a plane.
+//!
+//! A projection knows nothing of pixels, orientation or the edge of an image: those belong to
+//! [`crate::world::View`]. Each one is a small file, and adding one touches its file and [`ProjectionKind`].
+
+pub mod azimuthal;
+pub mod cylindrical;
+mod kind;
+mod perspective;
+mod plane;
+
+pub use kind::ProjectionKind;
+pub use perspective::Perspective;
+pub use plane::{PlanePoint, PlaneRect};
+
+use crate::sphere::{Angle, Direction, DirectionJacobian};
+
+/// An invertible mapping between directions (in the view's own frame, −Z forward) and a plane (x right, y up) in the
+/// projection's natural unit.
+///
+/// Outside the domain the answer is `None`, never NaN.
+pub trait Projection {
+    /// Where a direction lands in the plane.
+    fn project(&self, direction: Direction) -> Option<PlanePoint>;
+
+    /// The direction seen at a point of the plane.
+    fn unproject(&self, point: PlanePoint) -> Option<Direction>;
+
+    /// ∂direction/∂plane at a point, exact; `None` exactly where [`Projection::unproject`] is `None`.
+    fn jacobian(&self, point: PlanePoint) -> Option<DirectionJacobian>;
+
+    /// Angle from a direction to the nearest one at which the mapping is singular (a pole, a horizon, a rim).
+    /// A footprint much smaller than this is mapped to an ellipse; a larger one is weighed on the sphere.
+    fn margin(&self, direction: Direction) -> Angle;
+
+    /// The rectangle of the plane that holds every direction within `radius` of `centre`.
+    fn cap_bounds(&self, centre: Direction, radius: Angle) -> PlaneRect;
+
+    /// The distance after which x repeats, where the plane is a rolled-out cylinder.
+    fn period(&self) -> Option<f64> {
+        None
+    }
+}

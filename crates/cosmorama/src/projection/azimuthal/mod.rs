@@ -1,0 +1,101 @@
+//! Fisheye lenses: the angle from the axis is a function of the radius in the picture.
+
+mod equidistant;
+mod omnimax;
+
+pub use equidistant::Equidistant;
+pub use omnimax::OmnimaxLens;
+
+use glam::DVec3;
+
+use super::{PlanePoint, PlaneRect, Projection};
+use crate::sphere::{Angle, Direction, DirectionJacobian};
+
+/// A lens with an axis of symmetry: φ(r), strictly rising, φ(0) = 0.
+pub trait Lens {
+    /// The angle φ from the axis, in radians, at radius r ≥ 0, and its derivative φ′(r).
+    fn angle(&self, radius: f64) -> (f64, f64);
+
+    /// The radius at which the angle φ (radians, 0 to π) is seen; `None` beyond the lens formula's reach.
+    fn radius(&self, angle: f64) -> Option<f64>;
+}
+
+/// The projection of a [`Lens`]: the plane's unit is the lens's own unit of radius, its origin the axis.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Azimuthal<L>(pub L);
+
+impl<L: Lens> Projection for Azimuthal<L> {
+    fn project(&self, direction: Direction) -> Option<PlanePoint> {
+        let vector = direction.vector();
+        let sine = vector.x.hypot(vector.y);
+        let radius = self.0.radius(sine.atan2(-vector.z))?;
+        if sine == 0.0 {
+            // The whole rim is seen in the direction straight behind: no single point.
+            return (radius == 0.0).then_some(PlanePoint::new(0.0, 0.0));
+        }
+        Some(PlanePoint::new(vector.x / sine * radius, vector.y / sine * radius))
+    }
+
+    fn unproject(&self, point: PlanePoint) -> Option<Direction> {
+        let radius = point.x.hypot(point.y);
+        let (angle, slope) = self.0.angle(radius);
+        if !(angle <= std::f64::consts::PI) {
+            return None;
+        }
+        let (sin, cos) = angle.sin_cos();
+        let sin_over_radius = if radius > 0.0 { sin / radius } else { slope };
+        Some(Direction::from_unit(DVec3::new(point.x * sin_over_radius, point.y * sin_over_radius, -cos)))
+    }
+
+    fn jacobian(&self, point: PlanePoint) -> Option<DirectionJacobian> {
+        let radius = point.x.hypot(point.y);
+        let (angle, slope) = self.0.angle(radius);
+        if !(angle <= std::f64::consts::PI) {
+            return None;
+        }
+        if radius == 0.0 {
+            return Some(DirectionJacobian { dx: DVec3::X * slope, dy: DVec3::Y * slope });
+        }
+        let (sin, cos) = angle.sin_cos();
+        let (ux, uy) = (point.x / radius, point.y / radius);
+        let radial = DVec3::new(cos * ux, cos * uy, sin) * slope;
+        let tangential = DVec3::new(-uy, ux, 0.0) * (sin / radius);
+        Some(DirectionJacobian { dx: radial * ux - tangential * uy, dy: radial * uy + tangential * ux })
+    }
+
+    fn margin(&self, direction: Direction) -> Angle {
+        Direction::BACK.angle_to(direction)
+    }
+
+    fn cap_bounds(&self, centre: Direction, radius: Angle) -> PlaneRect {
+        let axis_angle = Direction::FRONT.angle_to(centre);
+        let Some(outer) = self.0.radius((axis_angle + radius).radians()) else {
+            return PlaneRect::EVERYTHING;
+        };
+        if axis_angle <= radius || (axis_angle + radius).degrees() >= 180.0 {
+            return PlaneRect { min: PlanePoint::new(-outer, -outer), max: PlanePoint::new(outer, outer) };
+        }
+        // A ring sector: between two radii, and as wide as the cap is in azimuth.
+        let inner = self.0.radius((axis_angle - radius).radians()).unwrap_or(0.0);
+        let azimuth = centre.vector().y.atan2(centre.vector().x);
+        let half_width = (radius.radians().sin() / axis_angle.radians().sin()).min(1.0).asin();
+        let (min_cos, max_cos) = cosine_range(azimuth, half_width);
+        let (min_sin, max_sin) = cosine_range(azimuth - std::f64::consts::FRAC_PI_2, half_width);
+        let low = |c: f64| if c < 0.0 { c * outer } else { c * inner };
+        let high = |c: f64| if c > 0.0 { c * outer } else { c * inner };
+        PlaneRect {
+            min: PlanePoint::new(low(min_cos), low(min_sin)),
+            max: PlanePoint::new(high(max_cos), high(max_sin)),
+        }
+    }
+}
+
+/// Least and greatest cosine of the angles within `half_width` ≤ π/2 of `centre`.
+fn cosine_range(centre: f64, half_width: f64) -> (f64, f64) {
+    use std::f64::consts::{PI, TAU};
+    let (a, b) = ((centre - half_width).cos(), (centre + half_width).cos());
+    let reaches = |angle: f64| (centre - angle + PI).rem_euclid(TAU) - PI;
+    let min = if reaches(PI).abs() <= half_width { -1.0 } else { a.min(b) };
+    let max = if reaches(0.0).abs() <= half_width { 1.0 } else { a.max(b) };
+    (min, max)
+}

@@ -1,0 +1,54 @@
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
+
+use glam::DVec3;
+
+use crate::projection::{PlanePoint, PlaneRect, Projection};
+use crate::sphere::{Angle, Direction, DirectionJacobian};
+
+/// The panorama: x is the longitude (0 at the front, positive to the right), y the latitude, in radians.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Equirectangular;
+
+impl Projection for Equirectangular {
+    fn project(&self, direction: Direction) -> Option<PlanePoint> {
+        let vector = direction.vector();
+        let latitude = vector.y.atan2(vector.x.hypot(vector.z));
+        Some(PlanePoint::new(vector.x.atan2(-vector.z), latitude))
+    }
+
+    fn unproject(&self, point: PlanePoint) -> Option<Direction> {
+        // Half a pixel row beyond a pole belongs to no direction, but rounding must not lose the pole itself.
+        (point.x.is_finite() && point.y.abs() <= FRAC_PI_2 + 1e-12)
+            .then(|| Direction::from_longitude_latitude(Angle::from_radians(point.x), Angle::from_radians(point.y)))
+    }
+
+    fn jacobian(&self, point: PlanePoint) -> Option<DirectionJacobian> {
+        self.unproject(point)?;
+        let (sin_lon, cos_lon) = point.x.sin_cos();
+        let (sin_lat, cos_lat) = point.y.sin_cos();
+        Some(DirectionJacobian {
+            dx: DVec3::new(cos_lon, 0.0, sin_lon) * cos_lat,
+            dy: DVec3::new(-sin_lon * sin_lat, cos_lat, cos_lon * sin_lat),
+        })
+    }
+
+    fn margin(&self, direction: Direction) -> Angle {
+        let vector = direction.vector();
+        Angle::from_radians(vector.x.hypot(vector.z).atan2(vector.y.abs()))
+    }
+
+    fn cap_bounds(&self, centre: Direction, radius: Angle) -> PlaneRect {
+        let Some(point) = self.project(centre) else { return PlaneRect::EVERYTHING };
+        let (low, high) = (point.y - radius.radians(), point.y + radius.radians());
+        let holds_a_pole = low <= -FRAC_PI_2 || high >= FRAC_PI_2;
+        let half_width = if holds_a_pole { PI } else { (radius.radians().sin() / point.y.cos()).asin() };
+        PlaneRect {
+            min: PlanePoint::new(point.x - half_width, low.max(-FRAC_PI_2)),
+            max: PlanePoint::new(point.x + half_width, high.min(FRAC_PI_2)),
+        }
+    }
+
+    fn period(&self) -> Option<f64> {
+        Some(TAU)
+    }
+}

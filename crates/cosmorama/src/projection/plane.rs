@@ -1,0 +1,32 @@
+/// A point of a projection's plane: x right, y up, in the projection's natural unit.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PlanePoint {
+    /// To the right.
+    pub x: f64,
+    /// Up.
+    pub y: f64,
+}
+
+impl PlanePoint {
+    /// The point (x, y).
+    pub const fn new(x: f64, y: f64) -> Self {
+        Self { x, y }
+    }
+}
+
+/// A rectangle of a projection's plane; infinite sides mean "without bound".
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PlaneRect {
+    /// Least x and y.
+    pub min: PlanePoint,
+    /// Greatest x and y.
+    pub max: PlanePoint,
+}
+
+impl PlaneRect {
+    /// The whole plane.
+    pub const EVERYTHING: Self = Self {
+        min: PlanePoint::new(f64::NEG_INFINITY, f64::NEG_INFINITY),
+        max: PlanePoint::new(f64::INFINITY, f64::INFINITY),
+    };
+}

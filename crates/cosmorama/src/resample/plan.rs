@@ -1,0 +1,155 @@
+use rayon::prelude::*;
+
+use super::gather::Gather;
+use super::taps::average;
+use super::{Filter, FilterKind, Tap, Taps, lookup, reference};
+use crate::raster::{Image, Rgba};
+use crate::world::{ScreenPixel, View, World};
+
+/// Rows of a target that are worked on together.
+const BAND: usize = 8;
+
+/// The geometry of a conversion: which texels, with which weights, make each pixel of the target.
+///
+/// It depends on the views, the target and the filter, not on the light: one plan serves all frames of a sequence.
+#[derive(Clone, Debug)]
+pub struct Plan {
+    width: usize,
+    height: usize,
+    anti_ringing: bool,
+    bands: Vec<Band>,
+}
+
+/// The taps of a few rows, one pixel after the other.
+#[derive(Clone, Debug, Default)]
+struct Band {
+    pixels: Vec<PlannedPixel>,
+    taps: Vec<Tap>,
+}
+
+#[derive(Clone, Copy, Debug, Default)]
+struct PlannedPixel {
+    /// Taps of this pixel, and how many of them, the first ones, lie under it.
+    taps: u32,
+    under: u32,
+    /// The part of the pixel inside the field of view.
+    coverage: f32,
+}
+
+/// A conversion from a world to a target view.
+#[derive(Clone, Copy, Debug)]
+pub struct Resampler<'a> {
+    /// Where light comes from.
+    pub world: &'a World,
+    /// Where it goes.
+    pub target: &'a View,
+    /// How.
+    pub filter: Filter,
+}
+
+impl Resampler<'_> {
+    /// One frame, computed without storing the geometry. `texels` is the world's buffer of light.
+    ///
+    /// Pixels are premultiplied by their coverage: transparent outside the lens.
+    ///
+    /// # Panics
+    /// If `texels` is not as long as [`World::texel_count`] says.
+    pub fn render(&self, texels: &[Rgba]) -> Image<Rgba> {
+        assert_eq!(texels.len(), self.world.texel_count(), "one texel of light for each texel of the world");
+        if let FilterKind::Reference { samples } = self.filter.kind {
+            return reference::render(self.world, self.target, &self.filter, samples, texels);
+        }
+        let mut image = Image::filled(self.target.width(), self.target.height(), Rgba::TRANSPARENT);
+        let width = self.target.width().max(1);
+        image.pixels_mut().par_chunks_mut(width * BAND).enumerate().for_each(|(index, rows)| {
+            let mut scratch = Vec::new();
+            self.for_each_pixel(index, |position, screen, taps| {
+                scratch.clear();
+                scratch.extend_from_slice(&taps.under);
+                scratch.extend_from_slice(&taps.around);
+                let colour = average(&scratch, taps.under.len(), texels, self.filter.anti_ringing);
+                rows[position] = colour * screen.coverage as f32;
+            });
+        });
+        image
+    }
+
+    /// The geometry, for any number of frames; `None` for the reference filter, which has too many samples to store.
+    pub fn plan(&self) -> Option<Plan> {
+        if matches!(self.filter.kind, FilterKind::Reference { .. }) {
+            return None;
+        }
+        let (width, height) = (self.target.width(), self.target.height());
+        let bands = (0..height.div_ceil(BAND)).into_par_iter().map(|index| self.plan_band(index)).collect();
+        Some(Plan { width, height, anti_ringing: self.filter.anti_ringing, bands })
+    }
+
+    fn plan_band(&self, index: usize) -> Band {
+        let rows = BAND.min(self.target.height() - index * BAND);
+        let mut band = Band { pixels: vec![PlannedPixel::default(); rows * self.target.width()], taps: Vec::new() };
+        self.for_each_pixel(index, |position, screen, taps| {
+            band.taps.extend(taps.iter());
+            band.pixels[position] = PlannedPixel {
+                taps: taps.len() as u32,
+                under: taps.under.len() as u32,
+                coverage: screen.coverage as f32,
+            };
+        });
+        band.taps.shrink_to_fit();
+        band
+    }
+
+    /// Calls `visit` with the position within the band, the pixel and its taps, for every pixel that shows something.
+    fn for_each_pixel(&self, band: usize, mut visit: impl FnMut(usize, &ScreenPixel, &Taps)) {
+        let mut gather = Gather::new(self.world, self.filter.kernel);
+        let mut taps = Taps::default();
+        let (width, top) = (self.target.width(), band * BAND);
+        for j in top..self.target.height().min(top + BAND) {
+            for i in 0..width {
+                let Some(screen) = self.target.screen_pixel(i, j) else { continue };
+                self.fill(&mut gather, &screen, &mut taps);
+                visit((j - top) * width + i, &screen, &taps);
+            }
+        }
+    }
+
+    fn fill(&self, gather: &mut Gather, screen: &ScreenPixel, taps: &mut Taps) {
+        let direction = screen.footprint.direction;
+        match self.filter.kind {
+            FilterKind::Ewa => gather.taps(&screen.footprint, taps),
+            FilterKind::Point => {
+                taps.clear();
+                lookup::nearest(self.world, direction, |texel, weight| taps.push_under(texel, weight));
+            }
+            FilterKind::Bilinear | FilterKind::Reference { .. } => {
+                taps.clear();
+                lookup::bilinear(self.world, direction, |texel, weight| taps.push_under(texel, weight));
+                taps.normalise();
+            }
+        }
+    }
+}
+
+impl Plan {
+    /// One frame. `texels` is the world's buffer of light.
+    pub fn apply(&self, texels: &[Rgba]) -> Image<Rgba> {
+        let mut image = Image::filled(self.width, self.height, Rgba::TRANSPARENT);
+        let rows = image.pixels_mut().par_chunks_mut(self.width.max(1) * BAND);
+        rows.zip(&self.bands).for_each(|(rows, band)| {
+            let mut rest = band.taps.as_slice();
+            for (pixel, planned) in rows.iter_mut().zip(&band.pixels) {
+                let taps;
+                (taps, rest) = rest.split_at(planned.taps as usize);
+                *pixel = average(taps, planned.under as usize, texels, self.anti_ringing) * planned.coverage;
+            }
+        });
+        image
+    }
+
+    /// Bytes of memory that the plan holds.
+    pub fn bytes(&self) -> usize {
+        let band =
+            |band: &Band| band.taps.capacity() * size_of::<Tap>() + band.pixels.capacity() * size_of::<PlannedPixel>();
+        self.bands.iter().map(band).sum()
+    }
+}

@@ -1,0 +1,106 @@
+//! Brute force: N×N sub-samples a pixel through the exact mapping, weighted by the kernel in screen space, in f64.
+
+use rayon::prelude::*;
+
+use super::{Filter, lookup};
+use crate::raster::{Image, Rgba};
+use crate::world::{PixelPoint, View, World};
+
+/// The target by brute force. Slow, obvious, the judge of the other filters.
+pub(super) fn render(world: &World, target: &View, filter: &Filter, samples: usize, texels: &[Rgba]) -> Image<Rgba> {
+    let mut image = Image::filled(target.width(), target.height(), Rgba::TRANSPARENT);
+    image.pixels_mut().par_chunks_mut(target.width().max(1)).enumerate().for_each(|(j, row)| {
+        for (i, pixel) in row.iter_mut().enumerate() {
+            if let Some(screen) = target.screen_pixel(i, j) {
+                let kernel = KernelSquare::new(world, target, filter, samples, (i, j));
+                *pixel = kernel.average(texels) * screen.coverage as f32;
+            }
+        }
+    });
+    image
+}
+
+/// The square of sub-samples that a kernel reaches around a pixel.
+struct KernelSquare<'a> {
+    world: &'a World,
+    target: &'a View,
+    filter: &'a Filter,
+    samples: usize,
+    centre: PixelPoint,
+    coarseness: f64,
+}
+
+impl<'a> KernelSquare<'a> {
+    fn new(world: &'a World, target: &'a View, filter: &'a Filter, samples: usize, (i, j): (usize, usize)) -> Self {
+        let centre = PixelPoint::centre(i, j);
+        let coarseness = texels_per_pixel(world, target, centre).map_or(1.0, |s| filter.kernel.coarseness(s));
+        Self { world, target, filter, samples, centre, coarseness }
+    }
+
+    fn average(&self, texels: &[Rgba]) -> Rgba {
+        let scale = self.filter.kernel.scale;
+        let reach = (self.filter.kernel.radius() * scale * self.samples as f64).ceil() as i64 + 1;
+        let step = (self.samples as f64).recip();
+        // Sub-samples lie at the centres of an N×N grid in each pixel.
+        let phase = if self.samples % 2 == 0 { 0.5 } else { 0.0 };
+        let (mut sum, mut weights) = ([0f64; 4], 0f64);
+        let (mut least, mut greatest) = ([f64::INFINITY; 4], [f64::NEG_INFINITY; 4]);
+        for b in -reach..=reach {
+            for a in -reach..=reach {
+                let (x, y) = ((a as f64 + phase) * step, (b as f64 + phase) * step);
+                let (rx, ry) = (x / scale, y / scale);
+                let weight = self.weight(rx, ry);
+                if weight == 0.0 {
+                    continue;
+                }
+                let Some((colour, found)) = self.sample(x, y, texels) else { continue };
+                weights += weight * found;
+                for c in 0..4 {
+                    sum[c] += weight * colour[c];
+                    if rx.hypot(ry) < 1.0 && found > 0.0 {
+                        least[c] = least[c].min(colour[c] / found);
+                        greatest[c] = greatest[c].max(colour[c] / found);
+                    }
+                }
+            }
+        }
+        if weights <= 0.0 {
+            return Rgba::TRANSPARENT;
+        }
+        Rgba(std::array::from_fn(|c| {
+            let value = sum[c] / weights;
+            let clamped = self.filter.anti_ringing && least[c] <= greatest[c];
+            (if clamped { value.clamp(least[c], greatest[c]) } else { value }) as f32
+        }))
+    }
+
+    fn weight(&self, x: f64, y: f64) -> f64 {
+        let kernel = &self.filter.kernel;
+        kernel.fine.weight_at(x, y) * (1.0 - self.coarseness) + kernel.coarse.weight_at(x, y) * self.coarseness
+    }
+
+    /// Light at an offset from the pixel's centre times the part of it that the world holds, and that part.
+    fn sample(&self, x: f64, y: f64, texels: &[Rgba]) -> Option<([f64; 4], f64)> {
+        let pixel = PixelPoint::new(self.centre.x + x, self.centre.y + y);
+        if !self.target.stop_passes(pixel) {
+            return None;
+        }
+        let direction = self.target.direction(pixel)?;
+        let (mut colour, mut found) = ([0f64; 4], 0f64);
+        lookup::bilinear(self.world, direction, |texel, weight| {
+            found += weight;
+            for c in 0..4 {
+                colour[c] += weight * f64::from(texels[texel as usize].0[c]);
+            }
+        });
+        Some((colour, found))
+    }
+}
+
+/// s = √|det J|, in the view that shows the pixel's centre.
+fn texels_per_pixel(world: &World, target: &View, centre: PixelPoint) -> Option<f64> {
+    let footprint = target.footprint(centre)?;
+    let source = world.sources().iter().find(|source| source.view.sees(footprint.direction))?;
+    let (_, jacobian) = source.view.texel_footprint(&footprint)?;
+    Some(jacobian.determinant().abs().sqrt())
+}

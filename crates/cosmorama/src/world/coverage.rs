@@ -1,0 +1,82 @@
+use super::{Footprint, PixelPoint, View};
+use crate::projection::Projection;
+
+/// A pixel of a target: how much of it the field of view covers, and what the covered part sees.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ScreenPixel {
+    /// The covered part of the pixel's area, more than 0, at most 1.
+    pub coverage: f64,
+    /// The footprint at the centroid of the covered part: the centre of a whole pixel.
+    pub footprint: Footprint,
+}
+
+/// A cut pixel is measured by a grid of this many sub-samples a side.
+const SUB_SAMPLES: usize = 16;
+
+/// Where a pixel lies in relation to the edge of the field of view.
+enum Side {
+    Inside,
+    Outside,
+    Edge,
+}
+
+impl View {
+    /// The pixel in column `i` of row `j`; `None` if it shows nothing.
+    ///
+    /// The rim and the lower arc are smooth because a pixel that they cut counts by its covered part.
+    pub fn screen_pixel(&self, i: usize, j: usize) -> Option<ScreenPixel> {
+        let centre = PixelPoint::centre(i, j);
+        let footprint = self.footprint(centre);
+        match footprint.as_ref().map_or(Side::Edge, |footprint| self.side(centre, footprint)) {
+            Side::Inside => footprint.map(|footprint| ScreenPixel { coverage: 1.0, footprint }),
+            Side::Outside => None,
+            Side::Edge => self.cut_pixel(i as f64, j as f64),
+        }
+    }
+
+    /// Decides without sub-samples where a pixel cannot touch the edge: it is nowhere wider than its half diagonals.
+    fn side(&self, centre: PixelPoint, footprint: &Footprint) -> Side {
+        let mut touches = false;
+        if let Some(radius) = self.stop.circle {
+            let (point, step) = (self.grid.to_plane(centre), self.grid.step());
+            let (distance, half_diagonal) = (point.x.hypot(point.y), step.length() / 2.0);
+            if distance - half_diagonal > radius {
+                return Side::Outside;
+            }
+            touches |= distance + half_diagonal > radius;
+        }
+        if let Some(side) = self.stop.half_space {
+            let sine = side.dot(self.orientation.to_view(footprint.direction));
+            // Twice the linear half diagonal: room for the mapping's curvature.
+            let reach = footprint.jacobian.dx.length() + footprint.jacobian.dy.length();
+            if sine < -reach {
+                return Side::Outside;
+            }
+            touches |= sine < reach;
+        }
+        if touches { Side::Edge } else { Side::Inside }
+    }
+
+    fn cut_pixel(&self, x: f64, y: f64) -> Option<ScreenPixel> {
+        let (mut count, mut sum_x, mut sum_y) = (0usize, 0.0, 0.0);
+        for b in 0..SUB_SAMPLES {
+            for a in 0..SUB_SAMPLES {
+                let offset = |k: usize| (k as f64 + 0.5) / SUB_SAMPLES as f64;
+                let sample = PixelPoint::new(x + offset(a), y + offset(b));
+                if self.shows(sample) {
+                    count += 1;
+                    sum_x += sample.x;
+                    sum_y += sample.y;
+                }
+            }
+        }
+        let centroid = PixelPoint::new(sum_x / count as f64, sum_y / count as f64);
+        let footprint = self.footprint(centroid)?;
+        Some(ScreenPixel { coverage: count as f64 / (SUB_SAMPLES * SUB_SAMPLES) as f64, footprint })
+    }
+
+    /// Angle from a direction of the world to the nearest one at which this view's mapping is singular, in radians.
+    pub fn margin(&self, direction: crate::sphere::Direction) -> f64 {
+        self.projection.margin(self.orientation.to_view(direction)).radians()
+    }
+}

@@ -1,0 +1,148 @@
+use glam::DVec2;
+
+use crate::projection::{PlanePoint, PlaneRect};
+
+/// A point of an image in continuous pixel coordinates: x to the right, y DOWN, (0, 0) the outer corner of the top left
+/// pixel, whose centre is at (½, ½).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PixelPoint {
+    /// To the right.
+    pub x: f64,
+    /// Down.
+    pub y: f64,
+}
+
+impl PixelPoint {
+    /// The point (x, y).
+    pub const fn new(x: f64, y: f64) -> Self {
+        Self { x, y }
+    }
+
+    /// The centre of the pixel in column `i` of row `j`.
+    pub const fn centre(i: usize, j: usize) -> Self {
+        Self { x: i as f64 + 0.5, y: j as f64 + 0.5 }
+    }
+}
+
+/// A rectangle of whole pixels: columns `left..right`, rows `top..bottom`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct PixelRect {
+    /// First column.
+    pub left: usize,
+    /// First row.
+    pub top: usize,
+    /// One past the last column.
+    pub right: usize,
+    /// One past the last row.
+    pub bottom: usize,
+}
+
+impl PixelRect {
+    /// Columns.
+    pub const fn width(&self) -> usize {
+        self.right.saturating_sub(self.left)
+    }
+
+    /// Rows.
+    pub const fn height(&self) -> usize {
+        self.bottom.saturating_sub(self.top)
+    }
+
+    /// The smallest rectangle that holds both.
+    #[must_use]
+    pub fn union(self, other: Self) -> Self {
+        Self {
+            left: self.left.min(other.left),
+            top: self.top.min(other.top),
+            right: self.right.max(other.right),
+            bottom: self.bottom.max(other.bottom),
+        }
+    }
+
+    /// Whether all of `other` lies in this one.
+    pub const fn contains(&self, other: &Self) -> bool {
+        self.left <= other.left && self.top <= other.top && self.right >= other.right && self.bottom >= other.bottom
+    }
+}
+
+/// `WxH+X+Y`, as image windows are written.
+impl std::fmt::Display for PixelRect {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{}x{}+{}+{}", self.width(), self.height(), self.left, self.top)
+    }
+}
+
+/// How the pixels of an image lie in a projection's plane: x = (px − origin.x)·step.x, y = (origin.y − py)·step.y.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PixelGrid {
+    width: usize,
+    height: usize,
+    /// Pixel coordinates of the plane's origin.
+    origin: DVec2,
+    /// Plane units per pixel; a negative step mirrors the picture.
+    step: DVec2,
+}
+
+impl PixelGrid {
+    /// An image whose edges are those of a rectangle of the plane.
+    pub fn spanning(width: usize, height: usize, rect: PlaneRect) -> Self {
+        let step = DVec2::new((rect.max.x - rect.min.x) / width as f64, (rect.max.y - rect.min.y) / height as f64);
+        Self { width, height, origin: DVec2::new(-rect.min.x / step.x, rect.max.y / step.y), step }
+    }
+
+    /// An image with the plane's origin at `origin` and `step` plane units a pixel along x and y.
+    pub fn centred(width: usize, height: usize, origin: PixelPoint, step: DVec2) -> Self {
+        Self { width, height, origin: DVec2::new(origin.x, origin.y), step }
+    }
+
+    /// The part of this grid that a cropped image of `width`×`height` pixels shows, its top left corner at (x, y).
+    /// The corner may lie outside, and so may the far one.
+    #[must_use]
+    pub fn window(self, width: usize, height: usize, x: f64, y: f64) -> Self {
+        Self { width, height, origin: self.origin - DVec2::new(x, y), ..self }
+    }
+
+    /// The same picture mirrored left to right.
+    #[must_use]
+    pub fn flipped_x(self) -> Self {
+        let origin = DVec2::new(self.width as f64 - self.origin.x, self.origin.y);
+        Self { origin, step: DVec2::new(-self.step.x, self.step.y), ..self }
+    }
+
+    /// The same picture mirrored top to bottom.
+    #[must_use]
+    pub fn flipped_y(self) -> Self {
+        let origin = DVec2::new(self.origin.x, self.height as f64 - self.origin.y);
+        Self { origin, step: DVec2::new(self.step.x, -self.step.y), ..self }
+    }
+
+    /// Columns.
+    pub fn width(&self) -> usize {
+        self.width
+    }
+
+    /// Rows.
+    pub fn height(&self) -> usize {
+        self.height
+    }
+
+    /// Plane units per pixel along x (right) and y (up).
+    pub fn step(&self) -> DVec2 {
+        self.step
+    }
+
+    /// From pixel to plane.
+    pub fn to_plane(&self, pixel: PixelPoint) -> PlanePoint {
+        PlanePoint::new((pixel.x - self.origin.x) * self.step.x, (self.origin.y - pixel.y) * self.step.y)
+    }
+
+    /// From plane to pixel.
+    pub fn to_pixel(&self, point: PlanePoint) -> PixelPoint {
+        PixelPoint::new(self.origin.x + point.x / self.step.x, self.origin.y - point.y / self.step.y)
+    }
+
+    /// Whether a point lies in the image.
+    pub fn contains(&self, pixel: PixelPoint) -> bool {
+        pixel.x >= 0.0 && pixel.y >= 0.0 && pixel.x < self.width as f64 && pixel.y < self.height as f64
+    }
+}

@@ -1,0 +1,131 @@
+use glam::{DMat2, DVec2};
+
+use super::{FieldStop, PixelGrid, PixelPoint};
+use crate::projection::{PlanePoint, PlaneRect, Projection, ProjectionKind};
+use crate::sphere::{Angle, Direction, DirectionJacobian, Orientation};
+
+/// What a screen pixel sees of the world, to first order: the direction of a point of it, and how that direction moves
+/// for one pixel to the right (dx) and one pixel down (dy).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Footprint {
+    /// The direction, in the world's frame.
+    pub direction: Direction,
+    /// Its derivatives per pixel, in the world's frame.
+    pub jacobian: DirectionJacobian,
+}
+
+/// An image's geometry: how its pixels see the world. As a source it says where its texels lie, as a target which
+/// pixels are wanted; the image itself is elsewhere.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct View {
+    /// The lens.
+    pub projection: ProjectionKind,
+    /// How the camera is turned.
+    pub orientation: Orientation,
+    /// How pixels lie in the projection's plane.
+    pub grid: PixelGrid,
+    /// Where the field of view ends inside the image.
+    pub stop: FieldStop,
+}
+
+impl View {
+    /// Columns.
+    pub fn width(&self) -> usize {
+        self.grid.width()
+    }
+
+    /// Rows.
+    pub fn height(&self) -> usize {
+        self.grid.height()
+    }
+
+    /// The direction at a point of the image, in the world's frame, whether or not the field stop hides it.
+    pub fn direction(&self, pixel: PixelPoint) -> Option<Direction> {
+        let direction = self.projection.unproject(self.grid.to_plane(pixel))?;
+        Some(self.orientation.to_world(direction))
+    }
+
+    /// The direction at a point of the image with its derivatives per pixel.
+    pub fn footprint(&self, pixel: PixelPoint) -> Option<Footprint> {
+        let point = self.grid.to_plane(pixel);
+        let direction = self.projection.unproject(point)?;
+        let step = self.grid.step();
+        let jacobian = self.projection.jacobian(point)?.compose(DVec2::new(step.x, 0.0), DVec2::new(0.0, -step.y));
+        Some(Footprint {
+            direction: self.orientation.to_world(direction),
+            jacobian: self.orientation.jacobian_to_world(jacobian),
+        })
+    }
+
+    /// Where a direction of the world lands, in the image or outside it.
+    pub fn pixel(&self, direction: Direction) -> Option<PixelPoint> {
+        self.projection.project(self.orientation.to_view(direction)).map(|point| self.grid.to_pixel(point))
+    }
+
+    /// Whether the point of the image shows something: it lies in the image and the field stop lets it pass.
+    pub fn shows(&self, pixel: PixelPoint) -> bool {
+        self.grid.contains(pixel) && self.stop_passes(pixel)
+    }
+
+    /// Whether a direction of the world is in the picture.
+    pub fn sees(&self, direction: Direction) -> bool {
+        self.pixel(direction).is_some_and(|pixel| self.shows(self.wrapped(pixel)))
+    }
+
+    /// A footprint in this view's own pixels: its centre and the matrix whose columns are the steps for one screen pixel
+    /// along x and y ((Ux, Vx) and (Uy, Vy) in Greene & Heckbert).
+    pub fn texel_footprint(&self, footprint: &Footprint) -> Option<(PixelPoint, DMat2)> {
+        let direction = self.orientation.to_view(footprint.direction);
+        let point = self.projection.project(direction)?;
+        let here = self.projection.jacobian(point)?;
+        let step = self.grid.step();
+        let column = |tangent| {
+            let plane = here.pseudo_inverse(self.orientation.vector_to_view(tangent))?;
+            Some(DVec2::new(plane.x / step.x, -plane.y / step.y))
+        };
+        let texels = DMat2::from_cols(column(footprint.jacobian.dx)?, column(footprint.jacobian.dy)?);
+        Some((self.grid.to_pixel(point), texels))
+    }
+
+    /// Solid angle of a texel in steradians (to first order), zero where it shows nothing.
+    pub fn texel_solid_angle(&self, i: usize, j: usize) -> f64 {
+        let pixel = PixelPoint::centre(i, j);
+        if !self.shows(pixel) {
+            return 0.0;
+        }
+        let step = self.grid.step();
+        self.projection
+            .jacobian(self.grid.to_plane(pixel))
+            .map_or(0.0, |jacobian| jacobian.solid_angle() * (step.x * step.y).abs())
+    }
+
+    /// After how many columns the picture repeats, where it goes all the way round.
+    pub fn period(&self) -> Option<usize> {
+        let columns = (self.projection.period()? / self.grid.step().x).abs();
+        let whole = columns.round();
+        ((columns - whole).abs() < 1e-6 && whole >= 1.0).then_some(whole as usize)
+    }
+
+    /// Whether the field stop lets a point of the plane pass, inside the image or outside it.
+    pub fn stop_passes(&self, pixel: PixelPoint) -> bool {
+        let point = self.grid.to_plane(pixel);
+        self.projection.unproject(point).is_some_and(|direction| self.stop.passes(point, direction))
+    }
+
+    /// The rectangle of pixel coordinates (its min and max corners) that holds every direction within `radius`.
+    pub fn cap_bounds(&self, centre: Direction, radius: Angle) -> PlaneRect {
+        let plane = self.projection.cap_bounds(self.orientation.to_view(centre), radius);
+        let (a, b) = (self.grid.to_pixel(plane.min), self.grid.to_pixel(plane.max));
+        PlaneRect { min: PlanePoint::new(a.x.min(b.x), a.y.min(b.y)), max: PlanePoint::new(a.x.max(b.x), a.y.max(b.y)) }
+    }
+
+    /// The same point in the turn that the image shows.
+    pub fn wrapped(&self, pixel: PixelPoint) -> PixelPoint {
+        match self.projection.period() {
+            Some(period) if !self.grid.contains(pixel) => {
+                PixelPoint { x: pixel.x.rem_euclid((period / self.grid.step().x).abs()), ..pixel }
+            }
+            _ => pixel,
+        }
+    }
+}

@@ -1,0 +1,118 @@
+use rayon::prelude::*;
+use thiserror::Error;
+
+use super::View;
+
+/// Why views make no world.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+pub enum WorldError {
+    /// There is nothing to look at.
+    #[error("a world needs at least one view")]
+    Empty,
+    /// Texels are counted in 32 bits.
+    #[error("the views hold {0} texels together, more than {max}", max = u32::MAX)]
+    TooLarge(usize),
+}
+
+/// One view of a world and the place of its texels among all the world's texels.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Source {
+    /// What messages call this view, such as a face's name.
+    pub name: String,
+    /// Where its texels lie.
+    pub view: View,
+    /// Index of its first texel in the world's buffer; the rest follow row by row.
+    pub offset: usize,
+    /// After how many columns the picture repeats, where it goes all the way round.
+    pub period: Option<usize>,
+    /// Width of the largest texel, in radians.
+    pub texel_pitch: f64,
+}
+
+impl Source {
+    /// The column that shows what column `i` would, the picture repeated all the way round if it does.
+    pub fn column(&self, i: i64) -> Option<i64> {
+        let i = self.period.map_or(i, |period| i.rem_euclid(period as i64));
+        (0..self.view.width() as i64).contains(&i).then_some(i)
+    }
+
+    /// The range of this view's texels in the world's buffer.
+    pub fn texels(&self) -> std::ops::Range<usize> {
+        self.offset..self.offset + self.view.width() * self.view.height()
+    }
+}
+
+/// Radiance by direction, held as views that do not overlap: each direction belongs to at most one texel.
+///
+/// A world is geometry. The light itself is a buffer of [`crate::raster::Rgba`] texels, one for each texel of each view,
+/// so that one world serves all the frames of a sequence.
+#[derive(Clone, Debug)]
+pub struct World {
+    sources: Vec<Source>,
+    solid_angles: Vec<f32>,
+}
+
+impl World {
+    /// The world of these named views.
+    ///
+    /// # Errors
+    /// When there is no view, or more texels than 32 bits can count.
+    pub fn new(views: impl IntoIterator<Item = (String, View)>) -> Result<Self, WorldError> {
+        let mut sources = Vec::new();
+        let mut offset = 0usize;
+        for (name, view) in views {
+            let texels = view.width().saturating_mul(view.height());
+            sources.push(Source { name, view, offset, period: view.period(), texel_pitch: 0.0 });
+            offset = offset.saturating_add(texels);
+        }
+        if sources.is_empty() {
+            return Err(WorldError::Empty);
+        }
+        if offset > u32::MAX as usize {
+            return Err(WorldError::TooLarge(offset));
+        }
+        let mut solid_angles = vec![0.0; offset];
+        for (index, source) in sources.iter().enumerate() {
+            // The faces of a cube have one grid: what was computed for the first serves all.
+            let twin = sources[..index].iter().find(|other| {
+                let (a, b) = (&other.view, &source.view);
+                a.projection == b.projection && a.grid == b.grid && a.stop == b.stop
+            });
+            match twin {
+                Some(twin) => solid_angles.copy_within(twin.texels(), source.offset),
+                None => fill_solid_angles(&source.view, &mut solid_angles[source.texels()]),
+            }
+        }
+        for source in &mut sources {
+            let largest = solid_angles[source.texels()].iter().copied().fold(0.0, f32::max);
+            source.texel_pitch = f64::from(largest).sqrt();
+        }
+        Ok(Self { sources, solid_angles })
+    }
+
+    /// The views.
+    pub fn sources(&self) -> &[Source] {
+        &self.sources
+    }
+
+    /// Texels of all views together: the length of the buffer that holds the light.
+    pub fn texel_count(&self) -> usize {
+        self.solid_angles.len()
+    }
+
+    /// Solid angle of each texel in steradians; zero for one that shows nothing.
+    pub fn solid_angles(&self) -> &[f32] {
+        &self.solid_angles
+    }
+}
+
+fn fill_solid_angles(view: &View, out: &mut [f32]) {
+    let width = view.width();
+    // A panorama with samples on its edges holds one column twice: only the first of the two counts.
+    let owned = view.period().map_or(width, |period| period.min(width));
+    out.par_chunks_mut(width).enumerate().for_each(|(j, row)| {
+        for (i, solid_angle) in row.iter_mut().enumerate() {
+            *solid_angle = if i < owned { view.texel_solid_angle(i, j) as f32 } else { 0.0 };
+        }
+    });
+}
