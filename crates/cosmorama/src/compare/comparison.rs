@@ -122,4 +122,41 @@ mod tests {
         let error = compare(&grey(3, 2, 0.0), &grey(3, 2, 0.0), &nothing).unwrap_err();
         assert_eq!(error, CompareError::NothingCounts { size: (3, 2) });
     }
+
+    /// A parabolic picture with a brighter disc; its values are exact in single precision.
+    fn parabola(shift: i32, grain: i32) -> Image<Rgba> {
+        Image::from_fn(64, 48, |i, j| {
+            let (i, j) = (i as i32, j as i32);
+            let x = 4 * i + shift;
+            let disc = if (x - 82).pow(2) + (4 * j - 60).pow(2) < 1300 { 30_000 } else { 0 };
+            let value = |c| x * x + x * j * c + 40 * j * j + grain * ((5 * i + 3 * j) % 7) + disc;
+            let [red, green, blue] = [1, 2, 3].map(|c| value(c) as f32 / 262_144.0);
+            Rgba::opaque(red, green, blue)
+        })
+    }
+
+    /// The expected figures are those that numpy and scipy give, in double precision, for the same measures.
+    #[test]
+    fn figures_agree_with_scipy() {
+        let mask = Mask::from_fn(64, 48, |i, j| (i as i32 - 32).pow(2) + (j as i32 - 24).pow(2) < 500);
+        let found = compare(&parabola(1, 0), &parabola(0, 64), &mask).unwrap();
+        let edge_free = found.edge_free.unwrap();
+        let registration = found.registration.unwrap();
+        assert_eq!((found.pixels, edge_free.pixels), (1565, 1288));
+        for (name, found, expected) in [
+            ("PSNR", found.linear.psnr, 41.752_386_750_693_23),
+            ("PSNR of sRGB", found.srgb.psnr, 38.407_518_713_245_24),
+            ("PSNR off edges", edge_free.linear.psnr, 62.073_667_575_811_31),
+            ("mean", found.linear.mean, -0.000_434_492_799_801_567_5),
+            ("largest", found.linear.largest.value, 0.114_528_656_005_859_38),
+            ("99.9 %", found.linear.percentile_99_9, 0.114_166_000_366_210_93),
+            ("dx", registration.dx, -0.035_750_152_333_009_835),
+            ("dy", registration.dy, -0.054_970_878_379_822_35),
+            ("scale x", registration.scale_x, 0.026_336_802_032_001_436),
+            ("scale y", registration.scale_y, 0.004_525_759_678_100_573),
+            ("rotation", registration.rotation, -0.005_519_113_803_191_767),
+        ] {
+            assert!((found - expected).abs() < 1e-6, "{name}: {found}, not {expected}");
+        }
+    }
 }

@@ -1,6 +1,6 @@
 use rayon::prelude::*;
 
-use super::{Mask, pair::Pair};
+use super::{CompareError, Mask, pair::Pair};
 use crate::raster::{Image, Rgba};
 
 /// Range of a channel among a pixel and its eight neighbours, in linear light, above which there is an edge.
@@ -12,7 +12,7 @@ const REACH: u8 = 2;
 /// The counted pixels away from edges of the second picture.
 ///
 /// At edges the filters of two renderers differ most; away from them their values must agree closely.
-pub(super) fn edge_free(pair: &Pair<'_>) -> Result<Mask, super::CompareError> {
+pub(super) fn edge_free(pair: &Pair<'_>) -> Result<Mask, CompareError> {
     pair.mask().without(&edges(pair.second()).grown(REACH))
 }
 

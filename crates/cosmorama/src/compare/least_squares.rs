@@ -82,9 +82,9 @@ fn rotate(matrix: &mut Matrix, vectors: &mut Matrix, p: usize, q: usize) {
         (row[p], row[q]) = turn(row[p], row[q]);
     }
     for turned in [matrix, vectors] {
-        for c in 0..UNKNOWNS {
-            (turned[p][c], turned[q][c]) = turn(turned[p][c], turned[q][c]);
-        }
+        let (row_p, row_q) = (turned[p], turned[q]);
+        turned[p] = from_fn(|c| turn(row_p[c], row_q[c]).0);
+        turned[q] = from_fn(|c| turn(row_p[c], row_q[c]).1);
     }
 }
 

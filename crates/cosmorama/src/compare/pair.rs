@@ -7,7 +7,10 @@ use crate::raster::{Image, Rgba};
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub enum CompareError {
     /// The pictures are not of one size.
-    #[error("the first picture is {}x{}, the second {}x{}: only pictures of one size can be compared", first.0, first.1, second.0, second.1)]
+    #[error(
+        "the first picture is {}x{}, the second {}x{}: only pictures of one size can be compared",
+        first.0, first.1, second.0, second.1
+    )]
     SizesDiffer {
         /// Columns and rows of the first.
         first: (usize, usize),
