@@ -1,5 +1,6 @@
 //! Cosmorama: world projections, resampled with the elliptical weighted average (EWA) filter.
 
+pub mod compare;
 pub mod projection;
 pub mod raster;
 pub mod resample;

@@ -1,0 +1,23 @@
+//! How far two pictures are apart: in value (PSNR, largest difference) and in place (sub-pixel registration).
+//!
+//! Value alone is not enough: pictures half a pixel apart can still score 54 dB away from edges, and a
+//! sharper filter scores worse than a blurrier one that is misplaced. So [`compare`] measures both.
+
+mod comparison;
+mod difference;
+mod difference_image;
+mod edges;
+mod gaussian;
+mod least_squares;
+mod mask;
+mod pair;
+mod quantile;
+mod registration;
+mod srgb;
+
+pub use comparison::{Comparison, EdgeFree, compare};
+pub use difference::{Difference, Largest};
+pub use difference_image::difference_image;
+pub use mask::Mask;
+pub use pair::CompareError;
+pub use registration::Registration;

@@ -1,0 +1,200 @@
+use rayon::prelude::*;
+
+use super::{
+    Mask,
+    gaussian::blurred,
+    least_squares::{NormalEquations, Vector, dot},
+    pair::Pair,
+    quantile::quantile,
+};
+use crate::raster::{Image, Rgba};
+
+/// Pixels this near to one that does not count are left out: their gradients may see it.
+const RIM: u8 = 8;
+
+/// Fits; each after the first leaves out the pixels that fitted worst before.
+const PASSES: usize = 3;
+
+/// The part of the pixels that a fit keeps from the one before.
+const KEPT: f64 = 0.98;
+
+/// Where one picture lies on another: the affine flow u that fits second(x) = first(x + u) best.
+///
+/// Of pictures that are geometrically identical all figures are zero; so is what the picture does not show, as the
+/// shift along stripes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Registration {
+    /// How far the first picture lies to the right of the second, at the centre, in pixels.
+    pub dx: f64,
+    /// How far the first picture lies below the second, at the centre, in pixels.
+    pub dy: f64,
+    /// How much wider the first picture is, as a part of its width: 0.01 is 1 %.
+    pub scale_x: f64,
+    /// How much taller the first picture is, as a part of its height.
+    pub scale_y: f64,
+    /// How far the first picture is turned clockwise, in radians.
+    pub rotation: f64,
+    /// How far the first picture is sheared: half the change of the angle between its axes, in radians.
+    pub shear: f64,
+}
+
+impl Registration {
+    /// The length of the shift at the centre, in pixels.
+    pub fn shift(&self) -> f64 {
+        self.dx.hypot(self.dy)
+    }
+
+    /// The displacement, right and down, of the point that lies so many pixels right of the centre and below it.
+    pub fn displacement(&self, right: f64, down: f64) -> (f64, f64) {
+        (
+            self.dx + self.scale_x * right + (self.shear - self.rotation) * down,
+            self.dy + (self.shear + self.rotation) * right + self.scale_y * down,
+        )
+    }
+
+    /// The fit; `None` when every pixel that counts is near one that does not.
+    pub(super) fn between(pair: &Pair<'_>) -> Option<Self> {
+        let flow = Flow::new(pair);
+        let mut fit = flow.fit(|_| true);
+        for _ in 1..PASSES {
+            let limit = quantile(&mut flow.residuals(&fit), KEPT)?;
+            fit = flow.fit(|equation| f64::from(equation.residual(&fit)) <= limit);
+        }
+        Some(flow.registration(&fit))
+    }
+}
+
+/// The equations of the flow: one for each pixel, brightness difference = gradient · displacement.
+struct Flow {
+    first: Image<f32>,
+    second: Image<f32>,
+    counted: Mask,
+}
+
+impl Flow {
+    fn new(pair: &Pair<'_>) -> Self {
+        let [first, second] = [pair.first(), pair.second()].map(|picture| blurred(&brightness(picture)));
+        Self { first, second, counted: pair.mask().eroded(RIM) }
+    }
+
+    /// The flow that fits best, of the equations to be kept.
+    fn fit(&self, kept: impl Fn(&Equation) -> bool + Sync) -> Vector {
+        let of_row = |j| {
+            let mut equations = NormalEquations::default();
+            self.row(j).filter(&kept).for_each(|equation| equations.observe(&equation.factors, equation.value));
+            equations
+        };
+        // Rows are added in their order, so that the sums do not depend on the number of threads.
+        let rows: Vec<_> = (0..self.first.height()).into_par_iter().map(of_row).collect();
+        let mut all = NormalEquations::default();
+        rows.iter().for_each(|row| all.add(row));
+        all.solve()
+    }
+
+    fn residuals(&self, flow: &Vector) -> Vec<f32> {
+        let of_row = |j| self.row(j).map(|equation| equation.residual(flow)).collect();
+        let rows: Vec<Vec<f32>> = (0..self.first.height()).into_par_iter().map(of_row).collect();
+        rows.concat()
+    }
+
+    /// The equations of the pixels of a row that count.
+    fn row(&self, j: usize) -> impl Iterator<Item = Equation> {
+        let counted = self.counted.row(j).iter().enumerate().filter(|(_, counted)| **counted);
+        counted.map(move |(i, _)| self.equation(i, j))
+    }
+
+    /// The unknowns are the displacement at the centre and its change from there to the picture's longer edge.
+    fn equation(&self, i: usize, j: usize) -> Equation {
+        let average = |i, j| (f64::from(*self.first.get(i, j)) + f64::from(*self.second.get(i, j))) / 2.0;
+        let across = (average(i + 1, j) - average(i - 1, j)) / 2.0;
+        let down = (average(i, j + 1) - average(i, j - 1)) / 2.0;
+        let [x, y] = [(i, self.first.width()), (j, self.first.height())]
+            .map(|(index, length)| (index as f64 - (length as f64 - 1.0) / 2.0) / self.reach());
+        Equation {
+            factors: [across, down, across * x, across * y, down * x, down * y],
+            value: f64::from(*self.second.get(i, j)) - f64::from(*self.first.get(i, j)),
+        }
+    }
+
+    /// Pixels from the centre to the farther edges: as a unit of length, it makes all unknowns alike in size.
+    fn reach(&self) -> f64 {
+        self.first.width().max(self.first.height()) as f64 / 2.0
+    }
+
+    fn registration(&self, flow: &Vector) -> Registration {
+        let [dx, dy, slopes @ ..] = *flow;
+        let [scale_x, x_by_y, y_by_x, scale_y] = slopes.map(|slope| slope / self.reach());
+        Registration { dx, dy, scale_x, scale_y, rotation: (y_by_x - x_by_y) / 2.0, shear: (y_by_x + x_by_y) / 2.0 }
+    }
+}
+
+/// One pixel's: `factors · flow = value`.
+struct Equation {
+    factors: Vector,
+    value: f64,
+}
+
+impl Equation {
+    fn residual(&self, flow: &Vector) -> f32 {
+        (dot(&self.factors, flow) - self.value).abs() as f32
+    }
+}
+
+fn brightness(picture: &Image<Rgba>) -> Image<f32> {
+    Image::from_fn(picture.width(), picture.height(), |i, j| {
+        let [red, green, blue, _] = picture.get(i, j).finite().0;
+        (red + green + blue) / 3.0
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A smooth picture, of the wave over the plane at the place of each pixel.
+    fn waves(place: impl Fn(f64, f64) -> (f64, f64)) -> Image<Rgba> {
+        Image::from_fn(96, 80, |i, j| {
+            let (x, y) = place(i as f64 - 47.5, j as f64 - 39.5);
+            let wave = |phase: f64| (0.5 + 0.2 * (0.11 * x + phase).sin() + 0.2 * (0.09 * y + 0.05 * x).cos()) as f32;
+            Rgba::opaque(wave(0.0), wave(0.5), wave(1.0))
+        })
+    }
+
+    fn registration(first: &Image<Rgba>, second: &Image<Rgba>) -> Registration {
+        Registration::between(&Pair::new(first, second, &Mask::everything(96, 80)).unwrap()).unwrap()
+    }
+
+    #[test]
+    fn shifts_are_found() {
+        let still = waves(|x, y| (x, y));
+        for (right, down) in [(0.01, 0.0), (0.0, -0.1), (0.3, 0.2), (-0.05, 0.3)] {
+            let found = registration(&waves(|x, y| (x - right, y - down)), &still);
+            assert!((found.dx - right).abs() < 1e-3 && (found.dy - down).abs() < 1e-3, "{right} {down}: {found:?}");
+        }
+    }
+
+    #[test]
+    fn scale_rotation_and_shear_are_found() {
+        let still = waves(|x, y| (x, y));
+        let wider = registration(&waves(|x, y| (x / 1.002, y)), &still);
+        assert!((wider.scale_x - 0.002).abs() < 2e-5 && wider.scale_y.abs() < 2e-5, "{wider:?}");
+        let (sin, cos) = 0.003_f64.sin_cos();
+        let turned = registration(&waves(|x, y| (cos * x + sin * y, cos * y - sin * x)), &still);
+        assert!((turned.rotation - 0.003).abs() < 2e-5 && turned.shear.abs() < 2e-5, "{turned:?}");
+        let (right, down) = turned.displacement(40.0, 0.0);
+        assert!(right.abs() < 2e-3 && (down - 0.12).abs() < 2e-3);
+    }
+
+    #[test]
+    fn identical_pictures_lie_exactly_on_each_other() {
+        let still = waves(|x, y| (x, y));
+        let found = registration(&still, &still);
+        assert_eq!((found.shift(), found.scale_x, found.scale_y, found.rotation), (0.0, 0.0, 0.0, 0.0));
+    }
+
+    #[test]
+    fn too_few_pixels_give_no_registration() {
+        let still = Image::filled(16, 16, Rgba::BLACK);
+        assert_eq!(Registration::between(&Pair::new(&still, &still, &Mask::everything(16, 16)).unwrap()), None);
+    }
+}
