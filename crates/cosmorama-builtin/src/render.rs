@@ -21,9 +21,9 @@ pub enum Supersampling {
 }
 
 impl Default for Supersampling {
-    /// 2×2 everywhere, 4×4 where samples differ by more than 10 %.
+    /// 2×2 everywhere, 3×3 where samples differ by more than 10 %.
     fn default() -> Self {
-        Self::Adaptive { coarse: 2, fine: 4, contrast: 0.1 }
+        Self::Adaptive { coarse: 2, fine: 3, contrast: 0.1 }
     }
 }
 
