@@ -118,11 +118,11 @@ impl Resampler<'_> {
             FilterKind::Ewa => gather.taps(&screen.footprint, taps),
             FilterKind::Point => {
                 taps.clear();
-                lookup::nearest(self.world, direction, |texel, weight| taps.push_under(texel, weight));
+                lookup::nearest(self.world, direction, |texel, weight| taps.push_under(texel, weight as f32));
             }
             FilterKind::Bilinear | FilterKind::Reference { .. } => {
                 taps.clear();
-                lookup::bilinear(self.world, direction, |texel, weight| taps.push_under(texel, weight));
+                lookup::bilinear(self.world, direction, |texel, weight| taps.push_under(texel, weight as f32));
                 taps.normalise();
             }
         }

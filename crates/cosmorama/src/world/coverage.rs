@@ -1,5 +1,4 @@
 use super::{Footprint, PixelPoint, View};
-use crate::projection::Projection;
 
 /// A pixel of a target: how much of it the field of view covers, and what the covered part sees.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -39,7 +38,7 @@ impl View {
         let mut touches = false;
         if let Some(radius) = self.stop.circle {
             let (point, step) = (self.grid.to_plane(centre), self.grid.step());
-            let (distance, half_diagonal) = (point.x.hypot(point.y), step.length() / 2.0);
+            let (distance, half_diagonal) = ((point.x * point.x + point.y * point.y).sqrt(), step.length() / 2.0);
             if distance - half_diagonal > radius {
                 return Side::Outside;
             }
@@ -73,10 +72,5 @@ impl View {
         let centroid = PixelPoint::new(sum_x / count as f64, sum_y / count as f64);
         let footprint = self.footprint(centroid)?;
         Some(ScreenPixel { coverage: count as f64 / (SUB_SAMPLES * SUB_SAMPLES) as f64, footprint })
-    }
-
-    /// Angle from a direction of the world to the nearest one at which this view's mapping is singular, in radians.
-    pub fn margin(&self, direction: crate::sphere::Direction) -> f64 {
-        self.projection.margin(self.orientation.to_view(direction)).radians()
     }
 }
