@@ -27,6 +27,9 @@ pub(crate) fn read(path: &Path, source: &mut Source, limits: &Limits) -> Result<
     let bytes = whole(path, source)?;
     let mut decoder = decoder(path, &bytes)?;
     let header = header(path, &mut decoder)?;
+    if !ends(&bytes) {
+        return Err(IoError::damaged(path, FORMAT, "it ends too early"));
+    }
     limits.check(path, (header.width as u64, header.height as u64), header.channels, header.depth)?;
     let output = if header.channels == Channels::Grey { ColorSpace::Luma } else { ColorSpace::RGB };
     decoder.set_options(options().jpeg_set_out_colorspace(output));
@@ -63,6 +66,15 @@ fn whole(path: &Path, source: &mut Source) -> Result<Vec<u8>, IoError> {
     let mut bytes = Vec::new();
     source.read_to_end(&mut bytes).map_err(|error| IoError::open(path, error))?;
     Ok(bytes)
+}
+
+/// Whether the last scan has an end mark: the decoder forgives a scan that lacks only its last few blocks. Inside
+/// a scan neither mark can occur.
+fn ends(bytes: &[u8]) -> bool {
+    const START_OF_SCAN: [u8; 2] = [0xff, 0xda];
+    const END_OF_IMAGE: [u8; 2] = [0xff, 0xd9];
+    let last_scan = bytes.windows(2).rposition(|mark| mark == START_OF_SCAN);
+    last_scan.is_some_and(|at| bytes[at..].windows(2).any(|mark| mark == END_OF_IMAGE))
 }
 
 fn options() -> DecoderOptions {
