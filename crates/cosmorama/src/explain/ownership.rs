@@ -39,11 +39,11 @@ pub(super) fn draw(world: &World, target: &View) -> String {
     drawing.rects(&regions.area(Content::Uncovered), Paint::fill("#d1303a"));
     drawing.polylines(regions.edges().iter().map(|segment| &segment[..]), Paint::stroke(INK, 2.0));
     for (index, source) in world.sources().iter().enumerate() {
-        if let Some(place) = regions.middle(Content::View(index)) {
+        if let Some((place, _)) = regions.middle(Content::View(index)) {
             drawing.plaque(&[(&source.name, LABEL)], place, frame, PAPER, INK);
         }
     }
-    if let Some(place) = regions.middle(Content::Uncovered) {
+    if let Some((place, _)) = regions.middle(Content::Uncovered) {
         drawing.plaque(&[("no view", SMALL)], place, frame, PAPER, INK);
     }
     drawing.rect(frame, Paint::stroke(INK, 1.5));

@@ -1,7 +1,7 @@
 use rayon::prelude::*;
 
 use super::Magnification;
-use crate::resample::{Filter, PixelTaps, owner};
+use crate::resample::{Filter, KernelTable, PixelTaps, owner};
 use crate::world::{PixelPoint, ScreenPixel, Source, View, World};
 
 /// Pixels, and texels of a view, that a survey looks at; of more it takes every second one, third one and so on.
@@ -25,7 +25,9 @@ impl Survey {
         let step = stride(target.width(), target.height());
         let rows: Vec<usize> = sampled(target.height(), step).collect();
         let few = rows.len().div_ceil(8 * rayon::current_num_threads()).max(1);
-        let bands: Vec<Self> = rows.par_chunks(few).map(|rows| Self::of_rows(world, target, filter, rows)).collect();
+        let table = KernelTable::new(&filter.kernel);
+        let taps = || PixelTaps::new(world, target, filter, &table);
+        let bands: Vec<Self> = rows.par_chunks(few).map(|rows| Self::of_rows(world, target, taps(), rows)).collect();
         bands.into_iter().fold(Self::empty(world), Self::merged)
     }
 
@@ -33,9 +35,8 @@ impl Survey {
         Self { sampled: 0, shown: 0, texels: 0, most: 0, views: vec![(0, None); world.sources().len()] }
     }
 
-    fn of_rows(world: &World, target: &View, filter: &Filter, rows: &[usize]) -> Self {
+    fn of_rows(world: &World, target: &View, mut taps: PixelTaps, rows: &[usize]) -> Self {
         let mut survey = Self::empty(world);
-        let mut taps = PixelTaps::new(world, target, filter);
         let step = stride(target.width(), target.height());
         for &j in rows {
             for i in sampled(target.width(), step) {

@@ -9,6 +9,9 @@ use super::theme::{CURVE, DARK, FAINT, INK, LABEL, PAPER, SMALL, colour};
 use crate::resample::{Need, Needs};
 use crate::world::{PixelRect, Source, View, World};
 
+/// How far a name reaches from its middle, about.
+const ROOM: f64 = 34.0;
+
 /// How much of a picture the veil over what is not needed hides.
 const VEIL: f64 = 0.74;
 
@@ -75,8 +78,14 @@ fn draw_names(drawing: &mut Drawing, source: &Source, need: &Need, frame: Frame,
         drawing.label("not needed", (middle.0, middle.1 + 2.0 * LABEL), SMALL, Anchor::Middle, PAPER);
         return;
     };
-    let (x, y) = shown(source, (frame, 0.0), target).middle(true).unwrap_or(middle);
-    drawing.plaque(&[(&source.name, LABEL), (&needed_text(&seen, source, &size), SMALL)], (x, y), frame, PAPER, INK);
+    let regions = shown(source, (frame, 0.0), target);
+    let lines = [(source.name.as_str(), LABEL), (&needed_text(&seen, source, &size), SMALL)];
+    match (regions.middle(true), regions.middle(false)) {
+        (Some((place, room)), _) if room >= ROOM => drawing.plaque(&lines, place, frame, PAPER, INK),
+        // On a small region its name would hide it: what is not needed has room.
+        (_, Some((place, _))) => drawing.plaque(&lines, place, frame, DARK, PAPER),
+        _ => drawing.plaque(&lines, middle, frame, PAPER, INK),
+    }
 }
 
 /// What is needed of an image: all of it, or a window of it as images name it.

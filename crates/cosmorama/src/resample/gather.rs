@@ -5,8 +5,9 @@
 
 use glam::{DMat2, DVec2};
 
+use super::candidates::{Candidate, settle};
 use super::kernel::KernelTable;
-use super::{Ellipse, Kernel, Tap, Taps, lookup};
+use super::{Ellipse, Taps, lookup};
 use crate::sphere::{Angle, Direction};
 use crate::world::{Footprint, PixelPoint, Source, World};
 
@@ -16,8 +17,8 @@ const LINEAR_PART: f64 = 0.2;
 /// The gather for one world and kernel.
 pub(super) struct Gather<'a> {
     world: &'a World,
-    kernel: Kernel,
-    table: KernelTable,
+    table: &'a KernelTable,
+    candidates: Vec<Candidate>,
     /// The view that held all of the last footprint: the likeliest for the next.
     last: usize,
 }
@@ -31,112 +32,124 @@ struct TexelBox {
 }
 
 impl<'a> Gather<'a> {
-    pub(super) fn new(world: &'a World, kernel: Kernel) -> Self {
-        Self { world, kernel, table: KernelTable::new(&kernel), last: 0 }
+    pub(super) fn new(world: &'a World, table: &'a KernelTable) -> Self {
+        Self { world, table, candidates: Vec::new(), last: 0 }
     }
 
     /// The taps of a footprint, weights adding to one; none where no view is near.
     pub(super) fn taps(&mut self, footprint: &Footprint, taps: &mut Taps) {
         taps.clear();
+        self.candidates.clear();
         let sources = self.world.sources();
-        if !self.gather_from(&sources[self.last], footprint, taps) {
+        if !self.gather_from(&sources[self.last], footprint) {
             // A kernel inside one view touches no other, so the order of views never changes a result.
-            taps.clear();
+            self.candidates.clear();
             for (index, source) in sources.iter().enumerate() {
-                if self.gather_from(source, footprint, taps) {
+                if self.gather_from(source, footprint) {
                     self.last = index;
                     break;
                 }
             }
         }
-        taps.normalise();
+        settle(&self.candidates, self.table.kernel().centred, taps);
         if taps.is_empty() {
-            lookup::nearest(self.world, footprint.direction, |texel, weight| taps.push_under(texel, weight));
+            lookup::nearest(self.world, footprint.direction, |texel, weight| taps.push_under(texel, weight as f32));
         }
     }
 
     /// Adds the texels of one view; true if the kernel lies wholly inside it.
-    fn gather_from(&self, source: &Source, footprint: &Footprint, taps: &mut Taps) -> bool {
+    fn gather_from(&mut self, source: &Source, footprint: &Footprint) -> bool {
+        let kernel = self.table.kernel();
         let jacobian = &footprint.jacobian;
         let pixel = (jacobian.dx.length_squared() + jacobian.dy.length_squared()).sqrt();
-        let unit = (self.kernel.scale * pixel).max(self.kernel.floor * source.texel_pitch);
-        let radius = self.kernel.radius() * unit;
+        let unit = (kernel.scale * pixel).max(kernel.floor * source.texel_pitch);
+        let radius = kernel.radius() * unit;
         let margin = source.view.margin(footprint.direction);
         if margin + radius <= 0.0 {
             return false;
         }
         if radius < LINEAR_PART * margin {
-            self.gather_ellipse(source, footprint, taps)
+            self.gather_ellipse(source, footprint)
         } else {
-            self.gather_cap(source, footprint, radius, taps);
+            self.gather_cap(source, footprint, radius);
             false
         }
     }
 
     /// The common case: the footprint is an ellipse of texels.
-    fn gather_ellipse(&self, source: &Source, footprint: &Footprint, taps: &mut Taps) -> bool {
+    fn gather_ellipse(&mut self, source: &Source, footprint: &Footprint) -> bool {
         let Some((centre, jacobian)) = source.view.texel_footprint(footprint) else { return false };
-        let coarseness = self.kernel.coarseness(jacobian.determinant().abs().sqrt()) as f32;
-        let ellipse = Ellipse::new(jacobian * self.kernel.scale, self.kernel.floor);
+        let kernel = self.table.kernel();
+        let coarseness = kernel.coarseness(jacobian.determinant().abs().sqrt()) as f32;
+        let ellipse = Ellipse::new(jacobian * kernel.scale, kernel.floor);
+        let to_screen = jacobian.inverse();
         let reach = ellipse.half_extent(self.table.radius_squared());
         let bounds = TexelBox::around(centre, reach);
         let (width, height) = (source.view.width() as i64, source.view.height() as i64);
-        let period = source.period.map(|period| period as i64);
-        let rows = bounds.top.max(0)..=bounds.bottom.min(height - 1);
-        let columns = match period {
-            Some(period) => bounds.left..=bounds.right.min(bounds.left + period - 1),
-            None => bounds.left.max(0)..=bounds.right.min(width - 1),
-        };
-        for j in rows {
-            let v = j as f64 + 0.5 - centre.y;
+        for j in bounds.top.max(0)..=bounds.bottom.min(height - 1) {
             let row = source.offset + j as usize * source.view.width();
-            // Q = AU² + BUV + CV² by finite differences along the row (Greene & Heckbert 1986).
-            let u = *columns.start() as f64 + 0.5 - centre.x;
-            let mut q = ellipse.distance_squared(DVec2::new(u, v));
-            let mut dq = ellipse.a * (2.0 * u + 1.0) + ellipse.b * v;
-            let ddq = 2.0 * ellipse.a;
-            for i in columns.clone() {
-                if q < self.table.radius_squared() {
-                    let column = period.map_or(i, |period| i.rem_euclid(period));
-                    if column < width {
-                        self.add(row + column as usize, q, coarseness, taps);
-                    }
-                }
-                q += dq;
-                dq += ddq;
+            for run in bounds.runs(source) {
+                let offset = DVec2::new(run.unrolled as f64 + 0.5 - centre.x, j as f64 + 0.5 - centre.y);
+                self.gather_run(row + run.column, run.length, offset, &ellipse, coarseness, to_screen);
             }
         }
-        let whole_width = period.is_some_and(|period| period <= width);
+        let whole_width = source.period.is_some_and(|period| period <= source.view.width());
         bounds.top >= 0 && bounds.bottom < height && (whole_width || (bounds.left >= 0 && bounds.right < width))
+    }
+
+    /// Texels beside each other in a row: Q = AU² + BUV + CV² by finite differences (Greene & Heckbert 1986).
+    fn gather_run(
+        &mut self,
+        first: usize,
+        length: usize,
+        first_offset: DVec2,
+        ellipse: &Ellipse,
+        coarseness: f32,
+        to_screen: DMat2,
+    ) {
+        let mut q = ellipse.distance_squared(first_offset);
+        let mut dq = ellipse.a * (2.0 * first_offset.x + 1.0) + ellipse.b * first_offset.y;
+        let ddq = 2.0 * ellipse.a;
+        let mut offset = to_screen * first_offset;
+        let radius_squared = self.table.radius_squared();
+        // Every texel is written, and only those inside are kept: whether the next one is inside cannot be predicted.
+        let mut kept = self.candidates.len();
+        self.candidates.resize(kept + length, Candidate::default());
+        for (texel, &solid_angle) in self.world.solid_angles()[first..first + length].iter().enumerate() {
+            self.candidates[kept] = self.table.candidate(first + texel, solid_angle, q, coarseness, offset);
+            kept += usize::from(q < radius_squared && solid_angle > 0.0);
+            q += dq;
+            dq += ddq;
+            offset += to_screen.x_axis;
+        }
+        self.candidates.truncate(kept);
     }
 
     /// Near a pole, a horizon or a rim the ellipse would be wrong: each texel is weighed by its direction instead, in
     /// the plane tangent to the sphere at the footprint.
-    fn gather_cap(&self, source: &Source, footprint: &Footprint, radius: f64, taps: &mut Taps) {
+    fn gather_cap(&mut self, source: &Source, footprint: &Footprint, radius: f64) {
         let here = footprint.direction.vector();
         let (right, up) = here.any_orthonormal_pair();
         let in_tangent_plane = |vector: glam::DVec3| DVec2::new(right.dot(vector), up.dot(vector)) / source.texel_pitch;
         let jacobian =
             DMat2::from_cols(in_tangent_plane(footprint.jacobian.dx), in_tangent_plane(footprint.jacobian.dy));
-        let coarseness = self.kernel.coarseness(jacobian.determinant().abs().sqrt()) as f32;
-        let ellipse = Ellipse::new(jacobian * self.kernel.scale, self.kernel.floor);
+        let kernel = self.table.kernel();
+        let coarseness = kernel.coarseness(jacobian.determinant().abs().sqrt()) as f32;
+        let ellipse = Ellipse::new(jacobian * kernel.scale, kernel.floor);
+        let to_screen = jacobian.inverse();
         for (i, j) in texels_within(source, footprint.direction, radius) {
             let Some(texel) = source.view.direction(PixelPoint::centre(i, j)) else { continue };
             if texel.dot(footprint.direction) <= 0.0 {
                 continue;
             }
-            let q = ellipse.distance_squared(in_tangent_plane(texel.vector() - here));
-            if q < self.table.radius_squared() {
-                self.add(source.offset + j * source.view.width() + i, q, coarseness, taps);
+            let offset = in_tangent_plane(texel.vector() - here);
+            let q = ellipse.distance_squared(offset);
+            let index = source.offset + j * source.view.width() + i;
+            let solid_angle = self.world.solid_angles()[index];
+            if q < self.table.radius_squared() && solid_angle > 0.0 {
+                let offset = to_screen * offset;
+                self.candidates.push(self.table.candidate(index, solid_angle, q, coarseness, offset));
             }
-        }
-    }
-
-    fn add(&self, texel: usize, q: f64, coarseness: f32, taps: &mut Taps) {
-        let weight = self.table.weight(q, coarseness) * self.world.solid_angles()[texel];
-        if weight != 0.0 {
-            let tap = Tap { texel: texel as u32, weight };
-            if q < 1.0 { taps.under.push(tap) } else { taps.around.push(tap) }
         }
     }
 }
@@ -151,6 +164,30 @@ impl TexelBox {
             bottom: (centre.y + reach.y - 0.5).floor() as i64,
         }
     }
+
+    /// The runs of texels in each row: one, or where a panorama's box crosses its edge, one for each turn.
+    fn runs(&self, source: &Source) -> impl Iterator<Item = Run> + use<> {
+        let width = source.view.width() as i64;
+        let (left, end, turn) = match source.period {
+            // Never the same texel twice.
+            Some(period) => (self.left, (self.right + 1).min(self.left + period as i64), period as i64),
+            None => (self.left.max(0), (self.right + 1).min(width), width),
+        };
+        let turns = if left < end { left.div_euclid(turn)..(end - 1).div_euclid(turn) + 1 } else { 0..0 };
+        turns.filter_map(move |k| {
+            let (first, past) = (left.max(k * turn), end.min(k * turn + width.min(turn)));
+            let column = (first - k * turn) as usize;
+            (first < past).then(|| Run { column, unrolled: first, length: (past - first) as usize })
+        })
+    }
+}
+
+/// A run of texels in one row of the box: its first column in the image, the same column counted on past the image's
+/// edge, and its length.
+struct Run {
+    column: usize,
+    unrolled: i64,
+    length: usize,
 }
 
 /// Column and row of every texel that can lie within `radius` radians of a direction.

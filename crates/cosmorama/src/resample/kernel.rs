@@ -1,5 +1,7 @@
 use std::f64::consts::PI;
 
+use super::candidates::Candidate;
+
 /// The cross-section of a radial kernel: weight by distance r from the centre, in the kernel's unit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum CrossSection {
@@ -123,6 +125,8 @@ pub struct Kernel {
     pub scale: f64,
     /// The kernel's unit is nowhere less than this many texels.
     pub floor: f64,
+    /// Whether the weights are corrected so that their centroid is the pixel's centre exactly.
+    pub centred: bool,
 }
 
 impl Kernel {
@@ -131,13 +135,21 @@ impl Kernel {
     /// Texels per pixel from which the coarse cross-section holds alone.
     pub const COARSE: f64 = 1.5;
 
-    /// The default: Catmull–Rom under enlargement, Mitchell under reduction, a unit of 0.8 pixel and at least one texel.
-    pub const ADAPTIVE: Self =
-        Self { fine: CrossSection::CATMULL_ROM, coarse: CrossSection::MITCHELL, scale: 0.8, floor: 1.0 };
+    /// The default: a sharp cubic (B = 0, C = 0.6) under enlargement, Mitchell under reduction, a unit of 0.8 pixel.
+    ///
+    /// The floor is √5/2 texels, rounded up: the radius at which every half disc on a square lattice holds a texel, so
+    /// that there is something on each side of a pixel to interpolate between.
+    pub const ADAPTIVE: Self = Self {
+        fine: CrossSection::Cubic { b: 0.0, c: 0.6 },
+        coarse: CrossSection::MITCHELL,
+        scale: 0.8,
+        floor: 1.12,
+        centred: true,
+    };
 
     /// One cross-section at every scale, its unit one output pixel and at least one texel.
     pub const fn uniform(cross_section: CrossSection) -> Self {
-        Self { fine: cross_section, coarse: cross_section, scale: 1.0, floor: 1.0 }
+        Self { fine: cross_section, coarse: cross_section, scale: 1.0, floor: 1.0, centred: false }
     }
 
     /// How much of the coarse cross-section counts where a pixel is as wide as `s` texels.
@@ -151,19 +163,24 @@ impl Kernel {
     }
 }
 
+/// Anti-ringing clamps to the texels of r² under this. With the default floor the disc reaches 1.37 texels, so that
+/// whatever way a gradient runs there are texels on both sides of the pixel, at the corners of a cube too.
+const UNDER: f64 = 1.5;
+
 /// The paper's WTAB, twice: both cross-sections of a kernel tabulated over r², so that Q = r² is the index.
 #[derive(Clone, Debug)]
-pub(super) struct KernelTable {
+pub(crate) struct KernelTable {
+    kernel: Kernel,
     weights: Vec<[f32; 2]>,
     entries_per_unit: f64,
     radius_squared: f64,
 }
 
 /// Entries of a table; nearest look-up errs by less than 1/1000 of the peak for every kernel here.
-const ENTRIES: usize = 8192;
+const ENTRIES: usize = 2048;
 
 impl KernelTable {
-    pub(super) fn new(kernel: &Kernel) -> Self {
+    pub(crate) fn new(kernel: &Kernel) -> Self {
         let radius_squared = kernel.radius().powi(2);
         let entries_per_unit = ENTRIES as f64 / radius_squared;
         let weights = (0..ENTRIES)
@@ -172,7 +189,11 @@ impl KernelTable {
                 [kernel.fine.weight(r) as f32, kernel.coarse.weight(r) as f32]
             })
             .collect();
-        Self { weights, entries_per_unit, radius_squared }
+        Self { kernel: *kernel, weights, entries_per_unit, radius_squared }
+    }
+
+    pub(super) fn kernel(&self) -> &Kernel {
+        &self.kernel
     }
 
     /// r² from which every weight is zero.
@@ -185,5 +206,24 @@ impl KernelTable {
         let entry = ((q * self.entries_per_unit) as usize).min(ENTRIES - 1);
         let [fine, coarse] = self.weights[entry];
         fine + (coarse - fine) * coarseness
+    }
+
+    /// A texel at distance² `q` < [`KernelTable::radius_squared`] and at this offset in screen pixels.
+    pub(super) fn candidate(
+        &self,
+        texel: usize,
+        solid_angle: f32,
+        q: f64,
+        coarseness: f32,
+        offset: glam::DVec2,
+    ) -> Candidate {
+        let falloff = 1.0 - (q / self.radius_squared) as f32;
+        Candidate {
+            texel: texel as u32,
+            under: q < UNDER,
+            weight: self.weight(q, coarseness) * solid_angle,
+            window: falloff * falloff * solid_angle,
+            offset: [offset.x as f32, offset.y as f32],
+        }
     }
 }

@@ -1,7 +1,9 @@
 //! Resampling: from a world of views to the pixels of a target.
 
 mod block;
+mod candidates;
 mod ellipse;
+mod ewa;
 mod filter;
 mod gather;
 mod kernel;
@@ -13,7 +15,9 @@ mod reference;
 mod taps;
 
 pub use ellipse::Ellipse;
+pub use ewa::{TextureDerivatives, WeightTable, ewa};
 pub use filter::{Filter, FilterKind};
+pub(crate) use kernel::KernelTable;
 pub use kernel::{CrossSection, Kernel};
 pub(crate) use lookup::owner;
 pub use need::{Need, Needs, Uncovered};

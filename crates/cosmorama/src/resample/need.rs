@@ -3,6 +3,7 @@
 use rayon::prelude::*;
 
 use super::block::{Block, Cap};
+use super::kernel::KernelTable;
 use super::pixel_taps::PixelTaps;
 use super::{Filter, lookup};
 use crate::sphere::Direction;
@@ -153,11 +154,12 @@ impl Survey<'_> {
     /// Adds what these blocks need to what is known already.
     fn blocks(&self, blocks: &[Judged], known: Needs) -> Needs {
         let few = blocks.len().div_ceil(8 * rayon::current_num_threads()).max(1);
+        let table = KernelTable::new(&self.filter.kernel);
         let found: Vec<Needs> = blocks
             .par_chunks(few)
             .map(|blocks| {
                 let mut found = Needs { uncovered: None, ..known.clone() };
-                let mut pixels = PixelTaps::new(self.world, self.target, self.filter);
+                let mut pixels = PixelTaps::new(self.world, self.target, self.filter, &table);
                 for judged in blocks {
                     self.add_block(judged, &mut pixels, &mut found);
                 }

@@ -1,4 +1,5 @@
 use super::gather::Gather;
+use super::kernel::KernelTable;
 use super::{Filter, FilterKind, Taps, lookup, reference};
 use crate::world::{ScreenPixel, View, World};
 
@@ -12,9 +13,9 @@ pub(crate) struct PixelTaps<'a> {
 }
 
 impl<'a> PixelTaps<'a> {
-    /// Pixels of `target` made by `filter` from `world`.
-    pub(crate) fn new(world: &'a World, target: &'a View, filter: &'a Filter) -> Self {
-        Self { world, target, filter, gather: Gather::new(world, filter.kernel), taps: Taps::default() }
+    /// Pixels of `target` made by `filter` from `world`; `table` is that of the filter's kernel.
+    pub(crate) fn new(world: &'a World, target: &'a View, filter: &'a Filter, table: &'a KernelTable) -> Self {
+        Self { world, target, filter, gather: Gather::new(world, table), taps: Taps::default() }
     }
 
     /// Gives the index of every texel that the filter reads for a pixel to `visit`, some of them perhaps twice.
@@ -24,7 +25,7 @@ impl<'a> PixelTaps<'a> {
         match self.filter.kind {
             FilterKind::Ewa => {
                 self.gather.taps(&screen.footprint, &mut self.taps);
-                self.taps.iter().for_each(|tap| visit(tap.texel as usize));
+                self.taps.as_slice().iter().for_each(|tap| visit(tap.texel as usize));
             }
             FilterKind::Point => lookup::nearest(self.world, direction, read),
             FilterKind::Bilinear => lookup::bilinear(self.world, direction, read),

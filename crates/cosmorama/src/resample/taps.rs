@@ -11,51 +11,51 @@ pub struct Tap {
 
 /// All the texels of an output pixel with their weights: what a filter makes of a footprint.
 ///
-/// The taps under the pixel (r < 1) are kept apart: anti-ringing clamps the average to what they hold.
+/// The taps under the pixel come first: anti-ringing clamps the average to what they hold.
 #[derive(Clone, Debug, Default)]
 pub struct Taps {
-    pub(super) under: Vec<Tap>,
-    pub(super) around: Vec<Tap>,
+    taps: Vec<Tap>,
+    under: usize,
 }
 
 impl Taps {
     /// Forgets all taps but keeps the memory.
     pub fn clear(&mut self) {
-        self.under.clear();
-        self.around.clear();
+        self.taps.clear();
+        self.under = 0;
+    }
+
+    /// All taps, those under the pixel first.
+    pub fn as_slice(&self) -> &[Tap] {
+        &self.taps
+    }
+
+    /// How many of the taps lie under the pixel.
+    pub fn under(&self) -> usize {
+        self.under
     }
 
     /// Whether there is no tap.
     pub fn is_empty(&self) -> bool {
-        self.under.is_empty() && self.around.is_empty()
+        self.taps.is_empty()
     }
 
-    /// How many taps there are.
-    pub fn len(&self) -> usize {
-        self.under.len() + self.around.len()
+    /// Adds a tap under the pixel; all those around it come after.
+    pub(super) fn push_under(&mut self, texel: u32, weight: f32) {
+        debug_assert_eq!(self.under, self.taps.len());
+        self.taps.push(Tap { texel, weight });
+        self.under += 1;
     }
 
-    /// All taps, those under the pixel first.
-    pub fn iter(&self) -> impl Iterator<Item = &Tap> {
-        self.under.iter().chain(&self.around)
+    pub(super) fn push_around(&mut self, texel: u32, weight: f32) {
+        self.taps.push(Tap { texel, weight });
     }
 
-    pub(super) fn push_under(&mut self, texel: u32, weight: f64) {
-        self.under.push(Tap { texel, weight: weight as f32 });
-    }
-
-    /// Scales the weights to a sum of one. Without any positive sum nothing is left.
+    /// Scales the weights to a sum of one.
     pub(super) fn normalise(&mut self) {
-        let sum: f64 = self.iter().map(|tap| f64::from(tap.weight)).sum();
-        let size: f64 = self.iter().map(|tap| f64::from(tap.weight.abs())).sum();
-        // Where only negative lobes reach a texel (beside a missing face) the average would be noise.
-        if sum < 0.05 * size || size == 0.0 {
-            self.clear();
-            return;
-        }
-        let factor = sum.recip() as f32;
-        for tap in self.under.iter_mut().chain(&mut self.around) {
-            tap.weight *= factor;
+        let sum: f64 = self.taps.iter().map(|tap| f64::from(tap.weight)).sum();
+        for tap in &mut self.taps {
+            tap.weight = (f64::from(tap.weight) / sum) as f32;
         }
     }
 }
@@ -69,8 +69,8 @@ pub(super) fn average(taps: &[Tap], under: usize, texels: &[Rgba], anti_ringing:
         let texel = texels[tap.texel as usize].0;
         for c in 0..4 {
             sum[c] += tap.weight * texel[c];
-            least[c] = least[c].min(texel[c]);
-            greatest[c] = greatest[c].max(texel[c]);
+            least[c] = if texel[c] < least[c] { texel[c] } else { least[c] };
+            greatest[c] = if texel[c] > greatest[c] { texel[c] } else { greatest[c] };
         }
     }
     for tap in outer {

@@ -43,7 +43,7 @@ impl View {
         let mut touched = FieldStop::NONE;
         if let Some(radius) = self.stop.circle {
             let (point, step) = (self.grid.to_plane(centre), self.grid.step());
-            let (distance, half_diagonal) = (point.x.hypot(point.y), step.length() / 2.0);
+            let (distance, half_diagonal) = ((point.x * point.x + point.y * point.y).sqrt(), step.length() / 2.0);
             if distance - half_diagonal > radius {
                 return Side::Outside;
             }
@@ -92,10 +92,5 @@ impl View {
                 Some(side) => self.projection.unproject(point).is_some_and(|direction| side.dot(direction) >= 0.0),
                 None => true,
             }
-    }
-
-    /// Angle from a direction of the world to the nearest one at which this view's mapping is singular, in radians.
-    pub fn margin(&self, direction: crate::sphere::Direction) -> f64 {
-        self.projection.margin(self.orientation.to_view(direction)).radians()
     }
 }
