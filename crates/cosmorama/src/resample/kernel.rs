@@ -169,7 +169,7 @@ const UNDER: f64 = 1.5;
 
 /// The paper's WTAB, twice: both cross-sections of a kernel tabulated over r², so that Q = r² is the index.
 #[derive(Clone, Debug)]
-pub(super) struct KernelTable {
+pub(crate) struct KernelTable {
     kernel: Kernel,
     weights: Vec<[f32; 2]>,
     entries_per_unit: f64,
@@ -180,7 +180,7 @@ pub(super) struct KernelTable {
 const ENTRIES: usize = 2048;
 
 impl KernelTable {
-    pub(super) fn new(kernel: &Kernel) -> Self {
+    pub(crate) fn new(kernel: &Kernel) -> Self {
         let radius_squared = kernel.radius().powi(2);
         let entries_per_unit = ENTRIES as f64 / radius_squared;
         let weights = (0..ENTRIES)

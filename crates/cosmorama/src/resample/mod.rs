@@ -1,5 +1,6 @@
 //! Resampling: from a world of views to the pixels of a target.
 
+mod block;
 mod candidates;
 mod ellipse;
 mod ewa;
@@ -7,6 +8,8 @@ mod filter;
 mod gather;
 mod kernel;
 mod lookup;
+mod need;
+mod pixel_taps;
 mod plan;
 mod reference;
 mod taps;
@@ -14,6 +17,10 @@ mod taps;
 pub use ellipse::Ellipse;
 pub use ewa::{TextureDerivatives, WeightTable, ewa};
 pub use filter::{Filter, FilterKind};
+pub(crate) use kernel::KernelTable;
 pub use kernel::{CrossSection, Kernel};
+pub(crate) use lookup::owner;
+pub use need::{Need, Needs, Uncovered};
+pub(crate) use pixel_taps::PixelTaps;
 pub use plan::{Plan, Resampler};
 pub use taps::{Tap, Taps};

@@ -145,6 +145,11 @@ impl Plan {
         image
     }
 
+    /// Bytes that a plan of so many pixels and taps holds.
+    pub(crate) fn bytes_for(pixels: usize, taps: usize) -> usize {
+        pixels * size_of::<PlannedPixel>() + taps * size_of::<Tap>()
+    }
+
     /// Bytes of memory that the plan holds.
     pub fn bytes(&self) -> usize {
         let band =

@@ -1,0 +1,223 @@
+//! What a conversion needs of its sources, before any light is looked at.
+
+use rayon::prelude::*;
+
+use super::block::{Block, Cap};
+use super::kernel::KernelTable;
+use super::pixel_taps::PixelTaps;
+use super::{Filter, lookup};
+use crate::sphere::Direction;
+use crate::world::{PixelPoint, PixelRect, Source, View, World};
+
+/// What targets need of one view of a world.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Need {
+    /// The view's name.
+    pub name: String,
+    /// Bounding rectangle of the texels in which target pixels (their centres, or the centroids of what a rim leaves of
+    /// them) fall. Without these there would be holes in the picture.
+    pub seen: Option<PixelRect>,
+    /// Bounding rectangle of all texels that the filter touches. Whatever is outside never changes a pixel.
+    pub read: Option<PixelRect>,
+}
+
+/// Target pixels that look where no view does.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Uncovered {
+    /// How many there are, in all targets together.
+    pub pixels: usize,
+    /// Index of the target of the first of them.
+    pub target: usize,
+    /// The column of the first of them.
+    pub column: usize,
+    /// Its row.
+    pub row: usize,
+    /// Where it looks.
+    pub direction: Direction,
+}
+
+impl std::fmt::Display for Uncovered {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let (yaw, pitch) = self.direction.longitude_latitude();
+        let (yaw, pitch) = (yaw.degrees(), pitch.degrees());
+        let plural = if self.pixels == 1 { "pixel looks" } else { "pixels look" };
+        let (column, row) = (self.column, self.row);
+        write!(
+            f,
+            "{} {plural} where no view does: first column {column}, row {row} (yaw {yaw:.1}°, pitch {pitch:.1}°)",
+            self.pixels
+        )
+    }
+}
+
+/// What targets need of a world.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Needs {
+    /// One for each view, in the world's order.
+    pub views: Vec<Need>,
+    /// What no view covers.
+    pub uncovered: Option<Uncovered>,
+}
+
+impl Needs {
+    /// What `targets` need of the world's views when they are made with `filter`.
+    ///
+    /// To ask for views whose image is missing, give a world of nominal views: it holds no light. The result is exact:
+    /// it comes from the taps of the filter itself. Only blocks of pixels that cannot widen the rectangles found so far
+    /// are passed over.
+    pub fn of(world: &World, targets: &[View], filter: &Filter) -> Self {
+        let mut needs = Self::nothing(world);
+        for (index, target) in targets.iter().enumerate() {
+            let survey = Survey { world, target, index, filter };
+            // The extremes lie where the frame, the lens or a view ends, in this order of likelihood: with those known,
+            // the rest is quick.
+            let mut ranks: [Vec<Judged>; 3] = Default::default();
+            for judged in survey.judged_blocks() {
+                ranks[judged.rank].push(judged);
+            }
+            needs = ranks.iter().fold(needs, |needs, blocks| survey.blocks(blocks, needs));
+        }
+        needs
+    }
+
+    fn nothing(world: &World) -> Self {
+        let need = |source: &Source| Need { name: source.name.clone(), seen: None, read: None };
+        Self { views: world.sources().iter().map(need).collect(), uncovered: None }
+    }
+
+    fn merged(mut self, other: &Self) -> Self {
+        for (mine, theirs) in self.views.iter_mut().zip(&other.views) {
+            mine.seen = union(mine.seen, theirs.seen);
+            mine.read = union(mine.read, theirs.read);
+        }
+        if let Some(other) = other.uncovered {
+            self.add_uncovered(other);
+        }
+        self
+    }
+
+    fn add_uncovered(&mut self, other: Uncovered) {
+        let place = |uncovered: &Uncovered| (uncovered.target, uncovered.row, uncovered.column);
+        self.uncovered = Some(match self.uncovered {
+            None => other,
+            Some(mine) => {
+                let first = if place(&other) < place(&mine) { other } else { mine };
+                Uncovered { pixels: mine.pixels + other.pixels, ..first }
+            }
+        });
+    }
+}
+
+fn union(a: Option<PixelRect>, b: Option<PixelRect>) -> Option<PixelRect> {
+    match (a, b) {
+        (Some(a), Some(b)) => Some(a.union(b)),
+        (one, other) => one.or(other),
+    }
+}
+
+/// Whether nothing of `part` is outside `whole`.
+fn within(part: Option<PixelRect>, whole: Option<PixelRect>) -> bool {
+    part.is_none_or(|part| whole.is_some_and(|whole| whole.contains(&part)))
+}
+
+/// One target's look at a world.
+struct Survey<'a> {
+    world: &'a World,
+    target: &'a View,
+    index: usize,
+    filter: &'a Filter,
+}
+
+/// A block and what is known of it as a whole.
+struct Judged {
+    block: Block,
+    cap: Option<Cap>,
+    /// The source that shows all of it.
+    owner: Option<usize>,
+    /// 0 at the edge of the picture, 1 at the edge of a view, 2 inside both.
+    rank: usize,
+}
+
+impl Survey<'_> {
+    fn judged_blocks(&self) -> Vec<Judged> {
+        let judged = |block: Block| {
+            let cap = block.cap(self.target);
+            let owner = cap.and_then(|cap| self.world.sources().iter().position(|source| cap.is_shown_by(source)));
+            let rank =
+                if cap.is_none() || block.is_at_edge_of(self.target) { 0 } else { 1 + usize::from(owner.is_some()) };
+            Judged { block, cap, owner, rank }
+        };
+        let blocks = Block::all(self.target).into_par_iter();
+        blocks.filter(|block| !block.is_hidden(self.target)).map(judged).collect()
+    }
+
+    /// Adds what these blocks need to what is known already.
+    fn blocks(&self, blocks: &[Judged], known: Needs) -> Needs {
+        let few = blocks.len().div_ceil(8 * rayon::current_num_threads()).max(1);
+        let table = KernelTable::new(&self.filter.kernel);
+        let found: Vec<Needs> = blocks
+            .par_chunks(few)
+            .map(|blocks| {
+                let mut found = Needs { uncovered: None, ..known.clone() };
+                let mut pixels = PixelTaps::new(self.world, self.target, self.filter, &table);
+                for judged in blocks {
+                    self.add_block(judged, &mut pixels, &mut found);
+                }
+                found
+            })
+            .collect();
+        found.iter().fold(known, Needs::merged)
+    }
+
+    /// Adds what the pixels of a block need, unless they surely need nothing new.
+    fn add_block(&self, judged: &Judged, pixels: &mut PixelTaps, needs: &mut Needs) {
+        let reads_nothing_new = judged.cap.is_some_and(|cap| self.reads_within(&cap, needs));
+        let sees_nothing_new = judged
+            .cap
+            .zip(judged.owner)
+            .is_some_and(|(cap, owner)| within(cap.seen_texels(&self.world.sources()[owner]), needs.views[owner].seen));
+        if reads_nothing_new && sees_nothing_new {
+            return;
+        }
+        for (i, j) in judged.block.pixels() {
+            let Some(screen) = self.target.screen_pixel(i, j) else { continue };
+            self.add_pixel((i, j), screen.footprint.direction, needs);
+            if !reads_nothing_new {
+                pixels.for_each_texel((i, j), &screen, |texel| add_read(self.world, texel, &mut needs.views));
+            }
+        }
+    }
+
+    /// Whether kernels around a block's pixels touch only texels that are needed anyway.
+    fn reads_within(&self, cap: &Cap, needs: &Needs) -> bool {
+        let mut views = self.world.sources().iter().zip(&needs.views);
+        views.all(|(source, need)| within(cap.read_texels(source, &self.filter.kernel), need.read))
+    }
+
+    fn add_pixel(&self, (column, row): (usize, usize), direction: Direction, needs: &mut Needs) {
+        match lookup::owner(self.world, direction) {
+            Some((owner, at)) => add_seen(&self.world.sources()[owner], at, &mut needs.views[owner]),
+            None => {
+                needs.add_uncovered(Uncovered { pixels: 1, target: self.index, column, row, direction });
+            }
+        }
+    }
+}
+
+fn add_seen(source: &Source, pixel: PixelPoint, need: &mut Need) {
+    let inside = |value: f64, size: usize| (value.max(0.0) as usize).min(size - 1);
+    let (i, j) = (inside(pixel.x, source.view.width()), inside(pixel.y, source.view.height()));
+    need.seen = union(need.seen, Some(one_texel(i, j)));
+}
+
+fn add_read(world: &World, texel: usize, needs: &mut [Need]) {
+    let owner = world.sources().iter().position(|source| source.texels().contains(&texel));
+    let Some(index) = owner else { return };
+    let source = &world.sources()[index];
+    let (i, j) = ((texel - source.offset) % source.view.width(), (texel - source.offset) / source.view.width());
+    needs[index].read = union(needs[index].read, Some(one_texel(i, j)));
+}
+
+fn one_texel(i: usize, j: usize) -> PixelRect {
+    PixelRect { left: i, top: j, right: i + 1, bottom: j + 1 }
+}
