@@ -42,10 +42,13 @@ impl<'a> Gather<'a> {
         self.candidates.clear();
         let sources = self.world.sources();
         if !self.gather_from(&sources[self.last], footprint) {
-            // A kernel inside one view touches no other, so the order of views never changes a result.
             self.candidates.clear();
             for (index, source) in sources.iter().enumerate() {
+                let start = self.candidates.len();
                 if self.gather_from(source, footprint) {
+                    // A kernel inside one view touches no other, except by what another view's plane bends its ellipse:
+                    // without those texels the result depends neither on the order of views nor on the last footprint.
+                    self.candidates.drain(..start);
                     self.last = index;
                     break;
                 }
