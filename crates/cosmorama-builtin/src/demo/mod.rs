@@ -1,0 +1,95 @@
+//! The demo world: an arcade under a glazed vault, late on a sunny afternoon.
+
+mod balloon;
+mod colonnade;
+mod gazing_ball;
+mod ground;
+mod hall;
+mod lamps;
+mod lettering;
+mod noise;
+mod panel;
+mod pyramid;
+mod ray;
+mod sky;
+mod solid;
+mod vault;
+
+use cosmorama::sphere::Direction;
+use glam::DVec3;
+
+use crate::Radiance;
+use ray::{Hit, Part, Ray, Surface, nearer};
+
+/// Height of the eyes above the ground, in metres.
+const EYE_HEIGHT: f64 = 1.6;
+
+/// The demo world, seen from a point between its columns: a checkered floor to the horizon, an arcade with a
+/// barrel vault of iron lattice overhead, lamps on thin rods, a notice that hangs ahead and reads
+/// "COSMORAMA 1986", stepped pyramids to the left and behind, a mirroring ball to the right, a balloon,
+/// clouds and a low sun. Full of thin lines and edges, because these show aliasing and seams.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct DemoWorld;
+
+/// Everything that can be met, cheap and near things first.
+const PARTS: [&dyn Part; 9] = [
+    &ground::Ground,
+    &vault::Vault,
+    &colonnade::Colonnade,
+    &panel::Panel,
+    &lamps::Lamps,
+    &gazing_ball::GazingBall,
+    &balloon::Balloon,
+    &pyramid::Pyramid::LEFT,
+    &pyramid::Pyramid::BACK,
+];
+
+impl Radiance for DemoWorld {
+    fn radiance(&self, direction: Direction) -> [f32; 3] {
+        let eye = Ray { origin: DVec3::new(0.0, EYE_HEIGHT, 0.0), direction: direction.vector() };
+        let (mut light, mirrored) = look(&eye);
+        if let Some((ray, share)) = mirrored {
+            // A mirror in a mirror is left dark: the work per ray stays bounded.
+            light += look(&ray).0 * share;
+        }
+        light.as_vec3().to_array()
+    }
+}
+
+/// The light along a ray, and where a mirror sends the ray on with what share of the light.
+fn look(ray: &Ray) -> (DVec3, Option<(Ray, f64)>) {
+    let Some(hit) = first_hit(ray) else { return (sky::light(ray.direction), None) };
+    let point = ray.at(hit.distance);
+    let clarity = sky::clarity(hit.distance);
+    let light = shade(point, &hit) * clarity + sky::haze(ray.direction) * (1.0 - clarity);
+    (light, mirrored(ray, point, &hit).map(|(onward, share)| (onward, share * clarity)))
+}
+
+fn first_hit(ray: &Ray) -> Option<Hit> {
+    PARTS.iter().fold(None, |nearest, part| nearer(nearest, part.hit(ray)))
+}
+
+/// Light that a surface sends off by itself: its glow, and what it scatters of sun and sky.
+fn shade(point: DVec3, hit: &Hit) -> DVec3 {
+    let Surface { albedo, glow, mirror } = hit.surface;
+    let facing = hit.normal.dot(sky::SUN);
+    let toward_sun = Ray::leaving(point, hit.normal, sky::SUN);
+    let sun = if facing > 0.0 && !PARTS.iter().any(|part| part.hit(&toward_sun).is_some()) {
+        sky::SUNLIGHT * facing
+    } else {
+        DVec3::ZERO
+    };
+    glow + albedo * (sun + sky::ambient(hit.normal)) * (1.0 - mirror)
+}
+
+/// The mirrored ray and its share of light: more at grazing angles (Schlick's approximation).
+fn mirrored(ray: &Ray, point: DVec3, hit: &Hit) -> Option<(Ray, f64)> {
+    let mirror = hit.surface.mirror;
+    if mirror <= 0.0 {
+        return None;
+    }
+    let cosine = -ray.direction.dot(hit.normal);
+    let share = mirror + (1.0 - mirror) * 0.6 * (1.0 - cosine).clamp(0.0, 1.0).powi(5);
+    let onward = ray.direction + hit.normal * (2.0 * cosine);
+    Some((Ray::leaving(point, hit.normal, onward), share))
+}

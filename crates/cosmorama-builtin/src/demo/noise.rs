@@ -1,0 +1,55 @@
+use glam::DVec2;
+
+/// Smooth noise between 0 and 1: random values on the whole-numbered points of the plane, with a smooth
+/// blend between.
+pub(super) fn noise(point: DVec2) -> f64 {
+    let cell = point.floor();
+    let within = point - cell;
+    let blend = within * within * (DVec2::splat(3.0) - within * 2.0);
+    let (column, row) = (cell.x as i64 as u32, cell.y as i64 as u32);
+    let corner = |right: u32, down: u32| hash(column.wrapping_add(right), row.wrapping_add(down));
+    let top = corner(0, 0) + (corner(1, 0) - corner(0, 0)) * blend.x;
+    let bottom = corner(0, 1) + (corner(1, 1) - corner(0, 1)) * blend.x;
+    top + (bottom - top) * blend.y
+}
+
+/// Noise in octaves, each twice as fine and half as strong; between 0 and 1.
+pub(super) fn octaves(point: DVec2, count: u32) -> f64 {
+    let (mut sum, mut total, mut strength, mut point) = (0.0, 0.0, 1.0, point);
+    for _ in 0..count {
+        sum += strength * noise(point);
+        total += strength;
+        strength *= 0.5;
+        // The turn keeps the octaves' lattices from lining up.
+        point = DVec2::new(1.6 * point.x - 1.2 * point.y, 1.2 * point.x + 1.6 * point.y) + DVec2::splat(17.3);
+    }
+    sum / total
+}
+
+/// A value between 0 and 1 for a lattice point: bits mixed by multiplications.
+fn hash(column: u32, row: u32) -> f64 {
+    let mut bits = column.wrapping_mul(0x9E37_79B1) ^ row.wrapping_mul(0x85EB_CA77);
+    bits = (bits ^ (bits >> 15)).wrapping_mul(0x2C1B_3C6D);
+    bits = (bits ^ (bits >> 12)).wrapping_mul(0x297A_2D39);
+    f64::from(bits ^ (bits >> 15)) / f64::from(u32::MAX)
+}
+
+/// 0 below `low`, 1 above `high`, smooth between.
+pub(super) fn smoothstep(low: f64, high: f64, value: f64) -> f64 {
+    let t = ((value - low) / (high - low)).clamp(0.0, 1.0);
+    t * t * (3.0 - 2.0 * t)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn noise_is_smooth_across_lattice_lines() {
+        for step in -50..50 {
+            let x = f64::from(step);
+            let y = 0.37 * x + 0.2;
+            assert!((noise(DVec2::new(x - 1e-9, y)) - noise(DVec2::new(x + 1e-9, y))).abs() < 1e-7);
+        }
+    }
+}

@@ -1,0 +1,63 @@
+use glam::DVec3;
+
+/// A half line along which light is looked for.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Ray {
+    pub(super) origin: DVec3,
+    /// Unit vector.
+    pub(super) direction: DVec3,
+}
+
+impl Ray {
+    /// The point at a distance.
+    pub(super) fn at(&self, distance: f64) -> DVec3 {
+        self.origin + self.direction * distance
+    }
+
+    /// A ray that leaves a surface, started a little above it lest it meet the surface itself.
+    pub(super) fn leaving(point: DVec3, normal: DVec3, direction: DVec3) -> Self {
+        const CLEARANCE: f64 = 1e-5;
+        Self { origin: point + normal * CLEARANCE, direction }
+    }
+}
+
+/// What a surface does with light.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Surface {
+    /// Part of the light that is scattered to all sides.
+    pub(super) albedo: DVec3,
+    /// Light of its own.
+    pub(super) glow: DVec3,
+    /// Part of the light that is mirrored when seen square on.
+    pub(super) mirror: f64,
+}
+
+impl Surface {
+    /// A surface without gloss or glow.
+    pub(super) const fn matte(albedo: DVec3) -> Self {
+        Self { albedo, glow: DVec3::ZERO, mirror: 0.0 }
+    }
+}
+
+/// Where a ray meets a part of the world.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Hit {
+    pub(super) distance: f64,
+    /// Unit vector, on the side from which the ray came.
+    pub(super) normal: DVec3,
+    pub(super) surface: Surface,
+}
+
+/// The nearer of two hits.
+pub(super) fn nearer(a: Option<Hit>, b: Option<Hit>) -> Option<Hit> {
+    match (a, b) {
+        (Some(first), Some(second)) => Some(if second.distance < first.distance { second } else { first }),
+        (first, second) => first.or(second),
+    }
+}
+
+/// A thing in the world.
+pub(super) trait Part: Sync {
+    /// The first meeting of the ray with this part, ahead of the ray's origin.
+    fn hit(&self, ray: &Ray) -> Option<Hit>;
+}
