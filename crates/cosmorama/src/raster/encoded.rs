@@ -1,55 +1,8 @@
 use half::f16;
 
-use super::{Image, ImageError, Rgba, Transfer};
+use super::{Channels, Depth, ImageError};
 
-/// Which channels a pixel has in a file.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Channels {
-    /// Grey.
-    Grey,
-    /// Grey and alpha.
-    GreyAlpha,
-    /// Red, green, blue.
-    Rgb,
-    /// Red, green, blue, alpha.
-    Rgba,
-}
-
-impl Channels {
-    /// Samples in a pixel.
-    pub const fn count(self) -> usize {
-        match self {
-            Self::Grey => 1,
-            Self::GreyAlpha => 2,
-            Self::Rgb => 3,
-            Self::Rgba => 4,
-        }
-    }
-
-    /// Whether there is an alpha channel.
-    pub const fn has_alpha(self) -> bool {
-        matches!(self, Self::GreyAlpha | Self::Rgba)
-    }
-}
-
-/// Sample type of a file.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Depth {
-    /// 8-bit integers.
-    Eight,
-    /// 10 significant bits, spread over 16-bit integers.
-    Ten,
-    /// 12 significant bits, spread over 16-bit integers.
-    Twelve,
-    /// 16-bit integers.
-    Sixteen,
-    /// 16-bit floats.
-    Half,
-    /// 32-bit floats.
-    Float,
-}
-
-/// The samples of an image, interleaved, row by row, as a file holds them: encoded, alpha not premultiplied.
+/// The samples of an image, interleaved, row by row, as a file holds them: encoded by a transfer function.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Samples {
     /// 8-bit integers.
@@ -62,11 +15,132 @@ pub enum Samples {
     Float(Vec<f32>),
 }
 
+impl Samples {
+    /// Their number.
+    pub fn len(&self) -> usize {
+        match self {
+            Self::U8(samples) => samples.len(),
+            Self::U16(samples) => samples.len(),
+            Self::Half(samples) => samples.len(),
+            Self::Float(samples) => samples.len(),
+        }
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    fn suit(&self, depth: Depth) -> bool {
+        matches!(
+            (self, depth),
+            (Self::U8(_), Depth::Eight)
+                | (Self::U16(_), Depth::Ten | Depth::Twelve | Depth::Sixteen)
+                | (Self::Half(_), Depth::Half)
+                | (Self::Float(_), Depth::Float)
+        )
+    }
+}
+
+/// How the colour samples of a file relate to its alpha.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum AlphaMode {
+    /// The colour of the thing, whatever part of the pixel it covers: PNG, TGA. Integer samples are always so.
+    #[default]
+    Straight,
+    /// The light of the pixel, already multiplied by alpha: OpenEXR. Light with an alpha of zero (a glow, a
+    /// flame) can only be held this way.
+    Premultiplied,
+}
+
 /// An image as a file holds it.
+///
+/// [`decode`](Self::decode) makes light of it, [`encode`](Self::encode) makes it from light.
 #[derive(Clone, Debug, PartialEq)]
 pub struct EncodedImage {
     width: usize,
     height: usize,
     channels: Channels,
+    depth: Depth,
+    alpha_mode: AlphaMode,
     samples: Samples,
+}
+
+impl EncodedImage {
+    /// An image of the given samples, with straight alpha if it has any.
+    ///
+    /// # Errors
+    /// When their number is not `width × height × channels`, or they are of another type than `depth` says.
+    pub fn new(
+        width: usize,
+        height: usize,
+        channels: Channels,
+        depth: Depth,
+        samples: Samples,
+    ) -> Result<Self, ImageError> {
+        let expected = width.checked_mul(height).and_then(|pixels| pixels.checked_mul(channels.count()));
+        if expected != Some(samples.len()) {
+            return Err(ImageError::WrongLength { width, height, found: samples.len() / channels.count() });
+        }
+        if !samples.suit(depth) {
+            return Err(ImageError::WrongDepth { depth });
+        }
+        Ok(Self { width, height, channels, depth, alpha_mode: AlphaMode::Straight, samples })
+    }
+
+    /// Parts that are known to fit.
+    pub(super) fn from_parts(
+        width: usize,
+        height: usize,
+        channels: Channels,
+        depth: Depth,
+        alpha_mode: AlphaMode,
+        samples: Samples,
+    ) -> Self {
+        debug_assert!(samples.len() == width * height * channels.count() && samples.suit(depth));
+        Self { width, height, channels, depth, alpha_mode, samples }
+    }
+
+    /// The same float samples, taken as straight or premultiplied. Integer samples stay straight: multiplied,
+    /// they would have lost the bits that a transfer function needs.
+    #[must_use]
+    pub fn with_alpha_mode(self, alpha_mode: AlphaMode) -> Self {
+        let alpha_mode = if self.depth.is_float() { alpha_mode } else { AlphaMode::Straight };
+        Self { alpha_mode, ..self }
+    }
+
+    /// Columns.
+    pub fn width(&self) -> usize {
+        self.width
+    }
+
+    /// Rows.
+    pub fn height(&self) -> usize {
+        self.height
+    }
+
+    /// Channels of a pixel.
+    pub fn channels(&self) -> Channels {
+        self.channels
+    }
+
+    /// Sample type.
+    pub fn depth(&self) -> Depth {
+        self.depth
+    }
+
+    /// How colour relates to alpha.
+    pub fn alpha_mode(&self) -> AlphaMode {
+        self.alpha_mode
+    }
+
+    /// All samples, interleaved, row by row.
+    pub fn samples(&self) -> &Samples {
+        &self.samples
+    }
+
+    /// All samples, by value.
+    pub fn into_samples(self) -> Samples {
+        self.samples
+    }
 }

@@ -1,5 +1,7 @@
 use thiserror::Error;
 
+use super::Depth;
+
 /// Why an image cannot be made.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub enum ImageError {
@@ -12,6 +14,12 @@ pub enum ImageError {
         height: usize,
         /// Pixels given.
         found: usize,
+    },
+    /// The samples given are of another type.
+    #[error("samples of depth {depth} were expected, others given")]
+    WrongDepth {
+        /// What the samples were said to be.
+        depth: Depth,
     },
 }
 

@@ -1,11 +1,20 @@
 //! Images in memory: linear light for filtering, encoded samples as files hold them, and the transfer functions between.
 
+mod channels;
+mod decode;
+mod depth;
+mod encode;
 mod encoded;
 mod image;
+mod quantizer;
 mod rgba;
+mod tone_curve;
 mod transfer;
 
-pub use encoded::{Channels, Depth, EncodedImage, Samples};
+pub use channels::Channels;
+pub use depth::Depth;
+pub use encoded::{AlphaMode, EncodedImage, Samples};
 pub use image::{Image, ImageError};
 pub use rgba::Rgba;
-pub use transfer::{ToneCurve, Transfer};
+pub use tone_curve::ToneCurve;
+pub use transfer::Transfer;

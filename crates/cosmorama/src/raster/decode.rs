@@ -1,0 +1,163 @@
+use half::f16;
+use rayon::prelude::*;
+
+use super::{AlphaMode, Channels, EncodedImage, Image, Rgba, Samples, Transfer};
+
+impl EncodedImage {
+    /// Linear light, premultiplied, of every pixel. Grey becomes red = green = blue; without an alpha channel
+    /// alpha is 1; float samples go by the rule of [`Rgba::finite`].
+    ///
+    /// # Panics
+    /// When `into` is not as long as the image has pixels.
+    pub fn decode(&self, transfer: &Transfer, into: &mut [Rgba]) {
+        assert_eq!(into.len(), self.width() * self.height(), "one pixel of light for each pixel of the file");
+        match self.samples() {
+            Samples::U8(samples) => decode_integers(samples, self, &Tables::new(transfer, 256), into),
+            Samples::U16(samples) => decode_integers(samples, self, &Tables::new(transfer, 65536), into),
+            Samples::Half(samples) => decode_floats(samples, f16::to_f32, self, transfer, into),
+            Samples::Float(samples) => decode_floats(samples, |sample| sample, self, transfer, into),
+        }
+    }
+
+    /// [`decode`](Self::decode) into a new image.
+    pub fn to_light(&self, transfer: &Transfer) -> Image<Rgba> {
+        let mut light = Image::filled(self.width(), self.height(), Rgba::TRANSPARENT);
+        self.decode(transfer, light.pixels_mut());
+        light
+    }
+}
+
+/// Light of every code value, by channel.
+struct Tables {
+    colour: [Vec<f32>; 3],
+    last: f32,
+}
+
+impl Tables {
+    fn new(transfer: &Transfer, codes: u32) -> Self {
+        let last = f64::from(codes - 1);
+        let table = |channel| (0..codes).map(|code| transfer.decode(f64::from(code) / last, channel) as f32).collect();
+        let red: Vec<f32> = table(0);
+        let others = if transfer.is_common() { [red.clone(), red.clone()] } else { [table(1), table(2)] };
+        let [green, blue] = others;
+        Self { colour: [red, green, blue], last: last as f32 }
+    }
+}
+
+/// Pixels that a thread takes at once.
+const CHUNK: usize = 1 << 14;
+
+fn by_pixels<S: Copy + Sync>(
+    samples: &[S],
+    channels: Channels,
+    into: &mut [Rgba],
+    pixel: impl Fn(&[S]) -> Rgba + Sync,
+) {
+    let count = channels.count();
+    into.par_chunks_mut(CHUNK).zip(samples.par_chunks(CHUNK * count)).for_each(|(into, samples)| {
+        for (into, sample) in into.iter_mut().zip(samples.chunks_exact(count)) {
+            *into = pixel(sample);
+        }
+    });
+}
+
+fn decode_integers<S: Copy + Sync + Into<u32>>(
+    samples: &[S],
+    image: &EncodedImage,
+    tables: &Tables,
+    into: &mut [Rgba],
+) {
+    let [red, green, blue] = &tables.colour;
+    let code = |sample: S| sample.into() as usize;
+    let alpha = |sample: S| sample.into() as f32 / tables.last;
+    let channels = image.channels();
+    match channels {
+        Channels::Grey => by_pixels(samples, channels, into, |s| {
+            let light = green[code(s[0])];
+            Rgba::opaque(light, light, light)
+        }),
+        Channels::GreyAlpha => by_pixels(samples, channels, into, |s| {
+            let light = green[code(s[0])];
+            Rgba::opaque(light, light, light) * alpha(s[1])
+        }),
+        Channels::Rgb => {
+            by_pixels(samples, channels, into, |s| Rgba::opaque(red[code(s[0])], green[code(s[1])], blue[code(s[2])]))
+        }
+        Channels::Rgba => by_pixels(samples, channels, into, |s| {
+            Rgba::opaque(red[code(s[0])], green[code(s[1])], blue[code(s[2])]) * alpha(s[3])
+        }),
+    }
+}
+
+fn decode_floats<S: Copy + Sync>(
+    samples: &[S],
+    float: impl Fn(S) -> f32 + Sync,
+    image: &EncodedImage,
+    transfer: &Transfer,
+    into: &mut [Rgba],
+) {
+    let (channels, mode) = (image.channels(), image.alpha_mode());
+    by_pixels(samples, channels, into, |s| {
+        let raw = match channels {
+            Channels::Grey => Rgba::opaque(float(s[0]), float(s[0]), float(s[0])),
+            Channels::GreyAlpha => Rgba([float(s[0]), float(s[0]), float(s[0]), float(s[1])]),
+            Channels::Rgb => Rgba::opaque(float(s[0]), float(s[1]), float(s[2])),
+            Channels::Rgba => Rgba([float(s[0]), float(s[1]), float(s[2]), float(s[3])]),
+        };
+        light_of(raw.finite(), mode, transfer)
+    });
+}
+
+fn light_of(code: Rgba, mode: AlphaMode, transfer: &Transfer) -> Rgba {
+    let [red, green, blue, alpha] = code.0;
+    let alpha = alpha.clamp(0.0, 1.0);
+    // Straight colour is multiplied by alpha; premultiplied colour is divided before its transfer function
+    // and multiplied after, except where alpha is zero: a glow has no colour of its own, only light.
+    let (before, after) = match mode {
+        AlphaMode::Straight => (1.0, alpha),
+        AlphaMode::Premultiplied if *transfer == Transfer::Linear || alpha == 0.0 => (1.0, 1.0),
+        AlphaMode::Premultiplied => (alpha, alpha),
+    };
+    let decode = |code: f32, channel| match transfer {
+        Transfer::Linear => code / before * after,
+        _ => transfer.decode(f64::from(code / before), channel) as f32 * after,
+    };
+    // Again: a power may have overflowed.
+    Rgba([decode(red, 0), decode(green, 1), decode(blue, 2), alpha]).finite()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::raster::Depth;
+
+    fn decode_one(channels: Channels, depth: Depth, samples: Samples, transfer: &Transfer) -> Rgba {
+        *EncodedImage::new(1, 1, channels, depth, samples).unwrap().to_light(transfer).get(0, 0)
+    }
+
+    #[test]
+    fn straight_alpha_is_multiplied_in() {
+        let pixel = decode_one(Channels::Rgba, Depth::Eight, Samples::U8(vec![255, 0, 255, 51]), &Transfer::Srgb);
+        assert_eq!(pixel, Rgba([0.2, 0.0, 0.2, 0.2]));
+    }
+
+    #[test]
+    fn nan_is_missing_and_infinity_is_finite() {
+        let nan = Samples::Float(vec![1.0, f32::NAN, 0.0]);
+        assert_eq!(decode_one(Channels::Rgb, Depth::Float, nan, &Transfer::Linear), Rgba::TRANSPARENT);
+        let half = Samples::Half(vec![f16::INFINITY, f16::NEG_INFINITY, f16::ONE]);
+        let pixel = decode_one(Channels::Rgb, Depth::Half, half, &Transfer::Linear);
+        assert_eq!(pixel, Rgba::opaque(65504.0, -65504.0, 1.0));
+        let overflow = Samples::Float(vec![1e38; 3]);
+        let pixel = decode_one(Channels::Rgb, Depth::Float, overflow, &Transfer::Gamma(3.0));
+        assert!(pixel.0.iter().all(|c| c.is_finite()), "{pixel:?}");
+    }
+
+    #[test]
+    fn a_glow_without_alpha_keeps_its_light() {
+        let glow = Samples::Float(vec![3.0, 2.0, 1.0, 0.0]);
+        let image = EncodedImage::new(1, 1, Channels::Rgba, Depth::Float, glow).unwrap();
+        let premultiplied = image.with_alpha_mode(AlphaMode::Premultiplied).to_light(&Transfer::Linear);
+        assert_eq!(*premultiplied.get(0, 0), Rgba([3.0, 2.0, 1.0, 0.0]));
+    }
+}

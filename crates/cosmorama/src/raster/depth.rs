@@ -1,0 +1,60 @@
+/// Sample type of a file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Depth {
+    /// 8-bit integers.
+    Eight,
+    /// 10 significant bits, spread over 16-bit integers.
+    Ten,
+    /// 12 significant bits, spread over 16-bit integers.
+    Twelve,
+    /// 16-bit integers.
+    Sixteen,
+    /// 16-bit floats.
+    Half,
+    /// 32-bit floats.
+    Float,
+}
+
+impl Depth {
+    /// All six, coarsest first.
+    pub const ALL: [Self; 6] = [Self::Eight, Self::Ten, Self::Twelve, Self::Sixteen, Self::Half, Self::Float];
+
+    /// Bytes that a sample takes in memory.
+    pub const fn bytes(self) -> usize {
+        match self {
+            Self::Eight => 1,
+            Self::Ten | Self::Twelve | Self::Sixteen | Self::Half => 2,
+            Self::Float => 4,
+        }
+    }
+
+    /// Significant bits of an integer sample; `None` for floats.
+    pub const fn significant_bits(self) -> Option<u32> {
+        match self {
+            Self::Eight => Some(8),
+            Self::Ten => Some(10),
+            Self::Twelve => Some(12),
+            Self::Sixteen => Some(16),
+            Self::Half | Self::Float => None,
+        }
+    }
+
+    /// Whether samples are floats, which hold light beyond white.
+    pub const fn is_float(self) -> bool {
+        matches!(self, Self::Half | Self::Float)
+    }
+}
+
+impl std::fmt::Display for Depth {
+    /// As `--depth` has it.
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(match self {
+            Self::Eight => "8",
+            Self::Ten => "10",
+            Self::Twelve => "12",
+            Self::Sixteen => "16",
+            Self::Half => "half",
+            Self::Float => "float",
+        })
+    }
+}

@@ -1,0 +1,212 @@
+use half::f16;
+use rayon::prelude::*;
+
+use super::quantizer::Quantizer;
+use super::{AlphaMode, Channels, Depth, EncodedImage, Image, Rgba, Samples, Transfer};
+
+impl EncodedImage {
+    /// The samples of an image of light.
+    ///
+    /// Integers are rounded and clamped, with straight alpha; floats are premultiplied and keep light beyond
+    /// white. Without an alpha channel the colour is written as it is: composite over a background first.
+    /// Grey is the luminance of Rec. 709. A NaN never gets out: it becomes zero.
+    pub fn encode(light: &Image<Rgba>, channels: Channels, depth: Depth, transfer: &Transfer) -> Self {
+        let samples = match depth {
+            Depth::Eight => Samples::U8(encode_integers(light, channels, 255, transfer, |code| code as u8)),
+            Depth::Ten => Samples::U16(encode_integers(light, channels, 1023, transfer, |code| code << 6 | code >> 4)),
+            Depth::Twelve => {
+                Samples::U16(encode_integers(light, channels, 4095, transfer, |code| code << 4 | code >> 8))
+            }
+            Depth::Sixteen => Samples::U16(encode_integers(light, channels, 65535, transfer, |code| code)),
+            Depth::Half => Samples::Half(encode_floats(light, channels, transfer, to_half)),
+            Depth::Float => Samples::Float(encode_floats(light, channels, transfer, |sample| sample)),
+        };
+        let alpha_mode = if depth.is_float() { AlphaMode::Premultiplied } else { AlphaMode::Straight };
+        Self::from_parts(light.width(), light.height(), channels, depth, alpha_mode, samples)
+    }
+}
+
+/// Rec. 709 luminance weights.
+const LUMINANCE: [f32; 3] = [0.2126, 0.7152, 0.0722];
+
+fn luminance([red, green, blue]: [f32; 3]) -> f32 {
+    if red == green && green == blue {
+        return green;
+    }
+    LUMINANCE[0] * red + LUMINANCE[1] * green + LUMINANCE[2] * blue
+}
+
+fn to_half(sample: f32) -> f16 {
+    // Larger values would become infinite.
+    f16::from_f32(sample.clamp(f16::MIN.to_f32(), f16::MAX.to_f32()))
+}
+
+/// Pixels that a thread takes at once.
+const CHUNK: usize = 1 << 14;
+
+fn by_pixels<S: Copy + Default + Send>(
+    light: &Image<Rgba>,
+    channels: Channels,
+    pixel: impl Fn(Rgba, &mut [S]) + Sync,
+) -> Vec<S> {
+    let count = channels.count();
+    let mut samples = vec![S::default(); light.pixels().len() * count];
+    samples.par_chunks_mut(CHUNK * count).zip(light.pixels().par_chunks(CHUNK)).for_each(|(samples, light)| {
+        for (samples, light) in samples.chunks_exact_mut(count).zip(light) {
+            pixel(*light, samples);
+        }
+    });
+    samples
+}
+
+fn encode_integers<S: Copy + Default + Send>(
+    light: &Image<Rgba>,
+    channels: Channels,
+    last: u16,
+    transfer: &Transfer,
+    spread: impl Fn(u16) -> S + Sync,
+) -> Vec<S> {
+    let quantizer = Quantizer::new(transfer, last);
+    let quantize = |light: f32, channel| spread(quantizer.code(light, channel));
+    let alpha = |alpha: f32| spread((alpha.clamp(0.0, 1.0) * f32::from(last)).round() as u16);
+    by_pixels(light, channels, |pixel, samples| {
+        let [red, green, blue, coverage] = pixel.0;
+        let colour = if channels.has_alpha() { pixel.unpremultiplied() } else { [red, green, blue] };
+        if channels.is_colour() {
+            for channel in 0..3 {
+                samples[channel] = quantize(colour[channel], channel);
+            }
+        } else {
+            samples[0] = quantize(luminance(colour), 1);
+        }
+        if channels.has_alpha() {
+            samples[channels.count() - 1] = alpha(coverage);
+        }
+    })
+}
+
+fn encode_floats<S: Copy + Default + Send>(
+    light: &Image<Rgba>,
+    channels: Channels,
+    transfer: &Transfer,
+    sample: impl Fn(f32) -> S + Sync,
+) -> Vec<S> {
+    by_pixels(light, channels, |pixel, samples| {
+        let [red, green, blue, alpha] = pixel.finite().0;
+        let code = |light, channel| sample(code_of(light, alpha, channels, transfer, channel));
+        if channels.is_colour() {
+            for (channel, light) in [red, green, blue].into_iter().enumerate() {
+                samples[channel] = code(light, channel);
+            }
+        } else {
+            samples[0] = code(luminance([red, green, blue]), 1);
+        }
+        if channels.has_alpha() {
+            samples[channels.count() - 1] = sample(alpha);
+        }
+    })
+}
+
+/// The premultiplied code value of premultiplied light.
+fn code_of(light: f32, alpha: f32, channels: Channels, transfer: &Transfer, channel: usize) -> f32 {
+    if *transfer == Transfer::Linear {
+        return light;
+    }
+    // The transfer function is for the colour itself; a glow (alpha zero) has none, only light.
+    let alpha = if channels.has_alpha() && alpha > 0.0 { alpha } else { 1.0 };
+    transfer.encode(f64::from(light / alpha), channel) as f32 * alpha
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::raster::ToneCurve;
+    use std::sync::Arc;
+
+    fn transfers() -> Vec<Transfer> {
+        let table = |gamma: f32| (0..4096).map(|i| (i as f32 / 4095.0).powf(gamma)).collect::<Vec<_>>();
+        let curve = ToneCurve::new([table(1.8), table(2.0), table(2.2)]).unwrap();
+        let gammas = [1.0, 1.8, 2.2, 2.6].map(Transfer::Gamma);
+        let mut all = vec![Transfer::Srgb, Transfer::Linear, Transfer::Bt1886, Transfer::Pq, Transfer::Hlg];
+        all.extend(gammas);
+        all.push(Transfer::Curve(Arc::new(curve)));
+        all
+    }
+
+    fn round_trip(image: &EncodedImage, transfer: &Transfer) -> EncodedImage {
+        EncodedImage::encode(&image.to_light(transfer), image.channels(), image.depth(), transfer)
+    }
+
+    #[test]
+    fn every_8_bit_code_comes_back() {
+        let codes: Vec<u8> = (0..=255).flat_map(|code| [code, code, code]).collect();
+        let image = EncodedImage::new(256, 1, Channels::Rgb, Depth::Eight, Samples::U8(codes)).unwrap();
+        for transfer in transfers() {
+            assert_eq!(round_trip(&image, &transfer), image, "{transfer:?}");
+        }
+    }
+
+    #[test]
+    fn every_16_bit_code_comes_back() {
+        let codes: Vec<u16> = (0..=65535).flat_map(|code| [code, code, code]).collect();
+        let image = EncodedImage::new(256, 256, Channels::Rgb, Depth::Sixteen, Samples::U16(codes)).unwrap();
+        for transfer in transfers() {
+            assert!(round_trip(&image, &transfer) == image, "{transfer:?}");
+        }
+    }
+
+    #[test]
+    fn every_10_and_12_bit_code_comes_back_and_fills_the_range() {
+        for (depth, bits) in [(Depth::Ten, 10), (Depth::Twelve, 12)] {
+            let spread = |code: u32| (code << (16 - bits) | code >> (2 * bits - 16)) as u16;
+            let codes: Vec<u16> = (0..1 << bits).map(spread).collect();
+            assert_eq!(codes.last(), Some(&u16::MAX));
+            let image = EncodedImage::new(codes.len(), 1, Channels::Grey, depth, Samples::U16(codes)).unwrap();
+            assert!(round_trip(&image, &Transfer::Srgb) == image, "{depth}");
+        }
+    }
+
+    #[test]
+    fn grey_and_alpha_come_back() {
+        let samples: Vec<u8> = (0..=255).flat_map(|code: u8| [code, code.max(1)]).collect();
+        let image = EncodedImage::new(256, 1, Channels::GreyAlpha, Depth::Eight, Samples::U8(samples)).unwrap();
+        assert_eq!(round_trip(&image, &Transfer::Srgb), image);
+    }
+
+    #[test]
+    fn floats_come_back_through_every_transfer() {
+        let light = Image::new(1, 1, vec![Rgba([0.25, 0.125, 0.0625, 0.5])]).unwrap();
+        for transfer in transfers() {
+            let back = EncodedImage::encode(&light, Channels::Rgba, Depth::Float, &transfer).to_light(&transfer);
+            for channel in 0..4 {
+                let (a, b) = (back.get(0, 0).0[channel], light.get(0, 0).0[channel]);
+                assert!((a - b).abs() < 1e-5, "{transfer:?}: {a} is not {b}");
+            }
+        }
+    }
+
+    #[test]
+    fn nothing_that_is_not_finite_gets_out() {
+        let light = Image::new(2, 1, vec![Rgba::opaque(f32::NAN, -1.0, 9.0), Rgba::opaque(f32::INFINITY, 1e30, 0.0)]);
+        let light = light.unwrap();
+        let Samples::U8(bytes) =
+            EncodedImage::encode(&light, Channels::Rgb, Depth::Eight, &Transfer::Srgb).into_samples()
+        else {
+            panic!("8 bits")
+        };
+        assert_eq!(bytes, [0, 0, 255, 255, 255, 0]);
+        let Samples::Half(halves) =
+            EncodedImage::encode(&light, Channels::Rgb, Depth::Half, &Transfer::Linear).into_samples()
+        else {
+            panic!("halves")
+        };
+        assert!(halves.iter().all(|sample| sample.is_finite()));
+    }
+
+    #[test]
+    fn grey_is_luminance() {
+        let light = Image::new(1, 1, vec![Rgba::opaque(0.0, 1.0, 0.0)]).unwrap();
+        let grey = EncodedImage::encode(&light, Channels::Grey, Depth::Float, &Transfer::Linear);
+        assert_eq!(*grey.samples(), Samples::Float(vec![0.7152]));
+    }
+}
