@@ -1,1 +1,23 @@
 //! Image files for cosmorama: formats, metadata, face sets and frame sequences.
+//!
+//! [`probe`] reads what a file says of itself, [`read`] reads its pixels, [`write`](write()) makes a file appear
+//! whole or not at all. [`FaceSet`] finds the faces of a cube by the naming presets of other tools, and
+//! [`FramePattern`] the frames of a sequence.
+
+mod error;
+mod face_set;
+mod file;
+mod format;
+mod formats;
+mod limits;
+mod metadata;
+pub mod pending;
+mod sequence;
+
+pub use error::IoError;
+pub use face_set::{FaceFile, FacePattern, FacePlacement, FaceSet, LetterCase, Naming};
+pub use file::{Header, ImageFile, WriteOptions, probe, read, write};
+pub use format::Format;
+pub use limits::Limits;
+pub use metadata::{EnvMap, Metadata, Window};
+pub use sequence::{FrameList, FramePattern, Frames};

@@ -1,0 +1,187 @@
+use std::io;
+use std::path::{Path, PathBuf};
+
+use cosmorama::raster::{Channels, Depth};
+use thiserror::Error;
+
+use crate::Format;
+
+/// Why a file cannot be read, written or found. Each message names the file, what was found, what was expected
+/// and what to do.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum IoError {
+    /// A file or folder cannot be opened.
+    #[error("cannot open {}: {source}", path.display())]
+    Open {
+        /// Which.
+        path: PathBuf,
+        /// Why.
+        source: io::Error,
+    },
+    /// An extension belongs to no format that can be written.
+    #[error("{}: the extension names no format; use one of {}", path.display(), Format::extensions())]
+    UnknownExtension {
+        /// The file to write.
+        path: PathBuf,
+    },
+    /// The first bytes of a file belong to no format.
+    #[error("{}: not an image of a known format (PNG, JPEG, TIFF, TGA, Radiance HDR or OpenEXR)", path.display())]
+    UnknownContent {
+        /// The file read.
+        path: PathBuf,
+    },
+    /// A file breaks the rules of its format, or ends too early.
+    #[error("{}: damaged or truncated {format} file ({reason}); make it again", path.display())]
+    Damaged {
+        /// The file read.
+        path: PathBuf,
+        /// Its format.
+        format: Format,
+        /// What the decoder found.
+        reason: String,
+    },
+    /// A file is in order, but of a kind that is not read.
+    #[error("{}: this {format} file holds {found}; expected {expected}; convert it first", path.display())]
+    Unsupported {
+        /// The file read.
+        path: PathBuf,
+        /// Its format.
+        format: Format,
+        /// What it holds.
+        found: String,
+        /// What could be read.
+        expected: &'static str,
+    },
+    /// The pixels that a file declares do not fit into the memory allowed.
+    #[error(
+        "{}: {width}x{height} pixels, {channels}, depth {depth}, need {needed} bytes, \
+         but {limit} are allowed; if the file is right, raise --memory",
+        path.display()
+    )]
+    TooLarge {
+        /// The file read.
+        path: PathBuf,
+        /// Columns declared.
+        width: u64,
+        /// Rows declared.
+        height: u64,
+        /// Channels declared.
+        channels: Channels,
+        /// Depth declared.
+        depth: Depth,
+        /// Bytes of all samples.
+        needed: u128,
+        /// Bytes allowed.
+        limit: u64,
+    },
+    /// A format cannot hold what is to be written.
+    #[error("{}: {format} cannot hold {found}; it can hold {expected}", path.display())]
+    CannotHold {
+        /// The file to write.
+        path: PathBuf,
+        /// Its format.
+        format: Format,
+        /// What was to be written.
+        found: String,
+        /// What the format holds.
+        expected: String,
+    },
+    /// A file cannot be written: nothing was left behind.
+    #[error("cannot write {}: {reason}", path.display())]
+    Write {
+        /// The file to write.
+        path: PathBuf,
+        /// Why.
+        reason: String,
+    },
+    /// A face pattern has no `{face}` or `%c` in it.
+    #[error(
+        "{pattern}: no {{face}} or %c in this pattern; put one where the face's name stands, as in faces/{{face}}.png"
+    )]
+    NotAFacePattern {
+        /// The pattern.
+        pattern: String,
+    },
+    /// No naming preset finds a file.
+    #[error("{pattern}: no face found in {}; tried {tried}", folder.display())]
+    NoFaces {
+        /// The pattern.
+        pattern: String,
+        /// Where files were looked for.
+        folder: PathBuf,
+        /// The names tried.
+        tried: String,
+    },
+    /// Two naming presets find files and disagree about them.
+    #[error(
+        "{pattern}: the files fit two namings: {first} ({first_faces}) and {second} ({second_faces}); \
+         say which with naming={first} or naming={second}"
+    )]
+    AmbiguousNaming {
+        /// The pattern.
+        pattern: String,
+        /// One preset.
+        first: &'static str,
+        /// What it makes of the files.
+        first_faces: String,
+        /// Another preset.
+        second: &'static str,
+        /// What that one makes of them.
+        second_faces: String,
+    },
+    /// A naming preset is asked for that does not exist.
+    #[error("naming={name}: no such preset; there are {known}")]
+    UnknownNaming {
+        /// The name given.
+        name: String,
+        /// All names.
+        known: String,
+    },
+    /// A list of frames that cannot be understood.
+    #[error("frames {list}: {reason}; expected a list such as 5, 1-10 or 1-3,5,7-20:2")]
+    FrameList {
+        /// The list as given.
+        list: String,
+        /// What is wrong.
+        reason: String,
+    },
+    /// A sequence has no frames at all.
+    #[error("{pattern}: no frame found in {}; expected names like {example}", folder.display())]
+    NoFrames {
+        /// The pattern.
+        pattern: String,
+        /// Where frames were looked for.
+        folder: PathBuf,
+        /// Name of frame 1.
+        example: String,
+    },
+    /// Frames of a sequence are missing.
+    #[error("{pattern}: {count} frames are missing: {missing}; make them, or choose others with --frames")]
+    MissingFrames {
+        /// The pattern.
+        pattern: String,
+        /// How many.
+        count: usize,
+        /// All of them, as a list that `--frames` understands.
+        missing: String,
+    },
+}
+
+impl IoError {
+    pub(crate) fn open(path: &Path, source: io::Error) -> Self {
+        Self::Open { path: path.to_owned(), source }
+    }
+
+    pub(crate) fn damaged(path: &Path, format: Format, reason: impl ToString) -> Self {
+        Self::Damaged { path: path.to_owned(), format, reason: reason.to_string() }
+    }
+
+    pub(crate) fn write(path: &Path, reason: impl ToString) -> Self {
+        Self::Write { path: path.to_owned(), reason: reason.to_string() }
+    }
+
+    pub(crate) fn unsupported(path: &Path, format: Format, found: impl ToString, expected: &'static str) -> Self {
+        Self::Unsupported { path: path.to_owned(), format, found: found.to_string(), expected }
+    }
+}

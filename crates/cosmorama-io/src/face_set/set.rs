@@ -1,0 +1,141 @@
+use std::path::{Path, PathBuf};
+
+use cosmorama::sphere::CubeFace;
+
+use super::pattern::LetterCase;
+use super::{FacePattern, FacePlacement, Naming};
+use crate::{FramePattern, IoError};
+
+/// One face of a set, whether its file exists or not.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct FaceFile {
+    /// Which face.
+    pub face: CubeFace,
+    /// Its file, or the pattern of its frames (see [`FramePattern::parse`]).
+    pub path: PathBuf,
+    /// How its picture lies.
+    pub placement: FacePlacement,
+    /// Whether the file, or any frame of it, exists.
+    pub present: bool,
+}
+
+/// The six faces of a cube on disk; four or five may do.
+#[derive(Clone, Debug)]
+pub struct FaceSet {
+    naming: &'static Naming,
+    faces: [FaceFile; 6],
+}
+
+impl FaceSet {
+    /// Finds the faces of a pattern by the files that exist: of the presets under which there is at least one,
+    /// the one that explains most. One whose files are some of another's gives way to that other; two that
+    /// disagree are an error. With a naming given, only that is looked for.
+    ///
+    /// # Errors
+    /// When the pattern is none, nothing is found, or two presets fit.
+    pub fn find(pattern: &str, naming: Option<&'static Naming>) -> Result<Self, IoError> {
+        let pattern = parse(pattern)?;
+        let namings: Vec<&'static Naming> = match naming {
+            Some(naming) => vec![naming],
+            None => Naming::presets().iter().filter(|naming| naming.automatic).collect(),
+        };
+        let mut found: Vec<Self> = Vec::new();
+        for naming in &namings {
+            for case in LetterCase::ALL {
+                let set = Self::look(&pattern, naming, case);
+                if set.present().next().is_some() && !found.iter().any(|other| other.includes(&set)) {
+                    found.retain(|other| !set.includes(other));
+                    found.push(set);
+                }
+            }
+        }
+        match found.len() {
+            0 => Err(no_faces(&pattern, &namings)),
+            1 => Ok(found.remove(0)),
+            _ => Err(IoError::AmbiguousNaming {
+                pattern: pattern.as_str().to_owned(),
+                first: found[0].naming.name,
+                first_faces: found[0].describe(),
+                second: found[1].naming.name,
+                second_faces: found[1].describe(),
+            }),
+        }
+    }
+
+    /// The faces that a pattern names, for writing them; whether files exist is not looked at by the caller's
+    /// choice of naming.
+    ///
+    /// # Errors
+    /// When the pattern is none.
+    pub fn named(pattern: &str, naming: &'static Naming) -> Result<Self, IoError> {
+        Ok(Self::look(&parse(pattern)?, naming, LetterCase::Lower))
+    }
+
+    fn look(pattern: &FacePattern, naming: &'static Naming, case: LetterCase) -> Self {
+        let faces = CubeFace::ALL.map(|face| {
+            let path = PathBuf::from(pattern.name(naming, case, face));
+            let present = exists(&path);
+            FaceFile { face, path, placement: naming.placement(face), present }
+        });
+        Self { naming, faces }
+    }
+
+    /// The preset that fits.
+    pub fn naming(&self) -> &'static Naming {
+        self.naming
+    }
+
+    /// All six, in the order of [`CubeFace::ALL`].
+    pub fn faces(&self) -> &[FaceFile; 6] {
+        &self.faces
+    }
+
+    /// One of them.
+    pub fn face(&self, face: CubeFace) -> &FaceFile {
+        &self.faces[face as usize]
+    }
+
+    /// Those that exist.
+    pub fn present(&self) -> impl Iterator<Item = &FaceFile> {
+        self.faces.iter().filter(|face| face.present)
+    }
+
+    /// Those that do not.
+    pub fn missing(&self) -> impl Iterator<Item = &FaceFile> {
+        self.faces.iter().filter(|face| !face.present)
+    }
+
+    /// Whether every file that the other set found is in this one, too, with the same meaning.
+    fn includes(&self, other: &Self) -> bool {
+        other.present().all(|face| *self.face(face.face) == *face)
+    }
+
+    fn describe(&self) -> String {
+        let each = |face: &FaceFile| format!("{} is {}", file_name(&face.path), face.face);
+        self.present().map(each).collect::<Vec<_>>().join(", ")
+    }
+}
+
+fn parse(pattern: &str) -> Result<FacePattern, IoError> {
+    FacePattern::parse(pattern).ok_or_else(|| IoError::NotAFacePattern { pattern: pattern.to_owned() })
+}
+
+fn exists(path: &Path) -> bool {
+    match path.to_str().and_then(FramePattern::parse) {
+        Some(frames) => frames.existing().is_ok_and(|frames| !frames.is_empty()),
+        None => path.is_file(),
+    }
+}
+
+fn file_name(path: &Path) -> String {
+    path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned()
+}
+
+fn no_faces(pattern: &FacePattern, namings: &[&'static Naming]) -> IoError {
+    let tried = |naming: &&Naming| format!("{} ({})", naming.names.join(" "), naming.name);
+    IoError::NoFaces {
+        pattern: pattern.as_str().to_owned(),
+        folder: pattern.folder().to_owned(),
+        tried: namings.iter().map(tried).collect::<Vec<_>>().join(", "),
+    }
+}

@@ -1,0 +1,141 @@
+use std::fs::File;
+use std::io::{self, BufReader, Read, Seek, SeekFrom};
+use std::path::Path;
+
+use cosmorama::raster::{Channels, Depth, EncodedImage};
+
+use crate::formats::{exr, hdr, jpeg, png, tga, tiff};
+use crate::pending::Pending;
+use crate::{Format, IoError, Limits, Metadata, Window};
+
+/// What a file says of itself before its pixels.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Header {
+    /// Its format, found from its content.
+    pub format: Format,
+    /// Columns.
+    pub width: usize,
+    /// Rows.
+    pub height: usize,
+    /// Channels that [`read`] gives.
+    pub channels: Channels,
+    /// Depth that [`read`] gives.
+    pub depth: Depth,
+    /// What it says about its pixels.
+    pub metadata: Metadata,
+    /// Where they lie in a larger canvas; `None` where they are all of it.
+    pub window: Option<Window>,
+}
+
+/// A file in memory.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ImageFile {
+    /// Its format, found from its content.
+    pub format: Format,
+    /// Its pixels.
+    pub image: EncodedImage,
+    /// What it says about them.
+    pub metadata: Metadata,
+    /// Where they lie in a larger canvas; `None` where they are all of it.
+    pub window: Option<Window>,
+}
+
+/// How to write a file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct WriteOptions {
+    /// JPEG quality, 1 to 100.
+    pub quality: u8,
+}
+
+impl Default for WriteOptions {
+    fn default() -> Self {
+        Self { quality: 95 }
+    }
+}
+
+/// What decoders read from.
+pub(crate) type Source = BufReader<File>;
+
+/// Reads what a file says of itself, without decoding pixels.
+///
+/// # Errors
+/// When the file cannot be opened, is of no known format, or is damaged before its pixels.
+pub fn probe(path: &Path) -> Result<Header, IoError> {
+    let (format, mut source) = open(path)?;
+    match format {
+        Format::Png => png::probe(path, &mut source),
+        Format::Jpeg => jpeg::probe(path, &mut source),
+        Format::Tiff => tiff::probe(path, &mut source),
+        Format::Tga => tga::probe(path, &mut source),
+        Format::Hdr => hdr::probe(path, &mut source),
+        Format::Exr => exr::probe(path, &mut source),
+    }
+}
+
+/// Reads a file.
+///
+/// # Errors
+/// When the file cannot be opened, is of no known format, declares more pixels than `limits` allow (before
+/// memory is taken), or is damaged.
+pub fn read(path: &Path, limits: &Limits) -> Result<ImageFile, IoError> {
+    let (format, mut source) = open(path)?;
+    match format {
+        Format::Png => png::read(path, &mut source, limits),
+        Format::Jpeg => jpeg::read(path, &mut source, limits),
+        Format::Tiff => tiff::read(path, &mut source, limits),
+        Format::Tga => tga::read(path, &mut source, limits),
+        Format::Hdr => hdr::read(path, &mut source, limits),
+        Format::Exr => exr::read(path, &mut source, limits),
+    }
+}
+
+/// Writes a file in the format that its extension names. It appears whole or not at all; an older file of the
+/// same name is replaced only when the new one is whole.
+///
+/// # Errors
+/// When the extension is unknown, the format cannot hold the image, or the file cannot be written.
+pub fn write(path: &Path, image: &EncodedImage, metadata: &Metadata, options: &WriteOptions) -> Result<(), IoError> {
+    let format = Format::from_extension(path)?;
+    check_can_hold(path, format, image)?;
+    let mut pending = Pending::create(path)?;
+    let writer = pending.writer();
+    match format {
+        Format::Png => png::write(path, writer, image, metadata),
+        Format::Jpeg => jpeg::write(path, writer, image, metadata, options.quality),
+        Format::Tiff => tiff::write(path, writer, image, metadata),
+        Format::Tga => tga::write(path, writer, image),
+        Format::Hdr => hdr::write(path, writer, image),
+        Format::Exr => exr::write(path, writer, image, metadata),
+    }?;
+    pending.finish()
+}
+
+fn check_can_hold(path: &Path, format: Format, image: &EncodedImage) -> Result<(), IoError> {
+    if format.supports(image.depth(), image.channels()) {
+        return Ok(());
+    }
+    let names = |names: Vec<String>| names.join(", ");
+    Err(IoError::CannotHold {
+        path: path.to_owned(),
+        format,
+        found: format!("{} of depth {}", image.channels(), image.depth()),
+        expected: format!(
+            "{}; depth {}",
+            names(format.channels().iter().map(ToString::to_string).collect()),
+            names(format.depths().iter().map(ToString::to_string).collect()),
+        ),
+    })
+}
+
+fn open(path: &Path) -> Result<(Format, Source), IoError> {
+    let fail = |error| IoError::open(path, error);
+    let file = File::open(path).map_err(fail)?;
+    if file.metadata().map_err(fail)?.is_dir() {
+        return Err(fail(io::Error::from(io::ErrorKind::IsADirectory)));
+    }
+    let mut source = BufReader::with_capacity(1 << 16, file);
+    let mut start = Vec::with_capacity(16);
+    source.by_ref().take(16).read_to_end(&mut start).map_err(fail)?;
+    source.seek(SeekFrom::Start(0)).map_err(fail)?;
+    Ok((Format::from_content(path, &start)?, source))
+}

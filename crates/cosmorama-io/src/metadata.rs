@@ -1,0 +1,41 @@
+use cosmorama::raster::Transfer;
+
+/// What a file says about its pixels, and what is carried from input to output.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Metadata {
+    /// How code values relate to light; `None` where the file says nothing.
+    /// In a PNG, cICP goes before iCCP, iCCP before sRGB, sRGB before gAMA, as the specification has it.
+    pub transfer: Option<Transfer>,
+    /// An ICC profile, carried to outputs that can hold one (PNG, JPEG, TIFF).
+    pub icc: Option<Vec<u8>>,
+    /// OpenEXR's environment map attribute.
+    pub envmap: Option<EnvMap>,
+    /// Channels of the file that are not read.
+    pub other_channels: Vec<String>,
+    /// Colour primaries by their number in ITU-T H.273 (cICP); they are carried, never converted.
+    pub primaries: Option<u8>,
+    /// The program that wrote the file.
+    pub software: Option<String>,
+}
+
+/// What an OpenEXR file says that it is a picture of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum EnvMap {
+    /// An equirectangular panorama.
+    LatLong,
+    /// Six faces one below the other.
+    Cube,
+}
+
+/// Where an image lies in a larger canvas: OpenEXR's data window in its display window.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Window {
+    /// Columns of the canvas.
+    pub canvas_width: usize,
+    /// Rows of the canvas.
+    pub canvas_height: usize,
+    /// Column of the canvas in which the image's first column lies.
+    pub x: usize,
+    /// Row of the canvas in which the image's first row lies.
+    pub y: usize,
+}

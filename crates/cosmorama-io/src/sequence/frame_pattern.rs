@@ -1,0 +1,203 @@
+use std::collections::BTreeSet;
+use std::ffi::OsString;
+use std::path::{Component, Path, PathBuf};
+
+use super::frame_list::LAST_FRAME;
+use crate::IoError;
+
+/// A file name in which the frame number stands: `####` or `@@@@` (as many digits as signs), `%04d` or `%d`.
+///
+/// It may stand in several places, folders included; every one holds the same number. Numbers with more digits
+/// than places are written and found as they are.
+///
+/// ```
+/// use cosmorama_io::FramePattern;
+/// let pattern = FramePattern::parse("shot/dome_####.png").unwrap();
+/// assert_eq!(pattern.path(7).to_str(), Some("shot/dome_0007.png"));
+/// assert!(FramePattern::parse("dome.png").is_none());
+/// ```
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct FramePattern {
+    text: String,
+    pieces: Vec<Piece>,
+}
+
+#[derive(Clone, Debug, PartialEq, Eq)]
+enum Piece {
+    Text(String),
+    /// A frame number of at least so many digits.
+    Number(usize),
+}
+
+impl FramePattern {
+    /// The pattern in a file name, if it is one. A single `@`, as in `texture@2x.png`, is none.
+    pub fn parse(text: &str) -> Option<Self> {
+        let pieces = pieces(text);
+        let numbered = pieces.iter().any(|piece| matches!(piece, Piece::Number(_)));
+        numbered.then(|| Self { text: text.to_owned(), pieces })
+    }
+
+    /// As it was written.
+    pub fn as_str(&self) -> &str {
+        &self.text
+    }
+
+    /// The file of a frame.
+    pub fn path(&self, frame: u64) -> PathBuf {
+        let write = |piece: &Piece| match piece {
+            Piece::Text(text) => text.clone(),
+            Piece::Number(digits) => format!("{frame:0digits$}"),
+        };
+        self.pieces.iter().map(write).collect::<String>().into()
+    }
+
+    /// The folder above the first part that varies with the frame.
+    pub fn folder(&self) -> PathBuf {
+        let fixed = Path::new(&self.text).ancestors().find(|path| !is_numbered(path)).unwrap_or(Path::new(""));
+        if fixed.as_os_str().is_empty() { PathBuf::from(".") } else { fixed.to_owned() }
+    }
+
+    /// The frames whose files exist, in order.
+    ///
+    /// # Errors
+    /// When the folder cannot be read.
+    pub fn existing(&self) -> Result<BTreeSet<u64>, IoError> {
+        let folder = self.folder();
+        let fail = |error| IoError::open(&folder, error);
+        let Some(varying) = self.first_varying() else { return Ok(BTreeSet::new()) };
+        let varying = pieces(&varying.to_string_lossy());
+        let mut frames = BTreeSet::new();
+        for entry in std::fs::read_dir(&folder).map_err(fail)? {
+            let name = entry.map_err(fail)?.file_name();
+            if let Some(frame) = name.to_str().and_then(|name| number_in(name, &varying)) {
+                // The rest of the path may hold the number again.
+                if self.path(frame).is_file() {
+                    frames.insert(frame);
+                }
+            }
+        }
+        Ok(frames)
+    }
+
+    /// The first part of the path that varies.
+    fn first_varying(&self) -> Option<OsString> {
+        let names = Path::new(&self.text).components().filter_map(|part| match part {
+            Component::Normal(name) => Some(name.to_owned()),
+            _ => None,
+        });
+        names.into_iter().find(|name| is_numbered(Path::new(name)))
+    }
+}
+
+fn is_numbered(path: &Path) -> bool {
+    pieces(&path.to_string_lossy()).iter().any(|piece| matches!(piece, Piece::Number(_)))
+}
+
+fn pieces(text: &str) -> Vec<Piece> {
+    let mut pieces = Vec::new();
+    let mut plain = String::new();
+    let mut rest = text;
+    while let Some(letter) = rest.chars().next() {
+        if let Some((digits, length)) = marker(rest) {
+            if !plain.is_empty() {
+                pieces.push(Piece::Text(std::mem::take(&mut plain)));
+            }
+            pieces.push(Piece::Number(digits));
+            rest = &rest[length..];
+        } else {
+            plain.push(letter);
+            rest = &rest[letter.len_utf8()..];
+        }
+    }
+    if !plain.is_empty() {
+        pieces.push(Piece::Text(plain));
+    }
+    pieces
+}
+
+/// Digits that the marker at the start of a text asks for, and the marker's own length.
+fn marker(text: &str) -> Option<(usize, usize)> {
+    let run = |sign: u8| text.bytes().take_while(|byte| *byte == sign).count();
+    match text.as_bytes() {
+        [b'#', ..] => Some((run(b'#'), run(b'#'))),
+        [b'@', b'@', ..] => Some((run(b'@'), run(b'@'))),
+        [b'%', after @ ..] => {
+            let digits = after.iter().take_while(|byte| byte.is_ascii_digit()).count();
+            let width = &text[1..1 + digits];
+            // More than two digits of width is no file name.
+            (after.get(digits) == Some(&b'd') && digits <= 2).then(|| (width.parse().unwrap_or(1), digits + 2))
+        }
+        _ => None,
+    }
+}
+
+/// The frame number in a file name.
+fn number_in(name: &str, pieces: &[Piece]) -> Option<u64> {
+    let mut rest = name;
+    let mut found = None;
+    for piece in pieces {
+        match piece {
+            Piece::Text(text) => rest = rest.strip_prefix(text.as_str())?,
+            Piece::Number(least) => {
+                let digits = rest.bytes().take_while(u8::is_ascii_digit).count();
+                let (number, after) = rest.split_at(digits);
+                // More digits than places only where the number needs them: else two names were one frame.
+                if digits < *least || (digits > *least && digits > 1 && number.starts_with('0')) {
+                    return None;
+                }
+                let number = number.parse().ok().filter(|frame| *frame <= LAST_FRAME)?;
+                if found.is_some_and(|found| found != number) {
+                    return None;
+                }
+                found = Some(number);
+                rest = after;
+            }
+        }
+    }
+    found.filter(|_| rest.is_empty())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn all_the_markers() {
+        for pattern in ["a_####.png", "a_@@@@.png", "a_%04d.png"] {
+            let pattern = FramePattern::parse(pattern).unwrap();
+            assert_eq!(pattern.path(12).to_str(), Some("a_0012.png"));
+            assert_eq!(pattern.path(123_456).to_str(), Some("a_123456.png"));
+        }
+        assert_eq!(FramePattern::parse("%d.png").unwrap().path(3).to_str(), Some("3.png"));
+        assert_eq!(FramePattern::parse("##/a_#.png").unwrap().path(3).to_str(), Some("03/a_3.png"));
+        for plain in ["a.png", "a@2x.png", "100%.png", "%c.png", "%s_%x.png", "%004d.png"] {
+            assert!(FramePattern::parse(plain).is_none(), "{plain}");
+        }
+    }
+
+    #[test]
+    fn numbers_are_found_as_they_are_written() {
+        let number = |pattern: &str, name: &str| number_in(name, &pieces(pattern));
+        assert_eq!(number("a_####.png", "a_0012.png"), Some(12));
+        assert_eq!(number("a_####.png", "a_12.png"), None);
+        assert_eq!(number("a_####.png", "a_00012.png"), None);
+        assert_eq!(number("a_####.png", "a_12345.png"), Some(12345));
+        assert_eq!(number("a_####.png", "a_0012.jpg"), None);
+        assert_eq!(number("##_#.png", "07_7.png"), Some(7));
+        assert_eq!(number("##_#.png", "07_8.png"), None);
+        assert_eq!(number("%d.png", "0.png"), Some(0));
+    }
+
+    #[test]
+    fn folders_may_vary_too() {
+        let folder = tempfile::tempdir().unwrap();
+        for frame in [1, 2, 12] {
+            let shot = folder.path().join(format!("{frame:03}"));
+            std::fs::create_dir(&shot).unwrap();
+            std::fs::write(shot.join(format!("f{frame}.png")), "").unwrap();
+        }
+        std::fs::remove_file(folder.path().join("002/f2.png")).unwrap();
+        let pattern = FramePattern::parse(&format!("{}/###/f%d.png", folder.path().display())).unwrap();
+        assert_eq!(pattern.existing().unwrap().into_iter().collect::<Vec<_>>(), [1, 12]);
+    }
+}

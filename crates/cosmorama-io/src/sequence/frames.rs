@@ -1,0 +1,109 @@
+use std::collections::BTreeSet;
+use std::path::PathBuf;
+
+use crate::{FrameList, FramePattern, IoError};
+
+/// The frames of a sequence to work on: all are there.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Frames {
+    pattern: FramePattern,
+    list: FrameList,
+}
+
+impl Frames {
+    /// The frames that were asked for, or all that exist.
+    ///
+    /// # Errors
+    /// When there are none, when one that was asked for is missing, or when one is missing between the first
+    /// and the last; the message names all of them. With a list, only the list's frames need to exist.
+    pub fn find(pattern: FramePattern, wanted: Option<&FrameList>) -> Result<Self, IoError> {
+        let existing = pattern.existing()?;
+        let (Some(&first), Some(&last)) = (existing.first(), existing.last()) else {
+            return Err(no_frames(&pattern));
+        };
+        let list = match wanted {
+            Some(list) => list.clone(),
+            None => FrameList::new(existing.iter().copied()),
+        };
+        let missing = match wanted {
+            Some(list) => FrameList::new(list.frames().iter().copied().filter(|frame| !existing.contains(frame))),
+            None => holes(&existing, first, last),
+        };
+        if missing.frames().is_empty() {
+            return Ok(Self { pattern, list });
+        }
+        Err(IoError::MissingFrames {
+            pattern: pattern.as_str().to_owned(),
+            count: missing.frames().len(),
+            missing: missing.to_string(),
+        })
+    }
+
+    /// Their numbers.
+    pub fn list(&self) -> &FrameList {
+        &self.list
+    }
+
+    /// Numbers and files.
+    pub fn paths(&self) -> impl Iterator<Item = (u64, PathBuf)> {
+        self.list.frames().iter().map(|&frame| (frame, self.pattern.path(frame)))
+    }
+}
+
+fn no_frames(pattern: &FramePattern) -> IoError {
+    IoError::NoFrames {
+        pattern: pattern.as_str().to_owned(),
+        folder: pattern.folder(),
+        example: pattern.path(1).display().to_string(),
+    }
+}
+
+/// The frames that are not there between the first and the last; of an absurd number of them, the first million.
+fn holes(existing: &BTreeSet<u64>, first: u64, last: u64) -> FrameList {
+    const MOST: usize = 1_000_000;
+    FrameList::new((first..=last).filter(|frame| !existing.contains(frame)).take(MOST))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn sequence(frames: &[u64]) -> (tempfile::TempDir, FramePattern) {
+        let folder = tempfile::tempdir().unwrap();
+        let pattern = FramePattern::parse(&format!("{}/f_####.png", folder.path().display())).unwrap();
+        for frame in frames {
+            std::fs::write(pattern.path(*frame), "").unwrap();
+        }
+        (folder, pattern)
+    }
+
+    #[test]
+    fn all_that_exist_in_order() {
+        let (_folder, pattern) = sequence(&[3, 1, 2]);
+        assert_eq!(Frames::find(pattern, None).unwrap().list().frames(), [1, 2, 3]);
+    }
+
+    #[test]
+    fn every_missing_frame_is_named() {
+        let (_folder, pattern) = sequence(&[1, 2, 6, 8, 9]);
+        let message = Frames::find(pattern, None).unwrap_err().to_string();
+        assert!(message.contains("4 frames are missing: 3-5,7;"), "{message}");
+    }
+
+    #[test]
+    fn a_list_needs_only_its_own_frames() {
+        let (_folder, pattern) = sequence(&[1, 3, 5]);
+        let list = "1-5:2".parse().unwrap();
+        assert_eq!(Frames::find(pattern.clone(), Some(&list)).unwrap().list().frames(), [1, 3, 5]);
+        let list = "4-5".parse().unwrap();
+        let message = Frames::find(pattern, Some(&list)).unwrap_err().to_string();
+        assert!(message.contains("1 frames are missing: 4"), "{message}");
+    }
+
+    #[test]
+    fn no_frame_at_all() {
+        let (_folder, pattern) = sequence(&[]);
+        let message = Frames::find(pattern, None).unwrap_err().to_string();
+        assert!(message.contains("f_0001.png"), "{message}");
+    }
+}
