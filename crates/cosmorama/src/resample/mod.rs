@@ -1,10 +1,12 @@
 //! Resampling: from a world of views to the pixels of a target.
 
+mod block;
 mod ellipse;
 mod filter;
 mod gather;
 mod kernel;
 mod lookup;
+mod need;
 mod plan;
 mod reference;
 mod taps;
@@ -12,5 +14,6 @@ mod taps;
 pub use ellipse::Ellipse;
 pub use filter::{Filter, FilterKind};
 pub use kernel::{CrossSection, Kernel};
+pub use need::{Need, Needs, Uncovered};
 pub use plan::{Plan, Resampler};
 pub use taps::{Tap, Taps};

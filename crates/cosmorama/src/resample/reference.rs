@@ -4,6 +4,7 @@ use rayon::prelude::*;
 
 use super::{Filter, lookup};
 use crate::raster::{Image, Rgba};
+use crate::sphere::Direction;
 use crate::world::{PixelPoint, View, World};
 
 /// The target by brute force. Slow, obvious, the judge of the other filters.
@@ -18,6 +19,23 @@ pub(super) fn render(world: &World, target: &View, filter: &Filter, samples: usi
         }
     });
     image
+}
+
+/// Gives every texel that a pixel's sub-samples look at to `visit`.
+pub(super) fn for_each_texel(
+    world: &World,
+    target: &View,
+    filter: &Filter,
+    samples: usize,
+    pixel: (usize, usize),
+    mut visit: impl FnMut(u32, f64),
+) {
+    let kernel = KernelSquare::new(world, target, filter, samples, pixel);
+    kernel.for_each_sample(|_, _, at| {
+        if let Some(direction) = kernel.direction(at) {
+            lookup::bilinear(world, direction, &mut visit);
+        }
+    });
 }
 
 /// The square of sub-samples that a kernel reaches around a pixel.
@@ -38,32 +56,19 @@ impl<'a> KernelSquare<'a> {
     }
 
     fn average(&self, texels: &[Rgba]) -> Rgba {
-        let scale = self.filter.kernel.scale;
-        let reach = (self.filter.kernel.radius() * scale * self.samples as f64).ceil() as i64 + 1;
-        let step = (self.samples as f64).recip();
-        // Sub-samples lie at the centres of an N×N grid in each pixel.
-        let phase = if self.samples % 2 == 0 { 0.5 } else { 0.0 };
         let (mut sum, mut weights) = ([0f64; 4], 0f64);
         let (mut least, mut greatest) = ([f64::INFINITY; 4], [f64::NEG_INFINITY; 4]);
-        for b in -reach..=reach {
-            for a in -reach..=reach {
-                let (x, y) = ((a as f64 + phase) * step, (b as f64 + phase) * step);
-                let (rx, ry) = (x / scale, y / scale);
-                let weight = self.weight(rx, ry);
-                if weight == 0.0 {
-                    continue;
-                }
-                let Some((colour, found)) = self.sample(x, y, texels) else { continue };
-                weights += weight * found;
-                for c in 0..4 {
-                    sum[c] += weight * colour[c];
-                    if rx.hypot(ry) < 1.0 && found > 0.0 {
-                        least[c] = least[c].min(colour[c] / found);
-                        greatest[c] = greatest[c].max(colour[c] / found);
-                    }
+        self.for_each_sample(|weight, r, at| {
+            let Some((colour, found)) = self.sample(at, texels) else { return };
+            weights += weight * found;
+            for c in 0..4 {
+                sum[c] += weight * colour[c];
+                if r < 1.0 && found > 0.0 {
+                    least[c] = least[c].min(colour[c] / found);
+                    greatest[c] = greatest[c].max(colour[c] / found);
                 }
             }
-        }
+        });
         if weights <= 0.0 {
             return Rgba::TRANSPARENT;
         }
@@ -74,18 +79,38 @@ impl<'a> KernelSquare<'a> {
         }))
     }
 
+    /// Calls `visit` with the weight, the distance in the kernel's unit and the place of each sub-sample that counts.
+    fn for_each_sample(&self, mut visit: impl FnMut(f64, f64, PixelPoint)) {
+        let scale = self.filter.kernel.scale;
+        let reach = (self.filter.kernel.radius() * scale * self.samples as f64).ceil() as i64 + 1;
+        let step = (self.samples as f64).recip();
+        // Sub-samples lie at the centres of an N×N grid in each pixel.
+        let phase = if self.samples % 2 == 0 { 0.5 } else { 0.0 };
+        for b in -reach..=reach {
+            for a in -reach..=reach {
+                let (x, y) = ((a as f64 + phase) * step, (b as f64 + phase) * step);
+                let (rx, ry) = (x / scale, y / scale);
+                let weight = self.weight(rx, ry);
+                if weight != 0.0 {
+                    visit(weight, rx.hypot(ry), PixelPoint::new(self.centre.x + x, self.centre.y + y));
+                }
+            }
+        }
+    }
+
     fn weight(&self, x: f64, y: f64) -> f64 {
         let kernel = &self.filter.kernel;
         kernel.fine.weight_at(x, y) * (1.0 - self.coarseness) + kernel.coarse.weight_at(x, y) * self.coarseness
     }
 
-    /// Light at an offset from the pixel's centre times the part of it that the world holds, and that part.
-    fn sample(&self, x: f64, y: f64, texels: &[Rgba]) -> Option<([f64; 4], f64)> {
-        let pixel = PixelPoint::new(self.centre.x + x, self.centre.y + y);
-        if !self.target.stop_passes(pixel) {
-            return None;
-        }
-        let direction = self.target.direction(pixel)?;
+    /// The direction at a point of the target, if the field stop lets it pass.
+    fn direction(&self, at: PixelPoint) -> Option<Direction> {
+        self.target.stop_passes(at).then(|| self.target.direction(at))?
+    }
+
+    /// Light at a point of the target times the part of it that the world holds, and that part.
+    fn sample(&self, at: PixelPoint, texels: &[Rgba]) -> Option<([f64; 4], f64)> {
+        let direction = self.direction(at)?;
         let (mut colour, mut found) = ([0f64; 4], 0f64);
         lookup::bilinear(self.world, direction, |texel, weight| {
             found += weight;

@@ -38,6 +38,14 @@ impl Direction {
         Self(DVec3::new(sin_lon * cos_lat, sin_lat, -cos_lon * cos_lat))
     }
 
+    /// Longitude (0 at the front, −180° to 180°, positive to the right) and latitude (positive up): the yaw and pitch of
+    /// a camera that looks this way.
+    pub fn longitude_latitude(self) -> (Angle, Angle) {
+        let longitude = self.0.x.atan2(-self.0.z);
+        let latitude = self.0.y.atan2(self.0.x.hypot(self.0.z));
+        (Angle::from_radians(longitude), Angle::from_radians(latitude))
+    }
+
     /// The unit vector.
     pub const fn vector(self) -> DVec3 {
         self.0

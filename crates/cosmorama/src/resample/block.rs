@@ -1,0 +1,118 @@
+use super::Kernel;
+use crate::projection::PlaneRect;
+use crate::sphere::{Angle, Direction};
+use crate::world::{PixelPoint, PixelRect, Source, View};
+
+/// Pixels along a block's side.
+const SIDE: usize = 16;
+
+/// What a mapping may bend by between the corners of a block, relative to the block's size, without being noticed.
+const BEND: f64 = 1.25;
+
+/// A block that spans more than this, in radians, is not judged as a whole.
+const WIDEST: f64 = 0.5;
+
+/// A square of a target's pixels that is judged as a whole where possible.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Block {
+    /// Its pixels.
+    pub(super) pixels: PixelRect,
+    /// Whether it lies at the border of the frame.
+    pub(super) at_border: bool,
+}
+
+/// All that a block sees lies within `radius` of `centre`.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Cap {
+    centre: Direction,
+    radius: f64,
+    /// Size of the block's largest pixel: the root of its summed squared derivatives, in radians.
+    pixel: f64,
+}
+
+impl Block {
+    /// The blocks of a target, row by row.
+    pub(super) fn all(target: &View) -> Vec<Self> {
+        let (width, height) = (target.width(), target.height());
+        let block = |left: usize, top: usize| {
+            let pixels = PixelRect { left, top, right: (left + SIDE).min(width), bottom: (top + SIDE).min(height) };
+            let at_border = left == 0 || top == 0 || pixels.right == width || pixels.bottom == height;
+            Self { pixels, at_border }
+        };
+        let tops = (0..height).step_by(SIDE);
+        tops.flat_map(|top| (0..width).step_by(SIDE).map(move |left| block(left, top))).collect()
+    }
+
+    /// The cap that holds all directions of the block; `None` where part of it has none, or where it is wide.
+    pub(super) fn cap(&self, target: &View) -> Option<Cap> {
+        let (left, right) = (self.pixels.left as f64, self.pixels.right as f64);
+        let (top, bottom) = (self.pixels.top as f64, self.pixels.bottom as f64);
+        let centre = target.direction(PixelPoint::new((left + right) / 2.0, (top + bottom) / 2.0))?;
+        let (mut radius, mut pixel) = (0f64, 0f64);
+        for (x, y) in [(left, top), (right, top), (left, bottom), (right, bottom)] {
+            let corner = target.footprint(PixelPoint::new(x, y))?;
+            radius = radius.max(BEND * centre.angle_to(corner.direction).radians());
+            let (dx, dy) = (corner.jacobian.dx, corner.jacobian.dy);
+            pixel = pixel.max(BEND * (dx.length_squared() + dy.length_squared()).sqrt());
+        }
+        (radius < WIDEST).then_some(Cap { centre, radius, pixel })
+    }
+}
+
+impl Cap {
+    /// Whether one source shows all of the cap.
+    pub(super) fn is_shown_by(&self, source: &Source) -> bool {
+        let view = &source.view;
+        let bounds = view.cap_bounds(self.centre, Angle::from_radians(self.radius));
+        let columns = source.period.is_some_and(|period| period <= view.width())
+            || (bounds.min.x >= 0.0 && bounds.max.x <= view.width() as f64);
+        let rows = bounds.min.y >= 0.0 && bounds.max.y <= view.height() as f64;
+        columns && rows && self.passes_stop_of(view, &bounds)
+    }
+
+    fn passes_stop_of(&self, view: &View, bounds: &PlaneRect) -> bool {
+        let half_space = view
+            .stop
+            .half_space
+            .is_none_or(|side| side.dot(view.orientation.to_view(self.centre)) >= self.radius.sin());
+        // A disc that holds the corners of a rectangle holds the rectangle.
+        let in_circle = |radius: f64| {
+            let corners = [
+                (bounds.min.x, bounds.min.y),
+                (bounds.max.x, bounds.min.y),
+                (bounds.min.x, bounds.max.y),
+                (bounds.max.x, bounds.max.y),
+            ];
+            corners.into_iter().all(|(x, y)| {
+                let point = view.grid.to_plane(PixelPoint::new(x, y));
+                point.x.hypot(point.y) <= radius
+            })
+        };
+        half_space && view.stop.circle.is_none_or(in_circle)
+    }
+
+    /// The texels of a source that the block's pixels themselves can fall in.
+    pub(super) fn seen_texels(&self, source: &Source) -> Option<PixelRect> {
+        texels_within(source, self.centre, self.radius)
+    }
+
+    /// The texels of a source that a kernel around the block's pixels can touch.
+    pub(super) fn read_texels(&self, source: &Source, kernel: &Kernel) -> Option<PixelRect> {
+        // The gather's own bound of a kernel, half as much again for what it takes as linear, and the few texels of the
+        // look-ups that have no kernel.
+        let unit = (kernel.scale * self.pixel).max(kernel.floor * source.texel_pitch);
+        let reach = 1.5 * kernel.radius().max(1.0) * unit + 3.0 * source.texel_pitch;
+        texels_within(source, self.centre, self.radius + reach)
+    }
+}
+
+fn texels_within(source: &Source, centre: Direction, radius: f64) -> Option<PixelRect> {
+    let (width, height) = (source.view.width(), source.view.height());
+    let bounds = source.view.cap_bounds(centre, Angle::from_radians(radius));
+    let wraps = source.period.is_some() && (bounds.min.x < 0.0 || bounds.max.x > width as f64);
+    let low = |value: f64, size: usize| value.floor().clamp(0.0, size as f64) as usize;
+    let high = |value: f64, size: usize| value.ceil().clamp(0.0, size as f64) as usize;
+    let (left, right) = if wraps { (0, width) } else { (low(bounds.min.x, width), high(bounds.max.x, width)) };
+    let (top, bottom) = (low(bounds.min.y, height), high(bounds.max.y, height));
+    (left < right && top < bottom).then_some(PixelRect { left, top, right, bottom })
+}

@@ -1,0 +1,161 @@
+//! What a conversion needs: exact rectangles, against the filter itself.
+
+mod views;
+
+use cosmorama::raster::{Image, Rgba};
+use cosmorama::resample::{CrossSection, Filter, FilterKind, Kernel, Need, Needs, Plan, Resampler};
+use cosmorama::sphere::CubeFace;
+use cosmorama::world::{PixelRect, Source, View, World};
+use views::{cube, cube_of, equirect, fisheye, omnimax, perspective, turned};
+
+fn rect(left: usize, top: usize, right: usize, bottom: usize) -> Option<PixelRect> {
+    Some(PixelRect { left, top, right, bottom })
+}
+
+fn needs(world: &World, target: View) -> Needs {
+    Needs::of(world, &[target], &Filter::DEFAULT)
+}
+
+fn need_of(needs: &Needs, name: &str) -> (Option<PixelRect>, Option<PixelRect>) {
+    let need = needs.views.iter().find(|need| need.name == name).expect("a view of this name");
+    (need.seen, need.read)
+}
+
+#[test]
+fn omnimax_needs_a_little_more_than_half_of_the_side_faces() {
+    let needs = needs(&cube(1024), omnimax(1966, 1436));
+    assert_eq!(need_of(&needs, "front").0, rect(0, 0, 1024, 1024));
+    // φ(1) = 90.162°: 1.45 texels past the middle of a 1024 face (512·tan 0.162° = 1.449).
+    assert_eq!(need_of(&needs, "left").0, rect(510, 0, 1024, 1024));
+    assert_eq!(need_of(&needs, "right").0, rect(0, 0, 514, 1024));
+    assert_eq!(need_of(&needs, "up").0, rect(0, 510, 1024, 1024));
+    assert_eq!(need_of(&needs, "back"), (None, None));
+    assert_eq!(need_of(&needs, "down").0, None);
+    assert_eq!(needs.uncovered, None);
+}
+
+#[test]
+fn rectangles_are_those_of_the_plain_scan() {
+    let worlds = [cube(96), cube_of(96, 80, &CubeFace::ALL)];
+    let tilted = View { orientation: turned([25.0, -70.0, 15.0]), ..fisheye(150, 220.0) };
+    let targets =
+        [omnimax(200, 146), tilted, equirect(160), perspective(160, 120, 70.0, [40.0, 20.0, 5.0]), fisheye(7, 360.0)];
+    for world in worlds {
+        for target in targets {
+            assert_eq!(needs(&world, target).views, plain_scan(&world, &target), "{target:?}");
+        }
+    }
+    let panorama = World::new([("panorama".to_string(), equirect(256))]).expect("a world");
+    for target in targets {
+        assert_eq!(needs(&panorama, target).views, plain_scan(&panorama, &target), "{target:?}");
+    }
+}
+
+/// The same from pictures alone: a texel is read if its light changes the picture, and seen if point sampling shows it.
+fn plain_scan(world: &World, target: &View) -> Vec<Need> {
+    let plan_of = |kind| {
+        let filter = Filter { kind, anti_ringing: false, ..Filter::DEFAULT };
+        Resampler { world, target, filter }.plan().expect("a filter with a plan")
+    };
+    let (point, ewa) = (plan_of(FilterKind::Point), plan_of(FilterKind::Ewa));
+    let need = |source: &Source| Need {
+        name: source.name.clone(),
+        seen: lit_bounds(world, source, &point),
+        read: lit_bounds(world, source, &ewa),
+    };
+    world.sources().iter().map(need).collect()
+}
+
+fn lit_bounds(world: &World, source: &Source, plan: &Plan) -> Option<PixelRect> {
+    let shows = |lit: &dyn Fn(usize, usize) -> bool| {
+        let mut texels = vec![Rgba::TRANSPARENT; world.texel_count()];
+        for (k, texel) in texels[source.texels()].iter_mut().enumerate() {
+            *texel = Rgba([f32::from(u8::from(lit(k % source.view.width(), k / source.view.width()))); 4]);
+        }
+        plan.apply(&texels).pixels().iter().any(|pixel| pixel.0[0] != 0.0)
+    };
+    // The least t for which the texels with `along < t` show in the picture.
+    let least = |size: usize, lit: &dyn Fn(usize, usize, usize) -> bool| {
+        let (mut dark, mut light) = (0, size);
+        while light - dark > 1 {
+            let middle = (dark + light) / 2;
+            if shows(&|i, j| lit(i, j, middle)) { light = middle } else { dark = middle }
+        }
+        light
+    };
+    let (width, height) = (source.view.width(), source.view.height());
+    shows(&|_, _| true).then(|| PixelRect {
+        left: least(width, &|i, _, t| i < t) - 1,
+        top: least(height, &|_, j, t| j < t) - 1,
+        right: width + 1 - least(width, &|i, _, t| width - 1 - i < t),
+        bottom: height + 1 - least(height, &|_, j, t| height - 1 - j < t),
+    })
+}
+
+#[test]
+fn light_outside_what_is_read_changes_no_byte() {
+    let world = cube_of(128, 96, &CubeFace::ALL);
+    let noise = |k: usize| ((k * 7919) % 1009) as f32 / 1009.0;
+    let clean: Vec<Rgba> =
+        (0..world.texel_count()).map(|k| Rgba::opaque(noise(k), noise(k + 1), noise(k + 2))).collect();
+    let gaussian =
+        Kernel { scale: 0.6, floor: 0.75, ..Kernel::uniform(CrossSection::Gaussian { alpha: 2.0, cutoff: 1.0 }) };
+    let kinds = [
+        Filter::DEFAULT,
+        Filter { kernel: gaussian, ..Filter::DEFAULT },
+        Filter { kind: FilterKind::Point, ..Filter::DEFAULT },
+        Filter { kind: FilterKind::Bilinear, ..Filter::DEFAULT },
+        Filter { kind: FilterKind::Reference { samples: 3 }, ..Filter::DEFAULT },
+    ];
+    for target in [omnimax(246, 180), perspective(90, 70, 60.0, [30.0, 35.0, 10.0])] {
+        for filter in kinds {
+            let needs = Needs::of(&world, &[target], &filter);
+            let mut dirty = clean.clone();
+            for (source, need) in world.sources().iter().zip(&needs.views) {
+                let width = source.view.width();
+                for (k, texel) in dirty[source.texels()].iter_mut().enumerate() {
+                    let (i, j) = (k % width, k / width);
+                    if !need.read.is_some_and(|r| (r.left..r.right).contains(&i) && (r.top..r.bottom).contains(&j)) {
+                        *texel = Rgba([f32::NAN; 4]);
+                    }
+                }
+            }
+            let resampler = Resampler { world: &world, target: &target, filter };
+            let bits = |image: Image<Rgba>| {
+                image.into_pixels().into_iter().flat_map(|p| p.0.map(f32::to_bits)).collect::<Vec<_>>()
+            };
+            assert!(bits(resampler.render(&clean)) == bits(resampler.render(&dirty)), "{filter:?} {target:?}");
+        }
+    }
+}
+
+#[test]
+fn a_perspective_target_needs_the_middle_of_one_face() {
+    let needs = needs(&cube(1000), perspective(640, 480, 45.0, [0.0; 3]));
+    // tan 22.5° = 0.41421: 207.1 texels to both sides of 500, times 3/4 up and down.
+    assert_eq!(need_of(&needs, "front").0, rect(293, 344, 707, 656));
+    let read = need_of(&needs, "front").1.expect("a rectangle");
+    assert!(read.left < 293 && read.left >= 290 && read.bottom > 656 && read.bottom <= 659, "{read}");
+    for name in ["left", "right", "up", "down", "back"] {
+        assert_eq!(need_of(&needs, name), (None, None), "{name}");
+    }
+}
+
+#[test]
+fn directions_that_nothing_covers_are_counted() {
+    let world = cube_of(64, 64, &[CubeFace::Front]);
+    let target = perspective(100, 100, 90.0, [45.0, 0.0, 0.0]);
+    let uncovered = needs(&world, target).uncovered.expect("half of the picture");
+    // The front face's right edge stands upright at 45°, in the picture's middle; above and below it shows less still.
+    assert!(uncovered.pixels >= 5000, "{uncovered:?}");
+    let (yaw, pitch) = uncovered.direction.longitude_latitude();
+    assert_eq!((uncovered.target, uncovered.row), (0, 0));
+    assert!((0.0..90.0).contains(&yaw.degrees()) && pitch.degrees() > 0.0);
+    assert_eq!(needs_of_two(&world).map(|found| found.target), Some(1));
+}
+
+fn needs_of_two(world: &World) -> Option<cosmorama::resample::Uncovered> {
+    let covered = perspective(40, 40, 60.0, [0.0; 3]);
+    let beside = perspective(40, 40, 60.0, [60.0, 0.0, 0.0]);
+    Needs::of(world, &[covered, beside], &Filter::DEFAULT).uncovered
+}
