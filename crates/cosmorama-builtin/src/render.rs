@@ -21,9 +21,9 @@ pub enum Supersampling {
 }
 
 impl Default for Supersampling {
-    /// 2×2 everywhere, 5×5 where samples differ by more than 5 %.
+    /// 2×2 everywhere, 3×3 where samples differ by more than 10 %.
     fn default() -> Self {
-        Self::Adaptive { coarse: 2, fine: 5, contrast: 0.05 }
+        Self::Adaptive { coarse: 2, fine: 3, contrast: 0.1 }
     }
 }
 
@@ -92,19 +92,18 @@ fn join(a: Rgba, b: Rgba, pick: fn(f32, f32) -> f32) -> Rgba {
     Rgba(std::array::from_fn(|channel| pick(a.0[channel], b.0[channel])))
 }
 
-/// Whether the samples of a pixel and its eight neighbours differ visibly. Neighbours are looked at because a
+/// Whether the samples of a pixel and its four neighbours differ visibly. Neighbours are looked at because a
 /// line thinner than the coarse grid slips through some pixels unseen, but not through all of them.
 fn is_edge(samples: &Image<PixelSamples>, i: usize, j: usize, contrast: f32) -> bool {
     /// Differences in deep shadow do not matter: light below this counts as this much.
-    const SHADOW: f32 = 0.03;
-    let (right, bottom) = ((i + 2).min(samples.width()), (j + 2).min(samples.height()));
-    let mut least = samples.get(i, j).least;
-    let mut greatest = samples.get(i, j).greatest;
-    for row in j.saturating_sub(1)..bottom {
-        for neighbour in &samples.row(row)[i.saturating_sub(1)..right] {
-            least = join(least, neighbour.least, f32::min);
-            greatest = join(greatest, neighbour.greatest, f32::max);
-        }
+    const SHADOW: f32 = 0.05;
+    let (right, below) = ((i + 1).min(samples.width() - 1), (j + 1).min(samples.height() - 1));
+    let (left, above) = (i.saturating_sub(1), j.saturating_sub(1));
+    let PixelSamples { mut least, mut greatest, .. } = *samples.get(i, j);
+    for (column, row) in [(left, j), (right, j), (i, above), (i, below)] {
+        let neighbour = samples.get(column, row);
+        least = join(least, neighbour.least, f32::min);
+        greatest = join(greatest, neighbour.greatest, f32::max);
     }
     (0..4).any(|channel| greatest.0[channel] - least.0[channel] > contrast * (greatest.0[channel] + SHADOW))
 }

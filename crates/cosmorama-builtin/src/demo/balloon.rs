@@ -16,9 +16,7 @@ const ROPE_SPREAD: f64 = 1.25;
 
 impl Part for Balloon {
     fn hit(&self, ray: &Ray) -> Option<Hit> {
-        if !BOUNDS.touches(ray) {
-            return None;
-        }
+        BOUNDS.inside(ray)?;
         let envelope = ENVELOPE.entry(ray).map(|(distance, normal)| Hit { distance, normal, surface: cloth(normal) });
         let wicker = Surface::matte(DVec3::new(0.34, 0.20, 0.09));
         let car = CAR.entry(ray).map(|(distance, normal)| Hit { distance, normal, surface: wicker });

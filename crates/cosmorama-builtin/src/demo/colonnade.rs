@@ -33,13 +33,24 @@ impl Part for Colonnade {
 
 fn side_hit(ray: &Ray, side: f64) -> Option<Hit> {
     let x = side * hall::HALF_WIDTH;
-    let row = Row { x, first: hall::FIRST_COLUMN, spacing: hall::BAY, count: hall::COLUMNS, reach: WIDEST };
+    let row = Row {
+        x,
+        first: hall::FIRST_COLUMN,
+        spacing: hall::BAY,
+        count: hall::COLUMNS,
+        radius: WIDEST,
+        bottom: 0.0,
+        top: hall::BEAM_BOTTOM,
+    };
     row.passed(ray).fold(beam(ray, side), |nearest, z| nearer(nearest, column(ray, DVec2::new(x, z))))
 }
 
 fn column(ray: &Ray, axis: DVec2) -> Option<Hit> {
-    Drum { axis, radius: WIDEST, bottom: 0.0, top: hall::BEAM_BOTTOM }.entry(ray)?;
+    let (lowest, highest) = Drum { axis, radius: WIDEST, bottom: 0.0, top: hall::BEAM_BOTTOM }.heights(ray)?;
     DRUMS.iter().fold(None, |nearest, &(radius, bottom, top)| {
+        if bottom > highest || top < lowest {
+            return nearest;
+        }
         let drum = Drum { axis, radius, bottom, top };
         let hit = drum.entry(ray).map(|(distance, normal)| {
             let normal = if radius == SHAFT && normal.y == 0.0 { flute(normal) } else { normal };
@@ -74,6 +85,9 @@ fn beam(ray: &Ray, side: f64) -> Option<Hit> {
 const CITIES: Line =
     Line { text: "PARIS * WIEN * LONDON * ROMA * CAIRO * ", middle: DVec2::new(0.0, 4.92), height: 0.24 };
 
+/// Brings no city behind the lamp beside the viewer.
+const BETWEEN_LAMPS: f64 = -1.43;
+
 /// Colour of a beam's side: mouldings, a row of dentils and, on the inward side, the inscription.
 fn frieze(point: DVec3, normal: DVec3, inward: Option<f64>) -> DVec3 {
     const SHADOWED: DVec3 = DVec3::new(0.30, 0.20, 0.13);
@@ -88,7 +102,8 @@ fn frieze(point: DVec3, normal: DVec3, inward: Option<f64>) -> DVec3 {
     }
     // Seen from inside, the right beam is read toward the back and the left one toward the front.
     let written = inward.is_some_and(|side| {
-        let along = (side * point.z + CITIES.width() / 2.0).rem_euclid(CITIES.width()) - CITIES.width() / 2.0;
+        let along =
+            (side * point.z + BETWEEN_LAMPS + CITIES.width() / 2.0).rem_euclid(CITIES.width()) - CITIES.width() / 2.0;
         lettering::covers(&CITIES, DVec2::new(along, height))
     });
     if written { SHADOWED } else { STONE }

@@ -10,9 +10,6 @@ use super::ray::{Hit, Part, Ray, Surface};
 /// under the viewer.
 pub(super) struct Ground;
 
-/// Beyond this the air hides everything.
-const FARTHEST: f64 = 1e5;
-
 const IVORY: DVec3 = DVec3::new(0.78, 0.72, 0.62);
 const OXBLOOD: DVec3 = DVec3::new(0.22, 0.07, 0.05);
 const SLATE: DVec3 = DVec3::new(0.10, 0.11, 0.13);
@@ -24,7 +21,7 @@ impl Part for Ground {
             return None;
         }
         let distance = -ray.origin.y / ray.direction.y;
-        if distance <= 0.0 || distance > FARTHEST {
+        if !ray.reaches(distance) {
             return None;
         }
         let point = ray.at(distance);

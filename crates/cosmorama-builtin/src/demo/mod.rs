@@ -19,7 +19,7 @@ use cosmorama::sphere::Direction;
 use glam::DVec3;
 
 use crate::Radiance;
-use ray::{Hit, Part, Ray, Surface, nearer};
+use ray::{Hit, Part, Ray, Surface};
 
 /// Height of the eyes above the ground, in metres.
 const EYE_HEIGHT: f64 = 1.6;
@@ -46,7 +46,7 @@ const PARTS: [&dyn Part; 9] = [
 
 impl Radiance for DemoWorld {
     fn radiance(&self, direction: Direction) -> [f32; 3] {
-        let eye = Ray { origin: DVec3::new(0.0, EYE_HEIGHT, 0.0), direction: direction.vector() };
+        let eye = Ray::new(DVec3::new(0.0, EYE_HEIGHT, 0.0), direction.vector());
         let (mut light, mirrored) = look(&eye);
         if let Some((ray, share)) = mirrored {
             // A mirror in a mirror is left dark: the work per ray stays bounded.
@@ -66,7 +66,14 @@ fn look(ray: &Ray) -> (DVec3, Option<(Ray, f64)>) {
 }
 
 fn first_hit(ray: &Ray) -> Option<Hit> {
-    PARTS.iter().fold(None, |nearest, part| nearer(nearest, part.hit(ray)))
+    let (mut ray, mut nearest) = (*ray, None);
+    for part in PARTS {
+        if let Some(hit) = part.hit(&ray) {
+            ray.reach = hit.distance;
+            nearest = Some(hit);
+        }
+    }
+    nearest
 }
 
 /// Light that a surface sends off by itself: its glow, and what it scatters of sun and sky.
@@ -92,4 +99,44 @@ fn mirrored(ray: &Ray, point: DVec3, hit: &Hit) -> Option<(Ray, f64)> {
     let share = mirror + (1.0 - mirror) * 0.6 * (1.0 - cosine).clamp(0.0, 1.0).powi(5);
     let onward = ray.direction + hit.normal * (2.0 * cosine);
     Some((Ray::leaving(point, hit.normal, onward), share))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn seen(right: f64, up: f64, back: f64) -> Option<Hit> {
+        first_hit(&Ray::new(DVec3::new(0.0, EYE_HEIGHT, 0.0), DVec3::new(right, up, back).normalize()))
+    }
+
+    #[test]
+    fn the_ground_is_below_and_nothing_but_sky_between_the_columns() {
+        let ground = seen(0.0, -1.0, 0.0).expect("ground");
+        assert!((ground.distance - EYE_HEIGHT).abs() < 1e-12 && ground.normal == DVec3::Y);
+        assert!(seen(1.0, -0.001, 0.2).is_some_and(|horizon| horizon.normal == DVec3::Y));
+        assert!(seen(1.0, 0.4, 0.0).is_none());
+        assert!(seen(-1.0, 0.4, 0.0).is_none());
+    }
+
+    #[test]
+    fn the_sun_shines_through_the_lattice_ahead_on_the_left() {
+        assert!((sky::SUN.length() - 1.0).abs() < 1e-9);
+        let light = DemoWorld.radiance(Direction::from_unit(sky::SUN));
+        assert!(light[0] > 10.0, "{light:?}");
+    }
+
+    #[test]
+    fn the_panel_reads_from_left_to_right() {
+        // Along its chart the bars get finer to the right: more changes between ink and paper.
+        let height = 3.55 - 0.80 - EYE_HEIGHT;
+        let changes = |from: f64| {
+            let light = |step: i32| {
+                let right = from + 2.0 * f64::from(step) / 2000.0;
+                Direction::new(DVec3::new(right, height, -7.6)).map_or(0.0, |d| DemoWorld.radiance(d)[0])
+            };
+            (0..2000).filter(|&step| (light(step) - light(step + 1)).abs() > 0.3).count()
+        };
+        let (left, right) = (changes(-2.05), changes(0.05));
+        assert!(left > 30 && right > 2 * left, "{left} {right}");
+    }
 }

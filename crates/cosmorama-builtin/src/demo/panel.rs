@@ -3,7 +3,7 @@ use glam::{DVec2, DVec3};
 use super::hall;
 use super::lettering::{self, Line};
 use super::ray::{Hit, Part, Ray, Surface, nearer};
-use super::solid::Drum;
+use super::solid::{Cuboid, Drum};
 
 /// The notice that hangs from the vault ahead of the viewer, lit like a lantern from within.
 pub(super) struct Panel;
@@ -12,6 +12,11 @@ const PLANE: f64 = -7.6;
 const MIDDLE: DVec2 = DVec2::new(0.0, 3.55);
 /// Half its width and half its height.
 const HALF: DVec2 = DVec2::new(2.45, 1.15);
+/// Round the board and its hangers, for the many rays that pass them.
+const BOUNDS: Cuboid = Cuboid {
+    least: DVec3::new(-HALF.x, MIDDLE.y - HALF.y, PLANE - 0.02),
+    greatest: DVec3::new(HALF.x, hall::SPRINGING + hall::HALF_WIDTH, PLANE + 0.02),
+};
 const HANGERS: [f64; 2] = [-1.9, 1.9];
 
 /// From the panel's middle.
@@ -34,13 +39,14 @@ const LINES: [Line; 6] = [
 
 impl Part for Panel {
     fn hit(&self, ray: &Ray) -> Option<Hit> {
+        BOUNDS.inside(ray)?;
         HANGERS.into_iter().fold(board(ray), |nearest, x| nearer(nearest, hanger(ray, x)))
     }
 }
 
 fn board(ray: &Ray) -> Option<Hit> {
     let distance = (PLANE - ray.origin.z) / ray.direction.z;
-    if !(distance > 0.0 && distance < 1e3) {
+    if !ray.reaches(distance) {
         return None;
     }
     let point = ray.at(distance);

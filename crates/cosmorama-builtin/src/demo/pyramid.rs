@@ -38,14 +38,15 @@ impl Pyramid {
     fn bounds(&self) -> Cuboid {
         let mut bounds = self.step(0);
         bounds.greatest.y = self.ball().centre.y + self.ball().radius;
-        // Wider than the lowest step, whose own rays graze it.
-        bounds.least -= DVec3::ONE;
-        bounds.greatest += DVec3::ONE;
         bounds
     }
 
-    fn stairs(&self, ray: &Ray) -> Option<Hit> {
-        (0..self.steps).fold(None, |nearest, step| {
+    /// The steps at the heights that the ray has inside the bounds.
+    fn stairs(&self, ray: &Ray, inside: (f64, f64)) -> Option<Hit> {
+        let (from, to) = (ray.at(inside.0).y / self.rise, ray.at(inside.1).y / self.rise);
+        // Casts saturate; the margin is for rounding.
+        let (lowest, highest) = ((from.min(to) - 1e-6) as u32, (from.max(to) + 1e-6) as u32);
+        (lowest..self.steps.min(highest + 1)).fold(None, |nearest, step| {
             let hit = self.step(step).entry(ray).map(|(distance, normal)| {
                 let shade = if step % 2 == 0 { 1.0 } else { 0.86 };
                 Hit { distance, normal, surface: Surface::matte(DVec3::new(0.70, 0.58, 0.42) * shade) }
@@ -57,11 +58,9 @@ impl Pyramid {
 
 impl Part for Pyramid {
     fn hit(&self, ray: &Ray) -> Option<Hit> {
-        if !self.bounds().touches(ray) {
-            return None;
-        }
+        let inside = self.bounds().inside(ray)?;
         let gold = Surface { mirror: 0.35, ..Surface::matte(DVec3::new(0.85, 0.58, 0.18)) };
         let ball = self.ball().entry(ray).map(|(distance, normal)| Hit { distance, normal, surface: gold });
-        nearer(self.stairs(ray), ball)
+        nearer(self.stairs(ray, inside), ball)
     }
 }

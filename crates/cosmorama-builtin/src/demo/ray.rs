@@ -1,14 +1,31 @@
 use glam::DVec3;
 
-/// A half line along which light is looked for.
+/// A line from a point, along which light is looked for.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Ray {
     pub(super) origin: DVec3,
     /// Unit vector.
     pub(super) direction: DVec3,
+    /// One over each component of the direction, for the many slabs that a ray is tested against.
+    pub(super) inverse: DVec3,
+    /// What is farther does not count: something nearer is known already, or the air hides it.
+    pub(super) reach: f64,
 }
 
 impl Ray {
+    /// How far the air lets one see, in metres.
+    const FARTHEST: f64 = 1e5;
+
+    /// A ray that starts in the open.
+    pub(super) fn new(origin: DVec3, direction: DVec3) -> Self {
+        Self { origin, direction, inverse: direction.recip(), reach: Self::FARTHEST }
+    }
+
+    /// Whether a distance is ahead and within reach; not so for NaN.
+    pub(super) fn reaches(&self, distance: f64) -> bool {
+        distance > 0.0 && distance < self.reach
+    }
+
     /// The point at a distance.
     pub(super) fn at(&self, distance: f64) -> DVec3 {
         self.origin + self.direction * distance
@@ -17,7 +34,7 @@ impl Ray {
     /// A ray that leaves a surface, started a little above it lest it meet the surface itself.
     pub(super) fn leaving(point: DVec3, normal: DVec3, direction: DVec3) -> Self {
         const CLEARANCE: f64 = 1e-5;
-        Self { origin: point + normal * CLEARANCE, direction }
+        Self::new(point + normal * CLEARANCE, direction)
     }
 }
 
@@ -58,6 +75,6 @@ pub(super) fn nearer(a: Option<Hit>, b: Option<Hit>) -> Option<Hit> {
 
 /// A thing in the world.
 pub(super) trait Part: Sync {
-    /// The first meeting of the ray with this part, ahead of the ray's origin.
+    /// The first meeting of the ray with this part, ahead of the ray's origin and within its reach.
     fn hit(&self, ray: &Ray) -> Option<Hit>;
 }

@@ -2,10 +2,10 @@ use glam::{DVec2, DVec3};
 
 use super::noise::{noise, octaves, smoothstep};
 
-/// Where the sun stands: 40° left of the front, 33° high. A unit vector.
-pub(super) const SUN: DVec3 = DVec3::new(-0.539_086_04, 0.544_639_04, -0.642_457_72);
+/// Where the sun stands: 28° left of the front, 33° high. A unit vector.
+pub(super) const SUN: DVec3 = DVec3::new(-0.393731982196, 0.544639035015, -0.740502159169);
 /// Sunlight on a surface that faces the sun.
-pub(super) const SUNLIGHT: DVec3 = DVec3::new(1.75, 1.22, 0.72);
+pub(super) const SUNLIGHT: DVec3 = DVec3::new(1.62, 1.12, 0.66);
 /// Cosine of the sun's radius of 0.7°, larger than life as in a painting.
 const SUN_EDGE: f64 = 0.999_925_37;
 /// The sun's disc itself: bright enough to burn into everything that filters badly.
@@ -43,7 +43,9 @@ pub(super) fn haze(direction: DVec3) -> DVec3 {
 pub(super) fn ambient(normal: DVec3) -> DVec3 {
     const ABOVE: DVec3 = DVec3::new(0.40, 0.43, 0.52);
     const BELOW: DVec3 = DVec3::new(0.30, 0.22, 0.17);
-    BELOW.lerp(ABOVE, 0.5 + 0.5 * normal.y)
+    // The sky is brighter round the sun.
+    let toward = 1.0 + 0.45 * normal.dot(DVec3::new(SUN.x, 0.0, SUN.z));
+    BELOW.lerp(ABOVE, 0.5 + 0.5 * normal.y) * toward
 }
 
 fn air(direction: DVec3) -> DVec3 {
@@ -54,7 +56,7 @@ fn air(direction: DVec3) -> DVec3 {
         MIDDLE.lerp(ZENITH, (height - 0.55) / 0.45)
     };
     let toward = direction.dot(SUN).max(0.0);
-    let glow = DVec3::new(0.42, 0.24, 0.09) * toward.powi(6) + DVec3::new(0.9, 0.65, 0.35) * toward.powi(120);
+    let glow = DVec3::new(0.30, 0.17, 0.06) * toward.powi(6) + DVec3::new(0.5, 0.36, 0.2) * toward.powi(160);
     gradient + glow
 }
 

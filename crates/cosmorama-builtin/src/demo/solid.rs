@@ -1,3 +1,5 @@
+use std::ops::Range;
+
 use glam::{DVec2, DVec3};
 
 use super::ray::Ray;
@@ -21,7 +23,7 @@ impl Ball {
             return None;
         }
         let distance = -half_b - discriminant.sqrt();
-        (distance > 0.0).then(|| (distance, (from_centre + ray.direction * distance) / self.radius))
+        ray.reaches(distance).then(|| (distance, (from_centre + ray.direction * distance) / self.radius))
     }
 }
 
@@ -33,15 +35,16 @@ pub(super) struct Cuboid {
 }
 
 impl Cuboid {
-    /// Whether the ray meets the box or starts inside it: the quick test for what the box surrounds.
-    pub(super) fn touches(&self, ray: &Ray) -> bool {
+    /// Where along the ray it is inside the box: the quick test for what the box surrounds.
+    pub(super) fn inside(&self, ray: &Ray) -> Option<(f64, f64)> {
         let (enter, leave, _) = self.span(ray);
-        enter < leave && leave > 0.0
+        let (enter, leave) = (enter.max(0.0), leave.min(ray.reach));
+        (enter < leave).then_some((enter, leave))
     }
 
     pub(super) fn entry(&self, ray: &Ray) -> Option<Entry> {
         let (enter, leave, axis) = self.span(ray);
-        if enter >= leave || enter <= 0.0 {
+        if enter >= leave || !ray.reaches(enter) {
             return None;
         }
         let mut normal = DVec3::ZERO;
@@ -55,7 +58,7 @@ impl Cuboid {
         let mut axis = 0;
         for candidate in 0..3 {
             let (near, far) =
-                slab(ray.origin[candidate], ray.direction[candidate], self.least[candidate], self.greatest[candidate]);
+                slab(ray.origin[candidate], ray.inverse[candidate], self.least[candidate], self.greatest[candidate]);
             if near > enter {
                 (enter, axis) = (near, candidate);
             }
@@ -77,6 +80,30 @@ pub(super) struct Drum {
 
 impl Drum {
     pub(super) fn entry(&self, ray: &Ray) -> Option<Entry> {
+        let (side_in, side_out) = self.side(ray)?;
+        let (lid_in, lid_out) = slab(ray.origin.y, ray.inverse.y, self.bottom, self.top);
+        let enter = side_in.max(lid_in);
+        if enter >= side_out.min(lid_out) || !ray.reaches(enter) {
+            return None;
+        }
+        if lid_in > side_in {
+            return Some((enter, DVec3::new(0.0, -ray.direction.y.signum(), 0.0)));
+        }
+        let outward = (ray.at(enter) - DVec3::new(self.axis.x, 0.0, self.axis.y)) / self.radius;
+        Some((enter, DVec3::new(outward.x, 0.0, outward.z)))
+    }
+
+    /// The least and greatest height that a ray has inside: the quick test for what the drum surrounds.
+    pub(super) fn heights(&self, ray: &Ray) -> Option<(f64, f64)> {
+        let (side_in, side_out) = self.side(ray)?;
+        let (lid_in, lid_out) = slab(ray.origin.y, ray.inverse.y, self.bottom, self.top);
+        let (enter, leave) = (side_in.max(lid_in).max(0.0), side_out.min(lid_out).min(ray.reach));
+        let (a, b) = (ray.at(enter).y, ray.at(leave).y);
+        (enter < leave).then_some((a.min(b), a.max(b)))
+    }
+
+    /// Distances at which the ray's line enters and leaves the endless cylinder.
+    fn side(&self, ray: &Ray) -> Option<(f64, f64)> {
         let from_axis = DVec2::new(ray.origin.x, ray.origin.z) - self.axis;
         let across = DVec2::new(ray.direction.x, ray.direction.z);
         // A vertical ray would divide by zero; this is far below what changes any other ray.
@@ -87,24 +114,14 @@ impl Drum {
             return None;
         }
         let root = discriminant.sqrt();
-        let (side_in, side_out) = ((-half_b - root) / a, (-half_b + root) / a);
-        let (lid_in, lid_out) = slab(ray.origin.y, ray.direction.y, self.bottom, self.top);
-        let enter = side_in.max(lid_in);
-        if enter >= side_out.min(lid_out) || enter <= 0.0 {
-            return None;
-        }
-        if lid_in > side_in {
-            return Some((enter, DVec3::new(0.0, -ray.direction.y.signum(), 0.0)));
-        }
-        let outward = (from_axis + across * enter) / self.radius;
-        Some((enter, DVec3::new(outward.x, 0.0, outward.y)))
+        Some(((-half_b - root) / a, (-half_b + root) / a))
     }
 }
 
-/// Distances at which a ray enters and leaves the slab between two planes, along one axis. A ray along the
-/// planes divides by zero, which gives the infinities that are wanted.
-fn slab(origin: f64, direction: f64, least: f64, greatest: f64) -> (f64, f64) {
-    let (a, b) = ((least - origin) / direction, (greatest - origin) / direction);
+/// Distances at which a ray enters and leaves the slab between two planes, along one axis. For a ray along
+/// the planes the inverse is infinite, and so are the distances, as is wanted.
+fn slab(origin: f64, inverse: f64, least: f64, greatest: f64) -> (f64, f64) {
+    let (a, b) = ((least - origin) * inverse, (greatest - origin) * inverse);
     (a.min(b), a.max(b))
 }
 
@@ -118,23 +135,37 @@ pub(super) struct Row {
     pub(super) spacing: f64,
     pub(super) count: usize,
     /// No thing is wider than this about its axis.
-    pub(super) reach: f64,
+    pub(super) radius: f64,
+    /// No thing is lower than this.
+    pub(super) bottom: f64,
+    /// No thing is higher than this.
+    pub(super) top: f64,
 }
 
 impl Row {
     /// z of each thing that the ray may meet.
     pub(super) fn passed(&self, ray: &Ray) -> impl Iterator<Item = f64> + use<> {
-        let (enter, leave) = slab(ray.origin.x, ray.direction.x, self.x - self.reach, self.x + self.reach);
-        // Finite bounds: longer than any row, so that a ray along the row is no special case.
-        let (enter, leave) = (enter.clamp(0.0, 1e3), leave.clamp(0.0, 1e3));
-        let (from, to) = (ray.at(enter).z, ray.at(leave).z);
-        let index = |z: f64| (z - self.first) / self.spacing;
-        let margin = self.reach / self.spacing;
-        let start = (index(from.min(to)) - margin).ceil().max(0.0) as usize;
-        // As casts of floats saturate, a row that is passed in front ends at zero.
-        let end = if enter < leave { ((index(from.max(to)) + margin).floor() + 1.0) as usize } else { 0 };
         let (first, spacing) = (self.first, self.spacing);
-        (start..end.min(self.count)).map(move |i| first + spacing * i as f64)
+        self.indices(ray).map(move |i| first + spacing * i as f64)
+    }
+
+    fn indices(&self, ray: &Ray) -> Range<usize> {
+        let across = slab(ray.origin.x, ray.inverse.x, self.x - self.radius, self.x + self.radius);
+        let height = slab(ray.origin.y, ray.inverse.y, self.bottom, self.top);
+        // Bounds are kept finite, longer than any row, so that a ray along the row is no special case.
+        let enter = across.0.max(height.0).max(0.0);
+        let leave = across.1.min(height.1).min(ray.reach).min(1e3);
+        if enter >= leave {
+            return 0..0;
+        }
+        let (from, to) = (ray.at(enter).z, ray.at(leave).z);
+        let nearest = (from.min(to) - self.radius - self.first) / self.spacing;
+        let farthest = (from.max(to) + self.radius - self.first) / self.spacing;
+        if farthest < 0.0 {
+            return 0..0;
+        }
+        // Casts round toward zero and saturate: at most one thing too many at the near end.
+        nearest as usize..(farthest as usize + 1).min(self.count)
     }
 }
 
@@ -142,31 +173,34 @@ impl Row {
 mod tests {
     use super::*;
 
-    const ALONG_Z: Ray = Ray { origin: DVec3::new(0.0, 1.0, 0.0), direction: DVec3::NEG_Z };
-
     #[test]
     fn solids_are_entered_at_their_near_side() {
+        let forward = Ray::new(DVec3::new(0.0, 1.0, 0.0), DVec3::NEG_Z);
         let ball = Ball { centre: DVec3::new(0.0, 1.0, -5.0), radius: 2.0 };
-        assert_eq!(ball.entry(&ALONG_Z), Some((3.0, DVec3::Z)));
+        assert_eq!(ball.entry(&forward), Some((3.0, DVec3::Z)));
         let drum = Drum { axis: DVec2::new(0.0, -5.0), radius: 1.0, bottom: 0.0, top: 2.0 };
-        assert_eq!(drum.entry(&ALONG_Z), Some((4.0, DVec3::Z)));
+        assert_eq!(drum.entry(&forward), Some((4.0, DVec3::Z)));
         let cuboid = Cuboid { least: DVec3::new(-1.0, 0.0, -6.0), greatest: DVec3::new(1.0, 2.0, -4.0) };
-        assert_eq!(cuboid.entry(&ALONG_Z), Some((4.0, DVec3::Z)));
+        assert_eq!(cuboid.entry(&forward), Some((4.0, DVec3::Z)));
     }
 
     #[test]
     fn a_drum_is_entered_through_its_lid() {
         let drum = Drum { axis: DVec2::ZERO, radius: 1.0, bottom: -2.0, top: -1.0 };
-        let down = Ray { origin: DVec3::ZERO, direction: DVec3::NEG_Y };
+        let down = Ray::new(DVec3::ZERO, DVec3::NEG_Y);
         assert_eq!(drum.entry(&down), Some((1.0, DVec3::Y)));
     }
 
     #[test]
     fn a_row_names_what_a_ray_passes() {
-        let row = Row { x: 2.0, first: -10.0, spacing: 5.0, count: 5, reach: 0.5 };
-        let toward = |x: f64, z: f64| Ray { origin: DVec3::ZERO, direction: DVec3::new(x, 0.0, z).normalize() };
-        assert_eq!(row.passed(&toward(2.0, -5.0)).collect::<Vec<_>>(), [-5.0]);
-        assert_eq!(row.passed(&toward(-2.0, -5.0)).count(), 0);
-        assert_eq!(row.passed(&toward(0.0, -1.0)).count(), 0);
+        let row = Row { x: 2.0, first: -10.0, spacing: 5.0, count: 5, radius: 0.5, bottom: -1.0, top: 1.0 };
+        let passed = |x: f64, y: f64, z: f64| {
+            row.passed(&Ray::new(DVec3::ZERO, DVec3::new(x, y, z).normalize())).collect::<Vec<_>>()
+        };
+        assert!(passed(2.0, 0.0, -5.0).contains(&-5.0));
+        assert!(passed(2.0, 0.0, -5.0).len() <= 2);
+        assert!(passed(-2.0, 0.0, -5.0).is_empty());
+        assert!(passed(0.0, 0.0, -1.0).is_empty());
+        assert!(passed(2.0, 5.0, -5.0).is_empty());
     }
 }

@@ -3,7 +3,7 @@ use std::f64::consts::PI;
 use glam::{DVec2, DVec3};
 
 use super::hall;
-use super::ray::{Hit, Part, Ray, Surface};
+use super::ray::{Hit, Part, Ray, Surface, nearer};
 
 /// The barrel vault: an iron lattice without glass on the beams, and a fan of bars across each of its ends.
 pub(super) struct Vault;
@@ -17,8 +17,8 @@ impl Part for Vault {
         if ray.origin.y < hall::SPRINGING && ray.direction.y <= 0.0 {
             return None;
         }
-        let ends = [hall::FRONT, hall::BACK].into_iter().find_map(|z| fan(ray, z));
-        super::ray::nearer(shell(ray), ends)
+        let ends = [hall::FRONT, hall::BACK].into_iter().fold(None, |nearest, z| nearer(nearest, fan(ray, z)));
+        nearer(shell(ray), ends)
     }
 }
 
@@ -38,7 +38,7 @@ fn shell(ray: &Ray) -> Option<Hit> {
 
 fn pierced(ray: &Ray, distance: f64) -> Option<Hit> {
     let point = ray.at(distance);
-    if distance <= 0.0 || point.y < hall::SPRINGING || point.z < hall::FRONT || point.z > hall::BACK {
+    if !ray.reaches(distance) || point.y < hall::SPRINGING || point.z < hall::FRONT || point.z > hall::BACK {
         return None;
     }
     let outward = DVec3::new(point.x, point.y - hall::SPRINGING, 0.0) / hall::HALF_WIDTH;
@@ -75,7 +75,7 @@ fn bar(arc: f64, z: f64) -> Option<(DVec3, DVec2)> {
 /// A fan of spokes and rings in the half disc at an end of the vault.
 fn fan(ray: &Ray, z: f64) -> Option<Hit> {
     let distance = (z - ray.origin.z) / ray.direction.z;
-    if !(distance > 0.0 && distance < 1e3) {
+    if !ray.reaches(distance) {
         return None;
     }
     let point = ray.at(distance);

@@ -6,18 +6,23 @@
 use glam::{DMat2, DVec2};
 
 use super::kernel::KernelTable;
-use super::{Ellipse, Kernel, Tap, Taps, lookup};
+use super::taps::{Candidate, Taps, centre, settle};
+use super::{Ellipse, lookup};
 use crate::sphere::{Angle, Direction};
 use crate::world::{Footprint, PixelPoint, Source, World};
 
 /// A mapping is taken as linear over a kernel that is smaller than this part of the way to its nearest singularity.
 const LINEAR_PART: f64 = 0.2;
 
+/// Anti-ringing clamps to the texels of r² under this. With the default floor the disc reaches 1.37 texels, so that
+/// whatever way a gradient runs there are texels on both sides of the pixel, at the corners of a cube too.
+const UNDER: f64 = 1.5;
+
 /// The gather for one world and kernel.
 pub(super) struct Gather<'a> {
     world: &'a World,
-    kernel: Kernel,
-    table: KernelTable,
+    table: &'a KernelTable,
+    candidates: Vec<Candidate>,
     /// The view that held all of the last footprint: the likeliest for the next.
     last: usize,
 }
@@ -31,53 +36,60 @@ struct TexelBox {
 }
 
 impl<'a> Gather<'a> {
-    pub(super) fn new(world: &'a World, kernel: Kernel) -> Self {
-        Self { world, kernel, table: KernelTable::new(&kernel), last: 0 }
+    pub(super) fn new(world: &'a World, table: &'a KernelTable) -> Self {
+        Self { world, table, candidates: Vec::new(), last: 0 }
     }
 
     /// The taps of a footprint, weights adding to one; none where no view is near.
     pub(super) fn taps(&mut self, footprint: &Footprint, taps: &mut Taps) {
         taps.clear();
+        self.candidates.clear();
         let sources = self.world.sources();
-        if !self.gather_from(&sources[self.last], footprint, taps) {
+        if !self.gather_from(&sources[self.last], footprint) {
             // A kernel inside one view touches no other, so the order of views never changes a result.
-            taps.clear();
+            self.candidates.clear();
             for (index, source) in sources.iter().enumerate() {
-                if self.gather_from(source, footprint, taps) {
+                if self.gather_from(source, footprint) {
                     self.last = index;
                     break;
                 }
             }
         }
-        taps.normalise();
+        if self.table.kernel().centred {
+            centre(&mut self.candidates);
+        }
+        settle(&self.candidates, taps);
         if taps.is_empty() {
             lookup::nearest(self.world, footprint.direction, |texel, weight| taps.push_under(texel, weight));
         }
     }
 
     /// Adds the texels of one view; true if the kernel lies wholly inside it.
-    fn gather_from(&self, source: &Source, footprint: &Footprint, taps: &mut Taps) -> bool {
+    fn gather_from(&mut self, source: &Source, footprint: &Footprint) -> bool {
+        let kernel = self.table.kernel();
         let jacobian = &footprint.jacobian;
         let pixel = (jacobian.dx.length_squared() + jacobian.dy.length_squared()).sqrt();
-        let unit = (self.kernel.scale * pixel).max(self.kernel.floor * source.texel_pitch);
-        let radius = self.kernel.radius() * unit;
+        let unit = (kernel.scale * pixel).max(kernel.floor * source.texel_pitch);
+        let radius = kernel.radius() * unit;
         let margin = source.view.margin(footprint.direction);
         if margin + radius <= 0.0 {
             return false;
         }
         if radius < LINEAR_PART * margin {
-            self.gather_ellipse(source, footprint, taps)
+            self.gather_ellipse(source, footprint)
         } else {
-            self.gather_cap(source, footprint, radius, taps);
+            self.gather_cap(source, footprint, radius);
             false
         }
     }
 
     /// The common case: the footprint is an ellipse of texels.
-    fn gather_ellipse(&self, source: &Source, footprint: &Footprint, taps: &mut Taps) -> bool {
+    fn gather_ellipse(&mut self, source: &Source, footprint: &Footprint) -> bool {
         let Some((centre, jacobian)) = source.view.texel_footprint(footprint) else { return false };
-        let coarseness = self.kernel.coarseness(jacobian.determinant().abs().sqrt()) as f32;
-        let ellipse = Ellipse::new(jacobian * self.kernel.scale, self.kernel.floor);
+        let kernel = self.table.kernel();
+        let coarseness = kernel.coarseness(jacobian.determinant().abs().sqrt()) as f32;
+        let ellipse = Ellipse::new(jacobian * kernel.scale, kernel.floor);
+        let to_screen = jacobian.inverse();
         let reach = ellipse.half_extent(self.table.radius_squared());
         let bounds = TexelBox::around(centre, reach);
         let (width, height) = (source.view.width() as i64, source.view.height() as i64);
@@ -99,7 +111,8 @@ impl<'a> Gather<'a> {
                 if q < self.table.radius_squared() {
                     let column = period.map_or(i, |period| i.rem_euclid(period));
                     if column < width {
-                        self.add(row + column as usize, q, coarseness, taps);
+                        let offset = DVec2::new(i as f64 + 0.5 - centre.x, v);
+                        self.add(row + column as usize, q, coarseness, to_screen * offset);
                     }
                 }
                 q += dq;
@@ -112,31 +125,39 @@ impl<'a> Gather<'a> {
 
     /// Near a pole, a horizon or a rim the ellipse would be wrong: each texel is weighed by its direction instead, in
     /// the plane tangent to the sphere at the footprint.
-    fn gather_cap(&self, source: &Source, footprint: &Footprint, radius: f64, taps: &mut Taps) {
+    fn gather_cap(&mut self, source: &Source, footprint: &Footprint, radius: f64) {
         let here = footprint.direction.vector();
         let (right, up) = here.any_orthonormal_pair();
         let in_tangent_plane = |vector: glam::DVec3| DVec2::new(right.dot(vector), up.dot(vector)) / source.texel_pitch;
         let jacobian =
             DMat2::from_cols(in_tangent_plane(footprint.jacobian.dx), in_tangent_plane(footprint.jacobian.dy));
-        let coarseness = self.kernel.coarseness(jacobian.determinant().abs().sqrt()) as f32;
-        let ellipse = Ellipse::new(jacobian * self.kernel.scale, self.kernel.floor);
+        let kernel = self.table.kernel();
+        let coarseness = kernel.coarseness(jacobian.determinant().abs().sqrt()) as f32;
+        let ellipse = Ellipse::new(jacobian * kernel.scale, kernel.floor);
+        let to_screen = jacobian.inverse();
         for (i, j) in texels_within(source, footprint.direction, radius) {
             let Some(texel) = source.view.direction(PixelPoint::centre(i, j)) else { continue };
             if texel.dot(footprint.direction) <= 0.0 {
                 continue;
             }
-            let q = ellipse.distance_squared(in_tangent_plane(texel.vector() - here));
+            let offset = in_tangent_plane(texel.vector() - here);
+            let q = ellipse.distance_squared(offset);
             if q < self.table.radius_squared() {
-                self.add(source.offset + j * source.view.width() + i, q, coarseness, taps);
+                self.add(source.offset + j * source.view.width() + i, q, coarseness, to_screen * offset);
             }
         }
     }
 
-    fn add(&self, texel: usize, q: f64, coarseness: f32, taps: &mut Taps) {
-        let weight = self.table.weight(q, coarseness) * self.world.solid_angles()[texel];
-        if weight != 0.0 {
-            let tap = Tap { texel: texel as u32, weight };
-            if q < 1.0 { taps.under.push(tap) } else { taps.around.push(tap) }
+    fn add(&mut self, texel: usize, q: f64, coarseness: f32, offset: DVec2) {
+        let solid_angle = f64::from(self.world.solid_angles()[texel]);
+        if solid_angle > 0.0 {
+            self.candidates.push(Candidate {
+                texel: texel as u32,
+                under: q < UNDER,
+                weight: f64::from(self.table.weight(q, coarseness)) * solid_angle,
+                window: (1.0 - q / self.table.radius_squared()).powi(2) * solid_angle,
+                offset,
+            });
         }
     }
 }

@@ -123,6 +123,8 @@ pub struct Kernel {
     pub scale: f64,
     /// The kernel's unit is nowhere less than this many texels.
     pub floor: f64,
+    /// Whether the weights are corrected so that their centroid is the pixel's centre exactly.
+    pub centred: bool,
 }
 
 impl Kernel {
@@ -131,13 +133,21 @@ impl Kernel {
     /// Texels per pixel from which the coarse cross-section holds alone.
     pub const COARSE: f64 = 1.5;
 
-    /// The default: Catmull–Rom under enlargement, Mitchell under reduction, a unit of 0.8 pixel and at least one texel.
-    pub const ADAPTIVE: Self =
-        Self { fine: CrossSection::CATMULL_ROM, coarse: CrossSection::MITCHELL, scale: 0.8, floor: 1.0 };
+    /// The default: a sharp cubic (B = 0, C = 0.6) under enlargement, Mitchell under reduction, a unit of 0.8 pixel.
+    ///
+    /// The floor is √5/2 texels, rounded up: the radius at which every half disc on a square lattice holds a texel, so
+    /// that there is something on each side of a pixel to interpolate between.
+    pub const ADAPTIVE: Self = Self {
+        fine: CrossSection::Cubic { b: 0.0, c: 0.6 },
+        coarse: CrossSection::MITCHELL,
+        scale: 0.8,
+        floor: 1.12,
+        centred: true,
+    };
 
     /// One cross-section at every scale, its unit one output pixel and at least one texel.
     pub const fn uniform(cross_section: CrossSection) -> Self {
-        Self { fine: cross_section, coarse: cross_section, scale: 1.0, floor: 1.0 }
+        Self { fine: cross_section, coarse: cross_section, scale: 1.0, floor: 1.0, centred: false }
     }
 
     /// How much of the coarse cross-section counts where a pixel is as wide as `s` texels.
@@ -154,6 +164,7 @@ impl Kernel {
 /// The paper's WTAB, twice: both cross-sections of a kernel tabulated over r², so that Q = r² is the index.
 #[derive(Clone, Debug)]
 pub(super) struct KernelTable {
+    kernel: Kernel,
     weights: Vec<[f32; 2]>,
     entries_per_unit: f64,
     radius_squared: f64,
@@ -172,7 +183,11 @@ impl KernelTable {
                 [kernel.fine.weight(r) as f32, kernel.coarse.weight(r) as f32]
             })
             .collect();
-        Self { weights, entries_per_unit, radius_squared }
+        Self { kernel: *kernel, weights, entries_per_unit, radius_squared }
+    }
+
+    pub(super) fn kernel(&self) -> &Kernel {
+        &self.kernel
     }
 
     /// r² from which every weight is zero.

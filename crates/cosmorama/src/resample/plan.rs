@@ -1,6 +1,7 @@
 use rayon::prelude::*;
 
 use super::gather::Gather;
+use super::kernel::KernelTable;
 use super::taps::average;
 use super::{Filter, FilterKind, Tap, Taps, lookup, reference};
 use crate::raster::{Image, Rgba};
@@ -61,13 +62,10 @@ impl Resampler<'_> {
         }
         let mut image = Image::filled(self.target.width(), self.target.height(), Rgba::TRANSPARENT);
         let width = self.target.width().max(1);
+        let table = KernelTable::new(&self.filter.kernel);
         image.pixels_mut().par_chunks_mut(width * BAND).enumerate().for_each(|(index, rows)| {
-            let mut scratch = Vec::new();
-            self.for_each_pixel(index, |position, screen, taps| {
-                scratch.clear();
-                scratch.extend_from_slice(&taps.under);
-                scratch.extend_from_slice(&taps.around);
-                let colour = average(&scratch, taps.under.len(), texels, self.filter.anti_ringing);
+            self.for_each_pixel(&table, index, |position, screen, taps| {
+                let colour = average(taps.as_slice(), taps.under(), texels, self.filter.anti_ringing);
                 rows[position] = colour * screen.coverage as f32;
             });
         });
@@ -80,18 +78,19 @@ impl Resampler<'_> {
             return None;
         }
         let (width, height) = (self.target.width(), self.target.height());
-        let bands = (0..height.div_ceil(BAND)).into_par_iter().map(|index| self.plan_band(index)).collect();
+        let table = KernelTable::new(&self.filter.kernel);
+        let bands = (0..height.div_ceil(BAND)).into_par_iter().map(|index| self.plan_band(&table, index)).collect();
         Some(Plan { width, height, anti_ringing: self.filter.anti_ringing, bands })
     }
 
-    fn plan_band(&self, index: usize) -> Band {
+    fn plan_band(&self, table: &KernelTable, index: usize) -> Band {
         let rows = BAND.min(self.target.height() - index * BAND);
         let mut band = Band { pixels: vec![PlannedPixel::default(); rows * self.target.width()], taps: Vec::new() };
-        self.for_each_pixel(index, |position, screen, taps| {
-            band.taps.extend(taps.iter());
+        self.for_each_pixel(table, index, |position, screen, taps| {
+            band.taps.extend_from_slice(taps.as_slice());
             band.pixels[position] = PlannedPixel {
-                taps: taps.len() as u32,
-                under: taps.under.len() as u32,
+                taps: taps.as_slice().len() as u32,
+                under: taps.under() as u32,
                 coverage: screen.coverage as f32,
             };
         });
@@ -100,8 +99,8 @@ impl Resampler<'_> {
     }
 
     /// Calls `visit` with the position within the band, the pixel and its taps, for every pixel that shows something.
-    fn for_each_pixel(&self, band: usize, mut visit: impl FnMut(usize, &ScreenPixel, &Taps)) {
-        let mut gather = Gather::new(self.world, self.filter.kernel);
+    fn for_each_pixel(&self, table: &KernelTable, band: usize, mut visit: impl FnMut(usize, &ScreenPixel, &Taps)) {
+        let mut gather = Gather::new(self.world, table);
         let mut taps = Taps::default();
         let (width, top) = (self.target.width(), band * BAND);
         for j in top..self.target.height().min(top + BAND) {
