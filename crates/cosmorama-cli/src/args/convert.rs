@@ -128,4 +128,3 @@ fn threads(text: &str) -> Result<usize, String> {
         _ => Err("expected a number from 1 to 1024".to_owned()),
     }
 }
-

@@ -6,8 +6,7 @@ use cosmorama::resample::{CrossSection, Kernel};
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct KernelArg(pub(crate) Kernel);
 
-const NAMES: &str =
-    "adaptive, gaussian, mitchell, robidoux, robidoux-sharp, catmull-rom, lanczos2, lanczos3, lanczos3-sharp, tent, box";
+const NAMES: &str = "adaptive, gaussian, mitchell, robidoux, robidoux-sharp, catmull-rom, lanczos2, lanczos3, lanczos3-sharp, tent, box";
 
 impl FromStr for KernelArg {
     type Err = String;
@@ -72,7 +71,7 @@ mod tests {
     fn kernels_with_parameters() {
         let KernelArg(kernel) = "gaussian:alpha=3,cutoff=1.5,scale=0.6".parse().unwrap();
         let gaussian = CrossSection::Gaussian { alpha: 3.0, cutoff: 1.5 };
-        assert_eq!(kernel, Kernel { fine: gaussian, coarse: gaussian, scale: 0.6, floor: 1.0 });
+        assert_eq!(kernel, Kernel { scale: 0.6, ..Kernel::uniform(gaussian) });
         for name in NAMES.split(", ") {
             assert!(name.parse::<KernelArg>().is_ok(), "{name}");
             assert!(format!("{name}:scale=0.5,floor=0.75").parse::<KernelArg>().is_ok(), "{name}");

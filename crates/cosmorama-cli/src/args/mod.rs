@@ -2,10 +2,8 @@
 
 mod colour;
 mod compare;
-mod convert;
-mod demo;
+pub(crate) mod convert;
 mod depth;
-mod explain;
 mod filter;
 mod info;
 mod kernel;
@@ -21,9 +19,7 @@ use clap::{Parser, Subcommand};
 pub(crate) use colour::Colour;
 pub(crate) use compare::{CompareArgs, Region};
 pub(crate) use convert::ConvertArgs;
-pub(crate) use demo::DemoArgs;
 pub(crate) use depth::DepthArg;
-pub(crate) use explain::ExplainArgs;
 pub(crate) use filter::FilterArg;
 pub(crate) use info::InfoArgs;
 pub(crate) use kernel::KernelArg;
@@ -51,14 +47,10 @@ pub(crate) struct Args {
 /// What can be done.
 #[derive(Debug, Subcommand)]
 pub(crate) enum Verb {
-    /// Render an embedded world onto cube faces and make an Omnimax frame of them
-    Demo(DemoArgs),
     /// Turn a world, in whatever form, into another projection
     Convert(Box<ConvertArgs>),
     /// Tell what a file or a face set is
     Info(InfoArgs),
-    /// Tell what a conversion will do before it does it, in text and diagrams
-    Explain(Box<ExplainArgs>),
     /// Compare two pictures: PSNR, largest difference, sub-pixel shift
     Compare(CompareArgs),
     /// Print a shell's completion script

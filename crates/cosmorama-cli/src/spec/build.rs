@@ -117,7 +117,8 @@ fn cube(fields: &Fields) -> Result<Cube, SpecError> {
             Naming::named(name).map_err(|_| wrong("naming", name, format!("one of {}", known())))
         })
         .transpose()?;
-    let faces = fields.get("faces").map(|list| list.split([',', '+', ' ']).map(|name| face("faces", list, name)).collect());
+    let faces =
+        fields.get("faces").map(|list| list.split([',', '+', ' ']).map(|name| face("faces", list, name)).collect());
     let mut face_canvas = Vec::new();
     for (name, value) in fields.with_prefix("canvas.") {
         let key = format!("canvas.{name}");

@@ -71,8 +71,12 @@ impl Fields {
 
     pub(super) fn mirror(&self) -> Result<Mirror, SpecError> {
         let mirror = |x, y| Mirror { x, y };
-        let choices =
-            [("x", mirror(true, false)), ("y", mirror(false, true)), ("xy", mirror(true, true)), ("yx", mirror(true, true))];
+        let choices = [
+            ("x", mirror(true, false)),
+            ("y", mirror(false, true)),
+            ("xy", mirror(true, true)),
+            ("yx", mirror(true, true)),
+        ];
         Ok(self.choice("flip", &choices)?.unwrap_or_default())
     }
 

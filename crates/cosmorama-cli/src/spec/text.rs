@@ -100,7 +100,10 @@ mod tests {
     #[test]
     fn wrong_keys_and_names_are_answered_from_the_table() {
         let message = refused("fisheye:fvo=180");
-        assert!(message.starts_with("unknown key 'fvo' for fisheye; did you mean 'fov'?; it takes fov, lens"), "{message}");
+        assert!(
+            message.starts_with("unknown key 'fvo' for fisheye; did you mean 'fov'?; it takes fov, lens"),
+            "{message}"
+        );
         assert!(refused("omnimx").contains("did you mean 'omnimax'?"));
         assert!(refused("mercator").contains("there are cube, perspective, equirect, fisheye, fulldome, omnimax"));
         assert!(refused("cube:aspect=2").contains("unknown key 'aspect' for cube"));

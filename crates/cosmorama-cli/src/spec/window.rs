@@ -5,9 +5,10 @@ pub(crate) fn parse_window(text: &str) -> Option<Canvas> {
     let (width, rest) = text.split_once('x')?;
     let height_end = rest.find(['+', '-'])?;
     let (height, offsets) = rest.split_at(height_end);
-    let top_start = offsets.char_indices().skip(1).find(|(index, sign)| {
-        matches!(sign, '+' | '-') && !offsets[..*index].ends_with(['+', '-'])
-    })?;
+    let top_start = offsets
+        .char_indices()
+        .skip(1)
+        .find(|(index, sign)| matches!(sign, '+' | '-') && !offsets[..*index].ends_with(['+', '-']))?;
     let (left, top) = offsets.split_at(top_start.0);
     let (width, height) = (width.parse().ok()?, height.parse().ok()?);
     (width > 0 && height > 0).then_some(())?;

@@ -9,6 +9,7 @@ mod lookup;
 mod need;
 mod plan;
 mod reference;
+mod screen_mask;
 mod taps;
 
 pub use ellipse::Ellipse;
@@ -16,4 +17,5 @@ pub use filter::{Filter, FilterKind};
 pub use kernel::{CrossSection, Kernel};
 pub use need::{Need, Needs, Uncovered};
 pub use plan::{Plan, Resampler};
+pub use screen_mask::ScreenMask;
 pub use taps::{Tap, Taps};
