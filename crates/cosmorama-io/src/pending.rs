@@ -6,7 +6,7 @@
 
 use std::collections::BTreeSet;
 use std::fs::File;
-use std::io::{self, BufWriter, Write};
+use std::io::{self, BufWriter};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
@@ -42,7 +42,25 @@ pub fn remove_all() {
 /// A file in the making. Dropped without [`Pending::finish`], it leaves nothing behind.
 pub struct Pending {
     target: PathBuf,
+    // Dropped, and so deleted, before it is struck off the list.
     file: NamedTempFile,
+    listed: Listed,
+}
+
+/// An entry of the list, as long as it lives.
+struct Listed(PathBuf);
+
+impl Listed {
+    fn new(path: &Path) -> Self {
+        in_flight().insert(path.to_owned());
+        Self(path.to_owned())
+    }
+}
+
+impl Drop for Listed {
+    fn drop(&mut self) {
+        in_flight().remove(&self.0);
+    }
 }
 
 impl Pending {
@@ -67,11 +85,11 @@ impl Pending {
             }
             _ => IoError::write(target, error),
         })?;
-        in_flight().insert(file.path().to_owned());
-        Ok(Self { target: target.to_owned(), file })
+        let listed = Listed::new(file.path());
+        Ok(Self { target: target.to_owned(), file, listed })
     }
 
-    /// Where to write.
+    /// Where to write; flush it before [`Pending::finish`], or errors go unnoticed.
     pub fn writer(&mut self) -> BufWriter<&mut File> {
         BufWriter::with_capacity(1 << 18, self.file.as_file_mut())
     }
@@ -85,12 +103,11 @@ impl Pending {
     ///
     /// # Errors
     /// When it cannot be renamed.
-    pub fn finish(mut self) -> Result<(), IoError> {
-        self.file.as_file_mut().flush().map_err(|error| IoError::write(&self.target, error))?;
-        let temporary = self.file.path().to_owned();
-        let result = self.file.persist(&self.target);
-        in_flight().remove(&temporary);
-        result.map(drop).map_err(|failed| IoError::write(&self.target, failed.error))
+    pub fn finish(self) -> Result<(), IoError> {
+        let Self { target, file, listed } = self;
+        let result = file.persist(&target);
+        drop(listed);
+        result.map(drop).map_err(|failed| IoError::write(&target, failed.error))
     }
 }
 

@@ -1,19 +1,155 @@
-use std::io::{Seek, Write};
 use std::path::Path;
 
-use cosmorama::raster::EncodedImage;
+use cosmorama::raster::{AlphaMode, Depth, Samples, Transfer};
+use exr::block::chunk::{Chunk, TileCoordinates};
+use exr::block::lines::LineRef;
+use exr::block::reader::{ChunksReader, Reader};
+use exr::block::{BlockIndex, UncompressedBlock};
+use exr::error::Error;
+use exr::meta::MetaData;
+use exr::meta::attribute::{EnvironmentMap, SampleType};
+use exr::meta::header::Header as Part;
+use half::f16;
+use rayon::prelude::*;
 
-#[allow(unused_imports)]
-use crate::{Format, Header, ImageFile, IoError, Limits, Metadata, file::Source};
+use super::exr_selection::Selection;
+use super::exr_window::Crop;
+use super::whole_image;
+use crate::file::Source;
+use crate::{EnvMap, Format, Header, ImageFile, IoError, Limits, Metadata};
 
-pub(crate) fn probe(path: &Path, _: &mut Source) -> Result<Header, IoError> {
-    Err(IoError::damaged(path, Format::Exr, "not built yet"))
+pub(crate) use super::exr_writer::write;
+
+const FORMAT: Format = Format::Exr;
+
+/// Chunks that are decompressed together: enough for all cores, few enough for memory.
+const BATCH: usize = 64;
+
+pub(crate) fn probe(path: &Path, source: &mut Source) -> Result<Header, IoError> {
+    let reader = open(path, source)?;
+    Ok(announce(path, reader.headers())?.0)
 }
 
-pub(crate) fn read(path: &Path, _: &mut Source, _: &Limits) -> Result<ImageFile, IoError> {
-    Err(IoError::damaged(path, Format::Exr, "not built yet"))
+/// Reads the first part that holds a picture, at its largest resolution.
+pub(crate) fn read(path: &Path, source: &mut Source, limits: &Limits) -> Result<ImageFile, IoError> {
+    let reader = open(path, source)?;
+    let (header, selection, crop) = announce(path, reader.headers())?;
+    limits.check(path, (header.width as u64, header.height as u64), header.channels, header.depth)?;
+    let samples = match header.depth {
+        Depth::Half => {
+            Samples::Half(pixels(reader, &selection, &crop, half_line).map_err(|error| damaged(path, error))?)
+        }
+        _ => Samples::Float(pixels(reader, &selection, &crop, float_line).map_err(|error| damaged(path, error))?),
+    };
+    let mut file = whole_image(path, header, samples)?;
+    file.image = file.image.with_alpha_mode(AlphaMode::Premultiplied);
+    Ok(file)
 }
 
-pub(crate) fn write(path: &Path, _: impl Write + Seek, _: &EncodedImage, _: &Metadata) -> Result<(), IoError> {
-    Err(IoError::damaged(path, Format::Exr, "not built yet"))
+fn open<'a>(path: &Path, source: &'a mut Source) -> Result<Reader<&'a mut Source>, IoError> {
+    exr::block::read(source, false).map_err(|error| damaged(path, error))
+}
+
+fn damaged(path: &Path, error: Error) -> IoError {
+    match error {
+        Error::NotSupported(found) => IoError::unsupported(path, FORMAT, found, "flat images"),
+        Error::Io(error) => IoError::open(path, error),
+        error => IoError::damaged(path, FORMAT, error),
+    }
+}
+
+/// The part and the channels to read, and what is to be said of them.
+fn announce(path: &Path, parts: &[Part]) -> Result<(Header, Selection, Crop), IoError> {
+    let selection = Selection::of(parts).map_err(|found| {
+        IoError::unsupported(path, FORMAT, found, "RGB or Y channels, with or without A, of half or float samples")
+    })?;
+    let part = &parts[selection.part];
+    let crop = Crop::of(part).ok_or_else(|| {
+        IoError::unsupported(path, FORMAT, "no pixels inside the display window", "a picture in the display window")
+    })?;
+    let own = &part.own_attributes;
+    let metadata = Metadata {
+        transfer: Some(Transfer::Linear),
+        envmap: own.environment_map.map(|kind| match kind {
+            EnvironmentMap::LatitudeLongitude => EnvMap::LatLong,
+            EnvironmentMap::Cube => EnvMap::Cube,
+        }),
+        other_channels: selection.others.clone(),
+        software: own.software_name.as_ref().map(ToString::to_string),
+        ..Metadata::default()
+    };
+    let header = Header {
+        format: FORMAT,
+        width: crop.width,
+        height: crop.height,
+        channels: selection.channels,
+        depth: selection.depth,
+        metadata,
+        window: crop.window,
+    };
+    Ok((header, selection, crop))
+}
+
+/// Reads the samples of a line of one channel, which the first slice says where to put: every so many samples.
+type ReadLine<S> = fn(&LineRef<'_>, SampleType, &mut dyn FnMut(usize, S)) -> Result<(), Error>;
+
+fn half_line(line: &LineRef<'_>, _: SampleType, put: &mut dyn FnMut(usize, f16)) -> Result<(), Error> {
+    line.read_samples::<f16>().enumerate().try_for_each(|(i, sample)| sample.map(|sample| put(i, sample)))
+}
+
+fn float_line(line: &LineRef<'_>, stored: SampleType, put: &mut dyn FnMut(usize, f32)) -> Result<(), Error> {
+    match stored {
+        SampleType::F16 => half_line(line, stored, &mut |i, sample| put(i, sample.to_f32())),
+        _ => line.read_samples::<f32>().enumerate().try_for_each(|(i, sample)| sample.map(|sample| put(i, sample))),
+    }
+}
+
+/// Decodes the chosen channels of the chosen part, interleaved.
+fn pixels<S: Clone + Default>(
+    reader: Reader<&mut Source>,
+    selection: &Selection,
+    crop: &Crop,
+    read_line: ReadLine<S>,
+) -> Result<Vec<S>, Error> {
+    let wanted = |_: &MetaData, tile: TileCoordinates, block: BlockIndex| {
+        block.layer == selection.part && tile.is_largest_resolution_level()
+    };
+    let mut chunks = reader.filter_chunks(false, wanted)?;
+    let mut samples = vec![S::default(); crop.width * crop.height * selection.channels.count()];
+    loop {
+        let batch = chunks.by_ref().take(BATCH).collect::<Result<Vec<Chunk>, Error>>()?;
+        if batch.is_empty() {
+            return Ok(samples);
+        }
+        let meta = chunks.meta_data();
+        let blocks: Result<Vec<UncompressedBlock>, Error> =
+            batch.into_par_iter().map(|chunk| UncompressedBlock::decompress_chunk(chunk, meta, false)).collect();
+        for block in blocks? {
+            insert(&block, &meta.headers[selection.part], selection, crop, read_line, &mut samples)?;
+        }
+    }
+}
+
+fn insert<S>(
+    block: &UncompressedBlock,
+    part: &Part,
+    selection: &Selection,
+    crop: &Crop,
+    read_line: ReadLine<S>,
+    samples: &mut [S],
+) -> Result<(), Error> {
+    let count = selection.channels.count();
+    for line in block.lines(&part.channels) {
+        let Some(channel) = selection.slot(line.location.channel) else { continue };
+        let Some(row) = crop.row(line.location.position.y()) else { continue };
+        let stored = part.channels.list[line.location.channel].sample_type;
+        let first = line.location.position.x();
+        let row = &mut samples[row * crop.width * count..][..crop.width * count];
+        read_line(&line, stored, &mut |i, sample| {
+            if let Some(column) = crop.column(first + i) {
+                row[column * count + channel] = sample;
+            }
+        })?;
+    }
+    Ok(())
 }

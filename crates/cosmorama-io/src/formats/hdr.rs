@@ -1,19 +1,120 @@
-use std::io::{Seek, Write};
+use std::io::{BufRead, Read, Write};
 use std::path::Path;
 
-use cosmorama::raster::EncodedImage;
+use cosmorama::raster::{Channels, Depth, EncodedImage, Samples, Transfer};
 
-#[allow(unused_imports)]
-use crate::{Format, Header, ImageFile, IoError, Limits, Metadata, file::Source};
+use super::{rgbe, whole_image};
+use crate::file::Source;
+use crate::{Format, Header, ImageFile, IoError, Limits, Metadata};
 
-pub(crate) fn probe(path: &Path, _: &mut Source) -> Result<Header, IoError> {
-    Err(IoError::damaged(path, Format::Hdr, "not built yet"))
+const FORMAT: Format = Format::Hdr;
+
+/// A header line longer than this is no header line.
+const LONGEST_LINE: u64 = 4096;
+/// A header of more lines than this is no header.
+const MOST_LINES: usize = 1024;
+
+pub(crate) fn probe(path: &Path, source: &mut Source) -> Result<Header, IoError> {
+    Ok(Preamble::read(path, source)?.header)
 }
 
-pub(crate) fn read(path: &Path, _: &mut Source, _: &Limits) -> Result<ImageFile, IoError> {
-    Err(IoError::damaged(path, Format::Hdr, "not built yet"))
+pub(crate) fn read(path: &Path, source: &mut Source, limits: &Limits) -> Result<ImageFile, IoError> {
+    let Preamble { header, exposure, upside_down } = Preamble::read(path, source)?;
+    limits.check(path, (header.width as u64, header.height as u64), header.channels, header.depth)?;
+    let mut samples = vec![0.0_f32; header.width * header.height * 3];
+    let mut line = vec![[0; 4]; header.width];
+    for j in 0..header.height {
+        rgbe::read_line(source, &mut line).map_err(|error| IoError::damaged(path, FORMAT, error))?;
+        let row = if upside_down { header.height - 1 - j } else { j };
+        let row = &mut samples[row * header.width * 3..][..header.width * 3];
+        for (sample, pixel) in row.chunks_exact_mut(3).zip(&line) {
+            sample.copy_from_slice(&rgbe::decode(*pixel).map(|light| light / exposure));
+        }
+    }
+    whole_image(path, header, Samples::Float(samples))
 }
 
-pub(crate) fn write(path: &Path, _: impl Write + Seek, _: &EncodedImage) -> Result<(), IoError> {
-    Err(IoError::damaged(path, Format::Hdr, "not built yet"))
+/// Light beyond what the format can count is the most that it can; there is no alpha.
+pub(crate) fn write(path: &Path, mut output: impl Write, image: &EncodedImage) -> Result<(), IoError> {
+    let (Samples::Float(samples), Channels::Rgb) = (image.samples(), image.channels()) else {
+        return Err(IoError::write(path, "Radiance HDR holds RGB floats"));
+    };
+    let mut encode = || {
+        write!(output, "#?RADIANCE\nSOFTWARE=cosmorama\nFORMAT=32-bit_rle_rgbe\n\n")?;
+        writeln!(output, "-Y {} +X {}", image.height(), image.width())?;
+        let mut line = Vec::with_capacity(image.width());
+        for row in samples.chunks_exact((image.width() * 3).max(1)) {
+            line.clear();
+            line.extend(row.chunks_exact(3).map(|pixel| rgbe::encode([pixel[0], pixel[1], pixel[2]])));
+            rgbe::write_line(&mut output, &line)?;
+        }
+        output.flush()
+    };
+    encode().map_err(|error| IoError::write(path, error))
+}
+
+/// The text before the pixels.
+struct Preamble {
+    header: Header,
+    /// The pixels were multiplied by this.
+    exposure: f32,
+    upside_down: bool,
+}
+
+impl Preamble {
+    fn read(path: &Path, source: &mut Source) -> Result<Self, IoError> {
+        let fail = |reason: &str| IoError::damaged(path, FORMAT, reason);
+        let mut exposure = 1.0_f32;
+        let mut software = None;
+        for _ in 0..MOST_LINES {
+            let line = read_line(source).ok_or_else(|| fail("it ends within its header"))?;
+            match line.split_once('=') {
+                _ if line.is_empty() => {
+                    let size = read_line(source).ok_or_else(|| fail("it ends within its header"))?;
+                    let (width, height, upside_down) = parse_size(path, &size)?;
+                    let exposure = if exposure.is_normal() && exposure > 0.0 { exposure } else { 1.0 };
+                    let header = header(width, height, software);
+                    return Ok(Self { header, exposure, upside_down });
+                }
+                Some(("FORMAT", format)) if format.trim() != "32-bit_rle_rgbe" => {
+                    return Err(IoError::unsupported(path, FORMAT, format.trim(), "32-bit_rle_rgbe"));
+                }
+                // Every program that changed the exposure adds its own line.
+                Some(("EXPOSURE", factor)) => exposure *= factor.trim().parse().unwrap_or(1.0),
+                Some(("SOFTWARE", name)) => software = Some(name.trim().to_owned()),
+                _ => {}
+            }
+        }
+        Err(fail("its header has no end"))
+    }
+}
+
+fn header(width: usize, height: usize, software: Option<String>) -> Header {
+    let metadata = Metadata { transfer: Some(Transfer::Linear), software, ..Metadata::default() };
+    Header { format: FORMAT, width, height, channels: Channels::Rgb, depth: Depth::Float, metadata, window: None }
+}
+
+fn read_line(source: &mut Source) -> Option<String> {
+    let mut bytes = Vec::new();
+    source.by_ref().take(LONGEST_LINE).read_until(b'\n', &mut bytes).ok()?;
+    let line = bytes.strip_suffix(b"\n")?;
+    Some(String::from_utf8_lossy(line.strip_suffix(b"\r").unwrap_or(line)).into_owned())
+}
+
+/// `-Y 512 +X 1024`: rows from the top, columns from the left. Rows from the bottom are read, too.
+fn parse_size(path: &Path, line: &str) -> Result<(usize, usize, bool), IoError> {
+    let words: Vec<&str> = line.split_whitespace().collect();
+    let [y, height, x, width] = words[..] else {
+        return Err(IoError::damaged(path, FORMAT, format_args!("{line:?} is no size")));
+    };
+    let (Ok(width), Ok(height)) = (width.parse::<u32>(), height.parse::<u32>()) else {
+        return Err(IoError::damaged(path, FORMAT, format_args!("{line:?} is no size")));
+    };
+    if width == 0 || height == 0 {
+        return Err(IoError::damaged(path, FORMAT, "it has no pixels"));
+    }
+    match (y, x) {
+        ("-Y" | "+Y", "+X") => Ok((width as usize, height as usize, y == "+Y")),
+        _ => Err(IoError::unsupported(path, FORMAT, format_args!("scan lines that run {line}"), "-Y … +X …")),
+    }
 }

@@ -1,19 +1,110 @@
-use std::io::{Seek, Write};
+use std::io::{Read, Write};
 use std::path::Path;
 
-use cosmorama::raster::EncodedImage;
+use cosmorama::raster::{Channels, Depth, EncodedImage, Samples};
+use image::codecs::jpeg::JpegEncoder;
+use image::{ExtendedColorType, ImageEncoder};
+use zune_jpeg::JpegDecoder;
+use zune_jpeg::zune_core::bytestream::ZCursor;
+use zune_jpeg::zune_core::colorspace::ColorSpace;
+use zune_jpeg::zune_core::options::DecoderOptions;
 
-#[allow(unused_imports)]
-use crate::{Format, Header, ImageFile, IoError, Limits, Metadata, file::Source};
+use super::whole_image;
+use crate::file::Source;
+use crate::{Format, Header, ImageFile, IoError, Limits, Metadata, icc};
 
-pub(crate) fn probe(path: &Path, _: &mut Source) -> Result<Header, IoError> {
-    Err(IoError::damaged(path, Format::Jpeg, "not built yet"))
+const FORMAT: Format = Format::Jpeg;
+
+type Decoder<'a> = JpegDecoder<ZCursor<&'a [u8]>>;
+
+pub(crate) fn probe(path: &Path, source: &mut Source) -> Result<Header, IoError> {
+    let bytes = whole(path, source)?;
+    let mut decoder = decoder(path, &bytes)?;
+    header(path, &mut decoder)
 }
 
-pub(crate) fn read(path: &Path, _: &mut Source, _: &Limits) -> Result<ImageFile, IoError> {
-    Err(IoError::damaged(path, Format::Jpeg, "not built yet"))
+pub(crate) fn read(path: &Path, source: &mut Source, limits: &Limits) -> Result<ImageFile, IoError> {
+    let bytes = whole(path, source)?;
+    let mut decoder = decoder(path, &bytes)?;
+    let header = header(path, &mut decoder)?;
+    if !ends(&bytes) {
+        return Err(IoError::damaged(path, FORMAT, "it ends too early"));
+    }
+    limits.check(path, (header.width as u64, header.height as u64), header.channels, header.depth)?;
+    let output = if header.channels == Channels::Grey { ColorSpace::Luma } else { ColorSpace::RGB };
+    decoder.set_options(options().jpeg_set_out_colorspace(output));
+    let mut samples = vec![0; header.width * header.height * header.channels.count()];
+    decoder.decode_into(&mut samples).map_err(|error| IoError::damaged(path, FORMAT, reason(&error)))?;
+    whole_image(path, header, Samples::U8(samples))
 }
 
-pub(crate) fn write(path: &Path, _: impl Write + Seek, _: &EncodedImage, _: &Metadata, _: u8) -> Result<(), IoError> {
-    Err(IoError::damaged(path, Format::Jpeg, "not built yet"))
+pub(crate) fn write(
+    path: &Path,
+    output: impl Write,
+    image: &EncodedImage,
+    metadata: &Metadata,
+    quality: u8,
+) -> Result<(), IoError> {
+    let fail = |reason: &dyn std::fmt::Display| IoError::write(path, reason);
+    let colour = match image.channels() {
+        Channels::Grey => ExtendedColorType::L8,
+        Channels::Rgb => ExtendedColorType::Rgb8,
+        Channels::GreyAlpha | Channels::Rgba => return Err(fail(&"JPEG has no alpha")),
+    };
+    let Samples::U8(samples) = image.samples() else { return Err(fail(&"JPEG has 8 bits")) };
+    let (Ok(width), Ok(height)) = (u16::try_from(image.width()), u16::try_from(image.height())) else {
+        return Err(fail(&"more than 65535 pixels on a side, the most that JPEG can count"));
+    };
+    let mut encoder = JpegEncoder::new_with_quality(output, quality.clamp(1, 100));
+    if let Some(profile) = &metadata.icc {
+        encoder.set_icc_profile(profile.clone()).map_err(|error| fail(&error))?;
+    }
+    encoder.write_image(samples, width.into(), height.into(), colour).map_err(|error| fail(&error))
+}
+
+fn whole(path: &Path, source: &mut Source) -> Result<Vec<u8>, IoError> {
+    let mut bytes = Vec::new();
+    source.read_to_end(&mut bytes).map_err(|error| IoError::open(path, error))?;
+    Ok(bytes)
+}
+
+/// Whether the last scan has an end mark: the decoder forgives a scan that lacks only its last few blocks. Inside
+/// a scan neither mark can occur.
+fn ends(bytes: &[u8]) -> bool {
+    const START_OF_SCAN: [u8; 2] = [0xff, 0xda];
+    const END_OF_IMAGE: [u8; 2] = [0xff, 0xd9];
+    let last_scan = bytes.windows(2).rposition(|mark| mark == START_OF_SCAN);
+    last_scan.is_some_and(|at| bytes[at..].windows(2).any(|mark| mark == END_OF_IMAGE))
+}
+
+fn options() -> DecoderOptions {
+    // Strict: else the rest of a truncated file would be grey. Sizes are checked against our own limits.
+    DecoderOptions::default().set_strict_mode(true).set_max_width(usize::MAX).set_max_height(usize::MAX)
+}
+
+fn decoder<'a>(path: &Path, bytes: &'a [u8]) -> Result<Decoder<'a>, IoError> {
+    let mut decoder = JpegDecoder::new_with_options(ZCursor::new(bytes), options());
+    decoder.decode_headers().map_err(|error| IoError::damaged(path, FORMAT, reason(&error)))?;
+    Ok(decoder)
+}
+
+/// One line of what the decoder says, which may be many.
+fn reason(error: &zune_jpeg::errors::DecodeErrors) -> String {
+    let text = format!("{error:?}");
+    text.lines().next().unwrap_or_default().trim().to_owned()
+}
+
+fn header(path: &Path, decoder: &mut Decoder<'_>) -> Result<Header, IoError> {
+    let (Some((width, height)), Some(colour)) = (decoder.dimensions(), decoder.input_colorspace()) else {
+        return Err(IoError::damaged(path, FORMAT, "it has no size"));
+    };
+    let channels = match colour {
+        ColorSpace::Luma => Channels::Grey,
+        ColorSpace::RGB | ColorSpace::YCbCr => Channels::Rgb,
+        other => return Err(IoError::unsupported(path, FORMAT, format_args!("{other:?} colours"), "grey or RGB")),
+    };
+    let profile = decoder.icc_profile();
+    let metadata =
+        Metadata { transfer: profile.as_deref().and_then(icc::transfer), icc: profile, ..Metadata::default() };
+    Ok(Header { format: FORMAT, width, height, channels, depth: Depth::Eight, metadata, window: None })
 }

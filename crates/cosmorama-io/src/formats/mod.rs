@@ -1,8 +1,29 @@
 //! One file for each format: `probe` reads a header, `read` reads pixels, `write` writes them.
 
+use std::path::Path;
+
+use cosmorama::raster::{EncodedImage, Samples};
+
+use crate::{Header, ImageFile, IoError};
+
 pub(crate) mod exr;
+mod exr_selection;
+mod exr_window;
+mod exr_writer;
 pub(crate) mod hdr;
 pub(crate) mod jpeg;
 pub(crate) mod png;
+mod png_colour;
+mod png_writer;
+mod rgbe;
 pub(crate) mod tga;
 pub(crate) mod tiff;
+mod tiff_writer;
+
+/// The file that a header announced, with its samples.
+fn whole_image(path: &Path, header: Header, samples: Samples) -> Result<ImageFile, IoError> {
+    let Header { format, width, height, channels, depth, metadata, window } = header;
+    let image = EncodedImage::new(width, height, channels, depth, samples)
+        .map_err(|error| IoError::damaged(path, format, error))?;
+    Ok(ImageFile { format, image, metadata, window })
+}

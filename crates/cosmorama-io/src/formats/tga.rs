@@ -1,19 +1,78 @@
-use std::io::{Seek, Write};
+use std::io::{Read, Seek, SeekFrom, Write};
 use std::path::Path;
 
-use cosmorama::raster::EncodedImage;
+use cosmorama::raster::{Channels, Depth, EncodedImage, Samples};
+use image::codecs::tga::{TgaDecoder, TgaEncoder};
+use image::{ColorType, ExtendedColorType, ImageDecoder};
 
-#[allow(unused_imports)]
-use crate::{Format, Header, ImageFile, IoError, Limits, Metadata, file::Source};
+use super::whole_image;
+use crate::file::Source;
+use crate::{Format, Header, ImageFile, IoError, Limits, Metadata};
 
-pub(crate) fn probe(path: &Path, _: &mut Source) -> Result<Header, IoError> {
-    Err(IoError::damaged(path, Format::Tga, "not built yet"))
+const FORMAT: Format = Format::Tga;
+
+pub(crate) fn probe(path: &Path, source: &mut Source) -> Result<Header, IoError> {
+    header(path, &decoder(path, source)?)
 }
 
-pub(crate) fn read(path: &Path, _: &mut Source, _: &Limits) -> Result<ImageFile, IoError> {
-    Err(IoError::damaged(path, Format::Tga, "not built yet"))
+pub(crate) fn read(path: &Path, source: &mut Source, limits: &Limits) -> Result<ImageFile, IoError> {
+    let alpha_declared = alpha_bits(path, source)? > 0;
+    let decoder = decoder(path, source)?;
+    let mut header = header(path, &decoder)?;
+    limits.check(path, (header.width as u64, header.height as u64), header.channels, header.depth)?;
+    let mut samples = vec![0; header.width * header.height * header.channels.count()];
+    decoder.read_image(&mut samples).map_err(|error| IoError::damaged(path, FORMAT, error))?;
+    // 32 bits a pixel, of which none are said to be alpha, are alpha to some writers and padding to others.
+    if !alpha_declared && header.channels == Channels::Rgba && samples.iter().skip(3).step_by(4).all(|a| *a == 0) {
+        samples = samples.chunks_exact(4).flat_map(|pixel| [pixel[0], pixel[1], pixel[2]]).collect();
+        header.channels = Channels::Rgb;
+    }
+    whole_image(path, header, Samples::U8(samples))
 }
 
-pub(crate) fn write(path: &Path, _: impl Write + Seek, _: &EncodedImage) -> Result<(), IoError> {
-    Err(IoError::damaged(path, Format::Tga, "not built yet"))
+pub(crate) fn write(path: &Path, output: impl Write, image: &EncodedImage) -> Result<(), IoError> {
+    let fail = |reason: &dyn std::fmt::Display| IoError::write(path, reason);
+    let colour = match image.channels() {
+        Channels::Grey => ExtendedColorType::L8,
+        Channels::GreyAlpha => ExtendedColorType::La8,
+        Channels::Rgb => ExtendedColorType::Rgb8,
+        Channels::Rgba => ExtendedColorType::Rgba8,
+    };
+    let Samples::U8(samples) = image.samples() else { return Err(fail(&"TGA has 8 bits")) };
+    let (Ok(width), Ok(height)) = (u16::try_from(image.width()), u16::try_from(image.height())) else {
+        return Err(fail(&"more than 65535 pixels on a side, the most that TGA can count"));
+    };
+    TgaEncoder::new(output).encode(samples, width.into(), height.into(), colour).map_err(|error| fail(&error))
+}
+
+fn decoder<'a>(path: &Path, source: &'a mut Source) -> Result<TgaDecoder<&'a mut Source>, IoError> {
+    TgaDecoder::new(source).map_err(|error| IoError::damaged(path, FORMAT, error))
+}
+
+/// The number of alpha bits that the header declares.
+fn alpha_bits(path: &Path, source: &mut Source) -> Result<u8, IoError> {
+    let mut start = [0; 18];
+    source.read_exact(&mut start).map_err(|_| IoError::damaged(path, FORMAT, "it ends too early"))?;
+    source.seek(SeekFrom::Start(0)).map_err(|error| IoError::open(path, error))?;
+    Ok(start[17] & 0x0f)
+}
+
+fn header(path: &Path, decoder: &impl ImageDecoder) -> Result<Header, IoError> {
+    let (width, height) = decoder.dimensions();
+    let channels = match decoder.color_type() {
+        ColorType::L8 => Channels::Grey,
+        ColorType::La8 => Channels::GreyAlpha,
+        ColorType::Rgb8 => Channels::Rgb,
+        ColorType::Rgba8 => Channels::Rgba,
+        other => return Err(IoError::unsupported(path, FORMAT, format_args!("{other:?}"), "8-bit grey or RGB")),
+    };
+    Ok(Header {
+        format: FORMAT,
+        width: width as usize,
+        height: height as usize,
+        channels,
+        depth: Depth::Eight,
+        metadata: Metadata::default(),
+        window: None,
+    })
 }

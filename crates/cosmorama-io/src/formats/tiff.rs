@@ -1,19 +1,153 @@
-use std::io::{Seek, Write};
 use std::path::Path;
 
-use cosmorama::raster::EncodedImage;
+use cosmorama::raster::{AlphaMode, Channels, Depth, Samples};
+use half::f16;
+use tiff::decoder::{Decoder, DecodingResult};
+use tiff::tags::{SampleFormat, Tag};
+use tiff::{ColorType, TiffError};
 
-#[allow(unused_imports)]
-use crate::{Format, Header, ImageFile, IoError, Limits, Metadata, file::Source};
+use super::whole_image;
+use crate::file::Source;
+use crate::{Format, Header, ImageFile, IoError, Limits, Metadata, icc};
 
-pub(crate) fn probe(path: &Path, _: &mut Source) -> Result<Header, IoError> {
-    Err(IoError::damaged(path, Format::Tiff, "not built yet"))
+pub(crate) use super::tiff_writer::write;
+
+const FORMAT: Format = Format::Tiff;
+const EXPECTED: &str = "grey or RGB, with or without alpha, of 8 or 16 bits or floats, pixel by pixel";
+
+pub(super) const ICC_PROFILE: Tag = Tag::Unknown(34675);
+
+pub(crate) fn probe(path: &Path, source: &mut Source) -> Result<Header, IoError> {
+    let mut decoder = Decoder::new(source).map_err(|error| damaged(path, &error))?;
+    header(path, &mut decoder)
 }
 
-pub(crate) fn read(path: &Path, _: &mut Source, _: &Limits) -> Result<ImageFile, IoError> {
-    Err(IoError::damaged(path, Format::Tiff, "not built yet"))
+pub(crate) fn read(path: &Path, source: &mut Source, limits: &Limits) -> Result<ImageFile, IoError> {
+    let mut decoder = Decoder::new(source).map_err(|error| damaged(path, &error))?;
+    let header = header(path, &mut decoder)?;
+    limits.check(path, (header.width as u64, header.height as u64), header.channels, header.depth)?;
+    let mode = alpha_mode(&mut decoder);
+    // Our own limit has been asked; the decoder's buffers are no larger than the image, or a strip of it.
+    let mut decoder_limits = tiff::decoder::Limits::default();
+    decoder_limits.decoding_buffer_size = usize::try_from(limits.memory).unwrap_or(usize::MAX);
+    let mut decoder = decoder.with_limits(decoder_limits);
+    let result = decoder.read_image().map_err(|error| damaged(path, &error))?;
+    let samples = samples(path, result, &header, mode)?;
+    let mut file = whole_image(path, header, samples)?;
+    file.image = file.image.with_alpha_mode(mode);
+    Ok(file)
 }
 
-pub(crate) fn write(path: &Path, _: impl Write + Seek, _: &EncodedImage, _: &Metadata) -> Result<(), IoError> {
-    Err(IoError::damaged(path, Format::Tiff, "not built yet"))
+fn damaged(path: &Path, error: &TiffError) -> IoError {
+    match error {
+        TiffError::UnsupportedError(found) => IoError::unsupported(path, FORMAT, found, EXPECTED),
+        TiffError::IoError(error) if error.kind() == std::io::ErrorKind::UnexpectedEof => {
+            IoError::damaged(path, FORMAT, "it ends too early")
+        }
+        error => IoError::damaged(path, FORMAT, error),
+    }
+}
+
+fn header(path: &Path, decoder: &mut Decoder<&mut Source>) -> Result<Header, IoError> {
+    let fail = |error: TiffError| damaged(path, &error);
+    let (width, height) = decoder.dimensions().map_err(fail)?;
+    let colour = decoder.colortype().map_err(fail)?;
+    let unsupported = |found: &dyn std::fmt::Display| IoError::unsupported(path, FORMAT, found, EXPECTED);
+    let channels = match colour {
+        ColorType::Gray(_) => Channels::Grey,
+        ColorType::GrayA(_) | ColorType::Multiband { num_samples: 2, .. } => Channels::GreyAlpha,
+        ColorType::RGB(_) | ColorType::YCbCr(_) => Channels::Rgb,
+        ColorType::RGBA(_) => Channels::Rgba,
+        other => return Err(unsupported(&format_args!("{other:?}"))),
+    };
+    let planes = decoder.find_tag_unsigned::<u16>(Tag::PlanarConfiguration).map_err(fail)?;
+    if planes == Some(2) && channels != Channels::Grey {
+        return Err(unsupported(&"one plane for each channel"));
+    }
+    let formats = decoder.find_tag_unsigned_vec::<u16>(Tag::SampleFormat).map_err(fail)?;
+    let format = formats
+        .and_then(|formats| formats.first().copied())
+        .map_or(SampleFormat::Uint, SampleFormat::from_u16_exhaustive);
+    let depth = match (colour.bit_depth(), format) {
+        (1..=8, SampleFormat::Uint) => Depth::Eight,
+        (16, SampleFormat::Uint) => Depth::Sixteen,
+        (16, SampleFormat::IEEEFP) => Depth::Half,
+        (32 | 64, SampleFormat::IEEEFP) => Depth::Float,
+        (bits, format) => return Err(unsupported(&format_args!("{bits}-bit {format:?} samples"))),
+    };
+    let metadata = metadata(decoder);
+    let (width, height) = (width as usize, height as usize);
+    Ok(Header { format: FORMAT, width, height, channels, depth, metadata, window: None })
+}
+
+/// What is not there, or cannot be read, is simply not known.
+fn metadata(decoder: &mut Decoder<&mut Source>) -> Metadata {
+    let profile = decoder.get_tag_u8_vec(ICC_PROFILE).ok();
+    let software = decoder.get_tag_ascii_string(Tag::Software).ok();
+    Metadata { transfer: profile.as_deref().and_then(icc::transfer), icc: profile, software, ..Metadata::default() }
+}
+
+/// The tag that says whether alpha has been multiplied in.
+fn alpha_mode(decoder: &mut Decoder<&mut Source>) -> AlphaMode {
+    match decoder.find_tag_unsigned_vec::<u16>(Tag::ExtraSamples) {
+        Ok(Some(kinds)) if kinds.first() == Some(&1) => AlphaMode::Premultiplied,
+        _ => AlphaMode::Straight,
+    }
+}
+
+fn samples(path: &Path, result: DecodingResult, header: &Header, mode: AlphaMode) -> Result<Samples, IoError> {
+    let multiplied = mode == AlphaMode::Premultiplied && header.channels.has_alpha();
+    Ok(match result {
+        DecodingResult::U8(samples) => {
+            let mut samples = chosen(path, samples, header)?;
+            if multiplied {
+                divide_by_alpha(&mut samples, header.channels);
+            }
+            Samples::U8(samples)
+        }
+        DecodingResult::U16(samples) => {
+            let mut samples = chosen(path, samples, header)?;
+            if multiplied {
+                divide_by_alpha(&mut samples, header.channels);
+            }
+            Samples::U16(samples)
+        }
+        DecodingResult::F16(samples) => Samples::Half(
+            chosen(path, samples, header)?.into_iter().map(|sample| f16::from_bits(sample.to_bits())).collect(),
+        ),
+        DecodingResult::F32(samples) => Samples::Float(chosen(path, samples, header)?),
+        DecodingResult::F64(samples) => {
+            Samples::Float(chosen(path, samples, header)?.into_iter().map(|sample| sample as f32).collect())
+        }
+        _ => return Err(IoError::unsupported(path, FORMAT, "another sample type than it said", EXPECTED)),
+    })
+}
+
+/// The samples of the channels that are read: there may be more in a pixel.
+fn chosen<S: Copy>(path: &Path, samples: Vec<S>, header: &Header) -> Result<Vec<S>, IoError> {
+    let pixels = header.width * header.height;
+    let count = header.channels.count();
+    let stride = samples.len().checked_div(pixels).unwrap_or(0);
+    if stride < count || stride * pixels != samples.len() {
+        return Err(IoError::unsupported(path, FORMAT, "samples of less than 8 bits", EXPECTED));
+    }
+    if stride == count {
+        return Ok(samples);
+    }
+    Ok(samples.chunks_exact(stride).flat_map(|pixel| pixel[..count].iter().copied()).collect())
+}
+
+/// Integers are straight in memory.
+fn divide_by_alpha<S: Copy + Into<u32> + TryFrom<u32>>(samples: &mut [S], channels: Channels) {
+    let full = (1_u32 << (8 * size_of::<S>())) - 1;
+    for pixel in samples.chunks_exact_mut(channels.count()) {
+        let Some((alpha, colour)) = pixel.split_last_mut() else { continue };
+        let alpha: u32 = (*alpha).into();
+        for sample in colour {
+            let multiplied: u64 = u64::from((*sample).into());
+            let straight = (multiplied * u64::from(full) + u64::from(alpha) / 2).checked_div(u64::from(alpha));
+            let straight = straight.unwrap_or(0).min(u64::from(full)) as u32;
+            *sample = S::try_from(straight).unwrap_or(*sample);
+        }
+    }
 }

@@ -48,7 +48,7 @@ impl Thresholds {
     }
 
     fn code(&self, light: f32) -> u16 {
-        if !(light > 0.0) {
+        if light.is_nan() || light <= 0.0 {
             return 0;
         }
         let bucket = bucket(light);

@@ -1,0 +1,104 @@
+use cosmorama::raster::{Channels, Depth};
+use exr::meta::attribute::SampleType;
+use exr::meta::header::Header as Part;
+
+/// The channels of a file that make its picture.
+#[derive(Clone, Debug)]
+pub(super) struct Selection {
+    /// Which part of a multi-part file.
+    pub(super) part: usize,
+    pub(super) channels: Channels,
+    pub(super) depth: Depth,
+    /// Everything else in the file, by name.
+    pub(super) others: Vec<String>,
+    /// Indices of the channels, in the order of a pixel's samples.
+    indices: Vec<usize>,
+}
+
+impl Selection {
+    /// The first part with plain R, G, B or Y; without one, the first with such channels in a layer
+    /// (`beauty.R`); without one, the first with a single channel, whatever it is called.
+    ///
+    /// An error is what was found instead.
+    pub(super) fn of(parts: &[Part]) -> Result<Self, String> {
+        let plain = |part: &Part| in_layer(part, "");
+        let layered = |part: &Part| layers(part).iter().find_map(|layer| in_layer(part, layer));
+        let single = |part: &Part| (part.channels.list.len() == 1).then(|| vec![0]);
+        let find = |choose: &dyn Fn(&Part) -> Option<Vec<usize>>| {
+            let flat = parts.iter().enumerate().filter(|(_, part)| !part.deep);
+            flat.into_iter().find_map(|(index, part)| Some((index, choose(part)?)))
+        };
+        let (part, indices) = find(&plain)
+            .or_else(|| find(&layered))
+            .or_else(|| find(&single))
+            .ok_or_else(|| format!("the channels {}", names(parts).join(", ")))?;
+        Self::checked(parts, part, indices)
+    }
+
+    fn checked(parts: &[Part], part: usize, indices: Vec<usize>) -> Result<Self, String> {
+        let list = &parts[part].channels.list;
+        let names_of = |index: usize| list[index].name.to_string();
+        let has_chroma = list.iter().any(|channel| base_name(&channel.name.to_string()) == "RY");
+        if has_chroma && indices.len() < 3 {
+            return Err("luminance and chroma (Y, RY, BY)".to_owned());
+        }
+        let mut depth = Depth::Half;
+        for &index in &indices {
+            let channel = &list[index];
+            if channel.sampling.0 != 1 || channel.sampling.1 != 1 {
+                return Err(format!("a subsampled channel {}", names_of(index)));
+            }
+            match channel.sample_type {
+                SampleType::F16 => {}
+                SampleType::F32 => depth = Depth::Float,
+                SampleType::U32 => return Err(format!("integers in channel {}", names_of(index))),
+            }
+        }
+        let channels = Channels::ALL[indices.len() - 1];
+        let used = |name: &String| indices.iter().any(|&index| names_of(index) == *name);
+        let mut others = names(parts);
+        // Parts of the same picture may name their channels alike: only this part's are used.
+        others.retain(|name| !used(name));
+        Ok(Self { part, channels, depth, others, indices })
+    }
+
+    /// The place of a channel of the file among a pixel's samples.
+    pub(super) fn slot(&self, channel: usize) -> Option<usize> {
+        self.indices.iter().position(|&index| index == channel)
+    }
+}
+
+fn names(parts: &[Part]) -> Vec<String> {
+    parts.iter().flat_map(|part| part.channels.list.iter().map(|channel| channel.name.to_string())).collect()
+}
+
+/// `R` of `beauty.R`.
+fn base_name(name: &str) -> &str {
+    name.rsplit('.').next().unwrap_or(name)
+}
+
+/// The layers whose channels have prefixes, in the file's order, each with its last point.
+fn layers(part: &Part) -> Vec<String> {
+    let mut layers: Vec<String> = Vec::new();
+    for channel in &part.channels.list {
+        let name = channel.name.to_string();
+        let layer = name[..name.len() - base_name(&name).len()].to_owned();
+        if !layer.is_empty() && !layers.contains(&layer) {
+            layers.push(layer);
+        }
+    }
+    layers
+}
+
+/// R, G, B or Y of a layer, with A if there is one.
+fn in_layer(part: &Part, layer: &str) -> Option<Vec<usize>> {
+    let find = |name: &str| {
+        let wanted = format!("{layer}{name}");
+        part.channels.list.iter().position(|channel| channel.name.to_string().eq_ignore_ascii_case(&wanted))
+    };
+    let colour = match (find("R"), find("G"), find("B")) {
+        (Some(red), Some(green), Some(blue)) => vec![red, green, blue],
+        _ => vec![find("Y")?],
+    };
+    Some(colour.into_iter().chain(find("A")).collect())
+}

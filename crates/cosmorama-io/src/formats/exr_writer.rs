@@ -1,0 +1,72 @@
+use std::io::{Seek, Write};
+use std::path::Path;
+
+use cosmorama::raster::{AlphaMode, Channels, EncodedImage, Samples};
+use exr::image::write::WritableImage;
+use exr::image::{AnyChannel, AnyChannels, Encoding, FlatSamples, Image, Layer};
+use exr::meta::attribute::{EnvironmentMap, Text};
+use exr::meta::header::LayerAttributes;
+use exr::prelude::SmallVec;
+use half::f16;
+
+use crate::{EnvMap, IoError, Metadata};
+
+/// Scan lines, compressed without loss; light premultiplied, as the format has it.
+pub(crate) fn write(
+    path: &Path,
+    output: impl Write + Seek,
+    image: &EncodedImage,
+    metadata: &Metadata,
+) -> Result<(), IoError> {
+    let names: &[&str] = match image.channels() {
+        Channels::Grey => &["Y"],
+        Channels::GreyAlpha => &["Y", "A"],
+        Channels::Rgb => &["R", "G", "B"],
+        Channels::Rgba => &["R", "G", "B", "A"],
+    };
+    let list: SmallVec<[AnyChannel<FlatSamples>; 4]> = names
+        .iter()
+        .enumerate()
+        .map(|(i, name)| Ok(AnyChannel::new(*name, plane(path, image, i)?)))
+        .collect::<Result<_, IoError>>()?;
+    let attributes = LayerAttributes {
+        environment_map: metadata.envmap.map(|kind| match kind {
+            EnvMap::LatLong => EnvironmentMap::LatitudeLongitude,
+            EnvMap::Cube => EnvironmentMap::Cube,
+        }),
+        software_name: Some(Text::from("cosmorama")),
+        ..LayerAttributes::default()
+    };
+    let layer =
+        Layer::new((image.width(), image.height()), attributes, Encoding::SMALL_LOSSLESS, AnyChannels::sort(list));
+    let picture = Image::from_layer(layer);
+    let writer = picture.write();
+    // The encoder has threads of its own; one that may use only one has none to spare.
+    let written = if rayon::current_num_threads() > 1 {
+        writer.to_buffered(output)
+    } else {
+        writer.non_parallel().to_buffered(output)
+    };
+    written.map_err(|error| IoError::write(path, error))
+}
+
+/// The samples of one channel.
+fn plane(path: &Path, image: &EncodedImage, channel: usize) -> Result<FlatSamples, IoError> {
+    match image.samples() {
+        Samples::Half(samples) => Ok(FlatSamples::F16(multiplied(samples, image, channel, |sample, alpha| {
+            f16::from_f32(sample.to_f32() * alpha.to_f32())
+        }))),
+        Samples::Float(samples) => {
+            Ok(FlatSamples::F32(multiplied(samples, image, channel, |sample, alpha| sample * alpha)))
+        }
+        Samples::U8(_) | Samples::U16(_) => Err(IoError::write(path, "OpenEXR holds halves and floats")),
+    }
+}
+
+fn multiplied<S: Copy>(samples: &[S], image: &EncodedImage, channel: usize, by: impl Fn(S, S) -> S) -> Vec<S> {
+    let count = image.channels().count();
+    let alpha = count - 1;
+    let straight = image.channels().has_alpha() && image.alpha_mode() == AlphaMode::Straight && channel != alpha;
+    let pixels = samples.chunks_exact(count);
+    pixels.map(|pixel| if straight { by(pixel[channel], pixel[alpha]) } else { pixel[channel] }).collect()
+}

@@ -1,0 +1,63 @@
+use std::io::Write;
+use std::path::Path;
+
+use cosmorama::raster::{Channels, Depth, EncodedImage, Samples};
+use png::chunk::sBIT;
+use png::{BitDepth, ColorType, Encoder, EncodingError, Info};
+
+use super::png_colour::{CICP, Tag, tag};
+use crate::{IoError, Metadata};
+
+pub(crate) fn write(path: &Path, output: impl Write, image: &EncodedImage, metadata: &Metadata) -> Result<(), IoError> {
+    encode(output, image, metadata).map_err(|error| IoError::write(path, error))
+}
+
+fn encode(output: impl Write, image: &EncodedImage, metadata: &Metadata) -> Result<(), EncodingError> {
+    let mut info = Info::with_size(dimension(image.width())?, dimension(image.height())?);
+    info.color_type = match image.channels() {
+        Channels::Grey => ColorType::Grayscale,
+        Channels::GreyAlpha => ColorType::GrayscaleAlpha,
+        Channels::Rgb => ColorType::Rgb,
+        Channels::Rgba => ColorType::Rgba,
+    };
+    info.bit_depth = if image.depth() == Depth::Eight { BitDepth::Eight } else { BitDepth::Sixteen };
+    // A profile says all there is to say about colour.
+    let tag = match &metadata.icc {
+        Some(_) => None,
+        None => metadata.transfer.as_ref().and_then(|transfer| tag(transfer, metadata.primaries)),
+    };
+    info.icc_profile = metadata.icc.as_deref().map(Into::into);
+    match &tag {
+        Some(Tag::Srgb(intent)) => info.srgb = Some(*intent),
+        Some(Tag::Gamma(gamma)) => info.source_gamma = Some(*gamma),
+        _ => {}
+    }
+    let mut writer = Encoder::with_info(output, info)?.write_header()?;
+    // The encoder has no words for these two.
+    if let Some(Tag::CodePoints(cicp)) = tag {
+        let full_range = u8::from(cicp.is_video_full_range_image);
+        let data = [cicp.color_primaries, cicp.transfer_function, cicp.matrix_coefficients, full_range];
+        writer.write_chunk(CICP, &data)?;
+    }
+    if let Some(bits @ (10 | 12)) = image.depth().significant_bits() {
+        writer.write_chunk(sBIT, &vec![bits as u8; image.channels().count()])?;
+    }
+    match image.samples() {
+        Samples::U8(samples) => writer.write_image_data(samples)?,
+        Samples::U16(samples) => {
+            let bytes: Vec<u8> = samples.iter().flat_map(|sample| sample.to_be_bytes()).collect();
+            writer.write_image_data(&bytes)?;
+        }
+        // `Format::supports` has been asked before.
+        Samples::Half(_) | Samples::Float(_) => return Err(limit("PNG has no float samples")),
+    }
+    writer.finish()
+}
+
+fn dimension(pixels: usize) -> Result<u32, EncodingError> {
+    u32::try_from(pixels).map_err(|_| limit("more pixels than PNG can count"))
+}
+
+fn limit(reason: &str) -> EncodingError {
+    EncodingError::IoError(std::io::Error::other(reason))
+}

@@ -1,0 +1,141 @@
+use std::io::{Seek, Write};
+use std::marker::PhantomData;
+use std::path::Path;
+
+use bytemuck::cast_slice;
+use cosmorama::raster::{AlphaMode, Channels, EncodedImage, Samples};
+use tiff::TiffError;
+use tiff::encoder::colortype::ColorType;
+use tiff::encoder::{Compression, DeflateLevel, Predictor, TiffEncoder, TiffValue};
+use tiff::tags::{PhotometricInterpretation, SampleFormat, Tag};
+
+use super::tiff::ICC_PROFILE;
+use crate::{IoError, Metadata};
+
+pub(crate) fn write(
+    path: &Path,
+    output: impl Write + Seek,
+    image: &EncodedImage,
+    metadata: &Metadata,
+) -> Result<(), IoError> {
+    let result = match image.samples() {
+        Samples::U8(samples) => by_channels::<Byte, _>(output, image, samples, metadata),
+        Samples::U16(samples) => by_channels::<Word, _>(output, image, samples, metadata),
+        Samples::Half(samples) => by_channels::<HalfBits, _>(output, image, cast_slice(samples), metadata),
+        Samples::Float(samples) => by_channels::<Single, _>(output, image, samples, metadata),
+    };
+    result.map_err(|error| IoError::write(path, error))
+}
+
+fn by_channels<S: Sample, W: Write + Seek>(
+    output: W,
+    image: &EncodedImage,
+    samples: &[S::Stored],
+    metadata: &Metadata,
+) -> Result<(), TiffError>
+where
+    [S::Stored]: TiffValue,
+{
+    match image.channels() {
+        Channels::Grey => encode::<S, 1, W>(output, image, samples, metadata),
+        Channels::GreyAlpha => encode::<S, 2, W>(output, image, samples, metadata),
+        Channels::Rgb => encode::<S, 3, W>(output, image, samples, metadata),
+        Channels::Rgba => encode::<S, 4, W>(output, image, samples, metadata),
+    }
+}
+
+fn encode<S: Sample, const CHANNELS: usize, W: Write + Seek>(
+    output: W,
+    image: &EncodedImage,
+    samples: &[S::Stored],
+    metadata: &Metadata,
+) -> Result<(), TiffError>
+where
+    [S::Stored]: TiffValue,
+{
+    let predictor = if S::FORMAT_IS_FLOAT { Predictor::None } else { Predictor::Horizontal };
+    let mut encoder = TiffEncoder::new(output)?
+        .with_compression(Compression::Deflate(DeflateLevel::Balanced))
+        .with_predictor(predictor);
+    let (width, height) = (u32::try_from(image.width())?, u32::try_from(image.height())?);
+    let mut file = encoder.new_image::<Pixel<S, CHANNELS>>(width, height)?;
+    let tags = file.encoder();
+    tags.write_tag(Tag::Software, "cosmorama")?;
+    if image.channels().has_alpha() {
+        let kind: u16 = if image.alpha_mode() == AlphaMode::Premultiplied { 1 } else { 2 };
+        tags.write_tag(Tag::ExtraSamples, &[kind][..])?;
+    }
+    if let Some(profile) = &metadata.icc {
+        tags.write_tag(ICC_PROFILE, &profile[..])?;
+    }
+    file.write_data(samples)
+}
+
+/// A sample type. The encoder's own colour types know neither halves nor grey with alpha.
+trait Sample {
+    /// What the encoder writes.
+    type Stored: TiffValue + Copy;
+    const BITS: u16;
+    const FORMAT_IS_FLOAT: bool;
+    /// The difference of neighbours, which compresses better.
+    fn difference(a: Self::Stored, b: Self::Stored) -> Self::Stored;
+}
+
+struct Byte;
+struct Word;
+struct HalfBits;
+struct Single;
+
+impl Sample for Byte {
+    type Stored = u8;
+    const BITS: u16 = 8;
+    const FORMAT_IS_FLOAT: bool = false;
+    fn difference(a: u8, b: u8) -> u8 {
+        a.wrapping_sub(b)
+    }
+}
+
+impl Sample for Word {
+    type Stored = u16;
+    const BITS: u16 = 16;
+    const FORMAT_IS_FLOAT: bool = false;
+    fn difference(a: u16, b: u16) -> u16 {
+        a.wrapping_sub(b)
+    }
+}
+
+impl Sample for HalfBits {
+    type Stored = u16;
+    const BITS: u16 = 16;
+    const FORMAT_IS_FLOAT: bool = true;
+    fn difference(a: u16, b: u16) -> u16 {
+        a.wrapping_sub(b)
+    }
+}
+
+impl Sample for Single {
+    type Stored = f32;
+    const BITS: u16 = 32;
+    const FORMAT_IS_FLOAT: bool = true;
+    fn difference(a: f32, b: f32) -> f32 {
+        a - b
+    }
+}
+
+/// A pixel of so many samples.
+struct Pixel<S, const CHANNELS: usize>(PhantomData<S>);
+
+impl<S: Sample, const CHANNELS: usize> ColorType for Pixel<S, CHANNELS> {
+    type Inner = S::Stored;
+    const TIFF_VALUE: PhotometricInterpretation =
+        if CHANNELS >= 3 { PhotometricInterpretation::RGB } else { PhotometricInterpretation::BlackIsZero };
+    const BITS_PER_SAMPLE: &'static [u16] = &[S::BITS; CHANNELS];
+    const SAMPLE_FORMAT: &'static [SampleFormat] =
+        if S::FORMAT_IS_FLOAT { &[SampleFormat::IEEEFP; CHANNELS] } else { &[SampleFormat::Uint; CHANNELS] };
+
+    fn horizontal_predict(row: &[Self::Inner], result: &mut Vec<Self::Inner>) {
+        let first = CHANNELS.min(row.len());
+        result.extend_from_slice(&row[..first]);
+        result.extend(row.iter().zip(&row[first..]).map(|(before, now)| S::difference(*now, *before)));
+    }
+}

@@ -1,0 +1,50 @@
+//! Pictures for tests.
+#![allow(dead_code, unreachable_pub, reason = "each test program uses some of it")]
+
+use std::path::{Path, PathBuf};
+
+use cosmorama::raster::{AlphaMode, Channels, Depth, EncodedImage, Samples};
+use half::f16;
+
+/// A picture that no codec finds easy: gradients, noise, extremes; alpha never quite zero.
+pub fn picture(width: usize, height: usize, channels: Channels, depth: Depth) -> EncodedImage {
+    let count = width * height * channels.count();
+    let noise = |i: usize| (i as u32).wrapping_mul(2_654_435_761) >> 16;
+    let value = |i: usize| {
+        let alpha = channels.has_alpha() && i % channels.count() == channels.count() - 1;
+        let smooth = (i / channels.count() % width) as u32 * 65535 / width as u32;
+        if alpha { smooth.max(600) } else { (smooth + noise(i) / 8).min(65535) }
+    };
+    let spread = |value: u32, bits: u32| {
+        let code = value >> (16 - bits);
+        (code << (16 - bits) | code >> (2 * bits - 16)) as u16
+    };
+    let samples = match depth {
+        Depth::Eight => Samples::U8((0..count).map(|i| (value(i) >> 8) as u8).collect()),
+        Depth::Ten => Samples::U16((0..count).map(|i| spread(value(i), 10)).collect()),
+        Depth::Twelve => Samples::U16((0..count).map(|i| spread(value(i), 12)).collect()),
+        Depth::Sixteen => Samples::U16((0..count).map(|i| value(i) as u16).collect()),
+        Depth::Half => Samples::Half((0..count).map(|i| f16::from_f32(value(i) as f32 / 65535.0)).collect()),
+        Depth::Float => Samples::Float((0..count).map(|i| value(i) as f32 / 65535.0).collect()),
+    };
+    let mode = if depth.is_float() { AlphaMode::Premultiplied } else { AlphaMode::Straight };
+    EncodedImage::new(width, height, channels, depth, samples).unwrap().with_alpha_mode(mode)
+}
+
+/// A file of the shared folder; `None`, loudly, where that is not at hand. In CI it must be.
+pub fn shared(path: &str) -> Option<PathBuf> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared");
+    if root.is_dir() {
+        return Some(root.join(path));
+    }
+    assert!(std::env::var("CI").as_deref() != Ok("true"), "{} is missing", root.display());
+    eprintln!("SKIPPED: {} is missing", root.display());
+    None
+}
+
+/// The files of a folder, in order.
+pub fn files(folder: &Path) -> Vec<PathBuf> {
+    let mut files: Vec<_> = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
+    files.sort();
+    files
+}

@@ -1,0 +1,161 @@
+//! Files are hostile: errors, never panics, and no memory for what is only declared.
+
+mod common;
+
+use std::path::Path;
+
+use common::picture;
+use cosmorama::raster::{Channels, Depth};
+use cosmorama_io::{Format, IoError, Limits, Metadata, WriteOptions, probe, read, write};
+use proptest::prelude::*;
+
+const EXTENSIONS: [&str; 6] = ["png", "jpg", "tif", "tga", "hdr", "exr"];
+
+fn written(extension: &str) -> Vec<u8> {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join(format!("a.{extension}"));
+    let depth = Format::from_extension(&path).unwrap().nearest_depth(Depth::Half);
+    let image = picture(40, 30, Channels::Rgb, depth);
+    write(&path, &image, &Metadata::default(), &WriteOptions::default()).unwrap();
+    std::fs::read(path).unwrap()
+}
+
+fn read_bytes(folder: &Path, extension: &str, bytes: &[u8]) -> Result<(), IoError> {
+    let path = folder.join(format!("hostile.{extension}"));
+    std::fs::write(&path, bytes).unwrap();
+    let _ = probe(&path);
+    read(&path, &Limits::memory(1 << 24)).map(drop)
+}
+
+#[test]
+fn truncated_files_are_errors_at_every_length() {
+    let folder = tempfile::tempdir().unwrap();
+    for extension in EXTENSIONS {
+        let bytes = written(extension);
+        // The last bytes of a TGA are a footer that no one needs.
+        let needed = if extension == "tga" { bytes.len() - 26 } else { bytes.len() };
+        let step = (needed / 200).max(1);
+        for length in (0..needed).step_by(step).chain(needed.saturating_sub(20)..needed) {
+            let result = read_bytes(folder.path(), extension, &bytes[..length]);
+            assert!(result.is_err(), "{extension} cut to {length} of {} bytes", bytes.len());
+        }
+        assert!(read_bytes(folder.path(), extension, &bytes).is_ok(), "{extension}");
+    }
+}
+
+#[test]
+fn damaged_bytes_never_panic() {
+    let folder = tempfile::tempdir().unwrap();
+    for extension in EXTENSIONS {
+        let bytes = written(extension);
+        let mut seed = 1_u32;
+        for _ in 0..600 {
+            let mut damaged = bytes.clone();
+            for _ in 0..3 {
+                seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+                // Half of the damage goes into the header, where it hurts most.
+                let range = if seed & 0x100 == 0 { 400.min(bytes.len()) } else { bytes.len() };
+                damaged[seed as usize / 512 % range] = (seed >> 3) as u8;
+            }
+            let _ = read_bytes(folder.path(), extension, &damaged);
+        }
+    }
+}
+
+/// The message for a file of a few bytes that declares 65535 × 65535 pixels.
+fn giant(extension: &str, bytes: &[u8]) -> String {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join(format!("giant.{extension}"));
+    std::fs::write(&path, bytes).unwrap();
+    match read(&path, &Limits::memory(1 << 30)) {
+        Err(error @ IoError::TooLarge { .. }) => error.to_string(),
+        other => panic!("{extension}: {other:?}"),
+    }
+}
+
+#[test]
+fn giant_sizes_are_refused_before_memory_is_taken() {
+    let mut png = written("png");
+    png[16..24].copy_from_slice(&[0, 0, 0xff, 0xff, 0, 0, 0xff, 0xff]);
+    let checksum = crc32(&png[12..29]);
+    png[29..33].copy_from_slice(&checksum.to_be_bytes());
+    let message = giant("png", &png);
+    for part in ["giant.png", "65535x65535", "25769017350", "1073741824", "--memory"] {
+        assert!(message.contains(part), "{message} lacks {part}");
+    }
+
+    let mut jpeg = written("jpg");
+    let frame = jpeg.windows(2).position(|pair| pair == [0xff, 0xc0]).unwrap();
+    jpeg[frame + 5..frame + 9].fill(0xff);
+    giant("jpg", &jpeg);
+
+    let mut tga = written("tga");
+    tga[12..16].fill(0xff);
+    giant("tga", &tga);
+
+    giant("hdr", b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 65535 +X 65535\n");
+
+    let mut exr = written("exr");
+    for name in [&b"dataWindow\0box2i\0"[..], &b"displayWindow\0box2i\0"[..]] {
+        let at = exr.windows(name.len()).position(|bytes| bytes == name).unwrap() + name.len() + 4;
+        exr[at + 8..at + 16].copy_from_slice(&[0xfe, 0xff, 0, 0, 0xfe, 0xff, 0, 0]);
+    }
+    let name = b"chunkCount\0int\0";
+    let at = exr.windows(name.len()).position(|bytes| bytes == name).unwrap() + name.len() + 4;
+    exr[at..at + 4].copy_from_slice(&4096_i32.to_le_bytes());
+    giant("exr", &exr);
+
+    // Little-endian TIFF: width, height, 8 bits, no compression, RGB, one strip of nothing.
+    let mut tiff = b"II\x2a\0\x08\0\0\0\x09\0".to_vec();
+    let entries: [(u16, u32); 9] =
+        [(256, 65535), (257, 65535), (258, 8), (259, 1), (262, 2), (273, 8), (277, 3), (278, 65535), (279, 8)];
+    for (tag, value) in entries {
+        tiff.extend(tag.to_le_bytes());
+        tiff.extend([4, 0, 1, 0, 0, 0]);
+        tiff.extend(value.to_le_bytes());
+    }
+    tiff.extend([0; 4]);
+    giant("tif", &tiff);
+}
+
+fn crc32(bytes: &[u8]) -> u32 {
+    let mut crc = u32::MAX;
+    for byte in bytes {
+        crc ^= u32::from(*byte);
+        for _ in 0..8 {
+            crc = if crc & 1 == 1 { crc >> 1 ^ 0xedb8_8320 } else { crc >> 1 };
+        }
+    }
+    !crc
+}
+
+#[test]
+fn what_is_no_image_is_said_to_be_none() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.png");
+    std::fs::write(&path, "hello").unwrap();
+    assert!(matches!(read(&path, &Limits::default()), Err(IoError::UnknownContent { .. })));
+    assert!(matches!(read(&folder.path().join("b.png"), &Limits::default()), Err(IoError::Open { .. })));
+    assert!(matches!(read(folder.path(), &Limits::default()), Err(IoError::Open { .. })));
+    std::fs::write(&path, "").unwrap();
+    assert!(matches!(probe(&path), Err(IoError::UnknownContent { .. })));
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 300, ..ProptestConfig::default() })]
+
+    #[test]
+    fn random_bytes_never_panic(kind in 0_usize..6, bytes in proptest::collection::vec(any::<u8>(), 0..600)) {
+        let magic: [&[u8]; 6] = [
+            b"\x89PNG\r\n\x1a\n\0\0\0\x0dIHDR",
+            b"\xff\xd8\xff\xe0",
+            b"II\x2a\0\x08\0\0\0",
+            b"\0\0\x02\0\0\0\0\0\0\0\0\0",
+            b"#?RADIANCE\n\n-Y 9 +X 20\n",
+            b"\x76\x2f\x31\x01\x02\0\0\0",
+        ];
+        let folder = tempfile::tempdir().unwrap();
+        let whole: Vec<u8> = magic[kind].iter().chain(&bytes).copied().collect();
+        let _ = read_bytes(folder.path(), EXTENSIONS[kind], &whole);
+    }
+}

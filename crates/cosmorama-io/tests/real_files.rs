@@ -1,0 +1,47 @@
+//! Files that other programs wrote.
+
+mod common;
+
+use cosmorama::raster::{Channels, Depth, Transfer};
+use cosmorama_io::{EnvMap, Limits, probe, read};
+
+#[test]
+fn every_real_file_is_read() {
+    for folder in ["equirect_hdr", "openexr_envmap", "equirect", "fisheye", "cube/vtk_cubemapDebug"] {
+        let Some(folder) = common::shared(&format!("data/{folder}")) else { return };
+        for path in common::files(&folder) {
+            let header = probe(&path).unwrap();
+            let file = read(&path, &Limits::default()).unwrap();
+            assert_eq!((file.image.width(), file.image.height()), (header.width, header.height), "{path:?}");
+            assert_eq!((file.image.channels(), file.image.depth()), (header.channels, header.depth), "{path:?}");
+            let light = file.image.to_light(file.metadata.transfer.as_ref().unwrap_or(&Transfer::Srgb));
+            assert!(light.pixels().iter().all(|pixel| pixel.0.iter().all(|c| c.is_finite())), "{path:?}");
+            let mean =
+                light.pixels().iter().map(|pixel| f64::from(pixel.0[1])).sum::<f64>() / light.pixels().len() as f64;
+            assert!(mean > 1e-4, "{path:?} is black");
+        }
+    }
+}
+
+#[test]
+fn openexr_environments_say_what_they_are() {
+    let Some(folder) = common::shared("data/openexr_envmap") else { return };
+    for (name, kind) in [
+        ("KernerEnvCube.exr", EnvMap::Cube),
+        ("KernerEnvLatLong.exr", EnvMap::LatLong),
+        ("OrientationCube.exr", EnvMap::Cube),
+        ("OrientationLatLong.exr", EnvMap::LatLong),
+    ] {
+        let header = probe(&folder.join(name)).unwrap();
+        assert_eq!(header.metadata.envmap, Some(kind), "{name}");
+        assert_eq!(header.depth, Depth::Half, "{name}");
+    }
+}
+
+#[test]
+fn oracles_are_16_bit_pngs() {
+    let Some(path) = common::shared("oracles/povray/face_front.png") else { return };
+    let header = probe(&path).unwrap();
+    assert_eq!((header.width, header.height, header.depth), (1024, 1024, Depth::Sixteen));
+    assert_eq!(header.channels, Channels::Rgb);
+}

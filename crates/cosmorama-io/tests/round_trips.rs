@@ -1,0 +1,193 @@
+//! What is written is read back: every format, depth and set of channels.
+
+mod common;
+
+use common::picture;
+use cosmorama::raster::{Channels, Depth, EncodedImage, Samples, Transfer};
+use cosmorama_io::{EnvMap, Format, Limits, Metadata, WriteOptions, probe, read, write};
+
+const EXTENSIONS: [(Format, &str); 6] = [
+    (Format::Png, "png"),
+    (Format::Jpeg, "jpg"),
+    (Format::Tiff, "tif"),
+    (Format::Tga, "tga"),
+    (Format::Hdr, "hdr"),
+    (Format::Exr, "exr"),
+];
+
+fn largest_difference(a: &EncodedImage, b: &EncodedImage) -> f32 {
+    let light = |image: &EncodedImage| image.to_light(&Transfer::Linear);
+    let (a, b) = (light(a), light(b));
+    let pairs = a.pixels().iter().zip(b.pixels());
+    pairs.flat_map(|(a, b)| (0..4).map(|c| (a.0[c] - b.0[c]).abs()).collect::<Vec<_>>()).fold(0.0, f32::max)
+}
+
+#[test]
+fn every_format_depth_and_channels() {
+    let folder = tempfile::tempdir().unwrap();
+    for (format, extension) in EXTENSIONS {
+        for depth in format.depths() {
+            for channels in format.channels() {
+                let image = picture(67, 35, *channels, *depth);
+                let path = folder.path().join(format!("{depth}_{}.{extension}", channels.count()));
+                write(&path, &image, &Metadata::default(), &WriteOptions::default()).unwrap();
+                let file = read(&path, &Limits::default()).unwrap();
+                let what = format!("{format} {depth} {channels}");
+                assert_eq!(file.format, format);
+                assert_eq!(file.window, None);
+                match format {
+                    Format::Jpeg => assert!(largest_difference(&file.image, &image) < 0.25, "{what}"),
+                    Format::Hdr => assert!(largest_difference(&file.image, &image) < 1.0 / 256.0, "{what}"),
+                    // TIFF has no word for significant bits.
+                    Format::Tiff => assert!(file.image.samples() == image.samples(), "{what}"),
+                    _ => assert!(file.image == image, "{what}"),
+                }
+                let header = probe(&path).unwrap();
+                assert_eq!((header.width, header.height), (67, 35), "{what}");
+                assert_eq!(header.channels, file.image.channels(), "{what}");
+                assert_eq!(header.depth, file.image.depth(), "{what}");
+                assert_eq!(header.metadata, file.metadata, "{what}");
+            }
+        }
+    }
+    assert_eq!(common::files(folder.path()).iter().filter(|path| path.to_string_lossy().contains(".part")).count(), 0);
+}
+
+#[test]
+fn odd_sizes() {
+    let folder = tempfile::tempdir().unwrap();
+    for (format, extension) in EXTENSIONS {
+        let depth = format.nearest_depth(Depth::Eight);
+        for (width, height) in [(1, 1), (7, 1), (1, 300), (8, 2), (257, 3)] {
+            let image = picture(width, height, Channels::Rgb, depth);
+            let path = folder.path().join(format!("{width}x{height}.{extension}"));
+            write(&path, &image, &Metadata::default(), &WriteOptions::default()).unwrap();
+            let back = read(&path, &Limits::NONE).unwrap().image;
+            assert_eq!((back.width(), back.height()), (width, height), "{format}");
+        }
+    }
+}
+
+#[test]
+fn png_says_its_transfer_function() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.png");
+    let image = picture(4, 4, Channels::Rgb, Depth::Eight);
+    for transfer in [Transfer::Srgb, Transfer::Linear, Transfer::Pq, Transfer::Hlg, Transfer::Bt1886] {
+        let metadata = Metadata { transfer: Some(transfer), ..Metadata::default() };
+        write(&path, &image, &metadata, &WriteOptions::default()).unwrap();
+        assert_eq!(read(&path, &Limits::default()).unwrap().metadata.transfer, metadata.transfer);
+    }
+    let metadata = Metadata { transfer: Some(Transfer::Gamma(2.2)), ..Metadata::default() };
+    write(&path, &image, &metadata, &WriteOptions::default()).unwrap();
+    let Some(Transfer::Gamma(gamma)) = probe(&path).unwrap().metadata.transfer else { panic!("a gamma") };
+    assert!((gamma - 2.2).abs() < 1e-3);
+}
+
+#[test]
+fn primaries_are_carried() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.png");
+    let metadata = Metadata { transfer: Some(Transfer::Pq), primaries: Some(9), ..Metadata::default() };
+    write(&path, &picture(4, 4, Channels::Rgb, Depth::Sixteen), &metadata, &WriteOptions::default()).unwrap();
+    assert_eq!(probe(&path).unwrap().metadata.primaries, Some(9));
+}
+
+#[test]
+fn icc_profiles_are_read_and_carried() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut profile = moxcms::ColorProfile::new_display_p3();
+    let curve = Some(moxcms::ToneReprCurve::Parametric(vec![1.8]));
+    (profile.red_trc, profile.green_trc, profile.blue_trc) = (curve.clone(), curve.clone(), curve);
+    profile.cicp = None;
+    let metadata = Metadata { icc: Some(profile.encode().unwrap()), ..Metadata::default() };
+    for extension in ["png", "jpg", "tif"] {
+        let path = folder.path().join(format!("a.{extension}"));
+        write(&path, &picture(16, 16, Channels::Rgb, Depth::Eight), &metadata, &WriteOptions::default()).unwrap();
+        let back = read(&path, &Limits::default()).unwrap().metadata;
+        assert!(back.icc == metadata.icc, "{extension}");
+        let Some(Transfer::Gamma(gamma)) = back.transfer else { panic!("{extension}: {:?}", back.transfer) };
+        assert!((gamma - 1.8).abs() < 0.005, "{gamma}");
+    }
+}
+
+#[test]
+fn exr_says_that_it_is_an_environment() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.exr");
+    for envmap in [EnvMap::LatLong, EnvMap::Cube] {
+        let metadata = Metadata { envmap: Some(envmap), ..Metadata::default() };
+        write(&path, &picture(8, 4, Channels::Rgb, Depth::Half), &metadata, &WriteOptions::default()).unwrap();
+        assert_eq!(probe(&path).unwrap().metadata.envmap, Some(envmap));
+    }
+}
+
+#[test]
+fn a_glow_with_alpha_zero_survives_exr_and_tiff() {
+    let folder = tempfile::tempdir().unwrap();
+    let samples = Samples::Float(vec![3.0, 2.0, 1.0, 0.0]);
+    let image = EncodedImage::new(1, 1, Channels::Rgba, Depth::Float, samples).unwrap();
+    let image = image.with_alpha_mode(cosmorama::raster::AlphaMode::Premultiplied);
+    for extension in ["exr", "tif"] {
+        let path = folder.path().join(format!("a.{extension}"));
+        write(&path, &image, &Metadata::default(), &WriteOptions::default()).unwrap();
+        assert_eq!(read(&path, &Limits::default()).unwrap().image, image);
+    }
+}
+
+#[test]
+fn straight_floats_are_multiplied_for_exr() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.exr");
+    let samples = Samples::Float(vec![1.0, 0.5, 0.0, 0.5, 7.0, 7.0, 7.0, 0.0]);
+    let image = EncodedImage::new(2, 1, Channels::Rgba, Depth::Float, samples).unwrap();
+    write(&path, &image, &Metadata::default(), &WriteOptions::default()).unwrap();
+    let back = read(&path, &Limits::default()).unwrap().image;
+    assert_eq!(*back.samples(), Samples::Float(vec![0.5, 0.25, 0.0, 0.5, 0.0, 0.0, 0.0, 0.0]));
+}
+
+#[test]
+fn what_a_format_cannot_hold_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let refused = |name: &str, channels, depth| {
+        let image = picture(4, 4, channels, depth);
+        let path = folder.path().join(name);
+        let message = write(&path, &image, &Metadata::default(), &WriteOptions::default()).unwrap_err().to_string();
+        assert!(!path.exists());
+        message
+    };
+    assert!(refused("a.jpg", Channels::Rgba, Depth::Eight).contains("JPEG cannot hold RGBA"));
+    assert!(refused("a.hdr", Channels::Rgba, Depth::Float).contains("cannot hold RGBA"));
+    assert!(refused("a.png", Channels::Rgb, Depth::Float).contains("depth 8, 10, 12, 16"));
+    assert!(refused("a.xyz", Channels::Rgb, Depth::Eight).contains("png, jpg"));
+    assert!(refused("a", Channels::Rgb, Depth::Eight).contains("extension"));
+    assert!(refused("no/such/folder/a.png", Channels::Rgb, Depth::Eight).contains("no/such/folder does not exist"));
+    assert_eq!(common::files(folder.path()).len(), 0);
+}
+
+#[test]
+fn an_older_file_is_replaced_only_by_a_whole_one() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.jpg");
+    let image = picture(4, 4, Channels::Rgb, Depth::Eight);
+    write(&path, &image, &Metadata::default(), &WriteOptions::default()).unwrap();
+    let before = std::fs::read(&path).unwrap();
+    // A profile that no JPEG can hold: writing fails after it began.
+    let metadata = Metadata { icc: Some(vec![0; 20_000_000]), ..Metadata::default() };
+    assert!(write(&path, &image, &metadata, &WriteOptions::default()).is_err());
+    assert_eq!(std::fs::read(&path).unwrap(), before);
+    assert_eq!(common::files(folder.path()), [path]);
+    assert!(cosmorama_io::pending::list().iter().all(|file| !file.starts_with(folder.path())));
+}
+
+#[cfg(unix)]
+#[test]
+fn outputs_can_be_read_by_whom_the_umask_lets() {
+    use std::os::unix::fs::PermissionsExt;
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.png");
+    write(&path, &picture(4, 4, Channels::Rgb, Depth::Eight), &Metadata::default(), &WriteOptions::default()).unwrap();
+    std::fs::write(folder.path().join("plain"), "").unwrap();
+    let mode = |path| std::fs::metadata(path).unwrap().permissions().mode();
+    assert_eq!(mode(path), mode(folder.path().join("plain")));
+}
