@@ -25,7 +25,9 @@ impl FromStr for TransferArg {
             _ => match text.strip_prefix("gamma:").and_then(|gamma| gamma.parse().ok()) {
                 Some(gamma) if (0.1..=10.0).contains(&gamma) => Transfer::Gamma(gamma),
                 _ => {
-                    return Err("there are auto, srgb, linear, bt1886, pq, hlg and gamma:G (as in gamma:2.2)".to_owned());
+                    return Err(
+                        "there are auto, srgb, linear, bt1886, pq, hlg and gamma:G (as in gamma:2.2)".to_owned()
+                    );
                 }
             },
         };

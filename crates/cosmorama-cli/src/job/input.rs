@@ -31,8 +31,6 @@ pub(crate) struct Input {
     pub(crate) views: Vec<InputView>,
     /// The frames to work on.
     pub(crate) frames: Vec<Option<u64>>,
-    /// Its projection's name.
-    pub(crate) projection: &'static str,
 }
 
 impl Input {
@@ -52,14 +50,13 @@ impl Input {
             (None, Some((_, Shape::Cube(_)))) => Err(usage(format!(
                 "--from cube wants the faces of a cube, but {pattern} has no {{face}} or %c where a face's name stands"
             ))),
-            (None, Some((name, Shape::Single(single)))) => Self::single(pattern, name, Some(*single), wanted, warnings),
-            (None, None) => Self::single(pattern, "equirect", None, wanted, warnings),
+            (None, Some((_, Shape::Single(single)))) => Self::single(pattern, Some(*single), wanted, warnings),
+            (None, None) => Self::single(pattern, None, wanted, warnings),
         }
     }
 
     fn single(
         pattern: &str,
-        projection: &'static str,
         single: Option<Single>,
         wanted: Option<&FrameList>,
         warnings: &mut Vec<String>,
@@ -83,7 +80,7 @@ impl Input {
         placement.canvas = Some(canvas);
         let window = (placement.view(header.width, header.height)?, canvas);
         let view = InputView { name, files, header: Some(header), nominal, window: Some(window) };
-        Ok(Self { views: vec![view], frames, projection })
+        Ok(Self { views: vec![view], frames })
     }
 
     fn cube(pattern: &str, cube: &Cube, wanted: Option<&FrameList>) -> Result<Self> {
@@ -101,7 +98,7 @@ impl Input {
         }
         let size = common_canvas(pattern, &faces)?;
         let views: Result<_> = faces.into_iter().map(|face| face.into_view(cube, size)).collect();
-        Ok(Self { views: views?, frames, projection: "cube" })
+        Ok(Self { views: views?, frames })
     }
 
     /// The views that have files, with the geometry of what those hold.

@@ -59,11 +59,6 @@ impl Outputs {
         refuse_existing(&existing)?;
         Ok(outputs)
     }
-
-    /// Files still to be made.
-    pub(crate) fn count(&self) -> usize {
-        self.frames.iter().map(|frame| frame.files.len()).sum()
-    }
 }
 
 /// Many frames need a marker in the output; one frame may go without; a marker without frames means nothing.

@@ -89,11 +89,6 @@ impl Target {
         Ok(Self { views, format, envmap: None })
     }
 
-    /// Pixels of all images of a frame.
-    pub(crate) fn pixels(&self) -> usize {
-        self.views.iter().map(|target| target.view.width().saturating_mul(target.view.height())).sum()
-    }
-
     /// Their geometry.
     pub(crate) fn geometry(&self) -> Vec<View> {
         self.views.iter().map(|target| target.view).collect()

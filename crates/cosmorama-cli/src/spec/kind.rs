@@ -10,8 +10,6 @@ pub(crate) struct Kind {
     pub(crate) keys: &'static [Key],
     /// Whether pixels that are not square are declared by `aspect=`.
     pub(crate) takes_aspect: bool,
-    /// Whether it can be read.
-    pub(crate) input: bool,
 }
 
 /// A key of a SPEC.
@@ -39,7 +37,6 @@ pub(crate) const KINDS: [Kind; 6] = [
             key("canvas.FACE", "WxH+X+Y", "as canvas=, for one face"),
         ],
         takes_aspect: false,
-        input: true,
     },
     Kind {
         name: "perspective",
@@ -50,7 +47,6 @@ pub(crate) const KINDS: [Kind; 6] = [
             key("dfov", "DEGREES", "diagonal field of view"),
         ],
         takes_aspect: true,
-        input: true,
     },
     Kind {
         name: "equirect",
@@ -61,7 +57,6 @@ pub(crate) const KINDS: [Kind; 6] = [
             key("samples", "centres|edges", "where the outermost samples lie (centres; OpenEXR files: edges)"),
         ],
         takes_aspect: false,
-        input: true,
     },
     Kind {
         name: "fisheye",
@@ -74,7 +69,6 @@ pub(crate) const KINDS: [Kind; 6] = [
             key("radius", "PIXELS", "the circle's radius in pixels"),
         ],
         takes_aspect: true,
-        input: true,
     },
     Kind {
         name: "fulldome",
@@ -84,7 +78,6 @@ pub(crate) const KINDS: [Kind; 6] = [
             key("tilt", "DEGREES", "how far the dome leans to the front (0)"),
         ],
         takes_aspect: true,
-        input: true,
     },
     Kind {
         name: "omnimax",
@@ -97,7 +90,6 @@ pub(crate) const KINDS: [Kind; 6] = [
             key("axis", "DEGREES", "elevation of the axis of projection (0; theatre: 11)"),
         ],
         takes_aspect: true,
-        input: true,
     },
 ];
 

@@ -12,4 +12,3 @@ mod window;
 
 pub(crate) use shape::{Cube, Shape, Single, SphereSamples};
 pub(crate) use text::{Spec, SpecError};
-pub(crate) use window::parse_window;

@@ -4,6 +4,7 @@ use rayon::prelude::*;
 
 use super::block::{Block, Cap};
 use super::gather::Gather;
+use super::kernel::KernelTable;
 use super::{Filter, FilterKind, Taps, lookup, reference};
 use crate::sphere::Direction;
 use crate::world::{PixelPoint, PixelRect, Source, View, World};
@@ -124,11 +125,12 @@ impl Survey<'_> {
     /// Adds what these blocks need to what is known already.
     fn blocks(&self, blocks: &[(Block, Option<(Cap, usize)>)], known: Needs) -> Needs {
         let few = blocks.len().div_ceil(8 * rayon::current_num_threads()).max(1);
+        let table = KernelTable::new(&self.filter.kernel);
         let found: Vec<Needs> = blocks
             .par_chunks(few)
             .map(|blocks| {
                 let mut found = Needs { uncovered: None, ..known.clone() };
-                let mut pixels = PixelTaps::new(self);
+                let mut pixels = PixelTaps::new(self, &table);
                 for (block, owner) in blocks {
                     if !owner.as_ref().is_some_and(|(cap, owner)| self.adds_nothing(cap, *owner, &found)) {
                         pixels.add_block(block, &mut found);
@@ -159,8 +161,8 @@ struct PixelTaps<'a> {
 }
 
 impl<'a> PixelTaps<'a> {
-    fn new(survey: &'a Survey<'a>) -> Self {
-        Self { survey, gather: Gather::new(survey.world, survey.filter.kernel), taps: Taps::default() }
+    fn new(survey: &'a Survey<'a>, table: &'a KernelTable) -> Self {
+        Self { survey, gather: Gather::new(survey.world, table), taps: Taps::default() }
     }
 
     fn add_block(&mut self, block: &Block, needs: &mut Needs) {
@@ -183,7 +185,7 @@ impl<'a> PixelTaps<'a> {
         match filter.kind {
             FilterKind::Ewa => {
                 self.gather.taps(&screen.footprint, &mut self.taps);
-                self.taps.iter().for_each(|tap| read(tap.texel, 0.0));
+                self.taps.as_slice().iter().for_each(|tap| read(tap.texel, 0.0));
             }
             FilterKind::Point => lookup::nearest(world, direction, read),
             FilterKind::Bilinear => lookup::bilinear(world, direction, read),
