@@ -1,6 +1,7 @@
 //! Cosmorama: world projections, resampled with the elliptical weighted average (EWA) filter.
 
 pub mod compare;
+pub mod explain;
 pub mod projection;
 pub mod raster;
 pub mod resample;

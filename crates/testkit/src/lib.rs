@@ -1,1 +1,9 @@
 //! Worlds with closed-form answers, comparators and oracles for cosmorama's own tests.
+
+mod frames;
+mod light;
+mod shared;
+
+pub use frames::{cube, cube_face, equirect, fisheye, omnimax, perspective};
+pub use light::{light_by_direction, light_by_texel, position_error};
+pub use shared::shared;

@@ -1,3 +1,5 @@
+use glam::{DVec2, DVec3};
+
 use super::azimuthal::{Azimuthal, Equidistant, OmnimaxLens};
 use super::cylindrical::Equirectangular;
 use super::{Perspective, PlanePoint, PlaneRect, Projection};
@@ -55,7 +57,15 @@ impl Projection for ProjectionKind {
         each!(self, projection => projection.jacobian(point))
     }
 
-    fn margin(&self, direction: Direction) -> Angle {
+    fn unproject_with_jacobian(&self, point: PlanePoint) -> Option<(Direction, DirectionJacobian)> {
+        each!(self, projection => projection.unproject_with_jacobian(point))
+    }
+
+    fn project_with_derivatives(&self, direction: Direction, tangents: [DVec3; 2]) -> Option<(PlanePoint, [DVec2; 2])> {
+        each!(self, projection => projection.project_with_derivatives(direction, tangents))
+    }
+
+    fn margin(&self, direction: Direction) -> f64 {
         each!(self, projection => projection.margin(direction))
     }
 

@@ -13,6 +13,8 @@ pub use kind::ProjectionKind;
 pub use perspective::Perspective;
 pub use plane::{PlanePoint, PlaneRect};
 
+use glam::{DVec2, DVec3};
+
 use crate::sphere::{Angle, Direction, DirectionJacobian};
 
 /// An invertible mapping between directions (in the view's own frame, −Z forward) and a plane (x right, y up) in the
@@ -29,9 +31,22 @@ pub trait Projection {
     /// ∂direction/∂plane at a point, exact; `None` exactly where [`Projection::unproject`] is `None`.
     fn jacobian(&self, point: PlanePoint) -> Option<DirectionJacobian>;
 
-    /// Angle from a direction to the nearest one at which the mapping is singular (a pole, a horizon, a rim).
-    /// A footprint much smaller than this is mapped to an ellipse; a larger one is weighed on the sphere.
-    fn margin(&self, direction: Direction) -> Angle;
+    /// Both at once, for projections in which they share their work.
+    fn unproject_with_jacobian(&self, point: PlanePoint) -> Option<(Direction, DirectionJacobian)> {
+        Some((self.unproject(point)?, self.jacobian(point)?))
+    }
+
+    /// Where a direction lands, and by how much it moves there as the direction moves along each tangent vector.
+    fn project_with_derivatives(&self, direction: Direction, tangents: [DVec3; 2]) -> Option<(PlanePoint, [DVec2; 2])> {
+        let point = self.project(direction)?;
+        let jacobian = self.jacobian(point)?;
+        Some((point, [jacobian.pseudo_inverse(tangents[0])?, jacobian.pseudo_inverse(tangents[1])?]))
+    }
+
+    /// A lower bound, in radians, of the angle from a direction to the nearest one at which the mapping is singular (a
+    /// pole, a horizon, a rim); negative beyond a horizon. A footprint much smaller than this is mapped to an ellipse, a
+    /// larger one is weighed on the sphere.
+    fn margin(&self, direction: Direction) -> f64;
 
     /// The rectangle of the plane that holds every direction within `radius` of `centre`.
     fn cap_bounds(&self, centre: Direction, radius: Angle) -> PlaneRect;

@@ -1,3 +1,5 @@
+use glam::{DVec2, DVec3};
+
 use super::{PlanePoint, PlaneRect, Projection};
 use crate::sphere::{Angle, Direction, DirectionJacobian};
 
@@ -16,25 +18,39 @@ impl Projection for Perspective {
     }
 
     fn unproject(&self, point: PlanePoint) -> Option<Direction> {
-        Direction::new(glam::DVec3::new(point.x, point.y, -1.0))
+        Direction::new(DVec3::new(point.x, point.y, -1.0))
     }
 
     fn jacobian(&self, point: PlanePoint) -> Option<DirectionJacobian> {
+        self.unproject_with_jacobian(point).map(|(_, jacobian)| jacobian)
+    }
+
+    fn unproject_with_jacobian(&self, point: PlanePoint) -> Option<(Direction, DirectionJacobian)> {
         // d = v/|v| with v = (x, y, −1), so ∂d/∂x = (e_x − d (d·e_x))/|v|.
-        let vector = glam::DVec3::new(point.x, point.y, -1.0);
+        let vector = DVec3::new(point.x, point.y, -1.0);
         let inverse_length = vector.length_recip();
         if !(inverse_length > 0.0) {
             return None;
         }
         let unit = vector * inverse_length;
-        Some(DirectionJacobian {
-            dx: (glam::DVec3::X - unit * unit.x) * inverse_length,
-            dy: (glam::DVec3::Y - unit * unit.y) * inverse_length,
-        })
+        let jacobian = DirectionJacobian {
+            dx: (DVec3::X - unit * unit.x) * inverse_length,
+            dy: (DVec3::Y - unit * unit.y) * inverse_length,
+        };
+        Some((Direction::from_unit(unit), jacobian))
     }
 
-    fn margin(&self, direction: Direction) -> Angle {
-        Angle::from_radians((-direction.vector().z).clamp(-1.0, 1.0).asin())
+    fn project_with_derivatives(&self, direction: Direction, tangents: [DVec3; 2]) -> Option<(PlanePoint, [DVec2; 2])> {
+        let point = self.project(direction)?;
+        // x = X/depth with depth = −Z, so dx = (dX + x dZ)/depth.
+        let inverse_depth = -direction.vector().z.recip();
+        let moved = |t: DVec3| DVec2::new(t.x + point.x * t.z, t.y + point.y * t.z) * inverse_depth;
+        Some((point, tangents.map(moved)))
+    }
+
+    fn margin(&self, direction: Direction) -> f64 {
+        // The sine of the angle above the horizon.
+        -direction.vector().z
     }
 
     fn cap_bounds(&self, centre: Direction, radius: Angle) -> PlaneRect {

@@ -22,12 +22,11 @@ impl Ellipse {
         let (x, y) = (jacobian.x_axis, jacobian.y_axis);
         let (p, q, r) = (x.x * x.x + y.x * y.x, x.x * x.y + y.x * y.y, x.y * x.y + y.y * y.y);
         let (mean, half) = ((p + r) / 2.0, (p - r) / 2.0);
-        let spread = half.hypot(q);
-        let (floor2, major, minor) = (floor * floor, mean + spread, mean - spread);
+        let length = (half * half + q * q).sqrt();
+        let (floor2, major, minor) = (floor * floor, mean + length, mean - length);
         let (raised_major, raised_minor) = (major.max(floor2), minor.max(floor2));
         // JJᵀ = mean·1 + spread·D with D the unit traceless part along the axes.
         let (mean, spread) = ((raised_major + raised_minor) / 2.0, (raised_major - raised_minor) / 2.0);
-        let length = half.hypot(q);
         let (along, across) = if length > 0.0 { (half / length, q / length) } else { (0.0, 0.0) };
         let (p, q, r) = (mean + spread * along, spread * across, mean - spread * along);
         let determinant = raised_major * raised_minor;

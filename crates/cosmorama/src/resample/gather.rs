@@ -5,18 +5,14 @@
 
 use glam::{DMat2, DVec2};
 
+use super::candidates::{Candidate, settle};
 use super::kernel::KernelTable;
-use super::taps::{Candidate, Taps, centre, settle};
-use super::{Ellipse, lookup};
+use super::{Ellipse, Taps, lookup};
 use crate::sphere::{Angle, Direction};
 use crate::world::{Footprint, PixelPoint, Source, World};
 
 /// A mapping is taken as linear over a kernel that is smaller than this part of the way to its nearest singularity.
 const LINEAR_PART: f64 = 0.2;
-
-/// Anti-ringing clamps to the texels of r² under this. With the default floor the disc reaches 1.37 texels, so that
-/// whatever way a gradient runs there are texels on both sides of the pixel, at the corners of a cube too.
-const UNDER: f64 = 1.5;
 
 /// The gather for one world and kernel.
 pub(super) struct Gather<'a> {
@@ -55,12 +51,9 @@ impl<'a> Gather<'a> {
                 }
             }
         }
-        if self.table.kernel().centred {
-            centre(&mut self.candidates);
-        }
-        settle(&self.candidates, taps);
+        settle(&self.candidates, self.table.kernel().centred, taps);
         if taps.is_empty() {
-            lookup::nearest(self.world, footprint.direction, |texel, weight| taps.push_under(texel, weight));
+            lookup::nearest(self.world, footprint.direction, |texel, weight| taps.push_under(texel, weight as f32));
         }
     }
 
@@ -93,34 +86,43 @@ impl<'a> Gather<'a> {
         let reach = ellipse.half_extent(self.table.radius_squared());
         let bounds = TexelBox::around(centre, reach);
         let (width, height) = (source.view.width() as i64, source.view.height() as i64);
-        let period = source.period.map(|period| period as i64);
-        let rows = bounds.top.max(0)..=bounds.bottom.min(height - 1);
-        let columns = match period {
-            Some(period) => bounds.left..=bounds.right.min(bounds.left + period - 1),
-            None => bounds.left.max(0)..=bounds.right.min(width - 1),
-        };
-        for j in rows {
-            let v = j as f64 + 0.5 - centre.y;
+        for j in bounds.top.max(0)..=bounds.bottom.min(height - 1) {
             let row = source.offset + j as usize * source.view.width();
-            // Q = AU² + BUV + CV² by finite differences along the row (Greene & Heckbert 1986).
-            let u = *columns.start() as f64 + 0.5 - centre.x;
-            let mut q = ellipse.distance_squared(DVec2::new(u, v));
-            let mut dq = ellipse.a * (2.0 * u + 1.0) + ellipse.b * v;
-            let ddq = 2.0 * ellipse.a;
-            for i in columns.clone() {
-                if q < self.table.radius_squared() {
-                    let column = period.map_or(i, |period| i.rem_euclid(period));
-                    if column < width {
-                        let offset = DVec2::new(i as f64 + 0.5 - centre.x, v);
-                        self.add(row + column as usize, q, coarseness, to_screen * offset);
-                    }
-                }
-                q += dq;
-                dq += ddq;
+            for run in bounds.runs(source) {
+                let offset = DVec2::new(run.unrolled as f64 + 0.5 - centre.x, j as f64 + 0.5 - centre.y);
+                self.gather_run(row + run.column, run.length, offset, &ellipse, coarseness, to_screen);
             }
         }
-        let whole_width = period.is_some_and(|period| period <= width);
+        let whole_width = source.period.is_some_and(|period| period <= source.view.width());
         bounds.top >= 0 && bounds.bottom < height && (whole_width || (bounds.left >= 0 && bounds.right < width))
+    }
+
+    /// Texels beside each other in a row: Q = AU² + BUV + CV² by finite differences (Greene & Heckbert 1986).
+    fn gather_run(
+        &mut self,
+        first: usize,
+        length: usize,
+        first_offset: DVec2,
+        ellipse: &Ellipse,
+        coarseness: f32,
+        to_screen: DMat2,
+    ) {
+        let mut q = ellipse.distance_squared(first_offset);
+        let mut dq = ellipse.a * (2.0 * first_offset.x + 1.0) + ellipse.b * first_offset.y;
+        let ddq = 2.0 * ellipse.a;
+        let mut offset = to_screen * first_offset;
+        let radius_squared = self.table.radius_squared();
+        // Every texel is written, and only those inside are kept: whether the next one is inside cannot be predicted.
+        let mut kept = self.candidates.len();
+        self.candidates.resize(kept + length, Candidate::default());
+        for (texel, &solid_angle) in self.world.solid_angles()[first..first + length].iter().enumerate() {
+            self.candidates[kept] = self.table.candidate(first + texel, solid_angle, q, coarseness, offset);
+            kept += usize::from(q < radius_squared && solid_angle > 0.0);
+            q += dq;
+            dq += ddq;
+            offset += to_screen.x_axis;
+        }
+        self.candidates.truncate(kept);
     }
 
     /// Near a pole, a horizon or a rim the ellipse would be wrong: each texel is weighed by its direction instead, in
@@ -142,22 +144,12 @@ impl<'a> Gather<'a> {
             }
             let offset = in_tangent_plane(texel.vector() - here);
             let q = ellipse.distance_squared(offset);
-            if q < self.table.radius_squared() {
-                self.add(source.offset + j * source.view.width() + i, q, coarseness, to_screen * offset);
+            let index = source.offset + j * source.view.width() + i;
+            let solid_angle = self.world.solid_angles()[index];
+            if q < self.table.radius_squared() && solid_angle > 0.0 {
+                let offset = to_screen * offset;
+                self.candidates.push(self.table.candidate(index, solid_angle, q, coarseness, offset));
             }
-        }
-    }
-
-    fn add(&mut self, texel: usize, q: f64, coarseness: f32, offset: DVec2) {
-        let solid_angle = f64::from(self.world.solid_angles()[texel]);
-        if solid_angle > 0.0 {
-            self.candidates.push(Candidate {
-                texel: texel as u32,
-                under: q < UNDER,
-                weight: f64::from(self.table.weight(q, coarseness)) * solid_angle,
-                window: (1.0 - q / self.table.radius_squared()).powi(2) * solid_angle,
-                offset,
-            });
         }
     }
 }
@@ -172,6 +164,30 @@ impl TexelBox {
             bottom: (centre.y + reach.y - 0.5).floor() as i64,
         }
     }
+
+    /// The runs of texels in each row: one, or where a panorama's box crosses its edge, one for each turn.
+    fn runs(&self, source: &Source) -> impl Iterator<Item = Run> + use<> {
+        let width = source.view.width() as i64;
+        let (left, end, turn) = match source.period {
+            // Never the same texel twice.
+            Some(period) => (self.left, (self.right + 1).min(self.left + period as i64), period as i64),
+            None => (self.left.max(0), (self.right + 1).min(width), width),
+        };
+        let turns = if left < end { left.div_euclid(turn)..(end - 1).div_euclid(turn) + 1 } else { 0..0 };
+        turns.filter_map(move |k| {
+            let (first, past) = (left.max(k * turn), end.min(k * turn + width.min(turn)));
+            let column = (first - k * turn) as usize;
+            (first < past).then(|| Run { column, unrolled: first, length: (past - first) as usize })
+        })
+    }
+}
+
+/// A run of texels in one row of the box: its first column in the image, the same column counted on past the image's
+/// edge, and its length.
+struct Run {
+    column: usize,
+    unrolled: i64,
+    length: usize,
 }
 
 /// Column and row of every texel that can lie within `radius` radians of a direction.

@@ -1,5 +1,7 @@
 use std::f64::consts::PI;
 
+use super::candidates::Candidate;
+
 /// The cross-section of a radial kernel: weight by distance r from the centre, in the kernel's unit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum CrossSection {
@@ -161,9 +163,13 @@ impl Kernel {
     }
 }
 
+/// Anti-ringing clamps to the texels of r² under this. With the default floor the disc reaches 1.37 texels, so that
+/// whatever way a gradient runs there are texels on both sides of the pixel, at the corners of a cube too.
+const UNDER: f64 = 1.5;
+
 /// The paper's WTAB, twice: both cross-sections of a kernel tabulated over r², so that Q = r² is the index.
 #[derive(Clone, Debug)]
-pub(super) struct KernelTable {
+pub(crate) struct KernelTable {
     kernel: Kernel,
     weights: Vec<[f32; 2]>,
     entries_per_unit: f64,
@@ -171,10 +177,10 @@ pub(super) struct KernelTable {
 }
 
 /// Entries of a table; nearest look-up errs by less than 1/1000 of the peak for every kernel here.
-const ENTRIES: usize = 8192;
+const ENTRIES: usize = 2048;
 
 impl KernelTable {
-    pub(super) fn new(kernel: &Kernel) -> Self {
+    pub(crate) fn new(kernel: &Kernel) -> Self {
         let radius_squared = kernel.radius().powi(2);
         let entries_per_unit = ENTRIES as f64 / radius_squared;
         let weights = (0..ENTRIES)
@@ -200,5 +206,24 @@ impl KernelTable {
         let entry = ((q * self.entries_per_unit) as usize).min(ENTRIES - 1);
         let [fine, coarse] = self.weights[entry];
         fine + (coarse - fine) * coarseness
+    }
+
+    /// A texel at distance² `q` < [`KernelTable::radius_squared`] and at this offset in screen pixels.
+    pub(super) fn candidate(
+        &self,
+        texel: usize,
+        solid_angle: f32,
+        q: f64,
+        coarseness: f32,
+        offset: glam::DVec2,
+    ) -> Candidate {
+        let falloff = 1.0 - (q / self.radius_squared) as f32;
+        Candidate {
+            texel: texel as u32,
+            under: q < UNDER,
+            weight: self.weight(q, coarseness) * solid_angle,
+            window: falloff * falloff * solid_angle,
+            offset: [offset.x as f32, offset.y as f32],
+        }
     }
 }

@@ -4,7 +4,7 @@ use crate::sphere::Direction;
 use crate::world::{PixelPoint, Source, World};
 
 /// The index of the view that holds a direction, and where.
-pub(super) fn owner(world: &World, direction: Direction) -> Option<(usize, PixelPoint)> {
+pub(crate) fn owner(world: &World, direction: Direction) -> Option<(usize, PixelPoint)> {
     // A direction on the very edge between two views may miss both by a rounding error.
     const ROUNDING: f64 = 1e-6;
     world.sources().iter().enumerate().find_map(|(index, source)| {

@@ -1,21 +1,28 @@
 //! Resampling: from a world of views to the pixels of a target.
 
 mod block;
+mod candidates;
 mod ellipse;
+mod ewa;
 mod filter;
 mod gather;
 mod kernel;
 mod lookup;
 mod need;
+mod pixel_taps;
 mod plan;
 mod reference;
 mod screen_mask;
 mod taps;
 
 pub use ellipse::Ellipse;
+pub use ewa::{TextureDerivatives, WeightTable, ewa};
 pub use filter::{Filter, FilterKind};
+pub(crate) use kernel::KernelTable;
 pub use kernel::{CrossSection, Kernel};
+pub(crate) use lookup::owner;
 pub use need::{Need, Needs, Uncovered};
+pub(crate) use pixel_taps::PixelTaps;
 pub use plan::{Plan, Resampler};
 pub use screen_mask::ScreenMask;
 pub use taps::{Tap, Taps};

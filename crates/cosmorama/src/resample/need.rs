@@ -3,9 +3,9 @@
 use rayon::prelude::*;
 
 use super::block::{Block, Cap};
-use super::gather::Gather;
 use super::kernel::KernelTable;
-use super::{Filter, FilterKind, Taps, lookup, reference};
+use super::pixel_taps::PixelTaps;
+use super::{Filter, lookup};
 use crate::sphere::Direction;
 use crate::world::{PixelPoint, PixelRect, Source, View, World};
 
@@ -36,6 +36,20 @@ pub struct Uncovered {
     pub direction: Direction,
 }
 
+impl std::fmt::Display for Uncovered {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let (yaw, pitch) = self.direction.longitude_latitude();
+        let (yaw, pitch) = (yaw.degrees(), pitch.degrees());
+        let plural = if self.pixels == 1 { "pixel looks" } else { "pixels look" };
+        let (column, row) = (self.column, self.row);
+        write!(
+            f,
+            "{} {plural} where no view does: first column {column}, row {row} (yaw {yaw:.1}°, pitch {pitch:.1}°)",
+            self.pixels
+        )
+    }
+}
+
 /// What targets need of a world.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Needs {
@@ -55,13 +69,13 @@ impl Needs {
         let mut needs = Self::nothing(world);
         for (index, target) in targets.iter().enumerate() {
             let survey = Survey { world, target, index, filter };
-            // The extremes lie where the frame, the lens or a view ends: with those known, the rest is quick.
-            let (edges, inside): (Vec<_>, Vec<_>) = Block::all(target)
-                .into_iter()
-                .map(|block| (block, survey.owner(&block)))
-                .partition(|(block, owner)| block.at_border || owner.is_none());
-            needs = survey.blocks(&edges, needs);
-            needs = survey.blocks(&inside, needs);
+            // The extremes lie where the frame, the lens or a view ends, in this order of likelihood: with those known,
+            // the rest is quick.
+            let mut ranks: [Vec<Judged>; 3] = Default::default();
+            for judged in survey.judged_blocks() {
+                ranks[judged.rank].push(judged);
+            }
+            needs = ranks.iter().fold(needs, |needs, blocks| survey.blocks(blocks, needs));
         }
         needs
     }
@@ -114,27 +128,40 @@ struct Survey<'a> {
     filter: &'a Filter,
 }
 
+/// A block and what is known of it as a whole.
+struct Judged {
+    block: Block,
+    cap: Option<Cap>,
+    /// The source that shows all of it.
+    owner: Option<usize>,
+    /// 0 at the edge of the picture, 1 at the edge of a view, 2 inside both.
+    rank: usize,
+}
+
 impl Survey<'_> {
-    /// The cap of a block and the source that shows all of it.
-    fn owner(&self, block: &Block) -> Option<(Cap, usize)> {
-        let cap = block.cap(self.target)?;
-        let source = self.world.sources().iter().position(|source| cap.is_shown_by(source))?;
-        Some((cap, source))
+    fn judged_blocks(&self) -> Vec<Judged> {
+        let judged = |block: Block| {
+            let cap = block.cap(self.target);
+            let owner = cap.and_then(|cap| self.world.sources().iter().position(|source| cap.is_shown_by(source)));
+            let rank =
+                if cap.is_none() || block.is_at_edge_of(self.target) { 0 } else { 1 + usize::from(owner.is_some()) };
+            Judged { block, cap, owner, rank }
+        };
+        let blocks = Block::all(self.target).into_par_iter();
+        blocks.filter(|block| !block.is_hidden(self.target)).map(judged).collect()
     }
 
     /// Adds what these blocks need to what is known already.
-    fn blocks(&self, blocks: &[(Block, Option<(Cap, usize)>)], known: Needs) -> Needs {
+    fn blocks(&self, blocks: &[Judged], known: Needs) -> Needs {
         let few = blocks.len().div_ceil(8 * rayon::current_num_threads()).max(1);
         let table = KernelTable::new(&self.filter.kernel);
         let found: Vec<Needs> = blocks
             .par_chunks(few)
             .map(|blocks| {
                 let mut found = Needs { uncovered: None, ..known.clone() };
-                let mut pixels = PixelTaps::new(self, &table);
-                for (block, owner) in blocks {
-                    if !owner.as_ref().is_some_and(|(cap, owner)| self.adds_nothing(cap, *owner, &found)) {
-                        pixels.add_block(block, &mut found);
-                    }
+                let mut pixels = PixelTaps::new(self.world, self.target, self.filter, &table);
+                for judged in blocks {
+                    self.add_block(judged, &mut pixels, &mut found);
                 }
                 found
             })
@@ -142,55 +169,36 @@ impl Survey<'_> {
         found.iter().fold(known, Needs::merged)
     }
 
-    /// Whether a block that one source shows whole can need only texels that are needed anyway.
-    fn adds_nothing(&self, cap: &Cap, owner: usize, found: &Needs) -> bool {
-        let sources = self.world.sources();
-        within(cap.seen_texels(&sources[owner]), found.views[owner].seen)
-            && sources
-                .iter()
-                .zip(&found.views)
-                .all(|(source, need)| within(cap.read_texels(source, &self.filter.kernel), need.read))
-    }
-}
-
-/// The texels of single pixels.
-struct PixelTaps<'a> {
-    survey: &'a Survey<'a>,
-    gather: Gather<'a>,
-    taps: Taps,
-}
-
-impl<'a> PixelTaps<'a> {
-    fn new(survey: &'a Survey<'a>, table: &'a KernelTable) -> Self {
-        Self { survey, gather: Gather::new(survey.world, table), taps: Taps::default() }
-    }
-
-    fn add_block(&mut self, block: &Block, needs: &mut Needs) {
-        for j in block.pixels.top..block.pixels.bottom {
-            for i in block.pixels.left..block.pixels.right {
-                self.add_pixel(i, j, needs);
+    /// Adds what the pixels of a block need, unless they surely need nothing new.
+    fn add_block(&self, judged: &Judged, pixels: &mut PixelTaps, needs: &mut Needs) {
+        let reads_nothing_new = judged.cap.is_some_and(|cap| self.reads_within(&cap, needs));
+        let sees_nothing_new = judged
+            .cap
+            .zip(judged.owner)
+            .is_some_and(|(cap, owner)| within(cap.seen_texels(&self.world.sources()[owner]), needs.views[owner].seen));
+        if reads_nothing_new && sees_nothing_new {
+            return;
+        }
+        for (i, j) in judged.block.pixels() {
+            let Some(screen) = self.target.screen_pixel(i, j) else { continue };
+            self.add_pixel((i, j), screen.footprint.direction, needs);
+            if !reads_nothing_new {
+                pixels.for_each_texel((i, j), &screen, |texel| add_read(self.world, texel, &mut needs.views));
             }
         }
     }
 
-    fn add_pixel(&mut self, i: usize, j: usize, needs: &mut Needs) {
-        let Survey { world, target, index, filter } = *self.survey;
-        let Some(screen) = target.screen_pixel(i, j) else { return };
-        let direction = screen.footprint.direction;
-        match lookup::owner(world, direction) {
-            Some((owner, pixel)) => add_seen(&world.sources()[owner], pixel, &mut needs.views[owner]),
-            None => needs.add_uncovered(Uncovered { pixels: 1, target: index, column: i, row: j, direction }),
-        }
-        let mut read = |texel: u32, _: f64| add_read(world, texel as usize, &mut needs.views);
-        match filter.kind {
-            FilterKind::Ewa => {
-                self.gather.taps(&screen.footprint, &mut self.taps);
-                self.taps.as_slice().iter().for_each(|tap| read(tap.texel, 0.0));
-            }
-            FilterKind::Point => lookup::nearest(world, direction, read),
-            FilterKind::Bilinear => lookup::bilinear(world, direction, read),
-            FilterKind::Reference { samples } => {
-                reference::for_each_texel(world, target, filter, samples, (i, j), read)
+    /// Whether kernels around a block's pixels touch only texels that are needed anyway.
+    fn reads_within(&self, cap: &Cap, needs: &Needs) -> bool {
+        let mut views = self.world.sources().iter().zip(&needs.views);
+        views.all(|(source, need)| within(cap.read_texels(source, &self.filter.kernel), need.read))
+    }
+
+    fn add_pixel(&self, (column, row): (usize, usize), direction: Direction, needs: &mut Needs) {
+        match lookup::owner(self.world, direction) {
+            Some((owner, at)) => add_seen(&self.world.sources()[owner], at, &mut needs.views[owner]),
+            None => {
+                needs.add_uncovered(Uncovered { pixels: 1, target: self.index, column, row, direction });
             }
         }
     }

@@ -133,11 +133,11 @@ impl Resampler<'_> {
             FilterKind::Ewa => gather.taps(&screen.footprint, taps),
             FilterKind::Point => {
                 taps.clear();
-                lookup::nearest(self.world, direction, |texel, weight| taps.push_under(texel, weight));
+                lookup::nearest(self.world, direction, |texel, weight| taps.push_under(texel, weight as f32));
             }
             FilterKind::Bilinear | FilterKind::Reference { .. } => {
                 taps.clear();
-                lookup::bilinear(self.world, direction, |texel, weight| taps.push_under(texel, weight));
+                lookup::bilinear(self.world, direction, |texel, weight| taps.push_under(texel, weight as f32));
                 taps.normalise();
             }
         }
@@ -158,6 +158,11 @@ impl Plan {
             }
         });
         image
+    }
+
+    /// Bytes that a plan of so many pixels and taps holds.
+    pub(crate) fn bytes_for(pixels: usize, taps: usize) -> usize {
+        pixels * size_of::<PlannedPixel>() + taps * size_of::<Tap>()
     }
 
     /// Bytes of memory that the plan holds.

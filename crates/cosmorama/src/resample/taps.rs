@@ -1,5 +1,3 @@
-use glam::DVec2;
-
 use crate::raster::Rgba;
 
 /// One texel's part in an output pixel.
@@ -43,14 +41,14 @@ impl Taps {
     }
 
     /// Adds a tap under the pixel; all those around it come after.
-    pub(super) fn push_under(&mut self, texel: u32, weight: f64) {
+    pub(super) fn push_under(&mut self, texel: u32, weight: f32) {
         debug_assert_eq!(self.under, self.taps.len());
-        self.taps.push(Tap { texel, weight: weight as f32 });
+        self.taps.push(Tap { texel, weight });
         self.under += 1;
     }
 
-    fn push_around(&mut self, texel: u32, weight: f64) {
-        self.taps.push(Tap { texel, weight: weight as f32 });
+    pub(super) fn push_around(&mut self, texel: u32, weight: f32) {
+        self.taps.push(Tap { texel, weight });
     }
 
     /// Scales the weights to a sum of one.
@@ -87,65 +85,4 @@ pub(super) fn average(taps: &[Tap], under: usize, texels: &[Rgba], anti_ringing:
         }
     }
     Rgba(sum)
-}
-
-/// A texel that a kernel reaches, before the weights are settled.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Candidate {
-    pub(super) texel: u32,
-    /// Whether it lies under the pixel.
-    pub(super) under: bool,
-    /// The kernel's weight times the texel's solid angle.
-    pub(super) weight: f64,
-    /// How much of a correction it may take: positive, falling to nothing at the kernel's edge.
-    pub(super) window: f64,
-    /// Where it lies, from the pixel's centre, in screen pixels.
-    pub(super) offset: DVec2,
-}
-
-/// Corrects the weights so that their centroid is the pixel's centre, their sum unchanged.
-///
-/// A radial kernel on a lattice of texels weighs one side a little more than the other, which shifts the picture by up
-/// to a tenth of a pixel. The correction w + window·g·(p − p̄), linear in the offset p, is that of moving least squares
-/// (Lancaster & Salkauskas 1981): a world whose colour is linear in the screen's coordinates then comes back exactly.
-pub(super) fn centre(candidates: &mut [Candidate]) {
-    let (mut window, mut window_p, mut weight_p) = (0.0, DVec2::ZERO, DVec2::ZERO);
-    let (mut xx, mut xy, mut yy) = (0.0, 0.0, 0.0);
-    for candidate in candidates.iter() {
-        let p = candidate.offset;
-        let weighted = p * candidate.window;
-        window += candidate.window;
-        window_p += weighted;
-        weight_p += p * candidate.weight;
-        xx += weighted.x * p.x;
-        xy += weighted.x * p.y;
-        yy += weighted.y * p.y;
-    }
-    let mean = window_p / window;
-    let (xx, xy, yy) = (xx - window_p.x * mean.x, xy - window_p.x * mean.y, yy - window_p.y * mean.y);
-    let determinant = xx * yy - xy * xy;
-    if !(determinant > 1e-6 * xx * yy) {
-        // All in one line: nothing to move the centroid with.
-        return;
-    }
-    let gradient = DVec2::new(xy * weight_p.y - yy * weight_p.x, xy * weight_p.x - xx * weight_p.y) / determinant;
-    for candidate in candidates {
-        candidate.weight += candidate.window * gradient.dot(candidate.offset - mean);
-    }
-}
-
-/// Turns candidates into taps whose weights add to one; none if their sum would be noise.
-pub(super) fn settle(candidates: &[Candidate], taps: &mut Taps) {
-    let sum: f64 = candidates.iter().map(|candidate| candidate.weight).sum();
-    let size: f64 = candidates.iter().map(|candidate| candidate.weight.abs()).sum();
-    // Where only negative lobes reach a texel, beside a missing face, there is no average.
-    if sum <= 0.05 * size {
-        return;
-    }
-    for candidate in candidates.iter().filter(|candidate| candidate.under) {
-        taps.push_under(candidate.texel, candidate.weight / sum);
-    }
-    for candidate in candidates.iter().filter(|candidate| !candidate.under) {
-        taps.push_around(candidate.texel, candidate.weight / sum);
-    }
 }

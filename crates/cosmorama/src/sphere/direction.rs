@@ -84,11 +84,6 @@ impl DirectionJacobian {
         self.dx.cross(self.dy).length()
     }
 
-    /// Derivative for other axes: the new x moves the plane point by `x`, the new y by `y` (chain rule).
-    pub fn compose(&self, x: glam::DVec2, y: glam::DVec2) -> Self {
-        Self { dx: self.dx * x.x + self.dy * x.y, dy: self.dx * y.x + self.dy * y.y }
-    }
-
     /// The plane step that moves the direction by `tangent` (least squares: the pseudo-inverse JᵀJ⁻¹Jᵀ).
     /// `None` where the mapping is singular.
     pub fn pseudo_inverse(&self, tangent: DVec3) -> Option<glam::DVec2> {

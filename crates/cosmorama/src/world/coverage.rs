@@ -1,4 +1,4 @@
-use super::{Footprint, PixelPoint, View};
+use super::{FieldStop, Footprint, PixelPoint, View};
 use crate::projection::Projection;
 
 /// A pixel of a target: how much of it the field of view covers, and what the covered part sees.
@@ -17,7 +17,10 @@ const SUB_SAMPLES: usize = 16;
 enum Side {
     Inside,
     Outside,
-    Edge,
+    /// These parts of the field stop may cut the pixel.
+    Cut(FieldStop),
+    /// Its centre has no direction: anything may cut it.
+    Unknown,
 }
 
 impl View {
@@ -27,23 +30,26 @@ impl View {
     pub fn screen_pixel(&self, i: usize, j: usize) -> Option<ScreenPixel> {
         let centre = PixelPoint::centre(i, j);
         let footprint = self.footprint(centre);
-        match footprint.as_ref().map_or(Side::Edge, |footprint| self.side(centre, footprint)) {
+        match footprint.as_ref().map_or(Side::Unknown, |footprint| self.side(centre, footprint)) {
             Side::Inside => footprint.map(|footprint| ScreenPixel { coverage: 1.0, footprint }),
             Side::Outside => None,
-            Side::Edge => self.cut_pixel(i as f64, j as f64),
+            Side::Cut(stop) => self.cut_pixel(i as f64, j as f64, |sample| self.passes(&stop, sample)),
+            Side::Unknown => self.cut_pixel(i as f64, j as f64, |sample| self.shows(sample)),
         }
     }
 
     /// Decides without sub-samples where a pixel cannot touch the edge: it is nowhere wider than its half diagonals.
     fn side(&self, centre: PixelPoint, footprint: &Footprint) -> Side {
-        let mut touches = false;
+        let mut touched = FieldStop::NONE;
         if let Some(radius) = self.stop.circle {
             let (point, step) = (self.grid.to_plane(centre), self.grid.step());
-            let (distance, half_diagonal) = (point.x.hypot(point.y), step.length() / 2.0);
+            let (distance, half_diagonal) = ((point.x * point.x + point.y * point.y).sqrt(), step.length() / 2.0);
             if distance - half_diagonal > radius {
                 return Side::Outside;
             }
-            touches |= distance + half_diagonal > radius;
+            if distance + half_diagonal > radius {
+                touched.circle = Some(radius);
+            }
         }
         if let Some(side) = self.stop.half_space {
             let sine = side.dot(self.orientation.to_view(footprint.direction));
@@ -52,18 +58,20 @@ impl View {
             if sine < -reach {
                 return Side::Outside;
             }
-            touches |= sine < reach;
+            if sine < reach {
+                touched.half_space = Some(side);
+            }
         }
-        if touches { Side::Edge } else { Side::Inside }
+        if touched == FieldStop::NONE { Side::Inside } else { Side::Cut(touched) }
     }
 
-    fn cut_pixel(&self, x: f64, y: f64) -> Option<ScreenPixel> {
+    fn cut_pixel(&self, x: f64, y: f64, is_inside: impl Fn(PixelPoint) -> bool) -> Option<ScreenPixel> {
         let (mut count, mut sum_x, mut sum_y) = (0usize, 0.0, 0.0);
         for b in 0..SUB_SAMPLES {
             for a in 0..SUB_SAMPLES {
                 let offset = |k: usize| (k as f64 + 0.5) / SUB_SAMPLES as f64;
                 let sample = PixelPoint::new(x + offset(a), y + offset(b));
-                if self.shows(sample) {
+                if is_inside(sample) {
                     count += 1;
                     sum_x += sample.x;
                     sum_y += sample.y;
@@ -75,8 +83,14 @@ impl View {
         Some(ScreenPixel { coverage: count as f64 / (SUB_SAMPLES * SUB_SAMPLES) as f64, footprint })
     }
 
-    /// Angle from a direction of the world to the nearest one at which this view's mapping is singular, in radians.
-    pub fn margin(&self, direction: crate::sphere::Direction) -> f64 {
-        self.projection.margin(self.orientation.to_view(direction)).radians()
+    /// Whether parts of the field stop let a point pass; a direction is computed only where one is asked for.
+    fn passes(&self, stop: &FieldStop, sample: PixelPoint) -> bool {
+        let point = self.grid.to_plane(sample);
+        let in_circle = stop.circle.is_none_or(|radius| point.x * point.x + point.y * point.y <= radius * radius);
+        in_circle
+            && match stop.half_space {
+                Some(side) => self.projection.unproject(point).is_some_and(|direction| side.dot(direction) >= 0.0),
+                None => true,
+            }
     }
 }

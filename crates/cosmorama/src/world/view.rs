@@ -48,9 +48,9 @@ impl View {
     /// The direction at a point of the image with its derivatives per pixel.
     pub fn footprint(&self, pixel: PixelPoint) -> Option<Footprint> {
         let point = self.grid.to_plane(pixel);
-        let direction = self.projection.unproject(point)?;
+        let (direction, plane) = self.projection.unproject_with_jacobian(point)?;
         let step = self.grid.step();
-        let jacobian = self.projection.jacobian(point)?.compose(DVec2::new(step.x, 0.0), DVec2::new(0.0, -step.y));
+        let jacobian = DirectionJacobian { dx: plane.dx * step.x, dy: plane.dy * -step.y };
         Some(Footprint {
             direction: self.orientation.to_world(direction),
             jacobian: self.orientation.jacobian_to_world(jacobian),
@@ -76,14 +76,10 @@ impl View {
     /// along x and y ((Ux, Vx) and (Uy, Vy) in Greene & Heckbert).
     pub fn texel_footprint(&self, footprint: &Footprint) -> Option<(PixelPoint, DMat2)> {
         let direction = self.orientation.to_view(footprint.direction);
-        let point = self.projection.project(direction)?;
-        let here = self.projection.jacobian(point)?;
+        let tangents = [footprint.jacobian.dx, footprint.jacobian.dy].map(|t| self.orientation.vector_to_view(t));
+        let (point, [x, y]) = self.projection.project_with_derivatives(direction, tangents)?;
         let step = self.grid.step();
-        let column = |tangent| {
-            let plane = here.pseudo_inverse(self.orientation.vector_to_view(tangent))?;
-            Some(DVec2::new(plane.x / step.x, -plane.y / step.y))
-        };
-        let texels = DMat2::from_cols(column(footprint.jacobian.dx)?, column(footprint.jacobian.dy)?);
+        let texels = DMat2::from_cols(DVec2::new(x.x / step.x, -x.y / step.y), DVec2::new(y.x / step.x, -y.y / step.y));
         Some((self.grid.to_pixel(point), texels))
     }
 
@@ -117,6 +113,11 @@ impl View {
     pub fn stop_passes(&self, pixel: PixelPoint) -> bool {
         let point = self.grid.to_plane(pixel);
         self.projection.unproject(point).is_some_and(|direction| self.stop.passes(point, direction))
+    }
+
+    /// [`Projection::margin`] of a direction of the world.
+    pub fn margin(&self, direction: Direction) -> f64 {
+        self.projection.margin(self.orientation.to_view(direction))
     }
 
     /// The rectangle of pixel coordinates (its min and max corners) that holds every direction within `radius`.

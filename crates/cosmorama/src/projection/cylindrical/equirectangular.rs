@@ -23,18 +23,25 @@ impl Projection for Equirectangular {
     }
 
     fn jacobian(&self, point: PlanePoint) -> Option<DirectionJacobian> {
-        self.unproject(point)?;
-        let (sin_lon, cos_lon) = point.x.sin_cos();
-        let (sin_lat, cos_lat) = point.y.sin_cos();
-        Some(DirectionJacobian {
-            dx: DVec3::new(cos_lon, 0.0, sin_lon) * cos_lat,
-            dy: DVec3::new(-sin_lon * sin_lat, cos_lat, cos_lon * sin_lat),
-        })
+        self.unproject_with_jacobian(point).map(|(_, jacobian)| jacobian)
     }
 
-    fn margin(&self, direction: Direction) -> Angle {
+    fn unproject_with_jacobian(&self, point: PlanePoint) -> Option<(Direction, DirectionJacobian)> {
+        let direction = self.unproject(point)?;
+        let d = direction.vector();
+        let (sin_lon, cos_lon) = point.x.sin_cos();
+        let cos_lat = point.y.cos();
+        let jacobian = DirectionJacobian {
+            dx: DVec3::new(cos_lon, 0.0, sin_lon) * cos_lat,
+            dy: DVec3::new(-sin_lon * d.y, cos_lat, cos_lon * d.y),
+        };
+        Some((direction, jacobian))
+    }
+
+    fn margin(&self, direction: Direction) -> f64 {
+        // The sine of the angle to the nearer pole.
         let vector = direction.vector();
-        Angle::from_radians(vector.x.hypot(vector.z).atan2(vector.y.abs()))
+        (vector.x * vector.x + vector.z * vector.z).sqrt()
     }
 
     fn cap_bounds(&self, centre: Direction, radius: Angle) -> PlaneRect {

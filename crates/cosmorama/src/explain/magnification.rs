@@ -1,0 +1,90 @@
+use glam::DMat2;
+
+use crate::projection::{PlanePoint, Projection};
+use crate::world::{Footprint, PixelPoint, View};
+
+/// How many texels a target pixel is long: less than 1 enlarges, more than 1 reduces.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Magnification {
+    /// Along the direction in which the pixel holds fewest.
+    pub least: f64,
+    /// Along the direction in which it holds most.
+    pub greatest: f64,
+}
+
+impl Magnification {
+    /// The singular values of a footprint's matrix.
+    pub(super) fn of(jacobian: DMat2) -> Self {
+        // s₁ ± s₂ are the lengths of the conformal and the anticonformal part of the matrix.
+        let (x, y) = (jacobian.x_axis, jacobian.y_axis);
+        let sum = (x.x + y.y).hypot(x.y - y.x);
+        let difference = (x.x - y.y).hypot(x.y + y.x);
+        Self { least: (sum - difference).abs() / 2.0, greatest: (sum + difference) / 2.0 }
+    }
+
+    /// The range that holds both.
+    #[must_use]
+    pub(super) fn union(self, other: Self) -> Self {
+        Self { least: self.least.min(other.least), greatest: self.greatest.max(other.greatest) }
+    }
+}
+
+/// Sizes of a source image by what a target's centre asks for.
+///
+/// At parity a texel of the source's centre is as large as a pixel of the target's centre. For the Omnimax lens, whose
+/// slope there is 1.411269 radians a radius, a cube face at parity is 2·radius/1.411269 texels wide.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FaceSize {
+    /// Texels for one target pixel, along columns and rows, as the source is: its source to destination ratio.
+    pub ratio: (f64, f64),
+    /// Width and height at parity.
+    pub parity: (usize, usize),
+    /// Width and height at 2:3.
+    ///
+    /// Greene & Heckbert call their faces and frame a source to destination ratio of 2:3. It is the ratio at the
+    /// centre: when the limiting circle spans the frame's 1966 pixels, a pixel is 1.411269/983 radians, a texel of a
+    /// 1024×960 face 2/1024 by 2/960, and the ratio is 0.735 by 0.689.
+    pub two_thirds: (usize, usize),
+}
+
+impl FaceSize {
+    /// Sizes of `source` for a target whose central pixel sees `footprint`; `None` where either is singular.
+    pub(super) fn of(source: &View, footprint: &Footprint) -> Option<Self> {
+        let pixel = footprint.jacobian.solid_angle().sqrt();
+        let step = source.grid.step();
+        // The texel at the plane's origin, whether or not the image holds it, so that all faces get one advice.
+        let jacobian = source.projection.jacobian(PlanePoint::new(0.0, 0.0))?;
+        let texel = (jacobian.dx.length() * step.x.abs(), jacobian.dy.length() * step.y.abs());
+        if !(pixel > 0.0 && texel.0 > 0.0 && texel.1 > 0.0) {
+            return None;
+        }
+        let ratio = (pixel / texel.0, pixel / texel.1);
+        let size = |part: f64| {
+            let along = |texels: usize, ratio: f64| (texels as f64 / ratio * part).round().max(1.0) as usize;
+            (along(source.width(), ratio.0), along(source.height(), ratio.1))
+        };
+        Some(Self { ratio, parity: size(1.0), two_thirds: size(2.0 / 3.0) })
+    }
+}
+
+/// The footprint of the pixel at a target's centre: on the lens's axis, or else in the middle of the frame.
+pub(super) fn central_footprint(target: &View) -> Option<Footprint> {
+    let axis = target.grid.to_pixel(PlanePoint::new(0.0, 0.0));
+    let middle = PixelPoint::new(target.width() as f64 / 2.0, target.height() as f64 / 2.0);
+    let centre = if target.shows(axis) { axis } else { middle };
+    target.footprint(centre)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::DVec2;
+
+    #[test]
+    fn singular_values() {
+        let turn = DMat2::from_angle(0.7);
+        let matrix = turn * DMat2::from_diagonal(DVec2::new(3.0, -0.5)) * DMat2::from_angle(-1.1);
+        let found = Magnification::of(matrix);
+        assert!((found.least - 0.5).abs() < 1e-12 && (found.greatest - 3.0).abs() < 1e-12, "{found:?}");
+    }
+}

@@ -1,0 +1,110 @@
+use rayon::prelude::*;
+
+use super::Magnification;
+use crate::resample::{Filter, KernelTable, PixelTaps, owner};
+use crate::world::{PixelPoint, ScreenPixel, Source, View, World};
+
+/// Pixels, and texels of a view, that a survey looks at; of more it takes every second one, third one and so on.
+const SAMPLES: usize = 1 << 17;
+
+/// What a look at the pixels of a target finds.
+#[derive(Clone, Debug)]
+pub(super) struct Survey {
+    /// Pixels looked at, and how many of them show something.
+    pub(super) sampled: usize,
+    pub(super) shown: usize,
+    /// Texels gathered by all the pixels looked at, and the most by one.
+    pub(super) texels: usize,
+    pub(super) most: usize,
+    /// For each view, the pixels that look into it, and how long they are in texels.
+    pub(super) views: Vec<(usize, Option<Magnification>)>,
+}
+
+impl Survey {
+    pub(super) fn of(world: &World, target: &View, filter: &Filter) -> Self {
+        let step = stride(target.width(), target.height());
+        let rows: Vec<usize> = sampled(target.height(), step).collect();
+        let few = rows.len().div_ceil(8 * rayon::current_num_threads()).max(1);
+        let table = KernelTable::new(&filter.kernel);
+        let taps = || PixelTaps::new(world, target, filter, &table);
+        let bands: Vec<Self> = rows.par_chunks(few).map(|rows| Self::of_rows(world, target, taps(), rows)).collect();
+        bands.into_iter().fold(Self::empty(world), Self::merged)
+    }
+
+    fn empty(world: &World) -> Self {
+        Self { sampled: 0, shown: 0, texels: 0, most: 0, views: vec![(0, None); world.sources().len()] }
+    }
+
+    fn of_rows(world: &World, target: &View, mut taps: PixelTaps, rows: &[usize]) -> Self {
+        let mut survey = Self::empty(world);
+        let step = stride(target.width(), target.height());
+        for &j in rows {
+            for i in sampled(target.width(), step) {
+                survey.sampled += 1;
+                let Some(screen) = target.screen_pixel(i, j) else { continue };
+                let mut count = 0;
+                taps.for_each_texel((i, j), &screen, |_| count += 1);
+                survey.shown += 1;
+                survey.texels += count;
+                survey.most = survey.most.max(count);
+                survey.add_magnification(world, &screen);
+            }
+        }
+        survey
+    }
+
+    fn add_magnification(&mut self, world: &World, screen: &ScreenPixel) {
+        let Some((index, _)) = owner(world, screen.footprint.direction) else { return };
+        let (pixels, range) = &mut self.views[index];
+        *pixels += 1;
+        if let Some((_, jacobian)) = world.sources()[index].view.texel_footprint(&screen.footprint) {
+            *range = union(*range, Some(Magnification::of(jacobian)));
+        }
+    }
+
+    fn merged(mut self, other: Self) -> Self {
+        self.sampled += other.sampled;
+        self.shown += other.shown;
+        self.texels += other.texels;
+        self.most = self.most.max(other.most);
+        for ((pixels, range), (more, others)) in self.views.iter_mut().zip(other.views) {
+            *pixels += more;
+            *range = union(*range, others);
+        }
+        self
+    }
+}
+
+fn union(a: Option<Magnification>, b: Option<Magnification>) -> Option<Magnification> {
+    match (a, b) {
+        (Some(a), Some(b)) => Some(a.union(b)),
+        (one, other) => one.or(other),
+    }
+}
+
+/// The part of a view's texels whose centres a target shows.
+pub(super) fn used_part(source: &Source, target: &View) -> f64 {
+    let view = &source.view;
+    let step = stride(view.width(), view.height());
+    let rows: Vec<usize> = sampled(view.height(), step).collect();
+    let (given, used) = rows
+        .par_iter()
+        .map(|&j| {
+            let centres = sampled(view.width(), step).map(|i| PixelPoint::centre(i, j));
+            centres.filter(|&centre| view.shows(centre)).fold((0, 0), |(given, used), centre| {
+                let is_used = view.direction(centre).is_some_and(|direction| target.sees(direction));
+                (given + 1, used + usize::from(is_used))
+            })
+        })
+        .reduce(|| (0, 0), |a, b| (a.0 + b.0, a.1 + b.1));
+    used as f64 / given.max(1) as f64
+}
+
+fn stride(width: usize, height: usize) -> usize {
+    ((width * height) as f64 / SAMPLES as f64).sqrt().ceil().max(1.0) as usize
+}
+
+/// Every `step`th index, and the last one: the extremes lie at the borders.
+fn sampled(size: usize, step: usize) -> impl Iterator<Item = usize> + Clone {
+    (0..size).filter(move |index| index % step == 0 || index + 1 == size)
+}

@@ -1,0 +1,86 @@
+use glam::DVec2;
+
+use super::Taps;
+
+/// A texel that a kernel reaches, before the weights are settled.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Candidate {
+    /// Index in the world's buffer.
+    pub(super) texel: u32,
+    /// Whether it lies under the pixel.
+    pub(super) under: bool,
+    /// The kernel's weight times the texel's solid angle.
+    pub(super) weight: f32,
+    /// How much of a correction it may take: positive, falling to nothing at the kernel's edge.
+    pub(super) window: f32,
+    /// Where it lies from the pixel's centre, in screen pixels.
+    pub(super) offset: [f32; 2],
+}
+
+/// Makes taps whose weights add to one, none if their sum would be noise; with `centred`, their centroid is the pixel's
+/// centre.
+pub(super) fn settle(candidates: &[Candidate], centred: bool, taps: &mut Taps) {
+    let (mut sum, mut size) = (0f64, 0f64);
+    for candidate in candidates {
+        sum += f64::from(candidate.weight);
+        size += f64::from(candidate.weight.abs());
+    }
+    // Where only negative lobes reach a texel, beside a missing face, there is no average.
+    if sum <= 0.05 * size {
+        return;
+    }
+    let correction = if centred { Correction::centring(candidates) } else { Correction::default() };
+    let scale = sum.recip() as f32;
+    let weight = |candidate: &Candidate| (candidate.weight + correction.of(candidate)) * scale;
+    for candidate in candidates.iter().filter(|candidate| candidate.under) {
+        taps.push_under(candidate.texel, weight(candidate));
+    }
+    for candidate in candidates.iter().filter(|candidate| !candidate.under) {
+        taps.push_around(candidate.texel, weight(candidate));
+    }
+}
+
+/// What is added to the weights so that their centroid is the pixel's centre, their sum unchanged: v·g·(p − p̄).
+///
+/// A radial kernel on a lattice of texels weighs one side a little more than the other, which shifts the picture by up
+/// to a tenth of a pixel. A correction linear in the offset p is that of moving least squares (Lancaster & Salkauskas
+/// 1981): a world whose colour is linear in the screen's coordinates comes back exactly.
+#[derive(Clone, Copy, Debug, Default)]
+struct Correction {
+    gradient: [f32; 2],
+    constant: f32,
+}
+
+impl Correction {
+    fn centring(candidates: &[Candidate]) -> Self {
+        let (mut window, mut window_p, mut weight_p) = (0f32, [0f32; 2], [0f32; 2]);
+        let (mut xx, mut xy, mut yy) = (0f32, 0f32, 0f32);
+        for candidate in candidates {
+            let [x, y] = candidate.offset;
+            let windowed = [x * candidate.window, y * candidate.window];
+            window += candidate.window;
+            window_p = [window_p[0] + windowed[0], window_p[1] + windowed[1]];
+            weight_p = [weight_p[0] + x * candidate.weight, weight_p[1] + y * candidate.weight];
+            xx += windowed[0] * x;
+            xy += windowed[0] * y;
+            yy += windowed[1] * y;
+        }
+        let mean = DVec2::new(window_p[0].into(), window_p[1].into()) / f64::from(window);
+        let xx = f64::from(xx) - f64::from(window_p[0]) * mean.x;
+        let xy = f64::from(xy) - f64::from(window_p[0]) * mean.y;
+        let yy = f64::from(yy) - f64::from(window_p[1]) * mean.y;
+        let determinant = xx * yy - xy * xy;
+        if !(determinant > 1e-6 * xx * yy) {
+            // All in one line: nothing to move the centroid with.
+            return Self::default();
+        }
+        let p = DVec2::new(weight_p[0].into(), weight_p[1].into());
+        let gradient = DVec2::new(xy * p.y - yy * p.x, xy * p.x - xx * p.y) / determinant;
+        Self { gradient: [gradient.x as f32, gradient.y as f32], constant: -gradient.dot(mean) as f32 }
+    }
+
+    fn of(&self, candidate: &Candidate) -> f32 {
+        let [x, y] = candidate.offset;
+        candidate.window * (self.gradient[0] * x + self.gradient[1] * y + self.constant)
+    }
+}

@@ -1,0 +1,113 @@
+//! One loop over every projection: inverse both ways, Jacobian against central differences, no NaN for any input.
+
+use cosmorama::projection::{PlanePoint, Projection, ProjectionKind};
+use cosmorama::sphere::Direction;
+use glam::DVec3;
+use proptest::prelude::*;
+
+fn any_direction() -> impl Strategy<Value = Direction> {
+    (-1.0..1.0f64, -std::f64::consts::PI..std::f64::consts::PI).prop_map(|(y, longitude)| {
+        let across = (1.0 - y * y).sqrt();
+        Direction::from_unit(DVec3::new(across * longitude.sin(), y, -across * longitude.cos()))
+    })
+}
+
+proptest! {
+    #[test]
+    fn a_direction_comes_back(direction in any_direction()) {
+        for projection in ProjectionKind::ALL {
+            let Some(point) = projection.project(direction) else { continue };
+            let back = projection.unproject(point).expect("what was projected is in the domain");
+            prop_assert!(back.angle_to(direction).radians() < 1e-12, "{projection:?}: {direction:?} -> {back:?}");
+        }
+    }
+
+    #[test]
+    fn a_point_comes_back(x in -1.5..1.5f64, y in -1.5..1.5f64) {
+        for projection in ProjectionKind::ALL {
+            let Some(direction) = projection.unproject(PlanePoint::new(x, y)) else { continue };
+            let back = projection.project(direction).expect("what was unprojected is in the domain");
+            prop_assert!((back.x - x).hypot(back.y - y) < 1e-11, "{projection:?}: ({x}, {y}) -> {back:?}");
+        }
+    }
+
+    #[test]
+    fn the_jacobian_is_the_derivative(x in -1.5..1.5f64, y in -1.5..1.5f64) {
+        const STEP: f64 = 1e-5;
+        for projection in ProjectionKind::ALL {
+            let at = |dx: f64, dy: f64| projection.unproject(PlanePoint::new(x + dx, y + dy)).map(Direction::vector);
+            let Some(jacobian) = projection.jacobian(PlanePoint::new(x, y)) else { continue };
+            let (Some(right), Some(left), Some(up), Some(down)) =
+                (at(STEP, 0.0), at(-STEP, 0.0), at(0.0, STEP), at(0.0, -STEP)) else { continue };
+            let (dx, dy) = ((right - left) / (2.0 * STEP), (up - down) / (2.0 * STEP));
+            prop_assert!((jacobian.dx - dx).length() < 1e-8, "{projection:?}: {:?} is not {dx:?}", jacobian.dx);
+            prop_assert!((jacobian.dy - dy).length() < 1e-8, "{projection:?}: {:?} is not {dy:?}", jacobian.dy);
+        }
+    }
+
+    #[test]
+    fn plane_derivatives_invert_the_jacobian(x in -1.2..1.2f64, y in -1.2..1.2f64) {
+        for projection in ProjectionKind::ALL {
+            let point = PlanePoint::new(x, y);
+            let Some((direction, jacobian)) = projection.unproject_with_jacobian(point) else { continue };
+            let (_, [along_x, along_y]) = projection
+                .project_with_derivatives(direction, [jacobian.dx, jacobian.dy])
+                .expect("inside the domain");
+            prop_assert!((along_x - glam::DVec2::X).length() < 1e-9, "{projection:?}: {along_x:?}");
+            prop_assert!((along_y - glam::DVec2::Y).length() < 1e-9, "{projection:?}: {along_y:?}");
+        }
+    }
+
+    #[test]
+    fn nothing_is_nan(x in any::<f64>(), y in any::<f64>()) {
+        for projection in ProjectionKind::ALL {
+            let point = PlanePoint::new(x, y);
+            if let Some(direction) = projection.unproject(point) {
+                prop_assert!(direction.vector().is_finite(), "{projection:?} at {point:?}");
+            }
+            if let Some(jacobian) = projection.jacobian(point) {
+                prop_assert!(jacobian.dx.is_finite() && jacobian.dy.is_finite(), "{projection:?} at {point:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_cap_lies_within_its_bounds(
+        centre in any_direction(),
+        radius in 0.001..0.6f64,
+        bearing in 0.0..std::f64::consts::TAU,
+        part in 0.0..1.0f64,
+    ) {
+        let (right, up) = centre.vector().any_orthonormal_pair();
+        let (sin, cos) = (radius * part).sin_cos();
+        let inside = centre.vector() * cos + (right * bearing.cos() + up * bearing.sin()) * sin;
+        let inside = Direction::from_unit(inside);
+        for projection in ProjectionKind::ALL {
+            let Some(point) = projection.project(inside) else { continue };
+            let bounds = projection.cap_bounds(centre, cosmorama::sphere::Angle::from_radians(radius));
+            let turns = projection.period().map_or(vec![0.0], |period| vec![-period, 0.0, period]);
+            let held = turns.iter().any(|turn| {
+                let x = point.x + turn;
+                x >= bounds.min.x - 1e-9 && x <= bounds.max.x + 1e-9
+            });
+            prop_assert!(
+                held && point.y >= bounds.min.y - 1e-9 && point.y <= bounds.max.y + 1e-9,
+                "{projection:?}: {point:?} is not in {bounds:?}"
+            );
+        }
+    }
+}
+
+#[test]
+fn the_axes_and_the_poles_have_images_or_none_but_never_nan() {
+    let axes = [Direction::FRONT, Direction::BACK, Direction::LEFT, Direction::RIGHT, Direction::UP, Direction::DOWN];
+    for projection in ProjectionKind::ALL {
+        for direction in axes {
+            if let Some(point) = projection.project(direction) {
+                assert!(point.x.is_finite() && point.y.is_finite(), "{projection:?} of {direction:?}: {point:?}");
+                assert!(projection.margin(direction).is_finite());
+            }
+        }
+        assert_eq!(projection.project(Direction::FRONT), Some(PlanePoint::new(0.0, 0.0)), "{projection:?}");
+    }
+}

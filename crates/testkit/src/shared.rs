@@ -1,0 +1,18 @@
+use std::path::PathBuf;
+
+/// A path in the folder that every developer and CI has beside the checkout.
+///
+/// Where it is absent the caller's test says so and passes; in CI (`CI` is set) that is a failure.
+///
+/// # Panics
+/// In CI, when the folder is absent.
+#[allow(clippy::print_stderr)]
+pub fn shared(path: &str) -> Option<PathBuf> {
+    let found = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../../shared").join(path);
+    if found.exists() {
+        return Some(found);
+    }
+    assert!(std::env::var_os("CI").is_none(), "{} is absent: CI must have it", found.display());
+    eprintln!("NOT CHECKED: {} is absent", found.display());
+    None
+}
