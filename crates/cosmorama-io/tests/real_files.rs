@@ -1,4 +1,5 @@
 //! Files that other programs wrote.
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on should stop where it stands")]
 
 mod common;
 

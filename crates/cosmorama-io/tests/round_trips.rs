@@ -1,4 +1,5 @@
 //! What is written is read back: every format, depth and set of channels.
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on should stop where it stands")]
 
 mod common;
 
@@ -190,4 +191,26 @@ fn outputs_can_be_read_by_whom_the_umask_lets() {
     std::fs::write(folder.path().join("plain"), "").unwrap();
     let mode = |path| std::fs::metadata(path).unwrap().permissions().mode();
     assert_eq!(mode(path), mode(folder.path().join("plain")));
+}
+
+#[test]
+fn a_colour_mapped_tga_from_the_bottom() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.tga");
+    // Two entries of 24 bits, blue first; one column of two rows, the lower one first.
+    let bytes = [0, 1, 1, 0, 0, 2, 0, 24, 0, 0, 0, 0, 1, 0, 2, 0, 8, 0, 1, 2, 3, 4, 5, 6, 0, 1];
+    std::fs::write(&path, bytes).unwrap();
+    let image = read(&path, &Limits::default()).unwrap().image;
+    assert_eq!(*image.samples(), Samples::U8(vec![6, 5, 4, 3, 2, 1]));
+}
+
+#[test]
+fn a_tga_whose_fourth_byte_is_padding_is_opaque() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.tga");
+    let start = [0, 0, 2, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 1, 0, 32];
+    std::fs::write(&path, [&start[..], &[0, 1, 2, 3, 0]].concat()).unwrap();
+    assert_eq!(read(&path, &Limits::default()).unwrap().image.channels(), Channels::Rgb);
+    std::fs::write(&path, [&start[..], &[8, 1, 2, 3, 0]].concat()).unwrap();
+    assert_eq!(read(&path, &Limits::default()).unwrap().image.channels(), Channels::Rgba);
 }

@@ -1,5 +1,5 @@
 //! Pictures for tests.
-#![allow(dead_code, unreachable_pub, reason = "each test program uses some of it")]
+#![allow(dead_code, unreachable_pub, clippy::print_stderr, reason = "each test program uses some of it")]
 
 use std::path::{Path, PathBuf};
 
@@ -47,4 +47,14 @@ pub fn files(folder: &Path) -> Vec<PathBuf> {
     let mut files: Vec<_> = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
     files.sort();
     files
+}
+
+/// A program, if it is installed; its absence is said loudly.
+pub fn program(name: &'static str) -> Option<&'static str> {
+    let runs = std::process::Command::new(name).arg("-version").output().is_ok();
+    if !runs {
+        assert!(std::env::var("CI").as_deref() != Ok("true"), "{name} is not installed");
+        eprintln!("SKIPPED: {name} is not installed");
+    }
+    runs.then_some(name)
 }
