@@ -19,9 +19,15 @@ pub(super) struct Candidate {
 
 /// Makes taps whose weights add to one, none if their sum would be noise; with `centred`, their centroid is the pixel's
 /// centre.
-pub(super) fn settle(candidates: &[Candidate], centred: bool, taps: &mut Taps) {
+pub(super) fn settle(candidates: &mut [Candidate], centred: bool, taps: &mut Taps) {
+    if centred {
+        let correction = Correction::centring(candidates);
+        for candidate in candidates.iter_mut() {
+            candidate.weight += correction.of(candidate);
+        }
+    }
     let (mut sum, mut size) = (0f64, 0f64);
-    for candidate in candidates {
+    for candidate in candidates.iter() {
         sum += f64::from(candidate.weight);
         size += f64::from(candidate.weight.abs());
     }
@@ -29,14 +35,12 @@ pub(super) fn settle(candidates: &[Candidate], centred: bool, taps: &mut Taps) {
     if sum <= 0.05 * size {
         return;
     }
-    let correction = if centred { Correction::centring(candidates) } else { Correction::default() };
     let scale = sum.recip() as f32;
-    let weight = |candidate: &Candidate| (candidate.weight + correction.of(candidate)) * scale;
     for candidate in candidates.iter().filter(|candidate| candidate.under) {
-        taps.push_under(candidate.texel, weight(candidate));
+        taps.push_under(candidate.texel, candidate.weight * scale);
     }
     for candidate in candidates.iter().filter(|candidate| !candidate.under) {
-        taps.push_around(candidate.texel, weight(candidate));
+        taps.push_around(candidate.texel, candidate.weight * scale);
     }
 }
 

@@ -51,7 +51,7 @@ impl<'a> Gather<'a> {
                 }
             }
         }
-        settle(&self.candidates, self.table.kernel().centred, taps);
+        settle(&mut self.candidates, self.table.kernel().centred, taps);
         if taps.is_empty() {
             lookup::nearest(self.world, footprint.direction, |texel, weight| taps.push_under(texel, weight as f32));
         }

@@ -14,7 +14,8 @@ pub(super) fn render(world: &World, target: &View, filter: &Filter, samples: usi
         for (i, pixel) in row.iter_mut().enumerate() {
             if let Some(screen) = target.screen_pixel(i, j) {
                 let kernel = KernelSquare::new(world, target, filter, samples, (i, j));
-                *pixel = kernel.average(texels) * screen.coverage as f32;
+                let average = kernel.average(texels).or_else(|| look(world, screen.footprint.direction, texels));
+                *pixel = average.unwrap_or(Rgba::TRANSPARENT) * screen.coverage as f32;
             }
         }
     });
@@ -55,7 +56,8 @@ impl<'a> KernelSquare<'a> {
         Self { world, target, filter, samples, centre, coarseness }
     }
 
-    fn average(&self, texels: &[Rgba]) -> Rgba {
+    /// `None` if no sub-sample is inside the field of view, as in a pixel of which the rim leaves a sliver.
+    fn average(&self, texels: &[Rgba]) -> Option<Rgba> {
         let (mut sum, mut weights) = ([0f64; 4], 0f64);
         let (mut least, mut greatest) = ([f64::INFINITY; 4], [f64::NEG_INFINITY; 4]);
         self.for_each_sample(|weight, r, at| {
@@ -70,13 +72,13 @@ impl<'a> KernelSquare<'a> {
             }
         });
         if weights <= 0.0 {
-            return Rgba::TRANSPARENT;
+            return None;
         }
-        Rgba(std::array::from_fn(|c| {
+        Some(Rgba(std::array::from_fn(|c| {
             let value = sum[c] / weights;
             let clamped = self.filter.anti_ringing && least[c] <= greatest[c];
             (if clamped { value.clamp(least[c], greatest[c]) } else { value }) as f32
-        }))
+        })))
     }
 
     /// Calls `visit` with the weight, the distance in the kernel's unit and the place of each sub-sample that counts.
@@ -110,16 +112,25 @@ impl<'a> KernelSquare<'a> {
 
     /// Light at a point of the target times the part of it that the world holds, and that part.
     fn sample(&self, at: PixelPoint, texels: &[Rgba]) -> Option<([f64; 4], f64)> {
-        let direction = self.direction(at)?;
-        let (mut colour, mut found) = ([0f64; 4], 0f64);
-        lookup::bilinear(self.world, direction, |texel, weight| {
-            found += weight;
-            for c in 0..4 {
-                colour[c] += weight * f64::from(texels[texel as usize].0[c]);
-            }
-        });
-        Some((colour, found))
+        Some(weighted_light(self.world, self.direction(at)?, texels))
     }
+}
+
+/// The light in one direction, bilinear.
+fn look(world: &World, direction: Direction, texels: &[Rgba]) -> Option<Rgba> {
+    let (colour, found) = weighted_light(world, direction, texels);
+    (found > 0.0).then(|| Rgba(colour.map(|c| (c / found) as f32)))
+}
+
+fn weighted_light(world: &World, direction: Direction, texels: &[Rgba]) -> ([f64; 4], f64) {
+    let (mut colour, mut found) = ([0f64; 4], 0f64);
+    lookup::bilinear(world, direction, |texel, weight| {
+        found += weight;
+        for c in 0..4 {
+            colour[c] += weight * f64::from(texels[texel as usize].0[c]);
+        }
+    });
+    (colour, found)
 }
 
 /// s = √|det J|, in the view that shows the pixel's centre.

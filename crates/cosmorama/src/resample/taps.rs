@@ -60,29 +60,46 @@ impl Taps {
     }
 }
 
+/// Taps that are added up in single precision before the sum goes on in double: a pixel of thousands of texels must not
+/// lose digits, and a common one pays nothing.
+const BLOCK: usize = 32;
+
 /// The weighted average of taps; `under` of them, at the front, are those under the pixel.
 pub(super) fn average(taps: &[Tap], under: usize, texels: &[Rgba], anti_ringing: bool) -> Rgba {
-    let mut sum = [0f32; 4];
+    let mut sum = [0f64; 4];
     let (mut least, mut greatest) = ([f32::INFINITY; 4], [f32::NEG_INFINITY; 4]);
     let (inner, outer) = taps.split_at(under);
-    for tap in inner {
-        let texel = texels[tap.texel as usize].0;
-        for c in 0..4 {
-            sum[c] += tap.weight * texel[c];
-            least[c] = if texel[c] < least[c] { texel[c] } else { least[c] };
-            greatest[c] = if texel[c] > greatest[c] { texel[c] } else { greatest[c] };
+    for block in inner.chunks(BLOCK) {
+        let mut part = [0f32; 4];
+        for tap in block {
+            let texel = texels[tap.texel as usize].0;
+            for c in 0..4 {
+                part[c] += tap.weight * texel[c];
+                least[c] = if texel[c] < least[c] { texel[c] } else { least[c] };
+                greatest[c] = if texel[c] > greatest[c] { texel[c] } else { greatest[c] };
+            }
         }
+        add(&mut sum, part);
     }
-    for tap in outer {
-        let texel = texels[tap.texel as usize].0;
-        for c in 0..4 {
-            sum[c] += tap.weight * texel[c];
+    for block in outer.chunks(BLOCK) {
+        let mut part = [0f32; 4];
+        for tap in block {
+            let texel = texels[tap.texel as usize].0;
+            for c in 0..4 {
+                part[c] += tap.weight * texel[c];
+            }
         }
+        add(&mut sum, part);
     }
-    if anti_ringing && under > 0 {
-        for c in 0..4 {
-            sum[c] = sum[c].max(least[c]).min(greatest[c]);
-        }
+    let clamped = anti_ringing && under > 0;
+    Rgba(std::array::from_fn(|c| {
+        let value = sum[c] as f32;
+        if clamped { value.max(least[c]).min(greatest[c]) } else { value }
+    }))
+}
+
+fn add(sum: &mut [f64; 4], part: [f32; 4]) {
+    for c in 0..4 {
+        sum[c] += f64::from(part[c]);
     }
-    Rgba(sum)
 }

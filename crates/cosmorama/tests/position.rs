@@ -1,0 +1,103 @@
+//! Worlds with closed-form answers: constant, and coloured by direction.
+
+use cosmorama::raster::Rgba;
+use cosmorama::resample::{CrossSection, Filter, FilterKind, Kernel, Resampler};
+use cosmorama::sphere::CubeFace;
+use cosmorama::world::{View, World};
+use testkit::{cube, equirect, fisheye, light_by_direction, omnimax, perspective, position_error};
+
+/// Pixels by which a point of the world may be displaced.
+const POSITION_TOLERANCE: f64 = 0.01;
+
+fn worst_position_error(world: &World, target: &View, filter: Filter) -> f64 {
+    let light = light_by_direction(world, |d| d.vector().to_array().map(|c| c as f32));
+    let image = Resampler { world, target, filter }.render(&light);
+    let mut worst = 0f64;
+    for j in 0..image.height() {
+        for i in 0..image.width() {
+            let Some(screen) = target.screen_pixel(i, j).filter(|screen| screen.coverage == 1.0) else { continue };
+            worst = worst.max(position_error(&screen.footprint, *image.get(i, j)));
+        }
+    }
+    worst
+}
+
+#[test]
+fn directions_come_back_from_cube_faces() {
+    let world = cube(&CubeFace::ALL, 512, 512);
+    let targets = [
+        ("omnimax", omnimax(983, 718)),
+        ("fisheye", fisheye(512, 220.0)),
+        ("panorama", equirect(1024)),
+        ("reduced", fisheye(128, 180.0)),
+        ("an edge, enlarged", perspective(320, 240, 20.0, 45.0, 10.0, 0.0)),
+        ("a corner, enlarged", perspective(320, 240, 20.0, 45.0, 35.0, 7.0)),
+        ("a corner, seven times enlarged", perspective(320, 240, 8.0, -135.0, -35.26, 30.0)),
+    ];
+    for (name, target) in targets {
+        let error = worst_position_error(&world, &target, Filter::DEFAULT);
+        assert!(error < POSITION_TOLERANCE, "{name}: {error} px");
+    }
+}
+
+#[test]
+fn directions_come_back_from_a_panorama() {
+    let world = World::new([("panorama".to_owned(), equirect(1024))]).expect("one view");
+    let targets = [
+        ("front", perspective(320, 240, 60.0, 0.0, 0.0, 0.0)),
+        ("the seam", perspective(320, 240, 60.0, 180.0, 20.0, 0.0)),
+        ("the upper pole", perspective(320, 240, 90.0, 0.0, 90.0, 0.0)),
+        ("the lower pole", perspective(321, 241, 90.0, 30.0, -80.0, 0.0)),
+        ("the lower pole, enlarged", perspective(321, 241, 5.0, 30.0, -89.0, 0.0)),
+        ("reduced", fisheye(128, 360.0)),
+    ];
+    for (name, target) in targets {
+        let error = worst_position_error(&world, &target, Filter::DEFAULT);
+        assert!(error < POSITION_TOLERANCE, "{name}: {error} px");
+    }
+}
+
+#[test]
+fn directions_come_back_from_a_fisheye() {
+    let world = World::new([("fisheye".to_owned(), fisheye(1024, 360.0))]).expect("one view");
+    for (name, target) in [
+        ("front", perspective(320, 240, 60.0, 0.0, 0.0, 0.0)),
+        ("side", perspective(320, 240, 60.0, 90.0, 30.0, 0.0)),
+        ("behind, beside the rim", perspective(320, 240, 60.0, 140.0, 0.0, 0.0)),
+    ] {
+        let error = worst_position_error(&world, &target, Filter::DEFAULT);
+        assert!(error < POSITION_TOLERANCE, "{name}: {error} px");
+    }
+}
+
+#[test]
+fn a_constant_world_stays_constant() {
+    let colour = Rgba::opaque(0.3, 1.7, 0.0004);
+    let cross_sections = [
+        Kernel::ADAPTIVE,
+        Kernel::uniform(CrossSection::Gaussian { alpha: 2.0, cutoff: 1.0 }),
+        Kernel::uniform(CrossSection::JincJinc { lobes: 3, blur: 1.0 }),
+        Kernel::uniform(CrossSection::Box),
+    ];
+    let world = cube(&CubeFace::ALL, 96, 80);
+    let light = vec![colour; world.texel_count()];
+    for kernel in cross_sections {
+        for kind in [FilterKind::Ewa, FilterKind::Bilinear, FilterKind::Point, FilterKind::Reference { samples: 3 }] {
+            for anti_ringing in [false, true] {
+                let filter = Filter { kind, kernel, anti_ringing };
+                for target in [fisheye(64, 360.0), equirect(24), perspective(64, 48, 10.0, 45.0, 35.0, 0.0)] {
+                    let image = Resampler { world: &world, target: &target, filter }.render(&light);
+                    for (index, pixel) in image.pixels().iter().enumerate() {
+                        let (i, j) = (index % image.width(), index / image.width());
+                        let Some(screen) = target.screen_pixel(i, j) else { continue };
+                        for c in 0..4 {
+                            let expected = colour.0[c] * screen.coverage as f32;
+                            let error = (pixel.0[c] - expected).abs() / colour.0[c];
+                            assert!(error < 1e-6, "{filter:?} at ({i}, {j}): {error}");
+                        }
+                    }
+                }
+            }
+        }
+    }
+}

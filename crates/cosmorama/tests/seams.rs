@@ -1,0 +1,120 @@
+//! No step where one view ends and another begins: across the edges and corners of the cube, at ±180° and at the poles.
+
+use cosmorama::raster::Rgba;
+use cosmorama::resample::{Filter, FilterKind, Resampler};
+use cosmorama::sphere::{CubeFace, Direction};
+use cosmorama::world::{View, World};
+use testkit::{cube, equirect, light_by_direction, perspective};
+
+/// Fine detail, a few texels long, that a wrong weight would show.
+fn detail(direction: Direction) -> [f32; 3] {
+    let d = direction.vector();
+    let wave = |x: f64, y: f64| (0.5 + 0.25 * (x * 61.0).sin() + 0.25 * (y * 47.0 + x * 29.0).cos()) as f32;
+    [wave(d.x, d.y), wave(d.y, d.z), wave(d.z, d.x)]
+}
+
+/// The largest difference of neighbouring pixels' errors, beside edges and elsewhere. The error is the result less the
+/// true light, so the world's own contrast does not count, only what the filter adds.
+fn largest_steps(
+    world: &World,
+    target: &View,
+    filter: Filter,
+    on_edge: impl Fn(Direction, Direction) -> bool,
+) -> [f64; 2] {
+    let light = light_by_direction(world, detail);
+    let image = Resampler { world, target, filter }.render(&light);
+    let direction = |i, j| target.screen_pixel(i, j).map(|screen| screen.footprint.direction);
+    let error = |i: usize, j: usize, c: usize| {
+        let truth = direction(i, j).map_or([0.0; 3], detail);
+        f64::from(image.get(i, j).0[c] - truth[c])
+    };
+    let mut steps = [0f64; 2];
+    for j in 0..image.height() - 1 {
+        for i in 0..image.width() - 1 {
+            for (i2, j2) in [(i + 1, j), (i, j + 1)] {
+                let (Some(a), Some(b)) = (direction(i, j), direction(i2, j2)) else { continue };
+                let step = (0..3).map(|c| (error(i, j, c) - error(i2, j2, c)).abs()).fold(0.0, f64::max);
+                let place = usize::from(on_edge(a, b));
+                steps[place] = steps[place].max(step);
+            }
+        }
+    }
+    steps
+}
+
+fn assert_no_seam(world: &World, targets: &[(&str, View)], on_edge: impl Fn(Direction, Direction) -> bool + Copy) {
+    let judge = Filter { kind: FilterKind::Reference { samples: 3 }, ..Filter::DEFAULT };
+    for (name, target) in targets {
+        let [elsewhere, on_edges] = largest_steps(world, target, Filter::DEFAULT, on_edge);
+        let [_, reference] = largest_steps(world, target, judge, on_edge);
+        assert!(on_edges > 0.0, "{name}: no edge in the picture");
+        assert!(
+            on_edges <= reference.max(elsewhere),
+            "{name}: step {on_edges} across an edge, {reference} by the reference, {elsewhere} elsewhere"
+        );
+    }
+}
+
+#[test]
+fn no_step_across_the_twelve_edges_and_the_corners() {
+    let world = cube(&CubeFace::ALL, 256, 256);
+    let mut targets = Vec::new();
+    for yaw in [45.0, 135.0, -135.0, -45.0] {
+        targets.push(("an upright edge", perspective(120, 90, 40.0, yaw, 0.0, 10.0)));
+        targets.push(("an upper corner", perspective(120, 90, 40.0, yaw, 35.26, 0.0)));
+        targets.push(("a lower corner", perspective(120, 90, 40.0, yaw, -35.26, 0.0)));
+    }
+    for yaw in [0.0, 90.0, 180.0, -90.0] {
+        targets.push(("an upper edge", perspective(120, 90, 40.0, yaw, 45.0, 10.0)));
+        targets.push(("a lower edge", perspective(120, 90, 40.0, yaw, -45.0, 10.0)));
+    }
+    assert_no_seam(&world, &targets, |a, b| CubeFace::of(a) != CubeFace::of(b));
+}
+
+#[test]
+fn no_step_between_faces_of_different_sizes_beyond_the_coarser_one() {
+    let sizes = [(256, 256), (200, 240), (256, 256), (320, 256), (256, 230), (256, 256)];
+    let views = CubeFace::ALL.iter().zip(sizes);
+    let views = views.map(|(&face, (w, h))| (face.name().to_owned(), testkit::cube_face(face, w, h)));
+    let world = World::new(views).expect("six faces");
+    let corner = perspective(160, 120, 40.0, 45.0, 35.26, 0.0);
+    assert_no_seam(&world, &[("a corner", corner)], |a, b| CubeFace::of(a) != CubeFace::of(b));
+}
+
+#[test]
+fn no_step_at_the_back_and_the_poles_of_a_panorama() {
+    let world = World::new([("panorama".to_owned(), equirect(1024))]).expect("one view");
+    let behind = |a: Direction, b: Direction| {
+        let (a, b) = (a.vector(), b.vector());
+        a.z > 0.0 && b.z > 0.0 && (a.x < 0.0) != (b.x < 0.0)
+    };
+    assert_no_seam(&world, &[("the back", perspective(160, 120, 40.0, 180.0, 10.0, 3.0))], behind);
+    let near_pole = |a: Direction, b: Direction| a.vector().y.abs().min(b.vector().y.abs()) > 0.999;
+    let poles = [
+        ("the upper pole", perspective(160, 120, 40.0, 0.0, 90.0, 0.0)),
+        ("the lower pole", perspective(160, 120, 40.0, 77.0, -85.0, 0.0)),
+    ];
+    assert_no_seam(&world, &poles, near_pole);
+}
+
+#[test]
+fn what_lies_outside_a_partial_face_never_leaks_in() {
+    let faces = [CubeFace::Front, CubeFace::Right, CubeFace::Left, CubeFace::Up];
+    let world = cube(&faces, 128, 128);
+    let clean = light_by_direction(&world, detail);
+    let target = testkit::omnimax(246, 180);
+    let resampler = Resampler { world: &world, target: &target, filter: Filter::DEFAULT };
+    let expected = resampler.render(&clean);
+    // Beyond the lens's limiting circle, with room for the kernel, anything may stand.
+    let mut soiled = clean.clone();
+    for source in world.sources() {
+        for (k, texel) in soiled[source.texels()].iter_mut().enumerate() {
+            let pixel = cosmorama::world::PixelPoint::centre(k % source.view.width(), k / source.view.width());
+            let direction = source.view.direction(pixel).expect("a face is all directions");
+            if direction.angle_to(Direction::FRONT).degrees() > 93.0 {
+                *texel = Rgba([f32::NAN, 1e9, -1e9, 1.0]);
+            }
+        }
+    }
+    assert_eq!(resampler.render(&soiled), expected);
+}
