@@ -1,2 +1,22 @@
 //! The `cosmorama` program.
-fn main() {}
+//!
+//! Arguments are parsed as typed ([`args`]), resolved into a job in which everything is checked ([`job`]), and run
+//! ([`run`]).
+
+mod args;
+mod failure;
+mod job;
+mod run;
+mod spec;
+
+use std::process::ExitCode;
+
+use clap::Parser;
+
+fn main() -> ExitCode {
+    let args = args::Args::parse();
+    match run::run(args.verb) {
+        Ok(code) => code,
+        Err(error) => failure::report(&error),
+    }
+}

@@ -12,6 +12,7 @@ mod need;
 mod pixel_taps;
 mod plan;
 mod reference;
+mod screen_mask;
 mod taps;
 
 pub use ellipse::Ellipse;
@@ -23,4 +24,5 @@ pub(crate) use lookup::owner;
 pub use need::{Need, Needs, Uncovered};
 pub(crate) use pixel_taps::PixelTaps;
 pub use plan::{Plan, Resampler};
+pub use screen_mask::ScreenMask;
 pub use taps::{Tap, Taps};

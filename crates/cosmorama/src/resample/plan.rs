@@ -83,6 +83,21 @@ impl Resampler<'_> {
         Some(Plan { width, height, anti_ringing: self.filter.anti_ringing, bands })
     }
 
+    /// About how many bytes [`Resampler::plan`] would hold: found from every sixteenth band of rows.
+    pub fn plan_bytes_estimate(&self) -> usize {
+        const STRIDE: usize = 16;
+        if matches!(self.filter.kind, FilterKind::Reference { .. }) {
+            return 0;
+        }
+        let table = KernelTable::new(&self.filter.kernel);
+        let bands = self.target.height().div_ceil(BAND);
+        // From the middle of the first stride, so that a low image is not judged by its first rows.
+        let first = STRIDE.min(bands) / 2;
+        let sampled: Vec<usize> = (first..bands).step_by(STRIDE).collect();
+        let bytes: usize = sampled.par_iter().map(|&index| self.plan_band(&table, index).bytes()).sum();
+        bytes * bands / sampled.len().max(1)
+    }
+
     fn plan_band(&self, table: &KernelTable, index: usize) -> Band {
         let rows = BAND.min(self.target.height() - index * BAND);
         let mut band = Band { pixels: vec![PlannedPixel::default(); rows * self.target.width()], taps: Vec::new() };
@@ -152,8 +167,12 @@ impl Plan {
 
     /// Bytes of memory that the plan holds.
     pub fn bytes(&self) -> usize {
-        let band =
-            |band: &Band| band.taps.capacity() * size_of::<Tap>() + band.pixels.capacity() * size_of::<PlannedPixel>();
-        self.bands.iter().map(band).sum()
+        self.bands.iter().map(Band::bytes).sum()
+    }
+}
+
+impl Band {
+    fn bytes(&self) -> usize {
+        self.taps.capacity() * size_of::<Tap>() + self.pixels.capacity() * size_of::<PlannedPixel>()
     }
 }

@@ -2,6 +2,7 @@
 
 mod coverage;
 mod field_stop;
+mod frame;
 mod framing;
 mod grid;
 mod view;
@@ -10,6 +11,10 @@ mod world;
 
 pub use coverage::ScreenPixel;
 pub use field_stop::FieldStop;
+pub use frame::{
+    Canvas, CubeFaceFrame, EquirectFrame, FieldOfView, FisheyeFit, FisheyeFrame, Frame, FrameError, FulldomeFrame,
+    LensCircle, Mirror, OmnimaxFrame, PerspectiveFrame, Placement, SamplePositions,
+};
 pub use framing::OmnimaxFraming;
 pub use grid::{PixelGrid, PixelPoint, PixelRect};
 pub use view::{Footprint, View};

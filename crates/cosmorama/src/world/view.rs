@@ -95,6 +95,13 @@ impl View {
             .map_or(0.0, |jacobian| jacobian.solid_angle() * (step.x * step.y).abs())
     }
 
+    /// Pixels for each radian at the centre of the projection, the mean of both ways where pixels are not square.
+    pub fn pixels_per_radian(&self) -> f64 {
+        let step = self.grid.step();
+        let centre = self.projection.jacobian(PlanePoint::new(0.0, 0.0)).map_or(1.0, |jacobian| jacobian.solid_angle());
+        (centre * (step.x * step.y).abs()).sqrt().recip()
+    }
+
     /// After how many columns the picture repeats, where it goes all the way round.
     pub fn period(&self) -> Option<usize> {
         let columns = (self.projection.period()? / self.grid.step().x).abs();

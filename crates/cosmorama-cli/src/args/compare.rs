@@ -1,0 +1,53 @@
+use std::path::PathBuf;
+
+use clap::{Args, ValueEnum, ValueHint};
+
+use super::TransferArg;
+
+/// Compare two pictures: PSNR, largest difference, sub-pixel shift.
+#[derive(Debug, Args)]
+#[command(before_help = "Examples:
+  cosmorama compare dome.png reference.png
+  cosmorama compare dome.png reference.png --region omnimax --diff difference.png
+  cosmorama compare a.exr b.exr --min-psnr 36 --max-shift 0.01")]
+pub(crate) struct CompareArgs {
+    /// A picture
+    #[arg(value_hint = ValueHint::FilePath)]
+    pub(crate) first: PathBuf,
+    /// The picture that it should be like
+    #[arg(value_hint = ValueHint::FilePath)]
+    pub(crate) second: PathBuf,
+    /// Which pixels count: those inside the circle of a fisheye (disc) or an Omnimax frame, or all; pixels cut by the
+    /// rim do not
+    #[arg(long, value_enum, value_name = "REGION", default_value_t = Region::All)]
+    pub(crate) region: Region,
+    /// Write a picture of the absolute difference
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub(crate) diff: Option<PathBuf>,
+    /// How much brighter than life the difference is drawn
+    #[arg(long, value_name = "FACTOR", default_value_t = 10.0)]
+    pub(crate) gain: f32,
+    /// Fail (exit code 1) if the PSNR of linear light is less
+    #[arg(long, value_name = "DB")]
+    pub(crate) min_psnr: Option<f64>,
+    /// Fail (exit code 1) if the pictures are further apart
+    #[arg(long, value_name = "PX")]
+    pub(crate) max_shift: Option<f64>,
+    /// How integer code values relate to light: auto, srgb, linear, bt1886, pq, hlg, gamma:G
+    #[arg(long, value_name = "T", default_value = "auto")]
+    pub(crate) transfer: TransferArg,
+    /// Print the figures as JSON
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+/// Which pixels count.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Region {
+    /// Inside the circle that touches the shorter sides.
+    Disc,
+    /// Inside an Omnimax frame, `framing=fit`.
+    Omnimax,
+    /// All.
+    All,
+}

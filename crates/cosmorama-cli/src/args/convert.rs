@@ -1,0 +1,130 @@
+use clap::{Args, ValueHint};
+use cosmorama_io::FrameList;
+
+use super::{Colour, DepthArg, FilterArg, KernelArg, MemorySize, Missing, ProgressStyle, SizeArg, TransferArg};
+use crate::spec::Spec;
+
+/// Turn a world, in whatever form, into another projection.
+#[derive(Debug, Args)]
+#[command(before_help = "Examples:
+  cosmorama convert 'faces/{face}.png' dome.png --to omnimax --size 1966x1436
+  cosmorama convert '%c/frame_%c_%04d.tga' 'dome_####.png' --to fulldome:tilt=20 --size 4096
+  cosmorama convert panorama.jpg view.png --to perspective:fov=60 --yaw 30 --pitch -10 --size 1920x1080
+  cosmorama convert panorama.exr 'cube/{face}.exr' --to cube --size 1024
+  cosmorama convert dome.png back.png --from fulldome --to equirect")]
+#[command(after_help = crate::spec::kind::help())]
+pub(crate) struct ConvertArgs {
+    /// An image, or a pattern with {face} or %c (faces) and ####, @@@@ or %04d (frames)
+    #[arg(value_hint = ValueHint::FilePath)]
+    pub(crate) input: String,
+    /// An image or a pattern; the extension chooses the format
+    #[arg(value_hint = ValueHint::FilePath)]
+    pub(crate) output: String,
+    #[command(flatten)]
+    pub(crate) geometry: GeometryArgs,
+    /// How integer code values relate to light: auto, srgb, linear, bt1886, pq, hlg, gamma:G
+    #[arg(long, value_name = "T", default_value = "auto", help_heading = "Light")]
+    pub(crate) transfer: TransferArg,
+    /// The same for the input alone
+    #[arg(long, value_name = "T", help_heading = "Light")]
+    pub(crate) in_transfer: Option<TransferArg>,
+    /// The same for the output alone
+    #[arg(long, value_name = "T", help_heading = "Light")]
+    pub(crate) out_transfer: Option<TransferArg>,
+    /// Output sample type [default: as the input, where the format can]
+    #[arg(long, value_enum, value_name = "DEPTH", help_heading = "Light")]
+    pub(crate) depth: Option<DepthArg>,
+    /// Pixels outside the lens [default: black, transparent where the output has alpha]
+    #[arg(long, value_name = "COLOR", help_heading = "Light")]
+    pub(crate) background: Option<Colour>,
+    /// Directions that no view covers: error, transparent or a colour
+    #[arg(long, value_name = "error|COLOR|transparent", default_value = "error", help_heading = "Light")]
+    pub(crate) missing: Missing,
+    /// Which frames: 5, 1-10 or 1-3,5,7-20:2 [default: all that exist]
+    #[arg(long, value_name = "LIST", help_heading = "Frames and files")]
+    pub(crate) frames: Option<FrameList>,
+    /// Replace existing outputs
+    #[arg(short = 'y', long, conflicts_with = "resume", help_heading = "Frames and files")]
+    pub(crate) overwrite: bool,
+    /// Skip outputs that are already complete
+    #[arg(long, help_heading = "Frames and files")]
+    pub(crate) resume: bool,
+    /// JPEG quality, 1 to 100
+    #[arg(long, value_name = "Q", default_value_t = 95, value_parser = clap::value_parser!(u8).range(1..=100), help_heading = "Frames and files")]
+    pub(crate) quality: u8,
+    #[command(flatten)]
+    pub(crate) limits: LimitArgs,
+    /// How to tell what is going on, on standard error
+    #[arg(long, value_enum, value_name = "STYLE", default_value_t = ProgressStyle::Auto, help_heading = "Run")]
+    pub(crate) progress: ProgressStyle,
+    /// Print a machine-readable report on standard output
+    #[arg(long, help_heading = "Run")]
+    pub(crate) json: bool,
+}
+
+/// What light comes from where and goes where: shared by `convert` and `explain`.
+#[derive(Clone, Debug, Args)]
+pub(crate) struct GeometryArgs {
+    /// The input's projection [default: found from metadata, face pattern or shape]
+    #[arg(long, value_name = "SPEC", help_heading = "Geometry")]
+    pub(crate) from: Option<Spec>,
+    /// The output's projection [default: cube, if the output has {face} or %c]
+    #[arg(long, value_name = "SPEC", help_heading = "Geometry")]
+    pub(crate) to: Option<Spec>,
+    /// Output pixels; N is the width or the face edge [default: parity with the input at the centre]
+    #[arg(long, value_name = "WxH|N", help_heading = "Geometry")]
+    pub(crate) size: Option<SizeArg>,
+    /// Turn the output to the right, in degrees
+    #[arg(long, value_name = "D", default_value_t = 0.0, allow_negative_numbers = true, help_heading = "Geometry")]
+    pub(crate) yaw: f64,
+    /// Turn the output up
+    #[arg(long, value_name = "D", default_value_t = 0.0, allow_negative_numbers = true, help_heading = "Geometry")]
+    pub(crate) pitch: f64,
+    /// Turn the output's camera clockwise
+    #[arg(long, value_name = "D", default_value_t = 0.0, allow_negative_numbers = true, help_heading = "Geometry")]
+    pub(crate) roll: f64,
+    /// ewa, point, bilinear or reference[:samples=N]
+    #[arg(long, value_name = "NAME", default_value = "ewa", help_heading = "Filter")]
+    pub(crate) filter: FilterArg,
+    /// adaptive, gaussian[:alpha=2,cutoff=1], mitchell, robidoux, robidoux-sharp, catmull-rom, lanczos2, lanczos3,
+    /// lanczos3-sharp, tent or box; each takes scale= (its unit in output pixels) and floor= (at least, in texels)
+    #[arg(long, value_name = "NAME[:k=v]", default_value = "adaptive", help_heading = "Filter")]
+    pub(crate) kernel: KernelArg,
+    /// Clamp to the texels under the pixel
+    #[arg(long, value_name = "on|off", default_value = "on", value_parser = on_or_off, help_heading = "Filter")]
+    pub(crate) anti_ringing: bool,
+}
+
+/// What a run may take.
+#[derive(Clone, Debug, Args)]
+pub(crate) struct LimitArgs {
+    /// Threads to work with [default: all cores]
+    #[arg(long, value_name = "N", value_parser = threads, help_heading = "Run")]
+    pub(crate) threads: Option<usize>,
+    /// Memory to use at most, as in 500M, 8G or 50% [default: 75% of free memory]
+    #[arg(long, value_name = "SIZE", help_heading = "Run")]
+    pub(crate) memory: Option<MemorySize>,
+}
+
+impl GeometryArgs {
+    /// Where the output looks.
+    pub(crate) fn orientation(&self) -> cosmorama::sphere::Orientation {
+        let [yaw, pitch, roll] = [self.yaw, self.pitch, self.roll].map(cosmorama::sphere::Angle::from_degrees);
+        cosmorama::sphere::Orientation::from_yaw_pitch_roll(yaw, pitch, roll)
+    }
+}
+
+fn on_or_off(text: &str) -> Result<bool, String> {
+    match text {
+        "on" => Ok(true),
+        "off" => Ok(false),
+        _ => Err("expected on or off".to_owned()),
+    }
+}
+
+fn threads(text: &str) -> Result<usize, String> {
+    match text.parse() {
+        Ok(count @ 1..=1024) => Ok(count),
+        _ => Err("expected a number from 1 to 1024".to_owned()),
+    }
+}

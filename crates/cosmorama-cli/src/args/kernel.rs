@@ -1,0 +1,83 @@
+use std::str::FromStr;
+
+use cosmorama::resample::{CrossSection, Kernel};
+
+/// A kernel by name, with its parameters.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct KernelArg(pub(crate) Kernel);
+
+const NAMES: &str = "adaptive, gaussian, mitchell, robidoux, robidoux-sharp, catmull-rom, lanczos2, lanczos3, lanczos3-sharp, tent, box";
+
+impl FromStr for KernelArg {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let (name, keys) = text.split_once(':').unwrap_or((text, ""));
+        let mut kernel = named(name).ok_or_else(|| format!("unknown kernel '{name}'; there are {NAMES}"))?;
+        for pair in keys.split(',').filter(|_| !keys.is_empty()) {
+            let (key, value) = pair.split_once('=').ok_or_else(|| format!("'{pair}' is no key=value"))?;
+            let value = positive(value).ok_or_else(|| format!("{key}={value}: expected a number more than 0"))?;
+            set(&mut kernel, name, key, value)?;
+        }
+        Ok(Self(kernel))
+    }
+}
+
+fn named(name: &str) -> Option<Kernel> {
+    let cross_section = match name {
+        "adaptive" => return Some(Kernel::ADAPTIVE),
+        "gaussian" => CrossSection::Gaussian { alpha: 2.0, cutoff: 1.0 },
+        "mitchell" => CrossSection::MITCHELL,
+        "robidoux" => CrossSection::ROBIDOUX,
+        "robidoux-sharp" => CrossSection::ROBIDOUX_SHARP,
+        "catmull-rom" => CrossSection::CATMULL_ROM,
+        "lanczos2" => CrossSection::JincJinc { lobes: 2, blur: 1.0 },
+        "lanczos3" => CrossSection::JincJinc { lobes: 3, blur: 1.0 },
+        // N. Robidoux's factor, as ImageMagick's LanczosSharp has it: the kernel keeps vertical lines as they are.
+        "lanczos3-sharp" => CrossSection::JincJinc { lobes: 3, blur: 0.981_250_522_384_614_2 },
+        "tent" => CrossSection::Tent,
+        "box" => CrossSection::Box,
+        _ => return None,
+    };
+    Some(Kernel::uniform(cross_section))
+}
+
+fn set(kernel: &mut Kernel, name: &str, key: &str, value: f64) -> Result<(), String> {
+    match (key, &mut kernel.fine) {
+        ("scale", _) => kernel.scale = value,
+        ("floor", _) => kernel.floor = value,
+        ("alpha", CrossSection::Gaussian { alpha, .. }) => *alpha = value,
+        ("cutoff", CrossSection::Gaussian { cutoff, .. }) => *cutoff = value,
+        (_, CrossSection::Gaussian { .. }) => {
+            return Err(format!("unknown key '{key}' for {name}; it takes alpha, cutoff, scale, floor"));
+        }
+        _ => return Err(format!("unknown key '{key}' for {name}; it takes scale, floor")),
+    }
+    if let CrossSection::Gaussian { .. } = kernel.fine {
+        kernel.coarse = kernel.fine;
+    }
+    Ok(())
+}
+
+fn positive(text: &str) -> Option<f64> {
+    text.parse().ok().filter(|number: &f64| *number > 0.0 && number.is_finite())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn kernels_with_parameters() {
+        let KernelArg(kernel) = "gaussian:alpha=3,cutoff=1.5,scale=0.6".parse().unwrap();
+        let gaussian = CrossSection::Gaussian { alpha: 3.0, cutoff: 1.5 };
+        assert_eq!(kernel, Kernel { scale: 0.6, ..Kernel::uniform(gaussian) });
+        for name in NAMES.split(", ") {
+            assert!(name.parse::<KernelArg>().is_ok(), "{name}");
+            assert!(format!("{name}:scale=0.5,floor=0.75").parse::<KernelArg>().is_ok(), "{name}");
+        }
+        for wrong in ["gauss", "mitchell:alpha=2", "box:scale=0", "box:scale", "gaussian:sigma=1"] {
+            assert!(wrong.parse::<KernelArg>().is_err(), "{wrong}");
+        }
+    }
+}

@@ -1,0 +1,53 @@
+use std::str::FromStr;
+
+/// An amount of memory: bytes, with `K`, `M`, `G` or `T` (powers of 1024), or a part of what is free.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum MemorySize {
+    /// Bytes.
+    Bytes(u64),
+    /// Of free memory, 1 for all.
+    Part(f64),
+}
+
+impl FromStr for MemorySize {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        parse(text).ok_or_else(|| "expected an amount of memory, as in 500M, 8G or 50%".to_owned())
+    }
+}
+
+fn parse(text: &str) -> Option<MemorySize> {
+    if let Some(percent) = text.strip_suffix('%') {
+        let percent: f64 = percent.parse().ok()?;
+        return (percent > 0.0 && percent <= 100.0).then_some(MemorySize::Part(percent / 100.0));
+    }
+    let digits = text.find(|letter: char| !letter.is_ascii_digit() && letter != '.').unwrap_or(text.len());
+    let (number, unit) = text.split_at(digits);
+    let unit = match unit.trim_start().trim_end_matches(['b', 'B']).trim_end_matches('i') {
+        "" => 1u64,
+        "k" | "K" => 1 << 10,
+        "m" | "M" => 1 << 20,
+        "g" | "G" => 1 << 30,
+        "t" | "T" => 1 << 40,
+        _ => return None,
+    };
+    let bytes = number.parse::<f64>().ok()? * unit as f64;
+    (bytes >= 1.0 && bytes < 1e18).then_some(MemorySize::Bytes(bytes as u64))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn amounts() {
+        assert_eq!("512".parse(), Ok(MemorySize::Bytes(512)));
+        assert_eq!("1.5GiB".parse(), Ok(MemorySize::Bytes(3 << 29)));
+        assert_eq!("20MB".parse(), Ok(MemorySize::Bytes(20 << 20)));
+        assert_eq!("50%".parse(), Ok(MemorySize::Part(0.5)));
+        for wrong in ["", "0", "lots", "5X", "0%", "200%", "-3G"] {
+            assert!(wrong.parse::<MemorySize>().is_err(), "{wrong}");
+        }
+    }
+}

@@ -1,0 +1,60 @@
+//! The command line as typed. What it means is worked out in [`crate::job`].
+
+mod colour;
+mod compare;
+pub(crate) mod convert;
+mod depth;
+mod filter;
+mod info;
+mod kernel;
+mod memory;
+mod missing;
+mod progress;
+mod shell;
+mod size;
+mod transfer;
+
+use clap::{Parser, Subcommand};
+
+pub(crate) use colour::Colour;
+pub(crate) use compare::{CompareArgs, Region};
+pub(crate) use convert::ConvertArgs;
+pub(crate) use depth::DepthArg;
+pub(crate) use filter::FilterArg;
+pub(crate) use info::InfoArgs;
+pub(crate) use kernel::KernelArg;
+pub(crate) use memory::MemorySize;
+pub(crate) use missing::Missing;
+pub(crate) use progress::ProgressStyle;
+pub(crate) use shell::CompletionsArgs;
+pub(crate) use size::SizeArg;
+pub(crate) use transfer::TransferArg;
+
+/// World projections: Omnimax, fulldome, fisheye, panorama and cube faces, made from one another with an
+/// elliptical weighted average filter.
+#[derive(Debug, Parser)]
+#[command(name = "cosmorama", version, propagate_version = true, arg_required_else_help = true)]
+#[command(before_help = "Examples:
+  cosmorama demo
+  cosmorama convert 'faces/{face}.png' dome.png --to omnimax --size 1966x1436
+  cosmorama info 'faces/{face}.png'")]
+pub(crate) struct Args {
+    /// What to do.
+    #[command(subcommand)]
+    pub(crate) verb: Verb,
+}
+
+/// What can be done.
+#[derive(Debug, Subcommand)]
+pub(crate) enum Verb {
+    /// Turn a world, in whatever form, into another projection
+    Convert(Box<ConvertArgs>),
+    /// Tell what a file or a face set is
+    Info(InfoArgs),
+    /// Compare two pictures: PSNR, largest difference, sub-pixel shift
+    Compare(CompareArgs),
+    /// Print a shell's completion script
+    Completions(CompletionsArgs),
+    /// Print the manual page
+    Man,
+}

@@ -1,0 +1,18 @@
+use clap::ValueEnum;
+
+/// How to tell what is going on, on standard error.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum ProgressStyle {
+    /// A bar on a terminal, else plain
+    Auto,
+    /// A bar with rate and time left
+    Bar,
+    /// A line for each frame
+    Plain,
+    /// A JSON object for each frame
+    Json,
+    /// Lines for Open Job Description: openjd_progress: 12.5
+    Openjd,
+    /// Nothing
+    None,
+}

@@ -1,0 +1,40 @@
+use std::str::FromStr;
+
+/// Pixels: `WxH`, or the width alone.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct SizeArg {
+    /// Columns.
+    pub(crate) width: usize,
+    /// Rows, if given.
+    pub(crate) height: Option<usize>,
+}
+
+/// More columns or rows than any image format holds.
+const MOST: usize = 1_000_000;
+
+impl FromStr for SizeArg {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let expected = || format!("expected WxH or a width, in pixels from 1 to {MOST}, as in 1966x1436 or 4096");
+        let side = |text: &str| text.parse().ok().filter(|side| (1..=MOST).contains(side)).ok_or_else(expected);
+        match text.split_once(['x', 'X', '×']) {
+            Some((width, height)) => Ok(Self { width: side(width)?, height: Some(side(height)?) }),
+            None => Ok(Self { width: side(text)?, height: None }),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sizes() {
+        assert_eq!("1966x1436".parse(), Ok(SizeArg { width: 1966, height: Some(1436) }));
+        assert_eq!("4096".parse(), Ok(SizeArg { width: 4096, height: None }));
+        for wrong in ["0", "0x4", "4x", "-3", "wide", "99999999"] {
+            assert!(wrong.parse::<SizeArg>().is_err(), "{wrong}");
+        }
+    }
+}

@@ -1,0 +1,28 @@
+//! Errors with exit codes: 1 for what failed, 2 for wrong usage.
+
+use std::process::ExitCode;
+
+use thiserror::Error;
+
+/// An error of the person who typed the command: exit code 2.
+#[derive(Debug, Error)]
+#[error("{0}")]
+pub(crate) struct Usage(String);
+
+/// An error of usage.
+pub(crate) fn usage(message: impl Into<String>) -> anyhow::Error {
+    Usage(message.into()).into()
+}
+
+/// Something that should be known but does not stop the work.
+#[allow(clippy::print_stderr)]
+pub(crate) fn warn(message: &str) {
+    eprintln!("warning: {message}");
+}
+
+/// Prints an error, its causes on the same line, and chooses the exit code.
+#[allow(clippy::print_stderr)]
+pub(crate) fn report(error: &anyhow::Error) -> ExitCode {
+    eprintln!("error: {error:#}");
+    if error.chain().any(|cause| cause.is::<Usage>()) { ExitCode::from(2) } else { ExitCode::FAILURE }
+}

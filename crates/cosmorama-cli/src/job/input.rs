@@ -1,0 +1,199 @@
+use std::path::{Path, PathBuf};
+
+use anyhow::{Result, anyhow, bail};
+use cosmorama::sphere::{CubeFace, Orientation};
+use cosmorama::world::{Canvas, SamplePositions, View};
+use cosmorama_io::{EnvMap, FaceFile, FacePattern, FaceSet, FrameList, Header, Window, probe};
+
+use super::detect::detect;
+use super::face_view::face_placement;
+use super::{Files, frames};
+use crate::failure::usage;
+use crate::spec::{Cube, Shape, Single, Spec};
+
+/// A view of the input: an image, or a face of a cube.
+pub(crate) struct InputView {
+    /// What messages call it.
+    pub(crate) name: String,
+    /// Its files.
+    pub(crate) files: Files,
+    /// What its first file says of itself; `None` where there is no file.
+    pub(crate) header: Option<Header>,
+    /// The geometry of its whole picture.
+    pub(crate) nominal: View,
+    /// The part of that which the file holds; `None` where there is no file.
+    pub(crate) window: Option<(View, Canvas)>,
+}
+
+/// Everything that light comes from.
+pub(crate) struct Input {
+    /// The views, missing ones too.
+    pub(crate) views: Vec<InputView>,
+    /// The frames to work on.
+    pub(crate) frames: Vec<Option<u64>>,
+}
+
+impl Input {
+    /// Finds and probes the files of an input.
+    pub(crate) fn find(
+        pattern: &str,
+        from: Option<&Spec>,
+        wanted: Option<&FrameList>,
+        warnings: &mut Vec<String>,
+    ) -> Result<Self> {
+        match (FacePattern::parse(pattern), from.map(|spec| (spec.name, &spec.shape))) {
+            (Some(_), Some((_, Shape::Cube(cube)))) => Self::cube(pattern, cube, wanted),
+            (Some(_), None) => Self::cube(pattern, &Cube::default(), wanted),
+            (Some(_), Some((name, Shape::Single(_)))) => {
+                Err(usage(format!("{pattern} names the faces of a cube, but --from is {name}; expected --from cube")))
+            }
+            (None, Some((_, Shape::Cube(_)))) => Err(usage(format!(
+                "--from cube wants the faces of a cube, but {pattern} has no {{face}} or %c where a face's name stands"
+            ))),
+            (None, Some((_, Shape::Single(single)))) => Self::single(pattern, Some(*single), wanted, warnings),
+            (None, None) => Self::single(pattern, None, wanted, warnings),
+        }
+    }
+
+    fn single(
+        pattern: &str,
+        single: Option<Single>,
+        wanted: Option<&FrameList>,
+        warnings: &mut Vec<String>,
+    ) -> Result<Self> {
+        let files = Files::new(Path::new(pattern));
+        let frames = frames::find(std::iter::once(&files), wanted)?;
+        let path = files.path(frames[0]);
+        let header = probe(&path)?;
+        let single = match single {
+            Some(single) if header.metadata.envmap == Some(EnvMap::LatLong) => {
+                single.with_samples(SamplePositions::Edges)
+            }
+            Some(single) => single,
+            None => detect(&path, &header, warnings)?,
+        };
+        let name = path.file_name().map_or_else(|| pattern.to_owned(), |name| name.to_string_lossy().into_owned());
+        let mut placement = single.placement;
+        let canvas = placement.canvas.or(header.window.map(canvas_of)).unwrap_or_else(|| whole(&header));
+        placement.canvas = None;
+        let nominal = placement.view(canvas.width, canvas.height).map_err(|error| usage(format!("--from: {error}")))?;
+        placement.canvas = Some(canvas);
+        let window = (placement.view(header.width, header.height)?, canvas);
+        let view = InputView { name, files, header: Some(header), nominal, window: Some(window) };
+        Ok(Self { views: vec![view], frames })
+    }
+
+    fn cube(pattern: &str, cube: &Cube, wanted: Option<&FrameList>) -> Result<Self> {
+        let set = FaceSet::find(pattern, cube.naming)?;
+        let chosen: Vec<&FaceFile> = set.faces().iter().filter(|face| cube.faces.contains(&face.face)).collect();
+        if !chosen.iter().any(|face| face.present) {
+            bail!("{pattern}: none of the faces asked for is there; there are {}", names(set.present()));
+        }
+        let files: Vec<Files> = chosen.iter().map(|face| Files::new(&face.path)).collect();
+        let present = || files.iter().zip(&chosen).filter(|(_, face)| face.present).map(|(files, _)| files);
+        let frames = frames::find(present().collect::<Vec<_>>().into_iter(), wanted)?;
+        let mut faces = Vec::new();
+        for (face, files) in chosen.into_iter().zip(files) {
+            faces.push(Face::probe(cube, face, files, frames[0])?);
+        }
+        let size = common_canvas(pattern, &faces)?;
+        let views: Result<_> = faces.into_iter().map(|face| face.into_view(cube, size)).collect();
+        Ok(Self { views: views?, frames })
+    }
+
+    /// The views that have files, with the geometry of what those hold.
+    pub(crate) fn present(&self) -> impl Iterator<Item = (&InputView, &Header, &View)> {
+        self.views.iter().filter_map(|input| Some((input, input.header.as_ref()?, &input.window.as_ref()?.0)))
+    }
+
+    /// Pixels a radian at the centre of the finest view.
+    pub(crate) fn pixels_per_radian(&self) -> f64 {
+        self.present().map(|(input, _, _)| input.nominal.pixels_per_radian()).fold(0.0, f64::max)
+    }
+
+    /// Texels of all files of a frame.
+    pub(crate) fn texels(&self) -> usize {
+        self.present().map(|(_, header, _)| header.width.saturating_mul(header.height)).fold(0, usize::saturating_add)
+    }
+
+    /// The files of a frame.
+    pub(crate) fn paths(&self, frame: Option<u64>) -> Vec<PathBuf> {
+        self.present().map(|(input, _, _)| input.files.path(frame)).collect()
+    }
+}
+
+/// A face whose file has been looked at.
+struct Face {
+    face: CubeFace,
+    placement: cosmorama_io::FacePlacement,
+    files: Files,
+    header: Option<Header>,
+    canvas: Option<Canvas>,
+}
+
+impl Face {
+    fn probe(cube: &Cube, file: &FaceFile, files: Files, frame: Option<u64>) -> Result<Self> {
+        let header = file.present.then(|| probe(&files.path(frame))).transpose()?;
+        let canvas = header.as_ref().map(|header| {
+            let declared = cube.canvas_of(file.face).or(header.window.map(canvas_of));
+            declared.unwrap_or_else(|| whole(header))
+        });
+        Ok(Self { face: file.face, placement: file.placement, files, header, canvas })
+    }
+
+    fn into_view(self, cube: &Cube, (width, height): (usize, usize)) -> Result<InputView> {
+        let outer = Orientation::IDENTITY;
+        let canvas = self.canvas.unwrap_or(Canvas { width, height, left: 0, top: 0 });
+        let nominal = face_placement(cube, self.face, self.placement, None, outer).view(canvas.width, canvas.height)?;
+        let windowed = face_placement(cube, self.face, self.placement, Some(canvas), outer);
+        let window = match &self.header {
+            Some(header) => Some((windowed.view(header.width, header.height)?, canvas)),
+            None => None,
+        };
+        Ok(InputView { name: self.face.name().to_owned(), files: self.files, header: self.header, nominal, window })
+    }
+}
+
+/// Faces stretched more than this are no faces: the whole picture of something else, or a crop without its window.
+const MOST_STRETCH: f64 = 1.5;
+
+/// The size of the first face. Faces may differ in size but not in shape, since all span 90° both ways.
+fn common_canvas(pattern: &str, faces: &[Face]) -> Result<(usize, usize)> {
+    let sizes: Vec<(&Face, Canvas)> = faces.iter().filter_map(|face| Some((face, face.canvas?))).collect();
+    let ratio = |canvas: &Canvas| canvas.width as f64 / canvas.height as f64;
+    let alike = |a: &Canvas, b: &Canvas| (ratio(a) / ratio(b)).ln().abs() < 0.01;
+    let agreeing = |canvas: &Canvas| sizes.iter().filter(|(_, other)| alike(canvas, other)).count();
+    let Some((_, usual)) = sizes.iter().rev().max_by_key(|(_, canvas)| agreeing(canvas)) else {
+        bail!("{pattern}: no face is there");
+    };
+    let too_long = |canvas: &Canvas| !(MOST_STRETCH.recip()..=MOST_STRETCH).contains(&ratio(canvas));
+    let Some((face, canvas)) = sizes.iter().find(|(_, canvas)| !alike(canvas, usual) || too_long(canvas)) else {
+        return Ok((usual.width, usual.height));
+    };
+    let expected = if too_long(usual) { "a square, or nearly so".to_owned() } else { shape(usual) };
+    Err(anyhow!(
+        "{}: the {} face is {}, the wrong shape for a face; expected {expected}; if it is a cropped file, declare its place \
+         in the whole face with --from cube:canvas.{}=WxH+X+Y",
+        face.files.path(None).display(),
+        face.face,
+        shape(canvas),
+        face.face,
+    ))
+}
+
+fn shape(canvas: &Canvas) -> String {
+    format!("{}x{}", canvas.width, canvas.height)
+}
+
+fn names<'a>(faces: impl Iterator<Item = &'a FaceFile>) -> String {
+    faces.map(|face| face.face.name()).collect::<Vec<_>>().join(", ")
+}
+
+/// The canvas of an image that is all of it.
+fn whole(header: &Header) -> Canvas {
+    Canvas { width: header.width, height: header.height, left: 0, top: 0 }
+}
+
+fn canvas_of(window: Window) -> Canvas {
+    Canvas { width: window.canvas_width, height: window.canvas_height, left: window.x as i64, top: window.y as i64 }
+}

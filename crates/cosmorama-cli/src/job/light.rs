@@ -1,0 +1,177 @@
+use anyhow::Result;
+use cosmorama::raster::{Channels, Depth, Rgba, Transfer};
+use cosmorama_io::{Header, Metadata};
+
+use super::{Input, Target};
+use crate::args::{ConvertArgs, Missing, TransferArg};
+use crate::failure::usage;
+
+/// How code values relate to light on both sides, and what the outputs hold.
+#[derive(Clone, Debug)]
+pub(crate) struct Light {
+    /// Of the inputs, unless their own files say so.
+    input: InputTransfer,
+    /// Whether any input has alpha: what is transparent there stays so.
+    pub(crate) input_alpha: bool,
+    /// Channels of the outputs.
+    pub(crate) channels: Channels,
+    /// Sample type of the outputs.
+    pub(crate) depth: Depth,
+    /// Of the outputs.
+    pub(crate) transfer: Transfer,
+    /// What the outputs say of themselves.
+    pub(crate) metadata: Metadata,
+    /// What lies outside the lens.
+    pub(crate) background: Rgba,
+}
+
+/// What was asked for on the input's side.
+#[derive(Clone, Debug)]
+pub(crate) struct InputTransfer {
+    /// For integer files.
+    integers: Option<Transfer>,
+    /// For all files.
+    all: Option<Transfer>,
+}
+
+impl InputTransfer {
+    /// `--transfer` speaks of integers, since float files are linear; `--in-transfer` of whatever comes in.
+    pub(crate) fn new(both: &TransferArg, side: Option<&TransferArg>) -> Self {
+        match side {
+            Some(side) => Self { integers: side.fixed(), all: side.fixed() },
+            None => Self { integers: both.fixed(), all: None },
+        }
+    }
+
+    /// For a file that says this of itself.
+    pub(crate) fn of(&self, depth: Depth, metadata: &Metadata) -> Transfer {
+        if depth.is_float() {
+            return self.all.clone().unwrap_or(Transfer::Linear);
+        }
+        self.integers.clone().or_else(|| metadata.transfer.clone()).unwrap_or_default()
+    }
+}
+
+impl Light {
+    pub(crate) fn resolve(
+        args: &ConvertArgs,
+        input: &Input,
+        target: &Target,
+        warnings: &mut Vec<String>,
+    ) -> Result<Self> {
+        let headers: Vec<&Header> = input.present().map(|(_, header, _)| header).collect();
+        let channels = channels(args, &headers, target, warnings)?;
+        let depth = depth(args, &headers, target)?;
+        let side = InputTransfer::new(&args.transfer, args.in_transfer.as_ref());
+        let transfer = output_transfer(args, &headers, &side, depth, target);
+        let metadata = metadata(&headers, target, &transfer, depth, warnings);
+        let background = args.background.map(|colour| colour.0);
+        let default = if channels.has_alpha() { Rgba::TRANSPARENT } else { Rgba::BLACK };
+        Ok(Self {
+            input: side,
+            input_alpha: headers.iter().any(|header| header.channels.has_alpha()),
+            channels,
+            depth,
+            transfer,
+            metadata,
+            background: background.unwrap_or(default),
+        })
+    }
+
+    /// How an input file's code values relate to light.
+    pub(crate) fn input_transfer(&self, depth: Depth, metadata: &Metadata) -> Transfer {
+        self.input.of(depth, metadata)
+    }
+}
+
+/// As the input, with alpha if the input has it or something is to be transparent.
+fn channels(args: &ConvertArgs, headers: &[&Header], target: &Target, warnings: &mut Vec<String>) -> Result<Channels> {
+    let background = args.background.map(|colour| colour.0);
+    let coloured = |light: Rgba| light.0[0] != light.0[1] || light.0[1] != light.0[2];
+    let fill = match args.missing {
+        Missing::Error => None,
+        Missing::Fill(colour) => Some(colour),
+    };
+    let colour = headers.iter().any(|header| header.channels.is_colour())
+        || [background, fill].into_iter().flatten().any(coloured);
+    let transparent = [background, fill].into_iter().flatten().any(|light| light.alpha() < 1.0);
+    let alpha = transparent || headers.iter().any(|header| header.channels.has_alpha());
+    let plain = if colour { Channels::Rgb } else { Channels::Grey };
+    let wanted = if alpha { plain.with_alpha() } else { plain };
+    let possible = target.format.nearest_channels(wanted);
+    if wanted.has_alpha() && !possible.has_alpha() {
+        if transparent {
+            return Err(usage(format!(
+                "{} files cannot be transparent; write PNG, TIFF, TGA or OpenEXR, or give --background and --missing an \
+                 opaque colour",
+                target.format
+            )));
+        }
+        warnings.push(format!("{} files hold no alpha: the input's is laid over the background", target.format));
+    }
+    Ok(possible)
+}
+
+fn depth(args: &ConvertArgs, headers: &[&Header], target: &Target) -> Result<Depth> {
+    let Some(asked) = args.depth.map(Depth::from) else {
+        let rank = |depth: &Depth| Depth::ALL.iter().position(|other| other == depth);
+        let deepest = headers.iter().map(|header| header.depth).max_by_key(rank).unwrap_or(Depth::Eight);
+        return Ok(target.format.nearest_depth(deepest));
+    };
+    if target.format.depths().contains(&asked) {
+        return Ok(asked);
+    }
+    let known: Vec<_> = target.format.depths().iter().map(ToString::to_string).collect();
+    Err(usage(format!("--depth {asked}: {} files hold {}", target.format, known.join(", "))))
+}
+
+/// What comes in goes out: an integer file's transfer function for an integer file, linear light for floats.
+fn output_transfer(
+    args: &ConvertArgs,
+    headers: &[&Header],
+    side: &InputTransfer,
+    depth: Depth,
+    target: &Target,
+) -> Transfer {
+    if let Some(out) = &args.out_transfer {
+        if let Some(transfer) = out.fixed() {
+            return transfer;
+        }
+    } else if let (Some(transfer), false) = (args.transfer.fixed(), depth.is_float()) {
+        return transfer;
+    }
+    match headers.first() {
+        _ if depth.is_float() => Transfer::Linear,
+        Some(header) if !header.depth.is_float() => match side.of(header.depth, &header.metadata) {
+            // An ICC profile's curve means nothing without the profile.
+            Transfer::Curve(_) if !target.format.holds_icc() => Transfer::Srgb,
+            transfer => transfer,
+        },
+        _ => Transfer::Srgb,
+    }
+}
+
+fn metadata(
+    headers: &[&Header],
+    target: &Target,
+    transfer: &Transfer,
+    depth: Depth,
+    warnings: &mut Vec<String>,
+) -> Metadata {
+    let first = headers.first().map(|header| &header.metadata);
+    let icc = first.and_then(|metadata| metadata.icc.clone());
+    // The profile goes along while its own curve is what the output is encoded with.
+    let same_curve = first.is_some_and(|metadata| metadata.transfer.as_ref() == Some(transfer));
+    let keep = target.format.holds_icc() && same_curve && !depth.is_float();
+    if icc.is_some() && !keep {
+        warnings.push("the input's ICC profile is not carried over: the output is encoded differently".to_owned());
+    }
+    Metadata {
+        transfer: Some(transfer.clone()),
+        icc: icc.filter(|_| keep),
+        envmap: target.envmap,
+        other_channels: Vec::new(),
+        primaries: first.and_then(|metadata| metadata.primaries),
+        software: Some(concat!("cosmorama ", env!("CARGO_PKG_VERSION")).to_owned()),
+    }
+}

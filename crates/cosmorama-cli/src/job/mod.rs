@@ -1,0 +1,89 @@
+//! Jobs: arguments resolved, everything checked before work starts.
+
+mod coverage;
+mod detect;
+mod face_view;
+mod files;
+mod frames;
+mod input;
+mod light;
+mod memory;
+mod outputs;
+mod target;
+
+pub(crate) use coverage::{Coverage, nominal_world};
+pub(crate) use detect::Guess;
+pub(crate) use files::Files;
+pub(crate) use frames::existing as existing_frames;
+pub(crate) use input::{Input, InputView};
+pub(crate) use light::{InputTransfer, Light};
+pub(crate) use memory::{MemoryBudget, peak_bytes};
+pub(crate) use outputs::Outputs;
+pub(crate) use target::{Target, TargetView};
+
+use anyhow::Result;
+use cosmorama::raster::Rgba;
+use cosmorama::resample::Filter;
+
+use crate::args::{ConvertArgs, Missing};
+use crate::failure::warn;
+
+/// A conversion, ready to run.
+pub(crate) struct ConvertJob {
+    /// Where light comes from.
+    pub(crate) input: Input,
+    /// Where it goes.
+    pub(crate) target: Target,
+    /// How.
+    pub(crate) filter: Filter,
+    /// How code values relate to light on both sides, and what the outputs hold.
+    pub(crate) light: Light,
+    /// The outputs to be made, frame by frame.
+    pub(crate) outputs: Outputs,
+    /// What no view covers, where that is to be filled.
+    pub(crate) coverage: Coverage,
+    /// What becomes of directions without light.
+    missing: Missing,
+    /// What may be used.
+    pub(crate) memory: MemoryBudget,
+    /// What should be known.
+    pub(crate) warnings: Vec<String>,
+}
+
+impl ConvertJob {
+    /// Resolves arguments and checks everything that can be checked without decoding a pixel.
+    pub(crate) fn resolve(args: &ConvertArgs) -> Result<Self> {
+        let memory = MemoryBudget::new(args.limits.memory);
+        let mut warnings = Vec::new();
+        let geometry = &args.geometry;
+        // Mistakes in the command itself come first: they do not depend on any file.
+        Target::check_names(&args.output, geometry)?;
+        let input = Input::find(&args.input, geometry.from.as_ref(), args.frames.as_ref(), &mut warnings)?;
+        let target = Target::resolve(&args.output, geometry, input.pixels_per_radian())?;
+        let filter = filter(args, &mut warnings);
+        let light = Light::resolve(args, &input, &target, &mut warnings)?;
+        let outputs = Outputs::plan(args, &input, &target)?;
+        memory.check(&input, &target)?;
+        let coverage = Coverage::check(&input, &target, &filter, args.missing, &mut warnings)?;
+        warnings.iter().for_each(|warning| warn(warning));
+        Ok(Self { input, target, filter, light, outputs, coverage, missing: args.missing, memory, warnings })
+    }
+
+    /// What pixels without light get; `None` where they are an error.
+    pub(crate) fn fill_for_missing(&self) -> Option<Rgba> {
+        match self.missing {
+            Missing::Error => None,
+            Missing::Fill(colour) => Some(colour),
+        }
+    }
+}
+
+fn filter(args: &ConvertArgs, warnings: &mut Vec<String>) -> Filter {
+    use cosmorama::resample::{FilterKind, Kernel};
+    let geometry = &args.geometry;
+    let (kind, kernel) = (geometry.filter.0, geometry.kernel.0);
+    if matches!(kind, FilterKind::Point | FilterKind::Bilinear) && kernel != Kernel::ADAPTIVE {
+        warnings.push("--kernel has no effect on --filter point and bilinear".to_owned());
+    }
+    Filter { kind, kernel, anti_ringing: geometry.anti_ringing }
+}

@@ -1,0 +1,123 @@
+use std::collections::HashSet;
+use std::path::{Path, PathBuf};
+
+use anyhow::{Result, bail};
+use cosmorama_io::{Limits, pending::Pending, read};
+
+use super::{Files, Input, Target, TargetView};
+use crate::args::ConvertArgs;
+use crate::failure::usage;
+
+/// A frame with the outputs that are still to be made of it.
+pub(crate) struct FrameOutputs {
+    /// Its number; `None` where there is no sequence.
+    pub(crate) frame: Option<u64>,
+    /// Index of a target view and its file.
+    pub(crate) files: Vec<(usize, PathBuf)>,
+}
+
+/// What is to be made.
+pub(crate) struct Outputs {
+    /// Frames with anything to make.
+    pub(crate) frames: Vec<FrameOutputs>,
+    /// Outputs that were there already.
+    pub(crate) skipped: usize,
+}
+
+impl Outputs {
+    /// The outputs of all frames, checked against each other, the inputs and what exists.
+    pub(crate) fn plan(args: &ConvertArgs, input: &Input, target: &Target) -> Result<Self> {
+        check_frame_markers(args, input, target)?;
+        let inputs: HashSet<PathBuf> =
+            input.frames.iter().flat_map(|frame| input.paths(*frame)).map(|path| real_path(&path)).collect();
+        let mut outputs = Self { frames: Vec::new(), skipped: 0 };
+        let mut existing = Vec::new();
+        let mut folders = HashSet::new();
+        for &frame in &input.frames {
+            let mut files = Vec::new();
+            for (index, view) in target.views.iter().enumerate() {
+                let path = view.files.path(frame);
+                check_apart(&path, &inputs)?;
+                if folders.insert(path.parent().map(Path::to_owned)) {
+                    // A folder that is missing or read-only is found out before hours of work, not after.
+                    Pending::create(&path)?;
+                }
+                match path.try_exists().unwrap_or(false) {
+                    true if args.resume && is_complete(&path, view) => outputs.skipped += 1,
+                    exists => {
+                        if exists && !args.overwrite && !args.resume {
+                            existing.push(path.clone());
+                        }
+                        files.push((index, path));
+                    }
+                }
+            }
+            if !files.is_empty() {
+                outputs.frames.push(FrameOutputs { frame, files });
+            }
+        }
+        refuse_existing(&existing)?;
+        Ok(outputs)
+    }
+}
+
+/// Many frames need a marker in the output; one frame may go without; a marker without frames means nothing.
+fn check_frame_markers(args: &ConvertArgs, input: &Input, target: &Target) -> Result<()> {
+    let numbered = target.views.iter().all(|view| matches!(view.files, Files::Sequence(_)));
+    if input.frames.len() > 1 && !numbered {
+        return Err(usage(format!(
+            "{} frames cannot go into the one file {}; put #### or %04d where the frame number stands",
+            input.frames.len(),
+            args.output
+        )));
+    }
+    if numbered && input.frames == [None] {
+        return Err(usage(format!(
+            "{} has a frame marker, but the input {} has none; give both one, or neither",
+            args.output, args.input
+        )));
+    }
+    Ok(())
+}
+
+fn check_apart(path: &Path, inputs: &HashSet<PathBuf>) -> Result<()> {
+    if inputs.contains(&real_path(path)) {
+        return Err(usage(format!("{}: the output would replace its own input; choose another name", path.display())));
+    }
+    Ok(())
+}
+
+/// Where a path leads, whether the file exists or not.
+fn real_path(path: &Path) -> PathBuf {
+    if let Ok(real) = path.canonicalize() {
+        return real;
+    }
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    match (folder.canonicalize(), path.file_name()) {
+        (Ok(folder), Some(name)) => folder.join(name),
+        _ => path.to_owned(),
+    }
+}
+
+/// Outputs appear whole, so one that is an image of the right size is done.
+fn is_complete(path: &Path, target: &TargetView) -> bool {
+    let size = (target.view.width(), target.view.height());
+    read(path, &Limits::default()).is_ok_and(|file| (file.image.width(), file.image.height()) == size)
+}
+
+fn refuse_existing(existing: &[PathBuf]) -> Result<()> {
+    const SHOWN: usize = 5;
+    let Some(first) = existing.first() else { return Ok(()) };
+    if existing.len() == 1 {
+        bail!("{} exists; replace it with -y (--overwrite), or keep it with --resume", first.display());
+    }
+    let mut names: Vec<_> = existing.iter().take(SHOWN).map(|path| path.display().to_string()).collect();
+    if existing.len() > SHOWN {
+        names.push("…".to_owned());
+    }
+    bail!(
+        "{} outputs exist ({}); replace them with -y (--overwrite), or keep them with --resume",
+        existing.len(),
+        names.join(", ")
+    )
+}

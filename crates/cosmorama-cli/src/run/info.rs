@@ -1,0 +1,151 @@
+use std::path::Path;
+use std::process::ExitCode;
+
+use anyhow::Result;
+use cosmorama::raster::Transfer;
+use cosmorama_io::{EnvMap, FacePattern, FaceSet, Header, probe};
+use serde_json::{Value, json};
+
+use super::print;
+use crate::args::InfoArgs;
+use crate::job::{Files, Guess, existing_frames};
+
+/// Tells what a file or a face set is.
+pub(super) fn run(args: &InfoArgs) -> Result<ExitCode> {
+    let report = if FacePattern::parse(&args.input).is_some() { faces(&args.input)? } else { single(&args.input)? };
+    if args.json {
+        print(&(serde_json::to_string_pretty(&report)? + "\n"))?;
+    } else {
+        print(&lines(&report, 0))?;
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+fn single(pattern: &str) -> Result<Value> {
+    let files = Files::new(Path::new(pattern));
+    let frames = existing_frames(&files)?;
+    let path = files.path(frames.first().copied());
+    let header = probe(&path)?;
+    let mut report = json!({ "input": pattern });
+    add_frames(&mut report, &frames);
+    merge(&mut report, header_report(&header));
+    report["projection"] = json!(likely(&header));
+    Ok(report)
+}
+
+fn faces(pattern: &str) -> Result<Value> {
+    let set = FaceSet::find(pattern, None)?;
+    let mut report = json!({ "input": pattern, "projection": "cube", "naming": set.naming().name });
+    let mut faces = serde_json::Map::new();
+    for file in set.faces() {
+        let mut face = json!({ "file": file.path, "present": file.present });
+        if file.placement != cosmorama_io::FacePlacement::UPRIGHT {
+            face["lies"] = json!(format!(
+                "turned clockwise by {} degrees{}",
+                90 * u32::from(file.placement.quarter_turns),
+                if file.placement.mirrored { ", mirrored" } else { "" }
+            ));
+        }
+        if file.present {
+            let files = Files::new(&file.path);
+            let frames = existing_frames(&files)?;
+            add_frames(&mut face, &frames);
+            merge(&mut face, header_report(&probe(&files.path(frames.first().copied()))?));
+        }
+        faces.insert(file.face.name().to_owned(), face);
+    }
+    report["faces"] = Value::Object(faces);
+    Ok(report)
+}
+
+fn header_report(header: &Header) -> Value {
+    let metadata = &header.metadata;
+    let mut report = json!({
+        "format": header.format.to_string(),
+        "width": header.width,
+        "height": header.height,
+        "channels": header.channels.to_string(),
+        "depth": header.depth.to_string(),
+        "transfer": transfer(header),
+    });
+    if let Some(window) = header.window {
+        report["canvas"] = json!(format!("{}x{}+{}+{}", window.canvas_width, window.canvas_height, window.x, window.y));
+    }
+    if let Some(icc) = &metadata.icc {
+        report["icc_profile_bytes"] = json!(icc.len());
+    }
+    if let Some(primaries) = metadata.primaries {
+        report["primaries"] = json!(primaries);
+    }
+    if let Some(envmap) = metadata.envmap {
+        report["envmap"] = json!(match envmap {
+            EnvMap::LatLong => "latlong",
+            EnvMap::Cube => "cube",
+        });
+    }
+    if !metadata.other_channels.is_empty() {
+        report["other_channels"] = json!(metadata.other_channels);
+    }
+    if let Some(software) = &metadata.software {
+        report["software"] = json!(software);
+    }
+    report
+}
+
+fn transfer(header: &Header) -> String {
+    match &header.metadata.transfer {
+        None if header.depth.is_float() => "linear (float files are)".to_owned(),
+        None => "not said (taken for srgb)".to_owned(),
+        Some(transfer) => match transfer {
+            Transfer::Srgb => "srgb".to_owned(),
+            Transfer::Linear => "linear".to_owned(),
+            Transfer::Gamma(gamma) => format!("gamma:{gamma:.4}"),
+            Transfer::Bt1886 => "bt1886".to_owned(),
+            Transfer::Pq => "pq".to_owned(),
+            Transfer::Hlg => "hlg".to_owned(),
+            Transfer::Curve(_) => "icc".to_owned(),
+        },
+    }
+}
+
+fn likely(header: &Header) -> &'static str {
+    match Guess::of(header) {
+        Guess::LatLong => "equirect, samples on the edges (envmap attribute)",
+        Guess::TwoToOne => "equirect (2:1)",
+        Guess::CubeInOneFile => "cube in one file (envmap attribute), which is not read",
+        Guess::Unknown if header.width == header.height => "unknown: a face of a cube, fisheye or fulldome?",
+        Guess::Unknown => "unknown: perspective, fisheye or omnimax?",
+    }
+}
+
+fn add_frames(report: &mut Value, frames: &[u64]) {
+    if !frames.is_empty() {
+        report["frames"] = json!(cosmorama_io::FrameList::new(frames.iter().copied()).to_string());
+    }
+}
+
+fn merge(into: &mut Value, from: Value) {
+    if let (Value::Object(into), Value::Object(from)) = (into, from) {
+        into.extend(from);
+    }
+}
+
+/// The report as indented lines.
+fn lines(report: &Value, indent: usize) -> String {
+    let Value::Object(fields) = report else { return String::new() };
+    let pad = " ".repeat(indent);
+    let line = |(key, value): (&String, &Value)| match value {
+        Value::Object(face) if face.get("present") == Some(&Value::Bool(false)) => {
+            format!("{pad}{key}: missing ({})\n", plain(&face["file"]))
+        }
+        Value::Object(_) => format!("{pad}{key}:\n{}", lines(value, indent + 2)),
+        Value::Array(items) => format!("{pad}{key}: {}\n", items.iter().map(plain).collect::<Vec<_>>().join(", ")),
+        _ if key == "present" => String::new(),
+        value => format!("{pad}{key}: {}\n", plain(value)),
+    };
+    fields.iter().map(line).collect()
+}
+
+fn plain(value: &Value) -> String {
+    value.as_str().map_or_else(|| value.to_string(), str::to_owned)
+}

@@ -1,0 +1,46 @@
+//! Running jobs.
+
+mod compare;
+mod convert;
+mod engine;
+mod info;
+mod interrupt;
+mod progress;
+mod report;
+mod shell;
+mod stages;
+
+use std::process::ExitCode;
+
+use anyhow::{Context, Result};
+
+use crate::args::Verb;
+
+/// Does what was asked for.
+pub(crate) fn run(verb: Verb) -> Result<ExitCode> {
+    interrupt::install()?;
+    match verb {
+        Verb::Convert(args) => convert::run(&args),
+        Verb::Info(args) => info::run(&args),
+        Verb::Compare(args) => compare::run(&args),
+        Verb::Completions(args) => shell::completions(&args),
+        Verb::Man => shell::man(),
+    }
+}
+
+/// The threads that everything runs on.
+fn use_threads(count: Option<usize>) -> Result<()> {
+    let builder = rayon::ThreadPoolBuilder::new().num_threads(count.unwrap_or(0));
+    builder.build_global().context("cannot start threads")
+}
+
+/// Prints what was asked for on standard output.
+fn print(text: &str) -> Result<()> {
+    use std::io::Write;
+    let mut out = std::io::stdout().lock();
+    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
+        // Whoever read our output has seen enough.
+        Err(error) if error.kind() == std::io::ErrorKind::BrokenPipe => Ok(()),
+        result => result.context("cannot write to standard output"),
+    }
+}

@@ -1,0 +1,65 @@
+use std::collections::BTreeSet;
+use std::path::PathBuf;
+use std::time::Duration;
+
+use anyhow::Result;
+use serde::Serialize;
+
+use super::stages::{CpuSeconds, Stages};
+use crate::job::peak_bytes;
+
+/// What `--json` prints after a conversion.
+#[derive(Debug, Serialize)]
+pub(super) struct Report {
+    inputs: Vec<PathBuf>,
+    outputs: Vec<PathBuf>,
+    /// Frames that were made.
+    frames: usize,
+    /// Outputs that were complete already.
+    skipped: usize,
+    wall_seconds: f64,
+    cpu_seconds: CpuSeconds,
+    peak_memory_bytes: Option<u64>,
+    warnings: Vec<String>,
+}
+
+impl Report {
+    pub(super) fn new(
+        inputs: BTreeSet<PathBuf>,
+        outputs: Vec<PathBuf>,
+        (frames, skipped): (usize, usize),
+        wall: Duration,
+        stages: &Stages,
+        warnings: Vec<String>,
+    ) -> Self {
+        Self {
+            inputs: inputs.into_iter().collect(),
+            outputs,
+            frames,
+            skipped,
+            wall_seconds: wall.as_secs_f64(),
+            cpu_seconds: stages.cpu_seconds(),
+            peak_memory_bytes: peak_bytes(),
+            warnings,
+        }
+    }
+
+    pub(super) fn to_json(&self) -> Result<String> {
+        Ok(serde_json::to_string_pretty(self)? + "\n")
+    }
+}
+
+impl Report {
+    /// What people want to know, on standard error.
+    #[allow(clippy::print_stderr)]
+    pub(super) fn tell(&self, stages: &Stages) {
+        let what = match (&self.outputs[..], self.frames) {
+            ([], _) => "nothing to do".to_owned(),
+            ([one], _) => one.display().to_string(),
+            (many, 1) => format!("{} files", many.len()),
+            (many, frames) => format!("{} files of {frames} frames", many.len()),
+        };
+        let skipped = if self.skipped == 0 { String::new() } else { format!(", {} kept", self.skipped) };
+        eprintln!("{what}{skipped} in {:.2} s ({})", self.wall_seconds, stages.describe());
+    }
+}

@@ -1,0 +1,149 @@
+use cosmorama::sphere::CubeFace;
+use cosmorama::world::{
+    EquirectFrame, FieldOfView, FisheyeFit, FisheyeFrame, Frame, FulldomeFrame, OmnimaxFrame, OmnimaxFraming,
+    PerspectiveFrame, Placement, SamplePositions,
+};
+use cosmorama_io::Naming;
+
+use super::fields::{Fields, wrong};
+use super::shape::{Cube, Shape, Single, SphereSamples};
+use super::{SpecError, angle::parse_degrees};
+
+impl Shape {
+    /// The shape of a name of the table and keys of that name.
+    pub(super) fn build(name: &str, pairs: Vec<(String, String)>) -> Result<Self, SpecError> {
+        let fields = Fields::new(pairs);
+        let mut samples = SphereSamples::NotAPanorama;
+        let frame = match name {
+            "cube" => return cube(&fields).map(Self::Cube),
+            "perspective" => Frame::Perspective(perspective(&fields)?),
+            "equirect" => {
+                let frame = equirect(&fields)?;
+                let given = fields.get("samples").is_some();
+                samples = if given { SphereSamples::Given(frame.samples) } else { SphereSamples::ByFormat };
+                Frame::Equirect(frame)
+            }
+            "fisheye" => Frame::Fisheye(fisheye(&fields)?),
+            "fulldome" => Frame::Fulldome(fulldome(&fields)?),
+            "omnimax" => Frame::Omnimax(omnimax(&fields)?),
+            _ => return Err(SpecError::UnknownName { name: name.to_owned() }),
+        };
+        let placement = Placement {
+            frame,
+            orientation: fields.orientation()?,
+            mirror: fields.mirror()?,
+            canvas: fields.canvas("canvas")?,
+        };
+        Ok(Self::Single(Single { placement, samples }))
+    }
+}
+
+fn perspective(fields: &Fields) -> Result<PerspectiveFrame, SpecError> {
+    let (fov, vfov, dfov) = (fields.angle("fov")?, fields.angle("vfov")?, fields.angle("dfov")?);
+    let field_of_view = match (fov, vfov, dfov) {
+        (_, Some(_), Some(_)) => return Err(SpecError::Both { first: "vfov", second: "dfov" }),
+        (Some(_), _, Some(_)) => return Err(SpecError::Both { first: "fov", second: "dfov" }),
+        (Some(horizontal), Some(vertical), None) => FieldOfView::Both { horizontal, vertical },
+        (None, Some(vertical), None) => FieldOfView::Vertical(vertical),
+        (None, None, Some(diagonal)) => FieldOfView::Diagonal(diagonal),
+        (horizontal, None, None) => {
+            FieldOfView::Horizontal(horizontal.unwrap_or(cosmorama::sphere::Angle::from_degrees(90.0)))
+        }
+    };
+    if matches!(field_of_view, FieldOfView::Both { .. }) && fields.get("aspect").is_some() {
+        return Err(SpecError::Both { first: "aspect", second: "vfov" });
+    }
+    Ok(PerspectiveFrame { field_of_view, pixel_aspect: fields.aspect()? })
+}
+
+fn equirect(fields: &Fields) -> Result<EquirectFrame, SpecError> {
+    let positions = [
+        ("centres", SamplePositions::Centres),
+        ("centers", SamplePositions::Centres),
+        ("edges", SamplePositions::Edges),
+    ];
+    Ok(EquirectFrame {
+        horizontal: fields.angle_or("hfov", 360.0)?,
+        vertical: fields.angle_or("vfov", 180.0)?,
+        samples: fields.choice("samples", &positions)?.unwrap_or_default(),
+    })
+}
+
+fn fisheye(fields: &Fields) -> Result<FisheyeFrame, SpecError> {
+    fields.choice("lens", &[("equidistant", ())])?;
+    let fits = [
+        ("short", FisheyeFit::Short),
+        ("long", FisheyeFit::Long),
+        ("width", FisheyeFit::Width),
+        ("height", FisheyeFit::Height),
+        ("diagonal", FisheyeFit::Diagonal),
+    ];
+    Ok(FisheyeFrame {
+        field_of_view: fields.angle_or("fov", 180.0)?,
+        fit: fields.choice("fit", &fits)?.unwrap_or_default(),
+        circle: fields.circle()?,
+        pixel_aspect: fields.aspect()?,
+    })
+}
+
+fn fulldome(fields: &Fields) -> Result<FulldomeFrame, SpecError> {
+    Ok(FulldomeFrame {
+        field_of_view: fields.angle_or("fov", 180.0)?,
+        tilt: fields.angle_or("tilt", 0.0)?,
+        pixel_aspect: fields.aspect()?,
+    })
+}
+
+fn omnimax(fields: &Fields) -> Result<OmnimaxFrame, SpecError> {
+    let framings = [("fit", OmnimaxFraming::Fit), ("circle", OmnimaxFraming::Circle)];
+    let lower = fields.read("lower", "an angle in degrees below the axis, or none, as in lower=45", |value| {
+        if value == "none" { Some(None) } else { parse_degrees(value).map(Some) }
+    })?;
+    let default = OmnimaxFrame::default();
+    Ok(OmnimaxFrame {
+        framing: fields.choice("framing", &framings)?.unwrap_or_default(),
+        lower: lower.unwrap_or(default.lower),
+        circle: fields.circle()?,
+        axis: fields.angle_or("axis", 0.0)?,
+        pixel_aspect: fields.aspect()?,
+    })
+}
+
+fn cube(fields: &Fields) -> Result<Cube, SpecError> {
+    let naming = fields
+        .get("naming")
+        .map(|name| {
+            let known = || Naming::presets().iter().map(|naming| naming.name).collect::<Vec<_>>().join(", ");
+            Naming::named(name).map_err(|_| wrong("naming", name, format!("one of {}", known())))
+        })
+        .transpose()?;
+    let faces =
+        fields.get("faces").map(|list| list.split([',', '+', ' ']).map(|name| face("faces", list, name)).collect());
+    let mut face_canvas = Vec::new();
+    for (name, value) in fields.with_prefix("canvas.") {
+        let key = format!("canvas.{name}");
+        if let Some(canvas) = fields.canvas(&key)? {
+            face_canvas.push((face(&key, value, name)?, canvas));
+        }
+    }
+    Ok(Cube {
+        naming,
+        faces: faces.transpose()?.unwrap_or_else(|| CubeFace::ALL.to_vec()),
+        orientation: fields.orientation()?,
+        mirror: fields.mirror()?,
+        canvas: fields.canvas("canvas")?,
+        face_canvas,
+    })
+}
+
+/// A face by our own name, or one of the two that others have for up and down.
+fn face(key: &str, value: &str, name: &str) -> Result<CubeFace, SpecError> {
+    let own = match name.trim() {
+        "top" => "up",
+        "bottom" => "down",
+        name => name,
+    };
+    CubeFace::ALL.into_iter().find(|face| face.name() == own).ok_or_else(|| {
+        wrong(key, value, format!("faces of a cube (front, right, back, left, up, down); '{name}' is none"))
+    })
+}

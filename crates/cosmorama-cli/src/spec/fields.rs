@@ -1,0 +1,91 @@
+use cosmorama::sphere::{Angle, Orientation};
+use cosmorama::world::{Canvas, LensCircle, Mirror, PixelPoint};
+
+use super::SpecError;
+use super::angle::parse_degrees;
+use super::window::parse_window;
+
+/// The keys and values of a SPEC, all known to exist, to be read by kind.
+pub(super) struct Fields(Vec<(String, String)>);
+
+impl Fields {
+    pub(super) fn new(pairs: Vec<(String, String)>) -> Self {
+        Self(pairs)
+    }
+
+    pub(super) fn get(&self, key: &str) -> Option<&str> {
+        self.0.iter().find(|(name, _)| name == key).map(|(_, value)| value.as_str())
+    }
+
+    /// Keys that begin so, without the beginning, and their values.
+    pub(super) fn with_prefix<'a>(&'a self, prefix: &'a str) -> impl Iterator<Item = (&'a str, &'a str)> {
+        self.0.iter().filter_map(move |(key, value)| Some((key.strip_prefix(prefix)?, value.as_str())))
+    }
+
+    /// A value read by `parse`, if there is one.
+    pub(super) fn read<T>(
+        &self,
+        key: &str,
+        expected: &str,
+        parse: impl Fn(&str) -> Option<T>,
+    ) -> Result<Option<T>, SpecError> {
+        self.get(key).map(|value| parse(value).ok_or_else(|| wrong(key, value, expected))).transpose()
+    }
+
+    pub(super) fn angle(&self, key: &str) -> Result<Option<Angle>, SpecError> {
+        self.read(key, &format!("an angle in degrees, as in {key}=90"), parse_degrees)
+    }
+
+    pub(super) fn angle_or(&self, key: &str, default: f64) -> Result<Angle, SpecError> {
+        Ok(self.angle(key)?.unwrap_or(Angle::from_degrees(default)))
+    }
+
+    /// One of a list of words.
+    pub(super) fn choice<T: Copy>(&self, key: &str, choices: &[(&str, T)]) -> Result<Option<T>, SpecError> {
+        let names: Vec<_> = choices.iter().map(|(name, _)| *name).collect();
+        let find = |value: &str| choices.iter().find(|(name, _)| *name == value).map(|(_, choice)| *choice);
+        self.read(key, &format!("one of {}", names.join(", ")), find)
+    }
+
+    pub(super) fn positive(&self, key: &str, expected: &str) -> Result<Option<f64>, SpecError> {
+        self.read(key, expected, |value| value.parse().ok().filter(|number: &f64| *number > 0.0 && number.is_finite()))
+    }
+
+    pub(super) fn aspect(&self) -> Result<f64, SpecError> {
+        Ok(self.positive("aspect", "a pixel's width over its height, more than 0, as in aspect=1.2")?.unwrap_or(1.0))
+    }
+
+    pub(super) fn circle(&self) -> Result<LensCircle, SpecError> {
+        let centre = self.read("center", "X:Y in pixels, as in center=983:921.5", |value| {
+            let (x, y) = value.split_once(':')?;
+            let (x, y): (f64, f64) = (x.parse().ok()?, y.parse().ok()?);
+            (x.is_finite() && y.is_finite()).then(|| PixelPoint::new(x, y))
+        })?;
+        Ok(LensCircle { centre, radius: self.positive("radius", "a radius in pixels, more than 0")? })
+    }
+
+    pub(super) fn orientation(&self) -> Result<Orientation, SpecError> {
+        let [yaw, pitch, roll] = ["yaw", "pitch", "roll"].map(|key| self.angle_or(key, 0.0));
+        Ok(Orientation::from_yaw_pitch_roll(yaw?, pitch?, roll?))
+    }
+
+    pub(super) fn mirror(&self) -> Result<Mirror, SpecError> {
+        let mirror = |x, y| Mirror { x, y };
+        let choices = [
+            ("x", mirror(true, false)),
+            ("y", mirror(false, true)),
+            ("xy", mirror(true, true)),
+            ("yx", mirror(true, true)),
+        ];
+        Ok(self.choice("flip", &choices)?.unwrap_or_default())
+    }
+
+    pub(super) fn canvas(&self, key: &str) -> Result<Option<Canvas>, SpecError> {
+        let expected = format!("WxH+X+Y: the canvas's size and the image's place in it, as in {key}=1024x1024+512+0");
+        self.read(key, &expected, parse_window)
+    }
+}
+
+pub(super) fn wrong(key: &str, value: &str, expected: impl Into<String>) -> SpecError {
+    SpecError::Value { key: key.to_owned(), value: value.to_owned(), expected: expected.into() }
+}

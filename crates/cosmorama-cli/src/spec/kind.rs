@@ -1,0 +1,140 @@
+//! The table of projections and their keys.
+
+/// A name with its keys.
+pub(crate) struct Kind {
+    /// As typed.
+    pub(crate) name: &'static str,
+    /// What it is.
+    pub(crate) about: &'static str,
+    /// Its own keys.
+    pub(crate) keys: &'static [Key],
+    /// Whether pixels that are not square are declared by `aspect=`.
+    pub(crate) takes_aspect: bool,
+}
+
+/// A key of a SPEC.
+pub(crate) struct Key {
+    /// As typed.
+    pub(crate) name: &'static str,
+    /// What values look like.
+    pub(crate) value: &'static str,
+    /// What it does, with the default.
+    pub(crate) about: &'static str,
+}
+
+const fn key(name: &'static str, value: &'static str, about: &'static str) -> Key {
+    Key { name, value, about }
+}
+
+/// Every projection on offer.
+pub(crate) const KINDS: [Kind; 6] = [
+    Kind {
+        name: "cube",
+        about: "faces of a cube, one file each",
+        keys: &[
+            key("naming", "PRESET", "how the faces are named: words, cosmorama, bourke, pannellum, opengl, px, …"),
+            key("faces", "front,left,right,up", "use (or write) only these"),
+            key("canvas.FACE", "WxH+X+Y", "as canvas=, for one face"),
+        ],
+        takes_aspect: false,
+    },
+    Kind {
+        name: "perspective",
+        about: "a pinhole camera",
+        keys: &[
+            key("fov", "DEGREES", "horizontal field of view (90)"),
+            key("vfov", "DEGREES", "vertical field of view; with fov=, the pixels fit"),
+            key("dfov", "DEGREES", "diagonal field of view"),
+        ],
+        takes_aspect: true,
+    },
+    Kind {
+        name: "equirect",
+        about: "a panorama of longitude by latitude",
+        keys: &[
+            key("hfov", "DEGREES", "longitudes shown (360)"),
+            key("vfov", "DEGREES", "latitudes shown (180)"),
+            key("samples", "centres|edges", "where the outermost samples lie (centres; OpenEXR files: edges)"),
+        ],
+        takes_aspect: false,
+    },
+    Kind {
+        name: "fisheye",
+        about: "a fisheye lens that looks ahead",
+        keys: &[
+            key("fov", "DEGREES", "across the circle (180)"),
+            key("lens", "equidistant", "how the angle goes with the radius (equidistant)"),
+            key("fit", "short|long|width|height|diagonal", "which length of the image the circle spans (short)"),
+            key("center", "X:Y", "the circle's centre in pixels"),
+            key("radius", "PIXELS", "the circle's radius in pixels"),
+        ],
+        takes_aspect: true,
+    },
+    Kind {
+        name: "fulldome",
+        about: "a domemaster: equidistant fisheye that looks up, the front at the bottom",
+        keys: &[
+            key("fov", "DEGREES", "across the circle (180)"),
+            key("tilt", "DEGREES", "how far the dome leans to the front (0)"),
+        ],
+        takes_aspect: true,
+    },
+    Kind {
+        name: "omnimax",
+        about: "an Omnimax film frame",
+        keys: &[
+            key("framing", "fit|circle", "the circle cut off below to fill the frame, or whole (fit)"),
+            key("lower", "DEGREES|none", "the bottom is cut off so far below the axis (45)"),
+            key("center", "X:Y", "the circle's centre in pixels"),
+            key("radius", "PIXELS", "the circle's radius in pixels"),
+            key("axis", "DEGREES", "elevation of the axis of projection (0; theatre: 11)"),
+        ],
+        takes_aspect: true,
+    },
+];
+
+/// Keys that every SPEC takes.
+pub(crate) const COMMON: [Key; 5] = [
+    key("yaw", "DEGREES", "turns the view to the right"),
+    key("pitch", "DEGREES", "turns it up"),
+    key("roll", "DEGREES", "turns the camera clockwise"),
+    key("flip", "x|y|xy", "the picture is mirrored left to right, top to bottom, both"),
+    key("canvas", "WxH+X+Y", "the image is a window of a canvas, its corner at X, Y"),
+];
+
+/// The key of pixels that are not square.
+pub(crate) const ASPECT: Key = key("aspect", "A", "a pixel's width over its height (1)");
+
+impl Kind {
+    /// The kind of this name.
+    pub(crate) fn named(name: &str) -> Option<&'static Self> {
+        static TABLE: [Kind; 6] = KINDS;
+        TABLE.iter().find(|kind| kind.name == name)
+    }
+
+    /// Every key it takes.
+    pub(crate) fn all_keys(&self) -> impl Iterator<Item = &Key> {
+        let aspect = self.takes_aspect.then_some(&ASPECT);
+        self.keys.iter().chain(&COMMON).chain(aspect)
+    }
+}
+
+/// The table as help text.
+pub(crate) fn help() -> String {
+    let mut text = String::from("SPEC is NAME[:key=value[,key=value]...]:\n");
+    for kind in &KINDS {
+        text += &format!("\n  {:<12} {}\n", kind.name, kind.about);
+        for key in kind.keys {
+            text += &key_help(key);
+        }
+    }
+    text += "\n  Every SPEC also takes\n";
+    for key in COMMON.iter().chain(std::iter::once(&ASPECT)) {
+        text += &key_help(key);
+    }
+    text
+}
+
+fn key_help(key: &Key) -> String {
+    format!("    {:<34} {}\n", format!("{}={}", key.name, key.value), key.about)
+}

@@ -1,0 +1,14 @@
+//! Projections as they are typed: `NAME[:key=value[,key=value]…]`.
+//!
+//! One table ([`kind`]) lists every name and key; all messages about wrong ones come from it.
+
+mod angle;
+mod build;
+mod fields;
+pub(crate) mod kind;
+mod shape;
+mod text;
+mod window;
+
+pub(crate) use shape::{Cube, Shape, Single, SphereSamples};
+pub(crate) use text::{Spec, SpecError};

@@ -1,0 +1,134 @@
+use std::str::FromStr;
+
+use thiserror::Error;
+
+use super::kind::{KINDS, Kind};
+use super::shape::Shape;
+
+/// A SPEC as it was typed, taken apart and found good.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Spec {
+    /// The projection's name.
+    pub(crate) name: &'static str,
+    /// What it means.
+    pub(crate) shape: Shape,
+}
+
+/// Why a SPEC cannot be understood.
+#[derive(Clone, Debug, PartialEq, Error)]
+pub(crate) enum SpecError {
+    /// The name is in no table.
+    #[error("unknown projection '{name}'{}; there are {}", did_you_mean(.name, &names()), names().join(", "))]
+    UnknownName { name: String },
+    /// The key is not one of this name's.
+    #[error("unknown key '{key}' for {name}{}; it takes {}", did_you_mean(.key, .known), .known.join(", "))]
+    UnknownKey { name: &'static str, key: String, known: Vec<&'static str> },
+    /// A part that is no `key=value`.
+    #[error("'{part}' is no key=value; a SPEC is NAME[:key=value[,key=value]...], as in fisheye:fov=220,fit=width")]
+    NoValue { part: String },
+    /// A key twice.
+    #[error("{key}= is given twice")]
+    Twice { key: String },
+    /// A value that is not of the expected kind.
+    #[error("{key}={value}: expected {expected}")]
+    Value { key: String, value: String, expected: String },
+    /// Keys that say the same thing differently.
+    #[error("{first}= and {second}= cannot both be given")]
+    Both { first: &'static str, second: &'static str },
+}
+
+fn names() -> Vec<&'static str> {
+    KINDS.iter().map(|kind| kind.name).collect()
+}
+
+fn did_you_mean(typed: &str, known: &[&str]) -> String {
+    let likeness = |name: &&&str| (strsim::normalized_damerau_levenshtein(typed, name) * 1000.0) as i64;
+    match known.iter().max_by_key(likeness).filter(|best| likeness(best) >= 500) {
+        Some(best) => format!("; did you mean '{best}'?"),
+        None => String::new(),
+    }
+}
+
+impl FromStr for Spec {
+    type Err = SpecError;
+
+    fn from_str(text: &str) -> Result<Self, SpecError> {
+        let (name, rest) = text.split_once(':').unwrap_or((text, ""));
+        let kind = Kind::named(name).ok_or_else(|| SpecError::UnknownName { name: name.to_owned() })?;
+        let pairs = pairs(rest)?;
+        for (index, (key, _)) in pairs.iter().enumerate() {
+            check_key(kind, key)?;
+            if pairs[..index].iter().any(|(earlier, _)| earlier == key) {
+                return Err(SpecError::Twice { key: key.clone() });
+            }
+        }
+        Ok(Self { name: kind.name, shape: Shape::build(kind.name, pairs)? })
+    }
+}
+
+/// Keys and values. A part without `=` goes on with the value before it: `faces=front,left`.
+fn pairs(text: &str) -> Result<Vec<(String, String)>, SpecError> {
+    let mut pairs: Vec<(String, String)> = Vec::new();
+    for part in text.split(',').filter(|_| !text.is_empty()) {
+        match (part.split_once('='), pairs.last_mut()) {
+            (Some((key, value)), _) => pairs.push((key.trim().to_owned(), value.trim().to_owned())),
+            (None, Some((_, value))) => *value = format!("{value},{}", part.trim()),
+            (None, None) => return Err(SpecError::NoValue { part: part.to_owned() }),
+        }
+    }
+    Ok(pairs)
+}
+
+fn check_key(kind: &'static Kind, typed: &str) -> Result<(), SpecError> {
+    // canvas.FACE stands for a key of each face; which faces there are, the value's reader knows.
+    let generic = if typed.starts_with("canvas.") { "canvas.FACE" } else { typed };
+    if kind.all_keys().any(|key| key.name == generic) {
+        return Ok(());
+    }
+    let known = kind.all_keys().map(|key| key.name).collect();
+    Err(SpecError::UnknownKey { name: kind.name, key: typed.to_owned(), known })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn refused(text: &str) -> String {
+        text.parse::<Spec>().unwrap_err().to_string()
+    }
+
+    #[test]
+    fn wrong_keys_and_names_are_answered_from_the_table() {
+        let message = refused("fisheye:fvo=180");
+        assert!(
+            message.starts_with("unknown key 'fvo' for fisheye; did you mean 'fov'?; it takes fov, lens"),
+            "{message}"
+        );
+        assert!(refused("omnimx").contains("did you mean 'omnimax'?"));
+        assert!(refused("mercator").contains("there are cube, perspective, equirect, fisheye, fulldome, omnimax"));
+        assert!(refused("cube:aspect=2").contains("unknown key 'aspect' for cube"));
+    }
+
+    #[test]
+    fn wrong_values_say_what_was_expected() {
+        assert!(refused("fisheye:fov=wide").contains("fov=wide: expected an angle in degrees"));
+        assert!(refused("fisheye:fov=10,fov=20").contains("fov= is given twice"));
+        assert!(refused("fisheye:180").contains("is no key=value"));
+        assert!(refused("fisheye:fit=tight").contains("short, long, width, height, diagonal"));
+        assert!(refused("fisheye:center=3").contains("X:Y"));
+        assert!(refused("perspective:fov=90,dfov=100").contains("cannot both"));
+        assert!(refused("cube:faces=front,top hat").contains("top hat"));
+        assert!(refused("cube:canvas.nose=1x1+0+0").contains("nose"));
+        assert!(refused("omnimax:canvas=10x10").contains("WxH+X+Y"));
+    }
+
+    #[test]
+    fn values_may_hold_colons_and_commas() {
+        assert!("omnimax:center=983:921.5,radius=900".parse::<Spec>().is_ok());
+        let Shape::Cube(cube) = "cube:faces=front,left,naming=bourke".parse::<Spec>().unwrap().shape else {
+            panic!("a cube is a cube");
+        };
+        assert_eq!(cube.faces.len(), 2);
+        assert_eq!(cube.naming.map(|naming| naming.name), Some("bourke"));
+    }
+}

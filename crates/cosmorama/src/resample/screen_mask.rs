@@ -1,0 +1,111 @@
+use rayon::prelude::*;
+
+use crate::raster::{Image, Rgba};
+use crate::world::{View, World};
+
+/// What a target's pixels are apart from light: how much of each lies in the field of view, and whether any view of the
+/// world looks where it does.
+#[derive(Clone, Debug)]
+pub struct ScreenMask {
+    pixels: Vec<MaskPixel>,
+}
+
+#[derive(Clone, Copy, Debug, Default)]
+struct MaskPixel {
+    coverage: f32,
+    unseen: bool,
+}
+
+impl ScreenMask {
+    /// The mask of a target in a world.
+    pub fn new(world: &World, target: &View) -> Self {
+        let width = target.width();
+        let mut pixels = vec![MaskPixel::default(); width * target.height()];
+        pixels.par_chunks_mut(width.max(1)).enumerate().for_each(|(j, row)| {
+            for (i, pixel) in row.iter_mut().enumerate() {
+                let Some(screen) = target.screen_pixel(i, j) else { continue };
+                let direction = screen.footprint.direction;
+                let unseen = !world.sources().iter().any(|source| source.view.sees(direction));
+                *pixel = MaskPixel { coverage: screen.coverage as f32, unseen };
+            }
+        });
+        Self { pixels }
+    }
+
+    /// Gives a colour to the pixels that look where no view does.
+    pub fn fill_unseen(&self, image: &mut Image<Rgba>, colour: Rgba) {
+        for (pixel, mask) in image.pixels_mut().iter_mut().zip(&self.pixels) {
+            if mask.unseen {
+                *pixel = colour * mask.coverage;
+            }
+        }
+    }
+
+    /// For worlds of opaque texels some of which are missing (NaN): what is left of a pixel's texels makes all of the
+    /// pixel. Gives `fill` to the pixels of which nothing is left, and says how many they are.
+    pub fn close_holes(&self, image: &mut Image<Rgba>, fill: Rgba) -> usize {
+        let mut empty = 0;
+        for (pixel, mask) in image.pixels_mut().iter_mut().zip(&self.pixels) {
+            if pixel.alpha() > 0.0 {
+                *pixel = *pixel * (mask.coverage / pixel.alpha());
+            } else if mask.coverage > 0.0 && !mask.unseen {
+                *pixel = fill * mask.coverage;
+                empty += 1;
+            }
+        }
+        empty
+    }
+
+    /// Lays a colour outside the field of view, and behind the pixels that its edge cuts as far as they lie outside.
+    pub fn surround(&self, image: &mut Image<Rgba>, colour: Rgba) {
+        for (pixel, mask) in image.pixels_mut().iter_mut().zip(&self.pixels) {
+            *pixel += colour * (1.0 - mask.coverage);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sphere::CubeFace;
+    use crate::world::{CubeFaceFrame, FisheyeFrame, Frame};
+
+    fn front_and_fisheye() -> (World, View) {
+        let front = Frame::CubeFace(CubeFaceFrame).view(8, 8).unwrap();
+        let world = World::new([(CubeFace::Front.name().to_owned(), front)]).unwrap();
+        (world, Frame::Fisheye(FisheyeFrame::default()).view(40, 40).unwrap())
+    }
+
+    #[test]
+    fn what_no_view_sees_is_filled_inside_the_lens_only() {
+        let (world, target) = front_and_fisheye();
+        let mut image = Image::filled(40, 40, Rgba::BLACK);
+        let red = Rgba::opaque(1.0, 0.0, 0.0);
+        ScreenMask::new(&world, &target).fill_unseen(&mut image, red);
+        assert_eq!(*image.get(20, 20), Rgba::BLACK);
+        assert_eq!(*image.get(2, 20), red);
+        assert_eq!(*image.get(0, 0), Rgba::BLACK);
+    }
+
+    #[test]
+    fn holes_close_as_far_as_there_is_anything() {
+        let (world, target) = front_and_fisheye();
+        let mut image = Image::filled(40, 40, Rgba([0.25, 0.25, 0.25, 0.5]));
+        image.pixels_mut()[20 * 40 + 20] = Rgba::TRANSPARENT;
+        let white = Rgba::opaque(1.0, 1.0, 1.0);
+        assert_eq!(ScreenMask::new(&world, &target).close_holes(&mut image, white), 1);
+        assert_eq!(*image.get(21, 20), Rgba::opaque(0.5, 0.5, 0.5));
+        assert_eq!(*image.get(20, 20), white);
+    }
+
+    #[test]
+    fn the_surroundings_complete_the_rim() {
+        let (world, target) = front_and_fisheye();
+        let mask = ScreenMask::new(&world, &target);
+        let mut image = Image::filled(40, 40, Rgba::TRANSPARENT);
+        mask.fill_unseen(&mut image, Rgba::BLACK);
+        mask.close_holes(&mut image, Rgba::BLACK);
+        mask.surround(&mut image, Rgba::BLACK);
+        assert!(image.pixels().iter().all(|pixel| (pixel.alpha() - 1.0).abs() < 1e-6));
+    }
+}

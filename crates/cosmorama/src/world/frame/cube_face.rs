@@ -1,0 +1,19 @@
+use crate::projection::{PlanePoint, PlaneRect, ProjectionKind};
+use crate::sphere::Orientation;
+use crate::world::{FieldStop, PixelGrid, View};
+
+/// A face of a cube: 90° both ways, so the pixels of an image that is not square are not square either.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct CubeFaceFrame;
+
+impl CubeFaceFrame {
+    pub(super) fn view(self, width: usize, height: usize) -> View {
+        let face = PlaneRect { min: PlanePoint::new(-1.0, -1.0), max: PlanePoint::new(1.0, 1.0) };
+        View {
+            projection: ProjectionKind::PERSPECTIVE,
+            orientation: Orientation::IDENTITY,
+            grid: PixelGrid::spanning(width, height, face),
+            stop: FieldStop::NONE,
+        }
+    }
+}

@@ -1,0 +1,61 @@
+use thiserror::Error;
+
+/// Why a frame cannot be made.
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
+pub enum FrameError {
+    /// An image of nothing.
+    #[error("an image of {width}x{height} pixels has nothing to show")]
+    NoPixels {
+        /// Columns.
+        width: usize,
+        /// Rows.
+        height: usize,
+    },
+    /// A field of view that the projection cannot show.
+    #[error("{what} is {found}°; it must be more than 0° and {}", if *.below { format!("less than {greatest}°") } else { format!("at most {greatest}°") })]
+    FieldOfView {
+        /// Which one.
+        what: &'static str,
+        /// Degrees asked for.
+        found: f64,
+        /// The limit in degrees.
+        greatest: f64,
+        /// Whether the limit itself is excluded.
+        below: bool,
+    },
+    /// A cut outside the lens.
+    #[error("the lower cut is {found}° below the axis; it must be more than 0° and at most 90°")]
+    LowerCut {
+        /// Degrees asked for.
+        found: f64,
+    },
+    /// A length or ratio that is not positive.
+    #[error("{what} is {found}; it must be more than 0")]
+    NotPositive {
+        /// Which one.
+        what: &'static str,
+        /// What was asked for.
+        found: f64,
+    },
+    /// The circle is placed in pixels of an unknown image.
+    #[error("the lens's centre or radius is given in pixels, so the size of the image must be given too")]
+    SizeNeeded,
+}
+
+/// A field of view within its limit.
+pub(super) fn check_field_of_view(
+    what: &'static str,
+    angle: crate::sphere::Angle,
+    greatest: f64,
+    below: bool,
+) -> Result<(), FrameError> {
+    let found = angle.degrees();
+    // Degrees that were turned to radians and back have rounding errors.
+    let inside = found > 0.0 && if below { found < greatest } else { found <= greatest + 1e-9 };
+    if inside { Ok(()) } else { Err(FrameError::FieldOfView { what, found, greatest, below }) }
+}
+
+/// A length or ratio above zero.
+pub(super) fn check_positive(what: &'static str, found: f64) -> Result<(), FrameError> {
+    if found > 0.0 && found.is_finite() { Ok(()) } else { Err(FrameError::NotPositive { what, found }) }
+}

@@ -1,0 +1,19 @@
+use crate::sphere::Angle;
+
+/// The field of view of a camera, measured across its image.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum FieldOfView {
+    /// From the left edge to the right one.
+    Horizontal(Angle),
+    /// From the bottom edge to the top one.
+    Vertical(Angle),
+    /// From one corner to the opposite one.
+    Diagonal(Angle),
+    /// Both ways: the pixels fit, whatever shape that makes them.
+    Both {
+        /// From the left edge to the right one.
+        horizontal: Angle,
+        /// From the bottom edge to the top one.
+        vertical: Angle,
+    },
+}

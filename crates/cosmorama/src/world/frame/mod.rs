@@ -1,0 +1,137 @@
+//! Frames: how a projection's picture lies in an image of a given size.
+//!
+//! A frame knows what a size in pixels does not: the field of view, where the lens's circle goes, the shape of a pixel.
+//! With a size it makes a [`View`]; without one it says which size suits it.
+
+mod cube_face;
+mod equirect;
+mod error;
+mod field_of_view;
+mod fisheye;
+mod fulldome;
+mod lens_circle;
+mod omnimax;
+mod perspective;
+mod placement;
+
+pub use cube_face::CubeFaceFrame;
+pub use equirect::{EquirectFrame, SamplePositions};
+pub use error::FrameError;
+pub use field_of_view::FieldOfView;
+pub use fisheye::{FisheyeFit, FisheyeFrame};
+pub use fulldome::FulldomeFrame;
+pub use lens_circle::LensCircle;
+pub use omnimax::OmnimaxFrame;
+pub use perspective::PerspectiveFrame;
+pub use placement::{Canvas, Mirror, Placement};
+
+use super::View;
+
+/// Every kind of frame, chosen at run time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Frame {
+    /// A pinhole camera.
+    Perspective(PerspectiveFrame),
+    /// A face of a cube.
+    CubeFace(CubeFaceFrame),
+    /// An equidistant fisheye.
+    Fisheye(FisheyeFrame),
+    /// A domemaster.
+    Fulldome(FulldomeFrame),
+    /// An Omnimax film frame.
+    Omnimax(OmnimaxFrame),
+    /// A panorama of longitude by latitude.
+    Equirect(EquirectFrame),
+}
+
+impl Frame {
+    /// The view of an image of `width` × `height` pixels, its camera looking ahead (a dome's to its zenith).
+    ///
+    /// # Errors
+    /// When a parameter is out of its range, or an image has no pixels.
+    pub fn view(&self, width: usize, height: usize) -> Result<View, FrameError> {
+        if width == 0 || height == 0 {
+            return Err(FrameError::NoPixels { width, height });
+        }
+        match self {
+            Self::Perspective(frame) => frame.view(width, height),
+            Self::CubeFace(frame) => Ok(frame.view(width, height)),
+            Self::Fisheye(frame) => frame.view(width, height),
+            Self::Fulldome(frame) => frame.view(width, height),
+            Self::Omnimax(frame) => frame.view(width, height),
+            Self::Equirect(frame) => frame.view(width, height),
+        }
+    }
+
+    /// The height that suits a width: square for fisheyes, domes and cube faces, the film's 1966:1436 for Omnimax,
+    /// the shape of the field of view for a panorama, 4:3 for a camera unless its field of view is given both ways.
+    pub fn natural_height(&self, width: usize) -> usize {
+        let ratio = match self {
+            Self::Perspective(frame) => frame.natural_ratio(),
+            Self::CubeFace(_) => 1.0,
+            Self::Fisheye(frame) => frame.pixel_aspect,
+            Self::Fulldome(frame) => frame.pixel_aspect,
+            Self::Omnimax(frame) => frame.natural_ratio(),
+            Self::Equirect(frame) => frame.natural_ratio(),
+        };
+        ((width as f64 * ratio).round() as usize).max(1)
+    }
+
+    /// The even size at which the centre has so many pixels a radian: parity with a source that has as many.
+    ///
+    /// # Errors
+    /// When a parameter is out of its range, or the place of a lens's circle is given in pixels, which fixes the size.
+    pub fn size_at(&self, pixels_per_radian: f64) -> Result<(usize, usize), FrameError> {
+        /// Any size will do: pixels per radian are in proportion to it.
+        const TRIAL: usize = 1 << 20;
+        if self.circle().is_some_and(|circle| circle != LensCircle::FITTED) {
+            return Err(FrameError::SizeNeeded);
+        }
+        let trial = self.view(TRIAL, self.natural_height(TRIAL))?.pixels_per_radian();
+        let width = (TRIAL as f64 * pixels_per_radian / trial / 2.0).round().max(1.0) as usize * 2;
+        let height = self.natural_height(width);
+        Ok((width, height + height % 2))
+    }
+
+    fn circle(&self) -> Option<LensCircle> {
+        match self {
+            Self::Fisheye(frame) => Some(frame.circle),
+            Self::Omnimax(frame) => Some(frame.circle),
+            _ => None,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sphere::Angle;
+
+    #[test]
+    fn parity_with_a_cube_face_of_1024() {
+        let face = Frame::CubeFace(CubeFaceFrame).view(1024, 1024).unwrap().pixels_per_radian();
+        assert!((face - 512.0).abs() < 1e-9);
+        let fisheye = Frame::Fulldome(FulldomeFrame::default()).size_at(face).unwrap();
+        // 512 pixels a radian over 180°: 512 π.
+        assert_eq!(fisheye, (1608, 1608));
+        assert_eq!(Frame::CubeFace(CubeFaceFrame).size_at(face).unwrap(), (1024, 1024));
+        assert_eq!(Frame::Equirect(EquirectFrame::default()).size_at(face).unwrap(), (3216, 1608));
+        // The radius is 1.411269 times 512 pixels; the film frame is 1966:1436 and a little wider than the circle.
+        assert_eq!(Frame::Omnimax(OmnimaxFrame::default()).size_at(face).unwrap(), (1542, 1126));
+        let camera = PerspectiveFrame::new(FieldOfView::Horizontal(Angle::from_degrees(90.0)));
+        assert_eq!(Frame::Perspective(camera).size_at(face).unwrap(), (1024, 768));
+    }
+
+    #[test]
+    fn a_circle_in_pixels_wants_a_size() {
+        let circle = LensCircle { radius: Some(500.0), ..LensCircle::FITTED };
+        let frame = Frame::Omnimax(OmnimaxFrame { circle, ..OmnimaxFrame::default() });
+        assert_eq!(frame.size_at(512.0), Err(FrameError::SizeNeeded));
+    }
+
+    #[test]
+    fn nothing_is_no_image() {
+        let error = Frame::CubeFace(CubeFaceFrame).view(0, 4).unwrap_err();
+        assert_eq!(error, FrameError::NoPixels { width: 0, height: 4 });
+    }
+}
