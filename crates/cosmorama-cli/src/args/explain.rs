@@ -2,21 +2,23 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueHint};
 
+use super::SizeArg;
 use super::convert::{GeometryArgs, LimitArgs};
 
 /// Tell what a conversion will do before it does it, in text and diagrams.
 #[derive(Debug, Args)]
 #[command(before_help = "Examples:
   cosmorama explain 'faces/{face}.png' --to omnimax --output diagrams
-  cosmorama explain --from cube --face-size 1024 --to omnimax --size 1966x1436")]
+  cosmorama explain --from cube --to omnimax --size 1966x1436
+  cosmorama explain --from cube --input-size 1024x960 --to omnimax --size 1966x1436")]
 #[command(after_help = crate::spec::kind::help())]
 pub(crate) struct ExplainArgs {
     /// The input, if there is one already: an image or a pattern
-    #[arg(value_hint = ValueHint::FilePath, required_unless_present = "face_size")]
+    #[arg(value_hint = ValueHint::FilePath, required_unless_present = "from")]
     pub(crate) input: Option<String>,
-    /// Size of an input (or of its faces) that does not exist yet
+    /// Size of an input (or of its faces) that does not exist yet [default: parity with the output at the centre]
     #[arg(long, value_name = "WxH|N", conflicts_with = "input", requires = "from", help_heading = "Geometry")]
-    pub(crate) face_size: Option<super::SizeArg>,
+    pub(crate) input_size: Option<SizeArg>,
     #[command(flatten)]
     pub(crate) geometry: GeometryArgs,
     /// Write diagrams (SVG and PNG) into this folder

@@ -17,6 +17,16 @@ impl FromStr for MemorySize {
     }
 }
 
+/// As it may be typed.
+impl std::fmt::Display for MemorySize {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Bytes(bytes) => write!(f, "{bytes}"),
+            Self::Part(part) => write!(f, "{}%", part * 100.0),
+        }
+    }
+}
+
 fn parse(text: &str) -> Option<MemorySize> {
     if let Some(percent) = text.strip_suffix('%') {
         let percent: f64 = percent.parse().ok()?;

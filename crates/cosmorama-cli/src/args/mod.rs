@@ -3,7 +3,9 @@
 mod colour;
 mod compare;
 pub(crate) mod convert;
+mod demo;
 mod depth;
+mod explain;
 mod filter;
 mod info;
 mod kernel;
@@ -19,7 +21,9 @@ use clap::{Parser, Subcommand};
 pub(crate) use colour::Colour;
 pub(crate) use compare::{CompareArgs, Region};
 pub(crate) use convert::ConvertArgs;
+pub(crate) use demo::DemoArgs;
 pub(crate) use depth::DepthArg;
+pub(crate) use explain::ExplainArgs;
 pub(crate) use filter::FilterArg;
 pub(crate) use info::InfoArgs;
 pub(crate) use kernel::KernelArg;
@@ -47,10 +51,14 @@ pub(crate) struct Args {
 /// What can be done.
 #[derive(Debug, Subcommand)]
 pub(crate) enum Verb {
+    /// Render an embedded world onto cube faces and make an Omnimax frame of them
+    Demo(DemoArgs),
     /// Turn a world, in whatever form, into another projection
     Convert(Box<ConvertArgs>),
     /// Tell what a file or a face set is
     Info(InfoArgs),
+    /// Tell what a conversion will do before it does it, in text and diagrams
+    Explain(Box<ExplainArgs>),
     /// Compare two pictures: PSNR, largest difference, sub-pixel shift
     Compare(CompareArgs),
     /// Print a shell's completion script

@@ -23,7 +23,7 @@ pub(crate) fn nominal_world(input: &Input) -> Result<World> {
 impl Coverage {
     /// Compares what the target needs with what the input holds, before any pixel is computed.
     pub(crate) fn check(
-        input: &Input,
+        input: &mut Input,
         target: &Target,
         filter: &Filter,
         missing: Missing,
@@ -32,7 +32,8 @@ impl Coverage {
         let nominal = nominal_world(input)?;
         let needs = Needs::of(&nominal, &target.geometry(), filter);
         let mut gaps = Vec::new();
-        for (view, need) in input.views.iter().zip(&needs.views) {
+        for (view, need) in input.views.iter_mut().zip(&needs.views) {
+            view.wanted = need.read.is_some();
             gaps.extend(shortfall(view, need));
             warnings.extend(frayed(view, need));
         }
@@ -49,6 +50,10 @@ impl Coverage {
                 vector.z
             ));
         }
+        if !input.views.iter().any(|view| view.wanted && view.window.is_some()) {
+            gaps.push("nothing of what the input shows is in the output's field of view".to_owned());
+            bail_without_any(&gaps)?;
+        }
         match missing {
             _ if gaps.is_empty() => Ok(Self::Complete),
             Missing::Fill(colour) => Ok(Self::Fill(colour)),
@@ -59,6 +64,14 @@ impl Coverage {
             ),
         }
     }
+}
+
+/// Without any view there is nothing to fill up.
+fn bail_without_any(gaps: &[String]) -> Result<()> {
+    bail!(
+        "the output would be empty:\n  {}\nturn it with --yaw, --pitch and --roll, or add the views",
+        gaps.join("\n  ")
+    )
 }
 
 /// What pixels of the output look at and the file does not hold.

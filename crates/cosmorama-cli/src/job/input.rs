@@ -2,12 +2,13 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Result, anyhow, bail};
 use cosmorama::sphere::{CubeFace, Orientation};
-use cosmorama::world::{Canvas, SamplePositions, View};
-use cosmorama_io::{EnvMap, FaceFile, FacePattern, FaceSet, FrameList, Header, Window, probe};
+use cosmorama::world::{Canvas, CubeFaceFrame, Frame, FrameError, Placement, SamplePositions, View};
+use cosmorama_io::{EnvMap, FaceFile, FacePattern, FacePlacement, FaceSet, FrameList, Header, Window, probe};
 
 use super::detect::detect;
 use super::face_view::face_placement;
 use super::{Files, frames};
+use crate::args::SizeArg;
 use crate::failure::usage;
 use crate::spec::{Cube, Shape, Single, Spec};
 
@@ -23,6 +24,8 @@ pub(crate) struct InputView {
     pub(crate) nominal: View,
     /// The part of that which the file holds; `None` where there is no file.
     pub(crate) window: Option<(View, Canvas)>,
+    /// Whether anything of it is needed: what is not is not even read.
+    pub(crate) wanted: bool,
 }
 
 /// Everything that light comes from.
@@ -55,6 +58,33 @@ impl Input {
         }
     }
 
+    /// An input that does not exist yet: of a size, or at parity with an output of so many pixels a radian.
+    pub(crate) fn nominal(from: &Spec, size: Option<SizeArg>, pixels_per_radian: f64) -> Result<Self> {
+        let wrong = |error: FrameError| usage(format!("--from: {error}"));
+        let size = |frame: Frame| match size {
+            Some(SizeArg { width, height }) => Ok((width, height.unwrap_or_else(|| frame.natural_height(width)))),
+            None => frame.size_at(pixels_per_radian).map_err(wrong),
+        };
+        let view = |name: &str, placement: Placement, (width, height): (usize, usize)| {
+            let nominal = placement.view(width, height).map_err(wrong)?;
+            let files = Files::new(Path::new(name));
+            Ok(InputView { name: name.to_owned(), files, header: None, nominal, window: None, wanted: true })
+        };
+        let views: Result<Vec<InputView>> = match &from.shape {
+            Shape::Single(single) => {
+                let placement = Placement { canvas: None, ..single.placement };
+                Ok(vec![view(from.name, placement, size(placement.frame)?)?])
+            }
+            Shape::Cube(cube) => {
+                let size = size(Frame::CubeFace(CubeFaceFrame))?;
+                let lies = FacePlacement::UPRIGHT;
+                let face = |&face: &CubeFace| face_placement(cube, face, lies, None, Orientation::IDENTITY);
+                cube.faces.iter().map(|of| view(of.name(), face(of), size)).collect()
+            }
+        };
+        Ok(Self { views: views?, frames: vec![None] })
+    }
+
     fn single(
         pattern: &str,
         single: Option<Single>,
@@ -79,7 +109,7 @@ impl Input {
         let nominal = placement.view(canvas.width, canvas.height).map_err(|error| usage(format!("--from: {error}")))?;
         placement.canvas = Some(canvas);
         let window = (placement.view(header.width, header.height)?, canvas);
-        let view = InputView { name, files, header: Some(header), nominal, window: Some(window) };
+        let view = InputView { name, files, header: Some(header), nominal, window: Some(window), wanted: true };
         Ok(Self { views: vec![view], frames })
     }
 
@@ -101,14 +131,18 @@ impl Input {
         Ok(Self { views: views?, frames })
     }
 
-    /// The views that have files, with the geometry of what those hold.
+    /// The views that have files and are wanted, with the geometry of what those hold.
     pub(crate) fn present(&self) -> impl Iterator<Item = (&InputView, &Header, &View)> {
-        self.views.iter().filter_map(|input| Some((input, input.header.as_ref()?, &input.window.as_ref()?.0)))
+        self.views
+            .iter()
+            .filter(|view| view.wanted)
+            .filter_map(|input| Some((input, input.header.as_ref()?, &input.window.as_ref()?.0)))
     }
 
     /// Pixels a radian at the centre of the finest view.
     pub(crate) fn pixels_per_radian(&self) -> f64 {
-        self.present().map(|(input, _, _)| input.nominal.pixels_per_radian()).fold(0.0, f64::max)
+        let views = self.views.iter().filter(|view| view.wanted);
+        views.map(|view| view.nominal.pixels_per_radian()).fold(0.0, f64::max)
     }
 
     /// Texels of all files of a frame.
@@ -125,7 +159,7 @@ impl Input {
 /// A face whose file has been looked at.
 struct Face {
     face: CubeFace,
-    placement: cosmorama_io::FacePlacement,
+    placement: FacePlacement,
     files: Files,
     header: Option<Header>,
     canvas: Option<Canvas>,
@@ -150,7 +184,14 @@ impl Face {
             Some(header) => Some((windowed.view(header.width, header.height)?, canvas)),
             None => None,
         };
-        Ok(InputView { name: self.face.name().to_owned(), files: self.files, header: self.header, nominal, window })
+        Ok(InputView {
+            name: self.face.name().to_owned(),
+            files: self.files,
+            header: self.header,
+            nominal,
+            window,
+            wanted: true,
+        })
     }
 }
 

@@ -19,12 +19,13 @@ pub(crate) use input::{Input, InputView};
 pub(crate) use light::{InputTransfer, Light};
 pub(crate) use memory::{MemoryBudget, peak_bytes};
 pub(crate) use outputs::Outputs;
-pub(crate) use target::{Target, TargetView};
+pub(crate) use target::{Picture, Target, TargetView};
 
 use anyhow::Result;
 use cosmorama::raster::Rgba;
 use cosmorama::resample::Filter;
 
+use crate::args::convert::GeometryArgs;
 use crate::args::{ConvertArgs, Missing};
 use crate::failure::warn;
 
@@ -58,13 +59,13 @@ impl ConvertJob {
         let geometry = &args.geometry;
         // Mistakes in the command itself come first: they do not depend on any file.
         Target::check_names(&args.output, geometry)?;
-        let input = Input::find(&args.input, geometry.from.as_ref(), args.frames.as_ref(), &mut warnings)?;
+        let mut input = Input::find(&args.input, geometry.from.as_ref(), args.frames.as_ref(), &mut warnings)?;
         let target = Target::resolve(&args.output, geometry, input.pixels_per_radian())?;
-        let filter = filter(args, &mut warnings);
+        let filter = filter(geometry, &mut warnings);
         let light = Light::resolve(args, &input, &target, &mut warnings)?;
         let outputs = Outputs::plan(args, &input, &target)?;
         memory.check(&input, &target)?;
-        let coverage = Coverage::check(&input, &target, &filter, args.missing, &mut warnings)?;
+        let coverage = Coverage::check(&mut input, &target, &filter, args.missing, &mut warnings)?;
         warnings.iter().for_each(|warning| warn(warning));
         Ok(Self { input, target, filter, light, outputs, coverage, missing: args.missing, memory, warnings })
     }
@@ -78,9 +79,9 @@ impl ConvertJob {
     }
 }
 
-fn filter(args: &ConvertArgs, warnings: &mut Vec<String>) -> Filter {
+/// The filter that was asked for.
+pub(crate) fn filter(geometry: &GeometryArgs, warnings: &mut Vec<String>) -> Filter {
     use cosmorama::resample::{FilterKind, Kernel};
-    let geometry = &args.geometry;
     let (kind, kernel) = (geometry.filter.0, geometry.kernel.0);
     if matches!(kind, FilterKind::Point | FilterKind::Bilinear) && kernel != Kernel::ADAPTIVE {
         warnings.push("--kernel has no effect on --filter point and bilinear".to_owned());

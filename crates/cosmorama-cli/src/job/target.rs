@@ -1,7 +1,8 @@
 use std::path::Path;
 
 use anyhow::Result;
-use cosmorama::world::{CubeFaceFrame, Frame, Placement, SamplePositions, View};
+use cosmorama::sphere::CubeFace;
+use cosmorama::world::{CubeFaceFrame, Frame, FrameError, Mirror, Placement, SamplePositions, View};
 use cosmorama_io::{EnvMap, FacePattern, FaceSet, Format, Naming};
 
 use super::Files;
@@ -54,39 +55,21 @@ impl Target {
     /// The images that an output's name, its projection and the size stand for.
     pub(crate) fn resolve(output: &str, geometry: &GeometryArgs, pixels_per_radian: f64) -> Result<Self> {
         let format = Self::check_names(output, geometry)?;
-        match geometry.to.as_ref().map(|spec| &spec.shape) {
-            Some(Shape::Single(single)) => {
-                let single = if format == Format::Exr { single.with_samples(SamplePositions::Edges) } else { *single };
-                let view = single_view(single, geometry, pixels_per_radian)?;
-                let name = output.to_owned();
-                let views = vec![TargetView { name, files: Files::new(Path::new(output)), view }];
-                Ok(Self { views, format, envmap: envmap(&single, format) })
-            }
-            Some(Shape::Cube(cube)) => Self::cube(output, cube, geometry, format, pixels_per_radian),
-            None => Self::cube(output, &Cube::default(), geometry, format, pixels_per_radian),
-        }
-    }
-
-    fn cube(
-        output: &str,
-        cube: &Cube,
-        geometry: &GeometryArgs,
-        format: Format,
-        pixels_per_radian: f64,
-    ) -> Result<Self> {
-        let naming = cube.naming.unwrap_or(&Naming::presets()[0]);
-        let set = FaceSet::named(output, naming)?;
-        let frame = Frame::CubeFace(CubeFaceFrame);
-        let (width, height) = size(frame, geometry.size, pixels_per_radian)?;
+        let pictures = Picture::all(geometry, Some(format), Some(pixels_per_radian))?;
+        let naming = match geometry.to.as_ref().map(|spec| &spec.shape) {
+            Some(Shape::Cube(cube)) => naming(cube),
+            _ => naming(&Cube::default()),
+        };
         let mut views = Vec::new();
-        for file in set.faces().iter().filter(|file| cube.faces.contains(&file.face)) {
-            let canvas = cube.canvas_of(file.face);
-            let view = face_placement(cube, file.face, file.placement, canvas, geometry.orientation())
-                .view(width, height)
-                .map_err(|error| usage(error.to_string()))?;
-            views.push(TargetView { name: file.face.name().to_owned(), files: Files::new(&file.path), view });
+        for picture in &pictures {
+            let (name, files) = match picture.face {
+                Some(face) => (face.name().to_owned(), FaceSet::named(output, naming)?.face(face).path.clone()),
+                None => (output.to_owned(), output.into()),
+            };
+            views.push(TargetView { name, files: Files::new(&files), view: picture.view });
         }
-        Ok(Self { views, format, envmap: None })
+        let envmap = pictures.first().and_then(|picture| picture.envmap);
+        Ok(Self { views, format, envmap })
     }
 
     /// Their geometry.
@@ -95,7 +78,55 @@ impl Target {
     }
 }
 
-fn single_view(single: Single, geometry: &GeometryArgs, pixels_per_radian: f64) -> Result<View> {
+/// The geometry of an image to make.
+pub(crate) struct Picture {
+    /// The face of a cube that it is.
+    pub(crate) face: Option<CubeFace>,
+    /// The geometry.
+    pub(crate) view: View,
+    /// What OpenEXR's attribute says of it.
+    envmap: Option<EnvMap>,
+}
+
+impl Picture {
+    /// The images that `--to`, `--size` and the orientation stand for, for files of a format. Without a size, the
+    /// centre gets so many pixels a radian.
+    pub(crate) fn all(
+        geometry: &GeometryArgs,
+        format: Option<Format>,
+        pixels_per_radian: Option<f64>,
+    ) -> Result<Vec<Self>> {
+        match geometry.to.as_ref().map(|spec| &spec.shape) {
+            Some(Shape::Single(single)) => {
+                let exr = format == Some(Format::Exr);
+                let single = if exr { single.with_samples(SamplePositions::Edges) } else { *single };
+                let view = single_view(single, geometry, pixels_per_radian)?;
+                let envmap = if exr { envmap(&single) } else { None };
+                Ok(vec![Self { face: None, view, envmap }])
+            }
+            Some(Shape::Cube(cube)) => Self::faces(cube, geometry, pixels_per_radian),
+            None => Self::faces(&Cube::default(), geometry, pixels_per_radian),
+        }
+    }
+
+    fn faces(cube: &Cube, geometry: &GeometryArgs, pixels_per_radian: Option<f64>) -> Result<Vec<Self>> {
+        let (width, height) = size(Frame::CubeFace(CubeFaceFrame), geometry.size, pixels_per_radian)?;
+        let picture = |&face: &CubeFace| {
+            let (lies, canvas) = (naming(cube).placement(face), cube.canvas_of(face));
+            let placement = face_placement(cube, face, lies, canvas, geometry.orientation());
+            let view = placement.view(width, height).map_err(|error| usage(format!("--to: {error}")))?;
+            Ok(Self { face: Some(face), view, envmap: None })
+        };
+        cube.faces.iter().map(picture).collect()
+    }
+}
+
+/// How faces are named and lie, unless told: in words.
+fn naming(cube: &Cube) -> &'static Naming {
+    cube.naming.unwrap_or(&Naming::presets()[0])
+}
+
+fn single_view(single: Single, geometry: &GeometryArgs, pixels_per_radian: Option<f64>) -> Result<View> {
     let Placement { frame, orientation, mirror, canvas } = single.placement;
     if canvas.is_some() && geometry.size.is_none() {
         return Err(usage("--to has canvas=, so the size of the window on it must be given with --size WxH"));
@@ -105,18 +136,22 @@ fn single_view(single: Single, geometry: &GeometryArgs, pixels_per_radian: f64) 
     placement.view(width, height).map_err(|error| usage(format!("--to: {error}")))
 }
 
-fn size(frame: Frame, given: Option<SizeArg>, pixels_per_radian: f64) -> Result<(usize, usize)> {
-    match given {
-        Some(SizeArg { width, height }) => Ok((width, height.unwrap_or_else(|| frame.natural_height(width)))),
-        None => frame.size_at(pixels_per_radian).map_err(|error| usage(format!("--to: {error} (--size)"))),
+fn size(frame: Frame, given: Option<SizeArg>, pixels_per_radian: Option<f64>) -> Result<(usize, usize)> {
+    match (given, pixels_per_radian) {
+        (Some(SizeArg { width, height }), _) => Ok((width, height.unwrap_or_else(|| frame.natural_height(width)))),
+        (None, Some(pixels)) => frame.size_at(pixels).map_err(|error| match error {
+            FrameError::SizeNeeded => usage(format!("--to: {error}, with --size WxH")),
+            error => usage(format!("--to: {error}")),
+        }),
+        (None, None) => Err(usage("--size is missing: without an input, nothing tells how large the output is to be")),
     }
 }
 
-/// OpenEXR's environment maps have their samples on the edges and show the whole sphere, unturned or turned.
-fn envmap(single: &Single, format: Format) -> Option<EnvMap> {
+/// OpenEXR's environment maps have their samples on the edges and show the whole sphere.
+fn envmap(single: &Single) -> Option<EnvMap> {
     let Frame::Equirect(frame) = single.placement.frame else { return None };
     let whole = frame.horizontal.degrees() > 359.999 && frame.vertical.degrees() > 179.999;
     let by_format = single.samples != SphereSamples::Given(SamplePositions::Centres);
-    let upright = single.placement.canvas.is_none() && single.placement.mirror == cosmorama::world::Mirror::default();
-    (format == Format::Exr && whole && by_format && upright).then_some(EnvMap::LatLong)
+    let upright = single.placement.canvas.is_none() && single.placement.mirror == Mirror::default();
+    (whole && by_format && upright).then_some(EnvMap::LatLong)
 }

@@ -12,9 +12,20 @@ use super::{print, use_threads};
 use crate::args::ConvertArgs;
 use crate::job::ConvertJob;
 
-/// Converts.
+/// Converts, and tells what it has done.
 pub(super) fn run(args: &ConvertArgs) -> Result<ExitCode> {
     use_threads(args.limits.threads)?;
+    let report = convert(args)?;
+    if args.json {
+        print(&report.to_json()?)?;
+    } else {
+        report.tell();
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+/// Converts.
+pub(super) fn convert(args: &ConvertArgs) -> Result<Report> {
     let start = Instant::now();
     let mut stages = Stages::default();
     let job = stages.time(Stage::Plan, || ConvertJob::resolve(args))?;
@@ -34,11 +45,5 @@ pub(super) fn run(args: &ConvertArgs) -> Result<ExitCode> {
     progress.finish();
     let warnings = job.warnings.iter().cloned().chain(engine.warnings.drain(..)).collect();
     let counts = (job.outputs.frames.len(), job.outputs.skipped);
-    let report = Report::new(inputs, outputs, counts, start.elapsed(), &stages, warnings);
-    if args.json {
-        print(&report.to_json()?)?;
-    } else {
-        report.tell(&stages);
-    }
-    Ok(ExitCode::SUCCESS)
+    Ok(Report::new(inputs, outputs, counts, start.elapsed(), stages, warnings))
 }

@@ -2,7 +2,10 @@
 
 mod compare;
 mod convert;
+mod demo;
+mod diagram;
 mod engine;
+mod explain;
 mod info;
 mod interrupt;
 mod progress;
@@ -20,8 +23,10 @@ use crate::args::Verb;
 pub(crate) fn run(verb: Verb) -> Result<ExitCode> {
     interrupt::install()?;
     match verb {
+        Verb::Demo(args) => demo::run(&args),
         Verb::Convert(args) => convert::run(&args),
         Verb::Info(args) => info::run(&args),
+        Verb::Explain(args) => explain::run(&args),
         Verb::Compare(args) => compare::run(&args),
         Verb::Completions(args) => shell::completions(&args),
         Verb::Man => shell::man(),

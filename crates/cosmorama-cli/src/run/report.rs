@@ -21,6 +21,8 @@ pub(super) struct Report {
     cpu_seconds: CpuSeconds,
     peak_memory_bytes: Option<u64>,
     warnings: Vec<String>,
+    #[serde(skip)]
+    stages: Stages,
 }
 
 impl Report {
@@ -29,7 +31,7 @@ impl Report {
         outputs: Vec<PathBuf>,
         (frames, skipped): (usize, usize),
         wall: Duration,
-        stages: &Stages,
+        stages: Stages,
         warnings: Vec<String>,
     ) -> Self {
         Self {
@@ -41,6 +43,7 @@ impl Report {
             cpu_seconds: stages.cpu_seconds(),
             peak_memory_bytes: peak_bytes(),
             warnings,
+            stages,
         }
     }
 
@@ -52,7 +55,7 @@ impl Report {
 impl Report {
     /// What people want to know, on standard error.
     #[allow(clippy::print_stderr)]
-    pub(super) fn tell(&self, stages: &Stages) {
+    pub(super) fn tell(&self) {
         let what = match (&self.outputs[..], self.frames) {
             ([], _) => "nothing to do".to_owned(),
             ([one], _) => one.display().to_string(),
@@ -60,6 +63,6 @@ impl Report {
             (many, frames) => format!("{} files of {frames} frames", many.len()),
         };
         let skipped = if self.skipped == 0 { String::new() } else { format!(", {} kept", self.skipped) };
-        eprintln!("{what}{skipped} in {:.2} s ({})", self.wall_seconds, stages.describe());
+        eprintln!("{what}{skipped} in {:.2} s ({})", self.wall_seconds, self.stages.describe());
     }
 }

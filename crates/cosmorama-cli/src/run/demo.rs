@@ -1,0 +1,132 @@
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+use std::time::Instant;
+
+use anyhow::{Context, Result};
+use clap::Parser;
+use cosmorama::explain::{Figures, Underlay};
+use cosmorama::raster::{Channels, Depth, EncodedImage, Transfer};
+use cosmorama::resample::{Filter, Needs};
+use cosmorama::sphere::CubeFace;
+use cosmorama::world::{Canvas, CubeFaceFrame, Frame, OmnimaxFrame, PixelPoint, PixelRect, Placement, View, World};
+use cosmorama_builtin::{DemoWorld, Supersampling, render};
+use cosmorama_io::{Metadata, WriteOptions, write};
+
+use super::{convert, diagram, print, use_threads};
+use crate::args::{Args, DemoArgs, Verb};
+
+/// Edge of a whole face; the frame is the paper's.
+const FACE: usize = 1024;
+const FRAME: (usize, usize) = (1966, 1436);
+
+/// A face of which only the part that the frame needs is rendered.
+struct PartialFace {
+    face: CubeFace,
+    window: PixelRect,
+    view: View,
+}
+
+/// Renders the demo world and makes an Omnimax frame of it.
+pub(super) fn run(args: &DemoArgs) -> Result<ExitCode> {
+    use_threads(args.limits.threads)?;
+    let start = Instant::now();
+    let folder = args.dir.join("faces");
+    std::fs::create_dir_all(&folder).with_context(|| format!("cannot make the folder {}", folder.display()))?;
+    let target = Frame::Omnimax(OmnimaxFrame::default()).view(FRAME.0, FRAME.1)?;
+    let faces = needed_faces(&target)?;
+    for partial in &faces {
+        render_face(partial, &folder)?;
+    }
+    let source = folder.join("{face}.png");
+    for (name, extra) in [("omnimax.png", &[][..]), ("omnimax-point.png", &["--filter", "point"][..])] {
+        repeatable_conversion(args, &source, &args.dir.join(name), &from(&faces), extra)?;
+    }
+    draw_unfolded(&args.dir, &faces, &target)?;
+    print(&format!("all of it in {:.2} s\n", start.elapsed().as_secs_f64()))?;
+    Ok(ExitCode::SUCCESS)
+}
+
+/// The faces that the frame looks at, each with the window that the filter reads.
+fn needed_faces(target: &View) -> Result<Vec<PartialFace>> {
+    let whole = |face: CubeFace| face_view(face, None, FACE, FACE);
+    let views: Result<Vec<_>> = CubeFace::ALL.iter().map(|&face| Ok((face.name().to_owned(), whole(face)?))).collect();
+    let needs = Needs::of(&World::new(views?)?, &[*target], &Filter::DEFAULT);
+    let mut faces = Vec::new();
+    for (face, need) in CubeFace::ALL.into_iter().zip(&needs.views) {
+        let Some(window) = need.seen.and(need.read) else { continue };
+        let canvas = Canvas { width: FACE, height: FACE, left: window.left as i64, top: window.top as i64 };
+        let view = face_view(face, Some(canvas), window.width(), window.height())?;
+        faces.push(PartialFace { face, window, view });
+    }
+    Ok(faces)
+}
+
+fn face_view(face: CubeFace, canvas: Option<Canvas>, width: usize, height: usize) -> Result<View> {
+    let placement =
+        Placement { orientation: face.orientation(), canvas, ..Placement::new(Frame::CubeFace(CubeFaceFrame)) };
+    Ok(placement.view(width, height)?)
+}
+
+fn render_face(partial: &PartialFace, folder: &Path) -> Result<()> {
+    let start = Instant::now();
+    let PartialFace { face, window, view } = partial;
+    let direction = |x: f64, y: f64| view.direction(PixelPoint::new(x, y));
+    let light = render(&DemoWorld, window.width(), window.height(), direction, Supersampling::default());
+    let encoded = EncodedImage::encode(&light, Channels::Rgb, Depth::Eight, &Transfer::Srgb);
+    let metadata = Metadata { transfer: Some(Transfer::Srgb), ..Metadata::default() };
+    let path = folder.join(face.name()).with_extension("png");
+    write(&path, &encoded, &metadata, &WriteOptions::default())?;
+    tell(&path, &format!("the {face} face, {window} of {FACE}x{FACE}, rendered"), start)
+}
+
+/// The SPEC that declares the windows.
+fn from(faces: &[PartialFace]) -> String {
+    let cropped = faces.iter().filter(|partial| (partial.window.width(), partial.window.height()) != (FACE, FACE));
+    let canvas = |partial: &PartialFace| {
+        let PixelRect { left, top, .. } = partial.window;
+        format!("canvas.{}={FACE}x{FACE}+{left}+{top}", partial.face)
+    };
+    let canvases: Vec<String> = cropped.map(canvas).collect();
+    if canvases.is_empty() { "cube".to_owned() } else { format!("cube:{}", canvases.join(",")) }
+}
+
+/// Converts by the very command that is printed.
+fn repeatable_conversion(args: &DemoArgs, input: &Path, output: &Path, from: &str, extra: &[&str]) -> Result<()> {
+    let start = Instant::now();
+    let size = format!("{}x{}", FRAME.0, FRAME.1);
+    let (input, output_name) = (input.display().to_string(), output.display().to_string());
+    let mut words =
+        vec!["cosmorama", "convert", &input, &output_name, "--from", from, "--to", "omnimax", "--size", &size];
+    words.extend_from_slice(extra);
+    words.push("-y");
+    let memory: Vec<String> = args.limits.memory.iter().map(|memory| format!("--memory={memory}")).collect();
+    let parsed = Args::try_parse_from(words.iter().copied().chain(memory.iter().map(String::as_str)))?;
+    if let Verb::Convert(conversion) = parsed.verb {
+        convert::convert(&conversion)?;
+    }
+    tell(output, "the Omnimax frame", start)?;
+    print(&format!("  {}\n", words.iter().map(|word| quoted(word)).collect::<Vec<_>>().join(" ")))
+}
+
+/// A word as a shell wants it.
+fn quoted(word: &str) -> String {
+    let plain = |letter: char| letter.is_ascii_alphanumeric() || "-_./:=,+".contains(letter);
+    if word.chars().all(plain) { word.to_owned() } else { format!("'{}'", word.replace('\'', "'\\''")) }
+}
+
+fn draw_unfolded(folder: &Path, faces: &[PartialFace], target: &View) -> Result<()> {
+    let start = Instant::now();
+    let world = World::new(faces.iter().map(|partial| (partial.face.name().to_owned(), partial.view)))?;
+    let needs = Needs::of(&world, &[*target], &Filter::DEFAULT);
+    let underlay =
+        |(view, partial): (usize, &PartialFace)| Underlay { view, href: format!("faces/{}.png", partial.face) };
+    let underlays: Vec<Underlay> = faces.iter().enumerate().map(underlay).collect();
+    let svg = Figures { world: &world, target }.unfolded(&needs, &underlays);
+    let [vector, raster]: [PathBuf; 2] = diagram::save(folder, "unfolded", &svg)?;
+    tell(&vector, "the unfolded cube with the frame's field of view", start)?;
+    tell(&raster, "the same as pixels", start)
+}
+
+fn tell(path: &Path, what: &str, start: Instant) -> Result<()> {
+    print(&format!("{:<40} {what} in {:.2} s\n", path.display().to_string(), start.elapsed().as_secs_f64()))
+}

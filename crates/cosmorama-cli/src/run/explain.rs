@@ -1,0 +1,123 @@
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+use anyhow::{Context, Result};
+use cosmorama::explain::{Figures, Magnification, Report, ViewReport};
+use cosmorama::resample::{Filter, Needs};
+use cosmorama::world::{PixelRect, View, World};
+use serde_json::{Value, json};
+
+use super::{diagram, print, use_threads};
+use crate::args::ExplainArgs;
+use crate::failure::{usage, warn};
+use crate::job::{Input, Picture, filter, nominal_world};
+
+/// Tells what a conversion will do.
+pub(super) fn run(args: &ExplainArgs) -> Result<ExitCode> {
+    use_threads(args.limits.threads)?;
+    if args.geometry.to.is_none() {
+        return Err(usage("--to is missing: say which projection the output is to have, as in --to omnimax"));
+    }
+    let mut warnings = Vec::new();
+    let (input, pictures) = resolve(args, &mut warnings)?;
+    let filter = filter(&args.geometry, &mut warnings);
+    warnings.iter().for_each(|warning| warn(warning));
+    let world = nominal_world(&input)?;
+    let (mut text, mut reports) = (String::new(), Vec::new());
+    for picture in &pictures {
+        let report = Report::of(&world, &picture.view, &filter);
+        if let Some(face) = picture.face {
+            text += &format!("{face}:\n");
+        }
+        text += &format!("{report}");
+        let files = match &args.output {
+            Some(folder) => draw(folder, picture, &world, &filter)?,
+            None => Vec::new(),
+        };
+        for file in &files {
+            text += &format!("wrote    {}\n", file.display());
+        }
+        reports.push(to_json(&report, &input, &files));
+    }
+    if args.json {
+        print(&(serde_json::to_string_pretty(&reports)? + "\n"))?
+    } else {
+        print(&text)?
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+/// An input on disk decides how large the output is; one that does not exist yet follows the output.
+fn resolve(args: &ExplainArgs, warnings: &mut Vec<String>) -> Result<(Input, Vec<Picture>)> {
+    let geometry = &args.geometry;
+    match (&args.input, &geometry.from) {
+        (Some(pattern), from) => {
+            let input = Input::find(pattern, from.as_ref(), None, warnings)?;
+            let pictures = Picture::all(geometry, None, Some(input.pixels_per_radian()))?;
+            Ok((input, pictures))
+        }
+        (None, Some(from)) => {
+            let own = match args.input_size {
+                Some(_) => Some(Input::nominal(from, args.input_size, 0.0)?.pixels_per_radian()),
+                None => None,
+            };
+            let pictures = Picture::all(geometry, None, own)?;
+            let centre = pictures.first().map_or(1.0, |picture| picture.view.pixels_per_radian());
+            Ok((Input::nominal(from, args.input_size, centre)?, pictures))
+        }
+        (None, None) => Err(usage("give an input, or --from for one that does not exist yet")),
+    }
+}
+
+fn draw(folder: &Path, picture: &Picture, world: &World, filter: &Filter) -> Result<Vec<PathBuf>> {
+    std::fs::create_dir_all(folder).with_context(|| format!("cannot make the folder {}", folder.display()))?;
+    let view: &View = &picture.view;
+    let figures = Figures { world, target: view };
+    let needs = Needs::of(world, &[*view], filter);
+    let suffix = picture.face.map_or_else(String::new, |face| format!("-{face}"));
+    let mut files = Vec::new();
+    for (name, svg) in [
+        ("unfolded", figures.unfolded(&needs, &[])),
+        ("ownership", figures.ownership()),
+        ("footprints", figures.footprints()),
+    ] {
+        files.extend(diagram::save(folder, &format!("{name}{suffix}"), &svg)?);
+    }
+    Ok(files)
+}
+
+fn to_json(report: &Report, input: &Input, files: &[PathBuf]) -> Value {
+    let views: Vec<Value> = report.views.iter().map(view_json).collect();
+    let missing: Vec<&str> =
+        input.views.iter().filter(|view| view.window.is_none()).map(|view| view.name.as_str()).collect();
+    json!({
+        "width": report.size.0,
+        "height": report.size.1,
+        "shown": report.shown,
+        "texels_used": report.used(),
+        "texels_a_pixel": { "mean": report.gathered.mean, "most": report.gathered.most },
+        "memory_bytes": {
+            "texels": report.memory.texels, "pixels": report.memory.pixels, "plan": report.memory.plan,
+        },
+        "uncovered_pixels": report.uncovered.map_or(0, |uncovered| uncovered.pixels),
+        "views": views,
+        "views_without_files": missing,
+        "diagrams": files,
+    })
+}
+
+fn view_json(view: &ViewReport) -> Value {
+    let rect = |rect: PixelRect| rect.to_string();
+    let range = |found: Magnification| json!([found.least, found.greatest]);
+    json!({
+        "name": view.need.name,
+        "width": view.size.0,
+        "height": view.size.1,
+        "needed": view.need.seen.map(rect),
+        "read": view.need.read.map(rect),
+        "texels_used": view.used,
+        "share_of_picture": view.share,
+        "texels_a_pixel": view.magnification.map(range),
+        "advised_size": view.advised.map(|advised| [advised.parity.0, advised.parity.1]),
+    })
+}
