@@ -30,6 +30,18 @@ impl Limits {
     ) -> Result<(), IoError> {
         let pixels = u128::from(width) * u128::from(height);
         let needed = pixels.saturating_mul((channels.count() * depth.bytes()) as u128);
+        self.check_bytes(path, (width, height), channels, depth, needed)
+    }
+
+    /// Whether so many bytes may be taken for an image of this size.
+    pub(crate) fn check_bytes(
+        &self,
+        path: &Path,
+        (width, height): (u64, u64),
+        channels: Channels,
+        depth: Depth,
+        needed: u128,
+    ) -> Result<(), IoError> {
         // What no address can reach is too much whatever the limit says.
         let limit = self.memory.min(isize::MAX as u64);
         if needed <= u128::from(limit) {

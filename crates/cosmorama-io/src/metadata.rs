@@ -6,7 +6,8 @@ pub struct Metadata {
     /// How code values relate to light; `None` where the file says nothing.
     /// In a PNG, cICP goes before iCCP, iCCP before sRGB, sRGB before gAMA, as the specification has it.
     pub transfer: Option<Transfer>,
-    /// An ICC profile, carried to outputs that can hold one (PNG, JPEG, TIFF).
+    /// An ICC profile, carried to outputs that can hold one (PNG, JPEG, TIFF). When writing, it goes before
+    /// `transfer`: leave it out where the output is encoded by another curve than the profile's.
     pub icc: Option<Vec<u8>>,
     /// OpenEXR's environment map attribute.
     pub envmap: Option<EnvMap>,

@@ -105,6 +105,11 @@ fn giant_sizes_are_refused_before_memory_is_taken() {
     let at = exr.windows(name.len()).position(|bytes| bytes == name).unwrap() + name.len() + 4;
     exr[at..at + 4].copy_from_slice(&4096_i32.to_le_bytes());
     giant("exr", &exr);
+    // A small display window hides nothing: the data window counts.
+    let name = b"displayWindow\0box2i\0";
+    let at = exr.windows(name.len()).position(|bytes| bytes == name).unwrap() + name.len() + 4;
+    exr[at + 8..at + 16].copy_from_slice(&[9, 0, 0, 0, 9, 0, 0, 0]);
+    giant("exr", &exr);
 
     // Little-endian TIFF: width, height, 8 bits, no compression, RGB, one strip of nothing.
     let mut tiff = b"II\x2a\0\x08\0\0\0\x09\0".to_vec();

@@ -82,6 +82,8 @@ fn oiiotool() {
             ("exr", "exr", Float, Rgba, &["--tile", "64", "16"], 0.0),
             ("exr", "exr", Half, Rgb, &["--compression", "pxr24"], 0.0),
             ("exr", "exr", Half, Rgb, &["--compression", "b44"], 0.1),
+            ("exr", "exr", Half, Rgb, &["--compression", "dwaa"], 0.2),
+            ("exr", "exr", Float, Rgba, &["--compression", "dwab", "--tile", "64", "64"], 0.2),
             ("exr", "exr", Half, Grey, &["--compression", "none"], 0.0),
             ("hdr", "exr", Float, Rgb, &[], 1.0 / 256.0),
             ("exr", "hdr", Float, Rgb, &[], 1.0 / 128.0),

@@ -4,7 +4,8 @@
 mod common;
 
 use cosmorama::raster::{Channels, Depth, Transfer};
-use cosmorama_io::{EnvMap, Limits, probe, read};
+use cosmorama::sphere::CubeFace;
+use cosmorama_io::{EnvMap, FacePlacement, FaceSet, Limits, probe, read};
 
 #[test]
 fn every_real_file_is_read() {
@@ -45,4 +46,16 @@ fn oracles_are_16_bit_pngs() {
     let header = probe(&path).unwrap();
     assert_eq!((header.width, header.height, header.depth), (1024, 1024, Depth::Sixteen));
     assert_eq!(header.channels, Channels::Rgb);
+}
+
+#[test]
+fn an_opengl_cube_has_plus_z_in_front() {
+    // VTK's picture has an arrow from each face to each neighbour: +Z in front, +X right of it, +Y above.
+    let Some(folder) = common::shared("data/cube/vtk_cubemapDebug") else { return };
+    let set = FaceSet::find(&folder.join("_{face}.jpg").display().to_string(), None).unwrap();
+    assert_eq!((set.naming().name, set.present().count()), ("px", 6));
+    assert!(set.face(CubeFace::Front).path.ends_with("_pz.jpg"));
+    assert!(set.face(CubeFace::Right).path.ends_with("_px.jpg"));
+    assert!(set.face(CubeFace::Up).path.ends_with("_py.jpg"));
+    assert!(set.present().all(|face| face.placement == FacePlacement::UPRIGHT));
 }

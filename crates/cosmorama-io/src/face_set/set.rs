@@ -62,8 +62,7 @@ impl FaceSet {
         }
     }
 
-    /// The faces that a pattern names, for writing them; whether files exist is not looked at by the caller's
-    /// choice of naming.
+    /// The faces that a pattern names, for writing them: their files need not exist.
     ///
     /// # Errors
     /// When the pattern is none.

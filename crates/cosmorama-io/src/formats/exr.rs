@@ -6,15 +6,15 @@ use exr::block::lines::LineRef;
 use exr::block::reader::{ChunksReader, Reader};
 use exr::block::{BlockIndex, UncompressedBlock};
 use exr::error::Error;
-use exr::meta::MetaData;
 use exr::meta::attribute::{EnvironmentMap, SampleType};
 use exr::meta::header::Header as Part;
+use exr::meta::{BlockDescription, MetaData};
 use half::f16;
 use rayon::prelude::*;
 
 use super::exr_selection::Selection;
 use super::exr_window::Crop;
-use super::whole_image;
+use super::{exr_dwa, whole_image};
 use crate::file::Source;
 use crate::{EnvMap, Format, Header, ImageFile, IoError, Limits, Metadata};
 
@@ -22,8 +22,10 @@ pub(crate) use super::exr_writer::write;
 
 const FORMAT: Format = Format::Exr;
 
-/// Chunks that are decompressed together: enough for all cores, few enough for memory.
+/// Chunks that are decompressed together at most: enough for all cores.
 const BATCH: usize = 64;
+/// Bytes that they may take together, except that there is always one.
+const BATCH_BYTES: u128 = 1 << 26;
 
 pub(crate) fn probe(path: &Path, source: &mut Source) -> Result<Header, IoError> {
     let reader = open(path, source)?;
@@ -34,7 +36,7 @@ pub(crate) fn probe(path: &Path, source: &mut Source) -> Result<Header, IoError>
 pub(crate) fn read(path: &Path, source: &mut Source, limits: &Limits) -> Result<ImageFile, IoError> {
     let reader = open(path, source)?;
     let (header, selection, crop) = announce(path, reader.headers())?;
-    limits.check(path, (header.width as u64, header.height as u64), header.channels, header.depth)?;
+    check_limits(path, &reader.headers()[selection.part], &header, limits)?;
     let samples = match header.depth {
         Depth::Half => {
             Samples::Half(pixels(reader, &selection, &crop, half_line).map_err(|error| damaged(path, error))?)
@@ -44,6 +46,24 @@ pub(crate) fn read(path: &Path, source: &mut Source, limits: &Limits) -> Result<
     let mut file = whole_image(path, header, samples)?;
     file.image = file.image.with_alpha_mode(AlphaMode::Premultiplied);
     Ok(file)
+}
+
+/// The display window may be small and the data window huge: both it and a block of all its channels have to fit.
+fn check_limits(path: &Path, part: &Part, header: &Header, limits: &Limits) -> Result<(), IoError> {
+    let size = (part.layer_size.width() as u64, part.layer_size.height() as u64);
+    limits.check(path, size, header.channels, header.depth)?;
+    limits.check_bytes(path, size, header.channels, header.depth, block_bytes(part))
+}
+
+/// Bytes of the largest block, all channels.
+fn block_bytes(part: &Part) -> u128 {
+    let (width, height) = (part.layer_size.width(), part.layer_size.height());
+    let (columns, rows) = match part.blocks {
+        BlockDescription::Tiles(tiles) => (tiles.tile_size.width().min(width), tiles.tile_size.height().min(height)),
+        BlockDescription::ScanLines => (width, part.compression.scan_lines_per_block().min(height)),
+    };
+    let pixel: usize = part.channels.list.iter().map(|channel| channel.sample_type.bytes_per_sample()).sum();
+    (columns as u128 * rows as u128).saturating_mul(pixel as u128)
 }
 
 fn open<'a>(path: &Path, source: &'a mut Source) -> Result<Reader<&'a mut Source>, IoError> {
@@ -114,14 +134,20 @@ fn pixels<S: Clone + Default>(
     let wanted = |_: &MetaData, tile: TileCoordinates, block: BlockIndex| {
         block.layer == selection.part && tile.is_largest_resolution_level()
     };
+    let block_bytes = block_bytes(&reader.headers()[selection.part]).max(1);
     let mut chunks = reader.filter_chunks(false, wanted)?;
     let mut samples = vec![S::default(); crop.width * crop.height * selection.channels.count()];
+    let batch_size = BATCH.min((BATCH_BYTES / block_bytes).clamp(1, BATCH as u128) as usize);
     loop {
-        let batch = chunks.by_ref().take(BATCH).collect::<Result<Vec<Chunk>, Error>>()?;
+        let batch = chunks.by_ref().take(batch_size).collect::<Result<Vec<Chunk>, Error>>()?;
         if batch.is_empty() {
             return Ok(samples);
         }
         let meta = chunks.meta_data();
+        let compression = meta.headers[selection.part].compression;
+        if !batch.iter().all(|chunk| exr_dwa::is_plausible(chunk, compression, block_bytes)) {
+            return Err(Error::Invalid("a chunk larger than its block".into()));
+        }
         let blocks: Result<Vec<UncompressedBlock>, Error> =
             batch.into_par_iter().map(|chunk| UncompressedBlock::decompress_chunk(chunk, meta, false)).collect();
         for block in blocks? {

@@ -7,6 +7,7 @@ use cosmorama::raster::{EncodedImage, Samples};
 use crate::{Header, ImageFile, IoError};
 
 pub(crate) mod exr;
+mod exr_dwa;
 mod exr_selection;
 mod exr_window;
 mod exr_writer;

@@ -39,7 +39,8 @@ pub(crate) fn read(path: &Path, source: &mut Source, limits: &Limits) -> Result<
 }
 
 fn decoder<'a>(path: &Path, source: &'a mut Source, limits: &Limits) -> Result<Reader<&'a mut Source>, IoError> {
-    let bytes = usize::try_from(limits.memory).unwrap_or(usize::MAX);
+    // For rows, profiles and texts; the image itself is checked against our own limits.
+    let bytes = usize::try_from(limits.memory).unwrap_or(usize::MAX).max(png::Limits::default().bytes);
     let mut decoder = Decoder::new_with_limits(source, png::Limits { bytes });
     // Palettes, transparent colours and samples of less than eight bits become plain samples.
     decoder.set_transformations(Transformations::EXPAND);

@@ -3,7 +3,7 @@ use std::path::Path;
 
 use cosmorama::raster::{Channels, Depth, EncodedImage, Samples};
 use png::chunk::sBIT;
-use png::{BitDepth, ColorType, Encoder, EncodingError, Info};
+use png::{BitDepth, ColorType, Compression, Encoder, EncodingError, Info};
 
 use super::png_colour::{CICP, Tag, tag};
 use crate::{IoError, Metadata};
@@ -32,7 +32,10 @@ fn encode(output: impl Write, image: &EncodedImage, metadata: &Metadata) -> Resu
         Some(Tag::Gamma(gamma)) => info.source_gamma = Some(*gamma),
         _ => {}
     }
-    let mut writer = Encoder::with_info(output, info)?.write_header()?;
+    let mut encoder = Encoder::with_info(output, info)?;
+    // A tenth of the time of the default for a third more bytes: frames come by the thousand.
+    encoder.set_compression(Compression::Fast);
+    let mut writer = encoder.write_header()?;
     // The encoder has no words for these two.
     if let Some(Tag::CodePoints(cicp)) = tag {
         let full_range = u8::from(cicp.is_video_full_range_image);

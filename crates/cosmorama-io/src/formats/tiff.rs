@@ -30,6 +30,7 @@ pub(crate) fn read(path: &Path, source: &mut Source, limits: &Limits) -> Result<
     // Our own limit has been asked; the decoder's buffers are no larger than the image, or a strip of it.
     let mut decoder_limits = tiff::decoder::Limits::default();
     decoder_limits.decoding_buffer_size = usize::try_from(limits.memory).unwrap_or(usize::MAX);
+    decoder_limits.intermediate_buffer_size = decoder_limits.decoding_buffer_size;
     let mut decoder = decoder.with_limits(decoder_limits);
     let result = decoder.read_image().map_err(|error| damaged(path, &error))?;
     let samples = samples(path, result, &header, mode)?;

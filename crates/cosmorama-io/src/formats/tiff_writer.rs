@@ -54,9 +54,8 @@ where
     [S::Stored]: TiffValue,
 {
     let predictor = if S::FORMAT_IS_FLOAT { Predictor::None } else { Predictor::Horizontal };
-    let mut encoder = TiffEncoder::new(output)?
-        .with_compression(Compression::Deflate(DeflateLevel::Balanced))
-        .with_predictor(predictor);
+    let mut encoder =
+        TiffEncoder::new(output)?.with_compression(Compression::Deflate(DeflateLevel::Fast)).with_predictor(predictor);
     let (width, height) = (u32::try_from(image.width())?, u32::try_from(image.height())?);
     let mut file = encoder.new_image::<Pixel<S, CHANNELS>>(width, height)?;
     let tags = file.encoder();

@@ -47,8 +47,8 @@ impl Figures<'_> {
 /// A sheet with a title and a line under it.
 pub(super) fn sheet((width, height): (f64, f64), title: &str, subtitle: &str) -> Drawing {
     let mut drawing = Drawing::new(width, height, PAPER);
-    drawing.label(title, (MARGIN, HEADER - 38.0 + TITLE / 2.0), TITLE, Anchor::Start, INK);
-    drawing.label(subtitle, (MARGIN, HEADER - 12.0), LABEL * 0.8, Anchor::Start, INK);
+    drawing.label(title, (MARGIN, MARGIN + TITLE * 0.5), TITLE, Anchor::Start, INK);
+    drawing.label(subtitle, (MARGIN, MARGIN + TITLE * 0.5 + 21.0), LABEL * 0.8, Anchor::Start, INK);
     drawing
 }
 

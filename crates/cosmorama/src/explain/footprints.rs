@@ -5,21 +5,25 @@ use glam::{DMat2, DVec2};
 use super::drawing::{Anchor, Drawing, Frame, Paint};
 use super::field;
 use super::figures::{sheet, size_text};
+use super::magnification::central_footprint;
 use super::net::Net;
 use super::theme::{DARK, FAINT, INK, LABEL, PAPER, SMALL, colour};
 use crate::projection::PlanePoint;
 use crate::resample::{Ellipse, owner};
 use crate::world::{PixelPoint, ScreenPixel, Source, View, World};
 
-/// Footprints along the target's longer side, about.
-const ALONG: usize = 40;
+/// Space between footprints on the sheet, where the target's centre looks.
+const SPACING: f64 = 9.0;
+
+/// The narrowest footprint that is drawn: under it there is nothing but outlines.
+const NARROWEST: f64 = 0.75;
 
 /// The part of the way between two footprints that each one is drawn wide, on the target.
 const WIDTH: f64 = 0.8;
 
 pub(super) fn draw(world: &World, target: &View) -> String {
     let net = Net::of(world);
-    let every = (target.width().max(target.height()) / ALONG).max(1);
+    let every = spacing(world, target, &net);
     let enlarged = (WIDTH * every as f64).max(1.0);
     let subtitle = format!(
         "Round pixels of the target ({}), one in {every} along rows and columns, drawn {enlarged:.0} times as large.",
@@ -45,6 +49,20 @@ pub(super) fn draw(world: &World, target: &View) -> String {
     drawing.finish("Footprints in texture space")
 }
 
+/// Pixels between two footprints.
+fn spacing(world: &World, target: &View, net: &Net) -> usize {
+    let longer = target.width().max(target.height());
+    let on_sheet = central_footprint(target).and_then(|footprint| {
+        let (index, _) = owner(world, footprint.direction)?;
+        let source = &world.sources()[index];
+        let (_, jacobian) = source.view.texel_footprint(&footprint)?;
+        Some((DMat2::from_diagonal(texel_size(source, net.images[index])) * jacobian).determinant().abs().sqrt())
+    });
+    // Without a view at the centre: as many as look well in a frame of any size.
+    let every = on_sheet.map_or(longer as f64 / 40.0, |pixel| SPACING / pixel);
+    (every.round() as usize).clamp(1, (longer / 16).max(1))
+}
+
 /// Every so many pixels in both directions, counted from the axis of the lens so that the grid has its symmetry.
 fn grid_of_pixels(target: &View, every: usize) -> impl Iterator<Item = ScreenPixel> + '_ {
     let axis = target.grid.to_pixel(PlanePoint::new(0.0, 0.0));
@@ -67,8 +85,8 @@ fn draw_footprint(drawing: &mut Drawing, world: &World, net: &Net, screen: &Scre
     // On the sheet a texel of a 1024×960 face is not square: the ellipse is that of the stretched matrix.
     let ellipse = Ellipse::new(DMat2::from_diagonal(scale) * jacobian * (enlarged / 2.0), 0.0);
     let (major, minor, angle) = ellipse.axes();
-    // Around a pole of the source the ellipse says nothing any more.
-    if major.is_nan() || major >= frame.width / 2.0 {
+    // Around a pole of the source the ellipse says nothing any more, around one of the target there are too many.
+    if major.is_nan() || major >= frame.width / 2.0 || minor < NARROWEST {
         return;
     }
     let place = placed(frame, scale, centre);

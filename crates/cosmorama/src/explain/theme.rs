@@ -18,7 +18,7 @@ pub(super) const SMALL: f64 = 7.5;
 
 /// Space around a figure, and above it for the title.
 pub(super) const MARGIN: f64 = 28.0;
-pub(super) const HEADER: f64 = 64.0;
+pub(super) const HEADER: f64 = 76.0;
 
 /// The colour of a view, by its index.
 pub(super) fn colour(view: usize) -> &'static str {

@@ -1,6 +1,6 @@
 use glam::DVec2;
 
-use super::Taps;
+use super::{Tap, Taps};
 
 /// A texel that a kernel reaches, before the weights are settled.
 #[derive(Clone, Copy, Debug, Default)]
@@ -20,28 +20,21 @@ pub(super) struct Candidate {
 /// Makes taps whose weights add to one, none if their sum would be noise; with `centred`, their centroid is the pixel's
 /// centre.
 pub(super) fn settle(candidates: &mut [Candidate], centred: bool, taps: &mut Taps) {
-    if centred {
-        let correction = Correction::centring(candidates);
-        for candidate in candidates.iter_mut() {
-            candidate.weight += correction.of(candidate);
-        }
-    }
-    let (mut sum, mut size) = (0f64, 0f64);
-    for candidate in candidates.iter() {
+    let correction = if centred { Correction::centring(candidates) } else { Correction::default() };
+    let (mut sum, mut size, mut under) = (0f64, 0f64, 0);
+    for candidate in candidates.iter_mut() {
+        candidate.weight += correction.of(candidate);
         sum += f64::from(candidate.weight);
         size += f64::from(candidate.weight.abs());
+        under += usize::from(candidate.under);
     }
     // Where only negative lobes reach a texel, beside a missing face, there is no average.
     if sum <= 0.05 * size {
         return;
     }
     let scale = sum.recip() as f32;
-    for candidate in candidates.iter().filter(|candidate| candidate.under) {
-        taps.push_under(candidate.texel, candidate.weight * scale);
-    }
-    for candidate in candidates.iter().filter(|candidate| !candidate.under) {
-        taps.push_around(candidate.texel, candidate.weight * scale);
-    }
+    let settled = candidates.iter().map(|c| (c.under, Tap { texel: c.texel, weight: c.weight * scale }));
+    taps.fill(settled, candidates.len(), under);
 }
 
 /// What is added to the weights so that their centroid is the pixel's centre, their sum unchanged: v·g·(p − p̄).

@@ -44,6 +44,14 @@ impl Ellipse {
         DVec2::new((q * self.c / determinant).sqrt(), (q * self.a / determinant).sqrt())
     }
 
+    /// Between which U the row at V lies within r² = `q`; `None` where it misses the ellipse.
+    pub fn row_range(&self, v: f64, q: f64) -> Option<(f64, f64)> {
+        // A U² + (B V) U + (C V² − q) = 0.
+        let middle = -self.b * v / (2.0 * self.a);
+        let half2 = middle * middle - (self.c * v * v - q) / self.a;
+        (half2 >= 0.0).then(|| (middle - half2.sqrt(), middle + half2.sqrt()))
+    }
+
     /// Semi-axes of r = 1 in texels, the major one first, and the major one's angle from the U axis, in radians.
     pub fn axes(&self) -> (f64, f64, f64) {
         let (mean, half) = ((self.a + self.c) / 2.0, (self.a - self.c) / 2.0);

@@ -42,10 +42,13 @@ impl<'a> Gather<'a> {
         self.candidates.clear();
         let sources = self.world.sources();
         if !self.gather_from(&sources[self.last], footprint) {
-            // A kernel inside one view touches no other, so the order of views never changes a result.
             self.candidates.clear();
             for (index, source) in sources.iter().enumerate() {
+                let start = self.candidates.len();
                 if self.gather_from(source, footprint) {
+                    // A kernel inside one view touches no other, except by what another view's plane bends its ellipse:
+                    // without those texels the result depends neither on the order of views nor on the last footprint.
+                    self.candidates.drain(..start);
                     self.last = index;
                     break;
                 }
@@ -85,19 +88,21 @@ impl<'a> Gather<'a> {
         let to_screen = jacobian.inverse();
         let reach = ellipse.half_extent(self.table.radius_squared());
         let bounds = TexelBox::around(centre, reach);
-        let (width, height) = (source.view.width() as i64, source.view.height() as i64);
+        let height = source.view.height() as i64;
         for j in bounds.top.max(0)..=bounds.bottom.min(height - 1) {
+            let v = j as f64 + 0.5 - centre.y;
+            let Some((least, greatest)) = ellipse.row_range(v, self.table.radius_squared()) else { continue };
             let row = source.offset + j as usize * source.view.width();
-            for run in bounds.runs(source) {
-                let offset = DVec2::new(run.unrolled as f64 + 0.5 - centre.x, j as f64 + 0.5 - centre.y);
+            for run in runs(source, centre.x + least, centre.x + greatest) {
+                let offset = DVec2::new(run.unrolled as f64 + 0.5 - centre.x, v);
                 self.gather_run(row + run.column, run.length, offset, &ellipse, coarseness, to_screen);
             }
         }
-        let whole_width = source.period.is_some_and(|period| period <= source.view.width());
-        bounds.top >= 0 && bounds.bottom < height && (whole_width || (bounds.left >= 0 && bounds.right < width))
+        let (width, whole_turn) = (source.view.width(), source.period.is_some_and(|p| p <= source.view.width()));
+        bounds.top >= 0 && bounds.bottom < height && (whole_turn || (bounds.left >= 0 && bounds.right < width as i64))
     }
 
-    /// Texels beside each other in a row: Q = AU² + BUV + CV² by finite differences (Greene & Heckbert 1986).
+    /// Texels beside each other in a row, all inside: Q = AU² + BUV + CV² by finite differences (Greene & Heckbert 1986).
     fn gather_run(
         &mut self,
         first: usize,
@@ -111,18 +116,14 @@ impl<'a> Gather<'a> {
         let mut dq = ellipse.a * (2.0 * first_offset.x + 1.0) + ellipse.b * first_offset.y;
         let ddq = 2.0 * ellipse.a;
         let mut offset = to_screen * first_offset;
-        let radius_squared = self.table.radius_squared();
-        // Every texel is written, and only those inside are kept: whether the next one is inside cannot be predicted.
-        let mut kept = self.candidates.len();
-        self.candidates.resize(kept + length, Candidate::default());
         for (texel, &solid_angle) in self.world.solid_angles()[first..first + length].iter().enumerate() {
-            self.candidates[kept] = self.table.candidate(first + texel, solid_angle, q, coarseness, offset);
-            kept += usize::from(q < radius_squared && solid_angle > 0.0);
+            if solid_angle > 0.0 {
+                self.candidates.push(self.table.candidate(first + texel, solid_angle, q, coarseness, offset));
+            }
             q += dq;
             dq += ddq;
             offset += to_screen.x_axis;
         }
-        self.candidates.truncate(kept);
     }
 
     /// Near a pole, a horizon or a rim the ellipse would be wrong: each texel is weighed by its direction instead, in
@@ -158,36 +159,55 @@ impl TexelBox {
     /// All texels whose centres are within `reach` of a point.
     fn around(centre: PixelPoint, reach: DVec2) -> Self {
         Self {
-            left: (centre.x - reach.x - 0.5).ceil() as i64,
-            right: (centre.x + reach.x - 0.5).floor() as i64,
-            top: (centre.y - reach.y - 0.5).ceil() as i64,
-            bottom: (centre.y + reach.y - 0.5).floor() as i64,
+            left: ceil(centre.x - reach.x - 0.5),
+            right: floor(centre.x + reach.x - 0.5),
+            top: ceil(centre.y - reach.y - 0.5),
+            bottom: floor(centre.y + reach.y - 0.5),
         }
-    }
-
-    /// The runs of texels in each row: one, or where a panorama's box crosses its edge, one for each turn.
-    fn runs(&self, source: &Source) -> impl Iterator<Item = Run> + use<> {
-        let width = source.view.width() as i64;
-        let (left, end, turn) = match source.period {
-            // Never the same texel twice.
-            Some(period) => (self.left, (self.right + 1).min(self.left + period as i64), period as i64),
-            None => (self.left.max(0), (self.right + 1).min(width), width),
-        };
-        let turns = if left < end { left.div_euclid(turn)..(end - 1).div_euclid(turn) + 1 } else { 0..0 };
-        turns.filter_map(move |k| {
-            let (first, past) = (left.max(k * turn), end.min(k * turn + width.min(turn)));
-            let column = (first - k * turn) as usize;
-            (first < past).then(|| Run { column, unrolled: first, length: (past - first) as usize })
-        })
     }
 }
 
-/// A run of texels in one row of the box: its first column in the image, the same column counted on past the image's
+/// A run of texels in one row: its first column in the image, the same column counted on past the image's
 /// edge, and its length.
 struct Run {
     column: usize,
     unrolled: i64,
     length: usize,
+}
+
+/// The runs of texels of one row whose centres lie between two pixel coordinates: one, or where a panorama's kernel
+/// crosses its edge, one for each turn.
+fn runs(source: &Source, least: f64, greatest: f64) -> impl Iterator<Item = Run> + use<> {
+    let (left, end) = (ceil(least - 0.5), floor(greatest - 0.5) + 1);
+    let width = source.view.width() as i64;
+    let turn = source.period.map_or(width, |period| period as i64);
+    let (left, end, turns) = match source.period {
+        // Within one turn there is nothing to divide.
+        Some(_) if left >= 0 && end <= turn => (left, end, 0..1),
+        // Never the same texel twice.
+        Some(_) => {
+            let end = end.min(left + turn);
+            (left, end, left.div_euclid(turn)..(end - 1).div_euclid(turn) + 1)
+        }
+        None => (left.max(0), end.min(width), 0..1),
+    };
+    turns.filter_map(move |k| {
+        let (first, past) = (left.max(k * turn), end.min(k * turn + width.min(turn)));
+        let column = (first - k * turn) as usize;
+        (first < past).then(|| Run { column, unrolled: first, length: (past - first) as usize })
+    })
+}
+
+/// The largest integer that is not greater. Without SSE4.1 `f64::floor` is a call, and every row of texels needs it.
+fn floor(value: f64) -> i64 {
+    let truncated = value as i64;
+    truncated - i64::from(value < truncated as f64)
+}
+
+/// The smallest integer that is not less.
+fn ceil(value: f64) -> i64 {
+    let truncated = value as i64;
+    truncated + i64::from(value > truncated as f64)
 }
 
 /// Column and row of every texel that can lie within `radius` radians of a direction.

@@ -47,8 +47,18 @@ impl Taps {
         self.under += 1;
     }
 
-    pub(super) fn push_around(&mut self, texel: u32, weight: f32) {
-        self.taps.push(Tap { texel, weight });
+    /// Takes `count` taps, each with whether it is one of the `under` that lie under the pixel.
+    pub(super) fn fill(&mut self, taps: impl Iterator<Item = (bool, Tap)>, count: usize, under: usize) {
+        self.taps.clear();
+        self.taps.resize(count, Tap { texel: 0, weight: 0.0 });
+        self.under = under;
+        // Each tap goes to the end of its own part.
+        let mut ends = [under, 0];
+        for (is_under, tap) in taps {
+            let end = &mut ends[usize::from(is_under)];
+            self.taps[*end] = tap;
+            *end += 1;
+        }
     }
 
     /// Scales the weights to a sum of one.

@@ -1,0 +1,148 @@
+//! Reports and figures: their numbers against the paper's and the lens's, their form against XML.
+
+mod views;
+
+use cosmorama::explain::{Figures, Magnification, Report, Underlay};
+use cosmorama::projection::ProjectionKind;
+use cosmorama::resample::{Filter, Needs};
+use cosmorama::sphere::{CubeFace, Orientation};
+use cosmorama::world::{FieldStop, OmnimaxFraming, PixelGrid, PixelPoint, View, World};
+use glam::DVec2;
+use views::{cube, cube_of, equirect, fisheye, omnimax, perspective, turned};
+
+fn assert_close(found: f64, expected: f64, tolerance: f64) {
+    assert!((found - expected).abs() <= tolerance, "{found} is not {expected}");
+}
+
+#[test]
+fn six_faces_to_omnimax() {
+    let report = Report::of(&cube(1024), &omnimax(1966, 1436), &Filter::DEFAULT);
+    // The lens: 1.411269 rad a radius of 921.523 pixels at the centre; a texel of the front face is 2/1024 there.
+    let (view, Magnification { least, greatest }) = report.centre.expect("a centre").view.expect("a view");
+    let expected = 1.411269 / 921.523 * 512.0;
+    assert_eq!(view, 0);
+    assert_close(least, expected, 1e-6);
+    assert_close(greatest, expected, 1e-6);
+    let advised = report.views[0].advised.expect("a size");
+    assert_eq!((advised.parity, advised.two_thirds), ((1306, 1306), (871, 871)));
+    // At the rim the lens is steeper, 138.2°: across the middle of a side face, where a texel is 2/1024 again.
+    let right = report.views[1].magnification.expect("a range");
+    assert!(right.least < 0.6 && right.greatest > 138.2f64.to_radians() / 921.523 * 512.0 - 0.01, "{right:?}");
+    assert_close(report.views[4].used, 0.5 + 1.45 / 1024.0, 5e-3);
+    assert_close(report.views[3].used, report.views[1].used, 5e-3);
+    assert_eq!((report.views[2].used, report.views[5].used), (0.0, 0.0));
+    assert_close(report.views.iter().map(|view| view.share).sum(), 1.0, 1e-9);
+    assert_eq!(report.memory.texels, 6 * 1024 * 1024 * 16);
+    assert!(report.gathered.mean > 4.0 && report.gathered.most < 100, "{:?}", report.gathered);
+}
+
+#[test]
+fn the_plan_is_estimated_well() {
+    let (world, target) = (cube(128), omnimax(246, 180));
+    let report = Report::of(&world, &target, &Filter::DEFAULT);
+    let plan = cosmorama::resample::Resampler { world: &world, target: &target, filter: Filter::DEFAULT }.plan();
+    let bytes = plan.expect("a plan").bytes() as f64;
+    assert_close(report.memory.plan as f64 / bytes, 1.0, 0.1);
+}
+
+#[test]
+fn the_paper_calls_its_own_case_two_to_three() {
+    // The limiting circle spans the frame: radius 983 pixels.
+    let target = View {
+        projection: ProjectionKind::OMNIMAX,
+        orientation: Orientation::IDENTITY,
+        grid: PixelGrid::centred(1966, 1436, PixelPoint::new(983.0, 983.0), DVec2::splat(1.0 / 983.0)),
+        stop: FieldStop::circle(1.0),
+    };
+    let faces = [CubeFace::Front, CubeFace::Right, CubeFace::Left, CubeFace::Up];
+    let report = Report::of(&cube_of(1024, 960, &faces), &target, &Filter::DEFAULT);
+    let (across, down) = report.views[0].advised.expect("a size").ratio;
+    assert_close(across, 0.735, 5e-4);
+    assert_close(down, 0.689, 5e-4);
+    assert_close((across * down).sqrt(), 2.0 / 3.0, 0.05);
+    let fit = OmnimaxFraming::Fit.grid(1966, 1436, 1.0);
+    assert!(fit.step().x > target.grid.step().x, "the circle that fits is smaller");
+}
+
+#[test]
+fn a_report_reads_well() {
+    let world = cube_of(256, 256, &[CubeFace::Front, CubeFace::Right]);
+    let report = Report::of(&world, &perspective(320, 240, 80.0, [0.0, 60.0, 0.0]), &Filter::DEFAULT);
+    let text = report.to_string();
+    for part in
+        ["target   320x240", "pixels look where no view does", "front  256x256  needs ", "right  256x256  needs "]
+    {
+        assert!(text.contains(part), "{part} is not in:\n{text}");
+    }
+}
+
+fn cases() -> Vec<(World, View)> {
+    let awkward = World::new([("a <b> & \"c\"\u{7} ü".to_string(), equirect(128))]).expect("a world");
+    let tilted = View { orientation: turned([30.0, -50.0, 10.0]), ..fisheye(100, 180.0) };
+    vec![
+        (cube(128), omnimax(246, 180)),
+        (cube_of(128, 120, &[CubeFace::Front, CubeFace::Right, CubeFace::Left, CubeFace::Up]), tilted),
+        (cube_of(64, 64, &[CubeFace::Front]), perspective(80, 60, 60.0, [30.0, 10.0, 5.0])),
+        (cube(64), equirect(96)),
+        (awkward, tilted),
+    ]
+}
+
+fn figures_of(world: &World, target: &View) -> [String; 3] {
+    let needs = Needs::of(world, &[*target], &Filter::DEFAULT);
+    let figures = Figures { world, target };
+    let underlay = Underlay { view: 0, href: "a.png?b=\"1\"&c".to_string() };
+    [figures.unfolded(&needs, &[underlay]), figures.ownership(), figures.footprints()]
+}
+
+#[test]
+fn figures_are_well_formed() {
+    for (world, target) in cases() {
+        for svg in figures_of(&world, &target) {
+            let document = roxmltree::Document::parse(&svg).expect("well-formed XML");
+            assert_eq!(document.root_element().tag_name().name(), "svg");
+            assert!(!svg.contains("NaN") && !svg.contains("inf"), "a number is missing");
+        }
+    }
+}
+
+#[test]
+fn figures_and_needs_do_not_depend_on_threads() {
+    let with_threads = |threads: usize, (world, target): &(World, View)| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
+        pool.install(|| {
+            let report = Report::of(world, target, &Filter::DEFAULT);
+            (figures_of(world, target), report.to_string(), report)
+        })
+    };
+    for case in cases() {
+        let one = with_threads(1, &case);
+        for threads in [2, 7] {
+            let (figures, text, report) = with_threads(threads, &case);
+            assert_eq!((&text, &report), (&one.1, &one.2));
+            assert!(figures == one.0);
+        }
+    }
+}
+
+#[test]
+fn the_unfolded_cube_names_what_is_needed_and_what_is_not_given() {
+    let faces = [CubeFace::Front, CubeFace::Right, CubeFace::Back, CubeFace::Left, CubeFace::Up];
+    let (world, target) = (cube_of(1024, 1024, &faces), omnimax(1966, 1436));
+    let needs = Needs::of(&world, &[target], &Filter::DEFAULT);
+    let svg = Figures { world: &world, target: &target }.unfolded(&needs, &[]);
+    for label in ["all of 1024×1024", "514×1024+510+0", "514×1024+0+0", "1024×514+0+510", "not needed", "not given"]
+    {
+        assert!(svg.contains(&format!("aria-label=\"{label}\"")), "{label}");
+    }
+}
+
+#[test]
+fn an_underlay_is_drawn_under_the_veil() {
+    let (world, target) = (cube(64), omnimax(123, 90));
+    let needs = Needs::of(&world, &[target], &Filter::DEFAULT);
+    let underlay = Underlay { view: 4, href: "data:image/png;base64,AA==".to_string() };
+    let svg = Figures { world: &world, target: &target }.unfolded(&needs, &[underlay]);
+    let image = svg.find("href=\"data:image/png;base64,AA==\"").expect("the image");
+    assert!(svg[image..].contains("opacity=\"0.74\""));
+}
