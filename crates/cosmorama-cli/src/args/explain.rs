@@ -14,7 +14,7 @@ use super::convert::{GeometryArgs, LimitArgs};
 #[command(after_help = crate::spec::kind::help())]
 pub(crate) struct ExplainArgs {
     /// The input, if there is one already: an image or a pattern
-    #[arg(value_hint = ValueHint::FilePath, required_unless_present = "from")]
+    #[arg(value_hint = ValueHint::FilePath)]
     pub(crate) input: Option<String>,
     /// Size of an input (or of its faces) that does not exist yet [default: parity with the output at the centre]
     #[arg(long, value_name = "WxH|N", conflicts_with = "input", requires = "from", help_heading = "Geometry")]

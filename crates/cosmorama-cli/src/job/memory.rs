@@ -1,7 +1,7 @@
 use anyhow::{Result, bail};
 use cosmorama::raster::Rgba;
 
-use super::{Input, Target};
+use super::{Input, Target, TargetView};
 use crate::args::MemorySize;
 
 /// How much memory may be used.
@@ -58,9 +58,14 @@ impl MemoryBudget {
     pub(crate) fn left_for_plan(self, input: &Input, target: &Target) -> u64 {
         self.bytes.saturating_sub(frame_bytes(input, target))
     }
+
+    /// How many frames fit beside the geometry that they share.
+    pub(crate) fn frames_beside(self, input: &Input, target: &Target, plans: u64) -> usize {
+        (self.bytes.saturating_sub(plans) / frame_bytes(input, target).max(1)) as usize
+    }
 }
 
-/// Light and solid angle of every texel, the largest file beside them, and an output with its encoded twin.
+/// Light and solid angle of every texel, the files beside them, and the outputs with their encoded twins.
 fn frame_bytes(input: &Input, target: &Target) -> u64 {
     let texel = (size_of::<Rgba>() + size_of::<f32>()) as u64;
     let encoded = input
@@ -69,10 +74,10 @@ fn frame_bytes(input: &Input, target: &Target) -> u64 {
             let samples = header.channels.count() * header.depth.bytes();
             (header.width as u64).saturating_mul(header.height as u64).saturating_mul(samples as u64)
         })
-        .max()
-        .unwrap_or(0);
-    let output = target.views.iter().map(|target| target.view.width() as u64 * target.view.height() as u64).max();
-    let output = output.unwrap_or(0).saturating_mul(2 * size_of::<Rgba>() as u64);
+        .fold(0, u64::saturating_add);
+    let pixels = |target: &TargetView| (target.view.width() as u64).saturating_mul(target.view.height() as u64);
+    let output = target.views.iter().map(pixels).fold(0, u64::saturating_add);
+    let output = output.saturating_mul(2 * size_of::<Rgba>() as u64);
     (input.texels() as u64).saturating_mul(texel).saturating_add(encoded).saturating_add(output)
 }
 

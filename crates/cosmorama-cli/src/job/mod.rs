@@ -18,7 +18,7 @@ pub(crate) use frames::existing as existing_frames;
 pub(crate) use input::{Input, InputView};
 pub(crate) use light::{InputTransfer, Light};
 pub(crate) use memory::{MemoryBudget, peak_bytes};
-pub(crate) use outputs::Outputs;
+pub(crate) use outputs::{FrameOutputs, Outputs};
 pub(crate) use target::{Picture, Target, TargetView};
 
 use anyhow::Result;

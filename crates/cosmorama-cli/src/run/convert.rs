@@ -1,16 +1,20 @@
 use std::collections::BTreeSet;
+use std::path::PathBuf;
 use std::process::ExitCode;
 use std::time::Instant;
 
 use anyhow::Result;
+use cosmorama::raster::{Image, Rgba};
+use rayon::prelude::*;
 
-use super::engine::Engine;
+use super::engine::{Engine, FrameLight};
 use super::progress::Progress;
 use super::report::Report;
 use super::stages::{Stage, Stages};
 use super::{print, use_threads};
 use crate::args::ConvertArgs;
-use crate::job::ConvertJob;
+use crate::failure::warn;
+use crate::job::{ConvertJob, FrameOutputs};
 
 /// Converts, and tells what it has done.
 pub(super) fn run(args: &ConvertArgs) -> Result<ExitCode> {
@@ -29,21 +33,71 @@ pub(super) fn convert(args: &ConvertArgs) -> Result<Report> {
     let start = Instant::now();
     let mut stages = Stages::default();
     let job = stages.time(Stage::Plan, || ConvertJob::resolve(args))?;
-    let mut engine = stages.time(Stage::Plan, || Engine::new(&job))?;
-    let mut progress = Progress::new(args.progress, job.outputs.frames.len());
-    let (mut inputs, mut outputs) = (BTreeSet::new(), Vec::new());
-    for frame in &job.outputs.frames {
-        stages.time(Stage::Decode, || engine.load(frame.frame))?;
-        for (index, path) in &frame.files {
-            let image = stages.time(Stage::Filter, || engine.render(*index))?;
-            stages.time(Stage::Encode, || engine.save(&image, path, args.quality))?;
-            outputs.push(path.clone());
-        }
-        inputs.extend(engine.inputs(frame.frame));
-        progress.frame_done(frame.frame);
+    let engine = stages.time(Stage::Plan, || Engine::new(&job))?;
+    let progress = Progress::new(args.progress, job.outputs.frames.len());
+    let mut run = Run { args, engine, stages, progress, warnings: job.warnings.clone() };
+    let mut lights = Vec::new();
+    for frames in job.outputs.frames.chunks(run.engine.batch()) {
+        run.batch(frames, &mut lights)?;
     }
-    progress.finish();
-    let warnings = job.warnings.iter().cloned().chain(engine.warnings.drain(..)).collect();
+    run.progress.finish();
+    let inputs: BTreeSet<PathBuf> = job.outputs.frames.iter().flat_map(|frame| job.input.paths(frame.frame)).collect();
+    let outputs =
+        job.outputs.frames.iter().flat_map(|frame| frame.files.iter().map(|(_, path)| path.clone())).collect();
     let counts = (job.outputs.frames.len(), job.outputs.skipped);
-    Ok(Report::new(inputs, outputs, counts, start.elapsed(), stages, warnings))
+    Ok(Report::new(inputs, outputs, counts, start.elapsed(), run.stages, run.warnings))
+}
+
+/// A conversion under way.
+struct Run<'a> {
+    args: &'a ConvertArgs,
+    engine: Engine<'a>,
+    stages: Stages,
+    progress: Progress,
+    warnings: Vec<String>,
+}
+
+impl Run<'_> {
+    /// Some frames at once, stage by stage. Where one cannot be read, those before it are finished first.
+    fn batch(&mut self, frames: &[FrameOutputs], lights: &mut Vec<FrameLight>) -> Result<()> {
+        let Self { args, engine, stages, .. } = self;
+        while lights.len() < frames.len() {
+            lights.push(engine.frame_light());
+        }
+        let load = |(frame, light): (&FrameOutputs, &mut FrameLight)| engine.load(frame.frame, light);
+        let loaded: Vec<Result<()>> =
+            stages.time(Stage::Decode, || frames.par_iter().zip(lights.as_mut_slice()).map(load).collect());
+        let good = loaded.iter().take_while(|result| result.is_ok()).count();
+        let mut images = Vec::new();
+        let mut unfinished = loaded.into_iter().find_map(Result::err);
+        for (frame, light) in frames[..good].iter().zip(&*lights) {
+            for warning in engine.warnings(frame.frame, light) {
+                warn(&warning);
+                self.warnings.push(warning);
+            }
+            match stages.time(Stage::Filter, || frame.render(engine, light)) {
+                Ok(rendered) => images.push((frame, rendered)),
+                Err(error) => {
+                    unfinished = Some(error);
+                    break;
+                }
+            }
+        }
+        stages.time(Stage::Encode, || {
+            images.par_iter().try_for_each(|(frame, images)| frame.save(engine, images, args.quality))
+        })?;
+        images.iter().for_each(|(frame, _)| self.progress.frame_done(frame.frame));
+        unfinished.map_or(Ok(()), Err)
+    }
+}
+
+impl FrameOutputs {
+    fn render(&self, engine: &Engine<'_>, light: &FrameLight) -> Result<Vec<Image<Rgba>>> {
+        self.files.iter().map(|(index, _)| engine.render(*index, light)).collect()
+    }
+
+    fn save(&self, engine: &Engine<'_>, images: &[Image<Rgba>], quality: u8) -> Result<()> {
+        let pairs = self.files.par_iter().zip(images);
+        pairs.try_for_each(|((_, path), image)| engine.save(image, path, quality))
+    }
 }

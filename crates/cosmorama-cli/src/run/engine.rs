@@ -1,4 +1,4 @@
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::OnceLock;
 
 use anyhow::{Context, Result, bail};
@@ -8,22 +8,24 @@ use cosmorama::world::{View, World};
 use cosmorama_io::{Header, Limits, WriteOptions, read, write};
 use rayon::prelude::*;
 
-use crate::failure::warn;
 use crate::job::{ConvertJob, Coverage, Files, InputView};
 
-/// Makes the outputs of a job, one frame at a time.
+/// Makes the outputs of a job, frame by frame.
 pub(super) struct Engine<'a> {
     job: &'a ConvertJob,
     world: World,
     /// Compiled geometry by target view, where that pays and fits into memory.
     plans: Vec<Option<Plan>>,
     masks: Vec<OnceLock<ScreenMask>>,
+}
+
+/// The light of a frame. Its memory, and what does not change from frame to frame, serves the next one.
+pub(super) struct FrameLight {
     texels: Vec<Rgba>,
-    /// The frame whose light is in `texels`.
-    loaded: Option<Option<u64>>,
-    /// Texels of opaque inputs that are missing (NaN) in the loaded frame, by view.
+    /// Texels of opaque inputs that are missing (NaN), by view.
     missing: Vec<usize>,
-    pub(super) warnings: Vec<String>,
+    /// Whether a frame has been read into it.
+    is_used: bool,
 }
 
 impl<'a> Engine<'a> {
@@ -31,13 +33,27 @@ impl<'a> Engine<'a> {
     pub(super) fn new(job: &'a ConvertJob) -> Result<Self> {
         let views = job.input.present().map(|(input, _, view)| (input.name.clone(), *view));
         let world = World::new(views)?;
-        let texels = vec![Rgba::TRANSPARENT; world.texel_count()];
-        let missing = vec![0; world.sources().len()];
         let masks = job.target.views.iter().map(|_| OnceLock::new()).collect();
-        let mut engine =
-            Self { job, world, plans: Vec::new(), masks, texels, loaded: None, missing, warnings: Vec::new() };
+        let mut engine = Self { job, world, plans: Vec::new(), masks };
         engine.plans = engine.compile();
         Ok(engine)
+    }
+
+    /// How many frames are worked on at once: reading and writing files uses one thread a file, so that several
+    /// keep all of them busy.
+    pub(super) fn batch(&self) -> usize {
+        let plans = self.plans.iter().flatten().map(|plan| plan.bytes() as u64).sum();
+        let possible = self.job.memory.frames_beside(&self.job.input, &self.job.target, plans);
+        possible.clamp(1, rayon::current_num_threads())
+    }
+
+    /// Room for the light of a frame.
+    pub(super) fn frame_light(&self) -> FrameLight {
+        FrameLight {
+            texels: vec![Rgba::TRANSPARENT; self.world.texel_count()],
+            missing: vec![0; self.world.sources().len()],
+            is_used: false,
+        }
     }
 
     /// Geometry for many frames is computed once, as far as it fits into memory.
@@ -61,54 +77,48 @@ impl<'a> Engine<'a> {
     }
 
     /// Reads the light of a frame.
-    pub(super) fn load(&mut self, frame: Option<u64>) -> Result<()> {
-        let inputs: Vec<(&InputView, &Header)> =
-            self.job.input.present().map(|(view, header, _)| (view, header)).collect();
-        let mut rest = self.texels.as_mut_slice();
+    pub(super) fn load(&self, frame: Option<u64>, light: &mut FrameLight) -> Result<()> {
+        let mut rest = light.texels.as_mut_slice();
         let mut parts = Vec::new();
-        for (source, (input, header)) in self.world.sources().iter().zip(inputs) {
+        for (source, (input, header, _)) in self.world.sources().iter().zip(self.job.input.present()) {
             let (part, after) = rest.split_at_mut(source.texels().len());
             rest = after;
             // What does not change from frame to frame is read once.
-            let stays = self.loaded.is_some() && matches!(input.files, Files::One(_));
+            let stays = light.is_used && matches!(input.files, Files::One(_));
             parts.push((input, header, part, stays));
         }
-        let job = self.job;
-        let counts: Result<Vec<Option<usize>>> = parts
-            .into_par_iter()
-            .map(
-                |(input, header, part, stays)| {
-                    if stays { Ok(None) } else { load_view(job, input, header, frame, part).map(Some) }
-                },
-            )
-            .collect();
-        for (index, count) in counts?.into_iter().enumerate() {
-            if let Some(count) = count {
-                self.missing[index] = count;
-            }
+        let load = |(input, header, part, stays): (&InputView, &Header, &mut [Rgba], bool)| {
+            if stays { Ok(None) } else { load_view(self.job, input, header, frame, part).map(Some) }
+        };
+        let counts: Result<Vec<Option<usize>>> = parts.into_par_iter().map(load).collect();
+        for (missing, count) in light.missing.iter_mut().zip(counts?) {
+            *missing = count.unwrap_or(*missing);
         }
-        self.loaded = Some(frame);
-        self.tell_missing(frame);
+        light.is_used = true;
         Ok(())
     }
 
-    fn tell_missing(&mut self, frame: Option<u64>) {
-        for (source, &count) in self.world.sources().iter().zip(&self.missing).filter(|(_, count)| **count > 0) {
-            let number = frame.map_or_else(String::new, |frame| format!(" of frame {frame}"));
-            let message = format!("{}{number}: {count} pixels are NaN and count as missing", source.name);
-            warn(&message);
-            self.warnings.push(message);
-        }
+    /// What should be known about the light of a frame.
+    pub(super) fn warnings(&self, frame: Option<u64>, light: &FrameLight) -> Vec<String> {
+        let number = frame.map_or_else(String::new, |frame| format!(" of frame {frame}"));
+        let tell = |(name, count)| format!("{name}{number}: {count} pixels are NaN and count as missing");
+        self.incomplete(light).map(tell).collect()
     }
 
-    /// Makes an output of the loaded frame: filtered light, complete with what lies outside.
-    pub(super) fn render(&self, index: usize) -> Result<Image<Rgba>> {
+    /// Views with missing texels, and how many.
+    fn incomplete<'b>(&'b self, light: &'b FrameLight) -> impl Iterator<Item = (&'b str, usize)> {
+        let views = self.world.sources().iter().zip(&light.missing);
+        views.filter(|(_, count)| **count > 0).map(|(source, count)| (source.name.as_str(), *count))
+    }
+
+    /// Makes an output: filtered light, complete with what lies outside.
+    pub(super) fn render(&self, index: usize, light: &FrameLight) -> Result<Image<Rgba>> {
         let target = &self.job.target.views[index];
         let mut image = match &self.plans[index] {
-            Some(plan) => plan.apply(&self.texels),
-            None => self.resampler(&target.view).render(&self.texels),
+            Some(plan) => plan.apply(&light.texels),
+            None => self.resampler(&target.view).render(&light.texels),
         };
-        self.close_holes(index, &mut image)?;
+        self.close_holes(index, light, &mut image)?;
         if let Coverage::Fill(colour) = self.job.coverage {
             self.mask(index).fill_unseen(&mut image, colour);
         }
@@ -122,21 +132,19 @@ impl<'a> Engine<'a> {
 
     /// Missing texels of opaque inputs leave the pixel to the others; a pixel that has none left is like one that no
     /// view covers.
-    fn close_holes(&self, index: usize, image: &mut Image<Rgba>) -> Result<()> {
-        if self.job.light.input_alpha || self.missing.iter().all(|count| *count == 0) {
+    fn close_holes(&self, index: usize, light: &FrameLight, image: &mut Image<Rgba>) -> Result<()> {
+        if self.job.light.input_alpha || self.incomplete(light).next().is_none() {
             return Ok(());
         }
         let fill = self.job.fill_for_missing();
         let empty = self.mask(index).close_holes(image, fill.unwrap_or(Rgba::TRANSPARENT));
         if empty > 0 && fill.is_none() {
-            let culprits: Vec<_> =
-                self.world.sources().iter().zip(&self.missing).filter(|(_, count)| **count > 0).collect();
-            let names: Vec<_> = culprits.iter().map(|(source, count)| format!("{} ({count})", source.name)).collect();
+            let culprits: Vec<_> = self.incomplete(light).map(|(name, count)| format!("{name} ({count})")).collect();
             bail!(
                 "{empty} pixels of {} see nothing but missing pixels (NaN), found in {}; render those again, or fill the \
                  gaps with --missing COLOR or --missing transparent",
                 self.job.target.views[index].name,
-                names.join(", ")
+                culprits.join(", ")
             );
         }
         Ok(())
@@ -158,11 +166,6 @@ impl<'a> Engine<'a> {
         let encoded = EncodedImage::encode(image, light.channels, light.depth, &light.transfer);
         write(path, &encoded, &light.metadata, &WriteOptions { quality })?;
         Ok(())
-    }
-
-    /// The input files of a frame.
-    pub(super) fn inputs(&self, frame: Option<u64>) -> Vec<PathBuf> {
-        self.job.input.paths(frame)
     }
 }
 

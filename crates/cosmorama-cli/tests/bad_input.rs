@@ -1,0 +1,298 @@
+//! What is wrong is said once, clearly, with the right exit code, and leaves nothing behind.
+
+mod bench;
+
+use bench::{Bench, flat, floats, picture};
+use cosmorama::sphere::CubeFace;
+
+fn remove(bench: &Bench, name: &str) {
+    std::fs::remove_file(bench.path(name)).unwrap();
+}
+
+#[track_caller]
+fn assert_says(message: &str, parts: &[&str]) {
+    for part in parts {
+        assert!(message.contains(part), "'{part}' is not in: {message}");
+    }
+}
+
+#[test]
+fn a_missing_face_is_named_with_what_is_needed_of_it() {
+    let bench = Bench::new();
+    bench.faces("face_", 64);
+    remove(&bench, "face_right.png");
+    let message = bench.fail(1, &["convert", "face_{face}.png", "out.png", "--to", "omnimax"]);
+    // Half of it and the pixels at the lens's rim, 0.162° further.
+    assert_says(&message, &["right: 33x62+0+0 of its 64x64 pixels", "face_right.png is missing", "--missing"]);
+    assert!(!message.contains("left:") && !message.contains("back:"), "{message}");
+}
+
+#[test]
+fn a_face_that_is_not_needed_may_be_missing() {
+    let bench = Bench::new();
+    bench.faces("face_", 64);
+    remove(&bench, "face_back.png");
+    remove(&bench, "face_bottom.png");
+    bench.succeed(&["convert", "face_{face}.png", "out.png", "--to", "omnimax"]);
+}
+
+#[test]
+fn a_crop_that_is_too_small_is_named() {
+    let bench = Bench::new();
+    bench.faces("face_", 64);
+    bench.save("face_left.png", &picture(3, 20, 64));
+    let from = "cube:canvas.left=64x64+44+0";
+    let message = bench.fail(1, &["convert", "face_{face}.png", "out.png", "--to", "omnimax", "--from", from]);
+    assert_says(&message, &["left: 33x62+31+0", "holds only 20x64+44+0"]);
+}
+
+#[test]
+fn no_input_at_all() {
+    let bench = Bench::new();
+    let message = bench.fail(1, &["convert", "nothing/{face}.png", "out.png", "--to", "omnimax"]);
+    assert_says(&message, &["nothing/{face}.png", "front right back left top bottom"]);
+    let message = bench.fail(1, &["convert", "nothing.png", "out.png", "--to", "omnimax", "--from", "equirect"]);
+    assert_says(&message, &["nothing.png", "No such file"]);
+    assert_eq!(message.matches("No such file").count(), 1, "{message}");
+}
+
+#[test]
+fn a_face_that_is_no_image() {
+    let bench = Bench::new();
+    bench.faces("face_", 64);
+    std::fs::write(bench.path("face_left.png"), "not a picture").unwrap();
+    let message = bench.fail(1, &["convert", "face_{face}.png", "out.png", "--to", "omnimax"]);
+    assert_says(&message, &["face_left.png", "not an image"]);
+}
+
+#[test]
+fn a_face_of_the_wrong_shape() {
+    let bench = Bench::new();
+    bench.faces("face_", 64);
+    bench.face("face_top.png", CubeFace::Up, 64, 40);
+    let message = bench.fail(1, &["convert", "face_{face}.png", "out.png", "--to", "omnimax"]);
+    assert_says(&message, &["face_top.png", "the up face is 64x40", "expected 64x64", "canvas.up="]);
+    for face in CubeFace::ALL {
+        bench.face(&format!("wide_{face}.png"), face, 128, 64);
+    }
+    let message = bench.fail(1, &["convert", "wide_{face}.png", "out.png", "--to", "omnimax"]);
+    assert_says(&message, &["128x64", "a square"]);
+}
+
+#[test]
+fn truncated_files() {
+    let bench = Bench::new();
+    let panorama = picture(1, 64, 32);
+    for name in ["cut.png", "cut.jpg", "cut.exr", "cut.tif", "cut.tga", "cut.hdr"] {
+        let float = floats(64, 32, |i, j| [i as f32, j as f32, (i * j % 7) as f32]);
+        let is_float = name.ends_with("exr") || name.ends_with("hdr");
+        bench.save(name, if is_float { &float } else { &panorama });
+        let whole = bench.bytes(name);
+        std::fs::write(bench.path(name), &whole[..whole.len() * 2 / 3]).unwrap();
+        let message =
+            bench.fail(1, &["convert", name, "out.png", "--from", "equirect", "--to", "omnimax", "--size", "32"]);
+        assert_says(&message, &[name]);
+    }
+}
+
+/// A PNG header that declares 65535×65535 pixels of RGBA, 16 bits each, and nothing after it.
+fn bomb() -> Vec<u8> {
+    let mut header = b"IHDR".to_vec();
+    header.extend(65535u32.to_be_bytes());
+    header.extend(65535u32.to_be_bytes());
+    header.extend([16, 6, 0, 0, 0]);
+    let mut file = b"\x89PNG\r\n\x1a\n\0\0\0\r".to_vec();
+    let checksum = header.iter().fold(!0u32, |crc, byte| {
+        (0..8).fold(crc ^ u32::from(*byte), |crc, _| if crc & 1 == 1 { 0xedb8_8320 ^ (crc >> 1) } else { crc >> 1 })
+    });
+    file.extend(&header);
+    file.extend((!checksum).to_be_bytes());
+    // The start of pixel data, so that the header is all that a reader may look at.
+    file.extend(b"\0\0\0\x08IDAT\x78\x9c\0\0\0\0\0\0");
+    file
+}
+
+#[test]
+fn an_absurd_size_is_refused_before_memory_is_taken() {
+    let bench = Bench::new();
+    std::fs::write(bench.path("bomb.png"), bomb()).unwrap();
+    assert!(bomb().len() < 100);
+    let args =
+        ["convert", "bomb.png", "out.png", "--from", "equirect", "--to", "omnimax", "--size", "32", "--memory", "2G"];
+    let message = bench.fail(1, &args);
+    assert_says(&message, &["bomb.png", "65535x65535", "--memory"]);
+    bench.save("small.png", &picture(0, 64, 32));
+    let message = bench.fail(1, &["compare", "bomb.png", "small.png"]);
+    assert_says(&message, &["65535x65535"]);
+    let message =
+        bench.fail(1, &["convert", "small.png", "out.png", "--to", "fulldome", "--size", "200000", "--memory", "8G"]);
+    assert_says(&message, &["--memory", "200000x200000"]);
+}
+
+#[test]
+fn a_face_of_nan() {
+    let bench = Bench::new();
+    for face in CubeFace::ALL {
+        bench.save(&format!("face_{face}.exr"), &floats(32, 32, |_, _| [0.5; 3]));
+    }
+    bench.save("face_left.exr", &floats(32, 32, |_, _| [f32::NAN; 3]));
+    let message = bench.fail(1, &["convert", "face_{face}.exr", "out.exr", "--to", "omnimax", "--size", "64"]);
+    assert_says(&message, &["face_left.exr", "NaN"]);
+    // Half of it only: the pixels that look there are missing, the rest is fine.
+    bench.save("face_left.exr", &floats(32, 32, |_, j| if j < 16 { [f32::NAN; 3] } else { [0.5; 3] }));
+    let message = bench.fail(1, &["convert", "face_{face}.exr", "out.exr", "--to", "omnimax", "--size", "64"]);
+    assert_says(&message, &["left (512)", "--missing"]);
+    bench.succeed(&["convert", "face_{face}.exr", "out.exr", "--to", "omnimax", "--size", "64", "--missing", "black"]);
+}
+
+#[test]
+fn a_folder_that_is_missing_or_read_only() {
+    let bench = Bench::new();
+    bench.save("sky.png", &picture(1, 64, 32));
+    let message = bench.fail(1, &["convert", "sky.png", "nowhere/out.png", "--to", "omnimax", "--size", "32"]);
+    assert_says(&message, &["nowhere/out.png", "does not exist", "make it first"]);
+    // Not even root can write here.
+    let message = bench.fail(1, &["convert", "sky.png", "/proc/out.png", "--to", "omnimax", "--size", "32"]);
+    assert_says(&message, &["cannot write /proc/out.png"]);
+}
+
+#[test]
+fn an_output_that_is_an_input() {
+    let bench = Bench::new();
+    bench.save("sky.png", &picture(1, 64, 32));
+    let before = bench.bytes("sky.png");
+    let message = bench.fail(2, &["convert", "sky.png", "./sky.png", "--to", "omnimax", "--size", "32", "-y"]);
+    assert_says(&message, &["replace its own input"]);
+    bench.faces("face_", 16);
+    let message = bench.fail(2, &["convert", "face_{face}.png", "face_{face}.png", "-y"]);
+    assert_says(&message, &["face_front.png", "replace its own input"]);
+    assert_eq!(bench.bytes("sky.png"), before);
+}
+
+#[test]
+fn wrong_usage() {
+    let bench = Bench::new();
+    bench.save("sky.png", &picture(1, 64, 32));
+    let convert = |extra: &[&str]| {
+        let mut args = vec!["convert", "sky.png"];
+        args.extend(extra);
+        bench.fail(2, &args)
+    };
+    assert_says(&convert(&["out.bmp", "--to", "omnimax"]), &["out.bmp", "png, jpg"]);
+    assert_says(&convert(&["out", "--to", "omnimax"]), &["extension"]);
+    assert_says(&convert(&["out.png", "--to", "omnimax", "--size", "0"]), &["--size", "1966x1436"]);
+    assert_says(&convert(&["out.png", "--to", "omnimax", "--frames", "9-3"]), &["--frames", "9-3", "3-9"]);
+    assert_says(&convert(&["out.png"]), &["--to", "omnimax"]);
+    assert_says(&convert(&["out.png", "--to", "omnimx"]), &["did you mean 'omnimax'"]);
+    assert_says(&convert(&["out.png", "--to", "fisheye:fvo=180"]), &["unknown key 'fvo' for fisheye", "'fov'"]);
+    assert_says(&convert(&["out.png", "--to", "perspective:fov=180"]), &["less than 180"]);
+    assert_says(&convert(&["out.png", "--to", "cube"]), &["{face}"]);
+    assert_says(&convert(&["{face}.png", "--to", "omnimax"]), &["names the faces of a cube"]);
+    assert_says(&convert(&["out_####.png", "--to", "omnimax"]), &["frame marker"]);
+    assert_says(&convert(&["out.jpg", "--to", "omnimax", "--depth", "16"]), &["JPEG", "8"]);
+    assert_says(&convert(&["out.jpg", "--to", "omnimax", "--background", "transparent"]), &["JPEG", "transparent"]);
+    assert_says(&convert(&["out.png", "--to", "omnimax", "--kernel", "gauss"]), &["there are adaptive, gaussian"]);
+    assert_says(&convert(&["out.png", "--to", "omnimax", "--filter", "ewa-pyramid"]), &["point, bilinear"]);
+    assert_says(&convert(&["out.png", "--to", "omnimax:center=3:4"]), &["--size"]);
+    assert_says(&convert(&["out.png", "--to", "omnimax", "--from", "cube"]), &["{face}"]);
+    assert_says(&convert(&["out.png", "--to", "omnimax", "-y", "--resume"]), &["--resume"]);
+}
+
+#[test]
+fn two_namings_that_match() {
+    let bench = Bench::new();
+    for name in ["front", "left", "f", "l"] {
+        bench.face(&format!("{name}.png"), CubeFace::Front, 16, 16);
+    }
+    let message = bench.fail(1, &["convert", "{face}.png", "out.png", "--to", "omnimax"]);
+    assert_says(&message, &["two namings", "naming="]);
+}
+
+#[test]
+fn an_input_that_does_not_tell_its_projection() {
+    let bench = Bench::new();
+    bench.save("odd.png", &picture(1, 50, 40));
+    let message = bench.fail(1, &["convert", "odd.png", "out.png", "--to", "omnimax"]);
+    assert_says(&message, &["50x40", "perspective", "fisheye", "fulldome", "omnimax", "{face}"]);
+}
+
+#[test]
+fn frames_missing_in_the_middle_are_all_named_before_work_starts() {
+    let bench = Bench::new();
+    for frame in [1, 2, 4, 7, 8] {
+        for face in CubeFace::ALL {
+            if frame != 2 || face != CubeFace::Left {
+                bench.face(&format!("{face}/{face}_{frame:04}.png"), face, 16, 16);
+            }
+        }
+    }
+    let args = ["convert", "{face}/{face}_####.png", "dome_####.png", "--to", "omnimax"];
+    let message = bench.fail(1, &args);
+    assert_says(&message, &["front/front_####.png", "3,5,6", "left/left_####.png", "2,3,5,6"]);
+    let message = bench.fail(1, &[&args[..], &["--frames", "4-9"]].concat());
+    assert_says(&message, &["5,6,9"]);
+    let message =
+        bench.fail(2, &["convert", "{face}/{face}_####.png", "dome.png", "--to", "omnimax", "--frames", "7-8"]);
+    assert_says(&message, &["2 frames", "dome.png", "####"]);
+    bench.succeed(&[&args[..], &["--frames", "7-8"]].concat());
+}
+
+#[test]
+fn existing_outputs_are_found_before_work_starts() {
+    let bench = Bench::new();
+    for frame in 1..=3 {
+        bench.save(&format!("sky_{frame}.png"), &picture(frame, 64, 32));
+    }
+    bench.save("out_2.png", &picture(0, 4, 4));
+    let args = ["convert", "sky_#.png", "out_#.png", "--to", "omnimax", "--size", "32"];
+    let message = bench.fail(1, &args);
+    assert_says(&message, &["out_2.png exists", "--overwrite", "--resume"]);
+}
+
+#[test]
+fn a_frame_of_another_size() {
+    let bench = Bench::new();
+    bench.save("sky_1.png", &picture(1, 64, 32));
+    bench.save("sky_2.png", &picture(2, 128, 64));
+    let args = ["convert", "sky_#.png", "out_#.png", "--to", "omnimax", "--size", "32"];
+    let output = bench.run(&args);
+    assert_eq!(output.status.code(), Some(1));
+    assert_says(&bench::text(&output.stderr), &["sky_2.png", "128x64", "64x32"]);
+    // What was whole before stays.
+    assert!(bench.path("out_1.png").exists() && !bench.path("out_2.png").exists());
+}
+
+/// A limit on the size of files fails as a full disk does: in the middle of writing.
+#[cfg(unix)]
+#[test]
+fn a_full_disk() {
+    let bench = Bench::new();
+    bench.save("sky.png", &picture(1, 64, 32));
+    let before = bench.files();
+    let program = env!("CARGO_BIN_EXE_cosmorama");
+    let script = format!(
+        "trap '' XFSZ; ulimit -f 8; exec {program} convert sky.png out.png --to equirect --size 800 --depth 16"
+    );
+    let output = std::process::Command::new("sh").args(["-c", &script]).current_dir(bench.path("")).output().unwrap();
+    let message = bench.check_failure(1, &output, &before);
+    assert_says(&message, &["cannot write out.png"]);
+}
+
+#[test]
+fn nothing_of_the_input_in_view() {
+    let bench = Bench::new();
+    bench.save("ahead.png", &flat(32, 32, &[9, 9, 9]));
+    let args = [
+        "convert",
+        "ahead.png",
+        "out.png",
+        "--from",
+        "perspective:fov=20",
+        "--to",
+        "perspective:fov=20",
+        "--yaw",
+        "180",
+    ];
+    let message = bench.fail(1, &args);
+    assert_says(&message, &["empty", "--yaw"]);
+}
