@@ -21,7 +21,9 @@ struct CratePlan {
     name: &'static str,
     crates: &'static [&'static str],
     rooms: &'static [&'static str],
-    /// Words that its sources must not hold, and why.
+    /// Parts of the standard library that it must not use.
+    banned_std: &'static [&'static str],
+    /// Crates, functions and macros that it must not use.
     banned: &'static [&'static str],
     reason: &'static str,
 }
@@ -31,20 +33,23 @@ const CRATES: [CratePlan; 5] = [
         name: "cosmorama",
         crates: &[],
         rooms: &[],
-        banned: &["fs", "io", "process", "net", "env", "println", "eprintln"],
+        banned_std: &["fs", "io", "process", "net", "env"],
+        banned: &["println", "eprintln"],
         reason: "the library touches neither files nor the terminal",
     },
     CratePlan {
         name: "cosmorama-builtin",
         crates: &["cosmorama"],
         rooms: &["sphere", "raster"],
-        banned: &["fs", "io", "process", "println", "eprintln"],
+        banned_std: &["fs", "io", "process", "net", "env"],
+        banned: &["println", "eprintln"],
         reason: "worlds by formula touch neither files nor the terminal",
     },
     CratePlan {
         name: "cosmorama-io",
         crates: &["cosmorama"],
         rooms: &["sphere", "raster", "world"],
+        banned_std: &["net", "process"],
         banned: &["glam", "println", "eprintln"],
         reason: "files know no geometry and no terminal",
     },
@@ -52,6 +57,7 @@ const CRATES: [CratePlan; 5] = [
         name: "cosmorama-cli",
         crates: &["cosmorama", "cosmorama-builtin", "cosmorama-io"],
         rooms: &["sphere", "projection", "raster", "world", "resample", "compare", "explain"],
+        banned_std: &["f32", "f64"],
         banned: &[
             "glam",
             "sin",
@@ -67,10 +73,8 @@ const CRATES: [CratePlan; 5] = [
             "powi",
             "powf",
             "exp",
-            "ln",
             "to_radians",
             "to_degrees",
-            "consts",
         ],
         reason: "the command line holds no mathematics",
     },
@@ -78,6 +82,7 @@ const CRATES: [CratePlan; 5] = [
         name: "testkit",
         crates: &["cosmorama", "cosmorama-builtin", "cosmorama-io"],
         rooms: &["sphere", "projection", "raster", "world", "resample", "compare", "explain"],
+        banned_std: &[],
         banned: &[],
         reason: "",
     },
@@ -121,6 +126,9 @@ fn no_crate_uses_what_it_must_not() {
                 if !plan.rooms.contains(&used.as_str()) {
                     found.push(format!("{}: {} must not use cosmorama::{used}", file.display(), plan.name));
                 }
+            }
+            for used in names_under(&code, "std::").iter().filter(|used| plan.banned_std.contains(&used.as_str())) {
+                found.push(format!("{}: `std::{used}`: {}", file.display(), plan.reason));
             }
             for word in paths_and_calls(&code).filter(|word| plan.banned.contains(word)) {
                 found.push(format!("{}: `{word}`: {}", file.display(), plan.reason));
@@ -193,20 +201,22 @@ fn code_of(source: &str) -> String {
 
 /// The rooms that paths from `root` (`crate`, `cosmorama`) and from `depth` times `super` lead to.
 fn rooms_used(code: &str, root: &str, depth: usize) -> BTreeSet<String> {
-    let up = if depth < 16 { "super::".repeat(depth) } else { String::new() };
-    let roots = [format!("{root}::"), up];
-    let mut rooms = BTreeSet::new();
-    for root in roots.iter().filter(|root| !root.is_empty()) {
-        for (start, _) in code.match_indices(root.as_str()) {
-            let before = code[..start].chars().next_back();
-            if before.is_some_and(|before| before.is_alphanumeric() || before == '_' || before == ':') {
-                continue;
-            }
-            let known = |name: &String| ROOMS.iter().any(|(room, _)| room == name);
-            rooms.extend(first_names(&code[start + root.len()..]).into_iter().filter(known));
-        }
+    let mut names = names_under(code, &format!("{root}::"));
+    if depth < 16 {
+        names.extend(names_under(code, &"super::".repeat(depth)));
     }
-    rooms
+    names.retain(|name| ROOMS.iter().any(|(room, _)| room == name));
+    names
+}
+
+/// The names that paths with this beginning go on with.
+fn names_under(code: &str, root: &str) -> BTreeSet<String> {
+    let is_whole = |start: usize| {
+        let before = code[..start].chars().next_back();
+        !before.is_some_and(|before| before.is_alphanumeric() || before == '_' || before == ':')
+    };
+    let starts = code.match_indices(root).map(|(start, _)| start).filter(|&start| is_whole(start));
+    starts.flat_map(|start| first_names(&code[start + root.len()..])).collect()
 }
 
 /// The names that a path goes on with: one, or those of a group in braces.
@@ -293,6 +303,8 @@ mod the_rules {
         assert_eq!(words("use glam::DVec3;"), ["glam", "DVec3"]);
         assert_eq!(words("let sin = exp;"), [""; 0]);
         assert_eq!(words("println!(a)"), ["println"]);
+        let files = names_under("use std::{fs::File, path::Path};", "std::");
+        assert!(files.contains("fs") && files.contains("path"));
     }
 
     #[test]
