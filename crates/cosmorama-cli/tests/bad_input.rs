@@ -1,5 +1,8 @@
 //! What is wrong is said once, clearly, with the right exit code, and leaves nothing behind.
 
+// A test that cannot go on stops where it stands.
+#![allow(clippy::unwrap_used)]
+
 mod bench;
 
 use bench::{Bench, flat, floats, picture};

@@ -14,6 +14,7 @@ mod limits;
 mod metadata;
 pub mod pending;
 mod sequence;
+pub mod svg;
 
 pub use error::IoError;
 pub use face_set::{FaceFile, FacePattern, FacePlacement, FaceSet, LetterCase, Naming};

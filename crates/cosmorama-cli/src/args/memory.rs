@@ -43,7 +43,7 @@ fn parse(text: &str) -> Option<MemorySize> {
         _ => return None,
     };
     let bytes = number.parse::<f64>().ok()? * unit as f64;
-    (bytes >= 1.0 && bytes < 1e18).then_some(MemorySize::Bytes(bytes as u64))
+    (1.0..1e18).contains(&bytes).then_some(MemorySize::Bytes(bytes as u64))
 }
 
 #[cfg(test)]

@@ -21,14 +21,15 @@ pub(crate) fn nominal_world(input: &Input) -> Result<World> {
 }
 
 impl Coverage {
-    /// Compares what the target needs with what the input holds, before any pixel is computed.
+    /// Compares what the target needs with what the input holds, before any pixel is computed. Also gives the world that
+    /// the input holds of it.
     pub(crate) fn check(
         input: &mut Input,
         target: &Target,
         filter: &Filter,
         missing: Missing,
         warnings: &mut Vec<String>,
-    ) -> Result<Self> {
+    ) -> Result<(Self, World)> {
         let nominal = nominal_world(input)?;
         let needs = Needs::of(&nominal, &target.geometry(), filter);
         let mut gaps = Vec::new();
@@ -54,16 +55,24 @@ impl Coverage {
             gaps.push("nothing of what the input shows is in the output's field of view".to_owned());
             bail_without_any(&gaps)?;
         }
-        match missing {
-            _ if gaps.is_empty() => Ok(Self::Complete),
-            Missing::Fill(colour) => Ok(Self::Fill(colour)),
+        let coverage = match missing {
+            _ if gaps.is_empty() => Self::Complete,
+            Missing::Fill(colour) => Self::Fill(colour),
             Missing::Error => bail!(
                 "the input does not cover what the output shows:\n  {}\nadd what is missing, or fill it with --missing \
                  COLOR or --missing transparent",
                 gaps.join("\n  ")
             ),
-        }
+        };
+        Ok((coverage, held_world(input, nominal)?))
     }
+}
+
+/// The world of what files hold: often that of the whole pictures.
+fn held_world(input: &Input, nominal: World) -> Result<World> {
+    let held = || input.present().map(|(view, _, held)| (view.name.clone(), *held));
+    let whole = nominal.sources().iter().map(|source| (source.name.clone(), source.view));
+    if held().eq(whole) { Ok(nominal) } else { Ok(World::new(held())?) }
 }
 
 /// Without any view there is nothing to fill up.

@@ -24,6 +24,7 @@ pub(crate) use target::{Picture, Target, TargetView};
 use anyhow::Result;
 use cosmorama::raster::Rgba;
 use cosmorama::resample::Filter;
+use cosmorama::world::World;
 
 use crate::args::convert::GeometryArgs;
 use crate::args::{ConvertArgs, Missing};
@@ -33,6 +34,8 @@ use crate::failure::warn;
 pub(crate) struct ConvertJob {
     /// Where light comes from.
     pub(crate) input: Input,
+    /// Its geometry.
+    pub(crate) world: World,
     /// Where it goes.
     pub(crate) target: Target,
     /// How.
@@ -65,9 +68,9 @@ impl ConvertJob {
         let light = Light::resolve(args, &input, &target, &mut warnings)?;
         let outputs = Outputs::plan(args, &input, &target)?;
         memory.check(&input, &target)?;
-        let coverage = Coverage::check(&mut input, &target, &filter, args.missing, &mut warnings)?;
+        let (coverage, world) = Coverage::check(&mut input, &target, &filter, args.missing, &mut warnings)?;
         warnings.iter().for_each(|warning| warn(warning));
-        Ok(Self { input, target, filter, light, outputs, coverage, missing: args.missing, memory, warnings })
+        Ok(Self { input, world, target, filter, light, outputs, coverage, missing: args.missing, memory, warnings })
     }
 
     /// What pixels without light get; `None` where they are an error.

@@ -61,7 +61,7 @@ fn region(region: Region, image: &Image<Rgba>) -> Result<Mask> {
 
 fn failures(args: &CompareArgs, comparison: &Comparison) -> Vec<String> {
     let mut failures = Vec::new();
-    if let Some(least) = args.min_psnr.filter(|least| !(comparison.linear.psnr >= *least)) {
+    if let Some(least) = args.min_psnr.filter(|least| comparison.linear.psnr < *least) {
         failures.push(format!("PSNR {:.2} dB is less than --min-psnr {least}", comparison.linear.psnr));
     }
     if let Some(most) = args.max_shift {

@@ -33,7 +33,7 @@ pub(super) fn convert(args: &ConvertArgs) -> Result<Report> {
     let start = Instant::now();
     let mut stages = Stages::default();
     let job = stages.time(Stage::Plan, || ConvertJob::resolve(args))?;
-    let engine = stages.time(Stage::Plan, || Engine::new(&job))?;
+    let engine = stages.time(Stage::Plan, || Engine::new(&job));
     let progress = Progress::new(args.progress, job.outputs.frames.len());
     let mut run = Run { args, engine, stages, progress, warnings: job.warnings.clone() };
     let mut lights = Vec::new();

@@ -4,7 +4,7 @@ use std::sync::OnceLock;
 use anyhow::{Context, Result, bail};
 use cosmorama::raster::{EncodedImage, Image, Rgba};
 use cosmorama::resample::{Plan, Resampler, ScreenMask};
-use cosmorama::world::{View, World};
+use cosmorama::world::View;
 use cosmorama_io::{Header, Limits, WriteOptions, read, write};
 use rayon::prelude::*;
 
@@ -13,7 +13,6 @@ use crate::job::{ConvertJob, Coverage, Files, InputView};
 /// Makes the outputs of a job, frame by frame.
 pub(super) struct Engine<'a> {
     job: &'a ConvertJob,
-    world: World,
     /// Compiled geometry by target view, where that pays and fits into memory.
     plans: Vec<Option<Plan>>,
     masks: Vec<OnceLock<ScreenMask>>,
@@ -30,13 +29,11 @@ pub(super) struct FrameLight {
 
 impl<'a> Engine<'a> {
     /// Prepares the geometry.
-    pub(super) fn new(job: &'a ConvertJob) -> Result<Self> {
-        let views = job.input.present().map(|(input, _, view)| (input.name.clone(), *view));
-        let world = World::new(views)?;
+    pub(super) fn new(job: &'a ConvertJob) -> Self {
         let masks = job.target.views.iter().map(|_| OnceLock::new()).collect();
-        let mut engine = Self { job, world, plans: Vec::new(), masks };
+        let mut engine = Self { job, plans: Vec::new(), masks };
         engine.plans = engine.compile();
-        Ok(engine)
+        engine
     }
 
     /// How many frames are worked on at once: reading and writing files uses one thread a file, so that several
@@ -50,8 +47,8 @@ impl<'a> Engine<'a> {
     /// Room for the light of a frame.
     pub(super) fn frame_light(&self) -> FrameLight {
         FrameLight {
-            texels: vec![Rgba::TRANSPARENT; self.world.texel_count()],
-            missing: vec![0; self.world.sources().len()],
+            texels: vec![Rgba::TRANSPARENT; self.job.world.texel_count()],
+            missing: vec![0; self.job.world.sources().len()],
             is_used: false,
         }
     }
@@ -73,14 +70,14 @@ impl<'a> Engine<'a> {
     }
 
     fn resampler<'b>(&'b self, target: &'b View) -> Resampler<'b> {
-        Resampler { world: &self.world, target, filter: self.job.filter }
+        Resampler { world: &self.job.world, target, filter: self.job.filter }
     }
 
     /// Reads the light of a frame.
     pub(super) fn load(&self, frame: Option<u64>, light: &mut FrameLight) -> Result<()> {
         let mut rest = light.texels.as_mut_slice();
         let mut parts = Vec::new();
-        for (source, (input, header, _)) in self.world.sources().iter().zip(self.job.input.present()) {
+        for (source, (input, header, _)) in self.job.world.sources().iter().zip(self.job.input.present()) {
             let (part, after) = rest.split_at_mut(source.texels().len());
             rest = after;
             // What does not change from frame to frame is read once.
@@ -107,7 +104,7 @@ impl<'a> Engine<'a> {
 
     /// Views with missing texels, and how many.
     fn incomplete<'b>(&'b self, light: &'b FrameLight) -> impl Iterator<Item = (&'b str, usize)> {
-        let views = self.world.sources().iter().zip(&light.missing);
+        let views = self.job.world.sources().iter().zip(&light.missing);
         views.filter(|(_, count)| **count > 0).map(|(source, count)| (source.name.as_str(), *count))
     }
 
@@ -127,7 +124,7 @@ impl<'a> Engine<'a> {
     }
 
     fn mask(&self, index: usize) -> &ScreenMask {
-        self.masks[index].get_or_init(|| ScreenMask::new(&self.world, &self.job.target.views[index].view))
+        self.masks[index].get_or_init(|| ScreenMask::new(&self.job.world, &self.job.target.views[index].view))
     }
 
     /// Missing texels of opaque inputs leave the pixel to the others; a pixel that has none left is like one that no

@@ -1,19 +1,25 @@
-use anyhow::{Context, Result};
-use cosmorama_io::pending;
-use signal_hook::consts::{SIGINT, SIGTERM};
-use signal_hook::iterator::Signals;
+use anyhow::Result;
 
 /// Watches for interrupts: files in the making are removed, then the program ends with 130 or 143.
+#[cfg(unix)]
 pub(super) fn install() -> Result<()> {
-    let mut signals = Signals::new([SIGINT, SIGTERM]).context("cannot watch for interrupts")?;
-    std::thread::Builder::new()
-        .name("interrupts".to_owned())
-        .spawn(move || {
-            if let Some(signal) = signals.forever().next() {
-                pending::remove_all();
-                std::process::exit(128 + signal);
-            }
-        })
-        .context("cannot watch for interrupts")?;
+    use anyhow::Context;
+    use signal_hook::consts::{SIGINT, SIGTERM};
+
+    let mut signals = signal_hook::iterator::Signals::new([SIGINT, SIGTERM]).context("cannot watch for interrupts")?;
+    let watch = move || {
+        if let Some(signal) = signals.forever().next() {
+            cosmorama_io::pending::remove_all();
+            std::process::exit(128 + signal);
+        }
+    };
+    let thread = std::thread::Builder::new().name("interrupts".to_owned());
+    thread.spawn(watch).context("cannot watch for interrupts")?;
+    Ok(())
+}
+
+/// Elsewhere the system ends the program; what it was writing stays as a `.cosmorama-*.part` file.
+#[cfg(not(unix))]
+pub(super) fn install() -> Result<()> {
     Ok(())
 }

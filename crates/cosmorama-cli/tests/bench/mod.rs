@@ -1,7 +1,7 @@
 //! A folder of its own for each test, pictures to put into it, and the program to run in it.
 
-// Each test file uses a part of this.
-#![allow(dead_code)]
+// Each test file uses a part of this; a test that cannot go on stops where it stands.
+#![allow(dead_code, clippy::unwrap_used)]
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -139,4 +139,12 @@ pub(crate) fn flat(width: usize, height: usize, pixel: &[u8]) -> EncodedImage {
 pub(crate) fn floats(width: usize, height: usize, pixel: impl Fn(usize, usize) -> [f32; 3]) -> EncodedImage {
     let samples = (0..height).flat_map(|j| (0..width).map(move |i| (i, j))).flat_map(|(i, j)| pixel(i, j)).collect();
     EncodedImage::new(width, height, Channels::Rgb, Depth::Float, Samples::Float(samples)).unwrap()
+}
+
+/// The samples of an image of 8 bits.
+pub(crate) fn eight_bits(image: &EncodedImage) -> &[u8] {
+    match image.samples() {
+        Samples::U8(samples) => samples,
+        other => panic!("8 bits were expected, not {other:?}"),
+    }
 }

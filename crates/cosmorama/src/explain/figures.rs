@@ -1,5 +1,5 @@
 use super::drawing::{Anchor, Drawing};
-use super::theme::{HEADER, INK, LABEL, MARGIN, PAPER, TITLE};
+use super::theme::{INK, LABEL, MARGIN, PAPER, TITLE};
 use super::{footprints, ownership, unfolded};
 use crate::resample::Needs;
 use crate::world::{View, World};

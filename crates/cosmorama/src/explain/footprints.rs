@@ -12,8 +12,9 @@ use crate::projection::PlanePoint;
 use crate::resample::{Ellipse, owner};
 use crate::world::{PixelPoint, ScreenPixel, Source, View, World};
 
-/// Space between footprints on the sheet, where the target's centre looks.
-const SPACING: f64 = 9.0;
+/// Space between footprints on the sheet, where the target's centre looks, by the square root of the image's width
+/// there: 9 on a face, 18 on a lone image.
+const SPACING: f64 = 0.58;
 
 /// The narrowest footprint that is drawn: under it there is nothing but outlines.
 const NARROWEST: f64 = 0.75;
@@ -56,10 +57,12 @@ fn spacing(world: &World, target: &View, net: &Net) -> usize {
         let (index, _) = owner(world, footprint.direction)?;
         let source = &world.sources()[index];
         let (_, jacobian) = source.view.texel_footprint(&footprint)?;
-        Some((DMat2::from_diagonal(texel_size(source, net.images[index])) * jacobian).determinant().abs().sqrt())
+        let frame = net.images[index];
+        let pixel = (DMat2::from_diagonal(texel_size(source, frame)) * jacobian).determinant().abs().sqrt();
+        Some(SPACING * frame.width.sqrt() / pixel)
     });
     // Without a view at the centre: as many as look well in a frame of any size.
-    let every = on_sheet.map_or(longer as f64 / 40.0, |pixel| SPACING / pixel);
+    let every = on_sheet.unwrap_or(longer as f64 / 40.0);
     (every.round() as usize).clamp(1, (longer / 16).max(1))
 }
 

@@ -44,12 +44,12 @@ impl Ellipse {
         DVec2::new((q * self.c / determinant).sqrt(), (q * self.a / determinant).sqrt())
     }
 
-    /// Between which U the row at V lies within r² = `q`; `None` where it misses the ellipse.
-    pub fn row_range(&self, v: f64, q: f64) -> Option<(f64, f64)> {
+    /// The rows of r² < `q`, ready to be cut one after the other.
+    pub(super) fn rows(&self, q: f64) -> EllipseRows {
         // A U² + (B V) U + (C V² − q) = 0.
-        let middle = -self.b * v / (2.0 * self.a);
-        let half2 = middle * middle - (self.c * v * v - q) / self.a;
-        (half2 >= 0.0).then(|| (middle - half2.sqrt(), middle + half2.sqrt()))
+        let inverse = self.a.recip();
+        let slope = -0.5 * self.b * inverse;
+        EllipseRows { slope, widest: q * inverse, narrowing: self.c * inverse - slope * slope }
     }
 
     /// Semi-axes of r = 1 in texels, the major one first, and the major one's angle from the U axis, in radians.
@@ -59,5 +59,22 @@ impl Ellipse {
         // The major axis belongs to the smaller eigenvalue.
         let angle = 0.5 * (-self.b / 2.0).atan2(-half);
         ((mean - spread).recip().sqrt(), (mean + spread).recip().sqrt(), angle)
+    }
+}
+
+/// An ellipse cut along rows of texels.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct EllipseRows {
+    slope: f64,
+    widest: f64,
+    narrowing: f64,
+}
+
+impl EllipseRows {
+    /// Between which U the row at V lies inside; `None` where it misses the ellipse.
+    pub(super) fn range(&self, v: f64) -> Option<(f64, f64)> {
+        let half2 = self.widest - self.narrowing * v * v;
+        let (middle, half) = (self.slope * v, half2.max(0.0).sqrt());
+        (half2 >= 0.0).then_some((middle - half, middle + half))
     }
 }

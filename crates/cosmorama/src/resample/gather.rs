@@ -88,14 +88,23 @@ impl<'a> Gather<'a> {
         let to_screen = jacobian.inverse();
         let reach = ellipse.half_extent(self.table.radius_squared());
         let bounds = TexelBox::around(centre, reach);
+        let rows = ellipse.rows(self.table.radius_squared());
         let height = source.view.height() as i64;
         for j in bounds.top.max(0)..=bounds.bottom.min(height - 1) {
             let v = j as f64 + 0.5 - centre.y;
-            let Some((least, greatest)) = ellipse.row_range(v, self.table.radius_squared()) else { continue };
+            let Some((least, greatest)) = rows.range(v) else { continue };
             let row = source.offset + j as usize * source.view.width();
-            for run in runs(source, centre.x + least, centre.x + greatest) {
+            let (left, end) = (ceil(centre.x + least - 0.5), floor(centre.x + greatest - 0.5) + 1);
+            let mut gather = |run: Run| {
+                if run.length == 0 {
+                    return;
+                }
                 let offset = DVec2::new(run.unrolled as f64 + 0.5 - centre.x, v);
                 self.gather_run(row + run.column, run.length, offset, &ellipse, coarseness, to_screen);
+            };
+            match source.period {
+                None => gather(Run::within(left.max(0), end.min(source.view.width() as i64), 0)),
+                Some(period) => runs_around(source, period as i64, left, end).for_each(gather),
             }
         }
         let (width, whole_turn) = (source.view.width(), source.period.is_some_and(|p| p <= source.view.width()));
@@ -175,27 +184,19 @@ struct Run {
     length: usize,
 }
 
-/// The runs of texels of one row whose centres lie between two pixel coordinates: one, or where a panorama's kernel
-/// crosses its edge, one for each turn.
-fn runs(source: &Source, least: f64, greatest: f64) -> impl Iterator<Item = Run> + use<> {
-    let (left, end) = (ceil(least - 0.5), floor(greatest - 0.5) + 1);
-    let width = source.view.width() as i64;
-    let turn = source.period.map_or(width, |period| period as i64);
-    let (left, end, turns) = match source.period {
-        // Within one turn there is nothing to divide.
-        Some(_) if left >= 0 && end <= turn => (left, end, 0..1),
-        // Never the same texel twice.
-        Some(_) => {
-            let end = end.min(left + turn);
-            (left, end, left.div_euclid(turn)..(end - 1).div_euclid(turn) + 1)
-        }
-        None => (left.max(0), end.min(width), 0..1),
-    };
-    turns.filter_map(move |k| {
-        let (first, past) = (left.max(k * turn), end.min(k * turn + width.min(turn)));
-        let column = (first - k * turn) as usize;
-        (first < past).then(|| Run { column, unrolled: first, length: (past - first) as usize })
-    })
+impl Run {
+    /// Columns `left..end` of the image's turn that starts at `turn`; an empty run if there are none.
+    fn within(left: i64, end: i64, turn: i64) -> Self {
+        Self { column: (left - turn) as usize, unrolled: left, length: (end - left).max(0) as usize }
+    }
+}
+
+/// The runs of the columns `left..end` of a panorama: one, or where they cross its edge, one for each turn.
+fn runs_around(source: &Source, period: i64, left: i64, end: i64) -> impl Iterator<Item = Run> + use<> {
+    // Never the same texel twice.
+    let (end, width) = (end.min(left + period), (source.view.width() as i64).min(period));
+    let turns = if left < end { left.div_euclid(period)..(end - 1).div_euclid(period) + 1 } else { 0..0 };
+    turns.map(move |k| Run::within(left.max(k * period), end.min(k * period + width), k * period))
 }
 
 /// The largest integer that is not greater. Without SSE4.1 `f64::floor` is a call, and every row of texels needs it.

@@ -1,0 +1,118 @@
+//! What becomes of light: transfer functions, depth, channels, background and holes.
+
+mod bench;
+
+use bench::{Bench, eight_bits, flat, floats};
+use cosmorama::raster::{Channels, Depth, EncodedImage, Samples, Transfer};
+
+#[test]
+fn what_comes_in_goes_out() {
+    let bench = Bench::new();
+    let convert = |input: &str, output: &str, extra: &[&str]| {
+        let args =
+            ["convert", input, output, "--from", "equirect", "--to", "perspective:fov=60", "--size", "8x6", "-y"];
+        bench.succeed(&[&args[..], extra].concat());
+        bench.load(output)
+    };
+    // One colour stays that colour, whatever the transfer function.
+    for transfer in ["auto", "srgb", "linear", "bt1886", "pq", "hlg", "gamma:2.2"] {
+        bench.save("sky.png", &flat(64, 32, &[200, 100, 50]));
+        let out = convert("sky.png", "out.png", &["--transfer", transfer]);
+        assert!(eight_bits(&out).chunks(3).all(|pixel| pixel == [200, 100, 50]), "{transfer}: {out:?}");
+    }
+    // Grey stays grey, alpha stays, and its colour.
+    for pixel in [&[77u8][..], &[90, 128], &[10, 20, 30, 64]] {
+        bench.save("sky.png", &flat(64, 32, pixel));
+        let out = convert("sky.png", "out.png", &[]);
+        assert_eq!(out.channels().count(), pixel.len());
+        assert!(eight_bits(&out).chunks(pixel.len()).all(|found| found == pixel), "{out:?}");
+    }
+    // The depth stays where the format can hold it, and follows where it must.
+    let sky = EncodedImage::new(64, 32, Channels::Rgb, Depth::Sixteen, Samples::U16(vec![40000; 64 * 32 * 3])).unwrap();
+    bench.save("deep.png", &sky);
+    assert_eq!(convert("deep.png", "out.png", &[]).depth(), Depth::Sixteen);
+    assert_eq!(convert("deep.png", "out.jpg", &[]).depth(), Depth::Eight);
+    assert_eq!(convert("deep.png", "out.exr", &["--depth", "half"]).depth(), Depth::Half);
+    // Float files are linear: sRGB 40000 is this much light, and comes back as it went.
+    let light = convert("deep.png", "sky.exr", &[]).to_light(&Transfer::Linear);
+    assert!((f64::from(light.get(3, 3).0[0]) - Transfer::Srgb.decode(40000.0 / 65535.0, 0)).abs() < 1e-4);
+    bench.save("float.exr", &floats(64, 32, |_, _| [light.get(3, 3).0[0]; 3]));
+    let Samples::U16(back) = convert("float.exr", "out.png", &["--depth", "16"]).into_samples() else {
+        panic!("16 bits")
+    };
+    assert!(back.iter().all(|code| code.abs_diff(40000) <= 1), "{}", back[0]);
+}
+
+#[test]
+fn outside_the_lens() {
+    let bench = Bench::new();
+    bench.save("sky.png", &flat(64, 32, &[200, 100, 50]));
+    bench.save("veil.png", &flat(64, 32, &[200, 100, 50, 255]));
+    let corner = |input: &str, extra: &[&str]| {
+        let args = ["convert", input, "out.png", "--to", "fulldome", "--size", "32", "-y"];
+        bench.succeed(&[&args[..], extra].concat());
+        let out = bench.load("out.png");
+        let count = out.channels().count();
+        let samples = eight_bits(&out).to_vec();
+        let at = |i: usize, j: usize| samples[(j * 32 + i) * count..][..count].to_vec();
+        assert_eq!(at(16, 16)[..3], [200, 100, 50]);
+        at(0, 0)
+    };
+    assert_eq!(corner("sky.png", &[]), [0, 0, 0]);
+    assert_eq!(corner("veil.png", &[]), [0, 0, 0, 0]);
+    assert_eq!(corner("sky.png", &["--background", "#ff8000"]), [255, 128, 0]);
+    assert_eq!(corner("veil.png", &["--background", "#ff8000"]), [255, 128, 0, 255]);
+    assert_eq!(corner("sky.png", &["--background", "transparent"]), [0, 0, 0, 0]);
+}
+
+#[test]
+fn missing_directions_may_be_filled() {
+    let bench = Bench::new();
+    bench.save("ahead.png", &flat(32, 32, &[200, 100, 50]));
+    let at_the_side = |missing: &str| {
+        let args = [
+            "convert",
+            "ahead.png",
+            "out.png",
+            "--from",
+            "perspective:fov=90",
+            "--to",
+            "fisheye",
+            "--size",
+            "64",
+            "-y",
+        ];
+        bench.succeed(&[&args[..], &["--missing", missing]].concat());
+        let out = bench.load("out.png");
+        let count = out.channels().count();
+        let row = &eight_bits(&out)[32 * 64 * count..][..64 * count];
+        assert_eq!(row[32 * count..][..3], [200, 100, 50]);
+        row[4 * count..][..count].to_vec()
+    };
+    assert_eq!(at_the_side("#00ff00"), [0, 255, 0]);
+    assert_eq!(at_the_side("transparent"), [0, 0, 0, 0]);
+    assert_eq!(at_the_side("0.5,0.5,0.5"), [188, 188, 188]);
+}
+
+#[test]
+fn isolated_nans_are_closed_from_around() {
+    let bench = Bench::new();
+    let hole = |i: usize, j: usize| if (i, j) == (32, 16) { [f32::NAN; 3] } else { [0.25, 0.5, 2.0] };
+    bench.save("sky.exr", &floats(64, 32, hole));
+    bench.succeed(&[
+        "convert",
+        "sky.exr",
+        "out.exr",
+        "--to",
+        "perspective:fov=60",
+        "--size",
+        "24x24",
+        "--from",
+        "equirect",
+    ]);
+    let out = bench.load("out.exr").to_light(&Transfer::Linear);
+    let fine = |pixel: &cosmorama::raster::Rgba| {
+        pixel.0.iter().zip([0.25, 0.5, 2.0]).all(|(found, expected)| (found - expected).abs() < 1e-5)
+    };
+    assert!(out.pixels().iter().all(fine));
+}
