@@ -104,6 +104,7 @@ fn explain_draws() {
     bench.faces("face_", 32);
     std::fs::remove_file(bench.path("face_right.png")).unwrap();
     let text = bench.succeed(&["explain", "face_{face}.png", "--to", "omnimax", "--output", "diagrams"]);
+    assert!(text.contains("missing  right: no face_right.png"), "{text}");
     for name in ["unfolded", "ownership", "footprints"] {
         assert!(text.contains(&format!("diagrams/{name}.svg")));
         assert!(bench.bytes(&format!("diagrams/{name}.svg")).starts_with(b"<svg"), "{name}");

@@ -3,6 +3,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Result, bail};
 use cosmorama_io::{Limits, pending::Pending, read};
+use rayon::prelude::*;
 
 use super::{Files, Input, Target, TargetView};
 use crate::args::ConvertArgs;
@@ -30,34 +31,32 @@ impl Outputs {
         check_frame_markers(args, input, target)?;
         let inputs: HashSet<PathBuf> =
             input.frames.iter().flat_map(|frame| input.paths(*frame)).map(|path| real_path(&path)).collect();
-        let mut outputs = Self { frames: Vec::new(), skipped: 0 };
-        let mut existing = Vec::new();
+        let mut frames = Vec::new();
         let mut folders = HashSet::new();
         for &frame in &input.frames {
-            let mut files = Vec::new();
-            for (index, view) in target.views.iter().enumerate() {
-                let path = view.files.path(frame);
-                check_apart(&path, &inputs)?;
+            let path = |view: &TargetView| view.files.path(frame);
+            let files: Vec<(usize, PathBuf)> = target.views.iter().map(path).enumerate().collect();
+            for (_, path) in &files {
+                check_apart(path, &inputs)?;
                 if folders.insert(path.parent().map(Path::to_owned)) {
                     // A folder that is missing or read-only is found out before hours of work, not after.
-                    Pending::create(&path)?;
-                }
-                match path.try_exists().unwrap_or(false) {
-                    true if args.resume && is_complete(&path, view) => outputs.skipped += 1,
-                    exists => {
-                        if exists && !args.overwrite && !args.resume {
-                            existing.push(path.clone());
-                        }
-                        files.push((index, path));
-                    }
+                    Pending::create(path)?;
                 }
             }
-            if !files.is_empty() {
-                outputs.frames.push(FrameOutputs { frame, files });
-            }
+            frames.push(FrameOutputs { frame, files });
         }
-        refuse_existing(&existing)?;
-        Ok(outputs)
+        let all: usize = frames.iter().map(|frame| frame.files.len()).sum();
+        if args.resume {
+            frames.par_iter_mut().for_each(|frame| {
+                frame.files.retain(|(index, path)| !is_complete(path, &target.views[*index]));
+            });
+        } else if !args.overwrite {
+            let files = frames.iter().flat_map(|frame| frame.files.iter().map(|(_, path)| path));
+            refuse_existing(&files.filter(|path| path.exists()).collect::<Vec<_>>())?;
+        }
+        frames.retain(|frame| !frame.files.is_empty());
+        let left: usize = frames.iter().map(|frame| frame.files.len()).sum();
+        Ok(Self { frames, skipped: all - left })
     }
 }
 
@@ -105,7 +104,7 @@ fn is_complete(path: &Path, target: &TargetView) -> bool {
     read(path, &Limits::default()).is_ok_and(|file| (file.image.width(), file.image.height()) == size)
 }
 
-fn refuse_existing(existing: &[PathBuf]) -> Result<()> {
+fn refuse_existing(existing: &[&PathBuf]) -> Result<()> {
     const SHOWN: usize = 5;
     let Some(first) = existing.first() else { return Ok(()) };
     if existing.len() == 1 {
