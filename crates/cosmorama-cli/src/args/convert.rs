@@ -91,7 +91,7 @@ pub(crate) struct GeometryArgs {
     #[arg(long, value_name = "NAME[:k=v]", default_value = "adaptive", help_heading = "Filter")]
     pub(crate) kernel: KernelArg,
     /// Clamp to the texels under the pixel
-    #[arg(long, value_name = "on|off", default_value = "on", value_parser = on_or_off, help_heading = "Filter")]
+    #[arg(long, value_name = "on|off", default_value = "on", action = clap::ArgAction::Set, value_parser = on_or_off, help_heading = "Filter")]
     pub(crate) anti_ringing: bool,
 }
 

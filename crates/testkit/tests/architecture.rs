@@ -1,0 +1,323 @@
+//! Dependencies point down only: reads every source file and manifest, and fails on an upward use.
+//!
+//! The two tables below are the building's plan; a new room or crate gets its line there (ARCHITECTURE.md draws it).
+
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+
+/// The rooms of the library, lowest floor first, and the rooms that each may use.
+const ROOMS: [(&str, &[&str]); 7] = [
+    ("sphere", &[]),
+    ("projection", &["sphere"]),
+    ("raster", &[]),
+    ("world", &["sphere", "projection", "raster"]),
+    ("resample", &["sphere", "projection", "raster", "world"]),
+    ("compare", &["raster"]),
+    ("explain", &["sphere", "projection", "raster", "world", "resample"]),
+];
+
+/// A crate, our own crates that it may depend on, and the library's rooms that it may use.
+struct CratePlan {
+    name: &'static str,
+    crates: &'static [&'static str],
+    rooms: &'static [&'static str],
+    /// Parts of the standard library that it must not use.
+    banned_std: &'static [&'static str],
+    /// Crates, functions and macros that it must not use.
+    banned: &'static [&'static str],
+    reason: &'static str,
+}
+
+const CRATES: [CratePlan; 5] = [
+    CratePlan {
+        name: "cosmorama",
+        crates: &[],
+        rooms: &[],
+        banned_std: &["fs", "io", "process", "net", "env"],
+        banned: &["println", "eprintln"],
+        reason: "the library touches neither files nor the terminal",
+    },
+    CratePlan {
+        name: "cosmorama-builtin",
+        crates: &["cosmorama"],
+        rooms: &["sphere", "raster"],
+        banned_std: &["fs", "io", "process", "net", "env"],
+        banned: &["println", "eprintln"],
+        reason: "worlds by formula touch neither files nor the terminal",
+    },
+    CratePlan {
+        name: "cosmorama-io",
+        crates: &["cosmorama"],
+        rooms: &["sphere", "raster", "world"],
+        banned_std: &["net", "process"],
+        banned: &["glam", "println", "eprintln"],
+        reason: "files know no geometry and no terminal",
+    },
+    CratePlan {
+        name: "cosmorama-cli",
+        crates: &["cosmorama", "cosmorama-builtin", "cosmorama-io"],
+        rooms: &["sphere", "projection", "raster", "world", "resample", "compare", "explain"],
+        banned_std: &["f32", "f64"],
+        banned: &[
+            "glam",
+            "sin",
+            "cos",
+            "tan",
+            "sin_cos",
+            "asin",
+            "acos",
+            "atan",
+            "atan2",
+            "sqrt",
+            "hypot",
+            "powi",
+            "powf",
+            "exp",
+            "to_radians",
+            "to_degrees",
+        ],
+        reason: "the command line holds no mathematics",
+    },
+    CratePlan {
+        name: "testkit",
+        crates: &["cosmorama", "cosmorama-builtin", "cosmorama-io"],
+        rooms: &["sphere", "projection", "raster", "world", "resample", "compare", "explain"],
+        banned_std: &[],
+        banned: &[],
+        reason: "",
+    },
+];
+
+fn crates_folder() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap().to_owned()
+}
+
+#[test]
+fn no_room_uses_a_higher_one() {
+    let source = crates_folder().join("cosmorama/src");
+    let mut found = Vec::new();
+    for file in rust_files(&source) {
+        let inside = file.strip_prefix(&source).unwrap();
+        let room = inside.iter().next().unwrap().to_str().unwrap().trim_end_matches(".rs");
+        if room == "lib" {
+            continue;
+        }
+        let Some((_, allowed)) = ROOMS.iter().find(|(name, _)| *name == room) else {
+            found.push(format!("{}: the room `{room}` has no floor in ROOMS", file.display()));
+            continue;
+        };
+        let code = code_of(&std::fs::read_to_string(&file).unwrap());
+        for used in rooms_used(&code, "crate", module_depth(inside)) {
+            if used != room && !allowed.contains(&used.as_str()) {
+                found.push(format!("{}: {room} must not use {used}", file.display()));
+            }
+        }
+    }
+    assert!(found.is_empty(), "{}", found.join("\n"));
+}
+
+#[test]
+fn no_crate_uses_what_it_must_not() {
+    let mut found = Vec::new();
+    for plan in &CRATES {
+        for file in rust_files(&crates_folder().join(plan.name).join("src")) {
+            let code = code_of(&std::fs::read_to_string(&file).unwrap());
+            for used in rooms_used(&code, "cosmorama", usize::MAX) {
+                if !plan.rooms.contains(&used.as_str()) {
+                    found.push(format!("{}: {} must not use cosmorama::{used}", file.display(), plan.name));
+                }
+            }
+            for used in names_under(&code, "std::").iter().filter(|used| plan.banned_std.contains(&used.as_str())) {
+                found.push(format!("{}: `std::{used}`: {}", file.display(), plan.reason));
+            }
+            for word in paths_and_calls(&code).filter(|word| plan.banned.contains(word)) {
+                found.push(format!("{}: `{word}`: {}", file.display(), plan.reason));
+            }
+        }
+    }
+    assert!(found.is_empty(), "{}", found.join("\n"));
+}
+
+#[test]
+fn no_crate_depends_on_a_higher_one() {
+    let mut found = Vec::new();
+    for folder in std::fs::read_dir(crates_folder()).unwrap().map(|entry| entry.unwrap().path()) {
+        let name = folder.file_name().unwrap().to_str().unwrap();
+        let Some(plan) = CRATES.iter().find(|plan| plan.name == name) else {
+            found.push(format!("the crate `{name}` has no line in CRATES"));
+            continue;
+        };
+        let manifest = std::fs::read_to_string(folder.join("Cargo.toml")).unwrap();
+        for needed in dependencies(&manifest) {
+            let is_ours = CRATES.iter().any(|plan| plan.name == needed);
+            if is_ours && !plan.crates.contains(&needed.as_str()) {
+                found.push(format!("{name} must not depend on {needed}"));
+            }
+            if plan.banned.contains(&needed.as_str()) {
+                found.push(format!("{name} must not depend on {needed}: {}", plan.reason));
+            }
+        }
+    }
+    assert!(found.is_empty(), "{}", found.join("\n"));
+}
+
+/// Every `.rs` file under a folder.
+fn rust_files(folder: &Path) -> Vec<PathBuf> {
+    let mut files = Vec::new();
+    for path in std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()) {
+        if path.is_dir() {
+            files.extend(rust_files(&path));
+        } else if path.extension().is_some_and(|extension| extension == "rs") {
+            files.push(path);
+        }
+    }
+    files
+}
+
+/// Modules between the crate's root and a file: `super` said so often is the root.
+fn module_depth(inside: &Path) -> usize {
+    inside.iter().count() - usize::from(inside.ends_with("mod.rs"))
+}
+
+/// The source without comments, which may point up, and without the text of strings.
+fn code_of(source: &str) -> String {
+    let mut code = String::with_capacity(source.len());
+    for line in source.lines() {
+        let mut in_string = false;
+        let mut characters = line.chars().peekable();
+        while let Some(character) = characters.next() {
+            match character {
+                '\\' if in_string => drop(characters.next()),
+                '"' => in_string = !in_string,
+                '/' if !in_string && characters.peek() == Some(&'/') => break,
+                _ if in_string => {}
+                _ => code.push(character),
+            }
+        }
+        code.push('\n');
+    }
+    code
+}
+
+/// The rooms that paths from `root` (`crate`, `cosmorama`) and from `depth` times `super` lead to.
+fn rooms_used(code: &str, root: &str, depth: usize) -> BTreeSet<String> {
+    let mut names = names_under(code, &format!("{root}::"));
+    if depth < 16 {
+        names.extend(names_under(code, &"super::".repeat(depth)));
+    }
+    names.retain(|name| ROOMS.iter().any(|(room, _)| room == name));
+    names
+}
+
+/// The names that paths with this beginning go on with.
+fn names_under(code: &str, root: &str) -> BTreeSet<String> {
+    let is_whole = |start: usize| {
+        let before = code[..start].chars().next_back();
+        !before.is_some_and(|before| before.is_alphanumeric() || before == '_' || before == ':')
+    };
+    let starts = code.match_indices(root).map(|(start, _)| start).filter(|&start| is_whole(start));
+    starts.flat_map(|start| first_names(&code[start + root.len()..])).collect()
+}
+
+/// The names that a path goes on with: one, or those of a group in braces.
+fn first_names(path: &str) -> Vec<String> {
+    let word = |text: &str| text.chars().take_while(|c| c.is_alphanumeric() || *c == '_').collect::<String>();
+    let Some(group) = path.strip_prefix('{') else { return vec![word(path)] };
+    let mut names = vec![word(group.trim_start())];
+    let mut nested = 0;
+    for (position, character) in group.char_indices() {
+        match character {
+            '{' => nested += 1,
+            '}' if nested == 0 => break,
+            '}' => nested -= 1,
+            ',' if nested == 0 => names.push(word(group[position + 1..].trim_start())),
+            _ => {}
+        }
+    }
+    names
+}
+
+/// The words that stand in a path, are called, or are macros.
+fn paths_and_calls(code: &str) -> impl Iterator<Item = &str> {
+    let is_word = |c: char| c.is_alphanumeric() || c == '_';
+    let starts = code
+        .char_indices()
+        .filter(move |&(start, c)| is_word(c) && !code[..start].chars().next_back().is_some_and(is_word));
+    starts.filter_map(move |(start, _)| {
+        let word = code[start..].split(|c| !is_word(c)).next().unwrap_or_default();
+        let (before, after) = (&code[..start], &code[start + word.len()..]);
+        let in_path = before.ends_with("::") || after.starts_with("::");
+        let called = after.starts_with('!') || (before.ends_with('.') && after.starts_with('('));
+        (in_path || called).then_some(word)
+    })
+}
+
+/// The names under `[dependencies]`; those for tests and builds alone may come from anywhere.
+fn dependencies(manifest: &str) -> Vec<String> {
+    let mut names = Vec::new();
+    let mut counts = false;
+    for line in manifest.lines().map(str::trim) {
+        if line.starts_with('[') {
+            counts = line == "[dependencies]";
+        } else if counts && !line.is_empty() && !line.starts_with('#') {
+            names.push(line.split(['.', '=', ' ']).next().unwrap_or_default().to_owned());
+        }
+    }
+    names
+}
+
+/// The rules themselves, on made-up lines: that they find what they are there for.
+mod the_rules {
+    use super::*;
+
+    fn used(source: &str, depth: usize) -> Vec<String> {
+        rooms_used(&code_of(source), "crate", depth).into_iter().collect()
+    }
+
+    #[test]
+    fn find_an_upward_use() {
+        assert_eq!(used("use crate::resample::Filter;", 2), ["resample"]);
+        assert_eq!(
+            used("use crate::{raster::Rgba, world::{View, World}, resample};", 2),
+            ["raster", "resample", "world"]
+        );
+        assert_eq!(used("fn f() { crate::world::World::new() }", 2), ["world"]);
+        assert_eq!(used("use super::super::world::View;", 2), ["world"]);
+        assert_eq!(used("use super::world::View;", 1), ["world"]);
+    }
+
+    #[test]
+    fn let_a_room_use_its_own_and_comments_point_up() {
+        assert_eq!(used("use super::world_map::View;", 2), Vec::<String>::new());
+        assert_eq!(
+            used("//! [`crate::world::View`] is above; \n/// crate::resample too\nlet a = \"crate::explain\";", 1),
+            [""; 0]
+        );
+        assert_eq!(used("use other_crate::world::View;", 2), Vec::<String>::new());
+    }
+
+    #[test]
+    fn find_mathematics_and_files() {
+        let words = |code| paths_and_calls(code).collect::<Vec<_>>();
+        assert_eq!(words("let y = x.sin_cos();"), ["sin_cos"]);
+        assert_eq!(words("use glam::DVec3;"), ["glam", "DVec3"]);
+        assert_eq!(words("let sin = exp;"), [""; 0]);
+        assert_eq!(words("println!(a)"), ["println"]);
+        let files = names_under("use std::{fs::File, path::Path};", "std::");
+        assert!(files.contains("fs") && files.contains("path"));
+    }
+
+    #[test]
+    fn find_a_dependency() {
+        let manifest = "[package]\nname = \"a\"\n[dependencies]\n# one\ncosmorama-io.workspace = true\nhalf = \"2\"\n\
+                        [dev-dependencies]\ntestkit.workspace = true\n";
+        assert_eq!(dependencies(manifest), ["cosmorama-io", "half"]);
+    }
+
+    #[test]
+    fn count_the_floors_of_a_file() {
+        for (path, depth) in [("world/mod.rs", 1), ("world/view.rs", 2), ("projection/azimuthal/mod.rs", 2)] {
+            assert_eq!(module_depth(Path::new(path)), depth, "{path}");
+        }
+    }
+}

@@ -1,0 +1,108 @@
+//! Golden pictures: the demo world by the reference filter alone, small, in crates/testkit/goldens.
+//!
+//! The reference must still give them exactly, and EWA must stay as near to them as it is. To make them anew after a
+//! change of the demo world, of a projection or of the default kernel, and look at what changed before committing:
+//!
+//! `UPDATE_GOLDENS=1 cargo test -p testkit --test goldens`
+
+use std::path::{Path, PathBuf};
+
+use cosmorama::compare::{Mask, compare};
+use cosmorama::raster::{Channels, Depth, EncodedImage, Image, Rgba, Transfer};
+use cosmorama::resample::{Filter, FilterKind, Resampler};
+use cosmorama::sphere::CubeFace;
+use cosmorama::world::{PixelPoint, View, World};
+use cosmorama_builtin::{DemoWorld, Supersampling, render};
+use cosmorama_io::{Limits, Metadata, WriteOptions, read, write};
+use testkit::{cube, cube_face, equirect, fisheye, omnimax, perspective};
+
+/// Edge of the cube faces that the pictures are made of.
+const FACE: usize = 128;
+
+const REFERENCE: Filter = Filter { kind: FilterKind::Reference { samples: 8 }, ..Filter::DEFAULT };
+
+/// One step of eight bits: another machine's rounding, nothing more.
+const ROUNDING: f32 = 1.01 / 255.0;
+
+/// A picture's name, its view, and how near to it EWA is: sRGB-encoded PSNR in dB.
+const GOLDENS: [(&str, fn() -> View, f64); 6] = [
+    ("omnimax", || omnimax(112, 82), 40.9),
+    ("fisheye", || fisheye(80, 220.0), 45.7),
+    ("equirect", || equirect(128), 42.6),
+    ("perspective", || perspective(96, 72, 60.0, -37.0, 12.0, -9.0), 35.0),
+    ("face", || cube_face(CubeFace::Front, 80, 80), 37.2),
+    // From a panorama.
+    ("corner", || perspective(64, 64, 50.0, 45.0, 35.0, 20.0), 36.5),
+];
+
+#[test]
+fn reference_and_ewa_are_as_the_goldens() {
+    let (faces, panorama) = (cube(&CubeFace::ALL, FACE, FACE), one(equirect(4 * FACE)));
+    let (face_light, panorama_light) = (light_of(&faces), light_of(&panorama));
+    for (name, view, least_psnr) in GOLDENS {
+        let from_panorama = matches!(name, "face" | "corner");
+        let (world, light) = if from_panorama { (&panorama, &panorama_light) } else { (&faces, &face_light) };
+        let target = view();
+        let by = |filter| Resampler { world, target: &target, filter }.render(light);
+        let reference = by(REFERENCE);
+        let path = golden(name);
+        if std::env::var_os("UPDATE_GOLDENS").is_some() {
+            save(&path, &reference);
+        }
+        let kept = read(&path, &Limits::default()).unwrap().image;
+        check_codes(name, &kept.to_light(&Transfer::Linear), &encoded(&reference).to_light(&Transfer::Linear));
+
+        let (ewa, kept) = (by(Filter::DEFAULT), kept.to_light(&Transfer::Srgb));
+        let mask = Mask::opaque(&ewa, &kept).unwrap();
+        let psnr = compare(&ewa, &kept, &mask).unwrap().srgb.psnr;
+        println!("{name}: EWA is {psnr:.2} dB from the reference");
+        if psnr < least_psnr {
+            panic!(
+                "{name}: EWA is {psnr:.2} dB from the reference, at least {least_psnr} before: {}",
+                refused(name, &ewa)
+            );
+        }
+    }
+}
+
+fn one(view: View) -> World {
+    World::new([("view".to_owned(), view)]).unwrap()
+}
+
+/// The demo world's light by texel, each the average over it.
+fn light_of(world: &World) -> Vec<Rgba> {
+    let views = world.sources().iter().map(|source| {
+        let view = source.view;
+        let direction = move |x: f64, y: f64| view.direction(PixelPoint::new(x, y));
+        render(&DemoWorld, view.width(), view.height(), direction, Supersampling::default()).into_pixels()
+    });
+    views.flatten().collect()
+}
+
+/// Fails where a code differs by more than rounding, and keeps what was found.
+fn check_codes(name: &str, kept: &Image<Rgba>, found: &Image<Rgba>) {
+    let difference = |(a, b): (&Rgba, &Rgba)| (0..4).map(|c| (a.0[c] - b.0[c]).abs()).fold(0.0, f32::max);
+    let largest = kept.pixels().iter().zip(found.pixels()).map(difference).fold(0.0, f32::max);
+    if kept.width() != found.width() || largest > ROUNDING {
+        panic!("{name}: the reference is {:.1} codes from its golden: {}", largest * 255.0, refused(name, found));
+    }
+}
+
+fn golden(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("goldens").join(name).with_extension("png")
+}
+
+fn refused(name: &str, image: &Image<Rgba>) -> String {
+    let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name).with_extension("png");
+    save(&path, image);
+    path.display().to_string()
+}
+
+fn encoded(light: &Image<Rgba>) -> EncodedImage {
+    EncodedImage::encode(light, Channels::Rgba, Depth::Eight, &Transfer::Srgb)
+}
+
+fn save(path: &Path, light: &Image<Rgba>) {
+    let metadata = Metadata { transfer: Some(Transfer::Srgb), ..Metadata::default() };
+    write(path, &encoded(light), &metadata, &WriteOptions::default()).unwrap();
+}
