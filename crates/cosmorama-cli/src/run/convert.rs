@@ -75,7 +75,7 @@ impl Run<'_> {
                 warn(&warning);
                 self.warnings.push(warning);
             }
-            match stages.time(Stage::Filter, || frame.render(engine, light)) {
+            match frame.render(engine, light, stages) {
                 Ok(rendered) => images.push((frame, rendered)),
                 Err(error) => {
                     unfinished = Some(error);
@@ -92,8 +92,8 @@ impl Run<'_> {
 }
 
 impl FrameOutputs {
-    fn render(&self, engine: &Engine<'_>, light: &FrameLight) -> Result<Vec<Image<Rgba>>> {
-        self.files.iter().map(|(index, _)| engine.render(*index, light)).collect()
+    fn render(&self, engine: &Engine<'_>, light: &FrameLight, stages: &mut Stages) -> Result<Vec<Image<Rgba>>> {
+        self.files.iter().map(|(index, _)| engine.render(*index, light, stages)).collect()
     }
 
     fn save(&self, engine: &Engine<'_>, images: &[Image<Rgba>], quality: u8) -> Result<()> {

@@ -8,6 +8,7 @@ use cosmorama::world::View;
 use cosmorama_io::{Header, Limits, WriteOptions, read, write};
 use rayon::prelude::*;
 
+use super::stages::{Stage, Stages};
 use crate::job::{ConvertJob, Coverage, Files, InputView};
 
 /// Makes the outputs of a job, frame by frame.
@@ -109,18 +110,39 @@ impl<'a> Engine<'a> {
     }
 
     /// Makes an output: filtered light, complete with what lies outside.
-    pub(super) fn render(&self, index: usize, light: &FrameLight) -> Result<Image<Rgba>> {
-        let target = &self.job.target.views[index];
+    pub(super) fn render(&self, index: usize, light: &FrameLight, stages: &mut Stages) -> Result<Image<Rgba>> {
         let mut image = match &self.plans[index] {
-            Some(plan) => plan.apply(&light.texels),
-            None => self.resampler(&target.view).render(&light.texels),
+            Some(plan) => stages.time(Stage::Filter, || plan.apply(&light.texels)),
+            None => self.render_in_strips(&self.job.target.views[index].view, light, stages),
         };
-        self.close_holes(index, light, &mut image)?;
-        if let Coverage::Fill(colour) = self.job.coverage {
-            self.mask(index).fill_unseen(&mut image, colour);
-        }
-        self.lay_background(index, &mut image);
+        stages.time(Stage::Filter, || self.complete(index, light, &mut image))?;
         Ok(image)
+    }
+
+    /// Geometry and light strip by strip: little memory, and the cost of each is known.
+    fn render_in_strips(&self, target: &View, light: &FrameLight, stages: &mut Stages) -> Image<Rgba> {
+        const ROWS: usize = 256;
+        let resampler = self.resampler(target);
+        let mut image = Image::filled(target.width(), target.height(), Rgba::TRANSPARENT);
+        let width = target.width();
+        for top in (0..target.height()).step_by(ROWS) {
+            let rows = top..target.height().min(top + ROWS);
+            let Some(plan) = stages.time(Stage::Plan, || resampler.plan_rows(rows.clone())) else {
+                return stages.time(Stage::Filter, || resampler.render(&light.texels));
+            };
+            let pixels = &mut image.pixels_mut()[rows.start * width..rows.end * width];
+            stages.time(Stage::Filter, || plan.apply_to(&light.texels, pixels));
+        }
+        image
+    }
+
+    fn complete(&self, index: usize, light: &FrameLight, image: &mut Image<Rgba>) -> Result<()> {
+        self.close_holes(index, light, image)?;
+        if let Coverage::Fill(colour) = self.job.coverage {
+            self.mask(index).fill_unseen(image, colour);
+        }
+        self.lay_background(index, image);
+        Ok(())
     }
 
     fn mask(&self, index: usize) -> &ScreenMask {

@@ -1,3 +1,5 @@
+use std::ops::Range;
+
 use rayon::prelude::*;
 
 use super::gather::Gather;
@@ -64,7 +66,8 @@ impl Resampler<'_> {
         let width = self.target.width().max(1);
         let table = KernelTable::new(&self.filter.kernel);
         image.pixels_mut().par_chunks_mut(width * BAND).enumerate().for_each(|(index, rows)| {
-            self.for_each_pixel(&table, index, |position, screen, taps| {
+            let top = index * BAND;
+            self.for_each_pixel(&table, top..top + rows.len() / width, |position, screen, taps| {
                 let colour = average(taps.as_slice(), taps.under(), texels, self.filter.anti_ringing);
                 rows[position] = colour * screen.coverage as f32;
             });
@@ -74,13 +77,19 @@ impl Resampler<'_> {
 
     /// The geometry, for any number of frames; `None` for the reference filter, which has too many samples to store.
     pub fn plan(&self) -> Option<Plan> {
+        self.plan_rows(0..self.target.height())
+    }
+
+    /// The geometry of some rows: a still can be made strip by strip, in little memory.
+    pub fn plan_rows(&self, rows: Range<usize>) -> Option<Plan> {
         if matches!(self.filter.kind, FilterKind::Reference { .. }) {
             return None;
         }
-        let (width, height) = (self.target.width(), self.target.height());
         let table = KernelTable::new(&self.filter.kernel);
-        let bands = (0..height.div_ceil(BAND)).into_par_iter().map(|index| self.plan_band(&table, index)).collect();
-        Some(Plan { width, height, anti_ringing: self.filter.anti_ringing, bands })
+        let tops: Vec<usize> = rows.clone().step_by(BAND).collect();
+        let band = |&top: &usize| self.plan_band(&table, top..rows.end.min(top + BAND));
+        let bands = tops.par_iter().map(band).collect();
+        Some(Plan { width: self.target.width(), height: rows.len(), anti_ringing: self.filter.anti_ringing, bands })
     }
 
     /// About how many bytes [`Resampler::plan`] would hold: found from every sixteenth band of rows.
@@ -94,14 +103,15 @@ impl Resampler<'_> {
         // From the middle of the first stride, so that a low image is not judged by its first rows.
         let first = STRIDE.min(bands) / 2;
         let sampled: Vec<usize> = (first..bands).step_by(STRIDE).collect();
-        let bytes: usize = sampled.par_iter().map(|&index| self.plan_band(&table, index).bytes()).sum();
+        let rows = |band: usize| band * BAND..self.target.height().min((band + 1) * BAND);
+        let bytes: usize = sampled.par_iter().map(|&band| self.plan_band(&table, rows(band)).bytes()).sum();
         bytes * bands / sampled.len().max(1)
     }
 
-    fn plan_band(&self, table: &KernelTable, index: usize) -> Band {
-        let rows = BAND.min(self.target.height() - index * BAND);
-        let mut band = Band { pixels: vec![PlannedPixel::default(); rows * self.target.width()], taps: Vec::new() };
-        self.for_each_pixel(table, index, |position, screen, taps| {
+    fn plan_band(&self, table: &KernelTable, rows: Range<usize>) -> Band {
+        let pixels = vec![PlannedPixel::default(); rows.len() * self.target.width()];
+        let mut band = Band { pixels, taps: Vec::new() };
+        self.for_each_pixel(table, rows, |position, screen, taps| {
             band.taps.extend_from_slice(taps.as_slice());
             band.pixels[position] = PlannedPixel {
                 taps: taps.as_slice().len() as u32,
@@ -113,12 +123,17 @@ impl Resampler<'_> {
         band
     }
 
-    /// Calls `visit` with the position within the band, the pixel and its taps, for every pixel that shows something.
-    fn for_each_pixel(&self, table: &KernelTable, band: usize, mut visit: impl FnMut(usize, &ScreenPixel, &Taps)) {
+    /// Calls `visit` with the position within the rows, the pixel and its taps, for every pixel that shows something.
+    fn for_each_pixel(
+        &self,
+        table: &KernelTable,
+        rows: Range<usize>,
+        mut visit: impl FnMut(usize, &ScreenPixel, &Taps),
+    ) {
         let mut gather = Gather::new(self.world, table);
         let mut taps = Taps::default();
-        let (width, top) = (self.target.width(), band * BAND);
-        for j in top..self.target.height().min(top + BAND) {
+        let (width, top) = (self.target.width(), rows.start);
+        for j in rows {
             for i in 0..width {
                 let Some(screen) = self.target.screen_pixel(i, j) else { continue };
                 self.fill(&mut gather, &screen, &mut taps);
@@ -145,10 +160,20 @@ impl Resampler<'_> {
 }
 
 impl Plan {
-    /// One frame. `texels` is the world's buffer of light.
+    /// One frame, or as many of its rows as were planned. `texels` is the world's buffer of light.
     pub fn apply(&self, texels: &[Rgba]) -> Image<Rgba> {
         let mut image = Image::filled(self.width, self.height, Rgba::TRANSPARENT);
-        let rows = image.pixels_mut().par_chunks_mut(self.width.max(1) * BAND);
+        self.apply_to(texels, image.pixels_mut());
+        image
+    }
+
+    /// The same, into the place of the rows that were planned.
+    ///
+    /// # Panics
+    /// If `pixels` are not as many as those rows have.
+    pub fn apply_to(&self, texels: &[Rgba], pixels: &mut [Rgba]) {
+        assert_eq!(pixels.len(), self.width * self.height, "the rows that were planned");
+        let rows = pixels.par_chunks_mut(self.width.max(1) * BAND);
         rows.zip(&self.bands).for_each(|(rows, band)| {
             let mut rest = band.taps.as_slice();
             for (pixel, planned) in rows.iter_mut().zip(&band.pixels) {
@@ -157,7 +182,6 @@ impl Plan {
                 *pixel = average(taps, planned.under as usize, texels, self.anti_ringing) * planned.coverage;
             }
         });
-        image
     }
 
     /// Bytes that a plan of so many pixels and taps holds.
