@@ -39,6 +39,11 @@ pub(super) fn run(args: &ExplainArgs) -> Result<ExitCode> {
         }
         reports.push(to_json(&report, &input, &files));
     }
+    if args.input.is_some() {
+        for view in input.views.iter().filter(|view| view.window.is_none()) {
+            text += &format!("missing  {}: no {}\n", view.name, view.files.path(None).display());
+        }
+    }
     if args.json {
         print(&(serde_json::to_string_pretty(&reports)? + "\n"))?
     } else {

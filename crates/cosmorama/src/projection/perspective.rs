@@ -29,7 +29,8 @@ impl Projection for Perspective {
         // d = v/|v| with v = (x, y, −1), so ∂d/∂x = (e_x − d (d·e_x))/|v|.
         let vector = DVec3::new(point.x, point.y, -1.0);
         let inverse_length = vector.length_recip();
-        if !(inverse_length > 0.0) {
+        // Beyond 1e154 the length overflows.
+        if inverse_length.is_nan() || inverse_length <= 0.0 {
             return None;
         }
         let unit = vector * inverse_length;
@@ -65,7 +66,7 @@ impl Projection for Perspective {
 /// touch the cap stand at asin(sin ρ / m) to both sides of its centre, m being the centre's distance from that axis.
 fn tangent_range(across: f64, depth: f64, radius: Angle) -> (f64, f64) {
     let sine = radius.radians().sin() / across.hypot(depth);
-    if !(sine < 1.0) || radius.degrees() >= 90.0 {
+    if sine.is_nan() || sine >= 1.0 || radius.degrees() >= 90.0 {
         return (f64::NEG_INFINITY, f64::INFINITY);
     }
     let (angle, half_width) = (across.atan2(depth), sine.asin());

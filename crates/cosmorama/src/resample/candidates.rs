@@ -67,7 +67,7 @@ impl Correction {
         let xy = f64::from(xy) - f64::from(window_p[0]) * mean.y;
         let yy = f64::from(yy) - f64::from(window_p[1]) * mean.y;
         let determinant = xx * yy - xy * xy;
-        if !(determinant > 1e-6 * xx * yy) {
+        if determinant.is_nan() || determinant <= 1e-6 * xx * yy {
             // All in one line: nothing to move the centroid with.
             return Self::default();
         }

@@ -141,19 +141,22 @@ impl<'a> Gather<'a> {
         let here = footprint.direction.vector();
         let (right, up) = here.any_orthonormal_pair();
         let in_tangent_plane = |vector: glam::DVec3| DVec2::new(right.dot(vector), up.dot(vector)) / source.texel_pitch;
-        let jacobian =
+        let tangent =
             DMat2::from_cols(in_tangent_plane(footprint.jacobian.dx), in_tangent_plane(footprint.jacobian.dy));
+        let to_screen = tangent.inverse();
+        // The ellipse that the texels have here, as far as they have one: at the very pole, texels as large as any.
+        let jacobian = source.view.texel_footprint(footprint).map_or(tangent, |(_, jacobian)| jacobian);
+        let to_texels = jacobian * to_screen;
         let kernel = self.table.kernel();
         let coarseness = kernel.coarseness(jacobian.determinant().abs().sqrt()) as f32;
         let ellipse = Ellipse::new(jacobian * kernel.scale, kernel.floor);
-        let to_screen = jacobian.inverse();
         for (i, j) in texels_within(source, footprint.direction, radius) {
             let Some(texel) = source.view.direction(PixelPoint::centre(i, j)) else { continue };
             if texel.dot(footprint.direction) <= 0.0 {
                 continue;
             }
             let offset = in_tangent_plane(texel.vector() - here);
-            let q = ellipse.distance_squared(offset);
+            let q = ellipse.distance_squared(to_texels * offset);
             let index = source.offset + j * source.view.width() + i;
             let solid_angle = self.world.solid_angles()[index];
             if q < self.table.radius_squared() && solid_angle > 0.0 {

@@ -87,7 +87,7 @@ impl<'a> KernelSquare<'a> {
         let reach = (self.filter.kernel.radius() * scale * self.samples as f64).ceil() as i64 + 1;
         let step = (self.samples as f64).recip();
         // Sub-samples lie at the centres of an N×N grid in each pixel.
-        let phase = if self.samples % 2 == 0 { 0.5 } else { 0.0 };
+        let phase = if self.samples.is_multiple_of(2) { 0.5 } else { 0.0 };
         for b in -reach..=reach {
             for a in -reach..=reach {
                 let (x, y) = ((a as f64 + phase) * step, (b as f64 + phase) * step);
@@ -126,8 +126,8 @@ fn weighted_light(world: &World, direction: Direction, texels: &[Rgba]) -> ([f64
     let (mut colour, mut found) = ([0f64; 4], 0f64);
     lookup::bilinear(world, direction, |texel, weight| {
         found += weight;
-        for c in 0..4 {
-            colour[c] += weight * f64::from(texels[texel as usize].0[c]);
+        for (sum, &channel) in colour.iter_mut().zip(&texels[texel as usize].0) {
+            *sum += weight * f64::from(channel);
         }
     });
     (colour, found)

@@ -47,7 +47,8 @@ impl<L: Lens> Projection for Azimuthal<L> {
     fn unproject_with_jacobian(&self, point: PlanePoint) -> Option<(Direction, DirectionJacobian)> {
         let radius = length(point.x, point.y);
         let (angle, slope) = self.0.angle(radius);
-        if !(angle <= std::f64::consts::PI) {
+        // A NaN is no angle either.
+        if angle.is_nan() || angle > std::f64::consts::PI {
             return None;
         }
         if radius == 0.0 {
