@@ -1,4 +1,4 @@
-//! Cosmorama: world projections, resampled with the elliptical weighted average (EWA) filter.
+#![doc = include_str!("../README.md")]
 
 pub mod compare;
 pub mod explain;
