@@ -22,8 +22,8 @@ class Oracle:
     faces: str
     options: str
     region: str
-    # The judge's own formula of the same picture, in ../shared/oracles/reference.py.
-    formula: str
+    # The judge's own formula of the same picture: a function of ../shared/oracles/reference.py and its arguments.
+    formula: tuple
     # PSNR in dB: of the box reference, of the default in linear light, of the default sRGB-encoded.
     floors: tuple[float, float, float]
 
@@ -34,20 +34,20 @@ class Oracle:
 
 ORACLES = [
     Oracle("omnimax6", "omnimax_1966x1436", "face", "--to omnimax --size 1966x1436", "omnimax",
-           "omnimax_pov(1966 / 1436)", (32.9, 35.9, 36.1)),
+           ("omnimax_pov", 1966 / 1436), (32.9, 35.9, 36.1)),
     Oracle("omnimax4", "omnimax_1966x1436", "face4", "--to omnimax --size 1966x1436", "omnimax",
-           "omnimax_pov(1966 / 1436)", (32.5, 35.2, 35.5)),
+           ("omnimax_pov", 1966 / 1436), (32.5, 35.2, 35.5)),
     Oracle("omnimax_tight", "omnimax_tight_1024x798", "face", "--to omnimax:aspect=1.000193 --size 1024x798", "omnimax",
-           "omnimax_pov()", (36.1, 39.5, 39.5)),
-    Oracle("fisheye180", "fisheye180", "face", "--to fisheye:fov=180 --size 1024", "disc", "fisheye(180)",
+           ("omnimax_pov",), (36.1, 39.5, 39.5)),
+    Oracle("fisheye180", "fisheye180", "face", "--to fisheye:fov=180 --size 1024", "disc", ("fisheye", 180),
            (38.1, 41.8, 41.5)),
-    Oracle("fisheye220", "fisheye220", "face", "--to fisheye:fov=220 --size 1024", "disc", "fisheye(220)",
+    Oracle("fisheye220", "fisheye220", "face", "--to fisheye:fov=220 --size 1024", "disc", ("fisheye", 220),
            (39.4, 42.4, 42.2)),
-    Oracle("spherical", "spherical", "face", "--to equirect --size 2048x1024", "all", "equirect()", (37.9, 40.3, 39.8)),
+    Oracle("spherical", "spherical", "face", "--to equirect --size 2048x1024", "all", ("equirect",), (37.9, 40.3, 39.8)),
     # The renderer counts roll the other way round.
     Oracle("perspective", "perspective", "face",
            "--to perspective:fov=45 --size 640x480 --yaw -37 --pitch 12 --roll -9", "all",
-           "perspective(45, None, -37, 12, 9)", (29.0, 33.2, 32.2)),
+           ("perspective", 45, None, -37, 12, 9), (29.0, 33.2, 32.2)),
 ]
 
 

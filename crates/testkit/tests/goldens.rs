@@ -30,8 +30,8 @@ const GOLDENS: [(&str, fn() -> View, f64); 6] = [
     ("fisheye", || fisheye(80, 220.0), 45.7),
     ("equirect", || equirect(128), 42.6),
     ("perspective", || perspective(96, 72, 60.0, -37.0, 12.0, -9.0), 35.0),
+    // These two from a panorama.
     ("face", || cube_face(CubeFace::Front, 80, 80), 37.2),
-    // From a panorama.
     ("corner", || perspective(64, 64, 50.0, 45.0, 35.0, 20.0), 36.5),
 ];
 
