@@ -4,6 +4,7 @@
 //! change of the demo world, of a projection or of the default kernel, and look at what changed before committing:
 //!
 //! `UPDATE_GOLDENS=1 cargo test -p testkit --test goldens`
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on should stop where it stands")]
 
 use std::path::{Path, PathBuf};
 
