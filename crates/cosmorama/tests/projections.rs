@@ -46,6 +46,21 @@ proptest! {
     }
 
     #[test]
+    fn a_row_is_its_points(x in -1.2..1.2f64, y in -1.2..1.2f64, step in -0.01..0.01f64) {
+        for projection in ProjectionKind::ALL {
+            let mut visited = 0;
+            projection.unproject_row(PlanePoint::new(x, y), step, 1000, |k, direction| {
+                let expected = projection.unproject(PlanePoint::new(x + k as f64 * step, y));
+                let near = expected.is_some_and(|expected| expected.angle_to(direction).radians() < 1e-12);
+                assert!(near, "{projection:?}: number {k} is {direction:?}, not {expected:?}");
+                visited += 1;
+            });
+            let all = (0..1000).filter(|&k| projection.unproject(PlanePoint::new(x + f64::from(k) * step, y)).is_some());
+            prop_assert_eq!(visited, all.count());
+        }
+    }
+
+    #[test]
     fn plane_derivatives_invert_the_jacobian(x in -1.2..1.2f64, y in -1.2..1.2f64) {
         for projection in ProjectionKind::ALL {
             let point = PlanePoint::new(x, y);

@@ -31,6 +31,14 @@ impl Coverage {
         warnings: &mut Vec<String>,
     ) -> Result<(Self, World)> {
         let nominal = nominal_world(input)?;
+        if let [view] = input.views.as_mut_slice()
+            && view.nominal.covers_sphere()
+            && view.window.as_ref().is_some_and(|(held, _)| *held == view.nominal)
+        {
+            // A whole panorama lacks nothing, whatever is asked of it.
+            view.wanted = true;
+            return Ok((Self::Complete, nominal));
+        }
         let needs = Needs::of(&nominal, &target.geometry(), filter);
         let mut gaps = Vec::new();
         for (view, need) in input.views.iter_mut().zip(&needs.views) {

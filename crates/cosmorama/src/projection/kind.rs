@@ -53,6 +53,10 @@ impl Projection for ProjectionKind {
         each!(self, projection => projection.unproject(point))
     }
 
+    fn unproject_row(&self, first: PlanePoint, step: f64, count: usize, visit: impl FnMut(usize, Direction)) {
+        each!(self, projection => projection.unproject_row(first, step, count, visit));
+    }
+
     fn jacobian(&self, point: PlanePoint) -> Option<DirectionJacobian> {
         each!(self, projection => projection.jacobian(point))
     }

@@ -28,6 +28,16 @@ pub trait Projection {
     /// The direction seen at a point of the plane.
     fn unproject(&self, point: PlanePoint) -> Option<Direction>;
 
+    /// The directions at `count` points beside each other, `step` apart along x, each with its number. For projections in
+    /// which a whole row costs less than its points; those without a direction are left out.
+    fn unproject_row(&self, first: PlanePoint, step: f64, count: usize, mut visit: impl FnMut(usize, Direction)) {
+        for k in 0..count {
+            if let Some(direction) = self.unproject(PlanePoint::new(first.x + k as f64 * step, first.y)) {
+                visit(k, direction);
+            }
+        }
+    }
+
     /// ∂direction/∂plane at a point, exact; `None` exactly where [`Projection::unproject`] is `None`.
     fn jacobian(&self, point: PlanePoint) -> Option<DirectionJacobian>;
 

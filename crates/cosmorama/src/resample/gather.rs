@@ -9,7 +9,7 @@ use super::candidates::{Candidate, settle};
 use super::kernel::KernelTable;
 use super::{Ellipse, Taps, lookup};
 use crate::sphere::{Angle, Direction};
-use crate::world::{Footprint, PixelPoint, Source, World};
+use crate::world::{Footprint, PixelPoint, PixelRect, Source, World};
 
 /// A mapping is taken as linear over a kernel that is smaller than this part of the way to its nearest singularity.
 const LINEAR_PART: f64 = 0.2;
@@ -150,19 +150,19 @@ impl<'a> Gather<'a> {
         let kernel = self.table.kernel();
         let coarseness = kernel.coarseness(jacobian.determinant().abs().sqrt()) as f32;
         let ellipse = Ellipse::new(jacobian * kernel.scale, kernel.floor);
-        for (i, j) in texels_within(source, footprint.direction, radius) {
-            let Some(texel) = source.view.direction(PixelPoint::centre(i, j)) else { continue };
-            if texel.dot(footprint.direction) <= 0.0 {
-                continue;
-            }
-            let offset = in_tangent_plane(texel.vector() - here);
-            let q = ellipse.distance_squared(to_texels * offset);
-            let index = source.offset + j * source.view.width() + i;
-            let solid_angle = self.world.solid_angles()[index];
-            if q < self.table.radius_squared() && solid_angle > 0.0 {
-                let offset = to_screen * offset;
-                self.candidates.push(self.table.candidate(index, solid_angle, q, coarseness, offset));
-            }
+        let bounds = texels_within(source, footprint.direction, radius);
+        for j in bounds.top..bounds.bottom {
+            let row = source.offset + j * source.view.width();
+            source.view.row_directions(j, bounds.left..bounds.right, |i, texel| {
+                let offset = in_tangent_plane(texel.vector() - here);
+                let q = ellipse.distance_squared(to_texels * offset);
+                let solid_angle = self.world.solid_angles()[row + i];
+                let in_front = texel.dot(footprint.direction) > 0.0;
+                if in_front && q < self.table.radius_squared() && solid_angle > 0.0 {
+                    let offset = to_screen * offset;
+                    self.candidates.push(self.table.candidate(row + i, solid_angle, q, coarseness, offset));
+                }
+            });
         }
     }
 }
@@ -214,16 +214,20 @@ fn ceil(value: f64) -> i64 {
     truncated + i64::from(value > truncated as f64)
 }
 
-/// Column and row of every texel that can lie within `radius` radians of a direction.
-fn texels_within(source: &Source, direction: Direction, radius: f64) -> impl Iterator<Item = (usize, usize)> {
+/// The texels that can lie within `radius` radians of a direction.
+fn texels_within(source: &Source, direction: Direction, radius: f64) -> PixelRect {
     let view = &source.view;
     let bounds = view.cap_bounds(direction, Angle::from_radians(radius));
     let clamp = |value: f64, size: usize| value.clamp(0.0, size as f64) as usize;
-    let (top, bottom) = (clamp(bounds.min.y.floor(), view.height()), clamp(bounds.max.y.ceil(), view.height()));
     let (left, right) = match source.period {
         // The cap may lie across the seam; rows are short there or few.
         Some(_) if bounds.min.x < 0.0 || bounds.max.x > view.width() as f64 => (0, view.width()),
         _ => (clamp(bounds.min.x.floor(), view.width()), clamp(bounds.max.x.ceil(), view.width())),
     };
-    (top..bottom).flat_map(move |j| (left..right).map(move |i| (i, j)))
+    PixelRect {
+        left,
+        top: clamp(bounds.min.y.floor(), view.height()),
+        right,
+        bottom: clamp(bounds.max.y.ceil(), view.height()),
+    }
 }

@@ -1,3 +1,5 @@
+use std::ops::Range;
+
 use glam::{DMat2, DVec2};
 
 use super::{FieldStop, PixelGrid, PixelPoint};
@@ -43,6 +45,26 @@ impl View {
     pub fn direction(&self, pixel: PixelPoint) -> Option<Direction> {
         let direction = self.projection.unproject(self.grid.to_plane(pixel))?;
         Some(self.orientation.to_world(direction))
+    }
+
+    /// The directions of pixel centres beside each other in row `j`, each with its column.
+    pub fn row_directions(&self, j: usize, columns: Range<usize>, mut visit: impl FnMut(usize, Direction)) {
+        let first = self.grid.to_plane(PixelPoint::centre(columns.start, j));
+        self.projection.unproject_row(first, self.grid.step().x, columns.len(), |k, direction| {
+            visit(columns.start + k, self.orientation.to_world(direction));
+        });
+    }
+
+    /// Whether every direction of the world is in the picture: it goes all the way round, from pole to pole.
+    pub fn covers_sphere(&self) -> bool {
+        let sees_pole = |pole| {
+            let pole = self.orientation.to_world(pole);
+            self.pixel(pole).is_some_and(|pixel| (-1e-6..=self.height() as f64 + 1e-6).contains(&pixel.y))
+        };
+        self.period().is_some_and(|period| period <= self.width())
+            && self.stop == FieldStop::NONE
+            && sees_pole(Direction::UP)
+            && sees_pole(Direction::DOWN)
     }
 
     /// The direction at a point of the image with its derivatives per pixel.

@@ -1,6 +1,6 @@
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 
 use crate::projection::{PlanePoint, PlaneRect, Projection};
 use crate::sphere::{Angle, Direction, DirectionJacobian};
@@ -20,6 +20,20 @@ impl Projection for Equirectangular {
         // Half a pixel row beyond a pole belongs to no direction, but rounding must not lose the pole itself.
         (point.x.is_finite() && point.y.abs() <= FRAC_PI_2 + 1e-12)
             .then(|| Direction::from_longitude_latitude(Angle::from_radians(point.x), Angle::from_radians(point.y)))
+    }
+
+    fn unproject_row(&self, first: PlanePoint, step: f64, count: usize, mut visit: impl FnMut(usize, Direction)) {
+        if self.unproject(first).is_none() {
+            return;
+        }
+        let (sin_lat, cos_lat) = first.y.sin_cos();
+        // Along a row of latitude each direction is the one before, turned: no sine or cosine for each.
+        let turn = DVec2::from_angle(step);
+        let mut longitude = DVec2::from_angle(first.x);
+        for k in 0..count {
+            visit(k, Direction::from_unit(DVec3::new(longitude.y * cos_lat, sin_lat, -longitude.x * cos_lat)));
+            longitude = turn.rotate(longitude);
+        }
     }
 
     fn jacobian(&self, point: PlanePoint) -> Option<DirectionJacobian> {
