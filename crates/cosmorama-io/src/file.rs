@@ -1,5 +1,5 @@
 use std::fs::File;
-use std::io::{self, BufReader, Read, Seek, SeekFrom, Write};
+use std::io::{self, BufReader, Read, Seek, SeekFrom};
 use std::path::Path;
 
 use cosmorama::raster::{Channels, Depth, EncodedImage};
@@ -98,18 +98,15 @@ pub fn write(path: &Path, image: &EncodedImage, metadata: &Metadata, options: &W
     let format = Format::from_extension(path)?;
     check_can_hold(path, format, image)?;
     let mut pending = Pending::create(path)?;
-    let mut writer = pending.writer();
+    let writer = pending.writer();
     match format {
-        Format::Png => png::write(path, &mut writer, image, metadata),
-        Format::Jpeg => jpeg::write(path, &mut writer, image, metadata, options.quality),
-        Format::Tiff => tiff::write(path, &mut writer, image, metadata),
-        Format::Tga => tga::write(path, &mut writer, image),
-        Format::Hdr => hdr::write(path, &mut writer, image),
-        Format::Exr => exr::write(path, &mut writer, image, metadata),
+        Format::Png => png::write(path, writer, image, metadata),
+        Format::Jpeg => jpeg::write(path, writer, image, metadata, options.quality),
+        Format::Tiff => tiff::write(path, writer, image, metadata),
+        Format::Tga => tga::write(path, writer, image),
+        Format::Hdr => hdr::write(path, writer, image),
+        Format::Exr => exr::write(path, writer, image, metadata),
     }?;
-    // A full disk may show only now; dropped, the writer would keep it to itself.
-    writer.flush().map_err(|error| IoError::write(path, error))?;
-    drop(writer);
     pending.finish()
 }
 

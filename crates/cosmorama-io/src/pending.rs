@@ -6,18 +6,16 @@
 
 use std::collections::BTreeSet;
 use std::fs::File;
-use std::io::{self, BufWriter};
+use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-use tempfile::{Builder, NamedTempFile};
+use tempfile::{Builder, TempPath};
 
 use crate::IoError;
 
-/// How the name of a temporary file begins.
-pub const PREFIX: &str = ".cosmorama-";
-/// How the name of a temporary file ends.
-pub const SUFFIX: &str = ".part";
+const PREFIX: &str = ".cosmorama-";
+const SUFFIX: &str = ".part";
 
 static IN_FLIGHT: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
 
@@ -26,36 +24,29 @@ fn in_flight() -> MutexGuard<'static, BTreeSet<PathBuf>> {
     IN_FLIGHT.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// The temporary files that are being written now.
-pub fn list() -> Vec<PathBuf> {
-    in_flight().iter().cloned().collect()
-}
-
-/// Deletes all temporary files that are being written now; their writers will fail. For interrupt handlers.
+/// Deletes all temporary files that are being written now. For interrupt handlers: the program must end next, because
+/// whoever begins, finishes or gives up a file from now on waits until it does. So nothing can appear after all was
+/// removed, and no writer's failure is told in place of the interrupt.
 pub fn remove_all() {
-    for path in in_flight().iter() {
+    let paths = in_flight();
+    for path in paths.iter() {
         // One that is gone already is as wanted.
         let _ = std::fs::remove_file(path);
     }
+    std::mem::forget(paths);
 }
 
 /// A file in the making. Dropped without [`Pending::finish`], it leaves nothing behind.
 pub struct Pending {
     target: PathBuf,
-    // Dropped, and so deleted, before it is struck off the list.
-    file: NamedTempFile,
+    // Closed before it is deleted, and deleted before it is struck off the list.
+    file: BufWriter<File>,
+    path: TempPath,
     listed: Listed,
 }
 
 /// An entry of the list, as long as it lives.
 struct Listed(PathBuf);
-
-impl Listed {
-    fn new(path: &Path) -> Self {
-        in_flight().insert(path.to_owned());
-        Self(path.to_owned())
-    }
-}
 
 impl Drop for Listed {
     fn drop(&mut self) {
@@ -79,35 +70,37 @@ impl Pending {
         let mut builder = Builder::new();
         builder.prefix(PREFIX).suffix(SUFFIX);
         readable_by_all(&mut builder);
+        // The list is held meanwhile: a file that is not on it would survive an interrupt.
+        let mut paths = in_flight();
         let file = builder.tempfile_in(folder).map_err(|error| match error.kind() {
             io::ErrorKind::NotFound => {
                 IoError::write(target, format_args!("its folder {} does not exist; make it first", folder.display()))
             }
             _ => IoError::write(target, error),
         })?;
-        let listed = Listed::new(file.path());
-        Ok(Self { target: target.to_owned(), file, listed })
+        paths.insert(file.path().to_owned());
+        let listed = Listed(file.path().to_owned());
+        let (file, path) = file.into_parts();
+        Ok(Self { target: target.to_owned(), file: BufWriter::with_capacity(1 << 18, file), path, listed })
     }
 
-    /// Where to write; flush it before [`Pending::finish`], or errors go unnoticed.
-    pub fn writer(&mut self) -> BufWriter<&mut File> {
-        BufWriter::with_capacity(1 << 18, self.file.as_file_mut())
-    }
-
-    /// The temporary file's own path, for programs that write it themselves.
-    pub fn path(&self) -> &Path {
-        self.file.path()
+    /// Where to write.
+    pub fn writer(&mut self) -> &mut BufWriter<File> {
+        &mut self.file
     }
 
     /// Makes the file appear, whole, under its name; an older one is replaced.
     ///
     /// # Errors
-    /// When it cannot be renamed.
+    /// When the rest of it cannot be written (a full disk may show only now), or it cannot be renamed.
     pub fn finish(self) -> Result<(), IoError> {
-        let Self { target, file, listed } = self;
-        let result = file.persist(&target);
-        drop(listed);
-        result.map(drop).map_err(|failed| IoError::write(&target, failed.error))
+        // What is named first goes last.
+        let Self { target, listed: _listed, path, mut file } = self;
+        let flushed = file.flush();
+        // Closed before it is renamed.
+        drop(file);
+        flushed.map_err(|error| IoError::write(&target, error))?;
+        path.persist(&target).map_err(|failed| IoError::write(&target, failed.error))
     }
 }
 
