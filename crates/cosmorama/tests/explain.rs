@@ -1,14 +1,12 @@
 //! Reports and figures: their numbers against the paper's and the lens's, their form against XML.
 
-mod views;
-
 use cosmorama::explain::{Figures, Magnification, Report, Underlay};
 use cosmorama::projection::ProjectionKind;
 use cosmorama::resample::{Filter, Needs};
 use cosmorama::sphere::{CubeFace, Orientation};
 use cosmorama::world::{FieldStop, OmnimaxFraming, PixelGrid, PixelPoint, View, World};
 use glam::DVec2;
-use views::{cube, cube_of, equirect, fisheye, omnimax, perspective, turned};
+use testkit::{cube, equirect, fisheye, omnimax, perspective, turned};
 
 fn assert_close(found: f64, expected: f64, tolerance: f64) {
     assert!((found - expected).abs() <= tolerance, "{found} is not {expected}");
@@ -16,7 +14,7 @@ fn assert_close(found: f64, expected: f64, tolerance: f64) {
 
 #[test]
 fn six_faces_to_omnimax() {
-    let report = Report::of(&cube(1024), &omnimax(1966, 1436), &Filter::DEFAULT);
+    let report = Report::of(&cube(&CubeFace::ALL, 1024, 1024), &omnimax(1966, 1436), &Filter::DEFAULT);
     // The lens: 1.411269 rad a radius of 921.523 pixels at the centre; a texel of the front face is 2/1024 there.
     let (view, Magnification { least, greatest }) = report.centre.expect("a centre").view.expect("a view");
     let expected = 1.411269 / 921.523 * 512.0;
@@ -38,7 +36,7 @@ fn six_faces_to_omnimax() {
 
 #[test]
 fn the_plan_is_estimated_well() {
-    let (world, target) = (cube(128), omnimax(246, 180));
+    let (world, target) = (cube(&CubeFace::ALL, 128, 128), omnimax(246, 180));
     let report = Report::of(&world, &target, &Filter::DEFAULT);
     let plan = cosmorama::resample::Resampler { world: &world, target: &target, filter: Filter::DEFAULT }.plan();
     let bytes = plan.expect("a plan").bytes() as f64;
@@ -55,7 +53,7 @@ fn the_paper_calls_its_own_case_two_to_three() {
         stop: FieldStop::circle(1.0),
     };
     let faces = [CubeFace::Front, CubeFace::Right, CubeFace::Left, CubeFace::Up];
-    let report = Report::of(&cube_of(1024, 960, &faces), &target, &Filter::DEFAULT);
+    let report = Report::of(&cube(&faces, 1024, 960), &target, &Filter::DEFAULT);
     let (across, down) = report.views[0].advised.expect("a size").ratio;
     assert_close(across, 0.735, 5e-4);
     assert_close(down, 0.689, 5e-4);
@@ -66,8 +64,8 @@ fn the_paper_calls_its_own_case_two_to_three() {
 
 #[test]
 fn a_report_reads_well() {
-    let world = cube_of(256, 256, &[CubeFace::Front, CubeFace::Right]);
-    let report = Report::of(&world, &perspective(320, 240, 80.0, [0.0, 60.0, 0.0]), &Filter::DEFAULT);
+    let world = cube(&[CubeFace::Front, CubeFace::Right], 256, 256);
+    let report = Report::of(&world, &perspective(320, 240, 80.0, 0.0, 60.0, 0.0), &Filter::DEFAULT);
     let text = report.to_string();
     for part in
         ["target   320x240", "pixels look where no view does", "front  256x256  needs ", "right  256x256  needs "]
@@ -80,10 +78,10 @@ fn cases() -> Vec<(World, View)> {
     let awkward = World::new([("a <b> & \"c\"\u{7} ü".to_string(), equirect(128))]).expect("a world");
     let tilted = View { orientation: turned([30.0, -50.0, 10.0]), ..fisheye(100, 180.0) };
     vec![
-        (cube(128), omnimax(246, 180)),
-        (cube_of(128, 120, &[CubeFace::Front, CubeFace::Right, CubeFace::Left, CubeFace::Up]), tilted),
-        (cube_of(64, 64, &[CubeFace::Front]), perspective(80, 60, 60.0, [30.0, 10.0, 5.0])),
-        (cube(64), equirect(96)),
+        (cube(&CubeFace::ALL, 128, 128), omnimax(246, 180)),
+        (cube(&[CubeFace::Front, CubeFace::Right, CubeFace::Left, CubeFace::Up], 128, 120), tilted),
+        (cube(&[CubeFace::Front], 64, 64), perspective(80, 60, 60.0, 30.0, 10.0, 5.0)),
+        (cube(&CubeFace::ALL, 64, 64), equirect(96)),
         (awkward, tilted),
     ]
 }
@@ -128,7 +126,7 @@ fn figures_and_needs_do_not_depend_on_threads() {
 #[test]
 fn the_unfolded_cube_names_what_is_needed_and_what_is_not_given() {
     let faces = [CubeFace::Front, CubeFace::Right, CubeFace::Back, CubeFace::Left, CubeFace::Up];
-    let (world, target) = (cube_of(1024, 1024, &faces), omnimax(1966, 1436));
+    let (world, target) = (cube(&faces, 1024, 1024), omnimax(1966, 1436));
     let needs = Needs::of(&world, &[target], &Filter::DEFAULT);
     let svg = Figures { world: &world, target: &target }.unfolded(&needs, &[]);
     for label in ["all of 1024×1024", "514×1024+510+0", "514×1024+0+0", "1024×514+0+510", "not needed", "not given"]
@@ -139,7 +137,7 @@ fn the_unfolded_cube_names_what_is_needed_and_what_is_not_given() {
 
 #[test]
 fn an_underlay_is_drawn_under_the_veil() {
-    let (world, target) = (cube(64), omnimax(123, 90));
+    let (world, target) = (cube(&CubeFace::ALL, 64, 64), omnimax(123, 90));
     let needs = Needs::of(&world, &[target], &Filter::DEFAULT);
     let underlay = Underlay { view: 4, href: "data:image/png;base64,AA==".to_string() };
     let svg = Figures { world: &world, target: &target }.unfolded(&needs, &[underlay]);

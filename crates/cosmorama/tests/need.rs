@@ -1,12 +1,10 @@
 //! What a conversion needs: exact rectangles, against the filter itself.
 
-mod views;
-
 use cosmorama::raster::{Image, Rgba};
 use cosmorama::resample::{CrossSection, Filter, FilterKind, Kernel, Need, Needs, Plan, Resampler};
 use cosmorama::sphere::CubeFace;
 use cosmorama::world::{PixelRect, Source, View, World};
-use views::{cube, cube_of, equirect, fisheye, omnimax, perspective, turned};
+use testkit::{cube, equirect, fisheye, omnimax, perspective, turned};
 
 fn rect(left: usize, top: usize, right: usize, bottom: usize) -> Option<PixelRect> {
     Some(PixelRect { left, top, right, bottom })
@@ -23,7 +21,7 @@ fn need_of(needs: &Needs, name: &str) -> (Option<PixelRect>, Option<PixelRect>) 
 
 #[test]
 fn omnimax_needs_a_little_more_than_half_of_the_side_faces() {
-    let needs = needs(&cube(1024), omnimax(1966, 1436));
+    let needs = needs(&cube(&CubeFace::ALL, 1024, 1024), omnimax(1966, 1436));
     assert_eq!(need_of(&needs, "front").0, rect(0, 0, 1024, 1024));
     // φ(1) = 90.162°: 1.45 texels past the middle of a 1024 face (512·tan 0.162° = 1.449).
     assert_eq!(need_of(&needs, "left").0, rect(510, 0, 1024, 1024));
@@ -36,10 +34,10 @@ fn omnimax_needs_a_little_more_than_half_of_the_side_faces() {
 
 #[test]
 fn rectangles_are_those_of_the_plain_scan() {
-    let worlds = [cube(96), cube_of(96, 80, &CubeFace::ALL)];
+    let worlds = [cube(&CubeFace::ALL, 96, 96), cube(&CubeFace::ALL, 96, 80)];
     let tilted = View { orientation: turned([25.0, -70.0, 15.0]), ..fisheye(150, 220.0) };
     let targets =
-        [omnimax(200, 146), tilted, equirect(160), perspective(160, 120, 70.0, [40.0, 20.0, 5.0]), fisheye(7, 360.0)];
+        [omnimax(200, 146), tilted, equirect(160), perspective(160, 120, 70.0, 40.0, 20.0, 5.0), fisheye(7, 360.0)];
     for world in worlds {
         for target in targets {
             assert_eq!(needs(&world, target).views, plain_scan(&world, &target), "{target:?}");
@@ -94,7 +92,7 @@ fn lit_bounds(world: &World, source: &Source, plan: &Plan) -> Option<PixelRect> 
 
 #[test]
 fn light_outside_what_is_read_changes_no_byte() {
-    let world = cube_of(128, 96, &CubeFace::ALL);
+    let world = cube(&CubeFace::ALL, 128, 96);
     let noise = |k: usize| ((k * 7919) % 1009) as f32 / 1009.0;
     let clean: Vec<Rgba> =
         (0..world.texel_count()).map(|k| Rgba::opaque(noise(k), noise(k + 1), noise(k + 2))).collect();
@@ -107,7 +105,7 @@ fn light_outside_what_is_read_changes_no_byte() {
         Filter { kind: FilterKind::Bilinear, ..Filter::DEFAULT },
         Filter { kind: FilterKind::Reference { samples: 3 }, ..Filter::DEFAULT },
     ];
-    for target in [omnimax(246, 180), perspective(90, 70, 60.0, [30.0, 35.0, 10.0])] {
+    for target in [omnimax(246, 180), perspective(90, 70, 60.0, 30.0, 35.0, 10.0)] {
         for filter in kinds {
             let needs = Needs::of(&world, &[target], &filter);
             let mut dirty = clean.clone();
@@ -131,7 +129,7 @@ fn light_outside_what_is_read_changes_no_byte() {
 
 #[test]
 fn a_perspective_target_needs_the_middle_of_one_face() {
-    let needs = needs(&cube(1000), perspective(640, 480, 45.0, [0.0; 3]));
+    let needs = needs(&cube(&CubeFace::ALL, 1000, 1000), perspective(640, 480, 45.0, 0.0, 0.0, 0.0));
     // tan 22.5° = 0.41421: 207.1 texels to both sides of 500, times 3/4 up and down.
     assert_eq!(need_of(&needs, "front").0, rect(293, 344, 707, 656));
     let read = need_of(&needs, "front").1.expect("a rectangle");
@@ -143,8 +141,8 @@ fn a_perspective_target_needs_the_middle_of_one_face() {
 
 #[test]
 fn directions_that_nothing_covers_are_counted() {
-    let world = cube_of(64, 64, &[CubeFace::Front]);
-    let target = perspective(100, 100, 90.0, [45.0, 0.0, 0.0]);
+    let world = cube(&[CubeFace::Front], 64, 64);
+    let target = perspective(100, 100, 90.0, 45.0, 0.0, 0.0);
     let uncovered = needs(&world, target).uncovered.expect("half of the picture");
     // The front face's right edge stands upright at 45°, in the picture's middle; above and below it shows less still.
     assert!(uncovered.pixels >= 5000, "{uncovered:?}");
@@ -155,7 +153,7 @@ fn directions_that_nothing_covers_are_counted() {
 }
 
 fn needs_of_two(world: &World) -> Option<cosmorama::resample::Uncovered> {
-    let covered = perspective(40, 40, 60.0, [0.0; 3]);
-    let beside = perspective(40, 40, 60.0, [60.0, 0.0, 0.0]);
+    let covered = perspective(40, 40, 60.0, 0.0, 0.0, 0.0);
+    let beside = perspective(40, 40, 60.0, 60.0, 0.0, 0.0);
     Needs::of(world, &[covered, beside], &Filter::DEFAULT).uncovered
 }

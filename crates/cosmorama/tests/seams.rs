@@ -6,12 +6,16 @@ use cosmorama::sphere::{CubeFace, Direction};
 use cosmorama::world::{View, World};
 use testkit::{cube, equirect, light_by_direction, perspective};
 
-/// Fine detail, a few texels long, that a wrong weight would show.
+/// Waves of some forty texels: smooth enough that the filter itself changes next to nothing, so that what a wrong weight
+/// adds at an edge would stand out.
 fn detail(direction: Direction) -> [f32; 3] {
     let d = direction.vector();
-    let wave = |x: f64, y: f64| (0.5 + 0.25 * (x * 61.0).sin() + 0.25 * (y * 47.0 + x * 29.0).cos()) as f32;
+    let wave = |x: f64, y: f64| (0.5 + 0.25 * (x * 19.0).sin() + 0.25 * (y * 15.0 + x * 9.0).cos()) as f32;
     [wave(d.x, d.y), wave(d.y, d.z), wave(d.z, d.x)]
 }
+
+/// No step on an edge is larger, of a contrast of one: an eighth of a code value of eight bits.
+const STEP: f64 = 0.0005;
 
 /// The largest difference of neighbouring pixels' errors, beside edges and elsewhere. The error is the result less the
 /// true light, so the world's own contrast does not count, only what the filter adds.
@@ -49,7 +53,7 @@ fn assert_no_seam(world: &World, targets: &[(&str, View)], on_edge: impl Fn(Dire
         let [_, reference] = largest_steps(world, target, judge, on_edge);
         assert!(on_edges > 0.0, "{name}: no edge in the picture");
         assert!(
-            on_edges <= reference.max(elsewhere),
+            on_edges <= reference.max(elsewhere) && on_edges < STEP,
             "{name}: step {on_edges} across an edge, {reference} by the reference, {elsewhere} elsewhere"
         );
     }

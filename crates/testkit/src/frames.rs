@@ -58,11 +58,7 @@ pub fn perspective(width: usize, height: usize, fov: f64, yaw: f64, pitch: f64, 
     let step = 2.0 * Angle::from_degrees(fov / 2.0).tan() / width as f64;
     View {
         projection: ProjectionKind::PERSPECTIVE,
-        orientation: Orientation::from_yaw_pitch_roll(
-            Angle::from_degrees(yaw),
-            Angle::from_degrees(pitch),
-            Angle::from_degrees(roll),
-        ),
+        orientation: turned([yaw, pitch, roll]),
         grid: PixelGrid::centred(width, height, middle(width, height), DVec2::splat(step)),
         stop: FieldStop::NONE,
     }
@@ -70,4 +66,10 @@ pub fn perspective(width: usize, height: usize, fov: f64, yaw: f64, pitch: f64, 
 
 fn middle(width: usize, height: usize) -> PixelPoint {
     PixelPoint::new(width as f64 / 2.0, height as f64 / 2.0)
+}
+
+/// Yaw, pitch and roll in degrees.
+pub fn turned(degrees: [f64; 3]) -> Orientation {
+    let [yaw, pitch, roll] = degrees.map(Angle::from_degrees);
+    Orientation::from_yaw_pitch_roll(yaw, pitch, roll)
 }

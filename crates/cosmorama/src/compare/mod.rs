@@ -13,7 +13,6 @@ mod mask;
 mod pair;
 mod quantile;
 mod registration;
-mod srgb;
 
 pub use comparison::{Comparison, EdgeFree, compare};
 pub use difference::{Difference, Largest};

@@ -1,6 +1,6 @@
 //! Regions of a picture that a label tells apart: their areas as runs, and the curves between them.
 
-use super::drawing::{Frame, Point};
+use super::drawing::{Point, Rect};
 
 /// Halvings of the interval in which a label changes: to 1/256 of a step.
 const HALVINGS: usize = 8;
@@ -10,7 +10,7 @@ const STEPS: usize = 64;
 
 /// Labels of the points of a rectangle, `columns`×`rows` steps of a drawing's units.
 pub(super) struct Regions<F> {
-    pub(super) frame: Frame,
+    pub(super) frame: Rect,
     pub(super) columns: usize,
     pub(super) rows: usize,
     /// The label of a point at (x, y) within the frame, both from 0 to 1.
@@ -19,13 +19,13 @@ pub(super) struct Regions<F> {
 
 impl<L: Copy + PartialEq, F: Fn(f64, f64) -> L> Regions<F> {
     /// The area of one label: a strip for each run of each row.
-    pub(super) fn area(&self, wanted: L) -> Vec<Frame> {
+    pub(super) fn area(&self, wanted: L) -> Vec<Rect> {
         let row_height = self.frame.height / self.rows as f64;
         let mut strips = Vec::new();
         for row in 0..self.rows {
             let v = (row as f64 + 0.5) / self.rows as f64;
             for (start, end) in self.runs(v, wanted) {
-                strips.push(Frame {
+                strips.push(Rect {
                     x: self.frame.x + start * self.frame.width,
                     y: self.frame.y + row as f64 * row_height,
                     width: (end - start) * self.frame.width,
@@ -156,7 +156,7 @@ mod tests {
     use super::*;
 
     fn disc() -> Regions<impl Fn(f64, f64) -> bool> {
-        let frame = Frame { x: 10.0, y: 20.0, width: 100.0, height: 100.0 };
+        let frame = Rect { x: 10.0, y: 20.0, width: 100.0, height: 100.0 };
         Regions { frame, columns: 50, rows: 50, label: |u: f64, v: f64| (u - 0.5).hypot(v - 0.5) < 0.3 }
     }
 

@@ -9,7 +9,7 @@ pub(super) type Point = (f64, f64);
 
 /// An upright rectangle.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Frame {
+pub(super) struct Rect {
     pub(super) x: f64,
     pub(super) y: f64,
     pub(super) width: f64,
@@ -63,18 +63,18 @@ impl Drawing {
     /// An empty sheet.
     pub(super) fn new(width: f64, height: f64, background: &str) -> Self {
         let mut drawing = Self { width, height, body: String::new() };
-        drawing.rect(Frame { x: 0.0, y: 0.0, width, height }, Paint::fill(background));
+        drawing.rect(Rect { x: 0.0, y: 0.0, width, height }, Paint::fill(background));
         drawing
     }
 
-    pub(super) fn rect(&mut self, frame: Frame, paint: Paint) {
-        let Frame { x, y, width, height } = frame;
+    pub(super) fn rect(&mut self, frame: Rect, paint: Paint) {
+        let Rect { x, y, width, height } = frame;
         let (x, y, width, height) = (Number(x), Number(y), Number(width), Number(height));
         self.shape(&format!(r#"rect x="{x}" y="{y}" width="{width}" height="{height}""#), paint);
     }
 
     /// Many rectangles of one paint.
-    pub(super) fn rects(&mut self, frames: &[Frame], paint: Paint) {
+    pub(super) fn rects(&mut self, frames: &[Rect], paint: Paint) {
         let mut path = String::new();
         for frame in frames {
             let (x, y) = (Number(frame.x), Number(frame.y));
@@ -109,8 +109,8 @@ impl Drawing {
     }
 
     /// A picture, by its address or as a data URI.
-    pub(super) fn image(&mut self, frame: Frame, href: &str) {
-        let Frame { x, y, width, height } = frame;
+    pub(super) fn image(&mut self, frame: Rect, href: &str) {
+        let Rect { x, y, width, height } = frame;
         let (x, y, width, height) = (Number(x), Number(y), Number(width), Number(height));
         let place = format!(r#"x="{x}" y="{y}" width="{width}" height="{height}" preserveAspectRatio="none""#);
         let _ = writeln!(self.body, r#"<image {place} href="{}"/>"#, escaped(href));
@@ -133,13 +133,13 @@ impl Drawing {
     /// As [`Drawing::label`] from its start, on a ground of its own.
     pub(super) fn label_on(&mut self, text: &str, (x, y): Point, size: f64, ground: &str, colour: &str) {
         let width = lettering::polylines(text).1 * size;
-        let frame = Frame { x: x - 0.5 * size, y: y - 1.5 * size, width: width + size, height: 2.2 * size };
+        let frame = Rect { x: x - 0.5 * size, y: y - 1.5 * size, width: width + size, height: 2.2 * size };
         self.rect(frame, Paint::fill(ground).opacity(0.85));
         self.label(text, (x, y), size, Anchor::Start, colour);
     }
 
     /// Centred lines of text with their sizes, on a ground of their own, kept within `bounds` where it fits.
-    pub(super) fn plaque(&mut self, lines: &[(&str, f64)], (x, y): Point, bounds: Frame, ground: &str, colour: &str) {
+    pub(super) fn plaque(&mut self, lines: &[(&str, f64)], (x, y): Point, bounds: Rect, ground: &str, colour: &str) {
         let width = lines.iter().map(|(text, size)| lettering::polylines(text).1 * size).fold(0.0, f64::max) + 18.0;
         let height = lines.iter().map(|(_, size)| 1.7 * size).sum::<f64>() + 9.0;
         let kept = |at: f64, half: f64, start: f64, size: f64| {
@@ -148,7 +148,7 @@ impl Drawing {
         };
         let x = kept(x, width / 2.0, bounds.x, bounds.width);
         let y = kept(y, height / 2.0, bounds.y, bounds.height);
-        let frame = Frame { x: x - width / 2.0, y: y - height / 2.0, width, height };
+        let frame = Rect { x: x - width / 2.0, y: y - height / 2.0, width, height };
         self.rect(frame, Paint::fill(ground).opacity(0.85));
         let mut baseline = frame.y + 4.5;
         for &(text, size) in lines {

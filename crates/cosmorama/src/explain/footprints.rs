@@ -2,14 +2,14 @@
 
 use glam::{DMat2, DVec2};
 
-use super::drawing::{Anchor, Drawing, Frame, Paint};
+use super::drawing::{Anchor, Drawing, Paint, Rect};
 use super::field;
 use super::figures::{sheet, size_text};
 use super::magnification::central_footprint;
 use super::net::Net;
 use super::theme::{DARK, FAINT, INK, LABEL, PAPER, SMALL, colour};
 use crate::projection::PlanePoint;
-use crate::resample::{Ellipse, owner};
+use crate::resample::Ellipse;
 use crate::world::{PixelPoint, ScreenPixel, Source, View, World};
 
 /// Space between footprints on the sheet, where the target's centre looks, by the square root of the image's width
@@ -54,7 +54,7 @@ pub(super) fn draw(world: &World, target: &View) -> String {
 fn spacing(world: &World, target: &View, net: &Net) -> usize {
     let longer = target.width().max(target.height());
     let on_sheet = central_footprint(target).and_then(|footprint| {
-        let (index, _) = owner(world, footprint.direction)?;
+        let (index, _) = world.owner(footprint.direction)?;
         let source = &world.sources()[index];
         let (_, jacobian) = source.view.texel_footprint(&footprint)?;
         let frame = net.images[index];
@@ -80,7 +80,7 @@ fn grid_of_pixels(target: &View, every: usize) -> impl Iterator<Item = ScreenPix
 }
 
 fn draw_footprint(drawing: &mut Drawing, world: &World, net: &Net, screen: &ScreenPixel, enlarged: f64) {
-    let Some((index, _)) = owner(world, screen.footprint.direction) else { return };
+    let Some((index, _)) = world.owner(screen.footprint.direction) else { return };
     let source = &world.sources()[index];
     let Some((centre, jacobian)) = source.view.texel_footprint(&screen.footprint) else { return };
     let (frame, centre) = (net.images[index], source.view.wrapped(centre));
@@ -101,10 +101,10 @@ fn draw_footprint(drawing: &mut Drawing, world: &World, net: &Net, screen: &Scre
     );
 }
 
-fn texel_size(source: &Source, frame: Frame) -> DVec2 {
+fn texel_size(source: &Source, frame: Rect) -> DVec2 {
     DVec2::new(frame.width / source.view.width() as f64, frame.height / source.view.height() as f64)
 }
 
-fn placed(frame: Frame, scale: DVec2, texel: PixelPoint) -> (f64, f64) {
+fn placed(frame: Rect, scale: DVec2, texel: PixelPoint) -> (f64, f64) {
     (frame.x + texel.x * scale.x, frame.y + texel.y * scale.y)
 }

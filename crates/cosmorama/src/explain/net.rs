@@ -1,4 +1,4 @@
-use super::drawing::Frame;
+use super::drawing::Rect;
 use super::theme::{HEADER, MARGIN};
 use crate::projection::ProjectionKind;
 use crate::sphere::{CubeFace, Direction};
@@ -15,9 +15,9 @@ const GUTTER: f64 = 24.0;
 /// Where each view's image lies on a sheet: the faces of a cube unfolded as a cross, other images side by side.
 pub(super) struct Net {
     /// The frame of each view, in the world's order.
-    pub(super) images: Vec<Frame>,
+    pub(super) images: Vec<Rect>,
     /// Faces of the cube that the world lacks.
-    pub(super) lacking: Vec<(CubeFace, Frame)>,
+    pub(super) lacking: Vec<(CubeFace, Rect)>,
     /// Whether the images are faces of one cube.
     is_cross: bool,
     /// Width and height of the sheet.
@@ -34,7 +34,7 @@ impl Net {
 
     /// How far beyond an image's frame its field of view is looked for: where the field ends on the very edge between
     /// two faces, only a look beyond finds it.
-    pub(super) fn outset(&self, frame: Frame) -> (Frame, f64) {
+    pub(super) fn outset(&self, frame: Rect) -> (Rect, f64) {
         (frame, if self.is_cross { 2.0 } else { 0.0 })
     }
 
@@ -57,7 +57,7 @@ impl Net {
         for row in world.sources().chunks(columns) {
             let heights: Vec<f64> = row.iter().map(|source| width / aspect(source)).collect();
             for (column, &height) in heights.iter().enumerate() {
-                images.push(Frame { x: MARGIN + column as f64 * (width + GUTTER), y: top, width, height });
+                images.push(Rect { x: MARGIN + column as f64 * (width + GUTTER), y: top, width, height });
             }
             top += heights.iter().fold(0.0, |highest: f64, &height| highest.max(height)) + GUTTER;
         }
@@ -99,7 +99,7 @@ fn facing(source: &Source) -> Option<CubeFace> {
 }
 
 /// The square of a face on the sheet: back is beyond right.
-fn cell(face: CubeFace) -> Frame {
+fn cell(face: CubeFace) -> Rect {
     let (column, row) = match face {
         CubeFace::Left => (0.0, 1.0),
         CubeFace::Front => (1.0, 1.0),
@@ -108,11 +108,11 @@ fn cell(face: CubeFace) -> Frame {
         CubeFace::Up => (1.0, 0.0),
         CubeFace::Down => (1.0, 2.0),
     };
-    Frame { x: MARGIN + column * FACE, y: HEADER + row * FACE, width: FACE, height: FACE }
+    Rect { x: MARGIN + column * FACE, y: HEADER + row * FACE, width: FACE, height: FACE }
 }
 
 /// The part of a face's square that an image shows, which may be a window of the face or wider than it.
-fn within_face(source: &Source, cell: Frame) -> Frame {
+fn within_face(source: &Source, cell: Rect) -> Rect {
     let grid = &source.view.grid;
     let start = grid.to_plane(PixelPoint::new(0.0, 0.0));
     let end = grid.to_plane(PixelPoint::new(grid.width() as f64, grid.height() as f64));
@@ -121,5 +121,5 @@ fn within_face(source: &Source, cell: Frame) -> Frame {
     let down = |y: f64| cell.y + (1.0 - y / reach) / 2.0 * cell.height;
     let (left, right) = (across(start.x.min(end.x)), across(start.x.max(end.x)));
     let (top, bottom) = (down(start.y.max(end.y)), down(start.y.min(end.y)));
-    Frame { x: left, y: top, width: right - left, height: bottom - top }
+    Rect { x: left, y: top, width: right - left, height: bottom - top }
 }

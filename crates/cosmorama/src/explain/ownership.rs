@@ -1,10 +1,9 @@
 //! Figure 4: which view gives which pixel.
 
 use super::contour::Regions;
-use super::drawing::{Frame, Paint};
+use super::drawing::{Paint, Rect};
 use super::figures::{sheet, size_text};
 use super::theme::{DARK, HEADER, INK, LABEL, MARGIN, PAPER, SMALL, colour};
-use crate::resample::owner;
 use crate::world::{PixelPoint, View, World};
 
 /// The longer side of the frame on the sheet.
@@ -24,7 +23,7 @@ enum Content {
 pub(super) fn draw(world: &World, target: &View) -> String {
     let (width, height) = (target.width() as f64, target.height() as f64);
     let scale = LONGER / width.max(height);
-    let frame = Frame { x: MARGIN, y: HEADER, width: width * scale, height: height * scale };
+    let frame = Rect { x: MARGIN, y: HEADER, width: width * scale, height: height * scale };
     let size = size_text((target.width(), target.height()));
     let sheet_size = (frame.width.max(420.0) + 2.0 * MARGIN, frame.height + HEADER + MARGIN);
     let subtitle = format!("The target, {size} pixels. Dark: outside the field of view");
@@ -55,5 +54,5 @@ fn content(world: &World, target: &View, pixel: PixelPoint) -> Content {
         return Content::Outside;
     }
     let Some(direction) = target.direction(pixel) else { return Content::Outside };
-    owner(world, direction).map_or(Content::Uncovered, |(index, _)| Content::View(index))
+    world.owner(direction).map_or(Content::Uncovered, |(index, _)| Content::View(index))
 }

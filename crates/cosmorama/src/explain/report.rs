@@ -114,7 +114,7 @@ impl Report {
 impl Centre {
     fn of(world: &World, footprint: &crate::world::Footprint) -> Self {
         let direction = footprint.direction;
-        let view = crate::resample::owner(world, direction).and_then(|(index, _)| {
+        let view = world.owner(direction).and_then(|(index, _)| {
             let (_, jacobian) = world.sources()[index].view.texel_footprint(footprint)?;
             Some((index, Magnification::of(jacobian)))
         });

@@ -1,7 +1,7 @@
 use rayon::prelude::*;
 
 use super::Magnification;
-use crate::resample::{Filter, KernelTable, PixelTaps, owner};
+use crate::resample::{Filter, KernelTable, PixelTaps};
 use crate::world::{PixelPoint, ScreenPixel, Source, View, World};
 
 /// Pixels, and texels of a view, that a survey looks at; of more it takes every second one, third one and so on.
@@ -54,7 +54,7 @@ impl Survey {
     }
 
     fn add_magnification(&mut self, world: &World, screen: &ScreenPixel) {
-        let Some((index, _)) = owner(world, screen.footprint.direction) else { return };
+        let Some((index, _)) = world.owner(screen.footprint.direction) else { return };
         let (pixels, range) = &mut self.views[index];
         *pixels += 1;
         if let Some((_, jacobian)) = world.sources()[index].view.texel_footprint(&screen.footprint) {

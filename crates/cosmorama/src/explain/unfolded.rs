@@ -1,7 +1,7 @@
 //! Figure 3: the unfolded world with the field of view marked.
 
 use super::Underlay;
-use super::drawing::{Anchor, Drawing, Frame, Paint};
+use super::drawing::{Anchor, Drawing, Paint, Rect};
 use super::field::shown;
 use super::figures::{sheet, size_text};
 use super::net::Net;
@@ -39,7 +39,7 @@ pub(super) fn draw(world: &World, target: &View, needs: &Needs, underlays: &[Und
     drawing.finish("The unfolded world and the field of view")
 }
 
-fn draw_lacking(drawing: &mut Drawing, name: &str, cell: Frame) {
+fn draw_lacking(drawing: &mut Drawing, name: &str, cell: Rect) {
     drawing.rect(cell, Paint::stroke(FAINT, 1.5).dashed());
     let middle = (cell.x + cell.width / 2.0, cell.y + cell.height / 2.0);
     drawing.label(name, middle, LABEL, Anchor::Middle, FAINT);
@@ -50,7 +50,7 @@ fn draw_image(
     drawing: &mut Drawing,
     source: &Source,
     index: usize,
-    frame: Frame,
+    frame: Rect,
     target: &View,
     picture: Option<&Underlay>,
 ) {
@@ -63,14 +63,14 @@ fn draw_image(
     drawing.rect(frame, Paint::stroke(INK, 1.5));
 }
 
-fn draw_curve(drawing: &mut Drawing, source: &Source, area: (Frame, f64), target: &View) {
+fn draw_curve(drawing: &mut Drawing, source: &Source, area: (Rect, f64), target: &View) {
     let edges = shown(source, area, target).edges();
     for paint in [Paint::stroke(INK, 5.0), Paint::stroke(CURVE, 2.5)] {
         drawing.polylines(edges.iter().map(|segment| &segment[..]), paint);
     }
 }
 
-fn draw_names(drawing: &mut Drawing, source: &Source, need: &Need, frame: Frame, target: &View) {
+fn draw_names(drawing: &mut Drawing, source: &Source, need: &Need, frame: Rect, target: &View) {
     let middle = (frame.x + frame.width / 2.0, frame.y + frame.height / 2.0);
     let size = size_text((source.view.width(), source.view.height()));
     let Some(seen) = need.seen else {

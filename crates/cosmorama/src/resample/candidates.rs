@@ -40,7 +40,7 @@ pub(super) fn settle(candidates: &mut [Candidate], centred: bool, taps: &mut Tap
 /// What is added to the weights so that their centroid is the pixel's centre, their sum unchanged: v·g·(p − p̄).
 ///
 /// A radial kernel on a lattice of texels weighs one side a little more than the other, which shifts the picture by up
-/// to a tenth of a pixel. A correction linear in the offset p is that of moving least squares (Lancaster & Salkauskas
+/// to 0.17 of a pixel. A correction linear in the offset p is that of moving least squares (Lancaster & Salkauskas
 /// 1981): a world whose colour is linear in the screen's coordinates comes back exactly.
 #[derive(Clone, Copy, Debug, Default)]
 struct Correction {

@@ -10,6 +10,8 @@ pub struct Ellipse {
     pub b: f64,
     /// C.
     pub c: f64,
+    /// AC − B²/4, kept because a thin ellipse's would be lost to rounding.
+    determinant: f64,
 }
 
 impl Ellipse {
@@ -21,16 +23,20 @@ impl Ellipse {
     pub fn new(jacobian: DMat2, floor: f64) -> Self {
         let (x, y) = (jacobian.x_axis, jacobian.y_axis);
         let (p, q, r) = (x.x * x.x + y.x * y.x, x.x * x.y + y.x * y.y, x.y * x.y + y.y * y.y);
-        let (mean, half) = ((p + r) / 2.0, (p - r) / 2.0);
-        let length = (half * half + q * q).sqrt();
-        let (floor2, major, minor) = (floor * floor, mean + length, mean - length);
-        let (raised_major, raised_minor) = (major.max(floor2), minor.max(floor2));
-        // JJᵀ = mean·1 + spread·D with D the unit traceless part along the axes.
-        let (mean, spread) = ((raised_major + raised_minor) / 2.0, (raised_major - raised_minor) / 2.0);
-        let (along, across) = if length > 0.0 { (half / length, q / length) } else { (0.0, 0.0) };
-        let (p, q, r) = (mean + spread * along, spread * across, mean - spread * along);
-        let determinant = raised_major * raised_minor;
-        Self { a: r / determinant, b: -2.0 * q / determinant, c: p / determinant }
+        // JJᵀ = (p q; q r) = mean·1 + spread·(cos 2θ, sin 2θ; sin 2θ, −cos 2θ), θ being the major axis's angle.
+        let half = (p - r) / 2.0;
+        let spread = (half * half + q * q).sqrt();
+        let major = (p + r) / 2.0 + spread;
+        // Not mean − spread, which loses a thin ellipse's minor axis to rounding.
+        let minor = if major > 0.0 { jacobian.determinant().powi(2) / major } else { 0.0 };
+        let (major, minor) = (major.max(floor * floor), minor.max(floor * floor));
+        let (cos, sin) = half_angle(half, q, spread);
+        Self {
+            a: sin * sin / minor + cos * cos / major,
+            b: 2.0 * sin * cos * (major.recip() - minor.recip()),
+            c: cos * cos / minor + sin * sin / major,
+            determinant: (major * minor).recip(),
+        }
     }
 
     /// r² at an offset from the centre.
@@ -40,8 +46,7 @@ impl Ellipse {
 
     /// Half the width and height of the box around r² = `q`.
     pub fn half_extent(&self, q: f64) -> DVec2 {
-        let determinant = self.a * self.c - self.b * self.b / 4.0;
-        DVec2::new((q * self.c / determinant).sqrt(), (q * self.a / determinant).sqrt())
+        DVec2::new((q * self.c / self.determinant).sqrt(), (q * self.a / self.determinant).sqrt())
     }
 
     /// The rows of r² < `q`, ready to be cut one after the other.
@@ -49,7 +54,7 @@ impl Ellipse {
         // A U² + (B V) U + (C V² − q) = 0.
         let inverse = self.a.recip();
         let slope = -0.5 * self.b * inverse;
-        EllipseRows { slope, widest: q * inverse, narrowing: self.c * inverse - slope * slope }
+        EllipseRows { slope, widest: q * inverse, narrowing: self.determinant * inverse * inverse }
     }
 
     /// Semi-axes of r = 1 in texels, the major one first, and the major one's angle from the U axis, in radians.
@@ -76,5 +81,52 @@ impl EllipseRows {
         let half2 = self.widest - self.narrowing * v * v;
         let (middle, half) = (self.slope * v, half2.max(0.0).sqrt());
         (half2 >= 0.0).then_some((middle - half, middle + half))
+    }
+}
+
+/// Cosine and sine of θ where (x, y) = length·(cos 2θ, sin 2θ), each to full precision; 1 and 0 for a circle.
+fn half_angle(x: f64, y: f64, length: f64) -> (f64, f64) {
+    if length == 0.0 {
+        return (1.0, 0.0);
+    }
+    let (cos2, sin2) = (x / length, y / length);
+    if cos2 >= 0.0 {
+        let cos = ((1.0 + cos2) / 2.0).sqrt();
+        (cos, sin2 / (2.0 * cos))
+    } else {
+        let sin = ((1.0 - cos2) / 2.0).sqrt();
+        (sin2 / (2.0 * sin), sin)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_ellipse_is_the_image_of_the_unit_circle() {
+        for (columns, name) in [
+            ([3.0, 0.5, -1.0, 2.0], "common"),
+            ([1e10, 0.0, 0.0, 10.0], "as wide as at a pole"),
+            ([10.0, 0.0, 0.0, 1e10], "as high as at a rim"),
+            ([2.0, 2.0, -7.0, 7.0], "diagonal"),
+        ] {
+            let jacobian = DMat2::from_cols_array(&columns);
+            let ellipse = Ellipse::new(jacobian, 1.0);
+            for step in 0..16 {
+                let (sin, cos) = (f64::from(step) * std::f64::consts::TAU / 16.0).sin_cos();
+                let found = ellipse.distance_squared(jacobian * DVec2::new(cos, sin));
+                assert!((found - 1.0).abs() < 1e-9, "{name}: {found}");
+            }
+        }
+    }
+
+    #[test]
+    fn short_axes_are_raised_and_long_ones_left() {
+        let ellipse = Ellipse::new(DMat2::from_cols_array(&[5.0, 0.0, 0.0, 0.1]), 1.5);
+        assert!((ellipse.distance_squared(DVec2::new(5.0, 0.0)) - 1.0).abs() < 1e-12);
+        assert!((ellipse.distance_squared(DVec2::new(0.0, 1.5)) - 1.0).abs() < 1e-12);
+        let point = Ellipse::new(DMat2::ZERO, 2.0);
+        assert!((point.distance_squared(DVec2::new(0.0, 2.0)) - 1.0).abs() < 1e-12);
     }
 }

@@ -9,7 +9,8 @@ pub enum FilterKind {
     Point,
     /// The four texels around the pixel's centre.
     Bilinear,
-    /// N×N sub-samples a pixel through the exact mapping: slow, the judge of the others.
+    /// N×N sub-samples a pixel through the exact mapping: slow, the judge of the others. Each sub-sample interpolates
+    /// between texels, so that the kernel's floor and its centring have nothing to mend and play no part.
     Reference {
         /// Sub-samples along a pixel's side.
         samples: usize,

@@ -9,9 +9,10 @@ use super::candidates::{Candidate, settle};
 use super::kernel::KernelTable;
 use super::{Ellipse, Taps, lookup};
 use crate::sphere::{Angle, Direction};
-use crate::world::{Footprint, PixelPoint, PixelRect, Source, World};
+use crate::world::{FieldStop, Footprint, PixelPoint, PixelRect, Source, World};
 
-/// A mapping is taken as linear over a kernel that is smaller than this part of the way to its nearest singularity.
+/// A mapping is taken as linear over a kernel that is smaller than this part of the way to its nearest singularity. At a
+/// fifth, the tests find no point of a direction-coloured world displaced by more than 0.002 pixel.
 const LINEAR_PART: f64 = 0.2;
 
 /// The gather for one world and kernel.
@@ -41,7 +42,7 @@ impl<'a> Gather<'a> {
         taps.clear();
         self.candidates.clear();
         let sources = self.world.sources();
-        if !self.gather_from(&sources[self.last], footprint) {
+        if !self.gather_from(&sources[self.last], footprint) && sources.len() > 1 {
             self.candidates.clear();
             for (index, source) in sources.iter().enumerate() {
                 let start = self.candidates.len();
@@ -108,7 +109,10 @@ impl<'a> Gather<'a> {
             }
         }
         let (width, whole_turn) = (source.view.width(), source.period.is_some_and(|p| p <= source.view.width()));
-        bounds.top >= 0 && bounds.bottom < height && (whole_turn || (bounds.left >= 0 && bounds.right < width as i64))
+        source.view.stop == FieldStop::NONE
+            && bounds.top >= 0
+            && bounds.bottom < height
+            && (whole_turn || (bounds.left >= 0 && bounds.right < width as i64))
     }
 
     /// Texels beside each other in a row, all inside: Q = AU² + BUV + CV² by finite differences (Greene & Heckbert 1986).

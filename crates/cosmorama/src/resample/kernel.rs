@@ -19,7 +19,7 @@ pub enum CrossSection {
         /// Ringing.
         c: f64,
     },
-    /// A jinc windowed by a jinc, of this many lobes; `blur` stretches the radius.
+    /// A jinc windowed by a jinc, of one to three lobes (anything else counts as the nearest); `blur` stretches the radius.
     JincJinc {
         /// Zero crossings inside the radius.
         lobes: usize,
@@ -33,7 +33,7 @@ pub enum CrossSection {
 }
 
 /// Zeros of the jinc function J₁(πx)/x.
-const JINC_ZEROS: [f64; 3] = [1.219_669_891_266_504, 2.233_130_594_387_446, 3.238_315_484_166_236];
+const JINC_ZEROS: [f64; 3] = [1.219_669_891_266_504, 2.233_130_594_381_528_6, 3.238_315_484_166_236];
 
 impl CrossSection {
     /// Mitchell & Netravali 1988, B = C = ⅓.
@@ -50,7 +50,7 @@ impl CrossSection {
         match self {
             Self::Gaussian { cutoff, .. } => cutoff,
             Self::Cubic { .. } => 2.0,
-            Self::JincJinc { lobes, blur } => JINC_ZEROS[lobes - 1] * blur,
+            Self::JincJinc { lobes, blur } => last_zero(lobes) * blur,
             Self::Tent => 1.0,
             Self::Box => PI.sqrt().recip(),
         }
@@ -66,7 +66,7 @@ impl CrossSection {
             Self::Cubic { b, c } => cubic(b, c, r),
             Self::JincJinc { lobes, blur } => {
                 let x = r / blur;
-                jinc(x) * jinc(x * JINC_ZEROS[0] / JINC_ZEROS[lobes - 1])
+                jinc(x) * jinc(x * JINC_ZEROS[0] / last_zero(lobes))
             }
             Self::Tent => 1.0 - r,
             Self::Box => 1.0,
@@ -80,6 +80,11 @@ impl CrossSection {
             _ => self.weight(x.hypot(y)),
         }
     }
+}
+
+/// Where a jinc of this many lobes ends.
+fn last_zero(lobes: usize) -> f64 {
+    JINC_ZEROS[lobes.clamp(1, JINC_ZEROS.len()) - 1]
 }
 
 /// Mitchell & Netravali 1988, equation 8.
@@ -165,7 +170,7 @@ impl Kernel {
 
 /// Anti-ringing clamps to the texels of r² under this. With the default floor the disc reaches 1.37 texels, so that
 /// whatever way a gradient runs there are texels on both sides of the pixel, at the corners of a cube too.
-const UNDER: f64 = 1.5;
+pub(super) const UNDER: f64 = 1.5;
 
 /// The paper's WTAB, twice: both cross-sections of a kernel tabulated over r², so that Q = r² is the index.
 #[derive(Clone, Debug)]
@@ -176,7 +181,8 @@ pub(crate) struct KernelTable {
     radius_squared: f64,
 }
 
-/// Entries of a table; nearest look-up errs by less than 1/1000 of the peak for every kernel here.
+/// Entries of a table. The nearest one errs by less than 0.3 % of the peak for the cubics and Gaussians, 2 % for the tent,
+/// whose tip is sharp in r²: far less than a texel's noise, and small enough to stay in the first cache.
 const ENTRIES: usize = 2048;
 
 impl KernelTable {
@@ -224,6 +230,38 @@ impl KernelTable {
             weight: self.weight(q, coarseness) * solid_angle,
             window: falloff * falloff * solid_angle,
             offset: [offset.x as f32, offset.y as f32],
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn tables_hold_their_kernels() {
+        let gaussian = CrossSection::Gaussian { alpha: 2.0, cutoff: 1.0 };
+        let lanczos = CrossSection::JincJinc { lobes: 3, blur: 1.0 };
+        for (section, bound) in [
+            (CrossSection::MITCHELL, 0.003),
+            (CrossSection::CATMULL_ROM, 0.003),
+            (gaussian, 0.003),
+            (lanczos, 0.005),
+            (CrossSection::Tent, 0.02),
+        ] {
+            let table = KernelTable::new(&Kernel::uniform(section));
+            for step in 0..100_000 {
+                let r = section.radius() * f64::from(step) / 100_000.0;
+                let error = (f64::from(table.weight(r * r, 0.5)) - section.weight(r)).abs();
+                assert!(error < bound, "{section:?} at {r}: {error}");
+            }
+        }
+    }
+
+    #[test]
+    fn jincs_end_at_their_zeros() {
+        for zero in JINC_ZEROS {
+            assert!(jinc(zero).abs() < 1e-14, "{zero}");
         }
     }
 }

@@ -3,25 +3,9 @@
 use crate::sphere::Direction;
 use crate::world::{PixelPoint, Source, World};
 
-/// The index of the view that holds a direction, and where.
-pub(crate) fn owner(world: &World, direction: Direction) -> Option<(usize, PixelPoint)> {
-    // A direction on the very edge between two views may miss both by a rounding error.
-    const ROUNDING: f64 = 1e-6;
-    world.sources().iter().enumerate().find_map(|(index, source)| {
-        let pixel = source.view.wrapped(source.view.pixel(direction)?);
-        let (width, height) = (source.view.width() as f64, source.view.height() as f64);
-        let inside = pixel.x >= -ROUNDING
-            && pixel.y >= -ROUNDING
-            && pixel.x <= width + ROUNDING
-            && pixel.y <= height + ROUNDING
-            && source.view.stop_passes(pixel);
-        inside.then_some((index, pixel))
-    })
-}
-
 /// Gives the texel nearest to a direction, with weight 1, to `tap`; nothing where no view looks.
 pub(super) fn nearest(world: &World, direction: Direction, mut tap: impl FnMut(u32, f64)) {
-    let Some((index, pixel)) = owner(world, direction) else { return };
+    let Some((index, pixel)) = world.owner(direction) else { return };
     let source = &world.sources()[index];
     let (i, j) = (pixel.x.floor() as i64, pixel.y.floor() as i64);
     // At a rim the texel's own centre may be outside the field of view though the direction is inside.
@@ -37,7 +21,7 @@ pub(super) fn nearest(world: &World, direction: Direction, mut tap: impl FnMut(u
 /// A neighbour beyond the edge of the view is itself looked up, bilinearly, where the neighbouring view shows it; the
 /// weights of those that nothing shows are missing from the sum.
 pub(super) fn bilinear(world: &World, direction: Direction, mut tap: impl FnMut(u32, f64)) {
-    let Some((index, pixel)) = owner(world, direction) else { return };
+    let Some((index, pixel)) = world.owner(direction) else { return };
     let source = &world.sources()[index];
     for (i, j, weight) in corners(pixel) {
         match source.column(i).and_then(|i| owned_texel(world, source, (i, j), 0, 0)) {
@@ -50,7 +34,7 @@ pub(super) fn bilinear(world: &World, direction: Direction, mut tap: impl FnMut(
 fn beyond_edge(world: &World, source: &Source, (i, j): (i64, i64), weight: f64, tap: &mut impl FnMut(u32, f64)) {
     let centre = PixelPoint::new(i as f64 + 0.5, j as f64 + 0.5);
     let Some(direction) = source.view.direction(centre) else { return };
-    let Some((index, pixel)) = owner(world, direction) else { return };
+    let Some((index, pixel)) = world.owner(direction) else { return };
     let neighbour = &world.sources()[index];
     for (i, j, part) in corners(pixel) {
         if let Some(texel) = owned_texel(world, neighbour, clamp(neighbour, i, j), 0, 0) {

@@ -20,7 +20,6 @@ pub use ewa::{TextureDerivatives, WeightTable, ewa};
 pub use filter::{Filter, FilterKind};
 pub(crate) use kernel::KernelTable;
 pub use kernel::{CrossSection, Kernel};
-pub(crate) use lookup::owner;
 pub use need::{Need, Needs, Uncovered};
 pub(crate) use pixel_taps::PixelTaps;
 pub use plan::{Plan, Resampler};

@@ -2,10 +2,10 @@
 
 use rayon::prelude::*;
 
+use super::Filter;
 use super::block::{Block, Cap};
 use super::kernel::KernelTable;
 use super::pixel_taps::PixelTaps;
-use super::{Filter, lookup};
 use crate::sphere::Direction;
 use crate::world::{PixelPoint, PixelRect, Source, View, World};
 
@@ -195,7 +195,7 @@ impl Survey<'_> {
     }
 
     fn add_pixel(&self, (column, row): (usize, usize), direction: Direction, needs: &mut Needs) {
-        match lookup::owner(self.world, direction) {
+        match self.world.owner(direction) {
             Some((owner, at)) => add_seen(&self.world.sources()[owner], at, &mut needs.views[owner]),
             None => {
                 needs.add_uncovered(Uncovered { pixels: 1, target: self.index, column, row, direction });

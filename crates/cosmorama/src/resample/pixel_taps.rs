@@ -18,20 +18,32 @@ impl<'a> PixelTaps<'a> {
         Self { world, target, filter, gather: Gather::new(world, table), taps: Taps::default() }
     }
 
+    /// The taps of a pixel, weights adding to one; `None` for the reference, which has too many to list.
+    pub(super) fn taps(&mut self, screen: &ScreenPixel) -> Option<&Taps> {
+        let (direction, taps) = (screen.footprint.direction, &mut self.taps);
+        match self.filter.kind {
+            FilterKind::Ewa => self.gather.taps(&screen.footprint, taps),
+            FilterKind::Point => {
+                taps.clear();
+                lookup::nearest(self.world, direction, |texel, weight| taps.push_under(texel, weight as f32));
+            }
+            FilterKind::Bilinear => {
+                taps.clear();
+                lookup::bilinear(self.world, direction, |texel, weight| taps.push_under(texel, weight as f32));
+                taps.normalise();
+            }
+            FilterKind::Reference { .. } => return None,
+        }
+        Some(&self.taps)
+    }
+
     /// Gives the index of every texel that the filter reads for a pixel to `visit`, some of them perhaps twice.
     pub(crate) fn for_each_texel(&mut self, pixel: (usize, usize), screen: &ScreenPixel, mut visit: impl FnMut(usize)) {
-        let direction = screen.footprint.direction;
-        let mut read = |texel: u32, _: f64| visit(texel as usize);
-        match self.filter.kind {
-            FilterKind::Ewa => {
-                self.gather.taps(&screen.footprint, &mut self.taps);
-                self.taps.as_slice().iter().for_each(|tap| visit(tap.texel as usize));
-            }
-            FilterKind::Point => lookup::nearest(self.world, direction, read),
-            FilterKind::Bilinear => lookup::bilinear(self.world, direction, read),
-            FilterKind::Reference { samples } => {
-                reference::for_each_texel(self.world, self.target, self.filter, samples, pixel, &mut read);
-            }
+        if let FilterKind::Reference { samples } = self.filter.kind {
+            let mut read = |texel: u32, _: f64| visit(texel as usize);
+            reference::for_each_texel(self.world, self.target, self.filter, samples, pixel, &mut read);
+        } else if let Some(taps) = self.taps(screen) {
+            taps.as_slice().iter().for_each(|tap| visit(tap.texel as usize));
         }
     }
 }

@@ -2,10 +2,10 @@ use std::ops::Range;
 
 use rayon::prelude::*;
 
-use super::gather::Gather;
 use super::kernel::KernelTable;
+use super::pixel_taps::PixelTaps;
 use super::taps::average;
-use super::{Filter, FilterKind, Tap, Taps, lookup, reference};
+use super::{Filter, FilterKind, Tap, Taps, reference};
 use crate::raster::{Image, Rgba};
 use crate::world::{ScreenPixel, View, World};
 
@@ -53,7 +53,8 @@ pub struct Resampler<'a> {
 impl Resampler<'_> {
     /// One frame, computed without storing the geometry. `texels` is the world's buffer of light.
     ///
-    /// Pixels are premultiplied by their coverage: transparent outside the lens.
+    /// Pixels are premultiplied by their coverage: transparent outside the lens. A pixel just beyond the world's last texel
+    /// takes what its kernel still reaches; [`super::ScreenMask`] tells which pixels see nothing.
     ///
     /// # Panics
     /// If `texels` is not as long as [`World::texel_count`] says.
@@ -130,30 +131,13 @@ impl Resampler<'_> {
         rows: Range<usize>,
         mut visit: impl FnMut(usize, &ScreenPixel, &Taps),
     ) {
-        let mut gather = Gather::new(self.world, table);
-        let mut taps = Taps::default();
+        let mut pixel_taps = PixelTaps::new(self.world, self.target, &self.filter, table);
         let (width, top) = (self.target.width(), rows.start);
         for j in rows {
             for i in 0..width {
                 let Some(screen) = self.target.screen_pixel(i, j) else { continue };
-                self.fill(&mut gather, &screen, &mut taps);
-                visit((j - top) * width + i, &screen, &taps);
-            }
-        }
-    }
-
-    fn fill(&self, gather: &mut Gather, screen: &ScreenPixel, taps: &mut Taps) {
-        let direction = screen.footprint.direction;
-        match self.filter.kind {
-            FilterKind::Ewa => gather.taps(&screen.footprint, taps),
-            FilterKind::Point => {
-                taps.clear();
-                lookup::nearest(self.world, direction, |texel, weight| taps.push_under(texel, weight as f32));
-            }
-            FilterKind::Bilinear | FilterKind::Reference { .. } => {
-                taps.clear();
-                lookup::bilinear(self.world, direction, |texel, weight| taps.push_under(texel, weight as f32));
-                taps.normalise();
+                let Some(taps) = pixel_taps.taps(&screen) else { continue };
+                visit((j - top) * width + i, &screen, taps);
             }
         }
     }

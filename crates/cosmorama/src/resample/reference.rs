@@ -2,6 +2,7 @@
 
 use rayon::prelude::*;
 
+use super::kernel::UNDER;
 use super::{Filter, lookup};
 use crate::raster::{Image, Rgba};
 use crate::sphere::Direction;
@@ -58,20 +59,22 @@ impl<'a> KernelSquare<'a> {
 
     /// `None` if no sub-sample is inside the field of view, as in a pixel of which the rim leaves a sliver.
     fn average(&self, texels: &[Rgba]) -> Option<Rgba> {
-        let (mut sum, mut weights) = ([0f64; 4], 0f64);
+        let (mut sum, mut weights, mut size) = ([0f64; 4], 0f64, 0f64);
         let (mut least, mut greatest) = ([f64::INFINITY; 4], [f64::NEG_INFINITY; 4]);
         self.for_each_sample(|weight, r, at| {
             let Some((colour, found)) = self.sample(at, texels) else { return };
             weights += weight * found;
+            size += weight.abs() * found;
             for c in 0..4 {
                 sum[c] += weight * colour[c];
-                if r < 1.0 && found > 0.0 {
+                if r * r < UNDER && found > 0.0 {
                     least[c] = least[c].min(colour[c] / found);
                     greatest[c] = greatest[c].max(colour[c] / found);
                 }
             }
         });
-        if weights <= 0.0 {
+        // As in the gather: where only negative lobes reach the world, there is no average.
+        if weights <= 0.05 * size {
             return None;
         }
         Some(Rgba(std::array::from_fn(|c| {
@@ -136,7 +139,8 @@ fn weighted_light(world: &World, direction: Direction, texels: &[Rgba]) -> ([f64
 /// s = √|det J|, in the view that shows the pixel's centre.
 fn texels_per_pixel(world: &World, target: &View, centre: PixelPoint) -> Option<f64> {
     let footprint = target.footprint(centre)?;
-    let source = world.sources().iter().find(|source| source.view.sees(footprint.direction))?;
+    let (index, _) = world.owner(footprint.direction)?;
+    let source = &world.sources()[index];
     let (_, jacobian) = source.view.texel_footprint(&footprint)?;
     Some(jacobian.determinant().abs().sqrt())
 }

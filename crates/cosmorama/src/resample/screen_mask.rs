@@ -25,7 +25,7 @@ impl ScreenMask {
             for (i, pixel) in row.iter_mut().enumerate() {
                 let Some(screen) = target.screen_pixel(i, j) else { continue };
                 let direction = screen.footprint.direction;
-                let unseen = !world.sources().iter().any(|source| source.view.sees(direction));
+                let unseen = world.owner(direction).is_none();
                 *pixel = MaskPixel { coverage: screen.coverage as f32, unseen };
             }
         });
@@ -46,7 +46,8 @@ impl ScreenMask {
     pub fn close_holes(&self, image: &mut Image<Rgba>, fill: Rgba) -> usize {
         let mut empty = 0;
         for (pixel, mask) in image.pixels_mut().iter_mut().zip(&self.pixels) {
-            if pixel.alpha() > 0.0 {
+            // Less is what negative lobes leave beside a hole.
+            if pixel.alpha() > 0.05 * mask.coverage {
                 *pixel = *pixel * (mask.coverage / pixel.alpha());
             } else if mask.coverage > 0.0 && !mask.unseen {
                 *pixel = fill * mask.coverage;

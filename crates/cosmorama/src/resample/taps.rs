@@ -51,7 +51,8 @@ impl Taps {
     pub(super) fn fill(&mut self, taps: impl Iterator<Item = (bool, Tap)>, count: usize, under: usize) {
         self.taps.clear();
         self.taps.resize(count, Tap { texel: 0, weight: 0.0 });
-        self.under = under;
+        // Where none lies under the pixel, beyond a view's edge, all of them bound it.
+        self.under = if under == 0 { count } else { under };
         // Each tap goes to the end of its own part.
         let mut ends = [under, 0];
         for (is_under, tap) in taps {

@@ -33,7 +33,10 @@ impl View {
         match footprint.as_ref().map_or(Side::Unknown, |footprint| self.side(centre, footprint)) {
             Side::Inside => footprint.map(|footprint| ScreenPixel { coverage: 1.0, footprint }),
             Side::Outside => None,
-            Side::Cut(stop) => self.cut_pixel(i as f64, j as f64, |sample| self.passes(&stop, sample)),
+            Side::Cut(stop) => self.cut_pixel(i as f64, j as f64, |sample| {
+                let point = self.grid.to_plane(sample);
+                stop.passes(point, || self.projection.unproject(point))
+            }),
             Side::Unknown => self.cut_pixel(i as f64, j as f64, |sample| self.shows(sample)),
         }
     }
@@ -78,19 +81,11 @@ impl View {
                 }
             }
         }
+        if count == 0 {
+            return None;
+        }
         let centroid = PixelPoint::new(sum_x / count as f64, sum_y / count as f64);
         let footprint = self.footprint(centroid)?;
         Some(ScreenPixel { coverage: count as f64 / (SUB_SAMPLES * SUB_SAMPLES) as f64, footprint })
-    }
-
-    /// Whether parts of the field stop let a point pass; a direction is computed only where one is asked for.
-    fn passes(&self, stop: &FieldStop, sample: PixelPoint) -> bool {
-        let point = self.grid.to_plane(sample);
-        let in_circle = stop.circle.is_none_or(|radius| point.x * point.x + point.y * point.y <= radius * radius);
-        in_circle
-            && match stop.half_space {
-                Some(side) => self.projection.unproject(point).is_some_and(|direction| side.dot(direction) >= 0.0),
-                None => true,
-            }
     }
 }

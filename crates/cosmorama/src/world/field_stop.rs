@@ -27,9 +27,9 @@ impl FieldStop {
         Self { half_space: Some(Direction::from_unit(glam::DVec3::new(0.0, cos, -sin))), ..self }
     }
 
-    /// Whether a point of the plane, at which `direction` is seen, is inside.
-    pub fn passes(&self, point: PlanePoint, direction: Direction) -> bool {
+    /// Whether a point of the plane is inside; `direction` is what is seen there, asked for only if it matters.
+    pub fn passes(&self, point: PlanePoint, direction: impl FnOnce() -> Option<Direction>) -> bool {
         let in_circle = self.circle.is_none_or(|radius| point.x * point.x + point.y * point.y <= radius * radius);
-        in_circle && self.half_space.is_none_or(|side| side.dot(direction) >= 0.0)
+        in_circle && self.half_space.is_none_or(|side| direction().is_some_and(|direction| side.dot(direction) >= 0.0))
     }
 }

@@ -134,7 +134,7 @@ impl View {
     /// Whether the field stop lets a point of the plane pass, inside the image or outside it.
     pub fn stop_passes(&self, pixel: PixelPoint) -> bool {
         let point = self.grid.to_plane(pixel);
-        self.projection.unproject(point).is_some_and(|direction| self.stop.passes(point, direction))
+        self.projection.unproject(point).is_some_and(|direction| self.stop.passes(point, || Some(direction)))
     }
 
     /// [`Projection::margin`] of a direction of the world.

@@ -1,7 +1,8 @@
 use rayon::prelude::*;
 use thiserror::Error;
 
-use super::View;
+use super::{PixelPoint, View};
+use crate::sphere::Direction;
 
 /// Why views make no world.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
@@ -9,6 +10,9 @@ pub enum WorldError {
     /// There is nothing to look at.
     #[error("a world needs at least one view")]
     Empty,
+    /// A view has no pixels.
+    #[error("the view {0} has no pixels")]
+    NoPixels(String),
     /// Texels are counted in 32 bits.
     #[error("the views hold {0} texels together, more than {max}", max = u32::MAX)]
     TooLarge(usize),
@@ -25,7 +29,7 @@ pub struct Source {
     pub offset: usize,
     /// After how many columns the picture repeats, where it goes all the way round.
     pub period: Option<usize>,
-    /// Width of the largest texel, in radians.
+    /// The larger side of the largest texel, in radians.
     pub texel_pitch: f64,
 }
 
@@ -55,14 +59,19 @@ pub struct World {
 impl World {
     /// The world of these named views.
     ///
+    /// The views must not overlap: a texel of each would count for the same direction.
+    ///
     /// # Errors
-    /// When there is no view, or more texels than 32 bits can count.
+    /// When there is no view, one without pixels, or more texels than 32 bits can count.
     pub fn new(views: impl IntoIterator<Item = (String, View)>) -> Result<Self, WorldError> {
         let mut sources = Vec::new();
         let mut offset = 0usize;
         for (name, view) in views {
             let texels = view.width().saturating_mul(view.height());
-            sources.push(Source { name, view, offset, period: view.period(), texel_pitch: 0.0 });
+            if texels == 0 {
+                return Err(WorldError::NoPixels(name));
+            }
+            sources.push(Source { name, view, offset, period: view.period(), texel_pitch: texel_pitch(&view) });
             offset = offset.saturating_add(texels);
         }
         if sources.is_empty() {
@@ -83,16 +92,28 @@ impl World {
                 None => fill_solid_angles(&source.view, &mut solid_angles[source.texels()]),
             }
         }
-        for source in &mut sources {
-            let largest = solid_angles[source.texels()].iter().copied().fold(0.0, f32::max);
-            source.texel_pitch = f64::from(largest).sqrt();
-        }
         Ok(Self { sources, solid_angles })
     }
 
     /// The views.
     pub fn sources(&self) -> &[Source] {
         &self.sources
+    }
+
+    /// The index of the view that holds a direction, and where in its image.
+    pub fn owner(&self, direction: Direction) -> Option<(usize, PixelPoint)> {
+        // A direction on the very edge between two views may miss both by a rounding error.
+        const ROUNDING: f64 = 1e-6;
+        self.sources.iter().enumerate().find_map(|(index, source)| {
+            let pixel = source.view.wrapped(source.view.pixel(direction)?);
+            let (width, height) = (source.view.width() as f64, source.view.height() as f64);
+            let inside = pixel.x >= -ROUNDING
+                && pixel.y >= -ROUNDING
+                && pixel.x <= width + ROUNDING
+                && pixel.y <= height + ROUNDING
+                && source.view.stop_passes(pixel);
+            inside.then_some((index, pixel))
+        })
     }
 
     /// Texels of all views together: the length of the buffer that holds the light.
@@ -104,6 +125,16 @@ impl World {
     pub fn solid_angles(&self) -> &[f32] {
         &self.solid_angles
     }
+}
+
+/// The larger side of the largest texel, found on a coarse grid of points: no mapping here bends faster.
+fn texel_pitch(view: &View) -> f64 {
+    const STEPS: usize = 32;
+    let at = |size: usize, step: usize| size as f64 * step as f64 / STEPS as f64;
+    let points = (0..=STEPS).flat_map(|j| (0..=STEPS).map(move |i| (i, j)));
+    let footprints =
+        points.filter_map(|(i, j)| view.footprint(PixelPoint::new(at(view.width(), i), at(view.height(), j))));
+    footprints.map(|f| f.jacobian.dx.length().max(f.jacobian.dy.length())).fold(0.0, f64::max)
 }
 
 fn fill_solid_angles(view: &View, out: &mut [f32]) {

@@ -29,7 +29,7 @@ impl Lens for OmnimaxLens {
             let (found, slope) = self.angle(radius);
             let step = (found - angle) / slope;
             radius -= step;
-            if step.abs() <= 1e-16 * radius.abs() {
+            if step.abs() <= 2.0 * f64::EPSILON * radius.abs() {
                 break;
             }
         }

@@ -62,7 +62,7 @@ impl Projection for Equirectangular {
         let Some(point) = self.project(centre) else { return PlaneRect::EVERYTHING };
         let (low, high) = (point.y - radius.radians(), point.y + radius.radians());
         let holds_a_pole = low <= -FRAC_PI_2 || high >= FRAC_PI_2;
-        let half_width = if holds_a_pole { PI } else { (radius.radians().sin() / point.y.cos()).asin() };
+        let half_width = if holds_a_pole { PI } else { (radius.radians().sin() / point.y.cos()).min(1.0).asin() };
         PlaneRect {
             min: PlanePoint::new(point.x - half_width, low.max(-FRAC_PI_2)),
             max: PlanePoint::new(point.x + half_width, high.min(FRAC_PI_2)),
