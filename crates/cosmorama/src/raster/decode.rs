@@ -1,3 +1,5 @@
+use std::sync::atomic::{AtomicUsize, Ordering};
+
 use half::f16;
 use rayon::prelude::*;
 
@@ -5,11 +7,11 @@ use super::{AlphaMode, Channels, EncodedImage, Image, Rgba, Samples, Transfer};
 
 impl EncodedImage {
     /// Linear light, premultiplied, of every pixel. Grey becomes red = green = blue; without an alpha channel
-    /// alpha is 1; float samples go by the rule of [`Rgba::finite`].
+    /// alpha is 1; float samples go by the rule of [`Rgba::finite`]. Gives the number of pixels that are NaN, and so missing.
     ///
     /// # Panics
     /// When `into` is not as long as the image has pixels.
-    pub fn decode(&self, transfer: &Transfer, into: &mut [Rgba]) {
+    pub fn decode(&self, transfer: &Transfer, into: &mut [Rgba]) -> usize {
         assert_eq!(into.len(), self.width() * self.height(), "one pixel of light for each pixel of the file");
         match self.samples() {
             Samples::U8(samples) => decode_integers(samples, self, &Tables::new(transfer, 256), into),
@@ -27,9 +29,9 @@ impl EncodedImage {
     }
 }
 
-/// Light of every code value, by channel.
+/// Light of every code value: one table for all channels, where they have one curve, or one for each.
 struct Tables {
-    colour: [Vec<f32>; 3],
+    colour: Vec<Vec<f32>>,
     last: f32,
 }
 
@@ -37,10 +39,13 @@ impl Tables {
     fn new(transfer: &Transfer, codes: u32) -> Self {
         let last = f64::from(codes - 1);
         let table = |channel| (0..codes).map(|code| transfer.decode(f64::from(code) / last, channel) as f32).collect();
-        let red: Vec<f32> = table(0);
-        let others = if transfer.is_common() { [red.clone(), red.clone()] } else { [table(1), table(2)] };
-        let [green, blue] = others;
-        Self { colour: [red, green, blue], last: last as f32 }
+        let channels = if transfer.is_common() { 1 } else { 3 };
+        Self { colour: (0..channels).map(table).collect(), last: last as f32 }
+    }
+
+    /// The table of a channel.
+    fn of(&self, channel: usize) -> &[f32] {
+        &self.colour[channel % self.colour.len()]
     }
 }
 
@@ -66,8 +71,8 @@ fn decode_integers<S: Copy + Sync + Into<u32>>(
     image: &EncodedImage,
     tables: &Tables,
     into: &mut [Rgba],
-) {
-    let [red, green, blue] = &tables.colour;
+) -> usize {
+    let [red, green, blue] = [0, 1, 2].map(|channel| tables.of(channel));
     let code = |sample: S| sample.into() as usize;
     let alpha = |sample: S| sample.into() as f32 / tables.last;
     let channels = image.channels();
@@ -87,6 +92,8 @@ fn decode_integers<S: Copy + Sync + Into<u32>>(
             Rgba::opaque(red[code(s[0])], green[code(s[1])], blue[code(s[2])]) * alpha(s[3])
         }),
     }
+    // An integer is always a number.
+    0
 }
 
 fn decode_floats<S: Copy + Sync>(
@@ -95,8 +102,9 @@ fn decode_floats<S: Copy + Sync>(
     image: &EncodedImage,
     transfer: &Transfer,
     into: &mut [Rgba],
-) {
+) -> usize {
     let (channels, mode) = (image.channels(), image.alpha_mode());
+    let missing = AtomicUsize::new(0);
     by_pixels(samples, channels, into, |s| {
         let raw = match channels {
             Channels::Grey => Rgba::opaque(float(s[0]), float(s[0]), float(s[0])),
@@ -104,8 +112,12 @@ fn decode_floats<S: Copy + Sync>(
             Channels::Rgb => Rgba::opaque(float(s[0]), float(s[1]), float(s[2])),
             Channels::Rgba => Rgba([float(s[0]), float(s[1]), float(s[2]), float(s[3])]),
         };
+        if raw.0.iter().any(|sample| sample.is_nan()) {
+            missing.fetch_add(1, Ordering::Relaxed);
+        }
         light_of(raw.finite(), mode, transfer)
     });
+    missing.into_inner()
 }
 
 fn light_of(code: Rgba, mode: AlphaMode, transfer: &Transfer) -> Rgba {
@@ -151,6 +163,21 @@ mod tests {
         let overflow = Samples::Float(vec![1e38; 3]);
         let pixel = decode_one(Channels::Rgb, Depth::Float, overflow, &Transfer::Gamma(3.0));
         assert!(pixel.0.iter().all(|c| c.is_finite()), "{pixel:?}");
+    }
+
+    #[test]
+    fn missing_pixels_are_counted_with_and_without_alpha() {
+        let mut light = [Rgba::TRANSPARENT; 3];
+        let nan = f32::NAN;
+        let veiled = Samples::Float(vec![1.0, 0.5, nan, 1.0, 0.0, nan]);
+        let image = EncodedImage::new(3, 1, Channels::GreyAlpha, Depth::Float, veiled).unwrap();
+        assert_eq!(image.decode(&Transfer::Linear, &mut light), 2);
+        // What is transparent is not missing.
+        let clear = Samples::Half(vec![f16::ONE, f16::ZERO, f16::NAN, f16::ONE, f16::ZERO, f16::ZERO]);
+        let image = EncodedImage::new(3, 1, Channels::GreyAlpha, Depth::Half, clear).unwrap();
+        assert_eq!(image.decode(&Transfer::Linear, &mut light), 1);
+        let opaque = EncodedImage::new(3, 1, Channels::Grey, Depth::Eight, Samples::U8(vec![0, 1, 2])).unwrap();
+        assert_eq!(opaque.decode(&Transfer::Srgb, &mut light), 0);
     }
 
     #[test]

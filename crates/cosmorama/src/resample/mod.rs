@@ -4,6 +4,7 @@ mod block;
 mod candidates;
 mod ellipse;
 mod ewa;
+mod field_edge;
 mod filter;
 mod gather;
 mod kernel;

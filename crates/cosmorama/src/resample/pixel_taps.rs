@@ -15,7 +15,7 @@ pub(crate) struct PixelTaps<'a> {
 impl<'a> PixelTaps<'a> {
     /// Pixels of `target` made by `filter` from `world`; `table` is that of the filter's kernel.
     pub(crate) fn new(world: &'a World, target: &'a View, filter: &'a Filter, table: &'a KernelTable) -> Self {
-        Self { world, target, filter, gather: Gather::new(world, table), taps: Taps::default() }
+        Self { world, target, filter, gather: Gather::new(world, target, table), taps: Taps::default() }
     }
 
     /// The taps of a pixel, weights adding to one; `None` for the reference, which has too many to list.

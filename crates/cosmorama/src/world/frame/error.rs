@@ -37,6 +37,14 @@ pub enum FrameError {
         /// What was asked for.
         found: f64,
     },
+    /// So fine a picture that no image holds it.
+    #[error("as fine as the input, the image would have {width:.3e}x{height:.3e} pixels; its size must be given")]
+    SizeUnbounded {
+        /// Columns.
+        width: f64,
+        /// Rows.
+        height: f64,
+    },
     /// The circle is placed in pixels of an unknown image.
     #[error("the lens's centre or radius is given in pixels, so the size of the image must be given too")]
     SizeNeeded,

@@ -80,17 +80,24 @@ impl Frame {
     /// The even size at which the centre has so many pixels a radian: parity with a source that has as many.
     ///
     /// # Errors
-    /// When a parameter is out of its range, or the place of a lens's circle is given in pixels, which fixes the size.
+    /// When a parameter is out of its range, the place of a lens's circle is given in pixels, which fixes the size, or no
+    /// image is that large.
     pub fn size_at(&self, pixels_per_radian: f64) -> Result<(usize, usize), FrameError> {
         /// Any size will do: pixels per radian are in proportion to it.
         const TRIAL: usize = 1 << 20;
+        /// Sides that no file format counts.
+        const LARGEST: f64 = u32::MAX as f64;
         if self.circle().is_some_and(|circle| circle != LensCircle::FITTED) {
             return Err(FrameError::SizeNeeded);
         }
         let trial = self.view(TRIAL, self.natural_height(TRIAL))?.pixels_per_radian();
-        let width = (TRIAL as f64 * pixels_per_radian / trial / 2.0).round().max(1.0) as usize * 2;
-        let height = self.natural_height(width);
-        Ok((width, height + height % 2))
+        let width = (TRIAL as f64 * pixels_per_radian / trial / 2.0).round().max(1.0) * 2.0;
+        let height = width * self.natural_height(TRIAL) as f64 / TRIAL as f64;
+        if !(width <= LARGEST && height <= LARGEST) {
+            return Err(FrameError::SizeUnbounded { width, height });
+        }
+        let height = self.natural_height(width as usize);
+        Ok((width as usize, height + height % 2))
     }
 
     fn circle(&self) -> Option<LensCircle> {
@@ -127,6 +134,16 @@ mod tests {
         let circle = LensCircle { radius: Some(500.0), ..LensCircle::FITTED };
         let frame = Frame::Omnimax(OmnimaxFrame { circle, ..OmnimaxFrame::default() });
         assert_eq!(frame.size_at(512.0), Err(FrameError::SizeNeeded));
+    }
+
+    #[test]
+    fn what_no_image_can_hold_is_refused() {
+        let degrees = |degrees| FieldOfView::Horizontal(Angle::from_degrees(degrees));
+        let frame = |fov| Frame::Perspective(PerspectiveFrame::new(degrees(fov)));
+        for (frame, pixels) in [(frame(90.0), 1e300), (frame(90.0), f64::INFINITY), (frame(179.999_999), 1e9)] {
+            assert!(matches!(frame.size_at(pixels), Err(FrameError::SizeUnbounded { .. })), "{frame:?}");
+        }
+        assert!(frame(1e-300).size_at(512.0).is_ok_and(|(width, height)| width >= 2 && height >= 2));
     }
 
     #[test]
