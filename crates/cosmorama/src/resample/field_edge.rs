@@ -1,0 +1,49 @@
+use crate::projection::{PlanePoint, Projection};
+use crate::sphere::Direction;
+use crate::world::{FieldStop, PixelPoint, Source, View};
+
+/// Where a target's field of view ends: texels that no part of it falls upon count for nothing, whatever they hold.
+///
+/// A kernel at the rim of a lens reaches beyond it, into parts of faces that nobody needed to render.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct FieldEdge<'a> {
+    target: &'a View,
+    /// Cosine of the limiting circle's angle from the axis.
+    circle: Option<f64>,
+}
+
+/// Points of a texel by which its overlap with the field is judged: its centre, and its corners a hair inside, since
+/// those of a texel beyond the edge lie on it.
+const POINTS: [(f64, f64); 5] = [(0.5, 0.5), (0.001, 0.001), (0.999, 0.001), (0.001, 0.999), (0.999, 0.999)];
+
+impl<'a> FieldEdge<'a> {
+    /// The edge of a target's field; `None` if it has none inside its image.
+    pub(super) fn of(target: &'a View) -> Option<Self> {
+        let at = |radius| target.projection.unproject(PlanePoint::new(radius, 0.0));
+        let circle = target.stop.circle.and_then(at).map(|direction| -direction.vector().z);
+        (target.stop != FieldStop::NONE).then_some(Self { target, circle })
+    }
+
+    /// Whether something within `reach` radians of a direction may lie outside the field.
+    pub(super) fn is_near(&self, direction: Direction, reach: f64) -> bool {
+        let direction = self.target.orientation.to_view(direction);
+        // A cosine changes by no more than its angle.
+        self.circle.is_some_and(|circle| -direction.vector().z < circle + reach)
+            || self.target.stop.half_space.is_some_and(|side| side.dot(direction) < reach)
+    }
+
+    /// Whether a part of the field falls upon the texel with this index in the world's buffer.
+    pub(super) fn touches(&self, source: &Source, texel: usize) -> bool {
+        let (i, j) = ((texel - source.offset) % source.view.width(), (texel - source.offset) / source.view.width());
+        POINTS.iter().any(|(x, y)| {
+            let direction = source.view.direction(PixelPoint::new(i as f64 + x, j as f64 + y));
+            direction.is_some_and(|direction| self.holds(direction))
+        })
+    }
+
+    fn holds(&self, direction: Direction) -> bool {
+        let direction = self.target.orientation.to_view(direction);
+        let point = self.target.projection.project(direction);
+        point.is_some_and(|point| self.target.stop.passes(point, || Some(direction)))
+    }
+}
