@@ -129,7 +129,7 @@ fn the_unfolded_cube_names_what_is_needed_and_what_is_not_given() {
     let (world, target) = (cube(&faces, 1024, 1024), omnimax(1966, 1436));
     let needs = Needs::of(&world, &[target], &Filter::DEFAULT);
     let svg = Figures { world: &world, target: &target }.unfolded(&needs, &[]);
-    for label in ["all of 1024×1024", "514×1024+510+0", "514×1024+0+0", "1024×514+0+510", "not needed", "not given"]
+    for label in ["all of 1024×1024", "515×1024+509+0", "515×1024+0+0", "1024×515+0+509", "not needed", "not given"]
     {
         assert!(svg.contains(&format!("aria-label=\"{label}\"")), "{label}");
     }

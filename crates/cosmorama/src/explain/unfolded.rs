@@ -73,13 +73,13 @@ fn draw_curve(drawing: &mut Drawing, source: &Source, area: (Rect, f64), target:
 fn draw_names(drawing: &mut Drawing, source: &Source, need: &Need, frame: Rect, target: &View) {
     let middle = (frame.x + frame.width / 2.0, frame.y + frame.height / 2.0);
     let size = size_text((source.view.width(), source.view.height()));
-    let Some(seen) = need.seen else {
+    let Some(needed) = need.seen.and(need.read) else {
         drawing.label(&source.name, middle, LABEL, Anchor::Middle, PAPER);
         drawing.label("not needed", (middle.0, middle.1 + 2.0 * LABEL), SMALL, Anchor::Middle, PAPER);
         return;
     };
     let regions = shown(source, (frame, 0.0), target);
-    let lines = [(source.name.as_str(), LABEL), (&needed_text(&seen, source, &size), SMALL)];
+    let lines = [(source.name.as_str(), LABEL), (&needed_text(&needed, source, &size), SMALL)];
     match (regions.middle(true), regions.middle(false)) {
         (Some((place, room)), _) if room >= ROOM => drawing.plaque(&lines, place, frame, PAPER, INK),
         // On a small region its name would hide it: what is not needed has room.
@@ -89,11 +89,11 @@ fn draw_names(drawing: &mut Drawing, source: &Source, need: &Need, frame: Rect, 
 }
 
 /// What is needed of an image: all of it, or a window of it as images name it.
-fn needed_text(seen: &PixelRect, source: &Source, size: &str) -> String {
-    let is_whole = (seen.width(), seen.height()) == (source.view.width(), source.view.height());
+fn needed_text(needed: &PixelRect, source: &Source, size: &str) -> String {
+    let is_whole = (needed.width(), needed.height()) == (source.view.width(), source.view.height());
     if is_whole {
         format!("all of {size}")
     } else {
-        format!("{}×{}+{}+{}", seen.width(), seen.height(), seen.left, seen.top)
+        format!("{}×{}+{}+{}", needed.width(), needed.height(), needed.left, needed.top)
     }
 }
