@@ -133,6 +133,67 @@ fn an_absurd_size_is_refused_before_memory_is_taken() {
 }
 
 #[test]
+fn a_window_of_a_huge_canvas_is_refused_before_memory_is_taken() {
+    let bench = Bench::new();
+    bench.save("one.png", &flat(1, 1, &[9, 9, 9]));
+    let to = ["--to", "omnimax", "--size", "32", "--memory", "100M"];
+    let from = ["convert", "one.png", "out.png", "--from", "perspective:canvas=65535x65535+0+0"];
+    assert_says(&bench.fail(1, &[&from[..], &to].concat()), &["one.png", "65535x65535", "--memory"]);
+    let from = ["explain", "--from", "cube", "--input-size", "60000x60000"];
+    assert_says(&bench.fail(1, &[&from[..], &to].concat()), &["60000x60000", "--memory"]);
+    // A small file says so itself.
+    bench.save("huge.exr", &floats(16, 16, |_, _| [0.5; 3]));
+    let mut file = bench.bytes("huge.exr");
+    let name = b"displayWindow\0box2i\0";
+    let far_corner = file.windows(name.len()).position(|bytes| bytes == name).unwrap() + name.len() + 4 + 8;
+    for at in [far_corner, far_corner + 4] {
+        file[at..at + 4].copy_from_slice(&65534_i32.to_le_bytes());
+    }
+    std::fs::write(bench.path("huge.exr"), file).unwrap();
+    let from = ["convert", "huge.exr", "out.png", "--from", "perspective"];
+    assert_says(&bench.fail(1, &[&from[..], &to].concat()), &["huge.exr", "65535x65535", "--memory"]);
+}
+
+#[test]
+fn a_view_as_fine_as_no_image_is() {
+    let bench = Bench::new();
+    bench.save("dot.png", &picture(1, 64, 64));
+    let args = ["convert", "dot.png", "out.png", "--from", "perspective:fov=1e-300", "--to", "equirect"];
+    assert_says(&bench.fail(2, &args), &["as fine as the input", "--size"]);
+}
+
+#[test]
+fn compare_replaces_nothing_unasked() {
+    let bench = Bench::new();
+    bench.save("a.png", &picture(1, 16, 16));
+    bench.save("b.png", &picture(2, 16, 16));
+    bench.save("c.png", &picture(3, 16, 16));
+    let before = [bench.bytes("a.png"), bench.bytes("c.png")];
+    let message = bench.fail(2, &["compare", "a.png", "b.png", "--diff", "./a.png", "-y"]);
+    assert_says(&message, &["--diff", "a.png", "another name"]);
+    let message = bench.fail(1, &["compare", "a.png", "b.png", "--diff", "c.png"]);
+    assert_says(&message, &["c.png exists", "--overwrite"]);
+    assert_eq!([bench.bytes("a.png"), bench.bytes("c.png")], before);
+    bench.succeed(&["compare", "a.png", "b.png", "--diff", "c.png", "-y"]);
+    assert_ne!(bench.bytes("c.png"), before[1]);
+    let message = bench.fail(1, &["compare", "a.png", "b.png", "--memory", "100"]);
+    assert_says(&message, &["a.png", "--memory"]);
+}
+
+#[test]
+fn explain_replaces_nothing_unasked() {
+    let bench = Bench::new();
+    bench.faces("face_", 32);
+    std::fs::create_dir(bench.path("diagrams")).unwrap();
+    std::fs::write(bench.path("diagrams/ownership.png"), "mine").unwrap();
+    let args = ["explain", "face_{face}.png", "--to", "omnimax", "--output", "diagrams"];
+    assert_says(&bench.fail(1, &args), &["diagrams/ownership.png exists", "--overwrite"]);
+    assert_eq!(bench.bytes("diagrams/ownership.png"), b"mine");
+    bench.succeed(&[&args[..], &["-y"]].concat());
+    assert_ne!(bench.bytes("diagrams/ownership.png"), b"mine");
+}
+
+#[test]
 fn a_face_of_nan() {
     let bench = Bench::new();
     for face in CubeFace::ALL {

@@ -175,3 +175,41 @@ fn cube_faces_are_written_as_others_name_them() {
     assert_eq!(bench.files().len(), 3);
     assert!(bench.path("f/c_f.png").exists() && bench.path("t/c_t.png").exists());
 }
+
+#[test]
+fn a_panorama_may_begin_anywhere() {
+    let bench = Bench::new();
+    let sky = picture(1, 64, 32);
+    bench.save("sky.png", &sky);
+    // Its first column is the panorama's column 60, or, the other way round, 4 columns left of its first one.
+    let codes = eight_bits(&sky);
+    let rolled = codes.chunks(64 * 3).flat_map(|row| row[180..].iter().chain(&row[..180]).copied()).collect();
+    bench.save("rolled.png", &EncodedImage::new(64, 32, Channels::Rgb, Depth::Eight, Samples::U8(rolled)).unwrap());
+    let to = ["--to", "fisheye", "--size", "64", "--yaw", "60"];
+    bench.succeed(&[&["convert", "sky.png", "a.png", "--from", "equirect"], &to[..]].concat());
+    let from = "equirect:canvas=64x32+60+0";
+    bench.succeed(&[&["convert", "rolled.png", "b.png", "--from", from], &to[..]].concat());
+    bench.succeed(&["compare", "a.png", "b.png", "--min-psnr", "60"]);
+    let from = "equirect:canvas=64x32+-4+0";
+    bench.succeed(&[&["convert", "rolled.png", "c.png", "--from", from], &to[..]].concat());
+    bench.succeed(&["compare", "a.png", "c.png", "--min-psnr", "60"]);
+}
+
+#[test]
+fn faces_that_lie_turned_are_turned() {
+    let bench = Bench::new();
+    direction_faces(&bench, 32);
+    let size = ["--size", "32", "--filter", "point"];
+    bench.succeed(
+        &[&["convert", "world_{face}.exr", "lux_{face}.exr", "--to", "cube:naming=envutil"], &size[..]].concat(),
+    );
+    let (upright, turned) = (bench.load("world_top.exr"), bench.load("lux_top.exr"));
+    let [upright, turned] = [upright, turned].map(|image| image.to_light(&Transfer::Linear));
+    for (i, j) in [(0, 0), (3, 30), (17, 5)] {
+        let (here, there) = (upright.get(i, j).0, turned.get(31 - i, 31 - j).0);
+        assert!(here.iter().zip(there).all(|(here, there)| (here - there).abs() < 1e-3), "{here:?} {there:?}");
+    }
+    let from = ["convert", "lux_{face}.exr", "back_{face}.exr", "--from", "cube:naming=envutil"];
+    bench.succeed(&[&from[..], &size].concat());
+    bench.succeed(&["compare", "back_top.exr", "world_top.exr", "--min-psnr", "60"]);
+}

@@ -2,7 +2,7 @@
 
 mod bench;
 
-use bench::{Bench, eight_bits, flat, floats};
+use bench::{Bench, eight_bits, flat, floats, veiled};
 use cosmorama::raster::{Channels, Depth, EncodedImage, Samples, Transfer};
 
 #[test]
@@ -115,4 +115,18 @@ fn isolated_nans_are_closed_from_around() {
         pixel.0.iter().zip([0.25, 0.5, 2.0]).all(|(found, expected)| (found - expected).abs() < 1e-5)
     };
     assert!(out.pixels().iter().all(fine));
+}
+
+#[test]
+fn missing_pixels_are_told_of_inputs_with_alpha_too() {
+    let bench = Bench::new();
+    bench.save("sky.exr", &veiled(64, 32, |i, j| if i < 8 && j < 4 { [f32::NAN; 3] } else { [0.5; 3] }));
+    let args = ["convert", "sky.exr", "out.exr", "--from", "equirect", "--to", "fulldome", "--size", "32"];
+    let output = bench.run(&args);
+    assert!(output.status.success());
+    let told = bench::text(&output.stderr);
+    assert!(told.contains("warning: sky.exr: 32 pixels are NaN"), "{told}");
+    bench.save("void.exr", &veiled(64, 32, |_, _| [f32::NAN; 3]));
+    let message = bench.fail(1, &["convert", "void.exr", "none.exr", "--from", "equirect", "--to", "fulldome"]);
+    assert!(message.contains("void.exr") && message.contains("every pixel is NaN"), "{message}");
 }

@@ -57,25 +57,26 @@ fn a_plan_that_does_not_fit_is_done_without() {
 #[test]
 fn resume_keeps_what_is_complete_and_makes_the_rest() {
     let bench = Bench::new();
-    for frame in 1..=4 {
+    for frame in 1..=5 {
         bench.save(&format!("sky_{frame}.png"), &picture(frame, 64, 32));
     }
     let args = ["convert", "sky_#.png", "out_#.png", "--to", "fisheye", "--size", "32", "--json"];
     bench.succeed(&args);
-    let made: Vec<Vec<u8>> = (1..=4).map(|frame| bench.bytes(&format!("out_{frame}.png"))).collect();
-    // Complete but different, truncated, of another size: only the first may stay.
+    let made: Vec<Vec<u8>> = (1..=5).map(|frame| bench.bytes(&format!("out_{frame}.png"))).collect();
+    // Complete but different, truncated, of another size, gone, of other channels: only the first may stay.
     bench.save("out_1.png", &flat(32, 32, &[1, 2, 3]));
     std::fs::write(bench.path("out_2.png"), &made[1][..made[1].len() / 2]).unwrap();
     bench.save("out_3.png", &flat(16, 16, &[1, 2, 3]));
     std::fs::remove_file(bench.path("out_4.png")).unwrap();
+    bench.save("out_5.png", &flat(32, 32, &[1]));
     let report: Value = serde_json::from_str(&bench.succeed(&[&args[..], &["--resume"]].concat())).unwrap();
-    assert_eq!((&report["frames"], &report["skipped"]), (&3.into(), &1.into()));
+    assert_eq!((&report["frames"], &report["skipped"]), (&4.into(), &1.into()));
     assert_eq!(bench.load("out_1.png"), flat(32, 32, &[1, 2, 3]));
-    for frame in 2..=4 {
+    for frame in 2..=5 {
         assert!(bench.bytes(&format!("out_{frame}.png")) == made[frame - 1], "frame {frame}");
     }
     let report: Value = serde_json::from_str(&bench.succeed(&[&args[..], &["--resume"]].concat())).unwrap();
-    assert_eq!((&report["frames"], &report["skipped"]), (&0.into(), &4.into()));
+    assert_eq!((&report["frames"], &report["skipped"]), (&0.into(), &5.into()));
     bench.succeed(&[&args[..], &["-y"]].concat());
     assert!(bench.bytes("out_1.png") == made[0]);
 }

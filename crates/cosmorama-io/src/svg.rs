@@ -1,5 +1,7 @@
 //! Pictures from SVG documents: the diagrams of `cosmorama::explain` as images.
 
+use std::path::{Component, Path};
+
 use cosmorama::raster::{Channels, Depth, EncodedImage, ImageError, Samples};
 use resvg::tiny_skia::{Pixmap, Transform};
 use resvg::usvg::{ImageHrefResolver, Options, Tree};
@@ -32,15 +34,22 @@ pub enum SvgError {
 
 /// Draws an SVG document, `scale` pixels for each of its units, as 8-bit RGBA in sRGB.
 ///
-/// Nothing outside the document is read: pictures in it must be data URIs, and text must be drawn as shapes.
+/// Text must be drawn as shapes; pictures in it are data URIs or files under `folder`. Without a folder, nothing outside
+/// the document is read.
 ///
 /// # Errors
 /// When the document is damaged, or the picture would be empty or longer than 16384 pixels.
-pub fn rasterise(svg: &str, scale: f32) -> Result<EncodedImage, SvgError> {
+pub fn rasterise(svg: &str, scale: f32, folder: Option<&Path>) -> Result<EncodedImage, SvgError> {
+    let read_file = ImageHrefResolver::default_string_resolver();
+    let is_below = |href: &str| Path::new(href).components().all(|part| matches!(part, Component::Normal(_)));
     let options = Options {
+        resources_dir: folder.map(Path::to_owned),
         image_href_resolver: ImageHrefResolver {
             resolve_data: ImageHrefResolver::default_data_resolver(),
-            resolve_string: Box::new(|_, _| None),
+            resolve_string: Box::new(move |href, options| {
+                let may_be_read = options.resources_dir.is_some() && is_below(href);
+                if may_be_read { read_file(href, options) } else { None }
+            }),
         },
         ..Options::default()
     };
@@ -67,7 +76,7 @@ mod tests {
     const FRAME: &str = r#"<svg xmlns="http://www.w3.org/2000/svg" width="4" height="2""#;
 
     fn pixels(svg: &str, scale: f32) -> (usize, Vec<u8>) {
-        let image = rasterise(svg, scale).expect("a picture");
+        let image = rasterise(svg, scale, None).expect("a picture");
         let Samples::U8(samples) = image.samples() else { panic!("8-bit samples") };
         (image.width(), samples.clone())
     }
@@ -98,14 +107,28 @@ mod tests {
         let inside = pixels(&with(&format!("data:image/png;base64,{png}")), 1.0).1;
         assert_eq!(inside[..4], [0, 255, 0, 255]);
         assert!(pixels(&with("/etc/hostname.png"), 1.0).1.iter().all(|&sample| sample == 0));
+        let folder = tempfile::tempdir().expect("a folder");
+        std::fs::create_dir(folder.path().join("inner")).expect("a folder in it");
+        let pixel =
+            EncodedImage::new(1, 1, Channels::Rgb, Depth::Eight, Samples::U8(vec![0, 255, 0])).expect("a pixel");
+        let path = folder.path().join("inner/green.png");
+        crate::write(&path, &pixel, &crate::Metadata::default(), &crate::WriteOptions::default()).expect("a file");
+        let green = |href: &str, folder: &Path| {
+            let image = rasterise(&with(href), 1.0, Some(folder)).expect("a picture");
+            let Samples::U8(samples) = image.samples() else { panic!("8-bit samples") };
+            samples[1] == 255
+        };
+        assert!(green("inner/green.png", folder.path()));
+        assert!(!green("../inner/green.png", &folder.path().join("inner")));
+        assert!(!green(&path.display().to_string(), folder.path()));
     }
 
     #[test]
     fn damage_and_absurd_sizes_are_refused() {
-        assert!(matches!(rasterise("<svg", 1.0), Err(SvgError::Document(_))));
+        assert!(matches!(rasterise("<svg", 1.0, None), Err(SvgError::Document(_))));
         let svg = format!("{FRAME}/>");
         for scale in [0.0, -1.0, 1e9, f32::NAN] {
-            assert!(matches!(rasterise(&svg, scale), Err(SvgError::Size { .. })), "{scale}");
+            assert!(matches!(rasterise(&svg, scale, None), Err(SvgError::Size { .. })), "{scale}");
         }
     }
 }

@@ -114,3 +114,16 @@ fn faces_for_output_need_not_exist() {
     let set = FaceSet::named("out/{face}_####.png", Naming::named("cosmorama").unwrap()).unwrap();
     assert_eq!(set.face(CubeFace::Down).path, Path::new("out/down_####.png"));
 }
+
+/// On a disk where `front.png` opens `FRONT.png`, only the name that is really there may count.
+#[test]
+fn a_name_is_found_as_it_is_written() {
+    for names in [["FRONT.png", "LEFT.png"], ["Front.png", "Left.png"], ["FRONT/LEFT.png", "LEFT/LEFT.png"]] {
+        let pattern = if names[0].contains('/') { "{face}/LEFT.png" } else { "{face}.png" };
+        let folder = folder_with(&names);
+        let set = FaceSet::find(&folder.path().join(pattern).display().to_string(), None).unwrap();
+        assert_eq!(set.naming().name, "words");
+        let paths: Vec<_> = set.present().map(|face| face.path.clone()).collect();
+        assert_eq!(paths, names.map(|name| folder.path().join(name)));
+    }
+}

@@ -165,3 +165,16 @@ proptest! {
         let _ = read_bytes(folder.path(), EXTENSIONS[kind], &whole);
     }
 }
+
+/// A profile of zeros: thousands of times smaller in the file than in memory.
+#[test]
+fn a_profile_that_explodes_is_not_unpacked_whatever_the_limit() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("profile.png");
+    let metadata = Metadata { icc: Some(vec![0; 80 << 20]), ..Metadata::default() };
+    let image = picture(4, 4, Channels::Rgb, Depth::Eight);
+    write(&path, &image, &metadata, &WriteOptions::default()).unwrap();
+    assert!(std::fs::metadata(&path).unwrap().len() < 1 << 20);
+    assert!(!probe(&path).is_ok_and(|header| header.metadata.icc.is_some()));
+    assert!(!read(&path, &Limits::NONE).is_ok_and(|file| file.metadata.icc.is_some()));
+}

@@ -2,7 +2,7 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum, ValueHint};
 
-use super::TransferArg;
+use super::{MemorySize, TransferArg};
 
 /// Compare two pictures: PSNR, largest difference, sub-pixel shift.
 #[derive(Debug, Args)]
@@ -24,6 +24,9 @@ pub(crate) struct CompareArgs {
     /// Write a picture of the absolute difference
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub(crate) diff: Option<PathBuf>,
+    /// Replace an existing difference picture
+    #[arg(short = 'y', long, requires = "diff")]
+    pub(crate) overwrite: bool,
     /// How much brighter than life the difference is drawn
     #[arg(long, value_name = "FACTOR", default_value_t = 10.0)]
     pub(crate) gain: f32,
@@ -36,6 +39,9 @@ pub(crate) struct CompareArgs {
     /// How integer code values relate to light: auto, srgb, linear, bt1886, pq, hlg, gamma:G
     #[arg(long, value_name = "T", default_value = "auto")]
     pub(crate) transfer: TransferArg,
+    /// Memory that a picture may take at most, as in 500M, 8G or 50% [default: 75% of free memory]
+    #[arg(long, value_name = "SIZE")]
+    pub(crate) memory: Option<MemorySize>,
     /// Print the figures as JSON
     #[arg(long)]
     pub(crate) json: bool,

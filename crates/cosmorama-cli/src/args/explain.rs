@@ -24,6 +24,9 @@ pub(crate) struct ExplainArgs {
     /// Write diagrams (SVG and PNG) into this folder
     #[arg(long, value_name = "DIR", value_hint = ValueHint::DirPath)]
     pub(crate) output: Option<PathBuf>,
+    /// Replace existing diagrams
+    #[arg(short = 'y', long, requires = "output")]
+    pub(crate) overwrite: bool,
     #[command(flatten)]
     pub(crate) limits: LimitArgs,
     /// Print the figures as JSON

@@ -1,9 +1,9 @@
-use anyhow::{Result, bail};
+use anyhow::{Error, Result, anyhow, bail};
 use cosmorama::raster::Rgba;
 use cosmorama::resample::{Filter, Need, Needs};
-use cosmorama::world::{Canvas, PixelRect, World};
+use cosmorama::world::{Canvas, PixelRect, View, World};
 
-use super::{Input, InputView, Target};
+use super::{Input, InputView, MemoryBudget, Target};
 use crate::args::Missing;
 
 /// What becomes of pixels that look where no view does.
@@ -16,21 +16,22 @@ pub(crate) enum Coverage {
 }
 
 /// The world of whole pictures, whether their files are there or not.
-pub(crate) fn nominal_world(input: &Input) -> Result<World> {
+pub(crate) fn nominal_world(input: &Input, memory: MemoryBudget) -> Result<World> {
+    memory.check_pictures(input)?;
     Ok(World::new(input.views.iter().map(|view| (view.name.clone(), view.nominal)))?)
 }
 
 impl Coverage {
     /// Compares what the target needs with what the input holds, before any pixel is computed. Also gives the world that
-    /// the input holds of it.
+    /// the input holds of the nominal one.
     pub(crate) fn check(
         input: &mut Input,
+        nominal: World,
         target: &Target,
         filter: &Filter,
         missing: Missing,
         warnings: &mut Vec<String>,
     ) -> Result<(Self, World)> {
-        let nominal = nominal_world(input)?;
         if let [view] = input.views.as_mut_slice()
             && view.nominal.covers_sphere()
             && view.window.as_ref().is_some_and(|(held, _)| *held == view.nominal)
@@ -47,21 +48,11 @@ impl Coverage {
             warnings.extend(frayed(view, need));
         }
         if let Some(uncovered) = needs.uncovered {
-            let vector = uncovered.direction.vector();
-            gaps.push(format!(
-                "no view at all covers {} pixels of the output, such as {},{} of {}, which looks to {:.3}, {:.3}, {:.3}",
-                uncovered.pixels,
-                uncovered.column,
-                uncovered.row,
-                target.views[uncovered.target].name,
-                vector.x,
-                vector.y,
-                vector.z
-            ));
+            gaps.push(format!("{}: {uncovered}", target.views[uncovered.target].name));
         }
         if !input.views.iter().any(|view| view.wanted && view.window.is_some()) {
             gaps.push("nothing of what the input shows is in the output's field of view".to_owned());
-            bail_without_any(&gaps)?;
+            return Err(empty(&gaps));
         }
         let coverage = match missing {
             _ if gaps.is_empty() => Self::Complete,
@@ -80,12 +71,17 @@ impl Coverage {
 fn held_world(input: &Input, nominal: World) -> Result<World> {
     let held = || input.present().map(|(view, _, held)| (view.name.clone(), *held));
     let whole = nominal.sources().iter().map(|source| (source.name.clone(), source.view));
-    if held().eq(whole) { Ok(nominal) } else { Ok(World::new(held())?) }
+    if held().eq(whole) {
+        return Ok(nominal);
+    }
+    // Whole pictures may be far larger than what is left of them.
+    drop(nominal);
+    Ok(World::new(held())?)
 }
 
 /// Without any view there is nothing to fill up.
-fn bail_without_any(gaps: &[String]) -> Result<()> {
-    bail!(
+fn empty(gaps: &[String]) -> Error {
+    anyhow!(
         "the output would be empty:\n  {}\nturn it with --yaw, --pitch and --roll, or add the views",
         gaps.join("\n  ")
     )
@@ -103,7 +99,7 @@ fn shortfall(view: &InputView, need: &Need) -> Option<String> {
             view.files.path(None).display()
         )),
         Some((held, canvas)) => {
-            let held = rect(canvas, held.width(), held.height());
+            let held = rect(canvas, held);
             (!held.contains(&seen)).then(|| {
                 format!(
                     "{}: {seen} of its {}x{} pixels are needed, but {} holds only {held}",
@@ -120,7 +116,7 @@ fn shortfall(view: &InputView, need: &Need) -> Option<String> {
 /// Where all that pixels look at is there, but not all that the filter would read around it.
 fn frayed(view: &InputView, need: &Need) -> Option<String> {
     let (seen, read, (held, canvas)) = (need.seen?, need.read?, view.window.as_ref()?);
-    let held = rect(canvas, held.width(), held.height());
+    let held = rect(canvas, held);
     (held.contains(&seen) && !held.contains(&read)).then(|| {
         format!(
             "{}: the filter would read {read}, but the file holds {held}; pixels at its edge go without the rest",
@@ -129,13 +125,15 @@ fn frayed(view: &InputView, need: &Need) -> Option<String> {
     })
 }
 
-/// The part of its canvas that an image shows.
-fn rect(canvas: &Canvas, width: usize, height: usize) -> PixelRect {
+/// The part of its canvas that an image shows. One that goes all the way round shows every column, wherever it begins.
+fn rect(canvas: &Canvas, held: &View) -> PixelRect {
     let edge = |at: i64, size: usize| at.clamp(0, size as i64) as usize;
+    let goes_round = held.period().is_some_and(|period| held.width() >= period);
+    let left = if goes_round { 0 } else { canvas.left };
     PixelRect {
-        left: edge(canvas.left, canvas.width),
+        left: edge(left, canvas.width),
         top: edge(canvas.top, canvas.height),
-        right: edge(canvas.left + width as i64, canvas.width),
-        bottom: edge(canvas.top + height as i64, canvas.height),
+        right: edge(left + held.width() as i64, canvas.width),
+        bottom: edge(canvas.top + held.height() as i64, canvas.height),
     }
 }

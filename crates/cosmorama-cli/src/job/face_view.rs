@@ -5,7 +5,7 @@ use cosmorama_io::FacePlacement;
 use crate::spec::Cube;
 
 /// The placement of a face's picture in the world.
-pub(super) fn face_placement(
+pub(crate) fn face_placement(
     cube: &Cube,
     face: CubeFace,
     lies: FacePlacement,

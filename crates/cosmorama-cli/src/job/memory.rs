@@ -1,7 +1,8 @@
 use anyhow::{Result, bail};
 use cosmorama::raster::Rgba;
+use cosmorama::world::View;
 
-use super::{Input, Target, TargetView};
+use super::{Input, InputView, Target, TargetView};
 use crate::args::MemorySize;
 
 /// How much memory may be used.
@@ -29,12 +30,25 @@ impl MemoryBudget {
         Self { bytes }
     }
 
-    /// Whether a frame fits, before memory is taken.
-    pub(crate) fn check(self, input: &Input, target: &Target) -> Result<()> {
-        let needed = frame_bytes(input, target);
-        if needed <= self.bytes {
-            return Ok(());
-        }
+    /// Whether the geometry of whole pictures fits, before memory is taken: a small file may be, or say that it is, a
+    /// window of a huge one.
+    pub(crate) fn check_pictures(self, input: &Input) -> Result<()> {
+        let texels = |view: &InputView| pixels(&view.nominal);
+        let needed = input.views.iter().map(texels).fold(0, u64::saturating_add).saturating_mul(SOLID_ANGLE);
+        let largest = input.views.iter().max_by_key(|view| texels(view)).map_or_else(String::new, |view| {
+            let (width, height) = (view.nominal.width(), view.nominal.height());
+            format!("; the largest whole picture, {}, has {width}x{height} pixels", view.name)
+        });
+        self.allow(needed, "the input's geometry", &largest)
+    }
+
+    /// Whether the outputs of a frame fit, before anything is made of them.
+    pub(crate) fn check_outputs(self, target: &Target) -> Result<()> {
+        self.allow(output_bytes(target), "a frame", &describe(target, "; "))
+    }
+
+    /// Whether a frame fits, with the light of the views that are wanted, before memory is taken.
+    pub(crate) fn check_frame(self, input: &Input, target: &Target) -> Result<()> {
         let largest = input.present().max_by_key(|(_, header, _)| header.width.saturating_mul(header.height));
         let largest = largest.map_or_else(String::new, |(view, header, _)| {
             format!(
@@ -44,11 +58,15 @@ impl MemoryBudget {
                 header.height
             )
         });
-        let out = target.views.first().map_or_else(String::new, |target| {
-            format!(" and the output {}x{}", target.view.width(), target.view.height())
-        });
+        self.allow(frame_bytes(input, target), "a frame", &(largest + &describe(target, ", and ")))
+    }
+
+    fn allow(self, needed: u64, what: &str, why: &str) -> Result<()> {
+        if needed <= self.bytes {
+            return Ok(());
+        }
         bail!(
-            "a frame needs about {} of memory, but {} are allowed{largest}{out}; if that is right, raise --memory",
+            "{what} needs about {} of memory, but {} are allowed{why}; if that is right, raise --memory",
             human(needed),
             human(self.bytes),
         );
@@ -65,9 +83,27 @@ impl MemoryBudget {
     }
 }
 
-/// Light and solid angle of every texel, the files beside them, and the outputs with their encoded twins.
+/// Bytes of a texel's solid angle.
+const SOLID_ANGLE: u64 = size_of::<f32>() as u64;
+
+fn pixels(view: &View) -> u64 {
+    (view.width() as u64).saturating_mul(view.height() as u64)
+}
+
+fn describe(target: &Target, link: &str) -> String {
+    let size = |target: &TargetView| format!("{link}the output {}x{}", target.view.width(), target.view.height());
+    target.views.first().map_or_else(String::new, size)
+}
+
+/// The outputs with their encoded twins.
+fn output_bytes(target: &Target) -> u64 {
+    let pixels = target.views.iter().map(|target| pixels(&target.view)).fold(0, u64::saturating_add);
+    pixels.saturating_mul(2 * size_of::<Rgba>() as u64)
+}
+
+/// Light and solid angle of every texel, the files beside them, and the outputs.
 fn frame_bytes(input: &Input, target: &Target) -> u64 {
-    let texel = (size_of::<Rgba>() + size_of::<f32>()) as u64;
+    let texel = size_of::<Rgba>() as u64 + SOLID_ANGLE;
     let encoded = input
         .present()
         .map(|(_, header, _)| {
@@ -75,10 +111,7 @@ fn frame_bytes(input: &Input, target: &Target) -> u64 {
             (header.width as u64).saturating_mul(header.height as u64).saturating_mul(samples as u64)
         })
         .fold(0, u64::saturating_add);
-    let pixels = |target: &TargetView| (target.view.width() as u64).saturating_mul(target.view.height() as u64);
-    let output = target.views.iter().map(pixels).fold(0, u64::saturating_add);
-    let output = output.saturating_mul(2 * size_of::<Rgba>() as u64);
-    (input.texels() as u64).saturating_mul(texel).saturating_add(encoded).saturating_add(output)
+    (input.texels() as u64).saturating_mul(texel).saturating_add(encoded).saturating_add(output_bytes(target))
 }
 
 /// An amount of memory as people say it.

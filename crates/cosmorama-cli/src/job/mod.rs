@@ -13,12 +13,13 @@ mod target;
 
 pub(crate) use coverage::{Coverage, nominal_world};
 pub(crate) use detect::Guess;
+pub(crate) use face_view::face_placement;
 pub(crate) use files::Files;
 pub(crate) use frames::existing as existing_frames;
 pub(crate) use input::{Input, InputView};
 pub(crate) use light::{InputTransfer, Light};
 pub(crate) use memory::{MemoryBudget, peak_bytes};
-pub(crate) use outputs::{FrameOutputs, Outputs};
+pub(crate) use outputs::{FrameOutputs, Outputs, real_path, refuse_existing};
 pub(crate) use target::{Picture, Target, TargetView};
 
 use anyhow::Result;
@@ -66,9 +67,11 @@ impl ConvertJob {
         let target = Target::resolve(&args.output, geometry, input.pixels_per_radian())?;
         let filter = filter(geometry, &mut warnings);
         let light = Light::resolve(args, &input, &target, &mut warnings)?;
-        let outputs = Outputs::plan(args, &input, &target)?;
-        memory.check(&input, &target)?;
-        let (coverage, world) = Coverage::check(&mut input, &target, &filter, args.missing, &mut warnings)?;
+        memory.check_outputs(&target)?;
+        let outputs = Outputs::plan(args, &input, &target, &light, memory)?;
+        let nominal = nominal_world(&input, memory)?;
+        let (coverage, world) = Coverage::check(&mut input, nominal, &target, &filter, args.missing, &mut warnings)?;
+        memory.check_frame(&input, &target)?;
         warnings.iter().for_each(|warning| warn(warning));
         Ok(Self { input, world, target, filter, light, outputs, coverage, missing: args.missing, memory, warnings })
     }

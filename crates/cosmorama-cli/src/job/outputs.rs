@@ -2,10 +2,10 @@ use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Result, bail};
-use cosmorama_io::{Limits, pending::Pending, read};
+use cosmorama_io::{Limits, pending::Pending, probe, read};
 use rayon::prelude::*;
 
-use super::{Files, Input, Target, TargetView};
+use super::{Files, Input, Light, MemoryBudget, Target, TargetView};
 use crate::args::ConvertArgs;
 use crate::failure::usage;
 
@@ -27,7 +27,13 @@ pub(crate) struct Outputs {
 
 impl Outputs {
     /// The outputs of all frames, checked against each other, the inputs and what exists.
-    pub(crate) fn plan(args: &ConvertArgs, input: &Input, target: &Target) -> Result<Self> {
+    pub(crate) fn plan(
+        args: &ConvertArgs,
+        input: &Input,
+        target: &Target,
+        light: &Light,
+        memory: MemoryBudget,
+    ) -> Result<Self> {
         check_frame_markers(args, input, target)?;
         let inputs: HashSet<PathBuf> =
             input.frames.iter().flat_map(|frame| input.paths(*frame)).map(|path| real_path(&path)).collect();
@@ -47,12 +53,17 @@ impl Outputs {
         }
         let all: usize = frames.iter().map(|frame| frame.files.len()).sum();
         if args.resume {
-            frames.par_iter_mut().for_each(|frame| {
-                frame.files.retain(|(index, path)| !is_complete(path, &target.views[*index]));
-            });
+            // As many at once as fit into memory, decoded.
+            let largest = target.views.iter().map(|view| light.file_bytes(&view.view)).max().unwrap_or(0);
+            let at_once = (memory.bytes / largest.max(1)).clamp(1, frames.len().max(1) as u64) as usize;
+            for some in frames.chunks_mut(at_once) {
+                some.par_iter_mut().for_each(|frame| {
+                    frame.files.retain(|(index, path)| !is_complete(path, &target.views[*index], light));
+                });
+            }
         } else if !args.overwrite {
-            let files = frames.iter().flat_map(|frame| frame.files.iter().map(|(_, path)| path));
-            refuse_existing(&files.filter(|path| path.exists()).collect::<Vec<_>>())?;
+            let files = frames.iter().flat_map(|frame| frame.files.iter().map(|(_, path)| path.as_path()));
+            refuse_existing(files, ", or keep what is there with --resume")?;
         }
         frames.retain(|frame| !frame.files.is_empty());
         let left: usize = frames.iter().map(|frame| frame.files.len()).sum();
@@ -87,7 +98,7 @@ fn check_apart(path: &Path, inputs: &HashSet<PathBuf>) -> Result<()> {
 }
 
 /// Where a path leads, whether the file exists or not.
-fn real_path(path: &Path) -> PathBuf {
+pub(crate) fn real_path(path: &Path) -> PathBuf {
     if let Ok(real) = path.canonicalize() {
         return real;
     }
@@ -98,25 +109,25 @@ fn real_path(path: &Path) -> PathBuf {
     }
 }
 
-/// Outputs appear whole, so one that is an image of the right size is done.
-fn is_complete(path: &Path, target: &TargetView) -> bool {
-    let size = (target.view.width(), target.view.height());
-    read(path, &Limits::default()).is_ok_and(|file| (file.image.width(), file.image.height()) == size)
+/// Outputs appear whole, so one that is an image of the right size and kind, and can be read, is done.
+fn is_complete(path: &Path, target: &TargetView, light: &Light) -> bool {
+    let expected = (target.view.width(), target.view.height(), light.channels, light.depth);
+    // What is of another size need not be decoded, and takes no memory.
+    probe(path).is_ok_and(|found| (found.width, found.height, found.channels, found.depth) == expected)
+        && read(path, &Limits::memory(light.file_bytes(&target.view))).is_ok()
 }
 
-fn refuse_existing(existing: &[&PathBuf]) -> Result<()> {
+/// Files that exist are not replaced unasked. The message ends with what else may be done.
+pub(crate) fn refuse_existing<'a>(files: impl Iterator<Item = &'a Path>, instead: &str) -> Result<()> {
     const SHOWN: usize = 5;
+    let existing: Vec<&Path> = files.filter(|path| path.exists()).collect();
     let Some(first) = existing.first() else { return Ok(()) };
     if existing.len() == 1 {
-        bail!("{} exists; replace it with -y (--overwrite), or keep it with --resume", first.display());
+        bail!("{} exists; replace it with -y (--overwrite){instead}", first.display());
     }
     let mut names: Vec<_> = existing.iter().take(SHOWN).map(|path| path.display().to_string()).collect();
     if existing.len() > SHOWN {
         names.push("…".to_owned());
     }
-    bail!(
-        "{} outputs exist ({}); replace them with -y (--overwrite), or keep them with --resume",
-        existing.len(),
-        names.join(", ")
-    )
+    bail!("{} outputs exist ({}); replace them with -y (--overwrite){instead}", existing.len(), names.join(", "))
 }

@@ -140,7 +140,9 @@ fn size(frame: Frame, given: Option<SizeArg>, pixels_per_radian: Option<f64>) ->
     match (given, pixels_per_radian) {
         (Some(SizeArg { width, height }), _) => Ok((width, height.unwrap_or_else(|| frame.natural_height(width)))),
         (None, Some(pixels)) => frame.size_at(pixels).map_err(|error| match error {
-            FrameError::SizeNeeded => usage(format!("--to: {error}, with --size WxH")),
+            FrameError::SizeNeeded | FrameError::SizeUnbounded { .. } => {
+                usage(format!("--to: {error}, with --size WxH"))
+            }
             error => usage(format!("--to: {error}")),
         }),
         (None, None) => Err(usage("--size is missing: without an input, nothing tells how large the output is to be")),

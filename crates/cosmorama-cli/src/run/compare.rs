@@ -11,12 +11,11 @@ use serde_json::{Value, json};
 use super::print;
 use crate::args::{CompareArgs, Region};
 use crate::failure::usage;
-use crate::job::{InputTransfer, MemoryBudget};
+use crate::job::{InputTransfer, MemoryBudget, real_path, refuse_existing};
 
 /// Compares two pictures.
 pub(super) fn run(args: &CompareArgs) -> Result<ExitCode> {
-    let format =
-        args.diff.as_deref().map(Format::from_extension).transpose().map_err(|error| usage(error.to_string()))?;
+    let format = args.diff.as_deref().map(|diff| diff_format(diff, args)).transpose()?;
     let (first, second) = (light(&args.first, args)?, light(&args.second, args)?);
     let mask = region(args.region, &first)?;
     let comparison = compare(&first, &second, &mask)
@@ -36,13 +35,26 @@ pub(super) fn run(args: &CompareArgs) -> Result<ExitCode> {
     Ok(if failures.is_empty() { ExitCode::SUCCESS } else { ExitCode::FAILURE })
 }
 
+/// The format of the difference picture, which may not replace what is compared, nor anything else unasked.
+fn diff_format(diff: &Path, args: &CompareArgs) -> Result<Format> {
+    let format = Format::from_extension(diff).map_err(|error| usage(error.to_string()))?;
+    if [&args.first, &args.second].iter().any(|picture| real_path(picture) == real_path(diff)) {
+        let message = format!("{}: --diff would replace a picture to compare; choose another name", diff.display());
+        return Err(usage(message));
+    }
+    if !args.overwrite {
+        refuse_existing(std::iter::once(diff), "")?;
+    }
+    Ok(format)
+}
+
 #[allow(clippy::print_stderr)]
 fn tell(failure: &str) {
     eprintln!("failed: {failure}");
 }
 
 fn light(path: &Path, args: &CompareArgs) -> Result<Image<Rgba>> {
-    let file = read(path, &Limits::memory(MemoryBudget::new(None).bytes))?;
+    let file = read(path, &Limits::memory(MemoryBudget::new(args.memory).bytes))?;
     let transfer = InputTransfer::new(&args.transfer, None).of(file.image.depth(), &file.metadata);
     Ok(file.image.to_light(&transfer))
 }

@@ -7,13 +7,15 @@ use clap::Parser;
 use cosmorama::explain::{Figures, Underlay};
 use cosmorama::raster::{Channels, Depth, EncodedImage, Transfer};
 use cosmorama::resample::{Filter, Needs};
-use cosmorama::sphere::CubeFace;
-use cosmorama::world::{Canvas, CubeFaceFrame, Frame, OmnimaxFrame, PixelPoint, PixelRect, Placement, View, World};
+use cosmorama::sphere::{CubeFace, Orientation};
+use cosmorama::world::{Canvas, Frame, OmnimaxFrame, PixelPoint, PixelRect, View, World};
 use cosmorama_builtin::{DemoWorld, Supersampling, render};
-use cosmorama_io::{Metadata, WriteOptions, write};
+use cosmorama_io::{FacePlacement, Metadata, WriteOptions, write};
 
 use super::{convert, diagram, print, use_threads};
 use crate::args::{Args, DemoArgs, Verb};
+use crate::job::face_placement;
+use crate::spec::Cube;
 
 /// Edge of a whole face; the frame is the paper's.
 const FACE: usize = 1024;
@@ -62,9 +64,8 @@ fn needed_faces(target: &View) -> Result<Vec<PartialFace>> {
 }
 
 fn face_view(face: CubeFace, canvas: Option<Canvas>, width: usize, height: usize) -> Result<View> {
-    let placement =
-        Placement { orientation: face.orientation(), canvas, ..Placement::new(Frame::CubeFace(CubeFaceFrame)) };
-    Ok(placement.view(width, height)?)
+    let upright = FacePlacement::UPRIGHT;
+    Ok(face_placement(&Cube::default(), face, upright, canvas, Orientation::IDENTITY).view(width, height)?)
 }
 
 fn render_face(partial: &PartialFace, folder: &Path) -> Result<()> {

@@ -22,7 +22,7 @@ pub(super) struct Engine<'a> {
 /// The light of a frame. Its memory, and what does not change from frame to frame, serves the next one.
 pub(super) struct FrameLight {
     texels: Vec<Rgba>,
-    /// Texels of opaque inputs that are missing (NaN), by view.
+    /// Texels that are missing (NaN), by view.
     missing: Vec<usize>,
     /// Whether a frame has been read into it.
     is_used: bool,
@@ -98,15 +98,16 @@ impl<'a> Engine<'a> {
 
     /// What should be known about the light of a frame.
     pub(super) fn warnings(&self, frame: Option<u64>, light: &FrameLight) -> Vec<String> {
-        let number = frame.map_or_else(String::new, |frame| format!(" of frame {frame}"));
-        let tell = |(name, count)| format!("{name}{number}: {count} pixels are NaN and count as missing");
+        let tell = |(view, count): (&InputView, usize)| {
+            format!("{}: {count} pixels are NaN and count as missing", view.files.path(frame).display())
+        };
         self.incomplete(light).map(tell).collect()
     }
 
     /// Views with missing texels, and how many.
-    fn incomplete<'b>(&'b self, light: &'b FrameLight) -> impl Iterator<Item = (&'b str, usize)> {
-        let views = self.job.world.sources().iter().zip(&light.missing);
-        views.filter(|(_, count)| **count > 0).map(|(source, count)| (source.name.as_str(), *count))
+    fn incomplete<'b>(&'b self, light: &'b FrameLight) -> impl Iterator<Item = (&'b InputView, usize)> {
+        let views = self.job.input.present().zip(&light.missing);
+        views.filter(|(_, count)| **count > 0).map(|((view, _, _), count)| (view, *count))
     }
 
     /// Makes an output: filtered light, complete with what lies outside.
@@ -119,14 +120,19 @@ impl<'a> Engine<'a> {
         Ok(image)
     }
 
-    /// Geometry and light strip by strip: little memory, and the cost of each is known.
+    /// Geometry and light strip by strip: little memory, and the cost of each is known. Where not even a strip's geometry
+    /// fits, or the filter has none that could be kept, both at once.
     fn render_in_strips(&self, target: &View, light: &FrameLight, stages: &mut Stages) -> Image<Rgba> {
-        const ROWS: usize = 256;
         let resampler = self.resampler(target);
+        let left = self.job.memory.left_for_plan(&self.job.input, &self.job.target);
+        let bytes = stages.time(Stage::Plan, || resampler.plan_bytes_estimate());
+        let Some(height) = strip_height(bytes as u64, target.height(), left) else {
+            return stages.time(Stage::Filter, || resampler.render(&light.texels));
+        };
         let mut image = Image::filled(target.width(), target.height(), Rgba::TRANSPARENT);
         let width = target.width();
-        for top in (0..target.height()).step_by(ROWS) {
-            let rows = top..target.height().min(top + ROWS);
+        for top in (0..target.height()).step_by(height) {
+            let rows = top..target.height().min(top + height);
             let Some(plan) = stages.time(Stage::Plan, || resampler.plan_rows(rows.clone())) else {
                 return stages.time(Stage::Filter, || resampler.render(&light.texels));
             };
@@ -158,7 +164,8 @@ impl<'a> Engine<'a> {
         let fill = self.job.fill_for_missing();
         let empty = self.mask(index).close_holes(image, fill.unwrap_or(Rgba::TRANSPARENT));
         if empty > 0 && fill.is_none() {
-            let culprits: Vec<_> = self.incomplete(light).map(|(name, count)| format!("{name} ({count})")).collect();
+            let culprit = |(view, count): (&InputView, usize)| format!("{} ({count})", view.name);
+            let culprits: Vec<_> = self.incomplete(light).map(culprit).collect();
             bail!(
                 "{empty} pixels of {} see nothing but missing pixels (NaN), found in {}; render those again, or fill the \
                  gaps with --missing COLOR or --missing transparent",
@@ -188,7 +195,21 @@ impl<'a> Engine<'a> {
     }
 }
 
-/// Reads the light of one file; counts what is missing of an opaque one.
+/// Rows of a target whose geometry is kept at once, of so many bytes for all rows: little beside the light, and no more
+/// than is left. `None` where not even the fewest that are worth their while fit.
+fn strip_height(plan_bytes: u64, rows: usize, left: u64) -> Option<usize> {
+    /// Threads take eight rows at once.
+    const LEAST: u64 = 8;
+    const ENOUGH: u64 = 64 << 20;
+    let row_bytes = (plan_bytes / rows.max(1) as u64).max(1);
+    if LEAST * row_bytes > left {
+        return None;
+    }
+    let height = (ENOUGH.min(left) / row_bytes / LEAST * LEAST).clamp(LEAST, rows.max(1).next_multiple_of(8) as u64);
+    Some(height as usize)
+}
+
+/// Reads the light of one file; counts its pixels that are missing (NaN).
 fn load_view(
     job: &ConvertJob,
     input: &InputView,
@@ -211,15 +232,28 @@ fn load_view(
         );
     }
     let transfer = job.light.input_transfer(file.image.depth(), &file.metadata);
-    file.image.decode(&transfer, part);
-    let opaque = !file.image.channels().has_alpha();
-    if !(opaque && file.image.depth().is_float()) {
-        return Ok(0);
-    }
-    let missing = part.iter().filter(|texel| texel.alpha() == 0.0).count();
+    let missing = file.image.decode(&transfer, part);
     if missing == part.len() && job.fill_for_missing().is_none() {
         return Err(anyhow::anyhow!("every pixel is NaN"))
             .with_context(|| format!("{}: the {} view holds no light; render it again", path.display(), input.name));
     }
     Ok(missing)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::strip_height;
+
+    #[test]
+    fn a_strip_takes_little_memory_however_much_goes_into_a_pixel() {
+        const MB: u64 = 1 << 20;
+        // Parity: the whole of it is little.
+        assert_eq!(strip_height(40 * MB, 1436, 1000 * MB), Some(1440));
+        // Strong reduction: 16 MB a row.
+        assert_eq!(strip_height(1024 * 16 * MB, 1024, 10_000 * MB), Some(8));
+        assert_eq!(strip_height(1024 * MB, 1024, 10_000 * MB), Some(64));
+        assert_eq!(strip_height(1024 * MB, 1024, 33 * MB), Some(32));
+        assert_eq!(strip_height(1024 * MB, 1024, 7 * MB), None);
+        assert_eq!(strip_height(1024 * MB, 1024, 0), None);
+    }
 }

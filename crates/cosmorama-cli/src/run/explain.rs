@@ -10,7 +10,7 @@ use serde_json::{Value, json};
 use super::{diagram, print, use_threads};
 use crate::args::ExplainArgs;
 use crate::failure::{usage, warn};
-use crate::job::{Input, Picture, filter, nominal_world};
+use crate::job::{Input, MemoryBudget, Picture, filter, nominal_world, refuse_existing};
 
 /// Tells what a conversion will do.
 pub(super) fn run(args: &ExplainArgs) -> Result<ExitCode> {
@@ -22,7 +22,11 @@ pub(super) fn run(args: &ExplainArgs) -> Result<ExitCode> {
     let (input, pictures) = resolve(args, &mut warnings)?;
     let filter = filter(&args.geometry, &mut warnings);
     warnings.iter().for_each(|warning| warn(warning));
-    let world = nominal_world(&input)?;
+    if let (Some(folder), false) = (&args.output, args.overwrite) {
+        let files: Vec<PathBuf> = pictures.iter().flat_map(|picture| diagrams(folder, picture)).collect();
+        refuse_existing(files.iter().map(PathBuf::as_path), "")?;
+    }
+    let world = nominal_world(&input, MemoryBudget::new(args.limits.memory))?;
     let (mut text, mut reports) = (String::new(), Vec::new());
     for picture in &pictures {
         let report = Report::of(&world, &picture.view, &filter);
@@ -79,16 +83,22 @@ fn draw(folder: &Path, picture: &Picture, world: &World, filter: &Filter) -> Res
     let view: &View = &picture.view;
     let figures = Figures { world, target: view };
     let needs = Needs::of(world, &[*view], filter);
-    let suffix = picture.face.map_or_else(String::new, |face| format!("-{face}"));
+    let drawings = [figures.unfolded(&needs, &[]), figures.ownership(), figures.footprints()];
     let mut files = Vec::new();
-    for (name, svg) in [
-        ("unfolded", figures.unfolded(&needs, &[])),
-        ("ownership", figures.ownership()),
-        ("footprints", figures.footprints()),
-    ] {
-        files.extend(diagram::save(folder, &format!("{name}{suffix}"), &svg)?);
+    for (name, svg) in diagram_names(picture).iter().zip(&drawings) {
+        files.extend(diagram::save(folder, name, svg)?);
     }
     Ok(files)
+}
+
+fn diagram_names(picture: &Picture) -> [String; 3] {
+    let suffix = picture.face.map_or_else(String::new, |face| format!("-{face}"));
+    ["unfolded", "ownership", "footprints"].map(|name| format!("{name}{suffix}"))
+}
+
+/// The files that the diagrams of a picture go to.
+fn diagrams(folder: &Path, picture: &Picture) -> Vec<PathBuf> {
+    diagram_names(picture).iter().flat_map(|name| diagram::files(folder, name)).collect()
 }
 
 fn to_json(report: &Report, input: &Input, files: &[PathBuf]) -> Value {

@@ -141,6 +141,14 @@ pub(crate) fn floats(width: usize, height: usize, pixel: impl Fn(usize, usize) -
     EncodedImage::new(width, height, Channels::Rgb, Depth::Float, Samples::Float(samples)).unwrap()
 }
 
+/// The same with alpha: 1 everywhere.
+pub(crate) fn veiled(width: usize, height: usize, pixel: impl Fn(usize, usize) -> [f32; 3]) -> EncodedImage {
+    let opaque = floats(width, height, pixel);
+    let Samples::Float(samples) = opaque.into_samples() else { panic!("floats are floats") };
+    let samples = samples.chunks(3).flat_map(|pixel| [pixel[0], pixel[1], pixel[2], 1.0]).collect();
+    EncodedImage::new(width, height, Channels::Rgba, Depth::Float, Samples::Float(samples)).unwrap()
+}
+
 /// The samples of an image of 8 bits.
 pub(crate) fn eight_bits(image: &EncodedImage) -> &[u8] {
     match image.samples() {

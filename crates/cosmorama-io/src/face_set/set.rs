@@ -1,3 +1,5 @@
+use std::collections::{HashMap, HashSet};
+use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
 use cosmorama::sphere::CubeFace;
@@ -40,9 +42,10 @@ impl FaceSet {
             None => Naming::presets().iter().filter(|naming| naming.automatic).collect(),
         };
         let mut found: Vec<Self> = Vec::new();
+        let mut folders = Folders::default();
         for naming in &namings {
             for case in LetterCase::ALL {
-                let set = Self::look(&pattern, naming, case);
+                let set = Self::look(&pattern, naming, case, &mut folders);
                 if set.present().next().is_some() && !found.iter().any(|other| other.includes(&set)) {
                     found.retain(|other| !set.includes(other));
                     found.push(set);
@@ -67,13 +70,13 @@ impl FaceSet {
     /// # Errors
     /// When the pattern is none.
     pub fn named(pattern: &str, naming: &'static Naming) -> Result<Self, IoError> {
-        Ok(Self::look(&parse(pattern)?, naming, LetterCase::Lower))
+        Ok(Self::look(&parse(pattern)?, naming, LetterCase::Lower, &mut Folders::default()))
     }
 
-    fn look(pattern: &FacePattern, naming: &'static Naming, case: LetterCase) -> Self {
+    fn look(pattern: &FacePattern, naming: &'static Naming, case: LetterCase, folders: &mut Folders) -> Self {
         let faces = CubeFace::ALL.map(|face| {
             let path = PathBuf::from(pattern.name(naming, case, face));
-            let present = exists(&path);
+            let present = folders.hold(pattern.folder(), &path);
             FaceFile { face, path, placement: naming.placement(face), present }
         });
         Self { naming, faces }
@@ -119,10 +122,40 @@ fn parse(pattern: &str) -> Result<FacePattern, IoError> {
     FacePattern::parse(pattern).ok_or_else(|| IoError::NotAFacePattern { pattern: pattern.to_owned() })
 }
 
-fn exists(path: &Path) -> bool {
-    match path.to_str().and_then(FramePattern::parse) {
-        Some(frames) => frames.existing().is_ok_and(|frames| !frames.is_empty()),
-        None => path.is_file(),
+/// What folders hold, letter by letter: a disk that takes `FRONT.png` for `front.png` would show the same file under
+/// every way to write its name.
+#[derive(Default)]
+struct Folders(HashMap<PathBuf, Option<HashSet<OsString>>>);
+
+impl Folders {
+    /// Whether a file, or any frame of it, is there under exactly this name, as far as it varies below `fixed`.
+    fn hold(&mut self, fixed: &Path, path: &Path) -> bool {
+        match path.to_str().and_then(FramePattern::parse) {
+            Some(frames) => {
+                let folder = frames.folder();
+                let names_a_face = !fixed.starts_with(&folder);
+                (!names_a_face || self.name(fixed, &folder)) && frames.existing().is_ok_and(|frames| !frames.is_empty())
+            }
+            None => self.name(fixed, path) && path.is_file(),
+        }
+    }
+
+    fn name(&mut self, fixed: &Path, path: &Path) -> bool {
+        let mut varying = path.ancestors().take_while(|part| *part != fixed && !part.as_os_str().is_empty());
+        varying.all(|part| match (part.parent(), part.file_name()) {
+            (Some(folder), Some(name)) => self.entries(folder).is_none_or(|entries| entries.contains(name)),
+            // `..` and the root are called so everywhere.
+            _ => true,
+        })
+    }
+
+    /// `None` for a folder that cannot be listed; its files may still be opened by name.
+    fn entries(&mut self, folder: &Path) -> Option<&HashSet<OsString>> {
+        let list = || {
+            let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
+            Some(std::fs::read_dir(folder).ok()?.flatten().map(|entry| entry.file_name()).collect())
+        };
+        self.0.entry(folder.to_owned()).or_insert_with(list).as_ref()
     }
 }
 

@@ -5,7 +5,7 @@ use cosmorama::raster::{Channels, Depth, EncodedImage, Samples};
 use image::codecs::jpeg::JpegEncoder;
 use image::{ExtendedColorType, ImageEncoder};
 use zune_jpeg::JpegDecoder;
-use zune_jpeg::zune_core::bytestream::ZCursor;
+use zune_jpeg::zune_core::bytestream::{ZByteReaderTrait, ZCursor};
 use zune_jpeg::zune_core::colorspace::ColorSpace;
 use zune_jpeg::zune_core::options::DecoderOptions;
 
@@ -15,17 +15,14 @@ use crate::{Format, Header, ImageFile, IoError, Limits, Metadata, icc};
 
 const FORMAT: Format = Format::Jpeg;
 
-type Decoder<'a> = JpegDecoder<ZCursor<&'a [u8]>>;
-
 pub(crate) fn probe(path: &Path, source: &mut Source) -> Result<Header, IoError> {
-    let bytes = whole(path, source)?;
-    let mut decoder = decoder(path, &bytes)?;
+    let mut decoder = decoder(path, source)?;
     header(path, &mut decoder)
 }
 
 pub(crate) fn read(path: &Path, source: &mut Source, limits: &Limits) -> Result<ImageFile, IoError> {
     let bytes = whole(path, source)?;
-    let mut decoder = decoder(path, &bytes)?;
+    let mut decoder = decoder(path, ZCursor::new(&bytes))?;
     let header = header(path, &mut decoder)?;
     if !ends(&bytes) {
         return Err(IoError::damaged(path, FORMAT, "it ends too early"));
@@ -82,8 +79,8 @@ fn options() -> DecoderOptions {
     DecoderOptions::default().set_strict_mode(true).set_max_width(usize::MAX).set_max_height(usize::MAX)
 }
 
-fn decoder<'a>(path: &Path, bytes: &'a [u8]) -> Result<Decoder<'a>, IoError> {
-    let mut decoder = JpegDecoder::new_with_options(ZCursor::new(bytes), options());
+fn decoder<T: ZByteReaderTrait>(path: &Path, source: T) -> Result<JpegDecoder<T>, IoError> {
+    let mut decoder = JpegDecoder::new_with_options(source, options());
     decoder.decode_headers().map_err(|error| IoError::damaged(path, FORMAT, reason(&error)))?;
     Ok(decoder)
 }
@@ -94,7 +91,7 @@ fn reason(error: &zune_jpeg::errors::DecodeErrors) -> String {
     text.lines().next().unwrap_or_default().trim().to_owned()
 }
 
-fn header(path: &Path, decoder: &mut Decoder<'_>) -> Result<Header, IoError> {
+fn header<T: ZByteReaderTrait>(path: &Path, decoder: &mut JpegDecoder<T>) -> Result<Header, IoError> {
     let (Some((width, height)), Some(colour)) = (decoder.dimensions(), decoder.input_colorspace()) else {
         return Err(IoError::damaged(path, FORMAT, "it has no size"));
     };

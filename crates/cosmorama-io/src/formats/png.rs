@@ -13,11 +13,11 @@ pub(crate) use super::png_writer::write;
 const FORMAT: Format = Format::Png;
 
 pub(crate) fn probe(path: &Path, source: &mut Source) -> Result<Header, IoError> {
-    Ok(header(&decoder(path, source, &Limits::default())?))
+    Ok(header(&decoder(path, source)?))
 }
 
 pub(crate) fn read(path: &Path, source: &mut Source, limits: &Limits) -> Result<ImageFile, IoError> {
-    let mut reader = decoder(path, source, limits)?;
+    let mut reader = decoder(path, source)?;
     let header = header(&reader);
     let size = (header.width as u64, header.height as u64);
     limits.check(path, size, header.channels, header.depth)?;
@@ -38,10 +38,9 @@ pub(crate) fn read(path: &Path, source: &mut Source, limits: &Limits) -> Result<
     whole_image(path, header, samples)
 }
 
-fn decoder<'a>(path: &Path, source: &'a mut Source, limits: &Limits) -> Result<Reader<&'a mut Source>, IoError> {
-    // For rows, profiles and texts; the image itself is checked against our own limits.
-    let bytes = usize::try_from(limits.memory).unwrap_or(usize::MAX).max(png::Limits::default().bytes);
-    let mut decoder = Decoder::new_with_limits(source, png::Limits { bytes });
+fn decoder<'a>(path: &Path, source: &'a mut Source) -> Result<Reader<&'a mut Source>, IoError> {
+    // Its own limit is for rows, profiles and texts; the image itself is checked against ours.
+    let mut decoder = Decoder::new(source);
     // Palettes, transparent colours and samples of less than eight bits become plain samples.
     decoder.set_transformations(Transformations::EXPAND);
     decoder.read_info().map_err(|error| damaged(path, &error))

@@ -1,6 +1,7 @@
 use std::io::Write;
 use std::path::Path;
 
+use bytemuck::cast_slice;
 use cosmorama::raster::{Channels, Depth, EncodedImage, Samples};
 use png::chunk::sBIT;
 use png::{BitDepth, ColorType, Compression, Encoder, EncodingError, Info};
@@ -48,8 +49,8 @@ fn encode(output: impl Write, image: &EncodedImage, metadata: &Metadata) -> Resu
     match image.samples() {
         Samples::U8(samples) => writer.write_image_data(samples)?,
         Samples::U16(samples) => {
-            let bytes: Vec<u8> = samples.iter().flat_map(|sample| sample.to_be_bytes()).collect();
-            writer.write_image_data(&bytes)?;
+            let big_endian: Vec<u16> = samples.iter().map(|sample| sample.to_be()).collect();
+            writer.write_image_data(cast_slice(&big_endian))?;
         }
         // `Format::supports` has been asked before.
         Samples::Half(_) | Samples::Float(_) => return Err(limit("PNG has no float samples")),
