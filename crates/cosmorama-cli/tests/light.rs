@@ -20,6 +20,13 @@ fn what_comes_in_goes_out() {
         let out = convert("sky.png", "out.png", &["--transfer", transfer]);
         assert!(eight_bits(&out).chunks(3).all(|pixel| pixel == [200, 100, 50]), "{transfer}: {out:?}");
     }
+    // A file that cannot say what its code values mean gets those that everyone expects.
+    bench.save("sky.png", &flat(64, 32, &[200, 100, 50]));
+    let linear = ["--in-transfer", "linear"];
+    let expected = convert("sky.png", "out.png", &[&linear[..], &["--out-transfer", "srgb"]].concat());
+    for name in ["out.tif", "out.tga"] {
+        assert_eq!(eight_bits(&convert("sky.png", name, &linear)), eight_bits(&expected), "{name}");
+    }
     // Grey stays grey, alpha stays, and its colour.
     for pixel in [&[77u8][..], &[90, 128], &[10, 20, 30, 64]] {
         bench.save("sky.png", &flat(64, 32, pixel));

@@ -113,6 +113,11 @@ impl Format {
         }
     }
 
+    /// Whether an integer file of the format can say how its code values relate to light, without an ICC profile.
+    pub const fn names_transfer(self) -> bool {
+        matches!(self, Self::Png)
+    }
+
     /// Whether the format can hold an ICC profile.
     pub const fn holds_icc(self) -> bool {
         matches!(self, Self::Png | Self::Jpeg | Self::Tiff)

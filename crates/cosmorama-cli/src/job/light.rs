@@ -150,8 +150,9 @@ fn output_transfer(
     match headers.first() {
         _ if depth.is_float() => Transfer::Linear,
         Some(header) if !header.depth.is_float() => match side.of(header.depth, &header.metadata) {
-            // An ICC profile's curve means nothing without the profile.
-            Transfer::Curve(_) if !target.format.holds_icc() => Transfer::Srgb,
+            // What the file cannot say of itself would be taken for sRGB.
+            Transfer::Curve(_) if target.format.holds_icc() => side.of(header.depth, &header.metadata),
+            transfer if transfer != Transfer::Srgb && !target.format.names_transfer() => Transfer::Srgb,
             transfer => transfer,
         },
         _ => Transfer::Srgb,

@@ -98,11 +98,16 @@ impl Picture {
     ) -> Result<Vec<Self>> {
         match geometry.to.as_ref().map(|spec| &spec.shape) {
             Some(Shape::Single(single)) => {
-                let exr = format == Some(Format::Exr);
-                let single = if exr { single.with_samples(SamplePositions::Edges) } else { *single };
-                let view = single_view(single, geometry, pixels_per_radian)?;
-                let envmap = if exr { envmap(&single) } else { None };
-                Ok(vec![Self { face: None, view, envmap }])
+                if format == Some(Format::Exr) {
+                    // OpenEXR's attribute, and its samples on the edges, are for the whole sphere alone.
+                    let edges = single.with_samples(SamplePositions::Edges);
+                    let view = single_view(edges, geometry, pixels_per_radian)?;
+                    if let Some(envmap) = envmap(&edges).filter(|_| view.covers_sphere()) {
+                        return Ok(vec![Self { face: None, view, envmap: Some(envmap) }]);
+                    }
+                }
+                let view = single_view(*single, geometry, pixels_per_radian)?;
+                Ok(vec![Self { face: None, view, envmap: None }])
             }
             Some(Shape::Cube(cube)) => Self::faces(cube, geometry, pixels_per_radian),
             None => Self::faces(&Cube::default(), geometry, pixels_per_radian),

@@ -42,19 +42,25 @@ impl ScreenMask {
     }
 
     /// For worlds of opaque texels some of which are missing (NaN): what is left of a pixel's texels makes all of the
-    /// pixel. Gives `fill` to the pixels of which nothing is left, and says how many they are.
+    /// pixel, and a pixel with next to nothing left takes the mean of its neighbours. Gives `fill` to the pixels of which
+    /// nothing is left all around, and says how many they are.
     pub fn close_holes(&self, image: &mut Image<Rgba>, fill: Rgba) -> usize {
-        let mut empty = 0;
-        for (pixel, mask) in image.pixels_mut().iter_mut().zip(&self.pixels) {
-            // Less is what negative lobes leave beside a hole.
-            if pixel.alpha() > 0.05 * mask.coverage {
+        // Less than this is what negative lobes leave beside a hole: noise.
+        const ENOUGH: f32 = 0.05;
+        let mut holes = Vec::new();
+        for (index, (pixel, mask)) in image.pixels_mut().iter_mut().zip(&self.pixels).enumerate() {
+            if pixel.alpha() > ENOUGH * mask.coverage {
                 *pixel = *pixel * (mask.coverage / pixel.alpha());
             } else if mask.coverage > 0.0 && !mask.unseen {
-                *pixel = fill * mask.coverage;
-                empty += 1;
+                *pixel = Rgba::TRANSPARENT;
+                holes.push(index);
             }
         }
-        empty
+        let closed: Vec<Option<Rgba>> = holes.iter().map(|&index| mean_around(image, index)).collect();
+        for (&index, colour) in holes.iter().zip(&closed) {
+            image.pixels_mut()[index] = colour.unwrap_or(fill) * self.pixels[index].coverage;
+        }
+        closed.iter().filter(|colour| colour.is_none()).count()
     }
 
     /// Lays a colour outside the field of view, and behind the pixels that its edge cuts as far as they lie outside.
@@ -63,6 +69,18 @@ impl ScreenMask {
             *pixel += colour * (1.0 - mask.coverage);
         }
     }
+}
+
+/// The opaque mean of the eight pixels around one, `None` if there is nothing in them.
+fn mean_around(image: &Image<Rgba>, index: usize) -> Option<Rgba> {
+    let (i, j) = (index % image.width(), index / image.width());
+    let mut sum = Rgba::TRANSPARENT;
+    for row in j.saturating_sub(1)..image.height().min(j + 2) {
+        for column in i.saturating_sub(1)..image.width().min(i + 2) {
+            sum += *image.get(column, row);
+        }
+    }
+    (sum.alpha() > 0.0).then(|| sum * sum.alpha().recip())
 }
 
 #[cfg(test)]
@@ -92,11 +110,16 @@ mod tests {
     fn holes_close_as_far_as_there_is_anything() {
         let (world, target) = front_and_fisheye();
         let mut image = Image::filled(40, 40, Rgba([0.25, 0.25, 0.25, 0.5]));
-        image.pixels_mut()[20 * 40 + 20] = Rgba::TRANSPARENT;
+        // A single hole, holding what negative lobes leave, and one of nine pixels.
+        image.pixels_mut()[20 * 40 + 20] = Rgba([3.0, 0.0, 0.0, 0.001]);
+        for index in [15, 16, 17].into_iter().flat_map(|j| [22, 23, 24].map(|i| j * 40 + i)) {
+            image.pixels_mut()[index] = Rgba::TRANSPARENT;
+        }
         let white = Rgba::opaque(1.0, 1.0, 1.0);
         assert_eq!(ScreenMask::new(&world, &target).close_holes(&mut image, white), 1);
-        assert_eq!(*image.get(21, 20), Rgba::opaque(0.5, 0.5, 0.5));
-        assert_eq!(*image.get(20, 20), white);
+        let grey = Rgba::opaque(0.5, 0.5, 0.5);
+        assert_eq!([*image.get(21, 20), *image.get(20, 20), *image.get(22, 15)], [grey; 3]);
+        assert_eq!(*image.get(23, 16), white);
     }
 
     #[test]
