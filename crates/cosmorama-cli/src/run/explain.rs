@@ -3,8 +3,8 @@ use std::process::ExitCode;
 
 use anyhow::{Context, Result};
 use cosmorama::explain::{Figures, Magnification, Report, ViewReport};
-use cosmorama::resample::{Filter, Needs};
-use cosmorama::world::{PixelRect, View, World};
+use cosmorama::resample::Needs;
+use cosmorama::world::{PixelRect, World};
 use serde_json::{Value, json};
 
 use super::{diagram, print, use_threads};
@@ -35,7 +35,7 @@ pub(super) fn run(args: &ExplainArgs) -> Result<ExitCode> {
         }
         text += &format!("{report}");
         let files = match &args.output {
-            Some(folder) => draw(folder, picture, &world, &filter)?,
+            Some(folder) => draw(folder, picture, &world, &needs(&report))?,
             None => Vec::new(),
         };
         for file in &files {
@@ -78,12 +78,15 @@ fn resolve(args: &ExplainArgs, warnings: &mut Vec<String>) -> Result<(Input, Vec
     }
 }
 
-fn draw(folder: &Path, picture: &Picture, world: &World, filter: &Filter) -> Result<Vec<PathBuf>> {
+/// What the report has found out already.
+fn needs(report: &Report) -> Needs {
+    Needs { views: report.views.iter().map(|view| view.need.clone()).collect(), uncovered: report.uncovered }
+}
+
+fn draw(folder: &Path, picture: &Picture, world: &World, needs: &Needs) -> Result<Vec<PathBuf>> {
     std::fs::create_dir_all(folder).with_context(|| format!("cannot make the folder {}", folder.display()))?;
-    let view: &View = &picture.view;
-    let figures = Figures { world, target: view };
-    let needs = Needs::of(world, &[*view], filter);
-    let drawings = [figures.unfolded(&needs, &[]), figures.ownership(), figures.footprints()];
+    let figures = Figures { world, target: &picture.view };
+    let drawings = [figures.unfolded(needs, &[]), figures.ownership(), figures.footprints()];
     let mut files = Vec::new();
     for (name, svg) in diagram_names(picture).iter().zip(&drawings) {
         files.extend(diagram::save(folder, name, svg)?);
