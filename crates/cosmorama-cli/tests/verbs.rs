@@ -89,7 +89,7 @@ fn explain_needs_no_files() {
     let bench = Bench::new();
     let args = ["explain", "--from", "cube", "--to", "omnimax", "--size", "1966x1436", "--input-size", "1024x960"];
     let text = bench.succeed(&args);
-    assert!(text.contains("right  1024x960  needs 514x960+0+0"), "{text}");
+    assert!(text.contains("right  1024x960  needs 515x960+0+0"), "{text}");
     assert!(text.contains("back   1024x960  not needed"), "{text}");
     let report: Value = serde_json::from_str(&bench.succeed(&[&args[..], &["--json"]].concat())).unwrap();
     assert_eq!(report[0]["views"][1]["needed"], "514x960+0+0");
