@@ -263,6 +263,31 @@ fn wrong_usage() {
 }
 
 #[test]
+fn numbers_that_are_none_or_absurd() {
+    let bench = Bench::new();
+    bench.save("sky.png", &flat(64, 32, &[10, 20, 30]));
+    let convert = ["convert", "sky.png", "out.png", "--from", "equirect", "--to", "perspective", "--size", "8"];
+    for (option, value, expected) in [
+        ("--yaw", "nan", "angle in degrees"),
+        ("--roll", "inf", "angle in degrees"),
+        ("--kernel", "mitchell:scale=1000", "at most 32"),
+        ("--kernel", "tent:floor=1e300", "at most 32"),
+    ] {
+        assert_says(&bench.fail(2, &[&convert[..], &[option, value]].concat()), &[value, expected]);
+    }
+    assert_says(&bench.fail(2, &["compare", "sky.png", "sky.png", "--min-psnr", "nan"]), &["expected a number"]);
+}
+
+#[test]
+fn a_window_larger_than_its_canvas() {
+    let bench = Bench::new();
+    bench.save("view.png", &flat(64, 64, &[10, 20, 30]));
+    let from = "perspective:canvas=50x50+0+0";
+    let message = bench.fail(2, &["convert", "view.png", "out.png", "--from", from, "--to", "perspective"]);
+    assert_says(&message, &["view.png", "64x64", "50x50"]);
+}
+
+#[test]
 fn two_namings_that_match() {
     let bench = Bench::new();
     for name in ["front", "left", "f", "l"] {

@@ -213,3 +213,13 @@ fn faces_that_lie_turned_are_turned() {
     bench.succeed(&[&from[..], &size].concat());
     bench.succeed(&["compare", "back_top.exr", "world_top.exr", "--min-psnr", "60"]);
 }
+
+#[test]
+fn letters_for_bourkes_mark() {
+    let bench = Bench::new();
+    bench.save("sky.png", &flat(64, 32, &[10, 20, 30]));
+    bench.succeed(&["convert", "sky.png", "v_%c.png", "--from", "equirect", "--to", "cube", "--size", "8"]);
+    for letter in ["l", "f", "r", "b", "t", "d"] {
+        assert!(bench.path(&format!("v_{letter}.png")).exists(), "{letter}");
+    }
+}

@@ -2,6 +2,7 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum, ValueHint};
 
+use super::number::finite;
 use super::{MemorySize, TransferArg};
 
 /// Compare two pictures: PSNR, largest difference, sub-pixel shift.
@@ -31,10 +32,10 @@ pub(crate) struct CompareArgs {
     #[arg(long, value_name = "FACTOR", default_value_t = 10.0)]
     pub(crate) gain: f32,
     /// Fail (exit code 1) if the PSNR of linear light is less
-    #[arg(long, value_name = "DB")]
+    #[arg(long, value_name = "DB", value_parser = finite, allow_negative_numbers = true)]
     pub(crate) min_psnr: Option<f64>,
     /// Fail (exit code 1) if the pictures are further apart
-    #[arg(long, value_name = "PX")]
+    #[arg(long, value_name = "PX", value_parser = finite)]
     pub(crate) max_shift: Option<f64>,
     /// How integer code values relate to light: auto, srgb, linear, bt1886, pq, hlg, gamma:G
     #[arg(long, value_name = "T", default_value = "auto")]

@@ -1,6 +1,7 @@
 use clap::{Args, ValueHint};
 use cosmorama_io::FrameList;
 
+use super::number::degrees;
 use super::{Colour, DepthArg, FilterArg, KernelArg, MemorySize, Missing, ProgressStyle, SizeArg, TransferArg};
 use crate::spec::Spec;
 
@@ -75,13 +76,13 @@ pub(crate) struct GeometryArgs {
     #[arg(long, value_name = "WxH|N", help_heading = "Geometry")]
     pub(crate) size: Option<SizeArg>,
     /// Turn the output to the right, in degrees
-    #[arg(long, value_name = "D", default_value_t = 0.0, allow_negative_numbers = true, help_heading = "Geometry")]
+    #[arg(long, value_name = "D", default_value_t = 0.0, value_parser = degrees, allow_negative_numbers = true, help_heading = "Geometry")]
     pub(crate) yaw: f64,
     /// Turn the output up
-    #[arg(long, value_name = "D", default_value_t = 0.0, allow_negative_numbers = true, help_heading = "Geometry")]
+    #[arg(long, value_name = "D", default_value_t = 0.0, value_parser = degrees, allow_negative_numbers = true, help_heading = "Geometry")]
     pub(crate) pitch: f64,
     /// Turn the output's camera clockwise
-    #[arg(long, value_name = "D", default_value_t = 0.0, allow_negative_numbers = true, help_heading = "Geometry")]
+    #[arg(long, value_name = "D", default_value_t = 0.0, value_parser = degrees, allow_negative_numbers = true, help_heading = "Geometry")]
     pub(crate) roll: f64,
     /// ewa, point, bilinear or reference[:samples=N]
     #[arg(long, value_name = "NAME", default_value = "ewa", help_heading = "Filter")]

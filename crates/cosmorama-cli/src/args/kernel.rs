@@ -16,7 +16,8 @@ impl FromStr for KernelArg {
         let mut kernel = named(name).ok_or_else(|| format!("unknown kernel '{name}'; there are {NAMES}"))?;
         for pair in keys.split(',').filter(|_| !keys.is_empty()) {
             let (key, value) = pair.split_once('=').ok_or_else(|| format!("'{pair}' is no key=value"))?;
-            let value = positive(value).ok_or_else(|| format!("{key}={value}: expected a number more than 0"))?;
+            let value = within_reach(value)
+                .ok_or_else(|| format!("{key}={value}: expected a number more than 0, at most {MOST}"))?;
             set(&mut kernel, name, key, value)?;
         }
         Ok(Self(kernel))
@@ -59,8 +60,11 @@ fn set(kernel: &mut Kernel, name: &str, key: &str, value: f64) -> Result<(), Str
     Ok(())
 }
 
-fn positive(text: &str) -> Option<f64> {
-    text.parse().ok().filter(|number: &f64| *number > 0.0 && number.is_finite())
+/// The widest kernel that is still a filter of a pixel: beyond, a slip of the finger would take hours.
+const MOST: f64 = 32.0;
+
+fn within_reach(text: &str) -> Option<f64> {
+    text.parse().ok().filter(|number: &f64| *number > 0.0 && *number <= MOST)
 }
 
 #[cfg(test)]
@@ -76,7 +80,15 @@ mod tests {
             assert!(name.parse::<KernelArg>().is_ok(), "{name}");
             assert!(format!("{name}:scale=0.5,floor=0.75").parse::<KernelArg>().is_ok(), "{name}");
         }
-        for wrong in ["gauss", "mitchell:alpha=2", "box:scale=0", "box:scale", "gaussian:sigma=1"] {
+        for wrong in [
+            "gauss",
+            "mitchell:alpha=2",
+            "box:scale=0",
+            "mitchell:scale=1000",
+            "tent:floor=nan",
+            "box:scale",
+            "gaussian:sigma=1",
+        ] {
             assert!(wrong.parse::<KernelArg>().is_err(), "{wrong}");
         }
     }

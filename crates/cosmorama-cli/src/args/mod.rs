@@ -11,6 +11,7 @@ mod info;
 mod kernel;
 mod memory;
 mod missing;
+mod number;
 mod progress;
 mod shell;
 mod size;

@@ -105,6 +105,7 @@ impl Input {
         let name = path.file_name().map_or_else(|| pattern.to_owned(), |name| name.to_string_lossy().into_owned());
         let mut placement = single.placement;
         let canvas = placement.canvas.or(header.window.map(canvas_of)).unwrap_or_else(|| whole(&header));
+        fits_canvas(&path, &header, canvas)?;
         placement.canvas = None;
         let nominal = placement.view(canvas.width, canvas.height).map_err(|error| usage(format!("--from: {error}")))?;
         placement.canvas = Some(canvas);
@@ -172,6 +173,9 @@ impl Face {
             let declared = cube.canvas_of(file.face).or(header.window.map(canvas_of));
             declared.unwrap_or_else(|| whole(header))
         });
+        if let (Some(header), Some(canvas)) = (&header, canvas) {
+            fits_canvas(&files.path(frame), header, canvas)?;
+        }
         Ok(Self { face: file.face, placement: file.placement, files, header, canvas })
     }
 
@@ -228,6 +232,20 @@ fn shape(canvas: &Canvas) -> String {
 
 fn names<'a>(faces: impl Iterator<Item = &'a FaceFile>) -> String {
     faces.map(|face| face.face.name()).collect::<Vec<_>>().join(", ")
+}
+
+/// A window larger than its canvas was declared by mistake.
+fn fits_canvas(path: &Path, header: &Header, canvas: Canvas) -> Result<()> {
+    if header.width <= canvas.width && header.height <= canvas.height {
+        return Ok(());
+    }
+    Err(usage(format!(
+        "{}: {}x{} pixels are no window of a canvas of {}; give canvas=WxH+X+Y the size of the whole picture",
+        path.display(),
+        header.width,
+        header.height,
+        shape(&canvas)
+    )))
 }
 
 /// The canvas of an image that is all of it.

@@ -57,7 +57,9 @@ impl Target {
         let format = Self::check_names(output, geometry)?;
         let pictures = Picture::all(geometry, Some(format), Some(pixels_per_radian))?;
         let naming = match geometry.to.as_ref().map(|spec| &spec.shape) {
-            Some(Shape::Cube(cube)) => naming(cube),
+            Some(Shape::Cube(cube)) if cube.naming.is_some() => naming(cube),
+            // `%c` is Bourke's mark: one letter a face.
+            _ if output.contains("%c") => Naming::named("bourke")?,
             _ => naming(&Cube::default()),
         };
         let mut views = Vec::new();

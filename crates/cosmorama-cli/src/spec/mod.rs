@@ -10,5 +10,6 @@ mod shape;
 mod text;
 mod window;
 
+pub(crate) use angle::parse_degrees;
 pub(crate) use shape::{Cube, Shape, Single, SphereSamples};
 pub(crate) use text::{Spec, SpecError};
