@@ -1,6 +1,9 @@
+use std::path::Path;
+
 use anyhow::{Result, bail};
 use cosmorama::raster::Rgba;
 use cosmorama::world::View;
+use cosmorama_io::Header;
 
 use super::{Input, InputView, Target, TargetView};
 use crate::args::MemorySize;
@@ -30,16 +33,18 @@ impl MemoryBudget {
         Self { bytes }
     }
 
-    /// Whether the geometry of whole pictures fits, before memory is taken: a small file may be, or say that it is, a
-    /// window of a huge one.
+    /// Whether the geometry of whole pictures fits, with the light of the largest file, before memory is taken: a small
+    /// file may say that it is huge, or a window of something huge.
     pub(crate) fn check_pictures(self, input: &Input) -> Result<()> {
         let texels = |view: &InputView| pixels(&view.nominal);
-        let needed = input.views.iter().map(texels).fold(0, u64::saturating_add).saturating_mul(SOLID_ANGLE);
+        let geometry = input.views.iter().map(texels).fold(0, u64::saturating_add).saturating_mul(SOLID_ANGLE);
+        let light = input.present().map(|(_, header, _)| light_bytes(header)).max().unwrap_or(0);
+        let needed = geometry.saturating_add(light);
         let largest = input.views.iter().max_by_key(|view| texels(view)).map_or_else(String::new, |view| {
             let (width, height) = (view.nominal.width(), view.nominal.height());
             format!("; the largest whole picture, {}, has {width}x{height} pixels", view.name)
         });
-        self.allow(needed, "the input's geometry", &largest)
+        self.allow(needed, "the input", &largest)
     }
 
     /// Whether the outputs of a frame fit, before anything is made of them.
@@ -59,6 +64,17 @@ impl MemoryBudget {
             )
         });
         self.allow(frame_bytes(input, target), "a frame", &(largest + &describe(target, ", and ")))
+    }
+
+    /// Whether two pictures fit, with the copies that comparing them takes, before memory is taken.
+    pub(crate) fn check_comparison(self, pictures: [(&Path, &Header); 2]) -> Result<()> {
+        // Beside its light each picture is blurred, in double precision.
+        let bytes = |header: &Header| light_bytes(header).saturating_add(header_pixels(header).saturating_mul(16));
+        let needed = pictures.iter().map(|(_, header)| bytes(header)).fold(0, u64::saturating_add);
+        let size = |(path, header): (&Path, &Header)| {
+            format!("{} has {}x{} pixels", path.display(), header.width, header.height)
+        };
+        self.allow(needed, "comparing", &format!("; {}, {}", size(pictures[0]), size(pictures[1])))
     }
 
     fn allow(self, needed: u64, what: &str, why: &str) -> Result<()> {
@@ -86,6 +102,16 @@ impl MemoryBudget {
 /// Bytes of a texel's solid angle.
 const SOLID_ANGLE: u64 = size_of::<f32>() as u64;
 
+fn header_pixels(header: &Header) -> u64 {
+    (header.width as u64).saturating_mul(header.height as u64)
+}
+
+/// A file's samples and the light made of them.
+fn light_bytes(header: &Header) -> u64 {
+    let samples = header.channels.count() * header.depth.bytes();
+    header_pixels(header).saturating_mul((samples + size_of::<Rgba>()) as u64)
+}
+
 fn pixels(view: &View) -> u64 {
     (view.width() as u64).saturating_mul(view.height() as u64)
 }
@@ -103,15 +129,9 @@ fn output_bytes(target: &Target) -> u64 {
 
 /// Light and solid angle of every texel, the files beside them, and the outputs.
 fn frame_bytes(input: &Input, target: &Target) -> u64 {
-    let texel = size_of::<Rgba>() as u64 + SOLID_ANGLE;
-    let encoded = input
-        .present()
-        .map(|(_, header, _)| {
-            let samples = header.channels.count() * header.depth.bytes();
-            (header.width as u64).saturating_mul(header.height as u64).saturating_mul(samples as u64)
-        })
-        .fold(0, u64::saturating_add);
-    (input.texels() as u64).saturating_mul(texel).saturating_add(encoded).saturating_add(output_bytes(target))
+    let light = input.present().map(|(_, header, _)| light_bytes(header)).fold(0, u64::saturating_add);
+    let geometry = (input.texels() as u64).saturating_mul(SOLID_ANGLE);
+    light.saturating_add(geometry).saturating_add(output_bytes(target))
 }
 
 /// An amount of memory as people say it.

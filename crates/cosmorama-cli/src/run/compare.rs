@@ -5,7 +5,7 @@ use anyhow::{Context, Result};
 use cosmorama::compare::{Comparison, Mask, compare, difference_image};
 use cosmorama::raster::{Channels, Depth, EncodedImage, Image, Rgba, Transfer};
 use cosmorama::world::{FisheyeFrame, Frame, OmnimaxFrame};
-use cosmorama_io::{Format, Limits, Metadata, WriteOptions, read, write};
+use cosmorama_io::{Format, Limits, Metadata, WriteOptions, probe, read, write};
 use serde_json::{Value, json};
 
 use super::print;
@@ -16,6 +16,8 @@ use crate::job::{InputTransfer, MemoryBudget, real_path, refuse_existing};
 /// Compares two pictures.
 pub(super) fn run(args: &CompareArgs) -> Result<ExitCode> {
     let format = args.diff.as_deref().map(|diff| diff_format(diff, args)).transpose()?;
+    let headers = (probe(&args.first)?, probe(&args.second)?);
+    MemoryBudget::new(args.memory).check_comparison([(&args.first, &headers.0), (&args.second, &headers.1)])?;
     let (first, second) = (light(&args.first, args)?, light(&args.second, args)?);
     let mask = region(args.region, &first)?;
     let comparison = compare(&first, &second, &mask)
