@@ -61,11 +61,6 @@ impl Direction {
         let sine = self.0.cross(other.0).length();
         Angle::from_radians(sine.atan2(self.dot(other)))
     }
-
-    /// The opposite direction.
-    pub fn opposite(self) -> Self {
-        Self(-self.0)
-    }
 }
 
 /// ∂direction/∂(x, y): how a direction moves as a point of a plane or a pixel of a screen moves.
