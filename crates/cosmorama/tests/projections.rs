@@ -13,6 +13,8 @@ fn any_direction() -> impl Strategy<Value = Direction> {
 }
 
 proptest! {
+    #![proptest_config(ProptestConfig::with_cases(5000))]
+
     #[test]
     fn a_direction_comes_back(direction in any_direction()) {
         for projection in ProjectionKind::ALL {
