@@ -114,32 +114,13 @@ impl<'a> Engine<'a> {
     pub(super) fn render(&self, index: usize, light: &FrameLight, stages: &mut Stages) -> Result<Image<Rgba>> {
         let mut image = match &self.plans[index] {
             Some(plan) => stages.time(Stage::Filter, || plan.apply(&light.texels)),
-            None => self.render_in_strips(&self.job.target.views[index].view, light, stages),
+            None => {
+                let resampler = self.resampler(&self.job.target.views[index].view);
+                stages.time(Stage::Filter, || resampler.render(&light.texels))
+            }
         };
         stages.time(Stage::Filter, || self.complete(index, light, &mut image))?;
         Ok(image)
-    }
-
-    /// Geometry and light strip by strip: little memory, and the cost of each is known. Where not even a strip's geometry
-    /// fits, or the filter has none that could be kept, both at once.
-    fn render_in_strips(&self, target: &View, light: &FrameLight, stages: &mut Stages) -> Image<Rgba> {
-        let resampler = self.resampler(target);
-        let left = self.job.memory.left_for_plan(&self.job.input, &self.job.target);
-        let bytes = stages.time(Stage::Plan, || resampler.plan_bytes_estimate());
-        let Some(height) = strip_height(bytes as u64, target.height(), left) else {
-            return stages.time(Stage::Filter, || resampler.render(&light.texels));
-        };
-        let mut image = Image::filled(target.width(), target.height(), Rgba::TRANSPARENT);
-        let width = target.width();
-        for top in (0..target.height()).step_by(height) {
-            let rows = top..target.height().min(top + height);
-            let Some(plan) = stages.time(Stage::Plan, || resampler.plan_rows(rows.clone())) else {
-                return stages.time(Stage::Filter, || resampler.render(&light.texels));
-            };
-            let pixels = &mut image.pixels_mut()[rows.start * width..rows.end * width];
-            stages.time(Stage::Filter, || plan.apply_to(&light.texels, pixels));
-        }
-        image
     }
 
     fn complete(&self, index: usize, light: &FrameLight, image: &mut Image<Rgba>) -> Result<()> {
@@ -195,20 +176,6 @@ impl<'a> Engine<'a> {
     }
 }
 
-/// Rows of a target whose geometry is kept at once, of so many bytes for all rows: little beside the light, and no more
-/// than is left. `None` where not even the fewest that are worth their while fit.
-fn strip_height(plan_bytes: u64, rows: usize, left: u64) -> Option<usize> {
-    /// Threads take eight rows at once.
-    const LEAST: u64 = 8;
-    const ENOUGH: u64 = 64 << 20;
-    let row_bytes = (plan_bytes / rows.max(1) as u64).max(1);
-    if LEAST * row_bytes > left {
-        return None;
-    }
-    let height = (ENOUGH.min(left) / row_bytes / LEAST * LEAST).clamp(LEAST, rows.max(1).next_multiple_of(8) as u64);
-    Some(height as usize)
-}
-
 /// Reads the light of one file; counts its pixels that are missing (NaN).
 fn load_view(
     job: &ConvertJob,
@@ -238,22 +205,4 @@ fn load_view(
             .with_context(|| format!("{}: the {} view holds no light; render it again", path.display(), input.name));
     }
     Ok(missing)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::strip_height;
-
-    #[test]
-    fn a_strip_takes_little_memory_however_much_goes_into_a_pixel() {
-        const MB: u64 = 1 << 20;
-        // Parity: the whole of it is little.
-        assert_eq!(strip_height(40 * MB, 1436, 1000 * MB), Some(1440));
-        // Strong reduction: 16 MB a row.
-        assert_eq!(strip_height(1024 * 16 * MB, 1024, 10_000 * MB), Some(8));
-        assert_eq!(strip_height(1024 * MB, 1024, 10_000 * MB), Some(64));
-        assert_eq!(strip_height(1024 * MB, 1024, 33 * MB), Some(32));
-        assert_eq!(strip_height(1024 * MB, 1024, 7 * MB), None);
-        assert_eq!(strip_height(1024 * MB, 1024, 0), None);
-    }
 }

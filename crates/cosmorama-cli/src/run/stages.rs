@@ -8,9 +8,9 @@ use serde::Serialize;
 pub(super) enum Stage {
     /// Reading files and turning code values into light.
     Decode,
-    /// Arguments, headers and geometry.
+    /// Arguments, headers, what is needed of the input, and the geometry that several frames share.
     Plan,
-    /// Making pixels.
+    /// Making pixels; for a single frame, its geometry too.
     Filter,
     /// Turning light into code values and writing files.
     Encode,

@@ -1,7 +1,7 @@
 use super::Kernel;
 use crate::projection::PlaneRect;
 use crate::sphere::{Angle, Direction};
-use crate::world::{PixelPoint, PixelRect, Source, View};
+use crate::world::{FieldStop, Footprint, PixelPoint, PixelRect, Source, View};
 
 /// Pixels along a block's side.
 const SIDE: usize = 16;
@@ -70,18 +70,39 @@ impl Block {
         let (left, right) = (self.0.left as f64, self.0.right as f64);
         let (top, bottom) = (self.0.top as f64, self.0.bottom as f64);
         let centre = target.direction(PixelPoint::new((left + right) / 2.0, (top + bottom) / 2.0))?;
-        let (mut radius, mut pixel) = (0f64, 0f64);
-        for (x, y) in [(left, top), (right, top), (left, bottom), (right, bottom)] {
-            let corner = target.footprint(PixelPoint::new(x, y))?;
-            radius = radius.max(BEND * centre.angle_to(corner.direction).radians());
-            let (dx, dy) = (corner.jacobian.dx, corner.jacobian.dy);
-            pixel = pixel.max(BEND * (dx.length_squared() + dy.length_squared()).sqrt());
-        }
-        (radius < WIDEST).then_some(Cap { centre, radius, pixel })
+        let corner = |x, y| target.footprint(PixelPoint::new(x, y));
+        Cap::around(centre, &[corner(left, top)?, corner(right, top)?, corner(left, bottom)?, corner(right, bottom)?])
     }
 }
 
 impl Cap {
+    /// The cap around a centre that holds all between these corners; `None` where it would be wide.
+    pub(super) fn around(centre: Direction, corners: &[Footprint]) -> Option<Self> {
+        let (mut radius, mut pixel) = (0f64, 0f64);
+        for corner in corners {
+            radius = radius.max(BEND * centre.angle_to(corner.direction).radians());
+            let (dx, dy) = (corner.jacobian.dx, corner.jacobian.dy);
+            pixel = pixel.max(BEND * (dx.length_squared() + dy.length_squared()).sqrt());
+        }
+        (radius < WIDEST).then_some(Self { centre, radius, pixel })
+    }
+
+    /// The same with so many radians more around it.
+    pub(super) fn widened(self, by: f64) -> Self {
+        Self { radius: self.radius + by, ..self }
+    }
+
+    /// Radians from the centre.
+    pub(super) fn radius(&self) -> f64 {
+        self.radius
+    }
+
+    /// Whether the view's field stop cuts off nothing of it.
+    pub(super) fn is_clear_of_stop(&self, view: &View) -> bool {
+        let bounds = || view.cap_bounds(self.centre, Angle::from_radians(self.radius));
+        view.stop == FieldStop::NONE || self.passes_stop_of(view, &bounds())
+    }
+
     /// Whether one source shows all of the cap.
     pub(super) fn is_shown_by(&self, source: &Source) -> bool {
         let view = &source.view;

@@ -43,7 +43,7 @@ impl<'a> FieldEdge<'a> {
 
     fn holds(&self, direction: Direction) -> bool {
         let direction = self.target.orientation.to_view(direction);
-        let point = self.target.projection.project(direction);
-        point.is_some_and(|point| self.target.stop.passes(point, || Some(direction)))
+        self.circle.is_none_or(|circle| -direction.vector().z >= circle)
+            && self.target.stop.half_space.is_none_or(|side| side.dot(direction) >= 0.0)
     }
 }

@@ -5,6 +5,7 @@
 
 use glam::{DMat2, DVec2};
 
+use super::block::Cap;
 use super::candidates::{Candidate, settle};
 use super::field_edge::FieldEdge;
 use super::kernel::KernelTable;
@@ -66,6 +67,27 @@ impl<'a> Gather<'a> {
         if taps.is_empty() {
             lookup::nearest(self.world, footprint.direction, |texel, weight| taps.push_under(texel, weight as f32));
         }
+    }
+
+    pub(super) fn world(&self) -> &'a World {
+        self.world
+    }
+
+    /// Whether the target's field of view may end within `reach` radians of a direction.
+    pub(super) fn is_near_edge(&self, direction: Direction, reach: f64) -> bool {
+        self.edge.is_some_and(|edge| edge.is_near(direction, reach))
+    }
+
+    /// The reach of kernels anywhere in a patch of the target, the rows of whose corners these are; `None` if one of them
+    /// could be cut by the edge of a field of view, or is not an ellipse in the source.
+    pub(super) fn patch_reach(&self, source: &Source, patch: &[[Footprint; 3]; 3]) -> Option<f64> {
+        let (middle, corners) = (patch[1][1].direction, [patch[0][0], patch[0][2], patch[2][0], patch[2][2]]);
+        let cap = Cap::around(middle, &corners)?;
+        let reach = corners.iter().map(|corner| self.reach(corner, source.texel_pitch)).fold(0.0, f64::max);
+        let seen = cap.widened(reach);
+        let is_whole = !self.is_near_edge(middle, seen.radius());
+        let is_linear = reach < LINEAR_PART * (source.view.margin(middle) - cap.radius());
+        (is_whole && is_linear && seen.is_clear_of_stop(&source.view)).then_some(reach)
     }
 
     /// What lies outside the field of view does not leak in.

@@ -2,6 +2,7 @@
 
 mod block;
 mod candidates;
+mod cubics;
 mod ellipse;
 mod ewa;
 mod field_edge;
@@ -10,11 +11,14 @@ mod gather;
 mod kernel;
 mod lookup;
 mod need;
+mod patch;
 mod pixel_taps;
 mod plan;
 mod reference;
+mod scan;
 mod screen_mask;
 mod taps;
+mod window;
 
 pub use ellipse::Ellipse;
 pub use ewa::{TextureDerivatives, WeightTable, ewa};

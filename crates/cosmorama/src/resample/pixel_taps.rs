@@ -18,6 +18,11 @@ impl<'a> PixelTaps<'a> {
         Self { world, target, filter, gather: Gather::new(world, target, table), taps: Taps::default() }
     }
 
+    /// What gathers them where the filter is EWA.
+    pub(super) fn gather(&self) -> &Gather<'a> {
+        &self.gather
+    }
+
     /// The taps of a pixel, weights adding to one; `None` for the reference, which has too many to list.
     pub(super) fn taps(&mut self, screen: &ScreenPixel) -> Option<&Taps> {
         let (direction, taps) = (screen.footprint.direction, &mut self.taps);

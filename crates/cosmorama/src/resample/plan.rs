@@ -3,14 +3,16 @@ use std::ops::Range;
 use rayon::prelude::*;
 
 use super::kernel::KernelTable;
-use super::pixel_taps::PixelTaps;
+use super::patch::SIDE;
+use super::scan::{Scan, Sink};
 use super::taps::average;
+use super::window::Windows;
 use super::{Filter, FilterKind, Tap, Taps, reference};
 use crate::raster::{Image, Rgba};
-use crate::world::{ScreenPixel, View, World};
+use crate::world::{View, World};
 
-/// Rows of a target that are worked on together.
-const BAND: usize = 8;
+/// Rows of a target that are worked on together: those of a patch.
+const BAND: usize = SIDE;
 
 /// The geometry of a conversion: which texels, with which weights, make each pixel of the target.
 ///
@@ -23,7 +25,7 @@ pub struct Plan {
     bands: Vec<Band>,
 }
 
-/// The taps of a few rows, one pixel after the other.
+/// The taps of a few rows.
 #[derive(Clone, Debug, Default)]
 struct Band {
     pixels: Vec<PlannedPixel>,
@@ -32,7 +34,8 @@ struct Band {
 
 #[derive(Clone, Copy, Debug, Default)]
 struct PlannedPixel {
-    /// Taps of this pixel, and how many of them, the first ones, lie under it.
+    /// The first of its taps, how many there are, and how many of them, the first ones, lie under it.
+    first: u32,
     taps: u32,
     under: u32,
     /// The part of the pixel inside the field of view.
@@ -68,104 +71,119 @@ impl Resampler<'_> {
         let table = KernelTable::new(&self.filter.kernel);
         image.pixels_mut().par_chunks_mut(width * BAND).enumerate().for_each(|(index, rows)| {
             let top = index * BAND;
-            self.for_each_pixel(&table, top..top + rows.len() / width, |position, screen, taps| {
-                let colour = average(taps.as_slice(), taps.under(), texels, self.filter.anti_ringing);
-                rows[position] = colour * screen.coverage as f32;
-            });
+            let taken = top..top + rows.len() / width;
+            let mut painter = Painter { texels, anti_ringing: self.filter.anti_ringing, rows };
+            Scan::new(self, &table).rows(taken, &mut painter);
         });
         image
     }
 
     /// The geometry, for any number of frames; `None` for the reference filter, which has too many samples to store.
     pub fn plan(&self) -> Option<Plan> {
-        self.plan_rows(0..self.target.height())
-    }
-
-    /// The geometry of some rows: a still can be made strip by strip, in little memory.
-    pub fn plan_rows(&self, rows: Range<usize>) -> Option<Plan> {
         if matches!(self.filter.kind, FilterKind::Reference { .. }) {
             return None;
         }
         let table = KernelTable::new(&self.filter.kernel);
-        let tops: Vec<usize> = rows.clone().step_by(BAND).collect();
-        let band = |&top: &usize| self.plan_band(&table, top..rows.end.min(top + BAND));
-        let bands = tops.par_iter().map(band).collect();
-        Some(Plan { width: self.target.width(), height: rows.len(), anti_ringing: self.filter.anti_ringing, bands })
+        let (width, height) = (self.target.width(), self.target.height());
+        let tops: Vec<usize> = (0..height).step_by(BAND).collect();
+        let bands = tops.par_iter().map(|&top| self.plan_band(&table, top..height.min(top + BAND))).collect();
+        Some(Plan { width, height, anti_ringing: self.filter.anti_ringing, bands })
     }
 
-    /// About how many bytes [`Resampler::plan`] would hold: found from every sixteenth band of rows.
+    /// About how many bytes [`Resampler::plan`] would hold: found from every sixteenth band of rows, keeping nothing.
     pub fn plan_bytes_estimate(&self) -> usize {
         const STRIDE: usize = 16;
         if matches!(self.filter.kind, FilterKind::Reference { .. }) {
             return 0;
         }
         let table = KernelTable::new(&self.filter.kernel);
-        let bands = self.target.height().div_ceil(BAND);
+        let (width, height) = (self.target.width(), self.target.height());
+        let bands = height.div_ceil(BAND);
         // From the middle of the first stride, so that a low image is not judged by its first rows.
         let first = STRIDE.min(bands) / 2;
         let sampled: Vec<usize> = (first..bands).step_by(STRIDE).collect();
-        let rows = |band: usize| band * BAND..self.target.height().min((band + 1) * BAND);
-        let bytes: usize = sampled.par_iter().map(|&band| self.plan_band(&table, rows(band)).bytes()).sum();
-        bytes * bands / sampled.len().max(1)
+        let taps = |band: &usize| {
+            let mut counter = Counter { taps: 0 };
+            Scan::new(self, &table).rows(band * BAND..height.min((band + 1) * BAND), &mut counter);
+            counter.taps
+        };
+        let taps: usize = sampled.par_iter().map(taps).sum();
+        Plan::bytes_for(width * height, taps * bands / sampled.len().max(1))
     }
 
     fn plan_band(&self, table: &KernelTable, rows: Range<usize>) -> Band {
         let pixels = vec![PlannedPixel::default(); rows.len() * self.target.width()];
-        let mut band = Band { pixels, taps: Vec::new() };
-        self.for_each_pixel(table, rows, |position, screen, taps| {
-            band.taps.extend_from_slice(taps.as_slice());
-            band.pixels[position] = PlannedPixel {
-                taps: taps.as_slice().len() as u32,
-                under: taps.under() as u32,
-                coverage: screen.coverage as f32,
-            };
-        });
-        band.taps.shrink_to_fit();
-        band
+        let mut recorder = Recorder { band: Band { pixels, taps: Vec::new() }, taps: Taps::default() };
+        Scan::new(self, table).rows(rows, &mut recorder);
+        recorder.band.taps.shrink_to_fit();
+        recorder.band
+    }
+}
+
+/// Makes pixels as they come.
+pub(super) struct Painter<'a> {
+    pub(super) texels: &'a [Rgba],
+    pub(super) anti_ringing: bool,
+    pub(super) rows: &'a mut [Rgba],
+}
+
+impl Sink for Painter<'_> {
+    fn pixel(&mut self, position: usize, coverage: f32, taps: &Taps) {
+        self.rows[position] = average(taps.as_slice(), taps.under(), self.texels, self.anti_ringing) * coverage;
     }
 
-    /// Calls `visit` with the position within the rows, the pixel and its taps, for every pixel that shows something.
-    fn for_each_pixel(
-        &self,
-        table: &KernelTable,
-        rows: Range<usize>,
-        mut visit: impl FnMut(usize, &ScreenPixel, &Taps),
-    ) {
-        let mut pixel_taps = PixelTaps::new(self.world, self.target, &self.filter, table);
-        let (width, top) = (self.target.width(), rows.start);
-        for j in rows {
-            for i in 0..width {
-                let Some(screen) = self.target.screen_pixel(i, j) else { continue };
-                let Some(taps) = pixel_taps.taps(&screen) else { continue };
-                visit((j - top) * width + i, &screen, taps);
-            }
+    fn windows(&mut self, position: usize, count: usize, windows: &Windows) {
+        let colours = windows.average(self.texels, self.anti_ringing);
+        self.rows[position..position + count].copy_from_slice(&colours[..count]);
+    }
+}
+
+/// Counts their taps.
+struct Counter {
+    taps: usize,
+}
+
+impl Sink for Counter {
+    fn pixel(&mut self, _: usize, _: f32, taps: &Taps) {
+        self.taps += taps.as_slice().len();
+    }
+
+    fn windows(&mut self, _: usize, count: usize, windows: &Windows) {
+        self.taps += (0..count).map(|lane| windows.tap_count(lane)).sum::<usize>();
+    }
+}
+
+/// Writes down what makes them.
+struct Recorder {
+    band: Band,
+    taps: Taps,
+}
+
+impl Sink for Recorder {
+    fn pixel(&mut self, position: usize, coverage: f32, taps: &Taps) {
+        self.band.add(position, coverage, taps);
+    }
+
+    fn windows(&mut self, position: usize, count: usize, windows: &Windows) {
+        for lane in (0..count).filter(|&lane| windows.holds(lane)) {
+            windows.taps(lane, &mut self.taps);
+            self.band.add(position + lane, 1.0, &self.taps);
         }
     }
 }
 
 impl Plan {
-    /// One frame, or as many of its rows as were planned. `texels` is the world's buffer of light.
+    /// One frame. `texels` is the world's buffer of light.
     pub fn apply(&self, texels: &[Rgba]) -> Image<Rgba> {
         let mut image = Image::filled(self.width, self.height, Rgba::TRANSPARENT);
-        self.apply_to(texels, image.pixels_mut());
-        image
-    }
-
-    /// The same, into the place of the rows that were planned.
-    ///
-    /// # Panics
-    /// If `pixels` are not as many as those rows have.
-    pub fn apply_to(&self, texels: &[Rgba], pixels: &mut [Rgba]) {
-        assert_eq!(pixels.len(), self.width * self.height, "the rows that were planned");
-        let rows = pixels.par_chunks_mut(self.width.max(1) * BAND);
+        let rows = image.pixels_mut().par_chunks_mut(self.width.max(1) * BAND);
         rows.zip(&self.bands).for_each(|(rows, band)| {
-            let mut rest = band.taps.as_slice();
             for (pixel, planned) in rows.iter_mut().zip(&band.pixels) {
-                let taps;
-                (taps, rest) = rest.split_at(planned.taps as usize);
+                let taps = &band.taps[planned.first as usize..][..planned.taps as usize];
                 *pixel = average(taps, planned.under as usize, texels, self.anti_ringing) * planned.coverage;
             }
         });
+        image
     }
 
     /// Bytes that a plan of so many pixels and taps holds.
@@ -180,6 +198,16 @@ impl Plan {
 }
 
 impl Band {
+    fn add(&mut self, position: usize, coverage: f32, taps: &Taps) {
+        self.pixels[position] = PlannedPixel {
+            first: self.taps.len() as u32,
+            taps: taps.as_slice().len() as u32,
+            under: taps.under() as u32,
+            coverage,
+        };
+        self.taps.extend_from_slice(taps.as_slice());
+    }
+
     fn bytes(&self) -> usize {
         self.taps.capacity() * size_of::<Tap>() + self.pixels.capacity() * size_of::<PlannedPixel>()
     }

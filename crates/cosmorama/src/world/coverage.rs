@@ -1,5 +1,6 @@
 use super::{FieldStop, Footprint, PixelPoint, View};
 use crate::projection::Projection;
+use crate::sphere::Direction;
 
 /// A pixel of a target: how much of it the field of view covers, and what the covered part sees.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -17,10 +18,27 @@ const SUB_SAMPLES: usize = 16;
 enum Side {
     Inside,
     Outside,
-    /// These parts of the field stop may cut the pixel.
-    Cut(FieldStop),
-    /// Its centre has no direction: anything may cut it.
+    /// One of these may cut the pixel, or both.
+    Cut {
+        circle: FieldStop,
+        slope: Option<Slope>,
+    },
+    /// Its centre or a corner has no direction: anything may cut it.
     Unknown,
+}
+
+/// Sines of the angles above a great circle, between the corners of a pixel: within it the circle is all but straight.
+struct Slope {
+    centre: PixelPoint,
+    sines: [[f64; 2]; 2],
+}
+
+impl Slope {
+    fn at(&self, point: PixelPoint) -> f64 {
+        let (s, t) = (point.x - self.centre.x + 0.5, point.y - self.centre.y + 0.5);
+        let [above, below] = self.sines.map(|[left, right]| left + (right - left) * s);
+        above + (below - above) * t
+    }
 }
 
 impl View {
@@ -29,13 +47,16 @@ impl View {
     /// The rim and the lower arc are smooth because a pixel that they cut counts by its covered part.
     pub fn screen_pixel(&self, i: usize, j: usize) -> Option<ScreenPixel> {
         let centre = PixelPoint::centre(i, j);
+        if self.is_beyond_circle(centre) {
+            return None;
+        }
         let footprint = self.footprint(centre);
         match footprint.as_ref().map_or(Side::Unknown, |footprint| self.side(centre, footprint)) {
             Side::Inside => footprint.map(|footprint| ScreenPixel { coverage: 1.0, footprint }),
             Side::Outside => None,
-            Side::Cut(stop) => self.cut_pixel(i as f64, j as f64, |sample| {
-                let point = self.grid.to_plane(sample);
-                stop.passes(point, || self.projection.unproject(point))
+            Side::Cut { circle, slope } => self.cut_pixel(i as f64, j as f64, |sample| {
+                circle.passes(self.grid.to_plane(sample), || None)
+                    && slope.as_ref().is_none_or(|slope| slope.at(sample) >= 0.0)
             }),
             Side::Unknown => self.cut_pixel(i as f64, j as f64, |sample| self.shows(sample)),
         }
@@ -43,15 +64,11 @@ impl View {
 
     /// Decides without sub-samples where a pixel cannot touch the edge: it is nowhere wider than its half diagonals.
     fn side(&self, centre: PixelPoint, footprint: &Footprint) -> Side {
-        let mut touched = FieldStop::NONE;
+        let (mut circle, mut slope) = (FieldStop::NONE, None);
         if let Some(radius) = self.stop.circle {
-            let (point, step) = (self.grid.to_plane(centre), self.grid.step());
-            let (distance, half_diagonal) = ((point.x * point.x + point.y * point.y).sqrt(), step.length() / 2.0);
-            if distance - half_diagonal > radius {
-                return Side::Outside;
-            }
+            let (distance, half_diagonal) = self.from_axis(centre);
             if distance + half_diagonal > radius {
-                touched.circle = Some(radius);
+                circle = FieldStop::circle(radius);
             }
         }
         if let Some(side) = self.stop.half_space {
@@ -62,10 +79,35 @@ impl View {
                 return Side::Outside;
             }
             if sine < reach {
-                touched.half_space = Some(side);
+                slope = self.slope(side, centre);
+                if slope.is_none() {
+                    return Side::Unknown;
+                }
             }
         }
-        if touched == FieldStop::NONE { Side::Inside } else { Side::Cut(touched) }
+        if circle == FieldStop::NONE && slope.is_none() { Side::Inside } else { Side::Cut { circle, slope } }
+    }
+
+    /// Whether all of a pixel is outside the limiting circle.
+    fn is_beyond_circle(&self, centre: PixelPoint) -> bool {
+        let (distance, half_diagonal) = self.from_axis(centre);
+        self.stop.circle.is_some_and(|radius| distance - half_diagonal > radius)
+    }
+
+    /// How far a pixel's centre is from the lens's axis, and its corners from the centre, in plane units.
+    fn from_axis(&self, centre: PixelPoint) -> (f64, f64) {
+        let (point, step) = (self.grid.to_plane(centre), self.grid.step());
+        ((point.x * point.x + point.y * point.y).sqrt(), step.length() / 2.0)
+    }
+
+    /// How far the corners of a pixel are above a great circle.
+    fn slope(&self, side: Direction, centre: PixelPoint) -> Option<Slope> {
+        let sine = |x: f64, y: f64| {
+            let point = self.grid.to_plane(PixelPoint::new(centre.x + x, centre.y + y));
+            self.projection.unproject(point).map(|direction| side.dot(direction))
+        };
+        let sines = [[sine(-0.5, -0.5)?, sine(0.5, -0.5)?], [sine(-0.5, 0.5)?, sine(0.5, 0.5)?]];
+        Some(Slope { centre, sines })
     }
 
     fn cut_pixel(&self, x: f64, y: f64, is_inside: impl Fn(PixelPoint) -> bool) -> Option<ScreenPixel> {

@@ -108,13 +108,14 @@ impl View {
     /// Solid angle of a texel in steradians (to first order), zero where it shows nothing.
     pub fn texel_solid_angle(&self, i: usize, j: usize) -> f64 {
         let pixel = PixelPoint::centre(i, j);
-        if !self.shows(pixel) {
-            return 0.0;
-        }
-        let step = self.grid.step();
-        self.projection
-            .jacobian(self.grid.to_plane(pixel))
-            .map_or(0.0, |jacobian| jacobian.solid_angle() * (step.x * step.y).abs())
+        if self.shows(pixel) { self.solid_angle(pixel).unwrap_or(0.0) } else { 0.0 }
+    }
+
+    /// Solid angle in steradians (to first order) of a texel around a point of the image or beyond it, whether or not it
+    /// shows something.
+    pub fn solid_angle(&self, pixel: PixelPoint) -> Option<f64> {
+        let (jacobian, step) = (self.projection.jacobian(self.grid.to_plane(pixel))?, self.grid.step());
+        Some(jacobian.solid_angle() * (step.x * step.y).abs())
     }
 
     /// Pixels for each radian at the centre of the projection, the mean of both ways where pixels are not square.

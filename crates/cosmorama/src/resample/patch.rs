@@ -1,0 +1,209 @@
+//! Geometry of many pixels at the price of a few: interpolated between the corners of a patch.
+
+use glam::{DMat2, DVec2};
+
+use super::gather::Gather;
+use crate::world::{PixelPoint, Source, View};
+
+/// Pixels along a patch's side, and lanes that are worked on together.
+pub(super) const SIDE: usize = 8;
+
+/// How far, in texels, the interpolated place of a patch's middle may be from the exact one. The cubic curves between exact
+/// corners err by much less in almost all patches; where a mapping bends more, each pixel is computed for itself.
+const PLACE: f64 = 1.0 / 2048.0;
+
+/// By what part of the largest derivative the others may bend from bilinear ones. They are interpolated by parabolas, whose
+/// error is of the next order.
+const SLOPE: f64 = 1.0 / 128.0;
+
+/// By what part of itself, at a kernel's edge, the solid angle of a texel may differ from one that changes linearly within
+/// the kernel.
+const CURVATURE: f64 = 1.0 / 256.0;
+
+/// A quantity over a patch: a value for each column in the top row, what is added to it down to the row below the last, and
+/// four times what is added half way down.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Ruled {
+    pub(super) top: [f32; SIDE],
+    pub(super) rise: [f32; SIDE],
+    pub(super) bow: [f32; SIDE],
+}
+
+impl Ruled {
+    /// Straight from a function along the top edge to one along the bottom edge.
+    fn straight(top: impl Fn(f64) -> f64, bottom: impl Fn(f64) -> f64) -> Self {
+        Self::of(|s| [top(s), (top(s) + bottom(s)) / 2.0, bottom(s)])
+    }
+
+    /// The parabolas through three rows of three values, at the corners, half way between them and in the middle.
+    fn parabolic(rows: [[f64; 3]; 3]) -> Self {
+        Self::of(|s| rows.map(|[a, b, c]| a + s * (c - a) + s * (1.0 - s) * bow(a, b, c)))
+    }
+
+    /// From the values at the top, half way down and at the bottom.
+    fn of(column: impl Fn(f64) -> [f64; 3]) -> Self {
+        let columns: [[f64; 3]; SIDE] = std::array::from_fn(|k| column(k as f64 / SIDE as f64));
+        Self {
+            top: columns.map(|[top, ..]| top as f32),
+            rise: columns.map(|[top, _, bottom]| (bottom - top) as f32),
+            bow: columns.map(|[top, middle, bottom]| bow(top, middle, bottom) as f32),
+        }
+    }
+
+    fn middle(&self) -> f64 {
+        let [top, rise, bow] = [self.top, self.rise, self.bow].map(|row| f64::from(row[SIDE / 2]));
+        top + rise / 2.0 + bow / 4.0
+    }
+}
+
+/// Four times what a middle value is above the mean of those at the ends: t (1 − t) times this is the parabola's part.
+fn bow(start: f64, middle: f64, end: f64) -> f64 {
+    4.0 * middle - 2.0 * (start + end)
+}
+
+/// By how much a cubic between two values, with these derivatives at its ends, bulges from the line between them.
+#[derive(Clone, Copy, Debug)]
+struct Bulge {
+    start: DVec2,
+    end: DVec2,
+}
+
+impl Bulge {
+    fn new(from: DVec2, to: DVec2, slope_from: DVec2, slope_to: DVec2) -> Self {
+        Self { start: slope_from - (to - from), end: slope_to - (to - from) }
+    }
+
+    fn at(&self, t: f64) -> DVec2 {
+        (self.start * (1.0 - t) - self.end * t) * (t * (1.0 - t))
+    }
+}
+
+/// [`SIDE`] × [`SIDE`] pixels of a target as one view sees them: where each lies among its texels, and with what footprint.
+///
+/// The place is a Coons patch (1967) between cubics that have the exact place and derivatives at the corners, its error of
+/// fourth order; derivatives are parabolas. Only patches that no edge of a field of view is near are made.
+#[derive(Clone, Debug)]
+pub(super) struct Patch<'a> {
+    pub(super) source: &'a Source,
+    /// The texel from which places are counted: near ones keep their digits in single precision.
+    pub(super) origin: [i64; 2],
+    /// U and V from the origin, without what the sides bulge by.
+    pub(super) place: [Ruled; 2],
+    sides: [Bulge; 2],
+    /// Ux, Vx, Uy, Vy: texels for one pixel to the right and one pixel down.
+    pub(super) jacobian: [Ruled; 4],
+    pub(super) density: Density,
+}
+
+/// How the solid angle of texels changes over a patch, relative to itself.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Density {
+    /// Where, in texels from the origin, the gradient is what it is.
+    pub(super) at: [f32; 2],
+    /// Change for one texel along U and V.
+    pub(super) gradient: [f32; 2],
+    /// Change of the gradient for one texel: along U of its U, along either of the other, along V of its V.
+    pub(super) bend: [f32; 3],
+}
+
+/// Rows of three points: corners, what is half way between them, and the middle.
+type Grid<T> = [[T; 3]; 3];
+
+/// A point: where it lies among the texels, and its derivatives.
+#[derive(Clone, Copy, Default)]
+struct Point {
+    place: DVec2,
+    jacobian: DMat2,
+}
+
+impl<'a> Patch<'a> {
+    /// The patch whose top left pixel is in column `i` of row `j`; `None` where its pixels had better be computed one by
+    /// one: near the edge of a field of view, near a singularity, where the mapping bends.
+    pub(super) fn new(gather: &Gather<'a>, target: &View, (i, j): (usize, usize)) -> Option<Self> {
+        const HALF: usize = SIDE / 2;
+        let middle = target.footprint(PixelPoint::centre(i + HALF, j + HALF))?;
+        if gather.is_near_edge(middle.direction, 0.0) {
+            return None;
+        }
+        let (owner, _) = gather.world().owner(middle.direction)?;
+        let source = &gather.world().sources()[owner];
+        let mut screen = [[middle; 3]; 3];
+        let mut points = Grid::<Point>::default();
+        for (y, (screen, points)) in screen.iter_mut().zip(&mut points).enumerate() {
+            for (x, (screen, point)) in screen.iter_mut().zip(points).enumerate() {
+                *screen = target.footprint(PixelPoint::centre(i + x * HALF, j + y * HALF))?;
+                let (pixel, jacobian) = source.view.texel_footprint(screen)?;
+                *point = Point { place: DVec2::new(pixel.x, pixel.y), jacobian };
+            }
+        }
+        let reach = gather.patch_reach(source, &screen)?;
+        let density = Density::around(&source.view, &points, reach / source.texel_pitch)?;
+        Self::through(source, &points, density)
+    }
+
+    /// `None` where the mapping bends too much.
+    fn through(source: &'a Source, points: &Grid<Point>, density: Density) -> Option<Self> {
+        let [[a, _, b], [_, middle, _], [c, _, d]] = *points;
+        let origin = a.place.floor();
+        let edge = |from: Point, to: Point, along: fn(&DMat2) -> DVec2| {
+            let slope = |point: Point| along(&point.jacobian) * SIDE as f64;
+            Bulge::new(from.place, to.place, slope(from), slope(to))
+        };
+        let (top, bottom) = (edge(a, b, |m| m.x_axis), edge(c, d, |m| m.x_axis));
+        let along = |from: Point, to: Point, bulge: Bulge, axis: usize| {
+            move |s: f64| (from.place + (to.place - from.place) * s + bulge.at(s) - origin)[axis]
+        };
+        let patch = Self {
+            source,
+            origin: [origin.x as i64, origin.y as i64],
+            place: [0, 1].map(|axis| Ruled::straight(along(a, b, top, axis), along(c, d, bottom, axis))),
+            sides: [edge(a, c, |m| m.y_axis), edge(b, d, |m| m.y_axis)],
+            jacobian: [0, 1, 2, 3]
+                .map(|k| Ruled::parabolic(points.map(|row| row.map(|point| point.jacobian.to_cols_array()[k])))),
+            density,
+        };
+        (patch.middle().distance(middle.place - origin) < PLACE && is_almost_bilinear(points)).then_some(patch)
+    }
+
+    /// Where the middle has come to lie, from the origin.
+    fn middle(&self) -> DVec2 {
+        let sides = (self.sides[0].at(0.5) + self.sides[1].at(0.5)) / 2.0;
+        DVec2::new(self.place[0].middle(), self.place[1].middle()) + sides
+    }
+
+    /// By how much the left and the right side bulge at a row, along U and V.
+    pub(super) fn bulge(&self, row: usize) -> [[f32; 2]; 2] {
+        self.sides.map(|side| side.at(row as f64 / SIDE as f64).as_vec2().to_array())
+    }
+}
+
+/// Whether the derivatives half way between corners are about the mean of those there.
+fn is_almost_bilinear([top, middle, bottom]: &Grid<Point>) -> bool {
+    let bends = |a: &Point, b: &Point, c: &Point| ((a.jacobian + c.jacobian) * 0.5 - b.jacobian).to_cols_array();
+    let largest = |of: [f64; 4]| of.into_iter().fold(0f64, |largest, value| largest.max(value.abs()));
+    let bound = SLOPE * largest(middle[1].jacobian.to_cols_array());
+    [top, middle, bottom].iter().all(|[a, b, c]| largest(bends(a, b, c)) < bound)
+        && (0..3).all(|k| largest(bends(&top[k], &middle[k], &bottom[k])) < bound)
+}
+
+impl Density {
+    /// That of a view's texels around the middle of a patch; `None` where it bends within `radius` texels.
+    fn around(view: &View, points: &Grid<Point>, radius: f64) -> Option<Self> {
+        let (origin, at) = (points[0][0].place.floor(), points[1][1].place);
+        let solid_angle = |u: f64, v: f64| view.solid_angle(PixelPoint::new(at.x + u, at.y + v));
+        let here = solid_angle(0.0, 0.0).filter(|here| *here > 0.0)?;
+        let [left, right, above, below, diagonal] =
+            [(-1.0, 0.0), (1.0, 0.0), (0.0, -1.0), (0.0, 1.0), (1.0, 1.0)].map(|(u, v)| solid_angle(u, v));
+        let [left, right, above, below, diagonal] =
+            [left? / here, right? / here, above? / here, below? / here, diagonal? / here];
+        let (x, y) = ((right - left) / 2.0, (below - above) / 2.0);
+        let (xx, xy, yy) = (left + right - 2.0, diagonal - right - below + 1.0, above + below - 2.0);
+        let at = at - origin;
+        (xx.abs().max(yy.abs()) * radius * radius / 2.0 < CURVATURE).then(|| Self {
+            at: [at.x as f32, at.y as f32],
+            gradient: [x as f32, y as f32],
+            // The gradient is relative to what is there.
+            bend: [xx - x * x, xy - x * y, yy - y * y].map(|bend| bend as f32),
+        })
+    }
+}

@@ -1,0 +1,173 @@
+use std::ops::Range;
+
+use super::kernel::KernelTable;
+use super::patch::{Patch, SIDE};
+use super::pixel_taps::PixelTaps;
+use super::window::Windows;
+use super::{FilterKind, Resampler, Taps};
+
+/// Goes through pixels of a target and gives what makes each of them to a [`Sink`]: patch by patch where the geometry can
+/// be interpolated, one by one elsewhere.
+pub(super) struct Scan<'a> {
+    resampler: &'a Resampler<'a>,
+    pixels: PixelTaps<'a>,
+    /// For filters that work in windows.
+    windows: Option<Windows>,
+}
+
+/// What takes the pixels of a [`Scan`]; positions count from the first pixel of its rows.
+pub(super) trait Sink {
+    /// A pixel by itself, and the part of it inside the field of view.
+    fn pixel(&mut self, position: usize, coverage: f32, taps: &Taps);
+
+    /// `count` pixels beside each other, whole ones; those whose windows do not hold come by themselves.
+    fn windows(&mut self, position: usize, count: usize, windows: &Windows);
+}
+
+impl<'a> Scan<'a> {
+    /// `table` is that of the filter's kernel.
+    pub(super) fn new(resampler: &'a Resampler<'a>, table: &'a KernelTable) -> Self {
+        let Resampler { world, target, filter } = resampler;
+        let windows = (filter.kind == FilterKind::Ewa).then(|| Windows::new(&filter.kernel)).flatten();
+        Self { resampler, pixels: PixelTaps::new(world, target, filter, table), windows }
+    }
+
+    /// All pixels of these rows that show something.
+    pub(super) fn rows(&mut self, rows: Range<usize>, sink: &mut impl Sink) {
+        // Patches lie alike whatever the first row: so do the pixels that they make.
+        for top in (rows.start / SIDE * SIDE..rows.end).step_by(SIDE) {
+            for left in (0..self.resampler.target.width()).step_by(SIDE) {
+                self.patch(left, top, &rows, sink);
+            }
+        }
+    }
+
+    fn patch(&mut self, left: usize, top: usize, rows: &Range<usize>, sink: &mut impl Sink) {
+        let target = self.resampler.target;
+        let patch = self.windows.as_ref().and_then(|_| Patch::new(self.pixels.gather(), target, (left, top)));
+        let count = SIDE.min(target.width() - left);
+        for row in top.max(rows.start)..rows.end.min(top + SIDE) {
+            let position = (row - rows.start) * target.width() + left;
+            let made = self.windows.as_mut().zip(patch.as_ref()).map(|(windows, patch)| {
+                windows.fill(patch, row - top);
+                sink.windows(position, count, windows);
+                &*windows
+            });
+            for lane in (0..count).filter(|&lane| !made.is_some_and(|windows| windows.holds(lane))) {
+                let Some(screen) = target.screen_pixel(left + lane, row) else { continue };
+                let Some(taps) = self.pixels.taps(&screen) else { continue };
+                sink.pixel(position + lane, screen.coverage as f32, taps);
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::projection::{PlanePoint, PlaneRect, ProjectionKind};
+    use crate::raster::{Image, Rgba};
+    use crate::resample::{Filter, Kernel};
+    use crate::sphere::{Angle, CubeFace, Orientation};
+    use crate::world::{FieldStop, PixelGrid, View, World};
+
+    /// Keeps weights by pixel and texel, and how many pixels came in windows.
+    struct Collector {
+        weights: Vec<Vec<(u32, f32)>>,
+        in_windows: usize,
+    }
+
+    impl Sink for Collector {
+        fn pixel(&mut self, position: usize, _: f32, taps: &Taps) {
+            self.weights[position] = taps.as_slice().iter().map(|tap| (tap.texel, tap.weight)).collect();
+        }
+
+        fn windows(&mut self, position: usize, count: usize, windows: &Windows) {
+            let mut taps = Taps::default();
+            for lane in (0..count).filter(|&lane| windows.holds(lane)) {
+                windows.taps(lane, &mut taps);
+                self.pixel(position + lane, 1.0, &taps);
+                self.in_windows += 1;
+            }
+        }
+    }
+
+    fn view(projection: ProjectionKind, size: (usize, usize), half: (f64, f64), orientation: Orientation) -> View {
+        let rect = PlaneRect { min: PlanePoint::new(-half.0, -half.1), max: PlanePoint::new(half.0, half.1) };
+        View { projection, orientation, grid: PixelGrid::spanning(size.0, size.1, rect), stop: FieldStop::NONE }
+    }
+
+    fn cube(size: usize) -> World {
+        let face = |face: CubeFace| view(ProjectionKind::PERSPECTIVE, (size, size), (1.0, 1.0), face.orientation());
+        World::new(CubeFace::ALL.map(|f| (f.name().to_owned(), face(f)))).expect("six faces")
+    }
+
+    fn panorama(width: usize) -> World {
+        let half = (std::f64::consts::PI, std::f64::consts::FRAC_PI_2);
+        let all = view(ProjectionKind::EQUIRECTANGULAR, (width, width / 2), half, Orientation::IDENTITY);
+        World::new([("all".to_owned(), all)]).expect("a panorama")
+    }
+
+    fn targets() -> [View; 3] {
+        let turned = Orientation::from_yaw_pitch_roll(
+            Angle::from_degrees(31.0),
+            Angle::from_degrees(-17.0),
+            Angle::from_degrees(8.0),
+        );
+        let circle = FieldStop::circle(1.0).with_lower(Angle::from_degrees(45.0));
+        [
+            View { stop: circle, ..view(ProjectionKind::OMNIMAX, (600, 600), (1.0, 1.0), turned) },
+            view(ProjectionKind::PERSPECTIVE, (501, 303), (1.1, 0.7), turned),
+            view(ProjectionKind::EQUIRECTANGULAR, (900, 470), (2.9, 1.5), turned),
+        ]
+    }
+
+    fn collect(scan: &mut Scan, target: &View) -> Collector {
+        let mut collector = Collector { weights: vec![Vec::new(); target.width() * target.height()], in_windows: 0 };
+        scan.rows(0..target.height(), &mut collector);
+        collector
+    }
+
+    #[test]
+    fn windows_weigh_as_single_pixels_do() {
+        for (world, name) in [(cube(256), "cube"), (cube(700), "large cube"), (panorama(1200), "panorama")] {
+            for target in &targets() {
+                let resampler = Resampler { world: &world, target, filter: Filter::DEFAULT };
+                let table = KernelTable::new(&Kernel::ADAPTIVE);
+                let fast = collect(&mut Scan::new(&resampler, &table), target);
+                let slow = collect(&mut Scan { windows: None, ..Scan::new(&resampler, &table) }, target);
+                assert!(3 * fast.in_windows > fast.weights.len(), "{name}: {} pixels in windows", fast.in_windows);
+                let mut largest = 0f32;
+                for (fast, slow) in fast.weights.iter().zip(&slow.weights) {
+                    let weight = |of: &[(u32, f32)], texel| of.iter().find(|(at, _)| *at == texel).map_or(0.0, |t| t.1);
+                    for (texel, _) in fast.iter().chain(slow) {
+                        largest = largest.max((weight(fast, *texel) - weight(slow, *texel)).abs());
+                    }
+                }
+                assert!(largest < 1e-3, "{name} {:?}: weights differ by {largest}", target.projection);
+            }
+        }
+    }
+
+    #[test]
+    fn all_levels_of_instructions_make_the_same_pixels() {
+        let (world, target) = (cube(300), &targets()[0]);
+        let texels: Vec<Rgba> = (0..world.texel_count())
+            .map(|i| Rgba([(i % 17) as f32, (i % 101) as f32 / 50.0, (i % 7) as f32, 1.0]))
+            .collect();
+        let resampler = Resampler { world: &world, target, filter: Filter::DEFAULT };
+        let table = KernelTable::new(&Kernel::ADAPTIVE);
+        let made = |windows: Windows| {
+            let mut image = Image::filled(target.width(), target.height(), Rgba::TRANSPARENT);
+            let mut sink =
+                super::super::plan::Painter { texels: &texels, anti_ringing: true, rows: image.pixels_mut() };
+            Scan { windows: Some(windows), ..Scan::new(&resampler, &table) }.rows(0..target.height(), &mut sink);
+            image
+        };
+        let levels = Windows::at_every_level(&Kernel::ADAPTIVE);
+        assert!(levels.len() > 1);
+        let mut images = levels.into_iter().map(made);
+        let first = images.next().expect("at least the plain one");
+        assert!(images.all(|image| image == first));
+    }
+}
