@@ -45,7 +45,7 @@ impl<S: Simd> Curve<S> {
     #[inline(always)]
     pub(super) fn weight(&self, q: f32x8<S>) -> f32x8<S> {
         let [inner3, inner2, inner0, outer3, outer2] = self.0;
-        let (zero, r) = (q - q, q.sqrt());
+        let (zero, r) = (f32x8::splat(q.simd, 0.0), q.sqrt());
         let x = (zero + 2.0 - r).max(zero);
         let (inner, outer) = ((inner3 * r + inner2) * q + inner0, x * x * (outer3 * x + outer2));
         r.simd_lt(zero + 1.0).select(inner, outer)

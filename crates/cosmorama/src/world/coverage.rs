@@ -66,7 +66,7 @@ impl View {
     fn side(&self, centre: PixelPoint, footprint: &Footprint) -> Side {
         let (mut circle, mut slope) = (FieldStop::NONE, None);
         if let Some(radius) = self.stop.circle {
-            let (distance, half_diagonal) = self.from_axis(centre);
+            let (distance, half_diagonal) = self.distance_from_axis(centre);
             if distance + half_diagonal > radius {
                 circle = FieldStop::circle(radius);
             }
@@ -90,12 +90,12 @@ impl View {
 
     /// Whether all of a pixel is outside the limiting circle.
     fn is_beyond_circle(&self, centre: PixelPoint) -> bool {
-        let (distance, half_diagonal) = self.from_axis(centre);
+        let (distance, half_diagonal) = self.distance_from_axis(centre);
         self.stop.circle.is_some_and(|radius| distance - half_diagonal > radius)
     }
 
     /// How far a pixel's centre is from the lens's axis, and its corners from the centre, in plane units.
-    fn from_axis(&self, centre: PixelPoint) -> (f64, f64) {
+    fn distance_from_axis(&self, centre: PixelPoint) -> (f64, f64) {
         let (point, step) = (self.grid.to_plane(centre), self.grid.step());
         ((point.x * point.x + point.y * point.y).sqrt(), step.length() / 2.0)
     }
