@@ -14,6 +14,7 @@ mod pixel_taps;
 mod plan;
 mod reference;
 mod screen_mask;
+mod slope;
 mod taps;
 
 pub use ellipse::Ellipse;
