@@ -77,7 +77,16 @@ fn a_face_of_the_wrong_shape() {
     assert_says(&message, &["face_top.png", "the up face is 64x40", "expected 64x64", "canvas.up="]);
     for face in CubeFace::ALL {
         bench.face(&format!("wide_{face}.png"), face, 128, 64);
+        // Half faces without their windows; only the front is whole.
+        let (width, height) = if face == CubeFace::Front { (64, 64) } else { (32, 64) };
+        bench.face(&format!("half_{face}.png"), face, width, height);
     }
+    let message = bench.fail(1, &["convert", "half_{face}.png", "out.png", "--to", "omnimax"]);
+    assert_says(
+        &message,
+        &["half_right.png", "the right face is 32x64", "left is 32x64", "expected 64x64", "canvas.right="],
+    );
+    assert!(!message.contains("front"), "{message}");
     let message = bench.fail(1, &["convert", "wide_{face}.png", "out.png", "--to", "omnimax"]);
     assert_says(&message, &["128x64", "a square"]);
 }
