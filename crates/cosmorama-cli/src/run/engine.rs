@@ -187,10 +187,10 @@ impl<'a> Engine<'a> {
     }
 
     /// Writes an output.
-    pub(super) fn save(&self, image: &Image<Rgba>, path: &Path, quality: u8) -> Result<()> {
+    pub(super) fn save(&self, image: &Image<Rgba>, path: &Path, options: &WriteOptions) -> Result<()> {
         let light = &self.job.light;
         let encoded = EncodedImage::encode(image, light.channels, light.depth, &light.transfer);
-        write(path, &encoded, &light.metadata, &WriteOptions { quality })?;
+        write(path, &encoded, &light.metadata, options)?;
         Ok(())
     }
 }
