@@ -77,7 +77,16 @@ fn a_face_of_the_wrong_shape() {
     assert_says(&message, &["face_top.png", "the up face is 64x40", "expected 64x64", "canvas.up="]);
     for face in CubeFace::ALL {
         bench.face(&format!("wide_{face}.png"), face, 128, 64);
+        // Half faces without their windows; only the front is whole.
+        let (width, height) = if face == CubeFace::Front { (64, 64) } else { (32, 64) };
+        bench.face(&format!("half_{face}.png"), face, width, height);
     }
+    let message = bench.fail(1, &["convert", "half_{face}.png", "out.png", "--to", "omnimax"]);
+    assert_says(
+        &message,
+        &["half_right.png", "the right face is 32x64", "left is 32x64", "expected 64x64", "canvas.right="],
+    );
+    assert!(!message.contains("front"), "{message}");
     let message = bench.fail(1, &["convert", "wide_{face}.png", "out.png", "--to", "omnimax"]);
     assert_says(&message, &["128x64", "a square"]);
 }
@@ -219,7 +228,10 @@ fn a_folder_that_is_missing_or_read_only() {
     assert_says(&message, &["nowhere/out.png", "does not exist", "make it first"]);
     // Not even root can write here.
     let message = bench.fail(1, &["convert", "sky.png", "/proc/out.png", "--to", "omnimax", "--size", "32"]);
-    assert_says(&message, &["cannot write /proc/out.png"]);
+    assert_says(&message, &["cannot write /proc/out.png", "takes no new files"]);
+    assert!(!message.contains("not exist"), "{message}");
+    let message = bench.fail(1, &["convert", "sky.png", "sky.png/out.png", "--to", "omnimax", "--size", "32"]);
+    assert_says(&message, &["cannot write sky.png/out.png", "sky.png is no folder"]);
 }
 
 #[test]
@@ -262,16 +274,23 @@ fn wrong_usage() {
     assert_says(&convert(&["out.png", "--to", "omnimax:center=3:4"]), &["--size"]);
     assert_says(&convert(&["out.png", "--to", "omnimax", "--from", "cube"]), &["{face}"]);
     assert_says(&convert(&["out.png", "--to", "omnimax", "-y", "--resume"]), &["--resume"]);
+    assert_says(&convert(&["out.png", "--to", "omnimax", "--quality", "80"]), &["--quality", "JPEG", "out.png", "PNG"]);
 }
 
 #[test]
 fn numbers_that_are_none_or_absurd() {
     let bench = Bench::new();
     bench.save("sky.png", &flat(64, 32, &[10, 20, 30]));
-    let convert = ["convert", "sky.png", "out.png", "--from", "equirect", "--to", "perspective", "--size", "8"];
+    let convert = ["convert", "sky.png", "out.png", "--from", "equirect", "--to", "perspective"];
     for (option, value, expected) in [
         ("--yaw", "nan", "angle in degrees"),
         ("--roll", "inf", "angle in degrees"),
+        ("--size", "-3", "1966x1436"),
+        ("--size", "-3x4", "1966x1436"),
+        ("--threads", "-2", "from 1 to 1024"),
+        ("--memory", "-1G", "--memory"),
+        ("--frames", "-4", "expected a list"),
+        ("--quality", "-1", "from 1 to 100"),
         ("--kernel", "mitchell:scale=1000", "at most 32"),
         ("--kernel", "tent:floor=1e300", "at most 32"),
     ] {
@@ -366,11 +385,14 @@ fn a_full_disk() {
         ("convert sky.png out.png --to equirect --size 800 --depth 16", "out.png"),
         ("explain sky.png --to omnimax --output diagrams", "diagrams/unfolded.svg"),
     ] {
-        let script = format!("trap '' XFSZ; ulimit -f 8; exec {program} {verb}");
-        let output =
-            std::process::Command::new("sh").args(["-c", &script]).current_dir(bench.path("")).output().unwrap();
-        let message = bench.check_failure(1, &output, &before);
-        assert_says(&message, &[&format!("cannot write {file}")]);
+        // Whether or not whoever started the program has it ignore the signal of a limit reached.
+        for trap in ["trap '' XFSZ; ", ""] {
+            let script = format!("{trap}ulimit -f 8; exec {program} {verb}");
+            let output =
+                std::process::Command::new("sh").args(["-c", &script]).current_dir(bench.path("")).output().unwrap();
+            let message = bench.check_failure(1, &output, &before);
+            assert_says(&message, &[&format!("cannot write {file}")]);
+        }
     }
 }
 

@@ -151,8 +151,10 @@ fn faces_of_different_sizes_and_shapes() {
     for (face, size) in CubeFace::ALL.into_iter().zip([96, 64, 16, 64, 48, 16]) {
         bench.save(&format!("face_{face}.png"), &flat(size, size, &[200, 100, 50]));
         bench.save(&format!("wide_{face}.png"), &flat(64, 60, &[200, 100, 50]));
+        bench.save(&format!("mixed_{face}.png"), &flat(size, size * 15 / 16, &[200, 100, 50]));
     }
-    for input in ["face_{face}.png", "wide_{face}.png"] {
+    bench.save("mixed_front.png", &flat(64, 64, &[200, 100, 50]));
+    for input in ["face_{face}.png", "wide_{face}.png", "mixed_{face}.png"] {
         bench.succeed(&["convert", input, "out.png", "--to", "fisheye:fov=360", "--size", "64", "-y"]);
         let out = bench.load("out.png");
         let inside = |index: usize| {
@@ -162,6 +164,25 @@ fn faces_of_different_sizes_and_shapes() {
         let pixels = eight_bits(&out).chunks(3).enumerate().filter(|(index, _)| inside(*index));
         assert!(pixels.into_iter().all(|(_, pixel)| pixel == [200, 100, 50]), "{input}");
     }
+}
+
+#[test]
+fn a_face_spans_ninety_degrees_whatever_its_pixels() {
+    let bench = Bench::new();
+    direction_faces(&bench, 64);
+    let camera = ["--to", "perspective:fov=40", "--size", "65x65", "--yaw", "45"];
+    bench.succeed(&[&["convert", "world_{face}.exr", "square.exr"][..], &camera].concat());
+    let view = Frame::CubeFace(CubeFaceFrame).view(64, 60).unwrap();
+    bench.save(
+        "world_right.exr",
+        &floats(64, 60, |i, j| {
+            let direction = view.direction(PixelPoint::centre(i, j)).unwrap();
+            let direction = CubeFace::Right.orientation().to_world(direction);
+            direction.vector().to_array().map(|c| (c / 2.0 + 0.5) as f32)
+        }),
+    );
+    bench.succeed(&[&["convert", "world_{face}.exr", "mixed.exr"][..], &camera].concat());
+    bench.succeed(&["compare", "mixed.exr", "square.exr", "--min-psnr", "80"]);
 }
 
 #[test]

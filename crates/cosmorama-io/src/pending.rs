@@ -72,12 +72,7 @@ impl Pending {
         readable_by_all(&mut builder);
         // The list is held meanwhile: a file that is not on it would survive an interrupt.
         let mut paths = in_flight();
-        let file = builder.tempfile_in(folder).map_err(|error| match error.kind() {
-            io::ErrorKind::NotFound => {
-                IoError::write(target, format_args!("its folder {} does not exist; make it first", folder.display()))
-            }
-            _ => IoError::write(target, error),
-        })?;
+        let file = builder.tempfile_in(folder).map_err(|error| refused(target, folder, &error))?;
         paths.insert(file.path().to_owned());
         let listed = Listed(file.path().to_owned());
         let (file, path) = file.into_parts();
@@ -101,6 +96,21 @@ impl Pending {
         drop(file);
         flushed.map_err(|error| IoError::write(&target, error))?;
         path.persist(&target).map_err(|failed| IoError::write(&target, failed.error))
+    }
+}
+
+/// Why no file can be made in a folder. Some say that it does not exist and mean that they take no files (`/proc`).
+fn refused(target: &Path, folder: &Path, error: &io::Error) -> IoError {
+    let name = folder.display();
+    match std::fs::metadata(folder) {
+        Ok(found) if !found.is_dir() => IoError::write(target, format_args!("{name} is no folder; choose another")),
+        Ok(_) if error.kind() == io::ErrorKind::NotFound => {
+            IoError::write(target, format_args!("its folder {name} takes no new files; choose another"))
+        }
+        Err(missing) if missing.kind() == io::ErrorKind::NotFound => {
+            IoError::write(target, format_args!("its folder {name} does not exist; make it first"))
+        }
+        _ => IoError::write(target, error),
     }
 }
 

@@ -73,6 +73,20 @@ fn two_namings_that_disagree_are_an_error_that_lists_both() {
 }
 
 #[test]
+fn strays_beside_enough_faces_are_none() {
+    let (naming, faces) = found(&["front.png", "left.png", "right.png", "top.png", "r.png", "posx.png"], "{face}.png");
+    assert_eq!((naming, faces.len()), ("words", 4));
+    let letters = ["f.png", "l.png", "r.png", "b.png", "t.png", "d.png", "up.png", "front.png", "Left.png"];
+    assert_eq!(found(&letters, "{face}.png").0, "bourke");
+    // Beside three of them, one more may be either.
+    let message = find(&["front.png", "left.png", "right.png", "r.png"], "{face}.png").unwrap_err().to_string();
+    assert!(message.contains("naming=words") && message.contains("r.png is right"), "{message}");
+    let both = ["front.png", "left.png", "right.png", "top.png", "posx.png", "posy.png", "posz.png", "negx.png"];
+    let message = find(&both, "{face}.png").unwrap_err().to_string();
+    assert!(message.contains("naming=words") && message.contains("naming=opengl"), "{message}");
+}
+
+#[test]
 fn letters_may_be_large() {
     assert_eq!(found(&["FRONT.png", "TOP.png"], "{face}.png").0, "words");
     assert_eq!(found(&["Front.png", "Up.png"], "{face}.png").0, "cosmorama");

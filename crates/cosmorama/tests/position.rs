@@ -9,13 +9,14 @@ use testkit::{cube, equirect, fisheye, light_by_direction, omnimax, perspective,
 /// Pixels by which a point of the world may be displaced; the promise is 0.01.
 const POSITION_TOLERANCE: f64 = 0.005;
 
+/// Of all pixels that show anything, those that a lens's rim cuts too.
 fn worst_position_error(world: &World, target: &View, filter: Filter) -> f64 {
     let light = light_by_direction(world, |d| d.vector().to_array().map(|c| c as f32));
     let image = Resampler { world, target, filter }.render(&light);
     let mut worst = 0f64;
     for j in 0..image.height() {
         for i in 0..image.width() {
-            let Some(screen) = target.screen_pixel(i, j).filter(|screen| screen.coverage == 1.0) else { continue };
+            let Some(screen) = target.screen_pixel(i, j) else { continue };
             worst = worst.max(position_error(&screen.footprint, *image.get(i, j)));
         }
     }
@@ -54,6 +55,26 @@ fn directions_come_back_from_a_panorama() {
     for (name, target) in targets {
         let error = worst_position_error(&world, &target, Filter::DEFAULT);
         assert!(error < POSITION_TOLERANCE, "{name}: {error} px");
+    }
+}
+
+/// At the rim the last texels that count may lie half a texel before the pixel.
+#[test]
+fn directions_come_back_at_the_rim_of_a_lens() {
+    let panorama = World::new([("panorama".to_owned(), equirect(2048))]).expect("one view");
+    let faces = cube(&CubeFace::ALL, 512, 512);
+    for (name, target) in [
+        ("fisheye of 180°", fisheye(1024, 180.0)),
+        ("fisheye of 180°, enlarged", fisheye(2048, 180.0)),
+        ("fisheye of 220°", fisheye(1024, 220.0)),
+        ("fisheye of 220°, reduced", fisheye(600, 220.0)),
+        ("omnimax", omnimax(983, 718)),
+        ("omnimax, enlarged", omnimax(1966, 1436)),
+    ] {
+        for (world, from) in [(&panorama, "a panorama"), (&faces, "faces")] {
+            let error = worst_position_error(world, &target, Filter::DEFAULT);
+            assert!(error < POSITION_TOLERANCE, "{name} from {from}: {error} px");
+        }
     }
 }
 

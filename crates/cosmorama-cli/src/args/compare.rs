@@ -35,13 +35,13 @@ pub(crate) struct CompareArgs {
     #[arg(long, value_name = "DB", value_parser = finite, allow_negative_numbers = true)]
     pub(crate) min_psnr: Option<f64>,
     /// Fail (exit code 1) if the pictures are further apart
-    #[arg(long, value_name = "PX", value_parser = finite)]
+    #[arg(long, value_name = "PX", value_parser = finite, allow_negative_numbers = true)]
     pub(crate) max_shift: Option<f64>,
     /// How integer code values relate to light: auto, srgb, linear, bt1886, pq, hlg, gamma:G
     #[arg(long, value_name = "T", default_value = "auto")]
     pub(crate) transfer: TransferArg,
     /// Memory that a picture may take at most, as in 500M, 8G or 50% [default: 75% of free memory]
-    #[arg(long, value_name = "SIZE")]
+    #[arg(long, value_name = "SIZE", allow_hyphen_values = true)]
     pub(crate) memory: Option<MemorySize>,
     /// Print the figures as JSON
     #[arg(long)]

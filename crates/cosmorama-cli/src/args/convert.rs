@@ -42,7 +42,7 @@ pub(crate) struct ConvertArgs {
     #[arg(long, value_name = "error|COLOR|transparent", default_value = "error", help_heading = "Light")]
     pub(crate) missing: Missing,
     /// Which frames: 5, 1-10 or 1-3,5,7-20:2 [default: all that exist]
-    #[arg(long, value_name = "LIST", help_heading = "Frames and files")]
+    #[arg(long, value_name = "LIST", allow_hyphen_values = true, help_heading = "Frames and files")]
     pub(crate) frames: Option<FrameList>,
     /// Replace existing outputs
     #[arg(short = 'y', long, conflicts_with = "resume", help_heading = "Frames and files")]
@@ -50,9 +50,9 @@ pub(crate) struct ConvertArgs {
     /// Skip outputs that are already complete
     #[arg(long, help_heading = "Frames and files")]
     pub(crate) resume: bool,
-    /// JPEG quality, 1 to 100
-    #[arg(long, value_name = "Q", default_value_t = 95, value_parser = clap::value_parser!(u8).range(1..=100), help_heading = "Frames and files")]
-    pub(crate) quality: u8,
+    /// JPEG quality, 1 to 100 [default: 95]
+    #[arg(long, value_name = "Q", value_parser = quality, allow_hyphen_values = true, help_heading = "Frames and files")]
+    pub(crate) quality: Option<u8>,
     #[command(flatten)]
     pub(crate) limits: LimitArgs,
     /// How to tell what is going on, on standard error
@@ -73,7 +73,7 @@ pub(crate) struct GeometryArgs {
     #[arg(long, value_name = "SPEC", help_heading = "Geometry")]
     pub(crate) to: Option<Spec>,
     /// Output pixels; N is the width or the face edge [default: parity with the input at the centre]
-    #[arg(long, value_name = "WxH|N", help_heading = "Geometry")]
+    #[arg(long, value_name = "WxH|N", allow_hyphen_values = true, help_heading = "Geometry")]
     pub(crate) size: Option<SizeArg>,
     /// Turn the output to the right, in degrees
     #[arg(long, value_name = "D", default_value_t = 0.0, value_parser = degrees, allow_negative_numbers = true, help_heading = "Geometry")]
@@ -100,10 +100,10 @@ pub(crate) struct GeometryArgs {
 #[derive(Clone, Debug, Args)]
 pub(crate) struct LimitArgs {
     /// Threads to work with [default: all cores]
-    #[arg(long, value_name = "N", value_parser = threads, help_heading = "Run")]
+    #[arg(long, value_name = "N", value_parser = threads, allow_hyphen_values = true, help_heading = "Run")]
     pub(crate) threads: Option<usize>,
     /// Memory to use at most, as in 500M, 8G or 50% [default: 75% of free memory]
-    #[arg(long, value_name = "SIZE", help_heading = "Run")]
+    #[arg(long, value_name = "SIZE", allow_hyphen_values = true, help_heading = "Run")]
     pub(crate) memory: Option<MemorySize>,
 }
 
@@ -120,6 +120,13 @@ fn on_or_off(text: &str) -> Result<bool, String> {
         "on" => Ok(true),
         "off" => Ok(false),
         _ => Err("expected on or off".to_owned()),
+    }
+}
+
+fn quality(text: &str) -> Result<u8, String> {
+    match text.parse() {
+        Ok(quality @ 1..=100) => Ok(quality),
+        _ => Err("expected a number from 1 to 100".to_owned()),
     }
 }
 

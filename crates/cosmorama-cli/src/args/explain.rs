@@ -17,7 +17,14 @@ pub(crate) struct ExplainArgs {
     #[arg(value_hint = ValueHint::FilePath)]
     pub(crate) input: Option<String>,
     /// Size of an input (or of its faces) that does not exist yet [default: parity with the output at the centre]
-    #[arg(long, value_name = "WxH|N", conflicts_with = "input", requires = "from", help_heading = "Geometry")]
+    #[arg(
+        long,
+        value_name = "WxH|N",
+        allow_hyphen_values = true,
+        conflicts_with = "input",
+        requires = "from",
+        help_heading = "Geometry"
+    )]
     pub(crate) input_size: Option<SizeArg>,
     #[command(flatten)]
     pub(crate) geometry: GeometryArgs,

@@ -16,3 +16,10 @@ pub(crate) enum ProgressStyle {
     /// Nothing
     None,
 }
+
+impl ProgressStyle {
+    /// Whether people read along, who want to know how it ended, too.
+    pub(crate) fn is_for_people(self) -> bool {
+        matches!(self, Self::Auto | Self::Bar | Self::Plain)
+    }
+}

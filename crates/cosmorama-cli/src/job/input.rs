@@ -1,11 +1,12 @@
 use std::path::{Path, PathBuf};
 
-use anyhow::{Result, anyhow, bail};
+use anyhow::{Result, bail};
 use cosmorama::sphere::{CubeFace, Orientation};
 use cosmorama::world::{Canvas, CubeFaceFrame, Frame, FrameError, Placement, SamplePositions, View};
 use cosmorama_io::{EnvMap, FaceFile, FacePattern, FacePlacement, FaceSet, FrameList, Header, Window, probe};
 
 use super::detect::detect;
+use super::face_shape::{FacePicture, usual_size};
 use super::face_view::face_placement;
 use super::{Files, frames};
 use crate::args::SizeArg;
@@ -45,8 +46,8 @@ impl Input {
         warnings: &mut Vec<String>,
     ) -> Result<Self> {
         match (FacePattern::parse(pattern), from.map(|spec| (spec.name, &spec.shape))) {
-            (Some(_), Some((_, Shape::Cube(cube)))) => Self::cube(pattern, cube, wanted),
-            (Some(_), None) => Self::cube(pattern, &Cube::default(), wanted),
+            (Some(_), Some((_, Shape::Cube(cube)))) => Self::cube(pattern, cube, wanted, warnings),
+            (Some(_), None) => Self::cube(pattern, &Cube::default(), wanted, warnings),
             (Some(_), Some((name, Shape::Single(_)))) => {
                 Err(usage(format!("{pattern} names the faces of a cube, but --from is {name}; expected --from cube")))
             }
@@ -114,7 +115,7 @@ impl Input {
         Ok(Self { views: vec![view], frames })
     }
 
-    fn cube(pattern: &str, cube: &Cube, wanted: Option<&FrameList>) -> Result<Self> {
+    fn cube(pattern: &str, cube: &Cube, wanted: Option<&FrameList>, warnings: &mut Vec<String>) -> Result<Self> {
         let set = FaceSet::find(pattern, cube.naming)?;
         let chosen: Vec<&FaceFile> = set.faces().iter().filter(|face| cube.faces.contains(&face.face)).collect();
         if !chosen.iter().any(|face| face.present) {
@@ -127,7 +128,8 @@ impl Input {
         for (face, files) in chosen.into_iter().zip(files) {
             faces.push(Face::probe(cube, face, files, frames[0])?);
         }
-        let size = common_canvas(pattern, &faces)?;
+        let pictures: Vec<FacePicture> = faces.iter().filter_map(|face| face.picture(cube, frames[0])).collect();
+        let size = usual_size(&pictures, warnings)?;
         let views: Result<_> = faces.into_iter().map(|face| face.into_view(cube, size)).collect();
         Ok(Self { views: views?, frames })
     }
@@ -179,6 +181,12 @@ impl Face {
         Ok(Self { face: file.face, placement: file.placement, files, header, canvas })
     }
 
+    /// Its picture, if there is a file.
+    fn picture(&self, cube: &Cube, frame: Option<u64>) -> Option<FacePicture> {
+        let is_declared = cube.canvas_of(self.face).is_some();
+        Some(FacePicture { face: self.face, path: self.files.path(frame), canvas: self.canvas?, is_declared })
+    }
+
     fn into_view(self, cube: &Cube, (width, height): (usize, usize)) -> Result<InputView> {
         let outer = Orientation::IDENTITY;
         let canvas = self.canvas.unwrap_or(Canvas { width, height, left: 0, top: 0 });
@@ -197,33 +205,6 @@ impl Face {
             wanted: true,
         })
     }
-}
-
-/// Faces stretched more than this are no faces: the whole picture of something else, or a crop without its window.
-const MOST_STRETCH: f64 = 1.5;
-
-/// The size of the first face. Faces may differ in size but not in shape, since all span 90° both ways.
-fn common_canvas(pattern: &str, faces: &[Face]) -> Result<(usize, usize)> {
-    let sizes: Vec<(&Face, Canvas)> = faces.iter().filter_map(|face| Some((face, face.canvas?))).collect();
-    let ratio = |canvas: &Canvas| canvas.width as f64 / canvas.height as f64;
-    let alike = |a: &Canvas, b: &Canvas| (ratio(a) / ratio(b)).ln().abs() < 0.01;
-    let agreeing = |canvas: &Canvas| sizes.iter().filter(|(_, other)| alike(canvas, other)).count();
-    let Some((_, usual)) = sizes.iter().rev().max_by_key(|(_, canvas)| agreeing(canvas)) else {
-        bail!("{pattern}: no face is there");
-    };
-    let too_long = |canvas: &Canvas| !(MOST_STRETCH.recip()..=MOST_STRETCH).contains(&ratio(canvas));
-    let Some((face, canvas)) = sizes.iter().find(|(_, canvas)| !alike(canvas, usual) || too_long(canvas)) else {
-        return Ok((usual.width, usual.height));
-    };
-    let expected = if too_long(usual) { "a square, or nearly so".to_owned() } else { shape(usual) };
-    Err(anyhow!(
-        "{}: the {} face is {}, the wrong shape for a face; expected {expected}; if it is a cropped file, declare its place \
-         in the whole face with --from cube:canvas.{}=WxH+X+Y",
-        face.files.path(None).display(),
-        face.face,
-        shape(canvas),
-        face.face,
-    ))
 }
 
 fn shape(canvas: &Canvas) -> String {

@@ -2,6 +2,7 @@
 
 mod coverage;
 mod detect;
+mod face_shape;
 mod face_view;
 mod files;
 mod frames;
@@ -26,10 +27,11 @@ use anyhow::Result;
 use cosmorama::raster::Rgba;
 use cosmorama::resample::Filter;
 use cosmorama::world::World;
+use cosmorama_io::Format;
 
 use crate::args::convert::GeometryArgs;
 use crate::args::{ConvertArgs, Missing};
-use crate::failure::warn;
+use crate::failure::{usage, warn};
 
 /// A conversion, ready to run.
 pub(crate) struct ConvertJob {
@@ -62,7 +64,8 @@ impl ConvertJob {
         let mut warnings = Vec::new();
         let geometry = &args.geometry;
         // Mistakes in the command itself come first: they do not depend on any file.
-        Target::check_names(&args.output, geometry)?;
+        let format = Target::check_names(&args.output, geometry)?;
+        check_quality(args, format)?;
         let mut input = Input::find(&args.input, geometry.from.as_ref(), args.frames.as_ref(), &mut warnings)?;
         let target = Target::resolve(&args.output, geometry, input.pixels_per_radian())?;
         let filter = filter(geometry, &mut warnings);
@@ -83,6 +86,14 @@ impl ConvertJob {
             Missing::Fill(colour) => Some(colour),
         }
     }
+}
+
+/// What has no effect is a mistake: another format was meant, or another option.
+fn check_quality(args: &ConvertArgs, format: Format) -> Result<()> {
+    if args.quality.is_none() || format == Format::Jpeg {
+        return Ok(());
+    }
+    Err(usage(format!("--quality is for JPEG, but {} is {format}; leave it out, or name the output .jpg", args.output)))
 }
 
 /// The filter that was asked for.

@@ -5,6 +5,7 @@ use std::time::Instant;
 
 use anyhow::Result;
 use cosmorama::raster::{Image, Rgba};
+use cosmorama_io::WriteOptions;
 use rayon::prelude::*;
 
 use super::engine::{Engine, FrameLight};
@@ -22,7 +23,7 @@ pub(super) fn run(args: &ConvertArgs) -> Result<ExitCode> {
     let report = convert(args)?;
     if args.json {
         print(&report.to_json()?)?;
-    } else {
+    } else if args.progress.is_for_people() {
         report.tell();
     }
     Ok(ExitCode::SUCCESS)
@@ -64,6 +65,7 @@ impl Run<'_> {
         while lights.len() < frames.len() {
             lights.push(engine.frame_light());
         }
+        let options = args.quality.map_or_else(WriteOptions::default, |quality| WriteOptions { quality });
         let load = |(frame, light): (&FrameOutputs, &mut FrameLight)| engine.load(frame.frame, light);
         let loaded: Vec<Result<()>> =
             stages.time(Stage::Decode, || frames.par_iter().zip(lights.as_mut_slice()).map(load).collect());
@@ -84,7 +86,7 @@ impl Run<'_> {
             }
         }
         stages.time(Stage::Encode, || {
-            images.par_iter().try_for_each(|(frame, images)| frame.save(engine, images, args.quality))
+            images.par_iter().try_for_each(|(frame, images)| frame.save(engine, images, &options))
         })?;
         images.iter().for_each(|(frame, _)| self.progress.frame_done(frame.frame));
         unfinished.map_or(Ok(()), Err)
@@ -96,8 +98,8 @@ impl FrameOutputs {
         self.files.iter().map(|(index, _)| engine.render(*index, light, stages)).collect()
     }
 
-    fn save(&self, engine: &Engine<'_>, images: &[Image<Rgba>], quality: u8) -> Result<()> {
+    fn save(&self, engine: &Engine<'_>, images: &[Image<Rgba>], options: &WriteOptions) -> Result<()> {
         let pairs = self.files.par_iter().zip(images);
-        pairs.try_for_each(|((_, path), image)| engine.save(image, path, quality))
+        pairs.try_for_each(|((_, path), image)| engine.save(image, path, options))
     }
 }

@@ -2,7 +2,7 @@ use std::path::Path;
 use std::sync::OnceLock;
 
 use anyhow::{Context, Result, bail};
-use cosmorama::raster::{EncodedImage, Image, Rgba};
+use cosmorama::raster::{Decoder, EncodedImage, Image, Rgba};
 use cosmorama::resample::{Plan, Resampler, ScreenMask};
 use cosmorama::world::View;
 use cosmorama_io::{Header, Limits, WriteOptions, read, write};
@@ -17,6 +17,7 @@ pub(super) struct Engine<'a> {
     /// Compiled geometry by target view, where that pays and fits into memory.
     plans: Vec<Option<Plan>>,
     masks: Vec<OnceLock<ScreenMask>>,
+    decoder: Decoder,
 }
 
 /// The light of a frame. Its memory, and what does not change from frame to frame, serves the next one.
@@ -32,7 +33,7 @@ impl<'a> Engine<'a> {
     /// Prepares the geometry.
     pub(super) fn new(job: &'a ConvertJob) -> Self {
         let masks = job.target.views.iter().map(|_| OnceLock::new()).collect();
-        let mut engine = Self { job, plans: Vec::new(), masks };
+        let mut engine = Self { job, plans: Vec::new(), masks, decoder: Decoder::default() };
         engine.plans = engine.compile();
         engine
     }
@@ -86,7 +87,7 @@ impl<'a> Engine<'a> {
             parts.push((input, header, part, stays));
         }
         let load = |(input, header, part, stays): (&InputView, &Header, &mut [Rgba], bool)| {
-            if stays { Ok(None) } else { load_view(self.job, input, header, frame, part).map(Some) }
+            if stays { Ok(None) } else { self.load_view(input, header, frame, part).map(Some) }
         };
         let counts: Result<Vec<Option<usize>>> = parts.into_par_iter().map(load).collect();
         for (missing, count) in light.missing.iter_mut().zip(counts?) {
@@ -94,6 +95,32 @@ impl<'a> Engine<'a> {
         }
         light.is_used = true;
         Ok(())
+    }
+
+    /// Reads the light of one file; counts its pixels that are missing (NaN).
+    fn load_view(&self, input: &InputView, header: &Header, frame: Option<u64>, part: &mut [Rgba]) -> Result<usize> {
+        let path = input.files.path(frame);
+        let file = read(&path, &Limits::memory(self.job.memory.bytes))?;
+        let (found, expected) = ((file.image.width(), file.image.height()), (header.width, header.height));
+        if found != expected || file.window != header.window {
+            bail!(
+                "{}: {}x{} pixels, but the first frame has {}x{}{}; all frames must have the same size and window",
+                path.display(),
+                found.0,
+                found.1,
+                expected.0,
+                expected.1,
+                if found == expected { " at another place of its canvas" } else { "" }
+            );
+        }
+        let transfer = self.job.light.input_transfer(file.image.depth(), &file.metadata);
+        let missing = self.decoder.decode(&file.image, &transfer, part);
+        if missing == part.len() && self.job.fill_for_missing().is_none() {
+            return Err(anyhow::anyhow!("every pixel is NaN")).with_context(|| {
+                format!("{}: the {} view holds no light; render it again", path.display(), input.name)
+            });
+        }
+        Ok(missing)
     }
 
     /// What should be known about the light of a frame.
@@ -168,41 +195,10 @@ impl<'a> Engine<'a> {
     }
 
     /// Writes an output.
-    pub(super) fn save(&self, image: &Image<Rgba>, path: &Path, quality: u8) -> Result<()> {
+    pub(super) fn save(&self, image: &Image<Rgba>, path: &Path, options: &WriteOptions) -> Result<()> {
         let light = &self.job.light;
         let encoded = EncodedImage::encode(image, light.channels, light.depth, &light.transfer);
-        write(path, &encoded, &light.metadata, &WriteOptions { quality })?;
+        write(path, &encoded, &light.metadata, options)?;
         Ok(())
     }
-}
-
-/// Reads the light of one file; counts its pixels that are missing (NaN).
-fn load_view(
-    job: &ConvertJob,
-    input: &InputView,
-    header: &Header,
-    frame: Option<u64>,
-    part: &mut [Rgba],
-) -> Result<usize> {
-    let path = input.files.path(frame);
-    let file = read(&path, &Limits::memory(job.memory.bytes))?;
-    let (found, expected) = ((file.image.width(), file.image.height()), (header.width, header.height));
-    if found != expected || file.window != header.window {
-        bail!(
-            "{}: {}x{} pixels, but the first frame has {}x{}{}; all frames must have the same size and window",
-            path.display(),
-            found.0,
-            found.1,
-            expected.0,
-            expected.1,
-            if found == expected { " at another place of its canvas" } else { "" }
-        );
-    }
-    let transfer = job.light.input_transfer(file.image.depth(), &file.metadata);
-    let missing = file.image.decode(&transfer, part);
-    if missing == part.len() && job.fill_for_missing().is_none() {
-        return Err(anyhow::anyhow!("every pixel is NaN"))
-            .with_context(|| format!("{}: the {} view holds no light; render it again", path.display(), input.name));
-    }
-    Ok(missing)
 }

@@ -30,11 +30,11 @@ const fn key(name: &'static str, value: &'static str, about: &'static str) -> Ke
 pub(crate) const KINDS: [Kind; 6] = [
     Kind {
         name: "cube",
-        about: "faces of a cube, one file each",
+        about: "faces of a cube, one file each: 90° both ways, whatever the pixels (1024x960 is as good as 1024x1024)",
         keys: &[
             key("naming", "PRESET", "how the faces are named: words, cosmorama, bourke, pannellum, opengl, px, …"),
             key("faces", "front,left,right,up", "use (or write) only these"),
-            key("canvas.FACE", "WxH+X+Y", "as canvas=, for one face"),
+            key("canvas.FACE", "WxH+X+Y", "as canvas=, for one face; needed where a file is a crop"),
         ],
         takes_aspect: false,
     },

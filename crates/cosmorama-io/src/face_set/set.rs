@@ -29,9 +29,13 @@ pub struct FaceSet {
 }
 
 impl FaceSet {
+    /// As many faces as a dome needs: fewer may be files of something else beside them.
+    pub const ENOUGH: usize = 4;
+
     /// Finds the faces of a pattern by the files that exist: of the presets under which there is at least one,
-    /// the one that explains most. One whose files are some of another's gives way to that other; two that
-    /// disagree are an error. With a naming given, only that is looked for.
+    /// the one that explains most. One whose files are some of another's gives way to that other, and one of so few
+    /// that they may be strays to one of [`FaceSet::ENOUGH`]; two others that disagree are an error. With a naming given,
+    /// only that is looked for.
     ///
     /// # Errors
     /// When the pattern is none, nothing is found, or two presets fit.
@@ -51,6 +55,9 @@ impl FaceSet {
                     found.push(set);
                 }
             }
+        }
+        if found.iter().any(Self::is_enough) {
+            found.retain(Self::is_enough);
         }
         match found.len() {
             0 => Err(no_faces(&pattern, &namings)),
@@ -80,6 +87,10 @@ impl FaceSet {
             FaceFile { face, path, placement: naming.placement(face), present }
         });
         Self { naming, faces }
+    }
+
+    fn is_enough(&self) -> bool {
+        self.present().count() >= Self::ENOUGH
     }
 
     /// The preset that fits.

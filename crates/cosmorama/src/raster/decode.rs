@@ -1,4 +1,5 @@
 use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Arc, Mutex, PoisonError};
 
 use half::f16;
 use rayon::prelude::*;
@@ -12,13 +13,7 @@ impl EncodedImage {
     /// # Panics
     /// When `into` is not as long as the image has pixels.
     pub fn decode(&self, transfer: &Transfer, into: &mut [Rgba]) -> usize {
-        assert_eq!(into.len(), self.width() * self.height(), "one pixel of light for each pixel of the file");
-        match self.samples() {
-            Samples::U8(samples) => decode_integers(samples, self, &Tables::new(transfer, 256), into),
-            Samples::U16(samples) => decode_integers(samples, self, &Tables::new(transfer, 65536), into),
-            Samples::Half(samples) => decode_floats(samples, f16::to_f32, self, transfer, into),
-            Samples::Float(samples) => decode_floats(samples, |sample| sample, self, transfer, into),
-        }
+        Decoder::default().decode(self, transfer, into)
     }
 
     /// [`decode`](Self::decode) into a new image.
@@ -29,7 +24,49 @@ impl EncodedImage {
     }
 }
 
+/// Decodes many images: what it works out for the code values of one serves the next of the same kind.
+#[derive(Debug, Default)]
+pub struct Decoder {
+    /// By transfer function and number of codes; the latest last.
+    tables: Mutex<Vec<(Transfer, u32, Arc<Tables>)>>,
+}
+
+impl Decoder {
+    /// Kinds of images that are kept in mind: more than a set of faces has, and no more memory than a small image.
+    const MOST: usize = 8;
+
+    /// [`EncodedImage::decode`] of one of many.
+    ///
+    /// # Panics
+    /// When `into` is not as long as the image has pixels.
+    pub fn decode(&self, image: &EncodedImage, transfer: &Transfer, into: &mut [Rgba]) -> usize {
+        assert_eq!(into.len(), image.width() * image.height(), "one pixel of light for each pixel of the file");
+        match image.samples() {
+            Samples::U8(samples) => decode_integers(samples, image, &self.tables(transfer, 256), into),
+            Samples::U16(samples) => decode_integers(samples, image, &self.tables(transfer, 65536), into),
+            Samples::Half(samples) => decode_floats(samples, f16::to_f32, image, transfer, into),
+            Samples::Float(samples) => decode_floats(samples, |sample| sample, image, transfer, into),
+        }
+    }
+
+    /// Whoever wants the same meanwhile waits for it.
+    fn tables(&self, transfer: &Transfer, codes: u32) -> Arc<Tables> {
+        // The list is whole after every step, even if a thread panicked.
+        let mut known = self.tables.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some((.., tables)) = known.iter().find(|(of, count, _)| (of, *count) == (transfer, codes)) {
+            return Arc::clone(tables);
+        }
+        let tables = Arc::new(Tables::new(transfer, codes));
+        if known.len() == Self::MOST {
+            known.remove(0);
+        }
+        known.push((transfer.clone(), codes, Arc::clone(&tables)));
+        tables
+    }
+}
+
 /// Light of every code value: one table for all channels, where they have one curve, or one for each.
+#[derive(Debug)]
 struct Tables {
     colour: Vec<Vec<f32>>,
     last: f32,
@@ -151,6 +188,24 @@ mod tests {
     fn straight_alpha_is_multiplied_in() {
         let pixel = decode_one(Channels::Rgba, Depth::Eight, Samples::U8(vec![255, 0, 255, 51]), &Transfer::Srgb);
         assert_eq!(pixel, Rgba([0.2, 0.0, 0.2, 0.2]));
+    }
+
+    #[test]
+    fn what_was_worked_out_once_serves_again() {
+        let decoder = Decoder::default();
+        let image = |code| EncodedImage::new(1, 1, Channels::Grey, Depth::Sixteen, Samples::U16(vec![code])).unwrap();
+        let light = |transfer: &Transfer, code| {
+            let mut light = [Rgba::TRANSPARENT];
+            decoder.decode(&image(code), transfer, &mut light);
+            light[0]
+        };
+        for step in 0..30 {
+            let transfer = Transfer::Gamma(1.0 + f64::from(step % 10) / 10.0);
+            assert_eq!(light(&transfer, 31_000), *image(31_000).to_light(&transfer).get(0, 0));
+            let first = decoder.tables(&transfer, 65536);
+            assert!(Arc::ptr_eq(&first, &decoder.tables(&transfer, 65536)));
+            assert!(decoder.tables.lock().unwrap().len() <= Decoder::MOST);
+        }
     }
 
     #[test]

@@ -12,6 +12,7 @@ mod tone_curve;
 mod transfer;
 
 pub use channels::Channels;
+pub use decode::Decoder;
 pub use depth::Depth;
 pub use encoded::{AlphaMode, EncodedImage, Samples};
 pub use image::{Image, ImageError};

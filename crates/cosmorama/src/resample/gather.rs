@@ -17,6 +17,10 @@ use crate::world::{FieldStop, Footprint, PixelPoint, PixelRect, Source, View, Wo
 /// fifth, the tests find no point of a direction-coloured world displaced by more than 0.005 pixel.
 const LINEAR_PART: f64 = 0.2;
 
+/// Where the field of view ends under a pixel the floor is so much higher: up to half a texel beyond the last one, the
+/// kernel must reach three rows of texels, since two do not tell a slope from a step.
+const RIM_FLOOR: f64 = 1.5;
+
 /// The gather for one world and kernel.
 pub(super) struct Gather<'a> {
     world: &'a World,
@@ -25,6 +29,8 @@ pub(super) struct Gather<'a> {
     edge: Option<FieldEdge<'a>>,
     /// The largest texel of any view, in radians.
     texel_pitch: f64,
+    /// Whether the field of view ends under the pixel at hand.
+    at_rim: bool,
     candidates: Vec<Candidate>,
     /// The view that held all of the last footprint: the likeliest for the next.
     last: usize,
@@ -41,12 +47,29 @@ struct TexelBox {
 impl<'a> Gather<'a> {
     pub(super) fn new(world: &'a World, target: &'a View, table: &'a KernelTable) -> Self {
         let texel_pitch = world.sources().iter().map(|source| source.texel_pitch).fold(0.0, f64::max);
-        Self { world, table, edge: FieldEdge::of(target), texel_pitch, candidates: Vec::new(), last: 0 }
+        let edge = FieldEdge::of(target);
+        Self { world, table, edge, texel_pitch, at_rim: false, candidates: Vec::new(), last: 0 }
     }
 
     /// The taps of a footprint, weights adding to one; none where no view is near.
     pub(super) fn taps(&mut self, footprint: &Footprint, taps: &mut Taps) {
         taps.clear();
+        self.at_rim = false;
+        if self.collect(footprint) && self.table.kernel().centred {
+            self.at_rim = true;
+            self.collect(footprint);
+        }
+        settle(&mut self.candidates, self.table.kernel().centred, taps);
+        if self.at_rim {
+            taps.bound_by_slopes();
+        }
+        if taps.is_empty() {
+            lookup::nearest(self.world, footprint.direction, |texel, weight| taps.push_under(texel, weight as f32));
+        }
+    }
+
+    /// Finds the texels that count; true if the field of view ends under the pixel.
+    fn collect(&mut self, footprint: &Footprint) -> bool {
         self.candidates.clear();
         let sources = self.world.sources();
         if !self.gather_from(&sources[self.last], footprint) && sources.len() > 1 {
@@ -62,11 +85,7 @@ impl<'a> Gather<'a> {
                 }
             }
         }
-        self.drop_unseen(footprint);
-        settle(&mut self.candidates, self.table.kernel().centred, taps);
-        if taps.is_empty() {
-            lookup::nearest(self.world, footprint.direction, |texel, weight| taps.push_under(texel, weight as f32));
-        }
+        self.drop_unseen(footprint)
     }
 
     pub(super) fn world(&self) -> &'a World {
@@ -90,23 +109,32 @@ impl<'a> Gather<'a> {
         (is_whole && is_linear && seen.is_clear_of_stop(&source.view)).then_some(reach)
     }
 
-    /// What lies outside the field of view does not leak in.
-    fn drop_unseen(&mut self, footprint: &Footprint) {
+    /// What lies outside the field of view does not leak in. True if any of that lies under the pixel.
+    fn drop_unseen(&mut self, footprint: &Footprint) -> bool {
         let reach = self.reach(footprint, self.texel_pitch);
-        let Some(edge) = self.edge.filter(|edge| edge.is_near(footprint.direction, reach)) else { return };
+        let Some(edge) = self.edge.filter(|edge| edge.is_near(footprint.direction, reach)) else { return false };
         let sources = self.world.sources();
+        let mut ends_under = false;
         self.candidates.retain(|candidate| {
             let texel = candidate.texel as usize;
             let after = sources.partition_point(|source| source.offset <= texel);
-            edge.touches(&sources[after - 1], texel)
+            let is_seen = edge.touches(&sources[after - 1], texel);
+            ends_under |= candidate.under && !is_seen;
+            is_seen
         });
+        ends_under
+    }
+
+    /// The kernel's unit in texels, at least.
+    fn floor(&self) -> f64 {
+        self.table.kernel().floor * if self.at_rim { RIM_FLOOR } else { 1.0 }
     }
 
     /// An upper bound of the kernel's radius on the sphere, in radians, among texels of this pitch.
     fn reach(&self, footprint: &Footprint, texel_pitch: f64) -> f64 {
         let (kernel, jacobian) = (self.table.kernel(), &footprint.jacobian);
         let pixel = (jacobian.dx.length_squared() + jacobian.dy.length_squared()).sqrt();
-        kernel.radius() * (kernel.scale * pixel).max(kernel.floor * texel_pitch)
+        kernel.radius() * (kernel.scale * pixel).max(self.floor() * texel_pitch)
     }
 
     /// Adds the texels of one view; true if the kernel lies wholly inside it.
@@ -116,7 +144,8 @@ impl<'a> Gather<'a> {
         if margin + radius <= 0.0 {
             return false;
         }
-        if radius < LINEAR_PART * margin {
+        // At a rim, what the mapping bends does not cancel between two sides.
+        if radius < LINEAR_PART * margin && !self.at_rim {
             self.gather_ellipse(source, footprint)
         } else {
             self.gather_cap(source, footprint, radius);
@@ -129,7 +158,7 @@ impl<'a> Gather<'a> {
         let Some((centre, jacobian)) = source.view.texel_footprint(footprint) else { return false };
         let kernel = self.table.kernel();
         let coarseness = kernel.coarseness(jacobian.determinant().abs().sqrt()) as f32;
-        let ellipse = Ellipse::new(jacobian * kernel.scale, kernel.floor);
+        let ellipse = Ellipse::new(jacobian * kernel.scale, self.floor());
         let to_screen = jacobian.inverse();
         let reach = ellipse.half_extent(self.table.radius_squared());
         let bounds = TexelBox::around(centre, reach);
@@ -197,7 +226,7 @@ impl<'a> Gather<'a> {
         let to_texels = jacobian * to_screen;
         let kernel = self.table.kernel();
         let coarseness = kernel.coarseness(jacobian.determinant().abs().sqrt()) as f32;
-        let ellipse = Ellipse::new(jacobian * kernel.scale, kernel.floor);
+        let ellipse = Ellipse::new(jacobian * kernel.scale, self.floor());
         let bounds = texels_within(source, footprint.direction, radius);
         for j in bounds.top..bounds.bottom {
             let row = source.offset + j * source.view.width();

@@ -17,6 +17,7 @@ mod plan;
 mod reference;
 mod scan;
 mod screen_mask;
+mod slope;
 mod taps;
 mod window;
 

@@ -1,3 +1,4 @@
+use super::slope;
 use crate::raster::Rgba;
 
 /// One texel's part in an output pixel.
@@ -11,7 +12,8 @@ pub struct Tap {
 
 /// All the texels of an output pixel with their weights: what a filter makes of a footprint.
 ///
-/// The taps under the pixel come first: anti-ringing clamps the average to what they hold.
+/// The taps under the pixel come first: anti-ringing clamps the average to what they hold. Where the field of view ends
+/// under the pixel, all of them bound it, and a slope may go on beyond the last ([`Taps::under`] is zero then).
 #[derive(Clone, Debug, Default)]
 pub struct Taps {
     taps: Vec<Tap>,
@@ -30,7 +32,7 @@ impl Taps {
         &self.taps
     }
 
-    /// How many of the taps lie under the pixel.
+    /// How many of the taps lie under the pixel; zero where the field of view ends there.
     pub fn under(&self) -> usize {
         self.under
     }
@@ -62,6 +64,11 @@ impl Taps {
         }
     }
 
+    /// The field of view ends under the pixel.
+    pub(super) fn bound_by_slopes(&mut self) {
+        self.under = 0;
+    }
+
     /// Scales the weights to a sum of one.
     pub(super) fn normalise(&mut self) {
         let sum: f64 = self.taps.iter().map(|tap| f64::from(tap.weight)).sum();
@@ -75,7 +82,7 @@ impl Taps {
 /// lose digits, and a common one pays nothing.
 const BLOCK: usize = 32;
 
-/// The weighted average of taps; `under` of them, at the front, are those under the pixel.
+/// The weighted average of taps; `under` of them, at the front, are those under the pixel, zero at the field's edge.
 pub(super) fn average(taps: &[Tap], under: usize, texels: &[Rgba], anti_ringing: bool) -> Rgba {
     let mut sum = [0f64; 4];
     let (mut least, mut greatest) = ([f32::INFINITY; 4], [f32::NEG_INFINITY; 4]);
@@ -102,11 +109,12 @@ pub(super) fn average(taps: &[Tap], under: usize, texels: &[Rgba], anti_ringing:
         }
         add(&mut sum, part);
     }
-    let clamped = anti_ringing && under > 0;
-    Rgba(std::array::from_fn(|c| {
-        let value = sum[c] as f32;
-        if clamped { value.max(least[c]).min(greatest[c]) } else { value }
-    }))
+    let average = Rgba(sum.map(|value| value as f32));
+    match under {
+        _ if !anti_ringing => average,
+        0 => slope::clamp(average, taps.iter().map(|tap| texels[tap.texel as usize])),
+        _ => Rgba(std::array::from_fn(|c| average.0[c].max(least[c]).min(greatest[c]))),
+    }
 }
 
 fn add(sum: &mut [f64; 4], part: [f32; 4]) {
