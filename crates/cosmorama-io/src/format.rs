@@ -118,6 +118,11 @@ impl Format {
         matches!(self, Self::Png)
     }
 
+    /// Whether its files hold the faces of a cube and nothing else, in an order of their own.
+    pub const fn is_cube_map(self) -> bool {
+        false
+    }
+
     /// Whether the format can hold an ICC profile.
     pub const fn holds_icc(self) -> bool {
         matches!(self, Self::Png | Self::Jpeg | Self::Tiff)

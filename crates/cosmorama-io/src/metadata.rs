@@ -9,7 +9,7 @@ pub struct Metadata {
     /// An ICC profile, carried to outputs that can hold one (PNG, JPEG, TIFF). When writing, it goes before
     /// `transfer`: leave it out where the output is encoded by another curve than the profile's.
     pub icc: Option<Vec<u8>>,
-    /// OpenEXR's environment map attribute.
+    /// What the file says that it is a picture of.
     pub envmap: Option<EnvMap>,
     /// Channels of the file that are not read.
     pub other_channels: Vec<String>,
@@ -19,13 +19,15 @@ pub struct Metadata {
     pub software: Option<String>,
 }
 
-/// What an OpenEXR file says that it is a picture of.
+/// A picture of the whole world.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum EnvMap {
-    /// An equirectangular panorama.
+    /// OpenEXR's equirectangular panorama, its samples on the edges.
     LatLong,
-    /// Six faces one below the other.
+    /// OpenEXR's six faces one below the other: +X −X +Y −Y +Z −Z in a right-handed frame, samples on the edges.
     Cube,
+    /// The faces of a KTX or DDS file, one below the other: +X −X +Y −Y +Z −Z, left-handed, +Z ahead.
+    GlCube,
 }
 
 /// Where an image lies in a larger canvas: OpenEXR's data window in its display window.

@@ -1,5 +1,5 @@
 use cosmorama::sphere::{Angle, CubeFace, Orientation};
-use cosmorama::world::{Canvas, CubeFaceFrame, Frame, Mirror, Placement};
+use cosmorama::world::{Canvas, Mirror, Placement};
 use cosmorama_io::FacePlacement;
 
 use crate::spec::Cube;
@@ -16,7 +16,7 @@ pub(crate) fn face_placement(
     let turn = Angle::from_degrees(90.0 * f64::from(lies.quarter_turns));
     let rolled = Orientation::from_yaw_pitch_roll(Angle::ZERO, Angle::ZERO, turn);
     Placement {
-        frame: Frame::CubeFace(CubeFaceFrame),
+        frame: cube.frame(),
         orientation: rolled.within(face.orientation()).within(cube.orientation).within(outer),
         mirror: Mirror { x: cube.mirror.x != lies.mirrored, y: cube.mirror.y },
         canvas,

@@ -2,16 +2,17 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Result, bail};
 use cosmorama::sphere::{CubeFace, Orientation};
-use cosmorama::world::{Canvas, CubeFaceFrame, Frame, FrameError, Placement, SamplePositions, View};
-use cosmorama_io::{EnvMap, FaceFile, FacePattern, FacePlacement, FaceSet, FrameList, Header, Window, probe};
+use cosmorama::world::{Canvas, FacePart, FacePlacement, Frame, FrameError, Placement, View};
+use cosmorama_io::{FaceFile, FacePattern, FaceSet, FrameList, Header, Window, probe};
 
-use super::detect::detect;
+use super::detect::{declared, detect};
 use super::face_shape::{FacePicture, usual_size};
 use super::face_view::face_placement;
+use super::packed::{self, FilePart};
 use super::{Files, frames};
 use crate::args::SizeArg;
 use crate::failure::usage;
-use crate::spec::{Cube, Shape, Single, Spec};
+use crate::spec::{Cube, Packing, Shape, Single, Spec};
 
 /// A view of the input: an image, or a face of a cube.
 pub(crate) struct InputView {
@@ -19,6 +20,8 @@ pub(crate) struct InputView {
     pub(crate) name: String,
     /// Its files.
     pub(crate) files: Files,
+    /// Where it lies in a file that other views share.
+    pub(crate) part: Option<FilePart>,
     /// What its first file says of itself; `None` where there is no file.
     pub(crate) header: Option<Header>,
     /// The geometry of its whole picture.
@@ -45,17 +48,14 @@ impl Input {
         wanted: Option<&FrameList>,
         warnings: &mut Vec<String>,
     ) -> Result<Self> {
-        match (FacePattern::parse(pattern), from.map(|spec| (spec.name, &spec.shape))) {
+        let shape = from.map(|spec| (spec.name, &spec.shape));
+        match (FacePattern::parse(pattern), shape) {
             (Some(_), Some((_, Shape::Cube(cube)))) => Self::cube(pattern, cube, wanted, warnings),
             (Some(_), None) => Self::cube(pattern, &Cube::default(), wanted, warnings),
             (Some(_), Some((name, Shape::Single(_)))) => {
                 Err(usage(format!("{pattern} names the faces of a cube, but --from is {name}; expected --from cube")))
             }
-            (None, Some((_, Shape::Cube(_)))) => Err(usage(format!(
-                "--from cube wants the faces of a cube, but {pattern} has no {{face}} or %c where a face's name stands"
-            ))),
-            (None, Some((_, Shape::Single(single)))) => Self::single(pattern, Some(*single), wanted, warnings),
-            (None, None) => Self::single(pattern, None, wanted, warnings),
+            (None, shape) => Self::one_file(pattern, shape.map(|(_, shape)| shape), wanted, warnings),
         }
     }
 
@@ -69,7 +69,15 @@ impl Input {
         let view = |name: &str, placement: Placement, (width, height): (usize, usize)| {
             let nominal = placement.view(width, height).map_err(wrong)?;
             let files = Files::new(Path::new(name));
-            Ok(InputView { name: name.to_owned(), files, header: None, nominal, window: None, wanted: true })
+            Ok(InputView {
+                name: name.to_owned(),
+                files,
+                part: None,
+                header: None,
+                nominal,
+                window: None,
+                wanted: true,
+            })
         };
         let views: Result<Vec<InputView>> = match &from.shape {
             Shape::Single(single) => {
@@ -77,18 +85,20 @@ impl Input {
                 Ok(vec![view(from.name, placement, size(placement.frame)?)?])
             }
             Shape::Cube(cube) => {
-                let size = size(Frame::CubeFace(CubeFaceFrame))?;
+                let size = size(cube.frame())?;
                 let lies = FacePlacement::UPRIGHT;
                 let face = |&face: &CubeFace| face_placement(cube, face, lies, None, Orientation::IDENTITY);
-                cube.faces.iter().map(|of| view(of.name(), face(of), size)).collect()
+                let shown = cube.faces.iter().filter(|face| FacePart::of(**face, lies, cube.half).is_some());
+                shown.map(|of| view(of.name(), face(of), size)).collect()
             }
         };
         Ok(Self { views: views?, frames: vec![None] })
     }
 
-    fn single(
+    /// A panorama or another picture, or all faces of a cube.
+    fn one_file(
         pattern: &str,
-        single: Option<Single>,
+        shape: Option<&Shape>,
         wanted: Option<&FrameList>,
         warnings: &mut Vec<String>,
     ) -> Result<Self> {
@@ -96,28 +106,41 @@ impl Input {
         let frames = frames::find(std::iter::once(&files), wanted)?;
         let path = files.path(frames[0]);
         let header = probe(&path)?;
-        let single = match single {
-            Some(single) if header.metadata.envmap == Some(EnvMap::LatLong) => {
-                single.with_samples(SamplePositions::Edges)
-            }
-            Some(single) => single,
+        let shape = match shape {
+            Some(shape) => declared(shape, pattern, &header, warnings)?,
             None => detect(&path, &header, warnings)?,
         };
+        let views = match shape {
+            Shape::Single(single) => vec![Self::single(pattern, files, &path, header, single)?],
+            Shape::Cube(cube) => packed::views(&files, &path, &header, &cube)?,
+        };
+        Ok(Self { views, frames })
+    }
+
+    fn single(pattern: &str, files: Files, path: &Path, header: Header, single: Single) -> Result<InputView> {
         let name = path.file_name().map_or_else(|| pattern.to_owned(), |name| name.to_string_lossy().into_owned());
         let mut placement = single.placement;
         let canvas = placement.canvas.or(header.window.map(canvas_of)).unwrap_or_else(|| whole(&header));
-        fits_canvas(&path, &header, canvas)?;
+        fits_canvas(path, &header, canvas)?;
         placement.canvas = None;
         let nominal = placement.view(canvas.width, canvas.height).map_err(|error| usage(format!("--from: {error}")))?;
         placement.canvas = Some(canvas);
-        let window = (placement.view(header.width, header.height)?, canvas);
-        let view = InputView { name, files, header: Some(header), nominal, window: Some(window), wanted: true };
-        Ok(Self { views: vec![view], frames })
+        let window = Some((placement.view(header.width, header.height)?, canvas));
+        Ok(InputView { name, files, part: None, header: Some(header), nominal, window, wanted: true })
     }
 
     fn cube(pattern: &str, cube: &Cube, wanted: Option<&FrameList>, warnings: &mut Vec<String>) -> Result<Self> {
+        if let (Some(Packing::OneImage(_)), _) | (_, Some(_)) = (cube.layout, &cube.order) {
+            return Err(usage(format!(
+                "{pattern} names a file for each face, but --from is for all faces in one image"
+            )));
+        }
         let set = FaceSet::find(pattern, cube.naming)?;
-        let chosen: Vec<&FaceFile> = set.faces().iter().filter(|face| cube.faces.contains(&face.face)).collect();
+        let shown = |face: &&FaceFile| {
+            let lies = cube.file_placement(face.face, face.placement);
+            cube.faces.contains(&face.face) && FacePart::of(face.face, lies, cube.half).is_some()
+        };
+        let chosen: Vec<&FaceFile> = set.faces().iter().filter(shown).collect();
         if !chosen.iter().any(|face| face.present) {
             bail!("{pattern}: none of the faces asked for is there; there are {}", names(set.present()));
         }
@@ -171,14 +194,17 @@ struct Face {
 impl Face {
     fn probe(cube: &Cube, file: &FaceFile, files: Files, frame: Option<u64>) -> Result<Self> {
         let header = file.present.then(|| probe(&files.path(frame))).transpose()?;
+        let placement = cube.file_placement(file.face, file.placement);
+        let part = FacePart::of(file.face, placement, cube.half);
         let canvas = header.as_ref().map(|header| {
             let declared = cube.canvas_of(file.face).or(header.window.map(canvas_of));
-            declared.unwrap_or_else(|| whole(header))
+            let whole = || part.map_or_else(|| whole(header), |part| part.canvas(header.width, header.height));
+            declared.unwrap_or_else(whole)
         });
         if let (Some(header), Some(canvas)) = (&header, canvas) {
             fits_canvas(&files.path(frame), header, canvas)?;
         }
-        Ok(Self { face: file.face, placement: file.placement, files, header, canvas })
+        Ok(Self { face: file.face, placement, files, header, canvas })
     }
 
     /// Its picture, if there is a file.
@@ -199,6 +225,7 @@ impl Face {
         Ok(InputView {
             name: self.face.name().to_owned(),
             files: self.files,
+            part: None,
             header: self.header,
             nominal,
             window,

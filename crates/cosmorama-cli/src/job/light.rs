@@ -1,6 +1,5 @@
 use anyhow::Result;
 use cosmorama::raster::{Channels, Depth, Rgba, Transfer};
-use cosmorama::world::View;
 use cosmorama_io::{Header, Metadata};
 
 use super::{Input, Target};
@@ -80,9 +79,9 @@ impl Light {
     }
 
     /// Bytes of an output's samples.
-    pub(crate) fn file_bytes(&self, view: &View) -> u64 {
+    pub(crate) fn file_bytes(&self, (width, height): (usize, usize)) -> u64 {
         let samples = (self.channels.count() * self.depth.bytes()) as u64;
-        (view.width() as u64).saturating_mul(view.height() as u64).saturating_mul(samples)
+        (width as u64).saturating_mul(height as u64).saturating_mul(samples)
     }
 
     /// How an input file's code values relate to light.

@@ -5,7 +5,7 @@ use cosmorama::raster::Rgba;
 use cosmorama::world::View;
 use cosmorama_io::Header;
 
-use super::{Input, InputView, Target, TargetView};
+use super::{Input, InputView, Target, TargetFile};
 use crate::args::MemorySize;
 
 /// How much memory may be used.
@@ -117,13 +117,14 @@ fn pixels(view: &View) -> u64 {
 }
 
 fn describe(target: &Target, link: &str) -> String {
-    let size = |target: &TargetView| format!("{link}the output {}x{}", target.view.width(), target.view.height());
-    target.views.first().map_or_else(String::new, size)
+    let size = |TargetFile { size: (width, height), .. }: &TargetFile| format!("{link}the output {width}x{height}");
+    target.files.first().map_or_else(String::new, size)
 }
 
 /// The outputs with their encoded twins.
 fn output_bytes(target: &Target) -> u64 {
-    let pixels = target.views.iter().map(|target| pixels(&target.view)).fold(0, u64::saturating_add);
+    let area = |(width, height): (usize, usize)| (width as u64).saturating_mul(height as u64);
+    let pixels = target.files.iter().map(|file| area(file.size)).fold(0, u64::saturating_add);
     pixels.saturating_mul(2 * size_of::<Rgba>() as u64)
 }
 

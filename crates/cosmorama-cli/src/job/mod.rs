@@ -10,10 +10,12 @@ mod input;
 mod light;
 mod memory;
 mod outputs;
+mod packed;
+mod picture;
 mod target;
 
 pub(crate) use coverage::{Coverage, nominal_world};
-pub(crate) use detect::Guess;
+pub(crate) use detect::likely;
 pub(crate) use face_view::face_placement;
 pub(crate) use files::Files;
 pub(crate) use frames::existing as existing_frames;
@@ -21,7 +23,8 @@ pub(crate) use input::{Input, InputView};
 pub(crate) use light::{InputTransfer, Light};
 pub(crate) use memory::{MemoryBudget, peak_bytes};
 pub(crate) use outputs::{FrameOutputs, Outputs, real_path, refuse_existing};
-pub(crate) use target::{Picture, Target, TargetView};
+pub(crate) use picture::{Picture, Place};
+pub(crate) use target::{Target, TargetFile};
 
 use anyhow::Result;
 use cosmorama::raster::Rgba;

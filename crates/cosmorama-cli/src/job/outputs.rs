@@ -5,7 +5,7 @@ use anyhow::{Result, bail};
 use cosmorama_io::{Limits, pending::Pending, probe, read};
 use rayon::prelude::*;
 
-use super::{Files, Input, Light, MemoryBudget, Target, TargetView};
+use super::{Files, Input, Light, MemoryBudget, Target, TargetFile};
 use crate::args::ConvertArgs;
 use crate::failure::usage;
 
@@ -13,7 +13,7 @@ use crate::failure::usage;
 pub(crate) struct FrameOutputs {
     /// Its number; `None` where there is no sequence.
     pub(crate) frame: Option<u64>,
-    /// Index of a target view and its file.
+    /// Index of a target file and its path.
     pub(crate) files: Vec<(usize, PathBuf)>,
 }
 
@@ -40,8 +40,8 @@ impl Outputs {
         let mut frames = Vec::new();
         let mut folders = HashSet::new();
         for &frame in &input.frames {
-            let path = |view: &TargetView| view.files.path(frame);
-            let files: Vec<(usize, PathBuf)> = target.views.iter().map(path).enumerate().collect();
+            let path = |file: &TargetFile| file.files.path(frame);
+            let files: Vec<(usize, PathBuf)> = target.files.iter().map(path).enumerate().collect();
             for (_, path) in &files {
                 check_apart(path, &inputs)?;
                 if folders.insert(path.parent().map(Path::to_owned)) {
@@ -54,11 +54,11 @@ impl Outputs {
         let all: usize = frames.iter().map(|frame| frame.files.len()).sum();
         if args.resume {
             // As many at once as fit into memory, decoded.
-            let largest = target.views.iter().map(|view| light.file_bytes(&view.view)).max().unwrap_or(0);
+            let largest = target.files.iter().map(|file| light.file_bytes(file.size)).max().unwrap_or(0);
             let at_once = (memory.bytes / largest.max(1)).clamp(1, frames.len().max(1) as u64) as usize;
             for some in frames.chunks_mut(at_once) {
                 some.par_iter_mut().for_each(|frame| {
-                    frame.files.retain(|(index, path)| !is_complete(path, &target.views[*index], light));
+                    frame.files.retain(|(index, path)| !is_complete(path, &target.files[*index], light));
                 });
             }
         } else if !args.overwrite {
@@ -73,7 +73,7 @@ impl Outputs {
 
 /// Many frames need a marker in the output; one frame may go without; a marker without frames means nothing.
 fn check_frame_markers(args: &ConvertArgs, input: &Input, target: &Target) -> Result<()> {
-    let numbered = target.views.iter().all(|view| matches!(view.files, Files::Sequence(_)));
+    let numbered = target.files.iter().all(|file| matches!(file.files, Files::Sequence(_)));
     if input.frames.len() > 1 && !numbered {
         return Err(usage(format!(
             "{} frames cannot go into the one file {}; put #### or %04d where the frame number stands",
@@ -110,11 +110,12 @@ pub(crate) fn real_path(path: &Path) -> PathBuf {
 }
 
 /// Outputs appear whole, so one that is an image of the right size and kind, and can be read, is done.
-fn is_complete(path: &Path, target: &TargetView, light: &Light) -> bool {
-    let expected = (target.view.width(), target.view.height(), light.channels, light.depth);
+fn is_complete(path: &Path, target: &TargetFile, light: &Light) -> bool {
+    let (width, height) = target.size;
+    let expected = (width, height, light.channels, light.depth);
     // What is of another size need not be decoded, and takes no memory.
     probe(path).is_ok_and(|found| (found.width, found.height, found.channels, found.depth) == expected)
-        && read(path, &Limits::memory(light.file_bytes(&target.view))).is_ok()
+        && read(path, &Limits::memory(light.file_bytes(target.size))).is_ok()
 }
 
 /// Files that exist are not replaced unasked. The message ends with what else may be done.

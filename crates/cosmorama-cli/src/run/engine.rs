@@ -79,30 +79,32 @@ impl<'a> Engine<'a> {
     pub(super) fn load(&self, frame: Option<u64>, light: &mut FrameLight) -> Result<()> {
         let mut rest = light.texels.as_mut_slice();
         let mut parts = Vec::new();
-        for (source, (input, header, _)) in self.job.world.sources().iter().zip(self.job.input.present()) {
-            let (part, after) = rest.split_at_mut(source.texels().len());
+        let views = self.job.world.sources().iter().zip(self.job.input.present());
+        for (index, (source, (input, header, _))) in views.enumerate() {
+            let (texels, after) = rest.split_at_mut(source.texels().len());
             rest = after;
             // What does not change from frame to frame is read once.
-            let stays = light.is_used && matches!(input.files, Files::One(_));
-            parts.push((input, header, part, stays));
+            if !light.is_used || matches!(input.files, Files::Sequence(_)) {
+                parts.push(ViewPart { index, input, header, texels });
+            }
         }
-        let load = |(input, header, part, stays): (&InputView, &Header, &mut [Rgba], bool)| {
-            if stays { Ok(None) } else { self.load_view(input, header, frame, part).map(Some) }
-        };
-        let counts: Result<Vec<Option<usize>>> = parts.into_par_iter().map(load).collect();
-        for (missing, count) in light.missing.iter_mut().zip(counts?) {
-            *missing = count.unwrap_or(*missing);
+        let load = |views| self.load_file(frame, views);
+        let counts: Result<Vec<Vec<(usize, usize)>>> = by_file(parts).into_par_iter().map(load).collect();
+        for (index, missing) in counts?.into_iter().flatten() {
+            light.missing[index] = missing;
         }
         light.is_used = true;
         Ok(())
     }
 
-    /// Reads the light of one file; counts its pixels that are missing (NaN).
-    fn load_view(&self, input: &InputView, header: &Header, frame: Option<u64>, part: &mut [Rgba]) -> Result<usize> {
-        let path = input.files.path(frame);
+    /// Reads the light of the views of one file; counts the pixels of each that are missing (NaN).
+    fn load_file(&self, frame: Option<u64>, views: Vec<ViewPart<'_>>) -> Result<Vec<(usize, usize)>> {
+        let Some(first) = views.first() else { return Ok(Vec::new()) };
+        let (path, window) = (first.input.files.path(frame), first.header.window);
+        let expected = first.input.part.map_or((first.header.width, first.header.height), |part| part.of);
         let file = read(&path, &Limits::memory(self.job.memory.bytes))?;
-        let (found, expected) = ((file.image.width(), file.image.height()), (header.width, header.height));
-        if found != expected || file.window != header.window {
+        let found = (file.image.width(), file.image.height());
+        if found != expected || file.window != window {
             bail!(
                 "{}: {}x{} pixels, but the first frame has {}x{}{}; all frames must have the same size and window",
                 path.display(),
@@ -114,13 +116,23 @@ impl<'a> Engine<'a> {
             );
         }
         let transfer = self.job.light.input_transfer(file.image.depth(), &file.metadata);
-        let missing = self.decoder.decode(&file.image, &transfer, part);
-        if missing == part.len() && self.job.fill_for_missing().is_none() {
-            return Err(anyhow::anyhow!("every pixel is NaN")).with_context(|| {
-                format!("{}: the {} view holds no light; render it again", path.display(), input.name)
-            });
+        let mut counts = Vec::new();
+        for view in views {
+            let missing = match view.input.part {
+                Some(part) => {
+                    let face = file.image.cropped(part.corner, (view.header.width, view.header.height));
+                    self.decoder.decode(&face, &transfer, view.texels)
+                }
+                None => self.decoder.decode(&file.image, &transfer, view.texels),
+            };
+            if missing == view.texels.len() && self.job.fill_for_missing().is_none() {
+                return Err(anyhow::anyhow!("every pixel is NaN")).with_context(|| {
+                    format!("{}: the {} view holds no light; render it again", path.display(), view.input.name)
+                });
+            }
+            counts.push((view.index, missing));
         }
-        Ok(missing)
+        Ok(counts)
     }
 
     /// What should be known about the light of a frame.
@@ -137,8 +149,24 @@ impl<'a> Engine<'a> {
         views.filter(|(_, count)| **count > 0).map(|((view, _, _), count)| (view, *count))
     }
 
-    /// Makes an output: filtered light, complete with what lies outside.
-    pub(super) fn render(&self, index: usize, light: &FrameLight, stages: &mut Stages) -> Result<Image<Rgba>> {
+    /// Makes the picture of a file: filtered light, complete with what lies outside, faces in their places.
+    pub(super) fn render(&self, file: usize, light: &FrameLight, stages: &mut Stages) -> Result<Image<Rgba>> {
+        let file = &self.job.target.files[file];
+        if let [(index, (0, 0))] = file.pieces[..] {
+            return self.render_view(index, light, stages);
+        }
+        let (width, height) = file.size;
+        let mut sheet = Image::filled(width, height, self.job.light.background);
+        for &(index, (left, top)) in &file.pieces {
+            let face = self.render_view(index, light, stages)?;
+            for j in 0..face.height() {
+                sheet.pixels_mut()[(top + j) * width + left..][..face.width()].copy_from_slice(face.row(j));
+            }
+        }
+        Ok(sheet)
+    }
+
+    fn render_view(&self, index: usize, light: &FrameLight, stages: &mut Stages) -> Result<Image<Rgba>> {
         let mut image = match &self.plans[index] {
             Some(plan) => stages.time(Stage::Filter, || plan.apply(&light.texels)),
             None => {
@@ -201,4 +229,24 @@ impl<'a> Engine<'a> {
         write(path, &encoded, &light.metadata, options)?;
         Ok(())
     }
+}
+
+/// The texels of a view that are to be read.
+struct ViewPart<'a> {
+    index: usize,
+    input: &'a InputView,
+    header: &'a Header,
+    texels: &'a mut [Rgba],
+}
+
+/// Views that share a file are read together.
+fn by_file(views: Vec<ViewPart<'_>>) -> Vec<Vec<ViewPart<'_>>> {
+    let mut files: Vec<Vec<ViewPart<'_>>> = Vec::new();
+    for view in views {
+        match files.last_mut().filter(|_| view.input.part.is_some()) {
+            Some(shared) => shared.push(view),
+            None => files.push(vec![view]),
+        }
+    }
+    files
 }

@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 
 use super::print;
 use crate::args::InfoArgs;
-use crate::job::{Files, Guess, existing_frames};
+use crate::job::{Files, existing_frames, likely};
 
 /// Tells what a file or a face set is.
 pub(super) fn run(args: &InfoArgs) -> Result<ExitCode> {
@@ -80,7 +80,7 @@ fn header_report(header: &Header) -> Value {
     if let Some(envmap) = metadata.envmap {
         report["envmap"] = json!(match envmap {
             EnvMap::LatLong => "latlong",
-            EnvMap::Cube => "cube",
+            EnvMap::Cube | EnvMap::GlCube => "cube",
         });
     }
     if !metadata.other_channels.is_empty() {
@@ -105,16 +105,6 @@ fn transfer(header: &Header) -> String {
             Transfer::Hlg => "hlg".to_owned(),
             Transfer::Curve(_) => "icc".to_owned(),
         },
-    }
-}
-
-fn likely(header: &Header) -> &'static str {
-    match Guess::of(header) {
-        Guess::LatLong => "equirect, samples on the edges (envmap attribute)",
-        Guess::TwoToOne => "equirect (2:1)",
-        Guess::CubeInOneFile => "cube in one file (envmap attribute), which is not read",
-        Guess::Unknown if header.width == header.height => "unknown: a face of a cube, fisheye or fulldome?",
-        Guess::Unknown => "unknown: perspective, fisheye or omnimax?",
     }
 }
 

@@ -1,12 +1,11 @@
-use cosmorama::sphere::CubeFace;
 use cosmorama::world::{
     EquirectFrame, FieldOfView, FisheyeFit, FisheyeFrame, Frame, FulldomeFrame, OmnimaxFrame, OmnimaxFraming,
-    PerspectiveFrame, Placement, SamplePositions,
+    PerspectiveFrame, Placement,
 };
-use cosmorama_io::Naming;
 
-use super::fields::{Fields, wrong};
-use super::shape::{Cube, Shape, Single, SphereSamples};
+use super::cube::Cube;
+use super::fields::Fields;
+use super::shape::{Shape, Single, SphereSamples};
 use super::{SpecError, angle::parse_degrees};
 
 impl Shape {
@@ -15,7 +14,7 @@ impl Shape {
         let fields = Fields::new(pairs);
         let mut samples = SphereSamples::NotAPanorama;
         let frame = match name {
-            "cube" => return cube(&fields).map(Self::Cube),
+            "cube" => return Cube::build(&fields).map(Self::Cube),
             "perspective" => Frame::Perspective(perspective(&fields)?),
             "equirect" => {
                 let frame = equirect(&fields)?;
@@ -57,15 +56,10 @@ fn perspective(fields: &Fields) -> Result<PerspectiveFrame, SpecError> {
 }
 
 fn equirect(fields: &Fields) -> Result<EquirectFrame, SpecError> {
-    let positions = [
-        ("centres", SamplePositions::Centres),
-        ("centers", SamplePositions::Centres),
-        ("edges", SamplePositions::Edges),
-    ];
     Ok(EquirectFrame {
         horizontal: fields.angle_or("hfov", 360.0)?,
         vertical: fields.angle_or("vfov", 180.0)?,
-        samples: fields.choice("samples", &positions)?.unwrap_or_default(),
+        samples: fields.samples()?.unwrap_or_default(),
     })
 }
 
@@ -106,44 +100,5 @@ fn omnimax(fields: &Fields) -> Result<OmnimaxFrame, SpecError> {
         circle: fields.circle()?,
         axis: fields.angle_or("axis", 0.0)?,
         pixel_aspect: fields.aspect()?,
-    })
-}
-
-fn cube(fields: &Fields) -> Result<Cube, SpecError> {
-    let naming = fields
-        .get("naming")
-        .map(|name| {
-            let known = || Naming::presets().iter().map(|naming| naming.name).collect::<Vec<_>>().join(", ");
-            Naming::named(name).map_err(|_| wrong("naming", name, format!("one of {}", known())))
-        })
-        .transpose()?;
-    let faces =
-        fields.get("faces").map(|list| list.split([',', '+', ' ']).map(|name| face("faces", list, name)).collect());
-    let mut face_canvas = Vec::new();
-    for (name, value) in fields.with_prefix("canvas.") {
-        let key = format!("canvas.{name}");
-        if let Some(canvas) = fields.canvas(&key)? {
-            face_canvas.push((face(&key, value, name)?, canvas));
-        }
-    }
-    Ok(Cube {
-        naming,
-        faces: faces.transpose()?.unwrap_or_else(|| CubeFace::ALL.to_vec()),
-        orientation: fields.orientation()?,
-        mirror: fields.mirror()?,
-        canvas: fields.canvas("canvas")?,
-        face_canvas,
-    })
-}
-
-/// A face by our own name, or one of the two that others have for up and down.
-fn face(key: &str, value: &str, name: &str) -> Result<CubeFace, SpecError> {
-    let own = match name.trim() {
-        "top" => "up",
-        "bottom" => "down",
-        name => name,
-    };
-    CubeFace::ALL.into_iter().find(|face| face.name() == own).ok_or_else(|| {
-        wrong(key, value, format!("faces of a cube (front, right, back, left, up, down); '{name}' is none"))
     })
 }

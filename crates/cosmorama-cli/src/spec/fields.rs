@@ -1,5 +1,5 @@
 use cosmorama::sphere::{Angle, Orientation};
-use cosmorama::world::{Canvas, LensCircle, Mirror, PixelPoint};
+use cosmorama::world::{Canvas, LensCircle, Mirror, PixelPoint, SamplePositions};
 
 use super::SpecError;
 use super::angle::parse_degrees;
@@ -78,6 +78,16 @@ impl Fields {
             ("yx", mirror(true, true)),
         ];
         Ok(self.choice("flip", &choices)?.unwrap_or_default())
+    }
+
+    /// Where the outermost samples lie.
+    pub(super) fn samples(&self) -> Result<Option<SamplePositions>, SpecError> {
+        let positions = [
+            ("centres", SamplePositions::Centres),
+            ("centers", SamplePositions::Centres),
+            ("edges", SamplePositions::Edges),
+        ];
+        self.choice("samples", &positions)
     }
 
     pub(super) fn canvas(&self, key: &str) -> Result<Option<Canvas>, SpecError> {

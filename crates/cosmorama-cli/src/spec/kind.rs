@@ -30,9 +30,27 @@ const fn key(name: &'static str, value: &'static str, about: &'static str) -> Ke
 pub(crate) const KINDS: [Kind; 6] = [
     Kind {
         name: "cube",
-        about: "faces of a cube, one file each: 90° both ways, whatever the pixels (1024x960 is as good as 1024x1024)",
+        about: "faces of a cube, one file each or in one image: 90° both ways, whatever the pixels (1024x960 is as good as \
+                1024x1024)",
         keys: &[
-            key("naming", "PRESET", "how the faces are named: words, cosmorama, bourke, pannellum, opengl, px, …"),
+            key(
+                "layout",
+                "faces|strip-h|strip-v|3x2|2x3|cross-h|cross-v|eac",
+                "a file each (faces), or where they lie in one",
+            ),
+            key(
+                "order",
+                "rludfb|PRESET",
+                "faces in reading order: six letters or ffmpeg, kartavr, navegar, openexr, envutil",
+            ),
+            key("rotate", "000000", "quarter turns clockwise of each picture, in the same order"),
+            key("half", "up|down|left|right|front|back", "half a cube: the half around a face"),
+            key(
+                "samples",
+                "centres|edges",
+                "where the outermost samples of a face lie (centres; order=openexr: edges)",
+            ),
+            key("naming", "PRESET", "how files are named: words, cosmorama, bourke, pannellum, opengl, px, …"),
             key("faces", "front,left,right,up", "use (or write) only these"),
             key("canvas.FACE", "WxH+X+Y", "as canvas=, for one face; needed where a file is a crop"),
         ],

@@ -4,6 +4,7 @@
 
 mod angle;
 mod build;
+mod cube;
 mod fields;
 pub(crate) mod kind;
 mod shape;
@@ -11,5 +12,6 @@ mod text;
 mod window;
 
 pub(crate) use angle::parse_degrees;
-pub(crate) use shape::{Cube, Shape, Single, SphereSamples};
+pub(crate) use cube::{Cube, Packing};
+pub(crate) use shape::{Shape, Single, SphereSamples};
 pub(crate) use text::{Spec, SpecError};

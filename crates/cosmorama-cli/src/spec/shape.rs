@@ -1,13 +1,13 @@
-use cosmorama::sphere::{CubeFace, Orientation};
-use cosmorama::world::{Canvas, Frame, Mirror, Placement, SamplePositions};
-use cosmorama_io::Naming;
+use cosmorama::world::{Frame, Placement, SamplePositions};
+
+use super::Cube;
 
 /// What a SPEC stands for.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Shape {
     /// One image.
     Single(Single),
-    /// An image for each face of a cube.
+    /// The faces of a cube, a file each or in one image.
     Cube(Cube),
 }
 
@@ -31,23 +31,6 @@ pub(crate) enum SphereSamples {
     Given(SamplePositions),
 }
 
-/// The faces of a cube, a file each.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Cube {
-    /// How they are named.
-    pub(crate) naming: Option<&'static Naming>,
-    /// Which of them count.
-    pub(crate) faces: Vec<CubeFace>,
-    /// How the cube is turned.
-    pub(crate) orientation: Orientation,
-    /// How every face's picture is mirrored.
-    pub(crate) mirror: Mirror,
-    /// The canvas of every face.
-    pub(crate) canvas: Option<Canvas>,
-    /// The canvas of single faces.
-    pub(crate) face_canvas: Vec<(CubeFace, Canvas)>,
-}
-
 impl Single {
     /// The same with samples where a file format has them, unless the SPEC says where.
     pub(crate) fn with_samples(mut self, samples: SamplePositions) -> Self {
@@ -55,26 +38,5 @@ impl Single {
             frame.samples = samples;
         }
         self
-    }
-}
-
-impl Cube {
-    /// The canvas of a face.
-    pub(crate) fn canvas_of(&self, face: CubeFace) -> Option<Canvas> {
-        let own = self.face_canvas.iter().find(|(other, _)| *other == face).map(|(_, canvas)| *canvas);
-        own.or(self.canvas)
-    }
-}
-
-impl Default for Cube {
-    fn default() -> Self {
-        Self {
-            naming: None,
-            faces: CubeFace::ALL.to_vec(),
-            orientation: Orientation::IDENTITY,
-            mirror: Mirror::default(),
-            canvas: None,
-            face_canvas: Vec::new(),
-        }
     }
 }

@@ -2,10 +2,9 @@
 
 mod naming;
 mod pattern;
-mod placement;
 mod set;
 
+pub use cosmorama::world::FacePlacement;
 pub use naming::Naming;
 pub use pattern::{FacePattern, LetterCase};
-pub use placement::FacePlacement;
 pub use set::{FaceFile, FaceSet};

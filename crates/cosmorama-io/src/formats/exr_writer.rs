@@ -30,9 +30,10 @@ pub(crate) fn write(
         .map(|(i, name)| Ok(AnyChannel::new(*name, plane(path, image, i)?)))
         .collect::<Result<_, IoError>>()?;
     let attributes = LayerAttributes {
-        environment_map: metadata.envmap.map(|kind| match kind {
-            EnvMap::LatLong => EnvironmentMap::LatitudeLongitude,
-            EnvMap::Cube => EnvironmentMap::Cube,
+        environment_map: metadata.envmap.and_then(|kind| match kind {
+            EnvMap::LatLong => Some(EnvironmentMap::LatitudeLongitude),
+            EnvMap::Cube => Some(EnvironmentMap::Cube),
+            EnvMap::GlCube => None,
         }),
         software_name: Some(Text::from("cosmorama")),
         ..LayerAttributes::default()

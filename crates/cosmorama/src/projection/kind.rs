@@ -2,7 +2,7 @@ use glam::{DVec2, DVec3};
 
 use super::azimuthal::{Azimuthal, Equidistant, OmnimaxLens};
 use super::cylindrical::Equirectangular;
-use super::{Perspective, PlanePoint, PlaneRect, Projection};
+use super::{EquiAngular, Perspective, PlanePoint, PlaneRect, Projection};
 use crate::sphere::{Angle, Direction, DirectionJacobian};
 
 /// Every projection, chosen at run time.
@@ -16,6 +16,8 @@ pub enum ProjectionKind {
     Equidistant(Azimuthal<Equidistant>),
     /// The panorama of longitude by latitude.
     Equirectangular(Equirectangular),
+    /// A face of an equi-angular cube map.
+    EquiAngular(EquiAngular),
 }
 
 impl ProjectionKind {
@@ -27,9 +29,12 @@ impl ProjectionKind {
     pub const EQUIDISTANT: Self = Self::Equidistant(Azimuthal(Equidistant));
     /// The panorama.
     pub const EQUIRECTANGULAR: Self = Self::Equirectangular(Equirectangular);
+    /// A face of an equi-angular cube map.
+    pub const EQUI_ANGULAR: Self = Self::EquiAngular(EquiAngular);
 
     /// One of each, for tests and listings.
-    pub const ALL: [Self; 4] = [Self::PERSPECTIVE, Self::OMNIMAX, Self::EQUIDISTANT, Self::EQUIRECTANGULAR];
+    pub const ALL: [Self; 5] =
+        [Self::PERSPECTIVE, Self::OMNIMAX, Self::EQUIDISTANT, Self::EQUIRECTANGULAR, Self::EQUI_ANGULAR];
 }
 
 /// Calls a method of the projection that is inside.
@@ -40,6 +45,7 @@ macro_rules! each {
             ProjectionKind::Omnimax($projection) => $call,
             ProjectionKind::Equidistant($projection) => $call,
             ProjectionKind::Equirectangular($projection) => $call,
+            ProjectionKind::EquiAngular($projection) => $call,
         }
     };
 }

@@ -5,10 +5,12 @@
 
 pub mod azimuthal;
 pub mod cylindrical;
+mod equi_angular;
 mod kind;
 mod perspective;
 mod plane;
 
+pub use equi_angular::EquiAngular;
 pub use kind::ProjectionKind;
 pub use perspective::Perspective;
 pub use plane::{PlanePoint, PlaneRect};

@@ -109,6 +109,29 @@ impl EncodedImage {
         Self { alpha_mode, ..self }
     }
 
+    /// A part of the same: columns from `left`, rows from `top`.
+    ///
+    /// # Panics
+    /// When the part is not inside the image.
+    #[must_use]
+    pub fn cropped(&self, (left, top): (usize, usize), (width, height): (usize, usize)) -> Self {
+        let count = self.channels.count();
+        assert!(left + width <= self.width && top + height <= self.height, "the part is not inside the image");
+        let rows = move || {
+            (top..top + height).map(move |j| (j * self.width + left) * count).map(move |at| at..at + width * count)
+        };
+        fn parts<S: Copy>(samples: &[S], rows: impl Iterator<Item = std::ops::Range<usize>>) -> Vec<S> {
+            rows.flat_map(|row| &samples[row]).copied().collect()
+        }
+        let samples = match &self.samples {
+            Samples::U8(samples) => Samples::U8(parts(samples, rows())),
+            Samples::U16(samples) => Samples::U16(parts(samples, rows())),
+            Samples::Half(samples) => Samples::Half(parts(samples, rows())),
+            Samples::Float(samples) => Samples::Float(parts(samples, rows())),
+        };
+        Self { width, height, samples, ..*self }
+    }
+
     /// Columns.
     pub fn width(&self) -> usize {
         self.width

@@ -51,6 +51,12 @@ impl Direction {
         self.0
     }
 
+    /// The direction behind.
+    #[must_use]
+    pub fn opposite(self) -> Self {
+        Self::from_unit(-self.vector())
+    }
+
     /// Cosine of the angle to another direction.
     pub fn dot(self, other: Self) -> f64 {
         self.0.dot(other.0)

@@ -5,6 +5,8 @@ mod field_stop;
 mod frame;
 mod framing;
 mod grid;
+mod layout;
+mod overlap;
 mod view;
 #[allow(clippy::module_inception)]
 mod world;
@@ -12,10 +14,11 @@ mod world;
 pub use coverage::ScreenPixel;
 pub use field_stop::FieldStop;
 pub use frame::{
-    Canvas, CubeFaceFrame, EquirectFrame, FieldOfView, FisheyeFit, FisheyeFrame, Frame, FrameError, FulldomeFrame,
-    LensCircle, Mirror, OmnimaxFrame, PerspectiveFrame, Placement, SamplePositions,
+    Canvas, CubeFaceFrame, EquirectFrame, FaceMapping, FieldOfView, FisheyeFit, FisheyeFrame, Frame, FrameError,
+    FulldomeFrame, LayoutFaceFrame, LensCircle, Mirror, OmnimaxFrame, PerspectiveFrame, Placement, SamplePositions,
 };
 pub use framing::OmnimaxFraming;
 pub use grid::{PixelGrid, PixelPoint, PixelRect};
+pub use layout::{CubeLayout, FaceOrder, FacePart, FacePlacement, LayoutError, LayoutKind, PlacedFace};
 pub use view::{Footprint, View};
 pub use world::{Source, World, WorldError};

@@ -1,7 +1,7 @@
 use rayon::prelude::*;
 use thiserror::Error;
 
-use super::{PixelPoint, View};
+use super::{PixelPoint, View, overlap};
 use crate::sphere::Direction;
 
 /// Why views make no world.
@@ -46,7 +46,7 @@ impl Source {
     }
 }
 
-/// Radiance by direction, held as views that do not overlap: each direction belongs to at most one texel.
+/// Radiance by direction, held as views. Texels that several views hold for one direction share its weight.
 ///
 /// A world is geometry. The light itself is a buffer of [`crate::raster::Rgba`] texels, one for each texel of each view,
 /// so that one world serves all the frames of a sequence.
@@ -58,8 +58,6 @@ pub struct World {
 
 impl World {
     /// The world of these named views.
-    ///
-    /// The views must not overlap: a texel of each would count for the same direction.
     ///
     /// # Errors
     /// When there is no view, one without pixels, or more texels than 32 bits can count.
@@ -92,6 +90,7 @@ impl World {
                 None => fill_solid_angles(&source.view, &mut solid_angles[source.texels()]),
             }
         }
+        overlap::share(&sources, &mut solid_angles);
         Ok(Self { sources, solid_angles })
     }
 

@@ -9,6 +9,7 @@ mod error;
 mod field_of_view;
 mod fisheye;
 mod fulldome;
+mod layout_face;
 mod lens_circle;
 mod omnimax;
 mod perspective;
@@ -20,6 +21,7 @@ pub use error::FrameError;
 pub use field_of_view::FieldOfView;
 pub use fisheye::{FisheyeFit, FisheyeFrame};
 pub use fulldome::FulldomeFrame;
+pub use layout_face::{FaceMapping, LayoutFaceFrame};
 pub use lens_circle::LensCircle;
 pub use omnimax::OmnimaxFrame;
 pub use perspective::PerspectiveFrame;
@@ -34,6 +36,8 @@ pub enum Frame {
     Perspective(PerspectiveFrame),
     /// A face of a cube.
     CubeFace(CubeFaceFrame),
+    /// A face of a cube map in equal angles, or with its samples on the edges.
+    LayoutFace(LayoutFaceFrame),
     /// An equidistant fisheye.
     Fisheye(FisheyeFrame),
     /// A domemaster.
@@ -56,6 +60,7 @@ impl Frame {
         match self {
             Self::Perspective(frame) => frame.view(width, height),
             Self::CubeFace(frame) => Ok(frame.view(width, height)),
+            Self::LayoutFace(frame) => frame.view(width, height),
             Self::Fisheye(frame) => frame.view(width, height),
             Self::Fulldome(frame) => frame.view(width, height),
             Self::Omnimax(frame) => frame.view(width, height),
@@ -68,7 +73,7 @@ impl Frame {
     pub fn natural_height(&self, width: usize) -> usize {
         let ratio = match self {
             Self::Perspective(frame) => frame.natural_ratio(),
-            Self::CubeFace(_) => 1.0,
+            Self::CubeFace(_) | Self::LayoutFace(_) => 1.0,
             Self::Fisheye(frame) => frame.pixel_aspect,
             Self::Fulldome(frame) => frame.pixel_aspect,
             Self::Omnimax(frame) => frame.natural_ratio(),

@@ -1,0 +1,39 @@
+use thiserror::Error;
+
+use super::LayoutKind;
+
+/// Why a picture is none in a layout.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+pub enum LayoutError {
+    /// The faces would not be square.
+    #[error(
+        "{width}x{height} pixels are no {kind} of square faces, whose shape is {}:{}{}", .shape.0, .shape.1,
+        fitting(.fits)
+    )]
+    Shape {
+        /// The layout.
+        kind: LayoutKind,
+        /// Columns of the picture.
+        width: usize,
+        /// Rows of the picture.
+        height: usize,
+        /// The layout's own width and height, in lowest terms.
+        shape: (usize, usize),
+        /// The layouts that have this shape.
+        fits: Vec<LayoutKind>,
+    },
+    /// A face with an odd number of pixels has no half.
+    #[error("faces of {edge}x{edge} pixels cannot be halved; an even number is needed")]
+    Odd {
+        /// Pixels of a face's edge.
+        edge: usize,
+    },
+}
+
+fn fitting(kinds: &[LayoutKind]) -> String {
+    if kinds.is_empty() {
+        return "; no layout has that shape".to_owned();
+    }
+    let names: Vec<_> = kinds.iter().map(|kind| kind.name()).collect();
+    format!("; of that shape: {}", names.join(", "))
+}
