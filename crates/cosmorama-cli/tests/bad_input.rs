@@ -5,18 +5,11 @@
 
 mod bench;
 
-use bench::{Bench, flat, floats, picture};
+use bench::{Bench, assert_says, flat, floats, picture};
 use cosmorama::sphere::CubeFace;
 
 fn remove(bench: &Bench, name: &str) {
     std::fs::remove_file(bench.path(name)).unwrap();
-}
-
-#[track_caller]
-fn assert_says(message: &str, parts: &[&str]) {
-    for part in parts {
-        assert!(message.contains(part), "'{part}' is not in: {message}");
-    }
 }
 
 #[test]
@@ -248,64 +241,23 @@ fn an_output_that_is_an_input() {
 }
 
 #[test]
-fn wrong_usage() {
-    let bench = Bench::new();
-    bench.save("sky.png", &picture(1, 64, 32));
-    let convert = |extra: &[&str]| {
-        let mut args = vec!["convert", "sky.png"];
-        args.extend(extra);
-        bench.fail(2, &args)
-    };
-    assert_says(&convert(&["out.bmp", "--to", "omnimax"]), &["out.bmp", "png, jpg"]);
-    assert_says(&convert(&["out", "--to", "omnimax"]), &["extension"]);
-    assert_says(&convert(&["out.png", "--to", "omnimax", "--size", "0"]), &["--size", "1966x1436"]);
-    assert_says(&convert(&["out.png", "--to", "omnimax", "--frames", "9-3"]), &["--frames", "9-3", "3-9"]);
-    assert_says(&convert(&["out.png"]), &["--to", "omnimax"]);
-    assert_says(&convert(&["out.png", "--to", "omnimx"]), &["did you mean 'omnimax'"]);
-    assert_says(&convert(&["out.png", "--to", "fisheye:fvo=180"]), &["unknown key 'fvo' for fisheye", "'fov'"]);
-    assert_says(&convert(&["out.png", "--to", "perspective:fov=180"]), &["less than 180"]);
-    assert_says(&convert(&["out.png", "--to", "cube"]), &["{face}"]);
-    assert_says(&convert(&["{face}.png", "--to", "omnimax"]), &["names the faces of a cube"]);
-    assert_says(&convert(&["out_####.png", "--to", "omnimax"]), &["frame marker"]);
-    assert_says(&convert(&["out.jpg", "--to", "omnimax", "--depth", "16"]), &["JPEG", "8"]);
-    assert_says(&convert(&["out.jpg", "--to", "omnimax", "--background", "transparent"]), &["JPEG", "transparent"]);
-    assert_says(&convert(&["out.png", "--to", "omnimax", "--kernel", "gauss"]), &["there are adaptive, gaussian"]);
-    assert_says(&convert(&["out.png", "--to", "omnimax", "--filter", "ewa-pyramid"]), &["point, bilinear"]);
-    assert_says(&convert(&["out.png", "--to", "omnimax:center=3:4"]), &["--size"]);
-    assert_says(&convert(&["out.png", "--to", "omnimax", "--from", "cube"]), &["{face}"]);
-    assert_says(&convert(&["out.png", "--to", "omnimax", "-y", "--resume"]), &["--resume"]);
-    assert_says(&convert(&["out.png", "--to", "omnimax", "--quality", "80"]), &["--quality", "JPEG", "out.png", "PNG"]);
-}
-
-#[test]
-fn numbers_that_are_none_or_absurd() {
-    let bench = Bench::new();
-    bench.save("sky.png", &flat(64, 32, &[10, 20, 30]));
-    let convert = ["convert", "sky.png", "out.png", "--from", "equirect", "--to", "perspective"];
-    for (option, value, expected) in [
-        ("--yaw", "nan", "angle in degrees"),
-        ("--roll", "inf", "angle in degrees"),
-        ("--size", "-3", "1966x1436"),
-        ("--size", "-3x4", "1966x1436"),
-        ("--threads", "-2", "from 1 to 1024"),
-        ("--memory", "-1G", "--memory"),
-        ("--frames", "-4", "expected a list"),
-        ("--quality", "-1", "from 1 to 100"),
-        ("--kernel", "mitchell:scale=1000", "at most 32"),
-        ("--kernel", "tent:floor=1e300", "at most 32"),
-    ] {
-        assert_says(&bench.fail(2, &[&convert[..], &[option, value]].concat()), &[value, expected]);
-    }
-    assert_says(&bench.fail(2, &["compare", "sky.png", "sky.png", "--min-psnr", "nan"]), &["expected a number"]);
-}
-
-#[test]
 fn a_window_larger_than_its_canvas() {
     let bench = Bench::new();
     bench.save("view.png", &flat(64, 64, &[10, 20, 30]));
     let from = "perspective:canvas=50x50+0+0";
     let message = bench.fail(2, &["convert", "view.png", "out.png", "--from", from, "--to", "perspective"]);
     assert_says(&message, &["view.png", "64x64", "50x50"]);
+}
+
+#[test]
+fn a_face_beside_its_canvas() {
+    let bench = Bench::new();
+    bench.faces("face_", 32);
+    for place in ["100+0", "0+-32"] {
+        let from = format!("cube:canvas.left=64x64+{place}");
+        let message = bench.fail(2, &["convert", "face_{face}.png", "out.png", "--from", &from, "--to", "omnimax"]);
+        assert_says(&message, &["face_left.png", "beside their canvas of 64x64"]);
+    }
 }
 
 #[test]

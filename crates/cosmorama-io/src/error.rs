@@ -157,7 +157,7 @@ pub enum IoError {
         example: String,
     },
     /// Frames of a sequence are missing.
-    #[error("{pattern}: {count} frames are missing: {missing}; make them, or choose others with --frames")]
+    #[error("{pattern}: {} missing: {missing}; make them, or choose others with --frames", counted(*count))]
     MissingFrames {
         /// The pattern.
         pattern: String,
@@ -166,6 +166,11 @@ pub enum IoError {
         /// All of them, as a list that `--frames` understands.
         missing: String,
     },
+}
+
+/// How many frames.
+fn counted(count: usize) -> String {
+    if count == 1 { "1 frame is".to_owned() } else { format!("{count} frames are") }
 }
 
 impl IoError {

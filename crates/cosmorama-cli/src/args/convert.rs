@@ -1,3 +1,4 @@
+use clap::builder::NonEmptyStringValueParser;
 use clap::{Args, ValueHint};
 use cosmorama_io::FrameList;
 
@@ -16,10 +17,10 @@ use crate::spec::Spec;
 #[command(after_help = crate::spec::kind::help())]
 pub(crate) struct ConvertArgs {
     /// An image, or a pattern with {face} or %c (faces) and ####, @@@@ or %04d (frames)
-    #[arg(value_hint = ValueHint::FilePath)]
+    #[arg(value_hint = ValueHint::FilePath, value_parser = NonEmptyStringValueParser::new())]
     pub(crate) input: String,
     /// An image or a pattern; the extension chooses the format
-    #[arg(value_hint = ValueHint::FilePath)]
+    #[arg(value_hint = ValueHint::FilePath, value_parser = NonEmptyStringValueParser::new())]
     pub(crate) output: String,
     #[command(flatten)]
     pub(crate) geometry: GeometryArgs,

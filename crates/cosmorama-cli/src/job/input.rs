@@ -105,6 +105,7 @@ impl Input {
         let files = Files::new(Path::new(pattern));
         let frames = frames::find(std::iter::once(&files), wanted)?;
         let path = files.path(frames[0]);
+        is_one_file(pattern, &path)?;
         let header = probe(&path)?;
         let shape = match shape {
             Some(shape) => declared(shape, pattern, &header, warnings)?,
@@ -203,6 +204,7 @@ impl Face {
         });
         if let (Some(header), Some(canvas)) = (&header, canvas) {
             fits_canvas(&files.path(frame), header, canvas)?;
+            lies_on_canvas(&files.path(frame), header, canvas)?;
         }
         Ok(Self { face: file.face, placement, files, header, canvas })
     }
@@ -252,6 +254,37 @@ fn fits_canvas(path: &Path, header: &Header, canvas: Canvas) -> Result<()> {
         path.display(),
         header.width,
         header.height,
+        shape(&canvas)
+    )))
+}
+
+/// A folder or a wildcard was meant for the faces in it.
+fn is_one_file(pattern: &str, path: &Path) -> Result<()> {
+    let meant = if path.is_dir() {
+        format!("is a folder; for the faces of a cube in it, write {}", path.join("{face}.png").display())
+    } else if pattern.contains(['*', '?', '{']) && !path.exists() {
+        "names no file; for the faces of a cube, write {face} or %c where a face's name stands, for frames ####"
+            .to_owned()
+    } else {
+        return Ok(());
+    };
+    Err(usage(format!("{pattern} {meant}")))
+}
+
+/// A face that lies wholly beside its canvas was put there by mistake: one may reach beyond its edges, but not go round.
+fn lies_on_canvas(path: &Path, header: &Header, canvas: Canvas) -> Result<()> {
+    let overlaps = |start: i64, length: usize, whole: usize| start < whole as i64 && start + length as i64 > 0;
+    if overlaps(canvas.left, header.width, canvas.width) && overlaps(canvas.top, header.height, canvas.height) {
+        return Ok(());
+    }
+    Err(usage(format!(
+        "{}: {}x{} pixels at {}, {} lie beside their canvas of {}; give canvas=WxH+X+Y the place of their first pixel in \
+         the whole picture",
+        path.display(),
+        header.width,
+        header.height,
+        canvas.left,
+        canvas.top,
         shape(&canvas)
     )))
 }

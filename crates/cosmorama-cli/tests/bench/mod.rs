@@ -156,3 +156,11 @@ pub(crate) fn eight_bits(image: &EncodedImage) -> &[u8] {
         other => panic!("8 bits were expected, not {other:?}"),
     }
 }
+
+/// A message holds all of these parts.
+#[track_caller]
+pub(crate) fn assert_says(message: &str, parts: &[&str]) {
+    for part in parts {
+        assert!(message.contains(part), "'{part}' is not in: {message}");
+    }
+}

@@ -97,7 +97,7 @@ mod tests {
         assert_eq!(Frames::find(pattern.clone(), Some(&list)).unwrap().list().frames(), [1, 3, 5]);
         let list = "4-5".parse().unwrap();
         let message = Frames::find(pattern, Some(&list)).unwrap_err().to_string();
-        assert!(message.contains("1 frames are missing: 4"), "{message}");
+        assert!(message.contains("1 frame is missing: 4"), "{message}");
     }
 
     #[test]

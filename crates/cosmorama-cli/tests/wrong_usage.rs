@@ -1,0 +1,71 @@
+//! What is typed wrongly is said in our own words, with exit code 2.
+
+// A test that cannot go on stops where it stands.
+#![allow(clippy::unwrap_used)]
+
+mod bench;
+
+use bench::{Bench, assert_says, flat, picture};
+
+#[test]
+fn wrong_usage() {
+    let bench = Bench::new();
+    bench.save("sky.png", &picture(1, 64, 32));
+    let convert = |extra: &[&str]| {
+        let mut args = vec!["convert", "sky.png"];
+        args.extend(extra);
+        bench.fail(2, &args)
+    };
+    assert_says(&convert(&["out.bmp", "--to", "omnimax"]), &["out.bmp", "png, jpg"]);
+    assert_says(&convert(&["out", "--to", "omnimax"]), &["extension"]);
+    assert_says(&convert(&["out.png", "--to", "omnimax", "--size", "0"]), &["--size", "1966x1436"]);
+    assert_says(&convert(&["out.png", "--to", "omnimax", "--frames", "9-3"]), &["--frames", "9-3", "3-9"]);
+    assert_says(&convert(&["out.png"]), &["--to", "omnimax"]);
+    assert_says(&convert(&["out.png", "--to", "omnimx"]), &["did you mean 'omnimax'"]);
+    assert_says(&convert(&["out.png", "--to", "fisheye:fvo=180"]), &["unknown key 'fvo' for fisheye", "'fov'"]);
+    assert_says(&convert(&["out.png", "--to", "perspective:fov=180"]), &["less than 180"]);
+    assert_says(&convert(&["out.png", "--to", "cube"]), &["{face}"]);
+    assert_says(&convert(&["{face}.png", "--to", "omnimax"]), &["names the faces of a cube"]);
+    assert_says(&convert(&["out_####.png", "--to", "omnimax"]), &["frame marker"]);
+    assert_says(&convert(&["out.jpg", "--to", "omnimax", "--depth", "16"]), &["JPEG", "8"]);
+    assert_says(&convert(&["out.jpg", "--to", "omnimax", "--background", "transparent"]), &["JPEG", "transparent"]);
+    assert_says(&convert(&["out.png", "--to", "omnimax", "--kernel", "gauss"]), &["there are adaptive, gaussian"]);
+    assert_says(&convert(&["out.png", "--to", "omnimax", "--filter", "ewa-pyramid"]), &["point, bilinear"]);
+    assert_says(&convert(&["out.png", "--to", "omnimax:center=3:4"]), &["--size"]);
+    assert_says(&convert(&["out.png", "--to", "omnimax", "--from", "cube"]), &["{face}"]);
+    assert_says(&convert(&["out.png", "--to", "omnimax", "-y", "--resume"]), &["--resume"]);
+    assert_says(&convert(&["out.png", "--to", "omnimax", "--quality", "80"]), &["--quality", "JPEG", "out.png", "PNG"]);
+}
+
+#[test]
+fn numbers_that_are_none_or_absurd() {
+    let bench = Bench::new();
+    bench.save("sky.png", &flat(64, 32, &[10, 20, 30]));
+    let convert = ["convert", "sky.png", "out.png", "--from", "equirect", "--to", "perspective"];
+    for (option, value, expected) in [
+        ("--yaw", "nan", "angle in degrees"),
+        ("--roll", "inf", "angle in degrees"),
+        ("--size", "-3", "1966x1436"),
+        ("--size", "-3x4", "1966x1436"),
+        ("--threads", "-2", "from 1 to 1024"),
+        ("--memory", "-1G", "--memory"),
+        ("--frames", "-4", "expected a list"),
+        ("--quality", "-1", "from 1 to 100"),
+        ("--kernel", "mitchell:scale=1000", "at most 32"),
+        ("--kernel", "tent:floor=1e300", "at most 32"),
+    ] {
+        assert_says(&bench.fail(2, &[&convert[..], &[option, value]].concat()), &[value, expected]);
+    }
+    assert_says(&bench.fail(2, &["compare", "sky.png", "sky.png", "--min-psnr", "nan"]), &["expected a number"]);
+}
+
+#[test]
+fn what_was_meant_for_a_face_pattern() {
+    let bench = Bench::new();
+    bench.faces("faces/", 16);
+    let convert = |input: &str| bench.fail(2, &["convert", input, "out.png", "--to", "omnimax", "--size", "32"]);
+    assert_says(&convert("faces"), &["is a folder", "faces/{face}.png"]);
+    assert_says(&convert("faces/*.png"), &["names no file", "{face}"]);
+    assert_says(&convert("faces/{Face}.png"), &["names no file", "{face}"]);
+    assert_says(&convert(""), &["INPUT"]);
+}
