@@ -9,7 +9,8 @@ use super::block::Cap;
 use super::candidates::{Candidate, settle};
 use super::field_edge::FieldEdge;
 use super::kernel::KernelTable;
-use super::{Ellipse, Taps, lookup};
+use super::patch::Grid;
+use super::{Ellipse, Kernel, Taps, lookup};
 use crate::sphere::{Angle, Direction};
 use crate::world::{FieldStop, Footprint, PixelPoint, PixelRect, Source, View, World};
 
@@ -21,6 +22,15 @@ const LINEAR_PART: f64 = 0.2;
 /// kernel must reach three rows of texels, since two do not tell a slope from a step.
 const RIM_FLOOR: f64 = 1.5;
 
+/// What a kernel is held to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Place {
+    /// Nothing ends under the pixel.
+    Inside,
+    /// The field of view does.
+    Rim,
+}
+
 /// The gather for one world and kernel.
 pub(super) struct Gather<'a> {
     world: &'a World,
@@ -29,8 +39,6 @@ pub(super) struct Gather<'a> {
     edge: Option<FieldEdge<'a>>,
     /// The largest texel of any view, in radians.
     texel_pitch: f64,
-    /// Whether the field of view ends under the pixel at hand.
-    at_rim: bool,
     candidates: Vec<Candidate>,
     /// The view that held all of the last footprint: the likeliest for the next.
     last: usize,
@@ -48,19 +56,19 @@ impl<'a> Gather<'a> {
     pub(super) fn new(world: &'a World, target: &'a View, table: &'a KernelTable) -> Self {
         let texel_pitch = world.sources().iter().map(|source| source.texel_pitch).fold(0.0, f64::max);
         let edge = FieldEdge::of(target);
-        Self { world, table, edge, texel_pitch, at_rim: false, candidates: Vec::new(), last: 0 }
+        Self { world, table, edge, texel_pitch, candidates: Vec::new(), last: 0 }
     }
 
     /// The taps of a footprint, weights adding to one; none where no view is near.
     pub(super) fn taps(&mut self, footprint: &Footprint, taps: &mut Taps) {
         taps.clear();
-        self.at_rim = false;
-        if self.collect(footprint) && self.table.kernel().centred {
-            self.at_rim = true;
-            self.collect(footprint);
+        let centred = self.table.kernel().centred;
+        let at_rim = self.collect(footprint, Place::Inside) && centred;
+        if at_rim {
+            self.collect(footprint, Place::Rim);
         }
-        settle(&mut self.candidates, self.table.kernel().centred, taps);
-        if self.at_rim {
+        settle(&mut self.candidates, centred, taps);
+        if at_rim {
             taps.bound_by_slopes();
         }
         if taps.is_empty() {
@@ -69,14 +77,14 @@ impl<'a> Gather<'a> {
     }
 
     /// Finds the texels that count; true if the field of view ends under the pixel.
-    fn collect(&mut self, footprint: &Footprint) -> bool {
+    fn collect(&mut self, footprint: &Footprint, place: Place) -> bool {
         self.candidates.clear();
         let sources = self.world.sources();
-        if !self.gather_from(&sources[self.last], footprint) && sources.len() > 1 {
+        if !self.gather_from(&sources[self.last], footprint, place) && sources.len() > 1 {
             self.candidates.clear();
             for (index, source) in sources.iter().enumerate() {
                 let start = self.candidates.len();
-                if self.gather_from(source, footprint) {
+                if self.gather_from(source, footprint, place) {
                     // A kernel inside one view touches no other, except by what another view's plane bends its ellipse:
                     // without those texels the result depends neither on the order of views nor on the last footprint.
                     self.candidates.drain(..start);
@@ -85,11 +93,15 @@ impl<'a> Gather<'a> {
                 }
             }
         }
-        self.drop_unseen(footprint)
+        self.drop_unseen(footprint, place)
     }
 
     pub(super) fn world(&self) -> &'a World {
         self.world
+    }
+
+    pub(super) fn kernel(&self) -> &'a Kernel {
+        self.table.kernel()
     }
 
     /// Whether the target's field of view may end within `reach` radians of a direction.
@@ -97,21 +109,22 @@ impl<'a> Gather<'a> {
         self.edge.is_some_and(|edge| edge.is_near(direction, reach))
     }
 
-    /// The reach of kernels anywhere in a patch of the target, the rows of whose corners these are; `None` if one of them
-    /// could be cut by the edge of a field of view, or is not an ellipse in the source.
-    pub(super) fn patch_reach(&self, source: &Source, patch: &[[Footprint; 3]; 3]) -> Option<f64> {
-        let (middle, corners) = (patch[1][1].direction, [patch[0][0], patch[0][2], patch[2][0], patch[2][2]]);
-        let cap = Cap::around(middle, &corners)?;
-        let reach = corners.iter().map(|corner| self.reach(corner, source.texel_pitch)).fold(0.0, f64::max);
+    /// Whether every kernel in a patch of the target is an ellipse of texels that the edge of no field of view cuts;
+    /// `screen` are points of the patch, row by row.
+    pub(super) fn takes_patch(&self, source: &Source, screen: &Grid<Footprint>) -> bool {
+        let (middle, corners) = (screen[1][1].direction, [screen[0][0], screen[0][2], screen[2][0], screen[2][2]]);
+        let Some(cap) = Cap::around(middle, &corners) else { return false };
+        let reach = |corner| self.reach(corner, source.texel_pitch, Place::Inside);
+        let reach = corners.iter().map(reach).fold(0.0, f64::max);
         let seen = cap.widened(reach);
         let is_whole = !self.is_near_edge(middle, seen.radius());
         let is_linear = reach < LINEAR_PART * (source.view.margin(middle) - cap.radius());
-        (is_whole && is_linear && seen.is_clear_of_stop(&source.view)).then_some(reach)
+        is_whole && is_linear && seen.is_clear_of_stop(&source.view)
     }
 
     /// What lies outside the field of view does not leak in. True if any of that lies under the pixel.
-    fn drop_unseen(&mut self, footprint: &Footprint) -> bool {
-        let reach = self.reach(footprint, self.texel_pitch);
+    fn drop_unseen(&mut self, footprint: &Footprint, place: Place) -> bool {
+        let reach = self.reach(footprint, self.texel_pitch, place);
         let Some(edge) = self.edge.filter(|edge| edge.is_near(footprint.direction, reach)) else { return false };
         let sources = self.world.sources();
         let mut ends_under = false;
@@ -126,29 +139,29 @@ impl<'a> Gather<'a> {
     }
 
     /// The kernel's unit in texels, at least.
-    fn floor(&self) -> f64 {
-        self.table.kernel().floor * if self.at_rim { RIM_FLOOR } else { 1.0 }
+    fn floor(&self, place: Place) -> f64 {
+        self.table.kernel().floor * if place == Place::Rim { RIM_FLOOR } else { 1.0 }
     }
 
     /// An upper bound of the kernel's radius on the sphere, in radians, among texels of this pitch.
-    fn reach(&self, footprint: &Footprint, texel_pitch: f64) -> f64 {
+    fn reach(&self, footprint: &Footprint, texel_pitch: f64, place: Place) -> f64 {
         let (kernel, jacobian) = (self.table.kernel(), &footprint.jacobian);
         let pixel = (jacobian.dx.length_squared() + jacobian.dy.length_squared()).sqrt();
-        kernel.radius() * (kernel.scale * pixel).max(self.floor() * texel_pitch)
+        kernel.radius() * (kernel.scale * pixel).max(self.floor(place) * texel_pitch)
     }
 
     /// Adds the texels of one view; true if the kernel lies wholly inside it.
-    fn gather_from(&mut self, source: &Source, footprint: &Footprint) -> bool {
-        let radius = self.reach(footprint, source.texel_pitch);
+    fn gather_from(&mut self, source: &Source, footprint: &Footprint, place: Place) -> bool {
+        let radius = self.reach(footprint, source.texel_pitch, place);
         let margin = source.view.margin(footprint.direction);
         if margin + radius <= 0.0 {
             return false;
         }
         // At a rim, what the mapping bends does not cancel between two sides.
-        if radius < LINEAR_PART * margin && !self.at_rim {
+        if radius < LINEAR_PART * margin && place == Place::Inside {
             self.gather_ellipse(source, footprint)
         } else {
-            self.gather_cap(source, footprint, radius);
+            self.gather_cap(source, footprint, radius, place);
             false
         }
     }
@@ -158,7 +171,7 @@ impl<'a> Gather<'a> {
         let Some((centre, jacobian)) = source.view.texel_footprint(footprint) else { return false };
         let kernel = self.table.kernel();
         let coarseness = kernel.coarseness(jacobian.determinant().abs().sqrt()) as f32;
-        let ellipse = Ellipse::new(jacobian * kernel.scale, self.floor());
+        let ellipse = Ellipse::new(jacobian * kernel.scale, kernel.floor);
         let to_screen = jacobian.inverse();
         let reach = ellipse.half_extent(self.table.radius_squared());
         let bounds = TexelBox::around(centre, reach);
@@ -181,11 +194,13 @@ impl<'a> Gather<'a> {
                 Some(period) => runs_around(source, period as i64, left, end).for_each(gather),
             }
         }
-        let (width, whole_turn) = (source.view.width(), source.period.is_some_and(|p| p <= source.view.width()));
+        // Inside means that no other view has a part in what the kernel touches.
+        let whole = &source.whole;
+        let whole_turn = source.period.is_some_and(|period| period == whole.right - whole.left);
         source.view.stop == FieldStop::NONE
-            && bounds.top >= 0
-            && bounds.bottom < height
-            && (whole_turn || (bounds.left >= 0 && bounds.right < width as i64))
+            && bounds.top >= whole.top as i64
+            && bounds.bottom < whole.bottom as i64
+            && (whole_turn || (bounds.left >= whole.left as i64 && bounds.right < whole.right as i64))
     }
 
     /// Texels beside each other in a row, all inside: Q = AU² + BUV + CV² by finite differences (Greene & Heckbert 1986).
@@ -214,7 +229,7 @@ impl<'a> Gather<'a> {
 
     /// Near a pole, a horizon or a rim the ellipse would be wrong: each texel is weighed by its direction instead, in
     /// the plane tangent to the sphere at the footprint.
-    fn gather_cap(&mut self, source: &Source, footprint: &Footprint, radius: f64) {
+    fn gather_cap(&mut self, source: &Source, footprint: &Footprint, radius: f64, place: Place) {
         let here = footprint.direction.vector();
         let (right, up) = here.any_orthonormal_pair();
         let in_tangent_plane = |vector: glam::DVec3| DVec2::new(right.dot(vector), up.dot(vector)) / source.texel_pitch;
@@ -226,7 +241,7 @@ impl<'a> Gather<'a> {
         let to_texels = jacobian * to_screen;
         let kernel = self.table.kernel();
         let coarseness = kernel.coarseness(jacobian.determinant().abs().sqrt()) as f32;
-        let ellipse = Ellipse::new(jacobian * kernel.scale, self.floor());
+        let ellipse = Ellipse::new(jacobian * kernel.scale, self.floor(place));
         let bounds = texels_within(source, footprint.direction, radius);
         for j in bounds.top..bounds.bottom {
             let row = source.offset + j * source.view.width();

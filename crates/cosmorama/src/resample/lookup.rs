@@ -21,14 +21,15 @@ pub(super) fn nearest(world: &World, direction: Direction, mut tap: impl FnMut(u
 /// A neighbour beyond the edge of the view is itself looked up, bilinearly, where the neighbouring view shows it; the
 /// weights of those that nothing shows are missing from the sum.
 pub(super) fn bilinear(world: &World, direction: Direction, mut tap: impl FnMut(u32, f64)) {
-    let Some((index, pixel)) = world.owner(direction) else { return };
-    let source = &world.sources()[index];
-    for (i, j, weight) in corners(pixel) {
-        match source.column(i).and_then(|i| owned_texel(world, source, (i, j), 0, 0)) {
-            Some(texel) => tap(texel, weight),
-            None => beyond_edge(world, source, (i, j), weight, &mut tap),
+    world.for_each_holder(direction, |index, pixel, part| {
+        let source = &world.sources()[index];
+        for (i, j, weight) in corners(pixel) {
+            match source.column(i).and_then(|i| owned_texel(world, source, (i, j), 0, 0)) {
+                Some(texel) => tap(texel, weight * part),
+                None => beyond_edge(world, source, (i, j), weight * part, &mut tap),
+            }
         }
-    }
+    });
 }
 
 fn beyond_edge(world: &World, source: &Source, (i, j): (i64, i64), weight: f64, tap: &mut impl FnMut(u32, f64)) {

@@ -2,11 +2,14 @@
 
 use glam::{DMat2, DVec2};
 
+use super::Kernel;
 use super::gather::Gather;
 use crate::world::{PixelPoint, Source, View};
 
 /// Pixels along a patch's side, and lanes that are worked on together.
 pub(super) const SIDE: usize = 8;
+
+const HALF: usize = SIDE / 2;
 
 /// How far, in texels, the interpolated place of a patch's middle may be from the exact one. The cubic curves between exact
 /// corners err by much less in almost all patches; where a mapping bends more, each pixel is computed for itself.
@@ -20,16 +23,16 @@ const SLOPE: f64 = 1.0 / 128.0;
 /// the kernel.
 const CURVATURE: f64 = 1.0 / 256.0;
 
-/// A quantity over a patch: a value for each column in the top row, what is added to it down to the row below the last, and
-/// four times what is added half way down.
+/// A quantity over a patch as a parabola down each column: its value in the top row, what is added to that down to the row
+/// below the last, and four times what is added half way down; that is zero for places, whose sides bulge apart.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Ruled {
+pub(super) struct Columns {
     pub(super) top: [f32; SIDE],
     pub(super) rise: [f32; SIDE],
     pub(super) bow: [f32; SIDE],
 }
 
-impl Ruled {
+impl Columns {
     /// Straight from a function along the top edge to one along the bottom edge.
     fn straight(top: impl Fn(f64) -> f64, bottom: impl Fn(f64) -> f64) -> Self {
         Self::of(|s| [top(s), (top(s) + bottom(s)) / 2.0, bottom(s)])
@@ -50,9 +53,10 @@ impl Ruled {
         }
     }
 
-    fn middle(&self) -> f64 {
-        let [top, rise, bow] = [self.top, self.rise, self.bow].map(|row| f64::from(row[SIDE / 2]));
-        top + rise / 2.0 + bow / 4.0
+    /// The value in a column, this part of the way down.
+    fn at(&self, column: usize, t: f64) -> f64 {
+        let [top, rise, bow] = [self.top, self.rise, self.bow].map(|row| f64::from(row[column]));
+        top + t * rise + t * (1.0 - t) * bow
     }
 }
 
@@ -88,10 +92,10 @@ pub(super) struct Patch<'a> {
     /// The texel from which places are counted: near ones keep their digits in single precision.
     pub(super) origin: [i64; 2],
     /// U and V from the origin, without what the sides bulge by.
-    pub(super) place: [Ruled; 2],
+    pub(super) place: [Columns; 2],
     sides: [Bulge; 2],
     /// Ux, Vx, Uy, Vy: texels for one pixel to the right and one pixel down.
-    pub(super) jacobian: [Ruled; 4],
+    pub(super) jacobian: [Columns; 4],
     pub(super) density: Density,
 }
 
@@ -106,8 +110,8 @@ pub(super) struct Density {
     pub(super) bend: [f32; 3],
 }
 
-/// Rows of three points: corners, what is half way between them, and the middle.
-type Grid<T> = [[T; 3]; 3];
+/// Rows of three points of a patch: corners, what is half way between them, and the middle.
+pub(super) type Grid<T> = [[T; 3]; 3];
 
 /// A point: where it lies among the texels, and its derivatives.
 #[derive(Clone, Copy, Default)]
@@ -120,8 +124,8 @@ impl<'a> Patch<'a> {
     /// The patch whose top left pixel is in column `i` of row `j`; `None` where its pixels had better be computed one by
     /// one: near the edge of a field of view, near a singularity, where the mapping bends.
     pub(super) fn new(gather: &Gather<'a>, target: &View, (i, j): (usize, usize)) -> Option<Self> {
-        const HALF: usize = SIDE / 2;
         let middle = target.footprint(PixelPoint::centre(i + HALF, j + HALF))?;
+        // A look at the middle spares the other eight points where nothing is shown.
         if gather.is_near_edge(middle.direction, 0.0) {
             return None;
         }
@@ -136,14 +140,14 @@ impl<'a> Patch<'a> {
                 *point = Point { place: DVec2::new(pixel.x, pixel.y), jacobian };
             }
         }
-        let reach = gather.patch_reach(source, &screen)?;
-        let density = Density::around(&source.view, &points, reach / source.texel_pitch)?;
-        Self::through(source, &points, density)
+        let density =
+            gather.takes_patch(source, &screen).then(|| Density::around(&source.view, &points, gather.kernel()))?;
+        Self::through(source, &points, density?)
     }
 
     /// `None` where the mapping bends too much.
     fn through(source: &'a Source, points: &Grid<Point>, density: Density) -> Option<Self> {
-        let [[a, _, b], [_, middle, _], [c, _, d]] = *points;
+        let [[a, _, b], _, [c, _, d]] = *points;
         let origin = a.place.floor();
         let edge = |from: Point, to: Point, along: fn(&DMat2) -> DVec2| {
             let slope = |point: Point| along(&point.jacobian) * SIDE as f64;
@@ -156,19 +160,26 @@ impl<'a> Patch<'a> {
         let patch = Self {
             source,
             origin: [origin.x as i64, origin.y as i64],
-            place: [0, 1].map(|axis| Ruled::straight(along(a, b, top, axis), along(c, d, bottom, axis))),
+            place: [0, 1].map(|axis| Columns::straight(along(a, b, top, axis), along(c, d, bottom, axis))),
             sides: [edge(a, c, |m| m.y_axis), edge(b, d, |m| m.y_axis)],
             jacobian: [0, 1, 2, 3]
-                .map(|k| Ruled::parabolic(points.map(|row| row.map(|point| point.jacobian.to_cols_array()[k])))),
+                .map(|k| Columns::parabolic(points.map(|row| row.map(|point| point.jacobian.to_cols_array()[k])))),
             density,
         };
-        (patch.middle().distance(middle.place - origin) < PLACE && is_almost_bilinear(points)).then_some(patch)
+        (patch.error(points) < PLACE && is_almost_bilinear(points)).then_some(patch)
     }
 
-    /// Where the middle has come to lie, from the origin.
-    fn middle(&self) -> DVec2 {
-        let sides = (self.sides[0].at(0.5) + self.sides[1].at(0.5)) / 2.0;
-        DVec2::new(self.place[0].middle(), self.place[1].middle()) + sides
+    /// How far, in texels, places half way along the edges and in the middle are from the exact ones.
+    fn error(&self, points: &Grid<Point>) -> f64 {
+        let origin = points[0][0].place.floor();
+        let error = |(x, y): (usize, usize)| {
+            let (s, t) = (x as f64 / 2.0, y as f64 / 2.0);
+            let sides = self.sides[0].at(t) * (1.0 - s) + self.sides[1].at(t) * s;
+            let place = DVec2::new(self.place[0].at(x * HALF, t), self.place[1].at(x * HALF, t)) + sides;
+            place.distance(points[y][x].place - origin)
+        };
+        // The right edge is the left one of the next patch.
+        [(1, 0), (0, 1), (1, 1), (1, 2)].into_iter().map(error).fold(0.0, f64::max)
     }
 
     /// By how much the left and the right side bulge at a row, along U and V.
@@ -187,8 +198,14 @@ fn is_almost_bilinear([top, middle, bottom]: &Grid<Point>) -> bool {
 }
 
 impl Density {
-    /// That of a view's texels around the middle of a patch; `None` where it bends within `radius` texels.
-    fn around(view: &View, points: &Grid<Point>, radius: f64) -> Option<Self> {
+    /// That of a view's texels around the middle of a patch; `None` where it bends within a kernel.
+    fn around(view: &View, points: &Grid<Point>, kernel: &Kernel) -> Option<Self> {
+        let size = |point: &Point| {
+            let [x, y] = [point.jacobian.x_axis, point.jacobian.y_axis];
+            (x.length_squared() + y.length_squared()).sqrt()
+        };
+        let widest = points.iter().flatten().map(size).fold(0.0, f64::max);
+        let radius = kernel.radius() * (kernel.scale * widest).max(kernel.floor);
         let (origin, at) = (points[0][0].place.floor(), points[1][1].place);
         let solid_angle = |u: f64, v: f64| view.solid_angle(PixelPoint::new(at.x + u, at.y + v));
         let here = solid_angle(0.0, 0.0).filter(|here| *here > 0.0)?;
@@ -199,7 +216,9 @@ impl Density {
         let (x, y) = ((right - left) / 2.0, (below - above) / 2.0);
         let (xx, xy, yy) = (left + right - 2.0, diagonal - right - below + 1.0, above + below - 2.0);
         let at = at - origin;
-        (xx.abs().max(yy.abs()) * radius * radius / 2.0 < CURVATURE).then(|| Self {
+        // No eigenvalue of the second derivatives is larger than this.
+        let bend = xx.abs().max(yy.abs()) + xy.abs();
+        (bend * radius * radius / 2.0 < CURVATURE).then(|| Self {
             at: [at.x as f32, at.y as f32],
             gradient: [x as f32, y as f32],
             // The gradient is relative to what is there.

@@ -56,6 +56,8 @@ pub struct Resampler<'a> {
 impl Resampler<'_> {
     /// One frame, computed without storing the geometry. `texels` is the world's buffer of light.
     ///
+    /// A [`Plan`] adds the same weights in another order: equal but for the last digits of single precision.
+    ///
     /// Pixels are premultiplied by their coverage: transparent outside the lens. A pixel just beyond the world's last texel
     /// takes what its kernel still reaches; [`super::ScreenMask`] tells which pixels see nothing.
     ///

@@ -128,24 +128,40 @@ mod tests {
         collector
     }
 
+    /// How many pixels came in windows, after checking that they are as single ones.
+    fn check_windows(world: &World, target: &View) -> usize {
+        let resampler = Resampler { world, target, filter: Filter::DEFAULT };
+        let table = KernelTable::new(&Kernel::ADAPTIVE);
+        let fast = collect(&mut Scan::new(&resampler, &table), target);
+        let slow = collect(&mut Scan { windows: None, ..Scan::new(&resampler, &table) }, target);
+        for (fast, slow) in fast.weights.iter().zip(&slow.weights) {
+            let weight = |of: &[(u32, f32)], texel| of.iter().find(|(at, _)| *at == texel).map_or(0.0, |tap| tap.1);
+            for (texel, _) in fast.iter().chain(slow) {
+                let difference = (weight(fast, *texel) - weight(slow, *texel)).abs();
+                assert!(difference < 1e-3, "{:?}: weights differ by {difference}", target.projection);
+            }
+        }
+        fast.in_windows
+    }
+
     #[test]
     fn windows_weigh_as_single_pixels_do() {
-        for (world, name) in [(cube(256), "cube"), (cube(700), "large cube"), (panorama(1200), "panorama")] {
+        for world in [cube(256), cube(700), panorama(1200)] {
             for target in &targets() {
-                let resampler = Resampler { world: &world, target, filter: Filter::DEFAULT };
-                let table = KernelTable::new(&Kernel::ADAPTIVE);
-                let fast = collect(&mut Scan::new(&resampler, &table), target);
-                let slow = collect(&mut Scan { windows: None, ..Scan::new(&resampler, &table) }, target);
-                assert!(3 * fast.in_windows > fast.weights.len(), "{name}: {} pixels in windows", fast.in_windows);
-                let mut largest = 0f32;
-                for (fast, slow) in fast.weights.iter().zip(&slow.weights) {
-                    let weight = |of: &[(u32, f32)], texel| of.iter().find(|(at, _)| *at == texel).map_or(0.0, |t| t.1);
-                    for (texel, _) in fast.iter().chain(slow) {
-                        largest = largest.max((weight(fast, *texel) - weight(slow, *texel)).abs());
-                    }
-                }
-                assert!(largest < 1e-3, "{name} {:?}: weights differ by {largest}", target.projection);
+                let in_windows = check_windows(&world, target);
+                assert!(3 * in_windows > target.width() * target.height(), "{in_windows} pixels in windows");
             }
+        }
+    }
+
+    #[test]
+    fn round_footprints_keep_their_size() {
+        // In single precision the minor axis of some circles comes out longer than the major one.
+        let world = panorama(1024);
+        let half = (std::f64::consts::PI, std::f64::consts::FRAC_PI_2);
+        for width in [430, 432, 434, 614, 616] {
+            let size = (width, width / 2);
+            check_windows(&world, &view(ProjectionKind::EQUIRECTANGULAR, size, half, Orientation::IDENTITY));
         }
     }
 
@@ -165,7 +181,6 @@ mod tests {
             image
         };
         let levels = Windows::at_every_level(&Kernel::ADAPTIVE);
-        assert!(levels.len() > 1);
         let mut images = levels.into_iter().map(made);
         let first = images.next().expect("at least the plain one");
         assert!(images.all(|image| image == first));

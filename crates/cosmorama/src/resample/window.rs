@@ -4,7 +4,7 @@ use fearless_simd::{Level, dispatch, f32x4, f32x8, prelude::*};
 
 use super::cubics::Cubics;
 use super::kernel::UNDER;
-use super::patch::{Density, Patch, Ruled, SIDE};
+use super::patch::{Columns, Density, Patch, SIDE};
 use super::{Kernel, Tap, Taps};
 use crate::raster::Rgba;
 
@@ -61,8 +61,8 @@ struct Moments<S: Simd> {
 }
 
 impl Windows {
-    /// Windows for a kernel; `None` if it is one that lanes cannot weigh: not cubic, or so small that there might be no
-    /// texel in it.
+    /// Windows for a kernel; `None` if it is one that lanes cannot weigh: not cubic, or with a floor under one, so that there
+    /// could be no texel under a pixel to clamp to.
     pub(super) fn new(kernel: &Kernel) -> Option<Self> {
         Self::at_level(kernel, Level::new())
     }
@@ -94,6 +94,13 @@ impl Windows {
         #[cfg(not(any(target_arch = "x86", target_arch = "x86_64")))]
         let between = [None; 2];
         let levels = [Some(Level::baseline()), Some(best)].into_iter().chain(between).flatten();
+        let mut seen = Vec::new();
+        let levels = levels.filter(|level| {
+            let kind = std::mem::discriminant(level);
+            let is_new = !seen.contains(&kind);
+            seen.push(kind);
+            is_new
+        });
         levels.filter_map(|level| Self::at_level(kernel, level)).collect()
     }
 
@@ -149,14 +156,14 @@ impl Windows {
     /// Finds which windows are inside the view.
     fn place(&mut self, patch: &Patch, first: &[[f32; SIDE]; 2]) {
         let source = patch.source;
-        let columns = source.period.map_or(source.view.width(), |period| period.min(source.view.width())) as i64;
-        let rows = source.view.height() as i64;
+        let whole = &source.whole;
         let (width, height) = (self.width as i64, self.height as i64);
         self.stride = source.view.width();
         self.first = std::array::from_fn(|lane| {
             let (left, top) = (patch.origin[0] + first[0][lane] as i64, patch.origin[1] + first[1][lane] as i64);
-            let inside = left >= 0 && top >= 0 && left + width <= columns && top + height <= rows;
-            (inside && self.width * self.height <= LARGEST)
+            let columns = left >= whole.left as i64 && left + width <= whole.right as i64;
+            let rows = top >= whole.top as i64 && top + height <= whole.bottom as i64;
+            (columns && rows && self.width * self.height <= LARGEST)
                 .then(|| (source.offset + top as usize * self.stride + left as usize) as u32)
         });
     }
@@ -303,10 +310,10 @@ impl<S: Simd> Ellipses<S> {
     fn new(simd: S, kernel: &Kernel, patch: &Patch, row: usize) -> Self {
         let down = row as f32 / SIDE as f32;
         let [left, right] = patch.bulge(row);
-        let u = ruled(simd, &patch.place[0], down) + (ramp(simd) * (right[0] - left[0]) + left[0]);
-        let v = ruled(simd, &patch.place[1], down) + (ramp(simd) * (right[1] - left[1]) + left[1]);
-        let (ux, vx) = (ruled(simd, &patch.jacobian[0], down), ruled(simd, &patch.jacobian[1], down));
-        let (uy, vy) = (ruled(simd, &patch.jacobian[2], down), ruled(simd, &patch.jacobian[3], down));
+        let u = row_of(simd, &patch.place[0], down) + (ramp(simd) * (right[0] - left[0]) + left[0]);
+        let v = row_of(simd, &patch.place[1], down) + (ramp(simd) * (right[1] - left[1]) + left[1]);
+        let (ux, vx) = (row_of(simd, &patch.jacobian[0], down), row_of(simd, &patch.jacobian[1], down));
+        let (uy, vy) = (row_of(simd, &patch.jacobian[2], down), row_of(simd, &patch.jacobian[3], down));
         let determinant = ux * vy - uy * vx;
         let (fine, coarse) = (Kernel::FINE as f32, Kernel::COARSE as f32);
         let zero = f32x8::splat(simd, 0.0);
@@ -319,7 +326,8 @@ impl<S: Simd> Ellipses<S> {
         let half = (p - r) * 0.5;
         let major = (p + r) * 0.5 + (half * half + q * q).sqrt();
         let tiny = f32x8::splat(simd, 1e-30);
-        let minor = (determinant * area) * (determinant * area) / major.max(tiny);
+        // Rounding may put a circle's minor axis above its major one; their difference would change its sign.
+        let minor = ((determinant * area) * (determinant * area) / major.max(tiny)).min(major);
         let floor = f32x8::splat(simd, (kernel.floor * kernel.floor) as f32);
         let (wide, narrow) = (major.max(floor), minor.max(floor));
         let alpha = ((wide - narrow) / (major - minor).max(tiny)).min(zero + 1.0);
@@ -353,15 +361,15 @@ fn gradient<S: Simd>(density: &Density, u: f32x8<S>, v: f32x8<S>) -> [f32x8<S>; 
 
 /// A quantity in the row that lies this part of the way down the patch.
 #[inline(always)]
-fn ruled<S: Simd>(simd: S, ruled: &Ruled, down: f32) -> f32x8<S> {
-    let (top, rise) = (f32x8::load_array(simd, ruled.top), f32x8::load_array(simd, ruled.rise));
-    top + rise * down + f32x8::load_array(simd, ruled.bow) * (down * (1.0 - down))
+fn row_of<S: Simd>(simd: S, columns: &Columns, down: f32) -> f32x8<S> {
+    let (top, rise) = (f32x8::load_array(simd, columns.top), f32x8::load_array(simd, columns.rise));
+    top + rise * down + f32x8::load_array(simd, columns.bow) * (down * (1.0 - down))
 }
 
 /// How far across the patch each lane is.
 #[inline(always)]
 fn ramp<S: Simd>(simd: S) -> f32x8<S> {
-    f32x8::load_array(simd, [0.0, 0.125, 0.25, 0.375, 0.5, 0.625, 0.75, 0.875])
+    f32x8::load_array(simd, std::array::from_fn(|lane| lane as f32 / SIDE as f32))
 }
 
 /// How many texels there are from the first to the last, in the lane that has most.

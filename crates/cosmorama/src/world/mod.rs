@@ -1,5 +1,6 @@
 //! Worlds: radiance by direction, held as a set of views.
 
+mod blend;
 mod coverage;
 mod field_stop;
 mod frame;
@@ -11,6 +12,7 @@ mod view;
 #[allow(clippy::module_inception)]
 mod world;
 
+pub use blend::Blend;
 pub use coverage::ScreenPixel;
 pub use field_stop::FieldStop;
 pub use frame::{

@@ -1,7 +1,8 @@
 use rayon::prelude::*;
 use thiserror::Error;
 
-use super::{PixelPoint, View, overlap};
+use super::blend::{Blend, Presence, parts};
+use super::{PixelPoint, PixelRect, View, overlap};
 use crate::sphere::Direction;
 
 /// Why views make no world.
@@ -31,6 +32,12 @@ pub struct Source {
     pub period: Option<usize>,
     /// The larger side of the largest texel, in radians.
     pub texel_pitch: f64,
+    /// How it takes part where other views show the same.
+    pub blend: Blend,
+    /// Indices of the views that overlap this one.
+    pub(super) others: Vec<usize>,
+    /// Texels that count for all that they show: no other view has a part in them, and none of them is there twice.
+    pub(crate) whole: PixelRect,
 }
 
 impl Source {
@@ -62,14 +69,23 @@ impl World {
     /// # Errors
     /// When there is no view, one without pixels, or more texels than 32 bits can count.
     pub fn new(views: impl IntoIterator<Item = (String, View)>) -> Result<Self, WorldError> {
+        Self::blended(views.into_iter().map(|(name, view)| (name, view, Blend::default())))
+    }
+
+    /// The world of views each of which takes its part where it overlaps others.
+    ///
+    /// # Errors
+    /// Those of [`World::new`].
+    pub fn blended(views: impl IntoIterator<Item = (String, View, Blend)>) -> Result<Self, WorldError> {
         let mut sources = Vec::new();
         let mut offset = 0usize;
-        for (name, view) in views {
+        for (name, view, blend) in views {
             let texels = view.width().saturating_mul(view.height());
             if texels == 0 {
                 return Err(WorldError::NoPixels(name));
             }
-            sources.push(Source { name, view, offset, period: view.period(), texel_pitch: texel_pitch(&view) });
+            let (period, texel_pitch, whole) = (view.period(), texel_pitch(&view), owned(&view));
+            sources.push(Source { name, view, offset, period, texel_pitch, blend, others: Vec::new(), whole });
             offset = offset.saturating_add(texels);
         }
         if sources.is_empty() {
@@ -90,7 +106,7 @@ impl World {
                 None => fill_solid_angles(&source.view, &mut solid_angles[source.texels()]),
             }
         }
-        overlap::share(&sources, &mut solid_angles);
+        overlap::share(&mut sources, &mut solid_angles);
         Ok(Self { sources, solid_angles })
     }
 
@@ -99,8 +115,37 @@ impl World {
         &self.sources
     }
 
-    /// The index of the view that holds a direction, and where in its image.
+    /// The index of the view that holds a direction, and where in its image; where several do, the one that has the
+    /// largest part of it.
     pub fn owner(&self, direction: Direction) -> Option<(usize, PixelPoint)> {
+        let first = self.first_to_hold(direction)?;
+        if self.sources[first.0].others.is_empty() {
+            return Some(first);
+        }
+        let mut largest = (0.0, first);
+        self.for_each_holder(direction, |index, pixel, part| {
+            if part > largest.0 {
+                largest = (part, (index, pixel));
+            }
+        });
+        Some(largest.1)
+    }
+
+    /// Gives every view that holds a direction to `visit`, with where in its image, and its part: they add to one.
+    pub(crate) fn for_each_holder(&self, direction: Direction, mut visit: impl FnMut(usize, PixelPoint, f64)) {
+        let Some((first, pixel)) = self.first_to_hold(direction) else { return };
+        let source = &self.sources[first];
+        if source.others.is_empty() {
+            return visit(first, pixel, 1.0);
+        }
+        let mut present = vec![Presence::at(first, source, pixel)];
+        present.extend(source.others.iter().filter_map(|&at| Presence::of(at, &self.sources[at], direction)));
+        for (one, part) in present.iter().zip(parts(&present)) {
+            visit(one.index, one.pixel, part);
+        }
+    }
+
+    fn first_to_hold(&self, direction: Direction) -> Option<(usize, PixelPoint)> {
         // A direction on the very edge between two views may miss both by a rounding error.
         const ROUNDING: f64 = 1e-6;
         self.sources.iter().enumerate().find_map(|(index, source)| {
@@ -136,10 +181,14 @@ fn texel_pitch(view: &View) -> f64 {
     footprints.map(|f| f.jacobian.dx.length().max(f.jacobian.dy.length())).fold(0.0, f64::max)
 }
 
+/// A panorama with samples on its edges holds one column twice: only the first of the two counts.
+fn owned(view: &View) -> PixelRect {
+    let right = view.period().map_or(view.width(), |period| period.min(view.width()));
+    PixelRect { left: 0, top: 0, right, bottom: view.height() }
+}
+
 fn fill_solid_angles(view: &View, out: &mut [f32]) {
-    let width = view.width();
-    // A panorama with samples on its edges holds one column twice: only the first of the two counts.
-    let owned = view.period().map_or(width, |period| period.min(width));
+    let (width, owned) = (view.width(), owned(view).right);
     out.par_chunks_mut(width).enumerate().for_each(|(j, row)| {
         for (i, solid_angle) in row.iter_mut().enumerate() {
             *solid_angle = if i < owned { view.texel_solid_angle(i, j) as f32 } else { 0.0 };

@@ -1,0 +1,148 @@
+use super::{PixelPoint, Source, View};
+use crate::sphere::{Angle, Direction, DirectionJacobian};
+
+/// How a view takes part where others show the same directions.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Blend {
+    /// A view of higher priority covers those of lower priority; those of the same one share.
+    pub priority: i32,
+    /// Over how wide a band at its border a view fades out, zero for not at all. Where no view fades, the finest one, which
+    /// has most pixels for a solid angle, has it all.
+    pub feather: Angle,
+}
+
+/// What a view has of one direction.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Presence {
+    /// Index of the view.
+    pub(super) index: usize,
+    /// Where in its image.
+    pub(super) pixel: PixelPoint,
+    /// One inside, falling to zero at a feathered border.
+    weight: f64,
+    /// Of a texel, in steradians.
+    solid_angle: f64,
+    blend: Blend,
+}
+
+impl Presence {
+    /// That of a view at a point of its image which shows something.
+    pub(super) fn at(index: usize, source: &Source, pixel: PixelPoint) -> Self {
+        let (view, blend) = (&source.view, source.blend);
+        let feather = blend.feather.radians();
+        let weight = if feather > 0.0 { smooth(border_distance(view, pixel) / feather) } else { 1.0 };
+        Self { index, pixel, weight, solid_angle: view.solid_angle(pixel).unwrap_or(f64::INFINITY), blend }
+    }
+
+    /// That of a view, if it shows the direction.
+    pub(super) fn of(index: usize, source: &Source, direction: Direction) -> Option<Self> {
+        let pixel = source.view.wrapped(source.view.pixel(direction)?);
+        source.view.shows(pixel).then(|| Self::at(index, source, pixel))
+    }
+}
+
+/// The part that each of the views which show a direction has of it; the parts add to one.
+///
+/// Parts are continuous wherever borders are feathered: a view comes in with weight zero, and what it leaves goes to the
+/// others.
+pub(super) fn parts(present: &[Presence]) -> Vec<f64> {
+    let mut parts = vec![0.0; present.len()];
+    let mut left = 1.0;
+    let mut priorities: Vec<i32> = present.iter().map(|one| one.blend.priority).collect();
+    priorities.sort_unstable_by_key(|priority| std::cmp::Reverse(*priority));
+    priorities.dedup();
+    for priority in priorities {
+        let group = || present.iter().enumerate().filter(move |(_, one)| one.blend.priority == priority);
+        let fades = group().any(|(_, one)| one.blend.feather.radians() > 0.0);
+        let weigh = |one: &Presence| if fades { one.weight } else { finest(one, group().map(|(_, other)| other)) };
+        let sum: f64 = group().map(|(_, one)| weigh(one)).sum();
+        if sum > 0.0 {
+            let covered = sum.min(1.0);
+            group().for_each(|(at, one)| parts[at] = left * covered * weigh(one) / sum);
+            left *= 1.0 - covered;
+        }
+    }
+    let sum: f64 = parts.iter().sum();
+    if sum > 0.0 {
+        parts.iter_mut().for_each(|part| *part /= sum);
+    } else {
+        // On the very border of all that are there.
+        parts.fill((present.len() as f64).recip());
+    }
+    parts
+}
+
+/// One for the view whose texels are smallest, and for those that are as fine.
+fn finest<'a>(one: &Presence, all: impl Iterator<Item = &'a Presence>) -> f64 {
+    const AS_FINE: f64 = 1.000_001;
+    let least = all.map(|other| other.solid_angle).fold(f64::INFINITY, f64::min);
+    f64::from(u8::from(one.solid_angle <= least * AS_FINE))
+}
+
+/// From 0 to 1 without a kink at either end; for two views that overlap by their feather, the two add to one.
+fn smooth(t: f64) -> f64 {
+    let t = t.clamp(0.0, 1.0);
+    t * t * (3.0 - 2.0 * t)
+}
+
+/// About how far a point of an image is from where its picture ends, in radians.
+fn border_distance(view: &View, pixel: PixelPoint) -> f64 {
+    let Some(footprint) = view.footprint(pixel) else { return 0.0 };
+    let DirectionJacobian { dx, dy } = footprint.jacobian;
+    let (right, bottom) = (view.width() as f64, view.height() as f64);
+    let mut distance = f64::INFINITY;
+    if view.period().is_none_or(|period| period > view.width()) {
+        distance = distance.min(pixel.x.min(right - pixel.x) * dx.length());
+    }
+    for (edge, y) in [(pixel.y, 0.0), (bottom - pixel.y, bottom)] {
+        if !is_a_point(view, y) {
+            distance = distance.min(edge * dy.length());
+        }
+    }
+    distance.max(0.0).min(stop_distance(view, pixel, &footprint.jacobian))
+}
+
+/// Whether a row of an image is a pole: the picture does not end there.
+fn is_a_point(view: &View, y: f64) -> bool {
+    let ends = [0.0, view.width() as f64 / 3.0].map(|x| view.direction(PixelPoint::new(x, y)));
+    matches!(ends, [Some(a), Some(b)] if a.angle_to(b).radians() < 1e-6)
+}
+
+/// The same, from the field stop.
+fn stop_distance(view: &View, pixel: PixelPoint, jacobian: &DirectionJacobian) -> f64 {
+    let mut distance = f64::INFINITY;
+    if let Some(radius) = view.stop.circle {
+        let point = view.grid.to_plane(pixel);
+        let texel = jacobian.dx.length().min(jacobian.dy.length()) / view.grid.step().abs().min_element();
+        distance = distance.min((radius - point.x.hypot(point.y)) * texel);
+    }
+    if let (Some(side), Some(direction)) = (view.stop.half_space, view.direction(pixel)) {
+        distance = distance.min(side.dot(view.orientation.to_view(direction)).asin());
+    }
+    distance.max(0.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn presence(priority: i32, feather: f64, weight: f64, solid_angle: f64) -> Presence {
+        let blend = Blend { priority, feather: Angle::from_degrees(feather) };
+        Presence { index: 0, pixel: PixelPoint::new(0.0, 0.0), weight, solid_angle, blend }
+    }
+
+    #[test]
+    fn without_feather_the_finest_has_all_and_equals_share() {
+        assert_eq!(parts(&[presence(0, 0.0, 1.0, 2.0), presence(0, 0.0, 1.0, 1.0)]), [0.0, 1.0]);
+        assert_eq!(parts(&[presence(0, 0.0, 1.0, 1.0), presence(0, 0.0, 1.0, 1.0)]), [0.5, 0.5]);
+        assert_eq!(parts(&[presence(1, 0.0, 1.0, 2.0), presence(0, 0.0, 1.0, 1.0)]), [1.0, 0.0]);
+    }
+
+    #[test]
+    fn a_fading_view_leaves_the_rest_to_the_others() {
+        assert_eq!(parts(&[presence(1, 3.0, 0.25, 1.0), presence(0, 0.0, 1.0, 1.0)]), [0.25, 0.75]);
+        assert_eq!(parts(&[presence(0, 3.0, 0.25, 1.0), presence(0, 3.0, 0.75, 1.0)]), [0.25, 0.75]);
+        assert_eq!(parts(&[presence(0, 3.0, 0.25, 1.0)]), [1.0]);
+        assert_eq!(parts(&[presence(0, 3.0, 0.0, 1.0), presence(0, 3.0, 0.0, 1.0)]), [0.5, 0.5]);
+    }
+}
