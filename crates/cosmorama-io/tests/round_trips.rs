@@ -55,6 +55,43 @@ fn every_format_depth_and_channels() {
 }
 
 #[test]
+fn cubes_in_texture_files() {
+    let folder = tempfile::tempdir().unwrap();
+    for extension in ["ktx2", "dds"] {
+        let path = folder.path().join(format!("a.{extension}"));
+        for (depth, transfer) in
+            [(Depth::Eight, Transfer::Srgb), (Depth::Eight, Transfer::Linear), (Depth::Half, Transfer::Linear)]
+        {
+            let image = picture(7, 42, Channels::Rgba, depth);
+            let envmap = Some(EnvMap::GlCube);
+            let metadata = Metadata { envmap, transfer: Some(transfer.clone()), ..Metadata::default() };
+            write(&path, &image, &metadata, &WriteOptions::default()).unwrap();
+            let file = read(&path, &Limits::default()).unwrap();
+            assert!(file.image == image, "{extension} {depth}");
+            assert_eq!(file.metadata.envmap, envmap);
+            // In DDS, bytes are of sRGB unless something else is said, but they do not say it.
+            let said = if extension == "dds" && depth == Depth::Eight { None } else { Some(transfer) };
+            assert_eq!(file.metadata.transfer, said, "{extension} {depth}");
+            assert_eq!(probe(&path).unwrap().metadata, file.metadata);
+            // Any other picture is none that the format could hold.
+            for (image, envmap) in [(&image, None), (&picture(7, 35, Channels::Rgba, depth), envmap)] {
+                let metadata = Metadata { envmap, ..Metadata::default() };
+                let error = write(&path, image, &metadata, &WriteOptions::default()).unwrap_err().to_string();
+                assert!(error.contains("the six faces of a cube"), "{error}");
+            }
+        }
+    }
+    let path = folder.path().join("old.ktx");
+    let texels: Vec<u8> = (0..6 * 2 * 8).collect();
+    std::fs::write(&path, common::ktx(2, 0x1401, 0x1907, &texels)).unwrap();
+    let image = read(&path, &Limits::default()).unwrap().image;
+    let Samples::U8(samples) = image.samples() else { panic!("8 bits") };
+    assert_eq!((image.width(), image.height(), &samples[..7]), (2, 12, &[0, 1, 2, 3, 4, 5, 8][..]));
+    let error = write(&path, &image, &Metadata::default(), &WriteOptions::default()).unwrap_err().to_string();
+    assert!(error.contains("ktx2, dds"), "{error}");
+}
+
+#[test]
 fn odd_sizes() {
     let folder = tempfile::tempdir().unwrap();
     for (format, extension) in EXTENSIONS {
