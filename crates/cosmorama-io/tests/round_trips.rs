@@ -5,7 +5,7 @@ mod common;
 
 use common::picture;
 use cosmorama::raster::{Channels, Depth, EncodedImage, Samples, Transfer};
-use cosmorama_io::{EnvMap, Format, Limits, Metadata, WriteOptions, probe, read, write};
+use cosmorama_io::{EnvMap, Format, Limits, Metadata, Window, WriteOptions, probe, read, write};
 
 const EXTENSIONS: [(Format, &str); 6] = [
     (Format::Png, "png"),
@@ -52,6 +52,20 @@ fn every_format_depth_and_channels() {
         }
     }
     assert_eq!(common::files(folder.path()).iter().filter(|path| path.to_string_lossy().contains(".part")).count(), 0);
+}
+
+#[test]
+fn panoramas_say_which_part_they_are() {
+    let folder = tempfile::tempdir().unwrap();
+    let image = picture(60, 20, Channels::Rgb, Depth::Eight);
+    let panorama = Some(Window { canvas_width: 128, canvas_height: 64, x: 5, y: 30 });
+    for name in ["a.png", "a.jpg"] {
+        let path = folder.path().join(name);
+        let metadata = Metadata { panorama, ..Metadata::default() };
+        write(&path, &image, &metadata, &WriteOptions::default()).unwrap();
+        assert_eq!(probe(&path).unwrap().metadata.panorama, panorama, "{name}");
+        assert_eq!(read(&path, &Limits::default()).unwrap().metadata.panorama, panorama, "{name}");
+    }
 }
 
 #[test]

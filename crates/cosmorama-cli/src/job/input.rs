@@ -280,6 +280,7 @@ fn whole(header: &Header) -> Canvas {
     Canvas { width: header.width, height: header.height, left: 0, top: 0 }
 }
 
-fn canvas_of(window: Window) -> Canvas {
+/// A window as a placement has it.
+pub(super) fn canvas_of(window: Window) -> Canvas {
     Canvas { width: window.canvas_width, height: window.canvas_height, left: window.x as i64, top: window.y as i64 }
 }

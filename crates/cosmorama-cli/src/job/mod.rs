@@ -2,6 +2,7 @@
 
 mod coverage;
 mod detect;
+mod evidence;
 mod face_view;
 mod files;
 mod frames;
