@@ -150,6 +150,26 @@ fn openexrs_cube_and_panorama_agree() {
 }
 
 #[test]
+fn textures_hold_cubes_and_nothing_else() {
+    let bench = Bench::new();
+    faces(&bench);
+    bench.succeed(&["convert", "world_{face}.png", "direct_{face}.png", "--size", SIZE]);
+    for name in ["cube.ktx2", "cube.dds"] {
+        bench.succeed(&["convert", "drawn_{face}.png", name, "--to", "cube", "--size", SIZE]);
+        bench.succeed(&["convert", name, "back_{face}.png", "-y", "--size", SIZE]);
+        for face in CubeFace::ALL {
+            let (made, direct) = (format!("back_{}.png", word(face)), format!("direct_{}.png", word(face)));
+            bench.succeed(&["compare", &made, &direct, "--min-psnr", "120"]);
+        }
+    }
+    let refused = |to: &str| bench.fail(2, &["convert", "world_{face}.png", "a.ktx2", "--to", to, "--size", SIZE]);
+    for to in ["equirect", "cube:layout=3x2", "cube:order=kartavr", "cube:half=up", "cube:faces=front"] {
+        let message = refused(to);
+        assert!(message.contains("the six whole faces of a cube"), "{to}: {message}");
+    }
+}
+
+#[test]
 fn ffmpeg_finds_the_same_world_in_our_layouts() {
     if Command::new("ffmpeg").arg("-version").output().is_err() {
         assert!(std::env::var("CI").as_deref() != Ok("true"), "ffmpeg is not installed");

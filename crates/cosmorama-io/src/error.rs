@@ -26,7 +26,7 @@ pub enum IoError {
         path: PathBuf,
     },
     /// The first bytes of a file belong to no format.
-    #[error("{}: not an image of a known format (PNG, JPEG, TIFF, TGA, Radiance HDR or OpenEXR)", path.display())]
+    #[error("{}: not an image of a known format (PNG, JPEG, TIFF, TGA, Radiance HDR, OpenEXR, KTX or DDS)", path.display())]
     UnknownContent {
         /// The file read.
         path: PathBuf,

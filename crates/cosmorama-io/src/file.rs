@@ -4,7 +4,7 @@ use std::path::Path;
 
 use cosmorama::raster::{Channels, Depth, EncodedImage};
 
-use crate::formats::{exr, hdr, jpeg, png, tga, tiff};
+use crate::formats::{dds, exr, hdr, jpeg, ktx, ktx2, png, tga, tiff};
 use crate::pending::Pending;
 use crate::{Format, IoError, Limits, Metadata, Window};
 
@@ -69,6 +69,9 @@ pub fn probe(path: &Path) -> Result<Header, IoError> {
         Format::Tga => tga::probe(path, &mut source),
         Format::Hdr => hdr::probe(path, &mut source),
         Format::Exr => exr::probe(path, &mut source),
+        Format::Ktx2 => ktx2::probe(path, &mut source),
+        Format::Ktx => ktx::probe(path, &mut source),
+        Format::Dds => dds::probe(path, &mut source),
     }
 }
 
@@ -86,6 +89,9 @@ pub fn read(path: &Path, limits: &Limits) -> Result<ImageFile, IoError> {
         Format::Tga => tga::read(path, &mut source, limits),
         Format::Hdr => hdr::read(path, &mut source, limits),
         Format::Exr => exr::read(path, &mut source, limits),
+        Format::Ktx2 => ktx2::read(path, &mut source, limits),
+        Format::Ktx => ktx::read(path, &mut source, limits),
+        Format::Dds => dds::read(path, &mut source, limits),
     }
 }
 
@@ -106,6 +112,9 @@ pub fn write(path: &Path, image: &EncodedImage, metadata: &Metadata, options: &W
         Format::Tga => tga::write(path, writer, image),
         Format::Hdr => hdr::write(path, writer, image),
         Format::Exr => exr::write(path, writer, image, metadata),
+        Format::Ktx2 => ktx2::write(path, writer, image, metadata),
+        Format::Ktx => Err(IoError::write(path, "KTX files of the first version are only read; write .ktx2")),
+        Format::Dds => dds::write(path, writer, image, metadata),
     }?;
     pending.finish()
 }

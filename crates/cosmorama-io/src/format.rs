@@ -19,11 +19,18 @@ pub enum Format {
     Hdr,
     /// OpenEXR.
     Exr,
+    /// The faces of a cube in a KTX 2 texture.
+    Ktx2,
+    /// The same in the first version, which is only read.
+    Ktx,
+    /// The same in a DirectDraw surface.
+    Dds,
 }
 
 impl Format {
-    /// All six.
-    pub const ALL: [Self; 6] = [Self::Png, Self::Jpeg, Self::Tiff, Self::Tga, Self::Hdr, Self::Exr];
+    /// All of them.
+    pub const ALL: [Self; 9] =
+        [Self::Png, Self::Jpeg, Self::Tiff, Self::Tga, Self::Hdr, Self::Exr, Self::Ktx2, Self::Ktx, Self::Dds];
 
     /// The format that a file name asks for.
     ///
@@ -44,6 +51,9 @@ impl Format {
             [b'I', b'I', 42 | 43, 0, ..] | [b'M', b'M', 0, 42 | 43, ..] => Ok(Self::Tiff),
             [0x76, 0x2f, 0x31, 0x01, ..] => Ok(Self::Exr),
             [b'#', b'?', ..] => Ok(Self::Hdr),
+            [0xab, b'K', b'T', b'X', b' ', b'2', b'0', 0xbb, ..] => Ok(Self::Ktx2),
+            [0xab, b'K', b'T', b'X', b' ', b'1', b'1', 0xbb, ..] => Ok(Self::Ktx),
+            [b'D', b'D', b'S', b' ', ..] => Ok(Self::Dds),
             _ if Self::from_extension(path).is_ok_and(|format| format == Self::Tga) => Ok(Self::Tga),
             _ => Err(IoError::UnknownContent { path: path.to_owned() }),
         }
@@ -57,10 +67,14 @@ impl Format {
             Self::Tga => &["tga"],
             Self::Hdr => &["hdr", "pic"],
             Self::Exr => &["exr"],
+            Self::Ktx2 => &["ktx2"],
+            // Files are known by their content; it is never written.
+            Self::Ktx => &[],
+            Self::Dds => &["dds"],
         }
     }
 
-    /// Every extension known, for messages.
+    /// Every extension of what can be written, for messages.
     pub fn extensions() -> String {
         let all: Vec<_> = Self::ALL.iter().flat_map(|format| format.own_extensions()).copied().collect();
         all.join(", ")
@@ -74,6 +88,8 @@ impl Format {
             Self::Tiff => &Depth::ALL,
             Self::Hdr => &[Depth::Float],
             Self::Exr => &[Depth::Half, Depth::Float],
+            Self::Ktx2 | Self::Dds => &[Depth::Eight, Depth::Half],
+            Self::Ktx => &[],
         }
     }
 
@@ -83,6 +99,8 @@ impl Format {
             Self::Png | Self::Tiff | Self::Tga | Self::Exr => &Channels::ALL,
             Self::Jpeg => &[Channels::Grey, Channels::Rgb],
             Self::Hdr => &[Channels::Rgb],
+            // What every graphics card takes.
+            Self::Ktx2 | Self::Ktx | Self::Dds => &[Channels::Rgba],
         }
     }
 
@@ -99,6 +117,7 @@ impl Format {
         match (self, depth) {
             (Self::Exr, Depth::Sixteen) | (Self::Hdr, _) => Depth::Float,
             (Self::Exr, _) => Depth::Half,
+            (Self::Ktx2 | Self::Ktx | Self::Dds, _) => Depth::Half,
             (Self::Png | Self::Tiff, _) => Depth::Sixteen,
             (Self::Jpeg | Self::Tga, _) => Depth::Eight,
         }
@@ -110,6 +129,7 @@ impl Format {
             Self::Png | Self::Tiff | Self::Tga | Self::Exr => channels,
             Self::Jpeg => channels.without_alpha(),
             Self::Hdr => Channels::Rgb,
+            Self::Ktx2 | Self::Ktx | Self::Dds => Channels::Rgba,
         }
     }
 
@@ -120,7 +140,7 @@ impl Format {
 
     /// Whether its files hold the faces of a cube and nothing else, in an order of their own.
     pub const fn is_cube_map(self) -> bool {
-        false
+        matches!(self, Self::Ktx2 | Self::Ktx | Self::Dds)
     }
 
     /// Whether the format can hold an ICC profile.
@@ -138,6 +158,9 @@ impl std::fmt::Display for Format {
             Self::Tga => "TGA",
             Self::Hdr => "Radiance HDR",
             Self::Exr => "OpenEXR",
+            Self::Ktx2 => "KTX 2",
+            Self::Ktx => "KTX",
+            Self::Dds => "DDS",
         })
     }
 }

@@ -9,6 +9,7 @@ mod face_set;
 mod file;
 mod format;
 mod formats;
+mod gpano;
 mod icc;
 mod limits;
 mod metadata;

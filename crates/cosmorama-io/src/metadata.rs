@@ -11,6 +11,8 @@ pub struct Metadata {
     pub icc: Option<Vec<u8>>,
     /// What the file says that it is a picture of.
     pub envmap: Option<EnvMap>,
+    /// The equirectangular panorama of which the image is this window, as GPano metadata of JPEG and PNG have it.
+    pub panorama: Option<Window>,
     /// Channels of the file that are not read.
     pub other_channels: Vec<String>,
     /// Colour primaries by their number in ITU-T H.273 (cICP); they are carried, never converted.
@@ -30,7 +32,7 @@ pub enum EnvMap {
     GlCube,
 }
 
-/// Where an image lies in a larger canvas: OpenEXR's data window in its display window.
+/// Where an image lies in a larger canvas: OpenEXR's data window in its display window, a part of a panorama.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Window {
     /// Columns of the canvas.

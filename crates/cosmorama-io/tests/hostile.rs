@@ -7,17 +7,23 @@ use std::path::Path;
 
 use common::picture;
 use cosmorama::raster::{Channels, Depth};
-use cosmorama_io::{Format, IoError, Limits, Metadata, WriteOptions, probe, read, write};
+use cosmorama_io::{EnvMap, Format, IoError, Limits, Metadata, WriteOptions, probe, read, write};
 use proptest::prelude::*;
 
-const EXTENSIONS: [&str; 6] = ["png", "jpg", "tif", "tga", "hdr", "exr"];
+const EXTENSIONS: [&str; 9] = ["png", "jpg", "tif", "tga", "hdr", "exr", "ktx2", "dds", "ktx"];
 
 fn written(extension: &str) -> Vec<u8> {
+    if extension == "ktx" {
+        return common::ktx(6, 0x1401, 0x1907, &[7; 6 * 6 * (6 * 3 + 2)]);
+    }
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join(format!("a.{extension}"));
     let depth = Format::from_extension(&path).unwrap().nearest_depth(Depth::Half);
-    let image = picture(40, 30, Channels::Rgb, depth);
-    write(&path, &image, &Metadata::default(), &WriteOptions::default()).unwrap();
+    let (image, envmap) = match extension {
+        "ktx2" | "dds" => (picture(6, 36, Channels::Rgba, depth), Some(EnvMap::GlCube)),
+        _ => (picture(40, 30, Channels::Rgb, depth), None),
+    };
+    write(&path, &image, &Metadata { envmap, ..Metadata::default() }, &WriteOptions::default()).unwrap();
     std::fs::read(path).unwrap()
 }
 
@@ -124,6 +130,62 @@ fn giant_sizes_are_refused_before_memory_is_taken() {
     giant("tif", &tiff);
 }
 
+#[test]
+fn textures_that_lie_about_their_size() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("lie");
+    let refused = |bytes: &[u8], limits: &Limits| {
+        std::fs::write(&path, bytes).unwrap();
+        let header = probe(&path);
+        (header, read(&path, limits).unwrap_err())
+    };
+    let with = |bytes: &[u8], at: usize, value: u32| {
+        let mut bytes = bytes.to_vec();
+        bytes[at..at + 4].copy_from_slice(&value.to_le_bytes());
+        bytes
+    };
+    // Faces of 2³¹ pixels: too large whatever the limit.
+    let (ktx2, dds, ktx) = (written("ktx2"), written("dds"), written("ktx"));
+    for edge in [1 << 16, 1 << 31, u32::MAX] {
+        let dds = with(&with(&dds, 12, edge), 16, edge);
+        for limits in [Limits::memory(1 << 30), Limits::NONE] {
+            let (_, error) = refused(&dds, &limits);
+            let too_large = matches!(error, IoError::TooLarge { .. });
+            assert!(too_large || matches!(error, IoError::Damaged { .. }), "{error}");
+            assert!(too_large || edge > 1 << 16 || limits == Limits::NONE, "{error}");
+        }
+        // Here the file also says how many bytes a level has.
+        for (header, error) in [
+            refused(&with(&with(&ktx2, 20, edge), 24, edge), &Limits::NONE),
+            refused(&with(&with(&ktx, 36, edge), 40, edge), &Limits::NONE),
+        ] {
+            assert!(matches!(header, Err(IoError::Damaged { .. })) && matches!(error, IoError::Damaged { .. }));
+        }
+    }
+    // A level, a descriptor or pairs of keys beyond the end.
+    for lie in [with(&ktx2, 84, u32::MAX), with(&ktx2, 48, u32::MAX), with(&ktx, 60, u32::MAX)] {
+        let (_, error) = refused(&lie, &Limits::NONE);
+        assert!(matches!(error, IoError::Damaged { .. }), "{error}");
+    }
+    // So many smaller copies of each face.
+    let copies = with(&with(&dds, 8, 0x0002_1007), 28, u32::MAX);
+    let (_, error) = refused(&copies, &Limits::NONE);
+    assert!(matches!(error, IoError::Damaged { .. }), "{error}");
+    // No cube at all, texels of no format, packed ones.
+    for (lie, says) in [
+        (with(&ktx2, 36, 1), "no cube"),
+        (with(&ktx2, 12, 9999), "Vulkan format"),
+        (with(&ktx2, 44, 2), "packed by"),
+        (with(&ktx, 52, 1), "no cube"),
+        (with(&ktx, 12, 0x0102_0304), "highest byte first"),
+        (with(&dds, 136, 0), "no cube"),
+        (with(&dds, 128, 103), "the format NV12"),
+    ] {
+        let (_, error) = refused(&lie, &Limits::default());
+        assert!(error.to_string().contains(says), "{error}");
+    }
+}
+
 fn crc32(bytes: &[u8]) -> u32 {
     let mut crc = u32::MAX;
     for byte in bytes {
@@ -151,14 +213,17 @@ proptest! {
     #![proptest_config(ProptestConfig { cases: 300, ..ProptestConfig::default() })]
 
     #[test]
-    fn random_bytes_never_panic(kind in 0_usize..6, bytes in proptest::collection::vec(any::<u8>(), 0..600)) {
-        let magic: [&[u8]; 6] = [
+    fn random_bytes_never_panic(kind in 0_usize..9, bytes in proptest::collection::vec(any::<u8>(), 0..600)) {
+        let magic: [&[u8]; 9] = [
             b"\x89PNG\r\n\x1a\n\0\0\0\x0dIHDR",
             b"\xff\xd8\xff\xe0",
             b"II\x2a\0\x08\0\0\0",
             b"\0\0\x02\0\0\0\0\0\0\0\0\0",
             b"#?RADIANCE\n\n-Y 9 +X 20\n",
             b"\x76\x2f\x31\x01\x02\0\0\0",
+            b"\xabKTX 20\xbb\r\n\x1a\n\x25\0\0\0",
+            b"DDS \x7c\0\0\0",
+            b"\xabKTX 11\xbb\r\n\x1a\n\x01\x02\x03\x04",
         ];
         let folder = tempfile::tempdir().unwrap();
         let whole: Vec<u8> = magic[kind].iter().chain(&bytes).copied().collect();

@@ -9,7 +9,7 @@ use std::process::Command;
 
 use common::{picture, program};
 use cosmorama::raster::{Channels, Depth, EncodedImage, Samples, Transfer};
-use cosmorama_io::{Limits, Metadata, Window, WriteOptions, probe, read, write};
+use cosmorama_io::{EnvMap, Limits, Metadata, Window, WriteOptions, probe, read, write};
 
 fn run(program: &str, arguments: &[&str]) {
     let output = Command::new(program).args(arguments).output().unwrap();
@@ -91,6 +91,23 @@ fn oiiotool() {
             ("png", "jpg", Eight, Grey, &[], 0.3),
         ],
     );
+}
+
+#[test]
+fn oiiotool_reads_our_cubes() {
+    let Some(oiiotool) = program("oiiotool") else { return };
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name).display().to_string();
+    // Opaque: it would multiply by alpha.
+    let colours = picture(32, 192, Channels::Rgb, Depth::Eight).to_light(&Transfer::Linear);
+    let image = EncodedImage::encode(&colours, Channels::Rgba, Depth::Eight, &Transfer::Linear);
+    let metadata = Metadata { envmap: Some(EnvMap::GlCube), ..Metadata::default() };
+    write(Path::new(&at("a.dds")), &image, &metadata, &WriteOptions::default()).unwrap();
+    // It takes the first face for the picture and the others for what lies outside.
+    run(oiiotool, &[&at("a.dds"), "--fullpixels", "-o", &at("a.tif")]);
+    let back = read(Path::new(&at("a.tif")), &Limits::default()).unwrap().image;
+    assert_eq!((back.width(), back.height()), (32, 192));
+    assert!(largest_difference(&image, &back) < 1e-6);
 }
 
 #[test]

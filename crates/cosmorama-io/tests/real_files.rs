@@ -9,9 +9,11 @@ use cosmorama_io::{EnvMap, FacePlacement, FaceSet, Limits, probe, read};
 
 #[test]
 fn every_real_file_is_read() {
-    for folder in ["equirect_hdr", "openexr_envmap", "equirect", "fisheye", "cube/vtk_cubemapDebug"] {
+    for folder in
+        ["equirect_hdr", "openexr_envmap", "equirect", "fisheye", "cube", "cube/vtk_cubemapDebug", "filament_ibl"]
+    {
         let Some(folder) = common::shared(&format!("data/{folder}")) else { return };
-        for path in common::files(&folder) {
+        for path in common::files(&folder).into_iter().filter(|path| path.is_file()) {
             let header = probe(&path).unwrap();
             let file = read(&path, &Limits::default()).unwrap();
             assert_eq!((file.image.width(), file.image.height()), (header.width, header.height), "{path:?}");
@@ -37,6 +39,21 @@ fn openexr_environments_say_what_they_are() {
         let header = probe(&folder.join(name)).unwrap();
         assert_eq!(header.metadata.envmap, Some(kind), "{name}");
         assert_eq!(header.depth, Depth::Half, "{name}");
+    }
+}
+
+#[test]
+fn textures_are_cubes() {
+    for (name, width, channels, depth) in [
+        ("cube/bevy_sky_skybox.ktx2", 128, Channels::Rgb, Depth::Half),
+        ("cube/playcanvas_helipad.dds", 128, Channels::Rgba, Depth::Eight),
+        ("filament_ibl/hall_skybox.ktx", 256, Channels::Rgb, Depth::Half),
+    ] {
+        let Some(path) = common::shared(&format!("data/{name}")) else { return };
+        let header = probe(&path).unwrap();
+        assert_eq!((header.width, header.height), (width, 6 * width), "{name}");
+        assert_eq!((header.channels, header.depth), (channels, depth), "{name}");
+        assert_eq!(header.metadata.envmap, Some(EnvMap::GlCube), "{name}");
     }
 }
 

@@ -5,7 +5,7 @@ mod common;
 
 use common::picture;
 use cosmorama::raster::{Channels, Depth, EncodedImage, Samples, Transfer};
-use cosmorama_io::{EnvMap, Format, Limits, Metadata, WriteOptions, probe, read, write};
+use cosmorama_io::{EnvMap, Format, Limits, Metadata, Window, WriteOptions, probe, read, write};
 
 const EXTENSIONS: [(Format, &str); 6] = [
     (Format::Png, "png"),
@@ -52,6 +52,57 @@ fn every_format_depth_and_channels() {
         }
     }
     assert_eq!(common::files(folder.path()).iter().filter(|path| path.to_string_lossy().contains(".part")).count(), 0);
+}
+
+#[test]
+fn panoramas_say_which_part_they_are() {
+    let folder = tempfile::tempdir().unwrap();
+    let image = picture(60, 20, Channels::Rgb, Depth::Eight);
+    let panorama = Some(Window { canvas_width: 128, canvas_height: 64, x: 5, y: 30 });
+    for name in ["a.png", "a.jpg"] {
+        let path = folder.path().join(name);
+        let metadata = Metadata { panorama, ..Metadata::default() };
+        write(&path, &image, &metadata, &WriteOptions::default()).unwrap();
+        assert_eq!(probe(&path).unwrap().metadata.panorama, panorama, "{name}");
+        assert_eq!(read(&path, &Limits::default()).unwrap().metadata.panorama, panorama, "{name}");
+    }
+}
+
+#[test]
+fn cubes_in_texture_files() {
+    let folder = tempfile::tempdir().unwrap();
+    for extension in ["ktx2", "dds"] {
+        let path = folder.path().join(format!("a.{extension}"));
+        for (depth, transfer) in
+            [(Depth::Eight, Transfer::Srgb), (Depth::Eight, Transfer::Linear), (Depth::Half, Transfer::Linear)]
+        {
+            let image = picture(7, 42, Channels::Rgba, depth);
+            let envmap = Some(EnvMap::GlCube);
+            let metadata = Metadata { envmap, transfer: Some(transfer.clone()), ..Metadata::default() };
+            write(&path, &image, &metadata, &WriteOptions::default()).unwrap();
+            let file = read(&path, &Limits::default()).unwrap();
+            assert!(file.image == image, "{extension} {depth}");
+            assert_eq!(file.metadata.envmap, envmap);
+            // In DDS, bytes are of sRGB unless something else is said, but they do not say it.
+            let said = if extension == "dds" && depth == Depth::Eight { None } else { Some(transfer) };
+            assert_eq!(file.metadata.transfer, said, "{extension} {depth}");
+            assert_eq!(probe(&path).unwrap().metadata, file.metadata);
+            // Any other picture is none that the format could hold.
+            for (image, envmap) in [(&image, None), (&picture(7, 35, Channels::Rgba, depth), envmap)] {
+                let metadata = Metadata { envmap, ..Metadata::default() };
+                let error = write(&path, image, &metadata, &WriteOptions::default()).unwrap_err().to_string();
+                assert!(error.contains("the six faces of a cube"), "{error}");
+            }
+        }
+    }
+    let path = folder.path().join("old.ktx");
+    let texels: Vec<u8> = (0..6 * 2 * 8).collect();
+    std::fs::write(&path, common::ktx(2, 0x1401, 0x1907, &texels)).unwrap();
+    let image = read(&path, &Limits::default()).unwrap().image;
+    let Samples::U8(samples) = image.samples() else { panic!("8 bits") };
+    assert_eq!((image.width(), image.height(), &samples[..7]), (2, 12, &[0, 1, 2, 3, 4, 5, 8][..]));
+    let error = write(&path, &image, &Metadata::default(), &WriteOptions::default()).unwrap_err().to_string();
+    assert!(error.contains("ktx2, dds"), "{error}");
 }
 
 #[test]

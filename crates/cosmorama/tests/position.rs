@@ -41,6 +41,26 @@ fn directions_come_back_from_cube_faces() {
     }
 }
 
+/// A large texel's negative lobe must not outweigh the small ones beside it.
+#[test]
+fn directions_come_back_where_faces_of_different_sizes_meet() {
+    let faces = CubeFace::ALL.map(|face| {
+        let size = if face == CubeFace::Front { 512 } else { 256 };
+        (face.name().to_owned(), testkit::cube_face(face, size, size))
+    });
+    let world = World::new(faces).expect("six faces");
+    for (name, target) in [
+        ("omnimax", omnimax(983, 718)),
+        ("omnimax, enlarged", omnimax(1966, 1436)),
+        ("an edge", perspective(320, 240, 60.0, 45.0, 10.0, 0.0)),
+        ("a corner", perspective(320, 240, 60.0, 45.0, 35.0, 7.0)),
+    ] {
+        let error = worst_position_error(&world, &target, Filter::DEFAULT);
+        println!("{name}: {error}");
+        assert!(error < 0.01, "{name}: {error} px");
+    }
+}
+
 #[test]
 fn directions_come_back_from_a_panorama() {
     let world = World::new([("panorama".to_owned(), equirect(1024))]).expect("one view");

@@ -18,7 +18,7 @@ pub(crate) enum Coverage {
 /// The world of whole pictures, whether their files are there or not.
 pub(crate) fn nominal_world(input: &Input, memory: MemoryBudget) -> Result<World> {
     memory.check_pictures(input)?;
-    Ok(World::new(input.views.iter().map(|view| (view.name.clone(), view.nominal)))?)
+    Ok(World::blended(input.views.iter().map(|view| (view.name.clone(), view.nominal, view.blend)))?)
 }
 
 impl Coverage {
@@ -69,14 +69,14 @@ impl Coverage {
 
 /// The world of what files hold: often that of the whole pictures.
 fn held_world(input: &Input, nominal: World) -> Result<World> {
-    let held = || input.present().map(|(view, _, held)| (view.name.clone(), *held));
-    let whole = nominal.sources().iter().map(|source| (source.name.clone(), source.view));
+    let held = || input.present().map(|(view, _, held)| (view.name.clone(), *held, view.blend));
+    let whole = nominal.sources().iter().map(|source| (source.name.clone(), source.view, source.blend));
     if held().eq(whole) {
         return Ok(nominal);
     }
     // Whole pictures may be far larger than what is left of them.
     drop(nominal);
-    Ok(World::new(held())?)
+    Ok(World::blended(held())?)
 }
 
 /// Without any view there is nothing to fill up.

@@ -1,83 +1,111 @@
 use std::path::Path;
 
 use anyhow::{Result, bail};
-use cosmorama::world::{EquirectFrame, FaceOrder, Frame, LayoutKind, Placement, SamplePositions};
-use cosmorama_io::{EnvMap, Header};
+use cosmorama::world::{EquirectFrame, FaceOrder, Frame, FulldomeFrame, LayoutKind, Placement, SamplePositions};
+use cosmorama_io::{EnvMap, Header, Window};
+
+use super::evidence::Evidence;
+use super::input::canvas_of;
 
 use crate::failure::usage;
 use crate::spec::{Cube, Packing, Shape, Single, SphereSamples};
 
-/// What one image is a picture of, as far as its metadata and shape tell.
+/// What one image is a picture of, as far as its metadata, its shape and its blank parts tell.
 enum Guess {
     /// What its metadata say.
     Said(EnvMap),
+    /// A part of a panorama, say its metadata.
+    Panorama(Window),
     /// A panorama, by its shape: twice as wide as high.
     TwoToOne,
-    /// Faces in one image, by its shape: of these layouts.
+    /// A strip of faces, by its shape: no camera makes pictures so long.
+    Strip(LayoutKind),
+    /// A cross of faces or a circle, by what is blank around it.
+    Blank(Evidence),
+    /// One of these layouts of faces, by its shape, or anything else.
     Layouts(Vec<LayoutKind>),
-    /// Nothing tells.
-    Unknown,
 }
 
 impl Guess {
-    /// Looks at a header.
-    fn of(header: &Header) -> Self {
-        let (width, height) = canvas(header);
+    /// Looks at a header, and at the pixels where nothing else tells.
+    fn of(path: &Path, header: &Header) -> Self {
+        let (width, height) =
+            header.window.map_or((header.width, header.height), |window| (window.canvas_width, window.canvas_height));
+        if let Some(envmap) = header.metadata.envmap {
+            return Self::Said(envmap);
+        }
+        if let Some(window) = header.metadata.panorama {
+            return Self::Panorama(window);
+        }
+        if width == 2 * height {
+            return Self::TwoToOne;
+        }
         let layouts: Vec<LayoutKind> = layouts_of_shape(width, height).collect();
-        match header.metadata.envmap {
-            Some(envmap) => Self::Said(envmap),
-            None if width == 2 * height => Self::TwoToOne,
-            None if !layouts.is_empty() => Self::Layouts(layouts),
-            None => Self::Unknown,
+        match layouts[..] {
+            [kind @ (LayoutKind::StripH | LayoutKind::StripV)] => Self::Strip(kind),
+            _ => Evidence::of(path, header).map_or(Self::Layouts(layouts), Self::Blank),
         }
     }
-}
-
-fn canvas(header: &Header) -> (usize, usize) {
-    header.window.map_or((header.width, header.height), |window| (window.canvas_width, window.canvas_height))
 }
 
 fn layouts_of_shape(width: usize, height: usize) -> impl Iterator<Item = LayoutKind> {
     LayoutKind::ALL.into_iter().filter(move |kind| kind.has_shape(width, height))
 }
 
-/// The projection of an image for which no `--from` was given.
+/// The projection of an image for which no `--from` was given. What is only guessed is announced.
 pub(super) fn detect(path: &Path, header: &Header, warnings: &mut Vec<String>) -> Result<Shape> {
-    let panorama = |samples| {
-        let frame = Frame::Equirect(EquirectFrame { samples, ..EquirectFrame::default() });
-        Shape::Single(Single { placement: Placement::new(frame), samples: SphereSamples::ByFormat })
-    };
     let mut announce = |what: &str, why: &str| {
         warnings.push(format!("{} is taken for {what}, because {why}", path.display()));
     };
-    match Guess::of(header) {
-        Guess::Said(EnvMap::LatLong) => Ok(panorama(SamplePositions::Edges)),
+    match Guess::of(path, header) {
+        Guess::Said(EnvMap::LatLong) => Ok(panorama(SamplePositions::Edges, None)),
         Guess::Said(EnvMap::Cube | EnvMap::GlCube) => {
-            let cube = declared_cube(&Cube::default(), &path.to_string_lossy(), header, warnings)?;
-            Ok(Shape::Cube(cube))
+            declared_cube(&Cube::default(), &path.to_string_lossy(), header, warnings).map(Shape::Cube)
         }
+        Guess::Panorama(window) => Ok(panorama(SamplePositions::Centres, Some(window))),
         Guess::TwoToOne => {
             announce("a panorama (--from equirect)", "it is twice as wide as high");
-            Ok(panorama(SamplePositions::Centres))
+            Ok(panorama(SamplePositions::Centres, None))
         }
-        Guess::Layouts(kinds) => match kinds[..] {
-            // No camera makes pictures so long.
-            [kind @ (LayoutKind::StripH | LayoutKind::StripV)] => {
-                announce(&format!("the faces of a cube (--from cube:layout={kind})"), "of its shape");
-                Ok(Shape::Cube(Cube { layout: Some(Packing::OneImage(kind)), ..Cube::default() }))
-            }
-            _ => bail!("{}", ambiguous(path, header, &kinds)),
-        },
-        Guess::Unknown => bail!("{}", ambiguous(path, header, &[])),
+        Guess::Strip(kind) => {
+            announce(&format!("the faces of a cube (--from cube:layout={kind})"), "of its shape");
+            Ok(one_image(kind))
+        }
+        Guess::Blank(Evidence::Cross(kind)) => {
+            let why = "of its shape and because one colour surrounds a cross";
+            announce(&format!("the faces of a cube (--from cube:layout={kind})"), why);
+            Ok(one_image(kind))
+        }
+        Guess::Blank(Evidence::Circle) => {
+            announce("a domemaster (--from fulldome)", "it is square and black around a circle");
+            let placement = Placement::new(Frame::Fulldome(FulldomeFrame::default()));
+            Ok(Shape::Single(Single { placement, samples: SphereSamples::NotAPanorama }))
+        }
+        Guess::Layouts(kinds) => bail!("{}", ambiguous(path, header, &kinds)),
     }
+}
+
+fn panorama(samples: SamplePositions, window: Option<Window>) -> Shape {
+    let frame = Frame::Equirect(EquirectFrame { samples, ..EquirectFrame::default() });
+    let placement = Placement { canvas: window.map(canvas_of), ..Placement::new(frame) };
+    Shape::Single(Single { placement, samples: SphereSamples::ByFormat })
+}
+
+fn one_image(kind: LayoutKind) -> Shape {
+    Shape::Cube(Cube { layout: Some(Packing::OneImage(kind)), ..Cube::default() })
 }
 
 /// What an image of unknown projection could be.
 fn ambiguous(path: &Path, header: &Header, layouts: &[LayoutKind]) -> String {
     let layouts = layouts.iter().map(|kind| format!("cube:layout={kind}, ")).collect::<String>();
+    let others = if header.width == header.height {
+        "fulldome, fisheye:fov=DEGREES, perspective:fov=DEGREES, omnimax or equirect"
+    } else {
+        "perspective:fov=DEGREES, equirect, fisheye, fulldome or omnimax"
+    };
     format!(
-        "{}: {}x{} pixels do not tell the projection; give --from {layouts}perspective:fov=DEGREES, equirect, fisheye, \
-         fulldome or omnimax, or a pattern with {{face}} for the faces of a cube",
+        "{}: {}x{} pixels do not tell the projection; give --from {layouts}{others}, or a pattern with {{face}} for the \
+         faces of a cube",
         path.display(),
         header.width,
         header.height
@@ -90,13 +118,24 @@ pub(super) fn declared(shape: &Shape, pattern: &str, header: &Header, warnings: 
         Shape::Single(single) if header.metadata.envmap == Some(EnvMap::LatLong) => {
             Ok(Shape::Single(single.with_samples(SamplePositions::Edges)))
         }
-        Shape::Single(single) => Ok(Shape::Single(*single)),
+        Shape::Single(single) => Ok(Shape::Single(windowed(*single, header))),
         Shape::Cube(Cube { layout: Some(Packing::Files), .. }) => Err(usage(format!(
             "--from cube:layout=faces wants a file for each face, but {pattern} has no {{face}} or %c where a face's name \
              stands"
         ))),
         Shape::Cube(cube) => Ok(Shape::Cube(declared_cube(cube, pattern, header, warnings)?)),
     }
+}
+
+/// A whole panorama of which the file says that it is only a part of it.
+fn windowed(mut single: Single, header: &Header) -> Single {
+    let whole = Frame::Equirect(EquirectFrame::default());
+    if let (Some(window), None) = (header.metadata.panorama, single.placement.canvas)
+        && single.placement.frame == whole
+    {
+        single.placement.canvas = Some(canvas_of(window));
+    }
+    single
 }
 
 /// The layout and the order that the file's format has, where none is given.
@@ -133,19 +172,28 @@ fn declared_cube(cube: &Cube, pattern: &str, header: &Header, warnings: &mut Vec
 }
 
 /// What `info` says.
-pub(crate) fn likely(header: &Header) -> String {
-    match Guess::of(header) {
+pub(crate) fn likely(path: &Path, header: &Header) -> String {
+    match Guess::of(path, header) {
         Guess::Said(EnvMap::LatLong) => "equirect, samples on the edges (envmap attribute)".to_owned(),
         Guess::Said(EnvMap::Cube) => {
             "cube:layout=strip-v,order=openexr, samples on the edges (envmap attribute)".to_owned()
         }
         Guess::Said(EnvMap::GlCube) => "cube (the file's own six faces, one below the other)".to_owned(),
-        Guess::TwoToOne => "equirect (2:1)".to_owned(),
-        Guess::Layouts(kinds) => {
-            let names: Vec<String> = kinds.iter().map(|kind| format!("cube:layout={kind}")).collect();
-            format!("{} (by its shape)?", names.join(" or "))
+        Guess::Panorama(Window { canvas_width, canvas_height, x, y }) => {
+            let whole = (canvas_width, canvas_height) == (header.width, header.height);
+            let canvas = if whole { String::new() } else { format!(":canvas={canvas_width}x{canvas_height}+{x}+{y}") };
+            format!("equirect{canvas} (GPano metadata)")
         }
-        Guess::Unknown if header.width == header.height => "unknown: a face of a cube, fisheye or fulldome?".to_owned(),
-        Guess::Unknown => "unknown: perspective, fisheye or omnimax?".to_owned(),
+        Guess::TwoToOne => "equirect (2:1)".to_owned(),
+        Guess::Strip(kind) => format!("cube:layout={kind} (by its shape)"),
+        Guess::Blank(Evidence::Cross(kind)) => format!("cube:layout={kind} (one colour surrounds a cross)"),
+        Guess::Blank(Evidence::Circle) => "fulldome (square, black around a circle)".to_owned(),
+        Guess::Layouts(kinds) if kinds.is_empty() && header.width == header.height => {
+            "unknown: a face of a cube, fisheye or fulldome?".to_owned()
+        }
+        Guess::Layouts(kinds) => {
+            let names: String = kinds.iter().map(|kind| format!("cube:layout={kind}, ")).collect();
+            format!("unknown: {names}perspective, fisheye or omnimax?")
+        }
     }
 }

@@ -2,14 +2,14 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Result, bail};
 use cosmorama::sphere::{CubeFace, Orientation};
-use cosmorama::world::{Canvas, FacePart, FacePlacement, Frame, FrameError, Placement, View};
+use cosmorama::world::{Blend, Canvas, FacePart, FacePlacement, Frame, FrameError, Placement, View};
 use cosmorama_io::{FaceFile, FacePattern, FaceSet, FrameList, Header, Window, probe};
 
 use super::detect::{declared, detect};
 use super::face_shape::{FacePicture, usual_size};
 use super::face_view::face_placement;
 use super::packed::{self, FilePart};
-use super::{Files, frames};
+use super::{Files, frames, world_file};
 use crate::args::SizeArg;
 use crate::failure::usage;
 use crate::spec::{Cube, Packing, Shape, Single, Spec};
@@ -28,6 +28,8 @@ pub(crate) struct InputView {
     pub(crate) nominal: View,
     /// The part of that which the file holds; `None` where there is no file.
     pub(crate) window: Option<(View, Canvas)>,
+    /// How it takes part where other views show the same.
+    pub(crate) blend: Blend,
     /// Whether anything of it is needed: what is not is not even read.
     pub(crate) wanted: bool,
 }
@@ -49,6 +51,12 @@ impl Input {
         warnings: &mut Vec<String>,
     ) -> Result<Self> {
         let shape = from.map(|spec| (spec.name, &spec.shape));
+        if world_file::is_world_file(pattern) {
+            if let Some((name, _)) = shape {
+                return Err(usage(format!("{pattern} says itself what its views are; leave out --from {name}")));
+            }
+            return world_file::find(pattern, wanted, warnings);
+        }
         match (FacePattern::parse(pattern), shape) {
             (Some(_), Some((_, Shape::Cube(cube)))) => Self::cube(pattern, cube, wanted, warnings),
             (Some(_), None) => Self::cube(pattern, &Cube::default(), wanted, warnings),
@@ -76,6 +84,7 @@ impl Input {
                 header: None,
                 nominal,
                 window: None,
+                blend: Blend::default(),
                 wanted: true,
             })
         };
@@ -127,7 +136,16 @@ impl Input {
         let nominal = placement.view(canvas.width, canvas.height).map_err(|error| usage(format!("--from: {error}")))?;
         placement.canvas = Some(canvas);
         let window = Some((placement.view(header.width, header.height)?, canvas));
-        Ok(InputView { name, files, part: None, header: Some(header), nominal, window, wanted: true })
+        Ok(InputView {
+            name,
+            files,
+            part: None,
+            header: Some(header),
+            nominal,
+            window,
+            blend: Blend::default(),
+            wanted: true,
+        })
     }
 
     fn cube(pattern: &str, cube: &Cube, wanted: Option<&FrameList>, warnings: &mut Vec<String>) -> Result<Self> {
@@ -231,6 +249,7 @@ impl Face {
             header: self.header,
             nominal,
             window,
+            blend: Blend::default(),
             wanted: true,
         })
     }
@@ -294,6 +313,7 @@ fn whole(header: &Header) -> Canvas {
     Canvas { width: header.width, height: header.height, left: 0, top: 0 }
 }
 
-fn canvas_of(window: Window) -> Canvas {
+/// A window as a placement has it.
+pub(super) fn canvas_of(window: Window) -> Canvas {
     Canvas { width: window.canvas_width, height: window.canvas_height, left: window.x as i64, top: window.y as i64 }
 }

@@ -177,6 +177,7 @@ fn metadata(
         transfer: Some(transfer.clone()),
         icc: icc.filter(|_| keep),
         envmap: target.envmap,
+        panorama: target.panorama,
         other_channels: Vec::new(),
         primaries: first.and_then(|metadata| metadata.primaries),
         software: Some(concat!("cosmorama ", env!("CARGO_PKG_VERSION")).to_owned()),

@@ -2,6 +2,7 @@
 
 mod coverage;
 mod detect;
+mod evidence;
 mod face_shape;
 mod face_view;
 mod files;
@@ -13,6 +14,7 @@ mod outputs;
 mod packed;
 mod picture;
 mod target;
+mod world_file;
 
 pub(crate) use coverage::{Coverage, nominal_world};
 pub(crate) use detect::likely;

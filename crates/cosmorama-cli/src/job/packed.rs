@@ -2,6 +2,7 @@ use std::path::Path;
 
 use anyhow::{Result, anyhow, bail};
 use cosmorama::sphere::Orientation;
+use cosmorama::world::Blend;
 use cosmorama_io::Header;
 
 use super::face_view::face_placement;
@@ -44,6 +45,7 @@ pub(super) fn views(files: &Files, path: &Path, header: &Header, cube: &Cube) ->
             header: Some(Header { width, height, ..header.clone() }),
             nominal: place(None).view(edge, edge).map_err(wrong)?,
             window: Some((place(Some(placed.canvas)).view(width, height).map_err(wrong)?, placed.canvas)),
+            blend: Blend::default(),
             wanted: true,
         });
     }

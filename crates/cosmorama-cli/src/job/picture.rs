@@ -1,10 +1,10 @@
 use anyhow::Result;
 use cosmorama::sphere::CubeFace;
 use cosmorama::world::{
-    CubeLayout, FaceOrder, FacePart, Frame, FrameError, LayoutKind, Mirror, PlacedFace, Placement, SamplePositions,
-    View,
+    Canvas, CubeLayout, EquirectFrame, FaceOrder, FacePart, Frame, FrameError, LayoutKind, Mirror, PlacedFace,
+    Placement, SamplePositions, View,
 };
-use cosmorama_io::{EnvMap, Format, Naming};
+use cosmorama_io::{EnvMap, Format, Naming, Window};
 
 use super::face_view::face_placement;
 use crate::args::SizeArg;
@@ -22,6 +22,8 @@ pub(crate) struct Picture {
     pub(crate) place: Option<Place>,
     /// What the file says that it is a picture of.
     pub(crate) envmap: Option<EnvMap>,
+    /// The panorama of which it is a part or all.
+    pub(crate) panorama: Option<Window>,
 }
 
 /// A place in an image.
@@ -73,16 +75,17 @@ impl Picture {
         format: Option<Format>,
         pixels_per_radian: Option<f64>,
     ) -> Result<Vec<Self>> {
-        let picture = |view, envmap| vec![Self { face: None, view, place: None, envmap }];
+        let picture = |view, envmap, panorama| vec![Self { face: None, view, place: None, envmap, panorama }];
         if format == Some(Format::Exr) {
             // OpenEXR's attribute, and its samples on the edges, are for the whole sphere alone.
             let edges = single.with_samples(SamplePositions::Edges);
             let view = single_view(edges, geometry, pixels_per_radian)?;
             if let Some(envmap) = panorama_envmap(&edges).filter(|_| view.covers_sphere()) {
-                return Ok(picture(view, Some(envmap)));
+                return Ok(picture(view, Some(envmap), None));
             }
         }
-        Ok(picture(single_view(*single, geometry, pixels_per_radian)?, None))
+        let view = single_view(*single, geometry, pixels_per_radian)?;
+        Ok(picture(view, None, gpano(single, &view)))
     }
 
     fn faces(cube: &Cube, geometry: &GeometryArgs, pixels_per_radian: Option<f64>) -> Result<Vec<Self>> {
@@ -95,7 +98,7 @@ impl Picture {
             let canvas = cube.canvas_of(face).or_else(|| cube.half.map(|_| part.canvas(width, height)));
             let placement = face_placement(cube, face, lies, canvas, geometry.orientation());
             let view = placement.view(width, height).map_err(wrong)?;
-            pictures.push(Self { face: Some(face), view, place: None, envmap: None });
+            pictures.push(Self { face: Some(face), view, place: None, envmap: None, panorama: None });
         }
         check_any(pictures)
     }
@@ -121,7 +124,7 @@ impl Picture {
             let placement = face_placement(cube, placed.face, placed.lies, canvas, geometry.orientation());
             let view = placement.view(placed.rect.width(), placed.rect.height()).map_err(wrong)?;
             let place = Some(Place { corner: (placed.rect.left, placed.rect.top), of });
-            Ok(Self { face: Some(placed.face), view, place, envmap })
+            Ok(Self { face: Some(placed.face), view, place, envmap, panorama: None })
         };
         let wanted = layout.faces(edge).into_iter().filter(|placed| cube.faces.contains(&placed.face));
         check_any(wanted.map(picture).collect::<Result<_>>()?)
@@ -205,4 +208,23 @@ fn cube_envmap(cube: &Cube, format: Option<Format>) -> Option<EnvMap> {
         && CubeFace::ALL.iter().all(|face| cube.faces.contains(face));
     let envmap = if format == Some(Format::Exr) { EnvMap::Cube } else { EnvMap::GlCube };
     same.then_some(envmap)
+}
+
+/// What GPano metadata say of a panorama of 360°×180°, or of a window of one.
+fn gpano(single: &Single, view: &View) -> Option<Window> {
+    let Placement { frame, mirror, canvas, .. } = single.placement;
+    if frame != Frame::Equirect(EquirectFrame::default()) || mirror != Mirror::default() {
+        return None;
+    }
+    let (width, height) = (view.width(), view.height());
+    let canvas = canvas.unwrap_or(Canvas { width, height, left: 0, top: 0 });
+    let (x, y) = (usize::try_from(canvas.left).ok()?, usize::try_from(canvas.top).ok()?);
+    let inside = x.checked_add(width)? <= canvas.width && y.checked_add(height)? <= canvas.height;
+    // Viewers take pixels for square.
+    (inside && canvas.width == 2 * canvas.height).then_some(Window {
+        canvas_width: canvas.width,
+        canvas_height: canvas.height,
+        x,
+        y,
+    })
 }

@@ -2,7 +2,7 @@ use std::path::Path;
 
 use anyhow::Result;
 use cosmorama::world::View;
-use cosmorama_io::{EnvMap, FacePattern, FaceSet, Format, Naming};
+use cosmorama_io::{EnvMap, FacePattern, FaceSet, Format, Naming, Window};
 
 use super::{Files, Picture, Place};
 use crate::args::convert::GeometryArgs;
@@ -37,6 +37,8 @@ pub(crate) struct Target {
     pub(crate) format: Format,
     /// What the files say that they are pictures of.
     pub(crate) envmap: Option<EnvMap>,
+    /// The panorama of which the file is a part or all.
+    pub(crate) panorama: Option<Window>,
 }
 
 impl Target {
@@ -86,7 +88,8 @@ impl Target {
             }
         }
         let envmap = pictures.first().and_then(|picture| picture.envmap);
-        Ok(Self { views, files, format, envmap })
+        let panorama = pictures.first().and_then(|picture| picture.panorama);
+        Ok(Self { views, files, format, envmap, panorama })
     }
 
     /// Their geometry.

@@ -29,7 +29,7 @@ fn single(pattern: &str) -> Result<Value> {
     let mut report = json!({ "input": pattern });
     add_frames(&mut report, &frames);
     merge(&mut report, header_report(&header));
-    report["projection"] = json!(likely(&header));
+    report["projection"] = json!(likely(&path, &header));
     Ok(report)
 }
 
@@ -82,6 +82,10 @@ fn header_report(header: &Header) -> Value {
             EnvMap::LatLong => "latlong",
             EnvMap::Cube | EnvMap::GlCube => "cube",
         });
+    }
+    if let Some(window) = metadata.panorama {
+        let (width, height) = (window.canvas_width, window.canvas_height);
+        report["gpano"] = json!(format!("equirectangular, {width}x{height}+{}+{}", window.x, window.y));
     }
     if !metadata.other_channels.is_empty() {
         report["other_channels"] = json!(metadata.other_channels);

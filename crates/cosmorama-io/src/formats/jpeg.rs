@@ -11,7 +11,7 @@ use zune_jpeg::zune_core::options::DecoderOptions;
 
 use super::whole_image;
 use crate::file::Source;
-use crate::{Format, Header, ImageFile, IoError, Limits, Metadata, icc};
+use crate::{Format, Header, ImageFile, IoError, Limits, Metadata, gpano, icc};
 
 const FORMAT: Format = Format::Jpeg;
 
@@ -37,7 +37,7 @@ pub(crate) fn read(path: &Path, source: &mut Source, limits: &Limits) -> Result<
 
 pub(crate) fn write(
     path: &Path,
-    output: impl Write,
+    mut output: impl Write,
     image: &EncodedImage,
     metadata: &Metadata,
     quality: u8,
@@ -52,11 +52,32 @@ pub(crate) fn write(
     let (Ok(width), Ok(height)) = (u16::try_from(image.width()), u16::try_from(image.height())) else {
         return Err(fail(&"more than 65535 pixels on a side, the most that JPEG can count"));
     };
-    let mut encoder = JpegEncoder::new_with_quality(output, quality.clamp(1, 100));
+    let mut bytes = Vec::new();
+    let mut encoder = JpegEncoder::new_with_quality(&mut bytes, quality.clamp(1, 100));
     if let Some(profile) = &metadata.icc {
         encoder.set_icc_profile(profile.clone()).map_err(|error| fail(&error))?;
     }
-    encoder.write_image(samples, width.into(), height.into(), colour).map_err(|error| fail(&error))
+    encoder.write_image(samples, width.into(), height.into(), colour).map_err(|error| fail(&error))?;
+    let size = (image.width(), image.height());
+    let packet = metadata.panorama.map_or_else(Vec::new, |window| xmp_segment(&gpano::packet(window, size)));
+    let (start, rest) = bytes.split_at(end_of_jfif(&bytes));
+    [start, &packet, rest].iter().try_for_each(|part| output.write_all(part)).map_err(|error| fail(&error))
+}
+
+/// A segment with an XMP packet, for which the encoder has no words.
+fn xmp_segment(packet: &str) -> Vec<u8> {
+    const NAME: &[u8] = b"http://ns.adobe.com/xap/1.0/\0";
+    // A packet has a few hundred bytes; a segment can have 65533.
+    let length = (2 + NAME.len() + packet.len()) as u16;
+    [&[0xff, 0xe1], &length.to_be_bytes()[..], NAME, packet.as_bytes()].concat()
+}
+
+/// Where the mark of the beginning ends, and the JFIF segment, which must be the first.
+fn end_of_jfif(bytes: &[u8]) -> usize {
+    match bytes {
+        [_, _, 0xff, 0xe0, high, low, ..] => bytes.len().min(4 + usize::from(u16::from_be_bytes([*high, *low]))),
+        _ => bytes.len().min(2),
+    }
 }
 
 fn whole(path: &Path, source: &mut Source) -> Result<Vec<u8>, IoError> {
@@ -101,7 +122,11 @@ fn header<T: ZByteReaderTrait>(path: &Path, decoder: &mut JpegDecoder<T>) -> Res
         other => return Err(IoError::unsupported(path, FORMAT, format_args!("{other:?} colours"), "grey or RGB")),
     };
     let profile = decoder.icc_profile();
-    let metadata =
-        Metadata { transfer: profile.as_deref().and_then(icc::transfer), icc: profile, ..Metadata::default() };
+    let metadata = Metadata {
+        transfer: profile.as_deref().and_then(icc::transfer),
+        icc: profile,
+        panorama: decoder.xmp().and_then(|packet| gpano::parse(packet, (width, height))),
+        ..Metadata::default()
+    };
     Ok(Header { format: FORMAT, width, height, channels, depth: Depth::Eight, metadata, window: None })
 }

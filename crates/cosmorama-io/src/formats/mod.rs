@@ -6,6 +6,7 @@ use cosmorama::raster::{EncodedImage, Samples};
 
 use crate::{Header, ImageFile, IoError};
 
+pub(crate) mod dds;
 pub(crate) mod exr;
 mod exr_dwa;
 mod exr_selection;
@@ -13,10 +14,14 @@ mod exr_window;
 mod exr_writer;
 pub(crate) mod hdr;
 pub(crate) mod jpeg;
+pub(crate) mod ktx;
+pub(crate) mod ktx2;
 pub(crate) mod png;
 mod png_colour;
 mod png_writer;
 mod rgbe;
+mod texel;
+mod texture;
 pub(crate) mod tga;
 pub(crate) mod tiff;
 mod tiff_writer;

@@ -4,7 +4,7 @@ use cosmorama::raster::Transfer;
 use png::chunk::ChunkType;
 use png::{CodingIndependentCodePoints, Info, ScaledFloat, SrgbRenderingIntent};
 
-use crate::{Metadata, icc};
+use crate::{Metadata, Window, gpano, icc};
 
 pub(super) const CICP: ChunkType = ChunkType(*b"cICP");
 
@@ -22,9 +22,21 @@ pub(super) fn metadata(info: &Info<'_>) -> Metadata {
         transfer,
         icc: profile,
         primaries: cicp.map(|cicp| cicp.color_primaries),
+        panorama: panorama(info),
         software: software.map(|text| text.text.clone()),
         ..Metadata::default()
     }
+}
+
+/// The keyword of an XMP packet.
+pub(super) const XMP: &str = "XML:com.adobe.xmp";
+/// A packet of more bytes than this is none.
+const LONGEST_PACKET: usize = 1 << 20;
+
+fn panorama(info: &Info<'_>) -> Option<Window> {
+    let mut packet = info.utf8_text.iter().find(|text| text.keyword == XMP)?.clone();
+    packet.decompress_text_with_limit(LONGEST_PACKET).ok()?;
+    gpano::parse(packet.get_text().ok()?.as_bytes(), (info.width as usize, info.height as usize))
 }
 
 /// ITU-T H.273, transfer characteristics.

@@ -6,8 +6,8 @@ use cosmorama::raster::{Channels, Depth, EncodedImage, Samples};
 use png::chunk::sBIT;
 use png::{BitDepth, ColorType, Compression, Encoder, EncodingError, Info};
 
-use super::png_colour::{CICP, Tag, tag};
-use crate::{IoError, Metadata};
+use super::png_colour::{CICP, Tag, XMP, tag};
+use crate::{IoError, Metadata, gpano};
 
 pub(crate) fn write(path: &Path, output: impl Write, image: &EncodedImage, metadata: &Metadata) -> Result<(), IoError> {
     encode(output, image, metadata).map_err(|error| IoError::write(path, error))
@@ -34,6 +34,9 @@ fn encode(output: impl Write, image: &EncodedImage, metadata: &Metadata) -> Resu
         _ => {}
     }
     let mut encoder = Encoder::with_info(output, info)?;
+    if let Some(window) = metadata.panorama {
+        encoder.add_itxt_chunk(XMP.to_owned(), gpano::packet(window, (image.width(), image.height())))?;
+    }
     // A tenth of the time of the default for a third more bytes: frames come by the thousand.
     encoder.set_compression(Compression::Fast);
     let mut writer = encoder.write_header()?;

@@ -31,6 +31,15 @@ pub fn picture(width: usize, height: usize, channels: Channels, depth: Depth) ->
     EncodedImage::new(width, height, channels, depth, samples).unwrap().with_alpha_mode(mode)
 }
 
+/// A KTX file of the first version: the faces of a cube with these texels, each row at a multiple of four bytes.
+pub fn ktx(edge: u32, kind: u32, order: u32, faces: &[u8]) -> Vec<u8> {
+    let numbers = [0x0403_0201, kind, 1, order, order, order, edge, edge, 0, 0, 6, 1, 0, faces.len() as u32 / 6];
+    let mut bytes = b"\xabKTX 11\xbb\r\n\x1a\n".to_vec();
+    numbers.iter().for_each(|number: &u32| bytes.extend(number.to_le_bytes()));
+    bytes.extend(faces);
+    bytes
+}
+
 /// A file of the shared folder; `None`, loudly, where that is not at hand. In CI it must be.
 pub fn shared(path: &str) -> Option<PathBuf> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared");

@@ -10,6 +10,7 @@ mod quantizer;
 mod rgba;
 mod tone_curve;
 mod transfer;
+mod uniform;
 
 pub use channels::Channels;
 pub use decode::Decoder;
@@ -19,3 +20,4 @@ pub use image::{Image, ImageError};
 pub use rgba::Rgba;
 pub use tone_curve::ToneCurve;
 pub use transfer::Transfer;
+pub use uniform::Uniform;

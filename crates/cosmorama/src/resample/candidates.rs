@@ -1,5 +1,6 @@
 use glam::DVec2;
 
+use super::kernel::UNDER;
 use super::{Tap, Taps};
 
 /// A texel that a kernel reaches, before the weights are settled.
@@ -7,8 +8,8 @@ use super::{Tap, Taps};
 pub(super) struct Candidate {
     /// Index in the world's buffer.
     pub(super) texel: u32,
-    /// Whether it lies under the pixel.
-    pub(super) under: bool,
+    /// Square of its distance from the pixel's centre, in the unit of the coarsest kernel here.
+    pub(super) q: f32,
     /// The kernel's weight times the texel's solid angle.
     pub(super) weight: f32,
     /// How much of a correction it may take: positive, falling to nothing at the kernel's edge.
@@ -17,24 +18,53 @@ pub(super) struct Candidate {
     pub(super) offset: [f32; 2],
 }
 
+impl Candidate {
+    /// Whether it lies under the pixel.
+    pub(super) fn is_under(&self) -> bool {
+        self.q < UNDER as f32
+    }
+}
+
 /// Makes taps whose weights add to one, none if their sum would be noise; with `centred`, their centroid is the pixel's
 /// centre.
 pub(super) fn settle(candidates: &mut [Candidate], centred: bool, taps: &mut Taps) {
+    soften(candidates);
     let correction = if centred { Correction::centring(candidates) } else { Correction::default() };
     let (mut sum, mut size, mut under) = (0f64, 0f64, 0);
     for candidate in candidates.iter_mut() {
         candidate.weight += correction.of(candidate);
         sum += f64::from(candidate.weight);
         size += f64::from(candidate.weight.abs());
-        under += usize::from(candidate.under);
+        under += usize::from(candidate.is_under());
     }
     // Where only negative lobes reach a texel, beside a missing face, there is no average.
     if sum <= 0.05 * size {
         return;
     }
     let scale = sum.recip() as f32;
-    let settled = candidates.iter().map(|c| (c.under, Tap { texel: c.texel, weight: c.weight * scale }));
+    let settled = candidates.iter().map(|c| (c.is_under(), Tap { texel: c.texel, weight: c.weight * scale }));
     taps.fill(settled, candidates.len(), under);
+}
+
+/// The part of the weights' size that their sum has at least: on one lattice it is much more.
+const LEAST_SUM: f32 = 0.4;
+
+/// Where a fine view meets a coarse one, a few large texels in the negative lobe can all but cancel the small ones under
+/// the pixel. As far as they do, the weights give way to positive ones.
+fn soften(candidates: &mut [Candidate]) {
+    let (mut sum, mut size) = (0f32, 0f32);
+    for candidate in candidates.iter() {
+        sum += candidate.weight;
+        size += candidate.weight.abs();
+    }
+    let part = 1.0 - sum / (LEAST_SUM * size);
+    // Beside a missing face there may be nothing but negative lobes.
+    if part <= 0.0 || !candidates.iter().any(Candidate::is_under) {
+        return;
+    }
+    for candidate in candidates {
+        candidate.weight += part.min(1.0) * (candidate.window - candidate.weight);
+    }
 }
 
 /// What is added to the weights so that their centroid is the pixel's centre, their sum unchanged: v·g·(p − p̄).

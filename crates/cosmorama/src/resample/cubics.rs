@@ -33,6 +33,10 @@ impl Cubics {
 /// Mitchell & Netravali 1988, equation 8; its outer part, which ends with value and slope zero, is factored at r = 2.
 fn coefficients(section: CrossSection) -> Option<Coefficients> {
     let CrossSection::Cubic { b, c } = section else { return None };
+    // Beyond, negative lobes could outweigh the rest, which lanes do not look after.
+    if !(0.0..=1.0).contains(&b) || !(0.0..=1.0).contains(&c) {
+        return None;
+    }
     let inner = [12.0 - 9.0 * b - 6.0 * c, -18.0 + 12.0 * b + 6.0 * c, 6.0 - 2.0 * b];
     Some([inner[0], inner[1], inner[2], b + 6.0 * c, -6.0 * c].map(|k| (k / 6.0) as f32))
 }

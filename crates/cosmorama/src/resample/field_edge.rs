@@ -8,7 +8,8 @@ use crate::world::{FieldStop, PixelPoint, Source, View};
 #[derive(Clone, Copy, Debug)]
 pub(super) struct FieldEdge<'a> {
     target: &'a View,
-    /// Cosine of the limiting circle's angle from the axis.
+    /// Cosine of the limiting circle's angle from the axis: stops are for lenses, whose circles are cones. `None` where the
+    /// circle holds all that the lens shows.
     circle: Option<f64>,
 }
 
@@ -22,6 +23,11 @@ impl<'a> FieldEdge<'a> {
         let at = |radius| target.projection.unproject(PlanePoint::new(radius, 0.0));
         let circle = target.stop.circle.and_then(at).map(|direction| -direction.vector().z);
         (target.stop != FieldStop::NONE).then_some(Self { target, circle })
+    }
+
+    /// Whether the field holds a few texels of this pitch. One that does not is made of what is around it.
+    pub(super) fn is_wider_than(&self, texel_pitch: f64) -> bool {
+        self.circle.is_none_or(|circle| circle.acos() > 2.0 * texel_pitch)
     }
 
     /// Whether something within `reach` radians of a direction may lie outside the field.

@@ -55,7 +55,7 @@ struct TexelBox {
 impl<'a> Gather<'a> {
     pub(super) fn new(world: &'a World, target: &'a View, table: &'a KernelTable) -> Self {
         let texel_pitch = world.sources().iter().map(|source| source.texel_pitch).fold(0.0, f64::max);
-        let edge = FieldEdge::of(target);
+        let edge = FieldEdge::of(target).filter(|edge| edge.is_wider_than(texel_pitch));
         Self { world, table, edge, texel_pitch, candidates: Vec::new(), last: 0 }
     }
 
@@ -82,6 +82,7 @@ impl<'a> Gather<'a> {
         let sources = self.world.sources();
         if !self.gather_from(&sources[self.last], footprint, place) && sources.len() > 1 {
             self.candidates.clear();
+            let mut coarsest = 0f64;
             for (index, source) in sources.iter().enumerate() {
                 let start = self.candidates.len();
                 if self.gather_from(source, footprint, place) {
@@ -91,9 +92,23 @@ impl<'a> Gather<'a> {
                     self.last = index;
                     break;
                 }
+                coarsest = self.measure_alike(start, coarsest, self.reach(footprint, source.texel_pitch, place));
             }
         }
         self.drop_unseen(footprint, place)
+    }
+
+    /// Puts distances of candidates from `start` on, of a kernel of this reach, into the unit of the coarsest one, and those
+    /// before them too if this is it. Else, beside the coarse face, nothing of the fine one would lie under a pixel, and
+    /// every slope be clamped. Gives the reach of the coarsest.
+    fn measure_alike(&mut self, start: usize, coarsest: f64, reach: f64) -> f64 {
+        if start == self.candidates.len() {
+            return coarsest;
+        }
+        let (before, these) = self.candidates.split_at_mut(start);
+        let (finer, part) = if reach < coarsest { (these, reach / coarsest) } else { (before, coarsest / reach) };
+        finer.iter_mut().for_each(|candidate| candidate.q *= (part * part) as f32);
+        coarsest.max(reach)
     }
 
     pub(super) fn world(&self) -> &'a World {
@@ -132,7 +147,7 @@ impl<'a> Gather<'a> {
             let texel = candidate.texel as usize;
             let after = sources.partition_point(|source| source.offset <= texel);
             let is_seen = edge.touches(&sources[after - 1], texel);
-            ends_under |= candidate.under && !is_seen;
+            ends_under |= candidate.is_under() && !is_seen;
             is_seen
         });
         ends_under

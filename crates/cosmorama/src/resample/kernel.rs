@@ -230,7 +230,7 @@ impl KernelTable {
         let falloff = 1.0 - (q / self.radius_squared) as f32;
         Candidate {
             texel: texel as u32,
-            under: q < UNDER,
+            q: q as f32,
             weight: self.weight(q, coarseness) * solid_angle,
             window: falloff * falloff * solid_angle,
             offset: [offset.x as f32, offset.y as f32],

@@ -12,6 +12,8 @@ const ALPHA: usize = 3;
 /// An average as its texels bound it; alpha by what they hold, and no light becomes negative.
 pub(super) fn clamp(average: Rgba, texels: impl Iterator<Item = Rgba> + Clone) -> Rgba {
     let mut values = Vec::new();
+    // Where light is mixed with transparency, colour must stay within alpha.
+    let is_opaque = texels.clone().all(|texel| texel.alpha() >= 1.0);
     Rgba(std::array::from_fn(|c| {
         let channel = || texels.clone().map(|texel| texel.0[c]);
         let least = channel().fold(f32::INFINITY, f32::min);
@@ -20,7 +22,7 @@ pub(super) fn clamp(average: Rgba, texels: impl Iterator<Item = Rgba> + Clone) -
         if (least..=greatest).contains(&value) || least > greatest {
             return value;
         }
-        if c == ALPHA {
+        if c == ALPHA || !is_opaque {
             return value.clamp(least, greatest);
         }
         values.clear();
@@ -86,7 +88,7 @@ mod tests {
         let dark = [0.125, 0.25, 0.5, 0.75, 1.0];
         assert_eq!([0.0625, -0.0625, -5.0].map(|value| clamp_grey(value, &dark)), [0.0625, 0.0625, 0.125]);
         let veils = [0.2, 0.6, 1.0].map(|alpha| Rgba([alpha; 4]));
-        assert_eq!(clamp(Rgba([1.1; 4]), veils.into_iter()).0, [1.1, 1.1, 1.1, 1.0]);
+        assert_eq!(clamp(Rgba([1.1; 4]), veils.into_iter()).0, [1.0; 4]);
         assert_eq!(clamp(Rgba([0.3; 4]), std::iter::empty()).0, [0.3; 4]);
     }
 }

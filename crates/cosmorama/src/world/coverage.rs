@@ -11,6 +11,9 @@ pub struct ScreenPixel {
     pub footprint: Footprint,
 }
 
+/// Radians across which great circles are straight, as far as sub-samples can tell.
+const STRAIGHT: f64 = 0.05;
+
 /// A cut pixel is measured by a grid of this many sub-samples a side.
 const SUB_SAMPLES: usize = 16;
 
@@ -21,20 +24,20 @@ enum Side {
     /// One of these may cut the pixel, or both.
     Cut {
         circle: FieldStop,
-        slope: Option<Slope>,
+        great_circle: Option<GreatCircle>,
     },
     /// Its centre or a corner has no direction: anything may cut it.
     Unknown,
 }
 
 /// Sines of the angles above a great circle, between the corners of a pixel: within it the circle is all but straight.
-struct Slope {
+struct GreatCircle {
     centre: PixelPoint,
     sines: [[f64; 2]; 2],
 }
 
-impl Slope {
-    fn at(&self, point: PixelPoint) -> f64 {
+impl GreatCircle {
+    fn sine(&self, point: PixelPoint) -> f64 {
         let (s, t) = (point.x - self.centre.x + 0.5, point.y - self.centre.y + 0.5);
         let [above, below] = self.sines.map(|[left, right]| left + (right - left) * s);
         above + (below - above) * t
@@ -54,9 +57,9 @@ impl View {
         match footprint.as_ref().map_or(Side::Unknown, |footprint| self.side(centre, footprint)) {
             Side::Inside => footprint.map(|footprint| ScreenPixel { coverage: 1.0, footprint }),
             Side::Outside => None,
-            Side::Cut { circle, slope } => self.cut_pixel(i as f64, j as f64, |sample| {
+            Side::Cut { circle, great_circle } => self.cut_pixel(i as f64, j as f64, |sample| {
                 circle.passes(self.grid.to_plane(sample), || None)
-                    && slope.as_ref().is_none_or(|slope| slope.at(sample) >= 0.0)
+                    && great_circle.as_ref().is_none_or(|side| side.sine(sample) >= 0.0)
             }),
             Side::Unknown => self.cut_pixel(i as f64, j as f64, |sample| self.shows(sample)),
         }
@@ -64,7 +67,7 @@ impl View {
 
     /// Decides without sub-samples where a pixel cannot touch the edge: it is nowhere wider than its half diagonals.
     fn side(&self, centre: PixelPoint, footprint: &Footprint) -> Side {
-        let (mut circle, mut slope) = (FieldStop::NONE, None);
+        let (mut circle, mut great_circle) = (FieldStop::NONE, None);
         if let Some(radius) = self.stop.circle {
             let (distance, half_diagonal) = self.distance_from_axis(centre);
             if distance + half_diagonal > radius {
@@ -79,13 +82,18 @@ impl View {
                 return Side::Outside;
             }
             if sine < reach {
-                slope = self.slope(side, centre);
-                if slope.is_none() {
+                // Across a pixel of many degrees a great circle is not straight.
+                great_circle = if reach < STRAIGHT { self.great_circle(side, centre) } else { None };
+                if great_circle.is_none() {
                     return Side::Unknown;
                 }
             }
         }
-        if circle == FieldStop::NONE && slope.is_none() { Side::Inside } else { Side::Cut { circle, slope } }
+        if circle == FieldStop::NONE && great_circle.is_none() {
+            Side::Inside
+        } else {
+            Side::Cut { circle, great_circle }
+        }
     }
 
     /// Whether all of a pixel is outside the limiting circle.
@@ -101,13 +109,13 @@ impl View {
     }
 
     /// How far the corners of a pixel are above a great circle.
-    fn slope(&self, side: Direction, centre: PixelPoint) -> Option<Slope> {
+    fn great_circle(&self, side: Direction, centre: PixelPoint) -> Option<GreatCircle> {
         let sine = |x: f64, y: f64| {
             let point = self.grid.to_plane(PixelPoint::new(centre.x + x, centre.y + y));
             self.projection.unproject(point).map(|direction| side.dot(direction))
         };
         let sines = [[sine(-0.5, -0.5)?, sine(0.5, -0.5)?], [sine(-0.5, 0.5)?, sine(0.5, 0.5)?]];
-        Some(Slope { centre, sines })
+        Some(GreatCircle { centre, sines })
     }
 
     fn cut_pixel(&self, x: f64, y: f64, is_inside: impl Fn(PixelPoint) -> bool) -> Option<ScreenPixel> {

@@ -1,0 +1,125 @@
+// Cubes in KTX 2 and DDS files, as other programs see them: three.js reads our KTX 2, and a reader of its own, which
+// shares no code with us, our DDS of half floats. What they find is compared with the same faces in a TGA file.
+//
+//   node .ci/textures.mjs PROGRAM FOLDER_OF_THREE
+import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
+import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join, resolve } from "node:path";
+import { pathToFileURL } from "node:url";
+
+const [program, three] = process.argv.slice(2).map((path) => resolve(path));
+const load = (path) => import(pathToFileURL(join(three, path)));
+const { DataUtils, HalfFloatType, RGBAFormat, SRGBColorSpace, UnsignedByteType } = await load("build/three.module.js");
+const { KTX2Loader } = await load("examples/jsm/loaders/KTX2Loader.js");
+
+const { read } = await load("examples/jsm/libs/ktx-parse.module.js");
+
+const EDGE = 48;
+const folder = mkdtempSync(join(tmpdir(), "textures-"));
+const at = (name) => join(folder, name);
+const bytes = (name) => new Uint8Array(readFileSync(at(name)));
+
+/** Each face has colours of its own, and no two of its corners are alike. */
+function drawFace(name, index) {
+  const header = Buffer.from([0, 0, 2, 0, 0, 0, 0, 0, 0, 0, 0, 0, EDGE, 0, EDGE, 0, 24, 0x20]);
+  const pixels = Array.from({ length: EDGE * EDGE }, (_, i) => [4 * (i % EDGE), 4 * Math.floor(i / EDGE), 40 * index]);
+  writeFileSync(at(`${name}.tga`), Buffer.concat([header, Buffer.from(pixels.flat())]));
+}
+
+/** The pixels of a TGA file of 24 bits, run-length encoded or not, as RGB. */
+function readTga(name) {
+  const file = bytes(name);
+  const [width, height] = [file[12] + 256 * file[13], file[14] + 256 * file[15]];
+  assert.equal(file[16], 24);
+  assert.equal(file[17] & 0x20, 0x20, "rows from the top");
+  let position = 18 + file[0];
+  const rgb = [];
+  const pixel = (start) => rgb.push(file[start + 2], file[start + 1], file[start]);
+  while (rgb.length < 3 * width * height) {
+    const packet = file[2] === 10 ? file[position++] : 0;
+    const count = (packet & 0x7f) + 1;
+    for (let i = 0; i < count; i++) pixel(position + (packet & 0x80 ? 0 : 3 * i));
+    position += packet & 0x80 ? 3 : 3 * count;
+  }
+  return { width, height, rgb };
+}
+
+async function readKtx2(name) {
+  const { faceCount, levelCount, layerCount, pixelWidth, pixelHeight, keyValue, dataFormatDescriptor } =
+    read(bytes(name));
+  assert.deepEqual([faceCount, levelCount, layerCount, pixelWidth, pixelHeight], [6, 1, 0, EDGE, EDGE]);
+  assert.deepEqual(keyValue, { KTXorientation: "rd", KTXwriter: "cosmorama" });
+  // Halves are premultiplied, by the flag of the descriptor; bytes are not.
+  assert.equal(dataFormatDescriptor[0].flags & 1, Number(name.startsWith("half")));
+  const loader = new KTX2Loader();
+  // What a graphics card could decompress does not matter here.
+  loader.workerConfig = {};
+  const { buffer } = bytes(name);
+  return new Promise((done, failed) => loader.parse(buffer, done, failed));
+}
+
+/** Texels of the six faces, one after the other: three.js lays all of a level's into one array. */
+function faces(texture) {
+  const { width, height, data } = texture.image;
+  assert.deepEqual([width, height, data.length], [EDGE, EDGE, 6 * EDGE * EDGE * 4]);
+  return data;
+}
+
+/** The halves of a DDS file, by the letter of Microsoft's reference. */
+function readDds(name) {
+  const file = bytes(name);
+  const view = new DataView(file.buffer);
+  const word = (offset) => view.getUint32(offset, true);
+  assert.equal(String.fromCharCode(...file.slice(0, 4)), "DDS ");
+  assert.deepEqual([word(4), word(12), word(16)], [124, EDGE, EDGE]);
+  assert.equal(word(8) & 0x1007, 0x1007, "caps, height, width and pixel format");
+  assert.equal(word(8) & 8, 8, "a pitch");
+  assert.equal(word(20), 8 * EDGE);
+  assert.deepEqual([word(76), word(80) & 4, String.fromCharCode(...file.slice(84, 88))], [32, 4, "DX10"]);
+  assert.equal(word(108) & 0x1008, 0x1008, "a texture of several surfaces");
+  assert.equal(word(112) & 0xfe00, 0xfe00, "a cube with all faces");
+  // R16G16B16A16_FLOAT, of two dimensions, a cube, one of them, premultiplied.
+  assert.deepEqual([word(128), word(132), word(136), word(140), word(144)], [10, 3, 4, 1, 2]);
+  assert.equal(file.length, 148 + 6 * EDGE * EDGE * 8);
+  return Array.from({ length: 6 * EDGE * EDGE * 4 }, (_, i) => view.getUint16(148 + 2 * i, true));
+}
+
+const srgb = (light) => 255 * (light <= 0.0031308 ? 12.92 * light : 1.055 * light ** (1 / 2.4) - 0.055);
+
+function compare(what, found, expected, allowed, code) {
+  let worst = 0;
+  for (let pixel = 0; pixel < 6 * EDGE * EDGE; pixel++) {
+    for (let c = 0; c < 3; c++) {
+      worst = Math.max(worst, Math.abs(code(found[4 * pixel + c]) - expected[3 * pixel + c]));
+    }
+    assert.equal(Math.round(code(found[4 * pixel + 3])), 255, `${what}: pixel ${pixel} is opaque`);
+  }
+  assert.ok(worst <= allowed, `${what}: a difference of ${worst} codes`);
+  console.log(`${what}: six faces of ${EDGE}x${EDGE}, largest difference ${worst.toFixed(3)} codes of 255`);
+}
+
+try {
+  ["front", "right", "back", "left", "top", "bottom"].forEach(drawFace);
+  const convert = (name, ...options) =>
+    execFileSync(program, ["convert", at("{face}.tga"), at(name), "--size", String(EDGE), ...options]);
+  convert("strip.tga", "--to", "cube:layout=strip-v,order=opengl");
+  convert("eight.ktx2", "--to", "cube");
+  convert("half.ktx2", "--to", "cube", "--depth", "half");
+  convert("half.dds", "--to", "cube", "--depth", "half");
+  const { width, height, rgb } = readTga("strip.tga");
+  assert.deepEqual([width, height], [EDGE, 6 * EDGE]);
+
+  const eight = await readKtx2("eight.ktx2");
+  assert.deepEqual([eight.format, eight.type, eight.colorSpace], [RGBAFormat, UnsignedByteType, SRGBColorSpace]);
+  compare("KTX 2, 8 bits, in three.js", faces(eight), rgb, 0, (code) => code);
+
+  const half = await readKtx2("half.ktx2");
+  assert.deepEqual([half.format, half.type], [RGBAFormat, HalfFloatType]);
+  const code = (bits) => srgb(DataUtils.fromHalfFloat(bits));
+  compare("KTX 2, halves, in three.js", faces(half), rgb, 0.6, code);
+  compare("DDS, halves, by the reference", readDds("half.dds"), rgb, 0.6, code);
+} finally {
+  rmSync(folder, { recursive: true });
+}

@@ -1,0 +1,74 @@
+//! What the pixels of an image say about its projection.
+
+use std::path::Path;
+
+use cosmorama::raster::{Image, Rgba, Transfer, Uniform};
+use cosmorama::world::{CubeLayout, LayoutKind, PixelRect};
+use cosmorama_io::{Header, Limits, read};
+
+/// Beyond this an image is not decoded only to find out what it is.
+const MOST_BYTES: u64 = 1 << 30;
+/// Of what should be blank, so much must be.
+const BLANK: f64 = 0.98;
+/// A picture of which more is blank shows nothing that could tell.
+const EMPTY: f64 = 0.9;
+/// Pixels around what is drawn that a JPEG file's blocks may blur into.
+const BLOCK: usize = 8;
+/// Codes up to this are black, in a picture of codes from 0 to 1.
+const BLACK: f32 = 0.06;
+
+/// What an image is, as far as its blank parts tell.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Evidence {
+    /// A circle that fills a square, black around it.
+    Circle,
+    /// A cross of faces, one colour around it.
+    Cross(LayoutKind),
+}
+
+impl Evidence {
+    /// Looks at the pixels, where the shape gives reason to.
+    pub(super) fn of(path: &Path, header: &Header) -> Option<Self> {
+        let crosses = [LayoutKind::CrossH, LayoutKind::CrossV];
+        let cross = crosses.into_iter().find(|kind| kind.has_shape(header.width, header.height));
+        let is_square = header.width == header.height;
+        if header.window.is_some() || (cross.is_none() && !is_square) {
+            return None;
+        }
+        let codes = read(path, &Limits::memory(MOST_BYTES)).ok()?.image.to_light(&Transfer::Linear);
+        let says_something = codes.uniformity(|_, _| true).is_some_and(|all| all.share < EMPTY);
+        let evidence = match cross {
+            Some(kind) => Self::Cross(kind),
+            None => Self::Circle,
+        };
+        (says_something && evidence.fits(&codes)).then_some(evidence)
+    }
+
+    fn fits(self, codes: &Image<Rgba>) -> bool {
+        let is_blank = |around: Option<Uniform>| around.is_some_and(|around| around.share >= BLANK);
+        match self {
+            Self::Cross(kind) => {
+                let layout = CubeLayout::new(kind);
+                let Ok(edge) = layout.edge(codes.width(), codes.height()) else { return false };
+                let faces = layout.faces(edge);
+                let within = |k: usize, start: usize, end: usize| k + BLOCK >= start && k < end + BLOCK;
+                let near = |rect: PixelRect, i, j| within(i, rect.left, rect.right) && within(j, rect.top, rect.bottom);
+                is_blank(codes.uniformity(|i, j| !faces.iter().any(|face| near(face.rect, i, j))))
+            }
+            Self::Circle => {
+                let side = codes.width() as i64;
+                // In half pixels from the centre.
+                let radius = side + 2 * BLOCK as i64;
+                let outside = |i: usize, j: usize| {
+                    let (x, y) = (2 * i as i64 + 1 - side, 2 * j as i64 + 1 - side);
+                    x * x + y * y > radius * radius
+                };
+                let around = codes.uniformity(outside);
+                let is_black = |around: Uniform| {
+                    around.colour.alpha() == 0.0 || around.colour.0[..3].iter().all(|code| *code <= BLACK)
+                };
+                is_blank(around) && around.is_some_and(is_black)
+            }
+        }
+    }
+}

@@ -1,0 +1,127 @@
+//! World files: many views, each an image or a pattern with its SPEC, in TOML.
+
+use std::ops::Range;
+use std::path::Path;
+
+use anyhow::{Context, Result, anyhow, bail};
+use cosmorama::sphere::Angle;
+use cosmorama::world::Blend;
+use cosmorama_io::{FrameList, FramePattern};
+use serde::Deserialize;
+use toml::Spanned;
+
+use super::Input;
+use crate::spec::Spec;
+
+/// The file as it is written.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct WorldFile {
+    #[serde(default)]
+    view: Vec<Entry>,
+}
+
+/// One view, or one set of faces.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Entry {
+    /// A file, or a pattern of faces or frames, relative to the world file.
+    image: Spanned<String>,
+    /// Its projection and orientation; found as for any input where it is left out.
+    spec: Option<Spanned<String>>,
+    /// Views of higher priority cover those of lower priority.
+    #[serde(default)]
+    priority: i32,
+    /// Degrees over which it fades out at its border.
+    feather: Option<Spanned<f64>>,
+}
+
+/// A world file's text and name, for messages that say where.
+struct Text<'a> {
+    name: &'a str,
+    text: &'a str,
+}
+
+/// Whether an input names a world file.
+pub(super) fn is_world_file(pattern: &str) -> bool {
+    Path::new(pattern).extension().is_some_and(|extension| extension.eq_ignore_ascii_case("toml"))
+}
+
+/// Finds and probes the files of all views of a world file.
+pub(super) fn find(name: &str, wanted: Option<&FrameList>, warnings: &mut Vec<String>) -> Result<Input> {
+    let text = std::fs::read_to_string(name).with_context(|| format!("{name}: cannot be read as a world file"))?;
+    let source = Text { name, text: &text };
+    let file: WorldFile = toml::from_str(&text)
+        .map_err(|error| source.error(error.span(), &format!("{}; see `cosmorama convert --help`", error.message())))?;
+    if file.view.is_empty() {
+        bail!(
+            "{name}: no [[view]] in it; a world file has one for each image, with image = \"FILE\" and spec = \"SPEC\""
+        );
+    }
+    let mut world = Input { views: Vec::new(), frames: vec![None] };
+    for entry in &file.view {
+        let part = entry.find(&source, wanted, warnings).with_context(|| source.place(Some(entry.image.span())))?;
+        world.frames = common_frames(&world.frames, &part.frames)
+            .with_context(|| format!("{} has other frames than the views before it", entry.image.get_ref()))
+            .with_context(|| source.place(Some(entry.image.span())))?;
+        world.views.extend(part.views);
+    }
+    Ok(world)
+}
+
+impl Entry {
+    fn find(&self, source: &Text, wanted: Option<&FrameList>, warnings: &mut Vec<String>) -> Result<Input> {
+        let spec = self.spec.as_ref().map(|spec| {
+            let parsed: Result<Spec, _> = spec.get_ref().parse();
+            parsed.map_err(|error| source.error(Some(spec.span()), &format!("spec = \"{}\": {error}", spec.get_ref())))
+        });
+        let blend = Blend { priority: self.priority, feather: self.feather(source)? };
+        let folder = Path::new(source.name).parent().unwrap_or(Path::new(""));
+        let pattern = folder.join(self.image.get_ref()).to_string_lossy().into_owned();
+        if is_world_file(&pattern) {
+            bail!("{pattern} is a world file itself; list its views here");
+        }
+        // A still stays what it is in all frames.
+        let wanted = wanted.filter(|_| FramePattern::parse(&pattern).is_some());
+        let mut input = Input::find(&pattern, spec.transpose()?.as_ref(), wanted, warnings)?;
+        for view in &mut input.views {
+            view.blend = blend;
+        }
+        Ok(input)
+    }
+
+    fn feather(&self, source: &Text) -> Result<Angle> {
+        let Some(feather) = &self.feather else { return Ok(Angle::from_degrees(0.0)) };
+        let degrees = *feather.get_ref();
+        if !(0.0..=180.0).contains(&degrees) {
+            let message = format!("feather = {degrees}: expected degrees from 0 to 180");
+            return Err(source.error(Some(feather.span()), &message));
+        }
+        Ok(Angle::from_degrees(degrees))
+    }
+}
+
+impl Text<'_> {
+    fn error(&self, span: Option<Range<usize>>, message: &str) -> anyhow::Error {
+        anyhow!("{}: {message}", self.place(span))
+    }
+
+    /// The file and the line.
+    fn place(&self, span: Option<Range<usize>>) -> String {
+        let line = |span: Range<usize>| 1 + self.text.bytes().take(span.start).filter(|byte| *byte == b'\n').count();
+        span.map_or_else(|| self.name.to_owned(), |span| format!("{}, line {}", self.name, line(span)))
+    }
+}
+
+/// The frames of sequences that go together; a still goes with any.
+fn common_frames(a: &[Option<u64>], b: &[Option<u64>]) -> Result<Vec<Option<u64>>> {
+    match (a, b) {
+        ([None], other) | (other, [None]) => Ok(other.to_vec()),
+        _ if a == b => Ok(a.to_vec()),
+        _ => bail!(
+            "{} frames and {}; all sequences of a world must have the same, or name them with --frames",
+            a.len(),
+            b.len()
+        ),
+    }
+}

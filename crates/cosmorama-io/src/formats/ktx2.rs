@@ -1,0 +1,222 @@
+use std::io::{Read, Seek, SeekFrom, Write};
+use std::path::Path;
+
+use cosmorama::raster::{AlphaMode, Depth, EncodedImage, Transfer};
+use ktx2::{Format as Vk, Header as Ktx2Header, Index, LevelIndex};
+
+use super::texel::{BlockFormat, Texels};
+use super::texture::{CubeTexture, EXPECTED, faces_to_write};
+use crate::file::Source;
+use crate::{Format, Header, ImageFile, IoError, Limits, Metadata};
+
+const FORMAT: Format = Format::Ktx2;
+
+/// Names in the data format descriptor (Khronos Data Format Specification 1.3).
+mod descriptor {
+    pub(super) const RGB_MODEL: u8 = 1;
+    pub(super) const BT709: u8 = 1;
+    pub(super) const LINEAR: u8 = 1;
+    pub(super) const SRGB: u8 = 2;
+    pub(super) const PREMULTIPLIED: u8 = 1;
+    pub(super) const ALPHA: u8 = 15;
+    /// Alpha is linear where colour is not.
+    pub(super) const LINEAR_SAMPLE: u8 = 0x10;
+    pub(super) const SIGNED_FLOAT: u8 = 0xc0;
+}
+
+pub(crate) fn probe(path: &Path, source: &mut Source) -> Result<Header, IoError> {
+    Ok(texture(path, source)?.header(FORMAT))
+}
+
+pub(crate) fn read(path: &Path, source: &mut Source, limits: &Limits) -> Result<ImageFile, IoError> {
+    texture(path, source)?.read(path, FORMAT, source, limits)
+}
+
+/// What the file holds, without its texels.
+fn texture(path: &Path, source: &mut Source) -> Result<CubeTexture, IoError> {
+    let short = |_| IoError::damaged(path, FORMAT, "it ends too early");
+    let mut start = [0; Ktx2Header::LENGTH];
+    source.read_exact(&mut start).map_err(short)?;
+    let mut level = [0; LevelIndex::LENGTH];
+    source.read_exact(&mut level).map_err(short)?;
+    let header = Ktx2Header::from_bytes(&start).map_err(|error| IoError::damaged(path, FORMAT, error))?;
+    let unsupported = |found: String| IoError::unsupported(path, FORMAT, found, EXPECTED);
+    if header.face_count != 6 || header.pixel_depth > 1 || header.layer_count > 1 {
+        return Err(unsupported("a texture that is no cube".to_owned()));
+    }
+    if header.pixel_width != header.pixel_height {
+        return Err(IoError::damaged(path, FORMAT, "the faces of a cube are square"));
+    }
+    if let Some(scheme) = header.supercompression_scheme {
+        return Err(unsupported(format!("texels packed by {scheme:?}")));
+    }
+    let format = header.format.ok_or_else(|| unsupported("texels of no Vulkan format".to_owned()))?;
+    let (texels, srgb) =
+        texels(format).ok_or_else(|| unsupported(format!("texels of the Vulkan format {format:?}")))?;
+    let (said, premultiplied) = colour(path, source, header.index.dfd_byte_offset)?;
+    let integers = texels.depth() == Depth::Eight;
+    let level = LevelIndex::from_bytes(&level);
+    let mut cube = CubeTexture {
+        texels,
+        transfer: if srgb {
+            Some(Transfer::Srgb)
+        } else {
+            said.filter(|_| integers).or_else(|| (!integers).then_some(Transfer::Linear))
+        },
+        alpha: if premultiplied { AlphaMode::Premultiplied } else { AlphaMode::Straight },
+        edge: header.pixel_width,
+        row_alignment: 1,
+        offsets: [0; 6],
+    };
+    let bytes = cube.face_bytes();
+    if bytes.checked_mul(6) != Some(level.byte_length) {
+        return Err(IoError::damaged(
+            path,
+            FORMAT,
+            format_args!(
+                "its largest level has {} bytes; six faces of {} pixels have six times {bytes}",
+                level.byte_length, header.pixel_width
+            ),
+        ));
+    }
+    for (face, offset) in (0_u64..).zip(&mut cube.offsets) {
+        let at = level.byte_offset.checked_add(face * bytes);
+        *offset = at.ok_or_else(|| IoError::damaged(path, FORMAT, "it ends too early"))?;
+    }
+    Ok(cube)
+}
+
+/// Transfer function and alpha, as far as the data format descriptor says them in words that we know.
+fn colour(path: &Path, source: &mut Source, offset: u32) -> Result<(Option<Transfer>, bool), IoError> {
+    let mut start = [0; 16];
+    source
+        .seek(SeekFrom::Start(offset.into()))
+        .and_then(|_| source.read_exact(&mut start))
+        .map_err(|_| IoError::damaged(path, FORMAT, "its data format descriptor lies beyond its end"))?;
+    let transfer = match start[14] {
+        descriptor::LINEAR => Some(Transfer::Linear),
+        descriptor::SRGB => Some(Transfer::Srgb),
+        _ => None,
+    };
+    Ok((transfer, start[15] & descriptor::PREMULTIPLIED != 0))
+}
+
+/// How texels of a Vulkan format are stored, and whether it is one of sRGB.
+fn texels(format: Vk) -> Option<(Texels, bool)> {
+    let blocks = |format| Texels::Blocks(format);
+    Some(match format {
+        Vk::R8_UNORM => (Texels::GREY8, false),
+        Vk::R8_SRGB => (Texels::GREY8, true),
+        Vk::R8G8B8_UNORM => (Texels::RGB8, false),
+        Vk::R8G8B8_SRGB => (Texels::RGB8, true),
+        Vk::B8G8R8_UNORM => (Texels::BGR8, false),
+        Vk::B8G8R8_SRGB => (Texels::BGR8, true),
+        Vk::R8G8B8A8_UNORM | Vk::A8B8G8R8_UNORM_PACK32 => (Texels::RGBA8, false),
+        Vk::R8G8B8A8_SRGB | Vk::A8B8G8R8_SRGB_PACK32 => (Texels::RGBA8, true),
+        Vk::B8G8R8A8_UNORM => (Texels::BGRA8, false),
+        Vk::B8G8R8A8_SRGB => (Texels::BGRA8, true),
+        Vk::R16_SFLOAT => (Texels::Half(1), false),
+        Vk::R16G16B16_SFLOAT => (Texels::Half(3), false),
+        Vk::R16G16B16A16_SFLOAT => (Texels::Half(4), false),
+        Vk::R32_SFLOAT => (Texels::Float(1), false),
+        Vk::R32G32B32_SFLOAT => (Texels::Float(3), false),
+        Vk::R32G32B32A32_SFLOAT => (Texels::Float(4), false),
+        Vk::B10G11R11_UFLOAT_PACK32 => (Texels::SmallFloats, false),
+        Vk::E5B9G9R9_UFLOAT_PACK32 => (Texels::SharedExponent, false),
+        Vk::BC1_RGB_UNORM_BLOCK | Vk::BC1_RGBA_UNORM_BLOCK => (blocks(BlockFormat::Bc1), false),
+        Vk::BC1_RGB_SRGB_BLOCK | Vk::BC1_RGBA_SRGB_BLOCK => (blocks(BlockFormat::Bc1), true),
+        Vk::BC2_UNORM_BLOCK => (blocks(BlockFormat::Bc2), false),
+        Vk::BC2_SRGB_BLOCK => (blocks(BlockFormat::Bc2), true),
+        Vk::BC3_UNORM_BLOCK => (blocks(BlockFormat::Bc3), false),
+        Vk::BC3_SRGB_BLOCK => (blocks(BlockFormat::Bc3), true),
+        Vk::BC6H_UFLOAT_BLOCK => (blocks(BlockFormat::Bc6h { signed: false }), false),
+        Vk::BC6H_SFLOAT_BLOCK => (blocks(BlockFormat::Bc6h { signed: true }), false),
+        Vk::BC7_UNORM_BLOCK => (blocks(BlockFormat::Bc7), false),
+        Vk::BC7_SRGB_BLOCK => (blocks(BlockFormat::Bc7), true),
+        _ => return None,
+    })
+}
+
+/// Six faces of one level: RGBA of 8 bits, sRGB unless the light is linear, or premultiplied halves.
+pub(crate) fn write(
+    path: &Path,
+    mut output: impl Write,
+    image: &EncodedImage,
+    metadata: &Metadata,
+) -> Result<(), IoError> {
+    let (faces, edge) = faces_to_write(path, FORMAT, image, metadata)?;
+    let float = image.depth().is_float();
+    let (format, type_size, transfer) = match &metadata.transfer {
+        _ if float => (Vk::R16G16B16A16_SFLOAT, 2, descriptor::LINEAR),
+        Some(Transfer::Linear) => (Vk::R8G8B8A8_UNORM, 1, descriptor::LINEAR),
+        _ => (Vk::R8G8B8A8_SRGB, 1, descriptor::SRGB),
+    };
+    let described = describe(float, transfer);
+    let words = key_values(&[("KTXorientation", "rd"), ("KTXwriter", "cosmorama")]);
+    let dfd = (Ktx2Header::LENGTH + LevelIndex::LENGTH) as u32;
+    let kvd = dfd + described.len() as u32;
+    // A level begins at a multiple of a texel.
+    let start = (kvd + words.len() as u32).next_multiple_of(8);
+    let header = Ktx2Header {
+        format: Some(format),
+        type_size,
+        pixel_width: edge,
+        pixel_height: edge,
+        pixel_depth: 0,
+        layer_count: 0,
+        face_count: 6,
+        level_count: 1,
+        supercompression_scheme: None,
+        index: Index {
+            dfd_byte_offset: dfd,
+            dfd_byte_length: described.len() as u32,
+            kvd_byte_offset: kvd,
+            kvd_byte_length: words.len() as u32,
+            sgd_byte_offset: 0,
+            sgd_byte_length: 0,
+        },
+    };
+    let bytes = faces.len() as u64;
+    let level = LevelIndex { byte_offset: start.into(), byte_length: bytes, uncompressed_byte_length: bytes };
+    let padding = vec![0; (start - kvd) as usize - words.len()];
+    let parts: [&[u8]; 6] = [&header.as_bytes(), &level.as_bytes(), &described, &words, &padding, &faces];
+    parts.iter().try_for_each(|part| output.write_all(part)).map_err(|error| IoError::write(path, error))
+}
+
+/// The data format descriptor of RGBA.
+fn describe(float: bool, transfer: u8) -> Vec<u8> {
+    let (sample_bytes, premultiplied) = if float { (2_u8, descriptor::PREMULTIPLIED) } else { (1, 0) };
+    const BLOCK: u16 = 24 + 4 * 16;
+    let mut bytes = Vec::new();
+    bytes.extend((u32::from(BLOCK) + 4).to_le_bytes());
+    // Vendor and type: Khronos's basic block; version 1.3 of the specification.
+    bytes.extend([0, 0, 0, 0, 2, 0]);
+    bytes.extend(BLOCK.to_le_bytes());
+    bytes.extend([descriptor::RGB_MODEL, descriptor::BT709, transfer, premultiplied]);
+    // A block is one texel, in one plane.
+    bytes.extend([0, 0, 0, 0, 4 * sample_bytes, 0, 0, 0, 0, 0, 0, 0]);
+    for (place, channel) in [0, 1, 2, descriptor::ALPHA].into_iter().enumerate() {
+        let bits = 8 * sample_bytes;
+        let kind = match (float, channel, transfer) {
+            (true, ..) => channel | descriptor::SIGNED_FLOAT,
+            (false, descriptor::ALPHA, descriptor::SRGB) => channel | descriptor::LINEAR_SAMPLE,
+            (false, ..) => channel,
+        };
+        bytes.extend([bits * place as u8, 0, bits - 1, kind, 0, 0, 0, 0]);
+        let (lower, upper) = if float { ((-1.0_f32).to_bits(), 1.0_f32.to_bits()) } else { (0, 255) };
+        bytes.extend(lower.to_le_bytes());
+        bytes.extend(upper.to_le_bytes());
+    }
+    bytes
+}
+
+/// Keys and values, each pair at a multiple of four bytes.
+fn key_values(pairs: &[(&str, &str)]) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    for (key, value) in pairs {
+        bytes.extend(((key.len() + value.len() + 2) as u32).to_le_bytes());
+        bytes.extend(format!("{key}\0{value}\0").into_bytes());
+        bytes.resize(bytes.len().next_multiple_of(4), 0);
+    }
+    bytes
+}

@@ -1,0 +1,131 @@
+use std::io::{Read, Seek, SeekFrom};
+use std::path::Path;
+
+use cosmorama::raster::{AlphaMode, Channels, EncodedImage, Samples, Transfer};
+use half::f16;
+use rayon::prelude::*;
+
+use super::texel::Texels;
+use super::whole_image;
+use crate::file::Source;
+use crate::{EnvMap, Format, Header, ImageFile, IoError, Limits, Metadata};
+
+/// What can be read, for messages.
+pub(super) const EXPECTED: &str =
+    "a cube of 8-bit, half or float texels, RGB9E5, R11G11B10, BC1 to BC3, BC6H or BC7, without supercompression";
+
+/// The faces of a cube in a texture file: where the largest pictures of +X −X +Y −Y +Z −Z lie, and how.
+pub(super) struct CubeTexture {
+    /// How texels are stored.
+    pub(super) texels: Texels,
+    /// How code values relate to light, if the file says so.
+    pub(super) transfer: Option<Transfer>,
+    /// How colour relates to alpha.
+    pub(super) alpha: AlphaMode,
+    /// Columns and rows of a face.
+    pub(super) edge: u32,
+    /// Rows begin at multiples of so many bytes.
+    pub(super) row_alignment: u64,
+    /// Where each face begins.
+    pub(super) offsets: [u64; 6],
+}
+
+impl CubeTexture {
+    /// What the file says of itself: six pictures one below the other.
+    pub(super) fn header(&self, format: Format) -> Header {
+        let edge = self.edge as usize;
+        Header {
+            format,
+            width: edge,
+            height: edge.saturating_mul(6),
+            channels: self.texels.channels(),
+            depth: self.texels.depth(),
+            metadata: Metadata { transfer: self.transfer.clone(), envmap: Some(EnvMap::GlCube), ..Metadata::default() },
+            window: None,
+        }
+    }
+
+    /// Bytes of a face.
+    pub(super) fn face_bytes(&self) -> u64 {
+        let blocks = u64::from(self.edge.div_ceil(self.texels.block_edge()));
+        let row = (blocks * self.texels.block_bytes()).next_multiple_of(self.row_alignment);
+        row.saturating_mul(blocks)
+    }
+
+    /// Reads the faces, after it is known that they are there and may take the memory.
+    pub(super) fn read(
+        &self,
+        path: &Path,
+        format: Format,
+        source: &mut Source,
+        limits: &Limits,
+    ) -> Result<ImageFile, IoError> {
+        let header = self.header(format);
+        limits.check(path, (header.width as u64, header.height as u64), header.channels, header.depth)?;
+        let bytes = self.face_bytes();
+        let length = source.seek(SeekFrom::End(0)).map_err(|error| IoError::open(path, error))?;
+        let ends_inside = |offset: &u64| offset.checked_add(bytes).is_some_and(|end| end <= length);
+        if !self.offsets.iter().all(ends_inside) {
+            return Err(IoError::damaged(path, format, "it ends too early"));
+        }
+        let size = usize::try_from(bytes).map_err(|_| IoError::damaged(path, format, "it is larger than memory"))?;
+        let mut faces = Vec::new();
+        for offset in self.offsets {
+            let mut face = vec![0; size];
+            source
+                .seek(SeekFrom::Start(offset))
+                .and_then(|_| source.read_exact(&mut face))
+                .map_err(|_| IoError::damaged(path, format, "it ends too early"))?;
+            faces.push(face);
+        }
+        let decode = |face: Vec<u8>| self.texels.decode(&face, self.edge as usize, self.row_alignment as usize);
+        let decoded: Vec<Samples> = faces.into_par_iter().map(decode).collect();
+        let mut file = whole_image(path, header, joined(decoded))?;
+        file.image = file.image.with_alpha_mode(self.alpha);
+        Ok(file)
+    }
+}
+
+fn joined(faces: Vec<Samples>) -> Samples {
+    let mut faces = faces.into_iter();
+    let mut all = faces.next().unwrap_or(Samples::U8(Vec::new()));
+    for face in faces {
+        match (&mut all, face) {
+            (Samples::U8(all), Samples::U8(face)) => all.extend(face),
+            (Samples::U16(all), Samples::U16(face)) => all.extend(face),
+            (Samples::Half(all), Samples::Half(face)) => all.extend(face),
+            (Samples::Float(all), Samples::Float(face)) => all.extend(face),
+            // All faces are of one format.
+            _ => {}
+        }
+    }
+    all
+}
+
+/// The samples of six faces, to be written: RGBA, one face after the other, and a face's edge.
+pub(super) fn faces_to_write(
+    path: &Path,
+    format: Format,
+    image: &EncodedImage,
+    metadata: &Metadata,
+) -> Result<(Vec<u8>, u32), IoError> {
+    let cannot = |found: String| IoError::CannotHold {
+        path: path.to_owned(),
+        format,
+        found,
+        expected: "the six faces of a cube in its own order, one below the other (--to cube)".to_owned(),
+    };
+    let (width, height) = (image.width(), image.height());
+    if metadata.envmap != Some(EnvMap::GlCube) || Some(height) != width.checked_mul(6) {
+        return Err(cannot(format!("a picture of {width}x{height} pixels that is no such cube")));
+    }
+    let edge = u32::try_from(width).map_err(|_| cannot(format!("faces of {width} pixels")))?;
+    match (image.channels(), image.samples()) {
+        (Channels::Rgba, Samples::U8(samples)) => Ok((samples.clone(), edge)),
+        (Channels::Rgba, Samples::Half(samples)) => {
+            let little = samples.iter().flat_map(|sample: &f16| sample.to_le_bytes()).collect();
+            Ok((little, edge))
+        }
+        _ => Err(cannot(format!("{} of depth {}", image.channels(), image.depth()))),
+    }
+}
