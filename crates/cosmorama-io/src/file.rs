@@ -47,6 +47,13 @@ pub struct WriteOptions {
     pub quality: u8,
 }
 
+impl WriteOptions {
+    /// The default, but for what is given.
+    pub fn with_quality(quality: Option<u8>) -> Self {
+        quality.map_or_else(Self::default, |quality| Self { quality })
+    }
+}
+
 impl Default for WriteOptions {
     fn default() -> Self {
         Self { quality: 95 }

@@ -1,5 +1,6 @@
 //! Jobs: arguments resolved, everything checked before work starts.
 
+mod builtin;
 mod coverage;
 mod detect;
 mod face_shape;
@@ -14,6 +15,7 @@ mod packed;
 mod picture;
 mod target;
 
+pub(crate) use builtin::{BuiltinJob, builtin};
 pub(crate) use coverage::{Coverage, nominal_world};
 pub(crate) use detect::likely;
 pub(crate) use face_view::face_placement;
@@ -70,7 +72,7 @@ impl ConvertJob {
         let format = Target::check_names(&args.output, geometry)?;
         check_quality(args, format)?;
         let mut input = Input::find(&args.input, geometry.from.as_ref(), args.frames.as_ref(), &mut warnings)?;
-        let target = Target::resolve(&args.output, geometry, input.pixels_per_radian())?;
+        let target = Target::resolve(&args.output, geometry, Some(input.pixels_per_radian()))?;
         let filter = filter(geometry, &mut warnings);
         let light = Light::resolve(args, &input, &target, &mut warnings)?;
         memory.check_outputs(&target)?;
