@@ -36,11 +36,9 @@ impl BuiltinWorld {
     /// What it shows.
     pub const fn about(self) -> &'static str {
         match self {
-            Self::Grid => "lines of azimuth and elevation every 10 and 5 degrees, labelled, to align projectors by",
+            Self::Grid => "degrees of azimuth and elevation, to align the projectors of a dome by",
             Self::Checker => "black and white checks of 10 degrees of azimuth and elevation",
-            Self::Directions => {
-                "the colour is the direction: red, green, blue = (x + 1)/2, (y + 1)/2, (z + 1)/2, linear"
-            }
+            Self::Directions => "the colour is the direction: (x + 1)/2, (y + 1)/2, (z + 1)/2, linear",
             Self::ZonePlate => "rings around the six axes, ever finer: 8 cycles a degree at 45 degrees",
             Self::Demo => "the demo's arcade under a glazed vault",
         }

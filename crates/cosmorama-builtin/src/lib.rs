@@ -3,11 +3,13 @@
 //! A world here is infinitely sharp: [`Radiance`] is a point sample. [`picture()`] makes a view's picture of it, each pixel
 //! the weighted mean of what it sees, by formula where the world has one; [`render`] averages samples over squares, in
 //! linear light, into an image of any mapping. [`BuiltinWorld`] is the list of worlds that users can name.
+//! A [`DirectionMap`] says where each pixel of a view looks.
 
 mod builtin_world;
 mod checker;
 mod compass;
 mod demo;
+mod direction_map;
 mod directions;
 mod grid;
 mod picture;
@@ -19,6 +21,7 @@ mod zone_plate;
 pub use builtin_world::BuiltinWorld;
 pub use checker::Checker;
 pub use demo::DemoWorld;
+pub use direction_map::{DirectionMap, DirectionPixel};
 pub use directions::Directions;
 pub use grid::Grid;
 pub use picture::picture;

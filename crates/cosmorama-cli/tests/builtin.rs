@@ -5,8 +5,13 @@
 
 mod bench;
 
+use std::collections::BTreeMap;
+use std::path::Path;
+
 use bench::{Bench, assert_says};
 use cosmorama::raster::{Channels, Depth, Transfer};
+use cosmorama::sphere::{Angle, Orientation};
+use cosmorama::world::{Frame, FulldomeFrame, Placement};
 use serde_json::Value;
 
 #[test]
@@ -94,6 +99,66 @@ fn what_files_have_a_formula_has_not() {
     let resumed = bench.succeed(&[&["convert"][..], &existing, &["--resume", "--json"]].concat());
     let report: Value = serde_json::from_str(&resumed).unwrap();
     assert_eq!((&report["skipped"], &report["inputs"][0]), (&Value::from(1), &Value::from("builtin:grid")));
+}
+
+#[test]
+fn maps_of_directions_hold_what_pixels_see() {
+    let bench = Bench::new();
+    let map = |output: &str, input: &str, more: &[&str]| {
+        let to = ["--to", "fulldome", "--size", "41", "--yaw", "30"];
+        bench.succeed(&[&["convert", input, output][..], &to, more].concat());
+        channels(&bench.path(output))
+    };
+    let orientation = Orientation::from_yaw_pitch_roll(Angle::from_degrees(30.0), Angle::ZERO, Angle::ZERO);
+    let upright = Placement::new(Frame::Fulldome(FulldomeFrame::default()));
+    let view = Placement { orientation: upright.orientation.within(orientation), ..upright }.view(41, 41).unwrap();
+    let names = ["direction.X", "direction.Y", "direction.Z", "dx.X", "dx.Y", "dx.Z", "dy.X", "dy.Y", "dy.Z"];
+    let whole = map("whole.exr", "builtin:direction-map:footprint=yes", &[]);
+    assert_eq!(whole.keys().map(String::as_str).collect::<Vec<_>>(), names);
+    for (j, i) in (0..41).flat_map(|j| (0..41).map(move |i| (j, i))) {
+        let expected = view.screen_pixel(i, j).map_or([[0.0; 3]; 3], |pixel| {
+            let seen = pixel.footprint;
+            [seen.direction.vector(), seen.jacobian.dx, seen.jacobian.dy].map(|vector| vector.to_array())
+        });
+        let expected = expected.into_iter().flatten();
+        for (name, expected) in names.into_iter().zip(expected) {
+            let found = f64::from(whole[name][j * 41 + i]);
+            assert!((found - expected).abs() < 1e-6, "{name} at {i}, {j}: {found} is not {expected}");
+        }
+    }
+    let bare = map("bare.exr", "builtin:direction-map", &["--depth", "half"]);
+    assert_eq!(bare.keys().map(String::as_str).collect::<Vec<_>>(), names[..3]);
+    // Cubes, in files of their own and in one.
+    bench.succeed(&["convert", "builtin:direction-map", "map_{face}.exr", "--size", "9"]);
+    let right = channels(&bench.path("map_right.exr"));
+    assert!((right["direction.X"][40] - 1.0).abs() < 1e-6);
+    bench.succeed(&["convert", "builtin:direction-map", "cross.exr", "--to", "cube:layout=cross-h", "--size", "9"]);
+    assert_eq!(channels(&bench.path("cross.exr"))["direction.Y"].len(), 36 * 27);
+}
+
+/// The channels of an OpenEXR file, read by the library that others use, too.
+fn channels(path: &Path) -> BTreeMap<String, Vec<f32>> {
+    use exr::prelude::{ReadChannels, ReadLayers, read};
+    let reader = read().no_deep_data().largest_resolution_level().all_channels().first_valid_layer().all_attributes();
+    let image = reader.from_file(path).unwrap();
+    let list = image.layer_data.channel_data.list;
+    list.into_iter().map(|channel| (channel.name.to_string(), channel.sample_data.values_as_f32().collect())).collect()
+}
+
+#[test]
+fn maps_of_directions_are_no_pictures() {
+    let bench = Bench::new();
+    let refused = |input: &str, output: &str, more: &[&str], parts: &[&str]| {
+        let dome = ["--to", "fulldome", "--size", "16"];
+        assert_says(&bench.fail(2, &[&["convert", input, output][..], &dome, more].concat()), parts);
+    };
+    refused("builtin:direction-map", "a.png", &[], &["PNG", ".exr"]);
+    refused("builtin:direction-map", "a.exr", &["--depth", "16"], &["--depth 16"]);
+    refused("builtin:direction-map", "a.exr", &["--background", "red"], &["--background"]);
+    refused("builtin:direction-map:footprint=maybe", "a.exr", &[], &["footprint=yes", "maybe"]);
+    bench.succeed(&["convert", "builtin:direction-map", "map.exr", "--to", "fulldome", "--size", "16"]);
+    assert_says(&bench.fail(1, &["info", "map.exr"]), &["direction.X"]);
+    refused("builtin:grid:step=3", "a.exr", &[], &["no keys"]);
 }
 
 #[test]

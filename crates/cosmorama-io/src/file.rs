@@ -117,6 +117,34 @@ pub fn write(path: &Path, image: &EncodedImage, metadata: &Metadata, options: &W
     pending.finish()
 }
 
+/// Writes planes of numbers that are no picture, each under its name, as halves or floats. The file appears whole or not
+/// at all.
+///
+/// # Errors
+/// When the file is not named as OpenEXR, the only format with named channels; when a plane does not hold
+/// width × height numbers; when the file cannot be written.
+pub fn write_planes(
+    path: &Path,
+    size: (usize, usize),
+    planes: Vec<(&str, Vec<f32>)>,
+    depth: Depth,
+    metadata: &Metadata,
+) -> Result<(), IoError> {
+    let format = Format::from_extension(path)?;
+    let cannot_hold =
+        |found: String, expected: String| Err(IoError::CannotHold { path: path.to_owned(), format, found, expected });
+    if format != Format::Exr || !depth.is_float() {
+        let found = format!("{} named channels of depth {depth}", planes.len());
+        return cannot_hold(found, "OpenEXR; depth half, float".to_owned());
+    }
+    if let Some((name, plane)) = planes.iter().find(|(_, plane)| size.0.checked_mul(size.1) != Some(plane.len())) {
+        return cannot_hold(format!("{} numbers in {name}", plane.len()), format!("{}x{}", size.0, size.1));
+    }
+    let mut pending = Pending::create(path)?;
+    exr::write_planes(path, pending.writer(), size, planes, depth, metadata)?;
+    pending.finish()
+}
+
 fn check_can_hold(path: &Path, format: Format, image: &EncodedImage) -> Result<(), IoError> {
     if format.supports(image.depth(), image.channels()) {
         return Ok(());

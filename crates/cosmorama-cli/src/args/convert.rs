@@ -143,8 +143,8 @@ fn threads(text: &str) -> Result<usize, String> {
 fn after_help() -> String {
     let mut text = crate::spec::kind::help();
     text += "\nbuiltin:NAME is a world by formula, in any projection and --size:\n\n";
-    for world in cosmorama_builtin::BuiltinWorld::ALL {
-        text += &format!("  {:<12} {}\n", world.name(), world.about());
+    for (name, about) in crate::job::Builtin::all() {
+        text += &format!("  {name:<13} {about}\n");
     }
     text
 }

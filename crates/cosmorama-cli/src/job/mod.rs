@@ -15,7 +15,7 @@ mod packed;
 mod picture;
 mod target;
 
-pub(crate) use builtin::{BuiltinJob, builtin};
+pub(crate) use builtin::{Builtin, BuiltinJob};
 pub(crate) use coverage::{Coverage, nominal_world};
 pub(crate) use detect::likely;
 pub(crate) use face_view::face_placement;

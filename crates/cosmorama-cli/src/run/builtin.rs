@@ -1,30 +1,38 @@
 use std::collections::BTreeSet;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use anyhow::Result;
 use cosmorama::raster::{Image, Rgba};
-use cosmorama_builtin::BuiltinWorld;
-use cosmorama_io::WriteOptions;
+use cosmorama_builtin::{BuiltinWorld, DirectionMap, DirectionPixel};
+use cosmorama_io::{WriteOptions, write_planes};
 
 use super::engine::{assemble, save};
 use super::progress::Progress;
 use super::report::Report;
 use super::stages::{Stage, Stages};
 use crate::args::ConvertArgs;
-use crate::job::{BuiltinJob, FrameOutputs};
+use crate::job::{Builtin, BuiltinJob, FrameOutputs, Light};
 
-/// Makes pictures of a built-in world.
-pub(super) fn convert(world: BuiltinWorld, args: &ConvertArgs) -> Result<Report> {
+/// Makes pictures of a built-in world, or maps of directions.
+pub(super) fn convert(builtin: Builtin, args: &ConvertArgs) -> Result<Report> {
     let start = Instant::now();
     let mut stages = Stages::default();
-    let job = stages.time(Stage::Plan, || BuiltinJob::resolve(world, args))?;
+    let job = stages.time(Stage::Plan, || BuiltinJob::resolve(builtin, args))?;
     let options = WriteOptions::with_quality(args.quality);
     let mut progress = Progress::new(args.progress, job.outputs.frames.len());
     for FrameOutputs { frame, files } in &job.outputs.frames {
         for (index, path) in files {
-            let image = stages.time(Stage::Filter, || picture(&job, *index))?;
-            stages.time(Stage::Encode, || save(&job.light, &image, path, &options))?;
+            match job.builtin {
+                Builtin::World(world) => {
+                    let image = stages.time(Stage::Filter, || picture(&job, world, *index))?;
+                    stages.time(Stage::Encode, || save(&job.light, &image, path, &options))?;
+                }
+                Builtin::DirectionMap(map) => {
+                    let pixels = stages.time(Stage::Filter, || directions(&job, map, *index))?;
+                    stages.time(Stage::Encode, || save_map(&job.light, map, &pixels, path))?;
+                }
+            }
         }
         progress.frame_done(*frame);
     }
@@ -37,11 +45,24 @@ pub(super) fn convert(world: BuiltinWorld, args: &ConvertArgs) -> Result<Report>
 }
 
 /// The picture of a file, in front of its background.
-fn picture(job: &BuiltinJob, file: usize) -> Result<Image<Rgba>> {
+fn picture(job: &BuiltinJob, world: BuiltinWorld, file: usize) -> Result<Image<Rgba>> {
     let background = job.light.background;
     assemble(&job.target.files[file], background, |index| {
-        let mut image = job.world.picture(&job.target.views[index].view);
+        let mut image = world.picture(&job.target.views[index].view);
         image.pixels_mut().iter_mut().for_each(|pixel| *pixel = pixel.over(background));
         Ok(image)
     })
+}
+
+/// The directions of a file's pixels.
+fn directions(job: &BuiltinJob, map: DirectionMap, file: usize) -> Result<Image<DirectionPixel>> {
+    assemble(&job.target.files[file], DirectionPixel::default(), |index| Ok(map.pixels(&job.target.views[index].view)))
+}
+
+/// Writes a map of directions, a plane for each number of its pixels.
+fn save_map(light: &Light, map: DirectionMap, pixels: &Image<DirectionPixel>, path: &Path) -> Result<()> {
+    let plane = |number: usize| pixels.pixels().iter().map(|pixel| pixel[number]).collect();
+    let planes = map.channels().iter().enumerate().map(|(number, name)| (*name, plane(number))).collect();
+    write_planes(path, (pixels.width(), pixels.height()), planes, light.depth, &light.metadata)?;
+    Ok(())
 }

@@ -15,7 +15,7 @@ use super::stages::{Stage, Stages};
 use super::{print, use_threads};
 use crate::args::ConvertArgs;
 use crate::failure::warn;
-use crate::job::{ConvertJob, FrameOutputs, builtin};
+use crate::job::{Builtin, ConvertJob, FrameOutputs};
 
 /// Converts, and tells what it has done.
 pub(super) fn run(args: &ConvertArgs) -> Result<ExitCode> {
@@ -31,8 +31,8 @@ pub(super) fn run(args: &ConvertArgs) -> Result<ExitCode> {
 
 /// Converts.
 pub(super) fn convert(args: &ConvertArgs) -> Result<Report> {
-    if let Some(world) = builtin(&args.input)? {
-        return super::builtin::convert(world, args);
+    if let Some(builtin) = Builtin::named(&args.input)? {
+        return super::builtin::convert(builtin, args);
     }
     let start = Instant::now();
     let mut stages = Stages::default();

@@ -218,11 +218,11 @@ impl<'a> Engine<'a> {
 }
 
 /// The picture of a file: an image, or several in their places on a background.
-pub(super) fn assemble(
+pub(super) fn assemble<P: Copy>(
     file: &TargetFile,
-    background: Rgba,
-    mut image: impl FnMut(usize) -> Result<Image<Rgba>>,
-) -> Result<Image<Rgba>> {
+    background: P,
+    mut image: impl FnMut(usize) -> Result<Image<P>>,
+) -> Result<Image<P>> {
     if let [(index, (0, 0))] = file.pieces[..] {
         return image(index);
     }
