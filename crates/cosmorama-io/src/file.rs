@@ -47,6 +47,13 @@ pub struct WriteOptions {
     pub quality: u8,
 }
 
+impl WriteOptions {
+    /// The default, but for what is given.
+    pub fn with_quality(quality: Option<u8>) -> Self {
+        quality.map_or_else(Self::default, |quality| Self { quality })
+    }
+}
+
 impl Default for WriteOptions {
     fn default() -> Self {
         Self { quality: 95 }
@@ -116,6 +123,34 @@ pub fn write(path: &Path, image: &EncodedImage, metadata: &Metadata, options: &W
         Format::Ktx => Err(IoError::write(path, "KTX files of the first version are only read; write .ktx2")),
         Format::Dds => dds::write(path, writer, image, metadata),
     }?;
+    pending.finish()
+}
+
+/// Writes planes of numbers that are no picture, each under its name, as halves or floats. The file appears whole or not
+/// at all.
+///
+/// # Errors
+/// When the file is not named as OpenEXR, the only format with named channels; when a plane does not hold
+/// width × height numbers; when the file cannot be written.
+pub fn write_planes(
+    path: &Path,
+    size: (usize, usize),
+    planes: Vec<(&str, Vec<f32>)>,
+    depth: Depth,
+    metadata: &Metadata,
+) -> Result<(), IoError> {
+    let format = Format::from_extension(path)?;
+    let cannot_hold =
+        |found: String, expected: String| Err(IoError::CannotHold { path: path.to_owned(), format, found, expected });
+    if format != Format::Exr || !depth.is_float() {
+        let found = format!("{} named channels of depth {depth}", planes.len());
+        return cannot_hold(found, "OpenEXR; depth half, float".to_owned());
+    }
+    if let Some((name, plane)) = planes.iter().find(|(_, plane)| size.0.checked_mul(size.1) != Some(plane.len())) {
+        return cannot_hold(format!("{} numbers in {name}", plane.len()), format!("{}x{}", size.0, size.1));
+    }
+    let mut pending = Pending::create(path)?;
+    exr::write_planes(path, pending.writer(), size, planes, depth, metadata)?;
     pending.finish()
 }
 

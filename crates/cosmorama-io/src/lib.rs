@@ -19,7 +19,7 @@ pub mod svg;
 
 pub use error::IoError;
 pub use face_set::{FaceFile, FacePattern, FacePlacement, FaceSet, LetterCase, Naming};
-pub use file::{Header, ImageFile, WriteOptions, probe, read, write};
+pub use file::{Header, ImageFile, WriteOptions, probe, read, write, write_planes};
 pub use format::Format;
 pub use limits::Limits;
 pub use metadata::{EnvMap, Metadata, Window};

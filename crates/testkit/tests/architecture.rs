@@ -41,7 +41,7 @@ const CRATES: [CratePlan; 5] = [
     CratePlan {
         name: "cosmorama-builtin",
         crates: &["cosmorama"],
-        rooms: &["sphere", "raster"],
+        rooms: &["sphere", "raster", "world", "explain"],
         banned_std: &["fs", "io", "process", "net", "env"],
         banned: &["println", "eprintln"],
         reason: "worlds by formula touch neither files nor the terminal",

@@ -13,10 +13,11 @@ use crate::spec::Spec;
   cosmorama convert '%c/frame_%c_%04d.tga' 'dome_####.png' --to fulldome:tilt=20 --size 4096
   cosmorama convert panorama.jpg view.png --to perspective:fov=60 --yaw 30 --pitch -10 --size 1920x1080
   cosmorama convert panorama.exr 'cube/{face}.exr' --to cube --size 1024
-  cosmorama convert dome.png back.png --from fulldome --to equirect")]
-#[command(after_help = crate::spec::kind::help())]
+  cosmorama convert dome.png back.png --from fulldome --to equirect
+  cosmorama convert builtin:grid align.png --to fulldome --size 4096")]
+#[command(after_help = after_help())]
 pub(crate) struct ConvertArgs {
-    /// An image, or a pattern with {face} or %c (faces) and ####, @@@@ or %04d (frames)
+    /// An image, a pattern with {face} or %c (faces) and ####, @@@@ or %04d (frames), or builtin:NAME
     #[arg(value_hint = ValueHint::FilePath, value_parser = NonEmptyStringValueParser::new())]
     pub(crate) input: String,
     /// An image or a pattern; the extension chooses the format
@@ -136,4 +137,14 @@ fn threads(text: &str) -> Result<usize, String> {
         Ok(count @ 1..=1024) => Ok(count),
         _ => Err("expected a number from 1 to 1024".to_owned()),
     }
+}
+
+/// Every projection, and every built-in world.
+fn after_help() -> String {
+    let mut text = crate::spec::kind::help();
+    text += "\nbuiltin:NAME is a world by formula, in any projection and --size:\n\n";
+    for (name, about) in crate::job::Builtin::all() {
+        text += &format!("  {name:<13} {about}\n");
+    }
+    text
 }

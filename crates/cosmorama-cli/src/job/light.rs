@@ -98,7 +98,9 @@ fn channels(args: &ConvertArgs, headers: &[&Header], target: &Target, warnings: 
         Missing::Error => None,
         Missing::Fill(colour) => Some(colour),
     };
-    let colour = headers.iter().any(|header| header.channels.is_colour())
+    // Light that comes from no file is coloured.
+    let colour = headers.is_empty()
+        || headers.iter().any(|header| header.channels.is_colour())
         || [background, fill].into_iter().flatten().any(coloured);
     let transparent = [background, fill].into_iter().flatten().any(|light| light.alpha() < 1.0);
     let alpha = transparent || headers.iter().any(|header| header.channels.has_alpha());

@@ -1,5 +1,6 @@
 //! Jobs: arguments resolved, everything checked before work starts.
 
+mod builtin;
 mod coverage;
 mod detect;
 mod evidence;
@@ -16,6 +17,7 @@ mod picture;
 mod target;
 mod world_file;
 
+pub(crate) use builtin::{Builtin, BuiltinJob};
 pub(crate) use coverage::{Coverage, nominal_world};
 pub(crate) use detect::likely;
 pub(crate) use face_view::face_placement;
@@ -72,7 +74,7 @@ impl ConvertJob {
         let format = Target::check_names(&args.output, geometry)?;
         check_quality(args, format)?;
         let mut input = Input::find(&args.input, geometry.from.as_ref(), args.frames.as_ref(), &mut warnings)?;
-        let target = Target::resolve(&args.output, geometry, input.pixels_per_radian())?;
+        let target = Target::resolve(&args.output, geometry, Some(input.pixels_per_radian()))?;
         let filter = filter(geometry, &mut warnings);
         let light = Light::resolve(args, &input, &target, &mut warnings)?;
         memory.check_outputs(&target)?;

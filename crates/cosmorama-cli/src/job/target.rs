@@ -59,11 +59,12 @@ impl Target {
         }
     }
 
-    /// The images that an output's name, its projection and the size stand for.
-    pub(crate) fn resolve(output: &str, geometry: &GeometryArgs, pixels_per_radian: f64) -> Result<Self> {
+    /// The images that an output's name, its projection and the size stand for. Without a size, the centre gets so many
+    /// pixels a radian.
+    pub(crate) fn resolve(output: &str, geometry: &GeometryArgs, pixels_per_radian: Option<f64>) -> Result<Self> {
         let format = Self::check_names(output, geometry)?;
         let container = FacePattern::parse(output).is_none().then_some(format);
-        let pictures = Picture::all(geometry, container, Some(pixels_per_radian))?;
+        let pictures = Picture::all(geometry, container, pixels_per_radian)?;
         let naming = match geometry.to.as_ref().map(|spec| &spec.shape) {
             Some(Shape::Cube(cube)) if cube.naming.is_some() => super::picture::naming(cube),
             // `%c` is Bourke's mark: one letter a face.

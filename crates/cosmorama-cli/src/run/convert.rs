@@ -8,14 +8,14 @@ use cosmorama::raster::{Image, Rgba};
 use cosmorama_io::WriteOptions;
 use rayon::prelude::*;
 
-use super::engine::{Engine, FrameLight};
+use super::engine::{Engine, FrameLight, save};
 use super::progress::Progress;
 use super::report::Report;
 use super::stages::{Stage, Stages};
 use super::{print, use_threads};
 use crate::args::ConvertArgs;
 use crate::failure::warn;
-use crate::job::{ConvertJob, FrameOutputs};
+use crate::job::{Builtin, ConvertJob, FrameOutputs};
 
 /// Converts, and tells what it has done.
 pub(super) fn run(args: &ConvertArgs) -> Result<ExitCode> {
@@ -31,6 +31,9 @@ pub(super) fn run(args: &ConvertArgs) -> Result<ExitCode> {
 
 /// Converts.
 pub(super) fn convert(args: &ConvertArgs) -> Result<Report> {
+    if let Some(builtin) = Builtin::named(&args.input)? {
+        return super::builtin::convert(builtin, args);
+    }
     let start = Instant::now();
     let mut stages = Stages::default();
     let job = stages.time(Stage::Plan, || ConvertJob::resolve(args))?;
@@ -65,7 +68,7 @@ impl Run<'_> {
         while lights.len() < frames.len() {
             lights.push(engine.frame_light());
         }
-        let options = args.quality.map_or_else(WriteOptions::default, |quality| WriteOptions { quality });
+        let options = WriteOptions::with_quality(args.quality);
         let load = |(frame, light): (&FrameOutputs, &mut FrameLight)| engine.load(frame.frame, light);
         let loaded: Vec<Result<()>> =
             stages.time(Stage::Decode, || frames.par_iter().zip(lights.as_mut_slice()).map(load).collect());
@@ -100,6 +103,6 @@ impl FrameOutputs {
 
     fn save(&self, engine: &Engine<'_>, images: &[Image<Rgba>], options: &WriteOptions) -> Result<()> {
         let pairs = self.files.par_iter().zip(images);
-        pairs.try_for_each(|((_, path), image)| engine.save(image, path, options))
+        pairs.try_for_each(|((_, path), image)| save(engine.light(), image, path, options))
     }
 }

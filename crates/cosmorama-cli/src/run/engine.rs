@@ -9,7 +9,7 @@ use cosmorama_io::{Header, Limits, WriteOptions, read, write};
 use rayon::prelude::*;
 
 use super::stages::{Stage, Stages};
-use crate::job::{ConvertJob, Coverage, Files, InputView};
+use crate::job::{ConvertJob, Coverage, Files, InputView, Light, TargetFile};
 
 /// Makes the outputs of a job, frame by frame.
 pub(super) struct Engine<'a> {
@@ -152,18 +152,7 @@ impl<'a> Engine<'a> {
     /// Makes the picture of a file: filtered light, complete with what lies outside, faces in their places.
     pub(super) fn render(&self, file: usize, light: &FrameLight, stages: &mut Stages) -> Result<Image<Rgba>> {
         let file = &self.job.target.files[file];
-        if let [(index, (0, 0))] = file.pieces[..] {
-            return self.render_view(index, light, stages);
-        }
-        let (width, height) = file.size;
-        let mut sheet = Image::filled(width, height, self.job.light.background);
-        for &(index, (left, top)) in &file.pieces {
-            let face = self.render_view(index, light, stages)?;
-            for j in 0..face.height() {
-                sheet.pixels_mut()[(top + j) * width + left..][..face.width()].copy_from_slice(face.row(j));
-            }
-        }
-        Ok(sheet)
+        assemble(file, self.job.light.background, |index| self.render_view(index, light, stages))
     }
 
     fn render_view(&self, index: usize, light: &FrameLight, stages: &mut Stages) -> Result<Image<Rgba>> {
@@ -222,13 +211,37 @@ impl<'a> Engine<'a> {
         }
     }
 
-    /// Writes an output.
-    pub(super) fn save(&self, image: &Image<Rgba>, path: &Path, options: &WriteOptions) -> Result<()> {
-        let light = &self.job.light;
-        let encoded = EncodedImage::encode(image, light.channels, light.depth, &light.transfer);
-        write(path, &encoded, &light.metadata, options)?;
-        Ok(())
+    /// What the outputs hold.
+    pub(super) fn light(&self) -> &Light {
+        &self.job.light
     }
+}
+
+/// The picture of a file: an image, or several in their places on a background.
+pub(super) fn assemble<P: Copy>(
+    file: &TargetFile,
+    background: P,
+    mut image: impl FnMut(usize) -> Result<Image<P>>,
+) -> Result<Image<P>> {
+    if let [(index, (0, 0))] = file.pieces[..] {
+        return image(index);
+    }
+    let (width, height) = file.size;
+    let mut sheet = Image::filled(width, height, background);
+    for &(index, (left, top)) in &file.pieces {
+        let face = image(index)?;
+        for j in 0..face.height() {
+            sheet.pixels_mut()[(top + j) * width + left..][..face.width()].copy_from_slice(face.row(j));
+        }
+    }
+    Ok(sheet)
+}
+
+/// Writes an output.
+pub(super) fn save(light: &Light, image: &Image<Rgba>, path: &Path, options: &WriteOptions) -> Result<()> {
+    let encoded = EncodedImage::encode(image, light.channels, light.depth, &light.transfer);
+    write(path, &encoded, &light.metadata, options)?;
+    Ok(())
 }
 
 /// The texels of a view that are to be read.

@@ -10,7 +10,7 @@ use serde_json::{Value, json};
 use super::{diagram, print, use_threads};
 use crate::args::ExplainArgs;
 use crate::failure::{usage, warn};
-use crate::job::{Input, MemoryBudget, Picture, filter, nominal_world, refuse_existing};
+use crate::job::{Builtin, Input, MemoryBudget, Picture, filter, nominal_world, refuse_existing};
 
 /// Tells what a conversion will do.
 pub(super) fn run(args: &ExplainArgs) -> Result<ExitCode> {
@@ -60,6 +60,10 @@ pub(super) fn run(args: &ExplainArgs) -> Result<ExitCode> {
 fn resolve(args: &ExplainArgs, warnings: &mut Vec<String>) -> Result<(Input, Vec<Picture>)> {
     let geometry = &args.geometry;
     match (&args.input, &geometry.from) {
+        (Some(pattern), _) if Builtin::named(pattern)?.is_some() => Err(usage(format!(
+            "{pattern} is a formula: nothing is resampled, so there is nothing to explain; for its picture in a projection, \
+             explain --from SPEC"
+        ))),
         (Some(pattern), from) => {
             let input = Input::find(pattern, from.as_ref(), None, warnings)?;
             let pictures = Picture::all(geometry, None, Some(input.pixels_per_radian()))?;

@@ -8,11 +8,17 @@ use serde_json::{Value, json};
 
 use super::print;
 use crate::args::InfoArgs;
-use crate::job::{Files, existing_frames, likely};
+use crate::job::{Builtin, Files, existing_frames, likely};
 
 /// Tells what a file or a face set is.
 pub(super) fn run(args: &InfoArgs) -> Result<ExitCode> {
-    let report = if FacePattern::parse(&args.input).is_some() { faces(&args.input)? } else { single(&args.input)? };
+    let report = if let Some(builtin) = Builtin::named(&args.input)? {
+        json!({ "input": args.input, "projection": "any (a formula)", "shows": builtin.about() })
+    } else if FacePattern::parse(&args.input).is_some() {
+        faces(&args.input)?
+    } else {
+        single(&args.input)?
+    };
     if args.json {
         print(&(serde_json::to_string_pretty(&report)? + "\n"))?;
     } else {

@@ -1,5 +1,6 @@
 //! Running jobs.
 
+mod builtin;
 mod compare;
 mod convert;
 mod demo;

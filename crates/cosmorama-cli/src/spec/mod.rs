@@ -14,4 +14,4 @@ mod window;
 pub(crate) use angle::parse_degrees;
 pub(crate) use cube::{Cube, Packing};
 pub(crate) use shape::{Shape, Single, SphereSamples};
-pub(crate) use text::{Spec, SpecError};
+pub(crate) use text::{Spec, SpecError, did_you_mean};

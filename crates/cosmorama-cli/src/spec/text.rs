@@ -41,7 +41,8 @@ fn names() -> Vec<&'static str> {
     KINDS.iter().map(|kind| kind.name).collect()
 }
 
-fn did_you_mean(typed: &str, known: &[&str]) -> String {
+/// The known name that is most like what was typed, as a question; nothing where none is.
+pub(crate) fn did_you_mean(typed: &str, known: &[&str]) -> String {
     let likeness = |name: &&&str| (strsim::normalized_damerau_levenshtein(typed, name) * 1000.0) as i64;
     match known.iter().max_by_key(likeness).filter(|best| likeness(best) >= 500) {
         Some(best) => format!("; did you mean '{best}'?"),

@@ -18,7 +18,7 @@ use super::{exr_dwa, whole_image};
 use crate::file::Source;
 use crate::{EnvMap, Format, Header, ImageFile, IoError, Limits, Metadata};
 
-pub(crate) use super::exr_writer::write;
+pub(crate) use super::exr_writer::{write, write_planes};
 
 const FORMAT: Format = Format::Exr;
 

@@ -90,7 +90,7 @@ fn layers(part: &Part) -> Vec<String> {
     layers
 }
 
-/// R, G, B or Y of a layer, with A if there is one.
+/// R, G, B or Y of a layer, with A if there is one. Beside X and Z, Y is no luminance but a part of a vector.
 fn in_layer(part: &Part, layer: &str) -> Option<Vec<usize>> {
     let find = |name: &str| {
         let wanted = format!("{layer}{name}");
@@ -98,6 +98,7 @@ fn in_layer(part: &Part, layer: &str) -> Option<Vec<usize>> {
     };
     let colour = match (find("R"), find("G"), find("B")) {
         (Some(red), Some(green), Some(blue)) => vec![red, green, blue],
+        _ if find("X").is_some() && find("Z").is_some() => return None,
         _ => vec![find("Y")?],
     };
     Some(colour.into_iter().chain(find("A")).collect())

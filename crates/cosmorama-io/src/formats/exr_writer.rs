@@ -1,7 +1,7 @@
 use std::io::{Seek, Write};
 use std::path::Path;
 
-use cosmorama::raster::{AlphaMode, Channels, EncodedImage, Samples};
+use cosmorama::raster::{AlphaMode, Channels, Depth, EncodedImage, Samples};
 use exr::image::write::WritableImage;
 use exr::image::{AnyChannel, AnyChannels, Encoding, FlatSamples, Image, Layer};
 use exr::meta::attribute::{EnvironmentMap, Text};
@@ -29,6 +29,33 @@ pub(crate) fn write(
         .enumerate()
         .map(|(i, name)| Ok(AnyChannel::new(*name, plane(path, image, i)?)))
         .collect::<Result<_, IoError>>()?;
+    save(path, output, (image.width(), image.height()), list, metadata)
+}
+
+/// Writes planes of numbers under the names given; as halves or as floats.
+pub(crate) fn write_planes(
+    path: &Path,
+    output: impl Write + Seek,
+    size: (usize, usize),
+    planes: Vec<(&str, Vec<f32>)>,
+    depth: Depth,
+    metadata: &Metadata,
+) -> Result<(), IoError> {
+    let samples = |numbers: Vec<f32>| match depth {
+        Depth::Half => FlatSamples::F16(numbers.into_iter().map(f16::from_f32).collect()),
+        _ => FlatSamples::F32(numbers),
+    };
+    let list = planes.into_iter().map(|(name, numbers)| AnyChannel::new(name, samples(numbers))).collect();
+    save(path, output, size, list, metadata)
+}
+
+fn save(
+    path: &Path,
+    output: impl Write + Seek,
+    size: (usize, usize),
+    list: SmallVec<[AnyChannel<FlatSamples>; 4]>,
+    metadata: &Metadata,
+) -> Result<(), IoError> {
     let attributes = LayerAttributes {
         environment_map: metadata.envmap.and_then(|kind| match kind {
             EnvMap::LatLong => Some(EnvironmentMap::LatitudeLongitude),
@@ -38,8 +65,7 @@ pub(crate) fn write(
         software_name: Some(Text::from("cosmorama")),
         ..LayerAttributes::default()
     };
-    let layer =
-        Layer::new((image.width(), image.height()), attributes, Encoding::SMALL_LOSSLESS, AnyChannels::sort(list));
+    let layer = Layer::new(size, attributes, Encoding::SMALL_LOSSLESS, AnyChannels::sort(list));
     let picture = Image::from_layer(layer);
     let writer = picture.write();
     // The encoder has threads of its own; one that may use only one has none to spare.

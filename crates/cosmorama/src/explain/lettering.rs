@@ -99,8 +99,8 @@ fn strokes(character: char) -> Option<&'static str> {
 }
 
 /// A line of text as polylines, in units of the capitals' height: x to the right from the line's start, y down from the
-/// baseline.
-pub(super) fn polylines(text: &str) -> (Vec<Vec<(f64, f64)>>, f64) {
+/// baseline. Also the width of it all.
+pub fn polylines(text: &str) -> (Vec<Vec<(f64, f64)>>, f64) {
     let (mut lines, mut x) = (Vec::new(), 0.0);
     for character in text.chars() {
         if character == ' ' {

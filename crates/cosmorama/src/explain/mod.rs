@@ -5,7 +5,7 @@ mod drawing;
 mod field;
 mod figures;
 mod footprints;
-mod lettering;
+pub mod lettering;
 mod magnification;
 mod net;
 mod ownership;

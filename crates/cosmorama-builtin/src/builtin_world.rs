@@ -1,0 +1,57 @@
+use cosmorama::raster::{Image, Rgba};
+use cosmorama::world::View;
+
+use crate::{Checker, DemoWorld, Directions, Grid, ZonePlate, picture};
+
+/// A world that comes with the program.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum BuiltinWorld {
+    /// [`Grid`].
+    Grid,
+    /// [`Checker`].
+    Checker,
+    /// [`Directions`].
+    Directions,
+    /// [`ZonePlate`].
+    ZonePlate,
+    /// [`DemoWorld`].
+    Demo,
+}
+
+impl BuiltinWorld {
+    /// All of them.
+    pub const ALL: [Self; 5] = [Self::Grid, Self::Checker, Self::Directions, Self::ZonePlate, Self::Demo];
+
+    /// As it is typed.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Grid => "grid",
+            Self::Checker => "checker",
+            Self::Directions => "directions",
+            Self::ZonePlate => "zone-plate",
+            Self::Demo => "demo",
+        }
+    }
+
+    /// What it shows.
+    pub const fn about(self) -> &'static str {
+        match self {
+            Self::Grid => "degrees of azimuth and elevation, to align the projectors of a dome by",
+            Self::Checker => "black and white checks of 10 degrees of azimuth and elevation",
+            Self::Directions => "the colour is the direction: (x + 1)/2, (y + 1)/2, (z + 1)/2, linear",
+            Self::ZonePlate => "rings around the six axes, ever finer: 8 cycles a degree at 45 degrees",
+            Self::Demo => "the demo's arcade under a glazed vault",
+        }
+    }
+
+    /// Makes a view's picture of it ([`picture()`]).
+    pub fn picture(self, view: &View) -> Image<Rgba> {
+        match self {
+            Self::Grid => picture(&Grid::new(), view),
+            Self::Checker => picture(&Checker, view),
+            Self::Directions => picture(&Directions, view),
+            Self::ZonePlate => picture(&ZonePlate, view),
+            Self::Demo => picture(&DemoWorld, view),
+        }
+    }
+}

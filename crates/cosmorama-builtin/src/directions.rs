@@ -1,0 +1,19 @@
+use cosmorama::sphere::Direction;
+use cosmorama::world::Footprint;
+
+use crate::{Average, Radiance};
+
+/// The world whose colour is its direction: red, green and blue are x, y and z from −1…1 brought to 0…1. It is as good
+/// as linear within a pixel, so a pixel has the colour of its middle.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Directions;
+
+impl Radiance for Directions {
+    fn radiance(&self, direction: Direction) -> [f32; 3] {
+        direction.vector().to_array().map(|component| (component / 2.0 + 0.5) as f32)
+    }
+
+    fn average(&self, pixel: &Footprint) -> Average {
+        Average::Known(self.radiance(pixel.direction))
+    }
+}

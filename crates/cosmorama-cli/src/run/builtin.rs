@@ -1,0 +1,68 @@
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+use anyhow::Result;
+use cosmorama::raster::{Image, Rgba};
+use cosmorama_builtin::{BuiltinWorld, DirectionMap, DirectionPixel};
+use cosmorama_io::{WriteOptions, write_planes};
+
+use super::engine::{assemble, save};
+use super::progress::Progress;
+use super::report::Report;
+use super::stages::{Stage, Stages};
+use crate::args::ConvertArgs;
+use crate::job::{Builtin, BuiltinJob, FrameOutputs, Light};
+
+/// Makes pictures of a built-in world, or maps of directions.
+pub(super) fn convert(builtin: Builtin, args: &ConvertArgs) -> Result<Report> {
+    let start = Instant::now();
+    let mut stages = Stages::default();
+    let job = stages.time(Stage::Plan, || BuiltinJob::resolve(builtin, args))?;
+    let options = WriteOptions::with_quality(args.quality);
+    let mut progress = Progress::new(args.progress, job.outputs.frames.len());
+    for FrameOutputs { frame, files } in &job.outputs.frames {
+        for (index, path) in files {
+            match job.builtin {
+                Builtin::World(world) => {
+                    let image = stages.time(Stage::Filter, || picture(&job, world, *index))?;
+                    stages.time(Stage::Encode, || save(&job.light, &image, path, &options))?;
+                }
+                Builtin::DirectionMap(map) => {
+                    let pixels = stages.time(Stage::Filter, || directions(&job, map, *index))?;
+                    stages.time(Stage::Encode, || save_map(&job.light, map, &pixels, path))?;
+                }
+            }
+        }
+        progress.frame_done(*frame);
+    }
+    progress.finish();
+    let outputs =
+        job.outputs.frames.iter().flat_map(|frame| frame.files.iter().map(|(_, path)| path.clone())).collect();
+    let counts = (job.outputs.frames.len(), job.outputs.skipped);
+    let inputs = BTreeSet::from([PathBuf::from(&args.input)]);
+    Ok(Report::new(inputs, outputs, counts, start.elapsed(), stages, job.warnings))
+}
+
+/// The picture of a file, in front of its background.
+fn picture(job: &BuiltinJob, world: BuiltinWorld, file: usize) -> Result<Image<Rgba>> {
+    let background = job.light.background;
+    assemble(&job.target.files[file], background, |index| {
+        let mut image = world.picture(&job.target.views[index].view);
+        image.pixels_mut().iter_mut().for_each(|pixel| *pixel = pixel.over(background));
+        Ok(image)
+    })
+}
+
+/// The directions of a file's pixels.
+fn directions(job: &BuiltinJob, map: DirectionMap, file: usize) -> Result<Image<DirectionPixel>> {
+    assemble(&job.target.files[file], DirectionPixel::default(), |index| Ok(map.pixels(&job.target.views[index].view)))
+}
+
+/// Writes a map of directions, a plane for each number of its pixels.
+fn save_map(light: &Light, map: DirectionMap, pixels: &Image<DirectionPixel>, path: &Path) -> Result<()> {
+    let plane = |number: usize| pixels.pixels().iter().map(|pixel| pixel[number]).collect();
+    let planes = map.channels().iter().enumerate().map(|(number, name)| (*name, plane(number))).collect();
+    write_planes(path, (pixels.width(), pixels.height()), planes, light.depth, &light.metadata)?;
+    Ok(())
+}
