@@ -21,7 +21,7 @@ pub(super) struct Candidate {
 impl Candidate {
     /// Whether it lies under the pixel.
     pub(super) fn is_under(&self) -> bool {
-        self.q < UNDER as f32
+        f64::from(self.q) < UNDER
     }
 }
 
@@ -47,7 +47,7 @@ pub(super) fn settle(candidates: &mut [Candidate], centred: bool, taps: &mut Tap
 }
 
 /// The part of the weights' size that their sum has at least: on one lattice it is much more.
-const LEAST_SUM: f32 = 0.4;
+const LEAST_SUM: f32 = 0.3;
 
 /// Where a fine view meets a coarse one, a few large texels in the negative lobe can all but cancel the small ones under
 /// the pixel. As far as they do, the weights give way to positive ones.
