@@ -1,11 +1,12 @@
 use cosmorama::sphere::CubeFace;
 use cosmorama::world::{
-    EquirectFrame, FieldOfView, FisheyeFit, FisheyeFrame, Frame, FulldomeFrame, OmnimaxFrame, OmnimaxFraming,
-    PerspectiveFrame, Placement, SamplePositions,
+    EquirectFrame, FieldOfView, Frame, FulldomeFrame, OmnimaxFrame, OmnimaxFraming, PerspectiveFrame, Placement,
+    SamplePositions, StereographicFrame,
 };
 use cosmorama_io::Naming;
 
 use super::fields::{Fields, wrong};
+use super::lens::fisheye;
 use super::shape::{Cube, Shape, Single, SphereSamples};
 use super::{SpecError, angle::parse_degrees};
 
@@ -24,6 +25,7 @@ impl Shape {
                 Frame::Equirect(frame)
             }
             "fisheye" => Frame::Fisheye(fisheye(&fields)?),
+            "stereographic" => Frame::Stereographic(stereographic(&fields)?),
             "fulldome" => Frame::Fulldome(fulldome(&fields)?),
             "omnimax" => Frame::Omnimax(omnimax(&fields)?),
             _ => return Err(SpecError::UnknownName { name: name.to_owned() }),
@@ -69,19 +71,10 @@ fn equirect(fields: &Fields) -> Result<EquirectFrame, SpecError> {
     })
 }
 
-fn fisheye(fields: &Fields) -> Result<FisheyeFrame, SpecError> {
-    fields.choice("lens", &[("equidistant", ())])?;
-    let fits = [
-        ("short", FisheyeFit::Short),
-        ("long", FisheyeFit::Long),
-        ("width", FisheyeFit::Width),
-        ("height", FisheyeFit::Height),
-        ("diagonal", FisheyeFit::Diagonal),
-    ];
-    Ok(FisheyeFrame {
-        field_of_view: fields.angle_or("fov", 180.0)?,
-        fit: fields.choice("fit", &fits)?.unwrap_or_default(),
-        circle: fields.circle()?,
+fn stereographic(fields: &Fields) -> Result<StereographicFrame, SpecError> {
+    let default = StereographicFrame::default();
+    Ok(StereographicFrame {
+        field_of_view: fields.angle("fov")?.unwrap_or(default.field_of_view),
         pixel_aspect: fields.aspect()?,
     })
 }

@@ -27,7 +27,7 @@ const fn key(name: &'static str, value: &'static str, about: &'static str) -> Ke
 }
 
 /// Every projection on offer.
-pub(crate) const KINDS: [Kind; 6] = [
+pub(crate) static KINDS: [Kind; 7] = [
     Kind {
         name: "cube",
         about: "faces of a cube, one file each",
@@ -63,11 +63,25 @@ pub(crate) const KINDS: [Kind; 6] = [
         about: "a fisheye lens that looks ahead",
         keys: &[
             key("fov", "DEGREES", "across the circle (180)"),
-            key("lens", "equidistant", "how the angle goes with the radius (equidistant)"),
+            key(
+                "lens",
+                "NAME",
+                "how the angle goes with the radius (equidistant): equisolid, stereographic, orthographic, polynomial \
+                 (Blender), kannala-brandt (OpenCV), ocam (OCamCalib), ucm, eucm, double-sphere, fov",
+            ),
+            key("k", "A:B:C…", "coefficients of a measured lens, in its program's own order"),
             key("fit", "short|long|width|height|diagonal", "which length of the image the circle spans (short)"),
+            key("focal", "PIXELS", "instead of fit=: the focal length (for ocam: 1)"),
+            key("sensor", "MM", "instead of fit=: the image's width in millimetres (polynomial)"),
             key("center", "X:Y", "the circle's centre in pixels"),
             key("radius", "PIXELS", "the circle's radius in pixels"),
         ],
+        takes_aspect: true,
+    },
+    Kind {
+        name: "stereographic",
+        about: "stereographic, without a circle; with pitch=-90 a little planet",
+        keys: &[key("fov", "DEGREES", "horizontal field of view (270)")],
         takes_aspect: true,
     },
     Kind {
@@ -108,8 +122,7 @@ pub(crate) const ASPECT: Key = key("aspect", "A", "a pixel's width over its heig
 impl Kind {
     /// The kind of this name.
     pub(crate) fn named(name: &str) -> Option<&'static Self> {
-        static TABLE: [Kind; 6] = KINDS;
-        TABLE.iter().find(|kind| kind.name == name)
+        KINDS.iter().find(|kind| kind.name == name)
     }
 
     /// Every key it takes.

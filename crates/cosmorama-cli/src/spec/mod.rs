@@ -6,6 +6,7 @@ mod angle;
 mod build;
 mod fields;
 pub(crate) mod kind;
+mod lens;
 mod shape;
 mod text;
 mod window;

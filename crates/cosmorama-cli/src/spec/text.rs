@@ -1,5 +1,6 @@
 use std::str::FromStr;
 
+use cosmorama::projection::azimuthal::LensError;
 use thiserror::Error;
 
 use super::kind::{KINDS, Kind};
@@ -32,6 +33,9 @@ pub(crate) enum SpecError {
     /// A value that is not of the expected kind.
     #[error("{key}={value}: expected {expected}")]
     Value { key: String, value: String, expected: String },
+    /// Coefficients of which no lens can be made.
+    #[error("k={value}: {error}")]
+    Coefficients { value: String, error: LensError },
     /// Keys that say the same thing differently.
     #[error("{first}= and {second}= cannot both be given")]
     Both { first: &'static str, second: &'static str },
@@ -105,7 +109,7 @@ mod tests {
             "{message}"
         );
         assert!(refused("omnimx").contains("did you mean 'omnimax'?"));
-        assert!(refused("mercator").contains("there are cube, perspective, equirect, fisheye, fulldome, omnimax"));
+        assert!(refused("globe").contains("there are cube, perspective, equirect, fisheye, stereographic"));
         assert!(refused("cube:aspect=2").contains("unknown key 'aspect' for cube"));
     }
 
@@ -116,6 +120,12 @@ mod tests {
         assert!(refused("fisheye:180").contains("is no key=value"));
         assert!(refused("fisheye:fit=tight").contains("short, long, width, height, diagonal"));
         assert!(refused("fisheye:center=3").contains("X:Y"));
+        assert!(refused("fisheye:lens=ucm").contains("alpha, as in k=0.55"));
+        assert!(refused("fisheye:lens=ucm,k=2").contains("k=2: alpha is 2; it must be from 0 to 1"));
+        assert!(refused("fisheye:lens=ucm,k=0.5:1").contains("expected alpha"));
+        assert!(refused("fisheye:k=1").contains("only measured lenses"));
+        assert!(refused("fisheye:lens=polynomial,k=0:0.02").contains("k1 of the polynomial is 0.02"));
+        assert!(refused("fisheye:focal=300,fit=width").contains("cannot both"));
         assert!(refused("perspective:fov=90,dfov=100").contains("cannot both"));
         assert!(refused("cube:faces=front,top hat").contains("top hat"));
         assert!(refused("cube:canvas.nose=1x1+0+0").contains("nose"));

@@ -1,6 +1,6 @@
 use glam::{DVec2, DVec3};
 
-use super::azimuthal::{Azimuthal, Equidistant, OmnimaxLens};
+use super::azimuthal::{Azimuthal, FisheyeLens, OmnimaxLens};
 use super::cylindrical::Equirectangular;
 use super::{Perspective, PlanePoint, PlaneRect, Projection};
 use crate::sphere::{Angle, Direction, DirectionJacobian};
@@ -12,8 +12,8 @@ pub enum ProjectionKind {
     Perspective(Perspective),
     /// The Omnimax lens.
     Omnimax(Azimuthal<OmnimaxLens>),
-    /// The equidistant fisheye.
-    Equidistant(Azimuthal<Equidistant>),
+    /// A fisheye lens.
+    Fisheye(Azimuthal<FisheyeLens>),
     /// The panorama of longitude by latitude.
     Equirectangular(Equirectangular),
 }
@@ -24,12 +24,20 @@ impl ProjectionKind {
     /// The Omnimax lens.
     pub const OMNIMAX: Self = Self::Omnimax(Azimuthal(OmnimaxLens));
     /// The equidistant fisheye.
-    pub const EQUIDISTANT: Self = Self::Equidistant(Azimuthal(Equidistant));
+    pub const EQUIDISTANT: Self = Self::fisheye(FisheyeLens::EQUIDISTANT);
     /// The panorama.
     pub const EQUIRECTANGULAR: Self = Self::Equirectangular(Equirectangular);
 
+    /// A fisheye lens.
+    pub const fn fisheye(lens: FisheyeLens) -> Self {
+        Self::Fisheye(Azimuthal(lens))
+    }
+
     /// One of each, for tests and listings.
-    pub const ALL: [Self; 4] = [Self::PERSPECTIVE, Self::OMNIMAX, Self::EQUIDISTANT, Self::EQUIRECTANGULAR];
+    pub fn all() -> Vec<Self> {
+        let others = [Self::PERSPECTIVE, Self::OMNIMAX, Self::EQUIRECTANGULAR];
+        others.into_iter().chain(FisheyeLens::all().into_iter().map(Self::fisheye)).collect()
+    }
 }
 
 /// Calls a method of the projection that is inside.
@@ -38,7 +46,7 @@ macro_rules! each {
         match $kind {
             ProjectionKind::Perspective($projection) => $call,
             ProjectionKind::Omnimax($projection) => $call,
-            ProjectionKind::Equidistant($projection) => $call,
+            ProjectionKind::Fisheye($projection) => $call,
             ProjectionKind::Equirectangular($projection) => $call,
         }
     };
@@ -71,6 +79,10 @@ impl Projection for ProjectionKind {
 
     fn margin(&self, direction: Direction) -> f64 {
         each!(self, projection => projection.margin(direction))
+    }
+
+    fn has_steep_rim(&self) -> bool {
+        each!(self, projection => projection.has_steep_rim())
     }
 
     fn cap_bounds(&self, centre: Direction, radius: Angle) -> PlaneRect {

@@ -58,6 +58,11 @@ pub trait Projection {
     /// larger one is weighed on the sphere.
     fn margin(&self, direction: Direction) -> f64;
 
+    /// Whether derivatives grow without bound towards a rim or a pole: there a texel is measured by its own extent.
+    fn has_steep_rim(&self) -> bool {
+        false
+    }
+
     /// The rectangle of the plane that holds every direction within `radius` of `centre`.
     fn cap_bounds(&self, centre: Direction, radius: Angle) -> PlaneRect;
 

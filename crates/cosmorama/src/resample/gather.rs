@@ -89,7 +89,7 @@ impl<'a> Gather<'a> {
 
     /// Adds the texels of one view; true if the kernel lies wholly inside it.
     fn gather_from(&mut self, source: &Source, footprint: &Footprint) -> bool {
-        let radius = self.reach(footprint, source.texel_pitch);
+        let radius = self.reach(footprint, source.texel_pitch_at(footprint.direction));
         let margin = source.view.margin(footprint.direction);
         if margin + radius <= 0.0 {
             return false;

@@ -29,7 +29,7 @@ impl View {
     /// The rim and the lower arc are smooth because a pixel that they cut counts by its covered part.
     pub fn screen_pixel(&self, i: usize, j: usize) -> Option<ScreenPixel> {
         let centre = PixelPoint::centre(i, j);
-        let footprint = self.footprint(centre);
+        let footprint = self.pixel_footprint(centre);
         match footprint.as_ref().map_or(Side::Unknown, |footprint| self.side(centre, footprint)) {
             Side::Inside => footprint.map(|footprint| ScreenPixel { coverage: 1.0, footprint }),
             Side::Outside => None,
@@ -39,6 +39,15 @@ impl View {
             }),
             Side::Unknown => self.cut_pixel(i as f64, j as f64, |sample| self.shows(sample)),
         }
+    }
+
+    /// What a pixel around a point sees. Beside a steep rim the derivatives would make it far longer than it is.
+    fn pixel_footprint(&self, pixel: PixelPoint) -> Option<Footprint> {
+        let footprint = self.footprint(pixel)?;
+        if !self.projection.has_steep_rim() {
+            return Some(footprint);
+        }
+        Some(Footprint { jacobian: self.texel(pixel)?, ..footprint })
     }
 
     /// Decides without sub-samples where a pixel cannot touch the edge: it is nowhere wider than its half diagonals.
@@ -85,7 +94,7 @@ impl View {
             return None;
         }
         let centroid = PixelPoint::new(sum_x / count as f64, sum_y / count as f64);
-        let footprint = self.footprint(centroid)?;
+        let footprint = self.pixel_footprint(centroid)?;
         Some(ScreenPixel { coverage: count as f64 / (SUB_SAMPLES * SUB_SAMPLES) as f64, footprint })
     }
 }

@@ -13,7 +13,7 @@ pub use coverage::ScreenPixel;
 pub use field_stop::FieldStop;
 pub use frame::{
     Canvas, CubeFaceFrame, EquirectFrame, FieldOfView, FisheyeFit, FisheyeFrame, Frame, FrameError, FulldomeFrame,
-    LensCircle, Mirror, OmnimaxFrame, PerspectiveFrame, Placement, SamplePositions,
+    LensCircle, LensScale, Mirror, OmnimaxFrame, PerspectiveFrame, Placement, SamplePositions, StereographicFrame,
 };
 pub use framing::OmnimaxFraming;
 pub use grid::{PixelGrid, PixelPoint, PixelRect};

@@ -2,6 +2,7 @@ use rayon::prelude::*;
 use thiserror::Error;
 
 use super::{PixelPoint, View};
+use crate::projection::Projection;
 use crate::sphere::Direction;
 
 /// Why views make no world.
@@ -31,6 +32,18 @@ pub struct Source {
     pub period: Option<usize>,
     /// The larger side of the largest texel, in radians.
     pub texel_pitch: f64,
+}
+
+impl Source {
+    /// An upper bound of a texel's larger side, in radians, at a direction: beside a steep rim texels are far larger than
+    /// elsewhere, and the largest says nothing of the others.
+    pub fn texel_pitch_at(&self, direction: Direction) -> f64 {
+        if !self.view.projection.has_steep_rim() {
+            return self.texel_pitch;
+        }
+        let texel = self.view.pixel(direction).and_then(|pixel| self.view.texel(pixel));
+        texel.map_or(self.texel_pitch, |texel| (texel.dx.length_squared() + texel.dy.length_squared()).sqrt())
+    }
 }
 
 impl Source {
@@ -132,9 +145,8 @@ fn texel_pitch(view: &View) -> f64 {
     const STEPS: usize = 32;
     let at = |size: usize, step: usize| size as f64 * step as f64 / STEPS as f64;
     let points = (0..=STEPS).flat_map(|j| (0..=STEPS).map(move |i| (i, j)));
-    let footprints =
-        points.filter_map(|(i, j)| view.footprint(PixelPoint::new(at(view.width(), i), at(view.height(), j))));
-    footprints.map(|f| f.jacobian.dx.length().max(f.jacobian.dy.length())).fold(0.0, f64::max)
+    let texels = points.filter_map(|(i, j)| view.texel(PixelPoint::new(at(view.width(), i), at(view.height(), j))));
+    texels.map(|texel| texel.dx.length().max(texel.dy.length())).fold(0.0, f64::max)
 }
 
 fn fill_solid_angles(view: &View, out: &mut [f32]) {

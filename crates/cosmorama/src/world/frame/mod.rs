@@ -13,17 +13,19 @@ mod lens_circle;
 mod omnimax;
 mod perspective;
 mod placement;
+mod stereographic;
 
 pub use cube_face::CubeFaceFrame;
 pub use equirect::{EquirectFrame, SamplePositions};
 pub use error::FrameError;
 pub use field_of_view::FieldOfView;
-pub use fisheye::{FisheyeFit, FisheyeFrame};
+pub use fisheye::{FisheyeFit, FisheyeFrame, LensScale};
 pub use fulldome::FulldomeFrame;
 pub use lens_circle::LensCircle;
 pub use omnimax::OmnimaxFrame;
 pub use perspective::PerspectiveFrame;
 pub use placement::{Canvas, Mirror, Placement};
+pub use stereographic::StereographicFrame;
 
 use super::View;
 
@@ -34,8 +36,10 @@ pub enum Frame {
     Perspective(PerspectiveFrame),
     /// A face of a cube.
     CubeFace(CubeFaceFrame),
-    /// An equidistant fisheye.
+    /// A fisheye.
     Fisheye(FisheyeFrame),
+    /// A stereographic picture without a circle.
+    Stereographic(StereographicFrame),
     /// A domemaster.
     Fulldome(FulldomeFrame),
     /// An Omnimax film frame.
@@ -57,6 +61,7 @@ impl Frame {
             Self::Perspective(frame) => frame.view(width, height),
             Self::CubeFace(frame) => Ok(frame.view(width, height)),
             Self::Fisheye(frame) => frame.view(width, height),
+            Self::Stereographic(frame) => frame.view(width, height),
             Self::Fulldome(frame) => frame.view(width, height),
             Self::Omnimax(frame) => frame.view(width, height),
             Self::Equirect(frame) => frame.view(width, height),
@@ -70,6 +75,7 @@ impl Frame {
             Self::Perspective(frame) => frame.natural_ratio(),
             Self::CubeFace(_) => 1.0,
             Self::Fisheye(frame) => frame.pixel_aspect,
+            Self::Stereographic(frame) => frame.pixel_aspect,
             Self::Fulldome(frame) => frame.pixel_aspect,
             Self::Omnimax(frame) => frame.natural_ratio(),
             Self::Equirect(frame) => frame.natural_ratio(),
@@ -87,7 +93,7 @@ impl Frame {
         const TRIAL: usize = 1 << 20;
         /// Sides that no file format counts.
         const LARGEST: f64 = u32::MAX as f64;
-        if self.circle().is_some_and(|circle| circle != LensCircle::FITTED) {
+        if self.is_measured_in_pixels() {
             return Err(FrameError::SizeNeeded);
         }
         let trial = self.view(TRIAL, self.natural_height(TRIAL))?.pixels_per_radian();
@@ -100,11 +106,12 @@ impl Frame {
         Ok((width as usize, height + height % 2))
     }
 
-    fn circle(&self) -> Option<LensCircle> {
+    /// Whether a length in pixels says how large the picture is, so that no other size fits.
+    fn is_measured_in_pixels(&self) -> bool {
         match self {
-            Self::Fisheye(frame) => Some(frame.circle),
-            Self::Omnimax(frame) => Some(frame.circle),
-            _ => None,
+            Self::Fisheye(frame) => frame.circle != LensCircle::FITTED || matches!(frame.scale, LensScale::Focal(_)),
+            Self::Omnimax(frame) => frame.circle != LensCircle::FITTED,
+            _ => false,
         }
     }
 }
