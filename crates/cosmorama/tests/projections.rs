@@ -60,7 +60,11 @@ proptest! {
         for projection in EVERY.iter() {
             let at = |dx: f64, dy: f64| projection.unproject(PlanePoint::new(x + dx, y + dy)).map(Direction::vector);
             let difference = |dx: f64, dy: f64| Some((at(dx, dy)? - at(-dx, -dy)?) / (2.0 * dx.hypot(dy)));
-            let Some(jacobian) = projection.jacobian(PlanePoint::new(x, y)) else { continue };
+            let Some((direction, jacobian)) = projection.unproject_with_jacobian(PlanePoint::new(x, y)) else { continue };
+            // Across a crease or a seam there is no derivative.
+            if projection.margin(direction) < 4.0 * STEP * largest(jacobian) {
+                continue;
+            }
             for (derivative, dx, dy) in [(jacobian.dx, STEP, 0.0), (jacobian.dy, 0.0, STEP)] {
                 // How good a difference is, one of twice the step tells: beside a rim not very.
                 let (Some(near), Some(far)) = (difference(dx, dy), difference(2.0 * dx, 2.0 * dy)) else { continue };
@@ -150,7 +154,11 @@ fn the_axes_and_the_poles_have_images_or_none_but_never_nan() {
         }
         // A mirror ball shows its photographer, everything else what lies ahead.
         let axis = projection.unproject(PlanePoint::new(0.0, 0.0)).expect("the middle of the plane shows something");
-        assert_eq!(axis, Direction::FRONT, "{projection:?}");
+        let expected = match projection {
+            ProjectionKind::MirrorBall(_) => Direction::BACK,
+            _ => Direction::FRONT,
+        };
+        assert_eq!(axis, expected, "{projection:?}");
         assert_eq!(projection.project(axis), Some(PlanePoint::new(0.0, 0.0)), "{projection:?}");
     }
 }

@@ -1,12 +1,13 @@
-use cosmorama::sphere::CubeFace;
+use cosmorama::sphere::{Angle, CubeFace};
 use cosmorama::world::{
-    EquirectFrame, FieldOfView, Frame, FulldomeFrame, OmnimaxFrame, OmnimaxFraming, PerspectiveFrame, Placement,
-    SamplePositions, StereographicFrame,
+    CylinderKind, EquirectFrame, FieldOfView, FisheyeFrame, Frame, FulldomeFrame, OmnimaxFrame, OmnimaxFraming,
+    PerspectiveFrame, Placement, SamplePositions, StereographicFrame, WorldMapFrame,
 };
 use cosmorama_io::Naming;
 
 use super::fields::{Fields, wrong};
 use super::lens::fisheye;
+use super::maps::{cylinder, mirror_ball, octahedral, pannini};
 use super::shape::{Cube, Shape, Single, SphereSamples};
 use super::{SpecError, angle::parse_degrees};
 
@@ -28,6 +29,16 @@ impl Shape {
             "stereographic" => Frame::Stereographic(stereographic(&fields)?),
             "fulldome" => Frame::Fulldome(fulldome(&fields)?),
             "omnimax" => Frame::Omnimax(omnimax(&fields)?),
+            "mercator" => Frame::Cylinder(cylinder(&fields, CylinderKind::Mercator)?),
+            "cylinder" => Frame::Cylinder(cylinder(&fields, CylinderKind::Central)?),
+            "equal-area" => Frame::Cylinder(cylinder(&fields, CylinderKind::EqualArea)?),
+            "mirror-ball" => Frame::MirrorBall(mirror_ball(&fields)?),
+            "angular-map" => Frame::Fisheye(angular_map(&fields)?),
+            "hammer" => Frame::WorldMap(WorldMapFrame::Hammer),
+            "mollweide" => Frame::WorldMap(WorldMapFrame::Mollweide),
+            "sinusoidal" => Frame::WorldMap(WorldMapFrame::Sinusoidal),
+            "pannini" => Frame::Pannini(pannini(&fields)?),
+            "octahedral" => Frame::Octahedral(octahedral(&fields)?),
             _ => return Err(SpecError::UnknownName { name: name.to_owned() }),
         };
         let placement = Placement {
@@ -48,9 +59,7 @@ fn perspective(fields: &Fields) -> Result<PerspectiveFrame, SpecError> {
         (Some(horizontal), Some(vertical), None) => FieldOfView::Both { horizontal, vertical },
         (None, Some(vertical), None) => FieldOfView::Vertical(vertical),
         (None, None, Some(diagonal)) => FieldOfView::Diagonal(diagonal),
-        (horizontal, None, None) => {
-            FieldOfView::Horizontal(horizontal.unwrap_or(cosmorama::sphere::Angle::from_degrees(90.0)))
-        }
+        (horizontal, None, None) => FieldOfView::Horizontal(horizontal.unwrap_or(Angle::from_degrees(90.0))),
     };
     if matches!(field_of_view, FieldOfView::Both { .. }) && fields.get("aspect").is_some() {
         return Err(SpecError::Both { first: "aspect", second: "vfov" });
@@ -76,6 +85,16 @@ fn stereographic(fields: &Fields) -> Result<StereographicFrame, SpecError> {
     Ok(StereographicFrame {
         field_of_view: fields.angle("fov")?.unwrap_or(default.field_of_view),
         pixel_aspect: fields.aspect()?,
+    })
+}
+
+/// Debevec's light probes: an equidistant fisheye that sees everything.
+fn angular_map(fields: &Fields) -> Result<FisheyeFrame, SpecError> {
+    Ok(FisheyeFrame {
+        field_of_view: Angle::TURN,
+        circle: fields.circle()?,
+        pixel_aspect: fields.aspect()?,
+        ..FisheyeFrame::default()
     })
 }
 

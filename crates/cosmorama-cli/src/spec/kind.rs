@@ -26,8 +26,13 @@ const fn key(name: &'static str, value: &'static str, about: &'static str) -> Ke
     Key { name, value, about }
 }
 
+const CYLINDER_KEYS: [Key; 2] = [
+    key("hfov", "DEGREES", "longitudes shown (360)"),
+    key("vfov", "DEGREES", "latitudes shown (by the size, square pixels at the equator)"),
+];
+
 /// Every projection on offer.
-pub(crate) static KINDS: [Kind; 7] = [
+pub(crate) static KINDS: [Kind; 17] = [
     Kind {
         name: "cube",
         about: "faces of a cube, one file each",
@@ -104,6 +109,59 @@ pub(crate) static KINDS: [Kind; 7] = [
             key("axis", "DEGREES", "elevation of the axis of projection (0; theatre: 11)"),
         ],
         takes_aspect: true,
+    },
+    Kind {
+        name: "mercator",
+        about: "Mercator's map",
+        keys: &[
+            key("hfov", "DEGREES", "longitudes shown (360)"),
+            key("lat", "DEGREES", "latitude of the upper edge (by the size, square pixels; else 85.051129)"),
+        ],
+        takes_aspect: true,
+    },
+    Kind {
+        name: "cylinder",
+        about: "a central cylinder: upright lines stay straight",
+        keys: &CYLINDER_KEYS,
+        takes_aspect: true,
+    },
+    Kind { name: "equal-area", about: "Lambert's equal-area cylinder", keys: &CYLINDER_KEYS, takes_aspect: true },
+    Kind {
+        name: "mirror-ball",
+        about: "a mirror ball as photographed, the camera looking ahead at it",
+        keys: &[
+            key("distance", "RADII|inf", "from the camera to the ball's centre, in ball radii (inf)"),
+            key("center", "X:Y", "the centre of its outline in pixels"),
+            key("radius", "PIXELS", "the radius of its outline in pixels"),
+        ],
+        takes_aspect: true,
+    },
+    Kind {
+        name: "angular-map",
+        about: "a light probe: equidistant, 360 degrees, the front in its middle",
+        keys: &[
+            key("center", "X:Y", "the circle's centre in pixels"),
+            key("radius", "PIXELS", "the circle's radius in pixels"),
+        ],
+        takes_aspect: true,
+    },
+    Kind { name: "hammer", about: "Hammer's equal-area map of the world", keys: &[], takes_aspect: false },
+    Kind { name: "mollweide", about: "Mollweide's equal-area map of the world", keys: &[], takes_aspect: false },
+    Kind { name: "sinusoidal", about: "the sinusoidal equal-area map of the world", keys: &[], takes_aspect: false },
+    Kind {
+        name: "pannini",
+        about: "a wide view in which upright lines stay straight",
+        keys: &[
+            key("fov", "DEGREES", "horizontal field of view (180)"),
+            key("d", "D", "0 is a pinhole camera, 1 Pannini's own, more squeezes the sides further (1)"),
+        ],
+        takes_aspect: true,
+    },
+    Kind {
+        name: "octahedral",
+        about: "the sphere on an octahedron, unfolded; with pitch=90 the zenith is in the middle, as in pbrt",
+        keys: &[key("kind", "equal-area|plain", "Clarberg's, as pbrt stores environments, or along rays (equal-area)")],
+        takes_aspect: false,
     },
 ];
 

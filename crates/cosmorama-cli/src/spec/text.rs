@@ -3,6 +3,7 @@ use std::str::FromStr;
 use cosmorama::projection::azimuthal::LensError;
 use thiserror::Error;
 
+use super::alias::{is_refused, without_alias};
 use super::kind::{KINDS, Kind};
 use super::shape::Shape;
 
@@ -21,6 +22,12 @@ pub(crate) enum SpecError {
     /// The name is in no table.
     #[error("unknown projection '{name}'{}; there are {}", did_you_mean(.name, &names()), names().join(", "))]
     UnknownName { name: String },
+    /// Another program has it, and we do not.
+    #[error(
+        "the projection '{name}' of other programs is not on offer here; convert it there to equirect first, as in ffmpeg's \
+         v360=input={name}:output=e"
+    )]
+    NotOffered { name: String },
     /// The key is not one of this name's.
     #[error("unknown key '{key}' for {name}{}; it takes {}", did_you_mean(.key, .known), .known.join(", "))]
     UnknownKey { name: &'static str, key: String, known: Vec<&'static str> },
@@ -57,7 +64,11 @@ impl FromStr for Spec {
     type Err = SpecError;
 
     fn from_str(text: &str) -> Result<Self, SpecError> {
-        let (name, rest) = text.split_once(':').unwrap_or((text, ""));
+        let text = without_alias(text);
+        let (name, rest) = text.split_once(':').unwrap_or((&text, ""));
+        if is_refused(name) {
+            return Err(SpecError::NotOffered { name: name.to_owned() });
+        }
         let kind = Kind::named(name).ok_or_else(|| SpecError::UnknownName { name: name.to_owned() })?;
         let pairs = pairs(rest)?;
         for (index, (key, _)) in pairs.iter().enumerate() {
@@ -126,10 +137,31 @@ mod tests {
         assert!(refused("fisheye:k=1").contains("only measured lenses"));
         assert!(refused("fisheye:lens=polynomial,k=0:0.02").contains("k1 of the polynomial is 0.02"));
         assert!(refused("fisheye:focal=300,fit=width").contains("cannot both"));
+        assert!(refused("mercator:lat=80,aspect=2").contains("aspect= and lat= cannot both"));
+        assert!(refused("mirror-ball:distance=1").contains("more than 1, or inf"));
+        assert!(refused("octahedral:kind=round").contains("equal-area, plain"));
+        assert!(refused("pannini:d=-1").contains("0 or more"));
+        assert!(refused("hammer:fov=90").contains("unknown key 'fov' for hammer"));
         assert!(refused("perspective:fov=90,dfov=100").contains("cannot both"));
         assert!(refused("cube:faces=front,top hat").contains("top hat"));
         assert!(refused("cube:canvas.nose=1x1+0+0").contains("nose"));
         assert!(refused("omnimax:canvas=10x10").contains("WxH+X+Y"));
+    }
+
+    #[test]
+    fn names_of_other_programs_are_understood_or_refused_by_name() {
+        let spec = |text: &str| text.parse::<Spec>().unwrap();
+        for (theirs, ours) in [
+            ("e", "equirect"),
+            ("hequirect:vfov=90", "equirect:hfov=180,vfov=90"),
+            ("flat:fov=70", "perspective:fov=70"),
+            ("sg", "stereographic"),
+            ("ball", "mirror-ball"),
+            ("octahedron:yaw=3", "octahedral:kind=plain,yaw=3"),
+        ] {
+            assert_eq!(spec(theirs), spec(ours), "{theirs}");
+        }
+        assert!(refused("tetrahedron").contains("'tetrahedron' of other programs is not on offer"));
     }
 
     #[test]

@@ -5,11 +5,22 @@
 
 pub mod azimuthal;
 pub mod cylindrical;
+mod graticule;
+mod hammer;
 mod kind;
+mod meridian;
+mod mirror_ball;
+mod octahedral;
+mod pannini;
 mod perspective;
 mod plane;
+pub mod pseudocylindrical;
 
+pub use hammer::Hammer;
 pub use kind::ProjectionKind;
+pub use mirror_ball::MirrorBall;
+pub use octahedral::{Octahedral, OctahedralKind};
+pub use pannini::Pannini;
 pub use perspective::Perspective;
 pub use plane::{PlanePoint, PlaneRect};
 

@@ -52,6 +52,9 @@ impl View {
 
     /// Decides without sub-samples where a pixel cannot touch the edge: it is nowhere wider than its half diagonals.
     fn side(&self, centre: PixelPoint, footprint: &Footprint) -> Side {
+        if self.ends_within(centre, footprint) {
+            return Side::Unknown;
+        }
         let mut touched = FieldStop::NONE;
         if let Some(radius) = self.stop.circle {
             let (point, step) = (self.grid.to_plane(centre), self.grid.step());
@@ -75,6 +78,16 @@ impl View {
             }
         }
         if touched == FieldStop::NONE { Side::Inside } else { Side::Cut(touched) }
+    }
+
+    /// Whether the projection's own edge cuts a pixel, as that of an oval map does: a corner sees nothing.
+    fn ends_within(&self, centre: PixelPoint, footprint: &Footprint) -> bool {
+        let reach = footprint.jacobian.dx.length() + footprint.jacobian.dy.length();
+        let corners = [(-0.5, -0.5), (0.5, -0.5), (-0.5, 0.5), (0.5, 0.5)];
+        // A cylinder ends where its image does; a row of samples on the very pole is a whole one.
+        self.projection.period().is_none()
+            && self.margin(footprint.direction) < reach
+            && corners.iter().any(|(x, y)| self.direction(PixelPoint::new(centre.x + x, centre.y + y)).is_none())
     }
 
     fn cut_pixel(&self, x: f64, y: f64, is_inside: impl Fn(PixelPoint) -> bool) -> Option<ScreenPixel> {

@@ -12,8 +12,9 @@ mod world;
 pub use coverage::ScreenPixel;
 pub use field_stop::FieldStop;
 pub use frame::{
-    Canvas, CubeFaceFrame, EquirectFrame, FieldOfView, FisheyeFit, FisheyeFrame, Frame, FrameError, FulldomeFrame,
-    LensCircle, LensScale, Mirror, OmnimaxFrame, PerspectiveFrame, Placement, SamplePositions, StereographicFrame,
+    Canvas, CubeFaceFrame, CylinderFrame, CylinderKind, EquirectFrame, FieldOfView, FisheyeFit, FisheyeFrame, Frame,
+    FrameError, FulldomeFrame, LensCircle, LensScale, Mirror, MirrorBallFrame, OctahedralFrame, OmnimaxFrame,
+    PanniniFrame, PerspectiveFrame, Placement, SamplePositions, StereographicFrame, WorldMapFrame,
 };
 pub use framing::OmnimaxFraming;
 pub use grid::{PixelGrid, PixelPoint, PixelRect};

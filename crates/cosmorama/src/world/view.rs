@@ -114,8 +114,8 @@ impl View {
         Some((self.grid.to_pixel(point), texels))
     }
 
-    /// How the direction moves over the texel around a point of the image, per texel: its derivatives. Beside a steep rim,
-    /// where those of a point say nothing of a texel, from one side of the texel to the other.
+    /// How the direction moves over the texel around a point of the image, per texel: its derivatives. On a steep rim, where
+    /// those of a point say nothing of a texel, from one side of the texel to the other.
     pub(super) fn texel(&self, pixel: PixelPoint) -> Option<DirectionJacobian> {
         let Footprint { direction, jacobian } = self.footprint(pixel)?;
         let size = (jacobian.dx.length_squared() + jacobian.dy.length_squared()).sqrt();

@@ -10,7 +10,7 @@ pub trait RadiusFormula {
     fn formula(&self, angle: f64) -> (f64, f64);
 }
 
-/// The lens of a [`RadiusFormula`], as far as that rises.
+/// The lens of a formula, as far as that rises.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ByAngle<F> {
     formula: F,

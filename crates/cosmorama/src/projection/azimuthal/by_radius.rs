@@ -9,7 +9,7 @@ pub trait AngleFormula {
     fn formula(&self, radius: f64) -> (f64, f64);
 }
 
-/// The lens of an [`AngleFormula`], as far as that rises.
+/// The lens of a formula, as far as that rises.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ByRadius<F> {
     formula: F,

@@ -9,7 +9,7 @@ pub struct DoubleSphereFormula {
     alpha: f64,
 }
 
-/// The lens of a [`DoubleSphereFormula`].
+/// The lens of this formula.
 pub type DoubleSphere = ByAngle<DoubleSphereFormula>;
 
 impl DoubleSphere {

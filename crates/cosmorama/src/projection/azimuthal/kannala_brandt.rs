@@ -5,7 +5,7 @@ use super::{LensError, finite};
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct KannalaBrandtFormula([f64; 4]);
 
-/// The lens of a [`KannalaBrandtFormula`].
+/// The lens of this formula.
 pub type KannalaBrandt = ByAngle<KannalaBrandtFormula>;
 
 impl KannalaBrandt {

@@ -1,6 +1,7 @@
 //! Fisheye lenses: the angle from the axis is a function of the radius in the picture.
 
 mod arc_sine;
+mod ball;
 mod by_angle;
 mod by_radius;
 mod double_sphere;
@@ -18,6 +19,7 @@ mod rising;
 mod stereographic;
 mod unified;
 
+pub use ball::BallLens;
 pub use by_angle::ByAngle;
 pub use by_radius::ByRadius;
 pub use double_sphere::DoubleSphere;

@@ -9,7 +9,7 @@ pub struct OcamFormula([f64; OCAM_COEFFICIENTS]);
 /// The most coefficients that a calibration has.
 pub const OCAM_COEFFICIENTS: usize = 8;
 
-/// The lens of an [`OcamFormula`].
+/// The lens of this formula.
 pub type Ocam = ByRadius<OcamFormula>;
 
 impl Ocam {

@@ -13,7 +13,7 @@ pub struct PolynomialFormula {
     k: [f64; 4],
 }
 
-/// The lens of a [`PolynomialFormula`].
+/// The lens of this formula.
 pub type Polynomial = ByRadius<PolynomialFormula>;
 
 impl Polynomial {

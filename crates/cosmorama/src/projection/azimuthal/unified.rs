@@ -9,7 +9,7 @@ pub struct UnifiedFormula {
     beta: f64,
 }
 
-/// The lens of a [`UnifiedFormula`].
+/// The lens of this formula.
 pub type Unified = ByAngle<UnifiedFormula>;
 
 impl Unified {

@@ -36,6 +36,18 @@ pub enum FrameError {
         /// Where that is, in the unit of the formula.
         radius: f64,
     },
+    /// A camera inside the mirror ball.
+    #[error("the camera is {found} ball radii from the mirror ball's centre; it must be more than 1")]
+    BallDistance {
+        /// Ball radii asked for.
+        found: f64,
+    },
+    /// A Pannini projection seen from before its cylinder's axis.
+    #[error("Pannini's distance d is {found}; it must be from 0 (a pinhole) to 1000000")]
+    PanniniDistance {
+        /// What was asked for.
+        found: f64,
+    },
     /// A cut outside the lens.
     #[error("the lower cut is {found}° below the axis; it must be more than 0° and at most 90°")]
     LowerCut {

@@ -4,28 +4,38 @@
 //! With a size it makes a [`View`]; without one it says which size suits it.
 
 mod cube_face;
+mod cylinder;
 mod equirect;
 mod error;
 mod field_of_view;
 mod fisheye;
 mod fulldome;
 mod lens_circle;
+mod mirror_ball;
+mod octahedral;
 mod omnimax;
+mod pannini;
 mod perspective;
 mod placement;
 mod stereographic;
+mod world_map;
 
 pub use cube_face::CubeFaceFrame;
+pub use cylinder::{CylinderFrame, CylinderKind};
 pub use equirect::{EquirectFrame, SamplePositions};
 pub use error::FrameError;
 pub use field_of_view::FieldOfView;
 pub use fisheye::{FisheyeFit, FisheyeFrame, LensScale};
 pub use fulldome::FulldomeFrame;
 pub use lens_circle::LensCircle;
+pub use mirror_ball::MirrorBallFrame;
+pub use octahedral::OctahedralFrame;
 pub use omnimax::OmnimaxFrame;
+pub use pannini::PanniniFrame;
 pub use perspective::PerspectiveFrame;
 pub use placement::{Canvas, Mirror, Placement};
 pub use stereographic::StereographicFrame;
+pub use world_map::WorldMapFrame;
 
 use super::View;
 
@@ -46,6 +56,16 @@ pub enum Frame {
     Omnimax(OmnimaxFrame),
     /// A panorama of longitude by latitude.
     Equirect(EquirectFrame),
+    /// A panorama on a cylinder.
+    Cylinder(CylinderFrame),
+    /// A photograph of a mirror ball.
+    MirrorBall(MirrorBallFrame),
+    /// A map of the whole world.
+    WorldMap(WorldMapFrame),
+    /// A wide picture in Pannini's manner.
+    Pannini(PanniniFrame),
+    /// An octahedron unfolded.
+    Octahedral(OctahedralFrame),
 }
 
 impl Frame {
@@ -65,11 +85,17 @@ impl Frame {
             Self::Fulldome(frame) => frame.view(width, height),
             Self::Omnimax(frame) => frame.view(width, height),
             Self::Equirect(frame) => frame.view(width, height),
+            Self::Cylinder(frame) => frame.view(width, height),
+            Self::MirrorBall(frame) => frame.view(width, height),
+            Self::WorldMap(frame) => Ok(frame.view(width, height)),
+            Self::Pannini(frame) => frame.view(width, height),
+            Self::Octahedral(frame) => Ok(frame.view(width, height)),
         }
     }
 
     /// The height that suits a width: square for fisheyes, domes and cube faces, the film's 1966:1436 for Omnimax,
-    /// the shape of the field of view for a panorama, 4:3 for a camera unless its field of view is given both ways.
+    /// the shape of the field of view for a panorama, 4:3 for a camera unless its field of view is given both ways, twice as wide
+    /// as high for a map of the world.
     pub fn natural_height(&self, width: usize) -> usize {
         let ratio = match self {
             Self::Perspective(frame) => frame.natural_ratio(),
@@ -79,6 +105,11 @@ impl Frame {
             Self::Fulldome(frame) => frame.pixel_aspect,
             Self::Omnimax(frame) => frame.natural_ratio(),
             Self::Equirect(frame) => frame.natural_ratio(),
+            Self::Cylinder(frame) => frame.natural_ratio(),
+            Self::MirrorBall(frame) => frame.pixel_aspect,
+            Self::WorldMap(_) => 0.5,
+            Self::Pannini(frame) => frame.natural_ratio(),
+            Self::Octahedral(_) => 1.0,
         };
         ((width as f64 * ratio).round() as usize).max(1)
     }
@@ -111,6 +142,7 @@ impl Frame {
         match self {
             Self::Fisheye(frame) => frame.circle != LensCircle::FITTED || matches!(frame.scale, LensScale::Focal(_)),
             Self::Omnimax(frame) => frame.circle != LensCircle::FITTED,
+            Self::MirrorBall(frame) => frame.circle != LensCircle::FITTED,
             _ => false,
         }
     }
