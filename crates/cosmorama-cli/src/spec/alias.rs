@@ -14,7 +14,8 @@ const ALIASES: [(&str, &str); 21] = [
     ("orthographic", "fisheye:lens=orthographic"),
     ("equisolid", "fisheye:lens=equisolid"),
     ("equidistant", "fisheye"),
-    ("ball", "mirror-ball"),
+    // ffmpeg's ball has the front in its middle, and is not mirrored.
+    ("ball", "fisheye:lens=equisolid,fov=360"),
     ("cylindrical", "cylinder"),
     ("cylindricalea", "equal-area"),
     ("octahedron", "octahedral:kind=plain"),

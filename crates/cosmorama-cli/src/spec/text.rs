@@ -156,7 +156,7 @@ mod tests {
             ("hequirect:vfov=90", "equirect:hfov=180,vfov=90"),
             ("flat:fov=70", "perspective:fov=70"),
             ("sg", "stereographic"),
-            ("ball", "mirror-ball"),
+            ("ball", "fisheye:lens=equisolid,fov=360"),
             ("octahedron:yaw=3", "octahedral:kind=plain,yaw=3"),
         ] {
             assert_eq!(spec(theirs), spec(ours), "{theirs}");
