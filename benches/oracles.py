@@ -48,6 +48,13 @@ ORACLES = [
     Oracle("perspective", "perspective", "face",
            "--to perspective:fov=45 --size 640x480 --yaw -37 --pitch 12 --roll -9", "all",
            ("perspective", 45, None, -37, 12, 9), (29.0, 33.2, 32.2)),
+    Oracle("cylinder1", "cylinder1", "face", "--to cylinder --size 1024x512", "all", ("cylinder",),
+           (42.4, 41.7, 41.7)),
+    Oracle("mercator", "mercator", "face", "--to mercator --size 768x576", "all", ("mercator",), (40.1, 40.3, 40.2)),
+    Oracle("chromeball_far", "chromeball_far", "face", "--to mirror-ball:distance=100 --size 768", "disc",
+           ("chrome_ball_persp", 100), (34.9, 35.1, 36.4)),
+    Oracle("motion_mid", "motion_mid", "face", "--to perspective:fov=60 --size 640x480 --yaw 20 --pitch -4", "all",
+           ("perspective", 60, None, 20, -4, 0), (30.3, 33.5, 34.6)),
 ]
 
 

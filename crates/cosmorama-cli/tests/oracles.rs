@@ -28,7 +28,7 @@ struct Case {
 const SIX: &str = "face_{face}.png";
 const FOUR: &str = "face4_{face}.png";
 
-const CASES: [Case; 7] = [
+const CASES: [Case; 10] = [
     Case {
         faces: SIX,
         direct: "omnimax_1966x1436.png",
@@ -91,6 +91,33 @@ const CASES: [Case; 7] = [
         box_reference: 29.0,
         linear: 33.2,
         encoded: 32.2,
+    },
+    Case {
+        faces: SIX,
+        direct: "cylinder1.png",
+        to: &["--to", "cylinder", "--size", "1024x512"],
+        region: "all",
+        box_reference: 42.4,
+        linear: 41.7,
+        encoded: 41.7,
+    },
+    Case {
+        faces: SIX,
+        direct: "mercator.png",
+        to: &["--to", "mercator", "--size", "768x576"],
+        region: "all",
+        box_reference: 40.1,
+        linear: 40.3,
+        encoded: 40.2,
+    },
+    Case {
+        faces: SIX,
+        direct: "motion_mid.png",
+        to: &["--to", "perspective:fov=60", "--size", "640x480", "--yaw", "20", "--pitch", "-4"],
+        region: "all",
+        box_reference: 30.3,
+        linear: 33.5,
+        encoded: 34.6,
     },
 ];
 

@@ -3,21 +3,25 @@
 use cosmorama::raster::Rgba;
 use cosmorama::resample::{CrossSection, Filter, FilterKind, Kernel, Resampler};
 use cosmorama::sphere::CubeFace;
-use cosmorama::world::{View, World};
-use testkit::{cube, equirect, fisheye, light_by_direction, omnimax, perspective, position_error};
+use cosmorama::world::{ScreenPixel, View, World};
+use testkit::{
+    cube, equirect, fisheye, light_by_direction, omnimax, partial_worlds, perspective, position_error, whole_worlds,
+};
 
 /// Pixels by which a point of the world may be displaced; the promise is 0.01.
 const POSITION_TOLERANCE: f64 = 0.005;
 
-/// Of all pixels that show anything, those that a lens's rim cuts too.
-fn worst_position_error(world: &World, target: &View, filter: Filter) -> f64 {
+/// Of all pixels that count, those that a lens's rim cuts too.
+fn worst_position_error(world: &World, target: &View, filter: Filter, counts: impl Fn(&ScreenPixel) -> bool) -> f64 {
     let light = light_by_direction(world, |d| d.vector().to_array().map(|c| c as f32));
     let image = Resampler { world, target, filter }.render(&light);
     let mut worst = 0f64;
     for j in 0..image.height() {
         for i in 0..image.width() {
             let Some(screen) = target.screen_pixel(i, j) else { continue };
-            worst = worst.max(position_error(&screen.footprint, *image.get(i, j)));
+            if counts(&screen) {
+                worst = worst.max(position_error(&screen.footprint, *image.get(i, j)));
+            }
         }
     }
     worst
@@ -36,7 +40,7 @@ fn directions_come_back_from_cube_faces() {
         ("a corner, seven times enlarged", perspective(320, 240, 8.0, -135.0, -35.26, 30.0)),
     ];
     for (name, target) in targets {
-        let error = worst_position_error(&world, &target, Filter::DEFAULT);
+        let error = worst_position_error(&world, &target, Filter::DEFAULT, |_| true);
         assert!(error < POSITION_TOLERANCE, "{name}: {error} px");
     }
 }
@@ -73,7 +77,7 @@ fn directions_come_back_from_a_panorama() {
         ("reduced", fisheye(128, 360.0)),
     ];
     for (name, target) in targets {
-        let error = worst_position_error(&world, &target, Filter::DEFAULT);
+        let error = worst_position_error(&world, &target, Filter::DEFAULT, |_| true);
         assert!(error < POSITION_TOLERANCE, "{name}: {error} px");
     }
 }
@@ -106,8 +110,65 @@ fn directions_come_back_from_a_fisheye() {
         ("side", perspective(320, 240, 60.0, 90.0, 30.0, 0.0)),
         ("behind, beside the rim", perspective(320, 240, 60.0, 140.0, 0.0, 0.0)),
     ] {
-        let error = worst_position_error(&world, &target, Filter::DEFAULT);
+        let error = worst_position_error(&world, &target, Filter::DEFAULT, |_| true);
         assert!(error < POSITION_TOLERANCE, "{name}: {error} px");
+    }
+}
+
+/// What is promised of any projection, in pixels.
+const POSITION_PROMISE: f64 = 0.01;
+
+/// Nearer to a rim than so many pixels a pixel is bent within itself: its mean direction is not that of its centre.
+const BENT: f64 = 16.0;
+
+#[test]
+fn directions_come_back_in_every_projection() {
+    let world = cube(&CubeFace::ALL, 384, 384);
+    for (name, target) in whole_worlds(384).into_iter().chain(partial_worlds(384)) {
+        let error = worst_position_error(&world, &target, Filter::DEFAULT, |screen| {
+            let jacobian = &screen.footprint.jacobian;
+            target.margin(screen.footprint.direction) > BENT * jacobian.dx.length().max(jacobian.dy.length())
+        });
+        assert!(error < POSITION_PROMISE, "{name}: {error} px in {:?}", target.projection);
+    }
+}
+
+#[test]
+fn directions_come_back_from_every_projection() {
+    for (name, source) in whole_worlds(512) {
+        let world = World::new([(name.to_owned(), source)]).expect("one view");
+        // Away from the rim: a ball's is ahead.
+        let yaw = if name == "mirror ball" { 210.0 } else { 30.0 };
+        let target = perspective(160, 120, 60.0, yaw, 20.0, 0.0);
+        let error = worst_position_error(&world, &target, Filter::DEFAULT, |_| true);
+        assert!(error < POSITION_PROMISE, "from {name}: {error} px");
+    }
+}
+
+/// Radiance times solid angle, over all texels.
+fn power(world: &World, light: &[Rgba]) -> [f64; 3] {
+    let of = |c: usize| light.iter().zip(world.solid_angles()).map(|(l, &s)| f64::from(l.0[c]) * f64::from(s)).sum();
+    [of(0), of(1), of(2)]
+}
+
+#[test]
+fn light_is_kept_from_projection_to_projection() {
+    let cube = cube(&CubeFace::ALL, 256, 256);
+    let light = light_by_direction(&cube, |d| {
+        let v = d.vector();
+        [1.0 + 0.5 * v.x as f32, 1.0 + (9.0 * v.y).sin() as f32, 1.0 + (7.0 * v.z + 5.0 * v.x).cos() as f32]
+    });
+    let before = power(&cube, &light);
+    for (name, target) in whole_worlds(400) {
+        let image = Resampler { world: &cube, target: &target, filter: Filter::DEFAULT }.render(&light);
+        let world = World::new([(name.to_owned(), target)]).expect("one view");
+        // A pixel that an edge cuts is dark by the part that it lacks; its light is that of the rest.
+        let whole: Vec<Rgba> =
+            image.pixels().iter().map(|p| if p.alpha() > 0.0 { *p * p.alpha().recip() } else { *p }).collect();
+        let after = power(&world, &whole);
+        for c in 0..3 {
+            assert!((after[c] / before[c] - 1.0).abs() < 0.002, "{name}: {after:?}, not {before:?}");
+        }
     }
 }
 

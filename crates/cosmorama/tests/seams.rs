@@ -4,7 +4,7 @@ use cosmorama::raster::Rgba;
 use cosmorama::resample::{Filter, FilterKind, Resampler};
 use cosmorama::sphere::{CubeFace, Direction};
 use cosmorama::world::{View, World};
-use testkit::{cube, equirect, light_by_direction, perspective};
+use testkit::{cube, equirect, light_by_direction, perspective, whole_worlds};
 
 /// Waves of some forty texels: smooth enough that the filter itself changes next to nothing, so that what a wrong weight
 /// adds at an edge would stand out.
@@ -105,6 +105,22 @@ fn no_step_at_the_back_of_a_panorama() {
         a.z > 0.0 && b.z > 0.0 && (a.x < 0.0) != (b.x < 0.0)
     };
     assert_no_seam(&world, &[("the back", perspective(160, 120, 40.0, 180.0, 10.0, 3.0))], behind);
+}
+
+#[test]
+fn no_step_where_the_edges_of_a_map_meet() {
+    let behind = |a: Direction, b: Direction| {
+        let (a, b) = (a.vector(), b.vector());
+        a.z > 0.0 && b.z > 0.0 && (a.x < 0.0) != (b.x < 0.0)
+    };
+    let target = perspective(160, 120, 40.0, 180.0, 10.0, 3.0);
+    for (name, map) in whole_worlds(512) {
+        let world = World::new([(name.to_owned(), map)]).expect("one view");
+        let [beside, across] = largest_steps(&world, &target, Filter::DEFAULT, behind);
+        // The lattices of both sides do not match; where texels are coarse, that shows no more than the texels themselves.
+        assert!(across > 0.0 && beside > 0.0, "{name}: no edge in the picture");
+        assert!(across < STEP.max(1.5 * beside), "{name}: {across} across, {beside} beside");
+    }
 }
 
 #[test]

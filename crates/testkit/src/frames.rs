@@ -1,6 +1,11 @@
+use cosmorama::projection::OctahedralKind;
+use cosmorama::projection::azimuthal::{FisheyeLens, Lens};
 use cosmorama::projection::{PlanePoint, PlaneRect, ProjectionKind};
 use cosmorama::sphere::{Angle, CubeFace, Orientation};
-use cosmorama::world::{FieldStop, OmnimaxFraming, PixelGrid, PixelPoint, View, World};
+use cosmorama::world::{
+    CylinderFrame, CylinderKind, FieldStop, FisheyeFrame, Frame, MirrorBallFrame, OctahedralFrame, OmnimaxFraming,
+    PanniniFrame, PixelGrid, PixelPoint, StereographicFrame, View, World, WorldMapFrame,
+};
 use glam::DVec2;
 
 /// A face of the cube, 90° both ways whatever its pixels.
@@ -62,6 +67,47 @@ pub fn perspective(width: usize, height: usize, fov: f64, yaw: f64, pitch: f64, 
         grid: PixelGrid::centred(width, height, middle(width, height), DVec2::splat(step)),
         stop: FieldStop::NONE,
     }
+}
+
+/// Frames that show the whole world, about so many pixels high.
+pub fn whole_worlds(height: usize) -> Vec<(&'static str, View)> {
+    let fisheye = |lens| Frame::Fisheye(FisheyeFrame { lens, field_of_view: Angle::TURN, ..FisheyeFrame::default() });
+    let octahedral = |kind| Frame::Octahedral(OctahedralFrame { kind });
+    let frames = [
+        ("equidistant", fisheye(FisheyeLens::EQUIDISTANT)),
+        ("equisolid", fisheye(FisheyeLens::EQUISOLID)),
+        ("equal-area", Frame::Cylinder(CylinderFrame::new(CylinderKind::EqualArea))),
+        ("mirror ball", Frame::MirrorBall(MirrorBallFrame::default())),
+        ("hammer", Frame::WorldMap(WorldMapFrame::Hammer)),
+        ("mollweide", Frame::WorldMap(WorldMapFrame::Mollweide)),
+        ("sinusoidal", Frame::WorldMap(WorldMapFrame::Sinusoidal)),
+        ("octahedral", octahedral(OctahedralKind::EqualArea)),
+        ("octahedral, plain", octahedral(OctahedralKind::Plain)),
+    ];
+    frames.into_iter().map(|(name, frame)| (name, in_shape(frame, height))).collect()
+}
+
+/// Frames that show a part of it, about so many pixels high.
+pub fn partial_worlds(height: usize) -> Vec<(&'static str, View)> {
+    let cylinder = |kind| Frame::Cylinder(CylinderFrame::new(kind));
+    let ball = MirrorBallFrame { distance: Some(3.0), ..MirrorBallFrame::default() };
+    let lenses = FisheyeLens::all().into_iter().map(|lens| {
+        let field_of_view = Angle::from_radians((1.9 * lens.reach()).min(4.0));
+        ("a lens", Frame::Fisheye(FisheyeFrame { lens, field_of_view, ..FisheyeFrame::default() }))
+    });
+    let frames = [
+        ("mercator", cylinder(CylinderKind::Mercator)),
+        ("central cylinder", cylinder(CylinderKind::Central)),
+        ("near mirror ball", Frame::MirrorBall(ball)),
+        ("pannini", Frame::Pannini(PanniniFrame::default())),
+        ("stereographic", Frame::Stereographic(StereographicFrame::default())),
+    ];
+    frames.into_iter().chain(lenses).map(|(name, frame)| (name, in_shape(frame, height))).collect()
+}
+
+fn in_shape(frame: Frame, height: usize) -> View {
+    let ratio = frame.natural_height(1 << 20) as f64 / f64::from(1 << 20);
+    frame.view((height as f64 / ratio).round() as usize, height).expect("a frame with its usual parameters")
 }
 
 fn middle(width: usize, height: usize) -> PixelPoint {

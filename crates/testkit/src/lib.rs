@@ -4,6 +4,6 @@ mod frames;
 mod light;
 mod shared;
 
-pub use frames::{cube, cube_face, equirect, fisheye, omnimax, perspective, turned};
+pub use frames::{cube, cube_face, equirect, fisheye, omnimax, partial_worlds, perspective, turned, whole_worlds};
 pub use light::{light_by_direction, light_by_texel, position_error};
 pub use shared::shared;

@@ -1,10 +1,13 @@
+use cosmorama::sphere::Angle;
 use cosmorama::world::{
-    EquirectFrame, FieldOfView, FisheyeFit, FisheyeFrame, Frame, FulldomeFrame, OmnimaxFrame, OmnimaxFraming,
-    PerspectiveFrame, Placement,
+    CylinderKind, EquirectFrame, FieldOfView, FisheyeFrame, Frame, FulldomeFrame, OmnimaxFrame, OmnimaxFraming,
+    PerspectiveFrame, Placement, StereographicFrame, WorldMapFrame,
 };
 
 use super::cube::Cube;
 use super::fields::Fields;
+use super::lens::fisheye;
+use super::maps::{cylinder, mirror_ball, octahedral, pannini};
 use super::shape::{Shape, Single, SphereSamples};
 use super::{SpecError, angle::parse_degrees};
 
@@ -23,8 +26,19 @@ impl Shape {
                 Frame::Equirect(frame)
             }
             "fisheye" => Frame::Fisheye(fisheye(&fields)?),
+            "stereographic" => Frame::Stereographic(stereographic(&fields)?),
             "fulldome" => Frame::Fulldome(fulldome(&fields)?),
             "omnimax" => Frame::Omnimax(omnimax(&fields)?),
+            "mercator" => Frame::Cylinder(cylinder(&fields, CylinderKind::Mercator)?),
+            "cylinder" => Frame::Cylinder(cylinder(&fields, CylinderKind::Central)?),
+            "equal-area" => Frame::Cylinder(cylinder(&fields, CylinderKind::EqualArea)?),
+            "mirror-ball" => Frame::MirrorBall(mirror_ball(&fields)?),
+            "angular-map" => Frame::Fisheye(angular_map(&fields)?),
+            "hammer" => Frame::WorldMap(WorldMapFrame::Hammer),
+            "mollweide" => Frame::WorldMap(WorldMapFrame::Mollweide),
+            "sinusoidal" => Frame::WorldMap(WorldMapFrame::Sinusoidal),
+            "pannini" => Frame::Pannini(pannini(&fields)?),
+            "octahedral" => Frame::Octahedral(octahedral(&fields)?),
             _ => return Err(SpecError::UnknownName { name: name.to_owned() }),
         };
         let placement = Placement {
@@ -45,9 +59,7 @@ fn perspective(fields: &Fields) -> Result<PerspectiveFrame, SpecError> {
         (Some(horizontal), Some(vertical), None) => FieldOfView::Both { horizontal, vertical },
         (None, Some(vertical), None) => FieldOfView::Vertical(vertical),
         (None, None, Some(diagonal)) => FieldOfView::Diagonal(diagonal),
-        (horizontal, None, None) => {
-            FieldOfView::Horizontal(horizontal.unwrap_or(cosmorama::sphere::Angle::from_degrees(90.0)))
-        }
+        (horizontal, None, None) => FieldOfView::Horizontal(horizontal.unwrap_or(Angle::from_degrees(90.0))),
     };
     if matches!(field_of_view, FieldOfView::Both { .. }) && fields.get("aspect").is_some() {
         return Err(SpecError::Both { first: "aspect", second: "vfov" });
@@ -63,20 +75,21 @@ fn equirect(fields: &Fields) -> Result<EquirectFrame, SpecError> {
     })
 }
 
-fn fisheye(fields: &Fields) -> Result<FisheyeFrame, SpecError> {
-    fields.choice("lens", &[("equidistant", ())])?;
-    let fits = [
-        ("short", FisheyeFit::Short),
-        ("long", FisheyeFit::Long),
-        ("width", FisheyeFit::Width),
-        ("height", FisheyeFit::Height),
-        ("diagonal", FisheyeFit::Diagonal),
-    ];
+fn stereographic(fields: &Fields) -> Result<StereographicFrame, SpecError> {
+    let default = StereographicFrame::default();
+    Ok(StereographicFrame {
+        field_of_view: fields.angle("fov")?.unwrap_or(default.field_of_view),
+        pixel_aspect: fields.aspect()?,
+    })
+}
+
+/// Debevec's light probes: an equidistant fisheye that sees everything.
+fn angular_map(fields: &Fields) -> Result<FisheyeFrame, SpecError> {
     Ok(FisheyeFrame {
-        field_of_view: fields.angle_or("fov", 180.0)?,
-        fit: fields.choice("fit", &fits)?.unwrap_or_default(),
+        field_of_view: Angle::TURN,
         circle: fields.circle()?,
         pixel_aspect: fields.aspect()?,
+        ..FisheyeFrame::default()
     })
 }
 

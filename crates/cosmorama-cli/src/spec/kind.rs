@@ -26,8 +26,13 @@ const fn key(name: &'static str, value: &'static str, about: &'static str) -> Ke
     Key { name, value, about }
 }
 
+const CYLINDER_KEYS: [Key; 2] = [
+    key("hfov", "DEGREES", "longitudes shown (360)"),
+    key("vfov", "DEGREES", "latitudes shown (by the size, square pixels at the equator)"),
+];
+
 /// Every projection on offer.
-pub(crate) const KINDS: [Kind; 6] = [
+pub(crate) static KINDS: [Kind; 17] = [
     Kind {
         name: "cube",
         about: "faces of a cube, one file each or in one image: 90° both ways, whatever the pixels (1024x960 is as good as \
@@ -81,11 +86,25 @@ pub(crate) const KINDS: [Kind; 6] = [
         about: "a fisheye lens that looks ahead",
         keys: &[
             key("fov", "DEGREES", "across the circle (180)"),
-            key("lens", "equidistant", "how the angle goes with the radius (equidistant)"),
+            key(
+                "lens",
+                "NAME",
+                "how the angle goes with the radius (equidistant): equisolid, stereographic, orthographic, polynomial \
+                 (Blender), kannala-brandt (OpenCV), ocam (OCamCalib), ucm, eucm, double-sphere, fov",
+            ),
+            key("k", "A:B:C…", "coefficients of a measured lens, in its program's own order"),
             key("fit", "short|long|width|height|diagonal", "which length of the image the circle spans (short)"),
+            key("focal", "PIXELS", "instead of fit=: the focal length (for ocam: 1)"),
+            key("sensor", "MM", "instead of fit=: the image's width in millimetres (polynomial)"),
             key("center", "X:Y", "the circle's centre in pixels"),
             key("radius", "PIXELS", "the circle's radius in pixels"),
         ],
+        takes_aspect: true,
+    },
+    Kind {
+        name: "stereographic",
+        about: "stereographic, without a circle; with pitch=-90 a little planet",
+        keys: &[key("fov", "DEGREES", "horizontal field of view (270)")],
         takes_aspect: true,
     },
     Kind {
@@ -109,6 +128,59 @@ pub(crate) const KINDS: [Kind; 6] = [
         ],
         takes_aspect: true,
     },
+    Kind {
+        name: "mercator",
+        about: "Mercator's map",
+        keys: &[
+            key("hfov", "DEGREES", "longitudes shown (360)"),
+            key("lat", "DEGREES", "latitude of the upper edge (by the size, square pixels; else 85.051129)"),
+        ],
+        takes_aspect: true,
+    },
+    Kind {
+        name: "cylinder",
+        about: "a central cylinder: upright lines stay straight",
+        keys: &CYLINDER_KEYS,
+        takes_aspect: true,
+    },
+    Kind { name: "equal-area", about: "Lambert's equal-area cylinder", keys: &CYLINDER_KEYS, takes_aspect: true },
+    Kind {
+        name: "mirror-ball",
+        about: "a mirror ball as photographed, the camera looking ahead at it",
+        keys: &[
+            key("distance", "RADII|inf", "from the camera to the ball's centre, in ball radii (inf)"),
+            key("center", "X:Y", "the centre of its outline in pixels"),
+            key("radius", "PIXELS", "the radius of its outline in pixels"),
+        ],
+        takes_aspect: true,
+    },
+    Kind {
+        name: "angular-map",
+        about: "a light probe: equidistant, 360 degrees, the front in its middle",
+        keys: &[
+            key("center", "X:Y", "the circle's centre in pixels"),
+            key("radius", "PIXELS", "the circle's radius in pixels"),
+        ],
+        takes_aspect: true,
+    },
+    Kind { name: "hammer", about: "Hammer's equal-area map of the world", keys: &[], takes_aspect: false },
+    Kind { name: "mollweide", about: "Mollweide's equal-area map of the world", keys: &[], takes_aspect: false },
+    Kind { name: "sinusoidal", about: "the sinusoidal equal-area map of the world", keys: &[], takes_aspect: false },
+    Kind {
+        name: "pannini",
+        about: "a wide view in which upright lines stay straight",
+        keys: &[
+            key("fov", "DEGREES", "horizontal field of view (180)"),
+            key("d", "D", "0 is a pinhole camera, 1 Pannini's own, more squeezes the sides further (1)"),
+        ],
+        takes_aspect: true,
+    },
+    Kind {
+        name: "octahedral",
+        about: "the sphere on an octahedron, unfolded; with pitch=90 the zenith is in the middle, as in pbrt",
+        keys: &[key("kind", "equal-area|plain", "Clarberg's, as pbrt stores environments, or along rays (equal-area)")],
+        takes_aspect: false,
+    },
 ];
 
 /// Keys that every SPEC takes.
@@ -126,8 +198,7 @@ pub(crate) const ASPECT: Key = key("aspect", "A", "a pixel's width over its heig
 impl Kind {
     /// The kind of this name.
     pub(crate) fn named(name: &str) -> Option<&'static Self> {
-        static TABLE: [Kind; 6] = KINDS;
-        TABLE.iter().find(|kind| kind.name == name)
+        KINDS.iter().find(|kind| kind.name == name)
     }
 
     /// Every key it takes.

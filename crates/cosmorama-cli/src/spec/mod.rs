@@ -2,11 +2,14 @@
 //!
 //! One table ([`kind`]) lists every name and key; all messages about wrong ones come from it.
 
+mod alias;
 mod angle;
 mod build;
 mod cube;
 mod fields;
 pub(crate) mod kind;
+mod lens;
+mod maps;
 mod shape;
 mod text;
 mod window;

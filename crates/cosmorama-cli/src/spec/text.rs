@@ -1,7 +1,9 @@
 use std::str::FromStr;
 
+use cosmorama::projection::azimuthal::LensError;
 use thiserror::Error;
 
+use super::alias::{is_refused, without_alias};
 use super::kind::{KINDS, Kind};
 use super::shape::Shape;
 
@@ -20,6 +22,12 @@ pub(crate) enum SpecError {
     /// The name is in no table.
     #[error("unknown projection '{name}'{}; there are {}", did_you_mean(.name, &names()), names().join(", "))]
     UnknownName { name: String },
+    /// Another program has it, and we do not.
+    #[error(
+        "the projection '{name}' of other programs is not on offer here; convert it there to equirect first, as in ffmpeg's \
+         v360=input={name}:output=e"
+    )]
+    NotOffered { name: String },
     /// The key is not one of this name's.
     #[error("unknown key '{key}' for {name}{}; it takes {}", did_you_mean(.key, .known), .known.join(", "))]
     UnknownKey { name: &'static str, key: String, known: Vec<&'static str> },
@@ -32,6 +40,9 @@ pub(crate) enum SpecError {
     /// A value that is not of the expected kind.
     #[error("{key}={value}: expected {expected}")]
     Value { key: String, value: String, expected: String },
+    /// Coefficients of which no lens can be made.
+    #[error("k={value}: {error}")]
+    Coefficients { value: String, error: LensError },
     /// Keys that say the same thing differently.
     #[error("{first}= and {second}= cannot both be given")]
     Both { first: &'static str, second: &'static str },
@@ -54,7 +65,11 @@ impl FromStr for Spec {
     type Err = SpecError;
 
     fn from_str(text: &str) -> Result<Self, SpecError> {
-        let (name, rest) = text.split_once(':').unwrap_or((text, ""));
+        let text = without_alias(text);
+        let (name, rest) = text.split_once(':').unwrap_or((&text, ""));
+        if is_refused(name) {
+            return Err(SpecError::NotOffered { name: name.to_owned() });
+        }
         let kind = Kind::named(name).ok_or_else(|| SpecError::UnknownName { name: name.to_owned() })?;
         let pairs = pairs(rest)?;
         for (index, (key, _)) in pairs.iter().enumerate() {
@@ -106,7 +121,7 @@ mod tests {
             "{message}"
         );
         assert!(refused("omnimx").contains("did you mean 'omnimax'?"));
-        assert!(refused("mercator").contains("there are cube, perspective, equirect, fisheye, fulldome, omnimax"));
+        assert!(refused("globe").contains("there are cube, perspective, equirect, fisheye, stereographic"));
         assert!(refused("cube:aspect=2").contains("unknown key 'aspect' for cube"));
     }
 
@@ -117,10 +132,37 @@ mod tests {
         assert!(refused("fisheye:180").contains("is no key=value"));
         assert!(refused("fisheye:fit=tight").contains("short, long, width, height, diagonal"));
         assert!(refused("fisheye:center=3").contains("X:Y"));
+        assert!(refused("fisheye:lens=ucm").contains("alpha, as in k=0.55"));
+        assert!(refused("fisheye:lens=ucm,k=2").contains("k=2: alpha is 2; it must be from 0 to 1"));
+        assert!(refused("fisheye:lens=ucm,k=0.5:1").contains("expected alpha"));
+        assert!(refused("fisheye:k=1").contains("only measured lenses"));
+        assert!(refused("fisheye:lens=polynomial,k=0:0.02").contains("k1 of the polynomial is 0.02"));
+        assert!(refused("fisheye:focal=300,fit=width").contains("cannot both"));
+        assert!(refused("mercator:lat=80,aspect=2").contains("aspect= and lat= cannot both"));
+        assert!(refused("mirror-ball:distance=1").contains("more than 1, or inf"));
+        assert!(refused("octahedral:kind=round").contains("equal-area, plain"));
+        assert!(refused("pannini:d=-1").contains("0 or more"));
+        assert!(refused("hammer:fov=90").contains("unknown key 'fov' for hammer"));
         assert!(refused("perspective:fov=90,dfov=100").contains("cannot both"));
         assert!(refused("cube:faces=front,top hat").contains("top hat"));
         assert!(refused("cube:canvas.nose=1x1+0+0").contains("nose"));
         assert!(refused("omnimax:canvas=10x10").contains("WxH+X+Y"));
+    }
+
+    #[test]
+    fn names_of_other_programs_are_understood_or_refused_by_name() {
+        let spec = |text: &str| text.parse::<Spec>().unwrap();
+        for (theirs, ours) in [
+            ("e", "equirect"),
+            ("hequirect:vfov=90", "equirect:hfov=180,vfov=90"),
+            ("flat:fov=70", "perspective:fov=70"),
+            ("sg", "stereographic"),
+            ("ball", "fisheye:lens=equisolid,fov=360"),
+            ("octahedron:yaw=3", "octahedral:kind=plain,yaw=3"),
+        ] {
+            assert_eq!(spec(theirs), spec(ours), "{theirs}");
+        }
+        assert!(refused("tetrahedron").contains("'tetrahedron' of other programs is not on offer"));
     }
 
     #[test]

@@ -1,8 +1,12 @@
 use glam::{DVec2, DVec3};
 
-use super::azimuthal::{Azimuthal, Equidistant, OmnimaxLens};
-use super::cylindrical::Equirectangular;
-use super::{EquiAngular, Perspective, PlanePoint, PlaneRect, Projection};
+use super::azimuthal::{Azimuthal, FisheyeLens, OmnimaxLens};
+use super::cylindrical::{Central, Cylindrical, EqualArea, Equirectangular, Mercator};
+use super::pseudocylindrical::{Mollweide, Pseudocylindrical, Sinusoidal};
+use super::{
+    EquiAngular, Hammer, MirrorBall, Octahedral, OctahedralKind, Pannini, Perspective, PlanePoint, PlaneRect,
+    Projection,
+};
 use crate::sphere::{Angle, Direction, DirectionJacobian};
 
 /// Every projection, chosen at run time.
@@ -12,12 +16,30 @@ pub enum ProjectionKind {
     Perspective(Perspective),
     /// The Omnimax lens.
     Omnimax(Azimuthal<OmnimaxLens>),
-    /// The equidistant fisheye.
-    Equidistant(Azimuthal<Equidistant>),
+    /// A fisheye lens.
+    Fisheye(Azimuthal<FisheyeLens>),
     /// The panorama of longitude by latitude.
-    Equirectangular(Equirectangular),
+    Equirectangular(Cylindrical<Equirectangular>),
     /// A face of an equi-angular cube map.
     EquiAngular(EquiAngular),
+    /// Mercator's map.
+    Mercator(Cylindrical<Mercator>),
+    /// The central cylinder.
+    CentralCylinder(Cylindrical<Central>),
+    /// Lambert's equal-area cylinder.
+    EqualAreaCylinder(Cylindrical<EqualArea>),
+    /// A mirror ball as photographed.
+    MirrorBall(MirrorBall),
+    /// Hammer's map of the world.
+    Hammer(Hammer),
+    /// Mollweide's map of the world.
+    Mollweide(Pseudocylindrical<Mollweide>),
+    /// The sinusoidal map of the world.
+    Sinusoidal(Pseudocylindrical<Sinusoidal>),
+    /// The general Pannini projection.
+    Pannini(Pannini),
+    /// The sphere on an octahedron.
+    Octahedral(Octahedral),
 }
 
 impl ProjectionKind {
@@ -26,15 +48,53 @@ impl ProjectionKind {
     /// The Omnimax lens.
     pub const OMNIMAX: Self = Self::Omnimax(Azimuthal(OmnimaxLens));
     /// The equidistant fisheye.
-    pub const EQUIDISTANT: Self = Self::Equidistant(Azimuthal(Equidistant));
+    pub const EQUIDISTANT: Self = Self::fisheye(FisheyeLens::EQUIDISTANT);
     /// The panorama.
-    pub const EQUIRECTANGULAR: Self = Self::Equirectangular(Equirectangular);
+    pub const EQUIRECTANGULAR: Self = Self::Equirectangular(Cylindrical(Equirectangular));
     /// A face of an equi-angular cube map.
     pub const EQUI_ANGULAR: Self = Self::EquiAngular(EquiAngular);
+    /// Mercator's map.
+    pub const MERCATOR: Self = Self::Mercator(Cylindrical(Mercator));
+    /// The central cylinder.
+    pub const CENTRAL_CYLINDER: Self = Self::CentralCylinder(Cylindrical(Central));
+    /// Lambert's equal-area cylinder.
+    pub const EQUAL_AREA_CYLINDER: Self = Self::EqualAreaCylinder(Cylindrical(EqualArea));
+    /// A mirror ball seen by a distant camera.
+    pub const MIRROR_BALL: Self = Self::MirrorBall(MirrorBall::DISTANT);
+    /// Hammer's map of the world.
+    pub const HAMMER: Self = Self::Hammer(Hammer);
+    /// Mollweide's map of the world.
+    pub const MOLLWEIDE: Self = Self::Mollweide(Pseudocylindrical(Mollweide));
+    /// The sinusoidal map of the world.
+    pub const SINUSOIDAL: Self = Self::Sinusoidal(Pseudocylindrical(Sinusoidal));
 
-    /// One of each, for tests and listings.
-    pub const ALL: [Self; 5] =
-        [Self::PERSPECTIVE, Self::OMNIMAX, Self::EQUIDISTANT, Self::EQUIRECTANGULAR, Self::EQUI_ANGULAR];
+    /// A fisheye lens.
+    pub const fn fisheye(lens: FisheyeLens) -> Self {
+        Self::Fisheye(Azimuthal(lens))
+    }
+
+    /// One of each, for tests and listings; those with a parameter with several.
+    pub fn all() -> Vec<Self> {
+        let plain = [
+            Self::PERSPECTIVE,
+            Self::OMNIMAX,
+            Self::EQUIRECTANGULAR,
+            Self::EQUI_ANGULAR,
+            Self::MERCATOR,
+            Self::CENTRAL_CYLINDER,
+            Self::EQUAL_AREA_CYLINDER,
+            Self::MIRROR_BALL,
+            Self::HAMMER,
+            Self::MOLLWEIDE,
+            Self::SINUSOIDAL,
+        ];
+        let lenses = FisheyeLens::all().into_iter().map(Self::fisheye);
+        let balls = [100.0, 2.0].into_iter().filter_map(MirrorBall::from_distance).map(Self::MirrorBall);
+        let panninis = [0.0, 0.5, 1.0, 2.0].into_iter().filter_map(Pannini::from_distance).map(Self::Pannini);
+        let octahedra =
+            [OctahedralKind::EqualArea, OctahedralKind::Plain].map(|kind| Self::Octahedral(Octahedral(kind)));
+        plain.into_iter().chain(lenses).chain(balls).chain(panninis).chain(octahedra).collect()
+    }
 }
 
 /// Calls a method of the projection that is inside.
@@ -43,9 +103,18 @@ macro_rules! each {
         match $kind {
             ProjectionKind::Perspective($projection) => $call,
             ProjectionKind::Omnimax($projection) => $call,
-            ProjectionKind::Equidistant($projection) => $call,
+            ProjectionKind::Fisheye($projection) => $call,
             ProjectionKind::Equirectangular($projection) => $call,
             ProjectionKind::EquiAngular($projection) => $call,
+            ProjectionKind::Mercator($projection) => $call,
+            ProjectionKind::CentralCylinder($projection) => $call,
+            ProjectionKind::EqualAreaCylinder($projection) => $call,
+            ProjectionKind::MirrorBall($projection) => $call,
+            ProjectionKind::Hammer($projection) => $call,
+            ProjectionKind::Mollweide($projection) => $call,
+            ProjectionKind::Sinusoidal($projection) => $call,
+            ProjectionKind::Pannini($projection) => $call,
+            ProjectionKind::Octahedral($projection) => $call,
         }
     };
 }
@@ -77,6 +146,10 @@ impl Projection for ProjectionKind {
 
     fn margin(&self, direction: Direction) -> f64 {
         each!(self, projection => projection.margin(direction))
+    }
+
+    fn has_steep_rim(&self) -> bool {
+        each!(self, projection => projection.has_steep_rim())
     }
 
     fn cap_bounds(&self, centre: Direction, radius: Angle) -> PlaneRect {

@@ -6,12 +6,23 @@
 pub mod azimuthal;
 pub mod cylindrical;
 mod equi_angular;
+mod graticule;
+mod hammer;
 mod kind;
+mod meridian;
+mod mirror_ball;
+mod octahedral;
+mod pannini;
 mod perspective;
 mod plane;
+pub mod pseudocylindrical;
 
 pub use equi_angular::EquiAngular;
+pub use hammer::Hammer;
 pub use kind::ProjectionKind;
+pub use mirror_ball::MirrorBall;
+pub use octahedral::{Octahedral, OctahedralKind};
+pub use pannini::Pannini;
 pub use perspective::Perspective;
 pub use plane::{PlanePoint, PlaneRect};
 
@@ -59,6 +70,11 @@ pub trait Projection {
     /// pole, a horizon, a rim); negative beyond a horizon. A footprint much smaller than this is mapped to an ellipse, a
     /// larger one is weighed on the sphere.
     fn margin(&self, direction: Direction) -> f64;
+
+    /// Whether derivatives grow without bound towards a rim or a pole: there a texel is measured by its own extent.
+    fn has_steep_rim(&self) -> bool {
+        false
+    }
 
     /// The rectangle of the plane that holds every direction within `radius` of `centre`.
     fn cap_bounds(&self, centre: Direction, radius: Angle) -> PlaneRect;

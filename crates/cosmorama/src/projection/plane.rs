@@ -24,6 +24,15 @@ pub struct PlaneRect {
 }
 
 impl PlaneRect {
+    /// The smallest rectangle that also holds a point.
+    #[must_use]
+    pub fn with(self, point: PlanePoint) -> Self {
+        Self {
+            min: PlanePoint::new(self.min.x.min(point.x), self.min.y.min(point.y)),
+            max: PlanePoint::new(self.max.x.max(point.x), self.max.y.max(point.y)),
+        }
+    }
+
     /// The whole plane.
     pub const EVERYTHING: Self = Self {
         min: PlanePoint::new(f64::NEG_INFINITY, f64::NEG_INFINITY),

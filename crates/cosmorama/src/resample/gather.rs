@@ -167,7 +167,7 @@ impl<'a> Gather<'a> {
 
     /// Adds the texels of one view; true if the kernel lies wholly inside it.
     fn gather_from(&mut self, source: &Source, footprint: &Footprint, place: Place) -> bool {
-        let radius = self.reach(footprint, source.texel_pitch, place);
+        let radius = self.reach(footprint, source.texel_pitch_at(footprint.direction), place);
         let margin = source.view.margin(footprint.direction);
         if margin + radius <= 0.0 {
             return false;

@@ -4,6 +4,7 @@ use glam::{DMat2, DVec2};
 
 use super::Kernel;
 use super::gather::Gather;
+use crate::projection::Projection;
 use crate::world::{PixelPoint, Source, View};
 
 /// Pixels along a patch's side, and lanes that are worked on together.
@@ -131,6 +132,10 @@ impl<'a> Patch<'a> {
         }
         let (owner, _) = gather.world().owner(middle.direction)?;
         let source = &gather.world().sources()[owner];
+        // Beside a steep rim derivatives are not what pixels and texels are measured by.
+        if target.projection.has_steep_rim() || source.view.projection.has_steep_rim() {
+            return None;
+        }
         let mut screen = [[middle; 3]; 3];
         let mut points = Grid::<Point>::default();
         for (y, (screen, points)) in screen.iter_mut().zip(&mut points).enumerate() {

@@ -53,7 +53,7 @@ impl View {
         if self.is_beyond_circle(centre) {
             return None;
         }
-        let footprint = self.footprint(centre);
+        let footprint = self.pixel_footprint(centre);
         match footprint.as_ref().map_or(Side::Unknown, |footprint| self.side(centre, footprint)) {
             Side::Inside => footprint.map(|footprint| ScreenPixel { coverage: 1.0, footprint }),
             Side::Outside => None,
@@ -65,8 +65,20 @@ impl View {
         }
     }
 
+    /// What a pixel around a point sees. Beside a steep rim the derivatives would make it far longer than it is.
+    fn pixel_footprint(&self, pixel: PixelPoint) -> Option<Footprint> {
+        let footprint = self.footprint(pixel)?;
+        if !self.projection.has_steep_rim() {
+            return Some(footprint);
+        }
+        Some(Footprint { jacobian: self.texel(pixel)?, ..footprint })
+    }
+
     /// Decides without sub-samples where a pixel cannot touch the edge: it is nowhere wider than its half diagonals.
     fn side(&self, centre: PixelPoint, footprint: &Footprint) -> Side {
+        if self.ends_within(centre, footprint) {
+            return Side::Unknown;
+        }
         let (mut circle, mut great_circle) = (FieldStop::NONE, None);
         if let Some(radius) = self.stop.circle {
             let (distance, half_diagonal) = self.distance_from_axis(centre);
@@ -118,6 +130,16 @@ impl View {
         Some(GreatCircle { centre, sines })
     }
 
+    /// Whether the projection's own edge cuts a pixel, as that of an oval map does: a corner sees nothing.
+    fn ends_within(&self, centre: PixelPoint, footprint: &Footprint) -> bool {
+        let reach = footprint.jacobian.dx.length() + footprint.jacobian.dy.length();
+        let corners = [(-0.5, -0.5), (0.5, -0.5), (-0.5, 0.5), (0.5, 0.5)];
+        // A cylinder ends where its image does; a row of samples on the very pole is a whole one.
+        self.projection.period().is_none()
+            && self.margin(footprint.direction) < reach
+            && corners.iter().any(|(x, y)| self.direction(PixelPoint::new(centre.x + x, centre.y + y)).is_none())
+    }
+
     fn cut_pixel(&self, x: f64, y: f64, is_inside: impl Fn(PixelPoint) -> bool) -> Option<ScreenPixel> {
         let (mut count, mut sum_x, mut sum_y) = (0usize, 0.0, 0.0);
         for b in 0..SUB_SAMPLES {
@@ -135,7 +157,7 @@ impl View {
             return None;
         }
         let centroid = PixelPoint::new(sum_x / count as f64, sum_y / count as f64);
-        let footprint = self.footprint(centroid)?;
+        let footprint = self.pixel_footprint(centroid)?;
         Some(ScreenPixel { coverage: count as f64 / (SUB_SAMPLES * SUB_SAMPLES) as f64, footprint })
     }
 }

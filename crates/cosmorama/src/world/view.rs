@@ -16,6 +16,9 @@ pub struct Footprint {
     pub jacobian: DirectionJacobian,
 }
 
+/// Texels from a steep rim within which a texel is measured from side to side.
+const STEEP: f64 = 4.0;
+
 /// An image's geometry: how its pixels see the world. As a source it says where its texels lie, as a target which
 /// pixels are wanted; the image itself is elsewhere.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -97,12 +100,35 @@ impl View {
     /// A footprint in this view's own pixels: its centre and the matrix whose columns are the steps for one screen pixel
     /// along x and y ((Ux, Vx) and (Uy, Vy) in Greene & Heckbert).
     pub fn texel_footprint(&self, footprint: &Footprint) -> Option<(PixelPoint, DMat2)> {
+        if self.projection.has_steep_rim() {
+            let pixel = self.pixel(footprint.direction)?;
+            let texel = self.texel(pixel)?;
+            let [x, y] = [footprint.jacobian.dx, footprint.jacobian.dy].map(|t| texel.pseudo_inverse(t));
+            return Some((pixel, DMat2::from_cols(x?, y?)));
+        }
         let direction = self.orientation.to_view(footprint.direction);
         let tangents = [footprint.jacobian.dx, footprint.jacobian.dy].map(|t| self.orientation.vector_to_view(t));
         let (point, [x, y]) = self.projection.project_with_derivatives(direction, tangents)?;
         let step = self.grid.step();
         let texels = DMat2::from_cols(DVec2::new(x.x / step.x, -x.y / step.y), DVec2::new(y.x / step.x, -y.y / step.y));
         Some((self.grid.to_pixel(point), texels))
+    }
+
+    /// How the direction moves over the texel around a point of the image, per texel: its derivatives. On a steep rim, where
+    /// those of a point say nothing of a texel, from one side of the texel to the other.
+    pub(super) fn texel(&self, pixel: PixelPoint) -> Option<DirectionJacobian> {
+        let Footprint { direction, jacobian } = self.footprint(pixel)?;
+        let size = (jacobian.dx.length_squared() + jacobian.dy.length_squared()).sqrt();
+        if !self.projection.has_steep_rim() || self.margin(direction) > STEEP * size {
+            return Some(jacobian);
+        }
+        let at = |dx: f64, dy: f64| self.direction(PixelPoint::new(pixel.x + dx, pixel.y + dy)).map(Direction::vector);
+        let across = |dx: f64, dy: f64| {
+            let here = direction.vector();
+            let between = at(dx / 2.0, dy / 2.0).zip(at(-dx / 2.0, -dy / 2.0)).map(|(next, last)| next - last);
+            between.or_else(|| at(-dx, -dy).map(|last| here - last)).or_else(|| at(dx, dy).map(|next| next - here))
+        };
+        Some(DirectionJacobian { dx: across(1.0, 0.0)?, dy: across(0.0, 1.0)? })
     }
 
     /// Solid angle of a texel in steradians (to first order), zero where it shows nothing.
@@ -115,7 +141,12 @@ impl View {
     /// shows something.
     pub fn solid_angle(&self, pixel: PixelPoint) -> Option<f64> {
         let (jacobian, step) = (self.projection.jacobian(self.grid.to_plane(pixel))?, self.grid.step());
-        Some(jacobian.solid_angle() * (step.x * step.y).abs())
+        let solid_angle = jacobian.solid_angle() * (step.x * step.y).abs();
+        if !self.projection.has_steep_rim() {
+            return Some(solid_angle);
+        }
+        // On the very rim the derivatives may be infinite, and the texel is not.
+        Some(solid_angle.min(2.0 * self.texel(pixel)?.solid_angle()))
     }
 
     /// Pixels for each radian at the centre of the projection, the mean of both ways where pixels are not square.

@@ -3,6 +3,7 @@ use thiserror::Error;
 
 use super::blend::{Blend, Presence, parts};
 use super::{PixelPoint, PixelRect, View, overlap};
+use crate::projection::Projection;
 use crate::sphere::Direction;
 
 /// Why views make no world.
@@ -38,6 +39,18 @@ pub struct Source {
     pub(super) others: Vec<usize>,
     /// Texels that count for all that they show: no other view has a part in them, and none of them is there twice.
     pub(crate) whole: PixelRect,
+}
+
+impl Source {
+    /// An upper bound of a texel's larger side, in radians, at a direction: beside a steep rim texels are far larger than
+    /// elsewhere, and the largest says nothing of the others.
+    pub fn texel_pitch_at(&self, direction: Direction) -> f64 {
+        if !self.view.projection.has_steep_rim() {
+            return self.texel_pitch;
+        }
+        let texel = self.view.pixel(direction).and_then(|pixel| self.view.texel(pixel));
+        texel.map_or(self.texel_pitch, |texel| (texel.dx.length_squared() + texel.dy.length_squared()).sqrt())
+    }
 }
 
 impl Source {
@@ -176,9 +189,8 @@ fn texel_pitch(view: &View) -> f64 {
     const STEPS: usize = 32;
     let at = |size: usize, step: usize| size as f64 * step as f64 / STEPS as f64;
     let points = (0..=STEPS).flat_map(|j| (0..=STEPS).map(move |i| (i, j)));
-    let footprints =
-        points.filter_map(|(i, j)| view.footprint(PixelPoint::new(at(view.width(), i), at(view.height(), j))));
-    footprints.map(|f| f.jacobian.dx.length().max(f.jacobian.dy.length())).fold(0.0, f64::max)
+    let texels = points.filter_map(|(i, j)| view.texel(PixelPoint::new(at(view.width(), i), at(view.height(), j))));
+    texels.map(|texel| texel.dx.length().max(texel.dy.length())).fold(0.0, f64::max)
 }
 
 /// A panorama with samples on its edges holds one column twice: only the first of the two counts.

@@ -1,24 +1,47 @@
 //! Fisheye lenses: the angle from the axis is a function of the radius in the picture.
 
+mod arc_sine;
+mod ball;
+mod by_angle;
+mod by_radius;
+mod double_sphere;
 mod equidistant;
+mod equisolid;
+mod field_of_view;
+mod fisheye_lens;
+mod kannala_brandt;
+mod lens;
+mod ocam;
 mod omnimax;
+mod orthographic;
+mod polynomial;
+mod rising;
+mod stereographic;
+mod unified;
 
+pub use ball::BallLens;
+pub use by_angle::ByAngle;
+pub use by_radius::ByRadius;
+pub use double_sphere::DoubleSphere;
 pub use equidistant::Equidistant;
+pub use equisolid::Equisolid;
+pub use field_of_view::FieldOfViewLens;
+pub use fisheye_lens::FisheyeLens;
+pub use kannala_brandt::KannalaBrandt;
+pub use lens::{Lens, LensError};
+pub use ocam::{OCAM_COEFFICIENTS, Ocam};
 pub use omnimax::OmnimaxLens;
+pub use orthographic::Orthographic;
+pub use polynomial::Polynomial;
+pub use stereographic::Stereographic;
+pub use unified::Unified;
+
+use std::f64::consts::PI;
 
 use glam::DVec3;
 
 use super::{PlanePoint, PlaneRect, Projection};
 use crate::sphere::{Angle, Direction, DirectionJacobian};
-
-/// A lens with an axis of symmetry: φ(r), strictly rising, φ(0) = 0.
-pub trait Lens {
-    /// The angle φ from the axis, in radians, at radius r ≥ 0, and its derivative φ′(r).
-    fn angle(&self, radius: f64) -> (f64, f64);
-
-    /// The radius at which the angle φ (radians, 0 to π) is seen; `None` beyond the lens formula's reach.
-    fn radius(&self, angle: f64) -> Option<f64>;
-}
 
 /// The projection of a [`Lens`]: the plane's unit is the lens's own unit of radius, its origin the axis.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -30,8 +53,8 @@ impl<L: Lens> Projection for Azimuthal<L> {
         let sine = length(vector.x, vector.y);
         let radius = self.0.radius(sine.atan2(-vector.z))?;
         if sine == 0.0 {
-            // The whole rim is seen in the direction straight behind: no single point.
-            return (radius == 0.0).then_some(PlanePoint::new(0.0, 0.0));
+            // Straight behind is the whole rim: any point of it will do.
+            return Some(PlanePoint::new(radius, 0.0));
         }
         Some(PlanePoint::new(vector.x / sine * radius, vector.y / sine * radius))
     }
@@ -48,7 +71,7 @@ impl<L: Lens> Projection for Azimuthal<L> {
         let radius = length(point.x, point.y);
         let (angle, slope) = self.0.angle(radius);
         // A NaN is no angle either.
-        if angle.is_nan() || angle > std::f64::consts::PI {
+        if angle.is_nan() || angle > PI {
             return None;
         }
         if radius == 0.0 {
@@ -64,12 +87,20 @@ impl<L: Lens> Projection for Azimuthal<L> {
 
     fn margin(&self, direction: Direction) -> f64 {
         // The chord to the direction straight behind.
-        (direction.vector() - Direction::BACK.vector()).length()
+        let vector = direction.vector();
+        let behind = (vector - Direction::BACK.vector()).length();
+        let reach = self.0.reach();
+        if reach >= PI { behind } else { behind.min(reach - length(vector.x, vector.y).atan2(-vector.z)) }
+    }
+
+    fn has_steep_rim(&self) -> bool {
+        self.0.has_steep_rim()
     }
 
     fn cap_bounds(&self, centre: Direction, radius: Angle) -> PlaneRect {
         let axis_angle = Direction::FRONT.angle_to(centre);
-        let Some(outer) = self.0.radius((axis_angle + radius).radians()) else {
+        // No further than there is an image: what sees more of a cap than the rim's circle holds does not see all of it.
+        let Some(outer) = self.0.radius((axis_angle + radius).radians().min(self.0.reach())) else {
             return PlaneRect::EVERYTHING;
         };
         if axis_angle <= radius || (axis_angle + radius).degrees() >= 180.0 {
@@ -92,7 +123,7 @@ impl<L: Lens> Projection for Azimuthal<L> {
 
 /// Least and greatest cosine of the angles within `half_width` ≤ π/2 of `centre`.
 fn cosine_range(centre: f64, half_width: f64) -> (f64, f64) {
-    use std::f64::consts::{PI, TAU};
+    use std::f64::consts::TAU;
     let (a, b) = ((centre - half_width).cos(), (centre + half_width).cos());
     let reaches = |angle: f64| (centre - angle + PI).rem_euclid(TAU) - PI;
     let min = if reaches(PI).abs() <= half_width { -1.0 } else { a.min(b) };
@@ -103,4 +134,15 @@ fn cosine_range(centre: f64, half_width: f64) -> (f64, f64) {
 /// √(x² + y²) for coordinates that cannot overflow: several times faster than `hypot`.
 fn length(x: f64, y: f64) -> f64 {
     (x * x + y * y).sqrt()
+}
+
+/// sin φ/depth(φ) and its derivative, of (sin φ, cos φ) and of the depth with its derivative.
+fn ratio((sin, cos): (f64, f64), (depth, slope): (f64, f64)) -> (f64, f64) {
+    (sin / depth, (cos * depth - sin * slope) / (depth * depth))
+}
+
+/// All coefficients are numbers.
+fn finite(what: &'static str, coefficients: &[f64]) -> Result<(), LensError> {
+    let Some(found) = coefficients.iter().find(|k| !k.is_finite()) else { return Ok(()) };
+    LensError::unless(false, what, *found, "a finite number")
 }

@@ -23,6 +23,31 @@ pub enum FrameError {
         /// Whether the limit itself is excluded.
         below: bool,
     },
+    /// A field of view beyond the place where the lens's formula turns back.
+    #[error(
+        "the field of view is {}°, but the lens's formula turns back at radius {}, {}° from the axis: it shows at most {}°",
+        rounded(*.found), rounded(*.radius), rounded(.greatest / 2.0), rounded(*.greatest)
+    )]
+    LensTurnsBack {
+        /// Degrees asked for.
+        found: f64,
+        /// The limit in degrees.
+        greatest: f64,
+        /// Where that is, in the unit of the formula.
+        radius: f64,
+    },
+    /// A camera inside the mirror ball.
+    #[error("the camera is {found} ball radii from the mirror ball's centre; it must be more than 1")]
+    BallDistance {
+        /// Ball radii asked for.
+        found: f64,
+    },
+    /// A Pannini projection seen from before its cylinder's axis.
+    #[error("Pannini's distance d is {found}; it must be from 0 (a pinhole) to 1000000")]
+    PanniniDistance {
+        /// What was asked for.
+        found: f64,
+    },
     /// A cut outside the lens.
     #[error("the lower cut is {found}° below the axis; it must be more than 0° and at most 90°")]
     LowerCut {
@@ -46,7 +71,7 @@ pub enum FrameError {
         height: f64,
     },
     /// The circle is placed in pixels of an unknown image.
-    #[error("the lens's centre or radius is given in pixels, so the size of the image must be given too")]
+    #[error("the lens's centre, radius or focal length is given in pixels, so the size of the image must be given too")]
     SizeNeeded,
 }
 
@@ -66,4 +91,9 @@ pub(super) fn check_field_of_view(
 /// A length or ratio above zero.
 pub(super) fn check_positive(what: &'static str, found: f64) -> Result<(), FrameError> {
     if found > 0.0 && found.is_finite() { Ok(()) } else { Err(FrameError::NotPositive { what, found }) }
+}
+
+/// Six decimals, without zeros at the end.
+fn rounded(value: f64) -> f64 {
+    (value * 1e6).round() / 1e6
 }

@@ -3,6 +3,7 @@ use glam::DVec2;
 use super::error::{check_field_of_view, check_positive};
 use super::{FrameError, LensCircle};
 use crate::projection::ProjectionKind;
+use crate::projection::azimuthal::{FisheyeLens, Lens};
 use crate::sphere::{Angle, Orientation};
 use crate::world::{FieldStop, PixelGrid, PixelPoint, View};
 
@@ -34,13 +35,32 @@ impl FisheyeFit {
     }
 }
 
-/// An equidistant fisheye's picture; the field of view ends at its circle.
+/// How large a lens's picture is in its image.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum LensScale {
+    /// The circle of the field of view spans a length of the image.
+    Circle(FisheyeFit),
+    /// One unit of the lens's formula, its focal length in most, is so many pixel widths.
+    Focal(f64),
+    /// The image is so many units of the lens's formula wide: millimetres of a sensor.
+    SensorWidth(f64),
+}
+
+impl Default for LensScale {
+    fn default() -> Self {
+        Self::Circle(FisheyeFit::default())
+    }
+}
+
+/// A fisheye's picture; the field of view ends at its circle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FisheyeFrame {
+    /// How the angle goes with the radius.
+    pub lens: FisheyeLens,
     /// The angle that the circle's diameter spans.
     pub field_of_view: Angle,
-    /// Which length of the image that diameter is.
-    pub fit: FisheyeFit,
+    /// How large the picture is.
+    pub scale: LensScale,
     /// Where the circle lies, if not in the middle.
     pub circle: LensCircle,
     /// A pixel's width over its height.
@@ -49,28 +69,66 @@ pub struct FisheyeFrame {
 
 impl Default for FisheyeFrame {
     fn default() -> Self {
-        Self { field_of_view: Angle::HALF_TURN, fit: FisheyeFit::Short, circle: LensCircle::FITTED, pixel_aspect: 1.0 }
+        Self {
+            lens: FisheyeLens::EQUIDISTANT,
+            field_of_view: Angle::HALF_TURN,
+            scale: LensScale::default(),
+            circle: LensCircle::FITTED,
+            pixel_aspect: 1.0,
+        }
     }
 }
 
 impl FisheyeFrame {
+    /// The field of view of all that the lens has an image of.
+    pub fn whole_field(lens: FisheyeLens) -> Angle {
+        Angle::from_radians(2.0 * lens.reach())
+    }
+
     pub(super) fn view(&self, width: usize, height: usize) -> Result<View, FrameError> {
-        check_field_of_view("the field of view", self.field_of_view, 360.0, false)?;
         check_positive("the pixel aspect", self.pixel_aspect)?;
         let (w, h) = (width as f64, height as f64);
-        let radius = self.field_of_view.radians() / 2.0;
-        // Lengths are measured in heights of a pixel, so that the circle is round.
-        let step = 2.0 * radius / self.fit.of(w * self.pixel_aspect, h);
+        let radius = self.rim()?;
+        let step = match self.scale {
+            // Lengths are measured in heights of a pixel, so that the circle is round.
+            LensScale::Circle(fit) => 2.0 * radius / fit.of(w * self.pixel_aspect, h) * self.pixel_aspect,
+            LensScale::Focal(pixels) => check_positive("the focal length", pixels).map(|()| pixels.recip())?,
+            LensScale::SensorWidth(units) => check_positive("the sensor's width", units).map(|()| units / w)?,
+        };
         let centre = PixelPoint::new(w / 2.0, h / 2.0);
-        let fitted = PixelGrid::centred(width, height, centre, DVec2::new(step * self.pixel_aspect, step));
+        let fitted = PixelGrid::centred(width, height, centre, DVec2::new(step, step / self.pixel_aspect));
         Ok(View {
-            projection: ProjectionKind::EQUIDISTANT,
+            projection: ProjectionKind::fisheye(self.lens),
             orientation: Orientation::IDENTITY,
             grid: self.circle.place(fitted, radius)?,
             stop: FieldStop::circle(radius),
         })
     }
+
+    /// The radius at which the field of view ends, in the unit of the lens's formula.
+    fn rim(&self) -> Result<f64, FrameError> {
+        check_field_of_view("the field of view", self.field_of_view, 360.0, false)?;
+        let (half, reach) = (self.field_of_view.radians() / 2.0, self.lens.reach());
+        if half > reach + 1e-9 {
+            let turn = self.lens.radius(reach).filter(|radius| *radius < INFINITELY_FAR);
+            let (found, greatest) = (self.field_of_view.degrees(), 2.0 * reach.to_degrees());
+            return Err(match turn {
+                Some(radius) => FrameError::LensTurnsBack { found, greatest, radius },
+                None => FrameError::FieldOfView { what: "the field of view", found, greatest, below: true },
+            });
+        }
+        let rim = self.lens.radius(half.min(reach)).filter(|radius| *radius < INFINITELY_FAR);
+        rim.ok_or(FrameError::FieldOfView {
+            what: "the field of view",
+            found: self.field_of_view.degrees(),
+            greatest: 2.0 * reach.to_degrees(),
+            below: true,
+        })
+    }
 }
+
+/// What a lens shows further from its centre than this, in its own unit, is at infinity.
+const INFINITELY_FAR: f64 = 1e9;
 
 #[cfg(test)]
 mod tests {
@@ -91,7 +149,7 @@ mod tests {
             (FisheyeFit::Width, (400.0, 150.0)),
             (FisheyeFit::Diagonal, (400.0, 300.0)),
         ] {
-            let frame = FisheyeFrame { fit, ..FisheyeFrame::default() };
+            let frame = FisheyeFrame { scale: LensScale::Circle(fit), ..FisheyeFrame::default() };
             assert!((angle_from_axis(&frame, edge.0, edge.1) - 90.0).abs() < 1e-9, "{fit:?}");
         }
     }
@@ -110,5 +168,29 @@ mod tests {
         assert!(frame(360.0).view(4, 4).is_ok());
         assert!(frame(361.0).view(4, 4).is_err());
         assert!(frame(0.0).view(4, 4).is_err());
+    }
+
+    #[test]
+    fn a_lens_shows_what_it_has_an_image_of_and_no_more() {
+        let frame = |lens, degrees| {
+            FisheyeFrame { lens, field_of_view: Angle::from_degrees(degrees), ..FisheyeFrame::default() }.view(100, 100)
+        };
+        let error = frame(FisheyeLens::ORTHOGRAPHIC, 190.0).unwrap_err().to_string();
+        assert!(error.contains("190°") && error.contains("radius 1,") && error.contains("at most 180°"), "{error}");
+        let error = frame(FisheyeLens::STEREOGRAPHIC, 360.0).unwrap_err().to_string();
+        assert!(error.contains("less than 360°"), "{error}");
+        for lens in FisheyeLens::all() {
+            let whole = FisheyeFrame::whole_field(lens).degrees();
+            assert!(frame(lens, whole - 1.0).is_ok(), "{lens:?}");
+            assert!(whole > 359.9 || frame(lens, whole + 1.0).is_err(), "{lens:?}");
+        }
+    }
+
+    #[test]
+    fn a_focal_length_in_pixels_or_a_sensor_in_millimetres() {
+        let focal = FisheyeFrame { scale: LensScale::Focal(100.0), ..FisheyeFrame::default() };
+        assert!((angle_from_axis(&focal, 300.0, 150.0).to_radians() - 1.0).abs() < 1e-12);
+        let sensor = FisheyeFrame { scale: LensScale::SensorWidth(4.0), ..FisheyeFrame::default() };
+        assert!((angle_from_axis(&sensor, 300.0, 150.0).to_radians() - 1.0).abs() < 1e-12);
     }
 }

@@ -4,6 +4,7 @@
 //! With a size it makes a [`View`]; without one it says which size suits it.
 
 mod cube_face;
+mod cylinder;
 mod equirect;
 mod error;
 mod field_of_view;
@@ -11,21 +12,32 @@ mod fisheye;
 mod fulldome;
 mod layout_face;
 mod lens_circle;
+mod mirror_ball;
+mod octahedral;
 mod omnimax;
+mod pannini;
 mod perspective;
 mod placement;
+mod stereographic;
+mod world_map;
 
 pub use cube_face::CubeFaceFrame;
+pub use cylinder::{CylinderFrame, CylinderKind};
 pub use equirect::{EquirectFrame, SamplePositions};
 pub use error::FrameError;
 pub use field_of_view::FieldOfView;
-pub use fisheye::{FisheyeFit, FisheyeFrame};
+pub use fisheye::{FisheyeFit, FisheyeFrame, LensScale};
 pub use fulldome::FulldomeFrame;
 pub use layout_face::{FaceMapping, LayoutFaceFrame};
 pub use lens_circle::LensCircle;
+pub use mirror_ball::MirrorBallFrame;
+pub use octahedral::OctahedralFrame;
 pub use omnimax::OmnimaxFrame;
+pub use pannini::PanniniFrame;
 pub use perspective::PerspectiveFrame;
 pub use placement::{Canvas, Mirror, Placement};
+pub use stereographic::StereographicFrame;
+pub use world_map::WorldMapFrame;
 
 use super::View;
 
@@ -38,14 +50,26 @@ pub enum Frame {
     CubeFace(CubeFaceFrame),
     /// A face of a cube map in equal angles, or with its samples on the edges.
     LayoutFace(LayoutFaceFrame),
-    /// An equidistant fisheye.
+    /// A fisheye.
     Fisheye(FisheyeFrame),
+    /// A stereographic picture without a circle.
+    Stereographic(StereographicFrame),
     /// A domemaster.
     Fulldome(FulldomeFrame),
     /// An Omnimax film frame.
     Omnimax(OmnimaxFrame),
     /// A panorama of longitude by latitude.
     Equirect(EquirectFrame),
+    /// A panorama on a cylinder.
+    Cylinder(CylinderFrame),
+    /// A photograph of a mirror ball.
+    MirrorBall(MirrorBallFrame),
+    /// A map of the whole world.
+    WorldMap(WorldMapFrame),
+    /// A wide picture in Pannini's manner.
+    Pannini(PanniniFrame),
+    /// An octahedron unfolded.
+    Octahedral(OctahedralFrame),
 }
 
 impl Frame {
@@ -62,22 +86,35 @@ impl Frame {
             Self::CubeFace(frame) => Ok(frame.view(width, height)),
             Self::LayoutFace(frame) => frame.view(width, height),
             Self::Fisheye(frame) => frame.view(width, height),
+            Self::Stereographic(frame) => frame.view(width, height),
             Self::Fulldome(frame) => frame.view(width, height),
             Self::Omnimax(frame) => frame.view(width, height),
             Self::Equirect(frame) => frame.view(width, height),
+            Self::Cylinder(frame) => frame.view(width, height),
+            Self::MirrorBall(frame) => frame.view(width, height),
+            Self::WorldMap(frame) => Ok(frame.view(width, height)),
+            Self::Pannini(frame) => frame.view(width, height),
+            Self::Octahedral(frame) => Ok(frame.view(width, height)),
         }
     }
 
     /// The height that suits a width: square for fisheyes, domes and cube faces, the film's 1966:1436 for Omnimax,
-    /// the shape of the field of view for a panorama, 4:3 for a camera unless its field of view is given both ways.
+    /// the shape of the field of view for a panorama, 4:3 for a camera unless its field of view is given both ways, twice as wide
+    /// as high for a map of the world.
     pub fn natural_height(&self, width: usize) -> usize {
         let ratio = match self {
             Self::Perspective(frame) => frame.natural_ratio(),
             Self::CubeFace(_) | Self::LayoutFace(_) => 1.0,
             Self::Fisheye(frame) => frame.pixel_aspect,
+            Self::Stereographic(frame) => frame.pixel_aspect,
             Self::Fulldome(frame) => frame.pixel_aspect,
             Self::Omnimax(frame) => frame.natural_ratio(),
             Self::Equirect(frame) => frame.natural_ratio(),
+            Self::Cylinder(frame) => frame.natural_ratio(),
+            Self::MirrorBall(frame) => frame.pixel_aspect,
+            Self::WorldMap(_) => 0.5,
+            Self::Pannini(frame) => frame.natural_ratio(),
+            Self::Octahedral(_) => 1.0,
         };
         ((width as f64 * ratio).round() as usize).max(1)
     }
@@ -92,7 +129,7 @@ impl Frame {
         const TRIAL: usize = 1 << 20;
         /// Sides that no file format counts.
         const LARGEST: f64 = u32::MAX as f64;
-        if self.circle().is_some_and(|circle| circle != LensCircle::FITTED) {
+        if self.is_measured_in_pixels() {
             return Err(FrameError::SizeNeeded);
         }
         let trial = self.view(TRIAL, self.natural_height(TRIAL))?.pixels_per_radian();
@@ -105,11 +142,13 @@ impl Frame {
         Ok((width as usize, height + height % 2))
     }
 
-    fn circle(&self) -> Option<LensCircle> {
+    /// Whether a length in pixels says how large the picture is, so that no other size fits.
+    fn is_measured_in_pixels(&self) -> bool {
         match self {
-            Self::Fisheye(frame) => Some(frame.circle),
-            Self::Omnimax(frame) => Some(frame.circle),
-            _ => None,
+            Self::Fisheye(frame) => frame.circle != LensCircle::FITTED || matches!(frame.scale, LensScale::Focal(_)),
+            Self::Omnimax(frame) => frame.circle != LensCircle::FITTED,
+            Self::MirrorBall(frame) => frame.circle != LensCircle::FITTED,
+            _ => false,
         }
     }
 }

@@ -1,0 +1,18 @@
+use std::f64::consts::PI;
+
+use super::Lens;
+
+/// The stereographic fisheye: r = 2 tan(φ/2) focal lengths. It keeps angles; what lies straight behind is at infinity.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Stereographic;
+
+impl Lens for Stereographic {
+    fn angle(&self, radius: f64) -> (f64, f64) {
+        let half = radius / 2.0;
+        (2.0 * half.atan(), (1.0 + half * half).recip())
+    }
+
+    fn radius(&self, angle: f64) -> Option<f64> {
+        (angle < PI).then(|| 2.0 * (angle / 2.0).tan())
+    }
+}

@@ -1,0 +1,18 @@
+use super::{Latitude, Profile};
+
+/// Mercator's map: y = ln tan(π/4 + φ/2). It keeps angles; the poles are at infinity.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Mercator;
+
+impl Profile for Mercator {
+    fn height(&self, latitude: Latitude) -> Option<f64> {
+        // ln tan(π/4 + φ/2) = asinh tan φ, which is exact near the equator.
+        (latitude.cos > 0.0).then(|| (latitude.sin / latitude.cos).asinh())
+    }
+
+    fn latitude(&self, height: f64) -> Option<(Latitude, f64)> {
+        // Beyond 355, where the cosine is less than 1e-154, squares of it are lost.
+        let cos = height.cosh().recip();
+        (height.abs() < 355.0).then(|| (Latitude { sin: height.tanh(), cos }, cos))
+    }
+}

@@ -1,0 +1,52 @@
+use std::f64::consts::{FRAC_PI_2, PI};
+
+use super::{PlanePoint, PlaneRect};
+use crate::sphere::{Angle, Direction};
+
+/// A box of longitudes and latitudes, in radians; west may be less than −π, east more than π.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Graticule {
+    pub(super) west: f64,
+    pub(super) east: f64,
+    pub(super) south: f64,
+    pub(super) north: f64,
+}
+
+impl Graticule {
+    /// The box that holds every direction within `radius` of `centre`: all longitudes if a pole is among them.
+    pub(super) fn around(centre: Direction, radius: Angle) -> Self {
+        let (longitude, latitude) = centre.longitude_latitude();
+        let (longitude, latitude, radius) = (longitude.radians(), latitude.radians(), radius.radians());
+        let (south, north) = (latitude - radius, latitude + radius);
+        let holds_a_pole = south <= -FRAC_PI_2 || north >= FRAC_PI_2;
+        let half_width = if holds_a_pole { PI } else { (radius.sin() / latitude.cos()).min(1.0).asin() };
+        Self {
+            west: longitude - half_width,
+            east: longitude + half_width,
+            south: south.max(-FRAC_PI_2),
+            north: north.min(FRAC_PI_2),
+        }
+    }
+
+    /// The same with all longitudes, once, if it crosses the meridian behind.
+    pub(super) fn within_one_turn(self) -> Self {
+        if self.west >= -PI && self.east <= PI { self } else { Self { west: -PI, east: PI, ..self } }
+    }
+
+    /// The rectangle of the plane that holds the box's image, for a mapping of longitude and latitude in which x rises with
+    /// the longitude, y with the latitude, and either depends on the other's distance from 0 alone, rising or falling with
+    /// it: as in every map that is symmetrical about its middle.
+    pub(super) fn bounds(self, place: impl Fn(f64, f64) -> PlanePoint) -> PlaneRect {
+        let with_least = |low: f64, high: f64| [low, high, 0f64.clamp(low, high)];
+        let mut rect = PlaneRect {
+            min: PlanePoint::new(f64::INFINITY, f64::INFINITY),
+            max: PlanePoint::new(f64::NEG_INFINITY, f64::NEG_INFINITY),
+        };
+        for longitude in with_least(self.west, self.east) {
+            for latitude in with_least(self.south, self.north) {
+                rect = rect.with(place(longitude, latitude));
+            }
+        }
+        rect
+    }
+}
