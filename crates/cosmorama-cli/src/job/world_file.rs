@@ -60,7 +60,7 @@ pub(super) fn find(name: &str, wanted: Option<&FrameList>, warnings: &mut Vec<St
     }
     let mut world = Input { views: Vec::new(), frames: vec![None] };
     for entry in &file.view {
-        let part = entry.find(&source, wanted, warnings).with_context(|| source.place(Some(entry.image.span())))?;
+        let part = entry.find(&source, wanted, warnings)?;
         world.frames = common_frames(&world.frames, &part.frames)
             .with_context(|| format!("{} has other frames than the views before it", entry.image.get_ref()))
             .with_context(|| source.place(Some(entry.image.span())))?;
@@ -71,23 +71,29 @@ pub(super) fn find(name: &str, wanted: Option<&FrameList>, warnings: &mut Vec<St
 
 impl Entry {
     fn find(&self, source: &Text, wanted: Option<&FrameList>, warnings: &mut Vec<String>) -> Result<Input> {
-        let spec = self.spec.as_ref().map(|spec| {
-            let parsed: Result<Spec, _> = spec.get_ref().parse();
-            parsed.map_err(|error| source.error(Some(spec.span()), &format!("spec = \"{}\": {error}", spec.get_ref())))
-        });
         let blend = Blend { priority: self.priority, feather: self.feather(source)? };
+        let spec = self.spec(source)?;
         let folder = Path::new(source.name).parent().unwrap_or(Path::new(""));
         let pattern = folder.join(self.image.get_ref()).to_string_lossy().into_owned();
         if is_world_file(&pattern) {
-            bail!("{pattern} is a world file itself; list its views here");
+            let message = format!("{pattern} is a world file itself; list its views here");
+            return Err(source.error(Some(self.image.span()), &message));
         }
         // A still stays what it is in all frames.
         let wanted = wanted.filter(|_| FramePattern::parse(&pattern).is_some());
-        let mut input = Input::find(&pattern, spec.transpose()?.as_ref(), wanted, warnings)?;
+        let mut input = Input::find(&pattern, spec.as_ref(), wanted, warnings)
+            .with_context(|| source.place(Some(self.image.span())))?;
         for view in &mut input.views {
             view.blend = blend;
         }
         Ok(input)
+    }
+
+    fn spec(&self, source: &Text) -> Result<Option<Spec>> {
+        let Some(spec) = &self.spec else { return Ok(None) };
+        let parsed: Result<Spec, _> = spec.get_ref().parse();
+        let told = |error| source.error(Some(spec.span()), &format!("spec = \"{}\": {error}", spec.get_ref()));
+        parsed.map(Some).map_err(told)
     }
 
     fn feather(&self, source: &Text) -> Result<Angle> {
