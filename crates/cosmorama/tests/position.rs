@@ -118,7 +118,8 @@ fn directions_come_back_from_a_fisheye() {
 /// What is promised of any projection, in pixels.
 const POSITION_PROMISE: f64 = 0.01;
 
-/// Nearer to a rim than so many pixels a pixel is bent within itself: its mean direction is not that of its centre.
+/// Nearer to a rim than so many pixels a pixel is bent within itself: its mean direction is not that of its centre. So is
+/// one that a steep rim cuts.
 const BENT: f64 = 16.0;
 
 #[test]
@@ -127,7 +128,8 @@ fn directions_come_back_in_every_projection() {
     for (name, target) in whole_worlds(384).into_iter().chain(partial_worlds(384)) {
         let error = worst_position_error(&world, &target, Filter::DEFAULT, |screen| {
             let jacobian = &screen.footprint.jacobian;
-            target.margin(screen.footprint.direction) > BENT * jacobian.dx.length().max(jacobian.dy.length())
+            let margin = target.margin(screen.footprint.direction);
+            screen.coverage == 1.0 && margin > BENT * jacobian.dx.length().max(jacobian.dy.length())
         });
         assert!(error < POSITION_PROMISE, "{name}: {error} px in {:?}", target.projection);
     }
