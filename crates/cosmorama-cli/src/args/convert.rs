@@ -18,7 +18,7 @@ use crate::spec::Spec;
 #[command(after_help = after_help())]
 pub(crate) struct ConvertArgs {
     /// An image, a pattern with {face} or %c (faces) and ####, @@@@ or %04d (frames), builtin:NAME, or a world
-    /// file (.toml: many views, each [[view]] with image, spec, priority and feather in degrees)
+    /// file (.toml: many views, each view with image, spec, priority and feather in degrees)
     #[arg(value_hint = ValueHint::FilePath, value_parser = NonEmptyStringValueParser::new())]
     pub(crate) input: String,
     /// An image or a pattern; the extension chooses the format
