@@ -11,6 +11,8 @@ pub(super) struct FieldEdge<'a> {
     /// Cosine of the limiting circle's angle from the axis: stops are for lenses, whose circles are cones. `None` where the
     /// circle holds all that the lens shows.
     circle: Option<f64>,
+    /// 1 where the middle of the picture looks to the front, −1 where it looks back, as in a mirror ball.
+    axis: f64,
 }
 
 /// Points of a texel by which its overlap with the field is judged: its centre, and its corners a hair inside, since
@@ -22,7 +24,10 @@ impl<'a> FieldEdge<'a> {
     pub(super) fn of(target: &'a View) -> Option<Self> {
         let at = |radius| target.projection.unproject(PlanePoint::new(radius, 0.0));
         let circle = target.stop.circle.and_then(at).map(|direction| -direction.vector().z);
-        (target.stop != FieldStop::NONE).then_some(Self { target, circle })
+        let middle = target.projection.unproject(PlanePoint::new(0.0, 0.0));
+        let axis = middle.map_or(1.0, |direction| (-direction.vector().z).signum());
+        let circle = circle.map(|circle| axis * circle);
+        (target.stop != FieldStop::NONE).then_some(Self { target, circle, axis })
     }
 
     /// Whether the field holds a few texels of this pitch. One that does not is made of what is around it.
@@ -34,7 +39,7 @@ impl<'a> FieldEdge<'a> {
     pub(super) fn is_near(&self, direction: Direction, reach: f64) -> bool {
         let direction = self.target.orientation.to_view(direction);
         // A cosine changes by no more than its angle.
-        self.circle.is_some_and(|circle| -direction.vector().z < circle + reach)
+        self.circle.is_some_and(|circle| self.axis_cosine(direction) < circle + reach)
             || self.target.stop.half_space.is_some_and(|side| side.dot(direction) < reach)
     }
 
@@ -47,9 +52,14 @@ impl<'a> FieldEdge<'a> {
         })
     }
 
+    /// Cosine of a direction's angle from the axis.
+    fn axis_cosine(&self, direction: Direction) -> f64 {
+        -direction.vector().z * self.axis
+    }
+
     fn holds(&self, direction: Direction) -> bool {
         let direction = self.target.orientation.to_view(direction);
-        self.circle.is_none_or(|circle| -direction.vector().z >= circle)
+        self.circle.is_none_or(|circle| self.axis_cosine(direction) >= circle)
             && self.target.stop.half_space.is_none_or(|side| side.dot(direction) >= 0.0)
     }
 }
