@@ -1,9 +1,8 @@
 //! Procedural worlds for cosmorama: radiance by direction, given by formula.
 //!
 //! A world here is infinitely sharp: [`Radiance`] is a point sample. [`picture()`] makes a view's picture of it, each pixel
-//! the weighted mean of what it sees, by formula where the world has one; [`render`] averages samples over squares, in
-//! linear light, into an image of any mapping. [`BuiltinWorld`] is the list of worlds that users can name.
-//! A [`DirectionMap`] says where each pixel of a view looks.
+//! the weighted mean of what it sees, by formula where the world has one. [`BuiltinWorld`] is the list of worlds that users
+//! can name. A [`DirectionMap`] says where each pixel of a view looks.
 
 mod builtin_world;
 mod checker;
@@ -15,7 +14,6 @@ mod grid;
 mod picture;
 mod pixel_window;
 mod radiance;
-mod render;
 mod zone_plate;
 
 pub use builtin_world::BuiltinWorld;
@@ -26,5 +24,4 @@ pub use directions::Directions;
 pub use grid::Grid;
 pub use picture::picture;
 pub use radiance::{Average, Radiance};
-pub use render::{Supersampling, render};
 pub use zone_plate::ZonePlate;

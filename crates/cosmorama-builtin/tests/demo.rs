@@ -2,7 +2,8 @@
 
 use cosmorama::raster::{Image, Rgba};
 use cosmorama::sphere::{Angle, CubeFace, Direction};
-use cosmorama_builtin::{DemoWorld, Radiance, Supersampling, render};
+use cosmorama::world::{CubeFaceFrame, Frame, Placement};
+use cosmorama_builtin::{DemoWorld, Radiance, picture};
 use glam::DVec3;
 use proptest::prelude::*;
 
@@ -36,12 +37,10 @@ fn light_is_finite_along_axes_and_planes() {
 
 fn small_face(face: CubeFace, threads: usize) -> Image<Rgba> {
     const SIZE: usize = 48;
-    let unproject = |x: f64, y: f64| {
-        let (right, up) = (2.0 * x / SIZE as f64 - 1.0, 1.0 - 2.0 * y / SIZE as f64);
-        Direction::new(DVec3::new(right, up, -1.0)).map(|direction| face.orientation().to_world(direction))
-    };
+    let placement = Placement { orientation: face.orientation(), ..Placement::new(Frame::CubeFace(CubeFaceFrame)) };
+    let view = placement.view(SIZE, SIZE).expect("a face");
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
-    pool.install(|| render(&DemoWorld, SIZE, SIZE, unproject, Supersampling::default()))
+    pool.install(|| picture(&DemoWorld, &view))
 }
 
 #[test]

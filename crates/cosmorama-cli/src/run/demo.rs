@@ -8,8 +8,8 @@ use cosmorama::explain::{Figures, Underlay};
 use cosmorama::raster::{Channels, Depth, EncodedImage, Transfer};
 use cosmorama::resample::{Filter, Needs};
 use cosmorama::sphere::{CubeFace, Orientation};
-use cosmorama::world::{Canvas, Frame, OmnimaxFrame, PixelPoint, PixelRect, View, World};
-use cosmorama_builtin::{DemoWorld, Supersampling, render};
+use cosmorama::world::{Canvas, Frame, OmnimaxFrame, PixelRect, View, World};
+use cosmorama_builtin::{DemoWorld, picture};
 use cosmorama_io::{FacePlacement, Metadata, WriteOptions, write};
 
 use super::{convert, diagram, print, use_threads};
@@ -71,8 +71,7 @@ fn face_view(face: CubeFace, canvas: Option<Canvas>, width: usize, height: usize
 fn render_face(partial: &PartialFace, folder: &Path) -> Result<()> {
     let start = Instant::now();
     let PartialFace { face, window, view } = partial;
-    let direction = |x: f64, y: f64| view.direction(PixelPoint::new(x, y));
-    let light = render(&DemoWorld, window.width(), window.height(), direction, Supersampling::default());
+    let light = picture(&DemoWorld, view);
     let encoded = EncodedImage::encode(&light, Channels::Rgb, Depth::Eight, &Transfer::Srgb);
     let metadata = Metadata { transfer: Some(Transfer::Srgb), ..Metadata::default() };
     let path = folder.join(face.name()).with_extension("png");
