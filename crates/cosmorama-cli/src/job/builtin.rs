@@ -4,6 +4,7 @@ use cosmorama::resample::Filter;
 use cosmorama_builtin::{BuiltinWorld, DirectionMap};
 use cosmorama_io::Format;
 
+use super::input::SAME_FOR_BOTH;
 use super::{Input, Light, MemoryBudget, Outputs, Target, check_quality, filter};
 use crate::args::ConvertArgs;
 use crate::failure::{usage, warn};
@@ -96,7 +97,10 @@ impl BuiltinJob {
             warnings.push(format!("--filter, --kernel and --anti-ringing have no effect on {}: a formula", args.input));
         }
         let target = Target::resolve(&args.output, &args.geometry, None)?;
-        let files = Input { views: Vec::new(), frames: vec![None] };
+        if target.is_stereo() {
+            warnings.push(SAME_FOR_BOTH.to_owned());
+        }
+        let files = Input { worlds: Vec::new(), frames: vec![None] };
         let mut light = Light::resolve(args, &files, &target, &mut warnings)?;
         if let Builtin::DirectionMap(_) = builtin {
             check_map(args, format)?;

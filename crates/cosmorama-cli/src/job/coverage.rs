@@ -3,7 +3,7 @@ use cosmorama::raster::Rgba;
 use cosmorama::resample::{Filter, Need, Needs};
 use cosmorama::world::{Canvas, PixelRect, View, World};
 
-use super::{Input, InputView, MemoryBudget, Target};
+use super::{Input, InputView, MemoryBudget, Target, TargetView};
 use crate::args::Missing;
 
 /// What becomes of pixels that look where no view does.
@@ -15,44 +15,28 @@ pub(crate) enum Coverage {
     Fill(Rgba),
 }
 
-/// The world of whole pictures, whether their files are there or not.
-pub(crate) fn nominal_world(input: &Input, memory: MemoryBudget) -> Result<World> {
+/// The worlds of whole pictures, whether their files are there or not: one, or one for each eye.
+pub(crate) fn nominal_worlds(input: &Input, memory: MemoryBudget) -> Result<Vec<World>> {
     memory.check_pictures(input)?;
-    Ok(World::blended(input.views.iter().map(|view| (view.name.clone(), view.nominal, view.blend)))?)
+    let nominal = |view: &InputView| (view.name.clone(), view.nominal, view.blend);
+    input.worlds.iter().map(|views| Ok(World::blended(views.iter().map(nominal))?)).collect()
 }
 
 impl Coverage {
-    /// Compares what the target needs with what the input holds, before any pixel is computed. Also gives the world that
-    /// the input holds of the nominal one.
+    /// Compares what the target needs with what the input holds, before any pixel is computed. Also gives the worlds that
+    /// the input holds of the nominal ones.
     pub(crate) fn check(
         input: &mut Input,
-        nominal: World,
+        nominal: Vec<World>,
         target: &Target,
         filter: &Filter,
         missing: Missing,
         warnings: &mut Vec<String>,
-    ) -> Result<(Self, World)> {
-        if let [view] = input.views.as_mut_slice()
-            && view.nominal.covers_sphere()
-            && view.window.as_ref().is_some_and(|(held, _)| *held == view.nominal)
-        {
-            // A whole panorama lacks nothing, whatever is asked of it.
-            view.wanted = true;
-            return Ok((Self::Complete, nominal));
-        }
-        let needs = Needs::of(&nominal, &target.geometry(), filter);
+    ) -> Result<(Self, Vec<World>)> {
         let mut gaps = Vec::new();
-        for (view, need) in input.views.iter_mut().zip(&needs.views) {
-            view.wanted = need.read.is_some();
-            gaps.extend(shortfall(view, need));
-            warnings.extend(frayed(view, need));
-        }
-        if let Some(uncovered) = needs.uncovered {
-            gaps.push(format!("{}: {uncovered}", target.views[uncovered.target].name));
-        }
-        if !input.views.iter().any(|view| view.wanted && view.window.is_some()) {
-            gaps.push("nothing of what the input shows is in the output's field of view".to_owned());
-            return Err(empty(&gaps));
+        let count = nominal.len();
+        for (index, (views, nominal)) in input.worlds.iter_mut().zip(&nominal).enumerate() {
+            gaps.extend(find_gaps(views, nominal, &target.of_world(index, count), filter, warnings)?);
         }
         let coverage = match missing {
             _ if gaps.is_empty() => Self::Complete,
@@ -63,13 +47,50 @@ impl Coverage {
                 gaps.join("\n  ")
             ),
         };
-        Ok((coverage, held_world(input, nominal)?))
+        let worlds: Result<_> =
+            input.worlds.iter().zip(nominal).map(|(views, nominal)| held_world(views, nominal)).collect();
+        Ok((coverage, worlds?))
     }
 }
 
+/// What is missing of the views of a world. Notes which of them are wanted.
+fn find_gaps(
+    views: &mut [InputView],
+    nominal: &World,
+    targets: &[&TargetView],
+    filter: &Filter,
+    warnings: &mut Vec<String>,
+) -> Result<Vec<String>> {
+    if let [view] = views
+        && view.nominal.covers_sphere()
+        && view.window.as_ref().is_some_and(|(held, _)| *held == view.nominal)
+    {
+        // A whole panorama lacks nothing, whatever is asked of it.
+        view.wanted = true;
+        return Ok(Vec::new());
+    }
+    let geometry: Vec<View> = targets.iter().map(|target| target.view).collect();
+    let needs = Needs::of(nominal, &geometry, filter);
+    let mut gaps = Vec::new();
+    for (view, need) in views.iter_mut().zip(&needs.views) {
+        view.wanted = need.read.is_some();
+        gaps.extend(shortfall(view, need));
+        warnings.extend(frayed(view, need));
+    }
+    if let Some(uncovered) = needs.uncovered {
+        gaps.push(format!("{}: {uncovered}", targets[uncovered.target].name));
+    }
+    if !views.iter().any(|view| view.wanted && view.window.is_some()) {
+        gaps.push("nothing of what the input shows is in the output's field of view".to_owned());
+        return Err(empty(&gaps));
+    }
+    Ok(gaps)
+}
+
 /// The world of what files hold: often that of the whole pictures.
-fn held_world(input: &Input, nominal: World) -> Result<World> {
-    let held = || input.present().map(|(view, _, held)| (view.name.clone(), *held, view.blend));
+fn held_world(views: &[InputView], nominal: World) -> Result<World> {
+    let held =
+        || views.iter().filter_map(InputView::present).map(|(view, _, held)| (view.name.clone(), *held, view.blend));
     let whole = nominal.sources().iter().map(|source| (source.name.clone(), source.view, source.blend));
     if held().eq(whole) {
         return Ok(nominal);

@@ -4,8 +4,8 @@ use anyhow::{Result, bail};
 use cosmorama::world::{EquirectFrame, FaceOrder, Frame, FulldomeFrame, LayoutKind, Placement, SamplePositions};
 use cosmorama_io::{EnvMap, Header, Window};
 
+use super::canvas::canvas_of;
 use super::evidence::Evidence;
-use super::input::canvas_of;
 
 use crate::failure::usage;
 use crate::spec::{Cube, Packing, Shape, Single, SphereSamples};
@@ -123,6 +123,7 @@ pub(super) fn declared(shape: &Shape, pattern: &str, header: &Header, warnings: 
             "--from cube:layout=faces wants a file for each face, but {pattern} has no {{face}} or %c where a face's name \
              stands"
         ))),
+        Shape::Dual(_) => Ok(shape.clone()),
         Shape::Cube(cube) => Ok(Shape::Cube(declared_cube(cube, pattern, header, warnings)?)),
     }
 }

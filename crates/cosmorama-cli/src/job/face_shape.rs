@@ -2,13 +2,17 @@ use std::path::PathBuf;
 
 use anyhow::{Result, anyhow};
 use cosmorama::sphere::CubeFace;
-use cosmorama::world::Canvas;
+use cosmorama::world::{Canvas, FacePart, FacePlacement};
 
 /// A face's picture as its file has it.
 pub(super) struct FacePicture {
     pub(super) face: CubeFace,
     pub(super) path: PathBuf,
     pub(super) canvas: Canvas,
+    /// Columns and rows of the file.
+    pub(super) size: (usize, usize),
+    /// How it lies in the file.
+    pub(super) lies: FacePlacement,
     /// Whether `canvas=` says so: then it is right, whatever its shape.
     pub(super) is_declared: bool,
 }
@@ -25,8 +29,12 @@ const MOST_DIFFERENCE: f64 = 1.125;
 const SAME: f64 = 1.01;
 
 /// The size of a face that has no file: that of the first of the shape which most faces have. A face that looks cropped
-/// is an error; one that differs by a little is told.
-pub(super) fn usual_size(pictures: &[FacePicture], warnings: &mut Vec<String>) -> Result<(usize, usize)> {
+/// is an error; one that differs by a little is told. `half` is the half of a cube that the files are said to hold.
+pub(super) fn usual_size(
+    pictures: &[FacePicture],
+    half: Option<CubeFace>,
+    warnings: &mut Vec<String>,
+) -> Result<(usize, usize)> {
     let usual = usual(pictures);
     let size = usual.map_or((1, 1), |canvas| (canvas.width, canvas.height));
     let expected = usual.filter(|canvas| is_face(canvas)).map_or("a square, or nearly so".to_owned(), shape);
@@ -36,13 +44,57 @@ pub(super) fn usual_size(pictures: &[FacePicture], warnings: &mut Vec<String>) -
     };
     let wrong: Vec<&FacePicture> = pictures.iter().filter(looks_cropped).collect();
     if let [first, others @ ..] = &wrong[..] {
-        return Err(looks_cropped_error(first, others, &expected));
+        return Err(other_half_error(first, pictures, half)
+            .unwrap_or_else(|| looks_cropped_error(first, others, &expected)));
     }
     let odd = |picture: &&FacePicture| {
         !picture.is_declared && usual.is_some_and(|usual| difference(&picture.canvas, usual) > SAME)
     };
     warnings.extend(pictures.iter().filter(odd).map(|picture| taken_as_whole(picture, &expected)));
     Ok(size)
+}
+
+/// Whether files are those of a half of a cube (`None`: of a whole one): then all faces are squares, or nearly so, alike.
+fn are_of(pictures: &[FacePicture], half: Option<CubeFace>) -> bool {
+    let canvas = |picture: &FacePicture| {
+        let part = FacePart::of(picture.face, picture.lies, half)?;
+        Some(part.canvas(picture.size.0, picture.size.1))
+    };
+    let canvases: Option<Vec<Canvas>> = pictures.iter().map(canvas).collect();
+    canvases.is_some_and(|all| all.iter().all(|one| is_face(one) && difference(one, &all[0]) < MOST_DIFFERENCE))
+}
+
+/// What is the matter where files would fit if they were said to hold another half of a cube, or a whole one.
+fn other_half_error(first: &FacePicture, pictures: &[FacePicture], half: Option<CubeFace>) -> Option<anyhow::Error> {
+    let FacePicture { face, path, size: (width, height), .. } = first;
+    let found = format!("{}: the {face} face's file is {width}x{height}", path.display());
+    if let (Some(half), true) = (half, are_of(pictures, None)) {
+        return Some(anyhow!(
+            "{found}, a whole face, but half={half} says that it holds a half; leave half= out: of whole faces, too, only \
+             what is needed is used"
+        ));
+    }
+    let halves: Vec<_> = CubeFace::ALL.into_iter().filter(|other| are_of(pictures, Some(*other))).collect();
+    let names: Vec<_> = halves.iter().map(|half| format!("half={half}")).collect();
+    (!names.is_empty()).then(|| {
+        anyhow!(
+            "{found}, half a face, and so are others: give --from cube:{} ({})",
+            names.join(" or "),
+            halves.iter().map(|half| about(*half)).collect::<Vec<_>>().join("; ")
+        )
+    })
+}
+
+/// What half a cube holds.
+fn about(half: CubeFace) -> &'static str {
+    match half {
+        CubeFace::Up => "up: the sky, the upper halves of the sides and the top",
+        CubeFace::Down => "down: the ground, the lower halves of the sides and the bottom",
+        CubeFace::Front => "front: the front, and the half beside it of each neighbour",
+        CubeFace::Back => "back: the back, and the half beside it of each neighbour",
+        CubeFace::Left => "left: the left face, and the half beside it of each neighbour",
+        CubeFace::Right => "right: the right face, and the half beside it of each neighbour",
+    }
 }
 
 /// What most faces look like, of those that look like faces, if any do.
@@ -105,11 +157,13 @@ mod tests {
             face,
             path: format!("{face}.png").into(),
             canvas: Canvas { width, height, left: 0, top: 0 },
+            size: (width, height),
+            lies: FacePlacement::UPRIGHT,
             is_declared: declared.contains(&face),
         };
         let pictures: Vec<_> = CubeFace::ALL.into_iter().zip(sizes).map(picture).collect();
         let mut warnings = Vec::new();
-        usual_size(&pictures, &mut warnings).map_err(|error| error.to_string())?;
+        usual_size(&pictures, None, &mut warnings).map_err(|error| error.to_string())?;
         Ok(warnings)
     }
 
@@ -138,6 +192,24 @@ mod tests {
         assert!(error.starts_with("right.png"), "{error}");
         let error = judge(&[(128, 64); 6], &[]).unwrap_err();
         assert!(error.contains("a square, or nearly so"), "{error}");
+    }
+
+    #[test]
+    fn halves_of_faces_are_the_files_of_half_a_cube() {
+        // Front, right, back, left, up.
+        let error = judge(&[(64, 32), (64, 32), (64, 32), (64, 32), (64, 64)], &[]).unwrap_err();
+        assert!(error.contains("front face's file is 64x32, half a face") && error.contains("half=up (up: the sky"), "{error}");
+        // Sides alone may be above or below.
+        let error = judge(&[(64, 32); 4], &[]).unwrap_err();
+        assert!(error.contains("cube:half=up or half=down"), "{error}");
+        let pictures = |size: (usize, usize), canvas: (usize, usize)| {
+            let canvas = Canvas { width: canvas.0, height: canvas.1, left: 0, top: 0 };
+            let lies = FacePlacement::UPRIGHT;
+            [FacePicture { face: CubeFace::Left, path: "left.png".into(), canvas, size, lies, is_declared: false }]
+        };
+        // A whole face, of which half=up made one of twice its height.
+        let error = usual_size(&pictures((64, 64), (64, 128)), Some(CubeFace::Up), &mut Vec::new()).unwrap_err();
+        assert!(error.to_string().contains("64x64, a whole face, but half=up"), "{error}");
     }
 
     #[test]

@@ -1,20 +1,21 @@
 use std::path::{Path, PathBuf};
 
 use anyhow::{Result, bail};
-use cosmorama::sphere::{CubeFace, Orientation};
-use cosmorama::world::{Blend, Canvas, FacePart, FacePlacement, Frame, FrameError, Placement, View};
-use cosmorama_io::{FaceFile, FacePattern, FaceSet, FrameList, Header, Window, probe};
+use cosmorama::world::{Blend, Canvas, Eye, FacePart, View};
+use cosmorama_io::{FaceFile, FacePattern, FaceSet, FrameList, Header, probe};
 
+use super::canvas::{canvas_of, fits_canvas, whole};
 use super::detect::{declared, detect};
+use super::eye::EyePart;
+use super::face_file::Face;
 use super::face_shape::{FacePicture, usual_size};
-use super::face_view::face_placement;
 use super::packed::{self, FilePart};
 use super::{Files, frames, world_file};
-use crate::args::SizeArg;
 use crate::failure::usage;
-use crate::spec::{Cube, Packing, Shape, Single, Spec};
+use crate::spec::{Cube, Packing, Shape, Single, Spec, StereoSpec};
 
-/// A view of the input: an image, or a face of a cube.
+/// A view of the input: an image, a face of a cube, a lens of two.
+#[derive(Clone)]
 pub(crate) struct InputView {
     /// What messages call it.
     pub(crate) name: String,
@@ -36,10 +37,21 @@ pub(crate) struct InputView {
 
 /// Everything that light comes from.
 pub(crate) struct Input {
-    /// The views, missing ones too.
-    pub(crate) views: Vec<InputView>,
+    /// The views, missing ones too: of one world, or of the left eye's and the right eye's.
+    pub(crate) worlds: Vec<Vec<InputView>>,
     /// The frames to work on.
     pub(crate) frames: Vec<Option<u64>>,
+}
+
+/// What is told where an output has two eyes and the input one.
+pub(super) const SAME_FOR_BOTH: &str =
+    "both eyes get the same picture, since the input has only one: there is no depth in it";
+
+impl InputView {
+    /// What its file says of itself and the geometry of what it holds, where there is a file and it is wanted.
+    pub(crate) fn present(&self) -> Option<(&Self, &Header, &View)> {
+        Some((self, self.header.as_ref()?, &self.window.as_ref()?.0)).filter(|_| self.wanted)
+    }
 }
 
 impl Input {
@@ -50,64 +62,76 @@ impl Input {
         wanted: Option<&FrameList>,
         warnings: &mut Vec<String>,
     ) -> Result<Self> {
-        let shape = from.map(|spec| (spec.name, &spec.shape));
         if world_file::is_world_file(pattern) {
-            if let Some((name, _)) = shape {
-                return Err(usage(format!("{pattern} says itself what its views are; leave out --from {name}")));
+            if let Some(spec) = from {
+                return Err(usage(format!("{pattern} says itself what its views are; leave out --from {}", spec.name)));
             }
             return world_file::find(pattern, wanted, warnings);
         }
-        match (FacePattern::parse(pattern), shape) {
-            (Some(_), Some((_, Shape::Cube(cube)))) => Self::cube(pattern, cube, wanted, warnings),
-            (Some(_), None) => Self::cube(pattern, &Cube::default(), wanted, warnings),
-            (Some(_), Some((name, Shape::Single(_)))) => {
-                Err(usage(format!("{pattern} names the faces of a cube, but --from is {name}; expected --from cube")))
+        let Some(StereoSpec { packing, eye }) = from.and_then(|spec| spec.stereo) else {
+            return Self::find_one(pattern, from, None, wanted, warnings);
+        };
+        let mut found: Option<Self> = None;
+        for eye in eye.map_or(Eye::ALL.to_vec(), |eye| vec![eye]) {
+            // Whatever there is to say of the other eye has been said of the first.
+            let mut said = Vec::new();
+            let warnings = if found.is_some() { &mut said } else { &mut *warnings };
+            let mut one = Self::find_one(pattern, from, Some(EyePart { stereo: packing, eye }), wanted, warnings)?;
+            match &mut found {
+                Some(found) => found.worlds.append(&mut one.worlds),
+                None => found = Some(one),
             }
-            (None, shape) => Self::one_file(pattern, shape.map(|(_, shape)| shape), wanted, warnings),
         }
+        found.ok_or_else(|| usage("stereo=: no eye is left"))
     }
 
-    /// An input that does not exist yet: of a size, or at parity with an output of so many pixels a radian.
-    pub(crate) fn nominal(from: &Spec, size: Option<SizeArg>, pixels_per_radian: f64) -> Result<Self> {
-        let wrong = |error: FrameError| usage(format!("--from: {error}"));
-        let size = |frame: Frame| match size {
-            Some(SizeArg { width, height }) => Ok((width, height.unwrap_or_else(|| frame.natural_height(width)))),
-            None => frame.size_at(pixels_per_radian).map_err(wrong),
-        };
-        let view = |name: &str, placement: Placement, (width, height): (usize, usize)| {
-            let nominal = placement.view(width, height).map_err(wrong)?;
-            let files = Files::new(Path::new(name));
-            Ok(InputView {
-                name: name.to_owned(),
-                files,
-                part: None,
-                header: None,
-                nominal,
-                window: None,
-                blend: Blend::default(),
-                wanted: true,
-            })
-        };
-        let views: Result<Vec<InputView>> = match &from.shape {
-            Shape::Single(single) => {
-                let placement = Placement { canvas: None, ..single.placement };
-                Ok(vec![view(from.name, placement, size(placement.frame)?)?])
+    /// The input of one eye, or that for both.
+    fn find_one(
+        pattern: &str,
+        from: Option<&Spec>,
+        eye: Option<EyePart>,
+        wanted: Option<&FrameList>,
+        warnings: &mut Vec<String>,
+    ) -> Result<Self> {
+        let shape = from.map(|spec| (spec.name, &spec.shape));
+        let mut input = match (FacePattern::parse(pattern), shape) {
+            (Some(_), Some((_, Shape::Cube(cube)))) => Self::cube(pattern, cube, eye, wanted, warnings)?,
+            (Some(_), None) => Self::cube(pattern, &Cube::default(), eye, wanted, warnings)?,
+            (Some(_), Some((name, Shape::Single(_) | Shape::Dual(_)))) => {
+                let message =
+                    format!("{pattern} names the faces of a cube, but --from is {name}; expected --from cube");
+                return Err(usage(message));
             }
-            Shape::Cube(cube) => {
-                let size = size(cube.frame())?;
-                let lies = FacePlacement::UPRIGHT;
-                let face = |&face: &CubeFace| face_placement(cube, face, lies, None, Orientation::IDENTITY);
-                let shown = cube.faces.iter().filter(|face| FacePart::of(**face, lies, cube.half).is_some());
-                shown.map(|of| view(of.name(), face(of), size)).collect()
-            }
+            (None, shape) => Self::one_file(pattern, shape.map(|(_, shape)| shape), eye, wanted, warnings)?,
         };
-        Ok(Self { views: views?, frames: vec![None] })
+        if let Some(eye) = eye {
+            let place = |views: Vec<InputView>| views.into_iter().map(|view| eye.place(view)).collect();
+            input.worlds = input.worlds.into_iter().map(place).collect::<Result<_>>()?;
+        }
+        Ok(input)
+    }
+
+    /// As many worlds as the output has eyes; what that takes away or adds is told.
+    pub(crate) fn fit_eyes(&mut self, stereo: bool, warnings: &mut Vec<String>) {
+        match (self.worlds.len(), stereo) {
+            (2, false) => {
+                self.worlds.truncate(1);
+                warnings.push(
+                    "the left eye's picture is used, since the output is for one eye; say so with eye=left, or eye=right \
+                     for the other, or --to with stereo="
+                        .to_owned(),
+                );
+            }
+            (1, true) => warnings.push(SAME_FOR_BOTH.to_owned()),
+            _ => {}
+        }
     }
 
     /// A panorama or another picture, or all faces of a cube.
     fn one_file(
         pattern: &str,
         shape: Option<&Shape>,
+        eye: Option<EyePart>,
         wanted: Option<&FrameList>,
         warnings: &mut Vec<String>,
     ) -> Result<Self> {
@@ -115,16 +139,17 @@ impl Input {
         let frames = frames::find(std::iter::once(&files), wanted)?;
         let path = files.path(frames[0]);
         is_one_file(pattern, &path)?;
-        let header = probe(&path)?;
+        let header = header(&path, eye)?;
         let shape = match shape {
             Some(shape) => declared(shape, pattern, &header, warnings)?,
             None => detect(&path, &header, warnings)?,
         };
         let views = match shape {
             Shape::Single(single) => vec![Self::single(pattern, files, &path, header, single)?],
-            Shape::Cube(cube) => packed::views(&files, &path, &header, &cube)?,
+            Shape::Cube(cube) => packed::faces(&files, &path, &header, &cube)?,
+            Shape::Dual(dual) => packed::lenses(&files, &path, &header, &dual)?,
         };
-        Ok(Self { views, frames })
+        Ok(Self { worlds: vec![views], frames })
     }
 
     fn single(pattern: &str, files: Files, path: &Path, header: Header, single: Single) -> Result<InputView> {
@@ -148,7 +173,13 @@ impl Input {
         })
     }
 
-    fn cube(pattern: &str, cube: &Cube, wanted: Option<&FrameList>, warnings: &mut Vec<String>) -> Result<Self> {
+    fn cube(
+        pattern: &str,
+        cube: &Cube,
+        eye: Option<EyePart>,
+        wanted: Option<&FrameList>,
+        warnings: &mut Vec<String>,
+    ) -> Result<Self> {
         if let (Some(Packing::OneImage(_)), _) | (_, Some(_)) = (cube.layout, &cube.order) {
             return Err(usage(format!(
                 "{pattern} names a file for each face, but --from is for all faces in one image"
@@ -168,25 +199,27 @@ impl Input {
         let frames = frames::find(present().collect::<Vec<_>>().into_iter(), wanted)?;
         let mut faces = Vec::new();
         for (face, files) in chosen.into_iter().zip(files) {
-            faces.push(Face::probe(cube, face, files, frames[0])?);
+            faces.push(Face::probe(cube, face, files, eye, frames[0])?);
         }
         let pictures: Vec<FacePicture> = faces.iter().filter_map(|face| face.picture(cube, frames[0])).collect();
-        let size = usual_size(&pictures, warnings)?;
+        let size = usual_size(&pictures, cube.half, warnings)?;
         let views: Result<_> = faces.into_iter().map(|face| face.into_view(cube, size)).collect();
-        Ok(Self { views: views?, frames })
+        Ok(Self { worlds: vec![views?], frames })
     }
 
     /// The views that have files and are wanted, with the geometry of what those hold.
     pub(crate) fn present(&self) -> impl Iterator<Item = (&InputView, &Header, &View)> {
-        self.views
-            .iter()
-            .filter(|view| view.wanted)
-            .filter_map(|input| Some((input, input.header.as_ref()?, &input.window.as_ref()?.0)))
+        self.views().filter_map(InputView::present)
+    }
+
+    /// All views of all worlds.
+    pub(crate) fn views(&self) -> impl Iterator<Item = &InputView> {
+        self.worlds.iter().flatten()
     }
 
     /// Pixels a radian at the centre of the finest view.
     pub(crate) fn pixels_per_radian(&self) -> f64 {
-        let views = self.views.iter().filter(|view| view.wanted);
+        let views = self.views().filter(|view| view.wanted);
         views.map(|view| view.nominal.pixels_per_radian()).fold(0.0, f64::max)
     }
 
@@ -201,80 +234,14 @@ impl Input {
     }
 }
 
-/// A face whose file has been looked at.
-struct Face {
-    face: CubeFace,
-    placement: FacePlacement,
-    files: Files,
-    header: Option<Header>,
-    canvas: Option<Canvas>,
-}
-
-impl Face {
-    fn probe(cube: &Cube, file: &FaceFile, files: Files, frame: Option<u64>) -> Result<Self> {
-        let header = file.present.then(|| probe(&files.path(frame))).transpose()?;
-        let placement = cube.file_placement(file.face, file.placement);
-        let part = FacePart::of(file.face, placement, cube.half);
-        let canvas = header.as_ref().map(|header| {
-            let declared = cube.canvas_of(file.face).or(header.window.map(canvas_of));
-            let whole = || part.map_or_else(|| whole(header), |part| part.canvas(header.width, header.height));
-            declared.unwrap_or_else(whole)
-        });
-        if let (Some(header), Some(canvas)) = (&header, canvas) {
-            fits_canvas(&files.path(frame), header, canvas)?;
-            lies_on_canvas(&files.path(frame), header, canvas)?;
-        }
-        Ok(Self { face: file.face, placement, files, header, canvas })
-    }
-
-    /// Its picture, if there is a file.
-    fn picture(&self, cube: &Cube, frame: Option<u64>) -> Option<FacePicture> {
-        let is_declared = cube.canvas_of(self.face).is_some();
-        Some(FacePicture { face: self.face, path: self.files.path(frame), canvas: self.canvas?, is_declared })
-    }
-
-    fn into_view(self, cube: &Cube, (width, height): (usize, usize)) -> Result<InputView> {
-        let outer = Orientation::IDENTITY;
-        let canvas = self.canvas.unwrap_or(Canvas { width, height, left: 0, top: 0 });
-        let nominal = face_placement(cube, self.face, self.placement, None, outer).view(canvas.width, canvas.height)?;
-        let windowed = face_placement(cube, self.face, self.placement, Some(canvas), outer);
-        let window = match &self.header {
-            Some(header) => Some((windowed.view(header.width, header.height)?, canvas)),
-            None => None,
-        };
-        Ok(InputView {
-            name: self.face.name().to_owned(),
-            files: self.files,
-            part: None,
-            header: self.header,
-            nominal,
-            window,
-            blend: Blend::default(),
-            wanted: true,
-        })
-    }
-}
-
-fn shape(canvas: &Canvas) -> String {
-    format!("{}x{}", canvas.width, canvas.height)
+/// What a file says of itself, or the picture of an eye in it.
+pub(super) fn header(path: &Path, eye: Option<EyePart>) -> Result<Header> {
+    let header = probe(path)?;
+    eye.map_or(Ok(header.clone()), |eye| eye.header(path, &header))
 }
 
 fn names<'a>(faces: impl Iterator<Item = &'a FaceFile>) -> String {
     faces.map(|face| face.face.name()).collect::<Vec<_>>().join(", ")
-}
-
-/// A window larger than its canvas was declared by mistake.
-fn fits_canvas(path: &Path, header: &Header, canvas: Canvas) -> Result<()> {
-    if header.width <= canvas.width && header.height <= canvas.height {
-        return Ok(());
-    }
-    Err(usage(format!(
-        "{}: {}x{} pixels are no window of a canvas of {}; give canvas=WxH+X+Y the size of the whole picture",
-        path.display(),
-        header.width,
-        header.height,
-        shape(&canvas)
-    )))
 }
 
 /// A folder or a wildcard was meant for the faces in it.
@@ -288,32 +255,4 @@ fn is_one_file(pattern: &str, path: &Path) -> Result<()> {
         return Ok(());
     };
     Err(usage(format!("{pattern} {meant}")))
-}
-
-/// A face that lies wholly beside its canvas was put there by mistake: one may reach beyond its edges, but not go round.
-fn lies_on_canvas(path: &Path, header: &Header, canvas: Canvas) -> Result<()> {
-    let overlaps = |start: i64, length: usize, whole: usize| start < whole as i64 && start + length as i64 > 0;
-    if overlaps(canvas.left, header.width, canvas.width) && overlaps(canvas.top, header.height, canvas.height) {
-        return Ok(());
-    }
-    Err(usage(format!(
-        "{}: {}x{} pixels at {}, {} lie beside their canvas of {}; give canvas=WxH+X+Y the place of their first pixel in \
-         the whole picture",
-        path.display(),
-        header.width,
-        header.height,
-        canvas.left,
-        canvas.top,
-        shape(&canvas)
-    )))
-}
-
-/// The canvas of an image that is all of it.
-fn whole(header: &Header) -> Canvas {
-    Canvas { width: header.width, height: header.height, left: 0, top: 0 }
-}
-
-/// A window as a placement has it.
-pub(super) fn canvas_of(window: Window) -> Canvas {
-    Canvas { width: window.canvas_width, height: window.canvas_height, left: window.x as i64, top: window.y as i64 }
 }

@@ -37,10 +37,10 @@ impl MemoryBudget {
     /// file may say that it is huge, or a window of something huge.
     pub(crate) fn check_pictures(self, input: &Input) -> Result<()> {
         let texels = |view: &InputView| pixels(&view.nominal);
-        let geometry = input.views.iter().map(texels).fold(0, u64::saturating_add).saturating_mul(SOLID_ANGLE);
+        let geometry = input.views().map(texels).fold(0, u64::saturating_add).saturating_mul(SOLID_ANGLE);
         let light = input.present().map(|(_, header, _)| light_bytes(header)).max().unwrap_or(0);
         let needed = geometry.saturating_add(light);
-        let largest = input.views.iter().max_by_key(|view| texels(view)).map_or_else(String::new, |view| {
+        let largest = input.views().max_by_key(|view| texels(view)).map_or_else(String::new, |view| {
             let (width, height) = (view.nominal.width(), view.nominal.height());
             format!("; the largest whole picture, {}, has {width}x{height} pixels", view.name)
         });

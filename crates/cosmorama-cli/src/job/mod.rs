@@ -1,9 +1,12 @@
 //! Jobs: arguments resolved, everything checked before work starts.
 
 mod builtin;
+mod canvas;
 mod coverage;
 mod detect;
 mod evidence;
+mod eye;
+mod face_file;
 mod face_shape;
 mod face_view;
 mod files;
@@ -11,14 +14,17 @@ mod frames;
 mod input;
 mod light;
 mod memory;
+mod nominal;
 mod outputs;
 mod packed;
 mod picture;
+mod piece;
+mod size;
 mod target;
 mod world_file;
 
 pub(crate) use builtin::{Builtin, BuiltinJob};
-pub(crate) use coverage::{Coverage, nominal_world};
+pub(crate) use coverage::{Coverage, nominal_worlds};
 pub(crate) use detect::likely;
 pub(crate) use face_view::face_placement;
 pub(crate) use files::Files;
@@ -28,7 +34,7 @@ pub(crate) use light::{InputTransfer, Light};
 pub(crate) use memory::{MemoryBudget, peak_bytes};
 pub(crate) use outputs::{FrameOutputs, Outputs, real_path, refuse_existing};
 pub(crate) use picture::{Picture, Place};
-pub(crate) use target::{Target, TargetFile};
+pub(crate) use target::{Target, TargetFile, TargetView};
 
 use anyhow::Result;
 use cosmorama::raster::Rgba;
@@ -44,8 +50,8 @@ use crate::failure::{usage, warn};
 pub(crate) struct ConvertJob {
     /// Where light comes from.
     pub(crate) input: Input,
-    /// Its geometry.
-    pub(crate) world: World,
+    /// Its geometry: one world, or one for each eye.
+    pub(crate) worlds: Vec<World>,
     /// Where it goes.
     pub(crate) target: Target,
     /// How.
@@ -75,15 +81,16 @@ impl ConvertJob {
         check_quality(args, format)?;
         let mut input = Input::find(&args.input, geometry.from.as_ref(), args.frames.as_ref(), &mut warnings)?;
         let target = Target::resolve(&args.output, geometry, Some(input.pixels_per_radian()))?;
+        input.fit_eyes(target.is_stereo(), &mut warnings);
         let filter = filter(geometry, &mut warnings);
         let light = Light::resolve(args, &input, &target, &mut warnings)?;
         memory.check_outputs(&target)?;
         let outputs = Outputs::plan(args, &input, &target, &light, memory)?;
-        let nominal = nominal_world(&input, memory)?;
-        let (coverage, world) = Coverage::check(&mut input, nominal, &target, &filter, args.missing, &mut warnings)?;
+        let nominal = nominal_worlds(&input, memory)?;
+        let (coverage, worlds) = Coverage::check(&mut input, nominal, &target, &filter, args.missing, &mut warnings)?;
         memory.check_frame(&input, &target)?;
         warnings.iter().for_each(|warning| warn(warning));
-        Ok(Self { input, world, target, filter, light, outputs, coverage, missing: args.missing, memory, warnings })
+        Ok(Self { input, worlds, target, filter, light, outputs, coverage, missing: args.missing, memory, warnings })
     }
 
     /// What pixels without light get; `None` where they are an error.

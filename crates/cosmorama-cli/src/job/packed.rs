@@ -2,13 +2,12 @@ use std::path::Path;
 
 use anyhow::{Result, anyhow, bail};
 use cosmorama::sphere::Orientation;
-use cosmorama::world::Blend;
 use cosmorama_io::Header;
 
-use super::face_view::face_placement;
+use super::piece::Piece;
 use super::{Files, InputView};
 use crate::failure::usage;
-use crate::spec::Cube;
+use crate::spec::{Cube, Dual};
 
 /// The part of a file's image that a view is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -20,37 +19,52 @@ pub(crate) struct FilePart {
 }
 
 /// The faces of a cube in one image, whose layout is known.
-pub(super) fn views(files: &Files, path: &Path, header: &Header, cube: &Cube) -> Result<Vec<InputView>> {
+pub(super) fn faces(files: &Files, path: &Path, header: &Header, cube: &Cube) -> Result<Vec<InputView>> {
     let Some(layout) = cube.one_image() else { bail!("{}: no layout is known", path.display()) };
-    if let Some(window) = header.window {
-        bail!(
-            "{}: only a part of a picture of {}x{} pixels; faces in one image are read from whole pictures",
-            path.display(),
-            window.canvas_width,
-            window.canvas_height
-        );
-    }
+    check_whole(path, header)?;
     let edge = layout.edge(header.width, header.height).map_err(|error| {
         anyhow!("{}: {error}; give --from cube:layout= the picture's own, or another projection", path.display())
     })?;
-    let wrong = |error| usage(format!("--from: {error}"));
-    let mut views = Vec::new();
-    for placed in layout.faces(edge).into_iter().filter(|placed| cube.faces.contains(&placed.face)) {
-        let place = |canvas| face_placement(cube, placed.face, placed.lies, canvas, Orientation::IDENTITY);
-        let (width, height) = (placed.rect.width(), placed.rect.height());
-        views.push(InputView {
-            name: placed.face.name().to_owned(),
-            files: files.clone(),
-            part: Some(FilePart { corner: (placed.rect.left, placed.rect.top), of: (header.width, header.height) }),
-            header: Some(Header { width, height, ..header.clone() }),
-            nominal: place(None).view(edge, edge).map_err(wrong)?,
-            window: Some((place(Some(placed.canvas)).view(width, height).map_err(wrong)?, placed.canvas)),
-            blend: Blend::default(),
-            wanted: true,
-        });
-    }
-    if views.is_empty() {
+    let pieces = Piece::faces(cube, &layout, edge);
+    if pieces.is_empty() {
         bail!("{}: none of the faces asked for is in its half of the cube", path.display());
     }
-    Ok(views)
+    views(files, header, &pieces)
+}
+
+/// Two fisheyes in one image.
+pub(super) fn lenses(files: &Files, path: &Path, header: &Header, dual: &Dual) -> Result<Vec<InputView>> {
+    check_whole(path, header)?;
+    let pieces = Piece::lenses(dual, (header.width, header.height))
+        .map_err(|error| anyhow!("{}: {error}; give --from dual-fisheye:layout= the picture's own", path.display()))?;
+    views(files, header, &pieces)
+}
+
+/// Several pictures are not looked for in a part of an image.
+pub(super) fn check_whole(path: &Path, header: &Header) -> Result<()> {
+    let Some(window) = header.window else { return Ok(()) };
+    bail!(
+        "{}: only a part of a picture of {}x{} pixels; several pictures in one image are read from whole images",
+        path.display(),
+        window.canvas_width,
+        window.canvas_height
+    )
+}
+
+fn views(files: &Files, header: &Header, pieces: &[Piece]) -> Result<Vec<InputView>> {
+    let wrong = |error| usage(format!("--from: {error}"));
+    let view = |piece: &Piece| {
+        let rect = piece.rect;
+        Ok(InputView {
+            name: piece.name.to_owned(),
+            files: files.clone(),
+            part: Some(FilePart { corner: (rect.left, rect.top), of: (header.width, header.height) }),
+            header: Some(Header { width: rect.width(), height: rect.height(), ..header.clone() }),
+            nominal: piece.nominal().map_err(wrong)?,
+            window: Some((piece.view(Orientation::IDENTITY).map_err(wrong)?, piece.canvas)),
+            blend: piece.blend,
+            wanted: true,
+        })
+    };
+    pieces.iter().map(view).collect()
 }

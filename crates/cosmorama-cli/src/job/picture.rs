@@ -1,21 +1,29 @@
 use anyhow::Result;
 use cosmorama::sphere::CubeFace;
 use cosmorama::world::{
-    Canvas, CubeLayout, EquirectFrame, FaceOrder, FacePart, Frame, FrameError, LayoutKind, Mirror, PlacedFace,
-    Placement, SamplePositions, View,
+    Canvas, CubeLayout, EquirectFrame, Eye, FaceOrder, FacePart, Frame, FrameError, LayoutKind, Mirror, Placement,
+    SamplePositions, View,
 };
 use cosmorama_io::{EnvMap, Format, Naming, Window};
 
+use super::eye::{EyePart, eye_size};
 use super::face_view::face_placement;
+use super::piece::Piece;
+use super::size::{lens_image_size, size};
 use crate::args::SizeArg;
 use crate::args::convert::GeometryArgs;
 use crate::failure::usage;
-use crate::spec::{Cube, Packing, Shape, Single, SphereSamples};
+use crate::spec::{Cube, Dual, Packing, Shape, Single, SphereSamples, StereoSpec};
 
 /// The geometry of an image to make.
+#[derive(Clone, Copy, Debug)]
 pub(crate) struct Picture {
     /// The face of a cube that it is.
     pub(crate) face: Option<CubeFace>,
+    /// What it is of an image that it shares with others, or of a cube.
+    pub(crate) part: Option<&'static str>,
+    /// Whose picture it is, where there are two.
+    pub(crate) eye: Option<Eye>,
     /// The geometry.
     pub(crate) view: View,
     /// Where it lies in an image that it shares with others.
@@ -50,16 +58,9 @@ impl Picture {
         format: Option<Format>,
         pixels_per_radian: Option<f64>,
     ) -> Result<Vec<Self>> {
-        let pictures = match geometry.to.as_ref().map(|spec| &spec.shape) {
-            Some(Shape::Single(single)) => Self::single(single, geometry, format, pixels_per_radian)?,
-            Some(Shape::Cube(cube)) => {
-                let cube = completed(cube, format);
-                match cube.one_image() {
-                    Some(layout) => Self::sheet(&cube, &layout, geometry, format, pixels_per_radian)?,
-                    None => Self::faces(&cube, geometry, pixels_per_radian)?,
-                }
-            }
-            None => Self::faces(&Cube::default(), geometry, pixels_per_radian)?,
+        let pictures = match geometry.to.as_ref().and_then(|spec| spec.stereo) {
+            Some(stereo) => Self::stereo(stereo, geometry, pixels_per_radian)?,
+            None => Self::mono(geometry, format, pixels_per_radian)?,
         };
         match format {
             Some(format) if format.is_cube_map() && pictures[0].envmap != Some(EnvMap::GlCube) => Err(usage(format!(
@@ -69,13 +70,52 @@ impl Picture {
         }
     }
 
+    /// The same for both eyes: each eye's picture, squeezed where it is to be, in its place.
+    fn stereo(stereo: StereoSpec, geometry: &GeometryArgs, pixels_per_radian: Option<f64>) -> Result<Vec<Self>> {
+        if let Some(eye) = stereo.eye {
+            return Err(usage(format!("--to: eye={} is for inputs; an output with stereo= has both eyes", eye.name())));
+        }
+        let size = geometry.size.map(|size| eye_size(stereo.packing, size)).transpose()?;
+        // What a format has of its own, it has for one picture.
+        let one = Self::mono(&GeometryArgs { size, ..geometry.clone() }, None, pixels_per_radian)?;
+        let both = Eye::ALL.into_iter().flat_map(|eye| one.iter().map(move |picture| (eye, picture)));
+        both.map(|(eye, picture)| EyePart { stereo: stereo.packing, eye }.picture(picture)).collect()
+    }
+
+    /// What messages call it, if it is not all that there is.
+    pub(crate) fn label(&self) -> Option<String> {
+        let eye = self.eye.map(|eye| format!("{}-eye", eye.name()));
+        let parts: Vec<String> = eye.into_iter().chain(self.part.map(str::to_owned)).collect();
+        (!parts.is_empty()).then(|| parts.join("-"))
+    }
+
+    /// The index of the world that it shows, of so many.
+    pub(crate) fn world(&self, count: usize) -> usize {
+        world_of(self.eye, count)
+    }
+
+    fn mono(geometry: &GeometryArgs, format: Option<Format>, pixels_per_radian: Option<f64>) -> Result<Vec<Self>> {
+        match geometry.to.as_ref().map(|spec| &spec.shape) {
+            Some(Shape::Single(single)) => Self::single(single, geometry, format, pixels_per_radian),
+            Some(Shape::Cube(cube)) => {
+                let cube = completed(cube, format);
+                match cube.one_image() {
+                    Some(layout) => Self::sheet(&cube, &layout, geometry, format, pixels_per_radian),
+                    None => Self::faces(&cube, geometry, pixels_per_radian),
+                }
+            }
+            Some(Shape::Dual(dual)) => Self::lenses(dual, geometry, pixels_per_radian),
+            None => Self::faces(&Cube::default(), geometry, pixels_per_radian),
+        }
+    }
+
     fn single(
         single: &Single,
         geometry: &GeometryArgs,
         format: Option<Format>,
         pixels_per_radian: Option<f64>,
     ) -> Result<Vec<Self>> {
-        let picture = |view, envmap, panorama| vec![Self { face: None, view, place: None, envmap, panorama }];
+        let picture = |view, envmap, panorama| vec![Self { envmap, panorama, ..Self::new(view) }];
         if format == Some(Format::Exr) {
             // OpenEXR's attribute, and its samples on the edges, are for the whole sphere alone.
             let edges = single.with_samples(SamplePositions::Edges);
@@ -89,7 +129,7 @@ impl Picture {
     }
 
     fn faces(cube: &Cube, geometry: &GeometryArgs, pixels_per_radian: Option<f64>) -> Result<Vec<Self>> {
-        let (width, height) = size(cube.frame(), geometry.size, pixels_per_radian)?;
+        let (width, height) = size(cube.frame(), geometry.size, pixels_per_radian, "--to")?;
         let mut pictures = Vec::new();
         for &face in &cube.faces {
             let lies = cube.file_placement(face, naming(cube).placement(face));
@@ -98,7 +138,7 @@ impl Picture {
             let canvas = cube.canvas_of(face).or_else(|| cube.half.map(|_| part.canvas(width, height)));
             let placement = face_placement(cube, face, lies, canvas, geometry.orientation());
             let view = placement.view(width, height).map_err(wrong)?;
-            pictures.push(Self { face: Some(face), view, place: None, envmap: None, panorama: None });
+            pictures.push(Self { face: Some(face), part: Some(face.name()), ..Self::new(view) });
         }
         check_any(pictures)
     }
@@ -115,20 +155,36 @@ impl Picture {
             Some(SizeArg { width, height: Some(height) }) => {
                 layout.edge(width, height).map_err(|error| usage(format!("--size: {error}")))?
             }
-            edge => size(cube.frame(), edge, pixels_per_radian)?.0,
+            edge => size(cube.frame(), edge, pixels_per_radian, "--to")?.0,
         };
         let of = layout.size(edge).map_err(|error| usage(format!("--to: {error}")))?;
         let envmap = cube_envmap(cube, format);
-        let picture = |placed: PlacedFace| {
-            let canvas = Some(placed.canvas);
-            let placement = face_placement(cube, placed.face, placed.lies, canvas, geometry.orientation());
-            let view = placement.view(placed.rect.width(), placed.rect.height()).map_err(wrong)?;
-            let place = Some(Place { corner: (placed.rect.left, placed.rect.top), of });
-            Ok(Self { face: Some(placed.face), view, place, envmap, panorama: None })
-        };
-        let wanted = layout.faces(edge).into_iter().filter(|placed| cube.faces.contains(&placed.face));
-        check_any(wanted.map(picture).collect::<Result<_>>()?)
+        let pieces = Piece::faces(cube, layout, edge);
+        let pictures = pieces.iter().map(|piece| Ok(Self { envmap, ..Self::of(piece, of, geometry)? }));
+        check_any(pictures.collect::<Result<_>>()?)
     }
+
+    /// Two fisheyes in one image.
+    fn lenses(dual: &Dual, geometry: &GeometryArgs, pixels_per_radian: Option<f64>) -> Result<Vec<Self>> {
+        let of = lens_image_size(dual, geometry.size, pixels_per_radian, "--to")?;
+        let pieces = Piece::lenses(dual, of).map_err(|error| usage(format!("--to: {error}")))?;
+        pieces.iter().map(|piece| Self::of(piece, of, geometry)).collect()
+    }
+
+    fn of(piece: &Piece, of: (usize, usize), geometry: &GeometryArgs) -> Result<Self> {
+        let view = piece.view(geometry.orientation()).map_err(wrong)?;
+        let place = Some(Place { corner: (piece.rect.left, piece.rect.top), of });
+        Ok(Self { face: piece.face, part: Some(piece.name), place, ..Self::new(view) })
+    }
+
+    fn new(view: View) -> Self {
+        Self { face: None, part: None, eye: None, view, place: None, envmap: None, panorama: None }
+    }
+}
+
+/// The index of the world that an eye sees, of so many.
+pub(super) fn world_of(eye: Option<Eye>, count: usize) -> usize {
+    if eye == Some(Eye::Right) { count.saturating_sub(1) } else { 0 }
 }
 
 fn wrong(error: FrameError) -> anyhow::Error {
@@ -171,22 +227,9 @@ fn single_view(single: Single, geometry: &GeometryArgs, pixels_per_radian: Optio
     if canvas.is_some() && geometry.size.is_none() {
         return Err(usage("--to has canvas=, so the size of the window on it must be given with --size WxH"));
     }
-    let (width, height) = size(frame, geometry.size, pixels_per_radian)?;
+    let (width, height) = size(frame, geometry.size, pixels_per_radian, "--to")?;
     let placement = Placement { frame, orientation: orientation.within(geometry.orientation()), mirror, canvas };
     placement.view(width, height).map_err(|error| usage(format!("--to: {error}")))
-}
-
-fn size(frame: Frame, given: Option<SizeArg>, pixels_per_radian: Option<f64>) -> Result<(usize, usize)> {
-    match (given, pixels_per_radian) {
-        (Some(SizeArg { width, height }), _) => Ok((width, height.unwrap_or_else(|| frame.natural_height(width)))),
-        (None, Some(pixels)) => frame.size_at(pixels).map_err(|error| match error {
-            FrameError::SizeNeeded | FrameError::SizeUnbounded { .. } => {
-                usage(format!("--to: {error}, with --size WxH"))
-            }
-            error => usage(format!("--to: {error}")),
-        }),
-        (None, None) => Err(usage("--size is missing: without an input, nothing tells how large the output is to be")),
-    }
 }
 
 /// OpenEXR's environment maps have their samples on the edges and show the whole sphere.
@@ -203,7 +246,7 @@ fn cube_envmap(cube: &Cube, format: Option<Format>) -> Option<EnvMap> {
     let (kind, order) = own_layout(format?)?;
     let own = Cube { layout: Some(Packing::OneImage(kind)), order, ..Cube::default() };
     let same = cube.one_image() == own.one_image()
-        && cube.samples() == own.samples()
+        && cube.frame() == own.frame()
         && cube.mirror == Mirror::default()
         && CubeFace::ALL.iter().all(|face| cube.faces.contains(face));
     let envmap = if format == Some(Format::Exr) { EnvMap::Cube } else { EnvMap::GlCube };

@@ -1,9 +1,10 @@
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use anyhow::Result;
-use cosmorama::world::View;
+use cosmorama::world::{Eye, View};
 use cosmorama_io::{EnvMap, FacePattern, FaceSet, Format, Naming, Window};
 
+use super::picture::world_of;
 use super::{Files, Picture, Place};
 use crate::args::convert::GeometryArgs;
 use crate::failure::usage;
@@ -15,6 +16,15 @@ pub(crate) struct TargetView {
     pub(crate) name: String,
     /// Its geometry.
     pub(crate) view: View,
+    /// Whose picture it is, where there are two.
+    pub(crate) eye: Option<Eye>,
+}
+
+impl TargetView {
+    /// The index of the world that it shows, of so many: a picture for the right eye shows the second where there are two.
+    pub(crate) fn world(&self, count: usize) -> usize {
+        world_of(self.eye, count)
+    }
 }
 
 /// A file to make: of one image, or of the faces of a cube laid into one picture.
@@ -51,8 +61,10 @@ impl Target {
                 "--to is missing: say which projection the output is to have, as in --to omnimax, --to fulldome, \
                  --to equirect or --to perspective:fov=60",
             )),
-            Some(Spec { shape: Shape::Cube(cube), .. }) => check_cube(output, faces, cube, format),
-            Some(Spec { shape: Shape::Single(_), name }) if faces => {
+            Some(Spec { shape: Shape::Cube(cube), stereo, .. }) => {
+                check_cube(output, faces, cube, stereo.is_some(), format)
+            }
+            Some(Spec { name, .. }) if faces => {
                 Err(usage(format!("{output} names the faces of a cube, but --to is {name}; expected --to cube")))
             }
             _ => Ok(format),
@@ -71,21 +83,24 @@ impl Target {
             _ if output.contains("%c") => Naming::named("bourke")?,
             _ => super::picture::naming(&Cube::default()),
         };
+        let named = FacePattern::parse(output).is_some();
         let (mut views, mut files): (Vec<TargetView>, Vec<TargetFile>) = (Vec::new(), Vec::new());
+        let mut paths: Vec<PathBuf> = Vec::new();
         for (index, picture) in pictures.iter().enumerate() {
-            let size = (picture.view.width(), picture.view.height());
-            let (name, file, Place { corner, of }) = match (picture.face, picture.place) {
-                (Some(face), Some(place)) => (face.name().to_owned(), output.into(), place),
-                (Some(face), None) => {
-                    let file = FaceSet::named(output, naming)?.face(face).path.clone();
-                    (face.name().to_owned(), file, Place::whole(size))
-                }
-                (None, _) => (output.to_owned(), output.into(), Place::whole(size)),
+            let path = match picture.face.filter(|_| named) {
+                Some(face) => FaceSet::named(output, naming)?.face(face).path.clone(),
+                None => output.into(),
             };
-            views.push(TargetView { name, view: picture.view });
-            match files.last_mut().filter(|_| picture.place.is_some()) {
-                Some(shared) => shared.pieces.push((index, corner)),
-                None => files.push(TargetFile { files: Files::new(&file), size: of, pieces: vec![(index, corner)] }),
+            let size = (picture.view.width(), picture.view.height());
+            let Place { corner, of } = picture.place.unwrap_or(Place::whole(size));
+            let name = picture.label().unwrap_or_else(|| output.to_owned());
+            views.push(TargetView { name, view: picture.view, eye: picture.eye });
+            match paths.iter().position(|other| *other == path) {
+                Some(shared) => files[shared].pieces.push((index, corner)),
+                None => {
+                    files.push(TargetFile { files: Files::new(&path), size: of, pieces: vec![(index, corner)] });
+                    paths.push(path);
+                }
             }
         }
         let envmap = pictures.first().and_then(|picture| picture.envmap);
@@ -93,14 +108,19 @@ impl Target {
         Ok(Self { views, files, format, envmap, panorama })
     }
 
-    /// Their geometry.
-    pub(crate) fn geometry(&self) -> Vec<View> {
-        self.views.iter().map(|target| target.view).collect()
+    /// Whether there is a picture for each eye.
+    pub(crate) fn is_stereo(&self) -> bool {
+        self.views.iter().any(|target| target.eye.is_some())
+    }
+
+    /// The images that show a world, of one or of two.
+    pub(crate) fn of_world(&self, index: usize, count: usize) -> Vec<&TargetView> {
+        self.views.iter().filter(|target| target.world(count) == index).collect()
     }
 }
 
 /// The faces of a cube go into files of their own, or into one whose layout is known.
-fn check_cube(output: &str, faces: bool, cube: &Cube, format: Format) -> Result<Format> {
+fn check_cube(output: &str, faces: bool, cube: &Cube, stereo: bool, format: Format) -> Result<Format> {
     match (faces, cube.layout) {
         (true, Some(Packing::OneImage(kind))) => Err(usage(format!(
             "--to cube:layout={kind} makes one image, but {output} names a file for each face; leave {{face}} or %c out"
@@ -109,7 +129,7 @@ fn check_cube(output: &str, faces: bool, cube: &Cube, format: Format) -> Result<
             "--to cube has order=, but {output} names a file for each face; leave {{face}} or %c out, or give naming="
         ))),
         (true, _) | (false, Some(Packing::OneImage(_))) => Ok(format),
-        (false, None) if super::picture::own_layout(format).is_some() => Ok(format),
+        (false, None) if super::picture::own_layout(format).is_some() && !stereo => Ok(format),
         (false, _) => Err(usage(format!(
             "--to cube makes a file for each face, but {output} has no {{face}} or %c where a face's name stands; for one \
              image give --to cube:layout=strip-h, strip-v, 3x2, 2x3, cross-h, cross-v or eac"

@@ -10,7 +10,7 @@ use cosmorama_io::{FrameList, FramePattern};
 use serde::Deserialize;
 use toml::Spanned;
 
-use super::Input;
+use super::{Input, InputView};
 use crate::spec::Spec;
 
 /// The file as it is written.
@@ -58,20 +58,20 @@ pub(super) fn find(name: &str, wanted: Option<&FrameList>, warnings: &mut Vec<St
             "{name}: no [[view]] in it; a world file has one for each image, with image = \"FILE\" and spec = \"SPEC\""
         );
     }
-    let mut world = Input { views: Vec::new(), frames: vec![None] };
+    let mut world = Input { worlds: vec![Vec::new()], frames: vec![None] };
     for entry in &file.view {
         let part = entry.find(&source, wanted, warnings)?;
         world.frames = common_frames(&world.frames, &part.frames)
             .with_context(|| format!("{} has other frames than the views before it", entry.image.get_ref()))
             .with_context(|| source.place(Some(entry.image.span())))?;
-        world.views.extend(part.views);
+        join(&mut world.worlds, part.worlds);
     }
     Ok(world)
 }
 
 impl Entry {
     fn find(&self, source: &Text, wanted: Option<&FrameList>, warnings: &mut Vec<String>) -> Result<Input> {
-        let blend = Blend { priority: self.priority, feather: self.feather(source)? };
+        let feather = self.feather(source)?;
         let spec = self.spec(source)?;
         let folder = Path::new(source.name).parent().unwrap_or(Path::new(""));
         let pattern = folder.join(self.image.get_ref()).to_string_lossy().into_owned();
@@ -83,8 +83,9 @@ impl Entry {
         let wanted = wanted.filter(|_| FramePattern::parse(&pattern).is_some());
         let mut input = Input::find(&pattern, spec.as_ref(), wanted, warnings)
             .with_context(|| source.place(Some(self.image.span())))?;
-        for view in &mut input.views {
-            view.blend = blend;
+        for view in input.worlds.iter_mut().flatten() {
+            // What a SPEC says of pictures that overlap holds where nothing else is said.
+            view.blend = Blend { priority: self.priority, feather: feather.unwrap_or(view.blend.feather) };
         }
         Ok(input)
     }
@@ -96,14 +97,14 @@ impl Entry {
         parsed.map(Some).map_err(told)
     }
 
-    fn feather(&self, source: &Text) -> Result<Angle> {
-        let Some(feather) = &self.feather else { return Ok(Angle::from_degrees(0.0)) };
+    fn feather(&self, source: &Text) -> Result<Option<Angle>> {
+        let Some(feather) = &self.feather else { return Ok(None) };
         let degrees = *feather.get_ref();
         if !(0.0..=180.0).contains(&degrees) {
             let message = format!("feather = {degrees}: expected degrees from 0 to 180");
             return Err(source.error(Some(feather.span()), &message));
         }
-        Ok(Angle::from_degrees(degrees))
+        Ok(Some(Angle::from_degrees(degrees)))
     }
 }
 
@@ -117,6 +118,16 @@ impl Text<'_> {
         let line = |span: Range<usize>| 1 + self.text.bytes().take(span.start).filter(|byte| *byte == b'\n').count();
         span.map_or_else(|| self.name.to_owned(), |span| format!("{}, line {}", self.name, line(span)))
     }
+}
+
+/// Adds views to the worlds. Where one side has a world for each eye, what the other side has is seen by both.
+fn join(worlds: &mut Vec<Vec<InputView>>, mut more: Vec<Vec<InputView>>) {
+    let count = worlds.len().max(more.len());
+    for side in [&mut *worlds, &mut more] {
+        let first = side.first().cloned().unwrap_or_default();
+        side.resize(count, first);
+    }
+    worlds.iter_mut().zip(more).for_each(|(world, views)| world.extend(views));
 }
 
 /// The frames of sequences that go together; a still goes with any.

@@ -1,15 +1,15 @@
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
 use anyhow::{Context, Result, bail};
 use cosmorama::raster::{Decoder, EncodedImage, Image, Rgba};
 use cosmorama::resample::{Plan, Resampler, ScreenMask};
-use cosmorama::world::View;
+use cosmorama::world::World;
 use cosmorama_io::{Header, Limits, WriteOptions, read, write};
 use rayon::prelude::*;
 
 use super::stages::{Stage, Stages};
-use crate::job::{ConvertJob, Coverage, Files, InputView, Light, TargetFile};
+use crate::job::{ConvertJob, Coverage, Files, InputView, Light, TargetFile, TargetView};
 
 /// Makes the outputs of a job, frame by frame.
 pub(super) struct Engine<'a> {
@@ -49,8 +49,8 @@ impl<'a> Engine<'a> {
     /// Room for the light of a frame.
     pub(super) fn frame_light(&self) -> FrameLight {
         FrameLight {
-            texels: vec![Rgba::TRANSPARENT; self.job.world.texel_count()],
-            missing: vec![0; self.job.world.sources().len()],
+            texels: vec![Rgba::TRANSPARENT; self.job.worlds.iter().map(World::texel_count).sum()],
+            missing: vec![0; self.job.worlds.iter().map(|world| world.sources().len()).sum()],
             is_used: false,
         }
     }
@@ -59,8 +59,8 @@ impl<'a> Engine<'a> {
     fn compile(&self) -> Vec<Option<Plan>> {
         let mut left = self.job.memory.left_for_plan(&self.job.input, &self.job.target);
         let pays = self.job.outputs.frames.len() > 1;
-        let mut plan_of = |view: &View| {
-            let resampler = self.resampler(view);
+        let plan_of = |target: &TargetView| {
+            let resampler = self.resampler(target);
             if !pays || resampler.plan_bytes_estimate() as u64 > left {
                 return None;
             }
@@ -68,18 +68,30 @@ impl<'a> Engine<'a> {
             left = left.saturating_sub(plan.bytes() as u64);
             Some(plan)
         };
-        self.job.target.views.iter().map(|target| plan_of(&target.view)).collect()
+        self.job.target.views.iter().map(plan_of).collect()
     }
 
-    fn resampler<'b>(&'b self, target: &'b View) -> Resampler<'b> {
-        Resampler { world: &self.job.world, target, filter: self.job.filter }
+    fn resampler<'b>(&'b self, target: &'b TargetView) -> Resampler<'b> {
+        Resampler { world: self.world(target), target: &target.view, filter: self.job.filter }
+    }
+
+    /// What a target shows.
+    fn world(&self, target: &TargetView) -> &World {
+        &self.job.worlds[target.world(self.job.worlds.len())]
+    }
+
+    /// The light of what a target shows.
+    fn light_of<'b>(&self, target: &TargetView, light: &'b FrameLight) -> &'b [Rgba] {
+        let index = target.world(self.job.worlds.len());
+        let before: usize = self.job.worlds[..index].iter().map(World::texel_count).sum();
+        &light.texels[before..][..self.job.worlds[index].texel_count()]
     }
 
     /// Reads the light of a frame.
     pub(super) fn load(&self, frame: Option<u64>, light: &mut FrameLight) -> Result<()> {
         let mut rest = light.texels.as_mut_slice();
         let mut parts = Vec::new();
-        let views = self.job.world.sources().iter().zip(self.job.input.present());
+        let views = self.job.worlds.iter().flat_map(World::sources).zip(self.job.input.present());
         for (index, (source, (input, header, _))) in views.enumerate() {
             let (texels, after) = rest.split_at_mut(source.texels().len());
             rest = after;
@@ -89,7 +101,7 @@ impl<'a> Engine<'a> {
             }
         }
         let load = |views| self.load_file(frame, views);
-        let counts: Result<Vec<Vec<(usize, usize)>>> = by_file(parts).into_par_iter().map(load).collect();
+        let counts: Result<Vec<Vec<(usize, usize)>>> = by_file(parts, frame).into_par_iter().map(load).collect();
         for (index, missing) in counts?.into_iter().flatten() {
             light.missing[index] = missing;
         }
@@ -156,12 +168,11 @@ impl<'a> Engine<'a> {
     }
 
     fn render_view(&self, index: usize, light: &FrameLight, stages: &mut Stages) -> Result<Image<Rgba>> {
+        let target = &self.job.target.views[index];
+        let texels = self.light_of(target, light);
         let mut image = match &self.plans[index] {
-            Some(plan) => stages.time(Stage::Filter, || plan.apply(&light.texels)),
-            None => {
-                let resampler = self.resampler(&self.job.target.views[index].view);
-                stages.time(Stage::Filter, || resampler.render(&light.texels))
-            }
+            Some(plan) => stages.time(Stage::Filter, || plan.apply(texels)),
+            None => stages.time(Stage::Filter, || self.resampler(target).render(texels)),
         };
         stages.time(Stage::Filter, || self.complete(index, light, &mut image))?;
         Ok(image)
@@ -177,7 +188,8 @@ impl<'a> Engine<'a> {
     }
 
     fn mask(&self, index: usize) -> &ScreenMask {
-        self.masks[index].get_or_init(|| ScreenMask::new(&self.job.world, &self.job.target.views[index].view))
+        let target = &self.job.target.views[index];
+        self.masks[index].get_or_init(|| ScreenMask::new(self.world(target), &target.view))
     }
 
     /// Missing texels of opaque inputs leave the pixel to the others; a pixel that has none left is like one that no
@@ -223,18 +235,19 @@ pub(super) fn assemble<P: Copy>(
     background: P,
     mut image: impl FnMut(usize) -> Result<Image<P>>,
 ) -> Result<Image<P>> {
-    if let [(index, (0, 0))] = file.pieces[..] {
-        return image(index);
-    }
     let (width, height) = file.size;
-    let mut sheet = Image::filled(width, height, background);
+    let mut sheet = None;
     for &(index, (left, top)) in &file.pieces {
-        let face = image(index)?;
-        for j in 0..face.height() {
-            sheet.pixels_mut()[(top + j) * width + left..][..face.width()].copy_from_slice(face.row(j));
+        let piece = image(index)?;
+        if (piece.width(), piece.height()) == file.size {
+            return Ok(piece);
+        }
+        let sheet = sheet.get_or_insert_with(|| Image::filled(width, height, background));
+        for j in 0..piece.height() {
+            sheet.pixels_mut()[(top + j) * width + left..][..piece.width()].copy_from_slice(piece.row(j));
         }
     }
-    Ok(sheet)
+    Ok(sheet.unwrap_or_else(|| Image::filled(width, height, background)))
 }
 
 /// Writes an output.
@@ -253,13 +266,14 @@ struct ViewPart<'a> {
 }
 
 /// Views that share a file are read together.
-fn by_file(views: Vec<ViewPart<'_>>) -> Vec<Vec<ViewPart<'_>>> {
-    let mut files: Vec<Vec<ViewPart<'_>>> = Vec::new();
+fn by_file(views: Vec<ViewPart<'_>>, frame: Option<u64>) -> Vec<Vec<ViewPart<'_>>> {
+    let mut files: Vec<(PathBuf, Vec<ViewPart<'_>>)> = Vec::new();
     for view in views {
-        match files.last_mut().filter(|_| view.input.part.is_some()) {
-            Some(shared) => shared.push(view),
-            None => files.push(vec![view]),
+        let path = view.input.files.path(frame);
+        match files.iter_mut().find(|(other, _)| *other == path) {
+            Some((_, shared)) => shared.push(view),
+            None => files.push((path, vec![view])),
         }
     }
-    files
+    files.into_iter().map(|(_, views)| views).collect()
 }

@@ -10,7 +10,7 @@ use serde_json::{Value, json};
 use super::{diagram, print, use_threads};
 use crate::args::ExplainArgs;
 use crate::failure::{usage, warn};
-use crate::job::{Builtin, Input, MemoryBudget, Picture, filter, nominal_world, refuse_existing};
+use crate::job::{Builtin, Input, MemoryBudget, Picture, filter, nominal_worlds, refuse_existing};
 
 /// Tells what a conversion will do.
 pub(super) fn run(args: &ExplainArgs) -> Result<ExitCode> {
@@ -19,23 +19,25 @@ pub(super) fn run(args: &ExplainArgs) -> Result<ExitCode> {
         return Err(usage("--to is missing: say which projection the output is to have, as in --to omnimax"));
     }
     let mut warnings = Vec::new();
-    let (input, pictures) = resolve(args, &mut warnings)?;
+    let (mut input, pictures) = resolve(args, &mut warnings)?;
+    input.fit_eyes(pictures.iter().any(|picture| picture.eye.is_some()), &mut warnings);
     let filter = filter(&args.geometry, &mut warnings);
     warnings.iter().for_each(|warning| warn(warning));
     if let (Some(folder), false) = (&args.output, args.overwrite) {
         let files: Vec<PathBuf> = pictures.iter().flat_map(|picture| diagrams(folder, picture)).collect();
         refuse_existing(files.iter().map(PathBuf::as_path), "")?;
     }
-    let world = nominal_world(&input, MemoryBudget::new(args.limits.memory))?;
+    let worlds = nominal_worlds(&input, MemoryBudget::new(args.limits.memory))?;
     let (mut text, mut reports) = (String::new(), Vec::new());
     for picture in &pictures {
-        let report = Report::of(&world, &picture.view, &filter);
-        if let Some(face) = picture.face {
-            text += &format!("{face}:\n");
+        let world = &worlds[picture.world(worlds.len())];
+        let report = Report::of(world, &picture.view, &filter);
+        if let Some(label) = picture.label() {
+            text += &format!("{label}:\n");
         }
         text += &format!("{report}");
         let files = match &args.output {
-            Some(folder) => draw(folder, picture, &world, &needs(&report))?,
+            Some(folder) => draw(folder, picture, world, &needs(&report))?,
             None => Vec::new(),
         };
         for file in &files {
@@ -44,7 +46,7 @@ pub(super) fn run(args: &ExplainArgs) -> Result<ExitCode> {
         reports.push(to_json(&report, &input, &files));
     }
     if args.input.is_some() {
-        for view in input.views.iter().filter(|view| view.window.is_none()) {
+        for view in input.views().filter(|view| view.window.is_none()) {
             text += &format!("missing  {}: no {}\n", view.name, view.files.path(None).display());
         }
     }
@@ -99,7 +101,7 @@ fn draw(folder: &Path, picture: &Picture, world: &World, needs: &Needs) -> Resul
 }
 
 fn diagram_names(picture: &Picture) -> [String; 3] {
-    let suffix = picture.face.map_or_else(String::new, |face| format!("-{face}"));
+    let suffix = picture.label().map_or_else(String::new, |label| format!("-{label}"));
     ["unfolded", "ownership", "footprints"].map(|name| format!("{name}{suffix}"))
 }
 
@@ -111,7 +113,7 @@ fn diagrams(folder: &Path, picture: &Picture) -> Vec<PathBuf> {
 fn to_json(report: &Report, input: &Input, files: &[PathBuf]) -> Value {
     let views: Vec<Value> = report.views.iter().map(view_json).collect();
     let missing: Vec<&str> =
-        input.views.iter().filter(|view| view.window.is_none()).map(|view| view.name.as_str()).collect();
+        input.views().filter(|view| view.window.is_none()).map(|view| view.name.as_str()).collect();
     json!({
         "width": report.size.0,
         "height": report.size.1,

@@ -1,7 +1,7 @@
 //! Names that other programs have for the same projections: ffmpeg's v360 and envutil.
 
 /// Another program's name, and the SPEC that it stands for here.
-const ALIASES: [(&str, &str); 21] = [
+const ALIASES: [(&str, &str); 26] = [
     ("e", "equirect"),
     ("spherical", "equirect"),
     ("he", "equirect:hfov=180"),
@@ -16,6 +16,12 @@ const ALIASES: [(&str, &str); 21] = [
     ("equidistant", "fisheye"),
     // ffmpeg's ball has the front in its middle, and is not mirrored.
     ("ball", "fisheye:lens=equisolid,fov=360"),
+    ("c3x2", "cube:layout=3x2"),
+    ("c6x1", "cube:layout=strip-h"),
+    ("c1x6", "cube:layout=strip-v"),
+    ("eac", "cube:layout=eac"),
+    // Its left half looks back.
+    ("dfisheye", "dual-fisheye:order=bf,fov=180"),
     ("cylindrical", "cylinder"),
     ("cylindricalea", "equal-area"),
     ("octahedron", "octahedral:kind=plain"),
@@ -29,16 +35,17 @@ const ALIASES: [(&str, &str); 21] = [
 /// Projections of other programs that are not on offer.
 const REFUSED: [&str; 6] = ["barrel", "fb", "barrelsplit", "tsp", "tetrahedron", "biatan6"];
 
-/// The SPEC with its name as we have it; keys that were typed follow those that the name stands for.
+/// The SPEC with its name as we have it. Keys that were typed follow those that the name stands for, in whose place they
+/// come.
 pub(super) fn without_alias(text: &str) -> String {
-    let (name, keys) = text.split_once(':').unwrap_or((text, ""));
+    let (name, typed) = text.split_once(':').unwrap_or((text, ""));
     let Some((_, meaning)) = ALIASES.iter().find(|(alias, _)| *alias == name) else { return text.to_owned() };
-    let between = match (keys.is_empty(), meaning.contains(':')) {
-        (true, _) => "",
-        (false, true) => ",",
-        (false, false) => ":",
-    };
-    format!("{meaning}{between}{keys}")
+    let (ours, own) = meaning.split_once(':').unwrap_or((meaning, ""));
+    let key = |part: &str| part.split('=').next().unwrap_or_default().trim().to_owned();
+    let is_typed = |own: &&str| typed.split(',').any(|part| key(part) == key(own));
+    let kept = own.split(',').filter(|own| !is_typed(own));
+    let keys: Vec<&str> = kept.chain([typed]).filter(|part| !part.is_empty()).collect();
+    if keys.is_empty() { ours.to_owned() } else { format!("{ours}:{}", keys.join(",")) }
 }
 
 /// Whether another program has a projection of this name that we do not.

@@ -5,6 +5,7 @@ use cosmorama::world::{
 };
 
 use super::cube::Cube;
+use super::dual::Dual;
 use super::fields::Fields;
 use super::lens::fisheye;
 use super::maps::{cylinder, mirror_ball, octahedral, pannini};
@@ -13,32 +14,32 @@ use super::{SpecError, angle::parse_degrees};
 
 impl Shape {
     /// The shape of a name of the table and keys of that name.
-    pub(super) fn build(name: &str, pairs: Vec<(String, String)>) -> Result<Self, SpecError> {
-        let fields = Fields::new(pairs);
+    pub(super) fn build(name: &str, fields: &Fields) -> Result<Self, SpecError> {
         let mut samples = SphereSamples::NotAPanorama;
         let frame = match name {
-            "cube" => return Cube::build(&fields).map(Self::Cube),
-            "perspective" => Frame::Perspective(perspective(&fields)?),
+            "cube" => return Cube::build(fields).map(Self::Cube),
+            "dual-fisheye" => return Dual::build(fields).map(Self::Dual),
+            "perspective" => Frame::Perspective(perspective(fields)?),
             "equirect" => {
-                let frame = equirect(&fields)?;
+                let frame = equirect(fields)?;
                 let given = fields.get("samples").is_some();
                 samples = if given { SphereSamples::Given(frame.samples) } else { SphereSamples::ByFormat };
                 Frame::Equirect(frame)
             }
-            "fisheye" => Frame::Fisheye(fisheye(&fields)?),
-            "stereographic" => Frame::Stereographic(stereographic(&fields)?),
-            "fulldome" => Frame::Fulldome(fulldome(&fields)?),
-            "omnimax" => Frame::Omnimax(omnimax(&fields)?),
-            "mercator" => Frame::Cylinder(cylinder(&fields, CylinderKind::Mercator)?),
-            "cylinder" => Frame::Cylinder(cylinder(&fields, CylinderKind::Central)?),
-            "equal-area" => Frame::Cylinder(cylinder(&fields, CylinderKind::EqualArea)?),
-            "mirror-ball" => Frame::MirrorBall(mirror_ball(&fields)?),
-            "angular-map" => Frame::Fisheye(angular_map(&fields)?),
+            "fisheye" => Frame::Fisheye(fisheye(fields)?),
+            "stereographic" => Frame::Stereographic(stereographic(fields)?),
+            "fulldome" => Frame::Fulldome(fulldome(fields)?),
+            "omnimax" => Frame::Omnimax(omnimax(fields)?),
+            "mercator" => Frame::Cylinder(cylinder(fields, CylinderKind::Mercator)?),
+            "cylinder" => Frame::Cylinder(cylinder(fields, CylinderKind::Central)?),
+            "equal-area" => Frame::Cylinder(cylinder(fields, CylinderKind::EqualArea)?),
+            "mirror-ball" => Frame::MirrorBall(mirror_ball(fields)?),
+            "angular-map" => Frame::Fisheye(angular_map(fields)?),
             "hammer" => Frame::WorldMap(WorldMapFrame::Hammer),
             "mollweide" => Frame::WorldMap(WorldMapFrame::Mollweide),
             "sinusoidal" => Frame::WorldMap(WorldMapFrame::Sinusoidal),
-            "pannini" => Frame::Pannini(pannini(&fields)?),
-            "octahedral" => Frame::Octahedral(octahedral(&fields)?),
+            "pannini" => Frame::Pannini(pannini(fields)?),
+            "octahedral" => Frame::Octahedral(octahedral(fields)?),
             _ => return Err(SpecError::UnknownName { name: name.to_owned() }),
         };
         let placement = Placement {

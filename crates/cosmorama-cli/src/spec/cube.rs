@@ -1,7 +1,7 @@
-use cosmorama::sphere::{CubeFace, Orientation};
+use cosmorama::sphere::{Angle, CubeFace, Orientation};
 use cosmorama::world::{
-    Canvas, CubeFaceFrame, CubeLayout, FaceMapping, FaceOrder, FacePlacement, Frame, LayoutFaceFrame, LayoutKind,
-    Mirror, SamplePositions,
+    Blend, Canvas, CubeFaceFrame, CubeLayout, FaceMapping, FaceOrder, FacePlacement, Frame, LayoutFaceFrame,
+    LayoutKind, Mirror, SamplePositions,
 };
 use cosmorama_io::Naming;
 
@@ -19,6 +19,10 @@ pub(crate) struct Cube {
     pub(crate) order: Option<FaceOrder>,
     /// By how many quarters each picture is turned clockwise: in reading order, or of files in the order `rludfb`.
     pub(crate) rotate: Option<[u8; 6]>,
+    /// What a face sees from edge to edge.
+    pub(crate) field_of_view: Angle,
+    /// Over how wide a band at its border a face fades out, if given.
+    pub(crate) feather: Option<Angle>,
     /// Only the half around this face.
     pub(crate) half: Option<CubeFace>,
     /// Where the outermost samples of a face lie, if given.
@@ -51,6 +55,8 @@ impl Default for Cube {
             naming: None,
             order: None,
             rotate: None,
+            field_of_view: LayoutFaceFrame::RIGHT_ANGLE,
+            feather: None,
             half: None,
             samples: None,
             faces: CubeFace::ALL.to_vec(),
@@ -109,10 +115,15 @@ impl Cube {
             Some(Packing::OneImage(kind)) => kind.mapping(),
             Some(Packing::Files) | None => FaceMapping::Perspective,
         };
-        match (mapping, self.samples()) {
-            (FaceMapping::Perspective, SamplePositions::Centres) => Frame::CubeFace(CubeFaceFrame),
-            (mapping, samples) => Frame::LayoutFace(LayoutFaceFrame { mapping, samples }),
-        }
+        let frame = LayoutFaceFrame { mapping, samples: self.samples(), field_of_view: self.field_of_view };
+        if frame == LayoutFaceFrame::default() { Frame::CubeFace(CubeFaceFrame) } else { Frame::LayoutFace(frame) }
+    }
+
+    /// How faces take part where they overlap: each falls to nothing at its own border.
+    pub(crate) fn blend(&self) -> Blend {
+        let shared = self.field_of_view - LayoutFaceFrame::RIGHT_ANGLE;
+        let feather = if shared > Angle::ZERO { self.feather.unwrap_or(shared) } else { Angle::ZERO };
+        Blend { priority: 0, feather }
     }
 
     /// The cube of these keys.
@@ -125,6 +136,8 @@ impl Cube {
             naming: naming(fields)?,
             order: order(fields)?,
             rotate: fields.read("rotate", "six quarter turns from 0 to 3, as in rotate=000102", turns)?,
+            field_of_view: fields.angle("fov")?.unwrap_or(LayoutFaceFrame::RIGHT_ANGLE),
+            feather: fields.feather()?,
             half,
             samples: fields.samples()?,
             faces: faces.transpose()?.unwrap_or_else(|| CubeFace::ALL.to_vec()),
@@ -148,6 +161,9 @@ impl Cube {
         }
         if one_image && (self.canvas.is_some() || !self.face_canvas.is_empty()) {
             return Err(SpecError::Both { first: "canvas", second: "layout" });
+        }
+        if let (Some(feather), true) = (fields.get("feather"), self.field_of_view <= LayoutFaceFrame::RIGHT_ANGLE) {
+            return Err(wrong("feather", feather, "faces that overlap, as with fov=100; these have nothing to blend"));
         }
         if self.half.is_some() && self.samples() == SamplePositions::Edges {
             return Err(SpecError::Both { first: "half", second: "samples=edges" });

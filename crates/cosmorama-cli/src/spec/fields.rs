@@ -56,17 +56,36 @@ impl Fields {
     }
 
     pub(super) fn circle(&self) -> Result<LensCircle, SpecError> {
-        let centre = self.read("center", "X:Y in pixels, as in center=983:921.5", |value| {
+        self.circle_of("")
+    }
+
+    /// The circle whose keys begin so.
+    pub(super) fn circle_of(&self, prefix: &str) -> Result<LensCircle, SpecError> {
+        let key = format!("{prefix}center");
+        let centre = self.read(&key, &format!("X:Y in pixels, as in {key}=983:921.5"), |value| {
             let (x, y) = value.split_once(':')?;
             let (x, y): (f64, f64) = (x.parse().ok()?, y.parse().ok()?);
             (x.is_finite() && y.is_finite()).then(|| PixelPoint::new(x, y))
         })?;
-        Ok(LensCircle { centre, radius: self.positive("radius", "a radius in pixels, more than 0")? })
+        let radius = self.positive(&format!("{prefix}radius"), "a radius in pixels, more than 0")?;
+        Ok(LensCircle { centre, radius })
     }
 
     pub(super) fn orientation(&self) -> Result<Orientation, SpecError> {
-        let [yaw, pitch, roll] = ["yaw", "pitch", "roll"].map(|key| self.angle_or(key, 0.0));
+        self.orientation_of("")
+    }
+
+    /// The orientation whose keys begin so.
+    pub(super) fn orientation_of(&self, prefix: &str) -> Result<Orientation, SpecError> {
+        let [yaw, pitch, roll] = ["yaw", "pitch", "roll"].map(|key| self.angle_or(&format!("{prefix}{key}"), 0.0));
         Ok(Orientation::from_yaw_pitch_roll(yaw?, pitch?, roll?))
+    }
+
+    /// Over how wide a band pictures that overlap fade out.
+    pub(super) fn feather(&self) -> Result<Option<Angle>, SpecError> {
+        self.read("feather", "degrees more than 0, at most 180, as in feather=5", |value| {
+            parse_degrees(value).filter(|angle| angle.degrees() > 0.0 && angle.degrees() <= 180.0)
+        })
     }
 
     pub(super) fn mirror(&self) -> Result<Mirror, SpecError> {

@@ -32,11 +32,10 @@ const CYLINDER_KEYS: [Key; 2] = [
 ];
 
 /// Every projection on offer.
-pub(crate) static KINDS: [Kind; 17] = [
+pub(crate) static KINDS: [Kind; 18] = [
     Kind {
         name: "cube",
-        about: "faces of a cube, one file each or in one image: 90° both ways, whatever the pixels (1024x960 is as good as \
-                1024x1024)",
+        about: "faces of a cube, one file each or in one image, whatever the pixels (1024x960 is as good as 1024x1024)",
         keys: &[
             key(
                 "layout",
@@ -49,6 +48,8 @@ pub(crate) static KINDS: [Kind; 17] = [
                 "faces in reading order: six letters or ffmpeg, kartavr, navegar, openexr, envutil",
             ),
             key("rotate", "000000", "quarter turns clockwise of each picture, in the same order"),
+            key("fov", "DEGREES", "what a face sees both ways (90); of more, neighbours overlap and are blended"),
+            key("feather", "DEGREES", "the band at a face's border over which it fades out (all that overlaps)"),
             key("half", "up|down|left|right|front|back", "half a cube: the half around a face"),
             key(
                 "samples",
@@ -113,6 +114,26 @@ pub(crate) static KINDS: [Kind; 17] = [
         keys: &[
             key("fov", "DEGREES", "across the circle (180)"),
             key("tilt", "DEGREES", "how far the dome leans to the front (0)"),
+        ],
+        takes_aspect: true,
+    },
+    Kind {
+        name: "dual-fisheye",
+        about: "two fisheyes in one image, one ahead and one back, blended where both see; LENS is front or back",
+        keys: &[
+            key("fov", "DEGREES", "across each circle (195)"),
+            key("layout", "side-by-side|top-bottom", "how they share the image (side-by-side)"),
+            key("order", "fb|bf", "which comes first, the front or the back (fb; ffmpeg's dfisheye: bf)"),
+            key("feather", "DEGREES", "the band at a circle over which it fades out (all that both see)"),
+            key("lens", "NAME", "as for fisheye, with k="),
+            key("k", "A:B:C…", "as for fisheye"),
+            key("fit", "short|long|width|height|diagonal", "which length of its half a circle spans (short)"),
+            key("LENS.fov", "DEGREES", "across one circle, as in back.fov=192"),
+            key("LENS.yaw", "DEGREES", "one camera turned to its own right"),
+            key("LENS.pitch", "DEGREES", "turned up"),
+            key("LENS.roll", "DEGREES", "turned clockwise, as that camera sees it"),
+            key("LENS.center", "X:Y", "one circle's centre in pixels of the whole image"),
+            key("LENS.radius", "PIXELS", "one circle's radius in pixels"),
         ],
         takes_aspect: true,
     },
@@ -184,12 +205,19 @@ pub(crate) static KINDS: [Kind; 17] = [
 ];
 
 /// Keys that every SPEC takes.
-pub(crate) const COMMON: [Key; 5] = [
+pub(crate) const COMMON: [Key; 8] = [
     key("yaw", "DEGREES", "turns the view to the right"),
     key("pitch", "DEGREES", "turns it up"),
     key("roll", "DEGREES", "turns the camera clockwise"),
     key("flip", "x|y|xy", "the picture is mirrored left to right, top to bottom, both"),
     key("canvas", "WxH+X+Y", "the image is a window of a canvas, its corner at X, Y"),
+    key(
+        "stereo",
+        "sbs|tb|sbs-half|tb-half",
+        "two of them, for the left and the right eye; half: squeezed to the size of one",
+    ),
+    key("swap", "yes|no", "the right eye's comes first (no)"),
+    key("eye", "left|right", "of a stereo input only this eye's is used"),
 ];
 
 /// The key of pixels that are not square.

@@ -56,6 +56,17 @@ fn scale(fields: &Fields) -> Result<LensScale, SpecError> {
             return Err(SpecError::Both { first, second });
         }
     }
+    let focal = fields.positive("focal", "a focal length in pixels, more than 0, as in focal=412.5")?;
+    let sensor = fields.positive("sensor", "the sensor's width in millimetres, more than 0, as in sensor=36")?;
+    Ok(match (focal, sensor) {
+        (Some(pixels), _) => LensScale::Focal(pixels),
+        (None, Some(width)) => LensScale::SensorWidth(width),
+        (None, None) => LensScale::Circle(fit(fields)?),
+    })
+}
+
+/// Which length of the image the circle spans.
+pub(super) fn fit(fields: &Fields) -> Result<FisheyeFit, SpecError> {
     let fits = [
         ("short", FisheyeFit::Short),
         ("long", FisheyeFit::Long),
@@ -63,16 +74,11 @@ fn scale(fields: &Fields) -> Result<LensScale, SpecError> {
         ("height", FisheyeFit::Height),
         ("diagonal", FisheyeFit::Diagonal),
     ];
-    let focal = fields.positive("focal", "a focal length in pixels, more than 0, as in focal=412.5")?;
-    let sensor = fields.positive("sensor", "the sensor's width in millimetres, more than 0, as in sensor=36")?;
-    Ok(match (focal, sensor) {
-        (Some(pixels), _) => LensScale::Focal(pixels),
-        (None, Some(width)) => LensScale::SensorWidth(width),
-        (None, None) => LensScale::Circle(fields.choice("fit", &fits)?.unwrap_or_default()),
-    })
+    Ok(fields.choice("fit", &fits)?.unwrap_or_default())
 }
 
-fn lens(fields: &Fields) -> Result<FisheyeLens, SpecError> {
+/// How the angle goes with the radius.
+pub(super) fn lens(fields: &Fields) -> Result<FisheyeLens, SpecError> {
     let model = fields.choice("lens", &MODELS)?.unwrap_or(Model::Ideal(FisheyeLens::EQUIDISTANT));
     let refused = |error: LensError| {
         let value = fields.get("k").unwrap_or_default().to_owned();

@@ -1,6 +1,6 @@
 use cosmorama::world::{Frame, Placement, SamplePositions};
 
-use super::Cube;
+use super::{Cube, Dual};
 
 /// What a SPEC stands for.
 #[derive(Clone, Debug, PartialEq)]
@@ -9,6 +9,8 @@ pub(crate) enum Shape {
     Single(Single),
     /// The faces of a cube, a file each or in one image.
     Cube(Cube),
+    /// Two fisheyes in one image.
+    Dual(Dual),
 }
 
 /// One image.

@@ -1,11 +1,14 @@
 use std::str::FromStr;
 
 use cosmorama::projection::azimuthal::LensError;
+use cosmorama::world::LensSide;
 use thiserror::Error;
 
 use super::alias::{is_refused, without_alias};
+use super::fields::Fields;
 use super::kind::{KINDS, Kind};
 use super::shape::Shape;
+use super::stereo::StereoSpec;
 
 /// A SPEC as it was typed, taken apart and found good.
 #[derive(Clone, Debug, PartialEq)]
@@ -14,6 +17,8 @@ pub(crate) struct Spec {
     pub(crate) name: &'static str,
     /// What it means.
     pub(crate) shape: Shape,
+    /// Whether it is there twice, once for each eye.
+    pub(crate) stereo: Option<StereoSpec>,
 }
 
 /// Why a SPEC cannot be understood.
@@ -78,7 +83,8 @@ impl FromStr for Spec {
                 return Err(SpecError::Twice { key: key.clone() });
             }
         }
-        Ok(Self { name: kind.name, shape: Shape::build(kind.name, pairs)? })
+        let fields = Fields::new(pairs);
+        Ok(Self { name: kind.name, shape: Shape::build(kind.name, &fields)?, stereo: StereoSpec::build(&fields)? })
     }
 }
 
@@ -96,9 +102,15 @@ fn pairs(text: &str) -> Result<Vec<(String, String)>, SpecError> {
 }
 
 fn check_key(kind: &'static Kind, typed: &str) -> Result<(), SpecError> {
-    // canvas.FACE stands for a key of each face; which faces there are, the value's reader knows.
-    let generic = if typed.starts_with("canvas.") { "canvas.FACE" } else { typed };
-    if kind.all_keys().any(|key| key.name == generic) {
+    // canvas.FACE stands for a key of each face; which faces there are, the value's reader knows. LENS.fov stands for one
+    // of each lens.
+    let of_lens = LensSide::ALL.iter().find_map(|side| typed.strip_prefix(side.name())?.strip_prefix('.'));
+    let generic = match of_lens {
+        Some(key) => format!("LENS.{key}"),
+        None if typed.starts_with("canvas.") => "canvas.FACE".to_owned(),
+        None => typed.to_owned(),
+    };
+    if kind.all_keys().any(|key| key.name == generic) && !typed.starts_with("LENS.") {
         return Ok(());
     }
     let known = kind.all_keys().map(|key| key.name).collect();

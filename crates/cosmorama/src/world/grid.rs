@@ -102,6 +102,14 @@ impl PixelGrid {
         Self { width, height, origin: self.origin - DVec2::new(x, y), ..self }
     }
 
+    /// The same picture in so many times fewer columns and rows, which must be whole numbers.
+    #[must_use]
+    pub fn squeezed(self, (across, down): (usize, usize)) -> Self {
+        let by = DVec2::new(across as f64, down as f64);
+        let (width, height) = (self.width / across, self.height / down);
+        Self { width, height, origin: self.origin / by, step: self.step * by }
+    }
+
     /// The same picture mirrored left to right.
     #[must_use]
     pub fn flipped_x(self) -> Self {

@@ -23,6 +23,9 @@ pub use frame::{
 };
 pub use framing::OmnimaxFraming;
 pub use grid::{PixelGrid, PixelPoint, PixelRect};
-pub use layout::{CubeLayout, FaceOrder, FacePart, FacePlacement, LayoutError, LayoutKind, PlacedFace};
+pub use layout::{
+    Arrangement, CubeLayout, DualFisheye, DualLens, Eye, FaceOrder, FacePart, FacePlacement, LayoutError, LayoutKind,
+    LensSide, PlacedFace, PlacedLens, Stereo,
+};
 pub use view::{Footprint, View};
 pub use world::{Source, World, WorldError};

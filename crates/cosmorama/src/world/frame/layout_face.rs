@@ -1,19 +1,30 @@
-use std::f64::consts::FRAC_PI_4;
-
-use super::error::check_positive;
+use super::error::{check_field_of_view, check_positive};
 use super::{FrameError, SamplePositions};
 use crate::projection::{PlanePoint, PlaneRect, ProjectionKind};
-use crate::sphere::Orientation;
+use crate::sphere::{Angle, Orientation};
 use crate::world::{FieldStop, PixelGrid, View};
 
-/// A face of a cube map whose pixels are not those of a pinhole camera that sees 90°: they see equal angles, or the
-/// outermost samples lie on the cube's edges.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+/// A face of a cube map whose pixels are not those of a pinhole camera that sees 90°: they see equal angles, the
+/// outermost samples lie on the cube's edges, or the face goes on beyond those.
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LayoutFaceFrame {
     /// How angles go with pixels.
     pub mapping: FaceMapping,
     /// Where the outermost samples lie.
     pub samples: SamplePositions,
+    /// What a face sees from edge to edge: of more than 90° it shows what its neighbours show, too.
+    pub field_of_view: Angle,
+}
+
+impl LayoutFaceFrame {
+    /// That of faces which meet at the cube's edges.
+    pub const RIGHT_ANGLE: Angle = Angle::from_degrees(90.0);
+}
+
+impl Default for LayoutFaceFrame {
+    fn default() -> Self {
+        Self { mapping: FaceMapping::default(), samples: SamplePositions::default(), field_of_view: Self::RIGHT_ANGLE }
+    }
 }
 
 /// How the pixels of a face of a cube see the world.
@@ -28,9 +39,11 @@ pub enum FaceMapping {
 
 impl LayoutFaceFrame {
     pub(super) fn view(self, width: usize, height: usize) -> Result<View, FrameError> {
+        check_field_of_view("a face's field of view", self.field_of_view, 180.0, true)?;
+        let half = self.field_of_view * 0.5;
         let (projection, edge) = match self.mapping {
-            FaceMapping::Perspective => (ProjectionKind::PERSPECTIVE, 1.0),
-            FaceMapping::EquiAngular => (ProjectionKind::EQUI_ANGULAR, FRAC_PI_4),
+            FaceMapping::Perspective => (ProjectionKind::PERSPECTIVE, half.tan()),
+            FaceMapping::EquiAngular => (ProjectionKind::EQUI_ANGULAR, half.radians()),
         };
         let reach = |pixels: usize| match self.samples {
             SamplePositions::Centres => edge,
@@ -67,6 +80,19 @@ mod tests {
         assert!((angle(frame, PixelPoint::new(0.5, 4.0)) - 45.0).abs() < 1e-9);
         assert!((angle(frame, PixelPoint::new(4.0, 7.5)) - 45.0).abs() < 1e-9);
         assert!(frame.view(1, 8).is_err());
+    }
+
+    #[test]
+    fn a_face_may_see_more_than_its_own() {
+        for mapping in [FaceMapping::Perspective, FaceMapping::EquiAngular] {
+            let wide = |degrees| LayoutFaceFrame {
+                mapping,
+                field_of_view: Angle::from_degrees(degrees),
+                ..LayoutFaceFrame::default()
+            };
+            assert!((angle(wide(100.0), PixelPoint::new(8.0, 4.0)) - 50.0).abs() < 1e-9);
+            assert!(wide(180.0).view(8, 8).is_err() && wide(0.0).view(8, 8).is_err());
+        }
     }
 
     #[test]

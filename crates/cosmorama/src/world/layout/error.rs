@@ -1,6 +1,6 @@
 use thiserror::Error;
 
-use super::LayoutKind;
+use super::{Arrangement, LayoutKind};
 
 /// Why a picture is none in a layout.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
@@ -27,6 +27,20 @@ pub enum LayoutError {
     Odd {
         /// Pixels of a face's edge.
         edge: usize,
+    },
+    /// Two pictures share an image that has no halves.
+    #[error(
+        "{width}x{height} pixels cannot be halved {}; an even {} is needed",
+        match .arrangement { Arrangement::SideBySide => "side by side", Arrangement::TopBottom => "into top and bottom" },
+        match .arrangement { Arrangement::SideBySide => "width", Arrangement::TopBottom => "height" }
+    )]
+    NoHalves {
+        /// How they share it.
+        arrangement: Arrangement,
+        /// Columns of the image.
+        width: usize,
+        /// Rows of the image.
+        height: usize,
     },
 }
 

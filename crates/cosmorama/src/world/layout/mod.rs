@@ -1,15 +1,21 @@
-//! Cube layouts: how the six faces of a cube lie in one picture.
+//! Layouts: how several pictures lie in one image: the six faces of a cube, two fisheyes, those of two eyes.
 
+mod arrangement;
 mod cube_layout;
+mod dual_fisheye;
 mod error;
 mod face_order;
 mod face_part;
 mod face_placement;
 mod kind;
+mod stereo;
 
+pub use arrangement::Arrangement;
 pub use cube_layout::{CubeLayout, PlacedFace};
+pub use dual_fisheye::{DualFisheye, DualLens, LensSide, PlacedLens};
 pub use error::LayoutError;
 pub use face_order::FaceOrder;
 pub use face_part::FacePart;
 pub use face_placement::FacePlacement;
 pub use kind::LayoutKind;
+pub use stereo::{Eye, Stereo};

@@ -1,0 +1,53 @@
+use std::path::Path;
+
+use anyhow::Result;
+use cosmorama::world::Canvas;
+use cosmorama_io::{Header, Window};
+
+use crate::failure::usage;
+
+/// The canvas of an image that is all of it.
+pub(super) fn whole(header: &Header) -> Canvas {
+    Canvas { width: header.width, height: header.height, left: 0, top: 0 }
+}
+
+/// A window as a placement has it.
+pub(super) fn canvas_of(window: Window) -> Canvas {
+    Canvas { width: window.canvas_width, height: window.canvas_height, left: window.x as i64, top: window.y as i64 }
+}
+
+/// A window larger than its canvas was declared by mistake.
+pub(super) fn fits_canvas(path: &Path, header: &Header, canvas: Canvas) -> Result<()> {
+    if header.width <= canvas.width && header.height <= canvas.height {
+        return Ok(());
+    }
+    Err(usage(format!(
+        "{}: {}x{} pixels are no window of a canvas of {}; give canvas=WxH+X+Y the size of the whole picture",
+        path.display(),
+        header.width,
+        header.height,
+        shape(&canvas)
+    )))
+}
+
+/// A face that lies wholly beside its canvas was put there by mistake: one may reach beyond its edges, but not go round.
+pub(super) fn lies_on_canvas(path: &Path, header: &Header, canvas: Canvas) -> Result<()> {
+    let overlaps = |start: i64, length: usize, whole: usize| start < whole as i64 && start + length as i64 > 0;
+    if overlaps(canvas.left, header.width, canvas.width) && overlaps(canvas.top, header.height, canvas.height) {
+        return Ok(());
+    }
+    Err(usage(format!(
+        "{}: {}x{} pixels at {}, {} lie beside their canvas of {}; give canvas=WxH+X+Y the place of their first pixel in \
+         the whole picture",
+        path.display(),
+        header.width,
+        header.height,
+        canvas.left,
+        canvas.top,
+        shape(&canvas)
+    )))
+}
+
+fn shape(canvas: &Canvas) -> String {
+    format!("{}x{}", canvas.width, canvas.height)
+}

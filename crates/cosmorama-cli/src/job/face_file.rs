@@ -1,0 +1,83 @@
+use anyhow::Result;
+use cosmorama::sphere::{CubeFace, Orientation};
+use cosmorama::world::{Canvas, FacePart, FacePlacement};
+use cosmorama_io::{FaceFile, Header};
+
+use super::Files;
+use super::InputView;
+use super::canvas::{canvas_of, fits_canvas, lies_on_canvas, whole};
+use super::eye::EyePart;
+use super::face_shape::FacePicture;
+use super::face_view::face_placement;
+use super::input::header;
+use crate::spec::Cube;
+
+/// A face whose file has been looked at.
+pub(super) struct Face {
+    face: CubeFace,
+    placement: FacePlacement,
+    files: Files,
+    header: Option<Header>,
+    canvas: Option<Canvas>,
+}
+
+impl Face {
+    /// Looks at the file, if there is one.
+    pub(super) fn probe(
+        cube: &Cube,
+        file: &FaceFile,
+        files: Files,
+        eye: Option<EyePart>,
+        frame: Option<u64>,
+    ) -> Result<Self> {
+        let header = file.present.then(|| header(&files.path(frame), eye)).transpose()?;
+        let placement = cube.file_placement(file.face, file.placement);
+        let part = FacePart::of(file.face, placement, cube.half);
+        let canvas = header.as_ref().map(|header| {
+            let declared = cube.canvas_of(file.face).or(header.window.map(canvas_of));
+            let whole = || part.map_or_else(|| whole(header), |part| part.canvas(header.width, header.height));
+            declared.unwrap_or_else(whole)
+        });
+        if let (Some(header), Some(canvas)) = (&header, canvas) {
+            fits_canvas(&files.path(frame), header, canvas)?;
+            lies_on_canvas(&files.path(frame), header, canvas)?;
+        }
+        Ok(Self { face: file.face, placement, files, header, canvas })
+    }
+
+    /// Its picture, if there is a file.
+    pub(super) fn picture(&self, cube: &Cube, frame: Option<u64>) -> Option<FacePicture> {
+        let is_declared = cube.canvas_of(self.face).is_some();
+        let header = self.header.as_ref()?;
+        Some(FacePicture {
+            face: self.face,
+            path: self.files.path(frame),
+            canvas: self.canvas?,
+            size: (header.width, header.height),
+            lies: self.placement,
+            is_declared,
+        })
+    }
+
+    /// As a view; `size` is that of faces without a file.
+    pub(super) fn into_view(self, cube: &Cube, (width, height): (usize, usize)) -> Result<InputView> {
+        let outer = Orientation::IDENTITY;
+        let canvas = self.canvas.unwrap_or(Canvas { width, height, left: 0, top: 0 });
+        let nominal = face_placement(cube, self.face, self.placement, None, outer).view(canvas.width, canvas.height)?;
+        let windowed = face_placement(cube, self.face, self.placement, Some(canvas), outer);
+        let window = match &self.header {
+            Some(header) => Some((windowed.view(header.width, header.height)?, canvas)),
+            None => None,
+        };
+        Ok(InputView {
+            name: self.face.name().to_owned(),
+            files: self.files,
+            part: None,
+            header: self.header,
+            nominal,
+            window,
+            blend: cube.blend(),
+            wanted: true,
+        })
+    }
+}

@@ -1,0 +1,41 @@
+use anyhow::Result;
+use cosmorama::world::{Frame, FrameError};
+
+use crate::args::SizeArg;
+use crate::failure::usage;
+use crate::spec::Dual;
+
+/// The size of an image: as given, of a width, or with so many pixels a radian at its centre. `option` is the one that has
+/// the frame.
+pub(super) fn size(
+    frame: Frame,
+    given: Option<SizeArg>,
+    pixels_per_radian: Option<f64>,
+    option: &str,
+) -> Result<(usize, usize)> {
+    match (given, pixels_per_radian) {
+        (Some(SizeArg { width, height }), _) => Ok((width, height.unwrap_or_else(|| frame.natural_height(width)))),
+        (None, Some(pixels)) => frame.size_at(pixels).map_err(|error| match error {
+            FrameError::SizeNeeded | FrameError::SizeUnbounded { .. } => {
+                usage(format!("{option}: {error}, with --size WxH"))
+            }
+            error => usage(format!("{option}: {error}")),
+        }),
+        (None, None) => Err(usage("--size is missing: without an input, nothing tells how large the output is to be")),
+    }
+}
+
+/// The size of an image of two circles. A width alone is that of one.
+pub(super) fn lens_image_size(
+    dual: &Dual,
+    given: Option<SizeArg>,
+    pixels_per_radian: Option<f64>,
+    option: &str,
+) -> Result<(usize, usize)> {
+    if let Some(SizeArg { width, height: Some(height) }) = given {
+        return Ok((width, height));
+    }
+    let of = |frame| size(Frame::Fisheye(frame), given, pixels_per_radian, option);
+    let (front, back) = (of(dual.picture.front.frame)?, of(dual.picture.back.frame)?);
+    Ok(dual.picture.arrangement.whole((front.0.max(back.0), front.1.max(back.1))))
+}

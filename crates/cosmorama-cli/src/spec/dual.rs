@@ -1,0 +1,51 @@
+use cosmorama::sphere::Orientation;
+use cosmorama::world::{Arrangement, DualFisheye, DualLens, FisheyeFrame, LensScale, LensSide, Mirror};
+
+use super::SpecError;
+use super::fields::{Fields, wrong};
+use super::lens::{fit, lens};
+
+/// Two fisheye pictures in one image.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Dual {
+    /// The pictures.
+    pub(crate) picture: DualFisheye,
+    /// How both are turned.
+    pub(crate) orientation: Orientation,
+    /// How the image is mirrored.
+    pub(crate) mirror: Mirror,
+}
+
+impl Dual {
+    /// The pictures of these keys.
+    pub(super) fn build(fields: &Fields) -> Result<Self, SpecError> {
+        if let Some(canvas) = fields.get("canvas") {
+            return Err(wrong("canvas", canvas, "none: both circles are found in a whole image; place them by center"));
+        }
+        let arrangements = [("side-by-side", Arrangement::SideBySide), ("top-bottom", Arrangement::TopBottom)];
+        let orders = [("fb", LensSide::Front), ("bf", LensSide::Back)];
+        let both = FisheyeFrame {
+            lens: lens(fields)?,
+            field_of_view: fields.angle("fov")?.unwrap_or(DualFisheye::FIELD_OF_VIEW),
+            scale: LensScale::Circle(fit(fields)?),
+            pixel_aspect: fields.aspect()?,
+            ..FisheyeFrame::default()
+        };
+        let picture = DualFisheye {
+            arrangement: fields.choice("layout", &arrangements)?.unwrap_or_default(),
+            first: fields.choice("order", &orders)?.unwrap_or(LensSide::Front),
+            front: one(fields, LensSide::Front, both)?,
+            back: one(fields, LensSide::Back, both)?,
+            feather: fields.feather()?,
+        };
+        Ok(Self { picture, orientation: fields.orientation()?, mirror: fields.mirror()? })
+    }
+}
+
+/// One of the two, with what is said of it alone.
+fn one(fields: &Fields, side: LensSide, both: FisheyeFrame) -> Result<DualLens, SpecError> {
+    let prefix = format!("{}.", side.name());
+    let field_of_view = fields.angle(&format!("{prefix}fov"))?.unwrap_or(both.field_of_view);
+    let frame = FisheyeFrame { field_of_view, circle: fields.circle_of(&prefix)?, ..both };
+    Ok(DualLens { frame, turned: fields.orientation_of(&prefix)? })
+}
