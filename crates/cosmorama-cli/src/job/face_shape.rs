@@ -26,7 +26,7 @@ const SAME: f64 = 1.01;
 
 /// The size of a face that has no file: that of the first of the shape which most faces have. A face that looks cropped
 /// is an error; one that differs by a little is told.
-pub(super) fn usual_size(pictures: &[FacePicture], warnings: &mut Vec<String>) -> Result<(usize, usize)> {
+pub(super) fn size_of_missing(pictures: &[FacePicture], warnings: &mut Vec<String>) -> Result<(usize, usize)> {
     let usual = usual(pictures);
     let size = usual.map_or((1, 1), |canvas| (canvas.width, canvas.height));
     let expected = usual.filter(|canvas| is_face(canvas)).map_or("a square, or nearly so".to_owned(), shape);
@@ -109,7 +109,7 @@ mod tests {
         };
         let pictures: Vec<_> = CubeFace::ALL.into_iter().zip(sizes).map(picture).collect();
         let mut warnings = Vec::new();
-        usual_size(&pictures, &mut warnings).map_err(|error| error.to_string())?;
+        size_of_missing(&pictures, &mut warnings).map_err(|error| error.to_string())?;
         Ok(warnings)
     }
 

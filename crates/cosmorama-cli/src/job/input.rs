@@ -6,7 +6,7 @@ use cosmorama::world::{Blend, Canvas, FacePart, FacePlacement, Frame, FrameError
 use cosmorama_io::{FaceFile, FacePattern, FaceSet, FrameList, Header, Window, probe};
 
 use super::detect::{declared, detect};
-use super::face_shape::{FacePicture, usual_size};
+use super::face_shape::{FacePicture, size_of_missing};
 use super::face_view::face_placement;
 use super::packed::{self, FilePart};
 use super::{Files, frames, world_file};
@@ -171,7 +171,7 @@ impl Input {
             faces.push(Face::probe(cube, face, files, frames[0])?);
         }
         let pictures: Vec<FacePicture> = faces.iter().filter_map(|face| face.picture(cube, frames[0])).collect();
-        let size = usual_size(&pictures, warnings)?;
+        let size = size_of_missing(&pictures, warnings)?;
         let views: Result<_> = faces.into_iter().map(|face| face.into_view(cube, size)).collect();
         Ok(Self { views: views?, frames })
     }

@@ -156,15 +156,14 @@ impl<'a> Engine<'a> {
     }
 
     fn render_view(&self, index: usize, light: &FrameLight, stages: &mut Stages) -> Result<Image<Rgba>> {
-        let mut image = match &self.plans[index] {
-            Some(plan) => stages.time(Stage::Filter, || plan.apply(&light.texels)),
-            None => {
-                let resampler = self.resampler(&self.job.target.views[index].view);
-                stages.time(Stage::Filter, || resampler.render(&light.texels))
-            }
-        };
-        stages.time(Stage::Filter, || self.complete(index, light, &mut image))?;
-        Ok(image)
+        stages.time(Stage::Filter, || {
+            let mut image = match &self.plans[index] {
+                Some(plan) => plan.apply(&light.texels),
+                None => self.resampler(&self.job.target.views[index].view).render(&light.texels),
+            };
+            self.complete(index, light, &mut image)?;
+            Ok(image)
+        })
     }
 
     fn complete(&self, index: usize, light: &FrameLight, image: &mut Image<Rgba>) -> Result<()> {
