@@ -162,6 +162,20 @@ fn no_crate_depends_on_a_higher_one() {
     assert!(found.is_empty(), "{}", found.join("\n"));
 }
 
+/// Files with code for lanes. All else is plain: one pixel after the other, so that the two can be held equal.
+const LANES: [&str; 4] = ["cubics.rs", "ellipses.rs", "moments.rs", "window.rs"];
+
+#[test]
+fn lanes_stay_in_the_files_that_are_for_them() {
+    let found: BTreeSet<PathBuf> = rust_files(&crates_folder())
+        .into_iter()
+        .filter(|file| !file.components().any(|part| part.as_os_str() == "tests"))
+        .filter(|file| paths_and_calls(&code_of(&std::fs::read_to_string(file).unwrap())).any(|w| w == "fearless_simd"))
+        .collect();
+    let resample = crates_folder().join("cosmorama/src/resample");
+    assert_eq!(found, LANES.map(|name| resample.join(name)).into());
+}
+
 /// Every `.rs` file under a folder.
 fn rust_files(folder: &Path) -> Vec<PathBuf> {
     let mut files = Vec::new();

@@ -30,7 +30,7 @@ const SAME: f64 = 1.01;
 
 /// The size of a face that has no file: that of the first of the shape which most faces have. A face that looks cropped
 /// is an error; one that differs by a little is told. `half` is the half of a cube that the files are said to hold.
-pub(super) fn usual_size(
+pub(super) fn size_of_missing(
     pictures: &[FacePicture],
     half: Option<CubeFace>,
     warnings: &mut Vec<String>,
@@ -163,7 +163,7 @@ mod tests {
         };
         let pictures: Vec<_> = CubeFace::ALL.into_iter().zip(sizes).map(picture).collect();
         let mut warnings = Vec::new();
-        usual_size(&pictures, None, &mut warnings).map_err(|error| error.to_string())?;
+        size_of_missing(&pictures, None, &mut warnings).map_err(|error| error.to_string())?;
         Ok(warnings)
     }
 

@@ -8,7 +8,7 @@ use super::canvas::{canvas_of, fits_canvas, whole};
 use super::detect::{declared, detect};
 use super::eye::EyePart;
 use super::face_file::Face;
-use super::face_shape::{FacePicture, usual_size};
+use super::face_shape::{FacePicture, size_of_missing};
 use super::packed::{self, FilePart};
 use super::{Files, frames, world_file};
 use crate::failure::usage;
@@ -202,7 +202,7 @@ impl Input {
             faces.push(Face::probe(cube, face, files, eye, frames[0])?);
         }
         let pictures: Vec<FacePicture> = faces.iter().filter_map(|face| face.picture(cube, frames[0])).collect();
-        let size = usual_size(&pictures, cube.half, warnings)?;
+        let size = size_of_missing(&pictures, cube.half, warnings)?;
         let views: Result<_> = faces.into_iter().map(|face| face.into_view(cube, size)).collect();
         Ok(Self { worlds: vec![views?], frames })
     }

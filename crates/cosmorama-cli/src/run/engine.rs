@@ -170,12 +170,14 @@ impl<'a> Engine<'a> {
     fn render_view(&self, index: usize, light: &FrameLight, stages: &mut Stages) -> Result<Image<Rgba>> {
         let target = &self.job.target.views[index];
         let texels = self.light_of(target, light);
-        let mut image = match &self.plans[index] {
-            Some(plan) => stages.time(Stage::Filter, || plan.apply(texels)),
-            None => stages.time(Stage::Filter, || self.resampler(target).render(texels)),
-        };
-        stages.time(Stage::Filter, || self.complete(index, light, &mut image))?;
-        Ok(image)
+        stages.time(Stage::Filter, || {
+            let mut image = match &self.plans[index] {
+                Some(plan) => plan.apply(texels),
+                None => self.resampler(target).render(texels),
+            };
+            self.complete(index, light, &mut image)?;
+            Ok(image)
+        })
     }
 
     fn complete(&self, index: usize, light: &FrameLight, image: &mut Image<Rgba>) -> Result<()> {

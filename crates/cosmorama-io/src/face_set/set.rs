@@ -30,11 +30,11 @@ pub struct FaceSet {
 
 impl FaceSet {
     /// As many faces as a dome needs: fewer may be files of something else beside them.
-    pub const ENOUGH: usize = 4;
+    const ENOUGH: usize = 4;
 
     /// Finds the faces of a pattern by the files that exist: of the presets under which there is at least one,
     /// the one that explains most. One whose files are some of another's gives way to that other, and one of so few
-    /// that they may be strays to one of [`FaceSet::ENOUGH`]; two others that disagree are an error. With a naming given,
+    /// that they may be strays to one of four or more; two others that disagree are an error. With a naming given,
     /// only that is looked for.
     ///
     /// # Errors

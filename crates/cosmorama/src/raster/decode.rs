@@ -193,19 +193,31 @@ mod tests {
     #[test]
     fn what_was_worked_out_once_serves_again() {
         let decoder = Decoder::default();
-        let image = |code| EncodedImage::new(1, 1, Channels::Grey, Depth::Sixteen, Samples::U16(vec![code])).unwrap();
-        let light = |transfer: &Transfer, code| {
+        let decode = |transfer: &Transfer| {
+            let image = EncodedImage::new(1, 1, Channels::Grey, Depth::Sixteen, Samples::U16(vec![31_000])).unwrap();
             let mut light = [Rgba::TRANSPARENT];
-            decoder.decode(&image(code), transfer, &mut light);
-            light[0]
+            decoder.decode(&image, transfer, &mut light);
+            assert_eq!(light[0].0[0], transfer.decode(31_000.0 / 65_535.0, 0) as f32);
         };
-        for step in 0..30 {
-            let transfer = Transfer::Gamma(1.0 + f64::from(step % 10) / 10.0);
-            assert_eq!(light(&transfer, 31_000), *image(31_000).to_light(&transfer).get(0, 0));
-            let first = decoder.tables(&transfer, 65536);
-            assert!(Arc::ptr_eq(&first, &decoder.tables(&transfer, 65536)));
-            assert!(decoder.tables.lock().unwrap().len() <= Decoder::MOST);
-        }
+        let kept = || -> Vec<Arc<Tables>> {
+            decoder.tables.lock().unwrap().iter().map(|(.., tables)| Arc::clone(tables)).collect()
+        };
+        let is_same = |a: &[Arc<Tables>], b: &[Arc<Tables>]| {
+            a.len() == b.len() && a.iter().zip(b).all(|(a, b)| Arc::ptr_eq(a, b))
+        };
+        let kinds: Vec<Transfer> =
+            (0..Decoder::MOST + 2).map(|step| Transfer::Gamma(1.0 + step as f64 / 10.0)).collect();
+        let (first, others) = kinds.split_at(Decoder::MOST);
+        first.iter().for_each(decode);
+        let before = kept();
+        assert_eq!(before.len(), Decoder::MOST);
+        first.iter().for_each(decode);
+        assert!(is_same(&before, &kept()));
+        // More than are kept in mind: the oldest go.
+        others.iter().for_each(decode);
+        let after = kept();
+        assert_eq!(after.len(), Decoder::MOST);
+        assert!(is_same(&before[others.len()..], &after[..Decoder::MOST - others.len()]));
     }
 
     #[test]

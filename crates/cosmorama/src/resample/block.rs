@@ -1,29 +1,13 @@
-use super::Kernel;
-use crate::projection::PlaneRect;
-use crate::sphere::{Angle, Direction};
-use crate::world::{FieldStop, Footprint, PixelPoint, PixelRect, Source, View};
+use super::cap::Cap;
+use crate::sphere::Direction;
+use crate::world::{PixelPoint, PixelRect, View};
 
 /// Pixels along a block's side.
 const SIDE: usize = 16;
 
-/// What a mapping may bend by between the corners of a block, relative to the block's size, without being noticed.
-const BEND: f64 = 1.25;
-
-/// A block that spans more than this, in radians, is not judged as a whole.
-const WIDEST: f64 = 0.5;
-
 /// A square of a target's pixels that is judged as a whole where possible.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Block(PixelRect);
-
-/// All that a block sees lies within `radius` of `centre`.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Cap {
-    centre: Direction,
-    radius: f64,
-    /// Size of the block's largest pixel: the root of its summed squared derivatives, in radians.
-    pixel: f64,
-}
 
 impl Block {
     /// The blocks of a target, row by row.
@@ -58,10 +42,7 @@ impl Block {
         );
         let nearest = |a: f64, b: f64| if a * b <= 0.0 { 0.0 } else { a.abs().min(b.abs()) };
         let distance = nearest(start.x, end.x).hypot(nearest(start.y, end.y));
-        let is_below = |side: Direction| {
-            let sine = |cap: Cap| side.dot(target.orientation.to_view(cap.centre));
-            self.cap(target).is_some_and(|cap| sine(cap) < -cap.radius.sin())
-        };
+        let is_below = |side: Direction| self.cap(target).is_some_and(|cap| cap.is_below(side, target));
         target.stop.circle.is_some_and(|radius| distance > radius) || target.stop.half_space.is_some_and(is_below)
     }
 
@@ -73,89 +54,4 @@ impl Block {
         let corner = |x, y| target.footprint(PixelPoint::new(x, y));
         Cap::around(centre, &[corner(left, top)?, corner(right, top)?, corner(left, bottom)?, corner(right, bottom)?])
     }
-}
-
-impl Cap {
-    /// The cap around a centre that holds all between these corners; `None` where it would be wide.
-    pub(super) fn around(centre: Direction, corners: &[Footprint]) -> Option<Self> {
-        let (mut radius, mut pixel) = (0f64, 0f64);
-        for corner in corners {
-            radius = radius.max(BEND * centre.angle_to(corner.direction).radians());
-            let (dx, dy) = (corner.jacobian.dx, corner.jacobian.dy);
-            pixel = pixel.max(BEND * (dx.length_squared() + dy.length_squared()).sqrt());
-        }
-        (radius < WIDEST).then_some(Self { centre, radius, pixel })
-    }
-
-    /// The same with so many radians more around it.
-    pub(super) fn widened(self, by: f64) -> Self {
-        Self { radius: self.radius + by, ..self }
-    }
-
-    /// Radians from the centre.
-    pub(super) fn radius(&self) -> f64 {
-        self.radius
-    }
-
-    /// Whether the view's field stop cuts off nothing of it.
-    pub(super) fn is_clear_of_stop(&self, view: &View) -> bool {
-        let bounds = || view.cap_bounds(self.centre, Angle::from_radians(self.radius));
-        view.stop == FieldStop::NONE || self.passes_stop_of(view, &bounds())
-    }
-
-    /// Whether one source shows all of the cap.
-    pub(super) fn is_shown_by(&self, source: &Source) -> bool {
-        let view = &source.view;
-        let bounds = view.cap_bounds(self.centre, Angle::from_radians(self.radius));
-        let columns = source.period.is_some_and(|period| period <= view.width())
-            || (bounds.min.x >= 0.0 && bounds.max.x <= view.width() as f64);
-        let rows = bounds.min.y >= 0.0 && bounds.max.y <= view.height() as f64;
-        columns && rows && self.passes_stop_of(view, &bounds)
-    }
-
-    fn passes_stop_of(&self, view: &View, bounds: &PlaneRect) -> bool {
-        let half_space = view
-            .stop
-            .half_space
-            .is_none_or(|side| side.dot(view.orientation.to_view(self.centre)) >= self.radius.sin());
-        // A disc that holds the corners of a rectangle holds the rectangle.
-        let in_circle = |radius: f64| {
-            let corners = [
-                (bounds.min.x, bounds.min.y),
-                (bounds.max.x, bounds.min.y),
-                (bounds.min.x, bounds.max.y),
-                (bounds.max.x, bounds.max.y),
-            ];
-            corners.into_iter().all(|(x, y)| {
-                let point = view.grid.to_plane(PixelPoint::new(x, y));
-                point.x.hypot(point.y) <= radius
-            })
-        };
-        half_space && view.stop.circle.is_none_or(in_circle)
-    }
-
-    /// The texels of a source that the block's pixels themselves can fall in.
-    pub(super) fn seen_texels(&self, source: &Source) -> Option<PixelRect> {
-        texels_within(source, self.centre, self.radius)
-    }
-
-    /// The texels of a source that a kernel around the block's pixels can touch.
-    pub(super) fn read_texels(&self, source: &Source, kernel: &Kernel) -> Option<PixelRect> {
-        // The gather's own bound of a kernel, half as much again for what it takes as linear, and the few texels of the
-        // look-ups that have no kernel.
-        let unit = (kernel.scale * self.pixel).max(kernel.floor * source.texel_pitch);
-        let reach = 1.5 * kernel.radius().max(1.0) * unit + 3.0 * source.texel_pitch;
-        texels_within(source, self.centre, self.radius + reach)
-    }
-}
-
-fn texels_within(source: &Source, centre: Direction, radius: f64) -> Option<PixelRect> {
-    let (width, height) = (source.view.width(), source.view.height());
-    let bounds = source.view.cap_bounds(centre, Angle::from_radians(radius));
-    let wraps = source.period.is_some() && (bounds.min.x < 0.0 || bounds.max.x > width as f64);
-    let low = |value: f64, size: usize| value.floor().clamp(0.0, size as f64) as usize;
-    let high = |value: f64, size: usize| value.ceil().clamp(0.0, size as f64) as usize;
-    let (left, right) = if wraps { (0, width) } else { (low(bounds.min.x, width), high(bounds.max.x, width)) };
-    let (top, bottom) = (low(bounds.min.y, height), high(bounds.max.y, height));
-    (left < right && top < bottom).then_some(PixelRect { left, top, right, bottom })
 }

@@ -67,6 +67,10 @@ fn soften(candidates: &mut [Candidate]) {
     }
 }
 
+/// Texels whose second moments have a smaller determinant than this part of their product lie in a line, as far as single
+/// precision tells: rounding leaves some 1e-7 of it.
+pub(super) const THINNEST: f32 = 1e-6;
+
 /// What is added to the weights so that their centroid is the pixel's centre, their sum unchanged: v·g·(p − p̄).
 ///
 /// A radial kernel on a lattice of texels weighs one side a little more than the other, which shifts the picture by up
@@ -97,7 +101,7 @@ impl Correction {
         let xy = f64::from(xy) - f64::from(window_p[0]) * mean.y;
         let yy = f64::from(yy) - f64::from(window_p[1]) * mean.y;
         let determinant = xx * yy - xy * xy;
-        if determinant.is_nan() || determinant <= 1e-6 * xx * yy {
+        if determinant.is_nan() || determinant <= f64::from(THINNEST) * xx * yy {
             // All in one line: nothing to move the centroid with.
             return Self::default();
         }

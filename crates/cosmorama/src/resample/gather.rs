@@ -5,14 +5,14 @@
 
 use glam::{DMat2, DVec2};
 
-use super::block::Cap;
 use super::candidates::{Candidate, settle};
+use super::cap::{Cap, texels_within};
 use super::field_edge::FieldEdge;
 use super::kernel::KernelTable;
 use super::patch::Grid;
 use super::{Ellipse, Kernel, Taps, lookup};
-use crate::sphere::{Angle, Direction};
-use crate::world::{FieldStop, Footprint, PixelPoint, PixelRect, Source, View, World};
+use crate::sphere::Direction;
+use crate::world::{FieldStop, Footprint, PixelPoint, Source, View, World};
 
 /// A mapping is taken as linear over a kernel that is smaller than this part of the way to its nearest singularity. At a
 /// fifth, the tests find no point of a direction-coloured world displaced by more than 0.005 pixel.
@@ -69,7 +69,7 @@ impl<'a> Gather<'a> {
         }
         settle(&mut self.candidates, centred, taps);
         if at_rim {
-            taps.bound_by_slopes();
+            taps.bound_by_slope();
         }
         if taps.is_empty() {
             lookup::nearest(self.world, footprint.direction, |texel, weight| taps.push_under(texel, weight as f32));
@@ -257,7 +257,7 @@ impl<'a> Gather<'a> {
         let kernel = self.table.kernel();
         let coarseness = kernel.coarseness(jacobian.determinant().abs().sqrt()) as f32;
         let ellipse = Ellipse::new(jacobian * kernel.scale, self.floor(place));
-        let bounds = texels_within(source, footprint.direction, radius);
+        let Some(bounds) = texels_within(source, footprint.direction, radius) else { return };
         for j in bounds.top..bounds.bottom {
             let row = source.offset + j * source.view.width();
             source.view.row_directions(j, bounds.left..bounds.right, |i, texel| {
@@ -319,22 +319,4 @@ fn floor(value: f64) -> i64 {
 fn ceil(value: f64) -> i64 {
     let truncated = value as i64;
     truncated + i64::from(value > truncated as f64)
-}
-
-/// The texels that can lie within `radius` radians of a direction.
-fn texels_within(source: &Source, direction: Direction, radius: f64) -> PixelRect {
-    let view = &source.view;
-    let bounds = view.cap_bounds(direction, Angle::from_radians(radius));
-    let clamp = |value: f64, size: usize| value.clamp(0.0, size as f64) as usize;
-    let (left, right) = match source.period {
-        // The cap may lie across the seam; rows are short there or few.
-        Some(_) if bounds.min.x < 0.0 || bounds.max.x > view.width() as f64 => (0, view.width()),
-        _ => (clamp(bounds.min.x.floor(), view.width()), clamp(bounds.max.x.ceil(), view.width())),
-    };
-    PixelRect {
-        left,
-        top: clamp(bounds.min.y.floor(), view.height()),
-        right,
-        bottom: clamp(bounds.max.y.ceil(), view.height()),
-    }
 }

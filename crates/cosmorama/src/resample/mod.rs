@@ -2,14 +2,17 @@
 
 mod block;
 mod candidates;
+mod cap;
 mod cubics;
 mod ellipse;
+mod ellipses;
 mod ewa;
 mod field_edge;
 mod filter;
 mod gather;
 mod kernel;
 mod lookup;
+mod moments;
 mod need;
 mod patch;
 mod pixel_taps;
@@ -30,4 +33,4 @@ pub use need::{Need, Needs, Uncovered};
 pub(crate) use pixel_taps::PixelTaps;
 pub use plan::{Plan, Resampler};
 pub use screen_mask::ScreenMask;
-pub use taps::{Tap, Taps};
+use taps::{Tap, Taps};

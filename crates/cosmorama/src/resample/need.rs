@@ -3,7 +3,8 @@
 use rayon::prelude::*;
 
 use super::Filter;
-use super::block::{Block, Cap};
+use super::block::Block;
+use super::cap::Cap;
 use super::kernel::KernelTable;
 use super::pixel_taps::PixelTaps;
 use crate::sphere::Direction;

@@ -231,3 +231,85 @@ impl Density {
         })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sphere::CubeFace;
+    use crate::world::{CubeFaceFrame, Frame, World};
+
+    /// A point of a mapping, given its place at (s, t) and the derivatives of that, all over a patch that is 1 wide and high.
+    fn point(place: impl Fn(f64, f64) -> DVec2, (s, t): (f64, f64)) -> Point {
+        let step = 1e-5;
+        let slope = |ds: f64, dt: f64| (place(s + ds, t + dt) - place(s - ds, t - dt)) / (2.0 * step * SIDE as f64);
+        Point { place: place(s, t), jacobian: DMat2::from_cols(slope(step, 0.0), slope(0.0, step)) }
+    }
+
+    fn grid(place: impl Fn(f64, f64) -> DVec2) -> Grid<Point> {
+        std::array::from_fn(|y| std::array::from_fn(|x| point(&place, (x as f64 / 2.0, y as f64 / 2.0))))
+    }
+
+    fn world() -> World {
+        let front = Frame::CubeFace(CubeFaceFrame).view(64, 64).expect("a face");
+        World::new([(CubeFace::Front.name().to_owned(), front)]).expect("one view")
+    }
+
+    const EVEN: Density = Density { at: [0.0; 2], gradient: [0.0; 2], bend: [0.0; 3] };
+
+    /// A cubic across whose coefficients change linearly down, and the other way round.
+    fn bent(s: f64, t: f64) -> DVec2 {
+        DVec2::new(
+            20.3 + 7.0 * s + 0.5 * t + 0.1 * s * s * t - 0.06 * s * s * s + 0.05 * t * t * t,
+            11.8 - 0.4 * s + 6.5 * t - 0.08 * t * t + 0.07 * s * t * t * t + 0.04 * s * s * s * t,
+        )
+    }
+
+    #[test]
+    fn cubic_mappings_are_met_exactly() {
+        let world = world();
+        let patch = Patch::through(&world.sources()[0], &grid(bent), EVEN).expect("hardly bent");
+        for row in 0..SIDE {
+            let t = row as f64 / SIDE as f64;
+            let [left, right] = patch.bulge(row);
+            for column in 0..SIDE {
+                let s = column as f64 / SIDE as f64;
+                for axis in 0..2 {
+                    let side = f64::from(left[axis]) * (1.0 - s) + f64::from(right[axis]) * s;
+                    let found = patch.origin[axis] as f64 + patch.place[axis].at(column, t) + side;
+                    let exact = bent(s, t)[axis];
+                    assert!((found - exact).abs() < 2e-6, "({column}, {row}): {found}, not {exact}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn kinks_are_refused() {
+        let world = world();
+        let through = |place: &dyn Fn(f64, f64) -> DVec2| Patch::through(&world.sources()[0], &grid(place), EVEN);
+        assert!(through(&bent).is_some());
+        // Across, down, and around a point that none of the nine is near.
+        assert!(through(&|s, t| bent(s, t) + DVec2::new(0.2 * (s - 0.3).abs(), 0.0)).is_none());
+        assert!(through(&|s, t| bent(s, t) + DVec2::new(0.0, 0.2 * (t - 0.7).abs())).is_none());
+        assert!(through(&|s, t| bent(s, t) * (1.0 + 0.02 * (s - 0.3).hypot(t - 0.6))).is_none());
+    }
+
+    #[test]
+    fn parabolas_go_through_nine_points() {
+        let any = [[3.0, -1.0, 4.0], [1.0, -5.0, 9.0], [-2.0, 6.0, 5.0]];
+        let columns = Columns::parabolic(any);
+        for (y, row) in any.iter().enumerate() {
+            for (x, expected) in row[..2].iter().enumerate() {
+                assert!((columns.at(x * HALF, y as f64 / 2.0) - expected).abs() < 1e-6);
+            }
+        }
+        let parabola = |s: f64, t: f64| 2.0 + s - 3.0 * t + 0.5 * s * s - 2.0 * s * t + 1.5 * t * t + s * s * t * t;
+        let columns = Columns::parabolic([0.0, 0.5, 1.0].map(|t| [0.0, 0.5, 1.0].map(|s| parabola(s, t))));
+        for column in 0..SIDE {
+            for t in [0.0, 0.125, 0.4, 0.5, 0.9, 1.0] {
+                let expected = parabola(column as f64 / SIDE as f64, t);
+                assert!((columns.at(column, t) - expected).abs() < 2e-6, "{column}, {t}");
+            }
+        }
+    }
+}

@@ -5,7 +5,7 @@ use rayon::prelude::*;
 use super::kernel::KernelTable;
 use super::patch::SIDE;
 use super::scan::{Scan, Sink};
-use super::taps::average;
+use super::taps::{Bound, average};
 use super::window::Windows;
 use super::{Filter, FilterKind, Tap, Taps, reference};
 use crate::raster::{Image, Rgba};
@@ -34,10 +34,10 @@ struct Band {
 
 #[derive(Clone, Copy, Debug, Default)]
 struct PlannedPixel {
-    /// The first of its taps, how many there are, and how many of them, the first ones, lie under it.
+    /// The first of its taps, how many there are, and what holds their average.
     first: u32,
     taps: u32,
-    under: u32,
+    bound: Bound,
     /// The part of the pixel inside the field of view.
     coverage: f32,
 }
@@ -131,7 +131,7 @@ pub(super) struct Painter<'a> {
 
 impl Sink for Painter<'_> {
     fn pixel(&mut self, position: usize, coverage: f32, taps: &Taps) {
-        self.rows[position] = average(taps.as_slice(), taps.under(), self.texels, self.anti_ringing) * coverage;
+        self.rows[position] = average(taps.as_slice(), taps.bound(), self.texels, self.anti_ringing) * coverage;
     }
 
     fn windows(&mut self, position: usize, count: usize, windows: &Windows) {
@@ -182,7 +182,7 @@ impl Plan {
         rows.zip(&self.bands).for_each(|(rows, band)| {
             for (pixel, planned) in rows.iter_mut().zip(&band.pixels) {
                 let taps = &band.taps[planned.first as usize..][..planned.taps as usize];
-                *pixel = average(taps, planned.under as usize, texels, self.anti_ringing) * planned.coverage;
+                *pixel = average(taps, planned.bound, texels, self.anti_ringing) * planned.coverage;
             }
         });
         image
@@ -204,7 +204,7 @@ impl Band {
         self.pixels[position] = PlannedPixel {
             first: self.taps.len() as u32,
             taps: taps.as_slice().len() as u32,
-            under: taps.under() as u32,
+            bound: taps.bound(),
             coverage,
         };
         self.taps.extend_from_slice(taps.as_slice());

@@ -3,50 +3,61 @@ use crate::raster::Rgba;
 
 /// One texel's part in an output pixel.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Tap {
+pub(crate) struct Tap {
     /// Index of the texel in the world's buffer.
-    pub texel: u32,
+    pub(super) texel: u32,
     /// Its weight.
-    pub weight: f32,
+    pub(super) weight: f32,
+}
+
+/// What anti-ringing holds the average of taps to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Bound {
+    /// What those under the pixel hold: the first ones, so many.
+    Under(u32),
+    /// What all of them hold, and beyond it where a slope goes on: the field of view ends under the pixel.
+    Slope,
 }
 
 /// All the texels of an output pixel with their weights: what a filter makes of a footprint.
-///
-/// The taps under the pixel come first: anti-ringing clamps the average to what they hold. Where the field of view ends
-/// under the pixel, all of them bound it, and a slope may go on beyond the last ([`Taps::under`] is zero then).
 #[derive(Clone, Debug, Default)]
-pub struct Taps {
+pub(crate) struct Taps {
     taps: Vec<Tap>,
-    under: usize,
+    bound: Bound,
+}
+
+impl Default for Bound {
+    fn default() -> Self {
+        Self::Under(0)
+    }
 }
 
 impl Taps {
     /// Forgets all taps but keeps the memory.
-    pub fn clear(&mut self) {
+    pub(super) fn clear(&mut self) {
         self.taps.clear();
-        self.under = 0;
+        self.bound = Bound::default();
     }
 
     /// All taps, those under the pixel first.
-    pub fn as_slice(&self) -> &[Tap] {
+    pub(super) fn as_slice(&self) -> &[Tap] {
         &self.taps
     }
 
-    /// How many of the taps lie under the pixel; zero where the field of view ends there.
-    pub fn under(&self) -> usize {
-        self.under
+    /// What their average is held to.
+    pub(super) fn bound(&self) -> Bound {
+        self.bound
     }
 
     /// Whether there is no tap.
-    pub fn is_empty(&self) -> bool {
+    pub(super) fn is_empty(&self) -> bool {
         self.taps.is_empty()
     }
 
-    /// Adds a tap under the pixel; all those around it come after.
+    /// Adds a tap, all of which lie under the pixel.
     pub(super) fn push_under(&mut self, texel: u32, weight: f32) {
-        debug_assert_eq!(self.under, self.taps.len());
         self.taps.push(Tap { texel, weight });
-        self.under += 1;
+        self.bound = Bound::Under(self.taps.len() as u32);
     }
 
     /// Takes `count` taps, each with whether it is one of the `under` that lie under the pixel.
@@ -54,7 +65,7 @@ impl Taps {
         self.taps.clear();
         self.taps.resize(count, Tap { texel: 0, weight: 0.0 });
         // Where none lies under the pixel, beyond a view's edge, all of them bound it.
-        self.under = if under == 0 { count } else { under };
+        self.bound = Bound::Under(if under == 0 { count } else { under } as u32);
         // Each tap goes to the end of its own part.
         let mut ends = [under, 0];
         for (is_under, tap) in taps {
@@ -65,8 +76,8 @@ impl Taps {
     }
 
     /// The field of view ends under the pixel.
-    pub(super) fn bound_by_slopes(&mut self) {
-        self.under = 0;
+    pub(super) fn bound_by_slope(&mut self) {
+        self.bound = Bound::Slope;
     }
 
     /// Scales the weights to a sum of one.
@@ -82,11 +93,14 @@ impl Taps {
 /// lose digits, and a common one pays nothing.
 const BLOCK: usize = 32;
 
-/// The weighted average of taps; `under` of them, at the front, are those under the pixel, zero at the field's edge.
-pub(super) fn average(taps: &[Tap], under: usize, texels: &[Rgba], anti_ringing: bool) -> Rgba {
+/// The weighted average of taps, held to their bound if there is to be no ringing.
+pub(super) fn average(taps: &[Tap], bound: Bound, texels: &[Rgba], anti_ringing: bool) -> Rgba {
     let mut sum = [0f64; 4];
     let (mut least, mut greatest) = ([f32::INFINITY; 4], [f32::NEG_INFINITY; 4]);
-    let (inner, outer) = taps.split_at(under);
+    let (inner, outer) = match bound {
+        Bound::Under(count) => taps.split_at(count as usize),
+        Bound::Slope => (&[][..], taps),
+    };
     for block in inner.chunks(BLOCK) {
         let mut part = [0f32; 4];
         for tap in block {
@@ -110,10 +124,12 @@ pub(super) fn average(taps: &[Tap], under: usize, texels: &[Rgba], anti_ringing:
         add(&mut sum, part);
     }
     let average = Rgba(sum.map(|value| value as f32));
-    match under {
+    match bound {
         _ if !anti_ringing => average,
-        0 => slope::clamp(average, taps.iter().map(|tap| texels[tap.texel as usize])),
-        _ => Rgba(std::array::from_fn(|c| average.0[c].max(least[c]).min(greatest[c]))),
+        // No tap at all.
+        Bound::Under(0) => average,
+        Bound::Slope => slope::clamp(average, taps.iter().map(|tap| texels[tap.texel as usize])),
+        Bound::Under(_) => Rgba(std::array::from_fn(|c| average.0[c].max(least[c]).min(greatest[c]))),
     }
 }
 

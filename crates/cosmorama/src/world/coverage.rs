@@ -161,3 +161,40 @@ impl View {
         Some(ScreenPixel { coverage: count as f64 / (SUB_SAMPLES * SUB_SAMPLES) as f64, footprint })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sphere::{Angle, Orientation};
+    use crate::world::{Frame, OmnimaxFrame};
+
+    /// The largest difference between coverage that is decided quickly and that of sub-samples each asked for itself, and how
+    /// many pixels are cut.
+    fn worst(view: &View) -> (f64, usize) {
+        let (mut worst, mut cut) = (0f64, 0);
+        for (j, i) in (0..view.height()).flat_map(|j| (0..view.width()).map(move |i| (j, i))) {
+            let slow = view.cut_pixel(i as f64, j as f64, |sample| view.shows(sample));
+            let [quick, slow] = [view.screen_pixel(i, j), slow].map(|pixel| pixel.map_or(0.0, |pixel| pixel.coverage));
+            worst = worst.max((quick - slow).abs());
+            cut += usize::from(slow > 0.0 && slow < 1.0);
+        }
+        (worst, cut)
+    }
+
+    #[test]
+    fn straight_great_circles_cut_as_the_stop_does() {
+        let frame = Frame::Omnimax(OmnimaxFrame { axis: Angle::from_degrees(11.0), ..OmnimaxFrame::default() });
+        let view = frame.view(491, 359).expect("an Omnimax frame");
+        let turned = Orientation::from_yaw_pitch_roll(
+            Angle::from_degrees(20.0),
+            Angle::from_degrees(-30.0),
+            Angle::from_degrees(5.0),
+        );
+        for view in [view, View { orientation: turned, ..view }] {
+            let (worst, cut) = worst(&view);
+            assert!(cut > 500, "{cut} pixels are cut");
+            // A row of sub-samples that just touches the circle may fall to either side.
+            assert!(worst < 1.0 / SUB_SAMPLES as f64, "{worst}");
+        }
+    }
+}

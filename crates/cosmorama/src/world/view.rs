@@ -19,6 +19,9 @@ pub struct Footprint {
 /// Texels from a steep rim within which a texel is measured from side to side.
 const STEEP: f64 = 4.0;
 
+/// Pixels by which rounding may displace a point: what is nearer to an edge, or to a whole number of columns, is there.
+pub(super) const ROUNDING: f64 = 1e-6;
+
 /// An image's geometry: how its pixels see the world. As a source it says where its texels lie, as a target which
 /// pixels are wanted; the image itself is elsewhere.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -62,7 +65,7 @@ impl View {
     pub fn covers_sphere(&self) -> bool {
         let sees_pole = |pole| {
             let pole = self.orientation.to_world(pole);
-            self.pixel(pole).is_some_and(|pixel| (-1e-6..=self.height() as f64 + 1e-6).contains(&pixel.y))
+            self.pixel(pole).is_some_and(|pixel| (-ROUNDING..=self.height() as f64 + ROUNDING).contains(&pixel.y))
         };
         self.period().is_some_and(|period| period <= self.width())
             && self.stop == FieldStop::NONE
@@ -139,7 +142,7 @@ impl View {
 
     /// Solid angle in steradians (to first order) of a texel around a point of the image or beyond it, whether or not it
     /// shows something.
-    pub fn solid_angle(&self, pixel: PixelPoint) -> Option<f64> {
+    pub(crate) fn solid_angle(&self, pixel: PixelPoint) -> Option<f64> {
         let (jacobian, step) = (self.projection.jacobian(self.grid.to_plane(pixel))?, self.grid.step());
         let solid_angle = jacobian.solid_angle() * (step.x * step.y).abs();
         if !self.projection.has_steep_rim() {
@@ -160,7 +163,7 @@ impl View {
     pub fn period(&self) -> Option<usize> {
         let columns = (self.projection.period()? / self.grid.step().x).abs();
         let whole = columns.round();
-        ((columns - whole).abs() < 1e-6 && whole >= 1.0).then_some(whole as usize)
+        ((columns - whole).abs() < ROUNDING && whole >= 1.0).then_some(whole as usize)
     }
 
     /// Whether the field stop lets a point of the plane pass, inside the image or outside it.

@@ -2,6 +2,7 @@ use rayon::prelude::*;
 use thiserror::Error;
 
 use super::blend::{Blend, Presence, parts};
+use super::view::ROUNDING;
 use super::{PixelPoint, PixelRect, View, overlap};
 use crate::projection::Projection;
 use crate::sphere::Direction;
@@ -160,7 +161,6 @@ impl World {
 
     fn first_to_hold(&self, direction: Direction) -> Option<(usize, PixelPoint)> {
         // A direction on the very edge between two views may miss both by a rounding error.
-        const ROUNDING: f64 = 1e-6;
         self.sources.iter().enumerate().find_map(|(index, source)| {
             let pixel = source.view.wrapped(source.view.pixel(direction)?);
             let (width, height) = (source.view.width() as f64, source.view.height() as f64);

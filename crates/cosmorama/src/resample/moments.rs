@@ -1,0 +1,118 @@
+//! The moments of eight pixels' weights at once, and what moves their centroids.
+
+use fearless_simd::{f32x8, prelude::*};
+
+use super::candidates::THINNEST;
+
+/// Sums over a window: of the weights w and slacks v, and of their products with the offsets.
+pub(super) struct Moments<S: Simd> {
+    w: f32x8<S>,
+    wx: f32x8<S>,
+    wy: f32x8<S>,
+    v: f32x8<S>,
+    vx: f32x8<S>,
+    vy: f32x8<S>,
+    vxx: f32x8<S>,
+    vxy: f32x8<S>,
+    vyy: f32x8<S>,
+}
+
+/// The same sums over one row of a window, where the offset down is one.
+pub(super) struct RowSums<S: Simd> {
+    w: f32x8<S>,
+    wx: f32x8<S>,
+    v: f32x8<S>,
+    vx: f32x8<S>,
+    vxx: f32x8<S>,
+}
+
+impl<S: Simd> RowSums<S> {
+    #[inline(always)]
+    pub(super) fn zero(simd: S) -> Self {
+        let zero = f32x8::splat(simd, 0.0);
+        Self { w: zero, wx: zero, v: zero, vx: zero, vxx: zero }
+    }
+
+    /// Adds a texel at an offset across.
+    #[inline(always)]
+    pub(super) fn add(&mut self, w: f32x8<S>, v: f32x8<S>, x: f32x8<S>) {
+        let vx = v * x;
+        self.w += w;
+        self.wx += w * x;
+        self.v += v;
+        self.vx += vx;
+        self.vxx += vx * x;
+    }
+}
+
+impl<S: Simd> Moments<S> {
+    #[inline(always)]
+    pub(super) fn zero(simd: S) -> Self {
+        let zero = f32x8::splat(simd, 0.0);
+        Self { w: zero, wx: zero, wy: zero, v: zero, vx: zero, vy: zero, vxx: zero, vxy: zero, vyy: zero }
+    }
+
+    /// Adds a row at an offset down.
+    #[inline(always)]
+    pub(super) fn add(&mut self, row: &RowSums<S>, y: f32x8<S>) {
+        self.w += row.w;
+        self.wx += row.wx;
+        self.wy += row.w * y;
+        self.v += row.v;
+        self.vx += row.vx;
+        self.vy += row.v * y;
+        self.vxx += row.vxx;
+        self.vxy += row.vx * y;
+        self.vyy += row.v * y * y;
+    }
+
+    /// What makes the weights' sum one and, if they are to be `centred`, moves their centroid onto the pixel's centre, as
+    /// [`super::candidates`] does.
+    ///
+    /// Offsets in texels serve as well as offsets on the screen: the correction is linear in them.
+    #[inline(always)]
+    pub(super) fn correction(&self, simd: S, centred: bool) -> Correction<S> {
+        let zero = f32x8::splat(simd, 0.0);
+        let scale = (zero + 1.0) / self.w;
+        let (mean_x, mean_y) = (self.vx / self.v, self.vy / self.v);
+        let xx = self.vxx - self.vx * mean_x;
+        let xy = self.vxy - self.vx * mean_y;
+        let yy = self.vyy - self.vy * mean_y;
+        let determinant = xx * yy - xy * xy;
+        let factor =
+            if centred { determinant.simd_gt(xx * yy * THINNEST).select(scale / determinant, zero) } else { zero };
+        let (gx, gy) = ((xy * self.wy - yy * self.wx) * factor, (xy * self.wx - xx * self.wy) * factor);
+        Correction { scale, gx, gy, constant: zero - gx * mean_x - gy * mean_y }
+    }
+}
+
+/// What becomes of a window's weights: w·scale + v·(g·p + constant).
+pub(super) struct Correction<S: Simd> {
+    scale: f32x8<S>,
+    gx: f32x8<S>,
+    gy: f32x8<S>,
+    constant: f32x8<S>,
+}
+
+/// The same for one row.
+pub(super) struct RowCorrection<S: Simd> {
+    scale: f32x8<S>,
+    gx: f32x8<S>,
+    constant: f32x8<S>,
+}
+
+impl<S: Simd> Correction<S> {
+    /// In the row at an offset down.
+    #[inline(always)]
+    pub(super) fn row(&self, y: f32x8<S>) -> RowCorrection<S> {
+        RowCorrection { scale: self.scale, gx: self.gx, constant: self.gy * y + self.constant }
+    }
+}
+
+impl<S: Simd> RowCorrection<S> {
+    /// The corrected weight of a texel at an offset across.
+    #[inline(always)]
+    pub(super) fn apply(&self, w: f32x8<S>, v: f32x8<S>, x: f32x8<S>) -> f32x8<S> {
+        w * self.scale + v * (self.gx * x + self.constant)
+    }
+}
