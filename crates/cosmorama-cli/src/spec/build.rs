@@ -1,9 +1,12 @@
+use std::path::Path;
+
 use cosmorama::sphere::Angle;
 use cosmorama::world::{
     CylinderKind, EquirectFrame, FieldOfView, FisheyeFrame, Frame, FulldomeFrame, OmnimaxFrame, OmnimaxFraming,
     PerspectiveFrame, Placement, StereographicFrame, WorldMapFrame,
 };
 
+use super::calibration::{Family, calibrated};
 use super::cube::Cube;
 use super::fields::Fields;
 use super::lens::fisheye;
@@ -13,19 +16,25 @@ use super::{SpecError, angle::parse_degrees};
 
 impl Shape {
     /// The shape of a name of the table and keys of that name.
-    pub(super) fn build(name: &str, pairs: Vec<(String, String)>) -> Result<Self, SpecError> {
-        let fields = Fields::new(pairs);
+    pub(super) fn build(name: &str, pairs: Vec<(String, String)>, folder: &Path) -> Result<Self, SpecError> {
+        let fields = Fields::new(pairs, folder);
         let mut samples = SphereSamples::NotAPanorama;
         let frame = match name {
             "cube" => return Cube::build(&fields).map(Self::Cube),
-            "perspective" => Frame::Perspective(perspective(&fields)?),
+            "perspective" => match calibrated(&fields, Family::Pinhole)? {
+                Some(frame) => Frame::Calibrated(frame),
+                None => Frame::Perspective(perspective(&fields)?),
+            },
             "equirect" => {
                 let frame = equirect(&fields)?;
                 let given = fields.get("samples").is_some();
                 samples = if given { SphereSamples::Given(frame.samples) } else { SphereSamples::ByFormat };
                 Frame::Equirect(frame)
             }
-            "fisheye" => Frame::Fisheye(fisheye(&fields)?),
+            "fisheye" => match calibrated(&fields, Family::Fisheye)? {
+                Some(frame) => Frame::Calibrated(frame),
+                None => Frame::Fisheye(fisheye(&fields)?),
+            },
             "stereographic" => Frame::Stereographic(stereographic(&fields)?),
             "fulldome" => Frame::Fulldome(fulldome(&fields)?),
             "omnimax" => Frame::Omnimax(omnimax(&fields)?),

@@ -5,6 +5,7 @@
 mod alias;
 mod angle;
 mod build;
+mod calibration;
 mod cube;
 mod fields;
 pub(crate) mod kind;
