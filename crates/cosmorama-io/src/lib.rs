@@ -4,6 +4,7 @@
 //! whole or not at all. [`FaceSet`] finds the faces of a cube by the naming presets of other tools, and
 //! [`FramePattern`] the frames of a sequence.
 
+mod calibration;
 mod error;
 mod face_set;
 mod file;
@@ -17,6 +18,7 @@ pub mod pending;
 mod sequence;
 pub mod svg;
 
+pub use calibration::{Calibration, CalibrationError, Distortion};
 pub use error::IoError;
 pub use face_set::{FaceFile, FacePattern, FacePlacement, FaceSet, LetterCase, Naming};
 pub use file::{Header, ImageFile, WriteOptions, probe, read, write, write_planes};

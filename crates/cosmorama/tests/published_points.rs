@@ -1,7 +1,12 @@
 //! Points of published references, to the digits that those print.
 
-use cosmorama::projection::{Octahedral, OctahedralKind, PlanePoint, Projection, ProjectionKind};
+use cosmorama::projection::azimuthal::{FisheyeLens, KannalaBrandt};
+use cosmorama::projection::{
+    BrownConrady, BrownConradyCoefficients, Octahedral, OctahedralKind, PlanePoint, Projection, ProjectionKind,
+};
 use cosmorama::sphere::{Angle, Direction};
+use cosmorama::world::{CalibratedFrame, CalibratedLens, CameraMatrix, Frame, PixelPoint};
+use glam::DVec3;
 
 /// PROJ's test/gie/builtins.gie, on the sphere of 6 400 000 m: longitude 2°, latitude 1°, and where that lands in metres.
 /// PROJ compares to 0.1 mm.
@@ -44,5 +49,83 @@ fn the_equal_area_octahedron_is_pbrt_s() {
         let seen = octahedron.unproject(PlanePoint::new(x, y)).expect("in the square").vector();
         let error = (seen.x - px).abs() + (seen.y - py).abs() + (seen.z + pz).abs();
         assert!(error < 1e-14, "({x}, {y}): {seen}, not ({px}, {py}, {pz})");
+    }
+}
+
+/// Points (x right, y down, z ahead) whose images OpenCV 5.0 computed.
+const POINTS: [[f64; 3]; 3] = [[0.3, -0.2, 1.0], [-0.5, 0.4, 1.0], [0.05, 0.6, 1.0]];
+
+/// The images of those points by a camera of focal lengths 500 and 510 and the axis at (330, 250), in OpenCV's pixels: the
+/// first one's CENTRE is at (0, 0).
+fn is_seen_as(lens: CalibratedLens, skew: f64, expected: [[f64; 2]; 3]) {
+    let matrix = CameraMatrix::from_rows([[500.0, 500.0 * skew, 330.0], [0.0, 510.0, 250.0]]).expect("a camera");
+    let frame = CalibratedFrame { lens, matrix, size: Some((640, 480)), field_of_view: None };
+    let view = Frame::Calibrated(frame).view(640, 480).expect("a view");
+    // Of twice the size, the same.
+    let large = Frame::Calibrated(frame).view(1280, 960).expect("a view");
+    for ([x, y, z], [column, row]) in POINTS.into_iter().zip(expected) {
+        let direction = Direction::new(DVec3::new(x, -y, -z)).expect("a direction");
+        let PixelPoint { x, y } = view.pixel(direction).expect("in the picture");
+        assert!((x - 0.5 - column).hypot(y - 0.5 - row) < 1e-9, "({x}, {y}), not ({column}, {row})");
+        let back = view.direction(PixelPoint::new(column + 0.5, row + 0.5)).expect("in the picture");
+        assert!(back.angle_to(direction).radians() < 1e-12);
+        let twice = large.pixel(direction).expect("in the picture");
+        assert!((twice.x - 2.0 * x).hypot(twice.y - 2.0 * y) < 1e-9);
+    }
+}
+
+/// `cv2.projectPoints(P, zeros(3), zeros(3), [[500,0,330],[0,510,250],[0,0,1]], D)` of opencv-python-headless 5.0.0.
+#[test]
+fn bending_pinholes_are_those_of_opencv() {
+    let cases: [(&[f64], [[f64; 2]; 3]); 4] = [
+        (
+            &[-0.28, 0.07, 0.001, -0.0005],
+            [
+                [474.579_95, 151.729_833_999_999_98],
+                [105.330_750_000_000_02, 433.455_568],
+                [352.630_585_937_5, 528.292_496_875_000_1],
+            ],
+        ),
+        (
+            &[-0.265, -0.047, 0.0018, -0.0003, 0.252],
+            [
+                [474.641_901_6, 151.749_586_911_999_98],
+                [104.299_151_999_999_99, 434.498_087_968_000_05],
+                [352.743_009_179_687_5, 529.372_757_359_375_1],
+            ],
+        ),
+        (
+            &[10.7, 5.9, 1e-4, -2e-4, 0.28, 11.1, 9.9, 1.5],
+            [
+                [472.945_088_918_928_26, 152.795_129_535_128_75],
+                [111.332_418_295_496_61, 428.420_200_670_874_8],
+                [352.117_886_634_185_94, 521.185_119_902_436_1],
+            ],
+        ),
+        (
+            &[10.7, 5.9, 1e-4, -2e-4, 0.28, 11.1, 9.9, 1.5, 1e-3, -2e-4, 5e-4, 1e-4],
+            [
+                [473.008_398_918_928_26, 152.829_141_435_128_78],
+                [111.520_608_295_496_6, 428.533_323_770_874_74],
+                [352.285_996_009_185_96, 521.284_259_121_186_2],
+            ],
+        ),
+    ];
+    for (numbers, expected) in cases {
+        let lens = BrownConrady::new(BrownConradyCoefficients::from_opencv(numbers)).expect("a lens");
+        is_seen_as(CalibratedLens::Pinhole(lens), 0.0, expected);
+    }
+}
+
+/// `cv2.fisheye.projectPoints` of the same, D of OpenCV's own test, then with alpha=0.005.
+#[test]
+fn fisheyes_are_those_of_opencv() {
+    let k = [-0.001_443_158_604_254_17, -0.003_206_632_575_51, 0.004_266_118_817_27, -0.001_640_443_139_6];
+    let lens = CalibratedLens::Fisheye(FisheyeLens::KannalaBrandt(KannalaBrandt::from_opencv(k).expect("a lens")));
+    let rows = [152.125_062_035_689_27, 431.327_604_141_929_95, 525.271_868_808_045_8];
+    let upright = [473.933_732_300_456_94, 107.784_798_845_674_09, 352.489_531_765_363_2];
+    let skewed = [473.453_953_192_788_73, 108.673_659_650_291_4, 353.838_903_671_285_04];
+    for (skew, columns) in [(0.0, upright), (0.005, skewed)] {
+        is_seen_as(lens, skew, [0, 1, 2].map(|at| [columns[at], rows[at]]));
     }
 }

@@ -73,8 +73,7 @@ impl Entry {
     fn find(&self, source: &Text, wanted: Option<&FrameList>, warnings: &mut Vec<String>) -> Result<Input> {
         let feather = self.feather(source)?;
         let spec = self.spec(source)?;
-        let folder = Path::new(source.name).parent().unwrap_or(Path::new(""));
-        let pattern = folder.join(self.image.get_ref()).to_string_lossy().into_owned();
+        let pattern = source.folder().join(self.image.get_ref()).to_string_lossy().into_owned();
         if is_world_file(&pattern) {
             let message = format!("{pattern} is a world file itself; list its views here");
             return Err(source.error(Some(self.image.span()), &message));
@@ -92,7 +91,7 @@ impl Entry {
 
     fn spec(&self, source: &Text) -> Result<Option<Spec>> {
         let Some(spec) = &self.spec else { return Ok(None) };
-        let parsed: Result<Spec, _> = spec.get_ref().parse();
+        let parsed = Spec::parse_in(source.folder(), spec.get_ref());
         let told = |error| source.error(Some(spec.span()), &format!("spec = \"{}\": {error}", spec.get_ref()));
         parsed.map(Some).map_err(told)
     }
@@ -109,6 +108,11 @@ impl Entry {
 }
 
 impl Text<'_> {
+    /// Where the files lie that it names.
+    fn folder(&self) -> &Path {
+        Path::new(self.name).parent().unwrap_or(Path::new(""))
+    }
+
     fn error(&self, span: Option<Range<usize>>, message: &str) -> anyhow::Error {
         anyhow!("{}: {message}", self.place(span))
     }

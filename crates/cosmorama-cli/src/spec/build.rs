@@ -4,6 +4,7 @@ use cosmorama::world::{
     PerspectiveFrame, Placement, StereographicFrame, WorldMapFrame,
 };
 
+use super::calibration::{Family, calibrated};
 use super::cube::Cube;
 use super::dual::Dual;
 use super::fields::Fields;
@@ -19,14 +20,20 @@ impl Shape {
         let frame = match name {
             "cube" => return Cube::build(fields).map(Self::Cube),
             "dual-fisheye" => return Dual::build(fields).map(Self::Dual),
-            "perspective" => Frame::Perspective(perspective(fields)?),
+            "perspective" => match calibrated(fields, Family::Pinhole)? {
+                Some(frame) => Frame::Calibrated(frame),
+                None => Frame::Perspective(perspective(fields)?),
+            },
             "equirect" => {
                 let frame = equirect(fields)?;
                 let given = fields.get("samples").is_some();
                 samples = if given { SphereSamples::Given(frame.samples) } else { SphereSamples::ByFormat };
                 Frame::Equirect(frame)
             }
-            "fisheye" => Frame::Fisheye(fisheye(fields)?),
+            "fisheye" => match calibrated(fields, Family::Fisheye)? {
+                Some(frame) => Frame::Calibrated(frame),
+                None => Frame::Fisheye(fisheye(fields)?),
+            },
             "stereographic" => Frame::Stereographic(stereographic(fields)?),
             "fulldome" => Frame::Fulldome(fulldome(fields)?),
             "omnimax" => Frame::Omnimax(omnimax(fields)?),

@@ -1,3 +1,5 @@
+use std::path::{Path, PathBuf};
+
 use cosmorama::sphere::{Angle, Orientation};
 use cosmorama::world::{Canvas, LensCircle, Mirror, PixelPoint, SamplePositions};
 
@@ -5,12 +7,17 @@ use super::SpecError;
 use super::angle::parse_degrees;
 use super::window::parse_window;
 
-/// The keys and values of a SPEC, all known to exist, to be read by kind.
-pub(super) struct Fields(Vec<(String, String)>);
+/// The keys and values of a SPEC, all known to exist, to be read by kind; and the folder in which it names files.
+pub(super) struct Fields<'a>(Vec<(String, String)>, &'a Path);
 
-impl Fields {
-    pub(super) fn new(pairs: Vec<(String, String)>) -> Self {
-        Self(pairs)
+impl<'f> Fields<'f> {
+    pub(super) fn new(pairs: Vec<(String, String)>, folder: &'f Path) -> Self {
+        Self(pairs, folder)
+    }
+
+    /// A file that the SPEC names.
+    pub(super) fn file(&self, key: &str) -> Option<PathBuf> {
+        self.get(key).map(|name| self.1.join(name))
     }
 
     pub(super) fn get(&self, key: &str) -> Option<&str> {

@@ -69,6 +69,11 @@ pub(crate) static KINDS: [Kind; 18] = [
             key("fov", "DEGREES", "horizontal field of view (90)"),
             key("vfov", "DEGREES", "vertical field of view; with fov=, the pixels fit"),
             key("dfov", "DEGREES", "diagonal field of view"),
+            key(
+                "calibration",
+                "FILE",
+                "a camera measured by OpenCV (YAML, JSON, XML: k1 k2 p1 p2 k3 …); with fov=, only so wide a cone counts",
+            ),
         ],
         takes_aspect: true,
     },
@@ -99,6 +104,11 @@ pub(crate) static KINDS: [Kind; 18] = [
             key("sensor", "MM", "instead of fit=: the image's width in millimetres (polynomial)"),
             key("center", "X:Y", "the circle's centre in pixels"),
             key("radius", "PIXELS", "the circle's radius in pixels"),
+            key(
+                "calibration",
+                "FILE",
+                "a lens measured by OpenCV's fisheye model (YAML, JSON, XML) or OCamCalib; with fov=, only so much counts",
+            ),
         ],
         takes_aspect: true,
     },

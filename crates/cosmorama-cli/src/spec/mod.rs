@@ -5,6 +5,7 @@
 mod alias;
 mod angle;
 mod build;
+mod calibration;
 mod cube;
 mod dual;
 mod fields;

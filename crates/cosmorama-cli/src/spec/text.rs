@@ -1,3 +1,4 @@
+use std::path::Path;
 use std::str::FromStr;
 
 use cosmorama::projection::azimuthal::LensError;
@@ -48,6 +49,9 @@ pub(crate) enum SpecError {
     /// Coefficients of which no lens can be made.
     #[error("k={value}: {error}")]
     Coefficients { value: String, error: LensError },
+    /// A calibration that cannot be read, or of which no camera can be made.
+    #[error("calibration={reason}")]
+    Calibration { reason: String },
     /// Keys that say the same thing differently.
     #[error("{first}= and {second}= cannot both be given")]
     Both { first: &'static str, second: &'static str },
@@ -70,6 +74,13 @@ impl FromStr for Spec {
     type Err = SpecError;
 
     fn from_str(text: &str) -> Result<Self, SpecError> {
+        Self::parse_in(Path::new(""), text)
+    }
+}
+
+impl Spec {
+    /// A SPEC that names files as seen from a folder.
+    pub(crate) fn parse_in(folder: &Path, text: &str) -> Result<Self, SpecError> {
         let text = without_alias(text);
         let (name, rest) = text.split_once(':').unwrap_or((&text, ""));
         if is_refused(name) {
@@ -83,7 +94,7 @@ impl FromStr for Spec {
                 return Err(SpecError::Twice { key: key.clone() });
             }
         }
-        let fields = Fields::new(pairs);
+        let fields = Fields::new(pairs, folder);
         Ok(Self { name: kind.name, shape: Shape::build(kind.name, &fields)?, stereo: StereoSpec::build(&fields)? })
     }
 }

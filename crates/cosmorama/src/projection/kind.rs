@@ -4,8 +4,8 @@ use super::azimuthal::{Azimuthal, FisheyeLens, OmnimaxLens};
 use super::cylindrical::{Central, Cylindrical, EqualArea, Equirectangular, Mercator};
 use super::pseudocylindrical::{Mollweide, Pseudocylindrical, Sinusoidal};
 use super::{
-    EquiAngular, Hammer, MirrorBall, Octahedral, OctahedralKind, Pannini, Perspective, PlanePoint, PlaneRect,
-    Projection,
+    BrownConrady, BrownConradyCoefficients, Calibrated, EquiAngular, Hammer, MirrorBall, Octahedral, OctahedralKind,
+    Pannini, Perspective, PlanePoint, PlaneRect, Projection,
 };
 use crate::sphere::{Angle, Direction, DirectionJacobian};
 
@@ -18,6 +18,10 @@ pub enum ProjectionKind {
     Omnimax(Azimuthal<OmnimaxLens>),
     /// A fisheye lens.
     Fisheye(Azimuthal<FisheyeLens>),
+    /// A camera whose lens bends straight lines.
+    Pinhole(Calibrated<BrownConrady>),
+    /// A fisheye whose sensor is skewed.
+    SkewedFisheye(Calibrated<Azimuthal<FisheyeLens>>),
     /// The panorama of longitude by latitude.
     Equirectangular(Cylindrical<Equirectangular>),
     /// A face of an equi-angular cube map.
@@ -93,8 +97,25 @@ impl ProjectionKind {
         let panninis = [0.0, 0.5, 1.0, 2.0].into_iter().filter_map(Pannini::from_distance).map(Self::Pannini);
         let octahedra =
             [OctahedralKind::EqualArea, OctahedralKind::Plain].map(|kind| Self::Octahedral(Octahedral(kind)));
-        plain.into_iter().chain(lenses).chain(balls).chain(panninis).chain(octahedra).collect()
+        let cameras = cameras().into_iter();
+        plain.into_iter().chain(cameras).chain(lenses).chain(balls).chain(panninis).chain(octahedra).collect()
     }
+}
+
+/// Cameras as they are measured: bent along radii, every way, by a quotient, and skewed.
+fn cameras() -> Vec<ProjectionKind> {
+    let bent = [
+        &[-0.28, 0.07, 0.0, 0.0][..],
+        &[-0.265, -0.047, 0.0018, -0.0003, 0.252],
+        &[10.7, 5.9, 1e-4, -2e-4, 0.28, 11.1, 9.9, 1.5, 1e-3, -2e-4, 5e-4, 1e-4],
+    ];
+    let lenses = bent.into_iter().filter_map(|numbers| {
+        let lens = BrownConrady::new(BrownConradyCoefficients::from_opencv(numbers)).ok()?;
+        Some(ProjectionKind::Pinhole(Calibrated::new(lens, 0.003, Angle::HALF_TURN)))
+    });
+    let fisheye = Azimuthal(FisheyeLens::EQUISOLID);
+    let skewed = ProjectionKind::SkewedFisheye(Calibrated::new(fisheye, -0.02, Angle::from_degrees(95.0)));
+    lenses.chain(std::iter::once(skewed)).collect()
 }
 
 /// Calls a method of the projection that is inside.
@@ -104,6 +125,8 @@ macro_rules! each {
             ProjectionKind::Perspective($projection) => $call,
             ProjectionKind::Omnimax($projection) => $call,
             ProjectionKind::Fisheye($projection) => $call,
+            ProjectionKind::Pinhole($projection) => $call,
+            ProjectionKind::SkewedFisheye($projection) => $call,
             ProjectionKind::Equirectangular($projection) => $call,
             ProjectionKind::EquiAngular($projection) => $call,
             ProjectionKind::Mercator($projection) => $call,

@@ -4,6 +4,8 @@
 //! [`crate::world::View`]. Each one is a small file, and adding one touches its file and [`ProjectionKind`].
 
 pub mod azimuthal;
+mod brown_conrady;
+mod calibrated;
 pub mod cylindrical;
 mod equi_angular;
 mod graticule;
@@ -16,7 +18,10 @@ mod pannini;
 mod perspective;
 mod plane;
 pub mod pseudocylindrical;
+mod rising;
 
+pub use brown_conrady::{BrownConrady, BrownConradyCoefficients};
+pub use calibrated::Calibrated;
 pub use equi_angular::EquiAngular;
 pub use hammer::Hammer;
 pub use kind::ProjectionKind;

@@ -16,10 +16,10 @@ pub use blend::Blend;
 pub use coverage::ScreenPixel;
 pub use field_stop::FieldStop;
 pub use frame::{
-    Canvas, CubeFaceFrame, CylinderFrame, CylinderKind, EquirectFrame, FaceMapping, FieldOfView, FisheyeFit,
-    FisheyeFrame, Frame, FrameError, FulldomeFrame, LayoutFaceFrame, LensCircle, LensScale, Mirror, MirrorBallFrame,
-    OctahedralFrame, OmnimaxFrame, PanniniFrame, PerspectiveFrame, Placement, SamplePositions, StereographicFrame,
-    WorldMapFrame,
+    CalibratedFrame, CalibratedLens, CameraMatrix, Canvas, CubeFaceFrame, CylinderFrame, CylinderKind, EquirectFrame,
+    FaceMapping, FieldOfView, FisheyeFit, FisheyeFrame, Frame, FrameError, FulldomeFrame, HuginFrame, HuginProjection,
+    LayoutFaceFrame, LensCircle, LensScale, Mirror, MirrorBallFrame, OctahedralFrame, OmnimaxFrame, PanniniFrame,
+    PerspectiveFrame, Placement, SamplePositions, StereographicFrame, WorldMapFrame,
 };
 pub use framing::OmnimaxFraming;
 pub use grid::{PixelGrid, PixelPoint, PixelRect};

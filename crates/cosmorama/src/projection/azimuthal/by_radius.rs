@@ -1,6 +1,6 @@
 use std::f64::consts::PI;
 
-use super::rising::{inverse, rises_until};
+use super::super::rising::{inverse, rises_until};
 use super::{Lens, LensError};
 
 /// A measured lens whose formula gives the angle of a radius.

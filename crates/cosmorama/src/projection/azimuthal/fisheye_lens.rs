@@ -1,6 +1,6 @@
 use super::{
-    DoubleSphere, Equidistant, Equisolid, FieldOfViewLens, KannalaBrandt, Lens, Ocam, Orthographic, Polynomial,
-    Stereographic, Unified,
+    DoubleSphere, Equidistant, Equisolid, FieldOfViewLens, Hugin, HuginIdeal, KannalaBrandt, Lens, Ocam, Orthographic,
+    Polynomial, Stereographic, Unified,
 };
 
 /// Every fisheye lens, chosen at run time.
@@ -26,6 +26,8 @@ pub enum FisheyeLens {
     DoubleSphere(DoubleSphere),
     /// The field-of-view model.
     FieldOfView(FieldOfViewLens),
+    /// An ideal lens with Hugin's correction.
+    Hugin(Hugin),
 }
 
 /// Calls a method of the lens that is inside.
@@ -42,6 +44,7 @@ macro_rules! each {
             FisheyeLens::Unified($lens) => $call,
             FisheyeLens::DoubleSphere($lens) => $call,
             FisheyeLens::FieldOfView($lens) => $call,
+            FisheyeLens::Hugin($lens) => $call,
         }
     };
 }
@@ -66,6 +69,9 @@ impl FisheyeLens {
             Unified::from_parameters(0.6, 1.1).map(Self::Unified),
             DoubleSphere::from_parameters(-0.179, 0.591).map(Self::DoubleSphere),
             FieldOfViewLens::from_omega(0.95).map(Self::FieldOfView),
+            Hugin::from_abc(HuginIdeal::Equidistant, [0.01, -0.03, 0.01], 1.2).map(Self::Hugin),
+            Hugin::from_abc(HuginIdeal::Rectilinear, [0.0, -0.05, 0.0], 0.8).map(Self::Hugin),
+            Hugin::from_abc(HuginIdeal::Rectilinear, [0.0, 0.002, 0.001], 0.8).map(Self::Hugin),
         ];
         let ideal = [Self::EQUIDISTANT, Self::EQUISOLID, Self::STEREOGRAPHIC, Self::ORTHOGRAPHIC];
         ideal.into_iter().chain(measured.into_iter().flatten()).collect()
@@ -96,7 +102,7 @@ mod tests {
 
     #[test]
     fn every_one_is_listed() {
-        assert_eq!(FisheyeLens::all().len(), 11);
+        assert_eq!(FisheyeLens::all().len(), 14);
     }
 
     #[test]

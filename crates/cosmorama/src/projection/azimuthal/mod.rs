@@ -9,13 +9,13 @@ mod equidistant;
 mod equisolid;
 mod field_of_view;
 mod fisheye_lens;
+mod hugin;
 mod kannala_brandt;
 mod lens;
 mod ocam;
 mod omnimax;
 mod orthographic;
 mod polynomial;
-mod rising;
 mod stereographic;
 mod unified;
 
@@ -27,6 +27,7 @@ pub use equidistant::Equidistant;
 pub use equisolid::Equisolid;
 pub use field_of_view::FieldOfViewLens;
 pub use fisheye_lens::FisheyeLens;
+pub use hugin::{Hugin, HuginIdeal};
 pub use kannala_brandt::KannalaBrandt;
 pub use lens::{Lens, LensError};
 pub use ocam::{OCAM_COEFFICIENTS, Ocam};
@@ -142,7 +143,7 @@ fn ratio((sin, cos): (f64, f64), (depth, slope): (f64, f64)) -> (f64, f64) {
 }
 
 /// All coefficients are numbers.
-fn finite(what: &'static str, coefficients: &[f64]) -> Result<(), LensError> {
+pub(super) fn finite(what: &'static str, coefficients: &[f64]) -> Result<(), LensError> {
     let Some(found) = coefficients.iter().find(|k| !k.is_finite()) else { return Ok(()) };
     LensError::unless(false, what, *found, "a finite number")
 }

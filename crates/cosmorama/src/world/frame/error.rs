@@ -36,6 +36,55 @@ pub enum FrameError {
         /// Where that is, in the unit of the formula.
         radius: f64,
     },
+    /// A calibration whose formula turns back within the image.
+    #[error(
+        "the calibration's formula turns back {}° from the axis, {} pixels from its centre, and the image reaches further; \
+         give fov= (at most {}) to leave out what lies beyond, or calibrate again with points near the corners",
+        rounded(.greatest / 2.0), rounded(*.radius), rounded(*.greatest)
+    )]
+    CalibrationTurnsBack {
+        /// The radius in pixels.
+        radius: f64,
+        /// Degrees that it shows at most.
+        greatest: f64,
+    },
+    /// Hugin's correction turns back within the image.
+    #[error(
+        "Hugin's a, b, c turn back {}° from the axis, {} pixels from its centre, but the image's corner is at {} pixels: they \
+         cannot be right for this image",
+        rounded(*.degrees), rounded(*.radius), rounded(*.corner)
+    )]
+    CorrectionTurnsBack {
+        /// From the axis.
+        degrees: f64,
+        /// In pixels.
+        radius: f64,
+        /// Of the corner, in pixels.
+        corner: f64,
+    },
+    /// Hugin's correction of a picture that is a panorama.
+    #[error("a, b, c correct a lens; for panoramas (f1, f4) they must be 0")]
+    CorrectedPanorama,
+    /// Coefficients of which no lens can be made.
+    #[error("{0}")]
+    Lens(crate::projection::azimuthal::LensError),
+    /// An image of another shape than the one that was measured.
+    #[error(
+        "the image has {}x{} pixels, but the calibration was made for {}x{}, which has another shape; if the image is a part \
+         of such a picture, give canvas=", found.0, found.1, measured.0, measured.1
+    )]
+    CalibrationSize {
+        /// Columns and rows of the image.
+        found: (usize, usize),
+        /// Columns and rows of the image that was measured.
+        measured: (usize, usize),
+    },
+    /// A camera matrix that no camera has.
+    #[error("the camera matrix has the determinant {determinant}; it must be more than 0, its numbers finite")]
+    CameraMatrix {
+        /// Of its left part.
+        determinant: f64,
+    },
     /// A camera inside the mirror ball.
     #[error("the camera is {found} ball radii from the mirror ball's centre; it must be more than 1")]
     BallDistance {
@@ -94,6 +143,6 @@ pub(super) fn check_positive(what: &'static str, found: f64) -> Result<(), Frame
 }
 
 /// Six decimals, without zeros at the end.
-fn rounded(value: f64) -> f64 {
+pub(super) fn rounded(value: f64) -> f64 {
     (value * 1e6).round() / 1e6
 }

@@ -3,6 +3,8 @@
 //! A frame knows what a size in pixels does not: the field of view, where the lens's circle goes, the shape of a pixel.
 //! With a size it makes a [`View`]; without one it says which size suits it.
 
+mod calibrated;
+mod camera_matrix;
 mod cube_face;
 mod cylinder;
 mod equirect;
@@ -10,6 +12,7 @@ mod error;
 mod field_of_view;
 mod fisheye;
 mod fulldome;
+mod hugin;
 mod layout_face;
 mod lens_circle;
 mod mirror_ball;
@@ -21,6 +24,8 @@ mod placement;
 mod stereographic;
 mod world_map;
 
+pub use calibrated::{CalibratedFrame, CalibratedLens};
+pub use camera_matrix::CameraMatrix;
 pub use cube_face::CubeFaceFrame;
 pub use cylinder::{CylinderFrame, CylinderKind};
 pub use equirect::{EquirectFrame, SamplePositions};
@@ -28,6 +33,7 @@ pub use error::FrameError;
 pub use field_of_view::FieldOfView;
 pub use fisheye::{FisheyeFit, FisheyeFrame, LensScale};
 pub use fulldome::FulldomeFrame;
+pub use hugin::{HuginFrame, HuginProjection};
 pub use layout_face::{FaceMapping, LayoutFaceFrame};
 pub use lens_circle::LensCircle;
 pub use mirror_ball::MirrorBallFrame;
@@ -52,6 +58,10 @@ pub enum Frame {
     LayoutFace(LayoutFaceFrame),
     /// A fisheye.
     Fisheye(FisheyeFrame),
+    /// A camera that was measured.
+    Calibrated(CalibratedFrame),
+    /// A picture of a Hugin project.
+    Hugin(HuginFrame),
     /// A stereographic picture without a circle.
     Stereographic(StereographicFrame),
     /// A domemaster.
@@ -86,6 +96,8 @@ impl Frame {
             Self::CubeFace(frame) => Ok(frame.view(width, height)),
             Self::LayoutFace(frame) => frame.view(width, height),
             Self::Fisheye(frame) => frame.view(width, height),
+            Self::Calibrated(frame) => frame.view(width, height),
+            Self::Hugin(frame) => frame.view(width, height),
             Self::Stereographic(frame) => frame.view(width, height),
             Self::Fulldome(frame) => frame.view(width, height),
             Self::Omnimax(frame) => frame.view(width, height),
@@ -106,6 +118,8 @@ impl Frame {
             Self::Perspective(frame) => frame.natural_ratio(),
             Self::CubeFace(_) | Self::LayoutFace(_) => 1.0,
             Self::Fisheye(frame) => frame.pixel_aspect,
+            Self::Calibrated(frame) => frame.natural_ratio(),
+            Self::Hugin(_) => 0.75,
             Self::Stereographic(frame) => frame.pixel_aspect,
             Self::Fulldome(frame) => frame.pixel_aspect,
             Self::Omnimax(frame) => frame.natural_ratio(),
@@ -146,6 +160,7 @@ impl Frame {
     fn is_measured_in_pixels(&self) -> bool {
         match self {
             Self::Fisheye(frame) => frame.circle != LensCircle::FITTED || matches!(frame.scale, LensScale::Focal(_)),
+            Self::Calibrated(frame) => frame.size.is_none(),
             Self::Omnimax(frame) => frame.circle != LensCircle::FITTED,
             Self::MirrorBall(frame) => frame.circle != LensCircle::FITTED,
             _ => false,

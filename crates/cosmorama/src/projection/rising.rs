@@ -61,7 +61,10 @@ pub(super) fn inverse(function: impl Fn(f64) -> (f64, f64), value: f64, mut low:
         }
         let newton = at - error / slope;
         let gains = (newton - at).abs() < last_step / 2.0;
-        let next = if gains && newton >= low && newton <= high { newton } else { f64::midpoint(low, high) };
+        // Beside a pole Newton's steps are small and lead nowhere.
+        let beside_pole = found > 8.0 * value;
+        let next =
+            if gains && !beside_pole && newton >= low && newton <= high { newton } else { f64::midpoint(low, high) };
         last_step = (next - at).abs();
         at = next;
         if last_step <= 2.0 * f64::EPSILON * at.abs() {
@@ -85,6 +88,16 @@ mod tests {
         assert!((pole - std::f64::consts::FRAC_PI_2).abs() < 1e-12, "{pole}");
         assert_eq!(rises_until(|x| (x, 1.0), 3.0), Some(3.0));
         assert_eq!(rises_until(|x| (-x, -1.0), 3.0), None);
+    }
+
+    #[test]
+    fn a_pole_at_the_end_is_left_behind() {
+        let steep = |x: f64| (x.tan().powi(4) + x, 4.0 * x.tan().powi(3) / x.cos().powi(2) + 1.0);
+        for step in 1..150 {
+            let angle = f64::from(step) / 100.0;
+            let found = inverse(steep, steep(angle).0, 0.0, std::f64::consts::FRAC_PI_2);
+            assert!((found - angle).abs() < 1e-12, "{angle}: {found}");
+        }
     }
 
     #[test]

@@ -1,0 +1,88 @@
+use super::words::Words;
+use super::{Calibration, Distortion, numbers, side};
+
+/// What writers call the camera matrix.
+const MATRIX: [&str; 7] =
+    ["cameramatrix", "intrinsicmatrix", "intrinsicsmatrix", "k", "mtx", "cameramatrix1", "intrinsics"];
+
+/// And the coefficients.
+const COEFFICIENTS: [&str; 8] = [
+    "distortioncoefficients",
+    "distcoeffs",
+    "distcoeff",
+    "distortioncoeffs",
+    "d",
+    "dist",
+    "distortion",
+    "distortioncoefficients1",
+];
+
+/// A stereo file has two of them.
+const SECOND: [&str; 6] = ["m2", "k2", "d2", "cameramatrix2", "distcoeffs2", "distortioncoefficients2"];
+
+/// The lengths of OpenCV's vectors; the last has a tilted sensor.
+const LENGTHS: [usize; 5] = [4, 5, 8, 12, 14];
+
+/// The calibration that OpenCV's `FileStorage`, its samples, ROS and common scripts write.
+pub(super) fn interpret(words: &Words) -> Result<Calibration, String> {
+    if let Some((name, _)) = words.find(&SECOND) {
+        return Err(format!("the calibration of two cameras ({name}); give each camera a file of its own"));
+    }
+    let (name, matrix) = words.find(&MATRIX).ok_or("no camera_matrix; expected OpenCV's YAML, JSON or XML")?;
+    let matrix = self::matrix(name, &numbers(name, matrix)?)?;
+    let (name, coefficients) = words.find(&COEFFICIENTS).ok_or("no distortion_coefficients")?;
+    let mut coefficients = numbers(name, coefficients)?;
+    if !LENGTHS.contains(&coefficients.len()) {
+        return Err(format!("{name} has {} numbers; expected 4, 5, 8, 12 or 14", coefficients.len()));
+    }
+    if coefficients.iter().skip(12).any(|tilt| *tilt != 0.0) {
+        return Err(format!("{name} has a tilted sensor (tau_x, tau_y), which is not supported; calibrate without it"));
+    }
+    coefficients.truncate(12);
+    let is_fisheye = is_fisheye(words)?;
+    Ok(Calibration { distortion: Distortion::OpenCv { coefficients, is_fisheye }, matrix, size: size(words)? })
+}
+
+/// The first two rows; the last is 0, 0, 1.
+fn matrix(name: &str, numbers: &[f64]) -> Result<[[f64; 3]; 2], String> {
+    let [a, b, c, d, e, f, 0.0, 0.0, 1.0] = numbers[..] else {
+        return Err(format!("{name} is {numbers:?}; expected fx, skew, cx, 0, fy, cy, 0, 0, 1"));
+    };
+    if d != 0.0 || a <= 0.0 || e <= 0.0 {
+        return Err(format!("{name} begins {a}, {b}, {c}, {d}, {e}, {f}; expected fx > 0, skew, cx, 0, fy > 0, cy"));
+    }
+    Ok([[a, b, c], [d, e, f]])
+}
+
+/// Samples and ROS say which model it is; OpenCV's own files do not.
+fn is_fisheye(words: &Words) -> Result<Option<bool>, String> {
+    let word = |name: &str| words.find(&[name]).and_then(|(_, words)| words.first().copied());
+    if let Some(model) = word("distortionmodel") {
+        return match model.to_lowercase().as_str() {
+            "equidistant" | "fisheye" => Ok(Some(true)),
+            "plumb_bob" | "rational_polynomial" | "radtan" | "brown_conrady" => Ok(Some(false)),
+            _ => Err(format!("distortion_model is {model}; expected equidistant, plumb_bob or rational_polynomial")),
+        };
+    }
+    Ok(word("fisheyemodel").and_then(|flag| match flag {
+        "1" => Some(true),
+        "0" => Some(false),
+        _ => None,
+    }))
+}
+
+fn size(words: &Words) -> Result<Option<(usize, usize)>, String> {
+    let first = |names: &[&str]| words.find(names).map(|(name, words)| (name, numbers(name, words)));
+    let sides = (first(&["imagewidth", "width"]), first(&["imageheight", "height"]));
+    let sides = match sides {
+        (Some((_, width)), Some((_, height))) => [width?, height?].concat(),
+        _ => match first(&["imagesize", "resolution", "size"]) {
+            Some((_, sides)) => sides?,
+            None => return Ok(None),
+        },
+    };
+    match sides[..] {
+        [width, height] => Ok(Some((side("the image's width", width)?, side("the image's height", height)?))),
+        _ => Err(format!("the image's size is {sides:?}; expected its width and height")),
+    }
+}

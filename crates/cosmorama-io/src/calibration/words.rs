@@ -1,0 +1,48 @@
+/// A file of names and values, nested or not, laid flat: the words under each path of names.
+#[derive(Debug, Default, PartialEq)]
+pub(super) struct Words(Vec<(String, Vec<String>)>);
+
+impl Words {
+    /// Adds a word under a path of names.
+    pub(super) fn add(&mut self, path: &[String], word: &str) {
+        let path: Vec<String> = path.iter().map(|name| plain(name)).collect();
+        let path = path.join(".");
+        match self.0.last_mut().filter(|(last, _)| *last == path) {
+            Some((_, words)) => words.push(word.to_owned()),
+            None => self.0.push((path, vec![word.to_owned()])),
+        }
+    }
+
+    /// The words under the first of some names that is there, or under its `data`, wherever it is nested; names as
+    /// [`plain`] has them.
+    pub(super) fn find(&self, names: &[&str]) -> Option<(&str, Vec<&str>)> {
+        let is = |path: &str, name: &str| {
+            let path = path.strip_suffix(".data").unwrap_or(path);
+            path == name || path.strip_suffix(name).is_some_and(|outer| outer.ends_with('.'))
+        };
+        let found = names.iter().find_map(|name| self.0.iter().find(|(path, _)| is(path, name)));
+        found.map(|(path, words)| (path.as_str(), words.iter().map(String::as_str).collect()))
+    }
+}
+
+/// A name without what writers differ in: `cameraMatrix`, `camera_matrix` and `Camera_Matrix` are one.
+fn plain(name: &str) -> String {
+    name.chars().filter(|c| c.is_alphanumeric()).flat_map(char::to_lowercase).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_are_found_however_they_are_written_and_nested() {
+        let mut words = Words::default();
+        let path = |names: &[&str]| names.iter().map(|name| (*name).to_owned()).collect::<Vec<_>>();
+        for word in ["1", "2"] {
+            words.add(&path(&["opencv_storage", "Camera_Matrix", "data"]), word);
+        }
+        words.add(&path(&["mask"]), "7");
+        assert_eq!(words.find(&["k", "cameramatrix"]).map(|(_, words)| words), Some(vec!["1", "2"]));
+        assert_eq!(words.find(&["matrix"]), None);
+    }
+}

@@ -1,0 +1,31 @@
+use roxmltree::{Document, Node};
+
+use super::words::Words;
+
+/// Deeper nested is no calibration.
+const DEEPEST: usize = 64;
+
+/// The words of an XML file, by the elements that they are in.
+pub(super) fn words(text: &str) -> Result<Words, String> {
+    let document = Document::parse(text.trim_start_matches('\u{feff}').trim_start())
+        .map_err(|error| format!("no XML: {error}"))?;
+    let mut words = Words::default();
+    visit(document.root_element(), &mut Vec::new(), &mut words)?;
+    Ok(words)
+}
+
+fn visit(node: Node<'_, '_>, path: &mut Vec<String>, words: &mut Words) -> Result<(), String> {
+    if path.len() > DEEPEST {
+        return Err(format!("nested more than {DEEPEST} deep"));
+    }
+    path.push(node.tag_name().name().to_owned());
+    for child in node.children() {
+        if child.is_element() {
+            visit(child, path, words)?;
+        } else {
+            child.text().unwrap_or_default().split_whitespace().for_each(|word| words.add(path, word));
+        }
+    }
+    path.pop();
+    Ok(())
+}

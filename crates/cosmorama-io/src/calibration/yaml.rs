@@ -1,0 +1,104 @@
+use yaml_rust2::parser::{Event, Parser};
+
+use super::words::Words;
+
+/// Deeper nested is no calibration.
+const DEEPEST: usize = 64;
+
+/// What of a YAML (or JSON) file is open.
+enum Open {
+    Sequence,
+    /// A mapping, and whether its next scalar is a name.
+    Mapping {
+        name_is_next: bool,
+    },
+}
+
+/// The words of a YAML file; a JSON file is one.
+pub(super) fn words(text: &str) -> Result<Words, String> {
+    let mut reader = Reader::default();
+    let body = without_directive(text);
+    let mut parser = Parser::new_from_str(&body);
+    loop {
+        let (event, mark) = parser.next_token().map_err(|error| format!("no YAML or JSON: {error}"))?;
+        match event {
+            Event::StreamEnd => return Ok(reader.words),
+            event => reader.read(event).map_err(|reason| format!("line {}: {reason}", mark.line()))?,
+        }
+    }
+}
+
+/// OpenCV begins its files with `%YAML:1.0`, which is no YAML.
+fn without_directive(text: &str) -> String {
+    match text.split_once('\n') {
+        Some((first, rest)) if first.starts_with("%YAML:") => format!("\n{rest}"),
+        _ => text.to_owned(),
+    }
+}
+
+#[derive(Default)]
+struct Reader {
+    words: Words,
+    open: Vec<Open>,
+    /// The names that lead to what is open, one for each mapping.
+    path: Vec<String>,
+}
+
+impl Reader {
+    fn read(&mut self, event: Event) -> Result<(), String> {
+        match event {
+            Event::Alias(_) => return Err("an alias (*NAME); write the values themselves".to_owned()),
+            Event::Scalar(text, ..) => self.scalar(text),
+            Event::SequenceStart(..) => self.open.push(Open::Sequence),
+            Event::MappingStart(..) => self.open.push(Open::Mapping { name_is_next: true }),
+            Event::SequenceEnd | Event::MappingEnd => {
+                self.open.pop();
+                self.value_is_complete();
+            }
+            _ => {}
+        }
+        if self.open.len() > DEEPEST {
+            return Err(format!("nested more than {DEEPEST} deep"));
+        }
+        Ok(())
+    }
+
+    fn scalar(&mut self, text: String) {
+        if let Some(Open::Mapping { name_is_next }) = self.open.last_mut()
+            && *name_is_next
+        {
+            *name_is_next = false;
+            self.path.push(text);
+            return;
+        }
+        self.words.add(&self.path, &text);
+        self.value_is_complete();
+    }
+
+    fn value_is_complete(&mut self) {
+        if let Some(Open::Mapping { name_is_next }) = self.open.last_mut() {
+            *name_is_next = true;
+            self.path.pop();
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn nested_lists_are_laid_flat() {
+        let found = words("{\"a\": {\"K\": [[1, 2], [3, 4]], \"n\": 5}, \"b\": 6}").expect("JSON");
+        assert_eq!(found.find(&["k"]), Some(("a.k", vec!["1", "2", "3", "4"])));
+        assert_eq!(found.find(&["n"]), Some(("a.n", vec!["5"])));
+        assert_eq!(found.find(&["b"]), Some(("b", vec!["6"])));
+    }
+
+    #[test]
+    fn what_never_ends_is_refused() {
+        assert!(words(&"[".repeat(100_000)).is_err());
+        assert!(words(&"- ".repeat(5000)).is_err_and(|error| error.contains("nested")));
+        assert!(words("a: &x [1]\nb: *x\n").is_err_and(|error| error.contains("line 2")));
+    }
+}

@@ -1,0 +1,157 @@
+use glam::DVec2;
+
+use super::FrameError;
+use super::error::check_field_of_view;
+use crate::projection::ProjectionKind;
+use crate::projection::azimuthal::{FisheyeLens, Hugin, HuginIdeal, Lens};
+use crate::sphere::{Angle, Orientation};
+use crate::world::{FieldStop, PixelGrid, PixelPoint, View};
+
+/// What the images of a Hugin project are pictures of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum HuginProjection {
+    /// On a plane: f0.
+    Rectilinear,
+    /// A swept panorama on a cylinder: f1.
+    Cylinder,
+    /// A fisheye, r = φ: f2 and f3.
+    Equidistant,
+    /// A panorama of longitude by latitude: f4.
+    Equirectangular,
+    /// A fisheye, r = sin φ: f8.
+    Orthographic,
+    /// A fisheye, r = 2 tan(φ/2): f10.
+    Stereographic,
+    /// A fisheye, r = 2 sin(φ/2): f21.
+    Equisolid,
+}
+
+/// An image of a Hugin project, as an i-line describes its lens.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct HuginFrame {
+    /// The kind of lens: f.
+    pub projection: HuginProjection,
+    /// Across the width of the image, by the lens before its correction: v.
+    pub field_of_view: Angle,
+    /// a, b and c of the correction.
+    pub correction: [f64; 3],
+    /// Pixels by which the axis is to the right of the image's middle and below it: d and e.
+    pub shift: [f64; 2],
+}
+
+impl HuginFrame {
+    pub(super) fn view(&self, width: usize, height: usize) -> Result<View, FrameError> {
+        let (w, h) = (width as f64, height as f64);
+        let focal = self.focal(w)?;
+        let projection = self.kind(focal, w.min(h))?;
+        let [right, down] = self.shift;
+        let centre = PixelPoint::new(w / 2.0 + right, h / 2.0 + down);
+        let grid = PixelGrid::centred(width, height, centre, DVec2::splat(focal.recip()));
+        if let ProjectionKind::Fisheye(lens) = projection
+            && self.projection == HuginProjection::Rectilinear
+        {
+            check_corner(&lens.0, focal, (w / 2.0 + right.abs()).hypot(h / 2.0 + down.abs()))?;
+        }
+        Ok(View { projection, orientation: Orientation::IDENTITY, grid, stop: FieldStop::NONE })
+    }
+
+    /// Pixels a unit of the projection.
+    fn focal(&self, width: f64) -> Result<f64, FrameError> {
+        let (greatest, below) = match self.projection {
+            HuginProjection::Rectilinear => (180.0, true),
+            HuginProjection::Orthographic => (180.0, false),
+            HuginProjection::Stereographic => (360.0, true),
+            HuginProjection::Equisolid | HuginProjection::Cylinder | HuginProjection::Equirectangular => (360.0, false),
+            // The circle may be smaller than the image.
+            HuginProjection::Equidistant => (1000.0, false),
+        };
+        check_field_of_view("v, the field of view across the image,", self.field_of_view, greatest, below)?;
+        let (half, quarter) = (self.field_of_view * 0.5, self.field_of_view * 0.25);
+        Ok(width
+            / 2.0
+            / match self.projection {
+                HuginProjection::Rectilinear => half.tan(),
+                HuginProjection::Orthographic => half.sin_cos().0,
+                HuginProjection::Stereographic => 2.0 * quarter.tan(),
+                HuginProjection::Equisolid => 2.0 * quarter.sin_cos().0,
+                _ => half.radians(),
+            })
+    }
+
+    fn kind(&self, focal: f64, shorter: f64) -> Result<ProjectionKind, FrameError> {
+        let is_ideal = self.correction == [0.0; 3];
+        let corrected = |ideal, plain| {
+            if is_ideal {
+                return Ok(plain);
+            }
+            let lens = Hugin::from_abc(ideal, self.correction, focal / (shorter / 2.0));
+            lens.map(|lens| ProjectionKind::fisheye(FisheyeLens::Hugin(lens))).map_err(FrameError::Lens)
+        };
+        match self.projection {
+            HuginProjection::Rectilinear => corrected(HuginIdeal::Rectilinear, ProjectionKind::PERSPECTIVE),
+            HuginProjection::Equidistant => corrected(HuginIdeal::Equidistant, ProjectionKind::EQUIDISTANT),
+            HuginProjection::Orthographic => {
+                corrected(HuginIdeal::Orthographic, ProjectionKind::fisheye(FisheyeLens::ORTHOGRAPHIC))
+            }
+            HuginProjection::Stereographic => {
+                corrected(HuginIdeal::Stereographic, ProjectionKind::fisheye(FisheyeLens::STEREOGRAPHIC))
+            }
+            HuginProjection::Equisolid => {
+                corrected(HuginIdeal::Equisolid, ProjectionKind::fisheye(FisheyeLens::EQUISOLID))
+            }
+            HuginProjection::Cylinder if is_ideal => Ok(ProjectionKind::CENTRAL_CYLINDER),
+            HuginProjection::Equirectangular if is_ideal => Ok(ProjectionKind::EQUIRECTANGULAR),
+            HuginProjection::Cylinder | HuginProjection::Equirectangular => Err(FrameError::CorrectedPanorama),
+        }
+    }
+}
+
+/// A rectilinear image has no corner that the lens does not show.
+fn check_corner(lens: &FisheyeLens, focal: f64, corner: f64) -> Result<(), FrameError> {
+    let turn = lens.radius(lens.reach()).map_or(f64::INFINITY, |radius| radius * focal);
+    if corner > turn {
+        return Err(FrameError::CorrectionTurnsBack { degrees: lens.reach().to_degrees(), radius: turn, corner });
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sphere::Direction;
+
+    const LENS: HuginFrame = HuginFrame {
+        projection: HuginProjection::Rectilinear,
+        field_of_view: Angle::from_degrees(90.0),
+        correction: [0.0; 3],
+        shift: [3.0, -2.0],
+    };
+
+    #[test]
+    fn the_width_spans_v_and_the_axis_is_shifted() {
+        for (projection, at_edge) in [
+            (HuginProjection::Rectilinear, 45.0),
+            (HuginProjection::Equidistant, 45.0),
+            (HuginProjection::Equisolid, 45.0),
+            (HuginProjection::Stereographic, 45.0),
+            (HuginProjection::Orthographic, 45.0),
+        ] {
+            for correction in [[0.0; 3], [0.01, -0.02, 0.005]] {
+                // The shorter side is the width here: there the correction does nothing.
+                let view = HuginFrame { projection, correction, ..LENS }.view(300, 400).unwrap();
+                let axis = view.direction(PixelPoint::new(153.0, 198.0)).unwrap();
+                assert!(axis.angle_to(Direction::FRONT).degrees() < 1e-9);
+                let edge = view.direction(PixelPoint::new(303.0, 198.0)).unwrap();
+                assert!((edge.angle_to(Direction::FRONT).degrees() - at_edge).abs() < 1e-9, "{projection:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_correction_that_turns_back_within_the_image_is_told() {
+        let error = HuginFrame { correction: [0.0, -0.4, 0.0], ..LENS }.view(400, 300).unwrap_err().to_string();
+        assert!(error.contains("turn back") && error.contains("pixels"), "{error}");
+        let panorama = HuginFrame { projection: HuginProjection::Cylinder, correction: [0.0, 0.1, 0.0], ..LENS };
+        assert_eq!(panorama.view(400, 300), Err(FrameError::CorrectedPanorama));
+    }
+}
