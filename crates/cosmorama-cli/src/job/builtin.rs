@@ -96,7 +96,7 @@ impl BuiltinJob {
             warnings.push(format!("--filter, --kernel and --anti-ringing have no effect on {}: a formula", args.input));
         }
         let target = Target::resolve(&args.output, &args.geometry, None)?;
-        let files = Input { views: Vec::new(), frames: vec![None] };
+        let files = Input { views: Vec::new(), frames: vec![None], faces: None };
         let mut light = Light::resolve(args, &files, &target, &mut warnings)?;
         if let Builtin::DirectionMap(_) = builtin {
             check_map(args, format)?;

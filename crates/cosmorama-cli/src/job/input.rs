@@ -9,7 +9,7 @@ use super::detect::{declared, detect};
 use super::face_shape::{FacePicture, usual_size};
 use super::face_view::face_placement;
 use super::packed::{self, FilePart};
-use super::{Files, frames, world_file};
+use super::{Files, GivenFaces, frames, world_file};
 use crate::args::SizeArg;
 use crate::failure::usage;
 use crate::spec::{Cube, Packing, Shape, Single, Spec};
@@ -40,6 +40,8 @@ pub(crate) struct Input {
     pub(crate) views: Vec<InputView>,
     /// The frames to work on.
     pub(crate) frames: Vec<Option<u64>>,
+    /// How the views are the faces of one cube, if they are whole ones.
+    pub(crate) faces: Option<GivenFaces>,
 }
 
 impl Input {
@@ -101,7 +103,7 @@ impl Input {
                 shown.map(|of| view(of.name(), face(of), size)).collect()
             }
         };
-        Ok(Self { views: views?, frames: vec![None] })
+        Ok(Self { views: views?, frames: vec![None], faces: None })
     }
 
     /// A panorama or another picture, or all faces of a cube.
@@ -120,11 +122,11 @@ impl Input {
             Some(shape) => declared(shape, pattern, &header, warnings)?,
             None => detect(&path, &header, warnings)?,
         };
-        let views = match shape {
-            Shape::Single(single) => vec![Self::single(pattern, files, &path, header, single)?],
-            Shape::Cube(cube) => packed::views(&files, &path, &header, &cube)?,
+        let (views, faces) = match shape {
+            Shape::Single(single) => (vec![Self::single(pattern, files, &path, header, single)?], None),
+            Shape::Cube(cube) => (packed::views(&files, &path, &header, &cube)?, GivenFaces::of_image(&cube)),
         };
-        Ok(Self { views, frames })
+        Ok(Self { views, frames, faces })
     }
 
     fn single(pattern: &str, files: Files, path: &Path, header: Header, single: Single) -> Result<InputView> {
@@ -172,8 +174,11 @@ impl Input {
         }
         let pictures: Vec<FacePicture> = faces.iter().filter_map(|face| face.picture(cube, frames[0])).collect();
         let size = usual_size(&pictures, warnings)?;
+        let lie: Vec<_> = faces.iter().map(|face| (face.face, face.placement)).collect();
+        let is_whole = faces.iter().all(Face::is_whole);
+        let given = GivenFaces::of_files(cube, set.naming(), &lie).filter(|_| is_whole);
         let views: Result<_> = faces.into_iter().map(|face| face.into_view(cube, size)).collect();
-        Ok(Self { views: views?, frames })
+        Ok(Self { views: views?, frames, faces: given })
     }
 
     /// The views that have files and are wanted, with the geometry of what those hold.
@@ -225,6 +230,12 @@ impl Face {
             lies_on_canvas(&files.path(frame), header, canvas)?;
         }
         Ok(Self { face: file.face, placement, files, header, canvas })
+    }
+
+    /// Whether its file, if there is one, holds all of it.
+    fn is_whole(&self) -> bool {
+        let same = |header: &Header| self.canvas == Some(whole(header));
+        self.header.as_ref().is_none_or(same)
     }
 
     /// Its picture, if there is a file.
