@@ -172,6 +172,20 @@ fn declared_cube(cube: &Cube, pattern: &str, header: &Header, warnings: &mut Vec
     }
 }
 
+/// The cubes that an image may hold the faces of, the likeliest alone where there is one.
+pub(crate) fn likely_cubes(path: &Path, header: &Header) -> Vec<Cube> {
+    let of = |kind: LayoutKind| Cube { layout: Some(Packing::OneImage(kind)), ..Cube::default() };
+    match Guess::of(path, header) {
+        Guess::Said(EnvMap::Cube) => vec![Cube { order: Some(FaceOrder::OPENEXR), ..of(LayoutKind::StripV) }],
+        Guess::Said(EnvMap::GlCube) => vec![of(LayoutKind::StripV)],
+        Guess::Strip(kind) | Guess::Blank(Evidence::Cross(kind)) => vec![of(kind)],
+        Guess::Layouts(kinds) => kinds.into_iter().map(of).collect(),
+        Guess::Said(EnvMap::LatLong) | Guess::Panorama(_) | Guess::TwoToOne | Guess::Blank(Evidence::Circle) => {
+            Vec::new()
+        }
+    }
+}
+
 /// What `info` says.
 pub(crate) fn likely(path: &Path, header: &Header) -> String {
     match Guess::of(path, header) {

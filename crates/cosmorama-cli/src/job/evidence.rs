@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use cosmorama::raster::{Image, Rgba, Transfer, Uniform};
+use cosmorama::raster::{EncodedImage, Image, Rgba, Transfer, Uniform};
 use cosmorama::world::{CubeLayout, LayoutKind, PixelRect};
 use cosmorama_io::{Header, Limits, read};
 
@@ -16,6 +16,17 @@ const EMPTY: f64 = 0.9;
 const BLOCK: usize = 8;
 /// Codes up to this are black, in a picture of codes from 0 to 1.
 const BLACK: f32 = 0.06;
+
+/// The light of an image, as far as it matters to see what it is; `None` where it is too large or damaged.
+pub(crate) fn light_of(path: &Path) -> Option<Image<Rgba>> {
+    let image = decoded(path)?;
+    let transfer = if image.depth().is_float() { Transfer::Linear } else { Transfer::Srgb };
+    Some(image.to_light(&transfer))
+}
+
+fn decoded(path: &Path) -> Option<EncodedImage> {
+    Some(read(path, &Limits::memory(MOST_BYTES)).ok()?.image)
+}
 
 /// What an image is, as far as its blank parts tell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -35,7 +46,7 @@ impl Evidence {
         if header.window.is_some() || (cross.is_none() && !is_square) {
             return None;
         }
-        let codes = read(path, &Limits::memory(MOST_BYTES)).ok()?.image.to_light(&Transfer::Linear);
+        let codes = decoded(path)?.to_light(&Transfer::Linear);
         let says_something = codes.uniformity(|_, _| true).is_some_and(|all| all.share < EMPTY);
         let evidence = match cross {
             Some(kind) => Self::Cross(kind),

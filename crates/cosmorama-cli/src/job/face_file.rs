@@ -45,6 +45,17 @@ impl Face {
         Ok(Self { face: file.face, placement, files, header, canvas })
     }
 
+    /// Which it is, and how its picture lies.
+    pub(super) fn lies(&self) -> (CubeFace, FacePlacement) {
+        (self.face, self.placement)
+    }
+
+    /// Whether its file, if there is one, holds all of it.
+    pub(super) fn is_whole(&self) -> bool {
+        let same = |header: &Header| self.canvas == Some(whole(header));
+        self.header.as_ref().is_none_or(same)
+    }
+
     /// Its picture, if there is a file.
     pub(super) fn picture(&self, cube: &Cube, frame: Option<u64>) -> Option<FacePicture> {
         let is_declared = cube.canvas_of(self.face).is_some();

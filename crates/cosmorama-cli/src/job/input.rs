@@ -10,7 +10,7 @@ use super::eye::EyePart;
 use super::face_file::Face;
 use super::face_shape::{FacePicture, size_of_missing};
 use super::packed::{self, FilePart};
-use super::{Files, frames, world_file};
+use super::{Files, GivenFaces, frames, world_file};
 use crate::failure::usage;
 use crate::spec::{Cube, Packing, Shape, Single, Spec, StereoSpec};
 
@@ -41,6 +41,8 @@ pub(crate) struct Input {
     pub(crate) worlds: Vec<Vec<InputView>>,
     /// The frames to work on.
     pub(crate) frames: Vec<Option<u64>>,
+    /// How the views are the faces of one cube, if they are whole ones.
+    pub(crate) faces: Option<GivenFaces>,
 }
 
 /// What is told where an output has two eyes and the input one.
@@ -144,12 +146,12 @@ impl Input {
             Some(shape) => declared(shape, pattern, &header, warnings)?,
             None => detect(&path, &header, warnings)?,
         };
-        let views = match shape {
-            Shape::Single(single) => vec![Self::single(pattern, files, &path, header, single)?],
-            Shape::Cube(cube) => packed::faces(&files, &path, &header, &cube)?,
-            Shape::Dual(dual) => packed::lenses(&files, &path, &header, &dual)?,
+        let (views, faces) = match shape {
+            Shape::Single(single) => (vec![Self::single(pattern, files, &path, header, single)?], None),
+            Shape::Cube(cube) => (packed::faces(&files, &path, &header, &cube)?, GivenFaces::of_image(&cube)),
+            Shape::Dual(dual) => (packed::lenses(&files, &path, &header, &dual)?, None),
         };
-        Ok(Self { worlds: vec![views], frames })
+        Ok(Self { worlds: vec![views], frames, faces })
     }
 
     fn single(pattern: &str, files: Files, path: &Path, header: Header, single: Single) -> Result<InputView> {
@@ -203,8 +205,11 @@ impl Input {
         }
         let pictures: Vec<FacePicture> = faces.iter().filter_map(|face| face.picture(cube, frames[0])).collect();
         let size = size_of_missing(&pictures, cube.half, warnings)?;
+        let lie: Vec<_> = faces.iter().map(Face::lies).collect();
+        let is_whole = faces.iter().all(Face::is_whole);
+        let given = GivenFaces::of_files(cube, set.naming(), &lie).filter(|_| is_whole);
         let views: Result<_> = faces.into_iter().map(|face| face.into_view(cube, size)).collect();
-        Ok(Self { worlds: vec![views?], frames })
+        Ok(Self { worlds: vec![views?], frames, faces: given })
     }
 
     /// The views that have files and are wanted, with the geometry of what those hold.

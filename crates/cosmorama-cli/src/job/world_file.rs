@@ -58,7 +58,7 @@ pub(super) fn find(name: &str, wanted: Option<&FrameList>, warnings: &mut Vec<St
             "{name}: no [[view]] in it; a world file has one for each image, with image = \"FILE\" and spec = \"SPEC\""
         );
     }
-    let mut world = Input { worlds: vec![Vec::new()], frames: vec![None] };
+    let mut world = Input { worlds: vec![Vec::new()], frames: vec![None], faces: None };
     for entry in &file.view {
         let part = entry.find(&source, wanted, warnings)?;
         world.frames = common_frames(&world.frames, &part.frames)

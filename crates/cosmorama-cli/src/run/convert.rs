@@ -39,7 +39,7 @@ pub(super) fn convert(args: &ConvertArgs) -> Result<Report> {
     let job = stages.time(Stage::Plan, || ConvertJob::resolve(args))?;
     let engine = stages.time(Stage::Plan, || Engine::new(&job));
     let progress = Progress::new(args.progress, job.outputs.frames.len());
-    let mut run = Run { args, engine, stages, progress, warnings: job.warnings.clone() };
+    let mut run = Run { args, engine, stages, progress, warnings: job.warnings.clone(), is_first: true };
     let mut lights = Vec::new();
     for frames in job.outputs.frames.chunks(run.engine.batch()) {
         run.batch(frames, &mut lights)?;
@@ -59,12 +59,14 @@ struct Run<'a> {
     stages: Stages,
     progress: Progress,
     warnings: Vec<String>,
+    /// Whether no frame has been looked at yet.
+    is_first: bool,
 }
 
 impl Run<'_> {
     /// Some frames at once, stage by stage. Where one cannot be read, those before it are finished first.
     fn batch(&mut self, frames: &[FrameOutputs], lights: &mut Vec<FrameLight>) -> Result<()> {
-        let Self { args, engine, stages, .. } = self;
+        let Self { args, engine, stages, is_first, .. } = self;
         while lights.len() < frames.len() {
             lights.push(engine.frame_light());
         }
@@ -76,7 +78,10 @@ impl Run<'_> {
         let mut images = Vec::new();
         let mut unfinished = loaded.into_iter().find_map(Result::err);
         for (frame, light) in frames[..good].iter().zip(&*lights) {
-            for warning in engine.warnings(frame.frame, light) {
+            // The first frame tells how the faces lie.
+            let continuity = if *is_first { engine.continuity(light) } else { None };
+            *is_first = false;
+            for warning in engine.warnings(frame.frame, light).into_iter().chain(continuity) {
                 warn(&warning);
                 self.warnings.push(warning);
             }

@@ -4,12 +4,12 @@ use std::sync::OnceLock;
 use anyhow::{Context, Result, bail};
 use cosmorama::raster::{Decoder, EncodedImage, Image, Rgba};
 use cosmorama::resample::{Plan, Resampler, ScreenMask};
-use cosmorama::world::World;
+use cosmorama::world::{Source, World};
 use cosmorama_io::{Header, Limits, WriteOptions, read, write};
 use rayon::prelude::*;
 
 use super::stages::{Stage, Stages};
-use crate::job::{ConvertJob, Coverage, Files, InputView, Light, TargetFile, TargetView};
+use crate::job::{ConvertJob, Coverage, FacePixels, Files, InputView, Light, TargetFile, TargetView};
 
 /// Makes the outputs of a job, frame by frame.
 pub(super) struct Engine<'a> {
@@ -145,6 +145,22 @@ impl<'a> Engine<'a> {
             counts.push((view.index, missing));
         }
         Ok(counts)
+    }
+
+    /// Where faces are clearly not as they are said to be, as their borders in this frame show.
+    pub(super) fn continuity(&self, light: &FrameLight) -> Option<String> {
+        let given = self.job.input.faces.as_ref()?;
+        // Of a stereo pair, the left eye's.
+        let (views, sources) = (self.job.input.worlds.first()?.iter(), self.job.worlds.first()?.sources());
+        let present = views.enumerate().filter(|(_, view)| view.present().is_some()).map(|(index, _)| index);
+        let texels = |source: &Source| {
+            let (width, texels) = (source.view.width(), &light.texels[source.texels()]);
+            move |i: usize, j: usize| texels[j * width + i]
+        };
+        let lights: Vec<_> = sources.iter().map(texels).collect();
+        let size = |source: &Source| (source.view.width(), source.view.height());
+        let pictures = sources.iter().zip(&lights).map(|(source, light)| FacePixels { size: size(source), light });
+        given.warning(&present.zip(pictures).collect::<Vec<_>>())
     }
 
     /// What should be known about the light of a frame.

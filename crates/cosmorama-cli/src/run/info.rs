@@ -6,6 +6,7 @@ use cosmorama::raster::Transfer;
 use cosmorama_io::{EnvMap, FacePattern, FaceSet, Header, probe};
 use serde_json::{Value, json};
 
+use super::info_faces::{of_files, of_image};
 use super::print;
 use crate::args::InfoArgs;
 use crate::job::{Builtin, Files, existing_frames, likely};
@@ -36,6 +37,9 @@ fn single(pattern: &str) -> Result<Value> {
     add_frames(&mut report, &frames);
     merge(&mut report, header_report(&header));
     report["projection"] = json!(likely(&path, &header));
+    if let Some(continuity) = of_image(&path, &header) {
+        report["arrangement"] = continuity;
+    }
     Ok(report)
 }
 
@@ -61,6 +65,9 @@ fn faces(pattern: &str) -> Result<Value> {
         faces.insert(file.face.name().to_owned(), face);
     }
     report["faces"] = Value::Object(faces);
+    if let Some(continuity) = of_files(&set)? {
+        report["arrangement"] = continuity;
+    }
     Ok(report)
 }
 

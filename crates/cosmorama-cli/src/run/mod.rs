@@ -8,6 +8,7 @@ mod diagram;
 mod engine;
 mod explain;
 mod info;
+mod info_faces;
 mod interrupt;
 mod progress;
 mod report;

@@ -1,0 +1,191 @@
+use cosmorama::arrange::{Border, Change, Fit, Mismatch, Pose, Verdict, changes, fits_as_well, is_continuous, judge};
+use cosmorama::raster::Rgba;
+use cosmorama::sphere::CubeFace;
+use cosmorama::world::{CubeLayout, FaceOrder, FacePlacement, LayoutFaceFrame, LayoutKind, Mirror};
+use cosmorama_io::Naming;
+
+use crate::spec::{Cube, Packing};
+
+/// How pictures are said, or taken, to be the faces of a cube.
+#[derive(Clone, Debug)]
+pub(crate) struct GivenFaces {
+    /// How each lies, in the order of the input's views.
+    poses: Vec<Pose>,
+    packing: GivenPacking,
+}
+
+#[derive(Clone, Copy, Debug)]
+enum GivenPacking {
+    /// Files, named so.
+    Files(&'static Naming),
+    /// Places of one image.
+    OneImage(LayoutKind),
+}
+
+/// What the borders of faces say of how they lie.
+pub(crate) struct Continuity {
+    /// In one line.
+    pub(crate) told: String,
+    /// Whether they fit as they lie; `None` where that cannot be told.
+    pub(crate) fits: Option<bool>,
+    /// From 0 to 1.
+    pub(crate) confidence: Option<f64>,
+    /// What has to be done where they do not.
+    pub(crate) changes: Vec<String>,
+    /// The SPEC under which they fit, where there is one.
+    pub(crate) spec: Option<String>,
+}
+
+/// A picture's size and its light by column and row.
+pub(crate) struct FacePixels<'a> {
+    pub(crate) size: (usize, usize),
+    pub(crate) light: &'a dyn Fn(usize, usize) -> Rgba,
+}
+
+impl GivenFaces {
+    /// Fewer have too few borders in common.
+    pub(crate) const LEAST: usize = 4;
+
+    /// Whole faces; of cropped ones no borders meet.
+    pub(crate) fn of_files(cube: &Cube, naming: &'static Naming, faces: &[(CubeFace, FacePlacement)]) -> Option<Self> {
+        Self::new(cube, GivenPacking::Files(naming), faces.iter().copied())
+    }
+
+    /// The faces of an image in this layout.
+    pub(crate) fn of_image(cube: &Cube) -> Option<Self> {
+        let (Some(Packing::OneImage(kind)), Some(layout)) = (cube.layout, cube.one_image()) else { return None };
+        let faces = layout.faces(2).into_iter().map(|placed| (placed.face, placed.lies));
+        Self::new(cube, GivenPacking::OneImage(kind), faces.filter(|(face, _)| cube.faces.contains(face)))
+    }
+
+    fn new(cube: &Cube, packing: GivenPacking, faces: impl Iterator<Item = (CubeFace, FacePlacement)>) -> Option<Self> {
+        let meet = cube.field_of_view == LayoutFaceFrame::RIGHT_ANGLE;
+        let is_plain = meet && cube.half.is_none() && cube.mirror == Mirror::default();
+        let poses = faces.map(|(face, lies)| Pose::new(face, lies)).collect();
+        is_plain.then_some(Self { poses, packing })
+    }
+
+    /// Judges the faces of which there are pictures, by their number. `None` where they are too few or too small.
+    pub(crate) fn judge(&self, pictures: &[(usize, FacePixels<'_>)]) -> Option<Continuity> {
+        let (mismatch, given) = self.compare(pictures)?;
+        let verdict = judge(&mismatch, &given);
+        Some(self.continuity(&mismatch, &given, verdict))
+    }
+
+    /// What should be known where faces are clearly not as they are said to be.
+    pub(crate) fn warning(&self, pictures: &[(usize, FacePixels<'_>)]) -> Option<String> {
+        let (mismatch, given) = self.compare(pictures)?;
+        // What meets everywhere needs no search.
+        if is_continuous(&mismatch, &given) {
+            return None;
+        }
+        let continuity = self.continuity(&mismatch, &given, judge(&mismatch, &given));
+        (continuity.fits == Some(false)).then_some(continuity.told)
+    }
+
+    fn compare(&self, pictures: &[(usize, FacePixels<'_>)]) -> Option<(Mismatch, Vec<Pose>)> {
+        let least = pictures.iter().map(|(_, picture)| picture.size.0.min(picture.size.1)).min()?;
+        if pictures.len() < Self::LEAST || least < 8 {
+            return None;
+        }
+        let samples = Border::samples_for(least);
+        let border = |(_, picture): &(usize, FacePixels<'_>)| Border::of(picture.size, samples, picture.light);
+        let borders: Vec<Border> = pictures.iter().map(border).collect();
+        let given = pictures.iter().map(|(index, _)| self.poses.get(*index).copied()).collect::<Option<_>>()?;
+        Some((Mismatch::new(&borders), given))
+    }
+
+    fn continuity(&self, mismatch: &Mismatch, given: &[Pose], verdict: Verdict) -> Continuity {
+        let nothing = Continuity { told: String::new(), fits: None, confidence: None, changes: Vec::new(), spec: None };
+        match verdict {
+            Verdict::CannotTell => {
+                let told = "the borders of the faces do not tell whether they lie rightly".to_owned();
+                Continuity { told, ..nothing }
+            }
+            Verdict::Fits(fit) => {
+                let told = format!("the borders of the faces meet{}{}", sure(&fit), undetermined(&fit, given));
+                Continuity { told, fits: Some(true), confidence: Some(fit.confidence), ..nothing }
+            }
+            Verdict::Wrong { fits, fit } => {
+                let changes: Vec<String> = changes(given, &fits).iter().map(Change::to_string).collect();
+                let preset = self.preset(mismatch, given, &fits);
+                let spec = preset.or_else(|| self.spec(&fits));
+                let advice = match &spec {
+                    Some(spec) => format!("; they fit --from {spec}"),
+                    None => String::new(),
+                };
+                let told = format!(
+                    "the borders of the faces do not meet as they lie{}: {}{advice}{}",
+                    sure(&fit),
+                    changes.join(", "),
+                    undetermined(&fit, given)
+                );
+                Continuity { told, fits: Some(false), confidence: Some(fit.confidence), changes, spec }
+            }
+        }
+    }
+
+    /// The SPEC of a tool whose files or places lie so.
+    fn preset(&self, mismatch: &Mismatch, given: &[Pose], fits: &[Pose]) -> Option<String> {
+        let all_given = self.poses.len() == given.len();
+        let is_it = |poses: &Vec<Pose>| all_given && fits_as_well(mismatch, fits, poses);
+        match self.packing {
+            GivenPacking::Files(naming) => {
+                let lies = |other: &'static Naming| {
+                    given.iter().map(|pose| Pose::new(pose.face, other.placement(pose.face))).collect::<Vec<_>>()
+                };
+                let same_names = Naming::presets().iter().filter(|other| other.names == naming.names);
+                let found = same_names.into_iter().find(|other| is_it(&lies(other)))?;
+                Some(format!("cube:naming={}", found.name))
+            }
+            GivenPacking::OneImage(kind) => {
+                let lies = |layout: CubeLayout| -> Vec<Pose> {
+                    layout.faces(2).iter().map(|placed| Pose::new(placed.face, placed.lies)).collect()
+                };
+                if is_it(&lies(CubeLayout::new(kind))) {
+                    return Some(format!("cube:layout={kind}"));
+                }
+                let in_order = |order: &&FaceOrder| is_it(&lies(CubeLayout::new(kind).with_order(order)));
+                let found = FaceOrder::presets().iter().find(in_order)?;
+                Some(format!("cube:layout={kind},order={}", found.name))
+            }
+        }
+    }
+
+    /// The SPEC that says how they lie place by place, where no picture is mirrored or has another face's name.
+    fn spec(&self, fits: &[Pose]) -> Option<String> {
+        if fits.len() != 6 || fits.iter().any(|pose| pose.is_mirrored()) {
+            return None;
+        }
+        // A picture that has to be turned one way lies turned the other way.
+        let digits = |fits: &mut dyn Iterator<Item = &Pose>| -> String {
+            fits.map(|pose| char::from(b'0' + (4 - pose.placement().quarter_turns) % 4)).collect()
+        };
+        match self.packing {
+            GivenPacking::OneImage(kind) => {
+                let letters: String = fits.iter().filter_map(|pose| pose.face.name().chars().next()).collect();
+                Some(format!("cube:layout={kind},order={letters},rotate={}", digits(&mut fits.iter())))
+            }
+            GivenPacking::Files(naming) => {
+                let is_named = |(fits, given): (&Pose, &Pose)| fits.face == given.face;
+                let is_upright = |face: &CubeFace| naming.placement(*face) == FacePlacement::UPRIGHT;
+                if !fits.iter().zip(&self.poses).all(is_named) || !CubeFace::ALL.iter().all(is_upright) {
+                    return None;
+                }
+                let order = FaceOrder::parse("rludfb")?.faces;
+                let mut poses = order.iter().filter_map(|face| fits.iter().find(|pose| pose.face == *face));
+                Some(format!("cube:naming={},rotate={}", naming.name, digits(&mut poses)))
+            }
+        }
+    }
+}
+
+fn sure(fit: &Fit) -> String {
+    format!(" (confidence {:.1} %)", 100.0 * fit.confidence.min(0.999))
+}
+
+/// Faces whose own turn the borders do not show.
+fn undetermined(fit: &Fit, given: &[Pose]) -> String {
+    let names: Vec<&str> = fit.free.iter().map(|picture| given[*picture].face.name()).collect();
+    if names.is_empty() { String::new() } else { format!("; how {} is turned does not show", names.join(", ")) }
+}

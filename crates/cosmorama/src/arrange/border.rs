@@ -1,0 +1,116 @@
+use super::Side;
+use crate::raster::Rgba;
+
+/// What a picture shows along its four sides.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Border {
+    /// By side, clockwise.
+    sides: [Vec<Sample>; 4],
+}
+
+/// A place on a side.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Sample {
+    /// Red, green and blue, as the eye weighs them, where the picture ends.
+    pub(super) colour: [f32; 3],
+    /// How far each may be off, squared: what is guessed from the slope across the side, and from that along it.
+    pub(super) doubt: [f32; 3],
+}
+
+/// Samples a side, at most.
+const SAMPLES: usize = 128;
+
+impl Border {
+    /// How many samples a side pictures with this least width or height should all have.
+    pub fn samples_for(least: usize) -> usize {
+        least.min(SAMPLES)
+    }
+
+    /// The sides of a picture of `width`×`height` pixels of linear light, `samples` each.
+    pub fn of((width, height): (usize, usize), samples: usize, light: impl Fn(usize, usize) -> Rgba) -> Self {
+        let side = |side: Side| {
+            let length = if matches!(side, Side::Top | Side::Bottom) { width } else { height };
+            let row =
+                |depth: usize| strip(length, samples, |along| light_at(side, (width, height), along, depth, &light));
+            extrapolated(&row(0), &row(1))
+        };
+        Self { sides: Side::ALL.map(side) }
+    }
+
+    pub(super) fn side(&self, side: Side) -> &[Sample] {
+        &self.sides[side as usize]
+    }
+
+    pub(super) fn samples(&self) -> usize {
+        self.sides[0].len()
+    }
+}
+
+/// The pixel so far along a side, clockwise, and so far from it; a picture of one row has no second.
+fn light_at(
+    side: Side,
+    (width, height): (usize, usize),
+    along: usize,
+    depth: usize,
+    light: impl Fn(usize, usize) -> Rgba,
+) -> Rgba {
+    let (across, down) = (depth.min(width.saturating_sub(1)), depth.min(height.saturating_sub(1)));
+    match side {
+        Side::Top => light(along, down),
+        Side::Right => light(width - 1 - across, along),
+        Side::Bottom => light(width - 1 - along, height - 1 - down),
+        Side::Left => light(across, height - 1 - along),
+    }
+}
+
+/// A row of pixels as so many averages, in tones.
+fn strip(length: usize, samples: usize, light: impl Fn(usize) -> Rgba) -> Vec<[f32; 3]> {
+    let average = |k: usize| {
+        let (start, end) = (k * length / samples, ((k + 1) * length / samples).max(k * length / samples + 1));
+        let mut sum = [0.0; 3];
+        for along in start..end {
+            let [red, green, blue, _] = light(along).0;
+            for (sum, light) in sum.iter_mut().zip([red, green, blue]) {
+                *sum += tone(light) / (end - start) as f32;
+            }
+        }
+        sum
+    };
+    (0..samples).map(average).collect()
+}
+
+/// Light as the eye weighs it: about that of sRGB up to white, and on beyond, so that suns do not outweigh all else.
+fn tone(light: f32) -> f32 {
+    light.max(0.0).powf(1.0 / 2.2)
+}
+
+/// What the outermost row and the one inside it say of the place half a pixel further out.
+fn extrapolated(outer: &[[f32; 3]], inner: &[[f32; 3]]) -> Vec<Sample> {
+    let at = |k: usize| {
+        let (before, after) = (outer[k.saturating_sub(1)], outer[(k + 1).min(outer.len() - 1)]);
+        let slope: [f32; 3] = std::array::from_fn(|c| 0.5 * (outer[k][c] - inner[k][c]));
+        let along: [f32; 3] = std::array::from_fn(|c| 0.25 * (after[c] - before[c]));
+        Sample {
+            colour: std::array::from_fn(|c| outer[k][c] + slope[c]),
+            doubt: std::array::from_fn(|c| slope[c] * slope[c] + along[c] * along[c]),
+        }
+    };
+    (0..outer.len()).map(at).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sides_go_round_clockwise_and_end_at_the_edge() {
+        let light = |i: usize, j: usize| Rgba::opaque((i as f32 + 0.5).powf(2.2), (j as f32 + 0.5).powf(2.2), 0.0);
+        let border = Border::of((8, 6), 6, light);
+        let [red, green, _] = border.side(Side::Right)[0].colour;
+        assert!((red - 8.0).abs() < 1e-4 && (green - 0.5).abs() < 1e-4, "{red} {green}");
+        let [red, green, _] = border.side(Side::Left)[0].colour;
+        assert!(red.abs() < 1e-4 && (green - 5.5).abs() < 1e-4, "{red} {green}");
+        let bottom = border.side(Side::Bottom);
+        assert!(bottom[0].colour[0] > bottom[5].colour[0] && (bottom[2].colour[1] - 6.0).abs() < 1e-4);
+    }
+}
