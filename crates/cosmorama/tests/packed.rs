@@ -15,10 +15,8 @@ const POSITION_PROMISE: f64 = 0.01;
 
 /// Two circles of so many pixels, a little turned, as real cameras are; blended over all that both see.
 fn dual_fisheye(edge: usize, field_of_view: [f64; 2]) -> World {
-    let [front, back] = field_of_view.map(|degrees| FisheyeFrame {
-        field_of_view: Angle::from_degrees(degrees),
-        ..FisheyeFrame::default()
-    });
+    let [front, back] = field_of_view
+        .map(|degrees| FisheyeFrame { field_of_view: Angle::from_degrees(degrees), ..FisheyeFrame::default() });
     let dual = DualFisheye {
         arrangement: Arrangement::SideBySide,
         first: LensSide::Front,
@@ -152,6 +150,9 @@ fn one_view_goes_over_into_the_other_without_an_edge() {
         let image = Resampler { world: &world, target: &target, filter: Filter::DEFAULT }.render(&light);
         let (step, allowed) = (largest_step(&image, &target), (1.5 * pixel / f64::to_radians(band)) as f32);
         println!("{name}: step {step:.4}, allowed {allowed:.4}");
-        assert!(step > 0.2 * allowed && step < allowed + RIPPLE, "{name}: a step of {step}, where {allowed} is the slope");
+        assert!(
+            step > 0.2 * allowed && step < allowed + RIPPLE,
+            "{name}: a step of {step}, where {allowed} is the slope"
+        );
     }
 }

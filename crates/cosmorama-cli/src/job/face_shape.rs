@@ -44,8 +44,9 @@ pub(super) fn usual_size(
     };
     let wrong: Vec<&FacePicture> = pictures.iter().filter(looks_cropped).collect();
     if let [first, others @ ..] = &wrong[..] {
-        return Err(other_half_error(first, pictures, half)
-            .unwrap_or_else(|| looks_cropped_error(first, others, &expected)));
+        return Err(
+            other_half_error(first, pictures, half).unwrap_or_else(|| looks_cropped_error(first, others, &expected))
+        );
     }
     let odd = |picture: &&FacePicture| {
         !picture.is_declared && usual.is_some_and(|usual| difference(&picture.canvas, usual) > SAME)
@@ -198,7 +199,10 @@ mod tests {
     fn halves_of_faces_are_the_files_of_half_a_cube() {
         // Front, right, back, left, up.
         let error = judge(&[(64, 32), (64, 32), (64, 32), (64, 32), (64, 64)], &[]).unwrap_err();
-        assert!(error.contains("front face's file is 64x32, half a face") && error.contains("half=up (up: the sky"), "{error}");
+        assert!(
+            error.contains("front face's file is 64x32, half a face") && error.contains("half=up (up: the sky"),
+            "{error}"
+        );
         // Sides alone may be above or below.
         let error = judge(&[(64, 32); 4], &[]).unwrap_err();
         assert!(error.contains("cube:half=up or half=down"), "{error}");
