@@ -2,7 +2,7 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use anyhow::{Context, Result};
-use cosmorama::explain::{Figures, Magnification, Report, ViewReport};
+use cosmorama::explain::{Centre, Figures, Magnification, Report, ViewReport};
 use cosmorama::resample::Needs;
 use cosmorama::world::{PixelRect, World};
 use serde_json::{Value, json};
@@ -118,6 +118,7 @@ fn to_json(report: &Report, input: &Input, files: &[PathBuf]) -> Value {
         "width": report.size.0,
         "height": report.size.1,
         "shown": report.shown,
+        "centre": report.centre.map(|centre| centre_json(&centre, report)),
         "texels_used": report.used(),
         "texels_a_pixel": { "mean": report.gathered.mean, "most": report.gathered.most },
         "memory_bytes": {
@@ -128,6 +129,13 @@ fn to_json(report: &Report, input: &Input, files: &[PathBuf]) -> Value {
         "views_without_files": missing,
         "diagrams": files,
     })
+}
+
+fn centre_json(centre: &Centre, report: &Report) -> Value {
+    let (yaw, pitch) = centre.direction.longitude_latitude();
+    let view = centre.view.map(|(index, _)| report.views[index].need.name.as_str());
+    let texels = centre.view.map(|(_, found)| [found.least, found.greatest]);
+    json!({ "yaw": yaw.degrees(), "pitch": pitch.degrees(), "view": view, "texels_a_pixel": texels })
 }
 
 fn view_json(view: &ViewReport) -> Value {

@@ -186,6 +186,72 @@ mod tests {
             assert_eq!(spec(theirs), spec(ours), "{theirs}");
         }
         assert!(refused("tetrahedron").contains("'tetrahedron' of other programs is not on offer"));
+        // What is typed comes in the place of what the name stands for.
+        assert_eq!(spec("little-planet:pitch=-60"), spec("stereographic:pitch=-60"));
+        assert_eq!(spec("dfisheye:fov=195"), spec("dual-fisheye:order=bf,fov=195"));
+        assert_eq!(spec("he:stereo=sbs"), spec("equirect:hfov=180,stereo=sbs"));
+    }
+
+    /// Every projection of `ffmpeg -h filter=v360`, in its order, with what it is here; `None` where it is refused by name.
+    const V360: [(&str, Option<&str>); 33] = [
+        ("e", Some("equirect")),
+        ("equirect", Some("equirect")),
+        ("c3x2", Some("cube:layout=3x2")),
+        ("c6x1", Some("cube:layout=strip-h")),
+        ("eac", Some("cube:layout=eac")),
+        ("dfisheye", Some("dual-fisheye:order=bf,fov=180")),
+        ("flat", Some("perspective")),
+        ("rectilinear", Some("perspective")),
+        ("gnomonic", Some("perspective")),
+        ("barrel", None),
+        ("fb", None),
+        ("c1x6", Some("cube:layout=strip-v")),
+        ("sg", Some("stereographic")),
+        ("mercator", Some("mercator")),
+        ("ball", Some("fisheye:lens=equisolid,fov=360")),
+        ("hammer", Some("hammer")),
+        ("sinusoidal", Some("sinusoidal")),
+        ("fisheye", Some("fisheye")),
+        ("pannini", Some("pannini")),
+        ("cylindrical", Some("cylinder")),
+        // Its globe from outside has a name that is a camera's here: the one name that means something else.
+        ("perspective", Some("perspective")),
+        ("tetrahedron", None),
+        ("barrelsplit", None),
+        ("tsp", None),
+        ("hequirect", Some("equirect:hfov=180")),
+        ("he", Some("equirect:hfov=180")),
+        ("equisolid", Some("fisheye:lens=equisolid")),
+        ("og", Some("fisheye:lens=orthographic")),
+        ("octahedron", Some("octahedral:kind=plain")),
+        ("cylindricalea", Some("equal-area")),
+        // Written so in its documentation.
+        ("stereographic", Some("stereographic")),
+        ("orthographic", Some("fisheye:lens=orthographic")),
+        ("equidistant", Some("fisheye")),
+    ];
+
+    #[test]
+    fn every_projection_of_v360_is_understood_or_refused_by_name() {
+        for (theirs, ours) in V360 {
+            match (theirs.parse::<Spec>(), ours) {
+                (Ok(found), Some(ours)) => assert_eq!(found.shape, ours.parse::<Spec>().unwrap().shape, "{theirs}"),
+                (Err(error), None) => {
+                    let message = error.to_string();
+                    assert!(message.contains(&format!("'{theirs}'")) && message.contains("output=e"), "{message}");
+                }
+                (found, _) => panic!("{theirs} is {found:?}"),
+            }
+        }
+    }
+
+    #[test]
+    fn what_belongs_to_a_lens_or_an_eye() {
+        assert!("dual-fisheye:front.yaw=1,back.center=3:4,back.fov=190".parse::<Spec>().is_ok());
+        assert!(refused("dual-fisheye:LENS.fov=3").contains("unknown key 'LENS.fov'"));
+        assert!(refused("dual-fisheye:front.center=3").contains("front.center=3: expected X:Y"));
+        assert!(refused("fisheye:front.fov=3").contains("unknown key 'front.fov' for fisheye"));
+        assert!(refused("fisheye:eye=left").contains("stereo= beside it"));
     }
 
     #[test]
