@@ -9,7 +9,7 @@ use super::detect::{declared, detect};
 use super::face_shape::{FacePicture, usual_size};
 use super::face_view::face_placement;
 use super::packed::{self, FilePart};
-use super::{Files, frames, world_file};
+use super::{Files, frames, pto, world_file};
 use crate::args::SizeArg;
 use crate::failure::usage;
 use crate::spec::{Cube, Packing, Shape, Single, Spec};
@@ -56,6 +56,12 @@ impl Input {
                 return Err(usage(format!("{pattern} says itself what its views are; leave out --from {name}")));
             }
             return world_file::find(pattern, wanted, warnings);
+        }
+        if pto::is_project(pattern) {
+            if let Some((name, _)) = shape {
+                return Err(usage(format!("{pattern} says itself what its pictures are; leave out --from {name}")));
+            }
+            return pto::find(pattern, warnings);
         }
         match (FacePattern::parse(pattern), shape) {
             (Some(_), Some((_, Shape::Cube(cube)))) => Self::cube(pattern, cube, wanted, warnings),

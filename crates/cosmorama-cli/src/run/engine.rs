@@ -256,7 +256,12 @@ struct ViewPart<'a> {
 fn by_file(views: Vec<ViewPart<'_>>) -> Vec<Vec<ViewPart<'_>>> {
     let mut files: Vec<Vec<ViewPart<'_>>> = Vec::new();
     for view in views {
-        match files.last_mut().filter(|_| view.input.part.is_some()) {
+        let is_its_file = |others: &Vec<ViewPart<'_>>| {
+            let path = |view: &ViewPart<'_>| view.input.files.path(None);
+            view.input.part.is_some()
+                && others.iter().all(|other| other.input.part.is_some() && path(other) == path(&view))
+        };
+        match files.last_mut().filter(|others| is_its_file(others)) {
             Some(shared) => shared.push(view),
             None => files.push(vec![view]),
         }
