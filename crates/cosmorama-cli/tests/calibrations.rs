@@ -80,7 +80,7 @@ fn calibrations_that_do_not_fit_say_why() {
         ),
         ("fisheye:calibration=camera/fisheye.json,k=1", "320x240", &["k= and calibration= cannot both"]),
         ("fisheye:calibration=folding.json", "320x240", &["turns back 57.29", "86 pixels", "fov= (at most 114.59"]),
-        ("fisheye:calibration=folding.json,fov=120", "320x240", &["fov", "120", "114.59"]),
+        ("fisheye:calibration=folding.json,fov=120", "320x240", &["the field of view is 120°", "114.59"]),
         ("perspective:calibration=bent.yml", "320x240", &["turns back", "pixels", "fov="]),
     ] {
         assert_says(&bench.fail(2, &to(spec, size)), expected);

@@ -15,6 +15,7 @@ mod icc;
 mod limits;
 mod metadata;
 pub mod pending;
+mod pto;
 mod sequence;
 pub mod svg;
 
@@ -25,4 +26,5 @@ pub use file::{Header, ImageFile, WriteOptions, probe, read, write, write_planes
 pub use format::Format;
 pub use limits::Limits;
 pub use metadata::{EnvMap, Metadata, Window};
+pub use pto::{PtoError, PtoImage, PtoPanorama, PtoProject};
 pub use sequence::{FrameList, FramePattern, Frames};

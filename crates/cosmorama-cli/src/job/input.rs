@@ -10,7 +10,7 @@ use super::eye::EyePart;
 use super::face_file::Face;
 use super::face_shape::{FacePicture, size_of_missing};
 use super::packed::{self, FilePart};
-use super::{Files, GivenFaces, frames, world_file};
+use super::{Files, GivenFaces, frames, pto, world_file};
 use crate::failure::usage;
 use crate::spec::{Cube, Packing, Shape, Single, Spec, StereoSpec};
 
@@ -69,6 +69,15 @@ impl Input {
                 return Err(usage(format!("{pattern} says itself what its views are; leave out --from {}", spec.name)));
             }
             return world_file::find(pattern, wanted, warnings);
+        }
+        if pto::is_project(pattern) {
+            if let Some(spec) = from {
+                return Err(usage(format!(
+                    "{pattern} says itself what its pictures are; leave out --from {}",
+                    spec.name
+                )));
+            }
+            return pto::find(pattern, warnings);
         }
         let Some(StereoSpec { packing, eye }) = from.and_then(|spec| spec.stereo) else {
             return Self::find_one(pattern, from, None, wanted, warnings);

@@ -20,6 +20,7 @@ mod outputs;
 mod packed;
 mod picture;
 mod piece;
+mod pto;
 mod size;
 mod target;
 mod world_file;
@@ -78,7 +79,7 @@ impl ConvertJob {
     pub(crate) fn resolve(args: &ConvertArgs) -> Result<Self> {
         let memory = MemoryBudget::new(args.limits.memory);
         let mut warnings = Vec::new();
-        let geometry = &args.geometry;
+        let geometry = &pto::complete(&args.input, &args.geometry)?;
         // Mistakes in the command itself come first: they do not depend on any file.
         let format = Target::check_names(&args.output, geometry)?;
         check_quality(args, format)?;

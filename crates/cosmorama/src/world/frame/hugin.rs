@@ -24,6 +24,10 @@ pub enum HuginProjection {
     Stereographic,
     /// A fisheye, r = 2 sin(φ/2): f21.
     Equisolid,
+    /// Mercator's map, of panoramas alone.
+    Mercator,
+    /// Lambert's equal-area cylinder, of panoramas alone.
+    EqualArea,
 }
 
 /// An image of a Hugin project, as an i-line describes its lens.
@@ -61,7 +65,11 @@ impl HuginFrame {
             HuginProjection::Rectilinear => (180.0, true),
             HuginProjection::Orthographic => (180.0, false),
             HuginProjection::Stereographic => (360.0, true),
-            HuginProjection::Equisolid | HuginProjection::Cylinder | HuginProjection::Equirectangular => (360.0, false),
+            HuginProjection::Equisolid
+            | HuginProjection::Cylinder
+            | HuginProjection::Equirectangular
+            | HuginProjection::Mercator
+            | HuginProjection::EqualArea => (360.0, false),
             // The circle may be smaller than the image.
             HuginProjection::Equidistant => (1000.0, false),
         };
@@ -101,7 +109,12 @@ impl HuginFrame {
             }
             HuginProjection::Cylinder if is_ideal => Ok(ProjectionKind::CENTRAL_CYLINDER),
             HuginProjection::Equirectangular if is_ideal => Ok(ProjectionKind::EQUIRECTANGULAR),
-            HuginProjection::Cylinder | HuginProjection::Equirectangular => Err(FrameError::CorrectedPanorama),
+            HuginProjection::Mercator if is_ideal => Ok(ProjectionKind::MERCATOR),
+            HuginProjection::EqualArea if is_ideal => Ok(ProjectionKind::EQUAL_AREA_CYLINDER),
+            HuginProjection::Cylinder
+            | HuginProjection::Equirectangular
+            | HuginProjection::Mercator
+            | HuginProjection::EqualArea => Err(FrameError::CorrectedPanorama),
         }
     }
 }

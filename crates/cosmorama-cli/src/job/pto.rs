@@ -1,0 +1,174 @@
+//! Hugin projects: each picture is a view, and the p-line says what comes of them unless told.
+
+use std::path::Path;
+
+use anyhow::{Context, Result, anyhow};
+use cosmorama::sphere::{Angle, Orientation};
+use cosmorama::world::{Blend, Canvas, Frame, HuginFrame, HuginProjection, Mirror, Placement, WorldMapFrame};
+use cosmorama_io::{PtoImage, PtoPanorama, PtoProject, probe};
+
+use super::packed::FilePart;
+use super::{Files, Input, InputView};
+use crate::args::SizeArg;
+use crate::args::convert::GeometryArgs;
+use crate::spec::{Shape, Single, Spec, SphereSamples};
+
+/// Degrees over which pictures of a project fade into each other.
+const FEATHER: f64 = 3.0;
+
+/// Whether an input names a Hugin project.
+pub(super) fn is_project(pattern: &str) -> bool {
+    Path::new(pattern).extension().is_some_and(|extension| extension.eq_ignore_ascii_case("pto"))
+}
+
+/// Finds and probes the pictures of a project.
+pub(super) fn find(name: &str, warnings: &mut Vec<String>) -> Result<Input> {
+    let project = PtoProject::read(Path::new(name))?;
+    warnings.extend(project.warnings.iter().map(|warning| format!("{name}: {warning}")));
+    let folder = Path::new(name).parent().unwrap_or(Path::new(""));
+    let view = |image: &PtoImage| view(folder, image).with_context(|| format!("{name}, line {}", image.line));
+    let views = project.images.iter().map(view).collect::<Result<_>>()?;
+    Ok(Input { worlds: vec![views], frames: vec![None], faces: None })
+}
+
+/// What is made of a project where the command line does not say.
+pub(super) fn complete(input: &str, geometry: &GeometryArgs) -> Result<GeometryArgs> {
+    let mut geometry = geometry.clone();
+    if !is_project(input) || geometry.to.is_some() {
+        return Ok(geometry);
+    }
+    let Some(panorama) = PtoProject::read(Path::new(input))?.panorama else { return Ok(geometry) };
+    let told = |reason: String| anyhow!("{input}, line {}: {reason}", panorama.line);
+    let frame = output_frame(&panorama).map_err(told)?;
+    let (width, height) = panorama.size;
+    let (size, canvas) = match panorama.crop {
+        None => (panorama.size, None),
+        Some([left, right, top, bottom]) => {
+            let side = |from: i64, to: i64| usize::try_from(to - from).unwrap_or(0);
+            ((side(left, right), side(top, bottom)), Some(Canvas { width, height, left, top }))
+        }
+    };
+    geometry.size = geometry.size.or(Some(SizeArg { width: size.0, height: Some(size.1) }));
+    let placement = Placement { canvas, ..Placement::new(frame) };
+    let shape = Shape::Single(Single { placement, samples: SphereSamples::NotAPanorama });
+    geometry.to = Some(Spec { name: "the p-line", shape, stereo: None });
+    Ok(geometry)
+}
+
+fn view(folder: &Path, image: &PtoImage) -> Result<InputView> {
+    let path = folder.join(&image.file);
+    let whole = probe(&path)?;
+    let (width, height) = image.size;
+    if (whole.width, whole.height) != image.size {
+        let found = format!("{}x{}", whole.width, whole.height);
+        return Err(anyhow!("{} has {found} pixels, but the project says w{width} h{height}", path.display()));
+    }
+    let frame = HuginFrame {
+        projection: lens(image.lens)?,
+        field_of_view: Angle::from_degrees(image.field_of_view),
+        correction: image.correction,
+        shift: image.shift,
+    };
+    let [yaw, pitch, roll] = image.yaw_pitch_roll.map(Angle::from_degrees);
+    let orientation = Orientation::from_yaw_pitch_roll(yaw, pitch, roll);
+    let placement = |canvas| Placement { frame: Frame::Hugin(frame), orientation, mirror: Mirror::default(), canvas };
+    let Part { corner, size } = Part::of(image)?;
+    let canvas = Canvas { width, height, left: corner.0 as i64, top: corner.1 as i64 };
+    let held = placement(Some(canvas)).view(size.0, size.1)?;
+    Ok(InputView {
+        name: image.file.display().to_string(),
+        files: Files::One(path),
+        part: (size != image.size).then_some(FilePart { corner, of: image.size }),
+        header: Some(cosmorama_io::Header { width: size.0, height: size.1, ..whole }),
+        // What was cropped away is not there, as if it had never been photographed.
+        nominal: held,
+        window: Some((held, Canvas { width: size.0, height: size.1, left: 0, top: 0 })),
+        blend: Blend { priority: 0, feather: Angle::from_degrees(FEATHER) },
+        wanted: true,
+    })
+}
+
+/// The part of a picture that counts.
+struct Part {
+    corner: (usize, usize),
+    size: (usize, usize),
+}
+
+impl Part {
+    fn of(image: &PtoImage) -> Result<Self> {
+        let (width, height) = image.size;
+        let Some([left, right, top, bottom]) = image.crop else {
+            return Ok(Self { corner: (0, 0), size: image.size });
+        };
+        if image.lens == CIRCULAR {
+            return Err(anyhow!(
+                "S of a circular fisheye (f2) is a circle, which is not supported; make what lies outside of it transparent, \
+                 or use f3 with a rectangle"
+            ));
+        }
+        let inside = |at: i64, size: usize| at.clamp(0, size as i64) as usize;
+        let (left, right) = (inside(left, width), inside(right, width));
+        let (top, bottom) = (inside(top, height), inside(bottom, height));
+        if left >= right || top >= bottom {
+            return Err(anyhow!("S leaves nothing of the picture's {width}x{height} pixels"));
+        }
+        Ok(Self { corner: (left, top), size: (right - left, bottom - top) })
+    }
+}
+
+/// A fisheye whose crop is round.
+const CIRCULAR: u32 = 2;
+
+/// The lens of an i-line's f.
+fn lens(f: u32) -> Result<HuginProjection> {
+    Ok(match f {
+        0 => HuginProjection::Rectilinear,
+        1 => HuginProjection::Cylinder,
+        CIRCULAR | 3 => HuginProjection::Equidistant,
+        4 => HuginProjection::Equirectangular,
+        8 => HuginProjection::Orthographic,
+        10 => HuginProjection::Stereographic,
+        21 => HuginProjection::Equisolid,
+        _ => {
+            let name = match f {
+                7 => " (mirror)",
+                9 => " (Lambert azimuthal)",
+                20 => " (Thoby)",
+                _ => "",
+            };
+            return Err(anyhow!("the lens f{f}{name} is not supported; there are f0, f1, f2, f3, f4, f8, f10 and f21"));
+        }
+    })
+}
+
+/// The frame of the p-line's f.
+fn output_frame(panorama: &PtoPanorama) -> Result<Frame, String> {
+    let field_of_view = Angle::from_degrees(panorama.field_of_view);
+    let projection = match panorama.projection {
+        0 => HuginProjection::Rectilinear,
+        1 => HuginProjection::Cylinder,
+        2 => HuginProjection::Equirectangular,
+        3 => HuginProjection::Equidistant,
+        4 => HuginProjection::Stereographic,
+        5 => HuginProjection::Mercator,
+        8 => HuginProjection::EqualArea,
+        14 => HuginProjection::Orthographic,
+        9 | 15 => HuginProjection::Equisolid,
+        f => {
+            return match (f, is_whole_world(panorama)) {
+                (7, true) => Ok(Frame::WorldMap(WorldMapFrame::Sinusoidal)),
+                (21, true) => Ok(Frame::WorldMap(WorldMapFrame::Hammer)),
+                _ => {
+                    Err(format!("the panorama's projection f{f} is not supported as it is; give --to SPEC and --size"))
+                }
+            };
+        }
+    };
+    Ok(Frame::Hugin(HuginFrame { projection, field_of_view, correction: [0.0; 3], shift: [0.0; 2] }))
+}
+
+/// Maps of the world come whole or not at all.
+fn is_whole_world(panorama: &PtoPanorama) -> bool {
+    let (width, height) = panorama.size;
+    panorama.field_of_view >= 360.0 && width == 2 * height
+}

@@ -1,0 +1,109 @@
+//! Hugin projects: ours beside what nona makes of them, and what is told of those that we cannot do.
+//!
+//! nona is Hugin's own resampler (Debian's hugin-tools); `.ci/run programs` installs it.
+
+// A test that cannot go on stops where it stands.
+#![allow(clippy::unwrap_used)]
+
+mod bench;
+
+use std::process::Command;
+
+use bench::{Bench, assert_says};
+
+const IDLE: &str = "Ra0 Rb0 Rc0 Rd0 Re0 Eev0 Er1 Eb1 TrX0 TrY0 TrZ0 j0 g0 t0 Va1 Vb0 Vc0 Vd0 Vx0 Vy0";
+
+/// A picture of the demo's arcade, and a project of it.
+fn bench(panorama: &str, image: &str) -> Bench {
+    let bench = Bench::new();
+    bench.succeed(&["convert", "builtin:demo", "one.png", "--to", "perspective:fov=75", "--size", "480x360"]);
+    project(&bench, panorama, &format!("i w480 h360 {image} {IDLE} n\"one.png\"\n"));
+    bench
+}
+
+fn project(bench: &Bench, panorama: &str, images: &str) {
+    let text = format!("p {panorama} E0 R0 n\"PNG\"\nm i0\n{images}");
+    std::fs::write(bench.path("project.pto"), text).unwrap();
+}
+
+/// Whether nona is there; in CI it must be.
+fn nona_is_there() -> bool {
+    let found = Command::new("nona").arg("--help").output().is_ok();
+    assert!(found || std::env::var_os("CI").is_none(), "nona is missing: .ci/run programs installs it");
+    if !found {
+        eprintln!("left out: nona is not installed");
+    }
+    found
+}
+
+/// Every kind of lens that we read, off its axis, bent and shifted; into every kind of panorama.
+#[test]
+fn pictures_are_where_nona_puts_them() {
+    if !nona_is_there() {
+        return;
+    }
+    let turned = "y10 p-5 r6";
+    let bent = "a0.01 b-0.03 c0.02 d6.5 e-4.25";
+    for (panorama, image) in [
+        ("f0 w240 h160 v36", format!("f0 v70 a0 b0 c0 d0 e0 {turned}")),
+        ("f0 w240 h160 v36", format!("f0 v70 {bent} {turned}")),
+        ("f1 w240 h160 v36", format!("f0 v70 {bent} {turned}")),
+        ("f2 w1600 h800 v360 S710,890,330,470", format!("f3 v90 {bent} {turned}")),
+        ("f3 w240 h160 v45", format!("f2 v95 {bent} {turned}")),
+        ("f4 w240 h160 v45", format!("f10 v90 {bent} {turned}")),
+        ("f5 w240 h160 v45", format!("f21 v90 {bent} {turned}")),
+        ("f8 w240 h160 v45", format!("f8 v90 {bent} {turned}")),
+        ("f15 w240 h160 v45", format!("f1 v90 a0 b0 c0 d3 e2 {turned}")),
+        ("f0 w240 h160 v36", format!("f4 v90 a0 b0 c0 d3 e2 {turned}")),
+    ] {
+        let bench = bench(panorama, &image);
+        bench.succeed(&["convert", "project.pto", "ours.png"]);
+        let mut nona = Command::new("nona");
+        nona.args(["-m", "PNG", "-o", "nona.png", "project.pto"]).current_dir(bench.path("."));
+        let output = nona.output().unwrap();
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        let report = bench.succeed(&["compare", "ours.png", "nona.png", "--min-psnr", "35", "--max-shift", "0.015"]);
+        println!("{panorama} of {image}: {report}");
+    }
+}
+
+#[test]
+fn pictures_are_cropped_and_blended() {
+    let bench = Bench::new();
+    for (name, yaw) in [("one.png", "-25"), ("two.png", "25")] {
+        let to = ["--to", "perspective:fov=75", "--size", "480x360", "--yaw", yaw];
+        bench.succeed(&[&["convert", "builtin:demo", name], &to[..]].concat());
+    }
+    let image =
+        |yaw: i32, name: &str, crop: &str| format!("i w480 h360 f0 v75 y{yaw} p0 r0 {IDLE} {crop} n\"{name}\"\n");
+    let images = image(-25, "one.png", "S0,440,0,360") + &image(25, "two.png", "S30,480,10,350").replace("v75", "v=0");
+    project(&bench, "f0 w300 h200 v60", &images);
+    bench.succeed(&["convert", "project.pto", "ours.png"]);
+    bench.succeed(&["convert", "builtin:demo", "direct.png", "--to", "perspective:fov=60", "--size", "300x200"]);
+    bench.succeed(&["compare", "ours.png", "direct.png", "--min-psnr", "30", "--max-shift", "0.05"]);
+    // What is cropped away is not there, and told.
+    project(&bench, "f0 w300 h200 v60", &image(-25, "one.png", "S0,200,0,360"));
+    assert_says(&bench.fail(1, &["convert", "project.pto", "out.png"]), &["where no view does", "yaw"]);
+}
+
+#[test]
+fn what_cannot_be_done_is_named() {
+    let plain = "f0 v70 y0 p0 r0";
+    let bench = bench("f0 w240 h160 v36", plain);
+    let convert = ["convert", "project.pto", "out.png"];
+    for (panorama, image, name, expected) in [
+        ("f0 w240 h160 v36", "f20 v70", "one.png", &["project.pto, line 3", "f20 (Thoby)"][..]),
+        ("f0 w240 h160 v36", "f2 v70 S0,100,0,100", "one.png", &["line 3", "circular fisheye"]),
+        ("f0 w240 h160 v36", "f0 v70 b-0.9", "one.png", &["line 3", "turn back", "pixels"]),
+        ("f0 w240 h160 v36", "f1 v70 b-0.9", "one.png", &["line 3", "must be 0"]),
+        ("f0 w240 h160 v36", "f0 v190", "one.png", &["line 3", "less than 180"]),
+        ("f0 w240 h160 v36", plain, "none.png", &["line 3", "none.png"]),
+        ("f17 w240 h160 v36", plain, "one.png", &["line 1", "f17", "--to"]),
+    ] {
+        project(&bench, panorama, &format!("i w480 h360 {image} n\"{name}\"\n"));
+        assert_says(&bench.fail(1, &convert), expected);
+    }
+    project(&bench, "f0 w240 h160 v36", &format!("i w481 h360 {plain} n\"one.png\"\n"));
+    assert_says(&bench.fail(1, &convert), &["480x360", "w481"]);
+    assert_says(&bench.fail(2, &["convert", "project.pto", "out.png", "--from", "equirect"]), &["leave out --from"]);
+}

@@ -1,0 +1,219 @@
+use std::io::Read;
+use std::path::{Path, PathBuf};
+
+use super::PtoError;
+use super::line::{Line, Value};
+
+/// A project: its pictures and the panorama that it makes of them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PtoProject {
+    /// The pictures, in their order.
+    pub images: Vec<PtoImage>,
+    /// The panorama, if there is a p-line.
+    pub panorama: Option<PtoPanorama>,
+    /// What is left out of account, and does no harm.
+    pub warnings: Vec<String>,
+}
+
+/// An i-line. Angles in degrees.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PtoImage {
+    /// Its line, from 1.
+    pub line: usize,
+    /// The file, relative to the project.
+    pub file: PathBuf,
+    /// Columns and rows.
+    pub size: (usize, usize),
+    /// The kind of lens: f.
+    pub lens: u32,
+    /// Across its width: v.
+    pub field_of_view: f64,
+    /// y, p, r.
+    pub yaw_pitch_roll: [f64; 3],
+    /// a, b, c.
+    pub correction: [f64; 3],
+    /// d, e.
+    pub shift: [f64; 2],
+    /// S: left, right, top and bottom of the part that counts.
+    pub crop: Option<[i64; 4]>,
+}
+
+/// The p-line.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PtoPanorama {
+    /// Its line, from 1.
+    pub line: usize,
+    /// The kind of projection: f.
+    pub projection: u32,
+    /// Columns and rows of the whole.
+    pub size: (usize, usize),
+    /// Degrees across its width: v.
+    pub field_of_view: f64,
+    /// S: left, right, top and bottom of the part that is made.
+    pub crop: Option<[i64; 4]>,
+}
+
+/// No project is as long as that.
+const LONGEST: u64 = 16 << 20;
+
+/// What bends a picture in ways that are not supported, and what each is called.
+const BENDS: [(&str, &str); 8] = [
+    ("g", "shear"),
+    ("t", "shear"),
+    ("TrX", "translation of the camera"),
+    ("TrY", "translation of the camera"),
+    ("TrZ", "translation of the camera"),
+    ("Tpy", "translation plane"),
+    ("Tpp", "translation plane"),
+    ("X", "translation of the camera"),
+];
+
+/// What changes light within a picture: its value where it changes nothing.
+const VIGNETTING: [(&str, f64); 6] = [("Va", 1.0), ("Vb", 0.0), ("Vc", 0.0), ("Vd", 0.0), ("Vx", 0.0), ("Vy", 0.0)];
+
+/// What changes light from picture to picture: alike in all of them it changes nothing.
+const EXPOSURE: [&str; 8] = ["Eev", "Er", "Eb", "Ra", "Rb", "Rc", "Rd", "Re"];
+
+impl PtoProject {
+    /// Reads a project.
+    ///
+    /// # Errors
+    /// When the file cannot be read, a line cannot be understood, or it asks for what is not supported, by name.
+    pub fn read(path: &Path) -> Result<Self, PtoError> {
+        let open = |source| PtoError::Open { path: path.to_owned(), source };
+        let project = |reason: &str| PtoError::Project { path: path.to_owned(), reason: reason.to_owned() };
+        let mut bytes = Vec::new();
+        std::fs::File::open(path).and_then(|file| file.take(LONGEST + 1).read_to_end(&mut bytes)).map_err(open)?;
+        if bytes.len() as u64 > LONGEST {
+            return Err(project("more than 16 megabytes, which no Hugin project is"));
+        }
+        let text = String::from_utf8_lossy(&bytes);
+        Self::parse(&text).map_err(|(line, reason)| match line {
+            0 => project(&reason),
+            line => PtoError::Line { path: path.to_owned(), line, reason },
+        })
+    }
+
+    /// An error has its line, 0 for all.
+    fn parse(text: &str) -> Result<Self, (usize, String)> {
+        let mut images: Vec<(usize, Line)> = Vec::new();
+        let mut panorama = None;
+        for (line, text) in text.lines().enumerate().map(|(index, text)| (index + 1, text.trim_end())) {
+            let told = |reason: String| (line, reason);
+            match text.split_at_checked(1) {
+                Some(("i", rest)) => images.push((line, Line::parse(rest).map_err(told)?)),
+                Some(("p", rest)) => {
+                    panorama = Some(Line::parse(rest).and_then(|words| self::panorama(line, &words)).map_err(told)?)
+                }
+                Some(("k", _)) => {
+                    return Err((
+                        line,
+                        "masks (k-lines) are not supported; cut them out of the pictures as transparency".into(),
+                    ));
+                }
+                // o-lines of PTStitcher say what i-lines do.
+                Some(("o", rest)) if rest.starts_with(' ') => {
+                    return Err((
+                        line,
+                        "o-lines of old projects are not supported; save the project with Hugin".into(),
+                    ));
+                }
+                // Options (m), variables (v), control points (c) and comments place no picture.
+                _ => {}
+            }
+        }
+        if images.is_empty() {
+            return Err((0, "no i-line in it; a Hugin project has one for each picture".into()));
+        }
+        let warnings = photometry(&images)?;
+        let read = |index: usize| image(&images, index).map_err(|reason| (images[index].0, reason));
+        Ok(Self { images: (0..images.len()).map(read).collect::<Result<_, _>>()?, panorama, warnings })
+    }
+}
+
+/// A parameter of an image, its own or that of the one it refers to.
+fn number(images: &[(usize, Line)], index: usize, name: &str, absent: f64) -> Result<f64, String> {
+    match images[index].1.value(name)? {
+        None => Ok(absent),
+        Some(Value::Number(number)) => Ok(number),
+        Some(Value::Of(other)) if other < images.len() && other != index => match images[other].1.value(name)? {
+            Some(Value::Number(number)) => Ok(number),
+            _ => Err(format!("{name}={other}: image {other} has no {name} of its own")),
+        },
+        Some(Value::Of(other)) => {
+            Err(format!("{name}={other}: expected another image, from 0 to {}", images.len() - 1))
+        }
+    }
+}
+
+fn image(images: &[(usize, Line)], index: usize) -> Result<PtoImage, String> {
+    let (line, words) = &images[index];
+    let read = |name: &str| number(images, index, name, 0.0);
+    for (name, what) in BENDS {
+        if read(name)? != 0.0 {
+            return Err(format!("{name}: {what} is not supported; expected 0"));
+        }
+    }
+    for (name, neutral) in VIGNETTING {
+        if number(images, index, name, neutral)? != neutral {
+            return Err(format!(
+                "{name}: vignetting is not supported; correct the pictures first and set it to {neutral}"
+            ));
+        }
+    }
+    if words.get("C").is_some() {
+        return Err("C (a crop of old projects) is not supported; save the project with Hugin, which writes S".into());
+    }
+    let name = words.get("n").ok_or("n, the picture's file, is missing")?.trim_matches('"');
+    Ok(PtoImage {
+        line: *line,
+        file: name.into(),
+        size: (words.side("w")?, words.side("h")?),
+        lens: kind(read("f")?)?,
+        field_of_view: read("v")?,
+        yaw_pitch_roll: [read("y")?, read("p")?, read("r")?],
+        correction: [read("a")?, read("b")?, read("c")?],
+        shift: [read("d")?, read("e")?],
+        crop: words.crop("S")?,
+    })
+}
+
+fn panorama(line: usize, words: &Line) -> Result<PtoPanorama, String> {
+    Ok(PtoPanorama {
+        line,
+        projection: kind(words.number("f")?)?,
+        size: (words.side("w")?, words.side("h")?),
+        field_of_view: words.number("v")?,
+        crop: words.crop("S")?,
+    })
+}
+
+fn kind(number: f64) -> Result<u32, String> {
+    if number >= 0.0 && number <= 1000.0 && number.fract() == 0.0 {
+        return Ok(number as u32);
+    }
+    Err(format!("f{number}: expected the number of a projection"))
+}
+
+/// Exposure and response that are alike in all pictures leave them as they are; others are not supported.
+fn photometry(images: &[(usize, Line)]) -> Result<Vec<String>, (usize, String)> {
+    let mut warnings = Vec::new();
+    for name in EXPOSURE {
+        let absent = if matches!(name, "Er" | "Eb") { 1.0 } else { 0.0 };
+        let value = |index: usize| number(images, index, name, absent).map_err(|reason| (images[index].0, reason));
+        let first = value(0)?;
+        for (index, (line, _)) in images.iter().enumerate() {
+            let found = value(index)?;
+            if found != first {
+                let reason = format!(
+                    "{name}{found}, but image 0 has {name}{first}: exposure, white balance and response by picture are not supported; make the pictures alike first"
+                );
+                return Err((*line, reason));
+            }
+        }
+        if first != absent {
+            warnings.push(format!("{name}{first} of the project is left out: it is the same in all pictures"));
+        }
+    }
+    Ok(warnings)
+}
