@@ -8,8 +8,9 @@ mod bench;
 use bench::{Bench, assert_says, eight_bits, flat, picture, word};
 use cosmorama::sphere::CubeFace;
 
-const LEFT: [u8; 3] = [250, 10, 20];
-const RIGHT: [u8; 3] = [5, 60, 240];
+/// Nothing of one in the other.
+const LEFT: [u8; 3] = [250, 0, 0];
+const RIGHT: [u8; 3] = [0, 0, 240];
 
 /// Packings with the size of an image for pictures of 64×32.
 const PACKINGS: [(&str, (usize, usize)); 4] =
@@ -20,7 +21,8 @@ fn pair(bench: &Bench, name: &str, (width, height): (usize, usize), stacked: boo
     let mut image = flat(width, height, &LEFT).into_samples();
     let cosmorama::raster::Samples::U8(samples) = &mut image else { panic!("8 bits are 8 bits") };
     for (at, pixel) in samples.chunks_mut(3).enumerate() {
-        if if stacked { at / width >= height / 2 } else { at % width >= width / 2 } {
+        let is_second = if stacked { at / width >= height / 2 } else { at % width >= width / 2 };
+        if is_second {
             pixel.copy_from_slice(&RIGHT);
         }
     }
@@ -28,7 +30,7 @@ fn pair(bench: &Bench, name: &str, (width, height): (usize, usize), stacked: boo
     bench.save(name, &cosmorama::raster::EncodedImage::new(width, height, channels, depth, image).unwrap());
 }
 
-/// Every pixel of an image that is not black has the colour of its half.
+/// Every pixel of an image has the colour of its half, or less of it at the rim of a lens.
 #[track_caller]
 fn assert_apart(bench: &Bench, name: &str, stacked: bool, [first, second]: [[u8; 3]; 2]) {
     let image = bench.load(name);
@@ -37,7 +39,8 @@ fn assert_apart(bench: &Bench, name: &str, stacked: bool, [first, second]: [[u8;
     for (at, pixel) in eight_bits(&image).chunks(3).enumerate() {
         let half = if stacked { at / width >= height / 2 } else { at % width >= width / 2 };
         let expected = if half { second } else { first };
-        assert!(pixel == expected || pixel == [0, 0, 0], "{name}: {pixel:?} at {at}, not {expected:?}");
+        let is_darkened = pixel.iter().zip(expected).all(|(found, full)| *found <= full);
+        assert!(is_darkened, "{name}: {pixel:?} at {at}, not {expected:?}");
         counts[usize::from(half)] += usize::from(pixel == expected);
     }
     assert!(counts[0] > width * height / 8 && counts[0] == counts[1], "{name}: {counts:?}");
@@ -71,27 +74,27 @@ fn nothing_of_one_eye_reaches_the_other() {
 #[test]
 fn what_is_packed_comes_out_as_it_was() {
     let bench = Bench::new();
-    bench.save("sky.png", &picture(1, 256, 128));
+    bench.succeed(&["convert", "builtin:grid", "sky.png", "--to", "equirect", "--size", "512"]);
     for (to, size, out) in [
-        ("equirect:stereo=sbs", "256", (512, 128)),
-        ("equirect:stereo=tb", "256", (256, 256)),
-        ("equirect:stereo=sbs", "512x128", (512, 128)),
+        ("equirect:stereo=sbs", "512", (1024, 256)),
+        ("equirect:stereo=tb", "512", (512, 512)),
+        ("equirect:stereo=sbs", "1024x256", (1024, 256)),
         ("equirect:stereo=sbs-half", "512", (512, 256)),
-        ("equirect:stereo=tb-half,swap=yes,flip=x", "256x256", (256, 256)),
-        ("dual-fisheye:stereo=tb", "200", (400, 400)),
-        ("cube:layout=cross-h,stereo=sbs-half", "128", (512, 384)),
-        ("cube:layout=strip-v,half=up,stereo=tb", "96", (96, 576)),
+        ("equirect:stereo=tb-half,swap=yes,flip=x", "512x256", (512, 256)),
+        ("dual-fisheye:stereo=tb", "320", (640, 640)),
+        ("cube:layout=cross-h,stereo=sbs-half", "160", (640, 480)),
+        ("cube:layout=strip-v,half=up,stereo=tb", "160", (160, 960)),
     ] {
         let output = bench.run(&["convert", "sky.png", "pair.png", "-y", "--to", to, "--size", size]);
         let said = bench::text(&output.stderr);
         assert!(output.status.success() && said.contains("both eyes get the same picture"), "{to}: {said}");
         let pair = bench.load("pair.png");
         assert_eq!((pair.width(), pair.height()), out, "{to}");
-        let view = ["--to", "perspective:fov=80", "--pitch", "45", "--size", "96"];
+        let view = ["--to", "perspective:fov=80", "--pitch", "45", "--size", "160"];
         bench.succeed(&[&["convert", "sky.png", "direct.png", "-y"], &view[..]].concat());
         let said = bench.run(&[&["convert", "pair.png", "left.png", "-y", "--from", to], &view[..]].concat());
         assert!(bench::text(&said.stderr).contains("eye=left, or eye=right"), "{}", bench::text(&said.stderr));
-        bench.succeed(&["compare", "left.png", "direct.png", "--min-psnr", "38", "--max-shift", "0.02"]);
+        bench.succeed(&["compare", "left.png", "direct.png", "--min-psnr", "26", "--max-shift", "0.06"]);
     }
 }
 

@@ -76,25 +76,20 @@ fn other_half_error(first: &FacePicture, pictures: &[FacePicture], half: Option<
         ));
     }
     let halves: Vec<_> = CubeFace::ALL.into_iter().filter(|other| are_of(pictures, Some(*other))).collect();
-    let names: Vec<_> = halves.iter().map(|half| format!("half={half}")).collect();
-    (!names.is_empty()).then(|| {
-        anyhow!(
-            "{found}, half a face, and so are others: give --from cube:{} ({})",
-            names.join(" or "),
-            halves.iter().map(|half| about(*half)).collect::<Vec<_>>().join("; ")
-        )
-    })
+    let names: Vec<_> = halves.iter().map(|half| format!("half={half} ({})", about(*half))).collect();
+    (!names.is_empty())
+        .then(|| anyhow!("{found}, half a face, and so are others: give --from cube:{}", names.join(" or ")))
 }
 
 /// What half a cube holds.
 fn about(half: CubeFace) -> &'static str {
     match half {
-        CubeFace::Up => "up: the sky, the upper halves of the sides and the top",
-        CubeFace::Down => "down: the ground, the lower halves of the sides and the bottom",
-        CubeFace::Front => "front: the front, and the half beside it of each neighbour",
-        CubeFace::Back => "back: the back, and the half beside it of each neighbour",
-        CubeFace::Left => "left: the left face, and the half beside it of each neighbour",
-        CubeFace::Right => "right: the right face, and the half beside it of each neighbour",
+        CubeFace::Up => "the sky: the upper halves of the sides and the top",
+        CubeFace::Down => "the ground: the lower halves of the sides and the bottom",
+        CubeFace::Front => "the front, and the half beside it of each neighbour",
+        CubeFace::Back => "the back, and the half beside it of each neighbour",
+        CubeFace::Left => "the left face, and the half beside it of each neighbour",
+        CubeFace::Right => "the right face, and the half beside it of each neighbour",
     }
 }
 
@@ -200,12 +195,12 @@ mod tests {
         // Front, right, back, left, up.
         let error = judge(&[(64, 32), (64, 32), (64, 32), (64, 32), (64, 64)], &[]).unwrap_err();
         assert!(
-            error.contains("front face's file is 64x32, half a face") && error.contains("half=up (up: the sky"),
+            error.contains("front face's file is 64x32, half a face") && error.contains("half=up (the sky"),
             "{error}"
         );
         // Sides alone may be above or below.
         let error = judge(&[(64, 32); 4], &[]).unwrap_err();
-        assert!(error.contains("cube:half=up or half=down"), "{error}");
+        assert!(error.contains("cube:half=up (the sky") && error.contains(" or half=down (the ground"), "{error}");
         let pictures = |size: (usize, usize), canvas: (usize, usize)| {
             let canvas = Canvas { width: canvas.0, height: canvas.1, left: 0, top: 0 };
             let lies = FacePlacement::UPRIGHT;

@@ -169,7 +169,7 @@ impl<'a> Gather<'a> {
     fn gather_from(&mut self, source: &Source, footprint: &Footprint, place: Place) -> bool {
         let radius = self.reach(footprint, source.texel_pitch_at(footprint.direction), place);
         let margin = source.view.margin(footprint.direction);
-        if margin + radius <= 0.0 {
+        if margin + radius <= 0.0 || !source.reaches(footprint.direction, radius) {
             return false;
         }
         // At a rim, what the mapping bends does not cancel between two sides.

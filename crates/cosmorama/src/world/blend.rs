@@ -30,8 +30,13 @@ impl Presence {
     pub(super) fn at(index: usize, source: &Source, pixel: PixelPoint) -> Self {
         let (view, blend) = (&source.view, source.blend);
         let feather = blend.feather.radians();
-        let weight = if feather > 0.0 { smooth(border_distance(view, pixel) / feather) } else { 1.0 };
-        Self { index, pixel, weight, solid_angle: view.solid_angle(pixel).unwrap_or(f64::INFINITY), blend }
+        if feather > 0.0 {
+            // Where any view fades, which one is the finest does not matter.
+            let weight = smooth(source.border.distance(view, pixel) / feather);
+            return Self { index, pixel, weight, solid_angle: f64::INFINITY, blend };
+        }
+        let solid_angle = view.solid_angle(pixel).unwrap_or(f64::INFINITY);
+        Self { index, pixel, weight: 1.0, solid_angle, blend }
     }
 
     /// That of a view, if it shows the direction.
@@ -85,21 +90,43 @@ fn smooth(t: f64) -> f64 {
     t * t * (3.0 - 2.0 * t)
 }
 
-/// About how far a point of an image is from where its picture ends, in radians.
-fn border_distance(view: &View, pixel: PixelPoint) -> f64 {
-    let Some(footprint) = view.footprint(pixel) else { return 0.0 };
-    let DirectionJacobian { dx, dy } = footprint.jacobian;
-    let (right, bottom) = (view.width() as f64, view.height() as f64);
-    let mut distance = f64::INFINITY;
-    if view.period().is_none_or(|period| period > view.width()) {
-        distance = distance.min(pixel.x.min(right - pixel.x) * dx.length());
-    }
-    for (edge, y) in [(pixel.y, 0.0), (bottom - pixel.y, bottom)] {
-        if !is_a_point(view, y) {
-            distance = distance.min(edge * dy.length());
+/// Which edges of an image are where its picture ends.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Border {
+    /// Left and right: not where the picture goes all the way round.
+    sides: bool,
+    /// The upper one: not where it is a pole.
+    top: bool,
+    /// The lower one.
+    bottom: bool,
+}
+
+impl Border {
+    /// That of a view.
+    pub(super) fn of(view: &View) -> Self {
+        Self {
+            sides: view.period().is_none_or(|period| period > view.width()),
+            top: !is_a_point(view, 0.0),
+            bottom: !is_a_point(view, view.height() as f64),
         }
     }
-    distance.max(0.0).min(stop_distance(view, pixel, &footprint.jacobian))
+
+    /// About how far a point of the image is from where the picture ends, in radians.
+    fn distance(self, view: &View, pixel: PixelPoint) -> f64 {
+        let Some(footprint) = view.footprint(pixel) else { return 0.0 };
+        let DirectionJacobian { dx, dy } = footprint.jacobian;
+        let (right, bottom) = (view.width() as f64, view.height() as f64);
+        let mut distance = f64::INFINITY;
+        if self.sides {
+            distance = distance.min(pixel.x.min(right - pixel.x) * dx.length());
+        }
+        for (edge, ends) in [(pixel.y, self.top), (bottom - pixel.y, self.bottom)] {
+            if ends {
+                distance = distance.min(edge * dy.length());
+            }
+        }
+        distance.max(0.0).min(stop_distance(view, pixel, &footprint.jacobian))
+    }
 }
 
 /// Whether a row of an image is a pole: the picture does not end there.

@@ -1,11 +1,11 @@
 use rayon::prelude::*;
 use thiserror::Error;
 
-use super::blend::{Blend, Presence, parts};
+use super::blend::{Blend, Border, Presence, parts};
 use super::view::ROUNDING;
 use super::{PixelPoint, PixelRect, View, overlap};
-use crate::projection::Projection;
-use crate::sphere::Direction;
+use crate::projection::{PlanePoint, Projection};
+use crate::sphere::{Angle, Direction};
 
 /// Why views make no world.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
@@ -36,6 +36,10 @@ pub struct Source {
     pub texel_pitch: f64,
     /// How it takes part where other views show the same.
     pub blend: Blend,
+    /// Where its picture ends.
+    pub(super) border: Border,
+    /// Middle and half angle of the cone that a lens's circle is, where it has one.
+    cone: Option<(Direction, Angle)>,
     /// Indices of the views that overlap this one.
     pub(super) others: Vec<usize>,
     /// Texels that count for all that they show: no other view has a part in them, and none of them is there twice.
@@ -55,6 +59,12 @@ impl Source {
 }
 
 impl Source {
+    /// Whether anything within `radius` radians of a direction may be inside the circle of its lens. What is outside shows
+    /// nothing, and far outside, around the point behind the lens, small caps lie all over the image's plane.
+    pub(crate) fn reaches(&self, direction: Direction, radius: f64) -> bool {
+        self.cone.is_none_or(|(middle, half)| middle.angle_to(direction).radians() <= half.radians() + radius)
+    }
+
     /// The column that shows what column `i` would, the picture repeated all the way round if it does.
     pub fn column(&self, i: i64) -> Option<i64> {
         let i = self.period.map_or(i, |period| i.rem_euclid(period as i64));
@@ -99,7 +109,8 @@ impl World {
                 return Err(WorldError::NoPixels(name));
             }
             let (period, texel_pitch, whole) = (view.period(), texel_pitch(&view), owned(&view));
-            sources.push(Source { name, view, offset, period, texel_pitch, blend, others: Vec::new(), whole });
+            let (border, cone, others) = (Border::of(&view), cone(&view), Vec::new());
+            sources.push(Source { name, view, offset, period, texel_pitch, blend, border, cone, others, whole });
             offset = offset.saturating_add(texels);
         }
         if sources.is_empty() {
@@ -182,6 +193,14 @@ impl World {
     pub fn solid_angles(&self) -> &[f32] {
         &self.solid_angles
     }
+}
+
+/// The cone of directions that a lens's circle lets pass, if it ends the picture.
+fn cone(view: &View) -> Option<(Direction, Angle)> {
+    let radius = view.stop.circle?;
+    let middle = view.projection.unproject(PlanePoint::new(0.0, 0.0))?;
+    let half = middle.angle_to(view.projection.unproject(PlanePoint::new(radius, 0.0))?);
+    Some((view.orientation.to_world(middle), half))
 }
 
 /// The larger side of the largest texel, found on a coarse grid of points: no mapping here bends faster.
