@@ -1,7 +1,7 @@
 use anyhow::{Error, Result, anyhow, bail};
 use cosmorama::raster::Rgba;
 use cosmorama::resample::{Filter, Need, Needs};
-use cosmorama::world::{Canvas, PixelRect, View, World};
+use cosmorama::world::{Canvas, PixelRect, Source, View, World, WorldView};
 
 use super::{Input, InputView, MemoryBudget, Target};
 use crate::args::Missing;
@@ -18,7 +18,7 @@ pub(crate) enum Coverage {
 /// The world of whole pictures, whether their files are there or not.
 pub(crate) fn nominal_world(input: &Input, memory: MemoryBudget) -> Result<World> {
     memory.check_pictures(input)?;
-    Ok(World::blended(input.views.iter().map(|view| (view.name.clone(), view.nominal, view.blend)))?)
+    Ok(World::blended(input.views.iter().map(|view| view.part(view.nominal)))?)
 }
 
 impl Coverage {
@@ -34,6 +34,7 @@ impl Coverage {
     ) -> Result<(Self, World)> {
         if let [view] = input.views.as_mut_slice()
             && view.nominal.covers_sphere()
+            && view.mask.is_none()
             && view.window.as_ref().is_some_and(|(held, _)| *held == view.nominal)
         {
             // A whole panorama lacks nothing, whatever is asked of it.
@@ -69,9 +70,11 @@ impl Coverage {
 
 /// The world of what files hold: often that of the whole pictures.
 fn held_world(input: &Input, nominal: World) -> Result<World> {
-    let held = || input.present().map(|(view, _, held)| (view.name.clone(), *held, view.blend));
-    let whole = nominal.sources().iter().map(|source| (source.name.clone(), source.view, source.blend));
-    if held().eq(whole) {
+    let held = || input.present().map(|(view, _, held)| view.part(*held));
+    let is_same = |(part, source): (WorldView, &Source)| {
+        part.name == source.name && part.view == source.view && part.blend == source.blend && part.mask == source.mask
+    };
+    if held().count() == nominal.sources().len() && held().zip(nominal.sources()).all(is_same) {
         return Ok(nominal);
     }
     // Whole pictures may be far larger than what is left of them.

@@ -10,6 +10,7 @@ mod files;
 mod frames;
 mod input;
 mod light;
+mod mask;
 mod memory;
 mod outputs;
 mod packed;

@@ -46,6 +46,7 @@ pub(super) fn views(files: &Files, path: &Path, header: &Header, cube: &Cube) ->
             nominal: place(None).view(edge, edge).map_err(wrong)?,
             window: Some((place(Some(placed.canvas)).view(width, height).map_err(wrong)?, placed.canvas)),
             blend: Blend::default(),
+            mask: None,
             wanted: true,
         });
     }

@@ -1,4 +1,5 @@
 use super::{PixelPoint, Source, View};
+use crate::projection::ProjectionKind;
 use crate::sphere::{Angle, Direction, DirectionJacobian};
 
 /// How a view takes part where others show the same directions.
@@ -30,14 +31,14 @@ impl Presence {
     pub(super) fn at(index: usize, source: &Source, pixel: PixelPoint) -> Self {
         let (view, blend) = (&source.view, source.blend);
         let feather = blend.feather.radians();
-        let weight = if feather > 0.0 { smooth(border_distance(view, pixel) / feather) } else { 1.0 };
+        let weight = if feather > 0.0 { smooth(border_distance(source, pixel) / feather) } else { 1.0 };
         Self { index, pixel, weight, solid_angle: view.solid_angle(pixel).unwrap_or(f64::INFINITY), blend }
     }
 
     /// That of a view, if it shows the direction.
     pub(super) fn of(index: usize, source: &Source, direction: Direction) -> Option<Self> {
         let pixel = source.view.wrapped(source.view.pixel(direction)?);
-        source.view.shows(pixel).then(|| Self::at(index, source, pixel))
+        source.shows(pixel).then(|| Self::at(index, source, pixel))
     }
 }
 
@@ -86,7 +87,8 @@ fn smooth(t: f64) -> f64 {
 }
 
 /// About how far a point of an image is from where its picture ends, in radians.
-fn border_distance(view: &View, pixel: PixelPoint) -> f64 {
+fn border_distance(source: &Source, pixel: PixelPoint) -> f64 {
+    let view = &source.view;
     let Some(footprint) = view.footprint(pixel) else { return 0.0 };
     let DirectionJacobian { dx, dy } = footprint.jacobian;
     let (right, bottom) = (view.width() as f64, view.height() as f64);
@@ -98,6 +100,13 @@ fn border_distance(view: &View, pixel: PixelPoint) -> f64 {
         if !is_a_point(view, y) {
             distance = distance.min(edge * dy.length());
         }
+    }
+    if matches!(view.projection, ProjectionKind::Pinhole(_) | ProjectionKind::SkewedFisheye(_)) {
+        // These end at a cone.
+        distance = distance.min(view.margin(footprint.direction));
+    }
+    if let Some(mask) = &source.mask {
+        distance = distance.min(mask.depth(pixel) * dx.length().min(dy.length()));
     }
     distance.max(0.0).min(stop_distance(view, pixel, &footprint.jacobian))
 }

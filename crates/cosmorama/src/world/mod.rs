@@ -7,8 +7,10 @@ mod frame;
 mod framing;
 mod grid;
 mod layout;
+mod mask_shape;
 mod overlap;
 mod view;
+mod view_mask;
 #[allow(clippy::module_inception)]
 mod world;
 
@@ -24,5 +26,7 @@ pub use frame::{
 pub use framing::OmnimaxFraming;
 pub use grid::{PixelGrid, PixelPoint, PixelRect};
 pub use layout::{CubeLayout, FaceOrder, FacePart, FacePlacement, LayoutError, LayoutKind, PlacedFace};
+pub use mask_shape::MaskShape;
 pub use view::{Footprint, View};
-pub use world::{Source, World, WorldError};
+pub use view_mask::ViewMask;
+pub use world::{Source, World, WorldError, WorldView};

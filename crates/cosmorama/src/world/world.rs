@@ -1,8 +1,10 @@
+use std::sync::Arc;
+
 use rayon::prelude::*;
 use thiserror::Error;
 
 use super::blend::{Blend, Presence, parts};
-use super::{PixelPoint, PixelRect, View, overlap};
+use super::{PixelPoint, PixelRect, View, ViewMask, overlap};
 use crate::projection::Projection;
 use crate::sphere::Direction;
 
@@ -20,6 +22,19 @@ pub enum WorldError {
     TooLarge(usize),
 }
 
+/// A view that is to be a part of a world.
+#[derive(Clone, Debug)]
+pub struct WorldView {
+    /// What messages call it.
+    pub name: String,
+    /// Where its texels lie.
+    pub view: View,
+    /// How it takes part where other views show the same.
+    pub blend: Blend,
+    /// Which of its texels count, if not all; of the view's size.
+    pub mask: Option<Arc<ViewMask>>,
+}
+
 /// One view of a world and the place of its texels among all the world's texels.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Source {
@@ -35,6 +50,8 @@ pub struct Source {
     pub texel_pitch: f64,
     /// How it takes part where other views show the same.
     pub blend: Blend,
+    /// Which of its texels count, if not all.
+    pub mask: Option<Arc<ViewMask>>,
     /// Indices of the views that overlap this one.
     pub(super) others: Vec<usize>,
     /// Texels that count for all that they show: no other view has a part in them, and none of them is there twice.
@@ -54,6 +71,11 @@ impl Source {
 }
 
 impl Source {
+    /// Whether a point of the image shows something that counts.
+    pub(super) fn shows(&self, pixel: PixelPoint) -> bool {
+        self.view.shows(pixel) && self.mask.as_ref().is_none_or(|mask| mask.shows(pixel))
+    }
+
     /// The column that shows what column `i` would, the picture repeated all the way round if it does.
     pub fn column(&self, i: i64) -> Option<i64> {
         let i = self.period.map_or(i, |period| i.rem_euclid(period as i64));
@@ -82,23 +104,24 @@ impl World {
     /// # Errors
     /// When there is no view, one without pixels, or more texels than 32 bits can count.
     pub fn new(views: impl IntoIterator<Item = (String, View)>) -> Result<Self, WorldError> {
-        Self::blended(views.into_iter().map(|(name, view)| (name, view, Blend::default())))
+        let part = |(name, view)| WorldView { name, view, blend: Blend::default(), mask: None };
+        Self::blended(views.into_iter().map(part))
     }
 
     /// The world of views each of which takes its part where it overlaps others.
     ///
     /// # Errors
     /// Those of [`World::new`].
-    pub fn blended(views: impl IntoIterator<Item = (String, View, Blend)>) -> Result<Self, WorldError> {
+    pub fn blended(views: impl IntoIterator<Item = WorldView>) -> Result<Self, WorldError> {
         let mut sources = Vec::new();
         let mut offset = 0usize;
-        for (name, view, blend) in views {
+        for WorldView { name, view, blend, mask } in views {
             let texels = view.width().saturating_mul(view.height());
             if texels == 0 {
                 return Err(WorldError::NoPixels(name));
             }
             let (period, texel_pitch, whole) = (view.period(), texel_pitch(&view), owned(&view));
-            sources.push(Source { name, view, offset, period, texel_pitch, blend, others: Vec::new(), whole });
+            sources.push(Source { name, view, offset, period, texel_pitch, blend, mask, others: Vec::new(), whole });
             offset = offset.saturating_add(texels);
         }
         if sources.is_empty() {
@@ -119,6 +142,7 @@ impl World {
                 None => fill_solid_angles(&source.view, &mut solid_angles[source.texels()]),
             }
         }
+        hide(&mut sources, &mut solid_angles);
         overlap::share(&mut sources, &mut solid_angles);
         Ok(Self { sources, solid_angles })
     }
@@ -168,7 +192,8 @@ impl World {
                 && pixel.y >= -ROUNDING
                 && pixel.x <= width + ROUNDING
                 && pixel.y <= height + ROUNDING
-                && source.view.stop_passes(pixel);
+                && source.view.stop_passes(pixel)
+                && source.mask.as_ref().is_none_or(|mask| mask.shows(pixel));
             inside.then_some((index, pixel))
         })
     }
@@ -181,6 +206,19 @@ impl World {
     /// Solid angle of each texel in steradians; zero for one that shows nothing.
     pub fn solid_angles(&self) -> &[f32] {
         &self.solid_angles
+    }
+}
+
+/// Texels that a mask hides weigh nothing.
+fn hide(sources: &mut [Source], solid_angles: &mut [f32]) {
+    for source in sources {
+        let Some(mask) = &source.mask else { continue };
+        let width = source.view.width();
+        let is_hidden = |texel: usize| !mask.counts(texel % width, texel / width);
+        let hidden: Vec<bool> = (0..source.texels().len()).map(is_hidden).collect();
+        let angles = &mut solid_angles[source.texels()];
+        angles.iter_mut().zip(&hidden).filter(|(_, hidden)| **hidden).for_each(|(angle, _)| *angle = 0.0);
+        source.whole = overlap::unshared(source.whole, width, &hidden);
     }
 }
 
