@@ -3,7 +3,7 @@
 //! nona is Hugin's own resampler (Debian's hugin-tools); `.ci/run programs` installs it.
 
 // A test that cannot go on stops where it stands.
-#![allow(clippy::unwrap_used)]
+#![allow(clippy::unwrap_used, clippy::print_stderr, clippy::print_stdout)]
 
 mod bench;
 
@@ -42,6 +42,7 @@ fn pictures_are_where_nona_puts_them() {
     if !nona_is_there() {
         return;
     }
+    let bench = bench("f0 w240 h160 v36", "f0 v70");
     let turned = "y10 p-5 r6";
     let bent = "a0.01 b-0.03 c0.02 d6.5 e-4.25";
     for (panorama, image) in [
@@ -56,8 +57,8 @@ fn pictures_are_where_nona_puts_them() {
         ("f15 w240 h160 v45", format!("f1 v90 a0 b0 c0 d3 e2 {turned}")),
         ("f0 w240 h160 v36", format!("f4 v90 a0 b0 c0 d3 e2 {turned}")),
     ] {
-        let bench = bench(panorama, &image);
-        bench.succeed(&["convert", "project.pto", "ours.png"]);
+        project(&bench, panorama, &format!("i w480 h360 {image} {IDLE} n\"one.png\"\n"));
+        bench.succeed(&["convert", "project.pto", "ours.png", "-y"]);
         let mut nona = Command::new("nona");
         nona.args(["-m", "PNG", "-o", "nona.png", "project.pto"]).current_dir(bench.path("."));
         let output = nona.output().unwrap();
@@ -81,6 +82,14 @@ fn pictures_are_cropped_and_blended() {
     bench.succeed(&["convert", "project.pto", "ours.png"]);
     bench.succeed(&["convert", "builtin:demo", "direct.png", "--to", "perspective:fov=60", "--size", "300x200"]);
     bench.succeed(&["compare", "ours.png", "direct.png", "--min-psnr", "30", "--max-shift", "0.05"]);
+    // Masks and round crops are seen as nona sees them: here, that the rest is not there.
+    for (image, masks) in [
+        (image(0, "one.png", ""), "k i0 t0 p\"200 150 300 150 300 220 200 220\"\n"),
+        (image(0, "one.png", "S140,340,80,280").replace("f0", "f2"), ""),
+    ] {
+        project(&bench, "f0 w300 h200 v60", &(image + masks));
+        assert_says(&bench.fail(1, &["convert", "project.pto", "out.png"]), &["where no view does", "yaw"]);
+    }
     // What is cropped away is not there, and told.
     project(&bench, "f0 w300 h200 v60", &image(-25, "one.png", "S0,200,0,360"));
     assert_says(&bench.fail(1, &["convert", "project.pto", "out.png"]), &["where no view does", "yaw"]);
@@ -93,7 +102,7 @@ fn what_cannot_be_done_is_named() {
     let convert = ["convert", "project.pto", "out.png"];
     for (panorama, image, name, expected) in [
         ("f0 w240 h160 v36", "f20 v70", "one.png", &["project.pto, line 3", "f20 (Thoby)"][..]),
-        ("f0 w240 h160 v36", "f2 v70 S0,100,0,100", "one.png", &["line 3", "circular fisheye"]),
+        ("f0 w240 h160 v36", "f2 v70 S600,700,0,100", "one.png", &["line 3", "S leaves nothing"]),
         ("f0 w240 h160 v36", "f0 v70 b-0.9", "one.png", &["line 3", "turn back", "pixels"]),
         ("f0 w240 h160 v36", "f1 v70 b-0.9", "one.png", &["line 3", "must be 0"]),
         ("f0 w240 h160 v36", "f0 v190", "one.png", &["line 3", "less than 180"]),
@@ -105,5 +114,10 @@ fn what_cannot_be_done_is_named() {
     }
     project(&bench, "f0 w240 h160 v36", &format!("i w481 h360 {plain} n\"one.png\"\n"));
     assert_says(&bench.fail(1, &convert), &["480x360", "w481"]);
-    assert_says(&bench.fail(2, &["convert", "project.pto", "out.png", "--from", "equirect"]), &["leave out --from"]);
+    project(&bench, "f0 w240 h160 v36 S0,100,0,100", &format!("i w480 h360 {plain} n\"one.png\"\n"));
+    assert_says(&bench.fail(2, &["convert", "project.pto", "out.png", "--size", "120"]), &["--size", "p-line"]);
+    project(&bench, "f0 w240 h160 v36", &format!("i w480 h360 {plain} n\"one.png\"\n"));
+    bench.succeed(&["convert", "project.pto", "out.png", "--size", "120"]);
+    assert_eq!((bench.load("out.png").width(), bench.load("out.png").height()), (120, 80));
+    assert_says(&bench.fail(2, &["convert", "project.pto", "new.png", "--from", "equirect"]), &["leave out --from"]);
 }

@@ -5,7 +5,9 @@
 
 mod bench;
 
-use bench::{Bench, assert_says, picture};
+use cosmorama::raster::Samples;
+
+use bench::{Bench, assert_says, flat, floats, picture};
 
 const VIEWS: &str = r#"
 [[view]]
@@ -50,6 +52,98 @@ fn what_no_view_shows_is_told_or_filled() {
     let convert = ["convert", "world.toml", "out.png", "--to", "equirect", "--size", "64"];
     assert_says(&bench.fail(1, &convert), &["look where no view does", "--missing"]);
     bench.succeed(&[&convert[..], &["--missing", "black"]].concat());
+}
+
+/// A view of the sky behind, and one before it of which a mask leaves the middle: a poisoned one, since what is masked has
+/// any colour.
+fn masked(bench: &Bench, poison: [f32; 3], blend: &str) {
+    let is_hidden = |i: usize, j: usize| !(60..140).contains(&i) || !(30..120).contains(&j);
+    let colour = |i, j| if is_hidden(i, j) { poison } else { [0.25, 0.5, 0.125] };
+    bench.save("front.exr", &floats(200, 150, colour));
+    bench.save("mask.exr", &floats(200, 150, |i, j| [f32::from(u8::from(!is_hidden(i, j))); 3]));
+    let world = format!(
+        "[[view]]\nimage = \"grey.exr\"\nspec = \"equirect\"\n\n[[view]]\nimage = \"front.exr\"\nmask = \"mask.exr\"\n\
+         spec = \"perspective:fov=90\"\npriority = 1\n{blend}\n"
+    );
+    bench.save("grey.exr", &floats(128, 64, |_, _| [0.5, 0.25, 0.125]));
+    std::fs::write(bench.path("masked.toml"), world).unwrap();
+}
+
+#[test]
+fn nothing_leaks_out_from_under_a_mask() {
+    let bench = Bench::new();
+    for blend in ["", "feather = 8"] {
+        for (to, kernel) in
+            [("perspective:fov=95", "adaptive"), ("fisheye:fov=150", "lanczos3"), ("equirect", "gaussian")]
+        {
+            let mut pictures = Vec::new();
+            for poison in [[100.0, 0.0, 0.0], [0.0, 0.0, 3000.0]] {
+                masked(&bench, poison, blend);
+                let to = ["--to", to, "--kernel", kernel, "--size", "200x150", "-y"];
+                bench.succeed(&[&["convert", "masked.toml", "out.exr"], &to[..]].concat());
+                pictures.push(bench.load("out.exr"));
+            }
+            assert!(pictures[0] == pictures[1], "{to} by {kernel}, {blend}");
+            // Both views are there, blue is alike in both, and all lies between them.
+            let Samples::Float(samples) = pictures[0].samples() else { panic!("floats were expected") };
+            let of = |channel: usize| samples.iter().skip(channel).step_by(3).copied();
+            for (channel, least, greatest) in [(0, 0.25, 0.5), (1, 0.25, 0.5), (2, 0.125, 0.125)] {
+                let (low, high) = of(channel).fold((9.0f32, 0.0f32), |(low, high), v| (low.min(v), high.max(v)));
+                // Outside a fisheye's circle it is black.
+                let low = if to.starts_with("fisheye") { least } else { low };
+                assert!(
+                    (low - least).abs() < 1e-3 && (high - greatest).abs() < 1e-3,
+                    "{to}: {channel}: {low} to {high}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn a_masked_view_fades_out_at_its_mask() {
+    let bench = Bench::new();
+    masked(&bench, [9.0; 3], "feather = 8");
+    bench.succeed(&["convert", "masked.toml", "out.exr", "--to", "perspective:fov=90", "--size", "200x150"]);
+    let image = bench.load("out.exr");
+    let Samples::Float(samples) = image.samples() else { panic!("floats were expected") };
+    let red = |i: usize| samples[(75 * 200 + i) * 3];
+    // From the mask's border inwards red falls from what is behind to what is in front, without a step.
+    assert!((red(58) - 0.5).abs() < 1e-3 && (red(90) - 0.25).abs() < 1e-3);
+    for i in 58..90 {
+        let step = red(i) - red(i + 1);
+        assert!((-1e-3..0.04).contains(&step), "column {i}: {step}");
+    }
+}
+
+#[test]
+fn a_hole_that_a_mask_leaves_is_named_in_degrees() {
+    let bench = Bench::new();
+    masked(&bench, [9.0; 3], "");
+    let world = std::fs::read_to_string(bench.path("masked.toml")).unwrap();
+    std::fs::write(bench.path("masked.toml"), &world[world.rfind("[[view]]").unwrap()..]).unwrap();
+    let convert = ["convert", "masked.toml", "out.exr", "--to", "perspective:fov=60", "--size", "100x75"];
+    assert_says(&bench.fail(1, &convert), &["look where no view does", "yaw -", "°", "pitch"]);
+    bench.succeed(&[&convert[..], &["--missing", "black"]].concat());
+    let small = ["convert", "masked.toml", "in.exr", "--to", "perspective:fov=20", "--size", "100x75"];
+    bench.succeed(&small);
+}
+
+#[test]
+fn masks_that_do_not_fit_are_told_with_their_line() {
+    let bench = bench();
+    bench.save("small.png", &flat(8, 8, &[255]));
+    bench.save("black.png", &flat(300, 225, &[0]));
+    for (mask, expected) in [
+        ("small.png", &["bad.toml, line 3", "small.png", "8x8", "300x225"][..]),
+        ("black.png", &["bad.toml, line 3", "black all over"]),
+        ("none.png", &["bad.toml, line 3", "none.png"]),
+    ] {
+        let world = format!("[[view]]\nimage = \"left.png\"\nmask = \"{mask}\"\nspec = \"perspective:fov=90\"\n");
+        std::fs::write(bench.path("bad.toml"), world).unwrap();
+        let convert = ["convert", "bad.toml", "out.png", "--to", "perspective:fov=30"];
+        assert_says(&bench.fail(1, &convert), expected);
+    }
 }
 
 #[test]

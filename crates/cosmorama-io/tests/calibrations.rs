@@ -42,7 +42,7 @@ fn what_opencv_writes_is_read() {
     for text in [YAML, &old, JSON, XML] {
         assert_eq!(read(text).as_ref(), Ok(&expected), "{text}");
     }
-    let ros = JSON.replace("\"rows\": 1,", "\"rows\": 1,").replacen('{', "{\"distortion_model\": \"plumb_bob\",", 1);
+    let ros = JSON.replacen('{', "{\"distortion_model\": \"plumb_bob\",", 1);
     let Distortion::OpenCv { is_fisheye, .. } = read(&ros).unwrap().distortion else { panic!("OpenCV's") };
     assert_eq!(is_fisheye, Some(false));
     // A plain list of lists, as scripts dump it.

@@ -30,6 +30,8 @@ fn what_hugin_writes_is_read() {
     assert_eq!((first.yaw_pitch_roll, first.crop), ([10.0, -3.0, 0.5], None));
     assert_eq!((second.field_of_view, second.correction, second.shift), (50.0, [0.01, -0.02, 0.003], [4.0, -5.0]));
     assert_eq!((second.yaw_pitch_roll, second.crop), ([-20.0, 0.0, 0.0], Some([10, 390, 20, 280])));
+    let masked = read(&PROJECT.replace("v y1", "k i1 t0 p\"1 2.5 3 4 5 6\"")).unwrap();
+    assert_eq!(masked.images[1].holes, [vec![[1.0, 2.5], [3.0, 4.0], [5.0, 6.0]]]);
     assert_eq!(project.warnings.len(), 1, "{:?}", project.warnings);
 }
 
@@ -50,7 +52,10 @@ fn what_is_not_supported_is_named_with_its_line() {
         ("j0 a0.01", "q3 a0.01", &["line 8", "'q3'"]),
         ("n\"second.png\"", "n\"second.png", &["line 9", "does not end"]),
         ("n\"second.png\"", "", &["line 9", "n, the picture's file"]),
-        ("v y1", "k i0 t0 p\"1 1 2 2 3 1\"", &["line 12", "masks"]),
+        ("v y1", "k i0 t1 p\"1 1 2 2 3 1\"", &["line 12", "t1"]),
+        ("v y1", "k i5 t0 p\"1 1 2 2 3 1\"", &["line 12", "i5"]),
+        ("v y1", "k i0 t0 p\"1 1 2 2 3\"", &["line 12", "corners"]),
+        ("v y1", "k i0 t0 p\"1 1 2 2 3 x\"", &["line 12", "'x'"]),
         ("f2 w3000", "f2 f3 w3000", &["line 3", "twice"]),
     ] {
         assert!(PROJECT.contains(from), "{from}");

@@ -1,6 +1,6 @@
 //! Points of published references, to the digits that those print.
 
-use cosmorama::projection::azimuthal::{FisheyeLens, KannalaBrandt};
+use cosmorama::projection::azimuthal::{FisheyeLens, KannalaBrandt, Ocam};
 use cosmorama::projection::{
     BrownConrady, BrownConradyCoefficients, Octahedral, OctahedralKind, PlanePoint, Projection, ProjectionKind,
 };
@@ -127,5 +127,31 @@ fn fisheyes_are_those_of_opencv() {
     let skewed = [473.453_953_192_788_73, 108.673_659_650_291_4, 353.838_903_671_285_04];
     for (skew, columns) in [(0.0, upright), (0.005, skewed)] {
         is_seen_as(lens, skew, [0, 1, 2].map(|at| [columns[at], rows[at]]));
+    }
+}
+
+/// Scaramuzza's `cam2world` (OCamCalib's C source, ocam_functions.c) with its example calibration, evaluated
+/// independently: the inverse of (c d; e 1) takes row and column, from 0 at a pixel's centre, to the lens's plane; the ray
+/// is that and the polynomial of its length. Their x is down, y to the right, z away from the scene.
+#[test]
+fn ocamcalib_s_rays_are_its_own() {
+    let polynomial = [-263.6177, 0.0, 1.191_79e-3, -1.207_311e-7, 4.085_07e-9, 0.0, 0.0, 0.0];
+    let (row, column) = (383.0926, 510.8651);
+    // Larger than the example's, so that a mistake shows.
+    let (c, d, e) = (1.01, 0.02, -0.03);
+    let lens = CalibratedLens::Fisheye(FisheyeLens::Ocam(Ocam::from_coefficients(polynomial).expect("a lens")));
+    let matrix = CameraMatrix::from_rows([[1.0, e, column], [d, c, row]]).expect("a camera");
+    let frame = CalibratedFrame { lens, matrix, size: Some((1024, 768)), field_of_view: None };
+    let view = Frame::Calibrated(frame).view(1024, 768).expect("a view");
+    for (i, j) in [(510.0, 383.0), (700.0, 300.0), (200.0, 600.0), (430.0, 50.0), (900.0, 390.0)] {
+        let (down, right) = (j - row, i - column);
+        let determinant = c - d * e;
+        let (x, y) = ((down - d * right) / determinant, (c * right - e * down) / determinant);
+        let z = polynomial.iter().rev().fold(0.0, |sum, a| sum * x.hypot(y) + a);
+        let theirs = Direction::new(DVec3::new(y, -x, z)).expect("a ray");
+        let ours = view.direction(PixelPoint::new(i + 0.5, j + 0.5)).expect("in the picture");
+        assert!(ours.angle_to(theirs).radians() < 1e-12, "({i}, {j}): {ours:?}, not {theirs:?}");
+        let pixel = view.pixel(theirs).expect("in the picture");
+        assert!((pixel.x - 0.5 - i).hypot(pixel.y - 0.5 - j) < 1e-9, "({i}, {j}): {pixel:?}");
     }
 }

@@ -1,10 +1,11 @@
 use cosmorama::projection::OctahedralKind;
 use cosmorama::projection::azimuthal::{FisheyeLens, Lens};
-use cosmorama::projection::{PlanePoint, PlaneRect, ProjectionKind};
+use cosmorama::projection::{BrownConrady, BrownConradyCoefficients, PlanePoint, PlaneRect, ProjectionKind};
 use cosmorama::sphere::{Angle, CubeFace, Orientation};
 use cosmorama::world::{
-    CylinderFrame, CylinderKind, FieldStop, FisheyeFrame, Frame, MirrorBallFrame, OctahedralFrame, OmnimaxFraming,
-    PanniniFrame, PixelGrid, PixelPoint, StereographicFrame, View, World, WorldMapFrame,
+    CalibratedFrame, CalibratedLens, CameraMatrix, CylinderFrame, CylinderKind, FieldStop, FisheyeFrame, Frame,
+    MirrorBallFrame, OctahedralFrame, OmnimaxFraming, PanniniFrame, PixelGrid, PixelPoint, StereographicFrame, View,
+    World, WorldMapFrame,
 };
 use glam::DVec2;
 
@@ -102,7 +103,17 @@ pub fn partial_worlds(height: usize) -> Vec<(&'static str, View)> {
         ("pannini", Frame::Pannini(PanniniFrame::default())),
         ("stereographic", Frame::Stereographic(StereographicFrame::default())),
     ];
-    frames.into_iter().chain(lenses).map(|(name, frame)| (name, in_shape(frame, height))).collect()
+    frames.into_iter().chain(lenses).chain(cameras()).map(|(name, frame)| (name, in_shape(frame, height))).collect()
+}
+
+/// Measured cameras: one that bends straight lines, and a fisheye whose rows lean.
+fn cameras() -> [(&'static str, Frame); 2] {
+    let matrix = CameraMatrix::from_rows([[210.0, 2.0, 215.0], [0.0, 200.0, 140.0]]).expect("a camera");
+    let camera =
+        |lens| Frame::Calibrated(CalibratedFrame { lens, matrix, size: Some((400, 300)), field_of_view: None });
+    let bent = BrownConradyCoefficients::from_opencv(&[-0.2, 0.04, 0.002, -0.001]);
+    let pinhole = CalibratedLens::Pinhole(BrownConrady::new(bent).expect("a lens"));
+    [("a bent pinhole", camera(pinhole)), ("a skewed fisheye", camera(CalibratedLens::Fisheye(FisheyeLens::EQUISOLID)))]
 }
 
 fn in_shape(frame: Frame, height: usize) -> View {

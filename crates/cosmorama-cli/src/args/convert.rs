@@ -14,11 +14,13 @@ use crate::spec::Spec;
   cosmorama convert panorama.jpg view.png --to perspective:fov=60 --yaw 30 --pitch -10 --size 1920x1080
   cosmorama convert panorama.exr 'cube/{face}.exr' --to cube --size 1024
   cosmorama convert dome.png back.png --from fulldome --to equirect
-  cosmorama convert builtin:grid align.png --to fulldome --size 4096")]
+  cosmorama convert builtin:grid align.png --to fulldome --size 4096
+  cosmorama convert photo.jpg flat.png --from fisheye:calibration=camera.yml --to perspective:fov=90
+  cosmorama convert project.pto panorama.png")]
 #[command(after_help = after_help())]
 pub(crate) struct ConvertArgs {
-    /// An image, a pattern with {face} or %c (faces) and ####, @@@@ or %04d (frames), builtin:NAME, or a world
-    /// file (.toml: many views, each view with image, spec, priority and feather in degrees)
+    /// An image, a pattern with {face} or %c (faces) and ####, @@@@ or %04d (frames), builtin:NAME, a world file
+    /// (.toml: many views, each view with image, spec, mask, priority and feather in degrees) or a Hugin project (.pto)
     #[arg(value_hint = ValueHint::FilePath, value_parser = NonEmptyStringValueParser::new())]
     pub(crate) input: String,
     /// An image or a pattern; the extension chooses the format

@@ -1,7 +1,7 @@
 use anyhow::{Error, Result, anyhow, bail};
 use cosmorama::raster::Rgba;
 use cosmorama::resample::{Filter, Need, Needs};
-use cosmorama::world::{Canvas, PixelRect, View, World};
+use cosmorama::world::{Canvas, PixelRect, Source, View, World, WorldView};
 
 use super::{Input, InputView, MemoryBudget, Target, TargetView};
 use crate::args::Missing;
@@ -18,8 +18,8 @@ pub(crate) enum Coverage {
 /// The worlds of whole pictures, whether their files are there or not: one, or one for each eye.
 pub(crate) fn nominal_worlds(input: &Input, memory: MemoryBudget) -> Result<Vec<World>> {
     memory.check_pictures(input)?;
-    let nominal = |view: &InputView| (view.name.clone(), view.nominal, view.blend);
-    input.worlds.iter().map(|views| Ok(World::blended(views.iter().map(nominal))?)).collect()
+    let world = |views: &Vec<InputView>| Ok(World::blended(views.iter().map(|view| view.part(view.nominal)))?);
+    input.worlds.iter().map(world).collect()
 }
 
 impl Coverage {
@@ -63,6 +63,7 @@ fn find_gaps(
 ) -> Result<Vec<String>> {
     if let [view] = views
         && view.nominal.covers_sphere()
+        && view.mask.is_none()
         && view.window.as_ref().is_some_and(|(held, _)| *held == view.nominal)
     {
         // A whole panorama lacks nothing, whatever is asked of it.
@@ -89,10 +90,11 @@ fn find_gaps(
 
 /// The world of what files hold: often that of the whole pictures.
 fn held_world(views: &[InputView], nominal: World) -> Result<World> {
-    let held =
-        || views.iter().filter_map(InputView::present).map(|(view, _, held)| (view.name.clone(), *held, view.blend));
-    let whole = nominal.sources().iter().map(|source| (source.name.clone(), source.view, source.blend));
-    if held().eq(whole) {
+    let held = || views.iter().filter_map(InputView::present).map(|(view, _, held)| view.part(*held));
+    let is_same = |(part, source): (WorldView, &Source)| {
+        part.name == source.name && part.view == source.view && part.blend == source.blend && part.mask == source.mask
+    };
+    if held().count() == nominal.sources().len() && held().zip(nominal.sources()).all(is_same) {
         return Ok(nominal);
     }
     // Whole pictures may be far larger than what is left of them.

@@ -88,6 +88,7 @@ impl Face {
             nominal,
             window,
             blend: cube.blend(),
+            mask: None,
             wanted: true,
         })
     }

@@ -1,7 +1,8 @@
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use anyhow::{Result, bail};
-use cosmorama::world::{Blend, Canvas, Eye, FacePart, View};
+use cosmorama::world::{Blend, Canvas, Eye, FacePart, View, ViewMask, WorldView};
 use cosmorama_io::{FaceFile, FacePattern, FaceSet, FrameList, Header, probe};
 
 use super::canvas::{canvas_of, fits_canvas, whole};
@@ -31,8 +32,17 @@ pub(crate) struct InputView {
     pub(crate) window: Option<(View, Canvas)>,
     /// How it takes part where other views show the same.
     pub(crate) blend: Blend,
+    /// Which of its pixels count, if not all.
+    pub(crate) mask: Option<Arc<ViewMask>>,
     /// Whether anything of it is needed: what is not is not even read.
     pub(crate) wanted: bool,
+}
+
+impl InputView {
+    /// It as a part of a world, with the geometry of its whole picture or of what its file holds of that.
+    pub(super) fn part(&self, view: View) -> WorldView {
+        WorldView { name: self.name.clone(), view, blend: self.blend, mask: self.mask.clone() }
+    }
 }
 
 /// Everything that light comes from.
@@ -180,6 +190,7 @@ impl Input {
             nominal,
             window,
             blend: Blend::default(),
+            mask: None,
             wanted: true,
         })
     }

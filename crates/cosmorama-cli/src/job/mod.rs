@@ -14,6 +14,7 @@ mod frames;
 mod given_faces;
 mod input;
 mod light;
+mod mask;
 mod memory;
 mod nominal;
 mod outputs;

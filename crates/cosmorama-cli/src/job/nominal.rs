@@ -69,5 +69,15 @@ fn wrong(error: FrameError) -> anyhow::Error {
 
 fn view(name: &str, nominal: View, blend: Blend) -> InputView {
     let files = Files::new(Path::new(name));
-    InputView { name: name.to_owned(), files, part: None, header: None, nominal, window: None, blend, wanted: true }
+    InputView {
+        name: name.to_owned(),
+        files,
+        part: None,
+        header: None,
+        nominal,
+        window: None,
+        blend,
+        mask: None,
+        wanted: true,
+    }
 }

@@ -63,6 +63,7 @@ fn views(files: &Files, header: &Header, pieces: &[Piece]) -> Result<Vec<InputVi
             nominal: piece.nominal().map_err(wrong)?,
             window: Some((piece.view(Orientation::IDENTITY).map_err(wrong)?, piece.canvas)),
             blend: piece.blend,
+            mask: None,
             wanted: true,
         })
     };

@@ -4,13 +4,16 @@ use std::path::Path;
 
 use anyhow::{Context, Result, anyhow};
 use cosmorama::sphere::{Angle, Orientation};
-use cosmorama::world::{Blend, Canvas, Frame, HuginFrame, HuginProjection, Mirror, Placement, WorldMapFrame};
+use cosmorama::world::{
+    Blend, Canvas, Frame, HuginFrame, HuginProjection, MaskShape, Mirror, PixelPoint, Placement, WorldMapFrame,
+};
 use cosmorama_io::{PtoImage, PtoPanorama, PtoProject, probe};
 
 use super::packed::FilePart;
 use super::{Files, Input, InputView};
 use crate::args::SizeArg;
 use crate::args::convert::GeometryArgs;
+use crate::failure::usage;
 use crate::spec::{Shape, Single, Spec, SphereSamples};
 
 /// Degrees over which pictures of a project fade into each other.
@@ -48,7 +51,19 @@ pub(super) fn complete(input: &str, geometry: &GeometryArgs) -> Result<GeometryA
             ((side(left, right), side(top, bottom)), Some(Canvas { width, height, left, top }))
         }
     };
-    geometry.size = geometry.size.or(Some(SizeArg { width: size.0, height: Some(size.1) }));
+    geometry.size = Some(match geometry.size {
+        None => SizeArg { width: size.0, height: Some(size.1) },
+        Some(_) if canvas.is_some() => {
+            return Err(usage(format!(
+                "{input} makes a part of a panorama (S in its p-line); leave out --size, or give --to"
+            )));
+        }
+        // A panorama of another size is this one scaled.
+        Some(SizeArg { width: wide, height: None }) => {
+            SizeArg { width: wide, height: Some((wide * height).div_ceil(width).max(1)) }
+        }
+        Some(whole) => whole,
+    });
     let placement = Placement { canvas, ..Placement::new(frame) };
     let shape = Shape::Single(Single { placement, samples: SphereSamples::NotAPanorama });
     geometry.to = Some(Spec { name: "the p-line", shape, stereo: None });
@@ -73,6 +88,8 @@ fn view(folder: &Path, image: &PtoImage) -> Result<InputView> {
     let orientation = Orientation::from_yaw_pitch_roll(yaw, pitch, roll);
     let placement = |canvas| Placement { frame: Frame::Hugin(frame), orientation, mirror: Mirror::default(), canvas };
     let Part { corner, size } = Part::of(image)?;
+    let shapes = shapes(image);
+    let mask = if shapes.is_empty() { None } else { Some(super::mask::of_shapes(&shapes, corner, size)?) };
     let canvas = Canvas { width, height, left: corner.0 as i64, top: corner.1 as i64 };
     let held = placement(Some(canvas)).view(size.0, size.1)?;
     Ok(InputView {
@@ -84,6 +101,7 @@ fn view(folder: &Path, image: &PtoImage) -> Result<InputView> {
         nominal: held,
         window: Some((held, Canvas { width: size.0, height: size.1, left: 0, top: 0 })),
         blend: Blend { priority: 0, feather: Angle::from_degrees(FEATHER) },
+        mask,
         wanted: true,
     })
 }
@@ -100,12 +118,6 @@ impl Part {
         let Some([left, right, top, bottom]) = image.crop else {
             return Ok(Self { corner: (0, 0), size: image.size });
         };
-        if image.lens == CIRCULAR {
-            return Err(anyhow!(
-                "S of a circular fisheye (f2) is a circle, which is not supported; make what lies outside of it transparent, \
-                 or use f3 with a rectangle"
-            ));
-        }
         let inside = |at: i64, size: usize| at.clamp(0, size as i64) as usize;
         let (left, right) = (inside(left, width), inside(right, width));
         let (top, bottom) = (inside(top, height), inside(bottom, height));
@@ -114,6 +126,17 @@ impl Part {
         }
         Ok(Self { corner: (left, top), size: (right - left, bottom - top) })
     }
+}
+
+/// What masks and a round crop leave of a picture.
+fn shapes(image: &PtoImage) -> Vec<MaskShape> {
+    let hole =
+        |corners: &Vec<[f64; 2]>| MaskShape::Hole(corners.iter().map(|[x, y]| PixelPoint::new(*x, *y)).collect());
+    let circle = image.crop.filter(|_| image.lens == CIRCULAR).map(|[left, right, top, bottom]| MaskShape::Circle {
+        centre: PixelPoint::new((left + right) as f64 / 2.0, (top + bottom) as f64 / 2.0),
+        radius: (right - left).min(bottom - top) as f64 / 2.0,
+    });
+    image.holes.iter().map(hole).chain(circle).collect()
 }
 
 /// A fisheye whose crop is round.

@@ -32,6 +32,8 @@ struct Entry {
     /// Views of higher priority cover those of lower priority.
     #[serde(default)]
     priority: i32,
+    /// A picture of the same size: where it is black, the view does not hold.
+    mask: Option<Spanned<String>>,
     /// Degrees over which it fades out at its border.
     feather: Option<Spanned<f64>>,
 }
@@ -86,6 +88,7 @@ impl Entry {
             // What a SPEC says of pictures that overlap holds where nothing else is said.
             view.blend = Blend { priority: self.priority, feather: feather.unwrap_or(view.blend.feather) };
         }
+        self.mask(source, &mut input)?;
         Ok(input)
     }
 
@@ -94,6 +97,24 @@ impl Entry {
         let parsed = Spec::parse_in(source.folder(), spec.get_ref());
         let told = |error| source.error(Some(spec.span()), &format!("spec = \"{}\": {error}", spec.get_ref()));
         parsed.map(Some).map_err(told)
+    }
+
+    /// Hides what the mask of a single picture hides.
+    fn mask(&self, source: &Text, input: &mut Input) -> Result<()> {
+        let Some(mask) = &self.mask else { return Ok(()) };
+        let place = || source.place(Some(mask.span()));
+        let [views] = input.worlds.as_mut_slice() else {
+            let message =
+                format!("mask = \"{}\" is for one picture, but the view has one for each eye", mask.get_ref());
+            return Err(source.error(Some(mask.span()), &message));
+        };
+        let [view] = views.as_mut_slice() else {
+            let message = format!("mask = \"{}\" is for one picture, but the view has several", mask.get_ref());
+            return Err(source.error(Some(mask.span()), &message));
+        };
+        let found = super::mask::of_file(&source.folder().join(mask.get_ref()), view).with_context(place)?;
+        super::mask::hide(view, found);
+        Ok(())
     }
 
     fn feather(&self, source: &Text) -> Result<Option<Angle>> {

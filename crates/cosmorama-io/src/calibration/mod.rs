@@ -81,7 +81,7 @@ fn numbers<'a>(what: &str, words: impl IntoIterator<Item = &'a str>) -> Result<V
 
 /// Columns and rows: whole numbers above zero that an image may have.
 fn side(what: &str, number: f64) -> Result<usize, String> {
-    if number >= 1.0 && number <= f64::from(u32::MAX) && number.fract() == 0.0 {
+    if (1.0..=f64::from(u32::MAX)).contains(&number) && number.fract() == 0.0 {
         return Ok(number as usize);
     }
     Err(format!("{what} is {number}; expected a whole number of pixels"))

@@ -68,7 +68,7 @@ impl<'a> Line<'a> {
     /// A whole number of pixels.
     pub(super) fn side(&self, name: &str) -> Result<usize, String> {
         let number = self.number(name)?;
-        if number >= 1.0 && number <= f64::from(u32::MAX) && number.fract() == 0.0 {
+        if (1.0..=f64::from(u32::MAX)).contains(&number) && number.fract() == 0.0 {
             return Ok(number as usize);
         }
         Err(format!("{name}{number}: expected a whole number of pixels, more than 0"))

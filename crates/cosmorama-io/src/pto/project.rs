@@ -36,6 +36,8 @@ pub struct PtoImage {
     pub shift: [f64; 2],
     /// S: left, right, top and bottom of the part that counts.
     pub crop: Option<[i64; 4]>,
+    /// Corners, in pixels, of the polygons that are masked out: k-lines.
+    pub holes: Vec<Vec<[f64; 2]>>,
 }
 
 /// The p-line.
@@ -98,6 +100,7 @@ impl PtoProject {
     fn parse(text: &str) -> Result<Self, (usize, String)> {
         let mut images: Vec<(usize, Line)> = Vec::new();
         let mut panorama = None;
+        let mut holes: Vec<(usize, Hole)> = Vec::new();
         for (line, text) in text.lines().enumerate().map(|(index, text)| (index + 1, text.trim_end())) {
             let told = |reason: String| (line, reason);
             match text.split_at_checked(1) {
@@ -105,12 +108,7 @@ impl PtoProject {
                 Some(("p", rest)) => {
                     panorama = Some(Line::parse(rest).and_then(|words| self::panorama(line, &words)).map_err(told)?)
                 }
-                Some(("k", _)) => {
-                    return Err((
-                        line,
-                        "masks (k-lines) are not supported; cut them out of the pictures as transparency".into(),
-                    ));
-                }
+                Some(("k", rest)) => holes.push((line, hole(rest).map_err(told)?)),
                 // o-lines of PTStitcher say what i-lines do.
                 Some(("o", rest)) if rest.starts_with(' ') => {
                     return Err((
@@ -127,7 +125,13 @@ impl PtoProject {
         }
         let warnings = photometry(&images)?;
         let read = |index: usize| image(&images, index).map_err(|reason| (images[index].0, reason));
-        Ok(Self { images: (0..images.len()).map(read).collect::<Result<_, _>>()?, panorama, warnings })
+        let mut images: Vec<PtoImage> = (0..images.len()).map(read).collect::<Result<_, _>>()?;
+        for (line, hole) in holes {
+            let count = images.len();
+            let reason = || format!("i{}: expected an image, from 0 to {}", hole.image, count - 1);
+            images.get_mut(hole.image).ok_or_else(|| (line, reason()))?.holes.push(hole.corners);
+        }
+        Ok(Self { images, panorama, warnings })
     }
 }
 
@@ -175,7 +179,43 @@ fn image(images: &[(usize, Line)], index: usize) -> Result<PtoImage, String> {
         correction: [read("a")?, read("b")?, read("c")?],
         shift: [read("d")?, read("e")?],
         crop: words.crop("S")?,
+        holes: Vec::new(),
     })
+}
+
+/// A k-line: a polygon of an image.
+struct Hole {
+    image: usize,
+    corners: Vec<[f64; 2]>,
+}
+
+/// `k i0 t0 p"x y x y x y"`.
+fn hole(text: &str) -> Result<Hole, String> {
+    let (words, points) = text.split_once("p\"").ok_or("p, the mask's corners, are missing")?;
+    let mut image = None;
+    for word in words.split_whitespace() {
+        let number = |word: &str| word.parse::<usize>().map_err(|_| format!("{word}: expected a whole number"));
+        match word.split_at_checked(1) {
+            Some(("i", index)) => image = Some(number(index)?),
+            Some(("t", "0")) => {}
+            Some(("t", kind)) => {
+                return Err(format!(
+                    "a mask of the kind t{kind} is not supported; there is t0, that excludes a region"
+                ));
+            }
+            _ => return Err(format!("'{word}' is no parameter of a mask that is known")),
+        }
+    }
+    let numbers = points.trim_end().trim_end_matches('"').split_whitespace().map(|word| match word.parse::<f64>() {
+        Ok(number) if number.is_finite() => Ok(number),
+        _ => Err(format!("'{word}' is no coordinate")),
+    });
+    let numbers = numbers.collect::<Result<Vec<f64>, _>>()?;
+    let (corners, rest) = numbers.as_chunks::<2>();
+    if corners.len() < 3 || !rest.is_empty() {
+        return Err(format!("a mask of {} numbers; expected x and y of three corners or more", numbers.len()));
+    }
+    Ok(Hole { image: image.ok_or("i, the mask's image, is missing")?, corners: corners.to_vec() })
 }
 
 fn panorama(line: usize, words: &Line) -> Result<PtoPanorama, String> {
@@ -189,7 +229,7 @@ fn panorama(line: usize, words: &Line) -> Result<PtoPanorama, String> {
 }
 
 fn kind(number: f64) -> Result<u32, String> {
-    if number >= 0.0 && number <= 1000.0 && number.fract() == 0.0 {
+    if (0.0..=1000.0).contains(&number) && number.fract() == 0.0 {
         return Ok(number as u32);
     }
     Err(format!("f{number}: expected the number of a projection"))

@@ -19,6 +19,8 @@ pub struct BrownConrady {
     folds: bool,
     /// The rectangle that holds all of its picture.
     bounds: PlaneRect,
+    /// No point of its picture is further from the middle.
+    outermost: f64,
 }
 
 /// The coefficients of a [`BrownConrady`] lens in OpenCV's notation.
@@ -114,8 +116,15 @@ impl BrownConrady {
             gains.fold(f64::INFINITY, |least, gain| if gain.is_nan() { gain } else { least.min(gain) })
         };
         let end = rises_until(|angle| (angle, gain(angle)), WIDEST).ok_or(LensError::NoImage)?;
-        let mut lens = Self { coefficients, reach: end.tan(), folds: end < WIDEST, bounds: PlaneRect::EVERYTHING };
+        let mut lens = Self {
+            coefficients,
+            reach: end.tan(),
+            folds: end < WIDEST,
+            bounds: PlaneRect::EVERYTHING,
+            outermost: f64::INFINITY,
+        };
         lens.bounds = lens.disc_bounds(DVec2::ZERO, lens.reach);
+        lens.outermost = lens.outermost();
         Ok(lens)
     }
 
@@ -150,7 +159,7 @@ impl BrownConrady {
             return Some(DVec2::ZERO);
         }
         let (farthest, _) = self.coefficients.radius(self.reach);
-        if !distance.is_finite() || (self.coefficients.radial_only() && distance > farthest) {
+        if distance.is_nan() || distance > self.outermost || (self.coefficients.radial_only() && distance > farthest) {
             return None;
         }
         let radius = inverse(|r| self.coefficients.radius(r), distance.min(farthest), 0.0, self.reach);
@@ -186,6 +195,13 @@ impl BrownConrady {
             }
         }
         None
+    }
+
+    /// The greatest distance from the middle that a point of its rim has, and a thousandth more for those between.
+    fn outermost(&self) -> f64 {
+        let around = |k: usize| DVec2::from_angle(k as f64 / (4 * BEARINGS) as f64 * std::f64::consts::TAU);
+        let distance = |k: usize| self.coefficients.bend(around(k) * self.reach).0.length();
+        1.001 * (0..4 * BEARINGS).map(distance).fold(0.0, f64::max)
     }
 
     /// A rectangle that holds the image of a disc of tangents (y down): it is the image of its circle's inside.

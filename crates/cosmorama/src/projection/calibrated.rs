@@ -13,7 +13,15 @@ pub struct Calibrated<P> {
     limit: f64,
     /// Whether that is so near to where the lens's picture turns back that derivatives grow without bound.
     is_steep: bool,
+    /// No picture of what counts is further than that from the middle: what is outside need not be searched for.
+    outermost: f64,
 }
+
+/// Bearings in which the outermost picture is looked for.
+const BEARINGS: usize = 256;
+
+/// What lies between two of them may be further out by so much.
+const SPARE: f64 = 1.001;
 
 /// Further than this, in radians, from where a lens's picture turns back its derivatives are tame.
 const TAME: f64 = 0.02;
@@ -24,11 +32,14 @@ impl<P: Projection> Calibrated<P> {
         let (sin, cos) = limit.sin_cos();
         let rim = Direction::from_unit(DVec3::new(sin, 0.0, -cos));
         let is_steep = camera.has_steep_rim() && camera.margin(rim) < TAME;
-        Self { camera, skew, limit: limit.radians(), is_steep }
+        let outermost = outermost(&camera, limit);
+        Self { camera, skew, limit: limit.radians(), is_steep, outermost }
     }
 
-    fn upright(&self, point: PlanePoint) -> PlanePoint {
-        PlanePoint::new(point.x + self.skew * point.y, point.y)
+    /// The point without the skew; `None` where nothing that counts is seen.
+    fn upright(&self, point: PlanePoint) -> Option<PlanePoint> {
+        let upright = PlanePoint::new(point.x + self.skew * point.y, point.y);
+        (upright.x.hypot(upright.y) <= self.outermost).then_some(upright)
     }
 
     fn skewed(&self, point: PlanePoint) -> PlanePoint {
@@ -40,13 +51,25 @@ impl<P: Projection> Calibrated<P> {
     }
 }
 
+/// How far from the middle a camera shows what is at an angle from its axis; without bound where it does not.
+fn outermost(camera: &impl Projection, angle: Angle) -> f64 {
+    let (sin, cos) = angle.sin_cos();
+    let radius = |k: usize| {
+        let (y, x) = (k as f64 / BEARINGS as f64 * std::f64::consts::TAU).sin_cos();
+        let point = camera.project(Direction::from_unit(DVec3::new(sin * x, sin * y, -cos)))?;
+        Some(point.x.hypot(point.y))
+    };
+    let farthest = (0..BEARINGS).map(radius).try_fold(0.0f64, |farthest, radius| Some(farthest.max(radius?)));
+    farthest.map_or(f64::INFINITY, |farthest| farthest * SPARE)
+}
+
 impl<P: Projection> Projection for Calibrated<P> {
     fn project(&self, direction: Direction) -> Option<PlanePoint> {
         self.camera.project(direction).filter(|_| self.is_within(direction)).map(|point| self.skewed(point))
     }
 
     fn unproject(&self, point: PlanePoint) -> Option<Direction> {
-        self.camera.unproject(self.upright(point)).filter(|direction| self.is_within(*direction))
+        self.camera.unproject(self.upright(point)?).filter(|direction| self.is_within(*direction))
     }
 
     fn jacobian(&self, point: PlanePoint) -> Option<DirectionJacobian> {
@@ -54,7 +77,7 @@ impl<P: Projection> Projection for Calibrated<P> {
     }
 
     fn unproject_with_jacobian(&self, point: PlanePoint) -> Option<(Direction, DirectionJacobian)> {
-        let (direction, jacobian) = self.camera.unproject_with_jacobian(self.upright(point))?;
+        let (direction, jacobian) = self.camera.unproject_with_jacobian(self.upright(point)?)?;
         let DirectionJacobian { dx, dy } = jacobian;
         self.is_within(direction).then(|| (direction, DirectionJacobian { dx, dy: dy + dx * self.skew }))
     }

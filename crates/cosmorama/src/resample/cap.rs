@@ -58,7 +58,10 @@ impl Cap {
         let columns = source.period.is_some_and(|period| period <= view.width())
             || (bounds.min.x >= 0.0 && bounds.max.x <= view.width() as f64);
         let rows = bounds.min.y >= 0.0 && bounds.max.y <= view.height() as f64;
-        columns && rows && self.passes_stop_of(view, &bounds)
+        // What ends without a field stop does at a rim; what a mask hides may lie anywhere.
+        let is_inside = source.period.is_some() || view.margin(self.centre) > self.radius;
+        let is_bare = source.mask.is_none();
+        is_bare && is_inside && columns && rows && self.passes_stop_of(view, &bounds)
     }
 
     fn passes_stop_of(&self, view: &View, bounds: &PlaneRect) -> bool {

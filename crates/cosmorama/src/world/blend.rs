@@ -1,4 +1,5 @@
-use super::{PixelPoint, Source, View};
+use super::{Footprint, PixelPoint, Source, View};
+use crate::projection::ProjectionKind;
 use crate::sphere::{Angle, Direction, DirectionJacobian};
 
 /// How a view takes part where others show the same directions.
@@ -32,7 +33,7 @@ impl Presence {
         let feather = blend.feather.radians();
         if feather > 0.0 {
             // Where any view fades, which one is the finest does not matter.
-            let weight = smooth(source.border.distance(view, pixel) / feather);
+            let weight = smooth(border_distance(source, pixel) / feather);
             return Self { index, pixel, weight, solid_angle: f64::INFINITY, blend };
         }
         let solid_angle = view.solid_angle(pixel).unwrap_or(f64::INFINITY);
@@ -42,7 +43,7 @@ impl Presence {
     /// That of a view, if it shows the direction.
     pub(super) fn of(index: usize, source: &Source, direction: Direction) -> Option<Self> {
         let pixel = source.view.wrapped(source.view.pixel(direction)?);
-        source.view.shows(pixel).then(|| Self::at(index, source, pixel))
+        source.shows(pixel).then(|| Self::at(index, source, pixel))
     }
 }
 
@@ -90,6 +91,18 @@ fn smooth(t: f64) -> f64 {
     t * t * (3.0 - 2.0 * t)
 }
 
+/// About how far a point of an image is from where its picture ends, in radians.
+fn border_distance(source: &Source, pixel: PixelPoint) -> f64 {
+    let view = &source.view;
+    let Some(footprint) = view.footprint(pixel) else { return 0.0 };
+    let mut distance = source.border.distance(view, pixel, &footprint);
+    if let Some(mask) = &source.mask {
+        let DirectionJacobian { dx, dy } = footprint.jacobian;
+        distance = distance.min(mask.depth(pixel) * dx.length().min(dy.length()));
+    }
+    distance
+}
+
 /// Which edges of an image are where its picture ends.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Border {
@@ -112,8 +125,7 @@ impl Border {
     }
 
     /// About how far a point of the image is from where the picture ends, in radians.
-    fn distance(self, view: &View, pixel: PixelPoint) -> f64 {
-        let Some(footprint) = view.footprint(pixel) else { return 0.0 };
+    fn distance(self, view: &View, pixel: PixelPoint, footprint: &Footprint) -> f64 {
         let DirectionJacobian { dx, dy } = footprint.jacobian;
         let (right, bottom) = (view.width() as f64, view.height() as f64);
         let mut distance = f64::INFINITY;
@@ -124,6 +136,10 @@ impl Border {
             if ends {
                 distance = distance.min(edge * dy.length());
             }
+        }
+        if matches!(view.projection, ProjectionKind::Pinhole(_) | ProjectionKind::SkewedFisheye(_)) {
+            // These end at a cone.
+            distance = distance.min(view.margin(footprint.direction));
         }
         distance.max(0.0).min(stop_distance(view, pixel, &footprint.jacobian))
     }

@@ -7,8 +7,10 @@ mod frame;
 mod framing;
 mod grid;
 mod layout;
+mod mask_shape;
 mod overlap;
 mod view;
+mod view_mask;
 #[allow(clippy::module_inception)]
 mod world;
 
@@ -27,5 +29,7 @@ pub use layout::{
     Arrangement, CubeLayout, DualFisheye, DualLens, Eye, FaceOrder, FacePart, FacePlacement, LayoutError, LayoutKind,
     LensSide, PlacedFace, PlacedLens, Stereo,
 };
+pub use mask_shape::MaskShape;
 pub use view::{Footprint, View};
-pub use world::{Source, World, WorldError};
+pub use view_mask::ViewMask;
+pub use world::{Source, World, WorldError, WorldView};

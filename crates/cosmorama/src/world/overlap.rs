@@ -53,7 +53,7 @@ fn share_texels(sources: &[Source], index: usize, solid_angles: &mut [f32]) -> V
 }
 
 /// The largest rectangle with the same margin on all sides in which no texel is shared; an empty one if there is none.
-fn unshared(mut rect: PixelRect, width: usize, is_shared: &[bool]) -> PixelRect {
+pub(super) fn unshared(mut rect: PixelRect, width: usize, is_shared: &[bool]) -> PixelRect {
     while rect.left < rect.right && rect.top < rect.bottom {
         let row = |j: usize| is_shared[j * width + rect.left..j * width + rect.right].contains(&true);
         let sides = |j: usize| is_shared[j * width + rect.left] || is_shared[j * width + rect.right - 1];

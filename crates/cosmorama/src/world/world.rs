@@ -1,9 +1,11 @@
+use std::sync::Arc;
+
 use rayon::prelude::*;
 use thiserror::Error;
 
 use super::blend::{Blend, Border, Presence, parts};
 use super::view::ROUNDING;
-use super::{PixelPoint, PixelRect, View, overlap};
+use super::{PixelPoint, PixelRect, View, ViewMask, overlap};
 use crate::projection::{PlanePoint, Projection};
 use crate::sphere::{Angle, Direction};
 
@@ -19,6 +21,19 @@ pub enum WorldError {
     /// Texels are counted in 32 bits.
     #[error("the views hold {0} texels together, more than {max}", max = u32::MAX)]
     TooLarge(usize),
+}
+
+/// A view that is to be a part of a world.
+#[derive(Clone, Debug)]
+pub struct WorldView {
+    /// What messages call it.
+    pub name: String,
+    /// Where its texels lie.
+    pub view: View,
+    /// How it takes part where other views show the same.
+    pub blend: Blend,
+    /// Which of its texels count, if not all; of the view's size.
+    pub mask: Option<Arc<ViewMask>>,
 }
 
 /// One view of a world and the place of its texels among all the world's texels.
@@ -40,6 +55,8 @@ pub struct Source {
     pub(super) border: Border,
     /// Middle and half angle of the cone that a lens's circle is, where it has one.
     cone: Option<(Direction, Angle)>,
+    /// Which of its texels count, if not all.
+    pub mask: Option<Arc<ViewMask>>,
     /// Indices of the views that overlap this one.
     pub(super) others: Vec<usize>,
     /// Texels that count for all that they show: no other view has a part in them, and none of them is there twice.
@@ -63,6 +80,11 @@ impl Source {
     /// nothing, and far outside, around the point behind the lens, small caps lie all over the image's plane.
     pub(crate) fn reaches(&self, direction: Direction, radius: f64) -> bool {
         self.cone.is_none_or(|(middle, half)| middle.angle_to(direction).radians() <= half.radians() + radius)
+    }
+
+    /// Whether a point of the image shows something that counts.
+    pub(super) fn shows(&self, pixel: PixelPoint) -> bool {
+        self.view.shows(pixel) && self.mask.as_ref().is_none_or(|mask| mask.shows(pixel))
     }
 
     /// The column that shows what column `i` would, the picture repeated all the way round if it does.
@@ -93,24 +115,25 @@ impl World {
     /// # Errors
     /// When there is no view, one without pixels, or more texels than 32 bits can count.
     pub fn new(views: impl IntoIterator<Item = (String, View)>) -> Result<Self, WorldError> {
-        Self::blended(views.into_iter().map(|(name, view)| (name, view, Blend::default())))
+        let part = |(name, view)| WorldView { name, view, blend: Blend::default(), mask: None };
+        Self::blended(views.into_iter().map(part))
     }
 
     /// The world of views each of which takes its part where it overlaps others.
     ///
     /// # Errors
     /// Those of [`World::new`].
-    pub fn blended(views: impl IntoIterator<Item = (String, View, Blend)>) -> Result<Self, WorldError> {
+    pub fn blended(views: impl IntoIterator<Item = WorldView>) -> Result<Self, WorldError> {
         let mut sources = Vec::new();
         let mut offset = 0usize;
-        for (name, view, blend) in views {
+        for WorldView { name, view, blend, mask } in views {
             let texels = view.width().saturating_mul(view.height());
             if texels == 0 {
                 return Err(WorldError::NoPixels(name));
             }
             let (period, texel_pitch, whole) = (view.period(), texel_pitch(&view), owned(&view));
             let (border, cone, others) = (Border::of(&view), cone(&view), Vec::new());
-            sources.push(Source { name, view, offset, period, texel_pitch, blend, border, cone, others, whole });
+            sources.push(Source { name, view, offset, period, texel_pitch, blend, border, cone, mask, others, whole });
             offset = offset.saturating_add(texels);
         }
         if sources.is_empty() {
@@ -131,6 +154,7 @@ impl World {
                 None => fill_solid_angles(&source.view, &mut solid_angles[source.texels()]),
             }
         }
+        hide(&mut sources, &mut solid_angles);
         overlap::share(&mut sources, &mut solid_angles);
         Ok(Self { sources, solid_angles })
     }
@@ -179,7 +203,8 @@ impl World {
                 && pixel.y >= -ROUNDING
                 && pixel.x <= width + ROUNDING
                 && pixel.y <= height + ROUNDING
-                && source.view.stop_passes(pixel);
+                && source.view.stop_passes(pixel)
+                && source.mask.as_ref().is_none_or(|mask| mask.shows(pixel));
             inside.then_some((index, pixel))
         })
     }
@@ -201,6 +226,19 @@ fn cone(view: &View) -> Option<(Direction, Angle)> {
     let middle = view.projection.unproject(PlanePoint::new(0.0, 0.0))?;
     let half = middle.angle_to(view.projection.unproject(PlanePoint::new(radius, 0.0))?);
     Some((view.orientation.to_world(middle), half))
+}
+
+/// Texels that a mask hides weigh nothing.
+fn hide(sources: &mut [Source], solid_angles: &mut [f32]) {
+    for source in sources {
+        let Some(mask) = &source.mask else { continue };
+        let width = source.view.width();
+        let is_hidden = |texel: usize| !mask.counts(texel % width, texel / width);
+        let hidden: Vec<bool> = (0..source.texels().len()).map(is_hidden).collect();
+        let angles = &mut solid_angles[source.texels()];
+        angles.iter_mut().zip(&hidden).filter(|(_, hidden)| **hidden).for_each(|(angle, _)| *angle = 0.0);
+        source.whole = overlap::unshared(source.whole, width, &hidden);
+    }
 }
 
 /// The larger side of the largest texel, found on a coarse grid of points: no mapping here bends faster.
