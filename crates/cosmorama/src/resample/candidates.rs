@@ -1,7 +1,7 @@
 use glam::DVec2;
 
 use super::kernel::UNDER;
-use super::{Tap, Taps};
+use super::{Tap, Taps, surround};
 
 /// A texel that a kernel reaches, before the weights are settled.
 #[derive(Clone, Copy, Debug, Default)]
@@ -30,20 +30,26 @@ impl Candidate {
 pub(super) fn settle(candidates: &mut [Candidate], centred: bool, taps: &mut Taps) {
     soften(candidates);
     let correction = if centred { Correction::centring(candidates) } else { Correction::default() };
+    let surrounding = surround::reach(candidates);
+    let reach = surrounding.unwrap_or(UNDER as f32);
     let (mut sum, mut size, mut under) = (0f64, 0f64, 0);
     for candidate in candidates.iter_mut() {
         candidate.weight += correction.of(candidate);
         sum += f64::from(candidate.weight);
         size += f64::from(candidate.weight.abs());
-        under += usize::from(candidate.is_under());
+        under += usize::from(candidate.q < reach);
     }
     // Where only negative lobes reach a texel, beside a missing face, there is no average.
     if sum <= 0.05 * size {
         return;
     }
     let scale = sum.recip() as f32;
-    let settled = candidates.iter().map(|c| (c.is_under(), Tap { texel: c.texel, weight: c.weight * scale }));
+    let settled = candidates.iter().map(|c| (c.q < reach, Tap { texel: c.texel, weight: c.weight * scale }));
     taps.fill(settled, candidates.len(), under);
+    // What moved the centroid beyond all texels goes on beyond what they hold.
+    if centred && surrounding.is_none() {
+        taps.bound_by_slope();
+    }
 }
 
 /// The part of the weights' size that their sum has at least: on one lattice it is much more.

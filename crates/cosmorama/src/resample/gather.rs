@@ -5,6 +5,7 @@
 
 use glam::{DMat2, DVec2};
 
+use super::bend::Bend;
 use super::candidates::{Candidate, settle};
 use super::cap::{Cap, texels_within};
 use super::field_edge::FieldEdge;
@@ -188,6 +189,7 @@ impl<'a> Gather<'a> {
         let coarseness = kernel.coarseness(jacobian.determinant().abs().sqrt()) as f32;
         let ellipse = Ellipse::new(jacobian * kernel.scale, kernel.floor);
         let to_screen = jacobian.inverse();
+        let bend = if kernel.centred { Bend::around(&source.view, centre) } else { None }.unwrap_or_default();
         let reach = ellipse.half_extent(self.table.radius_squared());
         let bounds = TexelBox::around(centre, reach);
         let rows = ellipse.rows(self.table.radius_squared());
@@ -202,7 +204,7 @@ impl<'a> Gather<'a> {
                     return;
                 }
                 let offset = DVec2::new(run.unrolled as f64 + 0.5 - centre.x, v);
-                self.gather_run(row + run.column, run.length, offset, &ellipse, coarseness, to_screen);
+                self.gather_run(row + run.column, run.length, offset, &ellipse, coarseness, (to_screen, &bend));
             };
             match source.period {
                 None => gather(Run::within(left.max(0), end.min(source.view.width() as i64), 0)),
@@ -226,19 +228,22 @@ impl<'a> Gather<'a> {
         first_offset: DVec2,
         ellipse: &Ellipse,
         coarseness: f32,
-        to_screen: DMat2,
+        (to_screen, bend): (DMat2, &Bend),
     ) {
         let mut q = ellipse.distance_squared(first_offset);
         let mut dq = ellipse.a * (2.0 * first_offset.x + 1.0) + ellipse.b * first_offset.y;
         let ddq = 2.0 * ellipse.a;
-        let mut offset = to_screen * first_offset;
+        let mut offset = to_screen * bend.of(first_offset);
+        let mut step = to_screen * bend.of(first_offset + DVec2::X) - offset;
+        let change = to_screen * bend.uu;
         for (texel, &solid_angle) in self.world.solid_angles()[first..first + length].iter().enumerate() {
             if solid_angle > 0.0 {
                 self.candidates.push(self.table.candidate(first + texel, solid_angle, q, coarseness, offset));
             }
             q += dq;
             dq += ddq;
-            offset += to_screen.x_axis;
+            offset += step;
+            step += change;
         }
     }
 
@@ -252,7 +257,7 @@ impl<'a> Gather<'a> {
             DMat2::from_cols(in_tangent_plane(footprint.jacobian.dx), in_tangent_plane(footprint.jacobian.dy));
         let to_screen = tangent.inverse();
         // The ellipse that the texels have here, as far as they have one: at the very pole, texels as large as any.
-        let jacobian = source.view.texel_footprint(footprint).map_or(tangent, |(_, jacobian)| jacobian);
+        let jacobian = footprint_among_texels(source, footprint).unwrap_or(tangent);
         let to_texels = jacobian * to_screen;
         let kernel = self.table.kernel();
         let coarseness = kernel.coarseness(jacobian.determinant().abs().sqrt()) as f32;
@@ -272,6 +277,20 @@ impl<'a> Gather<'a> {
             });
         }
     }
+}
+
+/// The footprint in texels of the outermost row or column, where it lies beyond the centres of that: texels that are nearer
+/// to a pole would be narrower, but there are none.
+fn footprint_among_texels(source: &Source, footprint: &Footprint) -> Option<DMat2> {
+    let (centre, jacobian) = source.view.texel_footprint(footprint)?;
+    let within = |place: f64, size: usize| place.clamp(0.5, size as f64 - 0.5);
+    let column = if source.period.is_some() { centre.x } else { within(centre.x, source.view.width()) };
+    let nearest = PixelPoint::new(column, within(centre.y, source.view.height()));
+    if nearest == centre {
+        return Some(jacobian);
+    }
+    let there = Footprint { direction: source.view.direction(nearest)?, ..*footprint };
+    source.view.texel_footprint(&there).map(|(_, jacobian)| jacobian)
 }
 
 impl TexelBox {

@@ -1,5 +1,6 @@
 //! Resampling: from a world of views to the pixels of a target.
 
+mod bend;
 mod block;
 mod candidates;
 mod cap;
@@ -21,6 +22,7 @@ mod reference;
 mod scan;
 mod screen_mask;
 mod slope;
+mod surround;
 mod taps;
 mod window;
 

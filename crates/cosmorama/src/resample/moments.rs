@@ -2,6 +2,7 @@
 
 use fearless_simd::{f32x8, prelude::*};
 
+use super::bend::Bend;
 use super::candidates::THINNEST;
 
 /// Sums over a window: of the weights w and slacks v, and of their products with the offsets.
@@ -9,6 +10,9 @@ pub(super) struct Moments<S: Simd> {
     w: f32x8<S>,
     wx: f32x8<S>,
     wy: f32x8<S>,
+    wxx: f32x8<S>,
+    wxy: f32x8<S>,
+    wyy: f32x8<S>,
     v: f32x8<S>,
     vx: f32x8<S>,
     vy: f32x8<S>,
@@ -21,6 +25,7 @@ pub(super) struct Moments<S: Simd> {
 pub(super) struct RowSums<S: Simd> {
     w: f32x8<S>,
     wx: f32x8<S>,
+    wxx: f32x8<S>,
     v: f32x8<S>,
     vx: f32x8<S>,
     vxx: f32x8<S>,
@@ -30,15 +35,16 @@ impl<S: Simd> RowSums<S> {
     #[inline(always)]
     pub(super) fn zero(simd: S) -> Self {
         let zero = f32x8::splat(simd, 0.0);
-        Self { w: zero, wx: zero, v: zero, vx: zero, vxx: zero }
+        Self { w: zero, wx: zero, wxx: zero, v: zero, vx: zero, vxx: zero }
     }
 
     /// Adds a texel at an offset across.
     #[inline(always)]
     pub(super) fn add(&mut self, w: f32x8<S>, v: f32x8<S>, x: f32x8<S>) {
-        let vx = v * x;
+        let (wx, vx) = (w * x, v * x);
         self.w += w;
-        self.wx += w * x;
+        self.wx += wx;
+        self.wxx += wx * x;
         self.v += v;
         self.vx += vx;
         self.vxx += vx * x;
@@ -49,7 +55,20 @@ impl<S: Simd> Moments<S> {
     #[inline(always)]
     pub(super) fn zero(simd: S) -> Self {
         let zero = f32x8::splat(simd, 0.0);
-        Self { w: zero, wx: zero, wy: zero, v: zero, vx: zero, vy: zero, vxx: zero, vxy: zero, vyy: zero }
+        Self {
+            w: zero,
+            wx: zero,
+            wy: zero,
+            wxx: zero,
+            wxy: zero,
+            wyy: zero,
+            v: zero,
+            vx: zero,
+            vy: zero,
+            vxx: zero,
+            vxy: zero,
+            vyy: zero,
+        }
     }
 
     /// Adds a row at an offset down.
@@ -58,6 +77,9 @@ impl<S: Simd> Moments<S> {
         self.w += row.w;
         self.wx += row.wx;
         self.wy += row.w * y;
+        self.wxx += row.wxx;
+        self.wxy += row.wx * y;
+        self.wyy += row.w * y * y;
         self.v += row.v;
         self.vx += row.vx;
         self.vy += row.v * y;
@@ -66,12 +88,12 @@ impl<S: Simd> Moments<S> {
         self.vyy += row.v * y * y;
     }
 
-    /// What makes the weights' sum one and, if they are to be `centred`, moves their centroid onto the pixel's centre, as
-    /// [`super::candidates`] does.
+    /// What makes the weights' sum one and, where they are to be centred, moves the centroid of the texels, that lie so bent,
+    /// onto the pixel's centre, as [`super::candidates`] does.
     ///
     /// Offsets in texels serve as well as offsets on the screen: the correction is linear in them.
     #[inline(always)]
-    pub(super) fn correction(&self, simd: S, centred: bool) -> Correction<S> {
+    pub(super) fn correction(&self, simd: S, centring: Option<&Bend>) -> Correction<S> {
         let zero = f32x8::splat(simd, 0.0);
         let scale = (zero + 1.0) / self.w;
         let (mean_x, mean_y) = (self.vx / self.v, self.vy / self.v);
@@ -79,10 +101,26 @@ impl<S: Simd> Moments<S> {
         let xy = self.vxy - self.vx * mean_y;
         let yy = self.vyy - self.vy * mean_y;
         let determinant = xx * yy - xy * xy;
-        let factor =
-            if centred { determinant.simd_gt(xx * yy * THINNEST).select(scale / determinant, zero) } else { zero };
-        let (gx, gy) = ((xy * self.wy - yy * self.wx) * factor, (xy * self.wx - xx * self.wy) * factor);
+        let (factor, [wx, wy]) = match centring {
+            Some(bend) => {
+                let factor = determinant.simd_gt(xx * yy * THINNEST).select(scale / determinant, zero);
+                (factor, self.first_moments(bend))
+            }
+            None => (zero, [zero; 2]),
+        };
+        let (gx, gy) = ((xy * wy - yy * wx) * factor, (xy * wx - xx * wy) * factor);
         Correction { scale, gx, gy, constant: zero - gx * mean_x - gy * mean_y }
+    }
+
+    /// Of the weights, with the texels where they are seen.
+    #[inline(always)]
+    fn first_moments(&self, bend: &Bend) -> [f32x8<S>; 2] {
+        let [[uu_x, uu_y], [uv_x, uv_y], [vv_x, vv_y]] =
+            [bend.uu * 0.5, bend.uv, bend.vv * 0.5].map(|bend| bend.as_vec2().to_array());
+        [
+            self.wx + self.wxx * uu_x + self.wxy * uv_x + self.wyy * vv_x,
+            self.wy + self.wxx * uu_y + self.wxy * uv_y + self.wyy * vv_y,
+        ]
     }
 }
 

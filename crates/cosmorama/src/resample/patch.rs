@@ -3,6 +3,7 @@
 use glam::{DMat2, DVec2};
 
 use super::Kernel;
+use super::bend::Bend;
 use super::gather::Gather;
 use crate::projection::Projection;
 use crate::world::{PixelPoint, Source, View};
@@ -98,6 +99,8 @@ pub(super) struct Patch<'a> {
     /// Ux, Vx, Uy, Vy: texels for one pixel to the right and one pixel down.
     pub(super) jacobian: [Columns; 4],
     pub(super) density: Density,
+    /// How its texels lie around its middle.
+    pub(super) bend: Bend,
 }
 
 /// How the solid angle of texels changes over a patch, relative to itself.
@@ -145,13 +148,17 @@ impl<'a> Patch<'a> {
                 *point = Point { place: DVec2::new(pixel.x, pixel.y), jacobian };
             }
         }
-        let density =
-            gather.takes_patch(source, &screen).then(|| Density::around(&source.view, &points, gather.kernel()))?;
-        Self::through(source, &points, density?)
+        if !gather.takes_patch(source, &screen) {
+            return None;
+        }
+        let density = Density::around(&source.view, &points, gather.kernel())?;
+        let middle = points[1][1].place;
+        let bend = Bend::around(&source.view, PixelPoint::new(middle.x, middle.y))?;
+        Self::through(source, &points, density, bend)
     }
 
     /// `None` where the mapping bends too much.
-    fn through(source: &'a Source, points: &Grid<Point>, density: Density) -> Option<Self> {
+    fn through(source: &'a Source, points: &Grid<Point>, density: Density, bend: Bend) -> Option<Self> {
         let [[a, _, b], _, [c, _, d]] = *points;
         let origin = a.place.floor();
         let edge = |from: Point, to: Point, along: fn(&DMat2) -> DVec2| {
@@ -170,6 +177,7 @@ impl<'a> Patch<'a> {
             jacobian: [0, 1, 2, 3]
                 .map(|k| Columns::parabolic(points.map(|row| row.map(|point| point.jacobian.to_cols_array()[k])))),
             density,
+            bend,
         };
         (patch.error(points) < PLACE && is_almost_bilinear(points)).then_some(patch)
     }
@@ -267,7 +275,7 @@ mod tests {
     #[test]
     fn cubic_mappings_are_met_exactly() {
         let world = world();
-        let patch = Patch::through(&world.sources()[0], &grid(bent), EVEN).expect("hardly bent");
+        let patch = Patch::through(&world.sources()[0], &grid(bent), EVEN, Bend::default()).expect("hardly bent");
         for row in 0..SIDE {
             let t = row as f64 / SIDE as f64;
             let [left, right] = patch.bulge(row);
@@ -286,7 +294,9 @@ mod tests {
     #[test]
     fn kinks_are_refused() {
         let world = world();
-        let through = |place: &dyn Fn(f64, f64) -> DVec2| Patch::through(&world.sources()[0], &grid(place), EVEN);
+        let through = |place: &dyn Fn(f64, f64) -> DVec2| {
+            Patch::through(&world.sources()[0], &grid(place), EVEN, Bend::default())
+        };
         assert!(through(&bent).is_some());
         // Across, down, and around a point that none of the nine is near.
         assert!(through(&|s, t| bent(s, t) + DVec2::new(0.2 * (s - 0.3).abs(), 0.0)).is_none());

@@ -15,7 +15,8 @@ pub(crate) struct Tap {
 pub(super) enum Bound {
     /// What those under the pixel hold: the first ones, so many.
     Under(u32),
-    /// What all of them hold, and beyond it where a slope goes on: the field of view ends under the pixel.
+    /// What all of them hold, and beyond it where a slope goes on: they lie to one side of the pixel's centre, or the field of
+    /// view ends under the pixel.
     Slope,
 }
 
@@ -75,7 +76,7 @@ impl Taps {
         }
     }
 
-    /// The field of view ends under the pixel.
+    /// All of them lie to one side of the pixel's centre, or the field of view ends under the pixel.
     pub(super) fn bound_by_slope(&mut self) {
         self.bound = Bound::Slope;
     }

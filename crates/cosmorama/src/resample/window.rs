@@ -2,6 +2,7 @@
 
 use fearless_simd::{Level, dispatch, f32x4, f32x8, prelude::*};
 
+use super::bend::Bend;
 use super::cubics::Cubics;
 use super::ellipses::Ellipses;
 use super::kernel::UNDER;
@@ -123,7 +124,7 @@ impl Windows {
             return;
         }
         let moments = self.weigh(simd, &ellipses);
-        self.settle(simd, &ellipses.start, &moments);
+        self.settle(simd, &ellipses.start, &moments, &patch.bend);
     }
 
     /// Finds which windows are inside the view.
@@ -175,8 +176,8 @@ impl Windows {
 
     /// Moves the centroid of the weights onto the pixel's centre and their sum to one.
     #[inline(always)]
-    fn settle<S: Simd>(&mut self, simd: S, [x0, y0]: &[f32x8<S>; 2], moments: &Moments<S>) {
-        let correction = moments.correction(simd, self.kernel.centred);
+    fn settle<S: Simd>(&mut self, simd: S, [x0, y0]: &[f32x8<S>; 2], moments: &Moments<S>, bend: &Bend) {
+        let correction = moments.correction(simd, self.kernel.centred.then_some(bend));
         let mut at = 0;
         let mut y = *y0;
         for _ in 0..self.height {
