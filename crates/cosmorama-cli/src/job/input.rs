@@ -134,6 +134,9 @@ impl Input {
         let mut placement = single.placement;
         let canvas = placement.canvas.or(header.window.map(canvas_of)).unwrap_or_else(|| whole(&header));
         fits_canvas(path, &header, canvas)?;
+        if !single.any_shape && placement.canvas.is_none() && header.metadata.envmap.is_none() {
+            fits_shape(path, placement.frame, canvas)?;
+        }
         placement.canvas = None;
         let nominal = placement.view(canvas.width, canvas.height).map_err(|error| usage(format!("--from: {error}")))?;
         placement.canvas = Some(canvas);
@@ -285,6 +288,28 @@ fn fits_canvas(path: &Path, header: &Header, canvas: Canvas) -> Result<()> {
         header.width,
         header.height,
         shape(&canvas)
+    )))
+}
+
+/// A map whose shape is known was meant otherwise if it has another: its pixels would be stretched.
+fn fits_shape(path: &Path, frame: Frame, canvas: Canvas) -> Result<()> {
+    let (what, whole) = match frame {
+        Frame::Equirect(_) => ("panorama of its field of view", "hfov=360,vfov=180 (or its own)"),
+        Frame::WorldMap(_) => ("map of the world", "canvas=WxH+0+0"),
+        Frame::Octahedral(_) => ("octahedral map", "canvas=WxH+0+0"),
+        _ => return Ok(()),
+    };
+    let expected = frame.natural_height(canvas.width);
+    // A row more or less is a matter of rounding.
+    if expected.abs_diff(canvas.height) <= (expected / 100).max(1) {
+        return Ok(());
+    }
+    Err(usage(format!(
+        "{}: {} pixels are no {what}: {}x{expected} were expected; if it is stretched, say so with {whole}; if it is a part, \
+         give canvas=WxH+X+Y the whole, and if it is something else, another --from",
+        path.display(),
+        shape(&canvas),
+        canvas.width
     )))
 }
 
