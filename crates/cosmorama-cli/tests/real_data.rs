@@ -101,8 +101,20 @@ fn every_picture_is_described_rightly_and_converts() {
         let projection = report["projection"].as_str().unwrap();
         assert!(projection.starts_with(picture.projection), "{}: {projection}", picture.name);
         assert_eq!(report["arrangement"]["fits"].as_bool(), picture.faces_fit, "{}: {report}", picture.name);
-        // Downwards: fisheyes on tripods look up.
-        let to = ["out.png", "-y", "--to", "fulldome", "--size", "48", "--depth", "8", "--missing", "black"];
+        let to = [
+            "out.png",
+            "-y",
+            "--to",
+            "fulldome",
+            "--size",
+            "48",
+            "--depth",
+            "8",
+            "--filter",
+            "bilinear",
+            "--missing",
+            "black",
+        ];
         let output = bench.run(&[&["convert", &path][..], picture.from, &to[..]].concat());
         let message = text(&output.stderr);
         assert!(output.status.success(), "{}: {message}", picture.name);
@@ -133,7 +145,8 @@ fn a_mirror_ball_fills_its_frame_and_is_anyones_guess() {
     let path = data.join("mirrorball_lamp.jpg").to_string_lossy().into_owned();
     let projection = info(&bench, &path)["projection"].as_str().unwrap().to_owned();
     assert!(projection.contains("mirror"), "{projection}");
-    let to = ["--from", "mirror-ball", "--to", "equirect", "--size", "64", "--missing", "black"];
+    let to =
+        ["--from", "mirror-ball", "--to", "equirect", "--size", "64", "--filter", "bilinear", "--missing", "black"];
     bench.succeed(&[&["convert", &path, "out.png"], &to[..]].concat());
 }
 
