@@ -122,14 +122,25 @@ fn an_absurd_size_is_refused_before_memory_is_taken() {
     let bench = Bench::new();
     std::fs::write(bench.path("bomb.png"), bomb()).unwrap();
     assert!(bomb().len() < 100);
-    let args =
-        ["convert", "bomb.png", "out.png", "--from", "equirect", "--to", "omnimax", "--size", "32", "--memory", "2G"];
+    let args = [
+        "convert",
+        "bomb.png",
+        "out.png",
+        "--from",
+        "equirect:hfov=360,vfov=180",
+        "--to",
+        "omnimax",
+        "--size",
+        "32",
+        "--memory",
+        "2G",
+    ];
     let message = bench.fail(1, &args);
     assert_says(&message, &["bomb.png", "65535x65535", "--memory"]);
     bench.save("small.png", &picture(0, 64, 32));
     let message = bench.fail(1, &["compare", "bomb.png", "small.png"]);
     assert_says(&message, &["65535x65535", "--memory"]);
-    let explain = ["explain", "bomb.png", "--from", "equirect", "--to", "fisheye", "--size", "64"];
+    let explain = ["explain", "bomb.png", "--from", "equirect:hfov=360,vfov=180", "--to", "fisheye", "--size", "64"];
     assert_says(&bench.fail(1, &explain), &["bomb.png", "65535x65535", "--memory"]);
     let message =
         bench.fail(1, &["convert", "small.png", "out.png", "--to", "fulldome", "--size", "200000", "--memory", "8G"]);

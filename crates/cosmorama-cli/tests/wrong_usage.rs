@@ -24,6 +24,13 @@ fn wrong_usage() {
     assert_says(&convert(&["out.png", "--to", "omnimx"]), &["did you mean 'omnimax'"]);
     assert_says(&convert(&["out.png", "--to", "fisheye:fvo=180"]), &["unknown key 'fvo' for fisheye", "'fov'"]);
     assert_says(&convert(&["out.png", "--to", "perspective:fov=180"]), &["less than 180"]);
+    assert_says(&convert(&["out.png", "--to", "fisheye:lens=orthographic,fov=200"]), &["200°", "at most 180°"]);
+    assert_says(&convert(&["out.png", "--to", "equirect:fov=180"]), &["unknown key 'fov' for equirect", "hfov"]);
+    assert_says(
+        &convert(&["out.png", "--to", "omnimax:framing=fit,center=9:9"]),
+        &["framing= and center= cannot both"],
+    );
+    assert_says(&convert(&["out.png", "--to", "fisheye:fit=width,radius=9"]), &["fit= and radius= cannot both"]);
     assert_says(&convert(&["out.png", "--to", "cube"]), &["{face}"]);
     assert_says(&convert(&["{face}.png", "--to", "omnimax"]), &["names the faces of a cube"]);
     assert_says(&convert(&["out_####.png", "--to", "omnimax"]), &["frame marker"]);
@@ -57,6 +64,30 @@ fn numbers_that_are_none_or_absurd() {
         assert_says(&bench.fail(2, &[&convert[..], &[option, value]].concat()), &[value, expected]);
     }
     assert_says(&bench.fail(2, &["compare", "sky.png", "sky.png", "--min-psnr", "nan"]), &["expected a number"]);
+}
+
+#[test]
+fn a_map_of_another_shape_is_stretched_only_where_that_is_said() {
+    let bench = Bench::new();
+    bench.save("wide.png", &picture(1, 96, 64));
+    let to = ["out.png", "-y", "--to", "perspective", "--size", "32"];
+    let args = |from: &'static str| [&["convert", "wide.png", "--from", from], &to[..]].concat();
+    for (from, expected) in [
+        ("equirect", "96x48 were expected"),
+        ("equirect:vfov=90", "96x24 were expected"),
+        ("hammer", "96x48 were expected"),
+        ("octahedral", "96x96 were expected"),
+    ] {
+        assert_says(&bench.fail(2, &args(from)), &["wide.png", "96x64", expected, "canvas="]);
+    }
+    for from in
+        ["equirect:hfov=360,vfov=180", "equirect:canvas=96x64+0+0", "hammer:canvas=96x64+0+0", "equirect:hfov=270"]
+    {
+        bench.succeed(&args(from));
+    }
+    // A row more or less is a matter of rounding.
+    bench.save("wide.png", &picture(1, 97, 48));
+    bench.succeed(&args("equirect"));
 }
 
 #[test]

@@ -1,6 +1,7 @@
 #![doc = include_str!("../README.md")]
 
 pub mod arrange;
+pub mod circle;
 pub mod compare;
 pub mod explain;
 pub mod projection;

@@ -7,13 +7,14 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 /// The rooms of the library, lowest floor first, and the rooms that each may use.
-const ROOMS: [(&str, &[&str]); 8] = [
+const ROOMS: [(&str, &[&str]); 9] = [
     ("sphere", &[]),
     ("projection", &["sphere"]),
     ("raster", &[]),
     ("world", &["sphere", "projection", "raster"]),
     ("resample", &["sphere", "projection", "raster", "world"]),
     ("arrange", &["sphere", "raster", "world"]),
+    ("circle", &["raster"]),
     ("compare", &["raster"]),
     ("explain", &["sphere", "projection", "raster", "world", "resample"]),
 ];
@@ -58,7 +59,7 @@ const CRATES: [CratePlan; 5] = [
     CratePlan {
         name: "cosmorama-cli",
         crates: &["cosmorama", "cosmorama-builtin", "cosmorama-io"],
-        rooms: &["sphere", "projection", "raster", "world", "resample", "arrange", "compare", "explain"],
+        rooms: &["sphere", "projection", "raster", "world", "resample", "arrange", "circle", "compare", "explain"],
         banned_std: &["f32", "f64"],
         banned: &[
             "glam",
@@ -83,7 +84,7 @@ const CRATES: [CratePlan; 5] = [
     CratePlan {
         name: "testkit",
         crates: &["cosmorama", "cosmorama-builtin", "cosmorama-io"],
-        rooms: &["sphere", "projection", "raster", "world", "resample", "arrange", "compare", "explain"],
+        rooms: &["sphere", "projection", "raster", "world", "resample", "arrange", "circle", "compare", "explain"],
         banned_std: &[],
         banned: &[],
         reason: "",

@@ -1,7 +1,7 @@
 use std::path::Path;
 
 use anyhow::Result;
-use cosmorama::world::Canvas;
+use cosmorama::world::{Canvas, Frame};
 use cosmorama_io::{Header, Window};
 
 use crate::failure::usage;
@@ -45,6 +45,28 @@ pub(super) fn lies_on_canvas(path: &Path, header: &Header, canvas: Canvas) -> Re
         canvas.left,
         canvas.top,
         shape(&canvas)
+    )))
+}
+
+/// A map whose shape is known was meant otherwise if it has another: its pixels would be stretched.
+pub(super) fn fits_shape(path: &Path, frame: Frame, canvas: Canvas) -> Result<()> {
+    let (what, whole) = match frame {
+        Frame::Equirect(_) => ("panorama of its field of view", "hfov=360,vfov=180 (or its own)"),
+        Frame::WorldMap(_) => ("map of the world", "canvas=WxH+0+0"),
+        Frame::Octahedral(_) => ("octahedral map", "canvas=WxH+0+0"),
+        _ => return Ok(()),
+    };
+    let expected = frame.natural_height(canvas.width);
+    // A row more or less is a matter of rounding.
+    if expected.abs_diff(canvas.height) <= (expected / 100).max(1) {
+        return Ok(());
+    }
+    Err(usage(format!(
+        "{}: {} pixels are no {what}: {}x{expected} were expected; if it is stretched, say so with {whole}; if it is a part, \
+         give canvas=WxH+X+Y the whole, and if it is something else, another --from",
+        path.display(),
+        shape(&canvas),
+        canvas.width
     )))
 }
 

@@ -1,6 +1,7 @@
 use std::path::Path;
 
 use anyhow::{Result, bail};
+use cosmorama::circle::{Circle, Found};
 use cosmorama::world::{EquirectFrame, FaceOrder, Frame, FulldomeFrame, LayoutKind, Placement, SamplePositions};
 use cosmorama_io::{EnvMap, Header, Window};
 
@@ -46,6 +47,54 @@ impl Guess {
             _ => Evidence::of(path, header).map_or(Self::Layouts(layouts), Self::Blank),
         }
     }
+
+    /// The cubes that an image may hold the faces of.
+    fn cubes(self) -> Vec<Cube> {
+        let of = |kind: LayoutKind| Cube { layout: Some(Packing::OneImage(kind)), ..Cube::default() };
+        match self {
+            Self::Said(EnvMap::Cube) => vec![Cube { order: Some(FaceOrder::OPENEXR), ..of(LayoutKind::StripV) }],
+            Self::Said(EnvMap::GlCube) => vec![of(LayoutKind::StripV)],
+            Self::Strip(kind) | Self::Blank(Evidence::Cross(kind)) => vec![of(kind)],
+            Self::Layouts(kinds) => kinds.into_iter().map(of).collect(),
+            Self::Said(EnvMap::LatLong) | Self::Panorama(_) | Self::TwoToOne => Vec::new(),
+            Self::Blank(Evidence::Circle | Evidence::Disc(_)) => Vec::new(),
+        }
+    }
+
+    /// In words.
+    fn describe(&self, header: &Header) -> String {
+        match self {
+            Self::Said(EnvMap::LatLong) => "equirect, samples on the edges (envmap attribute)".to_owned(),
+            Self::Said(EnvMap::Cube) => {
+                "cube:layout=strip-v,order=openexr, samples on the edges (envmap attribute)".to_owned()
+            }
+            Self::Said(EnvMap::GlCube) => "cube (the file's own six faces, one below the other)".to_owned(),
+            Self::Panorama(Window { canvas_width, canvas_height, x, y }) => {
+                let whole = (*canvas_width, *canvas_height) == (header.width, header.height);
+                let canvas =
+                    if whole { String::new() } else { format!(":canvas={canvas_width}x{canvas_height}+{x}+{y}") };
+                format!("equirect{canvas} (GPano metadata)")
+            }
+            Self::TwoToOne => "equirect (2:1)".to_owned(),
+            Self::Strip(kind) => format!("cube:layout={kind} (by its shape)"),
+            Self::Blank(Evidence::Cross(kind)) => format!("cube:layout={kind} (one colour surrounds a cross)"),
+            Self::Blank(Evidence::Disc(found)) => {
+                let how = match found {
+                    Found::Measured(_) => "a circle on black",
+                    Found::Roughly(_) => "roughly: a disc on black, too dark at its rim to measure",
+                };
+                format!("{} ({how}; 180 degrees are a guess)", fisheye_spec(found, "180"))
+            }
+            Self::Blank(Evidence::Circle) => "fulldome (square, black around a circle)".to_owned(),
+            Self::Layouts(kinds) if kinds.is_empty() && header.width == header.height => {
+                "unknown: a face of a cube, a mirror ball, fisheye or octahedral? (no circle on black)".to_owned()
+            }
+            Self::Layouts(kinds) => {
+                let names: String = kinds.iter().map(|kind| format!("cube:layout={kind}, ")).collect();
+                format!("unknown: {names}perspective, fisheye or omnimax? (no circle on black)")
+            }
+        }
+    }
 }
 
 fn layouts_of_shape(width: usize, height: usize) -> impl Iterator<Item = LayoutKind> {
@@ -79,16 +128,30 @@ pub(super) fn detect(path: &Path, header: &Header, warnings: &mut Vec<String>) -
         Guess::Blank(Evidence::Circle) => {
             announce("a domemaster (--from fulldome)", "it is square and black around a circle");
             let placement = Placement::new(Frame::Fulldome(FulldomeFrame::default()));
-            Ok(Shape::Single(Single { placement, samples: SphereSamples::NotAPanorama }))
+            Ok(Shape::Single(Single { placement, samples: SphereSamples::NotAPanorama, any_shape: false }))
         }
+        Guess::Blank(Evidence::Disc(circle)) => bail!(
+            "{}: a circle on black, as a fisheye lens leaves it, whose field of view is not known; give --from {}",
+            path.display(),
+            fisheye_spec(&circle, "DEGREES")
+        ),
         Guess::Layouts(kinds) => bail!("{}", ambiguous(path, header, &kinds)),
+    }
+}
+
+/// The SPEC of a fisheye photograph.
+fn fisheye_spec(found: &Found, fov: &str) -> String {
+    let Circle { centre: (x, y), radius } = found.circle();
+    match found {
+        Found::Measured(_) => format!("fisheye:fov={fov},center={x:.1}:{y:.1},radius={radius:.1}"),
+        Found::Roughly(_) => format!("fisheye:fov={fov},center={x:.0}:{y:.0},radius={radius:.0}"),
     }
 }
 
 fn panorama(samples: SamplePositions, window: Option<Window>) -> Shape {
     let frame = Frame::Equirect(EquirectFrame { samples, ..EquirectFrame::default() });
     let placement = Placement { canvas: window.map(canvas_of), ..Placement::new(frame) };
-    Shape::Single(Single { placement, samples: SphereSamples::ByFormat })
+    Shape::Single(Single { placement, samples: SphereSamples::ByFormat, any_shape: false })
 }
 
 fn one_image(kind: LayoutKind) -> Shape {
@@ -99,7 +162,7 @@ fn one_image(kind: LayoutKind) -> Shape {
 fn ambiguous(path: &Path, header: &Header, layouts: &[LayoutKind]) -> String {
     let layouts = layouts.iter().map(|kind| format!("cube:layout={kind}, ")).collect::<String>();
     let others = if header.width == header.height {
-        "fulldome, fisheye:fov=DEGREES, perspective:fov=DEGREES, omnimax or equirect"
+        "fulldome, fisheye:fov=DEGREES, mirror-ball, angular-map, octahedral, perspective:fov=DEGREES, omnimax or equirect"
     } else {
         "perspective:fov=DEGREES, equirect, fisheye, fulldome or omnimax"
     };
@@ -172,43 +235,25 @@ fn declared_cube(cube: &Cube, pattern: &str, header: &Header, warnings: &mut Vec
     }
 }
 
-/// The cubes that an image may hold the faces of, the likeliest alone where there is one.
-pub(crate) fn likely_cubes(path: &Path, header: &Header) -> Vec<Cube> {
-    let of = |kind: LayoutKind| Cube { layout: Some(Packing::OneImage(kind)), ..Cube::default() };
-    match Guess::of(path, header) {
-        Guess::Said(EnvMap::Cube) => vec![Cube { order: Some(FaceOrder::OPENEXR), ..of(LayoutKind::StripV) }],
-        Guess::Said(EnvMap::GlCube) => vec![of(LayoutKind::StripV)],
-        Guess::Strip(kind) | Guess::Blank(Evidence::Cross(kind)) => vec![of(kind)],
-        Guess::Layouts(kinds) => kinds.into_iter().map(of).collect(),
-        Guess::Said(EnvMap::LatLong) | Guess::Panorama(_) | Guess::TwoToOne | Guess::Blank(Evidence::Circle) => {
-            Vec::new()
-        }
-    }
+/// What `info` says of an image.
+pub(crate) struct Likely {
+    /// Its projection.
+    pub(crate) projection: String,
+    /// The circle that a lens left on black.
+    pub(crate) circle: Option<Found>,
+    /// The cubes that it may hold the faces of.
+    pub(crate) cubes: Vec<Cube>,
+    /// Whether its shape alone says that it may hold any.
+    pub(crate) may_be_none: bool,
 }
 
-/// What `info` says.
-pub(crate) fn likely(path: &Path, header: &Header) -> String {
-    match Guess::of(path, header) {
-        Guess::Said(EnvMap::LatLong) => "equirect, samples on the edges (envmap attribute)".to_owned(),
-        Guess::Said(EnvMap::Cube) => {
-            "cube:layout=strip-v,order=openexr, samples on the edges (envmap attribute)".to_owned()
-        }
-        Guess::Said(EnvMap::GlCube) => "cube (the file's own six faces, one below the other)".to_owned(),
-        Guess::Panorama(Window { canvas_width, canvas_height, x, y }) => {
-            let whole = (canvas_width, canvas_height) == (header.width, header.height);
-            let canvas = if whole { String::new() } else { format!(":canvas={canvas_width}x{canvas_height}+{x}+{y}") };
-            format!("equirect{canvas} (GPano metadata)")
-        }
-        Guess::TwoToOne => "equirect (2:1)".to_owned(),
-        Guess::Strip(kind) => format!("cube:layout={kind} (by its shape)"),
-        Guess::Blank(Evidence::Cross(kind)) => format!("cube:layout={kind} (one colour surrounds a cross)"),
-        Guess::Blank(Evidence::Circle) => "fulldome (square, black around a circle)".to_owned(),
-        Guess::Layouts(kinds) if kinds.is_empty() && header.width == header.height => {
-            "unknown: a face of a cube, fisheye or fulldome?".to_owned()
-        }
-        Guess::Layouts(kinds) => {
-            let names: String = kinds.iter().map(|kind| format!("cube:layout={kind}, ")).collect();
-            format!("unknown: {names}perspective, fisheye or omnimax?")
-        }
-    }
+/// Looks at an image.
+pub(crate) fn likely(path: &Path, header: &Header) -> Likely {
+    let guess = Guess::of(path, header);
+    let circle = match guess {
+        Guess::Blank(Evidence::Disc(found)) => Some(found),
+        _ => None,
+    };
+    let may_be_none = matches!(guess, Guess::Layouts(_));
+    Likely { projection: guess.describe(header), circle, cubes: guess.cubes(), may_be_none }
 }

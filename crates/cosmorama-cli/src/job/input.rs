@@ -5,7 +5,7 @@ use anyhow::{Result, bail};
 use cosmorama::world::{Blend, Canvas, Eye, FacePart, View, ViewMask, WorldView};
 use cosmorama_io::{FaceFile, FacePattern, FaceSet, FrameList, Header, probe};
 
-use super::canvas::{canvas_of, fits_canvas, whole};
+use super::canvas::{canvas_of, fits_canvas, fits_shape, whole};
 use super::detect::{declared, detect};
 use super::eye::EyePart;
 use super::face_file::Face;
@@ -178,6 +178,9 @@ impl Input {
         let mut placement = single.placement;
         let canvas = placement.canvas.or(header.window.map(canvas_of)).unwrap_or_else(|| whole(&header));
         fits_canvas(path, &header, canvas)?;
+        if !single.any_shape && placement.canvas.is_none() && header.metadata.envmap.is_none() {
+            fits_shape(path, placement.frame, canvas)?;
+        }
         placement.canvas = None;
         let nominal = placement.view(canvas.width, canvas.height).map_err(|error| usage(format!("--from: {error}")))?;
         placement.canvas = Some(canvas);

@@ -28,7 +28,7 @@ mod world_file;
 
 pub(crate) use builtin::{Builtin, BuiltinJob};
 pub(crate) use coverage::{Coverage, nominal_worlds};
-pub(crate) use detect::{likely, likely_cubes};
+pub(crate) use detect::{Likely, likely};
 pub(crate) use evidence::light_of;
 pub(crate) use face_view::face_placement;
 pub(crate) use files::Files;

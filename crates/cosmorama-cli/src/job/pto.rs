@@ -65,7 +65,7 @@ pub(super) fn complete(input: &str, geometry: &GeometryArgs) -> Result<GeometryA
         Some(whole) => whole,
     });
     let placement = Placement { canvas, ..Placement::new(frame) };
-    let shape = Shape::Single(Single { placement, samples: SphereSamples::NotAPanorama });
+    let shape = Shape::Single(Single { placement, samples: SphereSamples::NotAPanorama, any_shape: true });
     geometry.to = Some(Spec { name: "the p-line", shape, stereo: None });
     Ok(geometry)
 }

@@ -2,6 +2,7 @@ use std::path::Path;
 use std::process::ExitCode;
 
 use anyhow::Result;
+use cosmorama::circle::{Circle, Found};
 use cosmorama::raster::Transfer;
 use cosmorama_io::{EnvMap, FacePattern, FaceSet, Header, probe};
 use serde_json::{Value, json};
@@ -36,8 +37,13 @@ fn single(pattern: &str) -> Result<Value> {
     let mut report = json!({ "input": pattern });
     add_frames(&mut report, &frames);
     merge(&mut report, header_report(&header));
-    report["projection"] = json!(likely(&path, &header));
-    if let Some(continuity) = of_image(&path, &header) {
+    let likely = likely(&path, &header);
+    report["projection"] = json!(likely.projection);
+    if let Some(found) = likely.circle {
+        let Circle { centre: (x, y), radius } = found.circle();
+        report["circle"] = json!({ "x": x, "y": y, "radius": radius, "measured": matches!(found, Found::Measured(_)) });
+    }
+    if let Some(continuity) = of_image(&path, &likely) {
         report["arrangement"] = continuity;
     }
     Ok(report)
@@ -144,6 +150,9 @@ fn lines(report: &Value, indent: usize) -> String {
     let line = |(key, value): (&String, &Value)| match value {
         Value::Object(face) if face.get("present") == Some(&Value::Bool(false)) => {
             format!("{pad}{key}: missing ({})\n", plain(&face["file"]))
+        }
+        Value::Object(arrangement) if arrangement.contains_key("told") => {
+            format!("{pad}{key}: {}\n", plain(&arrangement["told"]))
         }
         Value::Object(_) => format!("{pad}{key}:\n{}", lines(value, indent + 2)),
         Value::Array(items) => format!("{pad}{key}: {}\n", items.iter().map(plain).collect::<Vec<_>>().join(", ")),

@@ -4,10 +4,10 @@ use std::path::Path;
 
 use anyhow::Result;
 use cosmorama::raster::{Image, Rgba};
-use cosmorama_io::{FaceSet, Header};
+use cosmorama_io::FaceSet;
 use serde_json::{Value, json};
 
-use crate::job::{Continuity, FacePixels, Files, GivenFaces, existing_frames, light_of, likely_cubes};
+use crate::job::{Continuity, FacePixels, Files, GivenFaces, Likely, existing_frames, light_of};
 use crate::spec::Cube;
 
 /// Of the first frame of a face set; `None` where its files have too few whole faces to tell.
@@ -32,12 +32,10 @@ pub(super) fn of_files(set: &FaceSet) -> Result<Option<Value>> {
 }
 
 /// Of faces in one image. Where its shape alone says that it may be one, it is if the borders do.
-pub(super) fn of_image(path: &Path, header: &Header) -> Option<Value> {
-    let cubes = likely_cubes(path, header);
-    let is_certain = cubes.len() == 1;
-    let picture = if cubes.is_empty() { return None } else { light_of(path)? };
-    let judged = cubes.iter().filter_map(|cube| in_image(cube, &picture));
-    let mut found: Vec<Continuity> = judged.filter(|judged| is_certain || judged.fits.is_some()).collect();
+pub(super) fn of_image(path: &Path, likely: &Likely) -> Option<Value> {
+    let picture = if likely.cubes.is_empty() { return None } else { light_of(path)? };
+    let judged = likely.cubes.iter().filter_map(|cube| in_image(cube, &picture));
+    let mut found: Vec<Continuity> = judged.filter(|judged| !likely.may_be_none || judged.fits.is_some()).collect();
     // Of several layouts the one that lies rightly.
     found.sort_by_key(|judged| judged.fits != Some(true));
     found.first().map(report)

@@ -55,7 +55,8 @@ impl Shape {
             mirror: fields.mirror()?,
             canvas: fields.canvas("canvas")?,
         };
-        Ok(Self::Single(Single { placement, samples }))
+        let any_shape = fields.get("hfov").is_some() && fields.get("vfov").is_some();
+        Ok(Self::Single(Single { placement, samples, any_shape }))
     }
 }
 
@@ -114,6 +115,11 @@ fn omnimax(fields: &Fields) -> Result<OmnimaxFrame, SpecError> {
     let lower = fields.read("lower", "an angle in degrees below the axis, or none, as in lower=45", |value| {
         if value == "none" { Some(None) } else { parse_degrees(value).map(Some) }
     })?;
+    for key in ["center", "radius"] {
+        if fields.get("framing").is_some() && fields.get(key).is_some() {
+            return Err(SpecError::Both { first: "framing", second: key });
+        }
+    }
     let default = OmnimaxFrame::default();
     Ok(OmnimaxFrame {
         framing: fields.choice("framing", &framings)?.unwrap_or_default(),

@@ -49,9 +49,14 @@ pub(super) fn fisheye(fields: &Fields) -> Result<FisheyeFrame, SpecError> {
 }
 
 fn scale(fields: &Fields) -> Result<LensScale, SpecError> {
-    for [first, second] in
-        [["focal", "sensor"], ["focal", "fit"], ["focal", "radius"], ["sensor", "fit"], ["sensor", "radius"]]
-    {
+    for [first, second] in [
+        ["focal", "sensor"],
+        ["focal", "fit"],
+        ["focal", "radius"],
+        ["sensor", "fit"],
+        ["sensor", "radius"],
+        ["fit", "radius"],
+    ] {
         if fields.get(first).is_some() && fields.get(second).is_some() {
             return Err(SpecError::Both { first, second });
         }

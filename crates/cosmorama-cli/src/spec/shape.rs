@@ -20,6 +20,8 @@ pub(crate) struct Single {
     pub(crate) placement: Placement,
     /// Whether `samples=` was given for a panorama.
     pub(crate) samples: SphereSamples,
+    /// Whether the field of view was given both ways, so that any shape of pixels is meant.
+    pub(crate) any_shape: bool,
 }
 
 /// Where a panorama's outermost samples lie, and who says so.

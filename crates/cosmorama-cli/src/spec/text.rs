@@ -161,6 +161,9 @@ mod tests {
         assert!(refused("fisheye:k=1").contains("only measured lenses"));
         assert!(refused("fisheye:lens=polynomial,k=0:0.02").contains("k1 of the polynomial is 0.02"));
         assert!(refused("fisheye:focal=300,fit=width").contains("cannot both"));
+        assert!(refused("fisheye:fit=width,radius=99").contains("fit= and radius= cannot both"));
+        assert!(refused("omnimax:framing=fit,center=9:9").contains("framing= and center= cannot both"));
+        assert!(refused("omnimax:radius=9,framing=circle").contains("framing= and radius= cannot both"));
         assert!(refused("mercator:lat=80,aspect=2").contains("aspect= and lat= cannot both"));
         assert!(refused("mirror-ball:distance=1").contains("more than 1, or inf"));
         assert!(refused("octahedral:kind=round").contains("equal-area, plain"));

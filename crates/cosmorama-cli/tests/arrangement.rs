@@ -1,0 +1,128 @@
+//! Faces that lie wrongly: what `info` says of them, and what `convert` warns of.
+
+// A test that cannot go on stops where it stands.
+#![allow(clippy::unwrap_used)]
+
+mod bench;
+
+use bench::{Bench, assert_says, text};
+use cosmorama::raster::EncodedImage;
+use serde_json::Value;
+
+const FACES: [&str; 6] = ["front", "right", "back", "left", "top", "bottom"];
+
+/// The faces of the demo's arcade.
+fn world(size: &str) -> Bench {
+    let bench = Bench::new();
+    bench.succeed(&["convert", "builtin:demo", "{face}.png", "--to", "cube:naming=words", "--size", size]);
+    bench
+}
+
+fn arrangement(bench: &Bench, name: &str) -> Value {
+    let report: Value = serde_json::from_str(&bench.succeed(&["info", name, "--json"])).unwrap();
+    report["arrangement"].clone()
+}
+
+fn swap(bench: &Bench, a: &str, b: &str) {
+    let path = |name: &str| bench.path(&format!("{name}.png"));
+    std::fs::rename(path(a), path("between")).unwrap();
+    std::fs::rename(path(b), path(a)).unwrap();
+    std::fs::rename(path("between"), path(b)).unwrap();
+}
+
+fn warnings(bench: &Bench, input: &[&str]) -> String {
+    let to = ["out.png", "-y", "--to", "equirect", "--size", "64"];
+    let output = bench.run(&[&["convert"], input, &to[..]].concat());
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    text(&output.stderr)
+}
+
+#[test]
+fn faces_that_lie_rightly() {
+    let bench = world("96");
+    assert_eq!(arrangement(&bench, "{face}.png")["fits"], true);
+    assert!(bench.succeed(&["info", "{face}.png"]).contains("arrangement: the borders of the faces meet (confidence"));
+    assert!(!warnings(&bench, &["{face}.png"]).contains("warning"));
+}
+
+#[test]
+fn left_and_right_swapped() {
+    let bench = world("96");
+    swap(&bench, "left", "right");
+    let told = arrangement(&bench, "{face}.png");
+    assert_eq!(told["fits"], false);
+    assert_eq!(told["changes"], serde_json::json!(["right and left are swapped"]));
+    assert!(told["confidence"].as_f64().unwrap() >= 0.99, "{told}");
+    assert_says(&warnings(&bench, &["{face}.png"]), &["warning: ", "right and left are swapped", "confidence"]);
+}
+
+#[test]
+fn a_tools_own_up_and_down() {
+    let bench = world("96");
+    // As envutil has them, whose names are the same.
+    for name in ["top", "bottom"] {
+        let file = format!("{name}.png");
+        let image = bench.load(&file).to_light(&cosmorama::raster::Transfer::Srgb);
+        let size = image.width();
+        let turned = cosmorama::raster::Image::from_fn(size, size, |i, j| *image.get(size - 1 - i, size - 1 - j));
+        let channels = cosmorama::raster::Channels::Rgb;
+        let depth = cosmorama::raster::Depth::Eight;
+        bench.save(&file, &EncodedImage::encode(&turned, channels, depth, &cosmorama::raster::Transfer::Srgb));
+    }
+    let told = arrangement(&bench, "{face}.png");
+    assert_eq!(told["spec"], "cube:naming=envutil", "{told}");
+    let message = warnings(&bench, &["{face}.png"]);
+    assert_says(&message, &["--from cube:naming=envutil", "up has to be turned clockwise by 180 degrees"]);
+    assert!(!warnings(&bench, &["{face}.png", "--from", "cube:naming=envutil"]).contains("warning"));
+}
+
+#[test]
+fn another_order_in_one_image() {
+    let bench = world("96");
+    for (made, fits) in [
+        ("cube:layout=strip-v,order=openexr", "cube:layout=strip-v,order=openexr"),
+        ("cube:layout=strip-v,order=kartavr", "cube:layout=strip-v,order=kartavr"),
+        ("cube:layout=strip-v,order=fudlrb,rotate=010203", "cube:layout=strip-v,order="),
+    ] {
+        let made = format!("{made},samples=centres");
+        bench.succeed(&["convert", "{face}.png", "strip.png", "-y", "--to", &made, "--size", "96"]);
+        let told = arrangement(&bench, "strip.png");
+        let spec = told["spec"].as_str().unwrap_or_default().to_owned();
+        assert!(told["fits"] == false && spec.starts_with(fits), "{made}: {told}");
+        assert_says(&warnings(&bench, &["strip.png"]), &["warning: ", &spec]);
+        // What is advised is seamless.
+        bench.succeed(&[
+            "convert",
+            "strip.png",
+            "again.png",
+            "-y",
+            "--from",
+            &spec,
+            "--to",
+            "cube:layout=strip-v",
+            "--size",
+            "96",
+        ]);
+        assert_eq!(arrangement(&bench, "again.png")["fits"], true, "{spec}");
+    }
+}
+
+#[test]
+fn layouts_are_told_from_photographs_by_their_seams() {
+    let bench = world("96");
+    bench.succeed(&["convert", "{face}.png", "grid.png", "--to", "cube:layout=3x2", "--size", "96"]);
+    assert_eq!(arrangement(&bench, "grid.png")["fits"], true);
+    bench.save("photo.png", &bench::picture(1, 96, 64));
+    assert_eq!(arrangement(&bench, "photo.png"), Value::Null);
+}
+
+#[test]
+fn a_plain_sky_does_not_tell() {
+    let bench = Bench::new();
+    for face in FACES {
+        bench.save(&format!("{face}.png"), &bench::flat(32, 32, &[90, 120, 200]));
+    }
+    let told = arrangement(&bench, "{face}.png");
+    assert!(told["fits"].is_null() && told["told"].as_str().unwrap().contains("do not tell"), "{told}");
+    assert!(!warnings(&bench, &["{face}.png"]).contains("warning"));
+}

@@ -1,0 +1,110 @@
+use glam::DVec2;
+
+use crate::raster::{Image, Rgba};
+
+/// A picture as brightness, by the brightest of its channels, in code values.
+pub(super) struct Brightness<'a> {
+    codes: &'a Image<Rgba>,
+    /// What its black is.
+    pub(super) black: f64,
+    /// What is brighter than that by no more is black, too.
+    pub(super) least: f64,
+}
+
+/// Black is no brighter than this.
+const BLACK: f64 = 0.2;
+/// What is to count as a picture must be brighter than black by this: a few codes of eight bits.
+const LEAST: f64 = 3.0 / 255.0;
+
+impl<'a> Brightness<'a> {
+    /// A picture with at least one black corner.
+    pub(super) fn new(codes: &'a Image<Rgba>) -> Option<Self> {
+        let (width, height) = (codes.width(), codes.height());
+        let side = (width.min(height) / 40).max(2);
+        if width.min(height) < 16 {
+            return None;
+        }
+        let corner = |left: usize, top: usize| {
+            let places = (0..side * side).map(|k| (left + k % side, top + k / side));
+            let mut values: Vec<f64> = places.map(|(i, j)| brightness(codes.get(i, j))).collect();
+            values.sort_by(f64::total_cmp);
+            (values[values.len() / 2], values[values.len() * 9 / 10])
+        };
+        let corners = [(0, 0), (width - side, 0), (0, height - side), (width - side, height - side)];
+        let (black, high) =
+            corners.map(|(left, top)| corner(left, top)).into_iter().min_by(|a, b| a.0.total_cmp(&b.0))?;
+        (black < BLACK).then_some(Self { codes, black, least: LEAST.max(4.0 * (high - black)) })
+    }
+
+    pub(super) fn size(&self) -> (usize, usize) {
+        (self.codes.width(), self.codes.height())
+    }
+
+    pub(super) fn is_black(&self, i: usize, j: usize) -> bool {
+        brightness(self.codes.get(i, j)) - self.black < self.least
+    }
+
+    /// Between pixels' centres, linearly; `None` outside.
+    fn at(&self, point: DVec2) -> Option<f64> {
+        let (x, y) = (point.x - 0.5, point.y - 0.5);
+        let (width, height) = self.size();
+        if x < 0.0 || y < 0.0 || x > (width - 1) as f64 || y > (height - 1) as f64 {
+            return None;
+        }
+        let (i, j) = ((x as usize).min(width - 2), (y as usize).min(height - 2));
+        let (u, v) = (x - i as f64, y - j as f64);
+        let value = |i, j| brightness(self.codes.get(i, j));
+        let upper = (1.0 - u) * value(i, j) + u * value(i + 1, j);
+        Some((1.0 - v) * upper + v * ((1.0 - u) * value(i, j + 1) + u * value(i + 1, j + 1)))
+    }
+
+    /// Where the black ends, to a pixel, along rows and columns from the picture's edges.
+    pub(super) fn coarse_rim(&self) -> Vec<DVec2> {
+        let (width, height) = self.size();
+        let mut points = Vec::new();
+        // Two in a row, so that a hot pixel is none.
+        let first = |is_black: &dyn Fn(usize) -> bool, length: usize| {
+            (0..length - 1).find(|&k| !is_black(k) && !is_black(k + 1)).filter(|&k| k > 1)
+        };
+        let centre = |i: usize, j: usize| DVec2::new(i as f64 + 0.5, j as f64 + 0.5);
+        for k in 0..LINES {
+            let (row, column) = ((2 * k + 1) * height / (2 * LINES), (2 * k + 1) * width / (2 * LINES));
+            points.extend(first(&|i| self.is_black(i, row), width).map(|i| centre(i, row)));
+            points.extend(first(&|i| self.is_black(width - 1 - i, row), width).map(|i| centre(width - 1 - i, row)));
+            points.extend(first(&|j| self.is_black(column, j), height).map(|j| centre(column, j)));
+            points.extend(
+                first(&|j| self.is_black(column, height - 1 - j), height).map(|j| centre(column, height - 1 - j)),
+            );
+        }
+        points
+    }
+
+    /// Where the picture ends along a ray that crosses its rim near a radius, to a part of a pixel: half way up from what
+    /// is outside to what is just inside. `None` where the picture is dark there, or the ray leaves the frame.
+    pub(super) fn rim(&self, centre: DVec2, direction: DVec2, radius: f64, reach: f64) -> Option<DVec2> {
+        let steps = (2.0 * reach / STEP) as usize;
+        let at = |k: usize| self.at(centre + (radius + reach - k as f64 * STEP) * direction);
+        let values: Vec<f64> = (0..=steps).map(at).collect::<Option<_>>()?;
+        let quarter = values.len() / 4;
+        let mut outside: Vec<f64> = values[..quarter.max(1)].to_vec();
+        outside.sort_by(f64::total_cmp);
+        let outside = outside[outside.len() / 2];
+        let rise = values.iter().position(|value| value - outside > self.least)?;
+        // Just inside: the next three pixels after the rise has begun.
+        let inside = values[rise..].iter().take((3.0 / STEP) as usize).copied().fold(outside, f64::max);
+        let half = 0.5 * (inside + outside);
+        let k = (1..values.len()).find(|&k| values[k] >= half && k + 1 > rise)?;
+        let part = (half - values[k - 1]) / (values[k] - values[k - 1]);
+        Some(centre + (radius + reach - (k as f64 - 1.0 + part) * STEP) * direction)
+    }
+}
+
+/// Rows and columns along which the black's end is looked for.
+const LINES: usize = 128;
+/// Pixels between samples along a ray.
+const STEP: f64 = 0.25;
+
+fn brightness(code: &Rgba) -> f64 {
+    let [red, green, blue, _] = code.0;
+    f64::from(red.max(green).max(blue))
+}
