@@ -16,6 +16,7 @@ mod pannini;
 mod perspective;
 mod plane;
 pub mod pseudocylindrical;
+mod st_map;
 
 pub use equi_angular::EquiAngular;
 pub use hammer::Hammer;
@@ -25,6 +26,7 @@ pub use octahedral::{Octahedral, OctahedralKind};
 pub use pannini::Pannini;
 pub use perspective::Perspective;
 pub use plane::{PlanePoint, PlaneRect};
+pub use st_map::{StMap, StMapError, StMapTable};
 
 use glam::{DVec2, DVec3};
 

@@ -18,8 +18,8 @@ pub use field_stop::FieldStop;
 pub use frame::{
     Canvas, CubeFaceFrame, CylinderFrame, CylinderKind, EquirectFrame, FaceMapping, FieldOfView, FisheyeFit,
     FisheyeFrame, Frame, FrameError, FulldomeFrame, LayoutFaceFrame, LensCircle, LensScale, Mirror, MirrorBallFrame,
-    OctahedralFrame, OmnimaxFrame, PanniniFrame, PerspectiveFrame, Placement, SamplePositions, StereographicFrame,
-    WorldMapFrame,
+    OctahedralFrame, OmnimaxFrame, PanniniFrame, PerspectiveFrame, Placement, SamplePositions, StMapFrame,
+    StereographicFrame, WorldMapFrame,
 };
 pub use framing::OmnimaxFraming;
 pub use grid::{PixelGrid, PixelPoint, PixelRect};
