@@ -9,7 +9,7 @@ use super::detect::{declared, detect};
 use super::face_shape::{FacePicture, usual_size};
 use super::face_view::face_placement;
 use super::packed::{self, FilePart};
-use super::{Files, frames, world_file};
+use super::{Files, frames, st_map, world_file};
 use crate::args::SizeArg;
 use crate::failure::usage;
 use crate::spec::{Cube, Packing, Shape, Single, Spec};
@@ -60,7 +60,7 @@ impl Input {
         match (FacePattern::parse(pattern), shape) {
             (Some(_), Some((_, Shape::Cube(cube)))) => Self::cube(pattern, cube, wanted, warnings),
             (Some(_), None) => Self::cube(pattern, &Cube::default(), wanted, warnings),
-            (Some(_), Some((name, Shape::Single(_)))) => {
+            (Some(_), Some((name, Shape::Single(_) | Shape::StMap(_)))) => {
                 Err(usage(format!("{pattern} names the faces of a cube, but --from is {name}; expected --from cube")))
             }
             (None, shape) => Self::one_file(pattern, shape.map(|(_, shape)| shape), wanted, warnings),
@@ -100,6 +100,7 @@ impl Input {
                 let shown = cube.faces.iter().filter(|face| FacePart::of(**face, lies, cube.half).is_some());
                 shown.map(|of| view(of.name(), face(of), size)).collect()
             }
+            Shape::StMap(map) => return Err(st_map::unread(map)),
         };
         Ok(Self { views: views?, frames: vec![None] })
     }
@@ -123,6 +124,7 @@ impl Input {
         let views = match shape {
             Shape::Single(single) => vec![Self::single(pattern, files, &path, header, single)?],
             Shape::Cube(cube) => packed::views(&files, &path, &header, &cube)?,
+            Shape::StMap(map) => return Err(st_map::unread(&map)),
         };
         Ok(Self { views, frames })
     }
@@ -155,6 +157,7 @@ impl Input {
             )));
         }
         let set = FaceSet::find(pattern, cube.naming)?;
+        let cube = &Cube { naming: Some(set.naming()), ..cube.clone() };
         let shown = |face: &&FaceFile| {
             let lies = cube.file_placement(face.face, face.placement);
             cube.faces.contains(&face.face) && FacePart::of(face.face, lies, cube.half).is_some()

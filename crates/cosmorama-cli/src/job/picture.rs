@@ -59,6 +59,7 @@ impl Picture {
                     None => Self::faces(&cube, geometry, pixels_per_radian)?,
                 }
             }
+            Some(Shape::StMap(map)) => return Err(super::st_map::unread(map)),
             None => Self::faces(&Cube::default(), geometry, pixels_per_radian)?,
         };
         match format {

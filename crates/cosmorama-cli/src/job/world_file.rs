@@ -10,7 +10,7 @@ use cosmorama_io::{FrameList, FramePattern};
 use serde::Deserialize;
 use toml::Spanned;
 
-use super::Input;
+use super::{Input, st_map};
 use crate::spec::Spec;
 
 /// The file as it is written.
@@ -72,8 +72,9 @@ pub(super) fn find(name: &str, wanted: Option<&FrameList>, warnings: &mut Vec<St
 impl Entry {
     fn find(&self, source: &Text, wanted: Option<&FrameList>, warnings: &mut Vec<String>) -> Result<Input> {
         let blend = Blend { priority: self.priority, feather: self.feather(source)? };
-        let spec = self.spec(source)?;
         let folder = Path::new(source.name).parent().unwrap_or(Path::new(""));
+        let spec = self.spec(source)?.map(|spec| st_map::in_folder(spec, folder)).transpose();
+        let spec = spec.with_context(|| source.place(self.spec.as_ref().map(Spanned::span)))?;
         let pattern = folder.join(self.image.get_ref()).to_string_lossy().into_owned();
         if is_world_file(&pattern) {
             let message = format!("{pattern} is a world file itself; list its views here");

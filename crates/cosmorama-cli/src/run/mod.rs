@@ -9,9 +9,11 @@ mod engine;
 mod explain;
 mod info;
 mod interrupt;
+mod pipe;
 mod progress;
 mod report;
 mod shell;
+mod st_map;
 mod stages;
 
 use std::process::ExitCode;

@@ -9,6 +9,7 @@ use super::fields::Fields;
 use super::lens::fisheye;
 use super::maps::{cylinder, mirror_ball, octahedral, pannini};
 use super::shape::{Shape, Single, SphereSamples};
+use super::st_map::StMapSpec;
 use super::{SpecError, angle::parse_degrees};
 
 impl Shape {
@@ -18,6 +19,7 @@ impl Shape {
         let mut samples = SphereSamples::NotAPanorama;
         let frame = match name {
             "cube" => return Cube::build(&fields).map(Self::Cube),
+            "st-map" => return StMapSpec::build(&fields).map(Self::StMap),
             "perspective" => Frame::Perspective(perspective(&fields)?),
             "equirect" => {
                 let frame = equirect(&fields)?;

@@ -11,10 +11,12 @@ pub(crate) mod kind;
 mod lens;
 mod maps;
 mod shape;
+mod st_map;
 mod text;
 mod window;
 
 pub(crate) use angle::parse_degrees;
 pub(crate) use cube::{Cube, Packing};
 pub(crate) use shape::{Shape, Single, SphereSamples};
+pub(crate) use st_map::StMapSpec;
 pub(crate) use text::{Spec, SpecError, did_you_mean};

@@ -1,6 +1,6 @@
 use cosmorama::world::{Frame, Placement, SamplePositions};
 
-use super::Cube;
+use super::{Cube, StMapSpec};
 
 /// What a SPEC stands for.
 #[derive(Clone, Debug, PartialEq)]
@@ -9,6 +9,8 @@ pub(crate) enum Shape {
     Single(Single),
     /// The faces of a cube, a file each or in one image.
     Cube(Cube),
+    /// One image, and a map that is still to be read.
+    StMap(StMapSpec),
 }
 
 /// One image.
