@@ -1,5 +1,5 @@
 // Cubes in KTX 2 and DDS files, as other programs see them: three.js reads our KTX 2, and a reader of its own, which
-// shares no code with us, our DDS of half floats. What they find is compared with the same faces in a TGA file.
+// shares no code with us, our DDS of half floats; their smaller copies, too. What they find is compared with the same faces in a TGA file.
 //
 //   node .ci/textures.mjs PROGRAM FOLDER_OF_THREE
 import assert from "node:assert/strict";
@@ -17,6 +17,8 @@ const { KTX2Loader } = await load("examples/jsm/loaders/KTX2Loader.js");
 const { read } = await load("examples/jsm/libs/ktx-parse.module.js");
 
 const EDGE = 48;
+/// 48, 24, 12, 6, 3, 1.
+const LEVELS = 6;
 const folder = mkdtempSync(join(tmpdir(), "textures-"));
 const at = (name) => join(folder, name);
 const bytes = (name) => new Uint8Array(readFileSync(at(name)));
@@ -49,10 +51,11 @@ function readTga(name) {
 async function readKtx2(name) {
   const { faceCount, levelCount, layerCount, pixelWidth, pixelHeight, keyValue, dataFormatDescriptor } =
     read(bytes(name));
-  assert.deepEqual([faceCount, levelCount, layerCount, pixelWidth, pixelHeight], [6, 1, 0, EDGE, EDGE]);
+  const levels = name.startsWith("mips") ? LEVELS : 1;
+  assert.deepEqual([faceCount, levelCount, layerCount, pixelWidth, pixelHeight], [6, levels, 0, EDGE, EDGE]);
   assert.deepEqual(keyValue, { KTXorientation: "rd", KTXwriter: "cosmorama" });
   // Halves are premultiplied, by the flag of the descriptor; bytes are not.
-  assert.equal(dataFormatDescriptor[0].flags & 1, Number(name.startsWith("half")));
+  assert.equal(dataFormatDescriptor[0].flags & 1, Number(name.includes("half")));
   const loader = new KTX2Loader();
   // What a graphics card could decompress does not matter here.
   loader.workerConfig = {};
@@ -86,7 +89,44 @@ function readDds(name) {
   return Array.from({ length: 6 * EDGE * EDGE * 4 }, (_, i) => view.getUint16(148 + 2 * i, true));
 }
 
+/** The same of a DDS file with smaller copies: each face is followed by its own. Level by level. */
+function readDdsLevels(name) {
+  const view = new DataView(bytes(name).buffer);
+  assert.equal(view.getUint32(8, true) & 0x20000, 0x20000, "a count of levels");
+  assert.deepEqual([view.getUint32(28, true), view.getUint32(108, true) & 0x401008], [LEVELS, 0x401008]);
+  const levels = Array.from({ length: LEVELS }, () => []);
+  let position = 148;
+  for (let face = 0; face < 6; face++) {
+    for (let level = 0; level < LEVELS; level++) {
+      for (let i = 0; i < (EDGE >> level) ** 2 * 4; i++, position += 2) {
+        levels[level].push(view.getUint16(position, true));
+      }
+    }
+  }
+  assert.equal(position, view.byteLength);
+  return levels;
+}
+
+const convert = (name, ...options) => {
+  const size = options.includes("--size") ? [] : ["--size", String(EDGE)];
+  execFileSync(program, ["convert", at("{face}.tga"), at(name), ...size, ...options], { stdio: "pipe" });
+};
+
 const srgb = (light) => 255 * (light <= 0.0031308 ? 12.92 * light : 1.055 * light ** (1 / 2.4) - 0.055);
+
+/** The smaller copies that a program sees are what the conversion makes at their sizes. */
+function compareLevels(what, levels, allowed, code) {
+  levels.forEach((found, level) => {
+    const edge = EDGE >> level;
+    convert(`level${level}.tga`, "--to", "cube:layout=strip-v,order=opengl", "--size", String(edge), "-y");
+    const { width, rgb } = readTga(`level${level}.tga`);
+    assert.deepEqual([width, found.length], [edge, 6 * edge * edge * 4], `${what}: level ${level}`);
+    const differences = rgb.map((expected, i) => Math.abs(code(found[4 * Math.floor(i / 3) + (i % 3)]) - expected));
+    const worst = differences.reduce((a, b) => Math.max(a, b), 0);
+    assert.ok(worst <= allowed, `${what}: level ${level}: a difference of ${worst} codes`);
+  });
+  console.log(`${what}: ${levels.length} levels`);
+}
 
 function compare(what, found, expected, allowed, code) {
   let worst = 0;
@@ -102,8 +142,6 @@ function compare(what, found, expected, allowed, code) {
 
 try {
   ["front", "right", "back", "left", "top", "bottom"].forEach(drawFace);
-  const convert = (name, ...options) =>
-    execFileSync(program, ["convert", at("{face}.tga"), at(name), "--size", String(EDGE), ...options]);
   convert("strip.tga", "--to", "cube:layout=strip-v,order=opengl");
   convert("eight.ktx2", "--to", "cube");
   convert("half.ktx2", "--to", "cube", "--depth", "half");
@@ -120,6 +158,15 @@ try {
   const code = (bits) => srgb(DataUtils.fromHalfFloat(bits));
   compare("KTX 2, halves, in three.js", faces(half), rgb, 0.6, code);
   compare("DDS, halves, by the reference", readDds("half.dds"), rgb, 0.6, code);
+
+  convert("mips.ktx2", "--to", "cube", "--mips");
+  convert("mips-half.ktx2", "--to", "cube", "--mips", "--depth", "half");
+  convert("mips-half.dds", "--to", "cube", "--mips", "--depth", "half");
+  for (const [name, allowed, read] of [["mips.ktx2", 0, (code) => code], ["mips-half.ktx2", 0.6, code]]) {
+    const texture = await readKtx2(name);
+    compareLevels(`${name} in three.js`, texture.mipmaps.map((level) => level.data), allowed, read);
+  }
+  compareLevels("mips-half.dds by the reference", readDdsLevels("mips-half.dds"), 0.6, code);
 } finally {
   rmSync(folder, { recursive: true });
 }

@@ -1,7 +1,7 @@
 //! The faces of a cube in one image: there and back, half cubes, other programs' pictures, and what is refused.
 
 // A test that cannot go on stops where it stands.
-#![allow(clippy::unwrap_used)]
+#![allow(clippy::unwrap_used, clippy::print_stderr)]
 
 mod bench;
 
@@ -147,6 +147,48 @@ fn openexrs_cube_and_panorama_agree() {
         println!("{cube}: {encoded:.2} dB, shift {shift:.4} px");
         assert!(encoded > least && shift < 0.02, "{cube}: {encoded} dB, shift {shift} px");
     }
+}
+
+/// The six files that exrenvmap makes of a panorama give that panorama back: its middle is +Z.
+#[test]
+fn the_faces_of_exrenvmap_have_its_own_front() {
+    let Some(folder) = testkit::shared("data/openexr_envmap") else { return };
+    let bench = Bench::new();
+    let panorama = folder.join("OrientationLatLong.exr").display().to_string();
+    let arguments = ["-c", "-w", "256", &panorama, "face%.exr"];
+    let ran = std::process::Command::new("exrenvmap").current_dir(bench.path(".")).args(arguments).status();
+    if ran.is_err() {
+        assert!(std::env::var("CI").as_deref() != Ok("true"), "exrenvmap is not installed");
+        eprintln!("SKIPPED: exrenvmap is not installed");
+        return;
+    }
+    bench.succeed(&["convert", "face{face}.exr", "made.exr", "--to", "equirect", "--size", "1024x512"]);
+    bench.succeed(&["compare", "made.exr", &panorama, "--min-psnr", "27", "--max-shift", "0.01"]);
+    // And ours are its own: the strip of faces that it makes of ours is that of its own.
+    let named = ["--to", "cube:naming=exrenvmap", "--size", "256"];
+    bench.succeed(&[&["convert", &panorama, "ours{face}.exr"][..], &named].concat());
+    bench.succeed(&["compare", "ours+X.exr", "face+X.exr", "--min-psnr", "25", "--max-shift", "0.02"]);
+    bench.succeed(&["compare", "ours-Y.exr", "face-Y.exr", "--min-psnr", "25", "--max-shift", "0.02"]);
+}
+
+#[test]
+fn textures_hold_their_smaller_copies() {
+    let bench = Bench::new();
+    faces(&bench);
+    for (name, depth) in [("cube.ktx2", "8"), ("cube.dds", "half")] {
+        let to = ["--to", "cube", "--size", SIZE, "--depth", depth];
+        bench.succeed(&[&["convert", "world_{face}.png", name, "--mips"][..], &to].concat());
+        bench.succeed(&[&["convert", "world_{face}.png", "one.ktx2", "-y"][..], &to].concat());
+        // The largest is what it would be alone.
+        let (levels, one) = (bench.load(name), bench.load("one.ktx2"));
+        assert!(levels == one, "{name}");
+        let texel = if depth == "8" { 4 } else { 8 };
+        let texels: usize = [32, 16, 8, 4, 2, 1].iter().map(|edge| 6 * edge * edge).sum();
+        let size = bench.bytes(name).len();
+        assert!((texels * texel..texels * texel + 600).contains(&size), "{name}: {size} bytes");
+    }
+    let png = ["convert", "world_{face}.png", "no.png", "--to", "equirect", "--size", "64", "--mips"];
+    assert!(bench.fail(2, &png).contains("--mips is for textures"));
 }
 
 #[test]

@@ -108,8 +108,31 @@ pub fn read(path: &Path, limits: &Limits) -> Result<ImageFile, IoError> {
 /// # Errors
 /// When the extension is unknown, the format cannot hold the image, or the file cannot be written.
 pub fn write(path: &Path, image: &EncodedImage, metadata: &Metadata, options: &WriteOptions) -> Result<(), IoError> {
+    write_levels(path, std::slice::from_ref(image), metadata, options)
+}
+
+/// [`write()`] of a picture with its smaller copies, the largest first: each half as large, rounded down, as the one before.
+/// Formats that hold no such copies are an error where there are any.
+///
+/// # Errors
+/// Those of [`write()`], and when the sizes or sample types of the levels do not go together.
+pub fn write_levels(
+    path: &Path,
+    levels: &[EncodedImage],
+    metadata: &Metadata,
+    options: &WriteOptions,
+) -> Result<(), IoError> {
     let format = Format::from_extension(path)?;
+    let Some((image, smaller)) = levels.split_first() else { return Err(IoError::write(path, "there is no picture")) };
     check_can_hold(path, format, image)?;
+    if !smaller.is_empty() && !format.holds_levels() {
+        return Err(IoError::CannotHold {
+            path: path.to_owned(),
+            format,
+            found: format!("{} smaller copies of a picture", smaller.len()),
+            expected: "one picture; KTX2 and DDS hold several levels".to_owned(),
+        });
+    }
     let mut pending = Pending::create(path)?;
     let writer = pending.writer();
     match format {
@@ -119,9 +142,9 @@ pub fn write(path: &Path, image: &EncodedImage, metadata: &Metadata, options: &W
         Format::Tga => tga::write(path, writer, image),
         Format::Hdr => hdr::write(path, writer, image),
         Format::Exr => exr::write(path, writer, image, metadata),
-        Format::Ktx2 => ktx2::write(path, writer, image, metadata),
+        Format::Ktx2 => ktx2::write(path, writer, levels, metadata),
         Format::Ktx => Err(IoError::write(path, "KTX files of the first version are only read; write .ktx2")),
-        Format::Dds => dds::write(path, writer, image, metadata),
+        Format::Dds => dds::write(path, writer, levels, metadata),
     }?;
     pending.finish()
 }
@@ -171,7 +194,7 @@ fn check_can_hold(path: &Path, format: Format, image: &EncodedImage) -> Result<(
     })
 }
 
-fn open(path: &Path) -> Result<(Format, Source), IoError> {
+pub(crate) fn open(path: &Path) -> Result<(Format, Source), IoError> {
     let fail = |error| IoError::open(path, error);
     let file = File::open(path).map_err(fail)?;
     if file.metadata().map_err(fail)?.is_dir() {

@@ -143,6 +143,11 @@ impl Format {
         matches!(self, Self::Ktx2 | Self::Ktx | Self::Dds)
     }
 
+    /// Whether a file can hold a picture with smaller copies of itself.
+    pub const fn holds_levels(self) -> bool {
+        matches!(self, Self::Ktx2 | Self::Dds)
+    }
+
     /// Whether the format can hold an ICC profile.
     pub const fn holds_icc(self) -> bool {
         matches!(self, Self::Png | Self::Jpeg | Self::Tiff)

@@ -17,14 +17,16 @@ mod metadata;
 pub mod pending;
 mod pto;
 mod sequence;
+mod st_pairs;
 pub mod svg;
 
 pub use calibration::{Calibration, CalibrationError, Distortion};
 pub use error::IoError;
 pub use face_set::{FaceFile, FacePattern, FacePlacement, FaceSet, LetterCase, Naming};
-pub use file::{Header, ImageFile, WriteOptions, probe, read, write, write_planes};
+pub use file::{Header, ImageFile, WriteOptions, probe, read, write, write_levels, write_planes};
 pub use format::Format;
 pub use limits::Limits;
 pub use metadata::{EnvMap, Metadata, Window};
 pub use pto::{PtoError, PtoImage, PtoPanorama, PtoProject};
 pub use sequence::{FrameList, FramePattern, Frames};
+pub use st_pairs::{StPairs, read_pairs};

@@ -10,7 +10,7 @@ use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-use tempfile::{Builder, TempPath};
+use tempfile::{Builder, TempDir, TempPath};
 
 use crate::IoError;
 
@@ -31,9 +31,35 @@ pub fn remove_all() {
     let paths = in_flight();
     for path in paths.iter() {
         // One that is gone already is as wanted.
-        let _ = std::fs::remove_file(path);
+        let _ = if path.is_dir() { std::fs::remove_dir_all(path) } else { std::fs::remove_file(path) };
     }
     std::mem::forget(paths);
+}
+
+/// A folder for files that nobody is to see. It goes away when it is dropped, and with [`remove_all`].
+pub struct Scratch {
+    // Deleted before it is struck off the list.
+    folder: TempDir,
+    _listed: Listed,
+}
+
+impl Scratch {
+    /// An empty folder among the system's temporary files.
+    ///
+    /// # Errors
+    /// When there cannot be one.
+    pub fn create() -> io::Result<Self> {
+        let mut paths = in_flight();
+        let folder = Builder::new().prefix(PREFIX).tempdir()?;
+        paths.insert(folder.path().to_owned());
+        let listed = Listed(folder.path().to_owned());
+        Ok(Self { folder, _listed: listed })
+    }
+
+    /// Where it is.
+    pub fn path(&self) -> &Path {
+        self.folder.path()
+    }
 }
 
 /// A file in the making. Dropped without [`Pending::finish`], it leaves nothing behind.

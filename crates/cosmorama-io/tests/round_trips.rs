@@ -5,7 +5,7 @@ mod common;
 
 use common::picture;
 use cosmorama::raster::{Channels, Depth, EncodedImage, Samples, Transfer};
-use cosmorama_io::{EnvMap, Format, Limits, Metadata, Window, WriteOptions, probe, read, write};
+use cosmorama_io::{EnvMap, Format, Limits, Metadata, Window, WriteOptions, probe, read, write, write_levels};
 
 const EXTENSIONS: [(Format, &str); 6] = [
     (Format::Png, "png"),
@@ -93,6 +93,20 @@ fn cubes_in_texture_files() {
                 let error = write(&path, image, &metadata, &WriteOptions::default()).unwrap_err().to_string();
                 assert!(error.contains("the six faces of a cube"), "{error}");
             }
+        }
+    }
+    // Smaller copies, each half as large; what is read is the largest.
+    for extension in ["ktx2", "dds"] {
+        let path = folder.path().join(format!("levels.{extension}"));
+        let levels: Vec<EncodedImage> =
+            [7, 3, 1].map(|edge| picture(edge, 6 * edge, Channels::Rgba, Depth::Half)).into();
+        let metadata = Metadata { envmap: Some(EnvMap::GlCube), ..Metadata::default() };
+        write_levels(&path, &levels, &metadata, &WriteOptions::default()).unwrap();
+        assert!(read(&path, &Limits::default()).unwrap().image == levels[0], "{extension}");
+        for wrong in [&levels[1..=1], &levels[2..]] {
+            let wrong: Vec<EncodedImage> = [&levels[..1], wrong, wrong].concat();
+            let error = write_levels(&path, &wrong, &metadata, &WriteOptions::default()).unwrap_err().to_string();
+            assert!(error.contains("no half of the level before"), "{error}");
         }
     }
     let path = folder.path().join("old.ktx");

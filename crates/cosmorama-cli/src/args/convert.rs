@@ -7,7 +7,7 @@ use super::{Colour, DepthArg, FilterArg, KernelArg, MemorySize, Missing, Progres
 use crate::spec::Spec;
 
 /// Turn a world, in whatever form, into another projection.
-#[derive(Debug, Args)]
+#[derive(Clone, Debug, Args)]
 #[command(before_help = "Examples:
   cosmorama convert 'faces/{face}.png' dome.png --to omnimax --size 1966x1436
   cosmorama convert '%c/frame_%c_%04d.tga' 'dome_####.png' --to fulldome:tilt=20 --size 4096
@@ -16,18 +16,25 @@ use crate::spec::Spec;
   cosmorama convert dome.png back.png --from fulldome --to equirect
   cosmorama convert builtin:grid align.png --to fulldome --size 4096
   cosmorama convert photo.jpg flat.png --from fisheye:calibration=camera.yml --to perspective:fov=90
-  cosmorama convert project.pto panorama.png")]
+  cosmorama convert project.pto panorama.png
+  cosmorama convert panorama.exr map.exr --to fulldome --size 2048 --st-map
+  cosmorama convert plate.exr undistorted.exr --from st-map:file=undistort.exr")]
 #[command(after_help = after_help())]
 pub(crate) struct ConvertArgs {
     /// An image, a pattern with {face} or %c (faces) and ####, @@@@ or %04d (frames), builtin:NAME, a world file
-    /// (.toml: many views, each view with image, spec, mask, priority and feather in degrees) or a Hugin project (.pto)
+    /// (.toml: many views, each view with image, spec, mask, priority and feather in degrees) or a Hugin project (.pto);
+    /// - is standard input
     #[arg(value_hint = ValueHint::FilePath, value_parser = NonEmptyStringValueParser::new())]
     pub(crate) input: String,
-    /// An image or a pattern; the extension chooses the format
+    /// An image or a pattern; the extension chooses the format; - is standard output, in the format of --format
     #[arg(value_hint = ValueHint::FilePath, value_parser = NonEmptyStringValueParser::new())]
     pub(crate) output: String,
     #[command(flatten)]
     pub(crate) geometry: GeometryArgs,
+    /// Instead of the picture, write where in the input each of its pixels looks, for Nuke, Fusion or oiiotool to do
+    /// the same: an OpenEXR file, red to the right, green up, 0 to 1, blue the part of a pixel that shows anything
+    #[arg(long, help_heading = "Geometry")]
+    pub(crate) st_map: bool,
     /// How integer code values relate to light: auto, srgb, linear, bt1886, pq, hlg, gamma:G
     #[arg(long, value_name = "T", default_value = "auto", help_heading = "Light")]
     pub(crate) transfer: TransferArg,
@@ -55,6 +62,12 @@ pub(crate) struct ConvertArgs {
     /// Skip outputs that are already complete
     #[arg(long, help_heading = "Frames and files")]
     pub(crate) resume: bool,
+    /// The format of standard output, by its extension, as in --format png
+    #[arg(long, value_name = "EXT", help_heading = "Frames and files")]
+    pub(crate) format: Option<String>,
+    /// KTX2 and DDS: add the smaller copies (mips), each made as a picture of its size would be
+    #[arg(long, help_heading = "Frames and files")]
+    pub(crate) mips: bool,
     /// JPEG quality, 1 to 100 [default: 95]
     #[arg(long, value_name = "Q", value_parser = quality, allow_hyphen_values = true, help_heading = "Frames and files")]
     pub(crate) quality: Option<u8>,

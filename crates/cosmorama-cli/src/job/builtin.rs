@@ -5,7 +5,7 @@ use cosmorama_builtin::{BuiltinWorld, DirectionMap};
 use cosmorama_io::Format;
 
 use super::input::SAME_FOR_BOTH;
-use super::{Input, Light, MemoryBudget, Outputs, Target, check_quality, filter};
+use super::{Input, Light, MemoryBudget, Outputs, Target, check_quality, filter, settled};
 use crate::args::ConvertArgs;
 use crate::failure::{usage, warn};
 use crate::spec::did_you_mean;
@@ -90,13 +90,17 @@ impl BuiltinJob {
     pub(crate) fn resolve(builtin: Builtin, args: &ConvertArgs) -> Result<Self> {
         let memory = MemoryBudget::new(args.limits.memory);
         let mut warnings = Vec::new();
-        let format = Target::check_names(&args.output, &args.geometry)?;
+        let geometry = &settled(&args.geometry, None, memory, &mut warnings)?;
+        let format = Target::check_names(&args.output, geometry)?;
         check_quality(args, format)?;
         check_input_options(args)?;
-        if filter(&args.geometry, &mut warnings) != Filter::DEFAULT {
+        if filter(geometry, &mut warnings) != Filter::DEFAULT {
             warnings.push(format!("--filter, --kernel and --anti-ringing have no effect on {}: a formula", args.input));
         }
-        let target = Target::resolve(&args.output, &args.geometry, None)?;
+        let mut target = Target::resolve(&args.output, geometry, None)?;
+        if args.mips {
+            target = target.with_mips(&args.output, geometry)?;
+        }
         if target.is_stereo() {
             warnings.push(SAME_FOR_BOTH.to_owned());
         }

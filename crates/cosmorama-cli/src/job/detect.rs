@@ -182,6 +182,7 @@ pub(super) fn declared(shape: &Shape, pattern: &str, header: &Header, warnings: 
             Ok(Shape::Single(single.with_samples(SamplePositions::Edges)))
         }
         Shape::Single(single) => Ok(Shape::Single(windowed(*single, header))),
+        Shape::StMap(map) => Ok(Shape::StMap(map.clone())),
         Shape::Cube(Cube { layout: Some(Packing::Files), .. }) => Err(usage(format!(
             "--from cube:layout=faces wants a file for each face, but {pattern} has no {{face}} or %c where a face's name \
              stands"

@@ -11,7 +11,7 @@ use super::eye::EyePart;
 use super::face_file::Face;
 use super::face_shape::{FacePicture, size_of_missing};
 use super::packed::{self, FilePart};
-use super::{Files, GivenFaces, frames, pto, world_file};
+use super::{Files, GivenFaces, frames, pto, st_map, world_file};
 use crate::failure::usage;
 use crate::spec::{Cube, Packing, Shape, Single, Spec, StereoSpec};
 
@@ -118,7 +118,7 @@ impl Input {
         let mut input = match (FacePattern::parse(pattern), shape) {
             (Some(_), Some((_, Shape::Cube(cube)))) => Self::cube(pattern, cube, eye, wanted, warnings)?,
             (Some(_), None) => Self::cube(pattern, &Cube::default(), eye, wanted, warnings)?,
-            (Some(_), Some((name, Shape::Single(_) | Shape::Dual(_)))) => {
+            (Some(_), Some((name, Shape::Single(_) | Shape::Dual(_) | Shape::StMap(_)))) => {
                 let message =
                     format!("{pattern} names the faces of a cube, but --from is {name}; expected --from cube");
                 return Err(usage(message));
@@ -169,6 +169,7 @@ impl Input {
             Shape::Single(single) => (vec![Self::single(pattern, files, &path, header, single)?], None),
             Shape::Cube(cube) => (packed::faces(&files, &path, &header, &cube)?, GivenFaces::of_image(&cube)),
             Shape::Dual(dual) => (packed::lenses(&files, &path, &header, &dual)?, None),
+            Shape::StMap(map) => return Err(st_map::unread(&map)),
         };
         Ok(Self { worlds: vec![views], frames, faces })
     }
@@ -211,6 +212,7 @@ impl Input {
             )));
         }
         let set = FaceSet::find(pattern, cube.naming)?;
+        let cube = &Cube { naming: Some(set.naming()), ..cube.clone() };
         let shown = |face: &&FaceFile| {
             let lies = cube.file_placement(face.face, face.placement);
             cube.faces.contains(&face.face) && FacePart::of(face.face, lies, cube.half).is_some()

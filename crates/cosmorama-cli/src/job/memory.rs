@@ -5,7 +5,7 @@ use cosmorama::raster::Rgba;
 use cosmorama::world::View;
 use cosmorama_io::Header;
 
-use super::{Input, InputView, Target, TargetFile};
+use super::{Input, InputView, Sheet, Target};
 use crate::args::MemorySize;
 
 /// How much memory may be used.
@@ -117,14 +117,15 @@ fn pixels(view: &View) -> u64 {
 }
 
 fn describe(target: &Target, link: &str) -> String {
-    let size = |TargetFile { size: (width, height), .. }: &TargetFile| format!("{link}the output {width}x{height}");
-    target.files.first().map_or_else(String::new, size)
+    let size = |Sheet { size: (width, height), .. }: &Sheet| format!("{link}the output {width}x{height}");
+    target.files.first().map_or_else(String::new, |file| size(&file.sheet))
 }
 
 /// The outputs with their encoded twins.
 fn output_bytes(target: &Target) -> u64 {
     let area = |(width, height): (usize, usize)| (width as u64).saturating_mul(height as u64);
-    let pixels = target.files.iter().map(|file| area(file.size)).fold(0, u64::saturating_add);
+    let sheets = target.files.iter().flat_map(|file| file.levels());
+    let pixels = sheets.map(|sheet| area(sheet.size)).fold(0, u64::saturating_add);
     pixels.saturating_mul(2 * size_of::<Rgba>() as u64)
 }
 

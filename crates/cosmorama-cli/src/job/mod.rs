@@ -23,6 +23,8 @@ mod picture;
 mod piece;
 mod pto;
 mod size;
+mod st_map;
+mod st_pixels;
 mod target;
 mod world_file;
 
@@ -39,7 +41,9 @@ pub(crate) use light::{InputTransfer, Light};
 pub(crate) use memory::{MemoryBudget, peak_bytes};
 pub(crate) use outputs::{FrameOutputs, Outputs, real_path, refuse_existing};
 pub(crate) use picture::{Picture, Place};
-pub(crate) use target::{Target, TargetFile, TargetView};
+pub(crate) use st_map::settled;
+pub(crate) use st_pixels::{StPixel, st_pixels};
+pub(crate) use target::{Sheet, Target, TargetView};
 
 use anyhow::Result;
 use cosmorama::raster::Rgba;
@@ -80,12 +84,16 @@ impl ConvertJob {
     pub(crate) fn resolve(args: &ConvertArgs) -> Result<Self> {
         let memory = MemoryBudget::new(args.limits.memory);
         let mut warnings = Vec::new();
-        let geometry = &pto::complete(&args.input, &args.geometry)?;
+        let geometry = pto::complete(&args.input, &args.geometry)?;
+        let geometry = &settled(&geometry, Some(&args.input), memory, &mut warnings)?;
         // Mistakes in the command itself come first: they do not depend on any file.
         let format = Target::check_names(&args.output, geometry)?;
         check_quality(args, format)?;
         let mut input = Input::find(&args.input, geometry.from.as_ref(), args.frames.as_ref(), &mut warnings)?;
-        let target = Target::resolve(&args.output, geometry, Some(input.pixels_per_radian()))?;
+        let mut target = Target::resolve(&args.output, geometry, Some(input.pixels_per_radian()))?;
+        if args.mips {
+            target = target.with_mips(&args.output, geometry)?;
+        }
         input.fit_eyes(target.is_stereo(), &mut warnings);
         let filter = filter(geometry, &mut warnings);
         let light = Light::resolve(args, &input, &target, &mut warnings)?;

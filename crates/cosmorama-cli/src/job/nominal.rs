@@ -60,6 +60,7 @@ fn views(from: &Spec, given: Option<SizeArg>, pixels_per_radian: f64) -> Result<
             let lens = |piece: &Piece| Ok(view(piece.name, piece.nominal().map_err(wrong)?, piece.blend));
             pieces.iter().map(lens).collect()
         }
+        Shape::StMap(map) => Err(super::st_map::unread(map)),
     }
 }
 

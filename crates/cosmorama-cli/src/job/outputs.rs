@@ -5,7 +5,8 @@ use anyhow::{Result, bail};
 use cosmorama_io::{Limits, pending::Pending, probe, read};
 use rayon::prelude::*;
 
-use super::{Files, Input, Light, MemoryBudget, Target, TargetFile};
+use super::target::TargetFile;
+use super::{Files, Input, Light, MemoryBudget, Target};
 use crate::args::ConvertArgs;
 use crate::failure::usage;
 
@@ -54,7 +55,7 @@ impl Outputs {
         let all: usize = frames.iter().map(|frame| frame.files.len()).sum();
         if args.resume {
             // As many at once as fit into memory, decoded.
-            let largest = target.files.iter().map(|file| light.file_bytes(file.size)).max().unwrap_or(0);
+            let largest = target.files.iter().map(|file| light.file_bytes(file.sheet.size)).max().unwrap_or(0);
             let at_once = (memory.bytes / largest.max(1)).clamp(1, frames.len().max(1) as u64) as usize;
             for some in frames.chunks_mut(at_once) {
                 some.par_iter_mut().for_each(|frame| {
@@ -111,11 +112,11 @@ pub(crate) fn real_path(path: &Path) -> PathBuf {
 
 /// Outputs appear whole, so one that is an image of the right size and kind, and can be read, is done.
 fn is_complete(path: &Path, target: &TargetFile, light: &Light) -> bool {
-    let (width, height) = target.size;
+    let (width, height) = target.sheet.size;
     let expected = (width, height, light.channels, light.depth);
     // What is of another size need not be decoded, and takes no memory.
     probe(path).is_ok_and(|found| (found.width, found.height, found.channels, found.depth) == expected)
-        && read(path, &Limits::memory(light.file_bytes(target.size))).is_ok()
+        && read(path, &Limits::memory(light.file_bytes(target.sheet.size))).is_ok()
 }
 
 /// Files that exist are not replaced unasked. The message ends with what else may be done.

@@ -105,6 +105,7 @@ impl Picture {
                 }
             }
             Some(Shape::Dual(dual)) => Self::lenses(dual, geometry, pixels_per_radian),
+            Some(Shape::StMap(map)) => Err(super::st_map::unread(map)),
             None => Self::faces(&Cube::default(), geometry, pixels_per_radian),
         }
     }

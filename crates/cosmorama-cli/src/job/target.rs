@@ -6,6 +6,7 @@ use cosmorama_io::{EnvMap, FacePattern, FaceSet, Format, Naming, Window};
 
 use super::picture::world_of;
 use super::{Files, Picture, Place};
+use crate::args::SizeArg;
 use crate::args::convert::GeometryArgs;
 use crate::failure::usage;
 use crate::spec::{Cube, Packing, Shape, Spec};
@@ -27,14 +28,29 @@ impl TargetView {
     }
 }
 
-/// A file to make: of one image, or of the faces of a cube laid into one picture.
+/// A file to make.
 pub(crate) struct TargetFile {
     /// Its name, frame by frame.
     pub(crate) files: Files,
+    /// Its picture.
+    pub(crate) sheet: Sheet,
+    /// The smaller copies of that, each half as large as the one before.
+    pub(crate) mips: Vec<Sheet>,
+}
+
+/// A picture of one image, or of the faces of a cube laid into it.
+pub(crate) struct Sheet {
     /// Its columns and rows.
     pub(crate) size: (usize, usize),
     /// The images in it, by their index, each with the place of its first column and row.
     pub(crate) pieces: Vec<(usize, (usize, usize))>,
+}
+
+impl TargetFile {
+    /// Its picture and the smaller copies.
+    pub(crate) fn levels(&self) -> impl Iterator<Item = &Sheet> {
+        std::iter::once(&self.sheet).chain(&self.mips)
+    }
 }
 
 /// Everything that light goes to.
@@ -96,9 +112,10 @@ impl Target {
             let name = picture.label().unwrap_or_else(|| output.to_owned());
             views.push(TargetView { name, view: picture.view, eye: picture.eye });
             match paths.iter().position(|other| *other == path) {
-                Some(shared) => files[shared].pieces.push((index, corner)),
+                Some(shared) => files[shared].sheet.pieces.push((index, corner)),
                 None => {
-                    files.push(TargetFile { files: Files::new(&path), size: of, pieces: vec![(index, corner)] });
+                    let sheet = Sheet { size: of, pieces: vec![(index, corner)] };
+                    files.push(TargetFile { files: Files::new(&path), sheet, mips: Vec::new() });
                     paths.push(path);
                 }
             }
@@ -106,6 +123,30 @@ impl Target {
         let envmap = pictures.first().and_then(|picture| picture.envmap);
         let panorama = pictures.first().and_then(|picture| picture.panorama);
         Ok(Self { views, files, format, envmap, panorama })
+    }
+
+    /// The same with the smaller copies of its cube, down to faces of one pixel: each what the conversion would give at its
+    /// size, so that they meet at the edges as the largest do.
+    pub(crate) fn with_mips(mut self, output: &str, geometry: &GeometryArgs) -> Result<Self> {
+        if !self.format.holds_levels() {
+            return Err(usage(format!(
+                "--mips is for textures, but {output} is {}; leave it out, or name the output .ktx2 or .dds",
+                self.format
+            )));
+        }
+        let mut edge = self.views.first().map_or(0, |target| target.view.width());
+        while edge > 1 {
+            edge /= 2;
+            let size = Some(SizeArg { width: edge, height: None });
+            let level = Self::resolve(output, &GeometryArgs { size, ..geometry.clone() }, None)?;
+            let first = self.views.len();
+            self.views.extend(level.views);
+            for (file, smaller) in self.files.iter_mut().zip(level.files) {
+                let pieces = smaller.sheet.pieces.into_iter().map(|(index, corner)| (first + index, corner)).collect();
+                file.mips.push(Sheet { pieces, ..smaller.sheet });
+            }
+        }
+        Ok(self)
     }
 
     /// Whether there is a picture for each eye.

@@ -10,7 +10,7 @@ use cosmorama_io::{FrameList, FramePattern};
 use serde::Deserialize;
 use toml::Spanned;
 
-use super::{Input, InputView};
+use super::{Input, InputView, st_map};
 use crate::spec::Spec;
 
 /// The file as it is written.
@@ -74,7 +74,8 @@ pub(super) fn find(name: &str, wanted: Option<&FrameList>, warnings: &mut Vec<St
 impl Entry {
     fn find(&self, source: &Text, wanted: Option<&FrameList>, warnings: &mut Vec<String>) -> Result<Input> {
         let feather = self.feather(source)?;
-        let spec = self.spec(source)?;
+        let spec = self.spec(source)?.map(|spec| st_map::in_folder(spec, source.folder())).transpose();
+        let spec = spec.with_context(|| source.place(self.spec.as_ref().map(Spanned::span)))?;
         let pattern = source.folder().join(self.image.get_ref()).to_string_lossy().into_owned();
         if is_world_file(&pattern) {
             let message = format!("{pattern} is a world file itself; list its views here");

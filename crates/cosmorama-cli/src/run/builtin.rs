@@ -25,8 +25,8 @@ pub(super) fn convert(builtin: Builtin, args: &ConvertArgs) -> Result<Report> {
         for (index, path) in files {
             match job.builtin {
                 Builtin::World(world) => {
-                    let image = stages.time(Stage::Filter, || picture(&job, world, *index))?;
-                    stages.time(Stage::Encode, || save(&job.light, &image, path, &options))?;
+                    let levels = stages.time(Stage::Filter, || pictures(&job, world, *index))?;
+                    stages.time(Stage::Encode, || save(&job.light, &levels, path, &options))?;
                 }
                 Builtin::DirectionMap(map) => {
                     let pixels = stages.time(Stage::Filter, || directions(&job, map, *index))?;
@@ -44,19 +44,22 @@ pub(super) fn convert(builtin: Builtin, args: &ConvertArgs) -> Result<Report> {
     Ok(Report::new(inputs, outputs, counts, start.elapsed(), stages, job.warnings))
 }
 
-/// The picture of a file, in front of its background.
-fn picture(job: &BuiltinJob, world: BuiltinWorld, file: usize) -> Result<Image<Rgba>> {
+/// The picture of a file and its smaller copies, in front of their background.
+fn pictures(job: &BuiltinJob, world: BuiltinWorld, file: usize) -> Result<Vec<Image<Rgba>>> {
     let background = job.light.background;
-    assemble(&job.target.files[file], background, |index| {
+    let picture = |index: usize| {
         let mut image = world.picture(&job.target.views[index].view);
         image.pixels_mut().iter_mut().for_each(|pixel| *pixel = pixel.over(background));
         Ok(image)
-    })
+    };
+    job.target.files[file].levels().map(|sheet| assemble(sheet, background, picture)).collect()
 }
 
 /// The directions of a file's pixels.
 fn directions(job: &BuiltinJob, map: DirectionMap, file: usize) -> Result<Image<DirectionPixel>> {
-    assemble(&job.target.files[file], DirectionPixel::default(), |index| Ok(map.pixels(&job.target.views[index].view)))
+    assemble(&job.target.files[file].sheet, DirectionPixel::default(), |index| {
+        Ok(map.pixels(&job.target.views[index].view))
+    })
 }
 
 /// Writes a map of directions, a plane for each number of its pixels.

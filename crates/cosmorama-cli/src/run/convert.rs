@@ -9,6 +9,7 @@ use cosmorama_io::WriteOptions;
 use rayon::prelude::*;
 
 use super::engine::{Engine, FrameLight, save};
+use super::pipe::Piped;
 use super::progress::Progress;
 use super::report::Report;
 use super::stages::{Stage, Stages};
@@ -20,7 +21,9 @@ use crate::job::{Builtin, ConvertJob, FrameOutputs};
 /// Converts, and tells what it has done.
 pub(super) fn run(args: &ConvertArgs) -> Result<ExitCode> {
     use_threads(args.limits.threads)?;
-    let report = convert(args)?;
+    let piped = Piped::open(args)?;
+    let report = convert(&piped.args)?;
+    piped.finish()?;
     if args.json {
         print(&report.to_json()?)?;
     } else if args.progress.is_for_people() {
@@ -31,6 +34,9 @@ pub(super) fn run(args: &ConvertArgs) -> Result<ExitCode> {
 
 /// Converts.
 pub(super) fn convert(args: &ConvertArgs) -> Result<Report> {
+    if args.st_map {
+        return super::st_map::convert(args);
+    }
     if let Some(builtin) = Builtin::named(&args.input)? {
         return super::builtin::convert(builtin, args);
     }
@@ -101,12 +107,15 @@ impl Run<'_> {
     }
 }
 
+/// A picture and its smaller copies.
+type Levels = Vec<Image<Rgba>>;
+
 impl FrameOutputs {
-    fn render(&self, engine: &Engine<'_>, light: &FrameLight, stages: &mut Stages) -> Result<Vec<Image<Rgba>>> {
+    fn render(&self, engine: &Engine<'_>, light: &FrameLight, stages: &mut Stages) -> Result<Vec<Levels>> {
         self.files.iter().map(|(index, _)| engine.render(*index, light, stages)).collect()
     }
 
-    fn save(&self, engine: &Engine<'_>, images: &[Image<Rgba>], options: &WriteOptions) -> Result<()> {
+    fn save(&self, engine: &Engine<'_>, images: &[Levels], options: &WriteOptions) -> Result<()> {
         let pairs = self.files.par_iter().zip(images);
         pairs.try_for_each(|((_, path), image)| save(engine.light(), image, path, options))
     }

@@ -5,11 +5,11 @@ use anyhow::{Context, Result, bail};
 use cosmorama::raster::{Decoder, EncodedImage, Image, Rgba};
 use cosmorama::resample::{Plan, Resampler, ScreenMask};
 use cosmorama::world::{Source, World};
-use cosmorama_io::{Header, Limits, WriteOptions, read, write};
+use cosmorama_io::{Header, Limits, WriteOptions, read, write_levels};
 use rayon::prelude::*;
 
 use super::stages::{Stage, Stages};
-use crate::job::{ConvertJob, Coverage, FacePixels, Files, InputView, Light, TargetFile, TargetView};
+use crate::job::{ConvertJob, Coverage, FacePixels, Files, InputView, Light, Sheet, TargetView};
 
 /// Makes the outputs of a job, frame by frame.
 pub(super) struct Engine<'a> {
@@ -177,10 +177,12 @@ impl<'a> Engine<'a> {
         views.filter(|(_, count)| **count > 0).map(|((view, _, _), count)| (view, *count))
     }
 
-    /// Makes the picture of a file: filtered light, complete with what lies outside, faces in their places.
-    pub(super) fn render(&self, file: usize, light: &FrameLight, stages: &mut Stages) -> Result<Image<Rgba>> {
-        let file = &self.job.target.files[file];
-        assemble(file, self.job.light.background, |index| self.render_view(index, light, stages))
+    /// Makes the picture of a file and its smaller copies: filtered light, complete with what lies outside, faces in their
+    /// places.
+    pub(super) fn render(&self, file: usize, light: &FrameLight, stages: &mut Stages) -> Result<Vec<Image<Rgba>>> {
+        let background = self.job.light.background;
+        let mut level = |sheet| assemble(sheet, background, |index| self.render_view(index, light, stages));
+        self.job.target.files[file].levels().map(&mut level).collect()
     }
 
     fn render_view(&self, index: usize, light: &FrameLight, stages: &mut Stages) -> Result<Image<Rgba>> {
@@ -247,31 +249,31 @@ impl<'a> Engine<'a> {
     }
 }
 
-/// The picture of a file: an image, or several in their places on a background.
+/// A picture: an image, or several in their places on a background.
 pub(super) fn assemble<P: Copy>(
-    file: &TargetFile,
+    sheet: &Sheet,
     background: P,
     mut image: impl FnMut(usize) -> Result<Image<P>>,
 ) -> Result<Image<P>> {
-    let (width, height) = file.size;
-    let mut sheet = None;
-    for &(index, (left, top)) in &file.pieces {
+    let mut picture = None;
+    for &(index, (left, top)) in &sheet.pieces {
         let piece = image(index)?;
-        if (piece.width(), piece.height()) == file.size {
+        if (piece.width(), piece.height()) == sheet.size {
             return Ok(piece);
         }
-        let sheet = sheet.get_or_insert_with(|| Image::filled(width, height, background));
+        let picture = picture.get_or_insert_with(|| Image::filled(sheet.size.0, sheet.size.1, background));
         for j in 0..piece.height() {
-            sheet.pixels_mut()[(top + j) * width + left..][..piece.width()].copy_from_slice(piece.row(j));
+            picture.pixels_mut()[(top + j) * sheet.size.0 + left..][..piece.width()].copy_from_slice(piece.row(j));
         }
     }
-    Ok(sheet.unwrap_or_else(|| Image::filled(width, height, background)))
+    Ok(picture.unwrap_or_else(|| Image::filled(sheet.size.0, sheet.size.1, background)))
 }
 
-/// Writes an output.
-pub(super) fn save(light: &Light, image: &Image<Rgba>, path: &Path, options: &WriteOptions) -> Result<()> {
-    let encoded = EncodedImage::encode(image, light.channels, light.depth, &light.transfer);
-    write(path, &encoded, &light.metadata, options)?;
+/// Writes an output, a picture and its smaller copies.
+pub(super) fn save(light: &Light, levels: &[Image<Rgba>], path: &Path, options: &WriteOptions) -> Result<()> {
+    let encode = |image| EncodedImage::encode(image, light.channels, light.depth, &light.transfer);
+    let encoded: Vec<EncodedImage> = levels.iter().map(encode).collect();
+    write_levels(path, &encoded, &light.metadata, options)?;
     Ok(())
 }
 

@@ -10,12 +10,14 @@ use serde_json::{Value, json};
 use super::{diagram, print, use_threads};
 use crate::args::ExplainArgs;
 use crate::failure::{usage, warn};
-use crate::job::{Builtin, Input, MemoryBudget, Picture, filter, nominal_worlds, refuse_existing};
+use crate::job::{Builtin, Input, MemoryBudget, Picture, filter, nominal_worlds, refuse_existing, settled};
+use crate::spec::Shape;
 
 /// Tells what a conversion will do.
 pub(super) fn run(args: &ExplainArgs) -> Result<ExitCode> {
     use_threads(args.limits.threads)?;
-    if args.geometry.to.is_none() {
+    let is_st_map = args.geometry.from.as_ref().is_some_and(|from| matches!(from.shape, Shape::StMap(_)));
+    if args.geometry.to.is_none() && !is_st_map {
         return Err(usage("--to is missing: say which projection the output is to have, as in --to omnimax"));
     }
     let mut warnings = Vec::new();
@@ -60,7 +62,7 @@ pub(super) fn run(args: &ExplainArgs) -> Result<ExitCode> {
 
 /// An input on disk decides how large the output is; one that does not exist yet follows the output.
 fn resolve(args: &ExplainArgs, warnings: &mut Vec<String>) -> Result<(Input, Vec<Picture>)> {
-    let geometry = &args.geometry;
+    let geometry = &settled(&args.geometry, args.input.as_deref(), MemoryBudget::new(args.limits.memory), warnings)?;
     match (&args.input, &geometry.from) {
         (Some(pattern), _) if Builtin::named(pattern)?.is_some() => Err(usage(format!(
             "{pattern} is a formula: nothing is resampled, so there is nothing to explain; for its picture in a projection, \

@@ -10,9 +10,11 @@ mod explain;
 mod info;
 mod info_faces;
 mod interrupt;
+mod pipe;
 mod progress;
 mod report;
 mod shell;
+mod st_map;
 mod stages;
 
 use std::process::ExitCode;

@@ -11,6 +11,7 @@ use super::fields::Fields;
 use super::lens::fisheye;
 use super::maps::{cylinder, mirror_ball, octahedral, pannini};
 use super::shape::{Shape, Single, SphereSamples};
+use super::st_map::StMapSpec;
 use super::{SpecError, angle::parse_degrees};
 
 impl Shape {
@@ -20,6 +21,7 @@ impl Shape {
         let frame = match name {
             "cube" => return Cube::build(fields).map(Self::Cube),
             "dual-fisheye" => return Dual::build(fields).map(Self::Dual),
+            "st-map" => return StMapSpec::build(fields).map(Self::StMap),
             "perspective" => match calibrated(fields, Family::Pinhole)? {
                 Some(frame) => Frame::Calibrated(frame),
                 None => Frame::Perspective(perspective(fields)?),

@@ -106,7 +106,8 @@ impl Cube {
     /// Where the outermost samples of a face lie.
     pub(crate) fn samples(&self) -> SamplePositions {
         let by_order = self.order.as_ref().map(|order| order.samples);
-        self.samples.or(by_order).unwrap_or_default()
+        let by_naming = self.naming.map(|naming| naming.samples);
+        self.samples.or(by_order).or(by_naming).unwrap_or_default()
     }
 
     /// How the pixels of a face see the world.

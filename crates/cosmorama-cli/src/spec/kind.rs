@@ -32,7 +32,7 @@ const CYLINDER_KEYS: [Key; 2] = [
 ];
 
 /// Every projection on offer.
-pub(crate) static KINDS: [Kind; 18] = [
+pub(crate) static KINDS: [Kind; 19] = [
     Kind {
         name: "cube",
         about: "faces of a cube, one file each or in one image, whatever the pixels (1024x960 is as good as 1024x1024)",
@@ -210,6 +210,22 @@ pub(crate) static KINDS: [Kind; 18] = [
         name: "octahedral",
         about: "the sphere on an octahedron, unfolded; with pitch=90 the zenith is in the middle, as in pbrt",
         keys: &[key("kind", "equal-area|plain", "Clarberg's, as pbrt stores environments, or along rays (equal-area)")],
+        takes_aspect: false,
+    },
+    Kind {
+        name: "st-map",
+        about: "a warp of other programs: pixels of MAP are pixels of the output and hold where in the input each looks, red to \
+                the right, green up, 0 to 1",
+        keys: &[
+            key("file", "MAP", "the map: OpenEXR, or another format of 16 bits or more"),
+            key("invert", "yes|no", "the other way: pixels of MAP are the input's, and lie there in the output (no)"),
+            key(
+                "base",
+                "SPEC",
+                "what the picture at the map's other end is, colons for commas: perspective:fov=60:yaw=9 (that of the \
+                 other side of the conversion)",
+            ),
+        ],
         takes_aspect: false,
     },
 ];

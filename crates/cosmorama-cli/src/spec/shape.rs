@@ -1,6 +1,6 @@
 use cosmorama::world::{Frame, Placement, SamplePositions};
 
-use super::{Cube, Dual};
+use super::{Cube, Dual, StMapSpec};
 
 /// What a SPEC stands for.
 #[derive(Clone, Debug, PartialEq)]
@@ -11,6 +11,8 @@ pub(crate) enum Shape {
     Cube(Cube),
     /// Two fisheyes in one image.
     Dual(Dual),
+    /// One image, and a map that is still to be read.
+    StMap(StMapSpec),
 }
 
 /// One image.

@@ -46,6 +46,9 @@ pub(crate) enum SpecError {
     /// A value that is not of the expected kind.
     #[error("{key}={value}: expected {expected}")]
     Value { key: String, value: String, expected: String },
+    /// A key without which the name means nothing.
+    #[error("{name} needs {key}=, as in {example}")]
+    Missing { name: &'static str, key: &'static str, example: &'static str },
     /// Coefficients of which no lens can be made.
     #[error("k={value}: {error}")]
     Coefficients { value: String, error: LensError },
@@ -171,6 +174,9 @@ mod tests {
         assert!(refused("hammer:fov=90").contains("unknown key 'fov' for hammer"));
         assert!(refused("perspective:fov=90,dfov=100").contains("cannot both"));
         assert!(refused("cube:faces=front,top hat").contains("top hat"));
+        assert!(refused("st-map:invert=yes").contains("st-map needs file="));
+        assert!(refused("st-map:file=a.exr,base=perspective:fvo=60").contains("did you mean 'fov'"));
+        assert!(refused("st-map:file=a.exr,base=cube").contains("base=cube: expected the SPEC of one picture"));
         assert!(refused("cube:canvas.nose=1x1+0+0").contains("nose"));
         assert!(refused("omnimax:canvas=10x10").contains("WxH+X+Y"));
     }
@@ -255,6 +261,18 @@ mod tests {
         assert!(refused("dual-fisheye:front.center=3").contains("front.center=3: expected X:Y"));
         assert!(refused("fisheye:front.fov=3").contains("unknown key 'front.fov' for fisheye"));
         assert!(refused("fisheye:eye=left").contains("stereo= beside it"));
+    }
+
+    #[test]
+    fn a_spec_within_a_spec_has_colons_for_commas() {
+        let base = |text: &str| match text.parse::<Spec>().unwrap().shape {
+            Shape::StMap(map) => Shape::Single(map.base.unwrap()),
+            other => panic!("{other:?} is no st map"),
+        };
+        let same = |text: &str| text.parse::<Spec>().unwrap().shape;
+        assert_eq!(base("st-map:file=a.exr,base=hammer"), same("hammer"));
+        let typed = "st-map:file=a.exr,base=omnimax:center=983:921.5:radius=900,invert=yes";
+        assert_eq!(base(typed), same("omnimax:center=983:921.5,radius=900"));
     }
 
     #[test]

@@ -1,4 +1,5 @@
 use cosmorama::sphere::CubeFace;
+use cosmorama::world::SamplePositions;
 
 use super::FacePlacement;
 use crate::IoError;
@@ -6,8 +7,7 @@ use crate::IoError;
 /// How a tool names the six faces in file names.
 ///
 /// Axis names follow the tool's own axes: in OpenGL's cube maps, which are left-handed, +Z is the front and +X
-/// the right; in OpenEXR's, which are right-handed as our world is, −Z is the front. Seen from the centre both
-/// show the same picture on each side.
+/// the right; in OpenEXR's, which are right-handed, +Z, the middle of its panoramas, is the front and +X the left.
 #[derive(Debug, PartialEq, Eq)]
 pub struct Naming {
     /// What `naming=` calls it.
@@ -18,13 +18,22 @@ pub struct Naming {
     pub names: [&'static str; 6],
     /// How the pictures lie, in the same order.
     pub placements: [FacePlacement; 6],
+    /// Where the outermost samples of a face lie.
+    pub samples: SamplePositions,
     /// Whether files are tried against it unasked. Not where another preset has the same names and another
     /// meaning: file names cannot tell.
     pub automatic: bool,
 }
 
 const fn upright(name: &'static str, aliases: &'static [&'static str], names: [&'static str; 6]) -> Naming {
-    Naming { name, aliases, names, placements: [FacePlacement::UPRIGHT; 6], automatic: true }
+    Naming {
+        name,
+        aliases,
+        names,
+        placements: [FacePlacement::UPRIGHT; 6],
+        samples: SamplePositions::Centres,
+        automatic: true,
+    }
 }
 
 /// Every preset.
@@ -35,24 +44,38 @@ static PRESETS: [Naming; 8] = [
     upright("pannellum", &["ffmpeg", "v360"], ["f", "r", "b", "l", "u", "d"]),
     upright("opengl", &["posx"], ["posz", "posx", "negz", "negx", "posy", "negy"]),
     upright("px", &["threejs", "vtk"], ["pz", "px", "nz", "nx", "py", "ny"]),
-    upright("exrenvmap", &["openexr"], ["-Z", "+X", "+Z", "-X", "+Y", "-Y"]),
+    EXRENVMAP,
     ENVUTIL,
 ];
 
-/// envutil's names are those of `words`, but its front is OpenEXR's +Z, and OpenEXR's upper and lower faces lie as
-/// seen from −Z: "top and bottom align with the back image", says its manual.
+/// OpenEXR's upper and lower faces lie as seen from −Z.
+const SEEN_FROM_BEHIND: [FacePlacement; 6] = [
+    FacePlacement::UPRIGHT,
+    FacePlacement::UPRIGHT,
+    FacePlacement::UPRIGHT,
+    FacePlacement::UPRIGHT,
+    FacePlacement::HALF_TURN,
+    FacePlacement::HALF_TURN,
+];
+
+/// What exrenvmap writes and reads where a name has a `%`: the six parts of OpenEXR's cube.
+const EXRENVMAP: Naming = Naming {
+    name: "exrenvmap",
+    aliases: &["openexr"],
+    names: ["+Z", "-X", "-Z", "+X", "+Y", "-Y"],
+    placements: SEEN_FROM_BEHIND,
+    samples: SamplePositions::Edges,
+    automatic: true,
+};
+
+/// envutil's names are those of `words`, but its front is OpenEXR's +Z, and its upper and lower faces lie as those do: "top
+/// and bottom align with the back image", says its manual.
 const ENVUTIL: Naming = Naming {
     name: "envutil",
     aliases: &["lux"],
     names: ["front", "right", "back", "left", "top", "bottom"],
-    placements: [
-        FacePlacement::UPRIGHT,
-        FacePlacement::UPRIGHT,
-        FacePlacement::UPRIGHT,
-        FacePlacement::UPRIGHT,
-        FacePlacement::HALF_TURN,
-        FacePlacement::HALF_TURN,
-    ],
+    placements: SEEN_FROM_BEHIND,
+    samples: SamplePositions::Centres,
     automatic: false,
 };
 

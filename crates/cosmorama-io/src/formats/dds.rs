@@ -8,7 +8,7 @@ use ddsfile::{
 };
 
 use super::texel::{BlockFormat, Texels};
-use super::texture::{CubeTexture, EXPECTED, faces_to_write};
+use super::texture::{CubeTexture, EXPECTED, levels_to_write};
 use crate::file::Source;
 use crate::{Format, Header, ImageFile, IoError, Limits, Metadata};
 
@@ -136,27 +136,35 @@ fn modern_texels(format: DxgiFormat) -> (Option<Texels>, bool) {
     (Some(texels), srgb)
 }
 
-/// Six faces of one level: RGBA of 8 bits under the old header, which every program reads and which does not say how
-/// bytes relate to light; premultiplied halves under that of Direct3D 10.
+/// Six faces and their smaller copies: RGBA of 8 bits under the old header, which every program reads and which does not say
+/// how bytes relate to light; premultiplied halves under that of Direct3D 10.
 pub(crate) fn write(
     path: &Path,
     mut output: impl Write,
-    image: &EncodedImage,
+    levels: &[EncodedImage],
     metadata: &Metadata,
 ) -> Result<(), IoError> {
-    let (faces, edge) = faces_to_write(path, FORMAT, image, metadata)?;
-    let start = start(edge, image.depth().is_float()).map_err(|error| IoError::write(path, error))?;
-    [start, faces].iter().try_for_each(|part| output.write_all(part)).map_err(|error| IoError::write(path, error))
+    let (faces, edge) = levels_to_write(path, FORMAT, levels, metadata)?;
+    let float = levels.iter().any(|level| level.depth().is_float());
+    let start = start(edge, float, faces.len() as u32).map_err(|error| IoError::write(path, error))?;
+    // Each face is followed by its own smaller copies.
+    let face = |face: usize| {
+        let part = move |level: &Vec<u8>| level.len() / 6 * face..level.len() / 6 * (face + 1);
+        faces.iter().map(move |level| &level[part(level)])
+    };
+    let mut parts = std::iter::once(start.as_slice()).chain((0..6).flat_map(face));
+    parts.try_for_each(|part| output.write_all(part)).map_err(|error| IoError::write(path, error))
 }
 
 /// All that stands before the texels.
-fn start(edge: u32, float: bool) -> Result<Vec<u8>, ddsfile::Error> {
+fn start(edge: u32, float: bool, levels: u32) -> Result<Vec<u8>, ddsfile::Error> {
     let caps2 = Some(Caps2::CUBEMAP | Caps2::CUBEMAP_ALLFACES);
     let half = DxgiFormat::R16G16B16A16_Float;
+    let levels = (levels > 1).then_some(levels);
     let mut header = if float {
-        DdsHeader::new_dxgi(edge, edge, None, half, None, None, caps2)?
+        DdsHeader::new_dxgi(edge, edge, None, half, levels, None, caps2)?
     } else {
-        DdsHeader::new_d3d(edge, edge, None, D3DFormat::A8B8G8R8, None, caps2)?
+        DdsHeader::new_d3d(edge, edge, None, D3DFormat::A8B8G8R8, levels, caps2)?
     };
     header.caps |= Caps::COMPLEX;
     let mut start = MAGIC.to_vec();

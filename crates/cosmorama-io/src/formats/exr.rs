@@ -29,13 +29,25 @@ const BATCH_BYTES: u128 = 1 << 26;
 
 pub(crate) fn probe(path: &Path, source: &mut Source) -> Result<Header, IoError> {
     let reader = open(path, source)?;
-    Ok(announce(path, reader.headers())?.0)
+    Ok(announce(path, reader.headers(), Selection::of)?.0)
 }
 
 /// Reads the first part that holds a picture, at its largest resolution.
 pub(crate) fn read(path: &Path, source: &mut Source, limits: &Limits) -> Result<ImageFile, IoError> {
+    read_selected(path, source, limits, Selection::of)
+}
+
+/// Reads the two channels of an st map, in an image of two channels.
+pub(crate) fn read_pairs(path: &Path, source: &mut Source, limits: &Limits) -> Result<ImageFile, IoError> {
+    read_selected(path, source, limits, Selection::pair)
+}
+
+/// Which channels are wanted; an error is what was found instead.
+type Select = fn(&[Part]) -> Result<Selection, String>;
+
+fn read_selected(path: &Path, source: &mut Source, limits: &Limits, select: Select) -> Result<ImageFile, IoError> {
     let reader = open(path, source)?;
-    let (header, selection, crop) = announce(path, reader.headers())?;
+    let (header, selection, crop) = announce(path, reader.headers(), select)?;
     check_limits(path, &reader.headers()[selection.part], &header, limits)?;
     let samples = match header.depth {
         Depth::Half => {
@@ -79,8 +91,8 @@ fn damaged(path: &Path, error: Error) -> IoError {
 }
 
 /// The part and the channels to read, and what is to be said of them.
-fn announce(path: &Path, parts: &[Part]) -> Result<(Header, Selection, Crop), IoError> {
-    let selection = Selection::of(parts).map_err(|found| {
+fn announce(path: &Path, parts: &[Part], select: Select) -> Result<(Header, Selection, Crop), IoError> {
+    let selection = select(parts).map_err(|found| {
         IoError::unsupported(path, FORMAT, found, "RGB or Y channels, with or without A, of half or float samples")
     })?;
     let part = &parts[selection.part];

@@ -35,6 +35,25 @@ impl Selection {
         Self::checked(parts, part, indices)
     }
 
+    /// The two channels of an st map, in the first flat part that has such: R and G, else u and v, s and t or x and y, plain
+    /// or in a layer (`forward.u`); else the only two.
+    ///
+    /// An error is what was found instead.
+    pub(super) fn pair(parts: &[Part]) -> Result<Self, String> {
+        const NAMES: [(&str, &str); 4] = [("R", "G"), ("u", "v"), ("s", "t"), ("x", "y")];
+        let flat = || parts.iter().enumerate().filter(|(_, part)| !part.deep);
+        let named = |part: &Part, names| {
+            let all = std::iter::once(String::new()).chain(layers(part));
+            all.into_iter().find_map(|layer| pair_in_layer(part, &layer, names))
+        };
+        let by_name =
+            NAMES.into_iter().find_map(|names| flat().find_map(|(index, part)| Some((index, named(part, names)?))));
+        let only = || flat().find(|(_, part)| part.channels.list.len() == 2).map(|(index, _)| (index, vec![0, 1]));
+        let (part, indices) =
+            by_name.or_else(only).ok_or_else(|| format!("the channels {}", names(parts).join(", ")))?;
+        Self::checked(parts, part, indices)
+    }
+
     fn checked(parts: &[Part], part: usize, indices: Vec<usize>) -> Result<Self, String> {
         let list = &parts[part].channels.list;
         let names_of = |index: usize| list[index].name.to_string();
@@ -90,12 +109,18 @@ fn layers(part: &Part) -> Vec<String> {
     layers
 }
 
+fn find_in_layer(part: &Part, layer: &str, name: &str) -> Option<usize> {
+    let wanted = format!("{layer}{name}");
+    part.channels.list.iter().position(|channel| channel.name.to_string().eq_ignore_ascii_case(&wanted))
+}
+
+fn pair_in_layer(part: &Part, layer: &str, (first, second): (&str, &str)) -> Option<Vec<usize>> {
+    Some(vec![find_in_layer(part, layer, first)?, find_in_layer(part, layer, second)?])
+}
+
 /// R, G, B or Y of a layer, with A if there is one. Beside X and Z, Y is no luminance but a part of a vector.
 fn in_layer(part: &Part, layer: &str) -> Option<Vec<usize>> {
-    let find = |name: &str| {
-        let wanted = format!("{layer}{name}");
-        part.channels.list.iter().position(|channel| channel.name.to_string().eq_ignore_ascii_case(&wanted))
-    };
+    let find = |name: &str| find_in_layer(part, layer, name);
     let colour = match (find("R"), find("G"), find("B")) {
         (Some(red), Some(green), Some(blue)) => vec![red, green, blue],
         _ if find("X").is_some() && find("Z").is_some() => return None,

@@ -5,7 +5,7 @@ use cosmorama::raster::{AlphaMode, Depth, EncodedImage, Transfer};
 use ktx2::{Format as Vk, Header as Ktx2Header, Index, LevelIndex};
 
 use super::texel::{BlockFormat, Texels};
-use super::texture::{CubeTexture, EXPECTED, faces_to_write};
+use super::texture::{CubeTexture, EXPECTED, levels_to_write};
 use crate::file::Source;
 use crate::{Format, Header, ImageFile, IoError, Limits, Metadata};
 
@@ -137,15 +137,15 @@ fn texels(format: Vk) -> Option<(Texels, bool)> {
     })
 }
 
-/// Six faces of one level: RGBA of 8 bits, sRGB unless the light is linear, or premultiplied halves.
+/// Six faces and their smaller copies: RGBA of 8 bits, sRGB unless the light is linear, or premultiplied halves.
 pub(crate) fn write(
     path: &Path,
     mut output: impl Write,
-    image: &EncodedImage,
+    levels: &[EncodedImage],
     metadata: &Metadata,
 ) -> Result<(), IoError> {
-    let (faces, edge) = faces_to_write(path, FORMAT, image, metadata)?;
-    let float = image.depth().is_float();
+    let (faces, edge) = levels_to_write(path, FORMAT, levels, metadata)?;
+    let float = levels.iter().any(|level| level.depth().is_float());
     let (format, type_size, transfer) = match &metadata.transfer {
         _ if float => (Vk::R16G16B16A16_SFLOAT, 2, descriptor::LINEAR),
         Some(Transfer::Linear) => (Vk::R8G8B8A8_UNORM, 1, descriptor::LINEAR),
@@ -153,7 +153,7 @@ pub(crate) fn write(
     };
     let described = describe(float, transfer);
     let words = key_values(&[("KTXorientation", "rd"), ("KTXwriter", "cosmorama")]);
-    let dfd = (Ktx2Header::LENGTH + LevelIndex::LENGTH) as u32;
+    let dfd = (Ktx2Header::LENGTH + LevelIndex::LENGTH * faces.len()) as u32;
     let kvd = dfd + described.len() as u32;
     // A level begins at a multiple of a texel.
     let start = (kvd + words.len() as u32).next_multiple_of(8);
@@ -165,7 +165,7 @@ pub(crate) fn write(
         pixel_depth: 0,
         layer_count: 0,
         face_count: 6,
-        level_count: 1,
+        level_count: faces.len() as u32,
         supercompression_scheme: None,
         index: Index {
             dfd_byte_offset: dfd,
@@ -176,11 +176,17 @@ pub(crate) fn write(
             sgd_byte_length: 0,
         },
     };
-    let bytes = faces.len() as u64;
-    let level = LevelIndex { byte_offset: start.into(), byte_length: bytes, uncompressed_byte_length: bytes };
+    // The smallest level comes first, the index begins with the largest. Six faces of RGBA keep all of them aligned.
+    let after = |level: usize| faces[level + 1..].iter().map(|level| level.len() as u64).sum::<u64>();
+    let index = faces.iter().enumerate().map(|(level, faces)| {
+        let bytes = faces.len() as u64;
+        LevelIndex { byte_offset: u64::from(start) + after(level), byte_length: bytes, uncompressed_byte_length: bytes }
+    });
+    let index: Vec<u8> = index.flat_map(|level| level.as_bytes()).collect();
     let padding = vec![0; (start - kvd) as usize - words.len()];
-    let parts: [&[u8]; 6] = [&header.as_bytes(), &level.as_bytes(), &described, &words, &padding, &faces];
-    parts.iter().try_for_each(|part| output.write_all(part)).map_err(|error| IoError::write(path, error))
+    let parts: [&[u8]; 5] = [&header.as_bytes(), &index, &described, &words, &padding];
+    let all = parts.into_iter().chain(faces.iter().rev().map(Vec::as_slice));
+    all.into_iter().try_for_each(|part| output.write_all(part)).map_err(|error| IoError::write(path, error))
 }
 
 /// The data format descriptor of RGBA.

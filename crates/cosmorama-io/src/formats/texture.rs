@@ -102,13 +102,31 @@ fn joined(faces: Vec<Samples>) -> Samples {
     all
 }
 
-/// The samples of six faces, to be written: RGBA, one face after the other, and a face's edge.
-pub(super) fn faces_to_write(
+/// The samples of six faces, to be written: RGBA, one face after the other, level by level from the largest, and a face's
+/// edge in the largest.
+pub(super) fn levels_to_write(
     path: &Path,
     format: Format,
-    image: &EncodedImage,
+    levels: &[EncodedImage],
     metadata: &Metadata,
-) -> Result<(Vec<u8>, u32), IoError> {
+) -> Result<(Vec<Vec<u8>>, u32), IoError> {
+    let Some(largest) = levels.first() else { return Err(IoError::write(path, "there is no picture")) };
+    let edge = largest.width();
+    let mut bytes = Vec::new();
+    for (level, image) in levels.iter().enumerate() {
+        let expected = (edge >> level).max(1);
+        let is_level = (image.width(), image.depth()) == (expected, largest.depth());
+        if !is_level || (level > 0 && edge >> level == 0) {
+            return Err(IoError::write(path, format_args!("level {level} is no half of the level before")));
+        }
+        bytes.push(faces_to_write(path, format, image, metadata)?);
+    }
+    let edge = u32::try_from(edge).map_err(|_| IoError::write(path, format_args!("faces of {edge} pixels")))?;
+    Ok((bytes, edge))
+}
+
+/// The samples of six faces.
+fn faces_to_write(path: &Path, format: Format, image: &EncodedImage, metadata: &Metadata) -> Result<Vec<u8>, IoError> {
     let cannot = |found: String| IoError::CannotHold {
         path: path.to_owned(),
         format,
@@ -119,12 +137,10 @@ pub(super) fn faces_to_write(
     if metadata.envmap != Some(EnvMap::GlCube) || Some(height) != width.checked_mul(6) {
         return Err(cannot(format!("a picture of {width}x{height} pixels that is no such cube")));
     }
-    let edge = u32::try_from(width).map_err(|_| cannot(format!("faces of {width} pixels")))?;
     match (image.channels(), image.samples()) {
-        (Channels::Rgba, Samples::U8(samples)) => Ok((samples.clone(), edge)),
+        (Channels::Rgba, Samples::U8(samples)) => Ok(samples.clone()),
         (Channels::Rgba, Samples::Half(samples)) => {
-            let little = samples.iter().flat_map(|sample: &f16| sample.to_le_bytes()).collect();
-            Ok((little, edge))
+            Ok(samples.iter().flat_map(|sample: &f16| sample.to_le_bytes()).collect())
         }
         _ => Err(cannot(format!("{} of depth {}", image.channels(), image.depth()))),
     }

@@ -5,7 +5,7 @@ use super::cylindrical::{Central, Cylindrical, EqualArea, Equirectangular, Merca
 use super::pseudocylindrical::{Mollweide, Pseudocylindrical, Sinusoidal};
 use super::{
     BrownConrady, BrownConradyCoefficients, Calibrated, EquiAngular, Hammer, MirrorBall, Octahedral, OctahedralKind,
-    Pannini, Perspective, PlanePoint, PlaneRect, Projection,
+    Pannini, Perspective, PlanePoint, PlaneRect, Projection, StMap,
 };
 use crate::sphere::{Angle, Direction, DirectionJacobian};
 
@@ -44,6 +44,8 @@ pub enum ProjectionKind {
     Pannini(Pannini),
     /// The sphere on an octahedron.
     Octahedral(Octahedral),
+    /// A table of places and directions.
+    StMap(StMap),
 }
 
 impl ProjectionKind {
@@ -72,12 +74,18 @@ impl ProjectionKind {
     /// The sinusoidal map of the world.
     pub const SINUSOIDAL: Self = Self::Sinusoidal(Pseudocylindrical(Sinusoidal));
 
+    /// Whether its domain is made of the squares of samples, so that a pixel of which neither the middle nor a corner sees
+    /// anything sees nothing.
+    pub(crate) fn ends_between_samples(&self) -> bool {
+        matches!(self, Self::StMap(_))
+    }
+
     /// A fisheye lens.
     pub const fn fisheye(lens: FisheyeLens) -> Self {
         Self::Fisheye(Azimuthal(lens))
     }
 
-    /// One of each, for tests and listings; those with a parameter with several.
+    /// One of each that has a formula, for tests and listings; those with a parameter with several.
     pub fn all() -> Vec<Self> {
         let plain = [
             Self::PERSPECTIVE,
@@ -138,6 +146,7 @@ macro_rules! each {
             ProjectionKind::Sinusoidal($projection) => $call,
             ProjectionKind::Pannini($projection) => $call,
             ProjectionKind::Octahedral($projection) => $call,
+            ProjectionKind::StMap($projection) => $call,
         }
     };
 }

@@ -19,6 +19,7 @@ mod perspective;
 mod plane;
 pub mod pseudocylindrical;
 mod rising;
+mod st_map;
 
 pub use brown_conrady::{BrownConrady, BrownConradyCoefficients};
 pub use calibrated::Calibrated;
@@ -30,6 +31,7 @@ pub use octahedral::{Octahedral, OctahedralKind};
 pub use pannini::Pannini;
 pub use perspective::Perspective;
 pub use plane::{PlanePoint, PlaneRect};
+pub use st_map::{StMap, StMapError, StMapTable};
 
 use glam::{DVec2, DVec3};
 

@@ -17,6 +17,9 @@ const STRAIGHT: f64 = 0.05;
 /// A cut pixel is measured by a grid of this many sub-samples a side.
 const SUB_SAMPLES: usize = 16;
 
+/// The corners of a pixel, from its centre.
+const CORNERS: [(f64, f64); 4] = [(-0.5, -0.5), (0.5, -0.5), (-0.5, 0.5), (0.5, 0.5)];
+
 /// Where a pixel lies in relation to the edge of the field of view.
 enum Side {
     Inside,
@@ -54,6 +57,9 @@ impl View {
             return None;
         }
         let footprint = self.pixel_footprint(centre);
+        if footprint.is_none() && self.projection.ends_between_samples() && !self.has_corner(centre) {
+            return None;
+        }
         match footprint.as_ref().map_or(Side::Unknown, |footprint| self.side(centre, footprint)) {
             Side::Inside => footprint.map(|footprint| ScreenPixel { coverage: 1.0, footprint }),
             Side::Outside => None,
@@ -130,14 +136,18 @@ impl View {
         Some(GreatCircle { centre, sines })
     }
 
+    /// Whether a corner of a pixel sees anything.
+    fn has_corner(&self, centre: PixelPoint) -> bool {
+        CORNERS.iter().any(|(x, y)| self.direction(PixelPoint::new(centre.x + x, centre.y + y)).is_some())
+    }
+
     /// Whether the projection's own edge cuts a pixel, as that of an oval map does: a corner sees nothing.
     fn ends_within(&self, centre: PixelPoint, footprint: &Footprint) -> bool {
         let reach = footprint.jacobian.dx.length() + footprint.jacobian.dy.length();
-        let corners = [(-0.5, -0.5), (0.5, -0.5), (-0.5, 0.5), (0.5, 0.5)];
         // A cylinder ends where its image does; a row of samples on the very pole is a whole one.
         self.projection.period().is_none()
             && self.margin(footprint.direction) < reach
-            && corners.iter().any(|(x, y)| self.direction(PixelPoint::new(centre.x + x, centre.y + y)).is_none())
+            && CORNERS.iter().any(|(x, y)| self.direction(PixelPoint::new(centre.x + x, centre.y + y)).is_none())
     }
 
     fn cut_pixel(&self, x: f64, y: f64, is_inside: impl Fn(PixelPoint) -> bool) -> Option<ScreenPixel> {

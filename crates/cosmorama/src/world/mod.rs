@@ -21,7 +21,7 @@ pub use frame::{
     CalibratedFrame, CalibratedLens, CameraMatrix, Canvas, CubeFaceFrame, CylinderFrame, CylinderKind, EquirectFrame,
     FaceMapping, FieldOfView, FisheyeFit, FisheyeFrame, Frame, FrameError, FulldomeFrame, HuginFrame, HuginProjection,
     LayoutFaceFrame, LensCircle, LensScale, Mirror, MirrorBallFrame, OctahedralFrame, OmnimaxFrame, PanniniFrame,
-    PerspectiveFrame, Placement, SamplePositions, StereographicFrame, WorldMapFrame,
+    PerspectiveFrame, Placement, SamplePositions, StMapFrame, StereographicFrame, WorldMapFrame,
 };
 pub use framing::OmnimaxFraming;
 pub use grid::{PixelGrid, PixelPoint, PixelRect};

@@ -21,6 +21,7 @@ mod omnimax;
 mod pannini;
 mod perspective;
 mod placement;
+mod st_map;
 mod stereographic;
 mod world_map;
 
@@ -42,6 +43,7 @@ pub use omnimax::OmnimaxFrame;
 pub use pannini::PanniniFrame;
 pub use perspective::PerspectiveFrame;
 pub use placement::{Canvas, Mirror, Placement};
+pub use st_map::StMapFrame;
 pub use stereographic::StereographicFrame;
 pub use world_map::WorldMapFrame;
 
@@ -80,6 +82,8 @@ pub enum Frame {
     Pannini(PanniniFrame),
     /// An octahedron unfolded.
     Octahedral(OctahedralFrame),
+    /// A picture whose mapping is a table.
+    StMap(StMapFrame),
 }
 
 impl Frame {
@@ -107,6 +111,7 @@ impl Frame {
             Self::WorldMap(frame) => Ok(frame.view(width, height)),
             Self::Pannini(frame) => frame.view(width, height),
             Self::Octahedral(frame) => Ok(frame.view(width, height)),
+            Self::StMap(frame) => Ok(frame.view(width, height)),
         }
     }
 
@@ -129,6 +134,7 @@ impl Frame {
             Self::WorldMap(_) => 0.5,
             Self::Pannini(frame) => frame.natural_ratio(),
             Self::Octahedral(_) => 1.0,
+            Self::StMap(frame) => frame.natural_ratio,
         };
         ((width as f64 * ratio).round() as usize).max(1)
     }

@@ -1,0 +1,191 @@
+//! St maps as projections: the map is read, and what it relates to what is found out.
+
+use std::path::Path;
+
+use anyhow::{Error, Result, anyhow};
+use cosmorama::projection::{PlanePoint, StMap, StMapError, StMapTable};
+use cosmorama::sphere::{Angle, Direction};
+use cosmorama::world::{FieldOfView, Frame, PerspectiveFrame, PixelPoint, Placement, StMapFrame, View};
+use cosmorama_io::{Limits, StPairs, probe, read_pairs};
+
+use super::{Files, MemoryBudget, frames};
+use crate::args::SizeArg;
+use crate::args::convert::GeometryArgs;
+use crate::failure::usage;
+use crate::spec::{Shape, Single, Spec, SphereSamples, StMapSpec};
+
+/// The side of a conversion that a map is given for.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Side {
+    Input,
+    Output,
+}
+
+/// The picture at the other end of a map, and its size where that is known.
+#[derive(Clone, Copy)]
+struct Base {
+    placement: Placement,
+    size: Option<(usize, usize)>,
+}
+
+/// The same with the maps of `--from` and `--to` read. Without `base=` a map relates the two sides of the conversion to each
+/// other; then a side that is not given is a plain picture, and the output as large as the map unless `--size` says
+/// otherwise.
+pub(crate) fn settled(
+    geometry: &GeometryArgs,
+    input: Option<&str>,
+    memory: MemoryBudget,
+    warnings: &mut Vec<String>,
+) -> Result<GeometryArgs> {
+    let mut settled = geometry.clone();
+    if let (Some(Shape::StMap(StMapSpec { invert: false, file, .. })), None) = (shape(&geometry.to), geometry.size) {
+        // The output has the map's pixels.
+        settled.size = Some(size_of(&read(file, memory)?));
+    }
+    match (shape(&geometry.from), shape(&geometry.to)) {
+        (Some(Shape::StMap(from)), Some(Shape::StMap(to))) => {
+            settled.from = Some(with_given_base(from, Side::Input, memory)?);
+            settled.to = Some(with_given_base(to, Side::Output, memory)?);
+        }
+        (Some(Shape::StMap(from)), _) if from.base.is_some() => {
+            settled.from = Some(with_given_base(from, Side::Input, memory)?);
+        }
+        (_, Some(Shape::StMap(to))) if to.base.is_some() => {
+            settled.to = Some(with_given_base(to, Side::Output, memory)?);
+        }
+        (Some(Shape::StMap(from)), to) => {
+            let pairs = read(&from.file, memory)?;
+            let size = settled.size.get_or_insert_with(|| size_of(&pairs));
+            let other = other_side(to, Side::Input)?;
+            if to.is_some() {
+                warnings.push(format!(
+                    "--from st-map has no base=: {} is taken to relate the input to the picture of --to",
+                    from.file.display()
+                ));
+            }
+            let height = size.height.unwrap_or_else(|| other.frame.natural_height(size.width));
+            let base = Base { placement: other, size: Some((size.width, height)) };
+            settled.from = Some(spec(from, &pairs, base, Side::Input)?);
+            settled.to.get_or_insert_with(plain);
+        }
+        (from, Some(Shape::StMap(to))) => {
+            let pairs = read(&to.file, memory)?;
+            settled.size.get_or_insert_with(|| size_of(&pairs));
+            let Some(input) = input else { return Err(without_base(Side::Output)) };
+            let base = Base { placement: other_side(from, Side::Output)?, size: Some(input_size(input)?) };
+            settled.to = Some(spec(to, &pairs, base, Side::Output)?);
+            settled.from.get_or_insert_with(plain);
+        }
+        _ => {}
+    }
+    Ok(settled)
+}
+
+/// The SPEC of a world file's view, its map read relative to the world file.
+pub(super) fn in_folder(spec: Spec, folder: &Path) -> Result<Spec> {
+    let Shape::StMap(map) = &spec.shape else { return Ok(spec) };
+    let map = StMapSpec { file: folder.join(&map.file), ..map.clone() };
+    with_given_base(&map, Side::Input, MemoryBudget::new(None))
+}
+
+/// A map where none can be.
+pub(super) fn unread(map: &StMapSpec) -> Error {
+    usage(format!("st-map:file={}: an st map cannot be given here", map.file.display()))
+}
+
+fn shape(spec: &Option<Spec>) -> Option<&Shape> {
+    spec.as_ref().map(|spec| &spec.shape)
+}
+
+fn option(side: Side) -> &'static str {
+    match side {
+        Side::Input => "--from",
+        Side::Output => "--to",
+    }
+}
+
+fn without_base(side: Side) -> Error {
+    usage(format!(
+        "{} st-map needs base=, the projection of the picture at the map's other end, as in base=perspective:fov=60",
+        option(side)
+    ))
+}
+
+/// A plain picture: a pinhole camera so narrow that directions are as good as a plane.
+fn plain() -> Spec {
+    let camera = PerspectiveFrame::new(FieldOfView::Horizontal(Angle::from_degrees(1.0)));
+    let placement = Placement::new(Frame::Perspective(camera));
+    let single = Single { placement, samples: SphereSamples::NotAPanorama, any_shape: false };
+    Spec { name: "perspective", shape: Shape::Single(single), stereo: None }
+}
+
+/// The picture on the other side of the conversion.
+fn other_side(shape: Option<&Shape>, side: Side) -> Result<Placement> {
+    let plain = plain().shape;
+    match shape.unwrap_or(&plain) {
+        Shape::Single(single) if single.placement.canvas.is_none() => Ok(single.placement),
+        _ => Err(without_base(side)),
+    }
+}
+
+/// The size of the input's first picture, its canvas if it has one.
+fn input_size(input: &str) -> Result<(usize, usize)> {
+    let files = Files::new(Path::new(input));
+    let first = frames::find(std::iter::once(&files), None)?[0];
+    let header = probe(&files.path(first))?;
+    Ok(header.window.map_or((header.width, header.height), |window| (window.canvas_width, window.canvas_height)))
+}
+
+fn size_of(pairs: &StPairs) -> SizeArg {
+    SizeArg { width: pairs.width, height: Some(pairs.height) }
+}
+
+fn read(file: &Path, memory: MemoryBudget) -> Result<StPairs> {
+    Ok(read_pairs(file, &Limits::memory(memory.bytes))?)
+}
+
+fn with_given_base(map: &StMapSpec, side: Side, memory: MemoryBudget) -> Result<Spec> {
+    let base = map.base.ok_or_else(|| without_base(side))?;
+    let base = Base { placement: base.placement, size: None };
+    spec(map, &read(&map.file, memory)?, base, side)
+}
+
+/// What is left when a map has been read: a picture whose mapping is a table.
+fn spec(map: &StMapSpec, pairs: &StPairs, base: Base, side: Side) -> Result<Spec> {
+    let has_pixels_of_map = (side == Side::Output) != map.invert;
+    let size = base.size.filter(|_| has_pixels_of_map).unwrap_or((pairs.width, pairs.height));
+    let view = base.placement.view(size.0, size.1).map_err(|error| usage(format!("{} base: {error}", option(side))))?;
+    let table = if has_pixels_of_map { looking(pairs, &view) } else { looked_at(pairs, &view) };
+    let table = table.map_err(|error| anyhow!("{}: {error}", map.file.display()))?;
+    // It lasts as long as the program, like all that is given on the command line.
+    let frame =
+        StMapFrame { map: StMap(Box::leak(Box::new(table))), natural_ratio: pairs.height as f64 / pairs.width as f64 };
+    let placement =
+        Placement { frame: Frame::StMap(frame), orientation: map.orientation, mirror: map.mirror, canvas: map.canvas };
+    let single = Single { placement, samples: SphereSamples::NotAPanorama, any_shape: false };
+    Ok(Spec { name: "st-map", shape: Shape::Single(single), stereo: None })
+}
+
+/// The picture whose pixels are the map's: each looks where the base has what the map says.
+fn looking(pairs: &StPairs, base: &View) -> Result<StMapTable, StMapError> {
+    let (width, height) = (base.width() as f64, base.height() as f64);
+    let seen = |[s, t]: [f64; 2]| base.direction(PixelPoint::new(s * width, (1.0 - t) * height));
+    StMapTable::of_pixels(pairs.width, pairs.height, |i, j| place(pairs, i, j).and_then(seen))
+}
+
+/// The picture in which the map's pixels lie: the base's pixels are the map's.
+fn looked_at(pairs: &StPairs, base: &View) -> Result<StMapTable, StMapError> {
+    let sample = |i, j| -> Option<(PlanePoint, Direction)> {
+        let [s, t] = place(pairs, i, j)?;
+        Some((PlanePoint::new(s - 0.5, t - 0.5), base.direction(PixelPoint::centre(i, j))?))
+    };
+    StMapTable::of_places(pairs.width, pairs.height, sample)
+}
+
+/// Where the map says that its pixel looks; nowhere where it says no number or, as programs do that know of nothing better,
+/// the very corner or a place outside on both axes.
+fn place(pairs: &StPairs, i: usize, j: usize) -> Option<[f64; 2]> {
+    let pair = pairs.get(i, j);
+    let is_nothing = pair == [0.0, 0.0] || pair == [-1.0, -1.0] || !pair.iter().all(|number| number.is_finite());
+    (!is_nothing).then(|| pair.map(f64::from))
+}

@@ -1,0 +1,62 @@
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+use anyhow::Result;
+use cosmorama::raster::{Depth, Image};
+use cosmorama_io::{Format, write_planes};
+
+use super::engine::assemble;
+use super::report::Report;
+use super::stages::{Stage, Stages};
+use crate::args::ConvertArgs;
+use crate::failure::usage;
+use crate::job::{Builtin, ConvertJob, StPixel, st_pixels};
+
+/// The names of an st map's numbers, in their order.
+const CHANNELS: [&str; 3] = ["R", "G", "B"];
+
+/// Writes the map by which other programs do the conversion.
+pub(super) fn convert(args: &ConvertArgs) -> Result<Report> {
+    let start = Instant::now();
+    let mut stages = Stages::default();
+    if Builtin::named(&args.input)?.is_some() {
+        return Err(usage(format!("--st-map tells places in an image, but {} is a formula", args.input)));
+    }
+    let job = stages.time(Stage::Plan, || ConvertJob::resolve(args))?;
+    check(args, &job)?;
+    let depth = args.depth.map_or(Depth::Float, Depth::from);
+    for frame in &job.outputs.frames {
+        for (index, path) in &frame.files {
+            let sheet = &job.target.files[*index].sheet;
+            let map = |view: usize| st_pixels(&job, &job.target.views[view]);
+            let image = stages.time(Stage::Filter, || assemble(sheet, [-1.0, -1.0, 0.0], map))?;
+            stages.time(Stage::Encode, || save(&image, path, depth))?;
+        }
+    }
+    let frames = &job.outputs.frames;
+    let inputs: BTreeSet<PathBuf> = frames.iter().flat_map(|frame| job.input.paths(frame.frame)).collect();
+    let outputs = frames.iter().flat_map(|frame| frame.files.iter().map(|(_, path)| path.clone())).collect();
+    Ok(Report::new(inputs, outputs, (frames.len(), job.outputs.skipped), start.elapsed(), stages, job.warnings))
+}
+
+/// A map holds no colours.
+fn check(args: &ConvertArgs, job: &ConvertJob) -> Result<()> {
+    if job.target.format != Format::Exr {
+        return Err(usage(format!(
+            "--st-map writes numbers, but {} is {}; name the output .exr",
+            args.output, job.target.format
+        )));
+    }
+    if args.background.is_some() || args.out_transfer.is_some() {
+        return Err(usage("--background and --out-transfer are for light, but an st map has none; leave them out"));
+    }
+    Ok(())
+}
+
+fn save(image: &Image<StPixel>, path: &Path, depth: Depth) -> Result<()> {
+    let plane = |number: usize| image.pixels().iter().map(|pixel| pixel[number]).collect();
+    let planes = CHANNELS.iter().enumerate().map(|(number, name)| (*name, plane(number))).collect();
+    write_planes(path, (image.width(), image.height()), planes, depth, &cosmorama_io::Metadata::default())?;
+    Ok(())
+}

@@ -1,0 +1,66 @@
+use std::path::PathBuf;
+
+use cosmorama::sphere::Orientation;
+use cosmorama::world::{Canvas, Mirror};
+
+use super::fields::{Fields, wrong};
+use super::{Shape, Single, Spec, SpecError};
+
+/// A picture that an st map relates to another one, before the map has been read.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct StMapSpec {
+    /// The map.
+    pub(crate) file: PathBuf,
+    /// Whether it is used the other way round.
+    pub(crate) invert: bool,
+    /// What the picture at its other end is, if given.
+    pub(crate) base: Option<Single>,
+    /// How this picture is turned.
+    pub(crate) orientation: Orientation,
+    /// How it is mirrored.
+    pub(crate) mirror: Mirror,
+    /// The canvas that it is a window of.
+    pub(crate) canvas: Option<Canvas>,
+}
+
+impl StMapSpec {
+    pub(super) fn build(fields: &Fields) -> Result<Self, SpecError> {
+        let file = fields.get("file").filter(|file| !file.is_empty()).ok_or(SpecError::Missing {
+            name: "st-map",
+            key: "file",
+            example: "st-map:file=undistort.exr",
+        })?;
+        Ok(Self {
+            file: file.into(),
+            invert: fields.choice("invert", &[("yes", true), ("no", false)])?.unwrap_or_default(),
+            base: fields.get("base").map(base).transpose()?,
+            orientation: fields.orientation()?,
+            mirror: fields.mirror()?,
+            canvas: fields.canvas("canvas")?,
+        })
+    }
+}
+
+/// A SPEC within a SPEC: its commas are colons.
+fn base(text: &str) -> Result<Single, SpecError> {
+    let expected = |what: &str| wrong("base", text, what);
+    let (name, keys) = text.split_once(':').unwrap_or((text, ""));
+    let mut pairs: Vec<String> = Vec::new();
+    for part in keys.split(':').filter(|_| !keys.is_empty()) {
+        match pairs.last_mut() {
+            // A part without `=` goes on with the value before it: `center=983:921`.
+            Some(last) if !part.contains('=') => *last = format!("{last}:{part}"),
+            _ => pairs.push(part.to_owned()),
+        }
+    }
+    let spec: Spec = format!("{name}:{}", pairs.join(",")).parse().map_err(|error: SpecError| {
+        wrong("base", text, format!("a SPEC with colons for commas, as in base=perspective:fov=60 ({error})"))
+    })?;
+    match spec.shape {
+        Shape::Single(single) if single.placement.canvas.is_none() => Ok(single),
+        Shape::Single(_) => Err(expected("a whole picture, without canvas=")),
+        Shape::Cube(_) | Shape::Dual(_) | Shape::StMap(_) => {
+            Err(expected("the SPEC of one picture that is given by a formula"))
+        }
+    }
+}
