@@ -18,7 +18,7 @@ impl Shape {
         let mut samples = SphereSamples::NotAPanorama;
         let frame = match name {
             "cube" => return Cube::build(fields).map(Self::Cube),
-            "dual-fisheye" => return Dual::build(fields).map(Self::Dual),
+            "dual-fisheye" => return Dual::build(fields).map(Box::new).map(Self::Dual),
             "perspective" => Frame::Perspective(perspective(fields)?),
             "equirect" => {
                 let frame = equirect(fields)?;
