@@ -30,6 +30,11 @@ fn pair(bench: &Bench, name: &str, (width, height): (usize, usize), stacked: boo
     bench.save(name, &cosmorama::raster::EncodedImage::new(width, height, channels, depth, image).unwrap());
 }
 
+/// Whether a pixel has light of a colour alone, all of it or less.
+fn is_part_of(pixel: &[u8], colour: [u8; 3]) -> bool {
+    pixel.iter().zip(colour).all(|(found, full)| *found <= full)
+}
+
 /// Every pixel of an image has the colour of its half, or less of it at the rim of a lens.
 #[track_caller]
 fn assert_apart(bench: &Bench, name: &str, stacked: bool, [first, second]: [[u8; 3]; 2]) {
@@ -39,8 +44,7 @@ fn assert_apart(bench: &Bench, name: &str, stacked: bool, [first, second]: [[u8;
     for (at, pixel) in eight_bits(&image).chunks(3).enumerate() {
         let half = if stacked { at / width >= height / 2 } else { at % width >= width / 2 };
         let expected = if half { second } else { first };
-        let is_darkened = pixel.iter().zip(expected).all(|(found, full)| *found <= full);
-        assert!(is_darkened, "{name}: {pixel:?} at {at}, not {expected:?}");
+        assert!(is_part_of(pixel, expected), "{name}: {pixel:?} at {at}, not {expected:?}");
         counts[usize::from(half)] += usize::from(pixel == expected);
     }
     assert!(counts[0] > width * height / 8 && counts[0] == counts[1], "{name}: {counts:?}");
@@ -64,7 +68,10 @@ fn nothing_of_one_eye_reaches_the_other() {
                     let back = format!("{spec},eye={eye}");
                     let to = ["--to", "perspective:fov=60,pitch=80", "--yaw", "-10", "--size", "8"];
                     bench.succeed(&[&["convert", "out.png", "eye.png", "-y", "--from", &back], &to[..]].concat());
-                    assert!(eight_bits(&bench.load("eye.png")).chunks(3).all(|pixel| pixel == colour), "{back}");
+                    let image = bench.load("eye.png");
+                    // Black around a circle darkens its outermost texels.
+                    let is_own = |pixel: &[u8]| is_part_of(pixel, colour) && pixel.iter().any(|code| *code > 120);
+                    assert!(eight_bits(&image).chunks(3).all(is_own), "{back}: {:?}", eight_bits(&image));
                 }
             }
         }
@@ -83,7 +90,7 @@ fn what_is_packed_comes_out_as_it_was() {
         ("equirect:stereo=tb-half,swap=yes,flip=x", "512x256", (512, 256)),
         ("dual-fisheye:stereo=tb", "320", (640, 640)),
         ("cube:layout=cross-h,stereo=sbs-half", "160", (640, 480)),
-        ("cube:layout=strip-v,half=up,stereo=tb", "160", (160, 960)),
+        ("cube:layout=strip-v,half=up,stereo=tb", "160", (160, 1760)),
     ] {
         let output = bench.run(&["convert", "sky.png", "pair.png", "-y", "--to", to, "--size", size]);
         let said = bench::text(&output.stderr);

@@ -20,7 +20,7 @@ impl Shape {
         let mut samples = SphereSamples::NotAPanorama;
         let frame = match name {
             "cube" => return Cube::build(fields).map(Self::Cube),
-            "dual-fisheye" => return Dual::build(fields).map(Self::Dual),
+            "dual-fisheye" => return Dual::build(fields).map(Box::new).map(Self::Dual),
             "st-map" => return StMapSpec::build(fields).map(Self::StMap),
             "perspective" => match calibrated(fields, Family::Pinhole)? {
                 Some(frame) => Frame::Calibrated(frame),

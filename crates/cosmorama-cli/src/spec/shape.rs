@@ -10,7 +10,7 @@ pub(crate) enum Shape {
     /// The faces of a cube, a file each or in one image.
     Cube(Cube),
     /// Two fisheyes in one image.
-    Dual(Dual),
+    Dual(Box<Dual>),
     /// One image, and a map that is still to be read.
     StMap(StMapSpec),
 }
