@@ -279,14 +279,12 @@ impl<'a> Gather<'a> {
     }
 }
 
-/// The footprint in texels of the outermost row or column, where it lies beyond the centres of that: texels that are nearer
-/// to a pole would be narrower, but there are none.
+/// The footprint in texels, in those of a panorama's outermost row where it lies beyond their centres: texels nearer to a
+/// pole would be narrower, but there are none.
 fn footprint_among_texels(source: &Source, footprint: &Footprint) -> Option<DMat2> {
     let (centre, jacobian) = source.view.texel_footprint(footprint)?;
-    let within = |place: f64, size: usize| place.clamp(0.5, size as f64 - 0.5);
-    let column = if source.period.is_some() { centre.x } else { within(centre.x, source.view.width()) };
-    let nearest = PixelPoint::new(column, within(centre.y, source.view.height()));
-    if nearest == centre {
+    let nearest = PixelPoint::new(centre.x, centre.y.clamp(0.5, source.view.height() as f64 - 0.5));
+    if source.period.is_none() || nearest == centre {
         return Some(jacobian);
     }
     let there = Footprint { direction: source.view.direction(nearest)?, ..*footprint };
