@@ -6,7 +6,7 @@ use cosmorama::resample::{Filter, Resampler};
 use cosmorama::sphere::{Angle, CubeFace, Orientation};
 use cosmorama::world::{
     Arrangement, Blend, DualFisheye, DualLens, FisheyeFrame, Frame, LayoutFaceFrame, LensSide, Mirror, Placement, View,
-    World,
+    World, WorldView,
 };
 use testkit::{equirect, fisheye, light_by_direction, light_by_texel, perspective, position_error, turned};
 
@@ -26,7 +26,7 @@ fn dual_fisheye(edge: usize, field_of_view: [f64; 2]) -> World {
     };
     let view = |lens: cosmorama::world::PlacedLens| {
         let view = lens.placement.view(edge, edge).expect("a square");
-        (lens.side.name().to_owned(), view, dual.blend())
+        WorldView { name: lens.side.name().to_owned(), view, blend: dual.blend(), mask: None }
     };
     World::blended(dual.lenses(2 * edge, edge, Mirror::default()).expect("two halves").map(view)).expect("two views")
 }
@@ -38,7 +38,8 @@ fn wide_cube(edge: usize, degrees: f64) -> World {
     let blend = Blend { priority: 0, feather: field_of_view - LayoutFaceFrame::RIGHT_ANGLE };
     let view = |face: CubeFace| {
         let placement = Placement { orientation: face.orientation(), ..Placement::new(frame) };
-        (face.name().to_owned(), placement.view(edge, edge).expect("a square"), blend)
+        let view = placement.view(edge, edge).expect("a square");
+        WorldView { name: face.name().to_owned(), view, blend, mask: None }
     };
     World::blended(CubeFace::ALL.map(view)).expect("six views")
 }

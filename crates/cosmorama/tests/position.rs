@@ -192,6 +192,23 @@ fn directions_come_back_from_every_projection() {
     }
 }
 
+/// Where both ends of an oval map meet, their lattices mirror each other, and each is sheared.
+#[test]
+fn directions_come_back_where_the_ends_of_an_oval_map_meet() {
+    for (name, source) in whole_worlds(512) {
+        if !["hammer", "mollweide", "sinusoidal"].contains(&name) {
+            continue;
+        }
+        let world = World::new([(name.to_owned(), source)]).expect("one view");
+        for pitch in [0.0, 30.0, 57.0, -65.0] {
+            let target = perspective(16, 16, 1.6, 180.3, pitch, 7.0);
+            let error = worst_position_error(&world, &target, Filter::DEFAULT, |_| true);
+            println!("from {name}, {pitch}° up: {error}");
+            assert!(error < POSITION_PROMISE, "from {name}, {pitch}° up: {error} px");
+        }
+    }
+}
+
 /// Radiance times solid angle, over all texels.
 fn power(world: &World, light: &[Rgba]) -> [f64; 3] {
     let of = |c: usize| light.iter().zip(world.solid_angles()).map(|(l, &s)| f64::from(l.0[c]) * f64::from(s)).sum();

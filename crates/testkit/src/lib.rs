@@ -1,9 +1,14 @@
 //! Worlds with closed-form answers, comparators and oracles for cosmorama's own tests.
 
+mod common_field;
+mod forms;
 mod frames;
 mod light;
+mod round_trip;
 mod shared;
 
+pub use forms::Form;
 pub use frames::{cube, cube_face, equirect, fisheye, omnimax, partial_worlds, perspective, turned, whole_worlds};
 pub use light::{light_by_direction, light_by_texel, position_error};
+pub use round_trip::RoundTrip;
 pub use shared::shared;

@@ -89,6 +89,10 @@ impl Projection for Hammer {
         meridian::distance_to_the_one_behind(direction)
     }
 
+    fn beyond_seam(&self, direction: Direction) -> Option<Direction> {
+        Some(meridian::mirrored(direction))
+    }
+
     fn cap_bounds(&self, centre: Direction, radius: Angle) -> PlaneRect {
         Graticule::around(centre, radius).within_one_turn().bounds(|longitude, latitude| {
             let ((sin_lon, cos_lon), (sin_lat, cos_lat)) = ((longitude / 2.0).sin_cos(), latitude.sin_cos());

@@ -184,6 +184,10 @@ impl Projection for ProjectionKind {
         each!(self, projection => projection.has_steep_rim())
     }
 
+    fn beyond_seam(&self, direction: Direction) -> Option<Direction> {
+        each!(self, projection => projection.beyond_seam(direction))
+    }
+
     fn cap_bounds(&self, centre: Direction, radius: Angle) -> PlaneRect {
         each!(self, projection => projection.cap_bounds(centre, radius))
     }

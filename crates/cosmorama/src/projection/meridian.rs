@@ -1,6 +1,6 @@
 //! Meridians as edges of maps: lower bounds of the angle to them.
 
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 
 use crate::sphere::Direction;
 
@@ -10,7 +10,14 @@ pub(super) fn distance_to_the_one_behind(direction: Direction) -> f64 {
     if vector.z > 0.0 { vector.x.abs() } else { DVec2::new(vector.x, vector.z).length() }
 }
 
-/// The same to the meridians at the longitudes ±`limit` (as cosine and sine, 0 to 180°), negative between them and the back.
+/// As far on the other side of the meridian behind.
+pub(super) fn mirrored(direction: Direction) -> Direction {
+    let vector = direction.vector();
+    Direction::from_unit(DVec3::new(-vector.x, vector.y, vector.z))
+}
+
+/// A lower bound of the angle, in radians, to the meridians at the longitudes ±`limit` (as cosine and sine, 0 to 180°),
+/// negative between them and the back.
 pub(super) fn distance_to_the_two_at(limit: DVec2, direction: Direction) -> f64 {
     let vector = direction.vector();
     // From the meridian on this side: along it, and across it towards the front.

@@ -83,6 +83,12 @@ pub trait Projection {
         false
     }
 
+    /// The direction as far on the other side of the nearest seam at which the map's sides meet askew, where texels lie as the
+    /// map has them there; `None` for maps without such a seam.
+    fn beyond_seam(&self, _direction: Direction) -> Option<Direction> {
+        None
+    }
+
     /// The rectangle of the plane that holds every direction within `radius` of `centre`.
     fn cap_bounds(&self, centre: Direction, radius: Angle) -> PlaneRect;
 

@@ -12,12 +12,17 @@ use super::field_edge::FieldEdge;
 use super::kernel::KernelTable;
 use super::patch::Grid;
 use super::{Ellipse, Kernel, Taps, lookup};
+use crate::projection::Projection;
 use crate::sphere::Direction;
 use crate::world::{FieldStop, Footprint, PixelPoint, Source, View, World};
 
 /// A mapping is taken as linear over a kernel that is smaller than this part of the way to its nearest singularity. At a
 /// fifth, the tests find no point of a direction-coloured world displaced by more than 0.005 pixel.
 const LINEAR_PART: f64 = 0.2;
+
+/// Beside a steep rim texels grow as the mapping bends, and what it displaces is a part of the kernel's square over the way to
+/// the rim: so large that part may be in pixels.
+const STEEP_PART: f64 = 0.1;
 
 /// Where the field of view ends under a pixel the floor is so much higher: up to half a texel beyond the last one, the
 /// kernel must reach three rows of texels, since two do not tell a slope from a step.
@@ -130,11 +135,12 @@ impl<'a> Gather<'a> {
     pub(super) fn takes_patch(&self, source: &Source, screen: &Grid<Footprint>) -> bool {
         let (middle, corners) = (screen[1][1].direction, [screen[0][0], screen[0][2], screen[2][0], screen[2][2]]);
         let Some(cap) = Cap::around(middle, &corners) else { return false };
-        let reach = |corner| self.reach(corner, source.texel_pitch, Place::Inside);
+        let reach = |corner: &Footprint| self.reach(corner, source.texel_pitch_at(corner.direction), Place::Inside);
         let reach = corners.iter().map(reach).fold(0.0, f64::max);
         let seen = cap.widened(reach);
         let is_whole = !self.is_near_edge(middle, seen.radius());
-        let is_linear = reach < LINEAR_PART * (source.view.margin(middle) - cap.radius());
+        let margin = source.view.margin(middle) - cap.radius();
+        let is_linear = corners.iter().all(|corner| is_linear(source, corner, reach, margin));
         is_whole && is_linear && seen.is_clear_of_stop(&source.view)
     }
 
@@ -174,7 +180,7 @@ impl<'a> Gather<'a> {
             return false;
         }
         // At a rim, what the mapping bends does not cancel between two sides.
-        if radius < LINEAR_PART * margin && place == Place::Inside {
+        if is_linear(source, footprint, radius, margin) && place == Place::Inside {
             self.gather_ellipse(source, footprint)
         } else {
             self.gather_cap(source, footprint, radius, place);
@@ -261,13 +267,29 @@ impl<'a> Gather<'a> {
         let to_texels = jacobian * to_screen;
         let kernel = self.table.kernel();
         let coarseness = kernel.coarseness(jacobian.determinant().abs().sqrt()) as f32;
-        let ellipse = Ellipse::new(jacobian * kernel.scale, self.floor(place));
-        let Some(bounds) = texels_within(source, footprint.direction, radius) else { return };
+        // Beyond a seam texels lie otherwise: weighed by this side's ellipse, a thin one might miss them all.
+        let beyond = source.view.beyond_seam(footprint.direction).and_then(|direction| {
+            let (_, jacobian) = source.view.texel_footprint(&Footprint { direction, ..*footprint })?;
+            Some((direction.vector() - here, jacobian))
+        });
+        // On a seam the lattices of both sides mirror each other, and a quarter of the disc may be empty on both.
+        let nearness = beyond.map_or(0.0, |(across, _)| (1.0 - 0.5 * across.length() / radius).max(0.0));
+        let widening = 1.0 + (RIM_FLOOR - 1.0) * nearness;
+        let ellipse = |jacobian: DMat2| Ellipse::new(jacobian * kernel.scale, self.floor(place) * widening);
+        let beyond = beyond.map(|(across, jacobian)| (across, ellipse(jacobian), jacobian * to_screen));
+        let ellipse = ellipse(jacobian);
+        let Some(bounds) = texels_within(source, footprint.direction, radius * widening) else { return };
         for j in bounds.top..bounds.bottom {
             let row = source.offset + j * source.view.width();
             source.view.row_directions(j, bounds.left..bounds.right, |i, texel| {
                 let offset = in_tangent_plane(texel.vector() - here);
-                let q = ellipse.distance_squared(to_texels * offset);
+                let here = ellipse.distance_squared(to_texels * offset);
+                let q = beyond.as_ref().map_or(here, |(across, ellipse, to_texels)| {
+                    let there = ellipse.distance_squared(*to_texels * offset);
+                    let (own, other) = if across.dot(texel.vector()) > 0.0 { (there, here) } else { (here, there) };
+                    // On the seam itself each ellipse by itself may reach along it one way only: the same way.
+                    own.min(other / (nearness * nearness))
+                });
                 let solid_angle = self.world.solid_angles()[row + i];
                 let in_front = texel.dot(footprint.direction) > 0.0;
                 if in_front && q < self.table.radius_squared() && solid_angle > 0.0 {
@@ -289,6 +311,13 @@ fn footprint_among_texels(source: &Source, footprint: &Footprint) -> Option<DMat
     }
     let there = Footprint { direction: source.view.direction(nearest)?, ..*footprint };
     source.view.texel_footprint(&there).map(|(_, jacobian)| jacobian)
+}
+
+/// Whether the mapping is linear, as far as can be seen, over a kernel of this radius so far from its nearest singularity.
+fn is_linear(source: &Source, footprint: &Footprint, radius: f64, margin: f64) -> bool {
+    let pixel = || footprint.jacobian.solid_angle().sqrt();
+    radius < LINEAR_PART * margin
+        && (!source.view.projection.has_steep_rim() || radius * radius < STEEP_PART * margin * pixel())
 }
 
 impl TexelBox {

@@ -5,7 +5,6 @@ use glam::{DMat2, DVec2};
 use super::Kernel;
 use super::bend::Bend;
 use super::gather::Gather;
-use crate::projection::Projection;
 use crate::world::{PixelPoint, Source, View};
 
 /// Pixels along a patch's side, and lanes that are worked on together.
@@ -135,15 +134,15 @@ impl<'a> Patch<'a> {
         }
         let (owner, _) = gather.world().owner(middle.direction)?;
         let source = &gather.world().sources()[owner];
-        // Beside a steep rim derivatives are not what pixels and texels are measured by.
-        if target.projection.has_steep_rim() || source.view.projection.has_steep_rim() {
-            return None;
-        }
         let mut screen = [[middle; 3]; 3];
         let mut points = Grid::<Point>::default();
         for (y, (screen, points)) in screen.iter_mut().zip(&mut points).enumerate() {
             for (x, (screen, point)) in screen.iter_mut().zip(points).enumerate() {
                 *screen = target.footprint(PixelPoint::centre(i + x * HALF, j + y * HALF))?;
+                // Beside a steep rim derivatives are not what pixels are measured by.
+                if target.is_steep_at(screen) {
+                    return None;
+                }
                 let (pixel, jacobian) = source.view.texel_footprint(screen)?;
                 *point = Point { place: DVec2::new(pixel.x, pixel.y), jacobian };
             }

@@ -163,6 +163,23 @@ mod tests {
         }
     }
 
+    /// At the poles of an equal-area map and the rim of a ball texels are measured from side to side; away from there,
+    /// patches hold.
+    #[test]
+    fn windows_weigh_alike_where_a_rim_is_steep() {
+        let ball = View {
+            stop: FieldStop::circle(1.0),
+            ..view(ProjectionKind::MIRROR_BALL, (600, 600), (1.0, 1.0), Orientation::IDENTITY)
+        };
+        assert!(3 * check_windows(&cube(256), &ball, Kernel::ADAPTIVE) > ball.width() * ball.height());
+        let half = (std::f64::consts::PI, 1.0);
+        let map = view(ProjectionKind::EQUAL_AREA_CYLINDER, (1200, 382), half, Orientation::IDENTITY);
+        let world = World::new([("map".to_owned(), map)]).expect("a map");
+        for target in &targets() {
+            assert!(4 * check_windows(&world, target, Kernel::ADAPTIVE) > target.width() * target.height());
+        }
+    }
+
     #[test]
     fn round_footprints_keep_their_size() {
         // In single precision the minor axis of some circles comes out longer than the major one.

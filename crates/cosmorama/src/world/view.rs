@@ -120,9 +120,9 @@ impl View {
     /// How the direction moves over the texel around a point of the image, per texel: its derivatives. On a steep rim, where
     /// those of a point say nothing of a texel, from one side of the texel to the other.
     pub(super) fn texel(&self, pixel: PixelPoint) -> Option<DirectionJacobian> {
-        let Footprint { direction, jacobian } = self.footprint(pixel)?;
-        let size = (jacobian.dx.length_squared() + jacobian.dy.length_squared()).sqrt();
-        if !self.projection.has_steep_rim() || self.margin(direction) > STEEP * size {
+        let footprint = self.footprint(pixel)?;
+        let Footprint { direction, jacobian } = footprint;
+        if !self.is_steep_at(&footprint) {
             return Some(jacobian);
         }
         let at = |dx: f64, dy: f64| self.direction(PixelPoint::new(pixel.x + dx, pixel.y + dy)).map(Direction::vector);
@@ -175,6 +175,19 @@ impl View {
     /// [`Projection::margin`] of a direction of the world.
     pub fn margin(&self, direction: Direction) -> f64 {
         self.projection.margin(self.orientation.to_view(direction))
+    }
+
+    /// [`Projection::beyond_seam`] of a direction of the world.
+    pub(crate) fn beyond_seam(&self, direction: Direction) -> Option<Direction> {
+        let beyond = self.projection.beyond_seam(self.orientation.to_view(direction))?;
+        Some(self.orientation.to_world(beyond))
+    }
+
+    /// Whether a rim or a pole is so near that a texel of this footprint is measured from side to side.
+    pub(crate) fn is_steep_at(&self, footprint: &Footprint) -> bool {
+        let Footprint { direction, jacobian } = footprint;
+        let size = (jacobian.dx.length_squared() + jacobian.dy.length_squared()).sqrt();
+        self.projection.has_steep_rim() && self.margin(*direction) <= STEEP * size
     }
 
     /// The rectangle of pixel coordinates (its min and max corners) that holds every direction within `radius`.

@@ -111,6 +111,10 @@ impl<M: Parallels> Projection for Pseudocylindrical<M> {
         self.0.has_steep_poles()
     }
 
+    fn beyond_seam(&self, direction: Direction) -> Option<Direction> {
+        Some(meridian::mirrored(direction))
+    }
+
     fn cap_bounds(&self, centre: Direction, radius: Angle) -> PlaneRect {
         Graticule::around(centre, radius).within_one_turn().bounds(|longitude, latitude| {
             let (sin, cos) = latitude.sin_cos();

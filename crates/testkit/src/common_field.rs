@@ -1,0 +1,57 @@
+use cosmorama::world::{PixelPoint, View, World};
+
+/// What a view has in common with another form of the world: which of its pixels can be compared, and between which of
+/// them the other form has a seam.
+pub(crate) struct CommonField<'a> {
+    view: &'a View,
+    is_whole: bool,
+    other: &'a World,
+    /// Where the other form has each pixel's direction: which of its views, and where in it.
+    places: Vec<Option<(usize, PixelPoint)>>,
+    counted: Vec<bool>,
+}
+
+/// Pixels around one that must be in both forms for it to be compared.
+const REACH: f64 = 4.0;
+
+/// Neighbours further from each other than this many texels of the other form are on both sides of a seam.
+const APART: f64 = 24.0;
+
+impl<'a> CommonField<'a> {
+    /// That of a view of a form that shows the whole world, or does not.
+    pub(crate) fn new(view: &'a View, is_whole: bool, other: &'a World) -> Self {
+        let pixels = || (0..view.height()).flat_map(|j| (0..view.width()).map(move |i| PixelPoint::centre(i, j)));
+        let place = |pixel: PixelPoint| view.direction(pixel).and_then(|direction| other.owner(direction));
+        let mut field = Self { view, is_whole, other, places: pixels().map(place).collect(), counted: Vec::new() };
+        field.counted = (0..field.places.len()).map(|k| field.is_common(k % view.width(), k / view.width())).collect();
+        field
+    }
+
+    /// Whether a pixel can be compared.
+    pub(crate) fn counts(&self, i: usize, j: usize) -> bool {
+        i < self.view.width() && j < self.view.height() && self.counted[j * self.view.width() + i]
+    }
+
+    /// Whether the other form has a seam between two pixels.
+    pub(crate) fn parts(&self, a: (usize, usize), b: (usize, usize)) -> bool {
+        let [a, b] = [a, b].map(|(i, j)| self.places[j * self.view.width() + i]);
+        a.zip(b).is_some_and(|((face, a), (next, b))| face != next || (a.x - b.x).hypot(a.y - b.y) > APART)
+    }
+
+    /// Whether a pixel, a whole one, and those around it are in both forms, and the other form has the finer ones there.
+    fn is_common(&self, i: usize, j: usize) -> bool {
+        let screen = self.view.screen_pixel(i, j).filter(|screen| screen.coverage == 1.0);
+        let Some((screen, (index, at))) = screen.zip(self.places[j * self.view.width() + i]) else { return false };
+        let Some(texel) = self.other.sources()[index].view.footprint(at) else { return false };
+        let pixel = screen.footprint.jacobian;
+        let is_finer =
+            texel.jacobian.dx.length().max(texel.jacobian.dy.length()) < pixel.dx.length().min(pixel.dy.length());
+        let pixel = PixelPoint::centre(i, j);
+        let around = [-1.0, 0.0, 1.0].into_iter().flat_map(|y| [-1.0, 0.0, 1.0].map(|x| (x * REACH, y * REACH)));
+        is_finer
+            && around.map(|(x, y)| PixelPoint::new(pixel.x + x, pixel.y + y)).all(|point| {
+                let direction = self.view.direction(point).filter(|_| self.is_whole || self.view.shows(point));
+                direction.map_or(self.is_whole, |direction| self.other.owner(direction).is_some())
+            })
+    }
+}
