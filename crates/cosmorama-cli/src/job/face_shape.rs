@@ -207,7 +207,7 @@ mod tests {
             [FacePicture { face: CubeFace::Left, path: "left.png".into(), canvas, size, lies, is_declared: false }]
         };
         // A whole face, of which half=up made one of twice its height.
-        let error = usual_size(&pictures((64, 64), (64, 128)), Some(CubeFace::Up), &mut Vec::new()).unwrap_err();
+        let error = size_of_missing(&pictures((64, 64), (64, 128)), Some(CubeFace::Up), &mut Vec::new()).unwrap_err();
         assert!(error.to_string().contains("64x64, a whole face, but half=up"), "{error}");
     }
 
