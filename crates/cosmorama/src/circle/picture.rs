@@ -179,7 +179,6 @@ mod tests {
                 panic!("{circle:?}, noise {noise}, flare {flare}: no rim");
             };
             let error = error(found, circle);
-            println!("noise {noise}, flare {flare}: {error:.4} px");
             assert!(error <= most, "noise {noise}, flare {flare}: {found:?} is off by {error}");
         }
     }
