@@ -9,6 +9,7 @@ mod grid;
 mod layout;
 mod mask_shape;
 mod overlap;
+mod seen_cone;
 mod view;
 mod view_mask;
 #[allow(clippy::module_inception)]

@@ -4,10 +4,11 @@ use rayon::prelude::*;
 use thiserror::Error;
 
 use super::blend::{Blend, Border, Presence, parts};
+use super::seen_cone::SeenCone;
 use super::view::ROUNDING;
 use super::{PixelPoint, PixelRect, View, ViewMask, overlap};
-use crate::projection::{PlanePoint, Projection};
-use crate::sphere::{Angle, Direction};
+use crate::projection::Projection;
+use crate::sphere::Direction;
 
 /// Why views make no world.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
@@ -53,8 +54,8 @@ pub struct Source {
     pub blend: Blend,
     /// Where its picture ends.
     pub(super) border: Border,
-    /// Middle and half angle of the cone that a lens's circle is, where it has one.
-    cone: Option<(Direction, Angle)>,
+    /// A cone that holds all that it shows, where that is not the world.
+    cone: Option<SeenCone>,
     /// Which of its texels count, if not all.
     pub mask: Option<Arc<ViewMask>>,
     /// Indices of the views that overlap this one.
@@ -76,10 +77,9 @@ impl Source {
 }
 
 impl Source {
-    /// Whether anything within `radius` radians of a direction may be inside the circle of its lens. What is outside shows
-    /// nothing, and far outside, around the point behind the lens, small caps lie all over the image's plane.
+    /// Whether anything within `radius` radians of a direction may be shown.
     pub(crate) fn reaches(&self, direction: Direction, radius: f64) -> bool {
-        self.cone.is_none_or(|(middle, half)| middle.angle_to(direction).radians() <= half.radians() + radius)
+        self.cone.is_none_or(|cone| cone.reaches(direction, radius))
     }
 
     /// Whether a point of the image shows something that counts.
@@ -132,7 +132,7 @@ impl World {
                 return Err(WorldError::NoPixels(name));
             }
             let (period, texel_pitch, whole) = (view.period(), texel_pitch(&view), owned(&view));
-            let (border, cone, others) = (Border::of(&view), cone(&view), Vec::new());
+            let (border, cone, others) = (Border::of(&view), SeenCone::of(&view), Vec::new());
             sources.push(Source { name, view, offset, period, texel_pitch, blend, border, cone, mask, others, whole });
             offset = offset.saturating_add(texels);
         }
@@ -218,14 +218,6 @@ impl World {
     pub fn solid_angles(&self) -> &[f32] {
         &self.solid_angles
     }
-}
-
-/// The cone of directions that a lens's circle lets pass, if it ends the picture.
-fn cone(view: &View) -> Option<(Direction, Angle)> {
-    let radius = view.stop.circle?;
-    let middle = view.projection.unproject(PlanePoint::new(0.0, 0.0))?;
-    let half = middle.angle_to(view.projection.unproject(PlanePoint::new(radius, 0.0))?);
-    Some((view.orientation.to_world(middle), half))
 }
 
 /// Texels that a mask hides weigh nothing.
