@@ -1,6 +1,6 @@
 use std::path::Path;
 
-use cosmorama::raster::Samples;
+use cosmorama::raster::{Channels, Depth, Samples};
 
 use crate::file::open;
 use crate::formats::exr;
@@ -50,6 +50,7 @@ pub fn read_pairs(path: &Path, limits: &Limits) -> Result<StPairs, IoError> {
     });
     let Some(window) = window else { return Ok(StPairs { width, height, pairs }) };
     let (columns, rows) = (window.canvas_width, window.canvas_height);
+    limits.check(path, (columns as u64, rows as u64), Channels::GreyAlpha, Depth::Float)?;
     let mut canvas = vec![[f32::NAN; 2]; columns * rows];
     for (j, row) in pairs.chunks_exact(width).enumerate() {
         canvas[(window.y + j) * columns + window.x..][..width].copy_from_slice(row);

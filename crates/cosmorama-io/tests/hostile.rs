@@ -7,7 +7,7 @@ use std::path::Path;
 
 use common::picture;
 use cosmorama::raster::{Channels, Depth};
-use cosmorama_io::{EnvMap, Format, IoError, Limits, Metadata, WriteOptions, probe, read, write};
+use cosmorama_io::{EnvMap, Format, IoError, Limits, Metadata, WriteOptions, probe, read, read_pairs, write};
 use proptest::prelude::*;
 
 const EXTENSIONS: [&str; 9] = ["png", "jpg", "tif", "tga", "hdr", "exr", "ktx2", "dds", "ktx"];
@@ -184,6 +184,19 @@ fn textures_that_lie_about_their_size() {
         let (_, error) = refused(&lie, &Limits::default());
         assert!(error.to_string().contains(says), "{error}");
     }
+}
+
+#[test]
+fn a_map_on_a_giant_canvas_is_refused() {
+    let mut exr = written("exr");
+    let name = b"displayWindow\0box2i\0";
+    let at = exr.windows(name.len()).position(|bytes| bytes == name).unwrap() + name.len() + 4;
+    exr[at + 8..at + 16].copy_from_slice(&[0x3f, 0x42, 0x0f, 0, 0x3f, 0x42, 0x0f, 0]);
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("map.exr");
+    std::fs::write(&path, &exr).unwrap();
+    let error = read_pairs(&path, &Limits::memory(1 << 24)).unwrap_err().to_string();
+    assert!(error.contains("map.exr") && error.contains("1000000x1000000"), "{error}");
 }
 
 fn crc32(bytes: &[u8]) -> u32 {

@@ -49,6 +49,7 @@ fn what_is_not_supported_is_named_with_its_line() {
         ("w400 h300 f0 v50", "w-4 h300 f0 v50", &["line 8", "w-4", "pixels"]),
         ("f0 v50", "f0.5 v50", &["line 8", "f0.5"]),
         ("S10,390,20,280", "S390,10,20,280", &["line 9", "LEFT,RIGHT"]),
+        ("S10,390,20,280", "S-9223372036854775808,60,0,60", &["line 9", "LEFT,RIGHT"]),
         ("j0 a0.01", "q3 a0.01", &["line 8", "'q3'"]),
         ("n\"second.png\"", "n\"second.png", &["line 9", "does not end"]),
         ("n\"second.png\"", "", &["line 9", "n, the picture's file"]),

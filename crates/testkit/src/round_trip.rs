@@ -41,7 +41,8 @@ impl RoundTrip {
         let there = convert(&first, &light, &through.views);
         let there: Vec<Rgba> = there.iter().flat_map(|image| image.pixels()).map(whole).collect();
         let back = convert(&second, &there, &from.views);
-        let mut sums = Sums::default();
+        // What nothing was measured of is no number, not zero.
+        let mut sums = Sums { shift: f64::NAN, ..Sums::default() };
         for (image, source) in back.iter().zip(first.sources()) {
             let original = &light[source.texels()];
             let errors: Vec<[f64; 3]> = image.pixels().iter().zip(original).map(|(a, b)| difference(a, b)).collect();

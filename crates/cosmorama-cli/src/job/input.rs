@@ -11,7 +11,7 @@ use super::eye::EyePart;
 use super::face_file::Face;
 use super::face_shape::{FacePicture, size_of_missing};
 use super::packed::{self, FilePart};
-use super::{Files, GivenFaces, frames, pto, st_map, world_file};
+use super::{Files, GivenFaces, MemoryBudget, frames, pto, st_map, world_file};
 use crate::failure::usage;
 use crate::spec::{Cube, Packing, Shape, Single, Spec, StereoSpec};
 
@@ -72,13 +72,14 @@ impl Input {
         pattern: &str,
         from: Option<&Spec>,
         wanted: Option<&FrameList>,
+        memory: MemoryBudget,
         warnings: &mut Vec<String>,
     ) -> Result<Self> {
         if world_file::is_world_file(pattern) {
             if let Some(spec) = from {
                 return Err(usage(format!("{pattern} says itself what its views are; leave out --from {}", spec.name)));
             }
-            return world_file::find(pattern, wanted, warnings);
+            return world_file::find(pattern, wanted, memory, warnings);
         }
         if pto::is_project(pattern) {
             if let Some(spec) = from {
@@ -87,7 +88,7 @@ impl Input {
                     spec.name
                 )));
             }
-            return pto::find(pattern, warnings);
+            return pto::find(pattern, memory, warnings);
         }
         let Some(StereoSpec { packing, eye }) = from.and_then(|spec| spec.stereo) else {
             return Self::find_one(pattern, from, None, wanted, warnings);

@@ -14,7 +14,7 @@ use super::{InputView, MemoryBudget};
 const GREY: f32 = 0.5;
 
 /// The mask that a picture is: where it is black, darker than middle grey, or transparent, the view does not hold.
-pub(super) fn of_file(path: &Path, view: &InputView) -> Result<Arc<ViewMask>> {
+pub(super) fn of_file(path: &Path, view: &InputView, memory: MemoryBudget) -> Result<Arc<ViewMask>> {
     let expected = size(view);
     // Before its pixels take any memory.
     let header = probe(path)?;
@@ -23,8 +23,8 @@ pub(super) fn of_file(path: &Path, view: &InputView) -> Result<Arc<ViewMask>> {
         let (mask, picture) = (format!("{}x{}", found.0, found.1), format!("{}x{}", expected.0, expected.1));
         bail!("{}: the mask has {mask} pixels, but its picture has {picture}; they must have the same", path.display());
     }
-    let limits = Limits::memory(MemoryBudget::new(None).bytes);
-    let mask = of_image(&read(path, &limits)?.image);
+    memory.check_mask(found, size_of::<Rgba>() as u64)?;
+    let mask = of_image(&read(path, &Limits::memory(memory.bytes))?.image);
     if mask.is_empty() {
         bail!("{}: the mask is black all over: nothing of the picture would count", path.display());
     }
@@ -36,7 +36,9 @@ pub(super) fn of_shapes(
     shapes: &[MaskShape],
     (left, top): (usize, usize),
     size: (usize, usize),
+    memory: MemoryBudget,
 ) -> Result<Arc<ViewMask>> {
+    memory.check_mask(size, 0)?;
     let counts = |i: usize, j: usize| {
         let centre = PixelPoint::centre(left + i, top + j);
         shapes.iter().all(|shape| shape.leaves(centre))

@@ -47,6 +47,14 @@ impl MemoryBudget {
         self.allow(needed, "the input", &largest)
     }
 
+    /// Whether a mask of this size fits while it is made, of a picture of so many bytes a pixel.
+    pub(super) fn check_mask(self, (width, height): (usize, usize), picture: u64) -> Result<()> {
+        // Its squared distances in double precision, and those that are kept.
+        let bytes = (size_of::<f64>() + size_of::<f32>()) as u64 + picture;
+        let needed = (width as u64).saturating_mul(height as u64).saturating_mul(bytes);
+        self.allow(needed, "a mask", &format!("; it has {width}x{height} pixels"))
+    }
+
     /// Whether the outputs of a frame fit, before anything is made of them.
     pub(crate) fn check_outputs(self, target: &Target) -> Result<()> {
         self.allow(output_bytes(target), "a frame", &describe(target, "; "))

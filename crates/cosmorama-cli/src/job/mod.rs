@@ -84,12 +84,11 @@ impl ConvertJob {
     pub(crate) fn resolve(args: &ConvertArgs) -> Result<Self> {
         let memory = MemoryBudget::new(args.limits.memory);
         let mut warnings = Vec::new();
-        let geometry = pto::complete(&args.input, &args.geometry)?;
-        let geometry = &settled(&geometry, Some(&args.input), memory, &mut warnings)?;
+        let geometry = &settled(&args.geometry, Some(&args.input), memory, &mut warnings)?;
         // Mistakes in the command itself come first: they do not depend on any file.
         let format = Target::check_names(&args.output, geometry)?;
         check_quality(args, format)?;
-        let mut input = Input::find(&args.input, geometry.from.as_ref(), args.frames.as_ref(), &mut warnings)?;
+        let mut input = Input::find(&args.input, geometry.from.as_ref(), args.frames.as_ref(), memory, &mut warnings)?;
         let mut target = Target::resolve(&args.output, geometry, Some(input.pixels_per_radian()))?;
         if args.mips {
             target = target.with_mips(&args.output, geometry)?;

@@ -10,7 +10,7 @@ use cosmorama::world::{
 use cosmorama_io::{PtoImage, PtoPanorama, PtoProject, probe};
 
 use super::packed::FilePart;
-use super::{Files, Input, InputView};
+use super::{Files, Input, InputView, MemoryBudget};
 use crate::args::SizeArg;
 use crate::args::convert::GeometryArgs;
 use crate::failure::usage;
@@ -25,11 +25,11 @@ pub(super) fn is_project(pattern: &str) -> bool {
 }
 
 /// Finds and probes the pictures of a project.
-pub(super) fn find(name: &str, warnings: &mut Vec<String>) -> Result<Input> {
+pub(super) fn find(name: &str, memory: MemoryBudget, warnings: &mut Vec<String>) -> Result<Input> {
     let project = PtoProject::read(Path::new(name))?;
     warnings.extend(project.warnings.iter().map(|warning| format!("{name}: {warning}")));
     let folder = Path::new(name).parent().unwrap_or(Path::new(""));
-    let view = |image: &PtoImage| view(folder, image).with_context(|| format!("{name}, line {}", image.line));
+    let view = |image: &PtoImage| view(folder, image, memory).with_context(|| format!("{name}, line {}", image.line));
     let views = project.images.iter().map(view).collect::<Result<_>>()?;
     Ok(Input { worlds: vec![views], frames: vec![None], faces: None })
 }
@@ -47,7 +47,7 @@ pub(super) fn complete(input: &str, geometry: &GeometryArgs) -> Result<GeometryA
     let (size, canvas) = match panorama.crop {
         None => (panorama.size, None),
         Some([left, right, top, bottom]) => {
-            let side = |from: i64, to: i64| usize::try_from(to - from).unwrap_or(0);
+            let side = |from: i64, to: i64| (to - from).unsigned_abs() as usize;
             ((side(left, right), side(top, bottom)), Some(Canvas { width, height, left, top }))
         }
     };
@@ -70,7 +70,7 @@ pub(super) fn complete(input: &str, geometry: &GeometryArgs) -> Result<GeometryA
     Ok(geometry)
 }
 
-fn view(folder: &Path, image: &PtoImage) -> Result<InputView> {
+fn view(folder: &Path, image: &PtoImage, memory: MemoryBudget) -> Result<InputView> {
     let path = folder.join(&image.file);
     let whole = probe(&path)?;
     let (width, height) = image.size;
@@ -89,7 +89,7 @@ fn view(folder: &Path, image: &PtoImage) -> Result<InputView> {
     let placement = |canvas| Placement { frame: Frame::Hugin(frame), orientation, mirror: Mirror::default(), canvas };
     let Part { corner, size } = Part::of(image)?;
     let shapes = shapes(image);
-    let mask = if shapes.is_empty() { None } else { Some(super::mask::of_shapes(&shapes, corner, size)?) };
+    let mask = if shapes.is_empty() { None } else { Some(super::mask::of_shapes(&shapes, corner, size, memory)?) };
     let canvas = Canvas { width, height, left: corner.0 as i64, top: corner.1 as i64 };
     let held = placement(Some(canvas)).view(size.0, size.1)?;
     Ok(InputView {

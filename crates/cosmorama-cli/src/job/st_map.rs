@@ -8,7 +8,7 @@ use cosmorama::sphere::{Angle, Direction};
 use cosmorama::world::{FieldOfView, Frame, PerspectiveFrame, PixelPoint, Placement, StMapFrame, View};
 use cosmorama_io::{Limits, StPairs, probe, read_pairs};
 
-use super::{Files, MemoryBudget, frames};
+use super::{Files, MemoryBudget, frames, pto};
 use crate::args::SizeArg;
 use crate::args::convert::GeometryArgs;
 use crate::failure::usage;
@@ -28,7 +28,7 @@ struct Base {
     size: Option<(usize, usize)>,
 }
 
-/// The same with the maps of `--from` and `--to` read. Without `base=` a map relates the two sides of the conversion to each
+/// The same with what a Hugin project says where nothing else is said, and with the maps of `--from` and `--to` read. Without `base=` a map relates the two sides of the conversion to each
 /// other; then a side that is not given is a plain picture, and the output as large as the map unless `--size` says
 /// otherwise.
 pub(crate) fn settled(
@@ -37,7 +37,10 @@ pub(crate) fn settled(
     memory: MemoryBudget,
     warnings: &mut Vec<String>,
 ) -> Result<GeometryArgs> {
-    let mut settled = geometry.clone();
+    let mut settled = match input {
+        Some(input) => pto::complete(input, geometry)?,
+        None => geometry.clone(),
+    };
     if let (Some(Shape::StMap(StMapSpec { invert: false, file, .. })), None) = (shape(&geometry.to), geometry.size) {
         // The output has the map's pixels.
         settled.size = Some(size_of(&read(file, memory)?));
@@ -81,11 +84,10 @@ pub(crate) fn settled(
     Ok(settled)
 }
 
-/// The SPEC of a world file's view, its map read relative to the world file.
-pub(super) fn in_folder(spec: Spec, folder: &Path) -> Result<Spec> {
+/// The SPEC of a world file's view, its map read.
+pub(super) fn read_map(spec: Spec, memory: MemoryBudget) -> Result<Spec> {
     let Shape::StMap(map) = &spec.shape else { return Ok(spec) };
-    let map = StMapSpec { file: folder.join(&map.file), ..map.clone() };
-    with_given_base(&map, Side::Input, MemoryBudget::new(None))
+    with_given_base(map, Side::Input, memory)
 }
 
 /// A map where none can be.

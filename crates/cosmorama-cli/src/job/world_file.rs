@@ -10,7 +10,7 @@ use cosmorama_io::{FrameList, FramePattern};
 use serde::Deserialize;
 use toml::Spanned;
 
-use super::{Input, InputView, st_map};
+use super::{Input, InputView, MemoryBudget, st_map};
 use crate::spec::Spec;
 
 /// The file as it is written.
@@ -50,7 +50,12 @@ pub(super) fn is_world_file(pattern: &str) -> bool {
 }
 
 /// Finds and probes the files of all views of a world file.
-pub(super) fn find(name: &str, wanted: Option<&FrameList>, warnings: &mut Vec<String>) -> Result<Input> {
+pub(super) fn find(
+    name: &str,
+    wanted: Option<&FrameList>,
+    memory: MemoryBudget,
+    warnings: &mut Vec<String>,
+) -> Result<Input> {
     let text = std::fs::read_to_string(name).with_context(|| format!("{name}: cannot be read as a world file"))?;
     let source = Text { name, text: &text };
     let file: WorldFile = toml::from_str(&text)
@@ -62,7 +67,7 @@ pub(super) fn find(name: &str, wanted: Option<&FrameList>, warnings: &mut Vec<St
     }
     let mut world = Input { worlds: vec![Vec::new()], frames: vec![None], faces: None };
     for entry in &file.view {
-        let part = entry.find(&source, wanted, warnings)?;
+        let part = entry.find(&source, wanted, memory, warnings)?;
         world.frames = common_frames(&world.frames, &part.frames)
             .with_context(|| format!("{} has other frames than the views before it", entry.image.get_ref()))
             .with_context(|| source.place(Some(entry.image.span())))?;
@@ -72,9 +77,15 @@ pub(super) fn find(name: &str, wanted: Option<&FrameList>, warnings: &mut Vec<St
 }
 
 impl Entry {
-    fn find(&self, source: &Text, wanted: Option<&FrameList>, warnings: &mut Vec<String>) -> Result<Input> {
+    fn find(
+        &self,
+        source: &Text,
+        wanted: Option<&FrameList>,
+        memory: MemoryBudget,
+        warnings: &mut Vec<String>,
+    ) -> Result<Input> {
         let feather = self.feather(source)?;
-        let spec = self.spec(source)?.map(|spec| st_map::in_folder(spec, source.folder())).transpose();
+        let spec = self.spec(source)?.map(|spec| st_map::read_map(spec, memory)).transpose();
         let spec = spec.with_context(|| source.place(self.spec.as_ref().map(Spanned::span)))?;
         let pattern = source.folder().join(self.image.get_ref()).to_string_lossy().into_owned();
         if is_world_file(&pattern) {
@@ -83,13 +94,13 @@ impl Entry {
         }
         // A still stays what it is in all frames.
         let wanted = wanted.filter(|_| FramePattern::parse(&pattern).is_some());
-        let mut input = Input::find(&pattern, spec.as_ref(), wanted, warnings)
+        let mut input = Input::find(&pattern, spec.as_ref(), wanted, memory, warnings)
             .with_context(|| source.place(Some(self.image.span())))?;
         for view in input.worlds.iter_mut().flatten() {
             // What a SPEC says of pictures that overlap holds where nothing else is said.
             view.blend = Blend { priority: self.priority, feather: feather.unwrap_or(view.blend.feather) };
         }
-        self.mask(source, &mut input)?;
+        self.mask(source, &mut input, memory)?;
         Ok(input)
     }
 
@@ -101,7 +112,7 @@ impl Entry {
     }
 
     /// Hides what the mask of a single picture hides.
-    fn mask(&self, source: &Text, input: &mut Input) -> Result<()> {
+    fn mask(&self, source: &Text, input: &mut Input, memory: MemoryBudget) -> Result<()> {
         let Some(mask) = &self.mask else { return Ok(()) };
         let place = || source.place(Some(mask.span()));
         let [views] = input.worlds.as_mut_slice() else {
@@ -113,7 +124,7 @@ impl Entry {
             let message = format!("mask = \"{}\" is for one picture, but the view has several", mask.get_ref());
             return Err(source.error(Some(mask.span()), &message));
         };
-        let found = super::mask::of_file(&source.folder().join(mask.get_ref()), view).with_context(place)?;
+        let found = super::mask::of_file(&source.folder().join(mask.get_ref()), view, memory).with_context(place)?;
         super::mask::hide(view, found);
         Ok(())
     }

@@ -11,15 +11,10 @@ use super::{diagram, print, use_threads};
 use crate::args::ExplainArgs;
 use crate::failure::{usage, warn};
 use crate::job::{Builtin, Input, MemoryBudget, Picture, filter, nominal_worlds, refuse_existing, settled};
-use crate::spec::Shape;
 
 /// Tells what a conversion will do.
 pub(super) fn run(args: &ExplainArgs) -> Result<ExitCode> {
     use_threads(args.limits.threads)?;
-    let is_st_map = args.geometry.from.as_ref().is_some_and(|from| matches!(from.shape, Shape::StMap(_)));
-    if args.geometry.to.is_none() && !is_st_map {
-        return Err(usage("--to is missing: say which projection the output is to have, as in --to omnimax"));
-    }
     let mut warnings = Vec::new();
     let (mut input, pictures) = resolve(args, &mut warnings)?;
     input.fit_eyes(pictures.iter().any(|picture| picture.eye.is_some()), &mut warnings);
@@ -62,14 +57,18 @@ pub(super) fn run(args: &ExplainArgs) -> Result<ExitCode> {
 
 /// An input on disk decides how large the output is; one that does not exist yet follows the output.
 fn resolve(args: &ExplainArgs, warnings: &mut Vec<String>) -> Result<(Input, Vec<Picture>)> {
-    let geometry = &settled(&args.geometry, args.input.as_deref(), MemoryBudget::new(args.limits.memory), warnings)?;
+    let memory = MemoryBudget::new(args.limits.memory);
+    let geometry = &settled(&args.geometry, args.input.as_deref(), memory, warnings)?;
+    if geometry.to.is_none() {
+        return Err(usage("--to is missing: say which projection the output is to have, as in --to omnimax"));
+    }
     match (&args.input, &geometry.from) {
         (Some(pattern), _) if Builtin::named(pattern)?.is_some() => Err(usage(format!(
             "{pattern} is a formula: nothing is resampled, so there is nothing to explain; for its picture in a projection, \
              explain --from SPEC"
         ))),
         (Some(pattern), from) => {
-            let input = Input::find(pattern, from.as_ref(), None, warnings)?;
+            let input = Input::find(pattern, from.as_ref(), None, memory, warnings)?;
             let pictures = Picture::all(geometry, None, Some(input.pixels_per_radian()))?;
             Ok((input, pictures))
         }

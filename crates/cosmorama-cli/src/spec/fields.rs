@@ -15,6 +15,11 @@ impl<'f> Fields<'f> {
         Self(pairs, folder)
     }
 
+    /// Where it names files.
+    pub(super) fn folder(&self) -> &Path {
+        self.1
+    }
+
     /// A file that the SPEC names.
     pub(super) fn file(&self, key: &str) -> Option<PathBuf> {
         self.get(key).map(|name| self.1.join(name))

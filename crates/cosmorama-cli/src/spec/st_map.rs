@@ -1,4 +1,4 @@
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use cosmorama::sphere::Orientation;
 use cosmorama::world::{Canvas, Mirror};
@@ -25,15 +25,15 @@ pub(crate) struct StMapSpec {
 
 impl StMapSpec {
     pub(super) fn build(fields: &Fields) -> Result<Self, SpecError> {
-        let file = fields.get("file").filter(|file| !file.is_empty()).ok_or(SpecError::Missing {
+        let file = fields.file("file").filter(|_| fields.get("file") != Some("")).ok_or(SpecError::Missing {
             name: "st-map",
             key: "file",
             example: "st-map:file=undistort.exr",
         })?;
         Ok(Self {
-            file: file.into(),
+            file,
             invert: fields.choice("invert", &[("yes", true), ("no", false)])?.unwrap_or_default(),
-            base: fields.get("base").map(base).transpose()?,
+            base: fields.get("base").map(|text| base(text, fields.folder())).transpose()?,
             orientation: fields.orientation()?,
             mirror: fields.mirror()?,
             canvas: fields.canvas("canvas")?,
@@ -42,7 +42,7 @@ impl StMapSpec {
 }
 
 /// A SPEC within a SPEC: its commas are colons.
-fn base(text: &str) -> Result<Single, SpecError> {
+fn base(text: &str, folder: &Path) -> Result<Single, SpecError> {
     let expected = |what: &str| wrong("base", text, what);
     let (name, keys) = text.split_once(':').unwrap_or((text, ""));
     let mut pairs: Vec<String> = Vec::new();
@@ -53,9 +53,12 @@ fn base(text: &str) -> Result<Single, SpecError> {
             _ => pairs.push(part.to_owned()),
         }
     }
-    let spec: Spec = format!("{name}:{}", pairs.join(",")).parse().map_err(|error: SpecError| {
+    let spec = Spec::parse_in(folder, &format!("{name}:{}", pairs.join(","))).map_err(|error| {
         wrong("base", text, format!("a SPEC with colons for commas, as in base=perspective:fov=60 ({error})"))
     })?;
+    if spec.stereo.is_some() {
+        return Err(expected("the picture of one eye, without stereo="));
+    }
     match spec.shape {
         Shape::Single(single) if single.placement.canvas.is_none() => Ok(single),
         Shape::Single(_) => Err(expected("a whole picture, without canvas=")),

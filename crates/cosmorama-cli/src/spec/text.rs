@@ -98,7 +98,11 @@ impl Spec {
             }
         }
         let fields = Fields::new(pairs, folder);
-        Ok(Self { name: kind.name, shape: Shape::build(kind.name, &fields)?, stereo: StereoSpec::build(&fields)? })
+        let (shape, stereo) = (Shape::build(kind.name, &fields)?, StereoSpec::build(&fields)?);
+        if stereo.is_some() && matches!(shape, Shape::StMap(_)) {
+            return Err(SpecError::Both { first: "stereo", second: "file" });
+        }
+        Ok(Self { name: kind.name, shape, stereo })
     }
 }
 

@@ -79,6 +79,15 @@ fn numbers<'a>(what: &str, words: impl IntoIterator<Item = &'a str>) -> Result<V
     words.into_iter().map(number).collect()
 }
 
+/// Numbers as a message shows them: the first, and how many.
+fn brief(numbers: &[f64]) -> String {
+    const SHOWN: usize = 9;
+    match numbers.get(..SHOWN) {
+        Some(first) if numbers.len() > SHOWN => format!("{first:?} and so on, {} numbers", numbers.len()),
+        _ => format!("{numbers:?}"),
+    }
+}
+
 /// Columns and rows: whole numbers above zero that an image may have.
 fn side(what: &str, number: f64) -> Result<usize, String> {
     if (1.0..=f64::from(u32::MAX)).contains(&number) && number.fract() == 0.0 {

@@ -1,4 +1,4 @@
-use super::{Calibration, Distortion, numbers, side};
+use super::{Calibration, Distortion, brief, numbers, side};
 
 /// The most coefficients that are read: more have no meaning at double precision.
 const MOST: usize = 8;
@@ -35,10 +35,10 @@ pub(super) fn parse(text: &str) -> Result<Calibration, String> {
 fn counted(what: &str, numbers: &[f64]) -> Result<Vec<f64>, String> {
     match numbers.split_first() {
         Some((count, rest)) if *count == rest.len() as f64 && !rest.is_empty() => Ok(rest.to_vec()),
-        _ => Err(format!("{what} is {numbers:?}; expected their count and then so many numbers")),
+        _ => Err(format!("{what} is {}; expected their count and then so many numbers", brief(numbers))),
     }
 }
 
 fn exactly<const N: usize>(what: &str, numbers: &[f64]) -> Result<[f64; N], String> {
-    numbers.try_into().map_err(|_| format!("{what}: {numbers:?}; expected {N} numbers"))
+    numbers.try_into().map_err(|_| format!("{what}: {}; expected {N} numbers", brief(numbers)))
 }

@@ -1,5 +1,5 @@
 use super::words::Words;
-use super::{Calibration, Distortion, numbers, side};
+use super::{Calibration, Distortion, brief, numbers, side};
 
 /// What writers call the camera matrix.
 const MATRIX: [&str; 7] =
@@ -46,7 +46,7 @@ pub(super) fn interpret(words: &Words) -> Result<Calibration, String> {
 /// The first two rows; the last is 0, 0, 1.
 fn matrix(name: &str, numbers: &[f64]) -> Result<[[f64; 3]; 2], String> {
     let [a, b, c, d, e, f, 0.0, 0.0, 1.0] = numbers[..] else {
-        return Err(format!("{name} is {numbers:?}; expected fx, skew, cx, 0, fy, cy, 0, 0, 1"));
+        return Err(format!("{name} is {}; expected fx, skew, cx, 0, fy, cy, 0, 0, 1", brief(numbers)));
     };
     if d != 0.0 || a <= 0.0 || e <= 0.0 {
         return Err(format!("{name} begins {a}, {b}, {c}, {d}, {e}, {f}; expected fx > 0, skew, cx, 0, fy > 0, cy"));
@@ -83,6 +83,6 @@ fn size(words: &Words) -> Result<Option<(usize, usize)>, String> {
     };
     match sides[..] {
         [width, height] => Ok(Some((side("the image's width", width)?, side("the image's height", height)?))),
-        _ => Err(format!("the image's size is {sides:?}; expected its width and height")),
+        _ => Err(format!("the image's size is {}; expected its width and height", brief(&sides))),
     }
 }

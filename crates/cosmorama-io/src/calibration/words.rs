@@ -3,9 +3,8 @@
 pub(super) struct Words(Vec<(String, Vec<String>)>);
 
 impl Words {
-    /// Adds a word under a path of names.
+    /// Adds a word under a path of [`name`]s.
     pub(super) fn add(&mut self, path: &[String], word: &str) {
-        let path: Vec<String> = path.iter().map(|name| plain(name)).collect();
         let path = path.join(".");
         match self.0.last_mut().filter(|(last, _)| *last == path) {
             Some((_, words)) => words.push(word.to_owned()),
@@ -14,7 +13,7 @@ impl Words {
     }
 
     /// The words under the first of some names that is there, or under its `data`, wherever it is nested; names as
-    /// [`plain`] has them.
+    /// [`name`] has them.
     pub(super) fn find(&self, names: &[&str]) -> Option<(&str, Vec<&str>)> {
         let is = |path: &str, name: &str| {
             let path = path.strip_suffix(".data").unwrap_or(path);
@@ -25,9 +24,18 @@ impl Words {
     }
 }
 
+/// Bytes of the longest name.
+const LONGEST: usize = 256;
+
 /// A name without what writers differ in: `cameraMatrix`, `camera_matrix` and `Camera_Matrix` are one.
-fn plain(name: &str) -> String {
-    name.chars().filter(|c| c.is_alphanumeric()).flat_map(char::to_lowercase).collect()
+///
+/// # Errors
+/// Where it is so long that it is none: each word repeats the names that it is under.
+pub(super) fn name(text: &str) -> Result<String, String> {
+    if text.len() > LONGEST {
+        return Err(format!("a name of {} bytes; expected a calibration's names", text.len()));
+    }
+    Ok(text.chars().filter(|c| c.is_alphanumeric()).flat_map(char::to_lowercase).collect())
 }
 
 #[cfg(test)]
@@ -37,12 +45,13 @@ mod tests {
     #[test]
     fn names_are_found_however_they_are_written_and_nested() {
         let mut words = Words::default();
-        let path = |names: &[&str]| names.iter().map(|name| (*name).to_owned()).collect::<Vec<_>>();
+        let path = |names: &[&str]| names.iter().map(|text| name(text).expect("short")).collect::<Vec<_>>();
         for word in ["1", "2"] {
             words.add(&path(&["opencv_storage", "Camera_Matrix", "data"]), word);
         }
         words.add(&path(&["mask"]), "7");
         assert_eq!(words.find(&["k", "cameramatrix"]).map(|(_, words)| words), Some(vec!["1", "2"]));
         assert_eq!(words.find(&["matrix"]), None);
+        assert!(name(&"k".repeat(1000)).is_err());
     }
 }

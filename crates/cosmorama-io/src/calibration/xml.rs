@@ -1,6 +1,6 @@
 use roxmltree::{Document, Node};
 
-use super::words::Words;
+use super::words::{Words, name};
 
 /// Deeper nested is no calibration.
 const DEEPEST: usize = 64;
@@ -18,7 +18,7 @@ fn visit(node: Node<'_, '_>, path: &mut Vec<String>, words: &mut Words) -> Resul
     if path.len() > DEEPEST {
         return Err(format!("nested more than {DEEPEST} deep"));
     }
-    path.push(node.tag_name().name().to_owned());
+    path.push(name(node.tag_name().name())?);
     for child in node.children() {
         if child.is_element() {
             visit(child, path, words)?;

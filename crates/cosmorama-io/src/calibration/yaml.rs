@@ -1,6 +1,6 @@
 use yaml_rust2::parser::{Event, Parser};
 
-use super::words::Words;
+use super::words::{Words, name};
 
 /// Deeper nested is no calibration.
 const DEEPEST: usize = 64;
@@ -48,7 +48,10 @@ impl Reader {
     fn read(&mut self, event: Event) -> Result<(), String> {
         match event {
             Event::Alias(_) => return Err("an alias (*NAME); write the values themselves".to_owned()),
-            Event::Scalar(text, ..) => self.scalar(text),
+            Event::Scalar(text, ..) => self.scalar(text)?,
+            Event::SequenceStart(..) | Event::MappingStart(..) if self.name_is_next() => {
+                return Err("a name that is a list or a mapping; expected a word".to_owned());
+            }
             Event::SequenceStart(..) => self.open.push(Open::Sequence),
             Event::MappingStart(..) => self.open.push(Open::Mapping { name_is_next: true }),
             Event::SequenceEnd | Event::MappingEnd => {
@@ -63,16 +66,21 @@ impl Reader {
         Ok(())
     }
 
-    fn scalar(&mut self, text: String) {
+    fn name_is_next(&self) -> bool {
+        matches!(self.open.last(), Some(Open::Mapping { name_is_next: true }))
+    }
+
+    fn scalar(&mut self, text: String) -> Result<(), String> {
         if let Some(Open::Mapping { name_is_next }) = self.open.last_mut()
             && *name_is_next
         {
             *name_is_next = false;
-            self.path.push(text);
-            return;
+            self.path.push(name(&text)?);
+            return Ok(());
         }
         self.words.add(&self.path, &text);
         self.value_is_complete();
+        Ok(())
     }
 
     fn value_is_complete(&mut self) {
@@ -99,6 +107,7 @@ mod tests {
     fn what_never_ends_is_refused() {
         assert!(words(&"[".repeat(100_000)).is_err());
         assert!(words(&"- ".repeat(5000)).is_err_and(|error| error.contains("nested")));
+        assert!(words("? [a, b]\n: 1\n").is_err_and(|error| error.contains("a name that is a list")));
         assert!(words("a: &x [1]\nb: *x\n").is_err_and(|error| error.contains("line 2")));
     }
 }

@@ -77,7 +77,7 @@ impl<'a> Line<'a> {
     /// `S` or another crop: left, right, top, bottom in pixels. One that is empty is none.
     pub(super) fn crop(&self, name: &str) -> Result<Option<[i64; 4]>, String> {
         let Some(text) = self.get(name) else { return Ok(None) };
-        let sides: Option<Vec<i64>> = text.split(',').map(|side| side.parse().ok()).collect();
+        let sides: Option<Vec<i64>> = text.split(',').map(|side| side.parse::<i32>().ok().map(i64::from)).collect();
         let sides: Option<[i64; 4]> = sides.and_then(|sides| sides.try_into().ok());
         match sides {
             Some([0, 0, 0, 0]) => Ok(None),

@@ -34,7 +34,7 @@ impl ViewMask {
         self.distance.get(j * self.width + i).is_some_and(|distance| *distance > 0.0)
     }
 
-    /// Whether anything counts.
+    /// Whether nothing counts.
     pub fn is_empty(&self) -> bool {
         self.distance.iter().all(|distance| *distance == 0.0)
     }
