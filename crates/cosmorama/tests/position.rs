@@ -209,6 +209,17 @@ fn directions_come_back_where_the_ends_of_an_oval_map_meet() {
     }
 }
 
+/// A quarter of a turn from the seam, what is seen here lies edge on beyond it.
+#[test]
+fn directions_come_back_far_from_the_seam_of_an_oval_map() {
+    for (name, source) in whole_worlds(768).into_iter().filter(|(name, _)| *name == "mollweide") {
+        let world = World::new([(name.to_owned(), source)]).expect("one view");
+        let error = worst_position_error(&world, &equirect(256), Filter::DEFAULT, |_| true);
+        println!("from {name}: {error}");
+        assert!(error < POSITION_PROMISE, "from {name}: {error} px");
+    }
+}
+
 /// Radiance times solid angle, over all texels.
 fn power(world: &World, light: &[Rgba]) -> [f64; 3] {
     let of = |c: usize| light.iter().zip(world.solid_angles()).map(|(l, &s)| f64::from(l.0[c]) * f64::from(s)).sum();

@@ -138,6 +138,12 @@ proptest! {
                 held && point.y >= bounds.min.y - 1e-9 && point.y <= bounds.max.y + 1e-9,
                 "{projection:?}: {point:?} is not in {bounds:?}"
             );
+            // Rounding near the border, along the line's direction and across it.
+            let outline = projection.cap_outline(centre, cosmorama::sphere::Angle::from_radians(radius * (1.0 + 1e-6)));
+            let mut spans = Vec::new();
+            outline.cut(point.y, &mut spans);
+            let is_cut = spans.iter().any(|[left, right]| (left - 1e-9..=right + 1e-9).contains(&point.x));
+            prop_assert!(is_cut || projection.period().is_some(), "{projection:?}: {point:?} is not in {outline:?}");
         }
     }
 }

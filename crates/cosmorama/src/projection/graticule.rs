@@ -1,4 +1,4 @@
-use std::f64::consts::{FRAC_PI_2, PI};
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use super::{PlanePoint, PlaneRect};
 use crate::sphere::{Angle, Direction};
@@ -28,9 +28,18 @@ impl Graticule {
         }
     }
 
-    /// The same with all longitudes, once, if it crosses the meridian behind.
-    pub(super) fn within_one_turn(self) -> Self {
-        if self.west >= -PI && self.east <= PI { self } else { Self { west: -PI, east: PI, ..self } }
+    /// The same on a map that ends at the meridian behind: in two parts if it crosses that, with all longitudes if it goes
+    /// round.
+    pub(super) fn parts(self) -> Vec<Self> {
+        let Self { west, east, .. } = self;
+        if west >= -PI && east <= PI {
+            vec![self]
+        } else if east - west >= TAU {
+            vec![Self { west: -PI, east: PI, ..self }]
+        } else {
+            let (west, east) = ((west + PI).rem_euclid(TAU) - PI, (east + PI).rem_euclid(TAU) - PI);
+            vec![Self { west, east: PI, ..self }, Self { west: -PI, east, ..self }]
+        }
     }
 
     /// The rectangle of the plane that holds the box's image, for a mapping of longitude and latitude in which x rises with
@@ -38,10 +47,7 @@ impl Graticule {
     /// it: as in every map that is symmetrical about its middle.
     pub(super) fn bounds(self, place: impl Fn(f64, f64) -> PlanePoint) -> PlaneRect {
         let with_least = |low: f64, high: f64| [low, high, 0f64.clamp(low, high)];
-        let mut rect = PlaneRect {
-            min: PlanePoint::new(f64::INFINITY, f64::INFINITY),
-            max: PlanePoint::new(f64::NEG_INFINITY, f64::NEG_INFINITY),
-        };
+        let mut rect = PlaneRect::NOTHING;
         for longitude in with_least(self.west, self.east) {
             for latitude in with_least(self.south, self.north) {
                 rect = rect.with(place(longitude, latitude));

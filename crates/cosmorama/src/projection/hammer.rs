@@ -3,7 +3,7 @@ use std::f64::consts::SQRT_2;
 use glam::DVec3;
 
 use super::graticule::Graticule;
-use super::{PlanePoint, PlaneRect, Projection, meridian};
+use super::{Outline, PlanePoint, PlaneRect, Projection, meridian};
 use crate::sphere::{Angle, Direction, DirectionJacobian};
 
 /// Hammer's map, in an ellipse 2√2 by √2 to each side: Lambert's equal-area view of the hemisphere on which longitudes are
@@ -94,10 +94,16 @@ impl Projection for Hammer {
     }
 
     fn cap_bounds(&self, centre: Direction, radius: Angle) -> PlaneRect {
-        Graticule::around(centre, radius).within_one_turn().bounds(|longitude, latitude| {
+        self.cap_outline(centre, radius).bounds()
+    }
+
+    fn cap_outline(&self, centre: Direction, radius: Angle) -> Outline {
+        let place = |longitude: f64, latitude: f64| {
             let ((sin_lon, cos_lon), (sin_lat, cos_lat)) = ((longitude / 2.0).sin_cos(), latitude.sin_cos());
             let scale = SQRT_2 / (1.0 + cos_lat * cos_lon).sqrt();
             PlanePoint::new(2.0 * cos_lat * sin_lon * scale, sin_lat * scale)
-        })
+        };
+        let parts = Graticule::around(centre, radius).parts();
+        Outline::Rects(parts.into_iter().map(|part| part.bounds(place)).collect())
     }
 }

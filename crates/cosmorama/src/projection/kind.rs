@@ -5,7 +5,7 @@ use super::cylindrical::{Central, Cylindrical, EqualArea, Equirectangular, Merca
 use super::pseudocylindrical::{Mollweide, Pseudocylindrical, Sinusoidal};
 use super::{
     BrownConrady, BrownConradyCoefficients, Calibrated, EquiAngular, Hammer, MirrorBall, Octahedral, OctahedralKind,
-    Pannini, Perspective, PlanePoint, PlaneRect, Projection, StMap,
+    Outline, Pannini, Perspective, PlanePoint, PlaneRect, Projection, StMap,
 };
 use crate::sphere::{Angle, Direction, DirectionJacobian};
 
@@ -190,6 +190,10 @@ impl Projection for ProjectionKind {
 
     fn cap_bounds(&self, centre: Direction, radius: Angle) -> PlaneRect {
         each!(self, projection => projection.cap_bounds(centre, radius))
+    }
+
+    fn cap_outline(&self, centre: Direction, radius: Angle) -> Outline {
+        each!(self, projection => projection.cap_outline(centre, radius))
     }
 
     fn period(&self) -> Option<f64> {

@@ -1,7 +1,7 @@
 use glam::{DVec2, DVec3};
 
 use super::azimuthal::{Azimuthal, BallLens};
-use super::{PlanePoint, PlaneRect, Projection};
+use super::{Outline, PlanePoint, PlaneRect, Projection};
 use crate::sphere::{Angle, Direction, DirectionJacobian};
 
 /// A mirror ball as photographed: the plane's unit is the radius of the ball's outline. The middle shows what is behind the
@@ -64,5 +64,9 @@ impl Projection for MirrorBall {
 
     fn cap_bounds(&self, centre: Direction, radius: Angle) -> PlaneRect {
         self.0.cap_bounds(turned(centre), radius)
+    }
+
+    fn cap_outline(&self, centre: Direction, radius: Angle) -> Outline {
+        self.0.cap_outline(turned(centre), radius)
     }
 }

@@ -14,6 +14,7 @@ mod kind;
 mod meridian;
 mod mirror_ball;
 mod octahedral;
+mod outline;
 mod pannini;
 mod perspective;
 mod plane;
@@ -28,6 +29,7 @@ pub use hammer::Hammer;
 pub use kind::ProjectionKind;
 pub use mirror_ball::MirrorBall;
 pub use octahedral::{Octahedral, OctahedralKind};
+pub use outline::{Outline, Ring, Sector};
 pub use pannini::Pannini;
 pub use perspective::Perspective;
 pub use plane::{PlanePoint, PlaneRect};
@@ -91,6 +93,12 @@ pub trait Projection {
 
     /// The rectangle of the plane that holds every direction within `radius` of `centre`.
     fn cap_bounds(&self, centre: Direction, radius: Angle) -> PlaneRect;
+
+    /// The part of the plane that holds every direction within `radius` of `centre`, for maps that have a cap at a rim or a
+    /// seam in places far from each other.
+    fn cap_outline(&self, centre: Direction, radius: Angle) -> Outline {
+        Outline::Rects(vec![self.cap_bounds(centre, radius)])
+    }
 
     /// The distance after which x repeats, where the plane is a rolled-out cylinder.
     fn period(&self) -> Option<f64> {

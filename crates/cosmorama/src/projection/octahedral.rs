@@ -1,8 +1,8 @@
 use std::f64::consts::FRAC_PI_2;
 
-use glam::{DVec2, DVec3};
+use glam::DVec3;
 
-use super::{PlanePoint, PlaneRect, Projection};
+use super::{Outline, PlanePoint, PlaneRect, Projection};
 use crate::sphere::{Angle, Direction, DirectionJacobian};
 
 /// How the sphere is laid onto an octahedron.
@@ -126,16 +126,17 @@ impl Projection for Octahedral {
     }
 
     fn cap_bounds(&self, centre: Direction, radius: Angle) -> PlaneRect {
+        self.cap_outline(centre, radius).bounds()
+    }
+
+    fn cap_outline(&self, centre: Direction, radius: Angle) -> Outline {
         let vector = centre.vector();
         let (reach, sine) = (FASTEST * radius.radians(), radius.radians().min(FRAC_PI_2).sin());
         let (x, y) = self.0.place(vector.x.abs(), vector.y.abs(), vector.z.abs());
-        let mut rect: Option<PlaneRect> = None;
+        let mut rects = Vec::new();
         let mut add = |x: f64, y: f64| {
-            let corners = [DVec2::splat(-reach), DVec2::splat(reach)].map(|by| DVec2::new(x, y) + by);
-            for corner in corners.map(|corner| corner.clamp(DVec2::NEG_ONE, DVec2::ONE)) {
-                let point = PlanePoint::new(corner.x, corner.y);
-                rect = Some(rect.map_or(PlaneRect { min: point, max: point }, |rect| rect.with(point)));
-            }
+            let corner = |by: f64| PlanePoint::new((x + by).clamp(-1.0, 1.0), (y + by).clamp(-1.0, 1.0));
+            rects.push(PlaneRect { min: corner(-reach), max: corner(reach) });
         };
         // Ahead the picture is in one piece; behind, each quarter that the cap touches has its own.
         if vector.z - sine <= 0.0 {
@@ -149,6 +150,6 @@ impl Projection for Octahedral {
                 }
             }
         }
-        rect.unwrap_or(PlaneRect::EVERYTHING)
+        Outline::Rects(rects)
     }
 }

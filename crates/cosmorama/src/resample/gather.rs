@@ -7,7 +7,7 @@ use glam::{DMat2, DVec2};
 
 use super::bend::Bend;
 use super::candidates::{Candidate, settle};
-use super::cap::{Cap, texels_within};
+use super::cap::{Cap, each_run_within};
 use super::field_edge::FieldEdge;
 use super::kernel::KernelTable;
 use super::patch::Grid;
@@ -270,18 +270,21 @@ impl<'a> Gather<'a> {
         // Beyond a seam texels lie otherwise: weighed by this side's ellipse, a thin one might miss them all.
         let beyond = source.view.beyond_seam(footprint.direction).and_then(|direction| {
             let (_, jacobian) = source.view.texel_footprint(&Footprint { direction, ..*footprint })?;
-            Some((direction.vector() - here, jacobian))
+            // So far away, none of them counts, and what is seen here may lie edge on there.
+            let across = direction.vector() - here;
+            (across.length() < 2.0 * radius).then_some((across, jacobian))
         });
         // On a seam the lattices of both sides mirror each other, and a quarter of the disc may be empty on both.
-        let nearness = beyond.map_or(0.0, |(across, _)| (1.0 - 0.5 * across.length() / radius).max(0.0));
+        let nearness = beyond.map_or(0.0, |(across, _)| 1.0 - 0.5 * across.length() / radius);
         let widening = 1.0 + (RIM_FLOOR - 1.0) * nearness;
         let ellipse = |jacobian: DMat2| Ellipse::new(jacobian * kernel.scale, self.floor(place) * widening);
         let beyond = beyond.map(|(across, jacobian)| (across, ellipse(jacobian), jacobian * to_screen));
         let ellipse = ellipse(jacobian);
-        let Some(bounds) = texels_within(source, footprint.direction, radius * widening) else { return };
-        for j in bounds.top..bounds.bottom {
+        let longest = ellipse.longest(to_texels).max(beyond.map_or(0.0, |(_, ellipse, other)| ellipse.longest(other)));
+        let reach = (self.table.kernel().radius() * longest * source.texel_pitch).min(1.0).asin();
+        each_run_within(source, footprint.direction, reach, |j, columns| {
             let row = source.offset + j * source.view.width();
-            source.view.row_directions(j, bounds.left..bounds.right, |i, texel| {
+            source.view.row_directions(j, columns, |i, texel| {
                 let offset = in_tangent_plane(texel.vector() - here);
                 let here = ellipse.distance_squared(to_texels * offset);
                 let q = beyond.as_ref().map_or(here, |(across, ellipse, to_texels)| {
@@ -297,7 +300,7 @@ impl<'a> Gather<'a> {
                     self.candidates.push(self.table.candidate(row + i, solid_angle, q, coarseness, offset));
                 }
             });
-        }
+        });
     }
 }
 

@@ -3,7 +3,7 @@ use std::ops::Range;
 use glam::{DMat2, DVec2};
 
 use super::{FieldStop, PixelGrid, PixelPoint};
-use crate::projection::{PlanePoint, PlaneRect, Projection, ProjectionKind};
+use crate::projection::{Outline, PlanePoint, PlaneRect, Projection, ProjectionKind};
 use crate::sphere::{Angle, Direction, DirectionJacobian, Orientation};
 
 /// What a screen pixel sees of the world, to first order: the direction of a point of it, and how that direction moves
@@ -195,6 +195,11 @@ impl View {
         let plane = self.projection.cap_bounds(self.orientation.to_view(centre), radius);
         let (a, b) = (self.grid.to_pixel(plane.min), self.grid.to_pixel(plane.max));
         PlaneRect { min: PlanePoint::new(a.x.min(b.x), a.y.min(b.y)), max: PlanePoint::new(a.x.max(b.x), a.y.max(b.y)) }
+    }
+
+    /// The part of the projection's plane that holds every direction within `radius` of a direction of the world.
+    pub(crate) fn cap_outline(&self, centre: Direction, radius: Angle) -> Outline {
+        self.projection.cap_outline(self.orientation.to_view(centre), radius)
     }
 
     /// The same point in the turn that the image shows.

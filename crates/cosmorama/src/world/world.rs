@@ -74,6 +74,16 @@ impl Source {
         let texel = self.view.pixel(direction).and_then(|pixel| self.view.texel(pixel));
         texel.map_or(self.texel_pitch, |texel| (texel.dx.length_squared() + texel.dy.length_squared()).sqrt())
     }
+
+    /// The same for all that is within `radius` radians of a direction. Towards a steep rim texels grow no faster than the way
+    /// to it shrinks.
+    pub(crate) fn texel_pitch_within(&self, direction: Direction, radius: f64) -> f64 {
+        let margin = self.view.margin(direction);
+        if 2.0 * radius > margin {
+            return self.texel_pitch;
+        }
+        self.texel_pitch.min(self.texel_pitch_at(direction) * margin / (margin - radius))
+    }
 }
 
 impl Source {

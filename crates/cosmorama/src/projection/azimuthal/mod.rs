@@ -41,7 +41,7 @@ use std::f64::consts::PI;
 
 use glam::DVec3;
 
-use super::{PlanePoint, PlaneRect, Projection};
+use super::{Outline, PlanePoint, PlaneRect, Projection, Ring, Sector};
 use crate::sphere::{Angle, Direction, DirectionJacobian};
 
 /// The projection of a [`Lens`]: the plane's unit is the lens's own unit of radius, its origin the axis.
@@ -99,37 +99,22 @@ impl<L: Lens> Projection for Azimuthal<L> {
     }
 
     fn cap_bounds(&self, centre: Direction, radius: Angle) -> PlaneRect {
-        let axis_angle = Direction::FRONT.angle_to(centre);
-        // No further than there is an image: what sees more of a cap than the rim's circle holds does not see all of it.
-        let Some(outer) = self.0.radius((axis_angle + radius).radians().min(self.0.reach())) else {
-            return PlaneRect::EVERYTHING;
-        };
-        if axis_angle <= radius || (axis_angle + radius).degrees() >= 180.0 {
-            return PlaneRect { min: PlanePoint::new(-outer, -outer), max: PlanePoint::new(outer, outer) };
-        }
-        // A ring sector: between two radii, and as wide as the cap is in azimuth.
-        let inner = self.0.radius((axis_angle - radius).radians()).unwrap_or(0.0);
-        let azimuth = centre.vector().y.atan2(centre.vector().x);
-        let half_width = (radius.radians().sin() / axis_angle.radians().sin()).min(1.0).asin();
-        let (min_cos, max_cos) = cosine_range(azimuth, half_width);
-        let (min_sin, max_sin) = cosine_range(azimuth - std::f64::consts::FRAC_PI_2, half_width);
-        let low = |c: f64| if c < 0.0 { c * outer } else { c * inner };
-        let high = |c: f64| if c > 0.0 { c * outer } else { c * inner };
-        PlaneRect {
-            min: PlanePoint::new(low(min_cos), low(min_sin)),
-            max: PlanePoint::new(high(max_cos), high(max_sin)),
-        }
+        self.cap_outline(centre, radius).bounds()
     }
-}
 
-/// Least and greatest cosine of the angles within `half_width` ≤ π/2 of `centre`.
-fn cosine_range(centre: f64, half_width: f64) -> (f64, f64) {
-    use std::f64::consts::TAU;
-    let (a, b) = ((centre - half_width).cos(), (centre + half_width).cos());
-    let reaches = |angle: f64| (centre - angle + PI).rem_euclid(TAU) - PI;
-    let min = if reaches(PI).abs() <= half_width { -1.0 } else { a.min(b) };
-    let max = if reaches(0.0).abs() <= half_width { 1.0 } else { a.max(b) };
-    (min, max)
+    fn cap_outline(&self, centre: Direction, radius: Angle) -> Outline {
+        let (from_axis, radius) = (Direction::FRONT.angle_to(centre).radians(), radius.radians());
+        // No further than there is an image: what sees more of a cap than the rim's circle holds does not see all of it.
+        let at = |angle: f64| self.0.radius(angle.clamp(0.0, self.0.reach()));
+        let Some(outer) = at(from_axis + radius) else { return Outline::Rects(vec![PlaneRect::EVERYTHING]) };
+        let inner = at(from_axis - radius).unwrap_or(0.0);
+        // Around the axis, or what is straight behind, it goes all the way round; else it is as wide as it is in azimuth.
+        let sector = (from_axis > radius && from_axis + radius < PI).then(|| Sector {
+            azimuth: centre.vector().y.atan2(centre.vector().x),
+            half_width: (radius.sin() / from_axis.sin()).min(1.0).asin(),
+        });
+        Outline::Ring(Ring { inner, outer, sector })
+    }
 }
 
 /// √(x² + y²) for coordinates that cannot overflow: several times faster than `hypot`.

@@ -12,7 +12,7 @@ use glam::{DVec2, DVec3};
 
 use super::cylindrical::Latitude;
 use super::graticule::Graticule;
-use super::{PlanePoint, PlaneRect, Projection, meridian};
+use super::{Outline, PlanePoint, PlaneRect, Projection, meridian};
 use crate::sphere::{Angle, Direction, DirectionJacobian};
 
 /// Where the parallels of a map lie.
@@ -116,10 +116,16 @@ impl<M: Parallels> Projection for Pseudocylindrical<M> {
     }
 
     fn cap_bounds(&self, centre: Direction, radius: Angle) -> PlaneRect {
-        Graticule::around(centre, radius).within_one_turn().bounds(|longitude, latitude| {
+        self.cap_outline(centre, radius).bounds()
+    }
+
+    fn cap_outline(&self, centre: Direction, radius: Angle) -> Outline {
+        let place = |longitude: f64, latitude: f64| {
             let (sin, cos) = latitude.sin_cos();
             let (height, width) = self.0.place(Latitude { sin, cos: cos.max(0.0) });
             PlanePoint::new(longitude * width, height)
-        })
+        };
+        let parts = Graticule::around(centre, radius).parts();
+        Outline::Rects(parts.into_iter().map(|part| part.bounds(place)).collect())
     }
 }
