@@ -45,6 +45,21 @@ fn directions_come_back_from_cube_faces() {
     }
 }
 
+/// Where a lens's field touches an edge of the cube, the face beyond is not needed, and not there.
+#[test]
+fn directions_come_back_where_a_field_touches_faces_that_are_not_there() {
+    let four = [CubeFace::Front, CubeFace::Left, CubeFace::Right, CubeFace::Up];
+    for (name, faces, edge, target) in [
+        ("omnimax", &four[..], 256, omnimax(983, 718)),
+        ("omnimax, enlarged", &four[..], 256, omnimax(1966, 1436)),
+        ("a fisheye inside one face", &four[..1], 256, fisheye(601, 90.0)),
+    ] {
+        let error = worst_position_error(&cube(faces, edge, edge), &target, Filter::DEFAULT, |_| true);
+        println!("{name}: {error:.4} px");
+        assert!(error < 2.0 * POSITION_TOLERANCE, "{name}: {error} px");
+    }
+}
+
 /// A large texel's negative lobe must not outweigh the small ones beside it.
 #[test]
 fn directions_come_back_where_faces_of_different_sizes_meet() {

@@ -11,7 +11,7 @@ use super::cap::{Cap, each_run_within};
 use super::field_edge::FieldEdge;
 use super::kernel::KernelTable;
 use super::patch::Grid;
-use super::{Ellipse, Kernel, Taps, lookup};
+use super::{Ellipse, Kernel, Taps, lookup, surround};
 use crate::projection::Projection;
 use crate::sphere::Direction;
 use crate::world::{FieldStop, Footprint, PixelPoint, Source, View, World};
@@ -69,7 +69,8 @@ impl<'a> Gather<'a> {
     pub(super) fn taps(&mut self, footprint: &Footprint, taps: &mut Taps) {
         taps.clear();
         let centred = self.table.kernel().centred;
-        let at_rim = self.collect(footprint, Place::Inside) && centred;
+        let ends_under = self.collect(footprint, Place::Inside);
+        let at_rim = centred && (ends_under || self.ends_beside());
         if at_rim {
             self.collect(footprint, Place::Rim);
         }
@@ -80,6 +81,11 @@ impl<'a> Gather<'a> {
         if taps.is_empty() {
             lookup::nearest(self.world, footprint.direction, |texel, weight| taps.push_under(texel, weight as f32));
         }
+    }
+
+    /// Whether all texels that count lie to one side: beyond them there is no view, or none that anybody needed to give.
+    fn ends_beside(&self) -> bool {
+        !self.candidates.is_empty() && surround::reach(&self.candidates).is_none()
     }
 
     /// Finds the texels that count; true if the field of view ends under the pixel.
