@@ -28,7 +28,7 @@ impl StPairs {
 /// v, s and t, x and y, also in a layer); integers as parts of their greatest value.
 ///
 /// # Errors
-/// When there are not two channels, and those of [`read`].
+/// When there are not two channels or no more than 8 bits, and those of [`read`].
 pub fn read_pairs(path: &Path, limits: &Limits) -> Result<StPairs, IoError> {
     let (format, mut source) = open(path)?;
     let file = if format == Format::Exr { exr::read_pairs(path, &mut source, limits)? } else { read(path, limits)? };
@@ -43,7 +43,14 @@ pub fn read_pairs(path: &Path, limits: &Limits) -> Result<StPairs, IoError> {
     let first_two = |numbers: Vec<f32>| numbers.chunks_exact(count).map(|pixel| [pixel[0], pixel[1]]).collect();
     let greatest = f32::from(u16::MAX);
     let pairs: Vec<[f32; 2]> = first_two(match image.into_samples() {
-        Samples::U8(samples) => samples.into_iter().map(|sample| f32::from(sample) / 255.0).collect(),
+        Samples::U8(_) => {
+            return Err(IoError::unsupported(
+                path,
+                format,
+                "8 bits",
+                "an st map of 16 bits or more, 32-bit floats at best",
+            ));
+        }
         Samples::U16(samples) => samples.into_iter().map(|sample| f32::from(sample) / greatest).collect(),
         Samples::Half(samples) => samples.into_iter().map(f32::from).collect(),
         Samples::Float(samples) => samples,

@@ -123,7 +123,11 @@ pub(super) fn each_run_within(
         let y = grid.to_plane(PixelPoint::centre(rect.left, j)).y;
         spans.clear();
         outline.cut(y, &mut spans);
-        spans.iter_mut().for_each(|span| *span = span.map(|x| column(x, y)));
+        for span in &mut spans {
+            let [a, b] = span.map(|x| column(x, y));
+            // In a mirrored image, columns run against x.
+            *span = [a.min(b), a.max(b)];
+        }
         spans.sort_unstable_by(|a, b| a[0].total_cmp(&b[0]));
         let mut done = rect.left;
         for [left, right] in &spans {
