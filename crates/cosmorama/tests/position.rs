@@ -3,7 +3,7 @@
 use cosmorama::raster::Rgba;
 use cosmorama::resample::{CrossSection, Filter, FilterKind, Kernel, Resampler};
 use cosmorama::sphere::CubeFace;
-use cosmorama::world::{ScreenPixel, View, World};
+use cosmorama::world::{EquirectFrame, Frame, SamplePositions, ScreenPixel, View, World};
 use testkit::{
     cube, equirect, fisheye, light_by_direction, omnimax, partial_worlds, perspective, position_error, whole_worlds,
 };
@@ -42,6 +42,28 @@ fn directions_come_back_from_cube_faces() {
     for (name, target) in targets {
         let error = worst_position_error(&world, &target, Filter::DEFAULT, |_| true);
         assert!(error < POSITION_TOLERANCE, "{name}: {error} px");
+    }
+}
+
+/// A row of texels on the very pole.
+#[test]
+fn directions_come_back_at_poles_with_samples_on_the_edges() {
+    let frame = Frame::Equirect(EquirectFrame { samples: SamplePositions::Edges, ..EquirectFrame::default() });
+    let panorama = |width| frame.view(width, width / 2).expect("a size");
+    for (from, to) in [(1024, 1024), (512, 512), (1024, 500), (1024, 100), (300, 1024)] {
+        let world = World::new([("panorama".to_owned(), panorama(from))]).expect("one view");
+        let (target, light) = (panorama(to), light_by_direction(&world, |d| d.vector().to_array().map(|c| c as f32)));
+        let image = Resampler { world: &world, target: &target, filter: Filter::DEFAULT }.render(&light);
+        for (j, i) in (0..image.height()).flat_map(|j| (0..image.width()).map(move |i| (j, i))) {
+            let screen = target.screen_pixel(i, j).expect("a panorama looks everywhere");
+            let Rgba([x, y, z, _]) = *image.get(i, j);
+            let here = screen.footprint.direction.vector();
+            // What is averaged over a wide pixel gets shorter; that is no displacement.
+            let off = glam::DVec3::new(x.into(), y.into(), z.into()).reject_from_normalized(here);
+            // Rows are apart by this everywhere; at the pole a pixel has no width to measure by.
+            let error = off.length() / screen.footprint.jacobian.dy.length();
+            assert!(error < 2.0 * POSITION_TOLERANCE, "{from} to {to}: {error} px at {i}, {j}");
+        }
     }
 }
 

@@ -3,7 +3,7 @@
 //! Each view tests only texels that it owns, in its own plane, with its own ellipse; each weight is multiplied by the
 //! texel's solid angle. No padded borders, no double counting: what one view leaves the next one has.
 
-use glam::{DMat2, DVec2};
+use glam::{DMat2, DVec2, DVec3};
 
 use super::bend::Bend;
 use super::candidates::{Candidate, settle};
@@ -13,7 +13,7 @@ use super::kernel::KernelTable;
 use super::patch::Grid;
 use super::{Ellipse, Kernel, Taps, lookup, surround};
 use crate::projection::Projection;
-use crate::sphere::Direction;
+use crate::sphere::{Direction, DirectionJacobian};
 use crate::world::{FieldStop, Footprint, PixelPoint, Source, View, World};
 
 /// A mapping is taken as linear over a kernel that is smaller than this part of the way to its nearest singularity. At a
@@ -68,6 +68,7 @@ impl<'a> Gather<'a> {
     /// The taps of a footprint, weights adding to one; none where no view is near.
     pub(super) fn taps(&mut self, footprint: &Footprint, taps: &mut Taps) {
         taps.clear();
+        let footprint = &with_width(*footprint);
         let centred = self.table.kernel().centred;
         let ends_under = self.collect(footprint, Place::Inside);
         let at_rim = centred && (ends_under || self.ends_beside());
@@ -310,12 +311,40 @@ impl<'a> Gather<'a> {
     }
 }
 
+/// A pixel whose sides are narrower than this part of their length has no width, as on the very pole of a panorama.
+const NO_WIDTH: f64 = 1e-6;
+
+/// What a pixel without width is taken to have of its length: far less than any texel's floor, but offsets across it can
+/// still be told.
+const SOME_WIDTH: f64 = 0.01;
+
+/// The same footprint, if it has any width; else a narrow one.
+fn with_width(footprint: Footprint) -> Footprint {
+    let Footprint { direction, jacobian: DirectionJacobian { dx, dy } } = footprint;
+    let across = |side: DVec3| direction.vector().cross(side) * SOME_WIDTH;
+    let (x, y) = (dx.length(), dy.length());
+    let jacobian = if x <= NO_WIDTH * y {
+        DirectionJacobian { dx: -across(dy), dy }
+    } else if y <= NO_WIDTH * x {
+        DirectionJacobian { dx, dy: across(dx) }
+    } else {
+        return footprint;
+    };
+    Footprint { direction, jacobian }
+}
+
 /// The footprint in texels, in those of a panorama's outermost row where it lies beyond their centres: texels nearer to a
 /// pole would be narrower, but there are none.
 fn footprint_among_texels(source: &Source, footprint: &Footprint) -> Option<DMat2> {
     let (centre, jacobian) = source.view.texel_footprint(footprint)?;
-    let nearest = PixelPoint::new(centre.x, centre.y.clamp(0.5, source.view.height() as f64 - 0.5));
-    if source.period.is_none() || nearest == centre {
+    if source.period.is_none() {
+        return Some(jacobian);
+    }
+    let row = |inset: f64| PixelPoint::new(centre.x, centre.y.clamp(inset, source.view.height() as f64 - inset));
+    // With samples on the edges the outermost row is the pole itself: half a texel beside it, as without.
+    let is_pole = |at| source.view.direction(at).is_some_and(|d| source.view.margin(d) < 0.25 * source.texel_pitch);
+    let nearest = if is_pole(row(0.5)) { row(1.0) } else { row(0.5) };
+    if nearest == centre {
         return Some(jacobian);
     }
     let there = Footprint { direction: source.view.direction(nearest)?, ..*footprint };
