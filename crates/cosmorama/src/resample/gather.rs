@@ -11,6 +11,7 @@ use super::cap::{Cap, each_run_within};
 use super::field_edge::FieldEdge;
 use super::kernel::KernelTable;
 use super::patch::Grid;
+use super::texel_run::{Run, TexelBox, ceil, floor, runs_around};
 use super::{Ellipse, Kernel, Taps, lookup, surround};
 use crate::projection::Projection;
 use crate::sphere::{Direction, DirectionJacobian};
@@ -48,14 +49,6 @@ pub(super) struct Gather<'a> {
     candidates: Vec<Candidate>,
     /// The view that held all of the last footprint: the likeliest for the next.
     last: usize,
-}
-
-/// Columns and rows of texels, both ends included; columns may run past a panorama's edges.
-struct TexelBox {
-    left: i64,
-    right: i64,
-    top: i64,
-    bottom: i64,
 }
 
 impl<'a> Gather<'a> {
@@ -356,51 +349,4 @@ fn is_linear(source: &Source, footprint: &Footprint, radius: f64, margin: f64) -
     let pixel = || footprint.jacobian.solid_angle().sqrt();
     radius < LINEAR_PART * margin
         && (!source.view.projection.has_steep_rim() || radius * radius < STEEP_PART * margin * pixel())
-}
-
-impl TexelBox {
-    /// All texels whose centres are within `reach` of a point.
-    fn around(centre: PixelPoint, reach: DVec2) -> Self {
-        Self {
-            left: ceil(centre.x - reach.x - 0.5),
-            right: floor(centre.x + reach.x - 0.5),
-            top: ceil(centre.y - reach.y - 0.5),
-            bottom: floor(centre.y + reach.y - 0.5),
-        }
-    }
-}
-
-/// A run of texels in one row: its first column in the image, the same column counted on past the image's
-/// edge, and its length.
-struct Run {
-    column: usize,
-    unrolled: i64,
-    length: usize,
-}
-
-impl Run {
-    /// Columns `left..end` of the image's turn that starts at `turn`; an empty run if there are none.
-    fn within(left: i64, end: i64, turn: i64) -> Self {
-        Self { column: (left - turn) as usize, unrolled: left, length: (end - left).max(0) as usize }
-    }
-}
-
-/// The runs of the columns `left..end` of a panorama: one, or where they cross its edge, one for each turn.
-fn runs_around(source: &Source, period: i64, left: i64, end: i64) -> impl Iterator<Item = Run> + use<> {
-    // Never the same texel twice.
-    let (end, width) = (end.min(left + period), (source.view.width() as i64).min(period));
-    let turns = if left < end { left.div_euclid(period)..(end - 1).div_euclid(period) + 1 } else { 0..0 };
-    turns.map(move |k| Run::within(left.max(k * period), end.min(k * period + width), k * period))
-}
-
-/// The largest integer that is not greater. Without SSE4.1 `f64::floor` is a call, and every row of texels needs it.
-fn floor(value: f64) -> i64 {
-    let truncated = value as i64;
-    truncated - i64::from(value < truncated as f64)
-}
-
-/// The smallest integer that is not less.
-fn ceil(value: f64) -> i64 {
-    let truncated = value as i64;
-    truncated + i64::from(value > truncated as f64)
 }

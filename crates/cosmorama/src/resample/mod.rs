@@ -24,6 +24,7 @@ mod screen_mask;
 mod slope;
 mod surround;
 mod taps;
+mod texel_run;
 mod window;
 
 pub use ellipse::Ellipse;

@@ -1,0 +1,60 @@
+//! The texels that a kernel reaches, as runs of a row.
+
+use glam::DVec2;
+
+use crate::world::{PixelPoint, Source};
+
+/// Columns and rows of texels, both ends included; columns may run past a panorama's edges.
+pub(super) struct TexelBox {
+    pub(super) left: i64,
+    pub(super) right: i64,
+    pub(super) top: i64,
+    pub(super) bottom: i64,
+}
+
+impl TexelBox {
+    /// All texels whose centres are within `reach` of a point.
+    pub(super) fn around(centre: PixelPoint, reach: DVec2) -> Self {
+        Self {
+            left: ceil(centre.x - reach.x - 0.5),
+            right: floor(centre.x + reach.x - 0.5),
+            top: ceil(centre.y - reach.y - 0.5),
+            bottom: floor(centre.y + reach.y - 0.5),
+        }
+    }
+}
+
+/// A run of texels in one row: its first column in the image, the same column counted on past the image's
+/// edge, and its length.
+pub(super) struct Run {
+    pub(super) column: usize,
+    pub(super) unrolled: i64,
+    pub(super) length: usize,
+}
+
+impl Run {
+    /// Columns `left..end` of the image's turn that starts at `turn`; an empty run if there are none.
+    pub(super) fn within(left: i64, end: i64, turn: i64) -> Self {
+        Self { column: (left - turn) as usize, unrolled: left, length: (end - left).max(0) as usize }
+    }
+}
+
+/// The runs of the columns `left..end` of a panorama: one, or where they cross its edge, one for each turn.
+pub(super) fn runs_around(source: &Source, period: i64, left: i64, end: i64) -> impl Iterator<Item = Run> + use<> {
+    // Never the same texel twice.
+    let (end, width) = (end.min(left + period), (source.view.width() as i64).min(period));
+    let turns = if left < end { left.div_euclid(period)..(end - 1).div_euclid(period) + 1 } else { 0..0 };
+    turns.map(move |k| Run::within(left.max(k * period), end.min(k * period + width), k * period))
+}
+
+/// The largest integer that is not greater. Without SSE4.1 `f64::floor` is a call, and every row of texels needs it.
+pub(super) fn floor(value: f64) -> i64 {
+    let truncated = value as i64;
+    truncated - i64::from(value < truncated as f64)
+}
+
+/// The smallest integer that is not less.
+pub(super) fn ceil(value: f64) -> i64 {
+    let truncated = value as i64;
+    truncated + i64::from(value > truncated as f64)
+}
