@@ -17,9 +17,6 @@ fn detail(direction: Direction) -> [f32; 3] {
 /// No step on an edge is larger, of a contrast of one: an eighth of a code value of eight bits.
 const STEP: f64 = 0.0005;
 
-/// By so much, a four-hundredth of a code value of eight bits, what is largest of so many steps differs by chance.
-const NOTHING: f64 = 0.00001;
-
 const JUDGE: Filter = Filter { kind: FilterKind::Reference { samples: 3 }, ..Filter::DEFAULT };
 
 /// Pixels beside an edge with which the edge itself is compared: the same texels, the same light, but no crossing.
@@ -60,18 +57,24 @@ fn largest_steps(
     steps
 }
 
-/// Across an edge the filter's step stands out from those beside it no more than the reference's does, and not at all.
+/// Across an edge the filter's step stands out from those beside it nowhere, and of all edges together no more than the
+/// reference's does: at a single edge the largest of so few steps is as chance has it.
 fn assert_no_seam(world: &World, targets: &[(&str, View)], on_edge: impl Fn(Direction, Direction) -> bool + Copy) {
+    let (mut largest, mut judged) = ([0f64; 2], [0f64; 2]);
     for (name, target) in targets {
-        let [beside, across] = largest_steps(world, target, Filter::DEFAULT, on_edge);
-        let [judge_beside, judge_across] = largest_steps(world, target, JUDGE, on_edge);
+        let steps = largest_steps(world, target, Filter::DEFAULT, on_edge);
+        let [beside, across] = steps;
         assert!(across > 0.0 && beside > 0.0, "{name}: no edge in the picture");
-        let (seam, judged) = (across / beside, judge_across / judge_beside);
-        assert!(
-            across <= judged.min(1.0) * beside + NOTHING && across < STEP,
-            "{name}: the step across is {seam} of those beside, by the reference {judged}; {across} at most"
-        );
+        assert!(across <= beside && across < STEP, "{name}: {across} across, {beside} beside");
+        let judge = largest_steps(world, target, JUDGE, on_edge);
+        for k in 0..2 {
+            largest[k] = largest[k].max(steps[k]);
+            judged[k] = judged[k].max(judge[k]);
+        }
     }
+    let (seam, judged) = (largest[1] / largest[0], judged[1] / judged[0]);
+    println!("the step across is {seam:.4} of those beside, by the reference {judged:.4}");
+    assert!(seam <= judged, "the step across is {seam} of those beside, by the reference {judged}");
 }
 
 #[test]
