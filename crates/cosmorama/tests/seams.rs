@@ -73,7 +73,6 @@ fn assert_no_seam(world: &World, targets: &[(&str, View)], on_edge: impl Fn(Dire
         }
     }
     let (seam, judged) = (largest[1] / largest[0], judged[1] / judged[0]);
-    println!("the step across is {seam:.4} of those beside, by the reference {judged:.4}");
     assert!(seam <= judged, "the step across is {seam} of those beside, by the reference {judged}");
 }
 
