@@ -47,7 +47,7 @@ pub(crate) use target::{Sheet, Target, TargetView};
 
 use anyhow::Result;
 use cosmorama::raster::Rgba;
-use cosmorama::resample::Filter;
+use cosmorama::resample::{Filter, Resampler};
 use cosmorama::world::World;
 use cosmorama_io::Format;
 
@@ -103,6 +103,12 @@ impl ConvertJob {
         memory.check_frame(&input, &target)?;
         warnings.iter().for_each(|warning| warn(warning));
         Ok(Self { input, worlds, target, filter, light, outputs, coverage, missing: args.missing, memory, warnings })
+    }
+
+    /// The conversion to one of the target's views.
+    pub(crate) fn resampler<'a>(&'a self, target: &'a TargetView) -> Resampler<'a> {
+        let world = &self.worlds[target.world(self.worlds.len())];
+        Resampler { world, target: &target.view, filter: self.filter }
     }
 
     /// What pixels without light get; `None` where they are an error.

@@ -3,11 +3,11 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use anyhow::Result;
-use cosmorama::raster::{Image, Rgba};
+use cosmorama::raster::Image;
 use cosmorama_builtin::{BuiltinWorld, DirectionMap, DirectionPixel};
 use cosmorama_io::{WriteOptions, write_planes};
 
-use super::engine::{assemble, save};
+use super::engine::{Picture, assemble, save};
 use super::progress::Progress;
 use super::report::Report;
 use super::stages::{Stage, Stages};
@@ -45,14 +45,15 @@ pub(super) fn convert(builtin: Builtin, args: &ConvertArgs) -> Result<Report> {
 }
 
 /// The picture of a file and its smaller copies, in front of their background.
-fn pictures(job: &BuiltinJob, world: BuiltinWorld, file: usize) -> Result<Vec<Image<Rgba>>> {
+fn pictures(job: &BuiltinJob, world: BuiltinWorld, file: usize) -> Result<Vec<Picture>> {
     let background = job.light.background;
     let picture = |index: usize| {
         let mut image = world.picture(&job.target.views[index].view);
         image.pixels_mut().iter_mut().for_each(|pixel| *pixel = pixel.over(background));
         Ok(image)
     };
-    job.target.files[file].levels().map(|sheet| assemble(sheet, background, picture)).collect()
+    let levels = job.target.files[file].levels();
+    levels.map(|sheet| Ok(Picture::Light(assemble(sheet, background, picture)?))).collect()
 }
 
 /// The directions of a file's pixels.

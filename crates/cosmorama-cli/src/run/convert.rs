@@ -4,11 +4,11 @@ use std::process::ExitCode;
 use std::time::Instant;
 
 use anyhow::Result;
-use cosmorama::raster::{Image, Rgba};
 use cosmorama_io::WriteOptions;
 use rayon::prelude::*;
 
-use super::engine::{Engine, FrameLight, save};
+use super::engine::{Engine, Picture, save};
+use super::frame_light::FrameLight;
 use super::pipe::Piped;
 use super::progress::Progress;
 use super::report::Report;
@@ -108,7 +108,7 @@ impl Run<'_> {
 }
 
 /// A picture and its smaller copies.
-type Levels = Vec<Image<Rgba>>;
+type Levels = Vec<Picture>;
 
 impl FrameOutputs {
     fn render(&self, engine: &Engine<'_>, light: &FrameLight, stages: &mut Stages) -> Result<Vec<Levels>> {

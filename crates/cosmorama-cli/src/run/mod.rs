@@ -7,6 +7,8 @@ mod demo;
 mod diagram;
 mod engine;
 mod explain;
+mod frame_light;
+mod geometry;
 mod info;
 mod info_faces;
 mod interrupt;

@@ -2,7 +2,7 @@ use super::magnification::central_footprint;
 use super::survey::{Survey, used_part};
 use super::{FaceSize, Magnification};
 use crate::raster::Rgba;
-use crate::resample::{Filter, FilterKind, Need, Needs, Plan, Uncovered};
+use crate::resample::{Filter, Need, Needs, Resampler, Uncovered};
 use crate::sphere::Direction;
 use crate::world::{Source, View, World};
 
@@ -99,7 +99,7 @@ impl Report {
             views: world.sources().iter().enumerate().map(view).collect(),
             uncovered: needs.uncovered,
             gathered: Gathered { mean: survey.texels as f64 / survey.shown.max(1) as f64, most: survey.most },
-            memory: Memory::of(world, target, filter, &survey),
+            memory: Memory::of(world, target, filter),
         }
     }
 
@@ -123,15 +123,11 @@ impl Centre {
 }
 
 impl Memory {
-    fn of(world: &World, target: &View, filter: &Filter, survey: &Survey) -> Self {
-        let pixels = target.width() * target.height();
-        let taps = survey.texels as f64 / survey.sampled.max(1) as f64 * pixels as f64;
-        // The reference filter keeps no plan.
-        let has_plan = !matches!(filter.kind, FilterKind::Reference { .. });
+    fn of(world: &World, target: &View, filter: &Filter) -> Self {
         Self {
             texels: world.texel_count() * size_of::<Rgba>(),
-            pixels: pixels * size_of::<Rgba>(),
-            plan: if has_plan { Plan::bytes_for(pixels, taps as usize) } else { 0 },
+            pixels: target.width() * target.height() * size_of::<Rgba>(),
+            plan: Resampler { world, target, filter: *filter }.plan_bytes_estimate(),
         }
     }
 }

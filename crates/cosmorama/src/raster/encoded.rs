@@ -1,6 +1,6 @@
 use half::f16;
 
-use super::{Channels, Depth, ImageError};
+use super::{Channels, Depth, Image, ImageError};
 
 /// The samples of an image, interleaved, row by row, as a file holds them: encoded by a transfer function.
 #[derive(Clone, Debug, PartialEq)]
@@ -86,6 +86,12 @@ impl EncodedImage {
             return Err(ImageError::WrongDepth { depth });
         }
         Ok(Self { width, height, channels, depth, alpha_mode: AlphaMode::Straight, samples })
+    }
+
+    /// An opaque image of 8-bit codes.
+    pub fn of_codes(codes: &Image<[u8; 3]>) -> Self {
+        let samples = Samples::U8(codes.pixels().as_flattened().to_vec());
+        Self::from_parts(codes.width(), codes.height(), Channels::Rgb, Depth::Eight, AlphaMode::Straight, samples)
     }
 
     /// Parts that are known to fit.

@@ -89,6 +89,8 @@ impl Bulge {
 /// fourth order; derivatives are parabolas. Only patches that no edge of a field of view is near are made.
 #[derive(Clone, Debug)]
 pub(super) struct Patch<'a> {
+    /// The view, by its index in the world.
+    pub(super) view: usize,
     pub(super) source: &'a Source,
     /// The texel from which places are counted: near ones keep their digits in single precision.
     pub(super) origin: [i64; 2],
@@ -132,8 +134,8 @@ impl<'a> Patch<'a> {
         if gather.is_near_edge(middle.direction, 0.0) {
             return None;
         }
-        let (owner, _) = gather.world().owner(middle.direction)?;
-        let source = &gather.world().sources()[owner];
+        let (view, _) = gather.world().owner(middle.direction)?;
+        let source = &gather.world().sources()[view];
         let mut screen = [[middle; 3]; 3];
         let mut points = Grid::<Point>::default();
         for (y, (screen, points)) in screen.iter_mut().zip(&mut points).enumerate() {
@@ -153,11 +155,16 @@ impl<'a> Patch<'a> {
         let density = Density::around(&source.view, &points, gather.kernel())?;
         let middle = points[1][1].place;
         let bend = Bend::around(&source.view, PixelPoint::new(middle.x, middle.y))?;
-        Self::through(source, &points, density, bend)
+        Self::through((view, source), &points, density, bend)
     }
 
     /// `None` where the mapping bends too much.
-    fn through(source: &'a Source, points: &Grid<Point>, density: Density, bend: Bend) -> Option<Self> {
+    fn through(
+        (view, source): (usize, &'a Source),
+        points: &Grid<Point>,
+        density: Density,
+        bend: Bend,
+    ) -> Option<Self> {
         let [[a, _, b], _, [c, _, d]] = *points;
         let origin = a.place.floor();
         let edge = |from: Point, to: Point, along: fn(&DMat2) -> DVec2| {
@@ -169,6 +176,7 @@ impl<'a> Patch<'a> {
             move |s: f64| (from.place + (to.place - from.place) * s + bulge.at(s) - origin)[axis]
         };
         let patch = Self {
+            view,
             source,
             origin: [origin.x as i64, origin.y as i64],
             place: [0, 1].map(|axis| Columns::straight(along(a, b, top, axis), along(c, d, bottom, axis))),
@@ -274,7 +282,7 @@ mod tests {
     #[test]
     fn cubic_mappings_are_met_exactly() {
         let world = world();
-        let patch = Patch::through(&world.sources()[0], &grid(bent), EVEN, Bend::default()).expect("hardly bent");
+        let patch = Patch::through((0, &world.sources()[0]), &grid(bent), EVEN, Bend::default()).expect("hardly bent");
         for row in 0..SIDE {
             let t = row as f64 / SIDE as f64;
             let [left, right] = patch.bulge(row);
@@ -294,7 +302,7 @@ mod tests {
     fn kinks_are_refused() {
         let world = world();
         let through = |place: &dyn Fn(f64, f64) -> DVec2| {
-            Patch::through(&world.sources()[0], &grid(place), EVEN, Bend::default())
+            Patch::through((0, &world.sources()[0]), &grid(place), EVEN, Bend::default())
         };
         assert!(through(&bent).is_some());
         // Across, down, and around a point that none of the nine is near.

@@ -94,8 +94,8 @@ impl Taps {
 /// lose digits, and a common one pays nothing.
 const BLOCK: usize = 32;
 
-/// The weighted average of taps, held to their bound if there is to be no ringing.
-pub(super) fn average(taps: &[Tap], bound: Bound, texels: &[Rgba], anti_ringing: bool) -> Rgba {
+/// The weighted average of taps, held to their bound if there is to be no ringing. `light` is that of a texel.
+pub(super) fn average(taps: &[Tap], bound: Bound, light: impl Fn(u32) -> Rgba, anti_ringing: bool) -> Rgba {
     let mut sum = [0f64; 4];
     let (mut least, mut greatest) = ([f32::INFINITY; 4], [f32::NEG_INFINITY; 4]);
     let (inner, outer) = match bound {
@@ -105,7 +105,7 @@ pub(super) fn average(taps: &[Tap], bound: Bound, texels: &[Rgba], anti_ringing:
     for block in inner.chunks(BLOCK) {
         let mut part = [0f32; 4];
         for tap in block {
-            let texel = texels[tap.texel as usize].0;
+            let texel = light(tap.texel).0;
             for c in 0..4 {
                 part[c] += tap.weight * texel[c];
                 least[c] = if texel[c] < least[c] { texel[c] } else { least[c] };
@@ -117,7 +117,7 @@ pub(super) fn average(taps: &[Tap], bound: Bound, texels: &[Rgba], anti_ringing:
     for block in outer.chunks(BLOCK) {
         let mut part = [0f32; 4];
         for tap in block {
-            let texel = texels[tap.texel as usize].0;
+            let texel = light(tap.texel).0;
             for c in 0..4 {
                 part[c] += tap.weight * texel[c];
             }
@@ -129,7 +129,7 @@ pub(super) fn average(taps: &[Tap], bound: Bound, texels: &[Rgba], anti_ringing:
         _ if !anti_ringing => average,
         // No tap at all.
         Bound::Under(0) => average,
-        Bound::Slope => slope::clamp(average, taps.iter().map(|tap| texels[tap.texel as usize])),
+        Bound::Slope => slope::clamp(average, taps.iter().map(|tap| light(tap.texel))),
         Bound::Under(_) => Rgba(std::array::from_fn(|c| average.0[c].max(least[c]).min(greatest[c]))),
     }
 }

@@ -1,6 +1,8 @@
 //! The weights of eight pixels at once: a lane for each, a window of texels around each.
 
-use fearless_simd::{Level, dispatch, f32x4, f32x8, prelude::*};
+use std::ops::Range;
+
+use fearless_simd::{Level, dispatch, f32x8, prelude::*};
 
 use super::bend::Bend;
 use super::cubics::Cubics;
@@ -9,7 +11,6 @@ use super::kernel::UNDER;
 use super::moments::{Moments, RowSums};
 use super::patch::{Patch, SIDE};
 use super::{Kernel, Tap, Taps};
-use crate::raster::Rgba;
 
 /// Texels of the largest window. Beyond, a pixel by itself is not slower.
 const LARGEST: usize = 256;
@@ -23,10 +24,13 @@ pub(super) struct Windows {
     kernel: Kernel,
     width: usize,
     height: usize,
-    /// Index of each window's first texel in the world's buffer; `None` where the window is not all inside the view.
-    first: [Option<u32>; SIDE],
-    /// Texels from one row of a window to the next.
+    /// The view that holds the texels, by its index in the world.
+    view: usize,
+    /// Index of the view's first texel in the world's buffer, and its texels from one row to the next.
+    offset: usize,
     stride: usize,
+    /// Column and row of each window's first texel; `None` where the window is not all inside the view.
+    corners: [Option<[u32; 2]>; SIDE],
     weights: Vec<[f32; SIDE]>,
     /// By how much a correction may change a weight.
     slack: Vec<[f32; SIDE]>,
@@ -37,12 +41,7 @@ pub(super) struct Windows {
 impl Windows {
     /// Windows for a kernel; `None` if it is one that lanes cannot weigh: not cubic, or with a floor under one, so that there
     /// could be no texel under a pixel to clamp to.
-    pub(super) fn new(kernel: &Kernel) -> Option<Self> {
-        Self::at_level(kernel, Level::new())
-    }
-
-    /// The same with the instructions of a level.
-    fn at_level(kernel: &Kernel, level: Level) -> Option<Self> {
+    pub(super) fn new(kernel: &Kernel, level: Level) -> Option<Self> {
         let cubics = Cubics::of(kernel).filter(|_| kernel.floor >= 1.0)?;
         let room = || vec![[0.0; SIDE]; LARGEST];
         Some(Self {
@@ -51,31 +50,14 @@ impl Windows {
             kernel: *kernel,
             width: 0,
             height: 0,
-            first: [None; SIDE],
+            view: 0,
+            offset: 0,
             stride: 0,
+            corners: [None; SIDE],
             weights: room(),
             slack: room(),
             beyond: room(),
         })
-    }
-
-    /// One for each level of instructions that this machine has.
-    #[cfg(test)]
-    pub(super) fn at_every_level(kernel: &Kernel) -> Vec<Self> {
-        let best = Level::new();
-        #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
-        let between = [best.as_sse4_2().map(|simd| simd.level()), best.as_avx2().map(|simd| simd.level())];
-        #[cfg(not(any(target_arch = "x86", target_arch = "x86_64")))]
-        let between = [None; 2];
-        let levels = [Some(Level::baseline()), Some(best)].into_iter().chain(between).flatten();
-        let mut seen = Vec::new();
-        let levels = levels.filter(|level| {
-            let kind = std::mem::discriminant(level);
-            let is_new = !seen.contains(&kind);
-            seen.push(kind);
-            is_new
-        });
-        levels.filter_map(|level| Self::at_level(kernel, level)).collect()
     }
 
     /// The windows of a row of a patch.
@@ -86,33 +68,52 @@ impl Windows {
 
     /// Whether this lane's window lies inside the view, so that its weights are right.
     pub(super) fn holds(&self, lane: usize) -> bool {
-        self.first[lane].is_some()
+        self.corners[lane].is_some()
     }
 
-    /// The averages of all the lanes whose windows hold; the others are zero.
-    pub(super) fn average(&self, texels: &[Rgba], anti_ringing: bool) -> [Rgba; SIDE] {
-        let level = self.level;
-        dispatch!(level, simd => self.average_lanes(simd, texels, anti_ringing))
+    /// Column and row of a lane's first texel, if its window holds.
+    pub(super) fn corner(&self, lane: usize) -> Option<[u32; 2]> {
+        self.corners[lane]
     }
 
-    /// How many texels of a lane's window have a weight.
-    pub(super) fn tap_count(&self, lane: usize) -> usize {
-        if self.holds(lane) { self.weights().filter(|weights| weights[lane] != 0.0).count() } else { 0 }
+    /// The index of the view that holds the texels.
+    pub(super) fn view(&self) -> usize {
+        self.view
     }
 
-    fn weights(&self) -> impl Iterator<Item = &[f32; SIDE]> + Clone {
-        self.weights[..self.width * self.height].iter()
+    /// Texels of a window across.
+    pub(super) fn width(&self) -> usize {
+        self.width
+    }
+
+    /// Texels of a window down.
+    pub(super) fn height(&self) -> usize {
+        self.height
+    }
+
+    /// The weights of all texels of the windows, row by row, a lane for each window; and, by lane, zero for a texel under the
+    /// pixel, infinity for one around it.
+    pub(super) fn texels(&self) -> impl Iterator<Item = (&[f32; SIDE], &[f32; SIDE])> + Clone {
+        self.weights[..self.width * self.height].iter().zip(&self.beyond)
+    }
+
+    /// The rows in which some window has texels under its pixel, and those between.
+    pub(super) fn rows_under(&self) -> Range<usize> {
+        let holds = |row: &usize| self.beyond[row * self.width..][..self.width].as_flattened().contains(&0.0);
+        let first = (0..self.height).find(holds).unwrap_or(0);
+        first..(first..self.height).rev().find(holds).map_or(first, |last| last + 1)
     }
 
     /// A lane's window as a list.
     pub(super) fn taps(&self, lane: usize, taps: &mut Taps) {
         taps.clear();
-        let Some(first) = self.first[lane] else { return };
-        let texel = |at: usize| first + (at / self.width * self.stride + at % self.width) as u32;
-        let used = self.weights().zip(&self.beyond).enumerate().filter(|(_, (weights, _))| weights[lane] != 0.0);
+        let Some([left, top]) = self.corners[lane] else { return };
+        let first = self.offset + top as usize * self.stride + left as usize;
+        let texel = |at: usize| (first + at / self.width * self.stride + at % self.width) as u32;
+        let used = self.texels().enumerate().filter(|(_, (weights, _))| weights[lane] != 0.0);
         let settled =
             used.map(|(at, (weights, beyond))| (beyond[lane] == 0.0, Tap { texel: texel(at), weight: weights[lane] }));
-        taps.fill(settled.clone(), self.tap_count(lane), settled.filter(|(is_under, _)| *is_under).count());
+        taps.fill(settled.clone(), settled.clone().count(), settled.filter(|(is_under, _)| *is_under).count());
     }
 
     #[inline(always)]
@@ -120,7 +121,7 @@ impl Windows {
         let ellipses = Ellipses::new(simd, &self.kernel, patch, row);
         (self.width, self.height) = (ellipses.width, ellipses.height);
         self.place(patch, &ellipses.first);
-        if self.first == [None; SIDE] {
+        if self.corners == [None; SIDE] {
             return;
         }
         let moments = self.weigh(simd, &ellipses);
@@ -132,13 +133,13 @@ impl Windows {
         let source = patch.source;
         let whole = &source.whole;
         let (width, height) = (self.width as i64, self.height as i64);
-        self.stride = source.view.width();
-        self.first = std::array::from_fn(|lane| {
+        (self.view, self.offset, self.stride) = (patch.view, source.offset, source.view.width());
+        self.corners = std::array::from_fn(|lane| {
             let (left, top) = (patch.origin[0] + first[0][lane] as i64, patch.origin[1] + first[1][lane] as i64);
             let columns = left >= whole.left as i64 && left + width <= whole.right as i64;
             let rows = top >= whole.top as i64 && top + height <= whole.bottom as i64;
             (columns && rows && self.width * self.height <= LARGEST)
-                .then(|| (source.offset + top as usize * self.stride + left as usize) as u32)
+                .then_some([left as u32, top as u32])
         });
     }
 
@@ -191,57 +192,5 @@ impl Windows {
             }
             y += 1.0;
         }
-    }
-
-    #[inline(always)]
-    fn average_lanes<S: Simd>(&self, simd: S, texels: &[Rgba], anti_ringing: bool) -> [Rgba; SIDE] {
-        let mut averages = [Rgba::TRANSPARENT; SIDE];
-        // No closures here and below: the compiler gives them no leave to use the level's instructions.
-        for (lane, average) in averages.iter_mut().enumerate() {
-            let Some(first) = self.first[lane] else { continue };
-            let texels = &texels[first as usize..];
-            *average = if anti_ringing {
-                self.clamped_average(simd, texels, lane)
-            } else {
-                self.plain_average(simd, texels, lane)
-            };
-        }
-        averages
-    }
-
-    #[inline(always)]
-    fn plain_average<S: Simd>(&self, simd: S, texels: &[Rgba], lane: usize) -> Rgba {
-        let mut sum = f32x4::splat(simd, 0.0);
-        for row in 0..self.height {
-            let texels = &texels[row * self.stride..][..self.width];
-            let weights = &self.weights[row * self.width..][..self.width];
-            let mut part = f32x4::splat(simd, 0.0);
-            for (texel, weight) in texels.iter().zip(weights) {
-                part += f32x4::load_array(simd, texel.0) * weight[lane];
-            }
-            sum += part;
-        }
-        Rgba(sum.to_array())
-    }
-
-    #[inline(always)]
-    fn clamped_average<S: Simd>(&self, simd: S, texels: &[Rgba], lane: usize) -> Rgba {
-        let mut sum = f32x4::splat(simd, 0.0);
-        let mut least = f32x4::splat(simd, f32::INFINITY);
-        let mut greatest = f32x4::splat(simd, f32::NEG_INFINITY);
-        for row in 0..self.height {
-            let texels = &texels[row * self.stride..][..self.width];
-            let weights = &self.weights[row * self.width..][..self.width];
-            let beyond = &self.beyond[row * self.width..][..self.width];
-            let mut part = f32x4::splat(simd, 0.0);
-            for ((texel, weight), beyond) in texels.iter().zip(weights).zip(beyond) {
-                let texel = f32x4::load_array(simd, texel.0);
-                part += texel * weight[lane];
-                least = least.min(texel + beyond[lane]);
-                greatest = greatest.max(texel - beyond[lane]);
-            }
-            sum += part;
-        }
-        Rgba(sum.max(least).min(greatest).to_array())
     }
 }

@@ -1,0 +1,162 @@
+//! Linear light in 15 bits, for opaque pictures of 8: as many as two of them multiplied leave room for in 32.
+
+use rayon::prelude::*;
+
+use super::quantizer::Quantizer;
+use super::{Channels, EncodedImage, Image, Rgba, Samples, Transfer};
+
+/// White.
+const WHITE: f32 = i16::MAX as f32;
+
+/// Texels that may be read beyond the last one: integers are filtered in groups.
+const BEYOND: usize = 8;
+
+/// Linear light of opaque texels, red, green and blue from 0 to 32767.
+#[derive(Clone, Debug)]
+pub struct FixedLight {
+    /// The fourth sample of each is not used.
+    texels: Vec<[i16; 4]>,
+}
+
+impl FixedLight {
+    /// So many texels, black.
+    pub fn black(count: usize) -> Self {
+        Self { texels: vec![[0; 4]; count + BEYOND] }
+    }
+
+    /// How many texels there are.
+    pub fn len(&self) -> usize {
+        self.texels.len() - BEYOND
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// All texels.
+    pub fn texels_mut(&mut self) -> &mut [[i16; 4]] {
+        let count = self.len();
+        &mut self.texels[..count]
+    }
+
+    /// Four samples for each texel, and some beyond the last.
+    pub(crate) fn samples(&self) -> &[i16] {
+        self.texels.as_flattened()
+    }
+
+    /// One texel.
+    ///
+    /// # Panics
+    /// If there is none so late.
+    pub fn rgba(&self, texel: usize) -> Rgba {
+        let [red, green, blue, _] = self.texels[texel].map(|sample| f32::from(sample) / WHITE);
+        Rgba::opaque(red, green, blue)
+    }
+}
+
+/// From 8-bit codes to light.
+#[derive(Clone, Debug)]
+pub struct FixedDecoder {
+    channels: [[i16; 256]; 3],
+}
+
+impl FixedDecoder {
+    /// `None` where 15 bits cannot tell all codes apart, or light goes beyond white.
+    pub fn new(transfer: &Transfer) -> Option<Self> {
+        let light = |code: usize, channel| transfer.decode(code as f64 / 255.0, channel);
+        let quantizer = Quantizer::new(transfer, 255);
+        let comes_back = |channel: usize| {
+            (0..256).all(|code| {
+                let light = (light(code, channel) * f64::from(WHITE)).round() as f32;
+                (0.0..=WHITE).contains(&light) && usize::from(quantizer.code(light / WHITE, channel)) == code
+            })
+        };
+        let table = |channel| std::array::from_fn(|code| (light(code, channel) * f64::from(WHITE)).round() as i16);
+        (0..3).all(comes_back).then(|| Self { channels: [0, 1, 2].map(table) })
+    }
+
+    /// The light of an opaque image of 8 bits; false, changing nothing, if it is none.
+    ///
+    /// # Panics
+    /// When `into` is not as long as the image has pixels.
+    pub fn decode(&self, image: &EncodedImage, into: &mut [[i16; 4]]) -> bool {
+        assert_eq!(into.len(), image.width() * image.height(), "one texel for each pixel of the file");
+        let Samples::U8(samples) = image.samples() else { return false };
+        let [red, green, blue] = &self.channels;
+        let code = |of: &[i16; 256], sample: u8| of[usize::from(sample)];
+        match image.channels() {
+            Channels::Grey => fill(into, samples, |[s]| [code(red, s), code(green, s), code(blue, s), 0]),
+            Channels::Rgb => fill(into, samples, |[r, g, b]| [code(red, r), code(green, g), code(blue, b), 0]),
+            Channels::GreyAlpha | Channels::Rgba => return false,
+        }
+        true
+    }
+}
+
+fn fill<const N: usize>(into: &mut [[i16; 4]], samples: &[u8], texel: impl Fn([u8; N]) -> [i16; 4] + Sync) {
+    const CHUNK: usize = 1 << 14;
+    let (samples, _) = samples.as_chunks::<N>();
+    into.par_chunks_mut(CHUNK).zip(samples.par_chunks(CHUNK)).for_each(|(into, samples)| {
+        for (into, sample) in into.iter_mut().zip(samples) {
+            *into = texel(*sample);
+        }
+    });
+}
+
+/// The code of each light.
+type Codes = [u8; 1 << 15];
+
+/// From light to 8-bit codes.
+#[derive(Clone, Debug)]
+pub struct FixedCodec {
+    /// The codes of all light there is, once for all channels or for each.
+    codes: Vec<Codes>,
+    background: Rgba,
+}
+
+impl FixedCodec {
+    /// `background` is what lies behind the picture, linear light. `None` where steps of light are wider than those of
+    /// codes.
+    pub fn new(transfer: &Transfer, background: Rgba) -> Option<Self> {
+        let quantizer = Quantizer::new(transfer, 255);
+        let code = |light: usize, channel| quantizer.code(light as f32 / WHITE, channel) as u8;
+        let mut codes = vec![[0; 1 << 15]; if transfer.is_common() { 1 } else { 3 }];
+        for (channel, codes) in codes.iter_mut().enumerate() {
+            codes.iter_mut().enumerate().for_each(|(light, into)| *into = code(light, channel));
+        }
+        let is_fine = |codes: &Codes| codes.windows(2).all(|pair| pair[1] - pair[0] <= 1);
+        codes.iter().all(is_fine).then_some(Self { codes, background })
+    }
+
+    /// The codes of the background.
+    pub fn background(&self) -> [u8; 3] {
+        self.codes_of(self.background)
+    }
+
+    /// Its light.
+    pub(crate) fn background_light(&self) -> Rgba {
+        self.background
+    }
+
+    /// The codes of some light.
+    #[inline(always)]
+    pub(crate) fn codes(&self, [red, green, blue, _]: [i16; 4]) -> [u8; 3] {
+        let code = |codes: &Codes, light: i16| codes[usize::from(light as u16 & 0x7fff)];
+        let last = self.codes.len() - 1;
+        [code(&self.codes[0], red), code(&self.codes[last / 2], green), code(&self.codes[last], blue)]
+    }
+
+    /// The codes of a picture, in front of the background.
+    pub fn encode(&self, light: &Image<Rgba>) -> Image<[u8; 3]> {
+        let mut codes = Image::filled(light.width(), light.height(), [0; 3]);
+        let pixels = codes.pixels_mut().par_iter_mut().zip(light.pixels());
+        pixels.for_each(|(codes, light)| *codes = self.codes_of(light.over(self.background)));
+        codes
+    }
+
+    /// The codes of light in floats.
+    pub(crate) fn codes_of(&self, light: Rgba) -> [u8; 3] {
+        self.codes(light.0.map(|light| (light * WHITE).round().clamp(0.0, WHITE) as i16))
+    }
+}

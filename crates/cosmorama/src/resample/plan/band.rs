@@ -1,0 +1,198 @@
+use std::ops::Range;
+
+use super::mirrors::Mirrors;
+use super::weights::Weights;
+use crate::resample::patch::SIDE;
+use crate::resample::scan::Sink;
+use crate::resample::taps::{Bound, Tap, Taps};
+use crate::resample::window::Windows;
+use crate::world::World;
+
+/// What makes a few rows of a target.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Band<W> {
+    pub(super) runs: Vec<Run>,
+    pub(super) weights: W,
+    pub(super) singles: Vec<Single>,
+    pub(super) taps: Vec<Tap>,
+}
+
+/// Up to [`SIDE`] pixels beside each other, whose windows have one size and lie in one view.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Run {
+    /// The first column and the row of the window that is farthest to the left, and of the one that is highest.
+    corner: [u32; 2],
+    /// How far from there each window begins.
+    offsets: [[u8; 2]; SIDE],
+    /// Where its weights begin among those of the band.
+    pub(super) weights: u32,
+    /// Column of its first pixel.
+    column: u32,
+    /// The view.
+    pub(super) view: u16,
+    /// Row in the band.
+    row: u8,
+    /// Which of the pixels it makes, a bit for each.
+    lanes: u8,
+    pub(super) width: u8,
+    pub(super) height: u8,
+    /// Rows of its windows: from, to.
+    under: [u8; 2],
+}
+
+/// A pixel by itself.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Single {
+    /// The first of its taps, how many there are, and what holds their average.
+    pub(super) first: u32,
+    pub(super) taps: u32,
+    pub(super) bound: Bound,
+    /// The part of the pixel inside the field of view.
+    pub(super) coverage: f32,
+    pub(super) column: u32,
+    pub(super) row: u8,
+    /// In which mirror it is seen.
+    pub(super) image: u8,
+}
+
+impl Run {
+    /// The pixels that it makes, by lane.
+    #[inline(always)]
+    pub(super) fn lanes(&self) -> impl Iterator<Item = usize> + use<> {
+        let lanes = self.lanes;
+        (0..SIDE).filter(move |lane| lanes >> lane & 1 == 1)
+    }
+
+    /// Whether it makes a pixel in each lane.
+    #[inline(always)]
+    pub(super) fn is_whole(&self) -> bool {
+        self.lanes == u8::MAX
+    }
+
+    /// The first texel of a lane's window: its column and row.
+    #[inline(always)]
+    pub(super) fn texel(&self, lane: usize) -> [usize; 2] {
+        let [left, top] = self.offsets[lane];
+        [self.corner[0] as usize + usize::from(left), self.corner[1] as usize + usize::from(top)]
+    }
+
+    /// A lane's column, and the row in the band.
+    #[inline(always)]
+    pub(super) fn pixel(&self, lane: usize) -> [usize; 2] {
+        [self.column as usize + lane, usize::from(self.row)]
+    }
+
+    /// The rows of its windows that hold texels under a pixel.
+    #[inline(always)]
+    pub(super) fn rows_under(&self) -> Range<usize> {
+        usize::from(self.under[0])..usize::from(self.under[1])
+    }
+
+    /// The run of windows that begin at these texels; `None` if it cannot be written down.
+    fn new(windows: &Windows, count: usize, [column, row]: [usize; 2], weights: usize) -> Option<Self> {
+        let corners = || (0..count).filter_map(|lane| windows.corner(lane).map(|corner| (lane, corner)));
+        let least = |axis: usize| corners().map(|(_, corner)| corner[axis]).min();
+        let corner = [least(0)?, least(1)?];
+        let mut offsets = [[0; 2]; SIDE];
+        let mut lanes = 0;
+        for (lane, texel) in corners() {
+            let offset = [texel[0] - corner[0], texel[1] - corner[1]].map(u8::try_from);
+            offsets[lane] = [offset[0].ok()?, offset[1].ok()?];
+            lanes |= 1 << lane;
+        }
+        let under = windows.rows_under();
+        Some(Self {
+            corner,
+            offsets,
+            weights: u32::try_from(weights).ok()?,
+            column: column as u32,
+            view: u16::try_from(windows.view()).ok()?,
+            row: row as u8,
+            lanes,
+            width: u8::try_from(windows.width()).ok()?,
+            height: u8::try_from(windows.height()).ok()?,
+            under: [under.start as u8, under.end as u8],
+        })
+    }
+}
+
+impl<W: Weights> Band<W> {
+    /// Forgets all but the memory.
+    pub(super) fn clear(&mut self) {
+        self.runs.clear();
+        self.weights.clear();
+        self.singles.clear();
+        self.taps.clear();
+    }
+
+    /// Gives back memory that is not needed.
+    pub(super) fn shrink(&mut self) {
+        self.runs.shrink_to_fit();
+        self.weights.shrink();
+        self.singles.shrink_to_fit();
+        self.taps.shrink_to_fit();
+    }
+
+    /// Runs that lie together, about those of a patch: in each mirror they share most of their texels.
+    pub(super) fn patches(&self) -> impl Iterator<Item = &[Run]> {
+        self.runs.chunks(SIDE)
+    }
+
+    pub(super) fn bytes(&self) -> usize {
+        self.runs.capacity() * size_of::<Run>()
+            + self.weights.bytes()
+            + self.singles.capacity() * size_of::<Single>()
+            + self.taps.capacity() * size_of::<Tap>()
+    }
+}
+
+/// Writes down what makes the pixels of a band.
+pub(super) struct Recorder<'a, W> {
+    pub(super) world: &'a World,
+    pub(super) mirrors: &'a Mirrors,
+    pub(super) band: &'a mut Band<W>,
+    pub(super) taps: Taps,
+}
+
+impl<W: Weights> Sink for Recorder<'_, W> {
+    fn pixel(&mut self, pixel: [usize; 2], coverage: f32, taps: &Taps) {
+        self.single(pixel, coverage, taps);
+    }
+
+    fn windows(&mut self, pixel: [usize; 2], count: usize, windows: &Windows) {
+        let run = Run::new(windows, count, pixel, self.band.weights.len());
+        if let Some(run) = run.filter(|run| self.band.weights.keep(windows, run)) {
+            self.band.runs.push(run);
+            return;
+        }
+        for lane in (0..count).filter(|&lane| windows.holds(lane)) {
+            let mut taps = std::mem::take(&mut self.taps);
+            windows.taps(lane, &mut taps);
+            self.single([pixel[0] + lane, pixel[1]], 1.0, &taps);
+            self.taps = taps;
+        }
+    }
+}
+
+impl<W> Recorder<'_, W> {
+    /// A pixel by itself, in all mirrors.
+    fn single(&mut self, [column, row]: [usize; 2], coverage: f32, taps: &Taps) {
+        let sources = self.world.sources();
+        for (index, image) in self.mirrors.images.iter().enumerate() {
+            self.band.singles.push(Single {
+                first: self.band.taps.len() as u32,
+                taps: taps.as_slice().len() as u32,
+                bound: taps.bound(),
+                coverage,
+                column: column as u32,
+                row: row as u8,
+                image: index as u8,
+            });
+            if index == 0 {
+                self.band.taps.extend_from_slice(taps.as_slice());
+            } else {
+                self.band.taps.extend(taps.as_slice().iter().map(|&tap| image.tap(sources, tap)));
+            }
+        }
+    }
+}

@@ -1,0 +1,200 @@
+//! Mirror symmetry of a conversion: a dome made of a cube is the same left and right, before and behind.
+
+use glam::DMat3;
+
+use super::super::taps::Tap;
+use crate::projection::ProjectionKind;
+use crate::sphere::Direction;
+use crate::world::{FieldStop, PixelPoint, PixelRect, Source, View, World};
+
+/// By how much directions that are the same may differ, in radians: rounding.
+const SAME: f64 = 1e-11;
+
+/// By how many texels places that are the same may.
+const SAME_TEXEL: f64 = 1e-6;
+
+/// Points along a side at which a symmetry is tried; the formulas between are smooth.
+const STEPS: usize = 16;
+
+/// Itself, left and right exchanged, top and bottom, both.
+pub(super) const MOST_IMAGES: usize = 4;
+
+/// What is left of a target to compute, and the mirrors in which the rest is seen.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Mirrors {
+    /// Columns to compute: all, or the left half.
+    pub(super) columns: usize,
+    /// Rows to compute: all, or the upper half.
+    pub(super) rows: usize,
+    /// Which pictures those make; the first is what is computed itself.
+    pub(super) images: Vec<MirrorImage>,
+}
+
+/// A picture of what is computed.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct MirrorImage {
+    /// Whether left and right are exchanged on the target, and whether top and bottom.
+    pub(super) flips: [bool; 2],
+    /// For each view of the world what is seen in its stead.
+    views: Vec<Reflection>,
+}
+
+/// A view as a mirror shows it: another one, or the same, with its texels in another order.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Reflection {
+    /// Index of its first texel in the world's buffer.
+    offset: usize,
+    size: [usize; 2],
+    /// Whether its columns run the other way, and whether its rows.
+    flips: [bool; 2],
+}
+
+/// Where a window begins in the world's buffer, and the steps from texel to texel.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Walk {
+    pub(super) first: usize,
+    /// Whether columns run the other way.
+    pub(super) is_reversed: bool,
+    /// From one row to the next.
+    pub(super) down: isize,
+}
+
+impl Reflection {
+    /// The walk of a window whose first texel is in this column and row of the view itself.
+    #[inline(always)]
+    pub(super) fn walk(&self, [column, row]: [usize; 2]) -> Walk {
+        let [width, height] = self.size;
+        let column = if self.flips[0] { width - 1 - column } else { column };
+        let (row, down) = if self.flips[1] { (height - 1 - row, -(width as isize)) } else { (row, width as isize) };
+        Walk { first: self.offset + row * width + column, is_reversed: self.flips[0], down }
+    }
+}
+
+impl MirrorImage {
+    /// What is seen in place of a view.
+    pub(super) fn view(&self, index: usize) -> &Reflection {
+        &self.views[index]
+    }
+
+    /// A tap as the mirror shows it.
+    pub(super) fn tap(&self, sources: &[Source], tap: Tap) -> Tap {
+        let texel = tap.texel as usize;
+        let index = sources.partition_point(|source| source.offset <= texel) - 1;
+        let (within, width) = (texel - sources[index].offset, sources[index].view.width());
+        Tap { texel: self.views[index].walk([within % width, within / width]).first as u32, ..tap }
+    }
+}
+
+impl Mirrors {
+    /// Those in which a conversion is the same.
+    pub(super) fn of(world: &World, target: &View) -> Self {
+        let (width, height) = (target.width(), target.height());
+        let reflect = |flips: [bool; 2]| {
+            let is_even = (!flips[0] || width % 2 == 0) && (!flips[1] || height % 2 == 0);
+            is_even.then(|| MirrorImage::of(world, target, flips)).flatten()
+        };
+        let (across, down) = (reflect([true, false]), reflect([false, true]));
+        let both = if across.is_some() && down.is_some() { reflect([true, true]) } else { None };
+        let columns = if across.is_some() { width / 2 } else { width };
+        let rows = if down.is_some() { height / 2 } else { height };
+        let images = std::iter::once(MirrorImage::itself(world));
+        Self { columns, rows, images: images.chain([across, down, both].into_iter().flatten()).collect() }
+    }
+}
+
+impl MirrorImage {
+    /// What is computed itself.
+    pub(super) fn itself(world: &World) -> Self {
+        let same = |source: &Source| Reflection::new(source, [false; 2]);
+        Self { flips: [false; 2], views: world.sources().iter().map(same).collect() }
+    }
+
+    /// The target flipped, if the world has a mirror plane to which that belongs.
+    fn of(world: &World, target: &View, flips: [bool; 2]) -> Option<Self> {
+        let mirror = mirror_of(target, flips)?;
+        let sources = world.sources();
+        let views = sources.iter().map(|source| sources.iter().find_map(|other| reflection(source, other, &mirror)));
+        Some(Self { flips, views: views.collect::<Option<_>>()? })
+    }
+}
+
+impl Reflection {
+    fn new(source: &Source, flips: [bool; 2]) -> Self {
+        Self { offset: source.offset, size: [source.view.width(), source.view.height()], flips }
+    }
+}
+
+/// The reflection (an orthogonal matrix) of the world that flips what a target shows.
+fn mirror_of(target: &View, flips: [bool; 2]) -> Option<DMat3> {
+    let size = [target.width() as f64, target.height() as f64];
+    let at = |x: f64, y: f64| PixelPoint::new(size[0] * x, size[1] * y);
+    let flipped = |point| flip(point, size, flips);
+    let seen = |point| target.direction(point).map(Direction::vector);
+    let three = [(0.4, 0.45), (0.55, 0.4), (0.6, 0.65)].map(|(x, y)| at(x, y));
+    let columns = |points: [PixelPoint; 3]| {
+        let [a, b, c] = points.map(seen);
+        Some(DMat3::from_cols(a?, b?, c?))
+    };
+    let here = columns(three)?;
+    let mirror = columns(three.map(flipped))? * here.inverse();
+    let is_orthogonal = (mirror * mirror.transpose()).abs_diff_eq(DMat3::IDENTITY, 1e-9);
+    let is_same = |point: PixelPoint| match (seen(point), seen(flipped(point))) {
+        (Some(a), Some(b)) => (mirror * a - b).length() < SAME,
+        (None, None) => true,
+        _ => false,
+    };
+    let stop_is_same = || {
+        let centre = target.grid.to_plane(at(0.5, 0.5));
+        let is_centred = (!flips[0] || centre.x.abs() < SAME) && (!flips[1] || centre.y.abs() < SAME);
+        let side = target.stop.half_space.map(|side| target.orientation.to_world(side).vector());
+        is_centred && side.is_none_or(|side| (mirror * side - side).length() < SAME)
+    };
+    let is_mirror = is_formula(target)
+        && is_orthogonal
+        && points().all(|(x, y)| is_same(at(x, y)))
+        && (target.stop == FieldStop::NONE || stop_is_same());
+    is_mirror.then_some(mirror)
+}
+
+/// How a view reflects onto another, if it does: no texel of either is hidden or shared.
+fn reflection(source: &Source, other: &Source, mirror: &DMat3) -> Option<Reflection> {
+    let (a, b) = (&source.view, &other.view);
+    let is_plain = |source: &Source| {
+        let all = PixelRect { left: 0, top: 0, right: source.view.width(), bottom: source.view.height() };
+        source.whole == all && source.mask.is_none() && source.view.stop == FieldStop::NONE && is_formula(&source.view)
+    };
+    if a.projection != b.projection || (a.width(), a.height()) != (b.width(), b.height()) || !is_plain(source) || !is_plain(other) {
+        return None;
+    }
+    let size = [a.width() as f64, a.height() as f64];
+    let fits = |flips: [bool; 2]| {
+        points().all(|(x, y)| {
+            let point = PixelPoint::new(size[0] * x, size[1] * y);
+            let Some(direction) = a.direction(point) else { return b.direction(flip(point, size, flips)).is_none() };
+            let seen = b.pixel(Direction::from_unit(*mirror * direction.vector()));
+            let expected = flip(point, size, flips);
+            let near = |pixel: PixelPoint| (pixel.x - expected.x).hypot(pixel.y - expected.y) < SAME_TEXEL;
+            seen.is_some_and(|pixel| near(b.wrapped(pixel)))
+        })
+    };
+    let all = [[false, false], [true, false], [false, true], [true, true]];
+    all.into_iter().find(|&flips| fits(flips)).map(|flips| Reflection::new(other, flips))
+}
+
+/// Whether a view follows a formula that a few points tell; a table may hold anything between them.
+fn is_formula(view: &View) -> bool {
+    !matches!(view.projection, ProjectionKind::StMap(_))
+}
+
+/// Points all over a picture, as parts of its width and height, none of them on its edge.
+fn points() -> impl Iterator<Item = (f64, f64)> {
+    let at = |step: usize| (step as f64 + 0.37) / STEPS as f64;
+    (0..STEPS).flat_map(move |j| (0..STEPS).map(move |i| (at(i), at(j))))
+}
+
+fn flip(point: PixelPoint, [width, height]: [f64; 2], flips: [bool; 2]) -> PixelPoint {
+    PixelPoint {
+        x: if flips[0] { width - point.x } else { point.x },
+        y: if flips[1] { height - point.y } else { point.y },
+    }
+}

@@ -1,0 +1,202 @@
+//! Geometry compiled once for any number of frames.
+
+mod band;
+mod canvas;
+mod fixed;
+mod float;
+mod mirrors;
+#[cfg(test)]
+mod tests;
+mod weights;
+
+use std::ops::Range;
+
+use fearless_simd::Level;
+use rayon::prelude::*;
+
+use band::{Band, Recorder};
+use canvas::Canvas;
+use fixed::{FixedFilter, FixedWeights};
+use float::{FloatFilter, FloatWeights};
+use mirrors::Mirrors;
+use weights::Weights;
+
+use super::kernel::KernelTable;
+use super::patch::SIDE;
+use super::scan::Scan;
+use super::{Resampler, Taps};
+use crate::raster::{FixedCodec, FixedLight, Image, Rgba};
+
+/// Rows of a target that are worked on together, in tiles: those of a few patches.
+const BAND: usize = 4 * SIDE;
+
+/// The geometry of a conversion: which texels, with which weights, make each pixel of the target.
+///
+/// It depends on the views, the target and the filter, not on the light: one plan serves all frames of a sequence.
+#[derive(Clone, Debug)]
+pub struct Plan(Compiled<FloatWeights>);
+
+/// A [`Plan`] for light of 15 bits: opaque pictures of 8-bit files.
+#[derive(Clone, Debug)]
+pub struct FixedPlan(Compiled<FixedWeights>);
+
+#[derive(Clone, Debug)]
+struct Compiled<W> {
+    width: usize,
+    height: usize,
+    anti_ringing: bool,
+    mirrors: Mirrors,
+    bands: Vec<Band<W>>,
+}
+
+impl Plan {
+    pub(super) fn new(resampler: &Resampler) -> Self {
+        Self(Compiled::new(resampler))
+    }
+
+    /// One frame. `texels` is the world's buffer of light.
+    pub fn apply(&self, texels: &[Rgba]) -> Image<Rgba> {
+        let Self(Compiled { width, height, anti_ringing, mirrors, .. }) = self;
+        let mut image = Image::filled(*width, *height, Rgba::TRANSPARENT);
+        let filter = FloatFilter { level: Level::new(), mirrors, texels, anti_ringing: *anti_ringing };
+        self.0.fill(image.pixels_mut(), |band, canvas| filter.fill(band, canvas));
+        image
+    }
+
+    /// Bytes of memory that the plan holds.
+    pub fn bytes(&self) -> usize {
+        self.0.bytes()
+    }
+
+    /// About how many that of a conversion would hold: found from every sixteenth band of rows, keeping nothing.
+    pub(super) fn bytes_estimate(resampler: &Resampler) -> usize {
+        bytes_estimate::<FloatWeights>(resampler)
+    }
+}
+
+impl FixedPlan {
+    pub(super) fn new(resampler: &Resampler) -> Self {
+        Self(Compiled::new(resampler))
+    }
+
+    /// One frame: the code values of each pixel. `light` is that of all the world's texels.
+    pub fn apply(&self, light: &FixedLight, codec: &FixedCodec) -> Image<[u8; 3]> {
+        let Self(Compiled { width, height, anti_ringing, mirrors, .. }) = self;
+        let mut image = Image::filled(*width, *height, codec.background());
+        let filter = FixedFilter { level: Level::new(), mirrors, light, codec, anti_ringing: *anti_ringing };
+        self.0.fill(image.pixels_mut(), |band, canvas| filter.fill(band, canvas));
+        image
+    }
+
+    /// Bytes of memory that the plan holds.
+    pub fn bytes(&self) -> usize {
+        self.0.bytes()
+    }
+
+    /// About how many that of a conversion would hold: found from every sixteenth band of rows, keeping nothing.
+    pub(super) fn bytes_estimate(resampler: &Resampler) -> usize {
+        bytes_estimate::<FixedWeights>(resampler)
+    }
+}
+
+/// A frame without a plan that is kept: each band's geometry is forgotten when its pixels are made.
+pub(super) fn render(resampler: &Resampler, texels: &[Rgba], level: Level) -> Image<Rgba> {
+    let mirrors = &Mirrors::of(resampler.world, resampler.target);
+    let (width, height) = (resampler.target.width(), resampler.target.height());
+    let mut image = Image::filled(width, height, Rgba::TRANSPARENT);
+    let filter = FloatFilter { level, mirrors, texels, anti_ringing: resampler.filter.anti_ringing };
+    each_band(resampler, mirrors, image.pixels_mut(), level, |band, canvas| filter.fill(band, canvas));
+    image
+}
+
+/// The same in 15 bits.
+pub(super) fn render_fixed(resampler: &Resampler, light: &FixedLight, codec: &FixedCodec) -> Image<[u8; 3]> {
+    let mirrors = &Mirrors::of(resampler.world, resampler.target);
+    let (width, height) = (resampler.target.width(), resampler.target.height());
+    let mut image = Image::filled(width, height, codec.background());
+    let level = Level::new();
+    let filter = FixedFilter { level, mirrors, light, codec, anti_ringing: resampler.filter.anti_ringing };
+    each_band(resampler, mirrors, image.pixels_mut(), level, |band, canvas| filter.fill(band, canvas));
+    image
+}
+
+/// Bytes that the plan of a conversion would hold, found from every sixteenth of its bands.
+fn bytes_estimate<W: Weights>(resampler: &Resampler) -> usize {
+    const STRIDE: usize = 16;
+    let mirrors = &Mirrors::of(resampler.world, resampler.target);
+    let table = KernelTable::new(&resampler.filter.kernel);
+    let bands = mirrors.rows.div_ceil(BAND);
+    // From the middle of the first stride, so that a low image is not judged by its first rows.
+    let first = STRIDE.min(bands) / 2;
+    let sampled: Vec<usize> = (first..bands).step_by(STRIDE).collect();
+    let bytes = |&band: &usize| {
+        let mut kept = Band::<W>::default();
+        record(resampler, mirrors, &table, mirrors.band(band), Level::new(), &mut kept);
+        kept.shrink();
+        kept.bytes()
+    };
+    let bytes: usize = sampled.par_iter().map(bytes).sum();
+    bytes * bands / sampled.len().max(1)
+}
+
+impl<W: Weights> Compiled<W> {
+    fn new(resampler: &Resampler) -> Self {
+        let Resampler { world, target, filter } = resampler;
+        let mirrors = Mirrors::of(world, target);
+        let table = KernelTable::new(&filter.kernel);
+        let compile = |index| {
+            let mut band = Band::default();
+            record(resampler, &mirrors, &table, mirrors.band(index), Level::new(), &mut band);
+            band.shrink();
+            band
+        };
+        let bands = (0..mirrors.rows.div_ceil(BAND)).into_par_iter().map(compile).collect();
+        let (width, height) = (target.width(), target.height());
+        Self { width, height, anti_ringing: filter.anti_ringing, mirrors, bands }
+    }
+
+    fn fill<P: Send>(&self, pixels: &mut [P], make: impl Fn(&Band<W>, &mut Canvas<P>) + Sync) {
+        let canvases = Canvas::bands(pixels, self.width, BAND, &self.mirrors);
+        canvases.zip(&self.bands).for_each(|(mut canvas, band)| make(band, &mut canvas));
+    }
+
+    fn bytes(&self) -> usize {
+        self.bands.iter().map(Band::bytes).sum()
+    }
+}
+
+/// Records each band, makes its pixels and forgets it.
+fn each_band<W: Weights, P: Send>(
+    resampler: &Resampler,
+    mirrors: &Mirrors,
+    pixels: &mut [P],
+    level: Level,
+    make: impl Fn(&Band<W>, &mut Canvas<P>) + Sync,
+) {
+    let table = &KernelTable::new(&resampler.filter.kernel);
+    let canvases = Canvas::bands(pixels, resampler.target.width(), BAND, mirrors);
+    canvases.enumerate().for_each_init(Band::default, |band, (index, mut canvas)| {
+        band.clear();
+        record(resampler, mirrors, table, mirrors.band(index), level, band);
+        make(band, &mut canvas);
+    });
+}
+
+fn record<W: Weights>(
+    resampler: &Resampler,
+    mirrors: &Mirrors,
+    table: &KernelTable,
+    rows: Range<usize>,
+    level: Level,
+    band: &mut Band<W>,
+) {
+    let mut recorder = Recorder { world: resampler.world, mirrors, band, taps: Taps::default() };
+    Scan::new(resampler, table, level).pixels(mirrors.columns, rows, &mut recorder);
+}
+
+impl Mirrors {
+    /// The rows of a band.
+    fn band(&self, index: usize) -> Range<usize> {
+        index * BAND..self.rows.min((index + 1) * BAND)
+    }
+}

@@ -1,0 +1,182 @@
+use fearless_simd::{Level, Simd};
+
+use super::mirrors::{MirrorImage, Mirrors};
+use super::*;
+use crate::projection::{PlanePoint, PlaneRect, ProjectionKind};
+use crate::raster::Transfer;
+use crate::resample::Filter;
+use crate::sphere::{Angle, CubeFace, Orientation};
+use crate::world::{FieldStop, PixelGrid, View, World};
+
+fn view(projection: ProjectionKind, size: (usize, usize), half: (f64, f64), orientation: Orientation) -> View {
+    let rect = PlaneRect { min: PlanePoint::new(-half.0, -half.1), max: PlanePoint::new(half.0, half.1) };
+    View { projection, orientation, grid: PixelGrid::spanning(size.0, size.1, rect), stop: FieldStop::NONE }
+}
+
+fn turned(yaw: f64, pitch: f64, roll: f64) -> Orientation {
+    let [yaw, pitch, roll] = [yaw, pitch, roll].map(Angle::from_degrees);
+    Orientation::from_yaw_pitch_roll(yaw, pitch, roll)
+}
+
+fn cube(faces: &[CubeFace], size: usize) -> World {
+    let face = |face: CubeFace| view(ProjectionKind::PERSPECTIVE, (size, size), (1.0, 1.0), face.orientation());
+    World::new(faces.iter().map(|&f| (f.name().to_owned(), face(f)))).expect("faces")
+}
+
+fn panorama(width: usize) -> World {
+    let half = (std::f64::consts::PI, std::f64::consts::FRAC_PI_2);
+    let all = view(ProjectionKind::EQUIRECTANGULAR, (width, width / 2), half, Orientation::IDENTITY);
+    World::new([("all".to_owned(), all)]).expect("a panorama")
+}
+
+fn dome(size: usize, orientation: Orientation) -> View {
+    let dome = view(ProjectionKind::EQUIDISTANT, (size, size), (1.0, 1.0), orientation);
+    View { stop: FieldStop::circle(1.0), ..dome }
+}
+
+/// Any light, in steps that 15 bits hold, with edges, dots and slopes.
+fn light(world: &World) -> FixedLight {
+    let mut light = FixedLight::black(world.texel_count());
+    for (k, texel) in light.texels_mut().iter_mut().enumerate() {
+        let noise = |seed: usize| ((k * seed) as u32).wrapping_mul(2_654_435_761) >> 17;
+        let smooth = (k % 300 * 100) as i16;
+        *texel = [noise(1) as i16, if k % 11 == 0 { i16::MAX } else { smooth }, (noise(7) / 64) as i16, 0];
+    }
+    light
+}
+
+fn floats(light: &FixedLight) -> Vec<Rgba> {
+    (0..light.len()).map(|texel| light.rgba(texel)).collect()
+}
+
+/// Conversions of all kinds, and in how many mirrors each is seen.
+fn conversions() -> Vec<(World, View, usize)> {
+    let up = turned(0.0, 90.0, 0.0);
+    let all = CubeFace::ALL;
+    let half = (std::f64::consts::PI, std::f64::consts::FRAC_PI_2);
+    let panoramic = |size| view(ProjectionKind::EQUIRECTANGULAR, size, half, Orientation::IDENTITY);
+    vec![
+        (cube(&all, 150), dome(200, up), 4),
+        (cube(&all, 300), dome(62, up), 4),
+        (cube(&[CubeFace::Front, CubeFace::Left, CubeFace::Right, CubeFace::Up], 120), omnimax(), 2),
+        (cube(&all, 100), dome(120, turned(20.0, 60.0, 5.0)), 1),
+        (cube(&all, 100), dome(120, turned(0.0, 60.0, 0.0)), 2),
+        (cube(&all, 100), dome(121, up), 1),
+        (cube(&all, 64), panoramic((240, 120)), 4),
+        (panorama(300), panoramic((400, 200)), 4),
+        (panorama(300), view(ProjectionKind::PERSPECTIVE, (160, 90), (1.0, 0.6), Orientation::IDENTITY), 4),
+    ]
+}
+
+fn omnimax() -> View {
+    let frame = view(ProjectionKind::OMNIMAX, (200, 146), (1.0, 0.73), Orientation::IDENTITY);
+    View { stop: FieldStop::circle(1.0).with_lower(Angle::from_degrees(45.0)), ..frame }
+}
+
+/// The levels of instructions that this machine has.
+fn levels() -> Vec<Level> {
+    let best = Level::new();
+    #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+    let between = [best.as_sse4_2().map(|simd| simd.level()), best.as_avx2().map(|simd| simd.level())];
+    #[cfg(not(any(target_arch = "x86", target_arch = "x86_64")))]
+    let between = [None; 2];
+    [Some(Level::baseline()), Some(best)].into_iter().chain(between).flatten().collect()
+}
+
+fn resampler<'a>(world: &'a World, target: &'a View) -> Resampler<'a> {
+    Resampler { world, target, filter: Filter::DEFAULT }
+}
+
+#[test]
+fn mirrors_are_found_where_there_are_some() {
+    for (world, target, images) in conversions() {
+        let found = Mirrors::of(&world, &target);
+        assert_eq!(found.images.len(), images, "{:?} of {:?}", target.projection, target.orientation);
+        assert_eq!(found.columns * found.rows * images, target.width() * target.height());
+    }
+    // Faces of other sizes, or one that is missing, or turned: no mirror.
+    let up = turned(0.0, 90.0, 0.0);
+    let mut faces: Vec<_> = CubeFace::ALL.into_iter().filter(|face| *face != CubeFace::Left).collect();
+    assert_eq!(Mirrors::of(&cube(&faces, 64), &dome(64, up)).images.len(), 2);
+    faces.retain(|face| *face != CubeFace::Back);
+    assert_eq!(Mirrors::of(&cube(&faces, 64), &dome(64, up)).images.len(), 1);
+    let off_centre = View { grid: dome(64, up).grid.window(64, 64, 0.25, 0.0), ..dome(64, up) };
+    assert_eq!(Mirrors::of(&cube(&CubeFace::ALL, 64), &off_centre).images.len(), 2);
+}
+
+#[test]
+fn what_mirrors_show_is_what_would_be_computed() {
+    for (world, target, _) in conversions() {
+        let light = light(&world);
+        let resampler = resampler(&world, &target);
+        let alone = Mirrors { columns: target.width(), rows: target.height(), images: vec![MirrorImage::itself(&world)] };
+        let mut expected = Image::filled(target.width(), target.height(), Rgba::TRANSPARENT);
+        let texels = floats(&light);
+        let filter = FloatFilter { level: Level::new(), mirrors: &alone, texels: &texels, anti_ringing: true };
+        each_band(&resampler, &alone, expected.pixels_mut(), Level::new(), |band, canvas| filter.fill(band, canvas));
+        let made = resampler.render(&texels);
+        for (a, b) in made.pixels().iter().zip(expected.pixels()) {
+            // Patches lie otherwise there: what one of them holds may be a pixel by itself, whose weights differ a little.
+            assert!((0..4).all(|c| (a.0[c] - b.0[c]).abs() < 5e-3), "{a:?} is not {b:?}, {:?}", target.projection);
+        }
+    }
+}
+
+#[test]
+fn a_plan_makes_the_pixels_that_are_made_without() {
+    for (world, target, _) in conversions() {
+        let (light, resampler) = (light(&world), resampler(&world, &target));
+        let texels = floats(&light);
+        assert!(resampler.plan().expect("a plan").apply(&texels) == resampler.render(&texels));
+        let codec = FixedCodec::new(&Transfer::Srgb, Rgba::BLACK).expect("sRGB has 8 bits");
+        let plan = resampler.fixed_plan().expect("a plan");
+        assert!(plan.apply(&light, &codec) == resampler.render_fixed(&light, &codec));
+    }
+}
+
+#[test]
+fn all_levels_of_instructions_make_the_same_pixels() {
+    for (world, target, _) in conversions().into_iter().take(4) {
+        let (light, resampler) = (light(&world), resampler(&world, &target));
+        let (texels, mirrors) = (floats(&light), Mirrors::of(&world, &target));
+        let codec = FixedCodec::new(&Transfer::Srgb, Rgba::BLACK).expect("sRGB has 8 bits");
+        let plan = resampler.fixed_plan().expect("a plan");
+        let made = |level| {
+            let mut codes = Image::filled(target.width(), target.height(), codec.background());
+            let filter = FixedFilter { level, mirrors: &mirrors, light: &light, codec: &codec, anti_ringing: true };
+            plan.0.fill(codes.pixels_mut(), |band, canvas| filter.fill(band, canvas));
+            (render(&resampler, &texels, level), codes)
+        };
+        let mut all = levels().into_iter().map(made);
+        let first = all.next().expect("at least the plain one");
+        assert!(all.all(|made| made == first));
+    }
+}
+
+#[test]
+fn integers_are_within_one_code_of_floats() {
+    for (world, target, _) in conversions() {
+        for (transfer, anti_ringing) in [(Transfer::Srgb, true), (Transfer::Linear, true), (Transfer::Srgb, false)] {
+            let light = light(&world);
+            let filter = Filter { anti_ringing, ..Filter::DEFAULT };
+            let resampler = Resampler { filter, ..resampler(&world, &target) };
+            let background = Rgba::opaque(0.25, 0.5, 0.0);
+            let codec = FixedCodec::new(&transfer, background).expect("a codec");
+            let made = resampler.render_fixed(&light, &codec);
+            let exact = resampler.render(&floats(&light));
+            let (mut equal, mut count) = (0, 0);
+            for (a, b) in made.pixels().iter().zip(exact.pixels()) {
+                let b = b.over(background);
+                for c in 0..3 {
+                    let code = transfer.encode(f64::from(b.0[c].clamp(0.0, 1.0)), c) * 255.0;
+                    let error = (f64::from(a[c]) - code).abs();
+                    // As one that rounds it may say half a code less or more.
+                    assert!(error < 1.5, "{a:?} is not {b:?}: {error} in {:?}", target.projection);
+                    equal += usize::from(f64::from(a[c]) == code.round());
+                    count += 1;
+                }
+            }
+            assert!(equal * 100 >= count * 97, "{equal} of {count} are equal, {:?} {transfer:?}", target.projection);
+        }
+    }
+}
