@@ -60,8 +60,9 @@ impl FrameLight {
             (self.texels, self.is_used) = (Texels::floats(job), false);
         }
         if let Texels::Float(worlds) = &mut self.texels {
-            let decode =
-                |image: &EncodedImage, transfer: &Transfer, into: &mut [Rgba]| Some(decoder.decode(image, transfer, into));
+            let decode = |image: &EncodedImage, transfer: &Transfer, into: &mut [Rgba]| {
+                Some(decoder.decode(image, transfer, into))
+            };
             let read = Reading { job, frame, is_used: self.is_used, decode };
             read.all(worlds.iter_mut().map(Vec::as_mut_slice).collect(), &mut self.missing)?;
             self.is_used = true;

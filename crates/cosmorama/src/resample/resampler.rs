@@ -1,8 +1,8 @@
 use super::plan::{self, FixedPlan, Plan};
+use super::window::Level;
 use super::{Filter, FilterKind, reference};
 use crate::raster::{FixedCodec, FixedLight, Image, Rgba};
 use crate::world::{View, World};
-use fearless_simd::Level;
 
 /// A conversion from a world to a target view.
 #[derive(Clone, Copy, Debug)]

@@ -3,8 +3,7 @@ use std::ops::Range;
 use super::kernel::KernelTable;
 use super::patch::{Patch, SIDE};
 use super::pixel_taps::PixelTaps;
-use super::window::Windows;
-use fearless_simd::Level;
+use super::window::{Level, Windows};
 use super::{FilterKind, Resampler, Taps};
 
 /// Columns that are gone through together: pixels above each other share texels, which are still at hand.
@@ -48,13 +47,7 @@ impl<'a> Scan<'a> {
         }
     }
 
-    fn patch(
-        &mut self,
-        [left, top]: [usize; 2],
-        columns: usize,
-        rows: &Range<usize>,
-        sink: &mut impl Sink,
-    ) {
+    fn patch(&mut self, [left, top]: [usize; 2], columns: usize, rows: &Range<usize>, sink: &mut impl Sink) {
         let target = self.resampler.target;
         let patch = self.windows.as_ref().and_then(|_| Patch::new(self.pixels.gather(), target, (left, top)));
         let count = SIDE.min(columns - left);
@@ -91,7 +84,8 @@ mod tests {
 
     impl Sink for Collector {
         fn pixel(&mut self, [column, row]: [usize; 2], _: f32, taps: &Taps) {
-            self.weights[row * self.width + column] = taps.as_slice().iter().map(|tap| (tap.texel, tap.weight)).collect();
+            self.weights[row * self.width + column] =
+                taps.as_slice().iter().map(|tap| (tap.texel, tap.weight)).collect();
         }
 
         fn windows(&mut self, [column, row]: [usize; 2], count: usize, windows: &Windows) {

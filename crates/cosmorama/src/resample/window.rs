@@ -2,7 +2,9 @@
 
 use std::ops::Range;
 
-use fearless_simd::{Level, dispatch, f32x8, prelude::*};
+/// The level of instructions that lanes use: found once, for all of them.
+pub(super) use fearless_simd::Level;
+use fearless_simd::{dispatch, f32x8, prelude::*};
 
 use super::bend::Bend;
 use super::cubics::Cubics;
@@ -138,8 +140,7 @@ impl Windows {
             let (left, top) = (patch.origin[0] + first[0][lane] as i64, patch.origin[1] + first[1][lane] as i64);
             let columns = left >= whole.left as i64 && left + width <= whole.right as i64;
             let rows = top >= whole.top as i64 && top + height <= whole.bottom as i64;
-            (columns && rows && self.width * self.height <= LARGEST)
-                .then_some([left as u32, top as u32])
+            (columns && rows && self.width * self.height <= LARGEST).then_some([left as u32, top as u32])
         });
     }
 
@@ -193,4 +194,15 @@ impl Windows {
             y += 1.0;
         }
     }
+}
+
+#[cfg(test)]
+/// The levels of instructions that this machine has.
+pub(super) fn levels() -> Vec<Level> {
+    let best = Level::new();
+    #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+    let between = [best.as_sse4_2().map(|simd| simd.level()), best.as_avx2().map(|simd| simd.level())];
+    #[cfg(not(any(target_arch = "x86", target_arch = "x86_64")))]
+    let between = [None; 2];
+    [Some(Level::baseline()), Some(best)].into_iter().chain(between).flatten().collect()
 }

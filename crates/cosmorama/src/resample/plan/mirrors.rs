@@ -163,7 +163,11 @@ fn reflection(source: &Source, other: &Source, mirror: &DMat3) -> Option<Reflect
         let all = PixelRect { left: 0, top: 0, right: source.view.width(), bottom: source.view.height() };
         source.whole == all && source.mask.is_none() && source.view.stop == FieldStop::NONE && is_formula(&source.view)
     };
-    if a.projection != b.projection || (a.width(), a.height()) != (b.width(), b.height()) || !is_plain(source) || !is_plain(other) {
+    if a.projection != b.projection
+        || (a.width(), a.height()) != (b.width(), b.height())
+        || !is_plain(source)
+        || !is_plain(other)
+    {
         return None;
     }
     let size = [a.width() as f64, a.height() as f64];

@@ -11,7 +11,6 @@ mod weights;
 
 use std::ops::Range;
 
-use fearless_simd::Level;
 use rayon::prelude::*;
 
 use band::{Band, Recorder};
@@ -24,6 +23,7 @@ use weights::Weights;
 use super::kernel::KernelTable;
 use super::patch::SIDE;
 use super::scan::Scan;
+use super::window::Level;
 use super::{Resampler, Taps};
 use crate::raster::{FixedCodec, FixedLight, Image, Rgba};
 

@@ -1,10 +1,8 @@
-use fearless_simd::{Level, Simd};
-
 use super::mirrors::{MirrorImage, Mirrors};
 use super::*;
 use crate::projection::{PlanePoint, PlaneRect, ProjectionKind};
 use crate::raster::Transfer;
-use crate::resample::Filter;
+use crate::resample::{Filter, window};
 use crate::sphere::{Angle, CubeFace, Orientation};
 use crate::world::{FieldStop, PixelGrid, View, World};
 
@@ -73,16 +71,6 @@ fn omnimax() -> View {
     View { stop: FieldStop::circle(1.0).with_lower(Angle::from_degrees(45.0)), ..frame }
 }
 
-/// The levels of instructions that this machine has.
-fn levels() -> Vec<Level> {
-    let best = Level::new();
-    #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
-    let between = [best.as_sse4_2().map(|simd| simd.level()), best.as_avx2().map(|simd| simd.level())];
-    #[cfg(not(any(target_arch = "x86", target_arch = "x86_64")))]
-    let between = [None; 2];
-    [Some(Level::baseline()), Some(best)].into_iter().chain(between).flatten().collect()
-}
-
 fn resampler<'a>(world: &'a World, target: &'a View) -> Resampler<'a> {
     Resampler { world, target, filter: Filter::DEFAULT }
 }
@@ -109,7 +97,8 @@ fn what_mirrors_show_is_what_would_be_computed() {
     for (world, target, _) in conversions() {
         let light = light(&world);
         let resampler = resampler(&world, &target);
-        let alone = Mirrors { columns: target.width(), rows: target.height(), images: vec![MirrorImage::itself(&world)] };
+        let alone =
+            Mirrors { columns: target.width(), rows: target.height(), images: vec![MirrorImage::itself(&world)] };
         let mut expected = Image::filled(target.width(), target.height(), Rgba::TRANSPARENT);
         let texels = floats(&light);
         let filter = FloatFilter { level: Level::new(), mirrors: &alone, texels: &texels, anti_ringing: true };
@@ -147,7 +136,7 @@ fn all_levels_of_instructions_make_the_same_pixels() {
             plan.0.fill(codes.pixels_mut(), |band, canvas| filter.fill(band, canvas));
             (render(&resampler, &texels, level), codes)
         };
-        let mut all = levels().into_iter().map(made);
+        let mut all = window::levels().into_iter().map(made);
         let first = all.next().expect("at least the plain one");
         assert!(all.all(|made| made == first));
     }
