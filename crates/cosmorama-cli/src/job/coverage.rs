@@ -18,7 +18,7 @@ pub(crate) enum Coverage {
 /// The worlds of whole pictures, whether their files are there or not: one, or one for each eye.
 pub(crate) fn nominal_worlds(input: &Input, memory: MemoryBudget) -> Result<Vec<World>> {
     memory.check_pictures(input)?;
-    let world = |views: &Vec<InputView>| Ok(World::blended(views.iter().map(|view| view.part(view.nominal)))?);
+    let world = |views: &Vec<InputView>| Ok(World::blended(views.iter().map(|view| view.world_view(view.nominal)))?);
     input.worlds.iter().map(world).collect()
 }
 
@@ -90,7 +90,7 @@ fn find_gaps(
 
 /// The world of what files hold: often that of the whole pictures.
 fn held_world(views: &[InputView], nominal: World) -> Result<World> {
-    let held = || views.iter().filter_map(InputView::present).map(|(view, _, held)| view.part(*held));
+    let held = || views.iter().filter_map(InputView::present).map(|(view, _, held)| view.world_view(*held));
     let is_same = |(part, source): (WorldView, &Source)| {
         part.name == source.name && part.view == source.view && part.blend == source.blend && part.mask == source.mask
     };

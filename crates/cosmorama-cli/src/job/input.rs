@@ -10,8 +10,7 @@ use super::detect::{declared, detect};
 use super::eye::EyePart;
 use super::face_file::Face;
 use super::face_shape::{FacePicture, size_of_missing};
-use super::packed::{self, FilePart};
-use super::{Files, GivenFaces, MemoryBudget, frames, pto, st_map, world_file};
+use super::{Files, GivenFaces, MemoryBudget, Place, frames, packed, pto, st_map, world_file};
 use crate::failure::usage;
 use crate::spec::{Cube, Packing, Shape, Single, Spec, StereoSpec};
 
@@ -23,7 +22,7 @@ pub(crate) struct InputView {
     /// Its files.
     pub(crate) files: Files,
     /// Where it lies in a file that other views share.
-    pub(crate) part: Option<FilePart>,
+    pub(crate) part: Option<Place>,
     /// What its first file says of itself; `None` where there is no file.
     pub(crate) header: Option<Header>,
     /// The geometry of its whole picture.
@@ -40,8 +39,13 @@ pub(crate) struct InputView {
 
 impl InputView {
     /// It as a part of a world, with the geometry of its whole picture or of what its file holds of that.
-    pub(super) fn part(&self, view: View) -> WorldView {
+    pub(super) fn world_view(&self, view: View) -> WorldView {
         WorldView { name: self.name.clone(), view, blend: self.blend, mask: self.mask.clone() }
+    }
+
+    /// What its file says of itself and the geometry of what it holds, where there is a file and it is wanted.
+    pub(crate) fn present(&self) -> Option<(&Self, &Header, &View)> {
+        Some((self, self.header.as_ref()?, &self.window.as_ref()?.0)).filter(|_| self.wanted)
     }
 }
 
@@ -58,13 +62,6 @@ pub(crate) struct Input {
 /// What is told where an output has two eyes and the input one.
 pub(super) const SAME_FOR_BOTH: &str =
     "both eyes get the same picture, since the input has only one: there is no depth in it";
-
-impl InputView {
-    /// What its file says of itself and the geometry of what it holds, where there is a file and it is wanted.
-    pub(crate) fn present(&self) -> Option<(&Self, &Header, &View)> {
-        Some((self, self.header.as_ref()?, &self.window.as_ref()?.0)).filter(|_| self.wanted)
-    }
-}
 
 impl Input {
     /// Finds and probes the files of an input.

@@ -9,8 +9,7 @@ use cosmorama::world::{
 };
 use cosmorama_io::{PtoImage, PtoPanorama, PtoProject, probe};
 
-use super::packed::FilePart;
-use super::{Files, Input, InputView, MemoryBudget};
+use super::{Files, Input, InputView, MemoryBudget, Place};
 use crate::args::SizeArg;
 use crate::args::convert::GeometryArgs;
 use crate::failure::usage;
@@ -95,7 +94,7 @@ fn view(folder: &Path, image: &PtoImage, memory: MemoryBudget) -> Result<InputVi
     Ok(InputView {
         name: image.file.display().to_string(),
         files: Files::One(path),
-        part: (size != image.size).then_some(FilePart { corner, of: image.size }),
+        part: (size != image.size).then_some(Place { corner, of: image.size }),
         header: Some(cosmorama_io::Header { width: size.0, height: size.1, ..whole }),
         // What was cropped away is not there, as if it had never been photographed.
         nominal: held,
