@@ -2,7 +2,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use anyhow::{Result, bail};
-use cosmorama::world::{Blend, Canvas, Eye, FacePart, View, ViewMask, WorldView};
+use cosmorama::world::{Blend, Canvas, FacePart, View, ViewMask, WorldView};
 use cosmorama_io::{FaceFile, FacePattern, FaceSet, FrameList, Header, probe};
 
 use super::canvas::{canvas_of, fits_canvas, fits_shape, whole};
@@ -12,7 +12,7 @@ use super::face_file::Face;
 use super::face_shape::{FacePicture, size_of_missing};
 use super::{Files, GivenFaces, MemoryBudget, Place, frames, packed, pto, st_map, world_file};
 use crate::failure::usage;
-use crate::spec::{Cube, Packing, Shape, Single, Spec, StereoSpec};
+use crate::spec::{Cube, Packing, Shape, Single, Spec};
 
 /// A view of the input: an image, a face of a cube, a lens of two.
 #[derive(Clone)]
@@ -72,30 +72,30 @@ impl Input {
         memory: MemoryBudget,
         warnings: &mut Vec<String>,
     ) -> Result<Self> {
-        if world_file::is_world_file(pattern) {
-            if let Some(spec) = from {
-                return Err(usage(format!("{pattern} says itself what its views are; leave out --from {}", spec.name)));
+        let refuse_spec = |what: &str| match from {
+            Some(spec) => {
+                Err(usage(format!("{pattern} says itself what its {what} are; leave out --from {}", spec.name)))
             }
+            None => Ok(()),
+        };
+        if world_file::is_world_file(pattern) {
+            refuse_spec("views")?;
             return world_file::find(pattern, wanted, memory, warnings);
         }
         if pto::is_project(pattern) {
-            if let Some(spec) = from {
-                return Err(usage(format!(
-                    "{pattern} says itself what its pictures are; leave out --from {}",
-                    spec.name
-                )));
-            }
+            refuse_spec("pictures")?;
             return pto::find(pattern, memory, warnings);
         }
-        let Some(StereoSpec { packing, eye }) = from.and_then(|spec| spec.stereo) else {
+        let Some(stereo) = from.and_then(|spec| spec.stereo) else {
             return Self::find_one(pattern, from, None, wanted, warnings);
         };
         let mut found: Option<Self> = None;
-        for eye in eye.map_or(Eye::ALL.to_vec(), |eye| vec![eye]) {
+        for eye in stereo.eyes() {
             // Whatever there is to say of the other eye has been said of the first.
             let mut said = Vec::new();
             let warnings = if found.is_some() { &mut said } else { &mut *warnings };
-            let mut one = Self::find_one(pattern, from, Some(EyePart { stereo: packing, eye }), wanted, warnings)?;
+            let mut one =
+                Self::find_one(pattern, from, Some(EyePart { stereo: stereo.packing, eye }), wanted, warnings)?;
             match &mut found {
                 Some(found) => found.worlds.append(&mut one.worlds),
                 None => found = Some(one),

@@ -125,7 +125,7 @@ fn header_pixels(header: &Header) -> u64 {
 }
 
 /// A file's samples and the light made of them.
-fn light_bytes(header: &Header) -> u64 {
+pub(super) fn light_bytes(header: &Header) -> u64 {
     let samples = header.channels.count() * header.depth.bytes();
     header_pixels(header).saturating_mul((samples + size_of::<Rgba>()) as u64)
 }
