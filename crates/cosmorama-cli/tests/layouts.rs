@@ -158,7 +158,7 @@ fn the_faces_of_exrenvmap_have_its_own_front() {
     let arguments = ["-c", "-w", "256", &panorama, "face%.exr"];
     let ran = std::process::Command::new("exrenvmap").current_dir(bench.path(".")).args(arguments).status();
     if ran.is_err() {
-        assert!(std::env::var("CI").as_deref() != Ok("true"), "exrenvmap is not installed");
+        assert!(std::env::var_os("CI").is_none(), "exrenvmap is not installed");
         eprintln!("SKIPPED: exrenvmap is not installed");
         return;
     }
@@ -214,7 +214,7 @@ fn textures_hold_cubes_and_nothing_else() {
 #[test]
 fn ffmpeg_finds_the_same_world_in_our_layouts() {
     if Command::new("ffmpeg").arg("-version").output().is_err() {
-        assert!(std::env::var("CI").as_deref() != Ok("true"), "ffmpeg is not installed");
+        assert!(std::env::var_os("CI").is_none(), "ffmpeg is not installed");
         println!("SKIPPED: ffmpeg is not installed");
         return;
     }

@@ -64,7 +64,7 @@ fn a_circle_alone_has_the_width_that_is_given() {
 #[test]
 fn ffmpeg_finds_the_same_world_in_two_fisheyes_and_we_in_its_own() {
     if Command::new("ffmpeg").arg("-version").output().is_err() {
-        assert!(std::env::var("CI").as_deref() != Ok("true"), "ffmpeg is not installed");
+        assert!(std::env::var_os("CI").is_none(), "ffmpeg is not installed");
         println!("SKIPPED: ffmpeg is not installed");
         return;
     }

@@ -49,6 +49,19 @@ fn rectangles_are_those_of_the_plain_scan() {
     }
 }
 
+#[test]
+fn what_is_seen_is_the_same_where_nothing_else_is_asked() {
+    let panorama = World::new([("panorama".to_string(), equirect(256))]).expect("a world");
+    let dome = World::new([("dome".to_string(), fisheye(128, 180.0))]).expect("a world");
+    for world in [panorama, dome] {
+        for target in [omnimax(200, 146), equirect(160), perspective(160, 120, 70.0, 40.0, 20.0, 5.0)] {
+            let (all, seen) = (needs(&world, target), Needs::seen(&world, &[target]));
+            assert_eq!((all.views[0].seen, all.uncovered), (seen.views[0].seen, seen.uncovered), "{target:?}");
+            assert_eq!(seen.views[0].read, None);
+        }
+    }
+}
+
 /// The same from pictures alone: a texel is read if its light changes the picture, and seen if point sampling shows it.
 fn plain_scan(world: &World, target: &View) -> Vec<Need> {
     let plan_of = |kind| {

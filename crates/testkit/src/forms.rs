@@ -7,6 +7,8 @@ use cosmorama::world::{
     StereographicFrame, View, World, WorldMapFrame,
 };
 
+use crate::frames::in_shape;
+
 /// A form that a world can have: one view, or the six of a cube.
 #[derive(Clone, Debug)]
 pub struct Form {
@@ -34,12 +36,12 @@ impl Form {
     /// Every form of a world, with about so many pixels for each steradian that it shows.
     pub fn all(pixels_per_steradian: f64) -> Vec<Self> {
         let one = |(name, frame): (&'static str, Frame)| {
-            Self::of(name, pixels_per_steradian, |rows| vec![shape(frame, rows)])
+            Self::of(name, pixels_per_steradian, |rows| vec![in_shape(frame, rows)])
         };
         let cube = |mapping| {
             let frame = Frame::LayoutFace(LayoutFaceFrame { mapping, ..LayoutFaceFrame::default() });
             move |rows| {
-                CubeFace::ALL.map(|face| View { orientation: face.orientation(), ..shape(frame, rows) }).to_vec()
+                CubeFace::ALL.map(|face| View { orientation: face.orientation(), ..in_shape(frame, rows) }).to_vec()
             }
         };
         let cubes = [
@@ -95,10 +97,4 @@ fn frames() -> Vec<(&'static str, Frame)> {
         .filter(|lens| matches!(lens, FisheyeLens::Polynomial(_) | FisheyeLens::KannalaBrandt(_)));
     frames.extend(["blender", "kannala"].into_iter().zip(measured).map(|(name, lens)| (name, fisheye(lens, 200.0))));
     frames
-}
-
-/// A frame's view of so many rows, in its natural shape.
-pub(crate) fn shape(frame: Frame, rows: usize) -> View {
-    let ratio = frame.natural_height(1 << 20) as f64 / f64::from(1 << 20);
-    frame.view((rows as f64 / ratio).round() as usize, rows).expect("a frame with its usual parameters")
 }

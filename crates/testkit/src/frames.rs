@@ -116,7 +116,8 @@ fn cameras() -> [(&'static str, Frame); 2] {
     [("a bent pinhole", camera(pinhole)), ("a skewed fisheye", camera(CalibratedLens::Fisheye(FisheyeLens::EQUISOLID)))]
 }
 
-fn in_shape(frame: Frame, height: usize) -> View {
+/// A frame in its usual shape, about so many pixels high.
+pub(crate) fn in_shape(frame: Frame, height: usize) -> View {
     let ratio = frame.natural_height(1 << 20) as f64 / f64::from(1 << 20);
     frame.view((height as f64 / ratio).round() as usize, height).expect("a frame with its usual parameters")
 }

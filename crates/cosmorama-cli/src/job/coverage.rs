@@ -18,7 +18,7 @@ pub(crate) enum Coverage {
 /// The worlds of whole pictures, whether their files are there or not: one, or one for each eye.
 pub(crate) fn nominal_worlds(input: &Input, memory: MemoryBudget) -> Result<Vec<World>> {
     memory.check_pictures(input)?;
-    let world = |views: &Vec<InputView>| Ok(World::blended(views.iter().map(|view| view.part(view.nominal)))?);
+    let world = |views: &Vec<InputView>| Ok(World::blended(views.iter().map(|view| view.world_view(view.nominal)))?);
     input.worlds.iter().map(world).collect()
 }
 
@@ -71,6 +71,17 @@ fn find_gaps(
         return Ok(Vec::new());
     }
     let geometry: Vec<View> = targets.iter().map(|target| target.view).collect();
+    let uncovered = |needs: &Needs| needs.uncovered.map(|gap| format!("{}: {gap}", targets[gap.target].name));
+    if let [view] = views
+        && view.window.as_ref().is_some_and(|(held, _)| *held == view.nominal)
+    {
+        let needs = Needs::seen(nominal, &geometry);
+        // Whatever the filter reads around what is seen is there, too.
+        if needs.views[0].seen.is_some() {
+            view.wanted = true;
+            return Ok(uncovered(&needs).into_iter().collect());
+        }
+    }
     let needs = Needs::of(nominal, &geometry, filter);
     let mut gaps = Vec::new();
     for (view, need) in views.iter_mut().zip(&needs.views) {
@@ -78,9 +89,7 @@ fn find_gaps(
         gaps.extend(shortfall(view, need));
         warnings.extend(frayed(view, need));
     }
-    if let Some(uncovered) = needs.uncovered {
-        gaps.push(format!("{}: {uncovered}", targets[uncovered.target].name));
-    }
+    gaps.extend(uncovered(&needs));
     if !views.iter().any(|view| view.wanted && view.window.is_some()) {
         gaps.push("nothing of what the input shows is in the output's field of view".to_owned());
         return Err(empty(&gaps));
@@ -90,7 +99,7 @@ fn find_gaps(
 
 /// The world of what files hold: often that of the whole pictures.
 fn held_world(views: &[InputView], nominal: World) -> Result<World> {
-    let held = || views.iter().filter_map(InputView::present).map(|(view, _, held)| view.part(*held));
+    let held = || views.iter().filter_map(InputView::present).map(|(view, _, held)| view.world_view(*held));
     let is_same = |(part, source): (WorldView, &Source)| {
         part.name == source.name && part.view == source.view && part.blend == source.blend && part.mask == source.mask
     };

@@ -5,7 +5,9 @@ use std::path::Path;
 use cosmorama::circle::{self, Circle, Found};
 use cosmorama::raster::{EncodedImage, Image, Rgba, Transfer, Uniform};
 use cosmorama::world::{CubeLayout, LayoutKind, PixelRect};
-use cosmorama_io::{Header, Limits, read};
+use cosmorama_io::{Header, Limits, probe, read};
+
+use super::memory::light_bytes;
 
 /// Beyond this an image is not decoded only to find out what it is.
 const MOST_BYTES: u64 = 1 << 30;
@@ -28,6 +30,10 @@ pub(crate) fn light_of(path: &Path) -> Option<Image<Rgba>> {
 }
 
 fn decoded(path: &Path) -> Option<EncodedImage> {
+    // Light takes more memory than the samples that it is made of.
+    if light_bytes(&probe(path).ok()?) > MOST_BYTES {
+        return None;
+    }
     Some(read(path, &Limits::memory(MOST_BYTES)).ok()?.image)
 }
 

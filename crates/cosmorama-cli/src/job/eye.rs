@@ -4,7 +4,7 @@ use anyhow::{Result, anyhow};
 use cosmorama::world::{Canvas, Eye, LayoutError, PixelRect, Stereo, View};
 use cosmorama_io::{Header, Metadata};
 
-use super::packed::{FilePart, check_whole};
+use super::packed::check_whole;
 use super::{InputView, Picture, Place};
 use crate::args::SizeArg;
 use crate::failure::usage;
@@ -36,7 +36,7 @@ impl EyePart {
         let (name, nominal) = (format!("{} ({} eye)", view.name, self.eye.name()), squeezed(view.nominal, squeeze)?);
         let Some(header) = view.header else { return Ok(InputView { name, nominal, ..view }) };
         let size = (header.width, header.height);
-        let FilePart { corner, of } = view.part.unwrap_or(FilePart { corner: (0, 0), of: size });
+        let Place { corner, of } = view.part.unwrap_or(Place { corner: (0, 0), of: size });
         let (rect, of) = self.rect(corner, size, of)?;
         let window = match view.window {
             Some((held, canvas)) => Some((squeezed(held, squeeze)?, squeezed_canvas(canvas, squeeze)?)),
@@ -44,7 +44,7 @@ impl EyePart {
         };
         Ok(InputView {
             name,
-            part: Some(FilePart { corner: (rect.left, rect.top), of }),
+            part: Some(Place { corner: (rect.left, rect.top), of }),
             header: Some(Header { width: rect.width(), height: rect.height(), ..header }),
             nominal,
             window,

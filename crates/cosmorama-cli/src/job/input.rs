@@ -2,7 +2,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use anyhow::{Result, bail};
-use cosmorama::world::{Blend, Canvas, Eye, FacePart, View, ViewMask, WorldView};
+use cosmorama::world::{Blend, Canvas, FacePart, View, ViewMask, WorldView};
 use cosmorama_io::{FaceFile, FacePattern, FaceSet, FrameList, Header, probe};
 
 use super::canvas::{canvas_of, fits_canvas, fits_shape, whole};
@@ -10,10 +10,9 @@ use super::detect::{declared, detect};
 use super::eye::EyePart;
 use super::face_file::Face;
 use super::face_shape::{FacePicture, size_of_missing};
-use super::packed::{self, FilePart};
-use super::{Files, GivenFaces, MemoryBudget, frames, pto, st_map, world_file};
+use super::{Files, GivenFaces, MemoryBudget, Place, frames, packed, pto, st_map, world_file};
 use crate::failure::usage;
-use crate::spec::{Cube, Packing, Shape, Single, Spec, StereoSpec};
+use crate::spec::{Cube, Packing, Shape, Single, Spec};
 
 /// A view of the input: an image, a face of a cube, a lens of two.
 #[derive(Clone)]
@@ -23,7 +22,7 @@ pub(crate) struct InputView {
     /// Its files.
     pub(crate) files: Files,
     /// Where it lies in a file that other views share.
-    pub(crate) part: Option<FilePart>,
+    pub(crate) part: Option<Place>,
     /// What its first file says of itself; `None` where there is no file.
     pub(crate) header: Option<Header>,
     /// The geometry of its whole picture.
@@ -40,8 +39,13 @@ pub(crate) struct InputView {
 
 impl InputView {
     /// It as a part of a world, with the geometry of its whole picture or of what its file holds of that.
-    pub(super) fn part(&self, view: View) -> WorldView {
+    pub(super) fn world_view(&self, view: View) -> WorldView {
         WorldView { name: self.name.clone(), view, blend: self.blend, mask: self.mask.clone() }
+    }
+
+    /// What its file says of itself and the geometry of what it holds, where there is a file and it is wanted.
+    pub(crate) fn present(&self) -> Option<(&Self, &Header, &View)> {
+        Some((self, self.header.as_ref()?, &self.window.as_ref()?.0)).filter(|_| self.wanted)
     }
 }
 
@@ -59,13 +63,6 @@ pub(crate) struct Input {
 pub(super) const SAME_FOR_BOTH: &str =
     "both eyes get the same picture, since the input has only one: there is no depth in it";
 
-impl InputView {
-    /// What its file says of itself and the geometry of what it holds, where there is a file and it is wanted.
-    pub(crate) fn present(&self) -> Option<(&Self, &Header, &View)> {
-        Some((self, self.header.as_ref()?, &self.window.as_ref()?.0)).filter(|_| self.wanted)
-    }
-}
-
 impl Input {
     /// Finds and probes the files of an input.
     pub(crate) fn find(
@@ -75,30 +72,30 @@ impl Input {
         memory: MemoryBudget,
         warnings: &mut Vec<String>,
     ) -> Result<Self> {
-        if world_file::is_world_file(pattern) {
-            if let Some(spec) = from {
-                return Err(usage(format!("{pattern} says itself what its views are; leave out --from {}", spec.name)));
+        let refuse_spec = |what: &str| match from {
+            Some(spec) => {
+                Err(usage(format!("{pattern} says itself what its {what} are; leave out --from {}", spec.name)))
             }
+            None => Ok(()),
+        };
+        if world_file::is_world_file(pattern) {
+            refuse_spec("views")?;
             return world_file::find(pattern, wanted, memory, warnings);
         }
         if pto::is_project(pattern) {
-            if let Some(spec) = from {
-                return Err(usage(format!(
-                    "{pattern} says itself what its pictures are; leave out --from {}",
-                    spec.name
-                )));
-            }
+            refuse_spec("pictures")?;
             return pto::find(pattern, memory, warnings);
         }
-        let Some(StereoSpec { packing, eye }) = from.and_then(|spec| spec.stereo) else {
+        let Some(stereo) = from.and_then(|spec| spec.stereo) else {
             return Self::find_one(pattern, from, None, wanted, warnings);
         };
         let mut found: Option<Self> = None;
-        for eye in eye.map_or(Eye::ALL.to_vec(), |eye| vec![eye]) {
+        for eye in stereo.eyes() {
             // Whatever there is to say of the other eye has been said of the first.
             let mut said = Vec::new();
             let warnings = if found.is_some() { &mut said } else { &mut *warnings };
-            let mut one = Self::find_one(pattern, from, Some(EyePart { stereo: packing, eye }), wanted, warnings)?;
+            let mut one =
+                Self::find_one(pattern, from, Some(EyePart { stereo: stereo.packing, eye }), wanted, warnings)?;
             match &mut found {
                 Some(found) => found.worlds.append(&mut one.worlds),
                 None => found = Some(one),

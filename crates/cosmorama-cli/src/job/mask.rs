@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use anyhow::{Result, bail};
 use cosmorama::raster::{EncodedImage, Rgba, Transfer};
-use cosmorama::world::{Canvas, MaskShape, PixelPoint, ViewMask};
+use cosmorama::world::{Canvas, MaskShape, ViewMask};
 use cosmorama_io::{Limits, probe, read};
 
 use super::{InputView, MemoryBudget};
@@ -34,16 +34,12 @@ pub(super) fn of_file(path: &Path, view: &InputView, memory: MemoryBudget) -> Re
 /// The mask that some shapes leave, in pixels of the picture whose corner at (left, top) the view has.
 pub(super) fn of_shapes(
     shapes: &[MaskShape],
-    (left, top): (usize, usize),
+    corner: (usize, usize),
     size: (usize, usize),
     memory: MemoryBudget,
 ) -> Result<Arc<ViewMask>> {
-    memory.check_mask(size, 0)?;
-    let counts = |i: usize, j: usize| {
-        let centre = PixelPoint::centre(left + i, top + j);
-        shapes.iter().all(|shape| shape.leaves(centre))
-    };
-    let mask = ViewMask::new(size.0, size.1, counts);
+    memory.check_mask(size, size_of::<bool>() as u64)?;
+    let mask = ViewMask::of_shapes(shapes, corner, size);
     if mask.is_empty() {
         bail!("its masks and its crop leave nothing of it");
     }

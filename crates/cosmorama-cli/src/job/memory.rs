@@ -1,6 +1,7 @@
 use std::path::Path;
 
 use anyhow::{Result, bail};
+use cosmorama::projection::{ProjectionKind, StMapTable};
 use cosmorama::raster::Rgba;
 use cosmorama::world::View;
 use cosmorama_io::Header;
@@ -38,8 +39,9 @@ impl MemoryBudget {
     pub(crate) fn check_pictures(self, input: &Input) -> Result<()> {
         let texels = |view: &InputView| pixels(&view.nominal);
         let geometry = input.views().map(texels).fold(0, u64::saturating_add).saturating_mul(SOLID_ANGLE);
+        let tables = input.views().map(|view| table_bytes(&view.nominal)).fold(0, u64::saturating_add);
         let light = input.present().map(|(_, header, _)| light_bytes(header)).max().unwrap_or(0);
-        let needed = geometry.saturating_add(light);
+        let needed = geometry.saturating_add(tables).saturating_add(light);
         let largest = input.views().max_by_key(|view| texels(view)).map_or_else(String::new, |view| {
             let (width, height) = (view.nominal.width(), view.nominal.height());
             format!("; the largest whole picture, {}, has {width}x{height} pixels", view.name)
@@ -53,6 +55,14 @@ impl MemoryBudget {
         let bytes = (size_of::<f64>() + size_of::<f32>()) as u64 + picture;
         let needed = (width as u64).saturating_mul(height as u64).saturating_mul(bytes);
         self.allow(needed, "a mask", &format!("; it has {width}x{height} pixels"))
+    }
+
+    /// Whether the table that is made of an st map of this size fits beside the map's own numbers.
+    pub(super) fn check_table(self, file: &Path, size: (usize, usize), has_places: bool) -> Result<()> {
+        let (width, height) = size;
+        let numbers = (size_of::<[f32; 2]>() as u64).saturating_mul(width as u64).saturating_mul(height as u64);
+        let needed = StMapTable::bytes(size, has_places).saturating_add(numbers);
+        self.allow(needed, "an st map", &format!("; {} has {width}x{height} pixels", file.display()))
     }
 
     /// Whether the outputs of a frame fit, before anything is made of them.
@@ -115,7 +125,7 @@ fn header_pixels(header: &Header) -> u64 {
 }
 
 /// A file's samples and the light made of them.
-fn light_bytes(header: &Header) -> u64 {
+pub(super) fn light_bytes(header: &Header) -> u64 {
     let samples = header.channels.count() * header.depth.bytes();
     header_pixels(header).saturating_mul((samples + size_of::<Rgba>()) as u64)
 }
@@ -137,11 +147,21 @@ fn output_bytes(target: &Target) -> u64 {
     pixels.saturating_mul(2 * size_of::<Rgba>() as u64)
 }
 
-/// Light and solid angle of every texel, the files beside them, and the outputs.
+/// What a view's projection holds besides numbers.
+fn table_bytes(view: &View) -> u64 {
+    match &view.projection {
+        ProjectionKind::StMap(map) => map.bytes(),
+        _ => 0,
+    }
+}
+
+/// Light and solid angle of every texel, the files and tables beside them, and the outputs.
 fn frame_bytes(input: &Input, target: &Target) -> u64 {
     let light = input.present().map(|(_, header, _)| light_bytes(header)).fold(0, u64::saturating_add);
     let geometry = (input.texels() as u64).saturating_mul(SOLID_ANGLE);
-    light.saturating_add(geometry).saturating_add(output_bytes(target))
+    let views = input.views().map(|view| &view.nominal).chain(target.views.iter().map(|target| &target.view));
+    let tables = views.map(table_bytes).fold(0, u64::saturating_add);
+    light.saturating_add(geometry).saturating_add(tables).saturating_add(output_bytes(target))
 }
 
 /// An amount of memory as people say it.

@@ -42,7 +42,7 @@ pub(crate) use memory::{MemoryBudget, peak_bytes};
 pub(crate) use outputs::{FrameOutputs, Outputs, real_path, refuse_existing};
 pub(crate) use picture::{Picture, Place};
 pub(crate) use st_map::settled;
-pub(crate) use st_pixels::{StPixel, st_pixels};
+pub(crate) use st_pixels::st_pixels;
 pub(crate) use target::{Sheet, Target, TargetView};
 
 use anyhow::Result;

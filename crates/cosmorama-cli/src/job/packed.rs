@@ -5,18 +5,9 @@ use cosmorama::sphere::Orientation;
 use cosmorama_io::Header;
 
 use super::piece::Piece;
-use super::{Files, InputView};
+use super::{Files, InputView, Place};
 use crate::failure::usage;
 use crate::spec::{Cube, Dual};
-
-/// The part of a file's image that a view is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct FilePart {
-    /// Its first column and row.
-    pub(crate) corner: (usize, usize),
-    /// Columns and rows of the whole image.
-    pub(crate) of: (usize, usize),
-}
 
 /// The faces of a cube in one image, whose layout is known.
 pub(super) fn faces(files: &Files, path: &Path, header: &Header, cube: &Cube) -> Result<Vec<InputView>> {
@@ -58,7 +49,7 @@ fn views(files: &Files, header: &Header, pieces: &[Piece]) -> Result<Vec<InputVi
         Ok(InputView {
             name: piece.name.to_owned(),
             files: files.clone(),
-            part: Some(FilePart { corner: (rect.left, rect.top), of: (header.width, header.height) }),
+            part: Some(Place { corner: (rect.left, rect.top), of: (header.width, header.height) }),
             header: Some(Header { width: rect.width(), height: rect.height(), ..header.clone() }),
             nominal: piece.nominal().map_err(wrong)?,
             window: Some((piece.view(Orientation::IDENTITY).map_err(wrong)?, piece.canvas)),

@@ -35,7 +35,7 @@ pub(crate) struct Picture {
 }
 
 /// A place in an image.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Place {
     /// The first column and row.
     pub(crate) corner: (usize, usize),

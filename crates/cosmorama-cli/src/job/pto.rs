@@ -9,8 +9,7 @@ use cosmorama::world::{
 };
 use cosmorama_io::{PtoImage, PtoPanorama, PtoProject, probe};
 
-use super::packed::FilePart;
-use super::{Files, Input, InputView, MemoryBudget};
+use super::{Files, Input, InputView, MemoryBudget, Place};
 use crate::args::SizeArg;
 use crate::args::convert::GeometryArgs;
 use crate::failure::usage;
@@ -95,7 +94,7 @@ fn view(folder: &Path, image: &PtoImage, memory: MemoryBudget) -> Result<InputVi
     Ok(InputView {
         name: image.file.display().to_string(),
         files: Files::One(path),
-        part: (size != image.size).then_some(FilePart { corner, of: image.size }),
+        part: (size != image.size).then_some(Place { corner, of: image.size }),
         header: Some(cosmorama_io::Header { width: size.0, height: size.1, ..whole }),
         // What was cropped away is not there, as if it had never been photographed.
         nominal: held,
@@ -144,48 +143,27 @@ const CIRCULAR: u32 = 2;
 
 /// The lens of an i-line's f.
 fn lens(f: u32) -> Result<HuginProjection> {
-    Ok(match f {
-        0 => HuginProjection::Rectilinear,
-        1 => HuginProjection::Cylinder,
-        CIRCULAR | 3 => HuginProjection::Equidistant,
-        4 => HuginProjection::Equirectangular,
-        8 => HuginProjection::Orthographic,
-        10 => HuginProjection::Stereographic,
-        21 => HuginProjection::Equisolid,
-        _ => {
-            let name = match f {
-                7 => " (mirror)",
-                9 => " (Lambert azimuthal)",
-                20 => " (Thoby)",
-                _ => "",
-            };
-            return Err(anyhow!("the lens f{f}{name} is not supported; there are f0, f1, f2, f3, f4, f8, f10 and f21"));
-        }
+    HuginProjection::of_lens(f).ok_or_else(|| {
+        let name = match f {
+            7 => " (mirror)",
+            9 => " (Lambert azimuthal)",
+            20 => " (Thoby)",
+            _ => "",
+        };
+        anyhow!("the lens f{f}{name} is not supported; there are f0, f1, f2, f3, f4, f8, f10 and f21")
     })
 }
 
 /// The frame of the p-line's f.
 fn output_frame(panorama: &PtoPanorama) -> Result<Frame, String> {
     let field_of_view = Angle::from_degrees(panorama.field_of_view);
-    let projection = match panorama.projection {
-        0 => HuginProjection::Rectilinear,
-        1 => HuginProjection::Cylinder,
-        2 => HuginProjection::Equirectangular,
-        3 => HuginProjection::Equidistant,
-        4 => HuginProjection::Stereographic,
-        5 => HuginProjection::Mercator,
-        8 => HuginProjection::EqualArea,
-        14 => HuginProjection::Orthographic,
-        9 | 15 => HuginProjection::Equisolid,
-        f => {
-            return match (f, is_whole_world(panorama)) {
-                (7, true) => Ok(Frame::WorldMap(WorldMapFrame::Sinusoidal)),
-                (21, true) => Ok(Frame::WorldMap(WorldMapFrame::Hammer)),
-                _ => {
-                    Err(format!("the panorama's projection f{f} is not supported as it is; give --to SPEC and --size"))
-                }
-            };
-        }
+    let f = panorama.projection;
+    let Some(projection) = HuginProjection::of_panorama(f) else {
+        return match (f, is_whole_world(panorama)) {
+            (7, true) => Ok(Frame::WorldMap(WorldMapFrame::Sinusoidal)),
+            (21, true) => Ok(Frame::WorldMap(WorldMapFrame::Hammer)),
+            _ => Err(format!("the panorama's projection f{f} is not supported as it is; give --to SPEC and --size")),
+        };
     };
     Ok(Frame::Hugin(HuginFrame { projection, field_of_view, correction: [0.0; 3], shift: [0.0; 2] }))
 }

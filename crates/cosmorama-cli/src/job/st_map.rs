@@ -3,9 +3,8 @@
 use std::path::Path;
 
 use anyhow::{Error, Result, anyhow};
-use cosmorama::projection::{PlanePoint, StMap, StMapError, StMapTable};
-use cosmorama::sphere::{Angle, Direction};
-use cosmorama::world::{FieldOfView, Frame, PerspectiveFrame, PixelPoint, Placement, StMapFrame, View};
+use cosmorama::sphere::Angle;
+use cosmorama::world::{FieldOfView, Frame, PerspectiveFrame, Placement, StMapFrame};
 use cosmorama_io::{Limits, StPairs, probe, read_pairs};
 
 use super::{Files, MemoryBudget, frames, pto};
@@ -28,9 +27,9 @@ struct Base {
     size: Option<(usize, usize)>,
 }
 
-/// The same with what a Hugin project says where nothing else is said, and with the maps of `--from` and `--to` read. Without `base=` a map relates the two sides of the conversion to each
-/// other; then a side that is not given is a plain picture, and the output as large as the map unless `--size` says
-/// otherwise.
+/// The same with what a Hugin project says where nothing else is said, and with the maps of `--from` and `--to` read.
+/// Without `base=` a map relates the two sides of the conversion to each other; then a side that is not given is a plain
+/// picture, and the output as large as the map unless `--size` says otherwise.
 pub(crate) fn settled(
     geometry: &GeometryArgs,
     input: Option<&str>,
@@ -43,7 +42,8 @@ pub(crate) fn settled(
     };
     if let (Some(Shape::StMap(StMapSpec { invert: false, file, .. })), None) = (shape(&geometry.to), geometry.size) {
         // The output has the map's pixels.
-        settled.size = Some(size_of(&read(file, memory)?));
+        let (width, height) = canvas_size(file)?;
+        settled.size = Some(SizeArg { width, height: Some(height) });
     }
     match (shape(&geometry.from), shape(&geometry.to)) {
         (Some(Shape::StMap(from)), Some(Shape::StMap(to))) => {
@@ -68,7 +68,7 @@ pub(crate) fn settled(
             }
             let height = size.height.unwrap_or_else(|| other.frame.natural_height(size.width));
             let base = Base { placement: other, size: Some((size.width, height)) };
-            settled.from = Some(spec(from, &pairs, base, Side::Input)?);
+            settled.from = Some(spec(from, &pairs, base, Side::Input, memory)?);
             settled.to.get_or_insert_with(plain);
         }
         (from, Some(Shape::StMap(to))) => {
@@ -76,7 +76,7 @@ pub(crate) fn settled(
             settled.size.get_or_insert_with(|| size_of(&pairs));
             let Some(input) = input else { return Err(without_base(Side::Output)) };
             let base = Base { placement: other_side(from, Side::Output)?, size: Some(input_size(input)?) };
-            settled.to = Some(spec(to, &pairs, base, Side::Output)?);
+            settled.to = Some(spec(to, &pairs, base, Side::Output, memory)?);
             settled.from.get_or_insert_with(plain);
         }
         _ => {}
@@ -130,11 +130,16 @@ fn other_side(shape: Option<&Shape>, side: Side) -> Result<Placement> {
     }
 }
 
-/// The size of the input's first picture, its canvas if it has one.
+/// The size of the input's first picture.
 fn input_size(input: &str) -> Result<(usize, usize)> {
     let files = Files::new(Path::new(input));
     let first = frames::find(std::iter::once(&files), None)?[0];
-    let header = probe(&files.path(first))?;
+    canvas_size(&files.path(first))
+}
+
+/// The size of a picture, of its canvas if it has one.
+fn canvas_size(path: &Path) -> Result<(usize, usize)> {
+    let header = probe(path)?;
     Ok(header.window.map_or((header.width, header.height), |window| (window.canvas_width, window.canvas_height)))
 }
 
@@ -149,45 +154,25 @@ fn read(file: &Path, memory: MemoryBudget) -> Result<StPairs> {
 fn with_given_base(map: &StMapSpec, side: Side, memory: MemoryBudget) -> Result<Spec> {
     let base = map.base.ok_or_else(|| without_base(side))?;
     let base = Base { placement: base.placement, size: None };
-    spec(map, &read(&map.file, memory)?, base, side)
+    spec(map, &read(&map.file, memory)?, base, side, memory)
 }
 
 /// What is left when a map has been read: a picture whose mapping is a table.
-fn spec(map: &StMapSpec, pairs: &StPairs, base: Base, side: Side) -> Result<Spec> {
+fn spec(map: &StMapSpec, pairs: &StPairs, base: Base, side: Side, memory: MemoryBudget) -> Result<Spec> {
     let has_pixels_of_map = (side == Side::Output) != map.invert;
     let size = base.size.filter(|_| has_pixels_of_map).unwrap_or((pairs.width, pairs.height));
     let view = base.placement.view(size.0, size.1).map_err(|error| usage(format!("{} base: {error}", option(side))))?;
-    let table = if has_pixels_of_map { looking(pairs, &view) } else { looked_at(pairs, &view) };
-    let table = table.map_err(|error| anyhow!("{}: {error}", map.file.display()))?;
-    // It lasts as long as the program, like all that is given on the command line.
-    let frame =
-        StMapFrame { map: StMap(Box::leak(Box::new(table))), natural_ratio: pairs.height as f64 / pairs.width as f64 };
+    let map_size = (pairs.width, pairs.height);
+    memory.check_table(&map.file, map_size, !has_pixels_of_map)?;
+    let pair = |i, j| pairs.get(i, j);
+    let frame = if has_pixels_of_map {
+        StMapFrame::looking(map_size, pair, &view)
+    } else {
+        StMapFrame::looked_at(map_size, pair, &view)
+    };
+    let frame = frame.map_err(|error| anyhow!("{}: {error}", map.file.display()))?;
     let placement =
         Placement { frame: Frame::StMap(frame), orientation: map.orientation, mirror: map.mirror, canvas: map.canvas };
     let single = Single { placement, samples: SphereSamples::NotAPanorama, any_shape: false };
     Ok(Spec { name: "st-map", shape: Shape::Single(single), stereo: None })
-}
-
-/// The picture whose pixels are the map's: each looks where the base has what the map says.
-fn looking(pairs: &StPairs, base: &View) -> Result<StMapTable, StMapError> {
-    let (width, height) = (base.width() as f64, base.height() as f64);
-    let seen = |[s, t]: [f64; 2]| base.direction(PixelPoint::new(s * width, (1.0 - t) * height));
-    StMapTable::of_pixels(pairs.width, pairs.height, |i, j| place(pairs, i, j).and_then(seen))
-}
-
-/// The picture in which the map's pixels lie: the base's pixels are the map's.
-fn looked_at(pairs: &StPairs, base: &View) -> Result<StMapTable, StMapError> {
-    let sample = |i, j| -> Option<(PlanePoint, Direction)> {
-        let [s, t] = place(pairs, i, j)?;
-        Some((PlanePoint::new(s - 0.5, t - 0.5), base.direction(PixelPoint::centre(i, j))?))
-    };
-    StMapTable::of_places(pairs.width, pairs.height, sample)
-}
-
-/// Where the map says that its pixel looks; nowhere where it says no number or, as programs do that know of nothing better,
-/// the very corner or a place outside on both axes.
-fn place(pairs: &StPairs, i: usize, j: usize) -> Option<[f64; 2]> {
-    let pair = pairs.get(i, j);
-    let is_nothing = pair == [0.0, 0.0] || pair == [-1.0, -1.0] || !pair.iter().all(|number| number.is_finite());
-    (!is_nothing).then(|| pair.map(f64::from))
 }

@@ -4,6 +4,7 @@ use std::time::Instant;
 
 use anyhow::Result;
 use cosmorama::raster::{Depth, Image};
+use cosmorama::world::{ST_NOWHERE, StPixel};
 use cosmorama_io::{Format, write_planes};
 
 use super::engine::assemble;
@@ -11,7 +12,7 @@ use super::report::Report;
 use super::stages::{Stage, Stages};
 use crate::args::ConvertArgs;
 use crate::failure::usage;
-use crate::job::{Builtin, ConvertJob, StPixel, st_pixels};
+use crate::job::{Builtin, ConvertJob, st_pixels};
 
 /// The names of an st map's numbers, in their order.
 const CHANNELS: [&str; 3] = ["R", "G", "B"];
@@ -30,7 +31,7 @@ pub(super) fn convert(args: &ConvertArgs) -> Result<Report> {
         for (index, path) in &frame.files {
             let sheet = &job.target.files[*index].sheet;
             let map = |view: usize| st_pixels(&job, &job.target.views[view]);
-            let image = stages.time(Stage::Filter, || assemble(sheet, [-1.0, -1.0, 0.0], map))?;
+            let image = stages.time(Stage::Filter, || assemble(sheet, ST_NOWHERE, map))?;
             stages.time(Stage::Encode, || save(&image, path, depth))?;
         }
     }

@@ -29,25 +29,39 @@ const BATCH_BYTES: u128 = 1 << 26;
 
 pub(crate) fn probe(path: &Path, source: &mut Source) -> Result<Header, IoError> {
     let reader = open(path, source)?;
-    Ok(announce(path, reader.headers(), Selection::of)?.0)
+    Ok(announce(path, reader.headers(), PICTURE)?.0)
 }
 
 /// Reads the first part that holds a picture, at its largest resolution.
 pub(crate) fn read(path: &Path, source: &mut Source, limits: &Limits) -> Result<ImageFile, IoError> {
-    read_selected(path, source, limits, Selection::of)
+    read_selected(path, source, limits, PICTURE)
 }
 
 /// Reads the two channels of an st map, in an image of two channels.
 pub(crate) fn read_pairs(path: &Path, source: &mut Source, limits: &Limits) -> Result<ImageFile, IoError> {
-    read_selected(path, source, limits, Selection::pair)
+    read_selected(path, source, limits, PAIR)
 }
 
-/// Which channels are wanted; an error is what was found instead.
-type Select = fn(&[Part]) -> Result<Selection, String>;
+/// Which channels are wanted.
+#[derive(Clone, Copy)]
+struct Wanted {
+    /// An error is what was found instead.
+    select: fn(&[Part]) -> Result<Selection, String>,
+    /// As messages say it.
+    expected: &'static str,
+}
 
-fn read_selected(path: &Path, source: &mut Source, limits: &Limits, select: Select) -> Result<ImageFile, IoError> {
+const PICTURE: Wanted =
+    Wanted { select: Selection::of, expected: "RGB or Y channels, with or without A, of half or float samples" };
+
+const PAIR: Wanted = Wanted {
+    select: Selection::pair,
+    expected: "the two channels of an st map, of half or float samples: R and G, u and v, s and t or x and y",
+};
+
+fn read_selected(path: &Path, source: &mut Source, limits: &Limits, wanted: Wanted) -> Result<ImageFile, IoError> {
     let reader = open(path, source)?;
-    let (header, selection, crop) = announce(path, reader.headers(), select)?;
+    let (header, selection, crop) = announce(path, reader.headers(), wanted)?;
     check_limits(path, &reader.headers()[selection.part], &header, limits)?;
     let samples = match header.depth {
         Depth::Half => {
@@ -91,10 +105,9 @@ fn damaged(path: &Path, error: Error) -> IoError {
 }
 
 /// The part and the channels to read, and what is to be said of them.
-fn announce(path: &Path, parts: &[Part], select: Select) -> Result<(Header, Selection, Crop), IoError> {
-    let selection = select(parts).map_err(|found| {
-        IoError::unsupported(path, FORMAT, found, "RGB or Y channels, with or without A, of half or float samples")
-    })?;
+fn announce(path: &Path, parts: &[Part], wanted: Wanted) -> Result<(Header, Selection, Crop), IoError> {
+    let selection =
+        (wanted.select)(parts).map_err(|found| IoError::unsupported(path, FORMAT, found, wanted.expected))?;
     let part = &parts[selection.part];
     let crop = Crop::of(part).ok_or_else(|| {
         IoError::unsupported(path, FORMAT, "no pixels inside the display window", "a picture in the display window")

@@ -46,7 +46,7 @@ pub fn shared(path: &str) -> Option<PathBuf> {
     if root.is_dir() {
         return Some(root.join(path));
     }
-    assert!(std::env::var("CI").as_deref() != Ok("true"), "{} is missing", root.display());
+    assert!(std::env::var_os("CI").is_none(), "{} is missing", root.display());
     eprintln!("SKIPPED: {} is missing", root.display());
     None
 }
@@ -62,7 +62,7 @@ pub fn files(folder: &Path) -> Vec<PathBuf> {
 pub fn program(name: &'static str) -> Option<&'static str> {
     let runs = std::process::Command::new(name).arg("-version").output().is_ok();
     if !runs {
-        assert!(std::env::var("CI").as_deref() != Ok("true"), "{name} is not installed");
+        assert!(std::env::var_os("CI").is_none(), "{name} is not installed");
         eprintln!("SKIPPED: {name} is not installed");
     }
     runs.then_some(name)

@@ -33,7 +33,11 @@ pub enum Change {
 }
 
 /// What leads from one arrangement of pictures to another.
+///
+/// # Panics
+/// When the two are not of the same number of pictures.
 pub fn changes(given: &[Pose], wanted: &[Pose]) -> Vec<Change> {
+    assert_eq!(given.len(), wanted.len(), "a pose for each picture");
     let mut changes: Vec<Change> = Vec::new();
     let goes = |face: CubeFace| given.iter().position(|pose| pose.face == face).map(|at| wanted[at].face);
     for (from, to) in given.iter().zip(wanted).map(|(given, wanted)| (given.face, wanted.face)) {

@@ -56,6 +56,11 @@ impl Mismatch {
         self.pictures
     }
 
+    /// Panics unless there is a pose for each picture.
+    pub(super) fn check(&self, poses: &[Pose]) {
+        assert_eq!(poses.len(), self.pictures, "a pose for each picture");
+    }
+
     /// Two sides; `mirrored` where one of the two pictures is and the other is not.
     pub(super) fn seam(&self, here: (usize, Side), there: (usize, Side), mirrored: bool) -> Seam {
         self.seams[index(self.pictures, here, there, mirrored)]

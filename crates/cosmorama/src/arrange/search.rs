@@ -23,7 +23,7 @@ pub(super) struct Search<'a> {
     anchor: Option<usize>,
     /// The eight poses of each face, and which side they turn to each earlier face.
     places: Vec<Vec<Place>>,
-    /// Seams that are still to come, and not less than what they cost.
+    /// At each depth, what the seams that are still to come cost at least.
     rest: Vec<f64>,
     best: [Option<Found>; 2],
     /// Steps that may still be taken.

@@ -41,7 +41,11 @@ const CONTINUOUS: f64 = 1.0;
 /// the mismatch varies along a seam and how many arrangements there are to choose from. It is called wrong only where
 /// another one is continuous and no third one is as good: faces that were never continuous, such as test patterns, fit
 /// somehow in many ways.
+///
+/// # Panics
+/// When there is not a pose for each picture.
 pub fn judge(mismatch: &Mismatch, given: &[Pose]) -> Verdict {
+    mismatch.check(given);
     let faces: Vec<_> = given.iter().map(|pose| pose.face).collect();
     let Some((best, _)) = Search::new(mismatch, &faces, &vec![false; given.len()]).run() else {
         return Verdict::CannotTell;
@@ -72,7 +76,11 @@ pub fn judge(mismatch: &Mismatch, given: &[Pose]) -> Verdict {
 }
 
 /// Whether every picture meets its neighbours.
+///
+/// # Panics
+/// When there is not a pose for each picture.
 pub fn is_continuous(mismatch: &Mismatch, poses: &[Pose]) -> bool {
+    mismatch.check(poses);
     mismatch.seams(poses).iter().all(|seam| is_seamless(mismatch, std::slice::from_ref(seam)))
 }
 
@@ -82,7 +90,11 @@ fn is_seamless(mismatch: &Mismatch, seams: &[SeamKey]) -> bool {
 }
 
 /// Whether an arrangement is not clearly worse than one that fits.
+///
+/// # Panics
+/// When there is not a pose for each picture.
 pub fn fits_as_well(mismatch: &Mismatch, fitting: &[Pose], other: &[Pose]) -> bool {
+    [fitting, other].into_iter().for_each(|poses| mismatch.check(poses));
     confidence(mismatch, fitting, other) < SURE
 }
 

@@ -96,6 +96,10 @@ impl<P: Projection> Projection for Calibrated<P> {
         self.is_steep
     }
 
+    fn ends_at_cone(&self) -> bool {
+        true
+    }
+
     fn cap_bounds(&self, centre: Direction, radius: Angle) -> PlaneRect {
         let PlaneRect { min, max } = self.camera.cap_bounds(centre, radius);
         if self.skew == 0.0 {

@@ -184,6 +184,10 @@ impl Projection for ProjectionKind {
         each!(self, projection => projection.has_steep_rim())
     }
 
+    fn ends_at_cone(&self) -> bool {
+        each!(self, projection => projection.ends_at_cone())
+    }
+
     fn beyond_seam(&self, direction: Direction) -> Option<Direction> {
         each!(self, projection => projection.beyond_seam(direction))
     }

@@ -85,6 +85,11 @@ pub trait Projection {
         false
     }
 
+    /// Whether what it shows ends at a cone around its axis, within its plane: [`Projection::margin`] is the angle to that.
+    fn ends_at_cone(&self) -> bool {
+        false
+    }
+
     /// The direction as far on the other side of the nearest seam at which the map's sides meet askew, where texels lie as the
     /// map has them there; `None` for maps without such a seam.
     fn beyond_seam(&self, _direction: Direction) -> Option<Direction> {

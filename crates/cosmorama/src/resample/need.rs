@@ -67,9 +67,19 @@ impl Needs {
     /// it comes from the taps of the filter itself. Only blocks of pixels that cannot widen the rectangles found so far
     /// are passed over.
     pub fn of(world: &World, targets: &[View], filter: &Filter) -> Self {
+        Self::surveyed(world, targets, filter, true)
+    }
+
+    /// The same but for what the filter reads, which takes most of the work: `read` is `None`. For worlds of one view that
+    /// is there as a whole.
+    pub fn seen(world: &World, targets: &[View]) -> Self {
+        Self::surveyed(world, targets, &Filter::DEFAULT, false)
+    }
+
+    fn surveyed(world: &World, targets: &[View], filter: &Filter, reads: bool) -> Self {
         let mut needs = Self::nothing(world);
         for (index, target) in targets.iter().enumerate() {
-            let survey = Survey { world, target, index, filter };
+            let survey = Survey { world, target, index, filter, reads };
             // The extremes lie where the frame, the lens or a view ends, in this order of likelihood: with those known,
             // the rest is quick.
             let mut ranks: [Vec<Judged>; 3] = Default::default();
@@ -127,6 +137,8 @@ struct Survey<'a> {
     target: &'a View,
     index: usize,
     filter: &'a Filter,
+    /// Whether it is asked what the filter reads.
+    reads: bool,
 }
 
 /// A block and what is known of it as a whole.
@@ -172,7 +184,7 @@ impl Survey<'_> {
 
     /// Adds what the pixels of a block need, unless they surely need nothing new.
     fn add_block(&self, judged: &Judged, pixels: &mut PixelTaps, needs: &mut Needs) {
-        let reads_nothing_new = judged.cap.is_some_and(|cap| self.reads_within(&cap, needs));
+        let reads_nothing_new = !self.reads || judged.cap.is_some_and(|cap| self.reads_within(&cap, needs));
         let sees_nothing_new = judged
             .cap
             .zip(judged.owner)

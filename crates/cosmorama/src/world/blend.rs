@@ -1,5 +1,5 @@
 use super::{Footprint, PixelPoint, Source, View};
-use crate::projection::ProjectionKind;
+use crate::projection::Projection;
 use crate::sphere::{Angle, Direction, DirectionJacobian};
 
 /// How a view takes part where others show the same directions.
@@ -137,8 +137,7 @@ impl Border {
                 distance = distance.min(edge * dy.length());
             }
         }
-        if matches!(view.projection, ProjectionKind::Pinhole(_) | ProjectionKind::SkewedFisheye(_)) {
-            // These end at a cone.
+        if view.projection.ends_at_cone() {
             distance = distance.min(view.margin(footprint.direction));
         }
         distance.max(0.0).min(stop_distance(view, pixel, &footprint.jacobian))

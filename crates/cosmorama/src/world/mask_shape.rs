@@ -17,21 +17,52 @@ pub enum MaskShape {
 impl MaskShape {
     /// Whether a point of the image counts, as far as this shape is concerned.
     pub fn leaves(&self, point: PixelPoint) -> bool {
+        self.row(point.y).leaves(point.x)
+    }
+
+    /// What it leaves of a line at a height.
+    pub(super) fn row(&self, y: f64) -> RowCut {
         match self {
-            Self::Circle { centre, radius } => (point.x - centre.x).hypot(point.y - centre.y) <= *radius,
-            Self::Hole(corners) => !is_within(corners, point),
+            Self::Circle { centre, radius } => {
+                RowCut::Circle { middle: centre.x, height: y - centre.y, radius: *radius }
+            }
+            Self::Hole(corners) => RowCut::Hole(crossings(corners, y)),
         }
     }
 }
 
-/// Whether a ray to the right leaves a polygon an odd number of times.
-fn is_within(corners: &[PixelPoint], point: PixelPoint) -> bool {
-    let next = corners.iter().cycle().skip(1);
-    let crossings = corners.iter().zip(next).filter(|(a, b)| {
-        let crosses = (a.y > point.y) != (b.y > point.y);
-        crosses && point.x < a.x + (b.x - a.x) * (point.y - a.y) / (b.y - a.y)
-    });
-    crossings.count() % 2 == 1
+/// What a shape leaves of a line: all that is asked of a polygon's corners is asked once for the line.
+#[derive(Clone, Debug)]
+pub(super) enum RowCut {
+    Circle {
+        middle: f64,
+        /// Of the line over the middle.
+        height: f64,
+        radius: f64,
+    },
+    /// Where a polygon crosses it, from left to right.
+    Hole(Vec<f64>),
+}
+
+impl RowCut {
+    /// Whether it leaves the point at `x`.
+    pub(super) fn leaves(&self, x: f64) -> bool {
+        match self {
+            Self::Circle { middle, height, radius } => (x - middle).hypot(*height) <= *radius,
+            // A ray to the right leaves the polygon an even number of times.
+            Self::Hole(crossings) => {
+                (crossings.len() - crossings.partition_point(|crossing| *crossing <= x)).is_multiple_of(2)
+            }
+        }
+    }
+}
+
+fn crossings(corners: &[PixelPoint], y: f64) -> Vec<f64> {
+    let sides = corners.iter().zip(corners.iter().cycle().skip(1));
+    let crossing = sides.filter(|(a, b)| (a.y > y) != (b.y > y));
+    let mut crossings: Vec<f64> = crossing.map(|(a, b)| a.x + (b.x - a.x) * (y - a.y) / (b.y - a.y)).collect();
+    crossings.sort_unstable_by(f64::total_cmp);
+    crossings
 }
 
 #[cfg(test)]

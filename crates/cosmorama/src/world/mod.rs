@@ -10,6 +10,7 @@ mod layout;
 mod mask_shape;
 mod overlap;
 mod seen_cone;
+mod st_pixels;
 mod view;
 mod view_mask;
 #[allow(clippy::module_inception)]
@@ -31,6 +32,7 @@ pub use layout::{
     LensSide, PlacedFace, PlacedLens, Stereo,
 };
 pub use mask_shape::MaskShape;
+pub use st_pixels::{ST_NOWHERE, StPixel};
 pub use view::{Footprint, View};
 pub use view_mask::ViewMask;
 pub use world::{Source, World, WorldError, WorldView};

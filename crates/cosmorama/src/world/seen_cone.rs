@@ -1,5 +1,5 @@
 use super::{PixelPoint, View};
-use crate::projection::{PlanePoint, Projection, ProjectionKind};
+use crate::projection::{PlanePoint, Projection};
 use crate::sphere::{Angle, Direction};
 
 /// A cone that holds every direction which a picture shows.
@@ -33,7 +33,7 @@ impl SeenCone {
     /// The cone around a lattice of points of the image, and around as much more as two neighbours of them are apart.
     fn of_image(view: &View) -> Option<Self> {
         // A panorama goes round; what a table relates may be torn between any two points.
-        if view.period().is_some() || matches!(view.projection, ProjectionKind::StMap(_)) {
+        if view.period().is_some() || view.projection.ends_between_samples() {
             return None;
         }
         let at = |size: usize, step: usize| size as f64 * step as f64 / STEPS as f64;

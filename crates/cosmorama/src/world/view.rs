@@ -137,7 +137,9 @@ impl View {
     /// Solid angle of a texel in steradians (to first order), zero where it shows nothing.
     pub fn texel_solid_angle(&self, i: usize, j: usize) -> f64 {
         let pixel = PixelPoint::centre(i, j);
-        if self.shows(pixel) { self.solid_angle(pixel).unwrap_or(0.0) } else { 0.0 }
+        // Where nothing is seen, there is no solid angle either.
+        let shows = self.grid.contains(pixel) && (self.stop == FieldStop::NONE || self.stop_passes(pixel));
+        if shows { self.solid_angle(pixel).unwrap_or(0.0) } else { 0.0 }
     }
 
     /// Solid angle in steradians (to first order) of a texel around a point of the image or beyond it, whether or not it

@@ -1,4 +1,4 @@
-use super::PixelPoint;
+use super::{MaskShape, PixelPoint};
 
 /// Which texels of a view count: what a mask hides is as if the view did not hold it.
 #[derive(Clone, PartialEq)]
@@ -9,15 +9,16 @@ pub struct ViewMask {
     distance: Vec<f32>,
 }
 
-/// No texel is further than that from another.
-const FAR: f64 = 1e12;
+/// The square of a distance: no texel is a million texels from another.
+const FAR_SQUARED: f64 = 1e12;
 
 impl ViewMask {
     /// The mask of a view of `width` columns and `height` rows.
     pub fn new(width: usize, height: usize, counts: impl Fn(usize, usize) -> bool) -> Self {
         // Squares of distances: along columns first, then along rows (Felzenszwalb & Huttenlocher 2012).
-        let mut squares: Vec<f64> =
-            (0..width * height).map(|texel| if counts(texel % width, texel / width) { FAR } else { 0.0 }).collect();
+        let mut squares: Vec<f64> = (0..width * height)
+            .map(|texel| if counts(texel % width, texel / width) { FAR_SQUARED } else { 0.0 })
+            .collect();
         let mut envelope = Envelope::default();
         let mut column = vec![0.0; height];
         for i in 0..width {
@@ -27,6 +28,19 @@ impl ViewMask {
         }
         squares.chunks_mut(width.max(1)).for_each(|row| envelope.widen(row));
         Self { width, distance: squares.into_iter().map(|square| square.sqrt() as f32).collect() }
+    }
+
+    /// The mask that shapes leave of a view of this size, in pixels of the picture whose corner at (left, top) the view has.
+    pub fn of_shapes(shapes: &[MaskShape], (left, top): (usize, usize), (width, height): (usize, usize)) -> Self {
+        let mut counts = vec![true; width * height];
+        for (j, row) in counts.chunks_mut(width.max(1)).enumerate() {
+            for shape in shapes {
+                let cut = shape.row(PixelPoint::centre(left, top + j).y);
+                let columns = row.iter_mut().enumerate();
+                columns.for_each(|(i, counts)| *counts &= cut.leaves(PixelPoint::centre(left + i, top + j).x));
+            }
+        }
+        Self::new(width, height, |i, j| counts[j * width + i])
     }
 
     /// Whether the texel in column `i` of row `j` counts.
@@ -132,6 +146,19 @@ mod tests {
             assert_eq!(mask.counts(i, j), !hidden(i, j));
         }
         assert!(!mask.is_empty() && ViewMask::new(3, 2, |_, _| false).is_empty());
+    }
+
+    #[test]
+    fn shapes_leave_what_they_leave_of_each_pixel() {
+        let star = [(2.0, 1.5), (17.5, 3.0), (4.0, 9.5), (9.0, -2.0), (14.0, 10.0)];
+        let star = star.map(|(x, y)| PixelPoint::new(x, y)).to_vec();
+        let circle = MaskShape::Circle { centre: PixelPoint::new(11.0, 6.0), radius: 7.3 };
+        let shapes = [MaskShape::Hole(star), circle, MaskShape::Hole(Vec::new())];
+        let mask = ViewMask::of_shapes(&shapes, (3, 1), (19, 11));
+        for (i, j) in (0..11usize).flat_map(|j| (0..19usize).map(move |i| (i, j))) {
+            let leaves = shapes.iter().all(|shape| shape.leaves(PixelPoint::centre(i + 3, j + 1)));
+            assert_eq!(mask.counts(i, j), leaves, "({i}, {j})");
+        }
     }
 
     #[test]

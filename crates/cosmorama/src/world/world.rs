@@ -19,6 +19,16 @@ pub enum WorldError {
     /// A view has no pixels.
     #[error("the view {0} has no pixels")]
     NoPixels(String),
+    /// A mask is of another picture.
+    #[error("the mask of the view {name} has {}x{} pixels, but the view has {}x{}", mask.0, mask.1, view.0, view.1)]
+    MaskSize {
+        /// The view's name.
+        name: String,
+        /// Columns and rows of the mask.
+        mask: (usize, usize),
+        /// Those of the view.
+        view: (usize, usize),
+    },
     /// Texels are counted in 32 bits.
     #[error("the views hold {0} texels together, more than {max}", max = u32::MAX)]
     TooLarge(usize),
@@ -123,7 +133,7 @@ impl World {
     /// The world of these named views.
     ///
     /// # Errors
-    /// When there is no view, one without pixels, or more texels than 32 bits can count.
+    /// When there is no view, one without pixels or with a mask of another size, or more texels than 32 bits can count.
     pub fn new(views: impl IntoIterator<Item = (String, View)>) -> Result<Self, WorldError> {
         let part = |(name, view)| WorldView { name, view, blend: Blend::default(), mask: None };
         Self::blended(views.into_iter().map(part))
@@ -140,6 +150,10 @@ impl World {
             let texels = view.width().saturating_mul(view.height());
             if texels == 0 {
                 return Err(WorldError::NoPixels(name));
+            }
+            let size = (view.width(), view.height());
+            if let Some(found) = mask.as_ref().map(|mask| mask.size()).filter(|found| *found != size) {
+                return Err(WorldError::MaskSize { name, mask: found, view: size });
             }
             let (period, texel_pitch, whole) = (view.period(), texel_pitch(&view), owned(&view));
             let (border, cone, others) = (Border::of(&view), SeenCone::of(&view), Vec::new());
@@ -243,7 +257,8 @@ fn hide(sources: &mut [Source], solid_angles: &mut [f32]) {
     }
 }
 
-/// The larger side of the largest texel, found on a coarse grid of points: no mapping here bends faster.
+/// The larger side of the largest texel, found on a coarse grid of points: no formula here bends faster. A table may, between
+/// two points; there a kernel may miss a texel that lies beyond a seam.
 fn texel_pitch(view: &View) -> f64 {
     const STEPS: usize = 32;
     let at = |size: usize, step: usize| size as f64 * step as f64 / STEPS as f64;

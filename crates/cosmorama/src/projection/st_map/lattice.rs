@@ -1,4 +1,5 @@
 use glam::{DVec3, Vec3};
+use rayon::prelude::*;
 
 /// How far the step between two samples may exceed those beside it before the table counts as torn there, and the
 /// length below which no step is a tear: an hundredth of a picture or of a radian.
@@ -17,8 +18,8 @@ pub(super) struct Samples {
 /// Which samples there are, and which neighbours belong together.
 #[derive(Clone, Debug)]
 pub(super) struct Links {
-    width: usize,
-    height: usize,
+    pub(super) width: usize,
+    pub(super) height: usize,
     flags: Vec<u8>,
 }
 
@@ -68,8 +69,8 @@ impl Links {
                 | flag(valid && joined((i, j), (1, 0)), RIGHT)
                 | flag(valid && joined((i, j), (0, 1)), BELOW)
         };
-        let flags = (0..height as i64).flat_map(|j| (0..width as i64).map(move |i| flags_of(i, j))).collect();
-        Self { width, height, flags }
+        let row = |j: usize| (0..width).map(move |i| (i, j)).map(|(i, j)| flags_of(i as i64, j as i64));
+        Self { width, height, flags: (0..height).into_par_iter().flat_map_iter(row).collect() }
     }
 
     fn has(&self, i: i64, j: i64, flag: u8) -> bool {
@@ -82,13 +83,8 @@ impl Links {
         self.has(i as i64, j as i64, VALID)
     }
 
-    /// Whether any four neighbours belong together.
-    pub(super) fn has_cell(&self) -> bool {
-        (0..self.height as i64).any(|j| (0..self.width as i64).any(|i| self.is_whole(i, j)))
-    }
-
     /// Whether the samples (i, j) to (i + 1, j + 1) belong together.
-    fn is_whole(&self, i: i64, j: i64) -> bool {
+    pub(super) fn is_whole(&self, i: i64, j: i64) -> bool {
         self.has(i, j, RIGHT) && self.has(i, j, BELOW) && self.has(i + 1, j, BELOW) && self.has(i, j + 1, RIGHT)
     }
 

@@ -1,16 +1,19 @@
 //! Projections that are given by a table, as the st maps of compositing programs are.
 
 mod lattice;
+mod piece;
 mod tree;
 
 use std::f64::consts::PI;
 
 use glam::{DVec2, DVec3, Vec3};
+use rayon::prelude::*;
 use thiserror::Error;
 
 use self::lattice::{Jet, Links, Samples};
+use self::piece::{Leaf, Piece};
 use self::tree::{MOST_BEYOND, Tree};
-use super::{PlanePoint, PlaneRect, Projection};
+use super::{Outline, PlanePoint, PlaneRect, Projection};
 use crate::sphere::{Angle, Direction, DirectionJacobian};
 
 /// Pairs of a point of a picture and the direction seen there, on a lattice of samples: what an st map together with the
@@ -26,8 +29,13 @@ pub struct StMapTable {
     places: Places,
     directions: Samples,
     links: Links,
+    /// Of its pieces, in their order in the trees.
+    leaves: Vec<Leaf>,
     by_direction: Tree,
 }
+
+/// So many rectangles are no outline any more.
+const MOST_RECTS: usize = 64;
 
 /// Where in the picture the samples are.
 #[derive(Clone, Debug)]
@@ -59,11 +67,10 @@ impl StMapTable {
     pub fn of_pixels(
         width: usize,
         height: usize,
-        direction: impl Fn(usize, usize) -> Option<Direction>,
+        direction: impl Fn(usize, usize) -> Option<Direction> + Sync,
     ) -> Result<Self, StMapError> {
         let directions = Samples::of(width, height, |i, j| direction(i, j).map(Direction::vector));
-        let links = Links::of(&[&directions]);
-        Self::joined(Places::Regular, directions, links)
+        Self::joined(directions, None)
     }
 
     /// The table of samples anywhere in the picture: `sample` gives the place and the direction of that in column i of row j.
@@ -74,22 +81,28 @@ impl StMapTable {
     pub fn of_places(
         width: usize,
         height: usize,
-        sample: impl Fn(usize, usize) -> Option<(PlanePoint, Direction)>,
+        sample: impl Fn(usize, usize) -> Option<(PlanePoint, Direction)> + Sync,
     ) -> Result<Self, StMapError> {
         let place = |i, j| sample(i, j).map(|(point, _)| DVec3::new(point.x, point.y, 0.0));
         let directions = Samples::of(width, height, |i, j| sample(i, j).map(|(_, seen)| seen.vector()));
         let places = Samples::of(width, height, place);
-        let links = Links::of(&[&directions, &places]);
-        let tree = Tree::new(&places, &links);
-        Self::joined(Places::Table(places, tree), directions, links)
+        Self::joined(directions, Some(places))
     }
 
-    fn joined(places: Places, directions: Samples, links: Links) -> Result<Self, StMapError> {
-        if !links.has_cell() {
+    fn joined(directions: Samples, places: Option<Samples>) -> Result<Self, StMapError> {
+        let tables: Vec<&Samples> = std::iter::once(&directions).chain(&places).collect();
+        let links = Links::of(&tables);
+        let pieces = Piece::all(&links);
+        if pieces.is_empty() {
             return Err(StMapError::NoCells { width: directions.width, height: directions.height });
         }
-        let by_direction = Tree::new(&directions, &links);
-        Ok(Self { places, directions, links, by_direction })
+        let by_direction = Tree::new(&directions, &links, &pieces, 0.0);
+        let places = places.map_or(Places::Regular, |places| {
+            let tree = Tree::new(&places, &links, &pieces, MOST_BEYOND);
+            Places::Table(places, tree)
+        });
+        let leaves = pieces.into_iter().map(|piece| piece.leaf).collect();
+        Ok(Self { places, directions, links, leaves, by_direction })
     }
 
     /// Columns and rows of samples.
@@ -120,9 +133,42 @@ impl StMapTable {
         match &self.places {
             Places::Regular => Some(((point.x + 0.5) * width, (0.5 - point.y) * height)),
             Places::Table(places, tree) => {
-                tree.find(places, &self.links, DVec3::new(point.x, point.y, 0.0), MOST_BEYOND)
+                tree.find(self.lattice(places), DVec3::new(point.x, point.y, 0.0), MOST_BEYOND)
             }
         }
+    }
+
+    fn lattice<'a>(&'a self, samples: &'a Samples) -> (&'a Samples, &'a Links, &'a [Leaf]) {
+        (samples, &self.links, &self.leaves)
+    }
+
+    /// The parts of the picture in which directions within `radius` of another one may be, piece by piece.
+    fn rects_within(&self, centre: Direction, radius: Angle) -> impl Iterator<Item = PlaneRect> {
+        let chord = 2.0 * (radius.radians().min(PI) / 2.0).sin();
+        let (width, height) = (self.directions.width as f64, self.directions.height as f64);
+        let rect = move |piece: usize| match &self.places {
+            Places::Regular => {
+                let [(left, top), (right, bottom)] = self.leaves[piece].rectangle(&self.directions);
+                PlaneRect {
+                    min: PlanePoint::new(left / width - 0.5, 0.5 - bottom / height),
+                    max: PlanePoint::new(right / width - 0.5, 0.5 - top / height),
+                }
+            }
+            Places::Table(_, tree) => {
+                let held = tree.bounds(piece);
+                let corner = |at: Vec3| PlanePoint::new(f64::from(at.x), f64::from(at.y));
+                PlaneRect { min: corner(held.min), max: corner(held.max) }
+            }
+        };
+        self.by_direction.within(centre.vector().as_vec3(), chord as f32).map(rect)
+    }
+
+    /// About how much memory a table of so many columns and rows takes, in bytes, with or without places of its own.
+    pub fn bytes((width, height): (usize, usize), has_places: bool) -> u64 {
+        let tables = if has_places { 2 } else { 1 };
+        // A value and the share of a leaf's box in each table, and the flags of a sample.
+        let sample = tables * (size_of::<Vec3>() + 2) + 2;
+        (width as u64).saturating_mul(height as u64).saturating_mul(sample as u64)
     }
 
     /// How far outside the lattice there are places.
@@ -144,19 +190,31 @@ impl StMapTable {
 }
 
 impl Samples {
-    fn of(width: usize, height: usize, value: impl Fn(usize, usize) -> Option<DVec3>) -> Self {
+    fn of(width: usize, height: usize, value: impl Fn(usize, usize) -> Option<DVec3> + Sync) -> Self {
         let vector = |i, j| value(i, j).map_or(Vec3::NAN, DVec3::as_vec3);
-        let values = (0..height).flat_map(|j| (0..width).map(move |i| (i, j))).map(|(i, j)| vector(i, j)).collect();
+        let row = |j: usize| (0..width).map(move |i| (i, j)).map(|(i, j)| vector(i, j));
+        let values = (0..height).into_par_iter().flat_map_iter(row).collect();
         Self { width, height, values }
     }
 }
 
 /// A projection that is a table.
 ///
-/// Views are copied freely, so that they hold it by reference: a table lasts as long as the program, as what is read once
-/// at its start does.
+/// Projections are copied freely; a table is not. It is kept until the program ends, as what is read once at its start is.
 #[derive(Clone, Copy, Debug)]
-pub struct StMap(pub &'static StMapTable);
+pub struct StMap(&'static StMapTable);
+
+impl StMap {
+    /// The projection that is this table, which is kept from here on.
+    pub fn new(table: StMapTable) -> Self {
+        Self(Box::leak(Box::new(table)))
+    }
+
+    /// How much memory its table takes, in bytes.
+    pub fn bytes(&self) -> u64 {
+        StMapTable::bytes(self.0.size(), matches!(self.0.places, Places::Table(..)))
+    }
+}
 
 /// Tables are equal if they are the same one.
 impl PartialEq for StMap {
@@ -168,7 +226,7 @@ impl PartialEq for StMap {
 impl Projection for StMap {
     fn project(&self, direction: Direction) -> Option<PlanePoint> {
         let table = self.0;
-        let (x, y) = table.by_direction.find(&table.directions, &table.links, direction.vector(), 0.0)?;
+        let (x, y) = table.by_direction.find(table.lattice(&table.directions), direction.vector(), 0.0)?;
         let [place, ..] = table.place(x, y)?;
         Some(PlanePoint::new(place.x, place.y))
     }
@@ -204,31 +262,16 @@ impl Projection for StMap {
     }
 
     fn cap_bounds(&self, centre: Direction, radius: Angle) -> PlaneRect {
-        let table = self.0;
-        let chord = 2.0 * (radius.radians().min(PI) / 2.0).sin();
-        let mut bounds: Option<PlaneRect> = None;
-        let (width, height) = (table.directions.width as f64, table.directions.height as f64);
-        let mut include = |x: f64, y: f64| {
-            let point = PlanePoint::new(x, y);
-            bounds = Some(bounds.map_or(PlaneRect { min: point, max: point }, |bounds| bounds.with(point)));
-        };
-        table.by_direction.search::<()>(centre.vector().as_vec3(), chord as f32, |leaf| {
-            match &table.places {
-                Places::Regular => {
-                    let [(left, top), (right, bottom)] = leaf.rectangle(&table.directions);
-                    include(left / width - 0.5, 0.5 - top / height);
-                    include(right / width - 0.5, 0.5 - bottom / height);
-                }
-                Places::Table(_, tree) => {
-                    let held = tree.bounds(leaf);
-                    include(f64::from(held.min.x), f64::from(held.min.y));
-                    include(f64::from(held.max.x), f64::from(held.max.y));
-                }
-            }
-            None
-        });
+        let corners = self.0.rects_within(centre, radius).flat_map(|rect| [rect.min, rect.max]);
+        let bounds = corners.fold(PlaneRect::NOTHING, PlaneRect::with);
         let nowhere = PlanePoint::new(0.0, 0.0);
-        bounds.unwrap_or(PlaneRect { min: nowhere, max: nowhere })
+        if bounds.min.x <= bounds.max.x { bounds } else { PlaneRect { min: nowhere, max: nowhere } }
+    }
+
+    /// A cap across a tear lies in two places, far from each other.
+    fn cap_outline(&self, centre: Direction, radius: Angle) -> Outline {
+        let rects: Vec<PlaneRect> = self.0.rects_within(centre, radius).take(MOST_RECTS + 1).collect();
+        Outline::Rects(if rects.len() > MOST_RECTS { vec![self.cap_bounds(centre, radius)] } else { rects })
     }
 }
 

@@ -21,8 +21,8 @@ fn middle(i: usize, j: usize) -> (f64, f64) {
     ((i as f64 + 0.5) / SIZE.0 as f64, (j as f64 + 0.5) / SIZE.1 as f64)
 }
 
-fn leaked(table: Result<StMapTable, StMapError>) -> StMap {
-    StMap(Box::leak(Box::new(table.unwrap())))
+fn map_of(table: Result<StMapTable, StMapError>) -> StMap {
+    StMap::new(table.unwrap())
 }
 
 /// The bent picture, and one whose pixels look where its own table says: almost all round.
@@ -35,7 +35,7 @@ static MAPS: LazyLock<[StMap; 2]> = LazyLock::new(|| {
         let (x, y) = middle(i, j);
         ProjectionKind::EQUIRECTANGULAR.unproject(PlanePoint::new(6.0 * (x - 0.5), 3.0 * (0.5 - y)))
     });
-    [leaked(bent_picture), leaked(panorama)]
+    [map_of(bent_picture), map_of(panorama)]
 });
 
 fn points() -> impl Iterator<Item = PlanePoint> {
@@ -106,7 +106,7 @@ fn every_direction_of_a_fine_table_is_found() {
         let camera = PlanePoint::new(1.15 * (x / 480.0 - 0.5), 1.15 * (180.0 - y) / 480.0);
         ProjectionKind::PERSPECTIVE.unproject(camera).unwrap()
     };
-    let map = leaked(StMapTable::of_places(width, height, |i, j| {
+    let map = map_of(StMapTable::of_places(width, height, |i, j| {
         let direction = seen(i as f64 + 0.5, j as f64 + 0.5);
         let (longitude, latitude) = direction.longitude_latitude();
         let place = PlanePoint::new(longitude.degrees() / 360.0 + 0.1, latitude.degrees() / 180.0 + 0.1);
@@ -124,7 +124,7 @@ fn every_direction_of_a_fine_table_is_found() {
 
 /// Two halves that look apart, and a hole.
 fn torn() -> StMap {
-    leaked(StMapTable::of_pixels(32, 32, |i, j| {
+    map_of(StMapTable::of_pixels(32, 32, |i, j| {
         let hole = (20..24).contains(&i) && (20..24).contains(&j);
         let yaw = if i < 16 { -40.0 } else { 40.0 };
         let longitude = Angle::from_degrees(yaw + i as f64);

@@ -1,9 +1,10 @@
 use glam::{DVec3, Vec3};
+use rayon::prelude::*;
+use rstar::RTree;
+use rstar::primitives::{GeomWithData, Rectangle};
 
 use super::lattice::{Jet, Links, Samples};
-
-/// Squares of the lattice along the side of a leaf.
-const LEAF: usize = 8;
+use super::piece::{Leaf, Piece};
 
 /// Steps of Newton's method. From the nearest sample, four are enough where a table is smooth.
 const STEPS: usize = 16;
@@ -13,6 +14,12 @@ pub(super) const MOST_BEYOND: f64 = 3.0;
 
 /// A part of a square of the lattice to which a point is found.
 const FOUND: f64 = 1e-9;
+
+/// After a step as short as this the next one would be shorter than [`FOUND`], since it goes with the square of the last.
+const LAST_STEP: f64 = 1e-5;
+
+/// After a step shorter than this, in squares, what is left is shorter still.
+const CONVERGING: f64 = 0.25;
 
 /// A box of values; nothing, where its sides are crossed.
 #[derive(Clone, Copy, Debug)]
@@ -24,150 +31,111 @@ pub(super) struct Bounds {
 impl Bounds {
     const NOTHING: Self = Self { min: Vec3::INFINITY, max: Vec3::NEG_INFINITY };
 
-    fn union(self, other: Self) -> Self {
-        Self { min: self.min.min(other.min), max: self.max.max(other.max) }
+    fn with(self, value: Vec3) -> Self {
+        Self { min: self.min.min(value), max: self.max.max(value) }
     }
 
-    /// The distance of a point.
-    pub(super) fn distance(&self, point: Vec3) -> f32 {
-        (self.min - point).max(point - self.max).max(Vec3::ZERO).length()
+    fn widened(self, room: f32) -> Self {
+        Self { min: self.min - room, max: self.max + room }
     }
 }
 
-/// Where in a table a value is: boxes around blocks of samples, and around four such boxes, and so on.
+/// Where in a table a value is: an R-tree of boxes around the pieces of its lattice.
 #[derive(Clone, Debug)]
 pub(super) struct Tree {
-    /// From the leaves to the root: columns, rows, boxes.
-    levels: Vec<(usize, usize, Vec<Bounds>)>,
-}
-
-/// A block of the lattice: columns and rows from its corner.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Leaf {
-    pub(super) column: usize,
-    pub(super) row: usize,
-}
-
-impl Leaf {
-    /// Its squares' corners, least and greatest.
-    pub(super) fn rectangle(self, samples: &Samples) -> [(f64, f64); 2] {
-        let (left, top) = (self.column * LEAF, self.row * LEAF);
-        let (right, bottom) = ((left + LEAF).min(samples.width), (top + LEAF).min(samples.height));
-        [(left as f64, top as f64), (right as f64, bottom as f64)]
-    }
-
-    /// The same with what lies beyond the table beside it.
-    fn rectangle_with(self, samples: &Samples, beyond: f64) -> [(f64, f64); 2] {
-        let [(left, top), (right, bottom)] = self.rectangle(samples);
-        let low = |at: f64| if at == 0.0 { -beyond } else { at };
-        let high = |at: f64, size: usize| if at == size as f64 { at + beyond } else { at };
-        [(low(left), low(top)), (high(right, samples.width), high(bottom, samples.height))]
-    }
+    boxes: Vec<Bounds>,
+    index: RTree<GeomWithData<Rectangle<[f32; 3]>, usize>>,
 }
 
 impl Tree {
-    pub(super) fn new(samples: &Samples, links: &Links) -> Self {
-        let (columns, rows) = (samples.width.div_ceil(LEAF), samples.height.div_ceil(LEAF));
-        let leaf = |k: usize| leaf_bounds(samples, links, Leaf { column: k % columns, row: k / columns });
-        let mut levels = vec![(columns, rows, (0..columns * rows).map(leaf).collect::<Vec<_>>())];
-        while let Some((columns, rows, below)) = levels.last().filter(|(columns, rows, _)| columns * rows > 1) {
-            let (wide, high) = (columns.div_ceil(2), rows.div_ceil(2));
-            let parent = |k: usize| {
-                let children = children(k % wide, k / wide, *columns, *rows);
-                children.map(|(i, j)| below[j * columns + i]).fold(Bounds::NOTHING, Bounds::union)
-            };
-            let boxes = (0..wide * high).map(parent).collect();
-            levels.push((wide, high, boxes));
-        }
-        Self { levels }
+    /// The boxes around what pieces of a table hold, up to `beyond` squares outside it.
+    pub(super) fn new(samples: &Samples, links: &Links, pieces: &[Piece], beyond: f64) -> Self {
+        let boxes: Vec<Bounds> = pieces.par_iter().map(|piece| bounds(samples, links, piece, beyond)).collect();
+        let entry = |(number, held): (usize, &Bounds)| {
+            GeomWithData::new(Rectangle::from_corners(held.min.to_array(), held.max.to_array()), number)
+        };
+        let index = RTree::bulk_load(boxes.iter().enumerate().map(entry).collect());
+        Self { boxes, index }
     }
 
-    /// The box around what a leaf holds.
-    pub(super) fn bounds(&self, leaf: Leaf) -> Bounds {
-        let (columns, _, boxes) = &self.levels[0];
-        boxes[leaf.row * columns + leaf.column]
+    /// The box around what a piece holds.
+    pub(super) fn bounds(&self, piece: usize) -> Bounds {
+        self.boxes[piece]
     }
 
-    /// Gives every leaf whose box is within `reach` of a value, until one is taken.
-    pub(super) fn search<T>(&self, value: Vec3, reach: f32, mut visit: impl FnMut(Leaf) -> Option<T>) -> Option<T> {
-        self.descend(self.levels.len() - 1, (0, 0), value, reach, &mut visit)
+    /// The numbers of all pieces that may hold anything within `reach` of a value.
+    pub(super) fn within(&self, value: Vec3, reach: f32) -> impl Iterator<Item = usize> {
+        self.index.locate_within_distance(value.to_array(), reach * reach).map(|entry| entry.data)
     }
 
-    fn descend<T>(
+    /// The point of the lattice, in the first piece that has any, at which a table has this value; up to `beyond` squares
+    /// outside it, at most [`MOST_BEYOND`].
+    pub(super) fn find(
         &self,
-        level: usize,
-        (i, j): (usize, usize),
-        value: Vec3,
-        reach: f32,
-        visit: &mut impl FnMut(Leaf) -> Option<T>,
-    ) -> Option<T> {
-        let (columns, _, boxes) = &self.levels[level];
-        if boxes[j * columns + i].distance(value) > reach {
-            return None;
-        }
-        if level == 0 {
-            return visit(Leaf { column: i, row: j });
-        }
-        let (columns, rows, _) = &self.levels[level - 1];
-        children(i, j, *columns, *rows).find_map(|child| self.descend(level - 1, child, value, reach, visit))
-    }
-
-    /// The first point of the lattice, in the order of leaves, at which a table has this value; up to `beyond` squares outside
-    /// it, at most [`MOST_BEYOND`].
-    pub(super) fn find(&self, samples: &Samples, links: &Links, value: DVec3, beyond: f64) -> Option<(f64, f64)> {
-        self.search(value.as_vec3(), 0.0, |leaf| find_in_leaf(samples, links, leaf, value, beyond))
-    }
-}
-
-/// The up to four boxes below one.
-fn children(i: usize, j: usize, columns: usize, rows: usize) -> impl Iterator<Item = (usize, usize)> {
-    let column = move |j| (2 * i..columns.min(2 * i + 2)).map(move |i| (i, j));
-    (2 * j..rows.min(2 * j + 2)).flat_map(column)
-}
-
-/// Around a leaf's samples and their neighbours, between which its squares are, with room for what cubics overshoot and
-/// for the half squares at the table's border.
-fn leaf_bounds(samples: &Samples, links: &Links, leaf: Leaf) -> Bounds {
-    let mut bounds = Bounds::NOTHING;
-    let (left, top) = (leaf.column * LEAF, leaf.row * LEAF);
-    for j in top.saturating_sub(1)..(top + LEAF + 1).min(samples.height) {
-        for i in left.saturating_sub(1)..(left + LEAF + 1).min(samples.width) {
-            if links.is_valid(i, j) {
-                let value = samples.values[j * samples.width + i];
-                bounds = bounds.union(Bounds { min: value, max: value });
+        (samples, links, leaves): (&Samples, &Links, &[Leaf]),
+        value: DVec3,
+        beyond: f64,
+    ) -> Option<(f64, f64)> {
+        let mut first: Option<(usize, (f64, f64))> = None;
+        for entry in self.index.locate_all_at_point(value.as_vec3().to_array()) {
+            if first.is_none_or(|(piece, _)| entry.data < piece) {
+                let found = find_in_leaf(samples, links, leaves[entry.data], value, beyond);
+                first = found.map(|at| (entry.data, at)).or(first);
             }
         }
+        first.map(|(_, at)| at)
     }
-    let is_outer = left == 0 || top == 0 || left + LEAF >= samples.width || top + LEAF >= samples.height;
-    // The longest side, for all: a table that runs along one axis alone bulges along the others.
-    let extent = (bounds.max - bounds.min).max_element();
-    // A leaf at the border may hold one row of squares only.
-    let part = if is_outer { MOST_BEYOND as f32 } else { 0.25 };
-    let room = Vec3::splat(extent * part + 1e-6);
-    Bounds { min: bounds.min - room, max: bounds.max + room }
+}
+
+/// Around a piece's samples, with room for what cubics overshoot between them, for the half squares beside its outermost
+/// ones, and for what lies beside the table.
+fn bounds(samples: &Samples, links: &Links, piece: &Piece, beyond: f64) -> Bounds {
+    let value = |i: usize, j: usize| samples.values[j * samples.width + i];
+    let (mut bounds, mut longest) = (Bounds::NOTHING, 0f32);
+    for &(i, j) in &piece.cells {
+        let [a, b, c, d] = [value(i, j), value(i + 1, j), value(i, j + 1), value(i + 1, j + 1)];
+        bounds = [a, b, c, d].into_iter().fold(bounds, Bounds::with);
+        let steps = [a.distance_squared(b), a.distance_squared(c), d.distance_squared(b), d.distance_squared(c)];
+        longest = steps.into_iter().fold(longest, f32::max);
+    }
+    let mut longest = longest.sqrt();
+    let is_outer = piece.leaf.is_outer(samples);
+    if is_outer && beyond > 0.0 {
+        let [(left, top), (right, bottom)] = piece.leaf.rectangle_with(samples, beyond);
+        let (columns, rows) = ((right - left) as usize, (bottom - top) as usize);
+        for (i, j) in (0..=rows).flat_map(|j| (0..=columns).map(move |i| (i, j))) {
+            let Some(jet) = links.jet(samples, left + i as f64, top + j as f64, beyond) else { continue };
+            bounds = bounds.with(jet.value.as_vec3());
+            longest = longest.max(jet.dx.as_vec3().length()).max(jet.dy.as_vec3().length());
+        }
+    }
+    // Outside its samples a table goes on as a parabola, of which half a square may be as long as two others.
+    let room = if piece.is_whole && !is_outer { 0.5 } else { 2.0 };
+    bounds.widened(room * longest + 1e-6)
 }
 
 /// Newton's method from the leaf's nearest sample.
 fn find_in_leaf(samples: &Samples, links: &Links, leaf: Leaf, value: DVec3, beyond: f64) -> Option<(f64, f64)> {
     let [(left, top), (right, bottom)] = leaf.rectangle_with(samples, beyond);
     let (width, height) = (samples.width as f64, samples.height as f64);
+    let is_within =
+        |(x, y): (f64, f64), room: f64| x >= left - room && x <= right + room && y >= top - room && y <= bottom + room;
     // Not far out of the leaf: there other samples tell.
     let moved = |at: f64, step: f64, [least, greatest]: [f64; 2], size: f64| {
         (at + step.clamp(-4.0, 4.0)).clamp(least - 1.0, greatest + 1.0).clamp(-beyond, size + beyond)
     };
-    let (mut x, mut y) = nearest(samples, links, leaf, value.as_vec3())?;
+    let mut at = nearest(samples, links, leaf, value.as_vec3())?;
     for _ in 0..STEPS {
-        let step = solve(&links.jet(samples, x, y, beyond)?, value)?;
-        let next = (moved(x, step.0, [left, right], width), moved(y, step.1, [top, bottom], height));
-        let is_held = (next.0 - x).abs().max((next.1 - y).abs()) < FOUND;
-        (x, y) = next;
-        if step.0.abs().max(step.1.abs()) < FOUND {
-            let room = 2.0 * FOUND;
-            let inside = x >= left - room && x <= right + room && y >= top - room && y <= bottom + room;
-            return inside.then_some((x, y));
+        let step = solve(&links.jet(samples, at.0, at.1, beyond)?, value)?;
+        let length = step.0.abs().max(step.1.abs());
+        let next = (moved(at.0, step.0, [left, right], width), moved(at.1, step.1, [top, bottom], height));
+        let is_held = (next.0 - at.0).abs().max((next.1 - at.1).abs()) < FOUND;
+        at = next;
+        if length < LAST_STEP {
+            return is_within(at, 2.0 * FOUND).then_some(at);
         }
-        // At a border, while the value is beyond it.
-        if is_held {
+        // At a border, while the value is beyond it; or on the way to a place beyond it.
+        if is_held || (length < CONVERGING && !is_within(at, length)) {
             return None;
         }
     }
@@ -181,7 +149,7 @@ fn nearest(samples: &Samples, links: &Links, leaf: Leaf, value: Vec3) -> Option<
     for j in top as usize..bottom as usize {
         for i in left as usize..right as usize {
             let distance = samples.values[j * samples.width + i].distance_squared(value);
-            if links.is_valid(i, j) && best.is_none_or(|(least, ..)| distance < least) {
+            if best.is_none_or(|(least, ..)| distance < least) && links.is_valid(i, j) {
                 best = Some((distance, i, j));
             }
         }

@@ -51,12 +51,17 @@ impl CalibratedFrame {
 
     /// Height over width.
     pub(super) fn natural_ratio(&self) -> f64 {
-        self.size.map_or(0.75, |(width, height)| height as f64 / width as f64)
+        self.size
+            .filter(|(width, height)| width.min(height) > &0)
+            .map_or(0.75, |(width, height)| height as f64 / width as f64)
     }
 
     /// How much larger an image is than the one that was measured.
     fn scale(&self, width: usize, height: usize) -> Result<DVec2, FrameError> {
         let Some((w, h)) = self.size else { return Ok(DVec2::ONE) };
+        if w == 0 || h == 0 {
+            return Err(FrameError::CalibrationSize { found: (width, height), measured: (w, h) });
+        }
         let found = DVec2::new(width as f64, height as f64);
         let measured = DVec2::new(w as f64, h as f64);
         let scale = found / measured;

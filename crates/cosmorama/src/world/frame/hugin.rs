@@ -30,6 +30,38 @@ pub enum HuginProjection {
     EqualArea,
 }
 
+impl HuginProjection {
+    /// The lens of an i-line's f.
+    pub const fn of_lens(f: u32) -> Option<Self> {
+        Some(match f {
+            0 => Self::Rectilinear,
+            1 => Self::Cylinder,
+            2 | 3 => Self::Equidistant,
+            4 => Self::Equirectangular,
+            8 => Self::Orthographic,
+            10 => Self::Stereographic,
+            21 => Self::Equisolid,
+            _ => return None,
+        })
+    }
+
+    /// The panorama of the p-line's f, of those that show a part of the world too: its numbers are others than an i-line's.
+    pub const fn of_panorama(f: u32) -> Option<Self> {
+        Some(match f {
+            0 => Self::Rectilinear,
+            1 => Self::Cylinder,
+            2 => Self::Equirectangular,
+            3 => Self::Equidistant,
+            4 => Self::Stereographic,
+            5 => Self::Mercator,
+            8 => Self::EqualArea,
+            14 => Self::Orthographic,
+            9 | 15 => Self::Equisolid,
+            _ => return None,
+        })
+    }
+}
+
 /// An image of a Hugin project, as an i-line describes its lens.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HuginFrame {

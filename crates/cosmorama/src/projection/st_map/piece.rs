@@ -1,0 +1,86 @@
+use rayon::prelude::*;
+
+use super::lattice::{Links, Samples};
+
+/// Squares of the lattice along the side of a leaf.
+pub(super) const LEAF: usize = 8;
+
+/// A block of the lattice: columns and rows from its corner.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Leaf {
+    pub(super) column: usize,
+    pub(super) row: usize,
+}
+
+impl Leaf {
+    /// Its squares' corners, least and greatest.
+    pub(super) fn rectangle(self, samples: &Samples) -> [(f64, f64); 2] {
+        let (left, top) = (self.column * LEAF, self.row * LEAF);
+        let (right, bottom) = ((left + LEAF).min(samples.width), (top + LEAF).min(samples.height));
+        [(left as f64, top as f64), (right as f64, bottom as f64)]
+    }
+
+    /// The same with what lies beyond the table beside it.
+    pub(super) fn rectangle_with(self, samples: &Samples, beyond: f64) -> [(f64, f64); 2] {
+        let [(left, top), (right, bottom)] = self.rectangle(samples);
+        let low = |at: f64| if at == 0.0 { -beyond } else { at };
+        let high = |at: f64, size: usize| if at == size as f64 { at + beyond } else { at };
+        [(low(left), low(top)), (high(right, samples.width), high(bottom, samples.height))]
+    }
+
+    /// Whether the table ends beside it.
+    pub(super) fn is_outer(self, samples: &Samples) -> bool {
+        self.rectangle_with(samples, 1.0) != self.rectangle(samples)
+    }
+
+    /// The cells between its samples and those beside it, up to which its cubics are, by their upper left corners.
+    fn cells(self, width: usize, height: usize) -> impl Iterator<Item = (usize, usize)> {
+        let ends = |start: usize, size: usize| start.saturating_sub(1)..(start + LEAF).min(size - 1);
+        let (columns, rows) = (ends(self.column * LEAF, width), ends(self.row * LEAF, height));
+        rows.flat_map(move |j| columns.clone().map(move |i| (i, j)))
+    }
+}
+
+/// What belongs together of a leaf and the samples beside it. A leaf across a tear has a piece on each side: one box around
+/// both would reach across all that lies between them.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct Piece {
+    pub(super) leaf: Leaf,
+    /// The cells between four samples of it, by their upper left corners.
+    pub(super) cells: Vec<(usize, usize)>,
+    /// Whether that is all the leaf has: nothing is torn.
+    pub(super) is_whole: bool,
+}
+
+impl Piece {
+    /// The pieces of a lattice, leaf by leaf.
+    pub(super) fn all(links: &Links) -> Vec<Self> {
+        let (columns, rows) = (links.width.div_ceil(LEAF), links.height.div_ceil(LEAF));
+        let leaf = |k: usize| Leaf { column: k % columns, row: k / columns };
+        (0..columns * rows).into_par_iter().flat_map_iter(|k| Self::of(leaf(k), links)).collect()
+    }
+
+    /// Those of a leaf: sets of cells that have samples in common.
+    fn of(leaf: Leaf, links: &Links) -> Vec<Self> {
+        let all = leaf.cells(links.width, links.height);
+        let mut left: Vec<_> = all.filter(|&(i, j)| links.is_whole(i as i64, j as i64)).collect();
+        let is_whole = left.len() == leaf.cells(links.width, links.height).count();
+        if is_whole && !left.is_empty() {
+            return vec![Self { leaf, cells: left, is_whole }];
+        }
+        let mut pieces = Vec::new();
+        while let Some(first) = left.pop() {
+            let mut cells = vec![first];
+            let mut seen = 0;
+            while let Some(&(i, j)) = cells.get(seen) {
+                seen += 1;
+                let touches = |&(a, b): &(usize, usize)| a.abs_diff(i) <= 1 && b.abs_diff(j) <= 1;
+                let (near, far): (Vec<_>, Vec<_>) = left.iter().partition(|cell| touches(cell));
+                left = far;
+                cells.extend(near);
+            }
+            pieces.push(Self { leaf, cells, is_whole });
+        }
+        pieces
+    }
+}

@@ -1,0 +1,35 @@
+use rayon::prelude::*;
+
+use super::{Canvas, View, World};
+use crate::raster::Image;
+use crate::sphere::Direction;
+
+/// The numbers of an st map's pixel: s to the right, t up, and the part of the pixel that shows anything.
+pub type StPixel = [f32; 3];
+
+/// What a pixel holds that shows nothing: a place outside.
+pub const ST_NOWHERE: StPixel = [-1.0, -1.0, 0.0];
+
+impl World {
+    /// Where in one image the pixels of a target look: of each view, `canvases` say which part of that image it is.
+    pub fn st_pixels(&self, target: &View, canvases: &[Canvas]) -> Image<StPixel> {
+        let mut image = Image::filled(target.width(), target.height(), ST_NOWHERE);
+        image.pixels_mut().par_chunks_mut(target.width()).enumerate().for_each(|(j, row)| {
+            for (i, numbers) in row.iter_mut().enumerate() {
+                let Some(pixel) = target.screen_pixel(i, j) else { continue };
+                if let Some([s, t]) = self.place_in(canvases, pixel.footprint.direction) {
+                    *numbers = [s as f32, t as f32, pixel.coverage as f32];
+                }
+            }
+        });
+        image
+    }
+
+    /// The place in the image as a whole, from the lower left corner to the upper right one.
+    fn place_in(&self, canvases: &[Canvas], direction: Direction) -> Option<[f64; 2]> {
+        let (index, pixel) = self.owner(direction)?;
+        let Canvas { width, height, left, top } = canvases.get(index)?;
+        let (x, y) = (pixel.x + *left as f64, pixel.y + *top as f64);
+        Some([x / *width as f64, 1.0 - y / *height as f64])
+    }
+}
