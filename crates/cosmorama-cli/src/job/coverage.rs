@@ -72,15 +72,10 @@ fn find_gaps(
     }
     let geometry: Vec<View> = targets.iter().map(|target| target.view).collect();
     let uncovered = |needs: &Needs| needs.uncovered.map(|gap| format!("{}: {gap}", targets[gap.target].name));
-    if let [view] = views
-        && view.window.as_ref().is_some_and(|(held, _)| *held == view.nominal)
-    {
-        let needs = Needs::seen(nominal, &geometry);
-        // Whatever the filter reads around what is seen is there, too.
-        if needs.views[0].seen.is_some() {
-            view.wanted = true;
-            return Ok(uncovered(&needs).into_iter().collect());
-        }
+    let needs = Needs::at_most(nominal, &geometry, filter);
+    if needs.views.iter().any(|need| need.seen.is_some()) && views.iter().zip(&needs.views).all(holds) {
+        views.iter_mut().zip(&needs.views).for_each(|(view, need)| view.wanted = need.read.is_some());
+        return Ok(uncovered(&needs).into_iter().collect());
     }
     let needs = Needs::of(nominal, &geometry, filter);
     let mut gaps = Vec::new();
@@ -95,6 +90,12 @@ fn find_gaps(
         return Err(empty(&gaps));
     }
     Ok(gaps)
+}
+
+/// Whether all that may be needed of a view is there.
+fn holds((view, need): (&InputView, &Need)) -> bool {
+    let held = view.window.as_ref().map(|(held, canvas)| rect(canvas, held));
+    need.read.is_none_or(|read| held.is_some_and(|held| held.contains(&read)))
 }
 
 /// The world of what files hold: often that of the whole pictures.

@@ -67,16 +67,16 @@ impl Needs {
     /// it comes from the taps of the filter itself. Only blocks of pixels that cannot widen the rectangles found so far
     /// are passed over.
     pub fn of(world: &World, targets: &[View], filter: &Filter) -> Self {
-        Self::surveyed(world, targets, filter, true)
+        Self::surveyed(world, targets, filter, Reads::Exactly)
     }
 
-    /// The same but for what the filter reads, which takes most of the work: `read` is `None`. For worlds of one view that
-    /// is there as a whole.
-    pub fn seen(world: &World, targets: &[View]) -> Self {
-        Self::surveyed(world, targets, &Filter::DEFAULT, false)
+    /// The same but for what the filter reads, which takes most of the work: `read` is a rectangle that holds all of that, and
+    /// may be some texels too large. Where views hold it, nothing more need be known.
+    pub fn at_most(world: &World, targets: &[View], filter: &Filter) -> Self {
+        Self::surveyed(world, targets, filter, Reads::AtMost)
     }
 
-    fn surveyed(world: &World, targets: &[View], filter: &Filter, reads: bool) -> Self {
+    fn surveyed(world: &World, targets: &[View], filter: &Filter, reads: Reads) -> Self {
         let mut needs = Self::nothing(world);
         for (index, target) in targets.iter().enumerate() {
             let survey = Survey { world, target, index, filter, reads };
@@ -137,8 +137,16 @@ struct Survey<'a> {
     target: &'a View,
     index: usize,
     filter: &'a Filter,
-    /// Whether it is asked what the filter reads.
-    reads: bool,
+    reads: Reads,
+}
+
+/// How well it is found what a filter reads.
+#[derive(Clone, Copy)]
+enum Reads {
+    /// By the taps of each pixel.
+    Exactly,
+    /// By what kernels around a block of pixels can reach.
+    AtMost,
 }
 
 /// A block and what is known of it as a whole.
@@ -184,7 +192,13 @@ impl Survey<'_> {
 
     /// Adds what the pixels of a block need, unless they surely need nothing new.
     fn add_block(&self, judged: &Judged, pixels: &mut PixelTaps, needs: &mut Needs) {
-        let reads_nothing_new = !self.reads || judged.cap.is_some_and(|cap| self.reads_within(&cap, needs));
+        let reads_nothing_new = judged.cap.is_some_and(|cap| match self.reads {
+            Reads::Exactly => self.reads_within(&cap, needs),
+            Reads::AtMost => {
+                self.add_reach(&cap, needs);
+                true
+            }
+        });
         let sees_nothing_new = judged
             .cap
             .zip(judged.owner)
@@ -205,6 +219,13 @@ impl Survey<'_> {
     fn reads_within(&self, cap: &Cap, needs: &Needs) -> bool {
         let mut views = self.world.sources().iter().zip(&needs.views);
         views.all(|(source, need)| within(cap.read_texels(source, &self.filter.kernel), need.read))
+    }
+
+    /// Adds all that kernels around a block's pixels can touch.
+    fn add_reach(&self, cap: &Cap, needs: &mut Needs) {
+        for (source, need) in self.world.sources().iter().zip(&mut needs.views) {
+            need.read = union(need.read, cap.read_texels(source, &self.filter.kernel));
+        }
     }
 
     fn add_pixel(&self, (column, row): (usize, usize), direction: Direction, needs: &mut Needs) {
