@@ -5,6 +5,7 @@ use cosmorama::world::{PixelPoint, View, World};
 use glam::{DVec2, DVec3};
 
 use crate::common_field::CommonField;
+use crate::sky::whole;
 use crate::{Form, light_by_direction};
 
 /// What a world loses in another form: measured on what came back, where both forms show it and the other one has the finer
@@ -57,7 +58,7 @@ impl RoundTrip {
             let original = &light[source.texels()];
             let errors: Vec<[f64; 3]> =
                 waves[source.texels()].iter().zip(original).map(|(a, b)| difference(a, b)).collect();
-            let field = CommonField::new(&source.view, from.is_whole, &second);
+            let field = CommonField::new(&source.view, from.is_whole && through.is_whole, &second);
             sums.add(&source.view, &field, &errors);
             sums.add_directions(&source.view, &field, &directions[source.texels()]);
         }
@@ -80,11 +81,6 @@ fn plans(world: &World, views: &[View], filter: Filter) -> Vec<Plan> {
 
 fn apply(plans: &[Plan], light: &[Rgba]) -> Vec<Rgba> {
     plans.iter().flat_map(|plan| plan.apply(light).pixels().iter().map(whole).collect::<Vec<_>>()).collect()
-}
-
-/// A pixel that an edge cuts is dark by the part that it lacks; its light is that of the rest.
-fn whole(pixel: &Rgba) -> Rgba {
-    if pixel.alpha() > 0.0 { *pixel * pixel.alpha().recip() } else { *pixel }
 }
 
 fn difference(a: &Rgba, b: &Rgba) -> [f64; 3] {
