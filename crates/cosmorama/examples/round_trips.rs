@@ -2,6 +2,7 @@
 //!
 //! `cargo run --release -p cosmorama --example round_trips [FROM [THROUGH]]`
 
+use cosmorama::resample::Filter;
 use rayon::prelude::*;
 use testkit::{Form, RoundTrip};
 
@@ -14,9 +15,13 @@ struct Figure {
     of: fn(&RoundTrip) -> f64,
 }
 
-const FIGURES: [Figure; 4] = [
+const FIGURES: [Figure; 5] = [
     Figure { title: "mean error, thousandths of the contrast", of: |trip| 1e3 * trip.mean_error },
     Figure { title: "shift, thousandths of a pixel", of: |trip| 1e3 * trip.shift },
+    Figure {
+        title: "displacement of the pixel that moved most, thousandths of a pixel",
+        of: |trip| 1e3 * trip.displacement,
+    },
     Figure {
         title: "largest step across a former seam, percent of the largest elsewhere",
         of: |trip| 100.0 * trip.across / trip.elsewhere,
@@ -31,7 +36,7 @@ fn main() {
         forms.into_iter().filter(|form| asked.get(k).is_none_or(|name| name == form.name)).collect()
     };
     let (from, through) = (wanted(0, Form::all(FROM)), wanted(1, Form::all(4.0 * FROM)));
-    let row = |a: &Form| through.iter().map(|b| RoundTrip::measure(a, b)).collect();
+    let row = |a: &Form| through.iter().map(|b| RoundTrip::measure(a, b, Filter::DEFAULT)).collect();
     let trips: Vec<Vec<Option<RoundTrip>>> = from.par_iter().map(row).collect();
     for Figure { title, of } in FIGURES {
         println!("\n{title}; a line for each form, a column for each that it went through");

@@ -5,7 +5,8 @@ use cosmorama::resample::{CrossSection, Filter, FilterKind, Kernel, Resampler};
 use cosmorama::sphere::CubeFace;
 use cosmorama::world::{EquirectFrame, Frame, SamplePositions, ScreenPixel, View, World};
 use testkit::{
-    cube, equirect, fisheye, light_by_direction, omnimax, partial_worlds, perspective, position_error, whole_worlds,
+    cube, equirect, fisheye, light_by_direction, omnimax, partial_worlds, perspective, position_error, power,
+    whole_worlds,
 };
 
 /// Pixels by which a point of the world may be displaced; the promise is 0.01.
@@ -255,12 +256,6 @@ fn directions_come_back_far_from_the_seam_of_an_oval_map() {
         println!("from {name}: {error}");
         assert!(error < POSITION_PROMISE, "from {name}: {error} px");
     }
-}
-
-/// Radiance times solid angle, over all texels.
-fn power(world: &World, light: &[Rgba]) -> [f64; 3] {
-    let of = |c: usize| light.iter().zip(world.solid_angles()).map(|(l, &s)| f64::from(l.0[c]) * f64::from(s)).sum();
-    [of(0), of(1), of(2)]
 }
 
 #[test]

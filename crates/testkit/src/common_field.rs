@@ -4,7 +4,8 @@ use cosmorama::world::{PixelPoint, View, World};
 /// them the other form has a seam.
 pub(crate) struct CommonField<'a> {
     view: &'a View,
-    is_whole: bool,
+    /// Whether both show the whole world, so that what lies beyond the view's border lies in both.
+    are_whole: bool,
     other: &'a World,
     /// Where the other form has each pixel's direction: which of its views, and where in it.
     places: Vec<Option<(usize, PixelPoint)>>,
@@ -14,15 +15,15 @@ pub(crate) struct CommonField<'a> {
 /// Pixels around one that must be in both forms for it to be compared.
 const REACH: f64 = 4.0;
 
-/// Neighbours further from each other than this many texels of the other form are on both sides of a seam.
+/// Neighbours no further from each other than this many texels of the other form are on one side of a seam.
 const APART: f64 = 24.0;
 
 impl<'a> CommonField<'a> {
-    /// That of a view of a form that shows the whole world, or does not.
-    pub(crate) fn new(view: &'a View, is_whole: bool, other: &'a World) -> Self {
+    /// That of a view of one form and another form, both of which show the whole world, or not.
+    pub(crate) fn new(view: &'a View, are_whole: bool, other: &'a World) -> Self {
         let pixels = || (0..view.height()).flat_map(|j| (0..view.width()).map(move |i| PixelPoint::centre(i, j)));
         let place = |pixel: PixelPoint| view.direction(pixel).and_then(|direction| other.owner(direction));
-        let mut field = Self { view, is_whole, other, places: pixels().map(place).collect(), counted: Vec::new() };
+        let mut field = Self { view, are_whole, other, places: pixels().map(place).collect(), counted: Vec::new() };
         field.counted = (0..field.places.len()).map(|k| field.is_common(k % view.width(), k / view.width())).collect();
         field
     }
@@ -32,10 +33,22 @@ impl<'a> CommonField<'a> {
         i < self.view.width() && j < self.view.height() && self.counted[j * self.view.width() + i]
     }
 
-    /// Whether the other form has a seam between two pixels.
+    /// Whether the other form has a seam between two pixels: it has them far apart, and what lies between them not half way.
     pub(crate) fn parts(&self, a: (usize, usize), b: (usize, usize)) -> bool {
-        let [a, b] = [a, b].map(|(i, j)| self.places[j * self.view.width() + i]);
-        a.zip(b).is_some_and(|((face, a), (next, b))| face != next || (a.x - b.x).hypot(a.y - b.y) > APART)
+        let places = [a, b].map(|(i, j)| self.places[j * self.view.width() + i]);
+        let [Some((face, first)), Some((next, second))] = places else { return false };
+        if face != next {
+            return true;
+        }
+        let apart = (first.x - second.x).hypot(first.y - second.y);
+        let middle = PixelPoint::new((a.0 + b.0 + 1) as f64 / 2.0, (a.1 + b.1 + 1) as f64 / 2.0);
+        apart > APART
+            && self.view.direction(middle).and_then(|direction| self.other.owner(direction)).is_none_or(
+                |(_, between)| {
+                    let (x, y) = ((first.x + second.x) / 2.0, (first.y + second.y) / 2.0);
+                    (between.x - x).hypot(between.y - y) > apart / 4.0
+                },
+            )
     }
 
     /// Whether a pixel, a whole one, and those around it are in both forms, and the other form has the finer ones there.
@@ -50,8 +63,8 @@ impl<'a> CommonField<'a> {
         let around = [-1.0, 0.0, 1.0].into_iter().flat_map(|y| [-1.0, 0.0, 1.0].map(|x| (x * REACH, y * REACH)));
         is_finer
             && around.map(|(x, y)| PixelPoint::new(pixel.x + x, pixel.y + y)).all(|point| {
-                let direction = self.view.direction(point).filter(|_| self.is_whole || self.view.shows(point));
-                direction.map_or(self.is_whole, |direction| self.other.owner(direction).is_some())
+                let direction = self.view.direction(point).filter(|_| self.are_whole || self.view.shows(point));
+                direction.map_or(self.are_whole, |direction| self.other.owner(direction).is_some())
             })
     }
 }

@@ -6,9 +6,11 @@ mod frames;
 mod light;
 mod round_trip;
 mod shared;
+mod sky;
 
 pub use forms::Form;
 pub use frames::{cube, cube_face, equirect, fisheye, omnimax, partial_worlds, perspective, turned, whole_worlds};
 pub use light::{light_by_direction, light_by_texel, position_error};
 pub use round_trip::RoundTrip;
 pub use shared::shared;
+pub use sky::{Sky, power};

@@ -1,0 +1,71 @@
+//! What forms of a world gain or lose of the light of real skies with a sun, by filter, in percent of all their light.
+//!
+//! `cargo run --release -p testkit --example light_kept`
+
+use cosmorama::raster::{Rgba, Transfer};
+use cosmorama::resample::{CrossSection, Filter, Kernel};
+use cosmorama::world::World;
+use cosmorama_io::{Limits, read};
+use testkit::{Form, Sky, equirect, shared};
+
+/// Pixels a steradian of a panorama of 1024 × 512, the mean.
+const DENSITY: f64 = 41_722.0;
+
+const SKIES: [&str; 4] = ["chinese_garden", "noon_grass", "spiaggia_di_mondello", "rainforest_trail"];
+
+/// From which form to which; what comes from a panorama is the file itself.
+const PAIRS: [(&str, &str); 7] = [
+    ("equirect", "cube"),
+    ("equirect", "eac"),
+    ("equirect", "octahedral"),
+    ("equirect", "mirror-ball"),
+    ("mirror-ball", "octahedral"),
+    ("mollweide", "sinusoidal"),
+    ("cube", "equirect"),
+];
+
+fn filters() -> [(&'static str, Filter); 7] {
+    let of = |kernel, anti_ringing| Filter { kernel, anti_ringing, ..Filter::DEFAULT };
+    let gaussian = |cutoff, scale| Kernel {
+        scale,
+        floor: scale,
+        ..Kernel::uniform(CrossSection::Gaussian { alpha: 2.0, cutoff })
+    };
+    [
+        ("default", Filter::DEFAULT),
+        ("default, --anti-ringing off", of(Kernel::ADAPTIVE, false)),
+        ("mitchell", of(Kernel::uniform(CrossSection::MITCHELL), true)),
+        ("gaussian", of(gaussian(1.0, 1.0), true)),
+        ("box", of(Kernel::uniform(CrossSection::Box), true)),
+        ("gaussian:cutoff=2,scale=1.4,floor=1.4", of(gaussian(2.0, 1.4), true)),
+        ("gaussian:cutoff=2,scale=1.4,floor=1.4, --anti-ringing off", of(gaussian(2.0, 1.4), false)),
+    ]
+}
+
+#[allow(clippy::print_stdout)] // An example may talk; the library may not.
+fn main() {
+    let Some(folder) = shared("data/equirect_hdr") else { return };
+    let file = |name| {
+        let path = folder.join(format!("polyhaven_{name}_1k.hdr"));
+        let file = read(&path, &Limits::default()).expect("a sky");
+        file.image.to_light(&Transfer::Linear).pixels().to_vec()
+    };
+    let skies: Vec<Vec<Rgba>> = SKIES.into_iter().map(file).collect();
+    let panorama = World::new([("panorama".to_owned(), equirect(1024))]).expect("one view");
+    let forms = Form::all(DENSITY);
+    let form = |name| forms.iter().find(|form| form.name == name).expect("a form");
+    for (from, to) in PAIRS {
+        println!("\n| {from} → {to} | {} |", SKIES.join(" | "));
+        let (world, skies) = if from == "equirect" {
+            (panorama.clone(), skies.clone())
+        } else {
+            let sky = Sky::new(&panorama, form(from), Filter::DEFAULT);
+            (form(from).world(), skies.iter().map(|light| sky.light(light)).collect())
+        };
+        for (name, filter) in filters() {
+            let sky = Sky::new(&world, form(to), filter);
+            let gains = skies.iter().map(|light| format!(" {:.3} |", 100.0 * sky.gain(&world, light)));
+            println!("| `{name}` |{}", gains.collect::<String>());
+        }
+    }
+}

@@ -1,0 +1,47 @@
+use cosmorama::raster::Rgba;
+use cosmorama::resample::{Filter, Plan, Resampler};
+use cosmorama::world::World;
+
+use crate::Form;
+
+/// Radiance times solid angle by channel, over all texels of a world.
+pub fn power(world: &World, light: &[Rgba]) -> [f64; 3] {
+    let of = |c: usize| light.iter().zip(world.solid_angles()).map(|(l, &s)| f64::from(l.0[c]) * f64::from(s)).sum();
+    [of(0), of(1), of(2)]
+}
+
+/// What a form that shows the whole world makes of the light of another world.
+#[derive(Debug)]
+pub struct Sky {
+    world: World,
+    plans: Vec<Plan>,
+}
+
+impl Sky {
+    /// The geometry of it, for any light.
+    ///
+    /// # Panics
+    /// With the reference filter, which records no weights.
+    pub fn new(from: &World, to: &Form, filter: Filter) -> Self {
+        let plan = |target| Resampler { world: from, target, filter }.plan();
+        let plans = to.views.iter().map(|view| plan(view).expect("a filter whose weights can be recorded")).collect();
+        Self { world: to.world(), plans }
+    }
+
+    /// The light of it.
+    pub fn light(&self, from: &[Rgba]) -> Vec<Rgba> {
+        self.plans.iter().flat_map(|plan| plan.apply(from).pixels().iter().map(whole).collect::<Vec<_>>()).collect()
+    }
+
+    /// What it gains of the light of another world, or loses: a part of the whole, of the channel that changes most.
+    pub fn gain(&self, from: &World, light: &[Rgba]) -> f64 {
+        let (before, after) = (power(from, light), power(&self.world, &self.light(light)));
+        let gains = [0, 1, 2].map(|c| after[c] / before[c] - 1.0);
+        gains.into_iter().fold(0.0, |largest: f64, gain| if gain.abs() > largest.abs() { gain } else { largest })
+    }
+}
+
+/// A pixel that an edge cuts is dark by the part that it lacks; its light is that of the rest.
+pub(crate) fn whole(pixel: &Rgba) -> Rgba {
+    if pixel.alpha() > 0.0 { *pixel * pixel.alpha().recip() } else { *pixel }
+}
