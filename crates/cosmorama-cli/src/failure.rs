@@ -4,6 +4,8 @@ use std::process::ExitCode;
 
 use thiserror::Error;
 
+use crate::stream;
+
 /// An error of the person who typed the command: exit code 2.
 #[derive(Debug, Error)]
 #[error("{0}")]
@@ -17,7 +19,7 @@ pub(crate) fn usage(message: impl Into<String>) -> anyhow::Error {
 /// Something that should be known but does not stop the work.
 #[allow(clippy::print_stderr)]
 pub(crate) fn warn(message: &str) {
-    eprintln!("warning: {message}");
+    eprintln!("warning: {}", stream::told(message));
 }
 
 /// Prints an error, its causes on the same line, and chooses the exit code.
@@ -31,6 +33,6 @@ pub(crate) fn report(error: &anyhow::Error) -> ExitCode {
             message += &cause;
         }
     }
-    eprintln!("error: {message}");
+    eprintln!("error: {}", stream::told(&message));
     if error.chain().any(|cause| cause.is::<Usage>()) { ExitCode::from(2) } else { ExitCode::FAILURE }
 }

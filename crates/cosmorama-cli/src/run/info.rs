@@ -8,18 +8,21 @@ use cosmorama_io::{EnvMap, FacePattern, FaceSet, Header, probe};
 use serde_json::{Value, json};
 
 use super::info_faces::{of_files, of_image};
+use super::pipe::Kept;
 use super::print;
 use crate::args::InfoArgs;
 use crate::job::{Builtin, Files, existing_frames, likely};
 
 /// Tells what a file or a face set is.
 pub(super) fn run(args: &InfoArgs) -> Result<ExitCode> {
-    let report = if let Some(builtin) = Builtin::named(&args.input)? {
-        json!({ "input": args.input, "projection": "any (a formula)", "shows": builtin.about() })
-    } else if FacePattern::parse(&args.input).is_some() {
-        faces(&args.input)?
+    let mut kept = Kept::default();
+    let input = &kept.input(&args.input)?;
+    let report = if let Some(builtin) = Builtin::named(input)? {
+        json!({ "input": input, "projection": "any (a formula)", "shows": builtin.about() })
+    } else if FacePattern::parse(input).is_some() {
+        faces(input)?
     } else {
-        single(&args.input)?
+        single(input)?
     };
     if args.json {
         print(&(serde_json::to_string_pretty(&report)? + "\n"))?;
