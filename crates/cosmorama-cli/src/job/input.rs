@@ -90,6 +90,16 @@ impl Input {
             }
             return pto::find(pattern, memory, warnings);
         }
+        Self::of_eyes(pattern, from, wanted, warnings)
+    }
+
+    /// The input for each eye, where a SPEC has two.
+    fn of_eyes(
+        pattern: &str,
+        from: Option<&Spec>,
+        wanted: Option<&FrameList>,
+        warnings: &mut Vec<String>,
+    ) -> Result<Self> {
         let Some(StereoSpec { packing, eye }) = from.and_then(|spec| spec.stereo) else {
             return Self::find_one(pattern, from, None, wanted, warnings);
         };
@@ -164,7 +174,13 @@ impl Input {
         let header = header(&path, eye)?;
         let shape = match shape {
             Some(shape) => declared(shape, pattern, &header, warnings)?,
-            None => detect(&path, &header, warnings)?,
+            None => match detect(&path, &header, warnings)? {
+                (shape, None) => shape,
+                (shape, stereo) => {
+                    let found = Spec { name: "what was found", shape, stereo };
+                    return Self::of_eyes(pattern, Some(&found), wanted, warnings);
+                }
+            },
         };
         let (views, faces) = match shape {
             Shape::Single(single) => (vec![Self::single(pattern, files, &path, header, single)?], None),

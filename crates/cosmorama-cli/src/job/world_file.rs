@@ -10,6 +10,7 @@ use cosmorama_io::{FrameList, FramePattern};
 use serde::Deserialize;
 use toml::Spanned;
 
+use super::listing::Listed;
 use super::{Input, InputView, MemoryBudget, st_map};
 use crate::spec::Spec;
 
@@ -56,6 +57,23 @@ pub(super) fn find(
     memory: MemoryBudget,
     warnings: &mut Vec<String>,
 ) -> Result<Input> {
+    let mut world = Input { worlds: vec![Vec::new()], frames: vec![None], faces: None };
+    for Listed { image, place, input, .. } in listed(name, wanted, memory, warnings)? {
+        world.frames = common_frames(&world.frames, &input.frames)
+            .with_context(|| format!("{image} has other frames than the views before it"))
+            .context(place)?;
+        join(&mut world.worlds, input.worlds);
+    }
+    Ok(world)
+}
+
+/// Each view of a world file by itself.
+pub(super) fn listed(
+    name: &str,
+    wanted: Option<&FrameList>,
+    memory: MemoryBudget,
+    warnings: &mut Vec<String>,
+) -> Result<Vec<Listed>> {
     let text = std::fs::read_to_string(name).with_context(|| format!("{name}: cannot be read as a world file"))?;
     let source = Text { name, text: &text };
     let file: WorldFile = toml::from_str(&text)
@@ -65,15 +83,15 @@ pub(super) fn find(
             "{name}: no [[view]] in it; a world file has one for each image, with image = \"FILE\" and spec = \"SPEC\""
         );
     }
-    let mut world = Input { worlds: vec![Vec::new()], frames: vec![None], faces: None };
-    for entry in &file.view {
-        let part = entry.find(&source, wanted, memory, warnings)?;
-        world.frames = common_frames(&world.frames, &part.frames)
-            .with_context(|| format!("{} has other frames than the views before it", entry.image.get_ref()))
-            .with_context(|| source.place(Some(entry.image.span())))?;
-        join(&mut world.worlds, part.worlds);
-    }
-    Ok(world)
+    let list = |entry: &Entry| {
+        Ok(Listed {
+            image: entry.image.get_ref().clone(),
+            place: source.place(Some(entry.image.span())),
+            spec: entry.spec.as_ref().map(|spec| spec.get_ref().clone()),
+            input: entry.find(&source, wanted, memory, warnings)?,
+        })
+    };
+    file.view.iter().map(list).collect()
 }
 
 impl Entry {

@@ -9,7 +9,7 @@ use serde_json::{Value, json};
 
 use super::info_faces::{of_files, of_image};
 use super::pipe::Kept;
-use super::print;
+use super::{info_world, print};
 use crate::args::InfoArgs;
 use crate::job::{Builtin, Files, existing_frames, likely};
 
@@ -21,6 +21,8 @@ pub(super) fn run(args: &InfoArgs) -> Result<ExitCode> {
         json!({ "input": input, "projection": "any (a formula)", "shows": builtin.about() })
     } else if FacePattern::parse(input).is_some() {
         faces(input)?
+    } else if let Some(world) = info_world::report(input)? {
+        world
     } else {
         single(input)?
     };
@@ -42,6 +44,9 @@ fn single(pattern: &str) -> Result<Value> {
     merge(&mut report, header_report(&header));
     let likely = likely(&path, &header);
     report["projection"] = json!(likely.projection);
+    if let Some(damage) = &likely.damage {
+        report["damaged"] = json!(damage);
+    }
     if let Some(found) = likely.circle {
         let Circle { centre: (x, y), radius } = found.circle();
         report["circle"] = json!({ "x": x, "y": y, "radius": radius, "measured": matches!(found, Found::Measured(_)) });
@@ -158,6 +163,9 @@ fn lines(report: &Value, indent: usize) -> String {
             format!("{pad}{key}: {}\n", plain(&arrangement["told"]))
         }
         Value::Object(_) => format!("{pad}{key}:\n{}", lines(value, indent + 2)),
+        Value::Array(items) if items.iter().all(Value::is_object) => {
+            items.iter().map(|item| format!("{pad}{key}:\n{}", lines(item, indent + 2))).collect()
+        }
         Value::Array(items) => format!("{pad}{key}: {}\n", items.iter().map(plain).collect::<Vec<_>>().join(", ")),
         _ if key == "present" => String::new(),
         value => format!("{pad}{key}: {}\n", plain(value)),

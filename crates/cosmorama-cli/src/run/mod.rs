@@ -9,6 +9,7 @@ mod engine;
 mod explain;
 mod info;
 mod info_faces;
+mod info_world;
 mod interrupt;
 mod pipe;
 mod progress;
