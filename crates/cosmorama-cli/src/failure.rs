@@ -16,6 +16,29 @@ pub(crate) fn usage(message: impl Into<String>) -> anyhow::Error {
     Usage(message.into()).into()
 }
 
+/// The same error in other words.
+pub(crate) fn retold(error: &anyhow::Error, words: impl Fn(&str) -> String) -> anyhow::Error {
+    let text = words(&message(error));
+    if is_usage(error) { usage(text) } else { anyhow::anyhow!(text) }
+}
+
+fn is_usage(error: &anyhow::Error) -> bool {
+    error.chain().any(|cause| cause.is::<Usage>())
+}
+
+/// An error and its causes on one line.
+fn message(error: &anyhow::Error) -> String {
+    let mut message = String::new();
+    for cause in error.chain().map(ToString::to_string) {
+        // Many errors tell their cause themselves.
+        if !message.contains(&cause) {
+            message += if message.is_empty() { "" } else { ": " };
+            message += &cause;
+        }
+    }
+    message
+}
+
 /// Something that should be known but does not stop the work.
 #[allow(clippy::print_stderr)]
 pub(crate) fn warn(message: &str) {
@@ -25,14 +48,6 @@ pub(crate) fn warn(message: &str) {
 /// Prints an error, its causes on the same line, and chooses the exit code.
 #[allow(clippy::print_stderr)]
 pub(crate) fn report(error: &anyhow::Error) -> ExitCode {
-    let mut message = String::new();
-    for cause in error.chain().map(ToString::to_string) {
-        // Many errors tell their cause themselves.
-        if !message.contains(&cause) {
-            message += if message.is_empty() { "" } else { ": " };
-            message += &cause;
-        }
-    }
-    eprintln!("error: {}", stream::told(&message));
-    if error.chain().any(|cause| cause.is::<Usage>()) { ExitCode::from(2) } else { ExitCode::FAILURE }
+    eprintln!("error: {}", stream::told(&message(error)));
+    if is_usage(error) { ExitCode::from(2) } else { ExitCode::FAILURE }
 }

@@ -6,7 +6,7 @@ use cosmorama::world::{EquirectFrame, FaceOrder, Frame, LayoutKind, Placement, S
 use cosmorama_io::{EnvMap, Header, Window};
 
 use super::canvas::canvas_of;
-use super::evidence::{Evidence, Seen};
+use super::evidence::{Evidence, Seen, damage_of};
 use super::guess::{Guess, ROUND_ONES, candidates, circle_spec, dome_spec, layouts_of_shape, two_eyes};
 
 use crate::failure::usage;
@@ -134,7 +134,15 @@ pub(super) fn declared(shape: &Shape, pattern: &str, header: &Header, warnings: 
         Shape::Single(single) if header.metadata.envmap == Some(EnvMap::LatLong) => {
             Ok(Shape::Single(single.with_samples(SamplePositions::Edges)))
         }
-        Shape::Single(single) => Ok(Shape::Single(windowed(*single, header))),
+        Shape::Single(single) => {
+            if let Some(EnvMap::Cube | EnvMap::GlCube) = header.metadata.envmap {
+                warnings.push(format!(
+                    "{pattern} holds the six faces of a cube, as its format or its envmap attribute says, but --from says \
+                     otherwise; it is read as --from has it"
+                ));
+            }
+            Ok(Shape::Single(windowed(*single, header)))
+        }
         Shape::StMap(map) => Ok(Shape::StMap(map.clone())),
         Shape::Cube(Cube { layout: Some(Packing::Files), .. }) => Err(usage(format!(
             "--from cube:layout=faces wants a file for each face, but {pattern} has no {{face}} or %c where a face's name \
@@ -206,6 +214,8 @@ pub(crate) struct Likely {
 /// Looks at an image.
 pub(crate) fn likely(path: &Path, header: &Header) -> Likely {
     let (guess, damage) = Guess::of(path, header);
+    // Whoever asks what a file is wants to know whether it is whole.
+    let damage = damage.or_else(|| if guess.has_looked() { None } else { damage_of(path) });
     let circle = match guess {
         Guess::Blank(Evidence::Disc(found)) => Some(found),
         _ => None,

@@ -33,6 +33,14 @@ fn decoded(path: &Path) -> Result<EncodedImage, IoError> {
     Ok(read(path, &Limits::memory(MOST_BYTES))?.image)
 }
 
+/// What is the matter with a file whose pixels cannot be read; `None` also where it is too large to try.
+pub(super) fn damage_of(path: &Path) -> Option<String> {
+    match decoded(path) {
+        Ok(_) | Err(IoError::TooLarge { .. }) => None,
+        Err(error) => Some(error.to_string()),
+    }
+}
+
 /// What an image is, as far as its blank parts tell.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Evidence {

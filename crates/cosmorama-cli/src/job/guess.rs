@@ -68,6 +68,11 @@ impl Guess {
         }
     }
 
+    /// Whether the pixels had to be looked at for it.
+    pub(super) fn has_looked(&self) -> bool {
+        !matches!(self, Self::Said(_) | Self::Panorama(_) | Self::Strip(_))
+    }
+
     /// The cubes that an image may hold the faces of.
     pub(super) fn cubes(self) -> Vec<Cube> {
         let of = |kind: LayoutKind| Cube { layout: Some(Packing::OneImage(kind)), ..Cube::default() };

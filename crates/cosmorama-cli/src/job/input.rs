@@ -3,7 +3,7 @@ use std::sync::Arc;
 
 use anyhow::{Result, bail};
 use cosmorama::world::{Blend, Canvas, Eye, FacePart, View, ViewMask, WorldView};
-use cosmorama_io::{FaceFile, FacePattern, FaceSet, FrameList, Header, probe};
+use cosmorama_io::{EnvMap, FaceFile, FacePattern, FaceSet, FrameList, Header, probe};
 
 use super::canvas::{canvas_of, fits_canvas, fits_shape, whole};
 use super::detect::{declared, detect};
@@ -196,7 +196,7 @@ impl Input {
         let mut placement = single.placement;
         let canvas = placement.canvas.or(header.window.map(canvas_of)).unwrap_or_else(|| whole(&header));
         fits_canvas(path, &header, canvas)?;
-        if !single.any_shape && placement.canvas.is_none() && header.metadata.envmap.is_none() {
+        if !single.any_shape && placement.canvas.is_none() && header.metadata.envmap != Some(EnvMap::LatLong) {
             fits_shape(path, placement.frame, canvas)?;
         }
         placement.canvas = None;

@@ -19,6 +19,7 @@ mod light;
 mod listing;
 mod mask;
 mod memory;
+mod mirror_image;
 mod nominal;
 mod outputs;
 mod packed;
