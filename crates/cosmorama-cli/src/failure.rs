@@ -4,6 +4,8 @@ use std::process::ExitCode;
 
 use thiserror::Error;
 
+use crate::stream;
+
 /// An error of the person who typed the command: exit code 2.
 #[derive(Debug, Error)]
 #[error("{0}")]
@@ -14,15 +16,18 @@ pub(crate) fn usage(message: impl Into<String>) -> anyhow::Error {
     Usage(message.into()).into()
 }
 
-/// Something that should be known but does not stop the work.
-#[allow(clippy::print_stderr)]
-pub(crate) fn warn(message: &str) {
-    eprintln!("warning: {message}");
+/// The same error in other words.
+pub(crate) fn retold(error: &anyhow::Error, words: impl Fn(&str) -> String) -> anyhow::Error {
+    let text = words(&message(error));
+    if is_usage(error) { usage(text) } else { anyhow::anyhow!(text) }
 }
 
-/// Prints an error, its causes on the same line, and chooses the exit code.
-#[allow(clippy::print_stderr)]
-pub(crate) fn report(error: &anyhow::Error) -> ExitCode {
+fn is_usage(error: &anyhow::Error) -> bool {
+    error.chain().any(|cause| cause.is::<Usage>())
+}
+
+/// An error and its causes on one line.
+fn message(error: &anyhow::Error) -> String {
     let mut message = String::new();
     for cause in error.chain().map(ToString::to_string) {
         // Many errors tell their cause themselves.
@@ -31,6 +36,18 @@ pub(crate) fn report(error: &anyhow::Error) -> ExitCode {
             message += &cause;
         }
     }
-    eprintln!("error: {message}");
-    if error.chain().any(|cause| cause.is::<Usage>()) { ExitCode::from(2) } else { ExitCode::FAILURE }
+    message
+}
+
+/// Something that should be known but does not stop the work.
+#[allow(clippy::print_stderr)]
+pub(crate) fn warn(message: &str) {
+    eprintln!("warning: {}", stream::told(message));
+}
+
+/// Prints an error, its causes on the same line, and chooses the exit code.
+#[allow(clippy::print_stderr)]
+pub(crate) fn report(error: &anyhow::Error) -> ExitCode {
+    eprintln!("error: {}", stream::told(&message(error)));
+    if is_usage(error) { ExitCode::from(2) } else { ExitCode::FAILURE }
 }

@@ -8,6 +8,7 @@ mod failure;
 mod job;
 mod run;
 mod spec;
+mod stream;
 
 use std::process::ExitCode;
 

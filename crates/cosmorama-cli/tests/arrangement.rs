@@ -54,6 +54,12 @@ fn left_and_right_swapped() {
     assert_eq!(told["changes"], serde_json::json!(["right and left are swapped"]));
     assert!(told["confidence"].as_f64().unwrap() >= 0.99, "{told}");
     assert_says(&warnings(&bench, &["{face}.png"]), &["warning: ", "right and left are swapped", "confidence"]);
+    // The mirror image of a cube fits as well.
+    assert_eq!(told["spec"], "cube:naming=words,flip=x");
+    assert_says(
+        told["told"].as_str().unwrap(),
+        &["do that with the files", "backwards", "--from cube:naming=words,flip=x"],
+    );
 }
 
 #[test]
@@ -125,4 +131,45 @@ fn a_plain_sky_does_not_tell() {
     let told = arrangement(&bench, "{face}.png");
     assert!(told["fits"].is_null() && told["told"].as_str().unwrap().contains("do not tell"), "{told}");
     assert!(!warnings(&bench, &["{face}.png"]).contains("warning"));
+}
+
+#[test]
+fn faces_that_are_all_mirrored() {
+    let bench = world("96");
+    for layout in ["strip-v", "strip-h", "3x2"] {
+        // The whole image mirrored, and each face in its own place.
+        let (whole, each) = (format!("cube:layout={layout},flip=x"), format!("cube:layout={layout}"));
+        bench.succeed(&["convert", "{face}.png", "whole.png", "-y", "--to", &whole, "--size", "96"]);
+        mirror_each(&bench);
+        bench.succeed(&["convert", "m_{face}.png", "each.png", "-y", "--to", &each, "--size", "96"]);
+        for (name, spec) in [("whole.png", whole), ("each.png", format!("{each},"))] {
+            let told = arrangement(&bench, name);
+            assert_eq!(told["fits"], false, "{name} {layout}: {told}");
+            let advice = told["told"].as_str().unwrap();
+            assert_says(advice, &["backwards", &spec, "flip=x: borders do not tell"]);
+            let flip = advice.split("--from ").last().unwrap().split(": ").next().unwrap();
+            for from in [flip, told["spec"].as_str().unwrap()] {
+                let to = ["--to", "cube:layout=strip-v", "--size", "96"];
+                bench.succeed(&[&["convert", name, "again.png", "-y", "--from", from], &to[..]].concat());
+                assert_eq!(arrangement(&bench, "again.png")["fits"], true, "{from}");
+                bench.succeed(&[&["convert", "{face}.png", "world.png", "-y"], &to[..]].concat());
+                let is_world = bench.run(&["compare", "again.png", "world.png", "--min-psnr", "20"]).status.success();
+                assert_eq!(is_world, from == flip, "{from}: one is the world, the other one its mirror image");
+            }
+        }
+    }
+}
+
+/// The faces of the world, each mirrored, as `m_NAME.png`.
+fn mirror_each(bench: &Bench) {
+    use cosmorama::raster::{Channels, Depth, Image, Transfer};
+    for name in FACES {
+        let image = bench.load(&format!("{name}.png")).to_light(&Transfer::Srgb);
+        let size = image.width();
+        let mirrored = Image::from_fn(size, size, |i, j| *image.get(size - 1 - i, j));
+        bench.save(
+            &format!("m_{name}.png"),
+            &EncodedImage::encode(&mirrored, Channels::Rgb, Depth::Eight, &Transfer::Srgb),
+        );
+    }
 }

@@ -5,7 +5,8 @@
 
 mod bench;
 
-use bench::{Bench, picture, text};
+use bench::{Bench, assert_says, picture, text};
+use cosmorama::raster::{Channels, Depth, EncodedImage, Image, Rgba, Transfer};
 use cosmorama_io::{Metadata, Window, WriteOptions, write};
 use serde_json::Value;
 
@@ -18,10 +19,11 @@ fn info(bench: &Bench, name: &str) -> String {
 
 /// Converts without `--from`, with nothing but `said` on the way, and as the SPEC has it: the same.
 fn found(bench: &Bench, name: &str, spec: &str, said: &str) {
-    let output = bench.run(&[&["convert", name, "found.png", "-y"], &TO[..]].concat());
+    let rest = [&TO[..], &["-y", "--missing", "black"]].concat();
+    let output = bench.run(&[&["convert", name, "found.png"], &rest[..]].concat());
     let message = text(&output.stderr);
     assert!(output.status.success() && message.contains(said), "{name}: {message}");
-    bench.succeed(&[&["convert", name, "given.png", "-y", "--from", spec], &TO[..]].concat());
+    bench.succeed(&[&["convert", name, "given.png", "--from", spec], &rest[..]].concat());
     assert_eq!(bench.bytes("found.png"), bench.bytes("given.png"), "{name}");
 }
 
@@ -109,4 +111,101 @@ fn what_could_be_several_things_is_refused() {
     // Nothing in the picture, nothing to guess from.
     bench.save("photo.png", &bench::flat(64, 48, &[0, 0, 0]));
     refused(&bench, "photo.png", &["cube:layout=cross-h"]);
+}
+
+/// A panorama of patches without any order, so that no part of it is like another.
+fn patchwork(width: usize, height: usize) -> EncodedImage {
+    let light = Image::from_fn(width, height, |i, j| {
+        let patch = (i * 24 / width) as u32 * 92_821 + (j * 12 / height) as u32 * 68_917 + 31;
+        let mixed = (patch ^ (patch >> 7)).wrapping_mul(2_654_435_761);
+        let light = |bits: u32| 0.1 + 0.8 * ((mixed >> bits) & 255) as f32 / 255.0;
+        Rgba::opaque(light(3), light(11), light(19))
+    });
+    EncodedImage::encode(&light, Channels::Rgb, Depth::Eight, &Transfer::Srgb)
+}
+
+#[test]
+fn two_pictures_in_one_are_told_from_one() {
+    let bench = Bench::new();
+    bench.save("world.png", &patchwork(256, 128));
+    for (to, told) in [
+        ("dual-fisheye", "two circles on black"),
+        ("dual-fisheye:layout=top-bottom", "two circles on black"),
+        ("fulldome:stereo=sbs", "alike"),
+        ("fulldome:stereo=tb", "alike"),
+        ("equirect:stereo=tb", "halves are alike"),
+        ("equirect:stereo=sbs", "halves are alike"),
+        ("omnimax", "cut off below"),
+    ] {
+        for name in ["pair.png", "pair.jpg"] {
+            let size = if to == "omnimax" { "400" } else { "128" };
+            let from = ["convert", "world.png", name, "-y", "--from", "equirect", "--to", to];
+            bench.succeed(&[&from[..], &["--size", size]].concat());
+            assert!(info(&bench, name).starts_with(to), "{name} {to}: {}", info(&bench, name));
+            found(&bench, name, to, told);
+            found(&bench, name, to, &format!("--from {to}"));
+        }
+    }
+    // Those have the shape of a panorama: it is taken for one, but what else it may be is told.
+    for (to, else_what) in [
+        ("equirect:stereo=sbs-half", "equirect:stereo=sbs-half"),
+        ("equirect:hfov=180,stereo=sbs", "equirect:hfov=180,stereo=sbs"),
+        ("equirect:stereo=tb-half", "equirect:stereo=tb-half"),
+    ] {
+        bench.succeed(&["convert", "world.png", "pair.png", "-y", "--from", "equirect", "--to", to, "--size", "128"]);
+        assert_says(&info(&bench, "pair.png"), &["equirect (2:1)", else_what]);
+        found(&bench, "pair.png", "equirect", else_what);
+    }
+}
+
+#[test]
+fn circles_that_do_not_fill_their_halves_are_measured() {
+    let bench = Bench::new();
+    bench.save("world.png", &patchwork(256, 128));
+    let circles = "dual-fisheye:front.center=124:130,front.radius=110,back.center=390:126,back.radius=112";
+    bench.succeed(&["convert", "world.png", "two.png", "--from", "equirect", "--to", circles, "--size", "512x256"]);
+    let found = info(&bench, "two.png");
+    let number = |key: &str, part: usize| -> f64 {
+        let value = found.split(&format!("{key}=")).nth(1).unwrap().split([',', ' ']).next().unwrap();
+        value.split(':').nth(part).unwrap().parse().unwrap()
+    };
+    for (key, part, drawn) in [
+        ("front.center", 0, 124.0),
+        ("front.center", 1, 130.0),
+        ("front.radius", 0, 110.0),
+        ("back.center", 0, 390.0),
+        ("back.center", 1, 126.0),
+        ("back.radius", 0, 112.0),
+    ] {
+        assert!((number(key, part) - drawn).abs() < 1.0, "{key}: {found}");
+    }
+    // What is printed can be typed.
+    let spec = found.split(' ').next().unwrap();
+    bench.succeed(&[&["convert", "two.png", "view.png", "--from", spec], &TO[..]].concat());
+}
+
+#[test]
+fn a_circle_on_black_may_be_several_things() {
+    let bench = Bench::new();
+    bench.save("world.png", &patchwork(256, 128));
+    for to in ["fisheye:fov=220", "mirror-ball", "angular-map"] {
+        bench.succeed(&["convert", "world.png", "a.png", "-y", "--from", "equirect", "--to", to, "--size", "128"]);
+        let candidates = ["fulldome", "fisheye:fov=DEGREES", "mirror-ball", "angular-map"];
+        assert_says(&info(&bench, "a.png"), &candidates);
+        let output = bench.run(&[&["convert", "a.png", "b.png", "-y"], &TO[..], &["--missing", "black"]].concat());
+        assert_says(&text(&output.stderr), &candidates);
+    }
+}
+
+#[test]
+fn what_cannot_be_read_is_not_said_to_have_been_looked_at() {
+    let bench = Bench::new();
+    bench.save("a.png", &patchwork(300, 200));
+    let whole = bench.bytes("a.png");
+    std::fs::write(bench.path("b.png"), &whole[..whole.len() / 2]).unwrap();
+    let told = bench.succeed(&["info", "b.png"]);
+    assert_says(&told, &["300", "its pixels cannot be read", "damaged: b.png: damaged or truncated PNG"]);
+    assert!(!told.contains("no circle"), "{told}");
+    let message = bench.fail(1, &[&["convert", "b.png", "c.png"], &TO[..]].concat());
+    assert_says(&message, &["b.png: damaged or truncated PNG"]);
 }

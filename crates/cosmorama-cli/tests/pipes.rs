@@ -51,9 +51,54 @@ fn what_is_wrong_is_said_and_no_byte_written() {
         assert_says(&bench.check_failure(code, &output, &bench.files()), parts);
     };
     refused(2, &["a.png", "-"], &["--format png"]);
-    refused(2, &["a.png", "-", "--format", "gif"], &["gif"]);
+    refused(2, &["a.png", "-", "--format", "gif"], &["--format gif", "png, jpg"]);
     refused(2, &["a.png", "b.png", "--format", "png"], &["--format", "b.png"]);
     refused(2, &["a.png", "-", "--format", "png", "--json"], &["--json"]);
-    refused(1, &["-", "b.png"], &["standard-input", "format"]);
-    refused(1, &["-", "-", "--format", "png"], &["standard-input"]);
+    refused(1, &["-", "b.png"], &["standard input: ", "format"]);
+    refused(1, &["-", "-", "--format", "png"], &["standard input: "]);
+}
+
+#[test]
+fn every_verb_reads_standard_input() {
+    let bench = Bench::new();
+    bench.save("a.png", &picture(3, 64, 32));
+    let bytes = bench.bytes("a.png");
+    let told = |args: &[&str]| {
+        let output = piped(&bench, args, &bytes);
+        let (out, err) = (text(&output.stdout), text(&output.stderr));
+        assert!(output.status.success(), "{args:?}: {err}");
+        // Where it is kept meanwhile is nobody's business.
+        assert!(!out.contains(".cosmorama") && !err.contains(".cosmorama"), "{out}{err}");
+        (out, err)
+    };
+    assert_says(&told(&["info", "-"]).0, &["input: standard input", "64", "equirect (2:1)"]);
+    let (out, err) = told(&["explain", "-", "--to", "fulldome", "--size", "32"]);
+    assert_says(&(out + &err), &["standard input", "texels"]);
+    assert_says(&told(&["compare", "-", "a.png", "--json"]).0, &["\"first\": \"standard input\"", "\"rms\": 0.0"]);
+    let json = told(&["convert", "-", "b.png", "--to", "fulldome", "--size", "9", "--json"]).0;
+    assert_says(&json, &["\"standard input\"", "standard input is taken for a panorama"]);
+    let output = piped(&bench, &["compare", "-", "-"], &bytes);
+    assert_says(&bench.check_failure(2, &output, &bench.files()), &["- is given twice"]);
+}
+
+/// The shell's `<(command)` is a pipe with a name, which can be read only once.
+#[cfg(unix)]
+#[test]
+fn pipes_with_names_are_read_as_files_are() {
+    let bench = Bench::new();
+    bench.save("a.png", &picture(3, 64, 32));
+    let made = std::process::Command::new("mkfifo").arg(bench.path("pipe")).status().unwrap();
+    assert!(made.success());
+    let through = |args: &[&str]| {
+        let (bytes, pipe) = (bench.bytes("a.png"), bench.path("pipe"));
+        let writer = std::thread::spawn(move || std::fs::write(pipe, bytes).unwrap());
+        let out = bench.succeed(args);
+        writer.join().unwrap();
+        out
+    };
+    assert_says(&through(&["info", "pipe"]), &["input: pipe", "equirect (2:1)"]);
+    assert_says(&through(&["compare", "a.png", "pipe"]), &["rms 0.000000"]);
+    through(&["convert", "pipe", "b.png", "--to", "fulldome", "--size", "32"]);
+    bench.succeed(&["convert", "a.png", "c.png", "--to", "fulldome", "--size", "32"]);
+    assert_eq!(bench.bytes("b.png"), bench.bytes("c.png"));
 }

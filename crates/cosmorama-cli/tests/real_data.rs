@@ -163,3 +163,17 @@ fn every_picture_of_the_manifest_is_looked_at() {
         assert!(PICTURES.iter().any(|picture| picture.name == name || in_set(picture)), "{name} is not looked at");
     }
 }
+
+#[test]
+fn two_circles_and_two_eyes_of_real_scenes_are_found() {
+    let Some(data) = testkit::shared("data/equirect_hdr") else { return };
+    let bench = Bench::new();
+    for name in ["polyhaven_leadenhall_market_1k.hdr", "polyhaven_noon_grass_1k.hdr", "blender_night.exr"] {
+        let path = data.join(name).to_string_lossy().into_owned();
+        for to in ["dual-fisheye", "fulldome:stereo=sbs", "equirect:stereo=tb", "equirect:stereo=sbs"] {
+            bench.succeed(&["convert", &path, "made.png", "-y", "--to", to, "--size", "128", "--depth", "8"]);
+            let projection = info(&bench, "made.png")["projection"].as_str().unwrap().to_owned();
+            assert!(projection.starts_with(to), "{name} {to}: {projection}");
+        }
+    }
+}

@@ -88,6 +88,29 @@ fn a_map_is_applied_whichever_side_it_is_given_for() {
     }
 }
 
+/// Outside a lens a map of ours says nothing, and so does the picture that it makes.
+#[test]
+fn a_map_of_a_lens_is_read_by_ourselves() {
+    let bench = scene();
+    let to = ["--to", "fisheye:fov=100", "--yaw", "20", "--size", "96"];
+    bench.succeed(&[&["convert", "pano.exr", "lens-map.exr", "--st-map"], &to[..]].concat());
+    bench.succeed(&[&["convert", "pano.exr", "lens.png", "--depth", "8"], &to[..]].concat());
+    bench.succeed(&["convert", "pano.exr", "applied.png", "--depth", "8", "--from", "st-map:file=lens-map.exr"]);
+    bench.succeed(&[
+        "compare",
+        "applied.png",
+        "lens.png",
+        "--region",
+        "disc",
+        "--min-psnr",
+        "40",
+        "--max-shift",
+        "0.02",
+    ]);
+    let applied = bench.load("applied.png");
+    assert_eq!(bench::eight_bits(&applied)[..3], [0, 0, 0]);
+}
+
 #[test]
 fn the_other_way_round_a_map_is_undone() {
     let bench = scene();

@@ -164,3 +164,31 @@ fn mistakes_are_told_with_their_line() {
     let from = ["convert", "world.toml", "out.png", "--from", "cube", "--to", "equirect"];
     assert_says(&bench.fail(2, &from), &["world.toml", "leave out --from"]);
 }
+
+#[test]
+fn info_lists_the_views_of_a_world() {
+    let bench = Bench::new();
+    bench.save("left.png", &picture(1, 60, 60));
+    bench.save("sky.png", &picture(2, 80, 40));
+    let text = "[[view]]\nimage = \"left.png\"\nspec = \"perspective:fov=90,yaw=-30,pitch=10\"\nfeather = 5\n\n\
+                [[view]]\nimage = \"sky.png\"\nspec = \"equirect:vfov=90,canvas=80x80+0+0\"\npriority = -1\n";
+    std::fs::write(bench.path("world.toml"), text).unwrap();
+    let told = bench.succeed(&["info", "world.toml"]);
+    let parts = ["a world of 2 views", "left.png", "spec: perspective:fov=90,yaw=-30,pitch=10", "world.toml, line 2"];
+    assert_says(&told, &parts);
+    // A face of a cube is a sixth of the sphere.
+    assert_says(
+        &told,
+        &["yaw -30.00, pitch 10.00, roll 0.00", "covers: 16.7 % of the sphere", "feather: 5.0", "priority: -1"],
+    );
+    let json: serde_json::Value = serde_json::from_str(&bench.succeed(&["info", "world.toml", "--json"])).unwrap();
+    assert_eq!(json["views"][0]["size"], "60x60");
+    assert_eq!(json["views"].as_array().unwrap().len(), 2);
+    let project = "p f2 w200 h100 v360\ni w60 h60 f0 v90 y45 p0 r20 n\"left.png\"\n";
+    std::fs::write(bench.path("a.pto"), project).unwrap();
+    let told = bench.succeed(&["info", "a.pto"]);
+    assert_says(
+        &told,
+        &["a world of one view", "a.pto, line 2", "yaw 45.00, pitch 0.00, roll 20.00", "16.7 % of the sphere"],
+    );
+}

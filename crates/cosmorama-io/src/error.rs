@@ -26,7 +26,7 @@ pub enum IoError {
         path: PathBuf,
     },
     /// The first bytes of a file belong to no format.
-    #[error("{}: not an image of a known format (PNG, JPEG, TIFF, TGA, Radiance HDR, OpenEXR, KTX or DDS)", path.display())]
+    #[error("{}: not an image of a known format (PNG, JPEG, TIFF, Radiance HDR, OpenEXR, KTX or DDS; TGA is known by its extension .tga)", path.display())]
     UnknownContent {
         /// The file read.
         path: PathBuf,
@@ -173,13 +173,27 @@ fn counted(count: usize) -> String {
     if count == 1 { "1 frame is".to_owned() } else { format!("{count} frames are") }
 }
 
+/// Parts of decoders' messages on a file that ends too early.
+const SHORT: [&str; 6] = [
+    "failed to fill whole buffer",
+    "reference to missing bytes",
+    "Not enough bytes",
+    "unexpected end of file",
+    "unexpected EOF",
+    "Unexpected end of",
+];
+
 impl IoError {
     pub(crate) fn open(path: &Path, source: io::Error) -> Self {
         Self::Open { path: path.to_owned(), source }
     }
 
     pub(crate) fn damaged(path: &Path, format: Format, reason: impl ToString) -> Self {
-        Self::Damaged { path: path.to_owned(), format, reason: reason.to_string() }
+        let reason = reason.to_string();
+        // What decoders say when bytes run out, each in its own words.
+        let is_short = SHORT.iter().any(|words| reason.contains(words));
+        let reason = if is_short { "it ends too early".to_owned() } else { reason };
+        Self::Damaged { path: path.to_owned(), format, reason }
     }
 
     pub(crate) fn write(path: &Path, reason: impl ToString) -> Self {

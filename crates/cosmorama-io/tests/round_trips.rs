@@ -119,6 +119,53 @@ fn cubes_in_texture_files() {
     assert!(error.contains("ktx2, dds"), "{error}");
 }
 
+/// Six faces of 4x4 texels, byte number i being 5 (i / 8), packed by the zstd program.
+const PACKED: [u8; 76] = [
+    0x28, 0xb5, 0x2f, 0xfd, 0x04, 0x68, 0xfd, 0x01, 0x00, 0x74, 0x03, 0x00, 0x05, 0x0a, 0x0f, 0x14, 0x19, 0x1e, 0x23,
+    0x28, 0x2d, 0x32, 0x37, 0x3c, 0x41, 0x46, 0x4b, 0x50, 0x55, 0x5a, 0x5f, 0x64, 0x69, 0x6e, 0x73, 0x78, 0x7d, 0x82,
+    0x87, 0x8c, 0x91, 0x96, 0x9b, 0xa0, 0xa5, 0xaa, 0xaf, 0xb4, 0xb9, 0xbe, 0xc3, 0xc8, 0xcd, 0xd2, 0xd7, 0xdc, 0xe1,
+    0xe6, 0xeb, 0xeb, 0xeb, 0xeb, 0xeb, 0xeb, 0xeb, 0xeb, 0x2f, 0x54, 0x01, 0x00, 0x04, 0x01, 0xe7, 0x3a, 0xea, 0xd6,
+];
+
+#[test]
+fn packed_texels_in_ktx2() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.ktx2");
+    let samples = (0..384_u32).map(|i| (i / 8 * 5) as u8).collect();
+    let image = EncodedImage::new(4, 24, Channels::Rgba, Depth::Eight, Samples::U8(samples)).unwrap();
+    let metadata = Metadata { envmap: Some(EnvMap::GlCube), ..Metadata::default() };
+    write(&path, &image, &metadata, &WriteOptions::default()).unwrap();
+    let plain = std::fs::read(&path).unwrap();
+    let offset = u64::from_le_bytes(plain[80..88].try_into().unwrap()) as usize;
+    let mut zlib = flate2::write::ZlibEncoder::new(Vec::new(), flate2::Compression::default());
+    std::io::Write::write_all(&mut zlib, &plain[offset..offset + 384]).unwrap();
+    let zlib = zlib.finish().unwrap();
+    let packed = |scheme: u8, texels: &[u8]| {
+        let mut file = plain[..offset].to_vec();
+        file[44] = scheme;
+        file[88..96].copy_from_slice(&(texels.len() as u64).to_le_bytes());
+        std::fs::write(&path, [&file, texels].concat()).unwrap();
+        read(&path, &Limits::default())
+    };
+    for (scheme, texels) in [(2, &PACKED[..]), (3, &zlib)] {
+        assert!(packed(scheme, texels).unwrap().image == image, "scheme {scheme}");
+        // Cut off, or other texels than it says.
+        for wrong in [&texels[..texels.len() / 2], &texels[1..], &[]] {
+            let error = packed(scheme, wrong).unwrap_err().to_string();
+            assert!(error.contains("a.ktx2: damaged or truncated"), "{error}");
+        }
+    }
+    let error = packed(1, &zlib).unwrap_err().to_string();
+    assert!(error.contains("BasisLZ") && error.contains("ktx transcode"), "{error}");
+    let mut uastc = plain;
+    uastc[12..16].fill(0);
+    let descriptor = u32::from_le_bytes(uastc[48..52].try_into().unwrap()) as usize;
+    uastc[descriptor + 12] = 166;
+    std::fs::write(&path, uastc).unwrap();
+    let error = probe(&path).unwrap_err().to_string();
+    assert!(error.contains("UASTC texels"), "{error}");
+}
+
 #[test]
 fn odd_sizes() {
     let folder = tempfile::tempdir().unwrap();

@@ -6,13 +6,13 @@ use super::number::finite;
 use super::{MemorySize, TransferArg};
 
 /// Compare two pictures: PSNR, largest difference, sub-pixel shift.
-#[derive(Debug, Args)]
+#[derive(Clone, Debug, Args)]
 #[command(before_help = "Examples:
   cosmorama compare dome.png reference.png
   cosmorama compare dome.png reference.png --region omnimax --diff difference.png
   cosmorama compare a.exr b.exr --min-psnr 36 --max-shift 0.01")]
 pub(crate) struct CompareArgs {
-    /// A picture
+    /// A picture; - is standard input
     #[arg(value_hint = ValueHint::FilePath)]
     pub(crate) first: PathBuf,
     /// The picture that it should be like

@@ -90,7 +90,8 @@ pub(crate) struct GeometryArgs {
     /// The output's projection [default: cube, if the output has {face} or %c]
     #[arg(long, value_name = "SPEC", help_heading = "Geometry")]
     pub(crate) to: Option<Spec>,
-    /// Output pixels; N is the width or the face edge [default: parity with the input at the centre]
+    /// Output pixels; N is the width, or the edge of a face, or the width of one circle or of one eye's picture before it
+    /// is squeezed, where several share the image [default: parity with the input at the centre]
     #[arg(long, value_name = "WxH|N", allow_hyphen_values = true, help_heading = "Geometry")]
     pub(crate) size: Option<SizeArg>,
     /// Turn the output to the right, in degrees

@@ -6,14 +6,14 @@ use super::SizeArg;
 use super::convert::{GeometryArgs, LimitArgs};
 
 /// Tell what a conversion will do before it does it, in text and diagrams.
-#[derive(Debug, Args)]
+#[derive(Clone, Debug, Args)]
 #[command(before_help = "Examples:
   cosmorama explain 'faces/{face}.png' --to omnimax --output diagrams
   cosmorama explain --from cube --to omnimax --size 1966x1436
   cosmorama explain --from cube --input-size 1024x960 --to omnimax --size 1966x1436")]
 #[command(after_help = crate::spec::kind::help())]
 pub(crate) struct ExplainArgs {
-    /// The input, if there is one already: an image or a pattern
+    /// The input, if there is one already: an image or a pattern; - is standard input
     #[arg(value_hint = ValueHint::FilePath)]
     pub(crate) input: Option<String>,
     /// Size of an input (or of its faces) that does not exist yet [default: parity with the output at the centre]

@@ -1,151 +1,121 @@
 use std::path::Path;
 
 use anyhow::{Result, bail};
-use cosmorama::circle::{Circle, Found};
-use cosmorama::world::{EquirectFrame, FaceOrder, Frame, FulldomeFrame, LayoutKind, Placement, SamplePositions};
+use cosmorama::circle::Found;
+use cosmorama::world::{EquirectFrame, FaceOrder, Frame, LayoutKind, Placement, SamplePositions};
 use cosmorama_io::{EnvMap, Header, Window};
 
 use super::canvas::canvas_of;
-use super::evidence::Evidence;
+use super::evidence::{Evidence, Seen, damage_of};
+use super::guess::{Guess, ROUND_ONES, candidates, circle_spec, dome_spec, layouts_of_shape, two_eyes};
 
 use crate::failure::usage;
-use crate::spec::{Cube, Packing, Shape, Single, SphereSamples};
+use crate::spec::{Cube, Packing, Shape, Single, Spec, SphereSamples, StereoSpec};
 
-/// What one image is a picture of, as far as its metadata, its shape and its blank parts tell.
-enum Guess {
-    /// What its metadata say.
-    Said(EnvMap),
-    /// A part of a panorama, say its metadata.
-    Panorama(Window),
-    /// A panorama, by its shape: twice as wide as high.
-    TwoToOne,
-    /// A strip of faces, by its shape: no camera makes pictures so long.
-    Strip(LayoutKind),
-    /// A cross of faces or a circle, by what is blank around it.
-    Blank(Evidence),
-    /// One of these layouts of faces, by its shape, or anything else.
-    Layouts(Vec<LayoutKind>),
-}
-
-impl Guess {
-    /// Looks at a header, and at the pixels where nothing else tells.
-    fn of(path: &Path, header: &Header) -> Self {
-        let (width, height) =
-            header.window.map_or((header.width, header.height), |window| (window.canvas_width, window.canvas_height));
-        if let Some(envmap) = header.metadata.envmap {
-            return Self::Said(envmap);
-        }
-        if let Some(window) = header.metadata.panorama {
-            return Self::Panorama(window);
-        }
-        if width == 2 * height {
-            return Self::TwoToOne;
-        }
-        let layouts: Vec<LayoutKind> = layouts_of_shape(width, height).collect();
-        match layouts[..] {
-            [kind @ (LayoutKind::StripH | LayoutKind::StripV)] => Self::Strip(kind),
-            _ => Evidence::of(path, header).map_or(Self::Layouts(layouts), Self::Blank),
-        }
+/// The projection of an image for which no `--from` was given, which may have a picture for each eye. What is only guessed
+/// is announced.
+pub(super) fn detect(path: &Path, header: &Header, warnings: &mut Vec<String>) -> Result<(Shape, Option<StereoSpec>)> {
+    let (guess, damage) = Guess::of(path, header);
+    if let Some(damage) = damage {
+        bail!("{damage}");
     }
-
-    /// The cubes that an image may hold the faces of.
-    fn cubes(self) -> Vec<Cube> {
-        let of = |kind: LayoutKind| Cube { layout: Some(Packing::OneImage(kind)), ..Cube::default() };
-        match self {
-            Self::Said(EnvMap::Cube) => vec![Cube { order: Some(FaceOrder::OPENEXR), ..of(LayoutKind::StripV) }],
-            Self::Said(EnvMap::GlCube) => vec![of(LayoutKind::StripV)],
-            Self::Strip(kind) | Self::Blank(Evidence::Cross(kind)) => vec![of(kind)],
-            Self::Layouts(kinds) => kinds.into_iter().map(of).collect(),
-            Self::Said(EnvMap::LatLong) | Self::Panorama(_) | Self::TwoToOne => Vec::new(),
-            Self::Blank(Evidence::Circle | Evidence::Disc(_)) => Vec::new(),
-        }
-    }
-
-    /// In words.
-    fn describe(&self, header: &Header) -> String {
-        match self {
-            Self::Said(EnvMap::LatLong) => "equirect, samples on the edges (envmap attribute)".to_owned(),
-            Self::Said(EnvMap::Cube) => {
-                "cube:layout=strip-v,order=openexr, samples on the edges (envmap attribute)".to_owned()
-            }
-            Self::Said(EnvMap::GlCube) => "cube (the file's own six faces, one below the other)".to_owned(),
-            Self::Panorama(Window { canvas_width, canvas_height, x, y }) => {
-                let whole = (*canvas_width, *canvas_height) == (header.width, header.height);
-                let canvas =
-                    if whole { String::new() } else { format!(":canvas={canvas_width}x{canvas_height}+{x}+{y}") };
-                format!("equirect{canvas} (GPano metadata)")
-            }
-            Self::TwoToOne => "equirect (2:1)".to_owned(),
-            Self::Strip(kind) => format!("cube:layout={kind} (by its shape)"),
-            Self::Blank(Evidence::Cross(kind)) => format!("cube:layout={kind} (one colour surrounds a cross)"),
-            Self::Blank(Evidence::Disc(found)) => {
-                let how = match found {
-                    Found::Measured(_) => "a circle on black",
-                    Found::Roughly(_) => "roughly: a disc on black, too dark at its rim to measure",
-                };
-                format!("{} ({how}; 180 degrees are a guess)", fisheye_spec(found, "180"))
-            }
-            Self::Blank(Evidence::Circle) => "fulldome (square, black around a circle)".to_owned(),
-            Self::Layouts(kinds) if kinds.is_empty() && header.width == header.height => {
-                "unknown: a face of a cube, a mirror ball, fisheye or octahedral? (no circle on black)".to_owned()
-            }
-            Self::Layouts(kinds) => {
-                let names: String = kinds.iter().map(|kind| format!("cube:layout={kind}, ")).collect();
-                format!("unknown: {names}perspective, fisheye or omnimax? (no circle on black)")
-            }
-        }
-    }
-}
-
-fn layouts_of_shape(width: usize, height: usize) -> impl Iterator<Item = LayoutKind> {
-    LayoutKind::ALL.into_iter().filter(move |kind| kind.has_shape(width, height))
-}
-
-/// The projection of an image for which no `--from` was given. What is only guessed is announced.
-pub(super) fn detect(path: &Path, header: &Header, warnings: &mut Vec<String>) -> Result<Shape> {
+    let mono = |shape: Shape| Ok((shape, None));
     let mut announce = |what: &str, why: &str| {
         warnings.push(format!("{} is taken for {what}, because {why}", path.display()));
     };
-    match Guess::of(path, header) {
-        Guess::Said(EnvMap::LatLong) => Ok(panorama(SamplePositions::Edges, None)),
+    match guess {
+        Guess::Said(EnvMap::LatLong) => mono(panorama(SamplePositions::Edges, None)),
         Guess::Said(EnvMap::Cube | EnvMap::GlCube) => {
-            declared_cube(&Cube::default(), &path.to_string_lossy(), header, warnings).map(Shape::Cube)
+            mono(Shape::Cube(declared_cube(&Cube::default(), &path.to_string_lossy(), header, warnings)?))
         }
-        Guess::Panorama(window) => Ok(panorama(SamplePositions::Centres, Some(window))),
-        Guess::TwoToOne => {
-            announce("a panorama (--from equirect)", "it is twice as wide as high");
-            Ok(panorama(SamplePositions::Centres, None))
+        Guess::Panorama(window) => mono(panorama(SamplePositions::Centres, Some(window))),
+        Guess::TwoToOne(halves) => {
+            let else_what = halves.map(|halves| {
+                format!("; its halves are alike: if they are for two eyes, give --from {}", two_eyes(halves))
+            });
+            let why = format!("it is twice as wide as high{}", else_what.unwrap_or_default());
+            announce("a panorama (--from equirect)", &why);
+            mono(panorama(SamplePositions::Centres, None))
+        }
+        Guess::Stereo(spec) => {
+            announce(
+                &format!("a panorama for each eye (--from {spec})"),
+                "of its shape and because its halves are alike",
+            );
+            parsed(spec)
         }
         Guess::Strip(kind) => {
             announce(&format!("the faces of a cube (--from cube:layout={kind})"), "of its shape");
-            Ok(one_image(kind))
+            mono(one_image(kind))
         }
-        Guess::Blank(Evidence::Cross(kind)) => {
-            let why = "of its shape and because one colour surrounds a cross";
-            announce(&format!("the faces of a cube (--from cube:layout={kind})"), why);
-            Ok(one_image(kind))
+        Guess::Blank(evidence) => {
+            let (spec, what, why) = guessed(path, evidence)?;
+            announce(&format!("{what} (--from {spec})"), &why);
+            parsed(&spec)
         }
-        Guess::Blank(Evidence::Circle) => {
-            announce("a domemaster (--from fulldome)", "it is square and black around a circle");
-            let placement = Placement::new(Frame::Fulldome(FulldomeFrame::default()));
-            Ok(Shape::Single(Single { placement, samples: SphereSamples::NotAPanorama, any_shape: false }))
-        }
-        Guess::Blank(Evidence::Disc(circle)) => bail!(
-            "{}: a circle on black, as a fisheye lens leaves it, whose field of view is not known; give --from {}",
-            path.display(),
-            fisheye_spec(&circle, "DEGREES")
-        ),
-        Guess::Layouts(kinds) => bail!("{}", ambiguous(path, header, &kinds)),
+        Guess::Unknown(kinds, seen) => bail!("{}", ambiguous(path, header, &kinds, &seen)),
     }
 }
 
-/// The SPEC of a fisheye photograph.
-fn fisheye_spec(found: &Found, fov: &str) -> String {
-    let Circle { centre: (x, y), radius } = found.circle();
-    match found {
-        Found::Measured(_) => format!("fisheye:fov={fov},center={x:.1}:{y:.1},radius={radius:.1}"),
-        Found::Roughly(_) => format!("fisheye:fov={fov},center={x:.0}:{y:.0},radius={radius:.0}"),
-    }
+/// What is guessed from what is blank: the SPEC, what it is called, and why.
+fn guessed(path: &Path, evidence: Evidence) -> Result<(String, &'static str, String)> {
+    Ok(match evidence {
+        Evidence::Cross(kind) => {
+            let why = "of its shape and because one colour surrounds a cross".to_owned();
+            (format!("cube:layout={kind}"), "the faces of a cube", why)
+        }
+        Evidence::Circle => {
+            let why =
+                format!("it is square and black around a circle; so may {ROUND_ONES} be, which --from has to say");
+            ("fulldome".to_owned(), "a domemaster", why)
+        }
+        Evidence::Omnimax => {
+            let why = "it is black around a circle that is cut off below".to_owned();
+            ("omnimax".to_owned(), "an Omnimax frame", why)
+        }
+        Evidence::Circles(circles) if circles.are_alike => {
+            let why = format!(
+                "it has two circles on black that are alike; two cameras back to back would be --from {}",
+                circles.dual_spec()
+            );
+            (dome_spec(&circles).to_owned(), "a domemaster for each eye", why)
+        }
+        Evidence::Circles(circles) => {
+            let why =
+                "it has two circles on black; that each sees 195 degrees is a guess, which fov= can mend".to_owned();
+            (circles.dual_spec(), "two fisheyes", why)
+        }
+        Evidence::Disc(found) => bail!(
+            "{}: a circle on black, as a fisheye lens leaves it, whose field of view is not known; give --from {}, or, for a \
+             mirror ball, --from {}",
+            path.display(),
+            circle_spec("fisheye:fov=DEGREES,", &found),
+            circle_spec("mirror-ball:", &found)
+        ),
+        Evidence::Twins(_) => bail!("{}: two pictures that are alike; give --from SPEC with stereo=", path.display()),
+    })
+}
+
+/// A guess that is written as it would be typed.
+fn parsed(spec: &str) -> Result<(Shape, Option<StereoSpec>)> {
+    let Spec { shape, stereo, .. } = spec.parse()?;
+    Ok((shape, stereo))
+}
+
+/// What an image of unknown projection could be.
+fn ambiguous(path: &Path, header: &Header, layouts: &[LayoutKind], seen: &Seen) -> String {
+    let halves = match seen {
+        Seen::Evidence(Evidence::Twins(_)) => "; its halves are alike: for two eyes add stereo= to it",
+        _ => "",
+    };
+    format!(
+        "{}: {}x{} pixels do not tell the projection; give --from {}, or a pattern with {{face}} for the faces of a \
+         cube{halves}",
+        path.display(),
+        header.width,
+        header.height,
+        candidates(header, layouts)
+    )
 }
 
 fn panorama(samples: SamplePositions, window: Option<Window>) -> Shape {
@@ -158,30 +128,21 @@ fn one_image(kind: LayoutKind) -> Shape {
     Shape::Cube(Cube { layout: Some(Packing::OneImage(kind)), ..Cube::default() })
 }
 
-/// What an image of unknown projection could be.
-fn ambiguous(path: &Path, header: &Header, layouts: &[LayoutKind]) -> String {
-    let layouts = layouts.iter().map(|kind| format!("cube:layout={kind}, ")).collect::<String>();
-    let others = if header.width == header.height {
-        "fulldome, fisheye:fov=DEGREES, mirror-ball, angular-map, octahedral, perspective:fov=DEGREES, omnimax or equirect"
-    } else {
-        "perspective:fov=DEGREES, equirect, fisheye, fulldome or omnimax"
-    };
-    format!(
-        "{}: {}x{} pixels do not tell the projection; give --from {layouts}{others}, or a pattern with {{face}} for the \
-         faces of a cube",
-        path.display(),
-        header.width,
-        header.height
-    )
-}
-
 /// What `--from` says of a file, completed by what the file says of itself.
 pub(super) fn declared(shape: &Shape, pattern: &str, header: &Header, warnings: &mut Vec<String>) -> Result<Shape> {
     match shape {
         Shape::Single(single) if header.metadata.envmap == Some(EnvMap::LatLong) => {
             Ok(Shape::Single(single.with_samples(SamplePositions::Edges)))
         }
-        Shape::Single(single) => Ok(Shape::Single(windowed(*single, header))),
+        Shape::Single(single) => {
+            if let Some(EnvMap::Cube | EnvMap::GlCube) = header.metadata.envmap {
+                warnings.push(format!(
+                    "{pattern} holds the six faces of a cube, as its format or its envmap attribute says, but --from says \
+                     otherwise; it is read as --from has it"
+                ));
+            }
+            Ok(Shape::Single(windowed(*single, header)))
+        }
         Shape::StMap(map) => Ok(Shape::StMap(map.clone())),
         Shape::Cube(Cube { layout: Some(Packing::Files), .. }) => Err(usage(format!(
             "--from cube:layout=faces wants a file for each face, but {pattern} has no {{face}} or %c where a face's name \
@@ -246,15 +207,19 @@ pub(crate) struct Likely {
     pub(crate) cubes: Vec<Cube>,
     /// Whether its shape alone says that it may hold any.
     pub(crate) may_be_none: bool,
+    /// What is the matter where its pixels cannot be read.
+    pub(crate) damage: Option<String>,
 }
 
 /// Looks at an image.
 pub(crate) fn likely(path: &Path, header: &Header) -> Likely {
-    let guess = Guess::of(path, header);
+    let (guess, damage) = Guess::of(path, header);
+    // Whoever asks what a file is wants to know whether it is whole.
+    let damage = damage.or_else(|| if guess.has_looked() { None } else { damage_of(path) });
     let circle = match guess {
         Guess::Blank(Evidence::Disc(found)) => Some(found),
         _ => None,
     };
-    let may_be_none = matches!(guess, Guess::Layouts(_));
-    Likely { projection: guess.describe(header), circle, cubes: guess.cubes(), may_be_none }
+    let may_be_none = matches!(guess, Guess::Unknown(..));
+    Likely { projection: guess.describe(header), circle, cubes: guess.cubes(), may_be_none, damage }
 }

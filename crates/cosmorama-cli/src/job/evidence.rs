@@ -4,9 +4,10 @@ use std::path::Path;
 
 use cosmorama::circle::{self, Circle, Found};
 use cosmorama::raster::{EncodedImage, Image, Rgba, Transfer, Uniform};
-use cosmorama::world::{CubeLayout, LayoutKind, PixelRect};
-use cosmorama_io::{Header, Limits, probe, read};
+use cosmorama::world::{Arrangement, CubeLayout, Frame, LayoutKind, OmnimaxFrame, PixelRect};
+use cosmorama_io::{Header, IoError, Limits, probe, read};
 
+use super::halves::{Circles, Twins};
 use super::memory::light_bytes;
 
 /// Beyond this an image is not decoded only to find out what it is.
@@ -24,17 +25,23 @@ const BLACK: f32 = 0.06;
 
 /// The light of an image, as far as it matters to see what it is; `None` where it is too large or damaged.
 pub(crate) fn light_of(path: &Path) -> Option<Image<Rgba>> {
-    let image = decoded(path)?;
+    let image = decoded(path).ok()?;
     let transfer = if image.depth().is_float() { Transfer::Linear } else { Transfer::Srgb };
     Some(image.to_light(&transfer))
 }
 
-fn decoded(path: &Path) -> Option<EncodedImage> {
+fn decoded(path: &Path) -> Result<EncodedImage, IoError> {
     // Light takes more memory than the samples that it is made of.
-    if light_bytes(&probe(path).ok()?) > MOST_BYTES {
-        return None;
+    let limit = if light_bytes(&probe(path)?) > MOST_BYTES { 0 } else { MOST_BYTES };
+    Ok(read(path, &Limits::memory(limit))?.image)
+}
+
+/// What is the matter with a file whose pixels cannot be read; `None` also where it is too large to try.
+pub(super) fn damage_of(path: &Path) -> Option<String> {
+    match decoded(path) {
+        Ok(_) | Err(IoError::TooLarge { .. }) => None,
+        Err(error) => Some(error.to_string()),
     }
-    Some(read(path, &Limits::memory(MOST_BYTES)).ok()?.image)
 }
 
 /// What an image is, as far as its blank parts tell.
@@ -46,23 +53,62 @@ pub(super) enum Evidence {
     Cross(LayoutKind),
     /// A circle somewhere, black around it.
     Disc(Found),
+    /// A circle in each half, black around them.
+    Circles(Circles),
+    /// The circle of an Omnimax frame, cut off below, black around it.
+    Omnimax,
+    /// Halves that are alike, as for two eyes.
+    Twins(Arrangement),
+}
+
+/// What came of looking at the pixels.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Seen {
+    /// Something that tells.
+    Evidence(Evidence),
+    /// Nothing that tells: no circle on black, no cross on one colour, no halves alike.
+    Nothing,
+    /// They were not looked at, for this reason.
+    Unseen(String),
+    /// They cannot be read: this is what the file's reader says.
+    Damaged(String),
+}
+
+impl Seen {
+    /// Looks at the pixels: at what its shape gives reason to expect first.
+    pub(super) fn of(path: &Path, header: &Header) -> Self {
+        if header.window.is_some() {
+            return Self::Unseen("it is a part of a larger picture".to_owned());
+        }
+        let codes = match decoded(path) {
+            Ok(image) => image.to_light(&Transfer::Linear),
+            Err(IoError::TooLarge { .. }) => return Self::Unseen("it is too large to look at its pixels".to_owned()),
+            Err(error) => return Self::Damaged(error.to_string()),
+        };
+        Evidence::of(&codes).map_or(Self::Nothing, Self::Evidence)
+    }
 }
 
 impl Evidence {
-    /// Looks at the pixels: at what its shape gives reason to expect first.
-    pub(super) fn of(path: &Path, header: &Header) -> Option<Self> {
-        if header.window.is_some() {
-            return None;
-        }
-        let codes = decoded(path)?.to_light(&Transfer::Linear);
+    fn of(codes: &Image<Rgba>) -> Option<Self> {
         let is_empty = codes.uniformity(|_, _| true).is_none_or(|all| all.share >= EMPTY);
+        if is_empty {
+            return circle::find(codes).filter(|found| !fills(&found.circle(), codes)).map(Self::Disc);
+        }
         let crosses = [LayoutKind::CrossH, LayoutKind::CrossV];
-        if let Some(kind) = crosses.into_iter().find(|kind| !is_empty && is_cross(*kind, &codes)) {
+        if let Some(kind) = crosses.into_iter().find(|kind| is_cross(*kind, codes)) {
             return Some(Self::Cross(kind));
         }
-        match circle::find(&codes) {
-            Some(found) if !fills(&found.circle(), &codes) => Some(Self::Disc(found)),
-            _ => (!is_empty && is_round(&codes)).then_some(Self::Circle),
+        if let Some(circles) = Circles::find(codes) {
+            return Some(Self::Circles(circles));
+        }
+        if is_omnimax(codes) {
+            return Some(Self::Omnimax);
+        }
+        match circle::find(codes) {
+            Some(found) if !fills(&found.circle(), codes) => Some(Self::Disc(found)),
+            _ if is_round(codes) => Some(Self::Circle),
+            _ => Twins::find(codes).map(Self::Twins),
         }
     }
 }
@@ -82,7 +128,7 @@ fn is_cross(kind: LayoutKind, codes: &Image<Rgba>) -> bool {
 }
 
 /// Whether a square is black around the circle that fills it.
-fn is_round(codes: &Image<Rgba>) -> bool {
+pub(super) fn is_round(codes: &Image<Rgba>) -> bool {
     let side = codes.width() as i64;
     if codes.width() != codes.height() {
         return false;
@@ -93,15 +139,66 @@ fn is_round(codes: &Image<Rgba>) -> bool {
         let (x, y) = (2 * i as i64 + 1 - side, 2 * j as i64 + 1 - side);
         x * x + y * y > radius * radius
     };
-    let around = codes.uniformity(outside);
-    let is_black =
-        |around: Uniform| around.colour.alpha() == 0.0 || around.colour.0[..3].iter().all(|code| *code <= BLACK);
-    is_blank(around) && around.is_some_and(is_black)
+    is_black_where(codes, outside)
+}
+
+/// Whether nearly all of a region is black, or has nothing in it.
+fn is_black_where(codes: &Image<Rgba>, region: impl FnMut(usize, usize) -> bool) -> bool {
+    let around = codes.uniformity(region);
+    is_blank(around) && around.is_some_and(|around| is_black(&around.colour))
+}
+
+fn is_black(pixel: &Rgba) -> bool {
+    pixel.alpha() == 0.0 || pixel.0[..3].iter().all(|code| *code <= BLACK)
 }
 
 /// Whether a circle is the one that fills a square.
-fn fills(circle: &Circle, codes: &Image<Rgba>) -> bool {
+pub(super) fn fills(circle: &Circle, codes: &Image<Rgba>) -> bool {
     let (half, reach) = (codes.width() as f64 / 2.0, ROUND * codes.width() as f64);
     let (x, y) = circle.centre;
     codes.width() == codes.height() && [x, y, circle.radius].iter().all(|length| (length - half).abs() < reach)
+}
+
+/// Whether a picture is black where an Omnimax frame of its size has no picture, and lit as far as that reaches to the left,
+/// the right, up and down: a smaller disc is not.
+fn is_omnimax(codes: &Image<Rgba>) -> bool {
+    let (width, height) = (codes.width(), codes.height());
+    let (right, bottom) = (width.saturating_sub(1), height.saturating_sub(1));
+    // Most pictures have lit corners: nothing else is worth a look.
+    let corners = [(0, 0), (right, 0), (0, bottom), (right, bottom)];
+    if width <= height || !corners.iter().all(|(i, j)| is_black(codes.get(*i, *j))) {
+        return false;
+    }
+    let Ok(view) = Frame::Omnimax(OmnimaxFrame::default()).view(width, height) else { return false };
+    let shown = Image::from_fn(width, height, |i, j| view.screen_pixel(i, j).is_some());
+    let hidden = shown.pixels().iter().filter(|shown| !**shown).count();
+    // Of a frame that shows nearly everything nothing can be told.
+    if 10 * hidden < width * height {
+        return false;
+    }
+    let lit = |i: usize, j: usize| !is_black(codes.get(i, j));
+    let (Some(expected), Some(found)) = (extent(&shown, |i, j| *shown.get(i, j)), extent(codes, lit)) else {
+        return false;
+    };
+    let reach = BLOCK + width / 50;
+    let is_far = |i: usize, j: usize| {
+        let near = |k: usize, size: usize, at: usize| (k + at).clamp(BLOCK, size + BLOCK - 1) - BLOCK;
+        [0, BLOCK, 2 * BLOCK]
+            .iter()
+            .all(|x| [0, BLOCK, 2 * BLOCK].iter().all(|y| !*shown.get(near(i, width, *x), near(j, height, *y))))
+    };
+    expected.iter().zip(found).all(|(expected, found)| expected.abs_diff(found) <= reach)
+        && is_black_where(codes, is_far)
+}
+
+/// The first and last column and row of what is chosen.
+fn extent<P>(image: &Image<P>, chosen: impl Fn(usize, usize) -> bool) -> Option<[usize; 4]> {
+    let mut extent: Option<[usize; 4]> = None;
+    for j in 0..image.height() {
+        for i in (0..image.width()).filter(|i| chosen(*i, j)) {
+            let [left, right, top, bottom] = extent.unwrap_or([i, i, j, j]);
+            extent = Some([left.min(i), right.max(i), top.min(j), bottom.max(j)]);
+        }
+    }
+    extent
 }

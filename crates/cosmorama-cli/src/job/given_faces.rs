@@ -4,6 +4,7 @@ use cosmorama::sphere::CubeFace;
 use cosmorama::world::{CubeLayout, FaceOrder, FacePlacement, LayoutFaceFrame, LayoutKind, Mirror};
 use cosmorama_io::Naming;
 
+use super::mirror_image;
 use crate::spec::{Cube, Packing};
 
 /// How pictures are said, or taken, to be the faces of a cube.
@@ -108,12 +109,11 @@ impl GivenFaces {
             }
             Verdict::Wrong { fits, fit } => {
                 let changes: Vec<String> = changes(given, &fits).iter().map(Change::to_string).collect();
-                let preset = self.preset(mismatch, given, &fits);
-                let spec = preset.or_else(|| self.spec(&fits));
-                let advice = match &spec {
-                    Some(spec) => format!("; they fit --from {spec}"),
-                    None => String::new(),
-                };
+                let plain = self.preset(mismatch, given, &fits, false).or_else(|| self.spec(&fits));
+                let flipped =
+                    self.preset(mismatch, given, &fits, true).filter(|_| !fits.iter().all(|pose| pose.is_mirrored()));
+                let advice = advice(plain.as_deref(), flipped.as_deref());
+                let spec = plain.or(flipped);
                 let told = format!(
                     "the borders of the faces do not meet as they lie{}: {}{advice}{}",
                     sure(&fit),
@@ -125,29 +125,37 @@ impl GivenFaces {
         }
     }
 
-    /// The SPEC of a tool whose files or places lie so.
-    fn preset(&self, mismatch: &Mismatch, given: &[Pose], fits: &[Pose]) -> Option<String> {
+    /// The SPEC of a tool whose files or places lie so, as they are or every picture mirrored.
+    fn preset(&self, mismatch: &Mismatch, given: &[Pose], fits: &[Pose], is_flipped: bool) -> Option<String> {
         let all_given = self.poses.len() == given.len();
         let is_it = |poses: &Vec<Pose>| all_given && fits_as_well(mismatch, fits, poses);
+        let flip = if is_flipped { ",flip=x" } else { "" };
         match self.packing {
             GivenPacking::Files(naming) => {
                 let lies = |other: &'static Naming| {
-                    given.iter().map(|pose| Pose::new(pose.face, other.placement(pose.face))).collect::<Vec<_>>()
+                    let pose = |given: &Pose| Pose::new(given.face, other.placement(given.face));
+                    let flipped = |pose: Pose| if is_flipped { mirror_image::of(pose) } else { pose };
+                    given.iter().map(|given| flipped(pose(given))).collect::<Vec<_>>()
                 };
                 let same_names = Naming::presets().iter().filter(|other| other.names == naming.names);
                 let found = same_names.into_iter().find(|other| is_it(&lies(other)))?;
-                Some(format!("cube:naming={}", found.name))
+                Some(format!("cube:naming={}{flip}", found.name))
             }
             GivenPacking::OneImage(kind) => {
-                let lies = |layout: CubeLayout| -> Vec<Pose> {
-                    layout.faces(2).iter().map(|placed| Pose::new(placed.face, placed.lies)).collect()
+                let plain = || CubeLayout::new(kind);
+                let fits = |layout: CubeLayout| {
+                    if is_flipped { mirror_image::poses(kind, layout) } else { Some(poses(layout)) }
+                        .is_some_and(|poses| is_it(&poses))
                 };
-                if is_it(&lies(CubeLayout::new(kind))) {
-                    return Some(format!("cube:layout={kind}"));
+                if fits(plain()) {
+                    return Some(format!("cube:layout={kind}{flip}"));
                 }
-                let in_order = |order: &&FaceOrder| is_it(&lies(CubeLayout::new(kind).with_order(order)));
-                let found = FaceOrder::presets().iter().find(in_order)?;
-                Some(format!("cube:layout={kind},order={}", found.name))
+                if let Some(found) = FaceOrder::presets().iter().find(|order| fits(plain().with_order(order))) {
+                    return Some(format!("cube:layout={kind},order={}{flip}", found.name));
+                }
+                // Each picture may be mirrored in its own place.
+                let given: Vec<Pose> = given.iter().map(|pose| mirror_image::of(*pose)).collect();
+                (is_flipped && is_it(&given)).then(|| mirror_image::spec(kind, &given)).flatten()
             }
         }
     }
@@ -177,6 +185,28 @@ impl GivenFaces {
                 Some(format!("cube:naming={},rotate={}", naming.name, digits(&mut poses)))
             }
         }
+    }
+}
+
+/// How the pictures of a layout lie, in the order of its places.
+fn poses(layout: CubeLayout) -> Vec<Pose> {
+    layout.faces(2).iter().map(|placed| Pose::new(placed.face, placed.lies)).collect()
+}
+
+/// What to do about faces that fit as `plain` has them, or, if that is what happened to them, all mirrored. Borders do not
+/// tell a cube from its mirror image.
+fn advice(plain: Option<&str>, flipped: Option<&str>) -> String {
+    let mirrored = |spec: &str| {
+        format!(
+            "if every face is mirrored instead, so that writing in it reads backwards, they fit --from {spec}: borders do not \
+             tell"
+        )
+    };
+    match (plain, flipped) {
+        (Some(plain), None) => format!("; they fit --from {plain}"),
+        (Some(plain), Some(flipped)) => format!("; they fit --from {plain}; {}", mirrored(flipped)),
+        (None, Some(flipped)) => format!("; do that with the files, or, {}", mirrored(flipped)),
+        (None, None) => String::new(),
     }
 }
 

@@ -3,7 +3,7 @@ use std::sync::Arc;
 
 use anyhow::{Result, bail};
 use cosmorama::world::{Blend, Canvas, FacePart, View, ViewMask, WorldView};
-use cosmorama_io::{FaceFile, FacePattern, FaceSet, FrameList, Header, probe};
+use cosmorama_io::{EnvMap, FaceFile, FacePattern, FaceSet, FrameList, Header, probe};
 
 use super::canvas::{canvas_of, fits_canvas, fits_shape, whole};
 use super::detect::{declared, detect};
@@ -86,6 +86,16 @@ impl Input {
             refuse_spec("pictures")?;
             return pto::find(pattern, memory, warnings);
         }
+        Self::of_eyes(pattern, from, wanted, warnings)
+    }
+
+    /// The input for each eye, where a SPEC has two.
+    fn of_eyes(
+        pattern: &str,
+        from: Option<&Spec>,
+        wanted: Option<&FrameList>,
+        warnings: &mut Vec<String>,
+    ) -> Result<Self> {
         let Some(stereo) = from.and_then(|spec| spec.stereo) else {
             return Self::find_one(pattern, from, None, wanted, warnings);
         };
@@ -161,7 +171,13 @@ impl Input {
         let header = header(&path, eye)?;
         let shape = match shape {
             Some(shape) => declared(shape, pattern, &header, warnings)?,
-            None => detect(&path, &header, warnings)?,
+            None => match detect(&path, &header, warnings)? {
+                (shape, None) => shape,
+                (shape, stereo) => {
+                    let found = Spec { name: "what was found", shape, stereo };
+                    return Self::of_eyes(pattern, Some(&found), wanted, warnings);
+                }
+            },
         };
         let (views, faces) = match shape {
             Shape::Single(single) => (vec![Self::single(pattern, files, &path, header, single)?], None),
@@ -177,7 +193,7 @@ impl Input {
         let mut placement = single.placement;
         let canvas = placement.canvas.or(header.window.map(canvas_of)).unwrap_or_else(|| whole(&header));
         fits_canvas(path, &header, canvas)?;
-        if !single.any_shape && placement.canvas.is_none() && header.metadata.envmap.is_none() {
+        if !single.any_shape && placement.canvas.is_none() && header.metadata.envmap != Some(EnvMap::LatLong) {
             fits_shape(path, placement.frame, canvas)?;
         }
         placement.canvas = None;

@@ -2,6 +2,7 @@ use std::path::Path;
 
 use anyhow::{Result, anyhow, bail};
 use cosmorama::sphere::Orientation;
+use cosmorama::world::{Arrangement, DualFisheye, DualLens, FisheyeFit, LensCircle, LensScale};
 use cosmorama_io::Header;
 
 use super::piece::Piece;
@@ -26,9 +27,33 @@ pub(super) fn faces(files: &Files, path: &Path, header: &Header, cube: &Cube) ->
 /// Two fisheyes in one image.
 pub(super) fn lenses(files: &Files, path: &Path, header: &Header, dual: &Dual) -> Result<Vec<InputView>> {
     check_whole(path, header)?;
+    check_halves(path, header, dual)?;
     let pieces = Piece::lenses(dual, (header.width, header.height))
         .map_err(|error| anyhow!("{}: {error}; give --from dual-fisheye:layout= the picture's own", path.display()))?;
     views(files, header, &pieces)
+}
+
+/// Circles of which nothing is said fill squares: halves that are none are those of another layout.
+fn check_halves(path: &Path, header: &Header, dual: &Dual) -> Result<()> {
+    let Header { width, height, .. } = *header;
+    let DualFisheye { arrangement, front, back, .. } = dual.picture;
+    let is_fitted = |lens: &DualLens| {
+        lens.frame.circle == LensCircle::FITTED && lens.frame.scale == LensScale::Circle(FisheyeFit::Short)
+    };
+    // The size of the squares beside or above each other, by the longer side and by the shorter one.
+    let (long, short, other) = match arrangement {
+        Arrangement::SideBySide => (width, height, "top-bottom"),
+        Arrangement::TopBottom => (height, width, "side-by-side"),
+    };
+    if long > short || !is_fitted(&front) || !is_fitted(&back) {
+        return Ok(());
+    }
+    let way = if arrangement == Arrangement::SideBySide { "side by side" } else { "one above the other" };
+    Err(usage(format!(
+        "{}: {width}x{height} pixels hold no two circles {way}; give --from dual-fisheye:layout={other}, or say where the \
+         circles are with front.center=, front.radius=, back.center= and back.radius=",
+        path.display()
+    )))
 }
 
 /// Several pictures are not looked for in a part of an image.

@@ -9,6 +9,7 @@ use cosmorama::world::{
 };
 use cosmorama_io::{PtoImage, PtoPanorama, PtoProject, probe};
 
+use super::listing::Listed;
 use super::{Files, Input, InputView, MemoryBudget, Place};
 use crate::args::SizeArg;
 use crate::args::convert::GeometryArgs;
@@ -31,6 +32,19 @@ pub(super) fn find(name: &str, memory: MemoryBudget, warnings: &mut Vec<String>)
     let view = |image: &PtoImage| view(folder, image, memory).with_context(|| format!("{name}, line {}", image.line));
     let views = project.images.iter().map(view).collect::<Result<_>>()?;
     Ok(Input { worlds: vec![views], frames: vec![None], faces: None })
+}
+
+/// Each picture of a project by itself.
+pub(super) fn listed(name: &str, memory: MemoryBudget, warnings: &mut Vec<String>) -> Result<Vec<Listed>> {
+    let images = PtoProject::read(Path::new(name))?.images;
+    let views = find(name, memory, warnings)?.worlds.into_iter().flatten();
+    let list = |(image, view): (PtoImage, InputView)| Listed {
+        image: image.file.display().to_string(),
+        place: format!("{name}, line {}", image.line),
+        spec: Some(format!("f{} v{}", image.lens, image.field_of_view)),
+        input: Input { worlds: vec![vec![view]], frames: vec![None], faces: None },
+    };
+    Ok(images.into_iter().zip(views).map(list).collect())
 }
 
 /// What is made of a project where the command line does not say.

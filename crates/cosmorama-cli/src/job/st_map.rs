@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use anyhow::{Error, Result, anyhow};
-use cosmorama::sphere::Angle;
-use cosmorama::world::{FieldOfView, Frame, PerspectiveFrame, Placement, StMapFrame};
+use cosmorama::sphere::{Angle, Orientation};
+use cosmorama::world::{FieldOfView, Frame, Mirror, PerspectiveFrame, Placement, StMapFrame};
 use cosmorama_io::{Limits, StPairs, probe, read_pairs};
 
 use super::{Files, MemoryBudget, frames, pto};
@@ -56,6 +56,16 @@ pub(crate) fn settled(
         (_, Some(Shape::StMap(to))) if to.base.is_some() => {
             settled.to = Some(with_given_base(to, Side::Output, memory)?);
         }
+        (Some(Shape::StMap(from)), None) if is_plain(from) => {
+            // The output has the map's pixels, and nothing where the map says nothing.
+            let Some(input) = input else { return Err(without_base(Side::Input)) };
+            let pairs = read(&from.file, memory)?;
+            settled.size.get_or_insert_with(|| size_of(&pairs));
+            let Shape::Single(single) = plain().shape else { return Err(without_base(Side::Input)) };
+            let base = Base { placement: single.placement, size: Some(input_size(input)?) };
+            settled.to = Some(spec(from, &pairs, base, Side::Output, memory)?);
+            settled.from = Some(plain());
+        }
         (Some(Shape::StMap(from)), to) => {
             let pairs = read(&from.file, memory)?;
             let size = settled.size.get_or_insert_with(|| size_of(&pairs));
@@ -93,6 +103,11 @@ pub(super) fn read_map(spec: Spec, memory: MemoryBudget) -> Result<Spec> {
 /// A map where none can be.
 pub(super) fn unread(map: &StMapSpec) -> Error {
     usage(format!("st-map:file={}: an st map cannot be given here", map.file.display()))
+}
+
+/// Whether a map is applied as it is, without anything said of the input beside it.
+fn is_plain(map: &StMapSpec) -> bool {
+    !map.invert && map.orientation == Orientation::IDENTITY && map.mirror == Mirror::default() && map.canvas.is_none()
 }
 
 fn shape(spec: &Option<Spec>) -> Option<&Shape> {

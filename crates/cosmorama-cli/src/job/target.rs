@@ -80,6 +80,10 @@ impl Target {
             Some(Spec { shape: Shape::Cube(cube), stereo, .. }) => {
                 check_cube(output, faces, cube, stereo.is_some(), format)
             }
+            Some(Spec { name, .. }) if format.is_cube_map() => Err(usage(format!(
+                "{output} is a {format} file, which holds the six whole faces of a cube, but --to is {name}; expected --to \
+                 cube, or an output of another format"
+            ))),
             Some(Spec { name, .. }) if faces => {
                 Err(usage(format!("{output} names the faces of a cube, but --to is {name}; expected --to cube")))
             }

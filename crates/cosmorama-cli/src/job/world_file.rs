@@ -10,7 +10,9 @@ use cosmorama_io::{FrameList, FramePattern};
 use serde::Deserialize;
 use toml::Spanned;
 
-use super::{Input, InputView, MemoryBudget, st_map};
+use super::listing::Listed;
+use super::{Builtin, Input, InputView, MemoryBudget, st_map};
+use crate::failure::retold;
 use crate::spec::Spec;
 
 /// The file as it is written.
@@ -44,6 +46,20 @@ struct Text<'a> {
     text: &'a str,
 }
 
+/// What a world file holds.
+const SCHEMA: &str = "a [[view]] for each image, with image = \"FILE\", and where wanted spec = \"SPEC\", priority = WHOLE \
+                      NUMBER, feather = DEGREES, mask = \"FILE\"";
+
+/// What the TOML reader says, without the names that programs have for types.
+fn in_words(message: &str) -> String {
+    message.replace("expected i32", "expected a whole number").replace("expected f64", "expected a number")
+}
+
+/// What is said of an image whose SPEC is not given, as it is given in a world file.
+fn as_key(message: &str) -> String {
+    message.replace("--from ", "spec = ")
+}
+
 /// Whether an input names a world file.
 pub(super) fn is_world_file(pattern: &str) -> bool {
     Path::new(pattern).extension().is_some_and(|extension| extension.eq_ignore_ascii_case("toml"))
@@ -56,24 +72,44 @@ pub(super) fn find(
     memory: MemoryBudget,
     warnings: &mut Vec<String>,
 ) -> Result<Input> {
-    let text = std::fs::read_to_string(name).with_context(|| format!("{name}: cannot be read as a world file"))?;
+    let mut world = Input { worlds: vec![Vec::new()], frames: vec![None], faces: None };
+    for Listed { image, place, input, .. } in listed(name, wanted, memory, warnings)? {
+        world.frames = common_frames(&world.frames, &input.frames)
+            .with_context(|| format!("{image} has other frames than the views before it"))
+            .context(place)?;
+        join(&mut world.worlds, input.worlds);
+    }
+    Ok(world)
+}
+
+/// Each view of a world file by itself.
+pub(super) fn listed(
+    name: &str,
+    wanted: Option<&FrameList>,
+    memory: MemoryBudget,
+    warnings: &mut Vec<String>,
+) -> Result<Vec<Listed>> {
+    let bytes = std::fs::read(name).with_context(|| format!("cannot open the world file {name}"))?;
+    let Ok(text) = String::from_utf8(bytes) else {
+        bail!("{name}: not a text; expected a world file in TOML: {SCHEMA}")
+    };
     let source = Text { name, text: &text };
     let file: WorldFile = toml::from_str(&text)
-        .map_err(|error| source.error(error.span(), &format!("{}; see `cosmorama convert --help`", error.message())))?;
+        .map_err(|error| source.error(error.span(), &format!("{}; expected {SCHEMA}", in_words(error.message()))))?;
     if file.view.is_empty() {
         bail!(
             "{name}: no [[view]] in it; a world file has one for each image, with image = \"FILE\" and spec = \"SPEC\""
         );
     }
-    let mut world = Input { worlds: vec![Vec::new()], frames: vec![None], faces: None };
-    for entry in &file.view {
-        let part = entry.find(&source, wanted, memory, warnings)?;
-        world.frames = common_frames(&world.frames, &part.frames)
-            .with_context(|| format!("{} has other frames than the views before it", entry.image.get_ref()))
-            .with_context(|| source.place(Some(entry.image.span())))?;
-        join(&mut world.worlds, part.worlds);
-    }
-    Ok(world)
+    let list = |entry: &Entry| {
+        Ok(Listed {
+            image: entry.image.get_ref().clone(),
+            place: source.place(Some(entry.image.span())),
+            spec: entry.spec.as_ref().map(|spec| spec.get_ref().clone()),
+            input: entry.find(&source, wanted, memory, warnings)?,
+        })
+    };
+    file.view.iter().map(list).collect()
 }
 
 impl Entry {
@@ -92,10 +128,22 @@ impl Entry {
             let message = format!("{pattern} is a world file itself; list its views here");
             return Err(source.error(Some(self.image.span()), &message));
         }
+        if let Some(builtin) = Builtin::named(self.image.get_ref())? {
+            let message = format!(
+                "{} is a formula without pixels ({}); make a picture of it first, as in cosmorama convert {0} picture.exr \
+                 --to equirect --size 4096, and name that here",
+                self.image.get_ref(),
+                builtin.about()
+            );
+            return Err(source.error(Some(self.image.span()), &message));
+        }
         // A still stays what it is in all frames.
         let wanted = wanted.filter(|_| FramePattern::parse(&pattern).is_some());
-        let mut input = Input::find(&pattern, spec.as_ref(), wanted, memory, warnings)
-            .with_context(|| source.place(Some(self.image.span())))?;
+        let mut said = Vec::new();
+        let found = Input::find(&pattern, spec.as_ref(), wanted, memory, &mut said);
+        warnings.extend(said.iter().map(|warning| as_key(warning)));
+        let mut input =
+            found.map_err(|error| retold(&error, as_key)).with_context(|| source.place(Some(self.image.span())))?;
         for view in input.worlds.iter_mut().flatten() {
             // What a SPEC says of pictures that overlap holds where nothing else is said.
             view.blend = Blend { priority: self.priority, feather: feather.unwrap_or(view.blend.feather) };

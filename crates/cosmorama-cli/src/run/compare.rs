@@ -8,6 +8,7 @@ use cosmorama::world::{FisheyeFrame, Frame, OmnimaxFrame};
 use cosmorama_io::{Format, Limits, Metadata, WriteOptions, probe, read, write};
 use serde_json::{Value, json};
 
+use super::pipe::Kept;
 use super::print;
 use crate::args::{CompareArgs, Region};
 use crate::failure::usage;
@@ -15,6 +16,11 @@ use crate::job::{InputTransfer, MemoryBudget, real_path, refuse_existing};
 
 /// Compares two pictures.
 pub(super) fn run(args: &CompareArgs) -> Result<ExitCode> {
+    let (mut kept, mut args) = (Kept::default(), args.clone());
+    for picture in [&mut args.first, &mut args.second] {
+        *picture = kept.input(&picture.to_string_lossy())?.into();
+    }
+    let args = &args;
     let format = args.diff.as_deref().map(|diff| diff_format(diff, args)).transpose()?;
     let headers = (probe(&args.first)?, probe(&args.second)?);
     MemoryBudget::new(args.memory).check_comparison([(&args.first, &headers.0), (&args.second, &headers.1)])?;

@@ -7,6 +7,7 @@ use cosmorama::resample::Needs;
 use cosmorama::world::{PixelRect, World};
 use serde_json::{Value, json};
 
+use super::pipe::Kept;
 use super::{diagram, print, use_threads};
 use crate::args::ExplainArgs;
 use crate::failure::{usage, warn};
@@ -15,6 +16,9 @@ use crate::job::{Builtin, Input, MemoryBudget, Picture, filter, nominal_worlds, 
 /// Tells what a conversion will do.
 pub(super) fn run(args: &ExplainArgs) -> Result<ExitCode> {
     use_threads(args.limits.threads)?;
+    let (mut kept, mut args) = (Kept::default(), args.clone());
+    args.input = args.input.map(|input| kept.input(&input)).transpose()?;
+    let args = &args;
     let mut warnings = Vec::new();
     let (mut input, pictures) = resolve(args, &mut warnings)?;
     input.fit_eyes(pictures.iter().any(|picture| picture.eye.is_some()), &mut warnings);

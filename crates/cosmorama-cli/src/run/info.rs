@@ -8,18 +8,23 @@ use cosmorama_io::{EnvMap, FacePattern, FaceSet, Header, probe};
 use serde_json::{Value, json};
 
 use super::info_faces::{of_files, of_image};
-use super::print;
+use super::pipe::Kept;
+use super::{info_world, print};
 use crate::args::InfoArgs;
 use crate::job::{Builtin, Files, existing_frames, likely};
 
 /// Tells what a file or a face set is.
 pub(super) fn run(args: &InfoArgs) -> Result<ExitCode> {
-    let report = if let Some(builtin) = Builtin::named(&args.input)? {
-        json!({ "input": args.input, "projection": "any (a formula)", "shows": builtin.about() })
-    } else if FacePattern::parse(&args.input).is_some() {
-        faces(&args.input)?
+    let mut kept = Kept::default();
+    let input = &kept.input(&args.input)?;
+    let report = if let Some(builtin) = Builtin::named(input)? {
+        json!({ "input": input, "projection": "any (a formula)", "shows": builtin.about() })
+    } else if FacePattern::parse(input).is_some() {
+        faces(input)?
+    } else if let Some(world) = info_world::report(input)? {
+        world
     } else {
-        single(&args.input)?
+        single(input)?
     };
     if args.json {
         print(&(serde_json::to_string_pretty(&report)? + "\n"))?;
@@ -39,6 +44,9 @@ fn single(pattern: &str) -> Result<Value> {
     merge(&mut report, header_report(&header));
     let likely = likely(&path, &header);
     report["projection"] = json!(likely.projection);
+    if let Some(damage) = &likely.damage {
+        report["damaged"] = json!(damage);
+    }
     if let Some(found) = likely.circle {
         let Circle { centre: (x, y), radius } = found.circle();
         report["circle"] = json!({ "x": x, "y": y, "radius": radius, "measured": matches!(found, Found::Measured(_)) });
@@ -155,6 +163,9 @@ fn lines(report: &Value, indent: usize) -> String {
             format!("{pad}{key}: {}\n", plain(&arrangement["told"]))
         }
         Value::Object(_) => format!("{pad}{key}:\n{}", lines(value, indent + 2)),
+        Value::Array(items) if items.iter().all(Value::is_object) => {
+            items.iter().map(|item| format!("{pad}{key}:\n{}", lines(item, indent + 2))).collect()
+        }
         Value::Array(items) => format!("{pad}{key}: {}\n", items.iter().map(plain).collect::<Vec<_>>().join(", ")),
         _ if key == "present" => String::new(),
         value => format!("{pad}{key}: {}\n", plain(value)),

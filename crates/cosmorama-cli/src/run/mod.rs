@@ -11,6 +11,7 @@ mod frame_light;
 mod geometry;
 mod info;
 mod info_faces;
+mod info_world;
 mod interrupt;
 mod pipe;
 mod progress;
@@ -24,6 +25,7 @@ use std::process::ExitCode;
 use anyhow::{Context, Result};
 
 use crate::args::Verb;
+use crate::stream;
 
 /// Does what was asked for.
 pub(crate) fn run(verb: Verb) -> Result<ExitCode> {
@@ -49,7 +51,7 @@ fn use_threads(count: Option<usize>) -> Result<()> {
 fn print(text: &str) -> Result<()> {
     use std::io::Write;
     let mut out = std::io::stdout().lock();
-    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
+    match out.write_all(stream::told(text).as_bytes()).and_then(|()| out.flush()) {
         // Whoever read our output has seen enough.
         Err(error) if error.kind() == std::io::ErrorKind::BrokenPipe => Ok(()),
         result => result.context("cannot write to standard output"),

@@ -1,49 +1,108 @@
-//! Standard input and output as files: what comes in is kept in a folder that goes away, what goes out is made there and
-//! passed on when it is whole.
+//! Streams as files: what comes in is kept in a folder that goes away, what goes out is made there and passed on when it
+//! is whole.
 
 use std::fs::File;
-use std::io::{ErrorKind, IsTerminal, Write, copy, stdin, stdout};
+use std::io::{ErrorKind, IsTerminal, Read, Write, copy, stdin, stdout};
+use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result};
+use cosmorama_io::Format;
 use cosmorama_io::pending::Scratch;
 
 use crate::args::ConvertArgs;
 use crate::failure::usage;
+use crate::stream;
 
 /// What a standard stream is called.
 const STREAM: &str = "-";
 
-/// A conversion between files, some of which stand for standard streams.
+/// Files that stand for streams, as long as this lives.
+#[derive(Default)]
+pub(super) struct Kept {
+    folder: Option<Scratch>,
+    /// Inputs so far.
+    inputs: usize,
+    /// Whether standard input is one of them.
+    has_stdin: bool,
+}
+
+impl Kept {
+    /// The name of an input that can be read as often as wanted: its own, or that of a file that keeps what comes through
+    /// standard input or a pipe.
+    pub(super) fn input(&mut self, name: &str) -> Result<String> {
+        if name == STREAM {
+            if self.has_stdin {
+                return Err(usage("- is given twice, but standard input can be read only once; name a file"));
+            }
+            if stdin().is_terminal() {
+                return Err(usage("standard input is a terminal; pipe a picture into it, or name a file"));
+            }
+            self.has_stdin = true;
+            return self.keep(&mut stdin().lock(), "standard input", "standard input");
+        }
+        if !is_pipe(Path::new(name)) {
+            return Ok(name.to_owned());
+        }
+        let file_name = Path::new(name).file_name().map_or_else(|| "pipe".into(), |name| name.to_string_lossy());
+        let mut pipe = File::open(name).with_context(|| format!("cannot open {name}"))?;
+        self.keep(&mut pipe, name, &file_name)
+    }
+
+    fn keep(&mut self, source: &mut dyn Read, name: &str, file_name: &str) -> Result<String> {
+        self.inputs += 1;
+        let folder = self.folder()?.join(format!("input-{}", self.inputs));
+        std::fs::create_dir(&folder).with_context(|| format!("cannot keep {name}"))?;
+        let path = folder.join(file_name);
+        stream::call(&path, name);
+        let mut file = File::create(&path).with_context(|| format!("cannot keep {name}"))?;
+        copy(source, &mut file).with_context(|| format!("cannot read {name}"))?;
+        Ok(path.display().to_string())
+    }
+
+    fn folder(&mut self) -> Result<PathBuf> {
+        if let Some(folder) = &self.folder {
+            return Ok(folder.path().to_owned());
+        }
+        let folder = Scratch::create().context("cannot make a folder for what is piped")?;
+        Ok(self.folder.insert(folder).path().to_owned())
+    }
+}
+
+/// Whether a file is a pipe, as the shell's `<(command)` is: its bytes come once.
+#[cfg(unix)]
+fn is_pipe(path: &Path) -> bool {
+    use std::os::unix::fs::FileTypeExt;
+    std::fs::metadata(path).is_ok_and(|found| found.file_type().is_fifo())
+}
+
+#[cfg(not(unix))]
+fn is_pipe(_: &Path) -> bool {
+    false
+}
+
+/// A conversion between files, some of which stand for streams.
 pub(super) struct Piped {
     /// The same with the names of files.
     pub(super) args: ConvertArgs,
     /// Where those lie.
-    _folder: Option<Scratch>,
+    _kept: Kept,
     /// Whether the output goes on to standard output.
     to_stdout: bool,
 }
 
 impl Piped {
-    /// Takes in standard input, if it is the input, and finds a place for what goes to standard output.
+    /// Takes in what is piped, and finds a place for what goes to standard output.
     pub(super) fn open(args: &ConvertArgs) -> Result<Self> {
-        let (from_stdin, to_stdout) = (args.input == STREAM, args.output == STREAM);
+        let to_stdout = args.output == STREAM;
         check(args, to_stdout)?;
-        let mut piped = Self { args: args.clone(), _folder: None, to_stdout };
-        if !(from_stdin || to_stdout) {
-            return Ok(piped);
-        }
-        let folder = Scratch::create().context("cannot make a folder for what is piped")?;
-        let path = |name: String| folder.path().join(name).display().to_string();
-        if from_stdin {
-            piped.args.input = path("standard-input".to_owned());
-            let mut file = File::create(&piped.args.input).context("cannot keep standard input")?;
-            copy(&mut stdin().lock(), &mut file).context("cannot read standard input")?;
-        }
+        let (mut kept, mut args) = (Kept::default(), args.clone());
+        args.input = kept.input(&args.input)?;
         if let Some(format) = &args.format {
-            piped.args.output = path(format!("standard-output.{}", format.trim_start_matches('.')));
+            let path = kept.folder()?.join(format!("standard output.{}", format.trim_start_matches('.')));
+            stream::call(&path, "standard output");
+            args.output = path.display().to_string();
         }
-        piped._folder = Some(folder);
-        Ok(piped)
+        Ok(Self { args, _kept: kept, to_stdout })
     }
 
     /// Passes on what was made.
@@ -70,6 +129,10 @@ fn check(args: &ConvertArgs, to_stdout: bool) -> Result<()> {
         (true, None) => {
             Err(usage("the output is standard output, whose name says no format; give --format, as in --format png"))
         }
+        (true, Some(format)) if !is_format(format) => Err(usage(format!(
+            "--format {format}: no format of this name can be written; use one of {}",
+            Format::extensions()
+        ))),
         (true, Some(_)) if args.json => Err(usage(
             "--json would print its report into the picture on standard output; leave it out, or name an output file",
         )),
@@ -78,4 +141,9 @@ fn check(args: &ConvertArgs, to_stdout: bool) -> Result<()> {
         }
         _ => Ok(()),
     }
+}
+
+/// Whether a format is one that can be written, by its extension.
+fn is_format(extension: &str) -> bool {
+    Format::from_extension(Path::new(&format!("picture.{}", extension.trim_start_matches('.')))).is_ok()
 }

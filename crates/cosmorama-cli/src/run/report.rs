@@ -7,6 +7,7 @@ use serde::Serialize;
 
 use super::stages::{CpuSeconds, Stages};
 use crate::job::peak_bytes;
+use crate::stream;
 
 /// What `--json` prints after a conversion.
 #[derive(Debug, Serialize)]
@@ -58,7 +59,7 @@ impl Report {
     pub(super) fn tell(&self) {
         let what = match (&self.outputs[..], self.frames) {
             ([], _) => "nothing to do".to_owned(),
-            ([one], _) => one.display().to_string(),
+            ([one], _) => stream::told(&one.to_string_lossy()),
             (many, 1) => format!("{} files", many.len()),
             (many, frames) => format!("{} files of {frames} frames", many.len()),
         };

@@ -11,7 +11,7 @@ use super::engine::assemble;
 use super::report::Report;
 use super::stages::{Stage, Stages};
 use crate::args::ConvertArgs;
-use crate::failure::usage;
+use crate::failure::{usage, warn};
 use crate::job::{Builtin, ConvertJob, st_pixels};
 
 /// The names of an st map's numbers, in their order.
@@ -27,6 +27,11 @@ pub(super) fn convert(args: &ConvertArgs) -> Result<Report> {
     let job = stages.time(Stage::Plan, || ConvertJob::resolve(args))?;
     check(args, &job)?;
     let depth = args.depth.map_or(Depth::Float, Depth::from);
+    if depth == Depth::Half {
+        warn(
+            "--depth half: halves of an st map tell places to 1/2048 of the picture's width only; leave it out for floats",
+        );
+    }
     for frame in &job.outputs.frames {
         for (index, path) in &frame.files {
             let sheet = &job.target.files[*index].sheet;

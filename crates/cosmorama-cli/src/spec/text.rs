@@ -35,7 +35,7 @@ pub(crate) enum SpecError {
     )]
     NotOffered { name: String },
     /// The key is not one of this name's.
-    #[error("unknown key '{key}' for {name}{}; it takes {}", did_you_mean(.key, .known), .known.join(", "))]
+    #[error("unknown key '{key}' for {name}{}; it takes {}", meant(.key, .known), .known.join(", "))]
     UnknownKey { name: &'static str, key: String, known: Vec<&'static str> },
     /// A part that is no `key=value`.
     #[error("'{part}' is no key=value; a SPEC is NAME[:key=value[,key=value]...], as in fisheye:fov=220,fit=width")]
@@ -53,7 +53,7 @@ pub(crate) enum SpecError {
     #[error("k={value}: {error}")]
     Coefficients { value: String, error: LensError },
     /// A calibration that cannot be read, or of which no camera can be made.
-    #[error("calibration={reason}")]
+    #[error("calibration=: {reason}")]
     Calibration { reason: String },
     /// Keys that say the same thing differently.
     #[error("{first}= and {second}= cannot both be given")]
@@ -62,6 +62,17 @@ pub(crate) enum SpecError {
 
 fn names() -> Vec<&'static str> {
     KINDS.iter().map(|kind| kind.name).collect()
+}
+
+/// The key that was meant, where one of a lens or a face was typed as it stands in the table, or another is like it.
+fn meant(typed: &str, known: &[&str]) -> String {
+    match typed.split_once('.') {
+        Some((_, key)) if known.contains(&&*format!("LENS.{key}")) => {
+            let each: Vec<String> = LensSide::ALL.iter().map(|side| format!("'{}.{key}'", side.name())).collect();
+            format!("; did you mean {}?", each.join(" or "))
+        }
+        _ => did_you_mean(typed, known),
+    }
 }
 
 /// The known name that is most like what was typed, as a question; nothing where none is.
@@ -261,7 +272,8 @@ mod tests {
     #[test]
     fn what_belongs_to_a_lens_or_an_eye() {
         assert!("dual-fisheye:front.yaw=1,back.center=3:4,back.fov=190".parse::<Spec>().is_ok());
-        assert!(refused("dual-fisheye:LENS.fov=3").contains("unknown key 'LENS.fov'"));
+        assert!(refused("dual-fisheye:LENS.fov=3").contains("did you mean 'front.fov' or 'back.fov'?"));
+        assert!(refused("dual-fisheye:left.yaw=3").contains("'front.yaw' or 'back.yaw'"));
         assert!(refused("dual-fisheye:front.center=3").contains("front.center=3: expected X:Y"));
         assert!(refused("fisheye:front.fov=3").contains("unknown key 'front.fov' for fisheye"));
         assert!(refused("fisheye:eye=left").contains("stereo= beside it"));

@@ -64,6 +64,7 @@ fn texture(path: &Path, source: &mut Source) -> Result<CubeTexture, IoError> {
         edge: header.width,
         row_alignment: 1,
         offsets: [0; 6],
+        packed: None,
     };
     let first = start.len() as u64 + if modern.is_some() { 20 } else { 0 };
     let stride = face_stride(&cube, header.mip_map_count.unwrap_or(1));

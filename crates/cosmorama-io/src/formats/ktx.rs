@@ -88,8 +88,15 @@ fn texture(path: &Path, source: &mut Source) -> Result<CubeTexture, IoError> {
             | gl::SRGB_ALPHA_BPTC_UNORM
     );
     let transfer = if texels.depth() == Depth::Eight { srgb.then_some(Transfer::Srgb) } else { Some(Transfer::Linear) };
-    let mut cube =
-        CubeTexture { texels, transfer, alpha: AlphaMode::Straight, edge: width, row_alignment: 4, offsets: [0; 6] };
+    let mut cube = CubeTexture {
+        texels,
+        transfer,
+        alpha: AlphaMode::Straight,
+        edge: width,
+        row_alignment: 4,
+        offsets: [0; 6],
+        packed: None,
+    };
     let (declared, bytes) = (u64::from(u32::from_le_bytes(size)), cube.face_bytes());
     if declared != bytes {
         return Err(IoError::damaged(

@@ -2,8 +2,9 @@ use std::io::{Read, Seek, SeekFrom, Write};
 use std::path::Path;
 
 use cosmorama::raster::{AlphaMode, Depth, EncodedImage, Transfer};
-use ktx2::{Format as Vk, Header as Ktx2Header, Index, LevelIndex};
+use ktx2::{Format as Vk, Header as Ktx2Header, Index, LevelIndex, SupercompressionScheme as Scheme};
 
+use super::packing::{Packed, Packing};
 use super::texel::{BlockFormat, Texels};
 use super::texture::{CubeTexture, EXPECTED, levels_to_write};
 use crate::file::Source;
@@ -14,6 +15,8 @@ const FORMAT: Format = Format::Ktx2;
 /// Names in the data format descriptor (Khronos Data Format Specification 1.3).
 mod descriptor {
     pub(super) const RGB_MODEL: u8 = 1;
+    pub(super) const ETC1S_MODEL: u8 = 163;
+    pub(super) const UASTC_MODEL: u8 = 166;
     pub(super) const BT709: u8 = 1;
     pub(super) const LINEAR: u8 = 1;
     pub(super) const SRGB: u8 = 2;
@@ -47,10 +50,15 @@ fn texture(path: &Path, source: &mut Source) -> Result<CubeTexture, IoError> {
     if header.pixel_width != header.pixel_height {
         return Err(IoError::damaged(path, FORMAT, "the faces of a cube are square"));
     }
-    if let Some(scheme) = header.supercompression_scheme {
-        return Err(unsupported(format!("texels packed by {scheme:?}")));
-    }
-    let format = header.format.ok_or_else(|| unsupported("texels of no Vulkan format".to_owned()))?;
+    let packing = match header.supercompression_scheme {
+        None => None,
+        Some(Scheme::Zstandard) => Some(Packing::Zstandard),
+        Some(Scheme::ZLIB) => Some(Packing::Zlib),
+        Some(scheme) => return Err(unsupported(format!("texels packed by {scheme:?}"))),
+    };
+    let Some(format) = header.format else {
+        return Err(unsupported(model(path, source, header.index.dfd_byte_offset)?.to_owned()));
+    };
     let (texels, srgb) =
         texels(format).ok_or_else(|| unsupported(format!("texels of the Vulkan format {format:?}")))?;
     let (said, premultiplied) = colour(path, source, header.index.dfd_byte_offset)?;
@@ -67,15 +75,17 @@ fn texture(path: &Path, source: &mut Source) -> Result<CubeTexture, IoError> {
         edge: header.pixel_width,
         row_alignment: 1,
         offsets: [0; 6],
+        packed: packing.map(|packing| Packed { packing, offset: level.byte_offset, length: level.byte_length }),
     };
     let bytes = cube.face_bytes();
-    if bytes.checked_mul(6) != Some(level.byte_length) {
+    let length = if packing.is_some() { level.uncompressed_byte_length } else { level.byte_length };
+    if bytes.checked_mul(6) != Some(length) {
         return Err(IoError::damaged(
             path,
             FORMAT,
             format_args!(
-                "its largest level has {} bytes; six faces of {} pixels have six times {bytes}",
-                level.byte_length, header.pixel_width
+                "its largest level has {length} bytes; six faces of {} pixels have six times {bytes}",
+                header.pixel_width
             ),
         ));
     }
@@ -84,6 +94,20 @@ fn texture(path: &Path, source: &mut Source) -> Result<CubeTexture, IoError> {
         *offset = at.ok_or_else(|| IoError::damaged(path, FORMAT, "it ends too early"))?;
     }
     Ok(cube)
+}
+
+/// What texels of no Vulkan format are: the colour model of the data format descriptor.
+fn model(path: &Path, source: &mut Source, offset: u32) -> Result<&'static str, IoError> {
+    let mut start = [0; 16];
+    source
+        .seek(SeekFrom::Start(offset.into()))
+        .and_then(|_| source.read_exact(&mut start))
+        .map_err(|_| IoError::damaged(path, FORMAT, "its data format descriptor lies beyond its end"))?;
+    Ok(match start[12] {
+        descriptor::ETC1S_MODEL => "ETC1S texels, as BasisLZ packs them",
+        descriptor::UASTC_MODEL => "UASTC texels",
+        _ => "texels of no Vulkan format",
+    })
 }
 
 /// Transfer function and alpha, as far as the data format descriptor says them in words that we know.

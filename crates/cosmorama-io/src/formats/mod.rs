@@ -16,6 +16,7 @@ pub(crate) mod hdr;
 pub(crate) mod jpeg;
 pub(crate) mod ktx;
 pub(crate) mod ktx2;
+mod packing;
 pub(crate) mod png;
 mod png_colour;
 mod png_writer;

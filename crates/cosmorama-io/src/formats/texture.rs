@@ -5,14 +5,15 @@ use cosmorama::raster::{AlphaMode, Channels, EncodedImage, Samples, Transfer};
 use half::f16;
 use rayon::prelude::*;
 
+use super::packing::Packed;
 use super::texel::Texels;
 use super::whole_image;
 use crate::file::Source;
 use crate::{EnvMap, Format, Header, ImageFile, IoError, Limits, Metadata};
 
 /// What can be read, for messages.
-pub(super) const EXPECTED: &str =
-    "a cube of 8-bit, half or float texels, RGB9E5, R11G11B10, BC1 to BC3, BC6H or BC7, without supercompression";
+pub(super) const EXPECTED: &str = "a cube of 8-bit, half or float texels, RGB9E5, R11G11B10, BC1 to BC3, BC6H or BC7, as it is or packed by Zstandard \
+     or zlib; textures of BasisLZ and UASTC are unpacked by `ktx transcode`";
 
 /// The faces of a cube in a texture file: where the largest pictures of +X −X +Y −Y +Z −Z lie, and how.
 pub(super) struct CubeTexture {
@@ -26,8 +27,10 @@ pub(super) struct CubeTexture {
     pub(super) edge: u32,
     /// Rows begin at multiples of so many bytes.
     pub(super) row_alignment: u64,
-    /// Where each face begins.
+    /// Where each face begins; where they are packed, in what is packed.
     pub(super) offsets: [u64; 6],
+    /// How all faces together are packed, if they are.
+    pub(super) packed: Option<Packed>,
 }
 
 impl CubeTexture {
@@ -63,6 +66,26 @@ impl CubeTexture {
         let header = self.header(format);
         limits.check(path, (header.width as u64, header.height as u64), header.channels, header.depth)?;
         let bytes = self.face_bytes();
+        let size = usize::try_from(bytes).map_err(|_| IoError::damaged(path, format, "it is larger than memory"))?;
+        let faces = match self.packed {
+            None => self.faces(path, format, source)?,
+            Some(packed) => {
+                let all =
+                    size.checked_mul(6).ok_or_else(|| IoError::damaged(path, format, "it is larger than memory"))?;
+                let all = packed.read(path, format, source, all)?;
+                all.chunks_exact(size.max(1)).map(<[u8]>::to_vec).collect()
+            }
+        };
+        let decode = |face: Vec<u8>| self.texels.decode(&face, self.edge as usize, self.row_alignment as usize);
+        let decoded: Vec<Samples> = faces.into_par_iter().map(decode).collect();
+        let mut file = whole_image(path, header, joined(decoded))?;
+        file.image = file.image.with_alpha_mode(self.alpha);
+        Ok(file)
+    }
+
+    /// The bytes of the faces, where they lie in the file as they are.
+    fn faces(&self, path: &Path, format: Format, source: &mut Source) -> Result<Vec<Vec<u8>>, IoError> {
+        let bytes = self.face_bytes();
         let length = source.seek(SeekFrom::End(0)).map_err(|error| IoError::open(path, error))?;
         let ends_inside = |offset: &u64| offset.checked_add(bytes).is_some_and(|end| end <= length);
         if !self.offsets.iter().all(ends_inside) {
@@ -78,11 +101,7 @@ impl CubeTexture {
                 .map_err(|_| IoError::damaged(path, format, "it ends too early"))?;
             faces.push(face);
         }
-        let decode = |face: Vec<u8>| self.texels.decode(&face, self.edge as usize, self.row_alignment as usize);
-        let decoded: Vec<Samples> = faces.into_par_iter().map(decode).collect();
-        let mut file = whole_image(path, header, joined(decoded))?;
-        file.image = file.image.with_alpha_mode(self.alpha);
-        Ok(file)
+        Ok(faces)
     }
 }
 

@@ -89,6 +89,9 @@ impl PtoProject {
         if bytes.len() as u64 > LONGEST {
             return Err(project("more than 16 megabytes, which no Hugin project is"));
         }
+        if bytes.contains(&0) {
+            return Err(project("not a text; expected a project as Hugin saves it"));
+        }
         let text = String::from_utf8_lossy(&bytes);
         Self::parse(&text).map_err(|(line, reason)| match line {
             0 => project(&reason),

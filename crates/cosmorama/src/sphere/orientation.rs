@@ -29,6 +29,20 @@ impl Orientation {
         Self { world_from_view }
     }
 
+    /// Yaw, pitch and roll that give this orientation: yaw and roll from −180° to 180°, pitch from −90° to 90°. Straight up
+    /// and down, where yaw and roll turn about one axis, roll is zero.
+    pub fn yaw_pitch_roll(&self) -> [Angle; 3] {
+        let [right, up, back] = [self.world_from_view.x_axis, self.world_from_view.y_axis, self.world_from_view.z_axis];
+        let pitch = (-back.y).clamp(-1.0, 1.0).asin();
+        let level = right.y.hypot(up.y);
+        let (yaw, roll) = if level > 1e-9 {
+            ((-back.x).atan2(back.z), (-right.y).atan2(up.y))
+        } else {
+            (right.z.atan2(right.x), 0.0)
+        };
+        [yaw, pitch, roll].map(|angle| Angle::from_radians(if angle == 0.0 { 0.0 } else { angle }))
+    }
+
     /// The orientation whose image right, up and forward are these directions (an orthonormal, right-handed set).
     pub fn from_axes(right: Direction, up: Direction, forward: Direction) -> Self {
         let world_from_view = DMat3::from_cols(right.vector(), up.vector(), -forward.vector());
@@ -65,6 +79,27 @@ impl Orientation {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn yaw_pitch_and_roll_come_back() {
+        let same = |a: Orientation, b: Orientation| a.world_from_view.abs_diff_eq(b.world_from_view, 1e-9);
+        for yaw in [-180.0, -100.0, 0.0, 37.0, 90.0, 179.0] {
+            for pitch in [-90.0, -40.0, 0.0, 22.0, 90.0] {
+                for roll in [-170.0, -90.0, 0.0, 5.0, 180.0] {
+                    let given = oriented(yaw, pitch, roll);
+                    let [y, p, r] = given.yaw_pitch_roll();
+                    assert!(same(given, Orientation::from_yaw_pitch_roll(y, p, r)), "{yaw} {pitch} {roll}");
+                    if f64::abs(pitch) < 90.0 {
+                        let close = |found: Angle, given: f64| {
+                            let apart = (found.degrees() - given).rem_euclid(360.0);
+                            apart.min(360.0 - apart) < 1e-7
+                        };
+                        assert!(close(y, yaw) && close(p, pitch) && close(r, roll), "{yaw} {pitch} {roll}");
+                    }
+                }
+            }
+        }
+    }
 
     fn oriented(yaw: f64, pitch: f64, roll: f64) -> Orientation {
         Orientation::from_yaw_pitch_roll(

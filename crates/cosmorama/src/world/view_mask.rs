@@ -59,7 +59,7 @@ impl ViewMask {
     }
 
     /// Whether the texel at a point of the image counts.
-    pub(super) fn shows(&self, pixel: PixelPoint) -> bool {
+    pub fn shows(&self, pixel: PixelPoint) -> bool {
         let (width, height) = self.size();
         let inside = |value: f64, size: usize| (value.max(0.0) as usize).min(size.saturating_sub(1));
         self.counts(inside(pixel.x, width), inside(pixel.y, height))

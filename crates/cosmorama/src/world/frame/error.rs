@@ -111,6 +111,21 @@ pub enum FrameError {
         /// What was asked for.
         found: f64,
     },
+    /// A circle of which nothing is on the image.
+    #[error(
+        "a circle of radius {} pixels around {}:{} lies off the picture's {width}x{height} pixels; center=X:Y counts from the \
+         upper left corner, and radius= in pixels", rounded(*.radius), rounded(.centre.0), rounded(.centre.1)
+    )]
+    CircleOffImage {
+        /// Its centre, in pixels of the image, or of the half that is its.
+        centre: (f64, f64),
+        /// Its radius in pixels.
+        radius: f64,
+        /// Columns of the image.
+        width: usize,
+        /// Rows.
+        height: usize,
+    },
     /// So fine a picture that no image holds it.
     #[error("as fine as the input, the image would have {width:.3e}x{height:.3e} pixels; its size must be given")]
     SizeUnbounded {

@@ -1,0 +1,86 @@
+//! What `info` says of worlds of many views.
+
+use anyhow::Result;
+use cosmorama::sphere::Direction;
+use cosmorama::world::{CylinderFrame, CylinderKind, Frame, PixelPoint, View};
+use serde_json::{Value, json};
+
+use crate::failure::warn;
+use crate::job::{InputView, Listed, MemoryBudget, listed};
+
+/// Columns of an equal-area map, each pixel of which has the same part of the sphere: enough for a tenth of a percent.
+const COLUMNS: usize = 512;
+
+/// The report on a world file or a Hugin project; `None` where an input is neither.
+pub(super) fn report(name: &str) -> Result<Option<Value>> {
+    let mut warnings = Vec::new();
+    let Some(list) = listed(name, MemoryBudget::new(None), &mut warnings)? else { return Ok(None) };
+    warnings.iter().for_each(|warning| warn(warning));
+    let sphere = directions()?;
+    let views: Vec<Value> = list.iter().flat_map(|listed| views(listed, &sphere)).collect();
+    let all: Vec<&InputView> = list.iter().flat_map(|listed| &listed.input.worlds[0]).collect();
+    let covered = share(&sphere, |direction| all.iter().any(|view| holds(view, direction)));
+    Ok(Some(json!({
+        "input": name,
+        "projection": match views.len() { 1 => "a world of one view".to_owned(), count => format!("a world of {count} views") },
+        "covers": percent(covered),
+        "views": views,
+    })))
+}
+
+fn views(listed: &Listed, sphere: &[Direction]) -> Vec<Value> {
+    let worlds = listed.input.worlds.iter().flatten();
+    worlds.map(|view| of_view(listed, view, sphere)).collect()
+}
+
+fn of_view(listed: &Listed, view: &InputView, sphere: &[Direction]) -> Value {
+    let spec = listed.spec.clone().unwrap_or_else(|| "not said: found from the file".to_owned());
+    let angles = view.nominal.orientation.yaw_pitch_roll();
+    let [yaw, pitch, roll] = angles.map(|angle| format!("{:.2}", angle.degrees()));
+    let mut report = json!({ "image": listed.image, "line": listed.place, "spec": spec });
+    if view.name != listed.image {
+        report["name"] = json!(view.name);
+    }
+    match &view.header {
+        Some(header) => report["size"] = json!(format!("{}x{}", header.width, header.height)),
+        None => report["missing"] = json!(format!("no {}", view.files.path(None).display())),
+    }
+    report["looks"] = json!(format!("yaw {yaw}, pitch {pitch}, roll {roll}"));
+    report["covers"] = percent(share(sphere, |direction| holds(view, direction)));
+    if view.blend.priority != 0 {
+        report["priority"] = json!(view.blend.priority);
+    }
+    if view.blend.feather.degrees() > 0.0 {
+        report["feather"] = json!(format!("{:.1}", view.blend.feather.degrees()));
+    }
+    if view.mask.is_some() {
+        report["mask"] = json!("yes");
+    }
+    report
+}
+
+/// Whether a view's file has a direction, and its mask lets it through.
+fn holds(view: &InputView, direction: Direction) -> bool {
+    let sees = |held: &View| {
+        let is_shown = |pixel: PixelPoint| view.mask.as_ref().is_none_or(|mask| mask.shows(pixel));
+        held.sees(direction) && held.pixel(direction).is_some_and(|pixel| is_shown(held.wrapped(pixel)))
+    };
+    view.window.as_ref().is_some_and(|(held, _)| sees(held))
+}
+
+/// Directions spread evenly over the sphere.
+fn directions() -> Result<Vec<Direction>> {
+    let frame = Frame::Cylinder(CylinderFrame::new(CylinderKind::EqualArea));
+    let view = frame.view(COLUMNS, frame.natural_height(COLUMNS))?;
+    let pixels = (0..view.height()).flat_map(|j| (0..view.width()).map(move |i| PixelPoint::centre(i, j)));
+    Ok(pixels.filter_map(|pixel| view.direction(pixel)).collect())
+}
+
+fn share(sphere: &[Direction], chosen: impl Fn(Direction) -> bool) -> f64 {
+    sphere.iter().filter(|direction| chosen(**direction)).count() as f64 / sphere.len() as f64
+}
+
+/// Of the whole sphere.
+fn percent(share: f64) -> Value {
+    json!(format!("{:.1} % of the sphere", 100.0 * share))
+}

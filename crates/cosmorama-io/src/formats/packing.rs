@@ -1,0 +1,64 @@
+use std::io::{Read, Seek, SeekFrom};
+use std::path::Path;
+
+use crate::file::Source;
+use crate::{Format, IoError};
+
+/// How the texels of a level are packed, whatever their format.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Packing {
+    /// Zstandard.
+    Zstandard,
+    /// Deflate in zlib's wrapping.
+    Zlib,
+}
+
+/// Packed texels in a file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Packed {
+    pub(super) packing: Packing,
+    /// Where they begin.
+    pub(super) offset: u64,
+    /// Their bytes as they are packed.
+    pub(super) length: u64,
+}
+
+impl Packed {
+    /// Unpacks what has to be so many bytes; no more memory is taken, whatever the file says.
+    pub(super) fn read(
+        self,
+        path: &Path,
+        format: Format,
+        source: &mut Source,
+        bytes: usize,
+    ) -> Result<Vec<u8>, IoError> {
+        let length = source.seek(SeekFrom::End(0)).map_err(|error| IoError::open(path, error))?;
+        if self.offset.checked_add(self.length).is_none_or(|end| end > length) {
+            return Err(IoError::damaged(path, format, "it ends too early"));
+        }
+        source.seek(SeekFrom::Start(self.offset)).map_err(|error| IoError::open(path, error))?;
+        let packed = source.by_ref().take(self.length);
+        match self.packing {
+            Packing::Zlib => self.exactly(flate2::read::ZlibDecoder::new(packed), bytes),
+            Packing::Zstandard => ruzstd::decoding::StreamingDecoder::new(packed)
+                .map_err(|error| self.wrong(&format!("do not unpack: {error}")))
+                .and_then(|decoder| self.exactly(decoder, bytes)),
+        }
+        .map_err(|reason| IoError::damaged(path, format, reason))
+    }
+
+    fn exactly(self, mut unpacked: impl Read, bytes: usize) -> Result<Vec<u8>, String> {
+        let mut all = vec![0; bytes];
+        unpacked
+            .read_exact(&mut all)
+            .map_err(|error| self.wrong(&format!("do not unpack to {bytes} bytes: {error}")))?;
+        match unpacked.read(&mut [0]) {
+            Ok(0) => Ok(all),
+            _ => Err(self.wrong(&format!("unpack to more than {bytes} bytes"))),
+        }
+    }
+
+    fn wrong(self, what: &str) -> String {
+        format!("its texels, packed by {:?}, {what}", self.packing)
+    }
+}
