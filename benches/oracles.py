@@ -51,6 +51,8 @@ ORACLES = [
     Oracle("cylinder1", "cylinder1", "face", "--to cylinder --size 1024x512", "all", ("cylinder",),
            (42.4, 41.7, 41.7)),
     Oracle("mercator", "mercator", "face", "--to mercator --size 768x576", "all", ("mercator",), (40.1, 40.3, 40.2)),
+    Oracle("chromeball_ortho", "chromeball_ortho", "face", "--to mirror-ball --size 768", "disc", ("chrome_ball",),
+           (34.9, 35.1, 36.4)),
     Oracle("chromeball_far", "chromeball_far", "face", "--to mirror-ball:distance=100 --size 768", "disc",
            ("chrome_ball_persp", 100), (34.9, 35.1, 36.4)),
     Oracle("motion_mid", "motion_mid", "face", "--to perspective:fov=60 --size 640x480 --yaw 20 --pitch -4", "all",

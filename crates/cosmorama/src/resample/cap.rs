@@ -92,11 +92,18 @@ impl Cap {
         texels_within(source, self.centre, self.radius)
     }
 
+    /// The largest texels around of any of these sources, in radians.
+    pub(super) fn coarsest_pitch(&self, sources: &[Source]) -> f64 {
+        sources.iter().map(|source| source.texel_pitch_within(self.centre, self.radius)).fold(0.0, f64::max)
+    }
+
     /// The texels of a source that a kernel around the block's pixels can touch.
-    pub(super) fn read_texels(&self, source: &Source, kernel: &Kernel) -> Option<PixelRect> {
+    ///
+    /// A kernel may be as wide as texels of the coarsest pitch around make it.
+    pub(super) fn read_texels(&self, source: &Source, coarsest: f64, kernel: &Kernel) -> Option<PixelRect> {
         // The gather's own bound of a kernel, half as much again for what it takes as linear, and the few texels of the
         // look-ups that have no kernel.
-        let texel_pitch = source.texel_pitch_within(self.centre, self.radius);
+        let texel_pitch = source.texel_pitch_within(self.centre, self.radius).max(coarsest);
         let unit = (kernel.scale * self.pixel).max(kernel.floor * texel_pitch);
         let reach = 1.5 * kernel.radius().max(1.0) * unit + 3.0 * texel_pitch;
         texels_within(source, self.centre, self.radius + reach)

@@ -55,9 +55,12 @@ impl<S: Simd> Ellipses<S> {
         let (ux, vx) = (row_of(simd, &patch.jacobian[0], down), row_of(simd, &patch.jacobian[1], down));
         let (uy, vy) = (row_of(simd, &patch.jacobian[2], down), row_of(simd, &patch.jacobian[3], down));
         let determinant = ux * vy - uy * vx;
-        let (fine, coarse) = (Kernel::FINE as f32, Kernel::COARSE as f32);
         let zero = f32x8::splat(simd, 0.0);
-        let coarseness = ((determinant.abs().sqrt() - fine) * (coarse - fine).recip()).max(zero).min(zero + 1.0);
+        // As in `Kernel::coarseness`.
+        let texels = determinant.abs().sqrt();
+        let [before, after] = Kernel::SLOPES.map(|slope| slope as f32);
+        let slowly = (texels - Kernel::COARSE as f32) * after + Kernel::KNEE as f32;
+        let coarseness = ((texels - Kernel::FINE as f32) * before).min(slowly).max(zero).min(zero + 1.0);
 
         // As in `Ellipse::new`: JJᵀ = (p q; q r), whose eigenvalues are raised to the floor. With M the same matrix after
         // that, M = αJJᵀ + β, and the conic is M⁻¹.

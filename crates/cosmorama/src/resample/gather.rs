@@ -10,6 +10,7 @@ use super::candidates::{Candidate, settle};
 use super::cap::{Cap, each_run_within};
 use super::field_edge::FieldEdge;
 use super::kernel::KernelTable;
+use super::meeting::Meeting;
 use super::patch::Grid;
 use super::texel_run::{Run, TexelBox, ceil, floor, runs_around};
 use super::{Ellipse, Kernel, Taps, lookup, surround};
@@ -85,20 +86,22 @@ impl<'a> Gather<'a> {
     /// Finds the texels that count; true if the field of view ends under the pixel.
     fn collect(&mut self, footprint: &Footprint, place: Place) -> bool {
         self.candidates.clear();
-        let sources = self.world.sources();
-        if !self.gather_from(&sources[self.last], footprint, place) && sources.len() > 1 {
+        let (sources, floor) = (self.world.sources(), self.floor(place));
+        if !self.gather_from(&sources[self.last], footprint, place, floor) && sources.len() > 1 {
             self.candidates.clear();
+            let meeting = Meeting::at(self.world, self.table.kernel(), footprint.direction);
             let mut coarsest = 0f64;
             for (index, source) in sources.iter().enumerate() {
                 let start = self.candidates.len();
-                if self.gather_from(source, footprint, place) {
+                let floor = floor * meeting.map_or(1.0, |meeting| meeting.widening(source));
+                if self.gather_from(source, footprint, place, floor) {
                     // A kernel inside one view touches no other, except by what another view's plane bends its ellipse:
                     // without those texels the result depends neither on the order of views nor on the last footprint.
                     self.candidates.drain(..start);
                     self.last = index;
                     break;
                 }
-                coarsest = self.measure_alike(start, coarsest, self.reach(footprint, source.texel_pitch, place));
+                coarsest = self.measure_alike(start, coarsest, self.reach(footprint, source.texel_pitch, floor));
             }
         }
         self.drop_unseen(footprint, place)
@@ -135,7 +138,8 @@ impl<'a> Gather<'a> {
     pub(super) fn takes_patch(&self, source: &Source, screen: &Grid<Footprint>) -> bool {
         let (middle, corners) = (screen[1][1].direction, [screen[0][0], screen[0][2], screen[2][0], screen[2][2]]);
         let Some(cap) = Cap::around(middle, &corners) else { return false };
-        let reach = |corner: &Footprint| self.reach(corner, source.texel_pitch_at(corner.direction), Place::Inside);
+        let floor = self.floor(Place::Inside);
+        let reach = |corner: &Footprint| self.reach(corner, source.texel_pitch_at(corner.direction), floor);
         let reach = corners.iter().map(reach).fold(0.0, f64::max);
         let seen = cap.widened(reach);
         let is_whole = !self.is_near_edge(middle, seen.radius());
@@ -146,7 +150,7 @@ impl<'a> Gather<'a> {
 
     /// What lies outside the field of view does not leak in. True if any of that lies under the pixel.
     fn drop_unseen(&mut self, footprint: &Footprint, place: Place) -> bool {
-        let reach = self.reach(footprint, self.texel_pitch, place);
+        let reach = self.reach(footprint, self.texel_pitch, self.floor(place));
         let Some(edge) = self.edge.filter(|edge| edge.is_near(footprint.direction, reach)) else { return false };
         let sources = self.world.sources();
         let mut ends_under = false;
@@ -165,35 +169,36 @@ impl<'a> Gather<'a> {
         self.table.kernel().floor * if place == Place::Rim { RIM_FLOOR } else { 1.0 }
     }
 
-    /// An upper bound of the kernel's radius on the sphere, in radians, among texels of this pitch.
-    fn reach(&self, footprint: &Footprint, texel_pitch: f64, place: Place) -> f64 {
+    /// An upper bound of the kernel's radius on the sphere, in radians, among texels of this pitch, so many of which its unit is
+    /// at least.
+    fn reach(&self, footprint: &Footprint, texel_pitch: f64, floor: f64) -> f64 {
         let (kernel, jacobian) = (self.table.kernel(), &footprint.jacobian);
         let pixel = (jacobian.dx.length_squared() + jacobian.dy.length_squared()).sqrt();
-        kernel.radius() * (kernel.scale * pixel).max(self.floor(place) * texel_pitch)
+        kernel.radius() * (kernel.scale * pixel).max(floor * texel_pitch)
     }
 
     /// Adds the texels of one view; true if the kernel lies wholly inside it.
-    fn gather_from(&mut self, source: &Source, footprint: &Footprint, place: Place) -> bool {
-        let radius = self.reach(footprint, source.texel_pitch_at(footprint.direction), place);
+    fn gather_from(&mut self, source: &Source, footprint: &Footprint, place: Place, floor: f64) -> bool {
+        let radius = self.reach(footprint, source.texel_pitch_at(footprint.direction), floor);
         let margin = source.view.margin(footprint.direction);
         if margin + radius <= 0.0 || !source.reaches(footprint.direction, radius) {
             return false;
         }
         // At a rim, what the mapping bends does not cancel between two sides.
         if is_linear(source, footprint, radius, margin) && place == Place::Inside {
-            self.gather_ellipse(source, footprint)
+            self.gather_ellipse(source, footprint, floor)
         } else {
-            self.gather_cap(source, footprint, radius, place);
+            self.gather_cap(source, footprint, radius, floor);
             false
         }
     }
 
     /// The common case: the footprint is an ellipse of texels.
-    fn gather_ellipse(&mut self, source: &Source, footprint: &Footprint) -> bool {
+    fn gather_ellipse(&mut self, source: &Source, footprint: &Footprint, unit: f64) -> bool {
         let Some((centre, jacobian)) = source.view.texel_footprint(footprint) else { return false };
         let kernel = self.table.kernel();
         let coarseness = kernel.coarseness(jacobian.determinant().abs().sqrt()) as f32;
-        let ellipse = Ellipse::new(jacobian * kernel.scale, kernel.floor);
+        let ellipse = Ellipse::new(jacobian * kernel.scale, unit);
         let to_screen = jacobian.inverse();
         let bend = if kernel.centred { Bend::around(&source.view, centre) } else { None }.unwrap_or_default();
         let reach = ellipse.half_extent(self.table.radius_squared());
@@ -255,7 +260,7 @@ impl<'a> Gather<'a> {
 
     /// Near a pole, a horizon or a rim the ellipse would be wrong: each texel is weighed by its direction instead, in
     /// the plane tangent to the sphere at the footprint.
-    fn gather_cap(&mut self, source: &Source, footprint: &Footprint, radius: f64, place: Place) {
+    fn gather_cap(&mut self, source: &Source, footprint: &Footprint, radius: f64, floor: f64) {
         let here = footprint.direction.vector();
         let (right, up) = here.any_orthonormal_pair();
         let in_tangent_plane = |vector: glam::DVec3| DVec2::new(right.dot(vector), up.dot(vector)) / source.texel_pitch;
@@ -277,7 +282,7 @@ impl<'a> Gather<'a> {
         // On a seam the lattices of both sides mirror each other, and a quarter of the disc may be empty on both.
         let nearness = beyond.map_or(0.0, |(across, _)| 1.0 - 0.5 * across.length() / radius);
         let widening = 1.0 + (RIM_FLOOR - 1.0) * nearness;
-        let ellipse = |jacobian: DMat2| Ellipse::new(jacobian * kernel.scale, self.floor(place) * widening);
+        let ellipse = |jacobian: DMat2| Ellipse::new(jacobian * kernel.scale, floor * widening);
         let beyond = beyond.map(|(across, jacobian)| (across, ellipse(jacobian), jacobian * to_screen));
         let ellipse = ellipse(jacobian);
         let longest = ellipse.longest(to_texels).max(beyond.map_or(0.0, |(_, ellipse, other)| ellipse.longest(other)));

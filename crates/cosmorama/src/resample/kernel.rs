@@ -124,7 +124,7 @@ fn bessel_j1(t: f64) -> f64 {
 pub struct Kernel {
     /// The weights where a pixel holds few texels (s ≤ [`Kernel::FINE`]).
     pub fine: CrossSection,
-    /// The weights where a pixel holds many (s ≥ [`Kernel::COARSE`]); between the two they are blended linearly.
+    /// The weights where a pixel holds many (s ≥ [`Kernel::COARSEST`]); between the two they are blended linearly.
     pub coarse: CrossSection,
     /// The kernel's unit in output pixels.
     pub scale: f64,
@@ -137,16 +137,26 @@ pub struct Kernel {
 impl Kernel {
     /// Texels per pixel up to which the fine cross-section holds alone.
     pub const FINE: f64 = 0.8;
-    /// Texels per pixel from which the coarse cross-section holds alone.
+    /// Texels per pixel at which the coarse cross-section has [`Kernel::KNEE`] of the blend: from here on it comes in slowly.
     pub const COARSE: f64 = 1.5;
+    /// Texels per pixel from which the coarse cross-section holds alone.
+    pub const COARSEST: f64 = 4.0;
+    /// The coarse part at [`Kernel::COARSE`] texels per pixel. Of [`Kernel::ADAPTIVE`], the blend has there the B of Mitchell's
+    /// cubic, and all but its C: 0.345.
+    pub const KNEE: f64 = 0.881_330;
 
-    /// The default: a sharp cubic (B = 0, C = 0.6) under enlargement, Mitchell under reduction, a unit of 0.8 pixel.
+    /// How fast the coarse part grows with s, before the knee and after it.
+    pub(super) const SLOPES: [f64; 2] =
+        [Self::KNEE / (Self::COARSE - Self::FINE), (1.0 - Self::KNEE) / (Self::COARSEST - Self::COARSE)];
+
+    /// The default: a sharp cubic (B = 0, C = 0.6) under enlargement, Mitchell's or all but his from one and a half texels per
+    /// pixel, and Robidoux's from four: the softer the more texels there are to average. Its unit is 0.8 pixel.
     ///
     /// The floor is √5/2 texels, rounded up: the radius at which every half disc on a square lattice holds a texel, so
     /// that there is something on each side of a pixel to interpolate between.
     pub const ADAPTIVE: Self = Self {
         fine: CrossSection::Cubic { b: 0.0, c: 0.6 },
-        coarse: CrossSection::MITCHELL,
+        coarse: CrossSection::ROBIDOUX,
         scale: 0.8,
         floor: 1.12,
         centred: true,
@@ -159,7 +169,8 @@ impl Kernel {
 
     /// How much of the coarse cross-section counts where a pixel is as wide as `s` texels.
     pub fn coarseness(&self, s: f64) -> f64 {
-        ((s - Self::FINE) / (Self::COARSE - Self::FINE)).clamp(0.0, 1.0)
+        let [before, after] = Self::SLOPES;
+        (before * (s - Self::FINE)).min(Self::KNEE + after * (s - Self::COARSE)).clamp(0.0, 1.0)
     }
 
     /// The larger radius of the two cross-sections.
@@ -259,6 +270,22 @@ mod tests {
                 let error = (f64::from(table.weight(r * r, 0.5)) - section.weight(r)).abs();
                 assert!(error < bound, "{section:?} at {r}: {error}");
             }
+        }
+    }
+
+    #[test]
+    fn kernels_get_coarser_the_more_texels_a_pixel_holds() {
+        let parts = [0.0, 0.8, 1.15, 1.5, 2.75, 4.0, 1e9].map(|s| Kernel::ADAPTIVE.coarseness(s));
+        let expected = [0.0, 0.0, 0.440_665, 0.881_33, 0.940_665, 1.0, 1.0];
+        for (part, expected) in parts.into_iter().zip(expected) {
+            assert!((part - expected).abs() < 1e-12, "{part}, not {expected}");
+        }
+        // At the knee: Mitchell's cubic.
+        for r in [0.0, 0.3, 0.7, 1.0, 1.4, 1.9] {
+            let part = Kernel::KNEE;
+            let weight = Kernel::ADAPTIVE.fine.weight(r) * (1.0 - part) + Kernel::ADAPTIVE.coarse.weight(r) * part;
+            let mitchell = CrossSection::MITCHELL.weight(r);
+            assert!((weight - mitchell).abs() < 0.003, "{weight} at {r}, not {mitchell}");
         }
     }
 

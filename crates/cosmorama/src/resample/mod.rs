@@ -13,6 +13,7 @@ mod filter;
 mod gather;
 mod kernel;
 mod lookup;
+mod meeting;
 mod moments;
 mod need;
 mod patch;

@@ -217,8 +217,10 @@ impl Survey<'_> {
 
     /// Whether kernels around a block's pixels touch only texels that are needed anyway.
     fn reads_within(&self, cap: &Cap, needs: &Needs) -> bool {
-        let mut views = self.world.sources().iter().zip(&needs.views);
-        views.all(|(source, need)| within(cap.read_texels(source, &self.filter.kernel), need.read))
+        let (sources, kernel) = (self.world.sources(), &self.filter.kernel);
+        let coarsest = cap.coarsest_pitch(sources);
+        let mut views = sources.iter().zip(&needs.views);
+        views.all(|(source, need)| within(cap.read_texels(source, coarsest, kernel), need.read))
     }
 
     /// Adds all that kernels around a block's pixels can touch.

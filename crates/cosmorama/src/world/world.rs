@@ -102,6 +102,19 @@ impl Source {
         self.cone.is_none_or(|cone| cone.reaches(direction, radius))
     }
 
+    /// How many texels a direction lies beyond what the image holds, zero inside; `None` where the projection has no place for
+    /// it.
+    pub(crate) fn texels_beyond(&self, direction: Direction) -> Option<f64> {
+        let pixel = self.view.wrapped(self.view.pixel(direction)?);
+        let (width, height) = (self.view.width() as f64, self.view.height() as f64);
+        let before_next_turn = self.period.map_or(f64::INFINITY, |period| (period as f64 - pixel.x).max(0.0));
+        let across = (-pixel.x).max(pixel.x - width).max(0.0).min(before_next_turn);
+        let down = (-pixel.y).max(pixel.y - height).max(0.0);
+        let point = self.view.grid.to_plane(pixel);
+        let outside = self.view.stop.circle.map_or(0.0, |radius| point.x.hypot(point.y) - radius);
+        Some(across.hypot(down).max(outside / self.view.grid.step().abs().min_element()))
+    }
+
     /// Whether a point of the image shows something that counts.
     pub(super) fn shows(&self, pixel: PixelPoint) -> bool {
         self.view.shows(pixel) && self.mask.as_ref().is_none_or(|mask| mask.shows(pixel))
