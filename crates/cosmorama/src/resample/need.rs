@@ -225,8 +225,10 @@ impl Survey<'_> {
 
     /// Adds all that kernels around a block's pixels can touch.
     fn add_reach(&self, cap: &Cap, needs: &mut Needs) {
-        for (source, need) in self.world.sources().iter().zip(&mut needs.views) {
-            need.read = union(need.read, cap.read_texels(source, &self.filter.kernel));
+        let (sources, kernel) = (self.world.sources(), &self.filter.kernel);
+        let coarsest = cap.coarsest_pitch(sources);
+        for (source, need) in sources.iter().zip(&mut needs.views) {
+            need.read = union(need.read, cap.read_texels(source, coarsest, kernel));
         }
     }
 
