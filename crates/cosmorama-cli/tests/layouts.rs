@@ -195,7 +195,11 @@ fn textures_hold_their_smaller_copies() {
 fn textures_hold_cubes_and_nothing_else() {
     let bench = Bench::new();
     faces(&bench);
-    bench.succeed(&["convert", "world_{face}.png", "direct_{face}.png", "--size", SIZE]);
+    // With alpha, as textures have it: opaque pictures are filtered in integers, which differ from floats by a code here and
+    // there.
+    let veiled = ["--size", SIZE, "--missing", "transparent", "-y"];
+    bench.succeed(&[&["convert", "drawn_{face}.png", "world_{face}.png"][..], &veiled].concat());
+    bench.succeed(&[&["convert", "world_{face}.png", "direct_{face}.png"][..], &veiled].concat());
     for name in ["cube.ktx2", "cube.dds"] {
         bench.succeed(&["convert", "drawn_{face}.png", name, "--to", "cube", "--size", SIZE]);
         bench.succeed(&["convert", name, "back_{face}.png", "-y", "--size", SIZE]);

@@ -184,7 +184,8 @@ fn mistakes_are_told() {
     refused(1, &["--to", "st-map:file=none.exr"], &["none.exr"]);
     refused(1, &["--to", "st-map:file=grey.exr"], &["grey.exr", "4x4", "no four neighbouring"]);
     // The map takes one MiB, what is made of it several.
-    refused(1, &["--from", "st-map:file=map.exr", "--memory", "3MB"], &["an st map needs", "400x300", "--memory"]);
+    let used = "st-map:file=map.exr,base=equirect";
+    refused(1, &["--from", used, "--memory", "3MB"], &["an st map needs", "400x300", "--memory"]);
     let one = EncodedImage::new(2, 2, Channels::Grey, Depth::Float, Samples::Float(vec![0.5; 4])).unwrap();
     bench.save("one.exr", &one);
     refused(1, &["--to", "st-map:file=one.exr"], &["one.exr", "the channels Y", "R and G, u and v"]);

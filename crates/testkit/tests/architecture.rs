@@ -165,7 +165,8 @@ fn no_crate_depends_on_a_higher_one() {
 }
 
 /// Files with code for lanes. All else is plain: one pixel after the other, so that the two can be held equal.
-const LANES: [&str; 6] = ["cubics.rs", "ellipses.rs", "moments.rs", "plan/fixed.rs", "plan/float.rs", "window.rs"];
+const LANES: [&str; 7] =
+    ["cubics.rs", "ellipses.rs", "moments.rs", "plan/fixed.rs", "plan/float.rs", "plan/spread.rs", "window.rs"];
 
 #[test]
 fn lanes_stay_in_the_files_that_are_for_them() {

@@ -92,10 +92,10 @@ fn find_gaps(
     Ok(gaps)
 }
 
-/// Whether all that may be needed of a view is there.
+/// Whether all that may be needed of a view is there, and it surely is needed if it may be.
 fn holds((view, need): (&InputView, &Need)) -> bool {
     let held = view.window.as_ref().map(|(held, canvas)| rect(canvas, held));
-    need.read.is_none_or(|read| held.is_some_and(|held| held.contains(&read)))
+    need.read.is_none_or(|read| need.seen.is_some() && held.is_some_and(|held| held.contains(&read)))
 }
 
 /// The world of what files hold: often that of the whole pictures.

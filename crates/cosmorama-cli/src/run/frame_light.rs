@@ -13,6 +13,8 @@ pub(super) struct FrameLight {
     texels: Texels,
     /// Texels that are missing (NaN), by view.
     missing: Vec<usize>,
+    /// Whether frames are to be held in 15 bits, if they can be.
+    is_fixed: bool,
     /// Whether a frame has been read into it.
     is_used: bool,
 }
@@ -28,10 +30,9 @@ pub(super) enum Texels {
 impl FrameLight {
     /// Room for that of a job.
     pub(super) fn new(job: &ConvertJob, is_fixed: bool) -> Self {
-        let fixed = || job.worlds.iter().map(|world| FixedLight::black(world.texel_count())).collect();
-        let texels = if is_fixed { Texels::Fixed(fixed()) } else { Texels::floats(job) };
+        let texels = if is_fixed { Texels::fixed(job) } else { Texels::floats(job) };
         let missing = vec![0; job.worlds.iter().map(|world| world.sources().len()).sum()];
-        Self { texels, missing, is_used: false }
+        Self { texels, missing, is_fixed, is_used: false }
     }
 
     /// All the texels.
@@ -46,6 +47,11 @@ impl FrameLight {
 
     /// Reads a frame.
     pub(super) fn load(&mut self, job: &ConvertJob, decoder: &Decoder, frame: Option<u64>) -> Result<()> {
+        if self.is_fixed && matches!(self.texels, Texels::Float(_)) {
+            // The frame before was another: what this one becomes must not depend on it.
+            self.texels = Texels::Fixed(Vec::new());
+            (self.texels, self.is_used) = (Texels::fixed(job), false);
+        }
         if let Texels::Fixed(worlds) = &mut self.texels {
             let decode = |image: &EncodedImage, transfer: &Transfer, into: &mut [[i16; 4]]| {
                 FixedDecoder::new(transfer).is_some_and(|decoder| decoder.decode(image, into)).then_some(0)
@@ -57,6 +63,7 @@ impl FrameLight {
                 return Ok(());
             }
             // A frame unlike the first: with alpha, or in another encoding.
+            self.texels = Texels::Float(Vec::new());
             (self.texels, self.is_used) = (Texels::floats(job), false);
         }
         if let Texels::Float(worlds) = &mut self.texels {
@@ -74,6 +81,10 @@ impl FrameLight {
 impl Texels {
     fn floats(job: &ConvertJob) -> Self {
         Self::Float(job.worlds.iter().map(|world| vec![Rgba::TRANSPARENT; world.texel_count()]).collect())
+    }
+
+    fn fixed(job: &ConvertJob) -> Self {
+        Self::Fixed(job.worlds.iter().map(|world| FixedLight::black(world.texel_count())).collect())
     }
 
     /// The light of a world's texel.

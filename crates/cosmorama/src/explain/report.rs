@@ -70,7 +70,7 @@ pub struct Memory {
     pub texels: usize,
     /// The target's pixels.
     pub pixels: usize,
-    /// The geometry of a sequence, estimated; a single frame needs none.
+    /// The geometry of a sequence in floats, estimated; that of opaque pictures of 8 bits takes less, a single frame none.
     pub plan: usize,
 }
 

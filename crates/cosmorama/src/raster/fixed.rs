@@ -86,7 +86,8 @@ impl FixedDecoder {
         let [red, green, blue] = &self.channels;
         let code = |of: &[i16; 256], sample: u8| of[usize::from(sample)];
         match image.channels() {
-            Channels::Grey => fill(into, samples, |[s]| [code(red, s), code(green, s), code(blue, s), 0]),
+            // Grey goes by green, where the channels' curves differ.
+            Channels::Grey => fill(into, samples, |[s]| [code(green, s), code(green, s), code(green, s), 0]),
             Channels::Rgb => fill(into, samples, |[r, g, b]| [code(red, r), code(green, g), code(blue, b), 0]),
             Channels::GreyAlpha | Channels::Rgba => return false,
         }
@@ -125,7 +126,8 @@ impl FixedCodec {
         for (channel, codes) in codes.iter_mut().enumerate() {
             codes.iter_mut().enumerate().for_each(|(light, into)| *into = code(light, channel));
         }
-        let is_fine = |codes: &Codes| codes.windows(2).all(|pair| pair[1] - pair[0] <= 1);
+        let is_fine =
+            |codes: &Codes| codes.windows(2).all(|pair| (0..=1).contains(&(i16::from(pair[1]) - i16::from(pair[0]))));
         codes.iter().all(is_fine).then_some(Self { codes, background })
     }
 
@@ -158,5 +160,51 @@ impl FixedCodec {
     /// The codes of light in floats.
     pub(crate) fn codes_of(&self, light: Rgba) -> [u8; 3] {
         self.codes(light.0.map(|light| (light * WHITE).round().clamp(0.0, WHITE) as i16))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::raster::Depth;
+
+    #[test]
+    fn transfer_functions_are_taken_where_15_bits_are_enough() {
+        for transfer in [Transfer::Srgb, Transfer::Linear, Transfer::Gamma(1.8)] {
+            assert!(FixedDecoder::new(&transfer).is_some(), "{transfer:?}");
+        }
+        for transfer in [Transfer::Gamma(2.2), Transfer::Bt1886, Transfer::Pq] {
+            assert!(FixedDecoder::new(&transfer).is_none(), "{transfer:?}");
+            assert!(FixedCodec::new(&transfer, Rgba::BLACK).is_none(), "{transfer:?}");
+        }
+    }
+
+    #[test]
+    fn every_code_comes_back() {
+        let codes: Vec<u8> = (0..=255).flat_map(|code| [code, 255 - code, code / 2]).collect();
+        let image = EncodedImage::new(256, 1, Channels::Rgb, Depth::Eight, Samples::U8(codes.clone())).unwrap();
+        let mut light = FixedLight::black(256);
+        for transfer in [Transfer::Srgb, Transfer::Linear] {
+            let decoder = FixedDecoder::new(&transfer).expect("a decoder");
+            assert!(decoder.decode(&image, light.texels_mut()));
+            let codec = FixedCodec::new(&transfer, Rgba::BLACK).expect("a codec");
+            let back: Vec<u8> = (0..256).flat_map(|texel| codec.codes_of(light.rgba(texel))).collect();
+            assert_eq!(back, codes);
+        }
+    }
+
+    #[test]
+    fn pictures_with_alpha_or_of_more_bits_are_not_taken() {
+        let decoder = FixedDecoder::new(&Transfer::Srgb).expect("a decoder");
+        let mut light = FixedLight::black(1);
+        for (channels, depth, samples) in [
+            (Channels::Rgba, Depth::Eight, Samples::U8(vec![9; 4])),
+            (Channels::GreyAlpha, Depth::Eight, Samples::U8(vec![9; 2])),
+            (Channels::Rgb, Depth::Sixteen, Samples::U16(vec![9; 3])),
+        ] {
+            let image = EncodedImage::new(1, 1, channels, depth, samples).unwrap();
+            assert!(!decoder.decode(&image, light.texels_mut()));
+            assert_eq!(light.samples()[..4], [0; 4]);
+        }
     }
 }

@@ -1,6 +1,6 @@
 use std::ops::Range;
 
-use super::mirrors::Mirrors;
+use super::mirrors::{Mirrors, Walk};
 use super::weights::Weights;
 use crate::resample::patch::SIDE;
 use crate::resample::scan::Sink;
@@ -44,7 +44,7 @@ pub(super) struct Run {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Single {
     /// The first of its taps, how many there are, and what holds their average.
-    pub(super) first: u32,
+    pub(super) first: usize,
     pub(super) taps: u32,
     pub(super) bound: Bound,
     /// The part of the pixel inside the field of view.
@@ -69,11 +69,23 @@ impl Run {
         self.lanes == u8::MAX
     }
 
-    /// The first texel of a lane's window: its column and row.
+    /// How a lane's window is walked through, given how one at the corner would be.
     #[inline(always)]
-    pub(super) fn texel(&self, lane: usize) -> [usize; 2] {
-        let [left, top] = self.offsets[lane];
-        [self.corner[0] as usize + usize::from(left), self.corner[1] as usize + usize::from(top)]
+    pub(super) fn walk(&self, corner: Walk, lane: usize) -> Walk {
+        corner.moved(self.offsets[lane])
+    }
+
+    /// The column farthest to the left and the row farthest up of its windows' texels.
+    #[inline(always)]
+    pub(super) fn corner(&self) -> [usize; 2] {
+        self.corner.map(|at| at as usize)
+    }
+
+    /// About how many columns to the right its windows reach from there.
+    #[inline(always)]
+    pub(super) fn span(&self) -> usize {
+        // Windows follow each other to the right or to the left.
+        usize::from(self.offsets[0][0].max(self.offsets[SIDE - 1][0])) + usize::from(self.width) - 1
     }
 
     /// A lane's column, and the row in the band.
@@ -138,23 +150,38 @@ impl<W: Weights> Band<W> {
         self.runs.chunks(SIDE)
     }
 
+    /// Bytes that it takes.
     pub(super) fn bytes(&self) -> usize {
         self.runs.capacity() * size_of::<Run>()
             + self.weights.bytes()
             + self.singles.capacity() * size_of::<Single>()
             + self.taps.capacity() * size_of::<Tap>()
     }
+
+    /// Bytes of what it holds, without room for more.
+    pub(super) fn used_bytes(&self) -> usize {
+        self.runs.len() * size_of::<Run>()
+            + self.weights.used_bytes()
+            + self.singles.len() * size_of::<Single>()
+            + self.taps.len() * size_of::<Tap>()
+    }
 }
 
 /// Writes down what makes the pixels of a band.
-pub(super) struct Recorder<'a, W> {
+pub(super) struct Recorder<'a, W, F> {
     pub(super) world: &'a World,
     pub(super) mirrors: &'a Mirrors,
     pub(super) band: &'a mut Band<W>,
     pub(super) taps: Taps,
+    /// What is done with a band that holds more than [`MANY`] taps.
+    pub(super) spill: F,
 }
 
-impl<W: Weights> Sink for Recorder<'_, W> {
+/// Taps of single pixels that a band may hold before something is done with them: a small picture of a large world may have
+/// millions for each pixel.
+const MANY: usize = 1 << 17;
+
+impl<W: Weights, F: FnMut(&mut Band<W>)> Sink for Recorder<'_, W, F> {
     fn pixel(&mut self, pixel: [usize; 2], coverage: f32, taps: &Taps) {
         self.single(pixel, coverage, taps);
     }
@@ -174,13 +201,13 @@ impl<W: Weights> Sink for Recorder<'_, W> {
     }
 }
 
-impl<W> Recorder<'_, W> {
+impl<W, F: FnMut(&mut Band<W>)> Recorder<'_, W, F> {
     /// A pixel by itself, in all mirrors.
     fn single(&mut self, [column, row]: [usize; 2], coverage: f32, taps: &Taps) {
         let sources = self.world.sources();
         for (index, image) in self.mirrors.images.iter().enumerate() {
             self.band.singles.push(Single {
-                first: self.band.taps.len() as u32,
+                first: self.band.taps.len(),
                 taps: taps.as_slice().len() as u32,
                 bound: taps.bound(),
                 coverage,
@@ -192,6 +219,9 @@ impl<W> Recorder<'_, W> {
                 self.band.taps.extend_from_slice(taps.as_slice());
             } else {
                 self.band.taps.extend(taps.as_slice().iter().map(|&tap| image.tap(sources, tap)));
+            }
+            if self.band.taps.len() > MANY {
+                (self.spill)(self.band);
             }
         }
     }

@@ -23,9 +23,11 @@ impl<'a, P> Canvas<'a, P> {
         use rayon::prelude::*;
         let (own, mirrored) = pixels.split_at_mut(mirrors.rows * width);
         // Below, the rows of the first band are the last ones; where nothing is mirrored there is nothing.
-        let own = own.par_chunks_mut(rows * width);
+        // A picture without columns has no bands.
+        let chunk = (rows * width).max(1);
+        let own = own.par_chunks_mut(chunk);
         let bands = own.len();
-        let mut below: Vec<&mut [P]> = mirrored.rchunks_mut(rows * width).collect();
+        let mut below: Vec<&mut [P]> = mirrored.rchunks_mut(chunk).collect();
         below.resize_with(bands, Default::default);
         own.zip(below).map(move |(own, mirrored)| Self { width, own, mirrored })
     }

@@ -10,108 +10,12 @@ use fearless_simd::{Level, Simd, dispatch, i16x8, i16x32, i32x4, i32x16, prelude
 
 use super::band::{Band, Run};
 use super::canvas::Canvas;
+use super::fixed_weights::FixedWeights;
 use super::mirrors::{MOST_IMAGES, Mirrors, Walk};
-use super::weights::Weights;
+use super::spread::{GROUP, MASKS, PAIRS, Spread};
 use crate::raster::{FixedCodec, FixedLight};
 use crate::resample::patch::SIDE;
 use crate::resample::taps::average;
-use crate::resample::window::Windows;
-
-/// Texels of a row that are worked on together.
-const GROUP: usize = 8;
-
-/// The weights of windows as integers, pixel by pixel and row by row. Before each group of a row's weights stands which of its
-/// texels lie under the pixel, a bit for each; before those of a run, by how many bits they are scaled.
-#[derive(Clone, Debug, Default)]
-pub(in crate::resample) struct FixedWeights {
-    /// As many zeros follow as a group has: it is read as a whole.
-    numbers: Vec<i16>,
-    /// Without those.
-    length: usize,
-    /// Weights of a run before they are sorted by pixel.
-    rounded: Vec<[i16; SIDE]>,
-}
-
-/// A number so large that what is added to it is rounded to an integer, which its last bits then hold.
-const ROUNDER: f32 = 12_582_912.0;
-
-impl FixedWeights {
-    /// Rounds the weights of all lanes; by how many bits they are scaled, `None` if they are too large. What rounding takes from
-    /// one texel the next one has: each lane's sum is exactly one.
-    fn round(&mut self, windows: &Windows) -> Option<u32> {
-        let (mut largest, mut size) = ([0f32; SIDE], [0f32; SIDE]);
-        for (weights, _) in windows.texels() {
-            for lane in 0..SIDE {
-                largest[lane] = largest[lane].max(weights[lane].abs());
-                size[lane] += weights[lane].abs();
-            }
-        }
-        let [largest, size] = [largest, size].map(|lanes| lanes.into_iter().fold(0f32, f32::max));
-        // Sums must fit into 32 bits.
-        let bits = if largest < 1.0 && size < 1.9 {
-            15
-        } else if largest < 1.99 && size < 3.9 {
-            14
-        } else {
-            return None;
-        };
-        let scale = (1 << bits) as f32;
-        let (mut sums, mut before) = ([0f32; SIDE], [ROUNDER.to_bits(); SIDE]);
-        self.rounded.clear();
-        for (weights, _) in windows.texels() {
-            let mut rounded = [0; SIDE];
-            for lane in 0..SIDE {
-                sums[lane] += weights[lane] * scale;
-                let sum = (sums[lane] + ROUNDER).to_bits();
-                rounded[lane] = (sum.wrapping_sub(before[lane]) as i32).min(i32::from(i16::MAX)) as i16;
-                before[lane] = sum;
-            }
-            self.rounded.push(rounded);
-        }
-        Some(bits)
-    }
-}
-
-impl Weights for FixedWeights {
-    fn len(&self) -> usize {
-        self.length
-    }
-
-    fn keep(&mut self, windows: &Windows, run: &Run) -> bool {
-        let Some(bits) = self.round(windows) else { return false };
-        let width = usize::from(run.width);
-        let under: Vec<[u8; SIDE]> =
-            windows.texels().map(|(_, beyond)| beyond.map(|beyond| u8::from(beyond == 0.0))).collect();
-        self.numbers.truncate(self.length);
-        self.numbers.push(bits as i16);
-        for lane in run.lanes() {
-            for (weights, under) in self.rounded.chunks_exact(width).zip(under.chunks_exact(width)) {
-                for (weights, under) in weights.chunks(GROUP).zip(under.chunks(GROUP)) {
-                    let bits = under.iter().enumerate().fold(0, |bits, (k, under)| bits | under[lane] << k);
-                    self.numbers.push(i16::from(bits));
-                    self.numbers.extend(weights.iter().map(|weights| weights[lane]));
-                }
-            }
-        }
-        self.length = self.numbers.len();
-        self.numbers.resize(self.length + GROUP, 0);
-        true
-    }
-
-    fn clear(&mut self) {
-        self.numbers.clear();
-        self.length = 0;
-    }
-
-    fn shrink(&mut self) {
-        self.numbers.shrink_to_fit();
-        self.rounded = Vec::new();
-    }
-
-    fn bytes(&self) -> usize {
-        self.numbers.capacity() * size_of::<i16>()
-    }
-}
 
 /// Makes the pixels of a band.
 pub(super) struct FixedFilter<'a> {
@@ -128,7 +32,7 @@ impl FixedFilter<'_> {
         dispatch!(level, simd => self.runs(simd, band, canvas));
         let background = self.codec.background_light();
         for single in &band.singles {
-            let taps = &band.taps[single.first as usize..][..single.taps as usize];
+            let taps = &band.taps[single.first..][..single.taps as usize];
             let colour = average(taps, single.bound, |texel| self.light.rgba(texel as usize), self.anti_ringing);
             let image = &self.mirrors.images[usize::from(single.image)];
             let pixel = (colour * single.coverage).over(background);
@@ -139,7 +43,11 @@ impl FixedFilter<'_> {
     // No closures below: the compiler gives them no leave to use the level's instructions.
     #[inline(always)]
     fn runs<S: Simd>(&self, simd: S, band: &Band<FixedWeights>, canvas: &mut Canvas<[u8; 3]>) {
-        for run in &band.runs {
+        let mut ahead = band.patches().skip(1);
+        for (at, run) in band.runs.iter().enumerate() {
+            if at % SIDE == 0 {
+                self.read_ahead(ahead.next().unwrap_or(&[]));
+            }
             let numbers = &band.weights.numbers[run.weights as usize..];
             let made = Made { run, bits: numbers[0] as u32, numbers: &numbers[1..] };
             let pixels = match (run.width, run.height, self.anti_ringing) {
@@ -155,6 +63,29 @@ impl FixedFilter<'_> {
         }
     }
 
+    /// Reads a little of what these runs will read, so that it is near by then: lines of memory that are asked for one after the
+    /// other, as they are needed, take most of the time.
+    #[inline(always)]
+    fn read_ahead(&self, runs: &[Run]) {
+        let samples = self.light.samples();
+        let mut read = 0;
+        for image in &self.mirrors.images {
+            for run in runs {
+                let walk = image.view(usize::from(run.view)).walk(run.corner());
+                let span = run.span() as u32;
+                let mut first = walk.first;
+                for _ in 0..run.height {
+                    let last = if walk.is_reversed { first.wrapping_sub(span) } else { first.wrapping_add(span) };
+                    for texel in [first, last] {
+                        read |= samples.get(4 * texel as usize).copied().unwrap_or(0);
+                    }
+                    first = first.wrapping_add_signed(walk.down);
+                }
+            }
+        }
+        std::hint::black_box(read);
+    }
+
     /// The pixels of a run in each mirror, whose windows have W × H texels: the sizes that there are where a kernel is as small
     /// as may be. N numbers are read of each: the last row's as a whole group. What mirrors share is done once.
     #[inline(always)]
@@ -162,25 +93,38 @@ impl FixedFilter<'_> {
         let Made { run, bits, mut numbers } = made;
         let samples = self.light.samples();
         let mut pixels = [[[0; 3]; SIDE]; MOST_IMAGES];
+        let ways = self.ways(run);
         for lane in run.lanes() {
             let window = &numbers[..N];
-            for is_reversed in [false, true] {
-                let mut weights = None;
-                for (pixels, image) in pixels.iter_mut().zip(&self.mirrors.images) {
-                    let walk = image.view(usize::from(run.view)).walk(run.texel(lane));
-                    if walk.is_reversed == is_reversed {
-                        let weights = weights.get_or_insert_with(
-                            #[inline(always)]
-                            || SmallWindow::<S, H>::new::<W>(simd, window, is_reversed),
-                        );
-                        let first = if is_reversed { walk.first + 1 - W } else { walk.first };
-                        pixels[lane] = self.codec.codes(weights.average(samples, first, walk.down, bits));
+            for (is_reversed, way) in [false, true].into_iter().zip(&ways) {
+                if way.count == 0 {
+                    continue;
+                }
+                let weights = SmallWindow::<S, H>::new::<W>(simd, window, is_reversed);
+                for (image, corner) in &way.corners[..way.count] {
+                    let mut walk = run.walk(*corner, lane);
+                    if is_reversed {
+                        walk.first = walk.first.wrapping_sub(W as u32 - 1);
                     }
+                    pixels[*image][lane] = self.codec.codes(weights.average(samples, walk, bits));
                 }
             }
             numbers = &numbers[(W + 1) * H..];
         }
         pixels
+    }
+
+    /// How windows of a run are walked through in each mirror: those from left to right, and those from right to left.
+    #[inline(always)]
+    fn ways(&self, run: &Run) -> [Way; 2] {
+        let mut ways = [Way::default(), Way::default()];
+        for (index, image) in self.mirrors.images.iter().enumerate() {
+            let walk = image.view(usize::from(run.view)).walk(run.corner());
+            let way = &mut ways[usize::from(walk.is_reversed)];
+            way.corners[way.count] = (index, walk);
+            way.count += 1;
+        }
+        ways
     }
 
     /// The pixels of any run in each mirror.
@@ -191,13 +135,20 @@ impl FixedFilter<'_> {
         let mut pixels = [[[0; 3]; SIDE]; MOST_IMAGES];
         for lane in run.lanes() {
             for (pixels, image) in pixels.iter_mut().zip(&self.mirrors.images) {
-                let walk = image.view(usize::from(run.view)).walk(run.texel(lane));
+                let walk = run.walk(image.view(usize::from(run.view)).walk(run.corner()), lane);
                 pixels[lane] = self.codec.codes(window.average(simd, numbers, self.light.samples(), walk));
             }
             numbers = &numbers[window.numbers..];
         }
         pixels
     }
+}
+
+/// Mirrors that go through windows the same way: which, and how through one at the run's corner.
+#[derive(Default)]
+struct Way {
+    corners: [(usize, Walk); MOST_IMAGES],
+    count: usize,
 }
 
 /// What is known of a run.
@@ -235,12 +186,12 @@ impl<S: Simd, const H: usize> SmallWindow<S, H> {
     }
 
     #[inline(always)]
-    fn average(&self, samples: &[i16], first: usize, down: isize, bits: u32) -> [i16; 4] {
+    fn average(&self, samples: &[i16], walk: Walk, bits: u32) -> [i16; 4] {
         let mut sums = Sums::zero(self.simd);
-        let mut at = first;
+        let mut first = walk.first;
         for row in 0..H {
-            sums.add::<true>(&samples[4 * at..][..4 * GROUP], self.weights[row], self.under[row]);
-            at = at.wrapping_add_signed(down);
+            sums.add::<true>(group(samples, first), self.weights[row], self.under[row]);
+            first = first.wrapping_add_signed(walk.down);
         }
         sums.average(bits, true)
     }
@@ -277,12 +228,12 @@ impl Window {
         let (mut row_first, mut at) = (walk.first, 0);
         for row in 0..self.height {
             let mut end = row_first;
-            for group in 0..self.groups {
-                let count = if group + 1 == self.groups { self.rest } else { GROUP };
-                let first = if walk.is_reversed { end + 1 - count } else { end };
+            for index in 0..self.groups {
+                let count = if index + 1 == self.groups { self.rest } else { GROUP };
+                let first = if walk.is_reversed { end.wrapping_sub(count as u32 - 1) } else { end };
                 let spread = Spread::of(simd, walk.is_reversed, count);
                 let weights = spread.of_block(i16x8::from_slice(simd, &numbers[at + 1..][..GROUP])) & spread.counts;
-                let samples = &samples[4 * first..][..4 * GROUP];
+                let samples = group(samples, first);
                 if self.under.contains(&row) {
                     let under = i16x8::load_array_ref(simd, &MASKS[usize::from(numbers[at] as u8)]);
                     sums.add::<true>(samples, weights, spread.of_block(under));
@@ -290,7 +241,8 @@ impl Window {
                     sums.add::<false>(samples, weights, weights);
                 }
                 at += 1 + count;
-                end = if walk.is_reversed { end.wrapping_sub(GROUP) } else { end + GROUP };
+                let group = GROUP as u32;
+                end = if walk.is_reversed { end.wrapping_sub(group) } else { end.wrapping_add(group) };
             }
             row_first = row_first.wrapping_add_signed(walk.down);
         }
@@ -342,25 +294,11 @@ impl<S: Simd> Sums<S> {
     }
 }
 
-/// How the weights of a row's texels come to stand where those are.
-struct Spread<S: Simd> {
-    /// From where in the block that holds all of them.
-    order: u8x64<S>,
-    /// All bits where there is a texel, none beyond the last.
-    counts: i16x32<S>,
-}
-
-impl<S: Simd> Spread<S> {
-    #[inline(always)]
-    fn of(simd: S, is_reversed: bool, count: usize) -> Self {
-        let table = &SPREADS[usize::from(is_reversed)][count - 1];
-        Self { order: u8x64::load_array_ref(simd, &table.order), counts: i16x32::load_array_ref(simd, &table.counts) }
-    }
-
-    #[inline(always)]
-    fn of_block(&self, block: i16x8<S>) -> i16x32<S> {
-        self.counts.simd.swizzle_dyn_within_blocks_i16x32(i16x32::block_splat(block), self.order)
-    }
+/// A group of texels. The index has 32 bits, so that no sum can overflow and one comparison is enough.
+#[inline(always)]
+fn group(samples: &[i16], first: u32) -> &[i16] {
+    let first = 4 * first as usize;
+    &samples[first..first + 4 * GROUP]
 }
 
 /// The sum of all blocks.
@@ -380,66 +318,3 @@ fn largest<S: Simd>(simd: S, samples: i16x32<S>) -> i32x4<S> {
     let low = i32x4::splat(simd, i32::from(i16::MAX));
     (pairs & low).max(pairs >> 16)
 }
-
-/// From two texels in a block to pairs of one channel each.
-const PAIRS: [u8; 64] = {
-    let block = [0, 1, 8, 9, 2, 3, 10, 11, 4, 5, 12, 13, 6, 7, 14, 15];
-    let mut order = [0; 64];
-    let mut at = 0;
-    while at < 64 {
-        order[at] = block[at % 16];
-        at += 1;
-    }
-    order
-};
-
-/// A [`Spread`] in memory.
-struct SpreadTable {
-    order: [u8; 64],
-    counts: [i16; 32],
-}
-
-/// By whether texels run the other way, and by how many there are.
-static SPREADS: [[SpreadTable; GROUP]; 2] = {
-    let mut spreads = [const { [const { SpreadTable { order: [14; 64], counts: [0; 32] } }; GROUP] }; 2];
-    let mut way = 0;
-    while way < 2 {
-        let mut count = 1;
-        while count <= GROUP {
-            let mut sample = 0;
-            while sample < 32 {
-                // Blocks hold two texels, of which those of one channel stand beside each other.
-                let texel = sample / 8 * 2 + sample % 2;
-                // What lies beyond has no weight, and the bit of its place in a mask is zero.
-                let mut weight = GROUP - 1;
-                if texel < count {
-                    weight = if way == 1 { count - 1 - texel } else { texel };
-                    spreads[way][count - 1].counts[sample] = -1;
-                }
-                spreads[way][count - 1].order[2 * sample] = 2 * weight as u8;
-                spreads[way][count - 1].order[2 * sample + 1] = 2 * weight as u8 + 1;
-                sample += 1;
-            }
-            count += 1;
-        }
-        way += 1;
-    }
-    spreads
-};
-
-/// All bits of a texel that lies under the pixel, by the bits that tell which do.
-static MASKS: [[i16; GROUP]; 256] = {
-    let mut masks = [[0; GROUP]; 256];
-    let mut bits = 0;
-    while bits < 256 {
-        let mut texel = 0;
-        while texel < GROUP {
-            if bits >> texel & 1 == 1 {
-                masks[bits][texel] = -1;
-            }
-            texel += 1;
-        }
-        bits += 1;
-    }
-    masks
-};

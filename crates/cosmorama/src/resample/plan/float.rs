@@ -38,6 +38,10 @@ impl Weights for FloatWeights {
     fn bytes(&self) -> usize {
         self.0.capacity() * size_of::<[f32; SIDE]>()
     }
+
+    fn used_bytes(&self) -> usize {
+        self.0.len() * size_of::<[f32; SIDE]>()
+    }
 }
 
 /// Makes the pixels of a band.
@@ -53,7 +57,7 @@ impl FloatFilter<'_> {
         let level = self.level;
         dispatch!(level, simd => self.runs(simd, band, canvas));
         for single in &band.singles {
-            let taps = &band.taps[single.first as usize..][..single.taps as usize];
+            let taps = &band.taps[single.first..][..single.taps as usize];
             let colour = average(taps, single.bound, |texel| self.texels[texel as usize], self.anti_ringing);
             let image = &self.mirrors.images[usize::from(single.image)];
             *canvas.pixel(image, [single.column as usize, usize::from(single.row)]) = colour * single.coverage;
@@ -83,9 +87,9 @@ impl FloatFilter<'_> {
     ) {
         let texels = usize::from(run.width) * usize::from(run.height);
         let weights = &band.weights.0[run.weights as usize..][..texels];
-        let view = image.view(usize::from(run.view));
+        let corner = image.view(usize::from(run.view)).walk(run.corner());
         for lane in run.lanes() {
-            let walk = view.walk(run.texel(lane));
+            let walk = run.walk(corner, lane);
             *canvas.pixel(image, run.pixel(lane)) = if walk.is_reversed {
                 self.average::<S, true>(simd, run, weights, lane, walk)
             } else {
@@ -108,7 +112,8 @@ impl FloatFilter<'_> {
         let mut sum = f32x4::splat(simd, 0.0);
         let mut least = f32x4::splat(simd, f32::INFINITY);
         let mut greatest = f32x4::splat(simd, f32::NEG_INFINITY);
-        let mut first = if REVERSED { walk.first + 1 - width } else { walk.first };
+        let first = walk.first as usize;
+        let mut first = if REVERSED { first + 1 - width } else { first };
         for (row, weights) in weights.chunks_exact(width).enumerate() {
             let texels = &self.texels[first..][..width];
             let is_under = under.contains(&row);
@@ -124,7 +129,7 @@ impl FloatFilter<'_> {
                 }
             }
             sum += part;
-            first = first.wrapping_add_signed(walk.down);
+            first = first.wrapping_add_signed(walk.down as isize);
         }
         if self.anti_ringing {
             sum = sum.max(least).min(greatest);

@@ -2,8 +2,9 @@
 
 use glam::DMat3;
 
-use super::super::taps::Tap;
 use crate::projection::ProjectionKind;
+use crate::resample::taps::Tap;
+use crate::resample::{FilterKind, Resampler};
 use crate::sphere::Direction;
 use crate::world::{FieldStop, PixelPoint, PixelRect, Source, View, World};
 
@@ -50,13 +51,23 @@ pub(super) struct Reflection {
 }
 
 /// Where a window begins in the world's buffer, and the steps from texel to texel.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Walk {
-    pub(super) first: usize,
+    pub(super) first: u32,
     /// Whether columns run the other way.
     pub(super) is_reversed: bool,
     /// From one row to the next.
-    pub(super) down: isize,
+    pub(super) down: i32,
+}
+
+impl Walk {
+    /// The same of a window so many columns and rows further on.
+    #[inline(always)]
+    pub(super) fn moved(self, [columns, rows]: [u8; 2]) -> Self {
+        let columns = u32::from(columns);
+        let first = if self.is_reversed { self.first.wrapping_sub(columns) } else { self.first.wrapping_add(columns) };
+        Self { first: first.wrapping_add_signed(self.down.wrapping_mul(i32::from(rows))), ..self }
+    }
 }
 
 impl Reflection {
@@ -65,8 +76,9 @@ impl Reflection {
     pub(super) fn walk(&self, [column, row]: [usize; 2]) -> Walk {
         let [width, height] = self.size;
         let column = if self.flips[0] { width - 1 - column } else { column };
-        let (row, down) = if self.flips[1] { (height - 1 - row, -(width as isize)) } else { (row, width as isize) };
-        Walk { first: self.offset + row * width + column, is_reversed: self.flips[0], down }
+        let (row, down) = if self.flips[1] { (height - 1 - row, -(width as i32)) } else { (row, width as i32) };
+        // Texels of a world are counted in 32 bits.
+        Walk { first: (self.offset + row * width + column) as u32, is_reversed: self.flips[0], down }
     }
 }
 
@@ -81,20 +93,25 @@ impl MirrorImage {
         let texel = tap.texel as usize;
         let index = sources.partition_point(|source| source.offset <= texel) - 1;
         let (within, width) = (texel - sources[index].offset, sources[index].view.width());
-        Tap { texel: self.views[index].walk([within % width, within / width]).first as u32, ..tap }
+        Tap { texel: self.views[index].walk([within % width, within / width]).first, ..tap }
     }
 }
 
 impl Mirrors {
     /// Those in which a conversion is the same.
-    pub(super) fn of(world: &World, target: &View) -> Self {
+    pub(super) fn of(Resampler { world, target, filter }: &Resampler) -> Self {
         let (width, height) = (target.width(), target.height());
         let reflect = |flips: [bool; 2]| {
             let is_even = (!flips[0] || width % 2 == 0) && (!flips[1] || height % 2 == 0);
-            is_even.then(|| MirrorImage::of(world, target, flips)).flatten()
+            // Of two texels that are as near, a point takes the one to the right, in a mirror too.
+            (is_even && filter.kind != FilterKind::Point).then(|| MirrorImage::of(world, target, flips)).flatten()
         };
-        let (across, down) = (reflect([true, false]), reflect([false, true]));
+        let (across, mut down) = (reflect([true, false]), reflect([false, true]));
         let both = if across.is_some() && down.is_some() { reflect([true, true]) } else { None };
+        if across.is_some() && both.is_none() {
+            // Near enough each, not together: a quarter would be in no mirror.
+            down = None;
+        }
         let columns = if across.is_some() { width / 2 } else { width };
         let rows = if down.is_some() { height / 2 } else { height };
         let images = std::iter::once(MirrorImage::itself(world));

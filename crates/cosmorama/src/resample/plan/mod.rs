@@ -3,8 +3,10 @@
 mod band;
 mod canvas;
 mod fixed;
+mod fixed_weights;
 mod float;
 mod mirrors;
+mod spread;
 #[cfg(test)]
 mod tests;
 mod weights;
@@ -15,7 +17,8 @@ use rayon::prelude::*;
 
 use band::{Band, Recorder};
 use canvas::Canvas;
-use fixed::{FixedFilter, FixedWeights};
+use fixed::FixedFilter;
+use fixed_weights::FixedWeights;
 use float::{FloatFilter, FloatWeights};
 use mirrors::Mirrors;
 use weights::Weights;
@@ -68,7 +71,7 @@ impl Plan {
         self.0.bytes()
     }
 
-    /// About how many that of a conversion would hold: found from every sixteenth band of rows, keeping nothing.
+    /// About how many that of a conversion would hold: found from some bands of rows, keeping nothing.
     pub(super) fn bytes_estimate(resampler: &Resampler) -> usize {
         bytes_estimate::<FloatWeights>(resampler)
     }
@@ -93,7 +96,7 @@ impl FixedPlan {
         self.0.bytes()
     }
 
-    /// About how many that of a conversion would hold: found from every sixteenth band of rows, keeping nothing.
+    /// About how many that of a conversion would hold: found from some bands of rows, keeping nothing.
     pub(super) fn bytes_estimate(resampler: &Resampler) -> usize {
         bytes_estimate::<FixedWeights>(resampler)
     }
@@ -101,7 +104,7 @@ impl FixedPlan {
 
 /// A frame without a plan that is kept: each band's geometry is forgotten when its pixels are made.
 pub(super) fn render(resampler: &Resampler, texels: &[Rgba], level: Level) -> Image<Rgba> {
-    let mirrors = &Mirrors::of(resampler.world, resampler.target);
+    let mirrors = &Mirrors::of(resampler);
     let (width, height) = (resampler.target.width(), resampler.target.height());
     let mut image = Image::filled(width, height, Rgba::TRANSPARENT);
     let filter = FloatFilter { level, mirrors, texels, anti_ringing: resampler.filter.anti_ringing };
@@ -111,7 +114,7 @@ pub(super) fn render(resampler: &Resampler, texels: &[Rgba], level: Level) -> Im
 
 /// The same in 15 bits.
 pub(super) fn render_fixed(resampler: &Resampler, light: &FixedLight, codec: &FixedCodec) -> Image<[u8; 3]> {
-    let mirrors = &Mirrors::of(resampler.world, resampler.target);
+    let mirrors = &Mirrors::of(resampler);
     let (width, height) = (resampler.target.width(), resampler.target.height());
     let mut image = Image::filled(width, height, codec.background());
     let level = Level::new();
@@ -120,20 +123,22 @@ pub(super) fn render_fixed(resampler: &Resampler, light: &FixedLight, codec: &Fi
     image
 }
 
-/// Bytes that the plan of a conversion would hold, found from every sixteenth of its bands.
+/// Bytes that the plan of a conversion would hold, found from every fourth of its bands, keeping none of them.
 fn bytes_estimate<W: Weights>(resampler: &Resampler) -> usize {
-    const STRIDE: usize = 16;
-    let mirrors = &Mirrors::of(resampler.world, resampler.target);
+    const STRIDE: usize = 4;
+    let mirrors = &Mirrors::of(resampler);
     let table = KernelTable::new(&resampler.filter.kernel);
     let bands = mirrors.rows.div_ceil(BAND);
     // From the middle of the first stride, so that a low image is not judged by its first rows.
     let first = STRIDE.min(bands) / 2;
     let sampled: Vec<usize> = (first..bands).step_by(STRIDE).collect();
     let bytes = |&band: &usize| {
-        let mut kept = Band::<W>::default();
-        record(resampler, mirrors, &table, mirrors.band(band), Level::new(), &mut kept);
-        kept.shrink();
-        kept.bytes()
+        let (mut kept, mut bytes) = (Band::<W>::default(), 0);
+        record(resampler, mirrors, &table, mirrors.band(band), Level::new(), &mut kept, |band| {
+            bytes += band.used_bytes();
+            band.clear();
+        });
+        bytes + kept.used_bytes()
     };
     let bytes: usize = sampled.par_iter().map(bytes).sum();
     bytes * bands / sampled.len().max(1)
@@ -141,12 +146,12 @@ fn bytes_estimate<W: Weights>(resampler: &Resampler) -> usize {
 
 impl<W: Weights> Compiled<W> {
     fn new(resampler: &Resampler) -> Self {
-        let Resampler { world, target, filter } = resampler;
-        let mirrors = Mirrors::of(world, target);
+        let Resampler { target, filter, .. } = resampler;
+        let mirrors = Mirrors::of(resampler);
         let table = KernelTable::new(&filter.kernel);
         let compile = |index| {
             let mut band = Band::default();
-            record(resampler, &mirrors, &table, mirrors.band(index), Level::new(), &mut band);
+            record(resampler, &mirrors, &table, mirrors.band(index), Level::new(), &mut band, |_| {});
             band.shrink();
             band
         };
@@ -177,11 +182,15 @@ fn each_band<W: Weights, P: Send>(
     let canvases = Canvas::bands(pixels, resampler.target.width(), BAND, mirrors);
     canvases.enumerate().for_each_init(Band::default, |band, (index, mut canvas)| {
         band.clear();
-        record(resampler, mirrors, table, mirrors.band(index), level, band);
+        record(resampler, mirrors, table, mirrors.band(index), level, band, |band| {
+            make(band, &mut canvas);
+            band.clear();
+        });
         make(band, &mut canvas);
     });
 }
 
+/// Records some rows; `spill` may take from the band what it holds, when that is much.
 fn record<W: Weights>(
     resampler: &Resampler,
     mirrors: &Mirrors,
@@ -189,8 +198,9 @@ fn record<W: Weights>(
     rows: Range<usize>,
     level: Level,
     band: &mut Band<W>,
+    spill: impl FnMut(&mut Band<W>),
 ) {
-    let mut recorder = Recorder { world: resampler.world, mirrors, band, taps: Taps::default() };
+    let mut recorder = Recorder { world: resampler.world, mirrors, band, taps: Taps::default(), spill };
     Scan::new(resampler, table, level).pixels(mirrors.columns, rows, &mut recorder);
 }
 

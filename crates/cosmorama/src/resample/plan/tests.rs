@@ -2,9 +2,9 @@ use super::mirrors::{MirrorImage, Mirrors};
 use super::*;
 use crate::projection::{PlanePoint, PlaneRect, ProjectionKind};
 use crate::raster::Transfer;
-use crate::resample::{Filter, window};
+use crate::resample::{Filter, FilterKind, window};
 use crate::sphere::{Angle, CubeFace, Orientation};
-use crate::world::{FieldStop, PixelGrid, View, World};
+use crate::world::{Blend, FieldStop, PixelGrid, View, World, WorldView};
 
 fn view(projection: ProjectionKind, size: (usize, usize), half: (f64, f64), orientation: Orientation) -> View {
     let rect = PlaneRect { min: PlanePoint::new(-half.0, -half.1), max: PlanePoint::new(half.0, half.1) };
@@ -78,18 +78,83 @@ fn resampler<'a>(world: &'a World, target: &'a View) -> Resampler<'a> {
 #[test]
 fn mirrors_are_found_where_there_are_some() {
     for (world, target, images) in conversions() {
-        let found = Mirrors::of(&world, &target);
+        let found = Mirrors::of(&resampler(&world, &target));
         assert_eq!(found.images.len(), images, "{:?} of {:?}", target.projection, target.orientation);
         assert_eq!(found.columns * found.rows * images, target.width() * target.height());
     }
-    // Faces of other sizes, or one that is missing, or turned: no mirror.
+    // A middle of the world that is nobody's mirror image: the front and the left face alone are left out.
     let up = turned(0.0, 90.0, 0.0);
+    let count = |world: &World, target: &View| Mirrors::of(&resampler(world, target)).images.len();
     let mut faces: Vec<_> = CubeFace::ALL.into_iter().filter(|face| *face != CubeFace::Left).collect();
-    assert_eq!(Mirrors::of(&cube(&faces, 64), &dome(64, up)).images.len(), 2);
+    assert_eq!(count(&cube(&faces, 64), &dome(64, up)), 2);
     faces.retain(|face| *face != CubeFace::Back);
-    assert_eq!(Mirrors::of(&cube(&faces, 64), &dome(64, up)).images.len(), 1);
+    assert_eq!(count(&cube(&faces, 64), &dome(64, up)), 1);
     let off_centre = View { grid: dome(64, up).grid.window(64, 64, 0.25, 0.0), ..dome(64, up) };
-    assert_eq!(Mirrors::of(&cube(&CubeFace::ALL, 64), &off_centre).images.len(), 2);
+    assert_eq!(count(&cube(&CubeFace::ALL, 64), &off_centre), 2);
+    let (world, target) = (cube(&CubeFace::ALL, 64), dome(64, up));
+    let filter = Filter { kind: FilterKind::Point, ..Filter::DEFAULT };
+    let point = Resampler { filter, ..resampler(&world, &target) };
+    assert_eq!(Mirrors::of(&point).images.len(), 1);
+}
+
+#[test]
+fn nothing_is_mirrored_that_is_not_alike() {
+    let up = turned(0.0, 90.0, 0.0);
+    let whole = |face: CubeFace| view(ProjectionKind::PERSPECTIVE, (64, 64), (1.0, 1.0), face.orientation());
+    let alter = |change: &dyn Fn(CubeFace, &mut WorldView)| {
+        let part = |face: CubeFace| {
+            let mut part =
+                WorldView { name: face.name().to_owned(), view: whole(face), blend: Blend::default(), mask: None };
+            change(face, &mut part);
+            part
+        };
+        let world = World::blended(CubeFace::ALL.map(part)).expect("six faces");
+        Mirrors::of(&resampler(&world, &dome(64, up))).images.len()
+    };
+    assert_eq!(alter(&|_, _| ()), 4);
+    // One face of another size, one cut, one turned by a hair, one that looks through a stop, one that reaches into others.
+    let size = |face: CubeFace, part: &mut WorldView| {
+        if face == CubeFace::Right {
+            part.view = view(ProjectionKind::PERSPECTIVE, (66, 66), (1.0, 1.0), face.orientation());
+        }
+    };
+    let cut = |face: CubeFace, part: &mut WorldView| {
+        if face == CubeFace::Right {
+            part.view.grid = part.view.grid.window(60, 64, 4.0, 0.0);
+        }
+    };
+    let turn = |face: CubeFace, part: &mut WorldView| {
+        if face == CubeFace::Right {
+            part.view.orientation = turned(90.001, 0.0, 0.0);
+        }
+    };
+    let stop = |face: CubeFace, part: &mut WorldView| {
+        if face == CubeFace::Right {
+            part.view.stop = FieldStop::circle(1.2);
+        }
+    };
+    let wide = |face: CubeFace, part: &mut WorldView| {
+        if face == CubeFace::Right {
+            part.view = view(ProjectionKind::PERSPECTIVE, (64, 64), (1.1, 1.1), face.orientation());
+        }
+    };
+    for change in [&size as &dyn Fn(CubeFace, &mut WorldView), &cut, &turn, &stop, &wide] {
+        assert!(alter(change) <= 2, "left and right are no mirror images");
+    }
+}
+
+#[test]
+fn pictures_of_any_size_are_made() {
+    let world = cube(&CubeFace::ALL, 40);
+    for (width, height) in [(0, 0), (0, 5), (1, 1), (1, 7), (7, 1), (2, 2), (6, 34), (10, 3), (18, 66)] {
+        let target = view(ProjectionKind::PERSPECTIVE, (width, height), (1.0, 1.0), Orientation::IDENTITY);
+        let (light, resampler) = (light(&world), resampler(&world, &target));
+        let codec = FixedCodec::new(&Transfer::Srgb, Rgba::opaque(1.0, 0.0, 1.0)).expect("sRGB has 8 bits");
+        let (image, codes) = (resampler.render(&floats(&light)), resampler.render_fixed(&light, &codec));
+        assert_eq!((image.pixels().len(), codes.pixels().len()), (width * height, width * height));
+        assert!(image.pixels().iter().all(|pixel| pixel.alpha() > 0.999), "{width}x{height}");
+        assert!(codes.pixels().iter().all(|codes| *codes != [255, 0, 255]), "{width}x{height}");
+    }
 }
 
 #[test]
@@ -127,7 +192,7 @@ fn a_plan_makes_the_pixels_that_are_made_without() {
 fn all_levels_of_instructions_make_the_same_pixels() {
     for (world, target, _) in conversions().into_iter().take(4) {
         let (light, resampler) = (light(&world), resampler(&world, &target));
-        let (texels, mirrors) = (floats(&light), Mirrors::of(&world, &target));
+        let (texels, mirrors) = (floats(&light), Mirrors::of(&resampler));
         let codec = FixedCodec::new(&Transfer::Srgb, Rgba::BLACK).expect("sRGB has 8 bits");
         let plan = resampler.fixed_plan().expect("a plan");
         let made = |level| {

@@ -15,5 +15,7 @@ pub(in crate::resample) trait Weights: Clone + Debug + Default + Send + Sync {
 
     fn shrink(&mut self);
 
+    /// Bytes that they take, and of those that are held.
     fn bytes(&self) -> usize;
+    fn used_bytes(&self) -> usize;
 }
