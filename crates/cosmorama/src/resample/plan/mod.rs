@@ -123,25 +123,25 @@ pub(super) fn render_fixed(resampler: &Resampler, light: &FixedLight, codec: &Fi
     image
 }
 
-/// Bytes that the plan of a conversion would hold, found from every fourth of its bands, keeping none of them.
+/// Bytes that the plan of a conversion would hold, found from a row of patches in each band, keeping none of them.
 fn bytes_estimate<W: Weights>(resampler: &Resampler) -> usize {
-    const STRIDE: usize = 4;
     let mirrors = &Mirrors::of(resampler);
     let table = KernelTable::new(&resampler.filter.kernel);
-    let bands = mirrors.rows.div_ceil(BAND);
-    // From the middle of the first stride, so that a low image is not judged by its first rows.
-    let first = STRIDE.min(bands) / 2;
-    let sampled: Vec<usize> = (first..bands).step_by(STRIDE).collect();
-    let bytes = |&band: &usize| {
-        let (mut kept, mut bytes) = (Band::<W>::default(), 0);
-        record(resampler, mirrors, &table, mirrors.band(band), Level::new(), &mut kept, |band| {
+    let bytes = |index: usize| {
+        let band = mirrors.band(index);
+        // Not the same in all bands: what lies at the edge of a picture would count too often.
+        let top = band.start + index % (BAND / SIDE) * SIDE;
+        let rows = if top < band.end { top..band.end.min(top + SIDE) } else { band };
+        let (mut kept, mut bytes, count) = (Band::<W>::default(), 0, rows.len());
+        record(resampler, mirrors, &table, rows, Level::new(), &mut kept, |band| {
             bytes += band.used_bytes();
             band.clear();
         });
-        bytes + kept.used_bytes()
+        (bytes + kept.used_bytes(), count)
     };
-    let bytes: usize = sampled.par_iter().map(bytes).sum();
-    bytes * bands / sampled.len().max(1)
+    let sampled = (0..mirrors.rows.div_ceil(BAND)).into_par_iter().map(bytes);
+    let (bytes, rows) = sampled.reduce(|| (0, 0), |a, b| (a.0 + b.0, a.1 + b.1));
+    bytes * mirrors.rows / rows.max(1)
 }
 
 impl<W: Weights> Compiled<W> {
