@@ -67,6 +67,14 @@ fn at_most_so_much_is_read_and_exactly_so_much_is_seen() {
                 let holds = |read| most.read.is_some_and(|most| most.contains(&read));
                 assert!(exact.read.is_none_or(holds), "{exact:?} is not in {most:?}");
             }
+            // Of views that are asked for, exactly so much.
+            let asked: Vec<bool> = (0..exact.views.len()).map(|view| view % 2 == 0).collect();
+            let settled = most.clone().settled(&world, &[target], &Filter::DEFAULT, &asked);
+            assert_eq!(exact.uncovered, settled.uncovered);
+            for ((exact, settled), _) in exact.views.iter().zip(&settled.views).zip(&asked).filter(|(_, asked)| **asked)
+            {
+                assert_eq!(exact, settled, "{target:?}");
+            }
         }
     }
 }

@@ -72,7 +72,12 @@ fn find_gaps(
     }
     let geometry: Vec<View> = targets.iter().map(|target| target.view).collect();
     let uncovered = |needs: &Needs| needs.uncovered.map(|gap| format!("{}: {gap}", targets[gap.target].name));
-    let needs = Needs::at_most(nominal, &geometry, filter);
+    let mut needs = Needs::at_most(nominal, &geometry, filter);
+    // A view that shows no pixel's direction may still be read around them; if not, its file is not wanted.
+    let unsure: Vec<bool> = needs.views.iter().map(|need| need.seen.is_none() && need.read.is_some()).collect();
+    if unsure.contains(&true) {
+        needs = needs.settled(nominal, &geometry, filter, &unsure);
+    }
     if needs.views.iter().any(|need| need.seen.is_some()) && views.iter().zip(&needs.views).all(holds) {
         views.iter_mut().zip(&needs.views).for_each(|(view, need)| view.wanted = need.read.is_some());
         return Ok(uncovered(&needs).into_iter().collect());
@@ -92,10 +97,10 @@ fn find_gaps(
     Ok(gaps)
 }
 
-/// Whether all that may be needed of a view is there, and it surely is needed if it may be.
+/// Whether all that may be needed of a view is there.
 fn holds((view, need): (&InputView, &Need)) -> bool {
     let held = view.window.as_ref().map(|(held, canvas)| rect(canvas, held));
-    need.read.is_none_or(|read| need.seen.is_some() && held.is_some_and(|held| held.contains(&read)))
+    need.read.is_none_or(|read| held.is_some_and(|held| held.contains(&read)))
 }
 
 /// The world of what files hold: often that of the whole pictures.

@@ -76,8 +76,22 @@ impl Needs {
         Self::surveyed(world, targets, filter, Reads::AtMost)
     }
 
+    /// The same, made exact for views of which it is not yet known whether anything is read: `asked` says which.
+    #[must_use]
+    pub fn settled(mut self, world: &World, targets: &[View], filter: &Filter, asked: &[bool]) -> Self {
+        let undecided = self.views.iter_mut().zip(asked).filter(|(_, asked)| **asked);
+        undecided.for_each(|(need, _)| need.read = None);
+        let uncovered = self.uncovered;
+        let needs = Self::surveyed_from(self, world, targets, filter, Reads::Of(asked));
+        Self { uncovered, ..needs }
+    }
+
     fn surveyed(world: &World, targets: &[View], filter: &Filter, reads: Reads) -> Self {
-        let mut needs = Self::nothing(world);
+        Self::surveyed_from(Self::nothing(world), world, targets, filter, reads)
+    }
+
+    fn surveyed_from(known: Self, world: &World, targets: &[View], filter: &Filter, reads: Reads) -> Self {
+        let mut needs = known;
         for (index, target) in targets.iter().enumerate() {
             let survey = Survey { world, target, index, filter, reads };
             // The extremes lie where the frame, the lens or a view ends, in this order of likelihood: with those known,
@@ -137,16 +151,18 @@ struct Survey<'a> {
     target: &'a View,
     index: usize,
     filter: &'a Filter,
-    reads: Reads,
+    reads: Reads<'a>,
 }
 
 /// How well it is found what a filter reads.
 #[derive(Clone, Copy)]
-enum Reads {
+enum Reads<'a> {
     /// By the taps of each pixel.
     Exactly,
     /// By what kernels around a block of pixels can reach.
     AtMost,
+    /// By the taps of each pixel, for these views alone; all else is known.
+    Of(&'a [bool]),
 }
 
 /// A block and what is known of it as a whole.
@@ -193,22 +209,26 @@ impl Survey<'_> {
     /// Adds what the pixels of a block need, unless they surely need nothing new.
     fn add_block(&self, judged: &Judged, pixels: &mut PixelTaps, needs: &mut Needs) {
         let reads_nothing_new = judged.cap.is_some_and(|cap| match self.reads {
-            Reads::Exactly => self.reads_within(&cap, needs),
+            Reads::Exactly => self.reads_within(&cap, needs, |_| true),
+            Reads::Of(asked) => self.reads_within(&cap, needs, |view| asked[view]),
             Reads::AtMost => {
                 self.add_reach(&cap, needs);
                 true
             }
         });
-        let sees_nothing_new = judged
-            .cap
-            .zip(judged.owner)
-            .is_some_and(|(cap, owner)| within(cap.seen_texels(&self.world.sources()[owner]), needs.views[owner].seen));
+        let is_seen_known = matches!(self.reads, Reads::Of(_));
+        let sees_nothing_new = is_seen_known
+            || judged.cap.zip(judged.owner).is_some_and(|(cap, owner)| {
+                within(cap.seen_texels(&self.world.sources()[owner]), needs.views[owner].seen)
+            });
         if reads_nothing_new && sees_nothing_new {
             return;
         }
         for (i, j) in judged.block.pixels() {
             let Some(screen) = self.target.screen_pixel(i, j) else { continue };
-            self.add_pixel((i, j), screen.footprint.direction, needs);
+            if !is_seen_known {
+                self.add_pixel((i, j), screen.footprint.direction, needs);
+            }
             if !reads_nothing_new {
                 pixels.for_each_texel((i, j), &screen, |texel| add_read(self.world, texel, &mut needs.views));
             }
@@ -216,11 +236,11 @@ impl Survey<'_> {
     }
 
     /// Whether kernels around a block's pixels touch only texels that are needed anyway.
-    fn reads_within(&self, cap: &Cap, needs: &Needs) -> bool {
+    fn reads_within(&self, cap: &Cap, needs: &Needs, is_asked: impl Fn(usize) -> bool) -> bool {
         let (sources, kernel) = (self.world.sources(), &self.filter.kernel);
         let coarsest = cap.coarsest_pitch(sources);
-        let mut views = sources.iter().zip(&needs.views);
-        views.all(|(source, need)| within(cap.read_texels(source, coarsest, kernel), need.read))
+        let mut views = sources.iter().zip(&needs.views).enumerate().filter(|(view, _)| is_asked(*view));
+        views.all(|(_, (source, need))| within(cap.read_texels(source, coarsest, kernel), need.read))
     }
 
     /// Adds all that kernels around a block's pixels can touch.
