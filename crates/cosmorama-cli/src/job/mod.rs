@@ -112,8 +112,12 @@ impl ConvertJob {
 
     /// The conversion to one of the target's views.
     pub(crate) fn resampler<'a>(&'a self, target: &'a TargetView) -> Resampler<'a> {
-        let world = &self.worlds[target.world(self.worlds.len())];
-        Resampler { world, target: &target.view, filter: self.filter }
+        Resampler { world: self.world(target), target: &target.view, filter: self.filter }
+    }
+
+    /// What a target shows.
+    pub(crate) fn world(&self, target: &TargetView) -> &World {
+        &self.worlds[target.world(self.worlds.len())]
     }
 
     /// What pixels without light get; `None` where they are an error.

@@ -3,15 +3,15 @@ use std::sync::OnceLock;
 
 use anyhow::{Result, bail};
 use cosmorama::raster::{Decoder, EncodedImage, Image, Rgba};
-use cosmorama::resample::{Resampler, ScreenMask};
-use cosmorama::world::{Source, World};
+use cosmorama::resample::ScreenMask;
+use cosmorama::world::Source;
 use cosmorama_io::{WriteOptions, write_levels};
 use rayon::prelude::*;
 
 use super::frame_light::{FrameLight, Texels};
 use super::geometry::Geometry;
 use super::stages::{Stage, Stages};
-use crate::job::{ConvertJob, Coverage, FacePixels, InputView, Light, Sheet, TargetView};
+use crate::job::{ConvertJob, Coverage, FacePixels, InputView, Light, Sheet};
 
 /// Makes the outputs of a job, frame by frame.
 pub(super) struct Engine<'a> {
@@ -43,15 +43,6 @@ impl<'a> Engine<'a> {
     /// Reads the light of a frame.
     pub(super) fn load(&self, frame: Option<u64>, light: &mut FrameLight) -> Result<()> {
         light.load(self.job, &self.decoder, frame)
-    }
-
-    fn resampler<'b>(&'b self, target: &'b TargetView) -> Resampler<'b> {
-        self.job.resampler(target)
-    }
-
-    /// What a target shows.
-    fn world(&self, target: &TargetView) -> &World {
-        &self.job.worlds[target.world(self.job.worlds.len())]
     }
 
     /// Where faces are clearly not as they are said to be, as their borders in this frame show.
@@ -93,7 +84,8 @@ impl<'a> Engine<'a> {
                 let mut view = |index: usize| {
                     let target = &self.job.target.views[index];
                     let light = &worlds[target.world(worlds.len())];
-                    Ok(stages.time(Stage::Filter, || self.geometry.codes(index, self.resampler(target), light, codec)))
+                    Ok(stages
+                        .time(Stage::Filter, || self.geometry.codes(index, self.job.resampler(target), light, codec)))
                 };
                 levels.map(|sheet| Ok(Picture::Codes(assemble(sheet, codec.background(), &mut view)?))).collect()
             }
@@ -110,7 +102,7 @@ impl<'a> Engine<'a> {
         let Texels::Float(worlds) = light.texels() else { bail!("light of 8 bits where floats were expected") };
         let texels = &worlds[target.world(worlds.len())];
         stages.time(Stage::Filter, || {
-            let mut image = self.geometry.light(index, self.resampler(target), texels);
+            let mut image = self.geometry.light(index, self.job.resampler(target), texels);
             self.complete(index, light, &mut image)?;
             Ok(image)
         })
@@ -127,7 +119,7 @@ impl<'a> Engine<'a> {
 
     fn mask(&self, index: usize) -> &ScreenMask {
         let target = &self.job.target.views[index];
-        self.masks[index].get_or_init(|| ScreenMask::new(self.world(target), &target.view))
+        self.masks[index].get_or_init(|| ScreenMask::new(self.job.world(target), &target.view))
     }
 
     /// Missing texels of opaque inputs leave the pixel to the others; a pixel that has none left is like one that no
