@@ -1,4 +1,5 @@
 //! Worlds with closed-form answers, comparators and oracles for cosmorama's own tests.
+#![forbid(unsafe_code)]
 
 mod common_field;
 mod forms;

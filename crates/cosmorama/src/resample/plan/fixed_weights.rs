@@ -1,103 +1,305 @@
-use super::band::Run;
-use super::spread::GROUP;
+use std::ops::Range;
+
+use fearless_simd::dispatch;
+
+use super::band::Corners;
 use super::weights::Weights;
 use crate::resample::patch::SIDE;
 use crate::resample::window::Windows;
 
-/// The weights of windows as integers, pixel by pixel and row by row. Before each group of a row's weights stands which of its
-/// texels lie under the pixel, a bit for each; before those of a run, by how many bits they are scaled.
+/// The weights of windows as integers, pixel by pixel, row by row, two beside each other in each number.
+///
+/// Before those of a pixel stands a [`Header`]; then, if its window is not of one of the [`Shape::SMALL`] sizes, which texels lie under
+/// the pixel, [`marks`] numbers for each row that has some.
 #[derive(Clone, Debug, Default)]
 pub(in crate::resample) struct FixedWeights {
-    /// As many zeros follow as a group has: it is read as a whole.
-    pub(super) numbers: Vec<i16>,
-    /// Without those.
-    length: usize,
-    /// Weights of a run before they are sorted by pixel.
-    rounded: Vec<[i16; SIDE]>,
+    pub(super) numbers: Vec<u32>,
+    rounded: Rounded,
+}
+
+/// The size of a pixel's window: how many pairs of texels across, and how many rows.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Shape {
+    pub(super) pairs: usize,
+    pub(super) height: usize,
+    /// The first of the [`ROWS_UNDER`] rows outside which no texel of a small window lies under the pixel.
+    pub(super) under: usize,
+}
+
+/// Rows of a small window that may hold texels under the pixel.
+pub(super) const ROWS_UNDER: usize = 3;
+
+impl Shape {
+    /// Where a kernel is as small as may be.
+    pub(super) const SMALL: [Self; 6] = [
+        Self::new(2, 4, 0),
+        Self::new(2, 4, 1),
+        Self::new(2, 5, 1),
+        Self::new(3, 4, 0),
+        Self::new(3, 4, 1),
+        Self::new(3, 5, 1),
+    ];
+
+    const fn new(pairs: usize, height: usize, under: usize) -> Self {
+        Self { pairs, height, under }
+    }
+}
+
+/// What is known of a pixel's window.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Header(pub(super) u32);
+
+impl Header {
+    /// In place of an index of [`Shape::SMALL`]: as large as the run's windows are.
+    const LARGE: u32 = 7;
+
+    fn new(small: Option<usize>, bits: u32, marks: u32) -> Self {
+        Self(small.map_or(Self::LARGE, |index| index as u32) | bits << 3 | marks << 8)
+    }
+
+    /// The index of its shape among the small ones; more, if it is none.
+    #[inline(always)]
+    pub(super) fn shape(self) -> u32 {
+        self.0 & 7
+    }
+
+    /// By how many bits the weights are scaled.
+    #[inline(always)]
+    pub(super) fn bits(self) -> u32 {
+        self.0 >> 3 & 31
+    }
+
+    /// Which texels of a small window lie under the pixel: a bit for each of those rows' texels.
+    #[inline(always)]
+    pub(super) fn marks(self) -> u32 {
+        self.0 >> 8
+    }
+}
+
+/// How many numbers tell of a row of so many pairs which texels lie under the pixel.
+#[inline(always)]
+pub(super) fn marks(pairs: usize) -> usize {
+    pairs.div_ceil(16)
+}
+
+/// The windows of a run before they are sorted by pixel. Bits of bytes are lanes.
+#[derive(Clone, Debug, Default)]
+struct Rounded {
+    width: usize,
+    height: usize,
+    /// By how many bits weights are scaled.
+    bits: u32,
+    /// Row by row, by lane. On both sides of each row stands a zero.
+    weights: Vec<[i16; SIDE]>,
+    /// In which lanes a texel lies under the pixel; the same zeros beside.
+    under: Vec<u8>,
+    /// Which have a weight in a column, and in a row, and which a texel under the pixel in a row.
+    columns: Vec<u8>,
+    rows: Vec<u8>,
+    rows_under: Vec<u8>,
 }
 
 /// A number so large that what is added to it is rounded to an integer, which its last bits then hold.
 const ROUNDER: f32 = 12_582_912.0;
 
-impl FixedWeights {
-    /// Rounds the weights of all lanes; by how many bits they are scaled, `None` if they are too large. What rounding takes from
-    /// one texel the next one has: each lane's sum is exactly one.
-    fn round(&mut self, windows: &Windows) -> Option<u32> {
-        let (mut largest, mut size) = ([0f32; SIDE], [0f32; SIDE]);
-        for (weights, _) in windows.texels() {
-            for lane in 0..SIDE {
-                largest[lane] = largest[lane].max(weights[lane].abs());
-                size[lane] += weights[lane].abs();
-            }
-        }
-        let [largest, size] = [largest, size].map(|lanes| lanes.into_iter().fold(0f32, f32::max));
-        // Sums must fit into 32 bits.
-        let bits = if largest < 1.0 && size < 1.9 {
-            15
-        } else if largest < 1.99 && size < 3.9 {
-            14
-        } else {
-            return None;
-        };
+/// Where a lane's window begins among those of a run, one to the left of them at the least.
+#[derive(Clone, Copy, Debug)]
+struct Place {
+    column: isize,
+    row: usize,
+}
+
+impl Rounded {
+    /// Rounds the weights of all lanes; false if they are too large. What rounding takes from one texel the next one has: each
+    /// lane's sum is exactly one.
+    #[inline(always)]
+    fn fill(&mut self, windows: &Windows) -> bool {
+        let Some(bits) = scale(windows) else { return false };
+        (self.width, self.height, self.bits) = (windows.width(), windows.height(), bits);
+        let (pitch, height) = (self.pitch(), self.height);
+        refill(&mut self.columns, self.width, 0);
+        refill(&mut self.rows, height, 0);
+        refill(&mut self.rows_under, height, 0);
+        refill(&mut self.under, pitch * height, 0);
+        refill(&mut self.weights, pitch * height, [0; SIDE]);
         let scale = (1 << bits) as f32;
         let (mut sums, mut before) = ([0f32; SIDE], [ROUNDER.to_bits(); SIDE]);
-        self.rounded.clear();
-        for (weights, _) in windows.texels() {
-            let mut rounded = [0; SIDE];
-            for lane in 0..SIDE {
-                sums[lane] += weights[lane] * scale;
-                let sum = (sums[lane] + ROUNDER).to_bits();
-                let step = (sum.wrapping_sub(before[lane]) as i32).min(i32::from(i16::MAX));
-                rounded[lane] = step as i16;
-                before[lane] = before[lane].wrapping_add_signed(step);
+        let mut texels = windows.texels();
+        for row in 0..height {
+            let into = self.weights[row * pitch + 1..][..self.width].iter_mut();
+            let under = self.under[row * pitch + 1..][..self.width].iter_mut();
+            for ((into, under), column) in into.zip(under).zip(&mut self.columns) {
+                let Some((weights, beyond)) = texels.next() else { break };
+                for lane in 0..SIDE {
+                    sums[lane] += weights[lane] * scale;
+                    let sum = (sums[lane] + ROUNDER).to_bits();
+                    let step = (sum.wrapping_sub(before[lane]) as i32).min(i32::from(i16::MAX));
+                    into[lane] = step as i16;
+                    before[lane] = before[lane].wrapping_add_signed(step);
+                }
+                *under = lanes(&beyond.map(|beyond| beyond == 0.0));
+                let counts = lanes(&into.map(|weight| weight != 0)) | *under;
+                *column |= counts;
+                self.rows[row] |= counts;
+                self.rows_under[row] |= *under;
             }
-            self.rounded.push(rounded);
         }
-        Some(bits)
+        true
+    }
+
+    /// Numbers from one row to the next.
+    fn pitch(&self) -> usize {
+        self.width + 2
+    }
+
+    /// The smallest of the small shapes that holds a lane's window, by its index, and where it begins.
+    #[inline(always)]
+    fn small(&self, lane: usize) -> Option<(usize, Place)> {
+        let (columns, rows, under) = (span(&self.columns, lane), span(&self.rows, lane), span(&self.rows_under, lane));
+        for (index, shape) in Shape::SMALL.iter().enumerate() {
+            let (width, height) = (2 * shape.pairs, shape.height);
+            let is_inside = columns.len() <= width && rows.len() <= height;
+            let has_room = width <= self.width + 1 && height <= self.height;
+            let column = columns.start.min(self.width.saturating_sub(width));
+            let row = rows.start.min(self.height.saturating_sub(height));
+            let first = row + shape.under;
+            if is_inside && has_room && first <= under.start && under.end <= first + ROWS_UNDER {
+                return Some((index, Place { column: column as isize, row }));
+            }
+        }
+        None
+    }
+
+    /// The weights of a row of a lane's window, pair by pair.
+    #[inline(always)]
+    fn pairs(&self, lane: usize, place: Place, row: usize, pairs: usize) -> impl Iterator<Item = u32> {
+        let first = (place.row + row) * self.pitch() + (place.column + 1) as usize;
+        let weights = self.weights[first..][..2 * pairs].as_chunks().0;
+        weights.iter().map(move |[a, b]| u32::from(a[lane] as u16) | u32::from(b[lane] as u16) << 16)
+    }
+
+    /// Which texels of 16 pairs at most, from this one on, lie under a lane's pixel, a bit for each.
+    #[inline(always)]
+    fn marks(&self, lane: usize, place: Place, row: usize, pairs: Range<usize>) -> u32 {
+        let first = (place.row + row) * self.pitch() + (place.column + 1) as usize;
+        let under = &self.under[first + 2 * pairs.start..first + 2 * pairs.end];
+        under.iter().enumerate().fold(0, |marks, (at, lanes)| marks | u32::from(lanes >> lane & 1) << at)
+    }
+}
+
+/// Fills all of a vector anew.
+fn refill<T: Copy>(vector: &mut Vec<T>, length: usize, value: T) {
+    vector.clear();
+    vector.resize(length, value);
+}
+
+/// A bit for each lane of which something is so.
+#[inline(always)]
+fn lanes(are_so: &[bool; SIDE]) -> u8 {
+    (0..SIDE).fold(0, |lanes, lane| lanes | u8::from(are_so[lane]) << lane)
+}
+
+/// From the first to the last of those that have a lane's bit.
+#[inline(always)]
+fn span(bits: &[u8], lane: usize) -> Range<usize> {
+    let has = |at: &usize| bits[*at] >> lane & 1 == 1;
+    let first = (0..bits.len()).find(has).unwrap_or(0);
+    first..(first..bits.len()).rfind(has).map_or(first, |last| last + 1)
+}
+
+/// By how many bits weights are scaled, so that sums of products fit into 32.
+#[inline(always)]
+fn scale(windows: &Windows) -> Option<u32> {
+    let (mut largest, mut size) = ([0f32; SIDE], [0f32; SIDE]);
+    for (weights, _) in windows.texels() {
+        for lane in 0..SIDE {
+            largest[lane] = largest[lane].max(weights[lane].abs());
+            size[lane] += weights[lane].abs();
+        }
+    }
+    let [largest, size] = [largest, size].map(|lanes| lanes.into_iter().fold(0f32, f32::max));
+    if largest < 1.0 && size < 1.9 {
+        Some(15)
+    } else if largest < 1.99 && size < 3.9 {
+        Some(14)
+    } else {
+        None
+    }
+}
+
+impl FixedWeights {
+    /// Writes down a lane's window, and where it begins; false if that cannot be.
+    #[inline(always)]
+    fn write(&mut self, windows: &Windows, lane: usize, corner: &mut [u32; 2]) -> bool {
+        let Rounded { width, height, bits, .. } = self.rounded;
+        let small = self.rounded.small(lane);
+        let (shape, mut place) = match small {
+            Some((index, place)) => (Shape::SMALL[index], place),
+            None => (Shape::new(width.div_ceil(2), height, 0), Place { column: 0, row: 0 }),
+        };
+        let pairs = shape.pairs;
+        // A window of whole pairs may reach beyond the view; then it begins earlier, if it can.
+        let (whole, left) = (windows.columns_within(), corner[0] as isize);
+        place.column -= (left + place.column + 2 * pairs as isize - whole.end as isize).max(0);
+        if place.column < -1 || left + place.column < whole.start as isize {
+            return false;
+        }
+        *corner = [(left + place.column) as u32, corner[1] + place.row as u32];
+        let Self { numbers, rounded } = self;
+        if let Some((index, _)) = small {
+            let marks = |row| rounded.marks(lane, place, shape.under + row, 0..pairs) << (2 * pairs * row);
+            numbers.push(Header::new(Some(index), bits, (0..ROWS_UNDER).fold(0, |all, row| all | marks(row))).0);
+        } else {
+            numbers.push(Header::new(None, bits, 0).0);
+            let words = |row| (0..pairs).step_by(16).map(move |first| (row, first..pairs.min(first + 16)));
+            let words = windows.rows_under().flat_map(words);
+            numbers.extend(words.map(|(row, pairs)| rounded.marks(lane, place, row, pairs)));
+        }
+        for row in 0..shape.height {
+            numbers.extend(rounded.pairs(lane, place, row, pairs));
+        }
+        true
+    }
+
+    #[inline(always)]
+    fn keep_lanes(&mut self, windows: &Windows, corners: &mut Corners) -> bool {
+        if !self.rounded.fill(windows) {
+            return false;
+        }
+        let length = self.numbers.len();
+        let mut held = corners.iter_mut().enumerate().filter_map(|(lane, corner)| Some((lane, corner.as_mut()?)));
+        let is_kept = held.all(|(lane, corner)| self.write(windows, lane, corner));
+        if !is_kept {
+            self.numbers.truncate(length);
+        }
+        is_kept
     }
 }
 
 impl Weights for FixedWeights {
     fn len(&self) -> usize {
-        self.length
+        self.numbers.len()
     }
 
-    fn keep(&mut self, windows: &Windows, run: &Run) -> bool {
-        let Some(bits) = self.round(windows) else { return false };
-        let width = usize::from(run.width);
-        let under: Vec<[u8; SIDE]> =
-            windows.texels().map(|(_, beyond)| beyond.map(|beyond| u8::from(beyond == 0.0))).collect();
-        self.numbers.truncate(self.length);
-        self.numbers.push(bits as i16);
-        for lane in run.lanes() {
-            for (weights, under) in self.rounded.chunks_exact(width).zip(under.chunks_exact(width)) {
-                for (weights, under) in weights.chunks(GROUP).zip(under.chunks(GROUP)) {
-                    let bits = under.iter().enumerate().fold(0, |bits, (k, under)| bits | under[lane] << k);
-                    self.numbers.push(i16::from(bits));
-                    self.numbers.extend(weights.iter().map(|weights| weights[lane]));
-                }
-            }
-        }
-        self.length = self.numbers.len();
-        self.numbers.resize(self.length + GROUP, 0);
-        true
+    fn keep(&mut self, windows: &Windows, corners: &mut Corners) -> bool {
+        let level = windows.level();
+        dispatch!(level, _simd => self.keep_lanes(windows, corners))
     }
 
-    fn clear(&mut self) {
-        self.numbers.clear();
-        self.length = 0;
+    fn truncate(&mut self, length: usize) {
+        self.numbers.truncate(length);
     }
 
     fn shrink(&mut self) {
         self.numbers.shrink_to_fit();
-        self.rounded = Vec::new();
+        self.rounded = Rounded::default();
     }
 
     fn bytes(&self) -> usize {
-        self.numbers.capacity() * size_of::<i16>()
+        self.numbers.capacity() * size_of::<u32>()
     }
 
     fn used_bytes(&self) -> usize {
-        self.numbers.len() * size_of::<i16>()
+        self.numbers.len() * size_of::<u32>()
     }
 }

@@ -1,14 +1,15 @@
 //! Geometry compiled once for any number of frames.
 
 mod band;
+mod blocks;
 mod canvas;
 mod fixed;
 mod fixed_weights;
 mod float;
 mod mirrors;
-mod spread;
 #[cfg(test)]
 mod tests;
+mod texels;
 mod weights;
 
 use std::ops::Range;
