@@ -82,7 +82,7 @@ pub(super) fn marks(pairs: usize) -> usize {
     pairs.div_ceil(16)
 }
 
-/// The windows of a run before they are sorted by pixel. Bits of bytes are lanes.
+/// The windows of a run before they are sorted by pixel. Bits of bytes are lanes, until they are turned.
 #[derive(Clone, Debug, Default)]
 struct Rounded {
     width: usize,
@@ -93,10 +93,19 @@ struct Rounded {
     weights: Vec<[i16; SIDE]>,
     /// In which lanes a texel lies under the pixel; the same zeros beside.
     under: Vec<u8>,
-    /// Which have a weight in a column, and in a row, and which a texel under the pixel in a row.
-    columns: Vec<u8>,
-    rows: Vec<u8>,
-    rows_under: Vec<u8>,
+    /// Where small windows are.
+    small: Option<Small>,
+}
+
+/// Of windows with eight columns and rows at most, by lane.
+#[derive(Clone, Copy, Debug)]
+struct Small {
+    /// The columns and rows with a weight or a texel under the pixel, and the rows with a texel under it, a bit for each.
+    columns: [u8; SIDE],
+    rows: [u8; SIDE],
+    rows_under: [u8; SIDE],
+    /// The columns of the texels under the pixel, by row.
+    under: [[u8; SIDE]; SIDE],
 }
 
 /// A number so large that what is added to it is rounded to an integer, which its last bits then hold.
@@ -117,18 +126,16 @@ impl Rounded {
         let Some(bits) = scale(windows) else { return false };
         (self.width, self.height, self.bits) = (windows.width(), windows.height(), bits);
         let (pitch, height) = (self.pitch(), self.height);
-        refill(&mut self.columns, self.width, 0);
-        refill(&mut self.rows, height, 0);
-        refill(&mut self.rows_under, height, 0);
         refill(&mut self.under, pitch * height, 0);
         refill(&mut self.weights, pitch * height, [0; SIDE]);
+        let (mut columns, mut rows) = ([0; SIDE], [0; SIDE]);
         let scale = (1 << bits) as f32;
         let (mut sums, mut before) = ([0f32; SIDE], [ROUNDER.to_bits(); SIDE]);
         let mut texels = windows.texels();
         for row in 0..height {
             let into = self.weights[row * pitch + 1..][..self.width].iter_mut();
             let under = self.under[row * pitch + 1..][..self.width].iter_mut();
-            for ((into, under), column) in into.zip(under).zip(&mut self.columns) {
+            for (column, (into, under)) in into.zip(under).enumerate() {
                 let Some((weights, beyond)) = texels.next() else { break };
                 for lane in 0..SIDE {
                     sums[lane] += weights[lane] * scale;
@@ -139,11 +146,11 @@ impl Rounded {
                 }
                 *under = lanes(&beyond.map(|beyond| beyond == 0.0));
                 let counts = lanes(&into.map(|weight| weight != 0)) | *under;
-                *column |= counts;
-                self.rows[row] |= counts;
-                self.rows_under[row] |= *under;
+                columns[column % SIDE] |= counts;
+                rows[row % SIDE] |= counts;
             }
         }
+        self.small = (self.width <= SIDE && height <= SIDE).then(|| self.turned(columns, rows));
         true
     }
 
@@ -152,10 +159,23 @@ impl Rounded {
         self.width + 2
     }
 
+    /// What is known of small windows, sorted by lane.
+    #[inline(always)]
+    fn turned(&self, columns: [u8; SIDE], rows: [u8; SIDE]) -> Small {
+        let (mut under, mut rows_under) = ([[0; SIDE]; SIDE], [0; SIDE]);
+        for (row, from) in self.under.chunks_exact(self.pitch()).enumerate().take(SIDE) {
+            under[row][..self.width].copy_from_slice(&from[1..=self.width]);
+            rows_under[row] = from.iter().fold(0, |all, lanes| all | lanes);
+            under[row] = transposed(under[row]);
+        }
+        Small { columns: transposed(columns), rows: transposed(rows), rows_under: transposed(rows_under), under }
+    }
+
     /// The smallest of the small shapes that holds a lane's window, by its index, and where it begins.
     #[inline(always)]
     fn small(&self, lane: usize) -> Option<(usize, Place)> {
-        let (columns, rows, under) = (span(&self.columns, lane), span(&self.rows, lane), span(&self.rows_under, lane));
+        let small = self.small.as_ref()?;
+        let [columns, rows, under] = [small.columns[lane], small.rows[lane], small.rows_under[lane]].map(span);
         for (index, shape) in Shape::SMALL.iter().enumerate() {
             let (width, height) = (2 * shape.pairs, shape.height);
             let is_inside = columns.len() <= width && rows.len() <= height;
@@ -170,20 +190,26 @@ impl Rounded {
         None
     }
 
+    /// Which texels of a row of a lane's small window lie under the pixel, a bit for each.
+    #[inline(always)]
+    fn small_marks(&self, lane: usize, place: Place, row: usize, pairs: usize) -> u32 {
+        let columns = self.small.as_ref().map_or(0, |small| u32::from(small.under[(place.row + row) % SIDE][lane]));
+        columns << 1 >> (place.column + 1) & ((1 << (2 * pairs)) - 1)
+    }
+
+    /// The same of 16 pairs at most of any window.
+    fn marks(&self, lane: usize, place: Place, row: usize, pairs: Range<usize>) -> u32 {
+        let first = (place.row + row) * self.pitch() + (place.column + 1) as usize;
+        let under = &self.under[first + 2 * pairs.start..first + 2 * pairs.end];
+        under.iter().enumerate().fold(0, |marks, (at, lanes)| marks | u32::from(lanes >> lane & 1) << at)
+    }
+
     /// The weights of a row of a lane's window, pair by pair.
     #[inline(always)]
     fn pairs(&self, lane: usize, place: Place, row: usize, pairs: usize) -> impl Iterator<Item = u32> {
         let first = (place.row + row) * self.pitch() + (place.column + 1) as usize;
         let weights = self.weights[first..][..2 * pairs].as_chunks().0;
         weights.iter().map(move |[a, b]| u32::from(a[lane] as u16) | u32::from(b[lane] as u16) << 16)
-    }
-
-    /// Which texels of 16 pairs at most, from this one on, lie under a lane's pixel, a bit for each.
-    #[inline(always)]
-    fn marks(&self, lane: usize, place: Place, row: usize, pairs: Range<usize>) -> u32 {
-        let first = (place.row + row) * self.pitch() + (place.column + 1) as usize;
-        let under = &self.under[first + 2 * pairs.start..first + 2 * pairs.end];
-        under.iter().enumerate().fold(0, |marks, (at, lanes)| marks | u32::from(lanes >> lane & 1) << at)
     }
 }
 
@@ -199,12 +225,21 @@ fn lanes(are_so: &[bool; SIDE]) -> u8 {
     (0..SIDE).fold(0, |lanes, lane| lanes | u8::from(are_so[lane]) << lane)
 }
 
-/// From the first to the last of those that have a lane's bit.
+/// From the first bit to the last.
 #[inline(always)]
-fn span(bits: &[u8], lane: usize) -> Range<usize> {
-    let has = |at: &usize| bits[*at] >> lane & 1 == 1;
-    let first = (0..bits.len()).find(has).unwrap_or(0);
-    first..(first..bits.len()).rfind(has).map_or(first, |last| last + 1)
+fn span(bits: u8) -> Range<usize> {
+    bits.trailing_zeros() as usize % 8..8 - bits.leading_zeros() as usize
+}
+
+/// Bits of eight bytes turned: the first of each in the first byte (Warren, Hacker's Delight, 7-3).
+#[inline(always)]
+fn transposed(bytes: [u8; SIDE]) -> [u8; SIDE] {
+    let mut bits = u64::from_le_bytes(bytes);
+    for (shift, mask) in [(7, 0x00aa_00aa_00aa_00aa), (14, 0x0000_cccc_0000_cccc), (28, 0x0000_0000_f0f0_f0f0)] {
+        let changed = (bits ^ bits >> shift) & mask;
+        bits ^= changed ^ changed << shift;
+    }
+    bits.to_le_bytes()
 }
 
 /// By how many bits weights are scaled, so that sums of products fit into 32.
@@ -247,7 +282,7 @@ impl FixedWeights {
         *corner = [(left + place.column) as u32, corner[1] + place.row as u32];
         let Self { numbers, rounded } = self;
         if let Some((index, _)) = small {
-            let marks = |row| rounded.marks(lane, place, shape.under + row, 0..pairs) << (2 * pairs * row);
+            let marks = |row| rounded.small_marks(lane, place, shape.under + row, pairs) << (2 * pairs * row);
             numbers.push(Header::new(Some(index), bits, (0..ROWS_UNDER).fold(0, |all, row| all | marks(row))).0);
         } else {
             numbers.push(Header::new(None, bits, 0).0);
@@ -267,12 +302,14 @@ impl FixedWeights {
             return false;
         }
         let length = self.numbers.len();
-        let mut held = corners.iter_mut().enumerate().filter_map(|(lane, corner)| Some((lane, corner.as_mut()?)));
-        let is_kept = held.all(|(lane, corner)| self.write(windows, lane, corner));
-        if !is_kept {
-            self.numbers.truncate(length);
+        for (lane, corner) in corners.iter_mut().enumerate() {
+            let Some(corner) = corner else { continue };
+            if !self.write(windows, lane, corner) {
+                self.numbers.truncate(length);
+                return false;
+            }
         }
-        is_kept
+        true
     }
 }
 
@@ -301,5 +338,22 @@ impl Weights for FixedWeights {
 
     fn used_bytes(&self) -> usize {
         self.numbers.len() * size_of::<u32>()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn bits_are_turned() {
+        let bytes = [0x81, 0x02, 0xff, 0x00, 0x10, 0x7e, 0x55, 0xa0];
+        let turned = transposed(bytes);
+        for (row, byte) in bytes.iter().enumerate() {
+            for (column, turned) in turned.iter().enumerate() {
+                assert_eq!(byte >> column & 1, turned >> row & 1, "bit {column} of byte {row}");
+            }
+        }
+        assert_eq!([0, 1, 0x80, 0x3c].map(span), [0..0, 0..1, 7..8, 2..6]);
     }
 }
