@@ -3,7 +3,9 @@ use clap::{Args, ValueHint};
 use cosmorama_io::FrameList;
 
 use super::number::degrees;
-use super::{Colour, DepthArg, FilterArg, KernelArg, MemorySize, Missing, ProgressStyle, SizeArg, TransferArg};
+use super::{
+    Colour, CompressionArg, DepthArg, FilterArg, KernelArg, MemorySize, Missing, ProgressStyle, SizeArg, TransferArg,
+};
 use crate::spec::Spec;
 
 /// Turn a world, in whatever form, into another projection.
@@ -71,6 +73,9 @@ pub(crate) struct ConvertArgs {
     /// JPEG quality, 1 to 100 [default: 95]
     #[arg(long, value_name = "Q", value_parser = quality, allow_hyphen_values = true, help_heading = "Frames and files")]
     pub(crate) quality: Option<u8>,
+    /// PNG, TIFF and OpenEXR: how hard to press, without loss [default: balanced; fast for PNG sequences]
+    #[arg(long, value_enum, value_name = "HOW", help_heading = "Frames and files")]
+    pub(crate) compression: Option<CompressionArg>,
     #[command(flatten)]
     pub(crate) limits: LimitArgs,
     /// How to tell what is going on, on standard error
