@@ -1,3 +1,5 @@
+use std::path::PathBuf;
+
 use clap::builder::NonEmptyStringValueParser;
 use clap::{Args, ValueHint};
 use cosmorama_io::FrameList;
@@ -78,6 +80,9 @@ pub(crate) struct ConvertArgs {
     pub(crate) compression: Option<CompressionArg>,
     #[command(flatten)]
     pub(crate) limits: LimitArgs,
+    /// Keep the geometry of conversions in a folder, for the next run of the same one; safe to delete
+    #[arg(long, value_name = "DIR", value_hint = ValueHint::DirPath, help_heading = "Run")]
+    pub(crate) plan_cache: Option<PathBuf>,
     /// How to tell what is going on, on standard error
     #[arg(long, value_enum, value_name = "STYLE", default_value_t = ProgressStyle::Auto, help_heading = "Run")]
     pub(crate) progress: ProgressStyle,

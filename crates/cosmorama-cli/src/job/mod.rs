@@ -50,6 +50,8 @@ pub(crate) use st_map::settled;
 pub(crate) use st_pixels::st_pixels;
 pub(crate) use target::{Sheet, Target, TargetView};
 
+use std::path::PathBuf;
+
 use anyhow::Result;
 use cosmorama::raster::Rgba;
 use cosmorama::resample::{Filter, Resampler};
@@ -80,6 +82,8 @@ pub(crate) struct ConvertJob {
     missing: Missing,
     /// What may be used.
     pub(crate) memory: MemoryBudget,
+    /// Where plans are kept.
+    pub(crate) plan_cache: Option<PathBuf>,
     /// What should be known.
     pub(crate) warnings: Vec<String>,
 }
@@ -107,7 +111,8 @@ impl ConvertJob {
         let (coverage, worlds) = Coverage::check(&mut input, nominal, &target, &filter, args.missing, &mut warnings)?;
         memory.check_frame(&input, &target)?;
         warnings.iter().for_each(|warning| warn(warning));
-        Ok(Self { input, worlds, target, filter, light, outputs, coverage, missing: args.missing, memory, warnings })
+        let (missing, plan_cache) = (args.missing, args.plan_cache.clone());
+        Ok(Self { input, worlds, target, filter, light, outputs, coverage, missing, memory, plan_cache, warnings })
     }
 
     /// The conversion to one of the target's views.
@@ -143,6 +148,9 @@ fn check_file_options(args: &ConvertArgs, format: Format) -> Result<()> {
             "--compression is for pictures in PNG, TIFF and OpenEXR, but {} is {what}; leave it out",
             args.output
         )));
+    }
+    if args.plan_cache.is_some() && (args.st_map || Builtin::named(&args.input)?.is_some()) {
+        return Err(usage("--plan-cache keeps how pictures are filtered, but here none is; leave it out"));
     }
     Ok(())
 }

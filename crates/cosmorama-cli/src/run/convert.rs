@@ -46,7 +46,9 @@ pub(super) fn convert(args: &ConvertArgs) -> Result<Report> {
     let stages = Stages::default();
     let job = stages.alone(Stage::Plan, || ConvertJob::resolve(args))?;
     let engine = stages.alone(Stage::Plan, || Engine::new(&job, write_options(args, job.target.format, &job.outputs)));
-    let mut run = Run { job: &job, engine: &engine, stages: &stages, warnings: job.warnings.clone(), is_first: true };
+    engine.told().iter().for_each(|warning| warn(warning));
+    let warnings = [&job.warnings[..], engine.told()].concat();
+    let mut run = Run { job: &job, engine: &engine, stages: &stages, warnings, is_first: true };
     let mut progress = Progress::new(args.progress, job.outputs.frames.len());
     match &job.outputs.frames[..] {
         [] => {}

@@ -16,6 +16,8 @@ use crate::job::{ConvertJob, Coverage, FacePixels, FrameOutputs, InFlight, Input
 pub(super) struct Engine<'a> {
     job: &'a ConvertJob,
     geometry: Geometry,
+    /// What should be known of it.
+    told: Vec<String>,
     masks: Vec<OnceLock<ScreenMask>>,
     writer: Writer<'a>,
 }
@@ -24,7 +26,13 @@ impl<'a> Engine<'a> {
     /// Prepares the geometry.
     pub(super) fn new(job: &'a ConvertJob, options: WriteOptions) -> Self {
         let masks = job.target.views.iter().map(|_| OnceLock::new()).collect();
-        Self { job, geometry: Geometry::compile(job), masks, writer: Writer::new(&job.light, options) }
+        let (geometry, told) = Geometry::compile(job);
+        Self { job, geometry, told, masks, writer: Writer::new(&job.light, options) }
+    }
+
+    /// What should be known before there are frames.
+    pub(super) fn told(&self) -> &[String] {
+        &self.told
     }
 
     /// How many frames may be read ahead and written behind the one that is filtered.

@@ -1,5 +1,6 @@
 use super::band::Run;
 use super::spread::GROUP;
+use super::stored::Stored;
 use super::weights::Weights;
 use crate::resample::patch::SIDE;
 use crate::resample::window::Windows;
@@ -57,6 +58,20 @@ impl FixedWeights {
     }
 }
 
+impl Stored for FixedWeights {
+    const LEAST: usize = Vec::<i16>::LEAST;
+
+    fn store(&self, into: &mut Vec<u8>) {
+        self.numbers.store(into);
+    }
+
+    fn load(from: &mut &[u8]) -> Option<Self> {
+        let numbers: Vec<i16> = Vec::load(from)?;
+        let length = numbers.len().checked_sub(if numbers.is_empty() { 0 } else { GROUP })?;
+        Some(Self { numbers, length, rounded: Vec::new() })
+    }
+}
+
 impl Weights for FixedWeights {
     fn len(&self) -> usize {
         self.length
@@ -91,6 +106,27 @@ impl Weights for FixedWeights {
     fn shrink(&mut self) {
         self.numbers.shrink_to_fit();
         self.rounded = Vec::new();
+    }
+
+    fn are_sound(&self, run: &Run, view: [usize; 2]) -> bool {
+        let (width, height) = (usize::from(run.width), usize::from(run.height));
+        let Some((bits, numbers)) =
+            self.numbers[..self.length].get(run.weights as usize..).and_then(<[i16]>::split_first)
+        else {
+            return false;
+        };
+        let of_lane = height * (width + width.div_ceil(GROUP));
+        let is_row = |row: &[i16]| row.chunks(GROUP + 1).all(|group| (0..1 << GROUP).contains(&i32::from(group[0])));
+        let size = |row: &[i16]| -> i64 {
+            row.chunks(GROUP + 1).flat_map(|group| &group[1..]).map(|weight| i64::from(*weight).abs()).sum()
+        };
+        let is_lane = |(at, lane): (usize, usize)| {
+            let Some(numbers) = numbers.get(at * of_lane..(at + 1) * of_lane) else { return false };
+            let rows = || numbers.chunks(of_lane / height);
+            // Sums of products with 15 bits must fit into 32.
+            run.is_within(lane, [width, height], view) && rows().all(is_row) && rows().map(size).sum::<i64>() < 1 << 16
+        };
+        (14..=15).contains(bits) && run.lanes().enumerate().all(is_lane)
     }
 
     fn bytes(&self) -> usize {
