@@ -1,5 +1,7 @@
 //! `--plan-cache`: the same pictures, whatever is in the folder.
 
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on should stop where it stands")]
+
 mod bench;
 
 use std::path::PathBuf;

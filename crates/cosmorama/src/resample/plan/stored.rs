@@ -10,6 +10,11 @@ pub(super) trait Stored: Sized {
 
     /// Takes it from the beginning; `None` if bytes are missing or make no sense.
     fn load(from: &mut &[u8]) -> Option<Self>;
+
+    /// Takes so many.
+    fn load_many(from: &mut &[u8], count: usize) -> Option<Vec<Self>> {
+        (0..count).map(|_| Self::load(from)).collect()
+    }
 }
 
 /// Plain numbers.
@@ -26,6 +31,14 @@ macro_rules! numbers {
                 let (bytes, rest) = from.split_first_chunk()?;
                 *from = rest;
                 Some(Self::from_le_bytes(*bytes))
+            }
+
+            // All at once: nearly all of a plan are such lists.
+            fn load_many(from: &mut &[u8], count: usize) -> Option<Vec<Self>> {
+                let (bytes, rest) = from.split_at_checked(count.checked_mul(size_of::<$number>())?)?;
+                *from = rest;
+                let (numbers, _) = bytes.as_chunks();
+                Some(numbers.iter().map(|bytes| Self::from_le_bytes(*bytes)).collect())
             }
         }
     )*};
@@ -60,6 +73,11 @@ impl<T: Stored + Copy + Default, const N: usize> Stored for [T; N] {
         }
         Some(numbers)
     }
+
+    fn load_many(from: &mut &[u8], count: usize) -> Option<Vec<Self>> {
+        let numbers = T::load_many(from, count.checked_mul(N)?)?;
+        Some(numbers.as_chunks().0.to_vec())
+    }
 }
 
 /// How many, then each.
@@ -76,7 +94,7 @@ impl<T: Stored> Stored for Vec<T> {
         if count.checked_mul(T::LEAST)? > from.len() {
             return None;
         }
-        (0..count).map(|_| T::load(from)).collect()
+        T::load_many(from, count)
     }
 }
 
