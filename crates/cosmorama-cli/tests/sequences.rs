@@ -35,7 +35,7 @@ fn a_sequence_is_the_same_as_its_frames() {
     for frame in 1..=3 {
         let input = format!("{{face}}/{{face}}_{frame:04}.png");
         bench.succeed(&["convert", &input, "one.png", "--to", "fulldome", "--size", "64", "-y"]);
-        assert!(bench.bytes("one.png") == bench.bytes(&format!("dome_{frame:03}.png")), "frame {frame}");
+        assert!(bench.load("one.png") == bench.load(&format!("dome_{frame:03}.png")), "frame {frame}");
     }
 }
 
@@ -144,4 +144,116 @@ fn an_interrupt_leaves_nothing_behind() {
         assert_eq!(child.wait().unwrap().code(), Some(code));
         assert_eq!(bench.files(), before);
     }
+}
+
+/// A sequence of panoramas of 64x32, frames 1 to `count`.
+fn skies(bench: &Bench, count: usize) {
+    for frame in 1..=count {
+        bench.save(&format!("sky_{frame:02}.png"), &picture(frame, 64, 32));
+    }
+}
+
+const SKIES: [&str; 6] = ["convert", "sky_##.png", "out_##.png", "--to", "fisheye", "--from=equirect"];
+
+#[test]
+fn sequences_are_the_same_for_any_number_of_threads_and_any_memory() {
+    let bench = Bench::new();
+    skies(&bench, 9);
+    let outputs = |more: &[&str]| -> Vec<Vec<u8>> {
+        bench.succeed(&[&SKIES[..], &["--size", "96", "-y"], more].concat());
+        (1..=9).map(|frame| bench.bytes(&format!("out_{frame:02}.png"))).collect()
+    };
+    let one = outputs(&["--threads", "1"]);
+    // In 900 kB there is room for a frame alone: none is read ahead of another.
+    for more in [&["--threads", "2"][..], &["--threads", "7"], &["--threads", "3", "--memory", "900K"]] {
+        assert!(outputs(more) == one, "{more:?}");
+    }
+}
+
+#[test]
+fn the_first_frame_that_fails_ends_a_sequence_and_is_named() {
+    for threads in ["1", "2", "7"] {
+        let bench = Bench::new();
+        skies(&bench, 12);
+        let whole = bench.bytes("sky_05.png");
+        std::fs::write(bench.path("sky_05.png"), &whole[..whole.len() / 2]).unwrap();
+        let output = bench.run(&[&SKIES[..], &["--size", "32", "--threads", threads]].concat());
+        let message = bench::text(&output.stderr);
+        assert_eq!(output.status.code(), Some(1), "{message}");
+        bench::assert_says(&message, &["error: frame 5", "sky_05.png", "it ends too early"]);
+        // Frames before it are finished, none after it is begun, and nothing else is left.
+        let made: Vec<_> = bench.files().into_iter().filter(|path| !path.to_string_lossy().contains("sky_")).collect();
+        let expected: Vec<_> = (1..=4).map(|frame| bench.path(&format!("out_{frame:02}.png"))).collect();
+        assert_eq!(made, expected);
+    }
+}
+
+#[test]
+fn a_frame_that_cannot_be_written_ends_a_sequence_and_is_named() {
+    let bench = Bench::new();
+    skies(&bench, 12);
+    std::fs::create_dir(bench.path("out_03.png")).unwrap();
+    let output = bench.run(&[&SKIES[..], &["--size", "32", "-y", "--threads", "2"]].concat());
+    let message = bench::text(&output.stderr);
+    assert_eq!(output.status.code(), Some(1), "{message}");
+    bench::assert_says(&message, &["error: frame 3", "out_03.png", "there is a folder of this name"]);
+    assert!(bench.path("out_02.png").is_file() && !bench.path("out_12.png").exists());
+    assert!(!bench.files().iter().any(|path| path.to_string_lossy().contains(".part")));
+}
+
+#[test]
+fn a_frame_of_another_kind_changes_no_other_frame() {
+    let bench = Bench::new();
+    for frame in 1..=3 {
+        bench.save(&format!("sky_{frame}.png"), &picture(frame, 64, 32));
+    }
+    bench.save("sky_2.png", &flat(64, 32, &[9, 200, 40, 128]));
+    bench.save("cap.png", &picture(7, 32, 32));
+    let world = "[[view]]\nimage = \"sky_#.png\"\nspec = \"equirect\"\n\
+                 [[view]]\nimage = \"cap.png\"\nspec = \"perspective:fov=60\"\npriority = 2\n";
+    std::fs::write(bench.path("world.toml"), world).unwrap();
+    let args = ["convert", "world.toml", "out_#.png", "--to", "fisheye", "--size", "64", "-y"];
+    bench.succeed(&args);
+    let together = bench.bytes("out_3.png");
+    bench.succeed(&[&args[..], &["--frames", "3"]].concat());
+    assert!(bench.bytes("out_3.png") == together);
+}
+
+#[test]
+fn compression_changes_sizes_and_no_pixel() {
+    let bench = Bench::new();
+    // With stars, where filters of rows and levels of Deflate tell.
+    let stars = cosmorama::raster::Image::from_fn(128, 64, |i, j| {
+        let light = if (i * 31 + j * 17) % 53 == 0 { 0.8 } else { (i + j) as f32 / 400.0 };
+        cosmorama::raster::Rgba::opaque(light, light * 0.7, 0.1)
+    });
+    let (channels, transfer) = (cosmorama::raster::Channels::Rgb, cosmorama::raster::Transfer::Srgb);
+    let stars = cosmorama::raster::EncodedImage::encode(&stars, channels, cosmorama::raster::Depth::Eight, &transfer);
+    for frame in 1..=2 {
+        bench.save(&format!("sky_{frame:02}.png"), &stars);
+    }
+    for extension in ["png", "tif", "exr"] {
+        let one = format!("one.{extension}");
+        let size = |compression: &[&str]| {
+            let args = ["convert", "sky_01.png", &one, "--to", "fisheye", "--from=equirect", "--size", "96", "-y"];
+            bench.succeed(&[&args[..], compression].concat());
+            (bench.bytes(&one).len(), bench.load(&one))
+        };
+        let all = ["none", "fast", "balanced", "high"].map(|how| size(&["--compression", how]));
+        assert!(all.iter().all(|(_, picture)| *picture == all[0].1), "{extension}");
+        let [none, fast, balanced, high] = all.map(|(size, _)| size);
+        let largest = [fast, balanced, high].into_iter().max().unwrap();
+        assert!(largest < none && high <= balanced, "{extension}: {none} {fast} {balanced} {high}");
+        assert_eq!(size(&[]).0, balanced, "stills are balanced");
+    }
+    // Frames are written fast, all of them or only some.
+    let sequence = |more: &[&str]| {
+        bench.succeed(&[&SKIES[..], &["--size", "96", "-y"], more].concat());
+        bench.bytes("out_02.png")
+    };
+    let fast = sequence(&["--compression", "fast"]);
+    assert!(sequence(&[]) == fast && sequence(&["--frames", "2"]) == fast);
+    assert!(sequence(&["--compression", "balanced"]) != fast);
+    let refused = ["convert", "sky_01.png", "out.tga", "--to", "fisheye", "--compression", "fast"];
+    bench::assert_says(&bench.fail(2, &refused), &["--compression", "out.tga", "TGA", "PNG, TIFF and OpenEXR"]);
 }

@@ -6,7 +6,7 @@ use cosmorama::raster::{Channels, Depth, EncodedImage};
 
 use crate::formats::{dds, exr, hdr, jpeg, ktx, ktx2, png, tga, tiff};
 use crate::pending::Pending;
-use crate::{Format, IoError, Limits, Metadata, Window};
+use crate::{Format, IoError, Limits, Metadata, Window, WriteOptions};
 
 /// What a file says of itself before its pixels.
 #[derive(Clone, Debug, PartialEq)]
@@ -38,26 +38,6 @@ pub struct ImageFile {
     pub metadata: Metadata,
     /// Where they lie in a larger canvas; `None` where they are all of it.
     pub window: Option<Window>,
-}
-
-/// How to write a file.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct WriteOptions {
-    /// JPEG quality, 1 to 100.
-    pub quality: u8,
-}
-
-impl WriteOptions {
-    /// The default, but for what is given.
-    pub fn with_quality(quality: Option<u8>) -> Self {
-        quality.map_or_else(Self::default, |quality| Self { quality })
-    }
-}
-
-impl Default for WriteOptions {
-    fn default() -> Self {
-        Self { quality: 95 }
-    }
 }
 
 /// What decoders read from.
@@ -136,12 +116,12 @@ pub fn write_levels(
     let mut pending = Pending::create(path)?;
     let writer = pending.writer();
     match format {
-        Format::Png => png::write(path, writer, image, metadata),
+        Format::Png => png::write(path, writer, image, metadata, options.compression),
         Format::Jpeg => jpeg::write(path, writer, image, metadata, options.quality),
-        Format::Tiff => tiff::write(path, writer, image, metadata),
+        Format::Tiff => tiff::write(path, writer, image, metadata, options.compression),
         Format::Tga => tga::write(path, writer, image),
         Format::Hdr => hdr::write(path, writer, image),
-        Format::Exr => exr::write(path, writer, image, metadata),
+        Format::Exr => exr::write(path, writer, image, metadata, options.compression),
         Format::Ktx2 => ktx2::write(path, writer, levels, metadata),
         Format::Ktx => Err(IoError::write(path, "KTX files of the first version are only read; write .ktx2")),
         Format::Dds => dds::write(path, writer, levels, metadata),

@@ -148,6 +148,11 @@ impl Format {
         matches!(self, Self::Ktx2 | Self::Dds)
     }
 
+    /// Whether its files can be pressed more or less without loss.
+    pub const fn has_compression(self) -> bool {
+        matches!(self, Self::Png | Self::Tiff | Self::Exr)
+    }
+
     /// Whether the format can hold an ICC profile.
     pub const fn holds_icc(self) -> bool {
         matches!(self, Self::Png | Self::Jpeg | Self::Tiff)

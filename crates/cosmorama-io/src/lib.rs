@@ -20,14 +20,16 @@ mod pto;
 mod sequence;
 mod st_pairs;
 pub mod svg;
+mod write_options;
 
 pub use calibration::{Calibration, CalibrationError, Distortion};
 pub use error::IoError;
 pub use face_set::{FaceFile, FacePattern, FacePlacement, FaceSet, LetterCase, Naming};
-pub use file::{Header, ImageFile, WriteOptions, probe, read, write, write_levels, write_planes};
+pub use file::{Header, ImageFile, probe, read, write, write_levels, write_planes};
 pub use format::Format;
 pub use limits::Limits;
 pub use metadata::{EnvMap, Metadata, Window};
 pub use pto::{PtoError, PtoImage, PtoPanorama, PtoProject};
 pub use sequence::{FrameList, FramePattern, Frames};
 pub use st_pairs::{StPairs, read_pairs};
+pub use write_options::{Compression, WriteOptions};

@@ -1,9 +1,13 @@
+use std::path::PathBuf;
+
 use clap::builder::NonEmptyStringValueParser;
 use clap::{Args, ValueHint};
 use cosmorama_io::FrameList;
 
 use super::number::degrees;
-use super::{Colour, DepthArg, FilterArg, KernelArg, MemorySize, Missing, ProgressStyle, SizeArg, TransferArg};
+use super::{
+    Colour, CompressionArg, DepthArg, FilterArg, KernelArg, MemorySize, Missing, ProgressStyle, SizeArg, TransferArg,
+};
 use crate::spec::Spec;
 
 /// Turn a world, in whatever form, into another projection.
@@ -71,8 +75,14 @@ pub(crate) struct ConvertArgs {
     /// JPEG quality, 1 to 100 [default: 95]
     #[arg(long, value_name = "Q", value_parser = quality, allow_hyphen_values = true, help_heading = "Frames and files")]
     pub(crate) quality: Option<u8>,
+    /// PNG, TIFF and OpenEXR: how hard to press, without loss [default: balanced; fast for PNG sequences]
+    #[arg(long, value_enum, value_name = "HOW", help_heading = "Frames and files")]
+    pub(crate) compression: Option<CompressionArg>,
     #[command(flatten)]
     pub(crate) limits: LimitArgs,
+    /// Keep the geometry of conversions in a folder, for the next run of the same one; safe to delete
+    #[arg(long, value_name = "DIR", value_hint = ValueHint::DirPath, help_heading = "Run")]
+    pub(crate) plan_cache: Option<PathBuf>,
     /// How to tell what is going on, on standard error
     #[arg(long, value_enum, value_name = "STYLE", default_value_t = ProgressStyle::Auto, help_heading = "Run")]
     pub(crate) progress: ProgressStyle,

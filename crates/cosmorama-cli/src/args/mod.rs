@@ -2,6 +2,7 @@
 
 mod colour;
 mod compare;
+mod compression;
 pub(crate) mod convert;
 mod demo;
 mod depth;
@@ -21,6 +22,7 @@ use clap::{Parser, Subcommand};
 
 pub(crate) use colour::Colour;
 pub(crate) use compare::{CompareArgs, Region};
+pub(crate) use compression::CompressionArg;
 pub(crate) use convert::ConvertArgs;
 pub(crate) use demo::DemoArgs;
 pub(crate) use depth::DepthArg;

@@ -5,7 +5,7 @@ use cosmorama_builtin::{BuiltinWorld, DirectionMap};
 use cosmorama_io::Format;
 
 use super::input::SAME_FOR_BOTH;
-use super::{Input, Light, MemoryBudget, Outputs, Target, check_quality, filter, settled};
+use super::{Input, Light, MemoryBudget, Outputs, Target, check_file_options, filter, settled};
 use crate::args::ConvertArgs;
 use crate::failure::{usage, warn};
 use crate::spec::did_you_mean;
@@ -92,7 +92,7 @@ impl BuiltinJob {
         let mut warnings = Vec::new();
         let geometry = &settled(&args.geometry, None, memory, &mut warnings)?;
         let format = Target::check_names(&args.output, geometry)?;
-        check_quality(args, format)?;
+        check_file_options(args, format)?;
         check_input_options(args)?;
         if filter(geometry, &mut warnings) != Filter::DEFAULT {
             warnings.push(format!("--filter, --kernel and --anti-ringing have no effect on {}: a formula", args.input));

@@ -111,10 +111,41 @@ impl MemoryBudget {
         self.bytes.saturating_sub(frame_bytes(input, target))
     }
 
-    /// How many frames fit beside the geometry that they share.
-    pub(crate) fn frames_beside(self, input: &Input, target: &Target, plans: u64) -> usize {
-        (self.bytes.saturating_sub(plans) / frame_bytes(input, target).max(1)) as usize
+    /// How many frames may be in flight beside the one that is filtered and the geometry that they share. The files of
+    /// one frame each keep a thread busy, so that more than it takes to keep all of them busy are of no use.
+    pub(crate) fn in_flight(self, input: &Input, target: &Target, plans: u64, threads: usize) -> InFlight {
+        let samples = |header: &Header| header_pixels(header).saturating_mul(sample_bytes(header));
+        let moving = input.present().filter(|(view, ..)| view.files.sequence().is_some());
+        let (files, read) = moving
+            .fold((0, 0_u64), |(files, bytes), (_, header, _)| (files + 1, bytes.saturating_add(samples(header))));
+        let written = output_bytes(target);
+        let wanted = |files: usize| 1 + threads.div_ceil(files.max(1));
+        let wanted = InFlight { read: wanted(files), written: wanted(target.files.len()) };
+        let mut left = self.bytes.saturating_sub(plans).saturating_sub(frame_bytes(input, target));
+        let mut fitting = InFlight { read: 1, written: 1 };
+        // In turns, so that neither side waits for the other.
+        loop {
+            let before = fitting;
+            if fitting.read < wanted.read && left >= read {
+                (fitting.read, left) = (fitting.read + 1, left - read);
+            }
+            if fitting.written < wanted.written && left >= written {
+                (fitting.written, left) = (fitting.written + 1, left - written);
+            }
+            if fitting == before {
+                return fitting;
+            }
+        }
     }
+}
+
+/// Frames in flight around the one that is filtered.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct InFlight {
+    /// Those that are being read, or wait for their turn.
+    pub(crate) read: usize,
+    /// Those that are being written.
+    pub(crate) written: usize,
 }
 
 /// Bytes of a texel's solid angle.
@@ -124,10 +155,14 @@ fn header_pixels(header: &Header) -> u64 {
     (header.width as u64).saturating_mul(header.height as u64)
 }
 
+/// Bytes of a pixel's samples.
+fn sample_bytes(header: &Header) -> u64 {
+    (header.channels.count() * header.depth.bytes()) as u64
+}
+
 /// A file's samples and the light made of them.
 pub(super) fn light_bytes(header: &Header) -> u64 {
-    let samples = header.channels.count() * header.depth.bytes();
-    header_pixels(header).saturating_mul((samples + size_of::<Rgba>()) as u64)
+    header_pixels(header).saturating_mul(sample_bytes(header) + size_of::<Rgba>() as u64)
 }
 
 fn pixels(view: &View) -> u64 {

@@ -43,18 +43,20 @@ pub(crate) use given_faces::{Continuity, FacePixels, GivenFaces};
 pub(crate) use input::{Input, InputView};
 pub(crate) use light::{InputTransfer, Light};
 pub(crate) use listing::{Listed, listed};
-pub(crate) use memory::{MemoryBudget, peak_bytes};
+pub(crate) use memory::{InFlight, MemoryBudget, peak_bytes};
 pub(crate) use outputs::{FrameOutputs, Outputs, real_path, refuse_existing};
 pub(crate) use picture::{Picture, Place};
 pub(crate) use st_map::settled;
 pub(crate) use st_pixels::st_pixels;
 pub(crate) use target::{Sheet, Target, TargetView};
 
+use std::path::PathBuf;
+
 use anyhow::Result;
 use cosmorama::raster::Rgba;
 use cosmorama::resample::{Filter, Resampler};
 use cosmorama::world::World;
-use cosmorama_io::Format;
+use cosmorama_io::{Compression, Format, WriteOptions};
 
 use crate::args::convert::GeometryArgs;
 use crate::args::{ConvertArgs, Missing};
@@ -80,6 +82,8 @@ pub(crate) struct ConvertJob {
     missing: Missing,
     /// What may be used.
     pub(crate) memory: MemoryBudget,
+    /// Where plans are kept.
+    pub(crate) plan_cache: Option<PathBuf>,
     /// What should be known.
     pub(crate) warnings: Vec<String>,
 }
@@ -92,7 +96,7 @@ impl ConvertJob {
         let geometry = &settled(&args.geometry, Some(&args.input), memory, &mut warnings)?;
         // Mistakes in the command itself come first: they do not depend on any file.
         let format = Target::check_names(&args.output, geometry)?;
-        check_quality(args, format)?;
+        check_file_options(args, format)?;
         let mut input = Input::find(&args.input, geometry.from.as_ref(), args.frames.as_ref(), memory, &mut warnings)?;
         let mut target = Target::resolve(&args.output, geometry, Some(input.pixels_per_radian()))?;
         if args.mips {
@@ -107,7 +111,8 @@ impl ConvertJob {
         let (coverage, worlds) = Coverage::check(&mut input, nominal, &target, &filter, args.missing, &mut warnings)?;
         memory.check_frame(&input, &target)?;
         warnings.iter().for_each(|warning| warn(warning));
-        Ok(Self { input, worlds, target, filter, light, outputs, coverage, missing: args.missing, memory, warnings })
+        let (missing, plan_cache) = (args.missing, args.plan_cache.clone());
+        Ok(Self { input, worlds, target, filter, light, outputs, coverage, missing, memory, plan_cache, warnings })
     }
 
     /// The conversion to one of the target's views.
@@ -130,11 +135,35 @@ impl ConvertJob {
 }
 
 /// What has no effect is a mistake: another format was meant, or another option.
-fn check_quality(args: &ConvertArgs, format: Format) -> Result<()> {
-    if args.quality.is_none() || format == Format::Jpeg {
-        return Ok(());
+fn check_file_options(args: &ConvertArgs, format: Format) -> Result<()> {
+    if args.quality.is_some() && format != Format::Jpeg {
+        let output = &args.output;
+        return Err(usage(format!(
+            "--quality is for JPEG, but {output} is {format}; leave it out, or name the output .jpg"
+        )));
     }
-    Err(usage(format!("--quality is for JPEG, but {} is {format}; leave it out, or name the output .jpg", args.output)))
+    if args.compression.is_some() && (!format.has_compression() || args.st_map) {
+        let what = if args.st_map { "an st map".to_owned() } else { format.to_string() };
+        return Err(usage(format!(
+            "--compression is for pictures in PNG, TIFF and OpenEXR, but {} is {what}; leave it out",
+            args.output
+        )));
+    }
+    if args.plan_cache.is_some() && (args.st_map || Builtin::named(&args.input)?.is_some()) {
+        return Err(usage("--plan-cache keeps how pictures are filtered, but here none is; leave it out"));
+    }
+    Ok(())
+}
+
+/// How outputs are written. Frames come by the thousand, and are read again: as PNG they are written for speed, unless
+/// something else is asked for.
+pub(crate) fn write_options(args: &ConvertArgs, format: Format, outputs: &Outputs) -> WriteOptions {
+    let default = WriteOptions::default();
+    let usual = if format == Format::Png && outputs.is_sequence() { Compression::Fast } else { default.compression };
+    WriteOptions {
+        quality: args.quality.unwrap_or(default.quality),
+        compression: args.compression.map_or(usual, Compression::from),
+    }
 }
 
 /// The filter that was asked for.

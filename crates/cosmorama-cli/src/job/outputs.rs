@@ -27,6 +27,11 @@ pub(crate) struct Outputs {
 }
 
 impl Outputs {
+    /// Whether they are frames of a sequence, be it only one of them.
+    pub(crate) fn is_sequence(&self) -> bool {
+        self.frames.iter().any(|frame| frame.frame.is_some())
+    }
+
     /// The outputs of all frames, checked against each other, the inputs and what exists.
     pub(crate) fn plan(
         args: &ConvertArgs,

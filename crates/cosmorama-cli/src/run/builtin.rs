@@ -3,34 +3,34 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use anyhow::Result;
-use cosmorama::raster::Image;
+use cosmorama::raster::{Image, Threads};
 use cosmorama_builtin::{BuiltinWorld, DirectionMap, DirectionPixel};
-use cosmorama_io::{WriteOptions, write_planes};
+use cosmorama_io::write_planes;
 
-use super::engine::{Picture, assemble, save};
+use super::engine::{Levels, Picture, Writer, assemble};
 use super::progress::Progress;
 use super::report::Report;
 use super::stages::{Stage, Stages};
 use crate::args::ConvertArgs;
-use crate::job::{Builtin, BuiltinJob, FrameOutputs, Light};
+use crate::job::{Builtin, BuiltinJob, FrameOutputs, Light, write_options};
 
 /// Makes pictures of a built-in world, or maps of directions.
 pub(super) fn convert(builtin: Builtin, args: &ConvertArgs) -> Result<Report> {
     let start = Instant::now();
-    let mut stages = Stages::default();
-    let job = stages.time(Stage::Plan, || BuiltinJob::resolve(builtin, args))?;
-    let options = WriteOptions::with_quality(args.quality);
+    let stages = Stages::default();
+    let job = stages.alone(Stage::Plan, || BuiltinJob::resolve(builtin, args))?;
+    let writer = Writer::new(&job.light, write_options(args, job.target.format, &job.outputs));
     let mut progress = Progress::new(args.progress, job.outputs.frames.len());
     for FrameOutputs { frame, files } in &job.outputs.frames {
         for (index, path) in files {
             match job.builtin {
                 Builtin::World(world) => {
-                    let levels = stages.time(Stage::Filter, || pictures(&job, world, *index))?;
-                    stages.time(Stage::Encode, || save(&job.light, &levels, path, &options))?;
+                    let levels = stages.alone(Stage::Filter, || pictures(&job, world, *index))?;
+                    stages.alone(Stage::Encode, || writer.save(levels, path, Threads::All))?;
                 }
                 Builtin::DirectionMap(map) => {
-                    let pixels = stages.time(Stage::Filter, || directions(&job, map, *index))?;
-                    stages.time(Stage::Encode, || save_map(&job.light, map, &pixels, path))?;
+                    let pixels = stages.alone(Stage::Filter, || directions(&job, map, *index))?;
+                    stages.alone(Stage::Encode, || save_map(&job.light, map, &pixels, path))?;
                 }
             }
         }
@@ -41,11 +41,11 @@ pub(super) fn convert(builtin: Builtin, args: &ConvertArgs) -> Result<Report> {
         job.outputs.frames.iter().flat_map(|frame| frame.files.iter().map(|(_, path)| path.clone())).collect();
     let counts = (job.outputs.frames.len(), job.outputs.skipped);
     let inputs = BTreeSet::from([PathBuf::from(&args.input)]);
-    Ok(Report::new(inputs, outputs, counts, start.elapsed(), stages, job.warnings))
+    Ok(Report::new(inputs, outputs, counts, start.elapsed(), &stages, job.warnings))
 }
 
 /// The picture of a file and its smaller copies, in front of their background.
-fn pictures(job: &BuiltinJob, world: BuiltinWorld, file: usize) -> Result<Vec<Picture>> {
+fn pictures(job: &BuiltinJob, world: BuiltinWorld, file: usize) -> Result<Levels> {
     let background = job.light.background;
     let picture = |index: usize| {
         let mut image = world.picture(&job.target.views[index].view);

@@ -2,7 +2,7 @@ use std::path::Path;
 use std::sync::OnceLock;
 
 use anyhow::{Result, bail};
-use cosmorama::raster::{Decoder, EncodedImage, Image, Rgba};
+use cosmorama::raster::{EncodedImage, Encoder, Image, Rgba, Threads};
 use cosmorama::resample::ScreenMask;
 use cosmorama::world::Source;
 use cosmorama_io::{WriteOptions, write_levels};
@@ -10,29 +10,35 @@ use rayon::prelude::*;
 
 use super::frame_light::{FrameLight, Texels};
 use super::geometry::Geometry;
-use super::stages::{Stage, Stages};
-use crate::job::{ConvertJob, Coverage, FacePixels, InputView, Light, Sheet};
+use crate::job::{ConvertJob, Coverage, FacePixels, FrameOutputs, InFlight, InputView, Light, Sheet};
 
 /// Makes the outputs of a job, frame by frame.
 pub(super) struct Engine<'a> {
     job: &'a ConvertJob,
     geometry: Geometry,
+    /// What should be known of it.
+    told: Vec<String>,
     masks: Vec<OnceLock<ScreenMask>>,
-    decoder: Decoder,
+    writer: Writer<'a>,
 }
 
 impl<'a> Engine<'a> {
     /// Prepares the geometry.
-    pub(super) fn new(job: &'a ConvertJob) -> Self {
+    pub(super) fn new(job: &'a ConvertJob, options: WriteOptions) -> Self {
         let masks = job.target.views.iter().map(|_| OnceLock::new()).collect();
-        Self { job, geometry: Geometry::compile(job), masks, decoder: Decoder::default() }
+        let (geometry, told) = Geometry::compile(job);
+        Self { job, geometry, told, masks, writer: Writer::new(&job.light, options) }
     }
 
-    /// How many frames are worked on at once: reading and writing files uses one thread a file, so that several
-    /// keep all of them busy.
-    pub(super) fn batch(&self) -> usize {
-        let possible = self.job.memory.frames_beside(&self.job.input, &self.job.target, self.geometry.bytes());
-        possible.clamp(1, rayon::current_num_threads())
+    /// What should be known before there are frames.
+    pub(super) fn told(&self) -> &[String] {
+        &self.told
+    }
+
+    /// How many frames may be read ahead and written behind the one that is filtered.
+    pub(super) fn in_flight(&self) -> InFlight {
+        let threads = rayon::current_num_threads();
+        self.job.memory.in_flight(&self.job.input, &self.job.target, self.geometry.bytes(), threads)
     }
 
     /// Room for the light of a frame.
@@ -40,9 +46,9 @@ impl<'a> Engine<'a> {
         FrameLight::new(self.job, self.geometry.codec().is_some())
     }
 
-    /// Reads the light of a frame.
-    pub(super) fn load(&self, frame: Option<u64>, light: &mut FrameLight) -> Result<()> {
-        light.load(self.job, &self.decoder, frame)
+    /// What writes the pictures.
+    pub(super) fn writer(&self) -> &Writer<'a> {
+        &self.writer
     }
 
     /// Where faces are clearly not as they are said to be, as their borders in this frame show.
@@ -75,37 +81,36 @@ impl<'a> Engine<'a> {
         views.filter(|(_, count)| **count > 0).map(|((view, _, _), count)| (view, *count))
     }
 
-    /// Makes the picture of a file and its smaller copies: filtered light, complete with what lies outside, faces in their
-    /// places.
-    pub(super) fn render(&self, file: usize, light: &FrameLight, stages: &mut Stages) -> Result<Vec<Picture>> {
+    /// Makes the pictures of a frame: filtered light, complete with what lies outside, faces in their places.
+    pub(super) fn render(&self, frame: &FrameOutputs, light: &FrameLight) -> Result<Vec<Levels>> {
+        frame.files.iter().map(|(index, _)| self.render_file(*index, light)).collect()
+    }
+
+    fn render_file(&self, file: usize, light: &FrameLight) -> Result<Levels> {
         let levels = self.job.target.files[file].levels();
         match (light.texels(), self.geometry.codec()) {
             (Texels::Fixed(worlds), Some(codec)) => {
                 let mut view = |index: usize| {
                     let target = &self.job.target.views[index];
                     let light = &worlds[target.world(worlds.len())];
-                    Ok(stages
-                        .time(Stage::Filter, || self.geometry.codes(index, self.job.resampler(target), light, codec)))
+                    Ok(self.geometry.codes(index, self.job.resampler(target), light, codec))
                 };
                 levels.map(|sheet| Ok(Picture::Codes(assemble(sheet, codec.background(), &mut view)?))).collect()
             }
             _ => {
                 let background = self.job.light.background;
-                let mut view = |index: usize| self.render_view(index, light, stages);
+                let mut view = |index: usize| self.render_view(index, light);
                 levels.map(|sheet| Ok(Picture::Light(assemble(sheet, background, &mut view)?))).collect()
             }
         }
     }
 
-    fn render_view(&self, index: usize, light: &FrameLight, stages: &mut Stages) -> Result<Image<Rgba>> {
+    fn render_view(&self, index: usize, light: &FrameLight) -> Result<Image<Rgba>> {
         let target = &self.job.target.views[index];
         let Texels::Float(worlds) = light.texels() else { bail!("light of 8 bits where floats were expected") };
-        let texels = &worlds[target.world(worlds.len())];
-        stages.time(Stage::Filter, || {
-            let mut image = self.geometry.light(index, self.job.resampler(target), texels);
-            self.complete(index, light, &mut image)?;
-            Ok(image)
-        })
+        let mut image = self.geometry.light(index, self.job.resampler(target), &worlds[target.world(worlds.len())]);
+        self.complete(index, light, &mut image)?;
+        Ok(image)
     }
 
     fn complete(&self, index: usize, light: &FrameLight, image: &mut Image<Rgba>) -> Result<()> {
@@ -152,11 +157,6 @@ impl<'a> Engine<'a> {
             self.mask(index).surround(image, background);
         }
     }
-
-    /// What the outputs hold.
-    pub(super) fn light(&self) -> &Light {
-        &self.job.light
-    }
 }
 
 /// A picture: an image, or several in their places on a background.
@@ -179,13 +179,6 @@ pub(super) fn assemble<P: Copy>(
     Ok(picture.unwrap_or_else(|| Image::filled(sheet.size.0, sheet.size.1, background)))
 }
 
-/// Writes an output, a picture and its smaller copies.
-pub(super) fn save(light: &Light, levels: &[Picture], path: &Path, options: &WriteOptions) -> Result<()> {
-    let encoded: Vec<EncodedImage> = levels.iter().map(|picture| picture.encoded(light)).collect();
-    write_levels(path, &encoded, &light.metadata, options)?;
-    Ok(())
-}
-
 /// What becomes of a frame.
 pub(super) enum Picture {
     /// Light, to be encoded.
@@ -194,11 +187,30 @@ pub(super) enum Picture {
     Codes(Image<[u8; 3]>),
 }
 
-impl Picture {
-    fn encoded(&self, light: &Light) -> EncodedImage {
-        match self {
-            Self::Light(image) => EncodedImage::encode(image, light.channels, light.depth, &light.transfer),
-            Self::Codes(codes) => EncodedImage::of_codes(codes),
-        }
+/// A picture and its smaller copies.
+pub(super) type Levels = Vec<Picture>;
+
+/// Writes pictures, all of one kind.
+pub(super) struct Writer<'a> {
+    light: &'a Light,
+    encoder: Encoder,
+    options: WriteOptions,
+}
+
+impl<'a> Writer<'a> {
+    pub(super) fn new(light: &'a Light, options: WriteOptions) -> Self {
+        Self { light, encoder: Encoder::new(light.channels, light.depth, &light.transfer), options }
+    }
+
+    /// Writes an output, a picture and its smaller copies.
+    pub(super) fn save(&self, levels: Levels, path: &Path, threads: Threads) -> Result<()> {
+        let encode = |picture| match picture {
+            Picture::Light(image) => self.encoder.encode(&image, threads),
+            Picture::Codes(codes) => EncodedImage::of_codes(codes),
+        };
+        // Each picture of light goes as soon as it is encoded.
+        let encoded: Vec<EncodedImage> = levels.into_iter().map(encode).collect();
+        write_levels(path, &encoded, &self.light.metadata, &self.options)?;
+        Ok(())
     }
 }

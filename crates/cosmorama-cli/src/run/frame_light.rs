@@ -1,12 +1,13 @@
-use std::path::PathBuf;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
-use anyhow::{Context, Result, bail};
-use cosmorama::raster::{Decoder, EncodedImage, FixedDecoder, FixedLight, Rgba, Transfer};
+use anyhow::{Result, bail};
+use cosmorama::raster::{Decoder, FixedDecoder, FixedLight, Rgba, Transfer};
 use cosmorama::world::World;
-use cosmorama_io::{Header, Limits, read};
 use rayon::prelude::*;
 
-use crate::job::{ConvertJob, Files, InputView};
+use super::frame_files::{FrameFile, ViewImage, Which};
+use super::stages::{Stage, Stages};
+use crate::job::ConvertJob;
 
 /// The light of a frame. Its memory, and what does not change from frame to frame, serves the next one.
 pub(super) struct FrameLight {
@@ -15,8 +16,10 @@ pub(super) struct FrameLight {
     missing: Vec<usize>,
     /// Whether frames are to be held in 15 bits, if they can be.
     is_fixed: bool,
-    /// Whether a frame has been read into it.
-    is_used: bool,
+    /// Whether it holds the views that do not change from frame to frame.
+    has_still: bool,
+    decoder: Decoder,
+    fixed_decoders: Vec<(Transfer, Option<FixedDecoder>)>,
 }
 
 /// Light of the texels of each world.
@@ -27,12 +30,16 @@ pub(super) enum Texels {
     Fixed(Vec<FixedLight>),
 }
 
+/// Texels that a thread makes at once, about.
+const PIECE: usize = 1 << 16;
+
 impl FrameLight {
     /// Room for that of a job.
     pub(super) fn new(job: &ConvertJob, is_fixed: bool) -> Self {
         let texels = if is_fixed { Texels::fixed(job) } else { Texels::floats(job) };
         let missing = vec![0; job.worlds.iter().map(|world| world.sources().len()).sum()];
-        Self { texels, missing, is_fixed, is_used: false }
+        let decoder = Decoder::default();
+        Self { texels, missing, is_fixed, has_still: false, decoder, fixed_decoders: Vec::new() }
     }
 
     /// All the texels.
@@ -45,34 +52,77 @@ impl FrameLight {
         &self.missing
     }
 
-    /// Reads a frame.
-    pub(super) fn load(&mut self, job: &ConvertJob, decoder: &Decoder, frame: Option<u64>) -> Result<()> {
-        if self.is_fixed && matches!(self.texels, Texels::Float(_)) {
-            // The frame before was another: what this one becomes must not depend on it.
-            self.texels = Texels::Fixed(Vec::new());
-            (self.texels, self.is_used) = (Texels::fixed(job), false);
-        }
-        if let Texels::Fixed(worlds) = &mut self.texels {
-            let decode = |image: &EncodedImage, transfer: &Transfer, into: &mut [[i16; 4]]| {
-                FixedDecoder::new(transfer).is_some_and(|decoder| decoder.decode(image, into)).then_some(0)
-            };
-            let read = Reading { job, frame, is_used: self.is_used, decode };
-            let texels = worlds.iter_mut().map(FixedLight::texels_mut).collect();
-            if read.all(texels, &mut self.missing)? {
-                self.is_used = true;
-                return Ok(());
-            }
-            // A frame unlike the first: with alpha, or in another encoding.
+    /// Takes in a frame: all its views, or those that are not the same in all frames.
+    pub(super) fn fill(
+        &mut self,
+        job: &ConvertJob,
+        frame: Option<u64>,
+        images: &[ViewImage],
+        stages: &Stages,
+    ) -> Result<()> {
+        // A frame unlike the first, with alpha or in another encoding, is held in floats. What a frame becomes must not
+        // depend on the one before.
+        let is_fixed = self.is_fixed && images.iter().all(|image| self.takes(image));
+        if is_fixed != matches!(self.texels, Texels::Fixed(_)) {
+            // Never both at once.
             self.texels = Texels::Float(Vec::new());
-            (self.texels, self.is_used) = (Texels::floats(job), false);
+            self.texels = if is_fixed { Texels::fixed(job) } else { Texels::floats(job) };
+            self.has_still = false;
         }
-        if let Texels::Float(worlds) = &mut self.texels {
-            let decode = |image: &EncodedImage, transfer: &Transfer, into: &mut [Rgba]| {
-                Some(decoder.decode(image, transfer, into))
-            };
-            let read = Reading { job, frame, is_used: self.is_used, decode };
-            read.all(worlds.iter_mut().map(Vec::as_mut_slice).collect(), &mut self.missing)?;
-            self.is_used = true;
+        if !self.has_still && images.len() < self.missing.len() {
+            for file in FrameFile::all(job, frame, Which::Still) {
+                let still = stages.beside(Stage::Decode, || file.read(job))?;
+                if let (true, Some(image)) = (is_fixed, still.iter().find(|image| !self.takes(image))) {
+                    let path = image.path.display();
+                    bail!("{path}: no longer opaque and of 8 bits; leave files alone while they are read");
+                }
+                self.decode(job, &still, stages)?;
+            }
+        }
+        self.has_still = true;
+        self.decode(job, images, stages)
+    }
+
+    /// Whether an image can be held in 15 bits.
+    fn takes(&mut self, image: &ViewImage) -> bool {
+        let known = self.fixed_decoders.iter().position(|(transfer, _)| *transfer == image.transfer);
+        let index = known.unwrap_or_else(|| {
+            self.fixed_decoders.push((image.transfer.clone(), FixedDecoder::new(&image.transfer)));
+            self.fixed_decoders.len() - 1
+        });
+        self.fixed_decoders[index].1.as_ref().is_some_and(|decoder| decoder.takes(&image.image))
+    }
+
+    fn decode(&mut self, job: &ConvertJob, images: &[ViewImage], stages: &Stages) -> Result<()> {
+        let Self { texels, decoder, fixed_decoders, .. } = self;
+        let missing = match texels {
+            Texels::Fixed(worlds) => {
+                let decoder = |image: &ViewImage| {
+                    fixed_decoders.iter().find(|(transfer, _)| *transfer == image.transfer)?.1.as_ref()
+                };
+                let rows = |image: &ViewImage, first: usize, into: &mut [[i16; 4]]| {
+                    decoder(image).map(|decoder| decoder.decode_rows(&image.image, first, into));
+                    // An integer is always a number.
+                    0
+                };
+                let texels = worlds.iter_mut().map(FixedLight::texels_mut).collect();
+                decode(job, images, texels, stages, rows)
+            }
+            Texels::Float(worlds) => {
+                let rows = |image: &ViewImage, first: usize, into: &mut [Rgba]| {
+                    decoder.decode_rows(&image.image, &image.transfer, first, into)
+                };
+                decode(job, images, worlds.iter_mut().map(Vec::as_mut_slice).collect(), stages, rows)
+            }
+        };
+        for (image, missing) in images.iter().zip(missing) {
+            let count = image.image.width() * image.image.height();
+            if missing == count && job.fill_for_missing().is_none() {
+                let name = job.input.present().nth(image.view).map_or("", |(view, ..)| &view.name);
+                let path = image.path.display();
+                bail!("{path}: the {name} view holds no light; render it again: every pixel is NaN");
+            }
+            self.missing[image.view] = missing;
         }
         Ok(())
     }
@@ -96,92 +146,29 @@ impl Texels {
     }
 }
 
-/// A frame that is being read.
-struct Reading<'a, D> {
-    job: &'a ConvertJob,
-    frame: Option<u64>,
-    /// Whether what does not change from frame to frame is there already.
-    is_used: bool,
-    /// Makes light of an image and counts the pixels that are missing; `None` if it cannot.
-    decode: D,
-}
-
-/// The texels of a view that are to be read.
-struct ViewPart<'a, T> {
-    index: usize,
-    input: &'a InputView,
-    header: &'a Header,
-    texels: &'a mut [T],
-}
-
-/// Views by their index, with how many pixels of each are missing.
-type Missing = Vec<(usize, usize)>;
-
-impl<D> Reading<'_, D> {
-    /// Reads the light of all views; false if some file's cannot be held.
-    fn all<T: Send>(&self, texels: Vec<&mut [T]>, missing: &mut [usize]) -> Result<bool>
-    where
-        D: Fn(&EncodedImage, &Transfer, &mut [T]) -> Option<usize> + Sync,
-    {
-        let mut parts = Vec::new();
-        let texels = self.job.worlds.iter().zip(texels).flat_map(|(world, texels)| by_view(world, texels));
-        for (index, (texels, (input, header, _))) in texels.zip(self.job.input.present()).enumerate() {
-            // What does not change from frame to frame is read once.
-            if !self.is_used || matches!(input.files, Files::Sequence(_)) {
-                parts.push(ViewPart { index, input, header, texels });
-            }
-        }
-        let counts: Result<Vec<Option<Missing>>> =
-            by_file(parts, self.frame).into_par_iter().map(|views| self.file(views)).collect();
-        let Some(counts) = counts?.into_iter().collect::<Option<Vec<Missing>>>() else { return Ok(false) };
-        for (index, count) in counts.into_iter().flatten() {
-            missing[index] = count;
-        }
-        Ok(true)
+/// Makes light of images, piece by piece in parallel; how many pixels of each are missing. `rows` makes that of some rows.
+fn decode<T: Send>(
+    job: &ConvertJob,
+    images: &[ViewImage],
+    texels: Vec<&mut [T]>,
+    stages: &Stages,
+    rows: impl Fn(&ViewImage, usize, &mut [T]) -> usize + Sync,
+) -> Vec<usize> {
+    let worlds = job.worlds.iter().zip(texels);
+    let mut views: Vec<_> = worlds.flat_map(|(world, texels)| by_view(world, texels)).map(Some).collect();
+    let missing: Vec<AtomicUsize> = images.iter().map(|_| AtomicUsize::new(0)).collect();
+    let mut pieces = Vec::new();
+    for (image, missing) in images.iter().zip(&missing) {
+        let width = image.image.width().max(1);
+        let some = PIECE.div_ceil(width);
+        let texels = views[image.view].take().into_iter().flat_map(|texels| texels.chunks_mut(some * width));
+        pieces.extend(texels.enumerate().map(|(piece, into)| (image, missing, piece * some, into)));
     }
-
-    /// Reads the light of the views of one file.
-    fn file<T>(&self, views: Vec<ViewPart<'_, T>>) -> Result<Option<Missing>>
-    where
-        D: Fn(&EncodedImage, &Transfer, &mut [T]) -> Option<usize>,
-    {
-        let Some(first) = views.first() else { return Ok(Some(Vec::new())) };
-        let (path, window) = (first.input.files.path(self.frame), first.header.window);
-        let expected = first.input.part.map_or((first.header.width, first.header.height), |part| part.of);
-        let file = read(&path, &Limits::memory(self.job.memory.bytes))?;
-        let found = (file.image.width(), file.image.height());
-        if found != expected || file.window != window {
-            bail!(
-                "{}: {}x{} pixels, but the first frame has {}x{}{}; all frames must have the same size and window",
-                path.display(),
-                found.0,
-                found.1,
-                expected.0,
-                expected.1,
-                if found == expected { " at another place of its canvas" } else { "" }
-            );
-        }
-        let transfer = self.job.light.input_transfer(file.image.depth(), &file.metadata);
-        let mut counts = Vec::new();
-        for view in views {
-            let count = view.texels.len();
-            let missing = match view.input.part {
-                Some(part) => {
-                    let face = file.image.cropped(part.corner, (view.header.width, view.header.height));
-                    (self.decode)(&face, &transfer, view.texels)
-                }
-                None => (self.decode)(&file.image, &transfer, view.texels),
-            };
-            let Some(missing) = missing else { return Ok(None) };
-            if missing == count && self.job.fill_for_missing().is_none() {
-                return Err(anyhow::anyhow!("every pixel is NaN")).with_context(|| {
-                    format!("{}: the {} view holds no light; render it again", path.display(), view.input.name)
-                });
-            }
-            counts.push((view.index, missing));
-        }
-        Ok(Some(counts))
-    }
+    pieces.into_par_iter().for_each(|(image, missing, first, into)| {
+        let found = stages.beside(Stage::Decode, || rows(image, first, into));
+        missing.fetch_add(found, Ordering::Relaxed);
+    });
+    missing.into_iter().map(AtomicUsize::into_inner).collect()
 }
 
 /// The texels of each of a world's views.
@@ -193,17 +180,4 @@ fn by_view<'a, T>(world: &World, mut texels: &'a mut [T]) -> Vec<&'a mut [T]> {
         texels = rest;
     }
     views
-}
-
-/// Views that share a file are read together.
-fn by_file<T>(views: Vec<ViewPart<'_, T>>, frame: Option<u64>) -> Vec<Vec<ViewPart<'_, T>>> {
-    let mut files: Vec<(PathBuf, Vec<ViewPart<'_, T>>)> = Vec::new();
-    for view in views {
-        let path = view.input.files.path(frame);
-        match files.iter_mut().find(|(other, _)| *other == path) {
-            Some((_, shared)) => shared.push(view),
-            None => files.push((path, vec![view])),
-        }
-    }
-    files.into_iter().map(|(_, views)| views).collect()
 }

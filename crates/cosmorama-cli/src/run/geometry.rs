@@ -1,6 +1,7 @@
 use cosmorama::raster::{Channels, Depth, FixedCodec, FixedDecoder, FixedLight, Image, Rgba};
 use cosmorama::resample::{FilterKind, FixedPlan, Plan, Resampler};
 
+use super::plan_cache::{Kept, PlanCache};
 use crate::job::{ConvertJob, Coverage, TargetView};
 
 /// The geometry of a job, in the form that its light needs: compiled by target view, where that pays and fits into memory.
@@ -12,15 +13,17 @@ pub(super) enum Geometry {
 }
 
 impl Geometry {
-    /// That of a job.
-    pub(super) fn compile(job: &ConvertJob) -> Self {
-        match codec(job) {
+    /// That of a job, and what should be known of it.
+    pub(super) fn compile(job: &ConvertJob) -> (Self, Vec<String>) {
+        let mut warnings = Vec::new();
+        let geometry = match codec(job) {
             Some(codec) => {
-                let plans = plans(job, |r| r.fixed_plan_bytes_estimate(), |r| r.fixed_plan(), FixedPlan::bytes);
+                let plans = plans(job, |r| r.fixed_plan_bytes_estimate(), |r| r.fixed_plan(), &mut warnings);
                 Self::Fixed(plans, codec)
             }
-            None => Self::Float(plans(job, |r| r.plan_bytes_estimate(), |r| r.plan(), Plan::bytes)),
-        }
+            None => Self::Float(plans(job, |r| r.plan_bytes_estimate(), |r| r.plan(), &mut warnings)),
+        };
+        (geometry, warnings)
     }
 
     /// From 15 bits to 8, where the job works in those.
@@ -64,22 +67,29 @@ impl Geometry {
     }
 }
 
-/// Geometry for many frames is computed once, as far as it fits into memory.
-fn plans<P>(
+/// Geometry for many frames is computed once, and once for many runs where it is kept, as far as it fits into memory.
+fn plans<P: Kept>(
     job: &ConvertJob,
     estimate: impl Fn(&Resampler) -> usize,
     plan: impl Fn(&Resampler) -> Option<P>,
-    bytes: impl Fn(&P) -> usize,
+    warnings: &mut Vec<String>,
 ) -> Vec<Option<P>> {
     let mut left = job.memory.left_for_plan(&job.input, &job.target);
     let pays = job.outputs.frames.len() > 1;
     let plan_of = |target: &TargetView| {
         let resampler = job.resampler(target);
-        if !pays || estimate(&resampler) as u64 > left {
-            return None;
-        }
-        let plan = plan(&resampler)?;
-        left = left.saturating_sub(bytes(&plan) as u64);
+        let compute = |left: u64| if estimate(&resampler) as u64 > left { None } else { plan(&resampler) };
+        let plan = match &job.plan_cache {
+            Some(folder) if !job.outputs.frames.is_empty() => {
+                let mut cache = PlanCache::new(folder, left);
+                let plan = cache.plan(&resampler, || compute(left));
+                warnings.append(&mut cache.warnings);
+                plan
+            }
+            _ if pays => compute(left),
+            _ => None,
+        }?;
+        left = left.saturating_sub(plan.bytes() as u64);
         Some(plan)
     };
     job.target.views.iter().map(plan_of).collect()

@@ -22,8 +22,6 @@ pub(super) struct Report {
     cpu_seconds: CpuSeconds,
     peak_memory_bytes: Option<u64>,
     warnings: Vec<String>,
-    #[serde(skip)]
-    stages: Stages,
 }
 
 impl Report {
@@ -32,7 +30,7 @@ impl Report {
         outputs: Vec<PathBuf>,
         (frames, skipped): (usize, usize),
         wall: Duration,
-        stages: Stages,
+        stages: &Stages,
         warnings: Vec<String>,
     ) -> Self {
         Self {
@@ -44,7 +42,6 @@ impl Report {
             cpu_seconds: stages.cpu_seconds(),
             peak_memory_bytes: peak_bytes(),
             warnings,
-            stages,
         }
     }
 
@@ -64,6 +61,6 @@ impl Report {
             (many, frames) => format!("{} files of {frames} frames", many.len()),
         };
         let skipped = if self.skipped == 0 { String::new() } else { format!(", {} kept", self.skipped) };
-        eprintln!("{what}{skipped} in {:.2} s ({})", self.wall_seconds, self.stages.describe());
+        eprintln!("{what}{skipped} in {:.2} s ({})", self.wall_seconds, self.cpu_seconds.describe());
     }
 }

@@ -20,11 +20,11 @@ const CHANNELS: [&str; 3] = ["R", "G", "B"];
 /// Writes the map by which other programs do the conversion.
 pub(super) fn convert(args: &ConvertArgs) -> Result<Report> {
     let start = Instant::now();
-    let mut stages = Stages::default();
+    let stages = Stages::default();
     if Builtin::named(&args.input)?.is_some() {
         return Err(usage(format!("--st-map tells places in an image, but {} is a formula", args.input)));
     }
-    let job = stages.time(Stage::Plan, || ConvertJob::resolve(args))?;
+    let job = stages.alone(Stage::Plan, || ConvertJob::resolve(args))?;
     check(args, &job)?;
     let depth = args.depth.map_or(Depth::Float, Depth::from);
     if depth == Depth::Half {
@@ -36,14 +36,14 @@ pub(super) fn convert(args: &ConvertArgs) -> Result<Report> {
         for (index, path) in &frame.files {
             let sheet = &job.target.files[*index].sheet;
             let map = |view: usize| st_pixels(&job, &job.target.views[view]);
-            let image = stages.time(Stage::Filter, || assemble(sheet, ST_NOWHERE, map))?;
-            stages.time(Stage::Encode, || save(&image, path, depth))?;
+            let image = stages.alone(Stage::Filter, || assemble(sheet, ST_NOWHERE, map))?;
+            stages.alone(Stage::Encode, || save(&image, path, depth))?;
         }
     }
     let frames = &job.outputs.frames;
     let inputs: BTreeSet<PathBuf> = frames.iter().flat_map(|frame| job.input.paths(frame.frame)).collect();
     let outputs = frames.iter().flat_map(|frame| frame.files.iter().map(|(_, path)| path.clone())).collect();
-    Ok(Report::new(inputs, outputs, (frames.len(), job.outputs.skipped), start.elapsed(), stages, job.warnings))
+    Ok(Report::new(inputs, outputs, (frames.len(), job.outputs.skipped), start.elapsed(), &stages, job.warnings))
 }
 
 /// A map holds no colours.

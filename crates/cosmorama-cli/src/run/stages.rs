@@ -1,6 +1,7 @@
-use std::time::{Duration, Instant};
+use std::sync::{Mutex, PoisonError};
+use std::time::Duration;
 
-use cpu_time::ProcessTime;
+use cpu_time::{ProcessTime, ThreadTime};
 use serde::Serialize;
 
 /// The stages of a conversion.
@@ -16,20 +17,18 @@ pub(super) enum Stage {
     Encode,
 }
 
-/// What the stages have cost. They run one after the other, each on all threads, so the time that the process spends
-/// on processors during a stage is the stage's.
-#[derive(Clone, Copy, Debug, Default)]
+/// What the stages have cost: time that the process has spent on processors, all threads added.
+#[derive(Debug, Default)]
 pub(super) struct Stages {
-    decode: Cost,
-    plan: Cost,
-    filter: Cost,
-    encode: Cost,
+    costs: Mutex<Costs>,
 }
 
 #[derive(Clone, Copy, Debug, Default)]
-struct Cost {
-    cpu: Duration,
-    wall: Duration,
+struct Costs {
+    decode: Duration,
+    plan: Duration,
+    filter: Duration,
+    encode: Duration,
 }
 
 /// CPU seconds by stage, all threads added.
@@ -42,40 +41,89 @@ pub(super) struct CpuSeconds {
 }
 
 impl Stages {
-    /// Does a part of a stage.
-    pub(super) fn time<T>(&mut self, stage: Stage, work: impl FnOnce() -> T) -> T {
-        let (start, cpu) = (Instant::now(), ProcessTime::now());
+    /// Does a part of a stage that nothing else runs beside: whatever the process spends is the stage's.
+    pub(super) fn alone<T>(&self, stage: Stage, work: impl FnOnce() -> T) -> T {
+        let cpu = ProcessTime::now();
         let result = work();
-        let cost = match stage {
-            Stage::Decode => &mut self.decode,
-            Stage::Plan => &mut self.plan,
-            Stage::Filter => &mut self.filter,
-            Stage::Encode => &mut self.encode,
-        };
-        cost.cpu += cpu.elapsed();
-        cost.wall += start.elapsed();
+        self.add(stage, cpu.elapsed());
         result
+    }
+
+    /// Does a part of a stage that one thread does by itself, whatever others do meanwhile.
+    pub(super) fn beside<T>(&self, stage: Stage, work: impl FnOnce() -> T) -> T {
+        let cpu = ThreadTime::now();
+        let result = work();
+        self.add(stage, cpu.elapsed());
+        result
+    }
+
+    /// Does several stages at once. What [`beside`](Self::beside) times is its stage's, all the rest is that of `stage`.
+    pub(super) fn among<T>(&self, stage: Stage, work: impl FnOnce() -> T) -> T {
+        let (cpu, before) = (ProcessTime::now(), self.costs().sum());
+        let result = work();
+        let others = self.costs().sum().saturating_sub(before);
+        self.add(stage, cpu.elapsed().saturating_sub(others));
+        result
+    }
+
+    fn costs(&self) -> Costs {
+        *self.costs.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    fn add(&self, stage: Stage, cpu: Duration) {
+        let mut costs = self.costs.lock().unwrap_or_else(PoisonError::into_inner);
+        *match stage {
+            Stage::Decode => &mut costs.decode,
+            Stage::Plan => &mut costs.plan,
+            Stage::Filter => &mut costs.filter,
+            Stage::Encode => &mut costs.encode,
+        } += cpu;
     }
 
     /// CPU seconds.
     pub(super) fn cpu_seconds(&self) -> CpuSeconds {
-        CpuSeconds {
-            decode: self.decode.cpu.as_secs_f64(),
-            plan: self.plan.cpu.as_secs_f64(),
-            filter: self.filter.cpu.as_secs_f64(),
-            encode: self.encode.cpu.as_secs_f64(),
-        }
+        let Costs { decode, plan, filter, encode } = self.costs();
+        let [decode, plan, filter, encode] = [decode, plan, filter, encode].map(|cost| cost.as_secs_f64());
+        CpuSeconds { decode, plan, filter, encode }
+    }
+}
+
+impl Costs {
+    fn sum(&self) -> Duration {
+        self.decode + self.plan + self.filter + self.encode
+    }
+}
+
+impl CpuSeconds {
+    /// For people: what each part took of the processors.
+    pub(super) fn describe(self) -> String {
+        let Self { decode, plan, filter, encode } = self;
+        format!("CPU: decode {decode:.2} s, plan {plan:.2} s, filter {filter:.2} s, encode {encode:.2} s")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::hint::black_box;
+
+    use super::*;
+
+    fn work(rounds: u64) -> u64 {
+        (0..black_box(rounds)).fold(1, |sum, round| black_box(sum ^ round).rotate_left(1))
     }
 
-    /// For people: how long each part took.
-    pub(super) fn describe(&self) -> String {
-        let seconds = |cost: Cost| cost.wall.as_secs_f64();
-        format!(
-            "decode {:.2} s, plan {:.2} s, filter {:.2} s, encode {:.2} s",
-            seconds(self.decode),
-            seconds(self.plan),
-            seconds(self.filter),
-            seconds(self.encode)
-        )
+    #[test]
+    fn what_others_do_meanwhile_is_not_counted_twice() {
+        let stages = Stages::default();
+        stages.among(Stage::Filter, || {
+            std::thread::scope(|scope| {
+                let other = scope.spawn(|| stages.beside(Stage::Encode, || work(30_000_000)));
+                black_box(work(10_000_000));
+                other.join().unwrap_or_default()
+            })
+        });
+        let CpuSeconds { filter, encode, decode, plan } = stages.cpu_seconds();
+        assert!(encode > filter && filter > 0.0, "{encode} {filter}");
+        assert_eq!((decode, plan), (0.0, 0.0));
     }
 }

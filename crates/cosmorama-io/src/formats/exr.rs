@@ -14,7 +14,7 @@ use rayon::prelude::*;
 
 use super::exr_selection::Selection;
 use super::exr_window::Crop;
-use super::{exr_dwa, whole_image};
+use super::{exr_dwa, is_beside_others, whole_image};
 use crate::file::Source;
 use crate::{EnvMap, Format, Header, ImageFile, IoError, Limits, Metadata};
 
@@ -173,8 +173,12 @@ fn pixels<S: Clone + Default>(
         if !batch.iter().all(|chunk| exr_dwa::is_plausible(chunk, compression, block_bytes)) {
             return Err(Error::Invalid("a chunk larger than its block".into()));
         }
-        let blocks: Result<Vec<UncompressedBlock>, Error> =
-            batch.into_par_iter().map(|chunk| UncompressedBlock::decompress_chunk(chunk, meta, false)).collect();
+        let decompress = |chunk: Chunk| UncompressedBlock::decompress_chunk(chunk, meta, false);
+        let blocks: Result<Vec<UncompressedBlock>, Error> = if is_beside_others() {
+            batch.into_iter().map(decompress).collect()
+        } else {
+            batch.into_par_iter().map(decompress).collect()
+        };
         for block in blocks? {
             insert(&block, &meta.headers[selection.part], selection, crop, read_line, &mut samples)?;
         }

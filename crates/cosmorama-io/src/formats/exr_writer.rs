@@ -2,6 +2,7 @@ use std::io::{Seek, Write};
 use std::path::Path;
 
 use cosmorama::raster::{AlphaMode, Channels, Depth, EncodedImage, Samples};
+use exr::compression::Compression as Packing;
 use exr::image::write::WritableImage;
 use exr::image::{AnyChannel, AnyChannels, Encoding, FlatSamples, Image, Layer};
 use exr::meta::attribute::{EnvironmentMap, Text};
@@ -9,14 +10,16 @@ use exr::meta::header::LayerAttributes;
 use exr::prelude::SmallVec;
 use half::f16;
 
-use crate::{EnvMap, IoError, Metadata};
+use super::is_beside_others;
+use crate::{Compression, EnvMap, IoError, Metadata};
 
-/// Scan lines, compressed without loss; light premultiplied, as the format has it.
+/// Scan lines; light premultiplied, as the format has it.
 pub(crate) fn write(
     path: &Path,
     output: impl Write + Seek,
     image: &EncodedImage,
     metadata: &Metadata,
+    compression: Compression,
 ) -> Result<(), IoError> {
     let names: &[&str] = match image.channels() {
         Channels::Grey => &["Y"],
@@ -29,7 +32,7 @@ pub(crate) fn write(
         .enumerate()
         .map(|(i, name)| Ok(AnyChannel::new(*name, plane(path, image, i)?)))
         .collect::<Result<_, IoError>>()?;
-    save(path, output, (image.width(), image.height()), list, metadata)
+    save(path, output, (image.width(), image.height()), list, metadata, compression)
 }
 
 /// Writes planes of numbers under the names given; as halves or as floats.
@@ -46,7 +49,7 @@ pub(crate) fn write_planes(
         _ => FlatSamples::F32(numbers),
     };
     let list = planes.into_iter().map(|(name, numbers)| AnyChannel::new(name, samples(numbers))).collect();
-    save(path, output, size, list, metadata)
+    save(path, output, size, list, metadata, Compression::default())
 }
 
 fn save(
@@ -55,7 +58,14 @@ fn save(
     size: (usize, usize),
     list: SmallVec<[AnyChannel<FlatSamples>; 4]>,
     metadata: &Metadata,
+    compression: Compression,
 ) -> Result<(), IoError> {
+    let packing = match compression {
+        Compression::None => Packing::Uncompressed,
+        Compression::Fast => Packing::RLE,
+        Compression::Balanced | Compression::High => Packing::ZIP16,
+    };
+    let encoding = Encoding { compression: packing, ..Encoding::SMALL_LOSSLESS };
     let attributes = LayerAttributes {
         environment_map: metadata.envmap.and_then(|kind| match kind {
             EnvMap::LatLong => Some(EnvironmentMap::LatitudeLongitude),
@@ -65,11 +75,11 @@ fn save(
         software_name: Some(Text::from("cosmorama")),
         ..LayerAttributes::default()
     };
-    let layer = Layer::new(size, attributes, Encoding::SMALL_LOSSLESS, AnyChannels::sort(list));
+    let layer = Layer::new(size, attributes, encoding, AnyChannels::sort(list));
     let picture = Image::from_layer(layer);
     let writer = picture.write();
-    // The encoder has threads of its own; one that may use only one has none to spare.
-    let written = if rayon::current_num_threads() > 1 {
+    // The encoder has threads of its own, for one that works alone and has some to spare.
+    let written = if rayon::current_num_threads() > 1 && !is_beside_others() {
         writer.to_buffered(output)
     } else {
         writer.non_parallel().to_buffered(output)

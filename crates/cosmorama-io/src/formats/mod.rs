@@ -27,6 +27,11 @@ pub(crate) mod tga;
 pub(crate) mod tiff;
 mod tiff_writer;
 
+/// Whether this thread is one of a pool: the others have files of their own then, and one does all of this file.
+fn is_beside_others() -> bool {
+    rayon::current_thread_index().is_some()
+}
+
 /// The file that a header announced, with its samples.
 fn whole_image(path: &Path, header: Header, samples: Samples) -> Result<ImageFile, IoError> {
     let Header { format, width, height, channels, depth, metadata, window } = header;

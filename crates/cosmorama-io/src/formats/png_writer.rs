@@ -4,16 +4,27 @@ use std::path::Path;
 use bytemuck::cast_slice;
 use cosmorama::raster::{Channels, Depth, EncodedImage, Samples};
 use png::chunk::sBIT;
-use png::{BitDepth, ColorType, Compression, Encoder, EncodingError, Info};
+use png::{BitDepth, ColorType, DeflateCompression, Encoder, EncodingError, Filter, Info};
 
 use super::png_colour::{CICP, Tag, XMP, tag};
-use crate::{IoError, Metadata, gpano};
+use crate::{Compression, IoError, Metadata, gpano};
 
-pub(crate) fn write(path: &Path, output: impl Write, image: &EncodedImage, metadata: &Metadata) -> Result<(), IoError> {
-    encode(output, image, metadata).map_err(|error| IoError::write(path, error))
+pub(crate) fn write(
+    path: &Path,
+    output: impl Write,
+    image: &EncodedImage,
+    metadata: &Metadata,
+    compression: Compression,
+) -> Result<(), IoError> {
+    encode(output, image, metadata, compression).map_err(|error| IoError::write(path, error))
 }
 
-fn encode(output: impl Write, image: &EncodedImage, metadata: &Metadata) -> Result<(), EncodingError> {
+fn encode(
+    output: impl Write,
+    image: &EncodedImage,
+    metadata: &Metadata,
+    compression: Compression,
+) -> Result<(), EncodingError> {
     let mut info = Info::with_size(dimension(image.width())?, dimension(image.height())?);
     info.color_type = match image.channels() {
         Channels::Grey => ColorType::Grayscale,
@@ -37,8 +48,16 @@ fn encode(output: impl Write, image: &EncodedImage, metadata: &Metadata) -> Resu
     if let Some(window) = metadata.panorama {
         encoder.add_itxt_chunk(XMP.to_owned(), gpano::packet(window, (image.width(), image.height())))?;
     }
-    // A tenth of the time of the default for a third more bytes: frames come by the thousand.
-    encoder.set_compression(Compression::Fast);
+    // zlib's level 6 takes ten to twenty times as long as fdeflate, for a tenth fewer bytes of a smooth picture. Rows
+    // filtered by Up are read in a third of the time that others take.
+    let (deflate, filter) = match compression {
+        Compression::None => (DeflateCompression::NoCompression, Filter::NoFilter),
+        Compression::Fast => (DeflateCompression::FdeflateUltraFast, Filter::Up),
+        Compression::Balanced => (DeflateCompression::FdeflateUltraFast, Filter::Adaptive),
+        Compression::High => (DeflateCompression::Level(6), Filter::Adaptive),
+    };
+    encoder.set_deflate_compression(deflate);
+    encoder.set_filter(filter);
     let mut writer = encoder.write_header()?;
     // The encoder has no words for these two.
     if let Some(Tag::CodePoints(cicp)) = tag {

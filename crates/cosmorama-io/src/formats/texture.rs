@@ -7,7 +7,7 @@ use rayon::prelude::*;
 
 use super::packing::Packed;
 use super::texel::Texels;
-use super::whole_image;
+use super::{is_beside_others, whole_image};
 use crate::file::Source;
 use crate::{EnvMap, Format, Header, ImageFile, IoError, Limits, Metadata};
 
@@ -77,7 +77,11 @@ impl CubeTexture {
             }
         };
         let decode = |face: Vec<u8>| self.texels.decode(&face, self.edge as usize, self.row_alignment as usize);
-        let decoded: Vec<Samples> = faces.into_par_iter().map(decode).collect();
+        let decoded: Vec<Samples> = if is_beside_others() {
+            faces.into_iter().map(decode).collect()
+        } else {
+            faces.into_par_iter().map(decode).collect()
+        };
         let mut file = whole_image(path, header, joined(decoded))?;
         file.image = file.image.with_alpha_mode(self.alpha);
         Ok(file)

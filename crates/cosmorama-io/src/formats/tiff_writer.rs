@@ -6,41 +6,49 @@ use bytemuck::cast_slice;
 use cosmorama::raster::{AlphaMode, Channels, EncodedImage, Samples};
 use tiff::TiffError;
 use tiff::encoder::colortype::ColorType;
-use tiff::encoder::{Compression, DeflateLevel, Predictor, TiffEncoder, TiffValue};
+use tiff::encoder::{Compression as Packing, DeflateLevel, Predictor, TiffEncoder, TiffValue};
 use tiff::tags::{PhotometricInterpretation, SampleFormat, Tag};
 
 use super::tiff::ICC_PROFILE;
-use crate::{IoError, Metadata};
+use crate::{Compression, IoError, Metadata};
 
 pub(crate) fn write(
     path: &Path,
     output: impl Write + Seek,
     image: &EncodedImage,
     metadata: &Metadata,
+    compression: Compression,
 ) -> Result<(), IoError> {
+    let how = &How { metadata, compression };
     let result = match image.samples() {
-        Samples::U8(samples) => by_channels::<Byte, _>(output, image, samples, metadata),
-        Samples::U16(samples) => by_channels::<Word, _>(output, image, samples, metadata),
-        Samples::Half(samples) => by_channels::<HalfBits, _>(output, image, cast_slice(samples), metadata),
-        Samples::Float(samples) => by_channels::<Single, _>(output, image, samples, metadata),
+        Samples::U8(samples) => by_channels::<Byte, _>(output, image, samples, how),
+        Samples::U16(samples) => by_channels::<Word, _>(output, image, samples, how),
+        Samples::Half(samples) => by_channels::<HalfBits, _>(output, image, cast_slice(samples), how),
+        Samples::Float(samples) => by_channels::<Single, _>(output, image, samples, how),
     };
     result.map_err(|error| IoError::write(path, error))
+}
+
+/// What a file says besides its samples, and how these are packed.
+struct How<'a> {
+    metadata: &'a Metadata,
+    compression: Compression,
 }
 
 fn by_channels<S: Sample, W: Write + Seek>(
     output: W,
     image: &EncodedImage,
     samples: &[S::Stored],
-    metadata: &Metadata,
+    how: &How<'_>,
 ) -> Result<(), TiffError>
 where
     [S::Stored]: TiffValue,
 {
     match image.channels() {
-        Channels::Grey => encode::<S, 1, W>(output, image, samples, metadata),
-        Channels::GreyAlpha => encode::<S, 2, W>(output, image, samples, metadata),
-        Channels::Rgb => encode::<S, 3, W>(output, image, samples, metadata),
-        Channels::Rgba => encode::<S, 4, W>(output, image, samples, metadata),
+        Channels::Grey => encode::<S, 1, W>(output, image, samples, how),
+        Channels::GreyAlpha => encode::<S, 2, W>(output, image, samples, how),
+        Channels::Rgb => encode::<S, 3, W>(output, image, samples, how),
+        Channels::Rgba => encode::<S, 4, W>(output, image, samples, how),
     }
 }
 
@@ -48,14 +56,20 @@ fn encode<S: Sample, const CHANNELS: usize, W: Write + Seek>(
     output: W,
     image: &EncodedImage,
     samples: &[S::Stored],
-    metadata: &Metadata,
+    how: &How<'_>,
 ) -> Result<(), TiffError>
 where
     [S::Stored]: TiffValue,
 {
-    let predictor = if S::FORMAT_IS_FLOAT { Predictor::None } else { Predictor::Horizontal };
-    let mut encoder =
-        TiffEncoder::new(output)?.with_compression(Compression::Deflate(DeflateLevel::Fast)).with_predictor(predictor);
+    let packing = match how.compression {
+        Compression::None => Packing::Uncompressed,
+        Compression::Fast | Compression::Balanced => Packing::Deflate(DeflateLevel::Fast),
+        Compression::High => Packing::Deflate(DeflateLevel::Balanced),
+    };
+    // Differences are of use to what comes after alone.
+    let is_plain = S::FORMAT_IS_FLOAT || packing == Packing::Uncompressed;
+    let predictor = if is_plain { Predictor::None } else { Predictor::Horizontal };
+    let mut encoder = TiffEncoder::new(output)?.with_compression(packing).with_predictor(predictor);
     let (width, height) = (u32::try_from(image.width())?, u32::try_from(image.height())?);
     let mut file = encoder.new_image::<Pixel<S, CHANNELS>>(width, height)?;
     let tags = file.encoder();
@@ -64,7 +78,7 @@ where
         let kind: u16 = if image.alpha_mode() == AlphaMode::Premultiplied { 1 } else { 2 };
         tags.write_tag(Tag::ExtraSamples, &[kind][..])?;
     }
-    if let Some(profile) = &metadata.icc {
+    if let Some(profile) = &how.metadata.icc {
         tags.write_tag(ICC_PROFILE, &profile[..])?;
     }
     file.write_data(samples)

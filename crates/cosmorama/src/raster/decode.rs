@@ -1,4 +1,4 @@
-use std::sync::atomic::{AtomicUsize, Ordering};
+use std::ops::Range;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use half::f16;
@@ -41,11 +41,22 @@ impl Decoder {
     /// When `into` is not as long as the image has pixels.
     pub fn decode(&self, image: &EncodedImage, transfer: &Transfer, into: &mut [Rgba]) -> usize {
         assert_eq!(into.len(), image.width() * image.height(), "one pixel of light for each pixel of the file");
+        let some = image.rows_at_once();
+        let parts = into.par_chunks_mut((some * image.width()).max(1)).enumerate();
+        parts.map(|(part, into)| self.decode_rows(image, transfer, part * some, into)).sum()
+    }
+
+    /// The same of as many rows as `into` is for, from the row `first` on, by the thread that calls it.
+    ///
+    /// # Panics
+    /// When `into` is not for whole rows, or the image has fewer.
+    pub fn decode_rows(&self, image: &EncodedImage, transfer: &Transfer, first: usize, into: &mut [Rgba]) -> usize {
+        let rows = image.samples_of_rows(first, into.len());
         match image.samples() {
-            Samples::U8(samples) => decode_integers(samples, image, &self.tables(transfer, 256), into),
-            Samples::U16(samples) => decode_integers(samples, image, &self.tables(transfer, 65536), into),
-            Samples::Half(samples) => decode_floats(samples, f16::to_f32, image, transfer, into),
-            Samples::Float(samples) => decode_floats(samples, |sample| sample, image, transfer, into),
+            Samples::U8(samples) => decode_integers(&samples[rows], image, &self.tables(transfer, 256), into),
+            Samples::U16(samples) => decode_integers(&samples[rows], image, &self.tables(transfer, 65536), into),
+            Samples::Half(samples) => decode_floats(&samples[rows], f16::to_f32, image, transfer, into),
+            Samples::Float(samples) => decode_floats(&samples[rows], |sample| sample, image, transfer, into),
         }
     }
 
@@ -86,24 +97,31 @@ impl Tables {
     }
 }
 
-/// Pixels that a thread takes at once.
+/// Pixels that a thread takes at once, about.
 const CHUNK: usize = 1 << 14;
 
-fn by_pixels<S: Copy + Sync>(
-    samples: &[S],
-    channels: Channels,
-    into: &mut [Rgba],
-    pixel: impl Fn(&[S]) -> Rgba + Sync,
-) {
-    let count = channels.count();
-    into.par_chunks_mut(CHUNK).zip(samples.par_chunks(CHUNK * count)).for_each(|(into, samples)| {
-        for (into, sample) in into.iter_mut().zip(samples.chunks_exact(count)) {
-            *into = pixel(sample);
-        }
-    });
+impl EncodedImage {
+    /// Rows that a thread takes at once.
+    pub(super) fn rows_at_once(&self) -> usize {
+        CHUNK.div_ceil(self.width().max(1))
+    }
+
+    /// Where the samples of so many pixels lie, whole rows from one on.
+    pub(super) fn samples_of_rows(&self, first: usize, pixels: usize) -> Range<usize> {
+        assert!(pixels.is_multiple_of(self.width().max(1)), "whole rows of {} pixels", self.width());
+        let count = self.channels().count();
+        let start = first * self.width() * count;
+        start..start + pixels * count
+    }
 }
 
-fn decode_integers<S: Copy + Sync + Into<u32>>(
+fn by_pixels<S>(samples: &[S], channels: Channels, into: &mut [Rgba], mut pixel: impl FnMut(&[S]) -> Rgba) {
+    for (into, sample) in into.iter_mut().zip(samples.chunks_exact(channels.count())) {
+        *into = pixel(sample);
+    }
+}
+
+fn decode_integers<S: Copy + Into<u32>>(
     samples: &[S],
     image: &EncodedImage,
     tables: &Tables,
@@ -133,15 +151,15 @@ fn decode_integers<S: Copy + Sync + Into<u32>>(
     0
 }
 
-fn decode_floats<S: Copy + Sync>(
+fn decode_floats<S: Copy>(
     samples: &[S],
-    float: impl Fn(S) -> f32 + Sync,
+    float: impl Fn(S) -> f32,
     image: &EncodedImage,
     transfer: &Transfer,
     into: &mut [Rgba],
 ) -> usize {
     let (channels, mode) = (image.channels(), image.alpha_mode());
-    let missing = AtomicUsize::new(0);
+    let mut missing = 0;
     by_pixels(samples, channels, into, |s| {
         let raw = match channels {
             Channels::Grey => Rgba::opaque(float(s[0]), float(s[0]), float(s[0])),
@@ -150,11 +168,11 @@ fn decode_floats<S: Copy + Sync>(
             Channels::Rgba => Rgba([float(s[0]), float(s[1]), float(s[2]), float(s[3])]),
         };
         if raw.0.iter().any(|sample| sample.is_nan()) {
-            missing.fetch_add(1, Ordering::Relaxed);
+            missing += 1;
         }
         light_of(raw.finite(), mode, transfer)
     });
-    missing.into_inner()
+    missing
 }
 
 fn light_of(code: Rgba, mode: AlphaMode, transfer: &Transfer) -> Rgba {

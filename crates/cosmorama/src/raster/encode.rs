@@ -5,24 +5,115 @@ use super::quantizer::Quantizer;
 use super::{AlphaMode, Channels, Depth, EncodedImage, Image, Rgba, Samples, Transfer};
 
 impl EncodedImage {
-    /// The samples of an image of light.
-    ///
-    /// Integers are rounded and clamped, with straight alpha; floats are premultiplied and keep light beyond
-    /// white. Without an alpha channel the colour is written as it is: composite over a background first.
-    /// Grey is the luminance of Rec. 709. A NaN never gets out: it becomes zero.
+    /// The samples of an image of light, by an [`Encoder`] of its own and all threads.
     pub fn encode(light: &Image<Rgba>, channels: Channels, depth: Depth, transfer: &Transfer) -> Self {
-        let samples = match depth {
-            Depth::Eight => Samples::U8(encode_integers(light, channels, 255, transfer, |code| code as u8)),
-            Depth::Ten => Samples::U16(encode_integers(light, channels, 1023, transfer, |code| code << 6 | code >> 4)),
-            Depth::Twelve => {
-                Samples::U16(encode_integers(light, channels, 4095, transfer, |code| code << 4 | code >> 8))
-            }
-            Depth::Sixteen => Samples::U16(encode_integers(light, channels, 65535, transfer, |code| code)),
-            Depth::Half => Samples::Half(encode_floats(light, channels, transfer, to_half)),
-            Depth::Float => Samples::Float(encode_floats(light, channels, transfer, |sample| sample)),
+        Encoder::new(channels, depth, transfer).encode(light, Threads::All)
+    }
+}
+
+/// Who works on an image.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Threads {
+    /// The thread that asks for it: others have images of their own.
+    One,
+    /// All.
+    All,
+}
+
+/// Makes samples of light: what it works out for one image serves the next.
+///
+/// Integers are rounded and clamped, with straight alpha; floats are premultiplied and keep light beyond
+/// white. Without an alpha channel the colour is written as it is: composite over a background first.
+/// Grey is the luminance of Rec. 709. A NaN never gets out: it becomes zero.
+#[derive(Debug)]
+pub struct Encoder {
+    channels: Channels,
+    depth: Depth,
+    transfer: Transfer,
+    /// For integers.
+    quantizer: Option<Quantizer>,
+}
+
+impl Encoder {
+    /// For samples of one kind.
+    pub fn new(channels: Channels, depth: Depth, transfer: &Transfer) -> Self {
+        let last = match depth {
+            Depth::Eight => Some(255),
+            Depth::Ten => Some(1023),
+            Depth::Twelve => Some(4095),
+            Depth::Sixteen => Some(65535),
+            Depth::Half | Depth::Float => None,
         };
-        let alpha_mode = if depth.is_float() { AlphaMode::Premultiplied } else { AlphaMode::Straight };
-        Self::from_parts(light.width(), light.height(), channels, depth, alpha_mode, samples)
+        let quantizer = last.map(|last| Quantizer::new(transfer, last));
+        Self { channels, depth, transfer: transfer.clone(), quantizer }
+    }
+
+    /// The samples of an image.
+    pub fn encode(&self, light: &Image<Rgba>, threads: Threads) -> EncodedImage {
+        let samples = match (&self.quantizer, self.depth) {
+            (Some(codes), Depth::Ten) => {
+                Samples::U16(self.integers(codes, 1023, light, threads, |code| code << 6 | code >> 4))
+            }
+            (Some(codes), Depth::Twelve) => {
+                Samples::U16(self.integers(codes, 4095, light, threads, |code| code << 4 | code >> 8))
+            }
+            (Some(codes), Depth::Sixteen) => Samples::U16(self.integers(codes, 65535, light, threads, |code| code)),
+            (Some(codes), _) => Samples::U8(self.integers(codes, 255, light, threads, |code| code as u8)),
+            (None, Depth::Half) => Samples::Half(self.floats(light, threads, to_half)),
+            (None, _) => Samples::Float(self.floats(light, threads, |sample| sample)),
+        };
+        let alpha_mode = if self.depth.is_float() { AlphaMode::Premultiplied } else { AlphaMode::Straight };
+        EncodedImage::from_parts(light.width(), light.height(), self.channels, self.depth, alpha_mode, samples)
+    }
+
+    fn integers<S: Copy + Default + Send>(
+        &self,
+        codes: &Quantizer,
+        last: u16,
+        light: &Image<Rgba>,
+        threads: Threads,
+        spread: impl Fn(u16) -> S + Sync,
+    ) -> Vec<S> {
+        let channels = self.channels;
+        let quantize = |light: f32, channel| spread(codes.code(light, channel));
+        let alpha = |alpha: f32| spread((alpha.clamp(0.0, 1.0) * f32::from(last)).round() as u16);
+        by_pixels(light, channels, threads, |pixel, samples| {
+            let [red, green, blue, coverage] = pixel.0;
+            let colour = if channels.has_alpha() { pixel.unpremultiplied() } else { [red, green, blue] };
+            if channels.is_colour() {
+                for channel in 0..3 {
+                    samples[channel] = quantize(colour[channel], channel);
+                }
+            } else {
+                samples[0] = quantize(luminance(colour), 1);
+            }
+            if channels.has_alpha() {
+                samples[channels.count() - 1] = alpha(coverage);
+            }
+        })
+    }
+
+    fn floats<S: Copy + Default + Send>(
+        &self,
+        light: &Image<Rgba>,
+        threads: Threads,
+        sample: impl Fn(f32) -> S + Sync,
+    ) -> Vec<S> {
+        let channels = self.channels;
+        by_pixels(light, channels, threads, |pixel, samples| {
+            let [red, green, blue, alpha] = pixel.finite().0;
+            let code = |light, channel| sample(code_of(light, alpha, channels, &self.transfer, channel));
+            if channels.is_colour() {
+                for (channel, light) in [red, green, blue].into_iter().enumerate() {
+                    samples[channel] = code(light, channel);
+                }
+            } else {
+                samples[0] = code(luminance([red, green, blue]), 1);
+            }
+            if channels.has_alpha() {
+                samples[channels.count() - 1] = sample(alpha);
+            }
+        })
     }
 }
 
@@ -47,64 +138,21 @@ const CHUNK: usize = 1 << 14;
 fn by_pixels<S: Copy + Default + Send>(
     light: &Image<Rgba>,
     channels: Channels,
+    threads: Threads,
     pixel: impl Fn(Rgba, &mut [S]) + Sync,
 ) -> Vec<S> {
     let count = channels.count();
     let mut samples = vec![S::default(); light.pixels().len() * count];
-    samples.par_chunks_mut(CHUNK * count).zip(light.pixels().par_chunks(CHUNK)).for_each(|(samples, light)| {
+    let some = |(samples, light): (&mut [S], &[Rgba])| {
         for (samples, light) in samples.chunks_exact_mut(count).zip(light) {
             pixel(*light, samples);
         }
-    });
+    };
+    match threads {
+        Threads::One => some((&mut samples, light.pixels())),
+        Threads::All => samples.par_chunks_mut(CHUNK * count).zip(light.pixels().par_chunks(CHUNK)).for_each(some),
+    }
     samples
-}
-
-fn encode_integers<S: Copy + Default + Send>(
-    light: &Image<Rgba>,
-    channels: Channels,
-    last: u16,
-    transfer: &Transfer,
-    spread: impl Fn(u16) -> S + Sync,
-) -> Vec<S> {
-    let quantizer = Quantizer::new(transfer, last);
-    let quantize = |light: f32, channel| spread(quantizer.code(light, channel));
-    let alpha = |alpha: f32| spread((alpha.clamp(0.0, 1.0) * f32::from(last)).round() as u16);
-    by_pixels(light, channels, |pixel, samples| {
-        let [red, green, blue, coverage] = pixel.0;
-        let colour = if channels.has_alpha() { pixel.unpremultiplied() } else { [red, green, blue] };
-        if channels.is_colour() {
-            for channel in 0..3 {
-                samples[channel] = quantize(colour[channel], channel);
-            }
-        } else {
-            samples[0] = quantize(luminance(colour), 1);
-        }
-        if channels.has_alpha() {
-            samples[channels.count() - 1] = alpha(coverage);
-        }
-    })
-}
-
-fn encode_floats<S: Copy + Default + Send>(
-    light: &Image<Rgba>,
-    channels: Channels,
-    transfer: &Transfer,
-    sample: impl Fn(f32) -> S + Sync,
-) -> Vec<S> {
-    by_pixels(light, channels, |pixel, samples| {
-        let [red, green, blue, alpha] = pixel.finite().0;
-        let code = |light, channel| sample(code_of(light, alpha, channels, transfer, channel));
-        if channels.is_colour() {
-            for (channel, light) in [red, green, blue].into_iter().enumerate() {
-                samples[channel] = code(light, channel);
-            }
-        } else {
-            samples[0] = code(luminance([red, green, blue]), 1);
-        }
-        if channels.has_alpha() {
-            samples[channels.count() - 1] = sample(alpha);
-        }
-    })
 }
 
 /// The premultiplied code value of premultiplied light.

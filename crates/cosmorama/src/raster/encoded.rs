@@ -89,9 +89,10 @@ impl EncodedImage {
     }
 
     /// An opaque image of 8-bit codes.
-    pub fn of_codes(codes: &Image<[u8; 3]>) -> Self {
-        let samples = Samples::U8(codes.pixels().as_flattened().to_vec());
-        Self::from_parts(codes.width(), codes.height(), Channels::Rgb, Depth::Eight, AlphaMode::Straight, samples)
+    pub fn of_codes(codes: Image<[u8; 3]>) -> Self {
+        let (width, height) = (codes.width(), codes.height());
+        let samples = Samples::U8(codes.into_pixels().into_flattened());
+        Self::from_parts(width, height, Channels::Rgb, Depth::Eight, AlphaMode::Straight, samples)
     }
 
     /// Parts that are known to fit.

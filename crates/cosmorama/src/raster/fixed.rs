@@ -76,13 +76,29 @@ impl FixedDecoder {
         (0..3).all(comes_back).then(|| Self { channels: [0, 1, 2].map(table) })
     }
 
+    /// Whether it can make light of an image: an opaque one of 8 bits.
+    pub fn takes(&self, image: &EncodedImage) -> bool {
+        matches!(image.samples(), Samples::U8(_)) && !image.channels().has_alpha()
+    }
+
     /// The light of an opaque image of 8 bits; false, changing nothing, if it is none.
     ///
     /// # Panics
     /// When `into` is not as long as the image has pixels.
     pub fn decode(&self, image: &EncodedImage, into: &mut [[i16; 4]]) -> bool {
         assert_eq!(into.len(), image.width() * image.height(), "one texel for each pixel of the file");
+        let some = image.rows_at_once();
+        let parts = into.par_chunks_mut((some * image.width()).max(1)).enumerate();
+        parts.map(|(part, into)| self.decode_rows(image, part * some, into)).all(|is_light| is_light)
+    }
+
+    /// The same of as many rows as `into` is for, from the row `first` on, by the thread that calls it.
+    ///
+    /// # Panics
+    /// When `into` is not for whole rows, or the image has fewer.
+    pub fn decode_rows(&self, image: &EncodedImage, first: usize, into: &mut [[i16; 4]]) -> bool {
         let Samples::U8(samples) = image.samples() else { return false };
+        let samples = &samples[image.samples_of_rows(first, into.len())];
         let [red, green, blue] = &self.channels;
         let code = |of: &[i16; 256], sample: u8| of[usize::from(sample)];
         match image.channels() {
@@ -95,14 +111,11 @@ impl FixedDecoder {
     }
 }
 
-fn fill<const N: usize>(into: &mut [[i16; 4]], samples: &[u8], texel: impl Fn([u8; N]) -> [i16; 4] + Sync) {
-    const CHUNK: usize = 1 << 14;
+fn fill<const N: usize>(into: &mut [[i16; 4]], samples: &[u8], texel: impl Fn([u8; N]) -> [i16; 4]) {
     let (samples, _) = samples.as_chunks::<N>();
-    into.par_chunks_mut(CHUNK).zip(samples.par_chunks(CHUNK)).for_each(|(into, samples)| {
-        for (into, sample) in into.iter_mut().zip(samples) {
-            *into = texel(*sample);
-        }
-    });
+    for (into, sample) in into.iter_mut().zip(samples) {
+        *into = texel(*sample);
+    }
 }
 
 /// The code of each light.

@@ -16,6 +16,7 @@ mod uniform;
 pub use channels::Channels;
 pub use decode::Decoder;
 pub use depth::Depth;
+pub use encode::{Encoder, Threads};
 pub use encoded::{AlphaMode, EncodedImage, Samples};
 pub use fixed::{FixedCodec, FixedDecoder, FixedLight};
 pub use image::{Image, ImageError};

@@ -2,6 +2,7 @@ use super::Transfer;
 
 /// From light to integer codes, exactly as rounding the transfer function would, without computing it: the light
 /// at which each code begins is tabulated, and the table is entered through the bits of the float.
+#[derive(Debug)]
 pub(super) struct Quantizer {
     channels: Vec<Thresholds>,
 }
@@ -22,6 +23,7 @@ impl Quantizer {
 /// Bits of a float that are dropped to find its bucket: 512 buckets for each doubling of the light.
 const SHIFT: u32 = 14;
 
+#[derive(Debug)]
 struct Thresholds {
     /// The least light of codes 1, 2, 3 …
     least: Vec<f32>,

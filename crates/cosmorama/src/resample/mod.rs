@@ -36,7 +36,7 @@ pub(crate) use kernel::KernelTable;
 pub use kernel::{CrossSection, Kernel};
 pub use need::{Need, Needs, Uncovered};
 pub(crate) use pixel_taps::PixelTaps;
-pub use plan::{FixedPlan, Plan};
+pub use plan::{FixedPlan, Plan, PlanError, PlanKey};
 pub use resampler::Resampler;
 pub use screen_mask::ScreenMask;
 use taps::{Tap, Taps};

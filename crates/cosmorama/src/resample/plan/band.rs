@@ -1,6 +1,7 @@
 use std::ops::Range;
 
 use super::mirrors::{Mirrors, Walk};
+use super::stored::{Stored, stored};
 use super::weights::Weights;
 use crate::resample::patch::SIDE;
 use crate::resample::scan::Sink;
@@ -237,5 +238,113 @@ impl<W, F: FnMut(&mut Band<W>)> Recorder<'_, W, F> {
                 (self.spill)(self.band);
             }
         }
+    }
+}
+
+stored!(Run {
+    corner: [u32; 2],
+    offsets: [[u8; 2]; SIDE],
+    weights: u32,
+    column: u32,
+    view: u16,
+    row: u8,
+    lanes: u8,
+    width: u8,
+    height: u8,
+    under: [u8; 2],
+});
+
+/// The largest number stands for a slope: as many taps there are not.
+impl Stored for Bound {
+    const LEAST: usize = u32::LEAST;
+
+    fn store(&self, into: &mut Vec<u8>) {
+        match self {
+            Self::Under(count) => *count,
+            Self::Slope => u32::MAX,
+        }
+        .store(into);
+    }
+
+    fn load(from: &mut &[u8]) -> Option<Self> {
+        let count = u32::load(from)?;
+        Some(if count == u32::MAX { Self::Slope } else { Self::Under(count) })
+    }
+}
+
+stored!(Tap { texel: u32, weight: f32 });
+
+stored!(Single { first: usize, taps: u32, bound: Bound, coverage: f32, column: u32, row: u8, image: u8 });
+
+impl<W: Weights> Stored for Band<W> {
+    const LEAST: usize = Vec::<Run>::LEAST + W::LEAST + Vec::<Single>::LEAST + Vec::<Tap>::LEAST;
+
+    fn store(&self, into: &mut Vec<u8>) {
+        self.runs.store(into);
+        self.weights.store(into);
+        self.singles.store(into);
+        self.taps.store(into);
+    }
+
+    fn load(from: &mut &[u8]) -> Option<Self> {
+        let (runs, weights) = (Vec::load(from)?, W::load(from)?);
+        Some(Self { runs, weights, singles: Vec::load(from)?, taps: Vec::load(from)? })
+    }
+}
+
+/// What a band may speak of.
+pub(super) struct Room<'a> {
+    pub(super) world: &'a World,
+    pub(super) mirrors: &'a Mirrors,
+    /// Rows of the band.
+    pub(super) rows: usize,
+}
+
+impl<W: Weights> Band<W> {
+    /// Whether all pixels, texels and weights that it speaks of are there.
+    pub(super) fn is_sound(&self, room: &Room) -> bool {
+        let texels = room.world.texel_count();
+        let is_tap = |tap: &Tap| (tap.texel as usize) < texels && tap.weight.is_finite();
+        self.runs.iter().all(|run| run.is_sound(room, &self.weights))
+            && self.singles.iter().all(|single| single.is_sound(room, self.taps.len()))
+            && self.taps.iter().all(is_tap)
+    }
+}
+
+impl Run {
+    fn is_sound(&self, room: &Room, weights: &impl Weights) -> bool {
+        let Some(source) = room.world.sources().get(usize::from(self.view)) else { return false };
+        let size = [source.view.width(), source.view.height()];
+        let after_last = SIDE - self.lanes.leading_zeros() as usize;
+        let [from, to] = self.under;
+        self.lanes != 0
+            && self.column as usize + after_last <= room.mirrors.columns
+            && usize::from(self.row) < room.rows
+            && self.width > 0
+            && self.height > 0
+            && from <= to
+            && to <= self.height
+            && weights.are_sound(self, size)
+    }
+
+    /// Whether a lane's window of some size lies within a view of another.
+    pub(super) fn is_within(&self, lane: usize, window: [usize; 2], view: [usize; 2]) -> bool {
+        let first = |axis: usize| self.corner[axis] as usize + usize::from(self.offsets[lane][axis]);
+        (0..2).all(|axis| first(axis) + window[axis] <= view[axis])
+    }
+}
+
+impl Single {
+    fn is_sound(&self, room: &Room, taps: usize) -> bool {
+        let is_bound = match self.bound {
+            Bound::Under(count) => count <= self.taps,
+            Bound::Slope => true,
+        };
+        self.first.checked_add(self.taps as usize).is_some_and(|end| end <= taps)
+            && is_bound
+            && (0.0..=1.0).contains(&self.coverage)
+            && (self.column as usize) < room.mirrors.columns
+            && usize::from(self.row) < room.rows
+            && usize::from(self.image) < room.mirrors.images.len()
     }
 }

@@ -2,7 +2,8 @@ use std::ops::Range;
 
 use fearless_simd::dispatch;
 
-use super::band::Corners;
+use super::band::{Corners, Run};
+use super::stored::Stored;
 use super::weights::Weights;
 use crate::resample::patch::SIDE;
 use crate::resample::window::Windows;
@@ -313,6 +314,18 @@ impl FixedWeights {
     }
 }
 
+impl Stored for FixedWeights {
+    const LEAST: usize = Vec::<u32>::LEAST;
+
+    fn store(&self, into: &mut Vec<u8>) {
+        self.numbers.store(into);
+    }
+
+    fn load(from: &mut &[u8]) -> Option<Self> {
+        Some(Self { numbers: Vec::load(from)?, rounded: Rounded::default() })
+    }
+}
+
 impl Weights for FixedWeights {
     fn len(&self) -> usize {
         self.numbers.len()
@@ -332,6 +345,16 @@ impl Weights for FixedWeights {
         self.rounded = Rounded::default();
     }
 
+    fn are_sound(&self, run: &Run, view: [usize; 2]) -> bool {
+        let mut numbers = self.numbers.get(run.weights as usize..).unwrap_or_default();
+        run.lanes().all(|lane| {
+            let Some((window, weights)) = window(&mut numbers, run) else { return false };
+            let size = |pair: &u32| [*pair as i16, (pair >> 16) as i16].map(|weight| i64::from(weight).abs());
+            // Sums of products with 15 bits must fit into 32.
+            weights.iter().flat_map(size).sum::<i64>() < 1 << 16 && run.is_within(lane, window, view)
+        })
+    }
+
     fn bytes(&self) -> usize {
         self.numbers.capacity() * size_of::<u32>()
     }
@@ -339,6 +362,20 @@ impl Weights for FixedWeights {
     fn used_bytes(&self) -> usize {
         self.numbers.len() * size_of::<u32>()
     }
+}
+
+/// Columns and rows of the window whose numbers come next, and its weights; `None` if it cannot be read.
+fn window<'a>(numbers: &mut &'a [u32], run: &Run) -> Option<([usize; 2], &'a [u32])> {
+    let (header, rest) = numbers.split_first().map(|(first, rest)| (Header(*first), rest))?;
+    let small = Shape::SMALL.get(header.shape() as usize);
+    let is_known = small.is_some() || header.shape() == Header::LARGE;
+    let large = Shape::new(usize::from(run.width).div_ceil(2), usize::from(run.height), 0);
+    let shape = small.unwrap_or(&large);
+    let words = if small.is_some() { 0 } else { run.rows_under().len() * marks(shape.pairs) };
+    let (weights, rest) = rest.get(words..)?.split_at_checked(shape.pairs * shape.height)?;
+    *numbers = rest;
+    let is_read = is_known && (14..=15).contains(&header.bits());
+    is_read.then_some(([2 * shape.pairs, shape.height], weights))
 }
 
 #[cfg(test)]

@@ -5,6 +5,7 @@ use fearless_simd::{Level, Simd, dispatch, f32x4, prelude::*};
 use super::band::{Band, Corners, Run};
 use super::canvas::Canvas;
 use super::mirrors::{MirrorImage, Mirrors, Walk};
+use super::stored::Stored;
 use super::weights::Weights;
 use crate::raster::Rgba;
 use crate::resample::patch::SIDE;
@@ -15,6 +16,18 @@ use crate::resample::window::Windows;
 /// the pixel.
 #[derive(Clone, Debug, Default)]
 pub(in crate::resample) struct FloatWeights(Vec<[f32; SIDE]>);
+
+impl Stored for FloatWeights {
+    const LEAST: usize = Vec::<[f32; SIDE]>::LEAST;
+
+    fn store(&self, into: &mut Vec<u8>) {
+        self.0.store(into);
+    }
+
+    fn load(from: &mut &[u8]) -> Option<Self> {
+        Vec::load(from).map(Self)
+    }
+}
 
 impl Weights for FloatWeights {
     fn len(&self) -> usize {
@@ -33,6 +46,15 @@ impl Weights for FloatWeights {
 
     fn shrink(&mut self) {
         self.0.shrink_to_fit();
+    }
+
+    fn are_sound(&self, run: &Run, view: [usize; 2]) -> bool {
+        let window = [usize::from(run.width), usize::from(run.height)];
+        let weights = self.0.get(run.weights as usize..).and_then(|from| from.get(..window[0] * window[1]));
+        let is_sound = |lane: usize, weights: &[[f32; SIDE]]| {
+            run.is_within(lane, window, view) && weights.iter().all(|weights| weights[lane].is_finite())
+        };
+        weights.is_some_and(|weights| run.lanes().all(|lane| is_sound(lane, weights)))
     }
 
     fn bytes(&self) -> usize {

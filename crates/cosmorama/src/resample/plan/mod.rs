@@ -6,7 +6,10 @@ mod canvas;
 mod fixed;
 mod fixed_weights;
 mod float;
+mod key;
 mod mirrors;
+mod saved;
+mod stored;
 #[cfg(test)]
 mod tests;
 mod texels;
@@ -21,7 +24,9 @@ use canvas::Canvas;
 use fixed::FixedFilter;
 use fixed_weights::FixedWeights;
 use float::{FloatFilter, FloatWeights};
+pub use key::PlanKey;
 use mirrors::Mirrors;
+pub use saved::PlanError;
 use weights::Weights;
 
 use super::kernel::KernelTable;
@@ -76,6 +81,24 @@ impl Plan {
     pub(super) fn bytes_estimate(resampler: &Resampler) -> usize {
         bytes_estimate::<FloatWeights>(resampler)
     }
+
+    /// What tells the plan of a conversion from any other.
+    pub fn key(resampler: &Resampler) -> PlanKey {
+        PlanKey::new(resampler, "light of any range")
+    }
+
+    /// The plan of the conversion that has this key, to be kept.
+    pub fn to_bytes(&self, key: PlanKey) -> Vec<u8> {
+        self.0.to_bytes(key)
+    }
+
+    /// A plan that was kept. Bytes from anywhere are safe to give: all that the plan says is checked.
+    ///
+    /// # Errors
+    /// When they are not the plan of this conversion and of this version, whole and sound.
+    pub fn from_bytes(bytes: &[u8], key: PlanKey, resampler: &Resampler) -> Result<Self, PlanError> {
+        Compiled::from_bytes(bytes, key, resampler).map(Self)
+    }
 }
 
 impl FixedPlan {
@@ -100,6 +123,24 @@ impl FixedPlan {
     /// About how many that of a conversion would hold: found from some bands of rows, keeping nothing.
     pub(super) fn bytes_estimate(resampler: &Resampler) -> usize {
         bytes_estimate::<FixedWeights>(resampler)
+    }
+
+    /// What tells the plan of a conversion from any other.
+    pub fn key(resampler: &Resampler) -> PlanKey {
+        PlanKey::new(resampler, "light of 15 bits")
+    }
+
+    /// The plan of the conversion that has this key, to be kept.
+    pub fn to_bytes(&self, key: PlanKey) -> Vec<u8> {
+        self.0.to_bytes(key)
+    }
+
+    /// A plan that was kept. Bytes from anywhere are safe to give: all that the plan says is checked.
+    ///
+    /// # Errors
+    /// When they are not the plan of this conversion and of this version, whole and sound.
+    pub fn from_bytes(bytes: &[u8], key: PlanKey, resampler: &Resampler) -> Result<Self, PlanError> {
+        Compiled::from_bytes(bytes, key, resampler).map(Self)
     }
 }
 

@@ -1,10 +1,11 @@
 use std::fmt::Debug;
 
-use super::band::Corners;
+use super::band::{Corners, Run};
+use super::stored::Stored;
 use crate::resample::window::Windows;
 
 /// How a plan keeps the weights of a band's windows, one run after the other.
-pub(in crate::resample) trait Weights: Clone + Debug + Default + Send + Sync {
+pub(in crate::resample) trait Weights: Stored + Clone + Debug + Default + Send + Sync {
     /// How many numbers they are: where the next run's begin.
     fn len(&self) -> usize;
 
@@ -16,6 +17,10 @@ pub(in crate::resample) trait Weights: Clone + Debug + Default + Send + Sync {
     fn truncate(&mut self, length: usize);
 
     fn shrink(&mut self);
+
+    /// Whether those of a run are all there and can be worked with, and its windows lie within a view of this size, columns and
+    /// rows.
+    fn are_sound(&self, run: &Run, view: [usize; 2]) -> bool;
 
     /// Bytes that they take, and of those that are held.
     fn bytes(&self) -> usize;

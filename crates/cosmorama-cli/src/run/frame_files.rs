@@ -1,0 +1,87 @@
+use std::path::PathBuf;
+
+use anyhow::{Result, bail};
+use cosmorama::raster::{EncodedImage, Transfer};
+use cosmorama_io::{Limits, read};
+
+use crate::job::{ConvertJob, Files};
+
+/// A view of a frame as its file holds it.
+pub(super) struct ViewImage {
+    /// Which, among the views that are present.
+    pub(super) view: usize,
+    /// Its file.
+    pub(super) path: PathBuf,
+    /// Its pixels.
+    pub(super) image: EncodedImage,
+    /// How their code values relate to light.
+    pub(super) transfer: Transfer,
+}
+
+/// Which views of a frame.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Which {
+    /// All of them.
+    All,
+    /// Those that have a file for each frame.
+    Moving,
+    /// Those whose file serves all frames.
+    Still,
+}
+
+/// A file of a frame, and the views whose pixels it holds.
+pub(super) struct FrameFile {
+    path: PathBuf,
+    views: Vec<usize>,
+}
+
+impl FrameFile {
+    /// The files of a frame.
+    pub(super) fn all(job: &ConvertJob, frame: Option<u64>, which: Which) -> Vec<Self> {
+        let mut files: Vec<Self> = Vec::new();
+        for (view, (input, ..)) in job.input.present().enumerate() {
+            let is_moving = matches!(input.files, Files::Sequence(_));
+            if which != Which::All && is_moving != (which == Which::Moving) {
+                continue;
+            }
+            let path = input.files.path(frame);
+            match files.iter_mut().find(|file| file.path == path) {
+                Some(file) => file.views.push(view),
+                None => files.push(Self { path, views: vec![view] }),
+            }
+        }
+        files
+    }
+
+    /// Reads it. One thread does all of it, where it is one of several in a pool.
+    pub(super) fn read(&self, job: &ConvertJob) -> Result<Vec<ViewImage>> {
+        let Self { path, views } = self;
+        let present: Vec<_> = job.input.present().collect();
+        let Some((first, header, _)) = views.first().map(|view| present[*view]) else { return Ok(Vec::new()) };
+        let expected = first.part.map_or((header.width, header.height), |part| part.of);
+        let file = read(path, &Limits::memory(job.memory.bytes))?;
+        let found = (file.image.width(), file.image.height());
+        if found != expected || file.window != header.window {
+            bail!(
+                "{}: {}x{} pixels, but the first frame has {}x{}{}; all frames must have the same size and window",
+                path.display(),
+                found.0,
+                found.1,
+                expected.0,
+                expected.1,
+                if found == expected { " at another place of its canvas" } else { "" }
+            );
+        }
+        let transfer = job.light.input_transfer(file.image.depth(), &file.metadata);
+        let view_image = |view: usize, image| ViewImage { view, path: path.clone(), image, transfer: transfer.clone() };
+        if let (&[view], None) = (&views[..], first.part) {
+            return Ok(vec![view_image(view, file.image)]);
+        }
+        let part = |&view: &usize| {
+            let (input, header, _) = present[view];
+            let image = input.part.map(|part| file.image.cropped(part.corner, (header.width, header.height)));
+            view_image(view, image.unwrap_or_else(|| file.image.clone()))
+        };
+        Ok(views.iter().map(part).collect())
+    }
+}

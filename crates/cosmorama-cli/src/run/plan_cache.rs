@@ -1,0 +1,93 @@
+use std::fs::{create_dir_all, read};
+use std::io::{ErrorKind, Write};
+use std::path::{Path, PathBuf};
+
+use anyhow::Result;
+use cosmorama::resample::{FixedPlan, Plan, PlanError, PlanKey, Resampler};
+use cosmorama_io::pending::Pending;
+
+/// Plans in a folder, from one run to the next. Nothing depends on it: what is not there, or not right, is computed.
+pub(super) struct PlanCache<'a> {
+    folder: &'a Path,
+    /// Bytes that may be used while a plan is read or written.
+    pub(super) memory: u64,
+    /// What was wrong.
+    pub(super) warnings: Vec<String>,
+}
+
+/// A plan that can be kept.
+pub(super) trait Kept: Sized {
+    fn key(resampler: &Resampler) -> PlanKey;
+    fn to_bytes(&self, key: PlanKey) -> Vec<u8>;
+    fn from_bytes(bytes: &[u8], key: PlanKey, resampler: &Resampler) -> Result<Self, PlanError>;
+    /// Bytes of memory that it holds.
+    fn bytes(&self) -> usize;
+}
+
+macro_rules! kept {
+    ($($plan:ident),*) => {$(
+        impl Kept for $plan {
+            fn key(resampler: &Resampler) -> PlanKey {
+                $plan::key(resampler)
+            }
+
+            fn to_bytes(&self, key: PlanKey) -> Vec<u8> {
+                $plan::to_bytes(self, key)
+            }
+
+            fn from_bytes(bytes: &[u8], key: PlanKey, resampler: &Resampler) -> Result<Self, PlanError> {
+                $plan::from_bytes(bytes, key, resampler)
+            }
+
+            fn bytes(&self) -> usize {
+                $plan::bytes(self)
+            }
+        }
+    )*};
+}
+
+kept!(Plan, FixedPlan);
+
+impl<'a> PlanCache<'a> {
+    /// That of a folder, which need not exist yet.
+    pub(super) fn new(folder: &'a Path, memory: u64) -> Self {
+        Self { folder, memory, warnings: Vec::new() }
+    }
+
+    /// The plan of a conversion, from the folder or computed, and then kept there. `None` where there is none to be had.
+    pub(super) fn plan<P: Kept>(&mut self, resampler: &Resampler, compute: impl FnOnce() -> Option<P>) -> Option<P> {
+        let key = P::key(resampler);
+        let path = self.folder.join(format!("{key}.plan"));
+        match self.found(&path, key, resampler) {
+            Ok(Some(plan)) => return Some(plan),
+            Ok(None) => {}
+            Err(reason) => self.warnings.push(format!("{}: {reason}; computed again", path.display())),
+        }
+        let plan = compute()?;
+        if let Err(reason) = self.keep(&path, &plan, key) {
+            self.warnings.push(format!("the plan is not kept: {reason}"));
+        }
+        Some(plan)
+    }
+
+    fn found<P: Kept>(&self, path: &Path, key: PlanKey, resampler: &Resampler) -> Result<Option<P>> {
+        match std::fs::metadata(path) {
+            // What does not fit beside the plan that is made of it is not read.
+            Ok(found) if found.is_file() && found.len() > self.memory / 2 => return Ok(None),
+            Err(error) if error.kind() == ErrorKind::NotFound => return Ok(None),
+            _ => {}
+        }
+        Ok(Some(P::from_bytes(&read(path)?, key, resampler)?))
+    }
+
+    /// Writes a file whole or not at all; of several programs that write the same one, the last one's stays.
+    fn keep<P: Kept>(&self, path: &PathBuf, plan: &P, key: PlanKey) -> Result<()> {
+        if plan.bytes() as u64 > self.memory / 2 {
+            anyhow::bail!("there is no room to write it; raise --memory");
+        }
+        create_dir_all(self.folder).map_err(|error| anyhow::anyhow!("{}: {error}", self.folder.display()))?;
+        let mut pending = Pending::create(path)?;
+        pending.writer().write_all(&plan.to_bytes(key))?;
+        Ok(pending.finish()?)
+    }
+}

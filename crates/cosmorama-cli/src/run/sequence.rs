@@ -1,0 +1,175 @@
+//! Frames in order through three stages that overlap.
+//!
+//! One thread conducts: it has files read ahead, makes light of the frame whose turn it is and filters that, with all
+//! threads, and has pictures written behind. Whatever takes time is done by the one pool of threads, so that codecs and
+//! the filter share the cores, and no thread of that pool ever waits for a queue: the conductor does, which is none of
+//! them. Both queues are bounded, and both are in the frames' order.
+
+use std::collections::VecDeque;
+use std::path::Path;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
+
+use anyhow::{Context, Result, bail};
+use cosmorama::raster::Threads;
+use rayon::Scope;
+
+use super::engine::{Engine, Levels};
+use super::frame_files::{FrameFile, ViewImage, Which};
+use super::frame_light::FrameLight;
+use super::stages::{Stage, Stages};
+use crate::job::{ConvertJob, FrameOutputs, InFlight};
+
+/// The frames of a job, as they are made.
+pub(super) struct Sequence<'a> {
+    pub(super) job: &'a ConvertJob,
+    pub(super) engine: &'a Engine<'a>,
+    pub(super) stages: &'a Stages,
+}
+
+/// What comes of tasks that were given to the pool.
+type Results<T> = Vec<Receiver<Result<T>>>;
+
+/// Frames that are being read, and those that are being written; each by its outputs and its files.
+#[derive(Default)]
+struct Queues<'a> {
+    read: VecDeque<(&'a FrameOutputs, Results<Vec<ViewImage>>)>,
+    written: VecDeque<(&'a FrameOutputs, Results<()>)>,
+}
+
+impl<'a> Sequence<'a> {
+    /// Makes all frames. `look` is shown the light of each, `done` each that is written, both in their order. The first
+    /// error ends it: frames before that one are finished, later ones are not begun.
+    pub(super) fn run(
+        &self,
+        mut look: impl FnMut(&FrameOutputs, &FrameLight),
+        mut done: impl FnMut(&FrameOutputs),
+    ) -> Result<()> {
+        let stop = &AtomicBool::new(false);
+        let mut queues = Queues::default();
+        rayon::in_place_scope(|scope| {
+            let made = self.make(scope, stop, &mut queues, &mut look, &mut done);
+            // What is being written belongs to frames before the one that failed: their errors come first.
+            let earlier = queues.finish_written(0, &mut done);
+            stop.store(true, Ordering::Relaxed);
+            earlier.and(made)
+        })
+    }
+
+    fn make<'s>(
+        &self,
+        scope: &Scope<'s>,
+        stop: &'s AtomicBool,
+        queues: &mut Queues<'a>,
+        look: &mut impl FnMut(&FrameOutputs, &FrameLight),
+        done: &mut impl FnMut(&FrameOutputs),
+    ) -> Result<()>
+    where
+        'a: 's,
+    {
+        let InFlight { read, written } = self.engine.in_flight();
+        let mut light = self.engine.frame_light();
+        let mut upcoming = self.job.outputs.frames.iter();
+        let mut which = Which::All;
+        loop {
+            while queues.read.len() < read {
+                let Some(frame) = upcoming.next() else { break };
+                queues.read.push_back((frame, self.have_read(scope, stop, frame, which)));
+                which = Which::Moving;
+            }
+            let Some((frame, results)) = queues.read.pop_front() else { return Ok(()) };
+            let images = all_of(results).with_context(|| told(frame))?;
+            let images: Vec<ViewImage> = images.into_iter().flatten().collect();
+            in_pool(|| light.fill(self.job, frame.frame, &images, self.stages)).with_context(|| told(frame))?;
+            drop(images);
+            look(frame, &light);
+            queues.finish_written(written - 1, done)?;
+            let pictures = in_pool(|| self.engine.render(frame, &light)).with_context(|| told(frame))?;
+            queues.written.push_back((frame, self.have_written(scope, stop, frame, pictures)));
+        }
+    }
+
+    /// Has the files of a frame read.
+    fn have_read<'s>(
+        &self,
+        scope: &Scope<'s>,
+        stop: &'s AtomicBool,
+        frame: &FrameOutputs,
+        which: Which,
+    ) -> Results<Vec<ViewImage>>
+    where
+        'a: 's,
+    {
+        let Self { job, stages, .. } = *self;
+        let files = FrameFile::all(job, frame.frame, which).into_iter();
+        let read = |file: FrameFile| task(scope, stop, move || stages.beside(Stage::Decode, || file.read(job)));
+        files.map(read).collect()
+    }
+
+    /// Has the pictures of a frame written.
+    fn have_written<'s>(
+        &self,
+        scope: &Scope<'s>,
+        stop: &'s AtomicBool,
+        frame: &'a FrameOutputs,
+        pictures: Vec<Levels>,
+    ) -> Results<()>
+    where
+        'a: 's,
+    {
+        let Self { engine, stages, .. } = *self;
+        let write = |((_, path), levels): (&'a (usize, std::path::PathBuf), Levels)| {
+            let path: &'a Path = path;
+            task(scope, stop, move || stages.beside(Stage::Encode, || engine.writer().save(levels, path, Threads::One)))
+        };
+        frame.files.iter().zip(pictures).map(write).collect()
+    }
+}
+
+impl Queues<'_> {
+    /// Waits until no more than so many frames are being written.
+    fn finish_written(&mut self, most: usize, done: &mut impl FnMut(&FrameOutputs)) -> Result<()> {
+        while self.written.len() > most {
+            let Some((frame, results)) = self.written.pop_front() else { break };
+            all_of(results).with_context(|| told(frame))?;
+            done(frame);
+        }
+        Ok(())
+    }
+}
+
+/// Gives a task to the pool. Once all is to stop, it is not begun.
+fn task<'s, T: Send + 's>(
+    scope: &Scope<'s>,
+    stop: &'s AtomicBool,
+    work: impl FnOnce() -> Result<T> + Send + 's,
+) -> Receiver<Result<T>> {
+    let (result, receiver): (SyncSender<Result<T>>, _) = sync_channel(1);
+    scope.spawn(move |_| {
+        if !stop.load(Ordering::Relaxed) {
+            // Nobody waits for it any more where another has failed.
+            let _ = result.send(work());
+        }
+    });
+    receiver
+}
+
+/// Waits for tasks; the error of the first that failed.
+fn all_of<T>(results: Results<T>) -> Result<Vec<T>> {
+    let wait = |result: Receiver<Result<T>>| match result.recv() {
+        Ok(result) => result,
+        // The scope tells why.
+        Err(_) => bail!("a thread has given up"),
+    };
+    results.into_iter().map(wait).collect()
+}
+
+/// Does on the pool's threads what would else be done by the conductor beside them.
+fn in_pool<T: Send>(work: impl FnOnce() -> T + Send) -> T {
+    rayon::scope(|_| work())
+}
+
+/// A frame, as errors name it.
+fn told(frame: &FrameOutputs) -> String {
+    frame.frame.map_or_else(|| "the frame".to_owned(), |number| format!("frame {number}"))
+}

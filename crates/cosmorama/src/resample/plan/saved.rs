@@ -1,0 +1,113 @@
+//! Plans as bytes, and back: nothing that is read is believed before it is checked.
+
+use rayon::prelude::*;
+use thiserror::Error;
+use twox_hash::XxHash3_128;
+
+use super::band::{Band, Room};
+use super::key::PlanKey;
+use super::mirrors::Mirrors;
+use super::stored::{Stored, stored};
+use super::weights::Weights;
+use super::{BAND, Compiled};
+use crate::resample::Resampler;
+
+/// What the bytes begin with.
+const MARK: [u8; 16] = *b"cosmorama plan\r\n";
+
+/// The version of what follows, and of how plans are computed.
+pub(super) const FORMAT: u32 = 1;
+
+/// Why bytes are not the plan of a conversion. Another one can always be computed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+pub enum PlanError {
+    /// They are something else.
+    #[error("not a plan")]
+    NotAPlan,
+    /// They are of another version of this library.
+    #[error("a plan of version {found}, but this is version {FORMAT}")]
+    Version {
+        /// Theirs.
+        found: u32,
+    },
+    /// They belong to another conversion.
+    #[error("the plan of another conversion")]
+    OtherConversion,
+    /// Some are missing or not as they were written.
+    #[error("damaged or truncated")]
+    Damaged,
+    /// They are as they were written, but tell of pixels, texels or weights that there are not.
+    #[error("a plan of what is not there")]
+    Unsound,
+}
+
+/// What stands before the bands.
+struct Head {
+    mark: [u8; 16],
+    format: u32,
+    key: u128,
+    /// Of all that follows.
+    checksum: u128,
+}
+
+stored!(Head { mark: [u8; 16], format: u32, key: u128, checksum: u128 });
+
+impl<W: Weights> Compiled<W> {
+    /// That of the conversion which has this key.
+    pub(super) fn to_bytes(&self, key: PlanKey) -> Vec<u8> {
+        let stored = |band: &Band<W>| {
+            let mut bytes = Vec::with_capacity(band.bytes());
+            band.store(&mut bytes);
+            bytes
+        };
+        let bands: Vec<Vec<u8>> = self.bands.par_iter().map(stored).collect();
+        let lengths: Vec<u64> = bands.iter().map(|band| band.len() as u64).collect();
+        let mut bytes = vec![0; Head::LEAST];
+        lengths.store(&mut bytes);
+        bands.iter().for_each(|band| bytes.extend_from_slice(band));
+        let checksum = XxHash3_128::oneshot(&bytes[Head::LEAST..]);
+        let mut head = Vec::with_capacity(Head::LEAST);
+        Head { mark: MARK, format: FORMAT, key: key.0, checksum }.store(&mut head);
+        bytes[..Head::LEAST].copy_from_slice(&head);
+        bytes
+    }
+
+    /// The plan of a conversion that has this key.
+    pub(super) fn from_bytes(mut bytes: &[u8], key: PlanKey, resampler: &Resampler) -> Result<Self, PlanError> {
+        let Some(head) = Head::load(&mut bytes).filter(|head| head.mark == MARK) else {
+            return Err(PlanError::NotAPlan);
+        };
+        if head.format != FORMAT {
+            return Err(PlanError::Version { found: head.format });
+        }
+        if head.key != key.0 {
+            return Err(PlanError::OtherConversion);
+        }
+        if head.checksum != XxHash3_128::oneshot(bytes) {
+            return Err(PlanError::Damaged);
+        }
+        let mirrors = Mirrors::of(resampler);
+        let parts = parts(&mut bytes).filter(|parts| parts.len() == mirrors.rows.div_ceil(BAND));
+        let parts = parts.ok_or(PlanError::Unsound)?;
+        let band = |(index, mut bytes): (usize, &[u8])| {
+            let room = Room { world: resampler.world, mirrors: &mirrors, rows: mirrors.band(index).len() };
+            let band = Band::<W>::load(&mut bytes).filter(|band| bytes.is_empty() && band.is_sound(&room));
+            band.ok_or(PlanError::Unsound)
+        };
+        let bands = parts.into_par_iter().enumerate().map(band).collect::<Result<_, _>>()?;
+        let (width, height) = (resampler.target.width(), resampler.target.height());
+        Ok(Self { width, height, anti_ringing: resampler.filter.anti_ringing, mirrors, bands })
+    }
+}
+
+/// The bytes of each band.
+fn parts<'a>(bytes: &mut &'a [u8]) -> Option<Vec<&'a [u8]>> {
+    let lengths = Vec::<u64>::load(bytes)?;
+    let mut parts = Vec::with_capacity(lengths.len());
+    for length in lengths {
+        let (part, rest) = bytes.split_at_checked(usize::try_from(length).ok()?)?;
+        parts.push(part);
+        *bytes = rest;
+    }
+    bytes.is_empty().then_some(parts)
+}
