@@ -3,6 +3,7 @@
 //! A world here is infinitely sharp: [`Radiance`] is a point sample. [`picture()`] makes a view's picture of it, each pixel
 //! the weighted mean of what it sees, by formula where the world has one. [`BuiltinWorld`] is the list of worlds that users
 //! can name. A [`DirectionMap`] says where each pixel of a view looks.
+#![forbid(unsafe_code)]
 
 mod builtin_world;
 mod checker;

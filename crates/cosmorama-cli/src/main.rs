@@ -2,6 +2,7 @@
 //!
 //! Arguments are parsed as typed ([`args`]), resolved into a job in which everything is checked ([`job`]), and run
 //! ([`run`]).
+#![forbid(unsafe_code)]
 
 mod args;
 mod failure;

@@ -1,8 +1,10 @@
 //! Worlds with closed-form answers, comparators and oracles for cosmorama's own tests.
+#![forbid(unsafe_code)]
 
 mod common_field;
 mod forms;
 mod frames;
+mod kernels;
 mod light;
 mod round_trip;
 mod shared;
@@ -10,6 +12,7 @@ mod sky;
 
 pub use forms::Form;
 pub use frames::{cube, cube_face, equirect, fisheye, omnimax, partial_worlds, perspective, turned, whole_worlds};
+pub use kernels::Kernel;
 pub use light::{light_by_direction, light_by_texel, position_error};
 pub use round_trip::RoundTrip;
 pub use shared::shared;

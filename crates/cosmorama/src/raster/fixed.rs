@@ -154,12 +154,11 @@ impl FixedCodec {
         self.background
     }
 
-    /// The codes of some light.
+    /// The codes of all light, by channel.
     #[inline(always)]
-    pub(crate) fn codes(&self, [red, green, blue, _]: [i16; 4]) -> [u8; 3] {
-        let code = |codes: &Codes, light: i16| codes[usize::from(light as u16 & 0x7fff)];
+    pub(crate) fn tables(&self) -> FixedCodes<'_> {
         let last = self.codes.len() - 1;
-        [code(&self.codes[0], red), code(&self.codes[last / 2], green), code(&self.codes[last], blue)]
+        FixedCodes([&self.codes[0], &self.codes[last / 2], &self.codes[last]])
     }
 
     /// The codes of a picture, in front of the background.
@@ -172,7 +171,21 @@ impl FixedCodec {
 
     /// The codes of light in floats.
     pub(crate) fn codes_of(&self, light: Rgba) -> [u8; 3] {
-        self.codes(light.0.map(|light| (light * WHITE).round().clamp(0.0, WHITE) as i16))
+        self.tables().of(light.0.map(|light| ((light * WHITE).clamp(0.0, WHITE) + 0.5) as i32))
+    }
+}
+
+/// The codes of all light, of red, green and blue.
+#[derive(Clone, Copy)]
+pub(crate) struct FixedCodes<'a>([&'a Codes; 3]);
+
+impl FixedCodes<'_> {
+    /// The codes of some light, red, green and blue from 0 to 32767.
+    #[inline(always)]
+    pub(crate) fn of(self, light: [i32; 4]) -> [u8; 3] {
+        let Self([red, green, blue]) = self;
+        let code = |codes: &Codes, light: i32| codes[light as usize & 0x7fff];
+        [code(red, light[0]), code(green, light[1]), code(blue, light[2])]
     }
 }
 

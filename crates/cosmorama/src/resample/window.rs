@@ -28,6 +28,8 @@ pub(super) struct Windows {
     height: usize,
     /// The view that holds the texels, by its index in the world.
     view: usize,
+    /// Columns of the view that count.
+    within: Range<u32>,
     /// Index of the view's first texel in the world's buffer, and its texels from one row to the next.
     offset: usize,
     stride: usize,
@@ -53,6 +55,7 @@ impl Windows {
             width: 0,
             height: 0,
             view: 0,
+            within: 0..0,
             offset: 0,
             stride: 0,
             corners: [None; SIDE],
@@ -60,6 +63,11 @@ impl Windows {
             slack: room(),
             beyond: room(),
         })
+    }
+
+    /// The level of instructions that fills them.
+    pub(super) fn level(&self) -> Level {
+        self.level
     }
 
     /// The windows of a row of a patch.
@@ -81,6 +89,11 @@ impl Windows {
     /// The index of the view that holds the texels.
     pub(super) fn view(&self) -> usize {
         self.view
+    }
+
+    /// The columns of the view, within which all windows that hold lie.
+    pub(super) fn columns_within(&self) -> Range<u32> {
+        self.within.clone()
     }
 
     /// Texels of a window across.
@@ -134,6 +147,7 @@ impl Windows {
     fn place(&mut self, patch: &Patch, first: &[[f32; SIDE]; 2]) {
         let source = patch.source;
         let whole = &source.whole;
+        self.within = whole.left as u32..whole.right as u32;
         let (width, height) = (self.width as i64, self.height as i64);
         (self.view, self.offset, self.stride) = (patch.view, source.offset, source.view.width());
         self.corners = std::array::from_fn(|lane| {

@@ -41,6 +41,9 @@ pub(super) struct Run {
     under: [u8; 2],
 }
 
+/// Column and row of the first texel of each lane's window, in the lanes that have one.
+pub(super) type Corners = [Option<[u32; 2]>; SIDE];
+
 /// A pixel by itself.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Single {
@@ -89,6 +92,12 @@ impl Run {
         usize::from(self.offsets[0][0].max(self.offsets[SIDE - 1][0])) + usize::from(self.width) - 1
     }
 
+    /// How far from the corner a lane's window begins.
+    #[inline(always)]
+    pub(super) fn offset(&self, lane: usize) -> [i32; 2] {
+        self.offsets[lane].map(i32::from)
+    }
+
     /// A lane's column, and the row in the band.
     #[inline(always)]
     pub(super) fn pixel(&self, lane: usize) -> [usize; 2] {
@@ -102,8 +111,8 @@ impl Run {
     }
 
     /// The run of windows that begin at these texels; `None` if it cannot be written down.
-    fn new(windows: &Windows, count: usize, [column, row]: [usize; 2], weights: usize) -> Option<Self> {
-        let corners = || (0..count).filter_map(|lane| windows.corner(lane).map(|corner| (lane, corner)));
+    fn new(windows: &Windows, corners: &Corners, [column, row]: [usize; 2], weights: usize) -> Option<Self> {
+        let corners = || (0..SIDE).filter_map(|lane| corners[lane].map(|corner| (lane, corner)));
         let least = |axis: usize| corners().map(|(_, corner)| corner[axis]).min();
         let corner = [least(0)?, least(1)?];
         let mut offsets = [[0; 2]; SIDE];
@@ -133,7 +142,7 @@ impl<W: Weights> Band<W> {
     /// Forgets all but the memory.
     pub(super) fn clear(&mut self) {
         self.runs.clear();
-        self.weights.clear();
+        self.weights.truncate(0);
         self.singles.clear();
         self.taps.clear();
     }
@@ -188,10 +197,14 @@ impl<W: Weights, F: FnMut(&mut Band<W>)> Sink for Recorder<'_, W, F> {
     }
 
     fn windows(&mut self, pixel: [usize; 2], count: usize, windows: &Windows) {
-        let run = Run::new(windows, count, pixel, self.band.weights.len());
-        if let Some(run) = run.filter(|run| self.band.weights.keep(windows, run)) {
-            self.band.runs.push(run);
-            return;
+        let first = self.band.weights.len();
+        let mut corners = std::array::from_fn(|lane| windows.corner(lane).filter(|_| lane < count));
+        if self.band.weights.keep(windows, &mut corners) {
+            if let Some(run) = Run::new(windows, &corners, pixel, first) {
+                self.band.runs.push(run);
+                return;
+            }
+            self.band.weights.truncate(first);
         }
         for lane in (0..count).filter(|&lane| windows.holds(lane)) {
             let mut taps = std::mem::take(&mut self.taps);

@@ -32,7 +32,7 @@ impl<'a, P> Canvas<'a, P> {
         own.zip(below).map(move |(own, mirrored)| Self { width, own, mirrored })
     }
 
-    /// Writes the pixels of a run, by lane, as a mirror image shows them.
+    /// Writes the pixels of a run, from left to right as a mirror image shows them.
     #[inline(always)]
     pub(super) fn put(&mut self, image: &MirrorImage, run: &Run, pixels: &[P; SIDE])
     where
@@ -40,7 +40,7 @@ impl<'a, P> Canvas<'a, P> {
     {
         if !run.is_whole() {
             for lane in run.lanes() {
-                *self.pixel(image, run.pixel(lane)) = pixels[lane];
+                *self.pixel(image, run.pixel(lane)) = pixels[if image.flips[0] { SIDE - 1 - lane } else { lane }];
             }
             return;
         }
@@ -52,11 +52,7 @@ impl<'a, P> Canvas<'a, P> {
         } else {
             (&mut *self.own, row)
         };
-        let into = &mut rows[row * self.width + column..][..SIDE];
-        into.copy_from_slice(pixels);
-        if image.flips[0] {
-            into.reverse();
-        }
+        rows[row * self.width + column..][..SIDE].copy_from_slice(pixels);
     }
 
     /// The pixel that a mirror image shows in place of the one in this column and row of the band.

@@ -1,18 +1,17 @@
 //! Plans in integers: for opaque pictures of 8 bits.
 //!
-//! Light has 15 bits and weights 16; their products are added in 32, so that the result is the same on every machine. Eight
-//! texels of a row are worked on together, red, green, blue and nothing of each, two beside each other in every block of 128
-//! bits: a product of pairs is then a weighted sum of two texels.
+//! Light has 15 bits and weights 16; their products are added in 32, so that the result is the same on every machine. Two texels
+//! beside each other are worked on together, red, green, blue and nothing of each, in a block of 128 bits for each mirror: the
+//! product of pairs is then a weighted sum of two texels, and weights are spread once for all mirrors.
 
-use std::ops::Range;
-
-use fearless_simd::{Level, Simd, dispatch, i16x8, i16x32, i32x4, i32x16, prelude::*, u8x64};
+use fearless_simd::{Level, Simd, dispatch, i16x8, i16x16, i16x32, prelude::*};
 
 use super::band::{Band, Run};
+use super::blocks::{self, Blocks};
 use super::canvas::Canvas;
-use super::fixed_weights::FixedWeights;
-use super::mirrors::{MOST_IMAGES, Mirrors, Walk};
-use super::spread::{GROUP, MASKS, PAIRS, Spread};
+use super::fixed_weights::{FixedWeights, Header, Shape, marks};
+use super::mirrors::{MOST_IMAGES, Mirrors, Ways};
+use super::texels::{self, Texels};
 use crate::raster::{FixedCodec, FixedLight};
 use crate::resample::patch::SIDE;
 use crate::resample::taps::average;
@@ -49,26 +48,39 @@ impl FixedFilter<'_> {
                 self.read_ahead(ahead.next().unwrap_or(&[]));
             }
             let numbers = &band.weights.numbers[run.weights as usize..];
-            let made = Made { run, bits: numbers[0] as u32, numbers: &numbers[1..] };
-            let pixels = match (run.width, run.height, self.anti_ringing) {
-                (4, 4, true) => self.small::<S, 4, 4, 24>(simd, made),
-                (4, 5, true) => self.small::<S, 4, 5, 29>(simd, made),
-                (5, 4, true) => self.small::<S, 5, 4, 27>(simd, made),
-                (5, 5, true) => self.small::<S, 5, 5, 33>(simd, made),
-                _ => self.any(simd, made),
-            };
+            let pixels = self.pixels(simd, run, numbers);
             for (image, pixels) in self.mirrors.images.iter().zip(&pixels) {
                 canvas.put(image, run, pixels);
             }
         }
     }
 
-    /// Reads a little of what these runs will read, so that it is near by then: lines of memory that are asked for one after the
-    /// other, as they are needed, take most of the time.
+    /// The pixels of a run in each mirror.
+    #[inline(always)]
+    fn pixels<S: Simd>(&self, simd: S, run: &Run, numbers: &[u32]) -> Pixels {
+        let mut pixels = [[[0; 3]; SIDE]; MOST_IMAGES];
+        let ways = self.mirrors.ways(usize::from(run.view));
+        let made = Made { simd, filter: self, ways, run, numbers };
+        match (ways.forward, ways.count) {
+            (2, 4) if ways.down[..2] == ways.down[2..] => made.pixels::<i16x32<S>, 4, 2>(0, &mut pixels),
+            (1, 2) => made.pixels::<i16x16<S>, 2, 1>(0, &mut pixels),
+            (forward, count) => {
+                for at in 0..forward {
+                    made.pixels::<i16x8<S>, 1, 0>(at, &mut pixels);
+                }
+                for at in forward..count {
+                    made.pixels::<i16x8<S>, 1, 1>(at, &mut pixels);
+                }
+            }
+        }
+        pixels
+    }
+
+    /// Asks for what these runs will read, so that it is near by then: lines of memory that are asked for one after the other,
+    /// as they are needed, take most of the time.
     #[inline(always)]
     fn read_ahead(&self, runs: &[Run]) {
         let samples = self.light.samples();
-        let mut read = 0;
         for image in &self.mirrors.images {
             for run in runs {
                 let walk = image.view(usize::from(run.view)).walk(run.corner());
@@ -76,245 +88,253 @@ impl FixedFilter<'_> {
                 let mut first = walk.first;
                 for _ in 0..run.height {
                     let last = if walk.is_reversed { first.wrapping_sub(span) } else { first.wrapping_add(span) };
-                    for texel in [first, last] {
-                        read |= samples.get(4 * texel as usize).copied().unwrap_or(0);
-                    }
+                    texels::read_ahead(samples, first);
+                    texels::read_ahead(samples, last);
                     first = first.wrapping_add_signed(walk.down);
                 }
             }
         }
-        std::hint::black_box(read);
-    }
-
-    /// The pixels of a run in each mirror, whose windows have W × H texels: the sizes that there are where a kernel is as small
-    /// as may be. N numbers are read of each: the last row's as a whole group. What mirrors share is done once.
-    #[inline(always)]
-    fn small<S: Simd, const W: usize, const H: usize, const N: usize>(&self, simd: S, made: Made) -> Pixels {
-        let Made { run, bits, mut numbers } = made;
-        let samples = self.light.samples();
-        let mut pixels = [[[0; 3]; SIDE]; MOST_IMAGES];
-        let ways = self.ways(run);
-        for lane in run.lanes() {
-            let window = &numbers[..N];
-            for (is_reversed, way) in [false, true].into_iter().zip(&ways) {
-                if way.count == 0 {
-                    continue;
-                }
-                let weights = SmallWindow::<S, H>::new::<W>(simd, window, is_reversed);
-                for (image, corner) in &way.corners[..way.count] {
-                    let mut walk = run.walk(*corner, lane);
-                    if is_reversed {
-                        walk.first = walk.first.wrapping_sub(W as u32 - 1);
-                    }
-                    pixels[*image][lane] = self.codec.codes(weights.average(samples, walk, bits));
-                }
-            }
-            numbers = &numbers[(W + 1) * H..];
-        }
-        pixels
-    }
-
-    /// How windows of a run are walked through in each mirror: those from left to right, and those from right to left.
-    #[inline(always)]
-    fn ways(&self, run: &Run) -> [Way; 2] {
-        let mut ways = [Way::default(), Way::default()];
-        for (index, image) in self.mirrors.images.iter().enumerate() {
-            let walk = image.view(usize::from(run.view)).walk(run.corner());
-            let way = &mut ways[usize::from(walk.is_reversed)];
-            way.corners[way.count] = (index, walk);
-            way.count += 1;
-        }
-        ways
-    }
-
-    /// The pixels of any run in each mirror.
-    #[inline(always)]
-    fn any<S: Simd>(&self, simd: S, made: Made) -> Pixels {
-        let Made { run, bits, mut numbers } = made;
-        let window = Window::new(run, self.anti_ringing, bits);
-        let mut pixels = [[[0; 3]; SIDE]; MOST_IMAGES];
-        for lane in run.lanes() {
-            for (pixels, image) in pixels.iter_mut().zip(&self.mirrors.images) {
-                let walk = run.walk(image.view(usize::from(run.view)).walk(run.corner()), lane);
-                pixels[lane] = self.codec.codes(window.average(simd, numbers, self.light.samples(), walk));
-            }
-            numbers = &numbers[window.numbers..];
-        }
-        pixels
     }
 }
 
-/// Mirrors that go through windows the same way: which, and how through one at the run's corner.
-#[derive(Default)]
-struct Way {
-    corners: [(usize, Walk); MOST_IMAGES],
-    count: usize,
-}
-
-/// What is known of a run.
-#[derive(Clone, Copy)]
-struct Made<'a> {
-    run: &'a Run,
-    /// By how many bits weights are scaled.
-    bits: u32,
-    /// Its weights, and more.
-    numbers: &'a [i16],
-}
-
-/// The pixels of a run in each mirror, by lane.
+/// The pixels of a run in each mirror, from left to right as that shows them.
 type Pixels = [[[u8; 3]; SIDE]; MOST_IMAGES];
 
-/// The weights of a window with H rows, as they stand beside texels, and all bits of those that lie under the pixel.
-struct SmallWindow<S: Simd, const H: usize> {
+/// What makes the pixels of a run.
+#[derive(Clone, Copy)]
+struct Made<'a, S> {
     simd: S,
-    weights: [i16x32<S>; H],
-    under: [i16x32<S>; H],
+    filter: &'a FixedFilter<'a>,
+    ways: &'a Ways,
+    run: &'a Run,
+    /// Its weights, and more.
+    numbers: &'a [u32],
 }
 
-impl<S: Simd, const H: usize> SmallWindow<S, H> {
+impl<S: Simd> Made<'_, S> {
+    /// The pixels in N mirrors from this one on; in the last R of them windows are walked through from right to left. Of four,
+    /// every other one goes from row to row alike.
     #[inline(always)]
-    fn new<const W: usize>(simd: S, numbers: &[i16], is_reversed: bool) -> Self {
-        let spread = Spread::of(simd, is_reversed, W);
-        let mut this = Self { simd, weights: [i16x32::splat(simd, 0); H], under: [i16x32::splat(simd, 0); H] };
-        for row in 0..H {
-            let at = row * (W + 1);
-            let weights = i16x8::from_slice(simd, &numbers[at + 1..][..GROUP]);
-            this.weights[row] = spread.of_block(weights) & spread.counts;
-            this.under[row] = spread.of_block(i16x8::load_array_ref(simd, &MASKS[usize::from(numbers[at] as u8)]));
+    fn pixels<V: Blocks<S, N>, const N: usize, const R: usize>(self, start: usize, pixels: &mut Pixels) {
+        let Self { simd, filter, ways, run, mut numbers } = self;
+        let order: [(usize, usize); N] = std::array::from_fn(|image| ways.order[start + image]);
+        let mut corners = [0; N];
+        for image in 0..N {
+            let seen = filter.mirrors.images[order[image].0].view(usize::from(run.view));
+            corners[image] = seen.walk(run.corner()).first;
         }
-        this
-    }
-
-    #[inline(always)]
-    fn average(&self, samples: &[i16], walk: Walk, bits: u32) -> [i16; 4] {
-        let mut sums = Sums::zero(self.simd);
-        let mut first = walk.first;
-        for row in 0..H {
-            sums.add::<true>(group(samples, first), self.weights[row], self.under[row]);
-            first = first.wrapping_add_signed(walk.down);
-        }
-        sums.average(bits, true)
-    }
-}
-
-/// What the windows of a run have in common.
-struct Window {
-    height: usize,
-    /// Groups of texels in a row, all but the last of them whole.
-    groups: usize,
-    /// Texels of the last one.
-    rest: usize,
-    /// Rows with texels under the pixel.
-    under: Range<usize>,
-    /// Numbers that are kept of each.
-    numbers: usize,
-    /// By how many bits weights are scaled.
-    bits: u32,
-}
-
-impl Window {
-    #[inline(always)]
-    fn new(run: &Run, anti_ringing: bool, bits: u32) -> Self {
-        let (width, height) = (usize::from(run.width), usize::from(run.height));
-        let groups = width.div_ceil(GROUP);
-        let under = if anti_ringing { run.rows_under() } else { 0..0 };
-        Self { height, groups, rest: width - GROUP * (groups - 1), under, numbers: height * (width + groups), bits }
-    }
-
-    /// The weighted average of a window's texels, held to those under the pixel; `samples` are those of all texels.
-    #[inline(always)]
-    fn average<S: Simd>(&self, simd: S, numbers: &[i16], samples: &[i16], walk: Walk) -> [i16; 4] {
-        let mut sums = Sums::zero(simd);
-        let (mut row_first, mut at) = (walk.first, 0);
-        for row in 0..self.height {
-            let mut end = row_first;
-            for index in 0..self.groups {
-                let count = if index + 1 == self.groups { self.rest } else { GROUP };
-                let first = if walk.is_reversed { end.wrapping_sub(count as u32 - 1) } else { end };
-                let spread = Spread::of(simd, walk.is_reversed, count);
-                let weights = spread.of_block(i16x8::from_slice(simd, &numbers[at + 1..][..GROUP])) & spread.counts;
-                let samples = group(samples, first);
-                if self.under.contains(&row) {
-                    let under = i16x8::load_array_ref(simd, &MASKS[usize::from(numbers[at] as u8)]);
-                    sums.add::<true>(samples, weights, spread.of_block(under));
-                } else {
-                    sums.add::<false>(samples, weights, weights);
-                }
-                at += 1 + count;
-                let group = GROUP as u32;
-                end = if walk.is_reversed { end.wrapping_sub(group) } else { end.wrapping_add(group) };
+        let down = [ways.down[start], ways.down[start + 1 % N]];
+        let large = Shape { pairs: usize::from(run.width).div_ceil(2), height: usize::from(run.height), under: 0 };
+        let codes = filter.codec.tables();
+        let samples = filter.light.samples();
+        let pairs = V::Bytes::from_slice(simd, blocks::order::<N, R>());
+        for lane in run.lanes() {
+            let [column, row] = run.offset(lane);
+            let rows = [down[0].wrapping_mul(row), down[1].wrapping_mul(row)];
+            let mut first = [0; N];
+            for image in 0..N {
+                let columns = if image < N - R { column } else { -column };
+                first[image] = corners[image].wrapping_add_signed(rows[image % 2] + columns);
             }
-            row_first = row_first.wrapping_add_signed(walk.down);
+            let window = Window::<S, V, N, R> { simd, order: pairs, samples, first, down };
+            let header = Header(numbers[0]);
+            let (sums, length) = match header.shape() {
+                0 => (window.small::<2, 4, 0>(header, numbers), 9),
+                1 => (window.small::<2, 4, 1>(header, numbers), 9),
+                2 => (window.small::<2, 5, 1>(header, numbers), 11),
+                3 => (window.small::<3, 4, 0>(header, numbers), 13),
+                4 => (window.small::<3, 4, 1>(header, numbers), 13),
+                5 => (window.small::<3, 5, 1>(header, numbers), 16),
+                _ => window.large(large, run, numbers),
+            };
+            numbers = &numbers[length..];
+            let light = sums.average(simd, header.bits(), filter.anti_ringing);
+            for (light, (index, flip)) in light.as_slice().as_chunks().0.iter().zip(&order) {
+                pixels[index % MOST_IMAGES][(lane ^ flip) % SIDE] = codes.of(*light);
+            }
         }
-        sums.average(self.bits, !self.under.is_empty())
+    }
+}
+
+/// A pixel's window in N mirrors, R of them from right to left.
+#[derive(Clone, Copy)]
+struct Window<'a, S: Simd, V: Blocks<S, N>, const N: usize, const R: usize> {
+    simd: S,
+    /// From texels to pairs of a channel.
+    order: V::Bytes,
+    /// Those of all texels.
+    samples: &'a [i16],
+    /// Where it begins.
+    first: [u32; N],
+    /// From one row to the next, in turn.
+    down: [i32; 2],
+}
+
+impl<'a, S: Simd, V: Blocks<S, N>, const N: usize, const R: usize> Window<'a, S, V, N, R> {
+    /// Sums over a window of a small size, and the bounds of what lies under the pixel. Written out: loops would stay loops.
+    #[inline(always)]
+    fn small<const PAIRS: usize, const HEIGHT: usize, const UNDER: usize>(
+        self,
+        header: Header,
+        numbers: &[u32],
+    ) -> Sums<S, V, N> {
+        let mut texels = [self.texels::<PAIRS, HEIGHT>(0); N];
+        for (image, texels) in texels.iter_mut().enumerate().skip(1) {
+            *texels = self.texels(image);
+        }
+        let (mut sums, marks, weights) = (Sums::zero(self.simd), header.marks(), &numbers[1..][..PAIRS * HEIGHT]);
+        let Self { simd, order, .. } = self;
+        let row = SmallRow::<S, V, N, R, PAIRS, HEIGHT> { simd, order, texels };
+        let marks = |row: usize| marks >> (2 * PAIRS * (row - UNDER));
+        if UNDER == 0 {
+            row.add::<true>(&mut sums, weights, 0, marks(0));
+        } else {
+            row.add::<false>(&mut sums, weights, 0, 0);
+        }
+        row.add::<true>(&mut sums, weights, 1, marks(1));
+        row.add::<true>(&mut sums, weights, 2, marks(2));
+        if UNDER == 1 {
+            row.add::<true>(&mut sums, weights, 3, marks(3));
+        } else {
+            row.add::<false>(&mut sums, weights, 3, 0);
+        }
+        if HEIGHT == 5 {
+            row.add::<false>(&mut sums, weights, 4, 0);
+        }
+        sums
+    }
+
+    /// The texels of a mirror.
+    #[inline(always)]
+    fn texels<const PAIRS: usize, const HEIGHT: usize>(&self, image: usize) -> Texels<'a, PAIRS, HEIGHT> {
+        Texels::new(self.samples, self.leftmost(image, PAIRS), self.down[image % 2])
+    }
+
+    /// The first texel of a row, whichever way it is walked through.
+    #[inline(always)]
+    fn leftmost(&self, image: usize, pairs: usize) -> u32 {
+        if image < N - R { self.first[image] } else { self.first[image].wrapping_sub(2 * pairs as u32 - 1) }
+    }
+
+    /// The same of any size, and how many numbers tell of it.
+    #[inline(always)]
+    fn large(self, Shape { pairs, height, .. }: Shape, run: &Run, numbers: &[u32]) -> (Sums<S, V, N>, usize) {
+        let (rows, words) = (run.rows_under(), marks(pairs));
+        let (all_marks, weights) = numbers[1..].split_at(rows.len() * words);
+        let mut sums = Sums::zero(self.simd);
+        for row in 0..height {
+            let (texels, weights) = (self.row(row, pairs), &weights[row * pairs..][..pairs]);
+            for pair in 0..pairs {
+                let mut blocks = [i16x8::splat(self.simd, 0); N];
+                for image in 0..N {
+                    let pair = if image < N - R { pair } else { pairs - 1 - pair };
+                    blocks[image] = i16x8::from_slice(self.simd, &texels[image][8 * pair..][..8]);
+                }
+                let texels = V::join(blocks).swizzle_dyn_within_blocks(self.order);
+                sums.add(texels, V::weights(self.simd, weights[pair]));
+                if rows.contains(&row) {
+                    let marks = all_marks[(row - rows.start) * words + pair / 16] >> (pair % 16 * 2);
+                    sums.bound(texels, V::mask(self.simd, marks));
+                }
+            }
+        }
+        (sums, 1 + all_marks.len() + height * pairs)
+    }
+
+    /// The samples of a row's texels, so many pairs, in each mirror.
+    #[inline(always)]
+    fn row(&self, row: usize, pairs: usize) -> [&'a [i16]; N] {
+        let mut rows: [&'a [i16]; N] = [&[]; N];
+        for (image, samples) in rows.iter_mut().enumerate() {
+            let down = self.down[image % 2].wrapping_mul(row as i32);
+            let first = 4 * self.leftmost(image, pairs).wrapping_add_signed(down) as usize;
+            *samples = &self.samples[first..first + 8 * pairs];
+        }
+        rows
+    }
+}
+
+/// The rows of a window of a small size.
+#[derive(Clone, Copy)]
+struct SmallRow<'a, S: Simd, V: Blocks<S, N>, const N: usize, const R: usize, const PAIRS: usize, const HEIGHT: usize> {
+    simd: S,
+    order: V::Bytes,
+    texels: [Texels<'a, PAIRS, HEIGHT>; N],
+}
+
+impl<S: Simd, V: Blocks<S, N>, const N: usize, const R: usize, const PAIRS: usize, const HEIGHT: usize>
+    SmallRow<'_, S, V, N, R, PAIRS, HEIGHT>
+{
+    /// Adds a row, some of whose texels may lie under the pixel.
+    #[inline(always)]
+    fn add<const UNDER: bool>(&self, sums: &mut Sums<S, V, N>, weights: &[u32], row: usize, marks: u32) {
+        self.pair::<UNDER>(sums, weights, row, 0, marks);
+        self.pair::<UNDER>(sums, weights, row, 1, marks);
+        if PAIRS == 3 {
+            self.pair::<UNDER>(sums, weights, row, 2, marks);
+        }
+    }
+
+    #[inline(always)]
+    fn pair<const UNDER: bool>(&self, sums: &mut Sums<S, V, N>, weights: &[u32], row: usize, pair: usize, marks: u32) {
+        let mut blocks = [i16x8::splat(self.simd, 0); N];
+        for (image, block) in blocks.iter_mut().enumerate() {
+            let pair = if image < N - R { pair } else { PAIRS - 1 - pair };
+            *block = i16x8::load_array_ref(self.simd, self.texels[image].pair(row, pair));
+        }
+        let texels = V::join(blocks).swizzle_dyn_within_blocks(self.order);
+        sums.add(texels, V::weights(self.simd, weights[row * PAIRS + pair]));
+        if UNDER {
+            sums.bound(texels, V::mask(self.simd, marks >> (2 * pair)));
+        }
     }
 }
 
 /// What adds up over a window.
-struct Sums<S: Simd> {
-    simd: S,
-    sum: i32x16<S>,
+struct Sums<S: Simd, V: Blocks<S, N>, const N: usize> {
+    sum: V::Widened,
     /// The largest samples under the pixel, and the largest of what the others lack of white.
-    greatest: i16x32<S>,
-    least: i16x32<S>,
-    /// How texels are sorted by channel.
-    pairs: u8x64<S>,
+    greatest: V,
+    least: V,
 }
 
-impl<S: Simd> Sums<S> {
+impl<S: Simd, V: Blocks<S, N>, const N: usize> Sums<S, V, N> {
     #[inline(always)]
     fn zero(simd: S) -> Self {
-        let zero = i16x32::splat(simd, 0);
-        let (sum, pairs) = (i32x16::splat(simd, 0), u8x64::load_array(simd, PAIRS));
-        Self { simd, sum, greatest: zero, least: zero, pairs }
+        let zero = V::splat(simd, 0);
+        Self { sum: V::Widened::splat(simd, 0), greatest: zero, least: zero }
     }
 
-    /// Adds a group of texels, with all bits of those that lie under the pixel if any may.
+    /// Adds pairs of texels.
     #[inline(always)]
-    fn add<const UNDER: bool>(&mut self, samples: &[i16], weights: i16x32<S>, under: i16x32<S>) {
-        let texels = self.simd.swizzle_dyn_within_blocks_i16x32(i16x32::from_slice(self.simd, samples), self.pairs);
+    fn add(&mut self, texels: V, weights: V) {
         self.sum += texels.pairwise_dot_product(weights);
-        if UNDER {
-            self.greatest = self.greatest.max(texels & under);
-            self.least = self.least.max((texels ^ i16::MAX) & under);
-        }
     }
 
-    /// The sum as light; within what lies under the pixel, if anything does.
+    /// Notes those of a pair that lie under the pixel, where the mask has all bits but the sign's.
     #[inline(always)]
-    fn average(self, bits: u32, is_bounded: bool) -> [i16; 4] {
-        let average = (total(self.sum) + (1 << (bits - 1))) >> bits;
-        let white = i32x4::splat(self.simd, i32::from(i16::MAX));
+    fn bound(&mut self, texels: V, mask: V) {
+        self.greatest = self.greatest.max(texels & mask);
+        self.least = self.least.max(!texels & mask);
+    }
+
+    /// The sum as light; within what lies under the pixel, if that is asked for.
+    #[inline(always)]
+    fn average(self, simd: S, bits: u32, is_bounded: bool) -> V::Widened {
+        let average = (self.sum + (1 << (bits - 1))) >> bits;
+        let white = V::Widened::splat(simd, i32::from(i16::MAX));
         let (most, fewest) = if is_bounded {
-            (largest(self.simd, self.greatest), white - largest(self.simd, self.least))
+            (largest(self.greatest), white - largest(self.least))
         } else {
-            (white, i32x4::splat(self.simd, 0))
+            (white, V::Widened::splat(simd, 0))
         };
-        average.max(fewest).min(most).to_array().map(|light| light as i16)
+        average.max(fewest).min(most)
     }
 }
 
-/// A group of texels. The index has 32 bits, so that no sum can overflow and one comparison is enough.
+/// The larger sample of each pair, none of which is negative.
 #[inline(always)]
-fn group(samples: &[i16], first: u32) -> &[i16] {
-    let first = 4 * first as usize;
-    &samples[first..first + 4 * GROUP]
-}
-
-/// The sum of all blocks.
-#[inline(always)]
-fn total<S: Simd>(sums: i32x16<S>) -> i32x4<S> {
-    let (a, b) = sums.split();
-    let (a, b) = (a + b).split();
-    a + b
-}
-
-/// The largest of each channel, none of which is negative.
-#[inline(always)]
-fn largest<S: Simd>(simd: S, samples: i16x32<S>) -> i32x4<S> {
-    let (a, b) = samples.split();
-    let (a, b) = a.max(b).split();
-    let pairs: i32x4<S> = a.max(b).bitcast();
-    let low = i32x4::splat(simd, i32::from(i16::MAX));
-    (pairs & low).max(pairs >> 16)
+fn largest<S: Simd, V: Blocks<S, N>, const N: usize>(samples: V) -> V::Widened {
+    let pairs: V::Widened = samples.bitcast();
+    (pairs & i32::from(i16::MAX)).max(pairs >> 16)
 }

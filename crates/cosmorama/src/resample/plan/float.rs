@@ -2,7 +2,7 @@
 
 use fearless_simd::{Level, Simd, dispatch, f32x4, prelude::*};
 
-use super::band::{Band, Run};
+use super::band::{Band, Corners, Run};
 use super::canvas::Canvas;
 use super::mirrors::{MirrorImage, Mirrors, Walk};
 use super::stored::Stored;
@@ -34,14 +34,14 @@ impl Weights for FloatWeights {
         self.0.len()
     }
 
-    fn keep(&mut self, windows: &Windows, _: &Run) -> bool {
+    fn keep(&mut self, windows: &Windows, _: &mut Corners) -> bool {
         let texels = windows.texels();
         self.0.extend(texels.map(|(weights, beyond)| std::array::from_fn(|k| marked(weights[k], beyond[k] == 0.0))));
         true
     }
 
-    fn clear(&mut self) {
-        self.0.clear();
+    fn truncate(&mut self, length: usize) {
+        self.0.truncate(length);
     }
 
     fn shrink(&mut self) {

@@ -3,6 +3,7 @@
 use glam::DMat3;
 
 use crate::projection::ProjectionKind;
+use crate::resample::patch::SIDE;
 use crate::resample::taps::Tap;
 use crate::resample::{FilterKind, Resampler};
 use crate::sphere::Direction;
@@ -29,6 +30,35 @@ pub(super) struct Mirrors {
     pub(super) rows: usize,
     /// Which pictures those make; the first is what is computed itself.
     pub(super) images: Vec<MirrorImage>,
+    /// For each view of the world how windows in it are walked through in all of them.
+    ways: Vec<Ways>,
+}
+
+/// How the mirrors go through windows of a view: those from left to right first, and of either those that go down first.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Ways {
+    /// Which mirror, and what exchanges left and right in the index of a lane if that does.
+    pub(super) order: [(usize, usize); MOST_IMAGES],
+    /// How many there are, and how many of them go from left to right.
+    pub(super) count: usize,
+    pub(super) forward: usize,
+    /// Texels from one row to the next, for each.
+    pub(super) down: [i32; MOST_IMAGES],
+}
+
+impl Ways {
+    fn of(images: &[MirrorImage], view: usize) -> Self {
+        let walks = images.iter().map(|image| image.view(view).walk([0; 2]));
+        let mut walks: Vec<(usize, Walk)> = walks.enumerate().collect();
+        walks.sort_by_key(|(_, walk)| (walk.is_reversed, walk.down < 0));
+        let mut ways = Self { count: walks.len(), ..Self::default() };
+        for (at, (index, walk)) in walks.into_iter().enumerate() {
+            ways.order[at] = (index, if images[index].flips[0] { SIDE - 1 } else { 0 });
+            ways.down[at] = walk.down;
+            ways.forward += usize::from(!walk.is_reversed);
+        }
+        ways
+    }
 }
 
 /// A picture of what is computed.
@@ -115,7 +145,17 @@ impl Mirrors {
         let columns = if across.is_some() { width / 2 } else { width };
         let rows = if down.is_some() { height / 2 } else { height };
         let images = std::iter::once(MirrorImage::itself(world));
-        Self { columns, rows, images: images.chain([across, down, both].into_iter().flatten()).collect() }
+        Self::new([columns, rows], images.chain([across, down, both].into_iter().flatten()).collect())
+    }
+
+    pub(super) fn new([columns, rows]: [usize; 2], images: Vec<MirrorImage>) -> Self {
+        let ways = (0..images[0].views.len()).map(|view| Ways::of(&images, view)).collect();
+        Self { columns, rows, images, ways }
+    }
+
+    /// How windows of a view are walked through.
+    pub(super) fn ways(&self, view: usize) -> &Ways {
+        &self.ways[view]
     }
 }
 

@@ -1,17 +1,19 @@
 //! Geometry compiled once for any number of frames.
 
 mod band;
+mod blocks;
 mod canvas;
 mod fixed;
+mod fixed_check;
 mod fixed_weights;
 mod float;
 mod key;
 mod mirrors;
 mod saved;
-mod spread;
 mod stored;
 #[cfg(test)]
 mod tests;
+mod texels;
 mod weights;
 
 use std::ops::Range;

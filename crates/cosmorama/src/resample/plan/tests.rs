@@ -162,8 +162,7 @@ fn what_mirrors_show_is_what_would_be_computed() {
     for (world, target, _) in conversions() {
         let light = light(&world);
         let resampler = resampler(&world, &target);
-        let alone =
-            Mirrors { columns: target.width(), rows: target.height(), images: vec![MirrorImage::itself(&world)] };
+        let alone = Mirrors::new([target.width(), target.height()], vec![MirrorImage::itself(&world)]);
         let mut expected = Image::filled(target.width(), target.height(), Rgba::TRANSPARENT);
         let texels = floats(&light);
         let filter = FloatFilter { level: Level::new(), mirrors: &alone, texels: &texels, anti_ringing: true };

@@ -1,6 +1,6 @@
 use std::fmt::Debug;
 
-use super::band::Run;
+use super::band::{Corners, Run};
 use super::stored::Stored;
 use crate::resample::window::Windows;
 
@@ -9,10 +9,12 @@ pub(in crate::resample) trait Weights: Stored + Clone + Debug + Default + Send +
     /// How many numbers they are: where the next run's begin.
     fn len(&self) -> usize;
 
-    /// Keeps those of a run; false, keeping nothing, if they cannot be held.
-    fn keep(&mut self, windows: &Windows, run: &Run) -> bool;
+    /// Keeps those of the windows that have a corner, and says where these begin as they are kept; false, keeping nothing, if
+    /// they cannot be held.
+    fn keep(&mut self, windows: &Windows, corners: &mut Corners) -> bool;
 
-    fn clear(&mut self);
+    /// Forgets all but the first numbers, keeping the memory.
+    fn truncate(&mut self, length: usize);
 
     fn shrink(&mut self);
 
