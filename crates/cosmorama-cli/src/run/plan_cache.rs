@@ -1,6 +1,6 @@
 use std::fs::{create_dir_all, read};
 use std::io::{ErrorKind, Write};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use anyhow::Result;
 use cosmorama::resample::{FixedPlan, Plan, PlanError, PlanKey, Resampler};
@@ -81,7 +81,7 @@ impl<'a> PlanCache<'a> {
     }
 
     /// Writes a file whole or not at all; of several programs that write the same one, the last one's stays.
-    fn keep<P: Kept>(&self, path: &PathBuf, plan: &P, key: PlanKey) -> Result<()> {
+    fn keep<P: Kept>(&self, path: &Path, plan: &P, key: PlanKey) -> Result<()> {
         if plan.bytes() as u64 > self.memory / 2 {
             anyhow::bail!("there is no room to write it; raise --memory");
         }

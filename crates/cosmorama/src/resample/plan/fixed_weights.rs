@@ -3,6 +3,7 @@ use std::ops::Range;
 use fearless_simd::dispatch;
 
 use super::band::{Corners, Run};
+use super::fixed_check::is_sound;
 use super::stored::Stored;
 use super::weights::Weights;
 use crate::resample::patch::SIDE;
@@ -346,13 +347,7 @@ impl Weights for FixedWeights {
     }
 
     fn are_sound(&self, run: &Run, view: [usize; 2]) -> bool {
-        let mut numbers = self.numbers.get(run.weights as usize..).unwrap_or_default();
-        run.lanes().all(|lane| {
-            let Some((window, weights)) = window(&mut numbers, run) else { return false };
-            let size = |pair: &u32| [*pair as i16, (pair >> 16) as i16].map(|weight| i64::from(weight).abs());
-            // Sums of products with 15 bits must fit into 32.
-            weights.iter().flat_map(size).sum::<i64>() < 1 << 16 && run.is_within(lane, window, view)
-        })
+        self.numbers.get(run.weights as usize..).is_some_and(|numbers| is_sound(numbers, run, view))
     }
 
     fn bytes(&self) -> usize {
@@ -362,20 +357,6 @@ impl Weights for FixedWeights {
     fn used_bytes(&self) -> usize {
         self.numbers.len() * size_of::<u32>()
     }
-}
-
-/// Columns and rows of the window whose numbers come next, and its weights; `None` if it cannot be read.
-fn window<'a>(numbers: &mut &'a [u32], run: &Run) -> Option<([usize; 2], &'a [u32])> {
-    let (header, rest) = numbers.split_first().map(|(first, rest)| (Header(*first), rest))?;
-    let small = Shape::SMALL.get(header.shape() as usize);
-    let is_known = small.is_some() || header.shape() == Header::LARGE;
-    let large = Shape::new(usize::from(run.width).div_ceil(2), usize::from(run.height), 0);
-    let shape = small.unwrap_or(&large);
-    let words = if small.is_some() { 0 } else { run.rows_under().len() * marks(shape.pairs) };
-    let (weights, rest) = rest.get(words..)?.split_at_checked(shape.pairs * shape.height)?;
-    *numbers = rest;
-    let is_read = is_known && (14..=15).contains(&header.bits());
-    is_read.then_some(([2 * shape.pairs, shape.height], weights))
 }
 
 #[cfg(test)]

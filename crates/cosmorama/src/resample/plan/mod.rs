@@ -4,6 +4,7 @@ mod band;
 mod blocks;
 mod canvas;
 mod fixed;
+mod fixed_check;
 mod fixed_weights;
 mod float;
 mod key;
