@@ -4,7 +4,7 @@ use super::mirrors::{Mirrors, Walk};
 use super::weights::Weights;
 use crate::resample::patch::SIDE;
 use crate::resample::scan::Sink;
-use crate::resample::taps::{Bound, Tap, Taps};
+use crate::resample::taps::{Tap, TapList, Taps};
 use crate::resample::window::Windows;
 use crate::world::World;
 
@@ -14,7 +14,8 @@ pub(super) struct Band<W> {
     pub(super) runs: Vec<Run>,
     pub(super) weights: W,
     pub(super) singles: Vec<Single>,
-    pub(super) taps: Vec<Tap>,
+    taps: Vec<Tap>,
+    places: Vec<[f32; 2]>,
 }
 
 /// Up to [`SIDE`] pixels beside each other, whose windows have one size and lie in one view.
@@ -43,10 +44,13 @@ pub(super) struct Run {
 /// A pixel by itself.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Single {
-    /// The first of its taps, how many there are, and what holds their average.
-    pub(super) first: usize,
-    pub(super) taps: u32,
-    pub(super) bound: Bound,
+    /// The first of its taps, how many there are, and how many of them lie under it.
+    first: usize,
+    taps: u32,
+    under: u32,
+    /// The first of their places, and how many are kept.
+    first_place: usize,
+    places: u32,
     /// The part of the pixel inside the field of view.
     pub(super) coverage: f32,
     pub(super) column: u32,
@@ -135,6 +139,7 @@ impl<W: Weights> Band<W> {
         self.weights.clear();
         self.singles.clear();
         self.taps.clear();
+        self.places.clear();
     }
 
     /// Gives back memory that is not needed.
@@ -143,6 +148,16 @@ impl<W: Weights> Band<W> {
         self.weights.shrink();
         self.singles.shrink_to_fit();
         self.taps.shrink_to_fit();
+        self.places.shrink_to_fit();
+    }
+
+    /// What makes a single pixel.
+    pub(super) fn taps(&self, single: &Single) -> TapList<'_> {
+        TapList {
+            taps: &self.taps[single.first..][..single.taps as usize],
+            under: single.under as usize,
+            places: &self.places[single.first_place..][..single.places as usize],
+        }
     }
 
     /// Runs that lie together, about those of a patch: in each mirror they share most of their texels.
@@ -156,6 +171,7 @@ impl<W: Weights> Band<W> {
             + self.weights.bytes()
             + self.singles.capacity() * size_of::<Single>()
             + self.taps.capacity() * size_of::<Tap>()
+            + self.places.capacity() * size_of::<[f32; 2]>()
     }
 
     /// Bytes of what it holds, without room for more.
@@ -164,6 +180,7 @@ impl<W: Weights> Band<W> {
             + self.weights.used_bytes()
             + self.singles.len() * size_of::<Single>()
             + self.taps.len() * size_of::<Tap>()
+            + self.places.len() * size_of::<[f32; 2]>()
     }
 }
 
@@ -204,25 +221,30 @@ impl<W: Weights, F: FnMut(&mut Band<W>)> Sink for Recorder<'_, W, F> {
 impl<W, F: FnMut(&mut Band<W>)> Recorder<'_, W, F> {
     /// A pixel by itself, in all mirrors.
     fn single(&mut self, [column, row]: [usize; 2], coverage: f32, taps: &Taps) {
-        let sources = self.world.sources();
+        let (sources, list) = (self.world.sources(), taps.list());
+        // Mirrored, texels lie otherwise, but not in relation to each other.
+        let first_place = self.band.places.len();
+        self.band.places.extend_from_slice(list.places);
         for (index, image) in self.mirrors.images.iter().enumerate() {
             self.band.singles.push(Single {
                 first: self.band.taps.len(),
-                taps: taps.as_slice().len() as u32,
-                bound: taps.bound(),
+                taps: list.taps.len() as u32,
+                under: list.under as u32,
+                first_place,
+                places: list.places.len() as u32,
                 coverage,
                 column: column as u32,
                 row: row as u8,
                 image: index as u8,
             });
             if index == 0 {
-                self.band.taps.extend_from_slice(taps.as_slice());
+                self.band.taps.extend_from_slice(list.taps);
             } else {
-                self.band.taps.extend(taps.as_slice().iter().map(|&tap| image.tap(sources, tap)));
+                self.band.taps.extend(list.taps.iter().map(|&tap| image.tap(sources, tap)));
             }
-            if self.band.taps.len() > MANY {
-                (self.spill)(self.band);
-            }
+        }
+        if self.band.taps.len() > MANY {
+            (self.spill)(self.band);
         }
     }
 }
