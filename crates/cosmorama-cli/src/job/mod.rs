@@ -140,9 +140,9 @@ fn check_quality(args: &ConvertArgs, format: Format) -> Result<()> {
 /// The filter that was asked for.
 pub(crate) fn filter(geometry: &GeometryArgs, warnings: &mut Vec<String>) -> Filter {
     use cosmorama::resample::{FilterKind, Kernel};
-    let (kind, kernel) = (geometry.filter.0, geometry.kernel.0);
+    let (kind, kernel) = (geometry.filter.0, geometry.kernel.kernel);
     if matches!(kind, FilterKind::Point | FilterKind::Bilinear) && kernel != Kernel::ADAPTIVE {
         warnings.push("--kernel has no effect on --filter point and bilinear".to_owned());
     }
-    Filter { kind, kernel, anti_ringing: geometry.anti_ringing }
+    Filter { kind, kernel, anti_ringing: geometry.anti_ringing.unwrap_or(geometry.kernel.anti_ringing) }
 }

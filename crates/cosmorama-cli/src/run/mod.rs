@@ -19,6 +19,7 @@ mod report;
 mod shell;
 mod st_map;
 mod stages;
+mod suns;
 
 use std::process::ExitCode;
 
