@@ -22,6 +22,7 @@ mod memory;
 mod mirror_image;
 mod nominal;
 mod outputs;
+mod oval;
 mod packed;
 mod picture;
 mod piece;
