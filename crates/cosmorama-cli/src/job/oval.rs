@@ -4,8 +4,8 @@ use cosmorama::raster::{Image, Rgba};
 
 use super::evidence::{BLACK, BLOCK, is_blank};
 
-/// Just inside the oval, at its four ends, lies this part of the way from the middle.
-const INSIDE: std::ops::Range<f64> = 0.9..0.97;
+/// Just inside the oval, at its four ends, the square of the part of the way from the middle is this.
+const INSIDE: std::ops::Range<f64> = 0.81..0.94;
 /// How far from an axis an end is, as a part of the oval.
 const END: f64 = 0.1;
 
@@ -20,7 +20,7 @@ pub(super) fn is_oval(codes: &Image<Rgba>) -> bool {
     };
     let around = codes.uniformity(|i, j| {
         let (x, y) = at(i, j, BLOCK);
-        x.hypot(y) > 1.0
+        x * x + y * y > 1.0
     });
     let Some(around) = around.filter(|around| width == 2 * height && is_blank(Some(*around))) else { return false };
     let is_alike = |pixel: &Rgba| pixel.0.iter().zip(around.colour.0).all(|(a, b)| (a - b).abs() <= BLACK);
@@ -32,7 +32,7 @@ pub(super) fn is_oval(codes: &Image<Rgba>) -> bool {
             (false, true) => 2 + usize::from(x > 0.0),
             _ => continue,
         };
-        if INSIDE.contains(&x.hypot(y)) {
+        if INSIDE.contains(&(x * x + y * y)) {
             ends[end][usize::from(is_alike(codes.get(i, j)))] += 1;
         }
     }
