@@ -1,9 +1,12 @@
 //! Errors with exit codes: 1 for what failed, 2 for wrong usage.
 
+use std::error::Error as _;
 use std::process::ExitCode;
 
+use clap::error::{ContextKind, ContextValue};
 use thiserror::Error;
 
+use crate::spec::SpecError;
 use crate::stream;
 
 /// An error of the person who typed the command: exit code 2.
@@ -50,4 +53,20 @@ pub(crate) fn warn(message: &str) {
 pub(crate) fn report(error: &anyhow::Error) -> ExitCode {
     eprintln!("error: {}", stream::told(&message(error)));
     if is_usage(error) { ExitCode::from(2) } else { ExitCode::FAILURE }
+}
+
+/// Prints what is wrong with arguments, or what was asked for, and chooses the exit code: a file that a SPEC names and that
+/// cannot be read, or is no such file, failed like any other.
+pub(crate) fn report_arguments(error: &clap::Error) -> ExitCode {
+    let spec = error.source().and_then(|source| source.downcast_ref::<SpecError>());
+    if let Some(spec) = spec.filter(|spec| spec.is_of_file()) {
+        let argument = match error.get(ContextKind::InvalidArg) {
+            Some(ContextValue::String(argument)) => argument,
+            _ => "a SPEC",
+        };
+        return report(&anyhow::anyhow!("{argument}: {spec}"));
+    }
+    // Where nobody listens any more, there is nobody to tell so.
+    let _ = error.print();
+    u8::try_from(error.exit_code()).map_or(ExitCode::FAILURE, ExitCode::from)
 }

@@ -16,7 +16,10 @@ use std::process::ExitCode;
 use clap::Parser;
 
 fn main() -> ExitCode {
-    let args = args::Args::parse();
+    let args = match args::Args::try_parse() {
+        Ok(args) => args,
+        Err(error) => return failure::report_arguments(&error),
+    };
     match run::run(args.verb) {
         Ok(code) => code,
         Err(error) => failure::report(&error),

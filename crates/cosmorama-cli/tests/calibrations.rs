@@ -68,16 +68,21 @@ fn calibrations_that_do_not_fit_say_why() {
     std::fs::write(bench.path("told.json"), FISHEYE.replacen('{', "{\"distortion_model\": \"equidistant\",", 1))
         .unwrap();
     let to = |spec: &'static str, size| ["convert", "sky.png", "out.png", "--to", spec, "--size", size];
+    std::fs::write(bench.path("torn.yml"), &PINHOLE[..120]).unwrap();
+    // What is wrong is the file.
+    for (spec, expected) in [
+        ("perspective:calibration=none.yml", &["--to <SPEC>: calibration=: ", "none.yml", "cannot open"][..]),
+        ("st-map:file=map.exr,base=fisheye:calibration=none.json", &["none.json", "cannot open"]),
+        ("perspective:calibration=torn.yml", &["torn.yml"]),
+        ("perspective:calibration=sky.png", &["sky.png"]),
+        ("perspective:calibration=camera/calib_results.txt", &["calib_results.txt", "fisheye:calibration="]),
+        ("perspective:calibration=told.json", &["told.json", "fisheye:calibration="]),
+        ("fisheye:calibration=camera/pinhole.yml", &["5 distortion coefficients", "perspective:calibration="]),
+    ] {
+        assert_says(&bench.fail(1, &to(spec, "320x240")), expected);
+    }
     for (spec, size, expected) in [
         ("perspective:calibration=camera/pinhole.yml", "400x400", &["400x400", "320x240", "canvas="][..]),
-        ("perspective:calibration=none.yml", "320x240", &["none.yml", "cannot open"]),
-        ("perspective:calibration=camera/calib_results.txt", "320x240", &["calib_results.txt", "fisheye:calibration="]),
-        ("perspective:calibration=told.json", "320x240", &["told.json", "fisheye:calibration="]),
-        (
-            "fisheye:calibration=camera/pinhole.yml",
-            "320x240",
-            &["5 distortion coefficients", "perspective:calibration="],
-        ),
         ("fisheye:calibration=camera/fisheye.json,k=1", "320x240", &["k= and calibration= cannot both"]),
         ("fisheye:calibration=folding.json", "320x240", &["turns back 57.29", "86 pixels", "fov= (at most 114.59"]),
         ("fisheye:calibration=folding.json,fov=120", "320x240", &["the field of view is 120°", "114.59"]),

@@ -209,3 +209,27 @@ fn what_cannot_be_read_is_not_said_to_have_been_looked_at() {
     let message = bench.fail(1, &[&["convert", "b.png", "c.png"], &TO[..]].concat());
     assert_says(&message, &["b.png: damaged or truncated PNG"]);
 }
+
+#[test]
+fn oval_maps_are_no_panoramas() {
+    let bench = Bench::new();
+    bench.save("sky.png", &picture(1, 256, 128));
+    for name in ["hammer", "mollweide", "sinusoidal"] {
+        for (file, background) in [("map.png", "white"), ("map.jpg", "black"), ("clear.png", "transparent")] {
+            let to = ["--to", name, "--size", "320x160", "--background", background, "-y"];
+            bench.succeed(&[&["convert", "sky.png", file, "--from", "equirect"], &to[..]].concat());
+            refused(&bench, file, &["around an oval", "--from hammer, mollweide or sinusoidal", "--from equirect"]);
+            assert_eq!(
+                info(&bench, file),
+                "hammer, mollweide or sinusoidal (2:1, one colour around an oval), or equirect"
+            );
+        }
+    }
+    // A panorama with a white sky, and ground as white.
+    let light = Image::from_fn(320, 160, |i, j| {
+        let is_land = (60..100).contains(&j);
+        if is_land { Rgba::opaque(0.2, 0.003 * i as f32, 0.1) } else { Rgba::opaque(1.0, 1.0, 1.0) }
+    });
+    bench.save("snow.png", &EncodedImage::encode(&light, Channels::Rgb, Depth::Eight, &Transfer::Srgb));
+    assert!(info(&bench, "snow.png").starts_with("equirect (2:1)"));
+}

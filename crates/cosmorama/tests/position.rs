@@ -116,6 +116,7 @@ fn directions_come_back_from_faces_whose_texels_are_not_square() {
         let world = cube(&CubeFace::ALL, width, height);
         for (name, target) in [
             ("omnimax", omnimax(983, 718)),
+            ("omnimax, enlarged", omnimax(1966, 1436)),
             ("an edge, enlarged", perspective(320, 240, 20.0, 45.0, 10.0, 0.0)),
             ("an upper edge, enlarged", perspective(320, 240, 20.0, 5.0, 45.0, 0.0)),
             ("a corner, enlarged", perspective(320, 240, 8.0, -135.0, -35.26, 30.0)),

@@ -2,7 +2,7 @@
 
 use cosmorama::raster::Rgba;
 use cosmorama::resample::{Filter, Resampler};
-use cosmorama::sphere::CubeFace;
+use cosmorama::sphere::{CubeFace, Direction};
 use cosmorama::world::{PixelPoint, View, World};
 use testkit::{cube, equirect, fisheye, light_by_texel, omnimax};
 
@@ -73,4 +73,58 @@ fn suns_dots_and_steps_do_not_ring_at_the_rim() {
             }
         }
     }
+}
+
+/// Samples a side that a texel of an antialiased picture is averaged from, as a renderer does.
+const SAMPLES: usize = 4;
+
+/// A picture as a renderer makes it: the average over each texel.
+fn rendered(world: &World, picture: impl Fn(Direction) -> f32) -> Vec<Rgba> {
+    light_by_texel(world, |view, i, j, _| {
+        let view = &world.sources()[view].view;
+        let at = |k: usize| (k as f64 + 0.5) / SAMPLES as f64;
+        let samples = (0..SAMPLES * SAMPLES).map(|k| {
+            let point = PixelPoint::new(i as f64 + at(k % SAMPLES), j as f64 + at(k / SAMPLES));
+            picture(view.direction(point).expect("panoramas and faces look everywhere"))
+        });
+        let grey = samples.sum::<f32>() / (SAMPLES * SAMPLES) as f32;
+        Rgba::opaque(grey, grey, grey)
+    })
+}
+
+/// A renderer smooths an edge over a texel or two: three of them in a row may lie as on a slope.
+#[test]
+fn antialiased_stripes_edges_and_suns_do_not_ring_at_the_rim() {
+    const RANGE: std::ops::RangeInclusive<f32> = 0.2..=1.0;
+    /// Whether a direction is bright, given how wide stripes are, in radians.
+    type Picture = fn(Direction, f64) -> bool;
+    let pictures: [(&str, Picture); 5] = [
+        ("rings", |d, width| band(d.angle_to(Direction::FRONT).radians(), width)),
+        ("upright stripes", |d, width| band(d.vector().x, width)),
+        ("slanting stripes", |d, width| band(d.dot(Direction::FRONT) * 0.6 + d.vector().y * 0.8, width)),
+        ("checks", |d, width| band(d.vector().x, width) != band(d.vector().y, width)),
+        ("suns", |d, width| d.vector().to_array().iter().all(|c| (c / width / 4.0).fract().abs() < 0.3)),
+    ];
+    let targets = [fisheye(509, 180.0), fisheye(300, 220.0), omnimax(491, 359)];
+    for (world, texel) in worlds().iter().zip([std::f64::consts::TAU / 512.0, std::f64::consts::FRAC_PI_2 / 124.0]) {
+        for ((name, picture), width) in pictures.iter().flat_map(|p| [2.3, 3.3].map(|width| (p, width))) {
+            let is_bright = |direction| picture(direction, width * texel);
+            let light = rendered(world, |d| if is_bright(d) { *RANGE.end() } else { *RANGE.start() });
+            for target in &targets {
+                let image = Resampler { world, target, filter: Filter::DEFAULT }.render(&light);
+                for (index, pixel) in image.pixels().iter().enumerate() {
+                    let (i, j) = (index % image.width(), index / image.width());
+                    let Some(screen) = target.screen_pixel(i, j) else { continue };
+                    let value = pixel.0[0] / screen.coverage as f32;
+                    let is_within = (RANGE.start() * 0.9999..=RANGE.end() * 1.0001).contains(&value);
+                    assert!(is_within, "{name} {width} texels wide: {value} at ({i}, {j}) in {:?}", target.projection);
+                }
+            }
+        }
+    }
+}
+
+/// Whether a coordinate lies in every other band.
+fn band(x: f64, width: f64) -> bool {
+    ((x / width).floor() as i64).rem_euclid(2) == 0
 }

@@ -26,19 +26,15 @@ const PAIRS: [(&str, &str); 7] = [
 
 fn filters() -> [(&'static str, Filter); 7] {
     let of = |kernel, anti_ringing| Filter { kernel, anti_ringing, ..Filter::DEFAULT };
-    let gaussian = |cutoff, scale| Kernel {
-        scale,
-        floor: scale,
-        ..Kernel::uniform(CrossSection::Gaussian { alpha: 2.0, cutoff })
-    };
+    let gaussian = Kernel::uniform(CrossSection::Gaussian { alpha: 2.0, cutoff: 1.0 });
     [
         ("default", Filter::DEFAULT),
         ("default, --anti-ringing off", of(Kernel::ADAPTIVE, false)),
         ("mitchell", of(Kernel::uniform(CrossSection::MITCHELL), true)),
-        ("gaussian", of(gaussian(1.0, 1.0), true)),
+        ("gaussian", of(gaussian, true)),
         ("box", of(Kernel::uniform(CrossSection::Box), true)),
-        ("gaussian:cutoff=2,scale=1.4,floor=1.4", of(gaussian(2.0, 1.4), true)),
-        ("gaussian:cutoff=2,scale=1.4,floor=1.4, --anti-ringing off", of(gaussian(2.0, 1.4), false)),
+        ("light, --anti-ringing on", of(Kernel::LIGHT, true)),
+        ("light", of(Kernel::LIGHT, false)),
     ]
 }
 

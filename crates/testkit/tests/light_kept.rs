@@ -1,7 +1,7 @@
 //! What real skies with a sun keep of their light in another form, at as many pixels.
 
 use cosmorama::raster::{Rgba, Transfer};
-use cosmorama::resample::{CrossSection, Filter, Kernel};
+use cosmorama::resample::{Filter, Kernel};
 use cosmorama::world::World;
 use cosmorama_io::{Limits, read};
 use testkit::{Form, Sky, equirect, shared};
@@ -16,9 +16,7 @@ fn suns_keep_their_light() {
             read(&path, &Limits::default()).expect("a sky").image.to_light(&Transfer::Linear).pixels().to_vec();
         (name, light)
     });
-    let gaussian = Kernel::uniform(CrossSection::Gaussian { alpha: 2.0, cutoff: 2.0 });
-    let kernel = Kernel { scale: 1.4, floor: 1.4, ..gaussian };
-    let filter = Filter { kernel, anti_ringing: false, ..Filter::DEFAULT };
+    let filter = Filter { kernel: Kernel::LIGHT, anti_ringing: false, ..Filter::DEFAULT };
     let panorama = World::new([("panorama".to_owned(), equirect(1024))]).expect("one view");
     let density = (1024 * 512) as f64 / (4.0 * std::f64::consts::PI);
     for form in Form::all(density).iter().filter(|form| ["cube", "octahedral", "mirror-ball"].contains(&form.name)) {

@@ -117,12 +117,13 @@ pub(crate) struct GeometryArgs {
     #[arg(long, value_name = "NAME", default_value = "ewa", help_heading = "Filter")]
     pub(crate) filter: FilterArg,
     /// adaptive, gaussian[:alpha=2,cutoff=1], mitchell, robidoux, robidoux-sharp, catmull-rom, lanczos2, lanczos3,
-    /// lanczos3-sharp, tent or box; each takes scale= (its unit in output pixels) and floor= (at least, in texels)
+    /// lanczos3-sharp, tent, box, or light, which keeps the light of suns; each takes scale= (its unit in output pixels) and
+    /// floor= (at least, in texels)
     #[arg(long, value_name = "NAME[:k=v]", default_value = "adaptive", help_heading = "Filter")]
     pub(crate) kernel: KernelArg,
-    /// Clamp to the texels under the pixel
-    #[arg(long, value_name = "on|off", default_value = "on", action = clap::ArgAction::Set, value_parser = on_or_off, help_heading = "Filter")]
-    pub(crate) anti_ringing: bool,
+    /// Clamp to the texels under the pixel: on, unless the kernel is light
+    #[arg(long, value_name = "on|off", action = clap::ArgAction::Set, value_parser = on_or_off, help_heading = "Filter")]
+    pub(crate) anti_ringing: Option<bool>,
 }
 
 /// What a run may take.

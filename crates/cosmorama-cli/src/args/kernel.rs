@@ -4,9 +4,17 @@ use cosmorama::resample::{CrossSection, Kernel};
 
 /// A kernel by name, with its parameters.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct KernelArg(pub(crate) Kernel);
+pub(crate) struct KernelArg {
+    /// What it is.
+    pub(crate) kernel: Kernel,
+    /// Whether there is anti-ringing where nothing is said of it: of what keeps light, it would take some away.
+    pub(crate) anti_ringing: bool,
+}
 
-const NAMES: &str = "adaptive, gaussian, mitchell, robidoux, robidoux-sharp, catmull-rom, lanczos2, lanczos3, lanczos3-sharp, tent, box";
+const NAMES: &str = "adaptive, gaussian, mitchell, robidoux, robidoux-sharp, catmull-rom, lanczos2, lanczos3, lanczos3-sharp, tent, box, light";
+
+/// The kernel that keeps the light of suns.
+const LIGHT: &str = "light";
 
 impl FromStr for KernelArg {
     type Err = String;
@@ -20,13 +28,14 @@ impl FromStr for KernelArg {
                 .ok_or_else(|| format!("{key}={value}: expected a number more than 0, at most {MOST}"))?;
             set(&mut kernel, name, key, value)?;
         }
-        Ok(Self(kernel))
+        Ok(Self { kernel, anti_ringing: name != LIGHT })
     }
 }
 
 fn named(name: &str) -> Option<Kernel> {
     let cross_section = match name {
         "adaptive" => return Some(Kernel::ADAPTIVE),
+        LIGHT => return Some(Kernel::LIGHT),
         "gaussian" => CrossSection::Gaussian { alpha: 2.0, cutoff: 1.0 },
         "mitchell" => CrossSection::MITCHELL,
         "robidoux" => CrossSection::ROBIDOUX,
@@ -73,9 +82,12 @@ mod tests {
 
     #[test]
     fn kernels_with_parameters() {
-        let KernelArg(kernel) = "gaussian:alpha=3,cutoff=1.5,scale=0.6".parse().unwrap();
+        let KernelArg { kernel, .. } = "gaussian:alpha=3,cutoff=1.5,scale=0.6".parse().unwrap();
         let gaussian = CrossSection::Gaussian { alpha: 3.0, cutoff: 1.5 };
         assert_eq!(kernel, Kernel { scale: 0.6, ..Kernel::uniform(gaussian) });
+        let light: KernelArg = "light".parse().unwrap();
+        let written: KernelArg = "gaussian:cutoff=2,scale=1.4,floor=1.4".parse().unwrap();
+        assert_eq!(light, KernelArg { anti_ringing: false, ..written });
         for name in NAMES.split(", ") {
             assert!(name.parse::<KernelArg>().is_ok(), "{name}");
             assert!(format!("{name}:scale=0.5,floor=0.75").parse::<KernelArg>().is_ok(), "{name}");

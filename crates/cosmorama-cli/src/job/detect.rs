@@ -7,7 +7,7 @@ use cosmorama_io::{EnvMap, Header, Window};
 
 use super::canvas::canvas_of;
 use super::evidence::{Evidence, Seen, damage_of};
-use super::guess::{Guess, ROUND_ONES, candidates, circle_spec, dome_spec, layouts_of_shape, two_eyes};
+use super::guess::{Guess, OVAL_ONES, ROUND_ONES, candidates, circle_spec, dome_spec, layouts_of_shape, two_eyes};
 
 use crate::failure::usage;
 use crate::spec::{Cube, Packing, Shape, Single, Spec, SphereSamples, StereoSpec};
@@ -91,6 +91,11 @@ fn guessed(path: &Path, evidence: Evidence) -> Result<(String, &'static str, Str
             path.display(),
             circle_spec("fisheye:fov=DEGREES,", &found),
             circle_spec("mirror-ball:", &found)
+        ),
+        Evidence::Oval => bail!(
+            "{}: twice as wide as high, with one colour around an oval, as oval maps have it; give --from {OVAL_ONES}, or \
+             --from equirect if it is a panorama all the same",
+            path.display()
         ),
         Evidence::Twins(_) => bail!("{}: two pictures that are alike; give --from SPEC with stereo=", path.display()),
     })

@@ -9,6 +9,7 @@ use cosmorama_io::{Header, IoError, Limits, probe, read};
 
 use super::halves::{Circles, Twins};
 use super::memory::light_bytes;
+use super::oval::is_oval;
 
 /// Beyond this an image is not decoded only to find out what it is.
 const MOST_BYTES: u64 = 1 << 30;
@@ -17,11 +18,11 @@ const BLANK: f64 = 0.98;
 /// A picture of which more is blank shows nothing that could tell.
 const EMPTY: f64 = 0.9;
 /// Pixels around what is drawn that a JPEG file's blocks may blur into.
-const BLOCK: usize = 8;
+pub(super) const BLOCK: usize = 8;
 /// A circle that fills a square does so to this part of it.
 const ROUND: f64 = 0.02;
 /// Codes up to this are black, in a picture of codes from 0 to 1.
-const BLACK: f32 = 0.06;
+pub(super) const BLACK: f32 = 0.06;
 
 /// The light of an image, as far as it matters to see what it is; `None` where it is too large or damaged.
 pub(crate) fn light_of(path: &Path) -> Option<Image<Rgba>> {
@@ -57,6 +58,8 @@ pub(super) enum Evidence {
     Circles(Circles),
     /// The circle of an Omnimax frame, cut off below, black around it.
     Omnimax,
+    /// An oval that fills a picture of 2:1, one colour around it.
+    Oval,
     /// Halves that are alike, as for two eyes.
     Twins(Arrangement),
 }
@@ -102,6 +105,9 @@ impl Evidence {
         if let Some(circles) = Circles::find(codes) {
             return Some(Self::Circles(circles));
         }
+        if is_oval(codes) {
+            return Some(Self::Oval);
+        }
         if is_omnimax(codes) {
             return Some(Self::Omnimax);
         }
@@ -113,7 +119,7 @@ impl Evidence {
     }
 }
 
-fn is_blank(around: Option<Uniform>) -> bool {
+pub(super) fn is_blank(around: Option<Uniform>) -> bool {
     around.is_some_and(|around| around.share >= BLANK)
 }
 

@@ -22,7 +22,7 @@ pub(super) enum Guess {
     Stereo(&'static str),
     /// A strip of faces, by its shape: no camera makes pictures so long.
     Strip(LayoutKind),
-    /// A cross of faces or circles, by what is blank around them.
+    /// A cross of faces, circles or an oval, by what is blank around them.
     Blank(Evidence),
     /// One of these layouts of faces, by its shape, or anything else, in spite of what was seen.
     Unknown(Vec<LayoutKind>, Seen),
@@ -30,6 +30,9 @@ pub(super) enum Guess {
 
 /// Pictures that are black around a circle that fills a square, beside domemasters.
 pub(super) const ROUND_ONES: &str = "fisheye:fov=DEGREES, mirror-ball or angular-map";
+
+/// Pictures of 2:1 with one colour around an oval.
+pub(super) const OVAL_ONES: &str = "hammer, mollweide or sinusoidal";
 
 impl Guess {
     /// Looks at a header, and at the pixels where nothing else tells; with what is the matter if those cannot be read.
@@ -55,7 +58,7 @@ impl Guess {
 
     fn by_pixels((width, height): (usize, usize), layouts: Vec<LayoutKind>, seen: Seen) -> Self {
         match seen {
-            Seen::Evidence(evidence @ Evidence::Circles(_)) => Self::Blank(evidence),
+            Seen::Evidence(evidence @ (Evidence::Circles(_) | Evidence::Oval)) => Self::Blank(evidence),
             Seen::Evidence(Evidence::Twins(arrangement)) if width == 2 * height => Self::TwoToOne(Some(arrangement)),
             _ if width == 2 * height => Self::TwoToOne(None),
             Seen::Evidence(Evidence::Twins(arrangement)) => match (arrangement, width, height) {
@@ -133,6 +136,7 @@ fn describe_blank(evidence: &Evidence) -> String {
         Evidence::Circles(circles) => {
             format!("{} (two circles on black; 195 degrees are a guess)", circles.dual_spec())
         }
+        Evidence::Oval => format!("{OVAL_ONES} (2:1, one colour around an oval), or equirect"),
         Evidence::Twins(_) => "two pictures that are alike".to_owned(),
     }
 }

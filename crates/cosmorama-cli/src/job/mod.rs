@@ -22,6 +22,7 @@ mod memory;
 mod mirror_image;
 mod nominal;
 mod outputs;
+mod oval;
 mod packed;
 mod picture;
 mod piece;
@@ -169,9 +170,9 @@ pub(crate) fn write_options(args: &ConvertArgs, format: Format, outputs: &Output
 /// The filter that was asked for.
 pub(crate) fn filter(geometry: &GeometryArgs, warnings: &mut Vec<String>) -> Filter {
     use cosmorama::resample::{FilterKind, Kernel};
-    let (kind, kernel) = (geometry.filter.0, geometry.kernel.0);
+    let (kind, kernel) = (geometry.filter.0, geometry.kernel.kernel);
     if matches!(kind, FilterKind::Point | FilterKind::Bilinear) && kernel != Kernel::ADAPTIVE {
         warnings.push("--kernel has no effect on --filter point and bilinear".to_owned());
     }
-    Filter { kind, kernel, anti_ringing: geometry.anti_ringing }
+    Filter { kind, kernel, anti_ringing: geometry.anti_ringing.unwrap_or(geometry.kernel.anti_ringing) }
 }

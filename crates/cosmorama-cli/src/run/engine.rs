@@ -10,6 +10,7 @@ use rayon::prelude::*;
 
 use super::frame_light::{FrameLight, Texels};
 use super::geometry::Geometry;
+use super::suns;
 use crate::job::{ConvertJob, Coverage, FacePixels, FrameOutputs, InFlight, InputView, Light, Sheet};
 
 /// Makes the outputs of a job, frame by frame.
@@ -72,7 +73,10 @@ impl<'a> Engine<'a> {
         let tell = |(view, count): (&InputView, usize)| {
             format!("{}: {count} pixels are NaN and count as missing", view.files.path(frame).display())
         };
-        self.incomplete(light).map(tell).collect()
+        // Of a sequence, the first frame tells whether there are suns.
+        let is_first = self.job.outputs.frames.first().is_some_and(|first| first.frame == frame);
+        let suns = if is_first { suns::warning(self.job, light) } else { None };
+        self.incomplete(light).map(tell).chain(suns).collect()
     }
 
     /// Views with missing texels, and how many.

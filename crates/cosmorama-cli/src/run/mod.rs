@@ -22,6 +22,7 @@ mod sequence;
 mod shell;
 mod st_map;
 mod stages;
+mod suns;
 
 use std::process::ExitCode;
 

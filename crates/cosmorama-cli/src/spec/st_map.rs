@@ -53,8 +53,9 @@ fn base(text: &str, folder: &Path) -> Result<Single, SpecError> {
             _ => pairs.push(part.to_owned()),
         }
     }
-    let spec = Spec::parse_in(folder, &format!("{name}:{}", pairs.join(","))).map_err(|error| {
-        wrong("base", text, format!("a SPEC with colons for commas, as in base=perspective:fov=60 ({error})"))
+    let spec = Spec::parse_in(folder, &format!("{name}:{}", pairs.join(","))).map_err(|error| match error {
+        of_file if of_file.is_of_file() => of_file,
+        error => wrong("base", text, format!("a SPEC with colons for commas, as in base=perspective:fov=60 ({error})")),
     })?;
     if spec.stereo.is_some() {
         return Err(expected("the picture of one eye, without stereo="));

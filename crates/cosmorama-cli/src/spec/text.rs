@@ -52,12 +52,19 @@ pub(crate) enum SpecError {
     /// Coefficients of which no lens can be made.
     #[error("k={value}: {error}")]
     Coefficients { value: String, error: LensError },
-    /// A calibration that cannot be read, or of which no camera can be made.
+    /// A calibration that cannot be read, or of which no such camera can be made.
     #[error("calibration=: {reason}")]
     Calibration { reason: String },
     /// Keys that say the same thing differently.
     #[error("{first}= and {second}= cannot both be given")]
     Both { first: &'static str, second: &'static str },
+}
+
+impl SpecError {
+    /// Whether what is wrong is a file that the SPEC names, not the SPEC.
+    pub(crate) fn is_of_file(&self) -> bool {
+        matches!(self, Self::Calibration { .. })
+    }
 }
 
 fn names() -> Vec<&'static str> {

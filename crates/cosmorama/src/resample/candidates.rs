@@ -2,6 +2,7 @@ use glam::DVec2;
 
 use super::kernel::UNDER;
 use super::{Tap, Taps, surround};
+use crate::sphere::DirectionJacobian;
 
 /// A texel that a kernel reaches, before the weights are settled.
 #[derive(Clone, Copy, Debug, Default)]
@@ -26,11 +27,11 @@ impl Candidate {
 }
 
 /// Makes taps whose weights add to one, none if their sum would be noise; with `centred`, their centroid is the pixel's
-/// centre.
-pub(super) fn settle(candidates: &mut [Candidate], centred: bool, taps: &mut Taps) {
+/// centre. Where something ends under the pixel or beside it, the footprint tells how a slope goes on beyond them.
+pub(super) fn settle(candidates: &mut [Candidate], centred: bool, rim: Option<&DirectionJacobian>, taps: &mut Taps) {
     soften(candidates);
     let correction = if centred { Correction::centring(candidates) } else { Correction::default() };
-    let surrounding = surround::reach(candidates);
+    let surrounding = if rim.is_none() { surround::reach(candidates) } else { None };
     let reach = surrounding.unwrap_or(UNDER as f32);
     let (mut sum, mut size, mut under) = (0f64, 0f64, 0);
     for candidate in candidates.iter_mut() {
@@ -46,9 +47,29 @@ pub(super) fn settle(candidates: &mut [Candidate], centred: bool, taps: &mut Tap
     let scale = sum.recip() as f32;
     let settled = candidates.iter().map(|c| (c.q < reach, Tap { texel: c.texel, weight: c.weight * scale }));
     taps.fill(settled, candidates.len(), under);
-    // What moved the centroid beyond all texels goes on beyond what they hold.
-    if centred && surrounding.is_none() {
-        taps.bound_by_slope();
+    if let Some(jacobian) = rim {
+        let (under, around) = (candidates.iter().filter(|c| c.q < reach), candidates.iter().filter(|c| c.q >= reach));
+        let places = Places::of(jacobian);
+        taps.go_on(under.chain(around).map(|candidate| places.at(candidate.offset)));
+    }
+}
+
+/// Where offsets on the screen lie in the plane tangent to the sphere, in radians.
+struct Places {
+    dx: [f32; 2],
+    dy: [f32; 2],
+}
+
+impl Places {
+    /// Those around a footprint's centre.
+    fn of(jacobian: &DirectionJacobian) -> Self {
+        let (length, along) = (jacobian.dx.length(), jacobian.dx.dot(jacobian.dy) / jacobian.dx.length());
+        let across = jacobian.dx.cross(jacobian.dy).length() / length;
+        Self { dx: [length as f32, 0.0], dy: [along as f32, across as f32] }
+    }
+
+    fn at(&self, [x, y]: [f32; 2]) -> [f32; 2] {
+        [x * self.dx[0] + y * self.dy[0], x * self.dx[1] + y * self.dy[1]]
     }
 }
 

@@ -27,8 +27,8 @@ const LINEAR_PART: f64 = 0.2;
 const STEEP_PART: f64 = 0.1;
 
 /// Where the field of view ends under a pixel the floor is so much higher: up to half a texel beyond the last one, the
-/// kernel must reach three rows of texels, since two do not tell a slope from a step.
-const RIM_FLOOR: f64 = 1.5;
+/// kernel must reach four rows of texels, since three do not tell a slope from an edge that a renderer smoothed.
+const RIM_FLOOR: f64 = 1.7;
 
 /// What a kernel is held to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -69,10 +69,7 @@ impl<'a> Gather<'a> {
         if at_rim {
             self.collect(footprint, Place::Rim);
         }
-        settle(&mut self.candidates, centred, taps);
-        if at_rim {
-            taps.bound_by_slope();
-        }
+        settle(&mut self.candidates, centred, at_rim.then_some(&footprint.jacobian), taps);
         if taps.is_empty() {
             lookup::nearest(self.world, footprint.direction, |texel, weight| taps.push_under(texel, weight as f32));
         }

@@ -162,6 +162,11 @@ impl Kernel {
         centred: true,
     };
 
+    /// A wide Gaussian, σ = 0.7 pixel or texel: positive, and its weights add to one over pixels, too, so that a sun of one texel
+    /// gives as much light to all pixels around it as it has. For that, nothing must hold pixels to the texels under them.
+    pub const LIGHT: Self =
+        Self { scale: 1.4, floor: 1.4, ..Self::uniform(CrossSection::Gaussian { alpha: 2.0, cutoff: 2.0 }) };
+
     /// One cross-section at every scale, its unit one output pixel and at least one texel.
     pub const fn uniform(cross_section: CrossSection) -> Self {
         Self { fine: cross_section, coarse: cross_section, scale: 1.0, floor: 1.0, centred: false }

@@ -1,94 +1,164 @@
-//! Anti-ringing at the rim of a lens, where the last texels that count may lie half a texel before the pixel.
+//! Anti-ringing: where the last texels that count may lie half a texel before the pixel, a slope goes on beyond them.
 //!
-//! Clamped to what those hold, every slope would end flat, and the picture be displaced there by up to a pixel. So a
-//! slope goes on beyond them. What tells it from a step, a dot or a sun is the middle texel: of a slope's it is far from
-//! both the least and the greatest, of the others' it is one of the two, or nearly so.
+//! Clamped to what those hold, every slope would end flat at the rim of a lens, and the picture be displaced there by up to
+//! half a texel. What tells a slope from a stripe, a step or a sun is a plane laid through all texels: where these lie on it,
+//! the pixel does too; by as much as one of them departs from it, the pixel may.
+
+use glam::{DMat3, DVec3};
 
 use crate::raster::Rgba;
 
 /// The channel that may not go beyond one.
 const ALPHA: usize = 3;
 
-/// An average as its texels bound it; alpha by what they hold, and no light becomes negative.
-pub(super) fn clamp(average: Rgba, texels: impl Iterator<Item = Rgba> + Clone) -> Rgba {
-    let mut values = Vec::new();
+/// Texels that depart from their plane by no more than this part of their range are straight: what the sphere bends a
+/// colour by that is linear in the direction.
+const STRAIGHT: f64 = 1.0 / 64.0;
+
+/// For what a texel departs by beyond that, a slope goes on by so many times less.
+const DOUBT: f64 = 4.0;
+
+/// The least and the greatest of some texels, by channel.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Range {
+    pub(super) least: [f32; 4],
+    pub(super) greatest: [f32; 4],
+}
+
+/// An average held to what the texels under the pixel hold, and beyond it as far as all of them confirm; `texels` are these
+/// and where they lie from the pixel's centre, none where those under it lie all around.
+pub(super) fn hold(average: Rgba, under: &Range, texels: impl Iterator<Item = (Rgba, [f32; 2])> + Clone) -> Rgba {
+    let Range { least, greatest } = under;
+    let held = Rgba(std::array::from_fn(|c| average.0[c].max(least[c]).min(greatest[c])));
     // Where light is mixed with transparency, colour must stay within alpha.
-    let is_opaque = texels.clone().all(|texel| texel.alpha() >= 1.0);
+    if held == average || !texels.clone().all(|(texel, _)| texel.alpha() >= 1.0) {
+        return held;
+    }
+    let Some(lattice) = Lattice::of(texels.clone().map(|(_, place)| place)) else { return held };
     Rgba(std::array::from_fn(|c| {
-        let channel = || texels.clone().map(|texel| texel.0[c]);
-        let least = channel().fold(f32::INFINITY, f32::min);
-        let greatest = channel().fold(f32::NEG_INFINITY, f32::max);
-        let value = average.0[c];
-        if (least..=greatest).contains(&value) || least > greatest {
-            return value;
+        let excess = average.0[c] - held.0[c];
+        if c == ALPHA || excess == 0.0 {
+            return held.0[c];
         }
-        if c == ALPHA || !is_opaque {
-            return value.clamp(least, greatest);
-        }
-        values.clear();
-        values.extend(channel());
-        beyond(value, least, middle(&mut values), greatest)
+        let doubt = lattice.doubt(texels.clone().map(|(texel, place)| (f64::from(texel.0[c]), place))) as f32;
+        let value = held.0[c] + excess.signum() * (excess.abs() - doubt).max(0.0);
+        // Light does not become negative: where a slope would, it is none.
+        if least[c] >= 0.0 { value.max(0.0) } else { value }
     }))
 }
 
-/// The value in the middle of at least one.
-fn middle(values: &mut [f32]) -> f32 {
-    let half = values.len() / 2;
-    *values.select_nth_unstable_by(half, f32::total_cmp).1
+/// How places lie around their centroid: what is fitted to, by least squares.
+#[derive(Clone, Copy, Debug)]
+struct Lattice {
+    centroid: DVec3,
+    /// The inverse of the second moments.
+    inverse: DMat3,
+    count: f64,
 }
 
-/// A value that is less than the least or more than the greatest: as far as there is room for a slope.
-fn beyond(value: f32, least: f32, middle: f32, greatest: f32) -> f32 {
-    let room = (middle - least).min(greatest - middle);
-    if value < least {
-        // Light does not become negative: where a slope would, it is none.
-        let room = if least >= 0.0 { room.min(least) } else { room };
-        least - kept(least - value, room)
-    } else {
-        greatest + kept(value - greatest, room)
+impl Lattice {
+    /// That of some places; `None` if they lie in a line, or are too few to tell.
+    fn of(places: impl Iterator<Item = [f32; 2]> + Clone) -> Option<Self> {
+        let terms = places.map(terms);
+        let count = terms.clone().count() as f64;
+        let centroid = terms.clone().sum::<DVec3>() / count;
+        let outer = |from: DVec3| DMat3::from_cols(from * from.x, from * from.y, from * from.z);
+        let moments = terms.fold(DMat3::ZERO, |sum, term| sum + outer(term - centroid));
+        let sizes = moments.x_axis.x * moments.y_axis.y * moments.z_axis.z;
+        let is_plane = count >= FEWEST && moments.determinant() > THINNEST * sizes;
+        is_plane.then(|| Self { centroid, inverse: moments.inverse(), count })
+    }
+
+    /// How far a slope through these values may be from going on.
+    fn doubt(&self, values: impl Iterator<Item = (f64, [f32; 2])> + Clone) -> f64 {
+        let (mut sum, mut along) = (0.0, DVec3::ZERO);
+        let (mut least, mut greatest) = (f64::INFINITY, f64::NEG_INFINITY);
+        for (value, place) in values.clone() {
+            sum += value;
+            along += (terms(place) - self.centroid) * value;
+            (least, greatest) = (least.min(value), greatest.max(value));
+        }
+        let (mean, slope) = (sum / self.count, self.inverse * along);
+        let departure =
+            |(value, place): (f64, [f32; 2])| (value - mean - slope.dot(terms(place) - self.centroid)).abs();
+        let departure = values.map(departure).fold(0.0, f64::max);
+        DOUBT * (departure - STRAIGHT * (greatest - least)).max(0.0)
     }
 }
 
-/// What stays of an excess: all of it while there is room, then less and less, since what goes so far is no slope.
-fn kept(excess: f32, room: f32) -> f32 {
-    excess.min(2.0 * room - excess).max(0.0)
+/// Through fewer texels what is fitted confirms nothing.
+const FEWEST: f64 = 8.0;
+
+/// Places whose second moments have a smaller determinant than this part of their product lie in a line.
+const THINNEST: f64 = 1e-6;
+
+/// What a colour that is linear in the direction is made of, at a place: its two coordinates, and how far the sphere falls
+/// away from the tangent plane there.
+fn terms([x, y]: [f32; 2]) -> DVec3 {
+    let (x, y) = (f64::from(x), f64::from(y));
+    DVec3::new(x, y, x * x + y * y)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    fn clamp_grey(value: f32, texels: &[f32]) -> f32 {
-        let texels: Vec<Rgba> = texels.iter().map(|&grey| Rgba::opaque(grey, grey, grey)).collect();
-        clamp(Rgba::opaque(value, value, value), texels.iter().copied()).0[0]
+    /// Rows of texels before the pixel, the nearest half a row away.
+    const ROWS: usize = 4;
+
+    /// What an average is held to by opaque texels, the first rows of which lie under the pixel.
+    fn hold_grey(average: f32, texel: impl Fn(f32, f32) -> f32) -> f32 {
+        hold_all(Rgba::opaque(average, average, average), |x, y| Rgba::opaque(texel(x, y), 0.5, 0.5)).0[0]
+    }
+
+    fn hold_all(average: Rgba, texel: impl Fn(f32, f32) -> Rgba) -> Rgba {
+        let places = (0..ROWS).flat_map(|j| (0..7).map(move |i| [i as f32 - 2.8, j as f32 + 0.5]));
+        let texels: Vec<_> = places.map(|[x, y]| (texel(x, y), [0.01 * x, 0.01 * y])).collect();
+        let mut range = Range { least: [f32::INFINITY; 4], greatest: [f32::NEG_INFINITY; 4] };
+        for (texel, _) in &texels[..14] {
+            for c in 0..4 {
+                range.least[c] = range.least[c].min(texel.0[c]);
+                range.greatest[c] = range.greatest[c].max(texel.0[c]);
+            }
+        }
+        hold(average, &range, texels.iter().copied())
     }
 
     #[test]
     fn a_slope_goes_on() {
-        let slope = [1.0, 1.1, 1.2, 1.3, 1.4];
-        for value in [0.85, 1.0, 1.25, 1.4, 1.55] {
-            assert_eq!(clamp_grey(value, &slope), value);
+        for value in [0.95, 1.0, 1.1] {
+            assert_eq!(hold_grey(value, |_, y| 1.0 + 0.1 * y), value);
         }
+        // What is linear in the direction falls away from the tangent plane.
+        assert_eq!(hold_grey(0.96, |x, y| 1.0 + 0.1 * y - 0.005 * (x * x + y * y)), 0.96);
     }
 
     #[test]
     fn what_is_no_slope_goes_nowhere() {
-        let sun = [1.0, 1.0, 1.0, 1.0, 1e6, 30.0, 1.1];
-        assert_eq!(clamp_grey(-5e4, &sun), 1.0);
-        assert_eq!(clamp_grey(2e6, &sun), 1e6);
-        let step = [0.2, 0.2, 0.9, 0.9, 0.9];
-        assert_eq!(clamp_grey(0.1, &step), 0.2);
-        assert_eq!(clamp_grey(1.0, &step), 0.9);
-        let dot = [0.5, 0.5, 0.5, 0.1];
-        assert_eq!(clamp_grey(0.0, &dot), 0.1);
+        assert_eq!(hold_grey(2e6, |x, y| if x.hypot(y - 1.5) < 1.0 { 1e6 } else { 1.0 }), 1e6);
+        assert_eq!(hold_grey(-5e4, |x, y| if x.hypot(y - 1.5) < 1.0 { 1e6 } else { 1.0 }), 1.0);
+        // Steps of which a renderer made a slope: three rows of texels are straight, the fourth is not.
+        let step = |_: f32, y: f32| [0.2, 0.5, 0.8, 0.8][y as usize];
+        assert_eq!(hold_grey(0.05, step), 0.2);
+        let step = |_: f32, y: f32| [0.8, 0.5, 0.2, 0.2][y as usize];
+        assert_eq!(hold_grey(0.95, step), 0.8);
+        assert_eq!(hold_grey(1.4, |x, _| if x < 0.4 { 0.3 } else { 1.2 }), 1.2);
     }
 
     #[test]
     fn light_stays_positive_and_alpha_within_what_there_is() {
-        let dark = [0.125, 0.25, 0.5, 0.75, 1.0];
-        assert_eq!([0.0625, -0.0625, -5.0].map(|value| clamp_grey(value, &dark)), [0.0625, 0.0625, 0.125]);
-        let veils = [0.2, 0.6, 1.0].map(|alpha| Rgba([alpha; 4]));
-        assert_eq!(clamp(Rgba([1.1; 4]), veils.into_iter()).0, [1.0; 4]);
-        assert_eq!(clamp(Rgba([0.3; 4]), std::iter::empty()).0, [0.3; 4]);
+        assert_eq!([0.02, -0.02].map(|value| hold_grey(value, |_, y| 0.1 * y)), [0.02, 0.0]);
+        assert_eq!(hold_grey(-0.09, |_, y| 0.1 * y - 0.1), -0.09);
+        assert_eq!(hold_all(Rgba([1.1; 4]), |_, y| Rgba([1.0 - 0.1 * y; 4])).0, [0.95; 4]);
+    }
+
+    #[test]
+    fn texels_in_a_line_or_too_few_confirm_nothing() {
+        let range = Range { least: [0.6; 4], greatest: [1.0; 4] };
+        let line = (0..9).map(|k| (Rgba::opaque(0.6 + 0.05 * k as f32, 0.6, 0.6), [0.01 * k as f32, 0.02 * k as f32]));
+        let average = Rgba::opaque(0.5, 0.6, 0.6);
+        assert_eq!(hold(average, &range, line.clone()).0[0], 0.6);
+        assert_eq!(hold(average, &range, line.take(3)).0[0], 0.6);
+        assert_eq!(hold(average, &range, std::iter::empty()).0[0], 0.6);
     }
 }

@@ -1,4 +1,4 @@
-use super::slope;
+use super::slope::{self, Range};
 use crate::raster::Rgba;
 
 /// One texel's part in an output pixel.
@@ -10,34 +10,33 @@ pub(crate) struct Tap {
     pub(super) weight: f32,
 }
 
-/// What anti-ringing holds the average of taps to.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Bound {
-    /// What those under the pixel hold: the first ones, so many.
-    Under(u32),
-    /// What all of them hold, and beyond it where a slope goes on: they lie to one side of the pixel's centre, or the field of
-    /// view ends under the pixel.
-    Slope,
-}
-
 /// All the texels of an output pixel with their weights: what a filter makes of a footprint.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Taps {
     taps: Vec<Tap>,
-    bound: Bound,
+    /// How many lie under the pixel: the first ones.
+    under: usize,
+    /// Where each lies from the pixel's centre, in screen pixels, if all lie to one side of it: else none.
+    places: Vec<[f32; 2]>,
 }
 
-impl Default for Bound {
-    fn default() -> Self {
-        Self::Under(0)
-    }
+/// The same, wherever they are kept.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct TapList<'a> {
+    /// All taps, those under the pixel first.
+    pub(super) taps: &'a [Tap],
+    /// How many lie under the pixel: anti-ringing holds their average to what these hold.
+    pub(super) under: usize,
+    /// Where each lies, if all lie to one side of the pixel's centre: a slope goes on beyond them. Else none.
+    pub(super) places: &'a [[f32; 2]],
 }
 
 impl Taps {
     /// Forgets all taps but keeps the memory.
     pub(super) fn clear(&mut self) {
         self.taps.clear();
-        self.bound = Bound::default();
+        self.under = 0;
+        self.places.clear();
     }
 
     /// All taps, those under the pixel first.
@@ -45,9 +44,9 @@ impl Taps {
         &self.taps
     }
 
-    /// What their average is held to.
-    pub(super) fn bound(&self) -> Bound {
-        self.bound
+    /// All that is known of them.
+    pub(super) fn list(&self) -> TapList<'_> {
+        TapList { taps: &self.taps, under: self.under, places: &self.places }
     }
 
     /// Whether there is no tap.
@@ -58,15 +57,15 @@ impl Taps {
     /// Adds a tap, all of which lie under the pixel.
     pub(super) fn push_under(&mut self, texel: u32, weight: f32) {
         self.taps.push(Tap { texel, weight });
-        self.bound = Bound::Under(self.taps.len() as u32);
+        self.under = self.taps.len();
     }
 
     /// Takes `count` taps, each with whether it is one of the `under` that lie under the pixel.
     pub(super) fn fill(&mut self, taps: impl Iterator<Item = (bool, Tap)>, count: usize, under: usize) {
-        self.taps.clear();
+        self.clear();
         self.taps.resize(count, Tap { texel: 0, weight: 0.0 });
         // Where none lies under the pixel, beyond a view's edge, all of them bound it.
-        self.bound = Bound::Under(if under == 0 { count } else { under } as u32);
+        self.under = if under == 0 { count } else { under };
         // Each tap goes to the end of its own part.
         let mut ends = [under, 0];
         for (is_under, tap) in taps {
@@ -76,9 +75,10 @@ impl Taps {
         }
     }
 
-    /// All of them lie to one side of the pixel's centre, or the field of view ends under the pixel.
-    pub(super) fn bound_by_slope(&mut self) {
-        self.bound = Bound::Slope;
+    /// All of them lie to one side of the pixel's centre: where, in their order.
+    pub(super) fn go_on(&mut self, places: impl Iterator<Item = [f32; 2]>) {
+        self.places.clear();
+        self.places.extend(places);
     }
 
     /// Scales the weights to a sum of one.
@@ -94,14 +94,13 @@ impl Taps {
 /// lose digits, and a common one pays nothing.
 const BLOCK: usize = 32;
 
-/// The weighted average of taps, held to their bound if there is to be no ringing. `light` is that of a texel.
-pub(super) fn average(taps: &[Tap], bound: Bound, light: impl Fn(u32) -> Rgba, anti_ringing: bool) -> Rgba {
+/// The weighted average of taps, held to what those under the pixel hold if there is to be no ringing. `light` is that of a
+/// texel.
+pub(super) fn average(list: TapList, light: impl Fn(u32) -> Rgba, anti_ringing: bool) -> Rgba {
     let mut sum = [0f64; 4];
-    let (mut least, mut greatest) = ([f32::INFINITY; 4], [f32::NEG_INFINITY; 4]);
-    let (inner, outer) = match bound {
-        Bound::Under(count) => taps.split_at(count as usize),
-        Bound::Slope => (&[][..], taps),
-    };
+    let mut range = Range { least: [f32::INFINITY; 4], greatest: [f32::NEG_INFINITY; 4] };
+    let Range { least, greatest } = &mut range;
+    let (inner, outer) = list.taps.split_at(list.under);
     for block in inner.chunks(BLOCK) {
         let mut part = [0f32; 4];
         for tap in block {
@@ -125,13 +124,11 @@ pub(super) fn average(taps: &[Tap], bound: Bound, light: impl Fn(u32) -> Rgba, a
         add(&mut sum, part);
     }
     let average = Rgba(sum.map(|value| value as f32));
-    match bound {
-        _ if !anti_ringing => average,
-        // No tap at all.
-        Bound::Under(0) => average,
-        Bound::Slope => slope::clamp(average, taps.iter().map(|tap| light(tap.texel))),
-        Bound::Under(_) => Rgba(std::array::from_fn(|c| average.0[c].max(least[c]).min(greatest[c]))),
+    if !anti_ringing || list.under == 0 {
+        return average;
     }
+    let texels = list.taps.iter().zip(list.places).map(|(tap, place)| (light(tap.texel), *place));
+    slope::hold(average, &range, texels)
 }
 
 fn add(sum: &mut [f64; 4], part: [f32; 4]) {

@@ -38,6 +38,17 @@ impl Direction {
         Self(DVec3::new(sin_lon * cos_lat, sin_lat, -cos_lon * cos_lat))
     }
 
+    /// So many directions, spread evenly over the sphere along a spiral (a Fibonacci lattice).
+    pub fn spread(count: usize) -> impl Iterator<Item = Self> {
+        let golden = std::f64::consts::PI * (3.0 - 5f64.sqrt());
+        (0..count).map(move |k| {
+            let y = 1.0 - (2 * k + 1) as f64 / count as f64;
+            let (sin, cos) = (golden * k as f64).sin_cos();
+            let radius = (1.0 - y * y).sqrt();
+            Self(DVec3::new(radius * sin, y, -radius * cos))
+        })
+    }
+
     /// Longitude (0 at the front, −180° to 180°, positive to the right) and latitude (positive up): the yaw and pitch of
     /// a camera that looks this way.
     pub fn longitude_latitude(self) -> (Angle, Angle) {

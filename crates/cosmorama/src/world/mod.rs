@@ -11,6 +11,7 @@ mod mask_shape;
 mod overlap;
 mod seen_cone;
 mod st_pixels;
+mod suns;
 mod view;
 mod view_mask;
 #[allow(clippy::module_inception)]

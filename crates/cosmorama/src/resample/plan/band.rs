@@ -5,7 +5,7 @@ use super::stored::{Stored, stored};
 use super::weights::Weights;
 use crate::resample::patch::SIDE;
 use crate::resample::scan::Sink;
-use crate::resample::taps::{Bound, Tap, Taps};
+use crate::resample::taps::{Tap, TapList, Taps};
 use crate::resample::window::Windows;
 use crate::world::World;
 
@@ -15,7 +15,8 @@ pub(super) struct Band<W> {
     pub(super) runs: Vec<Run>,
     pub(super) weights: W,
     pub(super) singles: Vec<Single>,
-    pub(super) taps: Vec<Tap>,
+    taps: Vec<Tap>,
+    places: Vec<[f32; 2]>,
 }
 
 /// Up to [`SIDE`] pixels beside each other, whose windows have one size and lie in one view.
@@ -47,10 +48,13 @@ pub(super) type Corners = [Option<[u32; 2]>; SIDE];
 /// A pixel by itself.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Single {
-    /// The first of its taps, how many there are, and what holds their average.
-    pub(super) first: usize,
-    pub(super) taps: u32,
-    pub(super) bound: Bound,
+    /// The first of its taps, how many there are, and how many of them lie under it.
+    first: usize,
+    taps: u32,
+    under: u32,
+    /// The first of their places, and how many are kept.
+    first_place: usize,
+    places: u32,
     /// The part of the pixel inside the field of view.
     pub(super) coverage: f32,
     pub(super) column: u32,
@@ -145,6 +149,7 @@ impl<W: Weights> Band<W> {
         self.weights.truncate(0);
         self.singles.clear();
         self.taps.clear();
+        self.places.clear();
     }
 
     /// Gives back memory that is not needed.
@@ -153,6 +158,16 @@ impl<W: Weights> Band<W> {
         self.weights.shrink();
         self.singles.shrink_to_fit();
         self.taps.shrink_to_fit();
+        self.places.shrink_to_fit();
+    }
+
+    /// What makes a single pixel.
+    pub(super) fn taps(&self, single: &Single) -> TapList<'_> {
+        TapList {
+            taps: &self.taps[single.first..][..single.taps as usize],
+            under: single.under as usize,
+            places: &self.places[single.first_place..][..single.places as usize],
+        }
     }
 
     /// Runs that lie together, about those of a patch: in each mirror they share most of their texels.
@@ -166,6 +181,7 @@ impl<W: Weights> Band<W> {
             + self.weights.bytes()
             + self.singles.capacity() * size_of::<Single>()
             + self.taps.capacity() * size_of::<Tap>()
+            + self.places.capacity() * size_of::<[f32; 2]>()
     }
 
     /// Bytes of what it holds, without room for more.
@@ -174,6 +190,7 @@ impl<W: Weights> Band<W> {
             + self.weights.used_bytes()
             + self.singles.len() * size_of::<Single>()
             + self.taps.len() * size_of::<Tap>()
+            + self.places.len() * size_of::<[f32; 2]>()
     }
 }
 
@@ -218,25 +235,30 @@ impl<W: Weights, F: FnMut(&mut Band<W>)> Sink for Recorder<'_, W, F> {
 impl<W, F: FnMut(&mut Band<W>)> Recorder<'_, W, F> {
     /// A pixel by itself, in all mirrors.
     fn single(&mut self, [column, row]: [usize; 2], coverage: f32, taps: &Taps) {
-        let sources = self.world.sources();
+        let (sources, list) = (self.world.sources(), taps.list());
+        // Mirrored, texels lie otherwise, but not in relation to each other.
+        let first_place = self.band.places.len();
+        self.band.places.extend_from_slice(list.places);
         for (index, image) in self.mirrors.images.iter().enumerate() {
             self.band.singles.push(Single {
                 first: self.band.taps.len(),
-                taps: taps.as_slice().len() as u32,
-                bound: taps.bound(),
+                taps: list.taps.len() as u32,
+                under: list.under as u32,
+                first_place,
+                places: list.places.len() as u32,
                 coverage,
                 column: column as u32,
                 row: row as u8,
                 image: index as u8,
             });
             if index == 0 {
-                self.band.taps.extend_from_slice(taps.as_slice());
+                self.band.taps.extend_from_slice(list.taps);
             } else {
-                self.band.taps.extend(taps.as_slice().iter().map(|&tap| image.tap(sources, tap)));
+                self.band.taps.extend(list.taps.iter().map(|&tap| image.tap(sources, tap)));
             }
-            if self.band.taps.len() > MANY {
-                (self.spill)(self.band);
-            }
+        }
+        if self.band.taps.len() > MANY {
+            (self.spill)(self.band);
         }
     }
 }
@@ -254,41 +276,36 @@ stored!(Run {
     under: [u8; 2],
 });
 
-/// The largest number stands for a slope: as many taps there are not.
-impl Stored for Bound {
-    const LEAST: usize = u32::LEAST;
-
-    fn store(&self, into: &mut Vec<u8>) {
-        match self {
-            Self::Under(count) => *count,
-            Self::Slope => u32::MAX,
-        }
-        .store(into);
-    }
-
-    fn load(from: &mut &[u8]) -> Option<Self> {
-        let count = u32::load(from)?;
-        Some(if count == u32::MAX { Self::Slope } else { Self::Under(count) })
-    }
-}
-
 stored!(Tap { texel: u32, weight: f32 });
 
-stored!(Single { first: usize, taps: u32, bound: Bound, coverage: f32, column: u32, row: u8, image: u8 });
+stored!(Single {
+    first: usize,
+    taps: u32,
+    under: u32,
+    first_place: usize,
+    places: u32,
+    coverage: f32,
+    column: u32,
+    row: u8,
+    image: u8,
+});
 
 impl<W: Weights> Stored for Band<W> {
-    const LEAST: usize = Vec::<Run>::LEAST + W::LEAST + Vec::<Single>::LEAST + Vec::<Tap>::LEAST;
+    const LEAST: usize =
+        W::LEAST + Vec::<Run>::LEAST + Vec::<Single>::LEAST + Vec::<Tap>::LEAST + Vec::<[f32; 2]>::LEAST;
 
     fn store(&self, into: &mut Vec<u8>) {
         self.runs.store(into);
         self.weights.store(into);
         self.singles.store(into);
         self.taps.store(into);
+        self.places.store(into);
     }
 
     fn load(from: &mut &[u8]) -> Option<Self> {
         let (runs, weights) = (Vec::load(from)?, W::load(from)?);
-        Some(Self { runs, weights, singles: Vec::load(from)?, taps: Vec::load(from)? })
+        let (singles, taps) = (Vec::load(from)?, Vec::load(from)?);
+        Some(Self { runs, weights, singles, taps, places: Vec::load(from)? })
     }
 }
 
@@ -306,8 +323,9 @@ impl<W: Weights> Band<W> {
         let texels = room.world.texel_count();
         let is_tap = |tap: &Tap| (tap.texel as usize) < texels && tap.weight.is_finite();
         self.runs.iter().all(|run| run.is_sound(room, &self.weights))
-            && self.singles.iter().all(|single| single.is_sound(room, self.taps.len()))
+            && self.singles.iter().all(|single| single.is_sound(room, [self.taps.len(), self.places.len()]))
             && self.taps.iter().all(is_tap)
+            && self.places.as_flattened().iter().all(|place| place.is_finite())
     }
 }
 
@@ -335,13 +353,14 @@ impl Run {
 }
 
 impl Single {
-    fn is_sound(&self, room: &Room, taps: usize) -> bool {
-        let is_bound = match self.bound {
-            Bound::Under(count) => count <= self.taps,
-            Bound::Slope => true,
+    fn is_sound(&self, room: &Room, lengths: [usize; 2]) -> bool {
+        let lists = [(self.first, self.taps), (self.first_place, self.places)];
+        let is_there = |((first, count), length): ((usize, u32), usize)| {
+            first.checked_add(count as usize).is_some_and(|end| end <= length)
         };
-        self.first.checked_add(self.taps as usize).is_some_and(|end| end <= taps)
-            && is_bound
+        lists.into_iter().zip(lengths).all(is_there)
+            && self.under <= self.taps
+            && (self.places == 0 || self.places == self.taps)
             && (0.0..=1.0).contains(&self.coverage)
             && (self.column as usize) < room.mirrors.columns
             && usize::from(self.row) < room.rows

@@ -31,8 +31,7 @@ impl FixedFilter<'_> {
         dispatch!(level, simd => self.runs(simd, band, canvas));
         let background = self.codec.background_light();
         for single in &band.singles {
-            let taps = &band.taps[single.first..][..single.taps as usize];
-            let colour = average(taps, single.bound, |texel| self.light.rgba(texel as usize), self.anti_ringing);
+            let colour = average(band.taps(single), |texel| self.light.rgba(texel as usize), self.anti_ringing);
             let image = &self.mirrors.images[usize::from(single.image)];
             let pixel = (colour * single.coverage).over(background);
             *canvas.pixel(image, [single.column as usize, usize::from(single.row)]) = self.codec.codes_of(pixel);

@@ -79,8 +79,7 @@ impl FloatFilter<'_> {
         let level = self.level;
         dispatch!(level, simd => self.runs(simd, band, canvas));
         for single in &band.singles {
-            let taps = &band.taps[single.first..][..single.taps as usize];
-            let colour = average(taps, single.bound, |texel| self.texels[texel as usize], self.anti_ringing);
+            let colour = average(band.taps(single), |texel| self.texels[texel as usize], self.anti_ringing);
             let image = &self.mirrors.images[usize::from(single.image)];
             *canvas.pixel(image, [single.column as usize, usize::from(single.row)]) = colour * single.coverage;
         }
