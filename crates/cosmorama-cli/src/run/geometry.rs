@@ -1,5 +1,5 @@
 use cosmorama::raster::{Channels, Depth, FixedCodec, FixedDecoder, FixedLight, Image, Rgba};
-use cosmorama::resample::{FilterKind, FixedPlan, Plan, Resampler};
+use cosmorama::resample::{FilterKind, FixedPlan, Plan, PyramidPlan, Resampler};
 
 use crate::job::{ConvertJob, Coverage, TargetView};
 
@@ -9,11 +9,16 @@ pub(super) enum Geometry {
     Float(Vec<Option<Plan>>),
     /// For opaque pictures of 8 bits, in and out.
     Fixed(Vec<Option<FixedPlan>>, FixedCodec),
+    /// For light of any range, by a pyramid of it.
+    Pyramid(Vec<Option<PyramidPlan>>),
 }
 
 impl Geometry {
     /// That of a job.
     pub(super) fn compile(job: &ConvertJob) -> Self {
+        if job.filter.kind == FilterKind::EwaPyramid {
+            return Self::Pyramid(plans(job, |r| r.plan_bytes_estimate(), |r| r.pyramid_plan(), PyramidPlan::bytes));
+        }
         match codec(job) {
             Some(codec) => {
                 let plans = plans(job, |r| r.fixed_plan_bytes_estimate(), |r| r.fixed_plan(), FixedPlan::bytes);
@@ -26,7 +31,7 @@ impl Geometry {
     /// From 15 bits to 8, where the job works in those.
     pub(super) fn codec(&self) -> Option<&FixedCodec> {
         match self {
-            Self::Float(_) => None,
+            Self::Float(_) | Self::Pyramid(_) => None,
             Self::Fixed(_, codec) => Some(codec),
         }
     }
@@ -36,16 +41,18 @@ impl Geometry {
         match self {
             Self::Float(plans) => plans.iter().flatten().map(|plan| plan.bytes() as u64).sum(),
             Self::Fixed(plans, _) => plans.iter().flatten().map(|plan| plan.bytes() as u64).sum(),
+            Self::Pyramid(plans) => plans.iter().flatten().map(|plan| plan.bytes() as u64).sum(),
         }
     }
 
     /// The pixels of a target view, of any light.
     pub(super) fn light(&self, index: usize, resampler: Resampler, texels: &[Rgba]) -> Image<Rgba> {
-        let plan = match self {
-            Self::Float(plans) => plans[index].as_ref(),
+        let made = match self {
+            Self::Float(plans) => plans[index].as_ref().map(|plan| plan.apply(texels)),
+            Self::Pyramid(plans) => plans[index].as_ref().map(|plan| plan.apply(texels)),
             Self::Fixed(..) => None,
         };
-        plan.map_or_else(|| resampler.render(texels), |plan| plan.apply(texels))
+        made.unwrap_or_else(|| resampler.render(texels))
     }
 
     /// The code values of a target view.
@@ -57,7 +64,7 @@ impl Geometry {
         codec: &FixedCodec,
     ) -> Image<[u8; 3]> {
         let plan = match self {
-            Self::Float(_) => None,
+            Self::Float(_) | Self::Pyramid(_) => None,
             Self::Fixed(plans, _) => plans[index].as_ref(),
         };
         plan.map_or_else(|| resampler.render_fixed(light, codec), |plan| plan.apply(light, codec))
@@ -88,7 +95,7 @@ fn plans<P>(
 /// That of a job whose inputs and outputs are opaque pictures of 8 bits that 15 bits of light are enough for.
 fn codec(job: &ConvertJob) -> Option<FixedCodec> {
     let light = &job.light;
-    let is_possible = !matches!(job.filter.kind, FilterKind::Reference { .. })
+    let is_possible = !matches!(job.filter.kind, FilterKind::Reference { .. } | FilterKind::EwaPyramid)
         && light.channels == Channels::Rgb
         && light.depth == Depth::Eight
         && light.background.alpha() >= 1.0
