@@ -148,7 +148,7 @@ fn check_quality(args: &ConvertArgs, format: Format) -> Result<()> {
 }
 
 /// Texels to be gathered from which on it is worth saying that there is a faster filter: some ten seconds of CPU time.
-const MANY: f64 = 2e8;
+const MANY: f64 = 4e8;
 
 /// And texels a pixel, on average.
 const MANY_A_PIXEL: f64 = 1000.0;

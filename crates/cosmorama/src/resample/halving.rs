@@ -132,7 +132,7 @@ impl HalvedView {
             }
             for column in columns {
                 let seen = self.bits(world, [column, row], |texel| edge.touches(source, texel));
-                // All of it outside: never seen, unless by a filter that looks beyond the edge.
+                // Of a texel that is all outside, nothing counts more than the rest.
                 if seen > 0 {
                     bits.get_or_insert_with(|| vec![ALL; width].into())[column] = seen;
                 }
@@ -194,7 +194,9 @@ fn is_near_edge(edge: &FieldEdge, coarse: &Source, row: usize, columns: &Range<u
     let (first, last) = (columns.start, columns.end - 1);
     let [Some(from), Some(middle), Some(to)] = [first, (first + last) / 2, last].map(direction) else { return true };
     let reach = BEND * middle.angle_to(from).radians().max(middle.angle_to(to).radians());
-    edge.is_near(middle, reach + coarse.texel_pitch_within(middle, reach))
+    let reach = reach + coarse.texel_pitch_within(middle, reach);
+    // What is all outside is never seen.
+    edge.is_near(middle, reach) && !edge.is_far_beyond(middle, reach)
 }
 
 #[cfg(test)]

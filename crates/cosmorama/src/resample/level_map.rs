@@ -9,9 +9,9 @@ use super::field_edge::FieldEdge;
 use crate::world::{Footprint, PixelPoint, PixelRect, View, World};
 
 /// Texels of the finer of two levels that the kernel's unit is at least, across its minor axis, and half of what it is at most:
-/// 2.25 to 4.5 texels a pixel by default. The more, the nearer to exact EWA; at twice this, a round kernel's window just fits
-/// into the largest that lanes weigh.
-const UNIT: f64 = 1.8;
+/// two to four texels a pixel by default. The more, the nearer to exact EWA; at twice this, the window of a kernel that is not
+/// long still fits into the largest that lanes weigh.
+const UNIT: f64 = 1.6;
 
 /// A kernel longer than so many times its width is widened: the number of its texels stays bounded.
 const LONGEST: f64 = 16.0;
