@@ -52,7 +52,7 @@ pub(crate) use target::{Sheet, Target, TargetView};
 
 use anyhow::Result;
 use cosmorama::raster::Rgba;
-use cosmorama::resample::{Filter, FilterKind, Resampler};
+use cosmorama::resample::{Filter, Resampler};
 use cosmorama::world::World;
 use cosmorama_io::Format;
 
@@ -106,16 +106,12 @@ impl ConvertJob {
         let nominal = nominal_worlds(&input, memory)?;
         let (coverage, worlds) = Coverage::check(&mut input, nominal, &target, &filter, args.missing, &mut warnings)?;
         memory.check_frame(&input, &target)?;
-        let resamplers = || {
-            target.views.iter().map(|view| Resampler {
-                world: &worlds[view.world(worlds.len())],
-                target: &view.view,
-                filter,
-            })
-        };
-        let levels = resamplers().map(|resampler| resampler.level_bytes() as u64).max().unwrap_or(0);
+        let levels = target.views.iter().map(|view| {
+            let world = &worlds[view.world(worlds.len())];
+            Resampler { world, target: &view.view, filter }.level_bytes() as u64
+        });
+        let levels = levels.max().unwrap_or(0);
         let memory = memory.beside_levels(levels, &input, &target)?;
-        warnings.extend(advice(resamplers(), outputs.frames.len()));
         warnings.iter().for_each(|warning| warn(warning));
         Ok(Self { input, worlds, target, filter, light, outputs, coverage, missing: args.missing, memory, warnings })
     }
@@ -147,32 +143,9 @@ fn check_quality(args: &ConvertArgs, format: Format) -> Result<()> {
     Err(usage(format!("--quality is for JPEG, but {} is {format}; leave it out, or name the output .jpg", args.output)))
 }
 
-/// Texels to be gathered from which on it is worth saying that there is a faster filter: some ten seconds of CPU time.
-const MANY: f64 = 4e8;
-
-/// And texels a pixel, on average.
-const MANY_A_PIXEL: f64 = 1000.0;
-
-/// A word on filters, where pixels of all frames hold very many texels.
-fn advice<'a>(resamplers: impl Iterator<Item = Resampler<'a>>, frames: usize) -> Option<String> {
-    let (mut texels, mut pixels) = (0.0, 0.0);
-    for resampler in resamplers.filter(|resampler| resampler.filter.kind == FilterKind::Ewa) {
-        let count = (resampler.target.width() * resampler.target.height()) as f64;
-        texels += resampler.texels_a_pixel() * count;
-        pixels += count;
-    }
-    let is_slow = frames as f64 * texels > MANY && texels > MANY_A_PIXEL * pixels;
-    is_slow.then(|| {
-        format!(
-            "a pixel is the average of {:.0} pixels of the input, which takes long; --filter ewa-pyramid is faster, and              hardly different",
-            texels / pixels
-        )
-    })
-}
-
 /// The filter that was asked for.
 pub(crate) fn filter(geometry: &GeometryArgs, warnings: &mut Vec<String>) -> Filter {
-    use cosmorama::resample::Kernel;
+    use cosmorama::resample::{FilterKind, Kernel};
     let (kind, kernel) = (geometry.filter.0, geometry.kernel.0);
     if matches!(kind, FilterKind::Point | FilterKind::Bilinear) && kernel != Kernel::ADAPTIVE {
         warnings.push("--kernel has no effect on --filter point and bilinear".to_owned());

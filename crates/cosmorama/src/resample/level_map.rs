@@ -1,5 +1,3 @@
-use std::f64::consts::PI;
-
 use glam::DMat2;
 use rayon::prelude::*;
 
@@ -135,30 +133,6 @@ fn is_before(number: f32, level: usize) -> bool {
 pub(super) fn part(number: f32, level: usize) -> f32 {
     let number = number.max(0.0);
     (1.0 - (number - level as f32).abs()).max(0.0)
-}
-
-/// Points along each side of a picture at which areas are measured.
-const SOME: usize = 24;
-
-/// Texels in the ellipse of a kernel, the mean over a picture.
-pub(super) fn mean_area(world: &World, target: &View, kernel: &Kernel) -> f64 {
-    let at = |size: usize, step: usize| (size as f64 * (step as f64 + 0.5)) / SOME as f64;
-    let area = |(i, j): (usize, usize)| {
-        let pixel = PixelPoint::new(at(target.width(), i), at(target.height(), j));
-        if !target.shows(pixel) {
-            return None;
-        }
-        let footprint = target.footprint(pixel)?;
-        let (owner, _) = world.owner(footprint.direction)?;
-        let source = &world.sources()[owner];
-        let (_, jacobian) = source.view.texel_footprint(&footprint)?;
-        let axes = semi_axes(jacobian).map(|axis| (axis * kernel.scale).max(kernel.floor) * kernel.radius());
-        // No more than there are.
-        let area = (PI * axes[0] * axes[1]).min(source.texels().len() as f64);
-        area.is_finite().then_some(area)
-    };
-    let points = (0..SOME).flat_map(|j| (0..SOME).map(move |i| (i, j)));
-    points.filter_map(area).sum::<f64>() / (SOME * SOME) as f64
 }
 
 /// Whether a field of view may end within so many pixels of a footprint.

@@ -1,7 +1,7 @@
 use super::plan::{self, FixedPlan, Plan};
 use super::pyramid::{self, PyramidPlan};
 use super::window::Level;
-use super::{Filter, FilterKind, level_map, reference};
+use super::{Filter, FilterKind, reference};
 use crate::raster::{FixedCodec, FixedLight, Image, Rgba};
 use crate::world::{View, World};
 
@@ -75,12 +75,6 @@ impl Resampler<'_> {
             _ if self.has_plan() => Plan::bytes_estimate(self, None),
             _ => 0,
         }
-    }
-
-    /// About how many texels a pixel's kernel holds, on average over the target's picture, if the filter is EWA: by the areas of
-    /// its ellipses at some points.
-    pub fn texels_a_pixel(&self) -> f64 {
-        level_map::mean_area(self.world, self.target, &self.filter.kernel)
     }
 
     /// Bytes at most that the levels of a pyramid take while a frame is made of them; zero for other filters, and where the
