@@ -10,7 +10,7 @@ use serde_json::Value;
 fn the_same_bytes_for_any_number_of_threads() {
     let bench = Bench::new();
     bench.faces("face_", 128);
-    for filter in ["ewa", "bilinear", "reference:samples=2"] {
+    for filter in ["ewa", "ewa-pyramid", "bilinear", "reference:samples=2"] {
         let bytes = |threads: &str| {
             let args = ["convert", "face_{face}.png", "out.png", "--to", "omnimax", "--size", "200", "-y"];
             bench.succeed(&[&args[..], &["--filter", filter, "--threads", threads]].concat());

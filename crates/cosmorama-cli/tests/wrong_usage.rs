@@ -37,7 +37,10 @@ fn wrong_usage() {
     assert_says(&convert(&["out.jpg", "--to", "omnimax", "--depth", "16"]), &["JPEG", "8"]);
     assert_says(&convert(&["out.jpg", "--to", "omnimax", "--background", "transparent"]), &["JPEG", "transparent"]);
     assert_says(&convert(&["out.png", "--to", "omnimax", "--kernel", "gauss"]), &["there are adaptive, gaussian"]);
-    assert_says(&convert(&["out.png", "--to", "omnimax", "--filter", "ewa-pyramid"]), &["point, bilinear"]);
+    assert_says(
+        &convert(&["out.png", "--to", "omnimax", "--filter", "ewa-pyramids"]),
+        &["ewa-pyramid, point, bilinear"],
+    );
     assert_says(&convert(&["out.png", "--to", "omnimax:center=3:4"]), &["--size"]);
     assert_says(&convert(&["out.png", "--to", "omnimax", "--from", "cube"]), &["{face}"]);
     assert_says(&convert(&["out.png", "--to", "omnimax", "-y", "--resume"]), &["--resume"]);

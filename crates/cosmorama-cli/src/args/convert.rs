@@ -113,7 +113,8 @@ pub(crate) struct GeometryArgs {
     /// Turn the output's camera clockwise
     #[arg(long, value_name = "D", default_value_t = 0.0, value_parser = degrees, allow_negative_numbers = true, help_heading = "Geometry")]
     pub(crate) roll: f64,
-    /// ewa, point, bilinear or reference[:samples=N]
+    /// ewa, ewa-pyramid (from smaller copies where a pixel holds many: bounded time, about 40 dB from ewa), point, bilinear or
+    /// reference[:samples=N]
     #[arg(long, value_name = "NAME", default_value = "ewa", help_heading = "Filter")]
     pub(crate) filter: FilterArg,
     /// adaptive, gaussian[:alpha=2,cutoff=1], mitchell, robidoux, robidoux-sharp, catmull-rom, lanczos2, lanczos3,

@@ -21,10 +21,11 @@ impl FromStr for FilterArg {
             },
             _ => match text {
                 "ewa" => Ok(Self(FilterKind::Ewa)),
+                "ewa-pyramid" => Ok(Self(FilterKind::EwaPyramid)),
                 "point" => Ok(Self(FilterKind::Point)),
                 "bilinear" => Ok(Self(FilterKind::Bilinear)),
                 "reference" => Ok(Self(FilterKind::Reference { samples: SAMPLES })),
-                _ => Err("there are ewa, point, bilinear and reference[:samples=N]".to_owned()),
+                _ => Err("there are ewa, ewa-pyramid, point, bilinear and reference[:samples=N]".to_owned()),
             },
         }
     }

@@ -84,6 +84,14 @@ impl MemoryBudget {
         self.allow(frame_bytes(input, target), "a frame", &(largest + &describe(target, ", and ")))
     }
 
+    /// What is left beside the levels of pyramids, which frames make one after the other, if a frame and they fit.
+    pub(crate) fn beside_levels(self, levels: u64, input: &Input, target: &Target) -> Result<Self> {
+        let needed = frame_bytes(input, target).saturating_add(levels);
+        let why = format!("; smaller copies of the input, for --filter ewa-pyramid, are {} of it", human(levels));
+        self.allow(needed, "a frame", &why)?;
+        Ok(Self { bytes: self.bytes - levels })
+    }
+
     /// Whether two pictures fit, with the copies that comparing them takes, before memory is taken.
     pub(crate) fn check_comparison(self, pictures: [(&Path, &Header); 2]) -> Result<()> {
         // Beside its light each picture is blurred, in double precision.

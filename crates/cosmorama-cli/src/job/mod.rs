@@ -111,6 +111,12 @@ impl ConvertJob {
         let nominal = nominal_worlds(&input, memory)?;
         let (coverage, worlds) = Coverage::check(&mut input, nominal, &target, &filter, args.missing, &mut warnings)?;
         memory.check_frame(&input, &target)?;
+        let levels = target.views.iter().map(|view| {
+            let world = &worlds[view.world(worlds.len())];
+            Resampler { world, target: &view.view, filter }.level_bytes() as u64
+        });
+        let levels = levels.max().unwrap_or(0);
+        let memory = memory.beside_levels(levels, &input, &target)?;
         warnings.iter().for_each(|warning| warn(warning));
         let (missing, plan_cache) = (args.missing, args.plan_cache.clone());
         Ok(Self { input, worlds, target, filter, light, outputs, coverage, missing, memory, plan_cache, warnings })

@@ -127,7 +127,8 @@ fn to_json(report: &Report, input: &Input, files: &[PathBuf]) -> Value {
         "texels_used": report.used(),
         "texels_a_pixel": { "mean": report.gathered.mean, "most": report.gathered.most },
         "memory_bytes": {
-            "texels": report.memory.texels, "pixels": report.memory.pixels, "plan": report.memory.plan,
+            "texels": report.memory.texels, "pixels": report.memory.pixels, "levels": report.memory.levels,
+            "plan": report.memory.plan,
         },
         "uncovered_pixels": report.uncovered.map_or(0, |uncovered| uncovered.pixels),
         "views": views,

@@ -1,5 +1,5 @@
 use cosmorama::raster::{Channels, Depth, FixedCodec, FixedDecoder, FixedLight, Image, Rgba};
-use cosmorama::resample::{FilterKind, FixedPlan, Plan, Resampler};
+use cosmorama::resample::{FilterKind, FixedPlan, Plan, PyramidPlan, Resampler};
 
 use super::plan_cache::{Kept, PlanCache};
 use crate::job::{ConvertJob, Coverage, TargetView};
@@ -10,18 +10,28 @@ pub(super) enum Geometry {
     Float(Vec<Option<Plan>>),
     /// For opaque pictures of 8 bits, in and out.
     Fixed(Vec<Option<FixedPlan>>, FixedCodec),
+    /// For light of any range, by a pyramid of it.
+    Pyramid(Vec<Option<PyramidPlan>>),
 }
 
 impl Geometry {
     /// That of a job, and what should be known of it.
     pub(super) fn compile(job: &ConvertJob) -> (Self, Vec<String>) {
         let mut warnings = Vec::new();
+        if job.filter.kind == FilterKind::EwaPyramid {
+            if job.plan_cache.is_some() {
+                warnings.push("--plan-cache: plans of pyramids are not kept; with --filter ewa they are".to_owned());
+            }
+            let plan = |r: &Resampler, left| fitting(r, left, |r| r.plan_bytes_estimate(), |r| r.pyramid_plan());
+            let plans = plans(job, |r, left| if pays(job) { plan(r, left) } else { None }, PyramidPlan::bytes);
+            return (Self::Pyramid(plans), warnings);
+        }
         let geometry = match codec(job) {
             Some(codec) => {
-                let plans = plans(job, |r| r.fixed_plan_bytes_estimate(), |r| r.fixed_plan(), &mut warnings);
+                let plans = kept(job, |r| r.fixed_plan_bytes_estimate(), |r| r.fixed_plan(), &mut warnings);
                 Self::Fixed(plans, codec)
             }
-            None => Self::Float(plans(job, |r| r.plan_bytes_estimate(), |r| r.plan(), &mut warnings)),
+            None => Self::Float(kept(job, |r| r.plan_bytes_estimate(), |r| r.plan(), &mut warnings)),
         };
         (geometry, warnings)
     }
@@ -29,7 +39,7 @@ impl Geometry {
     /// From 15 bits to 8, where the job works in those.
     pub(super) fn codec(&self) -> Option<&FixedCodec> {
         match self {
-            Self::Float(_) => None,
+            Self::Float(_) | Self::Pyramid(_) => None,
             Self::Fixed(_, codec) => Some(codec),
         }
     }
@@ -39,16 +49,18 @@ impl Geometry {
         match self {
             Self::Float(plans) => plans.iter().flatten().map(|plan| plan.bytes() as u64).sum(),
             Self::Fixed(plans, _) => plans.iter().flatten().map(|plan| plan.bytes() as u64).sum(),
+            Self::Pyramid(plans) => plans.iter().flatten().map(|plan| plan.bytes() as u64).sum(),
         }
     }
 
     /// The pixels of a target view, of any light.
     pub(super) fn light(&self, index: usize, resampler: Resampler, texels: &[Rgba]) -> Image<Rgba> {
-        let plan = match self {
-            Self::Float(plans) => plans[index].as_ref(),
+        let made = match self {
+            Self::Float(plans) => plans[index].as_ref().map(|plan| plan.apply(texels)),
+            Self::Pyramid(plans) => plans[index].as_ref().map(|plan| plan.apply(texels)),
             Self::Fixed(..) => None,
         };
-        plan.map_or_else(|| resampler.render(texels), |plan| plan.apply(texels))
+        made.unwrap_or_else(|| resampler.render(texels))
     }
 
     /// The code values of a target view.
@@ -60,45 +72,70 @@ impl Geometry {
         codec: &FixedCodec,
     ) -> Image<[u8; 3]> {
         let plan = match self {
-            Self::Float(_) => None,
+            Self::Float(_) | Self::Pyramid(_) => None,
             Self::Fixed(plans, _) => plans[index].as_ref(),
         };
         plan.map_or_else(|| resampler.render_fixed(light, codec), |plan| plan.apply(light, codec))
     }
 }
 
-/// Geometry for many frames is computed once, and once for many runs where it is kept, as far as it fits into memory.
-fn plans<P: Kept>(
+/// Whether geometry that is computed is used more than once.
+fn pays(job: &ConvertJob) -> bool {
+    job.outputs.frames.len() > 1
+}
+
+/// The plans of all target views; `plan_of` is told how many bytes are left for them.
+fn plans<P>(
     job: &ConvertJob,
-    estimate: impl Fn(&Resampler) -> usize,
-    plan: impl Fn(&Resampler) -> Option<P>,
-    warnings: &mut Vec<String>,
+    mut plan_of: impl FnMut(&Resampler, u64) -> Option<P>,
+    bytes: impl Fn(&P) -> usize,
 ) -> Vec<Option<P>> {
     let mut left = job.memory.left_for_plan(&job.input, &job.target);
-    let pays = job.outputs.frames.len() > 1;
     let plan_of = |target: &TargetView| {
-        let resampler = job.resampler(target);
-        let compute = |left: u64| if estimate(&resampler) as u64 > left { None } else { plan(&resampler) };
-        let plan = match &job.plan_cache {
-            Some(folder) if !job.outputs.frames.is_empty() => {
-                let mut cache = PlanCache::new(folder, left);
-                let plan = cache.plan(&resampler, || compute(left));
-                warnings.append(&mut cache.warnings);
-                plan
-            }
-            _ if pays => compute(left),
-            _ => None,
-        }?;
-        left = left.saturating_sub(plan.bytes() as u64);
+        let plan = plan_of(&job.resampler(target), left)?;
+        left = left.saturating_sub(bytes(&plan) as u64);
         Some(plan)
     };
     job.target.views.iter().map(plan_of).collect()
 }
 
+/// A plan, if it fits into so many bytes.
+fn fitting<P>(
+    resampler: &Resampler,
+    left: u64,
+    estimate: impl Fn(&Resampler) -> usize,
+    plan: impl Fn(&Resampler) -> Option<P>,
+) -> Option<P> {
+    if estimate(resampler) as u64 > left { None } else { plan(resampler) }
+}
+
+/// Geometry for many frames is computed once, and once for many runs where it is kept, as far as it fits into memory.
+fn kept<P: Kept>(
+    job: &ConvertJob,
+    estimate: impl Fn(&Resampler) -> usize,
+    plan: impl Fn(&Resampler) -> Option<P>,
+    warnings: &mut Vec<String>,
+) -> Vec<Option<P>> {
+    let plan_of = |resampler: &Resampler, left: u64| {
+        let compute = || fitting(resampler, left, &estimate, &plan);
+        match &job.plan_cache {
+            Some(folder) if !job.outputs.frames.is_empty() => {
+                let mut cache = PlanCache::new(folder, left);
+                let plan = cache.plan(resampler, compute);
+                warnings.append(&mut cache.warnings);
+                plan
+            }
+            _ if pays(job) => compute(),
+            _ => None,
+        }
+    };
+    plans(job, plan_of, P::bytes)
+}
+
 /// That of a job whose inputs and outputs are opaque pictures of 8 bits that 15 bits of light are enough for.
 fn codec(job: &ConvertJob) -> Option<FixedCodec> {
     let light = &job.light;
-    let is_possible = !matches!(job.filter.kind, FilterKind::Reference { .. })
+    let is_possible = !matches!(job.filter.kind, FilterKind::Reference { .. } | FilterKind::EwaPyramid)
         && light.channels == Channels::Rgb
         && light.depth == Depth::Eight
         && light.background.alpha() >= 1.0

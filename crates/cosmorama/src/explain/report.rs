@@ -70,6 +70,8 @@ pub struct Memory {
     pub texels: usize,
     /// The target's pixels.
     pub pixels: usize,
+    /// The smaller copies of a pyramid, at most; zero for other filters.
+    pub levels: usize,
     /// The geometry of a sequence in floats, estimated; that of opaque pictures of 8 bits takes less, a single frame none.
     pub plan: usize,
 }
@@ -124,10 +126,12 @@ impl Centre {
 
 impl Memory {
     fn of(world: &World, target: &View, filter: &Filter) -> Self {
+        let resampler = Resampler { world, target, filter: *filter };
         Self {
             texels: world.texel_count() * size_of::<Rgba>(),
             pixels: target.width() * target.height() * size_of::<Rgba>(),
-            plan: Resampler { world, target, filter: *filter }.plan_bytes_estimate(),
+            levels: resampler.level_bytes(),
+            plan: resampler.plan_bytes_estimate(),
         }
     }
 }

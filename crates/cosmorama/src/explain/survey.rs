@@ -1,7 +1,7 @@
 use rayon::prelude::*;
 
 use super::Magnification;
-use crate::resample::{Filter, KernelTable, PixelTaps};
+use crate::resample::{Filter, KernelTable, Pyramid, Resampler, TexelCount};
 use crate::world::{PixelPoint, ScreenPixel, Source, View, World};
 
 /// Pixels, and texels of a view, that a survey looks at; of more it takes every second one, third one and so on.
@@ -26,8 +26,10 @@ impl Survey {
         let rows: Vec<usize> = sampled(target.height(), step).collect();
         let few = rows.len().div_ceil(8 * rayon::current_num_threads()).max(1);
         let table = KernelTable::new(&filter.kernel);
-        let taps = || PixelTaps::new(world, target, filter, &table);
-        let bands: Vec<Self> = rows.par_chunks(few).map(|rows| Self::of_rows(world, target, taps(), rows)).collect();
+        let resampler = Resampler { world, target, filter: *filter };
+        let pyramid = Pyramid::new(&resampler);
+        let count = || TexelCount::new(&pyramid, &table);
+        let bands: Vec<Self> = rows.par_chunks(few).map(|rows| Self::of_rows(world, target, count(), rows)).collect();
         bands.into_iter().fold(Self::empty(world), Self::merged)
     }
 
@@ -35,15 +37,14 @@ impl Survey {
         Self { sampled: 0, shown: 0, texels: 0, most: 0, views: vec![(0, None); world.sources().len()] }
     }
 
-    fn of_rows(world: &World, target: &View, mut taps: PixelTaps, rows: &[usize]) -> Self {
+    fn of_rows(world: &World, target: &View, mut texels: TexelCount, rows: &[usize]) -> Self {
         let mut survey = Self::empty(world);
         let step = stride(target.width(), target.height());
         for &j in rows {
             for i in sampled(target.width(), step) {
                 survey.sampled += 1;
                 let Some(screen) = target.screen_pixel(i, j) else { continue };
-                let mut count = 0;
-                taps.for_each_texel((i, j), &screen, |_| count += 1);
+                let count = texels.of((i, j), &screen);
                 survey.shown += 1;
                 survey.texels += count;
                 survey.most = survey.most.max(count);

@@ -20,7 +20,11 @@ impl Display for Report {
         writeln!(f, "uses     {} of the texels given", Percent(self.used()))?;
         let memory = self.memory;
         let (texels, pixels, plan) = (Bytes(memory.texels), Bytes(memory.pixels), Bytes(memory.plan));
-        writeln!(f, "memory   texels {texels}, pixels {pixels}, plan of a sequence about {plan}")?;
+        let levels = match memory.levels {
+            0 => String::new(),
+            levels => format!(", smaller copies of the texels {}", Bytes(levels)),
+        };
+        writeln!(f, "memory   texels {texels}{levels}, pixels {pixels}, plan of a sequence about {plan}")?;
         if let Some(uncovered) = &self.uncovered {
             writeln!(f, "missing  {uncovered}")?;
         }

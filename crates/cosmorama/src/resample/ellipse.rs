@@ -95,6 +95,14 @@ impl EllipseRows {
     }
 }
 
+/// The semi-axes of the ellipse that is the image of the unit circle, the major one first: the singular values.
+pub(super) fn semi_axes(jacobian: DMat2) -> [f64; 2] {
+    let [a, b, c, d] = jacobian.to_cols_array();
+    let (sum, difference) = ((a + d).hypot(b - c), (a - d).hypot(b + c));
+    let major = (sum + difference) / 2.0;
+    [major, if major > 0.0 { jacobian.determinant().abs() / major } else { 0.0 }]
+}
+
 /// Cosine and sine of θ where (x, y) = length·(cos 2θ, sin 2θ), each to full precision; 1 and 0 for a circle.
 fn half_angle(x: f64, y: f64, length: f64) -> (f64, f64) {
     if length == 0.0 {
@@ -130,6 +138,17 @@ mod tests {
                 assert!((found - 1.0).abs() < 1e-9, "{name}: {found}");
             }
         }
+    }
+
+    #[test]
+    fn semi_axes_are_those_of_the_ellipse() {
+        for columns in [[3.0, 0.5, -1.0, 2.0], [2.0, 2.0, -7.0, 7.0], [1.0, 0.0, 0.0, 4.0], [0.0, 2.0, 3.0, 0.0]] {
+            let jacobian = DMat2::from_cols_array(&columns);
+            let (major, minor, _) = Ellipse::new(jacobian, 1e-3).axes();
+            let [a, b] = semi_axes(jacobian);
+            assert!((a - major).abs() < 1e-9 && (b - minor).abs() < 1e-9, "{columns:?}: {a}, {b}");
+        }
+        assert_eq!(semi_axes(DMat2::ZERO), [0.0, 0.0]);
     }
 
     #[test]

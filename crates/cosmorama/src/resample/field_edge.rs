@@ -43,6 +43,13 @@ impl<'a> FieldEdge<'a> {
             || self.target.stop.half_space.is_some_and(|side| side.dot(direction) < reach)
     }
 
+    /// Whether everything within `reach` radians of a direction surely lies outside the field.
+    pub(super) fn is_far_beyond(&self, direction: Direction, reach: f64) -> bool {
+        let direction = self.target.orientation.to_view(direction);
+        self.circle.is_some_and(|circle| self.axis_cosine(direction) < circle - reach)
+            || self.target.stop.half_space.is_some_and(|side| side.dot(direction) < -reach)
+    }
+
     /// Whether a part of the field falls upon the texel with this index in the world's buffer.
     pub(super) fn touches(&self, source: &Source, texel: usize) -> bool {
         let (i, j) = ((texel - source.offset) % source.view.width(), (texel - source.offset) / source.view.width());

@@ -5,6 +5,9 @@ use super::Kernel;
 pub enum FilterKind {
     /// The elliptical weighted average.
     Ewa,
+    /// The same of few texels, however many a pixel holds: those of smaller copies of the world, each half as large as the one
+    /// before; of the two that fit a pixel best, each gives its part (Heckbert 1989).
+    EwaPyramid,
     /// The one texel that the pixel's centre sees: no filter at all.
     Point,
     /// The four texels around the pixel's centre.

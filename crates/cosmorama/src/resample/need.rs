@@ -2,11 +2,11 @@
 
 use rayon::prelude::*;
 
-use super::Filter;
 use super::block::Block;
 use super::cap::Cap;
 use super::kernel::KernelTable;
 use super::pixel_taps::PixelTaps;
+use super::{Filter, FilterKind, Kernel};
 use crate::sphere::Direction;
 use crate::world::{PixelPoint, PixelRect, Source, View, World};
 
@@ -66,8 +66,11 @@ impl Needs {
     /// To ask for views whose image is missing, give a world of nominal views: it holds no light. The result is exact:
     /// it comes from the taps of the filter itself. Only blocks of pixels that cannot widen the rectangles found so far
     /// are passed over.
+    ///
+    /// Of a pyramid's texels, whose parts are many, it is known what they hold at most.
     pub fn of(world: &World, targets: &[View], filter: &Filter) -> Self {
-        Self::surveyed(world, targets, filter, Reads::Exactly)
+        let reads = if filter.kind == FilterKind::EwaPyramid { Reads::AtMost } else { Reads::Exactly };
+        Self::surveyed(world, targets, filter, reads)
     }
 
     /// The same but for what the filter reads, which takes most of the work: `read` is a rectangle that holds all of that, and
@@ -79,6 +82,9 @@ impl Needs {
     /// The same, made exact for views of which it is not yet known whether anything is read: `asked` says which.
     #[must_use]
     pub fn settled(mut self, world: &World, targets: &[View], filter: &Filter, asked: &[bool]) -> Self {
+        if filter.kind == FilterKind::EwaPyramid {
+            return self;
+        }
         let undecided = self.views.iter_mut().zip(asked).filter(|(_, asked)| **asked);
         undecided.for_each(|(need, _)| need.read = None);
         let uncovered = self.uncovered;
@@ -229,7 +235,13 @@ impl Survey<'_> {
             if !is_seen_known {
                 self.add_pixel((i, j), screen.footprint.direction, needs);
             }
-            if !reads_nothing_new {
+            if reads_nothing_new {
+                continue;
+            }
+            if self.filter.kind == FilterKind::EwaPyramid {
+                let cap = Cap::around(screen.footprint.direction, &[screen.footprint]);
+                cap.iter().for_each(|cap| self.add_reach(cap, needs));
+            } else {
                 pixels.for_each_texel((i, j), &screen, |texel| add_read(self.world, texel, &mut needs.views));
             }
         }
@@ -245,10 +257,14 @@ impl Survey<'_> {
 
     /// Adds all that kernels around a block's pixels can touch.
     fn add_reach(&self, cap: &Cap, needs: &mut Needs) {
-        let (sources, kernel) = (self.world.sources(), &self.filter.kernel);
+        let (sources, kernel) = (self.world.sources(), self.filter.kernel);
+        // A texel of the coarser of two levels is as wide as a pixel at most: its floor in such texels, and half of one.
+        let scale =
+            if self.filter.kind == FilterKind::EwaPyramid { kernel.scale + kernel.floor + 1.0 } else { kernel.scale };
+        let kernel = Kernel { scale, ..kernel };
         let coarsest = cap.coarsest_pitch(sources);
         for (source, need) in sources.iter().zip(&mut needs.views) {
-            need.read = union(need.read, cap.read_texels(source, coarsest, kernel));
+            need.read = union(need.read, cap.read_texels(source, coarsest, &kernel));
         }
     }
 

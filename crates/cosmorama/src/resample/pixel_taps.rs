@@ -27,7 +27,7 @@ impl<'a> PixelTaps<'a> {
     pub(super) fn taps(&mut self, screen: &ScreenPixel) -> Option<&Taps> {
         let (direction, taps) = (screen.footprint.direction, &mut self.taps);
         match self.filter.kind {
-            FilterKind::Ewa => self.gather.taps(&screen.footprint, taps),
+            FilterKind::Ewa | FilterKind::EwaPyramid => self.gather.taps(&screen.footprint, taps),
             FilterKind::Point => {
                 taps.clear();
                 lookup::nearest(self.world, direction, |texel, weight| taps.push_under(texel, weight as f32));

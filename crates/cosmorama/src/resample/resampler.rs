@@ -1,4 +1,5 @@
 use super::plan::{self, FixedPlan, Plan};
+use super::pyramid::{self, PyramidPlan};
 use super::window::Level;
 use super::{Filter, FilterKind, reference};
 use crate::raster::{FixedCodec, FixedLight, Image, Rgba};
@@ -27,10 +28,13 @@ impl Resampler<'_> {
     /// If `texels` is not as long as [`World::texel_count`] says.
     pub fn render(&self, texels: &[Rgba]) -> Image<Rgba> {
         assert_eq!(texels.len(), self.world.texel_count(), "one texel of light for each texel of the world");
-        if let FilterKind::Reference { samples } = self.filter.kind {
-            return reference::render(self.world, self.target, &self.filter, samples, texels);
+        match self.filter.kind {
+            FilterKind::Reference { samples } => {
+                reference::render(self.world, self.target, &self.filter, samples, texels)
+            }
+            FilterKind::EwaPyramid => pyramid::render(self, texels),
+            FilterKind::Ewa | FilterKind::Point | FilterKind::Bilinear => plan::render(self, texels, Level::new()),
         }
-        plan::render(self, texels, Level::new())
     }
 
     /// One frame of 8 bits, opaque, of light that has 15: the code values of each pixel, within one of those of
@@ -40,34 +44,55 @@ impl Resampler<'_> {
     /// If `light` is not that of the world's texels.
     pub fn render_fixed(&self, light: &FixedLight, codec: &FixedCodec) -> Image<[u8; 3]> {
         assert_eq!(light.len(), self.world.texel_count(), "one texel of light for each texel of the world");
-        if let FilterKind::Reference { .. } = self.filter.kind {
+        if !self.has_plan() {
             let texels: Vec<Rgba> = (0..light.len()).map(|texel| light.rgba(texel)).collect();
             return codec.encode(&self.render(&texels));
         }
         plan::render_fixed(self, light, codec)
     }
 
-    /// The geometry, for any number of frames; `None` for the reference filter, which has too many samples to store.
+    /// The geometry, for any number of frames; `None` for the reference filter, which has too many samples to store, and for
+    /// that of pyramids, whose geometry is a [`PyramidPlan`].
     pub fn plan(&self) -> Option<Plan> {
-        (!self.is_reference()).then(|| Plan::new(self))
+        self.has_plan().then(|| Plan::new(self))
+    }
+
+    /// The geometry of a pyramid's levels, and of what is made from each of them; `None` for other filters.
+    pub fn pyramid_plan(&self) -> Option<PyramidPlan> {
+        (self.filter.kind == FilterKind::EwaPyramid).then(|| PyramidPlan::new(self))
     }
 
     /// The geometry for frames of 8 bits.
     pub fn fixed_plan(&self) -> Option<FixedPlan> {
-        (!self.is_reference()).then(|| FixedPlan::new(self))
+        self.has_plan().then(|| FixedPlan::new(self))
     }
 
-    /// About how many bytes [`Resampler::plan`] would hold: found from every sixteenth band of rows, keeping nothing.
+    /// About how many bytes [`Resampler::plan`] would hold, or [`Resampler::pyramid_plan`]: found from a part of the rows, keeping
+    /// nothing.
     pub fn plan_bytes_estimate(&self) -> usize {
-        if self.is_reference() { 0 } else { Plan::bytes_estimate(self) }
+        match self.filter.kind {
+            FilterKind::EwaPyramid => PyramidPlan::bytes_estimate(self),
+            _ if self.has_plan() => Plan::bytes_estimate(self, None),
+            _ => 0,
+        }
+    }
+
+    /// Bytes at most that the levels of a pyramid take while a frame is made of them; zero for other filters, and where the
+    /// world's own texels are large enough.
+    pub fn level_bytes(&self) -> usize {
+        if self.filter.kind == FilterKind::EwaPyramid { pyramid::bytes(self) } else { 0 }
     }
 
     /// The same of [`Resampler::fixed_plan`].
     pub fn fixed_plan_bytes_estimate(&self) -> usize {
-        if self.is_reference() { 0 } else { FixedPlan::bytes_estimate(self) }
+        if self.has_plan() { FixedPlan::bytes_estimate(self) } else { 0 }
     }
 
-    fn is_reference(&self) -> bool {
-        matches!(self.filter.kind, FilterKind::Reference { .. })
+    /// Whether each pixel is a list of the world's own texels that can be kept.
+    fn has_plan(&self) -> bool {
+        match self.filter.kind {
+            FilterKind::Ewa | FilterKind::Point | FilterKind::Bilinear => true,
+            FilterKind::EwaPyramid | FilterKind::Reference { .. } => false,
+        }
     }
 }

@@ -1,5 +1,7 @@
 use std::ops::Range;
 
+use rayon::prelude::*;
+
 use super::kernel::KernelTable;
 use super::patch::{Patch, SIDE};
 use super::pixel_taps::PixelTaps;
@@ -16,6 +18,33 @@ pub(super) struct Scan<'a> {
     pixels: PixelTaps<'a>,
     /// For filters that work in windows.
     windows: Option<Windows>,
+    /// The patches to go through, if not all.
+    wanted: Option<&'a Wanted>,
+}
+
+/// Which patches of the pixels that a conversion computes are wanted.
+#[derive(Clone, Debug)]
+pub(super) struct Wanted {
+    columns: usize,
+    patches: Vec<bool>,
+}
+
+impl Wanted {
+    /// Of so many columns and rows, those patches of which `is_wanted` says so, given their first pixel.
+    pub(super) fn new([columns, rows]: [usize; 2], is_wanted: impl Fn([usize; 2]) -> bool + Sync) -> Self {
+        let (columns, rows) = (columns.div_ceil(SIDE), rows.div_ceil(SIDE));
+        let patch = |at: usize| is_wanted([at % columns * SIDE, at / columns * SIDE]);
+        Self { columns, patches: (0..columns * rows).into_par_iter().map(patch).collect() }
+    }
+
+    /// Whether any is.
+    pub(super) fn any(&self) -> bool {
+        self.patches.contains(&true)
+    }
+
+    fn holds(&self, [left, top]: [usize; 2]) -> bool {
+        self.patches[top / SIDE * self.columns + left / SIDE]
+    }
 }
 
 /// What takes the pixels of a [`Scan`], each with its column in the target and its row among those of the scan.
@@ -31,8 +60,15 @@ impl<'a> Scan<'a> {
     /// `table` is that of the filter's kernel.
     pub(super) fn new(resampler: &'a Resampler<'a>, table: &'a KernelTable, level: Level) -> Self {
         let Resampler { world, target, filter } = resampler;
-        let windows = (filter.kind == FilterKind::Ewa).then(|| Windows::new(&filter.kernel, level)).flatten();
-        Self { resampler, pixels: PixelTaps::new(world, target, filter, table), windows }
+        let windows = matches!(filter.kind, FilterKind::Ewa | FilterKind::EwaPyramid)
+            .then(|| Windows::new(&filter.kernel, level))
+            .flatten();
+        Self { resampler, pixels: PixelTaps::new(world, target, filter, table), windows, wanted: None }
+    }
+
+    /// The same of these patches alone.
+    pub(super) fn only(self, wanted: Option<&'a Wanted>) -> Self {
+        Self { wanted, ..self }
     }
 
     /// All pixels of the first columns of these rows that show something.
@@ -48,6 +84,9 @@ impl<'a> Scan<'a> {
     }
 
     fn patch(&mut self, [left, top]: [usize; 2], columns: usize, rows: &Range<usize>, sink: &mut impl Sink) {
+        if self.wanted.is_some_and(|wanted| !wanted.holds([left, top])) {
+            return;
+        }
         let target = self.resampler.target;
         let patch = self.windows.as_ref().and_then(|_| Patch::new(self.pixels.gather(), target, (left, top)));
         let count = SIDE.min(columns - left);

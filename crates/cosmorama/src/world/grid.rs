@@ -110,6 +110,14 @@ impl PixelGrid {
         Self { width, height, origin: self.origin / by, step: self.step * by }
     }
 
+    /// The first so many columns and all rows, which keep their place, in half as many, rounded up.
+    #[must_use]
+    pub(crate) fn halved(self, columns: usize) -> Self {
+        let (width, height) = (columns.div_ceil(2), self.height.div_ceil(2));
+        let by = DVec2::new(columns as f64 / width as f64, self.height as f64 / height as f64);
+        Self { width, height, origin: self.origin / by, step: self.step * by }
+    }
+
     /// The same picture mirrored left to right.
     #[must_use]
     pub fn flipped_x(self) -> Self {

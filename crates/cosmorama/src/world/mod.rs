@@ -6,6 +6,7 @@ mod field_stop;
 mod frame;
 mod framing;
 mod grid;
+mod halved;
 mod layout;
 mod mask_shape;
 mod overlap;
@@ -28,6 +29,7 @@ pub use frame::{
 };
 pub use framing::OmnimaxFraming;
 pub use grid::{PixelGrid, PixelPoint, PixelRect};
+pub(crate) use halved::held;
 pub use layout::{
     Arrangement, CubeLayout, DualFisheye, DualLens, Eye, FaceOrder, FacePart, FacePlacement, LayoutError, LayoutKind,
     LensSide, PlacedFace, PlacedLens, Stereo,

@@ -26,16 +26,17 @@ use fixed::FixedFilter;
 use fixed_weights::FixedWeights;
 use float::{FloatFilter, FloatWeights};
 pub use key::PlanKey;
-use mirrors::Mirrors;
+use mirrors::{MirrorImage, Mirrors};
 pub use saved::PlanError;
 use weights::Weights;
 
 use super::kernel::KernelTable;
 use super::patch::SIDE;
-use super::scan::Scan;
+use super::scan::{Scan, Wanted};
 use super::window::Level;
 use super::{Resampler, Taps};
 use crate::raster::{FixedCodec, FixedLight, Image, Rgba};
+use crate::world::PixelRect;
 
 /// Rows of a target that are worked on together, in tiles: those of a few patches.
 const BAND: usize = 4 * SIDE;
@@ -61,7 +62,12 @@ struct Compiled<W> {
 
 impl Plan {
     pub(super) fn new(resampler: &Resampler) -> Self {
-        Self(Compiled::new(resampler))
+        Self(Compiled::new(resampler, None))
+    }
+
+    /// That of the wanted patches alone; other pixels become transparent.
+    pub(super) fn of_part(resampler: &Resampler, wanted: &Wanted) -> Self {
+        Self(Compiled::new(resampler, Some(wanted)))
     }
 
     /// One frame. `texels` is the world's buffer of light.
@@ -78,9 +84,9 @@ impl Plan {
         self.0.bytes()
     }
 
-    /// About how many that of a conversion would hold: found from some bands of rows, keeping nothing.
-    pub(super) fn bytes_estimate(resampler: &Resampler) -> usize {
-        bytes_estimate::<FloatWeights>(resampler)
+    /// About how many that of a conversion would hold, or of its wanted patches: found from some bands of rows, keeping nothing.
+    pub(super) fn bytes_estimate(resampler: &Resampler, wanted: Option<&Wanted>) -> usize {
+        bytes_estimate::<FloatWeights>(resampler, wanted)
     }
 
     /// What tells the plan of a conversion from any other.
@@ -104,7 +110,7 @@ impl Plan {
 
 impl FixedPlan {
     pub(super) fn new(resampler: &Resampler) -> Self {
-        Self(Compiled::new(resampler))
+        Self(Compiled::new(resampler, None))
     }
 
     /// One frame: the code values of each pixel. `light` is that of all the world's texels.
@@ -123,7 +129,7 @@ impl FixedPlan {
 
     /// About how many that of a conversion would hold: found from some bands of rows, keeping nothing.
     pub(super) fn bytes_estimate(resampler: &Resampler) -> usize {
-        bytes_estimate::<FixedWeights>(resampler)
+        bytes_estimate::<FixedWeights>(resampler, None)
     }
 
     /// What tells the plan of a conversion from any other.
@@ -147,11 +153,21 @@ impl FixedPlan {
 
 /// A frame without a plan that is kept: each band's geometry is forgotten when its pixels are made.
 pub(super) fn render(resampler: &Resampler, texels: &[Rgba], level: Level) -> Image<Rgba> {
+    render_part(resampler, None, texels, level)
+}
+
+/// The wanted patches of one, all else transparent.
+pub(super) fn render_part(
+    resampler: &Resampler,
+    wanted: Option<&Wanted>,
+    texels: &[Rgba],
+    level: Level,
+) -> Image<Rgba> {
     let mirrors = &Mirrors::of(resampler);
     let (width, height) = (resampler.target.width(), resampler.target.height());
     let mut image = Image::filled(width, height, Rgba::TRANSPARENT);
     let filter = FloatFilter { level, mirrors, texels, anti_ringing: resampler.filter.anti_ringing };
-    each_band(resampler, mirrors, image.pixels_mut(), level, |band, canvas| filter.fill(band, canvas));
+    each_band((resampler, wanted), mirrors, image.pixels_mut(), level, |band, canvas| filter.fill(band, canvas));
     image
 }
 
@@ -162,12 +178,12 @@ pub(super) fn render_fixed(resampler: &Resampler, light: &FixedLight, codec: &Fi
     let mut image = Image::filled(width, height, codec.background());
     let level = Level::new();
     let filter = FixedFilter { level, mirrors, light, codec, anti_ringing: resampler.filter.anti_ringing };
-    each_band(resampler, mirrors, image.pixels_mut(), level, |band, canvas| filter.fill(band, canvas));
+    each_band((resampler, None), mirrors, image.pixels_mut(), level, |band, canvas| filter.fill(band, canvas));
     image
 }
 
 /// Bytes that the plan of a conversion would hold, found from a row of patches in each band, keeping none of them.
-fn bytes_estimate<W: Weights>(resampler: &Resampler) -> usize {
+fn bytes_estimate<W: Weights>(resampler: &Resampler, wanted: Option<&Wanted>) -> usize {
     let mirrors = &Mirrors::of(resampler);
     let table = KernelTable::new(&resampler.filter.kernel);
     let bytes = |index: usize| {
@@ -176,7 +192,7 @@ fn bytes_estimate<W: Weights>(resampler: &Resampler) -> usize {
         let top = band.start + index % (BAND / SIDE) * SIDE;
         let rows = if top < band.end { top..band.end.min(top + SIDE) } else { band };
         let (mut kept, mut bytes, count) = (Band::<W>::default(), 0, rows.len());
-        record(resampler, mirrors, &table, rows, Level::new(), &mut kept, |band| {
+        record((resampler, wanted), mirrors, &table, rows, Level::new(), &mut kept, |band| {
             bytes += band.used_bytes();
             band.clear();
         });
@@ -188,13 +204,13 @@ fn bytes_estimate<W: Weights>(resampler: &Resampler) -> usize {
 }
 
 impl<W: Weights> Compiled<W> {
-    fn new(resampler: &Resampler) -> Self {
+    fn new(resampler: &Resampler, wanted: Option<&Wanted>) -> Self {
         let Resampler { target, filter, .. } = resampler;
         let mirrors = Mirrors::of(resampler);
         let table = KernelTable::new(&filter.kernel);
         let compile = |index| {
             let mut band = Band::default();
-            record(resampler, &mirrors, &table, mirrors.band(index), Level::new(), &mut band, |_| {});
+            record((resampler, wanted), &mirrors, &table, mirrors.band(index), Level::new(), &mut band, |_| {});
             band.shrink();
             band
         };
@@ -215,7 +231,7 @@ impl<W: Weights> Compiled<W> {
 
 /// Records each band, makes its pixels and forgets it.
 fn each_band<W: Weights, P: Send>(
-    resampler: &Resampler,
+    (resampler, wanted): (&Resampler, Option<&Wanted>),
     mirrors: &Mirrors,
     pixels: &mut [P],
     level: Level,
@@ -225,7 +241,7 @@ fn each_band<W: Weights, P: Send>(
     let canvases = Canvas::bands(pixels, resampler.target.width(), BAND, mirrors);
     canvases.enumerate().for_each_init(Band::default, |band, (index, mut canvas)| {
         band.clear();
-        record(resampler, mirrors, table, mirrors.band(index), level, band, |band| {
+        record((resampler, wanted), mirrors, table, mirrors.band(index), level, band, |band| {
             make(band, &mut canvas);
             band.clear();
         });
@@ -235,7 +251,7 @@ fn each_band<W: Weights, P: Send>(
 
 /// Records some rows; `spill` may take from the band what it holds, when that is much.
 fn record<W: Weights>(
-    resampler: &Resampler,
+    (resampler, wanted): (&Resampler, Option<&Wanted>),
     mirrors: &Mirrors,
     table: &KernelTable,
     rows: Range<usize>,
@@ -244,7 +260,28 @@ fn record<W: Weights>(
     spill: impl FnMut(&mut Band<W>),
 ) {
     let mut recorder = Recorder { world: resampler.world, mirrors, band, taps: Taps::default(), spill };
-    Scan::new(resampler, table, level).pixels(mirrors.columns, rows, &mut recorder);
+    Scan::new(resampler, table, level).only(wanted).pixels(mirrors.columns, rows, &mut recorder);
+}
+
+/// The patches that must be computed, in whatever mirror something is wanted of them, given which rectangles of the target are.
+pub(super) fn wanted(resampler: &Resampler, is_wanted: impl Fn(PixelRect) -> bool + Sync) -> Wanted {
+    let mirrors = Mirrors::of(resampler);
+    let size = [resampler.target.width(), resampler.target.height()];
+    Wanted::new([mirrors.columns, mirrors.rows], |patch| {
+        mirrors.images.iter().any(|image| is_wanted(image.shown(patch, size)))
+    })
+}
+
+impl MirrorImage {
+    /// Where in a target of this size it shows a patch.
+    fn shown(&self, first: [usize; 2], size: [usize; 2]) -> PixelRect {
+        let along = |axis: usize| {
+            let (from, to) = (first[axis], size[axis].min(first[axis] + SIDE));
+            if self.flips[axis] { [size[axis] - to, size[axis] - from] } else { [from, to] }
+        };
+        let ([left, right], [top, bottom]) = (along(0), along(1));
+        PixelRect { left, top, right, bottom }
+    }
 }
 
 impl Mirrors {

@@ -166,7 +166,9 @@ fn what_mirrors_show_is_what_would_be_computed() {
         let mut expected = Image::filled(target.width(), target.height(), Rgba::TRANSPARENT);
         let texels = floats(&light);
         let filter = FloatFilter { level: Level::new(), mirrors: &alone, texels: &texels, anti_ringing: true };
-        each_band(&resampler, &alone, expected.pixels_mut(), Level::new(), |band, canvas| filter.fill(band, canvas));
+        each_band((&resampler, None), &alone, expected.pixels_mut(), Level::new(), |band, canvas| {
+            filter.fill(band, canvas)
+        });
         let made = resampler.render(&texels);
         for (a, b) in made.pixels().iter().zip(expected.pixels()) {
             // Patches lie otherwise there: what one of them holds may be a pixel by itself, whose weights differ a little.
