@@ -60,17 +60,27 @@ impl FixedFilter<'_> {
         let mut pixels = [[[0; 3]; SIDE]; MOST_IMAGES];
         let ways = self.mirrors.ways(usize::from(run.view));
         let made = Made { simd, filter: self, ways, run, numbers };
+        // A function for each number of mirrors: all in one would take the compiler minutes.
         match (ways.forward, ways.count) {
-            (2, 4) if ways.down[..2] == ways.down[2..] => made.pixels::<i16x32<S>, 4, 2>(0, &mut pixels),
-            (1, 2) => made.pixels::<i16x16<S>, 2, 1>(0, &mut pixels),
-            (forward, count) => {
-                for at in 0..forward {
-                    made.pixels::<i16x8<S>, 1, 0>(at, &mut pixels);
-                }
-                for at in forward..count {
-                    made.pixels::<i16x8<S>, 1, 1>(at, &mut pixels);
-                }
-            }
+            (2, 4) if ways.down[..2] == ways.down[2..] => simd.vectorize(
+                #[inline(always)]
+                || made.pixels::<i16x32<S>, 4, 2>(0, &mut pixels),
+            ),
+            (1, 2) => simd.vectorize(
+                #[inline(always)]
+                || made.pixels::<i16x16<S>, 2, 1>(0, &mut pixels),
+            ),
+            (forward, count) => simd.vectorize(
+                #[inline(always)]
+                || {
+                    for at in 0..forward {
+                        made.pixels::<i16x8<S>, 1, 0>(at, &mut pixels);
+                    }
+                    for at in forward..count {
+                        made.pixels::<i16x8<S>, 1, 1>(at, &mut pixels);
+                    }
+                },
+            ),
         }
         pixels
     }
