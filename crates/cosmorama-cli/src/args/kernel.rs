@@ -56,6 +56,8 @@ fn set(kernel: &mut Kernel, name: &str, key: &str, value: f64) -> Result<(), Str
     match (key, &mut kernel.fine) {
         ("scale", _) => kernel.scale = value,
         ("floor", _) => kernel.floor = value,
+        // A Gaussian of another shape would not keep light.
+        _ if name == LIGHT => return Err(format!("unknown key '{key}' for {name}; it takes scale, floor")),
         ("alpha", CrossSection::Gaussian { alpha, .. }) => *alpha = value,
         ("cutoff", CrossSection::Gaussian { cutoff, .. }) => *cutoff = value,
         (_, CrossSection::Gaussian { .. }) => {
@@ -100,6 +102,7 @@ mod tests {
             "tent:floor=nan",
             "box:scale",
             "gaussian:sigma=1",
+            "light:alpha=9",
         ] {
             assert!(wrong.parse::<KernelArg>().is_err(), "{wrong}");
         }

@@ -56,6 +56,10 @@ impl<'a> PlanCache<'a> {
 
     /// The plan of a conversion, from the folder or computed, and then kept there. `None` where there is none to be had.
     pub(super) fn plan<P: Kept>(&mut self, resampler: &Resampler, compute: impl FnOnce() -> Option<P>) -> Option<P> {
+        if self.folder.exists() && !self.folder.is_dir() {
+            self.warnings.push(format!("--plan-cache {} is no folder; nothing is kept", self.folder.display()));
+            return compute();
+        }
         let key = P::key(resampler);
         let path = self.folder.join(format!("{key}.plan"));
         match self.found(&path, key, resampler) {

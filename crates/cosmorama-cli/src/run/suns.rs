@@ -1,5 +1,5 @@
 use cosmorama::raster::Depth;
-use cosmorama::resample::Filter;
+use cosmorama::resample::{FilterKind, Kernel};
 use cosmorama::sphere::Direction;
 
 use super::frame_light::FrameLight;
@@ -11,9 +11,10 @@ const MUCH: f64 = 0.1;
 /// Directions by which it is found whether outputs show the whole world.
 const DIRECTIONS: usize = 500;
 
-/// Where a whole world is made of light of which much comes from suns, the default filter does not keep it.
+/// Where a whole world is made of light of which much comes from suns, few filters keep it.
 pub(super) fn warning(job: &ConvertJob, light: &FrameLight) -> Option<String> {
-    if job.filter != Filter::DEFAULT || !is_of_any_range(job) || !shows_the_world(job) {
+    let keeps_light = job.filter.kind == FilterKind::Ewa && job.filter.kernel == Kernel::LIGHT;
+    if keeps_light || !is_of_any_range(job) || !shows_the_world(job) {
         return None;
     }
     let parts = job.worlds.iter().enumerate();
@@ -21,9 +22,9 @@ pub(super) fn warning(job: &ConvertJob, light: &FrameLight) -> Option<String> {
     let part = part.fold(0.0, f64::max);
     (part > MUCH).then(|| {
         format!(
-            "{:.0} % of the light comes from suns or lamps, over a hundred times as bright as the mean; the default filter \
-             draws them sharply and may add light to them. Where the picture is to light a scene, --kernel light keeps \
-             what there is, and is a little softer",
+            "{:.0} % of the light comes from suns or lamps, over a hundred times as bright as the mean; this filter \
+             may add light to them or take some away. Where the picture is to light a scene, --filter ewa --kernel light \
+             keeps what there is, and is a little softer",
             100.0 * part
         )
     })

@@ -215,7 +215,11 @@ impl<W: Weights, F: FnMut(&mut Band<W>)> Sink for Recorder<'_, W, F> {
 
     fn windows(&mut self, pixel: [usize; 2], count: usize, windows: &Windows) {
         let first = self.band.weights.len();
-        let mut corners = std::array::from_fn(|lane| windows.corner(lane).filter(|_| lane < count));
+        let mut corners: Corners = std::array::from_fn(|lane| windows.corner(lane).filter(|_| lane < count));
+        // Nothing was weighed.
+        if corners == [None; SIDE] {
+            return;
+        }
         if self.band.weights.keep(windows, &mut corners) {
             if let Some(run) = Run::new(windows, &corners, pixel, first) {
                 self.band.runs.push(run);

@@ -56,6 +56,8 @@ fn conversions() -> Vec<(World, View, usize)> {
     vec![
         (cube(&all, 150), dome(200, up), 4),
         (cube(&all, 300), dome(62, up), 4),
+        // Windows larger than lanes weigh.
+        (cube(&all, 300), dome(30, up), 4),
         (cube(&[CubeFace::Front, CubeFace::Left, CubeFace::Right, CubeFace::Up], 120), omnimax(), 2),
         (cube(&all, 100), dome(120, turned(20.0, 60.0, 5.0)), 1),
         (cube(&all, 100), dome(120, turned(0.0, 60.0, 0.0)), 2),
