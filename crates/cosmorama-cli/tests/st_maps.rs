@@ -195,6 +195,8 @@ fn mistakes_are_told() {
     let png =
         ["convert", "plate.exr", "o.png", "--from", "fisheye", "--to", "equirect", "--st-map", "--missing", "black"];
     assert_says(&bench.fail(2, &png), &["--st-map", ".exr"]);
+    let itself = ["convert", "plate.exr", "map.exr", "--to", "st-map:file=map.exr", "-y"];
+    assert_says(&bench.fail(2, &itself), &["map.exr", "its own input"]);
     let formula = ["convert", "builtin:grid", "o.exr", "--to", "fulldome", "--size", "16", "--st-map"];
     assert_says(&bench.fail(2, &formula), &["--st-map", "formula"]);
 }

@@ -4,7 +4,7 @@ use cosmorama::raster::Rgba;
 use cosmorama::resample::{Filter, FilterKind, Resampler};
 use cosmorama::sphere::{CubeFace, Direction};
 use cosmorama::world::{View, World};
-use testkit::{cube, equirect, light_by_direction, perspective, whole_worlds};
+use testkit::{cube, equirect, light_by_direction, omnimax, perspective, whole_worlds};
 
 /// Waves of some forty texels: smooth enough that the filter itself changes next to nothing, so that what a wrong weight
 /// adds at an edge would stand out.
@@ -171,4 +171,50 @@ fn what_lies_outside_a_partial_face_never_leaks_in() {
         }
     }
     assert_eq!(resampler.render(&soiled), expected);
+}
+
+/// How far the error of a world whose colour is its direction jumps from a pixel to the next across the edge of a face, at the
+/// most: zero where the edge cannot be told.
+fn step_across(world: &World, light: &[Rgba], target: &View, filter: Filter) -> f64 {
+    let image = Resampler { world, target, filter }.render(light);
+    let seen = |i, j| target.screen_pixel(i, j).filter(|screen| screen.coverage == 1.0);
+    let error = |i, j| {
+        let direction = seen(i, j)?.footprint.direction;
+        let light = image.get(i, j).0;
+        let error: [f64; 3] = std::array::from_fn(|c| f64::from(light[c]) - direction.vector()[c]);
+        Some((CubeFace::of(direction), error))
+    };
+    let mut largest = 0f64;
+    for (i, j) in (6..image.height() - 6).flat_map(|j| (6..image.width() - 6).map(move |i| (i, j))) {
+        let Some((face, here)) = error(i, j) else { continue };
+        for (next, there) in [error(i + 1, j), error(i, j + 1)].into_iter().flatten() {
+            if next != face {
+                largest = (0..3).map(|c| (here[c] - there[c]).abs()).fold(largest, f64::max);
+            }
+        }
+    }
+    largest
+}
+
+#[test]
+fn directions_step_across_edges_no_more_than_by_the_reference() {
+    // Single precision holds a direction to 6e-8; what eight texels add may round to some of those.
+    const ROUNDING: f64 = 1e-6;
+    for size in [128, 256, 512] {
+        let world = cube(&CubeFace::ALL, size, size);
+        let light = light_by_direction(&world, |d| d.vector().to_array().map(|c| c as f32));
+        let targets = [
+            perspective(120, 90, 40.0, 45.0, 0.0, 10.0),
+            perspective(120, 90, 40.0, 45.0, 35.26, 0.0),
+            perspective(160, 120, 20.0, 45.0, 10.0, 0.0),
+            omnimax(491, 359),
+            equirect(512),
+        ];
+        for target in targets {
+            let reference = Filter { kind: FilterKind::Reference { samples: 4 }, ..Filter::DEFAULT };
+            let [ours, reference] =
+                [Filter::DEFAULT, reference].map(|filter| step_across(&world, &light, &target, filter));
+            assert!(ours <= reference + ROUNDING, "{size}: {ours} is more than {reference}, {:?}", target.projection);
+        }
+    }
 }

@@ -174,7 +174,7 @@ impl Input {
             None => match detect(&path, &header, warnings)? {
                 (shape, None) => shape,
                 (shape, stereo) => {
-                    let found = Spec { name: "what was found", shape, stereo };
+                    let found = Spec { name: "what was found", shape, stereo, files: Vec::new() };
                     return Self::of_eyes(pattern, Some(&found), wanted, warnings);
                 }
             },

@@ -41,8 +41,15 @@ impl Outputs {
         memory: MemoryBudget,
     ) -> Result<Self> {
         check_frame_markers(args, input, target)?;
-        let inputs: HashSet<PathBuf> =
-            input.frames.iter().flat_map(|frame| input.paths(*frame)).map(|path| real_path(&path)).collect();
+        let specs = [&args.geometry.from, &args.geometry.to].into_iter().flatten();
+        let named = specs.flat_map(|spec| spec.files.iter().cloned());
+        let inputs: HashSet<PathBuf> = input
+            .frames
+            .iter()
+            .flat_map(|frame| input.paths(*frame))
+            .chain(named)
+            .map(|path| real_path(&path))
+            .collect();
         let mut frames = Vec::new();
         let mut folders = HashSet::new();
         for &frame in &input.frames {

@@ -79,7 +79,7 @@ pub(super) fn complete(input: &str, geometry: &GeometryArgs) -> Result<GeometryA
     });
     let placement = Placement { canvas, ..Placement::new(frame) };
     let shape = Shape::Single(Single { placement, samples: SphereSamples::NotAPanorama, any_shape: true });
-    geometry.to = Some(Spec { name: "the p-line", shape, stereo: None });
+    geometry.to = Some(Spec { name: "the p-line", shape, stereo: None, files: Vec::new() });
     Ok(geometry)
 }
 

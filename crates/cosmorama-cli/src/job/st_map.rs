@@ -133,7 +133,7 @@ fn plain() -> Spec {
     let camera = PerspectiveFrame::new(FieldOfView::Horizontal(Angle::from_degrees(1.0)));
     let placement = Placement::new(Frame::Perspective(camera));
     let single = Single { placement, samples: SphereSamples::NotAPanorama, any_shape: false };
-    Spec { name: "perspective", shape: Shape::Single(single), stereo: None }
+    Spec { name: "perspective", shape: Shape::Single(single), stereo: None, files: Vec::new() }
 }
 
 /// The picture on the other side of the conversion.
@@ -189,5 +189,5 @@ fn spec(map: &StMapSpec, pairs: &StPairs, base: Base, side: Side, memory: Memory
     let placement =
         Placement { frame: Frame::StMap(frame), orientation: map.orientation, mirror: map.mirror, canvas: map.canvas };
     let single = Single { placement, samples: SphereSamples::NotAPanorama, any_shape: false };
-    Ok(Spec { name: "st-map", shape: Shape::Single(single), stereo: None })
+    Ok(Spec { name: "st-map", shape: Shape::Single(single), stereo: None, files: vec![map.file.clone()] })
 }

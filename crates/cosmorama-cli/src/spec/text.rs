@@ -1,4 +1,4 @@
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
 use cosmorama::projection::azimuthal::LensError;
@@ -20,6 +20,8 @@ pub(crate) struct Spec {
     pub(crate) shape: Shape,
     /// Whether it is there twice, once for each eye.
     pub(crate) stereo: Option<StereoSpec>,
+    /// The files that it names.
+    pub(crate) files: Vec<PathBuf>,
 }
 
 /// Why a SPEC cannot be understood.
@@ -120,7 +122,8 @@ impl Spec {
         if stereo.is_some() && matches!(shape, Shape::StMap(_)) {
             return Err(SpecError::Both { first: "stereo", second: "file" });
         }
-        Ok(Self { name: kind.name, shape, stereo })
+        let files = ["file", "calibration"].into_iter().filter_map(|key| fields.file(key)).collect();
+        Ok(Self { name: kind.name, shape, stereo, files })
     }
 }
 
