@@ -184,15 +184,17 @@ fn step_across(world: &World, light: &[Rgba], target: &View, filter: Filter) -> 
         let error: [f64; 3] = std::array::from_fn(|c| f64::from(light[c]) - direction.vector()[c]);
         Some((CubeFace::of(direction), error))
     };
-    let mut largest = 0f64;
+    let (mut largest, mut crossings) = (0f64, 0);
     for (i, j) in (6..image.height() - 6).flat_map(|j| (6..image.width() - 6).map(move |i| (i, j))) {
         let Some((face, here)) = error(i, j) else { continue };
         for (next, there) in [error(i + 1, j), error(i, j + 1)].into_iter().flatten() {
             if next != face {
+                crossings += 1;
                 largest = (0..3).map(|c| (here[c] - there[c]).abs()).fold(largest, f64::max);
             }
         }
     }
+    assert!(crossings > 50, "the target shows the edge of a face");
     largest
 }
 

@@ -10,7 +10,7 @@ use cosmorama_io::pending::Pending;
 pub(super) struct PlanCache<'a> {
     folder: &'a Path,
     /// Bytes that may be used while a plan is read or written.
-    pub(super) memory: u64,
+    memory: u64,
     /// What was wrong.
     pub(super) warnings: Vec<String>,
 }
@@ -77,7 +77,8 @@ impl<'a> PlanCache<'a> {
     fn found<P: Kept>(&self, path: &Path, key: PlanKey, resampler: &Resampler) -> Result<Option<P>> {
         match std::fs::metadata(path) {
             // What does not fit beside the plan that is made of it is not read.
-            Ok(found) if found.is_file() && found.len() > self.memory / 2 => return Ok(None),
+            Ok(found) if !found.is_file() => anyhow::bail!("no file"),
+            Ok(found) if found.len() > self.memory / 2 => return Ok(None),
             Err(error) if error.kind() == ErrorKind::NotFound => return Ok(None),
             _ => {}
         }

@@ -122,7 +122,7 @@ struct Place {
 
 impl Rounded {
     /// Rounds the weights of all lanes; false if they are too large. What rounding takes from one texel the next one has: each
-    /// lane's sum is exactly one.
+    /// lane's sum is exactly one, but where the last weight would be one itself, which 16 bits do not hold.
     #[inline(always)]
     fn fill(&mut self, windows: &Windows) -> bool {
         let Some(bits) = scale(windows) else { return false };

@@ -13,7 +13,12 @@ pub(super) trait Stored: Sized {
 
     /// Takes so many.
     fn load_many(from: &mut &[u8], count: usize) -> Option<Vec<Self>> {
-        (0..count).map(|_| Self::load(from)).collect()
+        // As much room as there are: the caller has seen bytes for all of them.
+        let mut all = Vec::with_capacity(count);
+        for _ in 0..count {
+            all.push(Self::load(from)?);
+        }
+        Some(all)
     }
 }
 

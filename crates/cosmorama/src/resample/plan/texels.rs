@@ -23,8 +23,8 @@ impl<'a, const PAIRS: usize, const HEIGHT: usize> Texels<'a, PAIRS, HEIGHT> {
     /// If it is not all among the samples.
     #[inline(always)]
     pub(super) fn new(samples: &'a [i16], first: u32, down: i32) -> Self {
-        const { assert!(PAIRS > 0 && HEIGHT > 0) };
-        // No sum of a few 32-bit numbers overflows 64 bits.
+        // So small that neither the product nor the sums below overflow 64 bits.
+        const { assert!(0 < PAIRS && PAIRS <= 256 && 0 < HEIGHT && HEIGHT <= 256) };
         let (top, down) = (i64::from(first), i64::from(down));
         let bottom = top + (HEIGHT as i64 - 1) * down;
         let end = top.max(bottom) + 2 * PAIRS as i64;
