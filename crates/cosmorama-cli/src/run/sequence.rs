@@ -127,11 +127,12 @@ impl<'a> Sequence<'a> {
 }
 
 impl Queues<'_> {
-    /// Waits until no more than so many frames are being written.
+    /// Waits until no more than so many frames are being written. After one that fails none is waited for: what becomes of
+    /// later ones is told by nobody.
     fn finish_written(&mut self, most: usize, done: &mut impl FnMut(&FrameOutputs)) -> Result<()> {
         while self.written.len() > most {
             let Some((frame, results)) = self.written.pop_front() else { break };
-            all_of(results).with_context(|| told(frame))?;
+            all_of(results).with_context(|| told(frame)).inspect_err(|_| self.written.clear())?;
             done(frame);
         }
         Ok(())

@@ -50,7 +50,7 @@ pub(super) fn settle(candidates: &mut [Candidate], centred: bool, rim: Option<&D
     if let Some(jacobian) = rim {
         let (under, around) = (candidates.iter().filter(|c| c.q < reach), candidates.iter().filter(|c| c.q >= reach));
         let places = Places::of(jacobian);
-        taps.go_on(under.chain(around).map(|candidate| places.at(candidate.offset)));
+        taps.set_places(under.chain(around).map(|candidate| places.at(candidate.offset)));
     }
 }
 

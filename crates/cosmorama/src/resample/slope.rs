@@ -20,15 +20,15 @@ const DOUBT: f64 = 4.0;
 
 /// The least and the greatest of some texels, by channel.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Range {
+pub(super) struct Bounds {
     pub(super) least: [f32; 4],
     pub(super) greatest: [f32; 4],
 }
 
 /// An average held to what the texels under the pixel hold, and beyond it as far as all of them confirm; `texels` are these
 /// and where they lie from the pixel's centre, none where those under it lie all around.
-pub(super) fn hold(average: Rgba, under: &Range, texels: impl Iterator<Item = (Rgba, [f32; 2])> + Clone) -> Rgba {
-    let Range { least, greatest } = under;
+pub(super) fn hold(average: Rgba, under: &Bounds, texels: impl Iterator<Item = (Rgba, [f32; 2])> + Clone) -> Rgba {
+    let Bounds { least, greatest } = under;
     let held = Rgba(std::array::from_fn(|c| average.0[c].max(least[c]).min(greatest[c])));
     // Where light is mixed with transparency, colour must stay within alpha.
     if held == average || !texels.clone().all(|(texel, _)| texel.alpha() >= 1.0) {
@@ -114,7 +114,7 @@ mod tests {
     fn hold_all(average: Rgba, texel: impl Fn(f32, f32) -> Rgba) -> Rgba {
         let places = (0..ROWS).flat_map(|j| (0..7).map(move |i| [i as f32 - 2.8, j as f32 + 0.5]));
         let texels: Vec<_> = places.map(|[x, y]| (texel(x, y), [0.01 * x, 0.01 * y])).collect();
-        let mut range = Range { least: [f32::INFINITY; 4], greatest: [f32::NEG_INFINITY; 4] };
+        let mut range = Bounds { least: [f32::INFINITY; 4], greatest: [f32::NEG_INFINITY; 4] };
         for (texel, _) in &texels[..14] {
             for c in 0..4 {
                 range.least[c] = range.least[c].min(texel.0[c]);
@@ -154,7 +154,7 @@ mod tests {
 
     #[test]
     fn texels_in_a_line_or_too_few_confirm_nothing() {
-        let range = Range { least: [0.6; 4], greatest: [1.0; 4] };
+        let range = Bounds { least: [0.6; 4], greatest: [1.0; 4] };
         let line = (0..9).map(|k| (Rgba::opaque(0.6 + 0.05 * k as f32, 0.6, 0.6), [0.01 * k as f32, 0.02 * k as f32]));
         let average = Rgba::opaque(0.5, 0.6, 0.6);
         assert_eq!(hold(average, &range, line.clone()).0[0], 0.6);

@@ -1,4 +1,4 @@
-use super::slope::{self, Range};
+use super::slope::{self, Bounds};
 use crate::raster::Rgba;
 
 /// One texel's part in an output pixel.
@@ -76,7 +76,7 @@ impl Taps {
     }
 
     /// All of them lie to one side of the pixel's centre: where, in their order.
-    pub(super) fn go_on(&mut self, places: impl Iterator<Item = [f32; 2]>) {
+    pub(super) fn set_places(&mut self, places: impl Iterator<Item = [f32; 2]>) {
         self.places.clear();
         self.places.extend(places);
     }
@@ -98,8 +98,8 @@ const BLOCK: usize = 32;
 /// texel.
 pub(super) fn average(list: TapList, light: impl Fn(u32) -> Rgba, anti_ringing: bool) -> Rgba {
     let mut sum = [0f64; 4];
-    let mut range = Range { least: [f32::INFINITY; 4], greatest: [f32::NEG_INFINITY; 4] };
-    let Range { least, greatest } = &mut range;
+    let mut bounds = Bounds { least: [f32::INFINITY; 4], greatest: [f32::NEG_INFINITY; 4] };
+    let Bounds { least, greatest } = &mut bounds;
     let (inner, outer) = list.taps.split_at(list.under);
     for block in inner.chunks(BLOCK) {
         let mut part = [0f32; 4];
@@ -128,7 +128,7 @@ pub(super) fn average(list: TapList, light: impl Fn(u32) -> Rgba, anti_ringing: 
         return average;
     }
     let texels = list.taps.iter().zip(list.places).map(|(tap, place)| (light(tap.texel), *place));
-    slope::hold(average, &range, texels)
+    slope::hold(average, &bounds, texels)
 }
 
 fn add(sum: &mut [f64; 4], part: [f32; 4]) {

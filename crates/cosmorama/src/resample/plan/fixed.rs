@@ -9,7 +9,7 @@ use fearless_simd::{Level, Simd, dispatch, i16x8, i16x16, i16x32, prelude::*};
 use super::band::{Band, Run};
 use super::blocks::{self, Blocks};
 use super::canvas::Canvas;
-use super::fixed_weights::{FixedWeights, Header, Shape, marks};
+use super::fixed_weights::{FixedWeights, Header, Shape, mark_words};
 use super::mirrors::{MOST_IMAGES, Mirrors, Ways};
 use super::texels::{self, Texels};
 use crate::raster::{FixedCodec, FixedLight};
@@ -59,25 +59,25 @@ impl FixedFilter<'_> {
     fn pixels<S: Simd>(&self, simd: S, run: &Run, numbers: &[u32]) -> Pixels {
         let mut pixels = [[[0; 3]; SIDE]; MOST_IMAGES];
         let ways = self.mirrors.ways(usize::from(run.view));
-        let made = Made { simd, filter: self, ways, run, numbers };
+        let run_filter = RunFilter { simd, filter: self, ways, run, numbers };
         // A function for each number of mirrors: all in one would take the compiler minutes.
         match (ways.forward, ways.count) {
             (2, 4) if ways.down[..2] == ways.down[2..] => simd.vectorize(
                 #[inline(always)]
-                || made.pixels::<i16x32<S>, 4, 2>(0, &mut pixels),
+                || run_filter.pixels::<i16x32<S>, 4, 2>(0, &mut pixels),
             ),
             (1, 2) => simd.vectorize(
                 #[inline(always)]
-                || made.pixels::<i16x16<S>, 2, 1>(0, &mut pixels),
+                || run_filter.pixels::<i16x16<S>, 2, 1>(0, &mut pixels),
             ),
             (forward, count) => simd.vectorize(
                 #[inline(always)]
                 || {
                     for at in 0..forward {
-                        made.pixels::<i16x8<S>, 1, 0>(at, &mut pixels);
+                        run_filter.pixels::<i16x8<S>, 1, 0>(at, &mut pixels);
                     }
                     for at in forward..count {
-                        made.pixels::<i16x8<S>, 1, 1>(at, &mut pixels);
+                        run_filter.pixels::<i16x8<S>, 1, 1>(at, &mut pixels);
                     }
                 },
             ),
@@ -111,7 +111,7 @@ type Pixels = [[[u8; 3]; SIDE]; MOST_IMAGES];
 
 /// What makes the pixels of a run.
 #[derive(Clone, Copy)]
-struct Made<'a, S> {
+struct RunFilter<'a, S> {
     simd: S,
     filter: &'a FixedFilter<'a>,
     ways: &'a Ways,
@@ -120,7 +120,7 @@ struct Made<'a, S> {
     numbers: &'a [u32],
 }
 
-impl<S: Simd> Made<'_, S> {
+impl<S: Simd> RunFilter<'_, S> {
     /// The pixels in N mirrors from this one on; in the last R of them windows are walked through from right to left. Of four,
     /// every other one goes from row to row alike.
     #[inline(always)]
@@ -148,12 +148,12 @@ impl<S: Simd> Made<'_, S> {
             let window = Window::<S, V, N, R> { simd, order: pairs, samples, first, down };
             let header = Header(numbers[0]);
             let (sums, length) = match header.shape() {
-                0 => (window.small::<2, 4, 0>(header, numbers), 9),
-                1 => (window.small::<2, 4, 1>(header, numbers), 9),
-                2 => (window.small::<2, 5, 1>(header, numbers), 11),
-                3 => (window.small::<3, 4, 0>(header, numbers), 13),
-                4 => (window.small::<3, 4, 1>(header, numbers), 13),
-                5 => (window.small::<3, 5, 1>(header, numbers), 16),
+                0 => window.small::<2, 4, 0>(header, numbers),
+                1 => window.small::<2, 4, 1>(header, numbers),
+                2 => window.small::<2, 5, 1>(header, numbers),
+                3 => window.small::<3, 4, 0>(header, numbers),
+                4 => window.small::<3, 4, 1>(header, numbers),
+                5 => window.small::<3, 5, 1>(header, numbers),
                 _ => window.large(large, run, numbers),
             };
             numbers = &numbers[length..];
@@ -180,13 +180,19 @@ struct Window<'a, S: Simd, V: Blocks<S, N>, const N: usize, const R: usize> {
 }
 
 impl<'a, S: Simd, V: Blocks<S, N>, const N: usize, const R: usize> Window<'a, S, V, N, R> {
-    /// Sums over a window of a small size, and the bounds of what lies under the pixel. Written out: loops would stay loops.
+    /// Sums over a window of one of the sizes of [`Shape::SMALL`], and how many numbers tell of it. Written out: loops would stay
+    /// loops.
     #[inline(always)]
     fn small<const PAIRS: usize, const HEIGHT: usize, const UNDER: usize>(
         self,
         header: Header,
         numbers: &[u32],
-    ) -> Sums<S, V, N> {
+    ) -> (Sums<S, V, N>, usize) {
+        debug_assert_eq!(
+            Shape::SMALL.get(header.shape() as usize),
+            Some(&Shape { pairs: PAIRS, height: HEIGHT, under: UNDER }),
+            "the table's order is that of the match"
+        );
         let mut texels = [self.texels::<PAIRS, HEIGHT>(0); N];
         for (image, texels) in texels.iter_mut().enumerate().skip(1) {
             *texels = self.texels(image);
@@ -210,7 +216,7 @@ impl<'a, S: Simd, V: Blocks<S, N>, const N: usize, const R: usize> Window<'a, S,
         if HEIGHT == 5 {
             row.add::<false>(&mut sums, weights, 4, 0);
         }
-        sums
+        (sums, 1 + PAIRS * HEIGHT)
     }
 
     /// The texels of a mirror.
@@ -228,7 +234,7 @@ impl<'a, S: Simd, V: Blocks<S, N>, const N: usize, const R: usize> Window<'a, S,
     /// The same of any size, and how many numbers tell of it.
     #[inline(always)]
     fn large(self, Shape { pairs, height, .. }: Shape, run: &Run, numbers: &[u32]) -> (Sums<S, V, N>, usize) {
-        let (rows, words) = (run.rows_under(), marks(pairs));
+        let (rows, words) = (run.rows_under(), mark_words(pairs));
         let (all_marks, weights) = numbers[1..].split_at(rows.len() * words);
         let mut sums = Sums::zero(self.simd);
         for row in 0..height {

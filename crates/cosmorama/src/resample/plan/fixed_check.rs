@@ -1,7 +1,7 @@
 //! What makes the weights of a plan in integers safe to work with, wherever they come from.
 
 use super::band::Run;
-use super::fixed_weights::{Header, Shape, marks};
+use super::fixed_weights::{Header, Shape, mark_words};
 
 /// Whether the numbers of a run are all there and its windows lie within a view of this size, columns and rows.
 pub(super) fn is_sound(numbers: &[u32], run: &Run, view: [usize; 2]) -> bool {
@@ -16,7 +16,7 @@ fn window(numbers: &mut &[u32], run: &Run, large: Shape, lane: usize, view: [usi
     let shape = match Shape::SMALL.get(header.shape() as usize) {
         Some(shape) => *shape,
         None => {
-            numbers.split_off(..run.rows_under().len() * marks(large.pairs))?;
+            numbers.split_off(..run.rows_under().len() * mark_words(large.pairs))?;
             large
         }
     };

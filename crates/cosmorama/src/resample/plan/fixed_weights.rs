@@ -12,7 +12,7 @@ use crate::resample::window::Windows;
 /// The weights of windows as integers, pixel by pixel, row by row, two beside each other in each number.
 ///
 /// Before those of a pixel stands a [`Header`]; then, if its window is not of one of the [`Shape::SMALL`] sizes, which texels lie under
-/// the pixel, [`marks`] numbers for each row that has some.
+/// the pixel, [`mark_words`] numbers for each row that has some.
 #[derive(Clone, Debug, Default)]
 pub(in crate::resample) struct FixedWeights {
     pub(super) numbers: Vec<u32>,
@@ -80,7 +80,7 @@ impl Header {
 
 /// How many numbers tell of a row of so many pairs which texels lie under the pixel.
 #[inline(always)]
-pub(super) fn marks(pairs: usize) -> usize {
+pub(super) fn mark_words(pairs: usize) -> usize {
     pairs.div_ceil(16)
 }
 

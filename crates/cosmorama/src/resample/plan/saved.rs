@@ -55,16 +55,18 @@ stored!(Head { mark: [u8; 16], format: u32, key: u128, checksum: u128 });
 impl<W: Weights> Compiled<W> {
     /// That of the conversion which has this key.
     pub(super) fn to_bytes(&self, key: PlanKey) -> Vec<u8> {
-        let stored = |band: &Band<W>| {
-            let mut bytes = Vec::with_capacity(band.bytes());
+        // A plan takes in memory what it takes as bytes, or more: with room for all there is no second copy.
+        let mut bytes = Vec::with_capacity(Head::LEAST + u64::LEAST * (1 + self.bands.len()) + self.bytes());
+        bytes.resize(Head::LEAST, 0);
+        let lengths = bytes.len();
+        vec![0u64; self.bands.len()].store(&mut bytes);
+        for (index, band) in self.bands.iter().enumerate() {
+            let first = bytes.len();
             band.store(&mut bytes);
-            bytes
-        };
-        let bands: Vec<Vec<u8>> = self.bands.par_iter().map(stored).collect();
-        let lengths: Vec<u64> = bands.iter().map(|band| band.len() as u64).collect();
-        let mut bytes = vec![0; Head::LEAST];
-        lengths.store(&mut bytes);
-        bands.iter().for_each(|band| bytes.extend_from_slice(band));
+            let length = ((bytes.len() - first) as u64).to_le_bytes();
+            // Behind how many there are.
+            bytes[lengths + u64::LEAST * (1 + index)..][..u64::LEAST].copy_from_slice(&length);
+        }
         let checksum = XxHash3_128::oneshot(&bytes[Head::LEAST..]);
         let mut head = Vec::with_capacity(Head::LEAST);
         Head { mark: MARK, format: FORMAT, key: key.0, checksum }.store(&mut head);
