@@ -73,7 +73,7 @@ fn for_each_pixel(target: &View, mut visit: impl FnMut(usize, usize)) {
 fn every_direction_counts_once() {
     let sphere = 4.0 * std::f64::consts::PI;
     for (name, world) in worlds() {
-        let sum: f64 = world.solid_angles().iter().map(|angle| f64::from(*angle)).sum();
+        let sum: f64 = world.solid_angles().map(f64::from).sum();
         assert!((sum / sphere - 1.0).abs() < 2e-4, "{name}: {sum}");
     }
 }

@@ -86,6 +86,15 @@ proptest! {
             });
             let all = (0..1000).filter(|&k| projection.unproject(PlanePoint::new(x + f64::from(k) * step, y)).is_some());
             prop_assert_eq!(visited, all.count());
+            projection.row_solid_angles(PlanePoint::new(x, y), step, 20, |k, solid_angle| {
+                let jacobian = projection.jacobian(PlanePoint::new(x + k as f64 * step, y));
+                let expected = jacobian.map(|jacobian| jacobian.solid_angle());
+                let is_it = match (solid_angle, expected) {
+                    (Some(found), Some(expected)) => (found - expected).abs() <= 1e-12 * expected,
+                    (found, expected) => found.is_none() && expected.is_none(),
+                };
+                assert!(is_it, "{projection:?}: number {k} is {solid_angle:?}, not {expected:?}");
+            });
         }
     }
 

@@ -53,7 +53,7 @@ impl Form {
 
     fn of(name: &'static str, pixels_per_steradian: f64, views: impl Fn(usize) -> Vec<View>) -> Self {
         let trial = Self { name, views: views(TRIAL), is_whole: false }.world();
-        let shown: Vec<f64> = trial.solid_angles().iter().map(|&s| f64::from(s)).filter(|&s| s > 0.0).collect();
+        let shown: Vec<f64> = trial.solid_angles().map(f64::from).filter(|&s| s > 0.0).collect();
         let solid_angle: f64 = shown.iter().sum();
         let enlarged = (pixels_per_steradian * solid_angle / shown.len() as f64).sqrt();
         let views = views((TRIAL as f64 * enlarged / 2.0).round() as usize * 2);

@@ -62,7 +62,7 @@ impl RoundTrip {
             sums.add(&source.view, &field, &errors);
             sums.add_directions(&source.view, &field, &directions[source.texels()]);
         }
-        let shown = first.solid_angles().iter().filter(|&&solid_angle| solid_angle > 0.0).count();
+        let shown = first.solid_angles().filter(|&solid_angle| solid_angle > 0.0).count();
         (sums.count >= ENOUGH).then(|| Self {
             compared: sums.count as f64 / shown as f64,
             mean_error: sums.error / sums.count as f64,

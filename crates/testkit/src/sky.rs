@@ -6,7 +6,7 @@ use crate::Form;
 
 /// Radiance times solid angle by channel, over all texels of a world.
 pub fn power(world: &World, light: &[Rgba]) -> [f64; 3] {
-    let of = |c: usize| light.iter().zip(world.solid_angles()).map(|(l, &s)| f64::from(l.0[c]) * f64::from(s)).sum();
+    let of = |c: usize| light.iter().zip(world.solid_angles()).map(|(l, s)| f64::from(l.0[c]) * f64::from(s)).sum();
     [of(0), of(1), of(2)]
 }
 

@@ -168,6 +168,14 @@ impl Projection for ProjectionKind {
         each!(self, projection => projection.jacobian(point))
     }
 
+    fn solid_angle(&self, point: PlanePoint) -> Option<f64> {
+        each!(self, projection => projection.solid_angle(point))
+    }
+
+    fn row_solid_angles(&self, first: PlanePoint, step: f64, count: usize, visit: impl FnMut(usize, Option<f64>)) {
+        each!(self, projection => projection.row_solid_angles(first, step, count, visit));
+    }
+
     fn unproject_with_jacobian(&self, point: PlanePoint) -> Option<(Direction, DirectionJacobian)> {
         each!(self, projection => projection.unproject_with_jacobian(point))
     }

@@ -63,7 +63,19 @@ pub trait Projection {
     /// ∂direction/∂plane at a point, exact; `None` exactly where [`Projection::unproject`] is `None`.
     fn jacobian(&self, point: PlanePoint) -> Option<DirectionJacobian>;
 
-    /// Both at once, for projections in which they share their work.
+    /// Solid angle of a unit square of the plane around a point, in steradians (to first order): |∂d/∂x × ∂d/∂y|.
+    fn solid_angle(&self, point: PlanePoint) -> Option<f64> {
+        self.jacobian(point).map(|jacobian| jacobian.solid_angle())
+    }
+
+    /// The same at `count` points beside each other, `step` apart along x, each with its number.
+    fn row_solid_angles(&self, first: PlanePoint, step: f64, count: usize, mut visit: impl FnMut(usize, Option<f64>)) {
+        for k in 0..count {
+            visit(k, self.solid_angle(PlanePoint::new(first.x + k as f64 * step, first.y)));
+        }
+    }
+
+    /// The direction and its derivatives at once, for projections in which they share their work.
     fn unproject_with_jacobian(&self, point: PlanePoint) -> Option<(Direction, DirectionJacobian)> {
         Some((self.unproject(point)?, self.jacobian(point)?))
     }

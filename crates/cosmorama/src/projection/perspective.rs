@@ -25,6 +25,12 @@ impl Projection for Perspective {
         self.unproject_with_jacobian(point).map(|(_, jacobian)| jacobian)
     }
 
+    fn solid_angle(&self, point: PlanePoint) -> Option<f64> {
+        // The area of the plane at distance |v|, seen at an angle whose cosine is 1/|v|.
+        let length_squared = 1.0 + point.x * point.x + point.y * point.y;
+        Some(1.0 / (length_squared * length_squared.sqrt())).filter(|solid_angle| *solid_angle > 0.0)
+    }
+
     fn unproject_with_jacobian(&self, point: PlanePoint) -> Option<(Direction, DirectionJacobian)> {
         // d = v/|v| with v = (x, y, −1), so ∂d/∂x = (e_x − d (d·e_x))/|v|.
         let vector = DVec3::new(point.x, point.y, -1.0);

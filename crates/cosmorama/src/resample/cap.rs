@@ -53,6 +53,11 @@ impl Cap {
         view.stop == FieldStop::NONE || self.passes_stop_of(view, &bounds())
     }
 
+    /// Whether all of it is inside the view's field, none of it near a rim, as far as formulas tell.
+    pub(super) fn is_inside(&self, view: &View) -> bool {
+        !view.projection.ends_between_samples() && view.margin(self.centre) > self.radius && self.is_clear_of_stop(view)
+    }
+
     /// Whether one source shows all of the cap.
     pub(super) fn is_shown_by(&self, source: &Source) -> bool {
         let view = &source.view;

@@ -205,14 +205,16 @@ impl<'a> Gather<'a> {
         for j in bounds.top.max(0)..=bounds.bottom.min(height - 1) {
             let v = j as f64 + 0.5 - centre.y;
             let Some((least, greatest)) = rows.range(v) else { continue };
-            let row = source.offset + j as usize * source.view.width();
+            let row = j as usize * source.view.width();
             let (left, end) = (ceil(centre.x + least - 0.5), floor(centre.x + greatest - 0.5) + 1);
             let mut gather = |run: Run| {
                 if run.length == 0 {
                     return;
                 }
                 let offset = DVec2::new(run.unrolled as f64 + 0.5 - centre.x, v);
-                self.gather_run(row + run.column, run.length, offset, &ellipse, coarseness, (to_screen, &bend));
+                let first = row + run.column;
+                let texels = (source.offset + first, &source.solid_angles[first..first + run.length]);
+                self.gather_run(texels, offset, &ellipse, coarseness, (to_screen, &bend));
             };
             match source.period {
                 None => gather(Run::within(left.max(0), end.min(source.view.width() as i64), 0)),
@@ -228,11 +230,10 @@ impl<'a> Gather<'a> {
             && (whole_turn || (bounds.left >= whole.left as i64 && bounds.right < whole.right as i64))
     }
 
-    /// Texels beside each other in a row, all inside: Q = AU² + BUV + CV² by finite differences (Greene & Heckbert 1986).
+    /// Texels beside each other in a row, all inside, the first one's index and their solid angles: Q = AU² + BUV + CV² by finite differences (Greene & Heckbert 1986).
     fn gather_run(
         &mut self,
-        first: usize,
-        length: usize,
+        (first, solid_angles): (usize, &[f32]),
         first_offset: DVec2,
         ellipse: &Ellipse,
         coarseness: f32,
@@ -244,7 +245,7 @@ impl<'a> Gather<'a> {
         let mut offset = to_screen * bend.of(first_offset);
         let mut step = to_screen * bend.of(first_offset + DVec2::X) - offset;
         let change = to_screen * bend.uu;
-        for (texel, &solid_angle) in self.world.solid_angles()[first..first + length].iter().enumerate() {
+        for (texel, &solid_angle) in solid_angles.iter().enumerate() {
             if solid_angle > 0.0 {
                 self.candidates.push(self.table.candidate(first + texel, solid_angle, q, coarseness, offset));
             }
@@ -285,7 +286,7 @@ impl<'a> Gather<'a> {
         let longest = ellipse.longest(to_texels).max(beyond.map_or(0.0, |(_, ellipse, other)| ellipse.longest(other)));
         let reach = (self.table.kernel().radius() * longest * source.texel_pitch).min(1.0).asin();
         each_run_within(source, footprint.direction, reach, |j, columns| {
-            let row = source.offset + j * source.view.width();
+            let row = j * source.view.width();
             source.view.row_directions(j, columns, |i, texel| {
                 let offset = in_tangent_plane(texel.vector() - here);
                 let here = ellipse.distance_squared(to_texels * offset);
@@ -295,11 +296,12 @@ impl<'a> Gather<'a> {
                     // On the seam itself each ellipse by itself may reach along it one way only: the same way.
                     own.min(other / (nearness * nearness))
                 });
-                let solid_angle = self.world.solid_angles()[row + i];
+                let solid_angle = source.solid_angles[row + i];
                 let in_front = texel.dot(footprint.direction) > 0.0;
                 if in_front && q < self.table.radius_squared() && solid_angle > 0.0 {
                     let offset = to_screen * offset;
-                    self.candidates.push(self.table.candidate(row + i, solid_angle, q, coarseness, offset));
+                    let texel = source.offset + row + i;
+                    self.candidates.push(self.table.candidate(texel, solid_angle, q, coarseness, offset));
                 }
             });
         });

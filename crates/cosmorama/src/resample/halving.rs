@@ -69,7 +69,7 @@ impl Halving {
     /// From a world to its halved one. What lies outside a target's field of view does not count beside what is inside.
     pub(super) fn new(world: &World, halved: &World, edge: Option<FieldEdge>) -> Self {
         let views = world.sources().iter().zip(halved.sources());
-        Self { views: views.map(|(source, coarse)| HalvedView::new(world, source, coarse, edge)).collect() }
+        Self { views: views.map(|(source, coarse)| HalvedView::new(source, coarse, edge)).collect() }
     }
 
     /// The light of the halved world.
@@ -97,13 +97,13 @@ impl Halving {
 const BLOCK: usize = 32;
 
 impl HalvedView {
-    fn new(world: &World, source: &Source, coarse: &Source, edge: Option<FieldEdge>) -> Self {
+    fn new(source: &Source, coarse: &Source, edge: Option<FieldEdge>) -> Self {
         let (columns, rows) = (Parts::all(source.columns()), Parts::all(source.view.height()));
         let is_even = [source.columns(), source.view.height()].iter().all(|size| size.is_multiple_of(2));
         let (offset, stride) = (source.offset, source.view.width());
         let mut view = Self { offset, stride, columns, rows, is_even, counting: Vec::new() };
         let rows = (0..view.rows.len()).into_par_iter();
-        view.counting = rows.map(|row| view.counting_of_row(row, world, (source, coarse), edge)).collect();
+        view.counting = rows.map(|row| view.counting_of_row(row, (source, coarse), edge)).collect();
         view
     }
 
@@ -111,18 +111,17 @@ impl HalvedView {
     fn counting_of_row(
         &self,
         row: usize,
-        world: &World,
         (source, coarse): (&Source, &Source),
         edge: Option<FieldEdge>,
     ) -> Option<Box<[u16]>> {
         let width = self.columns.len();
         let has_light = |(_, j, _): (usize, usize, f32)| {
-            world.solid_angles()[self.offset + j * self.stride..][..source.columns()].iter().all(|angle| *angle > 0.0)
+            source.solid_angles[j * self.stride..][..source.columns()].iter().all(|angle| *angle > 0.0)
         };
         let mut bits = if self.rows[row].each().all(has_light) {
             None
         } else {
-            Some((0..width).map(|column| self.bits(world, [column, row], |_| true)).collect::<Box<[u16]>>())
+            Some((0..width).map(|column| self.bits(source, [column, row], |_| true)).collect::<Box<[u16]>>())
         };
         let Some(edge) = edge else { return bits };
         for first in (0..width).step_by(BLOCK) {
@@ -131,7 +130,7 @@ impl HalvedView {
                 continue;
             }
             for column in columns {
-                let seen = self.bits(world, [column, row], |texel| edge.touches(source, texel));
+                let seen = self.bits(source, [column, row], |texel| edge.touches(source, texel));
                 // Of a texel that is all outside, nothing counts more than the rest.
                 if seen > 0 {
                     bits.get_or_insert_with(|| vec![ALL; width].into())[column] = seen;
@@ -142,12 +141,12 @@ impl HalvedView {
     }
 
     /// The texels that are in the one in this column and row, and that count.
-    fn bits(&self, world: &World, [column, row]: [usize; 2], is_seen: impl Fn(usize) -> bool) -> u16 {
+    fn bits(&self, source: &Source, [column, row]: [usize; 2], is_seen: impl Fn(usize) -> bool) -> u16 {
         let mut bits = 0;
         for (y, j, _) in self.rows[row].each() {
             for (x, i, _) in self.columns[column].each() {
-                let texel = self.offset + j * self.stride + i;
-                let counts = world.solid_angles()[texel] > 0.0 && is_seen(texel);
+                let texel = j * self.stride + i;
+                let counts = source.solid_angles[texel] > 0.0 && is_seen(self.offset + texel);
                 bits |= u16::from(counts) << (y * MOST + x);
             }
         }

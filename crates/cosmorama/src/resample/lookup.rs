@@ -10,7 +10,7 @@ pub(super) fn nearest(world: &World, direction: Direction, mut tap: impl FnMut(u
     let (i, j) = (pixel.x.floor() as i64, pixel.y.floor() as i64);
     // At a rim the texel's own centre may be outside the field of view though the direction is inside.
     let around = [(0, 0), (-1, 0), (1, 0), (0, -1), (0, 1), (-1, -1), (1, -1), (-1, 1), (1, 1)];
-    let texel = around.iter().find_map(|(di, dj)| owned_texel(world, source, clamp(source, i, j), *di, *dj));
+    let texel = around.iter().find_map(|(di, dj)| owned_texel(source, clamp(source, i, j), *di, *dj));
     if let Some(texel) = texel {
         tap(texel, 1.0);
     }
@@ -24,7 +24,7 @@ pub(super) fn bilinear(world: &World, direction: Direction, mut tap: impl FnMut(
     world.for_each_holder(direction, |index, pixel, part| {
         let source = &world.sources()[index];
         for (i, j, weight) in corners(pixel) {
-            match source.column(i).and_then(|i| owned_texel(world, source, (i, j), 0, 0)) {
+            match source.column(i).and_then(|i| owned_texel(source, (i, j), 0, 0)) {
                 Some(texel) => tap(texel, weight * part),
                 None => beyond_edge(world, source, (i, j), weight * part, &mut tap),
             }
@@ -38,7 +38,7 @@ fn beyond_edge(world: &World, source: &Source, (i, j): (i64, i64), weight: f64, 
     let Some((index, pixel)) = world.owner(direction) else { return };
     let neighbour = &world.sources()[index];
     for (i, j, part) in corners(pixel) {
-        if let Some(texel) = owned_texel(world, neighbour, clamp(neighbour, i, j), 0, 0) {
+        if let Some(texel) = owned_texel(neighbour, clamp(neighbour, i, j), 0, 0) {
             tap(texel, weight * part);
         }
     }
@@ -58,9 +58,9 @@ fn clamp(source: &Source, i: i64, j: i64) -> (i64, i64) {
     (i, j.clamp(0, source.view.height() as i64 - 1))
 }
 
-fn owned_texel(world: &World, source: &Source, (i, j): (i64, i64), di: i64, dj: i64) -> Option<u32> {
+fn owned_texel(source: &Source, (i, j): (i64, i64), di: i64, dj: i64) -> Option<u32> {
     let i = source.column(i + di)?;
     let j = usize::try_from(j + dj).ok().filter(|&j| j < source.view.height())?;
-    let texel = source.offset + j * source.view.width() + i as usize;
-    (world.solid_angles()[texel] > 0.0).then_some(texel as u32)
+    let texel = j * source.view.width() + i as usize;
+    (source.solid_angles[texel] > 0.0).then_some((source.offset + texel) as u32)
 }

@@ -171,27 +171,48 @@ enum Reads<'a> {
     Of(&'a [bool]),
 }
 
-/// A block and what is known of it as a whole.
+/// A block and what is known of it as a whole. Large ones are inside the picture, and one view shows all of them.
 struct Judged {
     block: Block,
     cap: Option<Cap>,
     /// The source that shows all of it.
     owner: Option<usize>,
+    /// Whether all of it is inside the field of view: each pixel sees what its centre does.
+    is_inside: bool,
     /// 0 at the edge of the picture, 1 at the edge of a view, 2 inside both.
     rank: usize,
 }
 
 impl Survey<'_> {
     fn judged_blocks(&self) -> Vec<Judged> {
-        let judged = |block: Block| {
-            let cap = block.cap(self.target);
-            let owner = cap.and_then(|cap| self.world.sources().iter().position(|source| cap.is_shown_by(source)));
-            let rank =
-                if cap.is_none() || block.is_at_edge_of(self.target) { 0 } else { 1 + usize::from(owner.is_some()) };
-            Judged { block, cap, owner, rank }
-        };
-        let blocks = Block::all(self.target).into_par_iter();
-        blocks.filter(|block| !block.is_hidden(self.target)).map(judged).collect()
+        let blocks = Block::largest(self.target).into_par_iter();
+        blocks
+            .flat_map_iter(|block| {
+                let mut judged = Vec::new();
+                self.judge(block, &mut judged);
+                judged
+            })
+            .collect()
+    }
+
+    /// Adds a block if it is not hidden; one at the edge of the picture or of a view in its smallest parts.
+    fn judge(&self, block: Block, into: &mut Vec<Judged>) {
+        if block.is_hidden(self.target) {
+            return;
+        }
+        let judged = self.judged(block);
+        match block.parts() {
+            Some(parts) if judged.rank < 2 || !judged.is_inside => parts.for_each(|part| self.judge(part, into)),
+            _ => into.push(judged),
+        }
+    }
+
+    fn judged(&self, block: Block) -> Judged {
+        let cap = block.cap(self.target);
+        let owner = cap.and_then(|cap| self.world.sources().iter().position(|source| cap.is_shown_by(source)));
+        let rank = if cap.is_none() || block.is_at_edge_of(self.target) { 0 } else { 1 + usize::from(owner.is_some()) };
+        let is_inside = cap.is_some_and(|cap| cap.is_inside(self.target));
+        Judged { block, cap, owner, is_inside, rank }
     }
 
     /// Adds what these blocks need to what is known already.
@@ -217,6 +238,7 @@ impl Survey<'_> {
         let reads_nothing_new = judged.cap.is_some_and(|cap| match self.reads {
             Reads::Exactly => self.reads_within(&cap, needs, |_| true),
             Reads::Of(asked) => self.reads_within(&cap, needs, |view| asked[view]),
+            Reads::AtMost if judged.block.parts().is_some() => self.reads_within(&cap, needs, |_| true),
             Reads::AtMost => {
                 self.add_reach(&cap, needs);
                 true
@@ -230,7 +252,15 @@ impl Survey<'_> {
         if reads_nothing_new && sees_nothing_new {
             return;
         }
+        if let Some(parts) = judged.block.parts() {
+            return parts.for_each(|part| self.add_block(&self.judged(part), pixels, needs));
+        }
         for (i, j) in judged.block.pixels() {
+            if reads_nothing_new && judged.is_inside {
+                let direction = self.target.direction(PixelPoint::centre(i, j));
+                direction.into_iter().for_each(|direction| self.add_pixel((i, j), direction, needs));
+                continue;
+            }
             let Some(screen) = self.target.screen_pixel(i, j) else { continue };
             if !is_seen_known {
                 self.add_pixel((i, j), screen.footprint.direction, needs);

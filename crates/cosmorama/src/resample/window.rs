@@ -38,8 +38,8 @@ pub(super) struct Windows {
     weights: Vec<[f32; SIDE]>,
     /// By how much a correction may change a weight.
     slack: Vec<[f32; SIDE]>,
-    /// Zero for a texel under the pixel, infinity for one around it.
-    beyond: Vec<[f32; SIDE]>,
+    /// In which lanes a texel lies under the pixel, a bit for each.
+    under: Vec<u8>,
 }
 
 impl Windows {
@@ -61,7 +61,7 @@ impl Windows {
             corners: [None; SIDE],
             weights: room(),
             slack: room(),
-            beyond: room(),
+            under: vec![0; LARGEST],
         })
     }
 
@@ -106,15 +106,15 @@ impl Windows {
         self.height
     }
 
-    /// The weights of all texels of the windows, row by row, a lane for each window; and, by lane, zero for a texel under the
-    /// pixel, infinity for one around it.
-    pub(super) fn texels(&self) -> impl Iterator<Item = (&[f32; SIDE], &[f32; SIDE])> + Clone {
-        self.weights[..self.width * self.height].iter().zip(&self.beyond)
+    /// The weights of all texels of the windows, row by row, a lane for each window; and in which lanes they lie under the pixel, a
+    /// bit for each.
+    pub(super) fn texels(&self) -> impl Iterator<Item = (&[f32; SIDE], &u8)> + Clone {
+        self.weights[..self.width * self.height].iter().zip(&self.under)
     }
 
     /// The rows in which some window has texels under its pixel, and those between.
     pub(super) fn rows_under(&self) -> Range<usize> {
-        let holds = |row: &usize| self.beyond[row * self.width..][..self.width].as_flattened().contains(&0.0);
+        let holds = |row: &usize| self.under[row * self.width..][..self.width].iter().any(|&lanes| lanes != 0);
         let first = (0..self.height).find(holds).unwrap_or(0);
         first..(first..self.height).rev().find(holds).map_or(first, |last| last + 1)
     }
@@ -126,8 +126,8 @@ impl Windows {
         let first = self.offset + top as usize * self.stride + left as usize;
         let texel = |at: usize| (first + at / self.width * self.stride + at % self.width) as u32;
         let used = self.texels().enumerate().filter(|(_, (weights, _))| weights[lane] != 0.0);
-        let settled =
-            used.map(|(at, (weights, beyond))| (beyond[lane] == 0.0, Tap { texel: texel(at), weight: weights[lane] }));
+        let settled = used
+            .map(|(at, (weights, under))| (under >> lane & 1 == 1, Tap { texel: texel(at), weight: weights[lane] }));
         taps.fill(settled.clone(), settled.clone().count(), settled.filter(|(is_under, _)| *is_under).count());
     }
 
@@ -165,7 +165,6 @@ impl Windows {
         let inverse = ((self.kernel.radius() * self.kernel.radius()) as f32).recip();
         let curve = self.cubics.blend(ellipses.coarseness);
         let under = f32x8::splat(simd, UNDER as f32);
-        let around = f32x8::splat(simd, f32::INFINITY);
         let mut moments = Moments::zero(simd);
         let [x0, mut y] = ellipses.start;
         let mut at = 0;
@@ -179,7 +178,7 @@ impl Windows {
                 let (w, v) = (curve.weight(q) * solid_angle, falloff * falloff * solid_angle);
                 w.store_slice(&mut self.weights[at]);
                 v.store_slice(&mut self.slack[at]);
-                q.simd_lt(under).select(zero, around).store_slice(&mut self.beyond[at]);
+                self.under[at] = q.simd_lt(under).to_bitmask() as u8;
                 sums.add(w, v, x);
                 x += 1.0;
                 at += 1;

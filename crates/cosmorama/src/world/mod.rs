@@ -11,6 +11,7 @@ mod layout;
 mod mask_shape;
 mod overlap;
 mod seen_cone;
+mod solid_angles;
 mod st_pixels;
 mod suns;
 mod view;
@@ -35,6 +36,7 @@ pub use layout::{
     LensSide, PlacedFace, PlacedLens, Stereo,
 };
 pub use mask_shape::MaskShape;
+pub use solid_angles::SolidAngles;
 pub use st_pixels::{ST_NOWHERE, StPixel};
 pub use view::{Footprint, View};
 pub use view_mask::ViewMask;

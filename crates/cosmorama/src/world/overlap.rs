@@ -10,7 +10,7 @@ const ALONG_A_SIDE: usize = 64;
 /// Where pictures overlap, a direction has a texel of each, and each counts for its part: the outermost texels of cube
 /// faces whose samples lie on the edges, and whatever photographs have in common. Says of each view which others overlap
 /// it, and which of its texels count whole.
-pub(super) fn share(sources: &mut [Source], solid_angles: &mut [f32]) {
+pub(super) fn share(sources: &mut [Source]) {
     let rims: Vec<Vec<Direction>> = sources.iter().map(|source| rim(&source.view)).collect();
     let sees = |view: usize, rim: usize| rims[rim].iter().any(|direction| sources[view].view.sees(*direction));
     let others: Vec<Vec<usize>> = (0..sources.len())
@@ -24,7 +24,9 @@ pub(super) fn share(sources: &mut [Source], solid_angles: &mut [f32]) {
     }
     for index in 0..sources.len() {
         if !sources[index].others.is_empty() {
-            let is_shared = share_texels(sources, index, solid_angles);
+            let mut solid_angles = sources[index].solid_angles.clone();
+            let is_shared = share_texels(sources, index, solid_angles.make_mut());
+            sources[index].solid_angles = solid_angles;
             sources[index].whole = unshared(sources[index].whole, sources[index].view.width(), &is_shared);
         }
     }
@@ -35,7 +37,7 @@ fn share_texels(sources: &[Source], index: usize, solid_angles: &mut [f32]) -> V
     let source = &sources[index];
     let width = source.view.width();
     let mut is_shared = vec![false; source.texels().len()];
-    let rows = solid_angles[source.texels()].par_chunks_mut(width).zip(is_shared.par_chunks_mut(width));
+    let rows = solid_angles.par_chunks_mut(width).zip(is_shared.par_chunks_mut(width));
     rows.enumerate().for_each(|(j, (angles, is_shared))| {
         let mut present = Vec::new();
         source.view.row_directions(j, 0..width, |i, direction| {
@@ -96,12 +98,12 @@ mod tests {
     fn texels_on_the_edges_of_a_cube_count_once() {
         let sphere = 4.0 * std::f64::consts::PI;
         for samples in [SamplePositions::Centres, SamplePositions::Edges] {
-            let sum: f64 = cube(samples).solid_angles().iter().map(|angle| f64::from(*angle)).sum();
+            let sum: f64 = cube(samples).solid_angles().map(f64::from).sum();
             assert!((sum / sphere - 1.0).abs() < 1e-3, "{samples:?}: {sum}");
         }
         let world = cube(SamplePositions::Edges);
         let angle = |i: usize, j: usize| world.sources()[0].view.texel_solid_angle(i, j) as f32;
-        let is = |texel: usize, expected: f32| (world.solid_angles()[texel] / expected - 1.0).abs() < 1e-6;
+        let is = |texel: usize, expected: f32| (world.sources()[0].solid_angles[texel] / expected - 1.0).abs() < 1e-6;
         assert!(is(0, angle(0, 0) / 3.0) && is(1, angle(1, 0) / 2.0) && is(34, angle(1, 1)));
     }
 }

@@ -10,8 +10,8 @@ impl World {
     /// mean: what a filter must count exactly to keep a world's light. `light` is that of a texel of the world's buffer.
     pub fn light_of_suns(&self, light: impl Fn(usize) -> Rgba) -> f64 {
         let lights = || {
-            let texels = self.solid_angles().iter().enumerate();
-            texels.map(|(texel, &angle)| (brightness(light(texel)), f64::from(angle))).filter(|(_, angle)| *angle > 0.0)
+            let texels = self.solid_angles().enumerate();
+            texels.map(|(texel, angle)| (brightness(light(texel)), f64::from(angle))).filter(|(_, angle)| *angle > 0.0)
         };
         let (all, sphere) = lights().fold((0.0, 0.0), |(all, sphere), (l, angle)| (all + l * angle, sphere + angle));
         if all <= 0.0 {

@@ -142,11 +142,24 @@ impl View {
         if shows { self.solid_angle(pixel).unwrap_or(0.0) } else { 0.0 }
     }
 
+    /// The same of the first texels of a row.
+    pub(super) fn row_solid_angles(&self, j: usize, row: &mut [f32]) {
+        if self.stop != FieldStop::NONE || self.projection.has_steep_rim() {
+            row.iter_mut().enumerate().for_each(|(i, angle)| *angle = self.texel_solid_angle(i, j) as f32);
+            return;
+        }
+        let (first, step) = (self.grid.to_plane(PixelPoint::centre(0, j)), self.grid.step());
+        let area = (step.x * step.y).abs();
+        self.projection.row_solid_angles(first, step.x, row.len(), |i, solid_angle| {
+            row[i] = solid_angle.map_or(0.0, |solid_angle| (solid_angle * area) as f32);
+        });
+    }
+
     /// Solid angle in steradians (to first order) of a texel around a point of the image or beyond it, whether or not it
     /// shows something.
     pub(crate) fn solid_angle(&self, pixel: PixelPoint) -> Option<f64> {
-        let (jacobian, step) = (self.projection.jacobian(self.grid.to_plane(pixel))?, self.grid.step());
-        let solid_angle = jacobian.solid_angle() * (step.x * step.y).abs();
+        let step = self.grid.step();
+        let solid_angle = self.projection.solid_angle(self.grid.to_plane(pixel))? * (step.x * step.y).abs();
         if !self.projection.has_steep_rim() {
             return Some(solid_angle);
         }

@@ -1,12 +1,11 @@
 use std::sync::Arc;
 
-use rayon::prelude::*;
 use thiserror::Error;
 
 use super::blend::{Blend, Border, Presence, parts};
 use super::seen_cone::SeenCone;
 use super::view::ROUNDING;
-use super::{PixelPoint, PixelRect, View, ViewMask, overlap};
+use super::{PixelPoint, PixelRect, SolidAngles, View, ViewMask, overlap};
 use crate::projection::Projection;
 use crate::sphere::Direction;
 
@@ -60,6 +59,8 @@ pub struct Source {
     pub period: Option<usize>,
     /// The larger side of the largest texel, in radians.
     pub texel_pitch: f64,
+    /// How much of the sphere each of its texels counts for.
+    pub solid_angles: SolidAngles,
     /// How it takes part where other views show the same.
     pub blend: Blend,
     /// Where its picture ends.
@@ -139,7 +140,6 @@ impl Source {
 #[derive(Clone, Debug)]
 pub struct World {
     sources: Vec<Source>,
-    solid_angles: Vec<f32>,
 }
 
 impl World {
@@ -157,43 +157,39 @@ impl World {
     /// # Errors
     /// Those of [`World::new`].
     pub fn blended(views: impl IntoIterator<Item = WorldView>) -> Result<Self, WorldError> {
-        let mut sources = Vec::new();
-        let mut offset = 0usize;
+        let views: Vec<WorldView> = views.into_iter().collect();
+        check(&views)?;
+        let mut sources: Vec<Source> = Vec::new();
+        let mut offset = 0;
         for WorldView { name, view, blend, mask } in views {
-            let texels = view.width().saturating_mul(view.height());
-            if texels == 0 {
-                return Err(WorldError::NoPixels(name));
-            }
-            let size = (view.width(), view.height());
-            if let Some(found) = mask.as_ref().map(|mask| mask.size()).filter(|found| *found != size) {
-                return Err(WorldError::MaskSize { name, mask: found, view: size });
-            }
             let (period, texel_pitch, whole) = (view.period(), texel_pitch(&view), owned(&view));
-            let (border, cone, others) = (Border::of(&view), SeenCone::of(&view), Vec::new());
-            sources.push(Source { name, view, offset, period, texel_pitch, blend, border, cone, mask, others, whole });
-            offset = offset.saturating_add(texels);
-        }
-        if sources.is_empty() {
-            return Err(WorldError::Empty);
-        }
-        if offset > u32::MAX as usize {
-            return Err(WorldError::TooLarge(offset));
-        }
-        let mut solid_angles = vec![0.0; offset];
-        for (index, source) in sources.iter().enumerate() {
             // The faces of a cube have one grid: what was computed for the first serves all.
-            let twin = sources[..index].iter().find(|other| {
-                let (a, b) = (&other.view, &source.view);
+            let twin = sources.iter().find(|other| {
+                let (a, b) = (&other.view, &view);
                 a.projection == b.projection && a.grid == b.grid && a.stop == b.stop
             });
-            match twin {
-                Some(twin) => solid_angles.copy_within(twin.texels(), source.offset),
-                None => fill_solid_angles(&source.view, &mut solid_angles[source.texels()]),
-            }
+            let solid_angles = twin.map(|twin| twin.solid_angles.clone());
+            let solid_angles = solid_angles.unwrap_or_else(|| SolidAngles::of(&view, whole.right));
+            let (border, cone, others) = (Border::of(&view), SeenCone::of(&view), Vec::new());
+            sources.push(Source {
+                name,
+                view,
+                offset,
+                period,
+                texel_pitch,
+                solid_angles,
+                blend,
+                border,
+                cone,
+                mask,
+                others,
+                whole,
+            });
+            offset = sources.last().map_or(0, |last| last.texels().end);
         }
-        hide(&mut sources, &mut solid_angles);
-        overlap::share(&mut sources, &mut solid_angles);
-        Ok(Self { sources, solid_angles })
+        hide(&mut sources);
+        overlap::share(&mut sources);
+        Ok(Self { sources })
     }
 
     /// The views.
@@ -248,23 +244,47 @@ impl World {
 
     /// Texels of all views together: the length of the buffer that holds the light.
     pub fn texel_count(&self) -> usize {
-        self.solid_angles.len()
+        self.sources.last().map_or(0, |last| last.texels().end)
     }
 
-    /// Solid angle of each texel in steradians; zero for one that shows nothing.
-    pub fn solid_angles(&self) -> &[f32] {
-        &self.solid_angles
+    /// Solid angle of each texel in steradians, in the order of the buffer that holds the light; zero for one that shows nothing.
+    pub fn solid_angles(&self) -> impl Iterator<Item = f32> + '_ {
+        self.sources.iter().flat_map(|source| source.solid_angles.iter().copied())
     }
 }
 
+/// Whether views make a world, before memory is taken for it.
+fn check(views: &[WorldView]) -> Result<(), WorldError> {
+    let mut all = 0usize;
+    for WorldView { name, view, mask, .. } in views {
+        let size = (view.width(), view.height());
+        let texels = size.0.saturating_mul(size.1);
+        if texels == 0 {
+            return Err(WorldError::NoPixels(name.clone()));
+        }
+        if let Some(found) = mask.as_ref().map(|mask| mask.size()).filter(|found| *found != size) {
+            return Err(WorldError::MaskSize { name: name.clone(), mask: found, view: size });
+        }
+        all = all.saturating_add(texels);
+    }
+    match all {
+        0 => Err(WorldError::Empty),
+        1..=MOST_TEXELS => Ok(()),
+        _ => Err(WorldError::TooLarge(all)),
+    }
+}
+
+/// Texels are counted in 32 bits.
+const MOST_TEXELS: usize = u32::MAX as usize;
+
 /// Texels that a mask hides weigh nothing.
-fn hide(sources: &mut [Source], solid_angles: &mut [f32]) {
+fn hide(sources: &mut [Source]) {
     for source in sources {
         let Some(mask) = &source.mask else { continue };
         let width = source.view.width();
         let is_hidden = |texel: usize| !mask.counts(texel % width, texel / width);
         let hidden: Vec<bool> = (0..source.texels().len()).map(is_hidden).collect();
-        let angles = &mut solid_angles[source.texels()];
+        let angles = source.solid_angles.make_mut();
         angles.iter_mut().zip(&hidden).filter(|(_, hidden)| **hidden).for_each(|(angle, _)| *angle = 0.0);
         source.whole = overlap::unshared(source.whole, width, &hidden);
     }
@@ -284,13 +304,4 @@ fn texel_pitch(view: &View) -> f64 {
 fn owned(view: &View) -> PixelRect {
     let right = view.period().map_or(view.width(), |period| period.min(view.width()));
     PixelRect { left: 0, top: 0, right, bottom: view.height() }
-}
-
-fn fill_solid_angles(view: &View, out: &mut [f32]) {
-    let (width, owned) = (view.width(), owned(view).right);
-    out.par_chunks_mut(width).enumerate().for_each(|(j, row)| {
-        for (i, solid_angle) in row.iter_mut().enumerate() {
-            *solid_angle = if i < owned { view.texel_solid_angle(i, j) as f32 } else { 0.0 };
-        }
-    });
 }

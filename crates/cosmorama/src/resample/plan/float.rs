@@ -36,7 +36,7 @@ impl Weights for FloatWeights {
 
     fn keep(&mut self, windows: &Windows, _: &mut Corners) -> bool {
         let texels = windows.texels();
-        self.0.extend(texels.map(|(weights, beyond)| std::array::from_fn(|k| marked(weights[k], beyond[k] == 0.0))));
+        self.0.extend(texels.map(|(weights, under)| std::array::from_fn(|k| marked(weights[k], under >> k & 1 == 1))));
         true
     }
 

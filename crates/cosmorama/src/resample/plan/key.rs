@@ -23,9 +23,9 @@ impl PlanKey {
             let mut nameless = source.clone();
             nameless.name.clear();
             written = written.and_then(|()| write!(hash, "{nameless:?}"));
+            // What masks hide and what views share is seen in the texels' weights.
+            hash.0.write(bytemuck::cast_slice(&source.solid_angles));
         }
-        // What masks hide and what views share is seen in the texels' weights.
-        hash.0.write(bytemuck::cast_slice(world.solid_angles()));
         match written {
             Ok(()) => Self(hash.0.finish_128()),
             // Only a failing sink makes writing fail, and this one does not.

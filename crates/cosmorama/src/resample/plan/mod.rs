@@ -9,6 +9,7 @@ mod fixed_weights;
 mod float;
 mod key;
 mod mirrors;
+mod rounded;
 mod saved;
 mod stored;
 #[cfg(test)]

@@ -1,0 +1,271 @@
+//! Weights as integers, those of eight windows at once.
+
+use std::ops::Range;
+
+use fearless_simd::{Simd, f32x8, i16x8, i32x8, prelude::*};
+
+use super::fixed_weights::{ROWS_UNDER, Shape};
+use crate::resample::patch::SIDE;
+use crate::resample::window::Windows;
+
+/// The windows of a run before they are sorted by pixel. Bits of bytes are lanes, until they are turned.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Rounded {
+    pub(super) width: usize,
+    pub(super) height: usize,
+    /// By how many bits weights are scaled.
+    pub(super) bits: u32,
+    /// Row by row, by lane. On both sides of each row stand zeros.
+    weights: Vec<[i16; SIDE]>,
+    /// In which lanes a texel lies under the pixel; the same zeros beside.
+    under: Vec<u8>,
+    /// Whether no window has more than [`SIDE`] columns or rows: then it is sorted by lane, too.
+    is_small: bool,
+    small: Small,
+}
+
+/// Of windows with eight columns and rows at most, by lane.
+#[derive(Clone, Debug, Default)]
+struct Small {
+    /// The columns and rows with a weight or a texel under the pixel, and the rows with a texel under it, a bit for each.
+    columns: [u8; SIDE],
+    rows: [u8; SIDE],
+    rows_under: [u8; SIDE],
+    /// The columns of the texels under the pixel, by row.
+    under: [[u8; SIDE]; SIDE],
+    /// The weights of a lane, by row, behind so many zeros as stand after them.
+    weights: [[[i16; 2 * SIDE]; SIDE]; SIDE],
+}
+
+/// Zeros on either side of a row of a small window.
+const MARGIN: usize = SIDE / 2;
+
+/// A number so large that what is added to it is rounded to an integer, which its last bits then hold.
+const ROUNDER: f32 = 12_582_912.0;
+
+/// Where a lane's window begins among those of a run, one to the left of them at the least.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Place {
+    pub(super) column: isize,
+    pub(super) row: usize,
+}
+
+impl Rounded {
+    /// Rounds the weights of all lanes; false if they are too large. What rounding takes from one texel the next one has: each
+    /// lane's sum is exactly one, but where the last weight would be one itself, which 16 bits do not hold.
+    #[inline(always)]
+    pub(super) fn fill<S: Simd>(&mut self, simd: S, windows: &Windows) -> bool {
+        let Some(bits) = scale(simd, windows) else { return false };
+        self.bits = bits;
+        self.resize(windows);
+        let (pitch, most) = (self.pitch(), i32x8::splat(simd, i32::from(i16::MAX)));
+        let (mut columns, mut rows) = ([0; SIDE], [0; SIDE]);
+        let scale = (1 << bits) as f32;
+        let mut sums = f32x8::splat(simd, 0.0);
+        let mut before: i32x8<S> = f32x8::splat(simd, ROUNDER).bitcast();
+        let mut texels = windows.texels();
+        for row in 0..self.height {
+            let into = self.weights[row * pitch + 1..][..self.width].iter_mut();
+            let under = self.under[row * pitch + 1..][..self.width].iter_mut();
+            for (column, (into, under)) in into.zip(under).enumerate() {
+                let Some((weights, &is_under)) = texels.next() else { break };
+                sums += f32x8::load_array(simd, *weights) * scale;
+                let sum: i32x8<S> = (sums + ROUNDER).bitcast();
+                let step = (sum - before).min(most);
+                before += step;
+                let (low, high) = step.split();
+                *into = low.relaxed_narrow(high).to_array();
+                *under = is_under;
+                let counts = !(step.simd_eq(0).to_bitmask() as u8) | is_under;
+                columns[column % SIDE] |= counts;
+                rows[row % SIDE] |= counts;
+            }
+        }
+        self.is_small = self.width <= SIDE && self.height <= SIDE;
+        if self.is_small {
+            self.turn(simd, columns, rows);
+        }
+        true
+    }
+
+    /// Makes room for windows of another size, zeros beside.
+    fn resize(&mut self, windows: &Windows) {
+        let size = (windows.width(), windows.height());
+        if (self.width, self.height) != size {
+            (self.width, self.height) = size;
+            let length = self.pitch() * self.height;
+            refill(&mut self.under, length, 0);
+            refill(&mut self.weights, length, [0; SIDE]);
+        }
+    }
+
+    /// Numbers from one row to the next.
+    fn pitch(&self) -> usize {
+        self.width.max(SIDE) + 2
+    }
+
+    /// Sorts small windows by lane.
+    #[inline(always)]
+    fn turn<S: Simd>(&mut self, simd: S, columns: [u8; SIDE], rows: [u8; SIDE]) {
+        let pitch = self.pitch();
+        let Self { small, under, weights, .. } = self;
+        let mut rows_under = [0; SIDE];
+        for (row, (under, weights)) in under.chunks_exact(pitch).zip(weights.chunks_exact(pitch)).enumerate() {
+            rows_under[row] = under.iter().fold(0, |all, lanes| all | lanes);
+            small.under[row] = turned_bits(std::array::from_fn(|column| under[column + 1]));
+            let lanes = turned(std::array::from_fn(|column| i16x8::load_array(simd, weights[column + 1])));
+            for (lane, weights) in lanes.into_iter().enumerate() {
+                weights.store_slice(&mut small.weights[lane][row][MARGIN..][..SIDE]);
+            }
+        }
+        (small.columns, small.rows) = (turned_bits(columns), turned_bits(rows));
+        small.rows_under = turned_bits(rows_under);
+    }
+
+    /// The smallest of the small shapes that holds a lane's window, by its index, and where it begins.
+    #[inline(always)]
+    pub(super) fn shape(&self, lane: usize) -> Option<(usize, Place)> {
+        if !self.is_small {
+            return None;
+        }
+        let Small { columns, rows, rows_under, .. } = &self.small;
+        let [columns, rows, under] = [columns[lane], rows[lane], rows_under[lane]].map(span);
+        let row_of = |shape: &Shape| {
+            let row = rows.start.min(self.height.checked_sub(shape.height)?);
+            let first = row + shape.under;
+            let holds = rows.len() <= shape.height && first <= under.start && under.end <= first + ROWS_UNDER;
+            holds.then_some(row)
+        };
+        let column_of = |shape: &Shape| {
+            let width = 2 * shape.pairs;
+            let column = columns.start.min(self.width.saturating_sub(width));
+            (columns.len() <= width && width <= self.width + 1).then_some(column as isize)
+        };
+        // Whatever the number of pairs, the same heights follow.
+        let widths = Shape::SMALL.chunks(Shape::HEIGHTS).enumerate();
+        let (narrowest, column) = widths.filter_map(|(at, shapes)| Some((at, column_of(&shapes[0])?))).next()?;
+        let heights = Shape::SMALL[..Shape::HEIGHTS].iter().enumerate();
+        let (lowest, row) = heights.filter_map(|(at, shape)| Some((at, row_of(shape)?))).next()?;
+        Some((narrowest * Shape::HEIGHTS + lowest, Place { column, row }))
+    }
+
+    /// Which texels of a row of a lane's small window lie under the pixel, a bit for each.
+    #[inline(always)]
+    pub(super) fn small_marks(&self, lane: usize, place: Place, row: usize, pairs: usize) -> u32 {
+        let columns = u32::from(self.small.under[(place.row + row) % SIDE][lane]);
+        columns << 1 >> (place.column + 1) & ((1 << (2 * pairs)) - 1)
+    }
+
+    /// The weights of a row of a lane's small window, pair by pair.
+    #[inline(always)]
+    pub(super) fn small_pairs<const PAIRS: usize>(&self, lane: usize, place: Place, row: usize) -> [u32; PAIRS] {
+        let weights = &self.small.weights[lane][(place.row + row) % SIDE];
+        let first = (MARGIN as isize + place.column) as usize;
+        let pairs = weights[first..][..2 * PAIRS].as_chunks().0;
+        std::array::from_fn(|at| pair(pairs[at]))
+    }
+
+    /// Which texels of a row of a lane's window lie under the pixel, of 16 pairs at most.
+    pub(super) fn marks(&self, lane: usize, place: Place, row: usize, pairs: Range<usize>) -> u32 {
+        let first = (place.row + row) * self.pitch() + (place.column + 1) as usize;
+        let under = &self.under[first + 2 * pairs.start..first + 2 * pairs.end];
+        under.iter().enumerate().fold(0, |marks, (at, lanes)| marks | u32::from(lanes >> lane & 1) << at)
+    }
+
+    /// The weights of a row of a lane's window, pair by pair.
+    pub(super) fn pairs(&self, lane: usize, place: Place, row: usize, pairs: usize) -> impl Iterator<Item = u32> {
+        let first = (place.row + row) * self.pitch() + (place.column + 1) as usize;
+        let weights = self.weights[first..][..2 * pairs].as_chunks().0;
+        weights.iter().map(move |[a, b]| pair([a[lane], b[lane]]))
+    }
+}
+
+/// Two weights as a number.
+#[inline(always)]
+fn pair([a, b]: [i16; 2]) -> u32 {
+    u32::from(a as u16) | u32::from(b as u16) << 16
+}
+
+/// Fills all of a vector anew.
+fn refill<T: Copy>(vector: &mut Vec<T>, length: usize, value: T) {
+    vector.clear();
+    vector.resize(length, value);
+}
+
+/// From the first bit to the last.
+#[inline(always)]
+fn span(bits: u8) -> Range<usize> {
+    bits.trailing_zeros() as usize % 8..8 - bits.leading_zeros() as usize
+}
+
+/// Bits of eight bytes turned: the first of each in the first byte (Warren, Hacker's Delight, 7-3).
+#[inline(always)]
+fn turned_bits(bytes: [u8; SIDE]) -> [u8; SIDE] {
+    let mut bits = u64::from_le_bytes(bytes);
+    for (shift, mask) in [(7, 0x00aa_00aa_00aa_00aa), (14, 0x0000_cccc_0000_cccc), (28, 0x0000_0000_f0f0_f0f0)] {
+        let changed = (bits ^ bits >> shift) & mask;
+        bits ^= changed ^ changed << shift;
+    }
+    bits.to_le_bytes()
+}
+
+/// Eight times eight numbers turned: the first of each in the first. Three times each is zipped with the fourth after it.
+#[inline(always)]
+fn turned<S: Simd>(mut rows: [i16x8<S>; SIDE]) -> [i16x8<S>; SIDE] {
+    for _ in 0..3 {
+        let zipped: [_; SIDE / 2] = std::array::from_fn(|at| rows[at].interleave(rows[at + SIDE / 2]));
+        rows = std::array::from_fn(|at| if at % 2 == 0 { zipped[at / 2].0 } else { zipped[at / 2].1 });
+    }
+    rows
+}
+
+/// By how many bits weights are scaled, so that sums of products fit into 32.
+#[inline(always)]
+fn scale<S: Simd>(simd: S, windows: &Windows) -> Option<u32> {
+    let mut largest = f32x8::splat(simd, 0.0);
+    let mut size = largest;
+    for (weights, _) in windows.texels() {
+        let weights = f32x8::load_array(simd, *weights).abs();
+        largest = largest.max(weights);
+        size += weights;
+    }
+    let [largest, size] = [largest, size].map(|lanes| lanes.reduce_max());
+    if largest < 1.0 && size < 1.9 {
+        Some(15)
+    } else if largest < 1.99 && size < 3.9 {
+        Some(14)
+    } else {
+        None
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use fearless_simd::dispatch;
+
+    use super::*;
+    use crate::resample::window::levels;
+
+    #[test]
+    fn bits_are_turned() {
+        let bytes = [0x81, 0x02, 0xff, 0x00, 0x10, 0x7e, 0x55, 0xa0];
+        let turned = turned_bits(bytes);
+        for (row, byte) in bytes.iter().enumerate() {
+            for (column, turned) in turned.iter().enumerate() {
+                assert_eq!(byte >> column & 1, turned >> row & 1, "bit {column} of byte {row}");
+            }
+        }
+        assert_eq!([0, 1, 0x80, 0x3c].map(span), [0..0, 0..1, 7..8, 2..6]);
+    }
+
+    #[test]
+    fn numbers_are_turned() {
+        for level in levels() {
+            let found = dispatch!(level, simd => {
+                let row = |row: usize| i16x8::load_array(simd, std::array::from_fn(|column| (10 * row + column) as i16));
+                turned(std::array::from_fn(row)).map(|row| row.to_array())
+            });
+            assert_eq!(found, std::array::from_fn(|row| std::array::from_fn(|column| (10 * column + row) as i16)));
+        }
+    }
+}
