@@ -6,7 +6,6 @@ use cosmorama::raster::{EncodedImage, Encoder, Image, Rgba, Threads};
 use cosmorama::resample::ScreenMask;
 use cosmorama::world::Source;
 use cosmorama_io::{WriteOptions, write_levels};
-use rayon::prelude::*;
 
 use super::frame_light::{FrameLight, Texels};
 use super::geometry::Geometry;
@@ -112,9 +111,24 @@ impl<'a> Engine<'a> {
     fn render_view(&self, index: usize, light: &FrameLight) -> Result<Image<Rgba>> {
         let target = &self.job.target.views[index];
         let Texels::Float(worlds) = light.texels() else { bail!("light of 8 bits where floats were expected") };
-        let mut image = self.geometry.light(index, self.job.resampler(target), &worlds[target.world(worlds.len())]);
+        let (resampler, texels) = (self.job.resampler(target), &worlds[target.world(worlds.len())]);
+        if self.is_complete(light) && !self.job.light.channels.has_alpha() {
+            // A file without alpha shows everything in front of the background.
+            return Ok(self.geometry.light(index, resampler, texels, self.job.light.background));
+        }
+        let mut image = self.geometry.light(index, resampler, texels, Rgba::TRANSPARENT);
         self.complete(index, light, &mut image)?;
         Ok(image)
+    }
+
+    /// Whether nothing is to be done where texels are missing or no view looks.
+    fn is_complete(&self, light: &FrameLight) -> bool {
+        !matches!(self.job.coverage, Coverage::Fill(_)) && !self.has_holes(light)
+    }
+
+    /// Whether texels of opaque inputs are missing.
+    fn has_holes(&self, light: &FrameLight) -> bool {
+        !self.job.light.input_alpha && self.incomplete(light).next().is_some()
     }
 
     fn complete(&self, index: usize, light: &FrameLight, image: &mut Image<Rgba>) -> Result<()> {
@@ -134,7 +148,7 @@ impl<'a> Engine<'a> {
     /// Missing texels of opaque inputs leave the pixel to the others; a pixel that has none left is like one that no
     /// view covers.
     fn close_holes(&self, index: usize, light: &FrameLight, image: &mut Image<Rgba>) -> Result<()> {
-        if self.job.light.input_alpha || self.incomplete(light).next().is_none() {
+        if !self.has_holes(light) {
             return Ok(());
         }
         let fill = self.job.fill_for_missing();
@@ -155,8 +169,7 @@ impl<'a> Engine<'a> {
     fn lay_background(&self, index: usize, image: &mut Image<Rgba>) {
         let background = self.job.light.background;
         if !self.job.light.channels.has_alpha() {
-            // A file without alpha shows everything in front of the background.
-            image.pixels_mut().par_iter_mut().for_each(|pixel| *pixel = pixel.over(background));
+            image.lay_over(background);
         } else if background != Rgba::TRANSPARENT {
             self.mask(index).surround(image, background);
         }

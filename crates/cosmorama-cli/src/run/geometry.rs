@@ -53,14 +53,18 @@ impl Geometry {
         }
     }
 
-    /// The pixels of a target view, of any light.
-    pub(super) fn light(&self, index: usize, resampler: Resampler, texels: &[Rgba]) -> Image<Rgba> {
+    /// The pixels of a target view, of any light, in front of a background.
+    pub(super) fn light(&self, index: usize, resampler: Resampler, texels: &[Rgba], background: Rgba) -> Image<Rgba> {
         let made = match self {
-            Self::Float(plans) => plans[index].as_ref().map(|plan| plan.apply(texels)),
-            Self::Pyramid(plans) => plans[index].as_ref().map(|plan| plan.apply(texels)),
+            Self::Float(plans) => plans[index].as_ref().map(|plan| plan.apply_over(texels, background)),
+            Self::Pyramid(plans) => plans[index].as_ref().map(|plan| {
+                let mut image = plan.apply(texels);
+                image.lay_over(background);
+                image
+            }),
             Self::Fixed(..) => None,
         };
-        made.unwrap_or_else(|| resampler.render(texels))
+        made.unwrap_or_else(|| resampler.render_over(texels, background))
     }
 
     /// The code values of a target view.

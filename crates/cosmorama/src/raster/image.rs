@@ -1,6 +1,8 @@
+use bytemuck::Zeroable;
+use rayon::prelude::*;
 use thiserror::Error;
 
-use super::Depth;
+use super::{Depth, Rgba};
 
 /// Why an image cannot be made.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
@@ -37,6 +39,22 @@ impl<P: Clone> Image<P> {
     /// An image of one colour.
     pub fn filled(width: usize, height: usize, pixel: P) -> Self {
         Self { width, height, pixels: vec![pixel; width * height] }
+    }
+}
+
+impl<P: Zeroable> Image<P> {
+    /// An image of zeros, in memory that is not touched before it is written.
+    pub(crate) fn zeroed(width: usize, height: usize) -> Self {
+        Self { width, height, pixels: bytemuck::zeroed_vec(width * height) }
+    }
+}
+
+impl Image<Rgba> {
+    /// Lays all pixels in front of a background, linear and premultiplied as they are.
+    pub fn lay_over(&mut self, background: Rgba) {
+        if background != Rgba::TRANSPARENT {
+            self.pixels.par_iter_mut().for_each(|pixel| *pixel = pixel.over(background));
+        }
     }
 }
 

@@ -112,13 +112,13 @@ pub(super) fn bytes(resampler: &Resampler) -> usize {
 pub(super) fn render(resampler: &Resampler, texels: &[Rgba]) -> Image<Rgba> {
     let pyramid = Pyramid::new(resampler);
     if pyramid.levels.is_empty() {
-        return plan::render(&pyramid.level(0), texels, Instructions::new());
+        return plan::render(&pyramid.level(0), texels, Rgba::TRANSPARENT, Instructions::new());
     }
     let halvings: Vec<&Halving> = pyramid.levels.iter().map(|(_, halving)| halving).collect();
     let size = (resampler.target.width(), resampler.target.height());
     mix(&pyramid.map, size, &halvings, texels, |level, texels| {
         let wanted = pyramid.wanted(level)?;
-        Some(plan::render_part(&pyramid.level(level), Some(&wanted), texels, Instructions::new()))
+        Some(plan::render_part(&pyramid.level(level), Some(&wanted), (texels, Rgba::TRANSPARENT), Instructions::new()))
     })
 }
 

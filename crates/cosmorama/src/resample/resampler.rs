@@ -27,14 +27,26 @@ impl Resampler<'_> {
     /// # Panics
     /// If `texels` is not as long as [`World::texel_count`] says.
     pub fn render(&self, texels: &[Rgba]) -> Image<Rgba> {
+        self.render_over(texels, Rgba::TRANSPARENT)
+    }
+
+    /// The same in front of a background, linear and premultiplied as all light is.
+    ///
+    /// # Panics
+    /// As [`Resampler::render`].
+    pub fn render_over(&self, texels: &[Rgba], background: Rgba) -> Image<Rgba> {
         assert_eq!(texels.len(), self.world.texel_count(), "one texel of light for each texel of the world");
-        match self.filter.kind {
+        let mut image = match self.filter.kind {
+            FilterKind::Ewa | FilterKind::Point | FilterKind::Bilinear => {
+                return plan::render(self, texels, background, Level::new());
+            }
             FilterKind::Reference { samples } => {
                 reference::render(self.world, self.target, &self.filter, samples, texels)
             }
             FilterKind::EwaPyramid => pyramid::render(self, texels),
-            FilterKind::Ewa | FilterKind::Point | FilterKind::Bilinear => plan::render(self, texels, Level::new()),
-        }
+        };
+        image.lay_over(background);
+        image
     }
 
     /// One frame of 8 bits, opaque, of light that has 15: the code values of each pixel, within one of those of

@@ -10,15 +10,17 @@ pub(super) struct Canvas<'a, P> {
 }
 
 impl<'a, P> Canvas<'a, P> {
-    /// Cuts a picture, `width` pixels wide, into what bands of `rows` rows make.
+    /// Cuts a picture, `width` pixels wide, into what bands of `rows` rows make. Each is filled with a background when it is its
+    /// turn, so that it is at hand when its pixels are made.
     pub(super) fn bands(
         pixels: &'a mut [P],
         width: usize,
         rows: usize,
         mirrors: &Mirrors,
+        background: P,
     ) -> impl rayon::iter::IndexedParallelIterator<Item = Self>
     where
-        P: Send,
+        P: Copy + Send + Sync,
     {
         use rayon::prelude::*;
         let (own, mirrored) = pixels.split_at_mut(mirrors.rows * width);
@@ -29,7 +31,11 @@ impl<'a, P> Canvas<'a, P> {
         let bands = own.len();
         let mut below: Vec<&mut [P]> = mirrored.rchunks_mut(chunk).collect();
         below.resize_with(bands, Default::default);
-        own.zip(below).map(move |(own, mirrored)| Self { width, own, mirrored })
+        own.zip(below).map(move |(own, mirrored)| {
+            own.fill(background);
+            mirrored.fill(background);
+            Self { width, own, mirrored }
+        })
     }
 
     /// Writes the pixels of a run, from left to right as a mirror image shows them.

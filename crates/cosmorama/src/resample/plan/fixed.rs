@@ -6,12 +6,13 @@
 
 use fearless_simd::{Level, Simd, dispatch, i16x8, i16x16, i16x32, prelude::*};
 
+use super::ahead::read_ahead;
 use super::band::{Band, Run};
 use super::blocks::{self, Blocks};
 use super::canvas::Canvas;
 use super::fixed_weights::{FixedWeights, Header, Shape, mark_words};
 use super::mirrors::{MOST_IMAGES, Mirrors, Ways};
-use super::texels::{self, Texels};
+use super::texels::Texels;
 use crate::raster::{FixedCodec, FixedLight};
 use crate::resample::patch::SIDE;
 use crate::resample::taps::average;
@@ -42,9 +43,10 @@ impl FixedFilter<'_> {
     #[inline(always)]
     fn runs<S: Simd>(&self, simd: S, band: &Band<FixedWeights>, canvas: &mut Canvas<[u8; 3]>) {
         let mut ahead = band.patches().skip(1);
+        let texels = self.light.samples().as_chunks::<4>().0;
         for (at, run) in band.runs.iter().enumerate() {
             if at % SIDE == 0 {
-                self.read_ahead(ahead.next().unwrap_or(&[]));
+                read_ahead(texels, self.mirrors, ahead.next().unwrap_or(&[]));
             }
             let numbers = &band.weights.numbers[run.weights as usize..];
             let pixels = self.pixels(simd, run, numbers);
@@ -83,26 +85,6 @@ impl FixedFilter<'_> {
             ),
         }
         pixels
-    }
-
-    /// Asks for what these runs will read, so that it is near by then: lines of memory that are asked for one after the other,
-    /// as they are needed, take most of the time.
-    #[inline(always)]
-    fn read_ahead(&self, runs: &[Run]) {
-        let samples = self.light.samples();
-        for image in &self.mirrors.images {
-            for run in runs {
-                let walk = image.view(usize::from(run.view)).walk(run.corner());
-                let span = run.span() as u32;
-                let mut first = walk.first;
-                for _ in 0..run.height {
-                    let last = if walk.is_reversed { first.wrapping_sub(span) } else { first.wrapping_add(span) };
-                    texels::read_ahead(samples, first);
-                    texels::read_ahead(samples, last);
-                    first = first.wrapping_add_signed(walk.down);
-                }
-            }
-        }
     }
 }
 

@@ -100,6 +100,14 @@ impl Walk {
     }
 }
 
+impl Walk {
+    /// The same one row further down.
+    #[inline(always)]
+    pub(super) fn one_down(self) -> Self {
+        Self { first: self.first.wrapping_add_signed(self.down), ..self }
+    }
+}
+
 impl Reflection {
     /// The walk of a window whose first texel is in this column and row of the view itself.
     #[inline(always)]

@@ -1,5 +1,6 @@
 //! Geometry compiled once for any number of frames.
 
+mod ahead;
 mod band;
 mod blocks;
 mod canvas;
@@ -7,6 +8,7 @@ mod fixed;
 mod fixed_check;
 mod fixed_weights;
 mod float;
+mod float_weights;
 mod key;
 mod mirrors;
 mod rounded;
@@ -25,7 +27,8 @@ use band::{Band, Recorder};
 use canvas::Canvas;
 use fixed::FixedFilter;
 use fixed_weights::FixedWeights;
-use float::{FloatFilter, FloatWeights};
+use float::FloatFilter;
+use float_weights::FloatWeights;
 pub use key::PlanKey;
 use mirrors::{MirrorImage, Mirrors};
 pub use saved::PlanError;
@@ -73,10 +76,15 @@ impl Plan {
 
     /// One frame. `texels` is the world's buffer of light.
     pub fn apply(&self, texels: &[Rgba]) -> Image<Rgba> {
+        self.apply_over(texels, Rgba::TRANSPARENT)
+    }
+
+    /// One frame in front of a background, linear and premultiplied as all light is.
+    pub fn apply_over(&self, texels: &[Rgba], background: Rgba) -> Image<Rgba> {
         let Self(Compiled { width, height, anti_ringing, mirrors, .. }) = self;
-        let mut image = Image::filled(*width, *height, Rgba::TRANSPARENT);
-        let filter = FloatFilter { level: Level::new(), mirrors, texels, anti_ringing: *anti_ringing };
-        self.0.fill(image.pixels_mut(), |band, canvas| filter.fill(band, canvas));
+        let mut image = Image::zeroed(*width, *height);
+        let filter = FloatFilter { level: Level::new(), mirrors, texels, anti_ringing: *anti_ringing, background };
+        self.0.fill(image.pixels_mut(), background, |band, canvas| filter.fill(band, canvas));
         image
     }
 
@@ -117,9 +125,9 @@ impl FixedPlan {
     /// One frame: the code values of each pixel. `light` is that of all the world's texels.
     pub fn apply(&self, light: &FixedLight, codec: &FixedCodec) -> Image<[u8; 3]> {
         let Self(Compiled { width, height, anti_ringing, mirrors, .. }) = self;
-        let mut image = Image::filled(*width, *height, codec.background());
+        let mut image = Image::zeroed(*width, *height);
         let filter = FixedFilter { level: Level::new(), mirrors, light, codec, anti_ringing: *anti_ringing };
-        self.0.fill(image.pixels_mut(), |band, canvas| filter.fill(band, canvas));
+        self.0.fill(image.pixels_mut(), codec.background(), |band, canvas| filter.fill(band, canvas));
         image
     }
 
@@ -153,22 +161,23 @@ impl FixedPlan {
 }
 
 /// A frame without a plan that is kept: each band's geometry is forgotten when its pixels are made.
-pub(super) fn render(resampler: &Resampler, texels: &[Rgba], level: Level) -> Image<Rgba> {
-    render_part(resampler, None, texels, level)
+pub(super) fn render(resampler: &Resampler, texels: &[Rgba], background: Rgba, level: Level) -> Image<Rgba> {
+    render_part(resampler, None, (texels, background), level)
 }
 
-/// The wanted patches of one, all else transparent.
+/// The wanted patches of one, all else background.
 pub(super) fn render_part(
     resampler: &Resampler,
     wanted: Option<&Wanted>,
-    texels: &[Rgba],
+    (texels, background): (&[Rgba], Rgba),
     level: Level,
 ) -> Image<Rgba> {
     let mirrors = &Mirrors::of(resampler);
     let (width, height) = (resampler.target.width(), resampler.target.height());
-    let mut image = Image::filled(width, height, Rgba::TRANSPARENT);
-    let filter = FloatFilter { level, mirrors, texels, anti_ringing: resampler.filter.anti_ringing };
-    each_band((resampler, wanted), mirrors, image.pixels_mut(), level, |band, canvas| filter.fill(band, canvas));
+    let mut image = Image::zeroed(width, height);
+    let filter = FloatFilter { level, mirrors, texels, anti_ringing: resampler.filter.anti_ringing, background };
+    let pixels = (image.pixels_mut(), background);
+    each_band((resampler, wanted), mirrors, pixels, level, |band, canvas| filter.fill(band, canvas));
     image
 }
 
@@ -176,10 +185,11 @@ pub(super) fn render_part(
 pub(super) fn render_fixed(resampler: &Resampler, light: &FixedLight, codec: &FixedCodec) -> Image<[u8; 3]> {
     let mirrors = &Mirrors::of(resampler);
     let (width, height) = (resampler.target.width(), resampler.target.height());
-    let mut image = Image::filled(width, height, codec.background());
+    let mut image = Image::zeroed(width, height);
     let level = Level::new();
     let filter = FixedFilter { level, mirrors, light, codec, anti_ringing: resampler.filter.anti_ringing };
-    each_band((resampler, None), mirrors, image.pixels_mut(), level, |band, canvas| filter.fill(band, canvas));
+    let pixels = (image.pixels_mut(), codec.background());
+    each_band((resampler, None), mirrors, pixels, level, |band, canvas| filter.fill(band, canvas));
     image
 }
 
@@ -220,8 +230,13 @@ impl<W: Weights> Compiled<W> {
         Self { width, height, anti_ringing: filter.anti_ringing, mirrors, bands }
     }
 
-    fn fill<P: Send>(&self, pixels: &mut [P], make: impl Fn(&Band<W>, &mut Canvas<P>) + Sync) {
-        let canvases = Canvas::bands(pixels, self.width, BAND, &self.mirrors);
+    fn fill<P: Copy + Send + Sync>(
+        &self,
+        pixels: &mut [P],
+        background: P,
+        make: impl Fn(&Band<W>, &mut Canvas<P>) + Sync,
+    ) {
+        let canvases = Canvas::bands(pixels, self.width, BAND, &self.mirrors, background);
         canvases.zip(&self.bands).for_each(|(mut canvas, band)| make(band, &mut canvas));
     }
 
@@ -231,15 +246,15 @@ impl<W: Weights> Compiled<W> {
 }
 
 /// Records each band, makes its pixels and forgets it.
-fn each_band<W: Weights, P: Send>(
+fn each_band<W: Weights, P: Copy + Send + Sync>(
     (resampler, wanted): (&Resampler, Option<&Wanted>),
     mirrors: &Mirrors,
-    pixels: &mut [P],
+    (pixels, background): (&mut [P], P),
     level: Level,
     make: impl Fn(&Band<W>, &mut Canvas<P>) + Sync,
 ) {
     let table = &KernelTable::new(&resampler.filter.kernel);
-    let canvases = Canvas::bands(pixels, resampler.target.width(), BAND, mirrors);
+    let canvases = Canvas::bands(pixels, resampler.target.width(), BAND, mirrors, background);
     canvases.enumerate().for_each_init(Band::default, |band, (index, mut canvas)| {
         band.clear();
         record((resampler, wanted), mirrors, table, mirrors.band(index), level, band, |band| {

@@ -167,8 +167,9 @@ fn what_mirrors_show_is_what_would_be_computed() {
         let alone = Mirrors::new([target.width(), target.height()], vec![MirrorImage::itself(&world)]);
         let mut expected = Image::filled(target.width(), target.height(), Rgba::TRANSPARENT);
         let texels = floats(&light);
-        let filter = FloatFilter { level: Level::new(), mirrors: &alone, texels: &texels, anti_ringing: true };
-        each_band((&resampler, None), &alone, expected.pixels_mut(), Level::new(), |band, canvas| {
+        let (level, background) = (Level::new(), Rgba::TRANSPARENT);
+        let filter = FloatFilter { level, mirrors: &alone, texels: &texels, anti_ringing: true, background };
+        each_band((&resampler, None), &alone, (expected.pixels_mut(), background), level, |band, canvas| {
             filter.fill(band, canvas)
         });
         let made = resampler.render(&texels);
@@ -184,7 +185,12 @@ fn a_plan_makes_the_pixels_that_are_made_without() {
     for (world, target, _) in conversions() {
         let (light, resampler) = (light(&world), resampler(&world, &target));
         let texels = floats(&light);
-        assert!(resampler.plan().expect("a plan").apply(&texels) == resampler.render(&texels));
+        let (plan, mut light_alone) = (resampler.plan().expect("a plan"), resampler.render(&texels));
+        assert!(plan.apply(&texels) == light_alone);
+        let background = Rgba::opaque(0.25, 0.5, 0.0);
+        light_alone.lay_over(background);
+        assert!(plan.apply_over(&texels, background) == light_alone);
+        assert!(resampler.render_over(&texels, background) == light_alone);
         let codec = FixedCodec::new(&Transfer::Srgb, Rgba::BLACK).expect("sRGB has 8 bits");
         let plan = resampler.fixed_plan().expect("a plan");
         assert!(plan.apply(&light, &codec) == resampler.render_fixed(&light, &codec));
@@ -201,8 +207,8 @@ fn all_levels_of_instructions_make_the_same_pixels() {
         let made = |level| {
             let mut codes = Image::filled(target.width(), target.height(), codec.background());
             let filter = FixedFilter { level, mirrors: &mirrors, light: &light, codec: &codec, anti_ringing: true };
-            plan.0.fill(codes.pixels_mut(), |band, canvas| filter.fill(band, canvas));
-            (render(&resampler, &texels, level), codes)
+            plan.0.fill(codes.pixels_mut(), codec.background(), |band, canvas| filter.fill(band, canvas));
+            (render(&resampler, &texels, Rgba::TRANSPARENT, level), codes)
         };
         let mut all = window::levels().into_iter().map(made);
         let first = all.next().expect("at least the plain one");

@@ -51,16 +51,16 @@ impl<'a, const PAIRS: usize, const HEIGHT: usize> Texels<'a, PAIRS, HEIGHT> {
 
 /// Asks memory for a texel that will be read soon; any number will do.
 #[inline(always)]
-pub(super) fn read_ahead(samples: &[i16], texel: u32) {
+pub(super) fn read_ahead<T>(texels: &[T], texel: u32) {
     #[cfg(target_arch = "x86_64")]
     {
         use std::arch::x86_64::{_MM_HINT_T0, _mm_prefetch};
-        let address = samples.as_ptr().wrapping_add(SAMPLES * texel as usize);
+        let address = texels.as_ptr().wrapping_add(texel as usize);
         // SAFETY: a hint reads nothing, whatever the address.
         unsafe { _mm_prefetch::<_MM_HINT_T0>(address.cast()) }
     }
     #[cfg(not(target_arch = "x86_64"))]
-    let _ = (samples, texel);
+    let _ = (texels, texel);
 }
 
 #[cfg(test)]
