@@ -63,7 +63,8 @@ pub(crate) struct ConvertArgs {
     /// Replace existing outputs
     #[arg(short = 'y', long, conflicts_with = "resume", help_heading = "Frames and files")]
     pub(crate) overwrite: bool,
-    /// Skip outputs that are already complete
+    /// Skip outputs that are already complete: whole, and of the size, channels and depth that this conversion makes. What
+    /// else is in their places is made again, with a warning
     #[arg(long, help_heading = "Frames and files")]
     pub(crate) resume: bool,
     /// The format of standard output, by its extension, as in --format png
