@@ -268,6 +268,30 @@ fn a_frame_of_another_kind_changes_no_other_frame() {
 }
 
 #[test]
+fn a_transparent_frame_among_opaque_ones_is_told() {
+    let bench = Bench::new();
+    bench.save("sky_1.png", &picture(1, 64, 32));
+    bench.save("sky_2.png", &flat(64, 32, &[9, 200, 40, 128]));
+    bench.save("sky_3.png", &flat(64, 32, &[9, 200, 40, 255]));
+    bench.save("sky_4.png", &flat(64, 32, &[200, 0]));
+    let args = ["convert", "sky_#.png", "out_#.png", "--to=fisheye", "--from=equirect", "--size", "32", "-y", "--json"];
+    let warnings = |more: &[&str]| -> Vec<String> {
+        let output = bench.run(&[&args[..], more].concat());
+        let report: Value = serde_json::from_slice(&output.stdout).unwrap();
+        let told = bench::text(&output.stderr);
+        let warnings = report["warnings"].as_array().unwrap().iter();
+        warnings.map(|one| one.as_str().unwrap().to_owned()).inspect(|one| assert!(told.contains(one))).collect()
+    };
+    let told = warnings(&[]);
+    assert_eq!(told.len(), 2, "{told:?}");
+    for (warning, file) in told.iter().zip(["sky_2.png", "sky_4.png"]) {
+        bench::assert_says(warning, &[file, "transparent", "first frame", "--background transparent"]);
+    }
+    assert_eq!(warnings(&["--background", "transparent"]), [""; 0]);
+    assert_eq!(warnings(&["--frames", "2,4"]), [""; 0], "the first frame has alpha");
+}
+
+#[test]
 fn compression_changes_sizes_and_no_pixel() {
     let bench = Bench::new();
     // With stars, where filters of rows and levels of Deflate tell.

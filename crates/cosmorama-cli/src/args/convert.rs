@@ -51,7 +51,8 @@ pub(crate) struct ConvertArgs {
     /// Output sample type [default: as the input, where the format can]
     #[arg(long, value_enum, value_name = "DEPTH", help_heading = "Light")]
     pub(crate) depth: Option<DepthArg>,
-    /// Pixels outside the lens [default: black, transparent where the output has alpha]
+    /// Pixels outside the lens [default: black, transparent where the output has alpha]. Of a sequence, the first frame
+    /// tells whether there is alpha; what is transparent in a later one is laid over this, with a warning
     #[arg(long, value_name = "COLOR", help_heading = "Light")]
     pub(crate) background: Option<Colour>,
     /// Directions that no view covers: error, transparent or a colour
