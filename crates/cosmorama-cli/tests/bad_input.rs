@@ -344,13 +344,16 @@ fn a_full_disk() {
     std::fs::create_dir(bench.path("diagrams")).unwrap();
     let before = bench.files();
     let program = env!("CARGO_BIN_EXE_cosmorama");
-    for (verb, file) in [
-        ("convert sky.png out.png --to equirect --size 800 --depth 16", "out.png"),
-        ("explain sky.png --to omnimax --output diagrams", "diagrams/unfolded.svg"),
+    let explain = "explain sky.png --to omnimax --output diagrams";
+    // Blocks of 512 bytes: for nothing, or for all diagrams but the last.
+    for (blocks, verb, file) in [
+        (8, "convert sky.png out.png --to equirect --size 800 --depth 16", "out.png"),
+        (8, explain, "diagrams/unfolded.svg"),
+        (800, explain, "diagrams/footprints.png"),
     ] {
         // Whether or not whoever started the program has it ignore the signal of a limit reached.
         for trap in ["trap '' XFSZ; ", ""] {
-            let script = format!("{trap}ulimit -f 8; exec {program} {verb}");
+            let script = format!("{trap}ulimit -f {blocks}; exec {program} {verb}");
             let output =
                 std::process::Command::new("sh").args(["-c", &script]).current_dir(bench.path("")).output().unwrap();
             let message = bench.check_failure(1, &output, &before);
