@@ -147,6 +147,30 @@ fn an_absurd_size_is_refused_before_memory_is_taken() {
     assert_says(&message, &["--memory", "200000x200000"]);
 }
 
+/// What an option promises is not there for that: taking it would end the program in the middle.
+#[cfg(target_os = "linux")]
+#[test]
+fn memory_that_there_is_not_is_not_promised() {
+    let bench = Bench::new();
+    bench.save("small.png", &picture(0, 64, 32));
+    let before = bench.files();
+    let program = env!("CARGO_BIN_EXE_cosmorama");
+    for (verb, what) in [
+        ("convert small.png out.png --from equirect --to fulldome --size 20000", "20000x20000"),
+        ("explain --from cube --input-size 26000 --to fulldome --size 64", "26000x26000"),
+    ] {
+        // Kibibytes of address space, as farms limit their jobs.
+        let script = format!("ulimit -v 3000000; exec {program} {verb} --threads 2 --memory 100000G");
+        let output =
+            std::process::Command::new("sh").args(["-c", &script]).current_dir(bench.path("")).output().unwrap();
+        let message = bench.check_failure(1, &output, &before);
+        assert_says(&message, &["there are 2.9 GiB, whatever --memory says (97.7 TiB)", what]);
+    }
+    // Where what is needed is there, a promise of more does no harm.
+    let args = ["convert", "small.png", "out.png", "--from", "equirect", "--to", "fulldome", "--size", "64"];
+    bench.succeed(&[&args[..], &["--memory", "100000G"]].concat());
+}
+
 #[test]
 fn a_window_of_a_huge_canvas_is_refused_before_memory_is_taken() {
     let bench = Bench::new();

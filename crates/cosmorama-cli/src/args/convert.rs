@@ -135,7 +135,7 @@ pub(crate) struct LimitArgs {
     /// Threads to work with [default: all cores]
     #[arg(long, value_name = "N", value_parser = threads, allow_hyphen_values = true, help_heading = "Run")]
     pub(crate) threads: Option<usize>,
-    /// Memory to use at most, as in 500M, 8G or 50% [default: 75% of free memory]
+    /// Memory to use at most, as in 500M, 8G or 50%; never more than there is [default: 75% of free memory]
     #[arg(long, value_name = "SIZE", allow_hyphen_values = true, help_heading = "Run")]
     pub(crate) memory: Option<MemorySize>,
 }
