@@ -24,6 +24,21 @@ fn a_missing_face_is_named_with_what_is_needed_of_it() {
 }
 
 #[test]
+fn a_face_that_is_a_folder_is_called_so() {
+    let bench = Bench::new();
+    bench.faces("face_", 64);
+    remove(&bench, "face_right.png");
+    std::fs::create_dir(bench.path("face_right.png")).unwrap();
+    let message = bench.fail(1, &["convert", "face_{face}.png", "out.png", "--to", "omnimax"]);
+    assert_says(&message, &["right: 33x62+0+0 of its 64x64 pixels", "face_right.png is a folder, not an image"]);
+    let told = bench.succeed(&["explain", "face_{face}.png", "--to", "omnimax"]);
+    assert_says(&told, &["missing  right: no face_right.png, but a folder of this name"]);
+    bench.faces("shot/front/", 16);
+    let message = bench.fail(1, &["convert", "shot/{face}", "out.png", "--to", "omnimax"]);
+    assert_says(&message, &["shot/front: a folder", "shot/{face}/{face}.png"]);
+}
+
+#[test]
 fn a_face_that_is_not_needed_may_be_missing() {
     let bench = Bench::new();
     bench.faces("face_", 64);

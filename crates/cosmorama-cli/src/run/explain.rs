@@ -54,7 +54,8 @@ pub(super) fn run(args: &ExplainArgs) -> Result<ExitCode> {
     drawn.into_iter().try_for_each(Hidden::appear)?;
     if args.input.is_some() {
         for view in input.views().filter(|view| view.window.is_none()) {
-            text += &format!("missing  {}: no {}\n", view.name, view.files.path(None).display());
+            let folder = if view.files.is_folder() { ", but a folder of this name" } else { "" };
+            text += &format!("missing  {}: no {}{folder}\n", view.name, view.files.path(None).display());
         }
     }
     if args.json {
