@@ -92,6 +92,14 @@ impl Outputs {
 /// Many frames need a marker in the output; one frame may go without; a marker without frames means nothing.
 fn check_frame_markers(args: &ConvertArgs, input: &Input, target: &Target) -> Result<()> {
     let numbered = target.files.iter().all(|file| matches!(file.files, Files::Sequence(_)));
+    if input.frames.len() > 1 && args.format.is_some() {
+        return Err(usage(format!(
+            "{} frames cannot go to standard output, which takes one picture; choose one of them, as in --frames {}, or name \
+             output files with ####",
+            input.frames.len(),
+            input.frames[0].unwrap_or_default()
+        )));
+    }
     if input.frames.len() > 1 && !numbered {
         return Err(usage(format!(
             "{} frames cannot go into the one file {}; put #### or %04d where the frame number stands",
