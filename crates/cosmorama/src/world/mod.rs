@@ -10,6 +10,8 @@ mod halved;
 mod layout;
 mod mask_shape;
 mod overlap;
+#[cfg(test)]
+mod panorama;
 mod seen_cone;
 mod st_pixels;
 mod suns;
@@ -35,6 +37,8 @@ pub use layout::{
     LensSide, PlacedFace, PlacedLens, Stereo,
 };
 pub use mask_shape::MaskShape;
+#[cfg(test)]
+pub(crate) use panorama::panorama;
 pub use st_pixels::{ST_NOWHERE, StPixel};
 pub use view::{Footprint, View};
 pub use view_mask::ViewMask;
