@@ -24,6 +24,21 @@ fn a_missing_face_is_named_with_what_is_needed_of_it() {
 }
 
 #[test]
+fn a_face_that_is_a_folder_is_called_so() {
+    let bench = Bench::new();
+    bench.faces("face_", 64);
+    remove(&bench, "face_right.png");
+    std::fs::create_dir(bench.path("face_right.png")).unwrap();
+    let message = bench.fail(1, &["convert", "face_{face}.png", "out.png", "--to", "omnimax"]);
+    assert_says(&message, &["right: 33x62+0+0 of its 64x64 pixels", "face_right.png is a folder, not an image"]);
+    let told = bench.succeed(&["explain", "face_{face}.png", "--to", "omnimax"]);
+    assert_says(&told, &["missing  right: no face_right.png, but a folder of this name"]);
+    bench.faces("shot/front/", 16);
+    let message = bench.fail(1, &["convert", "shot/{face}", "out.png", "--to", "omnimax"]);
+    assert_says(&message, &["shot/front: a folder", "shot/{face}/{face}.png"]);
+}
+
+#[test]
 fn a_face_that_is_not_needed_may_be_missing() {
     let bench = Bench::new();
     bench.faces("face_", 64);
@@ -145,6 +160,30 @@ fn an_absurd_size_is_refused_before_memory_is_taken() {
     let message =
         bench.fail(1, &["convert", "small.png", "out.png", "--to", "fulldome", "--size", "200000", "--memory", "8G"]);
     assert_says(&message, &["--memory", "200000x200000"]);
+}
+
+/// What an option promises is not there for that: taking it would end the program in the middle.
+#[cfg(target_os = "linux")]
+#[test]
+fn memory_that_there_is_not_is_not_promised() {
+    let bench = Bench::new();
+    bench.save("small.png", &picture(0, 64, 32));
+    let before = bench.files();
+    let program = env!("CARGO_BIN_EXE_cosmorama");
+    for (verb, what) in [
+        ("convert small.png out.png --from equirect --to fulldome --size 20000", "20000x20000"),
+        ("explain --from cube --input-size 26000 --to fulldome --size 64", "26000x26000"),
+    ] {
+        // Kibibytes of address space, as farms limit their jobs.
+        let script = format!("ulimit -v 3000000; exec {program} {verb} --threads 2 --memory 100000G");
+        let output =
+            std::process::Command::new("sh").args(["-c", &script]).current_dir(bench.path("")).output().unwrap();
+        let message = bench.check_failure(1, &output, &before);
+        assert_says(&message, &["there are 2.9 GiB, whatever --memory says (97.7 TiB)", what]);
+    }
+    // Where what is needed is there, a promise of more does no harm.
+    let args = ["convert", "small.png", "out.png", "--from", "equirect", "--to", "fulldome", "--size", "64"];
+    bench.succeed(&[&args[..], &["--memory", "100000G"]].concat());
 }
 
 #[test]
@@ -344,13 +383,16 @@ fn a_full_disk() {
     std::fs::create_dir(bench.path("diagrams")).unwrap();
     let before = bench.files();
     let program = env!("CARGO_BIN_EXE_cosmorama");
-    for (verb, file) in [
-        ("convert sky.png out.png --to equirect --size 800 --depth 16", "out.png"),
-        ("explain sky.png --to omnimax --output diagrams", "diagrams/unfolded.svg"),
+    let explain = "explain sky.png --to omnimax --output diagrams";
+    // Blocks of 512 bytes: for nothing, or for all diagrams but the last.
+    for (blocks, verb, file) in [
+        (8, "convert sky.png out.png --to equirect --size 800 --depth 16", "out.png"),
+        (8, explain, "diagrams/unfolded.svg"),
+        (800, explain, "diagrams/footprints.png"),
     ] {
         // Whether or not whoever started the program has it ignore the signal of a limit reached.
         for trap in ["trap '' XFSZ; ", ""] {
-            let script = format!("{trap}ulimit -f 8; exec {program} {verb}");
+            let script = format!("{trap}ulimit -f {blocks}; exec {program} {verb}");
             let output =
                 std::process::Command::new("sh").args(["-c", &script]).current_dir(bench.path("")).output().unwrap();
             let message = bench.check_failure(1, &output, &before);

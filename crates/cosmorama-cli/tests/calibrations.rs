@@ -87,6 +87,8 @@ fn calibrations_that_do_not_fit_say_why() {
         ("fisheye:calibration=folding.json", "320x240", &["turns back 57.29", "86 pixels", "fov= (at most 114.59"]),
         ("fisheye:calibration=folding.json,fov=120", "320x240", &["the field of view is 120°", "114.59"]),
         ("perspective:calibration=bent.yml", "320x240", &["turns back", "pixels", "fov="]),
+        ("fisheye:calibration=", "320x240", &["calibration=: expected a file, as in calibration="]),
+        ("perspective:fov=60,calibration=", "320x240", &["calibration=: expected a file, as in calibration="]),
     ] {
         assert_says(&bench.fail(2, &to(spec, size)), expected);
     }

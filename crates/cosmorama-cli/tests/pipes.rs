@@ -54,6 +54,10 @@ fn what_is_wrong_is_said_and_no_byte_written() {
     refused(2, &["a.png", "-", "--format", "gif"], &["--format gif", "png, jpg"]);
     refused(2, &["a.png", "b.png", "--format", "png"], &["--format", "b.png"]);
     refused(2, &["a.png", "-", "--format", "png", "--json"], &["--json"]);
+    for frame in 7..=8 {
+        bench.save(&format!("sky_{frame}.png"), &picture(frame, 64, 32));
+    }
+    refused(2, &["sky_#.png", "-", "--format", "png"], &["2 frames", "standard output", "--frames 7", "####"]);
     refused(1, &["-", "b.png"], &["standard input: ", "format"]);
     refused(1, &["-", "-", "--format", "png"], &["standard input: "]);
 }

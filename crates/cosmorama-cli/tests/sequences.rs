@@ -80,16 +80,61 @@ fn resume_keeps_what_is_complete_and_makes_the_rest() {
     bench.save("out_3.png", &flat(16, 16, &[1, 2, 3]));
     std::fs::remove_file(bench.path("out_4.png")).unwrap();
     bench.save("out_5.png", &flat(32, 32, &[1]));
-    let report: Value = serde_json::from_str(&bench.succeed(&[&args[..], &["--resume"]].concat())).unwrap();
+    let output = bench.run(&[&args[..], &["--resume"]].concat());
+    let report: Value = serde_json::from_slice(&output.stdout).unwrap();
     assert_eq!((&report["frames"], &report["skipped"]), (&4.into(), &1.into()));
+    // What was there and is not kept is told, each with its reason; what was not there is no news.
+    let reasons = [
+        ("out_2.png", "damaged or truncated PNG: it ends too early"),
+        ("out_3.png", "16x16 instead of 32x32"),
+        ("out_5.png", "grey instead of RGB"),
+    ];
+    let told = bench::text(&output.stderr);
+    let remade = report["remade"].as_array().unwrap();
+    assert_eq!(remade.len(), reasons.len(), "{remade:?}");
+    for ((file, reason), one) in reasons.into_iter().zip(remade) {
+        assert_eq!((&one["output"], &one["reason"]), (&file.into(), &reason.into()));
+        bench::assert_says(&told, &["warning: --resume: 3 outputs", &format!("{file} ({reason})")]);
+        assert!(report["warnings"].to_string().contains(file), "{report}");
+    }
     assert_eq!(bench.load("out_1.png"), flat(32, 32, &[1, 2, 3]));
     for frame in 2..=5 {
         assert!(bench.bytes(&format!("out_{frame}.png")) == made[frame - 1], "frame {frame}");
     }
     let report: Value = serde_json::from_str(&bench.succeed(&[&args[..], &["--resume"]].concat())).unwrap();
     assert_eq!((&report["frames"], &report["skipped"]), (&0.into(), &5.into()));
+    assert!(report["remade"].as_array().unwrap().is_empty() && !report["warnings"].to_string().contains("--resume"));
     bench.succeed(&[&args[..], &["-y"]].concat());
     assert!(bench.bytes("out_1.png") == made[0]);
+}
+
+#[test]
+fn resume_knows_its_own_outputs_in_every_format() {
+    let bench = Bench::new();
+    bench.save("sky.png", &picture(1, 64, 32));
+    let formats = ["png", "jpg", "tif", "tga", "hdr", "exr"].map(|end| (format!("out.{end}"), "--to=fisheye"));
+    let textures = ["ktx2", "dds"].map(|end| (format!("out.{end}"), "--to=cube"));
+    for (out, to) in formats.iter().chain(&textures) {
+        resumed(&bench, &["convert", "sky.png", out, to, "--size", "16", "--from=equirect"]);
+    }
+    for depth in ["half", "float"] {
+        let out = format!("{depth}.exr");
+        let args = ["convert", "sky.png", &out, "--to=fisheye", "--size=16", "--from=equirect", "--st-map", "--depth"];
+        resumed(&bench, &[&args[..], &[depth]].concat());
+    }
+    resumed(&bench, &["convert", "builtin:grid", "grid.png", "--to=fisheye", "--size=32"]);
+    // Whether numbers without a picture are whole cannot be told.
+    let args = ["convert", "builtin:direction-map", "map.exr", "--to=fisheye", "--size=32", "--resume"];
+    bench::assert_says(&bench.fail(2, &args), &["--resume", "builtin:direction-map", "--overwrite"]);
+}
+
+/// Makes a picture; what is made is kept when it is asked for again.
+#[track_caller]
+fn resumed(bench: &Bench, args: &[&str]) {
+    bench.succeed(args);
+    let report: Value =
+        serde_json::from_str(&bench.succeed(&[args, &["--resume", "--json"]].concat())).expect("a report");
+    assert_eq!((&report["frames"], &report["skipped"]), (&0.into(), &1.into()), "{args:?}: {report}");
 }
 
 #[test]
@@ -223,6 +268,30 @@ fn a_frame_of_another_kind_changes_no_other_frame() {
 }
 
 #[test]
+fn a_transparent_frame_among_opaque_ones_is_told() {
+    let bench = Bench::new();
+    bench.save("sky_1.png", &picture(1, 64, 32));
+    bench.save("sky_2.png", &flat(64, 32, &[9, 200, 40, 128]));
+    bench.save("sky_3.png", &flat(64, 32, &[9, 200, 40, 255]));
+    bench.save("sky_4.png", &flat(64, 32, &[200, 0]));
+    let args = ["convert", "sky_#.png", "out_#.png", "--to=fisheye", "--from=equirect", "--size", "32", "-y", "--json"];
+    let warnings = |more: &[&str]| -> Vec<String> {
+        let output = bench.run(&[&args[..], more].concat());
+        let report: Value = serde_json::from_slice(&output.stdout).unwrap();
+        let told = bench::text(&output.stderr);
+        let warnings = report["warnings"].as_array().unwrap().iter();
+        warnings.map(|one| one.as_str().unwrap().to_owned()).inspect(|one| assert!(told.contains(one))).collect()
+    };
+    let told = warnings(&[]);
+    assert_eq!(told.len(), 2, "{told:?}");
+    for (warning, file) in told.iter().zip(["sky_2.png", "sky_4.png"]) {
+        bench::assert_says(warning, &[file, "transparent", "first frame", "--background transparent"]);
+    }
+    assert_eq!(warnings(&["--background", "transparent"]), [""; 0]);
+    assert_eq!(warnings(&["--frames", "2,4"]), [""; 0], "the first frame has alpha");
+}
+
+#[test]
 fn compression_changes_sizes_and_no_pixel() {
     let bench = Bench::new();
     // With stars, where filters of rows and levels of Deflate tell.
@@ -248,6 +317,8 @@ fn compression_changes_sizes_and_no_pixel() {
         let largest = [fast, balanced, high].into_iter().max().unwrap();
         assert!(largest < none && high <= balanced, "{extension}: {none} {fast} {balanced} {high}");
         assert_eq!(size(&[]).0, balanced, "stills are balanced");
+        // As the help says: two of them are one.
+        assert_eq!((fast == balanced, high == balanced), (extension == "tif", extension == "exr"), "{extension}");
     }
     // Frames are written fast, all of them or only some.
     let sequence = |more: &[&str]| {

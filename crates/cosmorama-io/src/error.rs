@@ -113,6 +113,14 @@ pub enum IoError {
         /// The names tried.
         tried: String,
     },
+    /// Where a face should be there is a folder, and no file is found.
+    #[error("{}: a folder, where the file of a face was expected; write which file in it, as in {pattern}/{{face}}.png", path.display())]
+    FaceIsFolder {
+        /// The pattern.
+        pattern: String,
+        /// The folder.
+        path: PathBuf,
+    },
     /// Two naming presets find files and disagree about them.
     #[error(
         "{pattern}: the files fit two namings: {first} ({first_faces}) and {second} ({second_faces}); \

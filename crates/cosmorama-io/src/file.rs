@@ -5,7 +5,7 @@ use std::path::Path;
 use cosmorama::raster::{Channels, Depth, EncodedImage};
 
 use crate::formats::{dds, exr, hdr, jpeg, ktx, ktx2, png, tga, tiff};
-use crate::pending::Pending;
+use crate::pending::{Hidden, Pending};
 use crate::{Format, IoError, Limits, Metadata, Window, WriteOptions};
 
 /// What a file says of itself before its pixels.
@@ -102,6 +102,28 @@ pub fn write_levels(
     metadata: &Metadata,
     options: &WriteOptions,
 ) -> Result<(), IoError> {
+    hidden(path, levels, metadata, options)?.appear()
+}
+
+/// [`write()`] of a picture that appears when it is told to, as together with others.
+///
+/// # Errors
+/// Those of [`write()`].
+pub fn write_hidden(
+    path: &Path,
+    image: &EncodedImage,
+    metadata: &Metadata,
+    options: &WriteOptions,
+) -> Result<Hidden, IoError> {
+    hidden(path, std::slice::from_ref(image), metadata, options)
+}
+
+fn hidden(
+    path: &Path,
+    levels: &[EncodedImage],
+    metadata: &Metadata,
+    options: &WriteOptions,
+) -> Result<Hidden, IoError> {
     let format = Format::from_extension(path)?;
     let Some((image, smaller)) = levels.split_first() else { return Err(IoError::write(path, "there is no picture")) };
     check_can_hold(path, format, image)?;
@@ -126,7 +148,7 @@ pub fn write_levels(
         Format::Ktx => Err(IoError::write(path, "KTX files of the first version are only read; write .ktx2")),
         Format::Dds => dds::write(path, writer, levels, metadata),
     }?;
-    pending.finish()
+    pending.close()
 }
 
 /// Writes planes of numbers that are no picture, each under its name, as halves or floats. The file appears whole or not

@@ -25,7 +25,7 @@ mod write_options;
 pub use calibration::{Calibration, CalibrationError, Distortion};
 pub use error::IoError;
 pub use face_set::{FaceFile, FacePattern, FacePlacement, FaceSet, LetterCase, Naming};
-pub use file::{Header, ImageFile, probe, read, write, write_levels, write_planes};
+pub use file::{Header, ImageFile, probe, read, write, write_hidden, write_levels, write_planes};
 pub use format::Format;
 pub use limits::Limits;
 pub use metadata::{EnvMap, Metadata, Window};

@@ -115,12 +115,39 @@ impl Pending {
     /// # Errors
     /// When the rest of it cannot be written (a full disk may show only now), or it cannot be renamed.
     pub fn finish(self) -> Result<(), IoError> {
+        self.close()?.appear()
+    }
+
+    /// Ends writing. The file waits for its name, so that several can appear once all are whole.
+    ///
+    /// # Errors
+    /// When the rest of it cannot be written: a full disk may show only now.
+    pub fn close(self) -> Result<Hidden, IoError> {
         // What is named first goes last.
-        let Self { target, listed: _listed, path, mut file } = self;
+        let Self { target, listed, path, mut file } = self;
         let flushed = file.flush();
         // Closed before it is renamed.
         drop(file);
         flushed.map_err(|error| IoError::write(&target, error))?;
+        Ok(Hidden { target, path, _listed: listed })
+    }
+}
+
+/// A whole file that does not have its name yet. Dropped without [`Hidden::appear`], it leaves nothing behind.
+pub struct Hidden {
+    target: PathBuf,
+    // Deleted or renamed before it is struck off the list.
+    path: TempPath,
+    _listed: Listed,
+}
+
+impl Hidden {
+    /// Makes it appear under its name; an older file is replaced.
+    ///
+    /// # Errors
+    /// When it cannot be renamed.
+    pub fn appear(self) -> Result<(), IoError> {
+        let Self { target, _listed: _last, path } = self;
         path.persist(&target).map_err(|failed| IoError::write(&target, failed.error))
     }
 }

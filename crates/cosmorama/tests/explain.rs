@@ -2,7 +2,7 @@
 
 use cosmorama::explain::{Figures, Magnification, Report, Underlay};
 use cosmorama::projection::ProjectionKind;
-use cosmorama::resample::{Filter, Needs};
+use cosmorama::resample::{Filter, Needs, SavedPlan};
 use cosmorama::sphere::{CubeFace, Orientation};
 use cosmorama::world::{FieldStop, OmnimaxFraming, PixelGrid, PixelPoint, View, World};
 use glam::DVec2;

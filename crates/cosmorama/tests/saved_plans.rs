@@ -2,10 +2,10 @@
 
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on should stop where it stands")]
 
-use cosmorama::projection::{PlanePoint, PlaneRect, ProjectionKind};
+use cosmorama::projection::{PlanePoint, PlaneRect, ProjectionKind, StMap, StMapTable};
 use cosmorama::raster::{FixedCodec, FixedLight, Rgba, Transfer};
-use cosmorama::resample::{Filter, FilterKind, FixedPlan, Kernel, Plan, PlanError, Resampler};
-use cosmorama::sphere::{Angle, CubeFace, Orientation};
+use cosmorama::resample::{Filter, FilterKind, FixedPlan, Kernel, Plan, PlanError, Resampler, SavedPlan};
+use cosmorama::sphere::{Angle, CubeFace, Direction, Orientation};
 use cosmorama::world::{Blend, FieldStop, PixelGrid, View, ViewMask, World, WorldView};
 use proptest::prelude::*;
 use std::sync::Arc;
@@ -50,6 +50,14 @@ fn floats(light: &FixedLight) -> Vec<Rgba> {
     (0..light.len()).map(|texel| light.rgba(texel)).collect()
 }
 
+/// A plan, kept and read again: as large as it was.
+fn come_back<P: SavedPlan>(plan: &P, resampler: &Resampler) -> P {
+    let key = P::key(resampler);
+    let back = P::from_bytes(&plan.to_bytes(key), key, resampler).unwrap();
+    assert_eq!(back.bytes(), plan.bytes());
+    back
+}
+
 #[test]
 fn what_comes_back_makes_the_same_pixels() {
     let world = cube(40);
@@ -57,13 +65,10 @@ fn what_comes_back_makes_the_same_pixels() {
     for target in [dome(64, 0.0), dome(63, 20.0)] {
         for kind in [FilterKind::Ewa, FilterKind::Bilinear, FilterKind::Point] {
             let resampler = Resampler { world: &world, target: &target, filter: Filter { kind, ..Filter::DEFAULT } };
-            let key = FixedPlan::key(&resampler);
             let plan = resampler.fixed_plan().unwrap();
-            let back = FixedPlan::from_bytes(&plan.to_bytes(key), key, &resampler).unwrap();
-            assert_eq!(back.apply(&light, &codec()), plan.apply(&light, &codec()));
-            let (key, plan) = (Plan::key(&resampler), resampler.plan().unwrap());
-            let back = Plan::from_bytes(&plan.to_bytes(key), key, &resampler).unwrap();
-            assert_eq!(back.apply(&floats(&light)), plan.apply(&floats(&light)));
+            assert_eq!(come_back(&plan, &resampler).apply(&light, &codec()), plan.apply(&light, &codec()));
+            let plan = resampler.plan().unwrap();
+            assert_eq!(come_back(&plan, &resampler).apply(&floats(&light)), plan.apply(&floats(&light)));
         }
     }
 }
@@ -86,7 +91,20 @@ fn whatever_a_plan_depends_on_has_a_key_of_its_own() {
         views[0].name = "another".to_owned();
         World::blended(views).unwrap()
     };
+    // Maps of one size that differ in one sample, by a little.
+    let mapped = |elsewhere: f64| {
+        let table = StMapTable::of_pixels(16, 16, |i, j| {
+            let moved = if (i, j) == (5, 9) { elsewhere } else { 0.0 };
+            let [longitude, latitude] = [i as f64 - 7.5 + moved, 7.5 - j as f64].map(|k| Angle::from_degrees(3.0 * k));
+            Some(Direction::from_longitude_latitude(longitude, latitude))
+        });
+        view(ProjectionKind::StMap(StMap::new(table.unwrap())), 16, 0.5, Orientation::IDENTITY)
+    };
+    let maps = [mapped(0.0), mapped(1e-5)];
+    let map_world = |map: View| World::new([("map".to_owned(), map)]).unwrap();
+    let map_worlds = maps.map(map_world);
     let filter = Filter::DEFAULT;
+    let floor = Kernel { floor: 1.2, ..filter.kernel };
     let (kernel, near) = (Kernel { scale: 0.81, ..filter.kernel }, dome(64, 1e-9));
     let (masked, feathered, small) = ([masked(7), masked(8)], feathered(0.5), cube(41));
     fn of<'a>(world: &'a World, target: &'a View, filter: Filter) -> Resampler<'a> {
@@ -102,6 +120,11 @@ fn whatever_a_plan_depends_on_has_a_key_of_its_own() {
         of(&masked[0], &target, filter),
         of(&masked[1], &target, filter),
         of(&feathered, &target, filter),
+        of(&world, &target, Filter { kernel: floor, ..filter }),
+        of(&world, &maps[0], filter),
+        of(&world, &maps[1], filter),
+        of(&map_worlds[0], &target, filter),
+        of(&map_worlds[1], &target, filter),
     ];
     let keys: Vec<_> = all.iter().flat_map(|one| [Plan::key(one), FixedPlan::key(one)]).collect();
     let different: std::collections::HashSet<_> = keys.iter().collect();

@@ -6,11 +6,11 @@ use cosmorama_io::Compression;
 pub(crate) enum CompressionArg {
     /// Not at all
     None,
-    /// For speed
+    /// For speed; TIFF: as balanced
     Fast,
     /// Between the two
     Balanced,
-    /// For size
+    /// For size; OpenEXR: as balanced
     High,
 }
 

@@ -51,7 +51,8 @@ pub(crate) struct ConvertArgs {
     /// Output sample type [default: as the input, where the format can]
     #[arg(long, value_enum, value_name = "DEPTH", help_heading = "Light")]
     pub(crate) depth: Option<DepthArg>,
-    /// Pixels outside the lens [default: black, transparent where the output has alpha]
+    /// Pixels outside the lens [default: black, transparent where the output has alpha]. Of a sequence, the first frame
+    /// tells whether there is alpha; what is transparent in a later one is laid over this, with a warning
     #[arg(long, value_name = "COLOR", help_heading = "Light")]
     pub(crate) background: Option<Colour>,
     /// Directions that no view covers: error, transparent or a colour
@@ -63,7 +64,8 @@ pub(crate) struct ConvertArgs {
     /// Replace existing outputs
     #[arg(short = 'y', long, conflicts_with = "resume", help_heading = "Frames and files")]
     pub(crate) overwrite: bool,
-    /// Skip outputs that are already complete
+    /// Skip outputs that are already complete: whole, and of the size, channels and depth that this conversion makes. What
+    /// else is in their places is made again, with a warning
     #[arg(long, help_heading = "Frames and files")]
     pub(crate) resume: bool,
     /// The format of standard output, by its extension, as in --format png
@@ -80,7 +82,8 @@ pub(crate) struct ConvertArgs {
     pub(crate) compression: Option<CompressionArg>,
     #[command(flatten)]
     pub(crate) limits: LimitArgs,
-    /// Keep the geometry of conversions in a folder, for the next run of the same one; safe to delete
+    /// Keep the geometry of conversions in a folder, for the next run of the same one; safe to delete. Each has a file about as
+    /// large as its plan in memory, which explain tells: 12 bytes a pixel and more
     #[arg(long, value_name = "DIR", value_hint = ValueHint::DirPath, help_heading = "Run")]
     pub(crate) plan_cache: Option<PathBuf>,
     /// How to tell what is going on, on standard error
@@ -133,7 +136,7 @@ pub(crate) struct LimitArgs {
     /// Threads to work with [default: all cores]
     #[arg(long, value_name = "N", value_parser = threads, allow_hyphen_values = true, help_heading = "Run")]
     pub(crate) threads: Option<usize>,
-    /// Memory to use at most, as in 500M, 8G or 50% [default: 75% of free memory]
+    /// Memory to use at most, as in 500M, 8G or 50%; never more than there is [default: 75% of free memory]
     #[arg(long, value_name = "SIZE", allow_hyphen_values = true, help_heading = "Run")]
     pub(crate) memory: Option<MemorySize>,
 }

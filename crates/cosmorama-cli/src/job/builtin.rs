@@ -113,6 +113,7 @@ impl BuiltinJob {
         }
         memory.check_outputs(&target)?;
         let outputs = Outputs::plan(args, &files, &target, &light, memory)?;
+        warnings.extend(outputs.warning());
         warnings.iter().for_each(|warning| warn(warning));
         Ok(Self { builtin, target, light, outputs, warnings })
     }
@@ -139,6 +140,12 @@ fn check_map(args: &ConvertArgs, format: Format) -> Result<()> {
         return Err(usage(format!(
             "{} is {format}, but the numbers of {} go into named channels; name the output .exr",
             args.output, args.input
+        )));
+    }
+    if args.resume {
+        return Err(usage(format!(
+            "--resume cannot tell whether a file of {} is complete; replace it with -y (--overwrite)",
+            args.input
         )));
     }
     if args.background.is_some() || args.out_transfer.is_some() {

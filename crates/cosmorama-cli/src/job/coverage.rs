@@ -130,11 +130,12 @@ fn shortfall(view: &InputView, need: &Need) -> Option<String> {
     let seen = need.seen?;
     match &view.window {
         None => Some(format!(
-            "{}: {seen} of its {}x{} pixels are needed, but {} is missing",
+            "{}: {seen} of its {}x{} pixels are needed, but {} is {}",
             view.name,
             view.nominal.width(),
             view.nominal.height(),
-            view.files.path(None).display()
+            view.files.path(None).display(),
+            if view.files.is_folder() { "a folder, not an image" } else { "missing" }
         )),
         Some((held, canvas)) => {
             let held = rect(canvas, held);

@@ -37,4 +37,9 @@ impl Files {
             Self::Sequence(pattern) => Some(pattern),
         }
     }
+
+    /// Whether a folder stands where an image should be.
+    pub(crate) fn is_folder(&self) -> bool {
+        self.path(None).is_dir()
+    }
 }

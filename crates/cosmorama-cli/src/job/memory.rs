@@ -6,6 +6,7 @@ use cosmorama::raster::Rgba;
 use cosmorama::world::View;
 use cosmorama_io::Header;
 
+use super::machine::{all_bytes, free_bytes};
 use super::{Input, InputView, Sheet, Target};
 use crate::args::MemorySize;
 
@@ -14,6 +15,8 @@ use crate::args::MemorySize;
 pub(crate) struct MemoryBudget {
     /// Bytes.
     pub(crate) bytes: u64,
+    /// What was asked for, if that is more than there is.
+    too_much: Option<u64>,
 }
 
 /// What is used where nothing else is asked for.
@@ -23,15 +26,16 @@ const DEFAULT_PART: f64 = 0.75;
 const UNKNOWN_FREE: u64 = 4 << 30;
 
 impl MemoryBudget {
-    /// What was asked for, or three quarters of free memory.
+    /// What was asked for, or three quarters of free memory; never more than there is.
     pub(crate) fn new(asked: Option<MemorySize>) -> Self {
         let part = |part: f64| (free_bytes().unwrap_or(UNKNOWN_FREE) as f64 * part) as u64;
-        let bytes = match asked {
+        let wanted = match asked {
             Some(MemorySize::Bytes(bytes)) => bytes,
             Some(MemorySize::Part(fraction)) => part(fraction),
             None => part(DEFAULT_PART),
         };
-        Self { bytes }
+        let all = all_bytes().unwrap_or(u64::MAX);
+        Self { bytes: wanted.min(all), too_much: (wanted > all).then_some(wanted) }
     }
 
     /// Whether the geometry of whole pictures fits, with the light of the largest file, before memory is taken: a small
@@ -89,7 +93,7 @@ impl MemoryBudget {
         let needed = frame_bytes(input, target).saturating_add(levels);
         let why = format!("; smaller copies of the input, for --filter ewa-pyramid, are {} of it", human(levels));
         self.allow(needed, "a frame", &why)?;
-        Ok(Self { bytes: self.bytes - levels })
+        Ok(Self { bytes: self.bytes - levels, ..self })
     }
 
     /// Whether two pictures fit, with the copies that comparing them takes, before memory is taken.
@@ -106,6 +110,15 @@ impl MemoryBudget {
     fn allow(self, needed: u64, what: &str, why: &str) -> Result<()> {
         if needed <= self.bytes {
             return Ok(());
+        }
+        if let Some(asked) = self.too_much {
+            bail!(
+                "{what} needs about {} of memory, but there are {}, whatever --memory says ({}){why}; make pictures smaller, or \
+                 do it where there is more memory",
+                human(needed),
+                human(self.bytes),
+                human(asked),
+            );
         }
         bail!(
             "{what} needs about {} of memory, but {} are allowed{why}; if that is right, raise --memory",
@@ -217,24 +230,4 @@ pub(crate) fn human(bytes: u64) -> String {
         unit += 1;
     }
     if unit == 0 { format!("{bytes} bytes") } else { format!("{value:.1} {}", units[unit]) }
-}
-
-/// The most memory that this process has held, where the system tells.
-pub(crate) fn peak_bytes() -> Option<u64> {
-    kilobytes("/proc/self/status", "VmHWM:")
-}
-
-fn free_bytes() -> Option<u64> {
-    let machine = kilobytes("/proc/meminfo", "MemAvailable:");
-    // In a container the limit of its control group may be lower.
-    let read = |name: &str| std::fs::read_to_string(format!("/sys/fs/cgroup/{name}")).ok()?.trim().parse::<u64>().ok();
-    let group = read("memory.max").map(|limit| limit.saturating_sub(read("memory.current").unwrap_or(0)));
-    [machine, group].into_iter().flatten().min()
-}
-
-/// A line of one of Linux's tables, in bytes.
-fn kilobytes(file: &str, label: &str) -> Option<u64> {
-    let text = std::fs::read_to_string(file).ok()?;
-    let line = text.lines().find(|line| line.starts_with(label))?;
-    line.split_whitespace().nth(1)?.parse::<u64>().ok().map(|kilobytes| kilobytes * 1024)
 }

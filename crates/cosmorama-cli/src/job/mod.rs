@@ -17,6 +17,7 @@ mod halves;
 mod input;
 mod light;
 mod listing;
+mod machine;
 mod mask;
 mod memory;
 mod mirror_image;
@@ -27,6 +28,7 @@ mod packed;
 mod picture;
 mod piece;
 mod pto;
+mod remade;
 mod size;
 mod st_map;
 mod st_pixels;
@@ -44,9 +46,11 @@ pub(crate) use given_faces::{Continuity, FacePixels, GivenFaces};
 pub(crate) use input::{Input, InputView};
 pub(crate) use light::{InputTransfer, Light};
 pub(crate) use listing::{Listed, listed};
-pub(crate) use memory::{InFlight, MemoryBudget, peak_bytes};
+pub(crate) use machine::peak_bytes;
+pub(crate) use memory::{InFlight, MemoryBudget};
 pub(crate) use outputs::{FrameOutputs, Outputs, real_path, refuse_existing};
 pub(crate) use picture::{Picture, Place};
+pub(crate) use remade::Remade;
 pub(crate) use st_map::settled;
 pub(crate) use st_pixels::st_pixels;
 pub(crate) use target::{Sheet, Target, TargetView};
@@ -54,7 +58,7 @@ pub(crate) use target::{Sheet, Target, TargetView};
 use std::path::PathBuf;
 
 use anyhow::Result;
-use cosmorama::raster::Rgba;
+use cosmorama::raster::{Channels, Depth, Rgba};
 use cosmorama::resample::{Filter, Resampler};
 use cosmorama::world::World;
 use cosmorama_io::{Compression, Format, WriteOptions};
@@ -105,9 +109,15 @@ impl ConvertJob {
         }
         input.fit_eyes(target.is_stereo(), &mut warnings);
         let filter = filter(geometry, &mut warnings);
-        let light = Light::resolve(args, &input, &target, &mut warnings)?;
+        let mut light = Light::resolve(args, &input, &target, &mut warnings)?;
+        if args.st_map {
+            // Numbers, not light.
+            light.depth = args.depth.map_or(Depth::Float, Depth::from);
+            light.channels = Channels::Rgb;
+        }
         memory.check_outputs(&target)?;
         let outputs = Outputs::plan(args, &input, &target, &light, memory)?;
+        warnings.extend(outputs.warning());
         let nominal = nominal_worlds(&input, memory)?;
         let (coverage, worlds) = Coverage::check(&mut input, nominal, &target, &filter, args.missing, &mut warnings)?;
         memory.check_frame(&input, &target)?;

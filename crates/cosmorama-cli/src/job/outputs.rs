@@ -2,11 +2,10 @@ use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Result, bail};
-use cosmorama_io::{Limits, pending::Pending, probe, read};
-use rayon::prelude::*;
+use cosmorama_io::pending::Pending;
 
 use super::target::TargetFile;
-use super::{Files, Input, Light, MemoryBudget, Target};
+use super::{Files, Input, Light, MemoryBudget, Remade, Target};
 use crate::args::ConvertArgs;
 use crate::failure::usage;
 
@@ -24,12 +23,24 @@ pub(crate) struct Outputs {
     pub(crate) frames: Vec<FrameOutputs>,
     /// Outputs that were there already.
     pub(crate) skipped: usize,
+    /// Those to be made in whose place something else stands.
+    pub(crate) remade: Vec<Remade>,
 }
 
 impl Outputs {
     /// Whether they are frames of a sequence, be it only one of them.
     pub(crate) fn is_sequence(&self) -> bool {
         self.frames.iter().any(|frame| frame.frame.is_some())
+    }
+
+    /// All that are to be made.
+    pub(crate) fn paths(&self) -> impl Iterator<Item = &Path> {
+        self.frames.iter().flat_map(|frame| frame.files.iter().map(|(_, path)| path.as_path()))
+    }
+
+    /// What should be known of those that are made again.
+    pub(crate) fn warning(&self) -> Option<String> {
+        Remade::warning(&self.remade)
     }
 
     /// The outputs of all frames, checked against each other, the inputs and what exists.
@@ -64,29 +75,31 @@ impl Outputs {
             }
             frames.push(FrameOutputs { frame, files });
         }
+        let mut remade = Vec::new();
         let all: usize = frames.iter().map(|frame| frame.files.len()).sum();
         if args.resume {
-            // As many at once as fit into memory, decoded.
-            let largest = target.files.iter().map(|file| light.file_bytes(file.sheet.size)).max().unwrap_or(0);
-            let at_once = (memory.bytes / largest.max(1)).clamp(1, frames.len().max(1) as u64) as usize;
-            for some in frames.chunks_mut(at_once) {
-                some.par_iter_mut().for_each(|frame| {
-                    frame.files.retain(|(index, path)| !is_complete(path, &target.files[*index], light));
-                });
-            }
+            remade = Remade::find(&mut frames, &target.files, light, memory);
         } else if !args.overwrite {
             let files = frames.iter().flat_map(|frame| frame.files.iter().map(|(_, path)| path.as_path()));
             refuse_existing(files, ", or keep what is there with --resume")?;
         }
         frames.retain(|frame| !frame.files.is_empty());
         let left: usize = frames.iter().map(|frame| frame.files.len()).sum();
-        Ok(Self { frames, skipped: all - left })
+        Ok(Self { frames, skipped: all - left, remade })
     }
 }
 
 /// Many frames need a marker in the output; one frame may go without; a marker without frames means nothing.
 fn check_frame_markers(args: &ConvertArgs, input: &Input, target: &Target) -> Result<()> {
     let numbered = target.files.iter().all(|file| matches!(file.files, Files::Sequence(_)));
+    if input.frames.len() > 1 && args.format.is_some() {
+        return Err(usage(format!(
+            "{} frames cannot go to standard output, which takes one picture; choose one of them, as in --frames {}, or name \
+             output files with ####",
+            input.frames.len(),
+            input.frames[0].unwrap_or_default()
+        )));
+    }
     if input.frames.len() > 1 && !numbered {
         return Err(usage(format!(
             "{} frames cannot go into the one file {}; put #### or %04d where the frame number stands",
@@ -120,15 +133,6 @@ pub(crate) fn real_path(path: &Path) -> PathBuf {
         (Ok(folder), Some(name)) => folder.join(name),
         _ => path.to_owned(),
     }
-}
-
-/// Outputs appear whole, so one that is an image of the right size and kind, and can be read, is done.
-fn is_complete(path: &Path, target: &TargetFile, light: &Light) -> bool {
-    let (width, height) = target.sheet.size;
-    let expected = (width, height, light.channels, light.depth);
-    // What is of another size need not be decoded, and takes no memory.
-    probe(path).is_ok_and(|found| (found.width, found.height, found.channels, found.depth) == expected)
-        && read(path, &Limits::memory(light.file_bytes(target.sheet.size))).is_ok()
 }
 
 /// Files that exist are not replaced unasked. The message ends with what else may be done.

@@ -37,11 +37,8 @@ pub(super) fn convert(builtin: Builtin, args: &ConvertArgs) -> Result<Report> {
         progress.frame_done(*frame);
     }
     progress.finish();
-    let outputs =
-        job.outputs.frames.iter().flat_map(|frame| frame.files.iter().map(|(_, path)| path.clone())).collect();
-    let counts = (job.outputs.frames.len(), job.outputs.skipped);
     let inputs = BTreeSet::from([PathBuf::from(&args.input)]);
-    Ok(Report::new(inputs, outputs, counts, start.elapsed(), &stages, job.warnings))
+    Ok(Report::new(inputs, &job.outputs, start.elapsed(), &stages, job.warnings))
 }
 
 /// The picture of a file and its smaller copies, in front of their background.

@@ -64,10 +64,7 @@ pub(super) fn convert(args: &ConvertArgs) -> Result<Report> {
     }
     progress.finish();
     let inputs: BTreeSet<PathBuf> = job.outputs.frames.iter().flat_map(|frame| job.input.paths(frame.frame)).collect();
-    let outputs =
-        job.outputs.frames.iter().flat_map(|frame| frame.files.iter().map(|(_, path)| path.clone())).collect();
-    let counts = (job.outputs.frames.len(), job.outputs.skipped);
-    Ok(Report::new(inputs, outputs, counts, start.elapsed(), &stages, run.warnings))
+    Ok(Report::new(inputs, &job.outputs, start.elapsed(), &stages, run.warnings))
 }
 
 /// A conversion under way.

@@ -1,4 +1,4 @@
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::ExitCode;
 use std::time::Instant;
 
@@ -122,7 +122,10 @@ fn draw_unfolded(folder: &Path, faces: &[PartialFace], target: &View) -> Result<
         |(view, partial): (usize, &PartialFace)| Underlay { view, href: format!("faces/{}.png", partial.face) };
     let underlays: Vec<Underlay> = faces.iter().enumerate().map(underlay).collect();
     let svg = Figures { world: &world, target }.unfolded(&needs, &underlays);
-    let [vector, raster]: [PathBuf; 2] = diagram::save(folder, "unfolded", &svg)?;
+    for file in diagram::draw(folder, "unfolded", &svg)? {
+        file.appear()?;
+    }
+    let [vector, raster] = diagram::files(folder, "unfolded");
     tell(&vector, "the unfolded cube with the frame's field of view", start)?;
     tell(&raster, "the same as pixels", start)
 }

@@ -3,8 +3,8 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result};
 use cosmorama::raster::Transfer;
-use cosmorama_io::pending::Pending;
-use cosmorama_io::{Metadata, WriteOptions, svg, write};
+use cosmorama_io::pending::{Hidden, Pending};
+use cosmorama_io::{Metadata, WriteOptions, svg, write_hidden};
 
 /// Pixels of a PNG for each unit of its drawing.
 const SCALE: f32 = 1.5;
@@ -14,15 +14,13 @@ pub(super) fn files(folder: &Path, name: &str) -> [PathBuf; 2] {
     ["svg", "png"].map(|extension| folder.join(format!("{name}.{extension}")))
 }
 
-/// Writes a drawing as `NAME.svg` and `NAME.png`; pictures that it refers to are found beside it.
-pub(super) fn save(folder: &Path, name: &str, drawing: &str) -> Result<[PathBuf; 2]> {
+/// Writes a drawing as `NAME.svg` and `NAME.png`; pictures that it refers to are found beside it. Both wait to appear.
+pub(super) fn draw(folder: &Path, name: &str, drawing: &str) -> Result<[Hidden; 2]> {
     let [vector, raster] = files(folder, name);
     let mut pending = Pending::create(&vector)?;
     let written = pending.writer().write_all(drawing.as_bytes());
     written.with_context(|| format!("cannot write {}", vector.display()))?;
-    pending.finish()?;
     let metadata = Metadata { transfer: Some(Transfer::Srgb), ..Metadata::default() };
     let image = svg::rasterise(drawing, SCALE, Some(folder)).context("cannot draw a diagram")?;
-    write(&raster, &image, &metadata, &WriteOptions::default())?;
-    Ok([vector, raster])
+    Ok([pending.close()?, write_hidden(&raster, &image, &metadata, &WriteOptions::default())?])
 }

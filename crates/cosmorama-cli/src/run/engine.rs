@@ -75,7 +75,14 @@ impl<'a> Engine<'a> {
         // Of a sequence, the first frame tells whether there are suns.
         let is_first = self.job.outputs.frames.first().is_some_and(|first| first.frame == frame);
         let suns = if is_first { suns::warning(self.job, light) } else { None };
-        self.incomplete(light).map(tell).chain(suns).collect()
+        let flat = |path: &Path| {
+            format!(
+                "{}: transparent pixels, but the first frame has no alpha: they are laid over the background; to keep them \
+                 transparent, give --background transparent and a format with alpha",
+                path.display()
+            )
+        };
+        self.incomplete(light).map(tell).chain(light.flattened().map(flat)).chain(suns).collect()
     }
 
     /// Views with missing texels, and how many.

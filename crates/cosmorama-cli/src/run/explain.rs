@@ -5,6 +5,7 @@ use anyhow::{Context, Result};
 use cosmorama::explain::{Centre, Figures, Magnification, Report, ViewReport};
 use cosmorama::resample::Needs;
 use cosmorama::world::{PixelRect, World};
+use cosmorama_io::pending::Hidden;
 use serde_json::{Value, json};
 
 use super::pipe::Kept;
@@ -29,7 +30,7 @@ pub(super) fn run(args: &ExplainArgs) -> Result<ExitCode> {
         refuse_existing(files.iter().map(PathBuf::as_path), "")?;
     }
     let worlds = nominal_worlds(&input, MemoryBudget::new(args.limits.memory))?;
-    let (mut text, mut reports) = (String::new(), Vec::new());
+    let (mut text, mut reports, mut drawn) = (String::new(), Vec::new(), Vec::new());
     for picture in &pictures {
         let world = &worlds[picture.world(worlds.len())];
         let report = Report::of(world, &picture.view, &filter);
@@ -38,7 +39,10 @@ pub(super) fn run(args: &ExplainArgs) -> Result<ExitCode> {
         }
         text += &format!("{report}");
         let files = match &args.output {
-            Some(folder) => draw(folder, picture, world, &needs(&report))?,
+            Some(folder) => {
+                drawn.extend(draw(folder, picture, world, &needs(&report))?);
+                diagrams(folder, picture)
+            }
             None => Vec::new(),
         };
         for file in &files {
@@ -46,9 +50,12 @@ pub(super) fn run(args: &ExplainArgs) -> Result<ExitCode> {
         }
         reports.push(to_json(&report, &input, &files));
     }
+    // All diagrams, or none.
+    drawn.into_iter().try_for_each(Hidden::appear)?;
     if args.input.is_some() {
         for view in input.views().filter(|view| view.window.is_none()) {
-            text += &format!("missing  {}: no {}\n", view.name, view.files.path(None).display());
+            let folder = if view.files.is_folder() { ", but a folder of this name" } else { "" };
+            text += &format!("missing  {}: no {}{folder}\n", view.name, view.files.path(None).display());
         }
     }
     if args.json {
@@ -94,13 +101,13 @@ fn needs(report: &Report) -> Needs {
     Needs { views: report.views.iter().map(|view| view.need.clone()).collect(), uncovered: report.uncovered }
 }
 
-fn draw(folder: &Path, picture: &Picture, world: &World, needs: &Needs) -> Result<Vec<PathBuf>> {
+fn draw(folder: &Path, picture: &Picture, world: &World, needs: &Needs) -> Result<Vec<Hidden>> {
     std::fs::create_dir_all(folder).with_context(|| format!("cannot make the folder {}", folder.display()))?;
     let figures = Figures { world, target: &picture.view };
     let drawings = [figures.unfolded(needs, &[]), figures.ownership(), figures.footprints()];
     let mut files = Vec::new();
     for (name, svg) in diagram_names(picture).iter().zip(&drawings) {
-        files.extend(diagram::save(folder, name, svg)?);
+        files.extend(diagram::draw(folder, name, svg)?);
     }
     Ok(files)
 }

@@ -1,3 +1,5 @@
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use anyhow::{Result, bail};
@@ -14,6 +16,8 @@ pub(super) struct FrameLight {
     texels: Texels,
     /// Texels that are missing (NaN), by view.
     missing: Vec<usize>,
+    /// Files with transparent pixels, where the outputs are opaque since the first frame is.
+    flattened: BTreeSet<PathBuf>,
     /// Whether frames are to be held in 15 bits, if they can be.
     is_fixed: bool,
     /// Whether it holds the views that do not change from frame to frame.
@@ -39,7 +43,8 @@ impl FrameLight {
         let texels = if is_fixed { Texels::fixed(job) } else { Texels::floats(job) };
         let missing = vec![0; job.worlds.iter().map(|world| world.sources().len()).sum()];
         let decoder = Decoder::default();
-        Self { texels, missing, is_fixed, has_still: false, decoder, fixed_decoders: Vec::new() }
+        let flattened = BTreeSet::new();
+        Self { texels, missing, flattened, is_fixed, has_still: false, decoder, fixed_decoders: Vec::new() }
     }
 
     /// All the texels.
@@ -50,6 +55,11 @@ impl FrameLight {
     /// Texels that are missing (NaN), by view.
     pub(super) fn missing(&self) -> &[usize] {
         &self.missing
+    }
+
+    /// Files with transparent pixels that nobody has announced: the first frame has none, and the outputs have no alpha.
+    pub(super) fn flattened(&self) -> impl Iterator<Item = &Path> {
+        self.flattened.iter().map(PathBuf::as_path)
     }
 
     /// Takes in a frame: all its views, or those that are not the same in all frames.
@@ -80,6 +90,9 @@ impl FrameLight {
             }
         }
         self.has_still = true;
+        let is_announced = job.light.input_alpha || job.light.channels.has_alpha();
+        let flattened = images.iter().filter(|image| !is_announced && !image.image.is_opaque());
+        self.flattened = flattened.map(|image| image.path.clone()).collect();
         self.decode(job, images, stages)
     }
 

@@ -1,7 +1,7 @@
 use cosmorama::raster::{Channels, Depth, FixedCodec, FixedDecoder, FixedLight, Image, Rgba};
-use cosmorama::resample::{FilterKind, FixedPlan, Plan, PyramidPlan, Resampler};
+use cosmorama::resample::{FilterKind, FixedPlan, Plan, PyramidPlan, Resampler, SavedPlan};
 
-use super::plan_cache::{Kept, PlanCache};
+use super::plan_cache::PlanCache;
 use crate::job::{ConvertJob, Coverage, TargetView};
 
 /// The geometry of a job, in the form that its light needs: compiled by target view, where that pays and fits into memory.
@@ -114,7 +114,7 @@ fn fitting<P>(
 }
 
 /// Geometry for many frames is computed once, and once for many runs where it is kept, as far as it fits into memory.
-fn kept<P: Kept>(
+fn kept<P: SavedPlan>(
     job: &ConvertJob,
     estimate: impl Fn(&Resampler) -> usize,
     plan: impl Fn(&Resampler) -> Option<P>,

@@ -3,7 +3,7 @@ use std::io::{ErrorKind, Write};
 use std::path::Path;
 
 use anyhow::Result;
-use cosmorama::resample::{FixedPlan, Plan, PlanError, PlanKey, Resampler};
+use cosmorama::resample::{PlanKey, Resampler, SavedPlan};
 use cosmorama_io::pending::Pending;
 
 /// Plans in a folder, from one run to the next. Nothing depends on it: what is not there, or not right, is computed.
@@ -15,39 +15,6 @@ pub(super) struct PlanCache<'a> {
     pub(super) warnings: Vec<String>,
 }
 
-/// A plan that can be kept.
-pub(super) trait Kept: Sized {
-    fn key(resampler: &Resampler) -> PlanKey;
-    fn to_bytes(&self, key: PlanKey) -> Vec<u8>;
-    fn from_bytes(bytes: &[u8], key: PlanKey, resampler: &Resampler) -> Result<Self, PlanError>;
-    /// Bytes of memory that it holds.
-    fn bytes(&self) -> usize;
-}
-
-macro_rules! kept {
-    ($($plan:ident),*) => {$(
-        impl Kept for $plan {
-            fn key(resampler: &Resampler) -> PlanKey {
-                $plan::key(resampler)
-            }
-
-            fn to_bytes(&self, key: PlanKey) -> Vec<u8> {
-                $plan::to_bytes(self, key)
-            }
-
-            fn from_bytes(bytes: &[u8], key: PlanKey, resampler: &Resampler) -> Result<Self, PlanError> {
-                $plan::from_bytes(bytes, key, resampler)
-            }
-
-            fn bytes(&self) -> usize {
-                $plan::bytes(self)
-            }
-        }
-    )*};
-}
-
-kept!(Plan, FixedPlan);
-
 impl<'a> PlanCache<'a> {
     /// That of a folder, which need not exist yet.
     pub(super) fn new(folder: &'a Path, memory: u64) -> Self {
@@ -55,7 +22,11 @@ impl<'a> PlanCache<'a> {
     }
 
     /// The plan of a conversion, from the folder or computed, and then kept there. `None` where there is none to be had.
-    pub(super) fn plan<P: Kept>(&mut self, resampler: &Resampler, compute: impl FnOnce() -> Option<P>) -> Option<P> {
+    pub(super) fn plan<P: SavedPlan>(
+        &mut self,
+        resampler: &Resampler,
+        compute: impl FnOnce() -> Option<P>,
+    ) -> Option<P> {
         if self.folder.exists() && !self.folder.is_dir() {
             self.warnings.push(format!("--plan-cache {} is no folder; nothing is kept", self.folder.display()));
             return compute();
@@ -74,7 +45,7 @@ impl<'a> PlanCache<'a> {
         Some(plan)
     }
 
-    fn found<P: Kept>(&self, path: &Path, key: PlanKey, resampler: &Resampler) -> Result<Option<P>> {
+    fn found<P: SavedPlan>(&self, path: &Path, key: PlanKey, resampler: &Resampler) -> Result<Option<P>> {
         match std::fs::metadata(path) {
             // What does not fit beside the plan that is made of it is not read.
             Ok(found) if !found.is_file() => anyhow::bail!("no file"),
@@ -86,7 +57,7 @@ impl<'a> PlanCache<'a> {
     }
 
     /// Writes a file whole or not at all; of several programs that write the same one, the last one's stays.
-    fn keep<P: Kept>(&self, path: &Path, plan: &P, key: PlanKey) -> Result<()> {
+    fn keep<P: SavedPlan>(&self, path: &Path, plan: &P, key: PlanKey) -> Result<()> {
         if plan.bytes() as u64 > self.memory / 2 {
             anyhow::bail!("there is no room to write it; raise --memory");
         }

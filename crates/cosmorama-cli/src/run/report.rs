@@ -1,12 +1,12 @@
 use std::collections::BTreeSet;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use anyhow::Result;
 use serde::Serialize;
 
 use super::stages::{CpuSeconds, Stages};
-use crate::job::peak_bytes;
+use crate::job::{Outputs, Remade, peak_bytes};
 use crate::stream;
 
 /// What `--json` prints after a conversion.
@@ -18,6 +18,8 @@ pub(super) struct Report {
     frames: usize,
     /// Outputs that were complete already.
     skipped: usize,
+    /// Outputs that `--resume` found in another state, and that were made again.
+    remade: Vec<Remade>,
     wall_seconds: f64,
     cpu_seconds: CpuSeconds,
     peak_memory_bytes: Option<u64>,
@@ -27,17 +29,17 @@ pub(super) struct Report {
 impl Report {
     pub(super) fn new(
         inputs: BTreeSet<PathBuf>,
-        outputs: Vec<PathBuf>,
-        (frames, skipped): (usize, usize),
+        outputs: &Outputs,
         wall: Duration,
         stages: &Stages,
         warnings: Vec<String>,
     ) -> Self {
         Self {
             inputs: inputs.into_iter().collect(),
-            outputs,
-            frames,
-            skipped,
+            outputs: outputs.paths().map(Path::to_owned).collect(),
+            frames: outputs.frames.len(),
+            skipped: outputs.skipped,
+            remade: outputs.remade.clone(),
             wall_seconds: wall.as_secs_f64(),
             cpu_seconds: stages.cpu_seconds(),
             peak_memory_bytes: peak_bytes(),

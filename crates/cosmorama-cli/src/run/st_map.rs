@@ -26,7 +26,7 @@ pub(super) fn convert(args: &ConvertArgs) -> Result<Report> {
     }
     let job = stages.alone(Stage::Plan, || ConvertJob::resolve(args))?;
     check(args, &job)?;
-    let depth = args.depth.map_or(Depth::Float, Depth::from);
+    let depth = job.light.depth;
     if depth == Depth::Half {
         warn(
             "--depth half: halves of an st map tell places to 1/2048 of the picture's width only; leave it out for floats",
@@ -40,10 +40,8 @@ pub(super) fn convert(args: &ConvertArgs) -> Result<Report> {
             stages.alone(Stage::Encode, || save(&image, path, depth))?;
         }
     }
-    let frames = &job.outputs.frames;
-    let inputs: BTreeSet<PathBuf> = frames.iter().flat_map(|frame| job.input.paths(frame.frame)).collect();
-    let outputs = frames.iter().flat_map(|frame| frame.files.iter().map(|(_, path)| path.clone())).collect();
-    Ok(Report::new(inputs, outputs, (frames.len(), job.outputs.skipped), start.elapsed(), &stages, job.warnings))
+    let inputs: BTreeSet<PathBuf> = job.outputs.frames.iter().flat_map(|frame| job.input.paths(frame.frame)).collect();
+    Ok(Report::new(inputs, &job.outputs, start.elapsed(), &stages, job.warnings))
 }
 
 /// A map holds no colours.

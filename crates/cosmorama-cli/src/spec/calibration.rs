@@ -6,7 +6,7 @@ use cosmorama::world::{CalibratedFrame, CalibratedLens, CameraMatrix};
 use cosmorama_io::{Calibration, Distortion};
 
 use super::SpecError;
-use super::fields::Fields;
+use super::fields::{Fields, wrong};
 
 /// Which lens a SPEC's name stands for.
 #[derive(Clone, Copy, PartialEq)]
@@ -21,14 +21,17 @@ const SAID: [&str; 9] = ["lens", "k", "fit", "focal", "sensor", "center", "radiu
 /// The frame of a SPEC with `calibration=`; `None` without it.
 pub(super) fn calibrated(fields: &Fields, family: Family) -> Result<Option<CalibratedFrame>, SpecError> {
     let Some(file) = fields.file("calibration") else { return Ok(None) };
+    if fields.get("calibration") == Some("") {
+        return Err(wrong("calibration", "", "a file, as in calibration=camera.yml"));
+    }
     for first in SAID.into_iter().chain(["dfov"]) {
         if fields.get(first).is_some() {
             return Err(SpecError::Both { first, second: "calibration" });
         }
     }
-    let wrong = |reason: String| SpecError::Calibration { reason };
-    let told = |reason: &dyn std::fmt::Display| wrong(format!("{}: {reason}", file.display()));
-    let calibration = Calibration::read(&file).map_err(|error| wrong(error.to_string()))?;
+    let unusable = |reason: String| SpecError::Calibration { reason };
+    let told = |reason: &dyn std::fmt::Display| unusable(format!("{}: {reason}", file.display()));
+    let calibration = Calibration::read(&file).map_err(|error| unusable(error.to_string()))?;
     let lens = lens(&calibration.distortion, family).map_err(|reason| told(&reason))?;
     let matrix = CameraMatrix::from_rows(calibration.matrix).map_err(|error| told(&error))?;
     Ok(Some(CalibratedFrame { lens, matrix, size: calibration.size, field_of_view: fields.angle("fov")? }))

@@ -60,7 +60,7 @@ impl FaceSet {
             found.retain(Self::is_enough);
         }
         match found.len() {
-            0 => Err(no_faces(&pattern, &namings)),
+            0 => Err(folder(&pattern, &namings).unwrap_or_else(|| no_faces(&pattern, &namings))),
             1 => Ok(found.remove(0)),
             _ => Err(IoError::AmbiguousNaming {
                 pattern: pattern.as_str().to_owned(),
@@ -172,6 +172,16 @@ impl Folders {
 
 fn file_name(path: &Path) -> String {
     path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned()
+}
+
+/// Where a folder is called as a face would be.
+fn folder(pattern: &FacePattern, namings: &[&'static Naming]) -> Option<IoError> {
+    let cases = |naming: &&'static Naming| LetterCase::ALL.map(|case| (*naming, case));
+    let paths = namings.iter().flat_map(cases).flat_map(|(naming, case)| {
+        CubeFace::ALL.into_iter().map(move |face| PathBuf::from(pattern.name(naming, case, face)))
+    });
+    let path = paths.into_iter().find(|path| path.is_dir())?;
+    Some(IoError::FaceIsFolder { pattern: pattern.as_str().to_owned(), path })
 }
 
 fn no_faces(pattern: &FacePattern, namings: &[&'static Naming]) -> IoError {

@@ -116,6 +116,21 @@ impl EncodedImage {
         Self { alpha_mode, ..self }
     }
 
+    /// Whether every pixel has an alpha of one, or there is no alpha. NaN is none.
+    pub fn is_opaque(&self) -> bool {
+        fn all<S: Copy>(samples: &[S], count: usize, is_one: impl Fn(S) -> bool) -> bool {
+            samples.iter().skip(count - 1).step_by(count).all(|alpha| is_one(*alpha))
+        }
+        let count = self.channels.count();
+        !self.channels.has_alpha()
+            || match &self.samples {
+                Samples::U8(samples) => all(samples, count, |alpha| alpha == u8::MAX),
+                Samples::U16(samples) => all(samples, count, |alpha| alpha == u16::MAX),
+                Samples::Half(samples) => all(samples, count, |alpha| alpha >= f16::ONE),
+                Samples::Float(samples) => all(samples, count, |alpha| alpha >= 1.0),
+            }
+    }
+
     /// A part of the same: columns from `left`, rows from `top`.
     ///
     /// # Panics
@@ -172,5 +187,24 @@ impl EncodedImage {
     /// All samples, by value.
     pub fn into_samples(self) -> Samples {
         self.samples
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn one_pixel_tells_that_an_image_is_not_opaque() {
+        let is_opaque =
+            |depth, samples: Samples| EncodedImage::new(2, 1, Channels::GreyAlpha, depth, samples).unwrap().is_opaque();
+        assert!(is_opaque(Depth::Eight, Samples::U8(vec![0, 255, 0, 255])));
+        assert!(!is_opaque(Depth::Eight, Samples::U8(vec![255, 255, 255, 254])));
+        assert!(is_opaque(Depth::Ten, Samples::U16(vec![0, 65535, 0, 65535])));
+        assert!(!is_opaque(Depth::Sixteen, Samples::U16(vec![65535, 65534, 65535, 65535])));
+        assert!(is_opaque(Depth::Half, Samples::Half(vec![f16::ZERO, f16::ONE, f16::ZERO, f16::ONE])));
+        assert!(!is_opaque(Depth::Float, Samples::Float(vec![1.0, f32::NAN, 1.0, 1.0])));
+        let grey = EncodedImage::new(1, 1, Channels::Grey, Depth::Eight, Samples::U8(vec![0])).unwrap();
+        assert!(grey.is_opaque());
     }
 }

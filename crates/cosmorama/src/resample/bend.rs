@@ -42,21 +42,7 @@ impl Bend {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::projection::{PlanePoint, PlaneRect, ProjectionKind};
-    use crate::sphere::Orientation;
-    use crate::world::{FieldStop, PixelGrid};
-
-    fn panorama(width: usize, height: usize) -> View {
-        let (x, y) = (std::f64::consts::PI, std::f64::consts::FRAC_PI_2);
-        let rect = PlaneRect { min: PlanePoint::new(-x, -y), max: PlanePoint::new(x, y) };
-        let grid = PixelGrid::spanning(width, height, rect);
-        View {
-            projection: ProjectionKind::EQUIRECTANGULAR,
-            orientation: Orientation::IDENTITY,
-            grid,
-            stop: FieldStop::NONE,
-        }
-    }
+    use crate::world::panorama;
 
     #[test]
     fn parallels_bend_as_the_formula_says() {

@@ -39,7 +39,7 @@ pub(crate) use kernel::KernelTable;
 pub use kernel::{CrossSection, Kernel};
 pub use need::{Need, Needs, Uncovered};
 pub(crate) use pixel_taps::PixelTaps;
-pub use plan::{FixedPlan, Plan, PlanError, PlanKey};
+pub use plan::{FixedPlan, Plan, PlanError, PlanKey, SavedPlan};
 pub use pyramid::PyramidPlan;
 pub(crate) use pyramid::{Pyramid, TexelCount};
 pub use resampler::Resampler;

@@ -9,7 +9,7 @@ use super::halving::Halving;
 use super::level_map::{LevelMap, part};
 use super::scan::Wanted;
 use super::window::Level as Instructions;
-use super::{Filter, FilterKind, KernelTable, PixelTaps, Plan, Resampler, plan};
+use super::{Filter, FilterKind, KernelTable, PixelTaps, Plan, Resampler, SavedPlan, plan};
 use crate::raster::{Image, Rgba};
 use crate::world::{ScreenPixel, World};
 

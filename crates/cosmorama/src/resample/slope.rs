@@ -153,6 +153,17 @@ mod tests {
     }
 
     #[test]
+    fn as_many_texels_as_confirm_a_slope() {
+        let range = Bounds { least: [0.7; 4], greatest: [0.85; 4] };
+        let average = Rgba::opaque(0.65, 0.7, 0.7);
+        // Two rows, exactly on a slope.
+        let places = (0..4).flat_map(|i| [0.5, 1.5].map(|y| [0.01 * (i as f32 - 1.2), 0.01 * y]));
+        let texels = places.map(|[x, y]| (Rgba::opaque(0.65 + 10.0 * y, 0.7, 0.7), [x, y]));
+        assert_eq!(hold(average, &range, texels.clone().take(7)).0[0], 0.7);
+        assert_eq!(hold(average, &range, texels).0[0], 0.65);
+    }
+
+    #[test]
     fn texels_in_a_line_or_too_few_confirm_nothing() {
         let range = Bounds { least: [0.6; 4], greatest: [1.0; 4] };
         let line = (0..9).map(|k| (Rgba::opaque(0.6 + 0.05 * k as f32, 0.6, 0.6), [0.01 * k as f32, 0.02 * k as f32]));

@@ -56,21 +56,7 @@ pub(crate) fn held(size: usize, half: usize, index: usize) -> std::ops::Range<us
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::projection::{PlanePoint, PlaneRect, ProjectionKind};
-    use crate::sphere::Orientation;
-    use crate::world::{FieldStop, PixelGrid, PixelPoint};
-
-    fn panorama(width: usize, height: usize) -> View {
-        let half = (std::f64::consts::PI, std::f64::consts::FRAC_PI_2);
-        let rect = PlaneRect { min: PlanePoint::new(-half.0, -half.1), max: PlanePoint::new(half.0, half.1) };
-        let grid = PixelGrid::spanning(width, height, rect);
-        View {
-            projection: ProjectionKind::EQUIRECTANGULAR,
-            orientation: Orientation::IDENTITY,
-            grid,
-            stop: FieldStop::NONE,
-        }
-    }
+    use crate::world::{PixelPoint, panorama};
 
     fn world(view: View, mask: Option<ViewMask>) -> World {
         let view = WorldView { name: "all".to_owned(), view, blend: Default::default(), mask: mask.map(Arc::new) };

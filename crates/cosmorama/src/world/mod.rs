@@ -10,6 +10,8 @@ mod halved;
 mod layout;
 mod mask_shape;
 mod overlap;
+#[cfg(test)]
+mod panorama;
 mod seen_cone;
 mod solid_angles;
 mod st_pixels;
@@ -36,6 +38,8 @@ pub use layout::{
     LensSide, PlacedFace, PlacedLens, Stereo,
 };
 pub use mask_shape::MaskShape;
+#[cfg(test)]
+pub(crate) use panorama::panorama;
 pub use solid_angles::SolidAngles;
 pub use st_pixels::{ST_NOWHERE, StPixel};
 pub use view::{Footprint, View};

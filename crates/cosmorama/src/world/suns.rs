@@ -32,21 +32,11 @@ fn brightness(light: Rgba) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::projection::{PlanePoint, PlaneRect, ProjectionKind};
-    use crate::sphere::Orientation;
-    use crate::world::{FieldStop, PixelGrid, View};
+    use crate::world::panorama;
 
     #[test]
     fn suns_are_what_is_bright_and_small() {
-        let (x, y) = (std::f64::consts::PI, std::f64::consts::FRAC_PI_2);
-        let rect = PlaneRect { min: PlanePoint::new(-x, -y), max: PlanePoint::new(x, y) };
-        let view = View {
-            projection: ProjectionKind::EQUIRECTANGULAR,
-            orientation: Orientation::IDENTITY,
-            grid: PixelGrid::spanning(200, 100, rect),
-            stop: FieldStop::NONE,
-        };
-        let world = World::new([("sky".to_owned(), view)]).expect("one view");
+        let world = World::new([("sky".to_owned(), panorama(200, 100))]).expect("one view");
         let sky = |sun: f32| world.light_of_suns(|texel| Rgba::opaque(0.5, if texel == 9900 { sun } else { 0.5 }, 0.5));
         // One texel on the horizon is 1/12732 of the sphere.
         assert_eq!(sky(100.0), 0.0);

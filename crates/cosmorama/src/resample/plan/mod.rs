@@ -13,6 +13,7 @@ mod key;
 mod mirrors;
 mod rounded;
 mod saved;
+mod saved_plan;
 mod stored;
 #[cfg(test)]
 mod tests;
@@ -32,6 +33,7 @@ use float_weights::FloatWeights;
 pub use key::PlanKey;
 use mirrors::{MirrorImage, Mirrors};
 pub use saved::PlanError;
+pub use saved_plan::SavedPlan;
 use weights::Weights;
 
 use super::kernel::KernelTable;
@@ -88,32 +90,9 @@ impl Plan {
         image
     }
 
-    /// Bytes of memory that the plan holds.
-    pub fn bytes(&self) -> usize {
-        self.0.bytes()
-    }
-
     /// About how many that of a conversion would hold, or of its wanted patches: found from some bands of rows, keeping nothing.
     pub(super) fn bytes_estimate(resampler: &Resampler, wanted: Option<&Wanted>) -> usize {
         bytes_estimate::<FloatWeights>(resampler, wanted)
-    }
-
-    /// What tells the plan of a conversion from any other.
-    pub fn key(resampler: &Resampler) -> PlanKey {
-        PlanKey::new(resampler, "light of any range")
-    }
-
-    /// The plan of the conversion that has this key, to be kept.
-    pub fn to_bytes(&self, key: PlanKey) -> Vec<u8> {
-        self.0.to_bytes(key)
-    }
-
-    /// A plan that was kept. Bytes from anywhere are safe to give: all that the plan says is checked.
-    ///
-    /// # Errors
-    /// When they are not the plan of this conversion and of this version, whole and sound.
-    pub fn from_bytes(bytes: &[u8], key: PlanKey, resampler: &Resampler) -> Result<Self, PlanError> {
-        Compiled::from_bytes(bytes, key, resampler).map(Self)
     }
 }
 
@@ -131,32 +110,9 @@ impl FixedPlan {
         image
     }
 
-    /// Bytes of memory that the plan holds.
-    pub fn bytes(&self) -> usize {
-        self.0.bytes()
-    }
-
     /// About how many that of a conversion would hold: found from some bands of rows, keeping nothing.
     pub(super) fn bytes_estimate(resampler: &Resampler) -> usize {
         bytes_estimate::<FixedWeights>(resampler, None)
-    }
-
-    /// What tells the plan of a conversion from any other.
-    pub fn key(resampler: &Resampler) -> PlanKey {
-        PlanKey::new(resampler, "light of 15 bits")
-    }
-
-    /// The plan of the conversion that has this key, to be kept.
-    pub fn to_bytes(&self, key: PlanKey) -> Vec<u8> {
-        self.0.to_bytes(key)
-    }
-
-    /// A plan that was kept. Bytes from anywhere are safe to give: all that the plan says is checked.
-    ///
-    /// # Errors
-    /// When they are not the plan of this conversion and of this version, whole and sound.
-    pub fn from_bytes(bytes: &[u8], key: PlanKey, resampler: &Resampler) -> Result<Self, PlanError> {
-        Compiled::from_bytes(bytes, key, resampler).map(Self)
     }
 }
 
