@@ -148,6 +148,17 @@ fn an_absurd_size_is_refused_before_memory_is_taken() {
 }
 
 #[test]
+fn explain_is_told_that_its_picture_is_too_large_before_memory_is_taken() {
+    let bench = Bench::new();
+    let explain = |to: &str, size: &str| {
+        let sizes = ["--from", "cube", "--input-size", "64", "--to", to, "--size", size, "--memory", "500M"];
+        bench.fail(1, &[&["explain"][..], &sizes].concat())
+    };
+    assert_says(&explain("cylinder:vfov=90,hfov=1e-300", "8"), &["a frame", "the output 8x", "--memory"]);
+    assert_says(&explain("equirect", "1000000x500000"), &["the output 1000000x500000", "--memory"]);
+}
+
+#[test]
 fn a_window_of_a_huge_canvas_is_refused_before_memory_is_taken() {
     let bench = Bench::new();
     bench.save("one.png", &flat(1, 1, &[9, 9, 9]));

@@ -28,7 +28,9 @@ pub(super) fn run(args: &ExplainArgs) -> Result<ExitCode> {
         let files: Vec<PathBuf> = pictures.iter().flat_map(|picture| diagrams(folder, picture)).collect();
         refuse_existing(files.iter().map(PathBuf::as_path), "")?;
     }
-    let worlds = nominal_worlds(&input, MemoryBudget::new(args.limits.memory))?;
+    let memory = MemoryBudget::new(args.limits.memory);
+    memory.check_sizes(pictures.iter().map(|picture| (picture.view.width(), picture.view.height())))?;
+    let worlds = nominal_worlds(&input, memory)?;
     let (mut text, mut reports) = (String::new(), Vec::new());
     for picture in &pictures {
         let world = &worlds[picture.world(worlds.len())];
