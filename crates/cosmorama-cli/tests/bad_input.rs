@@ -220,6 +220,16 @@ fn explain_replaces_nothing_unasked() {
 }
 
 #[test]
+fn a_diagram_replaces_no_input() {
+    let bench = Bench::new();
+    bench.save("unfolded.png", &picture(1, 64, 32));
+    let before = bench.bytes("unfolded.png");
+    let args = ["explain", "unfolded.png", "--to", "omnimax", "--size", "32", "--output", ".", "-y"];
+    assert_says(&bench.fail(2, &args), &["unfolded.png", "replace its own input"]);
+    assert_eq!(bench.bytes("unfolded.png"), before);
+}
+
+#[test]
 fn a_face_of_nan() {
     let bench = Bench::new();
     for face in CubeFace::ALL {

@@ -45,7 +45,7 @@ pub(crate) use input::{Input, InputView};
 pub(crate) use light::{InputTransfer, Light};
 pub(crate) use listing::{Listed, listed};
 pub(crate) use memory::{InFlight, MemoryBudget, peak_bytes};
-pub(crate) use outputs::{FrameOutputs, Outputs, real_path, refuse_existing};
+pub(crate) use outputs::{FrameOutputs, Outputs, check_apart, real_path, refuse_existing};
 pub(crate) use picture::{Picture, Place};
 pub(crate) use st_map::settled;
 pub(crate) use st_pixels::st_pixels;

@@ -1,3 +1,4 @@
+use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -11,7 +12,9 @@ use super::pipe::Kept;
 use super::{diagram, print, use_threads};
 use crate::args::ExplainArgs;
 use crate::failure::{usage, warn};
-use crate::job::{Builtin, Input, MemoryBudget, Picture, filter, nominal_worlds, refuse_existing, settled};
+use crate::job::{
+    Builtin, Input, MemoryBudget, Picture, check_apart, filter, nominal_worlds, real_path, refuse_existing, settled,
+};
 
 /// Tells what a conversion will do.
 pub(super) fn run(args: &ExplainArgs) -> Result<ExitCode> {
@@ -24,9 +27,8 @@ pub(super) fn run(args: &ExplainArgs) -> Result<ExitCode> {
     input.fit_eyes(pictures.iter().any(|picture| picture.eye.is_some()), &mut warnings);
     let filter = filter(&args.geometry, &mut warnings);
     warnings.iter().for_each(|warning| warn(warning));
-    if let (Some(folder), false) = (&args.output, args.overwrite) {
-        let files: Vec<PathBuf> = pictures.iter().flat_map(|picture| diagrams(folder, picture)).collect();
-        refuse_existing(files.iter().map(PathBuf::as_path), "")?;
+    if let Some(folder) = &args.output {
+        check_diagrams(folder, &pictures, &input, args)?;
     }
     let memory = MemoryBudget::new(args.limits.memory);
     memory.check_sizes(pictures.iter().map(|picture| (picture.view.width(), picture.view.height())))?;
@@ -89,6 +91,16 @@ fn resolve(args: &ExplainArgs, warnings: &mut Vec<String>) -> Result<(Input, Vec
         }
         (None, None) => Err(usage("give an input, or --from for one that does not exist yet")),
     }
+}
+
+/// Diagrams replace no input, nor anything else unasked.
+fn check_diagrams(folder: &Path, pictures: &[Picture], input: &Input, args: &ExplainArgs) -> Result<()> {
+    let specs = [&args.geometry.from, &args.geometry.to].into_iter().flatten();
+    let named = specs.flat_map(|spec| spec.files.iter().cloned());
+    let inputs: HashSet<PathBuf> = input.files().chain(named).map(|path| real_path(&path)).collect();
+    let files: Vec<PathBuf> = pictures.iter().flat_map(|picture| diagrams(folder, picture)).collect();
+    files.iter().try_for_each(|path| check_apart(path, &inputs))?;
+    if args.overwrite { Ok(()) } else { refuse_existing(files.iter().map(PathBuf::as_path), "") }
 }
 
 /// What the report has found out already.

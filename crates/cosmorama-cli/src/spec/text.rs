@@ -122,7 +122,10 @@ impl Spec {
         if stereo.is_some() && matches!(shape, Shape::StMap(_)) {
             return Err(SpecError::Both { first: "stereo", second: "file" });
         }
-        let files = ["file", "calibration"].into_iter().filter_map(|key| fields.file(key)).collect();
+        let mut files: Vec<PathBuf> = ["file", "calibration"].into_iter().filter_map(|key| fields.file(key)).collect();
+        if let Shape::StMap(map) = &shape {
+            files.extend(map.base_files.iter().cloned());
+        }
         Ok(Self { name: kind.name, shape, stereo, files })
     }
 }
