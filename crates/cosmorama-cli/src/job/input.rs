@@ -253,6 +253,23 @@ impl Input {
         Ok(Self { worlds: vec![views?], frames, faces: given, beside: Vec::new() })
     }
 
+    /// What is told of files that ask for being turned, which is not done.
+    pub(crate) fn turned(&self) -> Vec<String> {
+        let turned = self.present().filter_map(|(view, header, _)| Some((view, header.metadata.orientation?)));
+        let mut told: Vec<String> = turned
+            .map(|(view, orientation)| {
+                format!(
+                    "{} asks for being turned or mirrored (orientation {orientation}), but its pixels are taken as they are \
+                     stored; turn it first, as with magick -auto-orient",
+                    view.files.path(self.frames[0]).display()
+                )
+            })
+            .collect();
+        // Faces may share a file.
+        told.dedup();
+        told
+    }
+
     /// The views that have files and are wanted, with the geometry of what those hold.
     pub(crate) fn present(&self) -> impl Iterator<Item = (&InputView, &Header, &View)> {
         self.views().filter_map(InputView::present)

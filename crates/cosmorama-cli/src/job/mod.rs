@@ -103,6 +103,7 @@ impl ConvertJob {
         if args.mips {
             target = target.with_mips(&args.output, geometry)?;
         }
+        warnings.extend(input.turned());
         input.fit_eyes(target.is_stereo(), &mut warnings);
         let filter = filter(geometry, &mut warnings);
         let light = Light::resolve(args, &input, &target, &mut warnings)?;

@@ -24,6 +24,7 @@ pub(super) fn run(args: &ExplainArgs) -> Result<ExitCode> {
     let args = &args;
     let mut warnings = Vec::new();
     let (mut input, pictures) = resolve(args, &mut warnings)?;
+    warnings.extend(input.turned());
     input.fit_eyes(pictures.iter().any(|picture| picture.eye.is_some()), &mut warnings);
     let filter = filter(&args.geometry, &mut warnings);
     warnings.iter().for_each(|warning| warn(warning));

@@ -117,6 +117,9 @@ fn header_report(header: &Header) -> Value {
     if !metadata.other_channels.is_empty() {
         report["other_channels"] = json!(metadata.other_channels);
     }
+    if let Some(orientation) = metadata.orientation {
+        report["orientation"] = json!(format!("{orientation} (not followed: pixels are taken as they are stored)"));
+    }
     if let Some(software) = &metadata.software {
         report["software"] = json!(software);
     }
