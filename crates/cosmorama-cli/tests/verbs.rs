@@ -112,6 +112,28 @@ fn explain_draws() {
     }
 }
 
+/// Names of files are bytes; reports are text.
+#[cfg(target_os = "linux")]
+#[test]
+fn names_that_are_no_text() {
+    use std::ffi::OsStr;
+    use std::os::unix::ffi::OsStrExt;
+
+    let bench = Bench::new();
+    let run = |args: &[&str], name: &[u8]| bench.command(args).arg(OsStr::from_bytes(name)).output().unwrap();
+    let explain = ["explain", "--from", "cube", "--input-size", "16", "--to", "omnimax", "--size", "32"];
+    for args in [&[&explain[..], &["--output"]].concat()[..], &[&explain[..], &["--json", "-y", "--output"]].concat()] {
+        let output = run(args, b"bad\xffdir");
+        assert!(output.status.success(), "{}", bench::text(&output.stderr));
+        assert!(bench::text(&output.stdout).contains("bad\u{fffd}dir/unfolded.svg"));
+    }
+    assert!(bench.path("").join(OsStr::from_bytes(b"bad\xffdir/footprints.png")).exists());
+    bench.save("a.png", &picture(1, 16, 16));
+    std::fs::copy(bench.path("a.png"), bench.path("").join(OsStr::from_bytes(b"b\xff.png"))).unwrap();
+    let output = run(&["compare", "--json", "a.png"], b"b\xff.png");
+    assert!(bench::text(&output.stdout).contains("\"second\": \"b\u{fffd}.png\""), "{}", bench::text(&output.stderr));
+}
+
 #[test]
 fn the_demo_can_be_repeated() {
     let bench = Bench::new();

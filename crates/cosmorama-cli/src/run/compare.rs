@@ -18,7 +18,10 @@ use crate::job::{InputTransfer, MemoryBudget, real_path, refuse_existing};
 pub(super) fn run(args: &CompareArgs) -> Result<ExitCode> {
     let (mut kept, mut args) = (Kept::default(), args.clone());
     for picture in [&mut args.first, &mut args.second] {
-        *picture = kept.input(&picture.to_string_lossy())?.into();
+        // A name that is no text is none of those that stand for a stream.
+        if let Some(name) = picture.to_str() {
+            *picture = kept.input(name)?.into();
+        }
     }
     let args = &args;
     let format = args.diff.as_deref().map(|diff| diff_format(diff, args)).transpose()?;
@@ -139,8 +142,8 @@ fn json_text(args: &CompareArgs, comparison: &Comparison, failures: &[String]) -
         })
     };
     let report = json!({
-        "first": args.first,
-        "second": args.second,
+        "first": args.first.display().to_string(),
+        "second": args.second.display().to_string(),
         "pixels": comparison.pixels,
         "linear": difference(&comparison.linear),
         "srgb": difference(&comparison.srgb),

@@ -148,7 +148,7 @@ fn to_json(report: &Report, input: &Input, files: &[PathBuf]) -> Value {
         "uncovered_pixels": report.uncovered.map_or(0, |uncovered| uncovered.pixels),
         "views": views,
         "views_without_files": missing,
-        "diagrams": files,
+        "diagrams": files.iter().map(|file| file.display().to_string()).collect::<Vec<_>>(),
     })
 }
 

@@ -62,7 +62,7 @@ fn faces(pattern: &str) -> Result<Value> {
     let mut report = json!({ "input": pattern, "projection": "cube", "naming": set.naming().name });
     let mut faces = serde_json::Map::new();
     for file in set.faces() {
-        let mut face = json!({ "file": file.path, "present": file.present });
+        let mut face = json!({ "file": file.path.display().to_string(), "present": file.present });
         if file.placement != cosmorama_io::FacePlacement::UPRIGHT {
             face["lies"] = json!(format!(
                 "turned clockwise by {} degrees{}",
