@@ -132,6 +132,22 @@ fn names_that_are_no_text() {
     std::fs::copy(bench.path("a.png"), bench.path("").join(OsStr::from_bytes(b"b\xff.png"))).unwrap();
     let output = run(&["compare", "--json", "a.png"], b"b\xff.png");
     assert!(bench::text(&output.stdout).contains("\"second\": \"b\u{fffd}.png\""), "{}", bench::text(&output.stderr));
+    let output = run(&["demo"], b"demo\xff");
+    assert_eq!(output.status.code(), Some(2));
+    assert!(bench::text(&output.stderr).contains("UTF-8"));
+}
+
+#[test]
+fn a_demo_replaces_what_a_demo_left_and_nothing_else() {
+    let bench = Bench::new();
+    std::fs::create_dir_all(bench.path("mine/faces")).unwrap();
+    for name in ["mine/omnimax.png", "mine/faces/front.png", "mine/unfolded.svg"] {
+        std::fs::write(bench.path(name), "mine").unwrap();
+        let message = bench.fail(1, &["demo", "mine"]);
+        assert!(message.contains(&format!("{name} exists")) && message.contains("-y"), "{message}");
+        assert_eq!(bench.bytes(name), b"mine");
+        std::fs::remove_file(bench.path(name)).unwrap();
+    }
 }
 
 #[test]
