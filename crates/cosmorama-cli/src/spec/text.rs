@@ -207,6 +207,10 @@ mod tests {
         assert!(refused("st-map:file=a.exr,base=cube").contains("base=cube: expected the SPEC of one picture"));
         assert!(refused("cube:canvas.nose=1x1+0+0").contains("nose"));
         assert!(refused("omnimax:canvas=10x10").contains("WxH+X+Y"));
+        assert!(refused("equirect:canvas=10x10+9223372036854775807+0").contains("WxH+X+Y"));
+        for aspect in ["0", "-1", "nan", "0.0001", "9223372036854775807"] {
+            assert!(refused(&format!("stereographic:aspect={aspect}")).contains("from 0.001 to 1000"), "{aspect}");
+        }
     }
 
     #[test]
