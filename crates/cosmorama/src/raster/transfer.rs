@@ -75,6 +75,7 @@ fn srgb_encode(light: f64) -> f64 {
 
 /// ST 2084's peak of 10 000 cd/m² in units of the reference white.
 const PQ_PEAK: f64 = 10_000.0 / 203.0;
+// m₁, m₂, c₁, c₂ and c₃ of SMPTE ST 2084:2014 and of ITU-R BT.2100-2, table 4.
 const PQ_M1: f64 = 2610.0 / 16384.0;
 const PQ_M2: f64 = 2523.0 / 4096.0 * 128.0;
 const PQ_C1: f64 = 3424.0 / 4096.0;
@@ -92,6 +93,7 @@ fn pq_encode(light: f64) -> f64 {
     ((PQ_C1 + PQ_C2 * power) / (1.0 + PQ_C3 * power)).powf(PQ_M2)
 }
 
+// a and b of ARIB STD-B67 and of ITU-R BT.2100-2, table 5.
 const HLG_A: f64 = 0.178_832_77;
 const HLG_B: f64 = 1.0 - 4.0 * HLG_A;
 
