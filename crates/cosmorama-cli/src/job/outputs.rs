@@ -32,7 +32,7 @@ impl Outputs {
         self.frames.iter().any(|frame| frame.frame.is_some())
     }
 
-    /// The outputs of all frames, checked against each other, the inputs and what exists.
+    /// The outputs of all frames, checked against the inputs and what exists.
     pub(crate) fn plan(
         args: &ConvertArgs,
         input: &Input,

@@ -1,4 +1,4 @@
-//! Linear light in 15 bits, for opaque pictures of 8: as many as two of them multiplied leave room for in 32.
+//! 15-bit linear light, for opaque 8-bit pictures: a product of two fits in 32 bits.
 
 use rayon::prelude::*;
 

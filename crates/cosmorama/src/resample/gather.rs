@@ -92,8 +92,8 @@ impl<'a> Gather<'a> {
                 let start = self.candidates.len();
                 let floor = floor * meeting.map_or(1.0, |meeting| meeting.widening(source));
                 if self.gather_from(source, footprint, place, floor) {
-                    // A kernel inside one view touches no other, except by what another view's plane bends its ellipse:
-                    // without those texels the result depends neither on the order of views nor on the last footprint.
+                    // A kernel wholly inside one view ignores the others; they could only enter through a bent ellipse, and the
+                    // result would depend on the order of views or on the last footprint.
                     self.candidates.drain(..start);
                     self.last = index;
                     break;
@@ -104,9 +104,9 @@ impl<'a> Gather<'a> {
         self.drop_unseen(footprint, place)
     }
 
-    /// Puts distances of candidates from `start` on, of a kernel of this reach, into the unit of the coarsest one, and those
-    /// before them too if this is it. Else, beside the coarse face, nothing of the fine one would lie under a pixel, and
-    /// every slope be clamped. Gives the reach of the coarsest.
+    /// Rescales candidates' distances to the coarsest kernel's unit, so that texels of the finer view still count as under the
+    /// pixel: else every slope beside a coarser view would be clamped. Candidates from `start` on are of a kernel of this
+    /// `reach`, those before of the `coarsest` so far. Returns the reach of the coarsest.
     fn measure_alike(&mut self, start: usize, coarsest: f64, reach: f64) -> f64 {
         if start == self.candidates.len() {
             return coarsest;

@@ -73,8 +73,8 @@ impl Needs {
         Self::surveyed(world, targets, filter, reads)
     }
 
-    /// The same but for what the filter reads, which takes most of the work: `read` is a rectangle that holds all of that, and
-    /// may be some texels too large. Where views hold it, nothing more need be known.
+    /// Like [`Needs::of`], but `read` is only an upper bound, a few texels too large, which is far quicker to find: where views
+    /// hold it, nothing more need be known.
     pub fn at_most(world: &World, targets: &[View], filter: &Filter) -> Self {
         Self::surveyed(world, targets, filter, Reads::AtMost)
     }
