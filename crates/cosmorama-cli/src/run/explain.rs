@@ -8,7 +8,7 @@ use cosmorama::resample::Needs;
 use cosmorama::world::{PixelRect, World};
 use serde_json::{Value, json};
 
-use super::pipe::Kept;
+use super::pipe::KeptStreams;
 use super::{diagram, print, use_threads};
 use crate::args::ExplainArgs;
 use crate::failure::{usage, warn};
@@ -19,7 +19,7 @@ use crate::job::{
 /// Tells what a conversion will do.
 pub(super) fn run(args: &ExplainArgs) -> Result<ExitCode> {
     use_threads(args.limits.threads)?;
-    let (mut kept, mut args) = (Kept::default(), args.clone());
+    let (mut kept, mut args) = (KeptStreams::default(), args.clone());
     args.input = args.input.map(|input| kept.input(&input)).transpose()?;
     let args = &args;
     let mut warnings = Vec::new();

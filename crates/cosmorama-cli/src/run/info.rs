@@ -8,14 +8,14 @@ use cosmorama_io::{EnvMap, FacePattern, FaceSet, Header, probe};
 use serde_json::{Value, json};
 
 use super::info_faces::{of_files, of_image};
-use super::pipe::Kept;
+use super::pipe::KeptStreams;
 use super::{info_world, print};
 use crate::args::InfoArgs;
 use crate::job::{Builtin, Files, existing_frames, likely};
 
 /// Tells what a file or a face set is.
 pub(super) fn run(args: &InfoArgs) -> Result<ExitCode> {
-    let mut kept = Kept::default();
+    let mut kept = KeptStreams::default();
     let input = &kept.input(&args.input)?;
     let report = if let Some(builtin) = Builtin::named(input)? {
         json!({ "input": input, "projection": "any (a formula)", "shows": builtin.about() })

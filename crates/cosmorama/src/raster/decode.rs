@@ -98,7 +98,7 @@ impl Tables {
 }
 
 /// Pixels that a thread takes at once, about.
-const CHUNK: usize = 1 << 14;
+pub(super) const CHUNK: usize = 1 << 14;
 
 impl EncodedImage {
     /// Rows that a thread takes at once.

@@ -1,6 +1,7 @@
 use half::f16;
 use rayon::prelude::*;
 
+use super::decode::CHUNK;
 use super::quantizer::Quantizer;
 use super::{AlphaMode, Channels, Depth, EncodedImage, Image, Rgba, Samples, Transfer};
 
@@ -131,9 +132,6 @@ fn to_half(sample: f32) -> f16 {
     // Larger values would become infinite.
     f16::from_f32(sample.clamp(f16::MIN.to_f32(), f16::MAX.to_f32()))
 }
-
-/// Pixels that a thread takes at once.
-const CHUNK: usize = 1 << 14;
 
 fn by_pixels<S: Copy + Default + Send>(
     light: &Image<Rgba>,

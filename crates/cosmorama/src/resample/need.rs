@@ -140,10 +140,7 @@ impl Needs {
 }
 
 fn union(a: Option<PixelRect>, b: Option<PixelRect>) -> Option<PixelRect> {
-    match (a, b) {
-        (Some(a), Some(b)) => Some(a.union(b)),
-        (one, other) => one.or(other),
-    }
+    a.into_iter().chain(b).reduce(PixelRect::union)
 }
 
 /// Whether nothing of `part` is outside `whole`.
