@@ -187,6 +187,17 @@ fn memory_that_there_is_not_is_not_promised() {
 }
 
 #[test]
+fn explain_is_told_that_its_picture_is_too_large_before_memory_is_taken() {
+    let bench = Bench::new();
+    let explain = |to: &str, size: &str| {
+        let sizes = ["--from", "cube", "--input-size", "64", "--to", to, "--size", size, "--memory", "500M"];
+        bench.fail(1, &[&["explain"][..], &sizes].concat())
+    };
+    assert_says(&explain("cylinder:vfov=90,hfov=1e-300", "8"), &["a frame", "the output 8x", "--memory"]);
+    assert_says(&explain("equirect", "1000000x500000"), &["the output 1000000x500000", "--memory"]);
+}
+
+#[test]
 fn a_window_of_a_huge_canvas_is_refused_before_memory_is_taken() {
     let bench = Bench::new();
     bench.save("one.png", &flat(1, 1, &[9, 9, 9]));
@@ -245,6 +256,16 @@ fn explain_replaces_nothing_unasked() {
     assert_eq!(bench.bytes("diagrams/ownership.png"), b"mine");
     bench.succeed(&[&args[..], &["-y"]].concat());
     assert_ne!(bench.bytes("diagrams/ownership.png"), b"mine");
+}
+
+#[test]
+fn a_diagram_replaces_no_input() {
+    let bench = Bench::new();
+    bench.save("unfolded.png", &picture(1, 64, 32));
+    let before = bench.bytes("unfolded.png");
+    let args = ["explain", "unfolded.png", "--to", "omnimax", "--size", "32", "--output", ".", "-y"];
+    assert_says(&bench.fail(2, &args), &["unfolded.png", "replace its own input"]);
+    assert_eq!(bench.bytes("unfolded.png"), before);
 }
 
 #[test]

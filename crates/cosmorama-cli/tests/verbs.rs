@@ -112,6 +112,44 @@ fn explain_draws() {
     }
 }
 
+/// Names of files are bytes; reports are text.
+#[cfg(target_os = "linux")]
+#[test]
+fn names_that_are_no_text() {
+    use std::ffi::OsStr;
+    use std::os::unix::ffi::OsStrExt;
+
+    let bench = Bench::new();
+    let run = |args: &[&str], name: &[u8]| bench.command(args).arg(OsStr::from_bytes(name)).output().unwrap();
+    let explain = ["explain", "--from", "cube", "--input-size", "16", "--to", "omnimax", "--size", "32"];
+    for args in [&[&explain[..], &["--output"]].concat()[..], &[&explain[..], &["--json", "-y", "--output"]].concat()] {
+        let output = run(args, b"bad\xffdir");
+        assert!(output.status.success(), "{}", bench::text(&output.stderr));
+        assert!(bench::text(&output.stdout).contains("bad\u{fffd}dir/unfolded.svg"));
+    }
+    assert!(bench.path("").join(OsStr::from_bytes(b"bad\xffdir/footprints.png")).exists());
+    bench.save("a.png", &picture(1, 16, 16));
+    std::fs::copy(bench.path("a.png"), bench.path("").join(OsStr::from_bytes(b"b\xff.png"))).unwrap();
+    let output = run(&["compare", "--json", "a.png"], b"b\xff.png");
+    assert!(bench::text(&output.stdout).contains("\"second\": \"b\u{fffd}.png\""), "{}", bench::text(&output.stderr));
+    let output = run(&["demo"], b"demo\xff");
+    assert_eq!(output.status.code(), Some(2));
+    assert!(bench::text(&output.stderr).contains("UTF-8"));
+}
+
+#[test]
+fn a_demo_replaces_what_a_demo_left_and_nothing_else() {
+    let bench = Bench::new();
+    std::fs::create_dir_all(bench.path("mine/faces")).unwrap();
+    for name in ["mine/omnimax.png", "mine/faces/front.png", "mine/unfolded.svg"] {
+        std::fs::write(bench.path(name), "mine").unwrap();
+        let message = bench.fail(1, &["demo", "mine"]);
+        assert!(message.contains(&format!("{name} exists")) && message.contains("-y"), "{message}");
+        assert_eq!(bench.bytes(name), b"mine");
+        std::fs::remove_file(bench.path(name)).unwrap();
+    }
+}
+
 #[test]
 fn the_demo_can_be_repeated() {
     let bench = Bench::new();

@@ -130,6 +130,23 @@ fn a_hole_that_a_mask_leaves_is_named_in_degrees() {
 }
 
 #[test]
+fn no_output_replaces_what_its_world_is_made_of() {
+    let bench = Bench::new();
+    masked(&bench, [9.0; 3], "");
+    let straight = ["--from", "fisheye:fov=150", "--to", "perspective:fov=70", "--size", "40x30", "--st-map"];
+    bench.succeed(&[&["convert", "front.exr", "map.exr"][..], &straight].concat());
+    let view = "image = \"grey.exr\"\nspec = \"st-map:file=map.exr,invert=yes,base=perspective:fov=70\"\n";
+    std::fs::write(bench.path("mapped.toml"), format!("[[view]]\n{view}")).unwrap();
+    let to = ["--to", "perspective:fov=20", "--size", "32", "--missing", "black", "-y"];
+    for (world, read) in [("masked.toml", "mask.exr"), ("mapped.toml", "map.exr")] {
+        let before = bench.bytes(read);
+        let message = bench.fail(2, &[&["convert", world, read][..], &to].concat());
+        assert_says(&message, &[read, "replace its own input"]);
+        assert!(bench.bytes(read) == before, "{read}");
+    }
+}
+
+#[test]
 fn masks_that_do_not_fit_are_told_with_their_line() {
     let bench = bench();
     bench.save("small.png", &flat(8, 8, &[255]));

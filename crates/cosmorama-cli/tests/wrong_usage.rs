@@ -67,6 +67,10 @@ fn numbers_that_are_none_or_absurd() {
         assert_says(&bench.fail(2, &[&convert[..], &[option, value]].concat()), &[value, expected]);
     }
     assert_says(&bench.fail(2, &["compare", "sky.png", "sky.png", "--min-psnr", "nan"]), &["expected a number"]);
+    for gain in ["nan", "inf", "0", "-2", "1e60"] {
+        let message = bench.fail(2, &["compare", "sky.png", "sky.png", "--diff", "d.png", "--gain", gain]);
+        assert_says(&message, &["--gain", gain, "expected a number more than 0"]);
+    }
 }
 
 #[test]

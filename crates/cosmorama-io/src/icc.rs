@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use cosmorama::raster::{ToneCurve, Transfer};
+use cosmorama::raster::{ColourChannel, ToneCurve, Transfer};
 use moxcms::{ColorProfile, DataColorSpace, ToneReprCurve};
 
 /// Entries of a tabulated curve.
@@ -37,11 +37,11 @@ fn table(curve: &ToneReprCurve) -> Option<Vec<f32>> {
 /// The standard function that a curve practically is: exact formulas beat tables.
 fn standard(curve: &ToneCurve) -> Option<Transfer> {
     // Where a pure power would have to be at half code.
-    let gamma = curve.decode(0.5, 1).log(0.5);
+    let gamma = curve.decode(0.5, ColourChannel::Green).log(0.5);
     let candidates = [Transfer::Srgb, Transfer::Linear, Transfer::Gamma((gamma * 256.0).round() / 256.0)];
     candidates.into_iter().find(|candidate| {
         (0..=255).map(|i| f64::from(i) / 255.0).all(|code| {
-            (0..3).all(|channel| {
+            ColourChannel::ALL.into_iter().all(|channel| {
                 let light = curve.decode(code, channel);
                 // Compared as code values, where equal steps are equally visible; near black, where a power is
                 // steep, as light.

@@ -17,6 +17,9 @@ pub struct Metadata {
     pub other_channels: Vec<String>,
     /// Colour primaries by their number in ITU-T H.273 (cICP); they are carried, never converted.
     pub primaries: Option<u8>,
+    /// How the file asks viewers to turn or mirror its picture: the Orientation of TIFF (tag 274), 2 to 8; `None` where it
+    /// is to stay as it is. Nothing here turns it: pixels are read as they are stored.
+    pub orientation: Option<u16>,
     /// The program that wrote the file.
     pub software: Option<String>,
 }

@@ -1,12 +1,12 @@
 //! What a filter must not do: alias, ring, or make light of nothing.
 
-use cosmorama::raster::{Rgba, Transfer};
+use cosmorama::raster::{ColourChannel, Rgba, Transfer};
 use cosmorama::resample::{CrossSection, Filter, FilterKind, Kernel, Resampler};
 use cosmorama::sphere::{CubeFace, Direction};
 use testkit::{cube, fisheye, light_by_direction, light_by_texel, perspective};
 
 fn srgb(light: f64) -> f64 {
-    Transfer::Srgb.encode(light, 0)
+    Transfer::Srgb.encode(light, ColourChannel::Green)
 }
 
 /// Mean and standard deviation inside the disc, sRGB-encoded, of 255.

@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use cosmorama::explain::Report;
-use cosmorama::raster::{Image, Rgba, Transfer};
+use cosmorama::raster::{ColourChannel, Image, Rgba, Transfer};
 use cosmorama::resample::{Filter, FilterKind, Needs, Resampler};
 use cosmorama::sphere::{CubeFace, Direction};
 use cosmorama::world::{View, World};
@@ -83,7 +83,7 @@ fn a_checkerboard_of_single_texels_becomes_grey() {
         let value = ((i + j) % 2) as f32;
         Rgba::opaque(value, value, value)
     });
-    let srgb = |light: f64| 255.0 * Transfer::Srgb.encode(light, 0);
+    let srgb = |light: f64| 255.0 * Transfer::Srgb.encode(light, ColourChannel::Green);
     for size in [512, 160] {
         let target = fisheye(size, 180.0);
         let image = render(&world, &target, PYRAMID, &light);

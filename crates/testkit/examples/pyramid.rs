@@ -4,7 +4,7 @@
 
 use std::f64::consts::PI;
 
-use cosmorama::raster::{Image, Rgba, Transfer};
+use cosmorama::raster::{ColourChannel, Image, Rgba, Transfer};
 use cosmorama::resample::{Filter, FilterKind, Resampler};
 use cosmorama::sphere::CubeFace;
 use cosmorama::world::{View, World};
@@ -74,7 +74,8 @@ fn quality() {
             let [exact, pyramid] =
                 [Filter::DEFAULT, PYRAMID].map(|filter| Resampler { world, target: &target, filter }.render(light));
             let by_code = |code: fn(f64) -> f64| psnr(&exact, &pyramid, &target, code);
-            let (linear, encoded) = (by_code(|light| light), by_code(|light| Transfer::Srgb.encode(light, 0)));
+            let (linear, encoded) =
+                (by_code(|light| light), by_code(|light| Transfer::Srgb.encode(light, ColourChannel::Green)));
             println!("| {name} | {shrink} | {linear:.1} / {encoded:.1} |");
         }
     }

@@ -1,6 +1,6 @@
 use std::str::FromStr;
 
-use cosmorama::raster::{Rgba, Transfer};
+use cosmorama::raster::{ColourChannel, Rgba, Transfer};
 
 /// A colour: a name, `#rrggbb` or `#rrggbbaa` (sRGB), or `r,g,b[,a]` of linear light.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -46,9 +46,12 @@ fn hexadecimal(code: &str) -> Option<Rgba> {
         return None;
     }
     let byte = |at: usize| u8::from_str_radix(&code[at..at + 2], 16).ok().map(|byte| f64::from(byte) / 255.0);
-    let light = |at: usize, channel: usize| byte(at).map(|code| Transfer::Srgb.decode(code, channel) as f32);
+    let light = |at: usize, channel| byte(at).map(|code| Transfer::Srgb.decode(code, channel) as f32);
     let alpha = if code.len() == 8 { byte(6)? as f32 } else { 1.0 };
-    Some(Rgba::opaque(light(0, 0)?, light(2, 1)?, light(4, 2)?) * alpha)
+    Some(
+        Rgba::opaque(light(0, ColourChannel::Red)?, light(2, ColourChannel::Green)?, light(4, ColourChannel::Blue)?)
+            * alpha,
+    )
 }
 
 fn linear(text: &str) -> Option<Rgba> {

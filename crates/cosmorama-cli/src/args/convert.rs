@@ -125,7 +125,8 @@ pub(crate) struct GeometryArgs {
     /// floor= (at least, in texels)
     #[arg(long, value_name = "NAME[:k=v]", default_value = "adaptive", help_heading = "Filter")]
     pub(crate) kernel: KernelArg,
-    /// Clamp to the texels under the pixel: on, unless the kernel is light
+    /// Clamp to the texels under the pixel, but for slopes that go on to a rim where all texels confirm them: on, unless the
+    /// kernel is light
     #[arg(long, value_name = "on|off", action = clap::ArgAction::Set, value_parser = on_or_off, help_heading = "Filter")]
     pub(crate) anti_ringing: Option<bool>,
 }

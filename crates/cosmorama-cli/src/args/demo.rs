@@ -1,4 +1,4 @@
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueHint};
 
@@ -6,15 +6,29 @@ use super::convert::LimitArgs;
 
 /// Render an embedded world onto cube faces and make an Omnimax frame of them.
 ///
-/// Files that an earlier demo left in the folder are replaced; no other file is touched.
+/// In cosmorama-demo, which is its own folder, it replaces what an earlier demo left. In a folder that you name it replaces
+/// nothing, unless -y says so.
 #[derive(Debug, Args)]
 #[command(before_help = "Examples:
   cosmorama demo
-  cosmorama demo /tmp/demo --threads 1")]
+  cosmorama demo /tmp/demo -y --threads 1")]
 pub(crate) struct DemoArgs {
     /// Where to write
-    #[arg(default_value = "cosmorama-demo", value_hint = ValueHint::DirPath)]
+    #[arg(default_value = OWN_FOLDER, value_hint = ValueHint::DirPath)]
     pub(crate) dir: PathBuf,
+    /// Replace existing files
+    #[arg(short = 'y', long)]
+    pub(crate) overwrite: bool,
     #[command(flatten)]
     pub(crate) limits: LimitArgs,
+}
+
+/// Whatever is there was left by a demo.
+const OWN_FOLDER: &str = "cosmorama-demo";
+
+impl DemoArgs {
+    /// Whether files that are there already may be replaced.
+    pub(crate) fn may_replace(&self) -> bool {
+        self.overwrite || self.dir == Path::new(OWN_FOLDER)
+    }
 }

@@ -5,6 +5,12 @@ pub(super) fn degrees(text: &str) -> Result<f64, String> {
     parse_degrees(text).map(|angle| angle.degrees()).ok_or_else(|| "expected an angle in degrees".to_owned())
 }
 
+/// A factor: a number more than zero that single precision holds.
+pub(super) fn factor(text: &str) -> Result<f32, String> {
+    let is_factor = |number: &f32| number.is_finite() && *number > 0.0;
+    text.parse().ok().filter(is_factor).ok_or_else(|| "expected a number more than 0".to_owned())
+}
+
 /// A number of decibels, pixels or whatever the option says; neither infinity nor "not a number".
 pub(super) fn finite(text: &str) -> Result<f64, String> {
     text.parse().ok().filter(|number: &f64| number.is_finite()).ok_or_else(|| "expected a number".to_owned())

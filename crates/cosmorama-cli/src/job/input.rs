@@ -57,6 +57,8 @@ pub(crate) struct Input {
     pub(crate) frames: Vec<Option<u64>>,
     /// How the views are the faces of one cube, if they are whole ones.
     pub(crate) faces: Option<GivenFaces>,
+    /// The files that it takes beside those of its views: what lists them, their masks, calibrations and maps.
+    pub(crate) beside: Vec<PathBuf>,
 }
 
 /// What is told where an output has two eyes and the input one.
@@ -185,7 +187,7 @@ impl Input {
             Shape::Dual(dual) => (packed::lenses(&files, &path, &header, &dual)?, None),
             Shape::StMap(map) => return Err(st_map::unread(&map)),
         };
-        Ok(Self { worlds: vec![views], frames, faces })
+        Ok(Self { worlds: vec![views], frames, faces, beside: Vec::new() })
     }
 
     fn single(pattern: &str, files: Files, path: &Path, header: Header, single: Single) -> Result<InputView> {
@@ -248,7 +250,24 @@ impl Input {
         let is_whole = faces.iter().all(Face::is_whole);
         let given = GivenFaces::of_files(cube, set.naming(), &lie).filter(|_| is_whole);
         let views: Result<_> = faces.into_iter().map(|face| face.into_view(cube, size)).collect();
-        Ok(Self { worlds: vec![views?], frames, faces: given })
+        Ok(Self { worlds: vec![views?], frames, faces: given, beside: Vec::new() })
+    }
+
+    /// What is told of files that ask for being turned, which is not done.
+    pub(crate) fn turned(&self) -> Vec<String> {
+        let turned = self.present().filter_map(|(view, header, _)| Some((view, header.metadata.orientation?)));
+        let mut told: Vec<String> = turned
+            .map(|(view, orientation)| {
+                format!(
+                    "{} asks for being turned or mirrored (orientation {orientation}), but its pixels are taken as they are \
+                     stored; turn it first, as with magick -auto-orient",
+                    view.files.path(self.frames[0]).display()
+                )
+            })
+            .collect();
+        // Faces may share a file.
+        told.dedup();
+        told
     }
 
     /// The views that have files and are wanted, with the geometry of what those hold.
@@ -270,6 +289,11 @@ impl Input {
     /// Texels of all files of a frame.
     pub(crate) fn texels(&self) -> usize {
         self.present().map(|(_, header, _)| header.width.saturating_mul(header.height)).fold(0, usize::saturating_add)
+    }
+
+    /// Every file that anything is read from.
+    pub(crate) fn files(&self) -> impl Iterator<Item = PathBuf> {
+        self.frames.iter().flat_map(|frame| self.paths(*frame)).chain(self.beside.iter().cloned())
     }
 
     /// The files of a frame.

@@ -182,6 +182,7 @@ fn metadata(
         panorama: target.panorama,
         other_channels: Vec::new(),
         primaries: first.and_then(|metadata| metadata.primaries),
+        orientation: None,
         software: Some(concat!("cosmorama ", env!("CARGO_PKG_VERSION")).to_owned()),
     }
 }

@@ -74,6 +74,14 @@ impl MemoryBudget {
         self.allow(output_bytes(target), "a frame", &describe(target, "; "))
     }
 
+    /// Whether pictures of these sizes fit that are only told of: as many as a frame of them would have to hold.
+    pub(crate) fn check_sizes(self, sizes: impl IntoIterator<Item = (usize, usize)>) -> Result<()> {
+        let sizes: Vec<(usize, usize)> = sizes.into_iter().collect();
+        let largest = sizes.iter().max_by_key(|size| area(**size));
+        let why = largest.map_or_else(String::new, |(width, height)| format!("; the output {width}x{height}"));
+        self.allow(pixel_bytes(sizes), "a frame", &why)
+    }
+
     /// Whether a frame fits, with the light of the views that are wanted, before memory is taken.
     pub(crate) fn check_frame(self, input: &Input, target: &Target) -> Result<()> {
         let largest = input.present().max_by_key(|(_, header, _)| header.width.saturating_mul(header.height));
@@ -173,7 +181,7 @@ pub(crate) struct InFlight {
 const SOLID_ANGLE: u64 = size_of::<f32>() as u64;
 
 fn header_pixels(header: &Header) -> u64 {
-    (header.width as u64).saturating_mul(header.height as u64)
+    area((header.width, header.height))
 }
 
 /// Bytes of a pixel's samples.
@@ -187,7 +195,7 @@ pub(super) fn light_bytes(header: &Header) -> u64 {
 }
 
 fn pixels(view: &View) -> u64 {
-    (view.width() as u64).saturating_mul(view.height() as u64)
+    area((view.width(), view.height()))
 }
 
 fn describe(target: &Target, link: &str) -> String {
@@ -197,10 +205,17 @@ fn describe(target: &Target, link: &str) -> String {
 
 /// The outputs with their encoded twins.
 fn output_bytes(target: &Target) -> u64 {
-    let area = |(width, height): (usize, usize)| (width as u64).saturating_mul(height as u64);
-    let sheets = target.files.iter().flat_map(|file| file.levels());
-    let pixels = sheets.map(|sheet| area(sheet.size)).fold(0, u64::saturating_add);
+    pixel_bytes(target.files.iter().flat_map(|file| file.levels()).map(|sheet| sheet.size))
+}
+
+/// Pictures of these sizes with their encoded twins.
+fn pixel_bytes(sizes: impl IntoIterator<Item = (usize, usize)>) -> u64 {
+    let pixels = sizes.into_iter().map(area).fold(0, u64::saturating_add);
     pixels.saturating_mul(2 * size_of::<Rgba>() as u64)
+}
+
+fn area((width, height): (usize, usize)) -> u64 {
+    (width as u64).saturating_mul(height as u64)
 }
 
 /// What a view's projection holds besides numbers.

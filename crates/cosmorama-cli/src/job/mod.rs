@@ -48,7 +48,7 @@ pub(crate) use light::{InputTransfer, Light};
 pub(crate) use listing::{Listed, listed};
 pub(crate) use machine::peak_bytes;
 pub(crate) use memory::{InFlight, MemoryBudget};
-pub(crate) use outputs::{FrameOutputs, Outputs, real_path, refuse_existing};
+pub(crate) use outputs::{FrameOutputs, Outputs, check_apart, real_path, refuse_existing};
 pub(crate) use picture::{Picture, Place};
 pub(crate) use remade::Remade;
 pub(crate) use st_map::settled;
@@ -107,6 +107,7 @@ impl ConvertJob {
         if args.mips {
             target = target.with_mips(&args.output, geometry)?;
         }
+        warnings.extend(input.turned());
         input.fit_eyes(target.is_stereo(), &mut warnings);
         let filter = filter(geometry, &mut warnings);
         let mut light = Light::resolve(args, &input, &target, &mut warnings)?;

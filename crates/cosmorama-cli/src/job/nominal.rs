@@ -17,7 +17,12 @@ impl Input {
     /// An input that does not exist yet: of a size, or at parity with an output of so many pixels a radian.
     pub(crate) fn nominal(from: &Spec, size: Option<SizeArg>, pixels_per_radian: f64) -> Result<Self> {
         let Some(stereo) = from.stereo else {
-            return Ok(Self { worlds: vec![views(from, size, pixels_per_radian)?], frames: vec![None], faces: None });
+            return Ok(Self {
+                worlds: vec![views(from, size, pixels_per_radian)?],
+                frames: vec![None],
+                faces: None,
+                beside: Vec::new(),
+            });
         };
         let is_cube = matches!(from.shape, Shape::Cube(_));
         // The size of a cube is that of a face.
@@ -30,6 +35,7 @@ impl Input {
             worlds: stereo.eyes().into_iter().map(world).collect::<Result<_>>()?,
             frames: vec![None],
             faces: None,
+            beside: Vec::new(),
         })
     }
 }

@@ -43,7 +43,7 @@ impl Outputs {
         Remade::warning(&self.remade)
     }
 
-    /// The outputs of all frames, checked against each other, the inputs and what exists.
+    /// The outputs of all frames, checked against the inputs and what exists.
     pub(crate) fn plan(
         args: &ConvertArgs,
         input: &Input,
@@ -54,13 +54,7 @@ impl Outputs {
         check_frame_markers(args, input, target)?;
         let specs = [&args.geometry.from, &args.geometry.to].into_iter().flatten();
         let named = specs.flat_map(|spec| spec.files.iter().cloned());
-        let inputs: HashSet<PathBuf> = input
-            .frames
-            .iter()
-            .flat_map(|frame| input.paths(*frame))
-            .chain(named)
-            .map(|path| real_path(&path))
-            .collect();
+        let inputs: HashSet<PathBuf> = input.files().chain(named).map(|path| real_path(&path)).collect();
         let mut frames = Vec::new();
         let mut folders = HashSet::new();
         for &frame in &input.frames {
@@ -116,7 +110,8 @@ fn check_frame_markers(args: &ConvertArgs, input: &Input, target: &Target) -> Re
     Ok(())
 }
 
-fn check_apart(path: &Path, inputs: &HashSet<PathBuf>) -> Result<()> {
+/// An output that replaced what it is made of could never be made again.
+pub(crate) fn check_apart(path: &Path, inputs: &HashSet<PathBuf>) -> Result<()> {
     if inputs.contains(&real_path(path)) {
         return Err(usage(format!("{}: the output would replace its own input; choose another name", path.display())));
     }

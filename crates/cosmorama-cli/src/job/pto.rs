@@ -31,7 +31,7 @@ pub(super) fn find(name: &str, memory: MemoryBudget, warnings: &mut Vec<String>)
     let folder = Path::new(name).parent().unwrap_or(Path::new(""));
     let view = |image: &PtoImage| view(folder, image, memory).with_context(|| format!("{name}, line {}", image.line));
     let views = project.images.iter().map(view).collect::<Result<_>>()?;
-    Ok(Input { worlds: vec![views], frames: vec![None], faces: None })
+    Ok(Input { worlds: vec![views], frames: vec![None], faces: None, beside: vec![name.into()] })
 }
 
 /// Each picture of a project by itself.
@@ -42,7 +42,7 @@ pub(super) fn listed(name: &str, memory: MemoryBudget, warnings: &mut Vec<String
         image: image.file.display().to_string(),
         place: format!("{name}, line {}", image.line),
         spec: Some(format!("f{} v{}", image.lens, image.field_of_view)),
-        input: Input { worlds: vec![vec![view]], frames: vec![None], faces: None },
+        input: Input { worlds: vec![vec![view]], frames: vec![None], faces: None, beside: Vec::new() },
     };
     Ok(images.into_iter().zip(views).map(list).collect())
 }

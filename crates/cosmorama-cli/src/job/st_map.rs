@@ -56,42 +56,66 @@ pub(crate) fn settled(
         (_, Some(Shape::StMap(to))) if to.base.is_some() => {
             settled.to = Some(with_given_base(to, Side::Output, memory)?);
         }
-        (Some(Shape::StMap(from)), None) if is_plain(from) => {
-            // The output has the map's pixels, and nothing where the map says nothing.
-            let Some(input) = input else { return Err(without_base(Side::Input)) };
-            let pairs = read(&from.file, memory)?;
-            settled.size.get_or_insert_with(|| size_of(&pairs));
-            let Shape::Single(single) = plain().shape else { return Err(without_base(Side::Input)) };
-            let base = Base { placement: single.placement, size: Some(input_size(input)?) };
-            settled.to = Some(spec(from, &pairs, base, Side::Output, memory)?);
-            settled.from = Some(plain());
-        }
+        (Some(Shape::StMap(from)), None) if is_plain(from) => apply_plainly(&mut settled, from, input, memory)?,
         (Some(Shape::StMap(from)), to) => {
-            let pairs = read(&from.file, memory)?;
-            let size = settled.size.get_or_insert_with(|| size_of(&pairs));
-            let other = other_side(to, Side::Input)?;
             if to.is_some() {
                 warnings.push(format!(
                     "--from st-map has no base=: {} is taken to relate the input to the picture of --to",
                     from.file.display()
                 ));
             }
-            let height = size.height.unwrap_or_else(|| other.frame.natural_height(size.width));
-            let base = Base { placement: other, size: Some((size.width, height)) };
-            settled.from = Some(spec(from, &pairs, base, Side::Input, memory)?);
-            settled.to.get_or_insert_with(plain);
+            settle_from(&mut settled, from, to, memory)?;
         }
-        (from, Some(Shape::StMap(to))) => {
-            let pairs = read(&to.file, memory)?;
-            settled.size.get_or_insert_with(|| size_of(&pairs));
-            let Some(input) = input else { return Err(without_base(Side::Output)) };
-            let base = Base { placement: other_side(from, Side::Output)?, size: Some(input_size(input)?) };
-            settled.to = Some(spec(to, &pairs, base, Side::Output, memory)?);
-            settled.from.get_or_insert_with(plain);
-        }
+        (from, Some(Shape::StMap(to))) => settle_to(&mut settled, to, from, input, memory)?,
         _ => {}
     }
     Ok(settled)
+}
+
+/// A map alone: the output has the map's pixels, and nothing where the map says nothing.
+fn apply_plainly(
+    settled: &mut GeometryArgs,
+    from: &StMapSpec,
+    input: Option<&str>,
+    memory: MemoryBudget,
+) -> Result<()> {
+    let Some(input) = input else { return Err(without_base(Side::Input)) };
+    let pairs = read(&from.file, memory)?;
+    settled.size.get_or_insert_with(|| size_of(&pairs));
+    let Shape::Single(single) = plain().shape else { return Err(without_base(Side::Input)) };
+    let base = Base { placement: single.placement, size: Some(input_size(input)?) };
+    settled.to = Some(spec(from, &pairs, base, Side::Output, memory)?);
+    settled.from = Some(plain());
+    Ok(())
+}
+
+/// A map of `--from` that relates the input to the picture of `--to`.
+fn settle_from(settled: &mut GeometryArgs, from: &StMapSpec, to: Option<&Shape>, memory: MemoryBudget) -> Result<()> {
+    let pairs = read(&from.file, memory)?;
+    let size = settled.size.get_or_insert_with(|| size_of(&pairs));
+    let other = other_side(to, Side::Input)?;
+    let height = size.height.unwrap_or_else(|| other.frame.natural_height(size.width));
+    let base = Base { placement: other, size: Some((size.width, height)) };
+    settled.from = Some(spec(from, &pairs, base, Side::Input, memory)?);
+    settled.to.get_or_insert_with(plain);
+    Ok(())
+}
+
+/// A map of `--to` that relates the output to the picture of `--from`.
+fn settle_to(
+    settled: &mut GeometryArgs,
+    to: &StMapSpec,
+    from: Option<&Shape>,
+    input: Option<&str>,
+    memory: MemoryBudget,
+) -> Result<()> {
+    let pairs = read(&to.file, memory)?;
+    settled.size.get_or_insert_with(|| size_of(&pairs));
+    let Some(input) = input else { return Err(without_base(Side::Output)) };
+    let base = Base { placement: other_side(from, Side::Output)?, size: Some(input_size(input)?) };
+    settled.to = Some(spec(to, &pairs, base, Side::Output, memory)?);
+    settled.from.get_or_insert_with(plain);
+    Ok(())
 }
 
 /// The SPEC of a world file's view, its map read.

@@ -72,11 +72,12 @@ pub(super) fn find(
     memory: MemoryBudget,
     warnings: &mut Vec<String>,
 ) -> Result<Input> {
-    let mut world = Input { worlds: vec![Vec::new()], frames: vec![None], faces: None };
+    let mut world = Input { worlds: vec![Vec::new()], frames: vec![None], faces: None, beside: vec![name.into()] };
     for Listed { image, place, input, .. } in listed(name, wanted, memory, warnings)? {
         world.frames = common_frames(&world.frames, &input.frames)
             .with_context(|| format!("{image} has other frames than the views before it"))
             .context(place)?;
+        world.beside.extend(input.beside);
         join(&mut world.worlds, input.worlds);
     }
     Ok(world)
@@ -121,7 +122,9 @@ impl Entry {
         warnings: &mut Vec<String>,
     ) -> Result<Input> {
         let feather = self.feather(source)?;
-        let spec = self.spec(source)?.map(|spec| st_map::read_map(spec, memory)).transpose();
+        let spec = self.spec(source)?;
+        let named = spec.as_ref().map_or_else(Vec::new, |spec| spec.files.clone());
+        let spec = spec.map(|spec| st_map::read_map(spec, memory)).transpose();
         let spec = spec.with_context(|| source.place(self.spec.as_ref().map(Spanned::span)))?;
         let pattern = source.folder().join(self.image.get_ref()).to_string_lossy().into_owned();
         if is_world_file(&pattern) {
@@ -148,6 +151,7 @@ impl Entry {
             // What a SPEC says of pictures that overlap holds where nothing else is said.
             view.blend = Blend { priority: self.priority, feather: feather.unwrap_or(view.blend.feather) };
         }
+        input.beside.extend(named);
         self.mask(source, &mut input, memory)?;
         Ok(input)
     }
@@ -172,8 +176,10 @@ impl Entry {
             let message = format!("mask = \"{}\" is for one picture, but the view has several", mask.get_ref());
             return Err(source.error(Some(mask.span()), &message));
         };
-        let found = super::mask::of_file(&source.folder().join(mask.get_ref()), view, memory).with_context(place)?;
+        let path = source.folder().join(mask.get_ref());
+        let found = super::mask::of_file(&path, view, memory).with_context(place)?;
         super::mask::hide(view, found);
+        input.beside.push(path);
         Ok(())
     }
 

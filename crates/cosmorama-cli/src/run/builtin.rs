@@ -7,7 +7,7 @@ use cosmorama::raster::{Image, Threads};
 use cosmorama_builtin::{BuiltinWorld, DirectionMap, DirectionPixel};
 use cosmorama_io::write_planes;
 
-use super::engine::{Levels, Picture, Writer, assemble};
+use super::engine::{Levels, Rendered, Writer, assemble};
 use super::progress::Progress;
 use super::report::Report;
 use super::stages::{Stage, Stages};
@@ -50,7 +50,7 @@ fn pictures(job: &BuiltinJob, world: BuiltinWorld, file: usize) -> Result<Levels
         Ok(image)
     };
     let levels = job.target.files[file].levels();
-    levels.map(|sheet| Ok(Picture::Light(assemble(sheet, background, picture)?))).collect()
+    levels.map(|sheet| Ok(Rendered::Light(assemble(sheet, background, picture)?))).collect()
 }
 
 /// The directions of a file's pixels.

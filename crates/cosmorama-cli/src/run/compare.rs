@@ -8,7 +8,7 @@ use cosmorama::world::{FisheyeFrame, Frame, OmnimaxFrame};
 use cosmorama_io::{Format, Limits, Metadata, WriteOptions, probe, read, write};
 use serde_json::{Value, json};
 
-use super::pipe::Kept;
+use super::pipe::KeptStreams;
 use super::print;
 use crate::args::{CompareArgs, Region};
 use crate::failure::usage;
@@ -16,9 +16,12 @@ use crate::job::{InputTransfer, MemoryBudget, real_path, refuse_existing};
 
 /// Compares two pictures.
 pub(super) fn run(args: &CompareArgs) -> Result<ExitCode> {
-    let (mut kept, mut args) = (Kept::default(), args.clone());
+    let (mut kept, mut args) = (KeptStreams::default(), args.clone());
     for picture in [&mut args.first, &mut args.second] {
-        *picture = kept.input(&picture.to_string_lossy())?.into();
+        // A name that is no text is none of those that stand for a stream.
+        if let Some(name) = picture.to_str() {
+            *picture = kept.input(name)?.into();
+        }
     }
     let args = &args;
     let format = args.diff.as_deref().map(|diff| diff_format(diff, args)).transpose()?;
@@ -139,8 +142,8 @@ fn json_text(args: &CompareArgs, comparison: &Comparison, failures: &[String]) -
         })
     };
     let report = json!({
-        "first": args.first,
-        "second": args.second,
+        "first": args.first.display().to_string(),
+        "second": args.second.display().to_string(),
         "pixels": comparison.pixels,
         "linear": difference(&comparison.linear),
         "srgb": difference(&comparison.srgb),

@@ -1,4 +1,4 @@
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::Instant;
 
@@ -14,12 +14,18 @@ use cosmorama_io::{FacePlacement, Metadata, WriteOptions, write};
 
 use super::{convert, diagram, print, use_threads};
 use crate::args::{Args, DemoArgs, Verb};
-use crate::job::face_placement;
+use crate::failure::usage;
+use crate::job::{face_placement, refuse_existing};
 use crate::spec::Cube;
 
 /// Edge of a whole face; the frame is the paper's.
 const FACE: usize = 1024;
 const FRAME: (usize, usize) = (1966, 1436);
+
+/// The folder of the faces, the frames with what makes each another one, and the drawing.
+const FACES: &str = "faces";
+const FRAMES: [(&str, &[&str]); 2] = [("omnimax.png", &[]), ("omnimax-point.png", &["--filter", "point"])];
+const UNFOLDED: &str = "unfolded";
 
 /// A face of which only the part that the frame needs is rendered.
 struct PartialFace {
@@ -31,21 +37,41 @@ struct PartialFace {
 /// Renders the demo world and makes an Omnimax frame of it.
 pub(super) fn run(args: &DemoArgs) -> Result<ExitCode> {
     use_threads(args.limits.threads)?;
+    if args.dir.to_str().is_none() {
+        return Err(usage(format!(
+            "{}: the folder's name is no text in UTF-8, as the commands that the demo prints must be; name another one",
+            args.dir.display()
+        )));
+    }
     let start = Instant::now();
-    let folder = args.dir.join("faces");
-    std::fs::create_dir_all(&folder).with_context(|| format!("cannot make the folder {}", folder.display()))?;
     let target = Frame::Omnimax(OmnimaxFrame::default()).view(FRAME.0, FRAME.1)?;
     let faces = needed_faces(&target)?;
+    if !args.may_replace() {
+        refuse_existing(outputs(&args.dir, &faces).iter().map(PathBuf::as_path), "")?;
+    }
+    let folder = args.dir.join(FACES);
+    std::fs::create_dir_all(&folder).with_context(|| format!("cannot make the folder {}", folder.display()))?;
     for partial in &faces {
         render_face(partial, &folder)?;
     }
     let source = folder.join("{face}.png");
-    for (name, extra) in [("omnimax.png", &[][..]), ("omnimax-point.png", &["--filter", "point"][..])] {
+    for (name, extra) in FRAMES {
         repeatable_conversion(args, &source, &args.dir.join(name), &from(&faces), extra)?;
     }
     draw_unfolded(&args.dir, &faces, &target)?;
     print(&format!("all of it in {:.2} s\n", start.elapsed().as_secs_f64()))?;
     Ok(ExitCode::SUCCESS)
+}
+
+/// Every file that is written.
+fn outputs(folder: &Path, faces: &[PartialFace]) -> Vec<PathBuf> {
+    let faces = faces.iter().map(|partial| face_file(&folder.join(FACES), partial.face));
+    let frames = FRAMES.iter().map(|(name, _)| folder.join(name));
+    faces.chain(frames).chain(diagram::files(folder, UNFOLDED)).collect()
+}
+
+fn face_file(folder: &Path, face: CubeFace) -> PathBuf {
+    folder.join(face.name()).with_extension("png")
 }
 
 /// The faces that the frame looks at, each with the window that the filter reads.
@@ -74,7 +100,7 @@ fn render_face(partial: &PartialFace, folder: &Path) -> Result<()> {
     let light = picture(&DemoWorld, view);
     let encoded = EncodedImage::encode(&light, Channels::Rgb, Depth::Eight, &Transfer::Srgb);
     let metadata = Metadata { transfer: Some(Transfer::Srgb), ..Metadata::default() };
-    let path = folder.join(face.name()).with_extension("png");
+    let path = face_file(folder, *face);
     write(&path, &encoded, &metadata, &WriteOptions::default())?;
     tell(&path, &format!("the {face} face, {window} of {FACE}x{FACE}, rendered"), start)
 }
@@ -119,13 +145,13 @@ fn draw_unfolded(folder: &Path, faces: &[PartialFace], target: &View) -> Result<
     let world = World::new(faces.iter().map(|partial| (partial.face.name().to_owned(), partial.view)))?;
     let needs = Needs::of(&world, &[*target], &Filter::DEFAULT);
     let underlay =
-        |(view, partial): (usize, &PartialFace)| Underlay { view, href: format!("faces/{}.png", partial.face) };
+        |(view, partial): (usize, &PartialFace)| Underlay { view, href: format!("{FACES}/{}.png", partial.face) };
     let underlays: Vec<Underlay> = faces.iter().enumerate().map(underlay).collect();
     let svg = Figures { world: &world, target }.unfolded(&needs, &underlays);
-    for file in diagram::draw(folder, "unfolded", &svg)? {
+    for file in diagram::draw(folder, UNFOLDED, &svg)? {
         file.appear()?;
     }
-    let [vector, raster] = diagram::files(folder, "unfolded");
+    let [vector, raster] = diagram::files(folder, UNFOLDED);
     tell(&vector, "the unfolded cube with the frame's field of view", start)?;
     tell(&raster, "the same as pixels", start)
 }

@@ -105,12 +105,12 @@ impl<'a> Engine<'a> {
                     let light = &worlds[target.world(worlds.len())];
                     Ok(self.geometry.codes(index, self.job.resampler(target), light, codec))
                 };
-                levels.map(|sheet| Ok(Picture::Codes(assemble(sheet, codec.background(), &mut view)?))).collect()
+                levels.map(|sheet| Ok(Rendered::Codes(assemble(sheet, codec.background(), &mut view)?))).collect()
             }
             _ => {
                 let background = self.job.light.background;
                 let mut view = |index: usize| self.render_view(index, light);
-                levels.map(|sheet| Ok(Picture::Light(assemble(sheet, background, &mut view)?))).collect()
+                levels.map(|sheet| Ok(Rendered::Light(assemble(sheet, background, &mut view)?))).collect()
             }
         }
     }
@@ -204,7 +204,7 @@ pub(super) fn assemble<P: Copy>(
 }
 
 /// What becomes of a frame.
-pub(super) enum Picture {
+pub(super) enum Rendered {
     /// Light, to be encoded.
     Light(Image<Rgba>),
     /// Code values of 8 bits.
@@ -212,7 +212,7 @@ pub(super) enum Picture {
 }
 
 /// A picture and its smaller copies.
-pub(super) type Levels = Vec<Picture>;
+pub(super) type Levels = Vec<Rendered>;
 
 /// Writes pictures, all of one kind.
 pub(super) struct Writer<'a> {
@@ -229,8 +229,8 @@ impl<'a> Writer<'a> {
     /// Writes an output, a picture and its smaller copies.
     pub(super) fn save(&self, levels: Levels, path: &Path, threads: Threads) -> Result<()> {
         let encode = |picture| match picture {
-            Picture::Light(image) => self.encoder.encode(&image, threads),
-            Picture::Codes(codes) => EncodedImage::of_codes(codes),
+            Rendered::Light(image) => self.encoder.encode(&image, threads),
+            Rendered::Codes(codes) => EncodedImage::of_codes(codes),
         };
         // Each picture of light goes as soon as it is encoded.
         let encoded: Vec<EncodedImage> = levels.into_iter().map(encode).collect();

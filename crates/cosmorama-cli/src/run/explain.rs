@@ -1,3 +1,4 @@
+use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -8,28 +9,32 @@ use cosmorama::world::{PixelRect, World};
 use cosmorama_io::pending::Hidden;
 use serde_json::{Value, json};
 
-use super::pipe::Kept;
+use super::pipe::KeptStreams;
 use super::{diagram, print, use_threads};
 use crate::args::ExplainArgs;
 use crate::failure::{usage, warn};
-use crate::job::{Builtin, Input, MemoryBudget, Picture, filter, nominal_worlds, refuse_existing, settled};
+use crate::job::{
+    Builtin, Input, MemoryBudget, Picture, check_apart, filter, nominal_worlds, real_path, refuse_existing, settled,
+};
 
 /// Tells what a conversion will do.
 pub(super) fn run(args: &ExplainArgs) -> Result<ExitCode> {
     use_threads(args.limits.threads)?;
-    let (mut kept, mut args) = (Kept::default(), args.clone());
+    let (mut kept, mut args) = (KeptStreams::default(), args.clone());
     args.input = args.input.map(|input| kept.input(&input)).transpose()?;
     let args = &args;
     let mut warnings = Vec::new();
     let (mut input, pictures) = resolve(args, &mut warnings)?;
+    warnings.extend(input.turned());
     input.fit_eyes(pictures.iter().any(|picture| picture.eye.is_some()), &mut warnings);
     let filter = filter(&args.geometry, &mut warnings);
     warnings.iter().for_each(|warning| warn(warning));
-    if let (Some(folder), false) = (&args.output, args.overwrite) {
-        let files: Vec<PathBuf> = pictures.iter().flat_map(|picture| diagrams(folder, picture)).collect();
-        refuse_existing(files.iter().map(PathBuf::as_path), "")?;
+    if let Some(folder) = &args.output {
+        check_diagrams(folder, &pictures, &input, args)?;
     }
-    let worlds = nominal_worlds(&input, MemoryBudget::new(args.limits.memory))?;
+    let memory = MemoryBudget::new(args.limits.memory);
+    memory.check_sizes(pictures.iter().map(|picture| (picture.view.width(), picture.view.height())))?;
+    let worlds = nominal_worlds(&input, memory)?;
     let (mut text, mut reports, mut drawn) = (String::new(), Vec::new(), Vec::new());
     for picture in &pictures {
         let world = &worlds[picture.world(worlds.len())];
@@ -96,6 +101,16 @@ fn resolve(args: &ExplainArgs, warnings: &mut Vec<String>) -> Result<(Input, Vec
     }
 }
 
+/// Diagrams replace no input, nor anything else unasked.
+fn check_diagrams(folder: &Path, pictures: &[Picture], input: &Input, args: &ExplainArgs) -> Result<()> {
+    let specs = [&args.geometry.from, &args.geometry.to].into_iter().flatten();
+    let named = specs.flat_map(|spec| spec.files.iter().cloned());
+    let inputs: HashSet<PathBuf> = input.files().chain(named).map(|path| real_path(&path)).collect();
+    let files: Vec<PathBuf> = pictures.iter().flat_map(|picture| diagrams(folder, picture)).collect();
+    files.iter().try_for_each(|path| check_apart(path, &inputs))?;
+    if args.overwrite { Ok(()) } else { refuse_existing(files.iter().map(PathBuf::as_path), "") }
+}
+
 /// What the report has found out already.
 fn needs(report: &Report) -> Needs {
     Needs { views: report.views.iter().map(|view| view.need.clone()).collect(), uncovered: report.uncovered }
@@ -140,7 +155,7 @@ fn to_json(report: &Report, input: &Input, files: &[PathBuf]) -> Value {
         "uncovered_pixels": report.uncovered.map_or(0, |uncovered| uncovered.pixels),
         "views": views,
         "views_without_files": missing,
-        "diagrams": files,
+        "diagrams": files.iter().map(|file| file.display().to_string()).collect::<Vec<_>>(),
     })
 }
 

@@ -8,14 +8,14 @@ use cosmorama_io::{EnvMap, FacePattern, FaceSet, Header, probe};
 use serde_json::{Value, json};
 
 use super::info_faces::{of_files, of_image};
-use super::pipe::Kept;
+use super::pipe::KeptStreams;
 use super::{info_world, print};
 use crate::args::InfoArgs;
 use crate::job::{Builtin, Files, existing_frames, likely};
 
 /// Tells what a file or a face set is.
 pub(super) fn run(args: &InfoArgs) -> Result<ExitCode> {
-    let mut kept = Kept::default();
+    let mut kept = KeptStreams::default();
     let input = &kept.input(&args.input)?;
     let report = if let Some(builtin) = Builtin::named(input)? {
         json!({ "input": input, "projection": "any (a formula)", "shows": builtin.about() })
@@ -62,7 +62,7 @@ fn faces(pattern: &str) -> Result<Value> {
     let mut report = json!({ "input": pattern, "projection": "cube", "naming": set.naming().name });
     let mut faces = serde_json::Map::new();
     for file in set.faces() {
-        let mut face = json!({ "file": file.path, "present": file.present });
+        let mut face = json!({ "file": file.path.display().to_string(), "present": file.present });
         if file.placement != cosmorama_io::FacePlacement::UPRIGHT {
             face["lies"] = json!(format!(
                 "turned clockwise by {} degrees{}",
@@ -116,6 +116,9 @@ fn header_report(header: &Header) -> Value {
     }
     if !metadata.other_channels.is_empty() {
         report["other_channels"] = json!(metadata.other_channels);
+    }
+    if let Some(orientation) = metadata.orientation {
+        report["orientation"] = json!(format!("{orientation} (not followed: pixels are taken as they are stored)"));
     }
     if let Some(software) = &metadata.software {
         report["software"] = json!(software);

@@ -18,7 +18,7 @@ const STREAM: &str = "-";
 
 /// Files that stand for streams, as long as this lives.
 #[derive(Default)]
-pub(super) struct Kept {
+pub(super) struct KeptStreams {
     folder: Option<Scratch>,
     /// Inputs so far.
     inputs: usize,
@@ -26,7 +26,7 @@ pub(super) struct Kept {
     has_stdin: bool,
 }
 
-impl Kept {
+impl KeptStreams {
     /// The name of an input that can be read as often as wanted: its own, or that of a file that keeps what comes through
     /// standard input or a pipe.
     pub(super) fn input(&mut self, name: &str) -> Result<String> {
@@ -85,7 +85,7 @@ pub(super) struct Piped {
     /// The same with the names of files.
     pub(super) args: ConvertArgs,
     /// Where those lie.
-    _kept: Kept,
+    _kept: KeptStreams,
     /// Whether the output goes on to standard output.
     to_stdout: bool,
 }
@@ -95,7 +95,7 @@ impl Piped {
     pub(super) fn open(args: &ConvertArgs) -> Result<Self> {
         let to_stdout = args.output == STREAM;
         check(args, to_stdout)?;
-        let (mut kept, mut args) = (Kept::default(), args.clone());
+        let (mut kept, mut args) = (KeptStreams::default(), args.clone());
         args.input = kept.input(&args.input)?;
         if let Some(format) = &args.format {
             let path = kept.folder()?.join(format!("standard output.{}", format.trim_start_matches('.')));

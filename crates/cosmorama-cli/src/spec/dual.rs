@@ -2,7 +2,7 @@ use cosmorama::sphere::Orientation;
 use cosmorama::world::{Arrangement, DualFisheye, DualLens, FisheyeFrame, LensScale, LensSide, Mirror};
 
 use super::SpecError;
-use super::fields::{Fields, wrong};
+use super::fields::Fields;
 use super::lens::{fit, lens};
 
 /// Two fisheye pictures in one image.
@@ -19,9 +19,6 @@ pub(crate) struct Dual {
 impl Dual {
     /// The pictures of these keys.
     pub(super) fn build(fields: &Fields) -> Result<Self, SpecError> {
-        if let Some(canvas) = fields.get("canvas") {
-            return Err(wrong("canvas", canvas, "none: both circles are found in a whole image; place them by center"));
-        }
         let arrangements = [("side-by-side", Arrangement::SideBySide), ("top-bottom", Arrangement::TopBottom)];
         let orders = [("fb", LensSide::Front), ("bf", LensSide::Back)];
         let both = FisheyeFrame {

@@ -7,6 +7,9 @@ use super::SpecError;
 use super::angle::parse_degrees;
 use super::window::parse_window;
 
+/// So many times wider than high, or higher than wide, is a pixel at most: what is more is a slip.
+const LONGEST_PIXEL: f64 = 1000.0;
+
 /// The keys and values of a SPEC, all known to exist, to be read by kind; and the folder in which it names files.
 pub(super) struct Fields<'a>(Vec<(String, String)>, &'a Path);
 
@@ -64,7 +67,11 @@ impl<'f> Fields<'f> {
     }
 
     pub(super) fn aspect(&self) -> Result<f64, SpecError> {
-        Ok(self.positive("aspect", "a pixel's width over its height, more than 0, as in aspect=1.2")?.unwrap_or(1.0))
+        let expected = "a pixel's width over its height, from 0.001 to 1000, as in aspect=1.2";
+        let aspect = self.read("aspect", expected, |value| {
+            value.parse().ok().filter(|aspect| (LONGEST_PIXEL.recip()..=LONGEST_PIXEL).contains(aspect))
+        });
+        Ok(aspect?.unwrap_or(1.0))
     }
 
     pub(super) fn circle(&self) -> Result<LensCircle, SpecError> {

@@ -8,9 +8,27 @@ pub(crate) struct Kind {
     pub(crate) about: &'static str,
     /// Its own keys.
     pub(crate) keys: &'static [Key],
-    /// Whether pixels that are not square are declared by `aspect=`.
-    pub(crate) takes_aspect: bool,
+    /// Those of the common keys that mean nothing here.
+    pub(crate) refused: &'static [Refused],
 }
+
+/// A common key that a name does not take.
+pub(crate) struct Refused {
+    /// As typed.
+    pub(crate) key: &'static str,
+    /// Why.
+    pub(crate) why: &'static str,
+}
+
+const FITS: Refused = Refused {
+    key: "aspect",
+    why: "what it shows is given both ways, so that its pixels fit the image, whatever its size",
+};
+const NO_CANVAS: Refused = Refused {
+    key: "canvas",
+    why: "both circles are found in a whole image; place them by front.center= and back.center=",
+};
+const NO_EYES: Refused = Refused { key: "stereo", why: "a map is for one picture; convert that of each eye by itself" };
 
 /// A key of a SPEC.
 pub(crate) struct Key {
@@ -60,7 +78,7 @@ pub(crate) static KINDS: [Kind; 19] = [
             key("faces", "front,left,right,up", "use (or write) only these"),
             key("canvas.FACE", "WxH+X+Y", "as canvas=, for one face; needed where a file is a crop"),
         ],
-        takes_aspect: false,
+        refused: &[FITS],
     },
     Kind {
         name: "perspective",
@@ -75,7 +93,7 @@ pub(crate) static KINDS: [Kind; 19] = [
                 "a camera measured by OpenCV (YAML, JSON, XML: k1 k2 p1 p2 k3 …); with fov=, only so wide a cone counts",
             ),
         ],
-        takes_aspect: true,
+        refused: &[],
     },
     Kind {
         name: "equirect",
@@ -85,7 +103,7 @@ pub(crate) static KINDS: [Kind; 19] = [
             key("vfov", "DEGREES", "latitudes shown (180)"),
             key("samples", "centres|edges", "where the outermost samples lie (centres; OpenEXR files: edges)"),
         ],
-        takes_aspect: false,
+        refused: &[FITS],
     },
     Kind {
         name: "fisheye",
@@ -110,13 +128,13 @@ pub(crate) static KINDS: [Kind; 19] = [
                 "a lens measured by OpenCV's fisheye model (YAML, JSON, XML) or OCamCalib; with fov=, only so much counts",
             ),
         ],
-        takes_aspect: true,
+        refused: &[],
     },
     Kind {
         name: "stereographic",
         about: "stereographic, without a circle; with pitch=-90 a little planet",
         keys: &[key("fov", "DEGREES", "horizontal field of view (270)")],
-        takes_aspect: true,
+        refused: &[],
     },
     Kind {
         name: "fulldome",
@@ -125,7 +143,7 @@ pub(crate) static KINDS: [Kind; 19] = [
             key("fov", "DEGREES", "across the circle (180)"),
             key("tilt", "DEGREES", "how far the dome leans to the front (0)"),
         ],
-        takes_aspect: true,
+        refused: &[],
     },
     Kind {
         name: "dual-fisheye",
@@ -145,7 +163,7 @@ pub(crate) static KINDS: [Kind; 19] = [
             key("LENS.center", "X:Y", "one circle's centre in pixels of the whole image"),
             key("LENS.radius", "PIXELS", "one circle's radius in pixels"),
         ],
-        takes_aspect: true,
+        refused: &[NO_CANVAS],
     },
     Kind {
         name: "omnimax",
@@ -157,7 +175,7 @@ pub(crate) static KINDS: [Kind; 19] = [
             key("radius", "PIXELS", "the circle's radius in pixels"),
             key("axis", "DEGREES", "elevation of the axis of projection (0; theatre: 11)"),
         ],
-        takes_aspect: true,
+        refused: &[],
     },
     Kind {
         name: "mercator",
@@ -166,15 +184,15 @@ pub(crate) static KINDS: [Kind; 19] = [
             key("hfov", "DEGREES", "longitudes shown (360)"),
             key("lat", "DEGREES", "latitude of the upper edge (by the size, square pixels; else 85.051129)"),
         ],
-        takes_aspect: true,
+        refused: &[],
     },
     Kind {
         name: "cylinder",
         about: "a central cylinder: upright lines stay straight",
         keys: &CYLINDER_KEYS,
-        takes_aspect: true,
+        refused: &[],
     },
-    Kind { name: "equal-area", about: "Lambert's equal-area cylinder", keys: &CYLINDER_KEYS, takes_aspect: true },
+    Kind { name: "equal-area", about: "Lambert's equal-area cylinder", keys: &CYLINDER_KEYS, refused: &[] },
     Kind {
         name: "mirror-ball",
         about: "a mirror ball as photographed, the camera looking ahead at it",
@@ -183,7 +201,7 @@ pub(crate) static KINDS: [Kind; 19] = [
             key("center", "X:Y", "the centre of its outline in pixels"),
             key("radius", "PIXELS", "the radius of its outline in pixels"),
         ],
-        takes_aspect: true,
+        refused: &[],
     },
     Kind {
         name: "angular-map",
@@ -192,11 +210,11 @@ pub(crate) static KINDS: [Kind; 19] = [
             key("center", "X:Y", "the circle's centre in pixels"),
             key("radius", "PIXELS", "the circle's radius in pixels"),
         ],
-        takes_aspect: true,
+        refused: &[],
     },
-    Kind { name: "hammer", about: "Hammer's equal-area map of the world", keys: &[], takes_aspect: false },
-    Kind { name: "mollweide", about: "Mollweide's equal-area map of the world", keys: &[], takes_aspect: false },
-    Kind { name: "sinusoidal", about: "the sinusoidal equal-area map of the world", keys: &[], takes_aspect: false },
+    Kind { name: "hammer", about: "Hammer's equal-area map of the world", keys: &[], refused: &[FITS] },
+    Kind { name: "mollweide", about: "Mollweide's equal-area map of the world", keys: &[], refused: &[FITS] },
+    Kind { name: "sinusoidal", about: "the sinusoidal equal-area map of the world", keys: &[], refused: &[FITS] },
     Kind {
         name: "pannini",
         about: "a wide view in which upright lines stay straight",
@@ -204,13 +222,13 @@ pub(crate) static KINDS: [Kind; 19] = [
             key("fov", "DEGREES", "horizontal field of view (180)"),
             key("d", "D", "0 is a pinhole camera, 1 Pannini's own, more squeezes the sides further (1)"),
         ],
-        takes_aspect: true,
+        refused: &[],
     },
     Kind {
         name: "octahedral",
         about: "the sphere on an octahedron, unfolded; with pitch=90 the zenith is in the middle, as in pbrt",
         keys: &[key("kind", "equal-area|plain", "Clarberg's, as pbrt stores environments, or along rays (equal-area)")],
-        takes_aspect: false,
+        refused: &[FITS],
     },
     Kind {
         name: "st-map",
@@ -226,17 +244,18 @@ pub(crate) static KINDS: [Kind; 19] = [
                  other side of the conversion)",
             ),
         ],
-        takes_aspect: false,
+        refused: &[FITS, NO_EYES],
     },
 ];
 
-/// Keys that every SPEC takes.
-pub(crate) const COMMON: [Key; 8] = [
+/// Keys that every SPEC takes, but those that refuse them.
+pub(crate) const COMMON: [Key; 9] = [
     key("yaw", "DEGREES", "turns the view to the right"),
     key("pitch", "DEGREES", "turns it up"),
     key("roll", "DEGREES", "turns the camera clockwise"),
     key("flip", "x|y|xy", "the picture is mirrored left to right, top to bottom, both"),
     key("canvas", "WxH+X+Y", "the image is a window of a canvas, its corner at X, Y"),
+    key("aspect", "A", "a pixel's width over its height (1)"),
     key(
         "stereo",
         "sbs|tb|sbs-half|tb-half",
@@ -246,9 +265,6 @@ pub(crate) const COMMON: [Key; 8] = [
     key("eye", "left|right", "of a stereo input only this eye's is used"),
 ];
 
-/// The key of pixels that are not square.
-pub(crate) const ASPECT: Key = key("aspect", "A", "a pixel's width over its height (1)");
-
 impl Kind {
     /// The kind of this name.
     pub(crate) fn named(name: &str) -> Option<&'static Self> {
@@ -257,8 +273,12 @@ impl Kind {
 
     /// Every key it takes.
     pub(crate) fn all_keys(&self) -> impl Iterator<Item = &Key> {
-        let aspect = self.takes_aspect.then_some(&ASPECT);
-        self.keys.iter().chain(&COMMON).chain(aspect)
+        self.keys.iter().chain(COMMON.iter().filter(|key| self.refusal(key.name).is_none()))
+    }
+
+    /// Why it does not take a common key, if it does not.
+    pub(crate) fn refusal(&self, key: &str) -> Option<&'static str> {
+        self.refused.iter().find(|refused| refused.key == key).map(|refused| refused.why)
     }
 }
 
@@ -272,12 +292,50 @@ pub(crate) fn help() -> String {
         }
     }
     text += "\n  Every SPEC also takes\n";
-    for key in COMMON.iter().chain(std::iter::once(&ASPECT)) {
+    for key in &COMMON {
         text += &key_help(key);
+        let without: Vec<&str> =
+            KINDS.iter().filter(|kind| kind.refusal(key.name).is_some()).map(|kind| kind.name).collect();
+        if !without.is_empty() {
+            text += &format!("{:39} not {}\n", "", without.join(", "));
+        }
     }
     text
 }
 
 fn key_help(key: &Key) -> String {
     format!("    {:<34} {}\n", format!("{}={}", key.name, key.value), key.about)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::spec::Spec;
+
+    #[test]
+    fn every_spec_takes_the_keys_that_help_says_it_takes() {
+        let help = help();
+        for (kind, key) in KINDS.iter().flat_map(|kind| COMMON.iter().map(move |key| (kind, key))) {
+            // Values of their own kind; what they need beside them comes along.
+            let beside = if matches!(key.name, "swap" | "eye") { "stereo=sbs," } else { "" };
+            let file = if kind.name == "st-map" { "file=a.exr," } else { "" };
+            let value = match key.name {
+                "flip" => "x",
+                "canvas" => "9x9+0+0",
+                "stereo" => "sbs",
+                "swap" => "yes",
+                "eye" => "left",
+                _ => "2",
+            };
+            let parsed = format!("{}:{file}{beside}{}={value}", kind.name, key.name).parse::<Spec>();
+            let line = help.lines().skip_while(|line| !line.starts_with(&format!("    {}=", key.name))).nth(1);
+            let is_left_out = line.is_some_and(|line| {
+                line.trim_start()
+                    .strip_prefix("not ")
+                    .is_some_and(|names| names.split(", ").any(|name| name == kind.name))
+            });
+            let needs_stereo = !beside.is_empty() && kind.refusal("stereo").is_some();
+            assert_eq!(parsed.is_err(), is_left_out || needs_stereo, "{} {}: {parsed:?}", kind.name, key.name);
+        }
+    }
 }

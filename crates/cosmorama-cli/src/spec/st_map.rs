@@ -21,6 +21,8 @@ pub(crate) struct StMapSpec {
     pub(crate) mirror: Mirror,
     /// The canvas that it is a window of.
     pub(crate) canvas: Option<Canvas>,
+    /// The files that `base=` names.
+    pub(super) base_files: Vec<PathBuf>,
 }
 
 impl StMapSpec {
@@ -30,10 +32,13 @@ impl StMapSpec {
             key: "file",
             example: "st-map:file=undistort.exr",
         })?;
+        let base = fields.get("base").map(|text| base(text, fields.folder())).transpose()?;
+        let (base, base_files) = base.map_or((None, Vec::new()), |(single, files)| (Some(single), files));
         Ok(Self {
             file,
             invert: fields.choice("invert", &[("yes", true), ("no", false)])?.unwrap_or_default(),
-            base: fields.get("base").map(|text| base(text, fields.folder())).transpose()?,
+            base,
+            base_files,
             orientation: fields.orientation()?,
             mirror: fields.mirror()?,
             canvas: fields.canvas("canvas")?,
@@ -41,8 +46,8 @@ impl StMapSpec {
     }
 }
 
-/// A SPEC within a SPEC: its commas are colons.
-fn base(text: &str, folder: &Path) -> Result<Single, SpecError> {
+/// A SPEC within a SPEC, whose commas are colons, and the files that it names.
+fn base(text: &str, folder: &Path) -> Result<(Single, Vec<PathBuf>), SpecError> {
     let expected = |what: &str| wrong("base", text, what);
     let (name, keys) = text.split_once(':').unwrap_or((text, ""));
     let mut pairs: Vec<String> = Vec::new();
@@ -61,7 +66,7 @@ fn base(text: &str, folder: &Path) -> Result<Single, SpecError> {
         return Err(expected("the picture of one eye, without stereo="));
     }
     match spec.shape {
-        Shape::Single(single) if single.placement.canvas.is_none() => Ok(single),
+        Shape::Single(single) if single.placement.canvas.is_none() => Ok((single, spec.files)),
         Shape::Single(_) => Err(expected("a whole picture, without canvas=")),
         Shape::Cube(_) | Shape::Dual(_) | Shape::StMap(_) => {
             Err(expected("the SPEC of one picture that is given by a formula"))

@@ -39,6 +39,9 @@ pub(crate) enum SpecError {
     /// The key is not one of this name's.
     #[error("unknown key '{key}' for {name}{}; it takes {}", meant(.key, .known), .known.join(", "))]
     UnknownKey { name: &'static str, key: String, known: Vec<&'static str> },
+    /// A common key that means nothing for this name.
+    #[error("{name} takes no {key}=: {why}")]
+    Refused { name: &'static str, key: String, why: &'static str },
     /// A part that is no `key=value`.
     #[error("'{part}' is no key=value; a SPEC is NAME[:key=value[,key=value]...], as in fisheye:fov=220,fit=width")]
     NoValue { part: String },
@@ -119,10 +122,10 @@ impl Spec {
         }
         let fields = Fields::new(pairs, folder);
         let (shape, stereo) = (Shape::build(kind.name, &fields)?, StereoSpec::build(&fields)?);
-        if stereo.is_some() && matches!(shape, Shape::StMap(_)) {
-            return Err(SpecError::Both { first: "stereo", second: "file" });
+        let mut files: Vec<PathBuf> = ["file", "calibration"].into_iter().filter_map(|key| fields.file(key)).collect();
+        if let Shape::StMap(map) = &shape {
+            files.extend(map.base_files.iter().cloned());
         }
-        let files = ["file", "calibration"].into_iter().filter_map(|key| fields.file(key)).collect();
         Ok(Self { name: kind.name, shape, stereo, files })
     }
 }
@@ -152,6 +155,9 @@ fn check_key(kind: &'static Kind, typed: &str) -> Result<(), SpecError> {
     if kind.all_keys().any(|key| key.name == generic) && !typed.starts_with("LENS.") {
         return Ok(());
     }
+    if let Some(why) = kind.refusal(typed) {
+        return Err(SpecError::Refused { name: kind.name, key: typed.to_owned(), why });
+    }
     let known = kind.all_keys().map(|key| key.name).collect();
     Err(SpecError::UnknownKey { name: kind.name, key: typed.to_owned(), known })
 }
@@ -173,7 +179,7 @@ mod tests {
         );
         assert!(refused("omnimx").contains("did you mean 'omnimax'?"));
         assert!(refused("globe").contains("there are cube, perspective, equirect, fisheye, stereographic"));
-        assert!(refused("cube:aspect=2").contains("unknown key 'aspect' for cube"));
+        assert!(refused("cube:aspect=2").starts_with("cube takes no aspect=: what it shows is given both ways"));
     }
 
     #[test]
@@ -204,6 +210,10 @@ mod tests {
         assert!(refused("st-map:file=a.exr,base=cube").contains("base=cube: expected the SPEC of one picture"));
         assert!(refused("cube:canvas.nose=1x1+0+0").contains("nose"));
         assert!(refused("omnimax:canvas=10x10").contains("WxH+X+Y"));
+        assert!(refused("equirect:canvas=10x10+9223372036854775807+0").contains("WxH+X+Y"));
+        for aspect in ["0", "-1", "nan", "0.0001", "9223372036854775807"] {
+            assert!(refused(&format!("stereographic:aspect={aspect}")).contains("from 0.001 to 1000"), "{aspect}");
+        }
     }
 
     #[test]

@@ -1,5 +1,8 @@
 use cosmorama::world::Canvas;
 
+/// As far as a canvas may go, and a window on it lie, each way: as far as OpenEXR counts pixels.
+const FARTHEST: i64 = i32::MAX as i64;
+
 /// A canvas with the place of its window: `WxH+X+Y`, X and Y possibly negative (`+-8` or `-8`).
 pub(crate) fn parse_window(text: &str) -> Option<Canvas> {
     let (width, rest) = text.split_once('x')?;
@@ -11,12 +14,14 @@ pub(crate) fn parse_window(text: &str) -> Option<Canvas> {
         .find(|(index, sign)| matches!(sign, '+' | '-') && !offsets[..*index].ends_with(['+', '-']))?;
     let (left, top) = offsets.split_at(top_start.0);
     let (width, height) = (width.parse().ok()?, height.parse().ok()?);
-    (width > 0 && height > 0).then_some(())?;
+    let is_side = |side: usize| (1..=FARTHEST as usize).contains(&side);
+    (is_side(width) && is_side(height)).then_some(())?;
     Some(Canvas { width, height, left: offset(left)?, top: offset(top)? })
 }
 
 fn offset(text: &str) -> Option<i64> {
-    text.strip_prefix('+').unwrap_or(text).parse().ok()
+    let offset: i64 = text.strip_prefix('+').unwrap_or(text).parse().ok()?;
+    (-FARTHEST..=FARTHEST).contains(&offset).then_some(offset)
 }
 
 #[cfg(test)]
@@ -29,6 +34,10 @@ mod tests {
         assert_eq!(parse_window("1024x768+512+0"), canvas(512, 0));
         assert_eq!(parse_window("1024x768-8+16"), canvas(-8, 16));
         assert_eq!(parse_window("1024x768+-8+-16"), canvas(-8, -16));
+        assert_eq!(parse_window("1024x768+2147483647+0"), canvas(2_147_483_647, 0));
+        for wrong in ["1024x768+2147483648+0", "1x1-9223372036854775808+0", "2147483648x1+0+0"] {
+            assert_eq!(parse_window(wrong), None, "{wrong}");
+        }
         for wrong in ["1024x768", "1024x768+1", "0x768+0+0", "x+0+0", "1024x768+0+0+0", ""] {
             assert_eq!(parse_window(wrong), None, "{wrong}");
         }

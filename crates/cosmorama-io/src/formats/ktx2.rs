@@ -57,11 +57,11 @@ fn texture(path: &Path, source: &mut Source) -> Result<CubeTexture, IoError> {
         Some(scheme) => return Err(unsupported(format!("texels packed by {scheme:?}"))),
     };
     let Some(format) = header.format else {
-        return Err(unsupported(model(path, source, header.index.dfd_byte_offset)?.to_owned()));
+        return Err(unsupported(model(&descriptor(path, source, header.index.dfd_byte_offset)?).to_owned()));
     };
     let (texels, srgb) =
         texels(format).ok_or_else(|| unsupported(format!("texels of the Vulkan format {format:?}")))?;
-    let (said, premultiplied) = colour(path, source, header.index.dfd_byte_offset)?;
+    let (said, premultiplied) = colour(&descriptor(path, source, header.index.dfd_byte_offset)?);
     let integers = texels.depth() == Depth::Eight;
     let level = LevelIndex::from_bytes(&level);
     let mut cube = CubeTexture {
@@ -96,33 +96,35 @@ fn texture(path: &Path, source: &mut Source) -> Result<CubeTexture, IoError> {
     Ok(cube)
 }
 
-/// What texels of no Vulkan format are: the colour model of the data format descriptor.
-fn model(path: &Path, source: &mut Source, offset: u32) -> Result<&'static str, IoError> {
-    let mut start = [0; 16];
+/// The beginning of the data format descriptor: its header, and what texels are as a whole.
+type Descriptor = [u8; 16];
+
+fn descriptor(path: &Path, source: &mut Source, offset: u32) -> Result<Descriptor, IoError> {
+    let mut start = Descriptor::default();
     source
         .seek(SeekFrom::Start(offset.into()))
         .and_then(|_| source.read_exact(&mut start))
         .map_err(|_| IoError::damaged(path, FORMAT, "its data format descriptor lies beyond its end"))?;
-    Ok(match start[12] {
+    Ok(start)
+}
+
+/// What texels of no Vulkan format are: the descriptor's colour model.
+fn model(descriptor: &Descriptor) -> &'static str {
+    match descriptor[12] {
         descriptor::ETC1S_MODEL => "ETC1S texels, as BasisLZ packs them",
         descriptor::UASTC_MODEL => "UASTC texels",
         _ => "texels of no Vulkan format",
-    })
+    }
 }
 
-/// Transfer function and alpha, as far as the data format descriptor says them in words that we know.
-fn colour(path: &Path, source: &mut Source, offset: u32) -> Result<(Option<Transfer>, bool), IoError> {
-    let mut start = [0; 16];
-    source
-        .seek(SeekFrom::Start(offset.into()))
-        .and_then(|_| source.read_exact(&mut start))
-        .map_err(|_| IoError::damaged(path, FORMAT, "its data format descriptor lies beyond its end"))?;
-    let transfer = match start[14] {
+/// Transfer function and alpha, as far as the descriptor says them in words that we know.
+fn colour(descriptor: &Descriptor) -> (Option<Transfer>, bool) {
+    let transfer = match descriptor[14] {
         descriptor::LINEAR => Some(Transfer::Linear),
         descriptor::SRGB => Some(Transfer::Srgb),
         _ => None,
     };
-    Ok((transfer, start[15] & descriptor::PREMULTIPLIED != 0))
+    (transfer, descriptor[15] & descriptor::PREMULTIPLIED != 0)
 }
 
 /// How texels of a Vulkan format are stored, and whether it is one of sRGB.

@@ -4,7 +4,7 @@ use std::path::Path;
 use bytemuck::cast_slice;
 use cosmorama::raster::{Channels, Depth, EncodedImage, Samples};
 use png::chunk::sBIT;
-use png::{BitDepth, ColorType, DeflateCompression, Encoder, EncodingError, Filter, Info};
+use png::{BitDepth, ColorType, DeflateCompression, Encoder, EncodingError, Filter, Info, Writer};
 
 use super::png_colour::{CICP, Tag, XMP, tag};
 use crate::{Compression, IoError, Metadata, gpano};
@@ -25,26 +25,12 @@ fn encode(
     metadata: &Metadata,
     compression: Compression,
 ) -> Result<(), EncodingError> {
-    let mut info = Info::with_size(dimension(image.width())?, dimension(image.height())?);
-    info.color_type = match image.channels() {
-        Channels::Grey => ColorType::Grayscale,
-        Channels::GreyAlpha => ColorType::GrayscaleAlpha,
-        Channels::Rgb => ColorType::Rgb,
-        Channels::Rgba => ColorType::Rgba,
-    };
-    info.bit_depth = if image.depth() == Depth::Eight { BitDepth::Eight } else { BitDepth::Sixteen };
     // A profile says all there is to say about colour.
     let tag = match &metadata.icc {
         Some(_) => None,
         None => metadata.transfer.as_ref().and_then(|transfer| tag(transfer, metadata.primaries)),
     };
-    info.icc_profile = metadata.icc.as_deref().map(Into::into);
-    match &tag {
-        Some(Tag::Srgb(intent)) => info.srgb = Some(*intent),
-        Some(Tag::Gamma(gamma)) => info.source_gamma = Some(*gamma),
-        _ => {}
-    }
-    let mut encoder = Encoder::with_info(output, info)?;
+    let mut encoder = Encoder::with_info(output, info(image, metadata, tag.as_ref())?)?;
     if let Some(window) = metadata.panorama {
         encoder.add_itxt_chunk(XMP.to_owned(), gpano::packet(window, (image.width(), image.height())))?;
     }
@@ -59,7 +45,32 @@ fn encode(
     encoder.set_deflate_compression(deflate);
     encoder.set_filter(filter);
     let mut writer = encoder.write_header()?;
-    // The encoder has no words for these two.
+    write_chunks(&mut writer, image, tag)?;
+    write_samples(&mut writer, image)?;
+    writer.finish()
+}
+
+/// What the encoder has words for.
+fn info<'a>(image: &EncodedImage, metadata: &'a Metadata, tag: Option<&Tag>) -> Result<Info<'a>, EncodingError> {
+    let mut info = Info::with_size(dimension(image.width())?, dimension(image.height())?);
+    info.color_type = match image.channels() {
+        Channels::Grey => ColorType::Grayscale,
+        Channels::GreyAlpha => ColorType::GrayscaleAlpha,
+        Channels::Rgb => ColorType::Rgb,
+        Channels::Rgba => ColorType::Rgba,
+    };
+    info.bit_depth = if image.depth() == Depth::Eight { BitDepth::Eight } else { BitDepth::Sixteen };
+    info.icc_profile = metadata.icc.as_deref().map(Into::into);
+    match tag {
+        Some(Tag::Srgb(intent)) => info.srgb = Some(*intent),
+        Some(Tag::Gamma(gamma)) => info.source_gamma = Some(*gamma),
+        _ => {}
+    }
+    Ok(info)
+}
+
+/// What it has none for.
+fn write_chunks(writer: &mut Writer<impl Write>, image: &EncodedImage, tag: Option<Tag>) -> Result<(), EncodingError> {
     if let Some(Tag::CodePoints(cicp)) = tag {
         let full_range = u8::from(cicp.is_video_full_range_image);
         let data = [cicp.color_primaries, cicp.transfer_function, cicp.matrix_coefficients, full_range];
@@ -68,16 +79,19 @@ fn encode(
     if let Some(bits @ (10 | 12)) = image.depth().significant_bits() {
         writer.write_chunk(sBIT, &vec![bits as u8; image.channels().count()])?;
     }
+    Ok(())
+}
+
+fn write_samples(writer: &mut Writer<impl Write>, image: &EncodedImage) -> Result<(), EncodingError> {
     match image.samples() {
-        Samples::U8(samples) => writer.write_image_data(samples)?,
+        Samples::U8(samples) => writer.write_image_data(samples),
         Samples::U16(samples) => {
             let big_endian: Vec<u16> = samples.iter().map(|sample| sample.to_be()).collect();
-            writer.write_image_data(cast_slice(&big_endian))?;
+            writer.write_image_data(cast_slice(&big_endian))
         }
         // `Format::supports` has been asked before.
-        Samples::Half(_) | Samples::Float(_) => return Err(limit("PNG has no float samples")),
+        Samples::Half(_) | Samples::Float(_) => Err(limit("PNG has no float samples")),
     }
-    writer.finish()
 }
 
 fn dimension(pixels: usize) -> Result<u32, EncodingError> {

@@ -57,8 +57,10 @@ fn header(path: &Path, decoder: &mut Decoder<&mut Source>) -> Result<Header, IoE
     let channels = match colour {
         ColorType::Gray(_) => Channels::Grey,
         ColorType::GrayA(_) | ColorType::Multiband { num_samples: 2, .. } => Channels::GreyAlpha,
-        ColorType::RGB(_) | ColorType::YCbCr(_) => Channels::Rgb,
+        ColorType::RGB(_) => Channels::Rgb,
         ColorType::RGBA(_) => Channels::Rgba,
+        // The decoder gives these as they are stored, as luma and two differences of colour.
+        ColorType::YCbCr(_) => return Err(unsupported(&"YCbCr colours")),
         other => return Err(unsupported(&format_args!("{other:?}"))),
     };
     let planes = decoder.find_tag_unsigned::<u16>(Tag::PlanarConfiguration).map_err(fail)?;
@@ -85,7 +87,14 @@ fn header(path: &Path, decoder: &mut Decoder<&mut Source>) -> Result<Header, IoE
 fn metadata(decoder: &mut Decoder<&mut Source>) -> Metadata {
     let profile = decoder.get_tag_u8_vec(ICC_PROFILE).ok();
     let software = decoder.get_tag_ascii_string(Tag::Software).ok();
-    Metadata { transfer: profile.as_deref().and_then(icc::transfer), icc: profile, software, ..Metadata::default() }
+    let orientation = decoder.find_tag_unsigned::<u16>(Tag::Orientation).ok().flatten();
+    Metadata {
+        transfer: profile.as_deref().and_then(icc::transfer),
+        icc: profile,
+        orientation: orientation.filter(|orientation| (2..=8).contains(orientation)),
+        software,
+        ..Metadata::default()
+    }
 }
 
 /// The tag that says whether alpha has been multiplied in.

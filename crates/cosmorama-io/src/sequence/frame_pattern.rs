@@ -115,12 +115,18 @@ fn pieces(text: &str) -> Vec<Piece> {
     pieces
 }
 
+/// The longest name that a file can have anywhere: no more digits can be found in one, nor written.
+const LONGEST_NAME: usize = 255;
+
 /// Digits that the marker at the start of a text asks for, and the marker's own length.
 fn marker(text: &str) -> Option<(usize, usize)> {
-    let run = |sign: u8| text.bytes().take_while(|byte| *byte == sign).count();
+    let run = |sign: u8| {
+        let length = text.bytes().take_while(|byte| *byte == sign).count();
+        Some((length.min(LONGEST_NAME), length))
+    };
     match text.as_bytes() {
-        [b'#', ..] => Some((run(b'#'), run(b'#'))),
-        [b'@', b'@', ..] => Some((run(b'@'), run(b'@'))),
+        [b'#', ..] => run(b'#'),
+        [b'@', b'@', ..] => run(b'@'),
         [b'%', after @ ..] => {
             let digits = after.iter().take_while(|byte| byte.is_ascii_digit()).count();
             let width = &text[1..1 + digits];
@@ -173,6 +179,13 @@ mod tests {
         for plain in ["a.png", "a@2x.png", "100%.png", "%c.png", "%s_%x.png", "%004d.png"] {
             assert!(FramePattern::parse(plain).is_none(), "{plain}");
         }
+    }
+
+    #[test]
+    fn a_name_longer_than_any_is_one_that_no_file_has() {
+        let pattern = FramePattern::parse(&"#".repeat(66_000)).unwrap();
+        assert_eq!(pattern.path(7).to_str().unwrap().len(), LONGEST_NAME);
+        assert_eq!(pattern.existing().unwrap(), BTreeSet::new());
     }
 
     #[test]

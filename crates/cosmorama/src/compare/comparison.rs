@@ -1,5 +1,5 @@
 use super::{CompareError, Difference, Mask, Registration, edges::edge_free, pair::Pair};
-use crate::raster::{Image, Rgba, Transfer};
+use crate::raster::{ColourChannel, Image, Rgba, Transfer};
 
 /// How far two pictures are apart.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -42,7 +42,8 @@ pub fn compare(first: &Image<Rgba>, second: &Image<Rgba>, mask: &Mask) -> Result
     Ok(Comparison {
         pixels: mask.count(),
         linear: Difference::between(&pair, |light| light).ok_or(nothing.clone())?,
-        srgb: Difference::between(&pair, |light| Transfer::Srgb.encode(light.clamp(0.0, 1.0), 0)).ok_or(nothing)?,
+        srgb: Difference::between(&pair, |light| Transfer::Srgb.encode(light.clamp(0.0, 1.0), ColourChannel::Green))
+            .ok_or(nothing)?,
         edge_free: EdgeFree::between(first, second, &edge_free(&pair)?)?,
         alpha: alpha_difference(&pair),
         registration: Registration::between(&pair),

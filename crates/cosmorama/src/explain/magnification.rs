@@ -1,6 +1,7 @@
 use glam::DMat2;
 
 use crate::projection::{PlanePoint, Projection};
+use crate::resample::semi_axes;
 use crate::world::{Footprint, PixelPoint, View};
 
 /// How many texels a target pixel is long: less than 1 enlarges, more than 1 reduces.
@@ -15,11 +16,8 @@ pub struct Magnification {
 impl Magnification {
     /// The singular values of a footprint's matrix.
     pub(super) fn of(jacobian: DMat2) -> Self {
-        // s₁ ± s₂ are the lengths of the conformal and the anticonformal part of the matrix.
-        let (x, y) = (jacobian.x_axis, jacobian.y_axis);
-        let sum = (x.x + y.y).hypot(x.y - y.x);
-        let difference = (x.x - y.y).hypot(x.y + y.x);
-        Self { least: (sum - difference).abs() / 2.0, greatest: (sum + difference) / 2.0 }
+        let [greatest, least] = semi_axes(jacobian);
+        Self { least, greatest }
     }
 
     /// The range that holds both.

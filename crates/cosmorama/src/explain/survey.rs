@@ -59,7 +59,7 @@ impl Survey {
         let (pixels, range) = &mut self.views[index];
         *pixels += 1;
         if let Some((_, jacobian)) = world.sources()[index].view.texel_footprint(&screen.footprint) {
-            *range = union(*range, Some(Magnification::of(jacobian)));
+            *range = range.iter().copied().chain([Magnification::of(jacobian)]).reduce(Magnification::union);
         }
     }
 
@@ -70,16 +70,9 @@ impl Survey {
         self.most = self.most.max(other.most);
         for ((pixels, range), (more, others)) in self.views.iter_mut().zip(other.views) {
             *pixels += more;
-            *range = union(*range, others);
+            *range = range.iter().copied().chain(others).reduce(Magnification::union);
         }
         self
-    }
-}
-
-fn union(a: Option<Magnification>, b: Option<Magnification>) -> Option<Magnification> {
-    match (a, b) {
-        (Some(a), Some(b)) => Some(a.union(b)),
-        (one, other) => one.or(other),
     }
 }
 

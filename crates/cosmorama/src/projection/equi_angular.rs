@@ -6,7 +6,8 @@ use super::{Perspective, PlanePoint, PlaneRect, Projection};
 use crate::sphere::{Angle, Direction, DirectionJacobian};
 
 /// The face of an equi-angular cube map: x and y are the angles from the axis, in radians, of which the pinhole camera
-/// has the tangents. Pixels of a face of 90° are more alike in size than those of a camera.
+/// has the tangents. Pixels of a face of 90° are more alike in size than those of a camera (C. Brown, *Bringing pixels front
+/// and center in VR video*, Google, 2017).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct EquiAngular;
 

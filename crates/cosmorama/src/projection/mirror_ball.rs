@@ -8,7 +8,8 @@ use crate::sphere::{Angle, Direction, DirectionJacobian};
 /// camera (the photographer), the rim what lies straight ahead, and writing is mirrored.
 ///
 /// The angle from the direction back to the camera is a lens's function of the radius ([`BallLens`]), and the picture is
-/// that lens's in a world whose front and back are exchanged.
+/// that lens's in a world whose front and back are exchanged. The use of such photographs: P. Debevec, *Rendering synthetic
+/// objects into real scenes* (SIGGRAPH '98); the formula is the law of reflection on a sphere.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MirrorBall(Azimuthal<BallLens>);
 

@@ -3,7 +3,8 @@ use glam::{DVec2, DVec3};
 use super::{PlanePoint, PlaneRect, Projection};
 use crate::sphere::{Angle, Direction, DirectionJacobian};
 
-/// The pinhole camera: x and y are tangents of the angles from the axis.
+/// The pinhole camera: x and y are tangents of the angles from the axis. Maps call it gnomonic (J. P. Snyder, *Map
+/// Projections: A Working Manual*, USGS Professional Paper 1395, 1987, chapter 22).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Perspective;
 

@@ -4,7 +4,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use half::f16;
 use rayon::prelude::*;
 
-use super::{AlphaMode, Channels, EncodedImage, Image, Rgba, Samples, Transfer};
+use super::{AlphaMode, Channels, ColourChannel, EncodedImage, Image, Rgba, Samples, Transfer};
 
 impl EncodedImage {
     /// Linear light, premultiplied, of every pixel. Grey becomes red = green = blue; without an alpha channel
@@ -86,19 +86,20 @@ struct Tables {
 impl Tables {
     fn new(transfer: &Transfer, codes: u32) -> Self {
         let last = f64::from(codes - 1);
-        let table = |channel| (0..codes).map(|code| transfer.decode(f64::from(code) / last, channel) as f32).collect();
-        let channels = if transfer.is_common() { 1 } else { 3 };
-        Self { colour: (0..channels).map(table).collect(), last: last as f32 }
+        let table = |channel: &ColourChannel| {
+            (0..codes).map(|code| transfer.decode(f64::from(code) / last, *channel) as f32).collect()
+        };
+        Self { colour: transfer.channels().iter().map(table).collect(), last: last as f32 }
     }
 
     /// The table of a channel.
-    fn of(&self, channel: usize) -> &[f32] {
-        &self.colour[channel % self.colour.len()]
+    fn of(&self, channel: ColourChannel) -> &[f32] {
+        &self.colour[channel.index() % self.colour.len()]
     }
 }
 
 /// Pixels that a thread takes at once, about.
-const CHUNK: usize = 1 << 14;
+pub(super) const CHUNK: usize = 1 << 14;
 
 impl EncodedImage {
     /// Rows that a thread takes at once.
@@ -127,7 +128,7 @@ fn decode_integers<S: Copy + Into<u32>>(
     tables: &Tables,
     into: &mut [Rgba],
 ) -> usize {
-    let [red, green, blue] = [0, 1, 2].map(|channel| tables.of(channel));
+    let [red, green, blue] = ColourChannel::ALL.map(|channel| tables.of(channel));
     let code = |sample: S| sample.into() as usize;
     let alpha = |sample: S| sample.into() as f32 / tables.last;
     let channels = image.channels();
@@ -190,7 +191,13 @@ fn light_of(code: Rgba, mode: AlphaMode, transfer: &Transfer) -> Rgba {
         _ => transfer.decode(f64::from(code / before), channel) as f32 * after,
     };
     // Again: a power may have overflowed.
-    Rgba([decode(red, 0), decode(green, 1), decode(blue, 2), alpha]).finite()
+    Rgba([
+        decode(red, ColourChannel::Red),
+        decode(green, ColourChannel::Green),
+        decode(blue, ColourChannel::Blue),
+        alpha,
+    ])
+    .finite()
 }
 
 #[cfg(test)]
@@ -215,7 +222,7 @@ mod tests {
             let image = EncodedImage::new(1, 1, Channels::Grey, Depth::Sixteen, Samples::U16(vec![31_000])).unwrap();
             let mut light = [Rgba::TRANSPARENT];
             decoder.decode(&image, transfer, &mut light);
-            assert_eq!(light[0].0[0], transfer.decode(31_000.0 / 65_535.0, 0) as f32);
+            assert_eq!(light[0].0[0], transfer.decode(31_000.0 / 65_535.0, ColourChannel::Green) as f32);
         };
         let kept = || -> Vec<Arc<Tables>> {
             decoder.tables.lock().unwrap().iter().map(|(.., tables)| Arc::clone(tables)).collect()

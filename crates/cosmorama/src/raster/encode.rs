@@ -1,8 +1,9 @@
 use half::f16;
 use rayon::prelude::*;
 
+use super::decode::CHUNK;
 use super::quantizer::Quantizer;
-use super::{AlphaMode, Channels, Depth, EncodedImage, Image, Rgba, Samples, Transfer};
+use super::{AlphaMode, Channels, ColourChannel, Depth, EncodedImage, Image, Rgba, Samples, Transfer};
 
 impl EncodedImage {
     /// The samples of an image of light, by an [`Encoder`] of its own and all threads.
@@ -81,11 +82,11 @@ impl Encoder {
             let [red, green, blue, coverage] = pixel.0;
             let colour = if channels.has_alpha() { pixel.unpremultiplied() } else { [red, green, blue] };
             if channels.is_colour() {
-                for channel in 0..3 {
-                    samples[channel] = quantize(colour[channel], channel);
+                for channel in ColourChannel::ALL {
+                    samples[channel.index()] = quantize(colour[channel.index()], channel);
                 }
             } else {
-                samples[0] = quantize(luminance(colour), 1);
+                samples[0] = quantize(luminance(colour), ColourChannel::Green);
             }
             if channels.has_alpha() {
                 samples[channels.count() - 1] = alpha(coverage);
@@ -104,11 +105,11 @@ impl Encoder {
             let [red, green, blue, alpha] = pixel.finite().0;
             let code = |light, channel| sample(code_of(light, alpha, channels, &self.transfer, channel));
             if channels.is_colour() {
-                for (channel, light) in [red, green, blue].into_iter().enumerate() {
-                    samples[channel] = code(light, channel);
+                for (channel, light) in ColourChannel::ALL.into_iter().zip([red, green, blue]) {
+                    samples[channel.index()] = code(light, channel);
                 }
             } else {
-                samples[0] = code(luminance([red, green, blue]), 1);
+                samples[0] = code(luminance([red, green, blue]), ColourChannel::Green);
             }
             if channels.has_alpha() {
                 samples[channels.count() - 1] = sample(alpha);
@@ -132,9 +133,6 @@ fn to_half(sample: f32) -> f16 {
     f16::from_f32(sample.clamp(f16::MIN.to_f32(), f16::MAX.to_f32()))
 }
 
-/// Pixels that a thread takes at once.
-const CHUNK: usize = 1 << 14;
-
 fn by_pixels<S: Copy + Default + Send>(
     light: &Image<Rgba>,
     channels: Channels,
@@ -156,7 +154,7 @@ fn by_pixels<S: Copy + Default + Send>(
 }
 
 /// The premultiplied code value of premultiplied light.
-fn code_of(light: f32, alpha: f32, channels: Channels, transfer: &Transfer, channel: usize) -> f32 {
+fn code_of(light: f32, alpha: f32, channels: Channels, transfer: &Transfer, channel: ColourChannel) -> f32 {
     if *transfer == Transfer::Linear {
         return light;
     }

@@ -1,9 +1,9 @@
-//! Linear light in 15 bits, for opaque pictures of 8: as many as two of them multiplied leave room for in 32.
+//! 15-bit linear light, for opaque 8-bit pictures: a product of two fits in 32 bits.
 
 use rayon::prelude::*;
 
 use super::quantizer::Quantizer;
-use super::{Channels, EncodedImage, Image, Rgba, Samples, Transfer};
+use super::{Channels, ColourChannel, EncodedImage, Image, Rgba, Samples, Transfer};
 
 /// White.
 const WHITE: f32 = i16::MAX as f32;
@@ -66,14 +66,14 @@ impl FixedDecoder {
     pub fn new(transfer: &Transfer) -> Option<Self> {
         let light = |code: usize, channel| transfer.decode(code as f64 / 255.0, channel);
         let quantizer = Quantizer::new(transfer, 255);
-        let comes_back = |channel: usize| {
+        let comes_back = |channel: ColourChannel| {
             (0..256).all(|code| {
                 let light = (light(code, channel) * f64::from(WHITE)).round() as f32;
                 (0.0..=WHITE).contains(&light) && usize::from(quantizer.code(light / WHITE, channel)) == code
             })
         };
         let table = |channel| std::array::from_fn(|code| (light(code, channel) * f64::from(WHITE)).round() as i16);
-        (0..3).all(comes_back).then(|| Self { channels: [0, 1, 2].map(table) })
+        ColourChannel::ALL.into_iter().all(comes_back).then(|| Self { channels: ColourChannel::ALL.map(table) })
     }
 
     /// Whether it can make light of an image: an opaque one of 8 bits.
@@ -135,9 +135,10 @@ impl FixedCodec {
     pub fn new(transfer: &Transfer, background: Rgba) -> Option<Self> {
         let quantizer = Quantizer::new(transfer, 255);
         let code = |light: usize, channel| quantizer.code(light as f32 / WHITE, channel) as u8;
-        let mut codes = vec![[0; 1 << 15]; if transfer.is_common() { 1 } else { 3 }];
-        for (channel, codes) in codes.iter_mut().enumerate() {
-            codes.iter_mut().enumerate().for_each(|(light, into)| *into = code(light, channel));
+        let channels = transfer.channels();
+        let mut codes = vec![[0; 1 << 15]; channels.len()];
+        for (channel, codes) in channels.iter().zip(&mut codes) {
+            codes.iter_mut().enumerate().for_each(|(light, into)| *into = code(light, *channel));
         }
         let is_fine =
             |codes: &Codes| codes.windows(2).all(|pair| (0..=1).contains(&(i16::from(pair[1]) - i16::from(pair[0]))));

@@ -1,6 +1,7 @@
 //! Images in memory: linear light for filtering, encoded samples as files hold them, and the transfer functions between.
 
 mod channels;
+mod colour_channel;
 mod decode;
 mod depth;
 mod encode;
@@ -14,6 +15,7 @@ mod transfer;
 mod uniform;
 
 pub use channels::Channels;
+pub use colour_channel::ColourChannel;
 pub use decode::Decoder;
 pub use depth::Depth;
 pub use encode::{Encoder, Threads};

@@ -1,4 +1,4 @@
-use super::Transfer;
+use super::{ColourChannel, Transfer};
 
 /// From light to integer codes, exactly as rounding the transfer function would, without computing it: the light
 /// at which each code begins is tabulated, and the table is entered through the bits of the float.
@@ -10,13 +10,13 @@ pub(super) struct Quantizer {
 impl Quantizer {
     /// For codes from 0 to `last`.
     pub(super) fn new(transfer: &Transfer, last: u16) -> Self {
-        let channels = if transfer.is_common() { 1 } else { 3 };
-        Self { channels: (0..channels).map(|channel| Thresholds::new(transfer, last, channel)).collect() }
+        let thresholds = |channel: &ColourChannel| Thresholds::new(transfer, last, *channel);
+        Self { channels: transfer.channels().iter().map(thresholds).collect() }
     }
 
     /// The code of some light: 0 for a NaN and below, `last` for white and above.
-    pub(super) fn code(&self, light: f32, channel: usize) -> u16 {
-        self.channels[channel.min(self.channels.len() - 1)].code(light)
+    pub(super) fn code(&self, light: f32, channel: ColourChannel) -> u16 {
+        self.channels[channel.index().min(self.channels.len() - 1)].code(light)
     }
 }
 
@@ -32,7 +32,7 @@ struct Thresholds {
 }
 
 impl Thresholds {
-    fn new(transfer: &Transfer, last: u16, channel: usize) -> Self {
+    fn new(transfer: &Transfer, last: u16, channel: ColourChannel) -> Self {
         let boundary = |code: u16| transfer.decode((f64::from(code) - 0.5) / f64::from(last), channel) as f32;
         let least: Vec<f32> = (1..=last).map(boundary).collect();
         let greatest = least.last().copied().unwrap_or(0.0);
@@ -68,6 +68,7 @@ fn bucket(light: f32) -> usize {
 
 #[cfg(test)]
 mod tests {
+    use super::ColourChannel::Red;
     use super::*;
 
     #[test]
@@ -77,8 +78,8 @@ mod tests {
                 let quantizer = Quantizer::new(&transfer, last);
                 for i in 0..20_000 {
                     let light = i as f32 / 15_000.0;
-                    let exact = transfer.encode(f64::from(light), 0).min(1.0) * f64::from(last);
-                    let error = (f64::from(quantizer.code(light, 0)) - exact).abs();
+                    let exact = transfer.encode(f64::from(light), Red).min(1.0) * f64::from(last);
+                    let error = (f64::from(quantizer.code(light, Red)) - exact).abs();
                     assert!(error < 0.504, "{transfer:?} {last} {light}: off by {error} codes");
                 }
             }
@@ -88,7 +89,7 @@ mod tests {
     #[test]
     fn the_ends_are_clamped() {
         let quantizer = Quantizer::new(&Transfer::Srgb, 255);
-        assert_eq!([f32::NAN, -1.0, 0.0, -0.0, f32::NEG_INFINITY].map(|light| quantizer.code(light, 0)), [0; 5]);
-        assert_eq!([1.0, 2.0, f32::MAX, f32::INFINITY].map(|light| quantizer.code(light, 0)), [255; 4]);
+        assert_eq!([f32::NAN, -1.0, 0.0, -0.0, f32::NEG_INFINITY].map(|light| quantizer.code(light, Red)), [0; 5]);
+        assert_eq!([1.0, 2.0, f32::MAX, f32::INFINITY].map(|light| quantizer.code(light, Red)), [255; 4]);
     }
 }

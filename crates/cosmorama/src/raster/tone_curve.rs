@@ -1,3 +1,5 @@
+use super::ColourChannel;
+
 /// Tabulated tone curves of red, green and blue: linear light at equal steps of the code value from 0 to 1.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ToneCurve {
@@ -15,8 +17,8 @@ impl ToneCurve {
     }
 
     /// Linear light of a code value; codes outside 0–1 are clamped.
-    pub fn decode(&self, code: f64, channel: usize) -> f64 {
-        let table = &self.channels[channel];
+    pub fn decode(&self, code: f64, channel: ColourChannel) -> f64 {
+        let table = &self.channels[channel.index()];
         let last = table.len() - 1;
         let position = code.clamp(0.0, 1.0) * last as f64;
         let below = (position as usize).min(last - 1);
@@ -25,8 +27,8 @@ impl ToneCurve {
     }
 
     /// The least code value with this light, by search; light beyond the curve's ends is clamped.
-    pub fn encode(&self, light: f64, channel: usize) -> f64 {
-        let table = &self.channels[channel];
+    pub fn encode(&self, light: f64, channel: ColourChannel) -> f64 {
+        let table = &self.channels[channel.index()];
         let last = table.len() - 1;
         let above = table.partition_point(|&entry| f64::from(entry) < light);
         if above == 0 {
@@ -59,6 +61,7 @@ fn monotone(mut table: Vec<f32>) -> Vec<f32> {
 
 #[cfg(test)]
 mod tests {
+    use super::ColourChannel::{Green, Red};
     use super::*;
 
     fn common(table: &[f32]) -> ToneCurve {
@@ -70,7 +73,7 @@ mod tests {
         let table: Vec<f32> = (0..1024).map(|i| (i as f32 / 1023.0).powf(1.8)).collect();
         let curve = common(&table);
         for code in (0..=1000).map(|i| f64::from(i) / 1000.0) {
-            assert!((curve.encode(curve.decode(code, 1), 1) - code).abs() < 1e-6);
+            assert!((curve.encode(curve.decode(code, Green), Green) - code).abs() < 1e-6);
         }
     }
 
@@ -79,12 +82,12 @@ mod tests {
         let curve = common(&[0.0, 0.5, f32::NAN, 0.25, f32::INFINITY, 1.0]);
         let mut before = -1.0;
         for code in (0..=50).map(|i| f64::from(i) / 50.0) {
-            let light = curve.decode(code, 0);
+            let light = curve.decode(code, Red);
             assert!(light >= before && light.is_finite());
             before = light;
         }
-        assert_eq!(curve.encode(2.0, 0), 1.0);
-        assert_eq!(curve.encode(-1.0, 0), 0.0);
+        assert_eq!(curve.encode(2.0, Red), 1.0);
+        assert_eq!(curve.encode(-1.0, Red), 0.0);
     }
 
     #[test]

@@ -1,6 +1,6 @@
 use std::sync::Arc;
 
-use super::ToneCurve;
+use super::{ColourChannel, ToneCurve};
 
 /// How code values, scaled to 0–1, relate to linear light.
 ///
@@ -25,9 +25,8 @@ pub enum Transfer {
 }
 
 impl Transfer {
-    /// Linear light of a code value. `channel` is 0, 1 or 2 for red, green or blue: only an ICC profile's
-    /// curves differ between channels. Grey goes by green.
-    pub fn decode(&self, code: f64, channel: usize) -> f64 {
+    /// Linear light of a code value. Only an ICC profile's curves differ between channels.
+    pub fn decode(&self, code: f64, channel: ColourChannel) -> f64 {
         match self {
             Self::Srgb => odd(code, srgb_decode),
             Self::Linear => code,
@@ -40,7 +39,7 @@ impl Transfer {
     }
 
     /// The code value of linear light: the inverse of [`Transfer::decode`].
-    pub fn encode(&self, light: f64, channel: usize) -> f64 {
+    pub fn encode(&self, light: f64, channel: ColourChannel) -> f64 {
         match self {
             Self::Srgb => odd(light, srgb_encode),
             Self::Linear => light,
@@ -50,6 +49,11 @@ impl Transfer {
             Self::Hlg => hlg_encode(light),
             Self::Curve(curve) => curve.encode(light, channel),
         }
+    }
+
+    /// Channels of which each has a curve of its own: one where all share theirs.
+    pub(super) fn channels(&self) -> &'static [ColourChannel] {
+        if self.is_common() { &ColourChannel::ALL[..1] } else { &ColourChannel::ALL }
     }
 
     /// Whether the three channels share one curve.
@@ -75,6 +79,7 @@ fn srgb_encode(light: f64) -> f64 {
 
 /// ST 2084's peak of 10 000 cd/m² in units of the reference white.
 const PQ_PEAK: f64 = 10_000.0 / 203.0;
+// m₁, m₂, c₁, c₂ and c₃ of SMPTE ST 2084:2014 and of ITU-R BT.2100-2, table 4.
 const PQ_M1: f64 = 2610.0 / 16384.0;
 const PQ_M2: f64 = 2523.0 / 4096.0 * 128.0;
 const PQ_C1: f64 = 3424.0 / 4096.0;
@@ -92,6 +97,7 @@ fn pq_encode(light: f64) -> f64 {
     ((PQ_C1 + PQ_C2 * power) / (1.0 + PQ_C3 * power)).powf(PQ_M2)
 }
 
+// a and b of ARIB STD-B67 and of ITU-R BT.2100-2, table 5.
 const HLG_A: f64 = 0.178_832_77;
 const HLG_B: f64 = 1.0 - 4.0 * HLG_A;
 
@@ -116,6 +122,7 @@ fn hlg_encode(light: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    use super::ColourChannel::Red;
     use super::*;
 
     fn assert_close(a: f64, b: f64) {
@@ -127,14 +134,14 @@ mod tests {
         // ST 2084 and BT.2408: 100 cd/m² at 50.81 %, 203 cd/m² at 58.07 %, 1000 cd/m² at 75.18 %.
         for (nits, signal) in [(0.0, 0.0), (100.0, 0.508_078), (203.0, 0.580_689), (1000.0, 0.751_827), (10_000.0, 1.0)]
         {
-            assert!((Transfer::Pq.encode(nits / 203.0, 0) - signal).abs() < 2e-6, "{nits}");
-            assert_close(Transfer::Pq.decode(Transfer::Pq.encode(nits / 203.0, 0), 0), nits / 203.0);
+            assert!((Transfer::Pq.encode(nits / 203.0, Red) - signal).abs() < 2e-6, "{nits}");
+            assert_close(Transfer::Pq.decode(Transfer::Pq.encode(nits / 203.0, Red), Red), nits / 203.0);
         }
     }
 
     #[test]
     fn hlg_meets_the_published_values() {
-        assert_close(Transfer::Hlg.decode(0.75, 0), 1.0);
+        assert_close(Transfer::Hlg.decode(0.75, Red), 1.0);
         assert_close(hlg_scene(0.5), 1.0 / 12.0);
         assert_close(hlg_scene(1.0), 1.0);
         assert_close(hlg_scene(0.75), 0.264_962_56);
@@ -143,8 +150,8 @@ mod tests {
 
     #[test]
     fn srgb_meets_the_published_values() {
-        assert_close(Transfer::Srgb.decode(0.5, 0), 0.214_041_14);
-        assert_close(Transfer::Srgb.encode(0.18, 0), 0.461_356_13);
-        assert_close(Transfer::Srgb.decode(-0.5, 0), -0.214_041_14);
+        assert_close(Transfer::Srgb.decode(0.5, Red), 0.214_041_14);
+        assert_close(Transfer::Srgb.encode(0.18, Red), 0.461_356_13);
+        assert_close(Transfer::Srgb.decode(-0.5, Red), -0.214_041_14);
     }
 }

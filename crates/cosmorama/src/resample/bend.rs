@@ -2,8 +2,8 @@ use glam::{DMat2, DVec2, DVec3};
 
 use crate::world::{PixelPoint, View};
 
-/// How a view's texels lie on the sphere around a point, to second order: rows and columns of texels are curves there, and
-/// their distances change. As by a linear mapping, but for this, a texel at an offset Δ from the point is seen.
+/// How a view's texels lie on the sphere around a point: rows and columns of texels are curves there, and their distances
+/// change. To first order a texel at offset Δ appears at Δ; this is the second-order correction.
 ///
 /// In the plane tangent to the sphere, measured in the texels of that point, it is at Δ + ½(uu ΔU² + 2 uv ΔU ΔV + vv ΔV²):
 /// these are the sphere's Christoffel symbols in the view's coordinates.

@@ -1,9 +1,9 @@
 use std::ops::Range;
 
 use super::Kernel;
-use crate::projection::{PlanePoint, PlaneRect};
+use crate::projection::PlanePoint;
 use crate::sphere::{Angle, Direction};
-use crate::world::{FieldStop, Footprint, PixelPoint, PixelRect, Source, View};
+use crate::world::{FieldStop, Footprint, PixelBounds, PixelPoint, PixelRect, Source, View};
 
 /// What a mapping may bend by between the corners of a block, relative to the block's size, without being noticed.
 const BEND: f64 = 1.25;
@@ -71,7 +71,7 @@ impl Cap {
         is_bare && is_inside && columns && rows && self.passes_stop_of(view, &bounds)
     }
 
-    fn passes_stop_of(&self, view: &View, bounds: &PlaneRect) -> bool {
+    fn passes_stop_of(&self, view: &View, bounds: &PixelBounds) -> bool {
         let half_space = view
             .stop
             .half_space

@@ -96,7 +96,7 @@ impl EllipseRows {
 }
 
 /// The semi-axes of the ellipse that is the image of the unit circle, the major one first: the singular values.
-pub(super) fn semi_axes(jacobian: DMat2) -> [f64; 2] {
+pub(crate) fn semi_axes(jacobian: DMat2) -> [f64; 2] {
     let [a, b, c, d] = jacobian.to_cols_array();
     let (sum, difference) = ((a + d).hypot(b - c), (a - d).hypot(b + c));
     let major = (sum + difference) / 2.0;

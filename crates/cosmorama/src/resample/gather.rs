@@ -30,9 +30,9 @@ const STEEP_PART: f64 = 0.1;
 /// kernel must reach four rows of texels, since three do not tell a slope from an edge that a renderer smoothed.
 const RIM_FLOOR: f64 = 1.7;
 
-/// What a kernel is held to.
+/// Where a pixel lies, which decides what its kernel is held to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Place {
+enum RimRegion {
     /// Nothing ends under the pixel.
     Inside,
     /// The field of view does.
@@ -64,10 +64,10 @@ impl<'a> Gather<'a> {
         taps.clear();
         let footprint = &with_width(*footprint);
         let centred = self.table.kernel().centred;
-        let ends_under = self.collect(footprint, Place::Inside);
+        let ends_under = self.collect(footprint, RimRegion::Inside);
         let at_rim = centred && (ends_under || self.ends_beside());
         if at_rim {
-            self.collect(footprint, Place::Rim);
+            self.collect(footprint, RimRegion::Rim);
         }
         settle(&mut self.candidates, centred, at_rim.then_some(&footprint.jacobian), taps);
         if taps.is_empty() {
@@ -81,19 +81,19 @@ impl<'a> Gather<'a> {
     }
 
     /// Finds the texels that count; true if the field of view ends under the pixel.
-    fn collect(&mut self, footprint: &Footprint, place: Place) -> bool {
+    fn collect(&mut self, footprint: &Footprint, region: RimRegion) -> bool {
         self.candidates.clear();
-        let (sources, floor) = (self.world.sources(), self.floor(place));
-        if !self.gather_from(&sources[self.last], footprint, place, floor) && sources.len() > 1 {
+        let (sources, floor) = (self.world.sources(), self.floor(region));
+        if !self.gather_from(&sources[self.last], footprint, region, floor) && sources.len() > 1 {
             self.candidates.clear();
             let meeting = Meeting::at(self.world, self.table.kernel(), footprint.direction);
             let mut coarsest = 0f64;
             for (index, source) in sources.iter().enumerate() {
                 let start = self.candidates.len();
                 let floor = floor * meeting.map_or(1.0, |meeting| meeting.widening(source));
-                if self.gather_from(source, footprint, place, floor) {
-                    // A kernel inside one view touches no other, except by what another view's plane bends its ellipse:
-                    // without those texels the result depends neither on the order of views nor on the last footprint.
+                if self.gather_from(source, footprint, region, floor) {
+                    // A kernel wholly inside one view ignores the others; they could only enter through a bent ellipse, and the
+                    // result would depend on the order of views or on the last footprint.
                     self.candidates.drain(..start);
                     self.last = index;
                     break;
@@ -101,12 +101,12 @@ impl<'a> Gather<'a> {
                 coarsest = self.measure_alike(start, coarsest, self.reach(footprint, source.texel_pitch, floor));
             }
         }
-        self.drop_unseen(footprint, place)
+        self.drop_unseen(footprint, region)
     }
 
-    /// Puts distances of candidates from `start` on, of a kernel of this reach, into the unit of the coarsest one, and those
-    /// before them too if this is it. Else, beside the coarse face, nothing of the fine one would lie under a pixel, and
-    /// every slope be clamped. Gives the reach of the coarsest.
+    /// Rescales candidates' distances to the coarsest kernel's unit, so that texels of the finer view still count as under the
+    /// pixel: else every slope beside a coarser view would be clamped. Candidates from `start` on are of a kernel of this
+    /// `reach`, those before of the `coarsest` so far. Returns the reach of the coarsest.
     fn measure_alike(&mut self, start: usize, coarsest: f64, reach: f64) -> f64 {
         if start == self.candidates.len() {
             return coarsest;
@@ -135,7 +135,7 @@ impl<'a> Gather<'a> {
     pub(super) fn takes_patch(&self, source: &Source, screen: &Grid<Footprint>) -> bool {
         let (middle, corners) = (screen[1][1].direction, [screen[0][0], screen[0][2], screen[2][0], screen[2][2]]);
         let Some(cap) = Cap::around(middle, &corners) else { return false };
-        let floor = self.floor(Place::Inside);
+        let floor = self.floor(RimRegion::Inside);
         let reach = |corner: &Footprint| self.reach(corner, source.texel_pitch_at(corner.direction), floor);
         let reach = corners.iter().map(reach).fold(0.0, f64::max);
         let seen = cap.widened(reach);
@@ -146,8 +146,8 @@ impl<'a> Gather<'a> {
     }
 
     /// What lies outside the field of view does not leak in. True if any of that lies under the pixel.
-    fn drop_unseen(&mut self, footprint: &Footprint, place: Place) -> bool {
-        let reach = self.reach(footprint, self.texel_pitch, self.floor(place));
+    fn drop_unseen(&mut self, footprint: &Footprint, region: RimRegion) -> bool {
+        let reach = self.reach(footprint, self.texel_pitch, self.floor(region));
         let Some(edge) = self.edge.filter(|edge| edge.is_near(footprint.direction, reach)) else { return false };
         let sources = self.world.sources();
         let mut ends_under = false;
@@ -162,8 +162,8 @@ impl<'a> Gather<'a> {
     }
 
     /// The kernel's unit in texels, at least.
-    fn floor(&self, place: Place) -> f64 {
-        self.table.kernel().floor * if place == Place::Rim { RIM_FLOOR } else { 1.0 }
+    fn floor(&self, region: RimRegion) -> f64 {
+        self.table.kernel().floor * if region == RimRegion::Rim { RIM_FLOOR } else { 1.0 }
     }
 
     /// An upper bound of the kernel's radius on the sphere, in radians, among texels of this pitch, so many of which its unit is
@@ -175,14 +175,14 @@ impl<'a> Gather<'a> {
     }
 
     /// Adds the texels of one view; true if the kernel lies wholly inside it.
-    fn gather_from(&mut self, source: &Source, footprint: &Footprint, place: Place, floor: f64) -> bool {
+    fn gather_from(&mut self, source: &Source, footprint: &Footprint, region: RimRegion, floor: f64) -> bool {
         let radius = self.reach(footprint, source.texel_pitch_at(footprint.direction), floor);
         let margin = source.view.margin(footprint.direction);
         if margin + radius <= 0.0 || !source.reaches(footprint.direction, radius) {
             return false;
         }
         // At a rim, what the mapping bends does not cancel between two sides.
-        if is_linear(source, footprint, radius, margin) && place == Place::Inside {
+        if is_linear(source, footprint, radius, margin) && region == RimRegion::Inside {
             self.gather_ellipse(source, footprint, floor)
         } else {
             self.gather_cap(source, footprint, radius, floor);

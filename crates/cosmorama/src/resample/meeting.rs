@@ -17,7 +17,7 @@ pub(super) struct Meeting {
     floor: f64,
     /// Texels that the kernel reaches at least.
     reach: f64,
-    /// The pitch of the coarsest view, less the further it is from where its kernel begins to reach, in radians.
+    /// Texel pitch of the coarsest view, in radians, reduced with distance from where its kernel starts to reach.
     coarsest: f64,
 }
 

@@ -33,6 +33,7 @@ mod texel_run;
 mod window;
 
 pub use ellipse::Ellipse;
+pub(crate) use ellipse::semi_axes;
 pub use ewa::{TextureDerivatives, WeightTable, ewa};
 pub use filter::{Filter, FilterKind};
 pub(crate) use kernel::KernelTable;

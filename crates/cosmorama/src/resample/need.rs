@@ -73,8 +73,8 @@ impl Needs {
         Self::surveyed(world, targets, filter, reads)
     }
 
-    /// The same but for what the filter reads, which takes most of the work: `read` is a rectangle that holds all of that, and
-    /// may be some texels too large. Where views hold it, nothing more need be known.
+    /// Like [`Needs::of`], but `read` is only an upper bound, a few texels too large, which is far quicker to find: where views
+    /// hold it, nothing more need be known.
     pub fn at_most(world: &World, targets: &[View], filter: &Filter) -> Self {
         Self::surveyed(world, targets, filter, Reads::AtMost)
     }
@@ -140,10 +140,7 @@ impl Needs {
 }
 
 fn union(a: Option<PixelRect>, b: Option<PixelRect>) -> Option<PixelRect> {
-    match (a, b) {
-        (Some(a), Some(b)) => Some(a.union(b)),
-        (one, other) => one.or(other),
-    }
+    a.into_iter().chain(b).reduce(PixelRect::union)
 }
 
 /// Whether nothing of `part` is outside `whole`.

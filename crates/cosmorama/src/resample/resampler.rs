@@ -95,7 +95,7 @@ impl Resampler<'_> {
         if self.filter.kind == FilterKind::EwaPyramid { pyramid::bytes(self) } else { 0 }
     }
 
-    /// The same of [`Resampler::fixed_plan`].
+    /// Estimated bytes of what [`Resampler::fixed_plan`] gives; 0 without a plan.
     pub fn fixed_plan_bytes_estimate(&self) -> usize {
         if self.has_plan() { FixedPlan::bytes_estimate(self) } else { 0 }
     }

@@ -15,7 +15,7 @@ const ALPHA: usize = 3;
 /// colour by that is linear in the direction.
 const STRAIGHT: f64 = 1.0 / 64.0;
 
-/// For what a texel departs by beyond that, a slope goes on by so many times less.
+/// Deviation beyond [`STRAIGHT`] reduces extrapolation by this factor.
 const DOUBT: f64 = 4.0;
 
 /// The least and the greatest of some texels, by channel.

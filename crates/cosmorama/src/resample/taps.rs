@@ -16,7 +16,7 @@ pub(crate) struct Taps {
     taps: Vec<Tap>,
     /// How many lie under the pixel: the first ones.
     under: usize,
-    /// Where each lies from the pixel's centre, in screen pixels, if all lie to one side of it: else none.
+    /// Offsets from the pixel's centre, in screen pixels; filled only if every tap lies to one side of it.
     places: Vec<[f32; 2]>,
 }
 
@@ -54,7 +54,7 @@ impl Taps {
         self.taps.is_empty()
     }
 
-    /// Adds a tap, all of which lie under the pixel.
+    /// Adds a tap under the pixel; call before any tap outside it.
     pub(super) fn push_under(&mut self, texel: u32, weight: f32) {
         self.taps.push(Tap { texel, weight });
         self.under = self.taps.len();

@@ -47,14 +47,33 @@ pub(super) fn runs_around(source: &Source, period: i64, left: i64, end: i64) -> 
     turns.map(move |k| Run::within(left.max(k * period), end.min(k * period + width), k * period))
 }
 
+/// No texel lies as far away, and two such places can be added and subtracted: absurd geometry puts kernels anywhere.
+const FARTHEST: f64 = (1_u64 << 52) as f64;
+
 /// The largest integer that is not greater. Without SSE4.1 `f64::floor` is a call, and every row of texels needs it.
 pub(super) fn floor(value: f64) -> i64 {
+    let value = value.clamp(-FARTHEST, FARTHEST);
     let truncated = value as i64;
     truncated - i64::from(value < truncated as f64)
 }
 
 /// The smallest integer that is not less.
 pub(super) fn ceil(value: f64) -> i64 {
+    let value = value.clamp(-FARTHEST, FARTHEST);
     let truncated = value as i64;
     truncated + i64::from(value > truncated as f64)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn places_beyond_all_images_are_far_away_and_no_more() {
+        for far in [f64::MAX, f64::INFINITY, 9.3e18] {
+            assert!(floor(far) == ceil(far) && floor(far) - floor(-far) + 1 > 1 << 52, "{far}");
+            assert!(floor(-far) == ceil(-far) && ceil(-far) < 0, "{far}");
+        }
+        assert_eq!([floor(-0.5), ceil(-0.5), floor(2.0), ceil(2.5)], [-1, 0, 2, 3]);
+    }
 }

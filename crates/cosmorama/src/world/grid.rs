@@ -24,6 +24,15 @@ impl PixelPoint {
     }
 }
 
+/// A rectangle in continuous pixel coordinates; it may reach beyond the image.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PixelBounds {
+    /// The upper left corner.
+    pub min: PixelPoint,
+    /// The lower right one.
+    pub max: PixelPoint,
+}
+
 /// A rectangle of whole pixels: columns `left..right`, rows `top..bottom`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PixelRect {

@@ -31,7 +31,7 @@ pub use frame::{
     PerspectiveFrame, Placement, SamplePositions, StMapFrame, StereographicFrame, WorldMapFrame,
 };
 pub use framing::OmnimaxFraming;
-pub use grid::{PixelGrid, PixelPoint, PixelRect};
+pub use grid::{PixelBounds, PixelGrid, PixelPoint, PixelRect};
 pub(crate) use halved::held;
 pub use layout::{
     Arrangement, CubeLayout, DualFisheye, DualLens, Eye, FaceOrder, FacePart, FacePlacement, LayoutError, LayoutKind,

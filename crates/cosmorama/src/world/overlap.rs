@@ -1,11 +1,19 @@
+use glam::DVec3;
 use rayon::prelude::*;
 
 use super::blend::{Presence, parts};
 use super::{PixelPoint, PixelRect, Source, View};
+use crate::projection::PlanePoint;
 use crate::sphere::Direction;
 
 /// Texels along a side of a picture that tell whether it overlaps another.
 const ALONG_A_SIDE: usize = 64;
+
+/// Points around a field stop that tell it.
+const AROUND_A_STOP: usize = 256;
+
+/// How far inside a field stop they lie, so that rounding leaves them there: parts of its radius, or radians.
+const INSIDE_A_STOP: f64 = 1e-6;
 
 /// Where pictures overlap, a direction has a texel of each, and each counts for its part: the outermost texels of cube
 /// faces whose samples lie on the edges, and whatever photographs have in common. Says of each view which others overlap
@@ -71,8 +79,16 @@ pub(super) fn unshared(mut rect: PixelRect, width: usize, is_shared: &[bool]) ->
     PixelRect { right: rect.left, bottom: rect.top, ..rect }
 }
 
-/// What some of the outermost texels see, those in the corners among them.
+/// Directions along the rim of what a view shows: two views overlap where a part of the rim of one is in the other.
 fn rim(view: &View) -> Vec<Direction> {
+    let mut rim = image_border(view);
+    rim.extend(circle_rim(view));
+    rim.extend(half_space_rim(view));
+    rim
+}
+
+/// What some of the outermost texels see, those in the corners among them.
+fn image_border(view: &View) -> Vec<Direction> {
     let (last_column, last_row) = (view.width() - 1, view.height() - 1);
     let along = |last: usize| {
         let steps = last.clamp(1, ALONG_A_SIDE);
@@ -83,10 +99,43 @@ fn rim(view: &View) -> Vec<Direction> {
     level.chain(upright).filter_map(|(i, j)| view.direction(PixelPoint::centre(i, j))).collect()
 }
 
+/// Directions just inside the limiting circle: it may lie well inside the image, whose own border then sees nothing.
+fn circle_rim(view: &View) -> Vec<Direction> {
+    let Some(radius) = view.stop.circle else { return Vec::new() };
+    let radius = radius * (1.0 - INSIDE_A_STOP);
+    let points = around().map(|(cos, sin)| view.grid.to_pixel(PlanePoint::new(radius * cos, radius * sin)));
+    points.filter(|pixel| view.shows(*pixel)).filter_map(|pixel| view.direction(pixel)).collect()
+}
+
+/// Directions just on the visible side of the great circle that cuts off the rest.
+fn half_space_rim(view: &View) -> Vec<Direction> {
+    let Some(side) = view.stop.half_space.map(Direction::vector) else { return Vec::new() };
+    let (across, along) = side.any_orthonormal_pair();
+    let inside = |(cos, sin): (f64, f64)| -> DVec3 { cos * across + sin * along + INSIDE_A_STOP * side };
+    let directions = around().filter_map(|at| Direction::new(inside(at)));
+    directions.map(|direction| view.orientation.to_world(direction)).filter(|direction| view.sees(*direction)).collect()
+}
+
+/// Cosine and sine of angles all the way round.
+fn around() -> impl Iterator<Item = (f64, f64)> {
+    (0..AROUND_A_STOP).map(|step| {
+        let (sin, cos) = (std::f64::consts::TAU * step as f64 / AROUND_A_STOP as f64).sin_cos();
+        (cos, sin)
+    })
+}
+
 #[cfg(test)]
 mod tests {
-    use crate::sphere::CubeFace;
-    use crate::world::{Frame, LayoutFaceFrame, Placement, SamplePositions, World};
+    use crate::sphere::{Angle, CubeFace, Orientation};
+    use crate::world::{
+        FisheyeFrame, Frame, LayoutFaceFrame, LensCircle, OmnimaxFrame, Placement, SamplePositions, World,
+    };
+
+    const SPHERE: f64 = 4.0 * std::f64::consts::PI;
+
+    fn whole(world: &World) -> f64 {
+        world.solid_angles().map(f64::from).sum()
+    }
 
     fn cube(samples: SamplePositions) -> World {
         let frame = Frame::LayoutFace(LayoutFaceFrame { samples, ..LayoutFaceFrame::default() });
@@ -96,14 +145,42 @@ mod tests {
 
     #[test]
     fn texels_on_the_edges_of_a_cube_count_once() {
-        let sphere = 4.0 * std::f64::consts::PI;
         for samples in [SamplePositions::Centres, SamplePositions::Edges] {
-            let sum: f64 = cube(samples).solid_angles().map(f64::from).sum();
-            assert!((sum / sphere - 1.0).abs() < 1e-3, "{samples:?}: {sum}");
+            let sum = whole(&cube(samples));
+            assert!((sum / SPHERE - 1.0).abs() < 1e-3, "{samples:?}: {sum}");
         }
         let world = cube(SamplePositions::Edges);
         let angle = |i: usize, j: usize| world.sources()[0].view.texel_solid_angle(i, j) as f32;
         let is = |texel: usize, expected: f32| (world.sources()[0].solid_angles[texel] / expected - 1.0).abs() < 1e-6;
         assert!(is(0, angle(0, 0) / 3.0) && is(1, angle(1, 0) / 2.0) && is(34, angle(1, 1)));
+    }
+
+    /// Two pictures, one ahead and one behind.
+    fn back_to_back(frame: Frame, size: usize) -> World {
+        let turned = |degrees: f64| {
+            let yaw = Angle::from_degrees(degrees);
+            Orientation::from_yaw_pitch_roll(yaw, Angle::from_degrees(0.0), Angle::from_degrees(0.0))
+        };
+        let view = |degrees: f64| Placement { orientation: turned(degrees), ..Placement::new(frame) }.view(size, size);
+        World::new([("ahead".to_owned(), view(0.0).unwrap()), ("behind".to_owned(), view(180.0).unwrap())]).unwrap()
+    }
+
+    #[test]
+    fn what_two_lenses_share_counts_once_however_small_their_circles_are() {
+        for radius in [99.0, 80.0, 50.0, 45.0, 30.0] {
+            let circle = LensCircle { radius: Some(radius), ..LensCircle::FITTED };
+            let frame = FisheyeFrame { field_of_view: Angle::from_degrees(200.0), circle, ..FisheyeFrame::default() };
+            let sum = whole(&back_to_back(Frame::Fisheye(frame), 200));
+            assert!((sum / SPHERE - 1.0).abs() < 0.01, "radius {radius}: {sum}");
+        }
+    }
+
+    #[test]
+    fn the_rim_goes_along_what_stops_the_field_of_view() {
+        let circle = LensCircle { radius: Some(20.0), ..LensCircle::FITTED };
+        let view = Frame::Omnimax(OmnimaxFrame { circle, ..OmnimaxFrame::default() }).view(300, 300).unwrap();
+        let cut = view.stop.half_space.expect("a lower cut");
+        let on_the_cut = super::rim(&view).into_iter().filter(|rim| cut.dot(*rim).abs() < 1e-5).count();
+        assert!(on_the_cut > 50, "{on_the_cut}");
     }
 }

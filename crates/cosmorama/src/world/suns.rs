@@ -2,8 +2,8 @@ use super::World;
 use crate::raster::Rgba;
 
 impl World {
-    /// How many times as bright as the mean of its world a sun is, or a lamp. What is so bright fills less than a hundredth of
-    /// the sphere.
+    /// Texels brighter than so many times the mean of their world count as a sun or lamp. They fill less than a hundredth of the
+    /// sphere.
     pub const SUN: f64 = 100.0;
 
     /// The part of all light, radiance times solid angle, that comes from texels over [`World::SUN`] times as bright as the

@@ -2,8 +2,8 @@ use std::ops::Range;
 
 use glam::{DMat2, DVec2};
 
-use super::{FieldStop, PixelGrid, PixelPoint};
-use crate::projection::{Outline, PlanePoint, PlaneRect, Projection, ProjectionKind};
+use super::{FieldStop, PixelBounds, PixelGrid, PixelPoint};
+use crate::projection::{Outline, PlanePoint, Projection, ProjectionKind};
 use crate::sphere::{Angle, Direction, DirectionJacobian, Orientation};
 
 /// What a screen pixel sees of the world, to first order: the direction of a point of it, and how that direction moves
@@ -205,11 +205,14 @@ impl View {
         self.projection.has_steep_rim() && self.margin(*direction) <= STEEP * size
     }
 
-    /// The rectangle of pixel coordinates (its min and max corners) that holds every direction within `radius`.
-    pub fn cap_bounds(&self, centre: Direction, radius: Angle) -> PlaneRect {
+    /// The rectangle that holds every direction within `radius` of a direction of the world.
+    pub fn cap_bounds(&self, centre: Direction, radius: Angle) -> PixelBounds {
         let plane = self.projection.cap_bounds(self.orientation.to_view(centre), radius);
         let (a, b) = (self.grid.to_pixel(plane.min), self.grid.to_pixel(plane.max));
-        PlaneRect { min: PlanePoint::new(a.x.min(b.x), a.y.min(b.y)), max: PlanePoint::new(a.x.max(b.x), a.y.max(b.y)) }
+        PixelBounds {
+            min: PixelPoint::new(a.x.min(b.x), a.y.min(b.y)),
+            max: PixelPoint::new(a.x.max(b.x), a.y.max(b.y)),
+        }
     }
 
     /// The part of the projection's plane that holds every direction within `radius` of a direction of the world.

@@ -1,5 +1,5 @@
 use super::fixed_weights::FixedWeights;
-use super::float::FloatWeights;
+use super::float_weights::FloatWeights;
 use super::weights::Weights;
 use super::{Compiled, FixedPlan, Plan, PlanError, PlanKey};
 use crate::resample::Resampler;

@@ -1,7 +1,7 @@
 use super::mirrors::{MirrorImage, Mirrors};
 use super::*;
 use crate::projection::{PlanePoint, PlaneRect, ProjectionKind};
-use crate::raster::Transfer;
+use crate::raster::{ColourChannel, Transfer};
 use crate::resample::{Filter, FilterKind, window};
 use crate::sphere::{Angle, CubeFace, Orientation};
 use crate::world::{Blend, FieldStop, PixelGrid, View, World, WorldView};
@@ -231,7 +231,7 @@ fn integers_are_within_one_code_of_floats() {
             for (a, b) in made.pixels().iter().zip(exact.pixels()) {
                 let b = b.over(background);
                 for c in 0..3 {
-                    let code = transfer.encode(f64::from(b.0[c].clamp(0.0, 1.0)), c) * 255.0;
+                    let code = transfer.encode(f64::from(b.0[c].clamp(0.0, 1.0)), ColourChannel::ALL[c]) * 255.0;
                     let error = (f64::from(a[c]) - code).abs();
                     // As one that rounds it may say half a code less or more.
                     assert!(error < 1.5, "{a:?} is not {b:?}: {error} in {:?}", target.projection);
