@@ -24,10 +24,8 @@ const FITS: Refused = Refused {
     key: "aspect",
     why: "what it shows is given both ways, so that its pixels fit the image, whatever its size",
 };
-const NO_CANVAS: Refused = Refused {
-    key: "canvas",
-    why: "both circles are found in a whole image; place them by front.center= and back.center=",
-};
+const NO_CANVAS: Refused =
+    Refused { key: "canvas", why: "both circles are found in a whole image; place them by center" };
 const NO_EYES: Refused = Refused { key: "stereo", why: "a map is for one picture; convert that of each eye by itself" };
 
 /// A key of a SPEC.
