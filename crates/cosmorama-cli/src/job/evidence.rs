@@ -4,11 +4,12 @@ use std::path::Path;
 
 use cosmorama::circle::{self, Circle, Found};
 use cosmorama::raster::{EncodedImage, Image, Rgba, Transfer, Uniform};
-use cosmorama::world::{Arrangement, CubeLayout, Frame, LayoutKind, OmnimaxFrame, PixelRect};
+use cosmorama::world::{Arrangement, CubeLayout, Frame, LayoutKind, Mirror, OmnimaxFrame, PixelRect};
 use cosmorama_io::{Header, IoError, Limits, probe, read};
 
 use super::halves::{Circles, Twins};
 use super::memory::light_bytes;
+use super::other_end;
 use super::oval::is_oval;
 
 /// Beyond this an image is not decoded only to find out what it is.
@@ -52,6 +53,8 @@ pub(super) enum Evidence {
     Circle,
     /// A cross of faces, one colour around it.
     Cross(LayoutKind),
+    /// A cross with its long arm at the other end, as if it was mirrored so.
+    CrossElsewhere(LayoutKind, Mirror),
     /// A circle somewhere, black around it.
     Disc(Found),
     /// A circle in each half, black around them.
@@ -99,8 +102,12 @@ impl Evidence {
             return circle::find(codes).filter(|found| !fills(&found.circle(), codes)).map(Self::Disc);
         }
         let crosses = [LayoutKind::CrossH, LayoutKind::CrossV];
-        if let Some(kind) = crosses.into_iter().find(|kind| is_cross(*kind, codes)) {
+        if let Some(kind) = crosses.into_iter().find(|kind| is_cross(*kind, Mirror::default(), codes)) {
             return Some(Self::Cross(kind));
+        }
+        let elsewhere = crosses.into_iter().filter_map(|kind| Some((kind, other_end::axis(kind)?)));
+        if let Some((kind, mirror)) = elsewhere.into_iter().find(|(kind, mirror)| is_cross(*kind, *mirror, codes)) {
+            return Some(Self::CrossElsewhere(kind, mirror));
         }
         if let Some(circles) = Circles::find(codes) {
             return Some(Self::Circles(circles));
@@ -123,9 +130,9 @@ pub(super) fn is_blank(around: Option<Uniform>) -> bool {
     around.is_some_and(|around| around.share >= BLANK)
 }
 
-/// Whether one colour surrounds a cross.
-fn is_cross(kind: LayoutKind, codes: &Image<Rgba>) -> bool {
-    let layout = CubeLayout::new(kind);
+/// Whether one colour surrounds a cross that is mirrored so.
+fn is_cross(kind: LayoutKind, mirror: Mirror, codes: &Image<Rgba>) -> bool {
+    let layout = CubeLayout::new(kind).mirrored(mirror);
     let Ok(edge) = layout.edge(codes.width(), codes.height()) else { return false };
     let faces = layout.faces(edge);
     let within = |k: usize, start: usize, end: usize| k + BLOCK >= start && k < end + BLOCK;

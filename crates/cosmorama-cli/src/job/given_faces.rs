@@ -1,10 +1,11 @@
 use cosmorama::arrange::{Border, Change, Fit, Mismatch, Pose, Verdict, changes, fits_as_well, is_continuous, judge};
-use cosmorama::raster::Rgba;
+use cosmorama::raster::{Image, Rgba};
 use cosmorama::sphere::CubeFace;
-use cosmorama::world::{CubeLayout, FaceOrder, FacePlacement, LayoutFaceFrame, LayoutKind, Mirror};
+use cosmorama::world::{CubeLayout, FaceOrder, FacePlacement, LayoutFaceFrame, LayoutKind, Mirror, PlacedFace};
 use cosmorama_io::Naming;
 
-use super::mirror_image;
+use super::mirror_image::{self, ACROSS, flip_key};
+use super::other_end::{self, told_elsewhere};
 use crate::spec::{Cube, Packing};
 
 /// How pictures are said, or taken, to be the faces of a cube.
@@ -13,6 +14,8 @@ pub(crate) struct GivenFaces {
     /// How each lies, in the order of the input's views.
     poses: Vec<Pose>,
     packing: GivenPacking,
+    /// How the image that holds them is mirrored as a whole: they lie as they do once that is undone.
+    mirror: Mirror,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -61,9 +64,10 @@ impl GivenFaces {
 
     fn new(cube: &Cube, packing: GivenPacking, faces: impl Iterator<Item = (CubeFace, FacePlacement)>) -> Option<Self> {
         let meet = cube.field_of_view == LayoutFaceFrame::RIGHT_ANGLE;
-        let is_plain = meet && cube.half.is_none() && cube.mirror == Mirror::default();
+        let is_one_image = matches!(packing, GivenPacking::OneImage(_));
+        let is_plain = meet && cube.half.is_none() && (is_one_image || cube.mirror == Mirror::default());
         let poses = faces.map(|(face, lies)| Pose::new(face, lies)).collect();
-        is_plain.then_some(Self { poses, packing })
+        is_plain.then_some(Self { poses, packing, mirror: cube.mirror })
     }
 
     /// Judges the faces of which there are pictures, by their number. `None` where they are too few or too small.
@@ -73,15 +77,72 @@ impl GivenFaces {
         Some(self.continuity(&mismatch, &given, verdict))
     }
 
-    /// What should be known where faces are clearly not as they are said to be.
-    pub(crate) fn warning(&self, pictures: &[(usize, FacePixels<'_>)]) -> Option<String> {
+    /// Judges all faces of an image, whose shape must be that of the layout. They may lie in other places than given.
+    pub(crate) fn judge_image(&self, picture: &Image<Rgba>) -> Option<Continuity> {
+        let found = self.judge_places(picture);
+        if found.as_ref().is_some_and(|found| found.fits == Some(true)) {
+            return found.map(|found| self.beside_mirror_image(found));
+        }
+        let elsewhere = self.elsewhere(picture, found.as_ref().is_some_and(|found| found.fits == Some(false)));
+        elsewhere.or(found)
+    }
+
+    fn beside_mirror_image(&self, found: Continuity) -> Continuity {
+        match self.packing {
+            GivenPacking::OneImage(kind)
+                if other_end::axis(kind).is_some() && self.poses == poses(CubeLayout::new(kind)) =>
+            {
+                Continuity { told: found.told + &other_end::mirror_image(kind, self.mirror), ..found }
+            }
+            _ => found,
+        }
+    }
+
+    fn judge_places(&self, picture: &Image<Rgba>) -> Option<Continuity> {
+        let GivenPacking::OneImage(kind) = self.packing else { return None };
+        let layout = CubeLayout::new(kind).mirrored(self.mirror);
+        let edge = layout.edge(picture.width(), picture.height()).ok()?;
+        let places = Some(layout.faces(edge)).filter(|places| places.len() == self.poses.len())?;
+        let pixel = |place: &PlacedFace| {
+            let rect = place.rect;
+            move |i: usize, j: usize| *picture.get(rect.left + i, rect.top + j)
+        };
+        let lights: Vec<_> = places.iter().map(pixel).collect();
+        let pixels = lights.iter().enumerate().map(|(index, light)| (index, FacePixels { size: (edge, edge), light }));
+        self.judge(&pixels.collect::<Vec<_>>())
+    }
+
+    /// What is told of the places that the faces have if the image is mirrored, and, of those that are given, if not. With
+    /// `is_known`, only if they fit there as they lie.
+    fn elsewhere(&self, picture: &Image<Rgba>, is_known: bool) -> Option<Continuity> {
+        let GivenPacking::OneImage(kind) = self.packing else { return None };
+        let mirror = self.mirror.and(other_end::axis(kind)?);
+        let found = Self { mirror, ..self.clone() }.judge_places(picture)?;
+        let is_found = found.fits == Some(true) || (found.fits == Some(false) && !is_known);
+        is_found.then(|| told_elsewhere(kind, mirror, found))
+    }
+
+    /// What should be known where faces are clearly not as they are said to be. In `whole`, the image that holds them all,
+    /// they may lie in other places.
+    pub(crate) fn warning(
+        &self,
+        pictures: &[(usize, FacePixels<'_>)],
+        whole: impl FnOnce() -> Option<Image<Rgba>>,
+    ) -> Option<String> {
         let (mismatch, given) = self.compare(pictures)?;
         // What meets everywhere needs no search.
         if is_continuous(&mismatch, &given) {
             return None;
         }
-        let continuity = self.continuity(&mismatch, &given, judge(&mismatch, &given));
-        (continuity.fits == Some(false)).then_some(continuity.told)
+        let found = self.continuity(&mismatch, &given, judge(&mismatch, &given));
+        if found.fits == Some(true) {
+            return None;
+        }
+        let is_known = found.fits == Some(false);
+        let may_lie_elsewhere = matches!(self.packing, GivenPacking::OneImage(kind) if other_end::axis(kind).is_some());
+        let elsewhere =
+            if may_lie_elsewhere { whole().and_then(|whole| self.elsewhere(&whole, is_known)) } else { None };
+        elsewhere.or(is_known.then_some(found)).map(|found| found.told)
     }
 
     fn compare(&self, pictures: &[(usize, FacePixels<'_>)]) -> Option<(Mismatch, Vec<Pose>)> {
@@ -90,7 +151,12 @@ impl GivenFaces {
             return None;
         }
         let samples = Border::samples_for(least);
-        let border = |(_, picture): &(usize, FacePixels<'_>)| Border::of(picture.size, samples, picture.light);
+        let border = |(_, picture): &(usize, FacePixels<'_>)| {
+            let (width, height) = picture.size;
+            let across = |i: usize| if self.mirror.x { width - 1 - i } else { i };
+            let down = |j: usize| if self.mirror.y { height - 1 - j } else { j };
+            Border::of(picture.size, samples, |i, j| (picture.light)(across(i), down(j)))
+        };
         let borders: Vec<Border> = pictures.iter().map(border).collect();
         let given = pictures.iter().map(|(index, _)| self.poses.get(*index).copied()).collect::<Option<_>>()?;
         Some((Mismatch::new(&borders), given))
@@ -112,7 +178,7 @@ impl GivenFaces {
                 let plain = self.preset(mismatch, given, &fits, false).or_else(|| self.spec(&fits));
                 let flipped =
                     self.preset(mismatch, given, &fits, true).filter(|_| !fits.iter().all(|pose| pose.is_mirrored()));
-                let advice = advice(plain.as_deref(), flipped.as_deref());
+                let advice = advice(plain.as_deref(), flipped.as_deref(), self.mirror.is_backwards());
                 let spec = plain.or(flipped);
                 let told = format!(
                     "the borders of the faces do not meet as they lie{}: {}{advice}{}",
@@ -129,7 +195,7 @@ impl GivenFaces {
     fn preset(&self, mismatch: &Mismatch, given: &[Pose], fits: &[Pose], is_flipped: bool) -> Option<String> {
         let all_given = self.poses.len() == given.len();
         let is_it = |poses: &Vec<Pose>| all_given && fits_as_well(mismatch, fits, poses);
-        let flip = if is_flipped { ",flip=x" } else { "" };
+        let flip = flip_key(if is_flipped { self.mirror.and(ACROSS) } else { self.mirror });
         match self.packing {
             GivenPacking::Files(naming) => {
                 let lies = |other: &'static Naming| {
@@ -155,7 +221,8 @@ impl GivenFaces {
                 }
                 // Each picture may be mirrored in its own place.
                 let given: Vec<Pose> = given.iter().map(|pose| mirror_image::of(*pose)).collect();
-                (is_flipped && is_it(&given)).then(|| mirror_image::spec(kind, &given)).flatten()
+                let spec = if is_flipped && is_it(&given) { mirror_image::spec(kind, &given) } else { None };
+                spec.map(|spec| format!("{spec}{flip}"))
             }
         }
     }
@@ -172,7 +239,8 @@ impl GivenFaces {
         match self.packing {
             GivenPacking::OneImage(kind) => {
                 let letters: String = fits.iter().filter_map(|pose| pose.face.name().chars().next()).collect();
-                Some(format!("cube:layout={kind},order={letters},rotate={}", digits(&mut fits.iter())))
+                let (digits, flip) = (digits(&mut fits.iter()), flip_key(self.mirror));
+                Some(format!("cube:layout={kind},order={letters},rotate={digits}{flip}"))
             }
             GivenPacking::Files(naming) => {
                 let is_named = |(fits, given): (&Pose, &Pose)| fits.face == given.face;
@@ -193,15 +261,15 @@ fn poses(layout: CubeLayout) -> Vec<Pose> {
     layout.faces(2).iter().map(|placed| Pose::new(placed.face, placed.lies)).collect()
 }
 
-/// What to do about faces that fit as `plain` has them, or, if that is what happened to them, all mirrored. Borders do not
-/// tell a cube from its mirror image.
-fn advice(plain: Option<&str>, flipped: Option<&str>) -> String {
-    let mirrored = |spec: &str| {
-        format!(
-            "if every face is mirrored instead, so that writing in it reads backwards, they fit --from {spec}: borders do not \
-             tell"
-        )
+/// What to do about faces that fit as `plain` has them, or, if that is what happened to them, all mirrored; `is_mirrored`
+/// says that they are already. Borders do not tell a cube from its mirror image.
+fn advice(plain: Option<&str>, flipped: Option<&str>, is_mirrored: bool) -> String {
+    let when = if is_mirrored {
+        "no face is mirrored, so that writing in it does not read backwards"
+    } else {
+        "every face is mirrored instead, so that writing in it reads backwards"
     };
+    let mirrored = |spec: &str| format!("if {when}, they fit --from {spec}: borders do not tell");
     match (plain, flipped) {
         (Some(plain), None) => format!("; they fit --from {plain}"),
         (Some(plain), Some(flipped)) => format!("; they fit --from {plain}; {}", mirrored(flipped)),

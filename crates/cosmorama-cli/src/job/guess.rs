@@ -8,6 +8,7 @@ use cosmorama_io::{EnvMap, Header, Window};
 
 use super::evidence::{Evidence, Seen};
 use super::halves::Circles;
+use super::other_end;
 use crate::spec::{Cube, Packing};
 
 /// What one image is a picture of, as far as its metadata, its shape and its pixels tell.
@@ -82,7 +83,9 @@ impl Guess {
         match self {
             Self::Said(EnvMap::Cube) => vec![Cube { order: Some(FaceOrder::OPENEXR), ..of(LayoutKind::StripV) }],
             Self::Said(EnvMap::GlCube) => vec![of(LayoutKind::StripV)],
-            Self::Strip(kind) | Self::Blank(Evidence::Cross(kind)) => vec![of(kind)],
+            Self::Strip(kind) | Self::Blank(Evidence::Cross(kind) | Evidence::CrossElsewhere(kind, _)) => {
+                vec![of(kind)]
+            }
             Self::Unknown(kinds, _) => kinds.into_iter().map(of).collect(),
             Self::Said(EnvMap::LatLong) | Self::Panorama(_) | Self::TwoToOne(_) | Self::Stereo(_) => Vec::new(),
             Self::Blank(_) => Vec::new(),
@@ -120,6 +123,10 @@ impl Guess {
 fn describe_blank(evidence: &Evidence) -> String {
     match evidence {
         Evidence::Cross(kind) => format!("cube:layout={kind} (one colour surrounds a cross)"),
+        Evidence::CrossElsewhere(kind, mirror) => {
+            let [mirrored, turned] = other_end::specs(*kind, *mirror);
+            format!("{mirrored} (one colour surrounds a cross that is mirrored), or {turned} (or one that is not)")
+        }
         Evidence::Disc(found) => {
             let how = match found {
                 Found::Measured(_) => "a circle on black",

@@ -3,7 +3,7 @@
 use cosmorama::arrange::Pose;
 use cosmorama::world::{CubeLayout, FaceOrder, FacePlacement, LayoutKind, Mirror};
 
-const ACROSS: Mirror = Mirror { x: true, y: false };
+pub(super) const ACROSS: Mirror = Mirror { x: true, y: false };
 
 /// A picture that is mirrored before it is turned.
 pub(super) fn of(pose: Pose) -> Pose {
@@ -21,7 +21,18 @@ pub(super) fn poses(kind: LayoutKind, layout: CubeLayout) -> Option<Vec<Pose>> {
     places.iter().map(|place| pose(place.rect)).collect()
 }
 
-/// The SPEC with `flip=x` under which mirrored pictures lie so, in the order of the layout's places.
+/// The end of a SPEC that says how a picture is mirrored.
+pub(super) fn flip_key(mirror: Mirror) -> &'static str {
+    match (mirror.x, mirror.y) {
+        (false, false) => "",
+        (true, false) => ",flip=x",
+        (false, true) => ",flip=y",
+        (true, true) => ",flip=xy",
+    }
+}
+
+/// The order and the turns under which pictures that are mirrored as `flip=x` has it lie so, in the order of the layout's
+/// places.
 pub(super) fn spec(kind: LayoutKind, lie: &[Pose]) -> Option<String> {
     let plain = || CubeLayout::new(kind);
     let places = plain().faces(2);
@@ -35,5 +46,5 @@ pub(super) fn spec(kind: LayoutKind, lie: &[Pose]) -> Option<String> {
     let turned: Vec<Vec<Pose>> = (0..4).map(|turns| poses(kind, ordered(turns))).collect::<Option<_>>()?;
     let digit = |place: &usize| (0..4_u8).find(|turns| turned[usize::from(*turns)][*place] == lie[*place]);
     let digits: String = seats.iter().map(|place| Some(char::from(b'0' + digit(place)?))).collect::<Option<_>>()?;
-    Some(format!("cube:layout={kind},order={letters},rotate={digits},flip=x"))
+    Some(format!("cube:layout={kind},order={letters},rotate={digits}"))
 }

@@ -22,6 +22,7 @@ mod mask;
 mod memory;
 mod mirror_image;
 mod nominal;
+mod other_end;
 mod outputs;
 mod oval;
 mod packed;

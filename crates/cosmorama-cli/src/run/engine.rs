@@ -10,7 +10,7 @@ use cosmorama_io::{WriteOptions, write_levels};
 use super::frame_light::{FrameLight, Texels};
 use super::geometry::Geometry;
 use super::suns;
-use crate::job::{ConvertJob, Coverage, FacePixels, FrameOutputs, InFlight, InputView, Light, Sheet};
+use crate::job::{ConvertJob, Coverage, FacePixels, FrameOutputs, InFlight, InputView, Light, Sheet, light_of};
 
 /// Makes the outputs of a job, frame by frame.
 pub(super) struct Engine<'a> {
@@ -64,7 +64,11 @@ impl<'a> Engine<'a> {
         let lights: Vec<_> = sources.iter().map(texels).collect();
         let size = |source: &Source| (source.view.width(), source.view.height());
         let pictures = sources.iter().zip(&lights).map(|(source, light)| FacePixels { size: size(source), light });
-        given.warning(&present.zip(pictures).collect::<Vec<_>>())
+        let whole = || {
+            let first = self.job.input.views().next().filter(|_| self.job.input.worlds.len() == 1)?;
+            light_of(&first.files.path(self.job.outputs.frames.first()?.frame))
+        };
+        given.warning(&present.zip(pictures).collect::<Vec<_>>(), whole)
     }
 
     /// What should be known about the light of a frame.

@@ -25,8 +25,7 @@ pub(super) fn of_files(set: &FaceSet) -> Result<Option<Value>> {
     if pictures.windows(2).any(|pair| size(&pair[0].1) != size(&pair[1].1)) {
         return Ok(None);
     }
-    let lights: Vec<_> =
-        pictures.iter().map(|(index, picture)| (*index, size(picture), pixel_of(picture, (0, 0)))).collect();
+    let lights: Vec<_> = pictures.iter().map(|(index, picture)| (*index, size(picture), pixel_of(picture))).collect();
     let pixels = lights.iter().map(|(index, size, light)| (*index, FacePixels { size: *size, light }));
     Ok(given.judge(&pixels.collect::<Vec<_>>()).as_ref().map(report))
 }
@@ -34,24 +33,15 @@ pub(super) fn of_files(set: &FaceSet) -> Result<Option<Value>> {
 /// Of faces in one image. Where its shape alone says that it may be one, it is if the borders do.
 pub(super) fn of_image(path: &Path, likely: &Likely) -> Option<Value> {
     let picture = if likely.cubes.is_empty() { return None } else { light_of(path)? };
-    let judged = likely.cubes.iter().filter_map(|cube| in_image(cube, &picture));
+    let judged = likely.cubes.iter().filter_map(|cube| GivenFaces::of_image(cube)?.judge_image(&picture));
     let mut found: Vec<Continuity> = judged.filter(|judged| !likely.may_be_none || judged.fits.is_some()).collect();
     // Of several layouts the one that lies rightly.
     found.sort_by_key(|judged| judged.fits != Some(true));
     found.first().map(report)
 }
 
-fn in_image(cube: &Cube, picture: &Image<Rgba>) -> Option<Continuity> {
-    let layout = cube.one_image()?;
-    let edge = layout.edge(picture.width(), picture.height()).ok()?;
-    let places = layout.faces(edge);
-    let lights: Vec<_> = places.iter().map(|place| pixel_of(picture, (place.rect.left, place.rect.top))).collect();
-    let pixels = lights.iter().enumerate().map(|(index, light)| (index, FacePixels { size: (edge, edge), light }));
-    GivenFaces::of_image(cube)?.judge(&pixels.collect::<Vec<_>>())
-}
-
-fn pixel_of(picture: &Image<Rgba>, (left, top): (usize, usize)) -> impl Fn(usize, usize) -> Rgba + '_ {
-    move |i, j| *picture.get(left + i, top + j)
+fn pixel_of(picture: &Image<Rgba>) -> impl Fn(usize, usize) -> Rgba + '_ {
+    |i, j| *picture.get(i, j)
 }
 
 fn report(continuity: &Continuity) -> Value {

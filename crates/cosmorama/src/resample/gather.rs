@@ -333,7 +333,9 @@ fn with_width(footprint: Footprint) -> Footprint {
 /// The footprint in texels, in those of a panorama's outermost row where it lies beyond their centres: texels nearer to a
 /// pole would be narrower, but there are none.
 fn footprint_among_texels(source: &Source, footprint: &Footprint) -> Option<DMat2> {
-    let (centre, jacobian) = source.view.texel_footprint(footprint)?;
+    let Some((centre, jacobian)) = source.view.texel_footprint(footprint) else {
+        return footprint_on_border(source, footprint);
+    };
     if source.period.is_none() {
         return Some(jacobian);
     }
@@ -346,6 +348,19 @@ fn footprint_among_texels(source: &Source, footprint: &Footprint) -> Option<DMat
     }
     let there = Footprint { direction: source.view.direction(nearest)?, ..*footprint };
     source.view.texel_footprint(&there).map(|(_, jacobian)| jacobian)
+}
+
+/// The texels of a wide camera's border are this part of its largest, at most.
+const FINE_BORDER: f64 = 0.25;
+
+/// The footprint in the texels of the border, for what lies beyond a camera's horizon, where those are far smaller than in the
+/// middle: in texels as large as any, a kernel would hold most of the picture.
+fn footprint_on_border(source: &Source, footprint: &Footprint) -> Option<DMat2> {
+    let direction = source.view.border_towards(footprint.direction)?;
+    let texel = source.view.footprint(source.view.pixel(direction)?)?.jacobian;
+    let is_fine = texel.dx.length().max(texel.dy.length()) < FINE_BORDER * source.texel_pitch;
+    let there = Footprint { direction, ..*footprint };
+    is_fine.then(|| source.view.texel_footprint(&there)).flatten().map(|(_, jacobian)| jacobian)
 }
 
 /// Whether the mapping is linear, as far as can be seen, over a kernel of this radius so far from its nearest singularity.

@@ -36,6 +36,9 @@ pub struct View {
     pub stop: FieldStop,
 }
 
+/// Halvings of the way to the border of a picture: to a millionth of it.
+const BORDER_STEPS: usize = 20;
+
 impl View {
     /// Columns.
     pub fn width(&self) -> usize {
@@ -59,6 +62,19 @@ impl View {
         self.projection.unproject_row(first, self.grid.step().x, columns.len(), |k, direction| {
             visit(columns.start + k, self.orientation.to_world(direction));
         });
+    }
+
+    /// The last direction in the picture on the way from its middle to one outside.
+    pub(crate) fn border_towards(&self, direction: Direction) -> Option<Direction> {
+        let middle = self.direction(PixelPoint::new(self.width() as f64 / 2.0, self.height() as f64 / 2.0))?.vector();
+        let at = |part: f64| Direction::new(middle.lerp(direction.vector(), part));
+        let is_inside = |part: f64| at(part).and_then(|d| self.pixel(d)).is_some_and(|pixel| self.grid.contains(pixel));
+        let (mut inside, mut outside) = (0.0, 1.0);
+        for _ in 0..BORDER_STEPS {
+            let part = 0.5 * (inside + outside);
+            if is_inside(part) { inside = part } else { outside = part }
+        }
+        at(inside)
     }
 
     /// Whether every direction of the world is in the picture: it goes all the way round, from pole to pole.

@@ -11,6 +11,19 @@ pub struct Mirror {
     pub y: bool,
 }
 
+impl Mirror {
+    /// One after the other: twice the same is nothing.
+    #[must_use]
+    pub const fn and(self, other: Self) -> Self {
+        Self { x: self.x != other.x, y: self.y != other.y }
+    }
+
+    /// Whether writing reads backwards.
+    pub const fn is_backwards(self) -> bool {
+        self.x != self.y
+    }
+}
+
 /// A larger image of which the one at hand is a window.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Canvas {

@@ -1,0 +1,83 @@
+//! Crosses with their long arm at the other end: mirrored as a whole, their faces lie in other places.
+
+use cosmorama::world::{CubeLayout, LayoutKind, Mirror, PixelRect};
+
+use super::Continuity;
+use super::mirror_image::flip_key;
+
+/// How a picture of a layout has to be mirrored for its faces to lie in other places, if it can be.
+pub(super) fn axis(kind: LayoutKind) -> Option<Mirror> {
+    let places = |mirror: Mirror| -> Vec<PixelRect> {
+        CubeLayout::new(kind).mirrored(mirror).faces(2).iter().map(|placed| placed.rect).collect()
+    };
+    let own = places(Mirror::default());
+    let axes = [Mirror { x: true, y: false }, Mirror { x: false, y: true }];
+    axes.into_iter().find(|axis| places(*axis).iter().any(|place| !own.contains(place)))
+}
+
+/// The SPECs under which faces are in the places of a mirrored picture: as mirrored, and turned upside down, which puts them
+/// into the same places. Borders do not tell one from the other.
+pub(super) fn specs(kind: LayoutKind, mirror: Mirror) -> [String; 2] {
+    let turned = mirror.and(along(kind));
+    [format!("cube:layout={kind}{}", flip_key(mirror)), format!("cube:layout={kind}{},roll=180", flip_key(turned))]
+}
+
+/// The other axis, which leaves every place one.
+fn along(kind: LayoutKind) -> Mirror {
+    let both = Mirror { x: true, y: true };
+    axis(kind).map_or(both, |axis| both.and(axis))
+}
+
+/// What is told of faces that were looked for in the places of a picture that is mirrored so.
+pub(super) fn told_elsewhere(kind: LayoutKind, mirror: Mirror, found: Continuity) -> Continuity {
+    let what = if mirror == Mirror::default() {
+        "the picture is not mirrored".to_owned()
+    } else {
+        format!("the whole picture is mirrored {}", way(mirror))
+    };
+    let [spec, turned] = specs(kind, mirror);
+    let other = if mirror.is_backwards() { "does not read backwards" } else { "reads backwards" };
+    let turned =
+        format!("if writing in it {other}, give --from {turned}: borders do not tell a cube from its mirror image");
+    if found.fits != Some(true) {
+        let told = format!("{what}; then {}", found.told);
+        return Continuity { told, changes: [vec![what], found.changes].concat(), ..found };
+    }
+    let told = format!("{what}: read so, --from {spec}, {}; {turned}", found.told);
+    Continuity { told, fits: Some(false), changes: vec![what], spec: Some(spec), ..found }
+}
+
+/// What is told beside this of faces that meet as they lie, where those of the mirror image would, too.
+pub(super) fn mirror_image(kind: LayoutKind, mirror: Mirror) -> String {
+    let spec = format!("cube:layout={kind}{}", flip_key(mirror.and(along(kind))));
+    let backwards = if mirror.is_backwards() { "does not read backwards" } else { "reads backwards" };
+    format!("; so do those of the mirror image: if writing in it {backwards}, give --from {spec}")
+}
+
+fn way(mirror: Mirror) -> &'static str {
+    match (mirror.x, mirror.y) {
+        (true, true) => "both ways",
+        (false, true) => "top to bottom",
+        _ => "left to right",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_crosses_have_ends() {
+        let ends: Vec<_> = LayoutKind::ALL.into_iter().filter_map(|kind| Some((kind, axis(kind)?))).collect();
+        let (across, down) = (Mirror { x: true, y: false }, Mirror { x: false, y: true });
+        assert_eq!(ends, [(LayoutKind::CrossH, across), (LayoutKind::CrossV, down)]);
+    }
+
+    #[test]
+    fn the_same_picture_is_read_in_two_ways() {
+        let across = Mirror { x: true, y: false };
+        let specs = |mirror| specs(LayoutKind::CrossH, mirror);
+        assert_eq!(specs(across), ["cube:layout=cross-h,flip=x", "cube:layout=cross-h,flip=xy,roll=180"]);
+        assert_eq!(specs(Mirror::default()), ["cube:layout=cross-h", "cube:layout=cross-h,flip=y,roll=180"]);
+    }
+}
