@@ -127,6 +127,21 @@ fn isolated_nans_are_closed_from_around() {
 }
 
 #[test]
+fn a_hole_is_said_to_be_in_its_own_frame() {
+    let bench = Bench::new();
+    for frame in 1..=3 {
+        let is_hole = |i: usize, j: usize| frame == 2 && (24..40).contains(&i) && (8..24).contains(&j);
+        let hole = |i: usize, j: usize| if is_hole(i, j) { [f32::NAN; 3] } else { [0.5; 3] };
+        bench.save(&format!("sky_{frame}.exr"), &floats(64, 32, hole));
+    }
+    let args = ["--from", "equirect", "--to", "perspective:fov=60", "--size", "24x24"];
+    let output = bench.run(&[&["convert", "sky_#.exr", "out_#.exr"], &args[..]].concat());
+    let message = bench::text(&output.stderr);
+    assert_eq!(output.status.code(), Some(1), "{message}");
+    assert!(message.contains("frame 2") && message.contains("found in sky_2.exr (256)"), "{message}");
+}
+
+#[test]
 fn missing_pixels_are_told_of_inputs_with_alpha_too() {
     let bench = Bench::new();
     bench.save("sky.exr", &veiled(64, 32, |i, j| if i < 8 && j < 4 { [f32::NAN; 3] } else { [0.5; 3] }));

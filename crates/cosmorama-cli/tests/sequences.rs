@@ -109,6 +109,22 @@ fn resume_keeps_what_is_complete_and_makes_the_rest() {
 }
 
 #[test]
+fn resume_makes_again_what_is_of_another_format_or_no_file() {
+    let bench = Bench::new();
+    bench.save("sky.png", &picture(1, 64, 32));
+    let args = ["--to", "fisheye", "--size", "32", "--json"];
+    bench.succeed(&[&["convert", "sky.png", "out.jpg"], &args[..]].concat());
+    std::fs::rename(bench.path("out.jpg"), bench.path("out.png")).unwrap();
+    let again = [&["convert", "sky.png", "out.png", "--resume"], &args[..]].concat();
+    let report: Value = serde_json::from_str(&bench.succeed(&again)).unwrap();
+    assert_eq!(report["remade"][0]["reason"], "JPEG instead of PNG", "{report}");
+    std::fs::remove_file(bench.path("out.png")).unwrap();
+    std::fs::create_dir(bench.path("out.png")).unwrap();
+    let message = bench.fail(1, &again);
+    assert!(message.contains("out.png (no file)"), "{message}");
+}
+
+#[test]
 fn resume_knows_its_own_outputs_in_every_format() {
     let bench = Bench::new();
     bench.save("sky.png", &picture(1, 64, 32));

@@ -1,6 +1,6 @@
 use std::path::{Path, PathBuf};
 
-use cosmorama_io::{IoError, Limits, probe, read};
+use cosmorama_io::{Format, IoError, Limits, probe, read};
 use rayon::prelude::*;
 use serde::Serialize;
 
@@ -75,15 +75,19 @@ impl Remade {
 impl Found {
     /// Outputs appear whole, so one that is an image of the right size and kind, and can be read, is done.
     fn at(path: &Path, target: &TargetFile, light: &Light) -> Self {
-        if !path.exists() {
-            return Self::Nothing;
+        let Ok(found) = path.metadata() else { return Self::Nothing };
+        // What is no file might wait for ever to be read.
+        if !found.is_file() {
+            return Self::Other("no file".to_owned());
         }
         let header = match probe(path) {
             Ok(header) => header,
             Err(error) => return Self::unreadable(error),
         };
         let size = |(width, height): &(usize, usize)| format!("{width}x{height}");
+        let format = Format::from_extension(path).unwrap_or(header.format);
         let told: Vec<String> = [
+            instead(&header.format, &format, ToString::to_string),
             instead(&(header.width, header.height), &target.sheet.size, size),
             instead(&header.channels, &light.channels, ToString::to_string),
             instead(&header.depth, &light.depth, |depth| format!("depth {depth}")),

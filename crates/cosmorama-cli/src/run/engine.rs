@@ -97,10 +97,10 @@ impl<'a> Engine<'a> {
 
     /// Makes the pictures of a frame: filtered light, complete with what lies outside, faces in their places.
     pub(super) fn render(&self, frame: &FrameOutputs, light: &FrameLight) -> Result<Vec<Levels>> {
-        frame.files.iter().map(|(index, _)| self.render_file(*index, light)).collect()
+        frame.files.iter().map(|(index, _)| self.render_file(*index, (frame.frame, light))).collect()
     }
 
-    fn render_file(&self, file: usize, light: &FrameLight) -> Result<Levels> {
+    fn render_file(&self, file: usize, (frame, light): (Option<u64>, &FrameLight)) -> Result<Levels> {
         let levels = self.job.target.files[file].levels();
         match (light.texels(), self.geometry.codec()) {
             (Texels::Fixed(worlds), Some(codec)) => {
@@ -113,13 +113,13 @@ impl<'a> Engine<'a> {
             }
             _ => {
                 let background = self.job.light.background;
-                let mut view = |index: usize| self.render_view(index, light);
+                let mut view = |index: usize| self.render_view(index, (frame, light));
                 levels.map(|sheet| Ok(Rendered::Light(assemble(sheet, background, &mut view)?))).collect()
             }
         }
     }
 
-    fn render_view(&self, index: usize, light: &FrameLight) -> Result<Image<Rgba>> {
+    fn render_view(&self, index: usize, (frame, light): (Option<u64>, &FrameLight)) -> Result<Image<Rgba>> {
         let target = &self.job.target.views[index];
         let Texels::Float(worlds) = light.texels() else { bail!("light of 8 bits where floats were expected") };
         let (resampler, texels) = (self.job.resampler(target), &worlds[target.world(worlds.len())]);
@@ -128,7 +128,8 @@ impl<'a> Engine<'a> {
             return Ok(self.geometry.light(index, resampler, texels, self.job.light.background));
         }
         let mut image = self.geometry.light(index, resampler, texels, Rgba::TRANSPARENT);
-        self.complete(index, light, &mut image)?;
+        self.close_holes(index, (frame, light), &mut image)?;
+        self.complete(index, &mut image);
         Ok(image)
     }
 
@@ -142,13 +143,11 @@ impl<'a> Engine<'a> {
         !self.job.light.input_alpha && self.incomplete(light).next().is_some()
     }
 
-    fn complete(&self, index: usize, light: &FrameLight, image: &mut Image<Rgba>) -> Result<()> {
-        self.close_holes(index, light, image)?;
+    fn complete(&self, index: usize, image: &mut Image<Rgba>) {
         if let Coverage::Fill(colour) = self.job.coverage {
             self.mask(index).fill_unseen(image, colour);
         }
         self.lay_background(index, image);
-        Ok(())
     }
 
     fn mask(&self, index: usize) -> &ScreenMask {
@@ -158,14 +157,20 @@ impl<'a> Engine<'a> {
 
     /// Missing texels of opaque inputs leave the pixel to the others; a pixel that has none left is like one that no
     /// view covers.
-    fn close_holes(&self, index: usize, light: &FrameLight, image: &mut Image<Rgba>) -> Result<()> {
+    fn close_holes(
+        &self,
+        index: usize,
+        (frame, light): (Option<u64>, &FrameLight),
+        image: &mut Image<Rgba>,
+    ) -> Result<()> {
         if !self.has_holes(light) {
             return Ok(());
         }
         let fill = self.job.fill_for_missing();
         let empty = self.mask(index).close_holes(image, fill.unwrap_or(Rgba::TRANSPARENT));
         if empty > 0 && fill.is_none() {
-            let culprit = |(view, count): (&InputView, usize)| format!("{} ({count})", view.name);
+            let culprit =
+                |(view, count): (&InputView, usize)| format!("{} ({count})", view.files.path(frame).display());
             let culprits: Vec<_> = self.incomplete(light).map(culprit).collect();
             bail!(
                 "{empty} pixels of {} see nothing but missing pixels (NaN), found in {}; render those again, or fill the \
