@@ -228,47 +228,6 @@ fn a_view_as_fine_as_no_image_is() {
 }
 
 #[test]
-fn compare_replaces_nothing_unasked() {
-    let bench = Bench::new();
-    bench.save("a.png", &picture(1, 16, 16));
-    bench.save("b.png", &picture(2, 16, 16));
-    bench.save("c.png", &picture(3, 16, 16));
-    let before = [bench.bytes("a.png"), bench.bytes("c.png")];
-    let message = bench.fail(2, &["compare", "a.png", "b.png", "--diff", "./a.png", "-y"]);
-    assert_says(&message, &["--diff", "a.png", "another name"]);
-    let message = bench.fail(1, &["compare", "a.png", "b.png", "--diff", "c.png"]);
-    assert_says(&message, &["c.png exists", "--overwrite"]);
-    assert_eq!([bench.bytes("a.png"), bench.bytes("c.png")], before);
-    bench.succeed(&["compare", "a.png", "b.png", "--diff", "c.png", "-y"]);
-    assert_ne!(bench.bytes("c.png"), before[1]);
-    let message = bench.fail(1, &["compare", "a.png", "b.png", "--memory", "100"]);
-    assert_says(&message, &["a.png", "--memory"]);
-}
-
-#[test]
-fn explain_replaces_nothing_unasked() {
-    let bench = Bench::new();
-    bench.faces("face_", 32);
-    std::fs::create_dir(bench.path("diagrams")).unwrap();
-    std::fs::write(bench.path("diagrams/ownership.png"), "mine").unwrap();
-    let args = ["explain", "face_{face}.png", "--to", "omnimax", "--output", "diagrams"];
-    assert_says(&bench.fail(1, &args), &["diagrams/ownership.png exists", "--overwrite"]);
-    assert_eq!(bench.bytes("diagrams/ownership.png"), b"mine");
-    bench.succeed(&[&args[..], &["-y"]].concat());
-    assert_ne!(bench.bytes("diagrams/ownership.png"), b"mine");
-}
-
-#[test]
-fn a_diagram_replaces_no_input() {
-    let bench = Bench::new();
-    bench.save("unfolded.png", &picture(1, 64, 32));
-    let before = bench.bytes("unfolded.png");
-    let args = ["explain", "unfolded.png", "--to", "omnimax", "--size", "32", "--output", ".", "-y"];
-    assert_says(&bench.fail(2, &args), &["unfolded.png", "replace its own input"]);
-    assert_eq!(bench.bytes("unfolded.png"), before);
-}
-
-#[test]
 fn a_face_of_nan() {
     let bench = Bench::new();
     for face in CubeFace::ALL {
@@ -282,33 +241,6 @@ fn a_face_of_nan() {
     let message = bench.fail(1, &["convert", "face_{face}.exr", "out.exr", "--to", "omnimax", "--size", "64"]);
     assert_says(&message, &["face_left.exr (512)", "--missing"]);
     bench.succeed(&["convert", "face_{face}.exr", "out.exr", "--to", "omnimax", "--size", "64", "--missing", "black"]);
-}
-
-#[test]
-fn a_folder_that_is_missing_or_read_only() {
-    let bench = Bench::new();
-    bench.save("sky.png", &picture(1, 64, 32));
-    let message = bench.fail(1, &["convert", "sky.png", "nowhere/out.png", "--to", "omnimax", "--size", "32"]);
-    assert_says(&message, &["nowhere/out.png", "does not exist", "make it first"]);
-    // Not even root can write here.
-    let message = bench.fail(1, &["convert", "sky.png", "/proc/out.png", "--to", "omnimax", "--size", "32"]);
-    assert_says(&message, &["cannot write /proc/out.png", "takes no new files"]);
-    assert!(!message.contains("not exist"), "{message}");
-    let message = bench.fail(1, &["convert", "sky.png", "sky.png/out.png", "--to", "omnimax", "--size", "32"]);
-    assert_says(&message, &["cannot write sky.png/out.png", "sky.png is no folder"]);
-}
-
-#[test]
-fn an_output_that_is_an_input() {
-    let bench = Bench::new();
-    bench.save("sky.png", &picture(1, 64, 32));
-    let before = bench.bytes("sky.png");
-    let message = bench.fail(2, &["convert", "sky.png", "./sky.png", "--to", "omnimax", "--size", "32", "-y"]);
-    assert_says(&message, &["replace its own input"]);
-    bench.faces("face_", 16);
-    let message = bench.fail(2, &["convert", "face_{face}.png", "face_{face}.png", "-y"]);
-    assert_says(&message, &["face_front.png", "replace its own input"]);
-    assert_eq!(bench.bytes("sky.png"), before);
 }
 
 #[test]
@@ -371,18 +303,6 @@ fn frames_missing_in_the_middle_are_all_named_before_work_starts() {
 }
 
 #[test]
-fn existing_outputs_are_found_before_work_starts() {
-    let bench = Bench::new();
-    for frame in 1..=3 {
-        bench.save(&format!("sky_{frame}.png"), &picture(frame, 64, 32));
-    }
-    bench.save("out_2.png", &picture(0, 4, 4));
-    let args = ["convert", "sky_#.png", "out_#.png", "--to", "omnimax", "--size", "32"];
-    let message = bench.fail(1, &args);
-    assert_says(&message, &["out_2.png exists", "--overwrite", "--resume"]);
-}
-
-#[test]
 fn a_frame_of_another_size() {
     let bench = Bench::new();
     bench.save("sky_1.png", &picture(1, 64, 32));
@@ -393,33 +313,6 @@ fn a_frame_of_another_size() {
     assert_says(&bench::text(&output.stderr), &["sky_2.png", "128x64", "64x32"]);
     // What was whole before stays.
     assert!(bench.path("out_1.png").exists() && !bench.path("out_2.png").exists());
-}
-
-/// A limit on the size of files fails as a full disk does: in the middle of writing, or when the last bytes are flushed.
-#[cfg(unix)]
-#[test]
-fn a_full_disk() {
-    let bench = Bench::new();
-    bench.save("sky.png", &picture(1, 64, 32));
-    std::fs::create_dir(bench.path("diagrams")).unwrap();
-    let before = bench.files();
-    let program = env!("CARGO_BIN_EXE_cosmorama");
-    let explain = "explain sky.png --to omnimax --output diagrams";
-    // Blocks of 512 bytes: for nothing, or for all diagrams but the last.
-    for (blocks, verb, file) in [
-        (8, "convert sky.png out.png --to equirect --size 800 --depth 16", "out.png"),
-        (8, explain, "diagrams/unfolded.svg"),
-        (800, explain, "diagrams/footprints.png"),
-    ] {
-        // Whether or not whoever started the program has it ignore the signal of a limit reached.
-        for trap in ["trap '' XFSZ; ", ""] {
-            let script = format!("{trap}ulimit -f {blocks}; exec {program} {verb}");
-            let output =
-                std::process::Command::new("sh").args(["-c", &script]).current_dir(bench.path("")).output().unwrap();
-            let message = bench.check_failure(1, &output, &before);
-            assert_says(&message, &[&format!("cannot write {file}")]);
-        }
-    }
 }
 
 #[test]
