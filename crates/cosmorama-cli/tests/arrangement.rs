@@ -79,6 +79,13 @@ fn a_tools_own_up_and_down() {
     assert!(!warnings(&bench, &["{face}.png", "--from", "cube:naming=envutil"]).contains("warning"));
 }
 
+/// What is advised for a picture is seamless.
+fn assert_seamless(bench: &Bench, picture: &str, spec: &str) {
+    let to = ["--to", "cube:layout=strip-v", "--size", "96", "-y"];
+    bench.succeed(&[&["convert", picture, "again.png", "--from", spec], &to[..]].concat());
+    assert_eq!(arrangement(bench, "again.png")["fits"], true, "{spec}");
+}
+
 #[test]
 fn another_order_in_one_image() {
     let bench = world("96");
@@ -93,20 +100,7 @@ fn another_order_in_one_image() {
         let spec = told["spec"].as_str().unwrap_or_default().to_owned();
         assert!(told["fits"] == false && spec.starts_with(fits), "{made}: {told}");
         assert_says(&warnings(&bench, &["strip.png"]), &["warning: ", &spec]);
-        // What is advised is seamless.
-        bench.succeed(&[
-            "convert",
-            "strip.png",
-            "again.png",
-            "-y",
-            "--from",
-            &spec,
-            "--to",
-            "cube:layout=strip-v",
-            "--size",
-            "96",
-        ]);
-        assert_eq!(arrangement(&bench, "again.png")["fits"], true, "{spec}");
+        assert_seamless(&bench, "strip.png", &spec);
     }
 }
 
@@ -283,19 +277,7 @@ fn mirrored_crosses_of_shuffled_faces() {
         let spec = told["spec"].as_str().unwrap_or_default();
         assert!(told["fits"] == false && spec.contains("flip="), "{made}: {told}");
         assert_says(told["told"].as_str().unwrap(), &["the whole picture is mirrored", "do not meet", spec]);
-        bench.succeed(&[
-            "convert",
-            "cross.png",
-            "again.png",
-            "-y",
-            "--from",
-            spec,
-            "--to",
-            "cube:layout=strip-v",
-            "--size",
-            "96",
-        ]);
-        assert_eq!(arrangement(&bench, "again.png")["fits"], true, "{spec}");
+        assert_seamless(&bench, "cross.png", spec);
     }
 }
 
