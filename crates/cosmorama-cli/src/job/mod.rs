@@ -49,7 +49,7 @@ pub(crate) use light::{InputTransfer, Light};
 pub(crate) use listing::{Listed, listed};
 pub(crate) use machine::peak_bytes;
 pub(crate) use memory::{InFlight, MemoryBudget};
-pub(crate) use outputs::{FrameOutputs, Outputs, check_apart, real_path, refuse_existing};
+pub(crate) use outputs::{FrameOutputs, Outputs, check_apart, files_read, real_path, refuse_existing};
 pub(crate) use picture::{Picture, Place};
 pub(crate) use remade::Remade;
 pub(crate) use st_map::settled;

@@ -7,6 +7,7 @@ use cosmorama_io::pending::Pending;
 use super::target::TargetFile;
 use super::{Files, Input, Light, MemoryBudget, Remade, Target};
 use crate::args::ConvertArgs;
+use crate::args::convert::GeometryArgs;
 use crate::failure::usage;
 
 /// A frame with the outputs that are still to be made of it.
@@ -52,9 +53,7 @@ impl Outputs {
         memory: MemoryBudget,
     ) -> Result<Self> {
         check_frame_markers(args, input, target)?;
-        let specs = [&args.geometry.from, &args.geometry.to].into_iter().flatten();
-        let named = specs.flat_map(|spec| spec.files.iter().cloned());
-        let inputs: HashSet<PathBuf> = input.files().chain(named).map(|path| real_path(&path)).collect();
+        let inputs = files_read(input, &args.geometry);
         let mut frames = Vec::new();
         let mut folders = HashSet::new();
         for &frame in &input.frames {
@@ -108,6 +107,12 @@ fn check_frame_markers(args: &ConvertArgs, input: &Input, target: &Target) -> Re
         )));
     }
     Ok(())
+}
+
+/// Every file that a job reads, those that its SPECs name among them.
+pub(crate) fn files_read(input: &Input, geometry: &GeometryArgs) -> HashSet<PathBuf> {
+    let named = [&geometry.from, &geometry.to].into_iter().flatten().flat_map(|spec| spec.files.iter().cloned());
+    input.files().chain(named).map(|path| real_path(&path)).collect()
 }
 
 /// An output that replaced what it is made of could never be made again.

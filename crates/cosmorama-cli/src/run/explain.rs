@@ -1,4 +1,3 @@
-use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -14,7 +13,7 @@ use super::{diagram, print, use_threads};
 use crate::args::ExplainArgs;
 use crate::failure::{usage, warn};
 use crate::job::{
-    Builtin, Input, MemoryBudget, Picture, check_apart, filter, nominal_worlds, real_path, refuse_existing, settled,
+    Builtin, Input, MemoryBudget, Picture, check_apart, files_read, filter, nominal_worlds, refuse_existing, settled,
 };
 
 /// Tells what a conversion will do.
@@ -103,9 +102,7 @@ fn resolve(args: &ExplainArgs, warnings: &mut Vec<String>) -> Result<(Input, Vec
 
 /// Diagrams replace no input, nor anything else unasked.
 fn check_diagrams(folder: &Path, pictures: &[Picture], input: &Input, args: &ExplainArgs) -> Result<()> {
-    let specs = [&args.geometry.from, &args.geometry.to].into_iter().flatten();
-    let named = specs.flat_map(|spec| spec.files.iter().cloned());
-    let inputs: HashSet<PathBuf> = input.files().chain(named).map(|path| real_path(&path)).collect();
+    let inputs = files_read(input, &args.geometry);
     let files: Vec<PathBuf> = pictures.iter().flat_map(|picture| diagrams(folder, picture)).collect();
     files.iter().try_for_each(|path| check_apart(path, &inputs))?;
     if args.overwrite { Ok(()) } else { refuse_existing(files.iter().map(PathBuf::as_path), "") }
