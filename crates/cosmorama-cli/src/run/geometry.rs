@@ -57,11 +57,7 @@ impl Geometry {
     pub(super) fn light(&self, index: usize, resampler: Resampler, texels: &[Rgba], background: Rgba) -> Image<Rgba> {
         let made = match self {
             Self::Float(plans) => plans[index].as_ref().map(|plan| plan.apply_over(texels, background)),
-            Self::Pyramid(plans) => plans[index].as_ref().map(|plan| {
-                let mut image = plan.apply(texels);
-                image.lay_over(background);
-                image
-            }),
+            Self::Pyramid(plans) => plans[index].as_ref().map(|plan| plan.apply_over(texels, background)),
             Self::Fixed(..) => None,
         };
         made.unwrap_or_else(|| resampler.render_over(texels, background))

@@ -176,6 +176,13 @@ impl PyramidPlan {
         mix(&self.map, self.size, &halvings, texels, |level, texels| Some(self.plans[level].as_ref()?.apply(texels)))
     }
 
+    /// The same in front of a background, linear and premultiplied as all light is.
+    pub fn apply_over(&self, texels: &[Rgba], background: Rgba) -> Image<Rgba> {
+        let mut image = self.apply(texels);
+        image.lay_over(background);
+        image
+    }
+
     /// About how many bytes that of a conversion would hold.
     pub(super) fn bytes_estimate(resampler: &Resampler) -> usize {
         let pyramid = Pyramid::new(resampler);
