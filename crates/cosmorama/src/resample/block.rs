@@ -5,7 +5,7 @@ use crate::world::{PixelPoint, PixelRect, View};
 /// Pixels along the side of the largest blocks.
 const LARGEST: usize = 128;
 
-/// Pixels along the side of the smallest: judging half as large ones takes longer than their pixels do.
+/// Pixels along the side of the smallest.
 const SMALLEST: usize = 8;
 
 /// A square of a target's pixels that is judged as a whole where possible, else in parts.

@@ -230,7 +230,8 @@ impl<'a> Gather<'a> {
             && (whole_turn || (bounds.left >= whole.left as i64 && bounds.right < whole.right as i64))
     }
 
-    /// Texels beside each other in a row, all inside, the first one's index and their solid angles: Q = AU² + BUV + CV² by finite differences (Greene & Heckbert 1986).
+    /// Texels beside each other in a row, all inside, given the index of the first and the solid angle of each: Q = AU² + BUV + CV²
+    /// by finite differences (Greene & Heckbert 1986).
     fn gather_run(
         &mut self,
         (first, solid_angles): (usize, &[f32]),

@@ -114,14 +114,14 @@ mod tests {
     fn hold_all(average: Rgba, texel: impl Fn(f32, f32) -> Rgba) -> Rgba {
         let places = (0..ROWS).flat_map(|j| (0..7).map(move |i| [i as f32 - 2.8, j as f32 + 0.5]));
         let texels: Vec<_> = places.map(|[x, y]| (texel(x, y), [0.01 * x, 0.01 * y])).collect();
-        let mut range = Bounds { least: [f32::INFINITY; 4], greatest: [f32::NEG_INFINITY; 4] };
+        let mut bounds = Bounds { least: [f32::INFINITY; 4], greatest: [f32::NEG_INFINITY; 4] };
         for (texel, _) in &texels[..14] {
             for c in 0..4 {
-                range.least[c] = range.least[c].min(texel.0[c]);
-                range.greatest[c] = range.greatest[c].max(texel.0[c]);
+                bounds.least[c] = bounds.least[c].min(texel.0[c]);
+                bounds.greatest[c] = bounds.greatest[c].max(texel.0[c]);
             }
         }
-        hold(average, &range, texels.iter().copied())
+        hold(average, &bounds, texels.iter().copied())
     }
 
     #[test]
@@ -154,22 +154,22 @@ mod tests {
 
     #[test]
     fn as_many_texels_as_confirm_a_slope() {
-        let range = Bounds { least: [0.7; 4], greatest: [0.85; 4] };
+        let bounds = Bounds { least: [0.7; 4], greatest: [0.85; 4] };
         let average = Rgba::opaque(0.65, 0.7, 0.7);
         // Two rows, exactly on a slope.
         let places = (0..4).flat_map(|i| [0.5, 1.5].map(|y| [0.01 * (i as f32 - 1.2), 0.01 * y]));
         let texels = places.map(|[x, y]| (Rgba::opaque(0.65 + 10.0 * y, 0.7, 0.7), [x, y]));
-        assert_eq!(hold(average, &range, texels.clone().take(7)).0[0], 0.7);
-        assert_eq!(hold(average, &range, texels).0[0], 0.65);
+        assert_eq!(hold(average, &bounds, texels.clone().take(7)).0[0], 0.7);
+        assert_eq!(hold(average, &bounds, texels).0[0], 0.65);
     }
 
     #[test]
     fn texels_in_a_line_or_too_few_confirm_nothing() {
-        let range = Bounds { least: [0.6; 4], greatest: [1.0; 4] };
+        let bounds = Bounds { least: [0.6; 4], greatest: [1.0; 4] };
         let line = (0..9).map(|k| (Rgba::opaque(0.6 + 0.05 * k as f32, 0.6, 0.6), [0.01 * k as f32, 0.02 * k as f32]));
         let average = Rgba::opaque(0.5, 0.6, 0.6);
-        assert_eq!(hold(average, &range, line.clone()).0[0], 0.6);
-        assert_eq!(hold(average, &range, line.take(3)).0[0], 0.6);
-        assert_eq!(hold(average, &range, std::iter::empty()).0[0], 0.6);
+        assert_eq!(hold(average, &bounds, line.clone()).0[0], 0.6);
+        assert_eq!(hold(average, &bounds, line.take(3)).0[0], 0.6);
+        assert_eq!(hold(average, &bounds, std::iter::empty()).0[0], 0.6);
     }
 }

@@ -17,7 +17,7 @@ impl SolidAngles {
     pub(super) fn of(view: &View, columns: usize) -> Self {
         let (width, mut angles) = (view.width(), vec![0.0; view.width() * view.height()]);
         angles.par_chunks_mut(width).enumerate().for_each(|(j, row)| {
-            view.row_solid_angles(j, &mut row[..columns.min(width)]);
+            view.row_solid_angles(j, &mut row[..columns]);
         });
         Self(Arc::new(angles))
     }

@@ -6,12 +6,12 @@
 
 use fearless_simd::{Level, Simd, dispatch, i16x8, i16x16, i16x32, prelude::*};
 
-use super::ahead::read_ahead;
 use super::band::{Band, Run};
 use super::blocks::{self, Blocks};
 use super::canvas::Canvas;
 use super::fixed_weights::{FixedWeights, Header, Shape, mark_words};
 use super::mirrors::{MOST_IMAGES, Mirrors, Ways};
+use super::prefetch::prefetch;
 use super::texels::Texels;
 use crate::raster::{FixedCodec, FixedLight};
 use crate::resample::patch::SIDE;
@@ -46,7 +46,7 @@ impl FixedFilter<'_> {
         let texels = self.light.samples().as_chunks::<4>().0;
         for (at, run) in band.runs.iter().enumerate() {
             if at % SIDE == 0 {
-                read_ahead(texels, self.mirrors, ahead.next().unwrap_or(&[]));
+                prefetch(texels, self.mirrors, ahead.next().unwrap_or(&[]));
             }
             let numbers = &band.weights.numbers[run.weights as usize..];
             let pixels = self.pixels(simd, run, numbers);

@@ -2,7 +2,7 @@ use fearless_simd::{Simd, dispatch};
 
 use super::band::{Corners, Run};
 use super::fixed_check::is_sound;
-use super::rounded::{Place, Rounded};
+use super::rounded::{Origin, Rounded};
 use super::stored::Stored;
 use super::weights::Weights;
 use crate::resample::window::Windows;
@@ -53,7 +53,7 @@ impl Shape {
 pub(super) struct Header(pub(super) u32);
 
 impl Header {
-    /// In place of an index of [`Shape::SMALL`]: as large as the run's windows are.
+    /// In origin of an index of [`Shape::SMALL`]: as large as the run's windows are.
     const LARGE: u32 = 7;
 
     fn new(small: Option<usize>, bits: u32, marks: u32) -> Self {
@@ -91,50 +91,50 @@ impl FixedWeights {
     fn write(&mut self, windows: &Windows, lane: usize, corner: &mut [u32; 2]) -> bool {
         let Rounded { width, height, .. } = self.rounded;
         let small = self.rounded.shape(lane);
-        let (shape, mut place) = match small {
-            Some((index, place)) => (Shape::SMALL[index], place),
-            None => (Shape::new(width.div_ceil(2), height, 0), Place { column: 0, row: 0 }),
+        let (shape, mut origin) = match small {
+            Some((index, origin)) => (Shape::SMALL[index], origin),
+            None => (Shape::new(width.div_ceil(2), height, 0), Origin { column: 0, row: 0 }),
         };
         // A window of whole pairs may reach beyond the view; then it begins earlier, if it can.
         let (whole, left) = (windows.columns_within(), corner[0] as isize);
-        place.column -= (left + place.column + 2 * shape.pairs as isize - whole.end as isize).max(0);
-        if place.column < -1 || left + place.column < whole.start as isize {
+        origin.column -= (left + origin.column + 2 * shape.pairs as isize - whole.end as isize).max(0);
+        if origin.column < -1 || left + origin.column < whole.start as isize {
             return false;
         }
-        *corner = [(left + place.column) as u32, corner[1] + place.row as u32];
+        *corner = [(left + origin.column) as u32, corner[1] + origin.row as u32];
         match (small, shape.pairs) {
-            (Some((index, _)), 2) => self.write_small::<2>(lane, place, index),
-            (Some((index, _)), _) => self.write_small::<3>(lane, place, index),
-            (None, _) => self.write_large(windows, lane, place, shape),
+            (Some((index, _)), 2) => self.write_small::<2>(lane, origin, index),
+            (Some((index, _)), _) => self.write_small::<3>(lane, origin, index),
+            (None, _) => self.write_large(windows, lane, origin, shape),
         }
         true
     }
 
     #[inline(always)]
-    fn write_small<const PAIRS: usize>(&mut self, lane: usize, place: Place, index: usize) {
+    fn write_small<const PAIRS: usize>(&mut self, lane: usize, origin: Origin, index: usize) {
         let Self { numbers, rounded } = self;
         let Shape { height, under, .. } = Shape::SMALL[index];
-        let marks = |row| rounded.small_marks(lane, place, under + row, PAIRS) << (2 * PAIRS * row);
+        let marks = |row| rounded.small_marks(lane, origin, under + row, PAIRS) << (2 * PAIRS * row);
         let header = Header::new(Some(index), rounded.bits, (0..ROWS_UNDER).fold(0, |all, row| all | marks(row)));
         // One number, and rows of which five are the most. What is written is always as much: no copy of unknown length.
         let mut all = [0; 1 + 5 * 3];
         all[0] = header.0;
         for (row, pairs) in all[1..].as_chunks_mut().0.iter_mut().take(height).enumerate() {
-            *pairs = rounded.small_pairs::<PAIRS>(lane, place, row);
+            *pairs = rounded.small_pairs::<PAIRS>(lane, origin, row);
         }
         let length = numbers.len() + 1 + PAIRS * height;
         numbers.extend_from_slice(&all);
         numbers.truncate(length);
     }
 
-    fn write_large(&mut self, windows: &Windows, lane: usize, place: Place, Shape { pairs, height, .. }: Shape) {
+    fn write_large(&mut self, windows: &Windows, lane: usize, origin: Origin, Shape { pairs, height, .. }: Shape) {
         let Self { numbers, rounded } = self;
         numbers.push(Header::new(None, rounded.bits, 0).0);
         let words = |row| (0..pairs).step_by(16).map(move |first| (row, first..pairs.min(first + 16)));
         let words = windows.rows_under().flat_map(words);
-        numbers.extend(words.map(|(row, pairs)| rounded.marks(lane, place, row, pairs)));
+        numbers.extend(words.map(|(row, pairs)| rounded.marks(lane, origin, row, pairs)));
         for row in 0..height {
-            numbers.extend(rounded.pairs(lane, place, row, pairs));
+            numbers.extend(rounded.pairs(lane, origin, row, pairs));
         }
     }
 

@@ -2,11 +2,11 @@
 
 use fearless_simd::{Level, Simd, dispatch, f32x4, f32x8, i32x8, prelude::*};
 
-use super::ahead::read_ahead;
 use super::band::{Band, Run};
 use super::canvas::Canvas;
-use super::float_weights::{FloatWeights, beyond};
+use super::float_weights::FloatWeights;
 use super::mirrors::{MOST_IMAGES, Mirrors, Walk, Ways};
+use super::prefetch::prefetch;
 use crate::raster::Rgba;
 use crate::resample::patch::SIDE;
 use crate::resample::taps::average;
@@ -39,7 +39,7 @@ impl FloatFilter<'_> {
         let mut ahead = band.patches().skip(1);
         for (at, run) in band.runs.iter().enumerate() {
             if at % SIDE == 0 {
-                read_ahead(self.texels, self.mirrors, ahead.next().unwrap_or(&[]));
+                prefetch(self.texels, self.mirrors, ahead.next().unwrap_or(&[]));
             }
             let mut pixels = self.pixels(simd, band, run);
             for (image, pixels) in self.mirrors.images.iter().zip(&mut pixels) {
@@ -61,51 +61,16 @@ impl FloatFilter<'_> {
         let ways = self.mirrors.ways(usize::from(run.view));
         let run_filter = RunFilter { simd, filter: self, ways, run, weights };
         let mut pixels = [[Rgba::TRANSPARENT; SIDE]; MOST_IMAGES];
-        // A function for each: what is of a size that is known is written out.
-        match (ways.forward, ways.count, width) {
-            (2, 4, 4) => simd.vectorize(
+        let is_made = match (ways.forward, ways.count) {
+            (2, 4) => run_filter.twins_of::<2>(width, &mut pixels),
+            (1, 2) => run_filter.twins_of::<1>(width, &mut pixels),
+            _ => false,
+        };
+        if !is_made {
+            simd.vectorize(
                 #[inline(always)]
-                || run_filter.twins::<2, 4>(&mut pixels),
-            ),
-            (2, 4, 5) => simd.vectorize(
-                #[inline(always)]
-                || run_filter.twins::<2, 5>(&mut pixels),
-            ),
-            (2, 4, 6) => simd.vectorize(
-                #[inline(always)]
-                || run_filter.twins::<2, 6>(&mut pixels),
-            ),
-            (2, 4, 7) => simd.vectorize(
-                #[inline(always)]
-                || run_filter.twins::<2, 7>(&mut pixels),
-            ),
-            (1, 2, 4) => simd.vectorize(
-                #[inline(always)]
-                || run_filter.twins::<1, 4>(&mut pixels),
-            ),
-            (1, 2, 5) => simd.vectorize(
-                #[inline(always)]
-                || run_filter.twins::<1, 5>(&mut pixels),
-            ),
-            (1, 2, 6) => simd.vectorize(
-                #[inline(always)]
-                || run_filter.twins::<1, 6>(&mut pixels),
-            ),
-            (1, 2, 7) => simd.vectorize(
-                #[inline(always)]
-                || run_filter.twins::<1, 7>(&mut pixels),
-            ),
-            (forward, count, _) => simd.vectorize(
-                #[inline(always)]
-                || {
-                    for at in 0..forward {
-                        run_filter.image::<false>(at, &mut pixels);
-                    }
-                    for at in forward..count {
-                        run_filter.image::<true>(at, &mut pixels);
-                    }
-                },
-            ),
+                || run_filter.images(&mut pixels),
+            );
         }
         pixels
     }
@@ -133,7 +98,7 @@ impl<S: Simd> RunFilter<'_, S> {
         self.filter.mirrors.images[self.ways.order[at].0].view(view).walk(self.run.corner())
     }
 
-    /// The rows that hold texels to which a pixel is held.
+    /// Whether a row of the windows holds texels that a pixel is held to.
     #[inline(always)]
     fn is_under(&self, row: usize) -> bool {
         self.filter.anti_ringing && self.run.rows_under().contains(&row)
@@ -144,6 +109,32 @@ impl<S: Simd> RunFilter<'_, S> {
     fn put(&self, pixels: &mut Pixels, at: usize, lane: usize, pixel: Rgba) {
         let (index, flip) = self.ways.order[at];
         pixels[index % MOST_IMAGES][(lane ^ flip) % SIDE] = pixel;
+    }
+
+    /// The pixels in P pairs of mirrors, of windows of the usual widths: a function for each, in which rows are written out. False,
+    /// making none, for others.
+    #[inline(always)]
+    fn twins_of<const P: usize>(self, width: usize, pixels: &mut Pixels) -> bool {
+        match width {
+            4 => self.simd.vectorize(
+                #[inline(always)]
+                || self.twins::<P, 4>(pixels),
+            ),
+            5 => self.simd.vectorize(
+                #[inline(always)]
+                || self.twins::<P, 5>(pixels),
+            ),
+            6 => self.simd.vectorize(
+                #[inline(always)]
+                || self.twins::<P, 6>(pixels),
+            ),
+            7 => self.simd.vectorize(
+                #[inline(always)]
+                || self.twins::<P, 7>(pixels),
+            ),
+            _ => return false,
+        }
+        true
     }
 
     /// The pixels in P pairs of mirrors, whose windows are W texels wide; of each pair one goes from left to right, the other from
@@ -191,7 +182,18 @@ impl<S: Simd> RunFilter<'_, S> {
         averages
     }
 
-    /// The pixels in one mirror, of windows of any width.
+    /// The pixels in all mirrors, one by one, of windows of any width.
+    #[inline(always)]
+    fn images(self, pixels: &mut Pixels) {
+        for at in 0..self.ways.forward {
+            self.image::<false>(at, pixels);
+        }
+        for at in self.ways.forward..self.ways.count {
+            self.image::<true>(at, pixels);
+        }
+    }
+
+    /// The same in one of them.
     #[inline(always)]
     fn image<const REVERSED: bool>(self, at: usize, pixels: &mut Pixels) {
         let corner = self.corner(at);
@@ -215,10 +217,10 @@ impl<S: Simd> RunFilter<'_, S> {
             let mut part = f32x4::splat(simd, 0.0);
             for column in 0..width {
                 let texel = texels[if REVERSED { width - 1 - column } else { column }];
-                let (texel, weight) = (f32x4::load_array(simd, texel.0), weights[column][lane]);
-                part += texel * weight;
+                let (texel, weight) = (f32x4::load_array(simd, texel.0), f32x8::splat(simd, weights[column][lane]));
+                part += texel * weight.split().0;
                 if is_under {
-                    let beyond = beyond(weight);
+                    let beyond = beyond(weight).split().0;
                     least = least.min(texel + beyond);
                     greatest = greatest.max(texel - beyond);
                 }
@@ -259,7 +261,7 @@ impl<const W: usize> TwinRows<'_, W> {
             let weight = f32x8::splat(simd, self.weights[column][self.lane % SIDE]);
             part += texel * weight;
             if UNDER {
-                let beyond = beyond_of(weight);
+                let beyond = beyond(weight);
                 sums.least = sums.least.min(texel + beyond);
                 sums.greatest = sums.greatest.max(texel - beyond);
             }
@@ -268,9 +270,9 @@ impl<const W: usize> TwinRows<'_, W> {
     }
 }
 
-/// The same as [`beyond`] of the weight that is in all lanes.
+/// Zero where a weight is marked as that of a texel under the pixel, infinity for one around it.
 #[inline(always)]
-fn beyond_of<S: Simd>(weight: f32x8<S>) -> f32x8<S> {
+fn beyond<S: Simd>(weight: f32x8<S>) -> f32x8<S> {
     let bits: i32x8<S> = weight.bitcast();
     (((bits & 1) - 1) & f32::INFINITY.to_bits() as i32).bitcast()
 }

@@ -62,10 +62,3 @@ impl Weights for FloatWeights {
 fn marked(weight: f32, is_under: bool) -> f32 {
     f32::from_bits(weight.to_bits() & !1 | u32::from(is_under))
 }
-
-/// Zero for a texel under the pixel, infinity for one around it.
-#[inline(always)]
-pub(super) fn beyond(weight: f32) -> f32 {
-    const INFINITY: u32 = f32::INFINITY.to_bits();
-    f32::from_bits((weight.to_bits() & 1).wrapping_sub(1) & INFINITY)
-}

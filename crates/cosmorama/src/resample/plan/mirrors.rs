@@ -98,9 +98,7 @@ impl Walk {
         let first = if self.is_reversed { self.first.wrapping_sub(columns) } else { self.first.wrapping_add(columns) };
         Self { first: first.wrapping_add_signed(self.down.wrapping_mul(i32::from(rows))), ..self }
     }
-}
 
-impl Walk {
     /// The same one row further down.
     #[inline(always)]
     pub(super) fn one_down(self) -> Self {

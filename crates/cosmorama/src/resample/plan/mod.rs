@@ -1,6 +1,5 @@
 //! Geometry compiled once for any number of frames.
 
-mod ahead;
 mod band;
 mod blocks;
 mod canvas;
@@ -11,6 +10,7 @@ mod float;
 mod float_weights;
 mod key;
 mod mirrors;
+mod prefetch;
 mod rounded;
 mod saved;
 mod saved_plan;

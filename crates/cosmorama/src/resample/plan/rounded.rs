@@ -33,7 +33,7 @@ struct Small {
     rows_under: [u8; SIDE],
     /// The columns of the texels under the pixel, by row.
     under: [[u8; SIDE]; SIDE],
-    /// The weights of a lane, by row, behind so many zeros as stand after them.
+    /// The weights of a lane, by row, [`MARGIN`] zeros on either side.
     weights: [[[i16; 2 * SIDE]; SIDE]; SIDE],
 }
 
@@ -45,7 +45,7 @@ const ROUNDER: f32 = 12_582_912.0;
 
 /// Where a lane's window begins among those of a run, one to the left of them at the least.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Place {
+pub(super) struct Origin {
     pub(super) column: isize,
     pub(super) row: usize,
 }
@@ -124,7 +124,7 @@ impl Rounded {
 
     /// The smallest of the small shapes that holds a lane's window, by its index, and where it begins.
     #[inline(always)]
-    pub(super) fn shape(&self, lane: usize) -> Option<(usize, Place)> {
+    pub(super) fn shape(&self, lane: usize) -> Option<(usize, Origin)> {
         if !self.is_small {
             return None;
         }
@@ -146,35 +146,35 @@ impl Rounded {
         let (narrowest, column) = widths.filter_map(|(at, shapes)| Some((at, column_of(&shapes[0])?))).next()?;
         let heights = Shape::SMALL[..Shape::HEIGHTS].iter().enumerate();
         let (lowest, row) = heights.filter_map(|(at, shape)| Some((at, row_of(shape)?))).next()?;
-        Some((narrowest * Shape::HEIGHTS + lowest, Place { column, row }))
+        Some((narrowest * Shape::HEIGHTS + lowest, Origin { column, row }))
     }
 
     /// Which texels of a row of a lane's small window lie under the pixel, a bit for each.
     #[inline(always)]
-    pub(super) fn small_marks(&self, lane: usize, place: Place, row: usize, pairs: usize) -> u32 {
-        let columns = u32::from(self.small.under[(place.row + row) % SIDE][lane]);
-        columns << 1 >> (place.column + 1) & ((1 << (2 * pairs)) - 1)
+    pub(super) fn small_marks(&self, lane: usize, origin: Origin, row: usize, pairs: usize) -> u32 {
+        let columns = u32::from(self.small.under[(origin.row + row) % SIDE][lane]);
+        columns << 1 >> (origin.column + 1) & ((1 << (2 * pairs)) - 1)
     }
 
     /// The weights of a row of a lane's small window, pair by pair.
     #[inline(always)]
-    pub(super) fn small_pairs<const PAIRS: usize>(&self, lane: usize, place: Place, row: usize) -> [u32; PAIRS] {
-        let weights = &self.small.weights[lane][(place.row + row) % SIDE];
-        let first = (MARGIN as isize + place.column) as usize;
+    pub(super) fn small_pairs<const PAIRS: usize>(&self, lane: usize, origin: Origin, row: usize) -> [u32; PAIRS] {
+        let weights = &self.small.weights[lane][(origin.row + row) % SIDE];
+        let first = (MARGIN as isize + origin.column) as usize;
         let pairs = weights[first..][..2 * PAIRS].as_chunks().0;
         std::array::from_fn(|at| pair(pairs[at]))
     }
 
     /// Which texels of a row of a lane's window lie under the pixel, of 16 pairs at most.
-    pub(super) fn marks(&self, lane: usize, place: Place, row: usize, pairs: Range<usize>) -> u32 {
-        let first = (place.row + row) * self.pitch() + (place.column + 1) as usize;
+    pub(super) fn marks(&self, lane: usize, origin: Origin, row: usize, pairs: Range<usize>) -> u32 {
+        let first = (origin.row + row) * self.pitch() + (origin.column + 1) as usize;
         let under = &self.under[first + 2 * pairs.start..first + 2 * pairs.end];
         under.iter().enumerate().fold(0, |marks, (at, lanes)| marks | u32::from(lanes >> lane & 1) << at)
     }
 
     /// The weights of a row of a lane's window, pair by pair.
-    pub(super) fn pairs(&self, lane: usize, place: Place, row: usize, pairs: usize) -> impl Iterator<Item = u32> {
-        let first = (place.row + row) * self.pitch() + (place.column + 1) as usize;
+    pub(super) fn pairs(&self, lane: usize, origin: Origin, row: usize, pairs: usize) -> impl Iterator<Item = u32> {
+        let first = (origin.row + row) * self.pitch() + (origin.column + 1) as usize;
         let weights = self.weights[first..][..2 * pairs].as_chunks().0;
         weights.iter().map(move |[a, b]| pair([a[lane], b[lane]]))
     }

@@ -51,7 +51,7 @@ impl<'a, const PAIRS: usize, const HEIGHT: usize> Texels<'a, PAIRS, HEIGHT> {
 
 /// Asks memory for a texel that will be read soon; any number will do.
 #[inline(always)]
-pub(super) fn read_ahead<T>(texels: &[T], texel: u32) {
+pub(super) fn prefetch<T>(texels: &[T], texel: u32) {
     #[cfg(target_arch = "x86_64")]
     {
         use std::arch::x86_64::{_MM_HINT_T0, _mm_prefetch};
