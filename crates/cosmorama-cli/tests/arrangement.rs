@@ -173,7 +173,7 @@ fn mirror_whole(bench: &Bench, name: &str, (across, down): (bool, bool)) {
     save(bench, name, &Image::from_fn(width, height, |i, j| *image.get(column(i), row(j))));
 }
 
-/// Crosses and their mirror images: which way, and the SPECs under which it is the world, and its mirror image.
+/// Crosses mirrored or turned: which way, and the SPECs under which each is the world, and its mirror image.
 const MIRRORED_CROSSES: [(&str, (bool, bool), &str, &str); 4] = [
     ("cross-h", (true, false), "cube:layout=cross-h,flip=x", "cube:layout=cross-h,flip=xy,roll=180"),
     ("cross-h", (true, true), "cube:layout=cross-h,flip=xy", "cube:layout=cross-h,flip=x"),
@@ -201,9 +201,13 @@ fn crosses_that_are_mirrored_as_a_whole() {
             told["told"].as_str().unwrap(),
             &["the whole picture is mirrored", "does not read backwards", "roll=180"],
         );
-        // What is advised is the world, or, where it was mirrored both ways, its mirror image.
+        // What is advised is the world, or, where it was turned, its mirror image; then the world is one of the others.
         let advised = told["spec"].as_str().unwrap().to_owned();
         assert!(advised == spec || advised == mirrored, "{advised}");
+        assert_says(
+            told["told"].as_str().unwrap(),
+            &[&format!("--from {spec}{}", if ways == (true, true) { ":" } else { "," })],
+        );
         let like_world = |from: &str| {
             convert("cross.png", &["--from", from], "again.png", "cube:layout=strip-v");
             bench.run(&["compare", "again.png", "world.png", "--min-psnr", "25"]).status.success()

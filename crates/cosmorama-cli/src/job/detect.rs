@@ -8,7 +8,7 @@ use cosmorama_io::{EnvMap, Header, Window};
 use super::canvas::canvas_of;
 use super::evidence::{Evidence, Seen, damage_of};
 use super::guess::{Guess, OVAL_ONES, ROUND_ONES, candidates, circle_spec, dome_spec, layouts_of_shape, two_eyes};
-use super::other_end;
+use super::other_end::Readings;
 
 use crate::failure::usage;
 use crate::spec::{Cube, Packing, Shape, Single, Spec, SphereSamples, StereoSpec};
@@ -66,10 +66,11 @@ fn guessed(path: &Path, evidence: Evidence) -> Result<(String, &'static str, Str
             (format!("cube:layout={kind}"), "the faces of a cube", why)
         }
         Evidence::CrossElsewhere(kind, mirror) => {
-            let [mirrored, turned] = other_end::specs(kind, mirror);
+            let Readings { mirrored, upright, on_its_head } = Readings::new(kind, mirror);
             bail!(
                 "{}: one colour surrounds a cross whose long arm is at the other end; give --from {mirrored} if the picture is \
-                 mirrored, so that writing in it reads backwards, or --from {turned} if it is not",
+                 mirrored, so that writing in it reads backwards, --from {on_its_head} if it stands on its head, or --from \
+                 {upright} if it does neither",
                 path.display()
             )
         }

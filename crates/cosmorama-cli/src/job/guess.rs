@@ -8,7 +8,7 @@ use cosmorama_io::{EnvMap, Header, Window};
 
 use super::evidence::{Evidence, Seen};
 use super::halves::Circles;
-use super::other_end;
+use super::other_end::Readings;
 use crate::spec::{Cube, Packing};
 
 /// What one image is a picture of, as far as its metadata, its shape and its pixels tell.
@@ -124,8 +124,11 @@ fn describe_blank(evidence: &Evidence) -> String {
     match evidence {
         Evidence::Cross(kind) => format!("cube:layout={kind} (one colour surrounds a cross)"),
         Evidence::CrossElsewhere(kind, mirror) => {
-            let [mirrored, turned] = other_end::specs(*kind, *mirror);
-            format!("{mirrored} (one colour surrounds a cross that is mirrored), or {turned} (or one that is not)")
+            let Readings { mirrored, upright, on_its_head } = Readings::new(*kind, *mirror);
+            format!(
+                "{mirrored} (one colour surrounds a cross that is mirrored), or {upright} (or one that is not), or \
+                 {on_its_head} (or one that stands on its head)"
+            )
         }
         Evidence::Disc(found) => {
             let how = match found {

@@ -15,11 +15,26 @@ pub(super) fn axis(kind: LayoutKind) -> Option<Mirror> {
     axes.into_iter().find(|axis| places(*axis).iter().any(|place| !own.contains(place)))
 }
 
-/// The SPECs under which faces are in the places of a mirrored picture: as mirrored, and turned upside down, which puts them
-/// into the same places. Borders do not tell one from the other.
-pub(super) fn specs(kind: LayoutKind, mirror: Mirror) -> [String; 2] {
-    let turned = mirror.and(along(kind));
-    [format!("cube:layout={kind}{}", flip_key(mirror)), format!("cube:layout={kind}{},roll=180", flip_key(turned))]
+/// The SPECs under which faces are in the places of a picture that is mirrored so. Borders do not tell one from the other.
+pub(super) struct Readings {
+    /// As mirrored.
+    pub(super) mirrored: String,
+    /// As a cross whose arm is at its other end: turned upside down, which puts faces into the same places, with the world
+    /// turned back.
+    pub(super) upright: String,
+    /// As a cross that was itself turned upside down.
+    pub(super) on_its_head: String,
+}
+
+impl Readings {
+    pub(super) fn new(kind: LayoutKind, mirror: Mirror) -> Self {
+        let on_its_head = format!("cube:layout={kind}{}", flip_key(mirror.and(along(kind))));
+        Self {
+            mirrored: format!("cube:layout={kind}{}", flip_key(mirror)),
+            upright: format!("{on_its_head},roll=180"),
+            on_its_head,
+        }
+    }
 }
 
 /// The other axis, which leaves every place one.
@@ -35,10 +50,12 @@ pub(super) fn told_elsewhere(kind: LayoutKind, mirror: Mirror, found: Continuity
     } else {
         format!("the whole picture is mirrored {}", way(mirror))
     };
-    let [spec, turned] = specs(kind, mirror);
+    let Readings { mirrored: spec, upright, on_its_head } = Readings::new(kind, mirror);
     let other = if mirror.is_backwards() { "does not read backwards" } else { "reads backwards" };
-    let turned =
-        format!("if writing in it {other}, give --from {turned}: borders do not tell a cube from its mirror image");
+    let turned = format!(
+        "if writing in it {other}, give --from {upright}, or, if it stands on its head, --from {on_its_head}: borders do not \
+         tell a cube from its mirror image"
+    );
     if found.fits != Some(true) {
         let told = format!("{what}; then {}", found.told);
         return Continuity { told, changes: [vec![what], found.changes].concat(), ..found };
@@ -74,10 +91,13 @@ mod tests {
     }
 
     #[test]
-    fn the_same_picture_is_read_in_two_ways() {
+    fn the_same_picture_is_read_in_three_ways() {
         let across = Mirror { x: true, y: false };
-        let specs = |mirror| specs(LayoutKind::CrossH, mirror);
-        assert_eq!(specs(across), ["cube:layout=cross-h,flip=x", "cube:layout=cross-h,flip=xy,roll=180"]);
-        assert_eq!(specs(Mirror::default()), ["cube:layout=cross-h", "cube:layout=cross-h,flip=y,roll=180"]);
+        let specs = |mirror| {
+            let Readings { mirrored, upright, on_its_head } = Readings::new(LayoutKind::CrossH, mirror);
+            [mirrored, upright, on_its_head].map(|spec| spec.replace("cube:layout=cross-h", ""))
+        };
+        assert_eq!(specs(across), [",flip=x", ",flip=xy,roll=180", ",flip=xy"]);
+        assert_eq!(specs(Mirror::default()), ["", ",flip=y,roll=180", ",flip=y"]);
     }
 }
