@@ -123,7 +123,7 @@ fn a_hole_that_a_mask_leaves_is_named_in_degrees() {
     let world = std::fs::read_to_string(bench.path("masked.toml")).unwrap();
     std::fs::write(bench.path("masked.toml"), &world[world.rfind("[[view]]").unwrap()..]).unwrap();
     let convert = ["convert", "masked.toml", "out.exr", "--to", "perspective:fov=60", "--size", "100x75"];
-    assert_says(&bench.fail(1, &convert), &["look where no view does", "yaw -", "°", "pitch"]);
+    assert_says(&bench.fail(1, &convert), &["look where no view does, within yaw -", "°", "pitch -"]);
     bench.succeed(&[&convert[..], &["--missing", "black"]].concat());
     let small = ["convert", "masked.toml", "in.exr", "--to", "perspective:fov=20", "--size", "100x75"];
     bench.succeed(&small);
@@ -198,6 +198,7 @@ fn info_lists_the_views_of_a_world() {
         &told,
         &["yaw -30.00, pitch 10.00, roll 0.00", "covers: 16.7 % of the sphere", "feather: 5.0", "priority: -1"],
     );
+    assert_says(&told, &["lacks: directions within all yaws, pitch -90° to 90°"]);
     let json: serde_json::Value = serde_json::from_str(&bench.succeed(&["info", "world.toml", "--json"])).unwrap();
     assert_eq!(json["views"][0]["size"], "60x60");
     assert_eq!(json["views"].as_array().unwrap().len(), 2);

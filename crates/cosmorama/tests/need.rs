@@ -179,6 +179,10 @@ fn directions_that_nothing_covers_are_counted() {
     let (yaw, pitch) = uncovered.direction.longitude_latitude();
     assert_eq!((uncovered.target, uncovered.row), (0, 0));
     assert!((0.0..90.0).contains(&yaw.degrees()) && pitch.degrees() > 0.0);
+    // At yaw 45° the picture goes up and down to 45°, the face only to 35°: a part to the left of that lacks, too.
+    let ((left, right), (low, high)) = (uncovered.extent.yaws(), uncovered.extent.pitches());
+    assert_eq!((right, low, high), (90, -45, 45), "{}", uncovered.extent);
+    assert!((0..45).contains(&left), "{left}");
     assert_eq!(needs_of_two(&world).map(|found| found.target), Some(1));
 }
 

@@ -1,31 +1,36 @@
 //! What `info` says of worlds of many views.
 
 use anyhow::Result;
-use cosmorama::sphere::Direction;
-use cosmorama::world::{CylinderFrame, CylinderKind, Frame, PixelPoint, View};
+use cosmorama::sphere::{Direction, Extent};
+use cosmorama::world::{PixelPoint, View};
 use serde_json::{Value, json};
 
 use crate::failure::warn;
 use crate::job::{InputView, Listed, MemoryBudget, listed};
 
-/// Columns of an equal-area map, each pixel of which has the same part of the sphere: enough for a tenth of a percent.
-const COLUMNS: usize = 512;
+/// So many directions, each for the same part of the sphere: enough for a tenth of a percent.
+const DIRECTIONS: usize = 100_000;
 
 /// The report on a world file or a Hugin project; `None` where an input is neither.
 pub(super) fn report(name: &str) -> Result<Option<Value>> {
     let mut warnings = Vec::new();
     let Some(list) = listed(name, MemoryBudget::new(None), &mut warnings)? else { return Ok(None) };
     warnings.iter().for_each(|warning| warn(warning));
-    let sphere = directions()?;
+    let sphere: Vec<Direction> = Direction::spread(DIRECTIONS).collect();
     let views: Vec<Value> = list.iter().flat_map(|listed| views(listed, &sphere)).collect();
     let all: Vec<&InputView> = list.iter().flat_map(|listed| &listed.input.worlds[0]).collect();
-    let covered = share(&sphere, |direction| all.iter().any(|view| holds(view, direction)));
-    Ok(Some(json!({
+    let is_covered = |direction| all.iter().any(|view| holds(view, direction));
+    let holes = sphere.iter().filter(|direction| !is_covered(**direction)).map(|direction| Extent::of(*direction));
+    let mut report = json!({
         "input": name,
         "projection": match views.len() { 1 => "a world of one view".to_owned(), count => format!("a world of {count} views") },
-        "covers": percent(covered),
-        "views": views,
-    })))
+        "covers": percent(share(&sphere, is_covered)),
+    });
+    if let Some(extent) = holes.reduce(Extent::union) {
+        report["lacks"] = json!(format!("directions within {extent}"));
+    }
+    report["views"] = json!(views);
+    Ok(Some(report))
 }
 
 fn views(listed: &Listed, sphere: &[Direction]) -> Vec<Value> {
@@ -66,14 +71,6 @@ fn holds(view: &InputView, direction: Direction) -> bool {
         held.sees(direction) && held.pixel(direction).is_some_and(|pixel| is_shown(held.wrapped(pixel)))
     };
     view.window.as_ref().is_some_and(|(held, _)| sees(held))
-}
-
-/// Directions spread evenly over the sphere.
-fn directions() -> Result<Vec<Direction>> {
-    let frame = Frame::Cylinder(CylinderFrame::new(CylinderKind::EqualArea));
-    let view = frame.view(COLUMNS, frame.natural_height(COLUMNS))?;
-    let pixels = (0..view.height()).flat_map(|j| (0..view.width()).map(move |i| PixelPoint::centre(i, j)));
-    Ok(pixels.filter_map(|pixel| view.direction(pixel)).collect())
 }
 
 fn share(sphere: &[Direction], chosen: impl Fn(Direction) -> bool) -> f64 {

@@ -6,7 +6,7 @@ use super::block::Block;
 use super::cap::Cap;
 use super::kernel::KernelTable;
 use super::pixel_taps::PixelTaps;
-use super::{Filter, FilterKind, Kernel};
+use super::{Filter, FilterKind, Kernel, Uncovered};
 use crate::sphere::Direction;
 use crate::world::{PixelPoint, PixelRect, Source, View, World};
 
@@ -20,35 +20,6 @@ pub struct Need {
     pub seen: Option<PixelRect>,
     /// Bounding rectangle of all texels that the filter touches. Whatever is outside never changes a pixel.
     pub read: Option<PixelRect>,
-}
-
-/// Target pixels that look where no view does.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Uncovered {
-    /// How many there are, in all targets together.
-    pub pixels: usize,
-    /// Index of the target of the first of them.
-    pub target: usize,
-    /// The column of the first of them.
-    pub column: usize,
-    /// Its row.
-    pub row: usize,
-    /// Where it looks.
-    pub direction: Direction,
-}
-
-impl std::fmt::Display for Uncovered {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let (yaw, pitch) = self.direction.longitude_latitude();
-        let (yaw, pitch) = (yaw.degrees(), pitch.degrees());
-        let plural = if self.pixels == 1 { "pixel looks" } else { "pixels look" };
-        let (column, row) = (self.column, self.row);
-        write!(
-            f,
-            "{} {plural} where no view does: first column {column}, row {row} (yaw {yaw:.1}°, pitch {pitch:.1}°)",
-            self.pixels
-        )
-    }
 }
 
 /// What targets need of a world.
@@ -128,14 +99,7 @@ impl Needs {
     }
 
     fn add_uncovered(&mut self, other: Uncovered) {
-        let place = |uncovered: &Uncovered| (uncovered.target, uncovered.row, uncovered.column);
-        self.uncovered = Some(match self.uncovered {
-            None => other,
-            Some(mine) => {
-                let first = if place(&other) < place(&mine) { other } else { mine };
-                Uncovered { pixels: mine.pixels + other.pixels, ..first }
-            }
-        });
+        self.uncovered = Some(self.uncovered.map_or(other, |mine| mine.union(other)));
     }
 }
 
@@ -299,7 +263,7 @@ impl Survey<'_> {
         match self.world.owner(direction) {
             Some((owner, at)) => add_seen(&self.world.sources()[owner], at, &mut needs.views[owner]),
             None => {
-                needs.add_uncovered(Uncovered { pixels: 1, target: self.index, column, row, direction });
+                needs.add_uncovered(Uncovered::pixel(self.index, (column, row), direction));
             }
         }
     }

@@ -5,9 +5,11 @@
 mod angle;
 mod cube_face;
 mod direction;
+mod extent;
 mod orientation;
 
 pub use angle::Angle;
 pub use cube_face::CubeFace;
 pub use direction::{Direction, DirectionJacobian};
+pub use extent::Extent;
 pub use orientation::Orientation;
