@@ -192,8 +192,11 @@ fn a_circle_on_black_may_be_several_things() {
         bench.succeed(&["convert", "world.png", "a.png", "-y", "--from", "equirect", "--to", to, "--size", "128"]);
         let candidates = ["fulldome", "fisheye:fov=DEGREES", "mirror-ball", "angular-map"];
         assert_says(&info(&bench, "a.png"), &candidates);
-        let output = bench.run(&[&["convert", "a.png", "b.png", "-y"], &TO[..], &["--missing", "black"]].concat());
+        let convert = [&["convert", "a.png", "b.png", "-y"], &TO[..]].concat();
+        let output = bench.run(&[&convert[..], &["--missing", "black"]].concat());
         assert_says(&text(&output.stderr), &candidates);
+        // Where what is guessed cannot show what is asked for, it may be the guess that is wrong.
+        assert_says(&bench.fail(1, &convert), &[&candidates[..], &["look where no view does"]].concat());
     }
 }
 

@@ -97,21 +97,28 @@ pub(crate) struct ConvertJob {
 impl ConvertJob {
     /// Resolves arguments and checks everything that can be checked without decoding a pixel.
     pub(crate) fn resolve(args: &ConvertArgs) -> Result<Self> {
-        let memory = MemoryBudget::new(args.limits.memory);
         let mut warnings = Vec::new();
-        let geometry = &settled(&args.geometry, Some(&args.input), memory, &mut warnings)?;
+        let job = Self::noting(args, &mut warnings);
+        // A job that cannot be done may have been guessed wrongly.
+        job.as_ref().map_or(&warnings, |job| &job.warnings).iter().for_each(|warning| warn(warning));
+        job
+    }
+
+    fn noting(args: &ConvertArgs, warnings: &mut Vec<String>) -> Result<Self> {
+        let memory = MemoryBudget::new(args.limits.memory);
+        let geometry = &settled(&args.geometry, Some(&args.input), memory, warnings)?;
         // Mistakes in the command itself come first: they do not depend on any file.
         let format = Target::check_names(&args.output, geometry)?;
         check_file_options(args, format)?;
-        let mut input = Input::find(&args.input, geometry.from.as_ref(), args.frames.as_ref(), memory, &mut warnings)?;
+        let mut input = Input::find(&args.input, geometry.from.as_ref(), args.frames.as_ref(), memory, warnings)?;
         let mut target = Target::resolve(&args.output, geometry, Some(input.pixels_per_radian()))?;
         if args.mips {
             target = target.with_mips(&args.output, geometry)?;
         }
         warnings.extend(input.turned());
-        input.fit_eyes(target.is_stereo(), &mut warnings);
-        let filter = filter(geometry, &mut warnings);
-        let mut light = Light::resolve(args, &input, &target, &mut warnings)?;
+        input.fit_eyes(target.is_stereo(), warnings);
+        let filter = filter(geometry, warnings);
+        let mut light = Light::resolve(args, &input, &target, warnings)?;
         if args.st_map {
             // Numbers, not light.
             light.depth = args.depth.map_or(Depth::Float, Depth::from);
@@ -121,7 +128,7 @@ impl ConvertJob {
         let outputs = Outputs::plan(args, &input, &target, &light, memory)?;
         warnings.extend(outputs.warning());
         let nominal = nominal_worlds(&input, memory)?;
-        let (coverage, worlds) = Coverage::check(&mut input, nominal, &target, &filter, args.missing, &mut warnings)?;
+        let (coverage, worlds) = Coverage::check(&mut input, nominal, &target, &filter, args.missing, warnings)?;
         memory.check_frame(&input, &target)?;
         let levels = target.views.iter().map(|view| {
             let world = &worlds[view.world(worlds.len())];
@@ -129,8 +136,8 @@ impl ConvertJob {
         });
         let levels = levels.max().unwrap_or(0);
         let memory = memory.beside_levels(levels, &input, &target)?;
-        warnings.iter().for_each(|warning| warn(warning));
         let (missing, plan_cache) = (args.missing, args.plan_cache.clone());
+        let warnings = std::mem::take(warnings);
         Ok(Self { input, worlds, target, filter, light, outputs, coverage, missing, memory, plan_cache, warnings })
     }
 
