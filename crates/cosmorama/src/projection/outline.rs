@@ -49,13 +49,13 @@ pub struct Ring {
     pub sector: Option<Sector>,
 }
 
-/// The azimuths within `half_width` ≤ π/2 of `azimuth`, in radians.
+/// Azimuths around one of them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sector {
-    /// Its middle.
-    pub azimuth: f64,
-    /// Half its angle.
-    pub half_width: f64,
+    azimuth: f64,
+    half_width: f64,
+    /// Perpendicular to its two sides, inwards.
+    inward: [DVec2; 2],
 }
 
 impl Ring {
@@ -78,7 +78,7 @@ impl Ring {
 
     fn bounds(&self) -> PlaneRect {
         let Self { inner, outer, sector } = *self;
-        let Some(Sector { azimuth, half_width }) = sector else {
+        let Some(Sector { azimuth, half_width, .. }) = sector else {
             return PlaneRect { min: PlanePoint::new(-outer, -outer), max: PlanePoint::new(outer, outer) };
         };
         let (min_cos, max_cos) = cosine_range(azimuth, half_width);
@@ -93,12 +93,16 @@ impl Ring {
 }
 
 impl Sector {
+    /// The azimuths within `half_width` ≤ π/2 of `azimuth`, in radians.
+    pub fn new(azimuth: f64, half_width: f64) -> Self {
+        let (right, left) = (DVec2::from_angle(azimuth - half_width), DVec2::from_angle(azimuth + half_width));
+        Self { azimuth, half_width, inward: [right.perp(), -left.perp()] }
+    }
+
     /// Least and greatest x at the height `y`: to the left of one side and to the right of the other.
     fn cut(&self, y: f64) -> [f64; 2] {
-        let (right, left) =
-            (DVec2::from_angle(self.azimuth - self.half_width), DVec2::from_angle(self.azimuth + self.half_width));
         let mut span = [f64::NEG_INFINITY, f64::INFINITY];
-        for inward in [right.perp(), -left.perp()] {
+        for inward in self.inward {
             // inward·(x, y) ≥ 0.
             let x = -inward.y * y / inward.x;
             if inward.x > 0.0 {
@@ -135,7 +139,7 @@ mod tests {
 
     #[test]
     fn rings_are_cut_where_they_are() {
-        let sectors = (0..40).map(|k| Sector { azimuth: 0.17 * f64::from(k), half_width: 0.04 * f64::from(k % 39) });
+        let sectors = (0..40).map(|k| Sector::new(0.17 * f64::from(k), 0.04 * f64::from(k % 39)));
         for sector in sectors.map(Some).chain([None]) {
             let outline = Outline::Ring(Ring { inner: 0.4, outer: 0.9, sector });
             let bounds = outline.bounds();

@@ -1,7 +1,4 @@
-use std::ops::Range;
-
 use super::Kernel;
-use crate::projection::PlanePoint;
 use crate::sphere::{Angle, Direction};
 use crate::world::{FieldStop, Footprint, PixelBounds, PixelPoint, PixelRect, Source, View};
 
@@ -112,43 +109,6 @@ impl Cap {
         let unit = (kernel.scale * self.pixel).max(kernel.floor * texel_pitch);
         let reach = 1.5 * kernel.radius().max(1.0) * unit + 3.0 * texel_pitch;
         texels_within(source, self.centre, self.radius + reach)
-    }
-}
-
-/// Gives the runs of texels of a source that can lie within `radius` radians of a direction to `visit`, row by row and none
-/// of them twice: far fewer, around a rim, than the rectangle that holds them.
-pub(super) fn each_run_within(
-    source: &Source,
-    centre: Direction,
-    radius: f64,
-    mut visit: impl FnMut(usize, Range<usize>),
-) {
-    let Some(rect) = texels_within(source, centre, radius) else { return };
-    if source.period.is_some() {
-        return (rect.top..rect.bottom).for_each(|j| visit(j, rect.left..rect.right));
-    }
-    let grid = &source.view.grid;
-    let outline = source.view.cap_outline(centre, Angle::from_radians(radius));
-    let column = |x: f64, y: f64| grid.to_pixel(PlanePoint::new(x, y)).x.clamp(rect.left as f64, rect.right as f64);
-    let mut spans = Vec::new();
-    for j in rect.top..rect.bottom {
-        let y = grid.to_plane(PixelPoint::centre(rect.left, j)).y;
-        spans.clear();
-        outline.cut(y, &mut spans);
-        for span in &mut spans {
-            let [a, b] = span.map(|x| column(x, y));
-            // In a mirrored image, columns run against x.
-            *span = [a.min(b), a.max(b)];
-        }
-        spans.sort_unstable_by(|a, b| a[0].total_cmp(&b[0]));
-        let mut done = rect.left;
-        for [left, right] in &spans {
-            let (left, right) = (done.max(left.floor() as usize), right.ceil() as usize);
-            if left < right {
-                visit(j, left..right);
-                done = right;
-            }
-        }
     }
 }
 

@@ -49,15 +49,19 @@ impl Ellipse {
         DVec2::new((q * self.c / self.determinant).sqrt(), (q * self.a / self.determinant).sqrt())
     }
 
-    /// How far the points of r = 1 reach in a plane that is mapped to that of the texels linearly.
-    pub fn longest(&self, to_texels: DMat2) -> f64 {
-        // The smaller eigenvalue of the conic in that plane, not as a difference, which loses a thin ellipse's.
+    /// The semi-axes of r = 1 in a plane that is mapped to that of the texels linearly: the major one, and the minor one's
+    /// length.
+    pub fn semi_axes_in(&self, to_texels: DMat2) -> (DVec2, f64) {
+        // The eigenvalues of the conic in that plane, the smaller one not as a difference, which loses a thin ellipse's.
         let conic = DMat2::from_cols(DVec2::new(self.a, self.b / 2.0), DVec2::new(self.b / 2.0, self.c));
         let there = to_texels.transpose() * conic * to_texels;
-        let half = (there.x_axis.x - there.y_axis.y) / 2.0;
-        let greater = (there.x_axis.x + there.y_axis.y) / 2.0 + half.hypot(there.x_axis.y);
+        let (half, q) = ((there.x_axis.x - there.y_axis.y) / 2.0, there.x_axis.y);
+        let spread = half.hypot(q);
+        let greater = (there.x_axis.x + there.y_axis.y) / 2.0 + spread;
         let determinant = self.determinant * to_texels.determinant().powi(2);
-        (greater / determinant).sqrt()
+        // The greater one is the minor axis's.
+        let (cos, sin) = half_angle(half, q, spread);
+        (DVec2::new(-sin, cos) * (greater / determinant).sqrt(), greater.recip().sqrt())
     }
 
     /// The rows of r² < `q`, ready to be cut one after the other.

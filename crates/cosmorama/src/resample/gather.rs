@@ -7,7 +7,8 @@ use glam::{DMat2, DVec2, DVec3};
 
 use super::bend::Bend;
 use super::candidates::{Candidate, settle};
-use super::cap::{Cap, each_run_within};
+use super::cap::Cap;
+use super::cap_chain::CapChain;
 use super::field_edge::FieldEdge;
 use super::kernel::KernelTable;
 use super::meeting::Meeting;
@@ -284,9 +285,16 @@ impl<'a> Gather<'a> {
         let ellipse = |jacobian: DMat2| Ellipse::new(jacobian * kernel.scale, floor * widening);
         let beyond = beyond.map(|(across, jacobian)| (across, ellipse(jacobian), jacobian * to_screen));
         let ellipse = ellipse(jacobian);
-        let longest = ellipse.longest(to_texels).max(beyond.map_or(0.0, |(_, ellipse, other)| ellipse.longest(other)));
-        let reach = (self.table.kernel().radius() * longest * source.texel_pitch).min(1.0).asin();
-        each_run_within(source, footprint.direction, reach, |j, columns| {
+        let (major, minor) = ellipse.semi_axes_in(to_texels);
+        let unit = kernel.radius() * source.texel_pitch;
+        let reach = match beyond {
+            None => CapChain::around(footprint.direction, (right * major.x + up * major.y) * unit, minor * unit),
+            Some((_, ellipse, to_texels)) => {
+                let other = ellipse.semi_axes_in(to_texels).0.length();
+                CapChain::of(footprint.direction, major.length().max(other) * unit)
+            }
+        };
+        reach.each_run(source, |j, columns| {
             let row = j * source.view.width();
             source.view.row_directions(j, columns, |i, texel| {
                 let offset = in_tangent_plane(texel.vector() - here);

@@ -4,6 +4,7 @@ mod bend;
 mod block;
 mod candidates;
 mod cap;
+mod cap_chain;
 mod cubics;
 mod ellipse;
 mod ellipses;

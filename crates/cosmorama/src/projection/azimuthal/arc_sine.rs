@@ -6,8 +6,23 @@ const ROUNDING: f64 = 1e-9;
 /// The last number below 1: at the rim itself there is no derivative.
 const BELOW_ONE: f64 = 1.0 - f64::EPSILON / 2.0;
 
+fn on_the_rim(x: f64) -> f64 {
+    if (1.0..=1.0 + ROUNDING).contains(&x) { BELOW_ONE } else { x }
+}
+
 /// asin x and its derivative for 0 ≤ x ≤ 1, NaN beyond.
 pub(super) fn arc_sine(x: f64) -> (f64, f64) {
-    let x = if (1.0..=1.0 + ROUNDING).contains(&x) { BELOW_ONE } else { x };
+    let x = on_the_rim(x);
     (x.asin(), ((1.0 - x) * (1.0 + x)).sqrt().recip())
+}
+
+/// Sine and cosine of asin x for 0 ≤ x ≤ 1; no cosine beyond.
+pub(super) fn sine(x: f64) -> (f64, f64) {
+    let x = on_the_rim(x);
+    (x, ((1.0 - x) * (1.0 + x)).sqrt())
+}
+
+/// Sine and cosine of twice an angle of which they are given.
+pub(super) fn twice((sin, cos): (f64, f64)) -> (f64, f64) {
+    (2.0 * sin * cos, (cos - sin) * (cos + sin))
 }

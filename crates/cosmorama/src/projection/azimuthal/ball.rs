@@ -1,7 +1,7 @@
 use std::f64::consts::PI;
 
 use super::Lens;
-use super::arc_sine::arc_sine;
+use super::arc_sine::{arc_sine, sine, twice};
 
 /// What a mirror ball shows: the angle from the direction back to the camera, r = 1 at the ball's outline.
 ///
@@ -39,6 +39,14 @@ impl Lens for BallLens {
         let alpha = (n * radius).atan2(c);
         // d sin i/dr = c²/length³, dα/dr = n c/length².
         (2.0 * incidence - alpha, 2.0 * slope * c * c / (length2 * length) - n * c / length2)
+    }
+
+    fn sin_cos(&self, radius: f64) -> (f64, f64) {
+        let (n, c) = (self.nearness, self.cosine());
+        let length = (c * c + n * n * radius * radius).sqrt();
+        let (sin_alpha, cos_alpha) = (n * radius / length, c / length);
+        let (sin, cos) = twice(sine(radius / length));
+        (sin * cos_alpha - cos * sin_alpha, cos * cos_alpha + sin * sin_alpha)
     }
 
     /// The ray met the ball at the angle β from the axis, seen from its centre: i = α + β, so that φ = 2β + α with

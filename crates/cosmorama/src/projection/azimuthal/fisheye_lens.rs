@@ -82,6 +82,10 @@ impl Lens for FisheyeLens {
         each!(self, lens => lens.angle(radius))
     }
 
+    fn sin_cos(&self, radius: f64) -> (f64, f64) {
+        each!(self, lens => lens.sin_cos(radius))
+    }
+
     fn radius(&self, angle: f64) -> Option<f64> {
         each!(self, lens => lens.radius(angle))
     }
@@ -116,6 +120,11 @@ mod tests {
                 };
                 assert!(radius > last, "{lens:?}: {radius} at {angle}");
                 let (back, slope) = lens.angle(radius);
+                let ((sin, cos), (expected_sin, expected_cos)) = (lens.sin_cos(radius), back.sin_cos());
+                assert!(
+                    (sin - expected_sin).hypot(cos - expected_cos) <= 1e-14 + 8.0 * f64::EPSILON * slope,
+                    "{lens:?}: {radius}"
+                );
                 // At a steep rim the radius holds only half of the angle's digits.
                 assert!((back - angle).abs() <= 1e-12 + 8.0 * f64::EPSILON * slope, "{lens:?}: {back}, not {angle}");
                 last = radius;

@@ -5,6 +5,13 @@ pub trait Lens {
     /// The angle φ from the axis, in radians, at radius r ≥ 0, and its derivative φ′(r); NaN where the lens has no image.
     fn angle(&self, radius: f64) -> (f64, f64);
 
+    /// Sine and cosine of the angle at radius r ≥ 0, NaN where the lens has no image. An angle that is an arc function of the
+    /// radius need not be taken for it.
+    fn sin_cos(&self, radius: f64) -> (f64, f64) {
+        let (angle, _) = self.angle(radius);
+        if angle > PI { (f64::NAN, f64::NAN) } else { angle.sin_cos() }
+    }
+
     /// The radius at which the angle φ (radians, 0 to π) is seen; `None` beyond the lens formula's reach.
     fn radius(&self, angle: f64) -> Option<f64>;
 

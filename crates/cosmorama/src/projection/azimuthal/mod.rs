@@ -61,7 +61,14 @@ impl<L: Lens> Projection for Azimuthal<L> {
     }
 
     fn unproject(&self, point: PlanePoint) -> Option<Direction> {
-        self.unproject_with_jacobian(point).map(|(direction, _)| direction)
+        let radius = length(point.x, point.y);
+        let (sin, cos) = self.0.sin_cos(radius);
+        // Of a NaN neither is a number.
+        if cos.is_nan() {
+            return None;
+        }
+        let across = if radius == 0.0 { 0.0 } else { sin / radius };
+        Some(Direction::from_unit(DVec3::new(point.x * across, point.y * across, -cos)))
     }
 
     fn jacobian(&self, point: PlanePoint) -> Option<DirectionJacobian> {
@@ -109,9 +116,9 @@ impl<L: Lens> Projection for Azimuthal<L> {
         let Some(outer) = at(from_axis + radius) else { return Outline::Rects(vec![PlaneRect::EVERYTHING]) };
         let inner = at(from_axis - radius).unwrap_or(0.0);
         // Around the axis, or what is straight behind, it goes all the way round; else it is as wide as it is in azimuth.
-        let sector = (from_axis > radius && from_axis + radius < PI).then(|| Sector {
-            azimuth: centre.vector().y.atan2(centre.vector().x),
-            half_width: (radius.sin() / from_axis.sin()).min(1.0).asin(),
+        let sector = (from_axis > radius && from_axis + radius < PI).then(|| {
+            let azimuth = centre.vector().y.atan2(centre.vector().x);
+            Sector::new(azimuth, (radius.sin() / from_axis.sin()).min(1.0).asin())
         });
         Outline::Ring(Ring { inner, outer, sector })
     }

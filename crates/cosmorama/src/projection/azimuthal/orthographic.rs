@@ -1,7 +1,7 @@
 use std::f64::consts::FRAC_PI_2;
 
 use super::Lens;
-use super::arc_sine::arc_sine;
+use super::arc_sine::{arc_sine, sine};
 
 /// The orthographic fisheye: r = sin φ focal lengths. Nothing beyond 90° from the axis has an image.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -10,6 +10,10 @@ pub struct Orthographic;
 impl Lens for Orthographic {
     fn angle(&self, radius: f64) -> (f64, f64) {
         arc_sine(radius)
+    }
+
+    fn sin_cos(&self, radius: f64) -> (f64, f64) {
+        sine(radius)
     }
 
     fn radius(&self, angle: f64) -> Option<f64> {

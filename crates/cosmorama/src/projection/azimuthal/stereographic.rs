@@ -13,6 +13,12 @@ impl Lens for Stereographic {
         (2.0 * half.atan(), (1.0 + half * half).recip())
     }
 
+    fn sin_cos(&self, radius: f64) -> (f64, f64) {
+        // 2t/(1 + t²) and (1 − t²)/(1 + t²) of half the angle's tangent t, for any t up to infinity.
+        let half = radius / 2.0;
+        (2.0 / (half.recip() + half), 2.0 / (1.0 + half * half) - 1.0)
+    }
+
     fn radius(&self, angle: f64) -> Option<f64> {
         (angle < PI).then(|| 2.0 * (angle / 2.0).tan())
     }
