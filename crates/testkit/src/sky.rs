@@ -1,5 +1,5 @@
 use cosmorama::raster::Rgba;
-use cosmorama::resample::{Filter, Plan, Resampler};
+use cosmorama::resample::{Filter, LightBalance, Plan, Resampler};
 use cosmorama::world::World;
 
 use crate::Form;
@@ -15,6 +15,7 @@ pub fn power(world: &World, light: &[Rgba]) -> [f64; 3] {
 pub struct Sky {
     world: World,
     plans: Vec<Plan>,
+    balance: Option<LightBalance>,
 }
 
 impl Sky {
@@ -25,12 +26,26 @@ impl Sky {
     pub fn new(from: &World, to: &Form, filter: Filter) -> Self {
         let plan = |target| Resampler { world: from, target, filter }.plan();
         let plans = to.views.iter().map(|view| plan(view).expect("a filter whose weights can be recorded")).collect();
-        Self { world: to.world(), plans }
+        Self { world: to.world(), plans, balance: None }
+    }
+
+    /// The same with its light in balance.
+    pub fn balanced(from: &World, to: &Form, filter: Filter) -> Self {
+        let sky = Self::new(from, to, filter);
+        let targets: Vec<_> = sky.plans.iter().zip(&to.views).collect();
+        Self { balance: Some(LightBalance::new(from, &targets)), ..sky }
     }
 
     /// The light of it.
     pub fn light(&self, from: &[Rgba]) -> Vec<Rgba> {
-        self.plans.iter().flat_map(|plan| plan.apply(from).pixels().iter().map(whole).collect::<Vec<_>>()).collect()
+        let balanced = self.balance.as_ref().map(|balance| balance.balanced(from));
+        let from = balanced.as_deref().unwrap_or(from);
+        let picture = |(index, plan): (usize, &Plan)| {
+            let mut picture = plan.apply(from);
+            self.balance.iter().for_each(|balance| balance.complete(index, &mut picture));
+            picture.pixels().iter().map(whole).collect::<Vec<_>>()
+        };
+        self.plans.iter().enumerate().flat_map(picture).collect()
     }
 
     /// What it gains of the light of another world, or loses: a part of the whole, of the channel that changes most.

@@ -1,18 +1,22 @@
 use cosmorama::raster::{Channels, Depth, FixedCodec, FixedDecoder, FixedLight, Image, Rgba};
 use cosmorama::resample::{FilterKind, FixedPlan, Plan, PyramidPlan, Resampler, SavedPlan};
 
+use super::balance::{self, Balance};
 use super::plan_cache::PlanCache;
 use crate::job::{ConvertJob, Coverage, TargetView};
 
 /// The geometry of a job, in the form that its light needs: compiled by target view, where that pays and fits into memory.
 pub(super) enum Geometry {
-    /// For light of any range.
-    Float(Vec<Option<Plan>>),
+    /// For light of any range, and how it is kept.
+    Float(Vec<Option<Plan>>, Balance),
     /// For opaque pictures of 8 bits, in and out.
     Fixed(Vec<Option<FixedPlan>>, FixedCodec),
     /// For light of any range, by a pyramid of it.
     Pyramid(Vec<Option<PyramidPlan>>),
 }
+
+const UNBALANCED: &str = "--kernel light: there is not memory enough for all of the geometry; near poles, seams and the corners \
+                          of faces light may be added or lost. Give more with --memory";
 
 impl Geometry {
     /// That of a job, and what should be known of it.
@@ -23,15 +27,24 @@ impl Geometry {
                 warnings.push("--plan-cache: plans of pyramids are not kept; with --filter ewa they are".to_owned());
             }
             let plan = |r: &Resampler, left| fitting(r, left, |r| r.plan_bytes_estimate(), |r| r.pyramid_plan());
-            let plans = plans(job, |r, left| if pays(job) { plan(r, left) } else { None }, PyramidPlan::bytes);
+            let plans = plans(job, 0, |r, left| if pays(job) { plan(r, left) } else { None }, PyramidPlan::bytes);
             return (Self::Pyramid(plans), warnings);
         }
         let geometry = match codec(job) {
             Some(codec) => {
-                let plans = kept(job, |r| r.fixed_plan_bytes_estimate(), |r| r.fixed_plan(), &mut warnings);
+                let plans = kept(job, 0, |r| r.fixed_plan_bytes_estimate(), |r| r.fixed_plan(), &mut warnings);
                 Self::Fixed(plans, codec)
             }
-            None => Self::Float(kept(job, |r| r.plan_bytes_estimate(), |r| r.plan(), &mut warnings)),
+            None => {
+                let groups = balance::groups(job);
+                let taken = balance::bytes(job, &groups);
+                let plans = kept(job, taken, |r| r.plan_bytes_estimate(), |r| r.plan(), &mut warnings);
+                if groups.iter().flatten().any(|view| plans[*view].is_none()) {
+                    warnings.push(UNBALANCED.to_owned());
+                }
+                let balance = Balance::of(job, groups, &plans);
+                Self::Float(plans, balance)
+            }
         };
         (geometry, warnings)
     }
@@ -39,7 +52,7 @@ impl Geometry {
     /// From 15 bits to 8, where the job works in those.
     pub(super) fn codec(&self) -> Option<&FixedCodec> {
         match self {
-            Self::Float(_) | Self::Pyramid(_) => None,
+            Self::Float(..) | Self::Pyramid(_) => None,
             Self::Fixed(_, codec) => Some(codec),
         }
     }
@@ -47,7 +60,7 @@ impl Geometry {
     /// Bytes that it holds.
     pub(super) fn bytes(&self) -> u64 {
         match self {
-            Self::Float(plans) => plans.iter().flatten().map(|plan| plan.bytes() as u64).sum(),
+            Self::Float(plans, _) => plans.iter().flatten().map(|plan| plan.bytes() as u64).sum(),
             Self::Fixed(plans, _) => plans.iter().flatten().map(|plan| plan.bytes() as u64).sum(),
             Self::Pyramid(plans) => plans.iter().flatten().map(|plan| plan.bytes() as u64).sum(),
         }
@@ -56,7 +69,16 @@ impl Geometry {
     /// The pixels of a target view, of any light, in front of a background.
     pub(super) fn light(&self, index: usize, resampler: Resampler, texels: &[Rgba], background: Rgba) -> Image<Rgba> {
         let made = match self {
-            Self::Float(plans) => plans[index].as_ref().map(|plan| plan.apply_over(texels, background)),
+            Self::Float(plans, balance) => match (&plans[index], balance.light(index, texels)) {
+                (Some(plan), None) => Some(plan.apply_over(texels, background)),
+                (Some(plan), Some(balanced)) => {
+                    let mut image = plan.apply(&balanced);
+                    balance.complete(index, &mut image);
+                    image.lay_over(background);
+                    Some(image)
+                }
+                (None, _) => None,
+            },
             Self::Pyramid(plans) => plans[index].as_ref().map(|plan| plan.apply_over(texels, background)),
             Self::Fixed(..) => None,
         };
@@ -72,7 +94,7 @@ impl Geometry {
         codec: &FixedCodec,
     ) -> Image<[u8; 3]> {
         let plan = match self {
-            Self::Float(_) | Self::Pyramid(_) => None,
+            Self::Float(..) | Self::Pyramid(_) => None,
             Self::Fixed(plans, _) => plans[index].as_ref(),
         };
         plan.map_or_else(|| resampler.render_fixed(light, codec), |plan| plan.apply(light, codec))
@@ -84,13 +106,14 @@ fn pays(job: &ConvertJob) -> bool {
     job.outputs.frames.len() > 1
 }
 
-/// The plans of all target views; `plan_of` is told how many bytes are left for them.
+/// The plans of all target views; `plan_of` is told how many bytes are left for them beside what is `taken`.
 fn plans<P>(
     job: &ConvertJob,
+    taken: u64,
     mut plan_of: impl FnMut(&Resampler, u64) -> Option<P>,
     bytes: impl Fn(&P) -> usize,
 ) -> Vec<Option<P>> {
-    let mut left = job.memory.left_for_plan(&job.input, &job.target);
+    let mut left = job.memory.left_for_plan(&job.input, &job.target).saturating_sub(taken);
     let plan_of = |target: &TargetView| {
         let plan = plan_of(&job.resampler(target), left)?;
         left = left.saturating_sub(bytes(&plan) as u64);
@@ -112,6 +135,7 @@ fn fitting<P>(
 /// Geometry for many frames is computed once, and once for many runs where it is kept, as far as it fits into memory.
 fn kept<P: SavedPlan>(
     job: &ConvertJob,
+    taken: u64,
     estimate: impl Fn(&Resampler) -> usize,
     plan: impl Fn(&Resampler) -> Option<P>,
     warnings: &mut Vec<String>,
@@ -125,17 +149,18 @@ fn kept<P: SavedPlan>(
                 warnings.append(&mut cache.warnings);
                 plan
             }
-            _ if pays(job) => compute(),
+            _ if pays(job) || taken > 0 => compute(),
             _ => None,
         }
     };
-    plans(job, plan_of, P::bytes)
+    plans(job, taken, plan_of, P::bytes)
 }
 
 /// That of a job whose inputs and outputs are opaque pictures of 8 bits that 15 bits of light are enough for.
 fn codec(job: &ConvertJob) -> Option<FixedCodec> {
     let light = &job.light;
     let is_possible = !matches!(job.filter.kind, FilterKind::Reference { .. } | FilterKind::EwaPyramid)
+        && !balance::is_asked_for(job)
         && light.channels == Channels::Rgb
         && light.depth == Depth::Eight
         && light.background.alpha() >= 1.0

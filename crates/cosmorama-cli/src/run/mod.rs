@@ -1,5 +1,6 @@
 //! Running jobs.
 
+mod balance;
 mod builtin;
 mod compare;
 mod convert;

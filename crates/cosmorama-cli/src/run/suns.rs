@@ -1,7 +1,7 @@
 use cosmorama::raster::Depth;
-use cosmorama::resample::{FilterKind, Kernel};
 use cosmorama::sphere::Direction;
 
+use super::balance;
 use super::frame_light::FrameLight;
 use crate::job::ConvertJob;
 
@@ -13,8 +13,7 @@ const DIRECTIONS: usize = 500;
 
 /// Where a whole world is made of light of which much comes from suns, few filters keep it.
 pub(super) fn warning(job: &ConvertJob, light: &FrameLight) -> Option<String> {
-    let keeps_light = job.filter.kind == FilterKind::Ewa && job.filter.kernel == Kernel::LIGHT;
-    if keeps_light || !is_of_any_range(job) || !shows_the_world(job) {
+    if balance::is_asked_for(job) || !is_of_any_range(job) || !shows_the_world(job) {
         return None;
     }
     let parts = job.worlds.iter().enumerate();

@@ -1,5 +1,6 @@
 //! Resampling: from a world of views to the pixels of a target.
 
+mod balance;
 mod bend;
 mod block;
 mod candidates;
@@ -34,6 +35,7 @@ mod texel_run;
 mod uncovered;
 mod window;
 
+pub use balance::LightBalance;
 pub use ellipse::Ellipse;
 pub(crate) use ellipse::semi_axes;
 pub use ewa::{TextureDerivatives, WeightTable, ewa};

@@ -14,6 +14,7 @@ mod prefetch;
 mod rounded;
 mod saved;
 mod saved_plan;
+mod spread;
 mod stored;
 #[cfg(test)]
 mod tests;

@@ -1,0 +1,79 @@
+//! Light that is kept from one form of a world to another, to the last sun.
+
+use cosmorama::raster::{Image, Rgba};
+use cosmorama::resample::{FilterKind, Kernel, LightBalance, Plan};
+use cosmorama::world::View;
+
+use crate::job::ConvertJob;
+
+/// The balance of a job's pictures, where they are to keep light and can.
+#[derive(Default)]
+pub(super) struct Balance(Vec<Group>);
+
+/// The views of one size that together show a world.
+struct Group {
+    /// Indices of the job's target views.
+    views: Vec<usize>,
+    balance: LightBalance,
+}
+
+/// Whether all of a job's filter is to keep light: `--kernel light`.
+pub(super) fn is_asked_for(job: &ConvertJob) -> bool {
+    job.filter.kind == FilterKind::Ewa && job.filter.kernel == Kernel::LIGHT && !job.filter.anti_ringing
+}
+
+/// The views of each size that together show what a world shows.
+pub(super) fn groups(job: &ConvertJob) -> Vec<Vec<usize>> {
+    if !is_asked_for(job) {
+        return Vec::new();
+    }
+    let key = |index: usize| {
+        let target = &job.target.views[index];
+        (target.world(job.worlds.len()), target.view.width(), target.view.height())
+    };
+    let mut groups: Vec<Vec<usize>> = Vec::new();
+    for index in 0..job.target.views.len() {
+        match groups.iter_mut().find(|group| key(group[0]) == key(index)) {
+            Some(group) => group.push(index),
+            None => groups.push(vec![index]),
+        }
+    }
+    groups.retain(|group| LightBalance::applies(job.world(&job.target.views[group[0]]), &views(job, group)));
+    groups
+}
+
+/// Bytes that the balance of these takes.
+pub(super) fn bytes(job: &ConvertJob, groups: &[Vec<usize>]) -> u64 {
+    groups.iter().map(|group| LightBalance::bytes(job.world(&job.target.views[group[0]]), &views(job, group))).sum()
+}
+
+fn views<'a>(job: &'a ConvertJob, group: &[usize]) -> Vec<&'a View> {
+    group.iter().map(|index| &job.target.views[*index].view).collect()
+}
+
+impl Balance {
+    /// Of groups whose plans are kept.
+    pub(super) fn of(job: &ConvertJob, groups: Vec<Vec<usize>>, plans: &[Option<Plan>]) -> Self {
+        let balanced = |indices: Vec<usize>| {
+            let plan = |index: &usize| Some((plans[*index].as_ref()?, &job.target.views[*index].view));
+            let targets: Vec<_> = indices.iter().map(plan).collect::<Option<_>>()?;
+            let balance = LightBalance::new(job.world(&job.target.views[indices[0]]), &targets);
+            Some(Group { views: indices, balance })
+        };
+        Self(groups.into_iter().filter_map(balanced).collect())
+    }
+
+    /// The light from which a target view is to be made, if not as it is.
+    pub(super) fn light(&self, view: usize, texels: &[Rgba]) -> Option<Vec<Rgba>> {
+        self.group(view).map(|(group, _)| group.balance.balanced(texels))
+    }
+
+    /// Completes a target view that was made so.
+    pub(super) fn complete(&self, view: usize, image: &mut Image<Rgba>) {
+        self.group(view).iter().for_each(|(group, place)| group.balance.complete(*place, image));
+    }
+
+    fn group(&self, view: usize) -> Option<(&Group, usize)> {
+        self.0.iter().find_map(|group| Some((group, group.views.iter().position(|index| *index == view)?)))
+    }
+}
