@@ -4,7 +4,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use anyhow::{Result, bail};
 use cosmorama::raster::{Decoder, FixedDecoder, FixedLight, Rgba, Transfer};
-use cosmorama::world::World;
+use cosmorama::world::{RimTexels, World};
 use rayon::prelude::*;
 
 use super::frame_files::{FrameFile, ViewImage, Which};
@@ -16,6 +16,8 @@ pub(super) struct FrameLight {
     texels: Texels,
     /// Texels that are missing (NaN), by view.
     missing: Vec<usize>,
+    /// The texels that each view's own rim cuts.
+    rims: Vec<RimTexels>,
     /// Files with transparent pixels, where the outputs are opaque since the first frame is.
     flattened: BTreeSet<PathBuf>,
     /// Whether frames are to be held in 15 bits, if they can be.
@@ -41,10 +43,12 @@ impl FrameLight {
     /// Room for that of a job.
     pub(super) fn new(job: &ConvertJob, is_fixed: bool) -> Self {
         let texels = if is_fixed { Texels::fixed(job) } else { Texels::floats(job) };
-        let missing = vec![0; job.worlds.iter().map(|world| world.sources().len()).sum()];
+        let rims: Vec<RimTexels> =
+            job.worlds.iter().flat_map(World::sources).map(|source| RimTexels::of(&source.view)).collect();
+        let missing = vec![0; rims.len()];
         let decoder = Decoder::default();
         let flattened = BTreeSet::new();
-        Self { texels, missing, flattened, is_fixed, has_still: false, decoder, fixed_decoders: Vec::new() }
+        Self { texels, missing, rims, flattened, is_fixed, has_still: false, decoder, fixed_decoders: Vec::new() }
     }
 
     /// All the texels.
@@ -107,7 +111,7 @@ impl FrameLight {
     }
 
     fn decode(&mut self, job: &ConvertJob, images: &[ViewImage], stages: &Stages) -> Result<()> {
-        let Self { texels, decoder, fixed_decoders, .. } = self;
+        let Self { texels, rims, decoder, fixed_decoders, .. } = self;
         let missing = match texels {
             Texels::Fixed(worlds) => {
                 let decoder = |image: &ViewImage| {
@@ -128,6 +132,7 @@ impl FrameLight {
                 decode(job, images, worlds.iter_mut().map(Vec::as_mut_slice).collect(), stages, rows)
             }
         };
+        texels.restore_rims(job, images, rims);
         for (image, missing) in images.iter().zip(missing) {
             let count = image.image.width() * image.image.height();
             if missing == count && job.fill_for_missing().is_none() {
@@ -148,6 +153,22 @@ impl Texels {
 
     fn fixed(job: &ConvertJob) -> Self {
         Self::Fixed(job.worlds.iter().map(|world| FixedLight::black(world.texel_count())).collect())
+    }
+
+    /// Mends what the rims of these images have of what lies around.
+    fn restore_rims(&mut self, job: &ConvertJob, images: &[ViewImage], rims: &[RimTexels]) {
+        match self {
+            Self::Float(worlds) => {
+                let worlds = worlds.iter_mut().map(Vec::as_mut_slice);
+                each_read(job, images, rims, worlds, |rim, view| rim.restore(view, |texel| texel, |light| light));
+            }
+            Self::Fixed(worlds) => {
+                let worlds = worlds.iter_mut().map(FixedLight::texels_mut);
+                each_read(job, images, rims, worlds, |rim, view| {
+                    rim.restore(view, FixedLight::light, FixedLight::texel)
+                });
+            }
+        }
     }
 
     /// The light of a world's texel.
@@ -182,6 +203,20 @@ fn decode<T: Send>(
         missing.fetch_add(found, Ordering::Relaxed);
     });
     missing.into_iter().map(AtomicUsize::into_inner).collect()
+}
+
+/// Gives the texels of each view that was read, and its rim, to `visit`.
+fn each_read<'a, T: 'a>(
+    job: &ConvertJob,
+    images: &[ViewImage],
+    rims: &[RimTexels],
+    texels: impl Iterator<Item = &'a mut [T]>,
+    visit: impl Fn(&RimTexels, &mut [T]),
+) {
+    let views = job.worlds.iter().zip(texels).flat_map(|(world, texels)| by_view(world, texels));
+    let is_read = |view: usize| images.iter().any(|image| image.view == view);
+    let read = views.zip(rims).enumerate().filter(|(view, _)| is_read(*view));
+    read.for_each(|(_, (texels, rim))| visit(rim, texels));
 }
 
 /// The texels of each of a world's views.

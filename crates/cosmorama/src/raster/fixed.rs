@@ -50,8 +50,19 @@ impl FixedLight {
     /// # Panics
     /// If there is none so late.
     pub fn rgba(&self, texel: usize) -> Rgba {
-        let [red, green, blue, _] = self.texels[texel].map(|sample| f32::from(sample) / WHITE);
+        Self::light(self.texels[texel])
+    }
+
+    /// What a texel's samples stand for.
+    pub fn light(samples: [i16; 4]) -> Rgba {
+        let [red, green, blue, _] = samples.map(|sample| f32::from(sample) / WHITE);
         Rgba::opaque(red, green, blue)
+    }
+
+    /// The samples of a texel of this light, from black to white.
+    pub fn texel(Rgba([red, green, blue, _]): Rgba) -> [i16; 4] {
+        let [red, green, blue] = [red, green, blue].map(|light| (light * WHITE).round().clamp(0.0, WHITE) as i16);
+        [red, green, blue, 0]
     }
 }
 

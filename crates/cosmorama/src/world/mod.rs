@@ -12,6 +12,7 @@ mod mask_shape;
 mod overlap;
 #[cfg(test)]
 mod panorama;
+mod rim_texels;
 mod seen_cone;
 mod solid_angles;
 mod st_pixels;
@@ -40,6 +41,7 @@ pub use layout::{
 pub use mask_shape::MaskShape;
 #[cfg(test)]
 pub(crate) use panorama::panorama;
+pub use rim_texels::RimTexels;
 pub use solid_angles::SolidAngles;
 pub use st_pixels::{ST_NOWHERE, StPixel};
 pub use view::{Footprint, View};
