@@ -1,21 +1,24 @@
 use cosmorama::projection::OctahedralKind;
-use cosmorama::projection::azimuthal::FisheyeLens;
-use cosmorama::sphere::{Angle, CubeFace};
+use cosmorama::projection::azimuthal::{FisheyeLens, Lens};
+use cosmorama::sphere::{Angle, CubeFace, Orientation};
 use cosmorama::world::{
-    CylinderFrame, CylinderKind, EquirectFrame, FaceMapping, FieldOfView, FisheyeFrame, Frame, FulldomeFrame,
-    LayoutFaceFrame, MirrorBallFrame, OctahedralFrame, OmnimaxFrame, PanniniFrame, PerspectiveFrame,
-    StereographicFrame, View, World, WorldMapFrame,
+    Arrangement, Blend, CylinderFrame, CylinderKind, DualFisheye, DualLens, EquirectFrame, FaceMapping, FieldOfView,
+    FisheyeFrame, Frame, FulldomeFrame, LayoutFaceFrame, LensSide, Mirror, MirrorBallFrame, OctahedralFrame,
+    OmnimaxFrame, PanniniFrame, PerspectiveFrame, PlacedLens, StereographicFrame, View, World, WorldMapFrame,
+    WorldView,
 };
 
 use crate::frames::in_shape;
 
-/// A form that a world can have: one view, or the six of a cube.
+/// A form that a world can have: one view, the two of a camera that looks both ways, or the six of a cube.
 #[derive(Clone, Debug)]
 pub struct Form {
     /// What tables call it.
     pub name: &'static str,
     /// Its views.
     pub views: Vec<View>,
+    /// How they take part where they overlap.
+    pub blend: Blend,
     /// Whether it shows the whole world.
     pub is_whole: bool,
 }
@@ -29,14 +32,19 @@ impl Form {
     /// # Panics
     /// Never: a form has views, and they have pixels.
     pub fn world(&self) -> World {
-        let views = self.views.iter().enumerate().map(|(index, view)| (format!("{} {index}", self.name), *view));
-        World::new(views).expect("a form has views")
+        let part = |(index, view): (usize, &View)| WorldView {
+            name: format!("{} {index}", self.name),
+            view: *view,
+            blend: self.blend,
+            mask: None,
+        };
+        World::blended(self.views.iter().enumerate().map(part)).expect("a form has views")
     }
 
     /// Every form of a world, with about so many pixels for each steradian that it shows.
     pub fn all(pixels_per_steradian: f64) -> Vec<Self> {
         let one = |(name, frame): (&'static str, Frame)| {
-            Self::of(name, pixels_per_steradian, |rows| vec![in_shape(frame, rows)])
+            Self::of(name, pixels_per_steradian, Blend::default(), |rows| vec![in_shape(frame, rows)])
         };
         let cube = |mapping| {
             let frame = Frame::LayoutFace(LayoutFaceFrame { mapping, ..LayoutFaceFrame::default() });
@@ -44,21 +52,36 @@ impl Form {
                 CubeFace::ALL.map(|face| View { orientation: face.orientation(), ..in_shape(frame, rows) }).to_vec()
             }
         };
-        let cubes = [
-            Self::of("cube", pixels_per_steradian, cube(FaceMapping::Perspective)),
-            Self::of("eac", pixels_per_steradian, cube(FaceMapping::EquiAngular)),
+        let (camera, circles) = (both_ways(), |rows| both_circles(&both_ways(), rows));
+        let of_several = [
+            Self::of("cube", pixels_per_steradian, Blend::default(), cube(FaceMapping::Perspective)),
+            Self::of("eac", pixels_per_steradian, Blend::default(), cube(FaceMapping::EquiAngular)),
+            Self::of("dual-fisheye", pixels_per_steradian, camera.blend(), circles),
         ];
-        cubes.into_iter().chain(frames().into_iter().map(one)).collect()
+        of_several.into_iter().chain(frames().into_iter().map(one)).collect()
     }
 
-    fn of(name: &'static str, pixels_per_steradian: f64, views: impl Fn(usize) -> Vec<View>) -> Self {
-        let trial = Self { name, views: views(TRIAL), is_whole: false }.world();
+    fn of(name: &'static str, pixels_per_steradian: f64, blend: Blend, views: impl Fn(usize) -> Vec<View>) -> Self {
+        let trial = Self { name, views: views(TRIAL), blend, is_whole: false }.world();
         let shown: Vec<f64> = trial.solid_angles().map(f64::from).filter(|&s| s > 0.0).collect();
         let solid_angle: f64 = shown.iter().sum();
         let enlarged = (pixels_per_steradian * solid_angle / shown.len() as f64).sqrt();
         let views = views((TRIAL as f64 * enlarged / 2.0).round() as usize * 2);
-        Self { name, views, is_whole: solid_angle > 0.999 * 4.0 * std::f64::consts::PI }
+        Self { name, views, blend, is_whole: solid_angle > 0.999 * 4.0 * std::f64::consts::PI }
     }
+}
+
+/// A camera whose two circles share a band of 15°, in which they are blended.
+fn both_ways() -> DualFisheye {
+    let frame = FisheyeFrame { field_of_view: DualFisheye::FIELD_OF_VIEW, ..FisheyeFrame::default() };
+    let lens = DualLens { frame, turned: Orientation::IDENTITY };
+    DualFisheye { arrangement: Arrangement::SideBySide, first: LensSide::Front, front: lens, back: lens, feather: None }
+}
+
+fn both_circles(camera: &DualFisheye, rows: usize) -> Vec<View> {
+    let lenses = camera.lenses(2 * rows, rows, Mirror::default()).expect("two squares");
+    let view = |lens: &PlacedLens| lens.placement.view(rows, rows).expect("a circle in its square");
+    lenses.iter().map(view).collect()
 }
 
 /// Those of one view, as the command line names them.
@@ -91,10 +114,25 @@ fn frames() -> Vec<(&'static str, Frame)> {
         ("octahedral", octahedral(OctahedralKind::EqualArea)),
         ("oct. plain", octahedral(OctahedralKind::Plain)),
     ];
-    // Two that somebody measured; the other models of lenses differ from these by as much as these from each other.
-    let measured = FisheyeLens::all()
-        .into_iter()
-        .filter(|lens| matches!(lens, FisheyeLens::Polynomial(_) | FisheyeLens::KannalaBrandt(_)));
-    frames.extend(["blender", "kannala"].into_iter().zip(measured).map(|(name, lens)| (name, fisheye(lens, 200.0))));
+    frames.extend(measured().into_iter().map(|(name, lens)| {
+        let reach = 2.0 * lens.reach().to_degrees();
+        (name, fisheye(lens, if reach > WIDE { WIDE } else { 0.95 * reach }))
+    }));
     frames
+}
+
+/// The field of view of a lens that reaches so far, in degrees.
+const WIDE: f64 = 200.0;
+
+/// Lenses that somebody measured, one of each model.
+fn measured() -> Vec<(&'static str, FisheyeLens)> {
+    let is_ideal = |lens: &FisheyeLens| {
+        use FisheyeLens::{Equidistant, Equisolid, Orthographic, Stereographic};
+        matches!(lens, Equidistant(_) | Equisolid(_) | Orthographic(_) | Stereographic(_))
+    };
+    let names =
+        ["blender", "kannala", "ocam", "ucm", "eucm", "double sphere", "field of view", "hugin abc", "flat abc"];
+    let lenses: Vec<_> = FisheyeLens::all().into_iter().filter(|lens| !is_ideal(lens)).collect();
+    assert_eq!(lenses.len(), names.len(), "every model has its name here");
+    names.into_iter().zip(lenses).collect()
 }

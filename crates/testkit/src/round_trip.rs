@@ -16,8 +16,12 @@ pub struct RoundTrip {
     pub compared: f64,
     /// The mean difference of a channel, of a contrast of one.
     pub mean_error: f64,
-    /// By how many pixels a view came back displaced, its pixels together: of the views the one that moved most.
+    /// By how many pixels a view came back displaced, its pixels together: of the views the one that moved most. What is too
+    /// large or too small, or turned about its middle, adds to nothing here.
     pub shift: f64,
+    /// By how many pixels the pixels of a view came back displaced, whichever way: the mean, of the views the largest. A pixel
+    /// is counted as a square of its area here, and below.
+    pub moved: f64,
     /// By how many pixels the one pixel came back displaced that moved most.
     pub displacement: f64,
     /// The largest step between the errors of neighbours between which the other form has a seam; zero where it has none.
@@ -53,7 +57,7 @@ impl RoundTrip {
         let waves = travelled(&light);
         let directions = travelled(&light_by_direction(&first, |d| d.vector().to_array().map(|c| c as f32)));
         // What nothing was measured of is no number, not zero.
-        let mut sums = Sums { shift: f64::NAN, ..Sums::default() };
+        let mut sums = Sums { shift: f64::NAN, moved: f64::NAN, ..Sums::default() };
         for source in first.sources() {
             let original = &light[source.texels()];
             let errors: Vec<[f64; 3]> =
@@ -67,6 +71,7 @@ impl RoundTrip {
             compared: sums.count as f64 / shown as f64,
             mean_error: sums.error / sums.count as f64,
             shift: sums.shift,
+            moved: sums.moved,
             displacement: sums.displacement,
             across: sums.across,
             elsewhere: sums.elsewhere,
@@ -92,6 +97,7 @@ struct Sums {
     count: usize,
     error: f64,
     shift: f64,
+    moved: f64,
     displacement: f64,
     across: f64,
     elsewhere: f64,
@@ -100,7 +106,7 @@ struct Sums {
 impl Sums {
     /// Adds what directions came back in a view.
     fn add_directions(&mut self, view: &View, field: &CommonField, found: &[Rgba]) {
-        let (mut sum, mut count) = (DVec2::ZERO, 0usize);
+        let (mut sum, mut moves, mut count) = (DVec2::ZERO, 0.0, 0usize);
         for (k, found) in found.iter().enumerate() {
             let (i, j) = (k % view.width(), k / view.width());
             let Some(footprint) = view.footprint(PixelPoint::centre(i, j)).filter(|_| field.counts(i, j)) else {
@@ -111,12 +117,15 @@ impl Sums {
             let moved =
                 DVec3::new(found.0[0].into(), found.0[1].into(), found.0[2].into()).reject_from_normalized(here);
             let Some(pixels) = footprint.jacobian.pseudo_inverse(moved) else { continue };
-            self.displacement = self.displacement.max(moved.length() / footprint.jacobian.solid_angle().sqrt());
+            let displacement = moved.length() / footprint.jacobian.solid_angle().sqrt();
+            self.displacement = self.displacement.max(displacement);
             sum += pixels;
+            moves += displacement;
             count += 1;
         }
         if count >= ENOUGH {
             self.shift = self.shift.max((sum / count as f64).length());
+            self.moved = self.moved.max(moves / count as f64);
         }
     }
 
@@ -149,22 +158,44 @@ mod tests {
 
     use super::Sums;
     use crate::common_field::CommonField;
-    use crate::equirect;
+    use crate::{equirect, fisheye};
+
+    /// What is measured where a view shows the directions that another view of its size has.
+    fn measured(view: &View, other: &View) -> Sums {
+        let directions = (0..view.width() * view.height()).map(|k| {
+            let place = PixelPoint::centre(k % view.width(), k / view.width());
+            let [x, y, z] = other.direction(place).expect("a view that shows everything").vector().to_array();
+            Rgba::opaque(x as f32, y as f32, z as f32)
+        });
+        let finer = World::new([("finer".to_owned(), equirect(800))]).expect("one view");
+        let mut sums = Sums::default();
+        sums.add_directions(view, &CommonField::new(view, true, &finer), &directions.collect::<Vec<_>>());
+        sums
+    }
 
     #[test]
     fn a_known_displacement_is_found() {
         let (view, pixels) = (equirect(200), 0.01);
         let yaw = Angle::from_degrees(360.0 / 200.0 * pixels);
         let turned = View { orientation: Orientation::from_yaw_pitch_roll(yaw, Angle::ZERO, Angle::ZERO), ..view };
-        let place =
-            |k: usize| turned.direction(PixelPoint::centre(k % 200, k / 200)).expect("a panorama shows everything");
-        let colour = |direction: [f64; 3]| Rgba::opaque(direction[0] as f32, direction[1] as f32, direction[2] as f32);
-        let found: Vec<Rgba> = (0..200 * 100).map(|k| colour(place(k).vector().to_array())).collect();
-        let finer = World::new([("finer".to_owned(), equirect(800))]).expect("one view");
-        let mut sums = Sums::default();
-        sums.add_directions(&view, &CommonField::new(&view, true, &finer), &found);
+        let sums = measured(&view, &turned);
         assert!((sums.shift - pixels).abs() < 1e-5, "{}", sums.shift);
         // On the equator, where pixels are square.
         assert!((sums.displacement - pixels).abs() < 1e-5, "{}", sums.displacement);
+        // Elsewhere they are narrower by the cosine of the latitude.
+        assert!(sums.moved > 0.8 * pixels && sums.moved < pixels, "{}", sums.moved);
+    }
+
+    #[test]
+    fn a_wrong_scale_is_no_shift_and_is_found() {
+        let (view, scale) = (fisheye(100, 180.0), 1.001);
+        let sums = measured(&view, &fisheye(100, 180.0 * scale));
+        assert!(sums.shift < 1e-5, "{}", sums.shift);
+        // Two thirds of a radius of 50 pixels from the middle, in the mean; less the rim, which is not compared.
+        let mean = (scale - 1.0) * 50.0 * 2.0 / 3.0;
+        assert!(sums.moved > 0.85 * mean && sums.moved < 1.15 * mean, "{}", sums.moved);
+        // At the rim, where the area of a pixel is that of a square of √(2/π) pixels.
+        let rim = (scale - 1.0) * 50.0 * std::f64::consts::FRAC_PI_2.sqrt();
+        assert!(sums.displacement > 0.9 * rim && sums.displacement < rim, "{}", sums.displacement);
     }
 }
