@@ -8,16 +8,8 @@ mod bench;
 use bench::{Bench, flat};
 use cosmorama::raster::Transfer;
 
-const RIMS: [&str; 8] = [
-    "hammer",
-    "mollweide",
-    "sinusoidal",
-    "mirror-ball",
-    "angular-map",
-    "fisheye:fov=220",
-    "dual-fisheye",
-    "omnimax",
-];
+const RIMS: [&str; 8] =
+    ["hammer", "mollweide", "sinusoidal", "mirror-ball", "angular-map", "fisheye:fov=220", "dual-fisheye", "omnimax"];
 
 /// The edges of oval maps meet behind; a rim that is read as dark as it was drawn is a line through the picture.
 #[test]

@@ -6,7 +6,7 @@ use cosmorama::raster::{Rgba, Transfer};
 use cosmorama::resample::{CrossSection, Filter, Kernel};
 use cosmorama::world::World;
 use cosmorama_io::{Limits, read};
-use testkit::{Form, Sky, equirect, shared};
+use testkit::{Form, LIGHT, Sky, equirect, shared};
 
 /// Pixels a steradian of a panorama of 1024 × 512, the mean.
 const DENSITY: f64 = 41_722.0;
@@ -34,7 +34,7 @@ fn filters() -> [(&'static str, Filter); 7] {
         ("gaussian", of(gaussian, true)),
         ("box", of(Kernel::uniform(CrossSection::Box), true)),
         ("light, --anti-ringing on", of(Kernel::LIGHT, true)),
-        ("light", of(Kernel::LIGHT, false)),
+        ("light", LIGHT),
     ]
 }
 
@@ -59,7 +59,7 @@ fn main() {
             (form(from).world(), skies.iter().map(|light| sky.light(light)).collect())
         };
         for (name, filter) in filters() {
-            let sky = Sky::new(&world, form(to), filter);
+            let sky = if filter == LIGHT { Sky::balanced } else { Sky::new }(&world, form(to), filter);
             let gains = skies.iter().map(|light| format!(" {:.3} |", 100.0 * sky.gain(&world, light)));
             println!("| `{name}` |{}", gains.collect::<String>());
         }

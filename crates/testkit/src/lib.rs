@@ -9,6 +9,7 @@ mod light;
 mod round_trip;
 mod shared;
 mod sky;
+mod suns;
 
 pub use forms::Form;
 pub use frames::{cube, cube_face, equirect, fisheye, omnimax, partial_worlds, perspective, turned, whole_worlds};
@@ -17,3 +18,4 @@ pub use light::{light_by_direction, light_by_texel, position_error};
 pub use round_trip::RoundTrip;
 pub use shared::shared;
 pub use sky::{Sky, power};
+pub use suns::{HARD_PLACES, LIGHT, equirect_density, sun};

@@ -1,12 +1,11 @@
-//! What real skies with a sun keep of their light in another form, at as many pixels.
+//! What skies with a sun keep of their light in another form, at as many pixels.
 
 use cosmorama::raster::{Rgba, Transfer};
-use cosmorama::resample::{Filter, Kernel};
+use cosmorama::resample::Filter;
 use cosmorama::world::World;
 use cosmorama_io::{Limits, read};
-use testkit::{Form, Sky, equirect, shared};
+use testkit::{Form, HARD_PLACES, LIGHT, Sky, equirect, equirect_density, shared, sun};
 
-/// A sun of one texel is kept by a kernel whose weights add to one over pixels too: a wide one, positive and smooth.
 #[test]
 fn suns_keep_their_light() {
     let Some(folder) = shared("data/equirect_hdr") else { return };
@@ -16,14 +15,61 @@ fn suns_keep_their_light() {
             read(&path, &Limits::default()).expect("a sky").image.to_light(&Transfer::Linear).pixels().to_vec();
         (name, light)
     });
-    let filter = Filter { kernel: Kernel::LIGHT, anti_ringing: false, ..Filter::DEFAULT };
     let panorama = World::new([("panorama".to_owned(), equirect(1024))]).expect("one view");
-    let density = (1024 * 512) as f64 / (4.0 * std::f64::consts::PI);
-    for form in Form::all(density).iter().filter(|form| ["cube", "octahedral", "mirror-ball"].contains(&form.name)) {
-        let sky = Sky::new(&panorama, form, filter);
+    let forms = ["cube", "octahedral", "mirror-ball", "sinusoidal"];
+    for form in Form::all(equirect_density(1024)).iter().filter(|form| forms.contains(&form.name)) {
+        let sky = Sky::balanced(&panorama, form, LIGHT);
         for (name, light) in &suns {
             let gain = sky.gain(&panorama, light);
             assert!(gain.abs() < 0.002, "{name} as {}: {gain}", form.name);
         }
+    }
+}
+
+/// Pairs of forms, and by how much a constant world may differ from itself, at most.
+const PAIRS: [(&str, &str, f32); 9] = [
+    ("equirect", "cube", 0.025),
+    ("equirect", "octahedral", 0.025),
+    ("cube", "equirect", 0.025),
+    ("cube", "octahedral", 0.025),
+    ("octahedral", "equirect", 0.025),
+    ("eac", "cube", 0.02),
+    ("mirror-ball", "cube", 0.05),
+    ("mollweide", "sinusoidal", 0.12),
+    ("hammer", "octahedral", 0.08),
+];
+
+/// A sun of one pixel is kept wherever it is, and what is constant stays it, but for the poles of maps of ovals.
+#[test]
+fn light_is_kept_where_forms_are_singular() {
+    let density = equirect_density(256);
+    let forms = Form::all(density);
+    let form = |name| forms.iter().find(|form| form.name == name).expect("a form");
+    for (from, to, ripple) in PAIRS {
+        let world = form(from).world();
+        let sky = Sky::balanced(&world, form(to), LIGHT);
+        for place in HARD_PLACES {
+            let gain = sky.gain(&world, &sun(form(from), place, density.sqrt().recip()));
+            assert!(gain.abs() < 0.002, "{from} to {to}, a sun at {place:?}: {gain}");
+        }
+        let constant = sky.light(&vec![Rgba::opaque(1.0, 1.0, 1.0); world.texel_count()]);
+        let lit = constant.iter().filter(|pixel| pixel.alpha() > 0.0);
+        let worst = lit.map(|pixel| (pixel.0[0] - 1.0).abs()).fold(0.0, f32::max);
+        assert!(worst < ripple, "{from} to {to}: a constant world differs by {worst}");
+    }
+}
+
+/// Worlds without suns are kept by the default filter, too.
+#[test]
+fn daylight_keeps_its_light() {
+    let density = equirect_density(512);
+    let forms = Form::all(density);
+    let form = |name| forms.iter().find(|form| form.name == name).expect("a form");
+    for (from, to) in [("equirect", "cube"), ("cube", "octahedral"), ("octahedral", "equirect"), ("hammer", "cube")] {
+        let world = form(from).world();
+        // Ten degrees wide.
+        let light = sun(form(from), [0.4, 0.7, -0.3], 0.17);
+        let gain = Sky::new(&world, form(to), Filter::DEFAULT).gain(&world, &light);
+        assert!(gain.abs() < 0.002, "{from} to {to}: {gain}");
     }
 }

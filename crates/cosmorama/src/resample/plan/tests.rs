@@ -243,3 +243,23 @@ fn integers_are_within_one_code_of_floats() {
         }
     }
 }
+
+/// What a plan takes from texels to pixels it takes back from pixels to texels, in all its mirrors.
+#[test]
+fn spreading_is_the_plan_the_other_way_round() {
+    for (world, target, _) in conversions() {
+        let filter = Filter { anti_ringing: false, ..Filter::DEFAULT };
+        let plan = Resampler { world: &world, target: &target, filter }.plan().expect("a plan");
+        let light = floats(&light(&world));
+        // Their part inside the field of view is not the plan's weights.
+        let average = |pixel: &Rgba| if pixel.alpha() > 0.0 { f64::from(pixel.0[0] / pixel.alpha()) } else { 0.0 };
+        let made = plan.apply(&light);
+        let values: Vec<f32> = (0..made.pixels().len()).map(|k| (k % 97) as f32 / 97.0).collect();
+        let there: f64 =
+            made.pixels().iter().zip(&values).map(|(pixel, value)| average(pixel) * f64::from(*value)).sum();
+        let mut shares = vec![0.0; world.texel_count()];
+        plan.spread(&values, &mut shares);
+        let back: f64 = light.iter().zip(&shares).map(|(light, share)| f64::from(light.0[0]) * share).sum();
+        assert!((there / back - 1.0).abs() < 1e-5, "{target:?}: {there}, not {back}");
+    }
+}

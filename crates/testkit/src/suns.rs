@@ -1,0 +1,47 @@
+use cosmorama::raster::Rgba;
+use cosmorama::resample::{Filter, Kernel};
+use cosmorama::sphere::Direction;
+use cosmorama::world::PixelPoint;
+
+use crate::Form;
+
+/// The filter that keeps light.
+pub const LIGHT: Filter = Filter { kernel: Kernel::LIGHT, anti_ringing: false, ..Filter::DEFAULT };
+
+/// Directions in which some form or other is singular: poles, the octahedron's vertices, an edge and a corner of the cube, the
+/// seam behind and beside it, what lies before a mirror ball.
+pub const HARD_PLACES: [[f64; 3]; 9] = [
+    [0.0, 1.0, 0.001],
+    [0.03, 1.0, 0.03],
+    [1.0, 0.001, 0.0],
+    [0.001, 0.001, 1.0],
+    [0.001, 0.001, -1.0],
+    [1.0, 0.2, 1.0],
+    [1.0, 1.0, 1.0],
+    [0.003, 0.5, 1.0],
+    [-0.6, 0.35, -0.7],
+];
+
+/// Pixels a steradian of a panorama so many columns wide, the mean.
+pub fn equirect_density(width: usize) -> f64 {
+    (width * width / 2) as f64 / (4.0 * std::f64::consts::PI)
+}
+
+/// The light of a form of the world that shows a sun of this width (σ, in radians) in a direction, and next to nothing around it.
+///
+/// # Panics
+/// When the direction is none.
+pub fn sun(form: &Form, towards: [f64; 3], width: f64) -> Vec<Rgba> {
+    let sun = Direction::new(towards.into()).expect("a direction").vector();
+    let texels = form.views.iter().flat_map(|view| {
+        (0..view.height()).flat_map(move |j| (0..view.width()).map(move |i| view.direction(PixelPoint::centre(i, j))))
+    });
+    let light = |texel: Option<Direction>| {
+        let light = texel.map_or(0.0, |texel| {
+            let distance = texel.vector().distance(sun) / width;
+            (1e5 * (-0.5 * distance * distance).exp() + 1e-6) as f32
+        });
+        Rgba::opaque(light, light, light)
+    };
+    texels.map(light).collect()
+}
