@@ -32,6 +32,12 @@ pub(crate) fn probe(path: &Path, source: &mut Source) -> Result<Header, IoError>
     Ok(announce(path, reader.headers(), PICTURE)?.0)
 }
 
+/// What a file says of the two channels of its st map.
+pub(crate) fn probe_pairs(path: &Path, source: &mut Source) -> Result<Header, IoError> {
+    let reader = open(path, source)?;
+    Ok(announce(path, reader.headers(), PAIR)?.0)
+}
+
 /// Reads the first part that holds a picture, at its largest resolution.
 pub(crate) fn read(path: &Path, source: &mut Source, limits: &Limits) -> Result<ImageFile, IoError> {
     read_selected(path, source, limits, PICTURE)
