@@ -168,3 +168,26 @@ fn info_says_what_a_world_shows() {
     assert_says(&bench.succeed(&["info", "builtin:grid"]), &["azimuth"]);
     assert_says(&bench.fail(2, &["info", "builtin:grids"]), &["did you mean 'grid'?"]);
 }
+
+/// Whichever size and projection, there are letters that can be read, or it is said that there are none.
+#[test]
+fn grids_have_letters_or_say_that_they_have_none() {
+    let bench = Bench::new();
+    for (to, size, has_letters) in [
+        ("equirect", "1024", true),
+        ("equirect", "300", true),
+        ("fulldome", "512", true),
+        ("fulldome", "150", true),
+        ("fulldome", "90", false),
+    ] {
+        let output = bench.run(&["convert", "builtin:grid", "grid.png", "--to", to, "--size", size, "-y"]);
+        let warning = bench::text(&output.stderr);
+        assert_eq!(!warning.contains("letters would be too small"), has_letters, "{to} {size}: {warning}");
+        // Nothing but letters is white.
+        let image = bench.load("grid.png");
+        let white = bench::eight_bits(&image).chunks_exact(3).filter(|pixel| pixel.iter().all(|code| *code > 230));
+        assert_eq!(white.count() > 12, has_letters, "{to} {size}");
+    }
+    let output = bench.run(&["convert", "builtin:grid", "grid.png", "--to", "fulldome", "--size", "90", "-y"]);
+    assert_says(&bench::text(&output.stderr), &["grid.png", "90x90", "from a width of 113 on"]);
+}

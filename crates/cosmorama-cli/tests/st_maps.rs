@@ -94,7 +94,8 @@ fn a_map_of_two_channels_alone_gives_the_size() {
     let bench = scene();
     let map = pairs(&bench, "map.exr");
     let plane = |c: usize| map.pairs.iter().map(|pair| pair[c]).collect::<Vec<f32>>();
-    for (name, channels) in [("rg.exr", ["R", "G"]), ("uv.exr", ["u", "v"]), ("layer.exr", ["forward.u", "forward.v"])] {
+    for (name, channels) in [("rg.exr", ["R", "G"]), ("uv.exr", ["u", "v"]), ("layer.exr", ["forward.u", "forward.v"])]
+    {
         let planes = vec![(channels[0], plane(0)), (channels[1], plane(1))];
         let size = (map.width, map.height);
         write_planes(&bench.path(name), size, planes, Depth::Float, &Metadata::default()).unwrap();
