@@ -5,7 +5,7 @@ mod lines;
 mod strokes;
 
 use cosmorama::sphere::{Angle, Direction, DirectionJacobian};
-use cosmorama::world::Footprint;
+use cosmorama::world::{Footprint, View};
 use glam::DVec3;
 
 use crate::compass::Compass;
@@ -17,7 +17,7 @@ use strokes::Strokes;
 /// front red, degrees beside them, marks at the zenith and the nadir. Azimuth is 0 at the front and grows to the right.
 ///
 /// Lines have their width in degrees, but are never thinner than a pixel; where they would crowd, they fade. Where letters
-/// would be too small to read, fewer and larger ones stand in their place, down to [`Grid::LEAST_LEGIBLE`].
+/// would be too small to read, fewer and larger ones stand in their place, as far as [`Grid::width_for_letters`] allows.
 #[derive(Clone, Debug)]
 pub struct Grid {
     /// The finest first.
@@ -28,8 +28,11 @@ pub struct Grid {
 const LEGIBLE: (f64, f64) = (6.5, 7.0);
 
 impl Grid {
-    /// Pixels a degree from which on it has letters.
-    pub const LEAST_LEGIBLE: f64 = LEGIBLE.1 / SCALES[SCALES.len() - 1].height;
+    /// Where a picture is too coarse for any letters in its middle: the width from which on it has some.
+    pub fn width_for_letters(view: &View) -> Option<usize> {
+        let height = Angle::from_degrees(SCALES[SCALES.len() - 1].height).radians() * view.pixels_per_radian();
+        (height < LEGIBLE.1).then(|| (view.width() as f64 * LEGIBLE.1 / height).ceil() as usize)
+    }
 
     /// The grid, its letters laid out.
     pub fn new() -> Self {

@@ -126,9 +126,7 @@ impl BuiltinJob {
 /// What is to be said of a picture of the grid that is too coarse for its letters, those in its middle.
 fn without_letters(target: &Target) -> Option<String> {
     let TargetView { name, view, .. } = target.views.first()?;
-    let pixels_a_degree = view.pixels_per_radian().to_radians();
-    let enough = (view.width() as f64 * Grid::LEAST_LEGIBLE / pixels_a_degree).ceil();
-    (pixels_a_degree < Grid::LEAST_LEGIBLE).then(|| {
+    Grid::width_for_letters(view).map(|enough| {
         format!(
             "{name}: in {}x{} pixels the grid's letters would be too small to read, and are left out; they show from a width of \
              {enough} on",
