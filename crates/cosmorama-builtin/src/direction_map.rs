@@ -23,14 +23,12 @@ impl DirectionMap {
     }
 
     /// Makes the map of a view: unit vectors in the world's frame (+X right, +Y up, −Z front) and their derivatives per
-    /// pixel, in radians, at each pixel's middle; where the field of view cuts a pixel, at the middle of what is left of
-    /// it. Pixels that show nothing are zero, which no direction is.
+    /// pixel, in radians, at each pixel's middle. Pixels whose middle shows nothing are zero, which no direction is.
     pub fn pixels(self, view: &View) -> Image<DirectionPixel> {
         let mut image = Image::filled(view.width(), view.height(), [0.0; 9]);
         image.pixels_mut().par_chunks_mut(view.width().max(1)).enumerate().for_each(|(j, row)| {
             for (i, numbers) in row.iter_mut().enumerate() {
-                let Some(pixel) = view.screen_pixel(i, j) else { continue };
-                let seen = pixel.footprint;
+                let Some(seen) = view.centre_footprint(i, j) else { continue };
                 let vectors = [seen.direction.vector(), seen.jacobian.dx, seen.jacobian.dy];
                 for (numbers, vector) in numbers.chunks_exact_mut(3).zip(vectors) {
                     numbers.copy_from_slice(&vector.as_vec3().to_array());

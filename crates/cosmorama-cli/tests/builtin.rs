@@ -11,7 +11,7 @@ use std::path::Path;
 use bench::{Bench, assert_says};
 use cosmorama::raster::{Channels, Depth, Transfer};
 use cosmorama::sphere::{Angle, Orientation};
-use cosmorama::world::{Frame, FulldomeFrame, Placement};
+use cosmorama::world::{Frame, FulldomeFrame, PixelPoint, Placement};
 use serde_json::Value;
 
 #[test]
@@ -116,8 +116,9 @@ fn maps_of_directions_hold_what_pixels_see() {
     let whole = map("whole.exr", "builtin:direction-map:footprint=yes", &[]);
     assert_eq!(whole.keys().map(String::as_str).collect::<Vec<_>>(), names);
     for (j, i) in (0..41).flat_map(|j| (0..41).map(move |i| (j, i))) {
-        let expected = view.screen_pixel(i, j).map_or([[0.0; 3]; 3], |pixel| {
-            let seen = pixel.footprint;
+        // The middle of each, also of those that the rim cuts.
+        let middle = PixelPoint::centre(i, j);
+        let expected = view.footprint(middle).filter(|_| view.shows(middle)).map_or([[0.0; 3]; 3], |seen| {
             [seen.direction.vector(), seen.jacobian.dx, seen.jacobian.dy].map(|vector| vector.to_array())
         });
         let expected = expected.into_iter().flatten();
@@ -166,4 +167,27 @@ fn info_says_what_a_world_shows() {
     let bench = Bench::new();
     assert_says(&bench.succeed(&["info", "builtin:grid"]), &["azimuth"]);
     assert_says(&bench.fail(2, &["info", "builtin:grids"]), &["did you mean 'grid'?"]);
+}
+
+/// Whichever size and projection, there are letters that can be read, or it is said that there are none.
+#[test]
+fn grids_have_letters_or_say_that_they_have_none() {
+    let bench = Bench::new();
+    for (to, size, has_letters) in [
+        ("equirect", "1024", true),
+        ("equirect", "300", true),
+        ("fulldome", "512", true),
+        ("fulldome", "150", true),
+        ("fulldome", "90", false),
+    ] {
+        let output = bench.run(&["convert", "builtin:grid", "grid.png", "--to", to, "--size", size, "-y"]);
+        let warning = bench::text(&output.stderr);
+        assert_eq!(!warning.contains("letters would be too small"), has_letters, "{to} {size}: {warning}");
+        // Nothing but letters is white.
+        let image = bench.load("grid.png");
+        let white = bench::eight_bits(&image).chunks_exact(3).filter(|pixel| pixel.iter().all(|code| *code > 230));
+        assert_eq!(white.count() > 12, has_letters, "{to} {size}");
+    }
+    let output = bench.run(&["convert", "builtin:grid", "grid.png", "--to", "fulldome", "--size", "90", "-y"]);
+    assert_says(&bench::text(&output.stderr), &["grid.png", "90x90", "from a width of 113 on"]);
 }

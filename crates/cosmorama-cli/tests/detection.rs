@@ -184,6 +184,35 @@ fn circles_that_do_not_fill_their_halves_are_measured() {
     bench.succeed(&[&["convert", "two.png", "view.png", "--from", spec], &TO[..]].concat());
 }
 
+/// A circle that fills its square may be a domemaster; another is measured, whatever the blocks of a JPEG file leave around it.
+#[test]
+fn circles_are_measured_and_domes_are_not_guessed_of_smaller_ones() {
+    let bench = Bench::new();
+    bench.save("world.png", &patchwork(256, 128));
+    for (size, x, y, radius) in
+        [((1000, 1000), 500.0, 500.0, 480.0), ((1000, 1000), 515.0, 500.0, 485.0), ((1200, 1000), 600.0, 500.0, 450.0)]
+    {
+        let to = format!("fisheye:center={x}:{y},radius={radius}");
+        let size = format!("{}x{}", size.0, size.1);
+        for (name, quality) in [("a.png", &[][..]), ("a.jpg", &["--quality", "90"])] {
+            let convert = ["convert", "world.png", name, "--from", "equirect", "--to", &to, "--size", &size, "-y"];
+            bench.succeed(&[&convert[..], &["--filter", "bilinear"], quality].concat());
+            let report: Value = serde_json::from_str(&bench.succeed(&["info", name, "--json"])).unwrap();
+            let circle = &report["circle"];
+            assert_eq!(circle["measured"], true, "{name}: {report}");
+            for (key, drawn) in [("x", x), ("y", y), ("radius", radius)] {
+                assert!((circle[key].as_f64().unwrap() - drawn).abs() < 0.5, "{name} {to}: {circle}");
+            }
+            assert!(info(&bench, name).starts_with("fisheye:fov=180,center="), "{name}: {report}");
+            refused(&bench, name, &["fisheye:fov=DEGREES,center=", "radius="]);
+        }
+    }
+    // One that fills its square but for a pixel is none that has to be told.
+    let to = ["--to", "fisheye:center=250:250,radius=249", "--size", "500x500"];
+    bench.succeed(&[&["convert", "world.png", "dome.png", "--from", "equirect"], &to[..]].concat());
+    assert!(info(&bench, "dome.png").starts_with("fulldome"));
+}
+
 #[test]
 fn a_circle_on_black_may_be_several_things() {
     let bench = Bench::new();

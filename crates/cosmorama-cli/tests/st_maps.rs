@@ -9,7 +9,7 @@ use std::process::Command;
 
 use bench::{Bench, assert_says, floats, text};
 use cosmorama::raster::{Channels, Depth, EncodedImage, Samples};
-use cosmorama_io::{Limits, StPairs, read_pairs};
+use cosmorama_io::{Limits, Metadata, StPairs, read_pairs, write_planes};
 
 /// A panorama, a camera's view of it, and the map from the one to the other.
 fn scene() -> Bench {
@@ -85,6 +85,24 @@ fn a_map_is_applied_whichever_side_it_is_given_for() {
         let image = bench.load(name);
         assert_eq!((image.width(), image.height()), (400, 300), "as large as the map");
         close(&bench, name, "direct.exr", "75", "0.005");
+    }
+}
+
+/// Maps of other programs hold two channels and are no pictures: they, too, say how large the output is to be.
+#[test]
+fn a_map_of_two_channels_alone_gives_the_size() {
+    let bench = scene();
+    let map = pairs(&bench, "map.exr");
+    let plane = |c: usize| map.pairs.iter().map(|pair| pair[c]).collect::<Vec<f32>>();
+    for (name, channels) in [("rg.exr", ["R", "G"]), ("uv.exr", ["u", "v"]), ("layer.exr", ["forward.u", "forward.v"])]
+    {
+        let planes = vec![(channels[0], plane(0)), (channels[1], plane(1))];
+        let size = (map.width, map.height);
+        write_planes(&bench.path(name), size, planes, Depth::Float, &Metadata::default()).unwrap();
+        bench.succeed(&["convert", "plate.exr", "out.exr", "--to", &format!("st-map:file={name}"), "-y"]);
+        let image = bench.load("out.exr");
+        assert_eq!((image.width(), image.height()), (400, 300), "{name}");
+        close(&bench, "out.exr", "direct.exr", "75", "0.005");
     }
 }
 

@@ -31,5 +31,5 @@ pub use limits::Limits;
 pub use metadata::{EnvMap, Metadata, Window};
 pub use pto::{PtoError, PtoImage, PtoPanorama, PtoProject};
 pub use sequence::{FrameList, FramePattern, Frames};
-pub use st_pairs::{StPairs, read_pairs};
+pub use st_pairs::{StPairs, probe_pairs, read_pairs};
 pub use write_options::{Compression, WriteOptions};

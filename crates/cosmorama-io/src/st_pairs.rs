@@ -4,7 +4,7 @@ use cosmorama::raster::{Channels, Depth, Samples};
 
 use crate::file::open;
 use crate::formats::exr;
-use crate::{Format, ImageFile, IoError, Limits, read};
+use crate::{Format, Header, ImageFile, IoError, Limits, probe, read};
 
 /// The numbers of an st map as its file has them: two a pixel, s to the right and t up.
 #[derive(Clone, Debug, PartialEq)]
@@ -22,6 +22,15 @@ impl StPairs {
     pub fn get(&self, i: usize, j: usize) -> [f32; 2] {
         self.pairs[j * self.width + i]
     }
+}
+
+/// What a file says of its st map before its numbers: as [`probe`], but of the channels that [`read_pairs`] reads.
+///
+/// # Errors
+/// When an OpenEXR file has no two such channels, and those of [`probe`].
+pub fn probe_pairs(path: &Path) -> Result<Header, IoError> {
+    let (format, mut source) = open(path)?;
+    if format == Format::Exr { exr::probe_pairs(path, &mut source) } else { probe(path) }
 }
 
 /// Reads the first two channels of a picture as they are: of OpenEXR files R and G, or what else such maps are called (u and

@@ -342,3 +342,23 @@ fn a_profile_that_explodes_is_not_unpacked_whatever_the_limit() {
     assert!(!probe(&path).is_ok_and(|header| header.metadata.icc.is_some()));
     assert!(!read(&path, &Limits::NONE).is_ok_and(|file| file.metadata.icc.is_some()));
 }
+
+/// How many chunks a file of one part has follows from its sizes. What it says instead takes no memory and damages nothing.
+#[test]
+fn the_chunks_of_an_exr_are_counted_by_ourselves() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("counted.exr");
+    let image = picture(40, 100, Channels::Rgb, Depth::Half);
+    write(&path, &image, &Metadata::default(), &WriteOptions::default()).unwrap();
+    let honest = std::fs::read(&path).unwrap();
+    let name = b"chunkCount\0int\0";
+    let at = honest.windows(name.len()).position(|bytes| bytes == name).unwrap() + name.len() + 4;
+    for count in [0, 1, 8, 4096, i32::MAX] {
+        let mut lying = honest.clone();
+        lying[at..at + 4].copy_from_slice(&count.to_le_bytes());
+        std::fs::write(&path, &lying).unwrap();
+        assert_eq!(read(&path, &Limits::default()).unwrap().image, image, "{count}");
+        std::fs::write(&path, &lying[..lying.len() / 2]).unwrap();
+        assert!(read(&path, &Limits::default()).is_err(), "{count}, cut off");
+    }
+}

@@ -218,3 +218,20 @@ fn palettes_and_few_bits() {
         assert_eq!(first, [255, 170, 85, 0], "{name}");
     }
 }
+
+/// It keeps what our panorama said of its chunks, of which its cube has more.
+#[test]
+fn the_cube_that_exrenvmap_makes_of_ours() {
+    if program("exrenvmap").is_none() {
+        return;
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let (ours, theirs) = (folder.path().join("ours.exr"), folder.path().join("theirs.exr"));
+    let image = picture(256, 128, Channels::Rgb, Depth::Half);
+    let metadata = Metadata { envmap: Some(EnvMap::LatLong), ..Metadata::default() };
+    write(&ours, &image, &metadata, &WriteOptions::default()).unwrap();
+    run("exrenvmap", &["-c", "-w", "96", ours.to_str().unwrap(), theirs.to_str().unwrap()]);
+    let cube = read(&theirs, &Limits::default()).unwrap();
+    assert_eq!((cube.image.width(), cube.image.height()), (96, 6 * 96));
+    assert_eq!(cube.metadata.envmap, Some(EnvMap::Cube));
+}

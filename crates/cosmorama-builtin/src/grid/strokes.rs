@@ -2,8 +2,6 @@ use cosmorama::sphere::Angle;
 use cosmorama::world::Footprint;
 use glam::DVec3;
 
-use super::labels::HEIGHT;
-use super::lines::fade;
 use crate::compass::Compass;
 use crate::pixel_window::{part_on_line, spread};
 
@@ -15,10 +13,19 @@ pub(super) struct Stroke {
     pub(super) to: DVec3,
 }
 
-/// Strokes, found by where they are: a table of fields of azimuth and elevation, each with the strokes near it.
+/// Strokes of letters, found by where they are: a table of fields of azimuth and elevation, each with the strokes near it.
 #[derive(Clone, Debug)]
 pub(super) struct Strokes {
     fields: Vec<Vec<Stroke>>,
+    pen: Pen,
+}
+
+/// What draws strokes; in radians.
+#[derive(Clone, Copy, Debug)]
+struct Pen {
+    width: f64,
+    /// No pixel that shows the strokes sees further than this.
+    reach: f64,
 }
 
 /// Side of a field in degrees, and how many there are.
@@ -26,40 +33,29 @@ const FIELD: f64 = 5.0;
 const COLUMNS: usize = 72;
 const ROWS: usize = 36;
 
-/// A stroke's width, in radians.
-const WIDTH: f64 = Angle::from_degrees(HEIGHT / 8.0).radians();
-
-/// Letters are shown from so many pixels a capital on, whole from the second number.
-const LEGIBLE: (f64, f64) = (4.0, 6.0);
-
-/// No pixel that shows letters sees further than this: four times the spread of the window.
-const REACH: f64 = 4.0 * 0.5 * Angle::from_degrees(HEIGHT).radians() / LEGIBLE.0 + WIDTH;
+/// A stroke's width, in heights of capitals.
+const WIDTH: f64 = 0.125;
 
 impl Strokes {
-    pub(super) fn new(strokes: Vec<Stroke>) -> Self {
+    /// The strokes of letters whose capitals have a height, in degrees, for pictures in which that is so many pixels at least.
+    pub(super) fn new(strokes: Vec<Stroke>, height: f64, least_pixels: f64) -> Self {
+        let height = Angle::from_degrees(height).radians();
+        let width = WIDTH * height;
+        // Four times the spread of the window.
+        let pen = Pen { width, reach: 4.0 * 0.5 * height / least_pixels + width };
         let mut fields = vec![Vec::new(); COLUMNS * ROWS];
         for (index, field) in fields.iter_mut().enumerate() {
             let (middle, radius) = bounds(index % COLUMNS, index / COLUMNS);
-            field.extend(strokes.iter().filter(|stroke| stroke.is_within(middle, radius + REACH)));
+            field.extend(strokes.iter().filter(|stroke| stroke.is_within(middle, radius + pen.reach)));
         }
-        Self { fields }
+        Self { fields, pen }
     }
 
-    /// Draws the stroke that covers most of a pixel: those that meet are one line, not two on top of each other.
-    pub(super) fn draw(&self, pixel: &Footprint, compass: &Compass, draw: &mut impl FnMut(DVec3, f64)) {
-        let field = &self.fields[field(compass)];
-        if field.is_empty() {
-            return;
-        }
-        let step = pixel.jacobian.dx.length().max(pixel.jacobian.dy.length());
-        let legible =
-            if step > 0.0 { fade(Angle::from_degrees(HEIGHT).radians() / step, LEGIBLE.0, LEGIBLE.1) } else { 1.0 };
-        if legible == 0.0 {
-            return;
-        }
-        let parts = field.iter().map(|stroke| (stroke.colour, stroke.cover(pixel)));
+    /// Draws a part of the stroke that covers most of a pixel: those that meet are one line, not two on top of each other.
+    pub(super) fn draw(&self, pixel: &Footprint, compass: &Compass, shown: f64, draw: &mut impl FnMut(DVec3, f64)) {
+        let parts = self.fields[field(compass)].iter().map(|stroke| (stroke.colour, stroke.cover(self.pen, pixel)));
         if let Some((colour, part)) = parts.max_by(|a, b| a.1.total_cmp(&b.1)) {
-            draw(colour, legible * part);
+            draw(colour, shown * part);
         }
     }
 }
@@ -97,15 +93,15 @@ impl Stroke {
     }
 
     /// The part of a pixel that the stroke covers, its ends round.
-    fn cover(&self, pixel: &Footprint) -> f64 {
+    fn cover(&self, pen: Pen, pixel: &Footprint) -> f64 {
         let point = pixel.direction.vector();
         let aside = point - self.nearest(point);
         let distance = aside.length();
-        if distance > REACH {
+        if distance > pen.reach {
             return 0.0;
         }
         let across = (self.to - self.from).cross(point);
-        let gradient = if distance > 0.1 * WIDTH { aside } else { across }.normalize_or_zero();
-        part_on_line(distance, WIDTH / 2.0, spread(pixel, gradient))
+        let gradient = if distance > 0.1 * pen.width { aside } else { across }.normalize_or_zero();
+        part_on_line(distance, pen.width / 2.0, spread(pixel, gradient))
     }
 }

@@ -1,10 +1,11 @@
 use anyhow::Result;
 use cosmorama::raster::Depth;
 use cosmorama::resample::Filter;
-use cosmorama_builtin::{BuiltinWorld, DirectionMap};
+use cosmorama_builtin::{BuiltinWorld, DirectionMap, Grid};
 use cosmorama_io::Format;
 
 use super::input::SAME_FOR_BOTH;
+use super::target::TargetView;
 use super::{Input, Light, MemoryBudget, Outputs, Target, check_file_options, filter, settled};
 use crate::args::ConvertArgs;
 use crate::failure::{usage, warn};
@@ -111,12 +112,28 @@ impl BuiltinJob {
             // Halves turn a direction by as much as a pixel of a large picture.
             light.depth = args.depth.map_or(Depth::Float, Depth::from);
         }
+        if builtin == Builtin::World(BuiltinWorld::Grid) {
+            warnings.extend(without_letters(&target));
+        }
         memory.check_outputs(&target)?;
         let outputs = Outputs::plan(args, &files, &target, &light, memory)?;
         warnings.extend(outputs.warning());
         warnings.iter().for_each(|warning| warn(warning));
         Ok(Self { builtin, target, light, outputs, warnings })
     }
+}
+
+/// What is to be said of a picture of the grid that is too coarse for its letters, those in its middle.
+fn without_letters(target: &Target) -> Option<String> {
+    let TargetView { name, view, .. } = target.views.first()?;
+    Grid::width_for_letters(view).map(|enough| {
+        format!(
+            "{name}: in {}x{} pixels the grid's letters would be too small to read, and are left out; they show from a width of \
+             {enough} on",
+            view.width(),
+            view.height()
+        )
+    })
 }
 
 /// What speaks of files means nothing here.

@@ -20,8 +20,10 @@ const BLANK: f64 = 0.98;
 const EMPTY: f64 = 0.9;
 /// Pixels around what is drawn that a JPEG file's blocks may blur into.
 pub(super) const BLOCK: usize = 8;
-/// A circle that fills a square does so to this part of it.
-const ROUND: f64 = 0.02;
+/// A circle whose rim can be measured fills a square if it does so to this part of it, or to so many pixels.
+const EXACTLY: (f64, f64) = (0.005, 2.0);
+/// One whose rim cannot, or that is one of two, does so to this part.
+const ROUGHLY: f64 = 0.02;
 /// Codes up to this are black, in a picture of codes from 0 to 1.
 pub(super) const BLACK: f32 = 0.06;
 
@@ -99,7 +101,7 @@ impl Evidence {
     fn of(codes: &Image<Rgba>) -> Option<Self> {
         let is_empty = codes.uniformity(|_, _| true).is_none_or(|all| all.share >= EMPTY);
         if is_empty {
-            return circle::find(codes).filter(|found| !fills(&found.circle(), codes)).map(Self::Disc);
+            return circle::find(codes).filter(|found| !is_domemaster(found, codes)).map(Self::Disc);
         }
         let crosses = [LayoutKind::CrossH, LayoutKind::CrossV];
         if let Some(kind) = crosses.into_iter().find(|kind| is_cross(*kind, Mirror::default(), codes)) {
@@ -119,7 +121,7 @@ impl Evidence {
             return Some(Self::Omnimax);
         }
         match circle::find(codes) {
-            Some(found) if !fills(&found.circle(), codes) => Some(Self::Disc(found)),
+            Some(found) if !is_domemaster(&found, codes) => Some(Self::Disc(found)),
             _ if is_round(codes) => Some(Self::Circle),
             _ => Twins::find(codes).map(Self::Twins),
         }
@@ -165,9 +167,22 @@ fn is_black(pixel: &Rgba) -> bool {
     pixel.alpha() == 0.0 || pixel.0[..3].iter().all(|code| *code <= BLACK)
 }
 
-/// Whether a circle is the one that fills a square.
+/// Whether a circle is the one that fills a square, as far as it was measured.
+fn is_domemaster(found: &Found, codes: &Image<Rgba>) -> bool {
+    let (part, pixels) = EXACTLY;
+    match found {
+        Found::Measured(circle) => is_inscribed(circle, codes, pixels.max(part * codes.width() as f64)),
+        Found::Roughly(circle) => fills(circle, codes),
+    }
+}
+
+/// Whether a circle is about the one that fills a square.
 pub(super) fn fills(circle: &Circle, codes: &Image<Rgba>) -> bool {
-    let (half, reach) = (codes.width() as f64 / 2.0, ROUND * codes.width() as f64);
+    is_inscribed(circle, codes, ROUGHLY * codes.width() as f64)
+}
+
+fn is_inscribed(circle: &Circle, codes: &Image<Rgba>, reach: f64) -> bool {
+    let half = codes.width() as f64 / 2.0;
     let (x, y) = circle.centre;
     codes.width() == codes.height() && [x, y, circle.radius].iter().all(|length| (length - half).abs() < reach)
 }

@@ -5,7 +5,7 @@ use std::path::Path;
 use anyhow::{Error, Result, anyhow};
 use cosmorama::sphere::{Angle, Orientation};
 use cosmorama::world::{FieldOfView, Frame, Mirror, PerspectiveFrame, Placement, StMapFrame};
-use cosmorama_io::{Limits, StPairs, probe, read_pairs};
+use cosmorama_io::{Header, Limits, StPairs, probe, probe_pairs, read_pairs};
 
 use super::{Files, MemoryBudget, frames, pto};
 use crate::args::SizeArg;
@@ -42,7 +42,7 @@ pub(crate) fn settled(
     };
     if let (Some(Shape::StMap(StMapSpec { invert: false, file, .. })), None) = (shape(&geometry.to), geometry.size) {
         // The output has the map's pixels.
-        let (width, height) = canvas_size(file)?;
+        let (width, height) = canvas_size(&probe_pairs(file)?);
         settled.size = Some(SizeArg { width, height: Some(height) });
     }
     match (shape(&geometry.from), shape(&geometry.to)) {
@@ -173,13 +173,12 @@ fn other_side(shape: Option<&Shape>, side: Side) -> Result<Placement> {
 fn input_size(input: &str) -> Result<(usize, usize)> {
     let files = Files::new(Path::new(input));
     let first = frames::find(std::iter::once(&files), None)?[0];
-    canvas_size(&files.path(first))
+    Ok(canvas_size(&probe(&files.path(first))?))
 }
 
 /// The size of a picture, of its canvas if it has one.
-fn canvas_size(path: &Path) -> Result<(usize, usize)> {
-    let header = probe(path)?;
-    Ok(header.window.map_or((header.width, header.height), |window| (window.canvas_width, window.canvas_height)))
+fn canvas_size(header: &Header) -> (usize, usize) {
+    header.window.map_or((header.width, header.height), |window| (window.canvas_width, window.canvas_height))
 }
 
 fn size_of(pairs: &StPairs) -> SizeArg {

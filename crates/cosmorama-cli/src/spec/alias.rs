@@ -32,8 +32,10 @@ const ALIASES: [(&str, &str); 26] = [
     ("little-planet", "stereographic:pitch=-90"),
 ];
 
-/// Projections of other programs that are not on offer.
-const REFUSED: [&str; 6] = ["barrel", "fb", "barrelsplit", "tsp", "tetrahedron", "biatan6"];
+/// Projections of ffmpeg's v360 that are not on offer.
+const REFUSED: [&str; 5] = ["barrel", "fb", "barrelsplit", "tsp", "tetrahedron"];
+/// The same of envutil: a cube of equal angles.
+const REFUSED_OF_ENVUTIL: &str = "biatan6";
 
 /// The SPEC with its name as we have it. Keys that were typed follow those that the name stands for, in whose place they
 /// come.
@@ -48,7 +50,13 @@ pub(super) fn without_alias(text: &str) -> String {
     if keys.is_empty() { ours.to_owned() } else { format!("{ours}:{}", keys.join(",")) }
 }
 
-/// Whether another program has a projection of this name that we do not.
-pub(super) fn is_refused(name: &str) -> bool {
-    REFUSED.contains(&name)
+/// How to go by way of equirect, where another program has a projection of this name that we do not.
+pub(super) fn refusal(name: &str) -> Option<String> {
+    match name {
+        REFUSED_OF_ENVUTIL => Some(
+            "as by envutil's --projection spherical; cubes of equal angles are cube:layout=eac here, laid out otherwise"
+                .to_owned(),
+        ),
+        _ => REFUSED.contains(&name).then(|| format!("as by ffmpeg's v360=input={name}:output=e")),
+    }
 }

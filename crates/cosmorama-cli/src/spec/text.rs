@@ -5,7 +5,7 @@ use cosmorama::projection::azimuthal::LensError;
 use cosmorama::world::LensSide;
 use thiserror::Error;
 
-use super::alias::{is_refused, without_alias};
+use super::alias::{refusal, without_alias};
 use super::fields::Fields;
 use super::kind::{KINDS, Kind};
 use super::shape::Shape;
@@ -32,10 +32,9 @@ pub(crate) enum SpecError {
     UnknownName { name: String },
     /// Another program has it, and we do not.
     #[error(
-        "the projection '{name}' of other programs is not on offer here; convert it there to equirect first, as in ffmpeg's \
-         v360=input={name}:output=e"
+        "the projection '{name}' of other programs is not on offer here; it is converted there, from and to equirect, {way}"
     )]
-    NotOffered { name: String },
+    NotOffered { name: String, way: String },
     /// The key is not one of this name's.
     #[error("unknown key '{key}' for {name}{}; it takes {}", meant(.key, .known), .known.join(", "))]
     UnknownKey { name: &'static str, key: String, known: Vec<&'static str> },
@@ -109,8 +108,8 @@ impl Spec {
     pub(crate) fn parse_in(folder: &Path, text: &str) -> Result<Self, SpecError> {
         let text = without_alias(text);
         let (name, rest) = text.split_once(':').unwrap_or((&text, ""));
-        if is_refused(name) {
-            return Err(SpecError::NotOffered { name: name.to_owned() });
+        if let Some(way) = refusal(name) {
+            return Err(SpecError::NotOffered { name: name.to_owned(), way });
         }
         let kind = Kind::named(name).ok_or_else(|| SpecError::UnknownName { name: name.to_owned() })?;
         let pairs = pairs(rest)?;
@@ -229,7 +228,10 @@ mod tests {
         ] {
             assert_eq!(spec(theirs), spec(ours), "{theirs}");
         }
-        assert!(refused("tetrahedron").contains("'tetrahedron' of other programs is not on offer"));
+        let message = refused("tetrahedron");
+        assert!(message.contains("'tetrahedron' of other programs is not on offer") && message.contains("v360=input="));
+        let message = refused("biatan6:layout=3x2");
+        assert!(message.contains("envutil") && message.contains("cube:layout=eac") && !message.contains("ffmpeg"));
         // What is typed comes in the place of what the name stands for.
         assert_eq!(spec("little-planet:pitch=-60"), spec("stereographic:pitch=-60"));
         assert_eq!(spec("dfisheye:fov=195"), spec("dual-fisheye:order=bf,fov=195"));

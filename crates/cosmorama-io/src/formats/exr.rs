@@ -1,3 +1,4 @@
+use std::io::{self, Seek};
 use std::path::Path;
 
 use cosmorama::raster::{AlphaMode, Depth, Samples, Transfer};
@@ -30,6 +31,12 @@ const BATCH_BYTES: u128 = 1 << 26;
 pub(crate) fn probe(path: &Path, source: &mut Source) -> Result<Header, IoError> {
     let reader = open(path, source)?;
     Ok(announce(path, reader.headers(), PICTURE)?.0)
+}
+
+/// What a file says of the two channels of its st map.
+pub(crate) fn probe_pairs(path: &Path, source: &mut Source) -> Result<Header, IoError> {
+    let reader = open(path, source)?;
+    Ok(announce(path, reader.headers(), PAIR)?.0)
 }
 
 /// Reads the first part that holds a picture, at its largest resolution.
@@ -93,7 +100,19 @@ fn block_bytes(part: &Part) -> u128 {
 }
 
 fn open<'a>(path: &Path, source: &'a mut Source) -> Result<Reader<&'a mut Source>, IoError> {
-    exr::block::read(source, false).map_err(|error| damaged(path, error))
+    let strictly = has_wrong_count(source).map_err(|error| IoError::open(path, error))?;
+    exr::block::read(source, strictly).map_err(|error| damaged(path, error))
+}
+
+/// Whether a file of one part is refused for its `chunkCount` alone, which then counts for nothing, as in OpenEXR's own
+/// library: that takes the number of chunks from sizes and compression, and programs such as exrenvmap hand on what their
+/// input said of itself. It is the stricter way of reading that does not compare the number.
+fn has_wrong_count(source: &mut Source) -> io::Result<bool> {
+    let is_refused = matches!(exr::block::read(&mut *source, false), Err(Error::Invalid(_)));
+    source.rewind()?;
+    let has = is_refused && exr::block::read(&mut *source, true).is_ok_and(|reader| reader.headers().len() == 1);
+    source.rewind()?;
+    Ok(has)
 }
 
 fn damaged(path: &Path, error: Error) -> IoError {

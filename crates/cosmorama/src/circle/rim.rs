@@ -89,7 +89,9 @@ impl<'a> Brightness<'a> {
         let mut outside: Vec<f64> = values[..quarter.max(1)].to_vec();
         outside.sort_by(f64::total_cmp);
         let outside = outside[outside.len() / 2];
-        let rise = values.iter().position(|value| value - outside > self.least)?;
+        let highest = values.iter().copied().fold(outside, f64::max);
+        let least = self.least.max(RINGING * (highest - outside));
+        let rise = values.iter().position(|value| value - outside > least)?;
         // Just inside: the next three pixels after the rise has begun.
         let inside = values[rise..].iter().take((3.0 / STEP) as usize).copied().fold(outside, f64::max);
         let half = 0.5 * (inside + outside);
@@ -101,6 +103,8 @@ impl<'a> Brightness<'a> {
 
 /// Rows and columns along which the black's end is looked for.
 const LINES: usize = 128;
+/// Of what is inside a rim, so much may lie before it: the blocks of JPEG files ring.
+const RINGING: f64 = 0.125;
 /// Pixels between samples along a ray.
 const STEP: f64 = 0.25;
 

@@ -71,6 +71,16 @@ impl View {
         }
     }
 
+    /// Where the middle of the pixel in column `i` of row `j` looks, and how that changes per pixel; `None` if the middle shows
+    /// nothing, though a part of the pixel may.
+    pub fn centre_footprint(&self, i: usize, j: usize) -> Option<Footprint> {
+        let centre = PixelPoint::centre(i, j);
+        if !self.shows(centre) {
+            return None;
+        }
+        self.pixel_footprint(centre).or_else(|| self.footprint(centre))
+    }
+
     /// What a pixel around a point sees. Beside a steep rim the derivatives would make it far longer than it is.
     fn pixel_footprint(&self, pixel: PixelPoint) -> Option<Footprint> {
         let footprint = self.footprint(pixel)?;

@@ -40,7 +40,9 @@ impl<F: AngleFormula> Lens for ByRadius<F> {
     }
 
     fn radius(&self, angle: f64) -> Option<f64> {
-        (angle <= self.rim.1).then(|| inverse(|radius| self.formula.formula(radius), angle, 0.0, self.rim.0))
+        let inverse = || inverse(|radius| self.formula.formula(radius), angle, 0.0, self.rim.0);
+        // 180° may be missed by rounding.
+        if angle <= self.rim.1 { Some(inverse()) } else { (angle <= self.reach()).then_some(self.rim.0) }
     }
 
     fn reach(&self) -> f64 {

@@ -74,6 +74,10 @@ mod tests {
             assert!((back - radius).abs() < 1e-12, "{radius}: {back}");
         }
         assert_eq!(lens.angle(0.0).0, 0.0);
+        // It shows everything, what is straight behind included.
+        assert_eq!(lens.reach(), std::f64::consts::PI);
+        let rim = lens.radius(lens.reach()).expect("seen");
+        assert!((lens.angle(rim).0 - lens.reach()).abs() < 1e-9, "{rim}");
     }
 
     #[test]

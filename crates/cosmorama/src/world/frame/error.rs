@@ -12,7 +12,7 @@ pub enum FrameError {
         height: usize,
     },
     /// A field of view that the projection cannot show.
-    #[error("{what} is {}°; it must be more than 0° and {}", rounded(*.found), if *.below { format!("less than {greatest}°") } else { format!("at most {greatest}°") })]
+    #[error("{what} is {}°; it must be more than 0° and {}", rounded(*.found), if *.below { format!("less than {}°", rounded(*.greatest)) } else { format!("at most {}°", rounded(*.greatest)) })]
     FieldOfView {
         /// Which one.
         what: &'static str,

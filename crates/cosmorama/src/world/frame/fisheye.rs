@@ -80,9 +80,11 @@ impl Default for FisheyeFrame {
 }
 
 impl FisheyeFrame {
-    /// The field of view of all that the lens has an image of.
+    /// The field of view of all that the lens has an image of; where that goes on to infinity, of more than any image holds.
     pub fn whole_field(lens: FisheyeLens) -> Angle {
-        Angle::from_radians(2.0 * lens.reach())
+        let reach = lens.reach();
+        let ends = lens.radius(reach).is_some_and(|radius| radius < INFINITELY_FAR);
+        Angle::from_radians(2.0 * if ends { reach } else { lens.angle(BEYOND_IMAGES).0 })
     }
 
     pub(super) fn view(&self, width: usize, height: usize) -> Result<View, FrameError> {
@@ -130,9 +132,13 @@ impl FisheyeFrame {
 /// What a lens shows further from its centre than this, in its own unit, is at infinity.
 const INFINITELY_FAR: f64 = 1e9;
 
+/// Further from the centre than an image's corner, in a lens's own unit.
+const BEYOND_IMAGES: f64 = 1e6;
+
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::projection::azimuthal::Unified;
 
     fn angle_from_axis(frame: &FisheyeFrame, x: f64, y: f64) -> f64 {
         let view = frame.view(400, 300).unwrap();
@@ -183,6 +189,24 @@ mod tests {
             let whole = FisheyeFrame::whole_field(lens).degrees();
             assert!(frame(lens, whole - 1.0).is_ok(), "{lens:?}");
             assert!(whole > 359.9 || frame(lens, whole + 1.0).is_err(), "{lens:?}");
+        }
+    }
+
+    #[test]
+    fn every_lens_shows_its_whole_field() {
+        let infinite = [(0.0, 180.0), (0.3, 230.753_867), (0.5, 360.0)];
+        let lenses = infinite.map(|(alpha, degrees)| {
+            let lens = Unified::from_parameters(alpha, 1.0).map(FisheyeLens::Unified).unwrap();
+            assert!((FisheyeFrame::whole_field(lens).degrees() - degrees).abs() < 1e-3, "{alpha}");
+            lens
+        });
+        for lens in FisheyeLens::all().into_iter().chain(lenses) {
+            let field_of_view = FisheyeFrame::whole_field(lens);
+            for scale in [LensScale::Focal(50.0), LensScale::SensorWidth(0.1)] {
+                let frame = FisheyeFrame { lens, field_of_view, scale, ..FisheyeFrame::default() };
+                let view = frame.view(400, 300).unwrap();
+                assert!(view.direction(PixelPoint::new(210.0, 140.0)).is_some(), "{lens:?}");
+            }
         }
     }
 
