@@ -1,3 +1,5 @@
+use std::f64::consts::{FRAC_PI_2, TAU};
+
 use glam::{DVec2, DVec3};
 
 use super::graticule::Graticule;
@@ -38,6 +40,26 @@ impl Pannini {
         // 1 + cos λ without its loss of digits behind.
         let versed = if cos < 0.0 { sin * sin / (1.0 - cos) } else { 1.0 + cos };
         (self.distance + 1.0) / (self.distance - 1.0 + versed)
+    }
+
+    /// Bounds of a cap that holds a pole or touches the longitude where the picture ends: infinite on that side.
+    fn singular_bounds(&self, centre: Direction, radius: f64) -> PlaneRect {
+        let (longitude, latitude) = centre.longitude_latitude();
+        let (longitude, latitude) = (longitude.radians(), latitude.radians());
+        let PlaneRect { mut min, mut max } = PlaneRect::EVERYTHING;
+        // |y| is S |tan φ|, and S at least 1.
+        let lowest = latitude.abs() - radius;
+        if lowest > 0.0 {
+            if latitude > 0.0 { min.y = lowest.tan() } else { max.y = -lowest.tan() }
+        }
+        // Around a pole there are all longitudes; else |x| rises with |λ| to the limit, unless that on the other side is reached.
+        let half_width = (radius.sin() / latitude.cos()).asin();
+        let (least, limit) = (longitude.abs() - half_width, self.limit().radians());
+        if latitude.abs() + radius < FRAC_PI_2 && least > 0.0 && longitude.abs() + half_width < TAU - limit {
+            let least = self.across(Angle::from_radians(least.min(limit)));
+            if longitude > 0.0 { min.x = least } else { max.x = -least }
+        }
+        PlaneRect { min, max }
     }
 
     /// x at a longitude, whether or not something is seen there.
@@ -107,7 +129,7 @@ impl Projection for Pannini {
 
     fn cap_bounds(&self, centre: Direction, radius: Angle) -> PlaneRect {
         if self.margin(centre) <= radius.radians() {
-            return PlaneRect::EVERYTHING;
+            return self.singular_bounds(centre, radius.radians());
         }
         Graticule::around(centre, radius).bounds(|longitude, latitude| {
             let (sin, cos) = longitude.sin_cos();
