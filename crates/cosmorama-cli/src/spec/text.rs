@@ -5,10 +5,10 @@ use cosmorama::projection::azimuthal::LensError;
 use cosmorama::world::LensSide;
 use thiserror::Error;
 
+use super::Shape;
 use super::alias::{is_refused, without_alias};
 use super::fields::Fields;
 use super::kind::{KINDS, Kind};
-use super::shape::Shape;
 use super::stereo::StereoSpec;
 
 /// A SPEC as it was typed, taken apart and found good.
@@ -121,7 +121,7 @@ impl Spec {
             }
         }
         let fields = Fields::new(pairs, folder);
-        let (shape, stereo) = (Shape::build(kind.name, &fields)?, StereoSpec::build(&fields)?);
+        let (shape, stereo) = ((kind.build)(&fields)?, StereoSpec::build(&fields)?);
         let mut files: Vec<PathBuf> = ["file", "calibration"].into_iter().filter_map(|key| fields.file(key)).collect();
         if let Shape::StMap(map) = &shape {
             files.extend(map.base_files.iter().cloned());
