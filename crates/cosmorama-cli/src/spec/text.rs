@@ -5,10 +5,10 @@ use cosmorama::projection::azimuthal::LensError;
 use cosmorama::world::LensSide;
 use thiserror::Error;
 
-use super::Shape;
 use super::alias::{is_refused, without_alias};
 use super::fields::Fields;
 use super::kind::{KINDS, Kind};
+use super::shape::Shape;
 use super::stereo::StereoSpec;
 
 /// A SPEC as it was typed, taken apart and found good.
