@@ -3,8 +3,12 @@
 //! The two tables below are the building's plan; a new room or crate gets its line there (ARCHITECTURE.md draws it).
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on should stop where it stands")]
 
+mod source;
+
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
+
+use source::{code_of, crates_folder, rust_files};
 
 /// The rooms of the library, lowest floor first, and the rooms that each may use.
 const ROOMS: [(&str, &[&str]); 9] = [
@@ -90,10 +94,6 @@ const CRATES: [CratePlan; 5] = [
         reason: "",
     },
 ];
-
-fn crates_folder() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap().to_owned()
-}
 
 #[test]
 fn no_room_uses_a_higher_one() {
@@ -198,42 +198,9 @@ fn one_file_is_trusted_with_indices() {
     assert_eq!(found, [crates_folder().join("cosmorama/src/resample/plan/texels.rs")]);
 }
 
-/// Every `.rs` file under a folder.
-fn rust_files(folder: &Path) -> Vec<PathBuf> {
-    let mut files = Vec::new();
-    for path in std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()) {
-        if path.is_dir() {
-            files.extend(rust_files(&path));
-        } else if path.extension().is_some_and(|extension| extension == "rs") {
-            files.push(path);
-        }
-    }
-    files
-}
-
 /// Modules between the crate's root and a file: `super` said so often is the root.
 fn module_depth(inside: &Path) -> usize {
     inside.iter().count() - usize::from(inside.ends_with("mod.rs"))
-}
-
-/// The source without comments, which may point up, and without the text of strings.
-fn code_of(source: &str) -> String {
-    let mut code = String::with_capacity(source.len());
-    for line in source.lines() {
-        let mut in_string = false;
-        let mut characters = line.chars().peekable();
-        while let Some(character) = characters.next() {
-            match character {
-                '\\' if in_string => drop(characters.next()),
-                '"' => in_string = !in_string,
-                '/' if !in_string && characters.peek() == Some(&'/') => break,
-                _ if in_string => {}
-                _ => code.push(character),
-            }
-        }
-        code.push('\n');
-    }
-    code
 }
 
 /// The rooms that paths from `root` (`crate`, `cosmorama`) and from `depth` times `super` lead to.

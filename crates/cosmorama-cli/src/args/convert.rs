@@ -174,7 +174,7 @@ fn threads(text: &str) -> Result<usize, String> {
 
 /// Every projection, and every built-in world.
 fn after_help() -> String {
-    let mut text = crate::spec::kind::help();
+    let mut text = crate::spec::help();
     text += "\nbuiltin:NAME is a world by formula, in any projection and --size:\n\n";
     for (name, about) in crate::job::Builtin::all() {
         text += &format!("  {name:<13} {about}\n");

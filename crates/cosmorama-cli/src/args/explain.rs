@@ -11,7 +11,7 @@ use super::convert::{GeometryArgs, LimitArgs};
   cosmorama explain 'faces/{face}.png' --to omnimax --output diagrams
   cosmorama explain --from cube --to omnimax --size 1966x1436
   cosmorama explain --from cube --input-size 1024x960 --to omnimax --size 1966x1436")]
-#[command(after_help = crate::spec::kind::help())]
+#[command(after_help = crate::spec::help())]
 pub(crate) struct ExplainArgs {
     /// The input, if there is one already: an image or a pattern; - is standard input
     #[arg(value_hint = ValueHint::FilePath)]

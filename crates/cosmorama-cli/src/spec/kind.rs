@@ -1,5 +1,10 @@
 //! The table of projections and their keys.
 
+use cosmorama::world::{CylinderKind, Frame, WorldMapFrame};
+
+use super::fields::Fields;
+use super::{Cube, Dual, Shape, SpecError, StMapSpec, camera, lens, maps};
+
 /// A name with its keys.
 pub(crate) struct Kind {
     /// As typed.
@@ -10,6 +15,8 @@ pub(crate) struct Kind {
     pub(crate) keys: &'static [Key],
     /// Those of the common keys that mean nothing here.
     pub(crate) refused: &'static [Refused],
+    /// What it stands for with these keys.
+    pub(crate) build: fn(&Fields) -> Result<Shape, SpecError>,
 }
 
 /// A common key that a name does not take.
@@ -48,7 +55,7 @@ const CYLINDER_KEYS: [Key; 2] = [
 ];
 
 /// Every projection on offer.
-pub(crate) static KINDS: [Kind; 19] = [
+pub(crate) static KINDS: &[Kind] = &[
     Kind {
         name: "cube",
         about: "faces of a cube, one file each or in one image, whatever the pixels (1024x960 is as good as 1024x1024)",
@@ -77,6 +84,7 @@ pub(crate) static KINDS: [Kind; 19] = [
             key("canvas.FACE", "WxH+X+Y", "as canvas=, for one face; needed where a file is a crop"),
         ],
         refused: &[FITS],
+        build: |fields| Cube::build(fields).map(Shape::Cube),
     },
     Kind {
         name: "perspective",
@@ -92,6 +100,7 @@ pub(crate) static KINDS: [Kind; 19] = [
             ),
         ],
         refused: &[],
+        build: camera::perspective,
     },
     Kind {
         name: "equirect",
@@ -102,6 +111,7 @@ pub(crate) static KINDS: [Kind; 19] = [
             key("samples", "centres|edges", "where the outermost samples lie (centres; OpenEXR files: edges)"),
         ],
         refused: &[FITS],
+        build: maps::equirect,
     },
     Kind {
         name: "fisheye",
@@ -127,12 +137,14 @@ pub(crate) static KINDS: [Kind; 19] = [
             ),
         ],
         refused: &[],
+        build: lens::fisheye,
     },
     Kind {
         name: "stereographic",
         about: "stereographic, without a circle; with pitch=-90 a little planet",
         keys: &[key("fov", "DEGREES", "horizontal field of view (270)")],
         refused: &[],
+        build: camera::stereographic,
     },
     Kind {
         name: "fulldome",
@@ -142,6 +154,7 @@ pub(crate) static KINDS: [Kind; 19] = [
             key("tilt", "DEGREES", "how far the dome leans to the front (0)"),
         ],
         refused: &[],
+        build: camera::fulldome,
     },
     Kind {
         name: "dual-fisheye",
@@ -162,6 +175,7 @@ pub(crate) static KINDS: [Kind; 19] = [
             key("LENS.radius", "PIXELS", "one circle's radius in pixels"),
         ],
         refused: &[NO_CANVAS],
+        build: |fields| Dual::build(fields).map(Box::new).map(Shape::Dual),
     },
     Kind {
         name: "omnimax",
@@ -174,6 +188,7 @@ pub(crate) static KINDS: [Kind; 19] = [
             key("axis", "DEGREES", "elevation of the axis of projection (0; theatre: 11)"),
         ],
         refused: &[],
+        build: camera::omnimax,
     },
     Kind {
         name: "mercator",
@@ -183,14 +198,22 @@ pub(crate) static KINDS: [Kind; 19] = [
             key("lat", "DEGREES", "latitude of the upper edge (by the size, square pixels; else 85.051129)"),
         ],
         refused: &[],
+        build: |fields| maps::cylinder(fields, CylinderKind::Mercator),
     },
     Kind {
         name: "cylinder",
         about: "a central cylinder: upright lines stay straight",
         keys: &CYLINDER_KEYS,
         refused: &[],
+        build: |fields| maps::cylinder(fields, CylinderKind::Central),
     },
-    Kind { name: "equal-area", about: "Lambert's equal-area cylinder", keys: &CYLINDER_KEYS, refused: &[] },
+    Kind {
+        name: "equal-area",
+        about: "Lambert's equal-area cylinder",
+        keys: &CYLINDER_KEYS,
+        refused: &[],
+        build: |fields| maps::cylinder(fields, CylinderKind::EqualArea),
+    },
     Kind {
         name: "mirror-ball",
         about: "a mirror ball as photographed, the camera looking ahead at it",
@@ -200,6 +223,7 @@ pub(crate) static KINDS: [Kind; 19] = [
             key("radius", "PIXELS", "the radius of its outline in pixels"),
         ],
         refused: &[],
+        build: maps::mirror_ball,
     },
     Kind {
         name: "angular-map",
@@ -209,10 +233,29 @@ pub(crate) static KINDS: [Kind; 19] = [
             key("radius", "PIXELS", "the circle's radius in pixels"),
         ],
         refused: &[],
+        build: lens::angular_map,
     },
-    Kind { name: "hammer", about: "Hammer's equal-area map of the world", keys: &[], refused: &[FITS] },
-    Kind { name: "mollweide", about: "Mollweide's equal-area map of the world", keys: &[], refused: &[FITS] },
-    Kind { name: "sinusoidal", about: "the sinusoidal equal-area map of the world", keys: &[], refused: &[FITS] },
+    Kind {
+        name: "hammer",
+        about: "Hammer's equal-area map of the world",
+        keys: &[],
+        refused: &[FITS],
+        build: |fields| Shape::single(fields, Frame::WorldMap(WorldMapFrame::Hammer)),
+    },
+    Kind {
+        name: "mollweide",
+        about: "Mollweide's equal-area map of the world",
+        keys: &[],
+        refused: &[FITS],
+        build: |fields| Shape::single(fields, Frame::WorldMap(WorldMapFrame::Mollweide)),
+    },
+    Kind {
+        name: "sinusoidal",
+        about: "the sinusoidal equal-area map of the world",
+        keys: &[],
+        refused: &[FITS],
+        build: |fields| Shape::single(fields, Frame::WorldMap(WorldMapFrame::Sinusoidal)),
+    },
     Kind {
         name: "pannini",
         about: "a wide view in which upright lines stay straight",
@@ -221,12 +264,14 @@ pub(crate) static KINDS: [Kind; 19] = [
             key("d", "D", "0 is a pinhole camera, 1 Pannini's own, more squeezes the sides further (1)"),
         ],
         refused: &[],
+        build: maps::pannini,
     },
     Kind {
         name: "octahedral",
         about: "the sphere on an octahedron, unfolded; with pitch=90 the zenith is in the middle, as in pbrt",
         keys: &[key("kind", "equal-area|plain", "Clarberg's, as pbrt stores environments, or along rays (equal-area)")],
         refused: &[FITS],
+        build: maps::octahedral,
     },
     Kind {
         name: "st-map",
@@ -243,6 +288,7 @@ pub(crate) static KINDS: [Kind; 19] = [
             ),
         ],
         refused: &[FITS, NO_EYES],
+        build: |fields| StMapSpec::build(fields).map(Shape::StMap),
     },
 ];
 
@@ -277,63 +323,5 @@ impl Kind {
     /// Why it does not take a common key, if it does not.
     pub(crate) fn refusal(&self, key: &str) -> Option<&'static str> {
         self.refused.iter().find(|refused| refused.key == key).map(|refused| refused.why)
-    }
-}
-
-/// The table as help text.
-pub(crate) fn help() -> String {
-    let mut text = String::from("SPEC is NAME[:key=value[,key=value]...]:\n");
-    for kind in &KINDS {
-        text += &format!("\n  {:<12} {}\n", kind.name, kind.about);
-        for key in kind.keys {
-            text += &key_help(key);
-        }
-    }
-    text += "\n  Every SPEC also takes\n";
-    for key in &COMMON {
-        text += &key_help(key);
-        let without: Vec<&str> =
-            KINDS.iter().filter(|kind| kind.refusal(key.name).is_some()).map(|kind| kind.name).collect();
-        if !without.is_empty() {
-            text += &format!("{:39} not {}\n", "", without.join(", "));
-        }
-    }
-    text
-}
-
-fn key_help(key: &Key) -> String {
-    format!("    {:<34} {}\n", format!("{}={}", key.name, key.value), key.about)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::spec::Spec;
-
-    #[test]
-    fn every_spec_takes_the_keys_that_help_says_it_takes() {
-        let help = help();
-        for (kind, key) in KINDS.iter().flat_map(|kind| COMMON.iter().map(move |key| (kind, key))) {
-            // Values of their own kind; what they need beside them comes along.
-            let beside = if matches!(key.name, "swap" | "eye") { "stereo=sbs," } else { "" };
-            let file = if kind.name == "st-map" { "file=a.exr," } else { "" };
-            let value = match key.name {
-                "flip" => "x",
-                "canvas" => "9x9+0+0",
-                "stereo" => "sbs",
-                "swap" => "yes",
-                "eye" => "left",
-                _ => "2",
-            };
-            let parsed = format!("{}:{file}{beside}{}={value}", kind.name, key.name).parse::<Spec>();
-            let line = help.lines().skip_while(|line| !line.starts_with(&format!("    {}=", key.name))).nth(1);
-            let is_left_out = line.is_some_and(|line| {
-                line.trim_start()
-                    .strip_prefix("not ")
-                    .is_some_and(|names| names.split(", ").any(|name| name == kind.name))
-            });
-            let needs_stereo = !beside.is_empty() && kind.refusal("stereo").is_some();
-            assert_eq!(parsed.is_err(), is_left_out || needs_stereo, "{} {}: {parsed:?}", kind.name, key.name);
-        }
     }
 }

@@ -3,10 +3,12 @@
 use cosmorama::projection::azimuthal::{
     DoubleSphere, FieldOfViewLens, FisheyeLens, KannalaBrandt, LensError, OCAM_COEFFICIENTS, Ocam, Polynomial, Unified,
 };
-use cosmorama::world::{FisheyeFit, FisheyeFrame, LensScale};
+use cosmorama::sphere::Angle;
+use cosmorama::world::{FisheyeFit, FisheyeFrame, Frame, LensScale};
 
-use super::SpecError;
+use super::calibration::{Family, calibrated};
 use super::fields::{Fields, wrong};
+use super::{Shape, SpecError};
 
 /// A lens by name.
 #[derive(Clone, Copy)]
@@ -35,8 +37,10 @@ const MODELS: [(&str, Model); 11] = [
     ("fov", Model::FieldOfView),
 ];
 
-/// The frame of a `fisheye` SPEC.
-pub(super) fn fisheye(fields: &Fields) -> Result<FisheyeFrame, SpecError> {
+pub(super) fn fisheye(fields: &Fields) -> Result<Shape, SpecError> {
+    if let Some(camera) = calibrated(fields, Family::Fisheye)? {
+        return Shape::single(fields, Frame::Calibrated(camera));
+    }
     let lens = lens(fields)?;
     let scale = scale(fields)?;
     let field_of_view = match (fields.angle("fov")?, scale) {
@@ -45,7 +49,19 @@ pub(super) fn fisheye(fields: &Fields) -> Result<FisheyeFrame, SpecError> {
         // The scale says how large the picture is; the lens shows what it can.
         (None, _) => FisheyeFrame::whole_field(lens),
     };
-    Ok(FisheyeFrame { lens, field_of_view, scale, circle: fields.circle()?, pixel_aspect: fields.aspect()? })
+    let frame = FisheyeFrame { lens, field_of_view, scale, circle: fields.circle()?, pixel_aspect: fields.aspect()? };
+    Shape::single(fields, Frame::Fisheye(frame))
+}
+
+/// Debevec's light probes: an equidistant fisheye that sees everything.
+pub(super) fn angular_map(fields: &Fields) -> Result<Shape, SpecError> {
+    let frame = FisheyeFrame {
+        field_of_view: Angle::TURN,
+        circle: fields.circle()?,
+        pixel_aspect: fields.aspect()?,
+        ..FisheyeFrame::default()
+    };
+    Shape::single(fields, Frame::Fisheye(frame))
 }
 
 fn scale(fields: &Fields) -> Result<LensScale, SpecError> {

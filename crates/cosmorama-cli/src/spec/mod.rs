@@ -4,12 +4,13 @@
 
 mod alias;
 mod angle;
-mod build;
 mod calibration;
+mod camera;
 mod cube;
 mod dual;
 mod fields;
-pub(crate) mod kind;
+mod help;
+mod kind;
 mod lens;
 mod maps;
 mod shape;
@@ -21,6 +22,7 @@ mod window;
 pub(crate) use angle::parse_degrees;
 pub(crate) use cube::{Cube, Packing};
 pub(crate) use dual::Dual;
+pub(crate) use help::help;
 pub(crate) use shape::{Shape, Single, SphereSamples};
 pub(crate) use st_map::StMapSpec;
 pub(crate) use stereo::StereoSpec;

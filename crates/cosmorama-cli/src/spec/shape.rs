@@ -1,6 +1,7 @@
 use cosmorama::world::{Frame, Placement, SamplePositions};
 
-use super::{Cube, Dual, StMapSpec};
+use super::fields::Fields;
+use super::{Cube, Dual, SpecError, StMapSpec};
 
 /// What a SPEC stands for.
 #[derive(Clone, Debug, PartialEq)]
@@ -13,6 +14,25 @@ pub(crate) enum Shape {
     Dual(Box<Dual>),
     /// One image, and a map that is still to be read.
     StMap(StMapSpec),
+}
+
+impl Shape {
+    /// One image in a frame, placed as its keys say.
+    pub(super) fn single(fields: &Fields, frame: Frame) -> Result<Self, SpecError> {
+        let placement = Placement {
+            frame,
+            orientation: fields.orientation()?,
+            mirror: fields.mirror()?,
+            canvas: fields.canvas("canvas")?,
+        };
+        let samples = match frame {
+            Frame::Equirect(frame) if fields.get("samples").is_some() => SphereSamples::Given(frame.samples),
+            Frame::Equirect(_) => SphereSamples::ByFormat,
+            _ => SphereSamples::NotAPanorama,
+        };
+        let any_shape = fields.get("hfov").is_some() && fields.get("vfov").is_some();
+        Ok(Self::Single(Single { placement, samples, any_shape }))
+    }
 }
 
 /// One image.

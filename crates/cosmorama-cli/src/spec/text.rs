@@ -120,7 +120,7 @@ impl Spec {
             }
         }
         let fields = Fields::new(pairs, folder);
-        let (shape, stereo) = (Shape::build(kind.name, &fields)?, StereoSpec::build(&fields)?);
+        let (shape, stereo) = ((kind.build)(&fields)?, StereoSpec::build(&fields)?);
         let mut files: Vec<PathBuf> = ["file", "calibration"].into_iter().filter_map(|key| fields.file(key)).collect();
         if let Shape::StMap(map) = &shape {
             files.extend(map.base_files.iter().cloned());

@@ -4,49 +4,10 @@ use super::azimuthal::{Azimuthal, FisheyeLens, OmnimaxLens};
 use super::cylindrical::{Central, Cylindrical, EqualArea, Equirectangular, Mercator};
 use super::pseudocylindrical::{Mollweide, Pseudocylindrical, Sinusoidal};
 use super::{
-    BrownConrady, BrownConradyCoefficients, Calibrated, EquiAngular, Hammer, MirrorBall, Octahedral, OctahedralKind,
-    Outline, Pannini, Perspective, PlanePoint, PlaneRect, Projection, StMap,
+    BrownConrady, BrownConradyCoefficients, Calibrated, EquiAngular, Hammer, MirrorBall, Outline, Perspective,
+    PlanePoint, PlaneRect, Projection, ProjectionKind,
 };
 use crate::sphere::{Angle, Direction, DirectionJacobian};
-
-/// Every projection, chosen at run time.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum ProjectionKind {
-    /// A pinhole camera; a cube face is one of 90°.
-    Perspective(Perspective),
-    /// The Omnimax lens.
-    Omnimax(Azimuthal<OmnimaxLens>),
-    /// A fisheye lens.
-    Fisheye(Azimuthal<FisheyeLens>),
-    /// A camera whose lens bends straight lines.
-    Pinhole(Calibrated<BrownConrady>),
-    /// A fisheye whose sensor is skewed.
-    SkewedFisheye(Calibrated<Azimuthal<FisheyeLens>>),
-    /// The panorama of longitude by latitude.
-    Equirectangular(Cylindrical<Equirectangular>),
-    /// A face of an equi-angular cube map.
-    EquiAngular(EquiAngular),
-    /// Mercator's map.
-    Mercator(Cylindrical<Mercator>),
-    /// The central cylinder.
-    CentralCylinder(Cylindrical<Central>),
-    /// Lambert's equal-area cylinder.
-    EqualAreaCylinder(Cylindrical<EqualArea>),
-    /// A mirror ball as photographed.
-    MirrorBall(MirrorBall),
-    /// Hammer's map of the world.
-    Hammer(Hammer),
-    /// Mollweide's map of the world.
-    Mollweide(Pseudocylindrical<Mollweide>),
-    /// The sinusoidal map of the world.
-    Sinusoidal(Pseudocylindrical<Sinusoidal>),
-    /// The general Pannini projection.
-    Pannini(Pannini),
-    /// The sphere on an octahedron.
-    Octahedral(Octahedral),
-    /// A table of places and directions.
-    StMap(StMap),
-}
 
 impl ProjectionKind {
     /// The pinhole camera.
@@ -84,71 +45,24 @@ impl ProjectionKind {
     pub const fn fisheye(lens: FisheyeLens) -> Self {
         Self::Fisheye(Azimuthal(lens))
     }
-
-    /// One of each that has a formula, for tests and listings; those with a parameter with several.
-    pub fn all() -> Vec<Self> {
-        let plain = [
-            Self::PERSPECTIVE,
-            Self::OMNIMAX,
-            Self::EQUIRECTANGULAR,
-            Self::EQUI_ANGULAR,
-            Self::MERCATOR,
-            Self::CENTRAL_CYLINDER,
-            Self::EQUAL_AREA_CYLINDER,
-            Self::MIRROR_BALL,
-            Self::HAMMER,
-            Self::MOLLWEIDE,
-            Self::SINUSOIDAL,
-        ];
-        let lenses = FisheyeLens::all().into_iter().map(Self::fisheye);
-        let balls = [100.0, 2.0].into_iter().filter_map(MirrorBall::from_distance).map(Self::MirrorBall);
-        let panninis = [0.0, 0.5, 1.0, 2.0].into_iter().filter_map(Pannini::from_distance).map(Self::Pannini);
-        let octahedra =
-            [OctahedralKind::EqualArea, OctahedralKind::Plain].map(|kind| Self::Octahedral(Octahedral(kind)));
-        let cameras = cameras().into_iter();
-        plain.into_iter().chain(cameras).chain(lenses).chain(balls).chain(panninis).chain(octahedra).collect()
-    }
 }
 
-/// Cameras as they are measured: bent along radii, every way, by a quotient, and skewed.
-fn cameras() -> Vec<ProjectionKind> {
+/// Cameras as they are measured: bent along radii, every way, and by a quotient.
+pub(super) fn bent_cameras() -> impl Iterator<Item = Calibrated<BrownConrady>> {
     let bent = [
         &[-0.28, 0.07, 0.0, 0.0][..],
         &[-0.265, -0.047, 0.0018, -0.0003, 0.252],
         &[10.7, 5.9, 1e-4, -2e-4, 0.28, 11.1, 9.9, 1.5, 1e-3, -2e-4, 5e-4, 1e-4],
     ];
-    let lenses = bent.into_iter().filter_map(|numbers| {
+    bent.into_iter().filter_map(|numbers| {
         let lens = BrownConrady::new(BrownConradyCoefficients::from_opencv(numbers)).ok()?;
-        Some(ProjectionKind::Pinhole(Calibrated::new(lens, 0.003, Angle::HALF_TURN)))
-    });
-    let fisheye = Azimuthal(FisheyeLens::EQUISOLID);
-    let skewed = ProjectionKind::SkewedFisheye(Calibrated::new(fisheye, -0.02, Angle::from_degrees(95.0)));
-    lenses.chain(std::iter::once(skewed)).collect()
+        Some(Calibrated::new(lens, 0.003, Angle::HALF_TURN))
+    })
 }
 
-/// Calls a method of the projection that is inside.
-macro_rules! each {
-    ($kind:expr, $projection:ident => $call:expr) => {
-        match $kind {
-            ProjectionKind::Perspective($projection) => $call,
-            ProjectionKind::Omnimax($projection) => $call,
-            ProjectionKind::Fisheye($projection) => $call,
-            ProjectionKind::Pinhole($projection) => $call,
-            ProjectionKind::SkewedFisheye($projection) => $call,
-            ProjectionKind::Equirectangular($projection) => $call,
-            ProjectionKind::EquiAngular($projection) => $call,
-            ProjectionKind::Mercator($projection) => $call,
-            ProjectionKind::CentralCylinder($projection) => $call,
-            ProjectionKind::EqualAreaCylinder($projection) => $call,
-            ProjectionKind::MirrorBall($projection) => $call,
-            ProjectionKind::Hammer($projection) => $call,
-            ProjectionKind::Mollweide($projection) => $call,
-            ProjectionKind::Sinusoidal($projection) => $call,
-            ProjectionKind::Pannini($projection) => $call,
-            ProjectionKind::Octahedral($projection) => $call,
-            ProjectionKind::StMap($projection) => $call,
-        }
-    };
+/// And one whose rows lean.
+pub(super) fn skewed_fisheye() -> Calibrated<Azimuthal<FisheyeLens>> {
+    Calibrated::new(Azimuthal(FisheyeLens::EQUISOLID), -0.02, Angle::from_degrees(95.0))
 }
 
 impl Projection for ProjectionKind {

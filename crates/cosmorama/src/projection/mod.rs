@@ -1,7 +1,7 @@
 //! Projections: invertible mappings between directions and a plane.
 //!
 //! A projection knows nothing of pixels, orientation or the edge of an image: those belong to
-//! [`crate::world::View`]. Each one is a small file, and adding one touches its file and [`ProjectionKind`].
+//! [`crate::world::View`]. Each one is a small file, and adding one touches its file and the list in this one.
 
 pub mod azimuthal;
 mod brown_conrady;
@@ -10,10 +10,10 @@ pub mod cylindrical;
 mod equi_angular;
 mod graticule;
 mod hammer;
-mod kind;
 mod meridian;
 mod mirror_ball;
 mod octahedral;
+mod one_of;
 mod outline;
 mod pannini;
 mod perspective;
@@ -26,18 +26,64 @@ pub use brown_conrady::{BrownConrady, BrownConradyCoefficients};
 pub use calibrated::Calibrated;
 pub use equi_angular::EquiAngular;
 pub use hammer::Hammer;
-pub use kind::ProjectionKind;
 pub use mirror_ball::MirrorBall;
 pub use octahedral::{Octahedral, OctahedralKind};
+pub(crate) use one_of::one_of;
 pub use outline::{Outline, Ring, Sector};
 pub use pannini::Pannini;
 pub use perspective::Perspective;
 pub use plane::{PlanePoint, PlaneRect};
 pub use st_map::{StMap, StMapError, StMapTable};
 
+use azimuthal::{Azimuthal, FisheyeLens, OmnimaxLens};
+use cylindrical::{Central, Cylindrical, EqualArea, Equirectangular, Mercator};
 use glam::{DVec2, DVec3};
+use pseudocylindrical::{Mollweide, Pseudocylindrical, Sinusoidal};
 
 use crate::sphere::{Angle, Direction, DirectionJacobian};
+
+one_of! { ($)
+    /// Every projection, chosen at run time.
+    pub enum ProjectionKind {
+        /// A pinhole camera; a cube face is one of 90°.
+        Perspective(Perspective) = [Perspective],
+        /// The Omnimax lens.
+        Omnimax(Azimuthal<OmnimaxLens>) = [Azimuthal(OmnimaxLens)],
+        /// A fisheye lens.
+        Fisheye(Azimuthal<FisheyeLens>) = FisheyeLens::all().into_iter().map(Azimuthal),
+        /// A camera whose lens bends straight lines.
+        Pinhole(Calibrated<BrownConrady>) = kind::bent_cameras(),
+        /// A fisheye whose sensor is skewed.
+        SkewedFisheye(Calibrated<Azimuthal<FisheyeLens>>) = [kind::skewed_fisheye()],
+        /// The panorama of longitude by latitude.
+        Equirectangular(Cylindrical<Equirectangular>) = [Cylindrical(Equirectangular)],
+        /// A face of an equi-angular cube map.
+        EquiAngular(EquiAngular) = [EquiAngular],
+        /// Mercator's map.
+        Mercator(Cylindrical<Mercator>) = [Cylindrical(Mercator)],
+        /// The central cylinder.
+        CentralCylinder(Cylindrical<Central>) = [Cylindrical(Central)],
+        /// Lambert's equal-area cylinder.
+        EqualAreaCylinder(Cylindrical<EqualArea>) = [Cylindrical(EqualArea)],
+        /// A mirror ball as photographed.
+        MirrorBall(MirrorBall) =
+            [MirrorBall::DISTANT].into_iter().chain([100.0, 2.0].into_iter().filter_map(MirrorBall::from_distance)),
+        /// Hammer's map of the world.
+        Hammer(Hammer) = [Hammer],
+        /// Mollweide's map of the world.
+        Mollweide(Pseudocylindrical<Mollweide>) = [Pseudocylindrical(Mollweide)],
+        /// The sinusoidal map of the world.
+        Sinusoidal(Pseudocylindrical<Sinusoidal>) = [Pseudocylindrical(Sinusoidal)],
+        /// The general Pannini projection.
+        Pannini(Pannini) = [0.0, 0.5, 1.0, 2.0].into_iter().filter_map(Pannini::from_distance),
+        /// The sphere on an octahedron.
+        Octahedral(Octahedral) = [OctahedralKind::EqualArea, OctahedralKind::Plain].map(Octahedral),
+        /// A table of places and directions: it has no formula, and tests of its own.
+        StMap(StMap) = [],
+    }
+}
+
+mod kind;
 
 /// An invertible mapping between directions (in the view's own frame, −Z forward) and a plane (x right, y up) in the
 /// projection's natural unit.

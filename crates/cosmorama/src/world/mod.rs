@@ -25,12 +25,7 @@ mod world;
 pub use blend::Blend;
 pub use coverage::ScreenPixel;
 pub use field_stop::FieldStop;
-pub use frame::{
-    CalibratedFrame, CalibratedLens, CameraMatrix, Canvas, CubeFaceFrame, CylinderFrame, CylinderKind, EquirectFrame,
-    FaceMapping, FieldOfView, FisheyeFit, FisheyeFrame, Frame, FrameError, FulldomeFrame, HuginFrame, HuginProjection,
-    LayoutFaceFrame, LensCircle, LensScale, Mirror, MirrorBallFrame, OctahedralFrame, OmnimaxFrame, PanniniFrame,
-    PerspectiveFrame, Placement, SamplePositions, StMapFrame, StereographicFrame, WorldMapFrame,
-};
+pub use frame::*;
 pub use framing::OmnimaxFraming;
 pub use grid::{PixelBounds, PixelGrid, PixelPoint, PixelRect};
 pub(crate) use halved::held;

@@ -1,53 +1,4 @@
-use super::{
-    DoubleSphere, Equidistant, Equisolid, FieldOfViewLens, Hugin, HuginIdeal, KannalaBrandt, Lens, Ocam, Orthographic,
-    Polynomial, Stereographic, Unified,
-};
-
-/// Every fisheye lens, chosen at run time.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum FisheyeLens {
-    /// r = φ.
-    Equidistant(Equidistant),
-    /// r = 2 sin(φ/2).
-    Equisolid(Equisolid),
-    /// r = 2 tan(φ/2).
-    Stereographic(Stereographic),
-    /// r = sin φ.
-    Orthographic(Orthographic),
-    /// Blender's polynomial, in millimetres.
-    Polynomial(Polynomial),
-    /// OpenCV's fisheye.
-    KannalaBrandt(KannalaBrandt),
-    /// OCamCalib's polynomial, in pixels.
-    Ocam(Ocam),
-    /// The unified camera model and its extension.
-    Unified(Unified),
-    /// The double sphere model.
-    DoubleSphere(DoubleSphere),
-    /// The field-of-view model.
-    FieldOfView(FieldOfViewLens),
-    /// An ideal lens with Hugin's correction.
-    Hugin(Hugin),
-}
-
-/// Calls a method of the lens that is inside.
-macro_rules! each {
-    ($kind:expr, $lens:ident => $call:expr) => {
-        match $kind {
-            FisheyeLens::Equidistant($lens) => $call,
-            FisheyeLens::Equisolid($lens) => $call,
-            FisheyeLens::Stereographic($lens) => $call,
-            FisheyeLens::Orthographic($lens) => $call,
-            FisheyeLens::Polynomial($lens) => $call,
-            FisheyeLens::KannalaBrandt($lens) => $call,
-            FisheyeLens::Ocam($lens) => $call,
-            FisheyeLens::Unified($lens) => $call,
-            FisheyeLens::DoubleSphere($lens) => $call,
-            FisheyeLens::FieldOfView($lens) => $call,
-            FisheyeLens::Hugin($lens) => $call,
-        }
-    };
-}
+use super::{Equidistant, Equisolid, FisheyeLens, Lens, Orthographic, Stereographic};
 
 impl FisheyeLens {
     /// r = φ.
@@ -58,23 +9,6 @@ impl FisheyeLens {
     pub const STEREOGRAPHIC: Self = Self::Stereographic(Stereographic);
     /// r = sin φ.
     pub const ORTHOGRAPHIC: Self = Self::Orthographic(Orthographic);
-
-    /// One of each, for tests and listings; the measured ones are lenses that somebody has.
-    pub fn all() -> Vec<Self> {
-        let measured = [
-            Polynomial::from_blender([0.0, -1.2, 0.0, 0.1, -0.02]).map(Self::Polynomial),
-            KannalaBrandt::from_opencv([-0.0014, -0.0032, 0.0043, -0.0016]).map(Self::KannalaBrandt),
-            Ocam::from_coefficients([-0.7, 0.0, 0.35, -0.02, 0.03, 0.0, 0.0, 0.0]).map(Self::Ocam),
-            Unified::from_parameters(0.55, 1.0).map(Self::Unified),
-            Unified::from_parameters(0.6, 1.1).map(Self::Unified),
-            DoubleSphere::from_parameters(-0.179, 0.591).map(Self::DoubleSphere),
-            FieldOfViewLens::from_omega(0.95).map(Self::FieldOfView),
-            Hugin::from_abc(HuginIdeal::Equidistant, [0.01, -0.03, 0.01], 1.2).map(Self::Hugin),
-            Hugin::from_abc(HuginIdeal::Rectilinear, [0.0, -0.05, 0.0], 0.8).map(Self::Hugin),
-        ];
-        let ideal = [Self::EQUIDISTANT, Self::EQUISOLID, Self::STEREOGRAPHIC, Self::ORTHOGRAPHIC];
-        ideal.into_iter().chain(measured.into_iter().flatten()).collect()
-    }
 }
 
 impl Lens for FisheyeLens {

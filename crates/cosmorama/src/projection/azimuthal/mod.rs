@@ -8,7 +8,6 @@ mod double_sphere;
 mod equidistant;
 mod equisolid;
 mod field_of_view;
-mod fisheye_lens;
 mod hugin;
 mod kannala_brandt;
 mod lens;
@@ -26,7 +25,6 @@ pub use double_sphere::DoubleSphere;
 pub use equidistant::Equidistant;
 pub use equisolid::Equisolid;
 pub use field_of_view::FieldOfViewLens;
-pub use fisheye_lens::FisheyeLens;
 pub use hugin::{Hugin, HuginIdeal};
 pub use kannala_brandt::KannalaBrandt;
 pub use lens::{Lens, LensError};
@@ -41,8 +39,44 @@ use std::f64::consts::PI;
 
 use glam::DVec3;
 
-use super::{Outline, PlanePoint, PlaneRect, Projection, Ring, Sector};
+use super::{Outline, PlanePoint, PlaneRect, Projection, Ring, Sector, one_of};
 use crate::sphere::{Angle, Direction, DirectionJacobian};
+
+one_of! { ($)
+    /// Every fisheye lens, chosen at run time; the examples of measured ones are lenses that somebody has.
+    pub enum FisheyeLens {
+        /// r = φ.
+        Equidistant(Equidistant) = [Equidistant],
+        /// r = 2 sin(φ/2).
+        Equisolid(Equisolid) = [Equisolid],
+        /// r = 2 tan(φ/2).
+        Stereographic(Stereographic) = [Stereographic],
+        /// r = sin φ.
+        Orthographic(Orthographic) = [Orthographic],
+        /// Blender's polynomial, in millimetres.
+        Polynomial(Polynomial) = Polynomial::from_blender([0.0, -1.2, 0.0, 0.1, -0.02]),
+        /// OpenCV's fisheye.
+        KannalaBrandt(KannalaBrandt) = KannalaBrandt::from_opencv([-0.0014, -0.0032, 0.0043, -0.0016]),
+        /// OCamCalib's polynomial, in pixels.
+        Ocam(Ocam) = Ocam::from_coefficients([-0.7, 0.0, 0.35, -0.02, 0.03, 0.0, 0.0, 0.0]),
+        /// The unified camera model and its extension.
+        Unified(Unified) =
+            [Unified::from_parameters(0.55, 1.0), Unified::from_parameters(0.6, 1.1)].into_iter().flatten(),
+        /// The double sphere model.
+        DoubleSphere(DoubleSphere) = DoubleSphere::from_parameters(-0.179, 0.591),
+        /// The field-of-view model.
+        FieldOfView(FieldOfViewLens) = FieldOfViewLens::from_omega(0.95),
+        /// An ideal lens with Hugin's correction.
+        Hugin(Hugin) = [
+            Hugin::from_abc(HuginIdeal::Equidistant, [0.01, -0.03, 0.01], 1.2),
+            Hugin::from_abc(HuginIdeal::Rectilinear, [0.0, -0.05, 0.0], 0.8),
+        ]
+        .into_iter()
+        .flatten(),
+    }
+}
+
+mod fisheye_lens;
 
 /// The projection of a [`Lens`]: the plane's unit is the lens's own unit of radius, its origin the axis.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

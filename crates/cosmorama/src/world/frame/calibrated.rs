@@ -1,7 +1,7 @@
 use glam::DVec2;
 
 use super::error::{check_field_of_view, rounded};
-use super::{CameraMatrix, FrameError};
+use super::{CameraMatrix, FrameError, ImageFrame};
 use crate::projection::azimuthal::{Azimuthal, FisheyeLens, Lens};
 use crate::projection::{BrownConrady, Calibrated, PlanePoint, Projection, ProjectionKind};
 use crate::sphere::{Angle, Direction, Orientation};
@@ -35,8 +35,8 @@ const INFINITELY_FAR: f64 = 1e6;
 /// Kernels reach a little beyond an image's corners; so does what the projection knows, as a part of the angle.
 const BEYOND_CORNERS: f64 = 1.05;
 
-impl CalibratedFrame {
-    pub(super) fn view(&self, width: usize, height: usize) -> Result<View, FrameError> {
+impl ImageFrame for CalibratedFrame {
+    fn view(&self, width: usize, height: usize) -> Result<View, FrameError> {
         let matrix = self.matrix.scaled(self.scale(width, height)?);
         let CameraMatrix { focal, principal, .. } = matrix;
         let centre = PixelPoint::new(principal.x, principal.y);
@@ -50,12 +50,18 @@ impl CalibratedFrame {
     }
 
     /// Height over width.
-    pub(super) fn natural_ratio(&self) -> f64 {
+    fn natural_ratio(&self) -> f64 {
         self.size
             .filter(|(width, height)| width.min(height) > &0)
             .map_or(0.75, |(width, height)| height as f64 / width as f64)
     }
 
+    fn is_measured_in_pixels(&self) -> bool {
+        self.size.is_none()
+    }
+}
+
+impl CalibratedFrame {
     /// How much larger an image is than the one that was measured.
     fn scale(&self, width: usize, height: usize) -> Result<DVec2, FrameError> {
         let Some((w, h)) = self.size else { return Ok(DVec2::ONE) };

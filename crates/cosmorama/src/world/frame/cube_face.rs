@@ -1,3 +1,4 @@
+use super::{FrameError, ImageFrame};
 use crate::projection::{PlanePoint, PlaneRect, ProjectionKind};
 use crate::sphere::Orientation;
 use crate::world::{FieldStop, PixelGrid, View};
@@ -6,14 +7,14 @@ use crate::world::{FieldStop, PixelGrid, View};
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct CubeFaceFrame;
 
-impl CubeFaceFrame {
-    pub(super) fn view(self, width: usize, height: usize) -> View {
+impl ImageFrame for CubeFaceFrame {
+    fn view(&self, width: usize, height: usize) -> Result<View, FrameError> {
         let face = PlaneRect { min: PlanePoint::new(-1.0, -1.0), max: PlanePoint::new(1.0, 1.0) };
-        View {
+        Ok(View {
             projection: ProjectionKind::PERSPECTIVE,
             orientation: Orientation::IDENTITY,
             grid: PixelGrid::spanning(width, height, face),
             stop: FieldStop::NONE,
-        }
+        })
     }
 }

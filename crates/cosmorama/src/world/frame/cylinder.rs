@@ -1,7 +1,7 @@
 use glam::DVec2;
 
-use super::FrameError;
 use super::error::{check_field_of_view, check_positive};
+use super::{FrameError, ImageFrame};
 use crate::projection::{Projection, ProjectionKind};
 use crate::sphere::{Angle, Direction, Orientation};
 use crate::world::{FieldStop, PixelGrid, PixelPoint, View};
@@ -55,8 +55,10 @@ impl CylinderFrame {
     pub const fn new(kind: CylinderKind) -> Self {
         Self { kind, horizontal: Angle::TURN, top: None, pixel_aspect: 1.0 }
     }
+}
 
-    pub(super) fn view(&self, width: usize, height: usize) -> Result<View, FrameError> {
+impl ImageFrame for CylinderFrame {
+    fn view(&self, width: usize, height: usize) -> Result<View, FrameError> {
         check_field_of_view("the horizontal field of view", self.horizontal, 360.0, false)?;
         check_positive("the pixel aspect", self.pixel_aspect)?;
         let (w, h) = (width as f64, height as f64);
@@ -73,12 +75,14 @@ impl CylinderFrame {
         })
     }
 
-    pub(super) fn natural_ratio(&self) -> f64 {
+    fn natural_ratio(&self) -> f64 {
         let given = self.half_height().ok().flatten();
         let half = given.unwrap_or_else(|| self.kind.usual_height() * self.pixel_aspect);
         2.0 * half / self.horizontal.radians()
     }
+}
 
+impl CylinderFrame {
     /// The plane's height at the upper edge, where that is given.
     fn half_height(&self) -> Result<Option<f64>, FrameError> {
         let Some(top) = self.top else { return Ok(None) };

@@ -1,7 +1,7 @@
 use glam::DVec2;
 
-use super::FrameError;
 use super::error::{check_field_of_view, check_positive};
+use super::{FrameError, ImageFrame};
 use crate::projection::ProjectionKind;
 use crate::sphere::{Angle, Orientation};
 use crate::world::{FieldStop, PixelGrid, PixelPoint, View};
@@ -33,8 +33,8 @@ impl Default for EquirectFrame {
     }
 }
 
-impl EquirectFrame {
-    pub(super) fn view(&self, width: usize, height: usize) -> Result<View, FrameError> {
+impl ImageFrame for EquirectFrame {
+    fn view(&self, width: usize, height: usize) -> Result<View, FrameError> {
         check_field_of_view("the horizontal field of view", self.horizontal, 360.0, false)?;
         check_field_of_view("the vertical field of view", self.vertical, 180.0, false)?;
         let (w, h) = (width as f64, height as f64);
@@ -53,7 +53,7 @@ impl EquirectFrame {
         })
     }
 
-    pub(super) fn natural_ratio(&self) -> f64 {
+    fn natural_ratio(&self) -> f64 {
         self.vertical.radians() / self.horizontal.radians()
     }
 }

@@ -85,31 +85,17 @@ pub enum FrameError {
         /// Of its left part.
         determinant: f64,
     },
-    /// A camera inside the mirror ball.
-    #[error("the camera is {found} ball radii from the mirror ball's centre; it must be more than 1")]
-    BallDistance {
-        /// Ball radii asked for.
-        found: f64,
-    },
-    /// A Pannini projection seen from before its cylinder's axis.
-    #[error("Pannini's distance d is {found}; it must be from 0 (a pinhole) to 1000000")]
-    PanniniDistance {
-        /// What was asked for.
-        found: f64,
-    },
-    /// A cut outside the lens.
-    #[error("the lower cut is {found}° below the axis; it must be more than 0° and at most 90°")]
-    LowerCut {
-        /// Degrees asked for.
-        found: f64,
-    },
-    /// A length or ratio that is not positive.
-    #[error("{what} is {found}; it must be more than 0")]
-    NotPositive {
+    /// A number out of its range.
+    #[error("{what} is {found}{unit}; it must be {range}")]
+    OutOfRange {
         /// Which one.
         what: &'static str,
         /// What was asked for.
         found: f64,
+        /// In what: ` pixels`, or nothing.
+        unit: &'static str,
+        /// What there is.
+        range: &'static str,
     },
     /// A circle of which nothing is on the image.
     #[error(
@@ -154,7 +140,8 @@ pub(super) fn check_field_of_view(
 
 /// A length or ratio above zero.
 pub(super) fn check_positive(what: &'static str, found: f64) -> Result<(), FrameError> {
-    if found > 0.0 && found.is_finite() { Ok(()) } else { Err(FrameError::NotPositive { what, found }) }
+    let is_positive = found > 0.0 && found.is_finite();
+    if is_positive { Ok(()) } else { Err(FrameError::OutOfRange { what, found, unit: "", range: "more than 0" }) }
 }
 
 /// Six decimals, without zeros at the end.

@@ -1,7 +1,7 @@
 use glam::DVec2;
 
 use super::error::{check_field_of_view, check_positive};
-use super::{FrameError, LensCircle};
+use super::{FrameError, ImageFrame, LensCircle};
 use crate::projection::ProjectionKind;
 use crate::projection::azimuthal::{FisheyeLens, Lens};
 use crate::sphere::{Angle, Orientation};
@@ -86,8 +86,10 @@ impl FisheyeFrame {
         let ends = lens.radius(reach).is_some_and(|radius| radius < INFINITELY_FAR);
         Angle::from_radians(2.0 * if ends { reach } else { lens.angle(BEYOND_IMAGES).0 })
     }
+}
 
-    pub(super) fn view(&self, width: usize, height: usize) -> Result<View, FrameError> {
+impl ImageFrame for FisheyeFrame {
+    fn view(&self, width: usize, height: usize) -> Result<View, FrameError> {
         check_positive("the pixel aspect", self.pixel_aspect)?;
         let (w, h) = (width as f64, height as f64);
         let radius = self.rim()?;
@@ -107,6 +109,16 @@ impl FisheyeFrame {
         })
     }
 
+    fn natural_ratio(&self) -> f64 {
+        self.pixel_aspect
+    }
+
+    fn is_measured_in_pixels(&self) -> bool {
+        self.circle != LensCircle::FITTED || matches!(self.scale, LensScale::Focal(_))
+    }
+}
+
+impl FisheyeFrame {
     /// The radius at which the field of view ends, in the unit of the lens's formula.
     fn rim(&self) -> Result<f64, FrameError> {
         check_field_of_view("the field of view", self.field_of_view, 360.0, false)?;

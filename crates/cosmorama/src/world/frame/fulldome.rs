@@ -1,5 +1,5 @@
 use super::error::check_field_of_view;
-use super::{FisheyeFrame, FrameError};
+use super::{FisheyeFrame, FrameError, ImageFrame};
 use crate::sphere::{Angle, Orientation};
 use crate::world::View;
 
@@ -24,8 +24,8 @@ impl Default for FulldomeFrame {
     }
 }
 
-impl FulldomeFrame {
-    pub(super) fn view(&self, width: usize, height: usize) -> Result<View, FrameError> {
+impl ImageFrame for FulldomeFrame {
+    fn view(&self, width: usize, height: usize) -> Result<View, FrameError> {
         check_field_of_view("the field of view", self.field_of_view, 360.0, false)?;
         let fisheye = FisheyeFrame {
             field_of_view: self.field_of_view,
@@ -35,6 +35,10 @@ impl FulldomeFrame {
         let elevation = Angle::from_degrees(90.0) - self.tilt;
         let orientation = Orientation::from_yaw_pitch_roll(Angle::ZERO, elevation, Angle::ZERO);
         Ok(View { orientation, ..fisheye.view(width, height)? })
+    }
+
+    fn natural_ratio(&self) -> f64 {
+        self.pixel_aspect
     }
 }
 

@@ -1,7 +1,7 @@
 use glam::DVec2;
 
-use super::FrameError;
 use super::error::check_field_of_view;
+use super::{FrameError, ImageFrame};
 use crate::projection::ProjectionKind;
 use crate::projection::azimuthal::{FisheyeLens, Hugin, HuginIdeal, Lens};
 use crate::sphere::{Angle, Orientation};
@@ -75,8 +75,8 @@ pub struct HuginFrame {
     pub shift: [f64; 2],
 }
 
-impl HuginFrame {
-    pub(super) fn view(&self, width: usize, height: usize) -> Result<View, FrameError> {
+impl ImageFrame for HuginFrame {
+    fn view(&self, width: usize, height: usize) -> Result<View, FrameError> {
         let (w, h) = (width as f64, height as f64);
         let focal = self.focal(w)?;
         let projection = self.kind(focal, w.min(h))?;
@@ -91,6 +91,13 @@ impl HuginFrame {
         Ok(View { projection, orientation: Orientation::IDENTITY, grid, stop: FieldStop::NONE })
     }
 
+    /// As most cameras' pictures.
+    fn natural_ratio(&self) -> f64 {
+        0.75
+    }
+}
+
+impl HuginFrame {
     /// Pixels a unit of the projection.
     fn focal(&self, width: f64) -> Result<f64, FrameError> {
         let (greatest, below) = match self.projection {

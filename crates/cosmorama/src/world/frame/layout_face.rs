@@ -1,5 +1,5 @@
 use super::error::{check_field_of_view, check_positive};
-use super::{FrameError, SamplePositions};
+use super::{FrameError, ImageFrame, SamplePositions};
 use crate::projection::{PlanePoint, PlaneRect, ProjectionKind};
 use crate::sphere::{Angle, Orientation};
 use crate::world::{FieldStop, PixelGrid, View};
@@ -37,8 +37,8 @@ pub enum FaceMapping {
     EquiAngular,
 }
 
-impl LayoutFaceFrame {
-    pub(super) fn view(self, width: usize, height: usize) -> Result<View, FrameError> {
+impl ImageFrame for LayoutFaceFrame {
+    fn view(&self, width: usize, height: usize) -> Result<View, FrameError> {
         check_field_of_view("a face's field of view", self.field_of_view, 180.0, true)?;
         let half = self.field_of_view * 0.5;
         let (projection, edge) = match self.mapping {

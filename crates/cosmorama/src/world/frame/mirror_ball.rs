@@ -1,7 +1,7 @@
 use glam::DVec2;
 
 use super::error::check_positive;
-use super::{FrameError, LensCircle};
+use super::{FrameError, ImageFrame, LensCircle};
 use crate::projection::{MirrorBall, ProjectionKind};
 use crate::sphere::Orientation;
 use crate::world::{FieldStop, PixelGrid, PixelPoint, View};
@@ -23,12 +23,12 @@ impl Default for MirrorBallFrame {
     }
 }
 
-impl MirrorBallFrame {
-    pub(super) fn view(&self, width: usize, height: usize) -> Result<View, FrameError> {
+impl ImageFrame for MirrorBallFrame {
+    fn view(&self, width: usize, height: usize) -> Result<View, FrameError> {
         check_positive("the pixel aspect", self.pixel_aspect)?;
         let ball = match self.distance {
             None => MirrorBall::DISTANT,
-            Some(found) => MirrorBall::from_distance(found).ok_or(FrameError::BallDistance { found })?,
+            Some(found) => MirrorBall::from_distance(found).ok_or(inside_the_ball(found))?,
         };
         let (w, h) = (width as f64, height as f64);
         let step = 2.0 / (w * self.pixel_aspect).min(h);
@@ -41,6 +41,19 @@ impl MirrorBallFrame {
             stop: FieldStop::circle(1.0),
         })
     }
+
+    fn natural_ratio(&self) -> f64 {
+        self.pixel_aspect
+    }
+
+    fn is_measured_in_pixels(&self) -> bool {
+        self.circle != LensCircle::FITTED
+    }
+}
+
+fn inside_the_ball(found: f64) -> FrameError {
+    let unit = " ball radii from the mirror ball's centre";
+    FrameError::OutOfRange { what: "the camera", found, unit, range: "more than 1" }
 }
 
 #[cfg(test)]
@@ -60,6 +73,6 @@ mod tests {
             assert!(sees(80.0, 50.0).dot(Direction::RIGHT) > 0.5 && sees(50.0, 20.0).dot(Direction::UP) > 0.5);
         }
         let inside = MirrorBallFrame { distance: Some(1.0), ..MirrorBallFrame::default() };
-        assert_eq!(inside.view(4, 4), Err(FrameError::BallDistance { found: 1.0 }));
+        assert_eq!(inside.view(4, 4), Err(inside_the_ball(1.0)));
     }
 }

@@ -48,42 +48,60 @@ pub use stereographic::StereographicFrame;
 pub use world_map::WorldMapFrame;
 
 use super::View;
+use crate::projection::one_of;
 
-/// Every kind of frame, chosen at run time.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Frame {
-    /// A pinhole camera.
-    Perspective(PerspectiveFrame),
-    /// A face of a cube.
-    CubeFace(CubeFaceFrame),
-    /// A face of a cube map in equal angles, or with its samples on the edges.
-    LayoutFace(LayoutFaceFrame),
-    /// A fisheye.
-    Fisheye(FisheyeFrame),
-    /// A camera that was measured.
-    Calibrated(CalibratedFrame),
-    /// A picture of a Hugin project.
-    Hugin(HuginFrame),
-    /// A stereographic picture without a circle.
-    Stereographic(StereographicFrame),
-    /// A domemaster.
-    Fulldome(FulldomeFrame),
-    /// An Omnimax film frame.
-    Omnimax(OmnimaxFrame),
-    /// A panorama of longitude by latitude.
-    Equirect(EquirectFrame),
-    /// A panorama on a cylinder.
-    Cylinder(CylinderFrame),
-    /// A photograph of a mirror ball.
-    MirrorBall(MirrorBallFrame),
-    /// A map of the whole world.
-    WorldMap(WorldMapFrame),
-    /// A wide picture in Pannini's manner.
-    Pannini(PanniniFrame),
-    /// An octahedron unfolded.
-    Octahedral(OctahedralFrame),
-    /// A picture whose mapping is a table.
-    StMap(StMapFrame),
+one_of! { ($)
+    /// Every kind of frame, chosen at run time.
+    pub enum Frame {
+        /// A pinhole camera.
+        Perspective(PerspectiveFrame),
+        /// A face of a cube.
+        CubeFace(CubeFaceFrame),
+        /// A face of a cube map in equal angles, or with its samples on the edges.
+        LayoutFace(LayoutFaceFrame),
+        /// A fisheye.
+        Fisheye(FisheyeFrame),
+        /// A camera that was measured.
+        Calibrated(CalibratedFrame),
+        /// A picture of a Hugin project.
+        Hugin(HuginFrame),
+        /// A stereographic picture without a circle.
+        Stereographic(StereographicFrame),
+        /// A domemaster.
+        Fulldome(FulldomeFrame),
+        /// An Omnimax film frame.
+        Omnimax(OmnimaxFrame),
+        /// A panorama of longitude by latitude.
+        Equirect(EquirectFrame),
+        /// A panorama on a cylinder.
+        Cylinder(CylinderFrame),
+        /// A photograph of a mirror ball.
+        MirrorBall(MirrorBallFrame),
+        /// A map of the whole world.
+        WorldMap(WorldMapFrame),
+        /// A wide picture in Pannini's manner.
+        Pannini(PanniniFrame),
+        /// An octahedron unfolded.
+        Octahedral(OctahedralFrame),
+        /// A picture whose mapping is a table.
+        StMap(StMapFrame),
+    }
+}
+
+/// What each of them tells.
+trait ImageFrame {
+    /// The view of an image that has pixels.
+    fn view(&self, width: usize, height: usize) -> Result<View, FrameError>;
+
+    /// The height over the width that suits it.
+    fn natural_ratio(&self) -> f64 {
+        1.0
+    }
+
+    /// Whether a length in pixels says how large the picture is, so that no other size fits.
+    fn is_measured_in_pixels(&self) -> bool {
+        false
+    }
 }
 
 impl Frame {
@@ -95,47 +113,14 @@ impl Frame {
         if width == 0 || height == 0 {
             return Err(FrameError::NoPixels { width, height });
         }
-        match self {
-            Self::Perspective(frame) => frame.view(width, height),
-            Self::CubeFace(frame) => Ok(frame.view(width, height)),
-            Self::LayoutFace(frame) => frame.view(width, height),
-            Self::Fisheye(frame) => frame.view(width, height),
-            Self::Calibrated(frame) => frame.view(width, height),
-            Self::Hugin(frame) => frame.view(width, height),
-            Self::Stereographic(frame) => frame.view(width, height),
-            Self::Fulldome(frame) => frame.view(width, height),
-            Self::Omnimax(frame) => frame.view(width, height),
-            Self::Equirect(frame) => frame.view(width, height),
-            Self::Cylinder(frame) => frame.view(width, height),
-            Self::MirrorBall(frame) => frame.view(width, height),
-            Self::WorldMap(frame) => Ok(frame.view(width, height)),
-            Self::Pannini(frame) => frame.view(width, height),
-            Self::Octahedral(frame) => Ok(frame.view(width, height)),
-            Self::StMap(frame) => Ok(frame.view(width, height)),
-        }
+        each!(self, frame => frame.view(width, height))
     }
 
     /// The height that suits a width: square for fisheyes, domes and cube faces, the film's 1966:1436 for Omnimax,
     /// the shape of the field of view for a panorama, 4:3 for a camera unless its field of view is given both ways, twice as wide
     /// as high for a map of the world.
     pub fn natural_height(&self, width: usize) -> usize {
-        let ratio = match self {
-            Self::Perspective(frame) => frame.natural_ratio(),
-            Self::CubeFace(_) | Self::LayoutFace(_) => 1.0,
-            Self::Fisheye(frame) => frame.pixel_aspect,
-            Self::Calibrated(frame) => frame.natural_ratio(),
-            Self::Hugin(_) => 0.75,
-            Self::Stereographic(frame) => frame.pixel_aspect,
-            Self::Fulldome(frame) => frame.pixel_aspect,
-            Self::Omnimax(frame) => frame.natural_ratio(),
-            Self::Equirect(frame) => frame.natural_ratio(),
-            Self::Cylinder(frame) => frame.natural_ratio(),
-            Self::MirrorBall(frame) => frame.pixel_aspect,
-            Self::WorldMap(_) => 0.5,
-            Self::Pannini(frame) => frame.natural_ratio(),
-            Self::Octahedral(_) => 1.0,
-            Self::StMap(frame) => frame.natural_ratio,
-        };
+        let ratio = each!(self, frame => frame.natural_ratio());
         ((width as f64 * ratio).round() as usize).max(1)
     }
 
@@ -149,7 +134,7 @@ impl Frame {
         const TRIAL: usize = 1 << 20;
         /// Sides that no file format counts.
         const LARGEST: f64 = u32::MAX as f64;
-        if self.is_measured_in_pixels() {
+        if each!(self, frame => frame.is_measured_in_pixels()) {
             return Err(FrameError::SizeNeeded);
         }
         let trial = self.view(TRIAL, self.natural_height(TRIAL))?.pixels_per_radian();
@@ -160,17 +145,6 @@ impl Frame {
         }
         let height = self.natural_height(width as usize);
         Ok((width as usize, height + height % 2))
-    }
-
-    /// Whether a length in pixels says how large the picture is, so that no other size fits.
-    fn is_measured_in_pixels(&self) -> bool {
-        match self {
-            Self::Fisheye(frame) => frame.circle != LensCircle::FITTED || matches!(frame.scale, LensScale::Focal(_)),
-            Self::Calibrated(frame) => frame.size.is_none(),
-            Self::Omnimax(frame) => frame.circle != LensCircle::FITTED,
-            Self::MirrorBall(frame) => frame.circle != LensCircle::FITTED,
-            _ => false,
-        }
     }
 }
 

@@ -1,3 +1,4 @@
+use super::{FrameError, ImageFrame};
 use crate::projection::{Octahedral, OctahedralKind, PlanePoint, PlaneRect, ProjectionKind};
 use crate::sphere::Orientation;
 use crate::world::{FieldStop, PixelGrid, View};
@@ -9,15 +10,15 @@ pub struct OctahedralFrame {
     pub kind: OctahedralKind,
 }
 
-impl OctahedralFrame {
-    pub(super) fn view(self, width: usize, height: usize) -> View {
+impl ImageFrame for OctahedralFrame {
+    fn view(&self, width: usize, height: usize) -> Result<View, FrameError> {
         let square = PlaneRect { min: PlanePoint::new(-1.0, -1.0), max: PlanePoint::new(1.0, 1.0) };
-        View {
+        Ok(View {
             projection: ProjectionKind::Octahedral(Octahedral(self.kind)),
             orientation: Orientation::IDENTITY,
             grid: PixelGrid::spanning(width, height, square),
             stop: FieldStop::NONE,
-        }
+        })
     }
 }
 
@@ -30,7 +31,7 @@ mod tests {
     #[test]
     fn the_front_is_in_the_middle_and_the_back_in_the_corners() {
         for kind in [OctahedralKind::EqualArea, OctahedralKind::Plain] {
-            let view = OctahedralFrame { kind }.view(100, 100);
+            let view = OctahedralFrame { kind }.view(100, 100).unwrap();
             let sees = |x, y, expected: Direction| {
                 let seen = view.direction(PixelPoint::new(x, y)).unwrap();
                 assert!(seen.angle_to(expected).degrees() < 1e-6, "{kind:?}: ({x}, {y}) sees {seen:?}");

@@ -1,5 +1,5 @@
 use super::error::check_positive;
-use super::{FrameError, LensCircle};
+use super::{FrameError, ImageFrame, LensCircle};
 use crate::projection::ProjectionKind;
 use crate::sphere::{Angle, Orientation};
 use crate::world::{FieldStop, OmnimaxFraming, View};
@@ -34,13 +34,14 @@ impl Default for OmnimaxFrame {
     }
 }
 
-impl OmnimaxFrame {
-    pub(super) fn view(&self, width: usize, height: usize) -> Result<View, FrameError> {
+impl ImageFrame for OmnimaxFrame {
+    fn view(&self, width: usize, height: usize) -> Result<View, FrameError> {
         check_positive("the pixel aspect", self.pixel_aspect)?;
         if let Some(lower) = self.lower {
             let found = lower.degrees();
             if !(found > 0.0 && found <= 90.0 + 1e-9) {
-                return Err(FrameError::LowerCut { found });
+                let (unit, range) = ("° below the axis", "more than 0° and at most 90°");
+                return Err(FrameError::OutOfRange { what: "the lower cut", found, unit, range });
             }
         }
         let fitted = self.framing.grid(width, height, self.pixel_aspect);
@@ -53,11 +54,15 @@ impl OmnimaxFrame {
         })
     }
 
-    pub(super) fn natural_ratio(&self) -> f64 {
+    fn natural_ratio(&self) -> f64 {
         match self.framing {
             OmnimaxFraming::Fit => FILM_RATIO * self.pixel_aspect,
             OmnimaxFraming::Circle => self.pixel_aspect,
         }
+    }
+
+    fn is_measured_in_pixels(&self) -> bool {
+        self.circle != LensCircle::FITTED
     }
 }
 
@@ -87,6 +92,7 @@ mod tests {
     #[test]
     fn a_cut_above_the_axis_is_refused() {
         let frame = OmnimaxFrame { lower: Some(Angle::from_degrees(-5.0)), ..OmnimaxFrame::default() };
-        assert!(matches!(frame.view(10, 10), Err(FrameError::LowerCut { .. })));
+        let error = frame.view(10, 10).unwrap_err().to_string();
+        assert_eq!(error, "the lower cut is -5° below the axis; it must be more than 0° and at most 90°");
     }
 }

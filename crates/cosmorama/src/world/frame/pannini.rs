@@ -1,7 +1,7 @@
 use glam::DVec2;
 
-use super::FrameError;
 use super::error::{check_field_of_view, check_positive};
+use super::{FrameError, ImageFrame};
 use crate::projection::{Pannini, ProjectionKind};
 use crate::sphere::{Angle, Orientation};
 use crate::world::{FieldStop, PixelGrid, PixelPoint, View};
@@ -26,10 +26,12 @@ impl Default for PanniniFrame {
 /// Height over width where nothing tells the shape.
 const DEFAULT_RATIO: f64 = 1.0 / 2.0;
 
-impl PanniniFrame {
-    pub(super) fn view(&self, width: usize, height: usize) -> Result<View, FrameError> {
+impl ImageFrame for PanniniFrame {
+    fn view(&self, width: usize, height: usize) -> Result<View, FrameError> {
         let found = self.distance;
-        let pannini = Pannini::from_distance(found).ok_or(FrameError::PanniniDistance { found })?;
+        let (what, range) = ("Pannini's distance d", "from 0 (a pinhole) to 1000000");
+        let beyond = FrameError::OutOfRange { what, found, unit: "", range };
+        let pannini = Pannini::from_distance(found).ok_or(beyond)?;
         let widest = pannini.limit().degrees() * 2.0;
         check_field_of_view("the horizontal field of view", self.field_of_view, widest, true)?;
         check_positive("the pixel aspect", self.pixel_aspect)?;
@@ -44,7 +46,7 @@ impl PanniniFrame {
         })
     }
 
-    pub(super) fn natural_ratio(&self) -> f64 {
+    fn natural_ratio(&self) -> f64 {
         DEFAULT_RATIO * self.pixel_aspect
     }
 }

@@ -1,7 +1,7 @@
 use glam::DVec2;
 
 use super::error::{check_field_of_view, check_positive};
-use super::{FieldOfView, FrameError};
+use super::{FieldOfView, FrameError, ImageFrame};
 use crate::projection::ProjectionKind;
 use crate::sphere::{Angle, Orientation};
 use crate::world::{FieldStop, PixelGrid, PixelPoint, View};
@@ -23,8 +23,10 @@ impl PerspectiveFrame {
     pub const fn new(field_of_view: FieldOfView) -> Self {
         Self { field_of_view, pixel_aspect: 1.0 }
     }
+}
 
-    pub(super) fn view(&self, width: usize, height: usize) -> Result<View, FrameError> {
+impl ImageFrame for PerspectiveFrame {
+    fn view(&self, width: usize, height: usize) -> Result<View, FrameError> {
         self.check()?;
         let (w, h) = (width as f64, height as f64);
         let half = |angle: Angle| (angle * 0.5).tan();
@@ -45,13 +47,15 @@ impl PerspectiveFrame {
         })
     }
 
-    pub(super) fn natural_ratio(&self) -> f64 {
+    fn natural_ratio(&self) -> f64 {
         match self.field_of_view {
             FieldOfView::Both { horizontal, vertical } => (vertical * 0.5).tan() / (horizontal * 0.5).tan(),
             _ => DEFAULT_RATIO * self.pixel_aspect,
         }
     }
+}
 
+impl PerspectiveFrame {
     fn check(&self) -> Result<(), FrameError> {
         let check = |what, angle| check_field_of_view(what, angle, 180.0, true);
         match self.field_of_view {

@@ -1,3 +1,4 @@
+use super::{FrameError, ImageFrame};
 use crate::projection::{PlanePoint, PlaneRect, ProjectionKind, StMap, StMapError, StMapTable};
 use crate::sphere::{Direction, Orientation};
 use crate::world::{FieldStop, PixelGrid, PixelPoint, View};
@@ -48,15 +49,21 @@ impl StMapFrame {
         let (width, height) = table.size();
         Self { map: StMap::new(table), natural_ratio: height as f64 / width as f64 }
     }
+}
 
-    pub(super) fn view(&self, width: usize, height: usize) -> View {
+impl ImageFrame for StMapFrame {
+    fn view(&self, width: usize, height: usize) -> Result<View, FrameError> {
         let square = PlaneRect { min: PlanePoint::new(-0.5, -0.5), max: PlanePoint::new(0.5, 0.5) };
-        View {
+        Ok(View {
             projection: ProjectionKind::StMap(self.map),
             orientation: Orientation::IDENTITY,
             grid: PixelGrid::spanning(width, height, square),
             stop: FieldStop::NONE,
-        }
+        })
+    }
+
+    fn natural_ratio(&self) -> f64 {
+        self.natural_ratio
     }
 }
 

@@ -1,7 +1,7 @@
 use glam::DVec2;
 
-use super::FrameError;
 use super::error::{check_field_of_view, check_positive};
+use super::{FrameError, ImageFrame};
 use crate::projection::ProjectionKind;
 use crate::projection::azimuthal::{FisheyeLens, Lens, Stereographic};
 use crate::sphere::{Angle, Orientation};
@@ -22,8 +22,8 @@ impl Default for StereographicFrame {
     }
 }
 
-impl StereographicFrame {
-    pub(super) fn view(&self, width: usize, height: usize) -> Result<View, FrameError> {
+impl ImageFrame for StereographicFrame {
+    fn view(&self, width: usize, height: usize) -> Result<View, FrameError> {
         let what = "the field of view";
         check_field_of_view(what, self.field_of_view, 360.0, true)?;
         check_positive("the pixel aspect", self.pixel_aspect)?;
@@ -43,6 +43,10 @@ impl StereographicFrame {
             ),
             stop: FieldStop::NONE,
         })
+    }
+
+    fn natural_ratio(&self) -> f64 {
+        self.pixel_aspect
     }
 }
 

@@ -1,5 +1,6 @@
 use std::f64::consts::{FRAC_PI_2, PI, SQRT_2};
 
+use super::{FrameError, ImageFrame};
 use crate::projection::{PlanePoint, PlaneRect, ProjectionKind};
 use crate::sphere::Orientation;
 use crate::world::{FieldStop, PixelGrid, View};
@@ -16,8 +17,8 @@ pub enum WorldMapFrame {
     Sinusoidal,
 }
 
-impl WorldMapFrame {
-    pub(super) fn view(self, width: usize, height: usize) -> View {
+impl ImageFrame for WorldMapFrame {
+    fn view(&self, width: usize, height: usize) -> Result<View, FrameError> {
         let ellipse = (2.0 * SQRT_2, SQRT_2);
         let (projection, (x, y)) = match self {
             Self::Hammer => (ProjectionKind::HAMMER, ellipse),
@@ -25,12 +26,16 @@ impl WorldMapFrame {
             Self::Sinusoidal => (ProjectionKind::SINUSOIDAL, (PI, FRAC_PI_2)),
         };
         let world = PlaneRect { min: PlanePoint::new(-x, -y), max: PlanePoint::new(x, y) };
-        View {
+        Ok(View {
             projection,
             orientation: Orientation::IDENTITY,
             grid: PixelGrid::spanning(width, height, world),
             stop: FieldStop::NONE,
-        }
+        })
+    }
+
+    fn natural_ratio(&self) -> f64 {
+        0.5
     }
 }
 
@@ -43,7 +48,7 @@ mod tests {
     #[test]
     fn the_world_just_fits() {
         for map in [WorldMapFrame::Hammer, WorldMapFrame::Mollweide, WorldMapFrame::Sinusoidal] {
-            let view = map.view(400, 200);
+            let view = map.view(400, 200).unwrap();
             let sees = |x, y, expected: Direction| {
                 let seen = view.direction(PixelPoint::new(x, y)).unwrap();
                 assert!(seen.angle_to(expected).degrees() < 1e-5, "{map:?}: ({x}, {y}) sees {seen:?}");
