@@ -14,6 +14,9 @@ pub struct Extent {
 const WORDS: usize = 6;
 const TURN: i32 = 360;
 
+/// Of arcs that are longer it is told what is not in them.
+const MOST: i32 = 300;
+
 impl Extent {
     /// Of one direction.
     pub fn of(direction: Direction) -> Self {
@@ -58,10 +61,10 @@ impl Extent {
 impl fmt::Display for Extent {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let ((left, right), (low, high)) = (self.yaws(), self.pitches);
-        if right - left == TURN {
-            write!(f, "all yaws")?;
-        } else {
-            write!(f, "yaw {left}° to {right}°")?;
+        match right - left {
+            TURN => write!(f, "all yaws")?,
+            MOST..TURN => write!(f, "all yaws but {}° to {}°", right - TURN, left)?,
+            _ => write!(f, "yaw {left}° to {right}°")?,
         }
         write!(f, ", pitch {low}° to {high}°")
     }
@@ -84,6 +87,8 @@ mod tests {
         assert_eq!(extent(&[(-10.5, 3.2), (20.5, -4.7)]), "yaw -11° to 21°, pitch -5° to 4°");
         assert_eq!(extent(&[(-170.5, 1.5), (160.5, 0.5)]), "yaw 160° to 190°, pitch 0° to 2°");
         assert_eq!(extent(&[(179.999, 89.9)]), "yaw 179° to 180°, pitch 89° to 90°");
+        let but_ahead: Vec<_> = (-10..300).map(|yaw| (f64::from(yaw) + 20.5, 0.5)).collect();
+        assert_eq!(extent(&but_ahead), "all yaws but -40° to 10°, pitch 0° to 1°");
         let round: Vec<_> = (0..360).map(|yaw| (f64::from(yaw) + 0.5, -60.5)).collect();
         assert_eq!(extent(&round), "all yaws, pitch -61° to -60°");
     }
