@@ -181,9 +181,10 @@ impl Input {
                 }
             },
         };
+        let envmap = header.metadata.envmap;
         let (views, faces) = match shape {
             Shape::Single(single) => (vec![Self::single(pattern, files, &path, header, single)?], None),
-            Shape::Cube(cube) => (packed::faces(&files, &path, &header, &cube)?, GivenFaces::of_image(&cube)),
+            Shape::Cube(cube) => (packed::faces(&files, &path, &header, &cube)?, GivenFaces::of_image(&cube, envmap)),
             Shape::Dual(dual) => (packed::lenses(&files, &path, &header, &dual)?, None),
             Shape::StMap(map) => return Err(st_map::unread(&map)),
         };
@@ -222,9 +223,15 @@ impl Input {
         wanted: Option<&FrameList>,
         warnings: &mut Vec<String>,
     ) -> Result<Self> {
-        if let (Some(Packing::OneImage(_)), _) | (_, Some(_)) = (cube.layout, &cube.order) {
+        if let Some(Packing::OneImage(kind)) = cube.layout {
             return Err(usage(format!(
-                "{pattern} names a file for each face, but --from is for all faces in one image"
+                "{pattern} names a file for each face, but --from layout={kind} is for all faces in one image"
+            )));
+        }
+        if cube.order.is_some() {
+            return Err(usage(format!(
+                "{pattern} names a file for each face, but order= is for faces in one image, which have no names; which \
+                 face a file is, its name says, and naming= what names mean; if a file has the name of another face, rename it"
             )));
         }
         let set = FaceSet::find(pattern, cube.naming)?;

@@ -51,7 +51,10 @@ fn single(pattern: &str) -> Result<Value> {
         let Circle { centre: (x, y), radius } = found.circle();
         report["circle"] = json!({ "x": x, "y": y, "radius": radius, "measured": matches!(found, Found::Measured(_)) });
     }
-    if let Some(continuity) = of_image(&path, &likely) {
+    if let Some(continuity) = of_image(&path, &likely, header.metadata.envmap) {
+        if let (true, Value::String(spec)) = (continuity["fits"] == true, &continuity["spec"]) {
+            report["projection"] = json!(format!("{spec} (by its shape, and because the borders of its faces meet)"));
+        }
         report["arrangement"] = continuity;
     }
     Ok(report)
