@@ -11,7 +11,9 @@ mod face_shape;
 mod face_view;
 mod files;
 mod frames;
+mod full_alpha;
 mod given_faces;
+mod gpano;
 mod guess;
 mod halves;
 mod input;
@@ -33,6 +35,7 @@ mod remade;
 mod size;
 mod st_map;
 mod st_pixels;
+mod stretched;
 mod target;
 mod world_file;
 
@@ -43,8 +46,9 @@ pub(crate) use evidence::light_of;
 pub(crate) use face_view::face_placement;
 pub(crate) use files::Files;
 pub(crate) use frames::existing as existing_frames;
+pub(crate) use full_alpha::{greatest_alpha, told_of_alpha};
 pub(crate) use given_faces::{Continuity, FacePixels, GivenFaces};
-pub(crate) use input::{Input, InputView};
+pub(crate) use input::{Input, InputView, is_one_file};
 pub(crate) use light::{InputTransfer, Light};
 pub(crate) use listing::{Listed, listed};
 pub(crate) use machine::peak_bytes;
@@ -116,6 +120,8 @@ impl ConvertJob {
             target = target.with_mips(&args.output, geometry)?;
         }
         warnings.extend(input.turned());
+        warnings.extend(input.complaints());
+        warnings.extend(told_of_shape(geometry, &target));
         input.fit_eyes(target.is_stereo(), warnings);
         let filter = filter(geometry, warnings);
         let mut light = Light::resolve(args, &input, &target, warnings)?;
@@ -190,6 +196,11 @@ pub(crate) fn write_options(args: &ConvertArgs, format: Format, outputs: &Output
         quality: args.quality.unwrap_or(default.quality),
         compression: args.compression.map_or(usual, Compression::from),
     }
+}
+
+/// What should be known of an output's shape.
+fn told_of_shape(geometry: &GeometryArgs, target: &Target) -> Option<String> {
+    stretched::warning(geometry, target).or_else(|| gpano::warning(geometry, target))
 }
 
 /// The filter that was asked for.

@@ -11,7 +11,7 @@ use super::info_faces::{of_files, of_image};
 use super::pipe::KeptStreams;
 use super::{info_world, print};
 use crate::args::InfoArgs;
-use crate::job::{Builtin, Files, existing_frames, likely};
+use crate::job::{Builtin, Files, existing_frames, greatest_alpha, is_one_file, light_of, likely, told_of_alpha};
 
 /// Tells what a file or a face set is.
 pub(super) fn run(args: &InfoArgs) -> Result<ExitCode> {
@@ -38,6 +38,7 @@ fn single(pattern: &str) -> Result<Value> {
     let files = Files::new(Path::new(pattern));
     let frames = existing_frames(&files)?;
     let path = files.path(frames.first().copied());
+    is_one_file(pattern, &path)?;
     let header = probe(&path)?;
     let mut report = json!({ "input": pattern });
     add_frames(&mut report, &frames);
@@ -46,6 +47,11 @@ fn single(pattern: &str) -> Result<Value> {
     report["projection"] = json!(likely.projection);
     if let Some(damage) = &likely.damage {
         report["damaged"] = json!(damage);
+    }
+    if header.channels.has_alpha()
+        && let Some(greatest) = light_of(&path).and_then(|light| greatest_alpha(light.pixels().iter().copied()))
+    {
+        report["alpha"] = json!(told_of_alpha(greatest));
     }
     if let Some(found) = likely.circle {
         let Circle { centre: (x, y), radius } = found.circle();
@@ -116,6 +122,9 @@ fn header_report(header: &Header) -> Value {
     if let Some(window) = metadata.panorama {
         let (width, height) = (window.canvas_width, window.canvas_height);
         report["gpano"] = json!(format!("equirectangular, {width}x{height}+{}+{}", window.x, window.y));
+    }
+    if !metadata.complaints.is_empty() {
+        report["complaints"] = json!(metadata.complaints);
     }
     if !metadata.other_channels.is_empty() {
         report["other_channels"] = json!(metadata.other_channels);
