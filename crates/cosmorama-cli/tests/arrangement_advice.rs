@@ -67,7 +67,9 @@ fn two_swaps_are_not_a_world_upside_down() {
     rename(&bench, &["left", "right"]);
     rename(&bench, &["top", "bottom"]);
     let swaps = json!(["right and left are swapped", "up and down are swapped"]);
-    assert_eq!(arrangement(&bench, "{face}.png")["changes"], swaps);
+    let told = arrangement(&bench, "{face}.png");
+    assert_eq!(told["changes"], swaps);
+    assert_says(told["told"].as_str().unwrap(), &["do that with the files"]);
     let bench = sheet("cube:layout=strip-h,order=lrdufb");
     let told = arrangement(&bench, "sheet.png");
     assert_eq!(told["changes"], swaps);

@@ -115,7 +115,7 @@ impl Axis {
 fn pose(words: &Words<'_>) -> Option<String> {
     let turned = ["PoseHeadingDegrees", "PosePitchDegrees", "PoseRollDegrees"].into_iter().filter_map(|name| {
         let text = words.word(name)?;
-        text.parse::<f64>().map_or(true, |degrees| degrees != 0.0).then(|| format!("{name} {text}"))
+        (text.parse::<f64>() != Ok(0.0)).then(|| format!("{name} {text}"))
     });
     let turned: Vec<String> = turned.collect();
     (!turned.is_empty()).then(|| {

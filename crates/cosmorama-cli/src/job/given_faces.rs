@@ -209,7 +209,10 @@ impl GivenFaces {
                 (changes.iter().map(Change::to_string).collect(), calls(&changes))
             }
         };
-        let advice = advice(plain.as_deref(), flipped.as_deref(), self.mirror.is_backwards());
+        let advice = match (&self.packing, &plain, &flipped) {
+            (GivenPacking::Files(_), None, None) => "; do that with the files".to_owned(),
+            _ => advice(plain.as_deref(), flipped.as_deref(), self.mirror.is_backwards()),
+        };
         let told = format!(
             "the borders of the faces do not meet as they lie{}: {}{calls}{advice}{}",
             sure(fit),

@@ -11,7 +11,6 @@ mod face_shape;
 mod face_view;
 mod files;
 mod frames;
-mod full_alpha;
 mod given_faces;
 mod gpano;
 mod guess;
@@ -37,6 +36,7 @@ mod st_map;
 mod st_pixels;
 mod stretched;
 mod target;
+mod thin_alpha;
 mod world_file;
 
 pub(crate) use builtin::{Builtin, BuiltinJob};
@@ -46,7 +46,6 @@ pub(crate) use evidence::light_of;
 pub(crate) use face_view::face_placement;
 pub(crate) use files::Files;
 pub(crate) use frames::existing as existing_frames;
-pub(crate) use full_alpha::{greatest_alpha, told_of_alpha};
 pub(crate) use given_faces::{Continuity, FacePixels, GivenFaces};
 pub(crate) use input::{Input, InputView, is_one_file};
 pub(crate) use light::{InputTransfer, Light};
@@ -59,6 +58,7 @@ pub(crate) use remade::Remade;
 pub(crate) use st_map::settled;
 pub(crate) use st_pixels::st_pixels;
 pub(crate) use target::{Sheet, Target, TargetView};
+pub(crate) use thin_alpha::ThinAlpha;
 
 use std::path::PathBuf;
 

@@ -11,7 +11,7 @@ use super::info_faces::{of_files, of_image};
 use super::pipe::KeptStreams;
 use super::{info_world, print};
 use crate::args::InfoArgs;
-use crate::job::{Builtin, Files, existing_frames, greatest_alpha, is_one_file, light_of, likely, told_of_alpha};
+use crate::job::{Builtin, Files, ThinAlpha, existing_frames, is_one_file, light_of, likely};
 
 /// Tells what a file or a face set is.
 pub(super) fn run(args: &InfoArgs) -> Result<ExitCode> {
@@ -48,10 +48,9 @@ fn single(pattern: &str) -> Result<Value> {
     if let Some(damage) = &likely.damage {
         report["damaged"] = json!(damage);
     }
-    if header.channels.has_alpha()
-        && let Some(greatest) = light_of(&path).and_then(|light| greatest_alpha(light.pixels().iter().copied()))
-    {
-        report["alpha"] = json!(told_of_alpha(greatest));
+    let picture = if header.channels.has_alpha() { light_of(&path) } else { None };
+    if let Some(told) = picture.and_then(|light| ThinAlpha::of(light.pixels().iter().copied())?.told()) {
+        report["alpha"] = json!(told);
     }
     if let Some(found) = likely.circle {
         let Circle { centre: (x, y), radius } = found.circle();

@@ -2,7 +2,7 @@ use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 use super::frame_light::FrameLight;
-use crate::job::{ConvertJob, greatest_alpha, told_of_alpha};
+use crate::job::{ConvertJob, ThinAlpha};
 
 /// What should be known of files of a frame in which no pixel has full alpha.
 pub(super) fn warnings(job: &ConvertJob, frame: Option<u64>, light: &FrameLight) -> Vec<String> {
@@ -10,7 +10,7 @@ pub(super) fn warnings(job: &ConvertJob, frame: Option<u64>, light: &FrameLight)
         return Vec::new();
     }
     // A file may hold several views, of which some may be thin.
-    let mut files: BTreeMap<PathBuf, Option<f32>> = BTreeMap::new();
+    let mut files: BTreeMap<PathBuf, Option<ThinAlpha>> = BTreeMap::new();
     let worlds = job.worlds.iter().enumerate();
     let sources = worlds.flat_map(|(index, world)| world.sources().iter().map(move |source| (index, source)));
     for ((view, header, _), (world, source)) in job.input.present().zip(sources) {
@@ -20,11 +20,10 @@ pub(super) fn warnings(job: &ConvertJob, frame: Option<u64>, light: &FrameLight)
             continue;
         }
         let texels = source.offset..source.offset + source.texels().len();
-        let found = greatest_alpha(texels.map(|texel| light.texels().rgba(world, texel)));
-        let both = found.map(|found| known.flatten().map_or(found, |known| known.max(found)));
+        let found = ThinAlpha::of(texels.map(|texel| light.texels().rgba(world, texel)));
+        let both = found.map(|found| known.flatten().map_or(found, |known| known.with(found)));
         files.insert(path, both);
     }
-    let told =
-        |(path, greatest): (PathBuf, Option<f32>)| Some(format!("{}: {}", path.display(), told_of_alpha(greatest?)));
+    let told = |(path, alpha): (PathBuf, Option<ThinAlpha>)| Some(format!("{}: {}", path.display(), alpha?.told()?));
     files.into_iter().filter_map(told).collect()
 }
