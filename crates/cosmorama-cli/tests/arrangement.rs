@@ -90,7 +90,8 @@ fn assert_seamless(bench: &Bench, picture: &str, spec: &str) {
 fn another_order_in_one_image() {
     let bench = world("96");
     for (made, fits) in [
-        ("cube:layout=strip-v,order=openexr", "cube:layout=strip-v,order=openexr"),
+        // Its samples are at the centres, as openexr's are not.
+        ("cube:layout=strip-v,order=openexr", "cube:layout=strip-v,order=envutil"),
         ("cube:layout=strip-v,order=kartavr", "cube:layout=strip-v,order=kartavr"),
         ("cube:layout=strip-v,order=fudlrb,rotate=010203", "cube:layout=strip-v,order="),
     ] {

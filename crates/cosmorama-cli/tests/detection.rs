@@ -265,3 +265,27 @@ fn oval_maps_are_no_panoramas() {
     bench.save("snow.png", &EncodedImage::encode(&light, Channels::Rgb, Depth::Eight, &Transfer::Srgb));
     assert!(info(&bench, "snow.png").starts_with("equirect (2:1)"));
 }
+
+#[test]
+fn a_square_that_tells_nothing_is_asked_about_once() {
+    let bench = Bench::new();
+    bench.save("square.png", &bench::picture(1, 64, 64));
+    let message = bench.fail(1, &["convert", "square.png", "out.png", "--to", "equirect"]);
+    assert_eq!(message.matches("{face}").count(), 1, "{message}");
+    let ball = "mirror-ball (with center= and radius= unless the ball touches the borders)";
+    assert_says(&message, &[ball, "angular-map"]);
+    assert_says(&bench.succeed(&["info", "square.png"]), &[ball, "a face of a cube (a pattern with {face})"]);
+}
+
+#[test]
+fn a_folder_of_faces_is_called_one_with_its_pattern() {
+    let bench = Bench::new();
+    std::fs::create_dir(bench.path("u")).unwrap();
+    std::fs::create_dir(bench.path("v")).unwrap();
+    bench.faces("u/", 16);
+    bench.faces("v/sky_", 16);
+    assert_says(&bench.fail(2, &["info", "u"]), &["u is a folder", "write u/{face}.png"]);
+    assert_says(&bench.fail(2, &["info", "v"]), &["v is a folder", "write v/sky_{face}.png"]);
+    let message = bench.fail(2, &["convert", "v", "out.png", "--to", "equirect"]);
+    assert_says(&message, &["write v/sky_{face}.png"]);
+}

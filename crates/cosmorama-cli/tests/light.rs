@@ -2,7 +2,7 @@
 
 mod bench;
 
-use bench::{Bench, eight_bits, flat, floats, veiled};
+use bench::{Bench, eight_bits, flat, floats, text, veiled};
 use cosmorama::raster::{Channels, ColourChannel, Depth, EncodedImage, Samples, Transfer};
 
 #[test]
@@ -153,4 +153,21 @@ fn missing_pixels_are_told_of_inputs_with_alpha_too() {
     bench.save("void.exr", &veiled(64, 32, |_, _| [f32::NAN; 3]));
     let message = bench.fail(1, &["convert", "void.exr", "none.exr", "--from", "equirect", "--to", "fulldome"]);
     assert!(message.contains("void.exr") && message.contains("every pixel is NaN"), "{message}");
+}
+
+/// As RGBM keeps them.
+#[test]
+fn alpha_that_is_full_nowhere_is_told() {
+    let bench = Bench::new();
+    for (full, is_told) in [(209, true), (255, false)] {
+        let samples: Vec<u8> = (0..64 * 32).flat_map(|k| [90, 80, 70, if k == 777 { full } else { 120 }]).collect();
+        bench.save("sky.png", &EncodedImage::new(64, 32, Channels::Rgba, Depth::Eight, Samples::U8(samples)).unwrap());
+        assert_eq!(
+            bench.succeed(&["info", "sky.png"]).contains("no pixel's alpha is full: it is from 47 to 82 %"),
+            is_told
+        );
+        let to = ["--from", "equirect", "--to", "fulldome", "--size", "32"];
+        let run = bench.run(&[&["convert", "sky.png", "out.png", "-y"], &to[..]].concat());
+        assert_eq!(text(&run.stderr).contains("warning: sky.png: no pixel's alpha is full"), is_told);
+    }
 }

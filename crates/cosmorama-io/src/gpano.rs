@@ -5,36 +5,126 @@ use crate::Window;
 /// Adobe's XMP packets say in words of Google's that a photograph is a panorama, and which part of one.
 const NAMESPACE: &str = "http://ns.google.com/photos/1.0/panorama/";
 
-/// The part of an equirectangular panorama of 360°×180° that a picture of this size is, as a packet says; `None` where
-/// it says nothing, or nothing that fits.
-pub(crate) fn parse(packet: &[u8], (width, height): (usize, usize)) -> Option<Window> {
-    let text = std::str::from_utf8(packet).ok()?;
-    let document = Document::parse(text.trim_matches(|c: char| c == '\0' || c.is_whitespace())).ok()?;
-    let word = |name: &str| document.descendants().find_map(|node| property(node, name));
-    if !word("ProjectionType")?.trim().eq_ignore_ascii_case("equirectangular") {
-        return None;
+/// What a packet says.
+#[derive(Debug, Default, PartialEq)]
+pub(crate) struct Said {
+    /// The part of an equirectangular panorama of 360°×180° that the picture is.
+    pub(crate) window: Option<Window>,
+    /// What cannot be right, or is not followed.
+    pub(crate) complaints: Vec<String>,
+}
+
+/// What a packet says of a picture of this size: nothing where it has no words of Google's.
+pub(crate) fn parse(packet: &[u8], size: (usize, usize)) -> Said {
+    let Ok(text) = std::str::from_utf8(packet) else { return Said::default() };
+    let Ok(document) = Document::parse(text.trim_matches(|c: char| c == '\0' || c.is_whitespace())) else {
+        return Said::default();
+    };
+    let words = Words(&document);
+    match window(&words, size) {
+        Ok(window) => Said { window, complaints: window.and_then(|_| pose(&words)).into_iter().collect() },
+        Err(reason) => {
+            let complaint = format!("its GPano metadata are left out: {reason}; mend or remove them");
+            Said { window: None, complaints: vec![complaint] }
+        }
     }
-    let number = |name: &str| word(name).and_then(|text| text.trim().parse::<usize>().ok());
-    let cropped = (number("CroppedAreaImageWidthPixels"), number("CroppedAreaImageHeightPixels"));
-    let (Some(full_width), Some(full_height)) = (number("FullPanoWidthPixels"), number("FullPanoHeightPixels")) else {
+}
+
+/// The properties of a packet.
+struct Words<'a>(&'a Document<'a>);
+
+impl<'a> Words<'a> {
+    fn word(&self, name: &str) -> Option<&'a str> {
+        self.0.descendants().find_map(|node| property(node, name)).map(str::trim)
+    }
+
+    /// A number of pixels; the error says what stands there instead.
+    fn pixels(&self, name: &str) -> Result<Option<usize>, String> {
+        let number =
+            |text: &str| text.parse().map_err(|_| format!("{name} is \"{text}\", which is no number of pixels"));
+        self.word(name).map(number).transpose()
+    }
+
+    /// A number of pixels that cannot be 0.
+    fn side(&self, name: &str) -> Result<Option<usize>, String> {
+        match self.pixels(name)? {
+            Some(0) => Err(format!("{name} is 0")),
+            side => Ok(side),
+        }
+    }
+}
+
+fn window(words: &Words<'_>, (width, height): (usize, usize)) -> Result<Option<Window>, String> {
+    let Some(projection) = words.word("ProjectionType") else { return Ok(None) };
+    if !projection.eq_ignore_ascii_case("equirectangular") {
+        return Err(format!("ProjectionType is \"{projection}\", where equirectangular was expected"));
+    }
+    let full = (words.side("FullPanoWidthPixels")?, words.side("FullPanoHeightPixels")?);
+    let part = (words.side("CroppedAreaImageWidthPixels")?, words.side("CroppedAreaImageHeightPixels")?);
+    let (left, top) = (words.pixels("CroppedAreaLeftPixels")?, words.pixels("CroppedAreaTopPixels")?);
+    let (Some(full_width), Some(full_height)) = full else {
         // Nothing but the projection: all of it, if the shape says so, too.
-        return (width == 2 * height).then_some(Window { canvas_width: width, canvas_height: height, x: 0, y: 0 });
+        let whole = Window { canvas_width: width, canvas_height: height, x: 0, y: 0 };
+        return Ok((width == 2 * height).then_some(whole));
     };
-    // Who makes a picture smaller may leave the packet as it was.
-    let (declared_width, declared_height) = (cropped.0.unwrap_or(full_width), cropped.1.unwrap_or(full_height));
-    let scaled = |value: usize, size: usize, declared: usize| {
-        (declared > 0).then(|| (value as u128 * size as u128 + declared as u128 / 2) / declared as u128)
-    };
-    let across = |value| usize::try_from(scaled(value, width, declared_width)?).ok();
-    let down = |value| usize::try_from(scaled(value, height, declared_height)?).ok();
-    let window = Window {
-        canvas_width: across(full_width)?,
-        canvas_height: down(full_height)?,
-        x: across(number("CroppedAreaLeftPixels").unwrap_or(0))?,
-        y: down(number("CroppedAreaTopPixels").unwrap_or(0))?,
-    };
-    let fits = |start: usize, size: usize, whole: usize| start.checked_add(size).is_some_and(|end| end <= whole);
-    (fits(window.x, width, window.canvas_width) && fits(window.y, height, window.canvas_height)).then_some(window)
+    let across = Axis { name: "Width", start: "Left", full: full_width, part: part.0.unwrap_or(full_width), left };
+    let down = Axis { name: "Height", start: "Top", full: full_height, part: part.1.unwrap_or(full_height), left: top };
+    // Who makes a picture smaller may leave the packet as it was, but makes it smaller both ways.
+    let (wide, high) = (width as u128 * down.part as u128, height as u128 * across.part as u128);
+    if wide.abs_diff(high) > across.part.max(down.part) as u128 {
+        return Err(format!(
+            "CroppedAreaImageWidthPixels and CroppedAreaImageHeightPixels are {}x{}, but the picture has {width}x{height}, \
+             another shape",
+            across.part, down.part
+        ));
+    }
+    let ((canvas_width, x), (canvas_height, y)) = (across.scaled(width)?, down.scaled(height)?);
+    Ok(Some(Window { canvas_width, canvas_height, x, y }))
+}
+
+/// What is said of a panorama's width or height.
+struct Axis {
+    name: &'static str,
+    start: &'static str,
+    full: usize,
+    part: usize,
+    left: Option<usize>,
+}
+
+impl Axis {
+    /// The whole panorama and where the picture begins in it, in pixels of a picture that has so many.
+    fn scaled(&self, pixels: usize) -> Result<(usize, usize), String> {
+        let left = self.left.unwrap_or(0);
+        if left.checked_add(self.part).is_none_or(|end| end > self.full) {
+            let Self { name, start, full, part, .. } = self;
+            return Err(format!(
+                "CroppedArea{start}Pixels {left} and CroppedAreaImage{name}Pixels {part} reach beyond \
+                 FullPano{name}Pixels {full}"
+            ));
+        }
+        let scaled = |value: usize| {
+            let scaled = (value as u128 * pixels as u128 + self.part as u128 / 2) / self.part as u128;
+            usize::try_from(scaled).map_err(|_| format!("FullPano{}Pixels is {}", self.name, self.full))
+        };
+        let whole = scaled(self.full)?;
+        Ok((whole, scaled(left)?.min(whole.saturating_sub(pixels))))
+    }
+}
+
+/// How the camera was turned, which is not followed.
+fn pose(words: &Words<'_>) -> Option<String> {
+    let turned = ["PoseHeadingDegrees", "PosePitchDegrees", "PoseRollDegrees"].into_iter().filter_map(|name| {
+        let text = words.word(name)?;
+        (text.parse::<f64>() != Ok(0.0)).then(|| format!("{name} {text}"))
+    });
+    let turned: Vec<String> = turned.collect();
+    (!turned.is_empty()).then(|| {
+        format!(
+            "its GPano metadata say {}, which is not followed: the middle of the panorama is taken for the front; turn it \
+             with yaw=, pitch= and roll= in --from",
+            turned.join(", ")
+        )
+    })
 }
 
 /// A property is written as an attribute or as an element.
@@ -68,9 +158,13 @@ mod tests {
 
     const WINDOW: Window = Window { canvas_width: 4000, canvas_height: 2000, x: 500, y: 600 };
 
+    fn said(window: Window) -> Said {
+        Said { window: Some(window), complaints: Vec::new() }
+    }
+
     #[test]
     fn a_packet_says_what_it_was_told() {
-        assert_eq!(parse(packet(WINDOW, (3000, 800)).as_bytes(), (3000, 800)), Some(WINDOW));
+        assert_eq!(parse(packet(WINDOW, (3000, 800)).as_bytes(), (3000, 800)), said(WINDOW));
     }
 
     #[test]
@@ -86,23 +180,46 @@ mod tests {
         ];
         let elements: String = words.map(|(name, text)| format!("<p:{name}>{text}</p:{name}>")).concat();
         let xml = format!("<a xmlns:p=\"{NAMESPACE}\">{elements}</a>");
-        assert_eq!(parse(xml.as_bytes(), (3000, 800)), Some(WINDOW));
+        assert_eq!(parse(xml.as_bytes(), (3000, 800)), said(WINDOW));
         // Made smaller by half.
         let half = Window { canvas_width: 2000, canvas_height: 1000, x: 250, y: 300 };
-        assert_eq!(parse(xml.as_bytes(), (1500, 400)), Some(half));
+        assert_eq!(parse(xml.as_bytes(), (1500, 400)), said(half));
     }
 
     #[test]
-    fn what_does_not_fit_says_nothing() {
+    fn what_does_not_fit_is_named() {
         let window = |x, y| Window { canvas_width: 400, canvas_height: 200, x, y };
-        for (window, size) in
-            [(window(1, 0), (400, 200)), (window(0, 150), (400, 100)), (window(0, usize::MAX), (9, 9))]
-        {
-            assert_eq!(parse(packet(window, size).as_bytes(), size), None);
+        for (window, size, name) in [
+            (window(1, 0), (400, 200), "CroppedAreaLeftPixels 1"),
+            (window(0, 150), (400, 100), "CroppedAreaTopPixels 150"),
+            (window(0, usize::MAX), (9, 9), "FullPanoHeightPixels 200"),
+        ] {
+            let said = parse(packet(window, size).as_bytes(), size);
+            assert!(said.window.is_none() && said.complaints[0].contains(name), "{said:?}");
         }
-        assert_eq!(parse(b"<a/>", (2, 1)), None);
-        assert_eq!(parse(b"\xff", (2, 1)), None);
-        let other = packet(window(0, 0), (400, 200)).replace("equirectangular", "cylindrical");
-        assert_eq!(parse(other.as_bytes(), (400, 200)), None);
+        assert_eq!(parse(b"<a/>", (2, 1)), Said::default());
+        assert_eq!(parse(b"\xff", (2, 1)), Said::default());
+    }
+
+    #[test]
+    fn what_is_wrong_is_named() {
+        let packet = packet(Window { canvas_width: 512, canvas_height: 256, x: 100, y: 50 }, (200, 100));
+        for (from, to, parts) in [
+            ("=\"equirectangular\"", "=\"cylindrical\"", ["ProjectionType", "cylindrical"]),
+            ("FullPanoWidthPixels=\"512\"", "FullPanoWidthPixels=\"0\"", ["FullPanoWidthPixels", "is 0"]),
+            ("LeftPixels=\"100\"", "LeftPixels=\"abc\"", ["CroppedAreaLeftPixels", "\"abc\""]),
+            ("LeftPixels=\"100\"", "LeftPixels=\"400\"", ["CroppedAreaLeftPixels 400", "FullPanoWidthPixels 512"]),
+            ("WidthPixels=\"200\"", "WidthPixels=\"250\"", ["CroppedAreaImageWidthPixels", "250x100"]),
+        ] {
+            assert!(packet.contains(from), "{from}");
+            let Said { window, complaints } = parse(packet.replacen(from, to, 1).as_bytes(), (200, 100));
+            assert_eq!(window, None, "{to}");
+            assert!(parts.iter().all(|part| complaints[0].contains(part)), "{complaints:?}");
+        }
+        let pose = "GPano:PoseRollDegrees=\"0\" GPano:PoseHeadingDegrees=\"90\" GPano:Full";
+        let turned = packet.replacen("GPano:Full", pose, 1);
+        let said = parse(turned.as_bytes(), (200, 100));
+        assert!(said.window.is_some() && said.complaints[0].contains("PoseHeadingDegrees 90"), "{said:?}");
+        assert!(!said.complaints[0].contains("PoseRollDegrees"), "{said:?}");
     }
 }

@@ -13,6 +13,8 @@ pub struct Metadata {
     pub envmap: Option<EnvMap>,
     /// The equirectangular panorama of which the image is this window, as GPano metadata of JPEG and PNG have it.
     pub panorama: Option<Window>,
+    /// What the file says of itself that cannot be right and is left out, or is not followed: in words, one a line.
+    pub complaints: Vec<String>,
     /// Channels of the file that are not read.
     pub other_channels: Vec<String>,
     /// Colour primaries by their number in ITU-T H.273 (cICP); they are carried, never converted.

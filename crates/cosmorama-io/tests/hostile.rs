@@ -330,6 +330,28 @@ proptest! {
     }
 }
 
+/// More levels than halvings, or a level of two lengths: the number is named.
+#[test]
+fn levels_that_cannot_be_are_named() {
+    let folder = tempfile::tempdir().unwrap();
+    for (extension, at, lie, parts) in [
+        ("ktx2", 40, 40, ["levelCount is 40", "3 levels at most"]),
+        ("ktx2", 96, 7, ["uncompressedByteLength is 7", "byteLength"]),
+        ("dds", 28, 60, ["dwMipMapCount is 60", "3 levels at most"]),
+        ("ktx", 56, 90, ["numberOfMipmapLevels is 90", "3 levels at most"]),
+    ] {
+        let mut bytes = written(extension);
+        if extension == "dds" {
+            // It has no number of levels unless it says so.
+            bytes[10] |= 2;
+        }
+        bytes[at] = lie;
+        bytes[at + 1] = 0;
+        let error = read_bytes(folder.path(), extension, &bytes).unwrap_err().to_string();
+        assert!(parts.iter().all(|part| error.contains(part)), "{error}");
+    }
+}
+
 /// A profile of zeros: thousands of times smaller in the file than in memory.
 #[test]
 fn a_profile_that_explodes_is_not_unpacked_whatever_the_limit() {

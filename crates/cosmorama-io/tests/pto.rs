@@ -33,6 +33,7 @@ fn what_hugin_writes_is_read() {
     let masked = read(&PROJECT.replace("v y1", "k i1 t0 p\"1 2.5 3 4 5 6\"")).unwrap();
     assert_eq!(masked.images[1].holes, [vec![[1.0, 2.5], [3.0, 4.0], [5.0, 6.0]]]);
     assert_eq!(project.warnings.len(), 1, "{:?}", project.warnings);
+    assert!(read(&(PROJECT.to_owned() + "\n*\n# the end\n")).is_ok());
 }
 
 #[test]
@@ -58,6 +59,7 @@ fn what_is_not_supported_is_named_with_its_line() {
         ("v y1", "k i0 t0 p\"1 1 2 2 3\"", &["line 12", "corners"]),
         ("v y1", "k i0 t0 p\"1 1 2 2 3 x\"", &["line 12", "'x'"]),
         ("f2 w3000", "f2 f3 w3000", &["line 3", "twice"]),
+        ("v y1", "x y1", &["line 12", "'x' begins no line"]),
     ] {
         assert!(PROJECT.contains(from), "{from}");
         let error = read(&PROJECT.replacen(from, to, 1)).unwrap_err();

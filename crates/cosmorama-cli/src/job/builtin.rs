@@ -105,6 +105,7 @@ impl BuiltinJob {
         if target.is_stereo() {
             warnings.push(SAME_FOR_BOTH.to_owned());
         }
+        warnings.extend(super::told_of_shape(geometry, &target));
         let files = Input { worlds: Vec::new(), frames: vec![None], faces: None, beside: Vec::new() };
         let mut light = Light::resolve(args, &files, &target, &mut warnings)?;
         if let Builtin::DirectionMap(_) = builtin {

@@ -57,8 +57,7 @@ pub(super) fn fits_shape(path: &Path, frame: Frame, canvas: Canvas) -> Result<()
         _ => return Ok(()),
     };
     let expected = frame.natural_height(canvas.width);
-    // A row more or less is a matter of rounding.
-    if expected.abs_diff(canvas.height) <= (expected / 100).max(1) {
+    if is_near(expected, canvas.height) {
         return Ok(());
     }
     Err(usage(format!(
@@ -68,6 +67,11 @@ pub(super) fn fits_shape(path: &Path, frame: Frame, canvas: Canvas) -> Result<()
         shape(&canvas),
         canvas.width
     )))
+}
+
+/// Whether a height is the natural one: a row more or less is a matter of rounding.
+pub(super) fn is_near(natural: usize, height: usize) -> bool {
+    natural.abs_diff(height) <= (natural / 100).max(1)
 }
 
 fn shape(canvas: &Canvas) -> String {

@@ -1,8 +1,10 @@
 use cosmorama::arrange::{Border, Change, Fit, Mismatch, Pose, Verdict, changes, fits_as_well, is_continuous, judge};
 use cosmorama::raster::{Image, Rgba};
 use cosmorama::sphere::CubeFace;
-use cosmorama::world::{CubeLayout, FaceOrder, FacePlacement, LayoutFaceFrame, LayoutKind, Mirror, PlacedFace};
-use cosmorama_io::Naming;
+use cosmorama::world::{
+    CubeLayout, FaceOrder, FacePlacement, LayoutFaceFrame, LayoutKind, Mirror, PlacedFace, SamplePositions,
+};
+use cosmorama_io::{EnvMap, Naming};
 
 use super::mirror_image::{self, ACROSS, flip_key};
 use super::other_end::{self, told_elsewhere};
@@ -16,6 +18,15 @@ pub(crate) struct GivenFaces {
     packing: GivenPacking,
     /// How the image that holds them is mirrored as a whole: they lie as they do once that is undone.
     mirror: Mirror,
+    /// Where their outermost samples are said, or taken, to lie: borders do not tell that.
+    samples: SamplePositions,
+}
+
+/// The SPEC of a tool whose files or places lie so.
+struct Preset {
+    spec: String,
+    /// The layout, where it is another one than the given.
+    other: Option<LayoutKind>,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -52,22 +63,29 @@ impl GivenFaces {
 
     /// Whole faces; of cropped ones no borders meet.
     pub(crate) fn of_files(cube: &Cube, naming: &'static Naming, faces: &[(CubeFace, FacePlacement)]) -> Option<Self> {
-        Self::new(cube, GivenPacking::Files(naming), faces.iter().copied())
+        Self::new(cube, GivenPacking::Files(naming), SamplePositions::Centres, faces.iter().copied())
     }
 
-    /// The faces of an image in this layout.
-    pub(crate) fn of_image(cube: &Cube) -> Option<Self> {
+    /// The faces of an image in this layout, of which its file may say what it is.
+    pub(crate) fn of_image(cube: &Cube, envmap: Option<EnvMap>) -> Option<Self> {
         let (Some(Packing::OneImage(kind)), Some(layout)) = (cube.layout, cube.one_image()) else { return None };
         let faces = layout.faces(2).into_iter().map(|placed| (placed.face, placed.lies));
-        Self::new(cube, GivenPacking::OneImage(kind), faces.filter(|(face, _)| cube.faces.contains(face)))
+        let by_file = if envmap == Some(EnvMap::Cube) { SamplePositions::Edges } else { SamplePositions::Centres };
+        let chosen = faces.filter(|(face, _)| cube.faces.contains(face));
+        Self::new(cube, GivenPacking::OneImage(kind), by_file, chosen)
     }
 
-    fn new(cube: &Cube, packing: GivenPacking, faces: impl Iterator<Item = (CubeFace, FacePlacement)>) -> Option<Self> {
+    fn new(
+        cube: &Cube,
+        packing: GivenPacking,
+        by_file: SamplePositions,
+        faces: impl Iterator<Item = (CubeFace, FacePlacement)>,
+    ) -> Option<Self> {
         let meet = cube.field_of_view == LayoutFaceFrame::RIGHT_ANGLE;
         let is_one_image = matches!(packing, GivenPacking::OneImage(_));
         let is_plain = meet && cube.half.is_none() && (is_one_image || cube.mirror == Mirror::default());
         let poses = faces.map(|(face, lies)| Pose::new(face, lies)).collect();
-        is_plain.then_some(Self { poses, packing, mirror: cube.mirror })
+        is_plain.then_some(Self { poses, packing, mirror: cube.mirror, samples: cube.samples.unwrap_or(by_file) })
     }
 
     /// Judges the faces of which there are pictures, by their number. `None` where they are too few or too small.
@@ -173,29 +191,45 @@ impl GivenFaces {
                 let told = format!("the borders of the faces meet{}{}", sure(&fit), undetermined(&fit, given));
                 Continuity { told, fits: Some(true), confidence: Some(fit.confidence), ..nothing }
             }
-            Verdict::Wrong { fits, fit } => {
-                let changes: Vec<String> = changes(given, &fits).iter().map(Change::to_string).collect();
-                let plain = self.preset(mismatch, given, &fits, false).or_else(|| self.spec(&fits));
-                let flipped =
-                    self.preset(mismatch, given, &fits, true).filter(|_| !fits.iter().all(|pose| pose.is_mirrored()));
-                let advice = advice(plain.as_deref(), flipped.as_deref(), self.mirror.is_backwards());
-                let spec = plain.or(flipped);
-                let told = format!(
-                    "the borders of the faces do not meet as they lie{}: {}{advice}{}",
-                    sure(&fit),
-                    changes.join(", "),
-                    undetermined(&fit, given)
-                );
-                Continuity { told, fits: Some(false), confidence: Some(fit.confidence), changes, spec }
-            }
+            Verdict::Wrong { fits, fit } => self.wrong(mismatch, given, &fits, &fit),
         }
     }
 
-    /// The SPEC of a tool whose files or places lie so, as they are or every picture mirrored.
-    fn preset(&self, mismatch: &Mismatch, given: &[Pose], fits: &[Pose], is_flipped: bool) -> Option<String> {
+    fn wrong(&self, mismatch: &Mismatch, given: &[Pose], fits: &[Pose], fit: &Fit) -> Continuity {
+        let is_mirrored = fits.iter().all(|pose| pose.is_mirrored());
+        let plain = self.preset(mismatch, given, fits, false);
+        let flipped = self.preset(mismatch, given, fits, true).filter(|_| !is_mirrored);
+        let other = plain.iter().chain(&flipped).find_map(|preset| preset.other);
+        let plain = plain.map(|preset| preset.spec).or_else(|| self.spec(fits, other));
+        let flipped = flipped.map(|preset| preset.spec);
+        let (changes, calls) = match other {
+            Some(other) => (vec![format!("they lie as layout={other} has them")], ""),
+            None => {
+                let changes = changes(given, fits);
+                (changes.iter().map(Change::to_string).collect(), calls(&changes))
+            }
+        };
+        let advice = match (&self.packing, &plain, &flipped) {
+            (GivenPacking::Files(_), None, None) => "; do that with the files".to_owned(),
+            _ => advice(plain.as_deref(), flipped.as_deref(), self.mirror.is_backwards()),
+        };
+        let told = format!(
+            "the borders of the faces do not meet as they lie{}: {}{calls}{advice}{}",
+            sure(fit),
+            changes.join(", "),
+            undetermined(fit, given)
+        );
+        let spec = plain.or(flipped);
+        Continuity { told, fits: Some(false), confidence: Some(fit.confidence), changes, spec }
+    }
+
+    /// The SPEC of a tool whose files or places lie so, as they are or every picture mirrored. Layouts as they are go before
+    /// any other order in them.
+    fn preset(&self, mismatch: &Mismatch, given: &[Pose], fits: &[Pose], is_flipped: bool) -> Option<Preset> {
         let all_given = self.poses.len() == given.len();
         let is_it = |poses: &Vec<Pose>| all_given && fits_as_well(mismatch, fits, poses);
         let flip = flip_key(if is_flipped { self.mirror.and(ACROSS) } else { self.mirror });
+        let own = |spec: String| Preset { spec, other: None };
         match self.packing {
             GivenPacking::Files(naming) => {
                 let lies = |other: &'static Naming| {
@@ -205,30 +239,34 @@ impl GivenFaces {
                 };
                 let same_names = Naming::presets().iter().filter(|other| other.names == naming.names);
                 let found = same_names.into_iter().find(|other| is_it(&lies(other)))?;
-                Some(format!("cube:naming={}{flip}", found.name))
+                Some(own(format!("cube:naming={}{flip}", found.name)))
             }
             GivenPacking::OneImage(kind) => {
-                let plain = || CubeLayout::new(kind);
                 let fits = |layout: CubeLayout| {
-                    if is_flipped { mirror_image::poses(kind, layout) } else { Some(poses(layout)) }
+                    if is_flipped { mirror_image::poses(layout.kind(), layout) } else { Some(poses(layout)) }
                         .is_some_and(|poses| is_it(&poses))
                 };
-                if fits(plain()) {
-                    return Some(format!("cube:layout={kind}{flip}"));
+                if let Some(found) = same_places(kind).find(|other| fits(CubeLayout::new(*other))) {
+                    let spec = format!("cube:layout={found}{flip}");
+                    return Some(Preset { spec, other: Some(found).filter(|found| *found != kind) });
                 }
-                if let Some(found) = FaceOrder::presets().iter().find(|order| fits(plain().with_order(order))) {
-                    return Some(format!("cube:layout={kind},order={}{flip}", found.name));
+                let (likely, other): (Vec<_>, Vec<_>) =
+                    FaceOrder::presets().iter().partition(|order| order.samples == self.samples);
+                let mut orders = likely.into_iter().chain(other);
+                if let Some(found) = orders.find(|order| fits(CubeLayout::new(kind).with_order(order))) {
+                    return Some(own(format!("cube:layout={kind},order={}{flip}", found.name)));
                 }
                 // Each picture may be mirrored in its own place.
                 let given: Vec<Pose> = given.iter().map(|pose| mirror_image::of(*pose)).collect();
                 let spec = if is_flipped && is_it(&given) { mirror_image::spec(kind, &given) } else { None };
-                spec.map(|spec| format!("{spec}{flip}"))
+                spec.map(|spec| own(format!("{spec}{flip}")))
             }
         }
     }
 
-    /// The SPEC that says how they lie place by place, where no picture is mirrored or has another face's name.
-    fn spec(&self, fits: &[Pose]) -> Option<String> {
+    /// The SPEC that says how they lie place by place, perhaps in another layout, where no picture is mirrored or has another
+    /// face's name.
+    fn spec(&self, fits: &[Pose], other: Option<LayoutKind>) -> Option<String> {
         if fits.len() != 6 || fits.iter().any(|pose| pose.is_mirrored()) {
             return None;
         }
@@ -240,6 +278,7 @@ impl GivenFaces {
             GivenPacking::OneImage(kind) => {
                 let letters: String = fits.iter().filter_map(|pose| pose.face.name().chars().next()).collect();
                 let (digits, flip) = (digits(&mut fits.iter()), flip_key(self.mirror));
+                let kind = other.unwrap_or(kind);
                 Some(format!("cube:layout={kind},order={letters},rotate={digits}{flip}"))
             }
             GivenPacking::Files(naming) => {
@@ -254,6 +293,23 @@ impl GivenFaces {
             }
         }
     }
+}
+
+/// The layouts whose places are those of a kind: itself first.
+fn same_places(kind: LayoutKind) -> impl Iterator<Item = LayoutKind> {
+    let places = |kind: LayoutKind| CubeLayout::new(kind).faces(2).into_iter().map(|placed| placed.rect);
+    let others = LayoutKind::ALL.into_iter().filter(move |other| *other != kind);
+    [kind].into_iter().chain(others.filter(move |other| places(*other).eq(places(kind))))
+}
+
+/// What pictures are called, where some go elsewhere and some, perhaps the same, are turned.
+fn calls(changes: &[Change]) -> &'static str {
+    let goes = |change: &&Change| matches!(change, Change::Swapped(..) | Change::Moved { .. });
+    let moved = changes.iter().filter(goes).count();
+    if moved == 0 || moved == changes.len() {
+        return "";
+    }
+    " (each is called by the face that it was given as throughout: turn pictures before they change places)"
 }
 
 /// How the pictures of a layout lie, in the order of its places.

@@ -32,6 +32,9 @@ pub(super) enum Guess {
 /// Pictures that are black around a circle that fills a square, beside domemasters.
 pub(super) const ROUND_ONES: &str = "fisheye:fov=DEGREES, mirror-ball or angular-map";
 
+/// A mirror ball of which no circle was found.
+const BALL: &str = "mirror-ball (with center= and radius= unless the ball touches the borders)";
+
 /// Pictures of 2:1 with one colour around an oval.
 pub(super) const OVAL_ONES: &str = "hammer, mollweide or sinusoidal";
 
@@ -114,7 +117,9 @@ impl Guess {
             Self::Strip(kind) => format!("cube:layout={kind} (by its shape)"),
             Self::Blank(evidence) => describe_blank(evidence),
             Self::Unknown(kinds, seen) => {
-                format!("unknown: {}? ({})", candidates(header, kinds), describe_nothing(seen))
+                let (width, height) = size(header);
+                let face = if width == height { "a face of a cube (a pattern with {face}), " } else { "" };
+                format!("unknown: {face}{}? ({})", candidates(header, kinds), describe_nothing(seen))
             }
         }
     }
@@ -183,10 +188,9 @@ pub(super) fn candidates(header: &Header, layouts: &[LayoutKind]) -> String {
     let mut names: Vec<String> = layouts.iter().map(|kind| format!("cube:layout={kind}")).collect();
     let by_shape: &[&str] = if width == height {
         &[
-            "a face of a cube (a pattern with {face})",
             "fulldome",
             "fisheye:fov=DEGREES",
-            "mirror-ball",
+            BALL,
             "angular-map",
             "octahedral",
             "equirect:stereo=tb",
@@ -204,7 +208,7 @@ pub(super) fn candidates(header: &Header, layouts: &[LayoutKind]) -> String {
             "perspective:fov=DEGREES",
         ]
     } else {
-        &["perspective:fov=DEGREES", "equirect", "fisheye:fov=DEGREES", "mirror-ball", "fulldome", "omnimax"]
+        &["perspective:fov=DEGREES", "equirect", "fisheye:fov=DEGREES", BALL, "fulldome", "omnimax"]
     };
     names.extend(by_shape.iter().map(|name| (*name).to_owned()));
     let last = names.pop().unwrap_or_default();

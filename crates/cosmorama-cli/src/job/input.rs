@@ -181,9 +181,10 @@ impl Input {
                 }
             },
         };
+        let envmap = header.metadata.envmap;
         let (views, faces) = match shape {
             Shape::Single(single) => (vec![Self::single(pattern, files, &path, header, single)?], None),
-            Shape::Cube(cube) => (packed::faces(&files, &path, &header, &cube)?, GivenFaces::of_image(&cube)),
+            Shape::Cube(cube) => (packed::faces(&files, &path, &header, &cube)?, GivenFaces::of_image(&cube, envmap)),
             Shape::Dual(dual) => (packed::lenses(&files, &path, &header, &dual)?, None),
             Shape::StMap(map) => return Err(st_map::unread(&map)),
         };
@@ -222,9 +223,15 @@ impl Input {
         wanted: Option<&FrameList>,
         warnings: &mut Vec<String>,
     ) -> Result<Self> {
-        if let (Some(Packing::OneImage(_)), _) | (_, Some(_)) = (cube.layout, &cube.order) {
+        if let Some(Packing::OneImage(kind)) = cube.layout {
             return Err(usage(format!(
-                "{pattern} names a file for each face, but --from is for all faces in one image"
+                "{pattern} names a file for each face, but --from layout={kind} is for all faces in one image"
+            )));
+        }
+        if cube.order.is_some() {
+            return Err(usage(format!(
+                "{pattern} names a file for each face, but order= is for faces in one image, which have no names; which \
+                 face a file is, its name says, and naming= what names mean; if a file has the name of another face, rename it"
             )));
         }
         let set = FaceSet::find(pattern, cube.naming)?;
@@ -265,6 +272,18 @@ impl Input {
                 )
             })
             .collect();
+        // Faces may share a file.
+        told.dedup();
+        told
+    }
+
+    /// What files say of themselves that is not followed.
+    pub(crate) fn complaints(&self) -> Vec<String> {
+        let told = |(view, header, _): (&InputView, &Header, _)| -> Vec<String> {
+            let path = view.files.path(self.frames[0]);
+            header.metadata.complaints.iter().map(|complaint| format!("{}: {complaint}", path.display())).collect()
+        };
+        let mut told: Vec<String> = self.present().flat_map(told).collect();
         // Faces may share a file.
         told.dedup();
         told
@@ -313,9 +332,10 @@ fn names<'a>(faces: impl Iterator<Item = &'a FaceFile>) -> String {
 }
 
 /// A folder or a wildcard was meant for the faces in it.
-fn is_one_file(pattern: &str, path: &Path) -> Result<()> {
+pub(crate) fn is_one_file(pattern: &str, path: &Path) -> Result<()> {
     let meant = if path.is_dir() {
-        format!("is a folder; for the faces of a cube in it, write {}", path.join("{face}.png").display())
+        let faces = faces_in(path).unwrap_or_else(|| path.join("{face}.png"));
+        format!("is a folder; for the faces of a cube in it, write {}", faces.display())
     } else if pattern.contains(['*', '?', '{']) && !path.exists() {
         "names no file; for the faces of a cube, write {face} or %c where a face's name stands, for frames ####"
             .to_owned()
@@ -323,4 +343,20 @@ fn is_one_file(pattern: &str, path: &Path) -> Result<()> {
         return Ok(());
     };
     Err(usage(format!("{pattern} {meant}")))
+}
+
+/// The pattern of a set of faces in a folder, if there is one: the first by name, of the files called by faces alone or with
+/// `front` in their names.
+fn faces_in(folder: &Path) -> Option<PathBuf> {
+    let entries = folder.read_dir().ok()?.filter_map(|entry| entry.ok()?.file_name().into_string().ok());
+    let mut names: Vec<String> = entries.collect();
+    names.sort_unstable();
+    let by_extension = |name: &String| Some(format!("{{face}}.{}", name.rsplit_once('.')?.1));
+    let by_front = |name: &String| name.contains("front").then(|| name.replacen("front", "{face}", 1));
+    let mut tried = names.iter().flat_map(|name| by_extension(name).into_iter().chain(by_front(name)));
+    let found = tried.find(|name| {
+        let set = folder.join(name).to_str().and_then(|pattern| FaceSet::find(pattern, None).ok());
+        set.is_some_and(|set| set.present().count() >= GivenFaces::LEAST)
+    })?;
+    Some(folder.join(found))
 }

@@ -180,6 +180,7 @@ fn metadata(
         icc: icc.filter(|_| keep),
         envmap: target.envmap,
         panorama: target.panorama,
+        complaints: Vec::new(),
         other_channels: Vec::new(),
         primaries: first.and_then(|metadata| metadata.primaries),
         orientation: None,

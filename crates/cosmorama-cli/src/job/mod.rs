@@ -12,6 +12,7 @@ mod face_view;
 mod files;
 mod frames;
 mod given_faces;
+mod gpano;
 mod guess;
 mod halves;
 mod input;
@@ -33,7 +34,9 @@ mod remade;
 mod size;
 mod st_map;
 mod st_pixels;
+mod stretched;
 mod target;
+mod thin_alpha;
 mod world_file;
 
 pub(crate) use builtin::{Builtin, BuiltinJob};
@@ -44,7 +47,7 @@ pub(crate) use face_view::face_placement;
 pub(crate) use files::Files;
 pub(crate) use frames::existing as existing_frames;
 pub(crate) use given_faces::{Continuity, FacePixels, GivenFaces};
-pub(crate) use input::{Input, InputView};
+pub(crate) use input::{Input, InputView, is_one_file};
 pub(crate) use light::{InputTransfer, Light};
 pub(crate) use listing::{Listed, listed};
 pub(crate) use machine::peak_bytes;
@@ -55,6 +58,7 @@ pub(crate) use remade::Remade;
 pub(crate) use st_map::settled;
 pub(crate) use st_pixels::st_pixels;
 pub(crate) use target::{Sheet, Target, TargetView};
+pub(crate) use thin_alpha::ThinAlpha;
 
 use std::path::PathBuf;
 
@@ -116,6 +120,8 @@ impl ConvertJob {
             target = target.with_mips(&args.output, geometry)?;
         }
         warnings.extend(input.turned());
+        warnings.extend(input.complaints());
+        warnings.extend(told_of_shape(geometry, &target));
         input.fit_eyes(target.is_stereo(), warnings);
         let filter = filter(geometry, warnings);
         let mut light = Light::resolve(args, &input, &target, warnings)?;
@@ -190,6 +196,11 @@ pub(crate) fn write_options(args: &ConvertArgs, format: Format, outputs: &Output
         quality: args.quality.unwrap_or(default.quality),
         compression: args.compression.map_or(usual, Compression::from),
     }
+}
+
+/// What should be known of an output's shape.
+fn told_of_shape(geometry: &GeometryArgs, target: &Target) -> Option<String> {
+    stretched::warning(geometry, target).or_else(|| gpano::warning(geometry, target))
 }
 
 /// The filter that was asked for.

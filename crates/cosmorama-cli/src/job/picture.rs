@@ -1,13 +1,13 @@
 use anyhow::Result;
-use cosmorama::sphere::{Angle, CubeFace};
+use cosmorama::sphere::CubeFace;
 use cosmorama::world::{
-    Canvas, CubeLayout, Eye, FaceOrder, FacePart, Frame, FrameError, LayoutKind, Mirror, Placement, SamplePositions,
-    View,
+    CubeLayout, Eye, FaceOrder, FacePart, Frame, FrameError, LayoutKind, Mirror, Placement, SamplePositions, View,
 };
 use cosmorama_io::{EnvMap, Format, Naming, Window};
 
 use super::eye::{EyePart, eye_size};
 use super::face_view::face_placement;
+use super::gpano;
 use super::piece::Piece;
 use super::size::{lens_image_size, size};
 use crate::args::SizeArg;
@@ -126,7 +126,7 @@ impl Picture {
             }
         }
         let view = single_view(*single, geometry, pixels_per_radian)?;
-        Ok(picture(view, None, gpano(single, &view)))
+        Ok(picture(view, None, gpano::window(single, (view.width(), view.height()))))
     }
 
     fn faces(cube: &Cube, geometry: &GeometryArgs, pixels_per_radian: Option<f64>) -> Result<Vec<Self>> {
@@ -252,36 +252,4 @@ fn cube_envmap(cube: &Cube, format: Option<Format>) -> Option<EnvMap> {
         && CubeFace::ALL.iter().all(|face| cube.faces.contains(face));
     let envmap = if format == Some(Format::Exr) { EnvMap::Cube } else { EnvMap::GlCube };
     same.then_some(envmap)
-}
-
-/// What GPano metadata say of a panorama of 360°×180°, or of a window of one.
-fn gpano(single: &Single, view: &View) -> Option<Window> {
-    let Placement { frame: Frame::Equirect(frame), mirror, canvas, .. } = single.placement else { return None };
-    if frame.samples != SamplePositions::Centres || mirror != Mirror::default() {
-        return None;
-    }
-    let (width, height) = (view.width(), view.height());
-    let part = canvas.unwrap_or(Canvas { width, height, left: 0, top: 0 });
-    // The sphere around a field of view that is less: in pixels of the part, which lies in its middle.
-    let (whole_width, left) = around(part.width, frame.horizontal, 360.0)?;
-    let (whole_height, top) = around(part.height, frame.vertical, 180.0)?;
-    let (x, y) = (usize::try_from(left + part.left).ok()?, usize::try_from(top + part.top).ok()?);
-    let inside = x.checked_add(width)? <= whole_width && y.checked_add(height)? <= whole_height;
-    // Viewers take pixels for square.
-    (inside && whole_width == 2 * whole_height).then_some(Window {
-        canvas_width: whole_width,
-        canvas_height: whole_height,
-        x,
-        y,
-    })
-}
-
-/// The pixels of all degrees of which so many pixels are a field of view, and those before it; `None` where they are no
-/// whole numbers, which is all that the metadata hold.
-fn around(pixels: usize, field_of_view: Angle, degrees: f64) -> Option<(usize, i64)> {
-    let exact = pixels as f64 * degrees / field_of_view.degrees();
-    let whole = exact.round();
-    let is_whole = (exact - whole).abs() < 0.01 && whole < i64::MAX as f64;
-    let before = (whole as i64).checked_sub(i64::try_from(pixels).ok()?)?;
-    (is_whole && before >= 0 && before % 2 == 0).then_some((whole as usize, before / 2))
 }

@@ -9,7 +9,7 @@ use cosmorama_io::{WriteOptions, write_levels};
 
 use super::frame_light::{FrameLight, Texels};
 use super::geometry::Geometry;
-use super::suns;
+use super::{suns, thin_alpha};
 use crate::job::{ConvertJob, Coverage, FacePixels, FrameOutputs, InFlight, InputView, Light, Sheet, light_of};
 
 /// Makes the outputs of a job, frame by frame.
@@ -76,9 +76,10 @@ impl<'a> Engine<'a> {
         let tell = |(view, count): (&InputView, usize)| {
             format!("{}: {count} pixels are NaN and count as missing", view.files.path(frame).display())
         };
-        // Of a sequence, the first frame tells whether there are suns.
+        // Of a sequence, the first frame tells whether there are suns, and alpha that is none.
         let is_first = self.job.outputs.frames.first().is_some_and(|first| first.frame == frame);
         let suns = if is_first { suns::warning(self.job, light) } else { None };
+        let thin = if is_first { thin_alpha::warnings(self.job, frame, light) } else { Vec::new() };
         let flat = |path: &Path| {
             format!(
                 "{}: transparent pixels, but the first frame has no alpha: they are laid over the background; to keep them \
@@ -86,7 +87,7 @@ impl<'a> Engine<'a> {
                 path.display()
             )
         };
-        self.incomplete(light).map(tell).chain(light.flattened().map(flat)).chain(suns).collect()
+        self.incomplete(light).map(tell).chain(light.flattened().map(flat)).chain(thin).chain(suns).collect()
     }
 
     /// Views with missing texels, and how many.

@@ -11,7 +11,7 @@ use super::info_faces::{of_files, of_image};
 use super::pipe::KeptStreams;
 use super::{info_world, print};
 use crate::args::InfoArgs;
-use crate::job::{Builtin, Files, existing_frames, likely};
+use crate::job::{Builtin, Files, ThinAlpha, existing_frames, is_one_file, light_of, likely};
 
 /// Tells what a file or a face set is.
 pub(super) fn run(args: &InfoArgs) -> Result<ExitCode> {
@@ -38,6 +38,7 @@ fn single(pattern: &str) -> Result<Value> {
     let files = Files::new(Path::new(pattern));
     let frames = existing_frames(&files)?;
     let path = files.path(frames.first().copied());
+    is_one_file(pattern, &path)?;
     let header = probe(&path)?;
     let mut report = json!({ "input": pattern });
     add_frames(&mut report, &frames);
@@ -47,11 +48,18 @@ fn single(pattern: &str) -> Result<Value> {
     if let Some(damage) = &likely.damage {
         report["damaged"] = json!(damage);
     }
+    let picture = if header.channels.has_alpha() { light_of(&path) } else { None };
+    if let Some(told) = picture.and_then(|light| ThinAlpha::of(light.pixels().iter().copied())?.told()) {
+        report["alpha"] = json!(told);
+    }
     if let Some(found) = likely.circle {
         let Circle { centre: (x, y), radius } = found.circle();
         report["circle"] = json!({ "x": x, "y": y, "radius": radius, "measured": matches!(found, Found::Measured(_)) });
     }
-    if let Some(continuity) = of_image(&path, &likely) {
+    if let Some(continuity) = of_image(&path, &likely, header.metadata.envmap) {
+        if let (true, Value::String(spec)) = (continuity["fits"] == true, &continuity["spec"]) {
+            report["projection"] = json!(format!("{spec} (by its shape, and because the borders of its faces meet)"));
+        }
         report["arrangement"] = continuity;
     }
     Ok(report)
@@ -113,6 +121,9 @@ fn header_report(header: &Header) -> Value {
     if let Some(window) = metadata.panorama {
         let (width, height) = (window.canvas_width, window.canvas_height);
         report["gpano"] = json!(format!("equirectangular, {width}x{height}+{}+{}", window.x, window.y));
+    }
+    if !metadata.complaints.is_empty() {
+        report["complaints"] = json!(metadata.complaints);
     }
     if !metadata.other_channels.is_empty() {
         report["other_channels"] = json!(metadata.other_channels);

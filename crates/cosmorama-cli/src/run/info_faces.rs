@@ -4,11 +4,11 @@ use std::path::Path;
 
 use anyhow::Result;
 use cosmorama::raster::{Image, Rgba};
-use cosmorama_io::FaceSet;
+use cosmorama_io::{EnvMap, FaceSet};
 use serde_json::{Value, json};
 
 use crate::job::{Continuity, FacePixels, Files, GivenFaces, Likely, existing_frames, light_of};
-use crate::spec::Cube;
+use crate::spec::{Cube, Packing};
 
 /// Of the first frame of a face set; `None` where its files have too few whole faces to tell.
 pub(super) fn of_files(set: &FaceSet) -> Result<Option<Value>> {
@@ -30,14 +30,29 @@ pub(super) fn of_files(set: &FaceSet) -> Result<Option<Value>> {
     Ok(given.judge(&pixels.collect::<Vec<_>>()).as_ref().map(report))
 }
 
-/// Of faces in one image. Where its shape alone says that it may be one, it is if the borders do.
-pub(super) fn of_image(path: &Path, likely: &Likely) -> Option<Value> {
+/// Of faces in one image. Where its shape alone says that it may be one, it is if the borders do, and they say which.
+pub(super) fn of_image(path: &Path, likely: &Likely, envmap: Option<EnvMap>) -> Option<Value> {
     let picture = if likely.cubes.is_empty() { return None } else { light_of(path)? };
-    let judged = likely.cubes.iter().filter_map(|cube| GivenFaces::of_image(cube)?.judge_image(&picture));
+    let judge = |cube: &Cube| {
+        let found = GivenFaces::of_image(cube, envmap)?.judge_image(&picture)?;
+        Some(if likely.may_be_none { named(found, cube) } else { found })
+    };
+    let judged = likely.cubes.iter().filter_map(judge);
     let mut found: Vec<Continuity> = judged.filter(|judged| !likely.may_be_none || judged.fits.is_some()).collect();
     // Of several layouts the one that lies rightly.
     found.sort_by_key(|judged| judged.fits != Some(true));
     found.first().map(report)
+}
+
+/// What fits, with the layout in which it does.
+fn named(found: Continuity, cube: &Cube) -> Continuity {
+    match cube.layout {
+        Some(Packing::OneImage(kind)) if found.fits == Some(true) => {
+            let spec = format!("cube:layout={kind}");
+            Continuity { told: format!("as {spec}, {}", found.told), spec: Some(spec), ..found }
+        }
+        _ => found,
+    }
 }
 
 fn pixel_of(picture: &Image<Rgba>) -> impl Fn(usize, usize) -> Rgba + '_ {

@@ -24,6 +24,7 @@ mod shell;
 mod st_map;
 mod stages;
 mod suns;
+mod thin_alpha;
 
 use std::process::ExitCode;
 

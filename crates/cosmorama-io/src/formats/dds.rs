@@ -66,6 +66,7 @@ fn texture(path: &Path, source: &mut Source) -> Result<CubeTexture, IoError> {
         offsets: [0; 6],
         packed: None,
     };
+    cube.check_levels(path, FORMAT, "dwMipMapCount", header.mip_map_count.unwrap_or(1))?;
     let first = start.len() as u64 + if modern.is_some() { 20 } else { 0 };
     let stride = face_stride(&cube, header.mip_map_count.unwrap_or(1));
     for (face, offset) in (0_u64..).zip(&mut cube.offsets) {

@@ -122,10 +122,12 @@ fn header<T: ZByteReaderTrait>(path: &Path, decoder: &mut JpegDecoder<T>) -> Res
         other => return Err(IoError::unsupported(path, FORMAT, format_args!("{other:?} colours"), "grey or RGB")),
     };
     let profile = decoder.icc_profile();
+    let said = decoder.xmp().map(|packet| gpano::parse(packet, (width, height))).unwrap_or_default();
     let metadata = Metadata {
         transfer: profile.as_deref().and_then(icc::transfer),
         icc: profile,
-        panorama: decoder.xmp().and_then(|packet| gpano::parse(packet, (width, height))),
+        panorama: said.window,
+        complaints: said.complaints,
         ..Metadata::default()
     };
     Ok(Header { format: FORMAT, width, height, channels, depth: Depth::Eight, metadata, window: None })

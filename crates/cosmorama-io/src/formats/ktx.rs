@@ -60,7 +60,7 @@ fn texture(path: &Path, source: &mut Source) -> Result<CubeTexture, IoError> {
     for (number, b) in numbers.iter_mut().zip(start[12..].chunks_exact(4)) {
         *number = u32::from_le_bytes([b[0], b[1], b[2], b[3]]);
     }
-    let [endianness, kind, _, order, internal, _, width, height, depth, layers, faces, _, key_bytes] = numbers;
+    let [endianness, kind, _, order, internal, _, width, height, depth, layers, faces, levels, key_bytes] = numbers;
     let unsupported = |found: String| IoError::unsupported(path, FORMAT, found, EXPECTED);
     if endianness != LITTLE_ENDIAN {
         return Err(unsupported("numbers with their highest byte first".to_owned()));
@@ -97,6 +97,7 @@ fn texture(path: &Path, source: &mut Source) -> Result<CubeTexture, IoError> {
         offsets: [0; 6],
         packed: None,
     };
+    cube.check_levels(path, FORMAT, "numberOfMipmapLevels", levels)?;
     let (declared, bytes) = (u64::from(u32::from_le_bytes(size)), cube.face_bytes());
     if declared != bytes {
         return Err(IoError::damaged(

@@ -77,6 +77,14 @@ fn texture(path: &Path, source: &mut Source) -> Result<CubeTexture, IoError> {
         offsets: [0; 6],
         packed: packing.map(|packing| Packed { packing, offset: level.byte_offset, length: level.byte_length }),
     };
+    cube.check_levels(path, FORMAT, "levelCount", header.level_count)?;
+    if packing.is_none() && level.uncompressed_byte_length != level.byte_length {
+        let reason = format_args!(
+            "uncompressedByteLength is {}, but texels that are not packed have byteLength {}",
+            level.uncompressed_byte_length, level.byte_length
+        );
+        return Err(IoError::damaged(path, FORMAT, reason));
+    }
     let bytes = cube.face_bytes();
     let length = if packing.is_some() { level.uncompressed_byte_length } else { level.byte_length };
     if bytes.checked_mul(6) != Some(length) {

@@ -4,7 +4,7 @@ use cosmorama::raster::Transfer;
 use png::chunk::ChunkType;
 use png::{CodingIndependentCodePoints, Info, ScaledFloat, SrgbRenderingIntent};
 
-use crate::{Metadata, Window, gpano, icc};
+use crate::{Metadata, gpano, icc};
 
 pub(super) const CICP: ChunkType = ChunkType(*b"cICP");
 
@@ -18,11 +18,13 @@ pub(super) fn metadata(info: &Info<'_>) -> Metadata {
         .or_else(|| info.srgb.map(|_| Transfer::Srgb))
         .or_else(|| info.gama_chunk.and_then(from_gamma));
     let software = info.uncompressed_latin1_text.iter().find(|text| text.keyword == "Software");
+    let said = panorama(info).unwrap_or_default();
     Metadata {
         transfer,
         icc: profile,
         primaries: cicp.map(|cicp| cicp.color_primaries),
-        panorama: panorama(info),
+        panorama: said.window,
+        complaints: said.complaints,
         software: software.map(|text| text.text.clone()),
         ..Metadata::default()
     }
@@ -33,10 +35,10 @@ pub(super) const XMP: &str = "XML:com.adobe.xmp";
 /// A packet of more bytes than this is none.
 const LONGEST_PACKET: usize = 1 << 20;
 
-fn panorama(info: &Info<'_>) -> Option<Window> {
+fn panorama(info: &Info<'_>) -> Option<gpano::Said> {
     let mut packet = info.utf8_text.iter().find(|text| text.keyword == XMP)?.clone();
     packet.decompress_text_with_limit(LONGEST_PACKET).ok()?;
-    gpano::parse(packet.get_text().ok()?.as_bytes(), (info.width as usize, info.height as usize))
+    Some(gpano::parse(packet.get_text().ok()?.as_bytes(), (info.width as usize, info.height as usize)))
 }
 
 /// ITU-T H.273, transfer characteristics.

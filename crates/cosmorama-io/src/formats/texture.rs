@@ -48,6 +48,18 @@ impl CubeTexture {
         }
     }
 
+    /// Each level is half of the one before: so many there are at most, down to a face of one texel. `field` is what the
+    /// format calls their number.
+    pub(super) fn check_levels(&self, path: &Path, format: Format, field: &str, levels: u32) -> Result<(), IoError> {
+        let most = self.edge.checked_ilog2().map_or(1, |halvings| halvings + 1);
+        if levels <= most {
+            return Ok(());
+        }
+        let edge = self.edge;
+        let reason = format_args!("{field} is {levels}; faces of {edge}x{edge} pixels have {most} levels at most");
+        Err(IoError::damaged(path, format, reason))
+    }
+
     /// Bytes of a face.
     pub(super) fn face_bytes(&self) -> u64 {
         let blocks = u64::from(self.edge.div_ceil(self.texels.block_edge()));

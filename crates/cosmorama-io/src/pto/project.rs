@@ -119,8 +119,17 @@ impl PtoProject {
                         "o-lines of old projects are not supported; save the project with Hugin".into(),
                     ));
                 }
-                // Options (m), variables (v), control points (c) and comments place no picture.
-                _ => {}
+                // Options (m), variables (v), control points (c), comments and the end of a script (*) place no picture.
+                None | Some(("m" | "v" | "c" | "#" | "*", _)) => {}
+                Some((letter, _)) => {
+                    return Err((
+                        line,
+                        format!(
+                            "'{letter}' begins no line that is known; there are p, i, k, and m, v, c and #, which place no \
+                             picture"
+                        ),
+                    ));
+                }
             }
         }
         if images.is_empty() {

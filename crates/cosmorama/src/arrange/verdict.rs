@@ -1,7 +1,7 @@
 use super::mismatch::{Seam, SeamKey};
 use super::search::{Found, Search, is_same};
 use super::symmetry::Symmetry;
-use super::{Mismatch, Pose};
+use super::{Change, Mismatch, Pose, changes};
 
 /// What continuity says of an arrangement of pictures.
 #[derive(Clone, Debug, PartialEq)]
@@ -107,7 +107,7 @@ fn turns_freely(mismatch: &Mismatch, best: &Found, picture: usize) -> bool {
     })
 }
 
-/// An arrangement, turned and mirrored as a whole so that the fewest pictures lie otherwise than in the given one. Free
+/// An arrangement, turned and mirrored as a whole so that the least has to be done to what was given. Free
 /// pictures lie as they were given.
 fn nearest(poses: &[Pose], given: &[Pose], is_free: &[bool]) -> Vec<Pose> {
     let faces = |poses: &[Pose]| poses.iter().all(|pose| given.iter().any(|given| given.face == pose.face));
@@ -119,15 +119,18 @@ fn nearest(poses: &[Pose], given: &[Pose], is_free: &[bool]) -> Vec<Pose> {
         };
         pictures.map(settle).collect()
     });
-    let effort = |image: &Vec<Pose>| image.iter().zip(given).map(|(pose, given)| effort(*pose, *given)).sum::<u32>();
-    with_free.min_by_key(effort).unwrap_or_else(|| poses.to_vec())
+    with_free.min_by_key(|image| effort(image, given)).unwrap_or_else(|| poses.to_vec())
 }
 
-/// How far a picture is from how it was given. Another face is a more likely mistake than a mirrored picture.
-fn effort(pose: Pose, given: Pose) -> u32 {
-    let (lies, was) = (pose.placement(), given.placement());
-    let turned = lies.quarter_turns != was.quarter_turns;
-    4 * u32::from(pose.face != given.face) + 3 * u32::from(lies.mirrored != was.mirrored) + u32::from(turned)
+/// How much has to be done to lay pictures otherwise than they were given, as it is told. A turned picture is a more likely
+/// mistake than one on another face or a mirrored one; two pictures that are exchanged are one mistake.
+fn effort(poses: &[Pose], given: &[Pose]) -> u32 {
+    let cost = |change: &Change| match change {
+        Change::Swapped(..) | Change::Moved { .. } => 2,
+        Change::Turned { .. } => 1,
+        Change::Mirrored { quarter_turns, .. } => 2 + u32::from(*quarter_turns % 2),
+    };
+    changes(given, poses).iter().map(cost).sum()
 }
 
 /// The chance, at least, that no arrangement as continuous as the better one would look as much worse as the other does by

@@ -50,17 +50,19 @@ pub enum FrameError {
     },
     /// Hugin's correction turns back within the image.
     #[error(
-        "Hugin's a, b, c turn back {}° from the axis, {} pixels from its centre, but the image's corner is at {} pixels: they \
-         cannot be right for this image",
-        rounded(*.degrees), rounded(*.radius), rounded(*.corner)
+        "Hugin's a, b, c turn back {}° from the axis, at radius {} pixels before the correction and {} after it, but the image \
+         reaches to {} pixels: they cannot be right for this image",
+        rounded(*.degrees), rounded(*.ideal), rounded(*.radius), rounded(*.end)
     )]
     CorrectionTurnsBack {
         /// From the axis.
         degrees: f64,
-        /// In pixels.
+        /// In pixels, by the lens before its correction.
+        ideal: f64,
+        /// In pixels, in the image.
         radius: f64,
-        /// Of the corner, in pixels.
-        corner: f64,
+        /// How far the image reaches from the axis, in pixels.
+        end: f64,
     },
     /// Hugin's correction of a picture that is a panorama.
     #[error("a, b, c correct a lens; for panoramas (f1, f4) they must be 0")]

@@ -83,10 +83,8 @@ impl ImageFrame for HuginFrame {
         let [right, down] = self.shift;
         let centre = PixelPoint::new(w / 2.0 + right, h / 2.0 + down);
         let grid = PixelGrid::centred(width, height, centre, DVec2::splat(focal.recip()));
-        if let ProjectionKind::Fisheye(lens) = projection
-            && self.projection == HuginProjection::Rectilinear
-        {
-            check_corner(&lens.0, focal, (w / 2.0 + right.abs()).hypot(h / 2.0 + down.abs()))?;
+        if let ProjectionKind::Fisheye(lens) = projection {
+            self.check_correction(&lens.0, focal, (w / 2.0 + right.abs(), h / 2.0 + down.abs()))?;
         }
         Ok(View { projection, orientation: Orientation::IDENTITY, grid, stop: FieldStop::NONE })
     }
@@ -113,16 +111,36 @@ impl HuginFrame {
             HuginProjection::Equidistant => (1000.0, false),
         };
         check_field_of_view("v, the field of view across the image,", self.field_of_view, greatest, below)?;
-        let (half, quarter) = (self.field_of_view * 0.5, self.field_of_view * 0.25);
-        Ok(width
-            / 2.0
-            / match self.projection {
-                HuginProjection::Rectilinear => half.tan(),
-                HuginProjection::Orthographic => half.sin_cos().0,
-                HuginProjection::Stereographic => 2.0 * quarter.tan(),
-                HuginProjection::Equisolid => 2.0 * quarter.sin_cos().0,
-                _ => half.radians(),
-            })
+        Ok(width / 2.0 / self.ideal(self.field_of_view * 0.5))
+    }
+
+    /// How far from the axis the lens before its correction, or the panorama, has what is at an angle from it.
+    fn ideal(&self, angle: Angle) -> f64 {
+        let half = angle * 0.5;
+        match self.projection {
+            HuginProjection::Rectilinear => angle.tan(),
+            HuginProjection::Orthographic => angle.sin_cos().0,
+            HuginProjection::Stereographic => 2.0 * half.tan(),
+            HuginProjection::Equisolid => 2.0 * half.sin_cos().0,
+            _ => angle.radians(),
+        }
+    }
+
+    /// A correction that turns back within the image is none of it, whether its radius be taken before or after it. A
+    /// rectilinear image has no corner that the lens does not show; a fisheye's circle may end anywhere beyond 90°, and in
+    /// the corners.
+    fn check_correction(&self, lens: &FisheyeLens, focal: f64, reach: (f64, f64)) -> Result<(), FrameError> {
+        let (angle, end) = match self.projection {
+            HuginProjection::Rectilinear => (90.0, reach.0.hypot(reach.1)),
+            _ => (89.999, reach.0),
+        };
+        let turn = Angle::from_radians(lens.reach());
+        let seen = lens.radius(lens.reach()).map_or(f64::INFINITY, |radius| radius * focal);
+        let ideal = self.ideal(turn) * focal;
+        if turn.degrees() < angle && self.correction != [0.0; 3] && seen.min(ideal) < end {
+            return Err(FrameError::CorrectionTurnsBack { degrees: turn.degrees(), ideal, radius: seen, end });
+        }
+        Ok(())
     }
 
     fn kind(&self, focal: f64, shorter: f64) -> Result<ProjectionKind, FrameError> {
@@ -156,15 +174,6 @@ impl HuginFrame {
             | HuginProjection::EqualArea => Err(FrameError::CorrectedPanorama),
         }
     }
-}
-
-/// A rectilinear image has no corner that the lens does not show.
-fn check_corner(lens: &FisheyeLens, focal: f64, corner: f64) -> Result<(), FrameError> {
-    let turn = lens.radius(lens.reach()).map_or(f64::INFINITY, |radius| radius * focal);
-    if corner > turn {
-        return Err(FrameError::CorrectionTurnsBack { degrees: lens.reach().to_degrees(), radius: turn, corner });
-    }
-    Ok(())
 }
 
 #[cfg(test)]
@@ -203,6 +212,13 @@ mod tests {
     fn a_correction_that_turns_back_within_the_image_is_told() {
         let error = HuginFrame { correction: [0.0, -0.4, 0.0], ..LENS }.view(400, 300).unwrap_err().to_string();
         assert!(error.contains("turn back") && error.contains("pixels"), "{error}");
+        // Here only the radius before the correction is within the image, and here the image is a fisheye's.
+        for (projection, correction) in
+            [(HuginProjection::Rectilinear, [0.0, -9.0, 0.0]), (HuginProjection::Equidistant, [0.0, -0.4, 0.0])]
+        {
+            let error = HuginFrame { projection, correction, ..LENS }.view(400, 300).unwrap_err().to_string();
+            assert!(error.contains("turn back") && error.contains("pixels"), "{error}");
+        }
         let panorama = HuginFrame { projection: HuginProjection::Cylinder, correction: [0.0, 0.1, 0.0], ..LENS };
         assert_eq!(panorama.view(400, 300), Err(FrameError::CorrectedPanorama));
     }

@@ -1,0 +1,33 @@
+//! Maps that are made in another shape than their own.
+
+use cosmorama::world::Frame;
+
+use super::Target;
+use super::canvas::is_near;
+use crate::args::SizeArg;
+use crate::args::convert::GeometryArgs;
+use crate::spec::{Shape, Spec};
+
+/// What should be known where nobody said that pixels are not to be square: as an input such a map is refused.
+pub(super) fn warning(geometry: &GeometryArgs, target: &Target) -> Option<String> {
+    let Some(Spec { name, shape: Shape::Single(single), stereo: None, .. }) = &geometry.to else { return None };
+    let Some(SizeArg { height: Some(_), .. }) = geometry.size else { return None };
+    let frame = single.placement.frame;
+    let (fills_any_shape, whole) = match frame {
+        Frame::Equirect(_) => (true, ", or, if it is meant, give hfov= and vfov="),
+        Frame::WorldMap(_) | Frame::Octahedral(_) => (true, ""),
+        Frame::Cylinder(frame) => (frame.top.is_some(), ""),
+        _ => (false, ""),
+    };
+    if !fills_any_shape || single.any_shape || single.placement.canvas.is_some() {
+        return None;
+    }
+    let view = &target.views.first()?.view;
+    let (width, height) = (view.width(), view.height());
+    let natural = frame.natural_height(width);
+    (!is_near(natural, height)).then(|| {
+        format!(
+            "--to {name}: pixels are not square: {width}x{height}; the natural height is {natural}: give --size {width}{whole}"
+        )
+    })
+}
