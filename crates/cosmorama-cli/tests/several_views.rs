@@ -14,7 +14,7 @@ use serde_json::Value;
 /// A panorama of 512×256, full of lines.
 fn sky() -> Bench {
     let bench = Bench::new();
-    bench.succeed(&["convert", "builtin:grid", "sky.png", "--to", "equirect", "--size", "512"]);
+    bench.succeed(&["convert", "builtin:demo", "sky.png", "--to", "equirect", "--size", "512"]);
     bench
 }
 

@@ -81,7 +81,7 @@ fn nothing_of_one_eye_reaches_the_other() {
 #[test]
 fn what_is_packed_comes_out_as_it_was() {
     let bench = Bench::new();
-    bench.succeed(&["convert", "builtin:grid", "sky.png", "--to", "equirect", "--size", "512"]);
+    bench.succeed(&["convert", "builtin:demo", "sky.png", "--to", "equirect", "--size", "512"]);
     for (to, size, out) in [
         ("equirect:stereo=sbs", "512", (1024, 256)),
         ("equirect:stereo=tb", "512", (512, 512)),
