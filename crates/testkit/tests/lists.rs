@@ -73,7 +73,8 @@ fn what_has_code_is_in_its_list() {
         for (list, traits) in &lists {
             let implemented = traits.iter().flat_map(|of| code.split(of).skip(1)).map(first_word);
             for kind in implemented.filter(|kind| *kind != "ProjectionKind") {
-                assert!(list.contains(kind), "{name}: {kind} is in no list");
+                let mut words = list.split(|c: char| !c.is_alphanumeric());
+                assert!(words.any(|word| word == kind), "{name}: {kind} is in no list");
             }
         }
     }

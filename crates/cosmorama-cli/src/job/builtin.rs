@@ -128,14 +128,20 @@ impl BuiltinJob {
 fn without_letters(target: &Target) -> Option<String> {
     let TargetView { name, view, .. } = target.views.first()?;
     Grid::width_for_letters(view).map(|enough| {
+        let when = if enough <= WIDEST {
+            format!("they show from a width of {enough} on")
+        } else {
+            "in this projection its middle is too small for any".to_owned()
+        };
+        let (width, height) = (view.width(), view.height());
         format!(
-            "{name}: in {}x{} pixels the grid's letters would be too small to read, and are left out; they show from a width of \
-             {enough} on",
-            view.width(),
-            view.height()
+            "{name}: in {width}x{height} pixels the grid's letters would be too small to read, and are left out; {when}"
         )
     })
 }
+
+/// Nobody makes wider pictures for the sake of letters.
+const WIDEST: usize = 1 << 15;
 
 /// What speaks of files means nothing here.
 fn check_input_options(args: &ConvertArgs) -> Result<()> {

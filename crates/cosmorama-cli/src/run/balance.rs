@@ -4,7 +4,7 @@ use cosmorama::raster::{Image, Rgba};
 use cosmorama::resample::{FilterKind, Kernel, LightBalance, Plan};
 use cosmorama::world::View;
 
-use crate::job::ConvertJob;
+use crate::job::{ConvertJob, Coverage};
 
 /// The balance of a job's pictures, where they are to keep light and can.
 #[derive(Default)]
@@ -15,16 +15,19 @@ struct Group {
     /// Indices of the job's target views.
     views: Vec<usize>,
     balance: LightBalance,
+    bytes: u64,
 }
 
-/// Whether all of a job's filter is to keep light: `--kernel light`.
+/// Whether a job's filter is to keep light, and its weights are those that can be balanced: `--kernel light` without anti-ringing,
+/// which depends on the light.
 pub(super) fn is_asked_for(job: &ConvertJob) -> bool {
     job.filter.kind == FilterKind::Ewa && job.filter.kernel == Kernel::LIGHT && !job.filter.anti_ringing
 }
 
-/// The views of each size that together show what a world shows.
+/// The views of each size that together show what a world shows. Where pixels are filled since no view looks there, or alpha says how
+/// much of a texel there is, light is in no balance.
 pub(super) fn groups(job: &ConvertJob) -> Vec<Vec<usize>> {
-    if !is_asked_for(job) {
+    if !is_asked_for(job) || job.light.input_alpha || matches!(job.coverage, Coverage::Fill(_)) {
         return Vec::new();
     }
     let key = |index: usize| {
@@ -43,7 +46,7 @@ pub(super) fn groups(job: &ConvertJob) -> Vec<Vec<usize>> {
 }
 
 /// Bytes that the balance of these takes.
-pub(super) fn bytes(job: &ConvertJob, groups: &[Vec<usize>]) -> u64 {
+pub(super) fn bytes_of(job: &ConvertJob, groups: &[Vec<usize>]) -> u64 {
     groups.iter().map(|group| LightBalance::bytes(job.world(&job.target.views[group[0]]), &views(job, group))).sum()
 }
 
@@ -58,9 +61,15 @@ impl Balance {
             let plan = |index: &usize| Some((plans[*index].as_ref()?, &job.target.views[*index].view));
             let targets: Vec<_> = indices.iter().map(plan).collect::<Option<_>>()?;
             let balance = LightBalance::new(job.world(&job.target.views[indices[0]]), &targets);
-            Some(Group { views: indices, balance })
+            let bytes = bytes_of(job, std::slice::from_ref(&indices));
+            Some(Group { views: indices, balance, bytes })
         };
         Self(groups.into_iter().filter_map(balanced).collect())
+    }
+
+    /// Bytes that it takes, with the light that it makes.
+    pub(super) fn bytes(&self) -> u64 {
+        self.0.iter().map(|group| group.bytes).sum()
     }
 
     /// The light from which a target view is to be made, if not as it is.

@@ -126,9 +126,9 @@ impl<'a> Engine<'a> {
         let (resampler, texels) = (self.job.resampler(target), &worlds[target.world(worlds.len())]);
         if self.is_complete(light) && !self.job.light.channels.has_alpha() {
             // A file without alpha shows everything in front of the background.
-            return Ok(self.geometry.light(index, resampler, texels, self.job.light.background));
+            return Ok(self.geometry.light(index, resampler, (texels, false), self.job.light.background));
         }
-        let mut image = self.geometry.light(index, resampler, texels, Rgba::TRANSPARENT);
+        let mut image = self.geometry.light(index, resampler, (texels, self.has_holes(light)), Rgba::TRANSPARENT);
         self.close_holes(index, (frame, light), &mut image)?;
         self.complete(index, &mut image);
         Ok(image)

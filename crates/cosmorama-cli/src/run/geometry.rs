@@ -32,13 +32,16 @@ impl Geometry {
         }
         let geometry = match codec(job) {
             Some(codec) => {
-                let plans = kept(job, 0, |r| r.fixed_plan_bytes_estimate(), |r| r.fixed_plan(), &mut warnings);
+                let plans =
+                    kept(job, (pays(job), 0), |r| r.fixed_plan_bytes_estimate(), |r| r.fixed_plan(), &mut warnings);
                 Self::Fixed(plans, codec)
             }
             None => {
                 let groups = balance::groups(job);
-                let taken = balance::bytes(job, &groups);
-                let plans = kept(job, taken, |r| r.plan_bytes_estimate(), |r| r.plan(), &mut warnings);
+                let taken = balance::bytes_of(job, &groups);
+                // What is balanced needs its plan, even for one picture.
+                let is_kept = pays(job) || !groups.is_empty();
+                let plans = kept(job, (is_kept, taken), |r| r.plan_bytes_estimate(), |r| r.plan(), &mut warnings);
                 if groups.iter().flatten().any(|view| plans[*view].is_none()) {
                     warnings.push(UNBALANCED.to_owned());
                 }
@@ -60,16 +63,25 @@ impl Geometry {
     /// Bytes that it holds.
     pub(super) fn bytes(&self) -> u64 {
         match self {
-            Self::Float(plans, _) => plans.iter().flatten().map(|plan| plan.bytes() as u64).sum(),
+            Self::Float(plans, balance) => {
+                plans.iter().flatten().map(|plan| plan.bytes() as u64).sum::<u64>() + balance.bytes()
+            }
             Self::Fixed(plans, _) => plans.iter().flatten().map(|plan| plan.bytes() as u64).sum(),
             Self::Pyramid(plans) => plans.iter().flatten().map(|plan| plan.bytes() as u64).sum(),
         }
     }
 
-    /// The pixels of a target view, of any light, in front of a background.
-    pub(super) fn light(&self, index: usize, resampler: Resampler, texels: &[Rgba], background: Rgba) -> Image<Rgba> {
+    /// The pixels of a target view, of any light, in front of a background. What has holes is in no balance.
+    pub(super) fn light(
+        &self,
+        index: usize,
+        resampler: Resampler,
+        (texels, has_holes): (&[Rgba], bool),
+        background: Rgba,
+    ) -> Image<Rgba> {
+        let balanced = |balance: &Balance| if has_holes { None } else { balance.light(index, texels) };
         let made = match self {
-            Self::Float(plans, balance) => match (&plans[index], balance.light(index, texels)) {
+            Self::Float(plans, balance) => match (&plans[index], balanced(balance)) {
                 (Some(plan), None) => Some(plan.apply_over(texels, background)),
                 (Some(plan), Some(balanced)) => {
                     let mut image = plan.apply(&balanced);
@@ -135,7 +147,7 @@ fn fitting<P>(
 /// Geometry for many frames is computed once, and once for many runs where it is kept, as far as it fits into memory.
 fn kept<P: SavedPlan>(
     job: &ConvertJob,
-    taken: u64,
+    (is_kept, taken): (bool, u64),
     estimate: impl Fn(&Resampler) -> usize,
     plan: impl Fn(&Resampler) -> Option<P>,
     warnings: &mut Vec<String>,
@@ -149,7 +161,7 @@ fn kept<P: SavedPlan>(
                 warnings.append(&mut cache.warnings);
                 plan
             }
-            _ if pays(job) || taken > 0 => compute(),
+            _ if is_kept => compute(),
             _ => None,
         }
     };
@@ -160,6 +172,7 @@ fn kept<P: SavedPlan>(
 fn codec(job: &ConvertJob) -> Option<FixedCodec> {
     let light = &job.light;
     let is_possible = !matches!(job.filter.kind, FilterKind::Reference { .. } | FilterKind::EwaPyramid)
+        // A factor may take a texel beyond white.
         && !balance::is_asked_for(job)
         && light.channels == Channels::Rgb
         && light.depth == Depth::Eight

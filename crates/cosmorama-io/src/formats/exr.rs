@@ -106,7 +106,8 @@ fn open<'a>(path: &Path, source: &'a mut Source) -> Result<Reader<&'a mut Source
 
 /// Whether a file of one part is refused for its `chunkCount` alone, which then counts for nothing, as in OpenEXR's own
 /// library: that takes the number of chunks from sizes and compression, and programs such as exrenvmap hand on what their
-/// input said of itself. It is the stricter way of reading that does not compare the number.
+/// input said of itself. It is the stricter way of reading that does not compare the number: exr 1.74 hands the flag on inverted
+/// (`MetaData::read_validated_from_buffered_peekable`); once that is mended, such files are not refused here.
 fn has_wrong_count(source: &mut Source) -> io::Result<bool> {
     let is_refused = matches!(exr::block::read(&mut *source, false), Err(Error::Invalid(_)));
     source.rewind()?;

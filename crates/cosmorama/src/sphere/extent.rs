@@ -63,7 +63,10 @@ impl fmt::Display for Extent {
         let ((left, right), (low, high)) = (self.yaws(), self.pitches);
         match right - left {
             TURN => write!(f, "all yaws")?,
-            MOST..TURN => write!(f, "all yaws but {}° to {}°", right - TURN, left)?,
+            MOST..TURN => {
+                let (from, to) = if right < TURN / 2 { (right, left + TURN) } else { (right - TURN, left) };
+                write!(f, "all yaws but {from}° to {to}°")?;
+            }
             _ => write!(f, "yaw {left}° to {right}°")?,
         }
         write!(f, ", pitch {low}° to {high}°")
@@ -89,6 +92,8 @@ mod tests {
         assert_eq!(extent(&[(179.999, 89.9)]), "yaw 179° to 180°, pitch 89° to 90°");
         let but_ahead: Vec<_> = (-10..300).map(|yaw| (f64::from(yaw) + 20.5, 0.5)).collect();
         assert_eq!(extent(&but_ahead), "all yaws but -40° to 10°, pitch 0° to 1°");
+        let but_behind: Vec<_> = (-170..150).map(|yaw| (f64::from(yaw) + 0.5, 0.5)).collect();
+        assert_eq!(extent(&but_behind), "all yaws but 150° to 190°, pitch 0° to 1°");
         let round: Vec<_> = (0..360).map(|yaw| (f64::from(yaw) + 0.5, -60.5)).collect();
         assert_eq!(extent(&round), "all yaws, pitch -61° to -60°");
     }

@@ -7,8 +7,8 @@ use crate::raster::Rgba;
 /// oval map.
 ///
 /// Whoever made the picture may have antialiased its rim: then they are mixed with what lies around it, and whatever is made
-/// of them would show the rim, an oval map's as a line from pole to pole. Or they hold what the whole texel sees. Each is
-/// taken for what is more like the whole texels beside it.
+/// of them would show the rim, an oval map's as a line from pole to pole. Or they hold what the whole texel sees. They are
+/// taken for what is more like the whole texels beside them. Whoever fills a world with light of pictures restores them first.
 #[derive(Clone, Debug, Default)]
 pub struct RimTexels {
     texels: Vec<RimTexel>,
@@ -26,6 +26,9 @@ struct RimTexel {
     whole: u8,
     outside: u8,
 }
+
+/// By what part of the light around them codes of eight bits may miss a mixture.
+const ROUNDING: f32 = 0.02;
 
 /// Pixels of a block whose corners tell whether the edge may cut one of them.
 const BLOCK: usize = 8;
@@ -79,15 +82,18 @@ impl RimTexels {
         // Where the rim touches the image's border, what lies around is what does elsewhere.
         let outside: Vec<u32> = self.texels.iter().flat_map(|rim| self.beside(rim)[1]).copied().collect();
         let around = mean(texels, &outside).unwrap_or(Rgba::TRANSPARENT);
+        let (mut unmixed, mut is_mixed) = (Vec::new(), Mixture::default());
         for rim in &self.texels {
             let [whole, outside] = self.beside(rim).map(|beside| mean(texels, beside));
             // Without a whole one beside it, there is nothing to tell by.
             let Some(expected) = whole else { continue };
-            let found = light(texels[rim.at as usize]);
-            let inside = unmixed(found, outside.unwrap_or(around), rim.coverage);
-            if difference(inside, expected) < difference(found, expected) {
-                texels[rim.at as usize] = texel(inside);
-            }
+            let (found, around) = (light(texels[rim.at as usize]), outside.unwrap_or(around));
+            is_mixed.add(found, expected, (around, rim.coverage));
+            unmixed.extend(inside(found, around, rim.coverage).map(|inside| (rim.at, inside)));
+        }
+        // All of them or none: a texel by itself may look like either, and would flicker.
+        if is_mixed.is_likely() {
+            unmixed.into_iter().for_each(|(at, inside)| texels[at as usize] = texel(inside));
         }
     }
 
@@ -98,18 +104,38 @@ impl RimTexels {
     }
 }
 
-/// What is seen inside, where a texel is that mixed with what lies around.
-fn unmixed(found: Rgba, around: Rgba, coverage: f32) -> Rgba {
-    let Rgba(mixed) = found;
-    let part = |channel: usize| {
-        ((mixed[channel] - (1.0 - coverage) * around.0[channel]) / coverage).max(mixed[channel].min(0.0))
-    };
-    let [red, green, blue, alpha] = std::array::from_fn(part);
-    Rgba([red, green, blue, alpha.min(1.0)])
+/// What is seen inside, where a texel is that mixed with what lies around. `None` if that would be darker than black: then it is no
+/// mixture.
+fn inside(Rgba(mixed): Rgba, Rgba(around): Rgba, coverage: f32) -> Option<Rgba> {
+    let part = |channel: usize| (mixed[channel] - (1.0 - coverage) * around[channel]) / coverage;
+    let parts: [f32; 4] = std::array::from_fn(part);
+    let is_light = |channel: usize| parts[channel] >= mixed[channel].min(0.0) - ROUNDING * around[channel].abs();
+    let [red, green, blue, alpha] = std::array::from_fn(|channel| parts[channel].max(mixed[channel].min(0.0)));
+    (0..4).all(is_light).then(|| Rgba([red, green, blue, alpha.min(1.0)]))
 }
 
-fn difference(Rgba(a): Rgba, Rgba(b): Rgba) -> f32 {
-    a.iter().zip(b).map(|(a, b)| (a - b).abs()).sum()
+/// Whether texels are mixtures: how far they are on the way from what is expected of whole ones to what is of mixed ones, by least
+/// squares, so that rough pictures are told as well as smooth ones.
+#[derive(Default)]
+struct Mixture {
+    way: f64,
+    whole_way: f64,
+}
+
+impl Mixture {
+    fn add(&mut self, Rgba(found): Rgba, Rgba(expected): Rgba, (Rgba(around), coverage): (Rgba, f32)) {
+        // Where what lies around is transparent and the texels inside are not, alpha alone tells.
+        let channels = if expected[3] - around[3] > 0.5 { 3..4 } else { 0..3 };
+        for channel in channels {
+            let step = f64::from((1.0 - coverage) * (around[channel] - expected[channel]));
+            self.way += step * f64::from(found[channel] - expected[channel]);
+            self.whole_way += step * step;
+        }
+    }
+
+    fn is_likely(&self) -> bool {
+        self.way > 0.5 * self.whole_way
+    }
 }
 
 /// How many corners of a square of texels see something.
@@ -181,10 +207,36 @@ mod tests {
                     rim.restore(&mut light, |texel| texel, |light| light);
                     for texel in &rim.texels {
                         let (found, expected) = (light[texel.at as usize], whole[texel.at as usize]);
-                        assert!(difference(found, expected) < 0.02, "{found:?}, not {expected:?}: {texel:?}");
+                        let off: f32 = found.0.iter().zip(expected.0).map(|(a, b)| (a - b).abs()).sum();
+                        assert!(off < 0.02, "{found:?}, not {expected:?}: {texel:?}");
                     }
                 }
             }
+        }
+    }
+
+    /// Of grass and leaves no single texel tells, but all together do.
+    #[test]
+    fn rough_pictures_are_told_by_the_whole_rim() {
+        let noise = |k: usize| 0.02 + (k as u32).wrapping_mul(2_654_435_761) as f32 / u32::MAX as f32;
+        for view in rims() {
+            let rim = RimTexels::of(&view);
+            let rough = |around: Rgba, mixed| {
+                let flat = Rgba::opaque(1.0, 1.0, 1.0);
+                let part = picture(&view, Rgba::TRANSPARENT, mixed).into_iter().map(|texel| texel.alpha());
+                part.enumerate()
+                    .map(move |(k, part)| flat * (noise(k) * part) + around * (1.0 - part))
+                    .collect::<Vec<_>>()
+            };
+            let restored = |mut light: Vec<Rgba>| {
+                rim.restore(&mut light, |texel| texel, |light| light);
+                light
+            };
+            let black = Rgba::opaque(0.0, 0.0, 0.0);
+            assert_eq!(restored(rough(black, false)), rough(black, false), "{:?}: hard", view.projection);
+            let (soft, hard) = (restored(rough(black, true)), rough(black, false));
+            let off = |rim: &RimTexel| (soft[rim.at as usize].0[0] - hard[rim.at as usize].0[0]).abs();
+            assert!(rim.texels.iter().map(off).fold(0.0, f32::max) < 1e-4, "{:?}: soft", view.projection);
         }
     }
 
