@@ -9,7 +9,7 @@ mod bench;
 
 use std::process::Command;
 
-use bench::{Bench, assert_says};
+use bench::{Bench, assert_says, picture};
 
 const IDLE: &str = "Ra0 Rb0 Rc0 Rd0 Re0 Eev0 Er1 Eb1 TrX0 TrY0 TrZ0 j0 g0 t0 Va1 Vb0 Vc0 Vd0 Vx0 Vy0";
 
@@ -120,4 +120,71 @@ fn what_cannot_be_done_is_named() {
     bench.succeed(&["convert", "project.pto", "out.png", "--size", "120"]);
     assert_eq!((bench.load("out.png").width(), bench.load("out.png").height()), (120, 80));
     assert_says(&bench.fail(2, &["convert", "project.pto", "new.png", "--from", "equirect"]), &["leave out --from"]);
+}
+
+/// Every lens: an i-line's words, and the SPEC that says the same.
+const LENSES: [(&str, &str); 7] = [
+    ("f0 v75 a0 b0 c0 d0 e0", "hugin:fov=75"),
+    ("f0 v75 a0.01 b-0.03 c0.02 d6.5 e-4.25", "hugin:fov=75,a=0.01,b=-0.03,c=0.02,d=6.5,e=-4.25"),
+    ("f2 v200 a0 b0 c0 d5 e3", "hugin:lens=fisheye,fov=200,d=5,e=3"),
+    ("f3 v140 a0.01 b-0.03 c0.02 d-6.5 e4.25", "hugin:lens=fisheye,fov=140,a=0.01,b=-0.03,c=0.02,d=-6.5,e=4.25"),
+    ("f8 v100 a0 b-0.03 c0 d0 e0", "hugin:lens=orthographic,fov=100,b=-0.03"),
+    ("f10 v140 a0 b0 c-0.02 d0 e0", "hugin:lens=stereographic,fov=140,c=-0.02"),
+    ("f21 v140 a0.01 b0 c0 d0 e8", "hugin:lens=equisolid,fov=140,a=0.01,e=8"),
+];
+
+/// One picture by itself needs no project.
+#[test]
+fn an_i_line_and_its_spec_say_the_same() {
+    let bench = bench("f0 w240 h160 v36", "f0 v70");
+    let to = ["--to", "perspective:fov=40,yaw=8,pitch=-6", "--size", "120x80", "-y"];
+    let mut pictures = Vec::new();
+    for (line, spec) in LENSES {
+        project(&bench, "f0 w240 h160 v36", &format!("i w480 h360 {line} y10 p-5 r6 {IDLE} n\"one.png\"\n"));
+        bench.succeed(&[&["convert", "project.pto", "project.png"], &to[..]].concat());
+        let spec = format!("{spec},yaw=10,pitch=-5,roll=6");
+        bench.succeed(&[&["convert", "one.png", "spec.png", "--from", &spec], &to[..]].concat());
+        assert!(bench.bytes("project.png") == bench.bytes("spec.png"), "{line} is not {spec}");
+        pictures.push(bench.bytes("spec.png"));
+    }
+    pictures.sort();
+    pictures.dedup();
+    assert_eq!(pictures.len(), LENSES.len(), "each is another lens");
+}
+
+#[test]
+fn what_its_lens_saw_is_seen_again() {
+    let bench = Bench::new();
+    bench.save("sky.png", &picture(1, 1024, 512));
+    let to = ["--to", "perspective:fov=40", "--size", "120", "-y"];
+    bench.succeed(&[&["convert", "sky.png", "direct.png"], &to[..]].concat());
+    for (_, spec) in LENSES {
+        bench.succeed(&["convert", "sky.png", "seen.png", "--to", spec, "--size", "1200x900", "-y"]);
+        bench.succeed(&[&["convert", "seen.png", "back.png", "--from", spec], &to[..]].concat());
+        bench.succeed(&["compare", "back.png", "direct.png", "--min-psnr", "60"]);
+        if let Some((unshifted, _)) = spec.split_once(",d=") {
+            bench.succeed(&[&["convert", "seen.png", "back.png", "--from", unshifted], &to[..]].concat());
+            let run = bench.run(&["compare", "back.png", "direct.png", "--min-psnr", "60"]);
+            assert_eq!(run.status.code(), Some(1), "{spec} without its shift is another lens");
+        }
+    }
+}
+
+#[test]
+fn what_no_lens_of_its_is_refused() {
+    let bench = Bench::new();
+    bench.succeed(&["convert", "builtin:demo", "sky.png", "--to", "equirect", "--size", "64x32"]);
+    for (spec, expected) in [
+        ("hugin:k=0.5", &["unknown key 'k' for hugin"][..]),
+        ("hugin:aspect=2", &["hugin takes no aspect=", "square"]),
+        ("hugin:lens=kannala-brandt", &["lens=kannala-brandt", "rectilinear, fisheye"]),
+        ("hugin:a=nan", &["a=nan", "a=-0.02"]),
+        ("hugin:d=far", &["d=far", "d=12.5"]),
+        ("hugin:fov=180", &["less than 180"]),
+        ("hugin:d=3", &["pixels", "--size"]),
+    ] {
+        assert_says(&bench.fail(2, &["convert", "sky.png", "out.png", "--to", spec]), expected);
+    }
+    let turns = ["convert", "sky.png", "out.png", "--to", "hugin:fov=100,b=-0.6", "--size", "400x300"];
+    assert_says(&bench.fail(2, &turns), &["turn back", "radius"]);
 }

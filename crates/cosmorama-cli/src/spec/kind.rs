@@ -3,7 +3,7 @@
 use cosmorama::world::{CylinderKind, Frame, WorldMapFrame};
 
 use super::fields::Fields;
-use super::{Cube, Dual, Shape, SpecError, StMapSpec, camera, lens, maps};
+use super::{Cube, Dual, Shape, SpecError, StMapSpec, camera, hugin, lens, maps};
 
 /// A name with its keys.
 pub(crate) struct Kind {
@@ -34,6 +34,8 @@ const FITS: Refused = Refused {
 const NO_CANVAS: Refused =
     Refused { key: "canvas", why: "both circles are found in a whole image; place them by center" };
 const NO_EYES: Refused = Refused { key: "stereo", why: "a map is for one picture; convert that of each eye by itself" };
+
+const SQUARE: Refused = Refused { key: "aspect", why: "Hugin's pixels are square" };
 
 /// A key of a SPEC.
 pub(crate) struct Key {
@@ -138,6 +140,29 @@ pub(crate) static KINDS: &[Kind] = &[
         ],
         refused: &[],
         build: lens::fisheye,
+    },
+    Kind {
+        name: "hugin",
+        about: "a picture by a lens that Hugin measured: an image (i) of a .pto",
+        keys: &[
+            key(
+                "lens",
+                "NAME",
+                "its f: rectilinear (0; the default), fisheye (2, 3), orthographic (8), stereographic (10), equisolid (21)",
+            ),
+            key("fov", "DEGREES", "its v: across the image's width, by the lens before correction (90; fisheyes 180)"),
+            key(
+                "a",
+                "A",
+                "with b and c: r becomes r (a r^3 + b r^2 + c r + 1 - a - b - c), 1 at half the shorter side (0)",
+            ),
+            key("b", "B", "(0)"),
+            key("c", "C", "(0)"),
+            key("d", "PIXELS", "the axis is so far to the right of the image's middle (0)"),
+            key("e", "PIXELS", "and so far below it (0)"),
+        ],
+        refused: &[SQUARE],
+        build: hugin::hugin,
     },
     Kind {
         name: "stereographic",

@@ -10,6 +10,7 @@ mod cube;
 mod dual;
 mod fields;
 mod help;
+mod hugin;
 mod kind;
 mod lens;
 mod maps;

@@ -93,6 +93,11 @@ impl ImageFrame for HuginFrame {
     fn natural_ratio(&self) -> f64 {
         0.75
     }
+
+    /// d and e are pixels.
+    fn is_measured_in_pixels(&self) -> bool {
+        self.shift != [0.0; 2]
+    }
 }
 
 impl HuginFrame {
