@@ -142,6 +142,13 @@ pub(crate) static KINDS: &[Kind] = &[
         build: lens::fisheye,
     },
     Kind {
+        name: "stereographic",
+        about: "stereographic, without a circle; with pitch=-90 a little planet",
+        keys: &[key("fov", "DEGREES", "horizontal field of view (270)")],
+        refused: &[],
+        build: camera::stereographic,
+    },
+    Kind {
         name: "hugin",
         about: "a picture by a lens that Hugin measured: an image (i) of a .pto",
         keys: &[
@@ -163,13 +170,6 @@ pub(crate) static KINDS: &[Kind] = &[
         ],
         refused: &[SQUARE],
         build: hugin::hugin,
-    },
-    Kind {
-        name: "stereographic",
-        about: "stereographic, without a circle; with pitch=-90 a little planet",
-        keys: &[key("fov", "DEGREES", "horizontal field of view (270)")],
-        refused: &[],
-        build: camera::stereographic,
     },
     Kind {
         name: "fulldome",
