@@ -31,7 +31,7 @@ fn main() {
     println!("| | before | in balance | a constant world: worst pixel | rms |\n|---|---|---|---|---|");
     for (from, to) in PAIRS {
         let world: World = form(from).world();
-        let suns = HARD_PLACES.map(|place| sun(form(from), place, density.sqrt().recip()));
+        let suns = HARD_PLACES.map(|place| sun(&world, place, density.sqrt().recip()));
         let most = |sky: &Sky| suns.iter().map(|sun| 100.0 * sky.gain(&world, sun)).fold(0.0, larger);
         let (plain, balanced) = (Sky::new(&world, form(to), LIGHT), Sky::balanced(&world, form(to), LIGHT));
         let (worst, rms) = ripples(&balanced.light(&vec![Rgba::opaque(1.0, 1.0, 1.0); world.texel_count()]));

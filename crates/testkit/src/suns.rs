@@ -1,9 +1,9 @@
 use cosmorama::raster::Rgba;
 use cosmorama::resample::{Filter, Kernel};
 use cosmorama::sphere::Direction;
-use cosmorama::world::PixelPoint;
+use cosmorama::world::World;
 
-use crate::Form;
+use crate::light_by_direction;
 
 /// The filter that keeps light.
 pub const LIGHT: Filter = Filter { kernel: Kernel::LIGHT, anti_ringing: false, ..Filter::DEFAULT };
@@ -27,21 +27,14 @@ pub fn equirect_density(width: usize) -> f64 {
     (width * width / 2) as f64 / (4.0 * std::f64::consts::PI)
 }
 
-/// The light of a form of the world that shows a sun of this width (σ, in radians) in a direction, and next to nothing around it.
+/// The light of a world with a sun of this width (σ, in radians) in a direction, and next to nothing around it.
 ///
 /// # Panics
 /// When the direction is none.
-pub fn sun(form: &Form, towards: [f64; 3], width: f64) -> Vec<Rgba> {
+pub fn sun(world: &World, towards: [f64; 3], width: f64) -> Vec<Rgba> {
     let sun = Direction::new(towards.into()).expect("a direction").vector();
-    let texels = form.views.iter().flat_map(|view| {
-        (0..view.height()).flat_map(move |j| (0..view.width()).map(move |i| view.direction(PixelPoint::centre(i, j))))
-    });
-    let light = |texel: Option<Direction>| {
-        let light = texel.map_or(0.0, |texel| {
-            let distance = texel.vector().distance(sun) / width;
-            (1e5 * (-0.5 * distance * distance).exp() + 1e-6) as f32
-        });
-        Rgba::opaque(light, light, light)
-    };
-    texels.map(light).collect()
+    light_by_direction(world, |direction| {
+        let distance = direction.vector().distance(sun) / width;
+        [(1e5 * (-0.5 * distance * distance).exp() + 1e-6) as f32; 3]
+    })
 }

@@ -7,7 +7,6 @@ use cosmorama::world::View;
 use crate::job::{ConvertJob, Coverage};
 
 /// The balance of a job's pictures, where they are to keep light and can.
-#[derive(Default)]
 pub(super) struct Balance(Vec<Group>);
 
 /// The views of one size that together show a world.

@@ -3,7 +3,7 @@ use rayon::prelude::*;
 use super::Plan;
 use crate::raster::{Image, Rgba};
 use crate::sphere::Direction;
-use crate::world::{View, World};
+use crate::world::{SolidAngles, View, World};
 
 /// Factors that make of weights which add to one over a pixel's texels such as add to a texel's solid angle over its pixels,
 /// too: then a picture of the whole world has the light of the world that it is made of, wherever that comes from.
@@ -19,8 +19,8 @@ pub struct LightBalance {
     pixels: Vec<Vec<f32>>,
 }
 
-/// Steps after which a constant world is constant to 0.3 % (rms), but for single pixels beside poles and rims: up to 1 % in cubes,
-/// panoramas and octahedra, 5 % in others.
+/// Steps after which a constant world is constant to 0.3 % (rms), but for single pixels beside poles and rims: of pictures as fine
+/// as a panorama 1024 wide up to 1 % in cubes, panoramas and octahedra, 5 % in others, of smaller ones twice as much.
 const STEPS: usize = 8;
 
 /// A texel gets so many times its light at most, or is left with this part of it.
@@ -39,7 +39,7 @@ impl LightBalance {
         let is_seen = |direction: &Direction| targets.iter().any(|view| view.sees(*direction));
         let differs = |direction: &Direction| world.owner(*direction).is_some() != is_seen(direction);
         let differing = Direction::spread(DIRECTIONS).filter(differs).count();
-        let shown: f64 = targets.iter().flat_map(|view| solid_angles(view)).map(f64::from).sum();
+        let shown: f64 = targets.iter().map(|view| sum(&solid_angles(view))).sum();
         let held: f64 = world.solid_angles().map(f64::from).sum();
         few(differing as f64 / DIRECTIONS as f64) && few((shown / held - 1.0).abs())
     }
@@ -54,8 +54,7 @@ impl LightBalance {
     /// Of a conversion for which [`LightBalance::applies`] and in which every pixel sees something; plans are of weights that are not negative.
     pub fn new(world: &World, targets: &[(&Plan, &View)]) -> Self {
         let wanted: Vec<f32> = world.solid_angles().collect();
-        let own: Vec<Vec<f32>> = targets.iter().map(|(_, view)| solid_angles(view)).collect();
-        let sum = |angles: &[f32]| angles.iter().copied().map(f64::from).sum::<f64>();
+        let own: Vec<SolidAngles> = targets.iter().map(|(_, view)| solid_angles(view)).collect();
         let scale = own.iter().map(|angles| sum(angles)).sum::<f64>() / sum(&wanted);
         let mut balance = Self {
             texels: vec![1.0; wanted.len()],
@@ -71,10 +70,15 @@ impl LightBalance {
     }
 
     /// Gives each texel its share of the pixels.
-    fn share<'a>(&mut self, plans: impl Iterator<Item = &'a Plan>, own: &[Vec<f32>], (wanted, scale): (&[f32], f64)) {
+    fn share<'a>(
+        &mut self,
+        plans: impl Iterator<Item = &'a Plan>,
+        own: &[SolidAngles],
+        (wanted, scale): (&[f32], f64),
+    ) {
         let mut shares = vec![0.0; wanted.len()];
         for ((plan, factors), angles) in plans.zip(&self.pixels).zip(own) {
-            let values: Vec<f32> = factors.iter().zip(angles).map(|(factor, angle)| factor * angle).collect();
+            let values: Vec<f32> = factors.iter().zip(angles.iter()).map(|(factor, angle)| factor * angle).collect();
             plan.spread(&values, &mut shares);
         }
         for ((factor, share), wanted) in self.texels.iter_mut().zip(shares).zip(wanted) {
@@ -116,7 +120,10 @@ fn brighter(Rgba([red, green, blue, alpha]): &Rgba, factor: f32) -> Rgba {
     Rgba([red * factor, green * factor, blue * factor, *alpha])
 }
 
-fn solid_angles(view: &View) -> Vec<f32> {
-    let row = |j: usize| (0..view.width()).map(move |i| view.texel_solid_angle(i, j) as f32);
-    (0..view.height()).flat_map(row).collect()
+fn solid_angles(view: &View) -> SolidAngles {
+    SolidAngles::of(view, view.width())
+}
+
+fn sum(angles: &[f32]) -> f64 {
+    angles.iter().copied().map(f64::from).sum()
 }

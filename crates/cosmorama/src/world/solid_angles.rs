@@ -14,7 +14,7 @@ pub struct SolidAngles(Arc<Vec<f32>>);
 
 impl SolidAngles {
     /// Those of a view of which so many columns count.
-    pub(super) fn of(view: &View, columns: usize) -> Self {
+    pub(crate) fn of(view: &View, columns: usize) -> Self {
         let (width, mut angles) = (view.width(), vec![0.0; view.width() * view.height()]);
         angles.par_chunks_mut(width).enumerate().for_each(|(j, row)| {
             view.row_solid_angles(j, &mut row[..columns]);

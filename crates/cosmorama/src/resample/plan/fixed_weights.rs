@@ -53,7 +53,7 @@ impl Shape {
 pub(super) struct Header(pub(super) u32);
 
 impl Header {
-    /// In origin of an index of [`Shape::SMALL`]: as large as the run's windows are.
+    /// In place of an index of [`Shape::SMALL`]: as large as the run's windows are.
     const LARGE: u32 = 7;
 
     fn new(small: Option<usize>, bits: u32, marks: u32) -> Self {
