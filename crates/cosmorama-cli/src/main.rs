@@ -2,11 +2,11 @@
 //!
 //! Arguments are parsed as typed ([`args`]), resolved into a job in which everything is checked ([`job`]), and run
 //! ([`run`]).
-#![forbid(unsafe_code)]
 
 mod args;
 mod failure;
 mod job;
+mod large_pages;
 mod run;
 mod spec;
 mod stream;
@@ -14,6 +14,9 @@ mod stream;
 use std::process::ExitCode;
 
 use clap::Parser;
+
+#[global_allocator]
+static ALLOCATOR: large_pages::LargePages = large_pages::LargePages;
 
 fn main() -> ExitCode {
     let args = match args::Args::try_parse() {
