@@ -106,10 +106,19 @@ impl Windows {
         self.height
     }
 
-    /// The weights of all texels of the windows, row by row, a lane for each window; and in which lanes they lie under the pixel, a
-    /// bit for each.
+    /// The weights of all texels of the windows, row by row, a lane for each window.
+    pub(super) fn weights(&self) -> &[[f32; SIDE]] {
+        &self.weights[..self.width * self.height]
+    }
+
+    /// In which lanes each of them lies under the pixel, a bit for each.
+    pub(super) fn under(&self) -> &[u8] {
+        &self.under[..self.width * self.height]
+    }
+
+    /// Both.
     pub(super) fn texels(&self) -> impl Iterator<Item = (&[f32; SIDE], &u8)> + Clone {
-        self.weights[..self.width * self.height].iter().zip(&self.under)
+        self.weights().iter().zip(self.under())
     }
 
     /// The rows in which some window has texels under its pixel, and those between.

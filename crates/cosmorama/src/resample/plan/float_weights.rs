@@ -1,64 +1,169 @@
+use fearless_simd::{Simd, dispatch};
+
 use super::band::{Corners, Run};
+use super::float_lanes::Lanes;
+use super::float_shape::{BLOCK, Header, Shape, Small, mark_words};
 use super::stored::Stored;
 use super::weights::Weights;
 use crate::resample::patch::SIDE;
 use crate::resample::window::Windows;
 
-/// The weights of windows, a lane for each of the pixels beside each other. Their last bit tells whether the texel lies under
-/// the pixel.
+/// The weights of windows, pixel by pixel, as the bits of floats.
+///
+/// Before those of a pixel stands a [`Header`]; then, if its window is not one of [`Small::ALL`], which texels lie under the pixel,
+/// [`mark_words`] numbers for each row that has some.
 #[derive(Clone, Debug, Default)]
-pub(in crate::resample) struct FloatWeights(pub(super) Vec<[f32; SIDE]>);
+pub(in crate::resample) struct FloatWeights {
+    pub(super) numbers: Vec<u32>,
+}
+
+/// A pixel's window as it is kept.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Kept<'a> {
+    pub(super) shape: Shape,
+    /// As many as it has texels.
+    weights: &'a [u32],
+}
+
+impl<'a> Kept<'a> {
+    /// Takes the next window of a run from its numbers; `None` if they end before.
+    fn take(numbers: &mut &'a [u32], run: &Run) -> Option<Self> {
+        let header = Header(*numbers.split_off_first()?);
+        let shape = match Small::ALL.get(header.index() as usize) {
+            Some(small) => small.shape,
+            None => {
+                numbers.split_off(..run.rows_under().len() * mark_words(usize::from(run.width)))?;
+                Shape { width: usize::from(run.width), height: usize::from(run.height) }
+            }
+        };
+        Some(Self { shape, weights: numbers.split_off(..shape.area())? })
+    }
+
+    pub(super) fn weight(&self, row: usize, column: usize) -> f32 {
+        f32::from_bits(self.weights[self.shape.index(row, column)])
+    }
+}
+
+impl FloatWeights {
+    /// The windows of a run, by lane.
+    pub(super) fn windows(&self, run: &Run) -> impl Iterator<Item = (usize, Kept<'_>)> {
+        let mut numbers = &self.numbers[run.weights as usize..];
+        run.lanes().map_while(move |lane| Some((lane, Kept::take(&mut numbers, run)?)))
+    }
+
+    #[inline(always)]
+    fn keep_lanes<S: Simd>(&mut self, simd: S, windows: &Windows, corners: &mut Corners) {
+        let lanes = Lanes::of(simd, windows);
+        for (lane, corner) in corners.iter_mut().enumerate() {
+            let Some(corner) = corner else { continue };
+            let small = lanes.as_ref().and_then(|lanes| Some((lanes, lanes.small(lane)?)));
+            let Some((lanes, (index, origin))) = small else {
+                self.write_large(windows, lane);
+                continue;
+            };
+            *corner = [corner[0] + origin[0] as u32, corner[1] + origin[1] as u32];
+            let header = Header::small(index, lanes.marks(lane, origin, &Small::ALL[index]));
+            match index % Small::HEIGHTS {
+                _ if index < Small::HEIGHTS => self.write_small::<4>(windows, lane, origin, index, header),
+                _ => self.write_small::<5>(windows, lane, origin, index, header),
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn write_small<const WIDTH: usize>(
+        &mut self,
+        windows: &Windows,
+        lane: usize,
+        [column, row]: [usize; 2],
+        index: usize,
+        header: Header,
+    ) {
+        let Shape { height, .. } = Small::ALL[index].shape;
+        // One number, and rows of which five are the most. What is written is always as much: no copy of unknown length.
+        let mut all = [0; 1 + 5 * 5];
+        all[0] = header.0;
+        let pitch = windows.width();
+        let (blocks, rest) = all[1..].split_at_mut(BLOCK * height);
+        let rows = windows.weights()[row * pitch..].chunks_exact(pitch);
+        for ((block, rest), weights) in blocks.as_chunks_mut::<BLOCK>().0.iter_mut().zip(rest).zip(rows) {
+            let weights: &[[f32; SIDE]; WIDTH] =
+                weights[column..].first_chunk().expect("a small window lies in its run's");
+            *block = std::array::from_fn(|at| weights[at][lane % SIDE].to_bits());
+            if WIDTH > BLOCK {
+                *rest = weights[WIDTH - 1][lane % SIDE].to_bits();
+            }
+        }
+        let length = self.numbers.len() + 1 + WIDTH * height;
+        self.numbers.extend_from_slice(&all);
+        self.numbers.truncate(length);
+    }
+
+    fn write_large(&mut self, windows: &Windows, lane: usize) {
+        let shape = Shape { width: windows.width(), height: windows.height() };
+        self.numbers.push(Header::LARGE.0);
+        for row in windows.rows_under() {
+            let under = windows.under()[row * shape.width..][..shape.width].chunks(32);
+            let marks = |lanes: &[u8]| {
+                lanes.iter().enumerate().fold(0, |marks, (at, lanes)| marks | u32::from(lanes >> lane & 1) << at)
+            };
+            self.numbers.extend(under.map(marks));
+        }
+        let first = self.numbers.len();
+        self.numbers.resize(first + shape.area(), 0);
+        for (row, weights) in windows.weights().chunks_exact(shape.width).enumerate() {
+            for (column, weights) in weights.iter().enumerate() {
+                self.numbers[first + shape.index(row, column)] = weights[lane].to_bits();
+            }
+        }
+    }
+}
 
 impl Stored for FloatWeights {
-    const LEAST: usize = Vec::<[f32; SIDE]>::LEAST;
+    const LEAST: usize = Vec::<u32>::LEAST;
 
     fn store(&self, into: &mut Vec<u8>) {
-        self.0.store(into);
+        self.numbers.store(into);
     }
 
     fn load(from: &mut &[u8]) -> Option<Self> {
-        Vec::load(from).map(Self)
+        Some(Self { numbers: Vec::load(from)? })
     }
 }
 
 impl Weights for FloatWeights {
     fn len(&self) -> usize {
-        self.0.len()
+        self.numbers.len()
     }
 
-    fn keep(&mut self, windows: &Windows, _: &mut Corners) -> bool {
-        let texels = windows.texels();
-        self.0.extend(texels.map(|(weights, under)| std::array::from_fn(|k| marked(weights[k], under >> k & 1 == 1))));
+    fn keep(&mut self, windows: &Windows, corners: &mut Corners) -> bool {
+        let level = windows.level();
+        dispatch!(level, simd => self.keep_lanes(simd, windows, corners));
         true
     }
 
     fn truncate(&mut self, length: usize) {
-        self.0.truncate(length);
+        self.numbers.truncate(length);
     }
 
     fn shrink(&mut self) {
-        self.0.shrink_to_fit();
+        self.numbers.shrink_to_fit();
     }
 
     fn are_sound(&self, run: &Run, view: [usize; 2]) -> bool {
-        let window = [usize::from(run.width), usize::from(run.height)];
-        let weights = self.0.get(run.weights as usize..).and_then(|from| from.get(..window[0] * window[1]));
-        let is_sound = |lane: usize, weights: &[[f32; SIDE]]| {
-            run.is_within(lane, window, view) && weights.iter().all(|weights| weights[lane].is_finite())
+        let Some(mut numbers) = self.numbers.get(run.weights as usize..) else { return false };
+        let is_sound = |lane: usize, Kept { shape, weights }: Kept| {
+            run.is_within(lane, [shape.width, shape.height], view)
+                && weights.iter().all(|bits| f32::from_bits(*bits).is_finite())
         };
-        weights.is_some_and(|weights| run.lanes().all(|lane| is_sound(lane, weights)))
+        run.lanes().all(|lane| Kept::take(&mut numbers, run).is_some_and(|kept| is_sound(lane, kept)))
     }
 
     fn bytes(&self) -> usize {
-        self.0.capacity() * size_of::<[f32; SIDE]>()
+        self.numbers.capacity() * size_of::<u32>()
     }
 
     fn used_bytes(&self) -> usize {
-        self.0.len() * size_of::<[f32; SIDE]>()
+        self.numbers.len() * size_of::<u32>()
     }
-}
-
-/// A weight that says whether its texel lies under the pixel.
-fn marked(weight: f32, is_under: bool) -> f32 {
-    f32::from_bits(weight.to_bits() & !1 | u32::from(is_under))
 }

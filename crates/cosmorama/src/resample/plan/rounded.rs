@@ -194,13 +194,13 @@ fn refill<T: Copy>(vector: &mut Vec<T>, length: usize, value: T) {
 
 /// From the first bit to the last.
 #[inline(always)]
-fn span(bits: u8) -> Range<usize> {
+pub(super) fn span(bits: u8) -> Range<usize> {
     bits.trailing_zeros() as usize % 8..8 - bits.leading_zeros() as usize
 }
 
 /// Bits of eight bytes turned: the first of each in the first byte (Warren, Hacker's Delight, 7-3).
 #[inline(always)]
-fn turned_bits(bytes: [u8; SIDE]) -> [u8; SIDE] {
+pub(super) fn turned_bits(bytes: [u8; SIDE]) -> [u8; SIDE] {
     let mut bits = u64::from_le_bytes(bytes);
     for (shift, mask) in [(7, 0x00aa_00aa_00aa_00aa), (14, 0x0000_cccc_0000_cccc), (28, 0x0000_0000_f0f0_f0f0)] {
         let changed = (bits ^ bits >> shift) & mask;

@@ -34,18 +34,16 @@ impl Spread<'_> {
 
     fn run(&self, run: &Run, pixels: &[f32], texels: &mut [f64]) {
         let Plan(plan) = self.plan;
-        let (width, height) = (usize::from(run.width), usize::from(run.height));
-        let weights = &self.band.weights.0[run.weights as usize..][..width * height];
         for (index, image) in plan.mirrors.images.iter().enumerate() {
             let corner = image.view(usize::from(run.view)).walk(run.corner());
-            for lane in run.lanes() {
+            for (lane, window) in self.band.weights.windows(run) {
                 let pixel = self.pixel(pixels, index, run.pixel(lane));
                 let mut walk = run.walk(corner, lane);
-                for weights in weights.chunks_exact(width) {
+                for row in 0..window.shape.height {
                     let first = walk.first as usize;
-                    for (column, weights) in weights.iter().enumerate() {
+                    for column in 0..window.shape.width {
                         let texel = if walk.is_reversed { first - column } else { first + column };
-                        texels[texel] += pixel * f64::from(weights[lane]);
+                        texels[texel] += pixel * f64::from(window.weight(row, column));
                     }
                     walk = walk.one_down();
                 }

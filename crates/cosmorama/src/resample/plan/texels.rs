@@ -6,46 +6,64 @@ use std::marker::PhantomData;
 /// Samples of a texel.
 const SAMPLES: usize = 4;
 
-/// A window of `PAIRS` pairs of texels across and `HEIGHT` rows, all of it among the samples given.
+/// A window of integers, `PAIRS` pairs of texels across and `HEIGHT` rows.
+pub(super) type Texels<'a, const PAIRS: usize, const HEIGHT: usize> = Window<'a, i16, 2, PAIRS, HEIGHT>;
+
+/// A window of floats.
+pub(super) type FloatTexels<'a, const WIDTH: usize, const HEIGHT: usize> = Window<'a, f32, 1, WIDTH, HEIGHT>;
+
+/// A window of `COLUMNS` columns of `TEXELS` texels each and `HEIGHT` rows, all of it among the samples given.
 #[derive(Clone, Copy)]
-pub(super) struct Texels<'a, const PAIRS: usize, const HEIGHT: usize> {
+pub(super) struct Window<'a, T, const TEXELS: usize, const COLUMNS: usize, const HEIGHT: usize> {
     /// The first sample of the first row.
-    first: *const i16,
+    first: *const T,
     /// Samples from one row to the next.
     down: isize,
-    samples: PhantomData<&'a [i16]>,
+    samples: PhantomData<&'a [T]>,
 }
 
-impl<'a, const PAIRS: usize, const HEIGHT: usize> Texels<'a, PAIRS, HEIGHT> {
+impl<'a, T, const TEXELS: usize, const COLUMNS: usize, const HEIGHT: usize> Window<'a, T, TEXELS, COLUMNS, HEIGHT> {
     /// The window whose first row begins at this texel, each row `down` texels after the one before.
     ///
     /// # Panics
     /// If it is not all among the samples.
     #[inline(always)]
-    pub(super) fn new(samples: &'a [i16], first: u32, down: i32) -> Self {
+    pub(super) fn new(samples: &'a [T], first: u32, down: i32) -> Self {
         // So small that neither the product nor the sums below overflow 64 bits.
-        const { assert!(0 < PAIRS && PAIRS <= 256 && 0 < HEIGHT && HEIGHT <= 256) };
+        const { assert!(0 < TEXELS && TEXELS <= 2 && 0 < COLUMNS && COLUMNS <= 256 && 0 < HEIGHT && HEIGHT <= 256) };
         let (top, down) = (i64::from(first), i64::from(down));
         let bottom = top + (HEIGHT as i64 - 1) * down;
-        let end = top.max(bottom) + 2 * PAIRS as i64;
+        let end = top.max(bottom) + (TEXELS * COLUMNS) as i64;
         assert!(bottom >= 0 && end <= (samples.len() / SAMPLES) as i64, "a window lies among its texels");
         // SAFETY: the first texel is between zero and `end`, which is among the samples.
         let first = unsafe { samples.as_ptr().add(SAMPLES * first as usize) };
         Self { first, down: SAMPLES as isize * down as isize, samples: PhantomData }
     }
 
+    /// So many samples of a row, from the first of a column on.
+    ///
+    /// # Panics
+    /// If the window has no such row, or not so many samples in it.
+    #[inline(always)]
+    pub(super) fn samples<const LENGTH: usize>(&self, row: usize, column: usize) -> &'a [T; LENGTH] {
+        let is_within = row < HEIGHT && column < COLUMNS && LENGTH <= SAMPLES * TEXELS * (COLUMNS - column);
+        assert!(is_within, "samples of the window");
+        let offset = row as isize * self.down + (SAMPLES * TEXELS * column) as isize;
+        // SAFETY: `new` made sure that the first row and the last one, and so those between, lie among the samples from their
+        // first texel to the last of `COLUMNS` columns, and the assertion that these are some of them; they are borrowed as
+        // long as the result; arrays need no more alignment than one of their elements.
+        unsafe { &*self.first.offset(offset).cast() }
+    }
+}
+
+impl<'a, const PAIRS: usize, const HEIGHT: usize> Texels<'a, PAIRS, HEIGHT> {
     /// The samples of a pair.
     ///
     /// # Panics
     /// If there is no such row or pair.
     #[inline(always)]
     pub(super) fn pair(&self, row: usize, pair: usize) -> &'a [i16; 2 * SAMPLES] {
-        assert!(row < HEIGHT && pair < PAIRS, "a pair of the window");
-        let offset = row as isize * self.down + (2 * SAMPLES * pair) as isize;
-        // SAFETY: `new` made sure that the first row and the last one, and so those between, lie among the samples from their
-        // first texel to the last of `PAIRS` pairs; these are borrowed as long as the result; arrays of integers need no
-        // more alignment than one of them.
-        unsafe { &*self.first.offset(offset).cast() }
+        self.samples(row, pair)
     }
 }
 
@@ -92,5 +110,17 @@ mod tests {
         for (row, pair) in [(4, 0), (0, 2), (usize::MAX, 0)] {
             assert!(std::panic::catch_unwind(|| window.pair(row, pair)).is_err());
         }
+    }
+
+    #[test]
+    fn a_row_of_floats_ends_where_the_window_does() {
+        let samples: Vec<f32> = (0..10 * 7 * 4).map(|k| k as f32).collect();
+        let window = FloatTexels::<5, 4>::new(&samples, 63, -20);
+        assert_eq!(*window.samples::<16>(1, 1), std::array::from_fn(|k| (4 * 44 + k) as f32));
+        assert_eq!(*window.samples::<4>(3, 4), std::array::from_fn(|k| (4 * 7 + k) as f32));
+        for (row, column) in [(0, 2), (4, 0), (0, 5), (0, usize::MAX)] {
+            assert!(std::panic::catch_unwind(|| window.samples::<16>(row, column)).is_err());
+        }
+        assert!(std::panic::catch_unwind(|| FloatTexels::<5, 4>::new(&samples, 66, 0)).is_err());
     }
 }

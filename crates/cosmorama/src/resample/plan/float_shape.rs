@@ -1,0 +1,94 @@
+/// The size of a pixel's window, and how its weights follow each other: first those of its blocks, row by row, then those of the
+/// columns that make no whole block.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Shape {
+    pub(super) width: usize,
+    pub(super) height: usize,
+}
+
+/// Texels beside each other that are weighed together.
+pub(super) const BLOCK: usize = 4;
+
+impl Shape {
+    pub(super) fn area(self) -> usize {
+        self.width * self.height
+    }
+
+    /// Columns in whole blocks: the first ones.
+    #[inline(always)]
+    pub(super) fn in_blocks(self) -> usize {
+        self.width / BLOCK * BLOCK
+    }
+
+    /// Where among them the weight of a texel stands.
+    #[inline(always)]
+    pub(super) fn index(self, row: usize, column: usize) -> usize {
+        let whole = self.in_blocks();
+        if column < whole {
+            row * whole + column
+        } else {
+            self.height * whole + row * (self.width - whole) + column - whole
+        }
+    }
+}
+
+/// The size of a window where a kernel is as small as may be, and the first of the [`ROWS_UNDER`] rows outside which none of its
+/// texels lies under the pixel; nor does any outside its first [`BLOCK`] columns.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Small {
+    pub(super) shape: Shape,
+    pub(super) under: usize,
+}
+
+/// Rows of a small window that may hold texels under the pixel.
+pub(super) const ROWS_UNDER: usize = 3;
+
+impl Small {
+    /// How many of them are as wide.
+    pub(super) const HEIGHTS: usize = 3;
+
+    /// As many of each width, in the same order.
+    pub(super) const ALL: [Self; 6] = [
+        Self::new(4, 4, 0),
+        Self::new(4, 4, 1),
+        Self::new(4, 5, 1),
+        Self::new(5, 4, 0),
+        Self::new(5, 4, 1),
+        Self::new(5, 5, 1),
+    ];
+
+    const fn new(width: usize, height: usize, under: usize) -> Self {
+        Self { shape: Shape { width, height }, under }
+    }
+}
+
+/// What is known of a pixel's window.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Header(pub(super) u32);
+
+impl Header {
+    /// That of a window as large as all of its run, in place of an index of [`Small::ALL`].
+    pub(super) const LARGE: Self = Self(7);
+
+    pub(super) fn small(index: usize, marks: u32) -> Self {
+        Self(index as u32 | marks << 8)
+    }
+
+    /// The index of its size among the small ones; more, if it is none.
+    #[inline(always)]
+    pub(super) fn index(self) -> u32 {
+        self.0 & 7
+    }
+
+    /// Which texels of a small window lie under the pixel: a bit for each of the first columns of each of those rows.
+    #[inline(always)]
+    pub(super) fn marks(self) -> u32 {
+        self.0 >> 8
+    }
+}
+
+/// How many numbers tell of a row of a large window which texels lie under the pixel.
+#[inline(always)]
+pub(super) fn mark_words(width: usize) -> usize {
+    width.div_ceil(32)
+}
