@@ -53,6 +53,15 @@ impl FixedLight {
         Self::light(self.texels[texel])
     }
 
+    /// The light of one step of a sample.
+    pub(crate) const PER_SAMPLE: f32 = 1.0 / WHITE;
+
+    /// One texel in steps of samples, opaque.
+    pub(crate) fn samples_of(&self, texel: usize) -> Rgba {
+        let [red, green, blue, _] = self.texels[texel].map(f32::from);
+        Rgba([red, green, blue, WHITE])
+    }
+
     /// What a texel's samples stand for.
     pub fn light(samples: [i16; 4]) -> Rgba {
         let [red, green, blue, _] = samples.map(|sample| f32::from(sample) / WHITE);
@@ -129,8 +138,11 @@ fn fill<const N: usize>(into: &mut [[i16; 4]], samples: &[u8], texel: impl Fn([u
     }
 }
 
-/// The code of each light.
-type Codes = [u8; 1 << 15];
+/// The code of each light; twice as many as there is light, so that any number of 16 bits has one.
+type Codes = [u8; 1 << 16];
+
+/// How much light there is, black and white among it.
+const LIGHT: usize = 1 << 15;
 
 /// From light to 8-bit codes.
 #[derive(Clone, Debug)]
@@ -147,12 +159,12 @@ impl FixedCodec {
         let quantizer = Quantizer::new(transfer, 255);
         let code = |light: usize, channel| quantizer.code(light as f32 / WHITE, channel) as u8;
         let channels = transfer.channels();
-        let mut codes = vec![[0; 1 << 15]; channels.len()];
+        let mut codes = vec![[0; 1 << 16]; channels.len()];
         for (channel, codes) in channels.iter().zip(&mut codes) {
-            codes.iter_mut().enumerate().for_each(|(light, into)| *into = code(light, *channel));
+            codes[..LIGHT].iter_mut().enumerate().for_each(|(light, into)| *into = code(light, *channel));
         }
         let is_fine =
-            |codes: &Codes| codes.windows(2).all(|pair| (0..=1).contains(&(i16::from(pair[1]) - i16::from(pair[0]))));
+            |codes: &Codes| codes[..LIGHT].windows(2).all(|pair| (0..=1).contains(&(i16::from(pair[1]) - i16::from(pair[0]))));
         codes.iter().all(is_fine).then_some(Self { codes, background })
     }
 
@@ -196,7 +208,7 @@ impl FixedCodes<'_> {
     #[inline(always)]
     pub(crate) fn of(self, light: [i32; 4]) -> [u8; 3] {
         let Self([red, green, blue]) = self;
-        let code = |codes: &Codes, light: i32| codes[light as usize & 0x7fff];
+        let code = |codes: &Codes, light: i32| codes[usize::from(light as u16)];
         [code(red, light[0]), code(green, light[1]), code(blue, light[2])]
     }
 }

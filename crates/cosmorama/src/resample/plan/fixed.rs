@@ -13,9 +13,9 @@ use super::fixed_weights::{FixedWeights, Header, Shape, mark_words};
 use super::mirrors::{MOST_IMAGES, Mirrors, Ways};
 use super::prefetch::prefetch;
 use super::texels::Texels;
-use crate::raster::{FixedCodec, FixedLight};
+use crate::raster::{FixedCodec, FixedLight, Rgba};
 use crate::resample::patch::SIDE;
-use crate::resample::taps::average;
+use crate::resample::taps::{TapList, average};
 
 /// Makes the pixels of a band.
 pub(super) struct FixedFilter<'a> {
@@ -32,11 +32,21 @@ impl FixedFilter<'_> {
         dispatch!(level, simd => self.runs(simd, band, canvas));
         let background = self.codec.background_light();
         for single in &band.singles {
-            let colour = average(band.taps(single), |texel| self.light.rgba(texel as usize), self.anti_ringing);
+            let colour = self.single(band.taps(single));
             let image = &self.mirrors.images[usize::from(single.image)];
             let pixel = (colour * single.coverage).over(background);
             *canvas.pixel(image, [single.column as usize, usize::from(single.row)]) = self.codec.codes_of(pixel);
         }
+    }
+
+    /// The light of a pixel by itself.
+    fn single(&self, list: TapList) -> Rgba {
+        if list.places.is_empty() {
+            // Weighed as they are; only the sum is divided.
+            return average(list, |texel| self.light.samples_of(texel as usize), self.anti_ringing)
+                * FixedLight::PER_SAMPLE;
+        }
+        average(list, |texel| self.light.rgba(texel as usize), self.anti_ringing)
     }
 
     // No closures below: the compiler gives them no leave to use the level's instructions.
@@ -118,6 +128,8 @@ impl<S: Simd> RunFilter<'_, S> {
         let large = Shape { pairs: usize::from(run.width).div_ceil(2), height: usize::from(run.height), under: 0 };
         let codes = filter.codec.tables();
         let samples = filter.light.samples();
+        // Of each lane, in each mirror.
+        let mut light = [[[0; 4]; MOST_IMAGES]; SIDE];
         let pairs = V::Bytes::from_slice(simd, blocks::order::<N, R>());
         for lane in run.lanes() {
             let [column, row] = run.offset(lane);
@@ -139,9 +151,13 @@ impl<S: Simd> RunFilter<'_, S> {
                 _ => window.large(large, run, numbers),
             };
             numbers = &numbers[length..];
-            let light = sums.average(simd, header.bits(), filter.anti_ringing);
-            for (light, (index, flip)) in light.as_slice().as_chunks().0.iter().zip(&order) {
-                pixels[index % MOST_IMAGES][(lane ^ flip) % SIDE] = codes.of(*light);
+            let average = sums.average(simd, header.bits(), filter.anti_ringing);
+            average.store_slice(&mut light[lane].as_flattened_mut()[..4 * N]);
+        }
+        // Looked up together, from memory: taken out of vectors one by one, samples would wait for each pixel's sum.
+        for (image, (index, flip)) in order.iter().enumerate() {
+            for (lane, light) in light.iter().enumerate() {
+                pixels[index % MOST_IMAGES][(lane ^ flip) % SIDE] = codes.of(light[image]);
             }
         }
     }
