@@ -165,7 +165,7 @@ fn no_crate_depends_on_a_higher_one() {
 }
 
 /// Files with code for lanes. All else is plain: one pixel after the other, so that the two can be held equal.
-const LANES: [&str; 9] = [
+const LANES: [&str; 12] = [
     "cubics.rs",
     "ellipses.rs",
     "moments.rs",
@@ -173,6 +173,9 @@ const LANES: [&str; 9] = [
     "plan/fixed.rs",
     "plan/fixed_weights.rs",
     "plan/float.rs",
+    "plan/float_lanes.rs",
+    "plan/float_weights.rs",
+    "plan/float_window.rs",
     "plan/rounded.rs",
     "window.rs",
 ];

@@ -89,11 +89,15 @@ impl Run {
         self.corner.map(|at| at as usize)
     }
 
-    /// About how many columns to the right its windows reach from there.
+    /// About the column and the row after the last ones that its windows hold.
     #[inline(always)]
-    pub(super) fn span(&self) -> usize {
-        // Windows follow each other to the right or to the left.
-        usize::from(self.offsets[0][0].max(self.offsets[SIDE - 1][0])) + usize::from(self.width) - 1
+    pub(super) fn end(&self) -> [usize; 2] {
+        // Windows follow each other in one direction.
+        let [first, last] = [self.offsets[0], self.offsets[SIDE - 1]];
+        let end = |axis: usize, size: u8| {
+            self.corner[axis] as usize + usize::from(first[axis].max(last[axis])) + usize::from(size)
+        };
+        [end(0, self.width), end(1, self.height)]
     }
 
     /// How far from the corner a lane's window begins.

@@ -43,15 +43,13 @@ impl<'a, S: Simd, const N: usize, const REVERSED: bool> Window<'a, S, N, REVERSE
             *texels = self.texels(image);
         }
         let row = SmallRow::<S, N, REVERSED, WIDTH, HEIGHT> { simd: self.simd, texels };
-        let mut sums = Sums::zero(self.simd);
         let (marks, weights) = (header.marks(), &numbers[1..][..WIDTH * HEIGHT]);
         let marks = |row: usize| marks >> (BLOCK * (row - UNDER));
+        let mut sums = row.first::<UNDER>(weights, marks(UNDER));
+        const { assert!(ROWS_UNDER == 3 && UNDER <= 1 && (HEIGHT == 4 || HEIGHT == 5)) };
         if UNDER == 0 {
-            row.add_bounding(&mut sums, weights, 0, marks(0));
-        } else {
-            row.add(&mut sums, weights, 0);
+            row.add_bounding(&mut sums, weights, 1, marks(1));
         }
-        row.add_bounding(&mut sums, weights, 1, marks(1));
         row.add_bounding(&mut sums, weights, 2, marks(2));
         if UNDER == 1 {
             row.add_bounding(&mut sums, weights, 3, marks(3));
@@ -61,7 +59,6 @@ impl<'a, S: Simd, const N: usize, const REVERSED: bool> Window<'a, S, N, REVERSE
         if HEIGHT == 5 {
             row.add(&mut sums, weights, 4);
         }
-        const { assert!(HEIGHT <= 5 && UNDER <= 1 && ROWS_UNDER == 3) };
         if WIDTH > BLOCK {
             row.add_last_column(&mut sums, &weights[BLOCK * HEIGHT..]);
         }
@@ -150,6 +147,25 @@ impl<S: Simd, const N: usize, const REVERSED: bool, const WIDTH: usize, const HE
     /// Where its first four columns lie in memory, and the one after them.
     const BLOCK_AT: usize = if REVERSED { WIDTH - BLOCK } else { 0 };
     const LAST_AT: usize = if REVERSED { 0 } else { WIDTH - 1 };
+
+    /// Sums over the first row and, if it is not that, the first of those whose texels may lie under the pixel.
+    #[inline(always)]
+    fn first<const UNDER: usize>(&self, weights: &[u32], marks: u32) -> Sums<S, N> {
+        let mut sums = Sums::zero(self.simd);
+        let (first, beyond) = (self.weights(weights, 0), beyond::<S, REVERSED>(self.simd, marks));
+        for image in 0..N {
+            sums.blocks[image] = self.block(image, 0) * first;
+            let texels = self.block(image, UNDER);
+            (sums.least[image], sums.greatest[image]) = (texels + beyond, texels - beyond);
+        }
+        if UNDER > 0 {
+            let weights = self.weights(weights, UNDER);
+            for image in 0..N {
+                sums.blocks[image] += self.block(image, UNDER) * weights;
+            }
+        }
+        sums
+    }
 
     /// Adds a block of a row none of whose texels lies under the pixel.
     #[inline(always)]

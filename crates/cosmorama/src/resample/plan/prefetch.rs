@@ -2,20 +2,67 @@ use super::band::Run;
 use super::mirrors::Mirrors;
 use super::texels;
 
-/// Asks for the texels that these runs will read, so that they are near by then: lines of memory that are asked for one after
-/// the other, as they are needed, take most of the time.
+/// Bytes that come from memory together.
+const LINE: usize = 64;
+
+/// Columns and rows of the largest region that is asked for as one; beyond, runs have little in common.
+const LARGEST: [usize; 2] = [64, 32];
+
+/// Asks for the texels that the runs of a patch will read, so that they are near by then: lines of memory that are asked for one
+/// after the other, as they are needed, take most of the time.
 #[inline(always)]
 pub(super) fn prefetch<T>(texels: &[T], mirrors: &Mirrors, runs: &[Run]) {
-    for image in &mirrors.images {
-        for run in runs {
-            let walk = image.view(usize::from(run.view)).walk(run.corner());
-            let span = run.span() as u32;
-            let mut first = walk.first;
-            for _ in 0..run.height {
-                let last = if walk.is_reversed { first.wrapping_sub(span) } else { first.wrapping_add(span) };
-                texels::prefetch(texels, first);
-                texels::prefetch(texels, last);
-                first = first.wrapping_add_signed(walk.down);
+    let mut rest = runs;
+    while let Some((run, others)) = rest.split_first() {
+        rest = others;
+        let mut region = Region::of(run);
+        // Runs below each other share most of their texels: what they have in common is asked for once.
+        while let Some((joint, others)) = region.joined(rest) {
+            (region, rest) = (joint, others);
+        }
+        region.prefetch(texels, mirrors);
+    }
+}
+
+/// A rectangle of texels of a view.
+#[derive(Clone, Copy)]
+struct Region {
+    view: usize,
+    first: [usize; 2],
+    end: [usize; 2],
+}
+
+impl Region {
+    #[inline(always)]
+    fn of(run: &Run) -> Self {
+        Self { view: usize::from(run.view), first: run.corner(), end: run.end() }
+    }
+
+    /// What holds the next run, too, if that is near, and the runs after it.
+    #[inline(always)]
+    fn joined<'a>(&self, runs: &'a [Run]) -> Option<(Self, &'a [Run])> {
+        let (run, others) = runs.split_first()?;
+        let next = Self::of(run);
+        let first = [self.first[0].min(next.first[0]), self.first[1].min(next.first[1])];
+        let end = [self.end[0].max(next.end[0]), self.end[1].max(next.end[1])];
+        let is_near = end[0] - first[0] <= LARGEST[0] && end[1] - first[1] <= LARGEST[1];
+        (self.view == next.view && is_near).then_some((Self { first, end, ..*self }, others))
+    }
+
+    /// Asks for it in all mirrors.
+    #[inline(always)]
+    fn prefetch<T>(&self, texels: &[T], mirrors: &Mirrors) {
+        let step = LINE / size_of::<T>();
+        let last = (self.end[0] - self.first[0] - 1) as u32;
+        for image in &mirrors.images {
+            let walk = image.view(self.view).walk(self.first);
+            let mut left = if walk.is_reversed { walk.first.wrapping_sub(last) } else { walk.first };
+            for _ in self.first[1]..self.end[1] {
+                for column in (0..last).step_by(step) {
+                    texels::prefetch(texels, left.wrapping_add(column));
+                }
+                texels::prefetch(texels, left.wrapping_add(last));
+                left = left.wrapping_add_signed(walk.down);
             }
         }
     }
