@@ -17,7 +17,7 @@ use super::texel_run::{Run, TexelBox, ceil, floor, runs_around};
 use super::{Ellipse, Kernel, Taps, lookup, surround};
 use crate::projection::Projection;
 use crate::sphere::{Direction, DirectionJacobian};
-use crate::world::{FieldStop, Footprint, PixelPoint, Source, View, World};
+use crate::world::{FieldStop, Footprint, PixelPoint, Source, TexelPlace, View, World};
 
 /// A mapping is taken as linear over a kernel that is smaller than this part of the way to its nearest singularity. At a
 /// fifth, the tests find no point of a direction-coloured world displaced by more than 0.005 pixel.
@@ -40,11 +40,22 @@ enum RimRegion {
     Rim,
 }
 
+/// How far a patch of a target is from the edge of its field of view.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Clearance {
+    /// The edge is near none of its pixels.
+    Whole,
+    /// It may be near those that have it within so many radians.
+    Within(f64),
+}
+
 /// The gather for one world and kernel.
 pub(super) struct Gather<'a> {
     world: &'a World,
     table: &'a KernelTable,
     /// Where the target's field of view ends, if it does.
+    field: Option<FieldEdge<'a>>,
+    /// The same where texels outside count for nothing.
     edge: Option<FieldEdge<'a>>,
     /// The largest texel of any view, in radians.
     texel_pitch: f64,
@@ -56,8 +67,9 @@ pub(super) struct Gather<'a> {
 impl<'a> Gather<'a> {
     pub(super) fn new(world: &'a World, target: &'a View, table: &'a KernelTable) -> Self {
         let texel_pitch = world.sources().iter().map(|source| source.texel_pitch).fold(0.0, f64::max);
-        let edge = FieldEdge::of(target).filter(|edge| edge.is_wider_than(texel_pitch));
-        Self { world, table, edge, texel_pitch, candidates: Vec::new(), last: 0 }
+        let field = FieldEdge::of(target);
+        let edge = field.filter(|edge| edge.is_wider_than(texel_pitch));
+        Self { world, table, field, edge, texel_pitch, candidates: Vec::new(), last: 0 }
     }
 
     /// The taps of a footprint, weights adding to one; none where no view is near.
@@ -128,34 +140,39 @@ impl<'a> Gather<'a> {
 
     /// Whether the target's field of view may end within `reach` radians of a direction.
     pub(super) fn is_near_edge(&self, direction: Direction, reach: f64) -> bool {
-        self.edge.is_some_and(|edge| edge.is_near(direction, reach))
+        self.field.is_some_and(|edge| edge.is_near(direction, reach))
     }
 
-    /// Whether every kernel in a patch of the target is an ellipse of texels that the edge of no field of view cuts;
-    /// `screen` are points of the patch, row by row.
-    pub(super) fn takes_patch(&self, source: &Source, screen: &Grid<Footprint>) -> bool {
+    /// How far the edge of the target's field of view is from a patch of it whose kernels are ellipses of texels that the edge
+    /// of no view cuts; `None` if they are not. `screen` are points of the patch, row by row.
+    pub(super) fn clearance(&self, source: &Source, screen: &Grid<Footprint>) -> Option<Clearance> {
         let (middle, corners) = (screen[1][1].direction, [screen[0][0], screen[0][2], screen[2][0], screen[2][2]]);
-        let Some(cap) = Cap::around(middle, &corners) else { return false };
+        let cap = Cap::around(middle, &corners)?;
         let floor = self.floor(RimRegion::Inside);
-        let reach = |corner: &Footprint| self.reach(corner, source.texel_pitch_at(corner.direction), floor);
-        let reach = corners.iter().map(reach).fold(0.0, f64::max);
+        let largest = |of: &dyn Fn(&Footprint) -> f64| corners.iter().map(of).fold(0.0, f64::max);
+        let reach = largest(&|corner| self.reach(corner, source.texel_pitch_at(corner.direction), floor));
         let seen = cap.widened(reach);
-        let is_whole = !self.is_near_edge(middle, seen.radius());
         let margin = source.view.margin(middle) - cap.radius();
         let is_linear = corners.iter().all(|corner| is_linear(source, corner, reach, margin));
-        is_whole && is_linear && seen.is_clear_of_stop(&source.view)
+        if !is_linear || !seen.is_clear_of_stop(&source.view) {
+            return None;
+        }
+        if !self.is_near_edge(middle, seen.radius()) {
+            return Some(Clearance::Whole);
+        }
+        // What single pixels go by, and no less than the pixels themselves.
+        let kernel = largest(&|corner| self.reach(corner, self.texel_pitch, floor));
+        Some(Clearance::Within(largest(&pixel_size).max(kernel)))
     }
 
     /// What lies outside the field of view does not leak in. True if any of that lies under the pixel.
     fn drop_unseen(&mut self, footprint: &Footprint, region: RimRegion) -> bool {
         let reach = self.reach(footprint, self.texel_pitch, self.floor(region));
         let Some(edge) = self.edge.filter(|edge| edge.is_near(footprint.direction, reach)) else { return false };
-        let sources = self.world.sources();
         let mut ends_under = false;
         self.candidates.retain(|candidate| {
-            let texel = candidate.texel as usize;
-            let after = sources.partition_point(|source| source.offset <= texel);
-            let is_seen = edge.touches(&sources[after - 1], texel);
+            let TexelPlace { view, texel } = self.world.texel(candidate.texel);
+            let is_seen = edge.touches(&self.world.sources()[view], texel);
             ends_under |= candidate.is_under() && !is_seen;
             is_seen
         });
@@ -170,9 +187,8 @@ impl<'a> Gather<'a> {
     /// An upper bound of the kernel's radius on the sphere, in radians, among texels of this pitch, so many of which its unit is
     /// at least.
     fn reach(&self, footprint: &Footprint, texel_pitch: f64, floor: f64) -> f64 {
-        let (kernel, jacobian) = (self.table.kernel(), &footprint.jacobian);
-        let pixel = (jacobian.dx.length_squared() + jacobian.dy.length_squared()).sqrt();
-        kernel.radius() * (kernel.scale * pixel).max(floor * texel_pitch)
+        let kernel = self.table.kernel();
+        kernel.radius() * (kernel.scale * pixel_size(footprint)).max(floor * texel_pitch)
     }
 
     /// Adds the texels of one view; true if the kernel lies wholly inside it.
@@ -315,6 +331,11 @@ impl<'a> Gather<'a> {
             });
         });
     }
+}
+
+/// The root of a pixel's summed squared derivatives, in radians.
+fn pixel_size(footprint: &Footprint) -> f64 {
+    (footprint.jacobian.dx.length_squared() + footprint.jacobian.dy.length_squared()).sqrt()
 }
 
 /// A pixel whose sides are narrower than this part of their length has no width, as on the very pole of a panorama.

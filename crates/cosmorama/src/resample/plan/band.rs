@@ -7,7 +7,7 @@ use crate::resample::patch::SIDE;
 use crate::resample::scan::Sink;
 use crate::resample::taps::{Tap, TapList, Taps};
 use crate::resample::window::Windows;
-use crate::world::World;
+use crate::world::{TexelPlace, World};
 
 /// What makes a few rows of a target.
 #[derive(Clone, Debug, Default)]
@@ -200,6 +200,8 @@ pub(super) struct Recorder<'a, W, F> {
     pub(super) mirrors: &'a Mirrors,
     pub(super) band: &'a mut Band<W>,
     pub(super) taps: Taps,
+    /// Where those of a single pixel lie.
+    pub(super) places: Vec<TexelPlace>,
     /// What is done with a band that holds more than [`MANY`] taps.
     pub(super) spill: F,
 }
@@ -213,9 +215,9 @@ impl<W: Weights, F: FnMut(&mut Band<W>)> Sink for Recorder<'_, W, F> {
         self.single(pixel, coverage, taps);
     }
 
-    fn windows(&mut self, pixel: [usize; 2], count: usize, windows: &Windows) {
+    fn windows(&mut self, pixel: [usize; 2], lanes: u8, windows: &Windows) {
         let first = self.band.weights.len();
-        let mut corners: Corners = std::array::from_fn(|lane| windows.corner(lane).filter(|_| lane < count));
+        let mut corners: Corners = std::array::from_fn(|lane| windows.corner(lane).filter(|_| lanes >> lane & 1 == 1));
         // Nothing was weighed.
         if corners == [None; SIDE] {
             return;
@@ -227,7 +229,7 @@ impl<W: Weights, F: FnMut(&mut Band<W>)> Sink for Recorder<'_, W, F> {
             }
             self.band.weights.truncate(first);
         }
-        for lane in (0..count).filter(|&lane| windows.holds(lane)) {
+        for lane in (0..SIDE).filter(|&lane| lanes >> lane & 1 == 1 && windows.holds(lane)) {
             let mut taps = std::mem::take(&mut self.taps);
             windows.taps(lane, &mut taps);
             self.single([pixel[0] + lane, pixel[1]], 1.0, &taps);
@@ -239,7 +241,11 @@ impl<W: Weights, F: FnMut(&mut Band<W>)> Sink for Recorder<'_, W, F> {
 impl<W, F: FnMut(&mut Band<W>)> Recorder<'_, W, F> {
     /// A pixel by itself, in all mirrors.
     fn single(&mut self, [column, row]: [usize; 2], coverage: f32, taps: &Taps) {
-        let (sources, list) = (self.world.sources(), taps.list());
+        let list = taps.list();
+        self.places.clear();
+        if self.mirrors.images.len() > 1 {
+            self.places.extend(list.taps.iter().map(|tap| self.world.texel(tap.texel)));
+        }
         // Mirrored, texels lie otherwise, but not in relation to each other.
         let first_place = self.band.places.len();
         self.band.places.extend_from_slice(list.places);
@@ -258,7 +264,8 @@ impl<W, F: FnMut(&mut Band<W>)> Recorder<'_, W, F> {
             if index == 0 {
                 self.band.taps.extend_from_slice(list.taps);
             } else {
-                self.band.taps.extend(list.taps.iter().map(|&tap| image.tap(sources, tap)));
+                let taps = list.taps.iter().zip(&self.places);
+                self.band.taps.extend(taps.map(|(tap, &place)| Tap { texel: image.texel(place), ..*tap }));
             }
         }
         if self.band.taps.len() > MANY {
