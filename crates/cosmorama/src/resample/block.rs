@@ -49,17 +49,22 @@ impl Block {
         (self.rect.left.midpoint(self.rect.right), self.rect.top.midpoint(self.rect.bottom))
     }
 
-    /// Whether the frame ends here.
-    pub(super) fn is_at_border_of(&self, target: &View) -> bool {
+    /// Whether the frame ends here, or so near that the block's cap may be partly outside.
+    pub(super) fn is_near_border_of(&self, target: &View) -> bool {
+        self.has_border_within(self.side / 2, target)
+    }
+
+    /// Whether the frame ends less than so many pixels away.
+    fn has_border_within(&self, pixels: usize, target: &View) -> bool {
         let PixelRect { left, top, right, bottom } = self.rect;
-        left == 0 || top == 0 || right == target.width() || bottom == target.height()
+        left < pixels || top < pixels || right + pixels > target.width() || bottom + pixels > target.height()
     }
 
     /// Whether the frame ends here, or the field of view.
     pub(super) fn is_at_edge_of(&self, target: &View) -> bool {
         let PixelRect { left, top, right, bottom } = self.rect;
         let hides = |(x, y): (usize, usize)| !target.stop_passes(PixelPoint::new(x as f64, y as f64));
-        self.is_at_border_of(target)
+        self.has_border_within(1, target)
             || [(left, top), (right, top), (left, bottom), (right, bottom)].into_iter().any(hides)
     }
 

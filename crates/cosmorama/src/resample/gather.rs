@@ -12,12 +12,13 @@ use super::cap_chain::CapChain;
 use super::field_edge::FieldEdge;
 use super::kernel::KernelTable;
 use super::meeting::Meeting;
-use super::patch::Grid;
+use super::patch::{Clearance, Grid};
+use super::seen_texels::SeenTexels;
 use super::texel_run::{Run, TexelBox, ceil, floor, runs_around};
 use super::{Ellipse, Kernel, Taps, lookup, surround};
 use crate::projection::Projection;
 use crate::sphere::{Direction, DirectionJacobian};
-use crate::world::{FieldStop, Footprint, PixelPoint, Source, TexelPlace, View, World};
+use crate::world::{FieldStop, Footprint, PixelPoint, Source, View, World};
 
 /// A mapping is taken as linear over a kernel that is smaller than this part of the way to its nearest singularity. At a
 /// fifth, the tests find no point of a direction-coloured world displaced by more than 0.005 pixel.
@@ -40,23 +41,14 @@ enum RimRegion {
     Rim,
 }
 
-/// How far a patch of a target is from the edge of its field of view.
-#[derive(Clone, Copy, Debug)]
-pub(super) enum Clearance {
-    /// The edge is near none of its pixels.
-    Whole,
-    /// It may be near those that have it within so many radians.
-    Within(f64),
-}
-
 /// The gather for one world and kernel.
 pub(super) struct Gather<'a> {
     world: &'a World,
     table: &'a KernelTable,
     /// Where the target's field of view ends, if it does.
     field: Option<FieldEdge<'a>>,
-    /// The same where texels outside count for nothing.
-    edge: Option<FieldEdge<'a>>,
+    /// Which texels it falls upon, where those outside count for nothing.
+    seen: Option<SeenTexels<'a>>,
     /// The largest texel of any view, in radians.
     texel_pitch: f64,
     candidates: Vec<Candidate>,
@@ -69,7 +61,8 @@ impl<'a> Gather<'a> {
         let texel_pitch = world.sources().iter().map(|source| source.texel_pitch).fold(0.0, f64::max);
         let field = FieldEdge::of(target);
         let edge = field.filter(|edge| edge.is_wider_than(texel_pitch));
-        Self { world, table, field, edge, texel_pitch, candidates: Vec::new(), last: 0 }
+        let seen = edge.map(|edge| SeenTexels::new(world, edge));
+        Self { world, table, field, seen, texel_pitch, candidates: Vec::new(), last: 0 }
     }
 
     /// The taps of a footprint, weights adding to one; none where no view is near.
@@ -168,11 +161,12 @@ impl<'a> Gather<'a> {
     /// What lies outside the field of view does not leak in. True if any of that lies under the pixel.
     fn drop_unseen(&mut self, footprint: &Footprint, region: RimRegion) -> bool {
         let reach = self.reach(footprint, self.texel_pitch, self.floor(region));
-        let Some(edge) = self.edge.filter(|edge| edge.is_near(footprint.direction, reach)) else { return false };
+        let Some(seen) = self.seen.as_mut().filter(|seen| seen.ends_near(footprint.direction, reach)) else {
+            return false;
+        };
         let mut ends_under = false;
         self.candidates.retain(|candidate| {
-            let TexelPlace { view, texel } = self.world.texel(candidate.texel);
-            let is_seen = edge.touches(&self.world.sources()[view], texel);
+            let is_seen = seen.holds(candidate.texel);
             ends_under |= candidate.is_under() && !is_seen;
             is_seen
         });
@@ -279,7 +273,8 @@ impl<'a> Gather<'a> {
     fn gather_cap(&mut self, source: &Source, footprint: &Footprint, radius: f64, floor: f64) {
         let here = footprint.direction.vector();
         let (right, up) = here.any_orthonormal_pair();
-        let in_tangent_plane = |vector: glam::DVec3| DVec2::new(right.dot(vector), up.dot(vector)) / source.texel_pitch;
+        let [along, across] = [right, up].map(|axis| axis / source.texel_pitch);
+        let in_tangent_plane = |vector: DVec3| DVec2::new(along.dot(vector), across.dot(vector));
         let tangent =
             DMat2::from_cols(in_tangent_plane(footprint.jacobian.dx), in_tangent_plane(footprint.jacobian.dy));
         let to_screen = tangent.inverse();

@@ -30,6 +30,7 @@ mod reference;
 mod resampler;
 mod scan;
 mod screen_mask;
+mod seen_texels;
 mod slope;
 mod surround;
 mod taps;

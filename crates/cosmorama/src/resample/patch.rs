@@ -4,7 +4,7 @@ use glam::{DMat2, DVec2};
 
 use super::Kernel;
 use super::bend::Bend;
-use super::gather::{Clearance, Gather};
+use super::gather::Gather;
 use super::lattice::{Lattice, Point};
 use crate::world::{PixelPoint, Source, View};
 
@@ -110,6 +110,15 @@ pub(super) struct Patch<'a> {
     /// How its texels lie around its middle.
     pub(super) bend: Bend,
     clearance: Clearance,
+}
+
+/// How far a patch of a target is from the edge of its field of view.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Clearance {
+    /// The edge is near none of its pixels.
+    Whole,
+    /// It may be near those that have it within so many radians.
+    Within(f64),
 }
 
 /// How the solid angle of texels changes over a patch, relative to itself.

@@ -51,7 +51,7 @@ impl Survey<'_> {
             return;
         }
         let cap = block.cap(self.target);
-        let inside = cap.filter(|cap| !block.is_at_border_of(self.target) && cap.is_inside(self.target));
+        let inside = cap.filter(|cap| !block.is_near_border_of(self.target) && cap.is_inside(self.target));
         if let Some(cap) = inside {
             self.add_reach(&cap, needs);
             let (i, j) = block.middle();

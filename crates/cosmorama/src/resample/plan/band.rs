@@ -3,7 +3,7 @@ use std::ops::Range;
 use super::mirrors::{Mirrors, Walk};
 use super::stored::{Stored, stored};
 use super::weights::Weights;
-use crate::resample::patch::SIDE;
+use crate::resample::patch::{SIDE, lanes_of};
 use crate::resample::scan::Sink;
 use crate::resample::taps::{Tap, TapList, Taps};
 use crate::resample::window::Windows;
@@ -116,16 +116,17 @@ impl Run {
 
     /// The run of windows that begin at these texels; `None` if it cannot be written down.
     fn new(windows: &Windows, corners: &Corners, [column, row]: [usize; 2], weights: usize) -> Option<Self> {
-        let corners = || (0..SIDE).filter_map(|lane| corners[lane].map(|corner| (lane, corner)));
-        let least = |axis: usize| corners().map(|(_, corner)| corner[axis]).min();
-        let corner = [least(0)?, least(1)?];
-        let mut offsets = [[0; 2]; SIDE];
-        let mut lanes = 0;
-        for (lane, texel) in corners() {
-            let offset = [texel[0] - corner[0], texel[1] - corner[1]].map(u8::try_from);
-            offsets[lane] = [offset[0].ok()?, offset[1].ok()?];
-            lanes |= 1 << lane;
+        let lanes = lanes_of(|lane| corners[lane].is_some());
+        // Lanes without a window count as the first one that has one: loops go without branches then.
+        let first = corners[lanes.trailing_zeros() as usize % SIDE]?;
+        let corner = corners.map(|corner| corner.unwrap_or(first)).into_iter();
+        let corner = corner.fold(first, |least, texel| [least[0].min(texel[0]), least[1].min(texel[1])]);
+        let offset = |texel: [u32; 2]| [texel[0] - corner[0], texel[1] - corner[1]];
+        let offsets = corners.map(|corner| corner.map_or([0; 2], offset));
+        if offsets.as_flattened().iter().fold(0, |all, offset| all | offset) > u32::from(u8::MAX) {
+            return None;
         }
+        let offsets = offsets.map(|offset| offset.map(|texels| texels as u8));
         let under = windows.rows_under();
         Some(Self {
             corner,
