@@ -11,9 +11,6 @@ pub struct Perspective;
 /// Directions closer than this (as a sine) to the plane of the pinhole have no image.
 const HORIZON: f64 = 1e-9;
 
-/// Points of a row that are worked on together.
-const AT_ONCE: usize = 8;
-
 impl Projection for Perspective {
     fn project(&self, direction: Direction) -> Option<PlanePoint> {
         let vector = direction.vector();
@@ -33,20 +30,6 @@ impl Projection for Perspective {
         // The area of the plane at distance |v|, seen at an angle whose cosine is 1/|v|.
         let length_squared = 1.0 + point.x * point.x + point.y * point.y;
         Some(1.0 / (length_squared * length_squared.sqrt())).filter(|solid_angle| *solid_angle > 0.0)
-    }
-
-    fn row_solid_angles(&self, first: PlanePoint, step: f64, count: usize, mut visit: impl FnMut(usize, Option<f64>)) {
-        // As above, a few at once: roots and quotients come in pairs.
-        for start in (0..count).step_by(AT_ONCE) {
-            let angles: [f64; AT_ONCE] = std::array::from_fn(|k| {
-                let x = first.x + (start as f64 + k as f64) * step;
-                let length_squared = 1.0 + x * x + first.y * first.y;
-                1.0 / (length_squared * length_squared.sqrt())
-            });
-            for (k, angle) in (start..count).zip(angles) {
-                visit(k, Some(angle).filter(|solid_angle| *solid_angle > 0.0));
-            }
-        }
     }
 
     fn unproject_with_jacobian(&self, point: PlanePoint) -> Option<(Direction, DirectionJacobian)> {
