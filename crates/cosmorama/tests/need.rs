@@ -79,6 +79,50 @@ fn at_most_so_much_is_read_and_exactly_so_much_is_seen() {
     }
 }
 
+#[test]
+fn what_is_within_reach_of_a_cube_holds_what_is_read() {
+    for size in [(64, 64), (96, 80), (700, 700)] {
+        let world = cube(&CubeFace::ALL, size.0, size.1);
+        let tilted = View { orientation: turned([25.0, -70.0, 15.0]), ..fisheye(150, 220.0) };
+        let front = perspective(128, 128, 90.0, 0.0, 0.0, 0.0);
+        let turned = perspective(160, 120, 70.0, 40.0, 20.0, 5.0);
+        for target in [omnimax(200, 146), omnimax(983, 718), tilted, front, turned, equirect(160), fisheye(300, 180.0)]
+        {
+            let exact = needs(&world, target);
+            let quick = Needs::within_reach(&world, &[target], &Filter::DEFAULT).expect("six faces leave no hole");
+            assert_eq!(exact.uncovered, quick.uncovered);
+            for (exact, quick) in exact.views.iter().zip(&quick.views) {
+                let holds = |read| quick.read.is_some_and(|quick| quick.contains(&read));
+                assert!(exact.read.is_none_or(holds), "{exact:?} is not in {quick:?}: {target:?}");
+                assert_eq!(exact.seen.is_some(), quick.seen.is_some(), "{exact:?}, {quick:?}: {target:?}");
+                let is_seen = |seen| exact.seen.is_some_and(|exact| exact.contains(&seen));
+                assert!(quick.seen.is_none_or(is_seen), "{quick:?} is not in {exact:?}: {target:?}");
+            }
+        }
+    }
+    let five = cube(&CubeFace::ALL[1..], 64, 64);
+    assert_eq!(Needs::within_reach(&five, &[fisheye(100, 180.0)], &Filter::DEFAULT), None);
+}
+
+#[test]
+fn what_is_within_reach_is_little_more_than_what_is_read_at_most() {
+    let world = cube(&CubeFace::ALL, 512, 512);
+    for target in [fisheye(1024, 180.0), omnimax(983, 718), perspective(300, 200, 90.0, 10.0, 0.0, 0.0)] {
+        let most = Needs::at_most(&world, &[target], &Filter::DEFAULT);
+        let quick = Needs::within_reach(&world, &[target], &Filter::DEFAULT).expect("six faces leave no hole");
+        for (most, quick) in most.views.iter().zip(&quick.views) {
+            let wider = |most: PixelRect| PixelRect {
+                left: most.left.saturating_sub(10),
+                top: most.top.saturating_sub(10),
+                right: most.right + 10,
+                bottom: most.bottom + 10,
+            };
+            let holds = |quick| most.read.is_some_and(|most| wider(most).contains(&quick));
+            assert!(quick.read.is_none_or(holds), "{quick:?} is not in {most:?}: {target:?}");
+        }
+    }
+}
+
 /// The same from pictures alone: a texel is read if its light changes the picture, and seen if point sampling shows it.
 fn plain_scan(world: &World, target: &View) -> Vec<Need> {
     let plan_of = |kind| {

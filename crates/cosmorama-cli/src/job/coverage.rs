@@ -72,7 +72,8 @@ fn find_gaps(
     }
     let geometry: Vec<View> = targets.iter().map(|target| target.view).collect();
     let uncovered = |needs: &Needs| needs.uncovered.map(|gap| format!("{}: {gap}", targets[gap.target].name));
-    let mut needs = Needs::at_most(nominal, &geometry, filter);
+    let quick = Needs::within_reach(nominal, &geometry, filter);
+    let mut needs = quick.unwrap_or_else(|| Needs::at_most(nominal, &geometry, filter));
     // A view that shows no pixel's direction may still be read around them; if not, its file is not wanted.
     let unsure: Vec<bool> = needs.views.iter().map(|need| need.seen.is_none() && need.read.is_some()).collect();
     if unsure.contains(&true) {
@@ -112,9 +113,7 @@ fn held_world(views: &[InputView], nominal: World) -> Result<World> {
     if held().count() == nominal.sources().len() && held().zip(nominal.sources()).all(is_same) {
         return Ok(nominal);
     }
-    // Whole pictures may be far larger than what is left of them.
-    drop(nominal);
-    Ok(World::blended(held())?)
+    Ok(nominal.with_views(held())?)
 }
 
 /// Without any view there is nothing to fill up.

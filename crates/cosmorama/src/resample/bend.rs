@@ -1,5 +1,7 @@
 use glam::{DMat2, DVec2, DVec3};
 
+use crate::projection::Projection;
+use crate::sphere::Direction;
 use crate::world::{PixelPoint, View};
 
 /// How a view's texels lie on the sphere around a point: rows and columns of texels are curves there, and their distances
@@ -17,7 +19,9 @@ pub(super) struct Bend {
 impl Bend {
     /// That of a view around a point of its image; `None` where it looks nowhere.
     pub(super) fn around(view: &View, at: PixelPoint) -> Option<Self> {
-        let look = |u: f64, v: f64| view.direction(PixelPoint::new(at.x + u, at.y + v)).map(|d| d.vector());
+        // In the view's own frame: it is the same in any.
+        let plane = |u: f64, v: f64| view.grid.to_plane(PixelPoint::new(at.x + u, at.y + v));
+        let look = |u: f64, v: f64| view.projection.unproject(plane(u, v)).map(Direction::vector);
         let here = look(0.0, 0.0)?;
         let [left, right, above, below] = [look(-1.0, 0.0)?, look(1.0, 0.0)?, look(0.0, -1.0)?, look(0.0, 1.0)?];
         let diagonal = look(1.0, 1.0)? + look(-1.0, -1.0)?;

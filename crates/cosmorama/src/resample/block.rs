@@ -44,24 +44,34 @@ impl Block {
         (rect.top..rect.bottom).flat_map(move |j| (rect.left..rect.right).map(move |i| (i, j)))
     }
 
+    /// Column and row of a pixel in its middle.
+    pub(super) fn middle(&self) -> (usize, usize) {
+        (self.rect.left.midpoint(self.rect.right), self.rect.top.midpoint(self.rect.bottom))
+    }
+
+    /// Whether the frame ends here, or so near that the block's cap may be partly outside.
+    pub(super) fn is_near_border_of(&self, target: &View) -> bool {
+        self.has_border_within(self.side / 2, target)
+    }
+
+    /// Whether the frame ends less than so many pixels away.
+    fn has_border_within(&self, pixels: usize, target: &View) -> bool {
+        let PixelRect { left, top, right, bottom } = self.rect;
+        left < pixels || top < pixels || right + pixels > target.width() || bottom + pixels > target.height()
+    }
+
     /// Whether the frame ends here, or the field of view.
     pub(super) fn is_at_edge_of(&self, target: &View) -> bool {
         let PixelRect { left, top, right, bottom } = self.rect;
-        let ends = left == 0 || top == 0 || right == target.width() || bottom == target.height();
         let hides = |(x, y): (usize, usize)| !target.stop_passes(PixelPoint::new(x as f64, y as f64));
-        ends || [(left, top), (right, top), (left, bottom), (right, bottom)].into_iter().any(hides)
+        self.has_border_within(1, target)
+            || [(left, top), (right, top), (left, bottom), (right, bottom)].into_iter().any(hides)
     }
 
     /// Whether the target's field stop surely hides all of the block.
     pub(super) fn is_hidden(&self, target: &View) -> bool {
-        let (start, end) = (
-            target.grid.to_plane(PixelPoint::new(self.rect.left as f64, self.rect.top as f64)),
-            target.grid.to_plane(PixelPoint::new(self.rect.right as f64, self.rect.bottom as f64)),
-        );
-        let nearest = |a: f64, b: f64| if a * b <= 0.0 { 0.0 } else { a.abs().min(b.abs()) };
-        let distance = nearest(start.x, end.x).hypot(nearest(start.y, end.y));
         let is_below = |side: Direction| self.cap(target).is_some_and(|cap| cap.is_below(side, target));
-        target.stop.circle.is_some_and(|radius| distance > radius) || target.stop.half_space.is_some_and(is_below)
+        target.circle_hides(self.rect) || target.stop.half_space.is_some_and(is_below)
     }
 
     /// The cap that holds all directions of the block; `None` where part of it has none, or where it is wide.

@@ -114,6 +114,9 @@ impl Cap {
 
 /// The texels of a source that can lie within `radius` radians of a direction.
 pub(super) fn texels_within(source: &Source, centre: Direction, radius: f64) -> Option<PixelRect> {
+    if !source.reaches(centre, radius) {
+        return None;
+    }
     let (width, height) = (source.view.width(), source.view.height());
     let bounds = source.view.cap_bounds(centre, Angle::from_radians(radius));
     let wraps = source.period.is_some() && (bounds.min.x < 0.0 || bounds.max.x > width as f64);

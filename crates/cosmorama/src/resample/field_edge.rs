@@ -15,9 +15,9 @@ pub(super) struct FieldEdge<'a> {
     axis: f64,
 }
 
-/// Points of a texel by which its overlap with the field is judged: its centre, and its corners a hair inside, since
-/// those of a texel beyond the edge lie on it.
-const POINTS: [(f64, f64); 5] = [(0.5, 0.5), (0.001, 0.001), (0.999, 0.001), (0.001, 0.999), (0.999, 0.999)];
+/// Points of a texel by which, beside its centre, its overlap with the field is judged: its corners a hair inside, since those
+/// of a texel beyond the edge lie on it.
+const CORNERS: [(f64, f64); 4] = [(0.001, 0.001), (0.999, 0.001), (0.001, 0.999), (0.999, 0.999)];
 
 impl<'a> FieldEdge<'a> {
     /// The edge of a target's field; `None` if it has none inside its image.
@@ -38,8 +38,9 @@ impl<'a> FieldEdge<'a> {
     /// Whether something within `reach` radians of a direction may lie outside the field.
     pub(super) fn is_near(&self, direction: Direction, reach: f64) -> bool {
         let direction = self.target.orientation.to_view(direction);
-        // A cosine changes by no more than its angle.
-        self.circle.is_some_and(|circle| self.axis_cosine(direction) < circle + reach)
+        // cos(α − ρ) = cos α cos ρ + sin α sin ρ, and no more than this.
+        let within = |circle: f64| circle + sine(circle) * reach + (-circle).max(0.0) * (reach * reach / 2.0);
+        self.circle.is_some_and(|circle| self.axis_cosine(direction) < within(circle))
             || self.target.stop.half_space.is_some_and(|side| side.dot(direction) < reach)
     }
 
@@ -50,13 +51,16 @@ impl<'a> FieldEdge<'a> {
             || self.target.stop.half_space.is_some_and(|side| side.dot(direction) < -reach)
     }
 
-    /// Whether a part of the field falls upon the texel with this index in the world's buffer.
-    pub(super) fn touches(&self, source: &Source, texel: usize) -> bool {
-        let (i, j) = ((texel - source.offset) % source.view.width(), (texel - source.offset) / source.view.width());
-        POINTS.iter().any(|(x, y)| {
-            let direction = source.view.direction(PixelPoint::new(i as f64 + x, j as f64 + y));
-            direction.is_some_and(|direction| self.holds(direction))
-        })
+    /// Whether a part of the field falls upon the texel in this column and row of a source.
+    pub(super) fn touches(&self, source: &Source, texel: [usize; 2]) -> bool {
+        let [i, j] = texel.map(|at| at as f64);
+        let centre = source.view.direction(PixelPoint::new(i + 0.5, j + 0.5));
+        // No corner of a texel is farther from its centre than its side is long.
+        if centre.is_some_and(|centre| self.is_far_beyond(centre, source.texel_pitch)) {
+            return false;
+        }
+        let at = |(x, y): &(f64, f64)| source.view.direction(PixelPoint::new(i + x, j + y));
+        centre.into_iter().chain(CORNERS.iter().filter_map(at)).any(|direction| self.holds(direction))
     }
 
     /// Cosine of a direction's angle from the axis.
@@ -64,9 +68,46 @@ impl<'a> FieldEdge<'a> {
         -direction.vector().z * self.axis
     }
 
+    /// Whether it holds a direction.
     fn holds(&self, direction: Direction) -> bool {
         let direction = self.target.orientation.to_view(direction);
         self.circle.is_none_or(|circle| self.axis_cosine(direction) >= circle)
             && self.target.stop.half_space.is_none_or(|side| side.dot(direction) >= 0.0)
+    }
+}
+
+/// The sine of an angle between 0 and π, given its cosine.
+fn sine(cosine: f64) -> f64 {
+    (1.0 - cosine * cosine).max(0.0).sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::projection::{PlaneRect, ProjectionKind};
+    use crate::sphere::Orientation;
+    use crate::world::PixelGrid;
+
+    #[test]
+    fn what_is_not_near_the_edge_has_it_farther_away_than_asked() {
+        let rect = PlaneRect { min: PlanePoint::new(-3.0, -3.0), max: PlanePoint::new(3.0, 3.0) };
+        let target = View {
+            projection: ProjectionKind::EQUIDISTANT,
+            orientation: Orientation::IDENTITY,
+            grid: PixelGrid::spanning(60, 60, rect),
+            stop: FieldStop::NONE,
+        };
+        for half in [0.02, 0.5, 1.5, 2.2, 3.0] {
+            let target = View { stop: FieldStop::circle(half), ..target };
+            let edge = FieldEdge::of(&target).expect("a circle");
+            for (step, reach) in (0..=300).flat_map(|step| [0.0, 0.01, 0.3, 2.0].map(|reach| (step, reach))) {
+                let angle = f64::from(step) * 0.01;
+                let direction = target.projection.unproject(PlanePoint::new(0.0, angle)).expect("a direction");
+                let is_near = edge.is_near(direction, reach);
+                assert!(is_near || angle + reach <= half + 1e-9, "{angle} + {reach}, {half}");
+                // Nor is all taken for near: what is farther away than so much more is not.
+                assert!(!is_near || angle + 1.3 * reach + 0.01 > half || reach > 0.01, "{angle} + {reach}, {half}");
+            }
+        }
     }
 }

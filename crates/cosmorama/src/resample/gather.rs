@@ -12,7 +12,8 @@ use super::cap_chain::CapChain;
 use super::field_edge::FieldEdge;
 use super::kernel::KernelTable;
 use super::meeting::Meeting;
-use super::patch::Grid;
+use super::patch::{Clearance, Grid};
+use super::seen_texels::SeenTexels;
 use super::texel_run::{Run, TexelBox, ceil, floor, runs_around};
 use super::{Ellipse, Kernel, Taps, lookup, surround};
 use crate::projection::Projection;
@@ -45,7 +46,9 @@ pub(super) struct Gather<'a> {
     world: &'a World,
     table: &'a KernelTable,
     /// Where the target's field of view ends, if it does.
-    edge: Option<FieldEdge<'a>>,
+    field: Option<FieldEdge<'a>>,
+    /// Which texels it falls upon, where those outside count for nothing.
+    seen: Option<SeenTexels<'a>>,
     /// The largest texel of any view, in radians.
     texel_pitch: f64,
     candidates: Vec<Candidate>,
@@ -56,8 +59,10 @@ pub(super) struct Gather<'a> {
 impl<'a> Gather<'a> {
     pub(super) fn new(world: &'a World, target: &'a View, table: &'a KernelTable) -> Self {
         let texel_pitch = world.sources().iter().map(|source| source.texel_pitch).fold(0.0, f64::max);
-        let edge = FieldEdge::of(target).filter(|edge| edge.is_wider_than(texel_pitch));
-        Self { world, table, edge, texel_pitch, candidates: Vec::new(), last: 0 }
+        let field = FieldEdge::of(target);
+        let edge = field.filter(|edge| edge.is_wider_than(texel_pitch));
+        let seen = edge.map(|edge| SeenTexels::new(world, edge));
+        Self { world, table, field, seen, texel_pitch, candidates: Vec::new(), last: 0 }
     }
 
     /// The taps of a footprint, weights adding to one; none where no view is near.
@@ -128,34 +133,40 @@ impl<'a> Gather<'a> {
 
     /// Whether the target's field of view may end within `reach` radians of a direction.
     pub(super) fn is_near_edge(&self, direction: Direction, reach: f64) -> bool {
-        self.edge.is_some_and(|edge| edge.is_near(direction, reach))
+        self.field.is_some_and(|edge| edge.is_near(direction, reach))
     }
 
-    /// Whether every kernel in a patch of the target is an ellipse of texels that the edge of no field of view cuts;
-    /// `screen` are points of the patch, row by row.
-    pub(super) fn takes_patch(&self, source: &Source, screen: &Grid<Footprint>) -> bool {
+    /// How far the edge of the target's field of view is from a patch of it whose kernels are ellipses of texels that the edge
+    /// of no view cuts; `None` if they are not. `screen` are points of the patch, row by row.
+    pub(super) fn clearance(&self, source: &Source, screen: &Grid<Footprint>) -> Option<Clearance> {
         let (middle, corners) = (screen[1][1].direction, [screen[0][0], screen[0][2], screen[2][0], screen[2][2]]);
-        let Some(cap) = Cap::around(middle, &corners) else { return false };
+        let cap = Cap::around(middle, &corners)?;
         let floor = self.floor(RimRegion::Inside);
-        let reach = |corner: &Footprint| self.reach(corner, source.texel_pitch_at(corner.direction), floor);
-        let reach = corners.iter().map(reach).fold(0.0, f64::max);
+        let largest = |of: &dyn Fn(&Footprint) -> f64| corners.iter().map(of).fold(0.0, f64::max);
+        let reach = largest(&|corner| self.reach(corner, source.texel_pitch_at(corner.direction), floor));
         let seen = cap.widened(reach);
-        let is_whole = !self.is_near_edge(middle, seen.radius());
         let margin = source.view.margin(middle) - cap.radius();
         let is_linear = corners.iter().all(|corner| is_linear(source, corner, reach, margin));
-        is_whole && is_linear && seen.is_clear_of_stop(&source.view)
+        if !is_linear || !seen.is_clear_of_stop(&source.view) {
+            return None;
+        }
+        if !self.is_near_edge(middle, seen.radius()) {
+            return Some(Clearance::Whole);
+        }
+        // What single pixels go by, and no less than the pixels themselves.
+        let kernel = largest(&|corner| self.reach(corner, self.texel_pitch, floor));
+        Some(Clearance::Within(largest(&pixel_size).max(kernel)))
     }
 
     /// What lies outside the field of view does not leak in. True if any of that lies under the pixel.
     fn drop_unseen(&mut self, footprint: &Footprint, region: RimRegion) -> bool {
         let reach = self.reach(footprint, self.texel_pitch, self.floor(region));
-        let Some(edge) = self.edge.filter(|edge| edge.is_near(footprint.direction, reach)) else { return false };
-        let sources = self.world.sources();
+        let Some(seen) = self.seen.as_mut().filter(|seen| seen.ends_near(footprint.direction, reach)) else {
+            return false;
+        };
         let mut ends_under = false;
         self.candidates.retain(|candidate| {
-            let texel = candidate.texel as usize;
-            let after = sources.partition_point(|source| source.offset <= texel);
-            let is_seen = edge.touches(&sources[after - 1], texel);
+            let is_seen = seen.holds(candidate.texel);
             ends_under |= candidate.is_under() && !is_seen;
             is_seen
         });
@@ -170,9 +181,8 @@ impl<'a> Gather<'a> {
     /// An upper bound of the kernel's radius on the sphere, in radians, among texels of this pitch, so many of which its unit is
     /// at least.
     fn reach(&self, footprint: &Footprint, texel_pitch: f64, floor: f64) -> f64 {
-        let (kernel, jacobian) = (self.table.kernel(), &footprint.jacobian);
-        let pixel = (jacobian.dx.length_squared() + jacobian.dy.length_squared()).sqrt();
-        kernel.radius() * (kernel.scale * pixel).max(floor * texel_pitch)
+        let kernel = self.table.kernel();
+        kernel.radius() * (kernel.scale * pixel_size(footprint)).max(floor * texel_pitch)
     }
 
     /// Adds the texels of one view; true if the kernel lies wholly inside it.
@@ -263,7 +273,8 @@ impl<'a> Gather<'a> {
     fn gather_cap(&mut self, source: &Source, footprint: &Footprint, radius: f64, floor: f64) {
         let here = footprint.direction.vector();
         let (right, up) = here.any_orthonormal_pair();
-        let in_tangent_plane = |vector: glam::DVec3| DVec2::new(right.dot(vector), up.dot(vector)) / source.texel_pitch;
+        let [along, across] = [right, up].map(|axis| axis / source.texel_pitch);
+        let in_tangent_plane = |vector: DVec3| DVec2::new(along.dot(vector), across.dot(vector));
         let tangent =
             DMat2::from_cols(in_tangent_plane(footprint.jacobian.dx), in_tangent_plane(footprint.jacobian.dy));
         let to_screen = tangent.inverse();
@@ -315,6 +326,11 @@ impl<'a> Gather<'a> {
             });
         });
     }
+}
+
+/// The root of a pixel's summed squared derivatives, in radians.
+fn pixel_size(footprint: &Footprint) -> f64 {
+    (footprint.jacobian.dx.length_squared() + footprint.jacobian.dy.length_squared()).sqrt()
 }
 
 /// A pixel whose sides are narrower than this part of their length has no width, as on the very pole of a panorama.

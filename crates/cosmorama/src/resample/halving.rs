@@ -140,13 +140,13 @@ impl HalvedView {
         bits
     }
 
-    /// The texels that are in the one in this column and row, and that count.
-    fn bits(&self, source: &Source, [column, row]: [usize; 2], is_seen: impl Fn(usize) -> bool) -> u16 {
+    /// The texels that are in the one in this column and row, and that count. `is_seen` is given their own columns and rows.
+    fn bits(&self, source: &Source, [column, row]: [usize; 2], is_seen: impl Fn([usize; 2]) -> bool) -> u16 {
         let mut bits = 0;
         for (y, j, _) in self.rows[row].each() {
             for (x, i, _) in self.columns[column].each() {
                 let texel = j * self.stride + i;
-                let counts = source.solid_angles[texel] > 0.0 && is_seen(self.offset + texel);
+                let counts = source.solid_angles[texel] > 0.0 && is_seen([i, j]);
                 bits |= u16::from(counts) << (y * MOST + x);
             }
         }

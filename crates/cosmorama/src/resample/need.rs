@@ -82,12 +82,14 @@ impl Needs {
         needs
     }
 
-    fn nothing(world: &World) -> Self {
+    /// That of no pixel.
+    pub(super) fn nothing(world: &World) -> Self {
         let need = |source: &Source| Need { name: source.name.clone(), seen: None, read: None };
         Self { views: world.sources().iter().map(need).collect(), uncovered: None }
     }
 
-    fn merged(mut self, other: &Self) -> Self {
+    /// Both together.
+    pub(super) fn merged(mut self, other: &Self) -> Self {
         for (mine, theirs) in self.views.iter_mut().zip(&other.views) {
             mine.seen = union(mine.seen, theirs.seen);
             mine.read = union(mine.read, theirs.read);
@@ -113,17 +115,17 @@ fn within(part: Option<PixelRect>, whole: Option<PixelRect>) -> bool {
 }
 
 /// One target's look at a world.
-struct Survey<'a> {
-    world: &'a World,
-    target: &'a View,
-    index: usize,
-    filter: &'a Filter,
-    reads: Reads<'a>,
+pub(super) struct Survey<'a> {
+    pub(super) world: &'a World,
+    pub(super) target: &'a View,
+    pub(super) index: usize,
+    pub(super) filter: &'a Filter,
+    pub(super) reads: Reads<'a>,
 }
 
 /// How well it is found what a filter reads.
 #[derive(Clone, Copy)]
-enum Reads<'a> {
+pub(super) enum Reads<'a> {
     /// By the taps of each pixel.
     Exactly,
     /// By what kernels around a block of pixels can reach.
@@ -133,7 +135,7 @@ enum Reads<'a> {
 }
 
 /// A block and what is known of it as a whole. Large ones are inside the picture, and one view shows all of them.
-struct Judged {
+pub(super) struct Judged {
     block: Block,
     cap: Option<Cap>,
     /// The source that shows all of it.
@@ -168,7 +170,7 @@ impl Survey<'_> {
         }
     }
 
-    fn judged(&self, block: Block) -> Judged {
+    pub(super) fn judged(&self, block: Block) -> Judged {
         let cap = block.cap(self.target);
         let owner = cap.and_then(|cap| self.world.sources().iter().position(|source| cap.is_shown_by(source)));
         let rank = if cap.is_none() || block.is_at_edge_of(self.target) { 0 } else { 1 + usize::from(owner.is_some()) };
@@ -195,7 +197,7 @@ impl Survey<'_> {
     }
 
     /// Adds what the pixels of a block need, unless they surely need nothing new.
-    fn add_block(&self, judged: &Judged, pixels: &mut PixelTaps, needs: &mut Needs) {
+    pub(super) fn add_block(&self, judged: &Judged, pixels: &mut PixelTaps, needs: &mut Needs) {
         let reads_nothing_new = judged.cap.is_some_and(|cap| match self.reads {
             Reads::Exactly => self.reads_within(&cap, needs, |_| true),
             Reads::Of(asked) => self.reads_within(&cap, needs, |view| asked[view]),
@@ -218,8 +220,7 @@ impl Survey<'_> {
         }
         for (i, j) in judged.block.pixels() {
             if reads_nothing_new && judged.is_inside {
-                let direction = self.target.direction(PixelPoint::centre(i, j));
-                direction.into_iter().for_each(|direction| self.add_pixel((i, j), direction, needs));
+                self.add_centre((i, j), needs);
                 continue;
             }
             let Some(screen) = self.target.screen_pixel(i, j) else { continue };
@@ -247,7 +248,7 @@ impl Survey<'_> {
     }
 
     /// Adds all that kernels around a block's pixels can touch.
-    fn add_reach(&self, cap: &Cap, needs: &mut Needs) {
+    pub(super) fn add_reach(&self, cap: &Cap, needs: &mut Needs) {
         let (sources, kernel) = (self.world.sources(), self.filter.kernel);
         // A texel of the coarser of two levels is as wide as a pixel at most: its floor in such texels, and half of one.
         let scale =
@@ -257,6 +258,18 @@ impl Survey<'_> {
         for (source, need) in sources.iter().zip(&mut needs.views) {
             need.read = union(need.read, cap.read_texels(source, coarsest, &kernel));
         }
+    }
+
+    /// Adds what the centre of a pixel sees.
+    pub(super) fn add_centre(&self, (i, j): (usize, usize), needs: &mut Needs) {
+        let direction = self.target.direction(PixelPoint::centre(i, j));
+        direction.into_iter().for_each(|direction| self.add_pixel((i, j), direction, needs));
+    }
+
+    /// Adds what a pixel sees, if it shows something.
+    pub(super) fn add_screen(&self, (i, j): (usize, usize), needs: &mut Needs) {
+        let screen = self.target.screen_pixel(i, j);
+        screen.into_iter().for_each(|screen| self.add_pixel((i, j), screen.footprint.direction, needs));
     }
 
     fn add_pixel(&self, (column, row): (usize, usize), direction: Direction, needs: &mut Needs) {

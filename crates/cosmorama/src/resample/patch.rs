@@ -5,12 +5,19 @@ use glam::{DMat2, DVec2};
 use super::Kernel;
 use super::bend::Bend;
 use super::gather::Gather;
+use super::lattice::{Lattice, Point};
 use crate::world::{PixelPoint, Source, View};
 
 /// Pixels along a patch's side, and lanes that are worked on together.
 pub(super) const SIDE: usize = 8;
 
-const HALF: usize = SIDE / 2;
+/// Pixels from one of the points that a patch is measured at to the next.
+pub(super) const HALF: usize = SIDE / 2;
+
+/// A bit for each lane of which something holds.
+pub(super) fn lanes_of(holds: impl Fn(usize) -> bool) -> u8 {
+    (0..SIDE).fold(0, |lanes, lane| lanes | u8::from(holds(lane)) << lane)
+}
 
 /// How far, in texels, the interpolated place of a patch's middle may be from the exact one. The cubic curves between exact
 /// corners err by much less in almost all patches; where a mapping bends more, each pixel is computed for itself.
@@ -86,7 +93,7 @@ impl Bulge {
 /// [`SIDE`] × [`SIDE`] pixels of a target as one view sees them: where each lies among its texels, and with what footprint.
 ///
 /// The place is a Coons patch (1967) between cubics that have the exact place and derivatives at the corners, its error of
-/// fourth order; derivatives are parabolas. Only patches that no edge of a field of view is near are made.
+/// fourth order; derivatives are parabolas. Near the edge of a field of view only some of its pixels are made of it.
 #[derive(Clone, Debug)]
 pub(super) struct Patch<'a> {
     /// The view, by its index in the world.
@@ -102,6 +109,16 @@ pub(super) struct Patch<'a> {
     pub(super) density: Density,
     /// How its texels lie around its middle.
     pub(super) bend: Bend,
+    clearance: Clearance,
+}
+
+/// How far a patch of a target is from the edge of its field of view.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Clearance {
+    /// The edge is near none of its pixels.
+    Whole,
+    /// It may be near those that have it within so many radians.
+    Within(f64),
 }
 
 /// How the solid angle of texels changes over a patch, relative to itself.
@@ -118,44 +135,39 @@ pub(super) struct Density {
 /// Rows of three points of a patch: corners, what is half way between them, and the middle.
 pub(super) type Grid<T> = [[T; 3]; 3];
 
-/// A point: where it lies among the texels, and its derivatives.
-#[derive(Clone, Copy, Default)]
-struct Point {
-    place: DVec2,
-    jacobian: DMat2,
-}
-
 impl<'a> Patch<'a> {
     /// The patch whose top left pixel is in column `i` of row `j`; `None` where its pixels had better be computed one by
-    /// one: near the edge of a field of view, near a singularity, where the mapping bends.
-    pub(super) fn new(gather: &Gather<'a>, target: &View, (i, j): (usize, usize)) -> Option<Self> {
-        let middle = target.footprint(PixelPoint::centre(i + HALF, j + HALF))?;
-        // A look at the middle spares the other eight points where nothing is shown.
-        if gather.is_near_edge(middle.direction, 0.0) {
-            return None;
-        }
+    /// one: where views meet, near a singularity, where the mapping bends.
+    pub(super) fn new(gather: &Gather<'a>, lattice: &mut Lattice, [i, j]: [usize; 2]) -> Option<Self> {
+        let middle = lattice.footprint([i + HALF, j + HALF])?;
         let (view, _) = gather.world().owner(middle.direction)?;
         let source = &gather.world().sources()[view];
         let mut screen = [[middle; 3]; 3];
         let mut points = Grid::<Point>::default();
         for (y, (screen, points)) in screen.iter_mut().zip(&mut points).enumerate() {
             for (x, (screen, point)) in screen.iter_mut().zip(points).enumerate() {
-                *screen = target.footprint(PixelPoint::centre(i + x * HALF, j + y * HALF))?;
+                let (footprint, seen) = lattice.point([i + x * HALF, j + y * HALF], (view, source))?;
                 // Beside a steep rim derivatives are not what pixels are measured by.
-                if target.is_steep_at(screen) {
+                if lattice.target().is_steep_at(&footprint) {
                     return None;
                 }
-                let (pixel, jacobian) = source.view.texel_footprint(screen)?;
-                *point = Point { place: DVec2::new(pixel.x, pixel.y), jacobian };
+                (*screen, *point) = (footprint, seen?);
             }
         }
-        if !gather.takes_patch(source, &screen) {
-            return None;
-        }
+        let clearance = gather.clearance(source, &screen)?;
         let density = Density::around(&source.view, &points, gather.kernel())?;
         let middle = points[1][1].place;
         let bend = Bend::around(&source.view, PixelPoint::new(middle.x, middle.y))?;
-        Self::through((view, source), &points, density, bend)
+        Self::through((view, source), &points, density, bend).map(|patch| Self { clearance, ..patch })
+    }
+
+    /// Which pixels of a row come of it, a bit for each: those that the edge of the field of view is not near.
+    pub(super) fn lanes(&self, gather: &Gather, target: &View, [i, j]: [usize; 2]) -> u8 {
+        let Clearance::Within(reach) = self.clearance else { return u8::MAX };
+        lanes_of(|lane| {
+            let direction = target.direction(PixelPoint::centre(i + lane, j));
+            direction.is_some_and(|direction| !gather.is_near_edge(direction, reach))
+        })
     }
 
     /// `None` where the mapping bends too much.
@@ -185,6 +197,7 @@ impl<'a> Patch<'a> {
                 .map(|k| Columns::parabolic(points.map(|row| row.map(|point| point.jacobian.to_cols_array()[k])))),
             density,
             bend,
+            clearance: Clearance::Whole,
         };
         (patch.error(points) < PLACE && is_almost_bilinear(points)).then_some(patch)
     }

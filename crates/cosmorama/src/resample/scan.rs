@@ -3,10 +3,12 @@ use std::ops::Range;
 use rayon::prelude::*;
 
 use super::kernel::KernelTable;
-use super::patch::{Patch, SIDE};
+use super::lattice::Lattice;
+use super::patch::{Patch, SIDE, lanes_of};
 use super::pixel_taps::PixelTaps;
 use super::window::{Level, Windows};
 use super::{FilterKind, Resampler, Taps};
+use crate::world::PixelRect;
 
 /// Columns that are gone through together: pixels above each other share texels, which are still at hand.
 const TILE: usize = 8 * SIDE;
@@ -18,6 +20,7 @@ pub(super) struct Scan<'a> {
     pixels: PixelTaps<'a>,
     /// For filters that work in windows.
     windows: Option<Windows>,
+    lattice: Lattice<'a>,
     /// The patches to go through, if not all.
     wanted: Option<&'a Wanted>,
 }
@@ -52,8 +55,8 @@ pub(super) trait Sink {
     /// A pixel by itself, and the part of it inside the field of view.
     fn pixel(&mut self, pixel: [usize; 2], coverage: f32, taps: &Taps);
 
-    /// `count` pixels beside each other, whole ones; those whose windows do not hold come by themselves.
-    fn windows(&mut self, pixel: [usize; 2], count: usize, windows: &Windows);
+    /// Pixels beside each other, whole ones, in the lanes that have a bit; those whose windows do not hold come by themselves.
+    fn windows(&mut self, pixel: [usize; 2], lanes: u8, windows: &Windows);
 }
 
 impl<'a> Scan<'a> {
@@ -63,7 +66,8 @@ impl<'a> Scan<'a> {
         let windows = matches!(filter.kind, FilterKind::Ewa | FilterKind::EwaPyramid)
             .then(|| Windows::new(&filter.kernel, level))
             .flatten();
-        Self { resampler, pixels: PixelTaps::new(world, target, filter, table), windows, wanted: None }
+        let pixels = PixelTaps::new(world, target, filter, table);
+        Self { resampler, pixels, windows, lattice: Lattice::new(target), wanted: None }
     }
 
     /// The same of these patches alone.
@@ -87,17 +91,26 @@ impl<'a> Scan<'a> {
         if self.wanted.is_some_and(|wanted| !wanted.holds([left, top])) {
             return;
         }
+        let first = rows.start;
         let target = self.resampler.target;
-        let patch = self.windows.as_ref().and_then(|_| Patch::new(self.pixels.gather(), target, (left, top)));
+        let rows = top.max(rows.start)..rows.end.min(top + SIDE);
         let count = SIDE.min(columns - left);
-        for row in top.max(rows.start)..rows.end.min(top + SIDE) {
-            let within = row - rows.start;
-            let made = self.windows.as_mut().zip(patch.as_ref()).map(|(windows, patch)| {
+        let (all, right) = (u8::MAX >> (SIDE - count), left + count);
+        if target.circle_hides(PixelRect { left, top: rows.start, right, bottom: rows.end }) {
+            return;
+        }
+        let gather = self.pixels.gather();
+        let patch = self.windows.as_ref().and_then(|_| Patch::new(gather, &mut self.lattice, [left, top]));
+        for row in rows {
+            let within = row - first;
+            let lanes = patch.as_ref().map_or(0, |patch| all & patch.lanes(self.pixels.gather(), target, [left, row]));
+            let mut made = 0;
+            if let Some((windows, patch)) = self.windows.as_mut().zip(patch.as_ref()).filter(|_| lanes != 0) {
                 windows.fill(patch, row - top);
-                sink.windows([left, within], count, windows);
-                &*windows
-            });
-            for lane in (0..count).filter(|&lane| !made.is_some_and(|windows| windows.holds(lane))) {
+                sink.windows([left, within], lanes, windows);
+                made = lanes_of(|lane| lanes >> lane & 1 == 1 && windows.holds(lane));
+            }
+            for lane in (0..count).filter(|lane| made >> lane & 1 == 0) {
                 let Some(screen) = target.screen_pixel(left + lane, row) else { continue };
                 let Some(taps) = self.pixels.taps(&screen) else { continue };
                 sink.pixel([left + lane, within], screen.coverage as f32, taps);
@@ -127,9 +140,9 @@ mod tests {
                 taps.as_slice().iter().map(|tap| (tap.texel, tap.weight)).collect();
         }
 
-        fn windows(&mut self, [column, row]: [usize; 2], count: usize, windows: &Windows) {
+        fn windows(&mut self, [column, row]: [usize; 2], lanes: u8, windows: &Windows) {
             let mut taps = Taps::default();
-            for lane in (0..count).filter(|&lane| windows.holds(lane)) {
+            for lane in (0..SIDE).filter(|&lane| lanes >> lane & 1 == 1 && windows.holds(lane)) {
                 windows.taps(lane, &mut taps);
                 self.pixel([column + lane, row], 1.0, &taps);
                 self.in_windows += 1;
@@ -222,6 +235,25 @@ mod tests {
         for target in &targets() {
             assert!(4 * check_windows(&world, target, Kernel::ADAPTIVE) > target.width() * target.height());
         }
+    }
+
+    /// A fisheye of this half angle, in radians, that looks at the middle of a face.
+    fn fisheye(size: usize, half: f64) -> View {
+        let stop = FieldStop::circle(half);
+        View { stop, ..view(ProjectionKind::EQUIDISTANT, (size, size), (half, half), Orientation::IDENTITY) }
+    }
+
+    #[test]
+    fn only_pixels_that_the_rim_is_near_come_by_themselves() {
+        let target = fisheye(400, 0.5);
+        let in_windows = check_windows(&cube(512), &target, Kernel::ADAPTIVE);
+        let away_from_rim = std::f64::consts::PI * 195f64.powi(2);
+        assert!(in_windows as f64 > away_from_rim, "{in_windows} pixels in windows, {away_from_rim} away from the rim");
+    }
+
+    #[test]
+    fn nothing_is_seen_outside_a_field_that_is_narrower_than_a_texel() {
+        check_windows(&cube(64), &fisheye(100, 0.01), Kernel::ADAPTIVE);
     }
 
     #[test]

@@ -75,6 +75,12 @@ impl Direction {
 
     /// Angle to another direction, exact for small and large angles alike.
     pub fn angle_to(self, other: Self) -> Angle {
+        // Of near directions by the series of 2 asin(chord/2), whose next term is less than rounding.
+        let squared = self.0.distance_squared(other.0);
+        if squared < 1e-3 {
+            let series = 1.0 + squared * (1.0 / 24.0 + squared * (3.0 / 640.0 + squared * (5.0 / 7168.0)));
+            return Angle::from_radians(squared.sqrt() * series);
+        }
         let sine = self.0.cross(other.0).length();
         Angle::from_radians(sine.atan2(self.dot(other)))
     }
@@ -108,5 +114,22 @@ impl DirectionJacobian {
         }
         let (x, y) = (tangent.cross(self.dy).dot(normal), self.dx.cross(tangent).dot(normal));
         Some(glam::DVec2::new(x, y) / determinant)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn angles_are_exact_whether_small_or_large() {
+        let from = Direction::from_longitude_latitude(Angle::from_degrees(30.0), Angle::from_degrees(40.0));
+        let (across, _) = from.vector().any_orthonormal_pair();
+        // 0.0316 is where the formula changes.
+        for radians in [0.0, 1e-9, 1e-4, 0.01, 0.0316, 0.03163, 0.032, 1.0, 3.0, std::f64::consts::PI] {
+            let to = Direction::from_unit(from.vector() * f64::cos(radians) + across * f64::sin(radians));
+            let found = from.angle_to(to).radians();
+            assert!((found - radians).abs() < 4e-16, "{found}, not {radians}");
+        }
     }
 }

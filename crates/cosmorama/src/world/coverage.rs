@@ -1,4 +1,4 @@
-use super::{FieldStop, Footprint, PixelPoint, View};
+use super::{FieldStop, Footprint, PixelPoint, PixelRect, View};
 use crate::projection::Projection;
 use crate::sphere::Direction;
 
@@ -122,6 +122,15 @@ impl View {
         } else {
             Side::Cut { circle, great_circle }
         }
+    }
+
+    /// Whether all of a rectangle of pixels is outside the limiting circle.
+    pub(crate) fn circle_hides(&self, PixelRect { left, top, right, bottom }: PixelRect) -> bool {
+        let Some(radius) = self.stop.circle else { return false };
+        let start = self.grid.to_plane(PixelPoint::new(left as f64, top as f64));
+        let end = self.grid.to_plane(PixelPoint::new(right as f64, bottom as f64));
+        let nearest = |a: f64, b: f64| if a * b <= 0.0 { 0.0 } else { a.abs().min(b.abs()) };
+        nearest(start.x, end.x).hypot(nearest(start.y, end.y)) > radius
     }
 
     /// Whether all of a pixel is outside the limiting circle.

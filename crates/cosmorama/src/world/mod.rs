@@ -1,6 +1,7 @@
 //! Worlds: radiance by direction, held as a set of views.
 
 mod blend;
+mod closed;
 mod coverage;
 mod field_stop;
 mod frame;
@@ -41,4 +42,5 @@ pub use solid_angles::SolidAngles;
 pub use st_pixels::{ST_NOWHERE, StPixel};
 pub use view::{Footprint, View};
 pub use view_mask::ViewMask;
+pub(crate) use world::TexelPlace;
 pub use world::{Source, World, WorldError, WorldView};

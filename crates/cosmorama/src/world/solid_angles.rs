@@ -47,7 +47,7 @@ impl fmt::Debug for SolidAngles {
 mod tests {
     use super::*;
     use crate::sphere::CubeFace;
-    use crate::world::{CubeFaceFrame, Frame, Placement, World};
+    use crate::world::{Blend, CubeFaceFrame, Frame, Placement, World, WorldView};
 
     #[test]
     fn faces_of_a_cube_share_them() {
@@ -59,5 +59,22 @@ mod tests {
         let world = World::new([CubeFace::Front, CubeFace::Right].map(view)).unwrap();
         let [front, right] = [0, 1].map(|index| &world.sources()[index].solid_angles);
         assert!(Arc::ptr_eq(&front.0, &right.0));
+    }
+
+    #[test]
+    fn a_part_of_a_world_keeps_them() {
+        let front = Placement::new(Frame::CubeFace(CubeFaceFrame)).view(8, 8).unwrap();
+        let small = Placement::new(Frame::CubeFace(CubeFaceFrame)).view(4, 4).unwrap();
+        let small = View { orientation: CubeFace::Right.orientation(), ..small };
+        let part = |view| WorldView { name: "view".to_owned(), view, blend: Blend::default(), mask: None };
+        let whole = World::blended([part(front)]).unwrap();
+        let known = whole.sources()[0].solid_angles.clone();
+        let held = whole.with_views([part(small), part(front)]).unwrap();
+        assert_eq!(held.sources(), World::blended([part(small), part(front)]).unwrap().sources());
+        assert!(Arc::ptr_eq(&held.sources()[1].solid_angles.0, &known.0));
+        // Where they are shared, each has a part of its own.
+        let shared = World::blended([part(front), part(front)]).unwrap();
+        let alone = shared.with_views([part(front)]).unwrap();
+        assert_eq!(alone.sources()[0].solid_angles, known);
     }
 }

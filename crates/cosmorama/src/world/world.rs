@@ -75,6 +75,15 @@ pub struct Source {
     pub(crate) whole: PixelRect,
 }
 
+/// Where a texel of a world lies.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct TexelPlace {
+    /// The view, by its index.
+    pub(crate) view: usize,
+    /// Its column and row there.
+    pub(crate) texel: [usize; 2],
+}
+
 impl Source {
     /// An upper bound of a texel's larger side, in radians, at a direction: beside a steep rim texels are far larger than
     /// elsewhere, and the largest says nothing of the others.
@@ -157,17 +166,32 @@ impl World {
     /// # Errors
     /// Those of [`World::new`].
     pub fn blended(views: impl IntoIterator<Item = WorldView>) -> Result<Self, WorldError> {
+        Self::made(views.into_iter().collect(), Vec::new())
+    }
+
+    /// The world of other views. What is known of texels that both have is not computed again; all else of this world is given
+    /// up before, since whole pictures may be far larger than the parts of them that there are.
+    ///
+    /// # Errors
+    /// Those of [`World::new`].
+    pub fn with_views(self, views: impl IntoIterator<Item = WorldView>) -> Result<Self, WorldError> {
         let views: Vec<WorldView> = views.into_iter().collect();
+        let mut known = self.sources;
+        // What was hidden or shared in this world may not be in the other.
+        known.retain(|source| source.mask.is_none() && source.others.is_empty());
+        known.retain(|source| views.iter().any(|other| is_alike(&source.view, &other.view)));
+        Self::made(views, known)
+    }
+
+    fn made(views: Vec<WorldView>, known: Vec<Source>) -> Result<Self, WorldError> {
         check(&views)?;
         let mut sources: Vec<Source> = Vec::new();
         let mut offset = 0;
         for WorldView { name, view, blend, mask } in views {
-            let (period, texel_pitch, whole) = (view.period(), texel_pitch(&view), owned(&view));
+            let (period, whole) = (view.period(), owned(&view));
             // The faces of a cube have one grid: what was computed for the first serves all.
-            let twin = sources.iter().find(|other| {
-                let (a, b) = (&other.view, &view);
-                a.projection == b.projection && a.grid == b.grid && a.stop == b.stop
-            });
+            let twin = sources.iter().chain(&known).find(|other| is_alike(&other.view, &view));
+            let texel_pitch = twin.map_or_else(|| texel_pitch(&view), |twin| twin.texel_pitch);
             let solid_angles = twin.map(|twin| twin.solid_angles.clone());
             let solid_angles = solid_angles.unwrap_or_else(|| SolidAngles::of(&view, whole.right));
             let (border, cone, others) = (Border::of(&view), SeenCone::of(&view), Vec::new());
@@ -242,6 +266,15 @@ impl World {
         })
     }
 
+    /// Where a texel lies, given its index in the buffer that holds the light.
+    pub(crate) fn texel(&self, index: u32) -> TexelPlace {
+        let view = self.sources.partition_point(|source| source.offset <= index as usize) - 1;
+        let source = &self.sources[view];
+        // Texels are counted in 32 bits, in which division is twice as fast.
+        let (within, width) = (index - source.offset as u32, source.view.width() as u32);
+        TexelPlace { view, texel: [within % width, within / width].map(|at| at as usize) }
+    }
+
     /// Texels of all views together: the length of the buffer that holds the light.
     pub fn texel_count(&self) -> usize {
         self.sources.last().map_or(0, |last| last.texels().end)
@@ -251,6 +284,11 @@ impl World {
     pub fn solid_angles(&self) -> impl Iterator<Item = f32> + '_ {
         self.sources.iter().flat_map(|source| source.solid_angles.iter().copied())
     }
+}
+
+/// Whether the texels of two views are the same but for how the views are turned.
+fn is_alike(a: &View, b: &View) -> bool {
+    a.projection == b.projection && a.grid == b.grid && a.stop == b.stop
 }
 
 /// Whether views make a world, before memory is taken for it.

@@ -3,11 +3,11 @@ use std::ops::Range;
 use super::mirrors::{Mirrors, Walk};
 use super::stored::{Stored, stored};
 use super::weights::Weights;
-use crate::resample::patch::SIDE;
+use crate::resample::patch::{SIDE, lanes_of};
 use crate::resample::scan::Sink;
 use crate::resample::taps::{Tap, TapList, Taps};
 use crate::resample::window::Windows;
-use crate::world::World;
+use crate::world::{TexelPlace, World};
 
 /// What makes a few rows of a target.
 #[derive(Clone, Debug, Default)]
@@ -120,16 +120,17 @@ impl Run {
 
     /// The run of windows that begin at these texels; `None` if it cannot be written down.
     fn new(windows: &Windows, corners: &Corners, [column, row]: [usize; 2], weights: usize) -> Option<Self> {
-        let corners = || (0..SIDE).filter_map(|lane| corners[lane].map(|corner| (lane, corner)));
-        let least = |axis: usize| corners().map(|(_, corner)| corner[axis]).min();
-        let corner = [least(0)?, least(1)?];
-        let mut offsets = [[0; 2]; SIDE];
-        let mut lanes = 0;
-        for (lane, texel) in corners() {
-            let offset = [texel[0] - corner[0], texel[1] - corner[1]].map(u8::try_from);
-            offsets[lane] = [offset[0].ok()?, offset[1].ok()?];
-            lanes |= 1 << lane;
+        let lanes = lanes_of(|lane| corners[lane].is_some());
+        // Lanes without a window count as the first one that has one: loops go without branches then.
+        let first = corners[lanes.trailing_zeros() as usize % SIDE]?;
+        let corner = corners.map(|corner| corner.unwrap_or(first)).into_iter();
+        let corner = corner.fold(first, |least, texel| [least[0].min(texel[0]), least[1].min(texel[1])]);
+        let offset = |texel: [u32; 2]| [texel[0] - corner[0], texel[1] - corner[1]];
+        let offsets = corners.map(|corner| corner.map_or([0; 2], offset));
+        if offsets.as_flattened().iter().fold(0, |all, offset| all | offset) > u32::from(u8::MAX) {
+            return None;
         }
+        let offsets = offsets.map(|offset| offset.map(|texels| texels as u8));
         let under = windows.rows_under();
         Some(Self {
             corner,
@@ -204,6 +205,8 @@ pub(super) struct Recorder<'a, W, F> {
     pub(super) mirrors: &'a Mirrors,
     pub(super) band: &'a mut Band<W>,
     pub(super) taps: Taps,
+    /// Where those of a single pixel lie.
+    pub(super) places: Vec<TexelPlace>,
     /// What is done with a band that holds more than [`MANY`] taps.
     pub(super) spill: F,
 }
@@ -217,9 +220,9 @@ impl<W: Weights, F: FnMut(&mut Band<W>)> Sink for Recorder<'_, W, F> {
         self.single(pixel, coverage, taps);
     }
 
-    fn windows(&mut self, pixel: [usize; 2], count: usize, windows: &Windows) {
+    fn windows(&mut self, pixel: [usize; 2], lanes: u8, windows: &Windows) {
         let first = self.band.weights.len();
-        let mut corners: Corners = std::array::from_fn(|lane| windows.corner(lane).filter(|_| lane < count));
+        let mut corners: Corners = std::array::from_fn(|lane| windows.corner(lane).filter(|_| lanes >> lane & 1 == 1));
         // Nothing was weighed.
         if corners == [None; SIDE] {
             return;
@@ -231,7 +234,7 @@ impl<W: Weights, F: FnMut(&mut Band<W>)> Sink for Recorder<'_, W, F> {
             }
             self.band.weights.truncate(first);
         }
-        for lane in (0..count).filter(|&lane| windows.holds(lane)) {
+        for lane in (0..SIDE).filter(|&lane| lanes >> lane & 1 == 1 && windows.holds(lane)) {
             let mut taps = std::mem::take(&mut self.taps);
             windows.taps(lane, &mut taps);
             self.single([pixel[0] + lane, pixel[1]], 1.0, &taps);
@@ -243,7 +246,11 @@ impl<W: Weights, F: FnMut(&mut Band<W>)> Sink for Recorder<'_, W, F> {
 impl<W, F: FnMut(&mut Band<W>)> Recorder<'_, W, F> {
     /// A pixel by itself, in all mirrors.
     fn single(&mut self, [column, row]: [usize; 2], coverage: f32, taps: &Taps) {
-        let (sources, list) = (self.world.sources(), taps.list());
+        let list = taps.list();
+        self.places.clear();
+        if self.mirrors.images.len() > 1 {
+            self.places.extend(list.taps.iter().map(|tap| self.world.texel(tap.texel)));
+        }
         // Mirrored, texels lie otherwise, but not in relation to each other.
         let first_place = self.band.places.len();
         self.band.places.extend_from_slice(list.places);
@@ -262,7 +269,8 @@ impl<W, F: FnMut(&mut Band<W>)> Recorder<'_, W, F> {
             if index == 0 {
                 self.band.taps.extend_from_slice(list.taps);
             } else {
-                self.band.taps.extend(list.taps.iter().map(|&tap| image.tap(sources, tap)));
+                let taps = list.taps.iter().zip(&self.places);
+                self.band.taps.extend(taps.map(|(tap, &place)| Tap { texel: image.texel(place), ..*tap }));
             }
         }
         if self.band.taps.len() > MANY {

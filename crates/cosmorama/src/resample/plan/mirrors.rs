@@ -4,10 +4,9 @@ use glam::DMat3;
 
 use crate::projection::ProjectionKind;
 use crate::resample::patch::SIDE;
-use crate::resample::taps::Tap;
 use crate::resample::{FilterKind, Resampler};
 use crate::sphere::Direction;
-use crate::world::{FieldStop, PixelPoint, PixelRect, Source, View, World};
+use crate::world::{FieldStop, PixelPoint, PixelRect, Source, TexelPlace, View, World};
 
 /// By how much directions that are the same may differ, in radians: rounding.
 const SAME: f64 = 1e-11;
@@ -124,12 +123,9 @@ impl MirrorImage {
         &self.views[index]
     }
 
-    /// A tap as the mirror shows it.
-    pub(super) fn tap(&self, sources: &[Source], tap: Tap) -> Tap {
-        let texel = tap.texel as usize;
-        let index = sources.partition_point(|source| source.offset <= texel) - 1;
-        let (within, width) = (texel - sources[index].offset, sources[index].view.width());
-        Tap { texel: self.views[index].walk([within % width, within / width]).first, ..tap }
+    /// The texel that the mirror shows in place of one.
+    pub(super) fn texel(&self, TexelPlace { view, texel }: TexelPlace) -> u32 {
+        self.views[view].walk(texel).first
     }
 }
 

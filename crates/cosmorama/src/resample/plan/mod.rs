@@ -235,7 +235,8 @@ fn record<W: Weights>(
     band: &mut Band<W>,
     spill: impl FnMut(&mut Band<W>),
 ) {
-    let mut recorder = Recorder { world: resampler.world, mirrors, band, taps: Taps::default(), spill };
+    let mut recorder =
+        Recorder { world: resampler.world, mirrors, band, taps: Taps::default(), places: Vec::new(), spill };
     Scan::new(resampler, table, level).only(wanted).pixels(mirrors.columns, rows, &mut recorder);
 }
 
