@@ -1,3 +1,4 @@
+use std::cell::RefCell;
 use std::sync::Arc;
 
 use cosmorama::raster::{Channels, Depth, EncodedImage, FixedCodec, FixedDecoder, FixedLight, Rgba, Samples, Transfer};
@@ -84,9 +85,8 @@ fn decoder(name: &'static str, face: usize) -> Kernel {
     let codes = (0..3 * face * face).map(|index| (index % 251) as u8).collect();
     let image = EncodedImage::new(face, face, Channels::Rgb, Depth::Eight, Samples::U8(codes)).expect("an image");
     let decoder = FixedDecoder::new(&Transfer::Srgb).expect("sRGB has 8 bits");
-    let work = move || {
-        let mut light = FixedLight::black(face * face);
-        assert!(decoder.decode(&image, light.texels_mut()), "8 bits are taken");
-    };
+    // As in a sequence: its memory serves the next frame.
+    let light = RefCell::new(FixedLight::black(face * face));
+    let work = move || assert!(decoder.decode(&image, light.borrow_mut().texels_mut()), "8 bits are taken");
     Kernel { name, pixels: face * face, work: Box::new(work) }
 }
