@@ -1,25 +1,31 @@
 //! `--filter ewa-pyramid`: how near to EWA, and at what cost.
 //!
-//! `cargo run --release -p testkit --example pyramid -- quality|shrink|size`
+//! `cargo run --release -p testkit --example pyramid -- quality|shrink|size`; `-- count SIZE SHRINK ROWS` is for
+//! `benches/speed`, which counts the instructions of [`counted`].
 
 use std::f64::consts::PI;
 
 use cosmorama::raster::{ColourChannel, Image, Rgba, Transfer};
-use cosmorama::resample::{Filter, FilterKind, Resampler};
+use cosmorama::resample::{Filter, FilterKind, PyramidPlan, Resampler};
 use cosmorama::sphere::CubeFace;
 use cosmorama::world::{View, World};
 use cosmorama_io::{Limits, read};
+use cpu_time::ProcessTime;
 use testkit::{cube, equirect, fisheye, perspective, shared};
 
 const PYRAMID: Filter = Filter { kind: FilterKind::EwaPyramid, ..Filter::DEFAULT };
 
 #[allow(clippy::print_stdout)] // An example may talk; the library may not.
 fn main() {
-    match std::env::args().nth(1).as_deref() {
-        Some("quality") => quality(),
-        Some("shrink") => shrink(),
-        Some("size") => size(),
-        _ => println!("quality, shrink or size?"),
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    match arguments.iter().map(String::as_str).collect::<Vec<_>>()[..] {
+        ["quality"] => quality(),
+        ["shrink"] => shrink(),
+        ["size"] => size(),
+        ["count", size, shrink, rows] => {
+            count(size.parse().expect("pixels"), shrink.parse().expect("texels a pixel"), rows.parse().expect("rows"));
+        }
+        _ => println!("quality, shrink, size, or count SIZE SHRINK ROWS?"),
     }
 }
 
@@ -81,22 +87,12 @@ fn quality() {
     }
 }
 
-/// CPU-seconds that all threads of this process have taken.
-fn cpu_seconds() -> f64 {
-    let tasks = std::fs::read_dir("/proc/self/task").expect("Linux");
-    let nanoseconds = |task: std::io::Result<std::fs::DirEntry>| {
-        let text = std::fs::read_to_string(task.ok()?.path().join("schedstat")).ok()?;
-        text.split_whitespace().next()?.parse::<f64>().ok()
-    };
-    tasks.filter_map(nanoseconds).sum::<f64>() / 1e9
-}
-
 /// The CPU-seconds of the fastest of three.
 fn timed<T>(mut what: impl FnMut() -> T) -> (f64, T) {
     let mut once = || {
-        let start = cpu_seconds();
+        let start = ProcessTime::now();
         let made = what();
-        (cpu_seconds() - start, made)
+        (start.elapsed().as_secs_f64(), made)
     };
     let mut best = once();
     for _ in 0..2 {
@@ -119,13 +115,23 @@ fn upper(view: &View, rows: usize) -> View {
     View { grid: view.grid.window(view.width(), rows, 0.0, 0.0), ..*view }
 }
 
-/// A turned view of 90°, in which nothing is mirrored, of a cube of which a pixel holds so many texels.
+/// A cube of which a pixel of [`view`] holds so many texels.
+fn cube_for(size: usize, shrink: f64) -> World {
+    let edge = (size as f64 * shrink).round() as usize;
+    cube(&CubeFace::ALL, edge, edge)
+}
+
+/// A turned view of 90°, in which nothing is mirrored.
+fn view(size: usize) -> View {
+    perspective(size, size, 90.0, 20.0, 30.0, 10.0)
+}
+
+/// What that costs.
 #[allow(clippy::print_stdout)]
 fn cost_line(size: usize, shrink: f64) {
-    let edge = (size as f64 * shrink).round() as usize;
-    let world = cube(&CubeFace::ALL, edge, edge);
+    let (world, target) = (cube_for(size, shrink), view(size));
+    let edge = world.sources()[0].view.width();
     let light = noise(&world);
-    let target = perspective(size, size, 90.0, 20.0, 30.0, 10.0);
     // What half of the picture costs less is the price of its pixels; the rest is that of the pyramid.
     let half = upper(&target, size / 2);
     let pixels = (size * size / 2) as f64;
@@ -163,4 +169,19 @@ fn size() {
     for size in [256, 512, 1024] {
         cost_line(size, 2.8);
     }
+}
+
+/// One planned frame of the first rows of [`view`], on one thread.
+fn count(size: usize, shrink: f64, rows: usize) {
+    let (world, target) = (cube_for(size, shrink), upper(&view(size), rows));
+    let light = noise(&world);
+    let plan = Resampler { world: &world, target: &target, filter: PYRAMID }.pyramid_plan().expect("a pyramid");
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a thread");
+    pool.install(|| counted(&plan, &light));
+}
+
+/// A function of its own, for callgrind to know it by its name.
+#[inline(never)]
+fn counted(plan: &PyramidPlan, light: &[Rgba]) {
+    std::hint::black_box(plan.apply(light));
 }

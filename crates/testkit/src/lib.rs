@@ -2,6 +2,7 @@
 #![forbid(unsafe_code)]
 
 mod common_field;
+mod dome;
 mod forms;
 mod frames;
 mod kernels;
@@ -11,6 +12,7 @@ mod shared;
 mod sky;
 mod suns;
 
+pub use dome::Dome;
 pub use forms::Form;
 pub use frames::{cube, cube_face, equirect, fisheye, omnimax, partial_worlds, perspective, turned, whole_worlds};
 pub use kernels::Kernel;

@@ -75,10 +75,15 @@ impl FixedLight {
     }
 }
 
+/// Texels by code, as numbers.
+type ByCode = [u64; 256];
+
 /// From 8-bit codes to light.
 #[derive(Clone, Debug)]
 pub struct FixedDecoder {
-    channels: [[i16; 256]; 3],
+    /// What a code of each channel is of a texel, nothing in the others: a texel is the sum of three.
+    channels: [ByCode; 3],
+    grey: ByCode,
 }
 
 impl FixedDecoder {
@@ -92,8 +97,20 @@ impl FixedDecoder {
                 (0.0..=WHITE).contains(&light) && usize::from(quantizer.code(light / WHITE, channel)) == code
             })
         };
-        let table = |channel| std::array::from_fn(|code| (light(code, channel) * f64::from(WHITE)).round() as i16);
-        ColourChannel::ALL.into_iter().all(comes_back).then(|| Self { channels: ColourChannel::ALL.map(table) })
+        let level = |code, channel| (light(code, channel) * f64::from(WHITE)).round() as i16;
+        let alone = |channel: ColourChannel| {
+            by_code(|code| {
+                let mut texel = [0; 4];
+                texel[channel.index()] = level(code, channel);
+                texel
+            })
+        };
+        // Grey goes by green, where the channels' curves differ.
+        let grey = |code| level(code, ColourChannel::Green);
+        ColourChannel::ALL.into_iter().all(comes_back).then(|| Self {
+            channels: ColourChannel::ALL.map(alone),
+            grey: by_code(|code| [grey(code), grey(code), grey(code), 0]),
+        })
     }
 
     /// Whether it can make light of an image: an opaque one of 8 bits.
@@ -120,21 +137,24 @@ impl FixedDecoder {
         let Samples::U8(samples) = image.samples() else { return false };
         let samples = &samples[image.samples_of_rows(first, into.len())];
         let [red, green, blue] = &self.channels;
-        let code = |of: &[i16; 256], sample: u8| of[usize::from(sample)];
+        let of = |table: &ByCode, code: u8| table[usize::from(code)];
         match image.channels() {
-            // Grey goes by green, where the channels' curves differ.
-            Channels::Grey => fill(into, samples, |[s]| [code(green, s), code(green, s), code(green, s), 0]),
-            Channels::Rgb => fill(into, samples, |[r, g, b]| [code(red, r), code(green, g), code(blue, b), 0]),
+            Channels::Grey => fill(into, samples, |&[s]| of(&self.grey, s)),
+            Channels::Rgb => fill(into, samples, |&[r, g, b]| of(red, r) | of(green, g) | of(blue, b)),
             Channels::GreyAlpha | Channels::Rgba => return false,
         }
         true
     }
 }
 
-fn fill<const N: usize>(into: &mut [[i16; 4]], samples: &[u8], texel: impl Fn([u8; N]) -> [i16; 4]) {
+fn by_code(texel: impl Fn(usize) -> [i16; 4]) -> ByCode {
+    std::array::from_fn(|code| bytemuck::cast(texel(code)))
+}
+
+fn fill<const N: usize>(into: &mut [[i16; 4]], samples: &[u8], texel: impl Fn(&[u8; N]) -> u64) {
     let (samples, _) = samples.as_chunks::<N>();
     for (into, sample) in into.iter_mut().zip(samples) {
-        *into = texel(*sample);
+        *into = bytemuck::cast(texel(sample));
     }
 }
 
@@ -241,6 +261,19 @@ mod tests {
             let back: Vec<u8> = (0..256).flat_map(|texel| codec.codes_of(light.rgba(texel))).collect();
             assert_eq!(back, codes);
         }
+    }
+
+    #[test]
+    fn grey_is_the_light_of_three_equal_codes() {
+        let decoder = FixedDecoder::new(&Transfer::Srgb).expect("a decoder");
+        let light = |channels, codes: Vec<u8>| {
+            let image = EncodedImage::new(256, 1, channels, Depth::Eight, Samples::U8(codes)).unwrap();
+            let mut light = FixedLight::black(256);
+            assert!(decoder.decode(&image, light.texels_mut()));
+            light.texels_mut().to_vec()
+        };
+        let grey = light(Channels::Grey, (0..=255).collect());
+        assert_eq!(grey, light(Channels::Rgb, (0..=255).flat_map(|code| [code; 3]).collect()));
     }
 
     #[test]

@@ -1,0 +1,100 @@
+//! What planned frames and stills of 8 bits cost, for `benches/speed`, which makes tables of what this prints.
+//!
+//! `cargo run --release -p testkit --example plans -- threads SIZE` gives seconds and CPU-seconds on one thread and on two,
+//! `-- sizes SIZE…` CPU-nanoseconds a pixel of domes of these sizes. The domes are [`testkit::Dome`]'s.
+#![allow(clippy::print_stdout, reason = "a program that says what it measures")]
+
+use std::time::Instant;
+
+use cosmorama::resample::{FixedPlan, SavedPlan};
+use cpu_time::ProcessTime;
+use rayon::{ThreadPool, ThreadPoolBuilder};
+use testkit::Dome;
+
+/// How often two pools take turns.
+const TURNS: usize = 9;
+
+/// Pixels that are made of each size, about, as far as [`LEAST`] and [`MOST`] rounds go.
+const PIXELS: usize = 80_000_000;
+const LEAST: usize = 3;
+const MOST: usize = 101;
+
+fn main() {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let sizes = |texts: &[String]| texts.iter().map(|text| text.parse().expect("pixels across")).collect::<Vec<_>>();
+    match arguments.split_first() {
+        Some((what, rest)) if what == "threads" => sizes(rest).into_iter().for_each(threads),
+        Some((what, rest)) if what == "sizes" => sizes(rest).into_iter().for_each(size),
+        _ => println!("threads SIZE or sizes SIZE…?"),
+    }
+}
+
+/// What one run took: seconds, and seconds of all threads.
+#[derive(Clone, Copy)]
+struct Cost {
+    wall: f64,
+    cpu: f64,
+}
+
+fn cost<T>(work: impl FnOnce() -> T) -> (Cost, T) {
+    let (wall, cpu) = (Instant::now(), ProcessTime::now());
+    let made = work();
+    (Cost { wall: wall.elapsed().as_secs_f64(), cpu: cpu.elapsed().as_secs_f64() }, made)
+}
+
+/// Of each figure by itself.
+fn median(costs: &[Cost]) -> Cost {
+    let of = |figure: fn(&Cost) -> f64| {
+        let mut figures: Vec<f64> = costs.iter().map(figure).collect();
+        figures.sort_by(f64::total_cmp);
+        figures[figures.len() / 2]
+    };
+    Cost { wall: of(|cost| cost.wall), cpu: of(|cost| cost.cpu) }
+}
+
+fn frame(dome: &Dome, plan: &FixedPlan) {
+    drop(plan.apply(&dome.light, &dome.codec));
+}
+
+fn still(dome: &Dome) {
+    drop(dome.resampler().render_fixed(&dome.light, &dome.codec));
+}
+
+/// Lines of: what, threads, seconds, CPU-seconds.
+fn threads(size: usize) {
+    let dome = Dome::new(size);
+    let plan = dome.resampler().fixed_plan().expect("a plan");
+    let pool = |threads| ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
+    let pools: Vec<(usize, ThreadPool)> = [1, 2].map(|threads| (threads, pool(threads))).into();
+    let taking_turns = |name: &str, work: &(dyn Fn() + Sync)| {
+        let mut costs = vec![Vec::new(); pools.len()];
+        // The first turn finds neither memory nor threads awake.
+        for turn in 0..=TURNS {
+            for ((_, pool), costs) in pools.iter().zip(&mut costs) {
+                let (cost, ()) = cost(|| pool.install(work));
+                costs.extend((turn > 0).then_some(cost));
+            }
+        }
+        for ((threads, _), costs) in pools.iter().zip(&costs) {
+            let Cost { wall, cpu } = median(costs);
+            println!("{name}\t{threads}\t{wall}\t{cpu}");
+        }
+    };
+    taking_turns("frame by plan", &|| frame(&dome, &plan));
+    taking_turns("still", &|| still(&dome));
+}
+
+/// A line of: size, bytes of the plan for a pixel, CPU-nanoseconds for a pixel of making it, of a frame by it, and of a still.
+fn size(size: usize) {
+    let dome = Dome::new(size);
+    let pixels = dome.pixels();
+    let rounds = (PIXELS / pixels).clamp(LEAST, MOST);
+    let nanoseconds = |costs: &[Cost]| median(costs).cpu / pixels as f64 * 1e9;
+    let repeated = |work: &dyn Fn()| nanoseconds(&(0..rounds).map(|_| cost(work).0).collect::<Vec<_>>());
+    let (making, plan) = cost(|| dome.resampler().fixed_plan().expect("a plan"));
+    let bytes = plan.bytes() as f64 / pixels as f64;
+    let by_plan = repeated(&|| frame(&dome, &plan));
+    drop(plan);
+    let still = repeated(&|| still(&dome));
+    println!("{size}\t{bytes}\t{}\t{by_plan}\t{still}", nanoseconds(&[making]));
+}
