@@ -183,8 +183,9 @@ impl FixedCodec {
         for (channel, codes) in channels.iter().zip(&mut codes) {
             codes[..LIGHT].iter_mut().enumerate().for_each(|(light, into)| *into = code(light, *channel));
         }
-        let is_fine =
-            |codes: &Codes| codes[..LIGHT].windows(2).all(|pair| (0..=1).contains(&(i16::from(pair[1]) - i16::from(pair[0]))));
+        let is_fine = |codes: &Codes| {
+            codes[..LIGHT].windows(2).all(|pair| (0..=1).contains(&(i16::from(pair[1]) - i16::from(pair[0]))))
+        };
         codes.iter().all(is_fine).then_some(Self { codes, background })
     }
 

@@ -123,9 +123,11 @@ impl<'a> Scan<'a> {
 mod tests {
     use super::*;
     use crate::projection::{PlanePoint, PlaneRect, ProjectionKind};
+    use crate::raster::{ColourChannel, Image, Rgba, Transfer};
+    use crate::resample::taps::average;
     use crate::resample::{CrossSection, Filter, Kernel};
     use crate::sphere::{Angle, CubeFace, Orientation};
-    use crate::world::{FieldStop, PixelGrid, View, World, panorama};
+    use crate::world::{FieldStop, PixelGrid, Source, View, World, panorama};
 
     /// Keeps weights by pixel and texel, and how many pixels came in windows.
     struct Collector {
@@ -254,6 +256,67 @@ mod tests {
     #[test]
     fn nothing_is_seen_outside_a_field_that_is_narrower_than_a_texel() {
         check_windows(&cube(64), &fisheye(100, 0.01), Kernel::ADAPTIVE);
+    }
+
+    /// Makes pixels of the lists that it is given, one by one.
+    struct Averages<'a> {
+        texels: &'a [Rgba],
+        image: Image<Rgba>,
+    }
+
+    impl Sink for Averages<'_> {
+        fn pixel(&mut self, [column, row]: [usize; 2], coverage: f32, taps: &Taps) {
+            let at = row * self.image.width() + column;
+            self.image.pixels_mut()[at] = average(taps.list(), |texel| self.texels[texel as usize], true) * coverage;
+        }
+
+        fn windows(&mut self, _: [usize; 2], _: u8, _: &Windows) {
+            unreachable!("no windows were asked for");
+        }
+    }
+
+    /// Grey waves some texels long, and steps between them.
+    fn grey(world: &World) -> Vec<Rgba> {
+        let light = |source: &Source| {
+            let width = source.view.width();
+            let texel = move |at: usize| {
+                let (x, y) = (at % width, at / width);
+                let light =
+                    0.2 + 0.08 * (x as f32 / 3.0).sin() * (y as f32 / 4.0).cos() + 0.1 * ((x / 37 + y / 23) % 2) as f32;
+                Rgba::opaque(light, 0.7 * light, 2.0 * light)
+            };
+            (0..width * source.view.height()).map(texel)
+        };
+        world.sources().iter().flat_map(light).collect()
+    }
+
+    /// What files of 16 bits and of half floats hold: light in single precision, by interpolated geometry.
+    #[test]
+    fn deep_pictures_are_what_each_pixel_makes_by_itself_in_double_precision() {
+        for world in [cube(256), cube(700), sky(1200)] {
+            let texels = grey(&world);
+            for target in &targets() {
+                let resampler = Resampler { world: &world, target, filter: Filter::DEFAULT };
+                let table = KernelTable::new(&resampler.filter.kernel);
+                let image = Image::filled(target.width(), target.height(), Rgba::TRANSPARENT);
+                let mut exact = Averages { texels: &texels, image };
+                let mut scan = Scan { windows: None, ..Scan::new(&resampler, &table, Level::new()) };
+                scan.pixels(target.width(), 0..target.height(), &mut exact);
+                let made = resampler.render(&texels);
+                let whole = made.pixels().iter().zip(exact.image.pixels()).filter(|(_, exact)| exact.alpha() == 1.0);
+                let pairs = || whole.clone().flat_map(|(made, exact)| (0..3).map(|c| (made.0[c], exact.0[c])));
+                let rms = |of: &dyn Fn(f32) -> f64| {
+                    let sum: f64 = pairs().map(|(made, exact)| (of(made) - of(exact)).powi(2)).sum();
+                    (sum / pairs().count() as f64).sqrt()
+                };
+                let code = |light: f32| 65535.0 * Transfer::Srgb.encode(f64::from(light), ColourChannel::Green);
+                let codes = rms(&code);
+                assert!(codes < 2.0, "{:?}: {codes} codes of 16 bits", target.projection);
+                // Mid-grey lies between an eighth and a quarter, where halves are 2⁻¹³ apart.
+                let halves = rms(&|light| f64::from(light) / 2f64.powi(-13));
+                assert!(halves < 0.5, "{:?}: {halves} steps of half floats", target.projection);
+            }
+        }
     }
 
     #[test]
