@@ -9,6 +9,10 @@ use crate::job::{ConvertJob, Coverage};
 /// The balance of a job's pictures, where they are to keep light and can.
 pub(super) struct Balance(Vec<Group>);
 
+/// The light of a frame, as it was made for the last group that asked: views of a group mostly come one after the other.
+#[derive(Default)]
+pub(super) struct BalancedLight(Option<(usize, Vec<Rgba>)>);
+
 /// The views of one size that together show a world.
 struct Group {
     /// Indices of the job's target views.
@@ -71,9 +75,15 @@ impl Balance {
         self.0.iter().map(|group| group.bytes).sum()
     }
 
-    /// The light from which a target view is to be made, if not as it is.
-    pub(super) fn light(&self, view: usize, texels: &[Rgba]) -> Option<Vec<Rgba>> {
-        self.group(view).map(|(group, _)| group.balance.balanced(texels))
+    /// The light from which a target view is to be made, if not as it is. `last` is of the same frame.
+    pub(super) fn light<'a>(&self, view: usize, texels: &[Rgba], last: &'a mut BalancedLight) -> Option<&'a [Rgba]> {
+        let index = self.0.iter().position(|group| group.views.contains(&view))?;
+        if last.0.as_ref().is_none_or(|(group, _)| *group != index) {
+            // Never both at once.
+            last.0 = None;
+            last.0 = Some((index, self.0[index].balance.balanced(texels)));
+        }
+        last.0.as_ref().map(|(_, light)| light.as_slice())
     }
 
     /// Completes a target view that was made so.

@@ -7,6 +7,7 @@ use cosmorama::resample::ScreenMask;
 use cosmorama::world::Source;
 use cosmorama_io::{WriteOptions, write_levels};
 
+use super::balance::BalancedLight;
 use super::frame_light::{FrameLight, Texels};
 use super::geometry::Geometry;
 use super::{suns, thin_alpha};
@@ -98,10 +99,17 @@ impl<'a> Engine<'a> {
 
     /// Makes the pictures of a frame: filtered light, complete with what lies outside, faces in their places.
     pub(super) fn render(&self, frame: &FrameOutputs, light: &FrameLight) -> Result<Vec<Levels>> {
-        frame.files.iter().map(|(index, _)| self.render_file(*index, (frame.frame, light))).collect()
+        let mut balanced = BalancedLight::default();
+        let files = frame.files.iter();
+        files.map(|(index, _)| self.render_file(*index, (frame.frame, light), &mut balanced)).collect()
     }
 
-    fn render_file(&self, file: usize, (frame, light): (Option<u64>, &FrameLight)) -> Result<Levels> {
+    fn render_file(
+        &self,
+        file: usize,
+        (frame, light): (Option<u64>, &FrameLight),
+        balanced: &mut BalancedLight,
+    ) -> Result<Levels> {
         let levels = self.job.target.files[file].levels();
         match (light.texels(), self.geometry.codec()) {
             (Texels::Fixed(worlds), Some(codec)) => {
@@ -114,21 +122,27 @@ impl<'a> Engine<'a> {
             }
             _ => {
                 let background = self.job.light.background;
-                let mut view = |index: usize| self.render_view(index, (frame, light));
+                let mut view = |index: usize| self.render_view(index, (frame, light), balanced);
                 levels.map(|sheet| Ok(Rendered::Light(assemble(sheet, background, &mut view)?))).collect()
             }
         }
     }
 
-    fn render_view(&self, index: usize, (frame, light): (Option<u64>, &FrameLight)) -> Result<Image<Rgba>> {
+    fn render_view(
+        &self,
+        index: usize,
+        (frame, light): (Option<u64>, &FrameLight),
+        balanced: &mut BalancedLight,
+    ) -> Result<Image<Rgba>> {
         let target = &self.job.target.views[index];
         let Texels::Float(worlds) = light.texels() else { bail!("light of 8 bits where floats were expected") };
         let (resampler, texels) = (self.job.resampler(target), &worlds[target.world(worlds.len())]);
         if self.is_complete(light) && !self.job.light.channels.has_alpha() {
             // A file without alpha shows everything in front of the background.
-            return Ok(self.geometry.light(index, resampler, (texels, false), self.job.light.background));
+            return Ok(self.geometry.light(index, resampler, (texels, false), self.job.light.background, balanced));
         }
-        let mut image = self.geometry.light(index, resampler, (texels, self.has_holes(light)), Rgba::TRANSPARENT);
+        let mut image =
+            self.geometry.light(index, resampler, (texels, self.has_holes(light)), Rgba::TRANSPARENT, balanced);
         self.close_holes(index, (frame, light), &mut image)?;
         self.complete(index, &mut image);
         Ok(image)

@@ -1,7 +1,7 @@
 use cosmorama::raster::{Channels, Depth, FixedCodec, FixedDecoder, FixedLight, Image, Rgba};
 use cosmorama::resample::{FilterKind, FixedPlan, Plan, PyramidPlan, Resampler, SavedPlan};
 
-use super::balance::{self, Balance};
+use super::balance::{self, Balance, BalancedLight};
 use super::plan_cache::PlanCache;
 use crate::job::{ConvertJob, Coverage, TargetView};
 
@@ -71,26 +71,25 @@ impl Geometry {
         }
     }
 
-    /// The pixels of a target view, of any light, in front of a background. What has holes is in no balance.
+    /// The pixels of a target view, of any light, in front of a background. What has holes is in no balance; `last` is of the same
+    /// frame.
     pub(super) fn light(
         &self,
         index: usize,
         resampler: Resampler,
         (texels, has_holes): (&[Rgba], bool),
         background: Rgba,
+        last: &mut BalancedLight,
     ) -> Image<Rgba> {
-        let balanced = |balance: &Balance| if has_holes { None } else { balance.light(index, texels) };
         let made = match self {
-            Self::Float(plans, balance) => match (&plans[index], balanced(balance)) {
-                (Some(plan), None) => Some(plan.apply_over(texels, background)),
-                (Some(plan), Some(balanced)) => {
-                    let mut image = plan.apply(&balanced);
-                    balance.complete(index, &mut image);
-                    image.lay_over(background);
-                    Some(image)
-                }
-                (None, _) => None,
-            },
+            Self::Float(plans, balance) => plans[index].as_ref().map(|plan| {
+                let balanced = if has_holes { None } else { balance.light(index, texels, last) };
+                let Some(balanced) = balanced else { return plan.apply_over(texels, background) };
+                let mut image = plan.apply(balanced);
+                balance.complete(index, &mut image);
+                image.lay_over(background);
+                image
+            }),
             Self::Pyramid(plans) => plans[index].as_ref().map(|plan| plan.apply_over(texels, background)),
             Self::Fixed(..) => None,
         };

@@ -78,24 +78,25 @@ impl LightBalance {
     ) {
         let mut shares = vec![0.0; wanted.len()];
         for ((plan, factors), angles) in plans.zip(&self.pixels).zip(own) {
-            let values: Vec<f32> = factors.iter().zip(angles.iter()).map(|(factor, angle)| factor * angle).collect();
+            let values: Vec<f32> =
+                factors.par_iter().zip(angles.par_iter()).map(|(factor, angle)| factor * angle).collect();
             plan.spread(&values, &mut shares);
         }
-        for ((factor, share), wanted) in self.texels.iter_mut().zip(shares).zip(wanted) {
+        self.texels.par_iter_mut().zip(shares).zip(wanted).for_each(|((factor, share), wanted)| {
             // What no pixel shows has no share.
             let fair = (scale * f64::from(*wanted) / share).clamp(MOST.recip(), MOST) as f32;
             *factor = if share > 0.0 { fair } else { 1.0 };
-        }
+        });
     }
 
     /// Makes pixels of a constant world constant.
     fn settle<'a>(&mut self, plans: impl Iterator<Item = &'a Plan>) {
-        let light: Vec<Rgba> = self.texels.iter().map(|factor| Rgba::opaque(*factor, *factor, *factor)).collect();
+        let light: Vec<Rgba> = self.texels.par_iter().map(|factor| Rgba::opaque(*factor, *factor, *factor)).collect();
         for (plan, factors) in plans.zip(&mut self.pixels) {
             let made = plan.apply(&light);
-            for (factor, pixel) in factors.iter_mut().zip(made.pixels()) {
+            factors.par_iter_mut().zip(made.pixels()).for_each(|(factor, pixel)| {
                 *factor = if pixel.0[0] > 0.0 { pixel.alpha() / pixel.0[0] } else { 1.0 };
-            }
+            });
         }
     }
 

@@ -1,16 +1,47 @@
+use rayon::prelude::*;
+
 use super::band::{Band, Run};
 use super::float_weights::FloatWeights;
+use super::mirrors::Walk;
 use super::{BAND, Plan};
 
 impl Plan {
     /// Takes a number from each pixel back to the texels that it is made of, times their weights: what the plan does the other
     /// way round. Adds it to a number of each texel.
     pub(in crate::resample) fn spread(&self, pixels: &[f32], texels: &mut [f64]) {
-        for (index, band) in self.0.bands.iter().enumerate() {
-            let spread = Spread { plan: self, band, top: index * BAND };
-            band.runs.iter().for_each(|run| spread.run(run, pixels, texels));
-            spread.singles(pixels, texels);
+        // Each thread goes through all of the plan and adds up its own texels only: in the plan's order, however many there are.
+        let some = texels.len().div_ceil(rayon::current_num_threads()).max(1);
+        texels.par_chunks_mut(some).enumerate().for_each(|(part, texels)| {
+            let mut part = Part { first: part * some, texels };
+            for (index, band) in self.0.bands.iter().enumerate() {
+                let spread = Spread { plan: self, band, top: index * BAND };
+                band.runs.iter().for_each(|run| spread.run(run, pixels, &mut part));
+                spread.singles(pixels, &mut part);
+            }
+        });
+    }
+}
+
+/// Some of a world's texels.
+struct Part<'a> {
+    first: usize,
+    texels: &'a mut [f64],
+}
+
+impl Part<'_> {
+    /// Adds to a texel, if it is one of these.
+    fn add(&mut self, texel: usize, number: f64) {
+        if let Some(sum) = self.texels.get_mut(texel.wrapping_sub(self.first)) {
+            *sum += number;
         }
+    }
+
+    /// Whether none of a window's texels can be one of these.
+    fn is_beside(&self, walk: Walk, (width, height): (usize, usize)) -> bool {
+        let rows = (height - 1) * walk.down.unsigned_abs() as usize;
+        let first = walk.first as usize;
+        let (least, most) = if walk.down < 0 { (first.saturating_sub(rows), first) } else { (first, first + rows) };
+        most + width <= self.first || least >= self.first + self.texels.len() + width
     }
 }
 
@@ -32,18 +63,21 @@ impl Spread<'_> {
         f64::from(pixels[row * plan.width + column])
     }
 
-    fn run(&self, run: &Run, pixels: &[f32], texels: &mut [f64]) {
+    fn run(&self, run: &Run, pixels: &[f32], part: &mut Part) {
         let Plan(plan) = self.plan;
         for (index, image) in plan.mirrors.images.iter().enumerate() {
             let corner = image.view(usize::from(run.view)).walk(run.corner());
             for (lane, window) in self.band.weights.windows(run) {
-                let pixel = self.pixel(pixels, index, run.pixel(lane));
                 let mut walk = run.walk(corner, lane);
+                if part.is_beside(walk, (window.shape.width, window.shape.height)) {
+                    continue;
+                }
+                let pixel = self.pixel(pixels, index, run.pixel(lane));
                 for row in 0..window.shape.height {
                     let first = walk.first as usize;
                     for column in 0..window.shape.width {
                         let texel = if walk.is_reversed { first - column } else { first + column };
-                        texels[texel] += pixel * f64::from(window.weight(row, column));
+                        part.add(texel, pixel * f64::from(window.weight(row, column)));
                     }
                     walk = walk.one_down();
                 }
@@ -51,12 +85,12 @@ impl Spread<'_> {
         }
     }
 
-    fn singles(&self, pixels: &[f32], texels: &mut [f64]) {
+    fn singles(&self, pixels: &[f32], part: &mut Part) {
         for single in &self.band.singles {
             let pixel =
                 self.pixel(pixels, usize::from(single.image), [single.column as usize, usize::from(single.row)]);
             for tap in self.band.taps(single).taps {
-                texels[tap.texel as usize] += pixel * f64::from(tap.weight);
+                part.add(tap.texel as usize, pixel * f64::from(tap.weight));
             }
         }
     }

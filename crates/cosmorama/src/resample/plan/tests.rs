@@ -259,6 +259,13 @@ fn spreading_is_the_plan_the_other_way_round() {
             made.pixels().iter().zip(&values).map(|(pixel, value)| average(pixel) * f64::from(*value)).sum();
         let mut shares = vec![0.0; world.texel_count()];
         plan.spread(&values, &mut shares);
+        // The same to the last bit, however the threads part the texels.
+        for threads in [1, 3, 8] {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
+            let mut again = vec![0.0; shares.len()];
+            pool.install(|| plan.spread(&values, &mut again));
+            assert!(again == shares, "{target:?} on {threads} threads");
+        }
         let back: f64 = light.iter().zip(&shares).map(|(light, share)| f64::from(light.0[0]) * share).sum();
         assert!((there / back - 1.0).abs() < 1e-5, "{target:?}: {there}, not {back}");
     }
