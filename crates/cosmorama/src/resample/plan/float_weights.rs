@@ -62,10 +62,12 @@ impl FloatWeights {
                 continue;
             };
             *corner = [corner[0] + origin[0] as u32, corner[1] + origin[1] as u32];
-            let header = Header::small(index, lanes.marks(lane, origin, &Small::ALL[index]));
-            match index % Small::HEIGHTS {
-                _ if index < Small::HEIGHTS => self.write_small::<4>(windows, lane, origin, index, header),
-                _ => self.write_small::<5>(windows, lane, origin, index, header),
+            let small = &Small::ALL[index];
+            let header = Header::small(index, lanes.marks(lane, origin, small));
+            if small.shape.width == BLOCK {
+                self.write_small::<BLOCK>(windows, lane, origin, (header, small.shape.height));
+            } else {
+                self.write_small::<{ BLOCK + 1 }>(windows, lane, origin, (header, small.shape.height));
             }
         }
     }
@@ -76,10 +78,8 @@ impl FloatWeights {
         windows: &Windows,
         lane: usize,
         [column, row]: [usize; 2],
-        index: usize,
-        header: Header,
+        (header, height): (Header, usize),
     ) {
-        let Shape { height, .. } = Small::ALL[index].shape;
         // One number, and rows of which five are the most. What is written is always as much: no copy of unknown length.
         let mut all = [0; 1 + 5 * 5];
         all[0] = header.0;

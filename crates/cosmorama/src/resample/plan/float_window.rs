@@ -3,6 +3,8 @@
 //! Four texels of a row are weighed together, as they lie in memory; what their four columns add up to is added at the end. The order
 //! in which sums are made is the same whatever the instructions.
 
+use std::ops::Range;
+
 use fearless_simd::{Simd, f32x4, f32x16, prelude::*, u8x64, u32x4};
 
 use super::float_shape::{BLOCK, Header, ROWS_UNDER, Shape, Small, mark_words};
@@ -79,7 +81,7 @@ impl<'a, S: Simd, const N: usize, const REVERSED: bool> Window<'a, S, N, REVERSE
 
     /// The same of any size, whose rows from `under` on may hold texels under the pixel.
     #[inline(always)]
-    pub(super) fn large(self, shape: Shape, under: std::ops::Range<usize>, numbers: &[u32]) -> (Sums<S, N>, usize) {
+    pub(super) fn large(self, shape: Shape, under: Range<usize>, numbers: &[u32]) -> (Sums<S, N>, usize) {
         let Self { simd, .. } = self;
         let words = mark_words(shape.width);
         let (all_marks, weights) = numbers[1..].split_at(under.len() * words);

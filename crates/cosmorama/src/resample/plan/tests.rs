@@ -1,7 +1,11 @@
+use super::band::{Corners, Run};
 use super::mirrors::{MirrorImage, Mirrors};
+use super::stored::Stored;
 use super::*;
 use crate::projection::{PlanePoint, PlaneRect, ProjectionKind};
 use crate::raster::{ColourChannel, Transfer};
+use crate::resample::taps::average;
+use crate::resample::window::Windows;
 use crate::resample::{Filter, FilterKind, window};
 use crate::sphere::{Angle, CubeFace, Orientation};
 use crate::world::{Blend, FieldStop, PixelGrid, View, World, WorldView};
@@ -194,6 +198,72 @@ fn a_plan_makes_the_pixels_that_are_made_without() {
         let codec = FixedCodec::new(&Transfer::Srgb, Rgba::BLACK).expect("sRGB has 8 bits");
         let plan = resampler.fixed_plan().expect("a plan");
         assert!(plan.apply(&light, &codec) == resampler.render_fixed(&light, &codec));
+    }
+}
+
+/// Keeps no window, so that each pixel of it is made by itself.
+#[derive(Clone, Debug, Default)]
+struct NoWindows;
+
+impl Stored for NoWindows {
+    const LEAST: usize = 0;
+
+    fn store(&self, _: &mut Vec<u8>) {}
+
+    fn load(_: &mut &[u8]) -> Option<Self> {
+        Some(Self)
+    }
+}
+
+impl Weights for NoWindows {
+    fn len(&self) -> usize {
+        0
+    }
+
+    fn keep(&mut self, _: &Windows, _: &mut Corners) -> bool {
+        false
+    }
+
+    fn truncate(&mut self, _: usize) {}
+
+    fn shrink(&mut self) {}
+
+    fn are_sound(&self, _: &Run, _: [usize; 2]) -> bool {
+        false
+    }
+
+    fn bytes(&self) -> usize {
+        0
+    }
+
+    fn used_bytes(&self) -> usize {
+        0
+    }
+}
+
+/// Windows of all sizes, four texels at once, against lists of texels one after the other.
+#[test]
+fn windows_of_floats_make_what_their_texels_make_one_by_one() {
+    for (world, target, _) in conversions() {
+        let texels = floats(&light(&world));
+        for anti_ringing in [true, false] {
+            let resampler =
+                Resampler { filter: Filter { anti_ringing, ..Filter::DEFAULT }, ..resampler(&world, &target) };
+            let mut expected = Image::filled(target.width(), target.height(), Rgba::TRANSPARENT);
+            let (mirrors, level) = (Mirrors::of(&resampler), Level::new());
+            let pixels = (expected.pixels_mut(), Rgba::TRANSPARENT);
+            each_band((&resampler, None), &mirrors, pixels, level, |band: &Band<NoWindows>, canvas| {
+                for single in &band.singles {
+                    let colour = average(band.taps(single), |texel| texels[texel as usize], anti_ringing);
+                    let image = &mirrors.images[usize::from(single.image)];
+                    let pixel = canvas.pixel(image, [single.column as usize, usize::from(single.row)]);
+                    *pixel = colour * single.coverage;
+                }
+            });
+            for (made, expected) in resampler.render(&texels).pixels().iter().zip(expected.pixels()) {
+                assert!((0..4).all(|c| (made.0[c] - expected.0[c]).abs() < 4e-6), "{made:?} is not {expected:?}");
+            }
+        }
     }
 }
 
