@@ -4,8 +4,10 @@
 //! `-- sizes SIZE…` CPU-nanoseconds a pixel of domes of these sizes. The domes are [`testkit::Dome`]'s.
 #![allow(clippy::print_stdout, reason = "a program that says what it measures")]
 
+use std::sync::Mutex;
 use std::time::Instant;
 
+use cosmorama::raster::Image;
 use cosmorama::resample::{FixedPlan, SavedPlan};
 use cpu_time::ProcessTime;
 use rayon::{ThreadPool, ThreadPoolBuilder};
@@ -52,8 +54,22 @@ fn median(costs: &[Cost]) -> Cost {
     Cost { wall: of(|cost| cost.wall), cpu: of(|cost| cost.cpu) }
 }
 
-fn frame(dome: &Dome, plan: &FixedPlan) {
-    drop(plan.apply(&dome.light, &dome.codec));
+/// Frames that are made by a plan, all into one image.
+struct Frames<'a> {
+    dome: &'a Dome,
+    plan: &'a FixedPlan,
+    image: Mutex<Image<[u8; 3]>>,
+}
+
+impl<'a> Frames<'a> {
+    fn new(dome: &'a Dome, plan: &'a FixedPlan) -> Self {
+        Self { dome, plan, image: Mutex::new(plan.apply(&dome.light, &dome.codec)) }
+    }
+
+    fn next(&self) {
+        let mut image = self.image.lock().expect("nobody fails");
+        self.plan.apply_into(&self.dome.light, &self.dome.codec, &mut image);
+    }
 }
 
 fn still(dome: &Dome) {
@@ -80,7 +96,8 @@ fn threads(size: usize) {
             println!("{name}\t{threads}\t{wall}\t{cpu}");
         }
     };
-    taking_turns("frame by plan", &|| frame(&dome, &plan));
+    let frames = Frames::new(&dome, &plan);
+    taking_turns("frame by plan", &|| frames.next());
     taking_turns("still", &|| still(&dome));
 }
 
@@ -93,7 +110,9 @@ fn size(size: usize) {
     let repeated = |work: &dyn Fn()| nanoseconds(&(0..rounds).map(|_| cost(work).0).collect::<Vec<_>>());
     let (making, plan) = cost(|| dome.resampler().fixed_plan().expect("a plan"));
     let bytes = plan.bytes() as f64 / pixels as f64;
-    let by_plan = repeated(&|| frame(&dome, &plan));
+    let frames = Frames::new(&dome, &plan);
+    let by_plan = repeated(&|| frames.next());
+    drop(frames);
     drop(plan);
     let still = repeated(&|| still(&dome));
     println!("{size}\t{bytes}\t{}\t{by_plan}\t{still}", nanoseconds(&[making]));

@@ -87,11 +87,19 @@ impl Plan {
 
     /// One frame in front of a background, linear and premultiplied as all light is.
     pub fn apply_over(&self, texels: &[Rgba], background: Rgba) -> Image<Rgba> {
-        let Self(Compiled { width, height, anti_ringing, mirrors, .. }) = self;
-        let mut image = Image::zeroed(*width, *height);
-        let filter = FloatFilter { level: Level::new(), mirrors, texels, anti_ringing: *anti_ringing, background };
-        self.0.fill(image.pixels_mut(), background, |band, canvas| filter.fill(band, canvas));
+        let mut image = Image::zeroed(self.0.width, self.0.height);
+        self.apply_into(texels, background, &mut image);
         image
+    }
+
+    /// The same into an image that is there already: fresh memory may cost as much as its pixels.
+    ///
+    /// # Panics
+    /// If it is not of the target's size.
+    pub fn apply_into(&self, texels: &[Rgba], background: Rgba, image: &mut Image<Rgba>) {
+        let Self(Compiled { anti_ringing, mirrors, .. }) = self;
+        let filter = FloatFilter { level: Level::new(), mirrors, texels, anti_ringing: *anti_ringing, background };
+        self.0.fill(image, background, |band, canvas| filter.fill(band, canvas));
     }
 
     /// About how many that of a conversion would hold, or of its wanted patches: found from some bands of rows, keeping nothing.
@@ -107,11 +115,19 @@ impl FixedPlan {
 
     /// One frame: the code values of each pixel. `light` is that of all the world's texels.
     pub fn apply(&self, light: &FixedLight, codec: &FixedCodec) -> Image<[u8; 3]> {
-        let Self(Compiled { width, height, anti_ringing, mirrors, .. }) = self;
-        let mut image = Image::zeroed(*width, *height);
-        let filter = FixedFilter { level: Level::new(), mirrors, light, codec, anti_ringing: *anti_ringing };
-        self.0.fill(image.pixels_mut(), codec.background(), |band, canvas| filter.fill(band, canvas));
+        let mut image = Image::zeroed(self.0.width, self.0.height);
+        self.apply_into(light, codec, &mut image);
         image
+    }
+
+    /// The same into an image that is there already: fresh memory may cost a third of a frame.
+    ///
+    /// # Panics
+    /// If it is not of the target's size.
+    pub fn apply_into(&self, light: &FixedLight, codec: &FixedCodec, image: &mut Image<[u8; 3]>) {
+        let Self(Compiled { anti_ringing, mirrors, .. }) = self;
+        let filter = FixedFilter { level: Level::new(), mirrors, light, codec, anti_ringing: *anti_ringing };
+        self.0.fill(image, codec.background(), |band, canvas| filter.fill(band, canvas));
     }
 
     /// About how many that of a conversion would hold: found from some bands of rows, keeping nothing.
@@ -192,11 +208,13 @@ impl<W: Weights> Compiled<W> {
 
     fn fill<P: Copy + Send + Sync>(
         &self,
-        pixels: &mut [P],
+        image: &mut Image<P>,
         background: P,
         make: impl Fn(&Band<W>, &mut Canvas<P>) + Sync,
     ) {
-        let canvases = Canvas::bands(pixels, self.width, BAND, &self.mirrors, background);
+        let (found, expected) = ((image.width(), image.height()), (self.width, self.height));
+        assert_eq!(found, expected, "an image as large as the target");
+        let canvases = Canvas::bands(image.pixels_mut(), self.width, BAND, &self.mirrors, background);
         canvases.zip(&self.bands).for_each(|(mut canvas, band)| make(band, &mut canvas));
     }
 

@@ -194,10 +194,18 @@ fn a_plan_makes_the_pixels_that_are_made_without() {
         let background = Rgba::opaque(0.25, 0.5, 0.0);
         light_alone.lay_over(background);
         assert!(plan.apply_over(&texels, background) == light_alone);
+        let mut image = Image::filled(target.width(), target.height(), Rgba([7.0; 4]));
+        plan.apply_into(&texels, background, &mut image);
+        assert!(image == light_alone);
         assert!(resampler.render_over(&texels, background) == light_alone);
         let codec = FixedCodec::new(&Transfer::Srgb, Rgba::BLACK).expect("sRGB has 8 bits");
         let plan = resampler.fixed_plan().expect("a plan");
-        assert!(plan.apply(&light, &codec) == resampler.render_fixed(&light, &codec));
+        let codes_alone = resampler.render_fixed(&light, &codec);
+        assert!(plan.apply(&light, &codec) == codes_alone);
+        // Whatever was in the image before.
+        let mut codes = Image::filled(target.width(), target.height(), [77; 3]);
+        plan.apply_into(&light, &codec, &mut codes);
+        assert!(codes == codes_alone);
     }
 }
 
@@ -277,7 +285,7 @@ fn all_levels_of_instructions_make_the_same_pixels() {
         let made = |level| {
             let mut codes = Image::filled(target.width(), target.height(), codec.background());
             let filter = FixedFilter { level, mirrors: &mirrors, light: &light, codec: &codec, anti_ringing: true };
-            plan.0.fill(codes.pixels_mut(), codec.background(), |band, canvas| filter.fill(band, canvas));
+            plan.0.fill(&mut codes, codec.background(), |band, canvas| filter.fill(band, canvas));
             (render(&resampler, &texels, Rgba::TRANSPARENT, level), codes)
         };
         let mut all = window::levels().into_iter().map(made);
