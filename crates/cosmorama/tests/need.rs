@@ -4,7 +4,7 @@ use cosmorama::raster::{Image, Rgba};
 use cosmorama::resample::{CrossSection, Filter, FilterKind, Kernel, Need, Needs, Plan, Resampler};
 use cosmorama::sphere::CubeFace;
 use cosmorama::world::{PixelRect, Source, View, World};
-use testkit::{cube, equirect, fisheye, omnimax, perspective, turned};
+use testkit::{cube, equirect, fisheye, omnimax, perspective, turned, whole_worlds};
 
 fn rect(left: usize, top: usize, right: usize, bottom: usize) -> Option<PixelRect> {
     Some(PixelRect { left, top, right, bottom })
@@ -88,20 +88,39 @@ fn what_is_within_reach_of_a_cube_holds_what_is_read() {
         let turned = perspective(160, 120, 70.0, 40.0, 20.0, 5.0);
         for target in [omnimax(200, 146), omnimax(983, 718), tilted, front, turned, equirect(160), fisheye(300, 180.0)]
         {
-            let exact = needs(&world, target);
-            let quick = Needs::within_reach(&world, &[target], &Filter::DEFAULT).expect("six faces leave no hole");
-            assert_eq!(exact.uncovered, quick.uncovered);
-            for (exact, quick) in exact.views.iter().zip(&quick.views) {
-                let holds = |read| quick.read.is_some_and(|quick| quick.contains(&read));
-                assert!(exact.read.is_none_or(holds), "{exact:?} is not in {quick:?}: {target:?}");
-                assert_eq!(exact.seen.is_some(), quick.seen.is_some(), "{exact:?}, {quick:?}: {target:?}");
-                let is_seen = |seen| exact.seen.is_some_and(|exact| exact.contains(&seen));
-                assert!(quick.seen.is_none_or(is_seen), "{quick:?} is not in {exact:?}: {target:?}");
-            }
+            check_reach(&world, target, &Filter::DEFAULT);
         }
     }
     let five = cube(&CubeFace::ALL[1..], 64, 64);
     assert_eq!(Needs::within_reach(&five, &[fisheye(100, 180.0)], &Filter::DEFAULT), None);
+}
+
+/// What is found from blocks holds what each pixel needs.
+fn check_reach(world: &World, target: View, filter: &Filter) {
+    let exact = Needs::of(world, &[target], filter);
+    let quick = Needs::within_reach(world, &[target], filter).expect("six faces leave no hole");
+    assert_eq!(exact.uncovered, quick.uncovered, "{target:?}");
+    for (exact, quick) in exact.views.iter().zip(&quick.views) {
+        let holds = |read| quick.read.is_some_and(|quick| quick.contains(&read));
+        assert!(exact.read.is_none_or(holds), "{exact:?} is not in {quick:?}: {filter:?}, {target:?}");
+        assert_eq!(exact.seen.is_some(), quick.seen.is_some(), "{exact:?}, {quick:?}: {target:?}");
+        let is_seen = |seen| exact.seen.is_some_and(|exact| exact.contains(&seen));
+        assert!(quick.seen.is_none_or(is_seen), "{quick:?} is not in {exact:?}: {target:?}");
+    }
+}
+
+/// Maps that end without a stop, crease or have a steep rim, turned so that their edges cross faces.
+#[test]
+fn what_is_within_reach_holds_what_any_map_reads_by_any_filter() {
+    let kinds = [FilterKind::Ewa, FilterKind::EwaPyramid, FilterKind::Point, FilterKind::Bilinear];
+    let world = cube(&CubeFace::ALL, 96, 80);
+    for (_, map) in whole_worlds(72) {
+        for orientation in [map.orientation, turned([25.0, -70.0, 15.0])] {
+            for kind in kinds {
+                check_reach(&world, View { orientation, ..map }, &Filter { kind, ..Filter::DEFAULT });
+            }
+        }
+    }
 }
 
 #[test]

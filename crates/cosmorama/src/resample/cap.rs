@@ -1,3 +1,5 @@
+use std::f64::consts::FRAC_PI_2;
+
 use super::Kernel;
 use crate::sphere::{Angle, Direction};
 use crate::world::{FieldStop, Footprint, PixelBounds, PixelPoint, PixelRect, Source, View};
@@ -34,9 +36,14 @@ impl Cap {
         Self { radius: self.radius + by, ..self }
     }
 
+    /// The same for whole pixels, if it was that of their centres.
+    pub(super) fn of_whole_pixels(self) -> Self {
+        self.widened(self.pixel)
+    }
+
     /// Whether all of it is below a great circle of the view, whose pole is `side`.
     pub(super) fn is_below(&self, side: Direction, view: &View) -> bool {
-        side.dot(view.orientation.to_view(self.centre)) < -self.radius.sin()
+        side.dot(view.orientation.to_view(self.centre)) < -self.radius.min(FRAC_PI_2).sin()
     }
 
     /// Radians from the centre.

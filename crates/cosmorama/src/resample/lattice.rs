@@ -1,6 +1,7 @@
 use glam::{DMat2, DVec2};
 
-use super::patch::HALF;
+use super::cap::Cap;
+use super::patch::{HALF, SIDE};
 use crate::world::{Footprint, PixelPoint, Source, View};
 
 /// The points that patches are measured at: of the nine of each, neighbours share five, and each is computed once.
@@ -65,6 +66,15 @@ impl<'a> Lattice<'a> {
             }
         };
         Some((screen, point))
+    }
+
+    /// The cap that holds the pixels of the patch of which this is the first; `None` where a corner has no direction, or where
+    /// it would be wide.
+    pub(super) fn cap(&mut self, [i, j]: [usize; 2]) -> Option<Cap> {
+        let middle = self.footprint([i + HALF, j + HALF])?.direction;
+        let mut corner = |i, j| self.footprint([i, j]);
+        let corners = [corner(i, j)?, corner(i + SIDE, j)?, corner(i, j + SIDE)?, corner(i + SIDE, j + SIDE)?];
+        Cap::around(middle, &corners).map(Cap::of_whole_pixels)
     }
 
     fn slot(&mut self, pixel @ [i, j]: [usize; 2]) -> &mut Slot {

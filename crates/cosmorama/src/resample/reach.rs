@@ -19,12 +19,14 @@ impl Needs {
             return None;
         }
         let mut needs = Self::nothing(world);
+        let table = KernelTable::new(&filter.kernel);
         for (index, target) in targets.iter().enumerate() {
             let survey = Survey { world, target, index, filter, reads: Reads::AtMost };
             let blocks = Block::largest(target);
-            let reached = blocks.par_iter().map(|block| {
+            let pixels = || PixelTaps::new(world, target, filter, &table);
+            let reached = blocks.par_iter().map_init(pixels, |pixels, block| {
                 let mut found = Self::nothing(world);
-                survey.reach(*block, &mut found);
+                survey.reach(*block, pixels, &mut found);
                 found
             });
             needs = reached.collect::<Vec<_>>().iter().fold(needs, Self::merged);
@@ -46,7 +48,7 @@ impl Needs {
 impl Survey<'_> {
     /// Adds what kernels around a block's pixels can touch, and what its middle sees. Blocks at the edge of the picture are
     /// taken in their smallest parts; of one that has no cap, each pixel is asked.
-    fn reach(&self, block: Block, needs: &mut Needs) {
+    fn reach(&self, block: Block, pixels: &mut PixelTaps, needs: &mut Needs) {
         if block.is_hidden(self.target) {
             return;
         }
@@ -58,11 +60,11 @@ impl Survey<'_> {
             return self.add_centre((i, j), needs);
         }
         if let Some(parts) = block.parts() {
-            return parts.for_each(|part| self.reach(part, needs));
+            return parts.for_each(|part| self.reach(part, pixels, needs));
         }
         match cap {
             Some(cap) => self.add_reach(&cap, needs),
-            None => self.ask(block, needs),
+            None => self.add_block(&self.judged(block), pixels, needs),
         }
     }
 
@@ -81,12 +83,5 @@ impl Survey<'_> {
             Some(parts) => parts.for_each(|part| self.look(part, views, needs)),
             None => block.pixels().for_each(|pixel| self.add_screen(pixel, needs)),
         }
-    }
-
-    /// Adds what a block's pixels need, one by one.
-    fn ask(&self, block: Block, needs: &mut Needs) {
-        let table = KernelTable::new(&self.filter.kernel);
-        let mut pixels = PixelTaps::new(self.world, self.target, self.filter, &table);
-        self.add_block(&self.judged(block), &mut pixels, needs);
     }
 }

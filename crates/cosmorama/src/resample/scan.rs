@@ -4,7 +4,7 @@ use rayon::prelude::*;
 
 use super::kernel::KernelTable;
 use super::lattice::Lattice;
-use super::patch::{Patch, SIDE, lanes_of};
+use super::patch::{HALF, Patch, SIDE, lanes_of};
 use super::pixel_taps::PixelTaps;
 use super::window::{Level, Windows};
 use super::{FilterKind, Resampler, Taps};
@@ -87,6 +87,16 @@ impl<'a> Scan<'a> {
         }
     }
 
+    /// Whether a great circle that ends the field of view surely hides the patch of which this is the first pixel. Of one whose
+    /// middle it does not hide no more is asked.
+    fn is_cut_off(&mut self, first: [usize; 2]) -> bool {
+        let target = self.resampler.target;
+        let Some(side) = target.stop.half_space else { return false };
+        let middle = self.lattice.footprint(first.map(|at| at + HALF));
+        middle.is_some_and(|middle| side.dot(target.orientation.to_view(middle.direction)) < 0.0)
+            && self.lattice.cap(first).is_some_and(|cap| cap.is_below(side, target))
+    }
+
     fn patch(&mut self, [left, top]: [usize; 2], columns: usize, rows: &Range<usize>, sink: &mut impl Sink) {
         if self.wanted.is_some_and(|wanted| !wanted.holds([left, top])) {
             return;
@@ -96,7 +106,8 @@ impl<'a> Scan<'a> {
         let rows = top.max(rows.start)..rows.end.min(top + SIDE);
         let count = SIDE.min(columns - left);
         let (all, right) = (u8::MAX >> (SIDE - count), left + count);
-        if target.circle_hides(PixelRect { left, top: rows.start, right, bottom: rows.end }) {
+        let rect = PixelRect { left, top: rows.start, right, bottom: rows.end };
+        if target.circle_hides(rect) || self.is_cut_off([left, top]) {
             return;
         }
         let gather = self.pixels.gather();
@@ -256,6 +267,34 @@ mod tests {
     #[test]
     fn nothing_is_seen_outside_a_field_that_is_narrower_than_a_texel() {
         check_windows(&cube(64), &fisheye(100, 0.01), Kernel::ADAPTIVE);
+    }
+
+    #[test]
+    fn what_the_lower_cut_hides_is_passed_over_and_no_more() {
+        let (world, turned) = (cube(64), targets()[0].orientation);
+        let projections = [ProjectionKind::OMNIMAX, ProjectionKind::EQUIDISTANT];
+        for (projection, size) in projections.into_iter().flat_map(|lens| [40, 201, 600].map(|size| (lens, size))) {
+            let (mut hidden, mut passed) = (0, 0);
+            for lower in [-30.0, 0.0, 20.0, 45.0, 70.0] {
+                let stop = FieldStop::circle(1.0).with_lower(Angle::from_degrees(lower));
+                let target = View { stop, ..view(projection, (size, size), (1.0, 1.0), turned) };
+                let resampler = Resampler { world: &world, target: &target, filter: Filter::DEFAULT };
+                let table = KernelTable::new(&resampler.filter.kernel);
+                let mut scan = Scan::new(&resampler, &table, Level::new());
+                let rows = (0..size).step_by(SIDE);
+                for first @ [left, top] in rows.flat_map(|j| (0..size).step_by(SIDE).map(move |i| [i, j])) {
+                    let rect = PixelRect { left, top, right: left + SIDE, bottom: top + SIDE };
+                    let mut pixels = (top..top + SIDE).flat_map(|j| (left..left + SIDE).map(move |i| (i, j)));
+                    let shows = pixels.any(|(i, j)| target.screen_pixel(i, j).is_some());
+                    let is_cut_off = scan.is_cut_off(first);
+                    assert!(!(shows && is_cut_off), "{projection:?}, {size}, {lower}: {first:?}");
+                    let is_below = !shows && !target.circle_hides(rect);
+                    hidden += usize::from(is_below);
+                    passed += usize::from(is_below && is_cut_off);
+                }
+            }
+            assert!(size < 600 || 10 * passed > 9 * hidden, "{projection:?}: {passed} of {hidden} patches");
+        }
     }
 
     /// Makes pixels of the lists that it is given, one by one.
