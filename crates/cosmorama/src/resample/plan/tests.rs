@@ -1,3 +1,5 @@
+mod runs;
+
 use super::band::{Corners, Run};
 use super::mirrors::{MirrorImage, Mirrors};
 use super::stored::Stored;
