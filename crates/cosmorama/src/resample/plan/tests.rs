@@ -1,4 +1,5 @@
 mod runs;
+mod singles;
 
 use super::band::{Corners, Run};
 use super::mirrors::{MirrorImage, Mirrors};
