@@ -333,7 +333,7 @@ fn spreading_is_the_plan_the_other_way_round() {
         let mut shares = vec![0.0; world.texel_count()];
         plan.spread(&values, &mut shares);
         // The same to the last bit, however the threads part the texels.
-        for threads in [1, 3, 8] {
+        for threads in [1, 3, 8, 11] {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
             let mut again = vec![0.0; shares.len()];
             pool.install(|| plan.spread(&values, &mut again));
