@@ -1,5 +1,6 @@
 mod runs;
 mod singles;
+mod sizes;
 
 use super::band::{Corners, Run};
 use super::mirrors::{MirrorImage, Mirrors};
@@ -62,6 +63,8 @@ fn conversions() -> Vec<(World, View, usize)> {
     let panoramic = |size| view(ProjectionKind::EQUIRECTANGULAR, size, half, Orientation::IDENTITY);
     vec![
         (cube(&all, 150), dome(200, up), 4),
+        // Windows of more texels than the small ones have, in patches.
+        (cube(&all, 500), dome(200, up), 4),
         (cube(&all, 300), dome(62, up), 4),
         // Windows larger than lanes weigh.
         (cube(&all, 300), dome(30, up), 4),
@@ -272,7 +275,7 @@ fn windows_of_floats_make_what_their_texels_make_one_by_one() {
 
 #[test]
 fn all_levels_of_instructions_make_the_same_pixels() {
-    for (world, target, _) in conversions().into_iter().take(4) {
+    for (world, target, _) in conversions().into_iter().take(5) {
         let (light, resampler) = (light(&world), resampler(&world, &target));
         let (texels, mirrors) = (floats(&light), Mirrors::of(&resampler));
         let codec = FixedCodec::new(&Transfer::Srgb, Rgba::BLACK).expect("sRGB has 8 bits");
