@@ -8,6 +8,7 @@
 use std::alloc::{GlobalAlloc, Layout, System};
 
 /// Bytes from which on memory is that of a picture.
+#[cfg(any(test, target_os = "linux"))]
 const LARGE: usize = 4 << 20;
 
 pub(crate) struct LargePages;
@@ -36,16 +37,60 @@ unsafe impl GlobalAlloc for LargePages {
 }
 
 /// Asks for large pages under memory that was just given; if there are none, small ones do.
+#[cfg(target_os = "linux")]
 fn prefer_large_pages(memory: *mut u8, size: usize) -> *mut u8 {
-    #[cfg(target_os = "linux")]
+    use rustix::mm::{Advice, madvise};
+    /// Any system's pages are as large or smaller, and so few bytes at the ends do not count.
+    const PAGE: usize = 1 << 16;
     if size >= LARGE && !memory.is_null() {
-        use rustix::mm::{Advice, madvise};
-        /// Any system's pages are as large or smaller, and so few bytes at the ends do not count.
-        const PAGE: usize = 1 << 16;
         let skipped = memory.addr().next_multiple_of(PAGE) - memory.addr();
         let whole = (size - skipped) / PAGE * PAGE;
         // SAFETY: these pages are all within the memory that was given, and this advice changes nothing that they hold.
         let _ = unsafe { madvise(memory.wrapping_add(skipped).cast(), whole, Advice::LinuxHugepage) };
     }
     memory
+}
+
+/// Other systems are not asked.
+#[cfg(not(target_os = "linux"))]
+fn prefer_large_pages(memory: *mut u8, _: usize) -> *mut u8 {
+    memory
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Lists of numbers around the size at which large pages are asked for, in the program's own allocator: tests use it, too.
+    const LENGTHS: [usize; 4] = [LARGE / 8 - 1, LARGE / 8, LARGE / 8 + 1, LARGE / 4 + 1234];
+
+    fn numbers(count: usize) -> impl Iterator<Item = u64> {
+        (1..=count as u64).map(|k| k.wrapping_mul(0x9e37_79b9_7f4a_7c15))
+    }
+
+    #[test]
+    fn memory_holds_what_is_written_as_it_grows_and_shrinks() {
+        for length in LENGTHS {
+            let mut list = Vec::with_capacity(length);
+            list.extend(numbers(length));
+            assert!(list.iter().copied().eq(numbers(length)), "{length} numbers");
+            for other in LENGTHS {
+                list.truncate(other);
+                list.shrink_to_fit();
+                list.reserve_exact(other - list.len());
+                list.extend(numbers(other).skip(list.len()));
+                assert!(list.iter().copied().eq(numbers(other)), "{length} numbers, and then {other}");
+            }
+        }
+    }
+
+    #[test]
+    fn zeroed_memory_is_zero_where_there_was_something_before() {
+        for length in LENGTHS.into_iter().chain(LENGTHS) {
+            let mut list = vec![0_u64; length];
+            assert!(list.iter().all(|number| *number == 0), "{length} numbers");
+            list.fill(u64::MAX);
+            assert!(list.iter().all(|number| *number == u64::MAX), "{length} numbers");
+        }
+    }
 }

@@ -53,13 +53,19 @@ impl<'a> FieldEdge<'a> {
 
     /// Whether a part of the field falls upon the texel in this column and row of a source.
     pub(super) fn touches(&self, source: &Source, texel: [usize; 2]) -> bool {
-        let [i, j] = texel.map(|at| at as f64);
-        let centre = source.view.direction(PixelPoint::new(i + 0.5, j + 0.5));
+        let centre = source.view.direction(PixelPoint::centre(texel[0], texel[1]));
+        !self.is_refused(source, centre) && self.holds_some(&source.view, centre, texel)
+    }
+
+    /// Whether no part of the field falls upon a texel with this centre, as far as that alone tells.
+    fn is_refused(&self, source: &Source, centre: Option<Direction>) -> bool {
         // No corner of a texel is farther from its centre than its side is long.
-        if centre.is_some_and(|centre| self.is_far_beyond(centre, source.texel_pitch)) {
-            return false;
-        }
-        let at = |(x, y): &(f64, f64)| source.view.direction(PixelPoint::new(i + x, j + y));
+        source.has_bounded_texels() && centre.is_some_and(|centre| self.is_far_beyond(centre, source.texel_pitch))
+    }
+
+    /// Whether it holds a texel's centre or one of its corners.
+    fn holds_some(&self, view: &View, centre: Option<Direction>, [i, j]: [usize; 2]) -> bool {
+        let at = |(x, y): &(f64, f64)| view.direction(PixelPoint::new(i as f64 + x, j as f64 + y));
         centre.into_iter().chain(CORNERS.iter().filter_map(at)).any(|direction| self.holds(direction))
     }
 
@@ -84,9 +90,9 @@ fn sine(cosine: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::projection::{PlaneRect, ProjectionKind};
-    use crate::sphere::Orientation;
-    use crate::world::PixelGrid;
+    use crate::projection::{PlaneRect, ProjectionKind, StMap, StMapTable};
+    use crate::sphere::{Angle, Orientation};
+    use crate::world::{PixelGrid, World};
 
     #[test]
     fn what_is_not_near_the_edge_has_it_farther_away_than_asked() {
@@ -108,6 +114,58 @@ mod tests {
                 // Nor is all taken for near: what is farther away than so much more is not.
                 assert!(!is_near || angle + 1.3 * reach + 0.01 > half || reach > 0.01, "{angle} + {reach}, {half}");
             }
+        }
+    }
+    fn view(projection: ProjectionKind, size: (usize, usize), half: (f64, f64), stop: FieldStop) -> View {
+        let rect = PlaneRect { min: PlanePoint::new(-half.0, -half.1), max: PlanePoint::new(half.0, half.1) };
+        let [yaw, pitch, roll] = [20.0, -35.0, 10.0].map(Angle::from_degrees);
+        let orientation = Orientation::from_yaw_pitch_roll(yaw, pitch, roll);
+        View { projection, orientation, grid: PixelGrid::spanning(size.0, size.1, rect), stop }
+    }
+
+    /// A panorama with a few columns that show far more than others.
+    fn stretched() -> ProjectionKind {
+        let table = StMapTable::of_pixels(97, 65, |i, j| {
+            let x = (i as f64 + 0.5) / 97.0 - 0.5;
+            let longitude = x + 2.0 * (x * 200.0).tanh();
+            ProjectionKind::EQUIRECTANGULAR.unproject(PlanePoint::new(longitude, 2.0 - j as f64 / 16.25))
+        });
+        ProjectionKind::StMap(StMap::new(table.expect("a table")))
+    }
+
+    /// Columns and rows of a world.
+    const SIZE: [usize; 2] = [45, 37];
+
+    /// Worlds of one view, in all projections: inside their domain and beyond.
+    fn worlds() -> impl Iterator<Item = World> {
+        let kinds = ProjectionKind::all().into_iter().chain([stretched()]);
+        let halves = [(1.0, 1.0), (1.07, 1.02), (3.2, 1.6)];
+        kinds
+            .flat_map(move |kind| halves.map(|half| view(kind, (SIZE[0], SIZE[1]), half, FieldStop::NONE)))
+            .filter_map(|view| World::new([("all".to_owned(), view)]).ok())
+    }
+
+    #[test]
+    fn texels_that_are_refused_by_their_centres_have_no_part_in_the_field() {
+        let lower = |stop: FieldStop| stop.with_lower(Angle::from_degrees(30.0));
+        let [small, large] = [0.1, 0.8].map(FieldStop::circle);
+        let stops = [small, large, lower(FieldStop::NONE), lower(large)];
+        let target = |kind| stops.map(|stop| view(kind, (60, 60), (1.0, 1.0), stop));
+        // The middle of a ball shows what is behind.
+        let targets = [ProjectionKind::EQUIDISTANT, ProjectionKind::MIRROR_BALL].map(target);
+        assert_eq!(FieldEdge::of(&targets[1][0]).expect("a circle").axis, -1.0);
+        for world in worlds() {
+            let source = &world.sources()[0];
+            let mut refused = 0;
+            for edge in targets.as_flattened().iter().filter_map(FieldEdge::of) {
+                for [i, j] in (0..SIZE[1]).flat_map(|j| (0..SIZE[0]).map(move |i| [i, j])) {
+                    let centre = source.view.direction(PixelPoint::centre(i, j));
+                    let is_seen = edge.holds_some(&source.view, centre, [i, j]);
+                    assert_eq!(edge.touches(source, [i, j]), is_seen, "{:?} at {i}, {j} by {edge:?}", source.view);
+                    refused += usize::from(edge.is_refused(source, centre));
+                }
+            }
+            assert_eq!(refused > 100, source.has_bounded_texels(), "{refused} texels of {:?}", source.view);
         }
     }
 }

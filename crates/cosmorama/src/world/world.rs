@@ -6,7 +6,7 @@ use super::blend::{Blend, Border, Presence, parts};
 use super::seen_cone::SeenCone;
 use super::view::ROUNDING;
 use super::{PixelPoint, PixelRect, SolidAngles, View, ViewMask, overlap};
-use crate::projection::Projection;
+use crate::projection::{Projection, ProjectionKind};
 use crate::sphere::Direction;
 
 /// Why views make no world.
@@ -85,6 +85,13 @@ pub(crate) struct TexelPlace {
 }
 
 impl Source {
+    /// Whether no texel is larger than [`Self::texel_pitch`] says, which is measured at some points. Between those, texels
+    /// beside a steep rim may be, and so may those of a table.
+    pub(crate) fn has_bounded_texels(&self) -> bool {
+        let projection = &self.view.projection;
+        !projection.has_steep_rim() && !matches!(projection, ProjectionKind::StMap(_))
+    }
+
     /// An upper bound of a texel's larger side, in radians, at a direction: beside a steep rim texels are far larger than
     /// elsewhere, and the largest says nothing of the others.
     pub fn texel_pitch_at(&self, direction: Direction) -> f64 {

@@ -92,7 +92,7 @@ impl Run {
     /// About the column and the row after the last ones that its windows hold.
     #[inline(always)]
     pub(super) fn end(&self) -> [usize; 2] {
-        // Windows follow each other in one direction.
+        // Windows follow each other in one direction, and those of lanes that have none stay where the next ones are.
         let [first, last] = [self.offsets[0], self.offsets[SIDE - 1]];
         let end = |axis: usize, size: u8| {
             self.corner[axis] as usize + usize::from(first[axis].max(last[axis])) + usize::from(size)
@@ -121,12 +121,15 @@ impl Run {
     /// The run of windows that begin at these texels; `None` if it cannot be written down.
     fn new(windows: &Windows, corners: &Corners, [column, row]: [usize; 2], weights: usize) -> Option<Self> {
         let lanes = lanes_of(|lane| corners[lane].is_some());
-        // Lanes without a window count as the first one that has one: loops go without branches then.
+        // Lanes without a window count as the last one before them that has one, or as the first: loops go without branches then.
         let first = corners[lanes.trailing_zeros() as usize % SIDE]?;
         let corner = corners.map(|corner| corner.unwrap_or(first)).into_iter();
         let corner = corner.fold(first, |least, texel| [least[0].min(texel[0]), least[1].min(texel[1])]);
-        let offset = |texel: [u32; 2]| [texel[0] - corner[0], texel[1] - corner[1]];
-        let offsets = corners.map(|corner| corner.map_or([0; 2], offset));
+        let mut last = first;
+        let offsets = corners.map(|texel| {
+            last = texel.unwrap_or(last);
+            [last[0] - corner[0], last[1] - corner[1]]
+        });
         if offsets.as_flattened().iter().fold(0, |all, offset| all | offset) > u32::from(u8::MAX) {
             return None;
         }

@@ -40,7 +40,7 @@ impl FixedFilter<'_> {
     }
 
     /// The light of a pixel by itself.
-    fn single(&self, list: TapList) -> Rgba {
+    pub(super) fn single(&self, list: TapList) -> Rgba {
         if list.places.is_empty() {
             // Weighed as they are; only the sum is divided.
             return average(list, |texel| self.light.samples_of(texel as usize), self.anti_ringing)

@@ -5,12 +5,17 @@ use super::float_weights::FloatWeights;
 use super::mirrors::Walk;
 use super::{BAND, Plan};
 
+/// Parts of a world's texels, at most. For each of them all of the plan is gone through, and so the work grows with them: beyond as
+/// many, threads would do little but that, and take time from others.
+const MOST_PARTS: usize = 8;
+
 impl Plan {
     /// Takes a number from each pixel back to the texels that it is made of, times their weights: what the plan does the other
     /// way round. Adds it to a number of each texel.
     pub(in crate::resample) fn spread(&self, pixels: &[f32], texels: &mut [f64]) {
         // Each thread goes through all of the plan and adds up its own texels only: in the plan's order, however many there are.
-        let some = texels.len().div_ceil(rayon::current_num_threads()).max(1);
+        let parts = rayon::current_num_threads().min(MOST_PARTS);
+        let some = texels.len().div_ceil(parts).max(1);
         texels.par_chunks_mut(some).enumerate().for_each(|(part, texels)| {
             let mut part = Part { first: part * some, texels };
             for (index, band) in self.0.bands.iter().enumerate() {

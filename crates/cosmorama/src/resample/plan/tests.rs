@@ -1,3 +1,7 @@
+mod runs;
+mod singles;
+mod sizes;
+
 use super::band::{Corners, Run};
 use super::mirrors::{MirrorImage, Mirrors};
 use super::stored::Stored;
@@ -59,6 +63,8 @@ fn conversions() -> Vec<(World, View, usize)> {
     let panoramic = |size| view(ProjectionKind::EQUIRECTANGULAR, size, half, Orientation::IDENTITY);
     vec![
         (cube(&all, 150), dome(200, up), 4),
+        // Windows of more texels than the small ones have, in patches.
+        (cube(&all, 500), dome(200, up), 4),
         (cube(&all, 300), dome(62, up), 4),
         // Windows larger than lanes weigh.
         (cube(&all, 300), dome(30, up), 4),
@@ -277,7 +283,7 @@ fn windows_of_floats_make_what_their_texels_make_one_by_one() {
 
 #[test]
 fn all_levels_of_instructions_make_the_same_pixels() {
-    for (world, target, _) in conversions().into_iter().take(4) {
+    for (world, target, _) in conversions().into_iter().take(5) {
         let (light, resampler) = (light(&world), resampler(&world, &target));
         let (texels, mirrors) = (floats(&light), Mirrors::of(&resampler));
         let codec = FixedCodec::new(&Transfer::Srgb, Rgba::BLACK).expect("sRGB has 8 bits");
@@ -338,7 +344,7 @@ fn spreading_is_the_plan_the_other_way_round() {
         let mut shares = vec![0.0; world.texel_count()];
         plan.spread(&values, &mut shares);
         // The same to the last bit, however the threads part the texels.
-        for threads in [1, 3, 8] {
+        for threads in [1, 3, 8, 11] {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
             let mut again = vec![0.0; shares.len()];
             pool.install(|| plan.spread(&values, &mut again));

@@ -1,0 +1,29 @@
+use super::*;
+
+/// Whether the ends of all runs of a plan are those of their windows, and how many of them lack a window at one end.
+fn cut_runs<W>(compiled: &Compiled<W>) -> usize {
+    let mut cut = 0;
+    for run in compiled.bands.iter().flat_map(|band| &band.runs) {
+        let (corner, end) = (run.corner(), run.end());
+        for (axis, size) in [run.width, run.height].into_iter().enumerate() {
+            let offsets = || run.lanes().map(|lane| run.offset(lane)[axis] as usize);
+            let expected = corner[axis] + offsets().max().expect("a lane") + usize::from(size);
+            // Windows are kept from where their weights begin, which may be a texel later than in the lane beside.
+            assert!((expected - 1..=expected).contains(&end[axis]), "{run:?} ends at {end:?}, not {expected}");
+            assert_eq!(offsets().min(), Some(0), "{run:?}");
+        }
+        cut += usize::from(run.lanes().min() != Some(0) || run.lanes().max() != Some(SIDE - 1));
+    }
+    cut
+}
+
+#[test]
+fn runs_end_where_their_windows_do() {
+    let (mut floats, mut integers) = (0, 0);
+    for (world, target, _) in conversions() {
+        let resampler = resampler(&world, &target);
+        floats += cut_runs(&resampler.plan().expect("a plan").0);
+        integers += cut_runs(&resampler.fixed_plan().expect("a plan").0);
+    }
+    assert!(floats > 100 && integers > 100, "{floats} and {integers} runs lack windows at an end");
+}
