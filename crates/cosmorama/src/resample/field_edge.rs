@@ -123,11 +123,11 @@ mod tests {
         View { projection, orientation, grid: PixelGrid::spanning(size.0, size.1, rect), stop }
     }
 
-    /// A panorama with a few columns that show far more than others.
+    /// A panorama with a few columns that show far more than others, none of which is measured.
     fn stretched() -> ProjectionKind {
         let table = StMapTable::of_pixels(97, 65, |i, j| {
             let x = (i as f64 + 0.5) / 97.0 - 0.5;
-            let longitude = x + 2.0 * (x * 200.0).tanh();
+            let longitude = x + 1.0 + ((x - 0.03) * 200.0).tanh();
             ProjectionKind::EQUIRECTANGULAR.unproject(PlanePoint::new(longitude, 2.0 - j as f64 / 16.25))
         });
         ProjectionKind::StMap(StMap::new(table.expect("a table")))
@@ -154,6 +154,8 @@ mod tests {
         // The middle of a ball shows what is behind.
         let targets = [ProjectionKind::EQUIDISTANT, ProjectionKind::MIRROR_BALL].map(target);
         assert_eq!(FieldEdge::of(&targets[1][0]).expect("a circle").axis, -1.0);
+        // Seen, and yet their centres are farther away than the largest texel that was measured.
+        let mut farther = 0;
         for world in worlds() {
             let source = &world.sources()[0];
             let mut refused = 0;
@@ -162,10 +164,13 @@ mod tests {
                     let centre = source.view.direction(PixelPoint::centre(i, j));
                     let is_seen = edge.holds_some(&source.view, centre, [i, j]);
                     assert_eq!(edge.touches(source, [i, j]), is_seen, "{:?} at {i}, {j} by {edge:?}", source.view);
+                    let is_farther = centre.is_some_and(|centre| edge.is_far_beyond(centre, source.texel_pitch));
+                    farther += usize::from(is_seen && is_farther);
                     refused += usize::from(edge.is_refused(source, centre));
                 }
             }
             assert_eq!(refused > 100, source.has_bounded_texels(), "{refused} texels of {:?}", source.view);
         }
+        assert!(farther > 0, "no texel is larger than those that are measured");
     }
 }
