@@ -35,6 +35,12 @@ impl ProjectionKind {
     /// The sinusoidal map of the world.
     pub const SINUSOIDAL: Self = Self::Sinusoidal(Pseudocylindrical(Sinusoidal));
 
+    /// Whether its domain is convex and alike on all four sides of its axes: of a rectangle that has a part in it, the point that
+    /// is nearest to both axes is in it.
+    pub(crate) fn is_oval(&self) -> bool {
+        matches!(self, Self::Hammer(_) | Self::Mollweide(_) | Self::Sinusoidal(_))
+    }
+
     /// Whether its domain is made of the squares of samples, so that a pixel of which neither the middle nor a corner sees
     /// anything sees nothing.
     pub(crate) fn ends_between_samples(&self) -> bool {

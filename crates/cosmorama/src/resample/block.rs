@@ -71,7 +71,7 @@ impl Block {
     /// Whether the target's field stop surely hides all of the block.
     pub(super) fn is_hidden(&self, target: &View) -> bool {
         let is_below = |side: Direction| self.cap(target).is_some_and(|cap| cap.is_below(side, target));
-        target.circle_hides(self.rect) || target.stop.half_space.is_some_and(is_below)
+        target.outline_hides(self.rect) || target.stop.half_space.is_some_and(is_below)
     }
 
     /// The cap that holds all directions of the block; `None` where part of it has none, or where it is wide.

@@ -107,7 +107,7 @@ impl<'a> Scan<'a> {
         let count = SIDE.min(columns - left);
         let (all, right) = (u8::MAX >> (SIDE - count), left + count);
         let rect = PixelRect { left, top: rows.start, right, bottom: rows.end };
-        if target.circle_hides(rect) || self.is_cut_off([left, top]) {
+        if target.outline_hides(rect) || self.is_cut_off([left, top]) {
             return;
         }
         let gather = self.pixels.gather();
@@ -288,7 +288,7 @@ mod tests {
                     let shows = pixels.any(|(i, j)| target.screen_pixel(i, j).is_some());
                     let is_cut_off = scan.is_cut_off(first);
                     assert!(!(shows && is_cut_off), "{projection:?}, {size}, {lower}: {first:?}");
-                    let is_below = !shows && !target.circle_hides(rect);
+                    let is_below = !shows && !target.outline_hides(rect);
                     hidden += usize::from(is_below);
                     passed += usize::from(is_below && is_cut_off);
                 }

@@ -1,5 +1,5 @@
 use super::{FieldStop, Footprint, PixelPoint, PixelRect, View};
-use crate::projection::Projection;
+use crate::projection::{PlanePoint, Projection};
 use crate::sphere::Direction;
 
 /// A pixel of a target: how much of it the field of view covers, and what the covered part sees.
@@ -124,13 +124,17 @@ impl View {
         }
     }
 
-    /// Whether all of a rectangle of pixels is outside the limiting circle.
-    pub(crate) fn circle_hides(&self, PixelRect { left, top, right, bottom }: PixelRect) -> bool {
-        let Some(radius) = self.stop.circle else { return false };
+    /// Whether all of a rectangle of pixels is outside the limiting circle, or the outline of an oval map.
+    pub(crate) fn outline_hides(&self, PixelRect { left, top, right, bottom }: PixelRect) -> bool {
+        if self.stop.circle.is_none() && !self.projection.is_oval() {
+            return false;
+        }
         let start = self.grid.to_plane(PixelPoint::new(left as f64, top as f64));
         let end = self.grid.to_plane(PixelPoint::new(right as f64, bottom as f64));
         let nearest = |a: f64, b: f64| if a * b <= 0.0 { 0.0 } else { a.abs().min(b.abs()) };
-        nearest(start.x, end.x).hypot(nearest(start.y, end.y)) > radius
+        let nearest = PlanePoint::new(nearest(start.x, end.x), nearest(start.y, end.y));
+        self.stop.circle.is_some_and(|radius| nearest.x.hypot(nearest.y) > radius)
+            || (self.projection.is_oval() && self.projection.unproject(nearest).is_none())
     }
 
     /// Whether all of a pixel is outside the limiting circle.
@@ -195,7 +199,7 @@ impl View {
 mod tests {
     use super::*;
     use crate::sphere::{Angle, Orientation};
-    use crate::world::{Frame, OmnimaxFrame};
+    use crate::world::{Frame, OmnimaxFrame, WorldMapFrame};
 
     /// The largest difference between coverage that is decided quickly and that of sub-samples each asked for itself, and how
     /// many pixels are cut.
@@ -208,6 +212,25 @@ mod tests {
             cut += usize::from(slow > 0.0 && slow < 1.0);
         }
         (worst, cut)
+    }
+
+    #[test]
+    fn outside_the_outline_of_a_map_no_pixel_shows_anything() {
+        for frame in [WorldMapFrame::Hammer, WorldMapFrame::Mollweide, WorldMapFrame::Sinusoidal] {
+            let view = Frame::WorldMap(frame).view(80, 40).expect("a map");
+            // A part of it alone, too, past its middle.
+            for view in [view, View { grid: view.grid.window(50, 30, 40.3, 20.7), ..view }] {
+                let (mut hidden, mut empty) = (0, 0);
+                for (j, i) in (0..view.height()).flat_map(|j| (0..view.width()).map(move |i| (j, i))) {
+                    let shows = view.cut_pixel(i as f64, j as f64, |sample| view.shows(sample)).is_some();
+                    let is_hidden = view.outline_hides(PixelRect { left: i, top: j, right: i + 1, bottom: j + 1 });
+                    assert!(!(shows && is_hidden), "{frame:?}: ({i}, {j})");
+                    hidden += usize::from(is_hidden);
+                    empty += usize::from(!shows);
+                }
+                assert!(hidden > 100 && hidden + 20 > empty, "{frame:?}: {hidden} of {empty}");
+            }
+        }
     }
 
     #[test]
