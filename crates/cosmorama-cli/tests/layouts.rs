@@ -24,15 +24,14 @@ fn assert_same_faces(bench: &Bench, prefix: &str, why: &str) {
         let (made, direct) = (format!("{prefix}{}.png", word(face)), format!("direct_{}.png", word(face)));
         let (made, direct) = (bench.load(&made), bench.load(&direct));
         let pairs = bench::eight_bits(&made).iter().zip(bench::eight_bits(&direct));
-        let differences: Vec<u8> = pairs.map(|(a, b)| a.abs_diff(*b)).filter(|difference| *difference > 0).collect();
-        // Texels that lie turned or mirrored are added in another order, and a value between two codes may round to either.
-        let (allowed, most) = if ["rotate", "flip"].iter().any(|key| why.contains(key)) { (1, 10) } else { (0, 0) };
-        let is_same = differences.len() <= most && differences.iter().all(|difference| *difference <= allowed);
-        assert!(is_same, "{why}: the {face} face differs by {differences:?}");
+        let worst = pairs.map(|(a, b)| a.abs_diff(*b)).max();
+        // Texels that lie turned are added in another order.
+        let allowed = u8::from(why.contains("rotate"));
+        assert!(worst <= Some(allowed), "{why}: the {face} face differs by {worst:?}");
     }
 }
 
-/// Faces → one image → faces gives what faces → faces → faces gives: to the last bit, where no picture is turned or mirrored.
+/// Faces → one image → faces gives what faces → faces → faces gives: to the last bit, where no picture is turned.
 fn comes_back(bench: &Bench, spec: &str) {
     bench.succeed(&["convert", "drawn_{face}.png", "sheet.png", "-y", "--to", spec, "--size", SIZE]);
     bench.succeed(&["convert", "sheet.png", "back_{face}.png", "-y", "--from", spec, "--size", SIZE]);

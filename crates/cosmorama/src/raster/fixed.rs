@@ -53,15 +53,6 @@ impl FixedLight {
         Self::light(self.texels[texel])
     }
 
-    /// The light of one step of a sample.
-    pub(crate) const PER_SAMPLE: f32 = 1.0 / WHITE;
-
-    /// One texel in steps of samples, opaque.
-    pub(crate) fn samples_of(&self, texel: usize) -> Rgba {
-        let [red, green, blue, _] = self.texels[texel].map(f32::from);
-        Rgba([red, green, blue, WHITE])
-    }
-
     /// What a texel's samples stand for.
     pub fn light(samples: [i16; 4]) -> Rgba {
         let [red, green, blue, _] = samples.map(|sample| f32::from(sample) / WHITE);

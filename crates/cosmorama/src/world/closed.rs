@@ -76,6 +76,7 @@ mod tests {
         assert!(!is_closed(stopped));
         assert!(!is_closed(vec![("all".to_owned(), panorama(16, 8))]));
     }
+
     /// Those views that are asked for by their index mirrored.
     fn mirrored(
         views: Vec<(String, View)>,

@@ -13,9 +13,9 @@ use super::fixed_weights::{FixedWeights, Header, Shape, mark_words};
 use super::mirrors::{MOST_IMAGES, Mirrors, Ways};
 use super::prefetch::prefetch;
 use super::texels::Texels;
-use crate::raster::{FixedCodec, FixedLight, Rgba};
+use crate::raster::{FixedCodec, FixedLight};
 use crate::resample::patch::SIDE;
-use crate::resample::taps::{TapList, average};
+use crate::resample::taps::average;
 
 /// Makes the pixels of a band.
 pub(super) struct FixedFilter<'a> {
@@ -32,21 +32,11 @@ impl FixedFilter<'_> {
         dispatch!(level, simd => self.runs(simd, band, canvas));
         let background = self.codec.background_light();
         for single in &band.singles {
-            let colour = self.single(band.taps(single));
+            let colour = average(band.taps(single), |texel| self.light.rgba(texel as usize), self.anti_ringing);
             let image = &self.mirrors.images[usize::from(single.image)];
             let pixel = (colour * single.coverage).over(background);
             *canvas.pixel(image, [single.column as usize, usize::from(single.row)]) = self.codec.codes_of(pixel);
         }
-    }
-
-    /// The light of a pixel by itself.
-    pub(super) fn single(&self, list: TapList) -> Rgba {
-        if list.places.is_empty() {
-            // Weighed as they are; only the sum is divided.
-            return average(list, |texel| self.light.samples_of(texel as usize), self.anti_ringing)
-                * FixedLight::PER_SAMPLE;
-        }
-        average(list, |texel| self.light.rgba(texel as usize), self.anti_ringing)
     }
 
     // No closures below: the compiler gives them no leave to use the level's instructions.

@@ -1,5 +1,4 @@
 mod runs;
-mod singles;
 mod sizes;
 
 use super::band::{Corners, Run};
