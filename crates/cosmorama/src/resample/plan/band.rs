@@ -100,10 +100,11 @@ impl Run {
         [end(0, self.width), end(1, self.height)]
     }
 
-    /// How far from the corner a lane's window begins.
+    /// The column and the row where a lane's window begins.
     #[inline(always)]
-    pub(super) fn offset(&self, lane: usize) -> [i32; 2] {
-        self.offsets[lane].map(i32::from)
+    pub(super) fn first(&self, lane: usize) -> [u32; 2] {
+        let [column, row] = self.offsets[lane].map(u32::from);
+        [self.corner[0].wrapping_add(column), self.corner[1].wrapping_add(row)]
     }
 
     /// A lane's column, and the row in the band.

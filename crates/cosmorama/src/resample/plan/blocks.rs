@@ -4,22 +4,15 @@ use fearless_simd::{Simd, i16x8, i16x16, i16x32, prelude::*};
 
 /// Two texels of each of N mirrors, red, green, blue and nothing of each.
 pub(super) trait Blocks<S: Simd, const N: usize>:
-    SimdInt<S, Element = i16>
+    SimdInt<S, Element = i16, Mask: Select<Self>>
     + SimdIntWiden<S, Widened: SimdInt<S, Element = i32, ByteVector = <Self as SimdBase<S>>::ByteVector>>
 {
     fn join(blocks: [i16x8<S>; N]) -> Self;
 
-    /// Two weights, for all channels.
+    /// Two numbers of 16 bits, weights or marks, for all channels.
     #[inline(always)]
-    fn weights(simd: S, weights: u32) -> Self {
-        Self::Widened::splat(simd, weights as i32).bitcast()
-    }
-
-    /// All bits but the sign's of those of two texels that are marked.
-    #[inline(always)]
-    fn mask(simd: S, marks: u32) -> Self {
-        const MASKS: [u32; 4] = [0, 0x7fff, 0x7fff_0000, 0x7fff_7fff];
-        Self::weights(simd, MASKS[marks as usize & 3])
+    fn pair(simd: S, numbers: u32) -> Self {
+        Self::Widened::splat(simd, numbers as i32).bitcast()
     }
 }
 

@@ -9,10 +9,10 @@ use fearless_simd::{Level, Simd, dispatch, i16x8, i16x16, i16x32, prelude::*};
 use super::band::{Band, Run};
 use super::blocks::{self, Blocks};
 use super::canvas::Canvas;
-use super::fixed_weights::{FixedWeights, Header, Shape, mark_words};
-use super::mirrors::{MOST_IMAGES, Mirrors, Ways};
-use super::prefetch::prefetch;
-use super::texels::Texels;
+use super::fixed_weights::{FixedWeights, Header, ROWS_UNDER, Shape, mark_words};
+use super::mirrors::{MOST_IMAGES, Mirrors, Walk, Ways};
+use super::prefetch::{prefetch, prefetch_weights};
+use super::texels::{PairWindow, Texels};
 use crate::raster::{FixedCodec, FixedLight};
 use crate::resample::patch::SIDE;
 use crate::resample::taps::average;
@@ -109,27 +109,20 @@ impl<S: Simd> RunFilter<'_, S> {
     fn pixels<V: Blocks<S, N>, const N: usize, const R: usize>(self, start: usize, pixels: &mut Pixels) {
         let Self { simd, filter, ways, run, mut numbers } = self;
         let order: [(usize, usize); N] = std::array::from_fn(|image| ways.order[start + image]);
-        let mut corners = [0; N];
+        let (mut walks, mut size) = ([Walk::default(); N], [0; 2]);
         for image in 0..N {
             let seen = filter.mirrors.images[order[image].0].view(usize::from(run.view));
-            corners[image] = seen.walk(run.corner()).first;
+            (walks[image], size) = (seen.walk([0; 2]), seen.size());
         }
-        let down = [ways.down[start], ways.down[start + 1 % N]];
+        let texels = Texels::<i16, N, R>::new(filter.light.samples(), walks, size);
         let large = Shape { pairs: usize::from(run.width).div_ceil(2), height: usize::from(run.height), under: 0 };
         let codes = filter.codec.tables();
-        let samples = filter.light.samples();
         // Of each lane, in each mirror.
         let mut light = [[[0; 4]; MOST_IMAGES]; SIDE];
         let pairs = V::Bytes::from_slice(simd, blocks::order::<N, R>());
         for lane in run.lanes() {
-            let [column, row] = run.offset(lane);
-            let rows = [down[0].wrapping_mul(row), down[1].wrapping_mul(row)];
-            let mut first = [0; N];
-            for image in 0..N {
-                let columns = if image < N - R { column } else { -column };
-                first[image] = corners[image].wrapping_add_signed(rows[image % 2] + columns);
-            }
-            let window = Window::<S, V, N, R> { simd, order: pairs, samples, first, down };
+            let window = Window::<S, V, N, R> { simd, order: pairs, texels: &texels, first: run.first(lane) };
+            prefetch_weights(numbers);
             let header = Header(numbers[0]);
             let (sums, length) = match header.shape() {
                 0 => window.small::<2, 4, 0>(header, numbers),
@@ -159,12 +152,10 @@ struct Window<'a, S: Simd, V: Blocks<S, N>, const N: usize, const R: usize> {
     simd: S,
     /// From texels to pairs of a channel.
     order: V::Bytes,
-    /// Those of all texels.
-    samples: &'a [i16],
+    /// Those of the view.
+    texels: &'a Texels<'a, i16, N, R>,
     /// Where it begins.
-    first: [u32; N],
-    /// From one row to the next, in turn.
-    down: [i32; 2],
+    first: [u32; 2],
 }
 
 impl<'a, S: Simd, V: Blocks<S, N>, const N: usize, const R: usize> Window<'a, S, V, N, R> {
@@ -181,63 +172,39 @@ impl<'a, S: Simd, V: Blocks<S, N>, const N: usize, const R: usize> Window<'a, S,
             Some(&Shape { pairs: PAIRS, height: HEIGHT, under: UNDER }),
             "the table's order is that of the match"
         );
-        let mut texels = [self.texels::<PAIRS, HEIGHT>(0); N];
-        for (image, texels) in texels.iter_mut().enumerate().skip(1) {
-            *texels = self.texels(image);
-        }
-        let (mut sums, marks, weights) = (Sums::zero(self.simd), header.marks(), &numbers[1..][..PAIRS * HEIGHT]);
+        let (mut sums, weights) = (Sums::new(self.simd), &numbers[1..][..PAIRS * HEIGHT]);
         let Self { simd, order, .. } = self;
-        let row = SmallRow::<S, V, N, R, PAIRS, HEIGHT> { simd, order, texels };
-        let marks = |row: usize| marks >> (2 * PAIRS * (row - UNDER));
-        if UNDER == 0 {
-            row.add::<true>(&mut sums, weights, 0, marks(0));
-        } else {
-            row.add::<false>(&mut sums, weights, 0, 0);
-        }
-        row.add::<true>(&mut sums, weights, 1, marks(1));
-        row.add::<true>(&mut sums, weights, 2, marks(2));
-        if UNDER == 1 {
-            row.add::<true>(&mut sums, weights, 3, marks(3));
-        } else {
-            row.add::<false>(&mut sums, weights, 3, 0);
-        }
+        let (texels, marks) = (self.texels.windows::<2, PAIRS, HEIGHT>(self.first), V::pair(simd, header.0));
+        let window = SmallWindow::<S, V, N, R, PAIRS, HEIGHT, UNDER> { simd, order, texels, weights, marks };
+        window.add_row(&mut sums, 0);
+        window.add_row(&mut sums, 1);
+        window.add_row(&mut sums, 2);
+        window.add_row(&mut sums, 3);
         if HEIGHT == 5 {
-            row.add::<false>(&mut sums, weights, 4, 0);
+            window.add_row(&mut sums, 4);
         }
         (sums, 1 + PAIRS * HEIGHT)
-    }
-
-    /// The texels of a mirror.
-    #[inline(always)]
-    fn texels<const PAIRS: usize, const HEIGHT: usize>(&self, image: usize) -> Texels<'a, PAIRS, HEIGHT> {
-        Texels::new(self.samples, self.leftmost(image, PAIRS), self.down[image % 2])
-    }
-
-    /// The first texel of a row, whichever way it is walked through.
-    #[inline(always)]
-    fn leftmost(&self, image: usize, pairs: usize) -> u32 {
-        if image < N - R { self.first[image] } else { self.first[image].wrapping_sub(2 * pairs as u32 - 1) }
     }
 
     /// The same of any size, and how many numbers tell of it.
     #[inline(always)]
     fn large(self, Shape { pairs, height, .. }: Shape, run: &Run, numbers: &[u32]) -> (Sums<S, V, N>, usize) {
-        let (rows, words) = (run.rows_under(), mark_words(pairs));
-        let (all_marks, weights) = numbers[1..].split_at(rows.len() * words);
-        let mut sums = Sums::zero(self.simd);
+        let (under, words) = (run.rows_under(), mark_words(pairs));
+        let (all_marks, weights) = numbers[1..].split_at(under.len() * words);
+        let mut sums = Sums::new(self.simd);
         for row in 0..height {
-            let (texels, weights) = (self.row(row, pairs), &weights[row * pairs..][..pairs]);
+            let (rows, weights) = (self.row(row, pairs), &weights[row * pairs..][..pairs]);
             for pair in 0..pairs {
                 let mut blocks = [i16x8::splat(self.simd, 0); N];
                 for image in 0..N {
                     let pair = if image < N - R { pair } else { pairs - 1 - pair };
-                    blocks[image] = i16x8::from_slice(self.simd, &texels[image][8 * pair..][..8]);
+                    blocks[image] = i16x8::from_slice(self.simd, &rows[image][8 * pair..][..8]);
                 }
                 let texels = V::join(blocks).swizzle_dyn_within_blocks(self.order);
-                sums.add(texels, V::weights(self.simd, weights[pair]));
-                if rows.contains(&row) {
-                    let marks = all_marks[(row - rows.start) * words + pair / 16] >> (pair % 16 * 2);
-                    sums.bound(texels, V::mask(self.simd, marks));
+                sums.add(texels, V::pair(self.simd, weights[pair]));
+                if under.contains(&row) {
+                    let marks = V::pair(self.simd, all_marks[(row - under.start) * words + pair / 16]);
+                    sums.bound(self.simd, texels, marks, pair % 16);
                 }
             }
         }
@@ -249,46 +216,61 @@ impl<'a, S: Simd, V: Blocks<S, N>, const N: usize, const R: usize> Window<'a, S,
     fn row(&self, row: usize, pairs: usize) -> [&'a [i16]; N] {
         let mut rows: [&'a [i16]; N] = [&[]; N];
         for (image, samples) in rows.iter_mut().enumerate() {
-            let down = self.down[image % 2].wrapping_mul(row as i32);
-            let first = 4 * self.leftmost(image, pairs).wrapping_add_signed(down) as usize;
-            *samples = &self.samples[first..first + 8 * pairs];
+            *samples = self.texels.row(image, [self.first[0], self.first[1] + row as u32], 2 * pairs);
         }
         rows
     }
 }
 
-/// The rows of a window of a small size.
+/// A window of a small size.
 #[derive(Clone, Copy)]
-struct SmallRow<'a, S: Simd, V: Blocks<S, N>, const N: usize, const R: usize, const PAIRS: usize, const HEIGHT: usize> {
+struct SmallWindow<
+    'a,
+    S: Simd,
+    V: Blocks<S, N>,
+    const N: usize,
+    const R: usize,
+    const PAIRS: usize,
+    const HEIGHT: usize,
+    const UNDER: usize,
+> {
     simd: S,
     order: V::Bytes,
-    texels: [Texels<'a, PAIRS, HEIGHT>; N],
+    texels: [PairWindow<'a, PAIRS, HEIGHT>; N],
+    weights: &'a [u32],
+    marks: V,
 }
 
-impl<S: Simd, V: Blocks<S, N>, const N: usize, const R: usize, const PAIRS: usize, const HEIGHT: usize>
-    SmallRow<'_, S, V, N, R, PAIRS, HEIGHT>
+impl<
+    S: Simd,
+    V: Blocks<S, N>,
+    const N: usize,
+    const R: usize,
+    const PAIRS: usize,
+    const HEIGHT: usize,
+    const UNDER: usize,
+> SmallWindow<'_, S, V, N, R, PAIRS, HEIGHT, UNDER>
 {
-    /// Adds a row, some of whose texels may lie under the pixel.
     #[inline(always)]
-    fn add<const UNDER: bool>(&self, sums: &mut Sums<S, V, N>, weights: &[u32], row: usize, marks: u32) {
-        self.pair::<UNDER>(sums, weights, row, 0, marks);
-        self.pair::<UNDER>(sums, weights, row, 1, marks);
+    fn add_row(&self, sums: &mut Sums<S, V, N>, row: usize) {
+        self.add_pair(sums, row, 0);
+        self.add_pair(sums, row, 1);
         if PAIRS == 3 {
-            self.pair::<UNDER>(sums, weights, row, 2, marks);
+            self.add_pair(sums, row, 2);
         }
     }
 
     #[inline(always)]
-    fn pair<const UNDER: bool>(&self, sums: &mut Sums<S, V, N>, weights: &[u32], row: usize, pair: usize, marks: u32) {
+    fn add_pair(&self, sums: &mut Sums<S, V, N>, row: usize, pair: usize) {
         let mut blocks = [i16x8::splat(self.simd, 0); N];
         for (image, block) in blocks.iter_mut().enumerate() {
             let pair = if image < N - R { pair } else { PAIRS - 1 - pair };
             *block = i16x8::load_array_ref(self.simd, self.texels[image].pair(row, pair));
         }
         let texels = V::join(blocks).swizzle_dyn_within_blocks(self.order);
-        sums.add(texels, V::weights(self.simd, weights[row * PAIRS + pair]));
-        if UNDER {
-            sums.bound(texels, V::mask(self.simd, marks >> (2 * pair)));
+        sums.add(texels, V::pair(self.simd, self.weights[row * PAIRS + pair]));
+        if (UNDER..UNDER + ROWS_UNDER).contains(&row) {
+            sums.bound(self.simd, texels, self.marks, (row - UNDER) * PAIRS + pair);
         }
     }
 }
@@ -296,16 +278,16 @@ impl<S: Simd, V: Blocks<S, N>, const N: usize, const R: usize, const PAIRS: usiz
 /// What adds up over a window.
 struct Sums<S: Simd, V: Blocks<S, N>, const N: usize> {
     sum: V::Widened,
-    /// The largest samples under the pixel, and the largest of what the others lack of white.
+    /// The largest samples under the pixel, and the smallest.
     greatest: V,
     least: V,
 }
 
 impl<S: Simd, V: Blocks<S, N>, const N: usize> Sums<S, V, N> {
     #[inline(always)]
-    fn zero(simd: S) -> Self {
-        let zero = V::splat(simd, 0);
-        Self { sum: V::Widened::splat(simd, 0), greatest: zero, least: zero }
+    fn new(simd: S) -> Self {
+        let (black, white) = (V::splat(simd, 0), V::splat(simd, i16::MAX));
+        Self { sum: V::Widened::splat(simd, 0), greatest: black, least: white }
     }
 
     /// Adds pairs of texels.
@@ -314,30 +296,32 @@ impl<S: Simd, V: Blocks<S, N>, const N: usize> Sums<S, V, N> {
         self.sum += texels.pairwise_dot_product(weights);
     }
 
-    /// Notes those of a pair that lie under the pixel, where the mask has all bits but the sign's.
+    /// Notes those of a pair that lie under the pixel, as its bit tells of both of them.
     #[inline(always)]
-    fn bound(&mut self, texels: V, mask: V) {
-        self.greatest = self.greatest.max(texels & mask);
-        self.least = self.least.max(!texels & mask);
+    fn bound(&mut self, simd: S, texels: V, marks: V, bit: usize) {
+        let bit = V::splat(simd, 1 << bit);
+        let is_under = (marks & bit).simd_eq(bit);
+        self.greatest = is_under.select(self.greatest.max(texels), self.greatest);
+        self.least = is_under.select(self.least.min(texels), self.least);
     }
 
     /// The sum as light; within what lies under the pixel, if that is asked for.
     #[inline(always)]
     fn average(self, simd: S, bits: u32, is_bounded: bool) -> V::Widened {
         let average = (self.sum + (1 << (bits - 1))) >> bits;
-        let white = V::Widened::splat(simd, i32::from(i16::MAX));
-        let (most, fewest) = if is_bounded {
-            (largest(self.greatest), white - largest(self.least))
+        let (fewest, most) = if is_bounded {
+            let ([a, b], [c, d]) = (halves(self.least), halves(self.greatest));
+            (a.min(b), c.max(d))
         } else {
-            (white, V::Widened::splat(simd, 0))
+            (V::Widened::splat(simd, 0), V::Widened::splat(simd, i32::from(i16::MAX)))
         };
         average.max(fewest).min(most)
     }
 }
 
-/// The larger sample of each pair, none of which is negative.
+/// The samples of each pair, none of which is negative.
 #[inline(always)]
-fn largest<S: Simd, V: Blocks<S, N>, const N: usize>(samples: V) -> V::Widened {
+fn halves<S: Simd, V: Blocks<S, N>, const N: usize>(samples: V) -> [V::Widened; 2] {
     let pairs: V::Widened = samples.bitcast();
-    (pairs & i32::from(i16::MAX)).max(pairs >> 16)
+    [pairs & i32::from(i16::MAX), pairs >> 16]
 }

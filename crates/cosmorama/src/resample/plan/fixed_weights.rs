@@ -48,7 +48,7 @@ impl Shape {
     }
 }
 
-/// What is known of a pixel's window.
+/// What is known of a pixel's window: which texels of a small one lie under the pixel, its shape and how its weights are scaled.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Header(pub(super) u32);
 
@@ -56,27 +56,46 @@ impl Header {
     /// In place of an index of [`Shape::SMALL`]: as large as the run's windows are.
     const LARGE: u32 = 7;
 
+    /// Marks of the pairs of [`ROWS_UNDER`] rows, row by row, nine at the most.
     fn new(small: Option<usize>, bits: u32, marks: u32) -> Self {
-        Self(small.map_or(Self::LARGE, |index| index as u32) | bits << 3 | marks << 8)
+        Self(small.map_or(Self::LARGE, |index| index as u32) << 9 | bits << 25 | marks)
     }
 
     /// The index of its shape among the small ones; more, if it is none.
     #[inline(always)]
     pub(super) fn shape(self) -> u32 {
-        self.0 & 7
+        self.0 >> 9 & 7
     }
 
     /// By how many bits the weights are scaled.
     #[inline(always)]
     pub(super) fn bits(self) -> u32 {
-        self.0 >> 3 & 31
+        self.0 >> 25 & 31
     }
+}
 
-    /// Which texels of a small window lie under the pixel: a bit for each of those rows' texels.
-    #[inline(always)]
-    pub(super) fn marks(self) -> u32 {
-        self.0 >> 8
-    }
+/// Marks a texel of one of 16 pairs: the first ones of pairs in the lower half of a number, in the order of the pairs, the second
+/// ones in the upper. Where both halves are channels' samples, one bit of each tells of a pair.
+#[inline(always)]
+pub(super) const fn mark(texel: usize) -> u32 {
+    1 << (texel / 2 + texel % 2 * 16)
+}
+
+/// Marks of up to three pairs, given a bit for each texel.
+#[inline(always)]
+fn marks_of(texels: u8) -> u32 {
+    const MARKS: [u32; 64] = {
+        let mut marks = [0; 64];
+        let mut at = 0;
+        while at < 64 * 6 {
+            if at / 6 >> (at % 6) & 1 == 1 {
+                marks[at / 6] |= mark(at % 6);
+            }
+            at += 1;
+        }
+        marks
+    };
+    MARKS[usize::from(texels) % 64]
 }
 
 /// How many numbers tell of a row of so many pairs which texels lie under the pixel.
@@ -114,7 +133,7 @@ impl FixedWeights {
     fn write_small<const PAIRS: usize>(&mut self, lane: usize, origin: Origin, index: usize) {
         let Self { numbers, rounded } = self;
         let Shape { height, under, .. } = Shape::SMALL[index];
-        let marks = |row| rounded.small_marks(lane, origin, under + row, PAIRS) << (2 * PAIRS * row);
+        let marks = |row| marks_of(rounded.small_marks(lane, origin, under + row, PAIRS)) << (PAIRS * row);
         let header = Header::new(Some(index), rounded.bits, (0..ROWS_UNDER).fold(0, |all, row| all | marks(row)));
         // One number, and rows of which five are the most. What is written is always as much: no copy of unknown length.
         let mut all = [0; 1 + 5 * 3];

@@ -7,8 +7,9 @@ use super::canvas::Canvas;
 use super::float_shape::{Header, Shape};
 use super::float_weights::FloatWeights;
 use super::float_window::Window;
-use super::mirrors::{MOST_IMAGES, Mirrors, Ways};
-use super::prefetch::prefetch;
+use super::mirrors::{MOST_IMAGES, Mirrors, Walk, Ways};
+use super::prefetch::{prefetch, prefetch_weights};
+use super::texels::Texels;
 use crate::raster::Rgba;
 use crate::resample::patch::SIDE;
 use crate::resample::taps::average;
@@ -66,24 +67,24 @@ impl FloatFilter<'_> {
             // A function for each way: all in one would take the compiler minutes.
             simd.vectorize(
                 #[inline(always)]
-                || run_filter.pixels::<2, false>(0, &mut pixels),
+                || run_filter.pixels::<2, 0>(0, &mut pixels),
             );
             simd.vectorize(
                 #[inline(always)]
-                || run_filter.pixels::<2, true>(2, &mut pixels),
+                || run_filter.pixels::<2, 2>(2, &mut pixels),
             );
             return pixels;
         }
         for at in 0..ways.forward {
             simd.vectorize(
                 #[inline(always)]
-                || run_filter.pixels::<1, false>(at, &mut pixels),
+                || run_filter.pixels::<1, 0>(at, &mut pixels),
             );
         }
         for at in ways.forward..ways.count {
             simd.vectorize(
                 #[inline(always)]
-                || run_filter.pixels::<1, true>(at, &mut pixels),
+                || run_filter.pixels::<1, 1>(at, &mut pixels),
             );
         }
         pixels
@@ -105,27 +106,21 @@ struct RunFilter<'a, S> {
 }
 
 impl<S: Simd> RunFilter<'_, S> {
-    /// The pixels in N mirrors from this one on, in all of which windows are walked through from right to left, or in none.
+    /// The pixels in N mirrors from this one on; R of them, all or none, walk through windows from right to left.
     #[inline(always)]
-    fn pixels<const N: usize, const REVERSED: bool>(self, start: usize, pixels: &mut Pixels) {
+    fn pixels<const N: usize, const R: usize>(self, start: usize, pixels: &mut Pixels) {
         let Self { simd, filter, ways, run, mut numbers } = self;
-        let (mut order, mut corners, mut down) = ([(0, 0); N], [0; N], [0; N]);
+        let (mut order, mut walks, mut size) = ([(0, 0); N], [Walk::default(); N], [0; 2]);
         for image in 0..N {
             order[image] = ways.order[start + image];
             let seen = filter.mirrors.images[order[image].0].view(usize::from(run.view));
-            corners[image] = seen.walk(run.corner()).first;
-            down[image] = ways.down[start + image];
+            (walks[image], size) = (seen.walk([0; 2]), seen.size());
         }
+        let texels = Texels::<f32, N, R>::new(bytemuck::cast_slice(filter.texels), walks, size);
         let large = Shape { width: usize::from(run.width), height: usize::from(run.height) };
-        let samples = bytemuck::cast_slice(filter.texels);
         for lane in run.lanes() {
-            let [column, row] = run.offset(lane);
-            let columns = if REVERSED { -column } else { column };
-            let mut first = [0; N];
-            for image in 0..N {
-                first[image] = corners[image].wrapping_add_signed(down[image].wrapping_mul(row).wrapping_add(columns));
-            }
-            let window = Window::<S, N, REVERSED> { simd, samples, first, down };
+            let window = Window::<S, N, R> { simd, texels: &texels, first: run.first(lane) };
+            prefetch_weights(numbers);
             let header = Header(numbers[0]);
             let (sums, length) = match header.index() {
                 0 => window.small::<4, 4, 0>(header, numbers),

@@ -11,25 +11,23 @@ use std::ops::Range;
 use fearless_simd::{Simd, f32x4, f32x16, prelude::*, u8x64, u32x4};
 
 use super::float_shape::{BLOCK, Header, ROWS_UNDER, Shape, Small, mark_words};
-use super::texels::FloatTexels;
+use super::texels::{FloatWindow, Texels};
 
 /// Samples of a texel, and of a block of them.
 const SAMPLES: usize = 4;
 const BLOCK_SAMPLES: usize = BLOCK * SAMPLES;
 
-/// A pixel's window in N mirrors: from left to right, or `REVERSED`.
+/// A pixel's window in N mirrors: R of them, all or none, from right to left.
 #[derive(Clone, Copy)]
-pub(super) struct Window<'a, S, const N: usize, const REVERSED: bool> {
+pub(super) struct Window<'a, S, const N: usize, const R: usize> {
     pub(super) simd: S,
-    /// Those of all texels.
-    pub(super) samples: &'a [f32],
+    /// Those of the view.
+    pub(super) texels: &'a Texels<'a, f32, N, R>,
     /// Where it begins.
-    pub(super) first: [u32; N],
-    /// From one row to the next.
-    pub(super) down: [i32; N],
+    pub(super) first: [u32; 2],
 }
 
-impl<'a, S: Simd, const N: usize, const REVERSED: bool> Window<'a, S, N, REVERSED> {
+impl<'a, S: Simd, const N: usize, const R: usize> Window<'a, S, N, R> {
     /// Sums over a window of one of the sizes of [`Small::ALL`], and how many numbers tell of it. Written out: loops would stay
     /// loops.
     #[inline(always)]
@@ -43,11 +41,8 @@ impl<'a, S: Simd, const N: usize, const REVERSED: bool> Window<'a, S, N, REVERSE
             Some(&Small { shape: Shape { width: WIDTH, height: HEIGHT }, under: UNDER }),
             "the table's order is that of the match"
         );
-        let mut texels = [self.texels::<WIDTH, HEIGHT>(0); N];
-        for (image, texels) in texels.iter_mut().enumerate().skip(1) {
-            *texels = self.texels(image);
-        }
-        let row = SmallRow::<S, N, REVERSED, WIDTH, HEIGHT> { simd: self.simd, texels };
+        let texels = self.texels.windows::<1, WIDTH, HEIGHT>(self.first);
+        let row = SmallRow::<S, N, R, WIDTH, HEIGHT> { simd: self.simd, texels };
         let (marks, weights) = (header.marks(), &numbers[1..][..WIDTH * HEIGHT]);
         let marks = |row: usize| marks >> (BLOCK * (row - UNDER));
         let mut sums = row.first::<UNDER>(weights, marks(UNDER));
@@ -70,18 +65,6 @@ impl<'a, S: Simd, const N: usize, const REVERSED: bool> Window<'a, S, N, REVERSE
         (sums, 1 + WIDTH * HEIGHT)
     }
 
-    /// The texels of a mirror.
-    #[inline(always)]
-    fn texels<const WIDTH: usize, const HEIGHT: usize>(&self, image: usize) -> FloatTexels<'a, WIDTH, HEIGHT> {
-        FloatTexels::new(self.samples, self.leftmost(image, WIDTH), self.down[image])
-    }
-
-    /// The first texel of a row, whichever way it is walked through.
-    #[inline(always)]
-    fn leftmost(&self, image: usize, width: usize) -> u32 {
-        if REVERSED { self.first[image].wrapping_sub(width as u32 - 1) } else { self.first[image] }
-    }
-
     /// The same of any size, whose rows from `under` on may hold texels under the pixel.
     #[inline(always)]
     pub(super) fn large(self, shape: Shape, under: Range<usize>, numbers: &[u32]) -> (Sums<S, N>, usize) {
@@ -96,14 +79,14 @@ impl<'a, S: Simd, const N: usize, const REVERSED: bool> Window<'a, S, N, REVERSE
             let rows = self.row(row, shape.width);
             for (block, weights) in in_blocks[row * whole..][..whole].as_chunks().0.iter().enumerate() {
                 let column = BLOCK * block;
-                let weights = spread::<S, REVERSED>(simd, weights);
+                let weights = spread::<S, R>(simd, weights);
                 let marks = marks.get(column / 32).map(|marks| marks >> (column % 32));
-                let first = if REVERSED { shape.width - BLOCK - column } else { column };
+                let first = if R > 0 { shape.width - BLOCK - column } else { column };
                 for (image, samples) in rows.iter().enumerate() {
                     let texels = f32x16::from_slice(simd, &samples[SAMPLES * first..][..BLOCK_SAMPLES]);
                     sums.blocks[image] += texels * weights;
                     if let Some(marks) = marks {
-                        sums.bound(image, texels, beyond::<S, REVERSED>(simd, marks));
+                        sums.bound(image, texels, beyond::<S, R>(simd, marks));
                     }
                 }
             }
@@ -111,7 +94,7 @@ impl<'a, S: Simd, const N: usize, const REVERSED: bool> Window<'a, S, N, REVERSE
             for (column, weight) in (whole..shape.width).zip(&others[row * rest..][..rest]) {
                 let weight = f32::from_bits(*weight);
                 let is_under = marks.get(column / 32).is_some_and(|marks| marks >> (column % 32) & 1 == 1);
-                let at = if REVERSED { shape.width - 1 - column } else { column };
+                let at = if R > 0 { shape.width - 1 - column } else { column };
                 for (image, samples) in rows.iter().enumerate() {
                     let texel = f32x4::from_slice(simd, &samples[SAMPLES * at..][..SAMPLES]);
                     sums.last[image] += texel * weight;
@@ -131,9 +114,7 @@ impl<'a, S: Simd, const N: usize, const REVERSED: bool> Window<'a, S, N, REVERSE
     fn row(&self, row: usize, width: usize) -> [&'a [f32]; N] {
         let mut rows: [&'a [f32]; N] = [&[]; N];
         for (image, samples) in rows.iter_mut().enumerate() {
-            let down = self.down[image].wrapping_mul(row as i32);
-            let first = SAMPLES * self.leftmost(image, width).wrapping_add_signed(down) as usize;
-            *samples = &self.samples[first..first + SAMPLES * width];
+            *samples = self.texels.row(image, [self.first[0], self.first[1] + row as u32], width);
         }
         rows
     }
@@ -141,23 +122,23 @@ impl<'a, S: Simd, const N: usize, const REVERSED: bool> Window<'a, S, N, REVERSE
 
 /// The rows of a window of a small size.
 #[derive(Clone, Copy)]
-struct SmallRow<'a, S, const N: usize, const REVERSED: bool, const WIDTH: usize, const HEIGHT: usize> {
+struct SmallRow<'a, S, const N: usize, const R: usize, const WIDTH: usize, const HEIGHT: usize> {
     simd: S,
-    texels: [FloatTexels<'a, WIDTH, HEIGHT>; N],
+    texels: [FloatWindow<'a, WIDTH, HEIGHT>; N],
 }
 
-impl<S: Simd, const N: usize, const REVERSED: bool, const WIDTH: usize, const HEIGHT: usize>
-    SmallRow<'_, S, N, REVERSED, WIDTH, HEIGHT>
+impl<S: Simd, const N: usize, const R: usize, const WIDTH: usize, const HEIGHT: usize>
+    SmallRow<'_, S, N, R, WIDTH, HEIGHT>
 {
     /// Where its first four columns lie in memory, and the one after them.
-    const BLOCK_AT: usize = if REVERSED { WIDTH - BLOCK } else { 0 };
-    const LAST_AT: usize = if REVERSED { 0 } else { WIDTH - 1 };
+    const BLOCK_AT: usize = if R > 0 { WIDTH - BLOCK } else { 0 };
+    const LAST_AT: usize = if R > 0 { 0 } else { WIDTH - 1 };
 
     /// Sums over the first row and, if it is not that, the first of those whose texels may lie under the pixel.
     #[inline(always)]
     fn first<const UNDER: usize>(&self, weights: &[u32], marks: u32) -> Sums<S, N> {
         let mut sums = Sums::zero(self.simd);
-        let (first, beyond) = (self.weights(weights, 0), beyond::<S, REVERSED>(self.simd, marks));
+        let (first, beyond) = (self.weights(weights, 0), beyond::<S, R>(self.simd, marks));
         for image in 0..N {
             sums.blocks[image] = self.block(image, 0) * first;
             let texels = self.block(image, UNDER);
@@ -185,7 +166,7 @@ impl<S: Simd, const N: usize, const REVERSED: bool, const WIDTH: usize, const HE
     #[inline(always)]
     fn add_bounding(&self, sums: &mut Sums<S, N>, weights: &[u32], row: usize, marks: u32) {
         let weights = self.weights(weights, row);
-        let beyond = beyond::<S, REVERSED>(self.simd, marks);
+        let beyond = beyond::<S, R>(self.simd, marks);
         for image in 0..N {
             let texels = self.block(image, row);
             sums.blocks[image] += texels * weights;
@@ -195,7 +176,7 @@ impl<S: Simd, const N: usize, const REVERSED: bool, const WIDTH: usize, const HE
 
     #[inline(always)]
     fn weights(&self, weights: &[u32], row: usize) -> f32x16<S> {
-        spread::<S, REVERSED>(self.simd, &weights.as_chunks().0[row])
+        spread::<S, R>(self.simd, &weights.as_chunks().0[row])
     }
 
     #[inline(always)]
@@ -227,9 +208,9 @@ impl<S: Simd, const N: usize, const REVERSED: bool, const WIDTH: usize, const HE
 
 /// Four weights, each for all samples of a texel, in the order in which texels lie.
 #[inline(always)]
-fn spread<S: Simd, const REVERSED: bool>(simd: S, weights: &[u32; BLOCK]) -> f32x16<S> {
+fn spread<S: Simd, const R: usize>(simd: S, weights: &[u32; BLOCK]) -> f32x16<S> {
     let weights: f32x4<S> = u32x4::load_array_ref(simd, weights).bitcast();
-    let order = if REVERSED { &ORDER[1] } else { &ORDER[0] };
+    let order = if R > 0 { &ORDER[1] } else { &ORDER[0] };
     f32x16::block_splat(weights).swizzle_dyn_within_blocks(u8x64::load_array_ref(simd, order))
 }
 
@@ -248,8 +229,8 @@ static ORDER: [[u8; 64]; 2] = {
 
 /// Zero for the samples of those of four texels that are marked, infinity for others, in the order in which texels lie.
 #[inline(always)]
-fn beyond<S: Simd, const REVERSED: bool>(simd: S, marks: u32) -> f32x16<S> {
-    let table = if REVERSED { &BEYOND.0[1] } else { &BEYOND.0[0] };
+fn beyond<S: Simd, const R: usize>(simd: S, marks: u32) -> f32x16<S> {
+    let table = if R > 0 { &BEYOND.0[1] } else { &BEYOND.0[0] };
     f32x16::load_array_ref(simd, &table[marks as usize % 16])
 }
 

@@ -117,6 +117,14 @@ impl Reflection {
     }
 }
 
+impl Reflection {
+    /// Columns and rows of the view.
+    #[inline(always)]
+    pub(super) fn size(&self) -> [usize; 2] {
+        self.size
+    }
+}
+
 impl MirrorImage {
     /// What is seen in place of a view.
     pub(super) fn view(&self, index: usize) -> &Reflection {

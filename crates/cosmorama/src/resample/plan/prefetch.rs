@@ -8,6 +8,9 @@ const LINE: usize = 64;
 /// Columns and rows of the largest region that is asked for as one; beyond, runs have little in common.
 const LARGEST: [usize; 2] = [64, 32];
 
+/// Weights, and more, that are asked for before they are read.
+const NUMBERS_AHEAD: u32 = 192;
+
 /// Asks for the texels that the runs of a patch will read, so that they are near by then: lines of memory that are asked for one
 /// after the other, as they are needed, take most of the time.
 #[inline(always)]
@@ -22,6 +25,12 @@ pub(super) fn prefetch<T>(texels: &[T], mirrors: &Mirrors, runs: &[Run]) {
         }
         region.prefetch(texels, mirrors);
     }
+}
+
+/// Asks for what will be read a dozen windows later, so that reading weights one after the other does not wait for memory.
+#[inline(always)]
+pub(super) fn prefetch_weights(numbers: &[u32]) {
+    texels::prefetch(numbers, NUMBERS_AHEAD);
 }
 
 /// A rectangle of texels of a view.

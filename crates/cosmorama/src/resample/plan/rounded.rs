@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use fearless_simd::{Simd, f32x8, i16x8, i32x8, prelude::*};
 
-use super::fixed_weights::{ROWS_UNDER, Shape};
+use super::fixed_weights::{ROWS_UNDER, Shape, mark};
 use crate::resample::patch::SIDE;
 use crate::resample::window::Windows;
 
@@ -151,9 +151,9 @@ impl Rounded {
 
     /// Which texels of a row of a lane's small window lie under the pixel, a bit for each.
     #[inline(always)]
-    pub(super) fn small_marks(&self, lane: usize, origin: Origin, row: usize, pairs: usize) -> u32 {
+    pub(super) fn small_marks(&self, lane: usize, origin: Origin, row: usize, pairs: usize) -> u8 {
         let columns = u32::from(self.small.under[(origin.row + row) % SIDE][lane]);
-        columns << 1 >> (origin.column + 1) & ((1 << (2 * pairs)) - 1)
+        (columns << 1 >> (origin.column + 1) & ((1 << (2 * pairs)) - 1)) as u8
     }
 
     /// The weights of a row of a lane's small window, pair by pair.
@@ -165,11 +165,11 @@ impl Rounded {
         std::array::from_fn(|at| pair(pairs[at]))
     }
 
-    /// Which texels of a row of a lane's window lie under the pixel, of 16 pairs at most.
+    /// The marks of a row of a lane's window, of 16 pairs at most.
     pub(super) fn marks(&self, lane: usize, origin: Origin, row: usize, pairs: Range<usize>) -> u32 {
         let first = (origin.row + row) * self.pitch() + (origin.column + 1) as usize;
         let under = &self.under[first + 2 * pairs.start..first + 2 * pairs.end];
-        under.iter().enumerate().fold(0, |marks, (at, lanes)| marks | u32::from(lanes >> lane & 1) << at)
+        under.iter().enumerate().fold(0, |marks, (at, lanes)| marks | u32::from(lanes >> lane & 1) * mark(at))
     }
 
     /// The weights of a row of a lane's window, pair by pair.

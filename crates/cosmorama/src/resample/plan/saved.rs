@@ -16,7 +16,7 @@ use crate::resample::Resampler;
 const MARK: [u8; 16] = *b"cosmorama plan\r\n";
 
 /// The version of what follows, and of how plans are computed.
-pub(super) const FORMAT: u32 = 3;
+pub(super) const FORMAT: u32 = 4;
 
 /// Why bytes are not the plan of a conversion. Another one can always be computed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]

@@ -3,14 +3,102 @@
 
 use std::marker::PhantomData;
 
+use super::mirrors::Walk;
+
 /// Samples of a texel.
 const SAMPLES: usize = 4;
 
 /// A window of integers, `PAIRS` pairs of texels across and `HEIGHT` rows.
-pub(super) type Texels<'a, const PAIRS: usize, const HEIGHT: usize> = Window<'a, i16, 2, PAIRS, HEIGHT>;
+pub(super) type PairWindow<'a, const PAIRS: usize, const HEIGHT: usize> = Window<'a, i16, 2, PAIRS, HEIGHT>;
 
 /// A window of floats.
-pub(super) type FloatTexels<'a, const WIDTH: usize, const HEIGHT: usize> = Window<'a, f32, 1, WIDTH, HEIGHT>;
+pub(super) type FloatWindow<'a, const WIDTH: usize, const HEIGHT: usize> = Window<'a, f32, 1, WIDTH, HEIGHT>;
+
+/// The texels of a view as N mirrors show them, in the last R of them from right to left.
+#[derive(Clone, Copy)]
+pub(super) struct Texels<'a, T, const N: usize, const R: usize> {
+    /// The first sample of the texel in the first column and row.
+    first: [*const T; N],
+    /// Samples from one row to the next, of every other one alike.
+    down: [isize; 2],
+    size: [u32; 2],
+    samples: PhantomData<&'a [T]>,
+}
+
+impl<'a, T: Copy, const N: usize, const R: usize> Texels<'a, T, N, R> {
+    /// Those of a view of so many columns and rows, given how each mirror goes through it from its first column and row on.
+    ///
+    /// # Panics
+    /// If they are not all among the samples, or one goes another way than it should.
+    #[inline(always)]
+    pub(super) fn new(samples: &'a [T], walks: [Walk; N], size: [usize; 2]) -> Self {
+        const { assert!(N > 0 && R <= N) };
+        let [columns, rows] = size.map(|length| i32::try_from(length).expect("a view's texels are counted in 32 bits"));
+        let down = [walks[0].down, walks[1 % N].down];
+        let mut first = [samples.as_ptr(); N];
+        for image in 0..N {
+            let walk = walks[image];
+            assert!(walk.is_reversed == (image >= N - R) && walk.down == down[image % 2], "a way through the texels");
+            // No product or sum of numbers of 32 bits overflows 64.
+            let (across, along) = (i64::from(columns - 1), i64::from(rows - 1) * i64::from(walk.down));
+            let left = i64::from(walk.first) - if walk.is_reversed { across } else { 0 };
+            let end = left + across + along.max(0);
+            assert!(left + along.min(0) >= 0 && end < (samples.len() / SAMPLES) as i64, "a view lies among its texels");
+            first[image] = samples.as_ptr().wrapping_add(SAMPLES * walk.first as usize);
+        }
+        let down = down.map(|down| SAMPLES as isize * down as isize);
+        Self { first, down, size: [columns as u32, rows as u32], samples: PhantomData }
+    }
+
+    /// The window that begins in this column and row, in each mirror.
+    ///
+    /// # Panics
+    /// If it is not all within the view.
+    #[inline(always)]
+    pub(super) fn windows<const TEXELS: usize, const COLUMNS: usize, const HEIGHT: usize>(
+        &self,
+        corner: [u32; 2],
+    ) -> [Window<'a, T, TEXELS, COLUMNS, HEIGHT>; N] {
+        const { assert!(0 < TEXELS && TEXELS <= 2 && 0 < COLUMNS && COLUMNS <= 256 && 0 < HEIGHT && HEIGHT <= 256) };
+        self.check(corner, [TEXELS * COLUMNS, HEIGHT]);
+        let window = |image: usize| Window {
+            first: self.leftmost(image, corner, TEXELS * COLUMNS),
+            down: self.down[image % 2],
+            samples: PhantomData,
+        };
+        let mut windows = [window(0); N];
+        for (image, of_image) in windows.iter_mut().enumerate().skip(1) {
+            *of_image = window(image);
+        }
+        windows
+    }
+
+    /// The samples of so many texels of a row, from this column on, in a mirror, as they lie in memory.
+    ///
+    /// # Panics
+    /// If they are not all within the view.
+    #[inline(always)]
+    pub(super) fn row(&self, image: usize, corner: [u32; 2], texels: usize) -> &'a [T] {
+        self.check(corner, [texels, 1]);
+        let first = self.leftmost(image, corner, texels);
+        // SAFETY: `check` makes sure that these are texels of the view, all of which `new` has found among the samples.
+        unsafe { std::slice::from_raw_parts(first, SAMPLES * texels) }
+    }
+
+    #[inline(always)]
+    fn check(&self, corner: [u32; 2], size: [usize; 2]) {
+        let ends = |axis: usize| u64::from(corner[axis]) + size[axis] as u64 <= u64::from(self.size[axis]);
+        assert!(ends(0) && ends(1), "a window lies within its view");
+    }
+
+    /// The first sample in memory of so many texels, from this column of a row on.
+    #[inline(always)]
+    fn leftmost(&self, image: usize, [column, row]: [u32; 2], texels: usize) -> *const T {
+        let column = column as isize;
+        let columns = if image < N - R { column } else { 1 - column - texels as isize };
+        self.first[image].wrapping_offset(self.down[image % 2] * row as isize + SAMPLES as isize * columns)
+    }
+}
 
 /// A window of `COLUMNS` columns of `TEXELS` texels each and `HEIGHT` rows, all of it among the samples given.
 #[derive(Clone, Copy)]
@@ -23,23 +111,6 @@ pub(super) struct Window<'a, T, const TEXELS: usize, const COLUMNS: usize, const
 }
 
 impl<'a, T, const TEXELS: usize, const COLUMNS: usize, const HEIGHT: usize> Window<'a, T, TEXELS, COLUMNS, HEIGHT> {
-    /// The window whose first row begins at this texel, each row `down` texels after the one before.
-    ///
-    /// # Panics
-    /// If it is not all among the samples.
-    #[inline(always)]
-    pub(super) fn new(samples: &'a [T], first: u32, down: i32) -> Self {
-        // So small that neither the product nor the sums below overflow 64 bits.
-        const { assert!(0 < TEXELS && TEXELS <= 2 && 0 < COLUMNS && COLUMNS <= 256 && 0 < HEIGHT && HEIGHT <= 256) };
-        let (top, down) = (i64::from(first), i64::from(down));
-        let bottom = top + (HEIGHT as i64 - 1) * down;
-        let end = top.max(bottom) + (TEXELS * COLUMNS) as i64;
-        assert!(bottom >= 0 && end <= (samples.len() / SAMPLES) as i64, "a window lies among its texels");
-        // SAFETY: the first texel is between zero and `end`, which is among the samples.
-        let first = unsafe { samples.as_ptr().add(SAMPLES * first as usize) };
-        Self { first, down: SAMPLES as isize * down as isize, samples: PhantomData }
-    }
-
     /// So many samples of a row, from the first of a column on.
     ///
     /// # Panics
@@ -49,14 +120,14 @@ impl<'a, T, const TEXELS: usize, const COLUMNS: usize, const HEIGHT: usize> Wind
         let is_within = row < HEIGHT && column < COLUMNS && LENGTH <= SAMPLES * TEXELS * (COLUMNS - column);
         assert!(is_within, "samples of the window");
         let offset = row as isize * self.down + (SAMPLES * TEXELS * column) as isize;
-        // SAFETY: `new` made sure that the first row and the last one, and so those between, lie among the samples from their
-        // first texel to the last of `COLUMNS` columns, and the assertion that these are some of them; they are borrowed as
-        // long as the result; arrays need no more alignment than one of their elements.
+        // SAFETY: `windows` made sure that `COLUMNS` columns of `HEIGHT` rows are texels of a view, all of which `Texels::new` has
+        // found among the samples, and the assertion that these are some of them; they are borrowed as long as the result; arrays
+        // need no more alignment than one of their elements.
         unsafe { &*self.first.offset(offset).cast() }
     }
 }
 
-impl<'a, const PAIRS: usize, const HEIGHT: usize> Texels<'a, PAIRS, HEIGHT> {
+impl<'a, const PAIRS: usize, const HEIGHT: usize> PairWindow<'a, PAIRS, HEIGHT> {
     /// The samples of a pair.
     ///
     /// # Panics
@@ -67,46 +138,89 @@ impl<'a, const PAIRS: usize, const HEIGHT: usize> Texels<'a, PAIRS, HEIGHT> {
     }
 }
 
-/// Asks memory for a texel that will be read soon; any number will do.
+/// Asks memory for one of some items, a texel or a weight, that will be read soon; any number will do.
 #[inline(always)]
-pub(super) fn prefetch<T>(texels: &[T], texel: u32) {
+pub(super) fn prefetch<T>(items: &[T], item: u32) {
     #[cfg(target_arch = "x86_64")]
     {
         use std::arch::x86_64::{_MM_HINT_T0, _mm_prefetch};
-        let address = texels.as_ptr().wrapping_add(texel as usize);
+        let address = items.as_ptr().wrapping_add(item as usize);
         // SAFETY: a hint reads nothing, whatever the address.
         unsafe { _mm_prefetch::<_MM_HINT_T0>(address.cast()) }
     }
     #[cfg(not(target_arch = "x86_64"))]
-    let _ = (texels, texel);
+    let _ = (items, item);
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    #[test]
-    fn pairs_are_found_downwards_and_upwards() {
-        let samples: Vec<i16> = (0..10 * 7 * 4).collect();
-        let down = Texels::<2, 4>::new(&samples, 12, 10);
-        let up = Texels::<2, 4>::new(&samples, 42, -10);
-        for row in 0..4 {
-            for pair in 0..2 {
-                let first = 4 * (12 + 10 * row + 2 * pair) as i16;
-                assert_eq!(*down.pair(row, pair), std::array::from_fn(|k| first + k as i16));
-                assert_eq!(up.pair(3 - row, pair), down.pair(row, pair));
-            }
-        }
+    /// Ten columns and seven rows, in which every sample says where it is.
+    const SIZE: [usize; 2] = [10, 7];
+
+    fn samples<T>(of: impl Fn(i16) -> T) -> Vec<T> {
+        (0..10 * 7 * 4).map(of).collect()
+    }
+
+    fn walk(first: u32, is_reversed: bool, down: i32) -> Walk {
+        Walk { first, is_reversed, down }
+    }
+
+    /// As they lie, upside down, and both from right to left.
+    fn ways() -> [Walk; 4] {
+        [walk(0, false, 10), walk(60, false, -10), walk(9, true, 10), walk(69, true, -10)]
     }
 
     #[test]
-    fn no_window_reaches_beyond_the_samples() {
-        let samples = vec![0; 10 * 7 * 4];
-        let is_window = |first, down| std::panic::catch_unwind(|| Texels::<2, 4>::new(&samples, first, down)).is_ok();
-        assert!(is_window(0, 10) && is_window(36, 10) && is_window(66, -10) && is_window(30, -10));
-        assert!(!is_window(37, 10) && !is_window(67, -10) && !is_window(29, -10) && !is_window(u32::MAX, 1));
-        assert!(!is_window(0, i32::MAX) && !is_window(69, i32::MIN) && !is_window(70, 0));
-        let window = Texels::<2, 4>::new(&samples, 0, 10);
+    fn pairs_are_found_in_each_mirror() {
+        let samples = samples(|sample| sample);
+        let texels = Texels::<i16, 4, 2>::new(&samples, ways(), SIZE);
+        let windows = texels.windows::<2, 2, 4>([3, 1]);
+        let pair = |first: i16| std::array::from_fn(|k| 4 * first + k as i16);
+        for row in 0..4 {
+            for pair_at in 0..2 {
+                let (below, across) = (10 * row as i16, 2 * pair_at as i16);
+                let found = [0, 1, 2, 3].map(|image: usize| *windows[image].pair(row, pair_at));
+                // From right to left columns 3 to 6 are the columns 3 to 6 from the left.
+                let expected = [13 + below, 53 - below, 13 + below, 53 - below].map(|first| pair(first + across));
+                assert_eq!(found, expected);
+            }
+        }
+        assert_eq!(texels.row(3, [0, 6], 2), &samples[32..40]);
+    }
+
+    #[test]
+    fn no_view_reaches_beyond_the_samples() {
+        let samples = samples(|sample| sample);
+        let is_view = |walk: Walk, size: [usize; 2]| {
+            let made = std::panic::catch_unwind(|| {
+                if walk.is_reversed {
+                    Texels::<i16, 1, 1>::new(&samples, [walk], size).size
+                } else {
+                    Texels::<i16, 1, 0>::new(&samples, [walk], size).size
+                }
+            });
+            made.is_ok()
+        };
+        assert!(ways().into_iter().all(|way| is_view(way, SIZE)));
+        assert!(ways().into_iter().all(|way| !is_view(way, [11, 7]) && !is_view(way, [10, 8])));
+        for (first, is_reversed, down) in [(1, false, 10), (59, false, -10), (8, true, 10), (u32::MAX, true, -10)] {
+            assert!(!is_view(walk(first, is_reversed, down), SIZE), "{first} {is_reversed} {down}");
+        }
+        assert!(!is_view(walk(0, false, i32::MAX), [1, 2]) && !is_view(walk(69, false, i32::MIN), [1, 2]));
+        assert!(!is_view(walk(70, false, 0), [1, 1]) && is_view(walk(69, false, 0), [1, 1]));
+    }
+
+    #[test]
+    fn no_window_reaches_beyond_its_view() {
+        let samples = samples(|sample| sample);
+        let texels = Texels::<i16, 4, 2>::new(&samples, ways(), SIZE);
+        let is_window = |corner| std::panic::catch_unwind(|| texels.windows::<2, 2, 4>(corner)).is_ok();
+        assert!(is_window([0, 0]) && is_window([6, 3]));
+        assert!(!is_window([7, 3]) && !is_window([6, 4]) && !is_window([u32::MAX, 0]) && !is_window([0, u32::MAX]));
+        assert!(std::panic::catch_unwind(|| texels.row(2, [9, 0], 2)).is_err());
+        let [window, ..] = texels.windows::<2, 2, 4>([0, 0]);
         for (row, pair) in [(4, 0), (0, 2), (usize::MAX, 0)] {
             assert!(std::panic::catch_unwind(|| window.pair(row, pair)).is_err());
         }
@@ -114,13 +228,13 @@ mod tests {
 
     #[test]
     fn a_row_of_floats_ends_where_the_window_does() {
-        let samples: Vec<f32> = (0..10 * 7 * 4).map(|k| k as f32).collect();
-        let window = FloatTexels::<5, 4>::new(&samples, 63, -20);
+        let samples = samples(f32::from);
+        let texels = Texels::<f32, 1, 0>::new(&samples, [walk(60, false, -20)], [10, 4]);
+        let [window] = texels.windows::<1, 5, 4>([3, 0]);
         assert_eq!(*window.samples::<16>(1, 1), std::array::from_fn(|k| (4 * 44 + k) as f32));
         assert_eq!(*window.samples::<4>(3, 4), std::array::from_fn(|k| (4 * 7 + k) as f32));
         for (row, column) in [(0, 2), (4, 0), (0, 5), (0, usize::MAX)] {
             assert!(std::panic::catch_unwind(|| window.samples::<16>(row, column)).is_err());
         }
-        assert!(std::panic::catch_unwind(|| FloatTexels::<5, 4>::new(&samples, 66, 0)).is_err());
     }
 }

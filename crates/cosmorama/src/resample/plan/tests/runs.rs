@@ -6,7 +6,7 @@ fn cut_runs<W>(compiled: &Compiled<W>) -> usize {
     for run in compiled.bands.iter().flat_map(|band| &band.runs) {
         let (corner, end) = (run.corner(), run.end());
         for (axis, size) in [run.width, run.height].into_iter().enumerate() {
-            let offsets = || run.lanes().map(|lane| run.offset(lane)[axis] as usize);
+            let offsets = || run.lanes().map(|lane| run.first(lane)[axis] as usize - corner[axis]);
             let expected = corner[axis] + offsets().max().expect("a lane") + usize::from(size);
             // Windows are kept from where their weights begin, which may be a texel later than in the lane beside.
             assert!((expected - 1..=expected).contains(&end[axis]), "{run:?} ends at {end:?}, not {expected}");
