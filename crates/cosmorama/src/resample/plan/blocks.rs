@@ -1,6 +1,9 @@
 //! A block of 128 bits for each mirror: what mirrored pixels have in common is done once for all of them.
 
-use fearless_simd::{Simd, i16x8, i16x16, i16x32, prelude::*};
+use fearless_simd::{Simd, i16x8, i16x16, i16x32, i32x16, prelude::*};
+
+#[cfg(target_arch = "x86_64")]
+use super::blocks_avx512;
 
 /// Two texels of each of N mirrors, red, green, blue and nothing of each.
 pub(super) trait Blocks<S: Simd, const N: usize>:
@@ -8,6 +11,18 @@ pub(super) trait Blocks<S: Simd, const N: usize>:
     + SimdIntWiden<S, Widened: SimdInt<S, Element = i32, ByteVector = <Self as SimdBase<S>>::ByteVector>>
 {
     fn join(blocks: [i16x8<S>; N]) -> Self;
+
+    /// Two pairs that lie beside each other in memory, in the last R mirrors the second one first.
+    #[inline(always)]
+    fn two_pairs<const R: usize>(simd: S, rows: [&[i16; 16]; N]) -> [Self; 2] {
+        portable::two_pairs::<S, Self, N, R>(simd, rows)
+    }
+
+    /// Adds the weighted sums of pairs.
+    #[inline(always)]
+    fn add_products(sums: Self::Widened, texels: Self, weights: Self) -> Self::Widened {
+        portable::add_products(sums, texels, weights)
+    }
 
     /// Two numbers of 16 bits, weights or marks, for all channels.
     #[inline(always)]
@@ -34,6 +49,63 @@ impl<S: Simd> Blocks<S, 4> for i16x32<S> {
     #[inline(always)]
     fn join([a, b, c, d]: [i16x8<S>; 4]) -> Self {
         a.combine(b).combine(c.combine(d))
+    }
+
+    #[cfg(target_arch = "x86_64")]
+    #[inline(always)]
+    fn two_pairs<const R: usize>(simd: S, rows: [&[i16; 16]; 4]) -> [Self; 2] {
+        match simd.level().as_avx512() {
+            Some(level) if R == 2 => {
+                let [a, b, c, d] = rows;
+                let forward = i16x16::load_array_ref(simd, a).combine(i16x16::load_array_ref(simd, b));
+                let reversed = i16x16::load_array_ref(simd, c).combine(i16x16::load_array_ref(simd, d));
+                let first = blocks_avx512::first_pairs(level, forward.into(), reversed.into());
+                let second = blocks_avx512::second_pairs(level, forward.into(), reversed.into());
+                [first.simd_into(simd), second.simd_into(simd)]
+            }
+            _ => portable::two_pairs::<S, Self, 4, R>(simd, rows),
+        }
+    }
+
+    #[cfg(target_arch = "x86_64")]
+    #[inline(always)]
+    fn add_products(sums: i32x16<S>, texels: Self, weights: Self) -> i32x16<S> {
+        let simd = sums.token();
+        match simd.level().as_avx512() {
+            Some(level) => {
+                blocks_avx512::add_products(level, sums.into(), texels.into(), weights.into()).simd_into(simd)
+            }
+            None => portable::add_products(sums, texels, weights),
+        }
+    }
+}
+
+/// How it is done where no instruction does it.
+mod portable {
+    use fearless_simd::{Simd, i16x8, i16x16, prelude::*};
+
+    use super::Blocks;
+
+    #[inline(always)]
+    pub(super) fn two_pairs<S: Simd, V: Blocks<S, N>, const N: usize, const R: usize>(
+        simd: S,
+        rows: [&[i16; 16]; N],
+    ) -> [V; 2] {
+        let (mut first, mut second) = ([i16x8::splat(simd, 0); N], [i16x8::splat(simd, 0); N]);
+        for image in 0..N {
+            let (left, right) = i16x16::load_array_ref(simd, rows[image]).split();
+            (first[image], second[image]) = if image < N - R { (left, right) } else { (right, left) };
+        }
+        [V::join(first), V::join(second)]
+    }
+
+    #[inline(always)]
+    pub(super) fn add_products<S: Simd, V: Blocks<S, N>, const N: usize>(
+        sums: V::Widened,
+        texels: V,
+        weights: V,
+    ) -> V::Widened {
+        sums + texels.pairwise_dot_product(weights)
     }
 }
 

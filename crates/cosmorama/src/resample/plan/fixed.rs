@@ -253,21 +253,26 @@ impl<
 {
     #[inline(always)]
     fn add_row(&self, sums: &mut Sums<S, V, N>, row: usize) {
-        self.add_pair(sums, row, 0);
-        self.add_pair(sums, row, 1);
+        let mut rows = [self.texels[0].samples::<16>(row, 0); N];
+        for image in 0..N {
+            rows[image] = self.texels[image].samples(row, if image < N - R { 0 } else { PAIRS - 2 });
+        }
+        let [first, second] = V::two_pairs::<R>(self.simd, rows);
+        self.add_pair(sums, row, 0, first);
+        self.add_pair(sums, row, 1, second);
         if PAIRS == 3 {
-            self.add_pair(sums, row, 2);
+            let mut third = [i16x8::splat(self.simd, 0); N];
+            for image in 0..N {
+                let pair = if image < N - R { 2 } else { 0 };
+                third[image] = i16x8::load_array_ref(self.simd, self.texels[image].samples(row, pair));
+            }
+            self.add_pair(sums, row, 2, V::join(third));
         }
     }
 
     #[inline(always)]
-    fn add_pair(&self, sums: &mut Sums<S, V, N>, row: usize, pair: usize) {
-        let mut blocks = [i16x8::splat(self.simd, 0); N];
-        for (image, block) in blocks.iter_mut().enumerate() {
-            let pair = if image < N - R { pair } else { PAIRS - 1 - pair };
-            *block = i16x8::load_array_ref(self.simd, self.texels[image].pair(row, pair));
-        }
-        let texels = V::join(blocks).swizzle_dyn_within_blocks(self.order);
+    fn add_pair(&self, sums: &mut Sums<S, V, N>, row: usize, pair: usize, texels: V) {
+        let texels = texels.swizzle_dyn_within_blocks(self.order);
         sums.add(texels, V::pair(self.simd, self.weights[row * PAIRS + pair]));
         if (UNDER..UNDER + ROWS_UNDER).contains(&row) {
             sums.bound(self.simd, texels, self.marks, (row - UNDER) * PAIRS + pair);
@@ -293,7 +298,7 @@ impl<S: Simd, V: Blocks<S, N>, const N: usize> Sums<S, V, N> {
     /// Adds pairs of texels.
     #[inline(always)]
     fn add(&mut self, texels: V, weights: V) {
-        self.sum += texels.pairwise_dot_product(weights);
+        self.sum = V::add_products(self.sum, texels, weights);
     }
 
     /// Notes those of a pair that lie under the pixel, as its bit tells of both of them.

@@ -2,6 +2,8 @@
 
 mod band;
 mod blocks;
+#[cfg(target_arch = "x86_64")]
+mod blocks_avx512;
 mod canvas;
 mod fixed;
 mod fixed_check;

@@ -127,17 +127,6 @@ impl<'a, T, const TEXELS: usize, const COLUMNS: usize, const HEIGHT: usize> Wind
     }
 }
 
-impl<'a, const PAIRS: usize, const HEIGHT: usize> PairWindow<'a, PAIRS, HEIGHT> {
-    /// The samples of a pair.
-    ///
-    /// # Panics
-    /// If there is no such row or pair.
-    #[inline(always)]
-    pub(super) fn pair(&self, row: usize, pair: usize) -> &'a [i16; 2 * SAMPLES] {
-        self.samples(row, pair)
-    }
-}
-
 /// Asks memory for one of some items, a texel or a weight, that will be read soon; any number will do.
 #[inline(always)]
 pub(super) fn prefetch<T>(items: &[T], item: u32) {
@@ -177,11 +166,11 @@ mod tests {
         let samples = samples(|sample| sample);
         let texels = Texels::<i16, 4, 2>::new(&samples, ways(), SIZE);
         let windows = texels.windows::<2, 2, 4>([3, 1]);
-        let pair = |first: i16| std::array::from_fn(|k| 4 * first + k as i16);
+        let pair = |first: i16| -> [i16; 8] { std::array::from_fn(|k| 4 * first + k as i16) };
         for row in 0..4 {
             for pair_at in 0..2 {
                 let (below, across) = (10 * row as i16, 2 * pair_at as i16);
-                let found = [0, 1, 2, 3].map(|image: usize| *windows[image].pair(row, pair_at));
+                let found = [0, 1, 2, 3].map(|image: usize| *windows[image].samples(row, pair_at));
                 // From right to left columns 3 to 6 are the columns 3 to 6 from the left.
                 let expected = [13 + below, 53 - below, 13 + below, 53 - below].map(|first| pair(first + across));
                 assert_eq!(found, expected);
@@ -222,7 +211,7 @@ mod tests {
         assert!(std::panic::catch_unwind(|| texels.row(2, [9, 0], 2)).is_err());
         let [window, ..] = texels.windows::<2, 2, 4>([0, 0]);
         for (row, pair) in [(4, 0), (0, 2), (usize::MAX, 0)] {
-            assert!(std::panic::catch_unwind(|| window.pair(row, pair)).is_err());
+            assert!(std::panic::catch_unwind(|| window.samples::<8>(row, pair)).is_err());
         }
     }
 

@@ -1,0 +1,30 @@
+//! What AVX-512 does in one instruction for blocks of four mirrors, and portable vectors have no word for.
+
+use std::arch::x86_64::{__m512i, _mm512_dpwssd_epi32, _mm512_shuffle_i64x2};
+
+use fearless_simd::kernel;
+
+kernel!(
+    /// Adds the weighted sums of pairs.
+    #[inline(always)]
+    pub(super) fn add_products(token: Avx512, sums: __m512i, texels: __m512i, weights: __m512i) -> __m512i {
+        _mm512_dpwssd_epi32(sums, texels, weights)
+    }
+);
+
+kernel!(
+    /// Of two pairs of each of four mirrors the first ones, given two mirrors in which they lie first and two in which they lie
+    /// last.
+    #[inline(always)]
+    pub(super) fn first_pairs(token: Avx512, forward: __m512i, reversed: __m512i) -> __m512i {
+        _mm512_shuffle_i64x2::<0b11_01_10_00>(forward, reversed)
+    }
+);
+
+kernel!(
+    /// The second ones.
+    #[inline(always)]
+    pub(super) fn second_pairs(token: Avx512, forward: __m512i, reversed: __m512i) -> __m512i {
+        _mm512_shuffle_i64x2::<0b10_00_11_01>(forward, reversed)
+    }
+);
