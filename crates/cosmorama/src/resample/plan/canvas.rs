@@ -1,25 +1,30 @@
+use std::ops::Range;
+
 use super::band::Run;
 use super::mirrors::{MirrorImage, Mirrors};
 use crate::resample::patch::SIDE;
 
-/// Columns that are filled at once: about those of a tile.
-const COLUMNS: usize = 8 * SIDE;
-
-/// The rows of a picture that one band makes: its own, and those that mirror it from below. All of them are filled with a
-/// background, each shortly before its pixels are made, so that it is still at hand then; the rest at the end.
+/// The rows of a picture that one band makes: its own, and those that mirror it from below. What no pixel was made of is filled
+/// with a background at the end.
 pub(super) struct Canvas<'a, P: Copy> {
     width: usize,
     background: P,
-    /// How many columns are to be made, and how many of them are filled, in all mirrors.
+    /// How many columns are to be made, and which pixels of them are, row by row, a bit for each: the same in all mirrors.
     columns: usize,
-    filled: usize,
+    made: Vec<u8>,
     own: &'a mut [P],
     mirrored: &'a mut [P],
 }
 
 impl<P: Copy> Drop for Canvas<'_, P> {
     fn drop(&mut self) {
-        self.fill(self.columns);
+        for row in 0..self.own.len() / self.width {
+            let mut column = 0;
+            while let Some(gap) = self.gap(row, column) {
+                column = gap.end;
+                self.fill(row, gap);
+            }
+        }
     }
 }
 
@@ -45,28 +50,50 @@ impl<'a, P: Copy> Canvas<'a, P> {
         let mut below: Vec<&mut [P]> = mirrored.rchunks_mut(chunk).collect();
         below.resize_with(bands, Default::default);
         let columns = mirrors.columns;
-        own.zip(below).map(move |(own, mirrored)| Self { width, background, columns, filled: 0, own, mirrored })
+        own.zip(below).map(move |(own, mirrored)| {
+            let made = vec![0; own.len() / width * bytes_of(columns)];
+            Self { width, background, columns, made, own, mirrored }
+        })
     }
 
-    /// Fills columns as far as this one is among them.
+    /// Notes pixels of a row as made: eight from this column on, those whose bits are set.
     #[inline(always)]
-    fn reach(&mut self, column: usize) {
-        if column >= self.filled {
-            self.fill((column + 1).next_multiple_of(COLUMNS).min(self.columns));
-        }
+    fn note(&mut self, [column, row]: [usize; 2], lanes: u8) {
+        let at = row * bytes_of(self.columns) + column / 8;
+        let [low, high] = (u16::from(lanes) << (column % 8)).to_le_bytes();
+        self.made[at] |= low;
+        self.made[at + 1] |= high;
     }
 
-    /// Fills so many columns, in all mirrors.
-    #[inline(never)]
-    fn fill(&mut self, columns: usize) {
-        let (from, to) = (self.filled, columns);
-        self.filled = columns;
-        for rows in [&mut *self.own, &mut *self.mirrored] {
-            for row in rows.chunks_exact_mut(self.width) {
-                row[from..to].fill(self.background);
-                if self.columns < self.width {
-                    row[self.width - to..self.width - from].fill(self.background);
-                }
+    /// The next columns of a row, from this one on, of which no pixel is made.
+    fn gap(&self, row: usize, from: usize) -> Option<Range<usize>> {
+        let bytes = bytes_of(self.columns);
+        let made = &self.made[row * bytes..][..bytes];
+        let next = |from: usize, is_made: bool| {
+            let whole = if is_made { 0 } else { u8::MAX };
+            let mut column = from;
+            while column < self.columns && (made[column / 8] >> (column % 8) & 1 == 1) != is_made {
+                // Whole bytes of the others are passed over at once.
+                column = if column % 8 == 0 && made[column / 8] == whole { column + 8 } else { column + 1 };
+            }
+            column.min(self.columns)
+        };
+        let start = next(from, false);
+        (start < self.columns).then(|| start..next(start, true))
+    }
+
+    /// Fills columns of a row with the background, in all mirrors.
+    fn fill(&mut self, row: usize, columns: Range<usize>) {
+        let Self { width, background, .. } = *self;
+        let mirrored = width - columns.end..width - columns.start;
+        let below = (self.mirrored.len() / width).checked_sub(1 + row);
+        let rows = [(&mut *self.own, Some(row)), (&mut *self.mirrored, below)];
+        for (rows, row) in rows {
+            let Some(row) = row else { continue };
+            let row = &mut rows[row * width..][..width];
+            row[columns.clone()].fill(background);
+            if self.columns < width {
+                row[mirrored.clone()].fill(background);
             }
         }
     }
@@ -81,7 +108,9 @@ impl<'a, P: Copy> Canvas<'a, P> {
             return;
         }
         let [column, row] = run.pixel(0);
-        self.reach(column + SIDE - 1);
+        if image.flips == [false; 2] {
+            self.note([column, row], u8::MAX);
+        }
         let column = if image.flips[0] { self.width - SIDE - column } else { column };
         let (rows, row) = if image.flips[1] {
             let last = self.mirrored.len() / self.width - 1;
@@ -95,7 +124,9 @@ impl<'a, P: Copy> Canvas<'a, P> {
     /// The pixel that a mirror image shows in place of the one in this column and row of the band.
     #[inline(always)]
     pub(super) fn pixel(&mut self, image: &MirrorImage, [column, row]: [usize; 2]) -> &mut P {
-        self.reach(column);
+        if image.flips == [false; 2] {
+            self.note([column, row], 1);
+        }
         let column = if image.flips[0] { self.width - 1 - column } else { column };
         if image.flips[1] {
             let rows = self.mirrored.len() / self.width;
@@ -104,4 +135,9 @@ impl<'a, P: Copy> Canvas<'a, P> {
             &mut self.own[row * self.width + column]
         }
     }
+}
+
+/// Bytes of bits for so many columns, and one more, which eight of them that begin within a byte may reach.
+const fn bytes_of(columns: usize) -> usize {
+    columns.div_ceil(8) + 1
 }
