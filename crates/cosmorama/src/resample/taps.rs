@@ -96,6 +96,7 @@ const BLOCK: usize = 32;
 
 /// The weighted average of taps, held to what those under the pixel hold if there is to be no ringing. `light` is that of a
 /// texel.
+#[inline(always)]
 pub(super) fn average(list: TapList, light: impl Fn(u32) -> Rgba, anti_ringing: bool) -> Rgba {
     let mut sum = [0f64; 4];
     let mut bounds = Bounds { least: [f32::INFINITY; 4], greatest: [f32::NEG_INFINITY; 4] };
@@ -131,6 +132,7 @@ pub(super) fn average(list: TapList, light: impl Fn(u32) -> Rgba, anti_ringing: 
     slope::hold(average, &bounds, texels)
 }
 
+#[inline(always)]
 fn add(sum: &mut [f64; 4], part: [f32; 4]) {
     for c in 0..4 {
         sum[c] += f64::from(part[c]);

@@ -11,7 +11,7 @@ use super::blocks::{self, Blocks};
 use super::canvas::Canvas;
 use super::fixed_weights::{FixedWeights, Header, ROWS_UNDER, Shape, mark_words};
 use super::mirrors::{MOST_IMAGES, Mirrors, Walk, Ways};
-use super::prefetch::{prefetch, prefetch_weights};
+use super::prefetch::{SINGLES_AHEAD, prefetch, prefetch_taps, prefetch_weights};
 use super::texels::{PairWindow, Texels};
 use crate::raster::{FixedCodec, FixedLight};
 use crate::resample::patch::SIDE;
@@ -29,10 +29,22 @@ pub(super) struct FixedFilter<'a> {
 impl FixedFilter<'_> {
     pub(super) fn fill(&self, band: &Band<FixedWeights>, canvas: &mut Canvas<[u8; 3]>) {
         let level = self.level;
-        dispatch!(level, simd => self.runs(simd, band, canvas));
-        let background = self.codec.background_light();
+        dispatch!(level, simd => {
+            self.runs(simd, band, canvas);
+            self.singles(simd, band, canvas);
+        });
+    }
+
+    #[inline(always)]
+    fn singles<S: Simd>(&self, simd: S, band: &Band<FixedWeights>, canvas: &mut Canvas<[u8; 3]>) {
+        let (texels, background) = (self.light.samples().as_chunks::<4>().0, self.codec.background_light());
+        let mut ahead = band.singles.iter().skip(SINGLES_AHEAD);
         for single in &band.singles {
-            let colour = average(band.taps(single), |texel| self.light.rgba(texel as usize), self.anti_ringing);
+            prefetch_taps(texels, band, ahead.next());
+            let colour = simd.vectorize(
+                #[inline(always)]
+                || average(band.taps(single), |texel| self.light.rgba(texel as usize), self.anti_ringing),
+            );
             let image = &self.mirrors.images[usize::from(single.image)];
             let pixel = (colour * single.coverage).over(background);
             *canvas.pixel(image, [single.column as usize, usize::from(single.row)]) = self.codec.codes_of(pixel);

@@ -8,7 +8,7 @@ use super::float_shape::{Header, Shape};
 use super::float_weights::FloatWeights;
 use super::float_window::Window;
 use super::mirrors::{MOST_IMAGES, Mirrors, Walk, Ways};
-use super::prefetch::{prefetch, prefetch_weights};
+use super::prefetch::{SINGLES_AHEAD, prefetch, prefetch_taps, prefetch_weights};
 use super::texels::Texels;
 use crate::raster::Rgba;
 use crate::resample::patch::SIDE;
@@ -27,9 +27,21 @@ pub(super) struct FloatFilter<'a> {
 impl FloatFilter<'_> {
     pub(super) fn fill(&self, band: &Band<FloatWeights>, canvas: &mut Canvas<Rgba>) {
         let level = self.level;
-        dispatch!(level, simd => self.runs(simd, band, canvas));
+        dispatch!(level, simd => {
+            self.runs(simd, band, canvas);
+            self.singles(simd, band, canvas);
+        });
+    }
+
+    #[inline(always)]
+    fn singles<S: Simd>(&self, simd: S, band: &Band<FloatWeights>, canvas: &mut Canvas<Rgba>) {
+        let mut ahead = band.singles.iter().skip(SINGLES_AHEAD);
         for single in &band.singles {
-            let colour = average(band.taps(single), |texel| self.texels[texel as usize], self.anti_ringing);
+            prefetch_taps(self.texels, band, ahead.next());
+            let colour = simd.vectorize(
+                #[inline(always)]
+                || average(band.taps(single), |texel| self.texels[texel as usize], self.anti_ringing),
+            );
             let image = &self.mirrors.images[usize::from(single.image)];
             *canvas.pixel(image, [single.column as usize, usize::from(single.row)]) =
                 (colour * single.coverage).over(self.background);
