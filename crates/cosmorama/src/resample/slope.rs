@@ -4,11 +4,12 @@
 //! half a texel. What tells a slope from a stripe, a step or a sun is a plane laid through all texels: where these lie on it,
 //! the pixel does too; by as much as one of them departs from it, the pixel may.
 
-use glam::{DMat3, DVec3};
+use glam::{DMat3, DVec3, Vec3Swizzles};
 
 use crate::raster::Rgba;
 
-/// The channel that may not go beyond one.
+/// Channels of a texel, and the one that may not go beyond one.
+const CHANNELS: usize = 4;
 const ALPHA: usize = 3;
 
 /// Texels that depart from their plane by no more than this part of their range are straight: what the sphere bends a
@@ -35,13 +36,13 @@ pub(super) fn hold(average: Rgba, under: &Bounds, texels: impl Iterator<Item = (
         return held;
     }
     let Some(lattice) = Lattice::of(texels.clone().map(|(_, place)| place)) else { return held };
+    let doubts = lattice.doubts(texels);
     Rgba(std::array::from_fn(|c| {
         let excess = average.0[c] - held.0[c];
         if c == ALPHA || excess == 0.0 {
             return held.0[c];
         }
-        let doubt = lattice.doubt(texels.clone().map(|(texel, place)| (f64::from(texel.0[c]), place))) as f32;
-        let value = held.0[c] + excess.signum() * (excess.abs() - doubt).max(0.0);
+        let value = held.0[c] + excess.signum() * (excess.abs() - doubts[c] as f32).max(0.0);
         // Light does not become negative: where a slope would, it is none.
         if least[c] >= 0.0 { value.max(0.0) } else { value }
     }))
@@ -62,27 +63,49 @@ impl Lattice {
         let terms = places.map(terms);
         let count = terms.clone().count() as f64;
         let centroid = terms.clone().sum::<DVec3>() / count;
-        let outer = |from: DVec3| DMat3::from_cols(from * from.x, from * from.y, from * from.z);
-        let moments = terms.fold(DMat3::ZERO, |sum, term| sum + outer(term - centroid));
+        // Symmetric: six sums of nine.
+        let (squares, products) = terms.fold((DVec3::ZERO, DVec3::ZERO), |(squares, products), term| {
+            let from = term - centroid;
+            (squares + from * from, products + from * from.yzx())
+        });
+        let moments = DMat3::from_cols(
+            DVec3::new(squares.x, products.x, products.z),
+            DVec3::new(products.x, squares.y, products.y),
+            DVec3::new(products.z, products.y, squares.z),
+        );
         let sizes = moments.x_axis.x * moments.y_axis.y * moments.z_axis.z;
         let is_plane = count >= FEWEST && moments.determinant() > THINNEST * sizes;
         is_plane.then(|| Self { centroid, inverse: moments.inverse(), count })
     }
 
-    /// How far a slope through these values may be from going on.
-    fn doubt(&self, values: impl Iterator<Item = (f64, [f32; 2])> + Clone) -> f64 {
-        let (mut sum, mut along) = (0.0, DVec3::ZERO);
-        let (mut least, mut greatest) = (f64::INFINITY, f64::NEG_INFINITY);
-        for (value, place) in values.clone() {
-            sum += value;
-            along += (terms(place) - self.centroid) * value;
-            (least, greatest) = (least.min(value), greatest.max(value));
+    /// How far a slope through these texels may be from going on, by channel.
+    fn doubts(&self, texels: impl Iterator<Item = (Rgba, [f32; 2])> + Clone) -> [f64; CHANNELS] {
+        let (mut sum, mut along) = ([0.0; CHANNELS], [[0.0; CHANNELS]; 3]);
+        let (mut least, mut greatest) = ([f32::INFINITY; CHANNELS], [f32::NEG_INFINITY; CHANNELS]);
+        for (Rgba(values), place) in texels.clone() {
+            let from = (terms(place) - self.centroid).to_array();
+            for c in 0..CHANNELS {
+                let value = f64::from(values[c]);
+                sum[c] += value;
+                for axis in 0..3 {
+                    along[axis][c] += from[axis] * value;
+                }
+                (least[c], greatest[c]) = (least[c].min(values[c]), greatest[c].max(values[c]));
+            }
         }
-        let (mean, slope) = (sum / self.count, self.inverse * along);
-        let departure =
-            |(value, place): (f64, [f32; 2])| (value - mean - slope.dot(terms(place) - self.centroid)).abs();
-        let departure = values.map(departure).fold(0.0, f64::max);
-        DOUBT * (departure - STRAIGHT * (greatest - least)).max(0.0)
+        let slopes: [DVec3; CHANNELS] =
+            std::array::from_fn(|c| self.inverse * DVec3::from_array(along.map(|along| along[c])));
+        let means = sum.map(|sum| sum / self.count);
+        let mut departures = [0f64; CHANNELS];
+        for (Rgba(values), place) in texels {
+            let from = terms(place) - self.centroid;
+            for c in 0..CHANNELS {
+                let departure = f64::from(values[c]) - means[c] - slopes[c].dot(from);
+                departures[c] = departures[c].max(departure.abs());
+            }
+        }
+        let range = |c: usize| f64::from(greatest[c]) - f64::from(least[c]);
+        std::array::from_fn(|c| DOUBT * (departures[c] - STRAIGHT * range(c)).max(0.0))
     }
 }
 
