@@ -1,53 +1,134 @@
-//! The program's allocator: that of the system, which is asked for pages of two megabytes where pictures are held.
+//! The program's allocator: that of the system, which is asked for pages of two megabytes where pictures are held, and is not given
+//! back what the next frame of a sequence will want.
 //!
 //! A fresh picture is touched once, and every page of four kilobytes costs an interruption by the system then: a third of the time
 //! that an 8-bit frame of 4096² takes. Many systems give larger pages only to those who ask (`madvise` in
-//! `/sys/kernel/mm/transparent_hugepage/enabled`).
+//! `/sys/kernel/mm/transparent_hugepage/enabled`). But even those have to be made empty, and where the system is itself a guest, to be
+//! asked for from its host: so pictures of a sequence, of whatever kind and whoever makes them, are made in memory that others have
+//! left ([`SpareMemory`]), as far as [`keep_spare`] allows.
 #![allow(unsafe_code)]
 
 use std::alloc::{GlobalAlloc, Layout, System};
+use std::sync::atomic::AtomicPtr;
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
-/// Bytes from which on memory is that of a picture.
+use crate::spare_memory::SpareMemory;
+
+/// Bytes from which on memory is that of a picture, for which large pages are asked.
 #[cfg(any(test, target_os = "linux"))]
 const LARGE: usize = 4 << 20;
 
+/// Bytes from which on memory is kept for others: that of pictures, of small ones too, and of the parts that codecs cut them into.
+const KEPT: usize = 1 << 18;
+
 pub(crate) struct LargePages;
 
-// SAFETY: all that is given and taken is the system's; what is asked of it changes no contents.
-unsafe impl GlobalAlloc for LargePages {
-    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
-        // SAFETY: the caller's promise is the one that the system's allocator wants, here and below.
-        prefer_large_pages(unsafe { System.alloc(layout) }, layout.size())
-    }
+/// What is kept, known by where it begins.
+static SPARE: Mutex<SpareMemory<AtomicPtr<u8>>> = Mutex::new(SpareMemory::none());
 
-    unsafe fn alloc_zeroed(&self, layout: Layout) -> *mut u8 {
-        // SAFETY: as above.
-        prefer_large_pages(unsafe { System.alloc_zeroed(layout) }, layout.size())
-    }
+/// Keeps memory of pictures that nobody uses, as long as it and that in use are no more than so many bytes.
+pub(crate) fn keep_spare(bytes: u64) {
+    spare().allow(usize::try_from(bytes).unwrap_or(usize::MAX));
+    give_back_surplus();
+}
 
-    unsafe fn realloc(&self, memory: *mut u8, layout: Layout, size: usize) -> *mut u8 {
-        // SAFETY: as above.
-        prefer_large_pages(unsafe { System.realloc(memory, layout, size) }, size)
-    }
+fn spare() -> MutexGuard<'static, SpareMemory<AtomicPtr<u8>>> {
+    // Nothing in there panics half way. The few small numbers that it holds come from this allocator, which then locks nothing.
+    SPARE.lock().unwrap_or_else(PoisonError::into_inner)
+}
 
-    unsafe fn dealloc(&self, memory: *mut u8, layout: Layout) {
-        // SAFETY: as above.
-        unsafe { System.dealloc(memory, layout) }
+fn give_back_surplus() {
+    loop {
+        let Some((layout, memory)) = spare().surplus() else { return };
+        // SAFETY: the system gave it for this layout, whoever used it has given it back, and here it is known no more.
+        unsafe { System.dealloc(memory.into_inner(), layout) }
     }
 }
 
-/// Asks for large pages under memory that was just given; if there are none, small ones do.
+fn is_counted(layout: Layout) -> bool {
+    layout.size() >= KEPT
+}
+
+/// Memory that is spare, holding anything, if there is some. What is asked for is counted in any case, unless it is small.
+fn take(layout: Layout) -> Option<*mut u8> {
+    if is_counted(layout) { spare().take(layout).map(AtomicPtr::into_inner) } else { None }
+}
+
+/// Memory from the system, counted unless it is small. It gets back what would be too much beside that.
+fn fresh(layout: Layout, ask: impl FnOnce() -> *mut u8) -> *mut u8 {
+    if !is_counted(layout) {
+        return ask();
+    }
+    give_back_surplus();
+    let memory = ask();
+    if memory.is_null() {
+        spare().release(layout);
+        return memory;
+    }
+    prefer_large_pages(memory, layout.size())
+}
+
+// SAFETY: all that is given and taken is the system's, for the same layout; what is spare was given back and is given to one; what is
+// asked of the system changes no contents.
+unsafe impl GlobalAlloc for LargePages {
+    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
+        // SAFETY: the caller's promise is the one that the system's allocator wants, here and below.
+        take(layout).unwrap_or_else(|| fresh(layout, || unsafe { System.alloc(layout) }))
+    }
+
+    unsafe fn alloc_zeroed(&self, layout: Layout) -> *mut u8 {
+        let Some(memory) = take(layout) else {
+            // SAFETY: as above.
+            return fresh(layout, || unsafe { System.alloc_zeroed(layout) });
+        };
+        // SAFETY: it has as many bytes, and nobody else has it.
+        unsafe { memory.write_bytes(0, layout.size()) };
+        memory
+    }
+
+    unsafe fn realloc(&self, memory: *mut u8, layout: Layout, size: usize) -> *mut u8 {
+        // SAFETY: the caller's promise.
+        let wanted = unsafe { Layout::from_size_align_unchecked(size, layout.align()) };
+        if let Some(found) = take(wanted) {
+            // SAFETY: both have at least so many bytes, and nobody else has either.
+            unsafe {
+                found.copy_from_nonoverlapping(memory, layout.size().min(size));
+                self.dealloc(memory, layout);
+            }
+            return found;
+        }
+        // SAFETY: as above.
+        let found = fresh(wanted, || unsafe { System.realloc(memory, layout, size) });
+        if is_counted(layout) && !found.is_null() {
+            spare().release(layout);
+        }
+        found
+    }
+
+    unsafe fn dealloc(&self, memory: *mut u8, layout: Layout) {
+        if is_counted(layout) {
+            spare().give(layout, AtomicPtr::new(memory));
+            give_back_surplus();
+        } else {
+            // SAFETY: as above.
+            unsafe { System.dealloc(memory, layout) }
+        }
+    }
+}
+
+/// Asks for large pages under memory that was just given, of so many bytes; if there are none, small ones do.
 #[cfg(target_os = "linux")]
 fn prefer_large_pages(memory: *mut u8, size: usize) -> *mut u8 {
     use rustix::mm::{Advice, madvise};
     /// Any system's pages are as large or smaller, and so few bytes at the ends do not count.
     const PAGE: usize = 1 << 16;
-    if size >= LARGE && !memory.is_null() {
-        let skipped = memory.addr().next_multiple_of(PAGE) - memory.addr();
-        let whole = (size - skipped) / PAGE * PAGE;
-        // SAFETY: these pages are all within the memory that was given, and this advice changes nothing that they hold.
-        let _ = unsafe { madvise(memory.wrapping_add(skipped).cast(), whole, Advice::LinuxHugepage) };
+    if size < LARGE {
+        return memory;
     }
+    let skipped = memory.addr().next_multiple_of(PAGE) - memory.addr();
+    let whole = (size - skipped) / PAGE * PAGE;
+    // SAFETY: these pages are all within the memory that was given, and this advice changes nothing that they hold.
+    let _ = unsafe { madvise(memory.wrapping_add(skipped).cast(), whole, Advice::LinuxHugepage) };
     memory
 }
 
@@ -68,8 +149,20 @@ mod tests {
         (1..=count as u64).map(|k| k.wrapping_mul(0x9e37_79b9_7f4a_7c15))
     }
 
+    /// All of these tests, with memory kept and without.
+    fn kept_and_not(test: impl Fn()) {
+        for bytes in [0, 64 << 20, 0] {
+            keep_spare(bytes);
+            test();
+        }
+    }
+
     #[test]
     fn memory_holds_what_is_written_as_it_grows_and_shrinks() {
+        kept_and_not(lists_grow_and_shrink);
+    }
+
+    fn lists_grow_and_shrink() {
         for length in LENGTHS {
             let mut list = Vec::with_capacity(length);
             list.extend(numbers(length));
@@ -86,6 +179,10 @@ mod tests {
 
     #[test]
     fn zeroed_memory_is_zero_where_there_was_something_before() {
+        kept_and_not(lists_are_zero);
+    }
+
+    fn lists_are_zero() {
         for length in LENGTHS.into_iter().chain(LENGTHS) {
             let mut list = vec![0_u64; length];
             assert!(list.iter().all(|number| *number == 0), "{length} numbers");

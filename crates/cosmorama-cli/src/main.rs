@@ -8,6 +8,7 @@ mod failure;
 mod job;
 mod large_pages;
 mod run;
+mod spare_memory;
 mod spec;
 mod stream;
 

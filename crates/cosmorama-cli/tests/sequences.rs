@@ -287,6 +287,45 @@ fn a_frame_of_another_kind_changes_no_other_frame() {
 }
 
 #[test]
+fn memory_that_other_frames_have_left_shows_nowhere() {
+    let bench = Bench::new();
+    for frame in 1..=7 {
+        bench.save(&format!("sky_{frame}.png"), &picture(frame * 5, 512, 256));
+    }
+    // Larger than what memory is kept for; one of another kind, which is held in floats.
+    bench.save("sky_4.png", &flat(512, 256, &[9, 200, 40, 128]));
+    let dome = ["fulldome", "--size", "600"];
+    let outputs: [(&str, &[&str]); 5] = [
+        ("#.png", &dome),
+        ("#.png", &[&dome[..], &["--depth", "16"]].concat()),
+        ("#.exr", &[&dome[..], &["--background", "transparent"]].concat()),
+        ("{face}_#.png", &["cube", "--size", "300"]),
+        ("#.png", &["cube:layout=cross-v", "--size", "900x1200"]),
+    ];
+    for (name, to) in outputs {
+        let args = [&["--from", "equirect", "-y", "--to"], to].concat();
+        let (all, one) = (format!("all_{name}"), format!("one_{name}"));
+        // What is laid behind them all, whatever the first of them is.
+        let opaque = if args.contains(&"--background") { &[][..] } else { &["--background", "#204060"] };
+        bench.succeed(&[&["convert", "sky_#.png", &all], &args[..], opaque].concat());
+        for frame in 1..=7 {
+            // A single frame finds nothing that is left. One with alpha is laid over the background where the first frame has none.
+            let frames = if frame == 4 { "1,4".to_owned() } else { frame.to_string() };
+            bench.succeed(&[&["convert", "sky_#.png", &one, "--frames", &frames], &args[..], opaque].concat());
+        }
+        let made = |prefix: &str| -> Vec<Vec<u8>> {
+            let files = bench.files().into_iter().filter(|path| path.to_string_lossy().contains(prefix));
+            files.map(|path| std::fs::read(path).unwrap()).collect()
+        };
+        let (together, alone) = (made("/all_"), made("/one_"));
+        let same: Vec<bool> = together.iter().zip(&alone).map(|(a, b)| a == b).collect();
+        assert!(same.len() >= 7 && same.iter().all(|same| *same), "{name} {to:?}: {same:?}");
+        let outputs = bench.files().into_iter().filter(|path| !path.to_string_lossy().contains("sky_"));
+        outputs.for_each(|path| std::fs::remove_file(path).unwrap());
+    }
+}
+
+#[test]
 fn a_transparent_frame_among_opaque_ones_is_told() {
     let bench = Bench::new();
     bench.save("sky_1.png", &picture(1, 64, 32));

@@ -149,20 +149,20 @@ impl MemoryBudget {
             .fold((0, 0_u64), |(files, bytes), (_, header, _)| (files + 1, bytes.saturating_add(samples(header))));
         let written = output_bytes(target);
         let wanted = |files: usize| 1 + threads.div_ceil(files.max(1));
-        let wanted = InFlight { read: wanted(files), written: wanted(target.files.len()) };
+        let (wanted_read, wanted_written) = (wanted(files), wanted(target.files.len()));
         let mut left = self.bytes.saturating_sub(plans).saturating_sub(frame_bytes(input, target));
-        let mut fitting = InFlight { read: 1, written: 1 };
+        let mut fitting = InFlight { read: 1, written: 1, bytes: 0 };
         // In turns, so that neither side waits for the other.
         loop {
             let before = fitting;
-            if fitting.read < wanted.read && left >= read {
+            if fitting.read < wanted_read && left >= read {
                 (fitting.read, left) = (fitting.read + 1, left - read);
             }
-            if fitting.written < wanted.written && left >= written {
+            if fitting.written < wanted_written && left >= written {
                 (fitting.written, left) = (fitting.written + 1, left - written);
             }
             if fitting == before {
-                return fitting;
+                return InFlight { bytes: self.bytes - left, ..fitting };
             }
         }
     }
@@ -175,6 +175,8 @@ pub(crate) struct InFlight {
     pub(crate) read: usize,
     /// Those that are being written.
     pub(crate) written: usize,
+    /// Bytes that all of them may take together, with the one that is filtered and the geometry.
+    pub(crate) bytes: u64,
 }
 
 /// Bytes of a texel's solid angle.

@@ -19,6 +19,7 @@ use super::frame_files::{FrameFile, ViewImage, Which};
 use super::frame_light::FrameLight;
 use super::stages::{Stage, Stages};
 use crate::job::{ConvertJob, FrameOutputs, InFlight};
+use crate::large_pages::keep_spare;
 
 /// The frames of a job, as they are made.
 pub(super) struct Sequence<'a> {
@@ -67,7 +68,9 @@ impl<'a> Sequence<'a> {
     where
         'a: 's,
     {
-        let InFlight { read, written } = self.engine.in_flight();
+        let InFlight { read, written, bytes } = self.engine.in_flight();
+        // What a frame leaves is as large as what the next one wants.
+        keep_spare(bytes);
         let mut light = self.engine.frame_light();
         let mut upcoming = self.job.outputs.frames.iter();
         let mut which = Which::All;
