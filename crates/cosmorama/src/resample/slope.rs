@@ -28,6 +28,7 @@ pub(super) struct Bounds {
 
 /// An average held to what the texels under the pixel hold, and beyond it as far as all of them confirm; `texels` are these
 /// and where they lie from the pixel's centre, none where those under it lie all around.
+#[inline(always)]
 pub(super) fn hold(average: Rgba, under: &Bounds, texels: impl Iterator<Item = (Rgba, [f32; 2])> + Clone) -> Rgba {
     let Bounds { least, greatest } = under;
     let held = Rgba(std::array::from_fn(|c| average.0[c].max(least[c]).min(greatest[c])));
@@ -59,6 +60,7 @@ struct Lattice {
 
 impl Lattice {
     /// That of some places; `None` if they lie in a line, or are too few to tell.
+    #[inline(always)]
     fn of(places: impl Iterator<Item = [f32; 2]> + Clone) -> Option<Self> {
         let terms = places.map(terms);
         let count = terms.clone().count() as f64;
@@ -79,6 +81,7 @@ impl Lattice {
     }
 
     /// How far a slope through these texels may be from going on, by channel.
+    #[inline(always)]
     fn doubts(&self, texels: impl Iterator<Item = (Rgba, [f32; 2])> + Clone) -> [f64; CHANNELS] {
         let (mut sum, mut along) = ([0.0; CHANNELS], [[0.0; CHANNELS]; 3]);
         let (mut least, mut greatest) = ([f32::INFINITY; CHANNELS], [f32::NEG_INFINITY; CHANNELS]);
@@ -117,6 +120,7 @@ const THINNEST: f64 = 1e-6;
 
 /// What a colour that is linear in the direction is made of, at a place: its two coordinates, and how far the sphere falls
 /// away from the tangent plane there.
+#[inline(always)]
 fn terms([x, y]: [f32; 2]) -> DVec3 {
     let (x, y) = (f64::from(x), f64::from(y));
     DVec3::new(x, y, x * x + y * y)
