@@ -11,7 +11,7 @@ use super::kernel::UNDER;
 use super::lanes::Lanes;
 use super::moments::{Correction, Moments, RowSums};
 use super::patch::{Patch, SIDE};
-use super::window::{LARGEST, Level, Windows};
+use super::window::{LARGEST, Level, Size, Windows};
 
 /// Rows of a patch that are weighed together, at most.
 const ROWS: usize = 2;
@@ -126,6 +126,7 @@ impl Weigher {
         let mut loose = self.loose.chunks_exact(2 * V::LEN);
         let [first, second] = &mut self.windows;
         let mut weights = first.weights.iter_mut().zip(&mut second.weights);
+        let (mut largest, mut sum) = (V::splat(simd, 0.0), V::splat(simd, 0.0));
         let mut y = *y0;
         for _ in 0..height {
             let row = correction.row(y);
@@ -133,6 +134,8 @@ impl Weigher {
             for (loose, weights) in loose.by_ref().zip(weights.by_ref()).take(width) {
                 let (weight, slack) = loose.split_at(V::LEN);
                 let settled = row.apply(V::from_slice(simd, weight), V::from_slice(simd, slack), x);
+                largest = largest.max(settled.abs());
+                sum += settled.abs();
                 *weights.0 = settled.row(0).to_array();
                 if V::ROWS == 2 {
                     *weights.1 = settled.row(1).to_array();
@@ -140,6 +143,9 @@ impl Weigher {
                 x += 1.0;
             }
             y += 1.0;
+        }
+        for (row, windows) in self.windows[..V::ROWS].iter_mut().enumerate() {
+            windows.size = Size { largest: largest.row(row).reduce_max(), sum: sum.row(row).reduce_max() };
         }
     }
 }

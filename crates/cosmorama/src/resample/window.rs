@@ -9,6 +9,15 @@ use super::{Tap, Taps};
 /// Texels of the largest window. Beyond, a pixel by itself is not slower.
 pub(super) const LARGEST: usize = 256;
 
+/// How large weights are, whatever their sign.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Size {
+    /// The largest of them.
+    pub(super) largest: f32,
+    /// All of a window, in the lane in which they come to most.
+    pub(super) sum: f32,
+}
+
 /// [`SIDE`] pixels beside each other, each with a window of texels wholly inside one view: all windows of one size, each
 /// in its own place, with the texels' weights, which add to one.
 #[derive(Clone, Debug)]
@@ -26,6 +35,8 @@ pub(super) struct Windows {
     /// Column and row of each window's first texel; `None` where the window is not all inside the view.
     corners: [Option<[u32; 2]>; SIDE],
     pub(super) weights: Vec<[f32; SIDE]>,
+    /// Of these weights.
+    pub(super) size: Size,
     /// In which lanes a texel lies under the pixel, a bit for each.
     pub(super) under: Vec<u8>,
 }
@@ -43,6 +54,7 @@ impl Windows {
             stride: 0,
             corners: [None; SIDE],
             weights: vec![[0.0; SIDE]; LARGEST],
+            size: Size::default(),
             under: vec![0; LARGEST],
         }
     }
@@ -85,6 +97,11 @@ impl Windows {
     /// The weights of all texels of the windows, row by row, a lane for each window.
     pub(super) fn weights(&self) -> &[[f32; SIDE]] {
         &self.weights[..self.width * self.height]
+    }
+
+    /// How large these are.
+    pub(super) fn size(&self) -> Size {
+        self.size
     }
 
     /// In which lanes each of them lies under the pixel, a bit for each.
