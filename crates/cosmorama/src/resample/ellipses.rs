@@ -1,6 +1,6 @@
 //! The ellipses of many pixels at once.
 
-use fearless_simd::{Simd, f32x8, prelude::*};
+use fearless_simd::{Simd, f32x8, i32x8, prelude::*};
 
 use super::Kernel;
 use super::lanes::Lanes;
@@ -102,11 +102,12 @@ impl<V> Ellipses<V> {
 
     /// Columns and rows from the patch's origin to the first texels of a row's windows.
     #[inline(always)]
-    pub(super) fn first<S: Simd>(&self, row: usize) -> [[f32; SIDE]; 2]
+    pub(super) fn first<S: Simd>(&self, row: usize) -> [[i32; SIDE]; 2]
     where
         V: Lanes<S>,
     {
-        [self.first[0].row(row).to_array(), self.first[1].row(row).to_array()]
+        let [column, row] = [self.first[0].row(row), self.first[1].row(row)];
+        [column.to_int_precise::<i32x8<S>>().to_array(), row.to_int_precise::<i32x8<S>>().to_array()]
     }
 
     /// The width and the height of a row's windows.

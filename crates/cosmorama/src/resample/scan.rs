@@ -4,7 +4,7 @@ use rayon::prelude::*;
 
 use super::kernel::KernelTable;
 use super::lattice::Lattice;
-use super::patch::{HALF, Patch, SIDE, lanes_of};
+use super::patch::{HALF, Patch, SIDE};
 use super::pixel_taps::PixelTaps;
 use super::weigher::Weigher;
 use super::window::{Level, Windows};
@@ -121,7 +121,7 @@ impl<'a> Scan<'a> {
             if let Some(windows) = windows.as_mut().filter(|_| lanes != 0) {
                 let windows = windows.row(row - top);
                 sink.windows([left, within], lanes, windows);
-                made = lanes_of(|lane| lanes >> lane & 1 == 1 && windows.holds(lane));
+                made = lanes & windows.held();
             }
             for lane in (0..count).filter(|lane| made >> lane & 1 == 0) {
                 let Some(screen) = target.screen_pixel(left + lane, row) else { continue };

@@ -32,8 +32,10 @@ pub(super) struct Windows {
     /// Index of the view's first texel in the world's buffer, and its texels from one row to the next.
     offset: usize,
     stride: usize,
-    /// Column and row of each window's first texel; `None` where the window is not all inside the view.
-    corners: [Option<[u32; 2]>; SIDE],
+    /// Column and row of each window's first texel.
+    corners: [[u32; 2]; SIDE],
+    /// Which windows lie all inside the view, a bit for each: their corners are right, and their weights.
+    held: u8,
     pub(super) weights: Vec<[f32; SIDE]>,
     /// Of these weights.
     pub(super) size: Size,
@@ -52,7 +54,8 @@ impl Windows {
             within: 0..0,
             offset: 0,
             stride: 0,
-            corners: [None; SIDE],
+            corners: [[0; 2]; SIDE],
+            held: 0,
             weights: vec![[0.0; SIDE]; LARGEST],
             size: Size::default(),
             under: vec![0; LARGEST],
@@ -66,12 +69,17 @@ impl Windows {
 
     /// Whether this lane's window lies inside the view, so that its weights are right.
     pub(super) fn holds(&self, lane: usize) -> bool {
-        self.corners[lane].is_some()
+        self.held >> lane & 1 == 1
+    }
+
+    /// All of these lanes, a bit for each.
+    pub(super) fn held(&self) -> u8 {
+        self.held
     }
 
     /// Column and row of a lane's first texel, if its window holds.
     pub(super) fn corner(&self, lane: usize) -> Option<[u32; 2]> {
-        self.corners[lane]
+        self.holds(lane).then_some(self.corners[lane])
     }
 
     /// The index of the view that holds the texels.
@@ -124,7 +132,7 @@ impl Windows {
     /// A lane's window as a list.
     pub(super) fn taps(&self, lane: usize, taps: &mut Taps) {
         taps.clear();
-        let Some([left, top]) = self.corners[lane] else { return };
+        let Some([left, top]) = self.corner(lane) else { return };
         let first = self.offset + top as usize * self.stride + left as usize;
         let texel = |at: usize| (first + at / self.width * self.stride + at % self.width) as u32;
         let used = self.texels().enumerate().filter(|(_, (weights, _))| weights[lane] != 0.0);
@@ -135,20 +143,29 @@ impl Windows {
 
     /// Finds which windows of a size, and whose first texels lie so far from the patch's origin, are inside the view; true if
     /// any is.
-    pub(super) fn place(&mut self, patch: &Patch, first: &[[f32; SIDE]; 2], [width, height]: [usize; 2]) -> bool {
+    pub(super) fn place(&mut self, patch: &Patch, first: &[[i32; SIDE]; 2], [width, height]: [usize; 2]) -> bool {
         let source = patch.source;
         let whole = &source.whole;
         (self.width, self.height) = (width, height);
         self.within = whole.left as u32..whole.right as u32;
         (self.view, self.offset, self.stride) = (patch.view, source.offset, source.view.width());
-        self.corners = std::array::from_fn(|lane| {
-            let (left, top) = (patch.origin[0] + first[0][lane] as i64, patch.origin[1] + first[1][lane] as i64);
-            let columns = left >= whole.left as i64 && left + width as i64 <= whole.right as i64;
-            let rows = top >= whole.top as i64 && top + height as i64 <= whole.bottom as i64;
-            (columns && rows && width * height <= LARGEST).then_some([left as u32, top as u32])
-        });
-        self.corners != [None; SIDE]
+        let (columns, rows) = (places(whole.left..whole.right, width), places(whole.top..whole.bottom, height));
+        self.held = 0;
+        for lane in 0..SIDE {
+            let [left, top] = [0, 1].map(|axis| patch.origin[axis] + i64::from(first[axis][lane]));
+            self.held |= u8::from(columns.contains(&left) & rows.contains(&top)) << lane;
+            self.corners[lane] = [left as u32, top as u32];
+        }
+        if width * height > LARGEST {
+            self.held = 0;
+        }
+        self.held != 0
     }
+}
+
+/// Where something so long may begin that lies within a range.
+fn places(range: Range<usize>, length: usize) -> Range<i64> {
+    range.start as i64..range.end as i64 - length as i64 + 1
 }
 
 #[cfg(test)]
