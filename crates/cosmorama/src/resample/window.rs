@@ -151,10 +151,10 @@ impl Windows {
         (self.view, self.offset, self.stride) = (patch.view, source.offset, source.view.width());
         let (columns, rows) = (places(whole.left..whole.right, width), places(whole.top..whole.bottom, height));
         self.held = 0;
-        for lane in 0..SIDE {
+        for (lane, corner) in self.corners.iter_mut().enumerate() {
             let [left, top] = [0, 1].map(|axis| patch.origin[axis] + i64::from(first[axis][lane]));
             self.held |= u8::from(columns.contains(&left) & rows.contains(&top)) << lane;
-            self.corners[lane] = [left as u32, top as u32];
+            *corner = [left as u32, top as u32];
         }
         if width * height > LARGEST {
             self.held = 0;
