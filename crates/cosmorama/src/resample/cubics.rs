@@ -1,5 +1,6 @@
-use fearless_simd::{f32x8, prelude::*};
+use fearless_simd::{Simd, prelude::*};
 
+use super::lanes::Lanes;
 use super::{CrossSection, Kernel};
 
 /// The two cross-sections of a kernel where both are cubics of Mitchell & Netravali (1988), as polynomials: what lanes can
@@ -21,7 +22,7 @@ impl Cubics {
 
     /// The polynomials of each lane.
     #[inline(always)]
-    pub(super) fn blend<S: Simd>(&self, coarseness: f32x8<S>) -> Curve<S> {
+    pub(super) fn blend<S: Simd, V: Lanes<S>>(&self, coarseness: V) -> Curve<V> {
         let mut curve = [coarseness; 5];
         for (k, coefficient) in curve.iter_mut().enumerate() {
             *coefficient = coarseness * (self.coarse[k] - self.fine[k]) + self.fine[k];
@@ -42,14 +43,17 @@ fn coefficients(section: CrossSection) -> Option<Coefficients> {
 }
 
 /// A cubic in each lane.
-pub(super) struct Curve<S: Simd>([f32x8<S>; 5]);
+pub(super) struct Curve<V>([V; 5]);
 
-impl<S: Simd> Curve<S> {
+impl<V> Curve<V> {
     /// The weights at distances² `q`, zero from 4 on.
     #[inline(always)]
-    pub(super) fn weight(&self, q: f32x8<S>) -> f32x8<S> {
+    pub(super) fn weight<S: Simd>(&self, q: V) -> V
+    where
+        V: Lanes<S>,
+    {
         let [inner3, inner2, inner0, outer3, outer2] = self.0;
-        let (zero, r) = (f32x8::splat(q.simd, 0.0), q.sqrt());
+        let (zero, r) = (V::splat(q.token(), 0.0), q.sqrt());
         let x = (zero + 2.0 - r).max(zero);
         let (inner, outer) = ((inner3 * r + inner2) * q + inner0, x * x * (outer3 * x + outer2));
         r.simd_lt(zero + 1.0).select(inner, outer)
@@ -58,7 +62,7 @@ impl<S: Simd> Curve<S> {
 
 #[cfg(test)]
 mod tests {
-    use fearless_simd::{Level, dispatch};
+    use fearless_simd::{Level, dispatch, f32x8};
 
     use super::*;
 

@@ -1,61 +1,69 @@
-//! The ellipses of eight pixels at once.
+//! The ellipses of many pixels at once.
 
-use fearless_simd::{f32x8, prelude::*};
+use fearless_simd::{Simd, f32x8, i32x8, prelude::*};
 
 use super::Kernel;
+use super::lanes::Lanes;
 use super::patch::{Columns, Density, Patch, SIDE};
 
 /// Where windows of texels lie, and the ellipses in them: a lane for each.
-pub(super) struct Ellipses<S: Simd> {
+#[derive(Clone, Copy)]
+pub(super) struct Ellipses<V> {
     /// Offset of the first texel's centre from the pixel's, along U and V.
-    pub(super) start: [f32x8<S>; 2],
+    pub(super) start: [V; 2],
     /// A, B and C.
-    conic: [f32x8<S>; 3],
+    conic: [V; 3],
     /// Relative change of the texels' solid angle along U and V.
-    gradient: [f32x8<S>; 2],
+    gradient: [V; 2],
     /// How much of the coarse cubic counts.
-    pub(super) coarseness: f32x8<S>,
-    /// Columns and rows from the patch's origin to the first texel.
-    pub(super) first: [[f32; SIDE]; 2],
-    pub(super) width: usize,
-    pub(super) height: usize,
+    pub(super) coarseness: V,
+    /// Columns and rows from the patch's origin to the first texel, and from there to the last.
+    first: [V; 2],
+    extent: [V; 2],
 }
 
 /// Texels of one row: what of their ellipses does not change along it.
-pub(super) struct EllipsesRow<S: Simd> {
-    a: f32x8<S>,
-    by: f32x8<S>,
-    cyy: f32x8<S>,
-    gradient: f32x8<S>,
-    solid_angle: f32x8<S>,
+pub(super) struct EllipsesRow<V> {
+    a: V,
+    by: V,
+    cyy: V,
+    gradient: V,
+    solid_angle: V,
 }
 
-impl<S: Simd> EllipsesRow<S> {
+impl<V> EllipsesRow<V> {
     /// Q = AU² + BUV + CV² (Greene & Heckbert 1986), over F, at U = `x`.
     #[inline(always)]
-    pub(super) fn distance_squared(&self, x: f32x8<S>) -> f32x8<S> {
-        ((self.a * x + self.by) * x + self.cyy).max(f32x8::splat(x.simd, 0.0))
+    pub(super) fn distance_squared<S: Simd>(&self, x: V) -> V
+    where
+        V: Lanes<S>,
+    {
+        ((self.a * x + self.by) * x + self.cyy).max(V::splat(x.token(), 0.0))
     }
 
     /// The solid angle of a texel, that at the pixel's centre being 1.
     #[inline(always)]
-    pub(super) fn solid_angle(&self, x: f32x8<S>) -> f32x8<S> {
+    pub(super) fn solid_angle<S: Simd>(&self, x: V) -> V
+    where
+        V: Lanes<S>,
+    {
         self.gradient * x + self.solid_angle
     }
 }
 
-impl<S: Simd> Ellipses<S> {
-    /// Those of a row of a patch.
+impl<V> Ellipses<V> {
+    /// Those of the rows of a patch from this one on.
     #[inline(always)]
-    pub(super) fn new(simd: S, kernel: &Kernel, patch: &Patch, row: usize) -> Self {
-        let down = row as f32 / SIDE as f32;
-        let [left, right] = patch.bulge(row);
-        let u = row_of(simd, &patch.place[0], down) + (ramp(simd) * (right[0] - left[0]) + left[0]);
-        let v = row_of(simd, &patch.place[1], down) + (ramp(simd) * (right[1] - left[1]) + left[1]);
-        let (ux, vx) = (row_of(simd, &patch.jacobian[0], down), row_of(simd, &patch.jacobian[1], down));
-        let (uy, vy) = (row_of(simd, &patch.jacobian[2], down), row_of(simd, &patch.jacobian[3], down));
+    pub(super) fn new<S: Simd>(simd: S, kernel: &Kernel, patch: &Patch, row: usize) -> Self
+    where
+        V: Lanes<S>,
+    {
+        let u = rows_of::<S, V>(simd, &patch.place[0], row) + bulges::<S, V>(simd, patch, row, 0);
+        let v = rows_of::<S, V>(simd, &patch.place[1], row) + bulges::<S, V>(simd, patch, row, 1);
+        let (ux, vx) = (rows_of::<S, V>(simd, &patch.jacobian[0], row), rows_of::<S, V>(simd, &patch.jacobian[1], row));
+        let (uy, vy) = (rows_of::<S, V>(simd, &patch.jacobian[2], row), rows_of::<S, V>(simd, &patch.jacobian[3], row));
         let determinant = ux * vy - uy * vx;
-        let zero = f32x8::splat(simd, 0.0);
+        let zero = V::splat(simd, 0.0);
         // As in `Kernel::coarseness`.
         let texels = determinant.abs().sqrt();
         let [before, after] = Kernel::SLOPES.map(|slope| slope as f32);
@@ -68,10 +76,10 @@ impl<S: Simd> Ellipses<S> {
         let (p, q, r) = ((ux * ux + uy * uy) * area, (ux * vx + uy * vy) * area, (vx * vx + vy * vy) * area);
         let half = (p - r) * 0.5;
         let major = (p + r) * 0.5 + (half * half + q * q).sqrt();
-        let tiny = f32x8::splat(simd, 1e-30);
+        let tiny = V::splat(simd, 1e-30);
         // Rounding may put a circle's minor axis above its major one; their difference would change its sign.
         let minor = ((determinant * area) * (determinant * area) / major.max(tiny)).min(major);
-        let floor = f32x8::splat(simd, (kernel.floor * kernel.floor) as f32);
+        let floor = V::splat(simd, (kernel.floor * kernel.floor) as f32);
         let (wide, narrow) = (major.max(floor), minor.max(floor));
         let alpha = ((wide - narrow) / (major - minor).max(tiny)).min(zero + 1.0);
         let beta = wide - alpha * major;
@@ -87,15 +95,36 @@ impl<S: Simd> Ellipses<S> {
             gradient: gradient(&patch.density, u, v),
             conic: [r * inverse, q * inverse * -2.0, p * inverse],
             coarseness,
-            first: [left.to_array(), top.to_array()],
-            width: greatest((right - left).to_array()),
-            height: greatest((bottom - top).to_array()),
+            first: [left, top],
+            extent: [right - left, bottom - top],
         }
+    }
+
+    /// Columns and rows from the patch's origin to the first texels of a row's windows.
+    #[inline(always)]
+    pub(super) fn first<S: Simd>(&self, row: usize) -> [[i32; SIDE]; 2]
+    where
+        V: Lanes<S>,
+    {
+        let [column, row] = [self.first[0].row(row), self.first[1].row(row)];
+        [column.to_int_precise::<i32x8<S>>().to_array(), row.to_int_precise::<i32x8<S>>().to_array()]
+    }
+
+    /// The width and the height of a row's windows.
+    #[inline(always)]
+    pub(super) fn size<S: Simd>(&self, row: usize) -> [usize; 2]
+    where
+        V: Lanes<S>,
+    {
+        [greatest(self.extent[0].row(row).to_array()), greatest(self.extent[1].row(row).to_array())]
     }
 
     /// The row of texels at V = `y`.
     #[inline(always)]
-    pub(super) fn row(&self, y: f32x8<S>) -> EllipsesRow<S> {
+    pub(super) fn texels_at<S: Simd>(&self, y: V) -> EllipsesRow<V>
+    where
+        V: Lanes<S>,
+    {
         let ([a, b, c], [across, down]) = (self.conic, self.gradient);
         EllipsesRow { a, by: b * y, cyy: c * y * y, gradient: across, solid_angle: down * y + 1.0 }
     }
@@ -103,17 +132,35 @@ impl<S: Simd> Ellipses<S> {
 
 /// Relative change of the solid angle at these places.
 #[inline(always)]
-fn gradient<S: Simd>(density: &Density, u: f32x8<S>, v: f32x8<S>) -> [f32x8<S>; 2] {
+fn gradient<S: Simd, V: Lanes<S>>(density: &Density, u: V, v: V) -> [V; 2] {
     let (u, v) = (u - density.at[0], v - density.at[1]);
     let [xx, xy, yy] = density.bend;
     [u * xx + v * xy + density.gradient[0], u * xy + v * yy + density.gradient[1]]
 }
 
-/// A quantity in the row that lies this part of the way down the patch.
+/// A quantity in rows of the patch, from this one on.
 #[inline(always)]
-fn row_of<S: Simd>(simd: S, columns: &Columns, down: f32) -> f32x8<S> {
+fn rows_of<S: Simd, V: Lanes<S>>(simd: S, columns: &Columns, row: usize) -> V {
+    V::of_rows([row_of(simd, columns, row), row_of(simd, columns, row + 1)])
+}
+
+#[inline(always)]
+fn row_of<S: Simd>(simd: S, columns: &Columns, row: usize) -> f32x8<S> {
+    let down = row as f32 / SIDE as f32;
     let (top, rise) = (f32x8::load_array(simd, columns.top), f32x8::load_array(simd, columns.rise));
     top + rise * down + f32x8::load_array(simd, columns.bow) * (down * (1.0 - down))
+}
+
+/// What the sides' bulges add to places in rows, from this one on, along one axis.
+#[inline(always)]
+fn bulges<S: Simd, V: Lanes<S>>(simd: S, patch: &Patch, row: usize, axis: usize) -> V {
+    V::of_rows([bulge(simd, patch, row, axis), bulge(simd, patch, row + 1, axis)])
+}
+
+#[inline(always)]
+fn bulge<S: Simd>(simd: S, patch: &Patch, row: usize, axis: usize) -> f32x8<S> {
+    let [left, right] = patch.bulge(row);
+    ramp(simd) * (right[axis] - left[axis]) + left[axis]
 }
 
 /// How far across the patch each lane is.

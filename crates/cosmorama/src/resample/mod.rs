@@ -15,6 +15,7 @@ mod filter;
 mod gather;
 mod halving;
 mod kernel;
+mod lanes;
 mod lattice;
 mod level_map;
 mod lookup;
@@ -36,6 +37,7 @@ mod surround;
 mod taps;
 mod texel_run;
 mod uncovered;
+mod weigher;
 mod window;
 
 pub use balance::LightBalance;

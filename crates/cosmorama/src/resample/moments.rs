@@ -1,46 +1,53 @@
-//! The moments of eight pixels' weights at once, and what moves their centroids.
+//! The moments of many pixels' weights at once, and what moves their centroids.
 
-use fearless_simd::{f32x8, prelude::*};
+use fearless_simd::{Simd, prelude::*};
 
 use super::bend::Bend;
 use super::candidates::THINNEST;
+use super::lanes::Lanes;
 
 /// Sums over a window: of the weights w and slacks v, and of their products with the offsets.
-pub(super) struct Moments<S: Simd> {
-    w: f32x8<S>,
-    wx: f32x8<S>,
-    wy: f32x8<S>,
-    wxx: f32x8<S>,
-    wxy: f32x8<S>,
-    wyy: f32x8<S>,
-    v: f32x8<S>,
-    vx: f32x8<S>,
-    vy: f32x8<S>,
-    vxx: f32x8<S>,
-    vxy: f32x8<S>,
-    vyy: f32x8<S>,
+pub(super) struct Moments<V> {
+    w: V,
+    wx: V,
+    wy: V,
+    wxx: V,
+    wxy: V,
+    wyy: V,
+    v: V,
+    vx: V,
+    vy: V,
+    vxx: V,
+    vxy: V,
+    vyy: V,
 }
 
 /// The same sums over one row of a window, where the offset down is one.
-pub(super) struct RowSums<S: Simd> {
-    w: f32x8<S>,
-    wx: f32x8<S>,
-    wxx: f32x8<S>,
-    v: f32x8<S>,
-    vx: f32x8<S>,
-    vxx: f32x8<S>,
+pub(super) struct RowSums<V> {
+    w: V,
+    wx: V,
+    wxx: V,
+    v: V,
+    vx: V,
+    vxx: V,
 }
 
-impl<S: Simd> RowSums<S> {
+impl<V> RowSums<V> {
     #[inline(always)]
-    pub(super) fn zero(simd: S) -> Self {
-        let zero = f32x8::splat(simd, 0.0);
+    pub(super) fn zero<S: Simd>(simd: S) -> Self
+    where
+        V: Lanes<S>,
+    {
+        let zero = V::splat(simd, 0.0);
         Self { w: zero, wx: zero, wxx: zero, v: zero, vx: zero, vxx: zero }
     }
 
     /// Adds a texel at an offset across.
     #[inline(always)]
-    pub(super) fn add(&mut self, w: f32x8<S>, v: f32x8<S>, x: f32x8<S>) {
+    pub(super) fn add<S: Simd>(&mut self, w: V, v: V, x: V)
+    where
+        V: Lanes<S>,
+    {
         let (wx, vx) = (w * x, v * x);
         self.w += w;
         self.wx += wx;
@@ -51,10 +58,13 @@ impl<S: Simd> RowSums<S> {
     }
 }
 
-impl<S: Simd> Moments<S> {
+impl<V> Moments<V> {
     #[inline(always)]
-    pub(super) fn zero(simd: S) -> Self {
-        let zero = f32x8::splat(simd, 0.0);
+    pub(super) fn zero<S: Simd>(simd: S) -> Self
+    where
+        V: Lanes<S>,
+    {
+        let zero = V::splat(simd, 0.0);
         Self {
             w: zero,
             wx: zero,
@@ -73,7 +83,10 @@ impl<S: Simd> Moments<S> {
 
     /// Adds a row at an offset down.
     #[inline(always)]
-    pub(super) fn add(&mut self, row: &RowSums<S>, y: f32x8<S>) {
+    pub(super) fn add<S: Simd>(&mut self, row: &RowSums<V>, y: V)
+    where
+        V: Lanes<S>,
+    {
         self.w += row.w;
         self.wx += row.wx;
         self.wy += row.w * y;
@@ -93,8 +106,11 @@ impl<S: Simd> Moments<S> {
     ///
     /// Offsets in texels serve as well as offsets on the screen: the correction is linear in them.
     #[inline(always)]
-    pub(super) fn correction(&self, simd: S, centring: Option<&Bend>) -> Correction<S> {
-        let zero = f32x8::splat(simd, 0.0);
+    pub(super) fn correction<S: Simd>(&self, simd: S, centring: Option<&Bend>) -> Correction<V>
+    where
+        V: Lanes<S>,
+    {
+        let zero = V::splat(simd, 0.0);
         let scale = (zero + 1.0) / self.w;
         let (mean_x, mean_y) = (self.vx / self.v, self.vy / self.v);
         let xx = self.vxx - self.vx * mean_x;
@@ -114,7 +130,10 @@ impl<S: Simd> Moments<S> {
 
     /// Of the weights, with the texels where they are seen.
     #[inline(always)]
-    fn first_moments(&self, bend: &Bend) -> [f32x8<S>; 2] {
+    fn first_moments<S: Simd>(&self, bend: &Bend) -> [V; 2]
+    where
+        V: Lanes<S>,
+    {
         let [[uu_x, uu_y], [uv_x, uv_y], [vv_x, vv_y]] =
             [bend.uu * 0.5, bend.uv, bend.vv * 0.5].map(|bend| bend.as_vec2().to_array());
         [
@@ -125,32 +144,38 @@ impl<S: Simd> Moments<S> {
 }
 
 /// What becomes of a window's weights: w·scale + v·(g·p + constant).
-pub(super) struct Correction<S: Simd> {
-    scale: f32x8<S>,
-    gx: f32x8<S>,
-    gy: f32x8<S>,
-    constant: f32x8<S>,
+pub(super) struct Correction<V> {
+    scale: V,
+    gx: V,
+    gy: V,
+    constant: V,
 }
 
 /// The same for one row.
-pub(super) struct RowCorrection<S: Simd> {
-    scale: f32x8<S>,
-    gx: f32x8<S>,
-    constant: f32x8<S>,
+pub(super) struct RowCorrection<V> {
+    scale: V,
+    gx: V,
+    constant: V,
 }
 
-impl<S: Simd> Correction<S> {
+impl<V> Correction<V> {
     /// In the row at an offset down.
     #[inline(always)]
-    pub(super) fn row(&self, y: f32x8<S>) -> RowCorrection<S> {
+    pub(super) fn row<S: Simd>(&self, y: V) -> RowCorrection<V>
+    where
+        V: Lanes<S>,
+    {
         RowCorrection { scale: self.scale, gx: self.gx, constant: self.gy * y + self.constant }
     }
 }
 
-impl<S: Simd> RowCorrection<S> {
+impl<V> RowCorrection<V> {
     /// The corrected weight of a texel at an offset across.
     #[inline(always)]
-    pub(super) fn apply(&self, w: f32x8<S>, v: f32x8<S>, x: f32x8<S>) -> f32x8<S> {
+    pub(super) fn apply<S: Simd>(&self, w: V, v: V, x: V) -> V
+    where
+        V: Lanes<S>,
+    {
         w * self.scale + v * (self.gx * x + self.constant)
     }
 }

@@ -4,8 +4,9 @@ use rayon::prelude::*;
 
 use super::kernel::KernelTable;
 use super::lattice::Lattice;
-use super::patch::{HALF, Patch, SIDE, lanes_of};
+use super::patch::{HALF, Patch, SIDE};
 use super::pixel_taps::PixelTaps;
+use super::weigher::Weigher;
 use super::window::{Level, Windows};
 use super::{FilterKind, Resampler, Taps};
 use crate::world::PixelRect;
@@ -19,7 +20,7 @@ pub(super) struct Scan<'a> {
     resampler: &'a Resampler<'a>,
     pixels: PixelTaps<'a>,
     /// For filters that work in windows.
-    windows: Option<Windows>,
+    weigher: Option<Weigher>,
     lattice: Lattice<'a>,
     /// The patches to go through, if not all.
     wanted: Option<&'a Wanted>,
@@ -63,11 +64,11 @@ impl<'a> Scan<'a> {
     /// `table` is that of the filter's kernel.
     pub(super) fn new(resampler: &'a Resampler<'a>, table: &'a KernelTable, level: Level) -> Self {
         let Resampler { world, target, filter } = resampler;
-        let windows = matches!(filter.kind, FilterKind::Ewa | FilterKind::EwaPyramid)
-            .then(|| Windows::new(&filter.kernel, level))
+        let weigher = matches!(filter.kind, FilterKind::Ewa | FilterKind::EwaPyramid)
+            .then(|| Weigher::new(&filter.kernel, level))
             .flatten();
         let pixels = PixelTaps::new(world, target, filter, table);
-        Self { resampler, pixels, windows, lattice: Lattice::new(target), wanted: None }
+        Self { resampler, pixels, weigher, lattice: Lattice::new(target), wanted: None }
     }
 
     /// The same of these patches alone.
@@ -111,15 +112,16 @@ impl<'a> Scan<'a> {
             return;
         }
         let gather = self.pixels.gather();
-        let patch = self.windows.as_ref().and_then(|_| Patch::new(gather, &mut self.lattice, [left, top]));
+        let patch = self.weigher.as_ref().and_then(|_| Patch::new(gather, &mut self.lattice, [left, top]));
+        let mut windows = self.weigher.as_mut().zip(patch.as_ref()).map(|(weigher, patch)| weigher.rows(patch));
         for row in rows {
             let within = row - first;
             let lanes = patch.as_ref().map_or(0, |patch| all & patch.lanes(self.pixels.gather(), target, [left, row]));
             let mut made = 0;
-            if let Some((windows, patch)) = self.windows.as_mut().zip(patch.as_ref()).filter(|_| lanes != 0) {
-                windows.fill(patch, row - top);
+            if let Some(windows) = windows.as_mut().filter(|_| lanes != 0) {
+                let windows = windows.row(row - top);
                 sink.windows([left, within], lanes, windows);
-                made = lanes_of(|lane| lanes >> lane & 1 == 1 && windows.holds(lane));
+                made = lanes & windows.held();
             }
             for lane in (0..count).filter(|lane| made >> lane & 1 == 0) {
                 let Some(screen) = target.screen_pixel(left + lane, row) else { continue };
@@ -203,7 +205,7 @@ mod tests {
         let resampler = Resampler { world, target, filter: Filter { kernel, ..Filter::DEFAULT } };
         let table = KernelTable::new(&kernel);
         let fast = collect(&mut Scan::new(&resampler, &table, Level::new()), target);
-        let slow = collect(&mut Scan { windows: None, ..Scan::new(&resampler, &table, Level::new()) }, target);
+        let slow = collect(&mut Scan { weigher: None, ..Scan::new(&resampler, &table, Level::new()) }, target);
         for (fast, slow) in fast.weights.iter().zip(&slow.weights) {
             let weight = |of: &[(u32, f32)], texel| of.iter().find(|(at, _)| *at == texel).map_or(0.0, |tap| tap.1);
             for (texel, _) in fast.iter().chain(slow) {
@@ -339,7 +341,7 @@ mod tests {
                 let table = KernelTable::new(&resampler.filter.kernel);
                 let image = Image::filled(target.width(), target.height(), Rgba::TRANSPARENT);
                 let mut exact = Averages { texels: &texels, image };
-                let mut scan = Scan { windows: None, ..Scan::new(&resampler, &table, Level::new()) };
+                let mut scan = Scan { weigher: None, ..Scan::new(&resampler, &table, Level::new()) };
                 scan.pixels(target.width(), 0..target.height(), &mut exact);
                 let made = resampler.render(&texels);
                 let whole = made.pixels().iter().zip(exact.image.pixels()).filter(|(_, exact)| exact.alpha() == 1.0);

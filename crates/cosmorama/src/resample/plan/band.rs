@@ -226,11 +226,12 @@ impl<W: Weights, F: FnMut(&mut Band<W>)> Sink for Recorder<'_, W, F> {
 
     fn windows(&mut self, pixel: [usize; 2], lanes: u8, windows: &Windows) {
         let first = self.band.weights.len();
-        let mut corners: Corners = std::array::from_fn(|lane| windows.corner(lane).filter(|_| lanes >> lane & 1 == 1));
+        let lanes = lanes & windows.held();
         // Nothing was weighed.
-        if corners == [None; SIDE] {
+        if lanes == 0 {
             return;
         }
+        let mut corners: Corners = std::array::from_fn(|lane| windows.corner(lane).filter(|_| lanes >> lane & 1 == 1));
         if self.band.weights.keep(windows, &mut corners) {
             if let Some(run) = Run::new(windows, &corners, pixel, first) {
                 self.band.runs.push(run);
@@ -238,7 +239,7 @@ impl<W: Weights, F: FnMut(&mut Band<W>)> Sink for Recorder<'_, W, F> {
             }
             self.band.weights.truncate(first);
         }
-        for lane in (0..SIDE).filter(|&lane| lanes >> lane & 1 == 1 && windows.holds(lane)) {
+        for lane in (0..SIDE).filter(|&lane| lanes >> lane & 1 == 1) {
             let mut taps = std::mem::take(&mut self.taps);
             windows.taps(lane, &mut taps);
             self.single([pixel[0] + lane, pixel[1]], 1.0, &taps);

@@ -5,6 +5,7 @@ use super::fixed_check::is_sound;
 use super::rounded::{Origin, Rounded};
 use super::stored::Stored;
 use super::weights::Weights;
+use crate::resample::patch::SIDE;
 use crate::resample::window::Windows;
 
 /// The weights of windows as integers, pixel by pixel, row by row, two beside each other in each number.
@@ -47,6 +48,13 @@ impl Shape {
         Self { pairs, height, under }
     }
 }
+
+/// Rows of the highest small window, and pairs of the widest.
+pub(super) const HIGHEST: usize = 5;
+const WIDEST: usize = 3;
+
+/// Numbers that hold any of them with its header, and what follows its last row.
+const MOST: usize = 1 + WIDEST * (HIGHEST - 1) + SIDE / 2;
 
 /// What is known of a pixel's window: which texels of a small one lie under the pixel, its shape and how its weights are scaled.
 #[derive(Clone, Copy, Debug)]
@@ -121,29 +129,28 @@ impl FixedWeights {
             return false;
         }
         *corner = [(left + origin.column) as u32, corner[1] + origin.row as u32];
-        match (small, shape.pairs) {
-            (Some((index, _)), 2) => self.write_small::<2>(lane, origin, index),
-            (Some((index, _)), _) => self.write_small::<3>(lane, origin, index),
-            (None, _) => self.write_large(windows, lane, origin, shape),
+        match small {
+            Some((index, _)) => self.write_small(lane, origin, index),
+            None => self.write_large(windows, lane, origin, shape),
         }
         true
     }
 
     #[inline(always)]
-    fn write_small<const PAIRS: usize>(&mut self, lane: usize, origin: Origin, index: usize) {
+    fn write_small(&mut self, lane: usize, origin: Origin, index: usize) {
         let Self { numbers, rounded } = self;
-        let Shape { height, under, .. } = Shape::SMALL[index];
-        let marks = |row| marks_of(rounded.small_marks(lane, origin, under + row, PAIRS)) << (PAIRS * row);
+        let Shape { pairs, height, under } = Shape::SMALL[index];
+        let marks = |row| marks_of(rounded.small_marks(lane, origin, under + row, pairs)) << (pairs * row);
         let header = Header::new(Some(index), rounded.bits, (0..ROWS_UNDER).fold(0, |all, row| all | marks(row)));
-        // One number, and rows of which five are the most. What is written is always as much: no copy of unknown length.
-        let mut all = [0; 1 + 5 * 3];
-        all[0] = header.0;
-        for (row, pairs) in all[1..].as_chunks_mut().0.iter_mut().take(height).enumerate() {
-            *pairs = rounded.small_pairs::<PAIRS>(lane, origin, row);
+        // Whatever the shape, as much is written: each row overwrites what followed the one before.
+        let length = numbers.len();
+        numbers.extend_from_slice(&[0; MOST]);
+        let room: &mut [u32; MOST] = numbers[length..].first_chunk_mut().expect("there is as much room");
+        room[0] = header.0;
+        for (row, weights) in rounded.small_pairs(lane, origin).into_iter().enumerate() {
+            room[1 + pairs.min(WIDEST) * row..][..weights.len()].copy_from_slice(&weights);
         }
-        let length = numbers.len() + 1 + PAIRS * height;
-        numbers.extend_from_slice(&all);
-        numbers.truncate(length);
+        numbers.truncate(length + 1 + pairs * height);
     }
 
     fn write_large(&mut self, windows: &Windows, lane: usize, origin: Origin, Shape { pairs, height, .. }: Shape) {

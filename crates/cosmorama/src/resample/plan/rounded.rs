@@ -4,9 +4,9 @@ use std::ops::Range;
 
 use fearless_simd::{Simd, f32x8, i16x8, i32x8, prelude::*};
 
-use super::fixed_weights::{ROWS_UNDER, Shape, mark};
+use super::fixed_weights::{HIGHEST, ROWS_UNDER, Shape, mark};
 use crate::resample::patch::SIDE;
-use crate::resample::window::Windows;
+use crate::resample::window::{Size, Windows};
 
 /// The windows of a run before they are sorted by pixel. Bits of bytes are lanes, until they are turned.
 #[derive(Clone, Debug, Default)]
@@ -27,14 +27,14 @@ pub(super) struct Rounded {
 /// Of windows with eight columns and rows at most, by lane.
 #[derive(Clone, Debug, Default)]
 struct Small {
-    /// The columns and rows with a weight or a texel under the pixel, and the rows with a texel under it, a bit for each.
-    columns: [u8; SIDE],
-    rows: [u8; SIDE],
-    rows_under: [u8; SIDE],
+    /// The smallest of the small shapes that holds it, by its index, or a larger number.
+    shapes: [i32; SIDE],
+    /// In which column and row that begins: the only bit that is set.
+    begin: [[i32; SIDE]; 2],
     /// The columns of the texels under the pixel, by row.
     under: [[u8; SIDE]; SIDE],
-    /// The weights of a lane, by row, [`MARGIN`] zeros on either side.
-    weights: [[[i16; 2 * SIDE]; SIDE]; SIDE],
+    /// The weights of a lane, by row, [`MARGIN`] zeros on either side; more rows than are written.
+    weights: [[[i16; 2 * SIDE]; SIDE + HIGHEST]; SIDE],
 }
 
 /// Zeros on either side of a row of a small window.
@@ -55,7 +55,7 @@ impl Rounded {
     /// lane's sum is exactly one, but where the last weight would be one itself, which 16 bits do not hold.
     #[inline(always)]
     pub(super) fn fill<S: Simd>(&mut self, simd: S, windows: &Windows) -> bool {
-        let Some(bits) = scale(simd, windows) else { return false };
+        let Some(bits) = scale(windows.size()) else { return false };
         self.bits = bits;
         self.resize(windows);
         let (pitch, most) = (self.pitch(), i32x8::splat(simd, i32::from(i16::MAX)));
@@ -63,20 +63,20 @@ impl Rounded {
         let scale = (1 << bits) as f32;
         let mut sums = f32x8::splat(simd, 0.0);
         let mut before: i32x8<S> = f32x8::splat(simd, ROUNDER).bitcast();
-        let mut texels = windows.texels();
-        for row in 0..self.height {
-            let into = self.weights[row * pitch + 1..][..self.width].iter_mut();
-            let under = self.under[row * pitch + 1..][..self.width].iter_mut();
-            for (column, (into, under)) in into.zip(under).enumerate() {
-                let Some((weights, &is_under)) = texels.next() else { break };
-                sums += f32x8::load_array(simd, *weights) * scale;
+        let width = self.width;
+        let weights = windows.weights().chunks_exact(width).zip(windows.under().chunks_exact(width));
+        let into = self.weights.chunks_exact_mut(pitch).zip(self.under.chunks_exact_mut(pitch));
+        for (row, ((into, under_into), (weights, under))) in into.zip(weights).enumerate() {
+            let (into, under_into) = (&mut into[1..][..width], &mut under_into[1..][..width]);
+            for column in 0..width {
+                sums += f32x8::load_array(simd, weights[column]) * scale;
                 let sum: i32x8<S> = (sums + ROUNDER).bitcast();
                 let step = (sum - before).min(most);
                 before += step;
                 let (low, high) = step.split();
-                *into = low.relaxed_narrow(high).to_array();
-                *under = is_under;
-                let counts = !(step.simd_eq(0).to_bitmask() as u8) | is_under;
+                into[column] = low.relaxed_narrow(high).to_array();
+                under_into[column] = under[column];
+                let counts = !(step.simd_eq(0).to_bitmask() as u8) | under[column];
                 columns[column % SIDE] |= counts;
                 rows[row % SIDE] |= counts;
             }
@@ -118,35 +118,49 @@ impl Rounded {
                 weights.store_slice(&mut small.weights[lane][row][MARGIN..][..SIDE]);
             }
         }
-        (small.columns, small.rows) = (turned_bits(columns), turned_bits(rows));
-        small.rows_under = turned_bits(rows_under);
+        self.find_shapes(simd, [turned_bits(columns), turned_bits(rows), turned_bits(rows_under)]);
+    }
+
+    /// Finds the smallest of the small shapes that holds each lane's window, given in which columns and rows something counts, and in
+    /// which rows texels lie under the pixel. Where windows begin is told by a bit, so that no lane needs a branch.
+    #[inline(always)]
+    fn find_shapes<S: Simd>(&mut self, simd: S, counts: [[u8; SIDE]; 3]) {
+        let [columns, rows, under] = counts.map(|bits| i32x8::load_array(simd, bits.map(i32::from)));
+        let (first_column, first_row) = ((columns & -columns).max(1), (rows & -rows).max(1));
+        let none = i32x8::splat(simd, Shape::SMALL.len() as i32);
+        // The first one that holds it is the last one that is looked at. Whatever the number of pairs, the same heights follow.
+        let (mut narrowest, mut column) = (none, first_column);
+        for (at, shape) in Shape::SMALL.iter().enumerate().step_by(Shape::HEIGHTS).rev() {
+            let width = 2 * shape.pairs;
+            if width <= self.width + 1 {
+                let begin = first_column.min(1 << self.width.saturating_sub(width));
+                let holds = columns.simd_le(first_column * ((1 << width) - 1));
+                narrowest = holds.select(i32x8::splat(simd, at as i32), narrowest);
+                column = holds.select(begin, column);
+            }
+        }
+        let (mut lowest, mut row) = (none, first_row);
+        for (at, shape) in Shape::SMALL[..Shape::HEIGHTS].iter().enumerate().rev() {
+            if shape.height <= self.height {
+                let begin = first_row.min(1 << (self.height - shape.height));
+                let may_be_under = begin * (((1 << ROWS_UNDER) - 1) << shape.under);
+                let holds = rows.simd_le(first_row * ((1 << shape.height) - 1)) & (under & !may_be_under).simd_eq(0);
+                lowest = holds.select(i32x8::splat(simd, at as i32), lowest);
+                row = holds.select(begin, row);
+            }
+        }
+        self.small.shapes = (narrowest + lowest).to_array();
+        self.small.begin = [column.to_array(), row.to_array()];
     }
 
     /// The smallest of the small shapes that holds a lane's window, by its index, and where it begins.
     #[inline(always)]
     pub(super) fn shape(&self, lane: usize) -> Option<(usize, Origin)> {
-        if !self.is_small {
-            return None;
-        }
-        let Small { columns, rows, rows_under, .. } = &self.small;
-        let [columns, rows, under] = [columns[lane], rows[lane], rows_under[lane]].map(span);
-        let row_of = |shape: &Shape| {
-            let row = rows.start.min(self.height.checked_sub(shape.height)?);
-            let first = row + shape.under;
-            let holds = rows.len() <= shape.height && first <= under.start && under.end <= first + ROWS_UNDER;
-            holds.then_some(row)
-        };
-        let column_of = |shape: &Shape| {
-            let width = 2 * shape.pairs;
-            let column = columns.start.min(self.width.saturating_sub(width));
-            (columns.len() <= width && width <= self.width + 1).then_some(column as isize)
-        };
-        // Whatever the number of pairs, the same heights follow.
-        let widths = Shape::SMALL.chunks(Shape::HEIGHTS).enumerate();
-        let (narrowest, column) = widths.filter_map(|(at, shapes)| Some((at, column_of(&shapes[0])?))).next()?;
-        let heights = Shape::SMALL[..Shape::HEIGHTS].iter().enumerate();
-        let (lowest, row) = heights.filter_map(|(at, shape)| Some((at, row_of(shape)?))).next()?;
-        Some((narrowest * Shape::HEIGHTS + lowest, Origin { column, row }))
+        let index = self.small.shapes[lane] as usize;
+        let [column, row] = self.small.begin;
+        let origin =
+            Origin { column: column[lane].trailing_zeros() as isize, row: row[lane].trailing_zeros() as usize };
+        (self.is_small && index < Shape::SMALL.len()).then_some((index, origin))
     }
 
     /// Which texels of a row of a lane's small window lie under the pixel, a bit for each.
@@ -156,13 +170,16 @@ impl Rounded {
         (columns << 1 >> (origin.column + 1) & ((1 << (2 * pairs)) - 1)) as u8
     }
 
-    /// The weights of a row of a lane's small window, pair by pair.
+    /// The weights of a lane's small window, row by row, pair by pair, and what follows.
     #[inline(always)]
-    pub(super) fn small_pairs<const PAIRS: usize>(&self, lane: usize, origin: Origin, row: usize) -> [u32; PAIRS] {
-        let weights = &self.small.weights[lane][(origin.row + row) % SIDE];
-        let first = (MARGIN as isize + origin.column) as usize;
-        let pairs = weights[first..][..2 * PAIRS].as_chunks().0;
-        std::array::from_fn(|at| pair(pairs[at]))
+    pub(super) fn small_pairs(&self, lane: usize, origin: Origin) -> [[u32; SIDE / 2]; HIGHEST] {
+        let first = (MARGIN as isize + origin.column) as usize % (SIDE + 1);
+        let rows: &[_; HIGHEST] =
+            self.small.weights[lane][origin.row % SIDE..].first_chunk().expect("there are more rows");
+        std::array::from_fn(|row| {
+            let pairs = rows[row][first..][..SIDE].as_chunks().0;
+            std::array::from_fn(|at| pair(pairs[at]))
+        })
     }
 
     /// The marks of a row of a lane's window, of 16 pairs at most.
@@ -219,20 +236,11 @@ fn turned<S: Simd>(mut rows: [i16x8<S>; SIDE]) -> [i16x8<S>; SIDE] {
     rows
 }
 
-/// By how many bits weights are scaled, so that sums of products fit into 32.
-#[inline(always)]
-fn scale<S: Simd>(simd: S, windows: &Windows) -> Option<u32> {
-    let mut largest = f32x8::splat(simd, 0.0);
-    let mut size = largest;
-    for (weights, _) in windows.texels() {
-        let weights = f32x8::load_array(simd, *weights).abs();
-        largest = largest.max(weights);
-        size += weights;
-    }
-    let [largest, size] = [largest, size].map(|lanes| lanes.reduce_max());
-    if largest < 1.0 && size < 1.9 {
+/// By how many bits weights of this size are scaled, so that sums of products fit into 32.
+fn scale(Size { largest, sum }: Size) -> Option<u32> {
+    if largest < 1.0 && sum < 1.9 {
         Some(15)
-    } else if largest < 1.99 && size < 3.9 {
+    } else if largest < 1.99 && sum < 3.9 {
         Some(14)
     } else {
         None
