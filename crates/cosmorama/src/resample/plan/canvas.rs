@@ -74,7 +74,7 @@ impl<'a, P: Copy> Canvas<'a, P> {
             let mut column = from;
             while column < self.columns && (made[column / 8] >> (column % 8) & 1 == 1) != is_made {
                 // Whole bytes of the others are passed over at once.
-                column = if column % 8 == 0 && made[column / 8] == whole { column + 8 } else { column + 1 };
+                column = if column.is_multiple_of(8) && made[column / 8] == whole { column + 8 } else { column + 1 };
             }
             column.min(self.columns)
         };

@@ -122,9 +122,9 @@ impl<S: Simd> RunFilter<'_, S> {
         let Self { simd, filter, ways, run, mut numbers } = self;
         let order: [(usize, usize); N] = std::array::from_fn(|image| ways.order[start + image]);
         let (mut walks, mut size) = ([Walk::default(); N], [0; 2]);
-        for image in 0..N {
-            let seen = filter.mirrors.images[order[image].0].view(usize::from(run.view));
-            (walks[image], size) = (seen.walk([0; 2]), seen.size());
+        for (walk, (index, _)) in walks.iter_mut().zip(order) {
+            let seen = filter.mirrors.images[index].view(usize::from(run.view));
+            (*walk, size) = (seen.walk([0; 2]), seen.size());
         }
         let texels = Texels::<i16, N, R>::new(filter.light.samples(), walks, size);
         let large = Shape { pairs: usize::from(run.width).div_ceil(2), height: usize::from(run.height), under: 0 };
@@ -266,17 +266,17 @@ impl<
     #[inline(always)]
     fn add_row(&self, sums: &mut Sums<S, V, N>, row: usize) {
         let mut rows = [self.texels[0].samples::<16>(row, 0); N];
-        for image in 0..N {
-            rows[image] = self.texels[image].samples(row, if image < N - R { 0 } else { PAIRS - 2 });
+        for (image, samples) in rows.iter_mut().enumerate() {
+            *samples = self.texels[image].samples(row, if image < N - R { 0 } else { PAIRS - 2 });
         }
         let [first, second] = V::two_pairs::<R>(self.simd, rows);
         self.add_pair(sums, row, 0, first);
         self.add_pair(sums, row, 1, second);
         if PAIRS == 3 {
             let mut third = [i16x8::splat(self.simd, 0); N];
-            for image in 0..N {
+            for (image, third) in third.iter_mut().enumerate() {
                 let pair = if image < N - R { 2 } else { 0 };
-                third[image] = i16x8::load_array_ref(self.simd, self.texels[image].samples(row, pair));
+                *third = i16x8::load_array_ref(self.simd, self.texels[image].samples(row, pair));
             }
             self.add_pair(sums, row, 2, V::join(third));
         }

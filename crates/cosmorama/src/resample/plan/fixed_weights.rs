@@ -96,7 +96,7 @@ fn marks_of(texels: u8) -> u32 {
         let mut marks = [0; 64];
         let mut at = 0;
         while at < 64 * 6 {
-            if at / 6 >> (at % 6) & 1 == 1 {
+            if (at / 6) >> (at % 6) & 1 == 1 {
                 marks[at / 6] |= mark(at % 6);
             }
             at += 1;

@@ -186,7 +186,7 @@ impl Rounded {
     pub(super) fn marks(&self, lane: usize, origin: Origin, row: usize, pairs: Range<usize>) -> u32 {
         let first = (origin.row + row) * self.pitch() + (origin.column + 1) as usize;
         let under = &self.under[first + 2 * pairs.start..first + 2 * pairs.end];
-        under.iter().enumerate().fold(0, |marks, (at, lanes)| marks | u32::from(lanes >> lane & 1) * mark(at))
+        under.iter().enumerate().fold(0, |marks, (at, lanes)| marks | (u32::from(lanes >> lane & 1) * mark(at)))
     }
 
     /// The weights of a row of a lane's window, pair by pair.
