@@ -76,6 +76,31 @@ fn sequences_and_memory_are_the_same_with_plans_that_are_kept() {
 }
 
 #[test]
+fn plans_that_are_not_kept_are_told_of() {
+    let bench = Bench::new();
+    for frame in 1..=3 {
+        bench.save(&format!("sky_{frame}.png"), &picture(frame, 64, 32));
+    }
+    let args =
+        ["convert", "sky_#.png", "out_#.png", "--from=equirect", "--to=fisheye", "--size", "128", "-y", "--json"];
+    let warnings = |more: &[&str]| -> Vec<String> {
+        let report: Value = serde_json::from_str(&bench.succeed(&[&args[..], more].concat())).unwrap();
+        report["warnings"].as_array().unwrap().iter().map(|warning| warning.as_str().unwrap().to_owned()).collect()
+    };
+    let cache = "--plan-cache=plans";
+    for (more, told) in [
+        (&["--memory", "1200K"][..], "computed anew for each frame; give more with --memory"),
+        (&["--memory", "1200K", cache], "none is kept; give more with --memory"),
+        (&["--filter", "reference", "--frames", "1", cache], "with --filter ewa they are"),
+        (&["--filter", "ewa-pyramid", cache], "with --filter ewa they are"),
+    ] {
+        let warnings = warnings(more);
+        assert!(warnings.len() == 1 && warnings[0].ends_with(told), "{more:?}: {warnings:?}");
+    }
+    assert_eq!([warnings(&[]), warnings(&["--memory", "1200K", "--frames", "1"])], [[""; 0], [""; 0]]);
+}
+
+#[test]
 fn what_is_wrong_with_a_plan_is_told_and_mended() {
     let cached = Cached::new();
     cached.convert(&[]);
@@ -99,7 +124,7 @@ fn what_is_wrong_with_a_plan_is_told_and_mended() {
         std::fs::write(&plan, bytes).unwrap();
         let warnings = cached.convert(&[]);
         assert_eq!(warnings.len(), 1, "{warnings:?}");
-        bench::assert_says(&warnings[0], &[&plan.file_name().unwrap().to_string_lossy(), told, "computed again"]);
+        bench::assert_says(&warnings[0], &[&plan.file_name().unwrap().to_string_lossy(), told, "the plan is computed"]);
         assert!(std::fs::read(&plan).unwrap() == whole, "{told}: it is whole again");
         assert_eq!(cached.convert(&[]), [""; 0]);
     }
@@ -118,7 +143,10 @@ fn a_folder_that_cannot_be_written_is_told_and_done_without() {
     std::fs::remove_file(&plan).unwrap();
     std::fs::create_dir(&plan).unwrap();
     let warnings = cached.convert(&[]);
-    assert!(warnings[0].contains("computed again") && warnings[1].contains("the plan is not kept"), "{warnings:?}");
+    assert!(
+        warnings[0].contains("the plan is computed") && warnings[1].contains("the plan is not kept"),
+        "{warnings:?}"
+    );
 }
 
 #[test]

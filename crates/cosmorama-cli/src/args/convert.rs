@@ -58,7 +58,7 @@ pub(crate) struct ConvertArgs {
     /// Directions that no view covers: error, transparent or a colour
     #[arg(long, value_name = "error|COLOR|transparent", default_value = "error", help_heading = "Light")]
     pub(crate) missing: Missing,
-    /// Which frames: 5, 1-10 or 1-3,5,7-20:2 [default: all that exist]
+    /// Which frames: 5, 1-10 or 1-3,5,7-20:2 [default: all from the first that exists to the last]
     #[arg(long, value_name = "LIST", allow_hyphen_values = true, help_heading = "Frames and files")]
     pub(crate) frames: Option<FrameList>,
     /// Replace existing outputs

@@ -1,3 +1,5 @@
+use std::cell::Cell;
+
 use cosmorama::raster::{Channels, Depth, FixedCodec, FixedDecoder, FixedLight, Image, Rgba};
 use cosmorama::resample::{FilterKind, FixedPlan, Plan, PyramidPlan, Resampler, SavedPlan};
 
@@ -18,13 +20,21 @@ pub(super) enum Geometry {
 const UNBALANCED: &str = "--kernel light: there is not memory enough for all of the geometry; near poles, seams and the corners \
                           of faces light may be added or lost. Give more with --memory";
 
+const UNKEPT: &str = "--plan-cache: plans of pyramids and of the reference are not kept; with --filter ewa they are";
+
+/// Where there is no room for geometry that would be used again: in this run, and in the next.
+const ANEW: &str =
+    "there is not memory enough to hold the geometry: it is computed anew for each frame; give more with --memory";
+const NO_ROOM: &str =
+    "--plan-cache: there is not memory enough to hold the plan: none is kept; give more with --memory";
+
 impl Geometry {
     /// That of a job, and what should be known of it.
     pub(super) fn compile(job: &ConvertJob) -> (Self, Vec<String>) {
         let mut warnings = Vec::new();
         if job.filter.kind == FilterKind::EwaPyramid {
             if job.plan_cache.is_some() {
-                warnings.push("--plan-cache: plans of pyramids are not kept; with --filter ewa they are".to_owned());
+                warnings.push(UNKEPT.to_owned());
             }
             let plan = |r: &Resampler, left| fitting(r, left, |r| r.plan_bytes_estimate(), |r| r.pyramid_plan());
             let plans = plans(job, 0, |r, left| if pays(job) { plan(r, left) } else { None }, PyramidPlan::bytes);
@@ -151,8 +161,13 @@ fn kept<P: SavedPlan>(
     plan: impl Fn(&Resampler) -> Option<P>,
     warnings: &mut Vec<String>,
 ) -> Vec<Option<P>> {
+    let lacks_room = Cell::new(false);
     let plan_of = |resampler: &Resampler, left: u64| {
-        let compute = || fitting(resampler, left, &estimate, &plan);
+        let compute = || {
+            let fits = estimate(resampler) as u64 <= left;
+            lacks_room.set(lacks_room.get() || !fits);
+            if fits { plan(resampler) } else { None }
+        };
         match &job.plan_cache {
             Some(folder) if !job.outputs.frames.is_empty() => {
                 let mut cache = PlanCache::new(folder, left);
@@ -164,7 +179,15 @@ fn kept<P: SavedPlan>(
             _ => None,
         }
     };
-    plans(job, taken, plan_of, P::bytes)
+    let plans = plans(job, taken, plan_of, P::bytes);
+    let is_complete = job.outputs.frames.is_empty() || plans.iter().all(Option::is_some);
+    match (&job.plan_cache, lacks_room.get()) {
+        (Some(_), true) => warnings.push(NO_ROOM.to_owned()),
+        (Some(_), false) if !is_complete => warnings.push(UNKEPT.to_owned()),
+        (None, true) if pays(job) => warnings.push(ANEW.to_owned()),
+        _ => {}
+    }
+    plans
 }
 
 /// That of a job whose inputs and outputs are opaque pictures of 8 bits that 15 bits of light are enough for.

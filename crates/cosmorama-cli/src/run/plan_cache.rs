@@ -28,7 +28,9 @@ impl<'a> PlanCache<'a> {
         compute: impl FnOnce() -> Option<P>,
     ) -> Option<P> {
         if self.folder.exists() && !self.folder.is_dir() {
-            self.warnings.push(format!("--plan-cache {} is no folder; nothing is kept", self.folder.display()));
+            let folder = self.folder.display();
+            self.warnings
+                .push(format!("--plan-cache {folder} is no folder: nothing is kept; give a folder, new or old"));
             return compute();
         }
         let key = P::key(resampler);
@@ -36,11 +38,13 @@ impl<'a> PlanCache<'a> {
         match self.found(&path, key, resampler) {
             Ok(Some(plan)) => return Some(plan),
             Ok(None) => {}
-            Err(reason) => self.warnings.push(format!("{}: {reason}; computed again", path.display())),
+            Err(reason) => {
+                self.warnings.push(format!("--plan-cache: {}: {reason}; the plan is computed", path.display()))
+            }
         }
         let plan = compute()?;
         if let Err(reason) = self.keep(&path, &plan, key) {
-            self.warnings.push(format!("the plan is not kept: {reason}"));
+            self.warnings.push(format!("--plan-cache: the plan is not kept: {reason}"));
         }
         Some(plan)
     }

@@ -74,6 +74,11 @@ impl Display for ViewReport {
 
 impl Display for Magnification {
     fn fmt(&self, f: &mut Formatter<'_>) -> Result {
+        /// More than any image has across: the pole of a map, all of whose last row is one point.
+        const MANY: f64 = 1e6;
+        if self.greatest > MANY {
+            return write!(f, "{:.2} to any number of texels a pixel", self.least);
+        }
         write!(f, "{:.2} to {:.2} texels a pixel", self.least, self.greatest)
     }
 }
