@@ -12,7 +12,7 @@ use std::alloc::{GlobalAlloc, Layout, System};
 use std::sync::atomic::AtomicPtr;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-use crate::spare_memory::SpareMemory;
+use crate::spare_memory::{BLOCKS, SpareMemory};
 
 /// Bytes from which on memory is that of a picture, for which large pages are asked.
 #[cfg(any(test, target_os = "linux"))]
@@ -21,10 +21,16 @@ const LARGE: usize = 4 << 20;
 /// Bytes from which on memory is kept for others: that of pictures, of small ones too, and of the parts that codecs cut them into.
 const KEPT: usize = 1 << 18;
 
+/// The list of what is kept, which grows by doubling, is in memory that is not: else it would be asked for what it is about to note.
+const _: () = assert!(4 * BLOCKS * size_of::<(Layout, AtomicPtr<u8>)>() < KEPT);
+
 pub(crate) struct LargePages;
 
-/// What is kept, known by where it begins.
-static SPARE: Mutex<SpareMemory<AtomicPtr<u8>>> = Mutex::new(SpareMemory::none());
+/// Memory known by where it begins.
+type Spare = SpareMemory<AtomicPtr<u8>>;
+
+/// What is kept.
+static SPARE: Mutex<Spare> = Mutex::new(SpareMemory::none());
 
 /// Keeps memory of pictures that nobody uses, as long as it and that in use are no more than so many bytes.
 pub(crate) fn keep_spare(bytes: u64) {
@@ -32,14 +38,19 @@ pub(crate) fn keep_spare(bytes: u64) {
     give_back_surplus();
 }
 
-fn spare() -> MutexGuard<'static, SpareMemory<AtomicPtr<u8>>> {
+fn spare() -> MutexGuard<'static, Spare> {
     // Nothing in there panics half way. The few small numbers that it holds come from this allocator, which then locks nothing.
     SPARE.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 fn give_back_surplus() {
+    give_back(SpareMemory::surplus);
+}
+
+/// Gives back what is chosen of the spare memory, block by block.
+fn give_back(choose: fn(&mut Spare) -> Option<(Layout, AtomicPtr<u8>)>) {
     loop {
-        let Some((layout, memory)) = spare().surplus() else { return };
+        let Some((layout, memory)) = choose(&mut spare()) else { return };
         // SAFETY: the system gave it for this layout, whoever used it has given it back, and here it is known no more.
         unsafe { System.dealloc(memory.into_inner(), layout) }
     }
@@ -55,12 +66,19 @@ fn take(layout: Layout) -> Option<*mut u8> {
 }
 
 /// Memory from the system, counted unless it is small. It gets back what would be too much beside that.
-fn fresh(layout: Layout, ask: impl FnOnce() -> *mut u8) -> *mut u8 {
-    if !is_counted(layout) {
-        return ask();
+fn fresh(layout: Layout, ask: impl Fn() -> *mut u8) -> *mut u8 {
+    if is_counted(layout) {
+        give_back_surplus();
     }
-    give_back_surplus();
-    let memory = ask();
+    let mut memory = ask();
+    if memory.is_null() {
+        // There may be enough without what is spare.
+        give_back(SpareMemory::oldest);
+        memory = ask();
+    }
+    if !is_counted(layout) {
+        return memory;
+    }
     if memory.is_null() {
         spare().release(layout);
         return memory;
@@ -97,10 +115,14 @@ unsafe impl GlobalAlloc for LargePages {
             }
             return found;
         }
-        // SAFETY: as above.
-        let found = fresh(wanted, || unsafe { System.realloc(memory, layout, size) });
-        if is_counted(layout) && !found.is_null() {
+        // The system need not hold both at once.
+        if is_counted(layout) {
             spare().release(layout);
+        }
+        // SAFETY: as above; where there is none, the old memory stays as it is.
+        let found = fresh(wanted, || unsafe { System.realloc(memory, layout, size) });
+        if is_counted(layout) && found.is_null() {
+            spare().count(layout);
         }
         found
     }
@@ -149,8 +171,32 @@ mod tests {
         (1..=count as u64).map(|k| k.wrapping_mul(0x9e37_79b9_7f4a_7c15))
     }
 
+    /// What is kept is the same for all tests: one after the other.
+    fn alone() -> MutexGuard<'static, ()> {
+        static ALONE: Mutex<()> = Mutex::new(());
+        ALONE.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    #[test]
+    fn memory_that_was_given_back_is_given_again_and_is_empty() {
+        // Of a size that nothing else here asks for.
+        const LENGTH: usize = LARGE + 4093;
+        let _alone = alone();
+        let given = |byte: u8| {
+            let list = vec![byte; LENGTH];
+            assert!(list.iter().all(|found| *found == byte), "{byte}");
+            list.as_ptr().addr()
+        };
+        keep_spare(64 << 20);
+        let first = given(7);
+        let places = [given(0), given(9), given(0)];
+        keep_spare(0);
+        assert_eq!(places, [first; 3]);
+    }
+
     /// All of these tests, with memory kept and without.
     fn kept_and_not(test: impl Fn()) {
+        let _alone = alone();
         for bytes in [0, 64 << 20, 0] {
             keep_spare(bytes);
             test();

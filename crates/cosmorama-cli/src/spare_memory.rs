@@ -2,7 +2,7 @@ use std::alloc::Layout;
 use std::collections::VecDeque;
 
 /// How many blocks are kept at most: they are looked through, and their list must itself be too small to be kept here.
-const BLOCKS: usize = 1 << 10;
+pub(crate) const BLOCKS: usize = 1 << 10;
 
 /// Memory that was given back and is kept for the next who asks for as much: frames of a sequence hold pictures of the same
 /// sizes, one after the other. `M` is how a block of it is known.
@@ -30,7 +30,7 @@ impl<M> SpareMemory<M> {
 
     /// Counts a block of this layout as used. It is a spare one, if there is one.
     pub(crate) fn take(&mut self, layout: Layout) -> Option<M> {
-        self.used += layout.size();
+        self.count(layout);
         // What was used last may still be near.
         let found = self.blocks.iter().rposition(|(spare, _)| *spare == layout)?;
         let (_, memory) = self.blocks.remove(found)?;
@@ -38,9 +38,15 @@ impl<M> SpareMemory<M> {
         Some(memory)
     }
 
+    /// Counts a block of this layout as used. An allocator must not panic: however many ask at once for all there is, what they do
+    /// not get is released again.
+    pub(crate) fn count(&mut self, layout: Layout) {
+        self.used = self.used.wrapping_add(layout.size());
+    }
+
     /// Counts a block of this layout as used no more.
     pub(crate) fn release(&mut self, layout: Layout) {
-        self.used -= layout.size();
+        self.used = self.used.wrapping_sub(layout.size());
     }
 
     /// Keeps a block that is used no more.
@@ -52,9 +58,14 @@ impl<M> SpareMemory<M> {
 
     /// The block that nobody has wanted for longest, where more is kept than may be. It is the caller's to dispose of.
     pub(crate) fn surplus(&mut self) -> Option<(Layout, M)> {
-        if self.used + self.spare <= self.allowed && self.blocks.len() <= BLOCKS {
+        if self.used.saturating_add(self.spare) <= self.allowed && self.blocks.len() <= BLOCKS {
             return None;
         }
+        self.oldest()
+    }
+
+    /// The block that nobody has wanted for longest, the caller's to dispose of.
+    pub(crate) fn oldest(&mut self) -> Option<(Layout, M)> {
         let (layout, memory) = self.blocks.pop_front()?;
         self.spare -= layout.size();
         Some((layout, memory))

@@ -24,10 +24,11 @@ fn assert_same_faces(bench: &Bench, prefix: &str, why: &str) {
         let (made, direct) = (format!("{prefix}{}.png", word(face)), format!("direct_{}.png", word(face)));
         let (made, direct) = (bench.load(&made), bench.load(&direct));
         let pairs = bench::eight_bits(&made).iter().zip(bench::eight_bits(&direct));
-        let worst = pairs.map(|(a, b)| a.abs_diff(*b)).max();
-        // Texels that lie turned are added in another order.
-        let allowed = u8::from(why.contains("rotate"));
-        assert!(worst <= Some(allowed), "{why}: the {face} face differs by {worst:?}");
+        let differences: Vec<u8> = pairs.map(|(a, b)| a.abs_diff(*b)).filter(|difference| *difference > 0).collect();
+        // Texels that lie turned are added in another order, and a value between two codes may round to either.
+        let most = if why.contains("rotate") { 10 } else { 0 };
+        let is_same = differences.len() <= most && differences.iter().all(|difference| *difference == 1);
+        assert!(is_same, "{why}: the {face} face differs by {differences:?}");
     }
 }
 

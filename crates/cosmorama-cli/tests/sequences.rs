@@ -318,6 +318,7 @@ fn memory_that_other_frames_have_left_shows_nowhere() {
             files.map(|path| std::fs::read(path).unwrap()).collect()
         };
         let (together, alone) = (made("/all_"), made("/one_"));
+        assert_eq!(together.len(), alone.len());
         let same: Vec<bool> = together.iter().zip(&alone).map(|(a, b)| a == b).collect();
         assert!(same.len() >= 7 && same.iter().all(|same| *same), "{name} {to:?}: {same:?}");
         let outputs = bench.files().into_iter().filter(|path| !path.to_string_lossy().contains("sky_"));

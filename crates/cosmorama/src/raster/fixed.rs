@@ -8,9 +8,6 @@ use super::{Channels, ColourChannel, EncodedImage, Image, Rgba, Samples, Transfe
 /// White.
 const WHITE: f32 = i16::MAX as f32;
 
-/// Texels that may be read beyond the last one: integers are filtered in groups.
-const BEYOND: usize = 8;
-
 /// Linear light of opaque texels, red, green and blue from 0 to 32767.
 #[derive(Clone, Debug)]
 pub struct FixedLight {
@@ -21,12 +18,12 @@ pub struct FixedLight {
 impl FixedLight {
     /// So many texels, black.
     pub fn black(count: usize) -> Self {
-        Self { texels: vec![[0; 4]; count + BEYOND] }
+        Self { texels: vec![[0; 4]; count] }
     }
 
     /// How many texels there are.
     pub fn len(&self) -> usize {
-        self.texels.len() - BEYOND
+        self.texels.len()
     }
 
     /// Whether there are none.
@@ -36,11 +33,10 @@ impl FixedLight {
 
     /// All texels.
     pub fn texels_mut(&mut self) -> &mut [[i16; 4]] {
-        let count = self.len();
-        &mut self.texels[..count]
+        &mut self.texels
     }
 
-    /// Four samples for each texel, and some beyond the last.
+    /// Four samples for each texel.
     pub(crate) fn samples(&self) -> &[i16] {
         self.texels.as_flattened()
     }

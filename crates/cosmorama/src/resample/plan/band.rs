@@ -345,6 +345,7 @@ impl<W: Weights> Band<W> {
         let is_tap = |tap: &Tap| (tap.texel as usize) < texels && tap.weight.is_finite();
         self.runs.iter().all(|run| run.is_sound(room, &self.weights))
             && self.singles.iter().all(|single| single.is_sound(room, [self.taps.len(), self.places.len()]))
+            && self.singles.chunks(room.mirrors.images.len()).all(|singles| are_mirrored(singles, room.mirrors))
             && self.taps.iter().all(is_tap)
             && self.places.as_flattened().iter().all(|place| place.is_finite())
     }
@@ -368,9 +369,17 @@ impl Run {
 
     /// Whether a lane's window of some size lies within a view of another.
     pub(super) fn is_within(&self, lane: usize, window: [usize; 2], view: [usize; 2]) -> bool {
-        let first = |axis: usize| self.corner[axis] as usize + usize::from(self.offsets[lane][axis]);
-        (0..2).all(|axis| first(axis) + window[axis] <= view[axis])
+        let first = |axis: usize| u64::from(self.corner[axis]) + u64::from(self.offsets[lane][axis]);
+        (0..2).all(|axis| first(axis) + window[axis] as u64 <= view[axis] as u64)
     }
+}
+
+/// Whether these are one pixel in all mirrors.
+fn are_mirrored(singles: &[Single], mirrors: &Mirrors) -> bool {
+    let place = |single: &Single| (single.column, single.row);
+    singles.len() == mirrors.images.len()
+        && singles.iter().enumerate().all(|(image, single)| usize::from(single.image) == image)
+        && singles.windows(2).all(|pair| place(&pair[0]) == place(&pair[1]))
 }
 
 impl Single {

@@ -51,7 +51,7 @@ impl FixedFilter<'_> {
         }
     }
 
-    // No closures below: the compiler gives them no leave to use the level's instructions.
+    // No closures below but those that `vectorize` takes: the compiler gives others no leave to use the level's instructions.
     #[inline(always)]
     fn runs<S: Simd>(&self, simd: S, band: &Band<FixedWeights>, canvas: &mut Canvas<[u8; 3]>) {
         let mut ahead = band.patches().skip(1);

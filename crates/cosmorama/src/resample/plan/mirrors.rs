@@ -106,6 +106,12 @@ impl Walk {
 }
 
 impl Reflection {
+    /// Columns and rows of the view.
+    #[inline(always)]
+    pub(super) fn size(&self) -> [usize; 2] {
+        self.size
+    }
+
     /// The walk of a window whose first texel is in this column and row of the view itself.
     #[inline(always)]
     pub(super) fn walk(&self, [column, row]: [usize; 2]) -> Walk {
@@ -114,14 +120,6 @@ impl Reflection {
         let (row, down) = if self.flips[1] { (height - 1 - row, -(width as i32)) } else { (row, width as i32) };
         // Texels of a world are counted in 32 bits.
         Walk { first: (self.offset + row * width + column) as u32, is_reversed: self.flips[0], down }
-    }
-}
-
-impl Reflection {
-    /// Columns and rows of the view.
-    #[inline(always)]
-    pub(super) fn size(&self) -> [usize; 2] {
-        self.size
     }
 }
 

@@ -74,12 +74,12 @@ struct Compiled<W> {
 
 impl Plan {
     pub(super) fn new(resampler: &Resampler) -> Self {
-        Self(Compiled::new(resampler, None))
+        Self(Compiled::new(resampler, None, Level::new()))
     }
 
     /// That of the wanted patches alone; other pixels become transparent.
     pub(super) fn of_part(resampler: &Resampler, wanted: &Wanted) -> Self {
-        Self(Compiled::new(resampler, Some(wanted)))
+        Self(Compiled::new(resampler, Some(wanted), Level::new()))
     }
 
     /// One frame. `texels` is the world's buffer of light.
@@ -112,7 +112,7 @@ impl Plan {
 
 impl FixedPlan {
     pub(super) fn new(resampler: &Resampler) -> Self {
-        Self(Compiled::new(resampler, None))
+        Self(Compiled::new(resampler, None, Level::new()))
     }
 
     /// One frame: the code values of each pixel. `light` is that of all the world's texels.
@@ -193,13 +193,13 @@ fn bytes_estimate<W: Weights>(resampler: &Resampler, wanted: Option<&Wanted>) ->
 }
 
 impl<W: Weights> Compiled<W> {
-    fn new(resampler: &Resampler, wanted: Option<&Wanted>) -> Self {
+    fn new(resampler: &Resampler, wanted: Option<&Wanted>, level: Level) -> Self {
         let Resampler { target, filter, .. } = resampler;
         let mirrors = Mirrors::of(resampler);
         let table = KernelTable::new(&filter.kernel);
         let compile = |index| {
             let mut band = Band::default();
-            record((resampler, wanted), &mirrors, &table, mirrors.band(index), Level::new(), &mut band, |_| {});
+            record((resampler, wanted), &mirrors, &table, mirrors.band(index), level, &mut band, |_| {});
             band.shrink();
             band
         };

@@ -300,6 +300,20 @@ fn all_levels_of_instructions_make_the_same_pixels() {
 }
 
 #[test]
+fn all_levels_of_instructions_make_the_same_plans() {
+    for (world, target, _) in conversions() {
+        let resampler = resampler(&world, &target);
+        let made = |level| {
+            let fixed = FixedPlan(Compiled::new(&resampler, None, level)).to_bytes(FixedPlan::key(&resampler));
+            (fixed, Plan(Compiled::new(&resampler, None, level)).to_bytes(Plan::key(&resampler)))
+        };
+        let mut all = window::levels().into_iter().map(made);
+        let first = all.next().expect("at least the plain one");
+        assert!(all.all(|made| made == first), "{:?}", target.projection);
+    }
+}
+
+#[test]
 fn integers_are_within_one_code_of_floats() {
     for (world, target, _) in conversions() {
         for (transfer, anti_ringing) in [(Transfer::Srgb, true), (Transfer::Linear, true), (Transfer::Srgb, false)] {

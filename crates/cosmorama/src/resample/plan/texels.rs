@@ -46,7 +46,8 @@ impl<'a, T: Copy, const N: usize, const R: usize> Texels<'a, T, N, R> {
             assert!(left + along.min(0) >= 0 && end < (samples.len() / SAMPLES) as i64, "a view lies among its texels");
             first[image] = samples.as_ptr().wrapping_add(SAMPLES * walk.first as usize);
         }
-        let down = down.map(|down| SAMPLES as isize * down as isize);
+        // Of a view of one row, which no window leaves, this may be any number.
+        let down = down.map(|down| (SAMPLES as isize).wrapping_mul(down as isize));
         Self { first, down, size: [columns as u32, rows as u32], samples: PhantomData }
     }
 
@@ -87,8 +88,10 @@ impl<'a, T: Copy, const N: usize, const R: usize> Texels<'a, T, N, R> {
 
     #[inline(always)]
     fn check(&self, corner: [u32; 2], size: [usize; 2]) {
-        let ends = |axis: usize| u64::from(corner[axis]) + size[axis] as u64 <= u64::from(self.size[axis]);
-        assert!(ends(0) && ends(1), "a window lies within its view");
+        // Nothing is added: a sum might begin anew at zero.
+        let last = |axis: usize| (self.size[axis] as usize).checked_sub(size[axis]);
+        let fits = |axis: usize| last(axis).is_some_and(|last| corner[axis] as usize <= last);
+        assert!(fits(0) && fits(1), "a window lies within its view");
     }
 
     /// The first sample in memory of so many texels, from this column of a row on.
@@ -208,7 +211,9 @@ mod tests {
         let is_window = |corner| std::panic::catch_unwind(|| texels.windows::<2, 2, 4>(corner)).is_ok();
         assert!(is_window([0, 0]) && is_window([6, 3]));
         assert!(!is_window([7, 3]) && !is_window([6, 4]) && !is_window([u32::MAX, 0]) && !is_window([0, u32::MAX]));
-        assert!(std::panic::catch_unwind(|| texels.row(2, [9, 0], 2)).is_err());
+        for (column, count) in [(9, 2), (1, usize::MAX), (0, usize::MAX / 4 + 2)] {
+            assert!(std::panic::catch_unwind(|| texels.row(2, [column, 0], count)).is_err());
+        }
         let [window, ..] = texels.windows::<2, 2, 4>([0, 0]);
         for (row, pair) in [(4, 0), (0, 2), (usize::MAX, 0)] {
             assert!(std::panic::catch_unwind(|| window.samples::<8>(row, pair)).is_err());
