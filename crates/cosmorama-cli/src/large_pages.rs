@@ -48,7 +48,7 @@ fn give_back_surplus() {
 }
 
 /// Gives back what is chosen of the spare memory, block by block.
-fn give_back(choose: fn(&mut Spare) -> Option<(Layout, AtomicPtr<u8>)>) {
+fn give_back(choose: impl Fn(&mut Spare) -> Option<(Layout, AtomicPtr<u8>)>) {
     loop {
         let Some((layout, memory)) = choose(&mut spare()) else { return };
         // SAFETY: the system gave it for this layout, whoever used it has given it back, and here it is known no more.
