@@ -90,6 +90,7 @@ fn plans_that_are_not_kept_are_told_of() {
     let cache = "--plan-cache=plans";
     for (more, told) in [
         (&["--memory", "1200K"][..], "computed anew for each frame; give more with --memory"),
+        (&["--memory", "1200K", "--filter", "ewa-pyramid"], "computed anew for each frame; give more with --memory"),
         (&["--memory", "1200K", cache], "none is kept; give more with --memory"),
         (&["--filter", "reference", "--frames", "1", cache], "with --filter ewa they are"),
         (&["--filter", "ewa-pyramid", cache], "with --filter ewa they are"),

@@ -36,8 +36,11 @@ impl Geometry {
             if job.plan_cache.is_some() {
                 warnings.push(UNKEPT.to_owned());
             }
-            let plan = |r: &Resampler, left| fitting(r, left, |r| r.plan_bytes_estimate(), |r| r.pyramid_plan());
+            let lacks_room = Cell::new(false);
+            let plan =
+                |r: &Resampler, left| fitting(r, left, |r| r.plan_bytes_estimate(), |r| r.pyramid_plan(), &lacks_room);
             let plans = plans(job, 0, |r, left| if pays(job) { plan(r, left) } else { None }, PyramidPlan::bytes);
+            warnings.extend(lacks_room.get().then(|| ANEW.to_owned()));
             return (Self::Pyramid(plans), warnings);
         }
         let geometry = match codec(job) {
@@ -143,14 +146,19 @@ fn plans<P>(
     job.target.views.iter().map(plan_of).collect()
 }
 
-/// A plan, if it fits into so many bytes.
+/// A plan, if it fits into so many bytes; if not, that is noted.
 fn fitting<P>(
     resampler: &Resampler,
     left: u64,
     estimate: impl Fn(&Resampler) -> usize,
     plan: impl Fn(&Resampler) -> Option<P>,
+    lacks_room: &Cell<bool>,
 ) -> Option<P> {
-    if estimate(resampler) as u64 > left { None } else { plan(resampler) }
+    if estimate(resampler) as u64 > left {
+        lacks_room.set(true);
+        return None;
+    }
+    plan(resampler)
 }
 
 /// Geometry for many frames is computed once, and once for many runs where it is kept, as far as it fits into memory.
@@ -163,11 +171,7 @@ fn kept<P: SavedPlan>(
 ) -> Vec<Option<P>> {
     let lacks_room = Cell::new(false);
     let plan_of = |resampler: &Resampler, left: u64| {
-        let compute = || {
-            let fits = estimate(resampler) as u64 <= left;
-            lacks_room.set(lacks_room.get() || !fits);
-            if fits { plan(resampler) } else { None }
-        };
+        let compute = || fitting(resampler, left, &estimate, &plan, &lacks_room);
         match &job.plan_cache {
             Some(folder) if !job.outputs.frames.is_empty() => {
                 let mut cache = PlanCache::new(folder, left);
