@@ -3,7 +3,7 @@ use std::ops::Range;
 use fearless_simd::{Simd, f32x8, prelude::*};
 
 use super::float_shape::{BLOCK, ROWS_UNDER, Small};
-use super::rounded::{span, turned_bits};
+use super::rounded::turned_bits;
 use crate::resample::patch::SIDE;
 use crate::resample::window::Windows;
 
@@ -87,4 +87,20 @@ impl Lanes {
 fn first(held: &Range<usize>, length: usize, all: usize) -> Option<usize> {
     let first = held.start.min(all.checked_sub(length)?);
     (held.end <= first + length).then_some(first)
+}
+
+/// From the first bit to the last.
+#[inline(always)]
+fn span(bits: u8) -> Range<usize> {
+    bits.trailing_zeros() as usize % 8..8 - bits.leading_zeros() as usize
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn bits_span_from_the_first_to_the_last() {
+        assert_eq!([0, 1, 0x80, 0x3c].map(span), [0..0, 0..1, 7..8, 2..6]);
+    }
 }
