@@ -151,8 +151,12 @@ impl<S: Simd> RunFilter<'_, S> {
         }
         // Looked up together, from memory: taken out of vectors one by one, samples would wait for each pixel's sum.
         for (image, (index, flip)) in order.iter().enumerate() {
-            for (lane, light) in light.iter().enumerate() {
-                pixels[index % MOST_IMAGES][(lane ^ flip) % SIDE] = codes.of(light[image]);
+            let pixels = &mut pixels[index % MOST_IMAGES];
+            // Lanes as they are numbered, not as a number tells: one after the other.
+            if *flip == 0 {
+                light.iter().zip(pixels).for_each(|(light, pixel)| *pixel = codes.of(light[image]));
+            } else {
+                light.iter().zip(pixels.iter_mut().rev()).for_each(|(light, pixel)| *pixel = codes.of(light[image]));
             }
         }
     }
@@ -313,11 +317,11 @@ impl<S: Simd, V: Blocks<S, N>, const N: usize> Sums<S, V, N> {
         self.sum = V::add_products(self.sum, texels, weights);
     }
 
-    /// Notes those of a pair that lie under the pixel, as its bit tells of both of them.
+    /// Notes those of a pair that lie under the pixel: whose bit is not set.
     #[inline(always)]
     fn bound(&mut self, simd: S, texels: V, marks: V, bit: usize) {
         let bit = V::splat(simd, 1 << bit);
-        let is_under = (marks & bit).simd_eq(bit);
+        let is_under = (marks & bit).simd_eq(V::splat(simd, 0));
         self.greatest = is_under.select(self.greatest.max(texels), self.greatest);
         self.least = is_under.select(self.least.min(texels), self.least);
     }

@@ -10,8 +10,8 @@ use crate::resample::window::Windows;
 
 /// The weights of windows as integers, pixel by pixel, row by row, two beside each other in each number.
 ///
-/// Before those of a pixel stands a [`Header`]; then, if its window is not of one of the [`Shape::SMALL`] sizes, which texels lie under
-/// the pixel, [`mark_words`] numbers for each row that has some.
+/// Before those of a pixel stands a [`Header`]; then, if its window is not of one of the [`Shape::SMALL`] sizes, which texels do not
+/// lie under the pixel, [`mark_words`] numbers for each row in which some do.
 #[derive(Clone, Debug, Default)]
 pub(in crate::resample) struct FixedWeights {
     pub(super) numbers: Vec<u32>,
@@ -56,7 +56,8 @@ const WIDEST: usize = 3;
 /// Numbers that hold any of them with its header, and what follows its last row.
 const MOST: usize = 1 + WIDEST * (HIGHEST - 1) + SIDE / 2;
 
-/// What is known of a pixel's window: which texels of a small one lie under the pixel, its shape and how its weights are scaled.
+/// What is known of a pixel's window: which texels of a small one do not lie under the pixel, its shape and how its weights are
+/// scaled.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Header(pub(super) u32);
 
@@ -64,9 +65,16 @@ impl Header {
     /// In place of an index of [`Shape::SMALL`]: as large as the run's windows are.
     const LARGE: u32 = 7;
 
-    /// Marks of the pairs of [`ROWS_UNDER`] rows, row by row, nine at the most.
-    fn new(small: Option<usize>, bits: u32, marks: u32) -> Self {
-        Self(small.map_or(Self::LARGE, |index| index as u32) << 9 | bits << 25 | marks)
+    /// Of the pairs of [`ROWS_UNDER`] rows, row by row, nine at the most.
+    const MARKS: u32 = {
+        let pairs = (1 << (ROWS_UNDER * WIDEST)) - 1;
+        pairs << 16 | pairs
+    };
+
+    /// `under` are marks of texels under the pixel. Those of the others are kept: what is not marked is found with one instruction
+    /// less.
+    fn new(small: Option<usize>, bits: u32, under: u32) -> Self {
+        Self(small.map_or(Self::LARGE, |index| index as u32) << 9 | bits << 25 | !under & Self::MARKS)
     }
 
     /// The index of its shape among the small ones; more, if it is none.
@@ -158,7 +166,7 @@ impl FixedWeights {
         numbers.push(Header::new(None, rounded.bits, 0).0);
         let words = |row| (0..pairs).step_by(16).map(move |first| (row, first..pairs.min(first + 16)));
         let words = windows.rows_under().flat_map(words);
-        numbers.extend(words.map(|(row, pairs)| rounded.marks(lane, origin, row, pairs)));
+        numbers.extend(words.map(|(row, pairs)| !rounded.marks(lane, origin, row, pairs)));
         for row in 0..height {
             numbers.extend(rounded.pairs(lane, origin, row, pairs));
         }

@@ -88,9 +88,9 @@ impl<'a, T: Copy, const N: usize, const R: usize> Texels<'a, T, N, R> {
 
     #[inline(always)]
     fn check(&self, corner: [u32; 2], size: [usize; 2]) {
-        // Nothing is added: a sum might begin anew at zero.
-        let last = |axis: usize| (self.size[axis] as usize).checked_sub(size[axis]);
-        let fits = |axis: usize| last(axis).is_some_and(|last| corner[axis] as usize <= last);
+        // A sum must not begin anew at zero.
+        let end = |axis: usize| u64::from(corner[axis]).saturating_add(size[axis] as u64);
+        let fits = |axis: usize| end(axis) <= u64::from(self.size[axis]);
         assert!(fits(0) && fits(1), "a window lies within its view");
     }
 
