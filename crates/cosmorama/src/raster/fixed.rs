@@ -49,6 +49,9 @@ impl FixedLight {
         Self::light(self.texels[texel])
     }
 
+    /// The sample of white.
+    pub(crate) const WHITE: f32 = WHITE;
+
     /// What a texel's samples stand for.
     pub fn light(samples: [i16; 4]) -> Rgba {
         let [red, green, blue, _] = samples.map(|sample| f32::from(sample) / WHITE);

@@ -4,6 +4,8 @@
 //! half a texel. What tells a slope from a stripe, a step or a sun is a plane laid through all texels: where these lie on it,
 //! the pixel does too; by as much as one of them departs from it, the pixel may.
 
+use std::cell::OnceCell;
+
 use glam::{DMat3, DVec3, Vec3Swizzles};
 
 use crate::raster::Rgba;
@@ -26,27 +28,42 @@ pub(super) struct Bounds {
     pub(super) greatest: [f32; 4],
 }
 
-/// An average held to what the texels under the pixel hold, and beyond it as far as all of them confirm; `texels` are these
-/// and where they lie from the pixel's centre, none where those under it lie all around.
-#[inline(always)]
-pub(super) fn hold(average: Rgba, under: &Bounds, texels: impl Iterator<Item = (Rgba, [f32; 2])> + Clone) -> Rgba {
-    let Bounds { least, greatest } = under;
-    let held = Rgba(std::array::from_fn(|c| average.0[c].max(least[c]).min(greatest[c])));
-    // Where light is mixed with transparency, colour must stay within alpha.
-    if held == average || !texels.clone().all(|(texel, _)| texel.alpha() >= 1.0) {
-        return held;
+/// Where a pixel's texels lie from its centre, if all of them lie to one side of it; no places where they lie all around. The
+/// same in all mirrors in which the pixel is seen.
+#[derive(Clone, Debug)]
+pub(super) struct Rim<'a> {
+    places: &'a [[f32; 2]],
+    /// Found when it is first asked for.
+    lattice: OnceCell<Option<Lattice>>,
+}
+
+impl<'a> Rim<'a> {
+    pub(super) fn new(places: &'a [[f32; 2]]) -> Self {
+        Self { places, lattice: OnceCell::new() }
     }
-    let Some(lattice) = Lattice::of(texels.clone().map(|(_, place)| place)) else { return held };
-    let doubts = lattice.doubts(texels);
-    Rgba(std::array::from_fn(|c| {
-        let excess = average.0[c] - held.0[c];
-        if c == ALPHA || excess == 0.0 {
-            return held.0[c];
+
+    /// An average held to what the texels under the pixel hold, and beyond it as far as all of them, in the order of their places,
+    /// confirm.
+    #[inline(always)]
+    pub(super) fn hold(&self, average: Rgba, under: &Bounds, texels: impl Iterator<Item = Rgba> + Clone) -> Rgba {
+        let Bounds { least, greatest } = under;
+        let held = Rgba(std::array::from_fn(|c| average.0[c].max(least[c]).min(greatest[c])));
+        // Where light is mixed with transparency, colour must stay within alpha.
+        if self.places.is_empty() || held == average || !texels.clone().all(|texel| texel.alpha() >= 1.0) {
+            return held;
         }
-        let value = held.0[c] + excess.signum() * (excess.abs() - doubts[c] as f32).max(0.0);
-        // Light does not become negative: where a slope would, it is none.
-        if least[c] >= 0.0 { value.max(0.0) } else { value }
-    }))
+        let Some(lattice) = self.lattice.get_or_init(|| Lattice::of(self.places.iter().copied())) else { return held };
+        let doubts = lattice.doubts(texels.zip(self.places.iter().copied()));
+        Rgba(std::array::from_fn(|c| {
+            let excess = average.0[c] - held.0[c];
+            if c == ALPHA || excess == 0.0 {
+                return held.0[c];
+            }
+            let value = held.0[c] + excess.signum() * (excess.abs() - doubts[c] as f32).max(0.0);
+            // Light does not become negative: where a slope would, it is none.
+            if least[c] >= 0.0 { value.max(0.0) } else { value }
+        }))
+    }
 }
 
 /// How places lie around their centroid: what is fitted to, by least squares.
@@ -129,6 +146,11 @@ fn terms([x, y]: [f32; 2]) -> DVec3 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    fn hold(average: Rgba, under: &Bounds, texels: impl Iterator<Item = (Rgba, [f32; 2])>) -> Rgba {
+        let (texels, places): (Vec<_>, Vec<_>) = texels.unzip();
+        Rim::new(&places).hold(average, under, texels.into_iter())
+    }
 
     /// Rows of texels before the pixel, the nearest half a row away.
     const ROWS: usize = 4;

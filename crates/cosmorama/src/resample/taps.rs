@@ -1,4 +1,4 @@
-use super::slope::{self, Bounds};
+use super::slope::{Bounds, Rim};
 use crate::raster::Rgba;
 
 /// One texel's part in an output pixel.
@@ -92,7 +92,7 @@ impl Taps {
 
 /// Taps that are added up in single precision before the sum goes on in double: a pixel of thousands of texels must not
 /// lose digits, and a common one pays nothing.
-const BLOCK: usize = 32;
+pub(super) const BLOCK: usize = 32;
 
 /// The weighted average of taps, held to what those under the pixel hold if there is to be no ringing. `light` is that of a
 /// texel.
@@ -128,8 +128,7 @@ pub(super) fn average(list: TapList, light: impl Fn(u32) -> Rgba, anti_ringing: 
     if !anti_ringing || list.under == 0 {
         return average;
     }
-    let texels = list.taps.iter().zip(list.places).map(|(tap, place)| (light(tap.texel), *place));
-    slope::hold(average, &bounds, texels)
+    Rim::new(list.places).hold(average, &bounds, list.taps.iter().map(|tap| light(tap.texel)))
 }
 
 #[inline(always)]

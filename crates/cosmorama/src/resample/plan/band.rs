@@ -1,11 +1,12 @@
 use std::ops::Range;
 
 use super::mirrors::{Mirrors, Walk};
+use super::singles::Singles;
 use super::stored::{Stored, stored};
 use super::weights::Weights;
 use crate::resample::patch::{SIDE, lanes_of};
 use crate::resample::scan::Sink;
-use crate::resample::taps::{Tap, TapList, Taps};
+use crate::resample::taps::Taps;
 use crate::resample::window::Windows;
 use crate::world::{TexelPlace, World};
 
@@ -14,9 +15,7 @@ use crate::world::{TexelPlace, World};
 pub(super) struct Band<W> {
     pub(super) runs: Vec<Run>,
     pub(super) weights: W,
-    pub(super) singles: Vec<Single>,
-    taps: Vec<Tap>,
-    places: Vec<[f32; 2]>,
+    pub(super) singles: Singles,
 }
 
 /// Up to [`SIDE`] pixels beside each other, whose windows have one size and lie in one view.
@@ -44,24 +43,6 @@ pub(super) struct Run {
 
 /// Column and row of the first texel of each lane's window, in the lanes that have one.
 pub(super) type Corners = [Option<[u32; 2]>; SIDE];
-
-/// A pixel by itself.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Single {
-    /// The first of its taps, how many there are, and how many of them lie under it.
-    first: usize,
-    taps: u32,
-    under: u32,
-    /// The first of their places, and how many are kept.
-    first_place: usize,
-    places: u32,
-    /// The part of the pixel inside the field of view.
-    pub(super) coverage: f32,
-    pub(super) column: u32,
-    pub(super) row: u8,
-    /// In which mirror it is seen.
-    pub(super) image: u8,
-}
 
 impl Run {
     /// The pixels that it makes, by lane.
@@ -157,26 +138,13 @@ impl<W: Weights> Band<W> {
         self.runs.clear();
         self.weights.truncate(0);
         self.singles.clear();
-        self.taps.clear();
-        self.places.clear();
     }
 
     /// Gives back memory that is not needed.
     pub(super) fn shrink(&mut self) {
         self.runs.shrink_to_fit();
         self.weights.shrink();
-        self.singles.shrink_to_fit();
-        self.taps.shrink_to_fit();
-        self.places.shrink_to_fit();
-    }
-
-    /// What makes a single pixel.
-    pub(super) fn taps(&self, single: &Single) -> TapList<'_> {
-        TapList {
-            taps: &self.taps[single.first..][..single.taps as usize],
-            under: single.under as usize,
-            places: &self.places[single.first_place..][..single.places as usize],
-        }
+        self.singles.shrink();
     }
 
     /// Runs that lie together, about those of a patch: in each mirror they share most of their texels.
@@ -186,20 +154,12 @@ impl<W: Weights> Band<W> {
 
     /// Bytes that it takes.
     pub(super) fn bytes(&self) -> usize {
-        self.runs.capacity() * size_of::<Run>()
-            + self.weights.bytes()
-            + self.singles.capacity() * size_of::<Single>()
-            + self.taps.capacity() * size_of::<Tap>()
-            + self.places.capacity() * size_of::<[f32; 2]>()
+        self.runs.capacity() * size_of::<Run>() + self.weights.bytes() + self.singles.bytes()
     }
 
     /// Bytes of what it holds, without room for more.
     pub(super) fn used_bytes(&self) -> usize {
-        self.runs.len() * size_of::<Run>()
-            + self.weights.used_bytes()
-            + self.singles.len() * size_of::<Single>()
-            + self.taps.len() * size_of::<Tap>()
-            + self.places.len() * size_of::<[f32; 2]>()
+        size_of_val(&*self.runs) + self.weights.used_bytes() + self.singles.used_bytes()
     }
 }
 
@@ -251,34 +211,8 @@ impl<W: Weights, F: FnMut(&mut Band<W>)> Sink for Recorder<'_, W, F> {
 impl<W, F: FnMut(&mut Band<W>)> Recorder<'_, W, F> {
     /// A pixel by itself, in all mirrors.
     fn single(&mut self, [column, row]: [usize; 2], coverage: f32, taps: &Taps) {
-        let list = taps.list();
-        self.places.clear();
-        if self.mirrors.images.len() > 1 {
-            self.places.extend(list.taps.iter().map(|tap| self.world.texel(tap.texel)));
-        }
-        // Mirrored, texels lie otherwise, but not in relation to each other.
-        let first_place = self.band.places.len();
-        self.band.places.extend_from_slice(list.places);
-        for (index, image) in self.mirrors.images.iter().enumerate() {
-            self.band.singles.push(Single {
-                first: self.band.taps.len(),
-                taps: list.taps.len() as u32,
-                under: list.under as u32,
-                first_place,
-                places: list.places.len() as u32,
-                coverage,
-                column: column as u32,
-                row: row as u8,
-                image: index as u8,
-            });
-            if index == 0 {
-                self.band.taps.extend_from_slice(list.taps);
-            } else {
-                let taps = list.taps.iter().zip(&self.places);
-                self.band.taps.extend(taps.map(|(tap, &place)| Tap { texel: image.texel(place), ..*tap }));
-            }
-        }
-        if self.band.taps.len() > MANY {
+        self.band.singles.push((self.world, self.mirrors), [column, row], coverage, taps, &mut self.places);
+        if self.band.singles.texel_count() > MANY {
             (self.spill)(self.band);
         }
     }
@@ -297,36 +231,17 @@ stored!(Run {
     under: [u8; 2],
 });
 
-stored!(Tap { texel: u32, weight: f32 });
-
-stored!(Single {
-    first: usize,
-    taps: u32,
-    under: u32,
-    first_place: usize,
-    places: u32,
-    coverage: f32,
-    column: u32,
-    row: u8,
-    image: u8,
-});
-
 impl<W: Weights> Stored for Band<W> {
-    const LEAST: usize =
-        W::LEAST + Vec::<Run>::LEAST + Vec::<Single>::LEAST + Vec::<Tap>::LEAST + Vec::<[f32; 2]>::LEAST;
+    const LEAST: usize = W::LEAST + Vec::<Run>::LEAST + Singles::LEAST;
 
     fn store(&self, into: &mut Vec<u8>) {
         self.runs.store(into);
         self.weights.store(into);
         self.singles.store(into);
-        self.taps.store(into);
-        self.places.store(into);
     }
 
     fn load(from: &mut &[u8]) -> Option<Self> {
-        let (runs, weights) = (Vec::load(from)?, W::load(from)?);
-        let (singles, taps) = (Vec::load(from)?, Vec::load(from)?);
-        Some(Self { runs, weights, singles, taps, places: Vec::load(from)? })
+        Some(Self { runs: Vec::load(from)?, weights: W::load(from)?, singles: Singles::load(from)? })
     }
 }
 
@@ -341,13 +256,9 @@ pub(super) struct Room<'a> {
 impl<W: Weights> Band<W> {
     /// Whether all pixels, texels and weights that it speaks of are there.
     pub(super) fn is_sound(&self, room: &Room) -> bool {
-        let texels = room.world.texel_count();
-        let is_tap = |tap: &Tap| (tap.texel as usize) < texels && tap.weight.is_finite();
+        let (texels, images) = (room.world.texel_count(), room.mirrors.images.len());
         self.runs.iter().all(|run| run.is_sound(room, &self.weights))
-            && self.singles.iter().all(|single| single.is_sound(room, [self.taps.len(), self.places.len()]))
-            && self.singles.chunks(room.mirrors.images.len()).all(|singles| are_mirrored(singles, room.mirrors))
-            && self.taps.iter().all(is_tap)
-            && self.places.as_flattened().iter().all(|place| place.is_finite())
+            && self.singles.are_sound([room.mirrors.columns, room.rows], texels, images)
     }
 }
 
@@ -371,29 +282,5 @@ impl Run {
     pub(super) fn is_within(&self, lane: usize, window: [usize; 2], view: [usize; 2]) -> bool {
         let first = |axis: usize| u64::from(self.corner[axis]) + u64::from(self.offsets[lane][axis]);
         (0..2).all(|axis| first(axis) + window[axis] as u64 <= view[axis] as u64)
-    }
-}
-
-/// Whether these are one pixel in all mirrors.
-fn are_mirrored(singles: &[Single], mirrors: &Mirrors) -> bool {
-    let place = |single: &Single| (single.column, single.row);
-    singles.len() == mirrors.images.len()
-        && singles.iter().enumerate().all(|(image, single)| usize::from(single.image) == image)
-        && singles.windows(2).all(|pair| place(&pair[0]) == place(&pair[1]))
-}
-
-impl Single {
-    fn is_sound(&self, room: &Room, lengths: [usize; 2]) -> bool {
-        let lists = [(self.first, self.taps), (self.first_place, self.places)];
-        let is_there = |((first, count), length): ((usize, u32), usize)| {
-            first.checked_add(count as usize).is_some_and(|end| end <= length)
-        };
-        lists.into_iter().zip(lengths).all(is_there)
-            && self.under <= self.taps
-            && (self.places == 0 || self.places == self.taps)
-            && (0.0..=1.0).contains(&self.coverage)
-            && (self.column as usize) < room.mirrors.columns
-            && usize::from(self.row) < room.rows
-            && usize::from(self.image) < room.mirrors.images.len()
     }
 }

@@ -4,18 +4,18 @@
 //! beside each other are worked on together, red, green, blue and nothing of each, in a block of 128 bits for each mirror: the
 //! product of pairs is then a weighted sum of two texels, and weights are spread once for all mirrors.
 
-use fearless_simd::{Level, Simd, dispatch, i16x8, i16x16, i16x32, prelude::*};
+use fearless_simd::{Level, Simd, dispatch, f32x4, i16x8, i16x16, i16x32, i32x4, prelude::*};
 
 use super::band::{Band, Run};
 use super::blocks::{self, Blocks};
 use super::canvas::Canvas;
 use super::fixed_weights::{FixedWeights, Header, ROWS_UNDER, Shape, mark_words};
 use super::mirrors::{MOST_IMAGES, Mirrors, Walk, Ways};
-use super::prefetch::{SINGLES_AHEAD, prefetch, prefetch_taps, prefetch_weights};
-use super::texels::{PairWindow, Texels};
-use crate::raster::{FixedCodec, FixedLight};
+use super::prefetch::{prefetch_patch, prefetch_weights};
+use super::singles::Palette;
+use super::texels::{PairWindow, Texels, prefetch};
+use crate::raster::{FixedCodec, FixedLight, Rgba};
 use crate::resample::patch::SIDE;
-use crate::resample::taps::average;
 
 /// Makes the pixels of a band.
 pub(super) struct FixedFilter<'a> {
@@ -31,24 +31,8 @@ impl FixedFilter<'_> {
         let level = self.level;
         dispatch!(level, simd => {
             self.runs(simd, band, canvas);
-            self.singles(simd, band, canvas);
+            band.singles.fill(simd, self.mirrors, (self, self.anti_ringing), canvas);
         });
-    }
-
-    #[inline(always)]
-    fn singles<S: Simd>(&self, simd: S, band: &Band<FixedWeights>, canvas: &mut Canvas<[u8; 3]>) {
-        let (texels, background) = (self.light.samples().as_chunks::<4>().0, self.codec.background_light());
-        let mut ahead = band.singles.iter().skip(SINGLES_AHEAD);
-        for single in &band.singles {
-            prefetch_taps(texels, band, ahead.next());
-            let colour = simd.vectorize(
-                #[inline(always)]
-                || average(band.taps(single), |texel| self.light.rgba(texel as usize), self.anti_ringing),
-            );
-            let image = &self.mirrors.images[usize::from(single.image)];
-            let pixel = (colour * single.coverage).over(background);
-            *canvas.pixel(image, [single.column as usize, usize::from(single.row)]) = self.codec.codes_of(pixel);
-        }
     }
 
     // No closures below but those that `vectorize` takes: the compiler gives others no leave to use the level's instructions.
@@ -58,7 +42,7 @@ impl FixedFilter<'_> {
         let texels = self.light.samples().as_chunks::<4>().0;
         for (at, run) in band.runs.iter().enumerate() {
             if at % SIDE == 0 {
-                prefetch(texels, self.mirrors, ahead.next().unwrap_or(&[]));
+                prefetch_patch(texels, self.mirrors, ahead.next().unwrap_or(&[]));
             }
             let numbers = &band.weights.numbers[run.weights as usize..];
             let pixels = self.pixels(simd, run, numbers);
@@ -97,6 +81,31 @@ impl FixedFilter<'_> {
             ),
         }
         pixels
+    }
+}
+
+impl Palette for FixedFilter<'_> {
+    type Pixel = [u8; 3];
+
+    fn rgba(&self, texel: u32) -> Rgba {
+        self.light.rgba(texel as usize)
+    }
+
+    #[inline(always)]
+    fn light<S: Simd>(&self, simd: S, texel: u32) -> f32x4<S> {
+        let [red, green, blue, _] = self.light.samples().as_chunks::<4>().0[texel as usize];
+        let samples = i32x4::load_array(simd, [red, green, blue, 0].map(i32::from));
+        let light = f32x4::float_from(samples) / FixedLight::WHITE;
+        light + f32x4::load_array(simd, [0.0, 0.0, 0.0, 1.0])
+    }
+
+    fn pixel(&self, light: Rgba, coverage: f32) -> [u8; 3] {
+        self.codec.codes_of((light * coverage).over(self.codec.background_light()))
+    }
+
+    #[inline(always)]
+    fn prefetch(&self, texel: u32) {
+        prefetch(self.light.samples().as_chunks::<4>().0, texel);
     }
 }
 

@@ -1,6 +1,6 @@
 //! Pixels by plans in single precision: light of any range.
 
-use fearless_simd::{Level, Simd, dispatch, prelude::*};
+use fearless_simd::{Level, Simd, dispatch, f32x4, prelude::*};
 
 use super::band::{Band, Run};
 use super::canvas::Canvas;
@@ -8,11 +8,11 @@ use super::float_shape::{Header, Shape};
 use super::float_weights::FloatWeights;
 use super::float_window::Window;
 use super::mirrors::{MOST_IMAGES, Mirrors, Walk, Ways};
-use super::prefetch::{SINGLES_AHEAD, prefetch, prefetch_taps, prefetch_weights};
-use super::texels::Texels;
+use super::prefetch::{prefetch_patch, prefetch_weights};
+use super::singles::Palette;
+use super::texels::{Texels, prefetch};
 use crate::raster::Rgba;
 use crate::resample::patch::SIDE;
-use crate::resample::taps::average;
 
 /// Makes the pixels of a band.
 pub(super) struct FloatFilter<'a> {
@@ -29,23 +29,8 @@ impl FloatFilter<'_> {
         let level = self.level;
         dispatch!(level, simd => {
             self.runs(simd, band, canvas);
-            self.singles(simd, band, canvas);
+            band.singles.fill(simd, self.mirrors, (self, self.anti_ringing), canvas);
         });
-    }
-
-    #[inline(always)]
-    fn singles<S: Simd>(&self, simd: S, band: &Band<FloatWeights>, canvas: &mut Canvas<Rgba>) {
-        let mut ahead = band.singles.iter().skip(SINGLES_AHEAD);
-        for single in &band.singles {
-            prefetch_taps(self.texels, band, ahead.next());
-            let colour = simd.vectorize(
-                #[inline(always)]
-                || average(band.taps(single), |texel| self.texels[texel as usize], self.anti_ringing),
-            );
-            let image = &self.mirrors.images[usize::from(single.image)];
-            *canvas.pixel(image, [single.column as usize, usize::from(single.row)]) =
-                (colour * single.coverage).over(self.background);
-        }
     }
 
     // No closures below but those that `vectorize` takes: the compiler gives others no leave to use the level's instructions.
@@ -54,7 +39,7 @@ impl FloatFilter<'_> {
         let mut ahead = band.patches().skip(1);
         for (at, run) in band.runs.iter().enumerate() {
             if at % SIDE == 0 {
-                prefetch(self.texels, self.mirrors, ahead.next().unwrap_or(&[]));
+                prefetch_patch(self.texels, self.mirrors, ahead.next().unwrap_or(&[]));
             }
             let mut pixels = self.pixels(simd, band, run);
             for (image, pixels) in self.mirrors.images.iter().zip(&mut pixels) {
@@ -100,6 +85,29 @@ impl FloatFilter<'_> {
             );
         }
         pixels
+    }
+}
+
+impl Palette for FloatFilter<'_> {
+    type Pixel = Rgba;
+
+    #[inline(always)]
+    fn rgba(&self, texel: u32) -> Rgba {
+        self.texels[texel as usize]
+    }
+
+    #[inline(always)]
+    fn light<S: Simd>(&self, simd: S, texel: u32) -> f32x4<S> {
+        f32x4::load_array_ref(simd, &self.texels[texel as usize].0)
+    }
+
+    fn pixel(&self, light: Rgba, coverage: f32) -> Rgba {
+        (light * coverage).over(self.background)
+    }
+
+    #[inline(always)]
+    fn prefetch(&self, texel: u32) {
+        prefetch(self.texels, texel);
     }
 }
 

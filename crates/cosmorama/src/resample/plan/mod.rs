@@ -19,6 +19,7 @@ mod prefetch;
 mod rounded;
 mod saved;
 mod saved_plan;
+mod singles;
 mod spread;
 mod stored;
 #[cfg(test)]

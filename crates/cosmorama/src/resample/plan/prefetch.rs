@@ -1,7 +1,6 @@
-use super::band::{Band, Run, Single};
+use super::band::Run;
 use super::mirrors::Mirrors;
 use super::texels;
-use super::weights::Weights;
 
 /// Bytes that come from memory together.
 const LINE: usize = 64;
@@ -12,13 +11,10 @@ const LARGEST: [usize; 2] = [64, 32];
 /// Weights, and more, that are asked for before they are read.
 const NUMBERS_AHEAD: u32 = 192;
 
-/// Pixels by themselves that are made between asking for one's texels and reading them.
-pub(super) const SINGLES_AHEAD: usize = 3;
-
 /// Asks for the texels that the runs of a patch will read, so that they are near by then: lines of memory that are asked for one
 /// after the other, as they are needed, take most of the time.
 #[inline(always)]
-pub(super) fn prefetch<T>(texels: &[T], mirrors: &Mirrors, runs: &[Run]) {
+pub(super) fn prefetch_patch<T>(texels: &[T], mirrors: &Mirrors, runs: &[Run]) {
     let mut rest = runs;
     while let Some((run, others)) = rest.split_first() {
         rest = others;
@@ -35,14 +31,6 @@ pub(super) fn prefetch<T>(texels: &[T], mirrors: &Mirrors, runs: &[Run]) {
 #[inline(always)]
 pub(super) fn prefetch_weights(numbers: &[u32]) {
     texels::prefetch(numbers, NUMBERS_AHEAD);
-}
-
-/// Asks for the texels of a pixel that comes by itself, some pixels later.
-#[inline(always)]
-pub(super) fn prefetch_taps<T, W: Weights>(texels: &[T], band: &Band<W>, later: Option<&Single>) {
-    for tap in later.map_or(&[][..], |single| band.taps(single).taps) {
-        texels::prefetch(texels, tap.texel);
-    }
 }
 
 /// A rectangle of texels of a view.

@@ -91,11 +91,14 @@ impl Spread<'_> {
     }
 
     fn singles(&self, pixels: &[f32], part: &mut Part) {
-        for single in &self.band.singles {
-            let pixel =
-                self.pixel(pixels, usize::from(single.image), [single.column as usize, usize::from(single.row)]);
-            for tap in self.band.taps(single).taps {
-                part.add(tap.texel as usize, pixel * f64::from(tap.weight));
+        let images = self.plan.0.mirrors.images.len();
+        for single in self.band.singles.pixels() {
+            let taps = self.band.singles.taps(single, images);
+            for image in 0..images {
+                let pixel = self.pixel(pixels, image, [single.column as usize, usize::from(single.row)]);
+                for (weight, texels) in taps.weights.iter().zip(taps.texels.chunks(images)) {
+                    part.add(texels[image] as usize, pixel * f64::from(*weight));
+                }
             }
         }
     }

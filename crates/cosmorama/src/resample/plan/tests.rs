@@ -7,7 +7,7 @@ use super::stored::Stored;
 use super::*;
 use crate::projection::{PlanePoint, PlaneRect, ProjectionKind};
 use crate::raster::{ColourChannel, Transfer};
-use crate::resample::taps::average;
+use crate::resample::taps::{Tap, TapList, average};
 use crate::resample::window::Windows;
 use crate::resample::{Filter, FilterKind, window};
 use crate::sphere::{Angle, CubeFace, Orientation};
@@ -266,11 +266,16 @@ fn windows_of_floats_make_what_their_texels_make_one_by_one() {
             let (mirrors, level) = (Mirrors::of(&resampler), Level::new());
             let pixels = (expected.pixels_mut(), Rgba::TRANSPARENT);
             each_band((&resampler, None), &mirrors, pixels, level, |band: &Band<NoWindows>, canvas| {
-                for single in &band.singles {
-                    let colour = average(band.taps(single), |texel| texels[texel as usize], anti_ringing);
-                    let image = &mirrors.images[usize::from(single.image)];
-                    let pixel = canvas.pixel(image, [single.column as usize, usize::from(single.row)]);
-                    *pixel = colour * single.coverage;
+                for single in band.singles.pixels() {
+                    let taps = band.singles.taps(single, mirrors.images.len());
+                    for (index, image) in mirrors.images.iter().enumerate() {
+                        let texels_of = taps.texels.chunks(mirrors.images.len()).map(|texels| texels[index]);
+                        let list = texels_of.zip(taps.weights).map(|(texel, &weight)| Tap { texel, weight });
+                        let list = TapList { taps: &list.collect::<Vec<_>>(), under: taps.under, places: taps.places };
+                        let colour = average(list, |texel| texels[texel as usize], anti_ringing);
+                        let pixel = canvas.pixel(image, [single.column as usize, usize::from(single.row)]);
+                        *pixel = colour * single.coverage;
+                    }
                 }
             });
             for (made, expected) in resampler.render(&texels).pixels().iter().zip(expected.pixels()) {

@@ -1,0 +1,296 @@
+//! Pixels that come by themselves, each with a list of its texels: on the edges between views, at rims, and wherever windows
+//! cannot be held. What is the same in all mirrors is kept once, and done once.
+
+use fearless_simd::{Simd, f32x4, prelude::*};
+
+use super::canvas::Canvas;
+use super::mirrors::{MirrorImage, Mirrors};
+use super::stored::stored;
+use crate::raster::Rgba;
+use crate::resample::slope::{Bounds, Rim};
+use crate::resample::taps::{BLOCK, Taps};
+use crate::world::{TexelPlace, World};
+
+/// Those of a band.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Singles {
+    pixels: Vec<Single>,
+    /// What each texel of each counts.
+    weights: Vec<f32>,
+    /// Of each weight the texels in all mirrors, beside each other.
+    texels: Vec<u32>,
+    /// Where texels lie from the pixel.
+    places: Vec<[f32; 2]>,
+}
+
+/// A pixel by itself.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Single {
+    /// The first of its weights, how many there are, and how many of its texels lie under it.
+    first: usize,
+    taps: u32,
+    under: u32,
+    /// The first of their places, and how many are kept.
+    first_place: usize,
+    places: u32,
+    /// The part of the pixel inside the field of view.
+    pub(super) coverage: f32,
+    pub(super) column: u32,
+    pub(super) row: u8,
+}
+
+/// What is known of a pixel's texels, those under it first.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct SingleTaps<'a> {
+    pub(super) weights: &'a [f32],
+    /// For each of them those in all mirrors.
+    pub(super) texels: &'a [u32],
+    pub(super) under: usize,
+    /// Where they lie, if all lie to one side of the pixel's centre.
+    pub(super) places: &'a [[f32; 2]],
+}
+
+/// What makes colours of texels, and pixels of colours.
+pub(super) trait Palette {
+    type Pixel: Copy;
+
+    /// The light of a texel.
+    fn rgba(&self, texel: u32) -> Rgba;
+
+    /// The same, to be worked with.
+    fn light<S: Simd>(&self, simd: S, texel: u32) -> f32x4<S>;
+
+    /// What is written where light covers this part of a pixel.
+    fn pixel(&self, light: Rgba, coverage: f32) -> Self::Pixel;
+
+    /// Asks for a texel that will be read soon.
+    fn prefetch(&self, texel: u32);
+}
+
+impl Singles {
+    pub(super) fn clear(&mut self) {
+        self.pixels.clear();
+        self.weights.clear();
+        self.texels.clear();
+        self.places.clear();
+    }
+
+    pub(super) fn shrink(&mut self) {
+        self.pixels.shrink_to_fit();
+        self.weights.shrink_to_fit();
+        self.texels.shrink_to_fit();
+        self.places.shrink_to_fit();
+    }
+
+    /// Bytes that they take.
+    pub(super) fn bytes(&self) -> usize {
+        self.pixels.capacity() * size_of::<Single>()
+            + self.weights.capacity() * size_of::<f32>()
+            + self.texels.capacity() * size_of::<u32>()
+            + self.places.capacity() * size_of::<[f32; 2]>()
+    }
+
+    /// Bytes of what they hold, without room for more.
+    pub(super) fn used_bytes(&self) -> usize {
+        size_of_val(&*self.pixels)
+            + size_of_val(&*self.weights)
+            + size_of_val(&*self.texels)
+            + size_of_val(&*self.places)
+    }
+
+    /// How many texels they have, in all mirrors.
+    pub(super) fn texel_count(&self) -> usize {
+        self.texels.len()
+    }
+
+    pub(super) fn pixels(&self) -> &[Single] {
+        &self.pixels
+    }
+
+    /// What one is made of, in so many mirrors.
+    #[inline(always)]
+    pub(super) fn taps(&self, single: &Single, images: usize) -> SingleTaps<'_> {
+        let taps = single.taps as usize;
+        SingleTaps {
+            weights: &self.weights[single.first..][..taps],
+            texels: &self.texels[images * single.first..][..images * taps],
+            under: single.under as usize,
+            places: &self.places[single.first_place..][..single.places as usize],
+        }
+    }
+
+    /// Adds a pixel, in all mirrors. `seen` is memory for where its texels are.
+    pub(super) fn push(
+        &mut self,
+        (world, mirrors): (&World, &Mirrors),
+        [column, row]: [usize; 2],
+        coverage: f32,
+        taps: &Taps,
+        seen: &mut Vec<TexelPlace>,
+    ) {
+        let list = taps.list();
+        self.pixels.push(Single {
+            first: self.weights.len(),
+            taps: list.taps.len() as u32,
+            under: list.under as u32,
+            first_place: self.places.len(),
+            places: list.places.len() as u32,
+            coverage,
+            column: column as u32,
+            row: row as u8,
+        });
+        self.weights.extend(list.taps.iter().map(|tap| tap.weight));
+        // Mirrored, texels lie otherwise, but not in relation to each other.
+        self.places.extend_from_slice(list.places);
+        match &*mirrors.images {
+            [_] => self.texels.extend(list.taps.iter().map(|tap| tap.texel)),
+            images => {
+                seen.clear();
+                seen.extend(list.taps.iter().map(|tap| world.texel(tap.texel)));
+                self.texels.extend(seen.iter().flat_map(|&place| images.iter().map(move |image| image.texel(place))));
+            }
+        }
+    }
+
+    /// Makes their pixels in all mirrors.
+    #[inline(always)]
+    pub(super) fn fill<S: Simd, P: Palette>(
+        &self,
+        simd: S,
+        mirrors: &Mirrors,
+        (palette, anti_ringing): (&P, bool),
+        canvas: &mut Canvas<P::Pixel>,
+    ) {
+        match mirrors.images.as_slice() {
+            [a, b, c, d] => self.fill_all(simd, [a, b, c, d], (palette, anti_ringing), canvas),
+            [a, b] => self.fill_all(simd, [a, b], (palette, anti_ringing), canvas),
+            images => {
+                debug_assert_eq!(images.len(), 1, "a picture is mirrored in each direction or not");
+                self.fill_all(simd, [&images[0]], (palette, anti_ringing), canvas);
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn fill_all<S: Simd, P: Palette, const N: usize>(
+        &self,
+        simd: S,
+        images: [&MirrorImage; N],
+        (palette, anti_ringing): (&P, bool),
+        canvas: &mut Canvas<P::Pixel>,
+    ) {
+        let mut ahead = self.pixels.iter().skip(AHEAD);
+        for single in &self.pixels {
+            let later = ahead.next().map_or(&[][..], |later| self.taps(later, N).texels);
+            later.iter().for_each(|texel| palette.prefetch(*texel));
+            let taps = self.taps(single, N);
+            let averages = simd.vectorize(
+                #[inline(always)]
+                || averages::<S, P, N>(simd, &taps, palette, anti_ringing),
+            );
+            for (image, light) in images.iter().zip(averages) {
+                *canvas.pixel(image, [single.column as usize, usize::from(single.row)]) =
+                    palette.pixel(light, single.coverage);
+            }
+        }
+    }
+
+    /// Whether all that they speak of is there: columns and rows of a band, and so many texels in each of some mirrors.
+    pub(super) fn are_sound(&self, [columns, rows]: [usize; 2], texels: usize, images: usize) -> bool {
+        self.weights.len().checked_mul(images) == Some(self.texels.len())
+            && self.pixels.iter().all(|single| single.is_sound([columns, rows], [self.weights.len(), self.places.len()]))
+            && self.weights.iter().all(|weight| weight.is_finite())
+            && self.texels.iter().all(|texel| (*texel as usize) < texels)
+            && self.places.as_flattened().iter().all(|place| place.is_finite())
+    }
+}
+
+/// Pixels that are made between asking for one's texels and reading them.
+const AHEAD: usize = 1;
+
+/// The weighted average of a pixel's texels in each of N mirrors, held to what those under the pixel hold if there is to be no
+/// ringing: [`crate::resample::taps::average`], to the last bit.
+#[inline(always)]
+fn averages<S: Simd, P: Palette, const N: usize>(
+    simd: S,
+    taps: &SingleTaps,
+    palette: &P,
+    anti_ringing: bool,
+) -> [Rgba; N] {
+    let mut sums = [[0f64; 4]; N];
+    let (mut least, mut greatest) =
+        ([f32x4::splat(simd, f32::INFINITY); N], [f32x4::splat(simd, f32::NEG_INFINITY); N]);
+    let texels = taps.texels.as_chunks::<N>().0;
+    let ((inner, outer), (inner_texels, outer_texels)) =
+        (taps.weights.split_at(taps.under), texels.split_at(taps.under));
+    for (weights, texels) in inner.chunks(BLOCK).zip(inner_texels.chunks(BLOCK)) {
+        let mut parts = [f32x4::splat(simd, 0.0); N];
+        for (weight, texels) in weights.iter().zip(texels) {
+            for image in 0..N {
+                let light = palette.light(simd, texels[image]);
+                parts[image] += light * *weight;
+                least[image] = light.simd_lt(least[image]).select(light, least[image]);
+                greatest[image] = light.simd_gt(greatest[image]).select(light, greatest[image]);
+            }
+        }
+        add(&mut sums, parts);
+    }
+    for (weights, texels) in outer.chunks(BLOCK).zip(outer_texels.chunks(BLOCK)) {
+        let mut parts = [f32x4::splat(simd, 0.0); N];
+        for (weight, texels) in weights.iter().zip(texels) {
+            for image in 0..N {
+                parts[image] += palette.light(simd, texels[image]) * *weight;
+            }
+        }
+        add(&mut sums, parts);
+    }
+    let mut averages = [Rgba::TRANSPARENT; N];
+    let rim = Rim::new(taps.places);
+    for image in 0..N {
+        let average = Rgba(sums[image].map(|value| value as f32));
+        averages[image] = if anti_ringing && taps.under > 0 {
+            let bounds = Bounds { least: least[image].to_array(), greatest: greatest[image].to_array() };
+            rim.hold(average, &bounds, texels.iter().map(|texels| palette.rgba(texels[image])))
+        } else {
+            average
+        };
+    }
+    averages
+}
+
+#[inline(always)]
+fn add<S: Simd, const N: usize>(sums: &mut [[f64; 4]; N], parts: [f32x4<S>; N]) {
+    for (sum, part) in sums.iter_mut().zip(parts) {
+        for (sum, part) in sum.iter_mut().zip(part.to_array()) {
+            *sum += f64::from(part);
+        }
+    }
+}
+
+impl Single {
+    fn is_sound(&self, [columns, rows]: [usize; 2], lengths: [usize; 2]) -> bool {
+        let lists = [(self.first, self.taps), (self.first_place, self.places)];
+        let is_there = |((first, count), length): ((usize, u32), usize)| {
+            first.checked_add(count as usize).is_some_and(|end| end <= length)
+        };
+        lists.into_iter().zip(lengths).all(is_there)
+            && self.under <= self.taps
+            && (self.places == 0 || self.places == self.taps)
+            && (0.0..=1.0).contains(&self.coverage)
+            && (self.column as usize) < columns
+            && usize::from(self.row) < rows
+    }
+}
+
+stored!(Single {
+    first: usize,
+    taps: u32,
+    under: u32,
+    first_place: usize,
+    places: u32,
+    coverage: f32,
+    column: u32,
+    row: u8,
+});
+
+stored!(Singles { pixels: Vec<Single>, weights: Vec<f32>, texels: Vec<u32>, places: Vec<[f32; 2]> });
