@@ -4,10 +4,9 @@ use super::mirrors::{Mirrors, Walk};
 use super::stored::{Stored, stored};
 use super::weights::Weights;
 use crate::resample::patch::{SIDE, lanes_of};
-use crate::resample::scan::Sink;
-use crate::resample::taps::{Tap, TapList, Taps};
+use crate::resample::taps::{Tap, TapList};
 use crate::resample::window::Windows;
-use crate::world::{TexelPlace, World};
+use crate::world::World;
 
 /// What makes a few rows of a target.
 #[derive(Clone, Debug, Default)]
@@ -15,8 +14,8 @@ pub(super) struct Band<W> {
     pub(super) runs: Vec<Run>,
     pub(super) weights: W,
     pub(super) singles: Vec<Single>,
-    taps: Vec<Tap>,
-    places: Vec<[f32; 2]>,
+    pub(super) taps: Vec<Tap>,
+    pub(super) places: Vec<[f32; 2]>,
 }
 
 /// Up to [`SIDE`] pixels beside each other, whose windows have one size and lie in one view.
@@ -49,12 +48,12 @@ pub(super) type Corners = [Option<[u32; 2]>; SIDE];
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Single {
     /// The first of its taps, how many there are, and how many of them lie under it.
-    first: usize,
-    taps: u32,
-    under: u32,
+    pub(super) first: usize,
+    pub(super) taps: u32,
+    pub(super) under: u32,
     /// The first of their places, and how many are kept.
-    first_place: usize,
-    places: u32,
+    pub(super) first_place: usize,
+    pub(super) places: u32,
     /// The part of the pixel inside the field of view.
     pub(super) coverage: f32,
     pub(super) column: u32,
@@ -120,7 +119,7 @@ impl Run {
     }
 
     /// The run of windows that begin at these texels; `None` if it cannot be written down.
-    fn new(windows: &Windows, corners: &Corners, [column, row]: [usize; 2], weights: usize) -> Option<Self> {
+    pub(super) fn new(windows: &Windows, corners: &Corners, [column, row]: [usize; 2], weights: usize) -> Option<Self> {
         let lanes = lanes_of(|lane| corners[lane].is_some());
         // Lanes without a window count as the last one before them that has one, or as the first: loops go without branches then.
         let first = corners[lanes.trailing_zeros() as usize % SIDE]?;
@@ -203,87 +202,6 @@ impl<W: Weights> Band<W> {
     }
 }
 
-/// Writes down what makes the pixels of a band.
-pub(super) struct Recorder<'a, W, F> {
-    pub(super) world: &'a World,
-    pub(super) mirrors: &'a Mirrors,
-    pub(super) band: &'a mut Band<W>,
-    pub(super) taps: Taps,
-    /// Where those of a single pixel lie.
-    pub(super) places: Vec<TexelPlace>,
-    /// What is done with a band that holds more than [`MANY`] taps.
-    pub(super) spill: F,
-}
-
-/// Taps of single pixels that a band may hold before something is done with them: a small picture of a large world may have
-/// millions for each pixel.
-const MANY: usize = 1 << 17;
-
-impl<W: Weights, F: FnMut(&mut Band<W>)> Sink for Recorder<'_, W, F> {
-    fn pixel(&mut self, pixel: [usize; 2], coverage: f32, taps: &Taps) {
-        self.single(pixel, coverage, taps);
-    }
-
-    fn windows(&mut self, pixel: [usize; 2], lanes: u8, windows: &Windows) {
-        let first = self.band.weights.len();
-        let lanes = lanes & windows.held();
-        // Nothing was weighed.
-        if lanes == 0 {
-            return;
-        }
-        let mut corners: Corners = std::array::from_fn(|lane| windows.corner(lane).filter(|_| lanes >> lane & 1 == 1));
-        if self.band.weights.keep(windows, &mut corners) {
-            if let Some(run) = Run::new(windows, &corners, pixel, first) {
-                self.band.runs.push(run);
-                return;
-            }
-            self.band.weights.truncate(first);
-        }
-        for lane in (0..SIDE).filter(|&lane| lanes >> lane & 1 == 1) {
-            let mut taps = std::mem::take(&mut self.taps);
-            windows.taps(lane, &mut taps);
-            self.single([pixel[0] + lane, pixel[1]], 1.0, &taps);
-            self.taps = taps;
-        }
-    }
-}
-
-impl<W, F: FnMut(&mut Band<W>)> Recorder<'_, W, F> {
-    /// A pixel by itself, in all mirrors.
-    fn single(&mut self, [column, row]: [usize; 2], coverage: f32, taps: &Taps) {
-        let list = taps.list();
-        self.places.clear();
-        if self.mirrors.images.len() > 1 {
-            self.places.extend(list.taps.iter().map(|tap| self.world.texel(tap.texel)));
-        }
-        // Mirrored, texels lie otherwise, but not in relation to each other.
-        let first_place = self.band.places.len();
-        self.band.places.extend_from_slice(list.places);
-        for (index, image) in self.mirrors.images.iter().enumerate() {
-            self.band.singles.push(Single {
-                first: self.band.taps.len(),
-                taps: list.taps.len() as u32,
-                under: list.under as u32,
-                first_place,
-                places: list.places.len() as u32,
-                coverage,
-                column: column as u32,
-                row: row as u8,
-                image: index as u8,
-            });
-            if index == 0 {
-                self.band.taps.extend_from_slice(list.taps);
-            } else {
-                let taps = list.taps.iter().zip(&self.places);
-                self.band.taps.extend(taps.map(|(tap, &place)| Tap { texel: image.texel(place), ..*tap }));
-            }
-        }
-        if self.band.taps.len() > MANY {
-            (self.spill)(self.band);
-        }
-    }
-}
-
 stored!(Run {
     corner: [u32; 2],
     offsets: [[u8; 2]; SIDE],
@@ -341,7 +259,7 @@ pub(super) struct Room<'a> {
 impl<W: Weights> Band<W> {
     /// Whether all pixels, texels and weights that it speaks of are there.
     pub(super) fn is_sound(&self, room: &Room) -> bool {
-        let texels = room.world.texel_count();
+        let texels = room.mirrors.texel_count();
         let is_tap = |tap: &Tap| (tap.texel as usize) < texels && tap.weight.is_finite();
         self.runs.iter().all(|run| run.is_sound(room, &self.weights))
             && self.singles.iter().all(|single| single.is_sound(room, [self.taps.len(), self.places.len()]))

@@ -43,7 +43,7 @@ impl FixedFilter<'_> {
             prefetch_taps(texels, band, ahead.next());
             let colour = simd.vectorize(
                 #[inline(always)]
-                || average(band.taps(single), |texel| self.light.rgba(texel as usize), self.anti_ringing),
+                || average(band.taps(single), |texel| FixedLight::light(texels[texel as usize]), self.anti_ringing),
             );
             let image = &self.mirrors.images[usize::from(single.image)];
             let pixel = (colour * single.coverage).over(background);
