@@ -25,8 +25,8 @@ impl Dome {
     pub fn new(size: usize) -> Self {
         let world = cube(&CubeFace::ALL, size / 2, size / 2);
         let target = View { orientation: turned([0.0, 90.0, 0.0]), ..fisheye(size, 180.0) };
-        let mut light = FixedLight::black(world.texel_count());
-        for (index, texel) in light.texels_mut().iter_mut().enumerate() {
+        let mut light = FixedLight::black(world.view_sizes());
+        for (index, texel) in light.texels_mut().enumerate() {
             *texel = [index % 32_749, index / 7 % 32_749, index * 5 % 32_749, 0].map(|sample| sample as i16);
         }
         let codec = FixedCodec::new(&Transfer::Srgb, Rgba::BLACK).expect("sRGB has 8 bits");

@@ -49,7 +49,10 @@ fn decoder(name: &'static str, face: usize) -> Kernel {
     let image = EncodedImage::new(face, face, Channels::Rgb, Depth::Eight, Samples::U8(codes)).expect("an image");
     let decoder = FixedDecoder::new(&Transfer::Srgb).expect("sRGB has 8 bits");
     // As in a sequence: its memory serves the next frame.
-    let light = RefCell::new(FixedLight::black(face * face));
-    let work = move || assert!(decoder.decode(&image, light.borrow_mut().texels_mut()), "8 bits are taken");
+    let light = RefCell::new(FixedLight::black([[face, face]]));
+    let work = move || {
+        let is_taken = light.borrow_mut().views_mut().all(|view| decoder.decode(&image, view));
+        assert!(is_taken, "8 bits are taken");
+    };
     Kernel { name, pixels: face * face, work: Box::new(work) }
 }

@@ -4,7 +4,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use anyhow::{Result, bail};
 use cosmorama::raster::{Decoder, FixedDecoder, FixedLight, Rgba, Transfer};
-use cosmorama::world::{RimTexels, World};
+use cosmorama::world::{RimTexels, Source, World};
 use rayon::prelude::*;
 
 use super::frame_files::{FrameFile, ViewImage, Which};
@@ -122,14 +122,13 @@ impl FrameLight {
                     // An integer is always a number.
                     0
                 };
-                let texels = worlds.iter_mut().map(FixedLight::texels_mut).collect();
-                decode(job, images, texels, stages, rows)
+                decode(images, worlds.iter_mut().flat_map(FixedLight::views_mut), stages, rows)
             }
             Texels::Float(worlds) => {
                 let rows = |image: &ViewImage, first: usize, into: &mut [Rgba]| {
                     decoder.decode_rows(&image.image, &image.transfer, first, into)
                 };
-                decode(job, images, worlds.iter_mut().map(Vec::as_mut_slice).collect(), stages, rows)
+                decode(images, views(job, worlds), stages, rows)
             }
         };
         texels.restore_rims(job, images, rims);
@@ -152,21 +151,19 @@ impl Texels {
     }
 
     fn fixed(job: &ConvertJob) -> Self {
-        Self::Fixed(job.worlds.iter().map(|world| FixedLight::black(world.texel_count())).collect())
+        Self::Fixed(job.worlds.iter().map(|world| FixedLight::black(world.view_sizes())).collect())
     }
 
     /// Mends what the rims of these images have of what lies around.
     fn restore_rims(&mut self, job: &ConvertJob, images: &[ViewImage], rims: &[RimTexels]) {
         match self {
             Self::Float(worlds) => {
-                let worlds = worlds.iter_mut().map(Vec::as_mut_slice);
-                each_read(job, images, rims, worlds, |rim, view| rim.restore(view, |texel| texel, |light| light));
+                let views = views(job, worlds);
+                each_read(images, rims, views, |rim, view| rim.restore(view, |texel| texel, |light| light));
             }
             Self::Fixed(worlds) => {
-                let worlds = worlds.iter_mut().map(FixedLight::texels_mut);
-                each_read(job, images, rims, worlds, |rim, view| {
-                    rim.restore(view, FixedLight::light, FixedLight::texel)
-                });
+                let views = worlds.iter_mut().flat_map(FixedLight::views_mut);
+                each_read(images, rims, views, |rim, view| rim.restore(view, FixedLight::light, FixedLight::texel));
             }
         }
     }
@@ -180,23 +177,23 @@ impl Texels {
     }
 }
 
-/// Makes light of images, piece by piece in parallel; how many pixels of each are missing. `rows` makes that of some rows.
-fn decode<T: Send>(
-    job: &ConvertJob,
+/// Makes light of images, piece by piece in parallel; how many pixels of each are missing. Of each view there are its rows, all as
+/// long; `rows` makes the light of some.
+fn decode<'a, T: Send + 'a>(
     images: &[ViewImage],
-    texels: Vec<&mut [T]>,
+    views: impl Iterator<Item = &'a mut [T]>,
     stages: &Stages,
     rows: impl Fn(&ViewImage, usize, &mut [T]) -> usize + Sync,
 ) -> Vec<usize> {
-    let worlds = job.worlds.iter().zip(texels);
-    let mut views: Vec<_> = worlds.flat_map(|(world, texels)| by_view(world, texels)).map(Some).collect();
+    let mut views: Vec<_> = views.map(Some).collect();
     let missing: Vec<AtomicUsize> = images.iter().map(|_| AtomicUsize::new(0)).collect();
     let mut pieces = Vec::new();
     for (image, missing) in images.iter().zip(&missing) {
-        let width = image.image.width().max(1);
-        let some = PIECE.div_ceil(width);
-        let texels = views[image.view].take().into_iter().flat_map(|texels| texels.chunks_mut(some * width));
-        pieces.extend(texels.enumerate().map(|(piece, into)| (image, missing, piece * some, into)));
+        let some = PIECE.div_ceil(image.image.width().max(1));
+        let Some(view) = views[image.view].take() else { continue };
+        let pitch = (view.len() / image.image.height().max(1)).max(1);
+        let texels = view.chunks_mut(some * pitch).enumerate();
+        pieces.extend(texels.map(|(piece, into)| (image, missing, piece * some, into)));
     }
     pieces.into_par_iter().for_each(|(image, missing, first, into)| {
         let found = stages.beside(Stage::Decode, || rows(image, first, into));
@@ -207,25 +204,21 @@ fn decode<T: Send>(
 
 /// Gives the texels of each view that was read, and its rim, to `visit`.
 fn each_read<'a, T: 'a>(
-    job: &ConvertJob,
     images: &[ViewImage],
     rims: &[RimTexels],
-    texels: impl Iterator<Item = &'a mut [T]>,
+    views: impl Iterator<Item = &'a mut [T]>,
     visit: impl Fn(&RimTexels, &mut [T]),
 ) {
-    let views = job.worlds.iter().zip(texels).flat_map(|(world, texels)| by_view(world, texels));
     let is_read = |view: usize| images.iter().any(|image| image.view == view);
     let read = views.zip(rims).enumerate().filter(|(view, _)| is_read(*view));
     read.for_each(|(_, (texels, rim))| visit(rim, texels));
 }
 
-/// The texels of each of a world's views.
-fn by_view<'a, T>(world: &World, mut texels: &'a mut [T]) -> Vec<&'a mut [T]> {
-    let mut views = Vec::new();
-    for source in world.sources() {
-        let (these, rest) = texels.split_at_mut(source.texels().len());
-        views.push(these);
-        texels = rest;
-    }
-    views
+/// The texels of each view of all worlds, given those of the worlds.
+fn views<'a>(job: &'a ConvertJob, worlds: &'a mut [Vec<Rgba>]) -> impl Iterator<Item = &'a mut [Rgba]> {
+    job.worlds.iter().zip(worlds).flat_map(|(world, texels)| {
+        let mut rest = texels.as_mut_slice();
+        let view = move |source: &Source| rest.split_off_mut(..source.texels().len()).expect("light of all the world");
+        world.sources().iter().map(view)
+    })
 }

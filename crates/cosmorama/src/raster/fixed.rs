@@ -1,69 +1,10 @@
-//! 15-bit linear light, for opaque 8-bit pictures: a product of two fits in 32 bits.
+//! From 8-bit codes to linear light of 15 bits, and back.
 
 use rayon::prelude::*;
 
+use super::fixed_light::{FixedLight, WHITE};
 use super::quantizer::Quantizer;
 use super::{Channels, ColourChannel, EncodedImage, Image, Rgba, Samples, Transfer};
-
-/// White.
-const WHITE: f32 = i16::MAX as f32;
-
-/// Linear light of opaque texels, red, green and blue from 0 to 32767.
-#[derive(Clone, Debug)]
-pub struct FixedLight {
-    /// The fourth sample of each is not used.
-    texels: Vec<[i16; 4]>,
-}
-
-impl FixedLight {
-    /// So many texels, black.
-    pub fn black(count: usize) -> Self {
-        Self { texels: vec![[0; 4]; count] }
-    }
-
-    /// How many texels there are.
-    pub fn len(&self) -> usize {
-        self.texels.len()
-    }
-
-    /// Whether there are none.
-    pub fn is_empty(&self) -> bool {
-        self.len() == 0
-    }
-
-    /// All texels.
-    pub fn texels_mut(&mut self) -> &mut [[i16; 4]] {
-        &mut self.texels
-    }
-
-    /// Four samples for each texel.
-    pub(crate) fn samples(&self) -> &[i16] {
-        self.texels.as_flattened()
-    }
-
-    /// One texel.
-    ///
-    /// # Panics
-    /// If there is none so late.
-    pub fn rgba(&self, texel: usize) -> Rgba {
-        Self::light(self.texels[texel])
-    }
-
-    /// The sample of white.
-    pub(crate) const WHITE: f32 = WHITE;
-
-    /// What a texel's samples stand for.
-    pub fn light(samples: [i16; 4]) -> Rgba {
-        let [red, green, blue, _] = samples.map(|sample| f32::from(sample) / WHITE);
-        Rgba::opaque(red, green, blue)
-    }
-
-    /// The samples of a texel of this light, from black to white.
-    pub fn texel(Rgba([red, green, blue, _]): Rgba) -> [i16; 4] {
-        let [red, green, blue] = [red, green, blue].map(|light| (light * WHITE).round().clamp(0.0, WHITE) as i16);
-        [red, green, blue, 0]
-    }
-}
 
 /// Texels by code, as numbers.
 type ByCode = [u64; 256];
@@ -108,14 +49,15 @@ impl FixedDecoder {
         matches!(image.samples(), Samples::U8(_)) && !image.channels().has_alpha()
     }
 
-    /// The light of an opaque image of 8 bits; false, changing nothing, if it is none.
+    /// The light of an opaque image of 8 bits; false, changing nothing, if it is none. `into` is a view's of [`FixedLight`].
     ///
     /// # Panics
-    /// When `into` is not as long as the image has pixels.
+    /// When the view has not as many columns and rows as the image.
     pub fn decode(&self, image: &EncodedImage, into: &mut [[i16; 4]]) -> bool {
-        assert_eq!(into.len(), image.width() * image.height(), "one texel for each pixel of the file");
+        let pitch = FixedLight::pitch(image.width());
+        assert_eq!(into.len(), pitch * image.height(), "one texel for each pixel of the file");
         let some = image.rows_at_once();
-        let parts = into.par_chunks_mut((some * image.width()).max(1)).enumerate();
+        let parts = into.par_chunks_mut((some * pitch).max(1)).enumerate();
         parts.map(|(part, into)| self.decode_rows(image, part * some, into)).all(|is_light| is_light)
     }
 
@@ -125,7 +67,11 @@ impl FixedDecoder {
     /// When `into` is not for whole rows, or the image has fewer.
     pub fn decode_rows(&self, image: &EncodedImage, first: usize, into: &mut [[i16; 4]]) -> bool {
         let Samples::U8(samples) = image.samples() else { return false };
-        let samples = &samples[image.samples_of_rows(first, into.len())];
+        let pitch = FixedLight::pitch(image.width()).max(1);
+        assert!(into.len().is_multiple_of(pitch), "whole rows of light");
+        let samples = &samples[image.samples_of_rows(first, into.len() / pitch * image.width())];
+        // What fills up a row is left alone.
+        let into = into.chunks_exact_mut(pitch).map(|row| &mut row[..image.width()]);
         let [red, green, blue] = &self.channels;
         let of = |table: &ByCode, code: u8| table[usize::from(code)];
         match image.channels() {
@@ -141,10 +87,18 @@ fn by_code(texel: impl Fn(usize) -> [i16; 4]) -> ByCode {
     std::array::from_fn(|code| bytemuck::cast(texel(code)))
 }
 
-fn fill<const N: usize>(into: &mut [[i16; 4]], samples: &[u8], texel: impl Fn(&[u8; N]) -> u64) {
-    let (samples, _) = samples.as_chunks::<N>();
-    for (into, sample) in into.iter_mut().zip(samples) {
-        *into = bytemuck::cast(texel(sample));
+fn fill<'a, const N: usize>(
+    rows: impl Iterator<Item = &'a mut [[i16; 4]]>,
+    samples: &[u8],
+    texel: impl Fn(&[u8; N]) -> u64,
+) {
+    let (mut samples, _) = samples.as_chunks::<N>();
+    for row in rows {
+        let (of_row, rest) = samples.split_at(row.len());
+        samples = rest;
+        for (into, sample) in row.iter_mut().zip(of_row) {
+            *into = bytemuck::cast(texel(sample));
+        }
     }
 }
 
@@ -240,14 +194,18 @@ mod tests {
         }
     }
 
+    fn decode(decoder: &FixedDecoder, image: &EncodedImage, light: &mut FixedLight) -> bool {
+        light.views_mut().all(|view| decoder.decode(image, view))
+    }
+
     #[test]
     fn every_code_comes_back() {
         let codes: Vec<u8> = (0..=255).flat_map(|code| [code, 255 - code, code / 2]).collect();
         let image = EncodedImage::new(256, 1, Channels::Rgb, Depth::Eight, Samples::U8(codes.clone())).unwrap();
-        let mut light = FixedLight::black(256);
+        let mut light = FixedLight::black([[256, 1]]);
         for transfer in [Transfer::Srgb, Transfer::Linear] {
             let decoder = FixedDecoder::new(&transfer).expect("a decoder");
-            assert!(decoder.decode(&image, light.texels_mut()));
+            assert!(decode(&decoder, &image, &mut light));
             let codec = FixedCodec::new(&transfer, Rgba::BLACK).expect("a codec");
             let back: Vec<u8> = (0..256).flat_map(|texel| codec.codes_of(light.rgba(texel))).collect();
             assert_eq!(back, codes);
@@ -259,25 +217,39 @@ mod tests {
         let decoder = FixedDecoder::new(&Transfer::Srgb).expect("a decoder");
         let light = |channels, codes: Vec<u8>| {
             let image = EncodedImage::new(256, 1, channels, Depth::Eight, Samples::U8(codes)).unwrap();
-            let mut light = FixedLight::black(256);
-            assert!(decoder.decode(&image, light.texels_mut()));
-            light.texels_mut().to_vec()
+            let mut light = FixedLight::black([[256, 1]]);
+            assert!(decode(&decoder, &image, &mut light));
+            light.samples().to_vec()
         };
         let grey = light(Channels::Grey, (0..=255).collect());
         assert_eq!(grey, light(Channels::Rgb, (0..=255).flat_map(|code| [code; 3]).collect()));
     }
 
     #[test]
+    fn rows_of_any_width_become_rows_of_light() {
+        let decoder = FixedDecoder::new(&Transfer::Linear).expect("a decoder");
+        for (width, height) in [(1, 9), (127, 5), (128, 700), (133, 4), (256, 300)] {
+            let codes: Vec<u8> = (0..3 * width * height).map(|sample| (sample % 251) as u8).collect();
+            let image = EncodedImage::new(width, height, Channels::Rgb, Depth::Eight, Samples::U8(codes.clone()));
+            let mut light = FixedLight::black([[width, height]]);
+            assert!(decode(&decoder, &image.expect("an image"), &mut light));
+            let codec = FixedCodec::new(&Transfer::Linear, Rgba::BLACK).expect("a codec");
+            let back = (0..width * height).flat_map(|texel| codec.codes_of(light.rgba(texel)));
+            assert!(back.eq(codes), "{width}x{height}");
+        }
+    }
+
+    #[test]
     fn pictures_with_alpha_or_of_more_bits_are_not_taken() {
         let decoder = FixedDecoder::new(&Transfer::Srgb).expect("a decoder");
-        let mut light = FixedLight::black(1);
+        let mut light = FixedLight::black([[1, 1]]);
         for (channels, depth, samples) in [
             (Channels::Rgba, Depth::Eight, Samples::U8(vec![9; 4])),
             (Channels::GreyAlpha, Depth::Eight, Samples::U8(vec![9; 2])),
             (Channels::Rgb, Depth::Sixteen, Samples::U16(vec![9; 3])),
         ] {
             let image = EncodedImage::new(1, 1, channels, depth, samples).unwrap();
-            assert!(!decoder.decode(&image, light.texels_mut()));
+            assert!(!decode(&decoder, &image, &mut light));
             assert_eq!(light.samples()[..4], [0; 4]);
         }
     }

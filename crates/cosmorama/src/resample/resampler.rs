@@ -55,7 +55,7 @@ impl Resampler<'_> {
     /// # Panics
     /// If `light` is not that of the world's texels.
     pub fn render_fixed(&self, light: &FixedLight, codec: &FixedCodec) -> Image<[u8; 3]> {
-        assert_eq!(light.len(), self.world.texel_count(), "one texel of light for each texel of the world");
+        assert!(light.sizes().eq(self.world.view_sizes()), "light of the world's views");
         if !self.has_plan() {
             let texels: Vec<Rgba> = (0..light.len()).map(|texel| light.rgba(texel)).collect();
             return codec.encode(&self.render(&texels));

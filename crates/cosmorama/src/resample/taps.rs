@@ -1,4 +1,4 @@
-use super::slope::{Bounds, Rim};
+#[cfg(test)]
 use crate::raster::Rgba;
 
 /// One texel's part in an output pixel.
@@ -90,14 +90,14 @@ impl Taps {
     }
 }
 
-/// Taps that are added up in single precision before the sum goes on in double: a pixel of thousands of texels must not
-/// lose digits, and a common one pays nothing.
-pub(super) const BLOCK: usize = 32;
-
-/// The weighted average of taps, held to what those under the pixel hold if there is to be no ringing. `light` is that of a
-/// texel.
-#[inline(always)]
+/// The weighted average of taps, held to what those under the pixel hold if there is to be no ringing, one after the other: what
+/// all pixels are measured against. `light` is that of a texel.
+#[cfg(test)]
 pub(super) fn average(list: TapList, light: impl Fn(u32) -> Rgba, anti_ringing: bool) -> Rgba {
+    use super::plan::BLOCK;
+    use super::slope::{Bounds, Rim};
+
+    let add = |sum: &mut [f64; 4], part: [f32; 4]| (0..4).for_each(|c| sum[c] += f64::from(part[c]));
     let mut sum = [0f64; 4];
     let mut bounds = Bounds { least: [f32::INFINITY; 4], greatest: [f32::NEG_INFINITY; 4] };
     let Bounds { least, greatest } = &mut bounds;
@@ -129,11 +129,4 @@ pub(super) fn average(list: TapList, light: impl Fn(u32) -> Rgba, anti_ringing: 
         return average;
     }
     Rim::new(list.places).hold(average, &bounds, list.taps.iter().map(|tap| light(tap.texel)))
-}
-
-#[inline(always)]
-fn add(sum: &mut [f64; 4], part: [f32; 4]) {
-    for c in 0..4 {
-        sum[c] += f64::from(part[c]);
-    }
 }

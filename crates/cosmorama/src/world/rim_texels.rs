@@ -11,6 +11,8 @@ use crate::raster::Rgba;
 /// taken for what is more like the whole texels beside them. Whoever fills a world with light of pictures restores them first.
 #[derive(Clone, Debug, Default)]
 pub struct RimTexels {
+    /// Columns and rows of the view.
+    size: [usize; 2],
     texels: Vec<RimTexel>,
     /// Texels beside them, in the order of the image's texels.
     beside: Vec<u32>,
@@ -36,7 +38,7 @@ const BLOCK: usize = 8;
 impl RimTexels {
     /// Those of a view.
     pub fn of(view: &View) -> Self {
-        let mut found = Self::default();
+        let mut found = Self { size: [view.width(), view.height()], ..Self::default() };
         // Fields of view are convex, all but a little: one that holds the corners of the image holds all of it.
         let is_full = corners_shown(view, [0, 0], view.width().max(view.height())) == 4;
         if is_full || view.projection.ends_between_samples() {
@@ -69,14 +71,17 @@ impl RimTexels {
         self.beside.extend(whole.into_iter().chain(outside));
     }
 
-    /// Restores them in the view's light, linear and premultiplied by alpha. Texels of any kind are told by `light` and made by
-    /// `texel`.
+    /// Restores them in the view's light, linear and premultiplied by alpha: its rows, all as long, which may be longer than the view
+    /// is wide. Texels of any kind are told by `light` and made by `texel`.
     ///
     /// # Panics
     /// When the light is not that of the view.
     pub fn restore<T: Copy>(&self, texels: &mut [T], light: impl Fn(T) -> Rgba, texel: impl Fn(Rgba) -> T) {
+        let [columns, rows] = self.size.map(|length| length.max(1));
+        let pitch = texels.len() / rows;
+        let index = |at: u32| at as usize / columns * pitch + at as usize % columns;
         let mean = |texels: &[T], of: &[u32]| {
-            let sum = of.iter().map(|at| light(texels[*at as usize])).fold(Rgba::TRANSPARENT, |a, b| a + b);
+            let sum = of.iter().map(|at| light(texels[index(*at)])).fold(Rgba::TRANSPARENT, |a, b| a + b);
             (!of.is_empty()).then(|| sum * (of.len() as f32).recip())
         };
         // Where the rim touches the image's border, what lies around is what does elsewhere.
@@ -87,13 +92,13 @@ impl RimTexels {
             let [whole, outside] = self.beside(rim).map(|beside| mean(texels, beside));
             // Without a whole one beside it, there is nothing to tell by.
             let Some(expected) = whole else { continue };
-            let (found, around) = (light(texels[rim.at as usize]), outside.unwrap_or(around));
+            let (found, around) = (light(texels[index(rim.at)]), outside.unwrap_or(around));
             is_mixed.add(found, expected, (around, rim.coverage));
             unmixed.extend(inside(found, around, rim.coverage).map(|inside| (rim.at, inside)));
         }
         // All of them or none: a texel by itself may look like either, and would flicker.
         if is_mixed.is_likely() {
-            unmixed.into_iter().for_each(|(at, inside)| texels[at as usize] = texel(inside));
+            unmixed.into_iter().for_each(|(at, inside)| texels[index(at)] = texel(inside));
         }
     }
 
@@ -212,6 +217,21 @@ mod tests {
                     }
                 }
             }
+        }
+    }
+
+    #[test]
+    fn rows_of_light_may_be_longer_than_the_view_is_wide() {
+        let same = |light: Rgba| light;
+        for view in rims() {
+            let rim = RimTexels::of(&view);
+            let (mut packed, around) = (picture(&view, Rgba::BLACK, true), Rgba([7.0; 4]));
+            let rows = packed.chunks(view.width());
+            let mut apart: Vec<Rgba> = rows.flat_map(|row| [row, &[around; 5]].concat()).collect();
+            rim.restore(&mut packed, same, same);
+            rim.restore(&mut apart, same, same);
+            let rows = packed.chunks(view.width());
+            assert!(apart == rows.flat_map(|row| [row, &[around; 5]].concat()).collect::<Vec<_>>());
         }
     }
 

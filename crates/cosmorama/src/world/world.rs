@@ -7,6 +7,7 @@ use super::seen_cone::SeenCone;
 use super::view::ROUNDING;
 use super::{PixelPoint, PixelRect, SolidAngles, View, ViewMask, overlap};
 use crate::projection::{Projection, ProjectionKind};
+use crate::raster::FixedLight;
 use crate::sphere::Direction;
 
 /// Why views make no world.
@@ -28,8 +29,8 @@ pub enum WorldError {
         /// Those of the view.
         view: (usize, usize),
     },
-    /// Texels are counted in 32 bits.
-    #[error("the views hold {0} texels together, more than {max}", max = u32::MAX)]
+    /// Texels are counted in 32 bits, with what light may have between their rows.
+    #[error("the views take room for {0} texels together, more than {max}", max = u32::MAX)]
     TooLarge(usize),
 }
 
@@ -287,6 +288,11 @@ impl World {
         self.sources.last().map_or(0, |last| last.texels().end)
     }
 
+    /// Columns and rows of each view.
+    pub fn view_sizes(&self) -> impl Iterator<Item = [usize; 2]> + '_ {
+        self.sources.iter().map(|source| [source.view.width(), source.view.height()])
+    }
+
     /// Solid angle of each texel in steradians, in the order of the buffer that holds the light; zero for one that shows nothing.
     pub fn solid_angles(&self) -> impl Iterator<Item = f32> + '_ {
         self.sources.iter().flat_map(|source| source.solid_angles.iter().copied())
@@ -303,14 +309,13 @@ fn check(views: &[WorldView]) -> Result<(), WorldError> {
     let mut all = 0usize;
     for WorldView { name, view, mask, .. } in views {
         let size = (view.width(), view.height());
-        let texels = size.0.saturating_mul(size.1);
-        if texels == 0 {
+        if size.0 == 0 || size.1 == 0 {
             return Err(WorldError::NoPixels(name.clone()));
         }
         if let Some(found) = mask.as_ref().map(|mask| mask.size()).filter(|found| *found != size) {
             return Err(WorldError::MaskSize { name: name.clone(), mask: found, view: size });
         }
-        all = all.saturating_add(texels);
+        all = all.saturating_add(FixedLight::pitch(size.0).saturating_mul(size.1));
     }
     match all {
         0 => Err(WorldError::Empty),
@@ -319,7 +324,7 @@ fn check(views: &[WorldView]) -> Result<(), WorldError> {
     }
 }
 
-/// Texels are counted in 32 bits.
+/// Texels are counted in 32 bits, in light whose rows are filled up, too.
 const MOST_TEXELS: usize = u32::MAX as usize;
 
 /// Texels that a mask hides weigh nothing.

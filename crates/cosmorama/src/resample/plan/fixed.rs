@@ -88,7 +88,7 @@ impl Palette for FixedFilter<'_> {
     type Pixel = [u8; 3];
 
     fn rgba(&self, texel: u32) -> Rgba {
-        self.light.rgba(texel as usize)
+        FixedLight::light(self.light.samples().as_chunks::<4>().0[texel as usize])
     }
 
     #[inline(always)]

@@ -5,6 +5,7 @@ use super::fixed_check::is_sound;
 use super::rounded::{Origin, Rounded};
 use super::stored::Stored;
 use super::weights::Weights;
+use crate::raster::FixedLight;
 use crate::resample::patch::SIDE;
 use crate::resample::window::Windows;
 
@@ -202,6 +203,10 @@ impl Stored for FixedWeights {
 }
 
 impl Weights for FixedWeights {
+    fn pitch(width: usize) -> usize {
+        FixedLight::pitch(width)
+    }
+
     fn len(&self) -> usize {
         self.numbers.len()
     }

@@ -132,6 +132,10 @@ impl Stored for FloatWeights {
 }
 
 impl Weights for FloatWeights {
+    fn pitch(width: usize) -> usize {
+        width
+    }
+
     fn len(&self) -> usize {
         self.numbers.len()
     }

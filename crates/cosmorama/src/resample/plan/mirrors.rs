@@ -2,7 +2,9 @@
 
 use glam::DMat3;
 
+use super::weights::Weights;
 use crate::projection::ProjectionKind;
+use crate::raster::RowLayout;
 use crate::resample::patch::SIDE;
 use crate::resample::{FilterKind, Resampler};
 use crate::sphere::Direction;
@@ -29,6 +31,8 @@ pub(super) struct Mirrors {
     pub(super) rows: usize,
     /// Which pictures those make; the first is what is computed itself.
     pub(super) images: Vec<MirrorImage>,
+    /// Whether nothing lies between the texels of the light: their indices are those of the world.
+    pub(super) is_packed: bool,
     /// For each view of the world how windows in it are walked through in all of them.
     ways: Vec<Ways>,
 }
@@ -72,14 +76,13 @@ pub(super) struct MirrorImage {
 /// A view as a mirror shows it: another one, or the same, with its texels in another order.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Reflection {
-    /// Index of its first texel in the world's buffer.
-    offset: usize,
-    size: [usize; 2],
+    /// Where it lies in the buffer of light.
+    rows: RowLayout,
     /// Whether its columns run the other way, and whether its rows.
     flips: [bool; 2],
 }
 
-/// Where a window begins in the world's buffer, and the steps from texel to texel.
+/// Where a window begins in the buffer of light, and the steps from texel to texel.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Walk {
     pub(super) first: u32,
@@ -109,17 +112,17 @@ impl Reflection {
     /// Columns and rows of the view.
     #[inline(always)]
     pub(super) fn size(&self) -> [usize; 2] {
-        self.size
+        self.rows.size
     }
 
     /// The walk of a window whose first texel is in this column and row of the view itself.
     #[inline(always)]
     pub(super) fn walk(&self, [column, row]: [usize; 2]) -> Walk {
-        let [width, height] = self.size;
+        let RowLayout { size: [width, height], pitch, .. } = self.rows;
         let column = if self.flips[0] { width - 1 - column } else { column };
-        let (row, down) = if self.flips[1] { (height - 1 - row, -(width as i32)) } else { (row, width as i32) };
-        // Texels of a world are counted in 32 bits.
-        Walk { first: (self.offset + row * width + column) as u32, is_reversed: self.flips[0], down }
+        let (row, down) = if self.flips[1] { (height - 1 - row, -(pitch as i32)) } else { (row, pitch as i32) };
+        // Texels of a world, and what fills up their rows, are counted in 32 bits.
+        Walk { first: self.rows.index([column, row]) as u32, is_reversed: self.flips[0], down }
     }
 }
 
@@ -129,20 +132,23 @@ impl MirrorImage {
         &self.views[index]
     }
 
-    /// The texel that the mirror shows in place of one.
+    /// The texel that the mirror shows in place of one, by its index in the buffer of light.
     pub(super) fn texel(&self, TexelPlace { view, texel }: TexelPlace) -> u32 {
         self.views[view].walk(texel).first
     }
 }
 
 impl Mirrors {
-    /// Those in which a conversion is the same.
-    pub(super) fn of(Resampler { world, target, filter }: &Resampler) -> Self {
+    /// Those in which a conversion is the same, for the light that weights like these are for.
+    pub(super) fn of<W: Weights>(Resampler { world, target, filter }: &Resampler) -> Self {
         let (width, height) = (target.width(), target.height());
+        let layout = RowLayout::of(world.view_sizes(), W::pitch);
         let reflect = |flips: [bool; 2]| {
             let is_even = (!flips[0] || width % 2 == 0) && (!flips[1] || height % 2 == 0);
             // Of two texels that are as near, a point takes the one to the right, in a mirror too.
-            (is_even && filter.kind != FilterKind::Point).then(|| MirrorImage::of(world, target, flips)).flatten()
+            (is_even && filter.kind != FilterKind::Point)
+                .then(|| MirrorImage::of((world, &layout), target, flips))
+                .flatten()
         };
         let (across, mut down) = (reflect([true, false]), reflect([false, true]));
         let both = if across.is_some() && down.is_some() { reflect([true, true]) } else { None };
@@ -152,13 +158,20 @@ impl Mirrors {
         }
         let columns = if across.is_some() { width / 2 } else { width };
         let rows = if down.is_some() { height / 2 } else { height };
-        let images = std::iter::once(MirrorImage::itself(world));
+        let images = std::iter::once(MirrorImage::itself(&layout));
         Self::new([columns, rows], images.chain([across, down, both].into_iter().flatten()).collect())
     }
 
     pub(super) fn new([columns, rows]: [usize; 2], images: Vec<MirrorImage>) -> Self {
-        let ways = (0..images[0].views.len()).map(|view| Ways::of(&images, view)).collect();
-        Self { columns, rows, images, ways }
+        let views = &images[0].views;
+        let is_packed = views.iter().all(|view| view.rows.pitch == view.rows.size[0]);
+        let ways = (0..views.len()).map(|view| Ways::of(&images, view)).collect();
+        Self { columns, rows, images, is_packed, ways }
+    }
+
+    /// Texels of the light, with what fills up their rows.
+    pub(super) fn texel_count(&self) -> usize {
+        self.images[0].views.last().map_or(0, |view| view.rows.end())
     }
 
     /// How windows of a view are walked through.
@@ -169,23 +182,19 @@ impl Mirrors {
 
 impl MirrorImage {
     /// What is computed itself.
-    pub(super) fn itself(world: &World) -> Self {
-        let same = |source: &Source| Reflection::new(source, [false; 2]);
-        Self { flips: [false; 2], views: world.sources().iter().map(same).collect() }
+    pub(super) fn itself(layout: &[RowLayout]) -> Self {
+        let flips = [false; 2];
+        Self { flips, views: layout.iter().map(|&rows| Reflection { rows, flips }).collect() }
     }
 
     /// The target flipped, if the world has a mirror plane to which that belongs.
-    fn of(world: &World, target: &View, flips: [bool; 2]) -> Option<Self> {
+    fn of((world, layout): (&World, &[RowLayout]), target: &View, flips: [bool; 2]) -> Option<Self> {
         let mirror = mirror_of(target, flips)?;
-        let sources = world.sources();
-        let views = sources.iter().map(|source| sources.iter().find_map(|other| reflection(source, other, &mirror)));
-        Some(Self { flips, views: views.collect::<Option<_>>()? })
-    }
-}
-
-impl Reflection {
-    fn new(source: &Source, flips: [bool; 2]) -> Self {
-        Self { offset: source.offset, size: [source.view.width(), source.view.height()], flips }
+        let seen = |source: &Source| {
+            let mut others = world.sources().iter().zip(layout);
+            others.find_map(|(other, &rows)| Some(Reflection { rows, flips: reflection(source, other, &mirror)? }))
+        };
+        Some(Self { flips, views: world.sources().iter().map(seen).collect::<Option<_>>()? })
     }
 }
 
@@ -221,8 +230,8 @@ fn mirror_of(target: &View, flips: [bool; 2]) -> Option<DMat3> {
     is_mirror.then_some(mirror)
 }
 
-/// How a view reflects onto another, if it does: no texel of either is hidden or shared.
-fn reflection(source: &Source, other: &Source, mirror: &DMat3) -> Option<Reflection> {
+/// Which axes of another view run the other way as the reflection of one, if it is that: no texel of either is hidden or shared.
+fn reflection(source: &Source, other: &Source, mirror: &DMat3) -> Option<[bool; 2]> {
     let (a, b) = (&source.view, &other.view);
     let is_plain = |source: &Source| {
         let all = PixelRect { left: 0, top: 0, right: source.view.width(), bottom: source.view.height() };
@@ -247,7 +256,7 @@ fn reflection(source: &Source, other: &Source, mirror: &DMat3) -> Option<Reflect
         })
     };
     let all = [[false, false], [true, false], [false, true], [true, true]];
-    all.into_iter().find(|&flips| fits(flips)).map(|flips| Reflection::new(other, flips))
+    all.into_iter().find(|&flips| fits(flips))
 }
 
 /// Whether a view follows a formula that a few points tell; a table may hold anything between them.

@@ -16,6 +16,7 @@ mod float_window;
 mod key;
 mod mirrors;
 mod prefetch;
+mod recorder;
 mod rounded;
 mod saved;
 mod saved_plan;
@@ -31,7 +32,7 @@ use std::ops::Range;
 
 use rayon::prelude::*;
 
-use band::{Band, Recorder};
+use band::Band;
 use canvas::Canvas;
 use fixed::FixedFilter;
 use fixed_weights::FixedWeights;
@@ -39,8 +40,11 @@ use float::FloatFilter;
 use float_weights::FloatWeights;
 pub use key::PlanKey;
 use mirrors::{MirrorImage, Mirrors};
+use recorder::Recorder;
 pub use saved::PlanError;
 pub use saved_plan::SavedPlan;
+#[cfg(test)]
+pub(super) use singles::BLOCK;
 use weights::Weights;
 
 use super::kernel::KernelTable;
@@ -151,7 +155,7 @@ pub(super) fn render_part(
     (texels, background): (&[Rgba], Rgba),
     level: Level,
 ) -> Image<Rgba> {
-    let mirrors = &Mirrors::of(resampler);
+    let mirrors = &Mirrors::of::<FloatWeights>(resampler);
     let (width, height) = (resampler.target.width(), resampler.target.height());
     let mut image = Image::zeroed(width, height);
     let filter = FloatFilter { level, mirrors, texels, anti_ringing: resampler.filter.anti_ringing, background };
@@ -162,7 +166,7 @@ pub(super) fn render_part(
 
 /// The same in 15 bits.
 pub(super) fn render_fixed(resampler: &Resampler, light: &FixedLight, codec: &FixedCodec) -> Image<[u8; 3]> {
-    let mirrors = &Mirrors::of(resampler);
+    let mirrors = &Mirrors::of::<FixedWeights>(resampler);
     let (width, height) = (resampler.target.width(), resampler.target.height());
     let mut image = Image::zeroed(width, height);
     let level = Level::new();
@@ -174,7 +178,7 @@ pub(super) fn render_fixed(resampler: &Resampler, light: &FixedLight, codec: &Fi
 
 /// Bytes that the plan of a conversion would hold, found from a row of patches in each band, keeping none of them.
 fn bytes_estimate<W: Weights>(resampler: &Resampler, wanted: Option<&Wanted>) -> usize {
-    let mirrors = &Mirrors::of(resampler);
+    let mirrors = &Mirrors::of::<W>(resampler);
     let table = KernelTable::new(&resampler.filter.kernel);
     let bytes = |index: usize| {
         let band = mirrors.band(index);
@@ -196,7 +200,7 @@ fn bytes_estimate<W: Weights>(resampler: &Resampler, wanted: Option<&Wanted>) ->
 impl<W: Weights> Compiled<W> {
     fn new(resampler: &Resampler, wanted: Option<&Wanted>, level: Level) -> Self {
         let Resampler { target, filter, .. } = resampler;
-        let mirrors = Mirrors::of(resampler);
+        let mirrors = Mirrors::of::<W>(resampler);
         let table = KernelTable::new(&filter.kernel);
         let compile = |index| {
             let mut band = Band::default();
@@ -263,7 +267,8 @@ fn record<W: Weights>(
 
 /// The patches that must be computed, in whatever mirror something is wanted of them, given which rectangles of the target are.
 pub(super) fn wanted(resampler: &Resampler, is_wanted: impl Fn(PixelRect) -> bool + Sync) -> Wanted {
-    let mirrors = Mirrors::of(resampler);
+    // What is seen in which mirror is the same for all light.
+    let mirrors = Mirrors::of::<FloatWeights>(resampler);
     let size = [resampler.target.width(), resampler.target.height()];
     Wanted::new([mirrors.columns, mirrors.rows], |patch| {
         mirrors.images.iter().any(|image| is_wanted(image.shown(patch, size)))

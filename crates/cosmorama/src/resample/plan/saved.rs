@@ -15,8 +15,8 @@ use crate::resample::Resampler;
 /// What the bytes begin with.
 const MARK: [u8; 16] = *b"cosmorama plan\r\n";
 
-/// The version of what follows, and of how plans are computed.
-pub(super) const FORMAT: u32 = 4;
+/// The version of what follows, of how plans are computed, and of where in light texels lie: taps tell them by their index.
+pub(super) const FORMAT: u32 = 5;
 
 /// Why bytes are not the plan of a conversion. Another one can always be computed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
@@ -88,7 +88,7 @@ impl<W: Weights> Compiled<W> {
         if head.checksum != XxHash3_128::oneshot(bytes) {
             return Err(PlanError::Damaged);
         }
-        let mirrors = Mirrors::of(resampler);
+        let mirrors = Mirrors::of::<W>(resampler);
         let parts = parts(&mut bytes).filter(|parts| parts.len() == mirrors.rows.div_ceil(BAND));
         let parts = parts.ok_or(PlanError::Unsound)?;
         let band = |(index, mut bytes): (usize, &[u8])| {

@@ -8,7 +8,7 @@ use super::mirrors::{MirrorImage, Mirrors};
 use super::stored::stored;
 use crate::raster::Rgba;
 use crate::resample::slope::{Bounds, Rim};
-use crate::resample::taps::{BLOCK, Taps};
+use crate::resample::taps::Taps;
 use crate::world::{TexelPlace, World};
 
 /// Those of a band.
@@ -142,14 +142,14 @@ impl Singles {
         self.weights.extend(list.taps.iter().map(|tap| tap.weight));
         // Mirrored, texels lie otherwise, but not in relation to each other.
         self.places.extend_from_slice(list.places);
-        match &*mirrors.images {
-            [_] => self.texels.extend(list.taps.iter().map(|tap| tap.texel)),
-            images => {
-                seen.clear();
-                seen.extend(list.taps.iter().map(|tap| world.texel(tap.texel)));
-                self.texels.extend(seen.iter().flat_map(|&place| images.iter().map(move |image| image.texel(place))));
-            }
+        if mirrors.is_packed && mirrors.images.len() == 1 {
+            self.texels.extend(list.taps.iter().map(|tap| tap.texel));
+            return;
         }
+        seen.clear();
+        seen.extend(list.taps.iter().map(|tap| world.texel(tap.texel)));
+        let images = &mirrors.images;
+        self.texels.extend(seen.iter().flat_map(|&place| images.iter().map(move |image| image.texel(place))));
     }
 
     /// Makes their pixels in all mirrors.
@@ -198,7 +198,10 @@ impl Singles {
     /// Whether all that they speak of is there: columns and rows of a band, and so many texels in each of some mirrors.
     pub(super) fn are_sound(&self, [columns, rows]: [usize; 2], texels: usize, images: usize) -> bool {
         self.weights.len().checked_mul(images) == Some(self.texels.len())
-            && self.pixels.iter().all(|single| single.is_sound([columns, rows], [self.weights.len(), self.places.len()]))
+            && self
+                .pixels
+                .iter()
+                .all(|single| single.is_sound([columns, rows], [self.weights.len(), self.places.len()]))
             && self.weights.iter().all(|weight| weight.is_finite())
             && self.texels.iter().all(|texel| (*texel as usize) < texels)
             && self.places.as_flattened().iter().all(|place| place.is_finite())
@@ -208,8 +211,12 @@ impl Singles {
 /// Pixels that are made between asking for one's texels and reading them.
 const AHEAD: usize = 1;
 
+/// Texels that are added up in single precision before the sum goes on in double: a pixel of thousands of texels must not lose
+/// digits, and a common one pays nothing.
+pub(in crate::resample) const BLOCK: usize = 32;
+
 /// The weighted average of a pixel's texels in each of N mirrors, held to what those under the pixel hold if there is to be no
-/// ringing: [`crate::resample::taps::average`], to the last bit.
+/// ringing.
 #[inline(always)]
 fn averages<S: Simd, P: Palette, const N: usize>(
     simd: S,

@@ -1,12 +1,14 @@
 mod runs;
 mod sizes;
 
+use fearless_simd::dispatch;
+
 use super::band::{Corners, Run};
 use super::mirrors::{MirrorImage, Mirrors};
 use super::stored::Stored;
 use super::*;
 use crate::projection::{PlanePoint, PlaneRect, ProjectionKind};
-use crate::raster::{ColourChannel, Transfer};
+use crate::raster::{ColourChannel, RowLayout, Transfer};
 use crate::resample::taps::{Tap, TapList, average};
 use crate::resample::window::Windows;
 use crate::resample::{Filter, FilterKind, window};
@@ -41,8 +43,8 @@ fn dome(size: usize, orientation: Orientation) -> View {
 
 /// Any light, in steps that 15 bits hold, with edges, dots and slopes.
 fn light(world: &World) -> FixedLight {
-    let mut light = FixedLight::black(world.texel_count());
-    for (k, texel) in light.texels_mut().iter_mut().enumerate() {
+    let mut light = FixedLight::black(world.view_sizes());
+    for (k, texel) in light.texels_mut().enumerate() {
         let noise = |seed: usize| ((k * seed) as u32).wrapping_mul(2_654_435_761) >> 17;
         let smooth = (k % 300 * 100) as i16;
         *texel = [noise(1) as i16, if k % 11 == 0 { i16::MAX } else { smooth }, (noise(7) / 64) as i16, 0];
@@ -68,7 +70,8 @@ fn conversions() -> Vec<(World, View, usize)> {
         // Windows larger than lanes weigh.
         (cube(&all, 300), dome(30, up), 4),
         (cube(&[CubeFace::Front, CubeFace::Left, CubeFace::Right, CubeFace::Up], 120), omnimax(), 2),
-        (cube(&all, 100), dome(120, turned(20.0, 60.0, 5.0)), 1),
+        // Rows of light that are filled up, and no mirror that shows them.
+        (cube(&all, 140), dome(120, turned(20.0, 60.0, 5.0)), 1),
         (cube(&all, 100), dome(120, turned(0.0, 60.0, 0.0)), 2),
         (cube(&all, 100), dome(121, up), 1),
         (cube(&all, 64), panoramic((240, 120)), 4),
@@ -89,13 +92,13 @@ fn resampler<'a>(world: &'a World, target: &'a View) -> Resampler<'a> {
 #[test]
 fn mirrors_are_found_where_there_are_some() {
     for (world, target, images) in conversions() {
-        let found = Mirrors::of(&resampler(&world, &target));
+        let found = Mirrors::of::<FloatWeights>(&resampler(&world, &target));
         assert_eq!(found.images.len(), images, "{:?} of {:?}", target.projection, target.orientation);
         assert_eq!(found.columns * found.rows * images, target.width() * target.height());
     }
     // A middle of the world that is nobody's mirror image: the front and the left face alone are left out.
     let up = turned(0.0, 90.0, 0.0);
-    let count = |world: &World, target: &View| Mirrors::of(&resampler(world, target)).images.len();
+    let count = |world: &World, target: &View| Mirrors::of::<FloatWeights>(&resampler(world, target)).images.len();
     let mut faces: Vec<_> = CubeFace::ALL.into_iter().filter(|face| *face != CubeFace::Left).collect();
     assert_eq!(count(&cube(&faces, 64), &dome(64, up)), 2);
     faces.retain(|face| *face != CubeFace::Back);
@@ -105,7 +108,7 @@ fn mirrors_are_found_where_there_are_some() {
     let (world, target) = (cube(&CubeFace::ALL, 64), dome(64, up));
     let filter = Filter { kind: FilterKind::Point, ..Filter::DEFAULT };
     let point = Resampler { filter, ..resampler(&world, &target) };
-    assert_eq!(Mirrors::of(&point).images.len(), 1);
+    assert_eq!(Mirrors::of::<FloatWeights>(&point).images.len(), 1);
 }
 
 #[test]
@@ -120,7 +123,7 @@ fn nothing_is_mirrored_that_is_not_alike() {
             part
         };
         let world = World::blended(CubeFace::ALL.map(part)).expect("six faces");
-        Mirrors::of(&resampler(&world, &dome(64, up))).images.len()
+        Mirrors::of::<FloatWeights>(&resampler(&world, &dome(64, up))).images.len()
     };
     assert_eq!(alter(&|_, _| ()), 4);
     // One face of another size, one cut, one turned by a hair, one that looks through a stop, one that reaches into others.
@@ -173,7 +176,8 @@ fn what_mirrors_show_is_what_would_be_computed() {
     for (world, target, _) in conversions() {
         let light = light(&world);
         let resampler = resampler(&world, &target);
-        let alone = Mirrors::new([target.width(), target.height()], vec![MirrorImage::itself(&world)]);
+        let layout = RowLayout::of(world.view_sizes(), FloatWeights::pitch);
+        let alone = Mirrors::new([target.width(), target.height()], vec![MirrorImage::itself(&layout)]);
         let mut expected = Image::filled(target.width(), target.height(), Rgba::TRANSPARENT);
         let texels = floats(&light);
         let (level, background) = (Level::new(), Rgba::TRANSPARENT);
@@ -229,6 +233,10 @@ impl Stored for NoWindows {
 }
 
 impl Weights for NoWindows {
+    fn pitch(width: usize) -> usize {
+        width
+    }
+
     fn len(&self) -> usize {
         0
     }
@@ -254,7 +262,8 @@ impl Weights for NoWindows {
     }
 }
 
-/// Windows of all sizes, four texels at once, against lists of texels one after the other.
+/// Windows of all sizes, four texels at once, and pixels by themselves in all mirrors at once, against lists of texels one after the
+/// other.
 #[test]
 fn windows_of_floats_make_what_their_texels_make_one_by_one() {
     for (world, target, _) in conversions() {
@@ -263,8 +272,15 @@ fn windows_of_floats_make_what_their_texels_make_one_by_one() {
             let resampler =
                 Resampler { filter: Filter { anti_ringing, ..Filter::DEFAULT }, ..resampler(&world, &target) };
             let mut expected = Image::filled(target.width(), target.height(), Rgba::TRANSPARENT);
-            let (mirrors, level) = (Mirrors::of(&resampler), Level::new());
-            let pixels = (expected.pixels_mut(), Rgba::TRANSPARENT);
+            let (mirrors, level) = (Mirrors::of::<NoWindows>(&resampler), Level::new());
+            let background = Rgba::TRANSPARENT;
+            let filter = FloatFilter { level, mirrors: &mirrors, texels: &texels, anti_ringing, background };
+            let mut one_by_one = expected.clone();
+            let pixels = (one_by_one.pixels_mut(), background);
+            each_band((&resampler, None), &mirrors, pixels, level, |band: &Band<NoWindows>, canvas| {
+                dispatch!(level, simd => band.singles.fill(simd, &mirrors, (&filter, anti_ringing), canvas));
+            });
+            let pixels = (expected.pixels_mut(), background);
             each_band((&resampler, None), &mirrors, pixels, level, |band: &Band<NoWindows>, canvas| {
                 for single in band.singles.pixels() {
                     let taps = band.singles.taps(single, mirrors.images.len());
@@ -278,6 +294,7 @@ fn windows_of_floats_make_what_their_texels_make_one_by_one() {
                     }
                 }
             });
+            assert!(one_by_one == expected, "to the last bit");
             for (made, expected) in resampler.render(&texels).pixels().iter().zip(expected.pixels()) {
                 assert!((0..4).all(|c| (made.0[c] - expected.0[c]).abs() < 4e-6), "{made:?} is not {expected:?}");
             }
@@ -289,7 +306,7 @@ fn windows_of_floats_make_what_their_texels_make_one_by_one() {
 fn all_levels_of_instructions_make_the_same_pixels() {
     for (world, target, _) in conversions().into_iter().take(5) {
         let (light, resampler) = (light(&world), resampler(&world, &target));
-        let (texels, mirrors) = (floats(&light), Mirrors::of(&resampler));
+        let (texels, mirrors) = (floats(&light), Mirrors::of::<FixedWeights>(&resampler));
         let codec = FixedCodec::new(&Transfer::Srgb, Rgba::BLACK).expect("sRGB has 8 bits");
         let plan = resampler.fixed_plan().expect("a plan");
         let made = |level| {

@@ -6,6 +6,9 @@ use crate::resample::window::Windows;
 
 /// How a plan keeps the weights of a band's windows, one run after the other.
 pub(in crate::resample) trait Weights: Stored + Clone + Debug + Default + Send + Sync {
+    /// How many texels there are from one row of a view to the next in the light that they are for, if rows hold so many.
+    fn pitch(width: usize) -> usize;
+
     /// How many numbers they are: where the next run's begin.
     fn len(&self) -> usize;
 

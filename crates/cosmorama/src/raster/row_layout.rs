@@ -1,0 +1,34 @@
+/// Where a view's texels lie in a buffer of light: row by row, from top to bottom.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct RowLayout {
+    /// Index of the first one.
+    pub(crate) offset: usize,
+    /// Columns and rows of the view.
+    pub(crate) size: [usize; 2],
+    /// From a row's first texel to the next one's: as many as a row has, or more.
+    pub(crate) pitch: usize,
+}
+
+impl RowLayout {
+    /// Those of views of these sizes one after the other, given the pitch of rows of some width.
+    pub(crate) fn of(sizes: impl IntoIterator<Item = [usize; 2]>, pitch: impl Fn(usize) -> usize) -> Vec<Self> {
+        let mut offset = 0;
+        let after = |size: [usize; 2]| {
+            let view = Self { offset, size, pitch: pitch(size[0]) };
+            offset = view.end();
+            view
+        };
+        sizes.into_iter().map(after).collect()
+    }
+
+    /// Where the next view begins.
+    pub(crate) fn end(&self) -> usize {
+        self.offset + self.pitch * self.size[1]
+    }
+
+    /// The index of the texel in this column and row.
+    #[inline(always)]
+    pub(crate) fn index(&self, [column, row]: [usize; 2]) -> usize {
+        self.offset + row * self.pitch + column
+    }
+}

@@ -1,0 +1,63 @@
+use super::band::{Band, Corners, Run};
+use super::mirrors::Mirrors;
+use super::weights::Weights;
+use crate::resample::patch::SIDE;
+use crate::resample::scan::Sink;
+use crate::resample::taps::Taps;
+use crate::resample::window::Windows;
+use crate::world::{TexelPlace, World};
+
+/// Writes down what makes the pixels of a band.
+pub(super) struct Recorder<'a, W, F> {
+    pub(super) world: &'a World,
+    pub(super) mirrors: &'a Mirrors,
+    pub(super) band: &'a mut Band<W>,
+    pub(super) taps: Taps,
+    /// Where those of a single pixel lie.
+    pub(super) places: Vec<TexelPlace>,
+    /// What is done with a band that holds more than [`MANY`] taps.
+    pub(super) spill: F,
+}
+
+/// Taps of single pixels that a band may hold before something is done with them: a small picture of a large world may have
+/// millions for each pixel.
+const MANY: usize = 1 << 17;
+
+impl<W: Weights, F: FnMut(&mut Band<W>)> Sink for Recorder<'_, W, F> {
+    fn pixel(&mut self, pixel: [usize; 2], coverage: f32, taps: &Taps) {
+        self.single(pixel, coverage, taps);
+    }
+
+    fn windows(&mut self, pixel: [usize; 2], lanes: u8, windows: &Windows) {
+        let first = self.band.weights.len();
+        let lanes = lanes & windows.held();
+        // Nothing was weighed.
+        if lanes == 0 {
+            return;
+        }
+        let mut corners: Corners = std::array::from_fn(|lane| windows.corner(lane).filter(|_| lanes >> lane & 1 == 1));
+        if self.band.weights.keep(windows, &mut corners) {
+            if let Some(run) = Run::new(windows, &corners, pixel, first) {
+                self.band.runs.push(run);
+                return;
+            }
+            self.band.weights.truncate(first);
+        }
+        for lane in (0..SIDE).filter(|&lane| lanes >> lane & 1 == 1) {
+            let mut taps = std::mem::take(&mut self.taps);
+            windows.taps(lane, &mut taps);
+            self.single([pixel[0] + lane, pixel[1]], 1.0, &taps);
+            self.taps = taps;
+        }
+    }
+}
+
+impl<W, F: FnMut(&mut Band<W>)> Recorder<'_, W, F> {
+    /// A pixel by itself, in all mirrors.
+    fn single(&mut self, pixel: [usize; 2], coverage: f32, taps: &Taps) {
+        self.band.singles.push((self.world, self.mirrors), pixel, coverage, taps, &mut self.places);
+        if self.band.singles.texel_count() > MANY {
+            (self.spill)(self.band);
+        }
+    }
+}
