@@ -46,8 +46,12 @@ impl Run {
     /// The pixels that it makes, by lane.
     #[inline(always)]
     pub(super) fn lanes(&self) -> impl Iterator<Item = usize> + use<> {
-        let lanes = self.lanes;
-        (0..SIDE).filter(move |lane| lanes >> lane & 1 == 1)
+        let mut rest = self.lanes;
+        std::iter::from_fn(move || {
+            let lane = rest.trailing_zeros() as usize;
+            rest &= rest.wrapping_sub(1);
+            (lane < SIDE).then_some(lane)
+        })
     }
 
     /// Whether it makes a pixel in each lane.

@@ -52,8 +52,9 @@ impl FixedFilter<'_> {
         }
     }
 
-    /// The pixels of a run in each mirror.
-    #[inline(always)]
+    /// The pixels of a run in each mirror. What is called from here on is compiled by itself: among all that makes a band its loop
+    /// would lack registers.
+    #[inline(never)]
     fn pixels<S: Simd>(&self, simd: S, run: &Run, numbers: &[u32]) -> Pixels {
         let mut pixels = [[[0; 3]; SIDE]; MOST_IMAGES];
         let ways = self.mirrors.ways(usize::from(run.view));
