@@ -160,7 +160,8 @@ fn plans<P>(
     mut plan_of: impl FnMut(&Resampler, u64) -> Option<P>,
     bytes: impl Fn(&P) -> usize,
 ) -> Vec<Option<P>> {
-    let mut left = job.memory.left_for_plan(&job.input, &job.target).saturating_sub(taken);
+    let left = job.memory.left_for_plan(&job.input, &job.target, rayon::current_num_threads());
+    let mut left = left.saturating_sub(taken);
     let plan_of = |target: &TargetView| {
         let plan = plan_of(&job.resampler(target), left)?;
         left = left.saturating_sub(bytes(&plan) as u64);
