@@ -13,7 +13,7 @@ pub(crate) struct SpareMemory<M> {
     spare: usize,
     /// Bytes in use.
     used: usize,
-    /// Bytes up to which memory is kept beside what is in use.
+    /// Bytes up to which memory is kept with what is in use.
     allowed: usize,
 }
 
@@ -23,9 +23,9 @@ impl<M> SpareMemory<M> {
         Self { blocks: VecDeque::new(), spare: 0, used: 0, allowed: 0 }
     }
 
-    /// From now on memory may be kept as long as it and what is in use are no more than so many bytes.
+    /// From now on memory may be kept as long as it and what is in use are no more than so many bytes beside what is in use now.
     pub(crate) fn allow(&mut self, bytes: usize) {
-        self.allowed = bytes;
+        self.allowed = self.used.saturating_add(bytes);
     }
 
     /// Counts a block of this layout as used. It is a spare one, if there is one.
@@ -115,6 +115,16 @@ mod tests {
         assert_eq!(memory.surplus(), None);
         memory.allow(19);
         assert_eq!([(); 2].map(|()| memory.surplus()), [Some((bytes(20), 'b')), None]);
+    }
+
+    #[test]
+    fn what_was_in_use_before_takes_nothing_of_what_is_allowed() {
+        let mut memory = with_spare(100, &[(bytes(10), 'a'), (bytes(20), 'b')]);
+        memory.count(bytes(1000));
+        memory.allow(30);
+        assert_eq!(memory.surplus(), None);
+        memory.count(bytes(11));
+        assert_eq!([(); 3].map(|()| memory.surplus()), [Some((bytes(10), 'a')), Some((bytes(20), 'b')), None]);
     }
 
     #[test]

@@ -4,8 +4,9 @@ use anyhow::{Result, bail};
 use cosmorama::projection::{ProjectionKind, StMapTable};
 use cosmorama::raster::Rgba;
 use cosmorama::world::View;
-use cosmorama_io::Header;
+use cosmorama_io::{Format, Header};
 
+use super::in_flight::{FrameMemory, InFlight};
 use super::machine::{all_bytes, free_bytes};
 use super::{Input, InputView, Sheet, Target};
 use crate::args::MemorySize;
@@ -136,48 +137,40 @@ impl MemoryBudget {
     }
 
     /// What is left for the geometry that all frames share.
-    pub(crate) fn left_for_plan(self, input: &Input, target: &Target) -> u64 {
-        self.bytes.saturating_sub(frame_bytes(input, target))
+    pub(crate) fn left_for_plan(self, input: &Input, target: &Target, threads: usize) -> u64 {
+        self.beside_program(threads).saturating_sub(frame_bytes(input, target)).saturating_sub(plane_bytes(target))
     }
 
-    /// How many frames may be in flight beside the one that is filtered and the geometry that they share. The files of
-    /// one frame each keep a thread busy, so that more than it takes to keep all of them busy are of no use.
+    /// What is left beside the program itself. A frame alone is made in less, too: what it needs is not so much as is counted.
+    fn beside_program(self, threads: usize) -> u64 {
+        self.bytes.saturating_sub(PROGRAM).saturating_sub(THREAD.saturating_mul(threads as u64))
+    }
+
+    /// How many frames may be in flight around the one that is filtered, beside the geometry that they share. The files of one
+    /// frame each keep a thread busy, so that more than it takes to keep all of them busy are of no use.
     pub(crate) fn in_flight(self, input: &Input, target: &Target, plans: u64, threads: usize) -> InFlight {
-        let samples = |header: &Header| header_pixels(header).saturating_mul(sample_bytes(header));
         let moving = input.present().filter(|(view, ..)| view.files.sequence().is_some());
         let (files, read) = moving
-            .fold((0, 0_u64), |(files, bytes), (_, header, _)| (files + 1, bytes.saturating_add(samples(header))));
-        let written = output_bytes(target);
+            .fold((0, 0_u64), |(files, bytes), (_, header, _)| (files + 1, bytes.saturating_add(read_bytes(header))));
         let wanted = |files: usize| 1 + threads.div_ceil(files.max(1));
-        let (wanted_read, wanted_written) = (wanted(files), wanted(target.files.len()));
-        let mut left = self.bytes.saturating_sub(plans).saturating_sub(frame_bytes(input, target));
-        let mut fitting = InFlight { read: 1, written: 1, bytes: 0 };
-        // In turns, so that neither side waits for the other.
-        loop {
-            let before = fitting;
-            if fitting.read < wanted_read && left >= read {
-                (fitting.read, left) = (fitting.read + 1, left - read);
-            }
-            if fitting.written < wanted_written && left >= written {
-                (fitting.written, left) = (fitting.written + 1, left - written);
-            }
-            if fitting == before {
-                return InFlight { bytes: self.bytes - left, ..fitting };
-            }
-        }
+        let geometry = geometry_bytes(input, target);
+        let planes = plane_bytes(target);
+        let frame = FrameMemory {
+            all: frame_bytes(input, target).saturating_sub(geometry).saturating_add(planes),
+            read,
+            written: output_bytes(target).saturating_add(planes),
+        };
+        let room = self.beside_program(threads).saturating_sub(plans).saturating_sub(geometry);
+        InFlight::fitting(room, frame, (wanted(files), wanted(target.files.len())))
     }
 }
 
-/// Frames in flight around the one that is filtered.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct InFlight {
-    /// Those that are being read, or wait for their turn.
-    pub(crate) read: usize,
-    /// Those that are being written.
-    pub(crate) written: usize,
-    /// Bytes that all of them may take together, with the one that is filtered and the geometry.
-    pub(crate) bytes: u64,
-}
+/// What the program takes without any picture, with its tables.
+const PROGRAM: u64 = 8 << 20;
+
+/// What a thread takes beside the pictures that it works on: bands of geometry, blocks of files, and what the system's allocator keeps
+/// for it.
+const THREAD: u64 = 3 << 20;
 
 /// Bytes of a texel's solid angle.
 const SOLID_ANGLE: u64 = size_of::<f32>() as u64;
@@ -189,6 +182,11 @@ fn header_pixels(header: &Header) -> u64 {
 /// Bytes of a pixel's samples.
 fn sample_bytes(header: &Header) -> u64 {
     (header.channels.count() * header.depth.bytes()) as u64
+}
+
+/// A file's samples.
+fn read_bytes(header: &Header) -> u64 {
+    header_pixels(header).saturating_mul(sample_bytes(header))
 }
 
 /// A file's samples and the light made of them.
@@ -210,6 +208,11 @@ fn output_bytes(target: &Target) -> u64 {
     pixel_bytes(target.files.iter().flat_map(|file| file.levels()).map(|sheet| sheet.size))
 }
 
+/// OpenEXR's samples are sorted into planes, while the pictures that they are of wait to be handed on.
+fn plane_bytes(target: &Target) -> u64 {
+    if target.format == Format::Exr { output_bytes(target) / 2 } else { 0 }
+}
+
 /// Pictures of these sizes with their encoded twins.
 fn pixel_bytes(sizes: impl IntoIterator<Item = (usize, usize)>) -> u64 {
     let pixels = sizes.into_iter().map(area).fold(0, u64::saturating_add);
@@ -228,13 +231,18 @@ fn table_bytes(view: &View) -> u64 {
     }
 }
 
-/// Light and solid angle of every texel, the files and tables beside them, and the outputs.
-fn frame_bytes(input: &Input, target: &Target) -> u64 {
-    let light = input.present().map(|(_, header, _)| light_bytes(header)).fold(0, u64::saturating_add);
-    let geometry = (input.texels() as u64).saturating_mul(SOLID_ANGLE);
+/// What all frames share, but for plans: the solid angle of every texel, and tables.
+fn geometry_bytes(input: &Input, target: &Target) -> u64 {
+    let angles = (input.texels() as u64).saturating_mul(SOLID_ANGLE);
     let views = input.views().map(|view| &view.nominal).chain(target.views.iter().map(|target| &target.view));
     let tables = views.map(table_bytes).fold(0, u64::saturating_add);
-    light.saturating_add(geometry).saturating_add(tables).saturating_add(output_bytes(target))
+    angles.saturating_add(tables)
+}
+
+/// A frame with what it shares: its files, their light, and the outputs.
+fn frame_bytes(input: &Input, target: &Target) -> u64 {
+    let light = input.present().map(|(_, header, _)| light_bytes(header)).fold(0, u64::saturating_add);
+    light.saturating_add(geometry_bytes(input, target)).saturating_add(output_bytes(target))
 }
 
 /// An amount of memory as people say it.

@@ -3,14 +3,15 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use anyhow::Result;
-use cosmorama::raster::{Image, Threads};
+use cosmorama::raster::Image;
 use cosmorama_builtin::{BuiltinWorld, DirectionMap, DirectionPixel};
 use cosmorama_io::write_planes;
 
-use super::engine::{Levels, Rendered, Writer, assemble};
+use super::engine::assemble;
 use super::progress::Progress;
 use super::report::Report;
 use super::stages::{Stage, Stages};
+use super::writer::{Levels, Writer};
 use crate::args::ConvertArgs;
 use crate::job::{Builtin, BuiltinJob, FrameOutputs, Light, write_options};
 
@@ -26,7 +27,7 @@ pub(super) fn convert(builtin: Builtin, args: &ConvertArgs) -> Result<Report> {
             match job.builtin {
                 Builtin::World(world) => {
                     let levels = stages.alone(Stage::Filter, || pictures(&job, world, *index))?;
-                    stages.alone(Stage::Encode, || writer.save(levels, path, Threads::All))?;
+                    stages.alone(Stage::Encode, || writer.save(levels, path))?;
                 }
                 Builtin::DirectionMap(map) => {
                     let pixels = stages.alone(Stage::Filter, || directions(&job, map, *index))?;
@@ -50,7 +51,7 @@ fn pictures(job: &BuiltinJob, world: BuiltinWorld, file: usize) -> Result<Levels
         Ok(image)
     };
     let levels = job.target.files[file].levels();
-    levels.map(|sheet| Ok(Rendered::Light(assemble(sheet, background, picture)?))).collect()
+    Ok(Levels::Light(levels.map(|sheet| assemble(sheet, background, picture)).collect::<Result<_>>()?))
 }
 
 /// The directions of a file's pixels.

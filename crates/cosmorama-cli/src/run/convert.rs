@@ -4,7 +4,6 @@ use std::process::ExitCode;
 use std::time::Instant;
 
 use anyhow::Result;
-use cosmorama::raster::Threads;
 use rayon::prelude::*;
 
 use super::engine::Engine;
@@ -91,11 +90,11 @@ impl Run<'_> {
         light.fill(job, frame.frame, &images, stages)?;
         drop(images);
         self.look(frame, &light);
-        let pictures = stages.alone(Stage::Filter, || engine.render(frame, &light))?;
+        let pictures = stages.alone(Stage::Filter, || engine.render(frame, &light, Vec::new()))?;
         drop(light);
         stages.alone(Stage::Encode, || {
             let outputs = frame.files.par_iter().zip(pictures);
-            outputs.try_for_each(|((_, path), levels)| engine.writer().save(levels, path, Threads::All))
+            outputs.try_for_each(|((_, path), levels)| engine.writer().save(levels, path))
         })
     }
 

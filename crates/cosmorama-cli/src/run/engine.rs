@@ -2,16 +2,17 @@ use std::path::Path;
 use std::sync::OnceLock;
 
 use anyhow::{Result, bail};
-use cosmorama::raster::{EncodedImage, Encoder, Image, Rgba, Threads};
+use cosmorama::raster::{FixedCodec, FixedLight, Image, Rgba};
 use cosmorama::resample::ScreenMask;
 use cosmorama::world::Source;
-use cosmorama_io::{WriteOptions, write_levels};
+use cosmorama_io::WriteOptions;
 
 use super::balance::BalancedLight;
 use super::frame_light::{FrameLight, Texels};
 use super::geometry::Geometry;
+use super::writer::{Levels, Writer};
 use super::{suns, thin_alpha};
-use crate::job::{ConvertJob, Coverage, FacePixels, FrameOutputs, InFlight, InputView, Light, Sheet, light_of};
+use crate::job::{ConvertJob, Coverage, FacePixels, FrameOutputs, InFlight, InputView, Sheet, light_of};
 
 /// Makes the outputs of a job, frame by frame.
 pub(super) struct Engine<'a> {
@@ -97,41 +98,61 @@ impl<'a> Engine<'a> {
         views.filter(|(_, count)| **count > 0).map(|((view, _, _), count)| (view, *count))
     }
 
-    /// Makes the pictures of a frame: filtered light, complete with what lies outside, faces in their places.
-    pub(super) fn render(&self, frame: &FrameOutputs, light: &FrameLight) -> Result<Vec<Levels>> {
+    /// Makes the pictures of a frame: filtered light, complete with what lies outside, faces in their places. Those of another
+    /// frame that nobody uses any more, if there are some, are made use of: each output's for the same one.
+    pub(super) fn render(&self, frame: &FrameOutputs, light: &FrameLight, used: Vec<Levels>) -> Result<Vec<Levels>> {
         let mut balanced = BalancedLight::default();
+        let mut used = used.into_iter();
         let files = frame.files.iter();
-        files.map(|(index, _)| self.render_file(*index, (frame.frame, light), &mut balanced)).collect()
+        files.map(|(index, _)| self.render_file(*index, (frame.frame, light), used.next(), &mut balanced)).collect()
     }
 
     fn render_file(
         &self,
         file: usize,
         (frame, light): (Option<u64>, &FrameLight),
+        used: Option<Levels>,
         balanced: &mut BalancedLight,
     ) -> Result<Levels> {
-        let levels = self.job.target.files[file].levels();
+        let sheets = self.job.target.files[file].levels();
         match (light.texels(), self.geometry.codec()) {
             (Texels::Fixed(worlds), Some(codec)) => {
-                let mut view = |index: usize| {
-                    let target = &self.job.target.views[index];
-                    let light = &worlds[target.world(worlds.len())];
-                    Ok(self.geometry.codes(index, self.job.resampler(target), light, codec))
+                let mut used = used.and_then(Levels::into_codes).into_iter().flatten();
+                let mut picture = |sheet| {
+                    let mut used = used.next();
+                    assemble(sheet, codec.background(), |index| Ok(self.codes(index, worlds, codec, used.take())))
                 };
-                levels.map(|sheet| Ok(Rendered::Codes(assemble(sheet, codec.background(), &mut view)?))).collect()
+                Ok(Levels::Codes(sheets.map(&mut picture).collect::<Result<_>>()?))
             }
             _ => {
-                let background = self.job.light.background;
-                let mut view = |index: usize| self.render_view(index, (frame, light), balanced);
-                levels.map(|sheet| Ok(Rendered::Light(assemble(sheet, background, &mut view)?))).collect()
+                let mut used = used.and_then(Levels::into_light).into_iter().flatten();
+                let mut picture = |sheet| {
+                    let mut used = used.next();
+                    let mut view = |index| self.render_view(index, (frame, light), used.take(), balanced);
+                    assemble(sheet, self.job.light.background, &mut view)
+                };
+                Ok(Levels::Light(sheets.map(&mut picture).collect::<Result<_>>()?))
             }
         }
+    }
+
+    fn codes(
+        &self,
+        index: usize,
+        worlds: &[FixedLight],
+        codec: &FixedCodec,
+        used: Option<Image<[u8; 3]>>,
+    ) -> Image<[u8; 3]> {
+        let target = &self.job.target.views[index];
+        let light = &worlds[target.world(worlds.len())];
+        self.geometry.codes(index, self.job.resampler(target), (light, codec), used)
     }
 
     fn render_view(
         &self,
         index: usize,
         (frame, light): (Option<u64>, &FrameLight),
+        used: Option<Image<Rgba>>,
         balanced: &mut BalancedLight,
     ) -> Result<Image<Rgba>> {
         let target = &self.job.target.views[index];
@@ -139,10 +160,11 @@ impl<'a> Engine<'a> {
         let (resampler, texels) = (self.job.resampler(target), &worlds[target.world(worlds.len())]);
         if self.is_complete(light) && !self.job.light.channels.has_alpha() {
             // A file without alpha shows everything in front of the background.
-            return Ok(self.geometry.light(index, resampler, (texels, false), self.job.light.background, balanced));
+            let background = self.job.light.background;
+            return Ok(self.geometry.light(index, resampler, (texels, false), background, used, balanced));
         }
-        let mut image =
-            self.geometry.light(index, resampler, (texels, self.has_holes(light)), Rgba::TRANSPARENT, balanced);
+        let holed = (&texels[..], self.has_holes(light));
+        let mut image = self.geometry.light(index, resampler, holed, Rgba::TRANSPARENT, used, balanced);
         self.close_holes(index, (frame, light), &mut image)?;
         self.complete(index, &mut image);
         Ok(image)
@@ -225,40 +247,4 @@ pub(super) fn assemble<P: Copy>(
         }
     }
     Ok(picture.unwrap_or_else(|| Image::filled(sheet.size.0, sheet.size.1, background)))
-}
-
-/// What becomes of a frame.
-pub(super) enum Rendered {
-    /// Light, to be encoded.
-    Light(Image<Rgba>),
-    /// Code values of 8 bits.
-    Codes(Image<[u8; 3]>),
-}
-
-/// A picture and its smaller copies.
-pub(super) type Levels = Vec<Rendered>;
-
-/// Writes pictures, all of one kind.
-pub(super) struct Writer<'a> {
-    light: &'a Light,
-    encoder: Encoder,
-    options: WriteOptions,
-}
-
-impl<'a> Writer<'a> {
-    pub(super) fn new(light: &'a Light, options: WriteOptions) -> Self {
-        Self { light, encoder: Encoder::new(light.channels, light.depth, &light.transfer), options }
-    }
-
-    /// Writes an output, a picture and its smaller copies.
-    pub(super) fn save(&self, levels: Levels, path: &Path, threads: Threads) -> Result<()> {
-        let encode = |picture| match picture {
-            Rendered::Light(image) => self.encoder.encode(&image, threads),
-            Rendered::Codes(codes) => EncodedImage::of_codes(codes),
-        };
-        // Each picture of light goes as soon as it is encoded.
-        let encoded: Vec<EncodedImage> = levels.into_iter().map(encode).collect();
-        write_levels(path, &encoded, &self.light.metadata, &self.options)?;
-        Ok(())
-    }
 }

@@ -85,20 +85,30 @@ impl Geometry {
     }
 
     /// The pixels of a target view, of any light, in front of a background. What has holes is in no balance; `last` is of the same
-    /// frame.
+    /// frame. By a plan they are made in `used`, an image that nobody uses any more, if it is as large.
     pub(super) fn light(
         &self,
         index: usize,
         resampler: Resampler,
         (texels, has_holes): (&[Rgba], bool),
         background: Rgba,
+        used: Option<Image<Rgba>>,
         last: &mut BalancedLight,
     ) -> Image<Rgba> {
+        // What does not serve goes before anything is made.
+        let used = used.filter(|image| matches!(self, Self::Float(..)) && fits(image, &resampler));
         let made = match self {
             Self::Float(plans, balance) => plans[index].as_ref().map(|plan| {
+                let over = |texels: &[Rgba], background: Rgba| match used {
+                    Some(mut image) => {
+                        plan.apply_into(texels, background, &mut image);
+                        image
+                    }
+                    None => plan.apply_over(texels, background),
+                };
                 let balanced = if has_holes { None } else { balance.light(index, texels, last) };
-                let Some(balanced) = balanced else { return plan.apply_over(texels, background) };
-                let mut image = plan.apply(balanced);
+                let Some(balanced) = balanced else { return over(texels, background) };
+                let mut image = over(balanced, Rgba::TRANSPARENT);
                 balance.complete(index, &mut image);
                 image.lay_over(background);
                 image
@@ -109,20 +119,33 @@ impl Geometry {
         made.unwrap_or_else(|| resampler.render_over(texels, background))
     }
 
-    /// The code values of a target view.
+    /// The code values of a target view; by a plan in `used`, as [`Geometry::light`] makes its pixels.
     pub(super) fn codes(
         &self,
         index: usize,
         resampler: Resampler,
-        light: &FixedLight,
-        codec: &FixedCodec,
+        (light, codec): (&FixedLight, &FixedCodec),
+        used: Option<Image<[u8; 3]>>,
     ) -> Image<[u8; 3]> {
         let plan = match self {
             Self::Float(..) | Self::Pyramid(_) => None,
             Self::Fixed(plans, _) => plans[index].as_ref(),
         };
-        plan.map_or_else(|| resampler.render_fixed(light, codec), |plan| plan.apply(light, codec))
+        let used = used.filter(|image| plan.is_some() && fits(image, &resampler));
+        match (plan, used) {
+            (Some(plan), Some(mut image)) => {
+                plan.apply_into(light, codec, &mut image);
+                image
+            }
+            (Some(plan), None) => plan.apply(light, codec),
+            (None, _) => resampler.render_fixed(light, codec),
+        }
     }
+}
+
+/// Whether an image is as large as a conversion's target.
+fn fits<P>(image: &Image<P>, resampler: &Resampler) -> bool {
+    (image.width(), image.height()) == (resampler.target.width(), resampler.target.height())
 }
 
 /// Whether geometry that is computed is used more than once.
@@ -137,7 +160,8 @@ fn plans<P>(
     mut plan_of: impl FnMut(&Resampler, u64) -> Option<P>,
     bytes: impl Fn(&P) -> usize,
 ) -> Vec<Option<P>> {
-    let mut left = job.memory.left_for_plan(&job.input, &job.target).saturating_sub(taken);
+    let left = job.memory.left_for_plan(&job.input, &job.target, rayon::current_num_threads());
+    let mut left = left.saturating_sub(taken);
     let plan_of = |target: &TargetView| {
         let plan = plan_of(&job.resampler(target), left)?;
         left = left.saturating_sub(bytes(&plan) as u64);

@@ -25,6 +25,7 @@ mod st_map;
 mod stages;
 mod suns;
 mod thin_alpha;
+mod writer;
 
 use std::process::ExitCode;
 

@@ -11,13 +11,13 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 
 use anyhow::{Context, Result, bail};
-use cosmorama::raster::Threads;
 use rayon::Scope;
 
-use super::engine::{Engine, Levels};
+use super::engine::Engine;
 use super::frame_files::{FrameFile, ViewImage, Which};
 use super::frame_light::FrameLight;
 use super::stages::{Stage, Stages};
+use super::writer::Levels;
 use crate::job::{ConvertJob, FrameOutputs, InFlight};
 use crate::large_pages::keep_spare;
 
@@ -35,7 +35,7 @@ type Results<T> = Vec<Receiver<Result<T>>>;
 #[derive(Default)]
 struct Queues<'a> {
     read: VecDeque<(&'a FrameOutputs, Results<Vec<ViewImage>>)>,
-    written: VecDeque<(&'a FrameOutputs, Results<()>)>,
+    written: VecDeque<(&'a FrameOutputs, Results<Levels>)>,
 }
 
 impl<'a> Sequence<'a> {
@@ -86,8 +86,8 @@ impl<'a> Sequence<'a> {
             in_pool(|| light.fill(self.job, frame.frame, &images, self.stages)).with_context(|| told(frame))?;
             drop(images);
             look(frame, &light);
-            queues.finish_written(written - 1, done)?;
-            let pictures = in_pool(|| self.engine.render(frame, &light)).with_context(|| told(frame))?;
+            let used = queues.finish_written(written - 1, done)?;
+            let pictures = in_pool(|| self.engine.render(frame, &light, used)).with_context(|| told(frame))?;
             queues.written.push_back((frame, self.have_written(scope, stop, frame, pictures)));
         }
     }
@@ -116,29 +116,30 @@ impl<'a> Sequence<'a> {
         stop: &'s AtomicBool,
         frame: &'a FrameOutputs,
         pictures: Vec<Levels>,
-    ) -> Results<()>
+    ) -> Results<Levels>
     where
         'a: 's,
     {
         let Self { engine, stages, .. } = *self;
         let write = |((_, path), levels): (&'a (usize, std::path::PathBuf), Levels)| {
             let path: &'a Path = path;
-            task(scope, stop, move || stages.beside(Stage::Encode, || engine.writer().save(levels, path, Threads::One)))
+            task(scope, stop, move || stages.beside(Stage::Encode, || engine.writer().save_and_hand_on(levels, path)))
         };
         frame.files.iter().zip(pictures).map(write).collect()
     }
 }
 
 impl Queues<'_> {
-    /// Waits until no more than so many frames are being written. After one that fails none is waited for: what becomes of
-    /// later ones is told by nobody.
-    fn finish_written(&mut self, most: usize, done: &mut impl FnMut(&FrameOutputs)) -> Result<()> {
+    /// Waits until no more than so many frames are being written; the pictures of the last that is, which nobody uses any more.
+    /// After one that fails none is waited for: what becomes of later ones is told by nobody.
+    fn finish_written(&mut self, most: usize, done: &mut impl FnMut(&FrameOutputs)) -> Result<Vec<Levels>> {
+        let mut used = Vec::new();
         while self.written.len() > most {
             let Some((frame, results)) = self.written.pop_front() else { break };
-            all_of(results).with_context(|| told(frame)).inspect_err(|_| self.written.clear())?;
+            used = all_of(results).with_context(|| told(frame)).inspect_err(|_| self.written.clear())?;
             done(frame);
         }
-        Ok(())
+        Ok(used)
     }
 }
 

@@ -67,7 +67,7 @@ impl Encoder {
         EncodedImage::from_parts(light.width(), light.height(), self.channels, self.depth, alpha_mode, samples)
     }
 
-    fn integers<S: Copy + Default + Send>(
+    fn integers<S: Send>(
         &self,
         codes: &Quantizer,
         last: u16,
@@ -77,44 +77,32 @@ impl Encoder {
     ) -> Vec<S> {
         let channels = self.channels;
         let quantize = |light: f32, channel| spread(codes.code(light, channel));
-        let alpha = |alpha: f32| spread((alpha.clamp(0.0, 1.0) * f32::from(last)).round() as u16);
-        by_pixels(light, channels, threads, |pixel, samples| {
-            let [red, green, blue, coverage] = pixel.0;
-            let colour = if channels.has_alpha() { pixel.unpremultiplied() } else { [red, green, blue] };
-            if channels.is_colour() {
-                for channel in ColourChannel::ALL {
-                    samples[channel.index()] = quantize(colour[channel.index()], channel);
-                }
-            } else {
-                samples[0] = quantize(luminance(colour), ColourChannel::Green);
-            }
-            if channels.has_alpha() {
-                samples[channels.count() - 1] = alpha(coverage);
-            }
-        })
+        let straight = |pixel: Rgba| {
+            let [red, green, blue, _] = pixel.0;
+            if channels.has_alpha() { pixel.unpremultiplied() } else { [red, green, blue] }
+        };
+        let grey = |pixel: Rgba| quantize(luminance(straight(pixel)), ColourChannel::Green);
+        let colour = |pixel: Rgba| {
+            let colour = straight(pixel);
+            ColourChannel::ALL.map(|channel| quantize(colour[channel.index()], channel))
+        };
+        let alpha = |pixel: Rgba| spread((pixel.alpha().clamp(0.0, 1.0) * f32::from(last)).round() as u16);
+        interleaved((light, channels, threads), grey, colour, alpha)
     }
 
-    fn floats<S: Copy + Default + Send>(
-        &self,
-        light: &Image<Rgba>,
-        threads: Threads,
-        sample: impl Fn(f32) -> S + Sync,
-    ) -> Vec<S> {
+    fn floats<S: Send>(&self, light: &Image<Rgba>, threads: Threads, sample: impl Fn(f32) -> S + Sync) -> Vec<S> {
         let channels = self.channels;
-        by_pixels(light, channels, threads, |pixel, samples| {
+        let code = |light, alpha, channel| sample(code_of(light, alpha, channels, &self.transfer, channel));
+        let grey = |pixel: Rgba| {
             let [red, green, blue, alpha] = pixel.finite().0;
-            let code = |light, channel| sample(code_of(light, alpha, channels, &self.transfer, channel));
-            if channels.is_colour() {
-                for (channel, light) in ColourChannel::ALL.into_iter().zip([red, green, blue]) {
-                    samples[channel.index()] = code(light, channel);
-                }
-            } else {
-                samples[0] = code(luminance([red, green, blue]), ColourChannel::Green);
-            }
-            if channels.has_alpha() {
-                samples[channels.count() - 1] = sample(alpha);
-            }
-        })
+            code(luminance([red, green, blue]), alpha, ColourChannel::Green)
+        };
+        let colour = |pixel: Rgba| {
+            let light = pixel.finite().0;
+            ColourChannel::ALL.map(|channel| code(light[channel.index()], light[3], channel))
+        };
+        let alpha = |pixel: Rgba| sample(pixel.finite().alpha());
+        interleaved((light, channels, threads), grey, colour, alpha)
     }
 }
 
@@ -133,24 +121,35 @@ fn to_half(sample: f32) -> f16 {
     f16::from_f32(sample.clamp(f16::MIN.to_f32(), f16::MAX.to_f32()))
 }
 
-fn by_pixels<S: Copy + Default + Send>(
-    light: &Image<Rgba>,
-    channels: Channels,
-    threads: Threads,
-    pixel: impl Fn(Rgba, &mut [S]) + Sync,
+/// The samples of an image's channels, pixel by pixel.
+fn interleaved<S: Send>(
+    (light, channels, threads): (&Image<Rgba>, Channels, Threads),
+    grey: impl Fn(Rgba) -> S + Sync,
+    colour: impl Fn(Rgba) -> [S; 3] + Sync,
+    alpha: impl Fn(Rgba) -> S + Sync,
 ) -> Vec<S> {
-    let count = channels.count();
-    let mut samples = vec![S::default(); light.pixels().len() * count];
-    let some = |(samples, light): (&mut [S], &[Rgba])| {
-        for (samples, light) in samples.chunks_exact_mut(count).zip(light) {
-            pixel(*light, samples);
-        }
-    };
-    match threads {
-        Threads::One => some((&mut samples, light.pixels())),
-        Threads::All => samples.par_chunks_mut(CHUNK * count).zip(light.pixels().par_chunks(CHUNK)).for_each(some),
+    match channels {
+        Channels::Grey => by_pixels(light, threads, |pixel| [grey(pixel)]),
+        Channels::GreyAlpha => by_pixels(light, threads, |pixel| [grey(pixel), alpha(pixel)]),
+        Channels::Rgb => by_pixels(light, threads, colour),
+        Channels::Rgba => by_pixels(light, threads, |pixel| {
+            let [red, green, blue] = colour(pixel);
+            [red, green, blue, alpha(pixel)]
+        }),
     }
-    samples
+}
+
+/// As many samples of each pixel, in memory that is not made empty before.
+fn by_pixels<S: Send, const COUNT: usize>(
+    light: &Image<Rgba>,
+    threads: Threads,
+    samples: impl Fn(Rgba) -> [S; COUNT] + Sync,
+) -> Vec<S> {
+    let samples: Vec<[S; COUNT]> = match threads {
+        Threads::One => light.pixels().iter().map(|pixel| samples(*pixel)).collect(),
+        Threads::All => light.pixels().par_iter().with_min_len(CHUNK).map(|pixel| samples(*pixel)).collect(),
+    };
+    samples.into_flattened()
 }
 
 /// The premultiplied code value of premultiplied light.

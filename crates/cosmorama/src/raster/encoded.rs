@@ -95,6 +95,14 @@ impl EncodedImage {
         Self::from_parts(width, height, Channels::Rgb, Depth::Eight, AlphaMode::Straight, samples)
     }
 
+    /// The codes of one that [`of_codes`](Self::of_codes) may have made; `None` of others.
+    pub fn into_codes(self) -> Option<Image<[u8; 3]>> {
+        let Self { width, height, channels: Channels::Rgb, samples: Samples::U8(samples), .. } = self else {
+            return None;
+        };
+        Image::new(width, height, bytemuck::allocation::try_cast_vec(samples).ok()?).ok()
+    }
+
     /// Parts that are known to fit.
     pub(super) fn from_parts(
         width: usize,
@@ -206,5 +214,22 @@ mod tests {
         assert!(!is_opaque(Depth::Float, Samples::Float(vec![1.0, f32::NAN, 1.0, 1.0])));
         let grey = EncodedImage::new(1, 1, Channels::Grey, Depth::Eight, Samples::U8(vec![0])).unwrap();
         assert!(grey.is_opaque());
+    }
+
+    #[test]
+    fn codes_come_back_in_the_memory_that_they_were_in() {
+        let codes = Image::from_fn(3, 2, |i, j| [i as u8, j as u8, 9]);
+        let (same, place) = (codes.clone(), codes.pixels().as_ptr().addr());
+        let encoded = EncodedImage::of_codes(codes);
+        let back = encoded.into_codes().unwrap();
+        assert_eq!(back.pixels().as_ptr().addr(), place);
+        assert_eq!(back, same);
+        let others = [
+            (Channels::Grey, Depth::Eight, Samples::U8(vec![1])),
+            (Channels::Rgb, Depth::Half, Samples::Half(vec![f16::ONE; 3])),
+        ];
+        for (channels, depth, samples) in others {
+            assert_eq!(EncodedImage::new(1, 1, channels, depth, samples).unwrap().into_codes(), None);
+        }
     }
 }

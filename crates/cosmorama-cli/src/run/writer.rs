@@ -1,0 +1,73 @@
+use std::path::Path;
+
+use anyhow::Result;
+use cosmorama::raster::{EncodedImage, Encoder, Image, Rgba, Threads};
+use cosmorama_io::{WriteOptions, write_levels};
+
+use crate::job::Light;
+
+/// A picture and its smaller copies.
+pub(super) enum Levels {
+    /// Light, to be encoded.
+    Light(Vec<Image<Rgba>>),
+    /// Code values of 8 bits.
+    Codes(Vec<Image<[u8; 3]>>),
+}
+
+impl Levels {
+    /// Those of light.
+    pub(super) fn into_light(self) -> Option<Vec<Image<Rgba>>> {
+        if let Self::Light(images) = self { Some(images) } else { None }
+    }
+
+    /// Those of code values.
+    pub(super) fn into_codes(self) -> Option<Vec<Image<[u8; 3]>>> {
+        if let Self::Codes(images) = self { Some(images) } else { None }
+    }
+}
+
+/// Writes pictures, all of one kind.
+pub(super) struct Writer<'a> {
+    light: &'a Light,
+    encoder: Encoder,
+    options: WriteOptions,
+}
+
+impl<'a> Writer<'a> {
+    pub(super) fn new(light: &'a Light, options: WriteOptions) -> Self {
+        Self { light, encoder: Encoder::new(light.channels, light.depth, &light.transfer), options }
+    }
+
+    /// Writes an output, a picture and its smaller copies.
+    pub(super) fn save(&self, levels: Levels, path: &Path) -> Result<()> {
+        let encoded: Vec<EncodedImage> = match levels {
+            // Each picture of light goes as soon as it is encoded.
+            Levels::Light(images) => {
+                images.into_iter().map(|image| self.encoder.encode(&image, Threads::All)).collect()
+            }
+            Levels::Codes(images) => images.into_iter().map(EncodedImage::of_codes).collect(),
+        };
+        self.write(&encoded, path)
+    }
+
+    /// The same by the thread that asks. Gives the images back: fresh ones for the next frame would be made empty first.
+    pub(super) fn save_and_hand_on(&self, levels: Levels, path: &Path) -> Result<Levels> {
+        match levels {
+            Levels::Light(images) => {
+                let encoded: Vec<_> = images.iter().map(|image| self.encoder.encode(image, Threads::One)).collect();
+                self.write(&encoded, path)?;
+                Ok(Levels::Light(images))
+            }
+            Levels::Codes(images) => {
+                let encoded: Vec<_> = images.into_iter().map(EncodedImage::of_codes).collect();
+                self.write(&encoded, path)?;
+                Ok(Levels::Codes(encoded.into_iter().filter_map(EncodedImage::into_codes).collect()))
+            }
+        }
+    }
+
+    fn write(&self, encoded: &[EncodedImage], path: &Path) -> Result<()> {
+        write_levels(path, encoded, &self.light.metadata, &self.options)?;
+        Ok(())
+    }
+}
