@@ -36,7 +36,7 @@ fn six_faces_to_omnimax() {
 
 #[test]
 fn the_plan_is_estimated_well() {
-    let panorama = |width| World::new([("panorama", equirect(width))]).expect("a world");
+    let panorama = |width| World::new([("panorama".to_owned(), equirect(width))]).expect("a world");
     for (world, target) in [
         (cube(&CubeFace::ALL, 128, 128), omnimax(246, 180)),
         (cube(&CubeFace::ALL, 64, 64), fisheye(700, 180.0)),
