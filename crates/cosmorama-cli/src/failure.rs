@@ -3,7 +3,7 @@
 use std::error::Error as _;
 use std::process::ExitCode;
 
-use clap::error::{ContextKind, ContextValue};
+use clap::error::{ContextKind, ContextValue, ErrorKind};
 use thiserror::Error;
 
 use crate::spec::SpecError;
@@ -57,7 +57,7 @@ pub(crate) fn report(error: &anyhow::Error) -> ExitCode {
 
 /// Prints what is wrong with arguments, or what was asked for, and chooses the exit code: a file that a SPEC names and that
 /// cannot be read, or is no such file, failed like any other.
-pub(crate) fn report_arguments(error: &clap::Error) -> ExitCode {
+pub(crate) fn report_arguments(mut error: clap::Error) -> ExitCode {
     let spec = error.source().and_then(|source| source.downcast_ref::<SpecError>());
     if let Some(spec) = spec.filter(|spec| spec.is_of_file()) {
         let argument = match error.get(ContextKind::InvalidArg) {
@@ -65,6 +65,15 @@ pub(crate) fn report_arguments(error: &clap::Error) -> ExitCode {
             _ => "a SPEC",
         };
         return report(&anyhow::anyhow!("{argument}: {spec}"));
+    }
+    let unknown = match error.get(ContextKind::InvalidArg) {
+        Some(ContextValue::String(argument)) if error.kind() == ErrorKind::UnknownArgument => argument.as_str(),
+        _ => "-",
+    };
+    if !unknown.starts_with('-') && error.get(ContextKind::Suggested).is_none() {
+        // The shell makes a list of files of a wildcard.
+        let tip = "many files are named by one pattern, in quotes: '####' where frame numbers stand, '{face}' where faces' names do";
+        error.insert(ContextKind::Suggested, ContextValue::StyledStrs(vec![tip.into()]));
     }
     // Where nobody listens any more, there is nobody to tell so.
     let _ = error.print();

@@ -22,7 +22,7 @@ static ALLOCATOR: large_pages::LargePages = large_pages::LargePages;
 fn main() -> ExitCode {
     let args = match args::Args::try_parse() {
         Ok(args) => args,
-        Err(error) => return failure::report_arguments(&error),
+        Err(error) => return failure::report_arguments(error),
     };
     match run::run(args.verb) {
         Ok(code) => code,

@@ -78,6 +78,28 @@ fn world_files_say_where_and_what() {
 }
 
 #[test]
+fn a_frame_that_is_not_like_the_first() {
+    let bench = Bench::new();
+    let sequence = |third: &dyn Fn()| {
+        (1..=3).for_each(|frame| bench.save(&format!("sky_{frame}.png"), &picture(frame, 64, 32)));
+        third();
+        let output = bench.run(&[&["convert", "sky_#.png", "out_#.png", "--from", "equirect"], &TO[..]].concat());
+        assert_eq!(output.status.code(), Some(1));
+        text(&output.stderr)
+    };
+    let message = sequence(&|| std::fs::write(bench.path("sky_3.png"), "").unwrap());
+    assert_says(&message, &["frame 3: sky_3.png: an empty file (0 bytes), where an image was expected; make it again"]);
+    let message = sequence(&|| bench.save("sky_3.png", &picture(3, 32, 16)));
+    let parts =
+        ["frame 3: sky_3.png: 32x16 pixels", "sky_1.png, of the first frame, has 64x32; render it again", "--frames"];
+    assert_says(&message, &parts);
+    // As it advises.
+    bench.succeed(&[&["convert", "sky_#.png", "out_#.png", "--from", "equirect", "--frames", "3"], &TO[..]].concat());
+    std::fs::write(bench.path("sky_1.png"), "").unwrap();
+    assert_says(&bench.fail(1, &["info", "sky_1.png"]), &["sky_1.png: an empty file (0 bytes)"]);
+}
+
+#[test]
 fn files_that_end_too_early_say_so_in_info() {
     let bench = Bench::new();
     bench.save("a.png", &picture(1, 64, 32));

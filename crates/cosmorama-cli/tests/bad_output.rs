@@ -60,6 +60,37 @@ fn a_folder_that_is_missing_or_read_only() {
     assert!(!message.contains("not exist"), "{message}");
     let message = bench.fail(1, &["convert", "sky.png", "sky.png/out.png", "--to", "omnimax", "--size", "32"]);
     assert_says(&message, &["cannot write sky.png/out.png", "sky.png is no folder"]);
+    // A name that is too long is found out like a folder that is missing, not when the file is to get it.
+    let name = format!("{}.png", "x".repeat(300));
+    let message = bench.fail(1, &["convert", "sky.png", &name, "--to", "omnimax", "--size", "32"]);
+    assert_says(&message, &["cannot write xxx", "choose another name"]);
+    let message = bench.fail(1, &["explain", "sky.png", "--to", "omnimax", "--output", "sky.png/diagrams"]);
+    assert_says(&message, &["the folder sky.png/diagrams cannot be made", "choose another"]);
+    let piped = bench
+        .command(&["convert", "-", "out.png", "--to", "omnimax"])
+        .env("TMPDIR", bench.path("sky.png"))
+        .output()
+        .unwrap();
+    let message = bench.check_failure(1, &piped, &bench.files());
+    assert_says(&message, &["no folder for what is piped can be made in", "TMPDIR="]);
+    assert!(!message.contains(".cosmorama-"), "{message}");
+}
+
+/// Only Linux has `/sys`, where not even root can make a file.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_folder_that_takes_no_files_is_named_without_the_temporary_file() {
+    let bench = Bench::new();
+    bench.save("sky.png", &picture(1, 64, 32));
+    let message = bench.fail(1, &["convert", "sky.png", "/sys/out.png", "--to", "omnimax", "--size", "32"]);
+    assert_says(&message, &["cannot write /sys/out.png", "no files can be made in its folder /sys", "choose another"]);
+    assert!(!message.contains(".part"), "{message}");
+    let args = ["convert", "sky.png", "out.png", "--to", "omnimax", "--size", "32", "--plan-cache", "/sys"];
+    let output = bench.run(&args);
+    let message = bench::text(&output.stderr);
+    assert!(output.status.success(), "{message}");
+    assert_says(&message, &["warning: --plan-cache /sys: the plan is not kept", "choose another"]);
+    assert!(!message.contains(".part"), "{message}");
 }
 
 #[test]

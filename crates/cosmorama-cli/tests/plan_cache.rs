@@ -137,6 +137,13 @@ fn a_folder_that_cannot_be_written_is_told_and_done_without() {
     std::fs::write(cached.bench.path("plans"), "a file").unwrap();
     let warnings = cached.convert(&[]);
     assert!(warnings.len() == 1 && warnings[0].contains("--plan-cache plans is no folder"), "{warnings:?}");
+    // Nor can there be one below it: that is told once.
+    let output = cached.bench.succeed(&[&ARGS[..8], &["--plan-cache=plans/new", "--json"]].concat());
+    let report: Value = serde_json::from_str(&output).unwrap();
+    let [warning] = &report["warnings"].as_array().unwrap()[..] else { panic!("one warning: {report}") };
+    let parts =
+        ["--plan-cache plans/new: the plan is not kept", "the folder plans/new cannot be made", "choose another"];
+    bench::assert_says(warning.as_str().unwrap(), &parts);
     std::fs::remove_file(cached.bench.path("plans")).unwrap();
     cached.convert(&[]);
     let plan = cached.plans().remove(0);

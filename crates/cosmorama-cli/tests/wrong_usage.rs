@@ -59,13 +59,26 @@ fn numbers_that_are_none_or_absurd() {
         ("--size", "-3x4", "1966x1436"),
         ("--threads", "-2", "from 1 to 1024"),
         ("--memory", "-1G", "--memory"),
+        ("--memory", "0", "1 byte or more"),
+        ("--memory", "150%", "at most 100%"),
         ("--frames", "-4", "expected a list"),
+        ("--frames", "1:3", "for frames 1 to 3 write 1-3"),
+        ("--frames", "1..3", "for frames 1 to 3 write 1-3"),
+        ("--frames", "all", "all frames are the default"),
+        ("--compression", "nonsense", "one of none, fast, balanced, high"),
+        ("--compression", "9", "for PNG, TIFF and OpenEXR; JPEG has --quality"),
         ("--quality", "-1", "from 1 to 100"),
         ("--kernel", "mitchell:scale=1000", "at most 32"),
         ("--kernel", "tent:floor=1e300", "at most 32"),
     ] {
         assert_says(&bench.fail(2, &[&convert[..], &[option, value]].concat()), &[value, expected]);
     }
+    // Clap's own tip was the value that is spelled most alike.
+    let message = bench.fail(2, &[&convert[..], &["--compression", "nonsense"]].concat());
+    assert!(!message.contains("tip:"), "{message}");
+    assert_says(&bench.succeed(&["convert", "--help"]), &["- balanced: Between the two"]);
+    let message = bench.fail(1, &[&convert[..], &["--memory", "1"]].concat());
+    assert_says(&message, &["only 1 byte may be used"]);
     assert_says(&bench.fail(2, &["compare", "sky.png", "sky.png", "--min-psnr", "nan"]), &["expected a number"]);
     for gain in ["nan", "inf", "0", "-2", "1e60"] {
         let message = bench.fail(2, &["compare", "sky.png", "sky.png", "--diff", "d.png", "--gain", gain]);
@@ -106,4 +119,39 @@ fn what_was_meant_for_a_face_pattern() {
     assert_says(&convert("faces/*.png"), &["names no file", "{face}"]);
     assert_says(&convert("faces/{Face}.png"), &["names no file", "{face}"]);
     assert_says(&convert(""), &["INPUT"]);
+    assert_says(&convert("faces/sky_$F4.png"), &["names no file", "for frames ####"]);
+}
+
+#[test]
+fn what_was_meant_for_a_frame_pattern() {
+    let bench = Bench::new();
+    for frame in 8..=10 {
+        bench.save(&format!("shot/sky_{frame:04}.png"), &picture(frame, 16, 8));
+    }
+    let convert = |code: i32, input: &str| bench.fail(code, &["convert", input, "out_##.png", "--to", "omnimax"]);
+    let there = "shot/sky_####.png (8-10)";
+    assert_says(&convert(2, "shot"), &["shot is a folder; for the frames in it, write", there]);
+    assert_says(&bench.fail(2, &["info", "shot/"]), &["is a folder", there]);
+    assert_says(&convert(2, "shot/*.png"), &["names no file", "for frames ####", there]);
+    assert_says(&convert(1, "shot/sky_###.png"), &["no frame found in shot", "sky_001.png", "but there are", there]);
+    assert_says(&convert(1, "shot/sky_0011.png"), &["no such file", there]);
+    let listed = bench.fail(2, &["convert", "shot/sky_0008.png", "shot/sky_0009.png", "shot/sky_0010.png", "o_##.png"]);
+    assert_says(&listed, &["shot/sky_0010.png", "one pattern, in quotes: '####'"]);
+    let message = bench.fail(1, &["convert", "shot/sky_####.png", "o_#.png", "--to", "omnimax", "--frames", "9-11"]);
+    assert_says(&message, &["1 frame is missing: 11; the first that exists is 8, the last 10; make it, or choose"]);
+    assert_says(
+        &bench.fail(2, &["convert", "shot/sky_####.png", "shot", "--to", "omnimax"]),
+        &["shot: a folder", "shot/out.png"],
+    );
+    // Of the frames of a cube, the faces are told, not one frame or one face of them.
+    for frame in 1..=2 {
+        for name in ["front", "right", "back", "left", "up", "down"] {
+            bench.save(&format!("cube/{name}_{frame}.png"), &picture(frame, 8, 8));
+        }
+    }
+    assert_says(&convert(2, "cube"), &["for the faces of a cube in it, write cube/{face}_#.png"]);
+    bench.save("one/a.png", &picture(0, 8, 8));
+    assert_says(&convert(2, "one"), &["one is a folder; write which file in it, as in one/a.png"]);
+    std::fs::create_dir(bench.path("none")).unwrap();
+    assert_says(&convert(2, "none"), &["no image is in it", "none/{face}.png", "none/####.png"]);
 }

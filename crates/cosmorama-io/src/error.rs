@@ -20,7 +20,7 @@ pub enum IoError {
         source: io::Error,
     },
     /// An extension belongs to no format that can be written.
-    #[error("{}: the extension names no format; use one of {}", path.display(), Format::extensions())]
+    #[error("{}: {}", path.display(), unnamed(path))]
     UnknownExtension {
         /// The file to write.
         path: PathBuf,
@@ -28,6 +28,12 @@ pub enum IoError {
     /// The first bytes of a file belong to no format.
     #[error("{}: not an image of a known format (PNG, JPEG, TIFF, Radiance HDR, OpenEXR, KTX or DDS; TGA is known by its extension .tga)", path.display())]
     UnknownContent {
+        /// The file read.
+        path: PathBuf,
+    },
+    /// A file has no bytes: often what is left of a program that was interrupted, or of a full disk.
+    #[error("{}: an empty file (0 bytes), where an image was expected; make it again", path.display())]
+    Empty {
         /// The file read.
         path: PathBuf,
     },
@@ -56,7 +62,7 @@ pub enum IoError {
     /// The pixels that a file declares do not fit into the memory allowed.
     #[error(
         "{}: {width}x{height} pixels, {channels}, depth {depth}, need {needed} bytes, \
-         but {limit} are allowed; if the file is right, raise --memory",
+         but only {limit} may be used; if the file is right, raise --memory",
         path.display()
     )]
     TooLarge {
@@ -147,7 +153,7 @@ pub enum IoError {
         known: String,
     },
     /// A list of frames that cannot be understood.
-    #[error("frames {list}: {reason}; expected a list such as 5, 1-10 or 1-3,5,7-20:2")]
+    #[error("frames {list}: {reason}; expected a list such as 5, 1-10 or 1-3,5,7-20:2; all frames are the default")]
     FrameList {
         /// The list as given.
         list: String,
@@ -155,7 +161,7 @@ pub enum IoError {
         reason: String,
     },
     /// A sequence has no frames at all.
-    #[error("{pattern}: no frame found in {}; expected names like {example}", folder.display())]
+    #[error("{pattern}: no frame found in {}; {}", folder.display(), expected_frames(example, found.as_deref()))]
     NoFrames {
         /// The pattern.
         pattern: String,
@@ -163,9 +169,15 @@ pub enum IoError {
         folder: PathBuf,
         /// Name of frame 1.
         example: String,
+        /// The longest sequence that the folder does hold.
+        found: Option<String>,
     },
     /// Frames of a sequence are missing.
-    #[error("{pattern}: {} missing: {missing}; make them, or choose others with --frames", counted(*count))]
+    #[error(
+        "{pattern}: {} missing: {missing}; the first that exists is {}, the last {}; make {}, or choose others with \
+         --frames",
+        counted(*count), existing.0, existing.1, if *count == 1 { "it" } else { "them" }
+    )]
     MissingFrames {
         /// The pattern.
         pattern: String,
@@ -173,7 +185,26 @@ pub enum IoError {
         count: usize,
         /// All of them, as a list that `--frames` understands.
         missing: String,
+        /// The first and the last that exist.
+        existing: (u64, u64),
     },
+}
+
+/// How the names of a sequence should be, and how those are that are there.
+fn expected_frames(example: &str, found: Option<&str>) -> String {
+    let expected = format!("expected names like {example}");
+    found.map_or_else(|| expected.clone(), |found| format!("{expected}, but there are {found}; write that pattern"))
+}
+
+/// What to do about a file name that has no extension of a format.
+fn unnamed(path: &Path) -> String {
+    let is_folder = path.is_dir() || path.as_os_str().to_string_lossy().ends_with('/');
+    let extensions = Format::extensions();
+    if is_folder {
+        let file = path.join("out.png");
+        return format!("a folder, where a file name was expected; write one in it, as in {}", file.display());
+    }
+    format!("the extension names no format; use one of {extensions}")
 }
 
 /// How many frames.

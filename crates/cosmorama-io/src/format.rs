@@ -54,6 +54,7 @@ impl Format {
             [0xab, b'K', b'T', b'X', b' ', b'2', b'0', 0xbb, ..] => Ok(Self::Ktx2),
             [0xab, b'K', b'T', b'X', b' ', b'1', b'1', 0xbb, ..] => Ok(Self::Ktx),
             [b'D', b'D', b'S', b' ', ..] => Ok(Self::Dds),
+            [] => Err(IoError::Empty { path: path.to_owned() }),
             _ if Self::from_extension(path).is_ok_and(|format| format == Self::Tga) => Ok(Self::Tga),
             _ => Err(IoError::UnknownContent { path: path.to_owned() }),
         }

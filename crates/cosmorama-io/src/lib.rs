@@ -30,6 +30,6 @@ pub use format::Format;
 pub use limits::Limits;
 pub use metadata::{EnvMap, Metadata, Window};
 pub use pto::{PtoError, PtoImage, PtoPanorama, PtoProject};
-pub use sequence::{FrameList, FramePattern, Frames};
+pub use sequence::{FoundFrames, FrameList, FramePattern, Frames};
 pub use st_pairs::{StPairs, probe_pairs, read_pairs};
 pub use write_options::{Compression, WriteOptions};

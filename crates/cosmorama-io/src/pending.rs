@@ -93,12 +93,19 @@ impl Pending {
         if target.is_dir() {
             return Err(IoError::write(target, "there is a folder of this name"));
         }
+        // Found out before the work, not after it, when the file is to get its name.
+        if let Err(error) = target.symlink_metadata()
+            && error.kind() == io::ErrorKind::InvalidFilename
+        {
+            return Err(IoError::write(target, format_args!("{error}; choose another name")));
+        }
         let mut builder = Builder::new();
         builder.prefix(PREFIX).suffix(SUFFIX);
-        readable_by_all(&mut builder);
         // The list is held meanwhile: a file that is not on it would survive an interrupt.
         let mut paths = in_flight();
-        let file = builder.tempfile_in(folder).map_err(|error| refused(target, folder, &error))?;
+        // Not by `tempfile`'s own hand, whose files only their owner can read: an output is for everyone that the umask lets.
+        let made = builder.make_in(folder, |path| File::create_new(path));
+        let file = made.map_err(|error| refused(target, folder, &error))?;
         paths.insert(file.path().to_owned());
         let listed = Listed(file.path().to_owned());
         let (file, path) = file.into_parts();
@@ -152,7 +159,8 @@ impl Hidden {
     }
 }
 
-/// Why no file can be made in a folder. Some say that it does not exist and mean that they take no files (`/proc`).
+/// Why no file can be made in a folder, and what to do. Some say that it does not exist and mean that they take no files
+/// (`/proc`).
 fn refused(target: &Path, folder: &Path, error: &io::Error) -> IoError {
     let name = folder.display();
     match std::fs::metadata(folder) {
@@ -160,19 +168,15 @@ fn refused(target: &Path, folder: &Path, error: &io::Error) -> IoError {
         Ok(_) if error.kind() == io::ErrorKind::NotFound => {
             IoError::write(target, format_args!("its folder {name} takes no new files; choose another"))
         }
+        Ok(_) if matches!(error.kind(), io::ErrorKind::PermissionDenied | io::ErrorKind::ReadOnlyFilesystem) => {
+            let what = format_args!(
+                "no files can be made in its folder {name} ({error}); have that allowed, or choose another"
+            );
+            IoError::write(target, what)
+        }
         Err(missing) if missing.kind() == io::ErrorKind::NotFound => {
             IoError::write(target, format_args!("its folder {name} does not exist; make it first"))
         }
         _ => IoError::write(target, error),
     }
 }
-
-/// `tempfile` makes files that only their owner can read; an output is for everyone that the umask lets.
-#[cfg(unix)]
-fn readable_by_all(builder: &mut Builder<'_, '_>) {
-    use std::os::unix::fs::PermissionsExt;
-    builder.permissions(std::fs::Permissions::from_mode(0o666));
-}
-
-#[cfg(not(unix))]
-fn readable_by_all(_: &mut Builder<'_, '_>) {}

@@ -304,8 +304,11 @@ fn what_is_no_image_is_said_to_be_none() {
     assert!(matches!(read(&path, &Limits::default()), Err(IoError::UnknownContent { .. })));
     assert!(matches!(read(&folder.path().join("b.png"), &Limits::default()), Err(IoError::Open { .. })));
     assert!(matches!(read(folder.path(), &Limits::default()), Err(IoError::Open { .. })));
-    std::fs::write(&path, "").unwrap();
-    assert!(matches!(probe(&path), Err(IoError::UnknownContent { .. })));
+    for name in ["a.png", "a.tga"] {
+        let path = folder.path().join(name);
+        std::fs::write(&path, "").unwrap();
+        assert!(matches!(probe(&path), Err(IoError::Empty { .. })), "{name}");
+    }
 }
 
 proptest! {

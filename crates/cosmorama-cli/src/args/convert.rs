@@ -6,7 +6,8 @@ use cosmorama_io::FrameList;
 
 use super::number::degrees;
 use super::{
-    Colour, CompressionArg, DepthArg, FilterArg, KernelArg, MemorySize, Missing, ProgressStyle, SizeArg, TransferArg,
+    Colour, CompressionArg, CompressionParser, DepthArg, FilterArg, KernelArg, MemorySize, Missing, ProgressStyle,
+    SizeArg, TransferArg,
 };
 use crate::spec::Spec;
 
@@ -78,7 +79,7 @@ pub(crate) struct ConvertArgs {
     #[arg(long, value_name = "Q", value_parser = quality, allow_hyphen_values = true, help_heading = "Frames and files")]
     pub(crate) quality: Option<u8>,
     /// PNG, TIFF and OpenEXR: how hard to press, without loss [default: balanced; fast for PNG sequences]
-    #[arg(long, value_enum, value_name = "HOW", help_heading = "Frames and files")]
+    #[arg(long, value_parser = CompressionParser, value_name = "HOW", help_heading = "Frames and files")]
     pub(crate) compression: Option<CompressionArg>,
     #[command(flatten)]
     pub(crate) limits: LimitArgs,

@@ -13,7 +13,10 @@ impl FromStr for MemorySize {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
-        parse(text).ok_or_else(|| "expected an amount of memory, as in 500M, 8G or 50%".to_owned())
+        parse(text).ok_or_else(|| {
+            "expected 1 byte or more, as in 500M or 8G (K, M, G or T), or a part of free memory, more than 0% and at most 100%"
+                .to_owned()
+        })
     }
 }
 

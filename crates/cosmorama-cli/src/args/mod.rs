@@ -22,7 +22,7 @@ use clap::{Parser, Subcommand};
 
 pub(crate) use colour::Colour;
 pub(crate) use compare::{CompareArgs, Region};
-pub(crate) use compression::CompressionArg;
+pub(crate) use compression::{CompressionArg, CompressionParser};
 pub(crate) use convert::ConvertArgs;
 pub(crate) use demo::DemoArgs;
 pub(crate) use depth::DepthArg;

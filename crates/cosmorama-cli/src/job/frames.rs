@@ -16,7 +16,10 @@ pub(super) fn find<'a>(
     let sequences: Vec<&FramePattern> = files.filter_map(Files::sequence).collect();
     if sequences.is_empty() {
         return match wanted {
-            Some(_) => Err(usage("--frames is given, but the input has no frame marker such as #### or %04d")),
+            Some(_) => Err(usage(
+                "--frames is given, but the input has no frame marker such as #### or %04d; write one where the frame number \
+                 stands, or leave --frames out",
+            )),
             None => Ok(vec![None]),
         };
     }

@@ -10,6 +10,7 @@ use super::detect::{declared, detect};
 use super::eye::EyePart;
 use super::face_file::Face;
 use super::face_shape::{FacePicture, size_of_missing};
+use super::folder::is_one_file;
 use super::{Files, GivenFaces, MemoryBudget, Place, frames, packed, pto, st_map, world_file};
 use crate::failure::usage;
 use crate::spec::{Cube, Packing, Shape, Single, Spec};
@@ -329,34 +330,4 @@ pub(super) fn header(path: &Path, eye: Option<EyePart>) -> Result<Header> {
 
 fn names<'a>(faces: impl Iterator<Item = &'a FaceFile>) -> String {
     faces.map(|face| face.face.name()).collect::<Vec<_>>().join(", ")
-}
-
-/// A folder or a wildcard was meant for the faces in it.
-pub(crate) fn is_one_file(pattern: &str, path: &Path) -> Result<()> {
-    let meant = if path.is_dir() {
-        let faces = faces_in(path).unwrap_or_else(|| path.join("{face}.png"));
-        format!("is a folder; for the faces of a cube in it, write {}", faces.display())
-    } else if pattern.contains(['*', '?', '{']) && !path.exists() {
-        "names no file; for the faces of a cube, write {face} or %c where a face's name stands, for frames ####"
-            .to_owned()
-    } else {
-        return Ok(());
-    };
-    Err(usage(format!("{pattern} {meant}")))
-}
-
-/// The pattern of a set of faces in a folder, if there is one: the first by name, of the files called by faces alone or with
-/// `front` in their names.
-fn faces_in(folder: &Path) -> Option<PathBuf> {
-    let entries = folder.read_dir().ok()?.filter_map(|entry| entry.ok()?.file_name().into_string().ok());
-    let mut names: Vec<String> = entries.collect();
-    names.sort_unstable();
-    let by_extension = |name: &String| Some(format!("{{face}}.{}", name.rsplit_once('.')?.1));
-    let by_front = |name: &String| name.contains("front").then(|| name.replacen("front", "{face}", 1));
-    let mut tried = names.iter().flat_map(|name| by_extension(name).into_iter().chain(by_front(name)));
-    let found = tried.find(|name| {
-        let set = folder.join(name).to_str().and_then(|pattern| FaceSet::find(pattern, None).ok());
-        set.is_some_and(|set| set.present().count() >= GivenFaces::LEAST)
-    })?;
-    Some(folder.join(found))
 }

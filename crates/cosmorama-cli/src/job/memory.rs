@@ -130,7 +130,7 @@ impl MemoryBudget {
             );
         }
         bail!(
-            "{what} needs about {} of memory, but {} are allowed{why}; if that is right, raise --memory",
+            "{what} needs about {} of memory, but only {} may be used{why}; if that is right, raise --memory",
             human(needed),
             human(self.bytes),
         );
@@ -254,5 +254,9 @@ pub(crate) fn human(bytes: u64) -> String {
         value /= 1024.0;
         unit += 1;
     }
-    if unit == 0 { format!("{bytes} bytes") } else { format!("{value:.1} {}", units[unit]) }
+    match (unit, bytes) {
+        (0, 1) => "1 byte".to_owned(),
+        (0, _) => format!("{bytes} bytes"),
+        _ => format!("{value:.1} {}", units[unit]),
+    }
 }

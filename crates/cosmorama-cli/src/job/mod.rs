@@ -10,6 +10,7 @@ mod face_file;
 mod face_shape;
 mod face_view;
 mod files;
+mod folder;
 mod frames;
 mod given_faces;
 mod gpano;
@@ -46,10 +47,11 @@ pub(crate) use detect::{Likely, likely};
 pub(crate) use evidence::light_of;
 pub(crate) use face_view::face_placement;
 pub(crate) use files::Files;
+pub(crate) use folder::is_one_file;
 pub(crate) use frames::existing as existing_frames;
 pub(crate) use given_faces::{Continuity, FacePixels, GivenFaces};
 pub(crate) use in_flight::InFlight;
-pub(crate) use input::{Input, InputView, is_one_file};
+pub(crate) use input::{Input, InputView};
 pub(crate) use light::{InputTransfer, Light};
 pub(crate) use listing::{Listed, listed};
 pub(crate) use machine::peak_bytes;
@@ -179,8 +181,9 @@ fn check_file_options(args: &ConvertArgs, format: Format) -> Result<()> {
     if args.compression.is_some() && (!format.has_compression() || args.st_map) {
         let what = if args.st_map { "an st map".to_owned() } else { format.to_string() };
         return Err(usage(format!(
-            "--compression is for pictures in PNG, TIFF and OpenEXR, but {} is {what}; leave it out",
-            args.output
+            "--compression is for pictures in PNG, TIFF and OpenEXR, but {} is {what}; leave it out{}",
+            args.output,
+            if format == Format::Jpeg { ", or choose a --quality" } else { "" }
         )));
     }
     if args.plan_cache.is_some() && (args.st_map || Builtin::named(&args.input)?.is_some()) {

@@ -110,6 +110,7 @@ impl Found {
         Self::Other(match error {
             IoError::Damaged { format, reason, .. } => format!("damaged or truncated {format}: {reason}"),
             IoError::UnknownContent { .. } => "not an image of a known format".to_owned(),
+            IoError::Empty { .. } => "an empty file".to_owned(),
             IoError::Open { source, .. } => source.to_string(),
             other => other.to_string(),
         })

@@ -2,7 +2,7 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::Instant;
 
-use anyhow::{Context, Result};
+use anyhow::Result;
 use clap::Parser;
 use cosmorama::explain::{Figures, Underlay};
 use cosmorama::raster::{Channels, Depth, EncodedImage, Transfer};
@@ -12,7 +12,7 @@ use cosmorama::world::{Canvas, Frame, OmnimaxFrame, PixelRect, View, World};
 use cosmorama_builtin::{DemoWorld, picture};
 use cosmorama_io::{FacePlacement, Metadata, WriteOptions, write};
 
-use super::{convert, diagram, print, use_threads};
+use super::{convert, diagram, make_folder, print, use_threads};
 use crate::args::{Args, DemoArgs, Verb};
 use crate::failure::usage;
 use crate::job::{face_placement, refuse_existing};
@@ -50,7 +50,7 @@ pub(super) fn run(args: &DemoArgs) -> Result<ExitCode> {
         refuse_existing(outputs(&args.dir, &faces).iter().map(PathBuf::as_path), "")?;
     }
     let folder = args.dir.join(FACES);
-    std::fs::create_dir_all(&folder).with_context(|| format!("cannot make the folder {}", folder.display()))?;
+    make_folder(&folder)?;
     for partial in &faces {
         render_face(partial, &folder)?;
     }

@@ -1,7 +1,7 @@
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use anyhow::{Context, Result};
+use anyhow::Result;
 use cosmorama::explain::{Centre, Figures, Magnification, Report, ViewReport};
 use cosmorama::resample::Needs;
 use cosmorama::world::{PixelRect, World};
@@ -9,7 +9,7 @@ use cosmorama_io::pending::Hidden;
 use serde_json::{Value, json};
 
 use super::pipe::KeptStreams;
-use super::{diagram, print, use_threads};
+use super::{diagram, make_folder, print, use_threads};
 use crate::args::ExplainArgs;
 use crate::failure::{usage, warn};
 use crate::job::{
@@ -114,7 +114,7 @@ fn needs(report: &Report) -> Needs {
 }
 
 fn draw(folder: &Path, picture: &Picture, world: &World, needs: &Needs) -> Result<Vec<Hidden>> {
-    std::fs::create_dir_all(folder).with_context(|| format!("cannot make the folder {}", folder.display()))?;
+    make_folder(folder)?;
     let figures = Figures { world, target: &picture.view };
     let drawings = [figures.unfolded(needs, &[]), figures.ownership(), figures.footprints()];
     let mut files = Vec::new();
@@ -147,7 +147,7 @@ fn to_json(report: &Report, input: &Input, files: &[PathBuf]) -> Value {
         "texels_a_pixel": { "mean": report.gathered.mean, "most": report.gathered.most },
         "memory_bytes": {
             "texels": report.memory.texels, "pixels": report.memory.pixels, "levels": report.memory.levels,
-            "plan": report.memory.plan,
+            "plan": report.memory.plan, "plan_8_bits": report.memory.fixed_plan,
         },
         "uncovered_pixels": report.uncovered.map_or(0, |uncovered| uncovered.pixels),
         "views": views,

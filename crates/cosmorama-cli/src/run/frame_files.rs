@@ -63,10 +63,12 @@ impl FrameFile {
         let found = (file.image.width(), file.image.height());
         if found != expected || file.window != header.window {
             bail!(
-                "{}: {}x{} pixels, but the first frame has {}x{}{}; all frames must have the same size and window",
+                "{}: {}x{} pixels, but {}, of the first frame, has {}x{}{}; render it again as that one is, or convert \
+                 frames like it in a run of their own, with --frames",
                 path.display(),
                 found.0,
                 found.1,
+                first.files.path(job.input.frames[0]).display(),
                 expected.0,
                 expected.1,
                 if found == expected { " at another place of its canvas" } else { "" }

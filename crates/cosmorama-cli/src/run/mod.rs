@@ -27,9 +27,10 @@ mod suns;
 mod thin_alpha;
 mod writer;
 
+use std::path::Path;
 use std::process::ExitCode;
 
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, anyhow};
 
 use crate::args::Verb;
 use crate::stream;
@@ -52,6 +53,13 @@ pub(crate) fn run(verb: Verb) -> Result<ExitCode> {
 fn use_threads(count: Option<usize>) -> Result<()> {
     let builder = rayon::ThreadPoolBuilder::new().num_threads(count.unwrap_or(0));
     builder.build_global().context("cannot start threads")
+}
+
+/// A folder that is there from now on, with those above it.
+fn make_folder(folder: &Path) -> Result<()> {
+    std::fs::create_dir_all(folder).map_err(|error| {
+        anyhow!("the folder {} cannot be made ({error}); choose another, where you may write", folder.display())
+    })
 }
 
 /// Prints what was asked for on standard output.

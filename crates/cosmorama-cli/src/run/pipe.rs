@@ -5,7 +5,7 @@ use std::fs::File;
 use std::io::{ErrorKind, IsTerminal, Read, Write, copy, stdin, stdout};
 use std::path::{Path, PathBuf};
 
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, anyhow};
 use cosmorama_io::Format;
 use cosmorama_io::pending::Scratch;
 
@@ -63,7 +63,14 @@ impl KeptStreams {
         if let Some(folder) = &self.folder {
             return Ok(folder.path().to_owned());
         }
-        let folder = Scratch::create().context("cannot make a folder for what is piped")?;
+        let folder = Scratch::create().map_err(|error| {
+            let place = std::env::temp_dir();
+            anyhow!(
+                "no folder for what is piped can be made in {} ({}); name one where you may write, as in TMPDIR=/var/tmp",
+                place.display(),
+                error.kind()
+            )
+        })?;
         Ok(self.folder.insert(folder).path().to_owned())
     }
 }

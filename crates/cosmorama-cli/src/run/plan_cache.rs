@@ -1,10 +1,12 @@
-use std::fs::{create_dir_all, read};
+use std::fs::read;
 use std::io::{ErrorKind, Write};
 use std::path::Path;
 
 use anyhow::Result;
 use cosmorama::resample::{PlanKey, Resampler, SavedPlan};
 use cosmorama_io::pending::Pending;
+
+use super::make_folder;
 
 /// Plans in a folder, from one run to the next. Nothing depends on it: what is not there, or not right, is computed.
 pub(super) struct PlanCache<'a> {
@@ -44,7 +46,7 @@ impl<'a> PlanCache<'a> {
         }
         let plan = compute()?;
         if let Err(reason) = self.keep(&path, &plan, key) {
-            self.warnings.push(format!("--plan-cache: the plan is not kept: {reason}"));
+            self.warnings.push(format!("--plan-cache {}: the plan is not kept: {reason}", self.folder.display()));
         }
         Some(plan)
     }
@@ -54,7 +56,8 @@ impl<'a> PlanCache<'a> {
             // What does not fit beside the plan that is made of it is not read.
             Ok(found) if !found.is_file() => anyhow::bail!("no file"),
             Ok(found) if found.len() > self.memory / 2 => return Ok(None),
-            Err(error) if error.kind() == ErrorKind::NotFound => return Ok(None),
+            // Why there can be no folder, keeping it tells.
+            Err(error) if matches!(error.kind(), ErrorKind::NotFound | ErrorKind::NotADirectory) => return Ok(None),
             _ => {}
         }
         Ok(Some(P::from_bytes(&read(path)?, key, resampler)?))
@@ -65,7 +68,7 @@ impl<'a> PlanCache<'a> {
         if plan.bytes() as u64 > self.memory / 2 {
             anyhow::bail!("there is no room to write it; raise --memory");
         }
-        create_dir_all(self.folder).map_err(|error| anyhow::anyhow!("{}: {error}", self.folder.display()))?;
+        make_folder(self.folder)?;
         let mut pending = Pending::create(path)?;
         pending.writer().write_all(&plan.to_bytes(key))?;
         Ok(pending.finish()?)

@@ -52,13 +52,18 @@ struct Range {
 impl Range {
     fn parse(part: &str) -> Result<Self, String> {
         let (range, step) = match part.split_once([':', 'x']) {
-            Some((range, step)) => (range, number(step)?),
-            None => (part, 1),
+            Some((range, step)) => (range, Some(number(step)?)),
+            None => (part, None),
         };
-        let (first, last) = match range.split_once('-') {
-            Some((first, last)) => (number(first)?, number(last)?),
-            None => (number(range)?, number(range)?),
+        let (first, last) = match (range.split_once('-'), step) {
+            (Some((first, last)), _) => (number(first)?, number(last)?),
+            (None, None) => (number(range)?, number(range)?),
+            // In other programs a colon makes a range.
+            (None, Some(step)) => {
+                return Err(format!("{part} is one frame with a step; {}", meant(number(range)?, step)));
+            }
         };
+        let step = step.unwrap_or(1);
         if first > last {
             return Err(format!("{range} runs backwards; write {last}-{first}"));
         }
@@ -79,9 +84,20 @@ fn number(text: &str) -> Result<u64, String> {
         return Err("a number is missing".to_owned());
     }
     if !text.bytes().all(|byte| byte.is_ascii_digit()) {
-        return Err(format!("{text} is not a frame number"));
+        let dotted = text.split_once("..").and_then(|(first, last)| Some((first.parse().ok()?, last.parse().ok()?)));
+        let hint = match dotted {
+            Some((first, last)) => format!("; {}", meant(first, last)),
+            None if text.contains(char::is_whitespace) => "; put commas between".to_owned(),
+            None => String::new(),
+        };
+        return Err(format!("{text} is not a frame number{hint}"));
     }
     text.parse().ok().filter(|frame| *frame <= LAST_FRAME).ok_or_else(|| format!("{text} is too large"))
+}
+
+/// What to write for all frames between two.
+fn meant(first: u64, last: u64) -> String {
+    if first < last { format!("for frames {first} to {last} write {first}-{last}") } else { format!("write {first}") }
 }
 
 /// The shortest list that stands for the same frames: runs become ranges.
@@ -131,6 +147,10 @@ mod tests {
         assert!(refused("").contains("missing"));
         assert!(refused("1,,2").contains("missing"));
         assert!(refused("1-5:0").contains("step of 0"));
+        assert!(refused("1:3").contains("1:3 is one frame with a step; for frames 1 to 3 write 1-3;"));
+        assert!(refused("4,5x2").contains("5x2 is one frame with a step; write 5;"));
+        assert!(refused("1..3").contains("for frames 1 to 3 write 1-3;"));
+        assert!(refused("1-3 4").contains("put commas between"));
         assert!(refused("a-b").contains("not a frame number"));
         assert!(refused("0-4000000000").contains("more than"));
         assert!(refused("99999999999999999999").contains("too large"));

@@ -1,6 +1,7 @@
 use std::collections::BTreeSet;
 use std::path::PathBuf;
 
+use super::FoundFrames;
 use crate::{FrameList, FramePattern, IoError};
 
 /// The frames of a sequence to work on: all are there.
@@ -35,6 +36,7 @@ impl Frames {
         Err(IoError::MissingFrames {
             pattern: pattern.as_str().to_owned(),
             count: missing.frames().len(),
+            existing: (first, last),
             missing: missing.to_string(),
         })
     }
@@ -55,6 +57,7 @@ fn no_frames(pattern: &FramePattern) -> IoError {
         pattern: pattern.as_str().to_owned(),
         folder: pattern.folder(),
         example: pattern.path(1).display().to_string(),
+        found: FoundFrames::in_folder(&pattern.folder()).first().map(ToString::to_string),
     }
 }
 
@@ -97,7 +100,10 @@ mod tests {
         assert_eq!(Frames::find(pattern.clone(), Some(&list)).unwrap().list().frames(), [1, 3, 5]);
         let list = "4-5".parse().unwrap();
         let message = Frames::find(pattern, Some(&list)).unwrap_err().to_string();
-        assert!(message.contains("1 frame is missing: 4"), "{message}");
+        assert!(
+            message.contains("1 frame is missing: 4; the first that exists is 1, the last 5; make it,"),
+            "{message}"
+        );
     }
 
     #[test]

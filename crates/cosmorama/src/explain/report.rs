@@ -72,8 +72,10 @@ pub struct Memory {
     pub pixels: usize,
     /// The smaller copies of a pyramid, at most; zero for other filters.
     pub levels: usize,
-    /// The geometry of a sequence in floats, estimated; that of opaque pictures of 8 bits takes less, a single frame none.
+    /// The geometry of a sequence in floats, estimated; a single frame keeps none.
     pub plan: usize,
+    /// The same of opaque pictures of 8 bits, in integers: less. Zero where the filter makes them in floats.
+    pub fixed_plan: usize,
 }
 
 impl Report {
@@ -132,6 +134,7 @@ impl Memory {
             pixels: target.width() * target.height() * size_of::<Rgba>(),
             levels: resampler.level_bytes(),
             plan: resampler.plan_bytes_estimate(),
+            fixed_plan: resampler.fixed_plan_bytes_estimate(),
         }
     }
 }

@@ -19,12 +19,17 @@ impl Display for Report {
         writeln!(f, "gathers  {:.1} texels a pixel, {} at most", self.gathered.mean, self.gathered.most)?;
         writeln!(f, "uses     {} of the texels given", Percent(self.used()))?;
         let memory = self.memory;
-        let (texels, pixels, plan) = (Bytes(memory.texels), Bytes(memory.pixels), Bytes(memory.plan));
+        let (texels, pixels) = (Bytes(memory.texels), Bytes(memory.pixels));
         let levels = match memory.levels {
             0 => String::new(),
             levels => format!(", smaller copies of the texels {}", Bytes(levels)),
         };
-        writeln!(f, "memory   texels {texels}{levels}, pixels {pixels}, plan of a sequence about {plan}")?;
+        let plan = match (Bytes(memory.plan), memory.fixed_plan) {
+            (Bytes(0), _) => "no plan is kept".to_owned(),
+            (plan, 0) => format!("plan of a sequence about {plan}"),
+            (plan, fixed) => format!("plan of a sequence about {plan}, in 8 bits without alpha {}", Bytes(fixed)),
+        };
+        writeln!(f, "memory   texels {texels}{levels}, pixels {pixels}, {plan}")?;
         if let Some(uncovered) = &self.uncovered {
             writeln!(f, "missing  {uncovered}")?;
         }

@@ -176,15 +176,18 @@ pub(super) fn render_fixed(resampler: &Resampler, light: &FixedLight, codec: &Fi
     image
 }
 
-/// Bytes that the plan of a conversion would hold, found from a row of patches in each band, keeping none of them.
+/// Bytes that the plan of a conversion would hold, found from a row of patches in each band, keeping none of them. Of a small
+/// picture from all: it has few bands, and a pole in one of them holds most of the bytes.
 fn bytes_estimate<W: Weights>(resampler: &Resampler, wanted: Option<&Wanted>) -> usize {
+    const SMALL: usize = 512 * 512;
     let mirrors = &Mirrors::of::<W>(resampler);
     let table = KernelTable::new(&resampler.filter.kernel);
+    let is_small = mirrors.rows * mirrors.columns <= SMALL;
     let bytes = |index: usize| {
         let band = mirrors.band(index);
         // Not the same in all bands: what lies at the edge of a picture would count too often.
         let top = band.start + index % (BAND / SIDE) * SIDE;
-        let rows = if top < band.end { top..band.end.min(top + SIDE) } else { band };
+        let rows = if top < band.end && !is_small { top..band.end.min(top + SIDE) } else { band };
         let (mut kept, mut bytes, count) = (Band::<W>::default(), 0, rows.len());
         record((resampler, wanted), mirrors, &table, rows, Level::new(), &mut kept, |band| {
             bytes += band.used_bytes();
