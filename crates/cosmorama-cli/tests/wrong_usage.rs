@@ -143,6 +143,12 @@ fn what_was_meant_for_a_frame_pattern() {
         &bench.fail(2, &["convert", "shot/sky_####.png", "shot", "--to", "omnimax"]),
         &["shot: a folder", "shot/out.png"],
     );
+    for frame in 1..=2 {
+        bench.save(&format!("dusk_{frame}.png"), &picture(frame, 16, 8));
+    }
+    assert_says(&convert(1, "dusk_3.png"), &["dusk_3.png: there is no such file; there are dusk_#.png (1,2)"]);
+    assert_says(&convert(2, "*.png"), &["names no file", "there are dusk_#.png (1,2)"]);
+    assert_says(&convert(1, "dusk_##.png"), &["but there are dusk_#.png (1,2)"]);
     // Of the frames of a cube, the faces are told, not one frame or one face of them.
     for frame in 1..=2 {
         for name in ["front", "right", "back", "left", "up", "down"] {

@@ -187,6 +187,14 @@ impl Kept {
     }
 }
 
+#[test]
+#[should_panic(expected = "light of the world's views")]
+fn light_of_as_many_texels_in_other_views_is_refused() {
+    let (world, target) = (cube(32), dome(16, 0.0));
+    let plan = Resampler { world: &world, target: &target, filter: Filter::DEFAULT }.fixed_plan().unwrap();
+    plan.apply(&FixedLight::black(world.view_sizes().map(|[width, height]| [2 * width, height / 2])), &codec());
+}
+
 /// Bytes that claim to be whole and for this conversion, whatever they hold.
 fn forged(mut bytes: Vec<u8>, changes: &[(usize, u8)]) -> Vec<u8> {
     for (at, byte) in changes {
@@ -227,7 +235,15 @@ proptest! {
         }
         let (key, bytes) = (Plan::key(&resampler), forged(float.clone(), &changes));
         match Plan::from_bytes(&bytes, key, &resampler) {
-            Ok(plan) => drop(plan.apply(&floats(&light))),
+            Ok(plan) => {
+                let (texels, bits) = (floats(&light), |image: &Image<Rgba>| -> Vec<_> {
+                    image.pixels().iter().map(|pixel| pixel.0.map(f32::to_bits)).collect()
+                });
+                let mut image = Image::filled(target.width(), target.height(), Rgba::opaque(0.1, 0.2, 0.3));
+                plan.apply_into(&texels, Rgba::TRANSPARENT, &mut image);
+                // Not numbers, maybe, but the same.
+                prop_assert!(bits(&image) == bits(&plan.apply(&texels)));
+            }
             Err(error) => prop_assert_eq!(error, PlanError::Unsound),
         }
     }

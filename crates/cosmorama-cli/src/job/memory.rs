@@ -124,14 +124,14 @@ impl MemoryBudget {
             bail!(
                 "{what} needs about {} of memory, but there are {}, whatever --memory says ({}){why}; make pictures smaller, or \
                  do it where there is more memory",
-                human(needed),
+                human_at_least(needed),
                 human(self.bytes),
                 human(asked),
             );
         }
         bail!(
             "{what} needs about {} of memory, but only {} may be used{why}; if that is right, raise --memory",
-            human(needed),
+            human_at_least(needed),
             human(self.bytes),
         );
     }
@@ -247,6 +247,15 @@ fn frame_bytes(input: &Input, target: &Target) -> u64 {
 
 /// An amount of memory as people say it.
 pub(crate) fn human(bytes: u64) -> String {
+    told(bytes, |tenths| tenths)
+}
+
+/// The same, so that who gives as much as is told gives enough.
+fn human_at_least(bytes: u64) -> String {
+    told(bytes, f64::ceil)
+}
+
+fn told(bytes: u64, round: fn(f64) -> f64) -> String {
     let units = ["bytes", "KiB", "MiB", "GiB", "TiB"];
     let mut value = bytes as f64;
     let mut unit = 0;
@@ -257,6 +266,19 @@ pub(crate) fn human(bytes: u64) -> String {
     match (unit, bytes) {
         (0, 1) => "1 byte".to_owned(),
         (0, _) => format!("{bytes} bytes"),
-        _ => format!("{value:.1} {}", units[unit]),
+        _ => format!("{:.1} {}", round(value * 10.0) / 10.0, units[unit]),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn as_much_as_is_told_to_be_needed_is_enough() {
+        let mebibyte = 1 << 20;
+        assert_eq!([10 * mebibyte, 10 * mebibyte + 1].map(human_at_least), ["10.0 MiB", "10.1 MiB"]);
+        assert_eq!([10 * mebibyte, 10 * mebibyte + 1].map(human), ["10.0 MiB", "10.0 MiB"]);
+        assert_eq!([0, 1, 1023].map(human_at_least), ["0 bytes", "1 byte", "1023 bytes"]);
     }
 }

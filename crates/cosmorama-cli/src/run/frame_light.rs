@@ -190,7 +190,7 @@ fn decode<'a, T: Send + 'a>(
     let mut pieces = Vec::new();
     for (image, missing) in images.iter().zip(&missing) {
         let some = PIECE.div_ceil(image.image.width().max(1));
-        let Some(view) = views[image.view].take() else { continue };
+        let view = views[image.view].take().expect("one image for each view");
         let pitch = (view.len() / image.image.height().max(1)).max(1);
         let texels = view.chunks_mut(some * pitch).enumerate();
         pieces.extend(texels.map(|(piece, into)| (image, missing, piece * some, into)));

@@ -61,7 +61,9 @@ impl<'a> Writer<'a> {
             Levels::Codes(images) => {
                 let encoded: Vec<_> = images.into_iter().map(EncodedImage::of_codes).collect();
                 self.write(&encoded, path)?;
-                Ok(Levels::Codes(encoded.into_iter().filter_map(EncodedImage::into_codes).collect()))
+                // All of them or none: each level has its place.
+                let images: Option<Vec<_>> = encoded.into_iter().map(EncodedImage::into_codes).collect();
+                Ok(Levels::Codes(images.unwrap_or_default()))
             }
         }
     }

@@ -28,7 +28,11 @@ impl FoundFrames {
     /// The sequences of images in a folder, the longest first; none where it cannot be read. A file is a frame of one of them
     /// at most, and two make a sequence.
     pub fn in_folder(folder: &Path) -> Vec<Self> {
-        let Ok(entries) = folder.read_dir() else { return Vec::new() };
+        // What is in the current one is told by its name alone.
+        let here = Path::new(".");
+        let (read, folder) =
+            if folder == here || folder.as_os_str().is_empty() { (here, Path::new("")) } else { (folder, folder) };
+        let Ok(entries) = read.read_dir() else { return Vec::new() };
         let mut numbers: BTreeMap<Around, Vec<String>> = BTreeMap::new();
         for name in entries.filter_map(|entry| entry.ok()?.file_name().into_string().ok()) {
             if Format::from_extension(Path::new(&name)).is_ok() {

@@ -35,7 +35,7 @@ impl FixedLight {
     /// It is an odd number of lines of cache: an even one divides by two how many places in it a column's texels may be in, and rows of
     /// 2048 texels would all come to lie in one.
     pub fn pitch(width: usize) -> usize {
-        if width < SHORT { width } else { LINE * (width.div_ceil(LINE) | 1) }
+        if width < SHORT { width } else { LINE.saturating_mul(width.div_ceil(LINE) | 1) }
     }
 
     /// Columns and rows of each view.
@@ -67,6 +67,16 @@ impl FixedLight {
         let rows =
             pitches.map(move |(pitch, width)| &mut rest.split_off_mut(..pitch).expect("room for each row")[..width]);
         rows.flatten()
+    }
+
+    /// Where each view lies.
+    pub(crate) fn layout(&self) -> &[RowLayout] {
+        &self.views
+    }
+
+    /// All texels as they lie, with what fills up rows.
+    pub(crate) fn as_laid_out(&self) -> &[[i16; 4]] {
+        &self.texels
     }
 
     /// Four samples for each texel, and for what fills up rows.

@@ -75,10 +75,11 @@ impl RimTexels {
     /// is wide. Texels of any kind are told by `light` and made by `texel`.
     ///
     /// # Panics
-    /// When the light is not that of the view.
+    /// When it is not so many rows, or they are shorter than the view is wide.
     pub fn restore<T: Copy>(&self, texels: &mut [T], light: impl Fn(T) -> Rgba, texel: impl Fn(Rgba) -> T) {
         let [columns, rows] = self.size.map(|length| length.max(1));
         let pitch = texels.len() / rows;
+        assert!(pitch * rows == texels.len() && pitch >= self.size[0], "rows of the view's light");
         let index = |at: u32| at as usize / columns * pitch + at as usize % columns;
         let mean = |texels: &[T], of: &[u32]| {
             let sum = of.iter().map(|at| light(texels[index(*at)])).fold(Rgba::TRANSPARENT, |a, b| a + b);

@@ -39,7 +39,7 @@ impl FixedFilter<'_> {
     #[inline(always)]
     fn runs<S: Simd>(&self, simd: S, band: &Band<FixedWeights>, canvas: &mut Canvas<[u8; 3]>) {
         let mut ahead = band.patches().skip(1);
-        let texels = self.light.samples().as_chunks::<4>().0;
+        let texels = self.light.as_laid_out();
         for (at, run) in band.runs.iter().enumerate() {
             if at % SIDE == 0 {
                 prefetch_patch(texels, self.mirrors, ahead.next().unwrap_or(&[]));
@@ -89,12 +89,12 @@ impl Palette for FixedFilter<'_> {
     type Pixel = [u8; 3];
 
     fn rgba(&self, texel: u32) -> Rgba {
-        FixedLight::light(self.light.samples().as_chunks::<4>().0[texel as usize])
+        FixedLight::light(self.light.as_laid_out()[texel as usize])
     }
 
     #[inline(always)]
     fn light<S: Simd>(&self, simd: S, texel: u32) -> f32x4<S> {
-        let [red, green, blue, _] = self.light.samples().as_chunks::<4>().0[texel as usize];
+        let [red, green, blue, _] = self.light.as_laid_out()[texel as usize];
         let samples = i32x4::load_array(simd, [red, green, blue, 0].map(i32::from));
         let light = f32x4::float_from(samples) / FixedLight::WHITE;
         light + f32x4::load_array(simd, [0.0, 0.0, 0.0, 1.0])
@@ -106,7 +106,7 @@ impl Palette for FixedFilter<'_> {
 
     #[inline(always)]
     fn prefetch(&self, texel: u32) {
-        prefetch(self.light.samples().as_chunks::<4>().0, texel);
+        prefetch(self.light.as_laid_out(), texel);
     }
 }
 

@@ -169,6 +169,11 @@ impl Mirrors {
         Self { columns, rows, images, is_packed, ways }
     }
 
+    /// Where in the light each view lies.
+    pub(super) fn layout(&self) -> impl Iterator<Item = &RowLayout> {
+        self.images[0].views.iter().map(|view| &view.rows)
+    }
+
     /// Texels of the light, with what fills up their rows.
     pub(super) fn texel_count(&self) -> usize {
         self.images[0].views.last().map_or(0, |view| view.rows.end())

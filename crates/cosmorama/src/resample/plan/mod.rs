@@ -121,6 +121,9 @@ impl FixedPlan {
     }
 
     /// One frame: the code values of each pixel. `light` is that of all the world's texels.
+    ///
+    /// # Panics
+    /// If it is of other views than the world's.
     pub fn apply(&self, light: &FixedLight, codec: &FixedCodec) -> Image<[u8; 3]> {
         let mut image = Image::zeroed(self.0.width, self.0.height);
         self.apply_into(light, codec, &mut image);
@@ -130,9 +133,10 @@ impl FixedPlan {
     /// The same into an image that is there already: fresh memory may cost a third of a frame.
     ///
     /// # Panics
-    /// If it is not of the target's size.
+    /// If it is not of the target's size, or the light not of views of the world's sizes.
     pub fn apply_into(&self, light: &FixedLight, codec: &FixedCodec, image: &mut Image<[u8; 3]>) {
         let Self(Compiled { anti_ringing, mirrors, .. }) = self;
+        assert!(mirrors.layout().eq(light.layout()), "light of the world's views");
         let filter = FixedFilter { level: Level::new(), mirrors, light, codec, anti_ringing: *anti_ringing };
         self.0.fill(image, codec.background(), |band, canvas| filter.fill(band, canvas));
     }
@@ -177,7 +181,7 @@ pub(super) fn render_fixed(resampler: &Resampler, light: &FixedLight, codec: &Fi
 }
 
 /// Bytes that the plan of a conversion would hold, found from a row of patches in each band, keeping none of them. Of a small
-/// picture from all: it has few bands, and a pole in one of them holds most of the bytes.
+/// picture from all, which takes hundredths of a second: it has few bands, and a pole in one of them holds most of the bytes.
 fn bytes_estimate<W: Weights>(resampler: &Resampler, wanted: Option<&Wanted>) -> usize {
     const SMALL: usize = 512 * 512;
     let mirrors = &Mirrors::of::<W>(resampler);

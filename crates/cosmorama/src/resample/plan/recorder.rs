@@ -15,12 +15,12 @@ pub(super) struct Recorder<'a, W, F> {
     pub(super) taps: Taps,
     /// Where those of a single pixel lie.
     pub(super) places: Vec<TexelPlace>,
-    /// What is done with a band that holds more than [`MANY`] taps.
+    /// What is done with a band that holds more than [`MANY`] texels.
     pub(super) spill: F,
 }
 
-/// Taps of single pixels that a band may hold before something is done with them: a small picture of a large world may have
-/// millions for each pixel.
+/// Texels of single pixels, in all mirrors, that a band may hold before something is done with them: a small picture of a large
+/// world may have millions for each pixel.
 const MANY: usize = 1 << 17;
 
 impl<W: Weights, F: FnMut(&mut Band<W>)> Sink for Recorder<'_, W, F> {

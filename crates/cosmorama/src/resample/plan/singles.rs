@@ -170,7 +170,7 @@ impl Singles {
             [a, b, c, d] => self.fill_all(simd, [a, b, c, d], (palette, anti_ringing), canvas),
             [a, b] => self.fill_all(simd, [a, b], (palette, anti_ringing), canvas),
             images => {
-                debug_assert_eq!(images.len(), 1, "a picture is mirrored in each direction or not");
+                assert_eq!(images.len(), 1, "a picture is mirrored in each direction or not");
                 self.fill_all(simd, [&images[0]], (palette, anti_ringing), canvas);
             }
         }
@@ -306,3 +306,64 @@ stored!(Single {
 });
 
 stored!(Singles { pixels: Vec<Single>, weights: Vec<f32>, texels: Vec<u32>, places: Vec<[f32; 2]> });
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Room for two columns and three rows, and nine texels in each of two mirrors.
+    fn are_sound(singles: &Singles) -> bool {
+        singles.are_sound([2, 3], 9, 2)
+    }
+
+    /// A pixel of two texels, and one at a rim, of three.
+    fn sound() -> Singles {
+        let first = Single { first: 0, taps: 2, under: 1, first_place: 0, places: 0, coverage: 1.0, column: 0, row: 2 };
+        let second = Single { first: 2, taps: 3, under: 3, places: 3, coverage: 0.5, column: 1, row: 0, ..first };
+        Singles {
+            pixels: vec![first, second],
+            weights: vec![0.5, 0.5, 1.5, -0.25, -0.25],
+            texels: vec![0, 8, 1, 7, 2, 6, 3, 5, 4, 4],
+            places: vec![[0.1, 0.0], [0.2, 0.1], [0.3, -0.1]],
+        }
+    }
+
+    #[test]
+    fn what_is_not_there_is_not_sound() {
+        assert!(are_sound(&sound()));
+        let single: [fn(&mut Single); 13] = [
+            |single| single.first = usize::MAX,
+            |single| single.first = 3,
+            |single| single.taps = 4,
+            |single| single.under = 4,
+            |single| single.places = 2,
+            |single| single.places = 4,
+            |single| single.first_place = 1,
+            |single| single.first_place = usize::MAX,
+            |single| single.coverage = f32::NAN,
+            |single| single.coverage = 1.1,
+            |single| single.coverage = -0.1,
+            |single| single.column = 2,
+            |single| single.row = 3,
+        ];
+        for (index, spoil) in single.into_iter().enumerate() {
+            let mut singles = sound();
+            spoil(&mut singles.pixels[1]);
+            assert!(!are_sound(&singles), "{index}: {:?}", singles.pixels[1]);
+        }
+        let lists: [fn(&mut Singles); 6] = [
+            |singles| singles.weights[4] = f32::INFINITY,
+            |singles| singles.texels[9] = 9,
+            |singles| singles.places[2][1] = f32::NAN,
+            |singles| singles.texels.truncate(9),
+            |singles| singles.texels.push(0),
+            |singles| singles.weights.truncate(4),
+        ];
+        for (index, spoil) in lists.into_iter().enumerate() {
+            let mut singles = sound();
+            spoil(&mut singles);
+            assert!(!are_sound(&singles), "{index}");
+        }
+        assert!(!sound().are_sound([2, 3], 9, 1) && !sound().are_sound([2, 3], 9, usize::MAX));
+    }
+}
