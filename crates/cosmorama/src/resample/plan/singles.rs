@@ -152,7 +152,7 @@ impl Singles {
         let (first, images) = (self.texels.len(), mirrors.images.len());
         self.texels.resize(first + images * seen.len(), 0);
         for (image, at) in mirrors.images.iter().zip(first..) {
-            let texels = self.texels[at..].iter_mut().step_by(images);
+            let texels = self.texels.iter_mut().skip(at).step_by(images);
             texels.zip(&*seen).for_each(|(texel, &place)| *texel = image.texel(place));
         }
     }

@@ -27,3 +27,13 @@ fn runs_end_where_their_windows_do() {
     }
     assert!(floats > 100 && integers > 100, "{floats} and {integers} runs lack windows at an end");
 }
+
+#[test]
+fn a_pixel_without_texels_has_none_in_any_mirror() {
+    for (world, target, _) in conversions() {
+        let mirrors = Mirrors::of::<FixedWeights>(&resampler(&world, &target));
+        let mut singles = singles::Singles::default();
+        singles.push((&world, &mirrors), [0, 0], 1.0, &Taps::default(), &mut Vec::new());
+        assert!(singles.taps(&singles.pixels()[0], mirrors.images.len()).texels.is_empty());
+    }
+}
