@@ -9,7 +9,7 @@ use super::float_weights::FloatWeights;
 use super::float_window::Window;
 use super::mirrors::{MOST_IMAGES, Mirrors, Walk, Ways};
 use super::prefetch::{prefetch_patch, prefetch_weights};
-use super::singles::Palette;
+use super::singles::{Palette, Singles};
 use super::texels::{Texels, prefetch};
 use crate::raster::Rgba;
 use crate::resample::patch::SIDE;
@@ -27,10 +27,14 @@ pub(super) struct FloatFilter<'a> {
 impl FloatFilter<'_> {
     pub(super) fn fill(&self, band: &Band<FloatWeights>, canvas: &mut Canvas<Rgba>) {
         let level = self.level;
-        dispatch!(level, simd => {
-            self.runs(simd, band, canvas);
-            band.singles.fill(simd, self.mirrors, (self, self.anti_ringing), canvas);
-        });
+        dispatch!(level, simd => self.runs(simd, band, canvas));
+        self.fill_singles(&band.singles, canvas);
+    }
+
+    /// Makes the pixels that come by themselves.
+    pub(super) fn fill_singles(&self, singles: &Singles, canvas: &mut Canvas<Rgba>) {
+        let level = self.level;
+        dispatch!(level, simd => singles.fill(simd, self.mirrors, (self, self.anti_ringing), canvas));
     }
 
     // No closures below but those that `vectorize` takes: the compiler gives others no leave to use the level's instructions.

@@ -1,8 +1,6 @@
 mod runs;
 mod sizes;
 
-use fearless_simd::dispatch;
-
 use super::band::{Corners, Run};
 use super::mirrors::{MirrorImage, Mirrors};
 use super::stored::Stored;
@@ -278,7 +276,7 @@ fn windows_of_floats_make_what_their_texels_make_one_by_one() {
             let mut one_by_one = expected.clone();
             let pixels = (one_by_one.pixels_mut(), background);
             each_band((&resampler, None), &mirrors, pixels, level, |band: &Band<NoWindows>, canvas| {
-                dispatch!(level, simd => band.singles.fill(simd, &mirrors, (&filter, anti_ringing), canvas));
+                filter.fill_singles(&band.singles, canvas);
             });
             let pixels = (expected.pixels_mut(), background);
             each_band((&resampler, None), &mirrors, pixels, level, |band: &Band<NoWindows>, canvas| {
