@@ -54,7 +54,7 @@ impl<'a> PlanCache<'a> {
     fn found<P: SavedPlan>(&self, path: &Path, key: PlanKey, resampler: &Resampler) -> Result<Option<P>> {
         match std::fs::metadata(path) {
             // What does not fit beside the plan that is made of it is not read.
-            Ok(found) if !found.is_file() => anyhow::bail!("no file"),
+            Ok(found) if !found.is_file() => anyhow::bail!("not a regular file"),
             Ok(found) if found.len() > self.memory / 2 => return Ok(None),
             // Why there can be no folder, keeping it tells.
             Err(error) if matches!(error.kind(), ErrorKind::NotFound | ErrorKind::NotADirectory) => return Ok(None),

@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use super::fixed_light::{FixedLight, WHITE};
+use super::fixed_light::FixedLight;
 use super::quantizer::Quantizer;
 use super::{Channels, ColourChannel, EncodedImage, Image, Rgba, Samples, Transfer};
 
@@ -24,11 +24,12 @@ impl FixedDecoder {
         let quantizer = Quantizer::new(transfer, 255);
         let comes_back = |channel: ColourChannel| {
             (0..256).all(|code| {
-                let light = (light(code, channel) * f64::from(WHITE)).round() as f32;
-                (0.0..=WHITE).contains(&light) && usize::from(quantizer.code(light / WHITE, channel)) == code
+                let light = (light(code, channel) * f64::from(FixedLight::WHITE)).round() as f32;
+                (0.0..=FixedLight::WHITE).contains(&light)
+                    && usize::from(quantizer.code(light / FixedLight::WHITE, channel)) == code
             })
         };
-        let level = |code, channel| (light(code, channel) * f64::from(WHITE)).round() as i16;
+        let level = |code, channel| (light(code, channel) * f64::from(FixedLight::WHITE)).round() as i16;
         let alone = |channel: ColourChannel| {
             by_code(|code| {
                 let mut texel = [0; 4];
@@ -121,7 +122,7 @@ impl FixedCodec {
     /// codes.
     pub fn new(transfer: &Transfer, background: Rgba) -> Option<Self> {
         let quantizer = Quantizer::new(transfer, 255);
-        let code = |light: usize, channel| quantizer.code(light as f32 / WHITE, channel) as u8;
+        let code = |light: usize, channel| quantizer.code(light as f32 / FixedLight::WHITE, channel) as u8;
         let channels = transfer.channels();
         let mut codes = vec![[0; 1 << 16]; channels.len()];
         for (channel, codes) in channels.iter().zip(&mut codes) {
@@ -160,7 +161,7 @@ impl FixedCodec {
 
     /// The codes of light in floats.
     pub(crate) fn codes_of(&self, light: Rgba) -> [u8; 3] {
-        self.tables().of(light.0.map(|light| ((light * WHITE).clamp(0.0, WHITE) + 0.5) as i32))
+        self.tables().of(light.0.map(|light| ((light * FixedLight::WHITE).clamp(0.0, FixedLight::WHITE) + 0.5) as i32))
     }
 }
 

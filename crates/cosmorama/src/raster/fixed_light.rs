@@ -1,8 +1,5 @@
 use super::{Rgba, RowLayout};
 
-/// White.
-pub(super) const WHITE: f32 = i16::MAX as f32;
-
 /// Texels in 64 bytes, which processors keep together.
 const LINE: usize = 8;
 
@@ -22,7 +19,7 @@ pub struct FixedLight {
 
 impl FixedLight {
     /// The sample of white.
-    pub(crate) const WHITE: f32 = WHITE;
+    pub(crate) const WHITE: f32 = i16::MAX as f32;
 
     /// Black views of these sizes, columns and rows.
     pub fn black(sizes: impl IntoIterator<Item = [usize; 2]>) -> Self {
@@ -102,13 +99,14 @@ impl FixedLight {
 
     /// What a texel's samples stand for.
     pub fn light(samples: [i16; 4]) -> Rgba {
-        let [red, green, blue, _] = samples.map(|sample| f32::from(sample) / WHITE);
+        let [red, green, blue, _] = samples.map(|sample| f32::from(sample) / Self::WHITE);
         Rgba::opaque(red, green, blue)
     }
 
     /// The samples of a texel of this light, from black to white.
     pub fn texel(Rgba([red, green, blue, _]): Rgba) -> [i16; 4] {
-        let [red, green, blue] = [red, green, blue].map(|light| (light * WHITE).round().clamp(0.0, WHITE) as i16);
+        let [red, green, blue] =
+            [red, green, blue].map(|light| (light * Self::WHITE).round().clamp(0.0, Self::WHITE) as i16);
         [red, green, blue, 0]
     }
 }
@@ -139,7 +137,7 @@ mod tests {
         for (index, texel) in light.texels_mut().enumerate() {
             *texel = [index as i16 + 1; 4];
         }
-        let red = |index: usize| (light.rgba(index).0[0] * WHITE).round() as usize;
+        let red = |index: usize| (light.rgba(index).0[0] * FixedLight::WHITE).round() as usize;
         assert!((0..light.len()).all(|index| red(index) == index + 1));
         let rows: Vec<usize> = light.views_mut().zip(sizes).map(|(view, [_, rows])| view.len() / rows).collect();
         assert_eq!(rows, [136, 5, 264]);

@@ -162,11 +162,15 @@ impl<S: Simd> RunFilter<'_, S> {
         // Looked up together, from memory: taken out of vectors one by one, samples would wait for each pixel's sum.
         for (image, (index, flip)) in order.iter().enumerate() {
             let pixels = &mut pixels[index % MOST_IMAGES];
-            // Lanes as they are numbered, not as a number tells: one after the other.
+            // A loop for each direction: that of `lane ^ flip` would find the place of each pixel anew.
             if *flip == 0 {
-                light.iter().zip(pixels).for_each(|(light, pixel)| *pixel = codes.of(light[image]));
+                for (light, pixel) in light.iter().zip(pixels) {
+                    *pixel = codes.of(light[image]);
+                }
             } else {
-                light.iter().zip(pixels.iter_mut().rev()).for_each(|(light, pixel)| *pixel = codes.of(light[image]));
+                for (light, pixel) in light.iter().zip(pixels.iter_mut().rev()) {
+                    *pixel = codes.of(light[image]);
+                }
             }
         }
     }

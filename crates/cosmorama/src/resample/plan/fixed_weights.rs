@@ -66,7 +66,7 @@ impl Header {
     /// In place of an index of [`Shape::SMALL`]: as large as the run's windows are.
     const LARGE: u32 = 7;
 
-    /// Of the pairs of [`ROWS_UNDER`] rows, row by row, nine at the most.
+    /// All marks of a small window: of the pairs of [`ROWS_UNDER`] rows, row by row, nine at the most.
     const MARKS: u32 = {
         let pairs = (1 << (ROWS_UNDER * WIDEST)) - 1;
         pairs << 16 | pairs

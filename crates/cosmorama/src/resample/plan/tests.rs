@@ -1,3 +1,4 @@
+mod palettes;
 mod runs;
 mod sizes;
 
