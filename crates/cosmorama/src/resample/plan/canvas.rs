@@ -2,6 +2,8 @@ use std::ops::Range;
 
 use super::band::Run;
 use super::mirrors::{MirrorImage, Mirrors};
+use super::prefetch::LINE;
+use super::texels::prefetch;
 use crate::resample::patch::SIDE;
 
 /// The rows of a picture that one band makes: its own, and those that mirror it from below. What no pixel was made of is filled
@@ -111,28 +113,46 @@ impl<'a, P: Copy> Canvas<'a, P> {
         if image.flips == [false; 2] {
             self.note([column, row], u8::MAX);
         }
-        let column = if image.flips[0] { self.width - SIDE - column } else { column };
-        let (rows, row) = if image.flips[1] {
-            let last = self.mirrored.len() / self.width - 1;
-            (&mut *self.mirrored, last - row)
-        } else {
-            (&mut *self.own, row)
-        };
-        rows[row * self.width + column..][..SIDE].copy_from_slice(pixels);
+        let (rows, first) = self.place(image, [column, row], SIDE);
+        rows[first..][..SIDE].copy_from_slice(pixels);
+    }
+
+    /// Asks for the memory that the pixels of whole runs will be written to: a line of it that is not at hand is waited for even so.
+    #[inline(always)]
+    pub(super) fn prefetch(&mut self, mirrors: &Mirrors, runs: &[Run]) {
+        for run in runs {
+            if !run.is_whole() {
+                continue;
+            }
+            for image in &mirrors.images {
+                let (rows, first) = self.place(image, run.pixel(0), SIDE);
+                for at in (0..SIDE - 1).step_by((LINE / size_of::<P>()).max(1)) {
+                    prefetch(rows, (first + at) as u32);
+                }
+                prefetch(rows, (first + SIDE - 1) as u32);
+            }
+        }
     }
 
     /// The pixel that a mirror image shows in place of the one in this column and row of the band.
     #[inline(always)]
-    pub(super) fn pixel(&mut self, image: &MirrorImage, [column, row]: [usize; 2]) -> &mut P {
+    pub(super) fn pixel(&mut self, image: &MirrorImage, pixel: [usize; 2]) -> &mut P {
         if image.flips == [false; 2] {
-            self.note([column, row], 1);
+            self.note(pixel, 1);
         }
-        let column = if image.flips[0] { self.width - 1 - column } else { column };
+        let (rows, at) = self.place(image, pixel, 1);
+        &mut rows[at]
+    }
+
+    /// Where a mirror image shows so many pixels from this column and row of the band on: the first of them among those of some rows.
+    #[inline(always)]
+    fn place(&mut self, image: &MirrorImage, [column, row]: [usize; 2], count: usize) -> (&mut [P], usize) {
+        let column = if image.flips[0] { self.width - count - column } else { column };
         if image.flips[1] {
             let rows = self.mirrored.len() / self.width;
-            &mut self.mirrored[(rows - 1 - row) * self.width + column]
+            (&mut *self.mirrored, (rows - 1 - row) * self.width + column)
         } else {
-            &mut self.own[row * self.width + column]
+            (&mut *self.own, row * self.width + column)
         }
     }
 }

@@ -10,10 +10,11 @@ use super::band::{Band, Run};
 use super::blocks::{self, Blocks};
 use super::canvas::Canvas;
 use super::fixed_weights::{FixedWeights, Header, ROWS_UNDER, Shape, mark_words};
-use super::mirrors::{MOST_IMAGES, Mirrors, Walk, Ways};
+use super::mirrors::{MOST_IMAGES, Mirrors};
 use super::prefetch::{prefetch_patch, prefetch_weights};
 use super::singles::Palette;
 use super::texels::{PairWindow, Texels, prefetch};
+use super::view_texels::ViewTexels;
 use crate::raster::{FixedCodec, FixedLight, Rgba};
 use crate::resample::patch::SIDE;
 
@@ -40,12 +41,15 @@ impl FixedFilter<'_> {
     fn runs<S: Simd>(&self, simd: S, band: &Band<FixedWeights>, canvas: &mut Canvas<[u8; 3]>) {
         let mut ahead = band.patches().skip(1);
         let texels = self.light.as_laid_out();
+        let views = ViewTexels::all(self.mirrors, self.light.samples());
         for (at, run) in band.runs.iter().enumerate() {
             if at % SIDE == 0 {
-                prefetch_patch(texels, self.mirrors, ahead.next().unwrap_or(&[]));
+                let next = ahead.next().unwrap_or(&[]);
+                prefetch_patch(texels, self.mirrors, next);
+                canvas.prefetch(self.mirrors, next);
             }
             let numbers = &band.weights.numbers[run.weights as usize..];
-            let pixels = self.pixels(simd, run, numbers);
+            let pixels = self.pixels(simd, run, &views[usize::from(run.view)], numbers);
             for (image, pixels) in self.mirrors.images.iter().zip(&pixels) {
                 canvas.put(image, run, pixels);
             }
@@ -55,28 +59,28 @@ impl FixedFilter<'_> {
     /// The pixels of a run in each mirror. What is called from here on is compiled by itself: among all that makes a band its loop
     /// would lack registers.
     #[inline(never)]
-    fn pixels<S: Simd>(&self, simd: S, run: &Run, numbers: &[u32]) -> Pixels {
+    fn pixels<S: Simd>(&self, simd: S, run: &Run, texels: &ViewTexels<i16>, numbers: &[u32]) -> Pixels {
         let mut pixels = [[[0; 3]; SIDE]; MOST_IMAGES];
-        let ways = self.mirrors.ways(usize::from(run.view));
-        let run_filter = RunFilter { simd, filter: self, ways, run, numbers };
+        let order = &self.mirrors.ways(usize::from(run.view)).order;
+        let run_filter = RunFilter { simd, filter: self, run, numbers };
         // A function for each number of mirrors: all in one would take the compiler minutes.
-        match (ways.forward, ways.count) {
-            (2, 4) if ways.down[..2] == ways.down[2..] => simd.vectorize(
+        match texels {
+            ViewTexels::Four(texels) => simd.vectorize(
                 #[inline(always)]
-                || run_filter.pixels::<i16x32<S>, 4, 2>(0, &mut pixels),
+                || run_filter.pixels::<i16x32<S>, 4, 2>(texels, order, &mut pixels),
             ),
-            (1, 2) => simd.vectorize(
+            ViewTexels::Two(texels) => simd.vectorize(
                 #[inline(always)]
-                || run_filter.pixels::<i16x16<S>, 2, 1>(0, &mut pixels),
+                || run_filter.pixels::<i16x16<S>, 2, 1>(texels, order, &mut pixels),
             ),
-            (forward, count) => simd.vectorize(
+            ViewTexels::Single { forward, reversed } => simd.vectorize(
                 #[inline(always)]
                 || {
-                    for at in 0..forward {
-                        run_filter.pixels::<i16x8<S>, 1, 0>(at, &mut pixels);
+                    for (texels, order) in forward.iter().zip(order) {
+                        run_filter.pixels::<i16x8<S>, 1, 0>(texels, std::slice::from_ref(order), &mut pixels);
                     }
-                    for at in forward..count {
-                        run_filter.pixels::<i16x8<S>, 1, 1>(at, &mut pixels);
+                    for (texels, order) in reversed.iter().zip(&order[forward.len()..]) {
+                        run_filter.pixels::<i16x8<S>, 1, 1>(texels, std::slice::from_ref(order), &mut pixels);
                     }
                 },
             ),
@@ -118,32 +122,28 @@ type Pixels = [[[u8; 3]; SIDE]; MOST_IMAGES];
 struct RunFilter<'a, S> {
     simd: S,
     filter: &'a FixedFilter<'a>,
-    ways: &'a Ways,
     run: &'a Run,
     /// Its weights, and more.
     numbers: &'a [u32],
 }
 
 impl<S: Simd> RunFilter<'_, S> {
-    /// The pixels in N mirrors from this one on; in the last R of them windows are walked through from right to left. Of four,
-    /// every other one goes from row to row alike.
+    /// The pixels in N mirrors, which `order` tells; in the last R of them windows are walked through from right to left.
     #[inline(always)]
-    fn pixels<V: Blocks<S, N>, const N: usize, const R: usize>(self, start: usize, pixels: &mut Pixels) {
-        let Self { simd, filter, ways, run, mut numbers } = self;
-        let order: [(usize, usize); N] = std::array::from_fn(|image| ways.order[start + image]);
-        let (mut walks, mut size) = ([Walk::default(); N], [0; 2]);
-        for (walk, (index, _)) in walks.iter_mut().zip(order) {
-            let seen = filter.mirrors.images[index].view(usize::from(run.view));
-            (*walk, size) = (seen.walk([0; 2]), seen.size());
-        }
-        let texels = Texels::<i16, N, R>::new(filter.light.samples(), walks, size);
+    fn pixels<V: Blocks<S, N>, const N: usize, const R: usize>(
+        self,
+        texels: &Texels<i16, N, R>,
+        order: &[(usize, usize)],
+        pixels: &mut Pixels,
+    ) {
+        let Self { simd, filter, run, mut numbers } = self;
         let large = Shape { pairs: usize::from(run.width).div_ceil(2), height: usize::from(run.height), under: 0 };
         let codes = filter.codec.tables();
         // Of each lane, in each mirror.
         let mut light = [[[0; 4]; MOST_IMAGES]; SIDE];
         let pairs = V::Bytes::from_slice(simd, blocks::order::<N, R>());
         for lane in run.lanes() {
-            let window = Window::<S, V, N, R> { simd, order: pairs, texels: &texels, first: run.first(lane) };
+            let window = Window::<S, V, N, R> { simd, order: pairs, texels, first: run.first(lane) };
             prefetch_weights(numbers);
             let header = Header(numbers[0]);
             let (sums, length) = match header.shape() {
@@ -160,7 +160,7 @@ impl<S: Simd> RunFilter<'_, S> {
             average.store_slice(&mut light[lane].as_flattened_mut()[..4 * N]);
         }
         // Looked up together, from memory: taken out of vectors one by one, samples would wait for each pixel's sum.
-        for (image, (index, flip)) in order.iter().enumerate() {
+        for (image, (index, flip)) in order.iter().enumerate().take(N) {
             let pixels = &mut pixels[index % MOST_IMAGES];
             // A loop for each direction: that of `lane ^ flip` would find the place of each pixel anew.
             if *flip == 0 {

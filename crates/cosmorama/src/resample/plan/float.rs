@@ -7,10 +7,11 @@ use super::canvas::Canvas;
 use super::float_shape::{Header, Shape};
 use super::float_weights::FloatWeights;
 use super::float_window::Window;
-use super::mirrors::{MOST_IMAGES, Mirrors, Walk, Ways};
+use super::mirrors::{MOST_IMAGES, Mirrors};
 use super::prefetch::{prefetch_patch, prefetch_weights};
 use super::singles::{Palette, Singles};
 use super::texels::{Texels, prefetch};
+use super::view_texels::ViewTexels;
 use crate::raster::Rgba;
 use crate::resample::patch::SIDE;
 
@@ -41,11 +42,15 @@ impl FloatFilter<'_> {
     #[inline(always)]
     fn runs<S: Simd>(&self, simd: S, band: &Band<FloatWeights>, canvas: &mut Canvas<Rgba>) {
         let mut ahead = band.patches().skip(1);
+        let views = ViewTexels::all(self.mirrors, bytemuck::cast_slice(self.texels));
         for (at, run) in band.runs.iter().enumerate() {
             if at % SIDE == 0 {
-                prefetch_patch(self.texels, self.mirrors, ahead.next().unwrap_or(&[]));
+                let next = ahead.next().unwrap_or(&[]);
+                prefetch_patch(self.texels, self.mirrors, next);
+                canvas.prefetch(self.mirrors, next);
             }
-            let mut pixels = self.pixels(simd, band, run);
+            let numbers = &band.weights.numbers[run.weights as usize..];
+            let mut pixels = self.pixels(simd, run, &views[usize::from(run.view)], numbers);
             for (image, pixels) in self.mirrors.images.iter().zip(&mut pixels) {
                 if self.background != Rgba::TRANSPARENT {
                     for pixel in pixels.iter_mut() {
@@ -59,34 +64,31 @@ impl FloatFilter<'_> {
 
     /// The pixels of a run in each mirror.
     #[inline(always)]
-    fn pixels<S: Simd>(&self, simd: S, band: &Band<FloatWeights>, run: &Run) -> Pixels {
-        let numbers = &band.weights.numbers[run.weights as usize..];
-        let ways = self.mirrors.ways(usize::from(run.view));
-        let run_filter = RunFilter { simd, filter: self, ways, run, numbers };
+    fn pixels<S: Simd>(&self, simd: S, run: &Run, texels: &ViewTexels<f32>, numbers: &[u32]) -> Pixels {
         let mut pixels = [[Rgba::TRANSPARENT; SIDE]; MOST_IMAGES];
-        if (ways.forward, ways.count) == (2, 4) {
-            // A function for each way: all in one would take the compiler minutes.
-            simd.vectorize(
+        let order = &self.mirrors.ways(usize::from(run.view)).order;
+        let run_filter = RunFilter { simd, filter: self, run, numbers };
+        // A function for each number of mirrors: all in one would take the compiler minutes.
+        match texels {
+            ViewTexels::Four(texels) => simd.vectorize(
                 #[inline(always)]
-                || run_filter.pixels::<2, 0>(0, &mut pixels),
-            );
-            simd.vectorize(
+                || run_filter.pixels(texels, order, &mut pixels),
+            ),
+            ViewTexels::Two(texels) => simd.vectorize(
                 #[inline(always)]
-                || run_filter.pixels::<2, 2>(2, &mut pixels),
-            );
-            return pixels;
-        }
-        for at in 0..ways.forward {
-            simd.vectorize(
+                || run_filter.pixels(texels, order, &mut pixels),
+            ),
+            ViewTexels::Single { forward, reversed } => simd.vectorize(
                 #[inline(always)]
-                || run_filter.pixels::<1, 0>(at, &mut pixels),
-            );
-        }
-        for at in ways.forward..ways.count {
-            simd.vectorize(
-                #[inline(always)]
-                || run_filter.pixels::<1, 1>(at, &mut pixels),
-            );
+                || {
+                    for (texels, order) in forward.iter().zip(order) {
+                        run_filter.pixels(texels, std::slice::from_ref(order), &mut pixels);
+                    }
+                    for (texels, order) in reversed.iter().zip(&order[forward.len()..]) {
+                        run_filter.pixels(texels, std::slice::from_ref(order), &mut pixels);
+                    }
+                },
+            ),
         }
         pixels
     }
@@ -123,27 +125,24 @@ type Pixels = [[Rgba; SIDE]; MOST_IMAGES];
 struct RunFilter<'a, S> {
     simd: S,
     filter: &'a FloatFilter<'a>,
-    ways: &'a Ways,
     run: &'a Run,
     /// Its weights, and more.
     numbers: &'a [u32],
 }
 
 impl<S: Simd> RunFilter<'_, S> {
-    /// The pixels in N mirrors from this one on; R of them, all or none, walk through windows from right to left.
+    /// The pixels in N mirrors, which `order` tells; in the last R of them windows are walked through from right to left.
     #[inline(always)]
-    fn pixels<const N: usize, const R: usize>(self, start: usize, pixels: &mut Pixels) {
-        let Self { simd, filter, ways, run, mut numbers } = self;
-        let (mut order, mut walks, mut size) = ([(0, 0); N], [Walk::default(); N], [0; 2]);
-        for image in 0..N {
-            order[image] = ways.order[start + image];
-            let seen = filter.mirrors.images[order[image].0].view(usize::from(run.view));
-            (walks[image], size) = (seen.walk([0; 2]), seen.size());
-        }
-        let texels = Texels::<f32, N, R>::new(bytemuck::cast_slice(filter.texels), walks, size);
+    fn pixels<const N: usize, const R: usize>(
+        self,
+        texels: &Texels<f32, N, R>,
+        order: &[(usize, usize)],
+        pixels: &mut Pixels,
+    ) {
+        let Self { simd, filter, run, mut numbers } = self;
         let large = Shape { width: usize::from(run.width), height: usize::from(run.height) };
         for lane in run.lanes() {
-            let window = Window::<S, N, R> { simd, texels: &texels, first: run.first(lane) };
+            let window = Window::<S, N, R> { simd, texels, first: run.first(lane) };
             prefetch_weights(numbers);
             let header = Header(numbers[0]);
             let (sums, length) = match header.index() {
@@ -156,7 +155,7 @@ impl<S: Simd> RunFilter<'_, S> {
                 _ => window.large(large, run.rows_under(), numbers),
             };
             numbers = &numbers[length..];
-            for (image, (index, flip)) in order.iter().enumerate() {
+            for (image, (index, flip)) in order.iter().enumerate().take(N) {
                 let average = sums.average(image, filter.anti_ringing);
                 pixels[index % MOST_IMAGES][(lane ^ flip) % SIDE] = Rgba(average.to_array());
             }

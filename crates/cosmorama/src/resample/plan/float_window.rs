@@ -1,4 +1,4 @@
-//! Windows of floats, in mirrors that go through them the same way.
+//! Windows of floats, in mirrors that go through them one way or the other.
 //!
 //! Four texels of a row are weighed together, as they lie in memory; what their four columns add up to is added at the end. The order
 //! in which sums are made is the same whatever the instructions.
@@ -8,7 +8,7 @@
 
 use std::ops::Range;
 
-use fearless_simd::{Simd, f32x4, f32x16, prelude::*, u8x64, u32x4};
+use fearless_simd::{Simd, f32x4, f32x16, mask32x16, prelude::*, u8x64, u32x4, u32x16};
 
 use super::float_shape::{BLOCK, Header, ROWS_UNDER, Shape, Small, mark_words};
 use super::texels::{FloatWindow, Texels};
@@ -17,7 +17,7 @@ use super::texels::{FloatWindow, Texels};
 const SAMPLES: usize = 4;
 const BLOCK_SAMPLES: usize = BLOCK * SAMPLES;
 
-/// A pixel's window in N mirrors: R of them, all or none, from right to left.
+/// A pixel's window in N mirrors, in the last R of them from right to left.
 #[derive(Clone, Copy)]
 pub(super) struct Window<'a, S, const N: usize, const R: usize> {
     pub(super) simd: S,
@@ -43,16 +43,15 @@ impl<'a, S: Simd, const N: usize, const R: usize> Window<'a, S, N, R> {
         );
         let texels = self.texels.windows::<1, WIDTH, HEIGHT>(self.first);
         let row = SmallRow::<S, N, R, WIDTH, HEIGHT> { simd: self.simd, texels };
-        let (marks, weights) = (header.marks(), &numbers[1..][..WIDTH * HEIGHT]);
-        let marks = |row: usize| marks >> (BLOCK * (row - UNDER));
-        let mut sums = row.first::<UNDER>(weights, marks(UNDER));
+        let (marks, weights) = (Marks::new(self.simd, header.marks()), &numbers[1..][..WIDTH * HEIGHT]);
+        let mut sums = row.first::<UNDER>(weights, marks);
         const { assert!(ROWS_UNDER == 3 && UNDER <= 1 && (HEIGHT == 4 || HEIGHT == 5)) };
         if UNDER == 0 {
-            row.add_bounding(&mut sums, weights, 1, marks(1));
+            row.add_bounding(&mut sums, weights, 1, marks.beside(1));
         }
-        row.add_bounding(&mut sums, weights, 2, marks(2));
+        row.add_bounding(&mut sums, weights, 2, marks.beside(2 - UNDER));
         if UNDER == 1 {
-            row.add_bounding(&mut sums, weights, 3, marks(3));
+            row.add_bounding(&mut sums, weights, 3, marks.beside(2));
         } else {
             row.add(&mut sums, weights, 3);
         }
@@ -79,14 +78,15 @@ impl<'a, S: Simd, const N: usize, const R: usize> Window<'a, S, N, R> {
             let rows = self.row(row, shape.width);
             for (block, weights) in in_blocks[row * whole..][..whole].as_chunks().0.iter().enumerate() {
                 let column = BLOCK * block;
-                let weights = spread::<S, R>(simd, weights);
+                let weights = spread(simd, weights);
                 let marks = marks.get(column / 32).map(|marks| marks >> (column % 32));
-                let first = if R > 0 { shape.width - BLOCK - column } else { column };
                 for (image, samples) in rows.iter().enumerate() {
+                    let way = way::<N, R>(image);
+                    let first = if way == 0 { column } else { shape.width - BLOCK - column };
                     let texels = f32x16::from_slice(simd, &samples[SAMPLES * first..][..BLOCK_SAMPLES]);
-                    sums.blocks[image] += texels * weights;
+                    sums.blocks[image] += texels * weights[way];
                     if let Some(marks) = marks {
-                        sums.bound(image, texels, beyond::<S, R>(simd, marks));
+                        sums.bound(image, texels, Marks::new(simd, marks).beside(0)[way]);
                     }
                 }
             }
@@ -94,14 +94,14 @@ impl<'a, S: Simd, const N: usize, const R: usize> Window<'a, S, N, R> {
             for (column, weight) in (whole..shape.width).zip(&others[row * rest..][..rest]) {
                 let weight = f32::from_bits(*weight);
                 let is_under = marks.get(column / 32).is_some_and(|marks| marks >> (column % 32) & 1 == 1);
-                let at = if R > 0 { shape.width - 1 - column } else { column };
                 for (image, samples) in rows.iter().enumerate() {
+                    let at = if way::<N, R>(image) == 0 { column } else { shape.width - 1 - column };
                     let texel = f32x4::from_slice(simd, &samples[SAMPLES * at..][..SAMPLES]);
                     sums.last[image] += texel * weight;
                     if is_under {
                         // Blocks of the same texel.
                         let texels = f32x16::block_splat(texel);
-                        sums.bound(image, texels, f32x16::splat(simd, 0.0));
+                        sums.bound(image, texels, u32x16::splat(simd, 1).simd_eq(0));
                     }
                 }
             }
@@ -130,24 +130,26 @@ struct SmallRow<'a, S, const N: usize, const R: usize, const WIDTH: usize, const
 impl<S: Simd, const N: usize, const R: usize, const WIDTH: usize, const HEIGHT: usize>
     SmallRow<'_, S, N, R, WIDTH, HEIGHT>
 {
-    /// Where its first four columns lie in memory, and the one after them.
-    const BLOCK_AT: usize = if R > 0 { WIDTH - BLOCK } else { 0 };
-    const LAST_AT: usize = if R > 0 { 0 } else { WIDTH - 1 };
+    /// Where its first four columns lie in memory, and the one after them: as texels run, and the other way.
+    const BLOCK_AT: [usize; 2] = [0, WIDTH - BLOCK];
+    const LAST_AT: [usize; 2] = [WIDTH - 1, 0];
 
     /// Sums over the first row and, if it is not that, the first of those whose texels may lie under the pixel.
     #[inline(always)]
-    fn first<const UNDER: usize>(&self, weights: &[u32], marks: u32) -> Sums<S, N> {
+    fn first<const UNDER: usize>(&self, weights: &[u32], marks: Marks<S>) -> Sums<S, N> {
         let mut sums = Sums::zero(self.simd);
-        let (first, beyond) = (self.weights(weights, 0), beyond::<S, R>(self.simd, marks));
+        let (first, is_beside) = (self.weights(weights, 0), marks.beside(0));
         for image in 0..N {
-            sums.blocks[image] = self.block(image, 0) * first;
+            let way = way::<N, R>(image);
+            sums.blocks[image] = self.block(image, 0) * first[way];
             let texels = self.block(image, UNDER);
-            (sums.least[image], sums.greatest[image]) = (texels + beyond, texels - beyond);
+            sums.least[image] = is_beside[way].select(sums.least[image], texels);
+            sums.greatest[image] = is_beside[way].select(sums.greatest[image], texels);
         }
         if UNDER > 0 {
             let weights = self.weights(weights, UNDER);
             for image in 0..N {
-                sums.blocks[image] += self.block(image, UNDER) * weights;
+                sums.blocks[image] += self.block(image, UNDER) * weights[way::<N, R>(image)];
             }
         }
         sums
@@ -158,30 +160,33 @@ impl<S: Simd, const N: usize, const R: usize, const WIDTH: usize, const HEIGHT: 
     fn add(&self, sums: &mut Sums<S, N>, weights: &[u32], row: usize) {
         let weights = self.weights(weights, row);
         for image in 0..N {
-            sums.blocks[image] += self.block(image, row) * weights;
+            sums.blocks[image] += self.block(image, row) * weights[way::<N, R>(image)];
         }
     }
 
     /// Adds one some of whose texels may.
     #[inline(always)]
-    fn add_bounding(&self, sums: &mut Sums<S, N>, weights: &[u32], row: usize, marks: u32) {
+    fn add_bounding(&self, sums: &mut Sums<S, N>, weights: &[u32], row: usize, is_beside: [mask32x16<S>; 2]) {
         let weights = self.weights(weights, row);
-        let beyond = beyond::<S, R>(self.simd, marks);
         for image in 0..N {
             let texels = self.block(image, row);
-            sums.blocks[image] += texels * weights;
-            sums.bound(image, texels, beyond);
+            let way = way::<N, R>(image);
+            sums.blocks[image] += texels * weights[way];
+            sums.bound(image, texels, is_beside[way]);
         }
     }
 
     #[inline(always)]
-    fn weights(&self, weights: &[u32], row: usize) -> f32x16<S> {
-        spread::<S, R>(self.simd, &weights.as_chunks().0[row])
+    fn weights(&self, weights: &[u32], row: usize) -> [f32x16<S>; 2] {
+        spread(self.simd, &weights.as_chunks().0[row])
     }
 
     #[inline(always)]
     fn block(&self, image: usize, row: usize) -> f32x16<S> {
-        f32x16::load_array_ref(self.simd, self.texels[image].samples::<BLOCK_SAMPLES>(row, Self::BLOCK_AT))
+        f32x16::load_array_ref(
+            self.simd,
+            self.texels[image].samples::<BLOCK_SAMPLES>(row, Self::BLOCK_AT[way::<N, R>(image)]),
+        )
     }
 
     /// Adds the column after the blocks.
@@ -200,18 +205,27 @@ impl<S: Simd, const N: usize, const R: usize, const WIDTH: usize, const HEIGHT: 
     fn add_last(&self, sums: &mut Sums<S, N>, weights: &[u32], row: usize) {
         let weight = f32x4::splat(self.simd, f32::from_bits(weights[row]));
         for image in 0..N {
-            let texel = self.texels[image].samples::<SAMPLES>(row, Self::LAST_AT);
+            let texel = self.texels[image].samples::<SAMPLES>(row, Self::LAST_AT[way::<N, R>(image)]);
             sums.last[image] += f32x4::load_array_ref(self.simd, texel) * weight;
         }
     }
 }
 
-/// Four weights, each for all samples of a texel, in the order in which texels lie.
+/// How a mirror, of N of which the last R go from right to left, goes through windows: 1 is that.
 #[inline(always)]
-fn spread<S: Simd, const R: usize>(simd: S, weights: &[u32; BLOCK]) -> f32x16<S> {
+const fn way<const N: usize, const R: usize>(image: usize) -> usize {
+    if image < N - R { 0 } else { 1 }
+}
+
+/// Four weights, each for all samples of a texel, for each way.
+#[inline(always)]
+fn spread<S: Simd>(simd: S, weights: &[u32; BLOCK]) -> [f32x16<S>; 2] {
     let weights: f32x4<S> = u32x4::load_array_ref(simd, weights).bitcast();
-    let order = if R > 0 { &ORDER[1] } else { &ORDER[0] };
-    f32x16::block_splat(weights).swizzle_dyn_within_blocks(u8x64::load_array_ref(simd, order))
+    let all = f32x16::block_splat(weights);
+    [
+        all.swizzle_dyn_within_blocks(u8x64::load_array_ref(simd, &ORDER[0])),
+        all.swizzle_dyn_within_blocks(u8x64::load_array_ref(simd, &ORDER[1])),
+    ]
 }
 
 /// From four numbers in each block to one of them: the first in the first block, or the last.
@@ -227,35 +241,44 @@ static ORDER: [[u8; 64]; 2] = {
     order
 };
 
-/// Zero for the samples of those of four texels that are marked, infinity for others, in the order in which texels lie.
-#[inline(always)]
-fn beyond<S: Simd, const R: usize>(simd: S, marks: u32) -> f32x16<S> {
-    let table = if R > 0 { &BEYOND.0[1] } else { &BEYOND.0[0] };
-    f32x16::load_array_ref(simd, &table[marks as usize % 16])
+/// Which texels of some rows of a block lie under a pixel, a bit for each.
+#[derive(Clone, Copy)]
+struct Marks<S: Simd>(u32x16<S>);
+
+impl<S: Simd> Marks<S> {
+    #[inline(always)]
+    fn new(simd: S, marks: u32) -> Self {
+        Self(u32x16::splat(simd, marks))
+    }
+
+    /// The samples of those texels of a row that do not, for each way.
+    #[inline(always)]
+    fn beside(self, row: usize) -> [mask32x16<S>; 2] {
+        let simd = self.0.token();
+        let [forward, reversed] = [&MARK.0[0][row], &MARK.0[1][row]];
+        [
+            (self.0 & u32x16::load_array_ref(simd, forward)).simd_eq(0),
+            (self.0 & u32x16::load_array_ref(simd, reversed)).simd_eq(0),
+        ]
+    }
 }
 
 /// In whole lines of memory.
 #[repr(align(64))]
 struct Lines<T>(T);
 
-static BEYOND: Lines<[[[f32; BLOCK_SAMPLES]; 16]; 2]> = {
-    let mut beyond = [[[0.0; BLOCK_SAMPLES]; 16]; 2];
-    let mut marks = 0;
-    while marks < 16 {
-        let mut at = 0;
-        while at < BLOCK_SAMPLES {
-            let texel = at / SAMPLES;
-            if marks >> texel & 1 == 0 {
-                beyond[0][marks][at] = f32::INFINITY;
-            }
-            if marks >> (BLOCK - 1 - texel) & 1 == 0 {
-                beyond[1][marks][at] = f32::INFINITY;
-            }
-            at += 1;
-        }
-        marks += 1;
+/// Of each sample of a block its texel's bit among those of some rows.
+static MARK: Lines<[[[u32; BLOCK_SAMPLES]; ROWS_UNDER]; 2]> = {
+    let mut mark = [[[0; BLOCK_SAMPLES]; ROWS_UNDER]; 2];
+    let mut at = 0;
+    while at < BLOCK_SAMPLES * ROWS_UNDER {
+        let (row, sample) = (at / BLOCK_SAMPLES, at % BLOCK_SAMPLES);
+        let texel = sample / SAMPLES;
+        mark[0][row][sample] = 1 << (BLOCK * row + texel);
+        mark[1][row][sample] = 1 << (BLOCK * row + BLOCK - 1 - texel);
+        at += 1;
     }
-    Lines(beyond)
+    Lines(mark)
 };
 
 /// What adds up over a window, and the bounds of what lies under the pixel, column by column of the blocks.
@@ -278,11 +301,11 @@ impl<S: Simd, const N: usize> Sums<S, N> {
         }
     }
 
-    /// Notes texels that lie under the pixel, where nothing is added to them.
+    /// Notes texels, but for those beside the pixel.
     #[inline(always)]
-    fn bound(&mut self, image: usize, texels: f32x16<S>, beyond: f32x16<S>) {
-        self.least[image] = self.least[image].min(texels + beyond);
-        self.greatest[image] = self.greatest[image].max(texels - beyond);
+    fn bound(&mut self, image: usize, texels: f32x16<S>, is_beside: mask32x16<S>) {
+        self.least[image] = is_beside.select(self.least[image], self.least[image].min(texels));
+        self.greatest[image] = is_beside.select(self.greatest[image], self.greatest[image].max(texels));
     }
 
     /// The sum in a mirror; within what lies under the pixel, if that is asked for.

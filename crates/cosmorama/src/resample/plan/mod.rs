@@ -26,6 +26,7 @@ mod stored;
 #[cfg(test)]
 mod tests;
 mod texels;
+mod view_texels;
 mod weights;
 
 use std::ops::Range;

@@ -3,7 +3,7 @@ use super::mirrors::Mirrors;
 use super::texels;
 
 /// Bytes that come from memory together.
-const LINE: usize = 64;
+pub(super) const LINE: usize = 64;
 
 /// Columns and rows of the largest region that is asked for as one; beyond, runs have little in common.
 const LARGEST: [usize; 2] = [64, 32];
