@@ -269,6 +269,18 @@ fn a_frame_that_cannot_be_written_ends_a_sequence_and_is_named() {
 }
 
 #[test]
+fn no_frame_is_begun_after_one_that_could_not_be_written() {
+    let bench = Bench::new();
+    skies(&bench, 12);
+    std::fs::create_dir(bench.path("out_03.png")).unwrap();
+    // A thread alone does one after the other.
+    let output = bench.run(&[&SKIES[..], &["--size", "32", "-y", "--threads", "1"]].concat());
+    assert_eq!(output.status.code(), Some(1));
+    let made: Vec<_> = (1..=12).filter(|frame| bench.path(&format!("out_{frame:02}.png")).is_file()).collect();
+    assert_eq!(made, [1, 2]);
+}
+
+#[test]
 fn a_frame_of_another_kind_changes_no_other_frame() {
     let bench = Bench::new();
     for frame in 1..=3 {

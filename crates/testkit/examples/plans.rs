@@ -1,13 +1,15 @@
-//! What planned frames and stills of 8 bits cost, for `benches/speed`, which makes tables of what this prints.
+//! What planned frames and stills cost, for `benches/speed`, which makes tables of what this prints.
 //!
-//! `cargo run --release -p testkit --example plans -- threads SIZE` gives seconds and CPU-seconds on one thread and on two,
-//! `-- sizes SIZE…` CPU-nanoseconds a pixel of domes of these sizes. The domes are [`testkit::Dome`]'s.
+//! `cargo run --release -p testkit --example plans -- threads SIZE` gives seconds and CPU-seconds on one thread and on two of 8 bits,
+//! `-- sizes SIZE…` CPU-nanoseconds a pixel of domes of these sizes, and `-- turns SIZE` CPU-seconds of a frame on one thread for each
+//! line that it reads, `8 bits` or `floats`, so that other programs can take turns with it. The domes are [`testkit::Dome`]'s.
 #![allow(clippy::print_stdout, reason = "a program that says what it measures")]
 
+use std::io::BufRead;
 use std::sync::Mutex;
 use std::time::Instant;
 
-use cosmorama::raster::Image;
+use cosmorama::raster::{Image, Rgba};
 use cosmorama::resample::{FixedPlan, SavedPlan};
 use cpu_time::ProcessTime;
 use rayon::{ThreadPool, ThreadPoolBuilder};
@@ -27,7 +29,8 @@ fn main() {
     match arguments.split_first() {
         Some((what, rest)) if what == "threads" => sizes(rest).into_iter().for_each(threads),
         Some((what, rest)) if what == "sizes" => sizes(rest).into_iter().for_each(size),
-        _ => println!("threads SIZE or sizes SIZE…?"),
+        Some((what, rest)) if what == "turns" => sizes(rest).into_iter().for_each(turns),
+        _ => println!("threads SIZE, sizes SIZE… or turns SIZE?"),
     }
 }
 
@@ -74,6 +77,25 @@ impl<'a> Frames<'a> {
 
 fn still(dome: &Dome) {
     drop(dome.resampler().render_fixed(&dome.light, &dome.codec));
+}
+
+/// A line of CPU-seconds for each that is read, after one that says that there will be.
+fn turns(size: usize) {
+    let dome = Dome::new(size);
+    let texels: Vec<Rgba> = (0..dome.world.texel_count()).map(|texel| dome.light.rgba(texel)).collect();
+    let (plan, floats) = (dome.resampler().fixed_plan().expect("a plan"), dome.resampler().plan().expect("a plan"));
+    let (frames, image) = (Frames::new(&dome, &plan), Mutex::new(floats.apply(&texels)));
+    let pool = ThreadPoolBuilder::new().num_threads(1).build().expect("a thread");
+    let of_floats = || floats.apply_into(&texels, Rgba::BLACK, &mut image.lock().expect("nobody fails"));
+    println!("ready");
+    for line in std::io::stdin().lock().lines() {
+        let (cost, ()) = match line.expect("lines of text").as_str() {
+            "8 bits" => cost(|| pool.install(|| frames.next())),
+            "floats" => cost(|| pool.install(of_floats)),
+            other => panic!("8 bits or floats, not {other}"),
+        };
+        println!("{}", cost.cpu);
+    }
 }
 
 /// Lines of: what, threads, seconds, CPU-seconds.

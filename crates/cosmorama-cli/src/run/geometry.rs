@@ -234,3 +234,42 @@ fn codec(job: &ConvertJob) -> Option<FixedCodec> {
         });
     is_possible.then(|| FixedCodec::new(&light.transfer, light.background)).flatten()
 }
+
+#[cfg(test)]
+mod tests {
+    use cosmorama::raster::{EncodedImage, Transfer};
+    use testkit::Dome;
+
+    use super::*;
+
+    #[test]
+    fn pictures_are_made_in_images_that_nobody_uses_any_more() {
+        let dome = Dome::new(64);
+        let plan = dome.resampler().fixed_plan().expect("a plan");
+        let expected = plan.apply(&dome.light, &dome.codec);
+        let codec = FixedCodec::new(&Transfer::Srgb, Rgba::BLACK).expect("sRGB has 8 bits");
+        let geometry = Geometry::Fixed(vec![Some(plan)], codec);
+        let codes = |used| geometry.codes(0, dome.resampler(), (&dome.light, &dome.codec), used);
+        let used = Image::filled(64, 64, [9; 3]);
+        let place = used.pixels().as_ptr();
+        let made = codes(Some(used));
+        assert!(made == expected && made.pixels().as_ptr() == place);
+        // As handed on by what writes them.
+        let made = EncodedImage::of_codes(made).into_codes().expect("codes");
+        assert!(made == expected && made.pixels().as_ptr() == place);
+        assert!(codes(Some(Image::filled(64, 63, [9; 3]))) == expected && codes(None) == expected, "of no other size");
+
+        let texels: Vec<Rgba> = (0..dome.world.texel_count()).map(|texel| dome.light.rgba(texel)).collect();
+        let plan = dome.resampler().plan().expect("a plan");
+        let expected = plan.apply_over(&texels, Rgba::BLACK);
+        let geometry = Geometry::Float(vec![Some(plan)], Balance::default());
+        let mut light = |used| {
+            geometry.light(0, dome.resampler(), (&texels, false), Rgba::BLACK, used, &mut BalancedLight::default())
+        };
+        let used = Image::filled(64, 64, Rgba::TRANSPARENT);
+        let place = used.pixels().as_ptr();
+        let made = light(Some(used));
+        assert!(made == expected && made.pixels().as_ptr() == place);
+        assert!(light(Some(Image::filled(63, 64, Rgba::BLACK))) == expected && light(None) == expected);
+    }
+}

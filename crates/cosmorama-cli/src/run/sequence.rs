@@ -7,7 +7,7 @@
 
 use std::collections::VecDeque;
 use std::path::Path;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 
 use anyhow::{Context, Result, bail};
@@ -31,10 +31,10 @@ pub(super) struct Sequence<'a> {
 /// What comes of tasks that were given to the pool.
 type Results<T> = Vec<Receiver<Result<T>>>;
 
-/// Frames that are being read, and those that are being written; each by its outputs and its files.
+/// Frames that are being read, with their place in the sequence, and those that are being written; each by its outputs and its files.
 #[derive(Default)]
 struct Queues<'a> {
-    read: VecDeque<(&'a FrameOutputs, Results<Vec<ViewImage>>)>,
+    read: VecDeque<(usize, &'a FrameOutputs, Results<Vec<ViewImage>>)>,
     written: VecDeque<(&'a FrameOutputs, Results<Levels>)>,
 }
 
@@ -46,13 +46,13 @@ impl<'a> Sequence<'a> {
         mut look: impl FnMut(&FrameOutputs, &FrameLight),
         mut done: impl FnMut(&FrameOutputs),
     ) -> Result<()> {
-        let stop = &AtomicBool::new(false);
+        let failure = &FirstFailure::none();
         let mut queues = Queues::default();
         rayon::in_place_scope(|scope| {
-            let made = self.make(scope, stop, &mut queues, &mut look, &mut done);
+            let made = self.make(scope, failure, &mut queues, &mut look, &mut done);
             // What is being written belongs to frames before the one that failed: their errors come first.
             let earlier = queues.finish_written(0, &mut done);
-            stop.store(true, Ordering::Relaxed);
+            failure.note(0);
             earlier.and(made)
         })
     }
@@ -60,7 +60,7 @@ impl<'a> Sequence<'a> {
     fn make<'s>(
         &self,
         scope: &Scope<'s>,
-        stop: &'s AtomicBool,
+        failure: &'s FirstFailure,
         queues: &mut Queues<'a>,
         look: &mut impl FnMut(&FrameOutputs, &FrameLight),
         done: &mut impl FnMut(&FrameOutputs),
@@ -72,15 +72,19 @@ impl<'a> Sequence<'a> {
         // What a frame leaves is as large as what the next one wants.
         keep_spare(bytes);
         let mut light = self.engine.frame_light();
-        let mut upcoming = self.job.outputs.frames.iter();
+        let mut upcoming = (1..).zip(&self.job.outputs.frames);
         let mut which = Which::All;
         loop {
             while queues.read.len() < read {
-                let Some(frame) = upcoming.next() else { break };
-                queues.read.push_back((frame, self.have_read(scope, stop, frame, which)));
+                let Some((place, frame)) = upcoming.next() else { break };
+                queues.read.push_back((place, frame, self.have_read((scope, failure, place), frame, which)));
                 which = Which::Moving;
             }
-            let Some((frame, results)) = queues.read.pop_front() else { return Ok(()) };
+            let Some((place, frame, results)) = queues.read.pop_front() else { return Ok(()) };
+            if failure.is_before(place) {
+                // Whoever waits for that frame learns why.
+                return Ok(());
+            }
             let images = all_of(results).with_context(|| told(frame))?;
             let images: Vec<ViewImage> = images.into_iter().flatten().collect();
             in_pool(|| light.fill(self.job, frame.frame, &images, self.stages)).with_context(|| told(frame))?;
@@ -88,42 +92,30 @@ impl<'a> Sequence<'a> {
             look(frame, &light);
             let used = queues.finish_written(written - 1, done)?;
             let pictures = in_pool(|| self.engine.render(frame, &light, used)).with_context(|| told(frame))?;
-            queues.written.push_back((frame, self.have_written(scope, stop, frame, pictures)));
+            queues.written.push_back((frame, self.have_written((scope, failure, place), frame, pictures)));
         }
     }
 
     /// Has the files of a frame read.
-    fn have_read<'s>(
-        &self,
-        scope: &Scope<'s>,
-        stop: &'s AtomicBool,
-        frame: &FrameOutputs,
-        which: Which,
-    ) -> Results<Vec<ViewImage>>
+    fn have_read<'s>(&self, turn: Turn<'_, 's>, frame: &FrameOutputs, which: Which) -> Results<Vec<ViewImage>>
     where
         'a: 's,
     {
         let Self { job, stages, .. } = *self;
         let files = FrameFile::all(job, frame.frame, which).into_iter();
-        let read = |file: FrameFile| task(scope, stop, move || stages.beside(Stage::Decode, || file.read(job)));
+        let read = |file: FrameFile| task(turn, move || stages.beside(Stage::Decode, || file.read(job)));
         files.map(read).collect()
     }
 
     /// Has the pictures of a frame written.
-    fn have_written<'s>(
-        &self,
-        scope: &Scope<'s>,
-        stop: &'s AtomicBool,
-        frame: &'a FrameOutputs,
-        pictures: Vec<Levels>,
-    ) -> Results<Levels>
+    fn have_written<'s>(&self, turn: Turn<'_, 's>, frame: &'a FrameOutputs, pictures: Vec<Levels>) -> Results<Levels>
     where
         'a: 's,
     {
         let Self { engine, stages, .. } = *self;
         let write = |((_, path), levels): (&'a (usize, std::path::PathBuf), Levels)| {
             let path: &'a Path = path;
-            task(scope, stop, move || stages.beside(Stage::Encode, || engine.writer().save_and_hand_on(levels, path)))
+            task(turn, move || stages.beside(Stage::Encode, || engine.writer().save_and_hand_on(levels, path)))
         };
         frame.files.iter().zip(pictures).map(write).collect()
     }
@@ -143,18 +135,43 @@ impl Queues<'_> {
     }
 }
 
-/// Gives a task to the pool. Once all is to stop, it is not begun.
+/// Which frame is the first that failed, by its place from one on.
+struct FirstFailure(AtomicUsize);
+
+impl FirstFailure {
+    fn none() -> Self {
+        Self(AtomicUsize::new(usize::MAX))
+    }
+
+    fn note(&self, place: usize) {
+        self.0.fetch_min(place, Ordering::Relaxed);
+    }
+
+    /// Whether one before this has failed, so that nobody wants this one any more.
+    fn is_before(&self, place: usize) -> bool {
+        self.0.load(Ordering::Relaxed) < place
+    }
+}
+
+/// Where the tasks of a frame go, what they are to mind, and its place.
+type Turn<'t, 's> = (&'t Scope<'s>, &'s FirstFailure, usize);
+
+/// Gives a task to the pool. Once a frame before its own has failed, it is not begun.
 fn task<'s, T: Send + 's>(
-    scope: &Scope<'s>,
-    stop: &'s AtomicBool,
+    (scope, failure, place): Turn<'_, 's>,
     work: impl FnOnce() -> Result<T> + Send + 's,
 ) -> Receiver<Result<T>> {
     let (result, receiver): (SyncSender<Result<T>>, _) = sync_channel(1);
     scope.spawn(move |_| {
-        if !stop.load(Ordering::Relaxed) {
-            // Nobody waits for it any more where another has failed.
-            let _ = result.send(work());
+        if failure.is_before(place) {
+            return;
         }
+        let done = work();
+        if done.is_err() {
+            failure.note(place);
+        }
+        // Nobody waits for it any more where another has failed.
+        let _ = result.send(done);
     });
     receiver
 }

@@ -68,6 +68,7 @@ impl Rounded {
         let into = self.weights.chunks_exact_mut(pitch).zip(self.under.chunks_exact_mut(pitch));
         for (row, ((into, under_into), (weights, under))) in into.zip(weights).enumerate() {
             let (into, under_into) = (&mut into[1..][..width], &mut under_into[1..][..width]);
+            let mut in_row = 0;
             for column in 0..width {
                 sums += f32x8::load_array(simd, weights[column]) * scale;
                 let sum: i32x8<S> = (sums + ROUNDER).bitcast();
@@ -78,8 +79,9 @@ impl Rounded {
                 under_into[column] = under[column];
                 let counts = !(step.simd_eq(0).to_bitmask() as u8) | under[column];
                 columns[column % SIDE] |= counts;
-                rows[row % SIDE] |= counts;
+                in_row |= counts;
             }
+            rows[row % SIDE] |= in_row;
         }
         self.is_small = self.width <= SIDE && self.height <= SIDE;
         if self.is_small {
