@@ -123,7 +123,7 @@ fn resume_makes_again_what_is_of_another_format_or_no_file() {
     // To read it would take for ever: nobody writes.
     assert!(std::process::Command::new("mkfifo").arg(bench.path("out.png")).status().unwrap().success());
     let report: Value = serde_json::from_str(&bench.succeed(&again)).unwrap();
-    assert_eq!(report["remade"][0]["reason"], "no file", "{report}");
+    assert_eq!(report["remade"][0]["reason"], "not a regular file", "{report}");
     assert!(bench.path("out.png").is_file());
 }
 
@@ -266,6 +266,24 @@ fn a_frame_that_cannot_be_written_ends_a_sequence_and_is_named() {
     bench::assert_says(&message, &["error: frame 3", "out_03.png", "there is a folder of this name"]);
     assert!(bench.path("out_02.png").is_file() && !bench.path("out_12.png").exists());
     assert!(!bench.files().iter().any(|path| path.to_string_lossy().contains(".part")));
+}
+
+#[test]
+fn of_frames_that_fail_in_reading_and_in_writing_the_first_is_named() {
+    for threads in ["1", "2", "7"] {
+        let bench = Bench::new();
+        skies(&bench, 12);
+        std::fs::create_dir(bench.path("out_03.png")).unwrap();
+        for later in ["sky_04.png", "sky_05.png"] {
+            let whole = bench.bytes(later);
+            std::fs::write(bench.path(later), &whole[..whole.len() / 2]).unwrap();
+        }
+        let output = bench.run(&[&SKIES[..], &["--size", "32", "-y", "--threads", threads]].concat());
+        let message = bench::text(&output.stderr);
+        assert_eq!(output.status.code(), Some(1), "{message}");
+        bench::assert_says(&message, &["error: frame 3", "out_03.png", "there is a folder of this name"]);
+        assert!(bench.path("out_02.png").is_file(), "{message}");
+    }
 }
 
 #[test]

@@ -15,8 +15,8 @@ use cpu_time::ProcessTime;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use testkit::Dome;
 
-/// How often two pools take turns.
-const TURNS: usize = 9;
+/// How often two pools are measured, by turns.
+const ROUNDS: usize = 9;
 
 /// Pixels that are made of each size, about, as far as [`LEAST`] and [`MOST`] rounds go.
 const PIXELS: usize = 80_000_000;
@@ -107,7 +107,7 @@ fn threads(size: usize) {
     let taking_turns = |name: &str, work: &(dyn Fn() + Sync)| {
         let mut costs = vec![Vec::new(); pools.len()];
         // The first turn finds neither memory nor threads awake.
-        for turn in 0..=TURNS {
+        for turn in 0..=ROUNDS {
             for ((_, pool), costs) in pools.iter().zip(&mut costs) {
                 let (cost, ()) = cost(|| pool.install(work));
                 costs.extend((turn > 0).then_some(cost));

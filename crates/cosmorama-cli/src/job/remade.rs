@@ -78,7 +78,7 @@ impl Found {
         let Ok(found) = path.metadata() else { return Self::Nothing };
         // What is no file might wait for ever to be read.
         if !found.is_file() {
-            return Self::Other("no file".to_owned());
+            return Self::Other("not a regular file".to_owned());
         }
         let header = match probe(path) {
             Ok(header) => header,

@@ -7,7 +7,7 @@ use cosmorama::world::View;
 use crate::job::{ConvertJob, Coverage};
 
 /// The balance of a job's pictures, where they are to keep light and can.
-#[derive(Default)]
+#[cfg_attr(test, derive(Default))]
 pub(super) struct Balance(Vec<Group>);
 
 /// The light of a frame, as it was made for the last group that asked: views of a group mostly come one after the other.

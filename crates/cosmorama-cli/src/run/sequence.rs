@@ -50,9 +50,10 @@ impl<'a> Sequence<'a> {
         let mut queues = Queues::default();
         rayon::in_place_scope(|scope| {
             let made = self.make(scope, failure, &mut queues, &mut look, &mut done);
-            // What is being written belongs to frames before the one that failed: their errors come first.
+            // What is being written belongs to frames before the one that failed: their errors come first. Where one of them has failed,
+            // what `made` says of a later one, whose files were not read for that, is of no interest.
             let earlier = queues.finish_written(0, &mut done);
-            failure.note(0);
+            failure.end();
             earlier.and(made)
         })
     }
@@ -85,13 +86,23 @@ impl<'a> Sequence<'a> {
                 // Whoever waits for that frame learns why.
                 return Ok(());
             }
+            // What goes wrong here is this frame's, too.
+            let failed = |error| {
+                failure.note(place);
+                error
+            };
             let images = all_of(results).with_context(|| told(frame))?;
             let images: Vec<ViewImage> = images.into_iter().flatten().collect();
-            in_pool(|| light.fill(self.job, frame.frame, &images, self.stages)).with_context(|| told(frame))?;
+            let filled = in_pool(|| light.fill(self.job, frame.frame, &images, self.stages));
+            filled.with_context(|| told(frame)).map_err(failed)?;
             drop(images);
             look(frame, &light);
             let used = queues.finish_written(written - 1, done)?;
-            let pictures = in_pool(|| self.engine.render(frame, &light, used)).with_context(|| told(frame))?;
+            if failure.is_before(place) {
+                return Ok(());
+            }
+            let made = in_pool(|| self.engine.render(frame, &light, used));
+            let pictures = made.with_context(|| told(frame)).map_err(failed)?;
             queues.written.push_back((frame, self.have_written((scope, failure, place), frame, pictures)));
         }
     }
@@ -135,7 +146,7 @@ impl Queues<'_> {
     }
 }
 
-/// Which frame is the first that failed, by its place from one on.
+/// Which frame is the first that failed, by its place: they count from one.
 struct FirstFailure(AtomicUsize);
 
 impl FirstFailure {
@@ -145,6 +156,11 @@ impl FirstFailure {
 
     fn note(&self, place: usize) {
         self.0.fetch_min(place, Ordering::Relaxed);
+    }
+
+    /// Nobody wants anything any more.
+    fn end(&self) {
+        self.note(0);
     }
 
     /// Whether one before this has failed, so that nobody wants this one any more.
@@ -180,7 +196,7 @@ fn task<'s, T: Send + 's>(
 fn all_of<T>(results: Results<T>) -> Result<Vec<T>> {
     let wait = |result: Receiver<Result<T>>| match result.recv() {
         Ok(result) => result,
-        // The scope tells why.
+        // It was not begun, since a frame before has failed, which is told first; or it has panicked, which the scope tells.
         Err(_) => bail!("a thread has given up"),
     };
     results.into_iter().map(wait).collect()

@@ -2,8 +2,7 @@ use std::ops::Range;
 
 use super::band::Run;
 use super::mirrors::{MirrorImage, Mirrors};
-use super::prefetch::LINE;
-use super::texels::prefetch;
+use super::prefetch::prefetch_lines;
 use crate::resample::patch::SIDE;
 
 /// The rows of a picture that one band makes: its own, and those that mirror it from below. What no pixel was made of is filled
@@ -118,6 +117,7 @@ impl<'a, P: Copy> Canvas<'a, P> {
     }
 
     /// Asks for the memory that the pixels of whole runs will be written to: a line of it that is not at hand is waited for even so.
+    /// Other runs are few, and have no place for eight pixels in each mirror.
     #[inline(always)]
     pub(super) fn prefetch(&mut self, mirrors: &Mirrors, runs: &[Run]) {
         for run in runs {
@@ -126,10 +126,7 @@ impl<'a, P: Copy> Canvas<'a, P> {
             }
             for image in &mirrors.images {
                 let (rows, first) = self.place(image, run.pixel(0), SIDE);
-                for at in (0..SIDE - 1).step_by((LINE / size_of::<P>()).max(1)) {
-                    prefetch(rows, (first + at) as u32);
-                }
-                prefetch(rows, (first + SIDE - 1) as u32);
+                prefetch_lines(rows, first as u32, SIDE as u32 - 1);
             }
         }
     }

@@ -39,6 +39,9 @@ impl FixedFilter<'_> {
     // No closures below but those that `vectorize` takes: the compiler gives others no leave to use the level's instructions.
     #[inline(always)]
     fn runs<S: Simd>(&self, simd: S, band: &Band<FixedWeights>, canvas: &mut Canvas<[u8; 3]>) {
+        if band.runs.is_empty() {
+            return;
+        }
         let mut ahead = band.patches().skip(1);
         let texels = self.light.as_laid_out();
         let views = ViewTexels::all(self.mirrors, self.light.samples());
@@ -73,7 +76,7 @@ impl FixedFilter<'_> {
                 #[inline(always)]
                 || run_filter.pixels::<i16x16<S>, 2, 1>(texels, order, &mut pixels),
             ),
-            ViewTexels::Single { forward, reversed } => simd.vectorize(
+            ViewTexels::OneByOne { forward, reversed } => simd.vectorize(
                 #[inline(always)]
                 || {
                     for (texels, order) in forward.iter().zip(order) {

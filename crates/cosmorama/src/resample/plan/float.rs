@@ -41,6 +41,9 @@ impl FloatFilter<'_> {
     // No closures below but those that `vectorize` takes: the compiler gives others no leave to use the level's instructions.
     #[inline(always)]
     fn runs<S: Simd>(&self, simd: S, band: &Band<FloatWeights>, canvas: &mut Canvas<Rgba>) {
+        if band.runs.is_empty() {
+            return;
+        }
         let mut ahead = band.patches().skip(1);
         let views = ViewTexels::all(self.mirrors, bytemuck::cast_slice(self.texels));
         for (at, run) in band.runs.iter().enumerate() {
@@ -78,7 +81,7 @@ impl FloatFilter<'_> {
                 #[inline(always)]
                 || run_filter.pixels(texels, order, &mut pixels),
             ),
-            ViewTexels::Single { forward, reversed } => simd.vectorize(
+            ViewTexels::OneByOne { forward, reversed } => simd.vectorize(
                 #[inline(always)]
                 || {
                     for (texels, order) in forward.iter().zip(order) {

@@ -79,14 +79,14 @@ impl<'a, S: Simd, const N: usize, const R: usize> Window<'a, S, N, R> {
             for (block, weights) in in_blocks[row * whole..][..whole].as_chunks().0.iter().enumerate() {
                 let column = BLOCK * block;
                 let weights = spread(simd, weights);
-                let marks = marks.get(column / 32).map(|marks| marks >> (column % 32));
+                let marks = marks.get(column / 32).map(|marks| Marks::new(simd, marks >> (column % 32)).beside(0));
                 for (image, samples) in rows.iter().enumerate() {
                     let way = way::<N, R>(image);
                     let first = if way == 0 { column } else { shape.width - BLOCK - column };
                     let texels = f32x16::from_slice(simd, &samples[SAMPLES * first..][..BLOCK_SAMPLES]);
                     sums.blocks[image] += texels * weights[way];
-                    if let Some(marks) = marks {
-                        sums.bound(image, texels, Marks::new(simd, marks).beside(0)[way]);
+                    if let Some(is_beside) = marks {
+                        sums.bound(image, texels, is_beside[way]);
                     }
                 }
             }
@@ -101,7 +101,7 @@ impl<'a, S: Simd, const N: usize, const R: usize> Window<'a, S, N, R> {
                     if is_under {
                         // Blocks of the same texel.
                         let texels = f32x16::block_splat(texel);
-                        sums.bound(image, texels, u32x16::splat(simd, 1).simd_eq(0));
+                        sums.bound(image, texels, mask32x16::splat(simd, false));
                     }
                 }
             }

@@ -3,7 +3,7 @@ use super::mirrors::Mirrors;
 use super::texels;
 
 /// Bytes that come from memory together.
-pub(super) const LINE: usize = 64;
+const LINE: usize = 64;
 
 /// Columns and rows of the largest region that is asked for as one; beyond, runs have little in common.
 const LARGEST: [usize; 2] = [64, 32];
@@ -31,6 +31,15 @@ pub(super) fn prefetch_patch<T>(texels: &[T], mirrors: &Mirrors, runs: &[Run]) {
 #[inline(always)]
 pub(super) fn prefetch_weights(numbers: &[u32]) {
     texels::prefetch(numbers, NUMBERS_AHEAD);
+}
+
+/// Asks for each line of memory that holds an item from this one to the one so many after it.
+#[inline(always)]
+pub(super) fn prefetch_lines<T>(items: &[T], first: u32, last: u32) {
+    for at in (0..last).step_by((LINE / size_of::<T>()).max(1)) {
+        texels::prefetch(items, first.wrapping_add(at));
+    }
+    texels::prefetch(items, first.wrapping_add(last));
 }
 
 /// A rectangle of texels of a view.
@@ -61,16 +70,12 @@ impl Region {
     /// Asks for it in all mirrors.
     #[inline(always)]
     fn prefetch<T>(&self, texels: &[T], mirrors: &Mirrors) {
-        let step = LINE / size_of::<T>();
         let last = (self.end[0] - self.first[0] - 1) as u32;
         for image in &mirrors.images {
             let walk = image.view(self.view).walk(self.first);
             let mut left = if walk.is_reversed { walk.first.wrapping_sub(last) } else { walk.first };
             for _ in self.first[1]..self.end[1] {
-                for column in (0..last).step_by(step) {
-                    texels::prefetch(texels, left.wrapping_add(column));
-                }
-                texels::prefetch(texels, left.wrapping_add(last));
+                prefetch_lines(texels, left, last);
                 left = left.wrapping_add_signed(walk.down);
             }
         }

@@ -76,7 +76,26 @@ fn conversions() -> Vec<(World, View, usize)> {
         (cube(&all, 64), panoramic((240, 120)), 4),
         (panorama(300), panoramic((400, 200)), 4),
         (panorama(300), view(ProjectionKind::PERSPECTIVE, (160, 90), (1.0, 0.6), Orientation::IDENTITY), 4),
+        // Mirrors that are gone through one by one: two from left to right, and one of four.
+        (
+            cube(&all, 100),
+            View { stop: FieldStop::NONE, ..view(ProjectionKind::EQUIDISTANT, (121, 120), (1.0, 0.9), up) },
+            2,
+        ),
+        (quarters(100), view(ProjectionKind::PERSPECTIVE, (160, 90), (0.8, 0.45), Orientation::IDENTITY), 4),
     ]
+}
+
+/// The front face of a cube in four parts, one of them upside down.
+fn quarters(size: usize) -> World {
+    let part = |name: &str, [left, top]: [usize; 2], roll: f64| {
+        let whole = view(ProjectionKind::PERSPECTIVE, (size, size), (1.0, 1.0), turned(0.0, 0.0, roll));
+        let half = size / 2;
+        let grid = whole.grid.window(half, half, (left * half) as f64, (top * half) as f64);
+        (name.to_owned(), View { grid, ..whole })
+    };
+    let parts = [("a", [0, 0], 0.0), ("b", [1, 0], 0.0), ("c", [0, 1], 0.0), ("d", [0, 0], 180.0)];
+    World::new(parts.map(|(name, at, roll)| part(name, at, roll))).expect("four views")
 }
 
 fn omnimax() -> View {
@@ -303,7 +322,7 @@ fn windows_of_floats_make_what_their_texels_make_one_by_one() {
 
 #[test]
 fn all_levels_of_instructions_make_the_same_pixels() {
-    for (world, target, _) in conversions().into_iter().take(5) {
+    for (world, target, _) in conversions() {
         let (light, resampler) = (light(&world), resampler(&world, &target));
         let (texels, mirrors) = (floats(&light), Mirrors::of::<FixedWeights>(&resampler));
         let codec = FixedCodec::new(&Transfer::Srgb, Rgba::BLACK).expect("sRGB has 8 bits");

@@ -130,7 +130,7 @@ impl<'a, T, const TEXELS: usize, const COLUMNS: usize, const HEIGHT: usize> Wind
     }
 }
 
-/// Asks memory for one of some items, a texel or a weight, that will be read soon; any number will do.
+/// Asks memory for one of some items that will be read soon, a texel or a weight, or written, a pixel; any number will do.
 #[inline(always)]
 pub(super) fn prefetch<T>(items: &[T], item: u32) {
     #[cfg(target_arch = "x86_64")]

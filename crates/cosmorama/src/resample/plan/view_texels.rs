@@ -7,8 +7,8 @@ pub(super) enum ViewTexels<'a, T> {
     Four(Texels<'a, T, 4, 2>),
     /// One each way.
     Two(Texels<'a, T, 2, 1>),
-    /// Any number, one by one.
-    Single { forward: Vec<Texels<'a, T, 1, 0>>, reversed: Vec<Texels<'a, T, 1, 1>> },
+    /// As many as there are, one by one.
+    OneByOne { forward: Vec<Texels<'a, T, 1, 0>>, reversed: Vec<Texels<'a, T, 1, 1>> },
 }
 
 impl<'a, T: Copy> ViewTexels<'a, T> {
@@ -29,7 +29,7 @@ impl<'a, T: Copy> ViewTexels<'a, T> {
         match (ways.forward, ways.count) {
             (2, 4) if ways.down[..2] == ways.down[2..] => Self::Four(Texels::new(samples, walks, size)),
             (1, 2) => Self::Two(Texels::new(samples, [walks[0], walks[1]], size)),
-            (forward, count) => Self::Single {
+            (forward, count) => Self::OneByOne {
                 forward: walks[..forward].iter().map(|walk| Texels::new(samples, [*walk], size)).collect(),
                 reversed: walks[forward..count].iter().map(|walk| Texels::new(samples, [*walk], size)).collect(),
             },

@@ -1,6 +1,7 @@
 //! That the conversions of these tests have windows of all sizes, so that what compares their pixels looks at each.
 
 use super::*;
+use crate::resample::plan::view_texels::ViewTexels;
 use crate::resample::plan::{fixed_weights, float_shape};
 
 /// How often windows of each size occur, those of any other after the small ones: from left to right, and reversed.
@@ -61,4 +62,24 @@ fn windows_of_integers_are_of_all_sizes() {
         count(&plan, |weights| &weights.numbers, window, &mut counts);
     }
     assert!(counts.as_flattened().iter().all(|count| *count > 0), "{counts:?}");
+}
+
+#[test]
+fn mirrors_are_gone_through_together_and_one_by_one() {
+    let (mut four, mut two, mut one_by_one) = (0, 0, [0, 0]);
+    for (world, target, _) in conversions() {
+        let mirrors = Mirrors::of::<FloatWeights>(&resampler(&world, &target));
+        let texels = vec![0f32; 4 * world.texel_count()];
+        for view in ViewTexels::all(&mirrors, &texels) {
+            match view {
+                ViewTexels::Four(_) => four += 1,
+                ViewTexels::Two(_) => two += 1,
+                ViewTexels::OneByOne { forward, reversed } => {
+                    one_by_one[0] += usize::from(forward.len() > 1);
+                    one_by_one[1] += reversed.len();
+                }
+            }
+        }
+    }
+    assert!(four > 0 && two > 0 && one_by_one[0] > 0 && one_by_one[1] > 0, "{four} {two} {one_by_one:?}");
 }
