@@ -40,7 +40,8 @@ struct Queues<'a> {
 
 impl<'a> Sequence<'a> {
     /// Makes all frames. `look` is shown the light of each, `done` each that is written, both in their order. The first
-    /// error ends it: frames before that one are finished, later ones are not begun.
+    /// error ends it: frames before that one are finished, none is begun any more; those under way
+    /// are finished.
     pub(super) fn run(
         &self,
         mut look: impl FnMut(&FrameOutputs, &FrameLight),
@@ -86,7 +87,7 @@ impl<'a> Sequence<'a> {
                 // Whoever waits for that frame learns why.
                 return Ok(());
             }
-            // What goes wrong here is this frame's, too.
+            // So that no files of later frames are read while earlier frames are written; of its own files' errors the tasks tell.
             let failed = |error| {
                 failure.note(place);
                 error

@@ -89,11 +89,17 @@ impl Plan {
     }
 
     /// One frame. `texels` is the world's buffer of light.
+    ///
+    /// # Panics
+    /// If it has fewer texels than the world.
     pub fn apply(&self, texels: &[Rgba]) -> Image<Rgba> {
         self.apply_over(texels, Rgba::TRANSPARENT)
     }
 
     /// One frame in front of a background, linear and premultiplied as all light is.
+    ///
+    /// # Panics
+    /// If there are fewer texels than in the world.
     pub fn apply_over(&self, texels: &[Rgba], background: Rgba) -> Image<Rgba> {
         let mut image = Image::zeroed(self.0.width, self.0.height);
         self.apply_into(texels, background, &mut image);
@@ -103,7 +109,7 @@ impl Plan {
     /// The same into an image that is there already: fresh memory may cost as much as its pixels.
     ///
     /// # Panics
-    /// If it is not of the target's size.
+    /// If it is not of the target's size, or there are fewer texels than in the world.
     pub fn apply_into(&self, texels: &[Rgba], background: Rgba, image: &mut Image<Rgba>) {
         let Self(Compiled { anti_ringing, mirrors, .. }) = self;
         let filter = FloatFilter { level: Level::new(), mirrors, texels, anti_ringing: *anti_ringing, background };

@@ -33,7 +33,7 @@ pub(super) fn prefetch_weights(numbers: &[u32]) {
     texels::prefetch(numbers, NUMBERS_AHEAD);
 }
 
-/// Asks for each line of memory that holds an item from this one to the one so many after it.
+/// Asks for each line of memory in which an item begins, from this one to the one so many after it.
 #[inline(always)]
 pub(super) fn prefetch_lines<T>(items: &[T], first: u32, last: u32) {
     for at in (0..last).step_by((LINE / size_of::<T>()).max(1)) {

@@ -1,9 +1,10 @@
 use super::mirrors::{MOST_IMAGES, Mirrors, Walk};
 use super::texels::Texels;
 
-/// A view's texels in all mirrors, those together that filters work on at once: looked at here once, not in each run.
+/// A view's texels in all mirrors, those together that filters work on at once: looked at here once for a band, not in each run. (Not
+/// once for all bands: these are pointers, which threads do not share.)
 pub(super) enum ViewTexels<'a, T> {
-    /// Four: from left to right, and from right to left, of both every other one from row to row alike.
+    /// Two from left to right and two from right to left, whose steps from row to row are the same two.
     Four(Texels<'a, T, 4, 2>),
     /// One each way.
     Two(Texels<'a, T, 2, 1>),

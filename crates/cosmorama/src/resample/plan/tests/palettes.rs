@@ -34,7 +34,6 @@ fn texels_have_one_light_whoever_asks() {
     for (at, expected) in texels.iter().enumerate() {
         assert!(lights(&float, at as u32).all(|light| light == expected.0), "{expected:?}");
         let laid_out = (at / size[0] * pitch + at % size[0]) as u32;
-        assert_eq!(fixed.rgba(laid_out), *expected);
         assert!(lights(&fixed, laid_out).all(|light| light == expected.0), "{expected:?}");
     }
 }
