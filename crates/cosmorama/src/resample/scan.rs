@@ -26,6 +26,15 @@ pub(super) struct Scan<'a> {
     wanted: Option<&'a Wanted>,
 }
 
+/// A part of a target.
+pub(super) struct Part {
+    /// So many of the first ones.
+    pub(super) columns: usize,
+    pub(super) rows: Range<usize>,
+    /// Whether patches to the left of the diagonal from the first column and row on are left out.
+    pub(super) is_above_diagonal: bool,
+}
+
 /// Which patches of the pixels that a conversion computes are wanted.
 #[derive(Clone, Debug)]
 pub(super) struct Wanted {
@@ -76,13 +85,14 @@ impl<'a> Scan<'a> {
         Self { wanted, ..self }
     }
 
-    /// All pixels of the first columns of these rows that show something.
-    pub(super) fn pixels(&mut self, columns: usize, rows: Range<usize>, sink: &mut impl Sink) {
-        for tile in (0..columns).step_by(TILE) {
+    /// All pixels of a part that show something.
+    pub(super) fn pixels(&mut self, Part { columns, rows, is_above_diagonal }: &Part, sink: &mut impl Sink) {
+        for tile in (0..*columns).step_by(TILE) {
             // Patches lie alike whatever the first row: so do the pixels that they make.
             for top in (rows.start / SIDE * SIDE..rows.end).step_by(SIDE) {
-                for left in (tile..columns.min(tile + TILE)).step_by(SIDE) {
-                    self.patch([left, top], columns, &rows, sink);
+                let from = if *is_above_diagonal { tile.max(top) } else { tile };
+                for left in (from..(tile + TILE).min(*columns)).step_by(SIDE) {
+                    self.patch([left, top], *columns, rows, sink);
                 }
             }
         }
@@ -193,10 +203,14 @@ mod tests {
         ]
     }
 
+    fn whole(target: &View) -> Part {
+        Part { columns: target.width(), rows: 0..target.height(), is_above_diagonal: false }
+    }
+
     fn collect(scan: &mut Scan, target: &View) -> Collector {
         let weights = vec![Vec::new(); target.width() * target.height()];
         let mut collector = Collector { width: target.width(), weights, in_windows: 0 };
-        scan.pixels(target.width(), 0..target.height(), &mut collector);
+        scan.pixels(&whole(target), &mut collector);
         collector
     }
 
@@ -342,7 +356,7 @@ mod tests {
                 let image = Image::filled(target.width(), target.height(), Rgba::TRANSPARENT);
                 let mut exact = Averages { texels: &texels, image };
                 let mut scan = Scan { weigher: None, ..Scan::new(&resampler, &table, Level::new()) };
-                scan.pixels(target.width(), 0..target.height(), &mut exact);
+                scan.pixels(&whole(target), &mut exact);
                 let made = resampler.render(&texels);
                 let whole = made.pixels().iter().zip(exact.image.pixels()).filter(|(_, exact)| exact.alpha() == 1.0);
                 let pairs = || whole.clone().flat_map(|(made, exact)| (0..3).map(|c| (made.0[c], exact.0[c])));

@@ -1,6 +1,6 @@
 use std::ops::Range;
 
-use super::mirrors::{Mirrors, Walk};
+use super::mirrors::Mirrors;
 use super::singles::Singles;
 use super::stored::{Stored, stored};
 use super::weights::Weights;
@@ -58,12 +58,6 @@ impl Run {
     #[inline(always)]
     pub(super) fn is_whole(&self) -> bool {
         self.lanes == u8::MAX
-    }
-
-    /// How a lane's window is walked through, given how one at the corner would be.
-    #[inline(always)]
-    pub(super) fn walk(&self, corner: Walk, lane: usize) -> Walk {
-        corner.moved(self.offsets[lane])
     }
 
     /// The column farthest to the left and the row farthest up of its windows' texels.
@@ -196,8 +190,16 @@ impl<W: Weights> Stored for Band<W> {
 pub(super) struct Room<'a> {
     pub(super) world: &'a World,
     pub(super) mirrors: &'a Mirrors,
-    /// Rows of the band.
+    /// The first row of the band, and how many it has.
+    pub(super) first_row: usize,
     pub(super) rows: usize,
+}
+
+impl Room<'_> {
+    /// The columns that the band may make.
+    fn columns(&self) -> Range<usize> {
+        self.mirrors.first_column(self.first_row)..self.mirrors.columns
+    }
 }
 
 impl<W: Weights> Band<W> {
@@ -205,7 +207,7 @@ impl<W: Weights> Band<W> {
     pub(super) fn is_sound(&self, room: &Room) -> bool {
         let (texels, images) = (room.mirrors.texel_count(), room.mirrors.images.len());
         self.runs.iter().all(|run| run.is_sound(room, &self.weights))
-            && self.singles.are_sound([room.mirrors.columns, room.rows], texels, images)
+            && self.singles.are_sound((room.columns(), room.rows), texels, images)
     }
 }
 
@@ -216,7 +218,8 @@ impl Run {
         let after_last = SIDE - self.lanes.leading_zeros() as usize;
         let [from, to] = self.under;
         self.lanes != 0
-            && self.column as usize + after_last <= room.mirrors.columns
+            && room.columns().contains(&(self.column as usize))
+            && self.column as usize + after_last <= room.columns().end
             && usize::from(self.row) < room.rows
             && self.width > 0
             && self.height > 0

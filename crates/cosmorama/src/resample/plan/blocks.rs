@@ -18,6 +18,13 @@ pub(super) trait Blocks<S: Simd, const N: usize>:
         portable::two_pairs::<S, Self, N, R>(simd, rows)
     }
 
+    /// Of two rows of four texels in each mirror, which lie from left to right in all but the last R, four pairs of texels above each
+    /// other, the leftmost pair first.
+    #[inline(always)]
+    fn four_upright<const R: usize>(simd: S, rows: [[&[i16; 16]; N]; 2]) -> [Self; 4] {
+        portable::four_upright::<S, Self, N, R>(simd, rows)
+    }
+
     /// Adds the weighted sums of pairs.
     #[inline(always)]
     fn add_products(sums: Self::Widened, texels: Self, weights: Self) -> Self::Widened {
@@ -69,6 +76,34 @@ impl<S: Simd> Blocks<S, 4> for i16x32<S> {
 
     #[cfg(target_arch = "x86_64")]
     #[inline(always)]
+    fn four_upright<const R: usize>(simd: S, rows: [[&[i16; 16]; 4]; 2]) -> [Self; 4] {
+        match simd.level().as_avx512() {
+            Some(level) if R == 2 => {
+                let [[a, b, c, d], [e, f, g, h]] = rows;
+                let two = |left, right| i16x16::load_array_ref(simd, left).combine(i16x16::load_array_ref(simd, right));
+                let [forward, below] = [two(a, b), two(e, f)].map(Into::into);
+                let [reversed, below_reversed] = [two(c, d), two(g, h)].map(Into::into);
+                let (even, odd) =
+                    (blocks_avx512::zip_first(level, forward, below), blocks_avx512::zip_second(level, forward, below));
+                // From right to left the first texel is the second one of a block, and lies in the second block.
+                let (even_reversed, odd_reversed) = (
+                    blocks_avx512::zip_second(level, reversed, below_reversed),
+                    blocks_avx512::zip_first(level, reversed, below_reversed),
+                );
+                [
+                    blocks_avx512::first_pairs(level, even, even_reversed),
+                    blocks_avx512::first_pairs(level, odd, odd_reversed),
+                    blocks_avx512::second_pairs(level, even, even_reversed),
+                    blocks_avx512::second_pairs(level, odd, odd_reversed),
+                ]
+                .map(|pairs| pairs.simd_into(simd))
+            }
+            _ => portable::four_upright::<S, Self, 4, R>(simd, rows),
+        }
+    }
+
+    #[cfg(target_arch = "x86_64")]
+    #[inline(always)]
     fn add_products(sums: i32x16<S>, texels: Self, weights: Self) -> i32x16<S> {
         let simd = sums.token();
         match simd.level().as_avx512() {
@@ -97,6 +132,27 @@ mod portable {
             (first[image], second[image]) = if image < N - R { (left, right) } else { (right, left) };
         }
         [V::join(first), V::join(second)]
+    }
+
+    #[inline(always)]
+    pub(super) fn four_upright<S: Simd, V: Blocks<S, N>, const N: usize, const R: usize>(
+        simd: S,
+        [above, below]: [[&[i16; 16]; N]; 2],
+    ) -> [V; 4] {
+        let mut pairs = [[i16x8::splat(simd, 0); N]; 4];
+        for image in 0..N {
+            let (left, right) = i16x16::load_array_ref(simd, above[image]).split();
+            let (left_below, right_below) = i16x16::load_array_ref(simd, below[image]).split();
+            let (first, second) = (left.zip_low(left_below), left.zip_high(left_below));
+            let (third, fourth) = (right.zip_low(right_below), right.zip_high(right_below));
+            let is_forward = image < N - R;
+            pairs[0][image] = if is_forward { first } else { fourth };
+            pairs[1][image] = if is_forward { second } else { third };
+            pairs[2][image] = if is_forward { third } else { second };
+            pairs[3][image] = if is_forward { fourth } else { first };
+        }
+        let [a, b, c, d] = pairs;
+        [V::join(a), V::join(b), V::join(c), V::join(d)]
     }
 
     #[inline(always)]

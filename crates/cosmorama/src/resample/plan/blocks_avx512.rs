@@ -1,6 +1,8 @@
 //! What AVX-512 does in one instruction for blocks of four mirrors, and portable vectors have no word for.
 
-use std::arch::x86_64::{__m512i, _mm512_dpwssd_epi32, _mm512_shuffle_i64x2};
+use std::arch::x86_64::{
+    __m512i, _mm512_dpwssd_epi32, _mm512_shuffle_i64x2, _mm512_unpackhi_epi16, _mm512_unpacklo_epi16,
+};
 
 use fearless_simd::kernel;
 
@@ -26,5 +28,21 @@ kernel!(
     #[inline(always)]
     pub(super) fn second_pairs(token: Avx512, forward: __m512i, reversed: __m512i) -> __m512i {
         _mm512_shuffle_i64x2::<0b10_00_11_01>(forward, reversed)
+    }
+);
+
+kernel!(
+    /// Pairs of the first texels of each block, one of either.
+    #[inline(always)]
+    pub(super) fn zip_first(token: Avx512, a: __m512i, b: __m512i) -> __m512i {
+        _mm512_unpacklo_epi16(a, b)
+    }
+);
+
+kernel!(
+    /// Pairs of the second ones.
+    #[inline(always)]
+    pub(super) fn zip_second(token: Avx512, a: __m512i, b: __m512i) -> __m512i {
+        _mm512_unpackhi_epi16(a, b)
     }
 );

@@ -1,157 +1,232 @@
 use std::ops::Range;
 
 use super::band::Run;
-use super::mirrors::{MirrorImage, Mirrors};
+use super::mirrors::{MOST_IMAGES, Mirrors, TOGETHER};
+use super::picture_part::PicturePart;
 use super::prefetch::prefetch_lines;
 use crate::resample::patch::SIDE;
 
-/// The rows of a picture that one band makes: its own, and those that mirror it from below. What no pixel was made of is filled
-/// with a background at the end.
+/// What one band makes of a picture. What no pixel was made of is filled with a background at the end.
 pub(super) struct Canvas<'a, P: Copy> {
-    width: usize,
     background: P,
-    /// How many columns are to be made, and which pixels of them are, row by row, a bit for each: the same in all mirrors.
-    columns: usize,
+    mirrors: &'a Mirrors,
+    part: PicturePart<'a, P>,
+    /// Which pixels of its own are made, row by row, a bit for each column: the same in all mirrors.
     made: Vec<u8>,
-    own: &'a mut [P],
-    mirrored: &'a mut [P],
+    /// What will be written where columns are rows.
+    tile: Tile<P>,
+}
+
+/// Runs below each other, where mirrors show columns as rows: so many pixels lie beside each other there.
+struct Tile<P> {
+    /// Column and row of the first pixel.
+    first: [usize; 2],
+    rows: usize,
+    /// For each of those mirrors, lane by lane, from left to right.
+    pixels: [[[P; SIDE]; SIDE]; TOGETHER],
 }
 
 impl<P: Copy> Drop for Canvas<'_, P> {
     fn drop(&mut self) {
-        for row in 0..self.own.len() / self.width {
-            let mut column = 0;
+        self.write_tile();
+        for top in (0..self.part.rows()).step_by(SIDE) {
+            self.fill_patches(top);
+        }
+        for row in 0..self.part.rows() {
+            let mut column = self.first_column(row);
             while let Some(gap) = self.gap(row, column) {
                 column = gap.end;
-                self.fill(row, gap);
+                self.fill(row..row + 1, gap);
             }
         }
     }
 }
 
 impl<'a, P: Copy> Canvas<'a, P> {
-    /// Cuts a picture, `width` pixels wide, into what bands of `rows` rows make.
+    /// Cuts a picture, `width` pixels wide, into what bands of `rows` rows make, from the top one on.
     pub(super) fn bands(
         pixels: &'a mut [P],
         width: usize,
         rows: usize,
-        mirrors: &Mirrors,
+        mirrors: &'a Mirrors,
         background: P,
-    ) -> impl rayon::iter::IndexedParallelIterator<Item = Self>
-    where
-        P: Send + Sync,
-    {
-        use rayon::prelude::*;
-        let (own, mirrored) = pixels.split_at_mut(mirrors.rows * width);
-        // Below, the rows of the first band are the last ones; where nothing is mirrored there is nothing.
-        // A picture without columns has no bands.
-        let chunk = (rows * width).max(1);
-        let own = own.par_chunks_mut(chunk);
-        let bands = own.len();
-        let mut below: Vec<&mut [P]> = mirrored.rchunks_mut(chunk).collect();
-        below.resize_with(bands, Default::default);
-        let columns = mirrors.columns;
-        own.zip(below).map(move |(own, mirrored)| {
-            let made = vec![0; own.len() / width * bytes_of(columns)];
-            Self { width, background, columns, made, own, mirrored }
-        })
+    ) -> Vec<Self> {
+        let canvas = |part: PicturePart<'a, P>| {
+            let made = vec![0; part.rows() * bytes_of(mirrors.columns)];
+            let tile = Tile { first: [0; 2], rows: 0, pixels: [[[background; SIDE]; SIDE]; TOGETHER] };
+            Self { background, mirrors, part, made, tile }
+        };
+        PicturePart::all(pixels, width, rows, mirrors).into_iter().map(canvas).collect()
     }
 
     /// Notes pixels of a row as made: eight from this column on, those whose bits are set.
     #[inline(always)]
     fn note(&mut self, [column, row]: [usize; 2], lanes: u8) {
-        let at = row * bytes_of(self.columns) + column / 8;
+        let at = row * bytes_of(self.mirrors.columns) + column / 8;
         let [low, high] = (u16::from(lanes) << (column % 8)).to_le_bytes();
         self.made[at] |= low;
         self.made[at + 1] |= high;
     }
 
+    /// The first column of a row that it makes itself.
+    fn first_column(&self, row: usize) -> usize {
+        self.part.columns().start + self.mirrors.first_column(row / SIDE * SIDE)
+    }
+
     /// The next columns of a row, from this one on, of which no pixel is made.
     fn gap(&self, row: usize, from: usize) -> Option<Range<usize>> {
-        let bytes = bytes_of(self.columns);
+        let (columns, bytes) = (self.mirrors.columns, bytes_of(self.mirrors.columns));
         let made = &self.made[row * bytes..][..bytes];
         let next = |from: usize, is_made: bool| {
             let whole = if is_made { 0 } else { u8::MAX };
             let mut column = from;
-            while column < self.columns && (made[column / 8] >> (column % 8) & 1 == 1) != is_made {
+            while column < columns && (made[column / 8] >> (column % 8) & 1 == 1) != is_made {
                 // Whole bytes of the others are passed over at once.
                 column = if column.is_multiple_of(8) && made[column / 8] == whole { column + 8 } else { column + 1 };
             }
-            column.min(self.columns)
+            column.min(columns)
         };
         let start = next(from, false);
-        (start < self.columns).then(|| start..next(start, true))
+        (start < columns).then(|| start..next(start, true))
     }
 
-    /// Fills columns of a row with the background, in all mirrors.
-    fn fill(&mut self, row: usize, columns: Range<usize>) {
-        let Self { width, background, .. } = *self;
-        let mirrored = width - columns.end..width - columns.start;
-        let below = (self.mirrored.len() / width).checked_sub(1 + row);
-        let rows = [(&mut *self.own, Some(row)), (&mut *self.mirrored, below)];
-        for (rows, row) in rows {
-            let Some(row) = row else { continue };
-            let row = &mut rows[row * width..][..width];
-            row[columns.clone()].fill(background);
-            if self.columns < width {
-                row[mirrored.clone()].fill(background);
+    /// Fills patches of which no pixel is made, from this row on: in one go, where a mirror shows their columns as rows.
+    fn fill_patches(&mut self, top: usize) {
+        let bytes = bytes_of(self.mirrors.columns);
+        let rows = top..self.part.rows().min(top + SIDE);
+        let is_empty = |made: &[u8], byte: usize| rows.clone().all(|row| made[row * bytes + byte] == 0);
+        let patches = self.mirrors.columns.div_ceil(SIDE);
+        let mut patch = self.first_column(top) / SIDE;
+        while patch < patches {
+            let first = patch;
+            while patch < patches && is_empty(&self.made, patch) {
+                rows.clone().for_each(|row| self.made[row * bytes + patch] = u8::MAX);
+                patch += 1;
+            }
+            if first < patch {
+                self.fill(rows.clone(), first * SIDE..self.mirrors.columns.min(patch * SIDE));
+            }
+            patch += 1;
+        }
+    }
+
+    /// Fills columns of some rows with the background, in all mirrors.
+    fn fill(&mut self, rows: Range<usize>, columns: Range<usize>) {
+        let (background, mirrors) = (self.background, self.mirrors);
+        for (index, image) in mirrors.images.iter().enumerate() {
+            if image.is_turned {
+                for column in columns.clone() {
+                    lay(background, self.part.beside(index, [column, rows.start], rows.len()));
+                }
+            } else {
+                for row in rows.clone() {
+                    lay(background, self.part.beside(index, [columns.start, row], columns.len()));
+                }
             }
         }
     }
 
-    /// Writes the pixels of a run, from left to right as a mirror image shows them.
+    /// Writes the pixels of a run in each mirror, from left to right as that shows them; where it shows columns as rows, from the first
+    /// to the last.
     #[inline(always)]
-    pub(super) fn put(&mut self, image: &MirrorImage, run: &Run, pixels: &[P; SIDE]) {
+    pub(super) fn put(&mut self, run: &Run, pixels: &[[P; SIDE]; MOST_IMAGES]) {
+        let mirrors = self.mirrors;
         if !run.is_whole() {
-            for lane in run.lanes() {
-                *self.pixel(image, run.pixel(lane)) = pixels[if image.flips[0] { SIDE - 1 - lane } else { lane }];
+            for (index, (image, pixels)) in mirrors.images.iter().zip(pixels).enumerate() {
+                let last = if image.flips[0] && !image.is_turned { SIDE - 1 } else { 0 };
+                for lane in run.lanes() {
+                    *self.pixel(index, run.pixel(lane)) = pixels[(lane ^ last) % SIDE];
+                }
             }
             return;
         }
-        let [column, row] = run.pixel(0);
-        if image.flips == [false; 2] {
-            self.note([column, row], u8::MAX);
+        let pixel = run.pixel(0);
+        self.note(pixel, u8::MAX);
+        for (image, pixels) in pixels.iter().enumerate().take(mirrors.images.len().min(TOGETHER)) {
+            self.part.beside(image, pixel, SIDE).copy_from_slice(pixels);
         }
-        let (rows, first) = self.place(image, [column, row], SIDE);
-        rows[first..][..SIDE].copy_from_slice(pixels);
+        if mirrors.has_diagonals() {
+            let turned = pixels.last_chunk().expect("mirrors that show columns as rows come last");
+            self.put_turned(pixel, turned);
+        }
+    }
+
+    /// The same where columns are rows, beside those of the run above.
+    #[inline(always)]
+    fn put_turned(&mut self, [column, row]: [usize; 2], pixels: &[[P; SIDE]; TOGETHER]) {
+        let Tile { first, rows, .. } = self.tile;
+        if rows == SIDE || [first[0], first[1] + rows] != [column, row] {
+            self.write_tile();
+            self.tile.first = [column, row];
+        }
+        let at = self.tile.rows % SIDE;
+        for (image, pixels) in pixels.iter().enumerate() {
+            let at = if self.mirrors.turned()[image].flips[0] { SIDE - 1 - at } else { at };
+            for (tile, pixel) in self.tile.pixels[image].iter_mut().zip(pixels) {
+                tile[at] = *pixel;
+            }
+        }
+        self.tile.rows += 1;
+    }
+
+    /// Writes what is in the tile, and empties it.
+    fn write_tile(&mut self) {
+        let (mirrors, rows) = (self.mirrors, std::mem::take(&mut self.tile.rows));
+        if rows == 0 {
+            return;
+        }
+        let [column, row] = self.tile.first;
+        for (index, image) in mirrors.turned().iter().enumerate() {
+            let columns = if image.flips[0] { SIDE - rows..SIDE } else { 0..rows };
+            for lane in 0..SIDE {
+                let pixels = self.tile.pixels[index][lane];
+                let line = self.part.beside(TOGETHER + index, [column + lane, row], rows);
+                // As many as there mostly are come without a call.
+                match line.as_mut_array::<SIDE>() {
+                    Some(line) => *line = pixels,
+                    None => line.copy_from_slice(&pixels[columns.clone()]),
+                }
+            }
+        }
     }
 
     /// Asks for the memory that the pixels of whole runs will be written to: a line of it that is not at hand is waited for even so.
     /// Other runs are few, and have no place for eight pixels in each mirror.
     #[inline(always)]
-    pub(super) fn prefetch(&mut self, mirrors: &Mirrors, runs: &[Run]) {
-        for run in runs {
+    pub(super) fn prefetch(&mut self, runs: &[Run]) {
+        let mirrors = self.mirrors;
+        for (at, run) in runs.iter().enumerate() {
             if !run.is_whole() {
                 continue;
             }
-            for image in &mirrors.images {
-                let (rows, first) = self.place(image, run.pixel(0), SIDE);
-                prefetch_lines(rows, first as u32, SIDE as u32 - 1);
+            for (index, image) in mirrors.images.iter().enumerate() {
+                if !image.is_turned {
+                    prefetch_lines(self.part.beside(index, run.pixel(0), SIDE), 0, SIDE as u32 - 1);
+                } else if at == 0 {
+                    // Those of the patch.
+                    for lane in 0..SIDE {
+                        prefetch_lines(self.part.beside(index, run.pixel(lane), 1), 0, 0);
+                    }
+                }
             }
         }
     }
 
-    /// The pixel that a mirror image shows in place of the one in this column and row of the band.
+    /// The pixel that a mirror shows in place of the one in this column and row of the band.
     #[inline(always)]
-    pub(super) fn pixel(&mut self, image: &MirrorImage, pixel: [usize; 2]) -> &mut P {
-        if image.flips == [false; 2] {
+    pub(super) fn pixel(&mut self, image: usize, pixel: [usize; 2]) -> &mut P {
+        if image == 0 {
             self.note(pixel, 1);
         }
-        let (rows, at) = self.place(image, pixel, 1);
-        &mut rows[at]
+        &mut self.part.beside(image, pixel, 1)[0]
     }
+}
 
-    /// Where a mirror image shows so many pixels from this column and row of the band on: the first of them among those of some rows.
-    #[inline(always)]
-    fn place(&mut self, image: &MirrorImage, [column, row]: [usize; 2], count: usize) -> (&mut [P], usize) {
-        let column = if image.flips[0] { self.width - count - column } else { column };
-        if image.flips[1] {
-            let rows = self.mirrored.len() / self.width;
-            (&mut *self.mirrored, (rows - 1 - row) * self.width + column)
-        } else {
-            (&mut *self.own, row * self.width + column)
-        }
-    }
+/// Fills pixels, eight at a time: one by one three bytes are slow.
+fn lay<P: Copy>(background: P, pixels: &mut [P]) {
+    let (eights, others) = pixels.as_chunks_mut::<SIDE>();
+    eights.fill([background; SIDE]);
+    others.fill(background);
 }
 
 /// Bytes of bits for so many columns, and one more, which eight of them that begin within a byte may reach.

@@ -7,7 +7,7 @@ use super::canvas::Canvas;
 use super::float_shape::{Header, Shape};
 use super::float_weights::FloatWeights;
 use super::float_window::Window;
-use super::mirrors::{MOST_IMAGES, Mirrors};
+use super::mirrors::{MOST_IMAGES, Mirrors, TOGETHER};
 use super::prefetch::{prefetch_patch, prefetch_weights};
 use super::singles::{Palette, Singles};
 use super::texels::{Texels, prefetch};
@@ -50,18 +50,16 @@ impl FloatFilter<'_> {
             if at % SIDE == 0 {
                 let next = ahead.next().unwrap_or(&[]);
                 prefetch_patch(self.texels, self.mirrors, next);
-                canvas.prefetch(self.mirrors, next);
+                canvas.prefetch(next);
             }
             let numbers = &band.weights.numbers[run.weights as usize..];
             let mut pixels = self.pixels(simd, run, &views[usize::from(run.view)], numbers);
-            for (image, pixels) in self.mirrors.images.iter().zip(&mut pixels) {
-                if self.background != Rgba::TRANSPARENT {
-                    for pixel in pixels.iter_mut() {
-                        *pixel = pixel.over(self.background);
-                    }
+            if self.background != Rgba::TRANSPARENT {
+                for pixel in pixels[..self.mirrors.images.len()].as_flattened_mut() {
+                    *pixel = pixel.over(self.background);
                 }
-                canvas.put(image, run, pixels);
             }
+            canvas.put(run, &pixels);
         }
     }
 
@@ -73,22 +71,44 @@ impl FloatFilter<'_> {
         let run_filter = RunFilter { simd, filter: self, run, numbers };
         // A function for each number of mirrors: all in one would take the compiler minutes.
         match texels {
+            ViewTexels::Eight([first, second]) => {
+                let (order, others) = order.split_at(TOGETHER);
+                simd.vectorize(
+                    #[inline(always)]
+                    || run_filter.pixels::<TOGETHER, 2, false>(first, order, &mut pixels),
+                );
+                simd.vectorize(
+                    #[inline(always)]
+                    || run_filter.pixels::<TOGETHER, 2, false>(second, others, &mut pixels),
+                );
+            }
+            ViewTexels::Turned([upright, turned]) => {
+                let (order, others) = order.split_at(TOGETHER);
+                simd.vectorize(
+                    #[inline(always)]
+                    || run_filter.pixels::<TOGETHER, 2, false>(upright, order, &mut pixels),
+                );
+                simd.vectorize(
+                    #[inline(always)]
+                    || run_filter.pixels::<TOGETHER, 2, true>(turned, others, &mut pixels),
+                );
+            }
             ViewTexels::Four(texels) => simd.vectorize(
                 #[inline(always)]
-                || run_filter.pixels(texels, order, &mut pixels),
+                || run_filter.pixels::<TOGETHER, 2, false>(texels, order, &mut pixels),
             ),
             ViewTexels::Two(texels) => simd.vectorize(
                 #[inline(always)]
-                || run_filter.pixels(texels, order, &mut pixels),
+                || run_filter.pixels::<2, 1, false>(texels, order, &mut pixels),
             ),
             ViewTexels::OneByOne { forward, reversed } => simd.vectorize(
                 #[inline(always)]
                 || {
                     for (texels, order) in forward.iter().zip(order) {
-                        run_filter.pixels(texels, std::slice::from_ref(order), &mut pixels);
+                        run_filter.pixels::<1, 0, false>(texels, std::slice::from_ref(order), &mut pixels);
                     }
                     for (texels, order) in reversed.iter().zip(&order[forward.len()..]) {
-                        run_filter.pixels(texels, std::slice::from_ref(order), &mut pixels);
+                        run_filter.pixels::<1, 1, false>(texels, std::slice::from_ref(order), &mut pixels);
                     }
                 },
             ),
@@ -134,9 +154,10 @@ struct RunFilter<'a, S> {
 }
 
 impl<S: Simd> RunFilter<'_, S> {
-    /// The pixels in N mirrors, which `order` tells; in the last R of them windows are walked through from right to left.
+    /// The pixels in N mirrors, which `order` tells; in the last R of them windows are walked through from right to left, if they are
+    /// `TURNED` with columns for rows.
     #[inline(always)]
-    fn pixels<const N: usize, const R: usize>(
+    fn pixels<const N: usize, const R: usize, const TURNED: bool>(
         self,
         texels: &Texels<f32, N, R>,
         order: &[(usize, usize)],
@@ -145,7 +166,7 @@ impl<S: Simd> RunFilter<'_, S> {
         let Self { simd, filter, run, mut numbers } = self;
         let large = Shape { width: usize::from(run.width), height: usize::from(run.height) };
         for lane in run.lanes() {
-            let window = Window::<S, N, R> { simd, texels, first: run.first(lane) };
+            let window = Window::<S, N, R, TURNED> { simd, texels, first: run.first(lane) };
             prefetch_weights(numbers);
             let header = Header(numbers[0]);
             let (sums, length) = match header.index() {

@@ -11,15 +11,16 @@ use std::ops::Range;
 use fearless_simd::{Simd, f32x4, f32x16, mask32x16, prelude::*, u8x64, u32x4, u32x16};
 
 use super::float_shape::{BLOCK, Header, ROWS_UNDER, Shape, Small, mark_words};
-use super::texels::{FloatWindow, Texels};
+use super::float_turned::{Large, TurnedWindow};
+use super::texels::{self, Texels};
 
 /// Samples of a texel, and of a block of them.
-const SAMPLES: usize = 4;
-const BLOCK_SAMPLES: usize = BLOCK * SAMPLES;
+pub(super) const SAMPLES: usize = 4;
+pub(super) const BLOCK_SAMPLES: usize = BLOCK * SAMPLES;
 
-/// A pixel's window in N mirrors, in the last R of them from right to left.
+/// A pixel's window in N mirrors, in the last R of them from right to left; if they are `TURNED`, its rows are columns there.
 #[derive(Clone, Copy)]
-pub(super) struct Window<'a, S, const N: usize, const R: usize> {
+pub(super) struct Window<'a, S, const N: usize, const R: usize, const TURNED: bool> {
     pub(super) simd: S,
     /// Those of the view.
     pub(super) texels: &'a Texels<'a, f32, N, R>,
@@ -27,7 +28,7 @@ pub(super) struct Window<'a, S, const N: usize, const R: usize> {
     pub(super) first: [u32; 2],
 }
 
-impl<'a, S: Simd, const N: usize, const R: usize> Window<'a, S, N, R> {
+impl<'a, S: Simd, const N: usize, const R: usize, const TURNED: bool> Window<'a, S, N, R, TURNED> {
     /// Sums over a window of one of the sizes of [`Small::ALL`], and how many numbers tell of it. Written out: loops would stay
     /// loops.
     #[inline(always)]
@@ -41,9 +42,15 @@ impl<'a, S: Simd, const N: usize, const R: usize> Window<'a, S, N, R> {
             Some(&Small { shape: Shape { width: WIDTH, height: HEIGHT }, under: UNDER }),
             "the table's order is that of the match"
         );
-        let texels = self.texels.windows::<1, WIDTH, HEIGHT>(self.first);
-        let row = SmallRow::<S, N, R, WIDTH, HEIGHT> { simd: self.simd, texels };
         let (marks, weights) = (Marks::new(self.simd, header.marks()), &numbers[1..][..WIDTH * HEIGHT]);
+        let length = 1 + WIDTH * HEIGHT;
+        if TURNED {
+            let texels = self.texels.windows([self.first[1], self.first[0]]);
+            let window = TurnedWindow::<S, N, R, WIDTH, HEIGHT> { simd: self.simd, texels, weights, marks };
+            return (window.sums::<UNDER>(), length);
+        }
+        let texels = self.texels.windows::<WIDTH, HEIGHT>(self.first);
+        let row = SmallRow::<S, N, R, WIDTH, HEIGHT> { simd: self.simd, texels };
         let mut sums = row.first::<UNDER>(weights, marks);
         const { assert!(ROWS_UNDER == 3 && UNDER <= 1 && (HEIGHT == 4 || HEIGHT == 5)) };
         if UNDER == 0 {
@@ -61,7 +68,7 @@ impl<'a, S: Simd, const N: usize, const R: usize> Window<'a, S, N, R> {
         if WIDTH > BLOCK {
             row.add_last_column(&mut sums, &weights[BLOCK * HEIGHT..]);
         }
-        (sums, 1 + WIDTH * HEIGHT)
+        (sums, length)
     }
 
     /// The same of any size, whose rows from `under` on may hold texels under the pixel.
@@ -72,6 +79,11 @@ impl<'a, S: Simd, const N: usize, const R: usize> Window<'a, S, N, R> {
         let (all_marks, weights) = numbers[1..].split_at(under.len() * words);
         let whole = shape.in_blocks();
         let (in_blocks, others) = weights[..shape.area()].split_at(whole * shape.height);
+        let length = 1 + all_marks.len() + shape.area();
+        if TURNED {
+            let large = Large { shape, under, words, marks: all_marks, weights };
+            return (large.sums(simd, self.texels, self.first), length);
+        }
         let mut sums = Sums::zero(simd);
         for row in 0..shape.height {
             let marks = if under.contains(&row) { &all_marks[(row - under.start) * words..][..words] } else { &[] };
@@ -106,7 +118,7 @@ impl<'a, S: Simd, const N: usize, const R: usize> Window<'a, S, N, R> {
                 }
             }
         }
-        (sums, 1 + all_marks.len() + shape.area())
+        (sums, length)
     }
 
     /// The samples of a row, in each mirror.
@@ -124,7 +136,7 @@ impl<'a, S: Simd, const N: usize, const R: usize> Window<'a, S, N, R> {
 #[derive(Clone, Copy)]
 struct SmallRow<'a, S, const N: usize, const R: usize, const WIDTH: usize, const HEIGHT: usize> {
     simd: S,
-    texels: [FloatWindow<'a, WIDTH, HEIGHT>; N],
+    texels: [texels::Window<'a, f32, WIDTH, HEIGHT>; N],
 }
 
 impl<S: Simd, const N: usize, const R: usize, const WIDTH: usize, const HEIGHT: usize>
@@ -213,13 +225,13 @@ impl<S: Simd, const N: usize, const R: usize, const WIDTH: usize, const HEIGHT: 
 
 /// How a mirror, of N of which the last R go from right to left, goes through windows: 1 is that.
 #[inline(always)]
-const fn way<const N: usize, const R: usize>(image: usize) -> usize {
+pub(super) const fn way<const N: usize, const R: usize>(image: usize) -> usize {
     if image < N - R { 0 } else { 1 }
 }
 
 /// Four weights, each for all samples of a texel, for each way.
 #[inline(always)]
-fn spread<S: Simd>(simd: S, weights: &[u32; BLOCK]) -> [f32x16<S>; 2] {
+pub(super) fn spread<S: Simd>(simd: S, weights: &[u32; BLOCK]) -> [f32x16<S>; 2] {
     let weights: f32x4<S> = u32x4::load_array_ref(simd, weights).bitcast();
     let all = f32x16::block_splat(weights);
     [
@@ -243,29 +255,30 @@ static ORDER: [[u8; 64]; 2] = {
 
 /// Which texels of some rows of a block lie under a pixel, a bit for each.
 #[derive(Clone, Copy)]
-struct Marks<S: Simd>(u32x16<S>);
+pub(super) struct Marks<S: Simd>(u32x16<S>);
 
 impl<S: Simd> Marks<S> {
     #[inline(always)]
-    fn new(simd: S, marks: u32) -> Self {
+    pub(super) fn new(simd: S, marks: u32) -> Self {
         Self(u32x16::splat(simd, marks))
     }
 
     /// The samples of those texels of a row that do not, for each way.
     #[inline(always)]
-    fn beside(self, row: usize) -> [mask32x16<S>; 2] {
-        let simd = self.0.token();
-        let [forward, reversed] = [&MARK.0[0][row], &MARK.0[1][row]];
-        [
-            (self.0 & u32x16::load_array_ref(simd, forward)).simd_eq(0),
-            (self.0 & u32x16::load_array_ref(simd, reversed)).simd_eq(0),
-        ]
+    pub(super) fn beside(self, row: usize) -> [mask32x16<S>; 2] {
+        [self.without(&MARK.0[0][row]), self.without(&MARK.0[1][row])]
+    }
+
+    /// The samples whose bits are not among the marks.
+    #[inline(always)]
+    pub(super) fn without(self, bits: &[u32; BLOCK_SAMPLES]) -> mask32x16<S> {
+        (self.0 & u32x16::load_array_ref(self.0.token(), bits)).simd_eq(0)
     }
 }
 
 /// In whole lines of memory.
 #[repr(align(64))]
-struct Lines<T>(T);
+pub(super) struct Lines<T>(pub(super) T);
 
 /// Of each sample of a block its texel's bit among those of some rows.
 static MARK: Lines<[[[u32; BLOCK_SAMPLES]; ROWS_UNDER]; 2]> = {
@@ -283,16 +296,16 @@ static MARK: Lines<[[[u32; BLOCK_SAMPLES]; ROWS_UNDER]; 2]> = {
 
 /// What adds up over a window, and the bounds of what lies under the pixel, column by column of the blocks.
 pub(super) struct Sums<S: Simd, const N: usize> {
-    blocks: [f32x16<S>; N],
+    pub(super) blocks: [f32x16<S>; N],
     /// Over what is in no block.
-    last: [f32x4<S>; N],
+    pub(super) last: [f32x4<S>; N],
     least: [f32x16<S>; N],
     greatest: [f32x16<S>; N],
 }
 
 impl<S: Simd, const N: usize> Sums<S, N> {
     #[inline(always)]
-    fn zero(simd: S) -> Self {
+    pub(super) fn zero(simd: S) -> Self {
         Self {
             blocks: [f32x16::splat(simd, 0.0); N],
             last: [f32x4::splat(simd, 0.0); N],
@@ -303,7 +316,7 @@ impl<S: Simd, const N: usize> Sums<S, N> {
 
     /// Notes texels, but for those beside the pixel.
     #[inline(always)]
-    fn bound(&mut self, image: usize, texels: f32x16<S>, is_beside: mask32x16<S>) {
+    pub(super) fn bound(&mut self, image: usize, texels: f32x16<S>, is_beside: mask32x16<S>) {
         self.least[image] = is_beside.select(self.least[image], self.least[image].min(texels));
         self.greatest[image] = is_beside.select(self.greatest[image], self.greatest[image].max(texels));
     }

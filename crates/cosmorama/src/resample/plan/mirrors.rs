@@ -1,4 +1,5 @@
-//! Mirror symmetry of a conversion: a dome made of a cube is the same left and right, before and behind.
+//! Mirror symmetry of a conversion: a dome made of a cube is the same left and right, before and behind, and on either side of a
+//! diagonal.
 
 use glam::DMat3;
 
@@ -19,8 +20,11 @@ const SAME_TEXEL: f64 = 1e-6;
 /// Points along a side at which a symmetry is tried; the formulas between are smooth.
 const STEPS: usize = 16;
 
-/// Itself, left and right exchanged, top and bottom, both.
-pub(super) const MOST_IMAGES: usize = 4;
+/// Itself, left and right exchanged, top and bottom, both; and each of these turned over its diagonal.
+pub(super) const MOST_IMAGES: usize = 8;
+
+/// How many of them windows are walked through in together, at most.
+pub(super) const TOGETHER: usize = 4;
 
 /// What is left of a target to compute, and the mirrors in which the rest is seen.
 #[derive(Clone, Debug, PartialEq)]
@@ -37,36 +41,60 @@ pub(super) struct Mirrors {
     ways: Vec<Ways>,
 }
 
-/// How the mirrors go through windows of a view: those from left to right first, and of either those that go down first.
+/// How the mirrors go through windows of a view: as they are before those turned over their diagonal, of either those from left to
+/// right first, and of these those that go down first.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Ways {
     /// Which mirror, and what exchanges left and right in the index of a lane if that does.
     pub(super) order: [(usize, usize); MOST_IMAGES],
-    /// How many there are, and how many of them go from left to right.
+    /// How many there are, and how many of those that are not turned go from left to right.
     pub(super) count: usize,
     pub(super) forward: usize,
-    /// Texels from one row to the next, for each.
-    pub(super) down: [i32; MOST_IMAGES],
+    /// How many are turned.
+    pub(super) turned: usize,
+    /// How each of them goes.
+    pub(super) walks: [Walk; MOST_IMAGES],
 }
 
 impl Ways {
     fn of(images: &[MirrorImage], view: usize) -> Self {
         let walks = images.iter().map(|image| image.view(view).walk([0; 2]));
         let mut walks: Vec<(usize, Walk)> = walks.enumerate().collect();
-        walks.sort_by_key(|(_, walk)| (walk.is_reversed, walk.down < 0));
+        walks.sort_by_key(|(_, walk)| (walk.is_turned, walk.is_reversed, walk.down < 0));
+        if walks.len() == MOST_IMAGES && walks.iter().all(|(_, walk)| !walk.is_turned) {
+            // Of four each way every other one, so that both halves have two each way that go alike.
+            walks = [0, 2, 4, 6, 1, 3, 5, 7].map(|at| walks[at]).to_vec();
+        }
         let mut ways = Self { count: walks.len(), ..Self::default() };
         for (at, (index, walk)) in walks.into_iter().enumerate() {
-            ways.order[at] = (index, if images[index].flips[0] { SIDE - 1 } else { 0 });
-            ways.down[at] = walk.down;
-            ways.forward += usize::from(!walk.is_reversed);
+            let MirrorImage { flips, is_turned, .. } = images[index];
+            ways.order[at] = (index, if flips[0] && !is_turned { SIDE - 1 } else { 0 });
+            ways.walks[at] = walk;
+            ways.forward += usize::from(!walk.is_reversed && !walk.is_turned);
+            ways.turned += usize::from(walk.is_turned);
         }
         ways
+    }
+
+    /// Whether four from this one on go two from left to right and two from right to left, whose steps from row to row are the same
+    /// two.
+    pub(super) fn are_four(&self, first: usize) -> bool {
+        let [a, b, c, d] = self.four(first);
+        let alike = |a: Walk, b: Walk| !a.is_reversed && b.is_reversed && a.down == b.down;
+        alike(a, c) && alike(b, d) && [b, c, d].iter().all(|walk| walk.is_turned == a.is_turned)
+    }
+
+    /// Four from this one on.
+    pub(super) fn four(&self, first: usize) -> [Walk; TOGETHER] {
+        *self.walks[first..].first_chunk().expect("four ways from the first or the fifth on")
     }
 }
 
 /// A picture of what is computed.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct MirrorImage {
+    /// Whether columns are rows on the target, and rows columns: what is turned over the diagonal is exchanged after that.
+    pub(super) is_turned: bool,
     /// Whether left and right are exchanged on the target, and whether top and bottom.
     pub(super) flips: [bool; 2],
     /// For each view of the world what is seen in its stead.
@@ -78,14 +106,18 @@ pub(super) struct MirrorImage {
 pub(super) struct Reflection {
     /// Where it lies in the buffer of light.
     rows: RowLayout,
+    /// Whether its columns are seen as rows, and its rows as columns.
+    is_turned: bool,
     /// Whether its columns run the other way, and whether its rows.
     flips: [bool; 2],
 }
 
-/// Where a window begins in the buffer of light, and the steps from texel to texel.
-#[derive(Clone, Copy, Debug, Default)]
+/// Where a window begins in the buffer of light, and the steps from texel to texel there.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Walk {
     pub(super) first: u32,
+    /// Whether a row of the window is a column there: all else is told of the window as it lies there.
+    pub(super) is_turned: bool,
     /// Whether columns run the other way.
     pub(super) is_reversed: bool,
     /// From one row to the next.
@@ -93,36 +125,33 @@ pub(super) struct Walk {
 }
 
 impl Walk {
-    /// The same of a window so many columns and rows further on.
+    /// The texels from one column of a window to the next, and from one row to the next.
     #[inline(always)]
-    pub(super) fn moved(self, [columns, rows]: [u8; 2]) -> Self {
-        let columns = u32::from(columns);
-        let first = if self.is_reversed { self.first.wrapping_sub(columns) } else { self.first.wrapping_add(columns) };
-        Self { first: first.wrapping_add_signed(self.down.wrapping_mul(i32::from(rows))), ..self }
+    pub(super) fn steps(self) -> [i32; 2] {
+        let along = if self.is_reversed { -1 } else { 1 };
+        if self.is_turned { [self.down, along] } else { [along, self.down] }
     }
 
-    /// The same one row further down.
+    /// The texel so many columns and rows on.
     #[inline(always)]
-    pub(super) fn one_down(self) -> Self {
-        Self { first: self.first.wrapping_add_signed(self.down), ..self }
+    pub(super) fn texel(self, offset: [usize; 2]) -> u32 {
+        let [across, down] = self.steps();
+        let moved = |first: u32, step: i32, count: usize| first.wrapping_add_signed(step.wrapping_mul(count as i32));
+        moved(moved(self.first, across, offset[0]), down, offset[1])
     }
 }
 
 impl Reflection {
-    /// Columns and rows of the view.
-    #[inline(always)]
-    pub(super) fn size(&self) -> [usize; 2] {
-        self.rows.size
-    }
-
     /// The walk of a window whose first texel is in this column and row of the view itself.
     #[inline(always)]
-    pub(super) fn walk(&self, [column, row]: [usize; 2]) -> Walk {
+    pub(super) fn walk(&self, texel: [usize; 2]) -> Walk {
         let RowLayout { size: [width, height], pitch, .. } = self.rows;
+        let [column, row] = exchanged(texel, self.is_turned);
         let column = if self.flips[0] { width - 1 - column } else { column };
         let (row, down) = if self.flips[1] { (height - 1 - row, -(pitch as i32)) } else { (row, pitch as i32) };
         // Texels of a world, and what fills up their rows, are counted in 32 bits.
-        Walk { first: self.rows.index([column, row]) as u32, is_reversed: self.flips[0], down }
+        let first = self.rows.index([column, row]) as u32;
+        Walk { first, is_turned: self.is_turned, is_reversed: self.flips[0], down }
     }
 }
 
@@ -147,7 +176,7 @@ impl Mirrors {
             let is_even = (!flips[0] || width % 2 == 0) && (!flips[1] || height % 2 == 0);
             // Of two texels that are as near, a point takes the one to the right, in a mirror too.
             (is_even && filter.kind != FilterKind::Point)
-                .then(|| MirrorImage::of((world, &layout), target, flips))
+                .then(|| MirrorImage::of((world, &layout), target, Flip { is_turned: false, axes: flips }))
                 .flatten()
         };
         let (across, mut down) = (reflect([true, false]), reflect([false, true]));
@@ -158,8 +187,21 @@ impl Mirrors {
         }
         let columns = if across.is_some() { width / 2 } else { width };
         let rows = if down.is_some() { height / 2 } else { height };
-        let images = std::iter::once(MirrorImage::itself(&layout));
-        Self::new([columns, rows], images.chain([across, down, both].into_iter().flatten()).collect())
+        let itself = std::iter::once(MirrorImage::itself(&layout));
+        let mut images: Vec<_> = itself.chain([across, down, both].into_iter().flatten()).collect();
+        if images.len() == TOGETHER && width == height {
+            let turned = FLIPS.map(|axes| MirrorImage::of((world, &layout), target, Flip { is_turned: true, axes }));
+            let eight: Vec<_> = images.iter().cloned().chain(turned.into_iter().flatten()).collect();
+            let are_fours = |view: usize| {
+                let ways = Ways::of(&eight, view);
+                ways.are_four(0) && ways.are_four(TOGETHER)
+            };
+            // Windows are walked through by fours, or the work that is spared is lost again.
+            if eight.len() == MOST_IMAGES && (0..layout.len()).all(are_fours) {
+                images = eight;
+            }
+        }
+        Self::new([columns, rows], images)
     }
 
     pub(super) fn new([columns, rows]: [usize; 2], images: Vec<MirrorImage>) -> Self {
@@ -167,6 +209,22 @@ impl Mirrors {
         let is_packed = views.iter().all(|view| view.rows.pitch == view.rows.size[0]);
         let ways = (0..views.len()).map(|view| Ways::of(&images, view)).collect();
         Self { columns, rows, images, is_packed, ways }
+    }
+
+    /// Whether there are mirrors along the diagonals: what lies to the left of the one through the first column and row is not
+    /// computed either.
+    pub(super) fn has_diagonals(&self) -> bool {
+        self.images.len() == MOST_IMAGES
+    }
+
+    /// Those that show columns as rows: the last ones.
+    pub(super) fn turned(&self) -> &[MirrorImage] {
+        self.images.get(TOGETHER..).unwrap_or_default()
+    }
+
+    /// The first column to compute of rows from this one on that make patches or bands.
+    pub(super) fn first_column(&self, row: usize) -> usize {
+        if self.has_diagonals() { row } else { 0 }
     }
 
     /// Where in the light each view lies.
@@ -188,26 +246,31 @@ impl Mirrors {
 impl MirrorImage {
     /// What is computed itself.
     pub(super) fn itself(layout: &[RowLayout]) -> Self {
-        let flips = [false; 2];
-        Self { flips, views: layout.iter().map(|&rows| Reflection { rows, flips }).collect() }
+        let (is_turned, flips) = (false, [false; 2]);
+        let views = layout.iter().map(|&rows| Reflection { rows, is_turned, flips }).collect();
+        Self { is_turned, flips, views }
     }
 
-    /// The target flipped, if the world has a mirror plane to which that belongs.
-    fn of((world, layout): (&World, &[RowLayout]), target: &View, flips: [bool; 2]) -> Option<Self> {
-        let mirror = mirror_of(target, flips)?;
+    /// The target flipped, if the world has a mirror plane, or a quarter turn, to which that belongs.
+    fn of((world, layout): (&World, &[RowLayout]), target: &View, flip: Flip) -> Option<Self> {
+        let mirror = mirror_of(target, flip)?;
         let seen = |source: &Source| {
             let mut others = world.sources().iter().zip(layout);
-            others.find_map(|(other, &rows)| Some(Reflection { rows, flips: reflection(source, other, &mirror)? }))
+            others.find_map(|(other, &rows)| {
+                let Flip { is_turned, axes: flips } = reflection(source, other, &mirror, flip.is_turned)?;
+                Some(Reflection { rows, is_turned, flips })
+            })
         };
-        Some(Self { flips, views: world.sources().iter().map(seen).collect::<Option<_>>()? })
+        let views = world.sources().iter().map(seen).collect::<Option<_>>()?;
+        Some(Self { is_turned: flip.is_turned, flips: flip.axes, views })
     }
 }
 
-/// The reflection (an orthogonal matrix) of the world that flips what a target shows.
-fn mirror_of(target: &View, flips: [bool; 2]) -> Option<DMat3> {
+/// The reflection or turn (an orthogonal matrix) of the world that flips what a target shows.
+fn mirror_of(target: &View, flip: Flip) -> Option<DMat3> {
     let size = [target.width() as f64, target.height() as f64];
     let at = |x: f64, y: f64| PixelPoint::new(size[0] * x, size[1] * y);
-    let flipped = |point| flip(point, size, flips);
+    let flipped = |point| flip.of(point, size);
     let seen = |point| target.direction(point).map(Direction::vector);
     let three = [(0.4, 0.45), (0.55, 0.4), (0.6, 0.65)].map(|(x, y)| at(x, y));
     let columns = |points: [PixelPoint; 3]| {
@@ -224,7 +287,8 @@ fn mirror_of(target: &View, flips: [bool; 2]) -> Option<DMat3> {
     };
     let stop_is_same = || {
         let centre = target.grid.to_plane(at(0.5, 0.5));
-        let is_centred = (!flips[0] || centre.x.abs() < SAME) && (!flips[1] || centre.y.abs() < SAME);
+        let off = |axis: usize| [centre.x, centre.y][axis].abs();
+        let is_centred = (0..2).all(|axis| !(flip.axes[axis] || flip.is_turned) || off(axis) < SAME);
         let side = target.stop.half_space.map(|side| target.orientation.to_world(side).vector());
         is_centred && side.is_none_or(|side| (mirror * side - side).length() < SAME)
     };
@@ -235,33 +299,33 @@ fn mirror_of(target: &View, flips: [bool; 2]) -> Option<DMat3> {
     is_mirror.then_some(mirror)
 }
 
-/// Which axes of another view run the other way as the reflection of one, if it is that: no texel of either is hidden or shared.
-fn reflection(source: &Source, other: &Source, mirror: &DMat3) -> Option<[bool; 2]> {
+/// How another view is flipped as the reflection of one, if it is that: no texel of either is hidden or shared. Over its diagonal
+/// only if that `may_turn`.
+fn reflection(source: &Source, other: &Source, mirror: &DMat3, may_turn: bool) -> Option<Flip> {
     let (a, b) = (&source.view, &other.view);
     let is_plain = |source: &Source| {
         let all = PixelRect { left: 0, top: 0, right: source.view.width(), bottom: source.view.height() };
         source.whole == all && source.mask.is_none() && source.view.stop == FieldStop::NONE && is_formula(&source.view)
     };
-    if a.projection != b.projection
-        || (a.width(), a.height()) != (b.width(), b.height())
-        || !is_plain(source)
-        || !is_plain(other)
-    {
+    let [size, other_size] = [a, b].map(|view| [view.width() as f64, view.height() as f64]);
+    if a.projection != b.projection || !is_plain(source) || !is_plain(other) {
         return None;
     }
-    let size = [a.width() as f64, a.height() as f64];
-    let fits = |flips: [bool; 2]| {
-        points().all(|(x, y)| {
-            let point = PixelPoint::new(size[0] * x, size[1] * y);
-            let Some(direction) = a.direction(point) else { return b.direction(flip(point, size, flips)).is_none() };
-            let seen = b.pixel(Direction::from_unit(*mirror * direction.vector()));
-            let expected = flip(point, size, flips);
-            let near = |pixel: PixelPoint| (pixel.x - expected.x).hypot(pixel.y - expected.y) < SAME_TEXEL;
-            seen.is_some_and(|pixel| near(b.wrapped(pixel)))
-        })
+    let fits = |flip: &Flip| {
+        let same_size = exchanged(size, flip.is_turned) == other_size;
+        same_size
+            && points().all(|(x, y)| {
+                let point = PixelPoint::new(size[0] * x, size[1] * y);
+                let expected = flip.of(point, other_size);
+                let Some(direction) = a.direction(point) else { return b.direction(expected).is_none() };
+                let seen = b.pixel(Direction::from_unit(*mirror * direction.vector()));
+                let near = |pixel: PixelPoint| (pixel.x - expected.x).hypot(pixel.y - expected.y) < SAME_TEXEL;
+                seen.is_some_and(|pixel| near(b.wrapped(pixel)))
+            })
     };
-    let all = [[false, false], [true, false], [false, true], [true, true]];
-    all.into_iter().find(|&flips| fits(flips))
+    let turns = if may_turn { &[false, true][..] } else { &[false] };
+    let all = turns.iter().flat_map(|&is_turned| FLIPS.map(|axes| Flip { is_turned, axes }));
+    all.into_iter().find(fits)
 }
 
 /// Whether a view follows a formula that a few points tell; a table may hold anything between them.
@@ -275,9 +339,26 @@ fn points() -> impl Iterator<Item = (f64, f64)> {
     (0..STEPS).flat_map(move |j| (0..STEPS).map(move |i| (at(i), at(j))))
 }
 
-fn flip(point: PixelPoint, [width, height]: [f64; 2], flips: [bool; 2]) -> PixelPoint {
-    PixelPoint {
-        x: if flips[0] { width - point.x } else { point.x },
-        y: if flips[1] { height - point.y } else { point.y },
+/// Of left and right, and of top and bottom, none, either or both exchanged.
+const FLIPS: [[bool; 2]; 4] = [[false, false], [true, false], [false, true], [true, true]];
+
+/// How a picture is flipped: first over its diagonal, or not, so that columns are rows, then along its axes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Flip {
+    is_turned: bool,
+    axes: [bool; 2],
+}
+
+impl Flip {
+    /// Where a point comes to lie in a flipped picture of this size.
+    fn of(self, point: PixelPoint, [width, height]: [f64; 2]) -> PixelPoint {
+        let [x, y] = exchanged([point.x, point.y], self.is_turned);
+        PixelPoint { x: if self.axes[0] { width - x } else { x }, y: if self.axes[1] { height - y } else { y } }
     }
+}
+
+/// What is told of columns and rows, of rows and columns if those are `turned` over a diagonal.
+#[inline(always)]
+pub(super) fn exchanged<T>([column, row]: [T; 2], is_turned: bool) -> [T; 2] {
+    if is_turned { [row, column] } else { [column, row] }
 }

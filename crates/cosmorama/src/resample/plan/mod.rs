@@ -7,14 +7,18 @@ mod blocks_avx512;
 mod canvas;
 mod fixed;
 mod fixed_check;
+mod fixed_turned;
 mod fixed_weights;
+mod fixed_window;
 mod float;
 mod float_lanes;
 mod float_shape;
+mod float_turned;
 mod float_weights;
 mod float_window;
 mod key;
 mod mirrors;
+mod picture_part;
 mod prefetch;
 mod recorder;
 mod rounded;
@@ -40,7 +44,7 @@ use fixed_weights::FixedWeights;
 use float::FloatFilter;
 use float_weights::FloatWeights;
 pub use key::PlanKey;
-use mirrors::{MirrorImage, Mirrors};
+use mirrors::{MirrorImage, Mirrors, exchanged};
 use recorder::Recorder;
 pub use saved::PlanError;
 pub use saved_plan::SavedPlan;
@@ -50,7 +54,7 @@ use weights::Weights;
 
 use super::kernel::KernelTable;
 use super::patch::SIDE;
-use super::scan::{Scan, Wanted};
+use super::scan::{Part, Scan, Wanted};
 use super::window::Level;
 use super::{Resampler, Taps};
 use crate::raster::{FixedCodec, FixedLight, Image, Rgba};
@@ -236,7 +240,7 @@ impl<W: Weights> Compiled<W> {
         let (found, expected) = ((image.width(), image.height()), (self.width, self.height));
         assert_eq!(found, expected, "an image as large as the target");
         let canvases = Canvas::bands(image.pixels_mut(), self.width, BAND, &self.mirrors, background);
-        canvases.zip(&self.bands).for_each(|(mut canvas, band)| make(band, &mut canvas));
+        canvases.into_par_iter().zip(&self.bands).for_each(|(mut canvas, band)| make(band, &mut canvas));
     }
 
     fn bytes(&self) -> usize {
@@ -254,7 +258,7 @@ fn each_band<W: Weights, P: Copy + Send + Sync>(
 ) {
     let table = &KernelTable::new(&resampler.filter.kernel);
     let canvases = Canvas::bands(pixels, resampler.target.width(), BAND, mirrors, background);
-    canvases.enumerate().for_each_init(Band::default, |band, (index, mut canvas)| {
+    canvases.into_par_iter().enumerate().for_each_init(Band::default, |band, (index, mut canvas)| {
         band.clear();
         record((resampler, wanted), mirrors, table, mirrors.band(index), level, band, |band| {
             make(band, &mut canvas);
@@ -276,7 +280,8 @@ fn record<W: Weights>(
 ) {
     let mut recorder =
         Recorder { world: resampler.world, mirrors, band, taps: Taps::default(), places: Vec::new(), spill };
-    Scan::new(resampler, table, level).only(wanted).pixels(mirrors.columns, rows, &mut recorder);
+    let part = Part { columns: mirrors.columns, rows, is_above_diagonal: mirrors.has_diagonals() };
+    Scan::new(resampler, table, level).only(wanted).pixels(&part, &mut recorder);
 }
 
 /// The patches that must be computed, in whatever mirror something is wanted of them, given which rectangles of the target are.
@@ -292,6 +297,7 @@ pub(super) fn wanted(resampler: &Resampler, is_wanted: impl Fn(PixelRect) -> boo
 impl MirrorImage {
     /// Where in a target of this size it shows a patch.
     fn shown(&self, first: [usize; 2], size: [usize; 2]) -> PixelRect {
+        let first = exchanged(first, self.is_turned);
         let along = |axis: usize| {
             let (from, to) = (first[axis], size[axis].min(first[axis] + SIDE));
             if self.flips[axis] { [size[axis] - to, size[axis] - from] } else { [from, to] }

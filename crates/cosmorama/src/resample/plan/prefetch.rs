@@ -1,5 +1,5 @@
 use super::band::Run;
-use super::mirrors::Mirrors;
+use super::mirrors::{Mirrors, exchanged};
 use super::texels;
 
 /// Bytes that come from memory together.
@@ -70,11 +70,12 @@ impl Region {
     /// Asks for it in all mirrors.
     #[inline(always)]
     fn prefetch<T>(&self, texels: &[T], mirrors: &Mirrors) {
-        let last = (self.end[0] - self.first[0] - 1) as u32;
         for image in &mirrors.images {
             let walk = image.view(self.view).walk(self.first);
+            let [columns, rows] = exchanged([self.end[0] - self.first[0], self.end[1] - self.first[1]], walk.is_turned);
+            let last = (columns - 1) as u32;
             let mut left = if walk.is_reversed { walk.first.wrapping_sub(last) } else { walk.first };
-            for _ in self.first[1]..self.end[1] {
+            for _ in 0..rows {
                 prefetch_lines(texels, left, last);
                 left = left.wrapping_add_signed(walk.down);
             }

@@ -16,7 +16,7 @@ use crate::resample::Resampler;
 const MARK: [u8; 16] = *b"cosmorama plan\r\n";
 
 /// The version of what follows, of how plans are computed, and of where in light texels lie: taps tell them by their index.
-pub(super) const FORMAT: u32 = 5;
+pub(super) const FORMAT: u32 = 6;
 
 /// Why bytes are not the plan of a conversion. Another one can always be computed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
@@ -92,7 +92,8 @@ impl<W: Weights> Compiled<W> {
         let parts = parts(&mut bytes).filter(|parts| parts.len() == mirrors.rows.div_ceil(BAND));
         let parts = parts.ok_or(PlanError::Unsound)?;
         let band = |(index, mut bytes): (usize, &[u8])| {
-            let room = Room { world: resampler.world, mirrors: &mirrors, rows: mirrors.band(index).len() };
+            let rows = mirrors.band(index);
+            let room = Room { world: resampler.world, mirrors: &mirrors, first_row: rows.start, rows: rows.len() };
             let band = Band::<W>::load(&mut bytes).filter(|band| bytes.is_empty() && band.is_sound(&room));
             band.ok_or(PlanError::Unsound)
         };

@@ -1,10 +1,12 @@
 //! Pixels that come by themselves, each with a list of its texels: on the edges between views, at rims, and wherever windows
 //! cannot be held. What is the same in all mirrors is kept once, and done once.
 
+use std::ops::Range;
+
 use fearless_simd::{Simd, f32x4, prelude::*};
 
 use super::canvas::Canvas;
-use super::mirrors::{MirrorImage, Mirrors};
+use super::mirrors::Mirrors;
 use super::stored::stored;
 use crate::raster::Rgba;
 use crate::resample::slope::{Bounds, Rim};
@@ -166,12 +168,13 @@ impl Singles {
         (palette, anti_ringing): (&P, bool),
         canvas: &mut Canvas<P::Pixel>,
     ) {
-        match mirrors.images.as_slice() {
-            [a, b, c, d] => self.fill_all(simd, [a, b, c, d], (palette, anti_ringing), canvas),
-            [a, b] => self.fill_all(simd, [a, b], (palette, anti_ringing), canvas),
+        match mirrors.images.len() {
+            8 => self.fill_all::<S, P, 8>(simd, (palette, anti_ringing), canvas),
+            4 => self.fill_all::<S, P, 4>(simd, (palette, anti_ringing), canvas),
+            2 => self.fill_all::<S, P, 2>(simd, (palette, anti_ringing), canvas),
             images => {
-                assert_eq!(images.len(), 1, "a picture is mirrored in each direction or not");
-                self.fill_all(simd, [&images[0]], (palette, anti_ringing), canvas);
+                assert_eq!(images, 1, "a picture is mirrored in each direction or not");
+                self.fill_all::<S, P, 1>(simd, (palette, anti_ringing), canvas);
             }
         }
     }
@@ -180,7 +183,6 @@ impl Singles {
     fn fill_all<S: Simd, P: Palette, const N: usize>(
         &self,
         simd: S,
-        images: [&MirrorImage; N],
         (palette, anti_ringing): (&P, bool),
         canvas: &mut Canvas<P::Pixel>,
     ) {
@@ -193,7 +195,7 @@ impl Singles {
                 #[inline(always)]
                 || averages::<S, P, N>(simd, &taps, palette, anti_ringing),
             );
-            for (image, light) in images.iter().zip(averages) {
+            for (image, light) in averages.into_iter().enumerate() {
                 *canvas.pixel(image, [single.column as usize, usize::from(single.row)]) =
                     palette.pixel(light, single.coverage);
             }
@@ -201,12 +203,12 @@ impl Singles {
     }
 
     /// Whether all that they speak of is there: columns and rows of a band, and so many texels in each of some mirrors.
-    pub(super) fn are_sound(&self, [columns, rows]: [usize; 2], texels: usize, images: usize) -> bool {
+    pub(super) fn are_sound(&self, (columns, rows): (Range<usize>, usize), texels: usize, images: usize) -> bool {
         self.weights.len().checked_mul(images) == Some(self.texels.len())
             && self
                 .pixels
                 .iter()
-                .all(|single| single.is_sound([columns, rows], [self.weights.len(), self.places.len()]))
+                .all(|single| single.is_sound((columns.clone(), rows), [self.weights.len(), self.places.len()]))
             && self.weights.iter().all(|weight| weight.is_finite())
             && self.texels.iter().all(|texel| (*texel as usize) < texels)
             && self.places.as_flattened().iter().all(|place| place.is_finite())
@@ -280,7 +282,7 @@ fn add<S: Simd, const N: usize>(sums: &mut [[f64; 4]; N], parts: [f32x4<S>; N]) 
 }
 
 impl Single {
-    fn is_sound(&self, [columns, rows]: [usize; 2], lengths: [usize; 2]) -> bool {
+    fn is_sound(&self, (columns, rows): (Range<usize>, usize), lengths: [usize; 2]) -> bool {
         let lists = [(self.first, self.taps), (self.first_place, self.places)];
         let is_there = |((first, count), length): ((usize, u32), usize)| {
             first.checked_add(count as usize).is_some_and(|end| end <= length)
@@ -289,7 +291,7 @@ impl Single {
             && self.under <= self.taps
             && (self.places == 0 || self.places == self.taps)
             && (0.0..=1.0).contains(&self.coverage)
-            && (self.column as usize) < columns
+            && columns.contains(&(self.column as usize))
             && usize::from(self.row) < rows
     }
 }
@@ -313,7 +315,7 @@ mod tests {
 
     /// Room for two columns and three rows, and nine texels in each of two mirrors.
     fn are_sound(singles: &Singles) -> bool {
-        singles.are_sound([2, 3], 9, 2)
+        singles.are_sound((0..2, 3), 9, 2)
     }
 
     /// A pixel of two texels, and one at a rim, of three.
@@ -364,6 +366,7 @@ mod tests {
             spoil(&mut singles);
             assert!(!are_sound(&singles), "{index}");
         }
-        assert!(!sound().are_sound([2, 3], 9, 1) && !sound().are_sound([2, 3], 9, usize::MAX));
+        assert!(!sound().are_sound((0..2, 3), 9, 1) && !sound().are_sound((0..2, 3), 9, usize::MAX));
+        assert!(!sound().are_sound((1..2, 3), 9, 2), "a column that another band makes");
     }
 }

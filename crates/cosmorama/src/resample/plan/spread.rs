@@ -2,8 +2,9 @@ use rayon::prelude::*;
 
 use super::band::{Band, Run};
 use super::float_weights::FloatWeights;
-use super::mirrors::Walk;
+use super::mirrors::{MirrorImage, Walk, exchanged};
 use super::{BAND, Plan};
+use crate::resample::patch::SIDE;
 
 /// Parts of a world's texels, at most. For each of them all of the plan is gone through, and so the work grows with them: beyond as
 /// many, threads would do little but that, and take time from others.
@@ -42,11 +43,12 @@ impl Part<'_> {
     }
 
     /// Whether none of a window's texels can be one of these.
-    fn is_beside(&self, walk: Walk, (width, height): (usize, usize)) -> bool {
-        let rows = (height - 1) * walk.down.unsigned_abs() as usize;
-        let first = walk.first as usize;
-        let (least, most) = if walk.down < 0 { (first.saturating_sub(rows), first) } else { (first, first + rows) };
-        most + width <= self.first || least >= self.first + self.texels.len() + width
+    fn is_beside(&self, walk: Walk, [columns, rows]: [usize; 2]) -> bool {
+        // It reaches from one corner to another.
+        let corners = [[0, 0], [columns - 1, 0], [0, rows - 1], [columns - 1, rows - 1]];
+        let corners = corners.map(|corner| walk.texel(corner) as usize);
+        corners.iter().all(|&texel| texel < self.first)
+            || corners.iter().all(|&texel| texel >= self.first + self.texels.len())
     }
 }
 
@@ -58,11 +60,15 @@ struct Spread<'a> {
 }
 
 impl Spread<'_> {
-    /// That of a pixel in place of which a mirror shows this one.
+    /// That of a pixel in place of which a mirror shows this one; none, if it is made without that mirror, too.
     fn pixel(&self, pixels: &[f32], image: usize, [column, row]: [usize; 2]) -> f64 {
         let Plan(plan) = self.plan;
-        let flips = plan.mirrors.images[image].flips;
-        let row = self.top + row;
+        let MirrorImage { flips, is_turned, .. } = plan.mirrors.images[image];
+        // Turned over the diagonal, patches on it are themselves.
+        if is_turned && column / SIDE == (self.top + row) / SIDE {
+            return 0.0;
+        }
+        let [column, row] = exchanged([column, self.top + row], is_turned);
         let column = if flips[0] { plan.width - 1 - column } else { column };
         let row = if flips[1] { plan.height - 1 - row } else { row };
         f64::from(pixels[row * plan.width + column])
@@ -71,20 +77,18 @@ impl Spread<'_> {
     fn run(&self, run: &Run, pixels: &[f32], part: &mut Part) {
         let Plan(plan) = self.plan;
         for (index, image) in plan.mirrors.images.iter().enumerate() {
-            let corner = image.view(usize::from(run.view)).walk(run.corner());
+            let view = image.view(usize::from(run.view));
             for (lane, window) in self.band.weights.windows(run) {
-                let mut walk = run.walk(corner, lane);
-                if part.is_beside(walk, (window.shape.width, window.shape.height)) {
+                let walk = view.walk(run.first(lane).map(|at| at as usize));
+                if part.is_beside(walk, [window.shape.width, window.shape.height]) {
                     continue;
                 }
                 let pixel = self.pixel(pixels, index, run.pixel(lane));
                 for row in 0..window.shape.height {
-                    let first = walk.first as usize;
                     for column in 0..window.shape.width {
-                        let texel = if walk.is_reversed { first - column } else { first + column };
+                        let texel = walk.texel([column, row]) as usize;
                         part.add(texel, pixel * f64::from(window.weight(row, column)));
                     }
-                    walk = walk.one_down();
                 }
             }
         }

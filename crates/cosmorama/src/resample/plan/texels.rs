@@ -8,12 +8,6 @@ use super::mirrors::Walk;
 /// Samples of a texel.
 const SAMPLES: usize = 4;
 
-/// A window of integers, `PAIRS` pairs of texels across and `HEIGHT` rows.
-pub(super) type PairWindow<'a, const PAIRS: usize, const HEIGHT: usize> = Window<'a, i16, 2, PAIRS, HEIGHT>;
-
-/// A window of floats.
-pub(super) type FloatWindow<'a, const WIDTH: usize, const HEIGHT: usize> = Window<'a, f32, 1, WIDTH, HEIGHT>;
-
 /// The texels of a view as N mirrors show them, in the last R of them from right to left.
 #[derive(Clone, Copy)]
 pub(super) struct Texels<'a, T, const N: usize, const R: usize> {
@@ -56,14 +50,14 @@ impl<'a, T: Copy, const N: usize, const R: usize> Texels<'a, T, N, R> {
     /// # Panics
     /// If it is not all within the view.
     #[inline(always)]
-    pub(super) fn windows<const TEXELS: usize, const COLUMNS: usize, const HEIGHT: usize>(
+    pub(super) fn windows<const COLUMNS: usize, const HEIGHT: usize>(
         &self,
         corner: [u32; 2],
-    ) -> [Window<'a, T, TEXELS, COLUMNS, HEIGHT>; N] {
-        const { assert!(0 < TEXELS && TEXELS <= 2 && 0 < COLUMNS && COLUMNS <= 256 && 0 < HEIGHT && HEIGHT <= 256) };
-        self.check(corner, [TEXELS * COLUMNS, HEIGHT]);
+    ) -> [Window<'a, T, COLUMNS, HEIGHT>; N] {
+        const { assert!(0 < COLUMNS && COLUMNS <= 256 && 0 < HEIGHT && HEIGHT <= 256) };
+        self.check(corner, [COLUMNS, HEIGHT]);
         let window = |image: usize| Window {
-            first: self.leftmost(image, corner, TEXELS * COLUMNS),
+            first: self.leftmost(image, corner, COLUMNS),
             down: self.down[image % 2],
             samples: PhantomData,
         };
@@ -103,9 +97,9 @@ impl<'a, T: Copy, const N: usize, const R: usize> Texels<'a, T, N, R> {
     }
 }
 
-/// A window of `COLUMNS` columns of `TEXELS` texels each and `HEIGHT` rows, all of it among the samples given.
+/// A window of `COLUMNS` columns and `HEIGHT` rows, all of it among the samples given.
 #[derive(Clone, Copy)]
-pub(super) struct Window<'a, T, const TEXELS: usize, const COLUMNS: usize, const HEIGHT: usize> {
+pub(super) struct Window<'a, T, const COLUMNS: usize, const HEIGHT: usize> {
     /// The first sample of the first row.
     first: *const T,
     /// Samples from one row to the next.
@@ -113,16 +107,16 @@ pub(super) struct Window<'a, T, const TEXELS: usize, const COLUMNS: usize, const
     samples: PhantomData<&'a [T]>,
 }
 
-impl<'a, T, const TEXELS: usize, const COLUMNS: usize, const HEIGHT: usize> Window<'a, T, TEXELS, COLUMNS, HEIGHT> {
+impl<'a, T, const COLUMNS: usize, const HEIGHT: usize> Window<'a, T, COLUMNS, HEIGHT> {
     /// So many samples of a row, from the first of a column on.
     ///
     /// # Panics
     /// If the window has no such row, or not so many samples in it.
     #[inline(always)]
     pub(super) fn samples<const LENGTH: usize>(&self, row: usize, column: usize) -> &'a [T; LENGTH] {
-        let is_within = row < HEIGHT && column < COLUMNS && LENGTH <= SAMPLES * TEXELS * (COLUMNS - column);
+        let is_within = row < HEIGHT && column < COLUMNS && LENGTH <= SAMPLES * (COLUMNS - column);
         assert!(is_within, "samples of the window");
-        let offset = row as isize * self.down + (SAMPLES * TEXELS * column) as isize;
+        let offset = row as isize * self.down + (SAMPLES * column) as isize;
         // SAFETY: `windows` made sure that `COLUMNS` columns of `HEIGHT` rows are texels of a view, all of which `Texels::new` has
         // found among the samples, and the assertion that these are some of them; they are borrowed as long as the result; arrays
         // need no more alignment than one of their elements.
@@ -156,7 +150,7 @@ mod tests {
     }
 
     fn walk(first: u32, is_reversed: bool, down: i32) -> Walk {
-        Walk { first, is_reversed, down }
+        Walk { first, is_turned: false, is_reversed, down }
     }
 
     /// As they lie, upside down, and both from right to left.
@@ -168,12 +162,12 @@ mod tests {
     fn pairs_are_found_in_each_mirror() {
         let samples = samples(|sample| sample);
         let texels = Texels::<i16, 4, 2>::new(&samples, ways(), SIZE);
-        let windows = texels.windows::<2, 2, 4>([3, 1]);
+        let windows = texels.windows::<4, 4>([3, 1]);
         let pair = |first: i16| -> [i16; 8] { std::array::from_fn(|k| 4 * first + k as i16) };
         for row in 0..4 {
             for pair_at in 0..2 {
                 let (below, across) = (10 * row as i16, 2 * pair_at as i16);
-                let found = [0, 1, 2, 3].map(|image: usize| *windows[image].samples(row, pair_at));
+                let found = [0, 1, 2, 3].map(|image: usize| *windows[image].samples(row, 2 * pair_at));
                 // From right to left columns 3 to 6 are the columns 3 to 6 from the left.
                 let expected = [13 + below, 53 - below, 13 + below, 53 - below].map(|first| pair(first + across));
                 assert_eq!(found, expected);
@@ -208,15 +202,15 @@ mod tests {
     fn no_window_reaches_beyond_its_view() {
         let samples = samples(|sample| sample);
         let texels = Texels::<i16, 4, 2>::new(&samples, ways(), SIZE);
-        let is_window = |corner| std::panic::catch_unwind(|| texels.windows::<2, 2, 4>(corner)).is_ok();
+        let is_window = |corner| std::panic::catch_unwind(|| texels.windows::<4, 4>(corner)).is_ok();
         assert!(is_window([0, 0]) && is_window([6, 3]));
         assert!(!is_window([7, 3]) && !is_window([6, 4]) && !is_window([u32::MAX, 0]) && !is_window([0, u32::MAX]));
         for (column, count) in [(9, 2), (1, usize::MAX), (0, usize::MAX / 4 + 2)] {
             assert!(std::panic::catch_unwind(|| texels.row(2, [column, 0], count)).is_err());
         }
-        let [window, ..] = texels.windows::<2, 2, 4>([0, 0]);
-        for (row, pair) in [(4, 0), (0, 2), (usize::MAX, 0)] {
-            assert!(std::panic::catch_unwind(|| window.samples::<8>(row, pair)).is_err());
+        let [window, ..] = texels.windows::<4, 4>([0, 0]);
+        for (row, column) in [(4, 0), (0, 3), (usize::MAX, 0)] {
+            assert!(std::panic::catch_unwind(|| window.samples::<8>(row, column)).is_err());
         }
     }
 
@@ -224,7 +218,7 @@ mod tests {
     fn a_row_of_floats_ends_where_the_window_does() {
         let samples = samples(f32::from);
         let texels = Texels::<f32, 1, 0>::new(&samples, [walk(60, false, -20)], [10, 4]);
-        let [window] = texels.windows::<1, 5, 4>([3, 0]);
+        let [window] = texels.windows::<5, 4>([3, 0]);
         assert_eq!(*window.samples::<16>(1, 1), std::array::from_fn(|k| (4 * 44 + k) as f32));
         assert_eq!(*window.samples::<4>(3, 4), std::array::from_fn(|k| (4 * 7 + k) as f32));
         for (row, column) in [(0, 2), (4, 0), (0, 5), (0, usize::MAX)] {

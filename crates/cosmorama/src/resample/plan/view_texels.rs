@@ -1,38 +1,47 @@
-use super::mirrors::{MOST_IMAGES, Mirrors, Walk};
+use super::mirrors::{Mirrors, TOGETHER, Ways, exchanged};
 use super::texels::Texels;
 
 /// A view's texels in all mirrors, those together that filters work on at once: looked at here once for a band, not in each run. (Not
 /// once for all bands: these are pointers, which threads do not share.)
 pub(super) enum ViewTexels<'a, T> {
-    /// Two from left to right and two from right to left, whose steps from row to row are the same two.
-    Four(Texels<'a, T, 4, 2>),
+    /// Four, and the other four.
+    Eight([FourTexels<'a, T>; 2]),
+    /// Four, and the other four, in which rows of windows are columns.
+    Turned([FourTexels<'a, T>; 2]),
+    Four(FourTexels<'a, T>),
     /// One each way.
     Two(Texels<'a, T, 2, 1>),
     /// As many as there are, one by one.
-    OneByOne { forward: Vec<Texels<'a, T, 1, 0>>, reversed: Vec<Texels<'a, T, 1, 1>> },
+    OneByOne {
+        forward: Vec<Texels<'a, T, 1, 0>>,
+        reversed: Vec<Texels<'a, T, 1, 1>>,
+    },
 }
 
+/// Two from left to right and two from right to left, whose steps from row to row are the same two.
+pub(super) type FourTexels<'a, T> = Texels<'a, T, TOGETHER, 2>;
+
 impl<'a, T: Copy> ViewTexels<'a, T> {
-    /// Those of each view, in the order of its [`super::mirrors::Ways`], given the samples of the light.
+    /// Those of each view, in the order of its [`Ways`], given the samples of the light.
     ///
     /// # Panics
     /// If a view is not among the samples.
     pub(super) fn all(mirrors: &Mirrors, samples: &'a [T]) -> Vec<Self> {
-        (0..mirrors.layout().count()).map(|view| Self::of(mirrors, view, samples)).collect()
+        let views = mirrors.layout().enumerate();
+        views.map(|(view, rows)| Self::of(mirrors.ways(view), rows.size, samples)).collect()
     }
 
-    fn of(mirrors: &Mirrors, view: usize, samples: &'a [T]) -> Self {
-        let ways = mirrors.ways(view);
-        let (mut walks, size) = ([Walk::default(); MOST_IMAGES], mirrors.images[0].view(view).size());
-        for (walk, (index, _)) in walks.iter_mut().zip(&ways.order[..ways.count]) {
-            *walk = mirrors.images[*index].view(view).walk([0; 2]);
-        }
+    fn of(ways: &Ways, size: [usize; 2], samples: &'a [T]) -> Self {
+        let four = |first: usize, is_turned: bool| Texels::new(samples, ways.four(first), exchanged(size, is_turned));
+        let walks = &ways.walks[..ways.count];
         match (ways.forward, ways.count) {
-            (2, 4) if ways.down[..2] == ways.down[2..] => Self::Four(Texels::new(samples, walks, size)),
+            (4, 8) => Self::Eight([four(0, false), four(TOGETHER, false)]),
+            (2, 8) => Self::Turned([four(0, false), four(TOGETHER, true)]),
+            (2, 4) if ways.are_four(0) => Self::Four(four(0, false)),
             (1, 2) => Self::Two(Texels::new(samples, [walks[0], walks[1]], size)),
-            (forward, count) => Self::OneByOne {
+            (forward, _) => Self::OneByOne {
                 forward: walks[..forward].iter().map(|walk| Texels::new(samples, [*walk], size)).collect(),
-                reversed: walks[forward..count].iter().map(|walk| Texels::new(samples, [*walk], size)).collect(),
+                reversed: walks[forward..].iter().map(|walk| Texels::new(samples, [*walk], size)).collect(),
             },
         }
     }

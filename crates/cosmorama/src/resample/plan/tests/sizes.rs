@@ -4,8 +4,8 @@ use super::*;
 use crate::resample::plan::view_texels::ViewTexels;
 use crate::resample::plan::{fixed_weights, float_shape};
 
-/// How often windows of each size occur, those of any other after the small ones: from left to right, and reversed.
-type Counts = [[usize; 7]; 2];
+/// How often windows of each size occur, those of any other after the small ones: from left to right, reversed, and turned.
+type Counts = [[usize; 7]; 3];
 
 const OTHER: usize = 6;
 
@@ -24,7 +24,8 @@ fn count<'a, W>(
                 let (size, length) = window(numbers[0], run);
                 numbers = &numbers[1 + length..];
                 counts[0][size] += ways.forward;
-                counts[1][size] += ways.count - ways.forward;
+                counts[1][size] += ways.count - ways.turned - ways.forward;
+                counts[2][size] += ways.turned;
             }
         }
     }
@@ -66,12 +67,14 @@ fn windows_of_integers_are_of_all_sizes() {
 
 #[test]
 fn mirrors_are_gone_through_together_and_one_by_one() {
-    let (mut four, mut two, mut one_by_one) = (0, 0, [0, 0]);
+    let (mut eight, mut turned, mut four, mut two, mut one_by_one) = (0, 0, 0, 0, [0, 0]);
     for (world, target, _) in conversions() {
         let mirrors = Mirrors::of::<FloatWeights>(&resampler(&world, &target));
         let texels = vec![0f32; 4 * world.texel_count()];
         for view in ViewTexels::all(&mirrors, &texels) {
             match view {
+                ViewTexels::Eight(_) => eight += 1,
+                ViewTexels::Turned(_) => turned += 1,
                 ViewTexels::Four(_) => four += 1,
                 ViewTexels::Two(_) => two += 1,
                 ViewTexels::OneByOne { forward, reversed } => {
@@ -81,5 +84,6 @@ fn mirrors_are_gone_through_together_and_one_by_one() {
             }
         }
     }
+    assert!(eight > 0 && turned > 0);
     assert!(four > 0 && two > 0 && one_by_one[0] > 0 && one_by_one[1] > 0, "{four} {two} {one_by_one:?}");
 }
