@@ -36,8 +36,10 @@ impl<'a, P: Copy> PicturePart<'a, P> {
     /// # Panics
     /// If it is not of the size that the mirrors make.
     pub(super) fn all(pixels: &'a mut [P], width: usize, rows: usize, mirrors: &Mirrors) -> Vec<Self> {
-        // A picture without columns has no rows.
-        let height = pixels.len() / width.max(1);
+        if pixels.is_empty() {
+            return Vec::new();
+        }
+        let height = pixels.len() / width;
         let is_halved = |axis: usize| mirrors.images.iter().any(|image| image.is_turned || image.flips[axis]);
         let all = |axis: usize, length: usize| if is_halved(axis) { 2 * length } else { length };
         let is_whole = all(0, mirrors.columns) == width && all(1, mirrors.rows) == height;
@@ -76,7 +78,10 @@ impl<'a, P: Copy> PicturePart<'a, P> {
     pub(super) fn beside(&mut self, image: usize, [column, row]: [usize; 2], count: usize) -> &mut [P] {
         let Shown { is_turned, first, steps: [across, down] } = self.images[image];
         let ([columns, rows], along) = if is_turned { ([1, count], down) } else { ([count, 1], across) };
-        let is_within = self.columns.start <= column && column + columns <= self.columns.end && row + rows <= self.rows;
+        let ends_within = |from: usize, count: usize, end: usize| from <= end && count <= end - from;
+        let is_within = self.columns.start <= column
+            && ends_within(column, columns, self.columns.end)
+            && ends_within(row, rows, self.rows);
         assert!(is_within && along != 0, "pixels of the band");
         let first = first + across * column as isize + down * row as isize;
         let first = if along < 0 { first - (count as isize - 1) } else { first };
@@ -98,5 +103,95 @@ impl Shown {
         let (width, top) = (width as isize, top as isize);
         let steps = if image.is_turned { [below * width, right] } else { [right, below * width] };
         Self { is_turned: image.is_turned, first: row * width + column + steps[1] * top, steps }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::raster::RowLayout;
+
+    /// Rows of a band.
+    const ROWS: usize = 4;
+
+    /// So many of the mirrors that there may be, of pictures so wide and high.
+    fn mirrors(size: [usize; 2], count: usize) -> Mirrors {
+        let layout = RowLayout::of([[4, 4]], |width| width);
+        let flips = [[false, false], [true, false], [false, true], [true, true]];
+        let image = |at: usize| {
+            let mut image = MirrorImage::itself(&layout);
+            (image.is_turned, image.flips) = (at >= 4, flips[at % 4]);
+            image
+        };
+        let length = |axis: usize| if count > 1 << axis { size[axis] / 2 } else { size[axis] };
+        Mirrors::new([length(0), length(1)], (0..count).map(image).collect())
+    }
+
+    #[test]
+    fn each_pixel_is_in_the_part_of_one_band() {
+        for (size, count) in [
+            ([10, 7], 1),
+            ([10, 7], 2),
+            ([6, 14], 4),
+            ([26, 26], 8),
+            ([8, 8], 8),
+            ([2, 2], 8),
+            ([0, 0], 1),
+            ([0, 5], 1),
+        ] {
+            let mirrors = mirrors(size, count);
+            // For each pixel by how many bands it is made, and in which one.
+            let mut picture = vec![(0, 0); size[0] * size[1]];
+            let parts = PicturePart::all(&mut picture, size[0], ROWS, &mirrors);
+            assert_eq!(parts.len(), if size.contains(&0) { 0 } else { mirrors.rows.div_ceil(ROWS) });
+            for (band, mut part) in parts.into_iter().enumerate() {
+                for row in 0..part.rows() {
+                    for pixel in part.columns().map(|column| [column, row]) {
+                        for image in 0..count {
+                            let [(made, by)] = part.beside(image, pixel, 1) else { unreachable!("one pixel") };
+                            // Along a diagonal the same ones are made twice, by the same band.
+                            assert!(*made == 0 || *by == band, "{size:?} {count}: {pixel:?} of {band} and {by}");
+                            (*made, *by) = (*made + 1, band);
+                        }
+                    }
+                }
+            }
+            assert!(picture.iter().all(|(made, _)| *made > 0), "{size:?} {count}: {picture:?}");
+            assert!(count == 8 || picture.iter().all(|(made, _)| *made == 1), "{size:?} {count}: {picture:?}");
+        }
+    }
+
+    #[test]
+    fn pixels_beside_each_other_are_those_that_follow_in_the_picture() {
+        let mirrors = mirrors([24, 24], 8);
+        let mut picture: Vec<usize> = (0..24 * 24).collect();
+        let mut parts = PicturePart::all(&mut picture, 24, ROWS, &mirrors);
+        let seen = |part: &mut PicturePart<usize>, image: usize| part.beside(image, [5, 1], 3).to_vec();
+        let row = |column: usize, row: usize| vec![24 * row + column, 24 * row + column + 1, 24 * row + column + 2];
+        // Of the second band, whose first row is the fifth: columns 5 to 7, and rows 5 to 7 of column 5.
+        let expected = [[5, 5], [16, 5], [5, 18], [16, 18], [5, 5], [16, 5], [5, 18], [16, 18]];
+        for (image, [column, at]) in expected.into_iter().enumerate() {
+            assert_eq!(seen(&mut parts[1], image), row(column, at), "{image}");
+        }
+    }
+
+    #[test]
+    fn no_pixel_is_given_that_another_band_makes() {
+        let mirrors = mirrors([24, 24], 8);
+        let mut picture = vec![0; 24 * 24];
+        let mut parts = PicturePart::all(&mut picture, 24, ROWS, &mirrors);
+        let mut is_given = |image: usize, pixel: [usize; 2], count: usize| {
+            let given = std::panic::AssertUnwindSafe(|| parts[1].beside(image, pixel, count).len());
+            std::panic::catch_unwind(given).is_ok_and(|given| given == count)
+        };
+        assert!(is_given(0, [4, 0], 8) && is_given(3, [11, 3], 1) && is_given(4, [11, 0], 4));
+        for (image, pixel, count) in [(0, [3, 0], 1), (0, [4, 4], 1), (1, [5, 0], 8), (4, [4, 1], 4), (8, [4, 0], 1)] {
+            assert!(!is_given(image, pixel, count), "{count} from {pixel:?} in {image}");
+        }
+        assert!(
+            !is_given(0, [usize::MAX, 0], 1) && !is_given(0, [4, 0], usize::MAX) && !is_given(5, [4, usize::MAX], 1)
+        );
+        let few = std::panic::catch_unwind(|| PicturePart::all(&mut [0; 24 * 23], 24, ROWS, &mirrors).len());
+        assert!(few.is_err(), "a picture that lacks a row");
     }
 }

@@ -82,8 +82,26 @@ fn conversions() -> Vec<(World, View, usize)> {
             View { stop: FieldStop::NONE, ..view(ProjectionKind::EQUIDISTANT, (121, 120), (1.0, 0.9), up) },
             2,
         ),
+        // Mirrors along the diagonals of a view of a face and those around it, and of what is no whole number of patches.
+        (cube(&all, 90), view(ProjectionKind::PERSPECTIVE, (150, 150), (1.3, 1.3), Orientation::IDENTITY), 8),
+        (cube(&all, 90), dome(74, turned(90.0, 90.0, 0.0)), 8),
+        (rolled(90), dome(106, up), 8),
         (quarters(100), view(ProjectionKind::PERSPECTIVE, (160, 90), (0.8, 0.45), Orientation::IDENTITY), 4),
     ]
+}
+
+/// A cube whose right face is upside down, and whose upper face lies on its side.
+fn rolled(size: usize) -> World {
+    let face = |face: CubeFace| {
+        let upright = view(ProjectionKind::PERSPECTIVE, (size, size), (1.0, 1.0), face.orientation());
+        let orientation = match face {
+            CubeFace::Right => turned(90.0, 0.0, 180.0),
+            CubeFace::Up => turned(90.0, 90.0, 0.0),
+            _ => upright.orientation,
+        };
+        (face.name().to_owned(), View { orientation, ..upright })
+    };
+    World::new(CubeFace::ALL.map(face)).expect("six faces")
 }
 
 /// The front face of a cube in four parts, one of them upside down.
