@@ -44,8 +44,12 @@ impl<'a, P: Copy> PicturePart<'a, P> {
         let all = |axis: usize, length: usize| if is_halved(axis) { 2 * length } else { length };
         let is_whole = all(0, mirrors.columns) == width && all(1, mirrors.rows) == height;
         assert!(is_whole && pixels.len() == width * height, "a picture as large as the mirrors make it");
-        let is_square = width == height || mirrors.images.iter().all(|image| !image.is_turned);
-        assert!(is_square && mirrors.images.len() <= MOST_IMAGES, "columns are rows of squares alone");
+        let may_turn = width == height && mirrors.has_diagonals();
+        let are_known = mirrors.images.iter().all(|image| may_turn || !image.is_turned);
+        assert!(
+            are_known && mirrors.images.len() <= MOST_IMAGES,
+            "columns are rows in squares with all their diagonals"
+        );
         let pixels = pixels.as_mut_ptr();
         let part = |index: usize| {
             let first = index * rows;
@@ -78,10 +82,11 @@ impl<'a, P: Copy> PicturePart<'a, P> {
     pub(super) fn beside(&mut self, image: usize, [column, row]: [usize; 2], count: usize) -> &mut [P] {
         let Shown { is_turned, first, steps: [across, down] } = self.images[image];
         let ([columns, rows], along) = if is_turned { ([1, count], down) } else { ([count, 1], across) };
-        let ends_within = |from: usize, count: usize, end: usize| from <= end && count <= end - from;
-        let is_within = self.columns.start <= column
-            && ends_within(column, columns, self.columns.end)
-            && ends_within(row, rows, self.rows);
+        // No sum that may begin anew at zero.
+        let is_within = self.columns.contains(&column)
+            && columns <= self.columns.end - column
+            && row < self.rows
+            && rows <= self.rows - row;
         assert!(is_within && along != 0, "pixels of the band");
         let first = first + across * column as isize + down * row as isize;
         let first = if along < 0 { first - (count as isize - 1) } else { first };
