@@ -182,7 +182,7 @@ impl<'a, P: Copy> Canvas<'a, P> {
                 let pixels = self.tile.pixels[index][lane];
                 let line = self.part.beside(TOGETHER + index, [column + lane, row], rows);
                 // As many as there mostly are come without a call.
-                match line.as_mut_array::<SIDE>() {
+                match line.first_chunk_mut::<SIDE>() {
                     Some(line) => *line = pixels,
                     None => line.copy_from_slice(&pixels[columns.clone()]),
                 }
