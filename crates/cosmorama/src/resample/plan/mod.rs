@@ -240,7 +240,9 @@ impl<W: Weights> Compiled<W> {
         let (found, expected) = ((image.width(), image.height()), (self.width, self.height));
         assert_eq!(found, expected, "an image as large as the target");
         let canvases = Canvas::bands(image.pixels_mut(), self.width, BAND, &self.mirrors, background);
-        canvases.into_par_iter().zip(&self.bands).for_each(|(mut canvas, band)| make(band, &mut canvas));
+        // One by one: with mirrors along the diagonals the first bands have far more pixels than the last.
+        let bands = canvases.into_par_iter().zip(&self.bands).with_max_len(1);
+        bands.for_each(|(mut canvas, band)| make(band, &mut canvas));
     }
 
     fn bytes(&self) -> usize {
