@@ -213,12 +213,14 @@ proptest! {
     #[test]
     fn a_forged_plan_is_harmless(
         at in 0..10_000_000_usize,
-        which in 0..2_usize,
+        which in 0..3_usize,
         bytes in proptest::collection::vec(prop_oneof![Just(0), Just(1), Just(0x7f), Just(0xff), any::<u8>()], 1..6),
     ) {
-        static PLANS: std::sync::OnceLock<[Kept; 2]> = std::sync::OnceLock::new();
-        // So large that most pixels are in runs, and that rows of light are filled up: seen in four mirrors, and in one.
-        let plans = PLANS.get_or_init(|| [0.0, 20.0].map(|yaw| Kept::new(cube(130), dome(104, yaw))));
+        static PLANS: std::sync::OnceLock<[Kept; 3]> = std::sync::OnceLock::new();
+        // So large that most pixels are in runs, and that rows of light are filled up: seen in eight mirrors, in four, and in one.
+        let (square, turned) = (dome(104, 0.0), dome(104, 20.0));
+        let oblong = View { grid: square.grid.window(104, 96, 0.0, 4.0), ..square.clone() };
+        let plans = PLANS.get_or_init(|| [square, oblong, turned].map(|target| Kept::new(cube(130), target)));
         let Kept { world, target, fixed, float } = &plans[which];
         let resampler = Resampler { world, target, filter: Filter::DEFAULT };
         let changes: Vec<(usize, u8)> = bytes.iter().enumerate().map(|(k, byte)| (at + k, *byte)).collect();

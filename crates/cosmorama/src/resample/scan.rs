@@ -27,12 +27,12 @@ pub(super) struct Scan<'a> {
 }
 
 /// A part of a target.
-pub(super) struct Part {
+pub(super) struct Area {
     /// So many of the first ones.
     pub(super) columns: usize,
     pub(super) rows: Range<usize>,
-    /// Whether patches to the left of the diagonal from the first column and row on are left out.
-    pub(super) is_above_diagonal: bool,
+    /// Whether patches to the left of the diagonal through the first column and row of the target are left out.
+    pub(super) skips_left_of_diagonal: bool,
 }
 
 /// Which patches of the pixels that a conversion computes are wanted.
@@ -86,11 +86,11 @@ impl<'a> Scan<'a> {
     }
 
     /// All pixels of a part that show something.
-    pub(super) fn pixels(&mut self, Part { columns, rows, is_above_diagonal }: &Part, sink: &mut impl Sink) {
+    pub(super) fn pixels(&mut self, Area { columns, rows, skips_left_of_diagonal }: &Area, sink: &mut impl Sink) {
         for tile in (0..*columns).step_by(TILE) {
             // Patches lie alike whatever the first row: so do the pixels that they make.
             for top in (rows.start / SIDE * SIDE..rows.end).step_by(SIDE) {
-                let from = if *is_above_diagonal { tile.max(top) } else { tile };
+                let from = if *skips_left_of_diagonal { tile.max(top) } else { tile };
                 for left in (from..(tile + TILE).min(*columns)).step_by(SIDE) {
                     self.patch([left, top], *columns, rows, sink);
                 }
@@ -203,8 +203,8 @@ mod tests {
         ]
     }
 
-    fn whole(target: &View) -> Part {
-        Part { columns: target.width(), rows: 0..target.height(), is_above_diagonal: false }
+    fn whole(target: &View) -> Area {
+        Area { columns: target.width(), rows: 0..target.height(), skips_left_of_diagonal: false }
     }
 
     fn collect(scan: &mut Scan, target: &View) -> Collector {

@@ -219,6 +219,8 @@ impl Run {
         let [from, to] = self.under;
         self.lanes != 0
             && room.columns().contains(&(self.column as usize))
+            // As patches do: on the diagonal one has fewer mirrors than the next.
+            && (self.column as usize).is_multiple_of(SIDE)
             && self.column as usize + after_last <= room.columns().end
             && usize::from(self.row) < room.rows
             && self.width > 0

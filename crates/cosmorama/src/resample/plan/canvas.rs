@@ -1,7 +1,7 @@
 use std::ops::Range;
 
 use super::band::Run;
-use super::mirrors::{MOST_IMAGES, Mirrors, TOGETHER};
+use super::mirrors::{MOST_IMAGES, MirrorImage, Mirrors, UPRIGHT};
 use super::picture_part::PicturePart;
 use super::prefetch::prefetch_lines;
 use crate::resample::patch::SIDE;
@@ -23,7 +23,7 @@ struct Tile<P> {
     first: [usize; 2],
     rows: usize,
     /// For each of those mirrors, lane by lane, from left to right.
-    pixels: [[[P; SIDE]; SIDE]; TOGETHER],
+    pixels: [[[P; SIDE]; SIDE]; UPRIGHT],
 }
 
 impl<P: Copy> Drop for Canvas<'_, P> {
@@ -53,7 +53,7 @@ impl<'a, P: Copy> Canvas<'a, P> {
     ) -> Vec<Self> {
         let canvas = |part: PicturePart<'a, P>| {
             let made = vec![0; part.rows() * bytes_of(mirrors.columns)];
-            let tile = Tile { first: [0; 2], rows: 0, pixels: [[[background; SIDE]; SIDE]; TOGETHER] };
+            let tile = Tile { first: [0; 2], rows: 0, pixels: [[[background; SIDE]; SIDE]; UPRIGHT] };
             Self { background, mirrors, part, made, tile }
         };
         PicturePart::all(pixels, width, rows, mirrors).into_iter().map(canvas).collect()
@@ -110,12 +110,21 @@ impl<'a, P: Copy> Canvas<'a, P> {
         }
     }
 
-    /// Fills columns of some rows with the background, in all mirrors.
+    /// The mirrors that show a pixel of the band.
+    #[inline(always)]
+    pub(super) fn images_of(&self, [column, row]: [usize; 2]) -> &'a [MirrorImage] {
+        // With diagonals the first row has the number of the first column; without, any does.
+        self.mirrors.images_of([column, self.part.columns().start + row])
+    }
+
+    /// Fills columns of some rows of a patch with the background, in all mirrors.
     fn fill(&mut self, rows: Range<usize>, columns: Range<usize>) {
         let (background, mirrors) = (self.background, self.mirrors);
         for (index, image) in mirrors.images.iter().enumerate() {
             if image.is_turned {
-                for column in columns.clone() {
+                // Not those of the patch on the diagonal.
+                let others = columns.start.max(self.first_column(rows.start) + SIDE)..columns.end;
+                for column in others {
                     lay(background, self.part.beside(index, [column, rows.start], rows.len()));
                 }
             } else {
@@ -130,9 +139,9 @@ impl<'a, P: Copy> Canvas<'a, P> {
     /// to the last.
     #[inline(always)]
     pub(super) fn put(&mut self, run: &Run, pixels: &[[P; SIDE]; MOST_IMAGES]) {
-        let mirrors = self.mirrors;
+        let images = self.images_of(run.pixel(0));
         if !run.is_whole() {
-            for (index, (image, pixels)) in mirrors.images.iter().zip(pixels).enumerate() {
+            for (index, (image, pixels)) in images.iter().zip(pixels).enumerate() {
                 let last = if image.flips[0] && !image.is_turned { SIDE - 1 } else { 0 };
                 for lane in run.lanes() {
                     *self.pixel(index, run.pixel(lane)) = pixels[(lane ^ last) % SIDE];
@@ -142,10 +151,10 @@ impl<'a, P: Copy> Canvas<'a, P> {
         }
         let pixel = run.pixel(0);
         self.note(pixel, u8::MAX);
-        for (image, pixels) in pixels.iter().enumerate().take(mirrors.images.len().min(TOGETHER)) {
+        for (image, pixels) in pixels.iter().enumerate().take(images.len().min(UPRIGHT)) {
             self.part.beside(image, pixel, SIDE).copy_from_slice(pixels);
         }
-        if mirrors.has_diagonals() {
+        if images.len() == MOST_IMAGES {
             let turned = pixels.last_chunk().expect("mirrors that show columns as rows come last");
             self.put_turned(pixel, turned);
         }
@@ -153,7 +162,7 @@ impl<'a, P: Copy> Canvas<'a, P> {
 
     /// The same where columns are rows, beside those of the run above.
     #[inline(always)]
-    fn put_turned(&mut self, [column, row]: [usize; 2], pixels: &[[P; SIDE]; TOGETHER]) {
+    fn put_turned(&mut self, [column, row]: [usize; 2], pixels: &[[P; SIDE]; UPRIGHT]) {
         let Tile { first, rows, .. } = self.tile;
         if rows == SIDE || [first[0], first[1] + rows] != [column, row] {
             self.write_tile();
@@ -180,7 +189,7 @@ impl<'a, P: Copy> Canvas<'a, P> {
             let columns = if image.flips[0] { SIDE - rows..SIDE } else { 0..rows };
             for lane in 0..SIDE {
                 let pixels = self.tile.pixels[index][lane];
-                let line = self.part.beside(TOGETHER + index, [column + lane, row], rows);
+                let line = self.part.beside(UPRIGHT + index, [column + lane, row], rows);
                 // As many as there mostly are come without a call.
                 match line.first_chunk_mut::<SIDE>() {
                     Some(line) => *line = pixels,
@@ -194,21 +203,21 @@ impl<'a, P: Copy> Canvas<'a, P> {
     /// Other runs are few, and have no place for eight pixels in each mirror.
     #[inline(always)]
     pub(super) fn prefetch(&mut self, runs: &[Run]) {
-        let mirrors = self.mirrors;
-        for (at, run) in runs.iter().enumerate() {
-            if !run.is_whole() {
-                continue;
-            }
-            for (index, image) in mirrors.images.iter().enumerate() {
+        let mut is_first = true;
+        for run in runs.iter().filter(|run| run.is_whole()) {
+            let [_, row] = run.pixel(0);
+            for (index, image) in self.images_of(run.pixel(0)).iter().enumerate() {
                 if !image.is_turned {
                     prefetch_lines(self.part.beside(index, run.pixel(0), SIDE), 0, SIDE as u32 - 1);
-                } else if at == 0 {
-                    // Those of the patch.
+                } else if is_first {
+                    // What the first run of a patch and those below it are written to.
+                    let rows = (SIDE - row % SIDE).min(self.part.rows() - row);
                     for lane in 0..SIDE {
-                        prefetch_lines(self.part.beside(index, run.pixel(lane), 1), 0, 0);
+                        prefetch_lines(self.part.beside(index, run.pixel(lane), rows), 0, rows as u32 - 1);
                     }
                 }
             }
+            is_first = false;
         }
     }
 

@@ -23,7 +23,10 @@ const STEPS: usize = 16;
 /// Itself, left and right exchanged, top and bottom, both; and each of these turned over its diagonal.
 pub(super) const MOST_IMAGES: usize = 8;
 
-/// How many of them windows are walked through in together, at most.
+/// How many of them show rows as rows, at most: the others come after these.
+pub(super) const UPRIGHT: usize = 4;
+
+/// In how many of them windows are walked through together, at most.
 pub(super) const TOGETHER: usize = 4;
 
 /// What is left of a target to compute, and the mirrors in which the rest is seen.
@@ -188,20 +191,27 @@ impl Mirrors {
         let columns = if across.is_some() { width / 2 } else { width };
         let rows = if down.is_some() { height / 2 } else { height };
         let itself = std::iter::once(MirrorImage::itself(&layout));
-        let mut images: Vec<_> = itself.chain([across, down, both].into_iter().flatten()).collect();
-        if images.len() == TOGETHER && width == height {
-            let turned = FLIPS.map(|axes| MirrorImage::of((world, &layout), target, Flip { is_turned: true, axes }));
-            let eight: Vec<_> = images.iter().cloned().chain(turned.into_iter().flatten()).collect();
-            let are_fours = |view: usize| {
-                let ways = Ways::of(&eight, view);
-                ways.are_four(0) && ways.are_four(TOGETHER)
-            };
-            // Windows are walked through by fours, or the work that is spared is lost again.
-            if eight.len() == MOST_IMAGES && (0..layout.len()).all(are_fours) {
-                images = eight;
-            }
+        let images = itself.chain([across, down, both].into_iter().flatten()).collect();
+        Self::new([columns, rows], Self::with_diagonals(images, (world, &layout), target))
+    }
+
+    /// Mirrors of the target, and those along its diagonals, if they are mirrors, too, and the others are all that there may be.
+    fn with_diagonals(
+        upright: Vec<MirrorImage>,
+        (world, layout): (&World, &[RowLayout]),
+        target: &View,
+    ) -> Vec<MirrorImage> {
+        if upright.len() < UPRIGHT || target.width() != target.height() {
+            return upright;
         }
-        Self::new([columns, rows], images)
+        let turned = FLIPS.map(|axes| MirrorImage::of((world, layout), target, Flip { is_turned: true, axes }));
+        let all: Vec<_> = upright.iter().cloned().chain(turned.into_iter().flatten()).collect();
+        // Windows are walked through by fours, or the work that is spared is lost again.
+        let are_fours = |view: usize| {
+            let ways = Ways::of(&all, view);
+            ways.are_four(0) && ways.are_four(TOGETHER)
+        };
+        if all.len() == MOST_IMAGES && (0..layout.len()).all(are_fours) { all } else { upright }
     }
 
     pub(super) fn new([columns, rows]: [usize; 2], images: Vec<MirrorImage>) -> Self {
@@ -219,7 +229,14 @@ impl Mirrors {
 
     /// Those that show columns as rows: the last ones.
     pub(super) fn turned(&self) -> &[MirrorImage] {
-        self.images.get(TOGETHER..).unwrap_or_default()
+        self.images.get(UPRIGHT..).unwrap_or_default()
+    }
+
+    /// Those in which a pixel is shown: in patches on the diagonal, which are computed whole, it is not turned into another of them.
+    #[inline(always)]
+    pub(super) fn images_of(&self, [column, row]: [usize; 2]) -> &[MirrorImage] {
+        let is_on_diagonal = self.has_diagonals() && column / SIDE == row / SIDE;
+        if is_on_diagonal { &self.images[..UPRIGHT] } else { &self.images }
     }
 
     /// The first column to compute of rows from this one on that make patches or bands.

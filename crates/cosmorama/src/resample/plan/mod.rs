@@ -54,7 +54,7 @@ use weights::Weights;
 
 use super::kernel::KernelTable;
 use super::patch::SIDE;
-use super::scan::{Part, Scan, Wanted};
+use super::scan::{Area, Scan, Wanted};
 use super::window::Level;
 use super::{Resampler, Taps};
 use crate::raster::{FixedCodec, FixedLight, Image, Rgba};
@@ -226,7 +226,8 @@ impl<W: Weights> Compiled<W> {
             band.shrink();
             band
         };
-        let bands = (0..mirrors.rows.div_ceil(BAND)).into_par_iter().map(compile).collect();
+        // One by one, as below.
+        let bands = (0..mirrors.rows.div_ceil(BAND)).into_par_iter().with_max_len(1).map(compile).collect();
         let (width, height) = (target.width(), target.height());
         Self { width, height, anti_ringing: filter.anti_ringing, mirrors, bands }
     }
@@ -282,8 +283,8 @@ fn record<W: Weights>(
 ) {
     let mut recorder =
         Recorder { world: resampler.world, mirrors, band, taps: Taps::default(), places: Vec::new(), spill };
-    let part = Part { columns: mirrors.columns, rows, is_above_diagonal: mirrors.has_diagonals() };
-    Scan::new(resampler, table, level).only(wanted).pixels(&part, &mut recorder);
+    let area = Area { columns: mirrors.columns, rows, skips_left_of_diagonal: mirrors.has_diagonals() };
+    Scan::new(resampler, table, level).only(wanted).pixels(&area, &mut recorder);
 }
 
 /// The patches that must be computed, in whatever mirror something is wanted of them, given which rectangles of the target are.

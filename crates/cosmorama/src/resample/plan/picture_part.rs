@@ -90,11 +90,12 @@ impl<'a, P: Copy> PicturePart<'a, P> {
         assert!(is_within && along != 0, "pixels of the band");
         let first = first + across * column as isize + down * row as isize;
         let first = if along < 0 { first - (count as isize - 1) } else { first };
-        // SAFETY: each mirror shows the rows and columns of all bands, which are among those of `Mirrors`, somewhere in the picture, which
-        // `all` found to be of their size; those of this band no other part has: of bands of whole rows, or half ones, these and those that
-        // mirror them are other rows than the others', and with diagonals, where the columns begin with the number of the first row, what
-        // mirrors show of a band is as far from the picture's edge as its rows are from the top. Nobody else has this picture meanwhile, and
-        // what is borrowed from this part is given back before more is.
+        // SAFETY: a pixel of the band is one of `Mirrors`, which any of its mirrors shows somewhere in the picture: `all` found that to be
+        // as large as they make it. No other part has it. Without diagonals, bands are rows of the picture or of its upper half, and mirrors
+        // show those as themselves or as far from the bottom. With them, its columns and rows are halves of a square, in which each mirror
+        // shows a pixel as far from the nearest edge as min(column, row); the columns of a band begin with the number of its first row, so
+        // that this is one of the band's rows. Nobody else has the picture meanwhile, and what is borrowed from this part is given back
+        // before more is.
         unsafe { std::slice::from_raw_parts_mut(self.pixels.offset(first), count) }
     }
 }
@@ -196,7 +197,13 @@ mod tests {
         assert!(
             !is_given(0, [usize::MAX, 0], 1) && !is_given(0, [4, 0], usize::MAX) && !is_given(5, [4, usize::MAX], 1)
         );
-        let few = std::panic::catch_unwind(|| PicturePart::all(&mut [0; 24 * 23], 24, ROWS, &mirrors).len());
-        assert!(few.is_err(), "a picture that lacks a row");
+        let are_parts = |width: usize, height: usize, mirrors: &Mirrors| {
+            std::panic::catch_unwind(|| PicturePart::all(&mut vec![0; width * height], width, ROWS, mirrors).len())
+                .is_ok()
+        };
+        assert!(are_parts(24, 24, &mirrors) && !are_parts(24, 23, &mirrors) && !are_parts(23, 24, &mirrors));
+        // Columns are rows in squares alone, and with all that the diagonals make of them.
+        assert!(!are_parts(24, 20, &super::tests::mirrors([24, 20], 8)));
+        assert!(!are_parts(24, 24, &super::tests::mirrors([24, 24], 5)));
     }
 }

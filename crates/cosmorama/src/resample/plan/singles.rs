@@ -195,9 +195,9 @@ impl Singles {
                 #[inline(always)]
                 || averages::<S, P, N>(simd, &taps, palette, anti_ringing),
             );
-            for (image, light) in averages.into_iter().enumerate() {
-                *canvas.pixel(image, [single.column as usize, usize::from(single.row)]) =
-                    palette.pixel(light, single.coverage);
+            let pixel = [single.column as usize, usize::from(single.row)];
+            for (image, light) in averages.into_iter().enumerate().take(canvas.images_of(pixel).len()) {
+                *canvas.pixel(image, pixel) = palette.pixel(light, single.coverage);
             }
         }
     }

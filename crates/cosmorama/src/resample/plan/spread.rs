@@ -4,7 +4,6 @@ use super::band::{Band, Run};
 use super::float_weights::FloatWeights;
 use super::mirrors::{MirrorImage, Walk, exchanged};
 use super::{BAND, Plan};
-use crate::resample::patch::SIDE;
 
 /// Parts of a world's texels, at most. For each of them all of the plan is gone through, and so the work grows with them: beyond as
 /// many, threads would do little but that, and take time from others.
@@ -60,15 +59,15 @@ struct Spread<'a> {
 }
 
 impl Spread<'_> {
-    /// That of a pixel in place of which a mirror shows this one; none, if it is made without that mirror, too.
+    /// That of a pixel in place of which a mirror shows this one; none, if that mirror is not one that shows it.
     fn pixel(&self, pixels: &[f32], image: usize, [column, row]: [usize; 2]) -> f64 {
         let Plan(plan) = self.plan;
         let MirrorImage { flips, is_turned, .. } = plan.mirrors.images[image];
-        // Turned over the diagonal, patches on it are themselves.
-        if is_turned && column / SIDE == (self.top + row) / SIDE {
+        let pixel = [column, self.top + row];
+        if image >= plan.mirrors.images_of(pixel).len() {
             return 0.0;
         }
-        let [column, row] = exchanged([column, self.top + row], is_turned);
+        let [column, row] = exchanged(pixel, is_turned);
         let column = if flips[0] { plan.width - 1 - column } else { column };
         let row = if flips[1] { plan.height - 1 - row } else { row };
         f64::from(pixels[row * plan.width + column])

@@ -215,12 +215,13 @@ fn windows_of_floats_make_what_their_texels_make_one_by_one() {
             each_band((&resampler, None), &mirrors, pixels, level, |band: &Band<NoWindows>, canvas| {
                 for single in band.singles.pixels() {
                     let taps = band.singles.taps(single, mirrors.images.len());
-                    for index in 0..mirrors.images.len() {
+                    let at = [single.column as usize, usize::from(single.row)];
+                    for index in 0..canvas.images_of(at).len() {
                         let texels_of = taps.texels.chunks(mirrors.images.len()).map(|texels| texels[index]);
                         let list = texels_of.zip(taps.weights).map(|(texel, &weight)| Tap { texel, weight });
                         let list = TapList { taps: &list.collect::<Vec<_>>(), under: taps.under, places: taps.places };
                         let colour = average(list, |texel| texels[texel as usize], anti_ringing);
-                        let pixel = canvas.pixel(index, [single.column as usize, usize::from(single.row)]);
+                        let pixel = canvas.pixel(index, at);
                         *pixel = colour * single.coverage;
                     }
                 }

@@ -1,4 +1,4 @@
-//! The one door behind which indices are not checked each time: a window of texels is looked at once.
+//! One of two doors behind which indices are not checked each time: a window of texels is looked at once.
 #![allow(unsafe_code)]
 
 use std::marker::PhantomData;

@@ -34,15 +34,18 @@ impl<'a, T: Copy> ViewTexels<'a, T> {
     fn of(ways: &Ways, size: [usize; 2], samples: &'a [T]) -> Self {
         let four = |first: usize, is_turned: bool| Texels::new(samples, ways.four(first), exchanged(size, is_turned));
         let walks = &ways.walks[..ways.count];
-        match (ways.forward, ways.count) {
-            (4, 8) => Self::Eight([four(0, false), four(TOGETHER, false)]),
-            (2, 8) => Self::Turned([four(0, false), four(TOGETHER, true)]),
-            (2, 4) if ways.are_four(0) => Self::Four(four(0, false)),
-            (1, 2) => Self::Two(Texels::new(samples, [walks[0], walks[1]], size)),
-            (forward, _) => Self::OneByOne {
-                forward: walks[..forward].iter().map(|walk| Texels::new(samples, [*walk], size)).collect(),
-                reversed: walks[forward..].iter().map(|walk| Texels::new(samples, [*walk], size)).collect(),
-            },
+        match (ways.forward, ways.turned, ways.count) {
+            (4, 0, 8) => Self::Eight([four(0, false), four(TOGETHER, false)]),
+            (2, 4, 8) => Self::Turned([four(0, false), four(TOGETHER, true)]),
+            (2, 0, 4) if ways.are_four(0) => Self::Four(four(0, false)),
+            (1, 0, 2) => Self::Two(Texels::new(samples, [walks[0], walks[1]], size)),
+            (forward, turned, _) => {
+                assert_eq!(turned, 0, "columns are rows in four mirrors together");
+                Self::OneByOne {
+                    forward: walks[..forward].iter().map(|walk| Texels::new(samples, [*walk], size)).collect(),
+                    reversed: walks[forward..].iter().map(|walk| Texels::new(samples, [*walk], size)).collect(),
+                }
+            }
         }
     }
 }

@@ -1,4 +1,5 @@
 use super::*;
+use crate::resample::plan::picture_part::PicturePart;
 
 /// Whether the ends of all runs of a plan are those of their windows, and how many of them lack a window at one end.
 fn cut_runs<W>(compiled: &Compiled<W>) -> usize {
@@ -26,6 +27,34 @@ fn runs_end_where_their_windows_do() {
         integers += cut_runs(&resampler.fixed_plan().expect("a plan").0);
     }
     assert!(floats > 100 && integers > 100, "{floats} and {integers} runs lack windows at an end");
+}
+
+/// Each pixel of a picture, in whatever mirror, is one of those that a patch is said to be shown as there.
+#[test]
+fn patches_are_shown_where_their_pixels_are() {
+    for (world, target, _) in conversions() {
+        let mirrors = Mirrors::of::<FixedWeights>(&resampler(&world, &target));
+        let size = [target.width(), target.height()];
+        let mut picture: Vec<usize> = (0..size[0] * size[1]).collect();
+        let mut times_made = vec![0; picture.len()];
+        for (band, mut part) in PicturePart::all(&mut picture, size[0], BAND, &mirrors).into_iter().enumerate() {
+            for row in 0..part.rows() {
+                let top = (band * BAND + row) / SIDE * SIDE;
+                for column in mirrors.first_column(top)..mirrors.columns {
+                    let images = mirrors.images_of([column, band * BAND + row]);
+                    for (index, image) in images.iter().enumerate() {
+                        let shown = image.shown([column / SIDE * SIDE, top], size);
+                        let at = part.beside(index, [column, row], 1)[0];
+                        let (x, y) = (at % size[0], at / size[0]);
+                        let is_shown = (shown.left..shown.right).contains(&x) && (shown.top..shown.bottom).contains(&y);
+                        assert!(is_shown, "{column} {row} of {band} in {index} is {x} {y}, not in {shown:?}");
+                        times_made[at] += 1;
+                    }
+                }
+            }
+        }
+        assert!(times_made.iter().all(|times| *times == 1), "{:?} {size:?}", target.projection);
+    }
 }
 
 #[test]

@@ -81,9 +81,18 @@ pub(super) fn conversions() -> Vec<(World, View, usize)> {
         // Mirrors along the diagonals of a view of a face and those around it, and of what is no whole number of patches.
         (cube(&all, 90), view(ProjectionKind::PERSPECTIVE, (150, 150), (1.3, 1.3), Orientation::IDENTITY), 8),
         (cube(&all, 90), dome(74, turned(90.0, 90.0, 0.0)), 8),
+        // The upright edges of the faces lie along the diagonals, far into the picture, with many texels in each pixel.
+        (cube(&all, 300), half_world(200), 8),
         (rolled(90), dome(106, up), 8),
         (quarters(100), view(ProjectionKind::PERSPECTIVE, (160, 90), (0.8, 0.45), Orientation::IDENTITY), 4),
     ]
+}
+
+/// A dome of all that is above.
+fn half_world(size: usize) -> View {
+    let quarter = std::f64::consts::FRAC_PI_2;
+    let dome = view(ProjectionKind::EQUIDISTANT, (size, size), (quarter, quarter), turned(0.0, 90.0, 0.0));
+    View { stop: FieldStop::circle(quarter), ..dome }
 }
 
 /// A cube whose right face is upside down, and whose upper face lies on its side.
