@@ -219,7 +219,7 @@ proptest! {
         static PLANS: std::sync::OnceLock<[Kept; 3]> = std::sync::OnceLock::new();
         // So large that most pixels are in runs, and that rows of light are filled up: seen in eight mirrors, in four, and in one.
         let (square, turned) = (dome(104, 0.0), dome(104, 20.0));
-        let oblong = View { grid: square.grid.window(104, 96, 0.0, 4.0), ..square.clone() };
+        let oblong = View { grid: square.grid.window(104, 96, 0.0, 4.0), ..square };
         let plans = PLANS.get_or_init(|| [square, oblong, turned].map(|target| Kept::new(cube(130), target)));
         let Kept { world, target, fixed, float } = &plans[which];
         let resampler = Resampler { world, target, filter: Filter::DEFAULT };
