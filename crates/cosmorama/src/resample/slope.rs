@@ -6,12 +6,12 @@
 
 use std::cell::OnceCell;
 
+use fearless_simd::{Simd, f32x4, f64x4, prelude::*};
 use glam::{DMat3, DVec3, Vec3Swizzles};
 
 use crate::raster::Rgba;
 
-/// Channels of a texel, and the one that may not go beyond one.
-const CHANNELS: usize = 4;
+/// The channel that may not go beyond one.
 const ALPHA: usize = 3;
 
 /// Texels that depart from their plane by no more than this part of their range are straight: what the sphere bends a
@@ -42,51 +42,65 @@ impl<'a> Rim<'a> {
         Self { places, lattice: OnceCell::new() }
     }
 
-    /// An average held to what the texels under the pixel hold, and beyond it as far as all of them, in the order of their places,
-    /// confirm.
+    /// An average held to what the texels under the pixel hold, and beyond it as far as all of them confirm.
     #[inline(always)]
-    pub(super) fn hold(&self, average: Rgba, under: &Bounds, texels: impl Iterator<Item = Rgba> + Clone) -> Rgba {
+    pub(super) fn hold<S: Simd>(&self, simd: S, average: Rgba, under: &Bounds, texels: &impl TexelLight) -> Rgba {
         let Bounds { least, greatest } = under;
-        let held = Rgba(std::array::from_fn(|c| average.0[c].max(least[c]).min(greatest[c])));
-        // Where light is mixed with transparency, colour must stay within alpha.
-        if self.places.is_empty() || held == average || !texels.clone().all(|texel| texel.alpha() >= 1.0) {
+        let mut held = average;
+        for (c, value) in held.0.iter_mut().enumerate() {
+            *value = value.max(least[c]).min(greatest[c]);
+        }
+        if self.places.is_empty() || held == average {
             return held;
         }
-        let Some(lattice) = self.lattice.get_or_init(|| Lattice::of(self.places.iter().copied())) else { return held };
-        let doubts = lattice.doubts(texels.zip(self.places.iter().copied()));
-        Rgba(std::array::from_fn(|c| {
+        let Some(lattice) = self.lattice.get_or_init(|| Lattice::of(self.places)) else { return held };
+        let Some(doubts) = lattice.doubts(simd, texels) else { return held };
+        for c in 0..ALPHA {
             let excess = average.0[c] - held.0[c];
-            if c == ALPHA || excess == 0.0 {
-                return held.0[c];
+            if excess != 0.0 {
+                let value = held.0[c] + excess.signum() * (excess.abs() - doubts[c] as f32).max(0.0);
+                // Light does not become negative: where a slope would, it is none.
+                held.0[c] = if least[c] >= 0.0 { value.max(0.0) } else { value };
             }
-            let value = held.0[c] + excess.signum() * (excess.abs() - doubts[c] as f32).max(0.0);
-            // Light does not become negative: where a slope would, it is none.
-            if least[c] >= 0.0 { value.max(0.0) } else { value }
-        }))
+        }
+        held
+    }
+}
+
+/// The light of a pixel's texels, in the order of their places.
+pub(super) trait TexelLight {
+    /// That of one.
+    fn light<S: Simd>(&self, simd: S, index: usize) -> f32x4<S>;
+}
+
+#[cfg(test)]
+impl TexelLight for Vec<Rgba> {
+    fn light<S: Simd>(&self, simd: S, index: usize) -> f32x4<S> {
+        f32x4::load_array_ref(simd, &self[index].0)
     }
 }
 
 /// How places lie around their centroid: what is fitted to, by least squares.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 struct Lattice {
-    centroid: DVec3,
+    /// Their [`terms`], from the mean of these.
+    terms: Vec<DVec3>,
     /// The inverse of the second moments.
     inverse: DMat3,
-    count: f64,
 }
 
 impl Lattice {
     /// That of some places; `None` if they lie in a line, or are too few to tell.
-    #[inline(always)]
-    fn of(places: impl Iterator<Item = [f32; 2]> + Clone) -> Option<Self> {
-        let terms = places.map(terms);
-        let count = terms.clone().count() as f64;
-        let centroid = terms.clone().sum::<DVec3>() / count;
+    fn of(places: &[[f32; 2]]) -> Option<Self> {
+        let mut terms: Vec<DVec3> = places.iter().map(|place| self::terms(*place)).collect();
+        let count = terms.len() as f64;
+        let centroid = terms.iter().sum::<DVec3>() / count;
         // Symmetric: six sums of nine.
-        let (squares, products) = terms.fold((DVec3::ZERO, DVec3::ZERO), |(squares, products), term| {
-            let from = term - centroid;
-            (squares + from * from, products + from * from.yzx())
-        });
+        let (mut squares, mut products) = (DVec3::ZERO, DVec3::ZERO);
+        for term in &mut terms {
+            *term -= centroid;
+            (squares, products) = (squares + *term * *term, products + *term * term.yzx());
+        }
         let moments = DMat3::from_cols(
             DVec3::new(squares.x, products.x, products.z),
             DVec3::new(products.x, squares.y, products.y),
@@ -94,39 +108,48 @@ impl Lattice {
         );
         let sizes = moments.x_axis.x * moments.y_axis.y * moments.z_axis.z;
         let is_plane = count >= FEWEST && moments.determinant() > THINNEST * sizes;
-        is_plane.then(|| Self { centroid, inverse: moments.inverse(), count })
+        is_plane.then(|| Self { terms, inverse: moments.inverse() })
     }
 
-    /// How far a slope through these texels may be from going on, by channel.
+    /// How far a slope through these texels may be from going on, by channel; `None` where one of them is transparent: colour must stay
+    /// within alpha there.
+    // No closures: the compiler gives them no leave to use the level's instructions.
     #[inline(always)]
-    fn doubts(&self, texels: impl Iterator<Item = (Rgba, [f32; 2])> + Clone) -> [f64; CHANNELS] {
-        let (mut sum, mut along) = ([0.0; CHANNELS], [[0.0; CHANNELS]; 3]);
-        let (mut least, mut greatest) = ([f32::INFINITY; CHANNELS], [f32::NEG_INFINITY; CHANNELS]);
-        for (Rgba(values), place) in texels.clone() {
-            let from = (terms(place) - self.centroid).to_array();
-            for c in 0..CHANNELS {
-                let value = f64::from(values[c]);
-                sum[c] += value;
-                for axis in 0..3 {
-                    along[axis][c] += from[axis] * value;
-                }
-                (least[c], greatest[c]) = (least[c].min(values[c]), greatest[c].max(values[c]));
+    fn doubts<S: Simd>(&self, simd: S, texels: &impl TexelLight) -> Option<[f64; 4]> {
+        let (mut sum, mut along) = (f64x4::splat(simd, 0.0), [f64x4::splat(simd, 0.0); 3]);
+        let (mut least, mut greatest) = (f32x4::splat(simd, f32::INFINITY), f32x4::splat(simd, f32::NEG_INFINITY));
+        for (index, from) in self.terms.iter().enumerate() {
+            let light = texels.light(simd, index);
+            (least, greatest) = (least.min(light), greatest.max(light));
+            let light = widened(light);
+            sum += light;
+            for axis in 0..3 {
+                along[axis] += light * from[axis];
             }
         }
-        let slopes: [DVec3; CHANNELS] =
-            std::array::from_fn(|c| self.inverse * DVec3::from_array(along.map(|along| along[c])));
-        let means = sum.map(|sum| sum / self.count);
-        let mut departures = [0f64; CHANNELS];
-        for (Rgba(values), place) in texels {
-            let from = terms(place) - self.centroid;
-            for c in 0..CHANNELS {
-                let departure = f64::from(values[c]) - means[c] - slopes[c].dot(from);
-                departures[c] = departures[c].max(departure.abs());
-            }
+        if least.to_array()[ALPHA] < 1.0 {
+            return None;
         }
-        let range = |c: usize| f64::from(greatest[c]) - f64::from(least[c]);
-        std::array::from_fn(|c| DOUBT * (departures[c] - STRAIGHT * range(c)).max(0.0))
+        let [x, y, z] = along;
+        let mut slopes = along;
+        for (axis, slope) in slopes.iter_mut().enumerate() {
+            *slope = x * self.inverse.x_axis[axis] + y * self.inverse.y_axis[axis] + z * self.inverse.z_axis[axis];
+        }
+        let mean = sum / self.terms.len() as f64;
+        let mut departure = f64x4::splat(simd, 0.0);
+        for (index, from) in self.terms.iter().enumerate() {
+            let on_plane = mean + slopes[0] * from.x + slopes[1] * from.y + slopes[2] * from.z;
+            departure = departure.max((widened(texels.light(simd, index)) - on_plane).abs());
+        }
+        let range = widened(greatest) - widened(least);
+        Some((((departure - range * STRAIGHT) * DOUBT).max(f64x4::splat(simd, 0.0))).to_array())
     }
+}
+
+#[inline(always)]
+fn widened<S: Simd>(light: f32x4<S>) -> f64x4<S> {
+    let (low, high) = light.widen();
+    low.combine(high)
 }
 
 /// Through fewer texels what is fitted confirms nothing.
@@ -137,7 +160,6 @@ const THINNEST: f64 = 1e-6;
 
 /// What a colour that is linear in the direction is made of, at a place: its two coordinates, and how far the sphere falls
 /// away from the tangent plane there.
-#[inline(always)]
 fn terms([x, y]: [f32; 2]) -> DVec3 {
     let (x, y) = (f64::from(x), f64::from(y));
     DVec3::new(x, y, x * x + y * y)
@@ -145,11 +167,17 @@ fn terms([x, y]: [f32; 2]) -> DVec3 {
 
 #[cfg(test)]
 mod tests {
+    use fearless_simd::dispatch;
+
+    use super::super::window::levels;
     use super::*;
 
     fn hold(average: Rgba, under: &Bounds, texels: impl Iterator<Item = (Rgba, [f32; 2])>) -> Rgba {
         let (texels, places): (Vec<_>, Vec<_>) = texels.unzip();
-        Rim::new(&places).hold(average, under, texels.into_iter())
+        let of = |level| dispatch!(level, simd => Rim::new(&places).hold(simd, average, under, &texels));
+        let made: Vec<Rgba> = levels().into_iter().map(of).collect();
+        assert!(made.iter().all(|pixel| *pixel == made[0]), "by each level's instructions the same: {made:?}");
+        made[0]
     }
 
     /// Rows of texels before the pixel, the nearest half a row away.

@@ -94,6 +94,8 @@ impl Taps {
 /// all pixels are measured against. `light` is that of a texel.
 #[cfg(test)]
 pub(super) fn average(list: TapList, light: impl Fn(u32) -> Rgba, anti_ringing: bool) -> Rgba {
+    use fearless_simd::{Level, dispatch};
+
     use super::plan::BLOCK;
     use super::slope::{Bounds, Rim};
 
@@ -128,5 +130,6 @@ pub(super) fn average(list: TapList, light: impl Fn(u32) -> Rgba, anti_ringing: 
     if !anti_ringing || list.under == 0 {
         return average;
     }
-    Rim::new(list.places).hold(average, &bounds, list.taps.iter().map(|tap| light(tap.texel)))
+    let texels: Vec<Rgba> = list.taps.iter().map(|tap| light(tap.texel)).collect();
+    dispatch!(Level::new(), simd => Rim::new(list.places).hold(simd, average, &bounds, &texels))
 }

@@ -3,32 +3,29 @@ use std::ops::Range;
 use super::band::Run;
 use super::mirrors::{MOST_IMAGES, MirrorImage, Mirrors, UPRIGHT};
 use super::picture_part::PicturePart;
-use super::prefetch::prefetch_lines;
+use super::prefetch::LINE;
+use super::run_pixels::RunPixels;
 use crate::resample::patch::SIDE;
 
 /// What one band makes of a picture. What no pixel was made of is filled with a background at the end.
 pub(super) struct Canvas<'a, P: Copy> {
-    background: P,
+    background: [P; MANY],
     mirrors: &'a Mirrors,
     part: PicturePart<'a, P>,
     /// Which pixels of its own are made, row by row, a bit for each column: the same in all mirrors.
     made: Vec<u8>,
-    /// What will be written where columns are rows.
-    tile: Tile<P>,
-}
-
-/// Runs below each other, where mirrors show columns as rows: so many pixels lie beside each other there.
-struct Tile<P> {
-    /// Column and row of the first pixel.
+    pixels: RunPixels<P>,
+    /// Where mirrors show columns as rows, the column and row of the first pixel that is not written yet, and how many rows of them.
     first: [usize; 2],
     rows: usize,
-    /// For each of those mirrors, lane by lane, from left to right.
-    pixels: [[[P; SIDE]; SIDE]; UPRIGHT],
 }
+
+/// Pixels of the background that are laid at once: one by one three bytes are slow.
+const MANY: usize = 8 * SIDE;
 
 impl<P: Copy> Drop for Canvas<'_, P> {
     fn drop(&mut self) {
-        self.write_tile();
+        self.write_turned();
         for top in (0..self.part.rows()).step_by(SIDE) {
             self.fill_patches(top);
         }
@@ -53,8 +50,8 @@ impl<'a, P: Copy> Canvas<'a, P> {
     ) -> Vec<Self> {
         let canvas = |part: PicturePart<'a, P>| {
             let made = vec![0; part.rows() * bytes_of(mirrors.columns)];
-            let tile = Tile { first: [0; 2], rows: 0, pixels: [[[background; SIDE]; SIDE]; UPRIGHT] };
-            Self { background, mirrors, part, made, tile }
+            let (background, pixels) = ([background; MANY], RunPixels::filled(background));
+            Self { background, mirrors, part, made, pixels, first: [0; 2], rows: 0 }
         };
         PicturePart::all(pixels, width, rows, mirrors).into_iter().map(canvas).collect()
     }
@@ -119,81 +116,80 @@ impl<'a, P: Copy> Canvas<'a, P> {
 
     /// Fills columns of some rows of a patch with the background, in all mirrors.
     fn fill(&mut self, rows: Range<usize>, columns: Range<usize>) {
-        let (background, mirrors) = (self.background, self.mirrors);
-        for (index, image) in mirrors.images.iter().enumerate() {
+        for (index, image) in self.mirrors.images.iter().enumerate() {
             if image.is_turned {
                 // Not those of the patch on the diagonal.
                 let others = columns.start.max(self.first_column(rows.start) + SIDE)..columns.end;
                 for column in others {
-                    lay(background, self.part.beside(index, [column, rows.start], rows.len()));
+                    lay(&self.background, self.part.beside(index, [column, rows.start], rows.len()));
                 }
             } else {
                 for row in rows.clone() {
-                    lay(background, self.part.beside(index, [columns.start, row], columns.len()));
+                    lay(&self.background, self.part.beside(index, [columns.start, row], columns.len()));
                 }
             }
         }
     }
 
-    /// Writes the pixels of a run in each mirror, from left to right as that shows them; where it shows columns as rows, from the first
-    /// to the last.
+    /// Where to make the pixels of a run, before they are [`put`](Self::put) where they belong.
     #[inline(always)]
-    pub(super) fn put(&mut self, run: &Run, pixels: &[[P; SIDE]; MOST_IMAGES]) {
-        let images = self.images_of(run.pixel(0));
+    pub(super) fn pixels(&mut self, run: &Run) -> &mut RunPixels<P> {
+        let [column, row] = run.pixel(0);
+        if self.rows == SIDE || [self.first[0], self.first[1] + self.rows] != [column, row] {
+            self.write_turned();
+            self.first = [column, row];
+        }
+        let at = self.rows;
+        for (pixels, image) in self.pixels.turned.iter_mut().zip(self.mirrors.turned()) {
+            pixels.at = if image.flips[0] { SIDE - 1 - at } else { at };
+        }
+        &mut self.pixels
+    }
+
+    /// Puts the pixels of a run where each mirror shows them; where that shows columns as rows, when those beside them are made, too.
+    #[inline(always)]
+    pub(super) fn put(&mut self, run: &Run) {
+        let pixel = run.pixel(0);
+        let images = self.images_of(pixel);
         if !run.is_whole() {
-            for (index, (image, pixels)) in images.iter().zip(pixels).enumerate() {
-                let last = if image.flips[0] && !image.is_turned { SIDE - 1 } else { 0 };
-                for lane in run.lanes() {
-                    *self.pixel(index, run.pixel(lane)) = pixels[(lane ^ last) % SIDE];
-                }
-            }
+            self.put_lanes(run, images);
             return;
         }
-        let pixel = run.pixel(0);
         self.note(pixel, u8::MAX);
-        for (image, pixels) in pixels.iter().enumerate().take(images.len().min(UPRIGHT)) {
+        for (image, pixels) in self.pixels.upright.iter().enumerate().take(images.len()) {
             self.part.beside(image, pixel, SIDE).copy_from_slice(pixels);
         }
         if images.len() == MOST_IMAGES {
-            let turned = pixels.last_chunk().expect("mirrors that show columns as rows come last");
-            self.put_turned(pixel, turned);
+            self.rows += 1;
         }
     }
 
-    /// The same where columns are rows, beside those of the run above.
-    #[inline(always)]
-    fn put_turned(&mut self, [column, row]: [usize; 2], pixels: &[[P; SIDE]; UPRIGHT]) {
-        let Tile { first, rows, .. } = self.tile;
-        if rows == SIDE || [first[0], first[1] + rows] != [column, row] {
-            self.write_tile();
-            self.tile.first = [column, row];
-        }
-        let at = self.tile.rows % SIDE;
-        for (image, pixels) in pixels.iter().enumerate() {
-            let at = if self.mirrors.turned()[image].flips[0] { SIDE - 1 - at } else { at };
-            for (tile, pixel) in self.tile.pixels[image].iter_mut().zip(pixels) {
-                tile[at] = *pixel;
+    /// The same of a run that makes some of its lanes.
+    fn put_lanes(&mut self, run: &Run, images: &[MirrorImage]) {
+        for (index, image) in images.iter().enumerate() {
+            let flip = if image.flips[0] { SIDE - 1 } else { 0 };
+            for lane in run.lanes() {
+                let pixel = *self.pixels.pixel(index, lane, flip);
+                *self.pixel(index, run.pixel(lane)) = pixel;
             }
         }
-        self.tile.rows += 1;
     }
 
-    /// Writes what is in the tile, and empties it.
-    fn write_tile(&mut self) {
-        let (mirrors, rows) = (self.mirrors, std::mem::take(&mut self.tile.rows));
+    /// Writes what mirrors show in lines where columns are rows.
+    fn write_turned(&mut self) {
+        let rows = std::mem::take(&mut self.rows);
         if rows == 0 {
             return;
         }
-        let [column, row] = self.tile.first;
-        for (index, image) in mirrors.turned().iter().enumerate() {
-            let columns = if image.flips[0] { SIDE - rows..SIDE } else { 0..rows };
-            for lane in 0..SIDE {
-                let pixels = self.tile.pixels[index][lane];
+        let [column, row] = self.first;
+        for (index, image) in self.mirrors.turned().iter().enumerate() {
+            let made = if image.flips[0] { SIDE - rows..SIDE } else { 0..rows };
+            for (lane, pixels) in self.pixels.turned[index].lines.iter().enumerate() {
                 let line = self.part.beside(UPRIGHT + index, [column + lane, row], rows);
                 // As many as there mostly are come without a call.
                 match line.first_chunk_mut::<SIDE>() {
-                    Some(line) => *line = pixels,
-                    None => line.copy_from_slice(&pixels[columns.clone()]),
+                    Some(line) => *line = *pixels,
+                    None => line.copy_from_slice(&pixels[made.clone()]),
                 }
             }
         }
@@ -202,18 +198,24 @@ impl<'a, P: Copy> Canvas<'a, P> {
     /// Asks for the memory that the pixels of whole runs will be written to: a line of it that is not at hand is waited for even so.
     /// Other runs are few, and have no place for eight pixels in each mirror.
     #[inline(always)]
-    pub(super) fn prefetch(&mut self, runs: &[Run]) {
+    pub(super) fn prefetch(&self, runs: &[Run]) {
+        // The last pixel in each line: the first line is that of the last pixel before, too, or else has one of these.
+        let step = const { if LINE < size_of::<[P; SIDE]>() { LINE / size_of::<P>() } else { SIDE } };
         let mut is_first = true;
         for run in runs.iter().filter(|run| run.is_whole()) {
-            let [_, row] = run.pixel(0);
-            for (index, image) in self.images_of(run.pixel(0)).iter().enumerate() {
+            let [column, row] = run.pixel(0);
+            for (index, image) in self.images_of([column, row]).iter().enumerate() {
                 if !image.is_turned {
-                    prefetch_lines(self.part.beside(index, run.pixel(0), SIDE), 0, SIDE as u32 - 1);
+                    for across in (step - 1..SIDE).step_by(step) {
+                        self.part.prefetch(index, [column + across, row]);
+                    }
                 } else if is_first {
                     // What the first run of a patch and those below it are written to.
-                    let rows = (SIDE - row % SIDE).min(self.part.rows() - row);
-                    for lane in 0..SIDE {
-                        prefetch_lines(self.part.beside(index, run.pixel(lane), rows), 0, rows as u32 - 1);
+                    for across in 0..SIDE {
+                        self.part.prefetch(index, [column + across, row]);
+                        for down in (step - 1..SIDE).step_by(step) {
+                            self.part.prefetch(index, [column + across, row + down]);
+                        }
                     }
                 }
             }
@@ -231,11 +233,14 @@ impl<'a, P: Copy> Canvas<'a, P> {
     }
 }
 
-/// Fills pixels, eight at a time: one by one three bytes are slow.
-fn lay<P: Copy>(background: P, pixels: &mut [P]) {
-    let (eights, others) = pixels.as_chunks_mut::<SIDE>();
-    eights.fill([background; SIDE]);
-    others.fill(background);
+/// Fills pixels. From memory: as a number that is known, the background would be written byte by byte.
+fn lay<P: Copy>(background: &[P; MANY], pixels: &mut [P]) {
+    let (many, few) = pixels.as_chunks_mut();
+    many.fill(*background);
+    let (eights, others) = few.as_chunks_mut::<SIDE>();
+    let (eight, _) = background.as_chunks();
+    eights.fill(eight[0]);
+    others.fill(background[0]);
 }
 
 /// Bytes of bits for so many columns, and one more, which eight of them that begin within a byte may reach.

@@ -12,7 +12,8 @@ use super::canvas::Canvas;
 use super::fixed_weights::{FixedWeights, Header, Shape};
 use super::fixed_window::Window;
 use super::mirrors::{MOST_IMAGES, Mirrors};
-use super::prefetch::{prefetch_patch, prefetch_weights};
+use super::prefetch::{prefetch_patch, prefetch_runs, prefetch_weights};
+use super::run_pixels::{Places, RunPixels};
 use super::singles::Palette;
 use super::texels::{Texels, prefetch};
 use super::view_texels::ViewTexels;
@@ -52,61 +53,57 @@ impl FixedFilter<'_> {
                 prefetch_patch(texels, self.mirrors, next);
                 // Of a frame by plan this gains nothing, of a single picture a fiftieth.
                 canvas.prefetch(next);
+                prefetch_runs(&band.runs, at);
             }
             let numbers = &band.weights.numbers[run.weights as usize..];
-            canvas.put(run, &self.pixels(simd, run, &views[usize::from(run.view)], numbers));
+            self.pixels(simd, run, &views[usize::from(run.view)], numbers, canvas.pixels(run));
+            canvas.put(run);
         }
     }
 
-    /// The pixels of a run in each mirror. What is called from here on is compiled by itself: among all that makes a band its loop
+    /// Makes the pixels of a run in each mirror. What is called from here on is compiled by itself: among all that makes a band its loop
     /// would lack registers.
     #[inline(never)]
-    fn pixels<S: Simd>(&self, simd: S, run: &Run, texels: &ViewTexels<i16>, numbers: &[u32]) -> Pixels {
-        let mut pixels = [[[0; 3]; SIDE]; MOST_IMAGES];
+    fn pixels<S: Simd>(&self, simd: S, run: &Run, texels: &ViewTexels<i16>, numbers: &[u32], pixels: &mut Pixels) {
         let order = &self.mirrors.ways(usize::from(run.view)).order;
         let run_filter = RunFilter { simd, filter: self, run, numbers };
         // A function for each number of mirrors: all in one would take the compiler minutes.
         match texels {
             ViewTexels::Eight(texels) => simd.vectorize(
                 #[inline(always)]
-                || run_filter.pixels::<i16x32<S>, 4, 2, 2, false>(texels, order, &mut pixels),
+                || run_filter.pixels::<i16x32<S>, 4, 2, 2, false>(texels, order, pixels),
             ),
             ViewTexels::Turned(texels) => simd.vectorize(
                 #[inline(always)]
-                || run_filter.pixels::<i16x32<S>, 4, 2, 2, true>(texels, order, &mut pixels),
+                || run_filter.pixels::<i16x32<S>, 4, 2, 2, true>(texels, order, pixels),
             ),
             ViewTexels::Four(texels) => simd.vectorize(
                 #[inline(always)]
-                || run_filter.pixels::<i16x32<S>, 4, 2, 1, false>(std::array::from_ref(texels), order, &mut pixels),
+                || run_filter.pixels::<i16x32<S>, 4, 2, 1, false>(std::array::from_ref(texels), order, pixels),
             ),
             ViewTexels::Two(texels) => simd.vectorize(
                 #[inline(always)]
-                || run_filter.pixels::<i16x16<S>, 2, 1, 1, false>(std::array::from_ref(texels), order, &mut pixels),
+                || run_filter.pixels::<i16x16<S>, 2, 1, 1, false>(std::array::from_ref(texels), order, pixels),
             ),
             ViewTexels::OneByOne { forward, reversed } => simd.vectorize(
                 #[inline(always)]
                 || {
                     for (texels, order) in forward.iter().zip(order) {
                         let (texels, order) = (std::array::from_ref(texels), std::slice::from_ref(order));
-                        run_filter.pixels::<i16x8<S>, 1, 0, 1, false>(texels, order, &mut pixels);
+                        run_filter.pixels::<i16x8<S>, 1, 0, 1, false>(texels, order, pixels);
                     }
                     for (texels, order) in reversed.iter().zip(&order[forward.len()..]) {
                         let (texels, order) = (std::array::from_ref(texels), std::slice::from_ref(order));
-                        run_filter.pixels::<i16x8<S>, 1, 1, 1, false>(texels, order, &mut pixels);
+                        run_filter.pixels::<i16x8<S>, 1, 1, 1, false>(texels, order, pixels);
                     }
                 },
             ),
         }
-        pixels
     }
 }
 
 impl Palette for FixedFilter<'_> {
     type Pixel = [u8; 3];
-
-    fn rgba(&self, texel: u32) -> Rgba {
-        FixedLight::light(self.light.as_laid_out()[texel as usize])
-    }
 
     #[inline(always)]
     fn light<S: Simd>(&self, simd: S, texel: u32) -> f32x4<S> {
@@ -126,8 +123,8 @@ impl Palette for FixedFilter<'_> {
     }
 }
 
-/// The pixels of a run in each mirror, from left to right as that shows them.
-type Pixels = [[[u8; 3]; SIDE]; MOST_IMAGES];
+/// The pixels of a run in each mirror.
+type Pixels = RunPixels<[u8; 3]>;
 
 /// What makes the pixels of a run.
 #[derive(Clone, Copy)]
@@ -176,15 +173,21 @@ impl<S: Simd> RunFilter<'_, S> {
         }
         // Looked up together, from memory: taken out of vectors one by one, samples would wait for each pixel's sum.
         for (image, (index, flip)) in order.iter().enumerate().take(G * N) {
-            let pixels = &mut pixels[index % MOST_IMAGES];
-            // A loop for each direction: that of `lane ^ flip` would find the place of each pixel anew.
-            if *flip == 0 {
-                for (light, pixel) in light.iter().zip(pixels) {
-                    *pixel = codes.of(light[image]);
+            match pixels.places(*index, *flip) {
+                Places::Forward(pixels) => {
+                    for (light, pixel) in light.iter().zip(pixels) {
+                        *pixel = codes.of(light[image]);
+                    }
                 }
-            } else {
-                for (light, pixel) in light.iter().zip(pixels.iter_mut().rev()) {
-                    *pixel = codes.of(light[image]);
+                Places::Reversed(pixels) => {
+                    for (light, pixel) in light.iter().zip(pixels.iter_mut().rev()) {
+                        *pixel = codes.of(light[image]);
+                    }
+                }
+                Places::Lines(lines, at) => {
+                    for (light, pixels) in light.iter().zip(lines) {
+                        pixels[at] = codes.of(light[image]);
+                    }
                 }
             }
         }

@@ -7,8 +7,9 @@ use super::canvas::Canvas;
 use super::float_shape::{Header, Shape};
 use super::float_weights::FloatWeights;
 use super::float_window::Window;
-use super::mirrors::{MOST_IMAGES, Mirrors, TOGETHER};
-use super::prefetch::{prefetch_patch, prefetch_weights};
+use super::mirrors::{Mirrors, TOGETHER};
+use super::prefetch::{prefetch_patch, prefetch_runs, prefetch_weights};
+use super::run_pixels::RunPixels;
 use super::singles::{Palette, Singles};
 use super::texels::{Texels, prefetch};
 use super::view_texels::ViewTexels;
@@ -51,22 +52,24 @@ impl FloatFilter<'_> {
                 let next = ahead.next().unwrap_or(&[]);
                 prefetch_patch(self.texels, self.mirrors, next);
                 canvas.prefetch(next);
+                prefetch_runs(&band.runs, at);
             }
             let numbers = &band.weights.numbers[run.weights as usize..];
-            let mut pixels = self.pixels(simd, run, &views[usize::from(run.view)], numbers);
-            if self.background != Rgba::TRANSPARENT {
-                for pixel in pixels[..self.mirrors.images.len()].as_flattened_mut() {
-                    *pixel = pixel.over(self.background);
-                }
-            }
-            canvas.put(run, &pixels);
+            self.pixels(simd, run, &views[usize::from(run.view)], numbers, canvas.pixels(run));
+            canvas.put(run);
         }
     }
 
-    /// The pixels of a run in each mirror.
+    /// Makes the pixels of a run in each mirror.
     #[inline(always)]
-    fn pixels<S: Simd>(&self, simd: S, run: &Run, texels: &ViewTexels<f32>, numbers: &[u32]) -> Pixels {
-        let mut pixels = [[Rgba::TRANSPARENT; SIDE]; MOST_IMAGES];
+    fn pixels<S: Simd>(
+        &self,
+        simd: S,
+        run: &Run,
+        texels: &ViewTexels<f32>,
+        numbers: &[u32],
+        pixels: &mut RunPixels<Rgba>,
+    ) {
         let order = &self.mirrors.ways(usize::from(run.view)).order;
         let run_filter = RunFilter { simd, filter: self, run, numbers };
         // A function for each number of mirrors: all in one would take the compiler minutes.
@@ -75,55 +78,49 @@ impl FloatFilter<'_> {
                 let (order, others) = order.split_at(TOGETHER);
                 simd.vectorize(
                     #[inline(always)]
-                    || run_filter.pixels::<TOGETHER, 2, false>(first, order, &mut pixels),
+                    || run_filter.pixels::<TOGETHER, 2, false>(first, order, pixels),
                 );
                 simd.vectorize(
                     #[inline(always)]
-                    || run_filter.pixels::<TOGETHER, 2, false>(second, others, &mut pixels),
+                    || run_filter.pixels::<TOGETHER, 2, false>(second, others, pixels),
                 );
             }
             ViewTexels::Turned([upright, turned]) => {
                 let (order, others) = order.split_at(TOGETHER);
                 simd.vectorize(
                     #[inline(always)]
-                    || run_filter.pixels::<TOGETHER, 2, false>(upright, order, &mut pixels),
+                    || run_filter.pixels::<TOGETHER, 2, false>(upright, order, pixels),
                 );
                 simd.vectorize(
                     #[inline(always)]
-                    || run_filter.pixels::<TOGETHER, 2, true>(turned, others, &mut pixels),
+                    || run_filter.pixels::<TOGETHER, 2, true>(turned, others, pixels),
                 );
             }
             ViewTexels::Four(texels) => simd.vectorize(
                 #[inline(always)]
-                || run_filter.pixels::<TOGETHER, 2, false>(texels, order, &mut pixels),
+                || run_filter.pixels::<TOGETHER, 2, false>(texels, order, pixels),
             ),
             ViewTexels::Two(texels) => simd.vectorize(
                 #[inline(always)]
-                || run_filter.pixels::<2, 1, false>(texels, order, &mut pixels),
+                || run_filter.pixels::<2, 1, false>(texels, order, pixels),
             ),
             ViewTexels::OneByOne { forward, reversed } => simd.vectorize(
                 #[inline(always)]
                 || {
                     for (texels, order) in forward.iter().zip(order) {
-                        run_filter.pixels::<1, 0, false>(texels, std::slice::from_ref(order), &mut pixels);
+                        run_filter.pixels::<1, 0, false>(texels, std::slice::from_ref(order), pixels);
                     }
                     for (texels, order) in reversed.iter().zip(&order[forward.len()..]) {
-                        run_filter.pixels::<1, 1, false>(texels, std::slice::from_ref(order), &mut pixels);
+                        run_filter.pixels::<1, 1, false>(texels, std::slice::from_ref(order), pixels);
                     }
                 },
             ),
         }
-        pixels
     }
 }
 
 impl Palette for FloatFilter<'_> {
     type Pixel = Rgba;
-
-    #[inline(always)]
-    fn rgba(&self, texel: u32) -> Rgba {
-        self.texels[texel as usize]
-    }
 
     #[inline(always)]
     fn light<S: Simd>(&self, simd: S, texel: u32) -> f32x4<S> {
@@ -139,9 +136,6 @@ impl Palette for FloatFilter<'_> {
         prefetch(self.texels, texel);
     }
 }
-
-/// The pixels of a run in each mirror, from left to right as that shows them.
-type Pixels = [[Rgba; SIDE]; MOST_IMAGES];
 
 /// What makes the pixels of a run.
 #[derive(Clone, Copy)]
@@ -161,7 +155,7 @@ impl<S: Simd> RunFilter<'_, S> {
         self,
         texels: &Texels<f32, N, R>,
         order: &[(usize, usize)],
-        pixels: &mut Pixels,
+        pixels: &mut RunPixels<Rgba>,
     ) {
         let Self { simd, filter, run, mut numbers } = self;
         let large = Shape { width: usize::from(run.width), height: usize::from(run.height) };
@@ -180,8 +174,9 @@ impl<S: Simd> RunFilter<'_, S> {
             };
             numbers = &numbers[length..];
             for (image, (index, flip)) in order.iter().enumerate().take(N) {
-                let average = sums.average(image, filter.anti_ringing);
-                pixels[index % MOST_IMAGES][(lane ^ flip) % SIDE] = Rgba(average.to_array());
+                let light = Rgba(sums.average(image, filter.anti_ringing).to_array());
+                *pixels.pixel(*index, lane, *flip) =
+                    if filter.background == Rgba::TRANSPARENT { light } else { light.over(filter.background) };
             }
         }
     }

@@ -22,6 +22,7 @@ mod picture_part;
 mod prefetch;
 mod recorder;
 mod rounded;
+mod run_pixels;
 mod saved;
 mod saved_plan;
 mod singles;

@@ -1,9 +1,10 @@
 use super::band::Run;
 use super::mirrors::{Mirrors, exchanged};
 use super::texels;
+use crate::resample::patch::SIDE;
 
 /// Bytes that come from memory together.
-const LINE: usize = 64;
+pub(super) const LINE: usize = 64;
 
 /// Columns and rows of the largest region that is asked for as one; beyond, runs have little in common.
 const LARGEST: [usize; 2] = [64, 32];
@@ -25,6 +26,12 @@ pub(super) fn prefetch_patch<T>(texels: &[T], mirrors: &Mirrors, runs: &[Run]) {
         }
         region.prefetch(texels, mirrors);
     }
+}
+
+/// Asks for the runs of the patch after the next, given the first one of this: what [`prefetch_patch`] looks at has to be at hand.
+#[inline(always)]
+pub(super) fn prefetch_runs(runs: &[Run], first: usize) {
+    prefetch_lines(runs, (first + 2 * SIDE) as u32, SIDE as u32);
 }
 
 /// Asks for what will be read a dozen windows later, so that reading weights one after the other does not wait for memory.

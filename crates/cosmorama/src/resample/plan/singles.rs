@@ -9,7 +9,7 @@ use super::canvas::Canvas;
 use super::mirrors::Mirrors;
 use super::stored::stored;
 use crate::raster::Rgba;
-use crate::resample::slope::{Bounds, Rim};
+use crate::resample::slope::{Bounds, Rim, TexelLight};
 use crate::resample::taps::Taps;
 use crate::world::{TexelPlace, World};
 
@@ -57,9 +57,6 @@ pub(super) trait Palette {
     type Pixel: Copy;
 
     /// The light of a texel.
-    fn rgba(&self, texel: u32) -> Rgba;
-
-    /// The same, to be worked with.
     fn light<S: Simd>(&self, simd: S, texel: u32) -> f32x4<S>;
 
     /// What is written where light covers this part of a pixel.
@@ -215,6 +212,20 @@ impl Singles {
     }
 }
 
+/// The light of a pixel's texels in one of N mirrors.
+struct ImageLight<'a, P, const N: usize> {
+    palette: &'a P,
+    texels: &'a [[u32; N]],
+    image: usize,
+}
+
+impl<P: Palette, const N: usize> TexelLight for ImageLight<'_, P, N> {
+    #[inline(always)]
+    fn light<S: Simd>(&self, simd: S, index: usize) -> f32x4<S> {
+        self.palette.light(simd, self.texels[index][self.image])
+    }
+}
+
 /// Pixels that are made between asking for one's texels and reading them.
 const AHEAD: usize = 1;
 
@@ -264,7 +275,7 @@ fn averages<S: Simd, P: Palette, const N: usize>(
         let average = Rgba(sums[image].map(|value| value as f32));
         averages[image] = if anti_ringing && taps.under > 0 {
             let bounds = Bounds { least: least[image].to_array(), greatest: greatest[image].to_array() };
-            rim.hold(average, &bounds, texels.iter().map(|texels| palette.rgba(texels[image])))
+            rim.hold(simd, average, &bounds, &ImageLight { palette, texels, image })
         } else {
             average
         };
