@@ -254,8 +254,8 @@ fn averages<S: Simd, P: Palette, const N: usize>(
             for image in 0..N {
                 let light = palette.light(simd, texels[image]);
                 parts[image] += light * *weight;
-                least[image] = light.simd_lt(least[image]).select(light, least[image]);
-                greatest[image] = light.simd_gt(greatest[image]).select(light, greatest[image]);
+                least[image] = least[image].min(light);
+                greatest[image] = greatest[image].max(light);
             }
         }
         add(&mut sums, parts);
