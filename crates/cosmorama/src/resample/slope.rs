@@ -74,6 +74,14 @@ pub(super) trait TexelLight {
 }
 
 #[cfg(test)]
+impl Rim<'_> {
+    /// The same by the best instructions that there are.
+    pub(super) fn hold_at_best(&self, average: Rgba, under: &Bounds, texels: &Vec<Rgba>) -> Rgba {
+        fearless_simd::dispatch!(fearless_simd::Level::new(), simd => self.hold(simd, average, under, texels))
+    }
+}
+
+#[cfg(test)]
 impl TexelLight for Vec<Rgba> {
     fn light<S: Simd>(&self, simd: S, index: usize) -> f32x4<S> {
         f32x4::load_array_ref(simd, &self[index].0)

@@ -94,8 +94,6 @@ impl Taps {
 /// all pixels are measured against. `light` is that of a texel.
 #[cfg(test)]
 pub(super) fn average(list: TapList, light: impl Fn(u32) -> Rgba, anti_ringing: bool) -> Rgba {
-    use fearless_simd::{Level, dispatch};
-
     use super::plan::BLOCK;
     use super::slope::{Bounds, Rim};
 
@@ -131,5 +129,5 @@ pub(super) fn average(list: TapList, light: impl Fn(u32) -> Rgba, anti_ringing: 
         return average;
     }
     let texels: Vec<Rgba> = list.taps.iter().map(|tap| light(tap.texel)).collect();
-    dispatch!(Level::new(), simd => Rim::new(list.places).hold(simd, average, &bounds, &texels))
+    Rim::new(list.places).hold_at_best(average, &bounds, &texels)
 }
