@@ -23,7 +23,7 @@ pub(super) struct Run {
     corner: [u32; 2],
     /// How far from there each window begins.
     offsets: [[u8; 2]; SIDE],
-    /// Where its weights begin among those of the band.
+    /// Where the weights of its group begin among those of the band.
     pub(super) weights: u32,
     /// Column of its first pixel.
     column: u32,
@@ -52,6 +52,11 @@ impl Run {
             rest &= rest.wrapping_sub(1);
             (lane < SIDE).then_some(lane)
         })
+    }
+
+    /// The same, a bit for each.
+    pub(super) fn lane_bits(&self) -> u8 {
+        self.lanes
     }
 
     /// Whether it makes a pixel in each lane.
@@ -84,10 +89,27 @@ impl Run {
         [self.corner[0].wrapping_add(column), self.corner[1].wrapping_add(row)]
     }
 
+    #[cfg(test)]
+    pub(super) fn of_lanes(lanes: u8, weights: u32) -> Self {
+        let offsets = [[0; 2]; SIDE];
+        Self { corner: [0; 2], offsets, weights, column: 0, view: 0, row: 0, lanes, width: 4, height: 4, under: [0; 2] }
+    }
+
     /// A lane's column, and the row in the band.
     #[inline(always)]
     pub(super) fn pixel(&self, lane: usize) -> [usize; 2] {
         [self.column as usize + lane, usize::from(self.row)]
+    }
+
+    /// Its row in the patch.
+    #[inline(always)]
+    pub(super) fn row_in_patch(&self) -> usize {
+        usize::from(self.row) % SIDE
+    }
+
+    /// Whether a run that begins at this pixel is of the same patch.
+    fn is_beside(&self, [column, row]: [usize; 2]) -> bool {
+        self.column as usize == column && usize::from(self.row) / SIDE == row / SIDE
     }
 
     /// The rows of its windows that hold texels under a pixel.
@@ -136,16 +158,23 @@ impl<W: Weights> Band<W> {
         self.singles.clear();
     }
 
-    /// Gives back memory that is not needed.
-    pub(super) fn shrink(&mut self) {
+    /// Puts what is kept in the order in which it is made fastest, and gives back memory that is not needed.
+    pub(super) fn settle(&mut self) {
         self.runs.shrink_to_fit();
-        self.weights.shrink();
+        self.weights.settle(groups(&self.runs));
         self.singles.shrink();
     }
 
-    /// Runs that lie together, about those of a patch: in each mirror they share most of their texels.
-    pub(super) fn patches(&self) -> impl Iterator<Item = &[Run]> {
-        self.runs.chunks(SIDE)
+    /// Runs of one patch that lie in one view, [`SIDE`] at most; in each mirror they share most of their texels.
+    pub(super) fn groups(&self) -> impl Iterator<Item = &[Run]> {
+        groups(&self.runs)
+    }
+
+    /// The last runs, if another one in this view that begins at this pixel goes with them.
+    pub(super) fn open_group(&self, pixel: [usize; 2], view: usize) -> &[Run] {
+        let last = self.runs.chunk_by(are_grouped).next_back().unwrap_or_default();
+        let is_open = |run: &Run| run.is_beside(pixel) && usize::from(run.view) == view && last.len() < SIDE;
+        if last.first().is_some_and(is_open) { last } else { &[] }
     }
 
     /// Bytes that it takes.
@@ -157,6 +186,15 @@ impl<W: Weights> Band<W> {
     pub(super) fn used_bytes(&self) -> usize {
         size_of_val(&*self.runs) + self.weights.used_bytes() + self.singles.used_bytes()
     }
+}
+
+fn groups(runs: &[Run]) -> impl Iterator<Item = &[Run]> {
+    runs.chunk_by(are_grouped)
+}
+
+/// Whether the weights of two runs are kept together.
+fn are_grouped(a: &Run, b: &Run) -> bool {
+    a.weights == b.weights
 }
 
 stored!(Run {
@@ -206,15 +244,22 @@ impl<W: Weights> Band<W> {
     /// Whether all pixels, texels and weights that it speaks of are there.
     pub(super) fn is_sound(&self, room: &Room) -> bool {
         let (texels, images) = (room.mirrors.texel_count(), room.mirrors.images.len());
-        self.runs.iter().all(|run| run.is_sound(room, &self.weights))
+        self.groups().all(|group| is_group_sound(group, room, &self.weights))
             && self.singles.are_sound((room.columns(), room.rows), texels, images)
     }
 }
 
+fn is_group_sound(group: &[Run], room: &Room, weights: &impl Weights) -> bool {
+    let first = &group[0];
+    let Some(source) = room.world.sources().get(usize::from(first.view)) else { return false };
+    let size = [source.view.width(), source.view.height()];
+    group.len() <= SIDE
+        && group.iter().all(|run| run.view == first.view && first.is_beside(run.pixel(0)) && run.is_sound(room))
+        && weights.are_sound(group, size)
+}
+
 impl Run {
-    fn is_sound(&self, room: &Room, weights: &impl Weights) -> bool {
-        let Some(source) = room.world.sources().get(usize::from(self.view)) else { return false };
-        let size = [source.view.width(), source.view.height()];
+    fn is_sound(&self, room: &Room) -> bool {
         let after_last = SIDE - self.lanes.leading_zeros() as usize;
         let [from, to] = self.under;
         self.lanes != 0
@@ -227,7 +272,6 @@ impl Run {
             && self.height > 0
             && from <= to
             && to <= self.height
-            && weights.are_sound(self, size)
     }
 
     /// Whether a lane's window of some size lies within a view of another.

@@ -2,9 +2,9 @@ use std::ops::Range;
 
 use super::band::Run;
 use super::mirrors::{MOST_IMAGES, MirrorImage, Mirrors, UPRIGHT};
+use super::patch_pixels::PatchPixels;
 use super::picture_part::PicturePart;
 use super::prefetch::LINE;
-use super::run_pixels::RunPixels;
 use crate::resample::patch::SIDE;
 
 /// What one band makes of a picture. What no pixel was made of is filled with a background at the end.
@@ -14,10 +14,7 @@ pub(super) struct Canvas<'a, P: Copy> {
     part: PicturePart<'a, P>,
     /// Which pixels of its own are made, row by row, a bit for each column: the same in all mirrors.
     made: Vec<u8>,
-    pixels: RunPixels<P>,
-    /// Where mirrors show columns as rows, the column and row of the first pixel that is not written yet, and how many rows of them.
-    first: [usize; 2],
-    rows: usize,
+    pixels: PatchPixels<P>,
 }
 
 /// Pixels of the background that are laid at once: one by one three bytes are slow.
@@ -25,7 +22,6 @@ const MANY: usize = 8 * SIDE;
 
 impl<P: Copy> Drop for Canvas<'_, P> {
     fn drop(&mut self) {
-        self.write_turned();
         for top in (0..self.part.rows()).step_by(SIDE) {
             self.fill_patches(top);
         }
@@ -50,8 +46,8 @@ impl<'a, P: Copy> Canvas<'a, P> {
     ) -> Vec<Self> {
         let canvas = |part: PicturePart<'a, P>| {
             let made = vec![0; part.rows() * bytes_of(mirrors.columns)];
-            let (background, pixels) = ([background; MANY], RunPixels::filled(background));
-            Self { background, mirrors, part, made, pixels, first: [0; 2], rows: 0 }
+            let (background, pixels) = ([background; MANY], PatchPixels::filled(background));
+            Self { background, mirrors, part, made, pixels }
         };
         PicturePart::all(pixels, width, rows, mirrors).into_iter().map(canvas).collect()
     }
@@ -131,66 +127,66 @@ impl<'a, P: Copy> Canvas<'a, P> {
         }
     }
 
-    /// Where to make the pixels of a run, before they are [`put`](Self::put) where they belong.
+    /// Where to make the pixels of a group, before they are [`put`](Self::put) where they belong.
     #[inline(always)]
-    pub(super) fn pixels(&mut self, run: &Run) -> &mut RunPixels<P> {
-        let [column, row] = run.pixel(0);
-        if self.rows == SIDE || [self.first[0], self.first[1] + self.rows] != [column, row] {
-            self.write_turned();
-            self.first = [column, row];
-        }
-        let at = self.rows;
-        for (pixels, image) in self.pixels.turned.iter_mut().zip(self.mirrors.turned()) {
-            pixels.at = if image.flips[0] { SIDE - 1 - at } else { at };
-        }
+    pub(super) fn pixels(&mut self) -> &mut PatchPixels<P> {
         &mut self.pixels
     }
 
-    /// Puts the pixels of a run where each mirror shows them; where that shows columns as rows, when those beside them are made, too.
-    #[inline(always)]
-    pub(super) fn put(&mut self, run: &Run) {
-        let pixel = run.pixel(0);
-        let images = self.images_of(pixel);
-        if !run.is_whole() {
-            self.put_lanes(run, images);
-            return;
-        }
-        self.note(pixel, u8::MAX);
-        for (image, pixels) in self.pixels.upright.iter().enumerate().take(images.len()) {
-            self.part.beside(image, pixel, SIDE).copy_from_slice(pixels);
-        }
-        if images.len() == MOST_IMAGES {
-            self.rows += 1;
-        }
-    }
-
-    /// The same of a run that makes some of its lanes.
-    fn put_lanes(&mut self, run: &Run, images: &[MirrorImage]) {
-        for (index, image) in images.iter().enumerate() {
-            let flip = if image.flips[0] { SIDE - 1 } else { 0 };
-            for lane in run.lanes() {
-                let pixel = *self.pixels.pixel(index, lane, flip);
-                *self.pixel(index, run.pixel(lane)) = pixel;
+    /// Puts the pixels of a group where each mirror shows them.
+    pub(super) fn put(&mut self, group: &[Run]) {
+        let Some(first) = group.first() else { return };
+        // The same of all the patch.
+        let images = self.images_of(first.pixel(0));
+        for run in group {
+            if run.is_whole() {
+                self.put_row(run, images.len());
+            } else {
+                self.put_lanes(run, images);
             }
         }
+        if images.len() == MOST_IMAGES {
+            let follow = |above: &Run, below: &Run| {
+                let ([_, row], [_, next]) = (above.pixel(0), below.pixel(0));
+                above.is_whole() && below.is_whole() && next == row + 1
+            };
+            group.chunk_by(follow).filter(|rows| rows[0].is_whole()).for_each(|rows| self.put_turned(rows));
+        }
     }
 
-    /// Writes what mirrors show in lines where columns are rows.
-    fn write_turned(&mut self) {
-        let rows = std::mem::take(&mut self.rows);
-        if rows == 0 {
-            return;
+    /// Puts a row of a patch where it is a row; that is in the first of so many mirrors.
+    fn put_row(&mut self, run: &Run, images: usize) {
+        let pixel = run.pixel(0);
+        self.note(pixel, u8::MAX);
+        for (image, rows) in self.pixels.upright.iter().enumerate().take(images) {
+            self.part.beside(image, pixel, SIDE).copy_from_slice(&rows[run.row_in_patch()]);
         }
-        let [column, row] = self.first;
+    }
+
+    /// Puts rows of a patch below each other where columns are rows.
+    fn put_turned(&mut self, runs: &[Run]) {
+        let (pixel, first) = (runs[0].pixel(0), runs[0].row_in_patch());
         for (index, image) in self.mirrors.turned().iter().enumerate() {
-            let made = if image.flips[0] { SIDE - rows..SIDE } else { 0..rows };
-            for (lane, pixels) in self.pixels.turned[index].lines.iter().enumerate() {
-                let line = self.part.beside(UPRIGHT + index, [column + lane, row], rows);
+            let after = first + runs.len();
+            let made = if image.flips[0] { SIDE - after..SIDE - first } else { first..after };
+            for (lane, pixels) in self.pixels.turned[index].iter().enumerate() {
+                let line = self.part.beside(UPRIGHT + index, [pixel[0] + lane, pixel[1]], runs.len());
                 // As many as there mostly are come without a call.
                 match line.first_chunk_mut::<SIDE>() {
                     Some(line) => *line = *pixels,
                     None => line.copy_from_slice(&pixels[made.clone()]),
                 }
+            }
+        }
+    }
+
+    /// Puts those pixels of a row that are made.
+    fn put_lanes(&mut self, run: &Run, images: &[MirrorImage]) {
+        for (index, image) in images.iter().enumerate() {
+            let flip = if image.flips[0] { SIDE - 1 } else { 0 };
+            for lane in run.lanes() {
+                let pixel = *self.pixels.pixel(index, [lane, run.row_in_patch()], flip);
+                *self.pixel(index, run.pixel(lane)) = pixel;
             }
         }
     }

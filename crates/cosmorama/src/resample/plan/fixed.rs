@@ -11,9 +11,10 @@ use super::blocks::{self, Blocks};
 use super::canvas::Canvas;
 use super::fixed_weights::{FixedWeights, Header, Shape};
 use super::fixed_window::Window;
-use super::mirrors::{MOST_IMAGES, Mirrors};
+use super::groups::Place;
+use super::mirrors::{MOST_IMAGES, Mirrors, Ways};
+use super::patch_pixels::{PatchPixels, Places};
 use super::prefetch::{prefetch_patch, prefetch_runs, prefetch_weights};
-use super::run_pixels::{Places, RunPixels};
 use super::singles::Palette;
 use super::texels::{Texels, prefetch};
 use super::view_texels::ViewTexels;
@@ -44,60 +45,87 @@ impl FixedFilter<'_> {
         if band.runs.is_empty() {
             return;
         }
-        let mut ahead = band.patches().skip(1);
+        let mut ahead = band.groups().skip(1);
         let texels = self.light.as_laid_out();
         let views = ViewTexels::all(self.mirrors, self.light.samples());
-        for (at, run) in band.runs.iter().enumerate() {
-            if at % SIDE == 0 {
-                let next = ahead.next().unwrap_or(&[]);
-                prefetch_patch(texels, self.mirrors, next);
-                // Of a frame by plan this gains nothing, of a single picture a fiftieth.
-                canvas.prefetch(next);
-                prefetch_runs(&band.runs, at);
-            }
-            let numbers = &band.weights.numbers[run.weights as usize..];
-            self.pixels(simd, run, &views[usize::from(run.view)], numbers, canvas.pixels(run));
-            canvas.put(run);
+        let mut light: GroupLight = [[[[0; 4]; MOST_IMAGES]; SIDE]; SIDE];
+        let mut after = 0;
+        for group in band.groups() {
+            let next = ahead.next().unwrap_or(&[]);
+            prefetch_patch(texels, self.mirrors, next);
+            // Of a frame by plan this gains nothing, of a single picture a fiftieth.
+            canvas.prefetch(next);
+            after += group.len();
+            prefetch_runs(&band.runs, after + SIDE);
+            let (view, numbers) = (usize::from(group[0].view), &band.weights.numbers[group[0].weights as usize..]);
+            self.weigh(simd, group, &views[view], numbers, &mut light);
+            self.encode(group, self.mirrors.ways(view), &light, canvas.pixels());
+            canvas.put(group);
         }
     }
 
-    /// Makes the pixels of a run in each mirror. What is called from here on is compiled by itself: among all that makes a band its loop
+    /// Adds up the light of a group's windows. What is called from here on is compiled by itself: among all that makes a band its loop
     /// would lack registers.
     #[inline(never)]
-    fn pixels<S: Simd>(&self, simd: S, run: &Run, texels: &ViewTexels<i16>, numbers: &[u32], pixels: &mut Pixels) {
-        let order = &self.mirrors.ways(usize::from(run.view)).order;
-        let run_filter = RunFilter { simd, filter: self, run, numbers };
+    fn weigh<S: Simd>(
+        &self,
+        simd: S,
+        group: &[Run],
+        texels: &ViewTexels<i16>,
+        numbers: &[u32],
+        light: &mut GroupLight,
+    ) {
+        let group = GroupFilter { simd, group, numbers, anti_ringing: self.anti_ringing };
         // A function for each number of mirrors: all in one would take the compiler minutes.
         match texels {
             ViewTexels::Eight(texels) => simd.vectorize(
                 #[inline(always)]
-                || run_filter.pixels::<i16x32<S>, 4, 2, 2, false>(texels, order, pixels),
+                || group.weigh::<i16x32<S>, 4, 2, 2, false>(texels, 0, light),
             ),
             ViewTexels::Turned(texels) => simd.vectorize(
                 #[inline(always)]
-                || run_filter.pixels::<i16x32<S>, 4, 2, 2, true>(texels, order, pixels),
+                || group.weigh::<i16x32<S>, 4, 2, 2, true>(texels, 0, light),
             ),
             ViewTexels::Four(texels) => simd.vectorize(
                 #[inline(always)]
-                || run_filter.pixels::<i16x32<S>, 4, 2, 1, false>(std::array::from_ref(texels), order, pixels),
+                || group.weigh::<i16x32<S>, 4, 2, 1, false>(std::array::from_ref(texels), 0, light),
             ),
             ViewTexels::Two(texels) => simd.vectorize(
                 #[inline(always)]
-                || run_filter.pixels::<i16x16<S>, 2, 1, 1, false>(std::array::from_ref(texels), order, pixels),
+                || group.weigh::<i16x16<S>, 2, 1, 1, false>(std::array::from_ref(texels), 0, light),
             ),
             ViewTexels::OneByOne { forward, reversed } => simd.vectorize(
                 #[inline(always)]
                 || {
-                    for (texels, order) in forward.iter().zip(order) {
-                        let (texels, order) = (std::array::from_ref(texels), std::slice::from_ref(order));
-                        run_filter.pixels::<i16x8<S>, 1, 0, 1, false>(texels, order, pixels);
+                    for (image, texels) in forward.iter().enumerate() {
+                        group.weigh::<i16x8<S>, 1, 0, 1, false>(std::array::from_ref(texels), image, light);
                     }
-                    for (texels, order) in reversed.iter().zip(&order[forward.len()..]) {
-                        let (texels, order) = (std::array::from_ref(texels), std::slice::from_ref(order));
-                        run_filter.pixels::<i16x8<S>, 1, 1, 1, false>(texels, order, pixels);
+                    for (image, texels) in (forward.len()..).zip(reversed) {
+                        group.weigh::<i16x8<S>, 1, 1, 1, false>(std::array::from_ref(texels), image, light);
                     }
                 },
             ),
+        }
+    }
+
+    /// Makes a group's pixels of its light. Looked up together, from memory: taken out of vectors one by one, samples would wait for
+    /// each pixel's sum.
+    #[inline(never)]
+    fn encode(&self, group: &[Run], ways: &Ways, light: &GroupLight, pixels: &mut PatchPixels<[u8; 3]>) {
+        let codes = self.codec.tables();
+        for (run, light) in group.iter().zip(light) {
+            for (image, (index, flip)) in ways.order[..ways.count].iter().enumerate() {
+                let light = light.iter().map(|lane| lane[image]);
+                match pixels.places(*index, run.row_in_patch(), *flip) {
+                    Places::Forward(pixels) => light.zip(pixels).for_each(|(light, pixel)| *pixel = codes.of(light)),
+                    Places::Reversed(pixels) => {
+                        light.zip(pixels.iter_mut().rev()).for_each(|(light, pixel)| *pixel = codes.of(light));
+                    }
+                    Places::Lines(lines, at) => {
+                        light.zip(lines).for_each(|(light, pixels)| pixels[at] = codes.of(light));
+                    }
+                }
+            }
         }
     }
 }
@@ -123,39 +151,39 @@ impl Palette for FixedFilter<'_> {
     }
 }
 
-/// The pixels of a run in each mirror.
-type Pixels = RunPixels<[u8; 3]>;
+/// The light of a group's windows, by run, lane and mirror; elsewhere any.
+type GroupLight = [[[[i32; 4]; MOST_IMAGES]; SIDE]; SIDE];
 
-/// What makes the pixels of a run.
+/// What makes the light of a group's windows.
 #[derive(Clone, Copy)]
-struct RunFilter<'a, S> {
+struct GroupFilter<'a, S> {
     simd: S,
-    filter: &'a FixedFilter<'a>,
-    run: &'a Run,
+    group: &'a [Run],
     /// Its weights, and more.
     numbers: &'a [u32],
+    anti_ringing: bool,
 }
 
-impl<S: Simd> RunFilter<'_, S> {
-    /// The pixels in G times N mirrors, which `order` tells; in the last R of each N windows are walked through from right to left, in
-    /// the last N, if these are `TURNED`, with columns for rows.
+impl<S: Simd> GroupFilter<'_, S> {
+    /// The light in G times N mirrors from one of them on; in the last R of each N windows are walked through from right to left, in the
+    /// last N, if these are `TURNED`, with columns for rows.
     #[inline(always)]
-    fn pixels<V: Blocks<S, N>, const N: usize, const R: usize, const G: usize, const TURNED: bool>(
+    fn weigh<V: Blocks<S, N>, const N: usize, const R: usize, const G: usize, const TURNED: bool>(
         self,
         texels: &[Texels<i16, N, R>; G],
-        order: &[(usize, usize)],
-        pixels: &mut Pixels,
+        image: usize,
+        light: &mut GroupLight,
     ) {
-        let Self { simd, filter, run, mut numbers } = self;
-        let large = Shape { pairs: usize::from(run.width).div_ceil(2), height: usize::from(run.height), under: 0 };
-        let codes = filter.codec.tables();
-        // Of each lane, in each mirror.
-        let mut light = [[[0; 4]; MOST_IMAGES]; SIDE];
-        let pairs = V::Bytes::from_slice(simd, blocks::order::<N, R>());
-        for lane in run.lanes() {
-            let window = Window::<S, V, N, R, G, TURNED> { simd, order: pairs, texels, first: run.first(lane) };
+        let Self { simd, group, mut numbers, anti_ringing } = self;
+        let order = V::Bytes::from_slice(simd, blocks::order::<N, R>());
+        let mut count: u32 = group.iter().map(|run| run.lane_bits().count_ones()).sum();
+        while count > 0 {
             prefetch_weights(numbers);
             let header = Header(numbers[0]);
+            let Place { run, lane } = Place::of(header.0);
+            let light = light[run][lane][image..].as_chunks_mut::<N>().0;
+            let run = &group[run];
+            let window = Window::<S, V, N, R, G, TURNED> { simd, order, texels, first: run.first(lane) };
             let (sums, length) = match header.shape() {
                 0 => window.small::<4, 4, 0>(header, numbers),
                 1 => window.small::<4, 4, 1>(header, numbers),
@@ -163,32 +191,11 @@ impl<S: Simd> RunFilter<'_, S> {
                 3 => window.small::<6, 4, 0>(header, numbers),
                 4 => window.small::<6, 4, 1>(header, numbers),
                 5 => window.small::<6, 5, 1>(header, numbers),
-                _ => window.large(large, run.rows_under(), numbers),
+                _ => window.large(Shape::of_run(run), run.rows_under(), numbers),
             };
-            numbers = &numbers[length..];
-            for (sums, light) in sums.into_iter().zip(light[lane].as_chunks_mut::<N>().0) {
-                let average = sums.average(simd, header.bits(), filter.anti_ringing);
-                average.store_slice(light.as_flattened_mut());
-            }
-        }
-        // Looked up together, from memory: taken out of vectors one by one, samples would wait for each pixel's sum.
-        for (image, (index, flip)) in order.iter().enumerate().take(G * N) {
-            match pixels.places(*index, *flip) {
-                Places::Forward(pixels) => {
-                    for (light, pixel) in light.iter().zip(pixels) {
-                        *pixel = codes.of(light[image]);
-                    }
-                }
-                Places::Reversed(pixels) => {
-                    for (light, pixel) in light.iter().zip(pixels.iter_mut().rev()) {
-                        *pixel = codes.of(light[image]);
-                    }
-                }
-                Places::Lines(lines, at) => {
-                    for (light, pixels) in light.iter().zip(lines) {
-                        pixels[at] = codes.of(light[image]);
-                    }
-                }
+            (numbers, count) = (&numbers[length..], count - 1);
+            for (sums, light) in sums.into_iter().zip(light) {
+                sums.average(simd, header.bits(), anti_ringing).store_slice(light.as_flattened_mut());
             }
         }
     }

@@ -2,20 +2,20 @@
 
 use super::band::Run;
 use super::fixed_weights::{Header, Shape, mark_words};
+use super::groups::are_all_there;
 
-/// Whether the numbers of a run are all there and its windows lie within a view of this size, columns and rows.
-pub(super) fn is_sound(numbers: &[u32], run: &Run, view: [usize; 2]) -> bool {
-    let large = Shape { pairs: usize::from(run.width).div_ceil(2), height: usize::from(run.height), under: 0 };
-    let mut rest = numbers;
-    run.lanes().all(|lane| window(&mut rest, run, large, lane, view).is_some())
+/// Whether the numbers of a group are all there and its windows lie within a view of this size, columns and rows.
+pub(super) fn is_sound(numbers: &[u32], group: &[Run], view: [usize; 2]) -> bool {
+    are_all_there(numbers, group, |numbers, run, lane| window(numbers, run, lane, view))
 }
 
 /// Goes past the numbers of a lane's window, if they are sound.
-fn window(numbers: &mut &[u32], run: &Run, large: Shape, lane: usize, view: [usize; 2]) -> Option<()> {
+fn window(numbers: &mut &[u32], run: &Run, lane: usize, view: [usize; 2]) -> Option<()> {
     let header = Header(*numbers.split_off_first()?);
     let shape = match Shape::SMALL.get(header.shape() as usize) {
         Some(shape) => *shape,
         None => {
+            let large = Shape::of_run(run);
             numbers.split_off(..run.rows_under().len() * mark_words(large.pairs))?;
             large
         }

@@ -73,7 +73,8 @@ impl<
 
     #[inline(always)]
     fn add_pair(&self, sums: &mut Sums<S, V, N>, row: usize, pair: usize, texels: V) {
-        sums.add(texels, V::pair(self.simd, self.weights[WIDTH / 2 * row + pair]));
+        let at = WIDTH / 2 * row + pair;
+        sums.add(texels, V::pair(self.simd, self.weights[at]), at);
         if (UNDER..UNDER + ROWS_UNDER).contains(&row) {
             sums.bound(self.simd, texels, self.marks, (row - UNDER) * (WIDTH / 2) + pair);
         }

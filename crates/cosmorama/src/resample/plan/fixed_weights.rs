@@ -2,6 +2,7 @@ use fearless_simd::{Simd, dispatch};
 
 use super::band::{Corners, Run};
 use super::fixed_check::is_sound;
+use super::groups::{self, Place, Told};
 use super::rounded::{Origin, Rounded};
 use super::stored::Stored;
 use super::weights::Weights;
@@ -48,6 +49,12 @@ impl Shape {
     const fn new(pairs: usize, height: usize, under: usize) -> Self {
         Self { pairs, height, under }
     }
+
+    /// That of windows as large as their run's.
+    #[inline(always)]
+    pub(super) fn of_run(run: &Run) -> Self {
+        Self::new(usize::from(run.width).div_ceil(2), usize::from(run.height), 0)
+    }
 }
 
 /// Rows of the highest small window, and pairs of the widest.
@@ -74,8 +81,9 @@ impl Header {
 
     /// `under` are marks of texels under the pixel. Those of the others are kept: what is not marked is found with one instruction
     /// less.
-    fn new(small: Option<usize>, bits: u32, under: u32) -> Self {
-        Self(small.map_or(Self::LARGE, |index| index as u32) << 9 | bits << 25 | !under & Self::MARKS)
+    fn new(small: Option<usize>, bits: u32, under: u32, place: Place) -> Self {
+        let small = small.map_or(Self::LARGE, |index| index as u32);
+        Self(small << 9 | bits << 25 | !under & Self::MARKS | place.bits())
     }
 
     /// The index of its shape among the small ones; more, if it is none.
@@ -87,7 +95,19 @@ impl Header {
     /// By how many bits the weights are scaled.
     #[inline(always)]
     pub(super) fn bits(self) -> u32 {
-        self.0 >> 25 & 31
+        self.0 >> 25 & 15
+    }
+
+    /// What it tells of a run's window.
+    pub(super) fn told(self, run: &Run) -> Told {
+        let length = match Shape::SMALL.get(self.shape() as usize) {
+            Some(shape) => 1 + shape.pairs * shape.height,
+            None => {
+                let Shape { pairs, height, .. } = Shape::of_run(run);
+                1 + run.rows_under().len() * mark_words(pairs) + pairs * height
+            }
+        };
+        Told { shape: self.shape(), length }
     }
 }
 
@@ -124,9 +144,9 @@ pub(super) fn mark_words(pairs: usize) -> usize {
 impl FixedWeights {
     /// Writes down a lane's window, and where it begins; false if that cannot be.
     #[inline(always)]
-    fn write(&mut self, windows: &Windows, lane: usize, corner: &mut [u32; 2]) -> bool {
+    fn write(&mut self, windows: &Windows, place: Place, corner: &mut [u32; 2]) -> bool {
         let Rounded { width, height, .. } = self.rounded;
-        let small = self.rounded.shape(lane);
+        let small = self.rounded.shape(place.lane);
         let (shape, mut origin) = match small {
             Some((index, origin)) => (Shape::SMALL[index], origin),
             None => (Shape::new(width.div_ceil(2), height, 0), Origin { column: 0, row: 0 }),
@@ -139,32 +159,34 @@ impl FixedWeights {
         }
         *corner = [(left + origin.column) as u32, corner[1] + origin.row as u32];
         match small {
-            Some((index, _)) => self.write_small(lane, origin, index),
-            None => self.write_large(windows, lane, origin, shape),
+            Some((index, _)) => self.write_small(place, origin, index),
+            None => self.write_large(windows, place, origin, shape),
         }
         true
     }
 
     #[inline(always)]
-    fn write_small(&mut self, lane: usize, origin: Origin, index: usize) {
+    fn write_small(&mut self, place: Place, origin: Origin, index: usize) {
         let Self { numbers, rounded } = self;
         let Shape { pairs, height, under } = Shape::SMALL[index];
-        let marks = |row| marks_of(rounded.small_marks(lane, origin, under + row, pairs)) << (pairs * row);
-        let header = Header::new(Some(index), rounded.bits, (0..ROWS_UNDER).fold(0, |all, row| all | marks(row)));
+        let marks = |row| marks_of(rounded.small_marks(place.lane, origin, under + row, pairs)) << (pairs * row);
+        let under = (0..ROWS_UNDER).fold(0, |all, row| all | marks(row));
+        let header = Header::new(Some(index), rounded.bits, under, place);
         // Whatever the shape, as much is written: each row overwrites what followed the one before.
         let length = numbers.len();
         numbers.extend_from_slice(&[0; MOST]);
         let room: &mut [u32; MOST] = numbers[length..].first_chunk_mut().expect("there is as much room");
         room[0] = header.0;
-        for (row, weights) in rounded.small_pairs(lane, origin).into_iter().enumerate() {
+        for (row, weights) in rounded.small_pairs(place.lane, origin).into_iter().enumerate() {
             room[1 + pairs.min(WIDEST) * row..][..weights.len()].copy_from_slice(&weights);
         }
         numbers.truncate(length + 1 + pairs * height);
     }
 
-    fn write_large(&mut self, windows: &Windows, lane: usize, origin: Origin, Shape { pairs, height, .. }: Shape) {
+    fn write_large(&mut self, windows: &Windows, place: Place, origin: Origin, Shape { pairs, height, .. }: Shape) {
         let Self { numbers, rounded } = self;
-        numbers.push(Header::new(None, rounded.bits, 0).0);
+        let lane = place.lane;
+        numbers.push(Header::new(None, rounded.bits, 0, place).0);
         let words = |row| (0..pairs).step_by(16).map(move |first| (row, first..pairs.min(first + 16)));
         let words = windows.rows_under().flat_map(words);
         numbers.extend(words.map(|(row, pairs)| !rounded.marks(lane, origin, row, pairs)));
@@ -174,14 +196,14 @@ impl FixedWeights {
     }
 
     #[inline(always)]
-    fn keep_lanes<S: Simd>(&mut self, simd: S, windows: &Windows, corners: &mut Corners) -> bool {
+    fn keep_lanes<S: Simd>(&mut self, simd: S, windows: &Windows, corners: &mut Corners, run: usize) -> bool {
         if !self.rounded.fill(simd, windows) {
             return false;
         }
         let length = self.numbers.len();
         for (lane, corner) in corners.iter_mut().enumerate() {
             let Some(corner) = corner else { continue };
-            if !self.write(windows, lane, corner) {
+            if !self.write(windows, Place { run, lane }, corner) {
                 self.numbers.truncate(length);
                 return false;
             }
@@ -211,22 +233,22 @@ impl Weights for FixedWeights {
         self.numbers.len()
     }
 
-    fn keep(&mut self, windows: &Windows, corners: &mut Corners) -> bool {
+    fn keep(&mut self, windows: &Windows, corners: &mut Corners, run: usize) -> bool {
         let level = windows.level();
-        dispatch!(level, simd => self.keep_lanes(simd, windows, corners))
+        dispatch!(level, simd => self.keep_lanes(simd, windows, corners, run))
     }
 
     fn truncate(&mut self, length: usize) {
         self.numbers.truncate(length);
     }
 
-    fn shrink(&mut self) {
-        self.numbers.shrink_to_fit();
+    fn settle<'a>(&mut self, groups: impl Iterator<Item = &'a [Run]>) {
+        groups::sort(&mut self.numbers, groups, |run, header| Header(header).told(run));
         self.rounded = Rounded::default();
     }
 
-    fn are_sound(&self, run: &Run, view: [usize; 2]) -> bool {
-        self.numbers.get(run.weights as usize..).is_some_and(|numbers| is_sound(numbers, run, view))
+    fn are_sound(&self, group: &[Run], view: [usize; 2]) -> bool {
+        self.numbers.get(group[0].weights as usize..).is_some_and(|numbers| is_sound(numbers, group, view))
     }
 
     fn bytes(&self) -> usize {

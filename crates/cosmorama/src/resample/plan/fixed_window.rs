@@ -72,13 +72,14 @@ impl<S: Simd, V: Blocks<S, N>, const N: usize, const R: usize, const G: usize, c
         let words = mark_words(shape.pairs);
         let (marks, weights) = numbers[1..].split_at(under.len() * words);
         let large = Large { shape, under, words, marks, weights: &weights[..shape.pairs * shape.height] };
-        let mut sums = [Sums::new(self.simd); G];
-        for (group, sums) in sums.iter_mut().enumerate() {
-            if TURNED && group > 0 {
-                large.add_turned(self.simd, &self.texels[group], self.first, sums);
-            } else {
-                large.add(self.simd, (&self.texels[group], self.order), self.first, sums);
-            }
+        let Self { simd, order, texels, first } = self;
+        let mut sums = [Sums::new(simd); G];
+        // Written out: what a loop adds to would lie in memory.
+        large.add(simd, (&texels[0], order), first, &mut sums[0]);
+        if TURNED {
+            large.add_turned(simd, &texels[G - 1], first, &mut sums[G - 1]);
+        } else if G > 1 {
+            large.add(simd, (&texels[G - 1], order), first, &mut sums[G - 1]);
         }
         (sums, 1 + marks.len() + shape.pairs * shape.height)
     }
@@ -129,7 +130,7 @@ impl Large<'_> {
         [row, pair]: [usize; 2],
         texels: V,
     ) {
-        sums.add(texels, V::pair(simd, self.weights[row * self.shape.pairs + pair]));
+        sums.add(texels, V::pair(simd, self.weights[row * self.shape.pairs + pair]), 0);
         if self.under.contains(&row) {
             let marks = V::pair(simd, self.marks[(row - self.under.start) * self.words + pair / 16]);
             sums.bound(simd, texels, marks, pair % 16);
@@ -199,17 +200,22 @@ impl<
     #[inline(always)]
     fn add_pair(&self, sums: &mut Sums<S, V, N>, row: usize, pair: usize, texels: V) {
         let texels = texels.swizzle_dyn_within_blocks(self.order);
-        sums.add(texels, V::pair(self.simd, self.weights[WIDTH / 2 * row + pair]));
+        let at = WIDTH / 2 * row + pair;
+        sums.add(texels, V::pair(self.simd, self.weights[at]), at);
         if (UNDER..UNDER + ROWS_UNDER).contains(&row) {
             sums.bound(self.simd, texels, self.marks, (row - UNDER) * (WIDTH / 2) + pair);
         }
     }
 }
 
+/// Sums that are made beside each other.
+const CHAINS: usize = 3;
+
 /// What adds up over a window.
 #[derive(Clone, Copy)]
 pub(super) struct Sums<S: Simd, V: Blocks<S, N>, const N: usize> {
-    sum: V::Widened,
+    /// In several chains: each product is added to another one before it waits for the last.
+    sums: [V::Widened; CHAINS],
     /// The largest samples under the pixel, and the smallest.
     greatest: V,
     least: V,
@@ -219,13 +225,14 @@ impl<S: Simd, V: Blocks<S, N>, const N: usize> Sums<S, V, N> {
     #[inline(always)]
     pub(super) fn new(simd: S) -> Self {
         let (black, white) = (V::splat(simd, 0), V::splat(simd, i16::MAX));
-        Self { sum: V::Widened::splat(simd, 0), greatest: black, least: white }
+        Self { sums: [V::Widened::splat(simd, 0); CHAINS], greatest: black, least: white }
     }
 
-    /// Adds pairs of texels.
+    /// Adds pairs of texels, the ones after the others to another chain.
     #[inline(always)]
-    pub(super) fn add(&mut self, texels: V, weights: V) {
-        self.sum = V::add_products(self.sum, texels, weights);
+    pub(super) fn add(&mut self, texels: V, weights: V, chain: usize) {
+        let sum = &mut self.sums[chain % CHAINS];
+        *sum = V::add_products(*sum, texels, weights);
     }
 
     /// Notes those of a pair that lie under the pixel: whose bit is not set.
@@ -240,7 +247,8 @@ impl<S: Simd, V: Blocks<S, N>, const N: usize> Sums<S, V, N> {
     /// The sum as light; within what lies under the pixel, if that is asked for.
     #[inline(always)]
     pub(super) fn average(self, simd: S, bits: u32, is_bounded: bool) -> V::Widened {
-        let average = (self.sum + (1 << (bits - 1))) >> bits;
+        let [a, b, c] = self.sums;
+        let average = (a + b + c + (1 << (bits - 1))) >> bits;
         let (fewest, most) = if is_bounded {
             let ([a, b], [c, d]) = (halves(self.least), halves(self.greatest));
             (a.min(b), c.max(d))

@@ -7,9 +7,10 @@ use super::canvas::Canvas;
 use super::float_shape::{Header, Shape};
 use super::float_weights::FloatWeights;
 use super::float_window::Window;
+use super::groups::Place;
 use super::mirrors::{Mirrors, TOGETHER};
+use super::patch_pixels::PatchPixels;
 use super::prefetch::{prefetch_patch, prefetch_runs, prefetch_weights};
-use super::run_pixels::RunPixels;
 use super::singles::{Palette, Singles};
 use super::texels::{Texels, prefetch};
 use super::view_texels::ViewTexels;
@@ -45,73 +46,73 @@ impl FloatFilter<'_> {
         if band.runs.is_empty() {
             return;
         }
-        let mut ahead = band.patches().skip(1);
+        let mut ahead = band.groups().skip(1);
         let views = ViewTexels::all(self.mirrors, bytemuck::cast_slice(self.texels));
-        for (at, run) in band.runs.iter().enumerate() {
-            if at % SIDE == 0 {
-                let next = ahead.next().unwrap_or(&[]);
-                prefetch_patch(self.texels, self.mirrors, next);
-                canvas.prefetch(next);
-                prefetch_runs(&band.runs, at);
-            }
-            let numbers = &band.weights.numbers[run.weights as usize..];
-            self.pixels(simd, run, &views[usize::from(run.view)], numbers, canvas.pixels(run));
-            canvas.put(run);
+        let mut after = 0;
+        for group in band.groups() {
+            let next = ahead.next().unwrap_or(&[]);
+            prefetch_patch(self.texels, self.mirrors, next);
+            canvas.prefetch(next);
+            after += group.len();
+            prefetch_runs(&band.runs, after + SIDE);
+            self.pixels(simd, group, &views[usize::from(group[0].view)], &band.weights, canvas.pixels());
+            canvas.put(group);
         }
     }
 
-    /// Makes the pixels of a run in each mirror.
+    /// Makes the pixels of a group in each mirror.
     #[inline(always)]
     fn pixels<S: Simd>(
         &self,
         simd: S,
-        run: &Run,
+        group: &[Run],
         texels: &ViewTexels<f32>,
-        numbers: &[u32],
-        pixels: &mut RunPixels<Rgba>,
+        weights: &FloatWeights,
+        pixels: &mut PatchPixels<Rgba>,
     ) {
-        let order = &self.mirrors.ways(usize::from(run.view)).order;
-        let run_filter = RunFilter { simd, filter: self, run, numbers };
+        let order = &self.mirrors.ways(usize::from(group[0].view)).order;
+        let numbers = &weights.numbers[group[0].weights as usize..];
+        let group = GroupFilter { simd, filter: self, group, numbers };
         // A function for each number of mirrors: all in one would take the compiler minutes.
         match texels {
             ViewTexels::Eight([first, second]) => {
                 let (order, others) = order.split_at(TOGETHER);
                 simd.vectorize(
                     #[inline(always)]
-                    || run_filter.pixels::<TOGETHER, 2, false>(first, order, pixels),
+                    || group.pixels::<TOGETHER, 2, false>(first, order, pixels),
                 );
                 simd.vectorize(
                     #[inline(always)]
-                    || run_filter.pixels::<TOGETHER, 2, false>(second, others, pixels),
+                    || group.pixels::<TOGETHER, 2, false>(second, others, pixels),
                 );
             }
             ViewTexels::Turned([upright, turned]) => {
                 let (order, others) = order.split_at(TOGETHER);
                 simd.vectorize(
                     #[inline(always)]
-                    || run_filter.pixels::<TOGETHER, 2, false>(upright, order, pixels),
+                    || group.pixels::<TOGETHER, 2, false>(upright, order, pixels),
                 );
                 simd.vectorize(
                     #[inline(always)]
-                    || run_filter.pixels::<TOGETHER, 2, true>(turned, others, pixels),
+                    || group.pixels::<TOGETHER, 2, true>(turned, others, pixels),
                 );
             }
             ViewTexels::Four(texels) => simd.vectorize(
                 #[inline(always)]
-                || run_filter.pixels::<TOGETHER, 2, false>(texels, order, pixels),
+                || group.pixels::<TOGETHER, 2, false>(texels, order, pixels),
             ),
             ViewTexels::Two(texels) => simd.vectorize(
                 #[inline(always)]
-                || run_filter.pixels::<2, 1, false>(texels, order, pixels),
+                || group.pixels::<2, 1, false>(texels, order, pixels),
             ),
             ViewTexels::OneByOne { forward, reversed } => simd.vectorize(
                 #[inline(always)]
                 || {
                     for (texels, order) in forward.iter().zip(order) {
-                        run_filter.pixels::<1, 0, false>(texels, std::slice::from_ref(order), pixels);
+                        group.pixels::<1, 0, false>(texels, std::slice::from_ref(order), pixels);
                     }
                     for (texels, order) in reversed.iter().zip(&order[forward.len()..]) {
-                        run_filter.pixels::<1, 1, false>(texels, std::slice::from_ref(order), pixels);
+                        group.pixels::<1, 1, false>(texels, std::slice::from_ref(order), pixels);
                     }
                 },
             ),
@@ -137,17 +138,17 @@ impl Palette for FloatFilter<'_> {
     }
 }
 
-/// What makes the pixels of a run.
+/// What makes the pixels of a group.
 #[derive(Clone, Copy)]
-struct RunFilter<'a, S> {
+struct GroupFilter<'a, S> {
     simd: S,
     filter: &'a FloatFilter<'a>,
-    run: &'a Run,
+    group: &'a [Run],
     /// Its weights, and more.
     numbers: &'a [u32],
 }
 
-impl<S: Simd> RunFilter<'_, S> {
+impl<S: Simd> GroupFilter<'_, S> {
     /// The pixels in N mirrors, which `order` tells; in the last R of them windows are walked through from right to left, if they are
     /// `TURNED` with columns for rows.
     #[inline(always)]
@@ -155,14 +156,16 @@ impl<S: Simd> RunFilter<'_, S> {
         self,
         texels: &Texels<f32, N, R>,
         order: &[(usize, usize)],
-        pixels: &mut RunPixels<Rgba>,
+        pixels: &mut PatchPixels<Rgba>,
     ) {
-        let Self { simd, filter, run, mut numbers } = self;
-        let large = Shape { width: usize::from(run.width), height: usize::from(run.height) };
-        for lane in run.lanes() {
-            let window = Window::<S, N, R, TURNED> { simd, texels, first: run.first(lane) };
+        let Self { simd, filter, group, mut numbers } = self;
+        let mut count: u32 = group.iter().map(|run| run.lane_bits().count_ones()).sum();
+        while count > 0 {
             prefetch_weights(numbers);
             let header = Header(numbers[0]);
+            let Place { run, lane } = Place::of(header.0);
+            let run = &group[run];
+            let window = Window::<S, N, R, TURNED> { simd, texels, first: run.first(lane) };
             let (sums, length) = match header.index() {
                 0 => window.small::<4, 4, 0>(header, numbers),
                 1 => window.small::<4, 4, 1>(header, numbers),
@@ -170,12 +173,12 @@ impl<S: Simd> RunFilter<'_, S> {
                 3 => window.small::<5, 4, 0>(header, numbers),
                 4 => window.small::<5, 4, 1>(header, numbers),
                 5 => window.small::<5, 5, 1>(header, numbers),
-                _ => window.large(large, run.rows_under(), numbers),
+                _ => window.large(Shape::of_run(run), run.rows_under(), numbers),
             };
-            numbers = &numbers[length..];
+            (numbers, count) = (&numbers[length..], count - 1);
             for (image, (index, flip)) in order.iter().enumerate().take(N) {
                 let light = Rgba(sums.average(image, filter.anti_ringing).to_array());
-                *pixels.pixel(*index, lane, *flip) =
+                *pixels.pixel(*index, [lane, run.row_in_patch()], *flip) =
                     if filter.background == Rgba::TRANSPARENT { light } else { light.over(filter.background) };
             }
         }

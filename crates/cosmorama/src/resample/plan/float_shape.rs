@@ -1,3 +1,6 @@
+use super::band::Run;
+use super::groups::{Place, Told};
+
 /// The size of a pixel's window, and how its weights follow each other: first those of its blocks, row by row, then those of the
 /// columns that make no whole block.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -10,6 +13,12 @@ pub(super) struct Shape {
 pub(super) const BLOCK: usize = 4;
 
 impl Shape {
+    /// That of windows as large as their run's.
+    #[inline(always)]
+    pub(super) fn of_run(run: &Run) -> Self {
+        Self { width: usize::from(run.width), height: usize::from(run.height) }
+    }
+
     pub(super) fn area(self) -> usize {
         self.width * self.height
     }
@@ -67,11 +76,27 @@ impl Small {
 pub(super) struct Header(pub(super) u32);
 
 impl Header {
-    /// That of a window as large as all of its run, in place of an index of [`Small::ALL`].
-    pub(super) const LARGE: Self = Self(7);
+    /// As large as all windows of the run, in place of an index of [`Small::ALL`].
+    const LARGE: u32 = 7;
 
-    pub(super) fn small(index: usize, marks: u32) -> Self {
-        Self(index as u32 | marks << 8)
+    pub(super) fn small(index: usize, marks: u32, place: Place) -> Self {
+        Self(index as u32 | marks << 16 | place.bits())
+    }
+
+    pub(super) fn large(place: Place) -> Self {
+        Self(Self::LARGE | place.bits())
+    }
+
+    /// What it tells of a run's window.
+    pub(super) fn told(self, run: &Run) -> Told {
+        let length = match Small::ALL.get(self.index() as usize) {
+            Some(small) => 1 + small.shape.area(),
+            None => {
+                let shape = Shape::of_run(run);
+                1 + run.rows_under().len() * mark_words(shape.width) + shape.area()
+            }
+        };
+        Told { shape: self.index(), length }
     }
 
     /// The index of its size among the small ones; more, if it is none.
@@ -83,7 +108,7 @@ impl Header {
     /// Which texels of a small window lie under the pixel: a bit for each of the first columns of each of those rows.
     #[inline(always)]
     pub(super) fn marks(self) -> u32 {
-        self.0 >> 8
+        self.0 >> 16 & ((1 << (ROWS_UNDER * BLOCK)) - 1)
     }
 }
 

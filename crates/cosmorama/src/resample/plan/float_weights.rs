@@ -3,6 +3,7 @@ use fearless_simd::{Simd, dispatch};
 use super::band::{Corners, Run};
 use super::float_lanes::Lanes;
 use super::float_shape::{BLOCK, Header, Shape, Small, mark_words};
+use super::groups::{self, Place, are_all_there};
 use super::stored::Stored;
 use super::weights::Weights;
 use crate::resample::patch::SIDE;
@@ -33,7 +34,7 @@ impl<'a> Kept<'a> {
             Some(small) => small.shape,
             None => {
                 numbers.split_off(..run.rows_under().len() * mark_words(usize::from(run.width)))?;
-                Shape { width: usize::from(run.width), height: usize::from(run.height) }
+                Shape::of_run(run)
             }
         };
         Some(Self { shape, weights: numbers.split_off(..shape.area())? })
@@ -45,25 +46,30 @@ impl<'a> Kept<'a> {
 }
 
 impl FloatWeights {
-    /// The windows of a run, by lane.
-    pub(super) fn windows(&self, run: &Run) -> impl Iterator<Item = (usize, Kept<'_>)> {
-        let mut numbers = &self.numbers[run.weights as usize..];
-        run.lanes().map_while(move |lane| Some((lane, Kept::take(&mut numbers, run)?)))
+    /// The windows of a group, each with its run and its lane.
+    pub(super) fn windows<'a>(&'a self, group: &'a [Run]) -> impl Iterator<Item = (&'a Run, usize, Kept<'a>)> {
+        let mut numbers = &self.numbers[group[0].weights as usize..];
+        group.iter().flat_map(Run::lanes).map_while(move |_| {
+            let Place { run, lane } = Place::of(*numbers.first()?);
+            let run = group.get(run)?;
+            Some((run, lane, Kept::take(&mut numbers, run)?))
+        })
     }
 
     #[inline(always)]
-    fn keep_lanes<S: Simd>(&mut self, simd: S, windows: &Windows, corners: &mut Corners) {
+    fn keep_lanes<S: Simd>(&mut self, simd: S, windows: &Windows, corners: &mut Corners, run: usize) {
         let lanes = Lanes::of(simd, windows);
         for (lane, corner) in corners.iter_mut().enumerate() {
             let Some(corner) = corner else { continue };
+            let place = Place { run, lane };
             let small = lanes.as_ref().and_then(|lanes| Some((lanes, lanes.small(lane)?)));
             let Some((lanes, (index, origin))) = small else {
-                self.write_large(windows, lane);
+                self.write_large(windows, place);
                 continue;
             };
             *corner = [corner[0] + origin[0] as u32, corner[1] + origin[1] as u32];
             let small = &Small::ALL[index];
-            let header = Header::small(index, lanes.marks(lane, origin, small));
+            let header = Header::small(index, lanes.marks(lane, origin, small), place);
             if small.shape.width == BLOCK {
                 self.write_small::<BLOCK>(windows, lane, origin, (header, small.shape.height));
             } else {
@@ -99,9 +105,10 @@ impl FloatWeights {
         self.numbers.truncate(length);
     }
 
-    fn write_large(&mut self, windows: &Windows, lane: usize) {
+    fn write_large(&mut self, windows: &Windows, place: Place) {
         let shape = Shape { width: windows.width(), height: windows.height() };
-        self.numbers.push(Header::LARGE.0);
+        let lane = place.lane;
+        self.numbers.push(Header::large(place).0);
         for row in windows.rows_under() {
             let under = windows.under()[row * shape.width..][..shape.width].chunks(32);
             let marks = |lanes: &[u8]| {
@@ -140,9 +147,9 @@ impl Weights for FloatWeights {
         self.numbers.len()
     }
 
-    fn keep(&mut self, windows: &Windows, corners: &mut Corners) -> bool {
+    fn keep(&mut self, windows: &Windows, corners: &mut Corners, run: usize) -> bool {
         let level = windows.level();
-        dispatch!(level, simd => self.keep_lanes(simd, windows, corners));
+        dispatch!(level, simd => self.keep_lanes(simd, windows, corners, run));
         true
     }
 
@@ -150,17 +157,17 @@ impl Weights for FloatWeights {
         self.numbers.truncate(length);
     }
 
-    fn shrink(&mut self) {
-        self.numbers.shrink_to_fit();
+    fn settle<'a>(&mut self, groups: impl Iterator<Item = &'a [Run]>) {
+        groups::sort(&mut self.numbers, groups, |run, header| Header(header).told(run));
     }
 
-    fn are_sound(&self, run: &Run, view: [usize; 2]) -> bool {
-        let Some(mut numbers) = self.numbers.get(run.weights as usize..) else { return false };
-        let is_sound = |lane: usize, Kept { shape, weights }: Kept| {
-            run.is_within(lane, [shape.width, shape.height], view)
-                && weights.iter().all(|bits| f32::from_bits(*bits).is_finite())
-        };
-        run.lanes().all(|lane| Kept::take(&mut numbers, run).is_some_and(|kept| is_sound(lane, kept)))
+    fn are_sound(&self, group: &[Run], view: [usize; 2]) -> bool {
+        let Some(numbers) = self.numbers.get(group[0].weights as usize..) else { return false };
+        are_all_there(numbers, group, |numbers, run, lane| {
+            let Kept { shape, weights } = Kept::take(numbers, run)?;
+            let is_within = run.is_within(lane, [shape.width, shape.height], view);
+            (is_within && weights.iter().all(|bits| f32::from_bits(*bits).is_finite())).then_some(())
+        })
     }
 
     fn bytes(&self) -> usize {

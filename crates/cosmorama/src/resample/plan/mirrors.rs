@@ -48,7 +48,7 @@ pub(super) struct Mirrors {
 /// right first, and of these those that go down first.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Ways {
-    /// Which mirror, and what exchanges left and right in the index of a lane if that does.
+    /// Which mirror, and what exchanges left and right in it if that does: in the index of a lane, or of a row where columns are rows.
     pub(super) order: [(usize, usize); MOST_IMAGES],
     /// How many there are, and how many of those that are not turned go from left to right.
     pub(super) count: usize,
@@ -70,8 +70,8 @@ impl Ways {
         }
         let mut ways = Self { count: walks.len(), ..Self::default() };
         for (at, (index, walk)) in walks.into_iter().enumerate() {
-            let MirrorImage { flips, is_turned, .. } = images[index];
-            ways.order[at] = (index, if flips[0] && !is_turned { SIDE - 1 } else { 0 });
+            let flips = images[index].flips;
+            ways.order[at] = (index, if flips[0] { SIDE - 1 } else { 0 });
             ways.walks[at] = walk;
             ways.forward += usize::from(!walk.is_reversed && !walk.is_turned);
             ways.turned += usize::from(walk.is_turned);

@@ -16,13 +16,14 @@ mod float_shape;
 mod float_turned;
 mod float_weights;
 mod float_window;
+mod groups;
 mod key;
 mod mirrors;
+mod patch_pixels;
 mod picture_part;
 mod prefetch;
 mod recorder;
 mod rounded;
-mod run_pixels;
 mod saved;
 mod saved_plan;
 mod singles;
@@ -224,7 +225,7 @@ impl<W: Weights> Compiled<W> {
         let compile = |index| {
             let mut band = Band::default();
             record((resampler, wanted), &mirrors, &table, mirrors.band(index), level, &mut band, |_| {});
-            band.shrink();
+            band.settle();
             band
         };
         // One by one, as below.

@@ -28,10 +28,10 @@ pub(super) fn prefetch_patch<T>(texels: &[T], mirrors: &Mirrors, runs: &[Run]) {
     }
 }
 
-/// Asks for the runs of the patch after the next, given the first one of this: what [`prefetch_patch`] looks at has to be at hand.
+/// Asks for the runs of about a patch, from this one on: what [`prefetch_patch`] looks at has to be at hand.
 #[inline(always)]
 pub(super) fn prefetch_runs(runs: &[Run], first: usize) {
-    prefetch_lines(runs, (first + 2 * SIDE) as u32, SIDE as u32);
+    prefetch_lines(runs, first as u32, SIDE as u32);
 }
 
 /// Asks for what will be read a dozen windows later, so that reading weights one after the other does not wait for memory.
@@ -43,10 +43,28 @@ pub(super) fn prefetch_weights(numbers: &[u32]) {
 /// Asks for each line of memory in which an item begins, from this one to the one so many after it.
 #[inline(always)]
 pub(super) fn prefetch_lines<T>(items: &[T], first: u32, last: u32) {
-    for at in (0..last).step_by((LINE / size_of::<T>()).max(1)) {
+    for at in (0..last).step_by(per_line::<T>() as usize) {
         texels::prefetch(items, first.wrapping_add(at));
     }
     texels::prefetch(items, first.wrapping_add(last));
+}
+
+/// The same of so many rows, each of which begins so many texels after the one above, if that is so many lines and the one of the last
+/// texel: without a loop in each row, which would be more than what it does.
+#[inline(always)]
+fn prefetch_rows<T, const LINES: u32>(texels: &[T], [mut left, last]: [u32; 2], rows: usize, down: i32) {
+    for _ in 0..rows {
+        for line in 0..LINES {
+            texels::prefetch(texels, left.wrapping_add(line * per_line::<T>()));
+        }
+        texels::prefetch(texels, left.wrapping_add(last));
+        left = left.wrapping_add_signed(down);
+    }
+}
+
+/// Items in a line of memory; one, if that does not hold as many.
+const fn per_line<T>() -> u32 {
+    if size_of::<T>() < LINE { (LINE / size_of::<T>()) as u32 } else { 1 }
 }
 
 /// A rectangle of texels of a view.
@@ -82,9 +100,16 @@ impl Region {
             let [columns, rows] = exchanged([self.end[0] - self.first[0], self.end[1] - self.first[1]], walk.is_turned);
             let last = (columns - 1) as u32;
             let mut left = if walk.is_reversed { walk.first.wrapping_sub(last) } else { walk.first };
-            for _ in 0..rows {
-                prefetch_lines(texels, left, last);
-                left = left.wrapping_add_signed(walk.down);
+            match last.div_ceil(per_line::<T>()) {
+                0 | 1 => prefetch_rows::<T, 1>(texels, [left, last], rows, walk.down),
+                2 => prefetch_rows::<T, 2>(texels, [left, last], rows, walk.down),
+                3 => prefetch_rows::<T, 3>(texels, [left, last], rows, walk.down),
+                _ => {
+                    for _ in 0..rows {
+                        prefetch_lines(texels, left, last);
+                        left = left.wrapping_add_signed(walk.down);
+                    }
+                }
             }
         }
     }

@@ -36,8 +36,10 @@ impl<W: Weights, F: FnMut(&mut Band<W>)> Sink for Recorder<'_, W, F> {
             return;
         }
         let mut corners: Corners = std::array::from_fn(|lane| windows.corner(lane).filter(|_| lanes >> lane & 1 == 1));
-        if self.band.weights.keep(windows, &mut corners) {
-            if let Some(run) = Run::new(windows, &corners, pixel, first) {
+        let group = self.band.open_group(pixel, windows.view());
+        let (index, weights) = (group.len(), group.first().map_or(first, |run| run.weights as usize));
+        if self.band.weights.keep(windows, &mut corners, index) {
+            if let Some(run) = Run::new(windows, &corners, pixel, weights) {
                 self.band.runs.push(run);
                 return;
             }

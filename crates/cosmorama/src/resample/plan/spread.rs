@@ -20,7 +20,7 @@ impl Plan {
             let mut part = Part { first: part * some, texels };
             for (index, band) in self.0.bands.iter().enumerate() {
                 let spread = Spread { plan: self, band, top: index * BAND };
-                band.runs.iter().for_each(|run| spread.run(run, pixels, &mut part));
+                band.groups().for_each(|group| spread.group(group, pixels, &mut part));
                 spread.singles(pixels, &mut part);
             }
         });
@@ -73,11 +73,11 @@ impl Spread<'_> {
         f64::from(pixels[row * plan.width + column])
     }
 
-    fn run(&self, run: &Run, pixels: &[f32], part: &mut Part) {
+    fn group(&self, group: &[Run], pixels: &[f32], part: &mut Part) {
         let Plan(plan) = self.plan;
         for (index, image) in plan.mirrors.images.iter().enumerate() {
-            let view = image.view(usize::from(run.view));
-            for (lane, window) in self.band.weights.windows(run) {
+            let view = image.view(usize::from(group[0].view));
+            for (run, lane, window) in self.band.weights.windows(group) {
                 let walk = view.walk(run.first(lane).map(|at| at as usize));
                 if part.is_beside(walk, [window.shape.width, window.shape.height]) {
                     continue;

@@ -172,15 +172,15 @@ impl Weights for NoWindows {
         0
     }
 
-    fn keep(&mut self, _: &Windows, _: &mut Corners) -> bool {
+    fn keep(&mut self, _: &Windows, _: &mut Corners, _: usize) -> bool {
         false
     }
 
     fn truncate(&mut self, _: usize) {}
 
-    fn shrink(&mut self) {}
+    fn settle<'a>(&mut self, _: impl Iterator<Item = &'a [Run]>) {}
 
-    fn are_sound(&self, _: &Run, _: [usize; 2]) -> bool {
+    fn are_sound(&self, _: &[Run], _: [usize; 2]) -> bool {
         false
     }
 

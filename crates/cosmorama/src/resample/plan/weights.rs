@@ -4,7 +4,7 @@ use super::band::{Corners, Run};
 use super::stored::Stored;
 use crate::resample::window::Windows;
 
-/// How a plan keeps the weights of a band's windows, one run after the other.
+/// How a plan keeps the weights of a band's windows, one group of runs after the other.
 pub(in crate::resample) trait Weights: Stored + Clone + Debug + Default + Send + Sync {
     /// How many texels there are from one row of a view to the next in the light that they are for, if rows hold so many.
     fn pitch(width: usize) -> usize;
@@ -12,18 +12,19 @@ pub(in crate::resample) trait Weights: Stored + Clone + Debug + Default + Send +
     /// How many numbers they are: where the next run's begin.
     fn len(&self) -> usize;
 
-    /// Keeps those of the windows that have a corner, and says where these begin as they are kept; false, keeping nothing, if
-    /// they cannot be held.
-    fn keep(&mut self, windows: &Windows, corners: &mut Corners) -> bool;
+    /// Keeps those of the windows that have a corner, as the windows of this run of their group, and says where these begin as they are
+    /// kept; false, keeping nothing, if they cannot be held.
+    fn keep(&mut self, windows: &Windows, corners: &mut Corners, run: usize) -> bool;
 
     /// Forgets all but the first numbers, keeping the memory.
     fn truncate(&mut self, length: usize);
 
-    fn shrink(&mut self);
+    /// Sorts those of each group by shape, and gives back memory that is not needed.
+    fn settle<'a>(&mut self, groups: impl Iterator<Item = &'a [Run]>);
 
-    /// Whether those of a run are all there and can be worked with, and its windows lie within a view of this size, columns and
+    /// Whether those of a group are all there and can be worked with, and its windows lie within a view of this size, columns and
     /// rows.
-    fn are_sound(&self, run: &Run, view: [usize; 2]) -> bool;
+    fn are_sound(&self, group: &[Run], view: [usize; 2]) -> bool;
 
     /// Bytes that they take, and of those that are held.
     fn bytes(&self) -> usize;

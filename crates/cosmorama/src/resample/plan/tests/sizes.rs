@@ -1,6 +1,7 @@
 //! That the conversions of these tests have windows of all sizes, so that what compares their pixels looks at each.
 
 use super::*;
+use crate::resample::plan::groups::{Place, Told};
 use crate::resample::plan::view_texels::ViewTexels;
 use crate::resample::plan::{fixed_weights, float_shape};
 
@@ -9,58 +10,47 @@ type Counts = [[usize; 7]; 3];
 
 const OTHER: usize = 6;
 
-/// `window` tells from its header of which size one of a run is, and how many numbers follow.
-fn count<'a, W>(
+/// `told` is what a header tells of a run's window.
+fn count<'a, W: Weights>(
     compiled: &'a Compiled<W>,
     numbers: impl Fn(&'a W) -> &'a [u32],
-    window: impl Fn(u32, &Run) -> (usize, usize),
+    told: impl Fn(u32, &Run) -> Told,
     counts: &mut Counts,
 ) {
-    for band in &compiled.bands {
-        for run in &band.runs {
-            let ways = compiled.mirrors.ways(usize::from(run.view));
-            let mut numbers = &numbers(&band.weights)[run.weights as usize..];
-            for _ in run.lanes() {
-                let (size, length) = window(numbers[0], run);
-                numbers = &numbers[1 + length..];
-                counts[0][size] += ways.forward;
-                counts[1][size] += ways.count - ways.turned - ways.forward;
-                counts[2][size] += ways.turned;
-            }
+    let groups = compiled.bands.iter().flat_map(|band| band.groups().map(|group| (&band.weights, group)));
+    for (weights, group) in groups {
+        let ways = compiled.mirrors.ways(usize::from(group[0].view));
+        let mut numbers = &numbers(weights)[group[0].weights as usize..];
+        let mut last = 0;
+        for _ in group.iter().flat_map(Run::lanes) {
+            let Told { shape, length } = told(numbers[0], &group[Place::of(numbers[0]).run]);
+            assert!(shape >= last, "one shape comes after the other");
+            last = shape;
+            numbers = &numbers[length..];
+            let size = OTHER.min(shape as usize);
+            counts[0][size] += ways.forward;
+            counts[1][size] += ways.count - ways.turned - ways.forward;
+            counts[2][size] += ways.turned;
         }
     }
 }
 
 #[test]
 fn windows_of_floats_are_of_all_sizes() {
-    let window = |header: u32, run: &Run| {
-        let index = float_shape::Header(header).index() as usize;
-        let large = float_shape::Shape { width: usize::from(run.width), height: usize::from(run.height) };
-        let marks = run.rows_under().len() * float_shape::mark_words(large.width);
-        let small = float_shape::Small::ALL.get(index);
-        small.map_or((OTHER, marks + large.area()), |small| (index, small.shape.area()))
-    };
     let mut counts = Counts::default();
     for (world, target, _) in conversions() {
         let Plan(plan) = resampler(&world, &target).plan().expect("a plan");
-        count(&plan, |weights| &weights.numbers, window, &mut counts);
+        count(&plan, |weights| &weights.numbers, |header, run| float_shape::Header(header).told(run), &mut counts);
     }
     assert!(counts.as_flattened().iter().all(|count| *count > 0), "{counts:?}");
 }
 
 #[test]
 fn windows_of_integers_are_of_all_sizes() {
-    let window = |header: u32, run: &Run| {
-        let index = fixed_weights::Header(header).shape() as usize;
-        let (pairs, height) = (usize::from(run.width).div_ceil(2), usize::from(run.height));
-        let marks = run.rows_under().len() * fixed_weights::mark_words(pairs);
-        let small = fixed_weights::Shape::SMALL.get(index);
-        small.map_or((OTHER, marks + pairs * height), |small| (index, small.pairs * small.height))
-    };
     let mut counts = Counts::default();
     for (world, target, _) in conversions() {
         let FixedPlan(plan) = resampler(&world, &target).fixed_plan().expect("a plan");
-        count(&plan, |weights| &weights.numbers, window, &mut counts);
+        count(&plan, |weights| &weights.numbers, |header, run| fixed_weights::Header(header).told(run), &mut counts);
     }
     assert!(counts.as_flattened().iter().all(|count| *count > 0), "{counts:?}");
 }
