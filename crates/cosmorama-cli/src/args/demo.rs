@@ -5,9 +5,6 @@ use clap::{Args, ValueHint};
 use super::convert::LimitArgs;
 
 /// Render an embedded world onto cube faces and make an Omnimax frame of them.
-///
-/// In cosmorama-demo, which is its own folder, it replaces what an earlier demo left. In a folder that you name it replaces
-/// nothing, unless -y says so.
 #[derive(Debug, Args)]
 #[command(before_help = "Examples:
   cosmorama demo
@@ -16,7 +13,7 @@ pub(crate) struct DemoArgs {
     /// Where to write
     #[arg(default_value = OWN_FOLDER, value_hint = ValueHint::DirPath)]
     pub(crate) dir: PathBuf,
-    /// Replace existing files
+    /// Replace existing files; in cosmorama-demo, its own folder, it always does
     #[arg(short = 'y', long)]
     pub(crate) overwrite: bool,
     #[command(flatten)]

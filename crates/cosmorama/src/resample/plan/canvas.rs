@@ -1,5 +1,7 @@
 use std::ops::Range;
 
+use bytemuck::NoUninit;
+
 use super::band::Run;
 use super::mirrors::{MOST_IMAGES, MirrorImage, Mirrors, UPRIGHT};
 use super::patch_pixels::PatchPixels;
@@ -8,7 +10,7 @@ use super::prefetch::LINE;
 use crate::resample::patch::SIDE;
 
 /// What one band makes of a picture. What no pixel was made of is filled with a background at the end.
-pub(super) struct Canvas<'a, P: Copy> {
+pub(super) struct Canvas<'a, P: NoUninit> {
     background: [P; MANY],
     mirrors: &'a Mirrors,
     part: PicturePart<'a, P>,
@@ -20,7 +22,7 @@ pub(super) struct Canvas<'a, P: Copy> {
 /// Pixels of the background that are laid at once: one by one three bytes are slow.
 const MANY: usize = 8 * SIDE;
 
-impl<P: Copy> Drop for Canvas<'_, P> {
+impl<P: NoUninit> Drop for Canvas<'_, P> {
     fn drop(&mut self) {
         for top in (0..self.part.rows()).step_by(SIDE) {
             self.fill_patches(top);
@@ -35,7 +37,7 @@ impl<P: Copy> Drop for Canvas<'_, P> {
     }
 }
 
-impl<'a, P: Copy> Canvas<'a, P> {
+impl<'a, P: NoUninit> Canvas<'a, P> {
     /// Cuts a picture, `width` pixels wide, into what bands of `rows` rows make, from the top one on.
     pub(super) fn bands(
         pixels: &'a mut [P],
@@ -159,7 +161,7 @@ impl<'a, P: Copy> Canvas<'a, P> {
         let pixel = run.pixel(0);
         self.note(pixel, u8::MAX);
         for (image, rows) in self.pixels.upright.iter().enumerate().take(images) {
-            self.part.beside(image, pixel, SIDE).copy_from_slice(&rows[run.row_in_patch()]);
+            self.part.write(image, pixel, &rows[run.row_in_patch()]);
         }
     }
 
@@ -170,11 +172,12 @@ impl<'a, P: Copy> Canvas<'a, P> {
             let after = first + runs.len();
             let made = if image.flips[0] { SIDE - after..SIDE - first } else { first..after };
             for (lane, pixels) in self.pixels.turned[index].iter().enumerate() {
-                let line = self.part.beside(UPRIGHT + index, [pixel[0] + lane, pixel[1]], runs.len());
+                let (image, pixel) = (UPRIGHT + index, [pixel[0] + lane, pixel[1]]);
                 // As many as there mostly are come without a call.
-                match line.first_chunk_mut::<SIDE>() {
-                    Some(line) => *line = *pixels,
-                    None => line.copy_from_slice(&pixels[made.clone()]),
+                if runs.len() == SIDE {
+                    self.part.write(image, pixel, pixels);
+                } else {
+                    self.part.write(image, pixel, &pixels[made.clone()]);
                 }
             }
         }

@@ -37,6 +37,7 @@ mod weights;
 
 use std::ops::Range;
 
+use bytemuck::NoUninit;
 use rayon::prelude::*;
 
 use band::Band;
@@ -234,7 +235,7 @@ impl<W: Weights> Compiled<W> {
         Self { width, height, anti_ringing: filter.anti_ringing, mirrors, bands }
     }
 
-    fn fill<P: Copy + Send + Sync>(
+    fn fill<P: NoUninit + Send + Sync>(
         &self,
         image: &mut Image<P>,
         background: P,
@@ -254,7 +255,7 @@ impl<W: Weights> Compiled<W> {
 }
 
 /// Records each band, makes its pixels and forgets it.
-fn each_band<W: Weights, P: Copy + Send + Sync>(
+fn each_band<W: Weights, P: NoUninit + Send + Sync>(
     (resampler, wanted): (&Resampler, Option<&Wanted>),
     mirrors: &Mirrors,
     (pixels, background): (&mut [P], P),

@@ -4,6 +4,8 @@
 use std::marker::PhantomData;
 use std::ops::Range;
 
+use bytemuck::NoUninit;
+
 use super::mirrors::{MOST_IMAGES, MirrorImage, Mirrors};
 use super::texels::prefetch_at;
 
@@ -15,11 +17,17 @@ pub(super) struct PicturePart<'a, P> {
     columns: Range<usize>,
     rows: usize,
     images: [Shown; MOST_IMAGES],
+    /// Whether pixels are written past the caches.
+    is_streamed: bool,
     picture: PhantomData<&'a mut [P]>,
 }
 
 // SAFETY: it is an exclusive borrow of some pixels, which no other part has.
 unsafe impl<P: Send> Send for PicturePart<'_, P> {}
+
+/// Bytes from which on a picture leaves the caches before anyone reads it: then what it overwrites need not be read into them either.
+/// Tests look at small ones.
+const STREAMED: usize = if cfg!(test) { 1 << 14 } else { 1 << 25 };
 
 /// Where a mirror shows pixels of a band.
 #[derive(Clone, Copy, Debug, Default)]
@@ -51,6 +59,7 @@ impl<'a, P: Copy> PicturePart<'a, P> {
             are_known && mirrors.images.len() <= MOST_IMAGES,
             "columns are rows in squares with all their diagonals"
         );
+        let is_streamed = size_of_val(pixels) >= STREAMED && can_stream(pixels);
         let pixels = pixels.as_mut_ptr();
         let part = |index: usize| {
             let first = index * rows;
@@ -59,7 +68,7 @@ impl<'a, P: Copy> PicturePart<'a, P> {
                 *shown = Shown::new(image, first, [width, height]);
             }
             let (columns, rows) = (mirrors.first_column(first)..mirrors.columns, rows.min(mirrors.rows - first));
-            Self { pixels, columns, rows, images, picture: PhantomData }
+            Self { pixels, columns, rows, images, is_streamed, picture: PhantomData }
         };
         (0..mirrors.rows.div_ceil(rows)).map(part).collect()
     }
@@ -100,13 +109,64 @@ impl<'a, P: Copy> PicturePart<'a, P> {
         unsafe { std::slice::from_raw_parts_mut(self.pixels.offset(first), count) }
     }
 
-    /// Asks for the memory of a pixel that will be written soon, in a mirror; any column and row will do.
+    /// Asks for the memory of a pixel that will be written soon, in a mirror, if that is not written past the caches; any column and row
+    /// will do.
     #[inline(always)]
     pub(super) fn prefetch(&self, image: usize, [column, row]: [usize; 2]) {
+        if self.is_streamed {
+            return;
+        }
         let Shown { first, steps: [across, down], .. } = self.images[image];
         let moved = |step: isize, count: usize| step.wrapping_mul(count as isize);
         let first = first.wrapping_add(moved(across, column)).wrapping_add(moved(down, row));
         prefetch_at(self.pixels.wrapping_offset(first));
+    }
+}
+
+impl<P: NoUninit> PicturePart<'_, P> {
+    /// Writes pixels [`beside`](Self::beside) each other.
+    ///
+    /// # Panics
+    /// If they are not all in the band, or there are not so many mirrors.
+    #[inline(always)]
+    pub(super) fn write(&mut self, image: usize, pixel: [usize; 2], pixels: &[P]) {
+        let is_streamed = self.is_streamed;
+        let into = self.beside(image, pixel, pixels.len());
+        if is_streamed { stream(into, pixels) } else { into.copy_from_slice(pixels) }
+    }
+}
+
+impl<P> Drop for PicturePart<'_, P> {
+    /// What was written past the caches is seen by all who learn that the band is made.
+    fn drop(&mut self) {
+        #[cfg(target_arch = "x86_64")]
+        if self.is_streamed {
+            // SAFETY: all processors of this kind have the instruction.
+            unsafe { std::arch::x86_64::_mm_sfence() }
+        }
+    }
+}
+
+/// Bytes that are written past the caches by one instruction.
+const BLOCK: usize = 16;
+
+/// Whether pixels can be written past the caches, one by one.
+fn can_stream<P>(pixels: &[P]) -> bool {
+    cfg!(target_arch = "x86_64") && size_of::<P>() == BLOCK && pixels.as_ptr().addr().is_multiple_of(BLOCK)
+}
+
+/// Copies as many pixels past the caches.
+///
+/// # Panics
+/// If they cannot be, or they are not as many.
+#[inline(always)]
+fn stream<P: NoUninit>(into: &mut [P], pixels: &[P]) {
+    assert!(can_stream(into) && into.len() == pixels.len(), "pixels that can be streamed");
+    #[cfg(target_arch = "x86_64")]
+    for (into, pixel) in into.iter_mut().zip(pixels) {
+        use std::arch::x86_64::{_mm_loadu_si128, _mm_stream_si128};
+        // SAFETY: a pixel has sixteen bytes, all of them known, and each begins at a multiple of sixteen, as the first one does.
+        unsafe { _mm_stream_si128(std::ptr::from_mut(into).cast(), _mm_loadu_si128(std::ptr::from_ref(pixel).cast())) }
     }
 }
 
@@ -189,6 +249,27 @@ mod tests {
         for (image, [column, at]) in expected.into_iter().enumerate() {
             assert_eq!(seen(&mut parts[1], image), row(column, at), "{image}");
         }
+    }
+
+    #[test]
+    #[cfg(target_arch = "x86_64")]
+    fn pixels_are_written_past_the_caches_as_they_would_be_into_them() {
+        for (side, is_streamed) in [(24, false), (40, true)] {
+            let mirrors = mirrors([side, side], 8);
+            let mut picture = vec![0u128; side * side];
+            {
+                let mut parts = PicturePart::all(&mut picture, side, ROWS, &mirrors);
+                assert!(parts.iter().all(|part| part.is_streamed == is_streamed), "{side}");
+                parts[1].write(3, [5, 1], &[1, 2, u128::MAX]);
+                parts[1].write(4, [5, 1], &[4, 5, 6]);
+            }
+            let (flipped, turned) = (side * (side - 6) + side - 8, side * 5 + 5);
+            assert_eq!((&picture[flipped..][..3], &picture[turned..][..3]), (&[1, 2, u128::MAX][..], &[4, 5, 6][..]));
+            assert_eq!(picture.iter().filter(|pixel| **pixel != 0).count(), 6);
+        }
+        let bytes = [0u128; 3];
+        let shifted: &[[u8; 16]] = bytemuck::cast_slice(&bytemuck::cast_slice::<u128, u8>(&bytes)[1..33]);
+        assert!(can_stream(&bytes) && !can_stream(shifted) && !can_stream(&[[0u8; 3]; 16]));
     }
 
     #[test]

@@ -3,6 +3,7 @@
 
 use std::ops::Range;
 
+use bytemuck::NoUninit;
 use fearless_simd::{Simd, f32x4, prelude::*};
 
 use super::canvas::Canvas;
@@ -54,7 +55,7 @@ pub(super) struct SingleTaps<'a> {
 
 /// What makes colours of texels, and pixels of colours.
 pub(super) trait Palette {
-    type Pixel: Copy;
+    type Pixel: NoUninit;
 
     /// The light of a texel.
     fn light<S: Simd>(&self, simd: S, texel: u32) -> f32x4<S>;
