@@ -28,7 +28,7 @@ impl Place {
     /// The bits of a header that tell it.
     #[inline(always)]
     pub(super) const fn bits(self) -> u32 {
-        (self.run % SIDE << Self::RUN | self.lane % SIDE << Self::LANE) as u32
+        ((self.run % SIDE) << Self::RUN | (self.lane % SIDE) << Self::LANE) as u32
     }
 }
 
