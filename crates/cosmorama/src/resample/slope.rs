@@ -119,7 +119,7 @@ impl Lattice {
         is_plane.then(|| Self { terms, inverse: moments.inverse() })
     }
 
-    /// How far a slope through these texels may be from going on, by channel; `None` where one of them is transparent: colour must stay
+    /// How far a slope through these texels may be from going on, by channel; `None` where one of them is not opaque: colour must stay
     /// within alpha there.
     // No closures: the compiler gives them no leave to use the level's instructions.
     #[inline(always)]

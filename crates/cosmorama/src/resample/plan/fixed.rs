@@ -53,7 +53,7 @@ impl FixedFilter<'_> {
         for group in band.groups() {
             let next = ahead.next().unwrap_or(&[]);
             prefetch_patch(texels, self.mirrors, next);
-            // Of a frame by plan this gains nothing, of a single picture a fiftieth.
+            // Of a frame by plan this gains a hundredth, of a single picture a fiftieth.
             canvas.prefetch(next);
             after += group.len();
             prefetch_runs(&band.runs, after + SIDE);

@@ -128,16 +128,19 @@ fn what_mirrors_show_is_what_would_be_computed() {
 fn a_plan_makes_the_pixels_that_are_made_without() {
     for (world, target, _) in conversions() {
         let (light, resampler) = (light(&world), resampler(&world, &target));
-        let texels = floats(&light);
-        let (plan, mut light_alone) = (resampler.plan().expect("a plan"), resampler.render(&texels));
-        assert!(plan.apply(&texels) == light_alone);
-        let background = Rgba::opaque(0.25, 0.5, 0.0);
-        light_alone.lay_over(background);
-        assert!(plan.apply_over(&texels, background) == light_alone);
-        let mut image = Image::filled(target.width(), target.height(), Rgba([7.0; 4]));
-        plan.apply_into(&texels, background, &mut image);
-        assert!(image == light_alone);
-        assert!(resampler.render_over(&texels, background) == light_alone);
+        let (opaque, plan) = (floats(&light), resampler.plan().expect("a plan"));
+        let veiled = opaque.iter().enumerate().map(|(at, texel)| *texel * (0.3 + (at % 8) as f32 * 0.1)).collect();
+        for texels in [opaque, veiled] {
+            let mut light_alone = resampler.render(&texels);
+            assert!(plan.apply(&texels) == light_alone);
+            let background = Rgba::opaque(0.25, 0.5, 0.0);
+            light_alone.lay_over(background);
+            assert!(plan.apply_over(&texels, background) == light_alone);
+            let mut image = Image::filled(target.width(), target.height(), Rgba([7.0; 4]));
+            plan.apply_into(&texels, background, &mut image);
+            assert!(image == light_alone);
+            assert!(resampler.render_over(&texels, background) == light_alone);
+        }
         let codec = FixedCodec::new(&Transfer::Srgb, Rgba::BLACK).expect("sRGB has 8 bits");
         let plan = resampler.fixed_plan().expect("a plan");
         let codes_alone = resampler.render_fixed(&light, &codec);
