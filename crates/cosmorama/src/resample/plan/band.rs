@@ -89,6 +89,7 @@ impl Run {
         [self.corner[0].wrapping_add(column), self.corner[1].wrapping_add(row)]
     }
 
+    /// One that makes these lanes, of the first view's first patch.
     #[cfg(test)]
     pub(super) fn of_lanes(lanes: u8, weights: u32) -> Self {
         let offsets = [[0; 2]; SIDE];
@@ -108,7 +109,7 @@ impl Run {
     }
 
     /// Whether a run that begins at this pixel is of the same patch.
-    fn is_beside(&self, [column, row]: [usize; 2]) -> bool {
+    fn shares_patch(&self, [column, row]: [usize; 2]) -> bool {
         self.column as usize == column && usize::from(self.row) / SIDE == row / SIDE
     }
 
@@ -173,7 +174,7 @@ impl<W: Weights> Band<W> {
     /// The last runs, if another one in this view that begins at this pixel goes with them.
     pub(super) fn open_group(&self, pixel: [usize; 2], view: usize) -> &[Run] {
         let last = self.runs.chunk_by(are_grouped).next_back().unwrap_or_default();
-        let is_open = |run: &Run| run.is_beside(pixel) && usize::from(run.view) == view && last.len() < SIDE;
+        let is_open = |run: &Run| run.shares_patch(pixel) && usize::from(run.view) == view && last.len() < SIDE;
         if last.first().is_some_and(is_open) { last } else { &[] }
     }
 
@@ -249,12 +250,13 @@ impl<W: Weights> Band<W> {
     }
 }
 
+/// Whether the runs of a group belong together, and all that they speak of is there.
 fn is_group_sound(group: &[Run], room: &Room, weights: &impl Weights) -> bool {
     let first = &group[0];
     let Some(source) = room.world.sources().get(usize::from(first.view)) else { return false };
     let size = [source.view.width(), source.view.height()];
     group.len() <= SIDE
-        && group.iter().all(|run| run.view == first.view && first.is_beside(run.pixel(0)) && run.is_sound(room))
+        && group.iter().all(|run| run.view == first.view && first.shares_patch(run.pixel(0)) && run.is_sound(room))
         && weights.are_sound(group, size)
 }
 

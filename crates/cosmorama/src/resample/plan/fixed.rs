@@ -11,7 +11,7 @@ use super::blocks::{self, Blocks};
 use super::canvas::Canvas;
 use super::fixed_weights::{FixedWeights, Header, Shape};
 use super::fixed_window::Window;
-use super::groups::Place;
+use super::groups::{Place, window_count};
 use super::mirrors::{MOST_IMAGES, Mirrors, Ways};
 use super::patch_pixels::{PatchPixels, Places};
 use super::prefetch::{prefetch_patch, prefetch_runs, prefetch_weights};
@@ -176,7 +176,7 @@ impl<S: Simd> GroupFilter<'_, S> {
     ) {
         let Self { simd, group, mut numbers, anti_ringing } = self;
         let order = V::Bytes::from_slice(simd, blocks::order::<N, R>());
-        let mut count: u32 = group.iter().map(|run| run.lane_bits().count_ones()).sum();
+        let mut count = window_count(group);
         while count > 0 {
             prefetch_weights(numbers);
             let header = Header(numbers[0]);

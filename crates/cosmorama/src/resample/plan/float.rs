@@ -7,7 +7,7 @@ use super::canvas::Canvas;
 use super::float_shape::{Header, Shape};
 use super::float_weights::FloatWeights;
 use super::float_window::Window;
-use super::groups::Place;
+use super::groups::{Place, window_count};
 use super::mirrors::{Mirrors, TOGETHER};
 use super::patch_pixels::PatchPixels;
 use super::prefetch::{prefetch_patch, prefetch_runs, prefetch_weights};
@@ -159,7 +159,7 @@ impl<S: Simd> GroupFilter<'_, S> {
         pixels: &mut PatchPixels<Rgba>,
     ) {
         let Self { simd, filter, group, mut numbers } = self;
-        let mut count: u32 = group.iter().map(|run| run.lane_bits().count_ones()).sum();
+        let mut count = window_count(group);
         while count > 0 {
             prefetch_weights(numbers);
             let header = Header(numbers[0]);

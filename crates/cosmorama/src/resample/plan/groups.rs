@@ -32,6 +32,12 @@ impl Place {
     }
 }
 
+/// How many windows a group has.
+#[inline(always)]
+pub(super) fn window_count(group: &[Run]) -> u32 {
+    group.iter().map(|run| run.lane_bits().count_ones()).sum()
+}
+
 /// What a header tells of its window.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Told {
@@ -78,8 +84,7 @@ pub(super) fn are_all_there(
     mut takes: impl FnMut(&mut &[u32], &Run, usize) -> Option<()>,
 ) -> bool {
     let mut missing: [u8; SIDE] = std::array::from_fn(|run| group.get(run).map_or(0, Run::lane_bits));
-    let count: u32 = missing.iter().map(|lanes| lanes.count_ones()).sum();
-    (0..count).all(|_| {
+    (0..window_count(group)).all(|_| {
         let Some(Place { run, lane }) = numbers.first().map(|header| Place::of(*header)) else { return false };
         let is_missing = missing[run] >> lane & 1 == 1;
         missing[run] &= !(1 << lane);
