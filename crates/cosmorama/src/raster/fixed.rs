@@ -114,6 +114,7 @@ const LIGHT: usize = 1 << 15;
 pub struct FixedCodec {
     /// The codes of all light there is, once for all channels or for each.
     codes: Vec<Codes>,
+    is_srgb: bool,
     background: Rgba,
 }
 
@@ -131,7 +132,8 @@ impl FixedCodec {
         let is_fine = |codes: &Codes| {
             codes[..LIGHT].windows(2).all(|pair| (0..=1).contains(&(i16::from(pair[1]) - i16::from(pair[0]))))
         };
-        codes.iter().all(is_fine).then_some(Self { codes, background })
+        let is_srgb = *transfer == Transfer::Srgb;
+        codes.iter().all(is_fine).then_some(Self { codes, is_srgb, background })
     }
 
     /// The codes of the background.
@@ -144,11 +146,11 @@ impl FixedCodec {
         self.background
     }
 
-    /// The codes of all light, by channel.
+    /// The codes of all light.
     #[inline(always)]
-    pub(crate) fn tables(&self) -> FixedCodes<'_> {
+    pub(crate) fn codes(&self) -> FixedCodes<'_> {
         let last = self.codes.len() - 1;
-        FixedCodes([&self.codes[0], &self.codes[last / 2], &self.codes[last]])
+        FixedCodes { channels: [&self.codes[0], &self.codes[last / 2], &self.codes[last]], are_srgb: self.is_srgb }
     }
 
     /// The codes of a picture, in front of the background.
@@ -161,21 +163,32 @@ impl FixedCodec {
 
     /// The codes of light in floats.
     pub(crate) fn codes_of(&self, light: Rgba) -> [u8; 3] {
-        self.tables().of(light.0.map(|light| ((light * FixedLight::WHITE).clamp(0.0, FixedLight::WHITE) + 0.5) as i32))
+        let light = light.0.map(|light| ((light * FixedLight::WHITE).clamp(0.0, FixedLight::WHITE) + 0.5) as i32);
+        let [red, green, blue, _] = self.codes().of(light).to_le_bytes();
+        [red, green, blue]
     }
 }
 
-/// The codes of all light, of red, green and blue.
+/// The codes of all light.
 #[derive(Clone, Copy)]
-pub(crate) struct FixedCodes<'a>([&'a Codes; 3]);
+pub(crate) struct FixedCodes<'a> {
+    /// Of red, green and blue.
+    channels: [&'a Codes; 3],
+    are_srgb: bool,
+}
 
 impl FixedCodes<'_> {
-    /// The codes of some light, red, green and blue from 0 to 32767.
+    /// Whether they are those of sRGB.
+    pub(crate) fn are_srgb(self) -> bool {
+        self.are_srgb
+    }
+
+    /// The codes of some light, red, green and blue from 0 to 32767, in the bytes of a number from the lowest on.
     #[inline(always)]
-    pub(crate) fn of(self, light: [i32; 4]) -> [u8; 3] {
-        let Self([red, green, blue]) = self;
-        let code = |codes: &Codes, light: i32| codes[usize::from(light as u16)];
-        [code(red, light[0]), code(green, light[1]), code(blue, light[2])]
+    pub(crate) fn of(self, light: [i32; 4]) -> u32 {
+        let [red, green, blue] = self.channels;
+        let code = |codes: &Codes, light: i32| u32::from(codes[usize::from(light as u16)]);
+        code(red, light[0]) | code(green, light[1]) << 8 | code(blue, light[2]) << 16
     }
 }
 

@@ -22,6 +22,7 @@ pub use decode::Decoder;
 pub use depth::Depth;
 pub use encode::{Encoder, Threads};
 pub use encoded::{AlphaMode, EncodedImage, Samples};
+pub(crate) use fixed::FixedCodes;
 pub use fixed::{FixedCodec, FixedDecoder};
 pub use fixed_light::FixedLight;
 pub use image::{Image, ImageError};

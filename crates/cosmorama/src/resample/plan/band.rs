@@ -96,6 +96,12 @@ impl Run {
         Self { corner: [0; 2], offsets, weights, column: 0, view: 0, row: 0, lanes, width: 4, height: 4, under: [0; 2] }
     }
 
+    /// The same of other pixels.
+    #[cfg(test)]
+    pub(super) fn at(self, [column, row]: [usize; 2]) -> Self {
+        Self { column: column as u32, row: row as u8, ..self }
+    }
+
     /// A lane's column, and the row in the band.
     #[inline(always)]
     pub(super) fn pixel(&self, lane: usize) -> [usize; 2] {

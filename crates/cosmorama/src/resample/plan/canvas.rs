@@ -3,8 +3,8 @@ use std::ops::Range;
 use bytemuck::NoUninit;
 
 use super::band::Run;
-use super::mirrors::{MOST_IMAGES, MirrorImage, Mirrors, UPRIGHT};
-use super::patch_pixels::PatchPixels;
+use super::group_light::{Develop, GroupLight};
+use super::mirrors::{MOST_IMAGES, MirrorImage, Mirrors, UPRIGHT, Ways};
 use super::picture_part::PicturePart;
 use super::prefetch::LINE;
 use crate::resample::patch::SIDE;
@@ -16,7 +16,6 @@ pub(super) struct Canvas<'a, P: NoUninit> {
     part: PicturePart<'a, P>,
     /// Which pixels of its own are made, row by row, a bit for each column: the same in all mirrors.
     made: Vec<u8>,
-    pixels: PatchPixels<P>,
 }
 
 /// Pixels of the background that are laid at once: one by one three bytes are slow.
@@ -48,8 +47,7 @@ impl<'a, P: NoUninit> Canvas<'a, P> {
     ) -> Vec<Self> {
         let canvas = |part: PicturePart<'a, P>| {
             let made = vec![0; part.rows() * bytes_of(mirrors.columns)];
-            let (background, pixels) = ([background; MANY], PatchPixels::filled(background));
-            Self { background, mirrors, part, made, pixels }
+            Self { background: [background; MANY], mirrors, part, made }
         };
         PicturePart::all(pixels, width, rows, mirrors).into_iter().map(canvas).collect()
     }
@@ -129,68 +127,87 @@ impl<'a, P: NoUninit> Canvas<'a, P> {
         }
     }
 
-    /// Where to make the pixels of a group, before they are [`put`](Self::put) where they belong.
+    /// Makes pixels of a group's light, in a view whose mirrors go these ways, and puts them where each mirror shows them.
     #[inline(always)]
-    pub(super) fn pixels(&mut self) -> &mut PatchPixels<P> {
-        &mut self.pixels
-    }
-
-    /// Puts the pixels of a group where each mirror shows them.
-    pub(super) fn put(&mut self, group: &[Run]) {
+    pub(super) fn put<D: Develop<Pixel = P>>(
+        &mut self,
+        group: &[Run],
+        ways: &Ways,
+        light: &GroupLight<D::Light>,
+        develop: &D,
+    ) {
         let Some(first) = group.first() else { return };
+        group.iter().for_each(|run| self.note(run.pixel(0), run.lane_bits()));
+        let is_whole = |(row, run): (usize, &Run)| run.is_whole() && run.row_in_patch() == row;
+        let is_square = group.len() == SIDE && group.iter().enumerate().all(is_whole);
         // The same of all the patch.
-        let images = self.images_of(first.pixel(0));
-        for run in group {
-            if run.is_whole() {
-                self.put_row(run, images.len());
-            } else {
-                self.put_lanes(run, images);
-            }
-        }
-        if images.len() == MOST_IMAGES {
-            let follow = |above: &Run, below: &Run| {
-                let ([_, row], [_, next]) = (above.pixel(0), below.pixel(0));
-                above.is_whole() && below.is_whole() && next == row + 1
-            };
-            group.chunk_by(follow).filter(|rows| rows[0].is_whole()).for_each(|rows| self.put_turned(rows));
-        }
-    }
-
-    /// Puts a row of a patch where it is a row; that is in the first of so many mirrors.
-    fn put_row(&mut self, run: &Run, images: usize) {
-        let pixel = run.pixel(0);
-        self.note(pixel, u8::MAX);
-        for (image, rows) in self.pixels.upright.iter().enumerate().take(images) {
-            self.part.write(image, pixel, &rows[run.row_in_patch()]);
-        }
-    }
-
-    /// Puts rows of a patch below each other where columns are rows.
-    fn put_turned(&mut self, runs: &[Run]) {
-        let (pixel, first) = (runs[0].pixel(0), runs[0].row_in_patch());
-        for (index, image) in self.mirrors.turned().iter().enumerate() {
-            let after = first + runs.len();
-            let made = if image.flips[0] { SIDE - after..SIDE - first } else { first..after };
-            for (lane, pixels) in self.pixels.turned[index].iter().enumerate() {
-                let (image, pixel) = (UPRIGHT + index, [pixel[0] + lane, pixel[1]]);
-                // As many as there mostly are come without a call.
-                if runs.len() == SIDE {
-                    self.part.write(image, pixel, pixels);
-                } else {
-                    self.part.write(image, pixel, &pixels[made.clone()]);
+        let images = self.images_of(first.pixel(0)).len();
+        for (at, &(image, flip)) in ways.order[..ways.count].iter().enumerate() {
+            match (image < UPRIGHT, flip == 0) {
+                _ if image >= images => {}
+                (true, true) => self.put_rows::<D, false>(group, [at, image], light, develop),
+                (true, false) => self.put_rows::<D, true>(group, [at, image], light, develop),
+                (false, true) if is_square => self.put_columns::<D, false>(first, [at, image], light, develop),
+                (false, false) if is_square => self.put_columns::<D, true>(first, [at, image], light, develop),
+                (false, _) => {
+                    for (run, light) in group.iter().zip(light) {
+                        self.put_lanes(run, [at, image], light, develop);
+                    }
                 }
             }
         }
     }
 
-    /// Puts those pixels of a row that are made.
-    fn put_lanes(&mut self, run: &Run, images: &[MirrorImage]) {
-        for (index, image) in images.iter().enumerate() {
-            let flip = if image.flips[0] { SIDE - 1 } else { 0 };
-            for lane in run.lanes() {
-                let pixel = *self.pixels.pixel(index, [lane, run.row_in_patch()], flip);
-                *self.pixel(index, run.pixel(lane)) = pixel;
+    /// Puts rows of a patch where they are rows, given which of the mirrors' light is whose.
+    #[inline(always)]
+    fn put_rows<D: Develop<Pixel = P>, const REVERSED: bool>(
+        &mut self,
+        group: &[Run],
+        [at, image]: [usize; 2],
+        light: &GroupLight<D::Light>,
+        develop: &D,
+    ) {
+        for (run, light) in group.iter().zip(light) {
+            if run.is_whole() {
+                let mut eight = [&light[0][at % MOST_IMAGES]; SIDE];
+                for (lane, one) in eight.iter_mut().enumerate() {
+                    *one = &light[turned::<REVERSED>(lane)][at % MOST_IMAGES];
+                }
+                self.part.write(image, run.pixel(0), &develop.eight(eight));
+            } else {
+                self.put_lanes(run, [at, image], light, develop);
             }
+        }
+    }
+
+    /// Puts columns of a patch that has all its pixels where they are rows.
+    #[inline(always)]
+    fn put_columns<D: Develop<Pixel = P>, const REVERSED: bool>(
+        &mut self,
+        first: &Run,
+        [at, image]: [usize; 2],
+        light: &GroupLight<D::Light>,
+        develop: &D,
+    ) {
+        for lane in 0..SIDE {
+            let mut eight = [&light[0][lane][at % MOST_IMAGES]; SIDE];
+            for (row, one) in eight.iter_mut().enumerate() {
+                *one = &light[turned::<REVERSED>(row)][lane][at % MOST_IMAGES];
+            }
+            self.part.write(image, first.pixel(lane), &develop.eight(eight));
+        }
+    }
+
+    /// Puts those pixels of a row that are made.
+    fn put_lanes<D: Develop<Pixel = P>>(
+        &mut self,
+        run: &Run,
+        [at, image]: [usize; 2],
+        light: &[[D::Light; MOST_IMAGES]; SIDE],
+        develop: &D,
+    ) {
+        for lane in run.lanes() {
+            self.part.beside(image, run.pixel(lane), 1)[0] = develop.one(light[lane][at]);
         }
     }
 
@@ -232,6 +249,12 @@ impl<'a, P: NoUninit> Canvas<'a, P> {
     }
 }
 
+/// An index of eight; from the other end, if they are `REVERSED`.
+#[inline(always)]
+const fn turned<const REVERSED: bool>(index: usize) -> usize {
+    if REVERSED { SIDE - 1 - index } else { index }
+}
+
 /// Fills pixels. From memory: as a number that is known, the background would be written byte by byte.
 fn lay<P: Copy>(background: &[P; MANY], pixels: &mut [P]) {
     let (many, few) = pixels.as_chunks_mut();
@@ -245,4 +268,88 @@ fn lay<P: Copy>(background: &[P; MANY], pixels: &mut [P]) {
 /// Bytes of bits for so many columns, and one more, which eight of them that begin within a byte may reach.
 const fn bytes_of(columns: usize) -> usize {
     columns.div_ceil(8) + 1
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::raster::RowLayout;
+
+    /// Shows light as it is.
+    struct AsItIs;
+
+    impl Develop for AsItIs {
+        type Light = u32;
+        type Pixel = u32;
+
+        fn one(&self, light: u32) -> u32 {
+            light
+        }
+
+        fn eight(&self, light: [&u32; SIDE]) -> [u32; SIDE] {
+            light.map(|light| *light)
+        }
+    }
+
+    /// All mirrors there may be, of a picture of 32 × 32 pixels.
+    fn mirrors() -> Mirrors {
+        let layout = RowLayout::of([[4, 4]], |width| width);
+        let flips = [[false, false], [true, false], [false, true], [true, true]];
+        let image = |at: usize| {
+            let mut image = MirrorImage::itself(&layout);
+            (image.is_turned, image.flips) = (at >= UPRIGHT, flips[at % UPRIGHT]);
+            image
+        };
+        Mirrors::new([16, 16], (0..MOST_IMAGES).map(image).collect())
+    }
+
+    /// Which light is that of a run, a lane and a mirror.
+    fn number(run: usize, lane: usize, at: usize) -> u32 {
+        (1 + (SIDE * run + lane) * MOST_IMAGES + at) as u32
+    }
+
+    /// Puts a group of runs of these lanes, one below the other from this pixel on; each pixel is where its mirror shows it, and no other
+    /// is touched.
+    fn assert_put(first: [usize; 2], lanes: &[u8]) {
+        let mirrors = mirrors();
+        let group: Vec<Run> = lanes
+            .iter()
+            .enumerate()
+            .map(|(row, &lanes)| Run::of_lanes(lanes, 0).at([first[0], first[1] + row]))
+            .collect();
+        let light =
+            std::array::from_fn(|run| std::array::from_fn(|lane| std::array::from_fn(|at| number(run, lane, at))));
+        let mut picture = vec![0; 32 * 32];
+        let mut canvases = Canvas::bands(&mut picture, 32, 2 * SIDE, &mirrors, 0);
+        canvases[0].put(&group, mirrors.ways(0), &light, &AsItIs);
+        drop(canvases);
+        let mut expected = vec![0; 32 * 32];
+        for (number_of_run, run) in group.iter().enumerate() {
+            for lane in run.lanes() {
+                let [column, row] = run.pixel(lane);
+                for (at, (image, _)) in mirrors.ways(0).order.iter().enumerate() {
+                    let shown = &mirrors.images[*image];
+                    let [across, down] = if shown.is_turned { [row, column] } else { [column, row] };
+                    let [x, y] = [(across, shown.flips[0]), (down, shown.flips[1])]
+                        .map(|(at, is_flipped)| if is_flipped { 31 - at } else { at });
+                    // On the diagonal patch columns are not shown as rows.
+                    if !shown.is_turned || first[0] / SIDE != first[1] / SIDE {
+                        expected[32 * y + x] = number(number_of_run, lane, at);
+                    }
+                }
+            }
+        }
+        assert!(picture == expected, "{first:?} {lanes:x?}");
+    }
+
+    #[test]
+    fn pixels_are_put_where_mirrors_show_them() {
+        for first in [[0, 0], [8, 0], [8, 8]] {
+            assert_put(first, &[0xff; SIDE]);
+            assert_put(first, &[0xff; 3]);
+            assert_put(first, &[0xff, 0xff, 0x81, 0x10, 0xff, 0x7e, 0xff, 0x01]);
+        }
+        assert_put([8, 2], &[0xff; 6]);
+        assert_put([8, 0], &[]);
+    }
 }

@@ -9,11 +9,14 @@ use fearless_simd::{Level, Simd, dispatch, f32x4, i16x8, i16x16, i16x32, i32x4, 
 use super::band::{Band, Run};
 use super::blocks::{self, Blocks};
 use super::canvas::Canvas;
+#[cfg(target_arch = "x86_64")]
+use super::codes::Compute;
+use super::codes::LookUp;
 use super::fixed_weights::{FixedWeights, Header, Shape};
 use super::fixed_window::Window;
+use super::group_light::GroupLight;
 use super::groups::{Place, window_count};
 use super::mirrors::{MOST_IMAGES, Mirrors, Ways};
-use super::patch_pixels::{PatchPixels, Places};
 use super::prefetch::{prefetch_patch, prefetch_runs, prefetch_weights};
 use super::singles::Palette;
 use super::texels::{Texels, prefetch};
@@ -48,7 +51,7 @@ impl FixedFilter<'_> {
         let mut ahead = band.groups().skip(1);
         let texels = self.light.as_laid_out();
         let views = ViewTexels::all(self.mirrors, self.light.samples());
-        let mut light: GroupLight = [[[[0; 4]; MOST_IMAGES]; SIDE]; SIDE];
+        let mut light: GroupLight<[i32; 4]> = [[[[0; 4]; MOST_IMAGES]; SIDE]; SIDE];
         let mut after = 0;
         for group in band.groups() {
             let next = ahead.next().unwrap_or(&[]);
@@ -59,8 +62,7 @@ impl FixedFilter<'_> {
             prefetch_runs(&band.runs, after + SIDE);
             let (view, numbers) = (usize::from(group[0].view), &band.weights.numbers[group[0].weights as usize..]);
             self.weigh(simd, group, &views[view], numbers, &mut light);
-            self.encode(group, self.mirrors.ways(view), &light, canvas.pixels());
-            canvas.put(group);
+            self.put(simd, group, self.mirrors.ways(view), &light, canvas);
         }
     }
 
@@ -73,7 +75,7 @@ impl FixedFilter<'_> {
         group: &[Run],
         texels: &ViewTexels<i16>,
         numbers: &[u32],
-        light: &mut GroupLight,
+        light: &mut GroupLight<[i32; 4]>,
     ) {
         let group = GroupFilter { simd, group, numbers, anti_ringing: self.anti_ringing };
         // A function for each number of mirrors: all in one would take the compiler minutes.
@@ -108,25 +110,29 @@ impl FixedFilter<'_> {
         }
     }
 
-    /// Makes a group's pixels of its light. Looked up together, from memory: taken out of vectors one by one, samples would wait for
-    /// each pixel's sum.
+    /// Puts the pixels of a group's light; apart from what weighs, for the same reason.
     #[inline(never)]
-    fn encode(&self, group: &[Run], ways: &Ways, light: &GroupLight, pixels: &mut PatchPixels<[u8; 3]>) {
-        let codes = self.codec.tables();
-        for (run, light) in group.iter().zip(light) {
-            for (image, (index, flip)) in ways.order[..ways.count].iter().enumerate() {
-                let light = light.iter().map(|lane| lane[image]);
-                match pixels.places(*index, run.row_in_patch(), *flip) {
-                    Places::Forward(pixels) => light.zip(pixels).for_each(|(light, pixel)| *pixel = codes.of(light)),
-                    Places::Reversed(pixels) => {
-                        light.zip(pixels.iter_mut().rev()).for_each(|(light, pixel)| *pixel = codes.of(light));
-                    }
-                    Places::Lines(lines, at) => {
-                        light.zip(lines).for_each(|(light, pixels)| pixels[at] = codes.of(light));
-                    }
-                }
-            }
+    fn put<S: Simd>(
+        &self,
+        simd: S,
+        group: &[Run],
+        ways: &Ways,
+        light: &GroupLight<[i32; 4]>,
+        canvas: &mut Canvas<[u8; 3]>,
+    ) {
+        let codes = LookUp(self.codec.codes());
+        #[cfg(target_arch = "x86_64")]
+        if let Some(level) = simd.level().as_avx512()
+            && codes.0.are_srgb()
+        {
+            let compute = Compute { level, codes };
+            simd.vectorize(
+                #[inline(always)]
+                || canvas.put(group, ways, light, &compute),
+            );
+            return;
         }
+        canvas.put(group, ways, light, &codes);
     }
 }
 
@@ -151,9 +157,6 @@ impl Palette for FixedFilter<'_> {
     }
 }
 
-/// The light of a group's windows, by run, lane and mirror; elsewhere any.
-type GroupLight = [[[[i32; 4]; MOST_IMAGES]; SIDE]; SIDE];
-
 /// What makes the light of a group's windows.
 #[derive(Clone, Copy)]
 struct GroupFilter<'a, S> {
@@ -172,7 +175,7 @@ impl<S: Simd> GroupFilter<'_, S> {
         self,
         texels: &[Texels<i16, N, R>; G],
         image: usize,
-        light: &mut GroupLight,
+        light: &mut GroupLight<[i32; 4]>,
     ) {
         let Self { simd, group, mut numbers, anti_ringing } = self;
         let order = V::Bytes::from_slice(simd, blocks::order::<N, R>());

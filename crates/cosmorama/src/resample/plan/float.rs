@@ -7,9 +7,9 @@ use super::canvas::Canvas;
 use super::float_shape::{Header, Shape};
 use super::float_weights::FloatWeights;
 use super::float_window::Window;
+use super::group_light::{Develop, GroupLight};
 use super::groups::{Place, window_count};
-use super::mirrors::{Mirrors, TOGETHER};
-use super::patch_pixels::PatchPixels;
+use super::mirrors::{MOST_IMAGES, Mirrors, TOGETHER};
 use super::prefetch::{prefetch_patch, prefetch_runs, prefetch_weights};
 use super::singles::{Palette, Singles};
 use super::texels::{Texels, prefetch};
@@ -48,6 +48,7 @@ impl FloatFilter<'_> {
         }
         let mut ahead = band.groups().skip(1);
         let views = ViewTexels::all(self.mirrors, bytemuck::cast_slice(self.texels));
+        let mut light: GroupLight<Rgba> = [[[Rgba::TRANSPARENT; MOST_IMAGES]; SIDE]; SIDE];
         let mut after = 0;
         for group in band.groups() {
             let next = ahead.next().unwrap_or(&[]);
@@ -55,68 +56,85 @@ impl FloatFilter<'_> {
             canvas.prefetch(next);
             after += group.len();
             prefetch_runs(&band.runs, after + SIDE);
-            self.pixels(simd, group, &views[usize::from(group[0].view)], &band.weights, canvas.pixels());
-            canvas.put(group);
+            let view = usize::from(group[0].view);
+            self.weigh(simd, group, &views[view], &band.weights, &mut light);
+            canvas.put(group, self.mirrors.ways(view), &light, self);
         }
     }
 
-    /// Makes the pixels of a group in each mirror.
+    /// Adds up the light of a group's windows.
     #[inline(always)]
-    fn pixels<S: Simd>(
+    fn weigh<S: Simd>(
         &self,
         simd: S,
         group: &[Run],
         texels: &ViewTexels<f32>,
         weights: &FloatWeights,
-        pixels: &mut PatchPixels<Rgba>,
+        light: &mut GroupLight<Rgba>,
     ) {
-        let order = &self.mirrors.ways(usize::from(group[0].view)).order;
         let numbers = &weights.numbers[group[0].weights as usize..];
-        let group = GroupFilter { simd, filter: self, group, numbers };
+        let group = GroupFilter { simd, group, numbers, anti_ringing: self.anti_ringing };
         // A function for each number of mirrors: all in one would take the compiler minutes.
         match texels {
             ViewTexels::Eight([first, second]) => {
-                let (order, others) = order.split_at(TOGETHER);
                 simd.vectorize(
                     #[inline(always)]
-                    || group.pixels::<TOGETHER, 2, false>(first, order, pixels),
+                    || group.weigh::<TOGETHER, 2, false>(first, 0, light),
                 );
                 simd.vectorize(
                     #[inline(always)]
-                    || group.pixels::<TOGETHER, 2, false>(second, others, pixels),
+                    || group.weigh::<TOGETHER, 2, false>(second, TOGETHER, light),
                 );
             }
             ViewTexels::Turned([upright, turned]) => {
-                let (order, others) = order.split_at(TOGETHER);
                 simd.vectorize(
                     #[inline(always)]
-                    || group.pixels::<TOGETHER, 2, false>(upright, order, pixels),
+                    || group.weigh::<TOGETHER, 2, false>(upright, 0, light),
                 );
                 simd.vectorize(
                     #[inline(always)]
-                    || group.pixels::<TOGETHER, 2, true>(turned, others, pixels),
+                    || group.weigh::<TOGETHER, 2, true>(turned, TOGETHER, light),
                 );
             }
             ViewTexels::Four(texels) => simd.vectorize(
                 #[inline(always)]
-                || group.pixels::<TOGETHER, 2, false>(texels, order, pixels),
+                || group.weigh::<TOGETHER, 2, false>(texels, 0, light),
             ),
             ViewTexels::Two(texels) => simd.vectorize(
                 #[inline(always)]
-                || group.pixels::<2, 1, false>(texels, order, pixels),
+                || group.weigh::<2, 1, false>(texels, 0, light),
             ),
             ViewTexels::OneByOne { forward, reversed } => simd.vectorize(
                 #[inline(always)]
                 || {
-                    for (texels, order) in forward.iter().zip(order) {
-                        group.pixels::<1, 0, false>(texels, std::slice::from_ref(order), pixels);
+                    for (image, texels) in forward.iter().enumerate() {
+                        group.weigh::<1, 0, false>(texels, image, light);
                     }
-                    for (texels, order) in reversed.iter().zip(&order[forward.len()..]) {
-                        group.pixels::<1, 1, false>(texels, std::slice::from_ref(order), pixels);
+                    for (image, texels) in (forward.len()..).zip(reversed) {
+                        group.weigh::<1, 1, false>(texels, image, light);
                     }
                 },
             ),
         }
+    }
+}
+
+impl Develop for FloatFilter<'_> {
+    type Light = Rgba;
+    type Pixel = Rgba;
+
+    #[inline(always)]
+    fn one(&self, light: Rgba) -> Rgba {
+        if self.background == Rgba::TRANSPARENT { light } else { light.over(self.background) }
+    }
+
+    #[inline(always)]
+    fn eight(&self, light: [&Rgba; SIDE]) -> [Rgba; SIDE] {
+        let mut pixels = [Rgba::TRANSPARENT; SIDE];
+        for (pixel, light) in pixels.iter_mut().zip(light) {
+            *pixel = self.one(*light);
+        }
+        pixels
     }
 }
 
@@ -138,32 +156,33 @@ impl Palette for FloatFilter<'_> {
     }
 }
 
-/// What makes the pixels of a group.
+/// What makes the light of a group's windows.
 #[derive(Clone, Copy)]
 struct GroupFilter<'a, S> {
     simd: S,
-    filter: &'a FloatFilter<'a>,
     group: &'a [Run],
     /// Its weights, and more.
     numbers: &'a [u32],
+    anti_ringing: bool,
 }
 
 impl<S: Simd> GroupFilter<'_, S> {
-    /// The pixels in N mirrors, which `order` tells; in the last R of them windows are walked through from right to left, if they are
+    /// The light in N mirrors from one of them on; in the last R of them windows are walked through from right to left, if they are
     /// `TURNED` with columns for rows.
     #[inline(always)]
-    fn pixels<const N: usize, const R: usize, const TURNED: bool>(
+    fn weigh<const N: usize, const R: usize, const TURNED: bool>(
         self,
         texels: &Texels<f32, N, R>,
-        order: &[(usize, usize)],
-        pixels: &mut PatchPixels<Rgba>,
+        image: usize,
+        light: &mut GroupLight<Rgba>,
     ) {
-        let Self { simd, filter, group, mut numbers } = self;
+        let Self { simd, group, mut numbers, anti_ringing } = self;
         let mut count = window_count(group);
         while count > 0 {
             prefetch_weights(numbers);
             let header = Header(numbers[0]);
             let Place { run, lane } = Place::of(header.0);
+            let light = &mut light[run][lane][image..];
             let run = &group[run];
             let window = Window::<S, N, R, TURNED> { simd, texels, first: run.first(lane) };
             let (sums, length) = match header.index() {
@@ -176,10 +195,8 @@ impl<S: Simd> GroupFilter<'_, S> {
                 _ => window.large(Shape::of_run(run), run.rows_under(), numbers),
             };
             (numbers, count) = (&numbers[length..], count - 1);
-            for (image, (index, flip)) in order.iter().enumerate().take(N) {
-                let light = Rgba(sums.average(image, filter.anti_ringing).to_array());
-                *pixels.pixel(*index, [lane, run.row_in_patch()], *flip) =
-                    if filter.background == Rgba::TRANSPARENT { light } else { light.over(filter.background) };
+            for (image, light) in light.iter_mut().enumerate().take(N) {
+                *light = Rgba(sums.average(image, anti_ringing).to_array());
             }
         }
     }

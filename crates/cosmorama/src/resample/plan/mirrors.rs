@@ -227,11 +227,6 @@ impl Mirrors {
         self.images.len() == MOST_IMAGES
     }
 
-    /// Those that show columns as rows: the last ones.
-    pub(super) fn turned(&self) -> &[MirrorImage] {
-        self.images.get(UPRIGHT..).unwrap_or_default()
-    }
-
     /// Those in which a pixel is shown: in patches on the diagonal, which are computed whole, it is not turned into another of them.
     #[inline(always)]
     pub(super) fn images_of(&self, [column, row]: [usize; 2]) -> &[MirrorImage] {

@@ -5,6 +5,7 @@ mod blocks;
 #[cfg(target_arch = "x86_64")]
 mod blocks_avx512;
 mod canvas;
+mod codes;
 mod fixed;
 mod fixed_check;
 mod fixed_turned;
@@ -16,10 +17,10 @@ mod float_shape;
 mod float_turned;
 mod float_weights;
 mod float_window;
+mod group_light;
 mod groups;
 mod key;
 mod mirrors;
-mod patch_pixels;
 mod picture_part;
 mod prefetch;
 mod recorder;
@@ -28,6 +29,8 @@ mod saved;
 mod saved_plan;
 mod singles;
 mod spread;
+#[cfg(target_arch = "x86_64")]
+mod srgb_avx512;
 mod stored;
 #[cfg(test)]
 mod tests;

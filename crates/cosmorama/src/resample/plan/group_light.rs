@@ -1,0 +1,19 @@
+use bytemuck::NoUninit;
+
+use super::mirrors::MOST_IMAGES;
+use crate::resample::patch::SIDE;
+
+/// The light of a group's windows: by run, lane and mirror, these in the order in which the view's are walked through; elsewhere any.
+pub(super) type GroupLight<L> = [[[L; MOST_IMAGES]; SIDE]; SIDE];
+
+/// What makes pixels of the light of windows.
+pub(super) trait Develop {
+    type Light: Copy;
+    type Pixel: NoUninit;
+
+    /// The pixel of a window's light.
+    fn one(&self, light: Self::Light) -> Self::Pixel;
+
+    /// The pixels of eight, which most of them are made as.
+    fn eight(&self, light: [&Self::Light; SIDE]) -> [Self::Pixel; SIDE];
+}
