@@ -189,8 +189,8 @@ impl<'a, P: NoUninit> Canvas<'a, P> {
         light: &GroupLight<D::Light>,
         develop: &D,
     ) {
-        for lane in 0..SIDE {
-            let mut eight = [&light[0][lane][at % MOST_IMAGES]; SIDE];
+        for (lane, top) in light[0].iter().enumerate() {
+            let mut eight = [&top[at % MOST_IMAGES]; SIDE];
             for (row, one) in eight.iter_mut().enumerate() {
                 *one = &light[turned::<REVERSED>(row)][lane][at % MOST_IMAGES];
             }
