@@ -6,7 +6,6 @@ use super::band::Run;
 use super::group_light::{Develop, GroupLight};
 use super::mirrors::{MOST_IMAGES, MirrorImage, Mirrors, UPRIGHT, Ways};
 use super::picture_part::PicturePart;
-use super::prefetch::LINE;
 use crate::resample::patch::SIDE;
 
 /// What one band makes of a picture. What no pixel was made of is filled with a background at the end.
@@ -208,34 +207,6 @@ impl<'a, P: NoUninit> Canvas<'a, P> {
     ) {
         for lane in run.lanes() {
             self.part.beside(image, run.pixel(lane), 1)[0] = develop.one(light[lane][at]);
-        }
-    }
-
-    /// Asks for the memory that the pixels of whole runs will be written to: a line of it that is not at hand is waited for even so.
-    /// Other runs are few, and have no place for eight pixels in each mirror.
-    #[inline(always)]
-    pub(super) fn prefetch(&self, runs: &[Run]) {
-        // The last pixel in each line: the first line is that of the last pixel before, too, or else has one of these.
-        let step = const { if LINE < size_of::<[P; SIDE]>() { LINE / size_of::<P>() } else { SIDE } };
-        let mut is_first = true;
-        for run in runs.iter().filter(|run| run.is_whole()) {
-            let [column, row] = run.pixel(0);
-            for (index, image) in self.images_of([column, row]).iter().enumerate() {
-                if !image.is_turned {
-                    for across in (step - 1..SIDE).step_by(step) {
-                        self.part.prefetch(index, [column + across, row]);
-                    }
-                } else if is_first {
-                    // What the first run of a patch and those below it are written to.
-                    for across in 0..SIDE {
-                        self.part.prefetch(index, [column + across, row]);
-                        for down in (step - 1..SIDE).step_by(step) {
-                            self.part.prefetch(index, [column + across, row + down]);
-                        }
-                    }
-                }
-            }
-            is_first = false;
         }
     }
 

@@ -56,8 +56,6 @@ impl FixedFilter<'_> {
         for group in band.groups() {
             let next = ahead.next().unwrap_or(&[]);
             prefetch_patch(texels, self.mirrors, next);
-            // Of a frame by plan this gains a hundredth, of a single picture a fiftieth.
-            canvas.prefetch(next);
             after += group.len();
             prefetch_runs(&band.runs, after + SIDE);
             let (view, numbers) = (usize::from(group[0].view), &band.weights.numbers[group[0].weights as usize..]);

@@ -53,7 +53,6 @@ impl FloatFilter<'_> {
         for group in band.groups() {
             let next = ahead.next().unwrap_or(&[]);
             prefetch_patch(self.texels, self.mirrors, next);
-            canvas.prefetch(next);
             after += group.len();
             prefetch_runs(&band.runs, after + SIDE);
             let view = usize::from(group[0].view);

@@ -7,7 +7,6 @@ use std::ops::Range;
 use bytemuck::NoUninit;
 
 use super::mirrors::{MOST_IMAGES, MirrorImage, Mirrors};
-use super::texels::prefetch_at;
 
 /// The pixels of a picture that one band makes, in all mirrors: its own rows and those that mirror it from below; with mirrors along
 /// the diagonals a frame as wide as it is high, within which lie those of the next bands.
@@ -107,19 +106,6 @@ impl<'a, P: Copy> PicturePart<'a, P> {
         // that this is one of the band's rows. Nobody else has the picture meanwhile, and what is borrowed from this part is given back
         // before more is.
         unsafe { std::slice::from_raw_parts_mut(self.pixels.offset(first), count) }
-    }
-
-    /// Asks for the memory of a pixel that will be written soon, in a mirror, if that is not written past the caches; any column and row
-    /// will do.
-    #[inline(always)]
-    pub(super) fn prefetch(&self, image: usize, [column, row]: [usize; 2]) {
-        if self.is_streamed {
-            return;
-        }
-        let Shown { first, steps: [across, down], .. } = self.images[image];
-        let moved = |step: isize, count: usize| step.wrapping_mul(count as isize);
-        let first = first.wrapping_add(moved(across, column)).wrapping_add(moved(down, row));
-        prefetch_at(self.pixels.wrapping_offset(first));
     }
 }
 

@@ -4,7 +4,7 @@ use super::texels;
 use crate::resample::patch::SIDE;
 
 /// Bytes that come from memory together.
-pub(super) const LINE: usize = 64;
+const LINE: usize = 64;
 
 /// Columns and rows of the largest region that is asked for as one; beyond, runs have little in common.
 const LARGEST: [usize; 2] = [64, 32];

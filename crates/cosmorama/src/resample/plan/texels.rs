@@ -127,12 +127,7 @@ impl<'a, T, const COLUMNS: usize, const HEIGHT: usize> Window<'a, T, COLUMNS, HE
 /// Asks memory for one of some items that will be read soon, a texel or a weight; any number will do.
 #[inline(always)]
 pub(super) fn prefetch<T>(items: &[T], item: u32) {
-    prefetch_at(items.as_ptr().wrapping_add(item as usize));
-}
-
-/// Asks memory for what lies at an address, if that is anywhere.
-#[inline(always)]
-pub(super) fn prefetch_at<T>(address: *const T) {
+    let address = items.as_ptr().wrapping_add(item as usize);
     #[cfg(target_arch = "x86_64")]
     {
         use std::arch::x86_64::{_MM_HINT_T0, _mm_prefetch};
