@@ -165,7 +165,7 @@ fn no_crate_depends_on_a_higher_one() {
 }
 
 /// Files with code for lanes. All else is plain: one pixel after the other, so that the two can be held equal.
-const LANES: [&str; 22] = [
+const LANES: [&str; 23] = [
     "cubics.rs",
     "ellipses.rs",
     "lanes.rs",
@@ -179,6 +179,7 @@ const LANES: [&str; 22] = [
     "plan/fixed_window.rs",
     "plan/float.rs",
     "plan/float_lanes.rs",
+    "plan/float_large.rs",
     "plan/float_turned.rs",
     "plan/float_weights.rs",
     "plan/float_window.rs",

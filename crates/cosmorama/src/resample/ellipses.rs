@@ -3,8 +3,9 @@
 use fearless_simd::{Simd, f32x8, i32x8, prelude::*};
 
 use super::Kernel;
+use super::coons::{Columns, Coons};
 use super::lanes::Lanes;
-use super::patch::{Columns, Density, Patch, SIDE};
+use super::patch::{Density, Geometry, Patch, SIDE};
 
 /// Where windows of texels lie, and the ellipses in them: a lane for each.
 #[derive(Clone, Copy)]
@@ -58,10 +59,8 @@ impl<V> Ellipses<V> {
     where
         V: Lanes<S>,
     {
-        let u = rows_of::<S, V>(simd, &patch.place[0], row) + bulges::<S, V>(simd, patch, row, 0);
-        let v = rows_of::<S, V>(simd, &patch.place[1], row) + bulges::<S, V>(simd, patch, row, 1);
-        let (ux, vx) = (rows_of::<S, V>(simd, &patch.jacobian[0], row), rows_of::<S, V>(simd, &patch.jacobian[1], row));
-        let (uy, vy) = (rows_of::<S, V>(simd, &patch.jacobian[2], row), rows_of::<S, V>(simd, &patch.jacobian[3], row));
+        let [u, v] = places::<S, V>(simd, patch, row);
+        let [ux, vx, uy, vy] = derivatives::<S, V>(simd, patch, row);
         let determinant = ux * vy - uy * vx;
         let zero = V::splat(simd, 0.0);
         // As in `Kernel::coarseness`.
@@ -138,6 +137,42 @@ fn gradient<S: Simd, V: Lanes<S>>(density: &Density, u: V, v: V) -> [V; 2] {
     [u * xx + v * xy + density.gradient[0], u * xy + v * yy + density.gradient[1]]
 }
 
+/// U and V of the pixels in rows of the patch, from this one on.
+#[inline(always)]
+fn places<S: Simd, V: Lanes<S>>(simd: S, patch: &Patch, row: usize) -> [V; 2] {
+    match &patch.geometry {
+        Geometry::Interpolated(coons) => {
+            let ([u, v], [u_bulge, v_bulge]) =
+                (&coons.place, [bulges::<S, V>(simd, coons, row, 0), bulges::<S, V>(simd, coons, row, 1)]);
+            [rows_of::<S, V>(simd, u, row) + u_bulge, rows_of::<S, V>(simd, v, row) + v_bulge]
+        }
+        Geometry::Exact(exact) => {
+            let [u, v] = &exact.place;
+            [known::<S, V>(simd, u, row), known::<S, V>(simd, v, row)]
+        }
+    }
+}
+
+/// Ux, Vx, Uy and Vy there.
+#[inline(always)]
+fn derivatives<S: Simd, V: Lanes<S>>(simd: S, patch: &Patch, row: usize) -> [V; 4] {
+    match &patch.geometry {
+        Geometry::Interpolated(Coons { jacobian: [ux, vx, uy, vy], .. }) => {
+            [rows_of(simd, ux, row), rows_of(simd, vx, row), rows_of(simd, uy, row), rows_of(simd, vy, row)]
+        }
+        Geometry::Exact(exact) => {
+            let [ux, vx, uy, vy] = &exact.jacobian;
+            [known(simd, ux, row), known(simd, vx, row), known(simd, uy, row), known(simd, vy, row)]
+        }
+    }
+}
+
+/// What is known of each pixel; after the last row it comes again.
+#[inline(always)]
+fn known<S: Simd, V: Lanes<S>>(simd: S, rows: &[[f32; SIDE]; SIDE], row: usize) -> V {
+    V::of_rows([f32x8::load_array(simd, rows[row]), f32x8::load_array(simd, rows[(row + 1).min(SIDE - 1)])])
+}
+
 /// A quantity in rows of the patch, from this one on.
 #[inline(always)]
 fn rows_of<S: Simd, V: Lanes<S>>(simd: S, columns: &Columns, row: usize) -> V {
@@ -153,13 +188,13 @@ fn row_of<S: Simd>(simd: S, columns: &Columns, row: usize) -> f32x8<S> {
 
 /// What the sides' bulges add to places in rows, from this one on, along one axis.
 #[inline(always)]
-fn bulges<S: Simd, V: Lanes<S>>(simd: S, patch: &Patch, row: usize, axis: usize) -> V {
-    V::of_rows([bulge(simd, patch, row, axis), bulge(simd, patch, row + 1, axis)])
+fn bulges<S: Simd, V: Lanes<S>>(simd: S, coons: &Coons, row: usize, axis: usize) -> V {
+    V::of_rows([bulge(simd, coons, row, axis), bulge(simd, coons, row + 1, axis)])
 }
 
 #[inline(always)]
-fn bulge<S: Simd>(simd: S, patch: &Patch, row: usize, axis: usize) -> f32x8<S> {
-    let [left, right] = patch.bulge(row);
+fn bulge<S: Simd>(simd: S, coons: &Coons, row: usize, axis: usize) -> f32x8<S> {
+    let [left, right] = coons.bulge(row);
     ramp(simd) * (right[axis] - left[axis]) + left[axis]
 }
 

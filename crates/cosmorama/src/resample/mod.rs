@@ -6,6 +6,7 @@ mod block;
 mod candidates;
 mod cap;
 mod cap_chain;
+mod coons;
 mod cubics;
 mod ellipse;
 mod ellipses;

@@ -11,7 +11,7 @@ use super::kernel::UNDER;
 use super::lanes::Lanes;
 use super::moments::{Correction, Moments, RowSums};
 use super::patch::{Patch, SIDE};
-use super::window::{LARGEST, Level, Size, Windows};
+use super::window::{Level, ROOM, Size, Windows};
 
 /// Rows of a patch that are weighed together, at most.
 const ROWS: usize = 2;
@@ -33,7 +33,7 @@ impl Weigher {
     pub(super) fn new(kernel: &Kernel, level: Level) -> Option<Self> {
         let cubics = Cubics::of(kernel).filter(|_| kernel.floor >= 1.0)?;
         let windows = std::array::from_fn(|_| Windows::new(level));
-        Some(Self { level, cubics, kernel: *kernel, windows, loose: vec![0.0; 2 * ROWS * SIDE * LARGEST] })
+        Some(Self { level, cubics, kernel: *kernel, windows, loose: vec![0.0; 2 * ROWS * SIDE * ROOM] })
     }
 
     /// The windows of a patch.
@@ -69,9 +69,19 @@ impl Weigher {
             any |= windows.place(patch, &ellipses.first(row), size);
         }
         if any {
+            self.make_room(size[0] * size[1]);
             let moments = self.measure(simd, ellipses, size);
             let correction = moments.correction(simd, self.kernel.centred.then_some(&patch.bend));
             self.settle(simd, &ellipses.start, size, &correction);
+        }
+    }
+
+    /// Makes room for windows of so many texels, in all rows.
+    fn make_room(&mut self, texels: usize) {
+        let length = 2 * ROWS * SIDE * texels;
+        if self.loose.len() < length {
+            self.loose.resize(length, 0.0);
+            self.windows.iter_mut().for_each(|windows| windows.make_room(texels));
         }
     }
 

@@ -6,8 +6,11 @@ pub(super) use fearless_simd::Level;
 use super::patch::{Patch, SIDE};
 use super::{Tap, Taps};
 
-/// Texels of the largest window. Beyond, a pixel by itself is not slower.
-pub(super) const LARGEST: usize = 256;
+/// Texels of the largest window. Beyond, weights in integers have too few bits, and a pixel by itself takes no longer.
+const LARGEST: usize = 4096;
+
+/// Texels that there is room for at first. What larger ones take is far apart in memory, and made when they come.
+pub(super) const ROOM: usize = 256;
 
 /// How large weights are, whatever their sign.
 #[derive(Clone, Copy, Debug, Default)]
@@ -56,9 +59,9 @@ impl Windows {
             stride: 0,
             corners: [[0; 2]; SIDE],
             held: 0,
-            weights: vec![[0.0; SIDE]; LARGEST],
+            weights: vec![[0.0; SIDE]; ROOM],
             size: Size::default(),
-            under: vec![0; LARGEST],
+            under: vec![0; ROOM],
         }
     }
 
@@ -160,6 +163,14 @@ impl Windows {
             self.held = 0;
         }
         self.held != 0
+    }
+
+    /// Makes room for windows of so many texels.
+    pub(super) fn make_room(&mut self, texels: usize) {
+        if self.weights.len() < texels {
+            self.weights.resize(texels, [0.0; SIDE]);
+            self.under.resize(texels, 0);
+        }
     }
 }
 

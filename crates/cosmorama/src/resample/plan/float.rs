@@ -194,8 +194,8 @@ impl<S: Simd> GroupFilter<'_, S> {
                 _ => window.large(Shape::of_run(run), run.rows_under(), numbers),
             };
             (numbers, count) = (&numbers[length..], count - 1);
-            for (image, light) in light.iter_mut().enumerate().take(N) {
-                *light = Rgba(sums.average(image, anti_ringing).to_array());
+            for (light, sum) in light.iter_mut().zip(sums) {
+                *light = Rgba(sum.average(anti_ringing).to_array());
             }
         }
     }

@@ -10,8 +10,9 @@ use std::ops::Range;
 
 use fearless_simd::{Simd, f32x4, f32x16, mask32x16, prelude::*, u8x64, u32x4, u32x16};
 
+use super::float_large::Large;
 use super::float_shape::{BLOCK, Header, ROWS_UNDER, Shape, Small, mark_words};
-use super::float_turned::{Large, TurnedWindow};
+use super::float_turned::TurnedWindow;
 use super::texels::{self, Texels};
 
 /// Samples of a texel, and of a block of them.
@@ -36,7 +37,7 @@ impl<'a, S: Simd, const N: usize, const R: usize, const TURNED: bool> Window<'a,
         self,
         header: Header,
         numbers: &[u32],
-    ) -> (Sums<S, N>, usize) {
+    ) -> ([Sum<S>; N], usize) {
         debug_assert_eq!(
             Small::ALL.get(header.index() as usize),
             Some(&Small { shape: Shape { width: WIDTH, height: HEIGHT }, under: UNDER }),
@@ -73,62 +74,13 @@ impl<'a, S: Simd, const N: usize, const R: usize, const TURNED: bool> Window<'a,
 
     /// The same of any size, whose rows from `under` on may hold texels under the pixel.
     #[inline(always)]
-    pub(super) fn large(self, shape: Shape, under: Range<usize>, numbers: &[u32]) -> (Sums<S, N>, usize) {
-        let Self { simd, .. } = self;
+    pub(super) fn large(self, shape: Shape, under: Range<usize>, numbers: &[u32]) -> ([Sum<S>; N], usize) {
         let words = mark_words(shape.width);
-        let (all_marks, weights) = numbers[1..].split_at(under.len() * words);
-        let whole = shape.in_blocks();
-        let (in_blocks, others) = weights[..shape.area()].split_at(whole * shape.height);
-        let length = 1 + all_marks.len() + shape.area();
-        if TURNED {
-            let large = Large { shape, under, words, marks: all_marks, weights };
-            return (large.sums(simd, self.texels, self.first), length);
-        }
-        let mut sums = Sums::zero(simd);
-        for row in 0..shape.height {
-            let marks = if under.contains(&row) { &all_marks[(row - under.start) * words..][..words] } else { &[] };
-            let rows = self.row(row, shape.width);
-            for (block, weights) in in_blocks[row * whole..][..whole].as_chunks().0.iter().enumerate() {
-                let column = BLOCK * block;
-                let weights = spread(simd, weights);
-                let marks = marks.get(column / 32).map(|marks| Marks::new(simd, marks >> (column % 32)).beside(0));
-                for (image, samples) in rows.iter().enumerate() {
-                    let way = way::<N, R>(image);
-                    let first = if way == 0 { column } else { shape.width - BLOCK - column };
-                    let texels = f32x16::from_slice(simd, &samples[SAMPLES * first..][..BLOCK_SAMPLES]);
-                    sums.blocks[image] += texels * weights[way];
-                    if let Some(is_beside) = marks {
-                        sums.bound(image, texels, is_beside[way]);
-                    }
-                }
-            }
-            let rest = shape.width - whole;
-            for (column, weight) in (whole..shape.width).zip(&others[row * rest..][..rest]) {
-                let weight = f32::from_bits(*weight);
-                let is_under = marks.get(column / 32).is_some_and(|marks| marks >> (column % 32) & 1 == 1);
-                for (image, samples) in rows.iter().enumerate() {
-                    let at = if way::<N, R>(image) == 0 { column } else { shape.width - 1 - column };
-                    let texel = f32x4::from_slice(simd, &samples[SAMPLES * at..][..SAMPLES]);
-                    sums.last[image] += texel * weight;
-                    if is_under {
-                        // Blocks of the same texel.
-                        let texels = f32x16::block_splat(texel);
-                        sums.bound(image, texels, mask32x16::splat(simd, false));
-                    }
-                }
-            }
-        }
-        (sums, length)
-    }
-
-    /// The samples of a row, in each mirror.
-    #[inline(always)]
-    fn row(&self, row: usize, width: usize) -> [&'a [f32]; N] {
-        let mut rows: [&'a [f32]; N] = [&[]; N];
-        for (image, samples) in rows.iter_mut().enumerate() {
-            *samples = self.texels.row(image, [self.first[0], self.first[1] + row as u32], width);
-        }
-        rows
+        let (marks, weights) = numbers[1..].split_at(under.len() * words);
+        let large = Large { shape, under, words, marks, weights: &weights[..shape.area()] };
+        let length = 1 + marks.len() + shape.area();
+        let Self { simd, texels, first } = self;
+        if TURNED { (large.turned(simd, texels, first), length) } else { (large.upright(simd, texels, first), length) }
     }
 }
 
@@ -148,20 +100,20 @@ impl<S: Simd, const N: usize, const R: usize, const WIDTH: usize, const HEIGHT: 
 
     /// Sums over the first row and, if it is not that, the first of those whose texels may lie under the pixel.
     #[inline(always)]
-    fn first<const UNDER: usize>(&self, weights: &[u32], marks: Marks<S>) -> Sums<S, N> {
-        let mut sums = Sums::zero(self.simd);
+    fn first<const UNDER: usize>(&self, weights: &[u32], marks: Marks<S>) -> [Sum<S>; N] {
+        let mut sums = [Sum::zero(self.simd); N];
         let (first, is_beside) = (self.weights(weights, 0), marks.beside(0));
-        for image in 0..N {
+        for (image, sum) in sums.iter_mut().enumerate() {
             let way = way::<N, R>(image);
-            sums.blocks[image] = self.block(image, 0) * first[way];
+            sum.blocks = self.block(image, 0) * first[way];
             let texels = self.block(image, UNDER);
-            sums.least[image] = is_beside[way].select(sums.least[image], texels);
-            sums.greatest[image] = is_beside[way].select(sums.greatest[image], texels);
+            sum.least = is_beside[way].select(sum.least, texels);
+            sum.greatest = is_beside[way].select(sum.greatest, texels);
         }
         if UNDER > 0 {
             let weights = self.weights(weights, UNDER);
-            for image in 0..N {
-                sums.blocks[image] += self.block(image, UNDER) * weights[way::<N, R>(image)];
+            for (image, sum) in sums.iter_mut().enumerate() {
+                sum.blocks += self.block(image, UNDER) * weights[way::<N, R>(image)];
             }
         }
         sums
@@ -169,22 +121,22 @@ impl<S: Simd, const N: usize, const R: usize, const WIDTH: usize, const HEIGHT: 
 
     /// Adds a block of a row none of whose texels lies under the pixel.
     #[inline(always)]
-    fn add(&self, sums: &mut Sums<S, N>, weights: &[u32], row: usize) {
+    fn add(&self, sums: &mut [Sum<S>; N], weights: &[u32], row: usize) {
         let weights = self.weights(weights, row);
-        for image in 0..N {
-            sums.blocks[image] += self.block(image, row) * weights[way::<N, R>(image)];
+        for (image, sum) in sums.iter_mut().enumerate() {
+            sum.blocks += self.block(image, row) * weights[way::<N, R>(image)];
         }
     }
 
     /// Adds one some of whose texels may.
     #[inline(always)]
-    fn add_bounding(&self, sums: &mut Sums<S, N>, weights: &[u32], row: usize, is_beside: [mask32x16<S>; 2]) {
+    fn add_bounding(&self, sums: &mut [Sum<S>; N], weights: &[u32], row: usize, is_beside: [mask32x16<S>; 2]) {
         let weights = self.weights(weights, row);
-        for image in 0..N {
+        for (image, sum) in sums.iter_mut().enumerate() {
             let texels = self.block(image, row);
             let way = way::<N, R>(image);
-            sums.blocks[image] += texels * weights[way];
-            sums.bound(image, texels, is_beside[way]);
+            sum.blocks += texels * weights[way];
+            sum.bound(texels, is_beside[way]);
         }
     }
 
@@ -203,7 +155,7 @@ impl<S: Simd, const N: usize, const R: usize, const WIDTH: usize, const HEIGHT: 
 
     /// Adds the column after the blocks.
     #[inline(always)]
-    fn add_last_column(&self, sums: &mut Sums<S, N>, weights: &[u32]) {
+    fn add_last_column(&self, sums: &mut [Sum<S>; N], weights: &[u32]) {
         self.add_last(sums, weights, 0);
         self.add_last(sums, weights, 1);
         self.add_last(sums, weights, 2);
@@ -214,11 +166,11 @@ impl<S: Simd, const N: usize, const R: usize, const WIDTH: usize, const HEIGHT: 
     }
 
     #[inline(always)]
-    fn add_last(&self, sums: &mut Sums<S, N>, weights: &[u32], row: usize) {
+    fn add_last(&self, sums: &mut [Sum<S>; N], weights: &[u32], row: usize) {
         let weight = f32x4::splat(self.simd, f32::from_bits(weights[row]));
-        for image in 0..N {
+        for (image, sum) in sums.iter_mut().enumerate() {
             let texel = self.texels[image].samples::<SAMPLES>(row, Self::LAST_AT[way::<N, R>(image)]);
-            sums.last[image] += f32x4::load_array_ref(self.simd, texel) * weight;
+            sum.last += f32x4::load_array_ref(self.simd, texel) * weight;
         }
     }
 }
@@ -294,46 +246,47 @@ static MARK: Lines<[[[u32; BLOCK_SAMPLES]; ROWS_UNDER]; 2]> = {
     Lines(mark)
 };
 
-/// What adds up over a window, and the bounds of what lies under the pixel, column by column of the blocks.
-pub(super) struct Sums<S: Simd, const N: usize> {
-    pub(super) blocks: [f32x16<S>; N],
+/// What adds up over a window in a mirror, and the bounds of what lies under the pixel, column by column of the blocks.
+#[derive(Clone, Copy)]
+pub(super) struct Sum<S: Simd> {
+    pub(super) blocks: f32x16<S>,
     /// Over what is in no block.
-    pub(super) last: [f32x4<S>; N],
-    least: [f32x16<S>; N],
-    greatest: [f32x16<S>; N],
+    pub(super) last: f32x4<S>,
+    least: f32x16<S>,
+    greatest: f32x16<S>,
 }
 
-impl<S: Simd, const N: usize> Sums<S, N> {
+impl<S: Simd> Sum<S> {
     #[inline(always)]
     pub(super) fn zero(simd: S) -> Self {
         Self {
-            blocks: [f32x16::splat(simd, 0.0); N],
-            last: [f32x4::splat(simd, 0.0); N],
-            least: [f32x16::splat(simd, f32::INFINITY); N],
-            greatest: [f32x16::splat(simd, f32::NEG_INFINITY); N],
+            blocks: f32x16::splat(simd, 0.0),
+            last: f32x4::splat(simd, 0.0),
+            least: f32x16::splat(simd, f32::INFINITY),
+            greatest: f32x16::splat(simd, f32::NEG_INFINITY),
         }
     }
 
     /// Notes texels, but for those beside the pixel.
     #[inline(always)]
-    pub(super) fn bound(&mut self, image: usize, texels: f32x16<S>, is_beside: mask32x16<S>) {
-        self.least[image] = is_beside.select(self.least[image], self.least[image].min(texels));
-        self.greatest[image] = is_beside.select(self.greatest[image], self.greatest[image].max(texels));
+    pub(super) fn bound(&mut self, texels: f32x16<S>, is_beside: mask32x16<S>) {
+        self.least = is_beside.select(self.least, self.least.min(texels));
+        self.greatest = is_beside.select(self.greatest, self.greatest.max(texels));
     }
 
-    /// The sum in a mirror; within what lies under the pixel, if that is asked for.
+    /// The sum; within what lies under the pixel, if that is asked for.
     #[inline(always)]
-    pub(super) fn average(&self, image: usize, is_bounded: bool) -> f32x4<S> {
-        let (a, b) = self.blocks[image].split();
+    pub(super) fn average(&self, is_bounded: bool) -> f32x4<S> {
+        let (a, b) = self.blocks.split();
         let (a, b) = (a + b).split();
-        let sum = a + b + self.last[image];
+        let sum = a + b + self.last;
         if !is_bounded {
             return sum;
         }
-        let (a, b) = self.least[image].split();
+        let (a, b) = self.least.split();
         let (a, b) = a.min(b).split();
         let least = a.min(b);
-        let (a, b) = self.greatest[image].split();
+        let (a, b) = self.greatest.split();
         let (a, b) = a.max(b).split();
         sum.max(least).min(a.max(b))
     }

@@ -13,6 +13,7 @@ mod fixed_weights;
 mod fixed_window;
 mod float;
 mod float_lanes;
+mod float_large;
 mod float_shape;
 mod float_turned;
 mod float_weights;

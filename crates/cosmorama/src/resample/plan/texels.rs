@@ -80,6 +80,22 @@ impl<'a, T: Copy, const N: usize, const R: usize> Texels<'a, T, N, R> {
         unsafe { std::slice::from_raw_parts(first, SAMPLES * texels) }
     }
 
+    /// The rows of a window of so many columns and rows, from this texel on, in each mirror.
+    ///
+    /// # Panics
+    /// If they are not all within the view.
+    #[inline(always)]
+    pub(super) fn rows(&self, corner: [u32; 2], [columns, rows]: [usize; 2]) -> [Rows<'a, T>; N] {
+        self.check(corner, [columns, rows]);
+        std::array::from_fn(|image| Rows {
+            first: self.leftmost(image, corner, columns),
+            down: self.down[image % 2],
+            length: SAMPLES * columns,
+            rows,
+            samples: PhantomData,
+        })
+    }
+
     #[inline(always)]
     fn check(&self, corner: [u32; 2], size: [usize; 2]) {
         // A sum must not begin anew at zero.
@@ -121,6 +137,34 @@ impl<'a, T, const COLUMNS: usize, const HEIGHT: usize> Window<'a, T, COLUMNS, HE
         // found among the samples, and the assertion that these are some of them; they are borrowed as long as the result; arrays
         // need no more alignment than one of their elements.
         unsafe { &*self.first.offset(offset).cast() }
+    }
+}
+
+/// Rows of a view, as they lie in memory, all of them among the samples given.
+pub(super) struct Rows<'a, T> {
+    /// The first sample in memory of the next one.
+    first: *const T,
+    /// Samples from one row to the next.
+    down: isize,
+    /// Samples of a row.
+    length: usize,
+    /// How many there are.
+    rows: usize,
+    samples: PhantomData<&'a [T]>,
+}
+
+impl<'a, T> Iterator for Rows<'a, T> {
+    type Item = &'a [T];
+
+    #[inline(always)]
+    fn next(&mut self) -> Option<&'a [T]> {
+        self.rows = self.rows.checked_sub(1)?;
+        // SAFETY: `Texels::rows` made sure that as many rows of this length are texels of a view, all of which `Texels::new` has
+        // found among the samples; they are borrowed as long as the result.
+        let row = unsafe { std::slice::from_raw_parts(self.first, self.length) };
+        // After the last one this may lie anywhere: it is not read.
+        self.first = self.first.wrapping_offset(self.down);
+        Some(row)
     }
 }
 

@@ -62,8 +62,13 @@ pub(super) fn conversions() -> Vec<(World, View, usize)> {
         // Windows of more texels than the small ones have, in patches.
         (cube(&all, 500), dome(200, up), 8),
         (cube(&all, 300), dome(62, up), 8),
-        // Windows larger than lanes weigh.
+        // Patches that bend, and windows nearly as large as lanes weigh.
         (cube(&all, 300), dome(30, up), 8),
+        (
+            cube(&[CubeFace::Front], 1200),
+            view(ProjectionKind::PERSPECTIVE, (24, 24), (0.075, 0.075), turned(3.0, 2.0, 10.0)),
+            1,
+        ),
         (cube(&[CubeFace::Front, CubeFace::Left, CubeFace::Right, CubeFace::Up], 120), omnimax(), 2),
         // Rows of light that are filled up, and no mirror that shows them.
         (cube(&all, 140), dome(120, turned(20.0, 60.0, 5.0)), 1),
