@@ -1,6 +1,7 @@
 use std::ops::{Add, AddAssign, Mul};
 
 use bytemuck::{Pod, Zeroable};
+use glam::Vec4;
 
 /// A pixel of linear light, premultiplied by alpha: red, green, blue, alpha.
 ///
@@ -55,7 +56,8 @@ impl Rgba {
 impl Add for Rgba {
     type Output = Self;
     fn add(self, other: Self) -> Self {
-        Self(std::array::from_fn(|c| self.0[c] + other.0[c]))
+        // All four at once.
+        Self((Vec4::from_array(self.0) + Vec4::from_array(other.0)).to_array())
     }
 }
 
@@ -68,7 +70,7 @@ impl AddAssign for Rgba {
 impl Mul<f32> for Rgba {
     type Output = Self;
     fn mul(self, factor: f32) -> Self {
-        Self(self.0.map(|c| c * factor))
+        Self((Vec4::from_array(self.0) * factor).to_array())
     }
 }
 

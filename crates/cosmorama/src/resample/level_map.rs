@@ -7,12 +7,14 @@ use super::field_edge::FieldEdge;
 use crate::world::{Footprint, PixelPoint, PixelRect, View, World};
 
 /// Texels of the finer of two levels that the kernel's unit is at least, across its minor axis, and half of what it is at most:
-/// two to four texels a pixel by default. The more, the nearer to exact EWA; at twice this, the window of a kernel that is not
-/// long still fits into the largest that lanes weigh.
-const UNIT: f64 = 1.6;
+/// 1.75 to 3.5 texels a pixel by default. The more, the nearer to exact EWA, and the more texels.
+const UNIT: f64 = 1.4;
 
 /// A kernel longer than so many times its width is widened: the number of its texels stays bounded.
 const LONGEST: f64 = 16.0;
+
+/// The last part of the way from one level to the next, on which the two are mixed; before, the finer one is nearer to exact EWA.
+const BLENDED: f32 = 0.25;
 
 /// Within so many pixels of where the field of view ends, levels are finer: texels that the edge cuts have the light of what it
 /// leaves of them, which is not that of their centres.
@@ -24,12 +26,12 @@ const POINTS: usize = 512;
 
 /// Which levels of a pyramid each pixel of a target is made from.
 ///
-/// A level is a number: of 2.25, a quarter is of the third level and the rest of the second one. It is the logarithm of the
-/// footprint's minor axis among the texels of the view that shows it, interpolated between points a few pixels apart, so that
-/// it is continuous across the edges of views as well.
+/// A level is a number: at 2 and beyond a pixel is made from the second halved world, from [`BLENDED`] before 3 more and more from
+/// the third. It is the logarithm of the footprint's minor axis among the texels of the view that shows it, interpolated between
+/// points a few pixels apart, so that it is continuous across the edges of views as well.
 #[derive(Clone, Debug)]
 pub(super) struct LevelMap {
-    /// Pixels from point to point.
+    /// Pixels from point to point: a power of two.
     step: usize,
     /// Points in a row.
     columns: usize,
@@ -61,7 +63,7 @@ impl LevelMap {
 
     /// The finest level everywhere.
     pub(super) fn finest(target: &View) -> Self {
-        let step = target.width().max(target.height()).max(1);
+        let step = target.width().max(target.height()).max(1).next_power_of_two();
         Self { step, columns: 2, levels: vec![0.0; 4] }
     }
 
@@ -97,10 +99,12 @@ impl LevelMap {
         let step = self.step as f32;
         let (j, t) = (row / self.step, (row % self.step) as f32 / step + 0.5 / step);
         let [above, below] = [j, j + 1].map(|j| &self.levels[j * self.columns..][..self.columns]);
+        let points: Vec<f32> = above.iter().zip(below).map(|(above, below)| above + (below - above) * t).collect();
+        // The columns are a power of two apart.
+        let (shift, within) = (self.step.ilog2(), self.step - 1);
         (column..).map(move |column| {
-            let (i, s) = (column / self.step, (column % self.step) as f32 / step + 0.5 / step);
-            let at = |row: &[f32]| row[i] + (row[i + 1] - row[i]) * s;
-            at(above) + (at(below) - at(above)) * t
+            let (i, s) = (column >> shift, (column & within) as f32 / step + 0.5 / step);
+            points[i] + (points[i + 1] - points[i]) * s
         })
     }
 
@@ -121,7 +125,7 @@ impl LevelMap {
 
 /// Whether a level is coarser than those that a number stands for.
 fn is_beyond(number: f32, level: usize) -> bool {
-    level > 0 && number <= level as f32 - 1.0
+    level > 0 && number <= level as f32 - BLENDED
 }
 
 /// Whether a level is finer than those that a number stands for.
@@ -131,8 +135,9 @@ fn is_before(number: f32, level: usize) -> bool {
 
 /// The part of a pixel of this number that is made from a level.
 pub(super) fn part(number: f32, level: usize) -> f32 {
-    let number = number.max(0.0);
-    (1.0 - (number - level as f32).abs()).max(0.0)
+    let beyond = number.max(0.0) - level as f32;
+    let coarser = |way: f32| ((way - 1.0) / BLENDED + 1.0).clamp(0.0, 1.0);
+    if beyond < 0.0 { coarser(beyond + 1.0) } else { 1.0 - coarser(beyond) }
 }
 
 /// Whether a field of view may end within so many pixels of a footprint.
