@@ -6,8 +6,8 @@ use super::ellipse::semi_axes;
 use super::lattice::Point;
 use super::patch::{Grid, HALF, SIDE};
 
-/// How far the interpolated place of a patch's middle may be from the exact one: in texels, or in pixels where these are larger,
-/// since what weights are measured by is the larger of both. The cubic curves between exact corners err by much less in almost all
+/// How far interpolated places half way between a patch's corners may be from the exact ones: in texels, or by the shorter axis of the
+/// middle pixel where that is longer, since what weights are measured by is the larger of both. The cubic curves between exact corners err by much less in almost all
 /// patches; where a mapping bends more, each pixel is computed for itself.
 const PLACE: f64 = 1.0 / 2048.0;
 

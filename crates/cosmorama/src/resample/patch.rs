@@ -1,12 +1,14 @@
 //! Geometry of many pixels, mostly at the price of a few.
 
-use glam::DVec2;
+use glam::{DMat2, DVec2};
 
 use super::Kernel;
 use super::bend::Bend;
 use super::coons::Coons;
+use super::ellipse::semi_axes;
 use super::gather::Gather;
 use super::lattice::{Lattice, Point};
+use super::window::LARGEST;
 use crate::world::{PixelPoint, Source, View};
 
 /// Pixels along a patch's side, and lanes that are worked on together.
@@ -49,7 +51,7 @@ pub(super) struct Patch<'a> {
 pub(super) enum Geometry {
     Interpolated(Coons),
     /// Of each pixel by itself, where the mapping bends too much between a few: in a picture of few pixels each holds many texels,
-    /// and to weigh them together is worth more than what this takes.
+    /// and to weigh them together is worth more than what this takes. How texels lie around each is still that of the middle.
     Exact(Box<Exact>),
 }
 
@@ -87,7 +89,7 @@ pub(super) type Grid<T> = [[T; 3]; 3];
 
 impl<'a> Patch<'a> {
     /// The patch whose top left pixel is in column `i` of row `j`; `None` where its pixels had better be computed one by
-    /// one: where views meet, near a singularity, where the mapping bends.
+    /// one: where views meet, near a singularity, where derivatives change much.
     pub(super) fn new(gather: &Gather<'a>, lattice: &mut Lattice, [i, j]: [usize; 2]) -> Option<Self> {
         let middle = lattice.footprint([i + HALF, j + HALF])?;
         let (view, _) = gather.world().owner(middle.direction)?;
@@ -111,7 +113,10 @@ impl<'a> Patch<'a> {
         let origin = points[0][0].place.floor();
         let geometry = match Coons::through(&points, origin) {
             Some(coons) => Geometry::Interpolated(coons),
-            None => Geometry::Exact(Exact::of(lattice.target(), source, [i, j], origin)?.into()),
+            None if is_held(&points[1][1], gather.kernel()) => {
+                Geometry::Exact(Exact::of((lattice.target(), [i, j]), source, (origin, points[1][1].jacobian))?.into())
+            }
+            None => return None,
         };
         let origin = [origin.x as i64, origin.y as i64];
         Some(Self { view, source, origin, geometry, density, bend, clearance })
@@ -127,10 +132,26 @@ impl<'a> Patch<'a> {
     }
 }
 
+/// By what part of the largest derivative in its middle those of a patch may differ from it: what is known of the middle alone, how
+/// texels lie around and how far away the end of the view is, holds for all of it.
+const CHANGE: f64 = 0.25;
+
+/// The largest of some derivatives, whatever its sign.
+fn largest(jacobian: DMat2) -> f64 {
+    jacobian.to_cols_array().into_iter().fold(0.0, |largest, value| value.abs().max(largest))
+}
+
+/// Whether windows may hold what a kernel reaches around this point.
+fn is_held(point: &Point, kernel: &Kernel) -> bool {
+    let [_, minor] = semi_axes(point.jacobian);
+    (2.0 * kernel.radius() * kernel.scale * minor).powi(2) < LARGEST as f64
+}
+
 impl Exact {
-    /// That of the patch whose top left pixel this is, as a view sees it; `None` where it does not see all of them, or beside a steep
-    /// rim.
-    fn of(target: &View, source: &Source, [i, j]: [usize; 2], origin: DVec2) -> Option<Self> {
+    /// That of the patch of a target whose top left pixel this is, as a view sees it, given the derivatives in its middle; `None` where
+    /// it does not see all of them, beside a steep rim, or where derivatives change much.
+    fn of((target, [i, j]): (&View, [usize; 2]), source: &Source, (origin, middle): (DVec2, DMat2)) -> Option<Self> {
+        let bound = CHANGE * largest(middle);
         let mut exact = Self { place: [[[0.0; SIDE]; SIDE]; 2], jacobian: [[[0.0; SIDE]; SIDE]; 4] };
         for row in 0..SIDE {
             for lane in 0..SIDE {
@@ -139,6 +160,10 @@ impl Exact {
                     return None;
                 }
                 let (at, jacobian) = source.view.texel_footprint(&footprint)?;
+                if !(jacobian.is_finite() && at.x.is_finite() && at.y.is_finite() && largest(jacobian - middle) < bound)
+                {
+                    return None;
+                }
                 for (into, value) in exact.place.iter_mut().zip([at.x - origin.x, at.y - origin.y]) {
                     into[row][lane] = value as f32;
                 }

@@ -6,8 +6,9 @@ pub(super) use fearless_simd::Level;
 use super::patch::{Patch, SIDE};
 use super::{Tap, Taps};
 
-/// Texels of the largest window. Beyond, weights in integers have too few bits, and a pixel by itself takes no longer.
-const LARGEST: usize = 4096;
+/// Texels of the largest window: of more, weights in integers have too few bits. Of 1764 texels of noise, 97 % of codes are those of
+/// floats; of half as many more are.
+pub(super) const LARGEST: usize = 1024;
 
 /// Texels that there is room for at first. What larger ones take is far apart in memory, and made when they come.
 pub(super) const ROOM: usize = 256;

@@ -15,7 +15,7 @@ pub(super) struct Recorder<'a, W, F> {
     pub(super) taps: Taps,
     /// Where those of a single pixel lie.
     pub(super) places: Vec<TexelPlace>,
-    /// What is done with a band that holds more than [`MANY`] texels.
+    /// What is done with a band that holds more than [`MANY`] texels, or more of windows than [`NUMBERS`].
     pub(super) spill: F,
 }
 
@@ -23,18 +23,24 @@ pub(super) struct Recorder<'a, W, F> {
 /// world may have millions for each pixel.
 const MANY: usize = 1 << 17;
 
+/// Numbers of windows' weights, of four bytes, that it may hold before: a pixel has up to a thousand.
+const NUMBERS: usize = 1 << 20;
+
 impl<W: Weights, F: FnMut(&mut Band<W>)> Sink for Recorder<'_, W, F> {
     fn pixel(&mut self, pixel: [usize; 2], coverage: f32, taps: &Taps) {
         self.single(pixel, coverage, taps);
     }
 
     fn windows(&mut self, pixel: [usize; 2], lanes: u8, windows: &Windows) {
-        let first = self.band.weights.len();
         let lanes = lanes & windows.held();
         // Nothing was weighed.
         if lanes == 0 {
             return;
         }
+        if self.band.weights.len() > NUMBERS && self.band.open_group(pixel, windows.view()).is_empty() {
+            (self.spill)(self.band);
+        }
+        let first = self.band.weights.len();
         let mut corners: Corners = std::array::from_fn(|lane| windows.corner(lane).filter(|_| lanes >> lane & 1 == 1));
         let group = self.band.open_group(pixel, windows.view());
         let (index, weights) = (group.len(), group.first().map_or(first, |run| run.weights as usize));

@@ -55,7 +55,7 @@ impl Rounded {
     /// lane's sum is exactly one, but where the last weight would be one itself, which 16 bits do not hold.
     #[inline(always)]
     pub(super) fn fill<S: Simd>(&mut self, simd: S, windows: &Windows) -> bool {
-        let Some(bits) = scale(windows.size()) else { return false };
+        let Some(bits) = scale(windows.size(), windows.width() * windows.height()) else { return false };
         self.bits = bits;
         self.resize(windows);
         let (pitch, most) = (self.pitch(), i32x8::splat(simd, i32::from(i16::MAX)));
@@ -232,11 +232,13 @@ fn turned<S: Simd>(mut rows: [i16x8<S>; SIDE]) -> [i16x8<S>; SIDE] {
     rows
 }
 
-/// By how many bits weights of this size are scaled, so that sums of products fit into 32.
-fn scale(Size { largest, sum }: Size) -> Option<u32> {
-    if largest < 1.0 && sum < 1.9 {
+/// By how many bits so many weights of this size are scaled, so that sums of products fit into 32: rounding may add one to each.
+fn scale(Size { largest, sum }: Size, texels: usize) -> Option<u32> {
+    let room = 65_280f32.min((u16::MAX as usize).saturating_sub(texels) as f32);
+    let fits = |bits: u32, most: f32| sum < most && sum * ((1 << bits) as f32) < room;
+    if largest < 1.0 && fits(15, 1.9) {
         Some(15)
-    } else if largest < 1.99 && sum < 3.9 {
+    } else if largest < 1.99 && fits(14, 3.9) {
         Some(14)
     } else {
         None

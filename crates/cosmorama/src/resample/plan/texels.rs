@@ -218,6 +218,11 @@ mod tests {
             }
         }
         assert_eq!(texels.row(3, [0, 6], 2), &samples[32..40]);
+        let rows = texels.rows([3, 1], [4, 3]);
+        for (image, rows) in rows.into_iter().enumerate() {
+            let expected: Vec<_> = (1..4).map(|row| texels.row(image, [3, row], 4)).collect();
+            assert_eq!(rows.collect::<Vec<_>>(), expected);
+        }
     }
 
     #[test]
@@ -251,6 +256,9 @@ mod tests {
         assert!(!is_window([7, 3]) && !is_window([6, 4]) && !is_window([u32::MAX, 0]) && !is_window([0, u32::MAX]));
         for (column, count) in [(9, 2), (1, usize::MAX), (0, usize::MAX / 4 + 2)] {
             assert!(std::panic::catch_unwind(|| texels.row(2, [column, 0], count)).is_err());
+        }
+        for (corner, size) in [([7, 3], [4, 4]), ([6, 4], [4, 4]), ([0, 0], [1, usize::MAX]), ([0, 7], [1, 1])] {
+            assert!(std::panic::catch_unwind(|| texels.rows(corner, size).map(|mut rows| rows.next())).is_err());
         }
         let [window, ..] = texels.windows::<4, 4>([0, 0]);
         for (row, column) in [(4, 0), (0, 3), (usize::MAX, 0)] {

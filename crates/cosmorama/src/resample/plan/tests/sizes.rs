@@ -55,6 +55,49 @@ fn windows_of_integers_are_of_all_sizes() {
     assert!(counts.as_flattened().iter().all(|count| *count > 0), "{counts:?}");
 }
 
+/// That of the last one a product may be missing: a weight of one is more than 16 bits hold.
+#[test]
+fn weights_in_integers_add_to_one() {
+    for (world, target, _) in conversions() {
+        let FixedPlan(plan) = resampler(&world, &target).fixed_plan().expect("a plan");
+        for (weights, group) in plan.bands.iter().flat_map(|band| band.groups().map(|group| (&band.weights, group))) {
+            let mut numbers = &weights.numbers[group[0].weights as usize..];
+            for _ in group.iter().flat_map(Run::lanes) {
+                let header = fixed_weights::Header(numbers[0]);
+                let run = &group[Place::of(numbers[0]).run];
+                let Told { length, .. } = header.told(run);
+                let shape = fixed_weights::Shape::SMALL.get(header.shape() as usize).copied();
+                let shape = shape.unwrap_or_else(|| fixed_weights::Shape::of_run(run));
+                let pairs = &numbers[length - shape.pairs * shape.height..length];
+                let sum: i32 = pairs.iter().map(|pair| i32::from(*pair as i16) + i32::from((*pair >> 16) as i16)).sum();
+                let missing = (1 << header.bits()) - sum;
+                assert!(missing == 0 || missing == 1 && pairs.contains(&0x7fff), "{missing} is missing of {pairs:?}");
+                numbers = &numbers[length..];
+            }
+        }
+    }
+}
+
+/// Texels of the largest window.
+fn largest<W>(compiled: &Compiled<W>) -> usize {
+    let runs = compiled.bands.iter().flat_map(|band| &band.runs);
+    runs.map(|run| usize::from(run.width) * usize::from(run.height)).max().unwrap_or(0)
+}
+
+#[test]
+fn some_windows_are_nearly_as_large_as_any() {
+    let (mut mirrored, mut single) = (0, 0);
+    for (world, target, images) in conversions() {
+        let (Plan(floats), FixedPlan(fixed)) = {
+            let resampler = resampler(&world, &target);
+            (resampler.plan().expect("a plan"), resampler.fixed_plan().expect("a plan"))
+        };
+        let most = if images == 1 { &mut single } else { &mut mirrored };
+        *most = largest(&floats).min(largest(&fixed)).max(*most);
+    }
+    assert!(single > 800 && mirrored > 800, "{single} {mirrored}");
+}
+
 #[test]
 fn mirrors_are_gone_through_together_and_one_by_one() {
     let (mut eight, mut turned, mut four, mut two, mut one_by_one) = (0, 0, 0, 0, [0, 0]);

@@ -66,8 +66,13 @@ pub(super) fn conversions() -> Vec<(World, View, usize)> {
         (cube(&all, 300), dome(30, up), 8),
         (
             cube(&[CubeFace::Front], 1200),
-            view(ProjectionKind::PERSPECTIVE, (24, 24), (0.075, 0.075), turned(3.0, 2.0, 10.0)),
+            view(ProjectionKind::PERSPECTIVE, (24, 24), (0.18, 0.18), turned(3.0, 2.0, 10.0)),
             1,
+        ),
+        (
+            cube(&[CubeFace::Front], 1200),
+            view(ProjectionKind::PERSPECTIVE, (48, 48), (0.36, 0.36), Orientation::IDENTITY),
+            8,
         ),
         (cube(&[CubeFace::Front, CubeFace::Left, CubeFace::Right, CubeFace::Up], 120), omnimax(), 2),
         // Rows of light that are filled up, and no mirror that shows them.
