@@ -94,18 +94,35 @@ impl LevelMap {
         (0..).find(|level| is_beyond(most, *level)).map_or(0, |level| level - 1)
     }
 
-    /// The numbers of the pixels of a row from a column on.
-    pub(super) fn row(&self, row: usize, column: usize) -> impl Iterator<Item = f32> {
-        let step = self.step as f32;
-        let (j, t) = (row / self.step, (row % self.step) as f32 / step + 0.5 / step);
-        let [above, below] = [j, j + 1].map(|j| &self.levels[j * self.columns..][..self.columns]);
-        let points: Vec<f32> = above.iter().zip(below).map(|(above, below)| above + (below - above) * t).collect();
-        // The columns are a power of two apart.
-        let (shift, within) = (self.step.ilog2(), self.step - 1);
-        (column..).map(move |column| {
-            let (i, s) = (column >> shift, (column & within) as f32 / step + 0.5 / step);
-            points[i] + (points[i + 1] - points[i]) * s
+    /// The numbers of the pixels of a row.
+    pub(super) fn row(&self, row: usize) -> impl Iterator<Item = f32> {
+        let [above, below] = self.rows_around(row);
+        let (_, t) = self.place(row);
+        let points: Vec<f32> = above.iter().zip(below).map(|(above, below)| between([*above, *below], t)).collect();
+        (0..).map(move |column| {
+            let (i, s) = self.place(column);
+            between([points[i], points[i + 1]], s)
         })
+    }
+
+    /// That of one pixel.
+    pub(super) fn at(&self, row: usize, column: usize) -> f32 {
+        let [above, below] = self.rows_around(row);
+        let ((_, t), (i, s)) = (self.place(row), self.place(column));
+        between([between([above[i], below[i]], t), between([above[i + 1], below[i + 1]], t)], s)
+    }
+
+    /// The rows of points above and below a row of pixels.
+    fn rows_around(&self, row: usize) -> [&[f32]; 2] {
+        let (j, _) = self.place(row);
+        [j, j + 1].map(|j| &self.levels[j * self.columns..][..self.columns])
+    }
+
+    /// The point before a pixel's centre, and the part of the way to the next.
+    fn place(&self, pixel: usize) -> (usize, f32) {
+        // A shift: to divide would take longer than all else.
+        let within = pixel & (self.step - 1);
+        (pixel >> self.step.ilog2(), (within as f32 + 0.5) / self.step as f32)
     }
 
     /// The least and the greatest level of the pixels in a rectangle, or somewhat less and more.
@@ -121,6 +138,10 @@ impl LevelMap {
         let [least, most] = self.range(rect);
         !is_beyond(most, level) && !is_before(least, level)
     }
+}
+
+fn between([from, to]: [f32; 2], part: f32) -> f32 {
+    from + (to - from) * part
 }
 
 /// Whether a level is coarser than those that a number stands for.

@@ -38,6 +38,7 @@ mod surround;
 mod taps;
 mod texel_run;
 mod uncovered;
+mod wanted;
 mod weigher;
 mod window;
 

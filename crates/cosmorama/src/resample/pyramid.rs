@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use super::field_edge::FieldEdge;
 use super::halving::Halving;
 use super::level_map::{LevelMap, part};
-use super::scan::Wanted;
+use super::wanted::Wanted;
 use super::window::Level as Instructions;
 use super::{Filter, FilterKind, KernelTable, PixelTaps, Plan, Resampler, SavedPlan, plan};
 use crate::raster::{Image, Rgba};
@@ -79,7 +79,7 @@ impl<'a> TexelCount<'a> {
 
     /// That of one pixel.
     pub(crate) fn of(&mut self, (column, row): (usize, usize), screen: &ScreenPixel) -> usize {
-        let number = self.map.row(row, column).next().unwrap_or(0.0);
+        let number = self.map.at(row, column);
         let mut count = 0;
         for (level, taps) in self.levels.iter_mut().enumerate() {
             if part(number, level) > 0.0 {
@@ -141,7 +141,7 @@ fn mix(
         let Some(picture) = picture(level, if level == 0 { texels } else { &light }) else { continue };
         let rows = image.pixels_mut().par_chunks_mut(width.max(1)).enumerate();
         rows.for_each(|(j, row)| {
-            for ((pixel, made), number) in row.iter_mut().zip(picture.row(j)).zip(map.row(j, 0)) {
+            for ((pixel, made), number) in row.iter_mut().zip(picture.row(j)).zip(map.row(j)) {
                 *pixel += *made * part(number, level);
             }
         });

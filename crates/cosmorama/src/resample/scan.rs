@@ -1,11 +1,10 @@
 use std::ops::Range;
 
-use rayon::prelude::*;
-
 use super::kernel::KernelTable;
 use super::lattice::Lattice;
 use super::patch::{HALF, Patch, SIDE};
 use super::pixel_taps::PixelTaps;
+use super::wanted::Wanted;
 use super::weigher::Weigher;
 use super::window::{Level, Windows};
 use super::{FilterKind, Resampler, Taps};
@@ -33,31 +32,6 @@ pub(super) struct Area {
     pub(super) rows: Range<usize>,
     /// Whether patches to the left of the diagonal through the first column and row of the target are left out.
     pub(super) skips_left_of_diagonal: bool,
-}
-
-/// Which patches of the pixels that a conversion computes are wanted.
-#[derive(Clone, Debug)]
-pub(super) struct Wanted {
-    columns: usize,
-    patches: Vec<bool>,
-}
-
-impl Wanted {
-    /// Of so many columns and rows, those patches of which `is_wanted` says so, given their first pixel.
-    pub(super) fn new([columns, rows]: [usize; 2], is_wanted: impl Fn([usize; 2]) -> bool + Sync) -> Self {
-        let (columns, rows) = (columns.div_ceil(SIDE), rows.div_ceil(SIDE));
-        let patch = |at: usize| is_wanted([at % columns * SIDE, at / columns * SIDE]);
-        Self { columns, patches: (0..columns * rows).into_par_iter().map(patch).collect() }
-    }
-
-    /// Whether any is.
-    pub(super) fn any(&self) -> bool {
-        self.patches.contains(&true)
-    }
-
-    fn holds(&self, [left, top]: [usize; 2]) -> bool {
-        self.patches[top / SIDE * self.columns + left / SIDE]
-    }
 }
 
 /// What takes the pixels of a [`Scan`], each with its column in the target and its row among those of the scan.

@@ -61,7 +61,8 @@ use weights::Weights;
 
 use super::kernel::KernelTable;
 use super::patch::SIDE;
-use super::scan::{Area, Scan, Wanted};
+use super::scan::{Area, Scan};
+use super::wanted::Wanted;
 use super::window::Level;
 use super::{Resampler, Taps};
 use crate::raster::{FixedCodec, FixedLight, Image, Rgba};
