@@ -6,9 +6,9 @@ use super::ellipse::semi_axes;
 use super::lattice::Point;
 use super::patch::{Grid, HALF, SIDE};
 
-/// How far interpolated places half way between a patch's corners may be from the exact ones: in texels, or by the shorter axis of the
-/// middle pixel where that is longer, since what weights are measured by is the larger of both. The cubic curves between exact corners err by much less in almost all
-/// patches; where a mapping bends more, each pixel is computed for itself.
+/// How far interpolated places half way between a patch's corners may be from the exact ones: in texels, or by the shorter
+/// axis of the middle pixel where that is longer, since what weights are measured by is the larger of both. The cubic curves
+/// between exact corners err by much less in almost all patches; where a mapping bends more, each pixel is measured.
 const PLACE: f64 = 1.0 / 2048.0;
 
 /// How far it may be in texels, however large pixels are.
@@ -134,16 +134,21 @@ impl Coons {
 
 /// Whether the derivatives half way between corners are about the mean of those there.
 fn is_almost_bilinear([top, middle, bottom]: &Grid<Point>) -> bool {
-    let bends = |a: &Point, b: &Point, c: &Point| ((a.jacobian + c.jacobian) * 0.5 - b.jacobian).to_cols_array();
-    let largest = |of: [f64; 4]| of.into_iter().fold(0f64, |largest, value| largest.max(value.abs()));
-    let bound = SLOPE * largest(middle[1].jacobian.to_cols_array());
+    let bends = |a: &Point, b: &Point, c: &Point| (a.jacobian + c.jacobian) * 0.5 - b.jacobian;
+    let bound = SLOPE * largest(middle[1].jacobian);
     [top, middle, bottom].iter().all(|[a, b, c]| largest(bends(a, b, c)) < bound)
         && (0..3).all(|k| largest(bends(&top[k], &middle[k], &bottom[k])) < bound)
+}
+
+/// The largest of some derivatives, whatever its sign.
+pub(super) fn largest(jacobian: DMat2) -> f64 {
+    jacobian.to_cols_array().into_iter().fold(0.0, |largest, value| largest.max(value.abs()))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
     /// A point of a mapping, given its place at (s, t) and the derivatives of that, all over a patch that is 1 wide and high.
     fn point(place: impl Fn(f64, f64) -> DVec2, (s, t): (f64, f64)) -> Point {
         let step = 1e-5;

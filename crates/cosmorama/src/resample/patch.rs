@@ -4,7 +4,7 @@ use glam::{DMat2, DVec2};
 
 use super::Kernel;
 use super::bend::Bend;
-use super::coons::Coons;
+use super::coons::{Coons, largest};
 use super::ellipse::semi_axes;
 use super::gather::Gather;
 use super::lattice::{Lattice, Point};
@@ -135,11 +135,6 @@ impl<'a> Patch<'a> {
 /// By what part of the largest derivative in its middle those of a patch may differ from it: what is known of the middle alone, how
 /// texels lie around and how far away the end of the view is, holds for all of it.
 const CHANGE: f64 = 0.25;
-
-/// The largest of some derivatives, whatever its sign.
-fn largest(jacobian: DMat2) -> f64 {
-    jacobian.to_cols_array().into_iter().fold(0.0, |largest, value| value.abs().max(largest))
-}
 
 /// Whether windows may hold what a kernel reaches around this point.
 fn is_held(point: &Point, kernel: &Kernel) -> bool {

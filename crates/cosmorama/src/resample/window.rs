@@ -6,8 +6,8 @@ pub(super) use fearless_simd::Level;
 use super::patch::{Patch, SIDE};
 use super::{Tap, Taps};
 
-/// Texels of the largest window: of more, weights in integers have too few bits. Of 1764 texels of noise, 97 % of codes are those of
-/// floats; of half as many more are.
+/// Texels of the largest window: of more, weights in integers have too few bits. Of pixels of 1764 texels of noise fewer than 97 % had
+/// the codes that floats make.
 pub(super) const LARGEST: usize = 1024;
 
 /// Texels that there is room for at first. What larger ones take is far apart in memory, and made when they come.

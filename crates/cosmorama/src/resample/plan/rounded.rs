@@ -6,7 +6,7 @@ use fearless_simd::{Simd, f32x8, i16x8, i32x8, prelude::*};
 
 use super::fixed_weights::{HIGHEST, ROWS_UNDER, Shape, mark};
 use crate::resample::patch::SIDE;
-use crate::resample::window::{Size, Windows};
+use crate::resample::window::{LARGEST, Size, Windows};
 
 /// The windows of a run before they are sorted by pixel. Bits of bytes are lanes, until they are turned.
 #[derive(Clone, Debug, Default)]
@@ -55,7 +55,7 @@ impl Rounded {
     /// lane's sum is exactly one, but where the last weight would be one itself, which 16 bits do not hold.
     #[inline(always)]
     pub(super) fn fill<S: Simd>(&mut self, simd: S, windows: &Windows) -> bool {
-        let Some(bits) = scale(windows.size(), windows.width() * windows.height()) else { return false };
+        let Some(bits) = scale(windows.size()) else { return false };
         self.bits = bits;
         self.resize(windows);
         let (pitch, most) = (self.pitch(), i32x8::splat(simd, i32::from(i16::MAX)));
@@ -232,13 +232,13 @@ fn turned<S: Simd>(mut rows: [i16x8<S>; SIDE]) -> [i16x8<S>; SIDE] {
     rows
 }
 
-/// By how many bits so many weights of this size are scaled, so that sums of products fit into 32: rounding may add one to each.
-fn scale(Size { largest, sum }: Size, texels: usize) -> Option<u32> {
-    let room = 65_280f32.min((u16::MAX as usize).saturating_sub(texels) as f32);
-    let fits = |bits: u32, most: f32| sum < most && sum * ((1 << bits) as f32) < room;
-    if largest < 1.0 && fits(15, 1.9) {
+/// By how many bits weights of this size are scaled, so that sums of products fit into 32.
+fn scale(Size { largest, sum }: Size) -> Option<u32> {
+    // To what they come to rounding may add one for each texel.
+    const { assert!(3.9 * (1 << 14) as f64 + (LARGEST as f64) < (1 << 16) as f64) };
+    if largest < 1.0 && sum < 1.9 {
         Some(15)
-    } else if largest < 1.99 && fits(14, 3.9) {
+    } else if largest < 1.99 && sum < 3.9 {
         Some(14)
     } else {
         None

@@ -29,6 +29,25 @@ fn runs_end_where_their_windows_do() {
     assert!(floats > 100 && integers > 100, "{floats} and {integers} runs lack windows at an end");
 }
 
+/// Of pixels of many texels each, a band would take more memory the wider the picture is.
+#[test]
+fn bands_of_large_windows_are_made_before_they_are_all_there() {
+    let (mut spilled, mut most) = (0, 0);
+    for (world, target, _) in conversions() {
+        let (resampler, level) = (resampler(&world, &target), Level::new());
+        let (mirrors, table) = (Mirrors::of::<FloatWeights>(&resampler), KernelTable::new(&resampler.filter.kernel));
+        let mut band = Band::<FloatWeights>::default();
+        record((&resampler, None), &mirrors, &table, 0..BAND.min(mirrors.rows), level, &mut band, |band| {
+            spilled += usize::from(band.weights.len() > 1 << 20);
+            most = most.max(band.weights.len());
+            band.clear();
+        });
+        most = most.max(band.weights.len());
+    }
+    // A patch more, whose windows have a thousand texels each and some marks.
+    assert!(spilled > 0 && most < (1 << 20) + (1 << 17), "{spilled} times, {most} numbers");
+}
+
 /// Each pixel of a picture, in whatever mirror, is one of those that a patch is said to be shown as there.
 #[test]
 fn patches_are_shown_where_their_pixels_are() {

@@ -62,11 +62,12 @@ pub(super) fn conversions() -> Vec<(World, View, usize)> {
         // Windows of more texels than the small ones have, in patches.
         (cube(&all, 500), dome(200, up), 8),
         (cube(&all, 300), dome(62, up), 8),
-        // Patches that bend, and windows nearly as large as lanes weigh.
+        // Windows larger than lanes weigh.
         (cube(&all, 300), dome(30, up), 8),
+        // Nearly as large, so many that a band is made before it is all there; and in mirrors.
         (
             cube(&[CubeFace::Front], 1200),
-            view(ProjectionKind::PERSPECTIVE, (24, 24), (0.18, 0.18), turned(3.0, 2.0, 10.0)),
+            view(ProjectionKind::PERSPECTIVE, (48, 48), (0.36, 0.36), turned(3.0, 2.0, 10.0)),
             1,
         ),
         (
