@@ -253,6 +253,24 @@ impl<W: Weights> Band<W> {
         let (texels, images) = (room.mirrors.texel_count(), room.mirrors.images.len());
         self.groups().all(|group| is_group_sound(group, room, &self.weights))
             && self.singles.are_sound((room.columns(), room.rows), texels, images)
+            && self.makes_each_once(room)
+    }
+
+    /// Whether no pixel is made twice, given that all are there.
+    fn makes_each_once(&self, room: &Room) -> bool {
+        let bytes = room.mirrors.columns.div_ceil(SIDE);
+        let mut made = vec![0u8; room.rows * bytes];
+        let runs = self.runs.iter().map(|run| (run.pixel(0), run.lanes));
+        let singles = self.singles.pixels().iter().map(|single| {
+            let column = single.column as usize;
+            ([column, usize::from(single.row)], 1 << (column % SIDE))
+        });
+        runs.chain(singles).all(|([column, row], lanes)| {
+            let made = &mut made[row * bytes + column / SIDE];
+            let is_new = *made & lanes == 0;
+            *made |= lanes;
+            is_new
+        })
     }
 }
 

@@ -206,7 +206,7 @@ impl<'a, P: NoUninit> Canvas<'a, P> {
         develop: &D,
     ) {
         for lane in run.lanes() {
-            self.part.beside(image, run.pixel(lane), 1)[0] = develop.one(light[lane][at]);
+            self.part.write(image, run.pixel(lane), &[develop.one(light[lane][at])]);
         }
     }
 

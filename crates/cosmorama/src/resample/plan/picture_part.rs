@@ -16,8 +16,9 @@ pub(super) struct PicturePart<'a, P> {
     columns: Range<usize>,
     rows: usize,
     images: [Shown; MOST_IMAGES],
-    /// Whether pixels are written past the caches.
+    /// Whether pixels are written past the caches, and whether some were since the last fence.
     is_streamed: bool,
+    is_unfenced: bool,
     picture: PhantomData<&'a mut [P]>,
 }
 
@@ -67,7 +68,7 @@ impl<'a, P: Copy> PicturePart<'a, P> {
                 *shown = Shown::new(image, first, [width, height]);
             }
             let (columns, rows) = (mirrors.first_column(first)..mirrors.columns, rows.min(mirrors.rows - first));
-            Self { pixels, columns, rows, images, is_streamed, picture: PhantomData }
+            Self { pixels, columns, rows, images, is_streamed, is_unfenced: false, picture: PhantomData }
         };
         (0..mirrors.rows.div_ceil(rows)).map(part).collect()
     }
@@ -88,7 +89,14 @@ impl<'a, P: Copy> PicturePart<'a, P> {
     /// # Panics
     /// If they are not all in the band, or there are not so many mirrors.
     #[inline(always)]
-    pub(super) fn beside(&mut self, image: usize, [column, row]: [usize; 2], count: usize) -> &mut [P] {
+    pub(super) fn beside(&mut self, image: usize, pixel: [usize; 2], count: usize) -> &mut [P] {
+        self.fence();
+        self.place(image, pixel, count)
+    }
+
+    /// The same, to be streamed to: nobody reads it, or writes to it in another way, before the next fence.
+    #[inline(always)]
+    fn place(&mut self, image: usize, [column, row]: [usize; 2], count: usize) -> &mut [P] {
         let Shown { is_turned, first, steps: [across, down] } = self.images[image];
         let ([columns, rows], along) = if is_turned { ([1, count], down) } else { ([count, 1], across) };
         // No sum that may begin anew at zero.
@@ -117,19 +125,27 @@ impl<P: NoUninit> PicturePart<'_, P> {
     #[inline(always)]
     pub(super) fn write(&mut self, image: usize, pixel: [usize; 2], pixels: &[P]) {
         let is_streamed = self.is_streamed;
-        let into = self.beside(image, pixel, pixels.len());
+        self.is_unfenced = is_streamed;
+        let into = self.place(image, pixel, pixels.len());
         if is_streamed { stream(into, pixels) } else { into.copy_from_slice(pixels) }
     }
 }
 
-impl<P> Drop for PicturePart<'_, P> {
-    /// What was written past the caches is seen by all who learn that the band is made.
-    fn drop(&mut self) {
+impl<P> PicturePart<'_, P> {
+    /// Lets what was written past the caches be seen by whoever looks at it from now on.
+    #[inline(always)]
+    fn fence(&mut self) {
         #[cfg(target_arch = "x86_64")]
-        if self.is_streamed {
+        if std::mem::take(&mut self.is_unfenced) {
             // SAFETY: all processors of this kind have the instruction.
             unsafe { std::arch::x86_64::_mm_sfence() }
         }
+    }
+}
+
+impl<P> Drop for PicturePart<'_, P> {
+    fn drop(&mut self) {
+        self.fence();
     }
 }
 
