@@ -191,3 +191,142 @@ impl Large<'_> {
         self.marks[(row - self.under.start) * self.words + column / 32] >> (column % 32) & 1
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use fearless_simd::{Level, dispatch};
+
+    use super::super::float_shape::mark_words;
+    use super::super::mirrors::Walk;
+    use super::*;
+
+    /// Columns and rows of a square view, so that columns may be its rows.
+    const SIDE: usize = 40;
+
+    /// As they lie, upside down, and both from right to left.
+    const WALKS: [Walk; 4] = [
+        Walk { first: 0, is_turned: false, is_reversed: false, down: SIDE as i32 },
+        Walk { first: (SIDE * (SIDE - 1)) as u32, is_turned: false, is_reversed: false, down: -(SIDE as i32) },
+        Walk { first: SIDE as u32 - 1, is_turned: false, is_reversed: true, down: SIDE as i32 },
+        Walk { first: (SIDE * SIDE) as u32 - 1, is_turned: false, is_reversed: true, down: -(SIDE as i32) },
+    ];
+
+    /// Some number between 0 and 1.
+    fn noise(at: usize) -> f32 {
+        (at.wrapping_mul(2_654_435_761) >> 7 & 1023) as f32 / 1023.0
+    }
+
+    /// A window of noise, and its first texel.
+    struct Case {
+        shape: Shape,
+        first: [u32; 2],
+        under: Range<usize>,
+        /// Added to each weight, so that sums are beyond one bound or the other.
+        bias: f32,
+    }
+
+    impl Case {
+        fn weight(&self, row: usize, column: usize) -> f32 {
+            noise(31 * row + column) - 0.5 + self.bias
+        }
+
+        fn is_under(&self, row: usize, column: usize) -> bool {
+            // One at least, and the last one of a row.
+            let is_last = column + 1 == self.shape.width;
+            self.under.contains(&row) && (noise(77 * row + 3 * column) < 0.3 || is_last)
+        }
+
+        /// The light of a texel of the window in a mirror.
+        fn texel(&self, samples: &[f32], walk: &Walk, is_turned: bool, [row, column]: [usize; 2]) -> [f32; SAMPLES] {
+            let (across, down) = if is_turned { (row, column) } else { (column, row) };
+            let [first_across, first_down] = if is_turned { [self.first[1], self.first[0]] } else { self.first };
+            let across = (first_across as usize + across) as i32 * if walk.is_reversed { -1 } else { 1 };
+            let at = walk.first as i32 + across + walk.down * (first_down as usize + down) as i32;
+            samples.as_chunks().0[at as usize]
+        }
+
+        /// What a plain loop makes of it in a mirror: the sum, as it is and within its bounds.
+        fn expected(&self, samples: &[f32], walk: &Walk, is_turned: bool) -> [[f32; SAMPLES]; 2] {
+            let mut sum = [0f64; SAMPLES];
+            let (mut least, mut greatest) = ([f32::INFINITY; SAMPLES], [f32::NEG_INFINITY; SAMPLES]);
+            for row in 0..self.shape.height {
+                for column in 0..self.shape.width {
+                    let texel = self.texel(samples, walk, is_turned, [row, column]);
+                    for sample in 0..SAMPLES {
+                        sum[sample] += f64::from(texel[sample]) * f64::from(self.weight(row, column));
+                        if self.is_under(row, column) {
+                            least[sample] = least[sample].min(texel[sample]);
+                            greatest[sample] = greatest[sample].max(texel[sample]);
+                        }
+                    }
+                }
+            }
+            let sum = sum.map(|sum| sum as f32);
+            [sum, std::array::from_fn(|sample| sum[sample].max(least[sample]).min(greatest[sample]))]
+        }
+
+        /// That, by all four mirrors at once.
+        fn assert(&self, is_turned: bool) {
+            let samples: Vec<f32> = (0..SAMPLES * SIDE * SIDE).map(noise).collect();
+            let texels = Texels::<f32, 4, 2>::new(&samples, WALKS, [SIDE, SIDE]);
+            let Shape { width, height } = self.shape;
+            let words = mark_words(width);
+            let mut marks = vec![0; words * self.under.len()];
+            let mut weights = vec![0; self.shape.area()];
+            for row in 0..height {
+                for column in 0..width {
+                    weights[self.shape.index(row, column)] = self.weight(row, column).to_bits();
+                    if self.is_under(row, column) {
+                        marks[(row - self.under.start) * words + column / 32] |= 1 << (column % 32);
+                    }
+                }
+            }
+            let under = self.under.clone();
+            let large = Large { shape: self.shape, under, words, marks: &marks, weights: &weights };
+            let found = averages(&large, &texels, self.first, is_turned);
+            for (found, walk) in found.iter().zip(&WALKS) {
+                let expected = self.expected(&samples, walk, is_turned);
+                for (found, expected) in found.as_flattened().iter().zip(expected.as_flattened()) {
+                    let is_near = (found - expected).abs() < 1e-4 * (1.0 + expected.abs());
+                    assert!(is_near, "{found} is not {expected}: {:?} {:?} {is_turned}", self.shape, self.under);
+                }
+            }
+        }
+    }
+
+    /// The sums in each mirror, as they are and within their bounds.
+    fn averages(
+        large: &Large,
+        texels: &Texels<f32, 4, 2>,
+        first: [u32; 2],
+        is_turned: bool,
+    ) -> [[[f32; SAMPLES]; 2]; 4] {
+        let level = Level::new();
+        dispatch!(level, simd => {
+            let sums = if is_turned { large.turned(simd, texels, first) } else { large.upright(simd, texels, first) };
+            sums.map(|sum| [sum.average(false), sum.average(true)].map(|light| {
+                let mut samples = [0.0; SAMPLES];
+                light.store_slice(&mut samples);
+                samples
+            }))
+        })
+    }
+
+    /// Blocks and what is beside them, words of marks and what is beside those; rows under the pixel at both ends, and none at them.
+    #[test]
+    fn sums_are_those_of_a_plain_loop() {
+        for [width, height] in [[1, 1], [3, 9], [4, 4], [8, 3], [9, 5], [10, 8], [31, 6], [32, 7], [33, 5], [39, 33]] {
+            let shape = Shape { width, height };
+            let middle = height / 3;
+            for under in [0..1, middle..height.min(middle + 2), height - 1..height, 0..height] {
+                for bias in [0.0, -1.0, 1.0] {
+                    let first = [(SIDE - width) as u32, (SIDE - height) as u32 / 2];
+                    let case = Case { shape, first, under: under.clone(), bias };
+                    case.assert(false);
+                    // Exchanged, the same numbers are a column and a row of the view.
+                    case.assert(true);
+                }
+            }
+        }
+    }
+}
