@@ -219,18 +219,45 @@ mod tests {
         }
     }
 
+    /// The part of the targets' pixels, so many times as large, that came in windows, after the same.
+    fn share_in_windows(world: &World, shrink: usize) -> f64 {
+        let shares = targets().map(|target| {
+            let target = View { grid: target.grid.squeezed((shrink, shrink)), ..target };
+            check_windows(world, &target, Kernel::ADAPTIVE) as f64 / (target.width() * target.height()) as f64
+        });
+        shares.iter().sum::<f64>() / shares.len() as f64
+    }
+
     /// Up to a thousand texels in a window, and patches so wide that each of their pixels is measured.
     #[test]
     fn windows_weigh_alike_however_many_texels_a_pixel_holds() {
         let (cube, sky) = (cube(700), sky(1500));
         for (world, shrink, least) in [(&cube, 3, 0.55), (&sky, 3, 0.75), (&sky, 5, 0.65), (&sky, 10, 0.1)] {
+            let share = share_in_windows(world, shrink);
+            assert!(share > least, "{share} of pixels in windows, {shrink} times as small");
+        }
+    }
+
+    /// Among the texels of lenses, balls and maps, whose texels bend otherwise than those of a cube.
+    #[test]
+    fn windows_weigh_alike_whatever_shows_the_world() {
+        use std::f64::consts::PI;
+        let round = |projection, half| {
+            let square = view(projection, (1000, 1000), (half, half), Orientation::IDENTITY);
+            View { stop: FieldStop::circle(half), ..square }
+        };
+        let map = view(ProjectionKind::EQUAL_AREA_CYLINDER, (1400, 446), (PI, 1.0), Orientation::IDENTITY);
+        let (lens, ball) = (round(ProjectionKind::EQUIDISTANT, PI), round(ProjectionKind::MIRROR_BALL, 1.0));
+        for (source, least) in [(lens, 0.6), (ball, 0.2), (map, 0.1)] {
+            let world = World::new([("all".to_owned(), source)]).expect("a view");
             let shares = targets().map(|target| {
-                let target = View { grid: target.grid.squeezed((shrink, shrink)), ..target };
-                check_windows(world, &target, Kernel::ADAPTIVE) as f64 / (target.width() * target.height()) as f64
+                let target = View { grid: target.grid.squeezed((4, 4)), ..target };
+                check_windows(&world, &target, Kernel::ADAPTIVE) as f64 / (target.width() * target.height()) as f64
             });
             assert!(
                 shares.iter().sum::<f64>() > 3.0 * least,
-                "of pixels in windows, {shrink} times as small: {shares:?}"
+                "of pixels in windows, {:?}: {shares:?}",
+                source.projection
             );
         }
     }
