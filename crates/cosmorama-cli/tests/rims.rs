@@ -6,7 +6,7 @@
 mod bench;
 
 use bench::{Bench, flat};
-use cosmorama::raster::Transfer;
+use cosmorama::raster::{Channels, Depth, EncodedImage, Samples, Transfer};
 
 const RIMS: [&str; 8] =
     ["hammer", "mollweide", "sinusoidal", "mirror-ball", "angular-map", "fisheye:fov=220", "dual-fisheye", "omnimax"];
@@ -31,5 +31,34 @@ fn no_rim_shows() {
                 assert!(worst < bound, "{name}, {form} on {around}: off by {worst}");
             }
         }
+    }
+}
+
+/// Where a rim's texels are no mixtures of what lies beside them, what they would be mixtures of may be brighter than white.
+#[test]
+fn noise_is_the_same_in_15_bits_and_in_floats() {
+    let bench = Bench::new();
+    let noise = (0..96 * 96 * 3).map(|at: usize| (at.wrapping_mul(2_654_435_761) >> 11) as u8).collect();
+    let noise = EncodedImage::new(96, 96, Channels::Rgb, Depth::Eight, Samples::U8(noise)).unwrap();
+    bench.save("noise.png", &noise);
+    for (from, [yaw, fov]) in [
+        ("mirror-ball", ["0", "40"]),
+        ("mirror-ball", ["180", "40"]),
+        ("fisheye:fov=360", ["180", "30"]),
+        ("omnimax", ["0", "90"]),
+    ] {
+        let to = format!("perspective:fov={fov}");
+        for depth in ["8", "16"] {
+            let out = format!("{depth}.png");
+            let given = ["convert", "noise.png", &out, "--from", from, "--to", &to, "--yaw", yaw, "--size", "64"];
+            bench.succeed(&[&given[..], &["--missing", "black", "--depth", depth, "-y"]].concat());
+        }
+        let [Samples::U8(few), Samples::U16(many)] = ["8.png", "16.png"].map(|name| bench.load(name).into_samples())
+        else {
+            panic!("files of 8 and of 16 bits")
+        };
+        let difference = |(few, many): (&u8, &u16)| (f32::from(*few) - f32::from(*many) / 257.0).abs();
+        let worst = few.iter().zip(&many).map(difference).fold(0.0, f32::max);
+        assert!(worst < 1.0, "{from} at {yaw}: {worst} codes");
     }
 }

@@ -159,11 +159,16 @@ impl Texels {
         match self {
             Self::Float(worlds) => {
                 let views = views(job, worlds);
-                each_read(images, rims, views, |rim, view| rim.restore(view, |texel| texel, |light| light));
+                each_read(images, rims, views, |image, rim, view| {
+                    let is_float = image.image.depth().is_float();
+                    rim.restore(view, |texel| texel, |light| if is_float { light } else { within_white(light) });
+                });
             }
             Self::Fixed(worlds) => {
                 let views = worlds.iter_mut().flat_map(FixedLight::views_mut);
-                each_read(images, rims, views, |rim, view| rim.restore(view, FixedLight::light, FixedLight::texel));
+                each_read(images, rims, views, |_, rim, view| {
+                    rim.restore(view, FixedLight::light, FixedLight::texel);
+                });
             }
         }
     }
@@ -202,16 +207,23 @@ fn decode<'a, T: Send + 'a>(
     missing.into_iter().map(AtomicUsize::into_inner).collect()
 }
 
-/// Gives the texels of each view that was read, and its rim, to `visit`.
+/// The light of a texel, no brighter than one of a file of integers can be: with 15 bits and with floats it is the same.
+fn within_white(light: Rgba) -> Rgba {
+    Rgba(light.0.map(|sample| sample.min(light.alpha())))
+}
+
+/// Gives each image that was read, its view's rim and the texels of that to `visit`.
 fn each_read<'a, T: 'a>(
     images: &[ViewImage],
     rims: &[RimTexels],
     views: impl Iterator<Item = &'a mut [T]>,
-    visit: impl Fn(&RimTexels, &mut [T]),
+    visit: impl Fn(&ViewImage, &RimTexels, &mut [T]),
 ) {
-    let is_read = |view: usize| images.iter().any(|image| image.view == view);
-    let read = views.zip(rims).enumerate().filter(|(view, _)| is_read(*view));
-    read.for_each(|(_, (texels, rim))| visit(rim, texels));
+    for (view, (texels, rim)) in views.zip(rims).enumerate() {
+        if let Some(image) = images.iter().find(|image| image.view == view) {
+            visit(image, rim, texels);
+        }
+    }
 }
 
 /// The texels of each view of all worlds, given those of the worlds.
