@@ -213,6 +213,10 @@ fn mistakes_are_told() {
     let png =
         ["convert", "plate.exr", "o.png", "--from", "fisheye", "--to", "equirect", "--st-map", "--missing", "black"];
     assert_says(&bench.fail(2, &png), &["--st-map", ".exr"]);
+    for ignored in [["--filter", "point"], ["--kernel", "box"], ["--anti-ringing", "off"]] {
+        let given = ["convert", "plate.exr", "o.exr", "--from", "fisheye", "--to", "fisheye:fov=90", "--st-map"];
+        assert_says(&bench.fail(2, &[&given[..], &ignored].concat()), &[ignored[0], "leave them out"]);
+    }
     let itself = ["convert", "plate.exr", "map.exr", "--to", "st-map:file=map.exr", "-y"];
     assert_says(&bench.fail(2, &itself), &["map.exr", "its own input"]);
     let formula = ["convert", "builtin:grid", "o.exr", "--to", "fulldome", "--size", "16", "--st-map"];

@@ -84,7 +84,8 @@ pub(crate) struct ConvertArgs {
     #[command(flatten)]
     pub(crate) limits: LimitArgs,
     /// Keep the geometry of conversions in a folder, for the next run of the same one; safe to delete. Each has a file about as
-    /// large as its plan in memory, which explain tells: 6 to 11 bytes a pixel of a dome, some 50 of what mirrors nothing
+    /// large as its plan in memory, which explain tells: 6 to 11 bytes a pixel of a dome as fine as its input, some 50 of what
+    /// mirrors nothing, and thousands of pixels that hold many texels each
     #[arg(long, value_name = "DIR", value_hint = ValueHint::DirPath, help_heading = "Run")]
     pub(crate) plan_cache: Option<PathBuf>,
     /// How to tell what is going on, on standard error

@@ -4,6 +4,7 @@ use std::time::Instant;
 
 use anyhow::Result;
 use cosmorama::raster::{Depth, Image};
+use cosmorama::resample::Filter;
 use cosmorama::world::{ST_NOWHERE, StPixel};
 use cosmorama_io::{Format, write_planes};
 
@@ -51,6 +52,13 @@ fn check(args: &ConvertArgs, job: &ConvertJob) -> Result<()> {
             "--st-map writes numbers, but {} is {}; name the output .exr",
             args.output, job.target.format
         )));
+    }
+    let geometry = &args.geometry;
+    let is_plain = geometry.filter.0 == Filter::DEFAULT.kind && geometry.kernel.kernel == Filter::DEFAULT.kernel;
+    if !is_plain || geometry.anti_ringing.is_some() {
+        return Err(usage(
+            "--filter, --kernel and --anti-ringing are for texels that are weighed, but an st map has none; leave them out",
+        ));
     }
     if args.background.is_some() || args.out_transfer.is_some() {
         return Err(usage("--background and --out-transfer are for light, but an st map has none; leave them out"));
