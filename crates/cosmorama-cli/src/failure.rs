@@ -43,15 +43,13 @@ fn message(error: &anyhow::Error) -> String {
 }
 
 /// Something that should be known but does not stop the work.
-#[allow(clippy::print_stderr)]
 pub(crate) fn warn(message: &str) {
-    eprintln!("warning: {}", stream::told(message));
+    stream::say(format_args!("warning: {}", stream::told(message)));
 }
 
 /// Prints an error, its causes on the same line, and chooses the exit code.
-#[allow(clippy::print_stderr)]
 pub(crate) fn report(error: &anyhow::Error) -> ExitCode {
-    eprintln!("error: {}", stream::told(&message(error)));
+    stream::say(format_args!("error: {}", stream::told(&message(error))));
     if is_usage(error) { ExitCode::from(2) } else { ExitCode::FAILURE }
 }
 

@@ -5,7 +5,7 @@
 
 mod bench;
 
-use bench::{Bench, assert_says, picture};
+use bench::{Bench, assert_says, flat, picture};
 
 #[test]
 fn compare_replaces_nothing_unasked() {
@@ -142,5 +142,46 @@ fn a_full_disk() {
             let message = bench.check_failure(1, &output, &before);
             assert_says(&message, &[&format!("cannot write {file}")]);
         }
+    }
+}
+
+/// Whoever reads what a program says may be gone, and its disk full: what it does and how it ends is the same.
+#[test]
+#[cfg(target_os = "linux")]
+fn nobody_has_to_listen() {
+    let bench = Bench::new();
+    for name in ["sky_1.png", "sky_2.png"] {
+        bench.save(name, &flat(64, 32, &[90, 120, 180]));
+    }
+    let code = |args: &[&str]| {
+        let full = std::fs::OpenOptions::new().write(true).open("/dev/full").unwrap();
+        bench.command(args).stderr(full).output().unwrap().status.code()
+    };
+    let to = ["--to", "fulldome", "--size", "16", "-y"];
+    assert_eq!(code(&[&["convert", "sky_1.png", "one.png"][..], &to].concat()), Some(0));
+    for style in ["auto", "plain", "bar", "json", "openjd"] {
+        let progress = ["--progress", style];
+        assert_eq!(code(&[&["convert", "sky_#.png", "dome_#.png"][..], &to, &progress].concat()), Some(0), "{style}");
+    }
+    assert!(bench.path("one.png").is_file() && bench.path("dome_2.png").is_file());
+    assert_eq!(code(&["info", "none.png"]), Some(1));
+    assert_eq!(code(&["convert", "sky_1.png", "two.png", "--to", "nowhere"]), Some(2));
+}
+
+/// What only its owner could read stays so when it is made anew.
+#[test]
+#[cfg(unix)]
+fn a_replaced_file_is_for_the_same_people() {
+    use std::fs::{Permissions, metadata, set_permissions};
+    use std::os::unix::fs::PermissionsExt;
+
+    let bench = Bench::new();
+    bench.save("sky.png", &flat(64, 32, &[90, 120, 180]));
+    for mode in [0o600, 0o640, 0o664, 0o444] {
+        bench.save("dome.png", &flat(1, 1, &[0, 0, 0]));
+        set_permissions(bench.path("dome.png"), Permissions::from_mode(mode)).unwrap();
+        bench.succeed(&["convert", "sky.png", "dome.png", "--to", "fulldome", "--size", "16", "-y"]);
+        assert_eq!(metadata(bench.path("dome.png")).unwrap().permissions().mode() & 0o777, mode);
+        std::fs::remove_file(bench.path("dome.png")).unwrap();
     }
 }

@@ -135,7 +135,7 @@ impl Pending {
         let flushed = file.flush();
         // Closed before it is renamed.
         drop(file);
-        flushed.map_err(|error| IoError::write(&target, error))?;
+        flushed.and_then(|()| keep_permissions(&target, &path)).map_err(|error| IoError::write(&target, error))?;
         Ok(Hidden { target, path, _listed: listed })
     }
 }
@@ -157,6 +157,15 @@ impl Hidden {
         let Self { target, _listed: _last, path } = self;
         path.persist(&target).map_err(|failed| IoError::write(&target, failed.error))
     }
+}
+
+/// Lets a file be read and written by those who may the one that it is to replace: what was private stays so.
+fn keep_permissions(old: &Path, new: &Path) -> io::Result<()> {
+    let Ok(old) = std::fs::metadata(old) else { return Ok(()) };
+    if !old.is_file() || std::fs::metadata(new)?.permissions() == old.permissions() {
+        return Ok(());
+    }
+    std::fs::set_permissions(new, old.permissions())
 }
 
 /// Why no file can be made in a folder, and what to do. Some say that it does not exist and mean that they take no files

@@ -29,7 +29,7 @@ pub(crate) struct CompareArgs {
     #[arg(short = 'y', long, requires = "diff")]
     pub(crate) overwrite: bool,
     /// How much brighter than life the difference is drawn
-    #[arg(long, value_name = "FACTOR", default_value_t = 10.0, value_parser = factor, allow_negative_numbers = true)]
+    #[arg(long, value_name = "FACTOR", default_value_t = 10.0, value_parser = factor, allow_negative_numbers = true, requires = "diff")]
     pub(crate) gain: f32,
     /// Fail (exit code 1) if the PSNR of linear light is less
     #[arg(long, value_name = "DB", value_parser = finite, allow_negative_numbers = true)]

@@ -212,8 +212,9 @@ fn told_of_shape(geometry: &GeometryArgs, target: &Target) -> Option<String> {
 pub(crate) fn filter(geometry: &GeometryArgs, warnings: &mut Vec<String>) -> Filter {
     use cosmorama::resample::{FilterKind, Kernel};
     let (kind, kernel) = (geometry.filter.0, geometry.kernel.kernel);
-    if matches!(kind, FilterKind::Point | FilterKind::Bilinear) && kernel != Kernel::ADAPTIVE {
-        warnings.push("--kernel has no effect on --filter point and bilinear".to_owned());
+    let is_weighed = !matches!(kind, FilterKind::Point | FilterKind::Bilinear);
+    if !is_weighed && (kernel != Kernel::ADAPTIVE || geometry.anti_ringing.is_some()) {
+        warnings.push("--kernel and --anti-ringing have no effect on --filter point and bilinear".to_owned());
     }
     Filter { kind, kernel, anti_ringing: geometry.anti_ringing.unwrap_or(geometry.kernel.anti_ringing) }
 }

@@ -13,6 +13,7 @@ use super::print;
 use crate::args::{CompareArgs, Region};
 use crate::failure::usage;
 use crate::job::{InputTransfer, MemoryBudget, real_path, refuse_existing};
+use crate::stream::say;
 
 /// Compares two pictures.
 pub(super) fn run(args: &CompareArgs) -> Result<ExitCode> {
@@ -42,7 +43,7 @@ pub(super) fn run(args: &CompareArgs) -> Result<ExitCode> {
     let failures = failures(args, &comparison);
     let text = if args.json { json_text(args, &comparison, &failures)? } else { plain_text(&comparison) };
     print(&text)?;
-    failures.iter().for_each(|failure| tell(failure));
+    failures.iter().for_each(|failure| say(format_args!("failed: {failure}")));
     Ok(if failures.is_empty() { ExitCode::SUCCESS } else { ExitCode::FAILURE })
 }
 
@@ -57,11 +58,6 @@ fn diff_format(diff: &Path, args: &CompareArgs) -> Result<Format> {
         refuse_existing(std::iter::once(diff), "")?;
     }
     Ok(format)
-}
-
-#[allow(clippy::print_stderr)]
-fn tell(failure: &str) {
-    eprintln!("failed: {failure}");
 }
 
 fn light(path: &Path, args: &CompareArgs) -> Result<Image<Rgba>> {

@@ -4,6 +4,7 @@ use std::time::Instant;
 use indicatif::{ProgressBar, ProgressStyle as BarStyle};
 
 use crate::args::ProgressStyle;
+use crate::stream::say;
 
 /// Tells on standard error how far the work is.
 pub(super) struct Progress {
@@ -38,7 +39,6 @@ impl Progress {
     }
 
     /// One more frame is written.
-    #[allow(clippy::print_stderr)]
     pub(super) fn frame_done(&mut self, frame: Option<u64>) {
         self.done += 1;
         let (done, total) = (self.done, self.total);
@@ -47,14 +47,16 @@ impl Progress {
         let number = frame.map_or_else(|| "frame".to_owned(), |frame| format!("frame {frame}"));
         match &self.form {
             Form::Bar(bar) => bar.inc(1),
-            Form::Plain => eprintln!("{number}: {done} of {total} done, {rate:.2} a second, {left:.0} s left"),
+            Form::Plain => {
+                say(format_args!("{number}: {done} of {total} done, {rate:.2} a second, {left:.0} s left"));
+            }
             Form::Json => {
                 let line = serde_json::json!({
                     "frame": frame, "done": done, "total": total, "frames_per_second": rate, "seconds_left": left,
                 });
-                eprintln!("{line}");
+                say(line);
             }
-            Form::Openjd => eprintln!("openjd_progress: {:.2}", 100.0 * done as f64 / total as f64),
+            Form::Openjd => say(format_args!("openjd_progress: {:.2}", 100.0 * done as f64 / total as f64)),
             Form::Silent => {}
         }
     }

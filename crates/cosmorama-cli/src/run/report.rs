@@ -54,7 +54,6 @@ impl Report {
 
 impl Report {
     /// What people want to know, on standard error.
-    #[allow(clippy::print_stderr)]
     pub(super) fn tell(&self) {
         let what = match (&self.outputs[..], self.frames) {
             ([], _) => "nothing to do".to_owned(),
@@ -63,6 +62,7 @@ impl Report {
             (many, frames) => format!("{} files of {frames} frames", many.len()),
         };
         let skipped = if self.skipped == 0 { String::new() } else { format!(", {} kept", self.skipped) };
-        eprintln!("{what}{skipped} in {:.2} s ({})", self.wall_seconds, self.cpu_seconds.describe());
+        let (seconds, stages) = (self.wall_seconds, self.cpu_seconds.describe());
+        stream::say(format_args!("{what}{skipped} in {seconds:.2} s ({stages})"));
     }
 }
