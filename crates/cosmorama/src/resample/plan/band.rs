@@ -173,7 +173,7 @@ impl<W: Weights> Band<W> {
     }
 
     /// Runs of one patch that lie in one view, [`SIDE`] at most; in each mirror they share most of their texels.
-    pub(super) fn groups(&self) -> impl Iterator<Item = &[Run]> {
+    pub(super) fn groups(&self) -> impl Iterator<Item = &[Run]> + Clone {
         groups(&self.runs)
     }
 
@@ -195,7 +195,7 @@ impl<W: Weights> Band<W> {
     }
 }
 
-fn groups(runs: &[Run]) -> impl Iterator<Item = &[Run]> {
+fn groups(runs: &[Run]) -> impl Iterator<Item = &[Run]> + Clone {
     runs.chunk_by(are_grouped)
 }
 

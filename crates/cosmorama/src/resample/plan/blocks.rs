@@ -31,6 +31,13 @@ pub(super) trait Blocks<S: Simd, const N: usize>:
         portable::add_products(sums, texels, weights)
     }
 
+    /// Whether one instruction does that.
+    #[inline(always)]
+    fn are_products_added(simd: S) -> bool {
+        let _ = simd;
+        false
+    }
+
     /// Two numbers of 16 bits, weights or marks, for all channels.
     #[inline(always)]
     fn pair(simd: S, numbers: u32) -> Self {
@@ -100,6 +107,12 @@ impl<S: Simd> Blocks<S, 4> for i16x32<S> {
             }
             _ => portable::four_upright::<S, Self, 4, R>(simd, rows),
         }
+    }
+
+    #[cfg(target_arch = "x86_64")]
+    #[inline(always)]
+    fn are_products_added(simd: S) -> bool {
+        simd.level().as_avx512().is_some()
     }
 
     #[cfg(target_arch = "x86_64")]

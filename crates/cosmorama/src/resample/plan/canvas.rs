@@ -5,6 +5,7 @@ use bytemuck::NoUninit;
 use super::band::Run;
 use super::group_light::{Develop, GroupLight};
 use super::mirrors::{MOST_IMAGES, MirrorImage, Mirrors, UPRIGHT, Ways};
+use super::passes::Pass;
 use super::picture_part::PicturePart;
 use crate::resample::patch::SIDE;
 
@@ -126,22 +127,24 @@ impl<'a, P: NoUninit> Canvas<'a, P> {
         }
     }
 
-    /// Makes pixels of a group's light, in a view whose mirrors go these ways, and puts them where each mirror shows them.
+    /// Makes pixels of a pass's light, in a view whose mirrors go these ways, and puts them where each mirror shows them.
     #[inline(always)]
     pub(super) fn put<D: Develop<Pixel = P>>(
         &mut self,
-        group: &[Run],
+        Pass { group, ways: some }: &Pass,
         ways: &Ways,
         light: &GroupLight<D::Light>,
         develop: &D,
     ) {
         let Some(first) = group.first() else { return };
-        group.iter().for_each(|run| self.note(run.pixel(0), run.lane_bits()));
+        if some.start == 0 {
+            group.iter().for_each(|run| self.note(run.pixel(0), run.lane_bits()));
+        }
         let is_whole = |(row, run): (usize, &Run)| run.is_whole() && run.row_in_patch() == row;
         let is_square = group.len() == SIDE && group.iter().enumerate().all(is_whole);
         // The same of all the patch.
         let images = self.images_of(first.pixel(0)).len();
-        for (at, &(image, flip)) in ways.order[..ways.count].iter().enumerate() {
+        for (at, &(image, flip)) in ways.order[some.clone()].iter().enumerate() {
             match (image < UPRIGHT, flip == 0) {
                 _ if image >= images => {}
                 (true, true) => self.put_rows::<D, false>(group, [at, image], light, develop),
@@ -166,16 +169,21 @@ impl<'a, P: NoUninit> Canvas<'a, P> {
         light: &GroupLight<D::Light>,
         develop: &D,
     ) {
-        for (run, light) in group.iter().zip(light) {
-            if run.is_whole() {
+        let runs = || group.iter().zip(light);
+        if let Some((run, _)) = runs().find(|(run, _)| run.is_whole()) {
+            let [column, row] = run.pixel(0);
+            let top = row - run.row_in_patch();
+            let mut lines = self.part.lines(image, [column, top], [SIDE, SIDE.min(self.part.rows() - top)]);
+            for (run, light) in runs().filter(|(run, _)| run.is_whole()) {
                 let mut eight = [&light[0][at % MOST_IMAGES]; SIDE];
                 for (lane, one) in eight.iter_mut().enumerate() {
                     *one = &light[turned::<REVERSED>(lane)][at % MOST_IMAGES];
                 }
-                self.part.write(image, run.pixel(0), &develop.eight(eight));
-            } else {
-                self.put_lanes(run, [at, image], light, develop);
+                lines.write(run.row_in_patch(), &develop.eight(eight));
             }
+        }
+        for (run, light) in runs().filter(|(run, _)| !run.is_whole()) {
+            self.put_lanes(run, [at, image], light, develop);
         }
     }
 
@@ -188,12 +196,13 @@ impl<'a, P: NoUninit> Canvas<'a, P> {
         light: &GroupLight<D::Light>,
         develop: &D,
     ) {
+        let mut lines = self.part.lines(image, first.pixel(0), [SIDE; 2]);
         for (lane, top) in light[0].iter().enumerate() {
             let mut eight = [&top[at % MOST_IMAGES]; SIDE];
             for (row, one) in eight.iter_mut().enumerate() {
                 *one = &light[turned::<REVERSED>(row)][lane][at % MOST_IMAGES];
             }
-            self.part.write(image, first.pixel(lane), &develop.eight(eight));
+            lines.write(lane, &develop.eight(eight));
         }
     }
 
@@ -206,7 +215,7 @@ impl<'a, P: NoUninit> Canvas<'a, P> {
         develop: &D,
     ) {
         for lane in run.lanes() {
-            self.part.write(image, run.pixel(lane), &[develop.one(light[lane][at])]);
+            self.part.lines(image, run.pixel(lane), [1; 2]).write(0, &[develop.one(light[lane][at])]);
         }
     }
 
@@ -243,6 +252,8 @@ const fn bytes_of(columns: usize) -> usize {
 
 #[cfg(test)]
 mod tests {
+    use super::super::mirrors::TOGETHER;
+    use super::super::passes::passes;
     use super::*;
     use crate::raster::RowLayout;
 
@@ -281,18 +292,22 @@ mod tests {
 
     /// Puts a group of runs of these lanes, one below the other from this pixel on; each pixel is where its mirror shows it, and no other
     /// is touched.
-    fn assert_put(first: [usize; 2], lanes: &[u8]) {
+    fn assert_put(first: [usize; 2], lanes: &[u8], at_once: usize) {
         let mirrors = mirrors();
         let group: Vec<Run> = lanes
             .iter()
             .enumerate()
             .map(|(row, &lanes)| Run::of_lanes(lanes, 0).at([first[0], first[1] + row]))
             .collect();
-        let light =
-            std::array::from_fn(|run| std::array::from_fn(|lane| std::array::from_fn(|at| number(run, lane, at))));
         let mut picture = vec![0; 32 * 32];
         let mut canvases = Canvas::bands(&mut picture, 32, 2 * SIDE, &mirrors, 0);
-        canvases[0].put(&group, mirrors.ways(0), &light, &AsItIs);
+        for (pass, _) in passes(std::iter::once(&*group), MOST_IMAGES, at_once) {
+            let first = pass.ways.start;
+            let number = |run, lane, at| if at < at_once { number(run, lane, first + at) } else { 0 };
+            let light =
+                std::array::from_fn(|run| std::array::from_fn(|lane| std::array::from_fn(|at| number(run, lane, at))));
+            canvases[0].put(&pass, mirrors.ways(0), &light, &AsItIs);
+        }
         drop(canvases);
         let mut expected = vec![0; 32 * 32];
         for (number_of_run, run) in group.iter().enumerate() {
@@ -315,12 +330,14 @@ mod tests {
 
     #[test]
     fn pixels_are_put_where_mirrors_show_them() {
-        for first in [[0, 0], [8, 0], [8, 8]] {
-            assert_put(first, &[0xff; SIDE]);
-            assert_put(first, &[0xff; 3]);
-            assert_put(first, &[0xff, 0xff, 0x81, 0x10, 0xff, 0x7e, 0xff, 0x01]);
+        for at_once in [TOGETHER, MOST_IMAGES] {
+            for first in [[0, 0], [8, 0], [8, 8]] {
+                assert_put(first, &[0xff; SIDE], at_once);
+                assert_put(first, &[0xff; 3], at_once);
+                assert_put(first, &[0xff, 0xff, 0x81, 0x10, 0xff, 0x7e, 0xff, 0x01], at_once);
+            }
+            assert_put([8, 2], &[0xff; 6], at_once);
+            assert_put([8, 0], &[], at_once);
         }
-        assert_put([8, 2], &[0xff; 6]);
-        assert_put([8, 0], &[]);
     }
 }

@@ -16,8 +16,9 @@ use super::fixed_weights::{FixedWeights, Header, Shape};
 use super::fixed_window::Window;
 use super::group_light::GroupLight;
 use super::groups::{Place, window_count};
-use super::mirrors::{MOST_IMAGES, Mirrors, Ways};
-use super::prefetch::{prefetch_patch, prefetch_runs, prefetch_weights};
+use super::mirrors::{MOST_IMAGES, Mirrors, TOGETHER, Ways};
+use super::passes::{Pass, passes};
+use super::prefetch::{prefetch_pass, prefetch_runs, prefetch_weights};
 use super::singles::Palette;
 use super::texels::{Texels, prefetch};
 use super::view_texels::ViewTexels;
@@ -48,29 +49,34 @@ impl FixedFilter<'_> {
         if band.runs.is_empty() {
             return;
         }
-        let mut ahead = band.groups().skip(1);
         let texels = self.light.as_laid_out();
         let views = ViewTexels::all(self.mirrors, self.light.samples());
         let mut light: GroupLight<[i32; 4]> = [[[[0; 4]; MOST_IMAGES]; SIDE]; SIDE];
         let mut after = 0;
-        for group in band.groups() {
-            let next = ahead.next().unwrap_or(&[]);
-            prefetch_patch(texels, self.mirrors, next);
-            after += group.len();
-            prefetch_runs(&band.runs, after + SIDE);
-            let (view, numbers) = (usize::from(group[0].view), &band.weights.numbers[group[0].weights as usize..]);
-            self.weigh(simd, group, &views[view], numbers, &mut light);
-            self.put(simd, group, self.mirrors.ways(view), &light, canvas);
+        // There are more registers with AVX-512, and less to read twice counts more than what the nearest cache holds.
+        let at_once = if simd.level().as_avx512().is_some() { MOST_IMAGES } else { TOGETHER };
+        for (pass, next) in passes(band.groups(), self.mirrors.images.len(), at_once) {
+            if let Some(next) = next {
+                prefetch_pass(texels, self.mirrors, &next);
+            }
+            if pass.ways.start == 0 {
+                after += pass.group.len();
+                prefetch_runs(&band.runs, after + SIDE);
+            }
+            let run = &pass.group[0];
+            let (view, numbers) = (usize::from(run.view), &band.weights.numbers[run.weights as usize..]);
+            self.weigh(simd, &pass, &views[view], numbers, &mut light);
+            self.put(simd, &pass, self.mirrors.ways(view), &light, canvas);
         }
     }
 
-    /// Adds up the light of a group's windows. What is called from here on is compiled by itself: among all that makes a band its loop
+    /// Adds up the light of a pass's windows. What is called from here on is compiled by itself: among all that makes a band its loop
     /// would lack registers.
     #[inline(never)]
     fn weigh<S: Simd>(
         &self,
         simd: S,
-        group: &[Run],
+        Pass { group, ways }: &Pass,
         texels: &ViewTexels<i16>,
         numbers: &[u32],
         light: &mut GroupLight<[i32; 4]>,
@@ -78,17 +84,28 @@ impl FixedFilter<'_> {
         let group = GroupFilter { simd, group, numbers, anti_ringing: self.anti_ringing };
         // A function for each number of mirrors: all in one would take the compiler minutes.
         match texels {
-            ViewTexels::Eight(texels) => simd.vectorize(
+            ViewTexels::Eight(texels) if ways.len() == MOST_IMAGES => simd.vectorize(
                 #[inline(always)]
                 || group.weigh::<i16x32<S>, 4, 2, 2, false>(texels, 0, light),
             ),
-            ViewTexels::Turned(texels) => simd.vectorize(
+            ViewTexels::Turned(texels) if ways.len() == MOST_IMAGES => simd.vectorize(
                 #[inline(always)]
                 || group.weigh::<i16x32<S>, 4, 2, 2, true>(texels, 0, light),
             ),
-            ViewTexels::Four(texels) => simd.vectorize(
+            ViewTexels::Turned([_, turned]) if ways.start > 0 => simd.vectorize(
+                #[inline(always)]
+                || group.weigh::<i16x32<S>, 4, 2, 1, true>(std::array::from_ref(turned), 0, light),
+            ),
+            ViewTexels::Four(texels) | ViewTexels::Turned([texels, _]) => simd.vectorize(
                 #[inline(always)]
                 || group.weigh::<i16x32<S>, 4, 2, 1, false>(std::array::from_ref(texels), 0, light),
+            ),
+            ViewTexels::Eight(texels) => simd.vectorize(
+                #[inline(always)]
+                || {
+                    let texels = std::array::from_ref(&texels[ways.start / TOGETHER]);
+                    group.weigh::<i16x32<S>, 4, 2, 1, false>(texels, 0, light);
+                },
             ),
             ViewTexels::Two(texels) => simd.vectorize(
                 #[inline(always)]
@@ -108,12 +125,12 @@ impl FixedFilter<'_> {
         }
     }
 
-    /// Puts the pixels of a group's light; apart from what weighs, for the same reason.
+    /// Puts the pixels of a pass's light; apart from what weighs, for the same reason.
     #[inline(never)]
     fn put<S: Simd>(
         &self,
         simd: S,
-        group: &[Run],
+        pass: &Pass,
         ways: &Ways,
         light: &GroupLight<[i32; 4]>,
         canvas: &mut Canvas<[u8; 3]>,
@@ -126,11 +143,11 @@ impl FixedFilter<'_> {
             let compute = Compute { level, codes };
             simd.vectorize(
                 #[inline(always)]
-                || canvas.put(group, ways, light, &compute),
+                || canvas.put(pass, ways, light, &compute),
             );
             return;
         }
-        canvas.put(group, ways, light, &codes);
+        canvas.put(pass, ways, light, &codes);
     }
 }
 

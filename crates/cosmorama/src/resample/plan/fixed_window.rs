@@ -56,7 +56,9 @@ impl<S: Simd, V: Blocks<S, N>, const N: usize, const R: usize, const G: usize, c
             weights,
             marks,
         };
-        upright(0).add(&mut sums[0]);
+        if G > 1 || !TURNED {
+            upright(0).add(&mut sums[0]);
+        }
         if TURNED {
             let texels = texels[G - 1].windows([first[1], first[0]]);
             TurnedWindow::<S, V, N, R, WIDTH, HEIGHT, UNDER> { simd, texels, weights, marks }.add(&mut sums[G - 1]);
@@ -75,7 +77,9 @@ impl<S: Simd, V: Blocks<S, N>, const N: usize, const R: usize, const G: usize, c
         let Self { simd, order, texels, first } = self;
         let mut sums = [Sums::new(simd); G];
         // Written out: what a loop adds to would lie in memory.
-        large.add(simd, (&texels[0], order), first, &mut sums[0]);
+        if G > 1 || !TURNED {
+            large.add(simd, (&texels[0], order), first, &mut sums[0]);
+        }
         if TURNED {
             large.add_turned(simd, &texels[G - 1], first, &mut sums[G - 1]);
         } else if G > 1 {
@@ -208,13 +212,13 @@ impl<
     }
 }
 
-/// Sums that are made beside each other.
+/// Sums that are made beside each other where a product and a sum are one instruction, so that each waits for others than the last.
+/// Elsewhere sums alone are fast, and registers few.
 const CHAINS: usize = 3;
 
 /// What adds up over a window.
 #[derive(Clone, Copy)]
 pub(super) struct Sums<S: Simd, V: Blocks<S, N>, const N: usize> {
-    /// In several chains: each product is added to another one before it waits for the last.
     sums: [V::Widened; CHAINS],
     /// The largest samples under the pixel, and the smallest.
     greatest: V,
@@ -231,7 +235,7 @@ impl<S: Simd, V: Blocks<S, N>, const N: usize> Sums<S, V, N> {
     /// Adds pairs of texels, the ones after the others to another chain.
     #[inline(always)]
     pub(super) fn add(&mut self, texels: V, weights: V, chain: usize) {
-        let sum = &mut self.sums[chain % CHAINS];
+        let sum = &mut self.sums[if V::are_products_added(texels.token()) { chain % CHAINS } else { 0 }];
         *sum = V::add_products(*sum, texels, weights);
     }
 
@@ -249,12 +253,10 @@ impl<S: Simd, V: Blocks<S, N>, const N: usize> Sums<S, V, N> {
     pub(super) fn average(self, simd: S, bits: u32, is_bounded: bool) -> V::Widened {
         let [a, b, c] = self.sums;
         let average = (a + b + c + (1 << (bits - 1))) >> bits;
-        let (fewest, most) = if is_bounded {
-            let ([a, b], [c, d]) = (halves(self.least), halves(self.greatest));
-            (a.min(b), c.max(d))
-        } else {
-            (V::Widened::splat(simd, 0), V::Widened::splat(simd, i32::from(i16::MAX)))
-        };
+        // Without a branch: one would be moved to where bounds begin to be found, and keep all texels in registers until then.
+        let free = V::Widened::splat(simd, if is_bounded { 0 } else { -1 });
+        let ([a, b], [c, d]) = (halves(self.least), halves(self.greatest));
+        let (fewest, most) = (a.min(b) & !free, c.max(d) | free & i32::from(i16::MAX));
         average.max(fewest).min(most)
     }
 }

@@ -10,7 +10,8 @@ use super::float_window::Window;
 use super::group_light::{Develop, GroupLight};
 use super::groups::{Place, window_count};
 use super::mirrors::{MOST_IMAGES, Mirrors, TOGETHER};
-use super::prefetch::{prefetch_patch, prefetch_runs, prefetch_weights};
+use super::passes::{Pass, passes};
+use super::prefetch::{prefetch_pass, prefetch_runs, prefetch_weights};
 use super::singles::{Palette, Singles};
 use super::texels::{Texels, prefetch};
 use super::view_texels::ViewTexels;
@@ -46,27 +47,29 @@ impl FloatFilter<'_> {
         if band.runs.is_empty() {
             return;
         }
-        let mut ahead = band.groups().skip(1);
         let views = ViewTexels::all(self.mirrors, bytemuck::cast_slice(self.texels));
         let mut light: GroupLight<Rgba> = [[[Rgba::TRANSPARENT; MOST_IMAGES]; SIDE]; SIDE];
         let mut after = 0;
-        for group in band.groups() {
-            let next = ahead.next().unwrap_or(&[]);
-            prefetch_patch(self.texels, self.mirrors, next);
-            after += group.len();
-            prefetch_runs(&band.runs, after + SIDE);
-            let view = usize::from(group[0].view);
-            self.weigh(simd, group, &views[view], &band.weights, &mut light);
-            canvas.put(group, self.mirrors.ways(view), &light, self);
+        for (pass, next) in passes(band.groups(), self.mirrors.images.len(), TOGETHER) {
+            if let Some(next) = next {
+                prefetch_pass(self.texels, self.mirrors, &next);
+            }
+            if pass.ways.start == 0 {
+                after += pass.group.len();
+                prefetch_runs(&band.runs, after + SIDE);
+            }
+            let view = usize::from(pass.group[0].view);
+            self.weigh(simd, &pass, &views[view], &band.weights, &mut light);
+            canvas.put(&pass, self.mirrors.ways(view), &light, self);
         }
     }
 
-    /// Adds up the light of a group's windows.
+    /// Adds up the light of a pass's windows.
     #[inline(always)]
     fn weigh<S: Simd>(
         &self,
         simd: S,
-        group: &[Run],
+        Pass { group, ways }: &Pass,
         texels: &ViewTexels<f32>,
         weights: &FloatWeights,
         light: &mut GroupLight<Rgba>,
@@ -75,29 +78,17 @@ impl FloatFilter<'_> {
         let group = GroupFilter { simd, group, numbers, anti_ringing: self.anti_ringing };
         // A function for each number of mirrors: all in one would take the compiler minutes.
         match texels {
-            ViewTexels::Eight([first, second]) => {
-                simd.vectorize(
-                    #[inline(always)]
-                    || group.weigh::<TOGETHER, 2, false>(first, 0, light),
-                );
-                simd.vectorize(
-                    #[inline(always)]
-                    || group.weigh::<TOGETHER, 2, false>(second, TOGETHER, light),
-                );
-            }
-            ViewTexels::Turned([upright, turned]) => {
-                simd.vectorize(
-                    #[inline(always)]
-                    || group.weigh::<TOGETHER, 2, false>(upright, 0, light),
-                );
-                simd.vectorize(
-                    #[inline(always)]
-                    || group.weigh::<TOGETHER, 2, true>(turned, TOGETHER, light),
-                );
-            }
-            ViewTexels::Four(texels) => simd.vectorize(
+            ViewTexels::Turned([_, turned]) if ways.start > 0 => simd.vectorize(
+                #[inline(always)]
+                || group.weigh::<TOGETHER, 2, true>(turned, 0, light),
+            ),
+            ViewTexels::Four(texels) | ViewTexels::Turned([texels, _]) => simd.vectorize(
                 #[inline(always)]
                 || group.weigh::<TOGETHER, 2, false>(texels, 0, light),
+            ),
+            ViewTexels::Eight(texels) => simd.vectorize(
+                #[inline(always)]
+                || group.weigh::<TOGETHER, 2, false>(&texels[ways.start / TOGETHER], 0, light),
             ),
             ViewTexels::Two(texels) => simd.vectorize(
                 #[inline(always)]

@@ -3,7 +3,8 @@ use bytemuck::NoUninit;
 use super::mirrors::MOST_IMAGES;
 use crate::resample::patch::SIDE;
 
-/// The light of a group's windows: by run, lane and mirror, these in the order in which the view's are walked through; elsewhere any.
+/// The light of a pass's windows: by run, lane and mirror, these in the order in which the view's are walked through, from the pass's
+/// first one on; elsewhere any.
 pub(super) type GroupLight<L> = [[[L; MOST_IMAGES]; SIDE]; SIDE];
 
 /// What makes pixels of the light of windows.

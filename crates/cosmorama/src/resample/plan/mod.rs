@@ -22,6 +22,7 @@ mod group_light;
 mod groups;
 mod key;
 mod mirrors;
+mod passes;
 mod picture_part;
 mod prefetch;
 mod recorder;

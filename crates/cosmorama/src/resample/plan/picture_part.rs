@@ -91,43 +91,84 @@ impl<'a, P: Copy> PicturePart<'a, P> {
     #[inline(always)]
     pub(super) fn beside(&mut self, image: usize, pixel: [usize; 2], count: usize) -> &mut [P] {
         self.fence();
-        self.place(image, pixel, count)
+        let size = if self.images[image].is_turned { [1, count] } else { [count, 1] };
+        let first = self.place(image, pixel, size).first;
+        // SAFETY: `place` made sure that these are pixels of the band, beside each other. Nobody else has the picture meanwhile, and what is
+        // borrowed from this part is given back before more is.
+        unsafe { std::slice::from_raw_parts_mut(first, count) }
     }
 
-    /// The same, to be streamed to: nobody reads it, or writes to it in another way, before the next fence.
+    /// Where a mirror shows so many columns and rows of the band, from this pixel on.
+    ///
+    /// # Panics
+    /// If they are not all in the band, or there are not so many mirrors.
     #[inline(always)]
-    fn place(&mut self, image: usize, [column, row]: [usize; 2], count: usize) -> &mut [P] {
+    fn place(&self, image: usize, [column, row]: [usize; 2], [columns, rows]: [usize; 2]) -> Place<P> {
         let Shown { is_turned, first, steps: [across, down] } = self.images[image];
-        let ([columns, rows], along) = if is_turned { ([1, count], down) } else { ([count, 1], across) };
+        let (along, next) = if is_turned { (down, across) } else { (across, down) };
+        let (length, lines) = if is_turned { (rows, columns) } else { (columns, rows) };
         // No sum that may begin anew at zero.
         let is_within = self.columns.contains(&column)
             && columns <= self.columns.end - column
             && row < self.rows
             && rows <= self.rows - row;
-        assert!(is_within && along != 0, "pixels of the band");
+        assert!(is_within && along != 0 && length > 0, "pixels of the band");
         let first = first + across * column as isize + down * row as isize;
-        let first = if along < 0 { first - (count as isize - 1) } else { first };
-        // SAFETY: a pixel of the band is one of `Mirrors`, which any of its mirrors shows somewhere in the picture: `all` found that to be
-        // as large as they make it. No other part has it. Without diagonals, bands are rows of the picture or of its upper half, and mirrors
-        // show those as themselves or as far from the bottom. With them, its columns and rows are halves of a square, in which each mirror
-        // shows a pixel as far from the nearest edge as min(column, row); the columns of a band begin with the number of its first row, so
-        // that this is one of the band's rows. Nobody else has the picture meanwhile, and what is borrowed from this part is given back
-        // before more is.
-        unsafe { std::slice::from_raw_parts_mut(self.pixels.offset(first), count) }
+        let first = if along < 0 { first - (length as isize - 1) } else { first };
+        // A pixel of the band is one of `Mirrors`, which any of its mirrors shows somewhere in the picture: `all` found that to be as large
+        // as they make it. No other part has it. Without diagonals, bands are rows of the picture or of its upper half, and mirrors show
+        // those as themselves or as far from the bottom. With them, its columns and rows are halves of a square, in which each mirror shows a
+        // pixel as far from the nearest edge as min(column, row); the columns of a band begin with the number of its first row, so that this
+        // is one of the band's rows.
+        Place { first: self.pixels.wrapping_offset(first), next, length, lines }
     }
 }
 
+/// Where a mirror shows pixels of a band: some lines of the picture, all of them pixels of the band.
+struct Place<P> {
+    /// The leftmost pixel of the first line.
+    first: *mut P,
+    /// Pixels from one line to the next.
+    next: isize,
+    /// Pixels of a line.
+    length: usize,
+    lines: usize,
+}
+
+/// Pixels of a band in lines of the picture, which are written from left to right.
+pub(super) struct Lines<'a, P> {
+    place: Place<P>,
+    is_streamed: bool,
+    picture: PhantomData<&'a mut [P]>,
+}
+
 impl<P: NoUninit> PicturePart<'_, P> {
-    /// Writes pixels [`beside`](Self::beside) each other.
+    /// What a mirror shows of so many columns and rows from this pixel on, to be written to: rows are lines, or columns where they are
+    /// rows.
     ///
     /// # Panics
     /// If they are not all in the band, or there are not so many mirrors.
     #[inline(always)]
-    pub(super) fn write(&mut self, image: usize, pixel: [usize; 2], pixels: &[P]) {
-        let is_streamed = self.is_streamed;
-        self.is_unfenced = is_streamed;
-        let into = self.place(image, pixel, pixels.len());
-        if is_streamed { stream(into, pixels) } else { into.copy_from_slice(pixels) }
+    pub(super) fn lines(&mut self, image: usize, pixel: [usize; 2], size: [usize; 2]) -> Lines<'_, P> {
+        let (place, is_streamed) = (self.place(image, pixel, size), self.is_streamed);
+        self.is_unfenced |= is_streamed;
+        Lines { place, is_streamed, picture: PhantomData }
+    }
+}
+
+impl<P: NoUninit> Lines<'_, P> {
+    /// Writes all pixels of a line.
+    ///
+    /// # Panics
+    /// If there is no such line, or it has not as many.
+    #[inline(always)]
+    pub(super) fn write<const LENGTH: usize>(&mut self, line: usize, pixels: &[P; LENGTH]) {
+        let Place { first, next, length, lines } = self.place;
+        assert!(line < lines && LENGTH == length, "a line of the picture");
+        let first = first.wrapping_offset(next * line as isize);
+        // SAFETY: `place` made sure that these are pixels of the band, beside each other. Nobody else has the picture meanwhile.
+        let into = unsafe { std::slice::from_raw_parts_mut(first, LENGTH) };
+        if self.is_streamed { stream(into, pixels) } else { into.copy_from_slice(pixels) }
     }
 }
 
@@ -262,8 +303,8 @@ mod tests {
             {
                 let mut parts = PicturePart::all(&mut picture, side, ROWS, &mirrors);
                 assert!(parts.iter().all(|part| part.is_streamed == is_streamed), "{side}");
-                parts[1].write(3, [5, 1], &[1, 2, u128::MAX]);
-                parts[1].write(4, [5, 1], &[4, 5, 6]);
+                parts[1].lines(3, [5, 1], [3, 1]).write(0, &[1, 2, u128::MAX]);
+                parts[1].lines(4, [5, 1], [2, 3]).write(1, &[4, 5, 6]);
             }
             let (flipped, turned) = (side * (side - 6) + side - 8, side * 5 + 5);
             assert_eq!((&picture[flipped..][..3], &picture[turned..][..3]), (&[1, 2, u128::MAX][..], &[4, 5, 6][..]));

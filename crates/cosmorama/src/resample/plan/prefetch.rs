@@ -1,5 +1,8 @@
+use std::ops::Range;
+
 use super::band::Run;
 use super::mirrors::{Mirrors, exchanged};
+use super::passes::Pass;
 use super::texels;
 use crate::resample::patch::SIDE;
 
@@ -12,11 +15,11 @@ const LARGEST: [usize; 2] = [64, 32];
 /// Weights, and more, that are asked for before they are read.
 const NUMBERS_AHEAD: u32 = 192;
 
-/// Asks for the texels that the runs of a patch will read, so that they are near by then: lines of memory that are asked for one
-/// after the other, as they are needed, take most of the time.
+/// Asks for the texels that a pass will read, so that they are near by then: lines of memory that are asked for one after the other,
+/// as they are needed, take most of the time.
 #[inline(always)]
-pub(super) fn prefetch_patch<T>(texels: &[T], mirrors: &Mirrors, runs: &[Run]) {
-    let mut rest = runs;
+pub(super) fn prefetch_pass<T>(texels: &[T], mirrors: &Mirrors, pass: &Pass) {
+    let mut rest = pass.group;
     while let Some((run, others)) = rest.split_first() {
         rest = others;
         let mut region = Region::of(run);
@@ -24,11 +27,11 @@ pub(super) fn prefetch_patch<T>(texels: &[T], mirrors: &Mirrors, runs: &[Run]) {
         while let Some((joint, others)) = region.joined(rest) {
             (region, rest) = (joint, others);
         }
-        region.prefetch(texels, mirrors);
+        region.prefetch(texels, mirrors, pass.ways.clone());
     }
 }
 
-/// Asks for the runs of about a patch, from this one on: what [`prefetch_patch`] looks at has to be at hand.
+/// Asks for the runs of about a patch, from this one on: what [`prefetch_pass`] looks at has to be at hand.
 #[inline(always)]
 pub(super) fn prefetch_runs(runs: &[Run], first: usize) {
     prefetch_lines(runs, first as u32, SIDE as u32);
@@ -92,11 +95,11 @@ impl Region {
         (self.view == next.view && is_near).then_some((Self { first, end, ..*self }, others))
     }
 
-    /// Asks for it in all mirrors.
+    /// Asks for it in the mirrors of these ways.
     #[inline(always)]
-    fn prefetch<T>(&self, texels: &[T], mirrors: &Mirrors) {
-        for image in &mirrors.images {
-            let walk = image.view(self.view).walk(self.first);
+    fn prefetch<T>(&self, texels: &[T], mirrors: &Mirrors, ways: Range<usize>) {
+        for &(image, _) in &mirrors.ways(self.view).order[ways] {
+            let walk = mirrors.images[image].view(self.view).walk(self.first);
             let [columns, rows] = exchanged([self.end[0] - self.first[0], self.end[1] - self.first[1]], walk.is_turned);
             let last = (columns - 1) as u32;
             let mut left = if walk.is_reversed { walk.first.wrapping_sub(last) } else { walk.first };
