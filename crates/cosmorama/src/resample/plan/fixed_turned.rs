@@ -3,7 +3,7 @@
 use fearless_simd::{Simd, i16x8, prelude::*};
 
 use super::blocks::Blocks;
-use super::fixed_weights::{ROWS_UNDER, Shape};
+use super::fixed_weights::{PAIRS_UNDER, ROWS_UNDER, Shape};
 use super::fixed_window::{Large, Sums};
 use super::texels::{Texels, Window};
 
@@ -75,8 +75,8 @@ impl<
     fn add_pair(&self, sums: &mut Sums<S, V, N>, row: usize, pair: usize, texels: V) {
         let at = WIDTH / 2 * row + pair;
         sums.add(texels, V::pair(self.simd, self.weights[at]), at);
-        if (UNDER..UNDER + ROWS_UNDER).contains(&row) {
-            sums.bound(self.simd, texels, self.marks, (row - UNDER) * (WIDTH / 2) + pair);
+        if (UNDER..UNDER + ROWS_UNDER).contains(&row) && pair < PAIRS_UNDER {
+            sums.bound(self.simd, texels, self.marks, (row - UNDER) * PAIRS_UNDER + pair);
         }
     }
 }

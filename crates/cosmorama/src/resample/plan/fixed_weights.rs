@@ -29,8 +29,9 @@ pub(super) struct Shape {
     pub(super) under: usize,
 }
 
-/// Rows of a small window that may hold texels under the pixel.
+/// Rows of a small window that may hold texels under the pixel, and pairs of each of them, the first ones.
 pub(super) const ROWS_UNDER: usize = 3;
+pub(super) const PAIRS_UNDER: usize = 2;
 
 impl Shape {
     /// How many of the small ones are as wide.
@@ -73,9 +74,9 @@ impl Header {
     /// In place of an index of [`Shape::SMALL`]: as large as the run's windows are.
     const LARGE: u32 = 7;
 
-    /// All marks of a small window: of the pairs of [`ROWS_UNDER`] rows, row by row, nine at the most.
+    /// All marks of a small window: of [`PAIRS_UNDER`] pairs of [`ROWS_UNDER`] rows, row by row.
     const MARKS: u32 = {
-        let pairs = (1 << (ROWS_UNDER * WIDEST)) - 1;
+        let pairs = (1 << (ROWS_UNDER * PAIRS_UNDER)) - 1;
         pairs << 16 | pairs
     };
 
@@ -118,21 +119,22 @@ pub(super) const fn mark(texel: usize) -> u32 {
     1 << (texel / 2 + texel % 2 * 16)
 }
 
-/// Marks of up to three pairs, given a bit for each texel.
+/// Marks of the pairs of a small window's row, given a bit for each texel.
 #[inline(always)]
 fn marks_of(texels: u8) -> u32 {
-    const MARKS: [u32; 64] = {
-        let mut marks = [0; 64];
+    const TEXELS: usize = 2 * PAIRS_UNDER;
+    const MARKS: [u32; 1 << TEXELS] = {
+        let mut marks = [0; 1 << TEXELS];
         let mut at = 0;
-        while at < 64 * 6 {
-            if (at / 6) >> (at % 6) & 1 == 1 {
-                marks[at / 6] |= mark(at % 6);
+        while at < TEXELS << TEXELS {
+            if (at / TEXELS) >> (at % TEXELS) & 1 == 1 {
+                marks[at / TEXELS] |= mark(at % TEXELS);
             }
             at += 1;
         }
         marks
     };
-    MARKS[usize::from(texels) % 64]
+    MARKS[usize::from(texels) % MARKS.len()]
 }
 
 /// How many numbers tell of a row of so many pairs which texels lie under the pixel.
@@ -146,14 +148,21 @@ impl FixedWeights {
     #[inline(always)]
     fn write(&mut self, windows: &Windows, place: Place, corner: &mut [u32; 2]) -> bool {
         let Rounded { width, height, .. } = self.rounded;
-        let small = self.rounded.shape(place.lane);
-        let (shape, mut origin) = match small {
-            Some((index, origin)) => (Shape::SMALL[index], origin),
-            None => (Shape::new(width.div_ceil(2), height, 0), Origin { column: 0, row: 0 }),
-        };
-        // A window of whole pairs may reach beyond the view; then it begins earlier, if it can.
         let (whole, left) = (windows.columns_within(), corner[0] as isize);
-        origin.column -= (left + origin.column + 2 * shape.pairs as isize - whole.end as isize).max(0);
+        // A window of whole pairs may reach beyond the view; then it begins earlier, if it can.
+        let within = |shape: Shape, Origin { column, row }| {
+            let beyond = left + column + 2 * shape.pairs as isize - whole.end as isize;
+            Origin { column: column - beyond.max(0), row }
+        };
+        let small = self.rounded.shape(place.lane);
+        let small = small.map(|(index, origin)| (index, within(Shape::SMALL[index], origin)));
+        let is_small = |origin: Origin| origin.column < -1 || self.rounded.are_marks_early(place.lane, origin);
+        let small = small.filter(|(_, origin)| is_small(*origin));
+        let large = Shape::new(width.div_ceil(2), height, 0);
+        let (shape, origin) = match small {
+            Some((index, origin)) => (Shape::SMALL[index], origin),
+            None => (large, within(large, Origin { column: 0, row: 0 })),
+        };
         if origin.column < -1 || left + origin.column < whole.start as isize {
             return false;
         }
@@ -169,7 +178,7 @@ impl FixedWeights {
     fn write_small(&mut self, place: Place, origin: Origin, index: usize) {
         let Self { numbers, rounded } = self;
         let Shape { pairs, height, under } = Shape::SMALL[index];
-        let marks = |row| marks_of(rounded.small_marks(place.lane, origin, under + row, pairs)) << (pairs * row);
+        let marks = |row| marks_of(rounded.small_marks(place.lane, origin, under + row)) << (PAIRS_UNDER * row);
         let under = (0..ROWS_UNDER).fold(0, |all, row| all | marks(row));
         let header = Header::new(Some(index), rounded.bits, under, place);
         // Whatever the shape, as much is written: each row overwrites what followed the one before.

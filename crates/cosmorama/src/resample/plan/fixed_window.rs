@@ -6,7 +6,7 @@ use fearless_simd::{Simd, i16x8, prelude::*};
 
 use super::blocks::Blocks;
 use super::fixed_turned::TurnedWindow;
-use super::fixed_weights::{Header, ROWS_UNDER, Shape, mark_words};
+use super::fixed_weights::{Header, PAIRS_UNDER, ROWS_UNDER, Shape, mark_words};
 use super::texels::{self, Texels};
 
 /// A pixel's window in G times N mirrors, in the last R of each N from right to left; in the last N, if these are `TURNED`, its rows are
@@ -206,8 +206,8 @@ impl<
         let texels = texels.swizzle_dyn_within_blocks(self.order);
         let at = WIDTH / 2 * row + pair;
         sums.add(texels, V::pair(self.simd, self.weights[at]), at);
-        if (UNDER..UNDER + ROWS_UNDER).contains(&row) {
-            sums.bound(self.simd, texels, self.marks, (row - UNDER) * (WIDTH / 2) + pair);
+        if (UNDER..UNDER + ROWS_UNDER).contains(&row) && pair < PAIRS_UNDER {
+            sums.bound(self.simd, texels, self.marks, (row - UNDER) * PAIRS_UNDER + pair);
         }
     }
 }

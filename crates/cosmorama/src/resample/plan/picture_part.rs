@@ -306,7 +306,7 @@ mod tests {
                 parts[1].lines(3, [5, 1], [3, 1]).write(0, &[1, 2, u128::MAX]);
                 parts[1].lines(4, [5, 1], [2, 3]).write(1, &[4, 5, 6]);
             }
-            let (flipped, turned) = (side * (side - 6) + side - 8, side * 5 + 5);
+            let (flipped, turned) = (side * (side - 6) + side - 8, side * 6 + 5);
             assert_eq!((&picture[flipped..][..3], &picture[turned..][..3]), (&[1, 2, u128::MAX][..], &[4, 5, 6][..]));
             assert_eq!(picture.iter().filter(|pixel| **pixel != 0).count(), 6);
         }

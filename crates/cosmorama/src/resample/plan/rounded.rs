@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use fearless_simd::{Simd, f32x8, i16x8, i32x8, prelude::*};
 
-use super::fixed_weights::{HIGHEST, ROWS_UNDER, Shape, mark};
+use super::fixed_weights::{HIGHEST, PAIRS_UNDER, ROWS_UNDER, Shape, mark};
 use crate::resample::patch::SIDE;
 use crate::resample::window::{LARGEST, Size, Windows};
 
@@ -31,8 +31,9 @@ struct Small {
     shapes: [i32; SIDE],
     /// In which column and row that begins: the only bit that is set.
     begin: [[i32; SIDE]; 2],
-    /// The columns of the texels under the pixel, by row.
+    /// The columns of the texels under the pixel, by row, and of all rows.
     under: [[u8; SIDE]; SIDE],
+    columns_under: [u8; SIDE],
     /// The weights of a lane, by row, [`MARGIN`] zeros on either side; more rows than are written.
     weights: [[[i16; 2 * SIDE]; SIDE + HIGHEST]; SIDE],
 }
@@ -120,14 +121,17 @@ impl Rounded {
                 weights.store_slice(&mut small.weights[lane][row][MARGIN..][..SIDE]);
             }
         }
-        self.find_shapes(simd, [turned_bits(columns), turned_bits(rows), turned_bits(rows_under)]);
+        let all_rows = |all: [u8; SIDE], row: &[u8; SIDE]| std::array::from_fn(|lane| all[lane] | row[lane]);
+        small.columns_under = small.under[..self.height].iter().fold([0; SIDE], all_rows);
+        let columns_under = small.columns_under;
+        self.find_shapes(simd, [turned_bits(columns), turned_bits(rows), columns_under, turned_bits(rows_under)]);
     }
 
     /// Finds the smallest of the small shapes that holds each lane's window, given in which columns and rows something counts, and in
-    /// which rows texels lie under the pixel. Where windows begin is told by a bit, so that no lane needs a branch.
+    /// which columns and rows texels lie under the pixel. Where windows begin is told by a bit, so that no lane needs a branch.
     #[inline(always)]
-    fn find_shapes<S: Simd>(&mut self, simd: S, counts: [[u8; SIDE]; 3]) {
-        let [columns, rows, under] = counts.map(|bits| i32x8::load_array(simd, bits.map(i32::from)));
+    fn find_shapes<S: Simd>(&mut self, simd: S, counts: [[u8; SIDE]; 4]) {
+        let [columns, rows, columns_under, under] = counts.map(|bits| i32x8::load_array(simd, bits.map(i32::from)));
         let (first_column, first_row) = ((columns & -columns).max(1), (rows & -rows).max(1));
         let none = i32x8::splat(simd, Shape::SMALL.len() as i32);
         // The first one that holds it is the last one that is looked at. Whatever the number of pairs, the same heights follow.
@@ -136,7 +140,9 @@ impl Rounded {
             let width = 2 * shape.pairs;
             if width <= self.width + 1 {
                 let begin = first_column.min(1 << self.width.saturating_sub(width));
-                let holds = columns.simd_le(first_column * ((1 << width) - 1));
+                let may_be_under = begin * ((1 << (2 * PAIRS_UNDER)) - 1);
+                let holds =
+                    columns.simd_le(first_column * ((1 << width) - 1)) & (columns_under & !may_be_under).simd_eq(0);
                 narrowest = holds.select(i32x8::splat(simd, at as i32), narrowest);
                 column = holds.select(begin, column);
             }
@@ -165,11 +171,16 @@ impl Rounded {
         (self.is_small && index < Shape::SMALL.len()).then_some((index, origin))
     }
 
-    /// Which texels of a row of a lane's small window lie under the pixel, a bit for each.
+    /// Whether all texels under the pixel of a lane's small window lie in the first [`PAIRS_UNDER`] pairs of their rows.
     #[inline(always)]
-    pub(super) fn small_marks(&self, lane: usize, origin: Origin, row: usize, pairs: usize) -> u8 {
-        let columns = u32::from(self.small.under[(origin.row + row) % SIDE][lane]);
-        (columns << 1 >> (origin.column + 1) & ((1 << (2 * pairs)) - 1)) as u8
+    pub(super) fn are_marks_early(&self, lane: usize, origin: Origin) -> bool {
+        texels_from(origin, self.small.columns_under[lane]) < 1 << (2 * PAIRS_UNDER)
+    }
+
+    /// Which texels of those pairs in a row of a lane's small window lie under the pixel, a bit for each.
+    #[inline(always)]
+    pub(super) fn small_marks(&self, lane: usize, origin: Origin, row: usize) -> u8 {
+        texels_from(origin, self.small.under[(origin.row + row) % SIDE][lane]) as u8
     }
 
     /// The weights of a lane's small window, row by row, pair by pair, and what follows.
@@ -197,6 +208,12 @@ impl Rounded {
         let weights = self.weights[first..][..2 * pairs].as_chunks().0;
         weights.iter().map(move |[a, b]| pair([a[lane], b[lane]]))
     }
+}
+
+/// From columns to texels of a window that begins there, a bit for each.
+#[inline(always)]
+fn texels_from(origin: Origin, columns: u8) -> u32 {
+    u32::from(columns) << 1 >> (origin.column + 1)
 }
 
 /// Two weights as a number.

@@ -16,7 +16,7 @@ use crate::resample::Resampler;
 const MARK: [u8; 16] = *b"cosmorama plan\r\n";
 
 /// The version of what follows, of how plans are computed, and of where in light texels lie: taps tell them by their index.
-pub(super) const FORMAT: u32 = 8;
+pub(super) const FORMAT: u32 = 9;
 
 /// Why bytes are not the plan of a conversion. Another one can always be computed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
