@@ -119,6 +119,18 @@ fn files_that_end_too_early_say_so_in_info() {
 }
 
 #[test]
+fn a_face_that_ends_too_early_is_told_of_in_info() {
+    let bench = Bench::new();
+    bench.faces("face_", 32);
+    assert!(!bench.succeed(&["info", "face_{face}.png"]).contains("damaged"));
+    let whole = bench.bytes("face_left.png");
+    std::fs::write(bench.path("face_left.png"), &whole[..whole.len() / 2]).unwrap();
+    let told = bench.succeed(&["info", "face_{face}.png"]);
+    assert_eq!(told.matches("damaged: ").count(), 1, "{told}");
+    assert_says(&told, &["damaged: face_left.png: damaged or truncated"]);
+}
+
+#[test]
 fn what_a_cube_file_holds_is_told_with_its_name() {
     let bench = Bench::new();
     bench.save("a.png", &picture(1, 64, 32));

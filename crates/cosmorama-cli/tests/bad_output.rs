@@ -168,6 +168,38 @@ fn nobody_has_to_listen() {
     assert_eq!(code(&["convert", "sky_1.png", "two.png", "--to", "nowhere"]), Some(2));
 }
 
+/// A link stays, and what it leads to is made or replaced; what is no file stays as it is.
+#[test]
+#[cfg(unix)]
+fn links_are_followed_and_pipes_left_alone() {
+    use std::os::unix::fs::symlink;
+
+    let bench = Bench::new();
+    bench.save("sky.png", &flat(64, 32, &[90, 120, 180]));
+    std::fs::create_dir(bench.path("made")).unwrap();
+    let args = |output: &'static str| ["convert", "sky.png", output, "--to", "fulldome", "--size", "16", "-y"];
+    symlink("made/dome.png", bench.path("near.png")).unwrap();
+    symlink("near.png", bench.path("far.png")).unwrap();
+    for output in ["near.png", "far.png"] {
+        // First the link leads nowhere.
+        bench.succeed(&args(output));
+        assert!(bench.path(output).is_symlink() && bench.path("made/dome.png").is_file(), "{output}");
+        assert_eq!(bench.load("made/dome.png").width(), 16);
+        bench.save("made/dome.png", &flat(1, 1, &[0, 0, 0]));
+    }
+    symlink("round.png", bench.path("round.png")).unwrap();
+    assert_says(&bench.fail(1, &args("round.png")), &["cannot write round.png", "nowhere but to each other"]);
+    assert!(std::process::Command::new("mkfifo").arg(bench.path("pipe.png")).status().unwrap().success());
+    symlink("/dev/full", bench.path("full.png")).unwrap();
+    for output in ["pipe.png", "full.png"] {
+        assert_says(&bench.fail(1, &args(output)), &[&format!("cannot write {output}"), "a pipe or a device"]);
+    }
+    assert_says(
+        &bench.fail(2, &["explain", "sky.png", "--to", "omnimax", "--output", "sky.png"]),
+        &["sky.png is a file"],
+    );
+}
+
 /// What only its owner could read stays so when it is made anew.
 #[test]
 #[cfg(unix)]

@@ -86,6 +86,7 @@ fn what_files_have_a_formula_has_not() {
     refused(&with(&["--from", "equirect"]), &["--from", "builtin:grid", "formula"]);
     refused(&with(&["--frames", "1-3"]), &["--frames"]);
     refused(&with(&["--in-transfer", "srgb"]), &["--in-transfer"]);
+    refused(&with(&["--missing", "red"]), &["--missing", "in every direction"]);
     refused(&["builtin:grid", "a.png", "--to", "fulldome"], &["--size is missing"]);
     refused(&["builtin:grid", "a.png", "--size", "16"], &["--to is missing"]);
     refused(&["builtin:grid", "a_####.png", "--to", "fulldome", "--size", "16"], &["frame marker"]);
@@ -156,6 +157,7 @@ fn maps_of_directions_are_no_pictures() {
     refused("builtin:direction-map", "a.png", &[], &["PNG", ".exr"]);
     refused("builtin:direction-map", "a.exr", &["--depth", "16"], &["--depth 16"]);
     refused("builtin:direction-map", "a.exr", &["--background", "red"], &["--background"]);
+    refused("builtin:direction-map", "a.exr", &["--transfer", "pq"], &["--transfer", "for light"]);
     refused("builtin:direction-map:footprint=maybe", "a.exr", &[], &["footprint=yes", "maybe"]);
     bench.succeed(&["convert", "builtin:direction-map", "map.exr", "--to", "fulldome", "--size", "16"]);
     assert_says(&bench.fail(1, &["info", "map.exr"]), &["direction.X"]);

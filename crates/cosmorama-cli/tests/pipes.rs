@@ -54,6 +54,8 @@ fn what_is_wrong_is_said_and_no_byte_written() {
     refused(2, &["a.png", "-", "--format", "gif"], &["--format gif", "png, jpg"]);
     refused(2, &["a.png", "b.png", "--format", "png"], &["--format", "b.png"]);
     refused(2, &["a.png", "-", "--format", "png", "--json"], &["--json"]);
+    refused(2, &["a.png", "b", "--format", "png"], &["--format", "which is called -"]);
+    refused(2, &["a.png", "-", "--format", "png", "--resume"], &["--resume", "standard output"]);
     for frame in 7..=8 {
         bench.save(&format!("sky_{frame}.png"), &picture(frame, 64, 32));
     }
@@ -105,4 +107,37 @@ fn pipes_with_names_are_read_as_files_are() {
     through(&["convert", "pipe", "b.png", "--to", "fulldome", "--size", "32"]);
     bench.succeed(&["convert", "a.png", "c.png", "--to", "fulldome", "--size", "32"]);
     assert_eq!(bench.bytes("b.png"), bench.bytes("c.png"));
+}
+
+/// A terminal that goes away ends the work like an interrupt, and nothing stays behind; by `nohup` it goes on.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_terminal_that_goes_away_leaves_nothing_behind() {
+    use std::os::unix::process::ExitStatusExt;
+    use std::process::Command;
+
+    let bench = Bench::new();
+    bench.save("a.png", &picture(3, 64, 32));
+    for (first, code) in [("", Some(129)), ("nohup ", Some(0))] {
+        let folder = tempfile::tempdir().unwrap();
+        let script =
+            format!("exec {first}{} convert - b.png --to fulldome --size 9 -y", env!("CARGO_BIN_EXE_cosmorama"));
+        let mut command = Command::new("sh");
+        command.args(["-c", &script]).current_dir(bench.path("")).env("TMPDIR", folder.path());
+        let mut child = command.stdin(Stdio::piped()).stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
+        // It watches for signals before it waits for what comes in.
+        let kept = || std::fs::read_dir(folder.path()).unwrap().count();
+        while kept() == 0 {
+            std::thread::sleep(std::time::Duration::from_millis(10));
+        }
+        assert!(Command::new("kill").args(["-HUP", &child.id().to_string()]).status().unwrap().success());
+        let mut input = child.stdin.take().unwrap();
+        if code == Some(0) {
+            input.write_all(&bench.bytes("a.png")).unwrap();
+            drop(input);
+        }
+        let status = child.wait().unwrap();
+        assert_eq!((status.code(), status.signal()), (code, None), "{first}");
+        assert_eq!(kept(), 0, "{first}");
+    }
 }

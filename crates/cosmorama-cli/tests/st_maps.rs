@@ -213,7 +213,9 @@ fn mistakes_are_told() {
     let png =
         ["convert", "plate.exr", "o.png", "--from", "fisheye", "--to", "equirect", "--st-map", "--missing", "black"];
     assert_says(&bench.fail(2, &png), &["--st-map", ".exr"]);
-    for ignored in [["--filter", "point"], ["--kernel", "box"], ["--anti-ringing", "off"]] {
+    let of_filter = [["--filter", "point"], ["--kernel", "box"], ["--anti-ringing", "off"]];
+    let of_light = [["--transfer", "srgb"], ["--in-transfer", "pq"], ["--background", "red"]];
+    for ignored in of_filter.into_iter().chain(of_light) {
         let given = ["convert", "plate.exr", "o.exr", "--from", "fisheye", "--to", "fisheye:fov=90", "--st-map"];
         assert_says(&bench.fail(2, &[&given[..], &ignored].concat()), &[ignored[0], "leave them out"]);
     }

@@ -82,6 +82,13 @@ fn compare_is_a_check() {
     let message = bench.fail(1, &["compare", "a.png", "small.png"]);
     assert!(message.contains("64x64") && message.contains("32x32"), "{message}");
     assert!(bench.fail(2, &["compare", "a.png", "b.png", "--diff", "d.bmp"]).contains("d.bmp"));
+    for many in ["{face}.png", "a_####.png"] {
+        let message = bench.fail(2, &["compare", "a.png", many]);
+        assert!(message.contains(&format!("{many} is a pattern")) && message.contains("name one file"), "{message}");
+    }
+    assert!(bench.fail(2, &["compare", ".", "a.png"]).contains(". is a folder"));
+    let message = bench.fail(2, &["compare", "a.png", "b.png", "--max-shift", "-1"]);
+    assert!(message.contains("--max-shift") && message.contains("not less than 0"), "{message}");
 }
 
 #[test]

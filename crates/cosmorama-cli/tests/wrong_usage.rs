@@ -44,6 +44,13 @@ fn wrong_usage() {
     assert_says(&convert(&["out.png", "--to", "omnimax:center=3:4"]), &["--size"]);
     assert_says(&convert(&["out.png", "--to", "omnimax", "--from", "cube"]), &["{face}"]);
     assert_says(&convert(&["out.png", "--to", "omnimax", "-y", "--resume"]), &["--resume"]);
+    for (name, marker) in [("out_{fce}.png", "{fce}"), ("*.png", "*"), ("none/{frame}/out.png", "{frame}")] {
+        let message = convert(&[name, "--to", "omnimax"]);
+        assert_says(&message, &[&format!("{name}: {marker} stands for nothing"), "{face}", "####"]);
+    }
+    let transfers = ["--transfer", "srgb", "--in-transfer", "pq", "--out-transfer", "hlg"];
+    assert_says(&convert(&[&["out.png", "--to", "omnimax"][..], &transfers].concat()), &["--transfer has no effect"]);
+    assert_says(&convert(&["out.png", "--to", "omnimax", "--transfer", "gamma:0"]), &["G from 0.1 to 10"]);
     assert_says(&convert(&["out.png", "--to", "omnimax", "--quality", "80"]), &["--quality", "JPEG", "out.png", "PNG"]);
 }
 
@@ -119,6 +126,7 @@ fn what_was_meant_for_a_face_pattern() {
     assert_says(&convert("faces/*.png"), &["names no file", "{face}"]);
     assert_says(&convert("faces/{Face}.png"), &["names no file", "{face}"]);
     assert_says(&convert(""), &["INPUT"]);
+    assert_says(&bench.fail(1, &["info", "none/{face}.png"]), &["cannot open none: "]);
     assert_says(&convert("faces/sky_$F4.png"), &["names no file", "for frames ####"]);
 }
 

@@ -81,24 +81,16 @@ impl Drop for Listed {
 }
 
 impl Pending {
-    /// A file that is to become `target`, in the same folder so that renaming it takes no time.
+    /// A file that is to become `target`, or what that links to, in the same folder so that renaming it takes no time.
     ///
     /// # Errors
-    /// When the folder is missing or cannot be written to.
+    /// When the folder is missing or cannot be written to, or what stands in the place is no file.
     pub fn create(target: &Path) -> Result<Self, IoError> {
+        let target = &place(target)?;
         let folder = match target.parent() {
             Some(folder) if !folder.as_os_str().is_empty() => folder,
             _ => Path::new("."),
         };
-        if target.is_dir() {
-            return Err(IoError::write(target, "there is a folder of this name"));
-        }
-        // Found out before the work, not after it, when the file is to get its name.
-        if let Err(error) = target.symlink_metadata()
-            && error.kind() == io::ErrorKind::InvalidFilename
-        {
-            return Err(IoError::write(target, format_args!("{error}; choose another name")));
-        }
         let mut builder = Builder::new();
         builder.prefix(PREFIX).suffix(SUFFIX);
         // The list is held meanwhile: a file that is not on it would survive an interrupt.
@@ -157,6 +149,40 @@ impl Hidden {
         let Self { target, _listed: _last, path } = self;
         path.persist(&target).map_err(|failed| IoError::write(&target, failed.error))
     }
+}
+
+/// Links that are followed to an output's place: as many as Linux follows.
+const LINKS: usize = 40;
+
+/// Where a file is to be: what its name links to, so that the link stays. What stands there and is no file is told before the
+/// work, not after it, when the file is to get its name.
+fn place(target: &Path) -> Result<PathBuf, IoError> {
+    let mut path = target.to_owned();
+    for _ in 0..=LINKS {
+        let found = match path.symlink_metadata() {
+            Ok(found) => found.file_type(),
+            Err(error) if error.kind() == io::ErrorKind::InvalidFilename => {
+                return Err(IoError::write(&path, format_args!("{error}; choose another name")));
+            }
+            // Nothing is there, or its folder will say what is the matter.
+            Err(_) => return Ok(path),
+        };
+        if found.is_file() {
+            return Ok(path);
+        }
+        if found.is_dir() {
+            return Err(IoError::write(target, "there is a folder of this name"));
+        }
+        if !found.is_symlink() {
+            return Err(IoError::write(
+                target,
+                "there is a pipe or a device of this name, no file; choose another name",
+            ));
+        }
+        let link = std::fs::read_link(&path).map_err(|error| IoError::write(target, error))?;
+        path = path.parent().unwrap_or(Path::new("")).join(link);
+    }
+    Err(IoError::write(target, "its links lead nowhere but to each other; choose another name"))
 }
 
 /// Lets a file be read and written by those who may the one that it is to replace: what was private stays so.

@@ -107,8 +107,9 @@ fn bourkes_second_letter_names_a_folder_and_frames_follow() {
 
 #[test]
 fn nothing_found_says_what_was_tried() {
-    let message = find(&[], "faces/{face}.png").unwrap_err().to_string();
-    for part in ["faces", "front right back left top bottom (words)", "posz posx negz negx posy negy (opengl)"] {
+    assert!(matches!(find(&[], "faces/{face}.png"), Err(IoError::Open { path, .. }) if path.ends_with("faces")));
+    let message = find(&["elsewhere.png"], "{face}.png").unwrap_err().to_string();
+    for part in ["{face}.png", "front right back left top bottom (words)", "posz posx negz negx posy negy (opengl)"] {
         assert!(message.contains(part), "{message}");
     }
     assert!(matches!(FaceSet::find("a.png", None), Err(IoError::NotAFacePattern { .. })));

@@ -2,7 +2,7 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum, ValueHint};
 
-use super::number::{factor, finite};
+use super::number::{distance, factor, finite};
 use super::{MemorySize, TransferArg};
 
 /// Compare two pictures: PSNR, largest difference, sub-pixel shift.
@@ -35,7 +35,7 @@ pub(crate) struct CompareArgs {
     #[arg(long, value_name = "DB", value_parser = finite, allow_negative_numbers = true)]
     pub(crate) min_psnr: Option<f64>,
     /// Fail (exit code 1) if the pictures are further apart
-    #[arg(long, value_name = "PX", value_parser = finite, allow_negative_numbers = true)]
+    #[arg(long, value_name = "PX", value_parser = distance, allow_negative_numbers = true)]
     pub(crate) max_shift: Option<f64>,
     /// How integer code values relate to light: auto, srgb, linear, bt1886, pq, hlg, gamma:G
     #[arg(long, value_name = "T", default_value = "auto")]

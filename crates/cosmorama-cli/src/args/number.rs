@@ -11,7 +11,12 @@ pub(super) fn factor(text: &str) -> Result<f32, String> {
     text.parse().ok().filter(is_factor).ok_or_else(|| "expected a number more than 0".to_owned())
 }
 
-/// A number of decibels, pixels or whatever the option says; neither infinity nor "not a number".
+/// A distance: a number not less than zero.
+pub(super) fn distance(text: &str) -> Result<f64, String> {
+    finite(text).ok().filter(|number| *number >= 0.0).ok_or_else(|| "expected a number not less than 0".to_owned())
+}
+
+/// A number of decibels or whatever the option says; neither infinity nor "not a number".
 pub(super) fn finite(text: &str) -> Result<f64, String> {
     text.parse().ok().filter(|number: &f64| number.is_finite()).ok_or_else(|| "expected a number".to_owned())
 }

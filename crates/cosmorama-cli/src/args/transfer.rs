@@ -26,7 +26,8 @@ impl FromStr for TransferArg {
                 Some(gamma) if (0.1..=10.0).contains(&gamma) => Transfer::Gamma(gamma),
                 _ => {
                     return Err(
-                        "there are auto, srgb, linear, bt1886, pq, hlg and gamma:G (as in gamma:2.2)".to_owned()
+                        "there are auto, srgb, linear, bt1886, pq, hlg and gamma:G (G from 0.1 to 10, as in gamma:2.2)"
+                            .to_owned(),
                     );
                 }
             },

@@ -7,7 +7,7 @@ use cosmorama_io::Format;
 use super::input::SAME_FOR_BOTH;
 use super::target::TargetView;
 use super::{Input, Light, MemoryBudget, Outputs, Target, check_file_options, filter, settled};
-use crate::args::ConvertArgs;
+use crate::args::{ConvertArgs, Missing};
 use crate::failure::{usage, warn};
 use crate::spec::did_you_mean;
 
@@ -149,6 +149,7 @@ fn check_input_options(args: &ConvertArgs) -> Result<()> {
         (args.geometry.from.is_some(), "--from", "it is a formula, with no projection of its own"),
         (args.frames.is_some(), "--frames", "it has none"),
         (args.in_transfer.is_some(), "--in-transfer", "it has no code values"),
+        (args.missing != Missing::Error, "--missing", "it shows something in every direction"),
     ];
     match given.into_iter().find(|(is_given, ..)| *is_given) {
         Some((_, option, why)) => {
@@ -172,8 +173,12 @@ fn check_map(args: &ConvertArgs, format: Format) -> Result<()> {
             args.input
         )));
     }
-    if args.background.is_some() || args.out_transfer.is_some() {
-        return Err(usage(format!("--background and --out-transfer are for light, but {} has none", args.input)));
+    let is_transferred = args.transfer.fixed().is_some() || args.out_transfer.is_some();
+    if args.background.is_some() || is_transferred {
+        return Err(usage(format!(
+            "--background, --transfer and --out-transfer are for light, but {} has none; leave them out",
+            args.input
+        )));
     }
     Ok(())
 }

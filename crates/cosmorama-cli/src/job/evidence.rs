@@ -41,7 +41,7 @@ fn decoded(path: &Path) -> Result<EncodedImage, IoError> {
 }
 
 /// What is the matter with a file whose pixels cannot be read; `None` also where it is too large to try.
-pub(super) fn damage_of(path: &Path) -> Option<String> {
+pub(crate) fn damage_of(path: &Path) -> Option<String> {
     match decoded(path) {
         Ok(_) | Err(IoError::TooLarge { .. }) => None,
         Err(error) => Some(error.to_string()),

@@ -55,14 +55,20 @@ pub(super) fn size_of_missing(
     Ok(size)
 }
 
-/// Whether files are those of a half of a cube (`None`: of a whole one): then all faces are squares, or nearly so, alike.
+/// Whether files are those of a half of a cube (`None`: of a whole one): then all faces are squares, or nearly so, alike; and
+/// of a half they have one size, while crops a little over the middle do not.
 fn are_of(pictures: &[FacePicture], half: Option<CubeFace>) -> bool {
     let canvas = |picture: &FacePicture| {
         let part = FacePart::of(picture.face, picture.lies, half)?;
         Some(part.canvas(picture.size.0, picture.size.1))
     };
     let canvases: Option<Vec<Canvas>> = pictures.iter().map(canvas).collect();
-    canvases.is_some_and(|all| all.iter().all(|one| is_face(one) && difference(one, &all[0]) < MOST_DIFFERENCE))
+    let is_alike = |one: &Canvas, other: &Canvas| match half {
+        // Half of an odd number is rounded.
+        Some(_) => one.width.abs_diff(other.width) <= 1 && one.height.abs_diff(other.height) <= 1,
+        None => difference(one, other) < MOST_DIFFERENCE,
+    };
+    canvases.is_some_and(|all| all.iter().all(|one| is_face(one) && is_alike(one, &all[0])))
 }
 
 /// What is the matter where files would fit if they were said to hold another half of a cube, or a whole one.
@@ -198,6 +204,9 @@ mod tests {
             error.contains("front face's file is 64x32, half a face") && error.contains("half=up (the sky"),
             "{error}"
         );
+        // Crops of a little more than a half, as the demo renders them.
+        let error = judge(&[(64, 64), (35, 64), (64, 64), (35, 64), (64, 35)], &[]).unwrap_err();
+        assert!(error.contains("declare its place") && !error.contains("half="), "{error}");
         // Sides alone may be above or below.
         let error = judge(&[(64, 32); 4], &[]).unwrap_err();
         assert!(error.contains("cube:half=up (the sky") && error.contains(" or half=down (the ground"), "{error}");

@@ -44,7 +44,7 @@ mod world_file;
 pub(crate) use builtin::{Builtin, BuiltinJob};
 pub(crate) use coverage::{Coverage, nominal_worlds};
 pub(crate) use detect::{Likely, likely};
-pub(crate) use evidence::light_of;
+pub(crate) use evidence::{damage_of, light_of};
 pub(crate) use face_view::face_placement;
 pub(crate) use files::Files;
 pub(crate) use folder::is_one_file;
@@ -185,6 +185,11 @@ fn check_file_options(args: &ConvertArgs, format: Format) -> Result<()> {
             args.output,
             if format == Format::Jpeg { ", or choose a --quality" } else { "" }
         )));
+    }
+    if args.transfer.fixed().is_some() && args.in_transfer.is_some() && args.out_transfer.is_some() {
+        return Err(usage(
+            "--transfer has no effect beside --in-transfer and --out-transfer; leave it or one of them out",
+        ));
     }
     if args.plan_cache.is_some() && (args.st_map || Builtin::named(&args.input)?.is_some()) {
         return Err(usage("--plan-cache keeps how pictures are filtered, but here none is; leave it out"));

@@ -72,6 +72,7 @@ impl Target {
     pub(crate) fn check_names(output: &str, geometry: &GeometryArgs) -> Result<Format> {
         let format = Format::from_extension(Path::new(output)).map_err(|error| usage(error.to_string()))?;
         let faces = FacePattern::parse(output).is_some();
+        check_markers(output)?;
         match geometry.to.as_ref() {
             None if !faces => Err(usage(
                 "--to is missing: say which projection the output is to have, as in --to omnimax, --to fulldome, \
@@ -161,6 +162,22 @@ impl Target {
     /// The images that show a world, of one or of two.
     pub(crate) fn of_world(&self, index: usize, count: usize) -> Vec<&TargetView> {
         self.views.iter().filter(|target| target.world(count) == index).collect()
+    }
+}
+
+/// What looks like a marker and is none would become a file's name. Folders that are there may be called as they like.
+fn check_markers(output: &str) -> Result<()> {
+    let path = Path::new(output);
+    let is_in_folder = path.parent().is_some_and(Path::is_dir);
+    let made = path.file_name().and_then(|name| name.to_str()).filter(|_| is_in_folder).unwrap_or(output);
+    let marked = |at: usize| Some(&made[at..=at + made[at..].find('}')?]);
+    let unknown = made.match_indices('{').filter_map(|(at, _)| marked(at)).find(|marker| *marker != "{face}");
+    match unknown.or(made.contains('*').then_some("*")) {
+        None => Ok(()),
+        Some(marker) => Err(usage(format!(
+            "{output}: {marker} stands for nothing in an output's name; write {{face}} or %c where a face's name stands, #### or \
+             %04d where a frame's number does"
+        ))),
     }
 }
 

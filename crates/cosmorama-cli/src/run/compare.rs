@@ -5,7 +5,7 @@ use anyhow::{Context, Result};
 use cosmorama::compare::{Comparison, Mask, compare, difference_image};
 use cosmorama::raster::{Channels, Depth, EncodedImage, Image, Rgba, Transfer};
 use cosmorama::world::{FisheyeFrame, Frame, OmnimaxFrame};
-use cosmorama_io::{Format, Limits, Metadata, WriteOptions, probe, read, write};
+use cosmorama_io::{FacePattern, Format, FramePattern, Limits, Metadata, WriteOptions, probe, read, write};
 use serde_json::{Value, json};
 
 use super::pipe::KeptStreams;
@@ -19,8 +19,9 @@ use crate::stream::say;
 pub(super) fn run(args: &CompareArgs) -> Result<ExitCode> {
     let (mut kept, mut args) = (KeptStreams::default(), args.clone());
     for picture in [&mut args.first, &mut args.second] {
-        // A name that is no text is none of those that stand for a stream.
+        // A name that is no text is none of those that stand for a stream or for many files.
         if let Some(name) = picture.to_str() {
+            check_one(name)?;
             *picture = kept.input(name)?.into();
         }
     }
@@ -45,6 +46,18 @@ pub(super) fn run(args: &CompareArgs) -> Result<ExitCode> {
     print(&text)?;
     failures.iter().for_each(|failure| say(format_args!("failed: {failure}")));
     Ok(if failures.is_empty() { ExitCode::SUCCESS } else { ExitCode::FAILURE })
+}
+
+/// A pattern is not told apart from a file that is not there.
+fn check_one(name: &str) -> Result<()> {
+    let is_pattern = FacePattern::parse(name).is_some() || FramePattern::parse(name).is_some();
+    if is_pattern && !Path::new(name).exists() {
+        return Err(usage(format!("{name} is a pattern, but compare takes two pictures; name one file of it")));
+    }
+    if Path::new(name).is_dir() {
+        return Err(usage(format!("{name} is a folder, but compare takes two pictures; name one file in it")));
+    }
+    Ok(())
 }
 
 /// The format of the difference picture, which may not replace what is compared, nor anything else unasked.

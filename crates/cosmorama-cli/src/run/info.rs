@@ -11,7 +11,7 @@ use super::info_faces::{of_files, of_image};
 use super::pipe::KeptStreams;
 use super::{info_world, print};
 use crate::args::InfoArgs;
-use crate::job::{Builtin, Files, ThinAlpha, existing_frames, is_one_file, light_of, likely};
+use crate::job::{Builtin, Files, ThinAlpha, damage_of, existing_frames, is_one_file, light_of, likely};
 
 /// Tells what a file or a face set is.
 pub(super) fn run(args: &InfoArgs) -> Result<ExitCode> {
@@ -87,10 +87,23 @@ fn faces(pattern: &str) -> Result<Value> {
         faces.insert(file.face.name().to_owned(), face);
     }
     report["faces"] = Value::Object(faces);
-    if let Some(continuity) = of_files(&set)? {
-        report["arrangement"] = continuity;
+    match of_files(&set)? {
+        Some(continuity) => report["arrangement"] = continuity,
+        // Something may be the matter with a file.
+        None => add_damage(&mut report, &set)?,
     }
     Ok(report)
+}
+
+/// Tells what is the matter with faces whose pixels cannot be read.
+fn add_damage(report: &mut Value, set: &FaceSet) -> Result<()> {
+    for file in set.present() {
+        let files = Files::new(&file.path);
+        if let Some(damage) = damage_of(&files.path(existing_frames(&files)?.first().copied())) {
+            report["faces"][file.face.name()]["damaged"] = json!(damage);
+        }
+    }
+    Ok(())
 }
 
 fn header_report(header: &Header) -> Value {

@@ -33,6 +33,7 @@ use std::process::ExitCode;
 use anyhow::{Context, Result, anyhow};
 
 use crate::args::Verb;
+use crate::failure::usage;
 use crate::stream;
 
 /// Does what was asked for.
@@ -57,6 +58,9 @@ fn use_threads(count: Option<usize>) -> Result<()> {
 
 /// A folder that is there from now on, with those above it.
 fn make_folder(folder: &Path) -> Result<()> {
+    if folder.is_file() {
+        return Err(usage(format!("{} is a file, where a folder was expected; name another", folder.display())));
+    }
     std::fs::create_dir_all(folder).map_err(|error| {
         anyhow!("the folder {} cannot be made ({error}); choose another, where you may write", folder.display())
     })

@@ -129,10 +129,18 @@ impl Piped {
 
 fn check(args: &ConvertArgs, to_stdout: bool) -> Result<()> {
     match (to_stdout, &args.format) {
+        (false, Some(_)) if Path::new(&args.output).extension().is_none() => Err(usage(format!(
+            "--format is for standard output, which is called -, but the output is {}; name one or the other, a file with the \
+             extension of its format",
+            args.output
+        ))),
         (false, Some(_)) => Err(usage(format!(
             "--format is for standard output, but the extension of {} chooses the format; leave --format out",
             args.output
         ))),
+        (true, _) if args.resume => {
+            Err(usage("--resume skips files that are there, but the output is standard output; leave --resume out"))
+        }
         (true, None) => {
             Err(usage("the output is standard output, whose name says no format; give --format, as in --format png"))
         }

@@ -60,8 +60,11 @@ fn check(args: &ConvertArgs, job: &ConvertJob) -> Result<()> {
             "--filter, --kernel and --anti-ringing are for texels that are weighed, but an st map has none; leave them out",
         ));
     }
-    if args.background.is_some() || args.out_transfer.is_some() {
-        return Err(usage("--background and --out-transfer are for light, but an st map has none; leave them out"));
+    let is_transferred = [Some(&args.transfer), args.in_transfer.as_ref(), args.out_transfer.as_ref()];
+    if args.background.is_some() || is_transferred.into_iter().flatten().any(|transfer| transfer.fixed().is_some()) {
+        return Err(usage(
+            "--background, --transfer, --in-transfer and --out-transfer are for light, but an st map has none; leave them out",
+        ));
     }
     Ok(())
 }

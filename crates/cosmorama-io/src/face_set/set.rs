@@ -185,6 +185,9 @@ fn folder(pattern: &FacePattern, namings: &[&'static Naming]) -> Option<IoError>
 }
 
 fn no_faces(pattern: &FacePattern, namings: &[&'static Naming]) -> IoError {
+    if let Err(error) = std::fs::read_dir(pattern.folder()) {
+        return IoError::open(pattern.folder(), error);
+    }
     let tried = |naming: &&Naming| format!("{} ({})", naming.names.join(" "), naming.name);
     IoError::NoFaces {
         pattern: pattern.as_str().to_owned(),
