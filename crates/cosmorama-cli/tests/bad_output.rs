@@ -190,14 +190,36 @@ fn links_are_followed_and_pipes_left_alone() {
     symlink("round.png", bench.path("round.png")).unwrap();
     assert_says(&bench.fail(1, &args("round.png")), &["cannot write round.png", "nowhere but to each other"]);
     assert!(std::process::Command::new("mkfifo").arg(bench.path("pipe.png")).status().unwrap().success());
-    symlink("/dev/full", bench.path("full.png")).unwrap();
-    for output in ["pipe.png", "full.png"] {
+    symlink("/dev/null", bench.path("null.png")).unwrap();
+    for output in ["pipe.png", "null.png"] {
         assert_says(&bench.fail(1, &args(output)), &[&format!("cannot write {output}"), "a pipe or a device"]);
     }
     assert_says(
         &bench.fail(2, &["explain", "sky.png", "--to", "omnimax", "--output", "sky.png"]),
         &["sky.png is a file"],
     );
+}
+
+/// Two outputs never become one file, and what cannot be written is told before the first frame.
+#[test]
+#[cfg(unix)]
+fn outputs_that_links_lead_astray_are_refused_before_the_work() {
+    use std::os::unix::fs::symlink;
+
+    let bench = Bench::new();
+    for frame in 1..=3 {
+        bench.save(&format!("sky_{frame}.png"), &flat(64, 32, &[90, 120, 180]));
+    }
+    let args = ["convert", "sky_#.png", "dome_#.png", "--from", "equirect", "--to", "fulldome", "--size", "16", "-y"];
+    symlink("dome_2.png", bench.path("dome_3.png")).unwrap();
+    assert_says(&bench.fail(2, &args), &["dome_3.png: it links to ", "dome_2.png, as another output does"]);
+    std::fs::remove_file(bench.path("dome_3.png")).unwrap();
+    std::fs::create_dir(bench.path("dome_3.png")).unwrap();
+    assert_says(&bench.fail(1, &args), &["cannot write dome_3.png", "a folder of this name"]);
+    std::fs::remove_dir(bench.path("dome_3.png")).unwrap();
+    symlink("none/dome.png", bench.path("dome_3.png")).unwrap();
+    assert_says(&bench.fail(1, &args), &["none", "does not exist"]);
+    assert!(!bench.path("dome_1.png").exists());
 }
 
 /// What only its owner could read stays so when it is made anew.

@@ -127,6 +127,9 @@ fn what_was_meant_for_a_face_pattern() {
     assert_says(&convert("faces/{Face}.png"), &["names no file", "{face}"]);
     assert_says(&convert(""), &["INPUT"]);
     assert_says(&bench.fail(1, &["info", "none/{face}.png"]), &["cannot open none: "]);
+    // Its frames are in folders that are there.
+    bench.save("shot_0001/a.png", &picture(1, 16, 16));
+    assert_says(&bench.fail(1, &["info", "shot_####/{face}.png"]), &["shot_####/{face}.png", "front"]);
     assert_says(&convert("faces/sky_$F4.png"), &["names no file", "for frames ####"]);
 }
 

@@ -156,7 +156,10 @@ const LINKS: usize = 40;
 
 /// Where a file is to be: what its name links to, so that the link stays. What stands there and is no file is told before the
 /// work, not after it, when the file is to get its name.
-fn place(target: &Path) -> Result<PathBuf, IoError> {
+///
+/// # Errors
+/// When a folder, a pipe or a device stands there, or links lead nowhere.
+pub fn place(target: &Path) -> Result<PathBuf, IoError> {
     let mut path = target.to_owned();
     for _ in 0..=LINKS {
         let found = match path.symlink_metadata() {

@@ -165,7 +165,7 @@ fn no_crate_depends_on_a_higher_one() {
 }
 
 /// Files with code for lanes. All else is plain: one pixel after the other, so that the two can be held equal.
-const LANES: [&str; 23] = [
+const LANES: [&str; 24] = [
     "cubics.rs",
     "ellipses.rs",
     "lanes.rs",
@@ -175,6 +175,7 @@ const LANES: [&str; 23] = [
     "plan/codes.rs",
     "plan/fixed.rs",
     "plan/fixed_turned.rs",
+    "plan/patch_texels.rs",
     "plan/fixed_weights.rs",
     "plan/fixed_window.rs",
     "plan/float.rs",

@@ -2,7 +2,7 @@ use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Result, bail};
-use cosmorama_io::pending::Pending;
+use cosmorama_io::pending::{Pending, place};
 
 use super::target::TargetFile;
 use super::{Files, Input, Light, MemoryBudget, Remade, Target};
@@ -55,15 +55,22 @@ impl Outputs {
         check_frame_markers(args, input, target)?;
         let inputs = files_read(input, &args.geometry);
         let mut frames = Vec::new();
-        let mut folders = HashSet::new();
+        let (mut folders, mut places) = (HashSet::new(), HashSet::new());
         for &frame in &input.frames {
             let path = |file: &TargetFile| file.files.path(frame);
             let files: Vec<(usize, PathBuf)> = target.files.iter().map(path).enumerate().collect();
             for (_, path) in &files {
                 check_apart(path, &inputs)?;
-                if folders.insert(path.parent().map(Path::to_owned)) {
+                let place = real_path(&place(path)?);
+                if folders.insert(place.parent().map(Path::to_owned)) {
                     // A folder that is missing or read-only is found out before hours of work, not after.
                     Pending::create(path)?;
+                }
+                if let Some(place) = places.replace(place) {
+                    let (path, place) = (path.display(), place.display());
+                    return Err(usage(format!(
+                        "{path}: it links to {place}, as another output does; remove the link, or choose another name"
+                    )));
                 }
             }
             frames.push(FrameOutputs { frame, files });

@@ -147,7 +147,8 @@ impl FrameLight {
 
 impl Texels {
     fn floats(job: &ConvertJob) -> Self {
-        Self::Float(job.worlds.iter().map(|world| vec![Rgba::TRANSPARENT; world.texel_count()]).collect())
+        // Not written to: each thread touches first what it decodes.
+        Self::Float(job.worlds.iter().map(|world| bytemuck::zeroed_vec(world.texel_count())).collect())
     }
 
     fn fixed(job: &ConvertJob) -> Self {

@@ -25,12 +25,12 @@ pub(super) fn install() -> Result<()> {
 }
 
 /// The signals that this program was told to ignore, a bit for each from 1 on. Only Linux says it without `unsafe`; elsewhere
-/// they are taken for none.
+/// it is taken for `nohup`'s, which has to outlive its terminal.
 #[cfg(unix)]
 fn ignored() -> u64 {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
     let bits = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
-    bits.and_then(|bits| u64::from_str_radix(bits.trim(), 16).ok()).unwrap_or(0)
+    bits.and_then(|bits| u64::from_str_radix(bits.trim(), 16).ok()).unwrap_or(1 << (signal_hook::consts::SIGHUP - 1))
 }
 
 /// Elsewhere the system ends the program; what it was writing stays as a `.cosmorama-*.part` file.

@@ -185,7 +185,9 @@ fn folder(pattern: &FacePattern, namings: &[&'static Naming]) -> Option<IoError>
 }
 
 fn no_faces(pattern: &FacePattern, namings: &[&'static Naming]) -> IoError {
-    if let Err(error) = std::fs::read_dir(pattern.folder()) {
+    // Folders whose names have a frame's number are there or not from frame to frame.
+    let is_numbered = pattern.folder().to_str().is_some_and(|folder| FramePattern::parse(folder).is_some());
+    if let (false, Err(error)) = (is_numbered, std::fs::read_dir(pattern.folder())) {
         return IoError::open(pattern.folder(), error);
     }
     let tried = |naming: &&Naming| format!("{} ({})", naming.names.join(" "), naming.name);

@@ -75,7 +75,8 @@ impl Halving {
     /// The light of the halved world.
     pub(super) fn light(&self, texels: &[Rgba]) -> Vec<Rgba> {
         let size = |view: &HalvedView| view.columns.len() * view.rows.len();
-        let mut halved = vec![Rgba::TRANSPARENT; self.views.iter().map(size).sum()];
+        // Not written to: each thread touches first what it makes.
+        let mut halved: Vec<Rgba> = bytemuck::zeroed_vec(self.views.iter().map(size).sum());
         let mut rest = halved.as_mut_slice();
         for view in &self.views {
             let (these, others) = rest.split_at_mut(size(view));

@@ -82,6 +82,13 @@ impl Run {
         [end(0, self.width), end(1, self.height)]
     }
 
+    /// The first column and row in which a window begins, and the last ones.
+    #[inline(always)]
+    pub(super) fn corners(&self) -> ([u32; 2], [u32; 2]) {
+        let farthest = self.offsets.iter().fold([0; 2], |all, offset| [all[0].max(offset[0]), all[1].max(offset[1])]);
+        (self.corner, [0, 1].map(|axis| self.corner[axis].wrapping_add(u32::from(farthest[axis]))))
+    }
+
     /// The column and the row where a lane's window begins.
     #[inline(always)]
     pub(super) fn first(&self, lane: usize) -> [u32; 2] {
@@ -94,6 +101,12 @@ impl Run {
     pub(super) fn of_lanes(lanes: u8, weights: u32) -> Self {
         let offsets = [[0; 2]; SIDE];
         Self { corner: [0; 2], offsets, weights, column: 0, view: 0, row: 0, lanes, width: 4, height: 4, under: [0; 2] }
+    }
+
+    /// The same, of windows that begin at this texel.
+    #[cfg(test)]
+    pub(super) fn from(self, corner: [u32; 2]) -> Self {
+        Self { corner, ..self }
     }
 
     /// The same of other pixels.

@@ -1,6 +1,6 @@
 //! A block of 128 bits for each mirror: what mirrored pixels have in common is done once for all of them.
 
-use fearless_simd::{Simd, i16x8, i16x16, i16x32, i32x16, prelude::*};
+use fearless_simd::{Simd, i16x8, i16x16, i16x32, i32x16, prelude::*, u16x8, u16x16, u16x32};
 
 #[cfg(target_arch = "x86_64")]
 use super::blocks_avx512;
@@ -10,12 +10,16 @@ pub(super) trait Blocks<S: Simd, const N: usize>:
     SimdInt<S, Element = i16, Mask: Select<Self>>
     + SimdIntWiden<S, Widened: SimdInt<S, Element = i32, ByteVector = <Self as SimdBase<S>>::ByteVector>>
 {
+    /// As many numbers without sign.
+    type Unsigned: SimdInt<S, Element = u16, ByteVector = <Self as SimdBase<S>>::ByteVector>;
+
     fn join(blocks: [i16x8<S>; N]) -> Self;
 
-    /// Two pairs that lie beside each other in memory, in the last R mirrors the second one first.
+    /// Of four texels in each mirror, which lie from left to right in all but the last R, the pairs beside each other, the leftmost
+    /// first: two samples of each channel.
     #[inline(always)]
-    fn two_pairs<const R: usize>(simd: S, rows: [&[i16; 16]; N]) -> [Self; 2] {
-        portable::two_pairs::<S, Self, N, R>(simd, rows)
+    fn three_pairs<const R: usize>(simd: S, rows: [&[i16; 16]; N]) -> [Self; 3] {
+        portable::three_pairs::<S, Self, N, R>(simd, rows)
     }
 
     /// Of two rows of four texels in each mirror, which lie from left to right in all but the last R, four pairs of texels above each
@@ -46,6 +50,8 @@ pub(super) trait Blocks<S: Simd, const N: usize>:
 }
 
 impl<S: Simd> Blocks<S, 1> for i16x8<S> {
+    type Unsigned = u16x8<S>;
+
     #[inline(always)]
     fn join([block]: [i16x8<S>; 1]) -> Self {
         block
@@ -53,6 +59,8 @@ impl<S: Simd> Blocks<S, 1> for i16x8<S> {
 }
 
 impl<S: Simd> Blocks<S, 2> for i16x16<S> {
+    type Unsigned = u16x16<S>;
+
     #[inline(always)]
     fn join([a, b]: [i16x8<S>; 2]) -> Self {
         a.combine(b)
@@ -60,6 +68,8 @@ impl<S: Simd> Blocks<S, 2> for i16x16<S> {
 }
 
 impl<S: Simd> Blocks<S, 4> for i16x32<S> {
+    type Unsigned = u16x32<S>;
+
     #[inline(always)]
     fn join([a, b, c, d]: [i16x8<S>; 4]) -> Self {
         a.combine(b).combine(c.combine(d))
@@ -67,17 +77,21 @@ impl<S: Simd> Blocks<S, 4> for i16x32<S> {
 
     #[cfg(target_arch = "x86_64")]
     #[inline(always)]
-    fn two_pairs<const R: usize>(simd: S, rows: [&[i16; 16]; 4]) -> [Self; 2] {
+    fn three_pairs<const R: usize>(simd: S, rows: [&[i16; 16]; 4]) -> [Self; 3] {
         match simd.level().as_avx512() {
             Some(level) if R == 2 => {
                 let [a, b, c, d] = rows;
                 let forward = i16x16::load_array_ref(simd, a).combine(i16x16::load_array_ref(simd, b));
                 let reversed = i16x16::load_array_ref(simd, c).combine(i16x16::load_array_ref(simd, d));
-                let first = blocks_avx512::first_pairs(level, forward.into(), reversed.into());
-                let second = blocks_avx512::second_pairs(level, forward.into(), reversed.into());
-                [first.simd_into(simd), second.simd_into(simd)]
+                let mut pairs = [forward; 3];
+                for (pairs, places) in pairs.iter_mut().zip(&blocks_avx512::PAIRS) {
+                    let places = i16x32::load_array_ref(simd, places);
+                    let chosen = blocks_avx512::chosen(level, forward.into(), places.into(), reversed.into());
+                    *pairs = chosen.simd_into(simd);
+                }
+                pairs
             }
-            _ => portable::two_pairs::<S, Self, 4, R>(simd, rows),
+            _ => portable::three_pairs::<S, Self, 4, R>(simd, rows),
         }
     }
 
@@ -135,16 +149,24 @@ mod portable {
     use super::Blocks;
 
     #[inline(always)]
-    pub(super) fn two_pairs<S: Simd, V: Blocks<S, N>, const N: usize, const R: usize>(
+    pub(super) fn three_pairs<S: Simd, V: Blocks<S, N>, const N: usize, const R: usize>(
         simd: S,
         rows: [&[i16; 16]; N],
-    ) -> [V; 2] {
-        let (mut first, mut second) = ([i16x8::splat(simd, 0); N], [i16x8::splat(simd, 0); N]);
-        for image in 0..N {
-            let (left, right) = i16x16::load_array_ref(simd, rows[image]).split();
-            (first[image], second[image]) = if image < N - R { (left, right) } else { (right, left) };
+    ) -> [V; 3] {
+        let order = V::Bytes::from_slice(simd, super::order::<N, R>());
+        let mut pairs = [[i16x8::splat(simd, 0); N]; 3];
+        for (at, pairs) in pairs.iter_mut().enumerate() {
+            for (image, pairs) in pairs.iter_mut().enumerate() {
+                let texel = if image < N - R { at } else { 2 - at };
+                *pairs = i16x8::from_slice(simd, &rows[image][4 * texel..][..8]);
+            }
         }
-        [V::join(first), V::join(second)]
+        let [a, b, c] = pairs;
+        let mut pairs = [V::join(a), V::join(b), V::join(c)];
+        for pairs in &mut pairs {
+            *pairs = pairs.swizzle_dyn_within_blocks(order);
+        }
+        pairs
     }
 
     #[inline(always)]

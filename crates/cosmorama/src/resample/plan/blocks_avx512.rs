@@ -1,7 +1,8 @@
 //! What AVX-512 does in one instruction for blocks of four mirrors, and portable vectors have no word for.
 
 use std::arch::x86_64::{
-    __m512i, _mm512_dpwssds_epi32, _mm512_shuffle_i64x2, _mm512_unpackhi_epi16, _mm512_unpacklo_epi16,
+    __m512i, _mm512_dpwssds_epi32, _mm512_permutex2var_epi16, _mm512_shuffle_i64x2, _mm512_unpackhi_epi16,
+    _mm512_unpacklo_epi16,
 };
 
 use fearless_simd::kernel;
@@ -14,6 +15,29 @@ kernel!(
         _mm512_dpwssds_epi32(sums, texels, weights)
     }
 );
+
+kernel!(
+    /// Those of the samples of two vectors whose places are told, of the second one from 32 on.
+    #[inline(always)]
+    pub(super) fn chosen(token: Avx512, a: __m512i, places: __m512i, b: __m512i) -> __m512i {
+        _mm512_permutex2var_epi16(a, places, b)
+    }
+);
+
+/// Where the samples of pairs are, among four texels of each of four mirrors, of which the last two run the other way: of the pair that
+/// begins in the first texel, in the second and in the third.
+pub(super) static PAIRS: [[i16; 32]; 3] = {
+    let mut places = [[0; 32]; 3];
+    let mut at = 0;
+    while at < 3 * 32 {
+        let (first, place) = (at / 32, at % 32);
+        let (image, channel, texel) = (place / 8, place % 8 / 2, first + place % 2);
+        let texel = if image < 2 { texel } else { 3 - texel };
+        places[first][place] = (16 * image + 4 * texel + channel) as i16;
+        at += 1;
+    }
+    places
+};
 
 kernel!(
     /// Of two pairs of each of four mirrors the first ones, given two mirrors in which they lie first and two in which they lie

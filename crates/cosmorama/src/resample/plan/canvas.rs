@@ -4,7 +4,7 @@ use bytemuck::NoUninit;
 
 use super::band::Run;
 use super::group_light::{Develop, GroupLight};
-use super::mirrors::{MOST_IMAGES, MirrorImage, Mirrors, UPRIGHT, Ways};
+use super::mirrors::{MirrorImage, Mirrors, TOGETHER, UPRIGHT, Ways};
 use super::passes::Pass;
 use super::picture_part::PicturePart;
 use crate::resample::patch::SIDE;
@@ -175,9 +175,9 @@ impl<'a, P: NoUninit> Canvas<'a, P> {
             let top = row - run.row_in_patch();
             let mut lines = self.part.lines(image, [column, top], [SIDE, SIDE.min(self.part.rows() - top)]);
             for (run, light) in runs().filter(|(run, _)| run.is_whole()) {
-                let mut eight = [&light[0][at % MOST_IMAGES]; SIDE];
+                let mut eight = [&light[0][at % TOGETHER]; SIDE];
                 for (lane, one) in eight.iter_mut().enumerate() {
-                    *one = &light[turned::<REVERSED>(lane)][at % MOST_IMAGES];
+                    *one = &light[turned::<REVERSED>(lane)][at % TOGETHER];
                 }
                 lines.write(run.row_in_patch(), &develop.eight(eight));
             }
@@ -198,9 +198,9 @@ impl<'a, P: NoUninit> Canvas<'a, P> {
     ) {
         let mut lines = self.part.lines(image, first.pixel(0), [SIDE; 2]);
         for (lane, top) in light[0].iter().enumerate() {
-            let mut eight = [&top[at % MOST_IMAGES]; SIDE];
+            let mut eight = [&top[at % TOGETHER]; SIDE];
             for (row, one) in eight.iter_mut().enumerate() {
-                *one = &light[turned::<REVERSED>(row)][lane][at % MOST_IMAGES];
+                *one = &light[turned::<REVERSED>(row)][lane][at % TOGETHER];
             }
             lines.write(lane, &develop.eight(eight));
         }
@@ -211,7 +211,7 @@ impl<'a, P: NoUninit> Canvas<'a, P> {
         &mut self,
         run: &Run,
         [at, image]: [usize; 2],
-        light: &[[D::Light; MOST_IMAGES]; SIDE],
+        light: &[[D::Light; TOGETHER]; SIDE],
         develop: &D,
     ) {
         for lane in run.lanes() {
@@ -252,7 +252,7 @@ const fn bytes_of(columns: usize) -> usize {
 
 #[cfg(test)]
 mod tests {
-    use super::super::mirrors::TOGETHER;
+    use super::super::mirrors::MOST_IMAGES;
     use super::super::passes::passes;
     use super::*;
     use crate::raster::RowLayout;
@@ -292,7 +292,7 @@ mod tests {
 
     /// Puts a group of runs of these lanes, one below the other from this pixel on; each pixel is where its mirror shows it, and no other
     /// is touched.
-    fn assert_put(first: [usize; 2], lanes: &[u8], at_once: usize) {
+    fn assert_put(first: [usize; 2], lanes: &[u8]) {
         let mirrors = mirrors();
         let group: Vec<Run> = lanes
             .iter()
@@ -301,9 +301,9 @@ mod tests {
             .collect();
         let mut picture = vec![0; 32 * 32];
         let mut canvases = Canvas::bands(&mut picture, 32, 2 * SIDE, &mirrors, 0);
-        for (pass, _) in passes(std::iter::once(&*group), MOST_IMAGES, at_once) {
+        for (pass, _) in passes(std::iter::once(&*group), MOST_IMAGES) {
             let first = pass.ways.start;
-            let number = |run, lane, at| if at < at_once { number(run, lane, first + at) } else { 0 };
+            let number = |run, lane, at| number(run, lane, first + at);
             let light =
                 std::array::from_fn(|run| std::array::from_fn(|lane| std::array::from_fn(|at| number(run, lane, at))));
             canvases[0].put(&pass, mirrors.ways(0), &light, &AsItIs);
@@ -330,14 +330,12 @@ mod tests {
 
     #[test]
     fn pixels_are_put_where_mirrors_show_them() {
-        for at_once in [TOGETHER, MOST_IMAGES] {
-            for first in [[0, 0], [8, 0], [8, 8]] {
-                assert_put(first, &[0xff; SIDE], at_once);
-                assert_put(first, &[0xff; 3], at_once);
-                assert_put(first, &[0xff, 0xff, 0x81, 0x10, 0xff, 0x7e, 0xff, 0x01], at_once);
-            }
-            assert_put([8, 2], &[0xff; 6], at_once);
-            assert_put([8, 0], &[], at_once);
+        for first in [[0, 0], [8, 0], [8, 8]] {
+            assert_put(first, &[0xff; SIDE]);
+            assert_put(first, &[0xff; 3]);
+            assert_put(first, &[0xff, 0xff, 0x81, 0x10, 0xff, 0x7e, 0xff, 0x01]);
         }
+        assert_put([8, 2], &[0xff; 6]);
+        assert_put([8, 0], &[]);
     }
 }

@@ -7,7 +7,7 @@
 use fearless_simd::{Level, Simd, dispatch, f32x4, i16x8, i16x16, i16x32, i32x4, prelude::*};
 
 use super::band::{Band, Run};
-use super::blocks::{self, Blocks};
+use super::blocks::Blocks;
 use super::canvas::Canvas;
 #[cfg(target_arch = "x86_64")]
 use super::codes::Compute;
@@ -16,8 +16,9 @@ use super::fixed_weights::{FixedWeights, Header, Shape};
 use super::fixed_window::Window;
 use super::group_light::GroupLight;
 use super::groups::{Place, window_count};
-use super::mirrors::{MOST_IMAGES, Mirrors, TOGETHER, Ways};
+use super::mirrors::{Mirrors, TOGETHER, Ways};
 use super::passes::{Pass, passes};
+use super::patch_texels::PatchTexels;
 use super::prefetch::{prefetch_pass, prefetch_runs, prefetch_weights};
 use super::singles::Palette;
 use super::texels::{Texels, prefetch};
@@ -51,11 +52,10 @@ impl FixedFilter<'_> {
         }
         let texels = self.light.as_laid_out();
         let views = ViewTexels::all(self.mirrors, self.light.samples());
-        let mut light: GroupLight<[i32; 4]> = [[[[0; 4]; MOST_IMAGES]; SIDE]; SIDE];
+        let mut light: GroupLight<[i32; 4]> = [[[[0; 4]; TOGETHER]; SIDE]; SIDE];
+        let mut patch = PatchTexels::new();
         let mut after = 0;
-        // There are more registers with AVX-512, and less to read twice counts more than what the nearest cache holds.
-        let at_once = if simd.level().as_avx512().is_some() { MOST_IMAGES } else { TOGETHER };
-        for (pass, next) in passes(band.groups(), self.mirrors.images.len(), at_once) {
+        for (pass, next) in passes(band.groups(), self.mirrors.images.len()) {
             if let Some(next) = next {
                 prefetch_pass(texels, self.mirrors, &next);
             }
@@ -65,7 +65,7 @@ impl FixedFilter<'_> {
             }
             let run = &pass.group[0];
             let (view, numbers) = (usize::from(run.view), &band.weights.numbers[run.weights as usize..]);
-            self.weigh(simd, &pass, &views[view], numbers, &mut light);
+            self.weigh(simd, &pass, (&views[view], &mut patch), numbers, &mut light);
             self.put(simd, &pass, self.mirrors.ways(view), &light, canvas);
         }
     }
@@ -77,48 +77,37 @@ impl FixedFilter<'_> {
         &self,
         simd: S,
         Pass { group, ways }: &Pass,
-        texels: &ViewTexels<i16>,
+        (texels, patch): (&ViewTexels<i16>, &mut PatchTexels),
         numbers: &[u32],
         light: &mut GroupLight<[i32; 4]>,
     ) {
         let group = GroupFilter { simd, group, numbers, anti_ringing: self.anti_ringing };
         // A function for each number of mirrors: all in one would take the compiler minutes.
         match texels {
-            ViewTexels::Eight(texels) if ways.len() == MOST_IMAGES => simd.vectorize(
-                #[inline(always)]
-                || group.weigh::<i16x32<S>, 4, 2, 2, false>(texels, 0, light),
-            ),
-            ViewTexels::Turned(texels) if ways.len() == MOST_IMAGES => simd.vectorize(
-                #[inline(always)]
-                || group.weigh::<i16x32<S>, 4, 2, 2, true>(texels, 0, light),
-            ),
             ViewTexels::Turned([_, turned]) if ways.start > 0 => simd.vectorize(
                 #[inline(always)]
-                || group.weigh::<i16x32<S>, 4, 2, 1, true>(std::array::from_ref(turned), 0, light),
+                || group.weigh::<i16x32<S>, 4, 2, true>((turned, patch), 0, light),
             ),
             ViewTexels::Four(texels) | ViewTexels::Turned([texels, _]) => simd.vectorize(
                 #[inline(always)]
-                || group.weigh::<i16x32<S>, 4, 2, 1, false>(std::array::from_ref(texels), 0, light),
+                || group.weigh::<i16x32<S>, 4, 2, false>((texels, patch), 0, light),
             ),
             ViewTexels::Eight(texels) => simd.vectorize(
                 #[inline(always)]
-                || {
-                    let texels = std::array::from_ref(&texels[ways.start / TOGETHER]);
-                    group.weigh::<i16x32<S>, 4, 2, 1, false>(texels, 0, light);
-                },
+                || group.weigh::<i16x32<S>, 4, 2, false>((&texels[ways.start / TOGETHER], patch), 0, light),
             ),
             ViewTexels::Two(texels) => simd.vectorize(
                 #[inline(always)]
-                || group.weigh::<i16x16<S>, 2, 1, 1, false>(std::array::from_ref(texels), 0, light),
+                || group.weigh::<i16x16<S>, 2, 1, false>((texels, patch), 0, light),
             ),
             ViewTexels::OneByOne { forward, reversed } => simd.vectorize(
                 #[inline(always)]
                 || {
                     for (image, texels) in forward.iter().enumerate() {
-                        group.weigh::<i16x8<S>, 1, 0, 1, false>(std::array::from_ref(texels), image, light);
+                        group.weigh::<i16x8<S>, 1, 0, false>((texels, patch), image, light);
                     }
                     for (image, texels) in (forward.len()..).zip(reversed) {
-                        group.weigh::<i16x8<S>, 1, 1, 1, false>(std::array::from_ref(texels), image, light);
+                        group.weigh::<i16x8<S>, 1, 1, false>((texels, patch), image, light);
                     }
                 },
             ),
@@ -183,38 +172,40 @@ struct GroupFilter<'a, S> {
 }
 
 impl<S: Simd> GroupFilter<'_, S> {
-    /// The light in G times N mirrors from one of them on; in the last R of each N windows are walked through from right to left, in the
-    /// last N, if these are `TURNED`, with columns for rows.
+    /// The light in N mirrors from one of them on; in the last R windows are walked through from right to left, in all of them, if they
+    /// are `TURNED`, with columns for rows.
     #[inline(always)]
-    fn weigh<V: Blocks<S, N>, const N: usize, const R: usize, const G: usize, const TURNED: bool>(
+    fn weigh<V: Blocks<S, N>, const N: usize, const R: usize, const TURNED: bool>(
         self,
-        texels: &[Texels<i16, N, R>; G],
+        (texels, patch): (&Texels<i16, N, R>, &mut PatchTexels),
         image: usize,
         light: &mut GroupLight<[i32; 4]>,
     ) {
         let Self { simd, group, mut numbers, anti_ringing } = self;
-        let order = V::Bytes::from_slice(simd, blocks::order::<N, R>());
         let mut count = window_count(group);
+        patch.clear();
         while count > 0 {
             prefetch_weights(numbers);
             let header = Header(numbers[0]);
             let Place { run, lane } = Place::of(header.0);
-            let light = light[run][lane][image..].as_chunks_mut::<N>().0;
+            let light = &mut light[run][lane][image..][..N];
             let run = &group[run];
-            let window = Window::<S, V, N, R, G, TURNED> { simd, order, texels, first: run.first(lane) };
-            let (sums, length) = match header.shape() {
-                0 => window.small::<4, 4, 0>(header, numbers),
-                1 => window.small::<4, 4, 1>(header, numbers),
-                2 => window.small::<4, 5, 1>(header, numbers),
-                3 => window.small::<6, 4, 0>(header, numbers),
-                4 => window.small::<6, 4, 1>(header, numbers),
-                5 => window.small::<6, 5, 1>(header, numbers),
-                _ => window.large(Shape::of_run(run), run.rows_under(), numbers),
+            let first = run.first(lane);
+            if header.is_small() {
+                patch.hold::<S, V, N, R, TURNED>(simd, texels, group, first);
+            }
+            let window = Window { simd, patch, first, numbers, is_bounded: anti_ringing };
+            let (average, length) = match header.shape() {
+                0 => window.small::<V, N, 4, 4, 0>(),
+                1 => window.small::<V, N, 4, 4, 1>(),
+                2 => window.small::<V, N, 4, 5, 1>(),
+                3 => window.small::<V, N, 6, 4, 0>(),
+                4 => window.small::<V, N, 6, 4, 1>(),
+                5 => window.small::<V, N, 6, 5, 1>(),
+                _ => window.large::<V, N, R, TURNED>(texels, Shape::of_run(run), run.rows_under()),
             };
             (numbers, count) = (&numbers[length..], count - 1);
-            for (sums, light) in sums.into_iter().zip(light) {
-                sums.average(simd, header.bits(), anti_ringing).store_slice(light.as_flattened_mut());
-            }
+            average.store_slice(light.as_flattened_mut());
         }
     }
 }

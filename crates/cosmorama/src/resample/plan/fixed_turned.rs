@@ -3,83 +3,9 @@
 use fearless_simd::{Simd, i16x8, prelude::*};
 
 use super::blocks::Blocks;
-use super::fixed_weights::{PAIRS_UNDER, ROWS_UNDER, Shape};
+use super::fixed_weights::Shape;
 use super::fixed_window::{Large, Sums};
-use super::texels::{Texels, Window};
-
-/// A window of a small size, so wide and high as all mirrors see it: in these as many rows and columns.
-#[derive(Clone, Copy)]
-pub(super) struct TurnedWindow<
-    'a,
-    S: Simd,
-    V: Blocks<S, N>,
-    const N: usize,
-    const R: usize,
-    const WIDTH: usize,
-    const HEIGHT: usize,
-    const UNDER: usize,
-> {
-    pub(super) simd: S,
-    pub(super) texels: [Window<'a, i16, HEIGHT, WIDTH>; N],
-    pub(super) weights: &'a [u32],
-    pub(super) marks: V,
-}
-
-impl<
-    S: Simd,
-    V: Blocks<S, N>,
-    const N: usize,
-    const R: usize,
-    const WIDTH: usize,
-    const HEIGHT: usize,
-    const UNDER: usize,
-> TurnedWindow<'_, S, V, N, R, WIDTH, HEIGHT, UNDER>
-{
-    #[inline(always)]
-    pub(super) fn add(&self, sums: &mut Sums<S, V, N>) {
-        self.add_rows(sums, 0);
-        self.add_rows(sums, 1);
-        if WIDTH == 6 {
-            self.add_rows(sums, 2);
-        }
-    }
-
-    /// Adds two rows of texels: a pair of each row of the window.
-    #[inline(always)]
-    fn add_rows(&self, sums: &mut Sums<S, V, N>, pair: usize) {
-        let Self { simd, texels, .. } = self;
-        let mut rows = [[texels[0].samples::<16>(0, 0); N]; 2];
-        for (below, rows) in rows.iter_mut().enumerate() {
-            for (image, samples) in rows.iter_mut().enumerate() {
-                *samples = texels[image].samples(2 * pair + below, if image < N - R { 0 } else { HEIGHT - 4 });
-            }
-        }
-        let [first, second, third, fourth] = V::four_upright::<R>(*simd, rows);
-        self.add_pair(sums, 0, pair, first);
-        self.add_pair(sums, 1, pair, second);
-        self.add_pair(sums, 2, pair, third);
-        self.add_pair(sums, 3, pair, fourth);
-        if HEIGHT == 5 {
-            let mut last = [i16x8::splat(*simd, 0); N];
-            for (image, last) in last.iter_mut().enumerate() {
-                let column = if image < N - R { 3 } else { 0 };
-                let [above, below] =
-                    [0, 1].map(|row| i16x8::load_array_ref(*simd, texels[image].samples(2 * pair + row, column)));
-                *last = if image < N - R { above.zip_high(below) } else { above.zip_low(below) };
-            }
-            self.add_pair(sums, 4, pair, V::join(last));
-        }
-    }
-
-    #[inline(always)]
-    fn add_pair(&self, sums: &mut Sums<S, V, N>, row: usize, pair: usize, texels: V) {
-        let at = WIDTH / 2 * row + pair;
-        sums.add(texels, V::pair(self.simd, self.weights[at]), at);
-        if (UNDER..UNDER + ROWS_UNDER).contains(&row) && pair < PAIRS_UNDER {
-            sums.bound(self.simd, texels, self.marks, (row - UNDER) * PAIRS_UNDER + pair);
-        }
-    }
-}
+use super::texels::Texels;
 
 impl Large<'_> {
     /// The same of a window of any size.

@@ -60,7 +60,7 @@ impl Shape {
 
 /// Rows of the highest small window, and pairs of the widest.
 pub(super) const HIGHEST: usize = 5;
-const WIDEST: usize = 3;
+pub(super) const WIDEST: usize = 3;
 
 /// Numbers that hold any of them with its header, and what follows its last row.
 const MOST: usize = 1 + WIDEST * (HIGHEST - 1) + SIDE / 2;
@@ -91,6 +91,12 @@ impl Header {
     #[inline(always)]
     pub(super) fn shape(self) -> u32 {
         self.0 >> 9 & 7
+    }
+
+    /// Whether it is one of these.
+    #[inline(always)]
+    pub(super) fn is_small(self) -> bool {
+        (self.shape() as usize) < Shape::SMALL.len()
     }
 
     /// By how many bits the weights are scaled.

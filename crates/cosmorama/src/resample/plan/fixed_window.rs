@@ -4,88 +4,71 @@ use std::ops::Range;
 
 use fearless_simd::{Simd, i16x8, prelude::*};
 
-use super::blocks::Blocks;
-use super::fixed_turned::TurnedWindow;
+use super::blocks::{self, Blocks};
 use super::fixed_weights::{Header, PAIRS_UNDER, ROWS_UNDER, Shape, mark_words};
-use super::texels::{self, Texels};
+use super::patch_texels::{self, PatchTexels};
+use super::texels::Texels;
 
-/// A pixel's window in G times N mirrors, in the last R of each N from right to left; in the last N, if these are `TURNED`, its rows are
-/// columns.
+/// A pixel's window.
 #[derive(Clone, Copy)]
-pub(super) struct Window<
-    'a,
-    S: Simd,
-    V: Blocks<S, N>,
-    const N: usize,
-    const R: usize,
-    const G: usize,
-    const TURNED: bool,
-> {
+pub(super) struct Window<'a, S: Simd> {
     pub(super) simd: S,
-    /// From texels to pairs of a channel.
-    pub(super) order: V::Bytes,
-    /// Those of the view.
-    pub(super) texels: &'a [Texels<'a, i16, N, R>; G],
+    /// The texels of its group's small windows, this among them if it is one.
+    pub(super) patch: &'a PatchTexels,
     /// Where it begins.
     pub(super) first: [u32; 2],
+    /// Its header and its weights, and more.
+    pub(super) numbers: &'a [u32],
+    /// Whether its light is to lie within that of the texels under the pixel.
+    pub(super) is_bounded: bool,
 }
 
-impl<S: Simd, V: Blocks<S, N>, const N: usize, const R: usize, const G: usize, const TURNED: bool>
-    Window<'_, S, V, N, R, G, TURNED>
-{
+impl<S: Simd> Window<'_, S> {
     /// Sums over a window of one of the sizes of [`Shape::SMALL`], and how many numbers tell of it. Written out: loops would stay
     /// loops.
     #[inline(always)]
-    pub(super) fn small<const WIDTH: usize, const HEIGHT: usize, const UNDER: usize>(
+    pub(super) fn small<
+        V: Blocks<S, N>,
+        const N: usize,
+        const WIDTH: usize,
+        const HEIGHT: usize,
+        const UNDER: usize,
+    >(
         self,
-        header: Header,
-        numbers: &[u32],
-    ) -> ([Sums<S, V, N>; G], usize) {
+    ) -> (V::Widened, usize) {
+        let Self { simd, patch, first, numbers, is_bounded } = self;
+        let mut sums = Sums::<S, V, N>::new(simd, Header(numbers[0]).bits(), is_bounded);
         debug_assert_eq!(
-            Shape::SMALL.get(header.shape() as usize),
+            Shape::SMALL.get(Header(numbers[0]).shape() as usize),
             Some(&Shape { pairs: WIDTH / 2, height: HEIGHT, under: UNDER }),
             "the table's order is that of the match"
         );
-        let Self { simd, order, texels, first } = self;
-        let (weights, marks) = (&numbers[1..][..WIDTH / 2 * HEIGHT], V::pair(simd, header.0));
-        let mut sums = [Sums::new(simd); G];
-        let upright = |group: usize| SmallWindow::<S, V, N, R, WIDTH, HEIGHT, UNDER> {
-            simd,
-            order,
-            texels: texels[group].windows(first),
-            weights,
-            marks,
-        };
-        if G > 1 || !TURNED {
-            upright(0).add(&mut sums[0]);
-        }
-        if TURNED {
-            let texels = texels[G - 1].windows([first[1], first[0]]);
-            TurnedWindow::<S, V, N, R, WIDTH, HEIGHT, UNDER> { simd, texels, weights, marks }.add(&mut sums[G - 1]);
-        } else if G > 1 {
-            upright(G - 1).add(&mut sums[G - 1]);
-        }
-        (sums, 1 + WIDTH / 2 * HEIGHT)
+        let length = 1 + WIDTH / 2 * HEIGHT;
+        let (texels, marks) = (patch.window::<N, WIDTH, HEIGHT>(first), V::pair(simd, numbers[0]));
+        SmallWindow { simd, texels, weights: &numbers[1..length], marks }.add::<UNDER>(&mut sums);
+        (sums.average(Header(numbers[0]).bits()), length)
     }
 
-    /// The same of any size, whose rows `under` may hold texels under the pixel.
+    /// The same of any size, whose rows `under` may hold texels under the pixel, given the view's; in the last R mirrors from right to
+    /// left, in all of them, if these are `TURNED`, with columns for rows.
     #[inline(always)]
-    pub(super) fn large(self, shape: Shape, under: Range<usize>, numbers: &[u32]) -> ([Sums<S, V, N>; G], usize) {
+    pub(super) fn large<V: Blocks<S, N>, const N: usize, const R: usize, const TURNED: bool>(
+        self,
+        texels: &Texels<i16, N, R>,
+        shape: Shape,
+        under: Range<usize>,
+    ) -> (V::Widened, usize) {
+        let Self { simd, first, numbers, is_bounded, .. } = self;
+        let mut sums = Sums::<S, V, N>::new(simd, Header(numbers[0]).bits(), is_bounded);
         let words = mark_words(shape.pairs);
         let (marks, weights) = numbers[1..].split_at(under.len() * words);
         let large = Large { shape, under, words, marks, weights: &weights[..shape.pairs * shape.height] };
-        let Self { simd, order, texels, first } = self;
-        let mut sums = [Sums::new(simd); G];
-        // Written out: what a loop adds to would lie in memory.
-        if G > 1 || !TURNED {
-            large.add(simd, (&texels[0], order), first, &mut sums[0]);
-        }
         if TURNED {
-            large.add_turned(simd, &texels[G - 1], first, &mut sums[G - 1]);
-        } else if G > 1 {
-            large.add(simd, (&texels[G - 1], order), first, &mut sums[G - 1]);
+            large.add_turned(simd, texels, first, &mut sums);
+        } else {
+            large.add(simd, texels, first, &mut sums);
         }
-        (sums, 1 + marks.len() + shape.pairs * shape.height)
+        (sums.average(Header(numbers[0]).bits()), 1 + marks.len() + shape.pairs * shape.height)
     }
 }
 
@@ -104,11 +87,12 @@ impl Large<'_> {
     fn add<S: Simd, V: Blocks<S, N>, const N: usize, const R: usize>(
         &self,
         simd: S,
-        (texels, order): (&Texels<i16, N, R>, V::Bytes),
+        texels: &Texels<i16, N, R>,
         first: [u32; 2],
         sums: &mut Sums<S, V, N>,
     ) {
         let Shape { pairs, height, .. } = self.shape;
+        let order = V::Bytes::from_slice(simd, blocks::order::<N, R>());
         for row in 0..height {
             let mut rows: [&[i16]; N] = [&[]; N];
             for (image, samples) in rows.iter_mut().enumerate() {
@@ -144,66 +128,39 @@ impl Large<'_> {
 
 /// A window of a small size.
 #[derive(Clone, Copy)]
-struct SmallWindow<
-    'a,
-    S: Simd,
-    V: Blocks<S, N>,
-    const N: usize,
-    const R: usize,
-    const WIDTH: usize,
-    const HEIGHT: usize,
-    const UNDER: usize,
-> {
+struct SmallWindow<'a, S: Simd, V: Blocks<S, N>, const N: usize, const WIDTH: usize, const HEIGHT: usize> {
     simd: S,
-    order: V::Bytes,
-    texels: [texels::Window<'a, i16, WIDTH, HEIGHT>; N],
+    texels: patch_texels::Window<'a, N, WIDTH, HEIGHT>,
     weights: &'a [u32],
     marks: V,
 }
 
-impl<
-    S: Simd,
-    V: Blocks<S, N>,
-    const N: usize,
-    const R: usize,
-    const WIDTH: usize,
-    const HEIGHT: usize,
-    const UNDER: usize,
-> SmallWindow<'_, S, V, N, R, WIDTH, HEIGHT, UNDER>
+impl<S: Simd, V: Blocks<S, N>, const N: usize, const WIDTH: usize, const HEIGHT: usize>
+    SmallWindow<'_, S, V, N, WIDTH, HEIGHT>
 {
     #[inline(always)]
-    fn add(&self, sums: &mut Sums<S, V, N>) {
-        self.add_row(sums, 0);
-        self.add_row(sums, 1);
-        self.add_row(sums, 2);
-        self.add_row(sums, 3);
+    fn add<const UNDER: usize>(&self, sums: &mut Sums<S, V, N>) {
+        self.add_row::<UNDER>(sums, 0);
+        self.add_row::<UNDER>(sums, 1);
+        self.add_row::<UNDER>(sums, 2);
+        self.add_row::<UNDER>(sums, 3);
         if HEIGHT == 5 {
-            self.add_row(sums, 4);
+            self.add_row::<UNDER>(sums, 4);
         }
     }
 
     #[inline(always)]
-    fn add_row(&self, sums: &mut Sums<S, V, N>, row: usize) {
-        let mut rows = [self.texels[0].samples::<16>(row, 0); N];
-        for (image, samples) in rows.iter_mut().enumerate() {
-            *samples = self.texels[image].samples(row, if image < N - R { 0 } else { WIDTH - 4 });
-        }
-        let [first, second] = V::two_pairs::<R>(self.simd, rows);
-        self.add_pair(sums, row, 0, first);
-        self.add_pair(sums, row, 1, second);
+    fn add_row<const UNDER: usize>(&self, sums: &mut Sums<S, V, N>, row: usize) {
+        self.add_pair::<UNDER>(sums, row, 0);
+        self.add_pair::<UNDER>(sums, row, 1);
         if WIDTH == 6 {
-            let mut third = [i16x8::splat(self.simd, 0); N];
-            for (image, third) in third.iter_mut().enumerate() {
-                let column = if image < N - R { 4 } else { 0 };
-                *third = i16x8::load_array_ref(self.simd, self.texels[image].samples(row, column));
-            }
-            self.add_pair(sums, row, 2, V::join(third));
+            self.add_pair::<UNDER>(sums, row, 2);
         }
     }
 
     #[inline(always)]
-    fn add_pair(&self, sums: &mut Sums<S, V, N>, row: usize, pair: usize, texels: V) {
-        let texels = texels.swizzle_dyn_within_blocks(self.order);
+    fn add_pair<const UNDER: usize>(&self, sums: &mut Sums<S, V, N>, row: usize, pair: usize) {
+        let texels: V = self.texels.pair(self.simd, row, 2 * pair);
         let at = WIDTH / 2 * row + pair;
         sums.add(texels, V::pair(self.simd, self.weights[at]), at);
         if (UNDER..UNDER + ROWS_UNDER).contains(&row) && pair < PAIRS_UNDER {
@@ -214,7 +171,7 @@ impl<
 
 /// Sums that are made beside each other where a product and a sum are one instruction, so that each waits for others than the last.
 /// Elsewhere sums alone are fast, and registers few.
-const CHAINS: usize = 3;
+const CHAINS: usize = 2;
 
 /// What adds up over a window.
 #[derive(Clone, Copy)]
@@ -222,14 +179,21 @@ pub(super) struct Sums<S: Simd, V: Blocks<S, N>, const N: usize> {
     sums: [V::Widened; CHAINS],
     /// The largest samples under the pixel, and the smallest.
     greatest: V,
-    least: V,
+    least: V::Unsigned,
 }
 
 impl<S: Simd, V: Blocks<S, N>, const N: usize> Sums<S, V, N> {
+    /// Of no texels, given by how many bits weights are scaled; whether the sum is to lie within what lies under the pixel.
     #[inline(always)]
-    pub(super) fn new(simd: S) -> Self {
-        let (black, white) = (V::splat(simd, 0), V::splat(simd, i16::MAX));
-        Self { sums: [V::Widened::splat(simd, 0); CHAINS], greatest: black, least: white }
+    pub(super) fn new(simd: S, bits: u32, is_bounded: bool) -> Self {
+        let half = V::Widened::splat(simd, 1 << (bits - 1));
+        // Without bounds no texel changes these any more.
+        let [least, greatest] = if is_bounded { [i16::MAX, 0] } else { [0, i16::MAX] };
+        Self {
+            sums: [half, V::Widened::splat(simd, 0)],
+            greatest: V::splat(simd, greatest),
+            least: V::Unsigned::splat(simd, least.cast_unsigned()),
+        }
     }
 
     /// Adds pairs of texels, the ones after the others to another chain.
@@ -242,28 +206,26 @@ impl<S: Simd, V: Blocks<S, N>, const N: usize> Sums<S, V, N> {
     /// Notes those of a pair that lie under the pixel: whose bit is not set.
     #[inline(always)]
     pub(super) fn bound(&mut self, simd: S, texels: V, marks: V, bit: usize) {
-        let bit = V::splat(simd, 1 << bit);
-        let is_under = (marks & bit).simd_eq(V::splat(simd, 0));
-        self.greatest = is_under.select(self.greatest.max(texels), self.greatest);
-        self.least = is_under.select(self.least.min(texels), self.least);
+        // With the sign of those that do not, they are less than all others, and more if it is taken for a bit.
+        let samples = texels | (marks << (15 - bit as u32)) & V::splat(simd, i16::MIN);
+        self.greatest = self.greatest.max(samples);
+        self.least = self.least.min(samples.bitcast::<V::Unsigned>());
     }
 
-    /// The sum as light; within what lies under the pixel, if that is asked for.
+    /// The sum as light, within its bounds.
     #[inline(always)]
-    pub(super) fn average(self, simd: S, bits: u32, is_bounded: bool) -> V::Widened {
-        let [a, b, c] = self.sums;
-        let average = (a + b + c + (1 << (bits - 1))) >> bits;
-        // Without a branch: one would be moved to where bounds begin to be found, and keep all texels in registers until then.
-        let free = V::Widened::splat(simd, if is_bounded { 0 } else { -1 });
-        let ([a, b], [c, d]) = (halves(self.least), halves(self.greatest));
-        let (fewest, most) = (a.min(b) & !free, c.max(d) | free & i32::from(i16::MAX));
-        average.max(fewest).min(most)
+    pub(super) fn average(self, bits: u32) -> V::Widened {
+        let [a, b] = self.sums;
+        let least: [V::Widened; 2] = halves(self.least);
+        let greatest: [V::Widened; 2] = halves(self.greatest);
+        let ([fewest, few], [most, many]) = (least, greatest);
+        ((a + b) >> bits).max(fewest.min(few)).min(most.max(many))
     }
 }
 
 /// The samples of each pair, none of which is negative.
 #[inline(always)]
-fn halves<S: Simd, V: Blocks<S, N>, const N: usize>(samples: V) -> [V::Widened; 2] {
-    let pairs: V::Widened = samples.bitcast();
+fn halves<S: Simd, V: SimdInt<S>, W: SimdInt<S, Element = i32, ByteVector = V::ByteVector>>(samples: V) -> [W; 2] {
+    let pairs: W = samples.bitcast();
     [pairs & i32::from(i16::MAX), pairs >> 16]
 }

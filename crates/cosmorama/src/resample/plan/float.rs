@@ -9,7 +9,7 @@ use super::float_weights::FloatWeights;
 use super::float_window::Window;
 use super::group_light::{Develop, GroupLight};
 use super::groups::{Place, window_count};
-use super::mirrors::{MOST_IMAGES, Mirrors, TOGETHER};
+use super::mirrors::{Mirrors, TOGETHER};
 use super::passes::{Pass, passes};
 use super::prefetch::{prefetch_pass, prefetch_runs, prefetch_weights};
 use super::singles::{Palette, Singles};
@@ -48,9 +48,9 @@ impl FloatFilter<'_> {
             return;
         }
         let views = ViewTexels::all(self.mirrors, bytemuck::cast_slice(self.texels));
-        let mut light: GroupLight<Rgba> = [[[Rgba::TRANSPARENT; MOST_IMAGES]; SIDE]; SIDE];
+        let mut light: GroupLight<Rgba> = [[[Rgba::TRANSPARENT; TOGETHER]; SIDE]; SIDE];
         let mut after = 0;
-        for (pass, next) in passes(band.groups(), self.mirrors.images.len(), TOGETHER) {
+        for (pass, next) in passes(band.groups(), self.mirrors.images.len()) {
             if let Some(next) = next {
                 prefetch_pass(self.texels, self.mirrors, &next);
             }

@@ -1,11 +1,11 @@
 use bytemuck::NoUninit;
 
-use super::mirrors::MOST_IMAGES;
+use super::mirrors::TOGETHER;
 use crate::resample::patch::SIDE;
 
 /// The light of a pass's windows: by run, lane and mirror, these in the order in which the view's are walked through, from the pass's
 /// first one on; elsewhere any.
-pub(super) type GroupLight<L> = [[[L; MOST_IMAGES]; SIDE]; SIDE];
+pub(super) type GroupLight<L> = [[[L; TOGETHER]; SIDE]; SIDE];
 
 /// What makes pixels of the light of windows.
 pub(super) trait Develop {

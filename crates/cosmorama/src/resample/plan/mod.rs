@@ -23,6 +23,7 @@ mod groups;
 mod key;
 mod mirrors;
 mod passes;
+mod patch_texels;
 mod picture_part;
 mod prefetch;
 mod recorder;

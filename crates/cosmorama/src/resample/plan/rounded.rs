@@ -290,4 +290,32 @@ mod tests {
             assert_eq!(found, std::array::from_fn(|row| std::array::from_fn(|column| (10 * column + row) as i16)));
         }
     }
+
+    /// That of a window six texels wide and four high, all of which count, given in which columns some lie under the pixel.
+    fn shape(columns_under: u8) -> Option<usize> {
+        let mut found = levels().into_iter().map(|level| {
+            let mut rounded = Rounded { width: 6, height: 4, is_small: true, ..Rounded::default() };
+            let counts = [0b11_1111, 0b1111, columns_under, 0b0110].map(|bits| [bits; SIDE]);
+            dispatch!(level, simd => rounded.find_shapes(simd, counts));
+            rounded.shape(0).map(|(index, _)| index)
+        });
+        let first = found.next().expect("at least the plain one");
+        assert!(found.all(|shape| shape == first));
+        first
+    }
+
+    #[test]
+    fn a_window_whose_last_texels_lie_under_the_pixel_is_no_small_one() {
+        assert_eq!(shape(0b00_1100), Some(3));
+        assert_eq!(shape(0b00_1111), Some(3));
+        assert_eq!((shape(0b01_0000), shape(0b10_0100)), (None, None));
+    }
+
+    #[test]
+    fn a_window_that_begins_earlier_has_its_marks_later() {
+        let mut rounded = Rounded::default();
+        rounded.small.columns_under = [0b1000; SIDE];
+        let are_early = |column: isize| rounded.are_marks_early(0, Origin { column, row: 0 });
+        assert!(!are_early(-1) && are_early(0) && are_early(1));
+    }
 }

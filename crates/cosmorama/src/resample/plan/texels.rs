@@ -96,6 +96,31 @@ impl<'a, T: Copy, const N: usize, const R: usize> Texels<'a, T, N, R> {
         })
     }
 
+    /// Columns and rows of the view, as these mirrors go through it.
+    #[inline(always)]
+    pub(super) fn size(&self) -> [usize; 2] {
+        self.size.map(|length| length as usize)
+    }
+
+    /// `COLUMNS` texels of so many rows, `LENGTH` samples, from this texel on, row by row, in each mirror.
+    ///
+    /// # Panics
+    /// If they are not all within the view.
+    #[inline(always)]
+    pub(super) fn strips<const COLUMNS: usize, const LENGTH: usize>(
+        &self,
+        corner: [u32; 2],
+        rows: usize,
+    ) -> Strips<'a, T, N, LENGTH> {
+        const { assert!(LENGTH == SAMPLES * COLUMNS) };
+        self.check(corner, [COLUMNS, rows]);
+        let mut first = self.first;
+        for (image, first) in first.iter_mut().enumerate() {
+            *first = self.leftmost(image, corner, COLUMNS);
+        }
+        Strips { first, down: self.down, rows, samples: PhantomData }
+    }
+
     #[inline(always)]
     fn check(&self, corner: [u32; 2], size: [usize; 2]) {
         // A sum must not begin anew at zero.
@@ -168,15 +193,46 @@ impl<'a, T> Iterator for Rows<'a, T> {
     }
 }
 
-/// Asks memory for one of some items that will be read soon, a texel or a weight; any number will do.
+/// Some columns of a view's rows in each of N mirrors, all of them among the samples given.
+pub(super) struct Strips<'a, T, const N: usize, const LENGTH: usize> {
+    /// The first sample in memory of the next row.
+    first: [*const T; N],
+    /// Samples from one row to the next, of every other mirror alike.
+    down: [isize; 2],
+    /// How many rows there are.
+    rows: usize,
+    samples: PhantomData<&'a [T]>,
+}
+
+impl<'a, T, const N: usize, const LENGTH: usize> Iterator for Strips<'a, T, N, LENGTH> {
+    type Item = [&'a [T; LENGTH]; N];
+
+    #[inline(always)]
+    fn next(&mut self) -> Option<Self::Item> {
+        self.rows = self.rows.checked_sub(1)?;
+        // SAFETY: `Texels::strips` made sure that as many rows of this length are texels of a view, all of which `Texels::new` has
+        // found among the samples; they are borrowed as long as the result; arrays need no more alignment than their elements.
+        let texels = |first: *const T| unsafe { &*first.cast() };
+        let mut row = [texels(self.first[0]); N];
+        for (image, row) in row.iter_mut().enumerate() {
+            *row = texels(self.first[image]);
+            // After the last one this may lie anywhere: it is not read.
+            self.first[image] = self.first[image].wrapping_offset(self.down[image % 2]);
+        }
+        Some(row)
+    }
+}
+
+/// Asks memory for one of some items that will be read soon, a texel or a weight; any number will do. For the second cache: the
+/// nearest one is full of what is worked on, and what waited there would be gone when it is read.
 #[inline(always)]
 pub(super) fn prefetch<T>(items: &[T], item: u32) {
     let address = items.as_ptr().wrapping_add(item as usize);
     #[cfg(target_arch = "x86_64")]
     {
-        use std::arch::x86_64::{_MM_HINT_T0, _mm_prefetch};
+        use std::arch::x86_64::{_MM_HINT_T1, _mm_prefetch};
         // SAFETY: a hint reads nothing, whatever the address.
-        unsafe { _mm_prefetch::<_MM_HINT_T0>(address.cast()) }
+        unsafe { _mm_prefetch::<_MM_HINT_T1>(address.cast()) }
     }
     #[cfg(not(target_arch = "x86_64"))]
     let _ = address;
@@ -222,6 +278,8 @@ mod tests {
         for (image, rows) in rows.into_iter().enumerate() {
             let expected: Vec<_> = (1..4).map(|row| texels.row(image, [3, row], 4)).collect();
             assert_eq!(rows.collect::<Vec<_>>(), expected);
+            let strips = texels.strips::<4, 16>([3, 1], 3).map(|rows| rows[image].as_slice());
+            assert_eq!(strips.collect::<Vec<_>>(), expected);
         }
     }
 
@@ -259,6 +317,9 @@ mod tests {
         }
         for (corner, size) in [([7, 3], [4, 4]), ([6, 4], [4, 4]), ([0, 0], [1, usize::MAX]), ([0, 7], [1, 1])] {
             assert!(std::panic::catch_unwind(|| texels.rows(corner, size).map(|mut rows| rows.next())).is_err());
+        }
+        for (corner, rows) in [([7, 3], 4), ([6, 4], 4), ([0, 0], usize::MAX), ([0, 7], 1), ([u32::MAX, 0], 1)] {
+            assert!(std::panic::catch_unwind(|| texels.strips::<4, 16>(corner, rows).next()).is_err());
         }
         let [window, ..] = texels.windows::<4, 4>([0, 0]);
         for (row, column) in [(4, 0), (0, 3), (usize::MAX, 0)] {
