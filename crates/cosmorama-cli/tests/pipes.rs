@@ -129,6 +129,7 @@ fn a_terminal_that_goes_away_leaves_nothing_behind() {
         // It watches for signals before it waits for what comes in.
         let kept = || std::fs::read_dir(folder.path()).unwrap().count();
         while kept() == 0 {
+            assert!(child.try_wait().unwrap().is_none(), "{first}");
             std::thread::sleep(std::time::Duration::from_millis(10));
         }
         assert!(Command::new("kill").args(["-HUP", &child.id().to_string()]).status().unwrap().success());

@@ -130,6 +130,7 @@ fn what_was_meant_for_a_face_pattern() {
     // Its frames are in folders that are there.
     bench.save("shot_0001/a.png", &picture(1, 16, 16));
     assert_says(&bench.fail(1, &["info", "shot_####/{face}.png"]), &["shot_####/{face}.png", "front"]);
+    assert_says(&bench.fail(1, &["info", "none/shot_####/{face}.png"]), &["cannot open none: "]);
     assert_says(&convert("faces/sky_$F4.png"), &["names no file", "for frames ####"]);
 }
 

@@ -1,4 +1,4 @@
-use std::collections::HashSet;
+use std::collections::{HashMap, HashSet};
 use std::path::{Path, PathBuf};
 
 use anyhow::{Result, bail};
@@ -55,7 +55,7 @@ impl Outputs {
         check_frame_markers(args, input, target)?;
         let inputs = files_read(input, &args.geometry);
         let mut frames = Vec::new();
-        let (mut folders, mut places) = (HashSet::new(), HashSet::new());
+        let (mut folders, mut places) = (HashSet::new(), HashMap::new());
         for &frame in &input.frames {
             let path = |file: &TargetFile| file.files.path(frame);
             let files: Vec<(usize, PathBuf)> = target.files.iter().map(path).enumerate().collect();
@@ -66,10 +66,10 @@ impl Outputs {
                     // A folder that is missing or read-only is found out before hours of work, not after.
                     Pending::create(path)?;
                 }
-                if let Some(place) = places.replace(place) {
-                    let (path, place) = (path.display(), place.display());
+                if let Some(other) = places.insert(place, path.clone()) {
+                    let (path, other) = (path.display(), other.display());
                     return Err(usage(format!(
-                        "{path}: it links to {place}, as another output does; remove the link, or choose another name"
+                        "{path} and {other} lead to one file; remove the link that one of them is, or choose another name"
                     )));
                 }
             }

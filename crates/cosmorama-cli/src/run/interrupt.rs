@@ -1,7 +1,7 @@
 use anyhow::Result;
 
-/// Watches for interrupts: files in the making are removed, then the program ends with 130, 143 or, when its terminal goes
-/// away, 129. What was ignored when it began, as `nohup` has it, stays so. A file that grows beyond the limit (`ulimit -f`)
+/// Watches for interrupts: files in the making are removed, then the program ends with 130, 143 or, on Linux, when its terminal
+/// goes away, 129. What was ignored when it began, as `nohup` has it, stays so. A file that grows beyond the limit (`ulimit -f`)
 /// does not end it: writing fails, which is told and leaves nothing behind.
 #[cfg(unix)]
 pub(super) fn install() -> Result<()> {
@@ -25,7 +25,7 @@ pub(super) fn install() -> Result<()> {
 }
 
 /// The signals that this program was told to ignore, a bit for each from 1 on. Only Linux says it without `unsafe`; elsewhere
-/// it is taken for `nohup`'s, which has to outlive its terminal.
+/// the terminal's going away counts as ignored, as `nohup` has it.
 #[cfg(unix)]
 fn ignored() -> u64 {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();

@@ -185,10 +185,11 @@ fn folder(pattern: &FacePattern, namings: &[&'static Naming]) -> Option<IoError>
 }
 
 fn no_faces(pattern: &FacePattern, namings: &[&'static Naming]) -> IoError {
-    // Folders whose names have a frame's number are there or not from frame to frame.
-    let is_numbered = pattern.folder().to_str().is_some_and(|folder| FramePattern::parse(folder).is_some());
-    if let (false, Err(error)) = (is_numbered, std::fs::read_dir(pattern.folder())) {
-        return IoError::open(pattern.folder(), error);
+    // Of folders whose names have a frame's number the one that all lie in.
+    let numbered = pattern.folder().to_str().and_then(FramePattern::parse);
+    let folder = numbered.map_or_else(|| pattern.folder().to_owned(), |frames| frames.folder());
+    if let Err(error) = std::fs::read_dir(&folder) {
+        return IoError::open(&folder, error);
     }
     let tried = |naming: &&Naming| format!("{} ({})", naming.names.join(" "), naming.name);
     IoError::NoFaces {

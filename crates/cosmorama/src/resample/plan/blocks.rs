@@ -1,13 +1,15 @@
 //! A block of 128 bits for each mirror: what mirrored pixels have in common is done once for all of them.
 
-use fearless_simd::{Simd, i16x8, i16x16, i16x32, i32x16, prelude::*, u16x8, u16x16, u16x32};
+#[cfg(target_arch = "x86_64")]
+use fearless_simd::i32x16;
+use fearless_simd::{Simd, i16x8, i16x16, i16x32, prelude::*, u16x8, u16x16, u16x32};
 
 #[cfg(target_arch = "x86_64")]
 use super::blocks_avx512;
 
 /// Two texels of each of N mirrors, red, green, blue and nothing of each.
 pub(super) trait Blocks<S: Simd, const N: usize>:
-    SimdInt<S, Element = i16, Mask: Select<Self>>
+    SimdInt<S, Element = i16>
     + SimdIntWiden<S, Widened: SimdInt<S, Element = i32, ByteVector = <Self as SimdBase<S>>::ByteVector>>
 {
     /// As many numbers without sign.

@@ -1,4 +1,4 @@
-//! Windows of integers in mirrors that show columns as rows: pairs of texels beside each other lie there above each other.
+//! Large windows of integers in mirrors that show columns as rows: pairs of texels beside each other lie there above each other.
 
 use fearless_simd::{Simd, i16x8, prelude::*};
 

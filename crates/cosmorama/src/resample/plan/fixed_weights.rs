@@ -80,8 +80,8 @@ impl Header {
         pairs << 16 | pairs
     };
 
-    /// `under` are marks of texels under the pixel. Those of the others are kept: what is not marked is found with one instruction
-    /// less.
+    /// `under` are marks of texels under the pixel. Those of the others are kept: a mark becomes the sign that takes a texel out of the
+    /// bounds.
     fn new(small: Option<usize>, bits: u32, under: u32, place: Place) -> Self {
         let small = small.map_or(Self::LARGE, |index| index as u32);
         Self(small << 9 | bits << 25 | !under & Self::MARKS | place.bits())

@@ -24,7 +24,7 @@ pub(super) struct Window<'a, S: Simd> {
 }
 
 impl<S: Simd> Window<'_, S> {
-    /// Sums over a window of one of the sizes of [`Shape::SMALL`], and how many numbers tell of it. Written out: loops would stay
+    /// The light of a window of one of the sizes of [`Shape::SMALL`], and how many numbers tell of it. Written out: loops would stay
     /// loops.
     #[inline(always)]
     pub(super) fn small<

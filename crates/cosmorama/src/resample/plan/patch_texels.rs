@@ -26,8 +26,16 @@ pub(super) struct PatchTexels {
     pairs: Box<Pairs>,
     /// The column and row of the first texel.
     first: [u32; 2],
-    /// Whether all the group's small windows are held.
-    is_whole: bool,
+    held: Held,
+}
+
+/// Which small windows of a group are held.
+#[derive(Clone, Copy)]
+enum Held {
+    None,
+    All,
+    /// The last one that was asked for: there is no room for all.
+    Last,
 }
 
 /// As many as fit in, where lines of memory begin.
@@ -44,13 +52,13 @@ struct Rectangle {
 impl PatchTexels {
     /// Room for them.
     pub(super) fn new() -> Self {
-        Self { pairs: Box::new(Pairs([0; ROOM * ROOM * TOGETHER * PAIR])), first: [0; 2], is_whole: false }
+        Self { pairs: Box::new(Pairs([0; ROOM * ROOM * TOGETHER * PAIR])), first: [0; 2], held: Held::None }
     }
 
     /// Forgets what is held.
     #[inline(always)]
     pub(super) fn clear(&mut self) {
-        self.is_whole = false;
+        self.held = Held::None;
     }
 
     /// Holds a small window that begins here, and with it all others of its group, if there is room.
@@ -62,20 +70,23 @@ impl PatchTexels {
         group: &[Run],
         window: [u32; 2],
     ) {
-        if self.is_whole {
-            return;
-        }
         let view = exchanged(texels.size(), TURNED);
-        let mut held = Rectangle::of(group, view);
-        self.is_whole = held.size.iter().all(|length| *length <= ROOM);
-        if !self.is_whole {
-            held = Rectangle::of_windows(window, window, view);
-        }
-        self.first = held.first;
+        let one = || Rectangle::of_windows(window, window, view);
+        let rectangle = match self.held {
+            Held::All => return,
+            Held::Last => one(),
+            Held::None => {
+                let all = Rectangle::of(group, view);
+                let has_room = all.size.iter().all(|length| *length <= ROOM);
+                self.held = if has_room { Held::All } else { Held::Last };
+                if has_room { all } else { one() }
+            }
+        };
+        self.first = rectangle.first;
         if TURNED {
-            self.fill_turned::<S, V, N, R>(simd, texels, held);
+            self.fill_turned::<S, V, N, R>(simd, texels, rectangle);
         } else {
-            self.fill_upright::<S, V, N, R>(simd, texels, held);
+            self.fill_upright::<S, V, N, R>(simd, texels, rectangle);
         }
     }
 
@@ -86,7 +97,7 @@ impl PatchTexels {
         first: [u32; 2],
     ) -> Window<'_, N, WIDTH, HEIGHT> {
         let [column, row] = [0, 1].map(|axis| first[axis].wrapping_sub(self.first[axis]) as usize);
-        assert!(column + WIDTH <= ROOM && row + HEIGHT <= ROOM, "a window that is held");
+        assert!(column + WIDTH <= ROOM && row + HEIGHT <= ROOM, "a window within the room");
         let pair = N * PAIR;
         Window { pairs: &self.pairs.0[(row * ROOM + column) * pair..][..((HEIGHT - 1) * ROOM + WIDTH - 1) * pair] }
     }
@@ -269,7 +280,15 @@ mod tests {
     }
 
     #[test]
-    fn no_window_is_found_that_is_not_held() {
+    fn pairs_of_windows_that_just_have_room_are_held() {
+        for last in [[15, 16], [16, 16], [15, 17]] {
+            assert_held::<false>(&[[0, 0], last]);
+            assert_held::<true>(&[[0, 0], last]);
+        }
+    }
+
+    #[test]
+    fn no_window_is_found_beyond_the_room() {
         let patch = PatchTexels::new();
         let is_found = |corner| std::panic::catch_unwind(|| _ = patch.window::<4, 6, 5>(corner)).is_ok();
         assert!(is_found([15, 16]) && !is_found([16, 16]) && !is_found([15, 17]) && !is_found([u32::MAX, 0]));
