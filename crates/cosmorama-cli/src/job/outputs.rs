@@ -61,7 +61,8 @@ impl Outputs {
             let files: Vec<(usize, PathBuf)> = target.files.iter().map(path).enumerate().collect();
             for (_, path) in &files {
                 check_apart(path, &inputs)?;
-                let place = real_path(&place(path)?);
+                // What cannot be written is told of its frame.
+                let place = real_path(&place(path).unwrap_or_else(|_| path.clone()));
                 if folders.insert(place.parent().map(Path::to_owned)) {
                     // A folder that is missing or read-only is found out before hours of work, not after.
                     Pending::create(path)?;
