@@ -10,7 +10,7 @@
 
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::sync::atomic::AtomicPtr;
-use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::sync::{Mutex, MutexGuard, PoisonError, TryLockError};
 
 use crate::spare_memory::{BLOCKS, SpareMemory};
 
@@ -41,18 +41,26 @@ pub(crate) fn keep_spare(bytes: u64) {
 }
 
 fn spare() -> MutexGuard<'static, Spare> {
-    // Nothing in there panics half way. The few small numbers that it holds come from this allocator, which then locks nothing.
+    // Nothing in there panics half way. The few small numbers that it holds come from this allocator, which waits for no lock then.
     SPARE.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
+/// The same, unless somebody has it: it may be that its list wants more memory, and that there is none.
+fn spare_if_free() -> Option<MutexGuard<'static, Spare>> {
+    match SPARE.try_lock() {
+        Ok(spare) => Some(spare),
+        Err(TryLockError::Poisoned(spare)) => Some(spare.into_inner()),
+        Err(TryLockError::WouldBlock) => None,
+    }
+}
+
 fn give_back_surplus() {
-    give_back(SpareMemory::surplus);
+    give_back(|| spare().surplus());
 }
 
 /// Gives back what is chosen of the spare memory, block by block.
-fn give_back(choose: impl Fn(&mut Spare) -> Option<(Layout, AtomicPtr<u8>)>) {
-    loop {
-        let Some((layout, memory)) = choose(&mut spare()) else { return };
+fn give_back(choose: impl Fn() -> Option<(Layout, AtomicPtr<u8>)>) {
+    while let Some((layout, memory)) = choose() {
         // SAFETY: the system gave it for this layout, whoever used it has given it back, and here it is known no more.
         unsafe { System.dealloc(memory.into_inner(), layout) }
     }
@@ -92,7 +100,7 @@ fn fresh(layout: Layout, ask: impl Fn() -> *mut u8) -> *mut u8 {
     let mut memory = ask();
     if memory.is_null() {
         // There may be enough without what is spare.
-        give_back(SpareMemory::oldest);
+        give_back(|| spare_if_free()?.oldest());
         memory = ask();
     }
     if !is_counted(layout) {
@@ -211,6 +219,39 @@ mod tests {
         let places = [given(0), given(9), given(0)];
         keep_spare(0);
         assert_eq!(places, [first; 3]);
+    }
+
+    #[test]
+    fn where_there_is_no_more_memory_nothing_is_lost() {
+        const NEVER: usize = isize::MAX as usize / 2;
+        // Much more than other tests use meanwhile, and hardly touched.
+        const MUCH: usize = 1 << 28;
+        const OTHERS: usize = MUCH / 4;
+        let _alone = alone();
+        keep_spare(64 << 20);
+        let mut list = Vec::with_capacity(MUCH / 8);
+        list.extend(numbers(99));
+        let spared = Layout::array::<u8>(LARGE + 8191).unwrap();
+        drop(vec![1u8; spared.size()]);
+        keep_spare(64 << 20);
+        let used = spare().used();
+        assert!(Vec::<u8>::new().try_reserve_exact(NEVER).is_err());
+        assert!(spare().used().abs_diff(used) < OTHERS, "what was not given is not counted");
+        assert!(!spare().holds(spared), "what was spare was given back for it");
+        assert!(list.try_reserve_exact(NEVER / 8).is_err());
+        assert!(spare().used().abs_diff(used) < OTHERS, "what has not grown is counted as before");
+        assert!(list.iter().copied().eq(numbers(99)));
+        drop(list);
+        keep_spare(0);
+        assert!(spare().used().abs_diff(used - MUCH) < OTHERS);
+    }
+
+    #[test]
+    fn memory_for_the_list_of_what_is_spare_is_asked_for_without_waiting_for_it() {
+        let _alone = alone();
+        let held = spare();
+        assert!(fresh(Layout::new::<u64>(), std::ptr::null_mut).is_null());
+        drop(held);
     }
 
     /// All of these tests, with memory kept and without.

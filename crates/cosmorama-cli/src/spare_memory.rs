@@ -49,6 +49,18 @@ impl<M> SpareMemory<M> {
         self.used = self.used.wrapping_sub(layout.size());
     }
 
+    /// Bytes in use.
+    #[cfg(test)]
+    pub(crate) fn used(&self) -> usize {
+        self.used
+    }
+
+    /// Whether a block of this layout is kept.
+    #[cfg(test)]
+    pub(crate) fn holds(&self, layout: Layout) -> bool {
+        self.blocks.iter().any(|(spare, _)| *spare == layout)
+    }
+
     /// Keeps a block that is used no more.
     pub(crate) fn give(&mut self, layout: Layout, memory: M) {
         self.release(layout);
