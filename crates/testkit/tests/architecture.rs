@@ -95,6 +95,17 @@ const CRATES: [CratePlan; 5] = [
     },
 ];
 
+/// Lines of a file at most.
+const LONGEST: usize = 400;
+
+#[test]
+fn no_file_is_too_long_to_be_read_at_once() {
+    let lines = |file: &PathBuf| std::fs::read_to_string(file).unwrap().lines().count();
+    let files = rust_files(&crates_folder());
+    let long: Vec<_> = files.iter().filter(|file| lines(file) > LONGEST).collect();
+    assert!(files.len() > 100 && long.is_empty(), "of more than {LONGEST} lines: {long:?}");
+}
+
 #[test]
 fn no_room_uses_a_higher_one() {
     let source = crates_folder().join("cosmorama/src");
