@@ -4,7 +4,8 @@ use rayon::prelude::*;
 use super::Kernel;
 use super::ellipse::semi_axes;
 use super::field_edge::FieldEdge;
-use crate::world::{Footprint, PixelPoint, PixelRect, View, World};
+use crate::projection::Projection;
+use crate::world::{Footprint, PixelPoint, PixelRect, Source, View, World};
 
 /// Texels of the finer of two levels that the kernel's unit is at least, across its minor axis, and half of what it is at most:
 /// 1.75 to 3.5 texels a pixel by default. The more, the nearer to exact EWA, and the more texels.
@@ -17,7 +18,8 @@ const LONGEST: f64 = 16.0;
 const BLENDED: f32 = 0.25;
 
 /// Within so many pixels of where the field of view ends, levels are finer: texels that the edge cuts have the light of what it
-/// leaves of them, which is not that of their centres.
+/// leaves of them, which is not that of their centres. So they are beside a steep rim of a view, where a texel's width and length
+/// change within few of them.
 const BESIDE_EDGE: usize = 3;
 const FINER: f64 = 2.0;
 
@@ -49,9 +51,11 @@ impl LevelMap {
             for (i, level) in row.iter_mut().enumerate() {
                 let at = PixelPoint::new((i * step) as f64, (j * step) as f64);
                 let found = target.footprint(at).and_then(|footprint| {
-                    let is_cut = edge.is_some_and(|edge| is_near(&edge, &footprint, (BESIDE_EDGE + step) as f64));
-                    let level = level_of_footprint(world, &footprint, kernel)?;
-                    Some(if is_cut { level - FINER } else { level })
+                    let pixels = (BESIDE_EDGE + step) as f64;
+                    let is_cut = edge.is_some_and(|edge| edge.is_near(footprint.direction, pixels * width(&footprint)));
+                    let source = source_of(world, &footprint)?;
+                    let level = level_of_footprint(source, &footprint, kernel)?;
+                    Some(if is_cut || is_beside_rim(source, &footprint, pixels) { level - FINER } else { level })
                 });
                 *level = found.map_or(f32::NAN, |level| level as f32);
             }
@@ -161,16 +165,24 @@ pub(super) fn part(number: f32, level: usize) -> f32 {
     if beyond < 0.0 { coarser(beyond + 1.0) } else { 1.0 - coarser(beyond) }
 }
 
-/// Whether a field of view may end within so many pixels of a footprint.
-fn is_near(edge: &FieldEdge, footprint: &Footprint, pixels: f64) -> bool {
-    let pixel = footprint.jacobian.dx.length().max(footprint.jacobian.dy.length());
-    edge.is_near(footprint.direction, pixels * pixel)
+/// The angle that a pixel is wide or high, in radians.
+fn width(footprint: &Footprint) -> f64 {
+    footprint.jacobian.dx.length().max(footprint.jacobian.dy.length())
 }
 
-/// The level for a footprint; `None` where no view shows it.
-fn level_of_footprint(world: &World, footprint: &Footprint, kernel: &Kernel) -> Option<f64> {
+/// The view that shows a footprint, if one does.
+fn source_of<'a>(world: &'a World, footprint: &Footprint) -> Option<&'a Source> {
     let (owner, _) = world.owner(footprint.direction)?;
-    let source = &world.sources()[owner];
+    Some(&world.sources()[owner])
+}
+
+/// Whether a steep rim of a view is within so many pixels of a footprint.
+fn is_beside_rim(source: &Source, footprint: &Footprint, pixels: f64) -> bool {
+    source.view.projection.has_steep_rim() && source.view.margin(footprint.direction) < pixels * width(footprint)
+}
+
+/// The level for a footprint among the texels of a view; `None` where it has none.
+fn level_of_footprint(source: &Source, footprint: &Footprint, kernel: &Kernel) -> Option<f64> {
     let (_, jacobian) = source.view.texel_footprint(footprint)?;
     // Around a pole whole rows are in a footprint however coarse they are.
     let longest = if source.period.is_some() { f64::INFINITY } else { LONGEST };
