@@ -78,7 +78,12 @@ fn compare_is_a_check() {
     assert_eq!((bench.load("d.png").width(), bench.load("d.png").height()), (64, 64));
     let report: Value = serde_json::from_str(&bench.succeed(&["compare", "a.png", "b.png", "--json"])).unwrap();
     assert!(report["linear"]["psnr"].as_f64().unwrap() < 30.0);
-    assert!(report["shift"]["pixels"].is_number());
+    assert!(report["shift"].is_null(), "they show different things");
+    let report: Value = serde_json::from_str(&bench.succeed(&["compare", "a.png", "a.png", "--json"])).unwrap();
+    assert_eq!(report["shift"]["pixels"].as_f64(), Some(0.0));
+    let output = bench.run(&["compare", "a.png", "b.png", "--max-shift", "100"]);
+    assert_eq!(output.status.code(), Some(1));
+    assert!(bench::text(&output.stderr).contains("the shift is not measurable"));
     let message = bench.fail(1, &["compare", "a.png", "small.png"]);
     assert!(message.contains("64x64") && message.contains("32x32"), "{message}");
     assert!(bench.fail(2, &["compare", "a.png", "b.png", "--diff", "d.bmp"]).contains("d.bmp"));

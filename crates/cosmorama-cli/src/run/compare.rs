@@ -15,6 +15,10 @@ use crate::failure::usage;
 use crate::job::{InputTransfer, MemoryBudget, real_path, refuse_existing};
 use crate::stream::say;
 
+/// Said of a shift.
+const NOT_MEASURABLE: &str =
+    "not measurable: the pictures differ by more than a shift of about a pixel explains, or too few pixels count";
+
 /// Compares two pictures.
 pub(super) fn run(args: &CompareArgs) -> Result<ExitCode> {
     let (mut kept, mut args) = (KeptStreams::default(), args.clone());
@@ -100,7 +104,7 @@ fn failures(args: &CompareArgs, comparison: &Comparison) -> Vec<String> {
         match comparison.registration {
             Some(registration) if registration.shift() <= most => {}
             Some(found) => failures.push(format!("a shift of {:.4} px is more than --max-shift {most}", found.shift())),
-            None => failures.push("the shift cannot be measured: too few pixels count".to_owned()),
+            None => failures.push(format!("the shift is {NOT_MEASURABLE}")),
         }
     }
     failures
@@ -134,7 +138,7 @@ fn plain_text(comparison: &Comparison) -> String {
                 found.rotation
             );
         }
-        None => text += "shift              not measurable\n",
+        None => text += &format!("shift              {NOT_MEASURABLE}\n"),
     }
     text
 }

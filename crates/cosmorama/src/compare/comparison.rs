@@ -14,7 +14,8 @@ pub struct Comparison {
     pub edge_free: Option<EdgeFree>,
     /// The largest absolute difference of alpha.
     pub alpha: f32,
-    /// Where the first picture lies on the second; `None` where every pixel that counts is near one that does not.
+    /// Where the first picture lies on the second; `None` where every pixel that counts is near one that does not, or the
+    /// pictures differ by more than a shift of about a pixel explains.
     pub registration: Option<Registration>,
 }
 

@@ -18,6 +18,9 @@ const PASSES: usize = 3;
 /// The part of the pixels that a fit keeps from the one before.
 const KEPT: f64 = 0.98;
 
+/// Pixels: a flow is found by slopes, which tell of places no farther than this.
+const DOUBT: f64 = 1.0;
+
 /// Where one picture lies on another: the affine flow u that fits second(x) = first(x + u) best.
 ///
 /// Of pictures that are geometrically identical all figures are zero; so is what the picture does not show, as the
@@ -52,7 +55,8 @@ impl Registration {
         )
     }
 
-    /// The fit; `None` when every pixel that counts is near one that does not.
+    /// The fit; `None` when every pixel that counts is near one that does not, or when the pictures differ as if it was wrong by
+    /// [`DOUBT`] and more.
     pub(super) fn between(pair: &Pair<'_>) -> Option<Self> {
         let flow = Flow::new(pair);
         let mut fit = flow.fit(|_| true);
@@ -60,7 +64,7 @@ impl Registration {
             let limit = quantile(&mut flow.residuals(&fit), KEPT)?;
             fit = flow.fit(|equation| f64::from(equation.residual(&fit)) <= limit);
         }
-        Some(flow.registration(&fit))
+        (flow.doubt(&fit) <= DOUBT).then(|| flow.registration(&fit))
     }
 }
 
@@ -95,6 +99,24 @@ impl Flow {
         let of_row = |j| self.row(j).map(|equation| equation.residual(flow)).collect();
         let rows: Vec<Vec<f32>> = (0..self.first.height()).into_par_iter().map(of_row).collect();
         rows.concat()
+    }
+
+    /// How far off a displacement would have to be, in pixels, to make what a flow leaves unexplained: the deviation of that over
+    /// the slopes'. Of pictures that show something else it is about as long as what they show is wide.
+    fn doubt(&self, flow: &Vector) -> f64 {
+        let of_row = |j| {
+            let rest = |equation: Equation| {
+                let [across, down, ..] = equation.factors;
+                let rest = equation.value - dot(&equation.factors, flow);
+                [1.0, rest, rest * rest, across * across + down * down]
+            };
+            self.row(j).map(rest).fold([0.0; 4], sum)
+        };
+        let rows: Vec<[f64; 4]> = (0..self.first.height()).into_par_iter().map(of_row).collect();
+        let [count, rest, squares, slopes] = rows.into_iter().fold([0.0; 4], sum);
+        let variance = (squares - rest * rest / count).max(0.0);
+        // Slopes in one of two directions; where there are none, nothing is known of places, nor is there any difference to explain.
+        if variance > 0.0 { (2.0 * variance / slopes).sqrt() } else { 0.0 }
     }
 
     /// The equations of the pixels of a row that count.
@@ -138,6 +160,10 @@ impl Equation {
     fn residual(&self, flow: &Vector) -> f32 {
         (dot(&self.factors, flow) - self.value).abs() as f32
     }
+}
+
+fn sum(a: [f64; 4], b: [f64; 4]) -> [f64; 4] {
+    std::array::from_fn(|at| a[at] + b[at])
 }
 
 fn brightness(picture: &Image<Rgba>) -> Image<f32> {
@@ -190,6 +216,25 @@ mod tests {
         let still = waves(|x, y| (x, y));
         let found = registration(&still, &still);
         assert_eq!((found.shift(), found.scale_x, found.scale_y, found.rotation), (0.0, 0.0, 0.0, 0.0));
+    }
+
+    #[test]
+    fn pictures_that_slopes_do_not_bring_together_have_no_registration() {
+        // Squares in no order, a few pixels wide: nothing that is seen in one place tells of the next.
+        let squares = |right: usize| {
+            Image::from_fn(96, 80, |i, j| {
+                let number = ((i + right) / 4 * 31 + j / 4 * 17) as u64;
+                let light = (number.wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 40) as f32 / (1 << 24) as f32;
+                Rgba::opaque(light, light, light)
+            })
+        };
+        let between = |right: usize| {
+            Registration::between(&Pair::new(&squares(right), &squares(0), &Mask::everything(96, 80)).unwrap())
+        };
+        assert!((between(1).expect("a pixel is not too far").dx + 1.0).abs() < 0.5);
+        for far in [4, 8, 40] {
+            assert_eq!(between(far), None, "{far} pixels");
+        }
     }
 
     #[test]
