@@ -106,6 +106,15 @@ fn fill<'a, const N: usize>(
 /// The code of each light; twice as many as there is light, so that any number of 16 bits has one.
 type Codes = [u8; 1 << 16];
 
+/// Steps of light that a weighted sum of texels and weights, all of them rounded, is wrong by at most, or hardly ever more: by more
+/// than one code, then, it may not be.
+const ERROR: usize = 4;
+
+/// By how much the last of some codes is more than the first.
+fn rise(codes: &[u8]) -> i16 {
+    i16::from(codes[codes.len() - 1]) - i16::from(codes[0])
+}
+
 /// How much light there is, black and white among it.
 const LIGHT: usize = 1 << 15;
 
@@ -119,8 +128,7 @@ pub struct FixedCodec {
 }
 
 impl FixedCodec {
-    /// `background` is what lies behind the picture, linear light. `None` where steps of light are wider than those of
-    /// codes.
+    /// `background` is what lies behind the picture, linear light. `None` where codes are closer than sums of light are right.
     pub fn new(transfer: &Transfer, background: Rgba) -> Option<Self> {
         let quantizer = Quantizer::new(transfer, 255);
         let code = |light: usize, channel| quantizer.code(light as f32 / FixedLight::WHITE, channel) as u8;
@@ -129,9 +137,7 @@ impl FixedCodec {
         for (channel, codes) in channels.iter().zip(&mut codes) {
             codes[..LIGHT].iter_mut().enumerate().for_each(|(light, into)| *into = code(light, *channel));
         }
-        let is_fine = |codes: &Codes| {
-            codes[..LIGHT].windows(2).all(|pair| (0..=1).contains(&(i16::from(pair[1]) - i16::from(pair[0]))))
-        };
+        let is_fine = |codes: &Codes| codes[..LIGHT].windows(1 + ERROR).all(|some| (0..=1).contains(&rise(some)));
         let is_srgb = *transfer == Transfer::Srgb;
         codes.iter().all(is_fine).then_some(Self { codes, is_srgb, background })
     }
@@ -199,9 +205,13 @@ mod tests {
 
     #[test]
     fn transfer_functions_are_taken_where_15_bits_are_enough() {
-        for transfer in [Transfer::Srgb, Transfer::Linear, Transfer::Gamma(1.8)] {
+        for transfer in [Transfer::Srgb, Transfer::Linear, Transfer::Gamma(1.6)] {
             assert!(FixedDecoder::new(&transfer).is_some(), "{transfer:?}");
+            assert!(FixedCodec::new(&transfer, Rgba::BLACK).is_some(), "{transfer:?}");
         }
+        // All codes come back, but a sum that is wrong by two steps of light next to black is wrong by two codes.
+        assert!(FixedDecoder::new(&Transfer::Gamma(1.8)).is_some());
+        assert!(FixedCodec::new(&Transfer::Gamma(1.8), Rgba::BLACK).is_none());
         for transfer in [Transfer::Gamma(2.2), Transfer::Bt1886, Transfer::Pq] {
             assert!(FixedDecoder::new(&transfer).is_none(), "{transfer:?}");
             assert!(FixedCodec::new(&transfer, Rgba::BLACK).is_none(), "{transfer:?}");

@@ -270,11 +270,28 @@ fn all_levels_of_instructions_make_the_same_plans() {
     }
 }
 
+/// Black and white in no order, of which next to black sums are as wrong as they can be.
+fn black_and_white(world: &World) -> FixedLight {
+    let mut light = light(world);
+    let mut state = 1u64;
+    for sample in light.texels_mut().flat_map(|texel| &mut texel[..3]) {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        *sample = if state >> 63 == 0 { 0 } else { i16::MAX };
+    }
+    light
+}
+
 #[test]
 fn integers_are_within_one_code_of_floats() {
     for (world, target, _) in conversions() {
-        for (transfer, anti_ringing) in [(Transfer::Srgb, true), (Transfer::Linear, true), (Transfer::Srgb, false)] {
-            let light = light(&world);
+        let (srgb, linear, steepest) = (Transfer::Srgb, Transfer::Linear, Transfer::Gamma(1.6));
+        for (transfer, light, anti_ringing) in [
+            (srgb.clone(), light(&world), true),
+            (linear, light(&world), true),
+            (srgb.clone(), light(&world), false),
+            (srgb, black_and_white(&world), true),
+            (steepest, black_and_white(&world), true),
+        ] {
             let filter = Filter { anti_ringing, ..Filter::DEFAULT };
             let resampler = Resampler { filter, ..resampler(&world, &target) };
             let background = Rgba::opaque(0.25, 0.5, 0.0);
