@@ -154,8 +154,8 @@ impl Hidden {
 /// Links that are followed to an output's place: as many as Linux follows.
 const LINKS: usize = 40;
 
-/// Where a file is to be: what its name links to, so that the link stays. What stands there and is no file is told before the
-/// work, not after it, when the file is to get its name.
+/// Where a file is to be: what its name links to, so that the link stays. What stands there and is no file is told before it is
+/// written, not after, when the file is to get its name.
 ///
 /// # Errors
 /// When a folder, a pipe or a device stands there, or links lead nowhere.

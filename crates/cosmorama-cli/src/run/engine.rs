@@ -99,7 +99,7 @@ impl<'a> Engine<'a> {
     }
 
     /// Makes the pictures of a frame: filtered light, complete with what lies outside, faces in their places. Those of another
-    /// frame that nobody uses any more, if there are some, are made use of: each output's for the same one.
+    /// frame that nobody uses any more, if there are some, are made use of one after the other: of another size, they are dropped.
     pub(super) fn render(&self, frame: &FrameOutputs, light: &FrameLight, used: Vec<Levels>) -> Result<Vec<Levels>> {
         let mut balanced = BalancedLight::default();
         let mut used = used.into_iter();

@@ -109,6 +109,13 @@ impl Run {
         Self { corner, ..self }
     }
 
+    /// The same, but for the last lane's, which begins so many columns and rows after the first one.
+    #[cfg(test)]
+    pub(super) fn with_last(mut self, offset: [u8; 2]) -> Self {
+        self.offsets[SIDE - 1] = offset;
+        self
+    }
+
     /// The same of other pixels.
     #[cfg(test)]
     pub(super) fn at(self, [column, row]: [usize; 2]) -> Self {

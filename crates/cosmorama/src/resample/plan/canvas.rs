@@ -144,13 +144,13 @@ impl<'a, P: NoUninit> Canvas<'a, P> {
         let is_square = group.len() == SIDE && group.iter().enumerate().all(is_whole);
         // The same of all the patch.
         let images = self.images_of(first.pixel(0)).len();
-        for (at, &(image, flip)) in ways.order[some.clone()].iter().enumerate() {
-            match (image < UPRIGHT, flip == 0) {
+        for (at, &(image, is_reversed)) in ways.order[some.clone()].iter().enumerate() {
+            match (image < UPRIGHT, is_reversed) {
                 _ if image >= images => {}
-                (true, true) => self.put_rows::<D, false>(group, [at, image], light, develop),
-                (true, false) => self.put_rows::<D, true>(group, [at, image], light, develop),
-                (false, true) if is_square => self.put_columns::<D, false>(first, [at, image], light, develop),
-                (false, false) if is_square => self.put_columns::<D, true>(first, [at, image], light, develop),
+                (true, false) => self.put_rows::<D, false>(group, [at, image], light, develop),
+                (true, true) => self.put_rows::<D, true>(group, [at, image], light, develop),
+                (false, false) if is_square => self.put_columns::<D, false>(first, [at, image], light, develop),
+                (false, true) if is_square => self.put_columns::<D, true>(first, [at, image], light, develop),
                 (false, _) => {
                     for (run, light) in group.iter().zip(light) {
                         self.put_lanes(run, [at, image], light, develop);

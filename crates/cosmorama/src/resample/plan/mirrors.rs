@@ -48,8 +48,8 @@ pub(super) struct Mirrors {
 /// right first, and of these those that go down first.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Ways {
-    /// Which mirror, and what exchanges left and right in it if that does: in the index of a lane, or of a row where columns are rows.
-    pub(super) order: [(usize, usize); MOST_IMAGES],
+    /// Which mirror, and whether it exchanges left and right on the target: lanes, or rows where columns are rows.
+    pub(super) order: [(usize, bool); MOST_IMAGES],
     /// How many there are, and how many of those that are not turned go from left to right.
     pub(super) count: usize,
     pub(super) forward: usize,
@@ -71,7 +71,7 @@ impl Ways {
         let mut ways = Self { count: walks.len(), ..Self::default() };
         for (at, (index, walk)) in walks.into_iter().enumerate() {
             let flips = images[index].flips;
-            ways.order[at] = (index, if flips[0] { SIDE - 1 } else { 0 });
+            ways.order[at] = (index, flips[0]);
             ways.walks[at] = walk;
             ways.forward += usize::from(!walk.is_reversed && !walk.is_turned);
             ways.turned += usize::from(walk.is_turned);

@@ -30,7 +30,7 @@ pub(super) struct PatchTexels {
 }
 
 /// Which small windows of a group are held.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 enum Held {
     None,
     All,
@@ -151,7 +151,7 @@ impl PatchTexels {
 }
 
 impl Rectangle {
-    /// What all small windows of a group lie in, which lie in a view of this size.
+    /// What all windows of a group lie in, in a view of this size, as if all of them were small.
     #[inline(always)]
     fn of(group: &[Run], view: [usize; 2]) -> Self {
         let (mut first, mut last) = ([u32::MAX; 2], [0; 2]);
@@ -190,7 +190,7 @@ impl<const N: usize, const WIDTH: usize, const HEIGHT: usize> Window<'_, N, WIDT
 
 #[cfg(test)]
 mod tests {
-    use fearless_simd::{dispatch, i16x8, i16x32, prelude::*};
+    use fearless_simd::{dispatch, i16x8, i16x16, i16x32, prelude::*};
 
     use super::super::mirrors::Walk;
     use super::*;
@@ -222,25 +222,41 @@ mod tests {
         (4 * walk.texel(place) as usize + channel) as i16
     }
 
-    /// Groups of runs whose windows begin in these columns and rows.
+    /// Groups of runs whose windows begin in these columns and rows, the last of them as that of a run's last lane.
     fn group(corners: &[[u32; 2]]) -> Vec<Run> {
-        corners.iter().map(|corner| Run::of_lanes(1, 0).from(*corner)).collect()
+        let run = |corner: &[u32; 2]| Run::of_lanes(1, 0).from(*corner);
+        let mut runs: Vec<Run> = corners.iter().map(run).collect();
+        if let [.., first, last] = corners
+            && first[0] <= last[0]
+            && first[1] <= last[1]
+        {
+            let offset = [0, 1].map(|axis| (last[axis] - first[axis]) as u8);
+            runs.truncate(corners.len() - 2);
+            runs.push(run(first).with_last(offset));
+        }
+        runs
     }
 
-    fn assert_held<const TURNED: bool>(corners: &[[u32; 2]]) {
+    /// Windows as large as small ones are at most, which are held as this says.
+    fn assert_held<const TURNED: bool>(corners: &[[u32; 2]], held: Held) {
         let (samples, ways, group) = (samples(), ways(), group(corners));
         let all = Texels::<i16, 4, 2>::new(&samples, ways, SIZE);
+        let two = Texels::<i16, 2, 1>::new(&samples, [ways[0], ways[2]], SIZE);
         let one = Texels::<i16, 1, 1>::new(&samples, [ways[3]], SIZE);
         for level in levels() {
-            let (mut patch, mut patch_of_one) = (PatchTexels::new(), PatchTexels::new());
+            let [mut patch, mut patch_of_two, mut patch_of_one] = std::array::from_fn(|_| PatchTexels::new());
             for &corner in corners {
                 dispatch!(level, simd => {
                     patch.hold::<_, i16x32<_>, 4, 2, TURNED>(simd, &all, &group, corner);
+                    patch_of_two.hold::<_, i16x16<_>, 2, 1, TURNED>(simd, &two, &group, corner);
                     patch_of_one.hold::<_, i16x8<_>, 1, 1, TURNED>(simd, &one, &group, corner);
                 });
-                for (row, column) in (0..4).flat_map(|row| (0..3).map(move |column| (row, column))) {
+                assert_eq!(patch.held, held, "{corners:?}");
+                let size = [0, 1].map(|axis| exchanged(SIZE, TURNED)[axis] - corner[axis] as usize);
+                let (columns, rows) = (size[0].min(2 * WIDEST), size[1].min(HIGHEST));
+                for (row, column) in (0..rows).flat_map(|row| (0..columns - 1).map(move |column| (row, column))) {
                     let pairs: [i16; 32] = dispatch!(level, simd => {
-                        let pairs: i16x32<_> = patch.window::<4, 4, 4>(corner).pair(simd, row, column);
+                        let pairs: i16x32<_> = patch.window::<4, 6, 5>(corner).pair(simd, row, column);
                         pairs.to_array()
                     });
                     let place = |at: usize| [corner[0] as usize + column + at % 2, corner[1] as usize + row];
@@ -250,8 +266,17 @@ mod tests {
                         std::array::from_fn(|at| expected(ways[at / 8], at)),
                         "{corner:?} {row} {column}"
                     );
+                    let pairs: [i16; 16] = dispatch!(level, simd => {
+                        let pairs: i16x16<_> = patch_of_two.window::<2, 6, 5>(corner).pair(simd, row, column);
+                        pairs.to_array()
+                    });
+                    assert_eq!(
+                        pairs,
+                        std::array::from_fn(|at| expected(ways[at / 8 * 2], at)),
+                        "{corner:?} {row} {column}"
+                    );
                     let pairs: [i16; 8] = dispatch!(level, simd => {
-                        let pairs: i16x8<_> = patch_of_one.window::<1, 4, 4>(corner).pair(simd, row, column);
+                        let pairs: i16x8<_> = patch_of_one.window::<1, 6, 5>(corner).pair(simd, row, column);
                         pairs.to_array()
                     });
                     assert_eq!(pairs, std::array::from_fn(|at| expected(ways[3], at)), "{corner:?} {row} {column}");
@@ -262,28 +287,28 @@ mod tests {
 
     #[test]
     fn pairs_of_windows_near_each_other_are_held_together() {
-        assert_held::<false>(&[[3, 5], [7, 5], [8, 14]]);
+        assert_held::<false>(&[[3, 5], [7, 5], [8, 14]], Held::All);
         // Columns and rows are exchanged there.
-        assert_held::<true>(&[[3, 5], [7, 5], [8, 14]]);
+        assert_held::<true>(&[[3, 5], [7, 5], [8, 14]], Held::All);
     }
 
     #[test]
     fn pairs_of_windows_at_the_edge_are_held() {
-        assert_held::<false>(&[[36, 26], [30, 20]]);
-        assert_held::<true>(&[[26, 36], [20, 30]]);
+        assert_held::<false>(&[[36, 26], [30, 20]], Held::All);
+        assert_held::<true>(&[[26, 36], [20, 30]], Held::All);
     }
 
     #[test]
     fn pairs_of_windows_far_from_each_other_are_held_one_by_one() {
-        assert_held::<false>(&[[0, 0], [36, 26], [1, 3]]);
-        assert_held::<true>(&[[0, 0], [26, 36], [1, 3]]);
+        assert_held::<false>(&[[0, 0], [36, 26], [1, 3]], Held::Last);
+        assert_held::<true>(&[[0, 0], [26, 36], [1, 3]], Held::Last);
     }
 
     #[test]
     fn pairs_of_windows_that_just_have_room_are_held() {
-        for last in [[15, 16], [16, 16], [15, 17]] {
-            assert_held::<false>(&[[0, 0], last]);
-            assert_held::<true>(&[[0, 0], last]);
+        for (last, held) in [([15, 16], Held::All), ([16, 16], Held::Last), ([15, 17], Held::Last)] {
+            assert_held::<false>(&[[0, 0], last], held);
+            assert_held::<true>(&[[0, 0], last], held);
         }
     }
 

@@ -55,8 +55,10 @@ stored!(Head { mark: [u8; 16], format: u32, key: u128, checksum: u128 });
 impl<W: Weights> Compiled<W> {
     /// That of the conversion which has this key.
     pub(super) fn to_bytes(&self, key: PlanKey) -> Vec<u8> {
-        // A plan takes in memory what it takes as bytes, or more: with room for all there is no second copy.
-        let mut bytes = Vec::with_capacity(Head::LEAST + u64::LEAST * (1 + self.bands.len()) + self.bytes());
+        // What a plan holds takes in memory what it takes as bytes, or more: with room for all there is no second copy.
+        let of_bands = (u64::LEAST + Band::<W>::LEAST) * self.bands.len();
+        let mut bytes = Vec::with_capacity(Head::LEAST + u64::LEAST + of_bands + self.bytes());
+        let room = bytes.capacity();
         bytes.resize(Head::LEAST, 0);
         let lengths = bytes.len();
         vec![0u64; self.bands.len()].store(&mut bytes);
@@ -71,6 +73,7 @@ impl<W: Weights> Compiled<W> {
         let mut head = Vec::with_capacity(Head::LEAST);
         Head { mark: MARK, format: FORMAT, key: key.0, checksum }.store(&mut head);
         bytes[..Head::LEAST].copy_from_slice(&head);
+        debug_assert_eq!(bytes.capacity(), room, "no second copy");
         bytes
     }
 

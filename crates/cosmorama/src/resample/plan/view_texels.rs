@@ -11,7 +11,7 @@ pub(super) enum ViewTexels<'a, T> {
     Four(FourTexels<'a, T>),
     /// One each way.
     Two(Texels<'a, T, 2, 1>),
-    /// As many as there are, one by one.
+    /// As many as there are, no more than are taken together, one by one.
     OneByOne {
         forward: Vec<Texels<'a, T, 1, 0>>,
         reversed: Vec<Texels<'a, T, 1, 1>>,
@@ -41,6 +41,7 @@ impl<'a, T: Copy> ViewTexels<'a, T> {
             (1, 0, 2) => Self::Two(Texels::new(samples, [walks[0], walks[1]], size)),
             (forward, turned, _) => {
                 assert_eq!(turned, 0, "columns are rows in four mirrors together");
+                assert!(ways.count <= TOGETHER, "eight mirrors are taken as twice four");
                 Self::OneByOne {
                     forward: walks[..forward].iter().map(|walk| Texels::new(samples, [*walk], size)).collect(),
                     reversed: walks[forward..].iter().map(|walk| Texels::new(samples, [*walk], size)).collect(),
