@@ -219,6 +219,12 @@ fn mistakes_are_told() {
         let given = ["convert", "plate.exr", "o.exr", "--from", "fisheye", "--to", "fisheye:fov=90", "--st-map"];
         assert_says(&bench.fail(2, &[&given[..], &ignored].concat()), &[ignored[0], "leave them out"]);
     }
+    let coloured =
+        ["convert", "plate.exr", "o.exr", "--from", "fisheye", "--to", "equirect", "--size", "32", "--st-map"];
+    assert_says(&bench.fail(2, &[&coloured[..], &["--missing", "red"]].concat()), &["--missing", "no colours"]);
+    // What looks like x and y are two parts of a direction.
+    bench.succeed(&["convert", "builtin:direction-map", "way.exr", "--to", "fulldome", "--size", "16"]);
+    refused(1, &["--from", "st-map:file=way.exr"], &["way.exr", "direction.Z", "R and G, u and v"]);
     let itself = ["convert", "plate.exr", "map.exr", "--to", "st-map:file=map.exr", "-y"];
     assert_says(&bench.fail(2, &itself), &["map.exr", "its own input"]);
     let formula = ["convert", "builtin:grid", "o.exr", "--to", "fulldome", "--size", "16", "--st-map"];

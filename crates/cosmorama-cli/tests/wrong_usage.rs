@@ -55,6 +55,27 @@ fn wrong_usage() {
 }
 
 #[test]
+fn pictures_that_cannot_be_are_refused_before_the_work() {
+    let bench = Bench::new();
+    bench.save("sky.png", &picture(1, 64, 32));
+    let refused = |args: &[&str], parts: &[&str]| {
+        assert_says(&bench.fail(2, &[&["convert", "sky.png"], args].concat()), parts);
+    };
+    for name in ["out.jpg", "out.tga"] {
+        refused(&[name, "--to", "equirect", "--size", "70000x3"], &[name, "65535", "70000x3", "--size", "png"]);
+    }
+    for to in ["cylinder:vfov=179.9999", "equirect:hfov=0.001,vfov=180"] {
+        refused(&["out.png", "--to", to, "--size", "100"], &["--to", "--size 100", "1000000 on a side", "--size WxH"]);
+    }
+    let beside = ["equirect:canvas=128x64+900+0", "perspective:canvas=100x100-5000+0"];
+    for spec in beside {
+        refused(&["out.png", "--from", spec, "--to", "fulldome"], &["sky.png", "64x32", "beside", "canvas=WxH+X+Y"]);
+        refused(&["out.png", "--to", spec, "--size", "64x32"], &["--to", "64x32", "beside", "canvas=WxH+X+Y"]);
+    }
+    refused(&["out.png", "--to", "fisheye:sensor=36"], &["sensor=36", "lens=polynomial", "focal="]);
+}
+
+#[test]
 fn numbers_that_are_none_or_absurd() {
     let bench = Bench::new();
     bench.save("sky.png", &flat(64, 32, &[10, 20, 30]));

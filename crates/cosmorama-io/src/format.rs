@@ -94,6 +94,14 @@ impl Format {
         }
     }
 
+    /// Columns, and rows, that a picture has at most, where the format counts no further.
+    pub const fn longest_side(self) -> Option<usize> {
+        match self {
+            Self::Jpeg | Self::Tga => Some(u16::MAX as usize),
+            _ => None,
+        }
+    }
+
     /// Channels that the format can hold.
     pub const fn channels(self) -> &'static [Channels] {
         match self {

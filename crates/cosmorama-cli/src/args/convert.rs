@@ -40,13 +40,13 @@ pub(crate) struct ConvertArgs {
     /// the same: an OpenEXR file, red to the right, green up, 0 to 1, blue the part of a pixel that shows anything
     #[arg(long, help_heading = "Geometry")]
     pub(crate) st_map: bool,
-    /// How integer code values relate to light: auto, srgb, linear, bt1886, pq, hlg, gamma:G
+    /// How integer code values relate to light: auto, srgb, linear, bt1886, pq, hlg, gamma:G; float files are linear
     #[arg(long, value_name = "T", default_value = "auto", help_heading = "Light")]
     pub(crate) transfer: TransferArg,
-    /// The same for the input alone
+    /// The same for the input alone, a float file too
     #[arg(long, value_name = "T", help_heading = "Light")]
     pub(crate) in_transfer: Option<TransferArg>,
-    /// The same for the output alone
+    /// The same for the output alone, a float file too
     #[arg(long, value_name = "T", help_heading = "Light")]
     pub(crate) out_transfer: Option<TransferArg>,
     /// Output sample type [default: as the input, where the format can]

@@ -9,7 +9,7 @@ pub(crate) enum ProgressStyle {
     Bar,
     /// A line for each frame
     Plain,
-    /// A JSON object for each frame
+    /// A JSON object for each frame; warnings and errors stay lines of text
     Json,
     /// Lines for Open Job Description: openjd_progress: 12.5
     Openjd,

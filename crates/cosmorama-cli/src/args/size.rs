@@ -9,13 +9,16 @@ pub(crate) struct SizeArg {
     pub(crate) height: Option<usize>,
 }
 
-/// More columns or rows than any image format holds.
-const MOST: usize = 1_000_000;
+impl SizeArg {
+    /// Columns or rows at most: more than any image format holds.
+    pub(crate) const MOST: usize = 1_000_000;
+}
 
 impl FromStr for SizeArg {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
+        const MOST: usize = SizeArg::MOST;
         let expected = || format!("expected WxH or a width, in pixels from 1 to {MOST}, as in 1966x1436 or 4096");
         let side = |text: &str| text.parse().ok().filter(|side| (1..=MOST).contains(side)).ok_or_else(expected);
         match text.split_once(['x', 'X', '×']) {

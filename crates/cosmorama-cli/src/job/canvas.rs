@@ -1,3 +1,4 @@
+use std::fmt::Display;
 use std::path::Path;
 
 use anyhow::Result;
@@ -30,18 +31,16 @@ pub(super) fn fits_canvas(path: &Path, header: &Header, canvas: Canvas) -> Resul
     )))
 }
 
-/// A face that lies wholly beside its canvas was put there by mistake: one may reach beyond its edges, but not go round.
-pub(super) fn lies_on_canvas(path: &Path, header: &Header, canvas: Canvas) -> Result<()> {
+/// A picture that lies wholly beside its canvas was put there by mistake: one may reach beyond its edges, but not go round.
+/// `name` is that of what has so many columns and rows.
+pub(super) fn lies_on_canvas(name: impl Display, (columns, rows): (usize, usize), canvas: Canvas) -> Result<()> {
     let overlaps = |start: i64, length: usize, whole: usize| start < whole as i64 && start + length as i64 > 0;
-    if overlaps(canvas.left, header.width, canvas.width) && overlaps(canvas.top, header.height, canvas.height) {
+    if overlaps(canvas.left, columns, canvas.width) && overlaps(canvas.top, rows, canvas.height) {
         return Ok(());
     }
     Err(usage(format!(
-        "{}: {}x{} pixels at {}, {} lie beside their canvas of {}; give canvas=WxH+X+Y the place of their first pixel in \
-         the whole picture",
-        path.display(),
-        header.width,
-        header.height,
+        "{name}: {columns}x{rows} pixels at {}, {} lie beside their canvas of {}; give canvas=WxH+X+Y the place of their first \
+         pixel in the whole picture",
         canvas.left,
         canvas.top,
         shape(&canvas)

@@ -40,7 +40,7 @@ impl Face {
         });
         if let (Some(header), Some(canvas)) = (&header, canvas) {
             fits_canvas(&files.path(frame), header, canvas)?;
-            lies_on_canvas(&files.path(frame), header, canvas)?;
+            lies_on_canvas(files.path(frame).display(), (header.width, header.height), canvas)?;
         }
         Ok(Self { face: file.face, placement, files, header, canvas })
     }

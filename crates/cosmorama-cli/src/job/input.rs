@@ -5,7 +5,7 @@ use anyhow::{Result, bail};
 use cosmorama::world::{Blend, Canvas, FacePart, View, ViewMask, WorldView};
 use cosmorama_io::{EnvMap, FaceFile, FacePattern, FaceSet, FrameList, Header, probe};
 
-use super::canvas::{canvas_of, fits_canvas, fits_shape, whole};
+use super::canvas::{canvas_of, fits_canvas, fits_shape, lies_on_canvas, whole};
 use super::detect::{declared, detect};
 use super::eye::EyePart;
 use super::face_file::Face;
@@ -197,6 +197,7 @@ impl Input {
         let mut placement = single.placement;
         let canvas = placement.canvas.or(header.window.map(canvas_of)).unwrap_or_else(|| whole(&header));
         fits_canvas(path, &header, canvas)?;
+        lies_on_canvas(path.display(), (header.width, header.height), canvas)?;
         if !single.any_shape && placement.canvas.is_none() && header.metadata.envmap != Some(EnvMap::LatLong) {
             fits_shape(path, placement.frame, canvas)?;
         }

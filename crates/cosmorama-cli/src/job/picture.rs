@@ -5,6 +5,7 @@ use cosmorama::world::{
 };
 use cosmorama_io::{EnvMap, Format, Naming, Window};
 
+use super::canvas::lies_on_canvas;
 use super::eye::{EyePart, eye_size};
 use super::face_view::face_placement;
 use super::gpano;
@@ -229,6 +230,9 @@ fn single_view(single: Single, geometry: &GeometryArgs, pixels_per_radian: Optio
         return Err(usage("--to has canvas=, so the size of the window on it must be given with --size WxH"));
     }
     let (width, height) = size(frame, geometry.size, pixels_per_radian, "--to")?;
+    if let Some(canvas) = canvas {
+        lies_on_canvas("--to", (width, height), canvas)?;
+    }
     let placement = Placement { frame, orientation: orientation.within(geometry.orientation()), mirror, canvas };
     placement.view(width, height).map_err(|error| usage(format!("--to: {error}")))
 }

@@ -14,7 +14,15 @@ pub(super) fn size(
     option: &str,
 ) -> Result<(usize, usize)> {
     match (given, pixels_per_radian) {
-        (Some(SizeArg { width, height }), _) => Ok((width, height.unwrap_or_else(|| frame.natural_height(width)))),
+        (Some(SizeArg { width, height: Some(height) }), _) => Ok((width, height)),
+        (Some(SizeArg { width, height: None }), _) => match frame.natural_height(width) {
+            height if height > SizeArg::MOST => Err(usage(format!(
+                "{option}: its shape makes {width}x{height} pixels of --size {width}, where {} on a side are the most; give \
+                 --size WxH, or a smaller field of view",
+                SizeArg::MOST
+            ))),
+            height => Ok((width, height)),
+        },
         (None, Some(pixels)) => frame.size_at(pixels).map_err(|error| match error {
             FrameError::SizeNeeded | FrameError::SizeUnbounded { .. } => {
                 usage(format!("{option}: {error}, with --size WxH"))

@@ -125,6 +125,14 @@ impl Target {
                 }
             }
         }
+        for TargetFile { sheet: Sheet { size: (width, height), .. }, .. } in &files {
+            if let Some(most) = format.longest_side().filter(|most| width.max(height) > most) {
+                return Err(usage(format!(
+                    "{output}: {format} counts no more than {most} pixels on a side, but {width}x{height} are asked for; give a \
+                     smaller --size, or name the output .png or .tif"
+                )));
+            }
+        }
         let envmap = pictures.first().and_then(|picture| picture.envmap);
         let panorama = pictures.first().and_then(|picture| picture.panorama);
         Ok(Self { views, files, format, envmap, panorama })

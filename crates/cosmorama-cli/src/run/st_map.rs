@@ -3,7 +3,7 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use anyhow::Result;
-use cosmorama::raster::{Depth, Image};
+use cosmorama::raster::{Depth, Image, Rgba};
 use cosmorama::resample::Filter;
 use cosmorama::world::{ST_NOWHERE, StPixel};
 use cosmorama_io::{Format, write_planes};
@@ -11,7 +11,7 @@ use cosmorama_io::{Format, write_planes};
 use super::engine::assemble;
 use super::report::Report;
 use super::stages::{Stage, Stages};
-use crate::args::ConvertArgs;
+use crate::args::{ConvertArgs, Missing};
 use crate::failure::{usage, warn};
 use crate::job::{Builtin, ConvertJob, st_pixels};
 
@@ -64,6 +64,11 @@ fn check(args: &ConvertArgs, job: &ConvertJob) -> Result<()> {
     if args.background.is_some() || is_transferred.into_iter().flatten().any(|transfer| transfer.fixed().is_some()) {
         return Err(usage(
             "--background, --transfer, --in-transfer and --out-transfer are for light, but an st map has none; leave them out",
+        ));
+    }
+    if matches!(args.missing, Missing::Fill(colour) if colour != Rgba::TRANSPARENT) {
+        return Err(usage(
+            "--missing: an st map has no colours; give --missing transparent, which leaves places without one",
         ));
     }
     Ok(())

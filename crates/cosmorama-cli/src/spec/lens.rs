@@ -79,6 +79,13 @@ fn scale(fields: &Fields) -> Result<LensScale, SpecError> {
     }
     let focal = fields.positive("focal", "a focal length in pixels, more than 0, as in focal=412.5")?;
     let sensor = fields.positive("sensor", "the sensor's width in millimetres, more than 0, as in sensor=36")?;
+    if let Some(value) = fields.get("sensor").filter(|_| fields.get("lens") != Some("polynomial")) {
+        return Err(wrong(
+            "sensor",
+            value,
+            "lens=polynomial beside it, which counts in millimetres; else give focal= or fit=",
+        ));
+    }
     Ok(match (focal, sensor) {
         (Some(pixels), _) => LensScale::Focal(pixels),
         (None, Some(width)) => LensScale::SensorWidth(width),

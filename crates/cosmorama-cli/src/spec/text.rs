@@ -82,6 +82,8 @@ fn meant(typed: &str, known: &[&str]) -> String {
             let each: Vec<String> = LensSide::ALL.iter().map(|side| format!("'{}.{key}'", side.name())).collect();
             format!("; did you mean {}?", each.join(" or "))
         }
+        // A camera's fov is the horizontal one, which others call so; by letters dfov is as near.
+        _ if matches!(typed, "hfov" | "h_fov") && known.contains(&"fov") => "; did you mean 'fov'?".to_owned(),
         _ => did_you_mean(typed, known),
     }
 }
@@ -176,6 +178,7 @@ mod tests {
             message.starts_with("unknown key 'fvo' for fisheye; did you mean 'fov'?; it takes fov, lens"),
             "{message}"
         );
+        assert!(refused("perspective:hfov=90").contains("did you mean 'fov'?"));
         assert!(refused("omnimx").contains("did you mean 'omnimax'?"));
         assert!(refused("globe").contains("there are cube, perspective, equirect, fisheye, stereographic"));
         assert!(refused("cube:aspect=2").starts_with("cube takes no aspect=: what it shows is given both ways"));
@@ -193,6 +196,7 @@ mod tests {
         assert!(refused("fisheye:lens=ucm,k=0.5:1").contains("expected alpha"));
         assert!(refused("fisheye:k=1").contains("only measured lenses"));
         assert!(refused("fisheye:lens=polynomial,k=0:0.02").contains("k1 of the polynomial is 0.02"));
+        assert!(refused("fisheye:lens=stereographic,sensor=36").contains("lens=polynomial"));
         assert!(refused("fisheye:focal=300,fit=width").contains("cannot both"));
         assert!(refused("fisheye:fit=width,radius=99").contains("fit= and radius= cannot both"));
         assert!(refused("omnimax:framing=fit,center=9:9").contains("framing= and center= cannot both"));

@@ -114,7 +114,11 @@ fn find_in_layer(part: &Part, layer: &str, name: &str) -> Option<usize> {
     part.channels.list.iter().position(|channel| channel.name.to_string().eq_ignore_ascii_case(&wanted))
 }
 
+/// Two channels of a layer. Beside z, x and y are no pair but parts of a vector, as in maps of directions.
 fn pair_in_layer(part: &Part, layer: &str, (first, second): (&str, &str)) -> Option<Vec<usize>> {
+    if first == "x" && find_in_layer(part, layer, "z").is_some() {
+        return None;
+    }
     Some(vec![find_in_layer(part, layer, first)?, find_in_layer(part, layer, second)?])
 }
 
