@@ -191,12 +191,12 @@ fn memory_that_there_is_not_is_not_promised() {
 #[test]
 fn explain_is_told_that_its_picture_is_too_large_before_memory_is_taken() {
     let bench = Bench::new();
-    let explain = |to: &str, size: &str| {
+    let explain = |code: i32, to: &str, size: &str| {
         let sizes = ["--from", "cube", "--input-size", "64", "--to", to, "--size", size, "--memory", "500M"];
-        bench.fail(1, &[&["explain"][..], &sizes].concat())
+        bench.fail(code, &[&["explain"][..], &sizes].concat())
     };
-    assert_says(&explain("cylinder:vfov=90,hfov=1e-300", "8"), &["a frame", "the output 8x", "--memory"]);
-    assert_says(&explain("equirect", "1000000x500000"), &["the output 1000000x500000", "--memory"]);
+    assert_says(&explain(2, "cylinder:vfov=90,hfov=1e-300", "8"), &["--size 8", "more than 1000000 pixels high"]);
+    assert_says(&explain(1, "equirect", "1000000x500000"), &["a frame", "the output 1000000x500000", "--memory"]);
 }
 
 #[test]

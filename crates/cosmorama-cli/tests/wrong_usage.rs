@@ -65,7 +65,10 @@ fn pictures_that_cannot_be_are_refused_before_the_work() {
         refused(&[name, "--to", "equirect", "--size", "70000x3"], &[name, "65535", "70000x3", "--size", "png"]);
     }
     for to in ["cylinder:vfov=179.9999", "equirect:hfov=0.001,vfov=180"] {
-        refused(&["out.png", "--to", to, "--size", "100"], &["--to", "--size 100", "1000000 on a side", "--size WxH"]);
+        refused(
+            &["out.png", "--to", to, "--size", "100"],
+            &["--to", "--size 100", "more than 1000000 pixels", "--size WxH"],
+        );
     }
     let beside = ["equirect:canvas=128x64+900+0", "perspective:canvas=100x100-5000+0"];
     for spec in beside {

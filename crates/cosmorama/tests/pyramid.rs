@@ -6,7 +6,7 @@ use cosmorama::explain::Report;
 use cosmorama::raster::{ColourChannel, Image, Rgba, Transfer};
 use cosmorama::resample::{Filter, FilterKind, Needs, Resampler};
 use cosmorama::sphere::{CubeFace, Direction};
-use cosmorama::world::{View, World};
+use cosmorama::world::{Frame, MirrorBallFrame, View, World};
 use glam::DVec3;
 use testkit::{
     cube, equirect, fisheye, light_by_direction, light_by_texel, omnimax, perspective, position_error, turned,
@@ -177,26 +177,47 @@ fn noise(world: &World) -> Vec<Rgba> {
 #[test]
 fn it_stays_near_to_ewa() {
     for (world, texels) in [(cube(&CubeFace::ALL, 1024, 1024), 512.0), (panorama(3000), 3000.0 / (2.0 * PI))] {
-        let light = light_by_direction(&world, |d| {
-            // Stripes and fields of many sizes.
-            let v = d.vector();
-            let stripe = |frequency: f64, v: f64| f32::from(u8::from((frequency * v).sin() > 0.0));
-            [stripe(300.0, v.x + 0.1 * v.y), stripe(60.0, v.y * v.z), stripe(17.0, v.z)]
-        });
+        let light = light_by_direction(&world, |d| stripes(d, 300.0));
         for (shrink, least) in [(2.0, 65.0), (4.0, 41.0), (8.0, 38.0), (40.0, 38.0)] {
             let target = dome(texels, shrink);
-            let [exact, found] = [Filter::DEFAULT, PYRAMID].map(|filter| render(&world, &target, filter, &light));
-            let pairs = inside(&target, &exact).zip(inside(&target, &found));
-            let (mut sum, mut count) = (0.0, 0);
-            for ((_, a), (_, b)) in pairs {
-                sum += (0..3).map(|c| f64::from(a.0[c] - b.0[c]).powi(2)).sum::<f64>();
-                count += 3;
-            }
-            let psnr = -10.0 * (sum / f64::from(count)).log10();
+            let psnr = nearness_to_ewa(&world, &target, &light);
             println!("{shrink} texels a pixel: {psnr:.1} dB");
             assert!(psnr > least, "{shrink} texels a pixel: {psnr} dB");
         }
     }
+}
+
+/// Around what it hides a ball's texels are long and narrow, and others from one to the next.
+#[test]
+fn it_stays_near_to_ewa_behind_a_mirror_ball() {
+    let ball = Frame::MirrorBall(MirrorBallFrame::default()).view(500, 500).expect("a ball");
+    let world = World::new([("ball".to_owned(), ball)]).expect("one view");
+    let light = light_by_direction(&world, |d| stripes(d, 20.0));
+    for size in [16, 24, 32, 64] {
+        let target = perspective(size, size, 90.0, 25.0, 15.0, 0.0);
+        let psnr = nearness_to_ewa(&world, &target, &light);
+        println!("{size}²: {psnr:.1} dB");
+        assert!(psnr > 40.0, "{size}²: {psnr} dB");
+    }
+}
+
+/// Stripes and fields of three sizes, the finest with so many radians of them in one.
+fn stripes(direction: Direction, finest: f64) -> [f32; 3] {
+    let v = direction.vector();
+    let stripe = |frequency: f64, v: f64| f32::from(u8::from((frequency * v).sin() > 0.0));
+    [stripe(finest, v.x + 0.1 * v.y), stripe(finest.min(60.0), v.y * v.z), stripe(17.0, v.z)]
+}
+
+/// Decibels between what a pyramid makes and what exact EWA does.
+fn nearness_to_ewa(world: &World, target: &View, light: &[Rgba]) -> f64 {
+    let [exact, found] = [Filter::DEFAULT, PYRAMID].map(|filter| render(world, target, filter, light));
+    let pairs = inside(target, &exact).zip(inside(target, &found));
+    let (mut sum, mut count) = (0.0, 0);
+    for ((_, a), (_, b)) in pairs {
+        sum += (0..3).map(|c| f64::from(a.0[c] - b.0[c]).powi(2)).sum::<f64>();
+        count += 3;
+    }
+    -10.0 * (sum / f64::from(count)).log10()
 }
 
 /// Texels a pixel at most, those of both levels together, in a camera's view of a cube. The finer level's kernel is an ellipse of

@@ -17,8 +17,7 @@ pub(super) fn size(
         (Some(SizeArg { width, height: Some(height) }), _) => Ok((width, height)),
         (Some(SizeArg { width, height: None }), _) => match frame.natural_height(width) {
             height if height > SizeArg::MOST => Err(usage(format!(
-                "{option}: its shape makes {width}x{height} pixels of --size {width}, where {} on a side are the most; give \
-                 --size WxH, or a smaller field of view",
+                "{option}: its shape makes --size {width} more than {} pixels high; give --size WxH, or a smaller field of view",
                 SizeArg::MOST
             ))),
             height => Ok((width, height)),
