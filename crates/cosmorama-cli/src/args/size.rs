@@ -18,9 +18,9 @@ impl FromStr for SizeArg {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
-        const MOST: usize = SizeArg::MOST;
-        let expected = || format!("expected WxH or a width, in pixels from 1 to {MOST}, as in 1966x1436 or 4096");
-        let side = |text: &str| text.parse().ok().filter(|side| (1..=MOST).contains(side)).ok_or_else(expected);
+        let most = Self::MOST;
+        let expected = || format!("expected WxH or a width, in pixels from 1 to {most}, as in 1966x1436 or 4096");
+        let side = |text: &str| text.parse().ok().filter(|side| (1..=most).contains(side)).ok_or_else(expected);
         match text.split_once(['x', 'X', '×']) {
             Some((width, height)) => Ok(Self { width: side(width)?, height: Some(side(height)?) }),
             None => Ok(Self { width: side(text)?, height: None }),

@@ -115,7 +115,7 @@ impl Flow {
         let rows: Vec<[f64; 4]> = (0..self.first.height()).into_par_iter().map(of_row).collect();
         let [count, rest, squares, slopes] = rows.into_iter().fold([0.0; 4], sum);
         let variance = (squares - rest * rest / count).max(0.0);
-        // Slopes in one of two directions; where there are none, nothing is known of places, nor is there any difference to explain.
+        // Slopes in one of two directions. Where nothing is left to explain nothing is in doubt, be there slopes or none.
         if variance > 0.0 { (2.0 * variance / slopes).sqrt() } else { 0.0 }
     }
 

@@ -106,8 +106,8 @@ fn fill<'a, const N: usize>(
 /// The code of each light; twice as many as there is light, so that any number of 16 bits has one.
 type Codes = [u8; 1 << 16];
 
-/// Steps of light that a weighted sum of texels and weights, all of them rounded, is wrong by at most, or hardly ever more: by more
-/// than one code, then, it may not be.
+/// Steps of light that a weighted sum of texels and weights, all of them rounded, is hardly ever wrong by more than: they may not be
+/// more than one code.
 const ERROR: usize = 4;
 
 /// By how much the last of some codes is more than the first.
