@@ -6,11 +6,10 @@ use tiff::decoder::{Decoder, DecodingResult};
 use tiff::tags::{SampleFormat, Tag};
 use tiff::{ColorType, TiffError};
 
-use super::whole_image;
+use crate::codec::whole_image;
 use crate::file::Source;
-use crate::{Format, Header, ImageFile, IoError, Limits, Metadata, icc};
-
-pub(crate) use super::tiff_writer::write;
+use crate::metadata::icc;
+use crate::{Format, Header, ImageFile, IoError, Limits, Metadata};
 
 const FORMAT: Format = Format::Tiff;
 const EXPECTED: &str = "grey or RGB, with or without alpha, of 8 or 16 bits or floats, pixel by pixel";

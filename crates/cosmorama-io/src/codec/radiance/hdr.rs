@@ -3,7 +3,8 @@ use std::path::Path;
 
 use cosmorama::raster::{Channels, Depth, EncodedImage, Samples, Transfer};
 
-use super::{rgbe, whole_image};
+use super::rgbe;
+use crate::codec::whole_image;
 use crate::file::Source;
 use crate::{Format, Header, ImageFile, IoError, Limits, Metadata};
 

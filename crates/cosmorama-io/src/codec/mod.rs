@@ -6,26 +6,17 @@ use cosmorama::raster::{EncodedImage, Samples};
 
 use crate::{Header, ImageFile, IoError};
 
-pub(crate) mod dds;
 pub(crate) mod exr;
-mod exr_dwa;
-mod exr_selection;
-mod exr_window;
-mod exr_writer;
-pub(crate) mod hdr;
 pub(crate) mod jpeg;
-pub(crate) mod ktx;
-pub(crate) mod ktx2;
-mod packing;
 pub(crate) mod png;
-mod png_colour;
-mod png_writer;
-mod rgbe;
-mod texel;
-mod texture;
+pub(crate) mod radiance;
+pub mod svg;
+pub(crate) mod texture;
 pub(crate) mod tga;
 pub(crate) mod tiff;
-mod tiff_writer;
+mod write_options;
+
+pub use write_options::{Compression, WriteOptions};
 
 /// Whether this thread is one of a pool: the others have files of their own then, and one does all of this file.
 fn is_beside_others() -> bool {

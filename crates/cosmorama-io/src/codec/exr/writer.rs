@@ -10,7 +10,7 @@ use exr::meta::header::LayerAttributes;
 use exr::prelude::SmallVec;
 use half::f16;
 
-use super::is_beside_others;
+use crate::codec::is_beside_others;
 use crate::{Compression, EnvMap, IoError, Metadata};
 
 /// Scan lines; light premultiplied, as the format has it.

@@ -7,8 +7,8 @@ use ddsfile::{
     Header10, MiscFlag,
 };
 
+use super::cube::{CubeTexture, EXPECTED, levels_to_write};
 use super::texel::{BlockFormat, Texels};
-use super::texture::{CubeTexture, EXPECTED, levels_to_write};
 use crate::file::Source;
 use crate::{Format, Header, ImageFile, IoError, Limits, Metadata};
 

@@ -9,7 +9,7 @@ use tiff::encoder::colortype::ColorType;
 use tiff::encoder::{Compression as Packing, DeflateLevel, Predictor, TiffEncoder, TiffValue};
 use tiff::tags::{PhotometricInterpretation, SampleFormat, Tag};
 
-use super::tiff::ICC_PROFILE;
+use super::reader::ICC_PROFILE;
 use crate::{Compression, IoError, Metadata};
 
 pub(crate) fn write(

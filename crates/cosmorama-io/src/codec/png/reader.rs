@@ -4,11 +4,10 @@ use bytemuck::cast_slice_mut;
 use cosmorama::raster::{Channels, Depth, Samples};
 use png::{BitDepth, ColorType, Decoder, DecodingError, Info, Reader, Transformations};
 
-use super::{png_colour, whole_image};
+use super::colour;
+use crate::codec::whole_image;
 use crate::file::Source;
 use crate::{Format, Header, ImageFile, IoError, Limits};
-
-pub(crate) use super::png_writer::write;
 
 const FORMAT: Format = Format::Png;
 
@@ -77,7 +76,7 @@ fn header<R: std::io::BufRead + std::io::Seek>(reader: &Reader<R>) -> Header {
         height: info.height as usize,
         channels,
         depth: if bits == BitDepth::Sixteen { significant(info) } else { Depth::Eight },
-        metadata: png_colour::metadata(info),
+        metadata: colour::metadata(info),
         window: None,
     }
 }

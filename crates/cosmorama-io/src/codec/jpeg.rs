@@ -11,7 +11,8 @@ use zune_jpeg::zune_core::options::DecoderOptions;
 
 use super::whole_image;
 use crate::file::Source;
-use crate::{Format, Header, ImageFile, IoError, Limits, Metadata, gpano, icc};
+use crate::metadata::{gpano, icc};
+use crate::{Format, Header, ImageFile, IoError, Limits, Metadata};
 
 const FORMAT: Format = Format::Jpeg;
 

@@ -4,9 +4,9 @@ use std::path::Path;
 use cosmorama::raster::{AlphaMode, Depth, EncodedImage, Transfer};
 use ktx2::{Format as Vk, Header as Ktx2Header, Index, LevelIndex, SupercompressionScheme as Scheme};
 
+use super::cube::{CubeTexture, EXPECTED, levels_to_write};
 use super::packing::{Packed, Packing};
 use super::texel::{BlockFormat, Texels};
-use super::texture::{CubeTexture, EXPECTED, levels_to_write};
 use crate::file::Source;
 use crate::{Format, Header, ImageFile, IoError, Limits, Metadata};
 

@@ -4,7 +4,8 @@ use cosmorama::raster::Transfer;
 use png::chunk::ChunkType;
 use png::{CodingIndependentCodePoints, Info, ScaledFloat, SrgbRenderingIntent};
 
-use crate::{Metadata, gpano, icc};
+use crate::Metadata;
+use crate::metadata::{gpano, icc};
 
 pub(super) const CICP: ChunkType = ChunkType(*b"cICP");
 

@@ -6,8 +6,9 @@ use cosmorama::raster::{Channels, Depth, EncodedImage, Samples};
 use png::chunk::sBIT;
 use png::{BitDepth, ColorType, DeflateCompression, Encoder, EncodingError, Filter, Info, Writer};
 
-use super::png_colour::{CICP, Tag, XMP, tag};
-use crate::{Compression, IoError, Metadata, gpano};
+use super::colour::{CICP, Tag, XMP, tag};
+use crate::metadata::gpano;
+use crate::{Compression, IoError, Metadata};
 
 pub(crate) fn write(
     path: &Path,

@@ -13,13 +13,12 @@ use exr::meta::{BlockDescription, MetaData};
 use half::f16;
 use rayon::prelude::*;
 
-use super::exr_selection::Selection;
-use super::exr_window::Crop;
-use super::{exr_dwa, is_beside_others, whole_image};
+use super::dwa;
+use super::selection::Selection;
+use super::window::Crop;
+use crate::codec::{is_beside_others, whole_image};
 use crate::file::Source;
 use crate::{EnvMap, Format, Header, ImageFile, IoError, Limits, Metadata};
-
-pub(crate) use super::exr_writer::{write, write_planes};
 
 const FORMAT: Format = Format::Exr;
 
@@ -190,7 +189,7 @@ fn pixels<S: Clone + Default>(
         }
         let meta = chunks.meta_data();
         let compression = meta.headers[selection.part].compression;
-        if !batch.iter().all(|chunk| exr_dwa::is_plausible(chunk, compression, block_bytes)) {
+        if !batch.iter().all(|chunk| dwa::is_plausible(chunk, compression, block_bytes)) {
             return Err(Error::Invalid("a chunk larger than its block".into()));
         }
         let decompress = |chunk: Chunk| UncompressedBlock::decompress_chunk(chunk, meta, false);

@@ -1,3 +1,6 @@
+pub(crate) mod gpano;
+pub(crate) mod icc;
+
 use cosmorama::raster::Transfer;
 
 /// What a file says about its pixels, and what is carried from input to output.

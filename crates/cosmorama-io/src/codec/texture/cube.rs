@@ -7,7 +7,7 @@ use rayon::prelude::*;
 
 use super::packing::Packed;
 use super::texel::Texels;
-use super::{is_beside_others, whole_image};
+use crate::codec::{is_beside_others, whole_image};
 use crate::file::Source;
 use crate::{EnvMap, Format, Header, ImageFile, IoError, Limits, Metadata};
 

@@ -2,8 +2,8 @@ use std::path::Path;
 
 use cosmorama::raster::{Channels, Depth, Samples};
 
-use crate::file::open;
-use crate::formats::exr;
+use super::open;
+use crate::codec::exr;
 use crate::{Format, Header, ImageFile, IoError, Limits, probe, read};
 
 /// The numbers of an st map as its file has them: two a pixel, s to the right and t up.

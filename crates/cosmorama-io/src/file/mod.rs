@@ -1,10 +1,16 @@
+mod st_pairs;
+
+pub use st_pairs::{StPairs, probe_pairs, read_pairs};
+
 use std::fs::File;
 use std::io::{self, BufReader, Read, Seek, SeekFrom};
 use std::path::Path;
 
 use cosmorama::raster::{Channels, Depth, EncodedImage};
 
-use crate::formats::{dds, exr, hdr, jpeg, ktx, ktx2, png, tga, tiff};
+use crate::codec::radiance::hdr;
+use crate::codec::texture::{dds, ktx, ktx2};
+use crate::codec::{exr, jpeg, png, tga, tiff};
 use crate::pending::{Hidden, Pending};
 use crate::{Format, IoError, Limits, Metadata, Window, WriteOptions};
 

@@ -3,8 +3,8 @@ use std::path::Path;
 
 use cosmorama::raster::{AlphaMode, Depth, Transfer};
 
+use super::cube::{CubeTexture, EXPECTED};
 use super::texel::{BlockFormat, Texels};
-use super::texture::{CubeTexture, EXPECTED};
 use crate::file::Source;
 use crate::{Format, Header, ImageFile, IoError, Limits};
 

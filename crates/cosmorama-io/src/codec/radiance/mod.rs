@@ -1,0 +1,4 @@
+//! Radiance pictures.
+
+pub(crate) mod hdr;
+mod rgbe;

@@ -1,0 +1,5 @@
+//! Formats of files.
+
+mod format;
+
+pub use format::Format;
