@@ -1,0 +1,140 @@
+//! Standard input and output in place of files.
+
+use std::io::Write;
+use std::process::{Output, Stdio};
+
+use crate::bench::{Bench, assert_says, picture, text};
+
+fn piped(bench: &Bench, args: &[&str], input: &[u8]) -> Output {
+    let mut command = bench.command(args);
+    command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
+    let mut child = command.spawn().unwrap();
+    // Whoever refuses its arguments reads nothing.
+    let _ = child.stdin.take().unwrap().write_all(input);
+    child.wait_with_output().unwrap()
+}
+
+#[test]
+fn pictures_come_and_go_through_pipes_as_through_files() {
+    let bench = Bench::new();
+    bench.save("a.png", &picture(3, 64, 32));
+    let bytes = bench.bytes("a.png");
+    for format in ["png", "jpg", "tif", "tga", "hdr", "exr"] {
+        let to = ["--from", "equirect", "--to", "fulldome", "--size", "32"];
+        let file = format!("b.{format}");
+        bench.succeed(&[&["convert", "a.png", &file][..], &to].concat());
+        let output = piped(&bench, &[&["convert", "-", "-", "--format", format][..], &to].concat(), &bytes);
+        assert!(output.status.success(), "{}", text(&output.stderr));
+        assert!(output.stdout == bench.bytes(&file), "{format}: {} bytes", output.stdout.len());
+    }
+    // Only one of the two.
+    let output = piped(&bench, &["convert", "-", "c.png", "--from", "equirect", "--to", "fulldome", "--json"], &bytes);
+    assert!(text(&output.stdout).contains("\"outputs\""));
+    let output =
+        piped(&bench, &["convert", "builtin:grid", "-", "--format", "png", "--to", "fulldome", "--size", "9"], &[]);
+    assert_eq!(&output.stdout[1..4], b"PNG");
+}
+
+#[test]
+fn what_is_wrong_is_said_and_no_byte_written() {
+    let bench = Bench::new();
+    bench.save("a.png", &picture(3, 64, 32));
+    let to = ["--from", "equirect", "--to", "fulldome", "--size", "32"];
+    let refused = |code: i32, args: &[&str], parts: &[&str]| {
+        let args = [&["convert"][..], args, &to].concat();
+        let output = piped(&bench, &args, b"no picture");
+        assert_says(&bench.check_failure(code, &output, &bench.files()), parts);
+    };
+    refused(2, &["a.png", "-"], &["--format png"]);
+    refused(2, &["a.png", "-", "--format", "gif"], &["--format gif", "png, jpg"]);
+    refused(2, &["a.png", "b.png", "--format", "png"], &["--format", "b.png"]);
+    refused(2, &["a.png", "-", "--format", "png", "--json"], &["--json"]);
+    refused(2, &["a.png", "b", "--format", "png"], &["--format", "which is called -"]);
+    refused(2, &["a.png", "-", "--format", "png", "--resume"], &["--resume", "standard output"]);
+    for frame in 7..=8 {
+        bench.save(&format!("sky_{frame}.png"), &picture(frame, 64, 32));
+    }
+    refused(2, &["sky_#.png", "-", "--format", "png"], &["2 frames", "standard output", "--frames 7", "####"]);
+    refused(1, &["-", "b.png"], &["standard input: ", "format"]);
+    refused(1, &["-", "-", "--format", "png"], &["standard input: "]);
+}
+
+#[test]
+fn every_verb_reads_standard_input() {
+    let bench = Bench::new();
+    bench.save("a.png", &picture(3, 64, 32));
+    let bytes = bench.bytes("a.png");
+    let told = |args: &[&str]| {
+        let output = piped(&bench, args, &bytes);
+        let (out, err) = (text(&output.stdout), text(&output.stderr));
+        assert!(output.status.success(), "{args:?}: {err}");
+        // Where it is kept meanwhile is nobody's business.
+        assert!(!out.contains(".cosmorama") && !err.contains(".cosmorama"), "{out}{err}");
+        (out, err)
+    };
+    assert_says(&told(&["info", "-"]).0, &["input: standard input", "64", "equirect (2:1)"]);
+    let (out, err) = told(&["explain", "-", "--to", "fulldome", "--size", "32"]);
+    assert_says(&(out + &err), &["standard input", "texels"]);
+    assert_says(&told(&["compare", "-", "a.png", "--json"]).0, &["\"first\": \"standard input\"", "\"rms\": 0.0"]);
+    let json = told(&["convert", "-", "b.png", "--to", "fulldome", "--size", "9", "--json"]).0;
+    assert_says(&json, &["\"standard input\"", "standard input is taken for a panorama"]);
+    let output = piped(&bench, &["compare", "-", "-"], &bytes);
+    assert_says(&bench.check_failure(2, &output, &bench.files()), &["- is given twice"]);
+}
+
+/// The shell's `<(command)` is a pipe with a name, which can be read only once.
+#[cfg(unix)]
+#[test]
+fn pipes_with_names_are_read_as_files_are() {
+    let bench = Bench::new();
+    bench.save("a.png", &picture(3, 64, 32));
+    let made = std::process::Command::new("mkfifo").arg(bench.path("pipe")).status().unwrap();
+    assert!(made.success());
+    let through = |args: &[&str]| {
+        let (bytes, pipe) = (bench.bytes("a.png"), bench.path("pipe"));
+        let writer = std::thread::spawn(move || std::fs::write(pipe, bytes).unwrap());
+        let out = bench.succeed(args);
+        writer.join().unwrap();
+        out
+    };
+    assert_says(&through(&["info", "pipe"]), &["input: pipe", "equirect (2:1)"]);
+    assert_says(&through(&["compare", "a.png", "pipe"]), &["rms 0.000000"]);
+    through(&["convert", "pipe", "b.png", "--to", "fulldome", "--size", "32"]);
+    bench.succeed(&["convert", "a.png", "c.png", "--to", "fulldome", "--size", "32"]);
+    assert_eq!(bench.bytes("b.png"), bench.bytes("c.png"));
+}
+
+/// A terminal that goes away ends the work like an interrupt, and nothing stays behind; by `nohup` it goes on.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_terminal_that_goes_away_leaves_nothing_behind() {
+    use std::os::unix::process::ExitStatusExt;
+    use std::process::Command;
+
+    let bench = Bench::new();
+    bench.save("a.png", &picture(3, 64, 32));
+    // Whoever runs the tests by `nohup` has it ignored for all that they start.
+    for (first, code) in [("env --default-signal=HUP ", Some(129)), ("nohup ", Some(0))] {
+        let folder = tempfile::tempdir().unwrap();
+        let script =
+            format!("exec {first}{} convert - b.png --to fulldome --size 9 -y", env!("CARGO_BIN_EXE_cosmorama"));
+        let mut command = Command::new("sh");
+        command.args(["-c", &script]).current_dir(bench.path("")).env("TMPDIR", folder.path());
+        let mut child = command.stdin(Stdio::piped()).stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
+        // It watches for signals before it waits for what comes in.
+        let kept = || std::fs::read_dir(folder.path()).unwrap().count();
+        while kept() == 0 {
+            assert!(child.try_wait().unwrap().is_none(), "{first}");
+            std::thread::sleep(std::time::Duration::from_millis(10));
+        }
+        assert!(Command::new("kill").args(["-HUP", &child.id().to_string()]).status().unwrap().success());
+        let mut input = child.stdin.take().unwrap();
+        if code == Some(0) {
+            input.write_all(&bench.bytes("a.png")).unwrap();
+            drop(input);
+        }
+        let status = child.wait().unwrap();
+        assert_eq!((status.code(), status.signal()), (code, None), "{first}");
+        assert_eq!(kept(), 0, "{first}");
+    }
+}

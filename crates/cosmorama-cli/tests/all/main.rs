@@ -1,0 +1,62 @@
+//! Tests of the program as it is called, in one program.
+#![allow(
+    clippy::unwrap_used,
+    clippy::print_stdout,
+    clippy::print_stderr,
+    reason = "a test that cannot go on should stop where it stands, and one that is left out says so"
+)]
+
+mod bench;
+mod convert;
+mod oracles;
+
+mod faces {
+    mod arrangement;
+    mod arrangement_advice;
+    mod layouts;
+}
+
+mod filter {
+    mod light;
+    mod light_balance;
+    mod pyramids;
+    mod rims;
+    mod suns;
+}
+
+mod input {
+    mod bad_input;
+    mod builtin;
+    mod detection;
+    mod pipes;
+    mod real_data;
+    mod st_maps;
+    mod stereo;
+    mod tiffs;
+}
+
+mod lenses {
+    mod calibrations;
+    mod hugin;
+    mod several_views;
+    mod worlds;
+}
+
+mod output {
+    mod bad_output;
+    mod output_shape;
+}
+
+mod sequence {
+    mod plan_cache;
+    mod resume;
+    #[cfg(target_os = "linux")]
+    mod sequence_memory;
+    mod sequences;
+}
+
+mod usage {
+    mod advice;
+    mod verbs;
+    mod wrong_usage;
+}

@@ -1,0 +1,12 @@
+//! Tests of what is read and written, in one program.
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on should stop where it stands")]
+
+mod calibrations;
+mod common;
+mod face_sets;
+mod hostile;
+mod interop;
+mod interrupt;
+mod pto;
+mod real_files;
+mod round_trips;

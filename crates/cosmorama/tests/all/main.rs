@@ -1,0 +1,22 @@
+//! Tests of the library through its public door, in one program.
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on should stop where it stands")]
+
+mod explain;
+mod projections;
+mod published_points;
+mod round_trips;
+
+mod filter {
+    mod aliasing;
+    mod position;
+    mod pyramid;
+    mod reference;
+    mod rim;
+    mod seams;
+}
+
+mod render {
+    mod need;
+    mod packed;
+    mod saved_plans;
+}

@@ -1,0 +1,355 @@
+//! Dependencies point down only: reads every source file and manifest, and fails on an upward use.
+//!
+//! The two tables below are the building's plan; a new room or crate gets its line there (ARCHITECTURE.md draws it).
+
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+
+use crate::source::{code_of, crates_folder, rust_files};
+
+/// The rooms of the library, lowest floor first, and the rooms that each may use.
+const ROOMS: [(&str, &[&str]); 9] = [
+    ("sphere", &[]),
+    ("projection", &["sphere"]),
+    ("raster", &[]),
+    ("world", &["sphere", "projection", "raster"]),
+    ("resample", &["sphere", "projection", "raster", "world"]),
+    ("arrange", &["sphere", "raster", "world"]),
+    ("circle", &["raster"]),
+    ("compare", &["raster"]),
+    ("explain", &["sphere", "projection", "raster", "world", "resample"]),
+];
+
+/// A crate, our own crates that it may depend on, and the library's rooms that it may use.
+struct CratePlan {
+    name: &'static str,
+    crates: &'static [&'static str],
+    rooms: &'static [&'static str],
+    /// Parts of the standard library that it must not use.
+    banned_std: &'static [&'static str],
+    /// Crates, functions and macros that it must not use.
+    banned: &'static [&'static str],
+    reason: &'static str,
+}
+
+const CRATES: [CratePlan; 5] = [
+    CratePlan {
+        name: "cosmorama",
+        crates: &[],
+        rooms: &[],
+        banned_std: &["fs", "io", "process", "net", "env"],
+        banned: &["println", "eprintln"],
+        reason: "the library touches neither files nor the terminal",
+    },
+    CratePlan {
+        name: "cosmorama-builtin",
+        crates: &["cosmorama"],
+        rooms: &["sphere", "raster", "world", "explain"],
+        banned_std: &["fs", "io", "process", "net", "env"],
+        banned: &["println", "eprintln"],
+        reason: "worlds by formula touch neither files nor the terminal",
+    },
+    CratePlan {
+        name: "cosmorama-io",
+        crates: &["cosmorama"],
+        rooms: &["sphere", "raster", "world"],
+        banned_std: &["net", "process"],
+        banned: &["glam", "println", "eprintln"],
+        reason: "files know no geometry and no terminal",
+    },
+    CratePlan {
+        name: "cosmorama-cli",
+        crates: &["cosmorama", "cosmorama-builtin", "cosmorama-io"],
+        rooms: &["sphere", "projection", "raster", "world", "resample", "arrange", "circle", "compare", "explain"],
+        banned_std: &["f32", "f64"],
+        banned: &[
+            "glam",
+            "sin",
+            "cos",
+            "tan",
+            "sin_cos",
+            "asin",
+            "acos",
+            "atan",
+            "atan2",
+            "sqrt",
+            "hypot",
+            "powi",
+            "powf",
+            "exp",
+            "to_radians",
+            "to_degrees",
+        ],
+        reason: "the command line holds no mathematics",
+    },
+    CratePlan {
+        name: "testkit",
+        crates: &["cosmorama", "cosmorama-builtin", "cosmorama-io"],
+        rooms: &["sphere", "projection", "raster", "world", "resample", "arrange", "circle", "compare", "explain"],
+        banned_std: &[],
+        banned: &[],
+        reason: "",
+    },
+];
+
+/// Lines of a file at most.
+const LONGEST: usize = 400;
+
+#[test]
+fn no_file_is_too_long_to_be_read_at_once() {
+    let lines = |file: &PathBuf| std::fs::read_to_string(file).unwrap().lines().count();
+    let files = rust_files(&crates_folder());
+    let long: Vec<_> = files.iter().filter(|file| lines(file) > LONGEST).collect();
+    assert!(files.len() > 100 && long.is_empty(), "of more than {LONGEST} lines: {long:?}");
+}
+
+#[test]
+fn no_room_uses_a_higher_one() {
+    let source = crates_folder().join("cosmorama/src");
+    let mut found = Vec::new();
+    for file in rust_files(&source) {
+        let inside = file.strip_prefix(&source).unwrap();
+        let room = inside.iter().next().unwrap().to_str().unwrap().trim_end_matches(".rs");
+        if room == "lib" {
+            continue;
+        }
+        let Some((_, allowed)) = ROOMS.iter().find(|(name, _)| *name == room) else {
+            found.push(format!("{}: the room `{room}` has no floor in ROOMS", file.display()));
+            continue;
+        };
+        let code = code_of(&std::fs::read_to_string(&file).unwrap());
+        for used in rooms_used(&code, "crate", module_depth(inside)) {
+            if used != room && !allowed.contains(&used.as_str()) {
+                found.push(format!("{}: {room} must not use {used}", file.display()));
+            }
+        }
+    }
+    assert!(found.is_empty(), "{}", found.join("\n"));
+}
+
+#[test]
+fn no_crate_uses_what_it_must_not() {
+    let mut found = Vec::new();
+    for plan in &CRATES {
+        for file in rust_files(&crates_folder().join(plan.name).join("src")) {
+            let code = code_of(&std::fs::read_to_string(&file).unwrap());
+            for used in rooms_used(&code, "cosmorama", usize::MAX) {
+                if !plan.rooms.contains(&used.as_str()) {
+                    found.push(format!("{}: {} must not use cosmorama::{used}", file.display(), plan.name));
+                }
+            }
+            for used in names_under(&code, "std::").iter().filter(|used| plan.banned_std.contains(&used.as_str())) {
+                found.push(format!("{}: `std::{used}`: {}", file.display(), plan.reason));
+            }
+            for word in paths_and_calls(&code).filter(|word| plan.banned.contains(word)) {
+                found.push(format!("{}: `{word}`: {}", file.display(), plan.reason));
+            }
+        }
+    }
+    assert!(found.is_empty(), "{}", found.join("\n"));
+}
+
+#[test]
+fn no_crate_depends_on_a_higher_one() {
+    let mut found = Vec::new();
+    for folder in std::fs::read_dir(crates_folder()).unwrap().map(|entry| entry.unwrap().path()) {
+        let name = folder.file_name().unwrap().to_str().unwrap();
+        let Some(plan) = CRATES.iter().find(|plan| plan.name == name) else {
+            found.push(format!("the crate `{name}` has no line in CRATES"));
+            continue;
+        };
+        let manifest = std::fs::read_to_string(folder.join("Cargo.toml")).unwrap();
+        for needed in dependencies(&manifest) {
+            let is_ours = CRATES.iter().any(|plan| plan.name == needed);
+            if is_ours && !plan.crates.contains(&needed.as_str()) {
+                found.push(format!("{name} must not depend on {needed}"));
+            }
+            if plan.banned.contains(&needed.as_str()) {
+                found.push(format!("{name} must not depend on {needed}: {}", plan.reason));
+            }
+        }
+    }
+    assert!(found.is_empty(), "{}", found.join("\n"));
+}
+
+/// Files with code for lanes. All else is plain: one pixel after the other, so that the two can be held equal.
+const LANES: [&str; 24] = [
+    "cubics.rs",
+    "ellipses.rs",
+    "lanes.rs",
+    "moments.rs",
+    "plan/blocks.rs",
+    "plan/blocks_avx512.rs",
+    "plan/codes.rs",
+    "plan/fixed.rs",
+    "plan/fixed_turned.rs",
+    "plan/fixed_weights.rs",
+    "plan/fixed_window.rs",
+    "plan/float.rs",
+    "plan/float_lanes.rs",
+    "plan/float_large.rs",
+    "plan/float_turned.rs",
+    "plan/float_weights.rs",
+    "plan/float_window.rs",
+    "plan/patch_texels.rs",
+    "plan/rounded.rs",
+    "plan/singles.rs",
+    "plan/srgb_avx512.rs",
+    "slope.rs",
+    "weigher.rs",
+    "window.rs",
+];
+
+#[test]
+fn lanes_stay_in_the_files_that_are_for_them() {
+    let found: BTreeSet<PathBuf> = rust_files(&crates_folder())
+        .into_iter()
+        .filter(|file| !file.components().any(|part| part.as_os_str() == "tests"))
+        .filter(|file| paths_and_calls(&code_of(&std::fs::read_to_string(file).unwrap())).any(|w| w == "fearless_simd"))
+        .collect();
+    let resample = crates_folder().join("cosmorama/src/resample");
+    assert_eq!(found, LANES.map(|name| resample.join(name)).into());
+}
+
+#[test]
+fn three_files_are_trusted_two_with_indices_and_one_with_memory() {
+    let is_unsafe = |file: &PathBuf| {
+        let code = code_of(&std::fs::read_to_string(file).unwrap());
+        code.split(|c: char| !c.is_alphanumeric() && c != '_').any(|word| word == "unsafe")
+    };
+    let found: BTreeSet<PathBuf> = rust_files(&crates_folder()).into_iter().filter(is_unsafe).collect();
+    let trusted = [
+        "cosmorama/src/resample/plan/picture_part.rs",
+        "cosmorama/src/resample/plan/texels.rs",
+        "cosmorama-cli/src/large_pages.rs",
+    ];
+    assert_eq!(found, trusted.map(|name| crates_folder().join(name)).into());
+}
+
+/// Modules between the crate's root and a file: `super` said so often is the root.
+fn module_depth(inside: &Path) -> usize {
+    inside.iter().count() - usize::from(inside.ends_with("mod.rs"))
+}
+
+/// The rooms that paths from `root` (`crate`, `cosmorama`) and from `depth` times `super` lead to.
+fn rooms_used(code: &str, root: &str, depth: usize) -> BTreeSet<String> {
+    let mut names = names_under(code, &format!("{root}::"));
+    if depth < 16 {
+        names.extend(names_under(code, &"super::".repeat(depth)));
+    }
+    names.retain(|name| ROOMS.iter().any(|(room, _)| room == name));
+    names
+}
+
+/// The names that paths with this beginning go on with.
+fn names_under(code: &str, root: &str) -> BTreeSet<String> {
+    let is_whole = |start: usize| {
+        let before = code[..start].chars().next_back();
+        !before.is_some_and(|before| before.is_alphanumeric() || before == '_' || before == ':')
+    };
+    let starts = code.match_indices(root).map(|(start, _)| start).filter(|&start| is_whole(start));
+    starts.flat_map(|start| first_names(&code[start + root.len()..])).collect()
+}
+
+/// The names that a path goes on with: one, or those of a group in braces.
+fn first_names(path: &str) -> Vec<String> {
+    let word = |text: &str| text.chars().take_while(|c| c.is_alphanumeric() || *c == '_').collect::<String>();
+    let Some(group) = path.strip_prefix('{') else { return vec![word(path)] };
+    let mut names = vec![word(group.trim_start())];
+    let mut nested = 0;
+    for (position, character) in group.char_indices() {
+        match character {
+            '{' => nested += 1,
+            '}' if nested == 0 => break,
+            '}' => nested -= 1,
+            ',' if nested == 0 => names.push(word(group[position + 1..].trim_start())),
+            _ => {}
+        }
+    }
+    names
+}
+
+/// The words that stand in a path, are called, or are macros.
+fn paths_and_calls(code: &str) -> impl Iterator<Item = &str> {
+    let is_word = |c: char| c.is_alphanumeric() || c == '_';
+    let starts = code
+        .char_indices()
+        .filter(move |&(start, c)| is_word(c) && !code[..start].chars().next_back().is_some_and(is_word));
+    starts.filter_map(move |(start, _)| {
+        let word = code[start..].split(|c| !is_word(c)).next().unwrap_or_default();
+        let (before, after) = (&code[..start], &code[start + word.len()..]);
+        let in_path = before.ends_with("::") || after.starts_with("::");
+        let called = after.starts_with('!') || (before.ends_with('.') && after.starts_with('('));
+        (in_path || called).then_some(word)
+    })
+}
+
+/// The names under `[dependencies]`; those for tests and builds alone may come from anywhere.
+fn dependencies(manifest: &str) -> Vec<String> {
+    let mut names = Vec::new();
+    let mut counts = false;
+    for line in manifest.lines().map(str::trim) {
+        if line.starts_with('[') {
+            counts = line == "[dependencies]";
+        } else if counts && !line.is_empty() && !line.starts_with('#') {
+            names.push(line.split(['.', '=', ' ']).next().unwrap_or_default().to_owned());
+        }
+    }
+    names
+}
+
+/// The rules themselves, on made-up lines: that they find what they are there for.
+mod the_rules {
+    use super::*;
+
+    fn used(source: &str, depth: usize) -> Vec<String> {
+        rooms_used(&code_of(source), "crate", depth).into_iter().collect()
+    }
+
+    #[test]
+    fn find_an_upward_use() {
+        assert_eq!(used("use crate::resample::Filter;", 2), ["resample"]);
+        assert_eq!(
+            used("use crate::{raster::Rgba, world::{View, World}, resample};", 2),
+            ["raster", "resample", "world"]
+        );
+        assert_eq!(used("fn f() { crate::world::World::new() }", 2), ["world"]);
+        assert_eq!(used("use super::super::world::View;", 2), ["world"]);
+        assert_eq!(used("use super::world::View;", 1), ["world"]);
+    }
+
+    #[test]
+    fn let_a_room_use_its_own_and_comments_point_up() {
+        assert_eq!(used("use super::world_map::View;", 2), Vec::<String>::new());
+        assert_eq!(
+            used("//! [`crate::world::View`] is above; \n/// crate::resample too\nlet a = \"crate::explain\";", 1),
+            [""; 0]
+        );
+        assert_eq!(used("use other_crate::world::View;", 2), Vec::<String>::new());
+    }
+
+    #[test]
+    fn find_mathematics_and_files() {
+        let words = |code| paths_and_calls(code).collect::<Vec<_>>();
+        assert_eq!(words("let y = x.sin_cos();"), ["sin_cos"]);
+        assert_eq!(words("use glam::DVec3;"), ["glam", "DVec3"]);
+        assert_eq!(words("let sin = exp;"), [""; 0]);
+        assert_eq!(words("println!(a)"), ["println"]);
+        let files = names_under("use std::{fs::File, path::Path};", "std::");
+        assert!(files.contains("fs") && files.contains("path"));
+    }
+
+    #[test]
+    fn find_a_dependency() {
+        let manifest = "[package]\nname = \"a\"\n[dependencies]\n# one\ncosmorama-io.workspace = true\nhalf = \"2\"\n\
+                        [dev-dependencies]\ntestkit.workspace = true\n";
+        assert_eq!(dependencies(manifest), ["cosmorama-io", "half"]);
+    }
+
+    #[test]
+    fn count_the_floors_of_a_file() {
+        for (path, depth) in [("world/mod.rs", 1), ("world/view.rs", 2), ("projection/azimuthal/mod.rs", 2)] {
+            assert_eq!(module_depth(Path::new(path)), depth, "{path}");
+        }
+    }
+}
