@@ -57,6 +57,7 @@ mod sequence {
 
 mod usage {
     mod advice;
+    mod messages;
     mod verbs;
     mod wrong_usage;
 }

@@ -1,22 +1,17 @@
 //! Everything that the program says: some hundred commands with their exit codes, standard output and standard error.
 //!
 //! `messages.txt` lists each command after `$`, as a shell would take it (single quotes, `< FILE`), and what it says. After a
-//! change that is meant: `UPDATE_GOLDENS=1 cargo test -p cosmorama-cli --test messages`, and read the difference.
-
-// A test that cannot go on stops where it stands.
-#![allow(clippy::unwrap_used)]
-
-mod bench;
+//! change that is meant: `UPDATE_GOLDENS=1 cargo test -p cosmorama-cli messages`, and read the difference.
 
 use std::fmt::Write as _;
 use std::fs::{self, File};
 use std::path::Path;
 use std::process::{Command, Stdio};
 
-use bench::{Bench, flat, floats, picture, text, veiled};
+use crate::bench::{Bench, flat, floats, picture, text, veiled};
 use cosmorama::raster::{Channels, Depth, EncodedImage, Image, Rgba, Samples, Transfer};
 
-const MESSAGES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/messages.txt");
+const MESSAGES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/all/usage/messages.txt");
 
 #[test]
 fn messages_stay_as_they_are() {
