@@ -1,12 +1,10 @@
 //! Errors with exit codes: 1 for what failed, 2 for wrong usage.
 
-use std::error::Error as _;
 use std::process::ExitCode;
 
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use thiserror::Error;
 
-use crate::spec::SpecError;
 use crate::stream;
 
 /// An error of the person who typed the command: exit code 2.
@@ -53,17 +51,8 @@ pub(crate) fn report(error: &anyhow::Error) -> ExitCode {
     if is_usage(error) { ExitCode::from(2) } else { ExitCode::FAILURE }
 }
 
-/// Prints what is wrong with arguments, or what was asked for, and chooses the exit code: a file that a SPEC names and that
-/// cannot be read, or is no such file, failed like any other.
+/// Prints what is wrong with arguments, or what was asked for, and chooses the exit code.
 pub(crate) fn report_arguments(mut error: clap::Error) -> ExitCode {
-    let spec = error.source().and_then(|source| source.downcast_ref::<SpecError>());
-    if let Some(spec) = spec.filter(|spec| spec.is_of_file()) {
-        let argument = match error.get(ContextKind::InvalidArg) {
-            Some(ContextValue::String(argument)) => argument,
-            _ => "a SPEC",
-        };
-        return report(&anyhow::anyhow!("{argument}: {spec}"));
-    }
     let unknown = match error.get(ContextKind::InvalidArg) {
         Some(ContextValue::String(argument)) if error.kind() == ErrorKind::UnknownArgument => argument.as_str(),
         _ => "-",

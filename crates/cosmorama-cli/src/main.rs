@@ -9,7 +9,6 @@ mod job;
 mod large_pages;
 mod run;
 mod spare_memory;
-mod spec;
 mod stream;
 
 use std::process::ExitCode;

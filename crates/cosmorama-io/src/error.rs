@@ -144,14 +144,6 @@ pub enum IoError {
         /// What that one makes of them.
         second_faces: String,
     },
-    /// A naming preset is asked for that does not exist.
-    #[error("naming={name}: no such preset; there are {known}")]
-    UnknownNaming {
-        /// The name given.
-        name: String,
-        /// All names.
-        known: String,
-    },
     /// A list of frames that cannot be understood.
     #[error("frames {list}: {reason}; expected a list such as 5, 1-10 or 1-3,5,7-20:2; all frames are the default")]
     FrameList {

@@ -1,9 +1,9 @@
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum, ValueHint};
+use cosmorama_spec::{MemorySize, TransferName};
 
 use super::number::{distance, factor, finite};
-use super::{MemorySize, TransferArg};
 
 /// Compare two pictures: PSNR, largest difference, sub-pixel shift.
 #[derive(Clone, Debug, Args)]
@@ -39,7 +39,7 @@ pub(crate) struct CompareArgs {
     pub(crate) max_shift: Option<f64>,
     /// How integer code values relate to light: auto, srgb, linear, bt1886, pq, hlg, gamma:G
     #[arg(long, value_name = "T", default_value = "auto")]
-    pub(crate) transfer: TransferArg,
+    pub(crate) transfer: TransferName,
     /// Memory that a picture may take at most, as in 500M, 8G or 50% [default: 75% of free memory]
     #[arg(long, value_name = "SIZE", allow_hyphen_values = true)]
     pub(crate) memory: Option<MemorySize>,

@@ -3,13 +3,14 @@ use std::path::PathBuf;
 use clap::builder::NonEmptyStringValueParser;
 use clap::{Args, ValueHint};
 use cosmorama_io::FrameList;
-
-use super::number::degrees;
-use super::{
-    Colour, CompressionArg, CompressionParser, DepthArg, FilterArg, KernelArg, MemorySize, Missing, ProgressStyle,
-    SizeArg, TransferArg,
+use cosmorama_spec::{
+    Colour, CompressionLevel, DepthName, FilterName, KernelName, MemorySize, Missing, Size, Spec, TransferName,
 };
-use crate::spec::Spec;
+
+use super::ProgressStyle;
+use super::compression::CompressionParser;
+use super::depth::depth_parser;
+use super::number::degrees;
 
 /// Turn a world, in whatever form, into another projection.
 #[derive(Clone, Debug, Args)]
@@ -42,16 +43,16 @@ pub(crate) struct ConvertArgs {
     pub(crate) st_map: bool,
     /// How integer code values relate to light: auto, srgb, linear, bt1886, pq, hlg, gamma:G; float files are linear
     #[arg(long, value_name = "T", default_value = "auto", help_heading = "Light")]
-    pub(crate) transfer: TransferArg,
+    pub(crate) transfer: TransferName,
     /// The same for the input alone, a float file too
     #[arg(long, value_name = "T", help_heading = "Light")]
-    pub(crate) in_transfer: Option<TransferArg>,
+    pub(crate) in_transfer: Option<TransferName>,
     /// The same for the output alone, a float file too
     #[arg(long, value_name = "T", help_heading = "Light")]
-    pub(crate) out_transfer: Option<TransferArg>,
+    pub(crate) out_transfer: Option<TransferName>,
     /// Output sample type [default: as the input, where the format can]
-    #[arg(long, value_enum, value_name = "DEPTH", help_heading = "Light")]
-    pub(crate) depth: Option<DepthArg>,
+    #[arg(long, value_parser = depth_parser(), value_name = "DEPTH", help_heading = "Light")]
+    pub(crate) depth: Option<DepthName>,
     /// Pixels outside the lens [default: black, transparent where the output has alpha]. Of a sequence, the first frame
     /// tells whether there is alpha; what is transparent in a later one is laid over this, with a warning
     #[arg(long, value_name = "COLOR", help_heading = "Light")]
@@ -80,7 +81,7 @@ pub(crate) struct ConvertArgs {
     pub(crate) quality: Option<u8>,
     /// PNG, TIFF and OpenEXR: how hard to press, without loss [default: balanced; fast for PNG sequences]
     #[arg(long, value_parser = CompressionParser, value_name = "HOW", help_heading = "Frames and files")]
-    pub(crate) compression: Option<CompressionArg>,
+    pub(crate) compression: Option<CompressionLevel>,
     #[command(flatten)]
     pub(crate) limits: LimitArgs,
     /// Keep the geometry of conversions in a folder, for the next run of the same one; safe to delete. Each has a file about as
@@ -108,7 +109,7 @@ pub(crate) struct GeometryArgs {
     /// Output pixels; N is the width, or the edge of a face, or the width of one circle or of one eye's picture before it
     /// is squeezed, where several share the image [default: parity with the input at the centre]
     #[arg(long, value_name = "WxH|N", allow_hyphen_values = true, help_heading = "Geometry")]
-    pub(crate) size: Option<SizeArg>,
+    pub(crate) size: Option<Size>,
     /// Turn the output to the right, in degrees
     #[arg(long, value_name = "D", default_value_t = 0.0, value_parser = degrees, allow_negative_numbers = true, help_heading = "Geometry")]
     pub(crate) yaw: f64,
@@ -121,12 +122,12 @@ pub(crate) struct GeometryArgs {
     /// ewa, ewa-pyramid (from smaller copies where a pixel holds many: bounded time, about 40 dB from ewa), point, bilinear or
     /// reference[:samples=N]
     #[arg(long, value_name = "NAME", default_value = "ewa", help_heading = "Filter")]
-    pub(crate) filter: FilterArg,
+    pub(crate) filter: FilterName,
     /// adaptive, gaussian[:alpha=2,cutoff=1], mitchell, robidoux, robidoux-sharp, catmull-rom, lanczos2, lanczos3,
     /// lanczos3-sharp, tent, box, or light, which keeps the light of suns; each takes scale= (its unit in output pixels) and
     /// floor= (at least, in texels)
     #[arg(long, value_name = "NAME[:k=v]", default_value = "adaptive", help_heading = "Filter")]
-    pub(crate) kernel: KernelArg,
+    pub(crate) kernel: KernelName,
     /// Clamp to the texels under the pixel, but for slopes that go on to a rim where all texels confirm them: on, unless the
     /// kernel is light
     #[arg(long, value_name = "on|off", action = clap::ArgAction::Set, value_parser = on_or_off, help_heading = "Filter")]
@@ -176,7 +177,7 @@ fn threads(text: &str) -> Result<usize, String> {
 
 /// Every projection, and every built-in world.
 fn after_help() -> String {
-    let mut text = crate::spec::help();
+    let mut text = cosmorama_spec::help();
     text += "\nbuiltin:NAME is a world by formula, in any projection and --size:\n\n";
     for (name, about) in crate::job::Builtin::all() {
         text += &format!("  {name:<13} {about}\n");

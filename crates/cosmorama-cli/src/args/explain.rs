@@ -1,8 +1,8 @@
 use std::path::PathBuf;
 
 use clap::{Args, ValueHint};
+use cosmorama_spec::Size;
 
-use super::SizeArg;
 use super::convert::{GeometryArgs, LimitArgs};
 
 /// Tell what a conversion will do before it does it, in text and diagrams.
@@ -11,7 +11,7 @@ use super::convert::{GeometryArgs, LimitArgs};
   cosmorama explain 'faces/{face}.png' --to omnimax --output diagrams
   cosmorama explain --from cube --to omnimax --size 1966x1436
   cosmorama explain --from cube --input-size 1024x960 --to omnimax --size 1966x1436")]
-#[command(after_help = crate::spec::help())]
+#[command(after_help = cosmorama_spec::help())]
 pub(crate) struct ExplainArgs {
     /// The input, if there is one already: an image or a pattern; - is standard input
     #[arg(value_hint = ValueHint::FilePath)]
@@ -25,7 +25,7 @@ pub(crate) struct ExplainArgs {
         requires = "from",
         help_heading = "Geometry"
     )]
-    pub(crate) input_size: Option<SizeArg>,
+    pub(crate) input_size: Option<Size>,
     #[command(flatten)]
     pub(crate) geometry: GeometryArgs,
     /// Write diagrams (SVG and PNG) into this folder

@@ -1,41 +1,25 @@
 //! The command line as typed. What it means is worked out in [`crate::job`].
 
-mod colour;
 mod compare;
 mod compression;
 pub(crate) mod convert;
 mod demo;
 mod depth;
 mod explain;
-mod filter;
 mod info;
-mod kernel;
-mod memory;
-mod missing;
 mod number;
 mod progress;
 mod shell;
-mod size;
-mod transfer;
 
 use clap::{Parser, Subcommand};
 
-pub(crate) use colour::Colour;
 pub(crate) use compare::{CompareArgs, Region};
-pub(crate) use compression::{CompressionArg, CompressionParser};
 pub(crate) use convert::ConvertArgs;
 pub(crate) use demo::DemoArgs;
-pub(crate) use depth::DepthArg;
 pub(crate) use explain::ExplainArgs;
-pub(crate) use filter::FilterArg;
 pub(crate) use info::InfoArgs;
-pub(crate) use kernel::KernelArg;
-pub(crate) use memory::MemorySize;
-pub(crate) use missing::Missing;
 pub(crate) use progress::ProgressStyle;
 pub(crate) use shell::CompletionsArgs;
-pub(crate) use size::SizeArg;
-pub(crate) use transfer::TransferArg;
 
 /// World projections: Omnimax, fulldome, fisheye, panorama and cube faces, made from one another with an
 /// elliptical weighted average filter.

@@ -1,4 +1,4 @@
-use crate::spec::parse_degrees;
+use cosmorama_spec::parse_degrees;
 
 /// An angle in degrees, as `--yaw` takes it.
 pub(super) fn degrees(text: &str) -> Result<f64, String> {

@@ -3,13 +3,13 @@ use cosmorama::raster::Depth;
 use cosmorama::resample::Filter;
 use cosmorama_builtin::{BuiltinWorld, DirectionMap, Grid};
 use cosmorama_io::Format;
+use cosmorama_spec::{Missing, did_you_mean};
 
 use super::input::SAME_FOR_BOTH;
 use super::target::TargetView;
 use super::{Input, Light, MemoryBudget, Outputs, Target, check_file_options, filter, settled};
-use crate::args::{ConvertArgs, Missing};
+use crate::args::ConvertArgs;
 use crate::failure::{usage, warn};
-use crate::spec::did_you_mean;
 
 /// What a built-in input's name begins with.
 const PREFIX: &str = "builtin:";

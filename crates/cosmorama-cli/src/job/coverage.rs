@@ -2,9 +2,9 @@ use anyhow::{Error, Result, anyhow, bail};
 use cosmorama::raster::Rgba;
 use cosmorama::resample::{Filter, Need, Needs};
 use cosmorama::world::{Canvas, PixelRect, Source, View, World, WorldView};
+use cosmorama_spec::Missing;
 
 use super::{Input, InputView, MemoryBudget, Target, TargetView};
-use crate::args::Missing;
 
 /// What becomes of pixels that look where no view does.
 #[derive(Clone, Copy, Debug)]

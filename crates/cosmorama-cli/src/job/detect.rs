@@ -4,6 +4,7 @@ use anyhow::{Result, bail};
 use cosmorama::circle::Found;
 use cosmorama::world::{EquirectFrame, FaceOrder, Frame, LayoutKind, Placement, SamplePositions};
 use cosmorama_io::{EnvMap, Header, Window};
+use cosmorama_spec::{Cube, Packing, Shape, Single, Spec, SphereSamples, StereoSpec};
 
 use super::canvas::canvas_of;
 use super::evidence::{Evidence, Seen, damage_of};
@@ -11,7 +12,6 @@ use super::guess::{Guess, OVAL_ONES, ROUND_ONES, candidates, circle_spec, dome_s
 use super::other_end::Readings;
 
 use crate::failure::usage;
-use crate::spec::{Cube, Packing, Shape, Single, Spec, SphereSamples, StereoSpec};
 
 /// The projection of an image for which no `--from` was given, which may have a picture for each eye. What is only guessed
 /// is announced.
@@ -158,7 +158,7 @@ pub(super) fn declared(shape: &Shape, pattern: &str, header: &Header, warnings: 
             }
             Ok(Shape::Single(windowed(*single, header)))
         }
-        Shape::StMap(map) => Ok(Shape::StMap(map.clone())),
+        Shape::StMap(_) | Shape::Calibrated(_) => Ok(shape.clone()),
         Shape::Cube(Cube { layout: Some(Packing::Files), .. }) => Err(usage(format!(
             "--from cube:layout=faces wants a file for each face, but {pattern} has no {{face}} or %c where a face's name \
              stands"

@@ -3,10 +3,10 @@ use std::path::Path;
 use anyhow::{Result, anyhow};
 use cosmorama::world::{Canvas, Eye, LayoutError, PixelRect, Stereo, View};
 use cosmorama_io::{Header, Metadata};
+use cosmorama_spec::Size;
 
 use super::packed::check_whole;
 use super::{InputView, Picture, Place};
-use crate::args::SizeArg;
 use crate::failure::usage;
 
 /// The part that an eye has of a stereo image.
@@ -84,11 +84,11 @@ impl EyePart {
 }
 
 /// The size that one eye's picture has before it is squeezed, in an image of a given size. A width alone is that of one.
-pub(super) fn eye_size(stereo: Stereo, given: SizeArg) -> Result<SizeArg> {
-    let SizeArg { width, height: Some(height) } = given else { return Ok(given) };
+pub(super) fn eye_size(stereo: Stereo, given: Size) -> Result<Size> {
+    let Size { width, height: Some(height) } = given else { return Ok(given) };
     let part = stereo.part(Eye::Left, width, height).map_err(halved)?;
     let (across, down) = stereo.squeeze();
-    Ok(SizeArg { width: part.width() * across, height: Some(part.height() * down) })
+    Ok(Size { width: part.width() * across, height: Some(part.height() * down) })
 }
 
 fn halved(error: LayoutError) -> anyhow::Error {

@@ -2,6 +2,7 @@ use anyhow::Result;
 use cosmorama::sphere::{CubeFace, Orientation};
 use cosmorama::world::{Canvas, FacePart, FacePlacement};
 use cosmorama_io::{FaceFile, Header};
+use cosmorama_spec::Cube;
 
 use super::Files;
 use super::InputView;
@@ -10,7 +11,6 @@ use super::eye::EyePart;
 use super::face_shape::FacePicture;
 use super::face_view::face_placement;
 use super::input::header;
-use crate::spec::Cube;
 
 /// A face whose file has been looked at.
 pub(super) struct Face {

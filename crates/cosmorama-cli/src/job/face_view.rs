@@ -1,8 +1,7 @@
 use cosmorama::sphere::{Angle, CubeFace, Orientation};
 use cosmorama::world::{Canvas, Mirror, Placement};
 use cosmorama_io::FacePlacement;
-
-use crate::spec::Cube;
+use cosmorama_spec::Cube;
 
 /// The placement of a face's picture in the world.
 pub(crate) fn face_placement(

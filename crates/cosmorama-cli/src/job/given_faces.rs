@@ -5,10 +5,10 @@ use cosmorama::world::{
     CubeLayout, FaceOrder, FacePlacement, LayoutFaceFrame, LayoutKind, Mirror, PlacedFace, SamplePositions,
 };
 use cosmorama_io::{EnvMap, Naming};
+use cosmorama_spec::{Cube, Packing};
 
 use super::mirror_image::{self, ACROSS, flip_key};
 use super::other_end::{self, told_elsewhere};
-use crate::spec::{Cube, Packing};
 
 /// How pictures are said, or taken, to be the faces of a cube.
 #[derive(Clone, Debug)]

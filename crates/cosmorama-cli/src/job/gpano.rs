@@ -3,10 +3,10 @@
 use cosmorama::sphere::Angle;
 use cosmorama::world::{Canvas, EquirectFrame, Frame, Mirror, Placement, SamplePositions};
 use cosmorama_io::{Format, Window};
+use cosmorama_spec::{Shape, Single, Spec};
 
 use super::Target;
 use crate::args::convert::GeometryArgs;
-use crate::spec::{Shape, Single, Spec};
 
 /// What they say of a panorama of 360°×180°, or of a window of one, of so many columns and rows.
 pub(super) fn window(single: &Single, (width, height): (usize, usize)) -> Option<Window> {

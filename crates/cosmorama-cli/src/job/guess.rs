@@ -5,11 +5,11 @@ use std::path::Path;
 use cosmorama::circle::{Circle, Found};
 use cosmorama::world::{Arrangement, FaceOrder, LayoutKind};
 use cosmorama_io::{EnvMap, Header, Window};
+use cosmorama_spec::{Cube, Packing};
 
 use super::evidence::{Evidence, Seen};
 use super::halves::Circles;
 use super::other_end::Readings;
-use crate::spec::{Cube, Packing};
 
 /// What one image is a picture of, as far as its metadata, its shape and its pixels tell.
 pub(super) enum Guess {

@@ -4,7 +4,9 @@ use std::sync::Arc;
 use anyhow::{Result, bail};
 use cosmorama::world::{Blend, Canvas, FacePart, View, ViewMask, WorldView};
 use cosmorama_io::{EnvMap, FaceFile, FacePattern, FaceSet, FrameList, Header, probe};
+use cosmorama_spec::{Cube, Packing, Shape, Single, Spec};
 
+use super::calibration;
 use super::canvas::{canvas_of, fits_canvas, fits_shape, lies_on_canvas, whole};
 use super::detect::{declared, detect};
 use super::eye::EyePart;
@@ -13,7 +15,6 @@ use super::face_shape::{FacePicture, size_of_missing};
 use super::folder::is_one_file;
 use super::{Files, GivenFaces, MemoryBudget, Place, frames, packed, pto, st_map, world_file};
 use crate::failure::usage;
-use crate::spec::{Cube, Packing, Shape, Single, Spec};
 
 /// A view of the input: an image, a face of a cube, a lens of two.
 #[derive(Clone)]
@@ -129,7 +130,7 @@ impl Input {
         let mut input = match (FacePattern::parse(pattern), shape) {
             (Some(_), Some((_, Shape::Cube(cube)))) => Self::cube(pattern, cube, eye, wanted, warnings)?,
             (Some(_), None) => Self::cube(pattern, &Cube::default(), eye, wanted, warnings)?,
-            (Some(_), Some((name, Shape::Single(_) | Shape::Dual(_) | Shape::StMap(_)))) => {
+            (Some(_), Some((name, Shape::Single(_) | Shape::Calibrated(_) | Shape::Dual(_) | Shape::StMap(_)))) => {
                 let message =
                     format!("{pattern} names the faces of a cube, but --from is {name}; expected --from cube");
                 return Err(usage(message));
@@ -188,6 +189,7 @@ impl Input {
             Shape::Cube(cube) => (packed::faces(&files, &path, &header, &cube)?, GivenFaces::of_image(&cube, envmap)),
             Shape::Dual(dual) => (packed::lenses(&files, &path, &header, &dual)?, None),
             Shape::StMap(map) => return Err(st_map::unread(&map)),
+            Shape::Calibrated(camera) => return Err(calibration::unread(&camera)),
         };
         Ok(Self { worlds: vec![views], frames, faces, beside: Vec::new() })
     }

@@ -1,9 +1,10 @@
 use anyhow::Result;
 use cosmorama::raster::{Channels, Depth, Rgba, Transfer};
 use cosmorama_io::{Header, Metadata};
+use cosmorama_spec::{Missing, TransferName};
 
 use super::{Input, Target};
-use crate::args::{ConvertArgs, Missing, TransferArg};
+use crate::args::ConvertArgs;
 use crate::failure::usage;
 
 /// How code values relate to light on both sides, and what the outputs hold.
@@ -36,7 +37,7 @@ pub(crate) struct InputTransfer {
 
 impl InputTransfer {
     /// `--transfer` speaks of integers, since float files are linear; `--in-transfer` of whatever comes in.
-    pub(crate) fn new(both: &TransferArg, side: Option<&TransferArg>) -> Self {
+    pub(crate) fn new(both: &TransferName, side: Option<&TransferName>) -> Self {
         match side {
             Some(side) => Self { integers: side.fixed(), all: side.fixed() },
             None => Self { integers: both.fixed(), all: None },

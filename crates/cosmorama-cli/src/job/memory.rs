@@ -5,11 +5,11 @@ use cosmorama::projection::{ProjectionKind, StMapTable};
 use cosmorama::raster::Rgba;
 use cosmorama::world::View;
 use cosmorama_io::{Format, Header};
+use cosmorama_spec::MemorySize;
 
 use super::in_flight::{FrameMemory, InFlight};
 use super::machine::{all_bytes, free_bytes};
 use super::{Input, InputView, Sheet, Target};
-use crate::args::MemorySize;
 
 /// How much memory may be used.
 #[derive(Clone, Copy, Debug)]

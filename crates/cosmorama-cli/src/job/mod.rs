@@ -1,6 +1,7 @@
 //! Jobs: arguments resolved, everything checked before work starts.
 
 mod builtin;
+mod calibration;
 mod canvas;
 mod coverage;
 mod detect;
@@ -71,9 +72,10 @@ use cosmorama::raster::{Channels, Depth, Rgba};
 use cosmorama::resample::{Filter, Resampler};
 use cosmorama::world::World;
 use cosmorama_io::{Compression, Format, WriteOptions};
+use cosmorama_spec::{CompressionLevel, Missing};
 
+use crate::args::ConvertArgs;
 use crate::args::convert::GeometryArgs;
-use crate::args::{ConvertArgs, Missing};
 use crate::failure::{usage, warn};
 
 /// A conversion, ready to run.
@@ -204,7 +206,16 @@ pub(crate) fn write_options(args: &ConvertArgs, format: Format, outputs: &Output
     let usual = if format == Format::Png && outputs.is_sequence() { Compression::Fast } else { default.compression };
     WriteOptions {
         quality: args.quality.unwrap_or(default.quality),
-        compression: args.compression.map_or(usual, Compression::from),
+        compression: args.compression.map_or(usual, compression),
+    }
+}
+
+fn compression(level: CompressionLevel) -> Compression {
+    match level {
+        CompressionLevel::None => Compression::None,
+        CompressionLevel::Fast => Compression::Fast,
+        CompressionLevel::Balanced => Compression::Balanced,
+        CompressionLevel::High => Compression::High,
     }
 }
 

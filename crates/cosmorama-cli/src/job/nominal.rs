@@ -3,19 +3,18 @@ use std::path::Path;
 use anyhow::Result;
 use cosmorama::sphere::{CubeFace, Orientation};
 use cosmorama::world::{Blend, FacePart, FacePlacement, Frame, FrameError, Placement, View};
+use cosmorama_spec::{Shape, Size, Spec};
 
 use super::eye::{EyePart, eye_size};
 use super::face_view::face_placement;
 use super::piece::Piece;
 use super::size::lens_image_size;
 use super::{Files, Input, InputView};
-use crate::args::SizeArg;
 use crate::failure::usage;
-use crate::spec::{Shape, Spec};
 
 impl Input {
     /// An input that does not exist yet: of a size, or at parity with an output of so many pixels a radian.
-    pub(crate) fn nominal(from: &Spec, size: Option<SizeArg>, pixels_per_radian: f64) -> Result<Self> {
+    pub(crate) fn nominal(from: &Spec, size: Option<Size>, pixels_per_radian: f64) -> Result<Self> {
         let Some(stereo) = from.stereo else {
             return Ok(Self {
                 worlds: vec![views(from, size, pixels_per_radian)?],
@@ -40,9 +39,9 @@ impl Input {
     }
 }
 
-fn views(from: &Spec, given: Option<SizeArg>, pixels_per_radian: f64) -> Result<Vec<InputView>> {
+fn views(from: &Spec, given: Option<Size>, pixels_per_radian: f64) -> Result<Vec<InputView>> {
     let size = |frame: Frame| match given {
-        Some(SizeArg { width, height }) => Ok((width, height.unwrap_or_else(|| frame.natural_height(width)))),
+        Some(Size { width, height }) => Ok((width, height.unwrap_or_else(|| frame.natural_height(width)))),
         None => frame.size_at(pixels_per_radian).map_err(wrong),
     };
     match &from.shape {
@@ -67,6 +66,7 @@ fn views(from: &Spec, given: Option<SizeArg>, pixels_per_radian: f64) -> Result<
             pieces.iter().map(lens).collect()
         }
         Shape::StMap(map) => Err(super::st_map::unread(map)),
+        Shape::Calibrated(camera) => Err(super::calibration::unread(camera)),
     }
 }
 

@@ -4,11 +4,11 @@ use anyhow::{Result, anyhow, bail};
 use cosmorama::sphere::Orientation;
 use cosmorama::world::{Arrangement, DualFisheye, DualLens, FisheyeFit, LensCircle, LensScale};
 use cosmorama_io::Header;
+use cosmorama_spec::{Cube, Dual};
 
 use super::piece::Piece;
 use super::{Files, InputView, Place};
 use crate::failure::usage;
-use crate::spec::{Cube, Dual};
 
 /// The faces of a cube in one image, whose layout is known.
 pub(super) fn faces(files: &Files, path: &Path, header: &Header, cube: &Cube) -> Result<Vec<InputView>> {

@@ -4,6 +4,7 @@ use cosmorama::world::{
     CubeLayout, Eye, FaceOrder, FacePart, Frame, FrameError, LayoutKind, Mirror, Placement, SamplePositions, View,
 };
 use cosmorama_io::{EnvMap, Format, Naming, Window};
+use cosmorama_spec::{Cube, Dual, Packing, Shape, Single, Size, SphereSamples, StereoSpec};
 
 use super::canvas::lies_on_canvas;
 use super::eye::{EyePart, eye_size};
@@ -11,10 +12,8 @@ use super::face_view::face_placement;
 use super::gpano;
 use super::piece::Piece;
 use super::size::{lens_image_size, size};
-use crate::args::SizeArg;
 use crate::args::convert::GeometryArgs;
 use crate::failure::usage;
-use crate::spec::{Cube, Dual, Packing, Shape, Single, SphereSamples, StereoSpec};
 
 /// The geometry of an image to make.
 #[derive(Clone, Copy, Debug)]
@@ -107,6 +106,7 @@ impl Picture {
             }
             Some(Shape::Dual(dual)) => Self::lenses(dual, geometry, pixels_per_radian),
             Some(Shape::StMap(map)) => Err(super::st_map::unread(map)),
+            Some(Shape::Calibrated(camera)) => Err(super::calibration::unread(camera)),
             None => Self::faces(&Cube::default(), geometry, pixels_per_radian),
         }
     }
@@ -154,7 +154,7 @@ impl Picture {
         pixels_per_radian: Option<f64>,
     ) -> Result<Vec<Self>> {
         let edge = match geometry.size {
-            Some(SizeArg { width, height: Some(height) }) => {
+            Some(Size { width, height: Some(height) }) => {
                 layout.edge(width, height).map_err(|error| usage(format!("--size: {error}")))?
             }
             edge => size(cube.frame(), edge, pixels_per_radian, "--to")?.0,

@@ -2,9 +2,9 @@ use cosmorama::sphere::{CubeFace, Orientation};
 use cosmorama::world::{
     Blend, Canvas, CubeLayout, FrameError, LayoutError, PixelRect, PlacedFace, PlacedLens, Placement, View,
 };
+use cosmorama_spec::{Cube, Dual};
 
 use super::face_view::face_placement;
-use crate::spec::{Cube, Dual};
 
 /// One of the pictures that share an image.
 #[derive(Clone, Copy, Debug)]

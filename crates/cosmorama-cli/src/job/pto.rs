@@ -8,13 +8,12 @@ use cosmorama::world::{
     Blend, Canvas, Frame, HuginFrame, HuginProjection, MaskShape, Mirror, PixelPoint, Placement, WorldMapFrame,
 };
 use cosmorama_io::{PtoImage, PtoPanorama, PtoProject, probe};
+use cosmorama_spec::{Shape, Single, Size, Spec, SphereSamples};
 
 use super::listing::Listed;
 use super::{Files, Input, InputView, MemoryBudget, Place};
-use crate::args::SizeArg;
 use crate::args::convert::GeometryArgs;
 use crate::failure::usage;
-use crate::spec::{Shape, Single, Spec, SphereSamples};
 
 /// Degrees over which pictures of a project fade into each other.
 const FEATHER: f64 = 3.0;
@@ -65,15 +64,15 @@ pub(super) fn complete(input: &str, geometry: &GeometryArgs) -> Result<GeometryA
         }
     };
     geometry.size = Some(match geometry.size {
-        None => SizeArg { width: size.0, height: Some(size.1) },
+        None => Size { width: size.0, height: Some(size.1) },
         Some(_) if canvas.is_some() => {
             return Err(usage(format!(
                 "{input} makes a part of a panorama (S in its p-line); leave out --size, or give --to"
             )));
         }
         // A panorama of another size is this one scaled.
-        Some(SizeArg { width: wide, height: None }) => {
-            SizeArg { width: wide, height: Some((wide * height).div_ceil(width).max(1)) }
+        Some(Size { width: wide, height: None }) => {
+            Size { width: wide, height: Some((wide * height).div_ceil(width).max(1)) }
         }
         Some(whole) => whole,
     });

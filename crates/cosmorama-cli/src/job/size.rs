@@ -1,24 +1,23 @@
 use anyhow::Result;
 use cosmorama::world::{Frame, FrameError};
+use cosmorama_spec::{Dual, Size};
 
-use crate::args::SizeArg;
 use crate::failure::usage;
-use crate::spec::Dual;
 
 /// The size of an image: as given, of a width, or with so many pixels a radian at its centre. `option` is the one that has
 /// the frame.
 pub(super) fn size(
     frame: Frame,
-    given: Option<SizeArg>,
+    given: Option<Size>,
     pixels_per_radian: Option<f64>,
     option: &str,
 ) -> Result<(usize, usize)> {
     match (given, pixels_per_radian) {
-        (Some(SizeArg { width, height: Some(height) }), _) => Ok((width, height)),
-        (Some(SizeArg { width, height: None }), _) => match frame.natural_height(width) {
-            height if height > SizeArg::MOST => Err(usage(format!(
+        (Some(Size { width, height: Some(height) }), _) => Ok((width, height)),
+        (Some(Size { width, height: None }), _) => match frame.natural_height(width) {
+            height if height > Size::MOST => Err(usage(format!(
                 "{option}: its shape makes --size {width} more than {} pixels high; give --size WxH, or a smaller field of view",
-                SizeArg::MOST
+                Size::MOST
             ))),
             height => Ok((width, height)),
         },
@@ -35,11 +34,11 @@ pub(super) fn size(
 /// The size of an image of two circles. A width alone is that of one.
 pub(super) fn lens_image_size(
     dual: &Dual,
-    given: Option<SizeArg>,
+    given: Option<Size>,
     pixels_per_radian: Option<f64>,
     option: &str,
 ) -> Result<(usize, usize)> {
-    if let Some(SizeArg { width, height: Some(height) }) = given {
+    if let Some(Size { width, height: Some(height) }) = given {
         return Ok((width, height));
     }
     let of = |frame| size(Frame::Fisheye(frame), given, pixels_per_radian, option);

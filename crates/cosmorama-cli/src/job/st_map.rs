@@ -6,12 +6,12 @@ use anyhow::{Error, Result, anyhow};
 use cosmorama::sphere::{Angle, Orientation};
 use cosmorama::world::{FieldOfView, Frame, Mirror, PerspectiveFrame, Placement, StMapFrame};
 use cosmorama_io::{Header, Limits, StPairs, probe, probe_pairs, read_pairs};
+use cosmorama_spec::{Shape, Single, Size, Spec, SphereSamples, StMapBase, StMapSpec};
 
+use super::calibration::read_calibrations;
 use super::{Files, MemoryBudget, frames, pto};
-use crate::args::SizeArg;
 use crate::args::convert::GeometryArgs;
 use crate::failure::usage;
-use crate::spec::{Shape, Single, Spec, SphereSamples, StMapSpec};
 
 /// The side of a conversion that a map is given for.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -36,6 +36,11 @@ pub(crate) fn settled(
     memory: MemoryBudget,
     warnings: &mut Vec<String>,
 ) -> Result<GeometryArgs> {
+    let geometry = &GeometryArgs {
+        from: calibrated(&geometry.from, Side::Input)?,
+        to: calibrated(&geometry.to, Side::Output)?,
+        ..geometry.clone()
+    };
     let mut settled = match input {
         Some(input) => pto::complete(input, geometry)?,
         None => geometry.clone(),
@@ -43,7 +48,7 @@ pub(crate) fn settled(
     if let (Some(Shape::StMap(StMapSpec { invert: false, file, .. })), None) = (shape(&geometry.to), geometry.size) {
         // The output has the map's pixels.
         let (width, height) = canvas_size(&probe_pairs(file)?);
-        settled.size = Some(SizeArg { width, height: Some(height) });
+        settled.size = Some(Size { width, height: Some(height) });
     }
     match (shape(&geometry.from), shape(&geometry.to)) {
         (Some(Shape::StMap(from)), Some(Shape::StMap(to))) => {
@@ -124,6 +129,12 @@ pub(super) fn read_map(spec: Spec, memory: MemoryBudget) -> Result<Spec> {
     with_given_base(map, Side::Input, memory)
 }
 
+/// A SPEC with its calibration read.
+fn calibrated(spec: &Option<Spec>, side: Side) -> Result<Option<Spec>> {
+    let read = |spec| read_calibrations(spec).map_err(|error| anyhow!("{} <SPEC>: {error}", option(side)));
+    spec.clone().map(read).transpose()
+}
+
 /// A map where none can be.
 pub(super) fn unread(map: &StMapSpec) -> Error {
     usage(format!("st-map:file={}: an st map cannot be given here", map.file.display()))
@@ -181,8 +192,8 @@ fn canvas_size(header: &Header) -> (usize, usize) {
     header.window.map_or((header.width, header.height), |window| (window.canvas_width, window.canvas_height))
 }
 
-fn size_of(pairs: &StPairs) -> SizeArg {
-    SizeArg { width: pairs.width, height: Some(pairs.height) }
+fn size_of(pairs: &StPairs) -> Size {
+    Size { width: pairs.width, height: Some(pairs.height) }
 }
 
 fn read(file: &Path, memory: MemoryBudget) -> Result<StPairs> {
@@ -190,7 +201,7 @@ fn read(file: &Path, memory: MemoryBudget) -> Result<StPairs> {
 }
 
 fn with_given_base(map: &StMapSpec, side: Side, memory: MemoryBudget) -> Result<Spec> {
-    let base = map.base.ok_or_else(|| without_base(side))?;
+    let Some(StMapBase::Single(base)) = map.base else { return Err(without_base(side)) };
     let base = Base { placement: base.placement, size: None };
     spec(map, &read(&map.file, memory)?, base, side, memory)
 }

@@ -1,17 +1,16 @@
 //! Maps that are made in another shape than their own.
 
 use cosmorama::world::Frame;
+use cosmorama_spec::{Shape, Size, Spec};
 
 use super::Target;
 use super::canvas::is_near;
-use crate::args::SizeArg;
 use crate::args::convert::GeometryArgs;
-use crate::spec::{Shape, Spec};
 
 /// What should be known where nobody said that pixels are not to be square: as an input such a map is refused.
 pub(super) fn warning(geometry: &GeometryArgs, target: &Target) -> Option<String> {
     let Some(Spec { name, shape: Shape::Single(single), stereo: None, .. }) = &geometry.to else { return None };
-    let Some(SizeArg { height: Some(_), .. }) = geometry.size else { return None };
+    let Some(Size { height: Some(_), .. }) = geometry.size else { return None };
     let frame = single.placement.frame;
     let (fills_any_shape, whole) = match frame {
         Frame::Equirect(_) => (true, ", or, if it is meant, give hfov= and vfov="),

@@ -3,13 +3,12 @@ use std::path::{Path, PathBuf};
 use anyhow::Result;
 use cosmorama::world::{Eye, View};
 use cosmorama_io::{EnvMap, FacePattern, FaceSet, Format, Naming, Window};
+use cosmorama_spec::{Cube, Packing, Shape, Size, Spec};
 
 use super::picture::world_of;
 use super::{Files, Picture, Place};
-use crate::args::SizeArg;
 use crate::args::convert::GeometryArgs;
 use crate::failure::usage;
-use crate::spec::{Cube, Packing, Shape, Spec};
 
 /// An image to make.
 pub(crate) struct TargetView {
@@ -98,12 +97,13 @@ impl Target {
         let format = Self::check_names(output, geometry)?;
         let container = FacePattern::parse(output).is_none().then_some(format);
         let pictures = Picture::all(geometry, container, pixels_per_radian)?;
-        let naming = match geometry.to.as_ref().map(|spec| &spec.shape) {
-            Some(Shape::Cube(cube)) if cube.naming.is_some() => super::picture::naming(cube),
-            // `%c` is Bourke's mark: one letter a face.
-            _ if output.contains("%c") => Naming::named("bourke")?,
-            _ => super::picture::naming(&Cube::default()),
+        let given = match geometry.to.as_ref().map(|spec| &spec.shape) {
+            Some(Shape::Cube(cube)) => cube.naming,
+            _ => None,
         };
+        // `%c` is Bourke's mark: one letter a face.
+        let marked = || Naming::named("bourke").filter(|_| output.contains("%c"));
+        let naming = given.or_else(marked).unwrap_or_else(|| super::picture::naming(&Cube::default()));
         let named = FacePattern::parse(output).is_some();
         let (mut views, mut files): (Vec<TargetView>, Vec<TargetFile>) = (Vec::new(), Vec::new());
         let mut paths: Vec<PathBuf> = Vec::new();
@@ -150,7 +150,7 @@ impl Target {
         let mut edge = self.views.first().map_or(0, |target| target.view.width());
         while edge > 1 {
             edge /= 2;
-            let size = Some(SizeArg { width: edge, height: None });
+            let size = Some(Size { width: edge, height: None });
             let level = Self::resolve(output, &GeometryArgs { size, ..geometry.clone() }, None)?;
             let first = self.views.len();
             self.views.extend(level.views);

@@ -7,13 +7,14 @@ use anyhow::{Context, Result, anyhow, bail};
 use cosmorama::sphere::Angle;
 use cosmorama::world::Blend;
 use cosmorama_io::{FrameList, FramePattern};
+use cosmorama_spec::Spec;
 use serde::Deserialize;
 use toml::Spanned;
 
+use super::calibration::read_calibrations;
 use super::listing::Listed;
 use super::{Builtin, Input, InputView, MemoryBudget, st_map};
 use crate::failure::retold;
-use crate::spec::Spec;
 
 /// The file as it is written.
 #[derive(Deserialize)]
@@ -158,9 +159,9 @@ impl Entry {
 
     fn spec(&self, source: &Text) -> Result<Option<Spec>> {
         let Some(spec) = &self.spec else { return Ok(None) };
-        let parsed = Spec::parse_in(source.folder(), spec.get_ref());
+        let parsed = Spec::parse_in(source.folder(), spec.get_ref()).map_err(|error| error.to_string());
         let told = |error| source.error(Some(spec.span()), &format!("spec = \"{}\": {error}", spec.get_ref()));
-        parsed.map(Some).map_err(told)
+        parsed.and_then(read_calibrations).map(Some).map_err(told)
     }
 
     /// Hides what the mask of a single picture hides.

@@ -11,12 +11,12 @@ use cosmorama::sphere::{CubeFace, Orientation};
 use cosmorama::world::{Canvas, Frame, OmnimaxFrame, PixelRect, View, World};
 use cosmorama_builtin::{DemoWorld, picture};
 use cosmorama_io::{FacePlacement, Metadata, WriteOptions, write};
+use cosmorama_spec::Cube;
 
 use super::{convert, diagram, make_folder, print, use_threads};
 use crate::args::{Args, DemoArgs, Verb};
 use crate::failure::usage;
 use crate::job::{face_placement, refuse_existing};
-use crate::spec::Cube;
 
 /// Edge of a whole face; the frame is the paper's.
 const FACE: usize = 1024;

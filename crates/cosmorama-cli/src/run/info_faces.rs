@@ -5,10 +5,10 @@ use std::path::Path;
 use anyhow::Result;
 use cosmorama::raster::{Image, Rgba};
 use cosmorama_io::{EnvMap, FaceSet};
+use cosmorama_spec::{Cube, Packing};
 use serde_json::{Value, json};
 
 use crate::job::{Continuity, FacePixels, Files, GivenFaces, Likely, existing_frames, light_of};
-use crate::spec::{Cube, Packing};
 
 /// Of the first frame of a face set; `None` where its files have too few whole faces to tell.
 pub(super) fn of_files(set: &FaceSet) -> Result<Option<Value>> {

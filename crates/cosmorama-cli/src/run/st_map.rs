@@ -7,11 +7,12 @@ use cosmorama::raster::{Depth, Image, Rgba};
 use cosmorama::resample::Filter;
 use cosmorama::world::{ST_NOWHERE, StPixel};
 use cosmorama_io::{Format, write_planes};
+use cosmorama_spec::Missing;
 
 use super::engine::assemble;
 use super::report::Report;
 use super::stages::{Stage, Stages};
-use crate::args::{ConvertArgs, Missing};
+use crate::args::ConvertArgs;
 use crate::failure::{usage, warn};
 use crate::job::{Builtin, ConvertJob, st_pixels};
 

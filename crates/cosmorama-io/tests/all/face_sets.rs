@@ -112,7 +112,7 @@ fn nothing_found_says_what_was_tried() {
         assert!(message.contains(part), "{message}");
     }
     assert!(matches!(FaceSet::find("a.png", None), Err(IoError::NotAFacePattern { .. })));
-    assert!(Naming::named("nonsense").unwrap_err().to_string().contains("words, cosmorama"));
+    assert!(Naming::named("nonsense").is_none());
 }
 
 #[test]

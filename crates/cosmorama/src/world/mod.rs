@@ -32,7 +32,7 @@ pub use grid::{PixelBounds, PixelGrid, PixelPoint, PixelRect};
 pub(crate) use halved::held;
 pub use layout::{
     Arrangement, CubeLayout, DualFisheye, DualLens, Eye, FaceOrder, FacePart, FacePlacement, LayoutError, LayoutKind,
-    LensSide, PlacedFace, PlacedLens, Stereo,
+    LensSide, Naming, PlacedFace, PlacedLens, Stereo,
 };
 pub use mask_shape::MaskShape;
 #[cfg(test)]

@@ -32,7 +32,7 @@ struct CratePlan {
     reason: &'static str,
 }
 
-const CRATES: [CratePlan; 5] = [
+const CRATES: [CratePlan; 6] = [
     CratePlan {
         name: "cosmorama",
         crates: &[],
@@ -50,6 +50,14 @@ const CRATES: [CratePlan; 5] = [
         reason: "worlds by formula touch neither files nor the terminal",
     },
     CratePlan {
+        name: "cosmorama-spec",
+        crates: &["cosmorama"],
+        rooms: &["sphere", "projection", "raster", "world", "resample"],
+        banned_std: &["fs", "io", "process", "net", "env", "thread"],
+        banned: &["rayon", "clap", "println", "eprintln"],
+        reason: "texts are values: parsing touches neither files nor the terminal, and starts no thread",
+    },
+    CratePlan {
         name: "cosmorama-io",
         crates: &["cosmorama"],
         rooms: &["sphere", "raster", "world"],
@@ -59,7 +67,7 @@ const CRATES: [CratePlan; 5] = [
     },
     CratePlan {
         name: "cosmorama-cli",
-        crates: &["cosmorama", "cosmorama-builtin", "cosmorama-io"],
+        crates: &["cosmorama", "cosmorama-builtin", "cosmorama-io", "cosmorama-spec"],
         rooms: &["sphere", "projection", "raster", "world", "resample", "arrange", "circle", "compare", "explain"],
         banned_std: &["f32", "f64"],
         banned: &[

@@ -80,11 +80,14 @@ fn what_has_code_is_in_its_list() {
 #[test]
 fn every_frame_can_be_asked_for() {
     let frames = code_of_file("cosmorama/src/world/frame/mod.rs");
-    let command_line: String =
-        files().into_iter().filter(|(name, _)| name.starts_with("cosmorama-cli/")).map(|(_, code)| code).collect();
+    let texts: String = files()
+        .into_iter()
+        .filter(|(name, _)| name.starts_with("cosmorama-cli/") || name.starts_with("cosmorama-spec/"))
+        .map(|(_, code)| code)
+        .collect();
     let kinds: Vec<&str> = list(&frames, "Frame").lines().map(|line| first_word(line.trim())).collect();
     assert!(kinds.contains(&"Perspective"));
     for kind in kinds.into_iter().filter(|kind| !kind.is_empty()) {
-        assert!(command_line.contains(&format!("Frame::{kind}(")), "no SPEC nor file makes a Frame::{kind}");
+        assert!(texts.contains(&format!("Frame::{kind}(")), "no SPEC nor file makes a Frame::{kind}");
     }
 }

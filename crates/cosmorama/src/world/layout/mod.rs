@@ -8,6 +8,7 @@ mod face_order;
 mod face_part;
 mod face_placement;
 mod kind;
+mod naming;
 mod stereo;
 
 pub use arrangement::Arrangement;
@@ -18,4 +19,5 @@ pub use face_order::FaceOrder;
 pub use face_part::FacePart;
 pub use face_placement::FacePlacement;
 pub use kind::LayoutKind;
+pub use naming::Naming;
 pub use stereo::{Eye, Stereo};

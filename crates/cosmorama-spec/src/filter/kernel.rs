@@ -1,0 +1,110 @@
+use std::str::FromStr;
+
+use cosmorama::resample::{CrossSection, Kernel};
+
+/// A kernel by name, with its parameters.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct KernelName {
+    /// What it is.
+    pub kernel: Kernel,
+    /// Whether there is anti-ringing where nothing is said of it: of what keeps light, it would take some away.
+    pub anti_ringing: bool,
+}
+
+const NAMES: &str = "adaptive, gaussian, mitchell, robidoux, robidoux-sharp, catmull-rom, lanczos2, lanczos3, lanczos3-sharp, tent, box, light";
+
+/// The kernel that keeps the light of suns.
+const LIGHT: &str = "light";
+
+impl FromStr for KernelName {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let (name, keys) = text.split_once(':').unwrap_or((text, ""));
+        let mut kernel = named(name).ok_or_else(|| format!("unknown kernel '{name}'; there are {NAMES}"))?;
+        for pair in keys.split(',').filter(|_| !keys.is_empty()) {
+            let (key, value) = pair.split_once('=').ok_or_else(|| format!("'{pair}' is no key=value"))?;
+            let value = within_reach(value)
+                .ok_or_else(|| format!("{key}={value}: expected a number more than 0, at most {MOST}"))?;
+            set(&mut kernel, name, key, value)?;
+        }
+        Ok(Self { kernel, anti_ringing: name != LIGHT })
+    }
+}
+
+fn named(name: &str) -> Option<Kernel> {
+    let cross_section = match name {
+        "adaptive" => return Some(Kernel::ADAPTIVE),
+        LIGHT => return Some(Kernel::LIGHT),
+        "gaussian" => CrossSection::Gaussian { alpha: 2.0, cutoff: 1.0 },
+        "mitchell" => CrossSection::MITCHELL,
+        "robidoux" => CrossSection::ROBIDOUX,
+        "robidoux-sharp" => CrossSection::ROBIDOUX_SHARP,
+        "catmull-rom" => CrossSection::CATMULL_ROM,
+        "lanczos2" => CrossSection::JincJinc { lobes: 2, blur: 1.0 },
+        "lanczos3" => CrossSection::JincJinc { lobes: 3, blur: 1.0 },
+        // N. Robidoux's factor, as ImageMagick's LanczosSharp has it: the kernel keeps vertical lines as they are.
+        "lanczos3-sharp" => CrossSection::JincJinc { lobes: 3, blur: 0.981_250_522_384_614_2 },
+        "tent" => CrossSection::Tent,
+        "box" => CrossSection::Box,
+        _ => return None,
+    };
+    Some(Kernel::uniform(cross_section))
+}
+
+fn set(kernel: &mut Kernel, name: &str, key: &str, value: f64) -> Result<(), String> {
+    match (key, &mut kernel.fine) {
+        ("scale", _) => kernel.scale = value,
+        ("floor", _) => kernel.floor = value,
+        // A Gaussian of another shape would not keep light.
+        _ if name == LIGHT => return Err(format!("unknown key '{key}' for {name}; it takes scale, floor")),
+        ("alpha", CrossSection::Gaussian { alpha, .. }) => *alpha = value,
+        ("cutoff", CrossSection::Gaussian { cutoff, .. }) => *cutoff = value,
+        (_, CrossSection::Gaussian { .. }) => {
+            return Err(format!("unknown key '{key}' for {name}; it takes alpha, cutoff, scale, floor"));
+        }
+        _ => return Err(format!("unknown key '{key}' for {name}; it takes scale, floor")),
+    }
+    if let CrossSection::Gaussian { .. } = kernel.fine {
+        kernel.coarse = kernel.fine;
+    }
+    Ok(())
+}
+
+/// The widest kernel that is still a filter of a pixel: beyond, a slip of the finger would take hours.
+const MOST: f64 = 32.0;
+
+fn within_reach(text: &str) -> Option<f64> {
+    text.parse().ok().filter(|number: &f64| *number > 0.0 && *number <= MOST)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn kernels_with_parameters() {
+        let KernelName { kernel, .. } = "gaussian:alpha=3,cutoff=1.5,scale=0.6".parse().unwrap();
+        let gaussian = CrossSection::Gaussian { alpha: 3.0, cutoff: 1.5 };
+        assert_eq!(kernel, Kernel { scale: 0.6, ..Kernel::uniform(gaussian) });
+        let light: KernelName = "light".parse().unwrap();
+        let written: KernelName = "gaussian:cutoff=2,scale=1.4,floor=1.4".parse().unwrap();
+        assert_eq!(light, KernelName { anti_ringing: false, ..written });
+        for name in NAMES.split(", ") {
+            assert!(name.parse::<KernelName>().is_ok(), "{name}");
+            assert!(format!("{name}:scale=0.5,floor=0.75").parse::<KernelName>().is_ok(), "{name}");
+        }
+        for wrong in [
+            "gauss",
+            "mitchell:alpha=2",
+            "box:scale=0",
+            "mitchell:scale=1000",
+            "tent:floor=nan",
+            "box:scale",
+            "gaussian:sigma=1",
+            "light:alpha=9",
+        ] {
+            assert!(wrong.parse::<KernelName>().is_err(), "{wrong}");
+        }
+    }
+}

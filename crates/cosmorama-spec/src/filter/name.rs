@@ -1,0 +1,32 @@
+use std::str::FromStr;
+
+use cosmorama::resample::FilterKind;
+
+/// A filter by name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct FilterName(pub FilterKind);
+
+/// Sub-samples along a pixel's side, unless told.
+const SAMPLES: usize = 4;
+
+impl FromStr for FilterName {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let samples = |text: &str| text.parse().ok().filter(|samples| (1..=64).contains(samples));
+        match text.split_once(":samples=") {
+            Some(("reference", count)) => match samples(count) {
+                Some(samples) => Ok(Self(FilterKind::Reference { samples })),
+                None => Err(format!("samples={count}: expected a number from 1 to 64")),
+            },
+            _ => match text {
+                "ewa" => Ok(Self(FilterKind::Ewa)),
+                "ewa-pyramid" => Ok(Self(FilterKind::EwaPyramid)),
+                "point" => Ok(Self(FilterKind::Point)),
+                "bilinear" => Ok(Self(FilterKind::Bilinear)),
+                "reference" => Ok(Self(FilterKind::Reference { samples: SAMPLES })),
+                _ => Err("there are ewa, ewa-pyramid, point, bilinear and reference[:samples=N]".to_owned()),
+            },
+        }
+    }
+}

@@ -1,0 +1,88 @@
+use std::str::FromStr;
+
+use cosmorama::raster::{ColourChannel, Rgba, Transfer};
+
+/// A colour: a name, `#rrggbb` or `#rrggbbaa` (sRGB), or `r,g,b[,a]` of linear light.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Colour(pub Rgba);
+
+/// Names that the web has, too.
+const NAMES: [(&str, &str); 11] = [
+    ("black", "000000"),
+    ("white", "ffffff"),
+    ("grey", "808080"),
+    ("gray", "808080"),
+    ("red", "ff0000"),
+    ("lime", "00ff00"),
+    ("green", "008000"),
+    ("blue", "0000ff"),
+    ("cyan", "00ffff"),
+    ("magenta", "ff00ff"),
+    ("yellow", "ffff00"),
+];
+
+impl FromStr for Colour {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let named = NAMES.iter().find(|(name, _)| *name == text).map(|(_, code)| *code);
+        let colour = match named.or(text.strip_prefix('#')) {
+            Some(code) => hexadecimal(code),
+            None if text == "transparent" => Some(Rgba::TRANSPARENT),
+            None => linear(text),
+        };
+        let names: Vec<_> = NAMES.iter().map(|(name, _)| *name).collect();
+        colour.map(Self).ok_or_else(|| {
+            format!(
+                "expected #rrggbb or #rrggbbaa (sRGB), r,g,b or r,g,b,a (linear light), transparent or one of {}",
+                names.join(", ")
+            )
+        })
+    }
+}
+
+fn hexadecimal(code: &str) -> Option<Rgba> {
+    if !matches!(code.len(), 6 | 8) || !code.bytes().all(|digit| digit.is_ascii_hexdigit()) {
+        return None;
+    }
+    let byte = |at: usize| u8::from_str_radix(&code[at..at + 2], 16).ok().map(|byte| f64::from(byte) / 255.0);
+    let light = |at: usize, channel| byte(at).map(|code| Transfer::Srgb.decode(code, channel) as f32);
+    let alpha = if code.len() == 8 { byte(6)? as f32 } else { 1.0 };
+    Some(
+        Rgba::opaque(light(0, ColourChannel::Red)?, light(2, ColourChannel::Green)?, light(4, ColourChannel::Blue)?)
+            * alpha,
+    )
+}
+
+fn linear(text: &str) -> Option<Rgba> {
+    let numbers: Vec<f32> = text.split(',').map(|number| number.trim().parse().ok()).collect::<Option<_>>()?;
+    if !numbers.iter().all(|number| number.is_finite() && *number >= 0.0) {
+        return None;
+    }
+    match numbers[..] {
+        [red, green, blue] => Some(Rgba::opaque(red, green, blue)),
+        [red, green, blue, alpha] if alpha <= 1.0 => Some(Rgba::opaque(red, green, blue) * alpha),
+        _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn parsed(text: &str) -> Rgba {
+        text.parse::<Colour>().unwrap().0
+    }
+
+    #[test]
+    fn colours() {
+        assert_eq!(parsed("white"), Rgba::opaque(1.0, 1.0, 1.0));
+        assert_eq!(parsed("#ff000080").alpha(), 128.0 / 255.0);
+        assert!((parsed("#808080").0[0] - 0.2158605).abs() < 1e-6);
+        assert_eq!(parsed("0.5,1,2"), Rgba::opaque(0.5, 1.0, 2.0));
+        assert_eq!(parsed("transparent"), Rgba::TRANSPARENT);
+        for wrong in ["beige", "#12345", "#12345g", "1,2", "-1,0,0", "0,0,0,2", ""] {
+            assert!(wrong.parse::<Colour>().is_err(), "{wrong}");
+        }
+    }
+}

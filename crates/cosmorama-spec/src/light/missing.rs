@@ -1,0 +1,26 @@
+use std::str::FromStr;
+
+use cosmorama::raster::Rgba;
+
+use super::Colour;
+
+/// What becomes of directions that no view covers.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Missing {
+    /// They are an error.
+    Error,
+    /// They are filled, possibly with nothing.
+    Fill(Rgba),
+}
+
+impl FromStr for Missing {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        if text == "error" {
+            return Ok(Self::Error);
+        }
+        let Colour(colour) = text.parse().map_err(|message| format!("{message}, or error"))?;
+        Ok(Self::Fill(colour))
+    }
+}

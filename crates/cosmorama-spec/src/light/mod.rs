@@ -1,0 +1,11 @@
+//! Light as it is typed: colours, transfer functions, sample types.
+
+mod colour;
+mod depth;
+mod missing;
+mod transfer;
+
+pub use colour::Colour;
+pub use depth::DepthName;
+pub use missing::Missing;
+pub use transfer::TransferName;

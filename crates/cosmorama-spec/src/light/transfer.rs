@@ -1,0 +1,47 @@
+use std::str::FromStr;
+
+use cosmorama::raster::Transfer;
+
+/// A transfer function by name.
+#[derive(Clone, Debug, PartialEq)]
+pub enum TransferName {
+    /// What the file says, else sRGB.
+    Auto,
+    /// This one.
+    Fixed(Transfer),
+}
+
+impl FromStr for TransferName {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let transfer = match text {
+            "auto" => return Ok(Self::Auto),
+            "srgb" => Transfer::Srgb,
+            "linear" => Transfer::Linear,
+            "bt1886" => Transfer::Bt1886,
+            "pq" => Transfer::Pq,
+            "hlg" => Transfer::Hlg,
+            _ => match text.strip_prefix("gamma:").and_then(|gamma| gamma.parse().ok()) {
+                Some(gamma) if (0.1..=10.0).contains(&gamma) => Transfer::Gamma(gamma),
+                _ => {
+                    return Err(
+                        "there are auto, srgb, linear, bt1886, pq, hlg and gamma:G (G from 0.1 to 10, as in gamma:2.2)"
+                            .to_owned(),
+                    );
+                }
+            },
+        };
+        Ok(Self::Fixed(transfer))
+    }
+}
+
+impl TransferName {
+    /// The one asked for, unless it is to be found.
+    pub fn fixed(&self) -> Option<Transfer> {
+        match self {
+            Self::Auto => None,
+            Self::Fixed(transfer) => Some(transfer.clone()),
+        }
+    }
+}

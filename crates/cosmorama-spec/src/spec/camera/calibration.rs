@@ -1,0 +1,57 @@
+use std::path::PathBuf;
+
+use cosmorama::sphere::{Angle, Orientation};
+use cosmorama::world::{Canvas, Mirror};
+
+use crate::SpecError;
+use crate::spec::fields::{Fields, wrong};
+
+/// Kind of lens that a calibration is read for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LensFamily {
+    /// A lens that draws straight lines, distorted a little: `perspective:calibration=`.
+    Pinhole,
+    /// A fisheye lens: `fisheye:calibration=`.
+    Fisheye,
+}
+
+/// Picture of a measured camera (`calibration=FILE`), before the file has been read.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CalibrationSpec {
+    /// File that a calibration program wrote.
+    pub file: PathBuf,
+    /// Kind of lens that the file must describe.
+    pub family: LensFamily,
+    /// Cone around the axis that counts; `None` for all that the lens shows.
+    pub field_of_view: Option<Angle>,
+    /// Orientation of the camera in the world.
+    pub orientation: Orientation,
+    /// Mirroring of the picture.
+    pub mirror: Mirror,
+    /// Canvas that the picture is a window of.
+    pub canvas: Option<Canvas>,
+}
+
+/// Keys whose values a calibration holds itself.
+const HELD: [&str; 10] = ["lens", "k", "fit", "focal", "sensor", "center", "radius", "aspect", "vfov", "dfov"];
+
+impl CalibrationSpec {
+    /// Reads the keys of a measured camera; `None` without `calibration=`.
+    pub(in crate::spec) fn build(fields: &Fields, family: LensFamily) -> Result<Option<Self>, SpecError> {
+        let Some(file) = fields.file("calibration") else { return Ok(None) };
+        if fields.get("calibration") == Some("") {
+            return Err(wrong("calibration", "", "a file, as in calibration=camera.yml"));
+        }
+        if let Some(first) = HELD.into_iter().find(|key| fields.get(key).is_some()) {
+            return Err(SpecError::Both { first, second: "calibration" });
+        }
+        Ok(Some(Self {
+            file,
+            family,
+            field_of_view: fields.angle("fov")?,
+            orientation: fields.orientation()?,
+            mirror: fields.mirror()?,
+            canvas: fields.canvas("canvas")?,
+        }))
+    }
+}

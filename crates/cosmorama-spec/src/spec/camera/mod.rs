@@ -1,0 +1,11 @@
+//! Cameras, lenses and domes as they are typed.
+
+mod calibration;
+pub(super) mod dome;
+mod dual;
+pub(super) mod hugin;
+pub(super) mod lens;
+pub(super) mod pinhole;
+
+pub use calibration::{CalibrationSpec, LensFamily};
+pub use dual::Dual;

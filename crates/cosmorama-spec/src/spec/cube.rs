@@ -1,0 +1,219 @@
+use cosmorama::sphere::{Angle, CubeFace, Orientation};
+use cosmorama::world::{
+    Blend, Canvas, CubeFaceFrame, CubeLayout, FaceMapping, FaceOrder, FacePlacement, Frame, LayoutFaceFrame,
+    LayoutKind, Mirror, Naming, SamplePositions,
+};
+
+use super::fields::{Fields, wrong};
+use crate::SpecError;
+
+/// The faces of a cube, a file each or in one image.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Cube {
+    /// How the faces lie in files; `None` where the file's name, its metadata or its shape decides.
+    pub layout: Option<Packing>,
+    /// How files are named.
+    pub naming: Option<&'static Naming>,
+    /// In which order faces lie in one image.
+    pub order: Option<FaceOrder>,
+    /// By how many quarters each picture is turned clockwise: in reading order, or of files in the order `rludfb`.
+    pub rotate: Option<[u8; 6]>,
+    /// What a face sees from edge to edge.
+    pub field_of_view: Angle,
+    /// Over how wide a band at its border a face fades out, if given.
+    pub feather: Option<Angle>,
+    /// Only the half around this face.
+    pub half: Option<CubeFace>,
+    /// Where the outermost samples of a face lie, if given.
+    pub samples: Option<SamplePositions>,
+    /// Which faces count.
+    pub faces: Vec<CubeFace>,
+    /// How the cube is turned.
+    pub orientation: Orientation,
+    /// How every picture is mirrored.
+    pub mirror: Mirror,
+    /// The canvas of every face.
+    pub canvas: Option<Canvas>,
+    /// The canvas of single faces.
+    pub face_canvas: Vec<(CubeFace, Canvas)>,
+}
+
+/// How the faces of a cube lie in files.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Packing {
+    /// A file each.
+    Files,
+    /// All in one image.
+    OneImage(LayoutKind),
+}
+
+impl Default for Cube {
+    fn default() -> Self {
+        Self {
+            layout: None,
+            naming: None,
+            order: None,
+            rotate: None,
+            field_of_view: LayoutFaceFrame::RIGHT_ANGLE,
+            feather: None,
+            half: None,
+            samples: None,
+            faces: CubeFace::ALL.to_vec(),
+            orientation: Orientation::IDENTITY,
+            mirror: Mirror::default(),
+            canvas: None,
+            face_canvas: Vec::new(),
+        }
+    }
+}
+
+impl Cube {
+    /// The canvas of a face.
+    pub fn canvas_of(&self, face: CubeFace) -> Option<Canvas> {
+        let own = self.face_canvas.iter().find(|(other, _)| *other == face).map(|(_, canvas)| *canvas);
+        own.or(self.canvas)
+    }
+
+    /// How the faces lie in one image, if they do.
+    pub fn one_image(&self) -> Option<CubeLayout> {
+        let Some(Packing::OneImage(kind)) = self.layout else { return None };
+        let mut layout = CubeLayout::new(kind);
+        if let Some(order) = &self.order {
+            layout = layout.with_order(order);
+        }
+        if let Some(turns) = self.rotate {
+            layout = layout.with_turns(turns);
+        }
+        if let Some(half) = self.half {
+            layout = layout.with_half(half);
+        }
+        Some(layout.mirrored(self.mirror))
+    }
+
+    /// How a face's own file lies, which its naming says, and `rotate=`.
+    pub fn file_placement(&self, face: CubeFace, named: FacePlacement) -> FacePlacement {
+        let place = FaceOrder::parse("rludfb").and_then(|order| order.faces.iter().position(|other| *other == face));
+        match (self.rotate, place) {
+            (Some(turns), Some(place)) => {
+                let turned = FacePlacement::turned(turns[place]);
+                FacePlacement { quarter_turns: (named.quarter_turns + turned.quarter_turns) % 4, ..named }
+            }
+            _ => named,
+        }
+    }
+
+    /// Where the outermost samples of a face lie.
+    pub fn samples(&self) -> SamplePositions {
+        let by_order = self.order.as_ref().map(|order| order.samples);
+        let by_naming = self.naming.map(|naming| naming.samples);
+        self.samples.or(by_order).or(by_naming).unwrap_or_default()
+    }
+
+    /// How the pixels of a face see the world.
+    pub fn frame(&self) -> Frame {
+        let mapping = match self.layout {
+            Some(Packing::OneImage(kind)) => kind.mapping(),
+            Some(Packing::Files) | None => FaceMapping::Perspective,
+        };
+        let frame = LayoutFaceFrame { mapping, samples: self.samples(), field_of_view: self.field_of_view };
+        if frame == LayoutFaceFrame::default() { Frame::CubeFace(CubeFaceFrame) } else { Frame::LayoutFace(frame) }
+    }
+
+    /// How faces take part where they overlap: each falls to nothing at its own border.
+    pub fn blend(&self) -> Blend {
+        let shared = self.field_of_view - LayoutFaceFrame::RIGHT_ANGLE;
+        let feather = if shared > Angle::ZERO { self.feather.unwrap_or(shared) } else { Angle::ZERO };
+        Blend { priority: 0, feather }
+    }
+
+    /// The cube of these keys.
+    pub(super) fn build(fields: &Fields) -> Result<Self, SpecError> {
+        let faces =
+            fields.get("faces").map(|list| list.split([',', '+', ' ']).map(|name| face("faces", list, name)).collect());
+        let half = fields.get("half").map(|name| face("half", name, name)).transpose()?;
+        let cube = Self {
+            layout: layout(fields)?,
+            naming: naming(fields)?,
+            order: order(fields)?,
+            rotate: fields.read("rotate", "six quarter turns from 0 to 3, as in rotate=000102", turns)?,
+            field_of_view: fields.angle("fov")?.unwrap_or(LayoutFaceFrame::RIGHT_ANGLE),
+            feather: fields.feather()?,
+            half,
+            samples: fields.samples()?,
+            faces: faces.transpose()?.unwrap_or_else(|| CubeFace::ALL.to_vec()),
+            orientation: fields.orientation()?,
+            mirror: fields.mirror()?,
+            canvas: fields.canvas("canvas")?,
+            face_canvas: face_canvas(fields)?,
+        };
+        cube.check(fields)?;
+        Ok(cube)
+    }
+
+    /// Keys for files do not go with a layout in one image, nor the other way round.
+    fn check(&self, fields: &Fields) -> Result<(), SpecError> {
+        let one_image = matches!(self.layout, Some(Packing::OneImage(_))) || self.order.is_some();
+        if let (true, Some(naming)) = (one_image, self.naming) {
+            return Err(wrong("naming", naming.name, "layout=faces; faces in one image have no names, but an order="));
+        }
+        if let (Some(Packing::Files), Some(order)) = (self.layout, fields.get("order")) {
+            return Err(wrong("order", order, "a layout in one image, such as layout=3x2; files are found by naming="));
+        }
+        if one_image && (self.canvas.is_some() || !self.face_canvas.is_empty()) {
+            return Err(SpecError::Both { first: "canvas", second: "layout" });
+        }
+        if let (Some(feather), true) = (fields.get("feather"), self.field_of_view <= LayoutFaceFrame::RIGHT_ANGLE) {
+            return Err(wrong("feather", feather, "faces that overlap, as with fov=100; these have nothing to blend"));
+        }
+        if self.half.is_some() && self.samples() == SamplePositions::Edges {
+            return Err(SpecError::Both { first: "half", second: "samples=edges" });
+        }
+        Ok(())
+    }
+}
+
+fn layout(fields: &Fields) -> Result<Option<Packing>, SpecError> {
+    let own = LayoutKind::ALL.map(|kind| (kind.name(), Packing::OneImage(kind)));
+    let choices: Vec<_> = [("faces", Packing::Files)].into_iter().chain(own).collect();
+    fields.choice("layout", &choices)
+}
+
+fn order(fields: &Fields) -> Result<Option<FaceOrder>, SpecError> {
+    let names: Vec<_> = FaceOrder::presets().iter().map(|order| order.name).collect();
+    let expected = format!("six letters, each of r, l, u, d, f and b once, as in rludfb, or {}", names.join(", "));
+    fields.read("order", &expected, FaceOrder::parse)
+}
+
+fn turns(text: &str) -> Option<[u8; 6]> {
+    let digits: Vec<u8> = text.chars().map(|c| c.to_digit(4).map(|digit| digit as u8)).collect::<Option<_>>()?;
+    digits.try_into().ok()
+}
+
+fn naming(fields: &Fields) -> Result<Option<&'static Naming>, SpecError> {
+    let known = || Naming::presets().iter().map(|naming| naming.name).collect::<Vec<_>>().join(", ");
+    let find = |name: &str| Naming::named(name).ok_or_else(|| wrong("naming", name, format!("one of {}", known())));
+    fields.get("naming").map(find).transpose()
+}
+
+fn face_canvas(fields: &Fields) -> Result<Vec<(CubeFace, Canvas)>, SpecError> {
+    let mut canvases = Vec::new();
+    for (name, value) in fields.with_prefix("canvas.") {
+        let key = format!("canvas.{name}");
+        if let Some(canvas) = fields.canvas(&key)? {
+            canvases.push((face(&key, value, name)?, canvas));
+        }
+    }
+    Ok(canvases)
+}
+
+/// A face by our own name, or one of the two that others have for up and down.
+fn face(key: &str, value: &str, name: &str) -> Result<CubeFace, SpecError> {
+    let own = match name.trim() {
+        "top" => "up",
+        "bottom" => "down",
+        name => name,
+    };
+    CubeFace::ALL.into_iter().find(|face| face.name() == own).ok_or_else(|| {
+        wrong(key, value, format!("faces of a cube (front, right, back, left, up, down); '{name}' is none"))
+    })
+}

@@ -1,0 +1,139 @@
+use std::path::{Path, PathBuf};
+
+use cosmorama::sphere::{Angle, Orientation};
+use cosmorama::world::{Canvas, LensCircle, Mirror, PixelPoint, SamplePositions};
+
+use crate::SpecError;
+use crate::angle::parse_degrees;
+use crate::window::parse_window;
+
+/// So many times wider than high, or higher than wide, is a pixel at most: what is more is a slip.
+const LONGEST_PIXEL: f64 = 1000.0;
+
+/// The keys and values of a SPEC, all known to exist, to be read by kind; and the folder in which it names files.
+pub(super) struct Fields<'a>(Vec<(String, String)>, &'a Path);
+
+impl<'f> Fields<'f> {
+    pub(super) fn new(pairs: Vec<(String, String)>, folder: &'f Path) -> Self {
+        Self(pairs, folder)
+    }
+
+    /// Where it names files.
+    pub(super) fn folder(&self) -> &Path {
+        self.1
+    }
+
+    /// A file that the SPEC names.
+    pub(super) fn file(&self, key: &str) -> Option<PathBuf> {
+        self.get(key).map(|name| self.1.join(name))
+    }
+
+    pub(super) fn get(&self, key: &str) -> Option<&str> {
+        self.0.iter().find(|(name, _)| name == key).map(|(_, value)| value.as_str())
+    }
+
+    /// Keys that begin so, without the beginning, and their values.
+    pub(super) fn with_prefix<'a>(&'a self, prefix: &'a str) -> impl Iterator<Item = (&'a str, &'a str)> {
+        self.0.iter().filter_map(move |(key, value)| Some((key.strip_prefix(prefix)?, value.as_str())))
+    }
+
+    /// A value read by `parse`, if there is one.
+    pub(super) fn read<T>(
+        &self,
+        key: &str,
+        expected: &str,
+        parse: impl Fn(&str) -> Option<T>,
+    ) -> Result<Option<T>, SpecError> {
+        self.get(key).map(|value| parse(value).ok_or_else(|| wrong(key, value, expected))).transpose()
+    }
+
+    pub(super) fn angle(&self, key: &str) -> Result<Option<Angle>, SpecError> {
+        self.read(key, &format!("an angle in degrees, as in {key}=90"), parse_degrees)
+    }
+
+    pub(super) fn angle_or(&self, key: &str, default: f64) -> Result<Angle, SpecError> {
+        Ok(self.angle(key)?.unwrap_or(Angle::from_degrees(default)))
+    }
+
+    /// One of a list of words.
+    pub(super) fn choice<T: Copy>(&self, key: &str, choices: &[(&str, T)]) -> Result<Option<T>, SpecError> {
+        let names: Vec<_> = choices.iter().map(|(name, _)| *name).collect();
+        let find = |value: &str| choices.iter().find(|(name, _)| *name == value).map(|(_, choice)| *choice);
+        self.read(key, &format!("one of {}", names.join(", ")), find)
+    }
+
+    pub(super) fn positive(&self, key: &str, expected: &str) -> Result<Option<f64>, SpecError> {
+        self.read(key, expected, |value| value.parse().ok().filter(|number: &f64| *number > 0.0 && number.is_finite()))
+    }
+
+    pub(super) fn aspect(&self) -> Result<f64, SpecError> {
+        let expected = "a pixel's width over its height, from 0.001 to 1000, as in aspect=1.2";
+        let aspect = self.read("aspect", expected, |value| {
+            value.parse().ok().filter(|aspect| (LONGEST_PIXEL.recip()..=LONGEST_PIXEL).contains(aspect))
+        });
+        Ok(aspect?.unwrap_or(1.0))
+    }
+
+    pub(super) fn circle(&self) -> Result<LensCircle, SpecError> {
+        self.circle_of("")
+    }
+
+    /// The circle whose keys begin so.
+    pub(super) fn circle_of(&self, prefix: &str) -> Result<LensCircle, SpecError> {
+        let key = format!("{prefix}center");
+        let centre = self.read(&key, &format!("X:Y in pixels, as in {key}=983:921.5"), |value| {
+            let (x, y) = value.split_once(':')?;
+            let (x, y): (f64, f64) = (x.parse().ok()?, y.parse().ok()?);
+            (x.is_finite() && y.is_finite()).then(|| PixelPoint::new(x, y))
+        })?;
+        let radius = self.positive(&format!("{prefix}radius"), "a radius in pixels, more than 0")?;
+        Ok(LensCircle { centre, radius })
+    }
+
+    pub(super) fn orientation(&self) -> Result<Orientation, SpecError> {
+        self.orientation_of("")
+    }
+
+    /// The orientation whose keys begin so.
+    pub(super) fn orientation_of(&self, prefix: &str) -> Result<Orientation, SpecError> {
+        let [yaw, pitch, roll] = ["yaw", "pitch", "roll"].map(|key| self.angle_or(&format!("{prefix}{key}"), 0.0));
+        Ok(Orientation::from_yaw_pitch_roll(yaw?, pitch?, roll?))
+    }
+
+    /// Over how wide a band pictures that overlap fade out.
+    pub(super) fn feather(&self) -> Result<Option<Angle>, SpecError> {
+        self.read("feather", "degrees more than 0, at most 180, as in feather=5", |value| {
+            parse_degrees(value).filter(|angle| angle.degrees() > 0.0 && angle.degrees() <= 180.0)
+        })
+    }
+
+    pub(super) fn mirror(&self) -> Result<Mirror, SpecError> {
+        let mirror = |x, y| Mirror { x, y };
+        let choices = [
+            ("x", mirror(true, false)),
+            ("y", mirror(false, true)),
+            ("xy", mirror(true, true)),
+            ("yx", mirror(true, true)),
+        ];
+        Ok(self.choice("flip", &choices)?.unwrap_or_default())
+    }
+
+    /// Where the outermost samples lie.
+    pub(super) fn samples(&self) -> Result<Option<SamplePositions>, SpecError> {
+        let positions = [
+            ("centres", SamplePositions::Centres),
+            ("centers", SamplePositions::Centres),
+            ("edges", SamplePositions::Edges),
+        ];
+        self.choice("samples", &positions)
+    }
+
+    pub(super) fn canvas(&self, key: &str) -> Result<Option<Canvas>, SpecError> {
+        let expected = format!("WxH+X+Y: the canvas's size and the image's place in it, as in {key}=1024x1024+512+0");
+        self.read(key, &expected, parse_window)
+    }
+}
+
+pub(super) fn wrong(key: &str, value: &str, expected: impl Into<String>) -> SpecError {
+    SpecError::Value { key: key.to_owned(), value: value.to_owned(), expected: expected.into() }
+}

@@ -1,0 +1,71 @@
+use cosmorama::world::{Frame, Placement, SamplePositions};
+
+use super::fields::Fields;
+use super::{CalibrationSpec, Cube, Dual, StMapSpec};
+use crate::SpecError;
+
+/// What a SPEC stands for.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Shape {
+    /// One image.
+    Single(Single),
+    /// The faces of a cube, a file each or in one image.
+    Cube(Cube),
+    /// Two fisheyes in one image.
+    Dual(Box<Dual>),
+    /// One image of a measured camera, whose calibration is still to be read.
+    Calibrated(CalibrationSpec),
+    /// One image, and a map that is still to be read.
+    StMap(StMapSpec),
+}
+
+impl Shape {
+    /// One image in a frame, placed as its keys say.
+    pub(super) fn single(fields: &Fields, frame: Frame) -> Result<Self, SpecError> {
+        let placement = Placement {
+            frame,
+            orientation: fields.orientation()?,
+            mirror: fields.mirror()?,
+            canvas: fields.canvas("canvas")?,
+        };
+        let samples = match frame {
+            Frame::Equirect(frame) if fields.get("samples").is_some() => SphereSamples::Given(frame.samples),
+            Frame::Equirect(_) => SphereSamples::ByFormat,
+            _ => SphereSamples::NotAPanorama,
+        };
+        let any_shape = fields.get("hfov").is_some() && fields.get("vfov").is_some();
+        Ok(Self::Single(Single { placement, samples, any_shape }))
+    }
+}
+
+/// One image.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Single {
+    /// Its frame and place in the world.
+    pub placement: Placement,
+    /// Whether `samples=` was given for a panorama.
+    pub samples: SphereSamples,
+    /// Whether the field of view was given both ways, so that any shape of pixels is meant.
+    pub any_shape: bool,
+}
+
+/// Where a panorama's outermost samples lie, and who says so.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SphereSamples {
+    /// The projection has no such choice.
+    NotAPanorama,
+    /// As the file format has it.
+    ByFormat,
+    /// As the SPEC says.
+    Given(SamplePositions),
+}
+
+impl Single {
+    /// The same with samples where a file format has them, unless the SPEC says where.
+    pub fn with_samples(mut self, samples: SamplePositions) -> Self {
+        if let (Frame::Equirect(frame), SphereSamples::ByFormat) = (&mut self.placement.frame, self.samples) {
+            frame.samples = samples;
+        }
+        self
+    }
+}

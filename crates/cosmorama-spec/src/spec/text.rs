@@ -1,0 +1,259 @@
+use std::path::{Path, PathBuf};
+use std::str::FromStr;
+
+use cosmorama::world::LensSide;
+
+use super::alias::{refusal, without_alias};
+use super::fields::Fields;
+use super::kind::{KINDS, Kind};
+use super::shape::Shape;
+use super::stereo::StereoSpec;
+use crate::SpecError;
+
+/// A SPEC as it was typed, taken apart and found good.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Spec {
+    /// The projection's name.
+    pub name: &'static str,
+    /// What it means.
+    pub shape: Shape,
+    /// Whether it is there twice, once for each eye.
+    pub stereo: Option<StereoSpec>,
+    /// The files that it names.
+    pub files: Vec<PathBuf>,
+}
+
+impl FromStr for Spec {
+    type Err = SpecError;
+
+    fn from_str(text: &str) -> Result<Self, SpecError> {
+        Self::parse_in(Path::new(""), text)
+    }
+}
+
+impl Spec {
+    /// A SPEC that names files as seen from a folder.
+    pub fn parse_in(folder: &Path, text: &str) -> Result<Self, SpecError> {
+        let text = without_alias(text);
+        let (name, rest) = text.split_once(':').unwrap_or((&text, ""));
+        if let Some(way) = refusal(name) {
+            return Err(SpecError::NotOffered { name: name.to_owned(), way });
+        }
+        let kind = Kind::named(name).ok_or_else(|| SpecError::UnknownName {
+            name: name.to_owned(),
+            known: KINDS.iter().map(|kind| kind.name).collect(),
+        })?;
+        let pairs = pairs(rest)?;
+        for (index, (key, _)) in pairs.iter().enumerate() {
+            check_key(kind, key)?;
+            if pairs[..index].iter().any(|(earlier, _)| earlier == key) {
+                return Err(SpecError::Twice { key: key.clone() });
+            }
+        }
+        let fields = Fields::new(pairs, folder);
+        let (shape, stereo) = ((kind.build)(&fields)?, StereoSpec::build(&fields)?);
+        let mut files: Vec<PathBuf> = ["file", "calibration"].into_iter().filter_map(|key| fields.file(key)).collect();
+        if let Shape::StMap(map) = &shape {
+            files.extend(map.base_file().cloned());
+        }
+        Ok(Self { name: kind.name, shape, stereo, files })
+    }
+}
+
+/// Keys and values. A part without `=` goes on with the value before it: `faces=front,left`.
+fn pairs(text: &str) -> Result<Vec<(String, String)>, SpecError> {
+    let mut pairs: Vec<(String, String)> = Vec::new();
+    for part in text.split(',').filter(|_| !text.is_empty()) {
+        match (part.split_once('='), pairs.last_mut()) {
+            (Some((key, value)), _) => pairs.push((key.trim().to_owned(), value.trim().to_owned())),
+            (None, Some((_, value))) => *value = format!("{value},{}", part.trim()),
+            (None, None) => return Err(SpecError::NoValue { part: part.to_owned() }),
+        }
+    }
+    Ok(pairs)
+}
+
+fn check_key(kind: &'static Kind, typed: &str) -> Result<(), SpecError> {
+    // canvas.FACE stands for a key of each face; which faces there are, the value's reader knows. LENS.fov stands for one
+    // of each lens.
+    let of_lens = LensSide::ALL.iter().find_map(|side| typed.strip_prefix(side.name())?.strip_prefix('.'));
+    let generic = match of_lens {
+        Some(key) => format!("LENS.{key}"),
+        None if typed.starts_with("canvas.") => "canvas.FACE".to_owned(),
+        None => typed.to_owned(),
+    };
+    if kind.all_keys().any(|key| key.name == generic) && !typed.starts_with("LENS.") {
+        return Ok(());
+    }
+    if let Some(why) = kind.refusal(typed) {
+        return Err(SpecError::Refused { name: kind.name, key: typed.to_owned(), why });
+    }
+    let known = kind.all_keys().map(|key| key.name).collect();
+    Err(SpecError::UnknownKey { name: kind.name, key: typed.to_owned(), known })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{StMapBase, StMapSpec};
+
+    fn refused(text: &str) -> String {
+        text.parse::<Spec>().unwrap_err().to_string()
+    }
+
+    #[test]
+    fn wrong_keys_and_names_are_answered_from_the_table() {
+        let message = refused("fisheye:fvo=180");
+        assert!(
+            message.starts_with("unknown key 'fvo' for fisheye; did you mean 'fov'?; it takes fov, lens"),
+            "{message}"
+        );
+        assert!(refused("perspective:hfov=90").contains("did you mean 'fov'?"));
+        assert!(refused("omnimx").contains("did you mean 'omnimax'?"));
+        assert!(refused("globe").contains("there are cube, perspective, equirect, fisheye, stereographic"));
+        assert!(refused("cube:aspect=2").starts_with("cube takes no aspect=: what it shows is given both ways"));
+    }
+
+    #[test]
+    fn wrong_values_say_what_was_expected() {
+        assert!(refused("fisheye:fov=wide").contains("fov=wide: expected an angle in degrees"));
+        assert!(refused("fisheye:fov=10,fov=20").contains("fov= is given twice"));
+        assert!(refused("fisheye:180").contains("is no key=value"));
+        assert!(refused("fisheye:fit=tight").contains("short, long, width, height, diagonal"));
+        assert!(refused("fisheye:center=3").contains("X:Y"));
+        assert!(refused("fisheye:lens=ucm").contains("alpha, as in k=0.55"));
+        assert!(refused("fisheye:lens=ucm,k=2").contains("k=2: alpha is 2; it must be from 0 to 1"));
+        assert!(refused("fisheye:lens=ucm,k=0.5:1").contains("expected alpha"));
+        assert!(refused("fisheye:k=1").contains("only measured lenses"));
+        assert!(refused("fisheye:lens=polynomial,k=0:0.02").contains("k1 of the polynomial is 0.02"));
+        assert!(refused("fisheye:lens=stereographic,sensor=36").contains("lens=polynomial"));
+        assert!(refused("fisheye:focal=300,fit=width").contains("cannot both"));
+        assert!(refused("fisheye:fit=width,radius=99").contains("fit= and radius= cannot both"));
+        assert!(refused("omnimax:framing=fit,center=9:9").contains("framing= and center= cannot both"));
+        assert!(refused("omnimax:radius=9,framing=circle").contains("framing= and radius= cannot both"));
+        assert!(refused("mercator:lat=80,aspect=2").contains("aspect= and lat= cannot both"));
+        assert!(refused("mirror-ball:distance=1").contains("more than 1, or inf"));
+        assert!(refused("octahedral:kind=round").contains("equal-area, plain"));
+        assert!(refused("pannini:d=-1").contains("0 or more"));
+        assert!(refused("hammer:fov=90").contains("unknown key 'fov' for hammer"));
+        assert!(refused("perspective:fov=90,dfov=100").contains("cannot both"));
+        assert!(refused("cube:faces=front,top hat").contains("top hat"));
+        assert!(refused("st-map:invert=yes").contains("st-map needs file="));
+        assert!(refused("st-map:file=a.exr,base=perspective:fvo=60").contains("did you mean 'fov'"));
+        assert!(refused("st-map:file=a.exr,base=cube").contains("base=cube: expected the SPEC of one picture"));
+        assert!(refused("cube:canvas.nose=1x1+0+0").contains("nose"));
+        assert!(refused("omnimax:canvas=10x10").contains("WxH+X+Y"));
+        assert!(refused("equirect:canvas=10x10+9223372036854775807+0").contains("WxH+X+Y"));
+        for aspect in ["0", "-1", "nan", "0.0001", "9223372036854775807"] {
+            assert!(refused(&format!("stereographic:aspect={aspect}")).contains("from 0.001 to 1000"), "{aspect}");
+        }
+    }
+
+    #[test]
+    fn names_of_other_programs_are_understood_or_refused_by_name() {
+        let spec = |text: &str| text.parse::<Spec>().unwrap();
+        for (theirs, ours) in [
+            ("e", "equirect"),
+            ("hequirect:vfov=90", "equirect:hfov=180,vfov=90"),
+            ("flat:fov=70", "perspective:fov=70"),
+            ("sg", "stereographic"),
+            ("ball", "fisheye:lens=equisolid,fov=360"),
+            ("octahedron:yaw=3", "octahedral:kind=plain,yaw=3"),
+        ] {
+            assert_eq!(spec(theirs), spec(ours), "{theirs}");
+        }
+        let message = refused("tetrahedron");
+        assert!(message.contains("'tetrahedron' of other programs is not on offer") && message.contains("v360=input="));
+        let message = refused("biatan6:layout=3x2");
+        assert!(message.contains("envutil") && message.contains("cube:layout=eac") && !message.contains("ffmpeg"));
+        // What is typed comes in the place of what the name stands for.
+        assert_eq!(spec("little-planet:pitch=-60"), spec("stereographic:pitch=-60"));
+        assert_eq!(spec("dfisheye:fov=195"), spec("dual-fisheye:order=bf,fov=195"));
+        assert_eq!(spec("he:stereo=sbs"), spec("equirect:hfov=180,stereo=sbs"));
+    }
+
+    /// Every projection of `ffmpeg -h filter=v360`, in its order, with what it is here; `None` where it is refused by name.
+    const V360: [(&str, Option<&str>); 33] = [
+        ("e", Some("equirect")),
+        ("equirect", Some("equirect")),
+        ("c3x2", Some("cube:layout=3x2")),
+        ("c6x1", Some("cube:layout=strip-h")),
+        ("eac", Some("cube:layout=eac")),
+        ("dfisheye", Some("dual-fisheye:order=bf,fov=180")),
+        ("flat", Some("perspective")),
+        ("rectilinear", Some("perspective")),
+        ("gnomonic", Some("perspective")),
+        ("barrel", None),
+        ("fb", None),
+        ("c1x6", Some("cube:layout=strip-v")),
+        ("sg", Some("stereographic")),
+        ("mercator", Some("mercator")),
+        ("ball", Some("fisheye:lens=equisolid,fov=360")),
+        ("hammer", Some("hammer")),
+        ("sinusoidal", Some("sinusoidal")),
+        ("fisheye", Some("fisheye")),
+        ("pannini", Some("pannini")),
+        ("cylindrical", Some("cylinder")),
+        // Its globe from outside has a name that is a camera's here: the one name that means something else.
+        ("perspective", Some("perspective")),
+        ("tetrahedron", None),
+        ("barrelsplit", None),
+        ("tsp", None),
+        ("hequirect", Some("equirect:hfov=180")),
+        ("he", Some("equirect:hfov=180")),
+        ("equisolid", Some("fisheye:lens=equisolid")),
+        ("og", Some("fisheye:lens=orthographic")),
+        ("octahedron", Some("octahedral:kind=plain")),
+        ("cylindricalea", Some("equal-area")),
+        // Written so in its documentation.
+        ("stereographic", Some("stereographic")),
+        ("orthographic", Some("fisheye:lens=orthographic")),
+        ("equidistant", Some("fisheye")),
+    ];
+
+    #[test]
+    fn every_projection_of_v360_is_understood_or_refused_by_name() {
+        for (theirs, ours) in V360 {
+            match (theirs.parse::<Spec>(), ours) {
+                (Ok(found), Some(ours)) => assert_eq!(found.shape, ours.parse::<Spec>().unwrap().shape, "{theirs}"),
+                (Err(error), None) => {
+                    let message = error.to_string();
+                    assert!(message.contains(&format!("'{theirs}'")) && message.contains("output=e"), "{message}");
+                }
+                (found, _) => panic!("{theirs} is {found:?}"),
+            }
+        }
+    }
+
+    #[test]
+    fn what_belongs_to_a_lens_or_an_eye() {
+        assert!("dual-fisheye:front.yaw=1,back.center=3:4,back.fov=190".parse::<Spec>().is_ok());
+        assert!(refused("dual-fisheye:LENS.fov=3").contains("did you mean 'front.fov' or 'back.fov'?"));
+        assert!(refused("dual-fisheye:left.yaw=3").contains("'front.yaw' or 'back.yaw'"));
+        assert!(refused("dual-fisheye:front.center=3").contains("front.center=3: expected X:Y"));
+        assert!(refused("fisheye:front.fov=3").contains("unknown key 'front.fov' for fisheye"));
+        assert!(refused("fisheye:eye=left").contains("stereo= beside it"));
+    }
+
+    #[test]
+    fn a_spec_within_a_spec_has_colons_for_commas() {
+        let base = |text: &str| match text.parse::<Spec>().unwrap().shape {
+            Shape::StMap(StMapSpec { base: Some(StMapBase::Single(single)), .. }) => Shape::Single(single),
+            other => panic!("{other:?} is no st map"),
+        };
+        let same = |text: &str| text.parse::<Spec>().unwrap().shape;
+        assert_eq!(base("st-map:file=a.exr,base=hammer"), same("hammer"));
+        let typed = "st-map:file=a.exr,base=omnimax:center=983:921.5:radius=900,invert=yes";
+        assert_eq!(base(typed), same("omnimax:center=983:921.5,radius=900"));
+    }
+
+    #[test]
+    fn values_may_hold_colons_and_commas() {
+        assert!("omnimax:center=983:921.5,radius=900".parse::<Spec>().is_ok());
+        let Shape::Cube(cube) = "cube:faces=front,left,naming=bourke".parse::<Spec>().unwrap().shape else {
+            panic!("a cube is a cube");
+        };
+        assert_eq!(cube.faces.len(), 2);
+        assert_eq!(cube.naming.map(|naming| naming.name), Some("bourke"));
+    }
+}
