@@ -18,13 +18,14 @@ mod pto;
 mod sequence;
 
 pub use calibration::{Calibration, CalibrationError, Distortion};
-pub use codec::{Compression, WriteOptions, svg};
+pub use codec::{Compression, ReadSeek, WriteOptions, svg};
 pub use error::IoError;
 pub use face_set::{FaceFile, FacePattern, FacePlacement, FaceSet, LetterCase, Naming};
 pub use file::{
-    Header, ImageFile, StPairs, probe, probe_pairs, read, read_pairs, write, write_hidden, write_levels, write_planes,
+    StPairs, probe, probe_from, probe_pairs, probe_pairs_from, read, read_from, read_pairs, read_pairs_from, write,
+    write_hidden, write_levels, write_planes, write_to,
 };
-pub use header::Format;
+pub use header::{Format, Header, ImageFile};
 pub use limits::Limits;
 pub use metadata::{EnvMap, Metadata, Window};
 pub use pto::{PtoError, PtoImage, PtoPanorama, PtoProject};

@@ -201,12 +201,13 @@ fn check_file_options(args: &ConvertArgs, format: Format) -> Result<()> {
 
 /// How outputs are written. Frames come by the thousand, and are read again: as PNG they are written for speed, unless
 /// something else is asked for.
-pub(crate) fn write_options(args: &ConvertArgs, format: Format, outputs: &Outputs) -> WriteOptions {
+pub(crate) fn write_options(args: &ConvertArgs, format: Format, outputs: &Outputs, light: &Light) -> WriteOptions {
     let default = WriteOptions::default();
     let usual = if format == Format::Png && outputs.is_sequence() { Compression::Fast } else { default.compression };
     WriteOptions {
         quality: args.quality.unwrap_or(default.quality),
         compression: args.compression.map_or(usual, compression),
+        metadata: light.metadata.clone(),
     }
 }
 

@@ -5,7 +5,7 @@ use std::time::Instant;
 use anyhow::Result;
 use cosmorama::raster::Image;
 use cosmorama_builtin::{BuiltinWorld, DirectionMap, DirectionPixel};
-use cosmorama_io::write_planes;
+use cosmorama_io::{WriteOptions, write_planes};
 
 use super::engine::assemble;
 use super::progress::Progress;
@@ -20,7 +20,7 @@ pub(super) fn convert(builtin: Builtin, args: &ConvertArgs) -> Result<Report> {
     let start = Instant::now();
     let stages = Stages::default();
     let job = stages.alone(Stage::Plan, || BuiltinJob::resolve(builtin, args))?;
-    let writer = Writer::new(&job.light, write_options(args, job.target.format, &job.outputs));
+    let writer = Writer::new(&job.light, write_options(args, job.target.format, &job.outputs, &job.light));
     let mut progress = Progress::new(args.progress, job.outputs.frames.len());
     for FrameOutputs { frame, files } in &job.outputs.frames {
         for (index, path) in files {
@@ -65,6 +65,7 @@ fn directions(job: &BuiltinJob, map: DirectionMap, file: usize) -> Result<Image<
 fn save_map(light: &Light, map: DirectionMap, pixels: &Image<DirectionPixel>, path: &Path) -> Result<()> {
     let plane = |number: usize| pixels.pixels().iter().map(|pixel| pixel[number]).collect();
     let planes = map.channels().iter().enumerate().map(|(number, name)| (*name, plane(number))).collect();
-    write_planes(path, (pixels.width(), pixels.height()), planes, light.depth, &light.metadata)?;
+    let options = WriteOptions::with_metadata(light.metadata.clone());
+    write_planes(path, (pixels.width(), pixels.height()), planes, light.depth, &options)?;
     Ok(())
 }

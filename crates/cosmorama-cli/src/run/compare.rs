@@ -43,7 +43,7 @@ pub(super) fn run(args: &CompareArgs) -> Result<ExitCode> {
         let transfer = if depth.is_float() { Transfer::Linear } else { Transfer::Srgb };
         let encoded = EncodedImage::encode(&difference, channels, depth, &transfer);
         let metadata = Metadata { transfer: Some(transfer), ..Metadata::default() };
-        write(path, &encoded, &metadata, &WriteOptions::default())?;
+        write(path, &encoded, &WriteOptions::with_metadata(metadata))?;
     }
     let failures = failures(args, &comparison);
     let text = if args.json { json_text(args, &comparison, &failures)? } else { plain_text(&comparison) };

@@ -44,7 +44,8 @@ pub(super) fn convert(args: &ConvertArgs) -> Result<Report> {
     let start = Instant::now();
     let stages = Stages::default();
     let job = stages.alone(Stage::Plan, || ConvertJob::resolve(args))?;
-    let engine = stages.alone(Stage::Plan, || Engine::new(&job, write_options(args, job.target.format, &job.outputs)));
+    let engine = stages
+        .alone(Stage::Plan, || Engine::new(&job, write_options(args, job.target.format, &job.outputs, &job.light)));
     engine.told().iter().for_each(|warning| warn(warning));
     let warnings = [&job.warnings[..], engine.told()].concat();
     let mut run = Run { job: &job, engine: &engine, stages: &stages, warnings, is_first: true };

@@ -101,7 +101,7 @@ fn render_face(partial: &PartialFace, folder: &Path) -> Result<()> {
     let encoded = EncodedImage::encode(&light, Channels::Rgb, Depth::Eight, &Transfer::Srgb);
     let metadata = Metadata { transfer: Some(Transfer::Srgb), ..Metadata::default() };
     let path = face_file(folder, *face);
-    write(&path, &encoded, &metadata, &WriteOptions::default())?;
+    write(&path, &encoded, &WriteOptions::with_metadata(metadata))?;
     tell(&path, &format!("the {face} face, {window} of {FACE}x{FACE}, rendered"), start)
 }
 

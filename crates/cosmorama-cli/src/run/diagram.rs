@@ -22,5 +22,5 @@ pub(super) fn draw(folder: &Path, name: &str, drawing: &str) -> Result<[Hidden; 
     written.with_context(|| format!("cannot write {}", vector.display()))?;
     let metadata = Metadata { transfer: Some(Transfer::Srgb), ..Metadata::default() };
     let image = svg::rasterise(drawing, SCALE, Some(folder)).context("cannot draw a diagram")?;
-    Ok([pending.close()?, write_hidden(&raster, &image, &metadata, &WriteOptions::default())?])
+    Ok([pending.close()?, write_hidden(&raster, &image, &WriteOptions::with_metadata(metadata))?])
 }

@@ -21,7 +21,7 @@ pub(super) struct Engine<'a> {
     /// What should be known of it.
     told: Vec<String>,
     masks: Vec<OnceLock<ScreenMask>>,
-    writer: Writer<'a>,
+    writer: Writer,
 }
 
 impl<'a> Engine<'a> {
@@ -49,7 +49,7 @@ impl<'a> Engine<'a> {
     }
 
     /// What writes the pictures.
-    pub(super) fn writer(&self) -> &Writer<'a> {
+    pub(super) fn writer(&self) -> &Writer {
         &self.writer
     }
 

@@ -6,7 +6,7 @@ use anyhow::Result;
 use cosmorama::raster::{Depth, Image, Rgba};
 use cosmorama::resample::Filter;
 use cosmorama::world::{ST_NOWHERE, StPixel};
-use cosmorama_io::{Format, write_planes};
+use cosmorama_io::{Format, WriteOptions, write_planes};
 use cosmorama_spec::Missing;
 
 use super::engine::assemble;
@@ -78,6 +78,6 @@ fn check(args: &ConvertArgs, job: &ConvertJob) -> Result<()> {
 fn save(image: &Image<StPixel>, path: &Path, depth: Depth) -> Result<()> {
     let plane = |number: usize| image.pixels().iter().map(|pixel| pixel[number]).collect();
     let planes = CHANNELS.iter().enumerate().map(|(number, name)| (*name, plane(number))).collect();
-    write_planes(path, (image.width(), image.height()), planes, depth, &cosmorama_io::Metadata::default())?;
+    write_planes(path, (image.width(), image.height()), planes, depth, &WriteOptions::default())?;
     Ok(())
 }

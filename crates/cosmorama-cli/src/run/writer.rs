@@ -27,15 +27,14 @@ impl Levels {
 }
 
 /// Writes pictures, all of one kind.
-pub(super) struct Writer<'a> {
-    light: &'a Light,
+pub(super) struct Writer {
     encoder: Encoder,
     options: WriteOptions,
 }
 
-impl<'a> Writer<'a> {
-    pub(super) fn new(light: &'a Light, options: WriteOptions) -> Self {
-        Self { light, encoder: Encoder::new(light.channels, light.depth, &light.transfer), options }
+impl Writer {
+    pub(super) fn new(light: &Light, options: WriteOptions) -> Self {
+        Self { encoder: Encoder::new(light.channels, light.depth, &light.transfer), options }
     }
 
     /// Writes an output, a picture and its smaller copies.
@@ -69,7 +68,7 @@ impl<'a> Writer<'a> {
     }
 
     fn write(&self, encoded: &[EncodedImage], path: &Path) -> Result<()> {
-        write_levels(path, encoded, &self.light.metadata, &self.options)?;
+        write_levels(path, encoded, &self.options)?;
         Ok(())
     }
 }

@@ -94,7 +94,7 @@ impl Bench {
     pub(crate) fn save_as(&self, name: &str, image: &EncodedImage, transfer: Option<Transfer>) {
         let path = self.path(name);
         std::fs::create_dir_all(path.parent().unwrap()).unwrap();
-        write(&path, image, &Metadata { transfer, ..Metadata::default() }, &WriteOptions::default()).unwrap();
+        write(&path, image, &WriteOptions::with_metadata(Metadata { transfer, ..Metadata::default() })).unwrap();
     }
 
     pub(crate) fn load(&self, name: &str) -> EncodedImage {

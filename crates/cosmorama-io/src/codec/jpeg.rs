@@ -1,4 +1,3 @@
-use std::io::{Read, Write};
 use std::path::Path;
 
 use cosmorama::raster::{Channels, Depth, EncodedImage, Samples};
@@ -9,60 +8,69 @@ use zune_jpeg::zune_core::bytestream::{ZByteReaderTrait, ZCursor};
 use zune_jpeg::zune_core::colorspace::ColorSpace;
 use zune_jpeg::zune_core::options::DecoderOptions;
 
-use super::whole_image;
-use crate::file::Source;
+use crate::codec::interface::{Codec, Sink, Source, whole_image};
 use crate::metadata::{gpano, icc};
-use crate::{Format, Header, ImageFile, IoError, Limits, Metadata};
+use crate::{Format, Header, ImageFile, IoError, Limits, Metadata, WriteOptions};
 
 const FORMAT: Format = Format::Jpeg;
 
-pub(crate) fn probe(path: &Path, source: &mut Source) -> Result<Header, IoError> {
-    let mut decoder = decoder(path, source)?;
-    header(path, &mut decoder)
-}
+/// Codec of JPEG, baseline or progressive.
+pub(crate) struct Jpeg;
 
-pub(crate) fn read(path: &Path, source: &mut Source, limits: &Limits) -> Result<ImageFile, IoError> {
-    let bytes = whole(path, source)?;
-    let mut decoder = decoder(path, ZCursor::new(&bytes))?;
-    let header = header(path, &mut decoder)?;
-    if !ends(&bytes) {
-        return Err(IoError::damaged(path, FORMAT, "it ends too early"));
+impl Codec for Jpeg {
+    fn recognises(&self, start: &[u8]) -> bool {
+        start.starts_with(&[0xff, 0xd8, 0xff])
     }
-    limits.check(path, (header.width as u64, header.height as u64), header.channels, header.depth)?;
-    let output = if header.channels == Channels::Grey { ColorSpace::Luma } else { ColorSpace::RGB };
-    decoder.set_options(options().jpeg_set_out_colorspace(output));
-    let mut samples = vec![0; header.width * header.height * header.channels.count()];
-    decoder.decode_into(&mut samples).map_err(|error| IoError::damaged(path, FORMAT, reason(&error)))?;
-    whole_image(path, header, Samples::U8(samples))
-}
 
-pub(crate) fn write(
-    path: &Path,
-    mut output: impl Write,
-    image: &EncodedImage,
-    metadata: &Metadata,
-    quality: u8,
-) -> Result<(), IoError> {
-    let fail = |reason: &dyn std::fmt::Display| IoError::write(path, reason);
-    let colour = match image.channels() {
-        Channels::Grey => ExtendedColorType::L8,
-        Channels::Rgb => ExtendedColorType::Rgb8,
-        Channels::GreyAlpha | Channels::Rgba => return Err(fail(&"JPEG has no alpha")),
-    };
-    let Samples::U8(samples) = image.samples() else { return Err(fail(&"JPEG has 8 bits")) };
-    let (Ok(width), Ok(height)) = (u16::try_from(image.width()), u16::try_from(image.height())) else {
-        return Err(fail(&"more than 65535 pixels on a side, the most that JPEG can count"));
-    };
-    let mut bytes = Vec::new();
-    let mut encoder = JpegEncoder::new_with_quality(&mut bytes, quality.clamp(1, 100));
-    if let Some(profile) = &metadata.icc {
-        encoder.set_icc_profile(profile.clone()).map_err(|error| fail(&error))?;
+    fn probe(&self, path: &Path, source: Source<'_>) -> Result<Header, IoError> {
+        let mut decoder = decoder(path, source)?;
+        header(path, &mut decoder)
     }
-    encoder.write_image(samples, width.into(), height.into(), colour).map_err(|error| fail(&error))?;
-    let size = (image.width(), image.height());
-    let packet = metadata.panorama.map_or_else(Vec::new, |window| xmp_segment(&gpano::packet(window, size)));
-    let (start, rest) = bytes.split_at(end_of_jfif(&bytes));
-    [start, &packet, rest].iter().try_for_each(|part| output.write_all(part)).map_err(|error| fail(&error))
+
+    fn decode(&self, path: &Path, source: Source<'_>, limits: &Limits) -> Result<ImageFile, IoError> {
+        let bytes = whole(path, source)?;
+        let mut decoder = decoder(path, ZCursor::new(&bytes))?;
+        let header = header(path, &mut decoder)?;
+        if !ends(&bytes) {
+            return Err(IoError::damaged(path, FORMAT, "it ends too early"));
+        }
+        limits.check(path, (header.width as u64, header.height as u64), header.channels, header.depth)?;
+        let output = if header.channels == Channels::Grey { ColorSpace::Luma } else { ColorSpace::RGB };
+        decoder.set_options(options().jpeg_set_out_colorspace(output));
+        let mut samples = vec![0; header.width * header.height * header.channels.count()];
+        decoder.decode_into(&mut samples).map_err(|error| IoError::damaged(path, FORMAT, reason(&error)))?;
+        whole_image(path, header, Samples::U8(samples))
+    }
+
+    fn encode(
+        &self,
+        path: &Path,
+        output: Sink<'_>,
+        image: &EncodedImage,
+        options: &WriteOptions,
+    ) -> Result<(), IoError> {
+        let fail = |reason: &dyn std::fmt::Display| IoError::write(path, reason);
+        let colour = match image.channels() {
+            Channels::Grey => ExtendedColorType::L8,
+            Channels::Rgb => ExtendedColorType::Rgb8,
+            Channels::GreyAlpha | Channels::Rgba => return Err(fail(&"JPEG has no alpha")),
+        };
+        let Samples::U8(samples) = image.samples() else { return Err(fail(&"JPEG has 8 bits")) };
+        let (Ok(width), Ok(height)) = (u16::try_from(image.width()), u16::try_from(image.height())) else {
+            return Err(fail(&"more than 65535 pixels on a side, the most that JPEG can count"));
+        };
+        let mut bytes = Vec::new();
+        let mut encoder = JpegEncoder::new_with_quality(&mut bytes, options.quality.clamp(1, 100));
+        if let Some(profile) = &options.metadata.icc {
+            encoder.set_icc_profile(profile.clone()).map_err(|error| fail(&error))?;
+        }
+        encoder.write_image(samples, width.into(), height.into(), colour).map_err(|error| fail(&error))?;
+        let size = (image.width(), image.height());
+        let packet =
+            options.metadata.panorama.map_or_else(Vec::new, |window| xmp_segment(&gpano::packet(window, size)));
+        let (start, rest) = bytes.split_at(end_of_jfif(&bytes));
+        [start, &packet, rest].iter().try_for_each(|part| output.write_all(part)).map_err(|error| fail(&error))
+    }
 }
 
 /// A segment with an XMP packet, for which the encoder has no words.
@@ -81,7 +89,7 @@ fn end_of_jfif(bytes: &[u8]) -> usize {
     }
 }
 
-fn whole(path: &Path, source: &mut Source) -> Result<Vec<u8>, IoError> {
+fn whole(path: &Path, source: Source<'_>) -> Result<Vec<u8>, IoError> {
     let mut bytes = Vec::new();
     source.read_to_end(&mut bytes).map_err(|error| IoError::open(path, error))?;
     Ok(bytes)

@@ -1,32 +1,72 @@
-//! One file for each format: `probe` reads a header, `read` reads pixels, `write` writes them.
+//! Codecs: a file or a folder for each format, and the table that finds the codec of a format.
+//!
+//! To add a format: a variant of [`Format`] with its properties, a type that implements [`Codec`], and its line in [`codec`].
 
-use std::path::Path;
-
-use cosmorama::raster::{EncodedImage, Samples};
-
-use crate::{Header, ImageFile, IoError};
-
-pub(crate) mod exr;
-pub(crate) mod jpeg;
-pub(crate) mod png;
-pub(crate) mod radiance;
+mod exr;
+mod interface;
+mod jpeg;
+mod png;
+mod radiance;
 pub mod svg;
-pub(crate) mod texture;
-pub(crate) mod tga;
-pub(crate) mod tiff;
+mod texture;
+mod tga;
+mod tiff;
 mod write_options;
 
+use std::io::Read;
+use std::path::Path;
+
+pub(crate) use exr::write_planes;
+pub use interface::ReadSeek;
+pub(crate) use interface::{Codec, Source};
 pub use write_options::{Compression, WriteOptions};
 
-/// Whether this thread is one of a pool: the others have files of their own then, and one does all of this file.
-fn is_beside_others() -> bool {
-    rayon::current_thread_index().is_some()
+use crate::IoError;
+use crate::header::Format;
+
+/// Returns the codec of a format.
+pub(crate) fn codec(format: Format) -> &'static dyn Codec {
+    match format {
+        Format::Png => &png::Png,
+        Format::Jpeg => &jpeg::Jpeg,
+        Format::Tiff => &tiff::Tiff,
+        Format::Tga => &tga::Tga,
+        Format::Hdr => &radiance::Hdr,
+        Format::Exr => &exr::Exr,
+        Format::Ktx2 => &texture::Ktx2,
+        Format::Ktx => &texture::Ktx,
+        Format::Dds => &texture::Dds,
+    }
 }
 
-/// The file that a header announced, with its samples.
-fn whole_image(path: &Path, header: Header, samples: Samples) -> Result<ImageFile, IoError> {
-    let Header { format, width, height, channels, depth, metadata, window } = header;
-    let image = EncodedImage::new(width, height, channels, depth, samples)
-        .map_err(|error| IoError::damaged(path, format, error))?;
-    Ok(ImageFile { format, image, metadata, window })
+/// Bytes at the start of a file that say its format.
+const START: u64 = 16;
+
+/// Finds the format of a file by its first bytes, which stay to be read again.
+pub(crate) fn recognise(path: &Path, source: Source<'_>) -> Result<Format, IoError> {
+    let mut start = Vec::with_capacity(START as usize);
+    let mut begin = || {
+        source.rewind()?;
+        (&mut *source).take(START).read_to_end(&mut start)?;
+        source.rewind()
+    };
+    begin().map_err(|error| IoError::open(path, error))?;
+    if start.is_empty() {
+        return Err(IoError::Empty { path: path.to_owned() });
+    }
+    let by_mark = Format::ALL.into_iter().find(|format| codec(*format).recognises(&start));
+    // TGA files have no mark: for them the name must do.
+    let by_name = || Format::from_extension(path).ok().filter(|format| *format == Format::Tga);
+    by_mark.or_else(by_name).ok_or_else(|| IoError::UnknownContent { path: path.to_owned() })
+}
+
+impl Format {
+    /// Returns the format that a file name's extension asks for.
+    ///
+    /// # Errors
+    /// When the extension is unknown or missing.
+    pub fn from_extension(path: &Path) -> Result<Self, IoError> {
+        let extension = path.extension().and_then(|extension| extension.to_str()).unwrap_or_default();
+        Self::of_extension(extension).ok_or_else(|| IoError::UnknownExtension { path: path.to_owned() })
+    }
 }

@@ -112,7 +112,7 @@ mod tests {
         let pixel =
             EncodedImage::new(1, 1, Channels::Rgb, Depth::Eight, Samples::U8(vec![0, 255, 0])).expect("a pixel");
         let path = folder.path().join("inner/green.png");
-        crate::write(&path, &pixel, &crate::Metadata::default(), &crate::WriteOptions::default()).expect("a file");
+        crate::write(&path, &pixel, &crate::WriteOptions::default()).expect("a file");
         let green = |href: &str, folder: &Path| {
             let image = rasterise(&with(href), 1.0, Some(folder)).expect("a picture");
             let Samples::U8(samples) = image.samples() else { panic!("8-bit samples") };

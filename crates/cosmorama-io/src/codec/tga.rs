@@ -1,56 +1,65 @@
-use std::io::{Read, Seek, SeekFrom, Write};
+use std::io::SeekFrom;
 use std::path::Path;
 
 use cosmorama::raster::{Channels, Depth, EncodedImage, Samples};
 use image::codecs::tga::{TgaDecoder, TgaEncoder};
 use image::{ColorType, ExtendedColorType, ImageDecoder};
 
-use super::whole_image;
-use crate::file::Source;
-use crate::{Format, Header, ImageFile, IoError, Limits, Metadata};
+use crate::codec::interface::{Codec, Sink, Source, whole_image};
+use crate::{Format, Header, ImageFile, IoError, Limits, Metadata, WriteOptions};
 
 const FORMAT: Format = Format::Tga;
 
-pub(crate) fn probe(path: &Path, source: &mut Source) -> Result<Header, IoError> {
-    header(path, &decoder(path, source)?)
-}
+/// Codec of Truevision Targa.
+pub(crate) struct Tga;
 
-pub(crate) fn read(path: &Path, source: &mut Source, limits: &Limits) -> Result<ImageFile, IoError> {
-    let alpha_declared = alpha_bits(path, source)? > 0;
-    let decoder = decoder(path, source)?;
-    let mut header = header(path, &decoder)?;
-    limits.check(path, (header.width as u64, header.height as u64), header.channels, header.depth)?;
-    let mut samples = vec![0; header.width * header.height * header.channels.count()];
-    decoder.read_image(&mut samples).map_err(|error| IoError::damaged(path, FORMAT, error))?;
-    // 32 bits a pixel, of which none are said to be alpha, are alpha to some writers and padding to others.
-    if !alpha_declared && header.channels == Channels::Rgba && samples.iter().skip(3).step_by(4).all(|a| *a == 0) {
-        samples = samples.chunks_exact(4).flat_map(|pixel| [pixel[0], pixel[1], pixel[2]]).collect();
-        header.channels = Channels::Rgb;
+impl Codec for Tga {
+    fn recognises(&self, _: &[u8]) -> bool {
+        // The format has no mark of its own.
+        false
     }
-    whole_image(path, header, Samples::U8(samples))
+
+    fn probe(&self, path: &Path, source: Source<'_>) -> Result<Header, IoError> {
+        header(path, &decoder(path, source)?)
+    }
+
+    fn decode(&self, path: &Path, source: Source<'_>, limits: &Limits) -> Result<ImageFile, IoError> {
+        let alpha_declared = alpha_bits(path, source)? > 0;
+        let decoder = decoder(path, source)?;
+        let mut header = header(path, &decoder)?;
+        limits.check(path, (header.width as u64, header.height as u64), header.channels, header.depth)?;
+        let mut samples = vec![0; header.width * header.height * header.channels.count()];
+        decoder.read_image(&mut samples).map_err(|error| IoError::damaged(path, FORMAT, error))?;
+        // 32 bits a pixel, of which none are said to be alpha, are alpha to some writers and padding to others.
+        if !alpha_declared && header.channels == Channels::Rgba && samples.iter().skip(3).step_by(4).all(|a| *a == 0) {
+            samples = samples.chunks_exact(4).flat_map(|pixel| [pixel[0], pixel[1], pixel[2]]).collect();
+            header.channels = Channels::Rgb;
+        }
+        whole_image(path, header, Samples::U8(samples))
+    }
+
+    fn encode(&self, path: &Path, output: Sink<'_>, image: &EncodedImage, _: &WriteOptions) -> Result<(), IoError> {
+        let fail = |reason: &dyn std::fmt::Display| IoError::write(path, reason);
+        let colour = match image.channels() {
+            Channels::Grey => ExtendedColorType::L8,
+            Channels::GreyAlpha => ExtendedColorType::La8,
+            Channels::Rgb => ExtendedColorType::Rgb8,
+            Channels::Rgba => ExtendedColorType::Rgba8,
+        };
+        let Samples::U8(samples) = image.samples() else { return Err(fail(&"TGA has 8 bits")) };
+        let (Ok(width), Ok(height)) = (u16::try_from(image.width()), u16::try_from(image.height())) else {
+            return Err(fail(&"more than 65535 pixels on a side, the most that TGA can count"));
+        };
+        TgaEncoder::new(output).encode(samples, width.into(), height.into(), colour).map_err(|error| fail(&error))
+    }
 }
 
-pub(crate) fn write(path: &Path, output: impl Write, image: &EncodedImage) -> Result<(), IoError> {
-    let fail = |reason: &dyn std::fmt::Display| IoError::write(path, reason);
-    let colour = match image.channels() {
-        Channels::Grey => ExtendedColorType::L8,
-        Channels::GreyAlpha => ExtendedColorType::La8,
-        Channels::Rgb => ExtendedColorType::Rgb8,
-        Channels::Rgba => ExtendedColorType::Rgba8,
-    };
-    let Samples::U8(samples) = image.samples() else { return Err(fail(&"TGA has 8 bits")) };
-    let (Ok(width), Ok(height)) = (u16::try_from(image.width()), u16::try_from(image.height())) else {
-        return Err(fail(&"more than 65535 pixels on a side, the most that TGA can count"));
-    };
-    TgaEncoder::new(output).encode(samples, width.into(), height.into(), colour).map_err(|error| fail(&error))
-}
-
-fn decoder<'a>(path: &Path, source: &'a mut Source) -> Result<TgaDecoder<&'a mut Source>, IoError> {
+fn decoder<'a>(path: &Path, source: Source<'a>) -> Result<TgaDecoder<Source<'a>>, IoError> {
     TgaDecoder::new(source).map_err(|error| IoError::damaged(path, FORMAT, error))
 }
 
 /// The number of alpha bits that the header declares.
-fn alpha_bits(path: &Path, source: &mut Source) -> Result<u8, IoError> {
+fn alpha_bits(path: &Path, source: Source<'_>) -> Result<u8, IoError> {
     let mut start = [0; 18];
     source.read_exact(&mut start).map_err(|_| IoError::damaged(path, FORMAT, "it ends too early"))?;
     source.seek(SeekFrom::Start(0)).map_err(|error| IoError::open(path, error))?;

@@ -1,19 +1,30 @@
-/// How to write a file.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+use crate::metadata::Metadata;
+
+/// How to write a file, and what to say in it beside the pixels.
+#[derive(Clone, Debug)]
 pub struct WriteOptions {
     /// JPEG quality, 1 to 100.
     pub quality: u8,
-    /// How hard PNG, TIFF and OpenEXR files are pressed, always without loss.
+    /// How hard PNG, TIFF and OpenEXR files are compressed, always without loss.
     pub compression: Compression,
+    /// What the file is to say about its pixels, as far as its format can.
+    pub metadata: Metadata,
+}
+
+impl WriteOptions {
+    /// Builds the default options for a file that says this about its pixels.
+    pub fn with_metadata(metadata: Metadata) -> Self {
+        Self { metadata, ..Self::default() }
+    }
 }
 
 impl Default for WriteOptions {
     fn default() -> Self {
-        Self { quality: 95, compression: Compression::default() }
+        Self { quality: 95, compression: Compression::default(), metadata: Metadata::default() }
     }
 }
 
-/// What time is spent on small files. Nothing is lost by any of them.
+/// Trade of time against size in lossless compression.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Compression {
     /// None: as large as the samples.

@@ -1,12 +1,14 @@
+use std::io::{BufRead, Seek};
 use std::path::Path;
 
 use cosmorama::raster::{Channels, Depth, Samples};
 
-use super::open;
-use crate::codec::exr;
-use crate::{Format, Header, ImageFile, IoError, Limits, probe, read};
+use super::read::open;
+use crate::codec::{codec, recognise};
+use crate::header::{Format, Header, ImageFile};
+use crate::{IoError, Limits};
 
-/// The numbers of an st map as its file has them: two a pixel, s to the right and t up.
+/// Numbers of an st map as its file has them: two a pixel, s to the right and t up.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StPairs {
     /// Columns.
@@ -18,29 +20,54 @@ pub struct StPairs {
 }
 
 impl StPairs {
-    /// That of a pixel.
+    /// Returns the pair of the pixel in column `i` and row `j`.
     pub fn get(&self, i: usize, j: usize) -> [f32; 2] {
         self.pairs[j * self.width + i]
     }
 }
 
-/// What a file says of its st map before its numbers: as [`probe`], but of the channels that [`read_pairs`] reads.
+/// Reads what a file says of its st map before its numbers: as [`probe`](crate::probe), but of the channels that
+/// [`read_pairs`] reads.
 ///
 /// # Errors
-/// When an OpenEXR file has no two such channels, and those of [`probe`].
-pub fn probe_pairs(path: &Path) -> Result<Header, IoError> {
-    let (format, mut source) = open(path)?;
-    if format == Format::Exr { exr::probe_pairs(path, &mut source) } else { probe(path) }
+/// When an OpenEXR file has no two such channels, and where [`probe`](crate::probe) fails.
+pub fn probe_pairs(path: impl AsRef<Path>) -> Result<Header, IoError> {
+    let path = path.as_ref();
+    probe_pairs_from(open(path)?, path)
+}
+
+/// Reads what an st map in memory, or from any other reader, says of itself. `name` is what messages call it.
+///
+/// # Errors
+/// When reading fails, and where [`probe_pairs`] fails.
+pub fn probe_pairs_from(mut source: impl BufRead + Seek, name: impl AsRef<Path>) -> Result<Header, IoError> {
+    let name = name.as_ref();
+    let format = recognise(name, &mut source)?;
+    codec(format).probe_pairs(name, &mut source)
 }
 
 /// Reads the first two channels of a picture as they are: of OpenEXR files R and G, or what else such maps are called (u and
 /// v, s and t, x and y, also in a layer); integers as parts of their greatest value.
 ///
 /// # Errors
-/// When there are not two channels or no more than 8 bits, and those of [`read`].
-pub fn read_pairs(path: &Path, limits: &Limits) -> Result<StPairs, IoError> {
-    let (format, mut source) = open(path)?;
-    let file = if format == Format::Exr { exr::read_pairs(path, &mut source, limits)? } else { read(path, limits)? };
+/// When there are not two channels or no more than 8 bits, and where [`read`](crate::read) fails.
+pub fn read_pairs(path: impl AsRef<Path>, limits: &Limits) -> Result<StPairs, IoError> {
+    let path = path.as_ref();
+    read_pairs_from(open(path)?, path, limits)
+}
+
+/// Reads an st map in memory, or from any other reader, as [`read_pairs`] does. `name` is what messages call it.
+///
+/// # Errors
+/// When reading fails, and where [`read_pairs`] fails.
+pub fn read_pairs_from(
+    mut source: impl BufRead + Seek,
+    name: impl AsRef<Path>,
+    limits: &Limits,
+) -> Result<StPairs, IoError> {
+    let path = name.as_ref();
+    let format = recognise(path, &mut source)?;
+    let file = codec(format).decode_pairs(path, &mut source, limits)?;
     let count = file.image.channels().count();
     // Grey, with or without alpha; the two channels of an OpenEXR file are counted alike.
     if !file.image.channels().is_colour() && format != Format::Exr {

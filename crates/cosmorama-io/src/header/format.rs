@@ -1,8 +1,6 @@
-use std::path::Path;
+use std::fmt;
 
 use cosmorama::raster::{Channels, Depth};
-
-use crate::IoError;
 
 /// A file format.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -19,106 +17,160 @@ pub enum Format {
     Hdr,
     /// OpenEXR.
     Exr,
-    /// The faces of a cube in a KTX 2 texture.
+    /// Faces of a cube in a KTX 2 texture.
     Ktx2,
-    /// The same in the first version, which is only read.
+    /// Faces of a cube in a KTX texture of version 1, which is only read.
     Ktx,
-    /// The same in a DirectDraw surface.
+    /// Faces of a cube in a DirectDraw surface.
     Dds,
 }
 
+/// What the files of a format can hold.
+struct Properties {
+    /// As messages call it.
+    name: &'static str,
+    /// Extensions of files that are written, in lower case.
+    extensions: &'static [&'static str],
+    depths: &'static [Depth],
+    channels: &'static [Channels],
+    longest_side: Option<usize>,
+    names_transfer: bool,
+    is_cube_map: bool,
+    holds_levels: bool,
+    has_compression: bool,
+    holds_icc: bool,
+}
+
+impl Properties {
+    /// Common properties of the formats: 8 bits, any channels, nothing beside the pixels.
+    const PLAIN: Self = Self {
+        name: "",
+        extensions: &[],
+        depths: &[Depth::Eight],
+        channels: &Channels::ALL,
+        longest_side: None,
+        names_transfer: false,
+        is_cube_map: false,
+        holds_levels: false,
+        has_compression: false,
+        holds_icc: false,
+    };
+
+    /// Common properties of textures of cubes: the depths and channels that every graphics card takes.
+    const TEXTURE: Self = Self {
+        depths: &[Depth::Eight, Depth::Half],
+        channels: &[Channels::Rgba],
+        is_cube_map: true,
+        holds_levels: true,
+        ..Self::PLAIN
+    };
+
+    const PNG: Self = Self {
+        name: "PNG",
+        extensions: &["png"],
+        depths: &[Depth::Eight, Depth::Ten, Depth::Twelve, Depth::Sixteen],
+        names_transfer: true,
+        has_compression: true,
+        holds_icc: true,
+        ..Self::PLAIN
+    };
+
+    const JPEG: Self = Self {
+        name: "JPEG",
+        extensions: &["jpg", "jpeg"],
+        channels: &[Channels::Grey, Channels::Rgb],
+        longest_side: Some(u16::MAX as usize),
+        holds_icc: true,
+        ..Self::PLAIN
+    };
+
+    const TIFF: Self = Self {
+        name: "TIFF",
+        extensions: &["tif", "tiff"],
+        depths: &Depth::ALL,
+        has_compression: true,
+        holds_icc: true,
+        ..Self::PLAIN
+    };
+
+    const TGA: Self = Self { name: "TGA", extensions: &["tga"], longest_side: Some(u16::MAX as usize), ..Self::PLAIN };
+
+    const HDR: Self = Self {
+        name: "Radiance HDR",
+        extensions: &["hdr", "pic"],
+        depths: &[Depth::Float],
+        channels: &[Channels::Rgb],
+        ..Self::PLAIN
+    };
+
+    const EXR: Self = Self {
+        name: "OpenEXR",
+        extensions: &["exr"],
+        depths: &[Depth::Half, Depth::Float],
+        has_compression: true,
+        ..Self::PLAIN
+    };
+
+    const KTX2: Self = Self { name: "KTX 2", extensions: &["ktx2"], ..Self::TEXTURE };
+
+    // Files are known by their content; it is never written.
+    const KTX: Self = Self { name: "KTX", depths: &[], holds_levels: false, ..Self::TEXTURE };
+
+    const DDS: Self = Self { name: "DDS", extensions: &["dds"], ..Self::TEXTURE };
+}
+
 impl Format {
-    /// All of them.
+    /// Every format.
     pub const ALL: [Self; 9] =
         [Self::Png, Self::Jpeg, Self::Tiff, Self::Tga, Self::Hdr, Self::Exr, Self::Ktx2, Self::Ktx, Self::Dds];
 
-    /// The format that a file name asks for.
-    ///
-    /// # Errors
-    /// When its extension is unknown or missing.
-    pub fn from_extension(path: &Path) -> Result<Self, IoError> {
-        let extension = path.extension().and_then(|extension| extension.to_str()).unwrap_or_default();
-        let extension = extension.to_ascii_lowercase();
-        let unknown = || IoError::UnknownExtension { path: path.to_owned() };
-        Self::ALL.into_iter().find(|format| format.own_extensions().contains(&&*extension)).ok_or_else(unknown)
-    }
-
-    /// The format of a file that begins so. TGA files have no mark of their own: for them the name must do.
-    pub(crate) fn from_content(path: &Path, start: &[u8]) -> Result<Self, IoError> {
-        match start {
-            [0x89, b'P', b'N', b'G', ..] => Ok(Self::Png),
-            [0xff, 0xd8, 0xff, ..] => Ok(Self::Jpeg),
-            [b'I', b'I', 42 | 43, 0, ..] | [b'M', b'M', 0, 42 | 43, ..] => Ok(Self::Tiff),
-            [0x76, 0x2f, 0x31, 0x01, ..] => Ok(Self::Exr),
-            [b'#', b'?', ..] => Ok(Self::Hdr),
-            [0xab, b'K', b'T', b'X', b' ', b'2', b'0', 0xbb, ..] => Ok(Self::Ktx2),
-            [0xab, b'K', b'T', b'X', b' ', b'1', b'1', 0xbb, ..] => Ok(Self::Ktx),
-            [b'D', b'D', b'S', b' ', ..] => Ok(Self::Dds),
-            [] => Err(IoError::Empty { path: path.to_owned() }),
-            _ if Self::from_extension(path).is_ok_and(|format| format == Self::Tga) => Ok(Self::Tga),
-            _ => Err(IoError::UnknownContent { path: path.to_owned() }),
-        }
-    }
-
-    const fn own_extensions(self) -> &'static [&'static str] {
+    const fn properties(self) -> &'static Properties {
         match self {
-            Self::Png => &["png"],
-            Self::Jpeg => &["jpg", "jpeg"],
-            Self::Tiff => &["tif", "tiff"],
-            Self::Tga => &["tga"],
-            Self::Hdr => &["hdr", "pic"],
-            Self::Exr => &["exr"],
-            Self::Ktx2 => &["ktx2"],
-            // Files are known by their content; it is never written.
-            Self::Ktx => &[],
-            Self::Dds => &["dds"],
+            Self::Png => &Properties::PNG,
+            Self::Jpeg => &Properties::JPEG,
+            Self::Tiff => &Properties::TIFF,
+            Self::Tga => &Properties::TGA,
+            Self::Hdr => &Properties::HDR,
+            Self::Exr => &Properties::EXR,
+            Self::Ktx2 => &Properties::KTX2,
+            Self::Ktx => &Properties::KTX,
+            Self::Dds => &Properties::DDS,
         }
     }
 
-    /// Every extension of what can be written, for messages.
+    /// Returns the format whose files are written with this extension, in whatever case.
+    pub fn of_extension(extension: &str) -> Option<Self> {
+        let extension = extension.to_ascii_lowercase();
+        Self::ALL.into_iter().find(|format| format.properties().extensions.contains(&&*extension))
+    }
+
+    /// Lists every extension of what can be written, for messages.
     pub fn extensions() -> String {
-        let all: Vec<_> = Self::ALL.iter().flat_map(|format| format.own_extensions()).copied().collect();
+        let all: Vec<_> = Self::ALL.iter().flat_map(|format| format.properties().extensions).copied().collect();
         all.join(", ")
     }
 
-    /// Depths that the format can hold, coarsest first.
+    /// Returns the depths that the format can hold, coarsest first.
     pub const fn depths(self) -> &'static [Depth] {
-        match self {
-            Self::Png => &[Depth::Eight, Depth::Ten, Depth::Twelve, Depth::Sixteen],
-            Self::Jpeg | Self::Tga => &[Depth::Eight],
-            Self::Tiff => &Depth::ALL,
-            Self::Hdr => &[Depth::Float],
-            Self::Exr => &[Depth::Half, Depth::Float],
-            Self::Ktx2 | Self::Dds => &[Depth::Eight, Depth::Half],
-            Self::Ktx => &[],
-        }
+        self.properties().depths
     }
 
-    /// Columns, and rows, that a picture has at most, where the format counts no further.
+    /// Returns the most columns, and rows, that a picture can have, where the format counts no further.
     pub const fn longest_side(self) -> Option<usize> {
-        match self {
-            Self::Jpeg | Self::Tga => Some(u16::MAX as usize),
-            _ => None,
-        }
+        self.properties().longest_side
     }
 
-    /// Channels that the format can hold.
+    /// Returns the channels that the format can hold.
     pub const fn channels(self) -> &'static [Channels] {
-        match self {
-            Self::Png | Self::Tiff | Self::Tga | Self::Exr => &Channels::ALL,
-            Self::Jpeg => &[Channels::Grey, Channels::Rgb],
-            Self::Hdr => &[Channels::Rgb],
-            // What every graphics card takes.
-            Self::Ktx2 | Self::Ktx | Self::Dds => &[Channels::Rgba],
-        }
+        self.properties().channels
     }
 
-    /// Whether the format can hold pixels of this depth with these channels.
+    /// Returns whether the format can hold pixels of this depth with these channels.
     pub fn supports(self, depth: Depth, channels: Channels) -> bool {
         self.depths().contains(&depth) && self.channels().contains(&channels)
     }
 
-    /// The depth itself where the format can hold it, else the one that loses least.
+    /// Returns the depth itself where the format can hold it, else the one that loses least.
     pub fn nearest_depth(self, depth: Depth) -> Depth {
         if self.depths().contains(&depth) {
             return depth;
@@ -132,7 +184,7 @@ impl Format {
         }
     }
 
-    /// The channels themselves where the format can hold them, else those that lose least.
+    /// Returns the channels themselves where the format can hold them, else those that lose least.
     pub fn nearest_channels(self, channels: Channels) -> Channels {
         match self {
             Self::Png | Self::Tiff | Self::Tga | Self::Exr => channels,
@@ -142,44 +194,34 @@ impl Format {
         }
     }
 
-    /// Whether an integer file of the format can say how its code values relate to light, without an ICC profile.
+    /// Returns whether an integer file of the format can say how its code values relate to light, without an ICC profile.
     pub const fn names_transfer(self) -> bool {
-        matches!(self, Self::Png)
+        self.properties().names_transfer
     }
 
-    /// Whether its files hold the faces of a cube and nothing else, in an order of their own.
+    /// Returns whether the format's files hold the faces of a cube and nothing else, in an order of their own.
     pub const fn is_cube_map(self) -> bool {
-        matches!(self, Self::Ktx2 | Self::Ktx | Self::Dds)
+        self.properties().is_cube_map
     }
 
-    /// Whether a file can hold a picture with smaller copies of itself.
+    /// Returns whether a file can hold a picture with its mip levels.
     pub const fn holds_levels(self) -> bool {
-        matches!(self, Self::Ktx2 | Self::Dds)
+        self.properties().holds_levels
     }
 
-    /// Whether its files can be pressed more or less without loss.
+    /// Returns whether files can be compressed more or less, without loss.
     pub const fn has_compression(self) -> bool {
-        matches!(self, Self::Png | Self::Tiff | Self::Exr)
+        self.properties().has_compression
     }
 
-    /// Whether the format can hold an ICC profile.
+    /// Returns whether the format can hold an ICC profile.
     pub const fn holds_icc(self) -> bool {
-        matches!(self, Self::Png | Self::Jpeg | Self::Tiff)
+        self.properties().holds_icc
     }
 }
 
-impl std::fmt::Display for Format {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(match self {
-            Self::Png => "PNG",
-            Self::Jpeg => "JPEG",
-            Self::Tiff => "TIFF",
-            Self::Tga => "TGA",
-            Self::Hdr => "Radiance HDR",
-            Self::Exr => "OpenEXR",
-            Self::Ktx2 => "KTX 2",
-            Self::Ktx => "KTX",
-            Self::Dds => "DDS",
-        })
+impl fmt::Display for Format {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.properties().name)
     }
 }

@@ -22,7 +22,7 @@ fn written(extension: &str) -> Vec<u8> {
         "ktx2" | "dds" => (picture(6, 36, Channels::Rgba, depth), Some(EnvMap::GlCube)),
         _ => (picture(40, 30, Channels::Rgb, depth), None),
     };
-    write(&path, &image, &Metadata { envmap, ..Metadata::default() }, &WriteOptions::default()).unwrap();
+    write(&path, &image, &WriteOptions::with_metadata(Metadata { envmap, ..Metadata::default() })).unwrap();
     std::fs::read(path).unwrap()
 }
 
@@ -131,7 +131,7 @@ fn st_maps_are_errors_at_every_length_and_never_panic() {
     for extension in ["exr", "tif", "png"] {
         let path = folder.path().join(format!("map.{extension}"));
         let depth = Format::from_extension(&path).unwrap().nearest_depth(Depth::Float);
-        write(&path, &picture(40, 30, Channels::Rgb, depth), &Metadata::default(), &WriteOptions::default()).unwrap();
+        write(&path, &picture(40, 30, Channels::Rgb, depth), &WriteOptions::default()).unwrap();
         let bytes = std::fs::read(&path).unwrap();
         let read_bytes = |bytes: &[u8]| {
             std::fs::write(&path, bytes).unwrap();
@@ -359,7 +359,7 @@ fn a_profile_that_explodes_is_not_unpacked_whatever_the_limit() {
     let path = folder.path().join("profile.png");
     let metadata = Metadata { icc: Some(vec![0; 80 << 20]), ..Metadata::default() };
     let image = picture(4, 4, Channels::Rgb, Depth::Eight);
-    write(&path, &image, &metadata, &WriteOptions::default()).unwrap();
+    write(&path, &image, &WriteOptions::with_metadata(metadata.clone())).unwrap();
     assert!(std::fs::metadata(&path).unwrap().len() < 1 << 20);
     assert!(!probe(&path).is_ok_and(|header| header.metadata.icc.is_some()));
     assert!(!read(&path, &Limits::NONE).is_ok_and(|file| file.metadata.icc.is_some()));
@@ -371,7 +371,7 @@ fn the_chunks_of_an_exr_are_counted_by_ourselves() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("counted.exr");
     let image = picture(40, 100, Channels::Rgb, Depth::Half);
-    write(&path, &image, &Metadata::default(), &WriteOptions::default()).unwrap();
+    write(&path, &image, &WriteOptions::default()).unwrap();
     let honest = std::fs::read(&path).unwrap();
     let name = b"chunkCount\0int\0";
     let at = honest.windows(name.len()).position(|bytes| bytes == name).unwrap() + name.len() + 4;

@@ -16,7 +16,7 @@ fn run(program: &str, arguments: &[&str]) {
 
 /// Our file, through the program, back to us.
 fn through(program: &str, image: &EncodedImage, ours: &Path, theirs: &Path, options: &[&str]) -> EncodedImage {
-    write(ours, image, &Metadata::default(), &WriteOptions::default()).unwrap();
+    write(ours, image, &WriteOptions::default()).unwrap();
     let mut arguments: Vec<&str> = Vec::new();
     if program == "ffmpeg" {
         arguments.extend(["-v", "error", "-y", "-i"]);
@@ -99,7 +99,7 @@ fn oiiotool_reads_our_cubes() {
     let colours = picture(32, 192, Channels::Rgb, Depth::Eight).to_light(&Transfer::Linear);
     let image = EncodedImage::encode(&colours, Channels::Rgba, Depth::Eight, &Transfer::Linear);
     let metadata = Metadata { envmap: Some(EnvMap::GlCube), ..Metadata::default() };
-    write(Path::new(&at("a.dds")), &image, &metadata, &WriteOptions::default()).unwrap();
+    write(Path::new(&at("a.dds")), &image, &WriteOptions::with_metadata(metadata.clone())).unwrap();
     // It takes the first face for the picture and the others for what lies outside.
     run(oiiotool, &[&at("a.dds"), "--fullpixels", "-o", &at("a.tif")]);
     let back = read(Path::new(&at("a.tif")), &Limits::default()).unwrap().image;
@@ -153,7 +153,7 @@ fn exr_windows() {
     let folder = tempfile::tempdir().unwrap();
     let at = |name: &str| folder.path().join(name).display().to_string();
     let image = picture(40, 30, Channels::Rgb, Depth::Half);
-    write(Path::new(&at("a.exr")), &image, &Metadata::default(), &WriteOptions::default()).unwrap();
+    write(Path::new(&at("a.exr")), &image, &WriteOptions::default()).unwrap();
 
     // A data window in a larger display window, both away from zero.
     run(oiiotool, &[&at("a.exr"), "--origin", "+5-3", "--fullsize", "100x60-10-20", "-o", &at("small.exr")]);
@@ -184,7 +184,7 @@ fn exr_layers_and_other_channels() {
     let folder = tempfile::tempdir().unwrap();
     let at = |name: &str| folder.path().join(name).display().to_string();
     let image = picture(40, 30, Channels::Rgba, Depth::Half);
-    write(Path::new(&at("a.exr")), &image, &Metadata::default(), &WriteOptions::default()).unwrap();
+    write(Path::new(&at("a.exr")), &image, &WriteOptions::default()).unwrap();
     // The same four channels in two layers, and a depth.
     let names = "beauty.R,beauty.G,beauty.B,beauty.A,extra.R,extra.G,extra.B,Z";
     let append = [&*at("a.exr"), &at("a.exr"), "--chappend", "--ch", "0,1,2,3,4,5,6,7", "--chnames", names];
@@ -226,7 +226,7 @@ fn the_cube_that_exrenvmap_makes_of_ours() {
     let (ours, theirs) = (folder.path().join("ours.exr"), folder.path().join("theirs.exr"));
     let image = picture(256, 128, Channels::Rgb, Depth::Half);
     let metadata = Metadata { envmap: Some(EnvMap::LatLong), ..Metadata::default() };
-    write(&ours, &image, &metadata, &WriteOptions::default()).unwrap();
+    write(&ours, &image, &WriteOptions::with_metadata(metadata.clone())).unwrap();
     run("exrenvmap", &["-c", "-w", "96", ours.to_str().unwrap(), theirs.to_str().unwrap()]);
     let cube = read(&theirs, &Limits::default()).unwrap();
     assert_eq!((cube.image.width(), cube.image.height()), (96, 6 * 96));

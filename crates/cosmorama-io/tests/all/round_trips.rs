@@ -1,8 +1,13 @@
 //! What is written is read back: every format, depth and set of channels.
 
+use std::io::Cursor;
+
 use crate::common::picture;
 use cosmorama::raster::{Channels, Depth, EncodedImage, Samples, Transfer};
-use cosmorama_io::{EnvMap, Format, Limits, Metadata, Window, WriteOptions, probe, read, write, write_levels};
+use cosmorama_io::{
+    EnvMap, Format, Limits, Metadata, Window, WriteOptions, probe, probe_from, read, read_from, write, write_levels,
+    write_to,
+};
 
 const EXTENSIONS: [(Format, &str); 6] = [
     (Format::Png, "png"),
@@ -28,7 +33,7 @@ fn every_format_depth_and_channels() {
             for channels in format.channels() {
                 let image = picture(67, 35, *channels, *depth);
                 let path = folder.path().join(format!("{depth}_{}.{extension}", channels.count()));
-                write(&path, &image, &Metadata::default(), &WriteOptions::default()).unwrap();
+                write(&path, &image, &WriteOptions::default()).unwrap();
                 let file = read(&path, &Limits::default()).unwrap();
                 let what = format!("{format} {depth} {channels}");
                 assert_eq!(file.format, format);
@@ -45,6 +50,12 @@ fn every_format_depth_and_channels() {
                 assert_eq!(header.channels, file.image.channels(), "{what}");
                 assert_eq!(header.depth, file.image.depth(), "{what}");
                 assert_eq!(header.metadata, file.metadata, "{what}");
+                let mut bytes = Cursor::new(Vec::new());
+                write_to(&mut bytes, "memory", format, &image, &WriteOptions::default()).unwrap();
+                assert!(*bytes.get_ref() == std::fs::read(&path).unwrap(), "{what}");
+                let name = format!("memory.{extension}");
+                assert_eq!(probe_from(&mut bytes, &name).unwrap(), header, "{what}");
+                assert!(read_from(&mut bytes, &name, &Limits::default()).unwrap() == file, "{what}");
             }
         }
     }
@@ -62,7 +73,7 @@ fn panoramas_say_which_part_they_are() {
     for name in ["a.png", "a.jpg"] {
         let path = folder.path().join(name);
         let metadata = Metadata { panorama, ..Metadata::default() };
-        write(&path, &image, &metadata, &WriteOptions::default()).unwrap();
+        write(&path, &image, &WriteOptions::with_metadata(metadata.clone())).unwrap();
         assert_eq!(probe(&path).unwrap().metadata.panorama, panorama, "{name}");
         assert_eq!(read(&path, &Limits::default()).unwrap().metadata.panorama, panorama, "{name}");
     }
@@ -79,7 +90,7 @@ fn cubes_in_texture_files() {
             let image = picture(7, 42, Channels::Rgba, depth);
             let envmap = Some(EnvMap::GlCube);
             let metadata = Metadata { envmap, transfer: Some(transfer.clone()), ..Metadata::default() };
-            write(&path, &image, &metadata, &WriteOptions::default()).unwrap();
+            write(&path, &image, &WriteOptions::with_metadata(metadata.clone())).unwrap();
             let file = read(&path, &Limits::default()).unwrap();
             assert!(file.image == image, "{extension} {depth}");
             assert_eq!(file.metadata.envmap, envmap);
@@ -90,7 +101,8 @@ fn cubes_in_texture_files() {
             // Any other picture is none that the format could hold.
             for (image, envmap) in [(&image, None), (&picture(7, 35, Channels::Rgba, depth), envmap)] {
                 let metadata = Metadata { envmap, ..Metadata::default() };
-                let error = write(&path, image, &metadata, &WriteOptions::default()).unwrap_err().to_string();
+                let error =
+                    write(&path, image, &WriteOptions::with_metadata(metadata.clone())).unwrap_err().to_string();
                 assert!(error.contains("the six faces of a cube"), "{error}");
             }
         }
@@ -101,11 +113,12 @@ fn cubes_in_texture_files() {
         let levels: Vec<EncodedImage> =
             [7, 3, 1].map(|edge| picture(edge, 6 * edge, Channels::Rgba, Depth::Half)).into();
         let metadata = Metadata { envmap: Some(EnvMap::GlCube), ..Metadata::default() };
-        write_levels(&path, &levels, &metadata, &WriteOptions::default()).unwrap();
+        write_levels(&path, &levels, &WriteOptions::with_metadata(metadata.clone())).unwrap();
         assert!(read(&path, &Limits::default()).unwrap().image == levels[0], "{extension}");
         for wrong in [&levels[1..=1], &levels[2..]] {
             let wrong: Vec<EncodedImage> = [&levels[..1], wrong, wrong].concat();
-            let error = write_levels(&path, &wrong, &metadata, &WriteOptions::default()).unwrap_err().to_string();
+            let error =
+                write_levels(&path, &wrong, &WriteOptions::with_metadata(metadata.clone())).unwrap_err().to_string();
             assert!(error.contains("no half of the level before"), "{error}");
         }
     }
@@ -115,7 +128,7 @@ fn cubes_in_texture_files() {
     let image = read(&path, &Limits::default()).unwrap().image;
     let Samples::U8(samples) = image.samples() else { panic!("8 bits") };
     assert_eq!((image.width(), image.height(), &samples[..7]), (2, 12, &[0, 1, 2, 3, 4, 5, 8][..]));
-    let error = write(&path, &image, &Metadata::default(), &WriteOptions::default()).unwrap_err().to_string();
+    let error = write(&path, &image, &WriteOptions::default()).unwrap_err().to_string();
     assert!(error.contains("ktx2, dds"), "{error}");
 }
 
@@ -134,7 +147,7 @@ fn packed_texels_in_ktx2() {
     let samples = (0..384_u32).map(|i| (i / 8 * 5) as u8).collect();
     let image = EncodedImage::new(4, 24, Channels::Rgba, Depth::Eight, Samples::U8(samples)).unwrap();
     let metadata = Metadata { envmap: Some(EnvMap::GlCube), ..Metadata::default() };
-    write(&path, &image, &metadata, &WriteOptions::default()).unwrap();
+    write(&path, &image, &WriteOptions::with_metadata(metadata.clone())).unwrap();
     let plain = std::fs::read(&path).unwrap();
     let offset = u64::from_le_bytes(plain[80..88].try_into().unwrap()) as usize;
     let mut zlib = flate2::write::ZlibEncoder::new(Vec::new(), flate2::Compression::default());
@@ -174,7 +187,7 @@ fn odd_sizes() {
         for (width, height) in [(1, 1), (7, 1), (1, 300), (8, 2), (257, 3)] {
             let image = picture(width, height, Channels::Rgb, depth);
             let path = folder.path().join(format!("{width}x{height}.{extension}"));
-            write(&path, &image, &Metadata::default(), &WriteOptions::default()).unwrap();
+            write(&path, &image, &WriteOptions::default()).unwrap();
             let back = read(&path, &Limits::NONE).unwrap().image;
             assert_eq!((back.width(), back.height()), (width, height), "{format}");
         }
@@ -188,11 +201,11 @@ fn png_says_its_transfer_function() {
     let image = picture(4, 4, Channels::Rgb, Depth::Eight);
     for transfer in [Transfer::Srgb, Transfer::Linear, Transfer::Pq, Transfer::Hlg, Transfer::Bt1886] {
         let metadata = Metadata { transfer: Some(transfer), ..Metadata::default() };
-        write(&path, &image, &metadata, &WriteOptions::default()).unwrap();
+        write(&path, &image, &WriteOptions::with_metadata(metadata.clone())).unwrap();
         assert_eq!(read(&path, &Limits::default()).unwrap().metadata.transfer, metadata.transfer);
     }
     let metadata = Metadata { transfer: Some(Transfer::Gamma(2.2)), ..Metadata::default() };
-    write(&path, &image, &metadata, &WriteOptions::default()).unwrap();
+    write(&path, &image, &WriteOptions::with_metadata(metadata.clone())).unwrap();
     let Some(Transfer::Gamma(gamma)) = probe(&path).unwrap().metadata.transfer else { panic!("a gamma") };
     assert!((gamma - 2.2).abs() < 1e-3);
 }
@@ -202,7 +215,8 @@ fn primaries_are_carried() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("a.png");
     let metadata = Metadata { transfer: Some(Transfer::Pq), primaries: Some(9), ..Metadata::default() };
-    write(&path, &picture(4, 4, Channels::Rgb, Depth::Sixteen), &metadata, &WriteOptions::default()).unwrap();
+    write(&path, &picture(4, 4, Channels::Rgb, Depth::Sixteen), &WriteOptions::with_metadata(metadata.clone()))
+        .unwrap();
     assert_eq!(probe(&path).unwrap().metadata.primaries, Some(9));
 }
 
@@ -216,7 +230,8 @@ fn icc_profiles_are_read_and_carried() {
     let metadata = Metadata { icc: Some(profile.encode().unwrap()), ..Metadata::default() };
     for extension in ["png", "jpg", "tif"] {
         let path = folder.path().join(format!("a.{extension}"));
-        write(&path, &picture(16, 16, Channels::Rgb, Depth::Eight), &metadata, &WriteOptions::default()).unwrap();
+        write(&path, &picture(16, 16, Channels::Rgb, Depth::Eight), &WriteOptions::with_metadata(metadata.clone()))
+            .unwrap();
         let back = read(&path, &Limits::default()).unwrap().metadata;
         assert!(back.icc == metadata.icc, "{extension}");
         let Some(Transfer::Gamma(gamma)) = back.transfer else { panic!("{extension}: {:?}", back.transfer) };
@@ -230,7 +245,8 @@ fn exr_says_that_it_is_an_environment() {
     let path = folder.path().join("a.exr");
     for envmap in [EnvMap::LatLong, EnvMap::Cube] {
         let metadata = Metadata { envmap: Some(envmap), ..Metadata::default() };
-        write(&path, &picture(8, 4, Channels::Rgb, Depth::Half), &metadata, &WriteOptions::default()).unwrap();
+        write(&path, &picture(8, 4, Channels::Rgb, Depth::Half), &WriteOptions::with_metadata(metadata.clone()))
+            .unwrap();
         assert_eq!(probe(&path).unwrap().metadata.envmap, Some(envmap));
     }
 }
@@ -243,7 +259,7 @@ fn a_glow_with_alpha_zero_survives_exr_and_tiff() {
     let image = image.with_alpha_mode(cosmorama::raster::AlphaMode::Premultiplied);
     for extension in ["exr", "tif"] {
         let path = folder.path().join(format!("a.{extension}"));
-        write(&path, &image, &Metadata::default(), &WriteOptions::default()).unwrap();
+        write(&path, &image, &WriteOptions::default()).unwrap();
         assert_eq!(read(&path, &Limits::default()).unwrap().image, image);
     }
 }
@@ -254,7 +270,7 @@ fn straight_floats_are_multiplied_for_exr() {
     let path = folder.path().join("a.exr");
     let samples = Samples::Float(vec![1.0, 0.5, 0.0, 0.5, 7.0, 7.0, 7.0, 0.0]);
     let image = EncodedImage::new(2, 1, Channels::Rgba, Depth::Float, samples).unwrap();
-    write(&path, &image, &Metadata::default(), &WriteOptions::default()).unwrap();
+    write(&path, &image, &WriteOptions::default()).unwrap();
     let back = read(&path, &Limits::default()).unwrap().image;
     assert_eq!(*back.samples(), Samples::Float(vec![0.5, 0.25, 0.0, 0.5, 0.0, 0.0, 0.0, 0.0]));
 }
@@ -265,7 +281,7 @@ fn what_a_format_cannot_hold_is_refused() {
     let refused = |name: &str, channels, depth| {
         let image = picture(4, 4, channels, depth);
         let path = folder.path().join(name);
-        let message = write(&path, &image, &Metadata::default(), &WriteOptions::default()).unwrap_err().to_string();
+        let message = write(&path, &image, &WriteOptions::default()).unwrap_err().to_string();
         assert!(!path.exists());
         message
     };
@@ -283,11 +299,11 @@ fn an_older_file_is_replaced_only_by_a_whole_one() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("a.jpg");
     let image = picture(4, 4, Channels::Rgb, Depth::Eight);
-    write(&path, &image, &Metadata::default(), &WriteOptions::default()).unwrap();
+    write(&path, &image, &WriteOptions::default()).unwrap();
     let before = std::fs::read(&path).unwrap();
     // A profile that no JPEG can hold: writing fails after it began.
     let metadata = Metadata { icc: Some(vec![0; 20_000_000]), ..Metadata::default() };
-    assert!(write(&path, &image, &metadata, &WriteOptions::default()).is_err());
+    assert!(write(&path, &image, &WriteOptions::with_metadata(metadata.clone())).is_err());
     assert_eq!(std::fs::read(&path).unwrap(), before);
     assert_eq!(crate::common::files(folder.path()), [path]);
 }
@@ -298,7 +314,7 @@ fn outputs_can_be_read_by_whom_the_umask_lets() {
     use std::os::unix::fs::PermissionsExt;
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("a.png");
-    write(&path, &picture(4, 4, Channels::Rgb, Depth::Eight), &Metadata::default(), &WriteOptions::default()).unwrap();
+    write(&path, &picture(4, 4, Channels::Rgb, Depth::Eight), &WriteOptions::default()).unwrap();
     std::fs::write(folder.path().join("plain"), "").unwrap();
     let mode = |path| std::fs::metadata(path).unwrap().permissions().mode();
     assert_eq!(mode(path), mode(folder.path().join("plain")));

@@ -115,5 +115,5 @@ fn encoded(light: &Image<Rgba>) -> EncodedImage {
 
 fn save(path: &Path, light: &Image<Rgba>) {
     let metadata = Metadata { transfer: Some(Transfer::Srgb), ..Metadata::default() };
-    write(path, &encoded(light), &metadata, &WriteOptions::default()).unwrap();
+    write(path, &encoded(light), &WriteOptions::with_metadata(metadata)).unwrap();
 }

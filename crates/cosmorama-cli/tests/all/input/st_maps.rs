@@ -4,7 +4,7 @@ use std::process::Command;
 
 use crate::bench::{Bench, assert_says, floats, text};
 use cosmorama::raster::{Channels, Depth, EncodedImage, Samples};
-use cosmorama_io::{Limits, Metadata, StPairs, read_pairs, write_planes};
+use cosmorama_io::{Limits, StPairs, WriteOptions, read_pairs, write_planes};
 
 /// A panorama, a camera's view of it, and the map from the one to the other.
 fn scene() -> Bench {
@@ -93,7 +93,7 @@ fn a_map_of_two_channels_alone_gives_the_size() {
     {
         let planes = vec![(channels[0], plane(0)), (channels[1], plane(1))];
         let size = (map.width, map.height);
-        write_planes(&bench.path(name), size, planes, Depth::Float, &Metadata::default()).unwrap();
+        write_planes(&bench.path(name), size, planes, Depth::Float, &WriteOptions::default()).unwrap();
         bench.succeed(&["convert", "plate.exr", "out.exr", "--to", &format!("st-map:file={name}"), "-y"]);
         let image = bench.load("out.exr");
         assert_eq!((image.width(), image.height()), (400, 300), "{name}");

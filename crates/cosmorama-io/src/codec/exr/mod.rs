@@ -6,5 +6,47 @@ mod selection;
 mod window;
 mod writer;
 
-pub(crate) use reader::{probe, probe_pairs, read, read_pairs};
-pub(crate) use writer::{write, write_planes};
+use std::path::Path;
+
+use cosmorama::raster::EncodedImage;
+
+use crate::codec::interface::{Codec, Sink, Source};
+use crate::header::{Header, ImageFile};
+use crate::{IoError, Limits, WriteOptions};
+
+pub(crate) use writer::write_planes;
+
+/// Codec of OpenEXR.
+pub(crate) struct Exr;
+
+impl Codec for Exr {
+    fn recognises(&self, start: &[u8]) -> bool {
+        start.starts_with(&[0x76, 0x2f, 0x31, 0x01])
+    }
+
+    fn probe(&self, path: &Path, source: Source<'_>) -> Result<Header, IoError> {
+        reader::probe(path, source)
+    }
+
+    fn decode(&self, path: &Path, source: Source<'_>, limits: &Limits) -> Result<ImageFile, IoError> {
+        reader::read(path, source, limits)
+    }
+
+    fn encode(
+        &self,
+        path: &Path,
+        output: Sink<'_>,
+        image: &EncodedImage,
+        options: &WriteOptions,
+    ) -> Result<(), IoError> {
+        writer::write(path, output, image, &options.metadata, options.compression)
+    }
+
+    fn probe_pairs(&self, path: &Path, source: Source<'_>) -> Result<Header, IoError> {
+        reader::probe_pairs(path, source)
+    }
+
+    fn decode_pairs(&self, path: &Path, source: Source<'_>, limits: &Limits) -> Result<ImageFile, IoError> {
+        reader::read_pairs(path, source, limits)
+    }
+}

@@ -1,4 +1,4 @@
-use std::io::{self, Seek};
+use std::io;
 use std::path::Path;
 
 use cosmorama::raster::{AlphaMode, Depth, Samples, Transfer};
@@ -16,8 +16,7 @@ use rayon::prelude::*;
 use super::dwa;
 use super::selection::Selection;
 use super::window::Crop;
-use crate::codec::{is_beside_others, whole_image};
-use crate::file::Source;
+use crate::codec::interface::{Source, is_beside_others, whole_image};
 use crate::{EnvMap, Format, Header, ImageFile, IoError, Limits, Metadata};
 
 const FORMAT: Format = Format::Exr;
@@ -27,24 +26,24 @@ const BATCH: usize = 64;
 /// Bytes that they may take together, except that there is always one.
 const BATCH_BYTES: u128 = 1 << 26;
 
-pub(crate) fn probe(path: &Path, source: &mut Source) -> Result<Header, IoError> {
+pub(crate) fn probe(path: &Path, source: Source<'_>) -> Result<Header, IoError> {
     let reader = open(path, source)?;
     Ok(announce(path, reader.headers(), PICTURE)?.0)
 }
 
 /// What a file says of the two channels of its st map.
-pub(crate) fn probe_pairs(path: &Path, source: &mut Source) -> Result<Header, IoError> {
+pub(crate) fn probe_pairs(path: &Path, source: Source<'_>) -> Result<Header, IoError> {
     let reader = open(path, source)?;
     Ok(announce(path, reader.headers(), PAIR)?.0)
 }
 
 /// Reads the first part that holds a picture, at its largest resolution.
-pub(crate) fn read(path: &Path, source: &mut Source, limits: &Limits) -> Result<ImageFile, IoError> {
+pub(crate) fn read(path: &Path, source: Source<'_>, limits: &Limits) -> Result<ImageFile, IoError> {
     read_selected(path, source, limits, PICTURE)
 }
 
 /// Reads the two channels of an st map, in an image of two channels.
-pub(crate) fn read_pairs(path: &Path, source: &mut Source, limits: &Limits) -> Result<ImageFile, IoError> {
+pub(crate) fn read_pairs(path: &Path, source: Source<'_>, limits: &Limits) -> Result<ImageFile, IoError> {
     read_selected(path, source, limits, PAIR)
 }
 
@@ -65,7 +64,7 @@ const PAIR: Wanted = Wanted {
     expected: "the two channels of an st map, of half or float samples: R and G, u and v, s and t or x and y",
 };
 
-fn read_selected(path: &Path, source: &mut Source, limits: &Limits, wanted: Wanted) -> Result<ImageFile, IoError> {
+fn read_selected(path: &Path, source: Source<'_>, limits: &Limits, wanted: Wanted) -> Result<ImageFile, IoError> {
     let reader = open(path, source)?;
     let (header, selection, crop) = announce(path, reader.headers(), wanted)?;
     check_limits(path, &reader.headers()[selection.part], &header, limits)?;
@@ -98,7 +97,7 @@ fn block_bytes(part: &Part) -> u128 {
     (columns as u128 * rows as u128).saturating_mul(pixel as u128)
 }
 
-fn open<'a>(path: &Path, source: &'a mut Source) -> Result<Reader<&'a mut Source>, IoError> {
+fn open<'a>(path: &Path, source: Source<'a>) -> Result<Reader<Source<'a>>, IoError> {
     let strictly = has_wrong_count(source).map_err(|error| IoError::open(path, error))?;
     exr::block::read(source, strictly).map_err(|error| damaged(path, error))
 }
@@ -107,7 +106,7 @@ fn open<'a>(path: &Path, source: &'a mut Source) -> Result<Reader<&'a mut Source
 /// library: that takes the number of chunks from sizes and compression, and programs such as exrenvmap hand on what their
 /// input said of itself. It is the stricter way of reading that does not compare the number: exr 1.74 hands the flag on inverted
 /// (`MetaData::read_validated_from_buffered_peekable`); once that is mended, such files are not refused here.
-fn has_wrong_count(source: &mut Source) -> io::Result<bool> {
+fn has_wrong_count(source: Source<'_>) -> io::Result<bool> {
     let is_refused = matches!(exr::block::read(&mut *source, false), Err(Error::Invalid(_)));
     source.rewind()?;
     let has = is_refused && exr::block::read(&mut *source, true).is_ok_and(|reader| reader.headers().len() == 1);
@@ -170,7 +169,7 @@ fn float_line(line: &LineRef<'_>, stored: SampleType, put: &mut dyn FnMut(usize,
 
 /// Decodes the chosen channels of the chosen part, interleaved.
 fn pixels<S: Clone + Default>(
-    reader: Reader<&mut Source>,
+    reader: Reader<Source<'_>>,
     selection: &Selection,
     crop: &Crop,
     read_line: ReadLine<S>,

@@ -10,8 +10,8 @@ use exr::meta::header::LayerAttributes;
 use exr::prelude::SmallVec;
 use half::f16;
 
-use crate::codec::is_beside_others;
-use crate::{Compression, EnvMap, IoError, Metadata};
+use crate::codec::interface::is_beside_others;
+use crate::{Compression, EnvMap, IoError, Metadata, WriteOptions};
 
 /// Scan lines; light premultiplied, as the format has it.
 pub(crate) fn write(
@@ -42,14 +42,14 @@ pub(crate) fn write_planes(
     size: (usize, usize),
     planes: Vec<(&str, Vec<f32>)>,
     depth: Depth,
-    metadata: &Metadata,
+    options: &WriteOptions,
 ) -> Result<(), IoError> {
     let samples = |numbers: Vec<f32>| match depth {
         Depth::Half => FlatSamples::F16(numbers.into_iter().map(f16::from_f32).collect()),
         _ => FlatSamples::F32(numbers),
     };
     let list = planes.into_iter().map(|(name, numbers)| AnyChannel::new(name, samples(numbers))).collect();
-    save(path, output, size, list, metadata, Compression::default())
+    save(path, output, size, list, &options.metadata, options.compression)
 }
 
 fn save(

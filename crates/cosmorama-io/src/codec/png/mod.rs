@@ -4,5 +4,37 @@ mod colour;
 mod reader;
 mod writer;
 
-pub(crate) use reader::{probe, read};
-pub(crate) use writer::write;
+use std::path::Path;
+
+use cosmorama::raster::EncodedImage;
+
+use crate::codec::interface::{Codec, Sink, Source};
+use crate::header::{Header, ImageFile};
+use crate::{IoError, Limits, WriteOptions};
+
+/// Codec of Portable Network Graphics.
+pub(crate) struct Png;
+
+impl Codec for Png {
+    fn recognises(&self, start: &[u8]) -> bool {
+        start.starts_with(b"\x89PNG")
+    }
+
+    fn probe(&self, path: &Path, source: Source<'_>) -> Result<Header, IoError> {
+        reader::probe(path, source)
+    }
+
+    fn decode(&self, path: &Path, source: Source<'_>, limits: &Limits) -> Result<ImageFile, IoError> {
+        reader::read(path, source, limits)
+    }
+
+    fn encode(
+        &self,
+        path: &Path,
+        output: Sink<'_>,
+        image: &EncodedImage,
+        options: &WriteOptions,
+    ) -> Result<(), IoError> {
+        writer::write(path, output, image, &options.metadata, options.compression)
+    }
+}

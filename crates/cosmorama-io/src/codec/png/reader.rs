@@ -5,17 +5,16 @@ use cosmorama::raster::{Channels, Depth, Samples};
 use png::{BitDepth, ColorType, Decoder, DecodingError, Info, Reader, Transformations};
 
 use super::colour;
-use crate::codec::whole_image;
-use crate::file::Source;
+use crate::codec::interface::{Source, whole_image};
 use crate::{Format, Header, ImageFile, IoError, Limits};
 
 const FORMAT: Format = Format::Png;
 
-pub(crate) fn probe(path: &Path, source: &mut Source) -> Result<Header, IoError> {
+pub(crate) fn probe(path: &Path, source: Source<'_>) -> Result<Header, IoError> {
     Ok(header(&decoder(path, source)?))
 }
 
-pub(crate) fn read(path: &Path, source: &mut Source, limits: &Limits) -> Result<ImageFile, IoError> {
+pub(crate) fn read(path: &Path, source: Source<'_>, limits: &Limits) -> Result<ImageFile, IoError> {
     let mut reader = decoder(path, source)?;
     let header = header(&reader);
     let size = (header.width as u64, header.height as u64);
@@ -37,7 +36,7 @@ pub(crate) fn read(path: &Path, source: &mut Source, limits: &Limits) -> Result<
     whole_image(path, header, samples)
 }
 
-fn decoder<'a>(path: &Path, source: &'a mut Source) -> Result<Reader<&'a mut Source>, IoError> {
+fn decoder<'a>(path: &Path, source: Source<'a>) -> Result<Reader<Source<'a>>, IoError> {
     // Its own limit is for rows, profiles and texts; the image itself is checked against ours.
     let mut decoder = Decoder::new(source);
     // Palettes, transparent colours and samples of less than eight bits become plain samples.
@@ -45,7 +44,7 @@ fn decoder<'a>(path: &Path, source: &'a mut Source) -> Result<Reader<&'a mut Sou
     decoder.read_info().map_err(|error| damaged(path, &error))
 }
 
-fn decode(path: &Path, reader: &mut Reader<&mut Source>, bytes: &mut [u8]) -> Result<(), IoError> {
+fn decode(path: &Path, reader: &mut Reader<Source<'_>>, bytes: &mut [u8]) -> Result<(), IoError> {
     reader.next_frame(bytes).map_err(|error| damaged(path, &error))?;
     // A file that ends right after its pixels is cut, too.
     reader.finish().map_err(|error| damaged(path, &error))

@@ -1,57 +1,72 @@
-use std::io::{BufRead, Read, Write};
+use std::io::{BufRead, BufReader, Read};
 use std::path::Path;
 
 use cosmorama::raster::{Channels, Depth, EncodedImage, Samples, Transfer};
 
 use super::rgbe;
-use crate::codec::whole_image;
-use crate::file::Source;
-use crate::{Format, Header, ImageFile, IoError, Limits, Metadata};
+use crate::codec::interface::{Codec, Sink, Source, whole_image};
+use crate::{Format, Header, ImageFile, IoError, Limits, Metadata, WriteOptions};
 
 const FORMAT: Format = Format::Hdr;
+
+/// Bytes that are read of the pixels at once.
+const BUFFER: usize = 1 << 16;
 
 /// A header line longer than this is no header line.
 const LONGEST_LINE: u64 = 4096;
 /// A header of more lines than this is no header.
 const MOST_LINES: usize = 1024;
 
-pub(crate) fn probe(path: &Path, source: &mut Source) -> Result<Header, IoError> {
-    Ok(Preamble::read(path, source)?.header)
-}
+/// Codec of Radiance RGBE.
+pub(crate) struct Hdr;
 
-pub(crate) fn read(path: &Path, source: &mut Source, limits: &Limits) -> Result<ImageFile, IoError> {
-    let Preamble { header, exposure, upside_down } = Preamble::read(path, source)?;
-    limits.check(path, (header.width as u64, header.height as u64), header.channels, header.depth)?;
-    let mut samples = vec![0.0_f32; header.width * header.height * 3];
-    let mut line = vec![[0; 4]; header.width];
-    for j in 0..header.height {
-        rgbe::read_line(source, &mut line).map_err(|error| IoError::damaged(path, FORMAT, error))?;
-        let row = if upside_down { header.height - 1 - j } else { j };
-        let row = &mut samples[row * header.width * 3..][..header.width * 3];
-        for (sample, pixel) in row.chunks_exact_mut(3).zip(&line) {
-            sample.copy_from_slice(&rgbe::decode(*pixel).map(|light| light / exposure));
-        }
+impl Codec for Hdr {
+    fn recognises(&self, start: &[u8]) -> bool {
+        start.starts_with(b"#?")
     }
-    whole_image(path, header, Samples::Float(samples))
-}
 
-/// Light beyond what the format can count is the most that it can; there is no alpha.
-pub(crate) fn write(path: &Path, mut output: impl Write, image: &EncodedImage) -> Result<(), IoError> {
-    let (Samples::Float(samples), Channels::Rgb) = (image.samples(), image.channels()) else {
-        return Err(IoError::write(path, "Radiance HDR holds RGB floats"));
-    };
-    let mut encode = || {
-        write!(output, "#?RADIANCE\nSOFTWARE=cosmorama\nFORMAT=32-bit_rle_rgbe\n\n")?;
-        writeln!(output, "-Y {} +X {}", image.height(), image.width())?;
-        let mut line = Vec::with_capacity(image.width());
-        for row in samples.chunks_exact((image.width() * 3).max(1)) {
-            line.clear();
-            line.extend(row.chunks_exact(3).map(|pixel| rgbe::encode([pixel[0], pixel[1], pixel[2]])));
-            rgbe::write_line(&mut output, &line)?;
+    fn probe(&self, path: &Path, source: Source<'_>) -> Result<Header, IoError> {
+        Ok(Preamble::read(path, source)?.header)
+    }
+
+    fn decode(&self, path: &Path, source: Source<'_>, limits: &Limits) -> Result<ImageFile, IoError> {
+        let Preamble { header, exposure, upside_down } = Preamble::read(path, &mut *source)?;
+        // Pixels are read byte by byte: from a buffer whose type is known.
+        let mut source = BufReader::with_capacity(BUFFER, source);
+        limits.check(path, (header.width as u64, header.height as u64), header.channels, header.depth)?;
+        let mut samples = vec![0.0_f32; header.width * header.height * 3];
+        let mut line = vec![[0; 4]; header.width];
+        for j in 0..header.height {
+            rgbe::read_line(&mut source, &mut line).map_err(|error| IoError::damaged(path, FORMAT, error))?;
+            let row = if upside_down { header.height - 1 - j } else { j };
+            let row = &mut samples[row * header.width * 3..][..header.width * 3];
+            for (sample, pixel) in row.chunks_exact_mut(3).zip(&line) {
+                sample.copy_from_slice(&rgbe::decode(*pixel).map(|light| light / exposure));
+            }
         }
-        output.flush()
-    };
-    encode().map_err(|error| IoError::write(path, error))
+        whole_image(path, header, Samples::Float(samples))
+    }
+
+    /// Light beyond what the format can count is the most that it can; there is no alpha.
+    fn encode(&self, path: &Path, output: Sink<'_>, image: &EncodedImage, _: &WriteOptions) -> Result<(), IoError> {
+        let (Samples::Float(samples), Channels::Rgb) = (image.samples(), image.channels()) else {
+            return Err(IoError::write(path, "Radiance HDR holds RGB floats"));
+        };
+        let mut encode = || {
+            write!(output, "#?RADIANCE\nSOFTWARE=cosmorama\nFORMAT=32-bit_rle_rgbe\n\n")?;
+            writeln!(output, "-Y {} +X {}", image.height(), image.width())?;
+            let (mut line, mut bytes) = (Vec::with_capacity(image.width()), Vec::new());
+            for row in samples.chunks_exact((image.width() * 3).max(1)) {
+                line.clear();
+                line.extend(row.chunks_exact(3).map(|pixel| rgbe::encode([pixel[0], pixel[1], pixel[2]])));
+                bytes.clear();
+                rgbe::write_line(&mut bytes, &line)?;
+                output.write_all(&bytes)?;
+            }
+            output.flush()
+        };
+        encode().map_err(|error| IoError::write(path, error))
+    }
 }
 
 /// The text before the pixels.
@@ -63,7 +78,7 @@ struct Preamble {
 }
 
 impl Preamble {
-    fn read(path: &Path, source: &mut Source) -> Result<Self, IoError> {
+    fn read(path: &Path, source: Source<'_>) -> Result<Self, IoError> {
         let fail = |reason: &str| IoError::damaged(path, FORMAT, reason);
         let mut exposure = 1.0_f32;
         let mut software = None;
@@ -95,9 +110,9 @@ fn header(width: usize, height: usize, software: Option<String>) -> Header {
     Header { format: FORMAT, width, height, channels: Channels::Rgb, depth: Depth::Float, metadata, window: None }
 }
 
-fn read_line(source: &mut Source) -> Option<String> {
+fn read_line(source: Source<'_>) -> Option<String> {
     let mut bytes = Vec::new();
-    source.by_ref().take(LONGEST_LINE).read_until(b'\n', &mut bytes).ok()?;
+    source.take(LONGEST_LINE).read_until(b'\n', &mut bytes).ok()?;
     let line = bytes.strip_suffix(b"\n")?;
     Some(String::from_utf8_lossy(line.strip_suffix(b"\r").unwrap_or(line)).into_owned())
 }

@@ -1,4 +1,6 @@
 //! Radiance pictures.
 
-pub(crate) mod hdr;
+mod hdr;
 mod rgbe;
+
+pub(crate) use hdr::Hdr;

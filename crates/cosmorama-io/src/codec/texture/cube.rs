@@ -1,4 +1,4 @@
-use std::io::{Read, Seek, SeekFrom};
+use std::io::SeekFrom;
 use std::path::Path;
 
 use cosmorama::raster::{AlphaMode, Channels, EncodedImage, Samples, Transfer};
@@ -7,8 +7,7 @@ use rayon::prelude::*;
 
 use super::packing::Packed;
 use super::texel::Texels;
-use crate::codec::{is_beside_others, whole_image};
-use crate::file::Source;
+use crate::codec::interface::{Source, is_beside_others, whole_image};
 use crate::{EnvMap, Format, Header, ImageFile, IoError, Limits, Metadata};
 
 /// What can be read, for messages.
@@ -72,7 +71,7 @@ impl CubeTexture {
         &self,
         path: &Path,
         format: Format,
-        source: &mut Source,
+        source: Source<'_>,
         limits: &Limits,
     ) -> Result<ImageFile, IoError> {
         let header = self.header(format);
@@ -100,7 +99,7 @@ impl CubeTexture {
     }
 
     /// The bytes of the faces, where they lie in the file as they are.
-    fn faces(&self, path: &Path, format: Format, source: &mut Source) -> Result<Vec<Vec<u8>>, IoError> {
+    fn faces(&self, path: &Path, format: Format, source: Source<'_>) -> Result<Vec<Vec<u8>>, IoError> {
         let bytes = self.face_bytes();
         let length = source.seek(SeekFrom::End(0)).map_err(|error| IoError::open(path, error))?;
         let ends_inside = |offset: &u64| offset.checked_add(bytes).is_some_and(|end| end <= length);

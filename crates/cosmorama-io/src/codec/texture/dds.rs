@@ -1,4 +1,3 @@
-use std::io::{Read, Write};
 use std::path::Path;
 
 use cosmorama::raster::{AlphaMode, Depth, EncodedImage, Transfer};
@@ -9,8 +8,8 @@ use ddsfile::{
 
 use super::cube::{CubeTexture, EXPECTED, levels_to_write};
 use super::texel::{BlockFormat, Texels};
-use crate::file::Source;
-use crate::{Format, Header, ImageFile, IoError, Limits, Metadata};
+use crate::codec::interface::{Codec, Sink, Source};
+use crate::{Format, Header, ImageFile, IoError, Limits, WriteOptions};
 
 const FORMAT: Format = Format::Dds;
 
@@ -18,16 +17,56 @@ const MAGIC: &[u8; 4] = b"DDS ";
 /// Where `dwCaps2` stands.
 const CAPS2: usize = 112;
 
-pub(crate) fn probe(path: &Path, source: &mut Source) -> Result<Header, IoError> {
-    Ok(texture(path, source)?.header(FORMAT))
-}
+/// Codec of the faces of a cube in a DirectDraw surface.
+pub(crate) struct Dds;
 
-pub(crate) fn read(path: &Path, source: &mut Source, limits: &Limits) -> Result<ImageFile, IoError> {
-    texture(path, source)?.read(path, FORMAT, source, limits)
+impl Codec for Dds {
+    fn recognises(&self, start: &[u8]) -> bool {
+        start.starts_with(MAGIC)
+    }
+
+    fn probe(&self, path: &Path, source: Source<'_>) -> Result<Header, IoError> {
+        Ok(texture(path, source)?.header(FORMAT))
+    }
+
+    fn decode(&self, path: &Path, source: Source<'_>, limits: &Limits) -> Result<ImageFile, IoError> {
+        texture(path, source)?.read(path, FORMAT, source, limits)
+    }
+
+    fn encode(
+        &self,
+        path: &Path,
+        output: Sink<'_>,
+        image: &EncodedImage,
+        options: &WriteOptions,
+    ) -> Result<(), IoError> {
+        self.encode_levels(path, output, std::slice::from_ref(image), options)
+    }
+
+    /// Six faces and their smaller copies: RGBA of 8 bits under the old header, which every program reads and which does not say
+    /// how bytes relate to light; premultiplied halves under that of Direct3D 10.
+    fn encode_levels(
+        &self,
+        path: &Path,
+        output: Sink<'_>,
+        levels: &[EncodedImage],
+        options: &WriteOptions,
+    ) -> Result<(), IoError> {
+        let (faces, edge) = levels_to_write(path, FORMAT, levels, &options.metadata)?;
+        let float = levels.iter().any(|level| level.depth().is_float());
+        let start = start(edge, float, faces.len() as u32).map_err(|error| IoError::write(path, error))?;
+        // Each face is followed by its own smaller copies.
+        let face = |face: usize| {
+            let part = move |level: &Vec<u8>| level.len() / 6 * face..level.len() / 6 * (face + 1);
+            faces.iter().map(move |level| &level[part(level)])
+        };
+        let mut parts = std::iter::once(start.as_slice()).chain((0..6).flat_map(face));
+        parts.try_for_each(|part| output.write_all(part)).map_err(|error| IoError::write(path, error))
+    }
 }
 
 /// What the file holds, without its texels.
-fn texture(path: &Path, source: &mut Source) -> Result<CubeTexture, IoError> {
+fn texture(path: &Path, source: Source<'_>) -> Result<CubeTexture, IoError> {
     let damaged = |reason: &dyn std::fmt::Display| IoError::damaged(path, FORMAT, reason);
     let unsupported = |found: String| IoError::unsupported(path, FORMAT, found, EXPECTED);
     let mut start = [0; 128];
@@ -136,26 +175,6 @@ fn modern_texels(format: DxgiFormat) -> (Option<Texels>, bool) {
         _ => return (None, false),
     };
     (Some(texels), srgb)
-}
-
-/// Six faces and their smaller copies: RGBA of 8 bits under the old header, which every program reads and which does not say
-/// how bytes relate to light; premultiplied halves under that of Direct3D 10.
-pub(crate) fn write(
-    path: &Path,
-    mut output: impl Write,
-    levels: &[EncodedImage],
-    metadata: &Metadata,
-) -> Result<(), IoError> {
-    let (faces, edge) = levels_to_write(path, FORMAT, levels, metadata)?;
-    let float = levels.iter().any(|level| level.depth().is_float());
-    let start = start(edge, float, faces.len() as u32).map_err(|error| IoError::write(path, error))?;
-    // Each face is followed by its own smaller copies.
-    let face = |face: usize| {
-        let part = move |level: &Vec<u8>| level.len() / 6 * face..level.len() / 6 * (face + 1);
-        faces.iter().map(move |level| &level[part(level)])
-    };
-    let mut parts = std::iter::once(start.as_slice()).chain((0..6).flat_map(face));
-    parts.try_for_each(|part| output.write_all(part)).map_err(|error| IoError::write(path, error))
 }
 
 /// All that stands before the texels.

@@ -1,12 +1,12 @@
-use std::io::{Read, Seek, SeekFrom};
+use std::io::SeekFrom;
 use std::path::Path;
 
-use cosmorama::raster::{AlphaMode, Depth, Transfer};
+use cosmorama::raster::{AlphaMode, Depth, EncodedImage, Transfer};
 
 use super::cube::{CubeTexture, EXPECTED};
 use super::texel::{BlockFormat, Texels};
-use crate::file::Source;
-use crate::{Format, Header, ImageFile, IoError, Limits};
+use crate::codec::interface::{Codec, Sink, Source};
+use crate::{Format, Header, ImageFile, IoError, Limits, WriteOptions};
 
 const FORMAT: Format = Format::Ktx;
 
@@ -43,16 +43,29 @@ mod gl {
 const NUMBERS: usize = 13;
 const LITTLE_ENDIAN: u32 = 0x0403_0201;
 
-pub(crate) fn probe(path: &Path, source: &mut Source) -> Result<Header, IoError> {
-    Ok(texture(path, source)?.header(FORMAT))
-}
+/// Codec of the faces of a cube in a KTX texture of version 1, which is only read.
+pub(crate) struct Ktx;
 
-pub(crate) fn read(path: &Path, source: &mut Source, limits: &Limits) -> Result<ImageFile, IoError> {
-    texture(path, source)?.read(path, FORMAT, source, limits)
+impl Codec for Ktx {
+    fn recognises(&self, start: &[u8]) -> bool {
+        start.starts_with(&[0xab, b'K', b'T', b'X', b' ', b'1', b'1', 0xbb])
+    }
+
+    fn probe(&self, path: &Path, source: Source<'_>) -> Result<Header, IoError> {
+        Ok(texture(path, source)?.header(FORMAT))
+    }
+
+    fn decode(&self, path: &Path, source: Source<'_>, limits: &Limits) -> Result<ImageFile, IoError> {
+        texture(path, source)?.read(path, FORMAT, source, limits)
+    }
+
+    fn encode(&self, path: &Path, _: Sink<'_>, _: &EncodedImage, _: &WriteOptions) -> Result<(), IoError> {
+        Err(IoError::write(path, "KTX files of the first version are only read; write .ktx2"))
+    }
 }
 
 /// What the file holds, without its texels. Only version 1: version 2 is another format.
-fn texture(path: &Path, source: &mut Source) -> Result<CubeTexture, IoError> {
+fn texture(path: &Path, source: Source<'_>) -> Result<CubeTexture, IoError> {
     let short = |_| IoError::damaged(path, FORMAT, "it ends too early");
     let mut start = [0; 12 + 4 * NUMBERS];
     source.read_exact(&mut start).map_err(short)?;

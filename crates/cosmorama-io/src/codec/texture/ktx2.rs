@@ -1,4 +1,4 @@
-use std::io::{Read, Seek, SeekFrom, Write};
+use std::io::SeekFrom;
 use std::path::Path;
 
 use cosmorama::raster::{AlphaMode, Depth, EncodedImage, Transfer};
@@ -7,8 +7,8 @@ use ktx2::{Format as Vk, Header as Ktx2Header, Index, LevelIndex, Supercompressi
 use super::cube::{CubeTexture, EXPECTED, levels_to_write};
 use super::packing::{Packed, Packing};
 use super::texel::{BlockFormat, Texels};
-use crate::file::Source;
-use crate::{Format, Header, ImageFile, IoError, Limits, Metadata};
+use crate::codec::interface::{Codec, Sink, Source};
+use crate::{Format, Header, ImageFile, IoError, Limits, WriteOptions};
 
 const FORMAT: Format = Format::Ktx2;
 
@@ -27,16 +27,92 @@ mod descriptor {
     pub(super) const SIGNED_FLOAT: u8 = 0xc0;
 }
 
-pub(crate) fn probe(path: &Path, source: &mut Source) -> Result<Header, IoError> {
-    Ok(texture(path, source)?.header(FORMAT))
-}
+/// Codec of the faces of a cube in a KTX 2 texture.
+pub(crate) struct Ktx2;
 
-pub(crate) fn read(path: &Path, source: &mut Source, limits: &Limits) -> Result<ImageFile, IoError> {
-    texture(path, source)?.read(path, FORMAT, source, limits)
+impl Codec for Ktx2 {
+    fn recognises(&self, start: &[u8]) -> bool {
+        start.starts_with(&[0xab, b'K', b'T', b'X', b' ', b'2', b'0', 0xbb])
+    }
+
+    fn probe(&self, path: &Path, source: Source<'_>) -> Result<Header, IoError> {
+        Ok(texture(path, source)?.header(FORMAT))
+    }
+
+    fn decode(&self, path: &Path, source: Source<'_>, limits: &Limits) -> Result<ImageFile, IoError> {
+        texture(path, source)?.read(path, FORMAT, source, limits)
+    }
+
+    fn encode(
+        &self,
+        path: &Path,
+        output: Sink<'_>,
+        image: &EncodedImage,
+        options: &WriteOptions,
+    ) -> Result<(), IoError> {
+        self.encode_levels(path, output, std::slice::from_ref(image), options)
+    }
+
+    /// Six faces and their smaller copies: RGBA of 8 bits, sRGB unless the light is linear, or premultiplied halves.
+    fn encode_levels(
+        &self,
+        path: &Path,
+        output: Sink<'_>,
+        levels: &[EncodedImage],
+        options: &WriteOptions,
+    ) -> Result<(), IoError> {
+        let (faces, edge) = levels_to_write(path, FORMAT, levels, &options.metadata)?;
+        let float = levels.iter().any(|level| level.depth().is_float());
+        let (format, type_size, transfer) = match &options.metadata.transfer {
+            _ if float => (Vk::R16G16B16A16_SFLOAT, 2, descriptor::LINEAR),
+            Some(Transfer::Linear) => (Vk::R8G8B8A8_UNORM, 1, descriptor::LINEAR),
+            _ => (Vk::R8G8B8A8_SRGB, 1, descriptor::SRGB),
+        };
+        let described = describe(float, transfer);
+        let words = key_values(&[("KTXorientation", "rd"), ("KTXwriter", "cosmorama")]);
+        let dfd = (Ktx2Header::LENGTH + LevelIndex::LENGTH * faces.len()) as u32;
+        let kvd = dfd + described.len() as u32;
+        // A level begins at a multiple of a texel.
+        let start = (kvd + words.len() as u32).next_multiple_of(8);
+        let header = Ktx2Header {
+            format: Some(format),
+            type_size,
+            pixel_width: edge,
+            pixel_height: edge,
+            pixel_depth: 0,
+            layer_count: 0,
+            face_count: 6,
+            level_count: faces.len() as u32,
+            supercompression_scheme: None,
+            index: Index {
+                dfd_byte_offset: dfd,
+                dfd_byte_length: described.len() as u32,
+                kvd_byte_offset: kvd,
+                kvd_byte_length: words.len() as u32,
+                sgd_byte_offset: 0,
+                sgd_byte_length: 0,
+            },
+        };
+        // The smallest level comes first, the index begins with the largest. Six faces of RGBA keep all of them aligned.
+        let after = |level: usize| faces[level + 1..].iter().map(|level| level.len() as u64).sum::<u64>();
+        let index = faces.iter().enumerate().map(|(level, faces)| {
+            let bytes = faces.len() as u64;
+            LevelIndex {
+                byte_offset: u64::from(start) + after(level),
+                byte_length: bytes,
+                uncompressed_byte_length: bytes,
+            }
+        });
+        let index: Vec<u8> = index.flat_map(|level| level.as_bytes()).collect();
+        let padding = vec![0; (start - kvd) as usize - words.len()];
+        let parts: [&[u8]; 5] = [&header.as_bytes(), &index, &described, &words, &padding];
+        let all = parts.into_iter().chain(faces.iter().rev().map(Vec::as_slice));
+        all.into_iter().try_for_each(|part| output.write_all(part)).map_err(|error| IoError::write(path, error))
+    }
 }
 
 /// What the file holds, without its texels.
-fn texture(path: &Path, source: &mut Source) -> Result<CubeTexture, IoError> {
+fn texture(path: &Path, source: Source<'_>) -> Result<CubeTexture, IoError> {
     let short = |_| IoError::damaged(path, FORMAT, "it ends too early");
     let mut start = [0; Ktx2Header::LENGTH];
     source.read_exact(&mut start).map_err(short)?;
@@ -107,7 +183,7 @@ fn texture(path: &Path, source: &mut Source) -> Result<CubeTexture, IoError> {
 /// The beginning of the data format descriptor: its header, and what texels are as a whole.
 type Descriptor = [u8; 16];
 
-fn descriptor(path: &Path, source: &mut Source, offset: u32) -> Result<Descriptor, IoError> {
+fn descriptor(path: &Path, source: Source<'_>, offset: u32) -> Result<Descriptor, IoError> {
     let mut start = Descriptor::default();
     source
         .seek(SeekFrom::Start(offset.into()))
@@ -169,58 +245,6 @@ fn texels(format: Vk) -> Option<(Texels, bool)> {
         Vk::BC7_SRGB_BLOCK => (blocks(BlockFormat::Bc7), true),
         _ => return None,
     })
-}
-
-/// Six faces and their smaller copies: RGBA of 8 bits, sRGB unless the light is linear, or premultiplied halves.
-pub(crate) fn write(
-    path: &Path,
-    mut output: impl Write,
-    levels: &[EncodedImage],
-    metadata: &Metadata,
-) -> Result<(), IoError> {
-    let (faces, edge) = levels_to_write(path, FORMAT, levels, metadata)?;
-    let float = levels.iter().any(|level| level.depth().is_float());
-    let (format, type_size, transfer) = match &metadata.transfer {
-        _ if float => (Vk::R16G16B16A16_SFLOAT, 2, descriptor::LINEAR),
-        Some(Transfer::Linear) => (Vk::R8G8B8A8_UNORM, 1, descriptor::LINEAR),
-        _ => (Vk::R8G8B8A8_SRGB, 1, descriptor::SRGB),
-    };
-    let described = describe(float, transfer);
-    let words = key_values(&[("KTXorientation", "rd"), ("KTXwriter", "cosmorama")]);
-    let dfd = (Ktx2Header::LENGTH + LevelIndex::LENGTH * faces.len()) as u32;
-    let kvd = dfd + described.len() as u32;
-    // A level begins at a multiple of a texel.
-    let start = (kvd + words.len() as u32).next_multiple_of(8);
-    let header = Ktx2Header {
-        format: Some(format),
-        type_size,
-        pixel_width: edge,
-        pixel_height: edge,
-        pixel_depth: 0,
-        layer_count: 0,
-        face_count: 6,
-        level_count: faces.len() as u32,
-        supercompression_scheme: None,
-        index: Index {
-            dfd_byte_offset: dfd,
-            dfd_byte_length: described.len() as u32,
-            kvd_byte_offset: kvd,
-            kvd_byte_length: words.len() as u32,
-            sgd_byte_offset: 0,
-            sgd_byte_length: 0,
-        },
-    };
-    // The smallest level comes first, the index begins with the largest. Six faces of RGBA keep all of them aligned.
-    let after = |level: usize| faces[level + 1..].iter().map(|level| level.len() as u64).sum::<u64>();
-    let index = faces.iter().enumerate().map(|(level, faces)| {
-        let bytes = faces.len() as u64;
-        LevelIndex { byte_offset: u64::from(start) + after(level), byte_length: bytes, uncompressed_byte_length: bytes }
-    });
-    let index: Vec<u8> = index.flat_map(|level| level.as_bytes()).collect();
-    let padding = vec![0; (start - kvd) as usize - words.len()];
-    let parts: [&[u8]; 5] = [&header.as_bytes(), &index, &described, &words, &padding];
-    let all = parts.into_iter().chain(faces.iter().rev().map(Vec::as_slice));
-    all.into_iter().try_for_each(|part| output.write_all(part)).map_err(|error| IoError::write(path, error))
 }
 
 /// The data format descriptor of RGBA.

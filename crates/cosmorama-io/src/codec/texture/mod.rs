@@ -1,8 +1,12 @@
 //! Cubes in textures of graphics cards: DirectDraw surfaces and Khronos textures.
 
 mod cube;
-pub(crate) mod dds;
-pub(crate) mod ktx;
-pub(crate) mod ktx2;
+mod dds;
+mod ktx;
+mod ktx2;
 mod packing;
 mod texel;
+
+pub(crate) use dds::Dds;
+pub(crate) use ktx::Ktx;
+pub(crate) use ktx2::Ktx2;

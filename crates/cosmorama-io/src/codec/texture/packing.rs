@@ -1,7 +1,7 @@
-use std::io::{Read, Seek, SeekFrom};
+use std::io::{Read, SeekFrom};
 use std::path::Path;
 
-use crate::file::Source;
+use crate::codec::interface::Source;
 use crate::{Format, IoError};
 
 /// How the texels of a level are packed, whatever their format.
@@ -29,7 +29,7 @@ impl Packed {
         self,
         path: &Path,
         format: Format,
-        source: &mut Source,
+        source: Source<'_>,
         bytes: usize,
     ) -> Result<Vec<u8>, IoError> {
         let length = source.seek(SeekFrom::End(0)).map_err(|error| IoError::open(path, error))?;
@@ -37,7 +37,7 @@ impl Packed {
             return Err(IoError::damaged(path, format, "it ends too early"));
         }
         source.seek(SeekFrom::Start(self.offset)).map_err(|error| IoError::open(path, error))?;
-        let packed = source.by_ref().take(self.length);
+        let packed = source.take(self.length);
         match self.packing {
             Packing::Zlib => self.exactly(flate2::read::ZlibDecoder::new(packed), bytes),
             Packing::Zstandard => ruzstd::decoding::StreamingDecoder::new(packed)

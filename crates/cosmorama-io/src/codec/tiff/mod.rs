@@ -3,5 +3,37 @@
 mod reader;
 mod writer;
 
-pub(crate) use reader::{probe, read};
-pub(crate) use writer::write;
+use std::path::Path;
+
+use cosmorama::raster::EncodedImage;
+
+use crate::codec::interface::{Codec, Sink, Source};
+use crate::header::{Header, ImageFile};
+use crate::{IoError, Limits, WriteOptions};
+
+/// Codec of TIFF.
+pub(crate) struct Tiff;
+
+impl Codec for Tiff {
+    fn recognises(&self, start: &[u8]) -> bool {
+        matches!(start, [b'I', b'I', 42 | 43, 0, ..] | [b'M', b'M', 0, 42 | 43, ..])
+    }
+
+    fn probe(&self, path: &Path, source: Source<'_>) -> Result<Header, IoError> {
+        reader::probe(path, source)
+    }
+
+    fn decode(&self, path: &Path, source: Source<'_>, limits: &Limits) -> Result<ImageFile, IoError> {
+        reader::read(path, source, limits)
+    }
+
+    fn encode(
+        &self,
+        path: &Path,
+        output: Sink<'_>,
+        image: &EncodedImage,
+        options: &WriteOptions,
+    ) -> Result<(), IoError> {
+        writer::write(path, output, image, &options.metadata, options.compression)
+    }
+}

@@ -6,8 +6,7 @@ use tiff::decoder::{Decoder, DecodingResult};
 use tiff::tags::{SampleFormat, Tag};
 use tiff::{ColorType, TiffError};
 
-use crate::codec::whole_image;
-use crate::file::Source;
+use crate::codec::interface::{Source, whole_image};
 use crate::metadata::icc;
 use crate::{Format, Header, ImageFile, IoError, Limits, Metadata};
 
@@ -16,12 +15,12 @@ const EXPECTED: &str = "grey or RGB, with or without alpha, of 8 or 16 bits or f
 
 pub(super) const ICC_PROFILE: Tag = Tag::Unknown(34675);
 
-pub(crate) fn probe(path: &Path, source: &mut Source) -> Result<Header, IoError> {
+pub(crate) fn probe(path: &Path, source: Source<'_>) -> Result<Header, IoError> {
     let mut decoder = Decoder::new(source).map_err(|error| damaged(path, &error))?;
     header(path, &mut decoder)
 }
 
-pub(crate) fn read(path: &Path, source: &mut Source, limits: &Limits) -> Result<ImageFile, IoError> {
+pub(crate) fn read(path: &Path, source: Source<'_>, limits: &Limits) -> Result<ImageFile, IoError> {
     let mut decoder = Decoder::new(source).map_err(|error| damaged(path, &error))?;
     let header = header(path, &mut decoder)?;
     limits.check(path, (header.width as u64, header.height as u64), header.channels, header.depth)?;
@@ -48,7 +47,7 @@ fn damaged(path: &Path, error: &TiffError) -> IoError {
     }
 }
 
-fn header(path: &Path, decoder: &mut Decoder<&mut Source>) -> Result<Header, IoError> {
+fn header(path: &Path, decoder: &mut Decoder<Source<'_>>) -> Result<Header, IoError> {
     let fail = |error: TiffError| damaged(path, &error);
     let (width, height) = decoder.dimensions().map_err(fail)?;
     let colour = decoder.colortype().map_err(fail)?;
@@ -83,7 +82,7 @@ fn header(path: &Path, decoder: &mut Decoder<&mut Source>) -> Result<Header, IoE
 }
 
 /// What is not there, or cannot be read, is simply not known.
-fn metadata(decoder: &mut Decoder<&mut Source>) -> Metadata {
+fn metadata(decoder: &mut Decoder<Source<'_>>) -> Metadata {
     let profile = decoder.get_tag_u8_vec(ICC_PROFILE).ok();
     let software = decoder.get_tag_ascii_string(Tag::Software).ok();
     let orientation = decoder.find_tag_unsigned::<u16>(Tag::Orientation).ok().flatten();
@@ -97,7 +96,7 @@ fn metadata(decoder: &mut Decoder<&mut Source>) -> Metadata {
 }
 
 /// The tag that says whether alpha has been multiplied in.
-fn alpha_mode(decoder: &mut Decoder<&mut Source>) -> AlphaMode {
+fn alpha_mode(decoder: &mut Decoder<Source<'_>>) -> AlphaMode {
     match decoder.find_tag_unsigned_vec::<u16>(Tag::ExtraSamples) {
         Ok(Some(kinds)) if kinds.first() == Some(&1) => AlphaMode::Premultiplied,
         _ => AlphaMode::Straight,

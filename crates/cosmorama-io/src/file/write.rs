@@ -1,0 +1,114 @@
+use std::io::{Seek, Write};
+use std::path::Path;
+
+use cosmorama::raster::{Depth, EncodedImage};
+
+use crate::codec::{codec, write_planes as encode_planes};
+use crate::header::Format;
+use crate::pending::{Hidden, Pending};
+use crate::{IoError, WriteOptions};
+
+/// Writes a file in the format that its extension names. It appears whole or not at all; an older file of the
+/// same name is replaced only when the new one is whole.
+///
+/// # Errors
+/// When the extension is unknown, the format cannot hold the image, or the file cannot be written.
+pub fn write(path: impl AsRef<Path>, image: &EncodedImage, options: &WriteOptions) -> Result<(), IoError> {
+    write_levels(path, std::slice::from_ref(image), options)
+}
+
+/// Writes a picture with its mip levels, the largest first, as [`write()`] does a single one. Each level is half as large, rounded
+/// down, as the one before.
+///
+/// # Errors
+/// When [`write()`] would fail, when the format holds no levels and there are several, and when their sizes or sample types
+/// do not go together.
+pub fn write_levels(path: impl AsRef<Path>, levels: &[EncodedImage], options: &WriteOptions) -> Result<(), IoError> {
+    hidden(path.as_ref(), levels, options)?.appear()
+}
+
+/// Writes a picture that appears under its name when it is told to, as together with others.
+///
+/// # Errors
+/// When [`write()`] would fail.
+pub fn write_hidden(path: impl AsRef<Path>, image: &EncodedImage, options: &WriteOptions) -> Result<Hidden, IoError> {
+    hidden(path.as_ref(), std::slice::from_ref(image), options)
+}
+
+/// Writes a file in a format into memory, or to any other writer. `name` is what messages call the file.
+///
+/// # Errors
+/// When the format cannot hold the image, or writing fails.
+pub fn write_to(
+    mut output: impl Write + Seek,
+    name: impl AsRef<Path>,
+    format: Format,
+    image: &EncodedImage,
+    options: &WriteOptions,
+) -> Result<(), IoError> {
+    check_can_hold(name.as_ref(), format, image)?;
+    codec(format).encode(name.as_ref(), &mut output, image, options)
+}
+
+fn hidden(path: &Path, levels: &[EncodedImage], options: &WriteOptions) -> Result<Hidden, IoError> {
+    let format = Format::from_extension(path)?;
+    let Some((image, smaller)) = levels.split_first() else { return Err(IoError::write(path, "there is no picture")) };
+    check_can_hold(path, format, image)?;
+    if !smaller.is_empty() && !format.holds_levels() {
+        return Err(IoError::CannotHold {
+            path: path.to_owned(),
+            format,
+            found: format!("{} smaller copies of a picture", smaller.len()),
+            expected: "one picture; KTX2 and DDS hold several levels".to_owned(),
+        });
+    }
+    let mut pending = Pending::create(path)?;
+    codec(format).encode_levels(path, pending.writer(), levels, options)?;
+    pending.close()
+}
+
+/// Writes planes of numbers that are no picture, each under its name, as halves or floats. The file appears whole or not
+/// at all.
+///
+/// # Errors
+/// When the file is not named as OpenEXR, the only format with named channels; when a plane does not hold
+/// width × height numbers; when the file cannot be written.
+pub fn write_planes(
+    path: impl AsRef<Path>,
+    size: (usize, usize),
+    planes: Vec<(&str, Vec<f32>)>,
+    depth: Depth,
+    options: &WriteOptions,
+) -> Result<(), IoError> {
+    let path = path.as_ref();
+    let format = Format::from_extension(path)?;
+    let cannot_hold =
+        |found: String, expected: String| Err(IoError::CannotHold { path: path.to_owned(), format, found, expected });
+    if format != Format::Exr || !depth.is_float() {
+        let found = format!("{} named channels of depth {depth}", planes.len());
+        return cannot_hold(found, "OpenEXR; depth half, float".to_owned());
+    }
+    if let Some((name, plane)) = planes.iter().find(|(_, plane)| size.0.checked_mul(size.1) != Some(plane.len())) {
+        return cannot_hold(format!("{} numbers in {name}", plane.len()), format!("{}x{}", size.0, size.1));
+    }
+    let mut pending = Pending::create(path)?;
+    encode_planes(path, pending.writer(), size, planes, depth, options)?;
+    pending.finish()
+}
+
+fn check_can_hold(path: &Path, format: Format, image: &EncodedImage) -> Result<(), IoError> {
+    if format.supports(image.depth(), image.channels()) {
+        return Ok(());
+    }
+    let names = |names: Vec<String>| names.join(", ");
+    Err(IoError::CannotHold {
+        path: path.to_owned(),
+        format,
+        found: format!("{} of depth {}", image.channels(), image.depth()),
+        expected: format!(
+            "{}; depth {}",
+            names(format.channels().iter().map(ToString::to_string).collect()),
+            names(format.depths().iter().map(ToString::to_string).collect()),
+        ),
+    })
+}
