@@ -1,5 +1,5 @@
+use cosmorama::camera::View;
 use cosmorama::raster::{Image, Rgba};
-use cosmorama::world::View;
 
 use crate::{Checker, DemoWorld, Directions, Grid, ZonePlate, picture};
 

@@ -1,5 +1,5 @@
+use cosmorama::camera::Footprint;
 use cosmorama::sphere::{Angle, Direction};
-use cosmorama::world::Footprint;
 
 use crate::compass::Compass;
 use crate::pixel_window::{part_within, spread};

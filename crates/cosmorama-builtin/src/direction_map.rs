@@ -1,5 +1,5 @@
+use cosmorama::camera::View;
 use cosmorama::raster::Image;
-use cosmorama::world::View;
 use rayon::prelude::*;
 
 /// A map of where each pixel of a view looks, for other programs to take our geometry from.

@@ -1,5 +1,5 @@
+use cosmorama::camera::{PixelPoint, ScreenPixel, View};
 use cosmorama::raster::{Image, Rgba};
-use cosmorama::world::{PixelPoint, ScreenPixel, View};
 use rayon::prelude::*;
 
 use crate::pixel_window::sample_places;

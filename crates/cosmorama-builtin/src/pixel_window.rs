@@ -1,6 +1,6 @@
 //! The window that weighs light around a pixel's middle: exp(−2r²), Greene and Heckbert's Gaussian.
 
-use cosmorama::world::Footprint;
+use cosmorama::camera::Footprint;
 use glam::DVec3;
 
 /// Its standard deviation, in pixels.

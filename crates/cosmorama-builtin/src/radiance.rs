@@ -1,5 +1,5 @@
+use cosmorama::camera::Footprint;
 use cosmorama::sphere::Direction;
-use cosmorama::world::Footprint;
 
 /// A world given by formula: how much light comes from each direction.
 ///

@@ -1,5 +1,5 @@
+use cosmorama::camera::Footprint;
 use cosmorama::sphere::Direction;
-use cosmorama::world::Footprint;
 use glam::DVec3;
 
 use crate::pixel_window::pitch;

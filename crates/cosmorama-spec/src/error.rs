@@ -1,5 +1,5 @@
+use cosmorama::layout::LensSide;
 use cosmorama::projection::azimuthal::LensError;
-use cosmorama::world::LensSide;
 use thiserror::Error;
 
 /// Why a SPEC cannot be understood.

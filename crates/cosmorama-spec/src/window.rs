@@ -1,4 +1,4 @@
-use cosmorama::world::Canvas;
+use cosmorama::camera::Canvas;
 
 /// As far as a canvas may go, and a window on it lie, each way: as far as OpenEXR counts pixels.
 const FARTHEST: i64 = i32::MAX as i64;

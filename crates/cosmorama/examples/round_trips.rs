@@ -2,7 +2,7 @@
 //!
 //! `cargo run --release -p cosmorama --example round_trips [FROM [THROUGH]]`
 
-use cosmorama::resample::Filter;
+use cosmorama::filter::Filter;
 use rayon::prelude::*;
 use testkit::{Form, RoundTrip};
 

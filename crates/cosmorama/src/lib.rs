@@ -1,11 +1,15 @@
 #![doc = include_str!("../README.md")]
 
 pub mod arrange;
+pub mod camera;
 pub mod circle;
 pub mod compare;
 pub mod explain;
+pub mod filter;
+pub mod layout;
+pub mod lighting;
 pub mod projection;
 pub mod raster;
-pub mod resample;
+pub mod render;
 pub mod sphere;
 pub mod world;

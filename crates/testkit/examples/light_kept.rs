@@ -2,8 +2,8 @@
 //!
 //! `cargo run --release -p testkit --example light_kept`
 
+use cosmorama::filter::{CrossSection, Filter, Kernel};
 use cosmorama::raster::{Rgba, Transfer};
-use cosmorama::resample::{CrossSection, Filter, Kernel};
 use cosmorama::world::World;
 use cosmorama_io::{Limits, read};
 use testkit::{Form, LIGHT, Sky, equirect, shared};

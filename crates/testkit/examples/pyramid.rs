@@ -5,10 +5,12 @@
 
 use std::f64::consts::PI;
 
+use cosmorama::camera::View;
+use cosmorama::filter::{Filter, FilterKind};
 use cosmorama::raster::{ColourChannel, Image, Rgba, Transfer};
-use cosmorama::resample::{Filter, FilterKind, PyramidPlan, Resampler};
+use cosmorama::render::{PyramidPlan, Resampler};
 use cosmorama::sphere::CubeFace;
-use cosmorama::world::{View, World};
+use cosmorama::world::World;
 use cosmorama_io::{Limits, read};
 use cpu_time::ProcessTime;
 use testkit::{cube, equirect, fisheye, perspective, shared};

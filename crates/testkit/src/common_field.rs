@@ -1,4 +1,5 @@
-use cosmorama::world::{PixelPoint, View, World};
+use cosmorama::camera::{PixelPoint, View};
+use cosmorama::world::World;
 
 /// What a view has in common with another form of the world: which of its pixels can be compared, and between which of
 /// them the other form has a seam.

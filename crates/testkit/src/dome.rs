@@ -1,7 +1,9 @@
+use cosmorama::camera::View;
+use cosmorama::filter::Filter;
 use cosmorama::raster::{FixedCodec, FixedLight, Rgba, Transfer};
-use cosmorama::resample::{Filter, Resampler};
+use cosmorama::render::Resampler;
 use cosmorama::sphere::CubeFace;
-use cosmorama::world::{View, World};
+use cosmorama::world::World;
 
 use super::{cube, fisheye, turned};
 

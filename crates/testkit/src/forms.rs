@@ -1,12 +1,13 @@
+use cosmorama::camera::{
+    CameraModel, CylinderCamera, CylinderKind, EquirectCamera, FaceMapping, FieldOfView, FisheyeCamera, FulldomeCamera,
+    LayoutFaceCamera, Mirror, MirrorBallCamera, OctahedralCamera, OmnimaxCamera, PanniniCamera, PerspectiveCamera,
+    StereographicCamera, View, WorldMapCamera,
+};
+use cosmorama::layout::{Arrangement, DualFisheye, DualLens, LensSide, PlacedLens};
 use cosmorama::projection::OctahedralKind;
 use cosmorama::projection::azimuthal::{FisheyeLens, Lens};
 use cosmorama::sphere::{Angle, CubeFace, Orientation};
-use cosmorama::world::{
-    Arrangement, Blend, CylinderFrame, CylinderKind, DualFisheye, DualLens, EquirectFrame, FaceMapping, FieldOfView,
-    FisheyeFrame, Frame, FulldomeFrame, LayoutFaceFrame, LensSide, Mirror, MirrorBallFrame, OctahedralFrame,
-    OmnimaxFrame, PanniniFrame, PerspectiveFrame, PlacedLens, StereographicFrame, View, World, WorldMapFrame,
-    WorldView,
-};
+use cosmorama::world::{Blend, World, WorldView};
 
 use crate::frames::in_shape;
 
@@ -43,11 +44,11 @@ impl Form {
 
     /// Every form of a world, with about so many pixels for each steradian that it shows.
     pub fn all(pixels_per_steradian: f64) -> Vec<Self> {
-        let one = |(name, frame): (&'static str, Frame)| {
+        let one = |(name, frame): (&'static str, CameraModel)| {
             Self::of(name, pixels_per_steradian, Blend::default(), |rows| vec![in_shape(frame, rows)])
         };
         let cube = |mapping| {
-            let frame = Frame::LayoutFace(LayoutFaceFrame { mapping, ..LayoutFaceFrame::default() });
+            let frame = CameraModel::LayoutFace(LayoutFaceCamera { mapping, ..LayoutFaceCamera::default() });
             move |rows| {
                 CubeFace::ALL.map(|face| View { orientation: face.orientation(), ..in_shape(frame, rows) }).to_vec()
             }
@@ -73,7 +74,7 @@ impl Form {
 
 /// A camera whose two circles share a band of 15°, in which they are blended.
 fn both_ways() -> DualFisheye {
-    let frame = FisheyeFrame { field_of_view: DualFisheye::FIELD_OF_VIEW, ..FisheyeFrame::default() };
+    let frame = FisheyeCamera { field_of_view: DualFisheye::FIELD_OF_VIEW, ..FisheyeCamera::default() };
     let lens = DualLens { frame, turned: Orientation::IDENTITY };
     DualFisheye { arrangement: Arrangement::SideBySide, first: LensSide::Front, front: lens, back: lens, feather: None }
 }
@@ -85,32 +86,36 @@ fn both_circles(camera: &DualFisheye, rows: usize) -> Vec<View> {
 }
 
 /// Those of one view, as the command line names them.
-fn frames() -> Vec<(&'static str, Frame)> {
+fn frames() -> Vec<(&'static str, CameraModel)> {
     let fisheye = |lens: FisheyeLens, fov: f64| {
-        Frame::Fisheye(FisheyeFrame { lens, field_of_view: Angle::from_degrees(fov), ..FisheyeFrame::default() })
+        CameraModel::Fisheye(FisheyeCamera {
+            lens,
+            field_of_view: Angle::from_degrees(fov),
+            ..FisheyeCamera::default()
+        })
     };
-    let cylinder = |kind| Frame::Cylinder(CylinderFrame::new(kind));
-    let octahedral = |kind| Frame::Octahedral(OctahedralFrame { kind });
-    let camera = PerspectiveFrame::new(FieldOfView::Horizontal(Angle::from_degrees(90.0)));
-    let ball = |distance| Frame::MirrorBall(MirrorBallFrame { distance, ..MirrorBallFrame::default() });
+    let cylinder = |kind| CameraModel::Cylinder(CylinderCamera::new(kind));
+    let octahedral = |kind| CameraModel::Octahedral(OctahedralCamera { kind });
+    let camera = PerspectiveCamera::new(FieldOfView::Horizontal(Angle::from_degrees(90.0)));
+    let ball = |distance| CameraModel::MirrorBall(MirrorBallCamera { distance, ..MirrorBallCamera::default() });
     let mut frames = vec![
-        ("perspective", Frame::Perspective(camera)),
-        ("omnimax", Frame::Omnimax(OmnimaxFrame::default())),
-        ("fulldome", Frame::Fulldome(FulldomeFrame::default())),
-        ("equirect", Frame::Equirect(EquirectFrame::default())),
+        ("perspective", CameraModel::Perspective(camera)),
+        ("omnimax", CameraModel::Omnimax(OmnimaxCamera::default())),
+        ("fulldome", CameraModel::Fulldome(FulldomeCamera::default())),
+        ("equirect", CameraModel::Equirect(EquirectCamera::default())),
         ("mercator", cylinder(CylinderKind::Mercator)),
         ("cylinder", cylinder(CylinderKind::Central)),
         ("equal-area", cylinder(CylinderKind::EqualArea)),
         ("angular-map", fisheye(FisheyeLens::EQUIDISTANT, 360.0)),
         ("equisolid", fisheye(FisheyeLens::EQUISOLID, 360.0)),
         ("orthographic", fisheye(FisheyeLens::ORTHOGRAPHIC, 180.0)),
-        ("stereographic", Frame::Stereographic(StereographicFrame::default())),
+        ("stereographic", CameraModel::Stereographic(StereographicCamera::default())),
         ("mirror-ball", ball(None)),
         ("ball, near", ball(Some(3.0))),
-        ("hammer", Frame::WorldMap(WorldMapFrame::Hammer)),
-        ("mollweide", Frame::WorldMap(WorldMapFrame::Mollweide)),
-        ("sinusoidal", Frame::WorldMap(WorldMapFrame::Sinusoidal)),
-        ("pannini", Frame::Pannini(PanniniFrame::default())),
+        ("hammer", CameraModel::WorldMap(WorldMapCamera::Hammer)),
+        ("mollweide", CameraModel::WorldMap(WorldMapCamera::Mollweide)),
+        ("sinusoidal", CameraModel::WorldMap(WorldMapCamera::Sinusoidal)),
+        ("pannini", CameraModel::Pannini(PanniniCamera::default())),
         ("octahedral", octahedral(OctahedralKind::EqualArea)),
         ("oct. plain", octahedral(OctahedralKind::Plain)),
     ];

@@ -1,12 +1,13 @@
+use cosmorama::camera::{
+    CalibratedCamera, CalibratedLens, CameraMatrix, CameraModel, CylinderCamera, CylinderKind, FieldStop,
+    FisheyeCamera, MirrorBallCamera, OctahedralCamera, OmnimaxFraming, PanniniCamera, PixelGrid, PixelPoint,
+    StereographicCamera, View, WorldMapCamera,
+};
 use cosmorama::projection::OctahedralKind;
 use cosmorama::projection::azimuthal::{FisheyeLens, Lens};
 use cosmorama::projection::{BrownConrady, BrownConradyCoefficients, PlanePoint, PlaneRect, ProjectionKind};
 use cosmorama::sphere::{Angle, CubeFace, Orientation};
-use cosmorama::world::{
-    CalibratedFrame, CalibratedLens, CameraMatrix, CylinderFrame, CylinderKind, FieldStop, FisheyeFrame, Frame,
-    MirrorBallFrame, OctahedralFrame, OmnimaxFraming, PanniniFrame, PixelGrid, PixelPoint, StereographicFrame, View,
-    World, WorldMapFrame,
-};
+use cosmorama::world::World;
 use glam::DVec2;
 
 /// A face of the cube, 90° both ways whatever its pixels.
@@ -72,16 +73,17 @@ pub fn perspective(width: usize, height: usize, fov: f64, yaw: f64, pitch: f64, 
 
 /// Frames that show the whole world, about so many pixels high.
 pub fn whole_worlds(height: usize) -> Vec<(&'static str, View)> {
-    let fisheye = |lens| Frame::Fisheye(FisheyeFrame { lens, field_of_view: Angle::TURN, ..FisheyeFrame::default() });
-    let octahedral = |kind| Frame::Octahedral(OctahedralFrame { kind });
+    let fisheye =
+        |lens| CameraModel::Fisheye(FisheyeCamera { lens, field_of_view: Angle::TURN, ..FisheyeCamera::default() });
+    let octahedral = |kind| CameraModel::Octahedral(OctahedralCamera { kind });
     let frames = [
         ("equidistant", fisheye(FisheyeLens::EQUIDISTANT)),
         ("equisolid", fisheye(FisheyeLens::EQUISOLID)),
-        ("equal-area", Frame::Cylinder(CylinderFrame::new(CylinderKind::EqualArea))),
-        ("mirror ball", Frame::MirrorBall(MirrorBallFrame::default())),
-        ("hammer", Frame::WorldMap(WorldMapFrame::Hammer)),
-        ("mollweide", Frame::WorldMap(WorldMapFrame::Mollweide)),
-        ("sinusoidal", Frame::WorldMap(WorldMapFrame::Sinusoidal)),
+        ("equal-area", CameraModel::Cylinder(CylinderCamera::new(CylinderKind::EqualArea))),
+        ("mirror ball", CameraModel::MirrorBall(MirrorBallCamera::default())),
+        ("hammer", CameraModel::WorldMap(WorldMapCamera::Hammer)),
+        ("mollweide", CameraModel::WorldMap(WorldMapCamera::Mollweide)),
+        ("sinusoidal", CameraModel::WorldMap(WorldMapCamera::Sinusoidal)),
         ("octahedral", octahedral(OctahedralKind::EqualArea)),
         ("octahedral, plain", octahedral(OctahedralKind::Plain)),
     ];
@@ -90,34 +92,34 @@ pub fn whole_worlds(height: usize) -> Vec<(&'static str, View)> {
 
 /// Frames that show a part of it, about so many pixels high.
 pub fn partial_worlds(height: usize) -> Vec<(&'static str, View)> {
-    let cylinder = |kind| Frame::Cylinder(CylinderFrame::new(kind));
-    let ball = MirrorBallFrame { distance: Some(3.0), ..MirrorBallFrame::default() };
+    let cylinder = |kind| CameraModel::Cylinder(CylinderCamera::new(kind));
+    let ball = MirrorBallCamera { distance: Some(3.0), ..MirrorBallCamera::default() };
     let lenses = FisheyeLens::all().into_iter().map(|lens| {
         let field_of_view = Angle::from_radians((1.9 * lens.reach()).min(4.0));
-        ("a lens", Frame::Fisheye(FisheyeFrame { lens, field_of_view, ..FisheyeFrame::default() }))
+        ("a lens", CameraModel::Fisheye(FisheyeCamera { lens, field_of_view, ..FisheyeCamera::default() }))
     });
     let frames = [
         ("mercator", cylinder(CylinderKind::Mercator)),
         ("central cylinder", cylinder(CylinderKind::Central)),
-        ("near mirror ball", Frame::MirrorBall(ball)),
-        ("pannini", Frame::Pannini(PanniniFrame::default())),
-        ("stereographic", Frame::Stereographic(StereographicFrame::default())),
+        ("near mirror ball", CameraModel::MirrorBall(ball)),
+        ("pannini", CameraModel::Pannini(PanniniCamera::default())),
+        ("stereographic", CameraModel::Stereographic(StereographicCamera::default())),
     ];
     frames.into_iter().chain(lenses).chain(cameras()).map(|(name, frame)| (name, in_shape(frame, height))).collect()
 }
 
 /// Measured cameras: one that bends straight lines, and a fisheye whose rows lean.
-fn cameras() -> [(&'static str, Frame); 2] {
+fn cameras() -> [(&'static str, CameraModel); 2] {
     let matrix = CameraMatrix::from_rows([[210.0, 2.0, 215.0], [0.0, 200.0, 140.0]]).expect("a camera");
     let camera =
-        |lens| Frame::Calibrated(CalibratedFrame { lens, matrix, size: Some((400, 300)), field_of_view: None });
+        |lens| CameraModel::Calibrated(CalibratedCamera { lens, matrix, size: Some((400, 300)), field_of_view: None });
     let bent = BrownConradyCoefficients::from_opencv(&[-0.2, 0.04, 0.002, -0.001]);
     let pinhole = CalibratedLens::Pinhole(BrownConrady::new(bent).expect("a lens"));
     [("a bent pinhole", camera(pinhole)), ("a skewed fisheye", camera(CalibratedLens::Fisheye(FisheyeLens::EQUISOLID)))]
 }
 
 /// A frame in its usual shape, about so many pixels high.
-pub(crate) fn in_shape(frame: Frame, height: usize) -> View {
+pub(crate) fn in_shape(frame: CameraModel, height: usize) -> View {
     let ratio = frame.natural_height(1 << 20) as f64 / f64::from(1 << 20);
     frame.view((height as f64 / ratio).round() as usize, height).expect("a frame with its usual parameters")
 }

@@ -1,6 +1,7 @@
+use cosmorama::camera::{Footprint, PixelPoint};
 use cosmorama::raster::Rgba;
 use cosmorama::sphere::Direction;
-use cosmorama::world::{Footprint, PixelPoint, World};
+use cosmorama::world::World;
 use glam::DVec3;
 
 /// The light of a world by the direction of each texel's centre.

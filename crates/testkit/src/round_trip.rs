@@ -1,7 +1,9 @@
+use cosmorama::camera::{PixelPoint, View};
+use cosmorama::filter::Filter;
 use cosmorama::raster::Rgba;
-use cosmorama::resample::{Filter, Plan, Resampler};
+use cosmorama::render::{Plan, Resampler};
 use cosmorama::sphere::Direction;
-use cosmorama::world::{PixelPoint, View, World};
+use cosmorama::world::World;
 use glam::{DVec2, DVec3};
 
 use crate::common_field::CommonField;
@@ -152,9 +154,10 @@ impl Sums {
 
 #[cfg(test)]
 mod tests {
+    use cosmorama::camera::{PixelPoint, View};
     use cosmorama::raster::Rgba;
     use cosmorama::sphere::{Angle, Orientation};
-    use cosmorama::world::{PixelPoint, View, World};
+    use cosmorama::world::World;
 
     use super::Sums;
     use crate::common_field::CommonField;

@@ -1,5 +1,7 @@
+use cosmorama::filter::Filter;
+use cosmorama::lighting::LightBalance;
 use cosmorama::raster::Rgba;
-use cosmorama::resample::{Filter, LightBalance, Plan, Resampler};
+use cosmorama::render::{Plan, Resampler};
 use cosmorama::world::World;
 
 use crate::Form;

@@ -1,5 +1,5 @@
+use cosmorama::filter::{Filter, Kernel};
 use cosmorama::raster::Rgba;
-use cosmorama::resample::{Filter, Kernel};
 use cosmorama::sphere::Direction;
 use cosmorama::world::World;
 

@@ -1,23 +1,23 @@
 //! Measures of the arcade, in metres, shared by its parts. Its axis runs from back to front over the viewer.
 
 /// From the axis to the middle of each row of columns.
-pub(super) const HALF_WIDTH: f64 = 4.0;
+pub(in crate::demo) const HALF_WIDTH: f64 = 4.0;
 /// Where the columns end and the beams on them begin.
-pub(super) const BEAM_BOTTOM: f64 = 4.6;
+pub(in crate::demo) const BEAM_BOTTOM: f64 = 4.6;
 /// Where the beams end and the vault springs.
-pub(super) const SPRINGING: f64 = 5.35;
+pub(in crate::demo) const SPRINGING: f64 = 5.35;
 /// z of the front end.
-pub(super) const FRONT: f64 = -30.0;
+pub(in crate::demo) const FRONT: f64 = -30.0;
 /// z of the back end.
-pub(super) const BACK: f64 = 14.0;
+pub(in crate::demo) const BACK: f64 = 14.0;
 /// From column to column.
-pub(super) const BAY: f64 = 4.0;
+pub(in crate::demo) const BAY: f64 = 4.0;
 /// z of the frontmost columns.
-pub(super) const FIRST_COLUMN: f64 = -30.0;
+pub(in crate::demo) const FIRST_COLUMN: f64 = -30.0;
 /// Columns in each row.
-pub(super) const COLUMNS: usize = 12;
+pub(in crate::demo) const COLUMNS: usize = 12;
 
 /// Height of the vault's shell above the floor at a distance from the axis.
-pub(super) fn vault_height(x: f64) -> f64 {
+pub(in crate::demo) fn vault_height(x: f64) -> f64 {
     SPRINGING + (HALF_WIDTH * HALF_WIDTH - x * x).max(0.0).sqrt()
 }

@@ -3,23 +3,23 @@ use glam::DVec2;
 
 /// A line of text on a wall: x to the reader's right, y up, in metres.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Line {
+pub(in crate::demo) struct Line {
     /// ASCII.
-    pub(super) text: &'static str,
-    pub(super) middle: DVec2,
+    pub(in crate::demo) text: &'static str,
+    pub(in crate::demo) middle: DVec2,
     /// Height of a letter's cell, which is as wide as it is high.
-    pub(super) height: f64,
+    pub(in crate::demo) height: f64,
 }
 
 impl Line {
     /// Width of the whole line.
-    pub(super) const fn width(&self) -> f64 {
+    pub(in crate::demo) const fn width(&self) -> f64 {
         self.text.len() as f64 * self.height
     }
 }
 
 /// Whether a point of the wall is covered by ink.
-pub(super) fn covers(line: &Line, point: DVec2) -> bool {
+pub(in crate::demo) fn covers(line: &Line, point: DVec2) -> bool {
     let from_top_left =
         DVec2::new(point.x - line.middle.x + line.width() / 2.0, line.middle.y + line.height / 2.0 - point.y);
     let dots = (from_top_left * (8.0 / line.height)).floor();

@@ -1,19 +1,12 @@
 //! The demo world: an arcade under a glazed vault, late on a sunny afternoon.
 
-mod balloon;
-mod colonnade;
-mod gazing_ball;
-mod ground;
 mod hall;
-mod lamps;
 mod lettering;
 mod noise;
-mod panel;
-mod pyramid;
 mod ray;
 mod sky;
 mod solid;
-mod vault;
+mod thing;
 
 use cosmorama::sphere::Direction;
 use glam::DVec3;
@@ -33,15 +26,15 @@ pub struct DemoWorld;
 
 /// Everything that can be met, cheap and near things first.
 const PARTS: [&dyn Part; 9] = [
-    &ground::Ground,
-    &vault::Vault,
-    &colonnade::Colonnade,
-    &panel::Panel,
-    &lamps::Lamps,
-    &gazing_ball::GazingBall,
-    &balloon::Balloon,
-    &pyramid::Pyramid::LEFT,
-    &pyramid::Pyramid::BACK,
+    &thing::ground::Ground,
+    &thing::vault::Vault,
+    &thing::colonnade::Colonnade,
+    &thing::panel::Panel,
+    &thing::lamps::Lamps,
+    &thing::gazing_ball::GazingBall,
+    &thing::balloon::Balloon,
+    &thing::pyramid::Pyramid::LEFT,
+    &thing::pyramid::Pyramid::BACK,
 ];
 
 impl Radiance for DemoWorld {

@@ -2,7 +2,7 @@ use glam::DVec2;
 
 /// Smooth noise between 0 and 1: random values on the whole-numbered points of the plane, with a smooth
 /// blend between.
-pub(super) fn noise(point: DVec2) -> f64 {
+pub(in crate::demo) fn noise(point: DVec2) -> f64 {
     let (column, row) = (floor(point.x), floor(point.y));
     let within = point - DVec2::new(column as f64, row as f64);
     let blend = within * within * (DVec2::splat(3.0) - within * 2.0);
@@ -20,7 +20,7 @@ fn floor(value: f64) -> i64 {
 }
 
 /// Noise in octaves, each twice as fine and half as strong; between 0 and 1.
-pub(super) fn octaves(point: DVec2, count: u32) -> f64 {
+pub(in crate::demo) fn octaves(point: DVec2, count: u32) -> f64 {
     let (mut sum, mut total, mut strength, mut point) = (0.0, 0.0, 1.0, point);
     for _ in 0..count {
         sum += strength * noise(point);
@@ -41,7 +41,7 @@ fn hash(column: u32, row: u32) -> f64 {
 }
 
 /// 0 below `low`, 1 above `high`, smooth between.
-pub(super) fn smoothstep(low: f64, high: f64, value: f64) -> f64 {
+pub(in crate::demo) fn smoothstep(low: f64, high: f64, value: f64) -> f64 {
     let t = ((value - low) / (high - low)).clamp(0.0, 1.0);
     t * t * (3.0 - 2.0 * t)
 }

@@ -2,14 +2,14 @@ use glam::DVec3;
 
 /// A line from a point, along which light is looked for.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Ray {
-    pub(super) origin: DVec3,
+pub(in crate::demo) struct Ray {
+    pub(in crate::demo) origin: DVec3,
     /// Unit vector.
-    pub(super) direction: DVec3,
+    pub(in crate::demo) direction: DVec3,
     /// One over each component of the direction, for the many slabs that a ray is tested against.
-    pub(super) inverse: DVec3,
+    pub(in crate::demo) inverse: DVec3,
     /// What is farther does not count: something nearer is known already, or the air hides it.
-    pub(super) reach: f64,
+    pub(in crate::demo) reach: f64,
 }
 
 impl Ray {
@@ -17,22 +17,22 @@ impl Ray {
     const FARTHEST: f64 = 1e5;
 
     /// A ray that starts in the open.
-    pub(super) fn new(origin: DVec3, direction: DVec3) -> Self {
+    pub(in crate::demo) fn new(origin: DVec3, direction: DVec3) -> Self {
         Self { origin, direction, inverse: direction.recip(), reach: Self::FARTHEST }
     }
 
     /// Whether a distance is ahead and within reach; not so for NaN.
-    pub(super) fn reaches(&self, distance: f64) -> bool {
+    pub(in crate::demo) fn reaches(&self, distance: f64) -> bool {
         distance > 0.0 && distance < self.reach
     }
 
     /// The point at a distance.
-    pub(super) fn at(&self, distance: f64) -> DVec3 {
+    pub(in crate::demo) fn at(&self, distance: f64) -> DVec3 {
         self.origin + self.direction * distance
     }
 
     /// A ray that leaves a surface, started a little above it lest it meet the surface itself.
-    pub(super) fn leaving(point: DVec3, normal: DVec3, direction: DVec3) -> Self {
+    pub(in crate::demo) fn leaving(point: DVec3, normal: DVec3, direction: DVec3) -> Self {
         const CLEARANCE: f64 = 1e-5;
         Self::new(point + normal * CLEARANCE, direction)
     }
@@ -40,33 +40,33 @@ impl Ray {
 
 /// What a surface does with light.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Surface {
+pub(in crate::demo) struct Surface {
     /// Part of the light that is scattered to all sides.
-    pub(super) albedo: DVec3,
+    pub(in crate::demo) albedo: DVec3,
     /// Light of its own.
-    pub(super) glow: DVec3,
+    pub(in crate::demo) glow: DVec3,
     /// Part of the light that is mirrored when seen square on.
-    pub(super) mirror: f64,
+    pub(in crate::demo) mirror: f64,
 }
 
 impl Surface {
     /// A surface without gloss or glow.
-    pub(super) const fn matte(albedo: DVec3) -> Self {
+    pub(in crate::demo) const fn matte(albedo: DVec3) -> Self {
         Self { albedo, glow: DVec3::ZERO, mirror: 0.0 }
     }
 }
 
 /// Where a ray meets a part of the world.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Hit {
-    pub(super) distance: f64,
+pub(in crate::demo) struct Hit {
+    pub(in crate::demo) distance: f64,
     /// Unit vector, on the side from which the ray came.
-    pub(super) normal: DVec3,
-    pub(super) surface: Surface,
+    pub(in crate::demo) normal: DVec3,
+    pub(in crate::demo) surface: Surface,
 }
 
 /// The nearer of two hits.
-pub(super) fn nearer(a: Option<Hit>, b: Option<Hit>) -> Option<Hit> {
+pub(in crate::demo) fn nearer(a: Option<Hit>, b: Option<Hit>) -> Option<Hit> {
     match (a, b) {
         (Some(first), Some(second)) => Some(if second.distance < first.distance { second } else { first }),
         (first, second) => first.or(second),
@@ -74,7 +74,7 @@ pub(super) fn nearer(a: Option<Hit>, b: Option<Hit>) -> Option<Hit> {
 }
 
 /// A thing in the world.
-pub(super) trait Part: Sync {
+pub(in crate::demo) trait Part: Sync {
     /// The first meeting of the ray with this part, ahead of the ray's origin and within its reach.
     fn hit(&self, ray: &Ray) -> Option<Hit>;
 }

@@ -3,9 +3,9 @@ use glam::{DVec2, DVec3};
 use super::noise::{noise, octaves, smoothstep};
 
 /// Where the sun stands: 28° left of the front, 33° high. A unit vector.
-pub(super) const SUN: DVec3 = DVec3::new(-0.393731982196, 0.544639035015, -0.740502159169);
+pub(in crate::demo) const SUN: DVec3 = DVec3::new(-0.393731982196, 0.544639035015, -0.740502159169);
 /// Sunlight on a surface that faces the sun.
-pub(super) const SUNLIGHT: DVec3 = DVec3::new(1.62, 1.12, 0.66);
+pub(in crate::demo) const SUNLIGHT: DVec3 = DVec3::new(1.62, 1.12, 0.66);
 /// Cosine of the sun's radius of 0.7°, larger than life as in a painting.
 const SUN_EDGE: f64 = 0.999_925_37;
 /// The sun's disc itself: bright enough to burn into everything that filters badly.
@@ -16,7 +16,7 @@ const MIDDLE: DVec3 = DVec3::new(0.42, 0.48, 0.60);
 const ZENITH: DVec3 = DVec3::new(0.08, 0.19, 0.42);
 
 /// Light of the sky along a direction: hills, clouds, sun and air.
-pub(super) fn light(direction: DVec3) -> DVec3 {
+pub(in crate::demo) fn light(direction: DVec3) -> DVec3 {
     let air = air(direction);
     let hills = hills(direction);
     if direction.y < hills {
@@ -29,18 +29,18 @@ pub(super) fn light(direction: DVec3) -> DVec3 {
 }
 
 /// How much of a thing's own light is left after a distance through the air.
-pub(super) fn clarity(distance: f64) -> f64 {
+pub(in crate::demo) fn clarity(distance: f64) -> f64 {
     (-distance / 260.0).exp()
 }
 
 /// What far things fade into: the air at the horizon below or above them.
-pub(super) fn haze(direction: DVec3) -> DVec3 {
+pub(in crate::demo) fn haze(direction: DVec3) -> DVec3 {
     let flat = DVec3::new(direction.x, 0.0, direction.z).try_normalize().unwrap_or(DVec3::NEG_Z);
     air(flat)
 }
 
 /// Light of the sky and of the lit ground on a surface that looks along `normal`.
-pub(super) fn ambient(normal: DVec3) -> DVec3 {
+pub(in crate::demo) fn ambient(normal: DVec3) -> DVec3 {
     const ABOVE: DVec3 = DVec3::new(0.40, 0.43, 0.52);
     const BELOW: DVec3 = DVec3::new(0.30, 0.22, 0.17);
     // The sky is brighter round the sun.

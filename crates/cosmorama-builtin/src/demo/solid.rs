@@ -5,17 +5,17 @@ use glam::{DVec2, DVec3};
 use super::ray::Ray;
 
 /// Where a ray enters a solid: distance and outward normal. Rays that start inside a solid do not meet it.
-pub(super) type Entry = (f64, DVec3);
+pub(in crate::demo) type Entry = (f64, DVec3);
 
 /// A ball.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Ball {
-    pub(super) centre: DVec3,
-    pub(super) radius: f64,
+pub(in crate::demo) struct Ball {
+    pub(in crate::demo) centre: DVec3,
+    pub(in crate::demo) radius: f64,
 }
 
 impl Ball {
-    pub(super) fn entry(&self, ray: &Ray) -> Option<Entry> {
+    pub(in crate::demo) fn entry(&self, ray: &Ray) -> Option<Entry> {
         let from_centre = ray.origin - self.centre;
         let half_b = from_centre.dot(ray.direction);
         let discriminant = half_b * half_b - (from_centre.length_squared() - self.radius * self.radius);
@@ -29,20 +29,20 @@ impl Ball {
 
 /// A box along the axes.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Cuboid {
-    pub(super) least: DVec3,
-    pub(super) greatest: DVec3,
+pub(in crate::demo) struct Cuboid {
+    pub(in crate::demo) least: DVec3,
+    pub(in crate::demo) greatest: DVec3,
 }
 
 impl Cuboid {
     /// Where along the ray it is inside the box: the quick test for what the box surrounds.
-    pub(super) fn inside(&self, ray: &Ray) -> Option<(f64, f64)> {
+    pub(in crate::demo) fn inside(&self, ray: &Ray) -> Option<(f64, f64)> {
         let (enter, leave, _) = self.span(ray);
         let (enter, leave) = (enter.max(0.0), leave.min(ray.reach));
         (enter < leave).then_some((enter, leave))
     }
 
-    pub(super) fn entry(&self, ray: &Ray) -> Option<Entry> {
+    pub(in crate::demo) fn entry(&self, ray: &Ray) -> Option<Entry> {
         let (enter, leave, axis) = self.span(ray);
         if enter >= leave || !ray.reaches(enter) {
             return None;
@@ -70,16 +70,16 @@ impl Cuboid {
 
 /// An upright cylinder with a floor and a lid.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Drum {
+pub(in crate::demo) struct Drum {
     /// x and z of its axis.
-    pub(super) axis: DVec2,
-    pub(super) radius: f64,
-    pub(super) bottom: f64,
-    pub(super) top: f64,
+    pub(in crate::demo) axis: DVec2,
+    pub(in crate::demo) radius: f64,
+    pub(in crate::demo) bottom: f64,
+    pub(in crate::demo) top: f64,
 }
 
 impl Drum {
-    pub(super) fn entry(&self, ray: &Ray) -> Option<Entry> {
+    pub(in crate::demo) fn entry(&self, ray: &Ray) -> Option<Entry> {
         let (side_in, side_out) = self.side(ray)?;
         let (lid_in, lid_out) = slab(ray.origin.y, ray.inverse.y, self.bottom, self.top);
         let enter = side_in.max(lid_in);
@@ -94,7 +94,7 @@ impl Drum {
     }
 
     /// The least and greatest height that a ray has inside: the quick test for what the drum surrounds.
-    pub(super) fn heights(&self, ray: &Ray) -> Option<(f64, f64)> {
+    pub(in crate::demo) fn heights(&self, ray: &Ray) -> Option<(f64, f64)> {
         let (side_in, side_out) = self.side(ray)?;
         let (lid_in, lid_out) = slab(ray.origin.y, ray.inverse.y, self.bottom, self.top);
         let (enter, leave) = (side_in.max(lid_in).max(0.0), side_out.min(lid_out).min(ray.reach));
@@ -127,24 +127,24 @@ fn slab(origin: f64, inverse: f64, least: f64, greatest: f64) -> (f64, f64) {
 
 /// Equal things in a row along z, so that a ray tests only those that it passes.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Row {
+pub(in crate::demo) struct Row {
     /// Where the row stands.
-    pub(super) x: f64,
+    pub(in crate::demo) x: f64,
     /// z of the first thing, the one furthest to the front.
-    pub(super) first: f64,
-    pub(super) spacing: f64,
-    pub(super) count: usize,
+    pub(in crate::demo) first: f64,
+    pub(in crate::demo) spacing: f64,
+    pub(in crate::demo) count: usize,
     /// No thing is wider than this about its axis.
-    pub(super) radius: f64,
+    pub(in crate::demo) radius: f64,
     /// No thing is lower than this.
-    pub(super) bottom: f64,
+    pub(in crate::demo) bottom: f64,
     /// No thing is higher than this.
-    pub(super) top: f64,
+    pub(in crate::demo) top: f64,
 }
 
 impl Row {
     /// z of each thing that the ray may meet.
-    pub(super) fn passed(&self, ray: &Ray) -> impl Iterator<Item = f64> + use<> {
+    pub(in crate::demo) fn passed(&self, ray: &Ray) -> impl Iterator<Item = f64> + use<> {
         let (first, spacing) = (self.first, self.spacing);
         self.indices(ray).map(move |i| first + spacing * i as f64)
     }

@@ -4,8 +4,8 @@ mod labels;
 mod lines;
 mod strokes;
 
+use cosmorama::camera::{Footprint, View};
 use cosmorama::sphere::{Angle, Direction, DirectionJacobian};
-use cosmorama::world::{Footprint, View};
 use glam::DVec3;
 
 use crate::compass::Compass;

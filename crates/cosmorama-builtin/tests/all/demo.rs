@@ -1,8 +1,8 @@
 //! What holds for every direction of the demo world, and for pictures of it.
 
+use cosmorama::camera::{CameraModel, CubeFaceCamera, Placement};
 use cosmorama::raster::{Image, Rgba};
 use cosmorama::sphere::{Angle, CubeFace, Direction};
-use cosmorama::world::{CubeFaceFrame, Frame, Placement};
 use cosmorama_builtin::{DemoWorld, Radiance, picture};
 use glam::DVec3;
 use proptest::prelude::*;
@@ -37,7 +37,8 @@ fn light_is_finite_along_axes_and_planes() {
 
 fn small_face(face: CubeFace, threads: usize) -> Image<Rgba> {
     const SIZE: usize = 48;
-    let placement = Placement { orientation: face.orientation(), ..Placement::new(Frame::CubeFace(CubeFaceFrame)) };
+    let placement =
+        Placement { orientation: face.orientation(), ..Placement::new(CameraModel::CubeFace(CubeFaceCamera)) };
     let view = placement.view(SIZE, SIZE).expect("a face");
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
     pool.install(|| picture(&DemoWorld, &view))

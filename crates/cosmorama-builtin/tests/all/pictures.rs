@@ -1,22 +1,24 @@
 //! What pictures of the built-in worlds show, against closed forms and against many samples.
 
+use cosmorama::camera::{
+    CameraModel, CubeFaceCamera, EquirectCamera, FisheyeCamera, FulldomeCamera, OmnimaxCamera, PixelPoint, Placement,
+    View,
+};
 use cosmorama::raster::{Image, Rgba};
 use cosmorama::sphere::{Angle, CubeFace, Direction, Orientation};
-use cosmorama::world::{
-    CubeFaceFrame, EquirectFrame, FisheyeFrame, Frame, FulldomeFrame, OmnimaxFrame, PixelPoint, Placement, View,
-};
 use cosmorama_builtin::{BuiltinWorld, Checker, Grid, Radiance, picture};
 
 fn dome(size: usize) -> View {
-    Frame::Fulldome(FulldomeFrame::default()).view(size, size).unwrap()
+    CameraModel::Fulldome(FulldomeCamera::default()).view(size, size).unwrap()
 }
 
 fn panorama(height: usize) -> View {
-    Frame::Equirect(EquirectFrame::default()).view(2 * height, height).unwrap()
+    CameraModel::Equirect(EquirectCamera::default()).view(2 * height, height).unwrap()
 }
 
 fn face(face: CubeFace, size: usize) -> View {
-    let placement = Placement { orientation: face.orientation(), ..Placement::new(Frame::CubeFace(CubeFaceFrame)) };
+    let placement =
+        Placement { orientation: face.orientation(), ..Placement::new(CameraModel::CubeFace(CubeFaceCamera)) };
     placement.view(size, size).unwrap()
 }
 
@@ -26,7 +28,7 @@ fn views() -> [View; 5] {
         panorama(100),
         face(CubeFace::Up, 90),
         face(CubeFace::Left, 90),
-        Frame::Omnimax(OmnimaxFrame::default()).view(196, 144).unwrap(),
+        CameraModel::Omnimax(OmnimaxCamera::default()).view(196, 144).unwrap(),
     ]
 }
 
@@ -118,8 +120,8 @@ fn the_grid_is_what_samples_say() {
     let view = |yaw: f64, pitch: f64| {
         let orientation =
             Orientation::from_yaw_pitch_roll(Angle::from_degrees(yaw), Angle::from_degrees(pitch), Angle::ZERO);
-        let frame = FisheyeFrame { field_of_view: Angle::from_degrees(6.0), ..FisheyeFrame::default() };
-        Placement { orientation, ..Placement::new(Frame::Fisheye(frame)) }.view(150, 150).unwrap()
+        let frame = FisheyeCamera { field_of_view: Angle::from_degrees(6.0), ..FisheyeCamera::default() };
+        Placement { orientation, ..Placement::new(CameraModel::Fisheye(frame)) }.view(150, 150).unwrap()
     };
     let grid = Grid::new();
     for (yaw, pitch) in [(0.0, 0.0), (180.0, 3.0), (-31.0, 47.0), (0.0, 89.0), (90.0, -78.0)] {

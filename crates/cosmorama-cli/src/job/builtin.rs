@@ -1,6 +1,6 @@
 use anyhow::Result;
+use cosmorama::filter::Filter;
 use cosmorama::raster::Depth;
-use cosmorama::resample::Filter;
 use cosmorama_builtin::{BuiltinWorld, DirectionMap, Grid};
 use cosmorama_io::Format;
 use cosmorama_spec::{Missing, did_you_mean};

@@ -4,9 +4,9 @@ use std::fmt::Display;
 
 use crate::failure::usage;
 use anyhow::Error;
+use cosmorama::camera::{CalibratedCamera, CalibratedLens, CameraMatrix, CameraModel, Placement};
 use cosmorama::projection::azimuthal::{FisheyeLens, KannalaBrandt, OCAM_COEFFICIENTS, Ocam};
 use cosmorama::projection::{BrownConrady, BrownConradyCoefficients};
-use cosmorama::world::{CalibratedFrame, CalibratedLens, CameraMatrix, Frame, Placement};
 use cosmorama_io::{Calibration, Distortion};
 use cosmorama_spec::{CalibrationSpec, LensFamily, Shape, Single, Spec, SphereSamples, StMapBase};
 
@@ -35,7 +35,7 @@ pub(super) fn unread(camera: &CalibrationSpec) -> Error {
 fn single(camera: &CalibrationSpec) -> Result<Single, String> {
     let frame = frame(camera).map_err(|reason| format!("calibration=: {reason}"))?;
     let placement = Placement {
-        frame: Frame::Calibrated(frame),
+        frame: CameraModel::Calibrated(frame),
         orientation: camera.orientation,
         mirror: camera.mirror,
         canvas: camera.canvas,
@@ -43,12 +43,12 @@ fn single(camera: &CalibrationSpec) -> Result<Single, String> {
     Ok(Single { placement, samples: SphereSamples::NotAPanorama, any_shape: false })
 }
 
-fn frame(camera: &CalibrationSpec) -> Result<CalibratedFrame, String> {
+fn frame(camera: &CalibrationSpec) -> Result<CalibratedCamera, String> {
     let calibration = Calibration::read(&camera.file).map_err(|error| error.to_string())?;
     let told = |reason: &dyn Display| format!("{}: {reason}", camera.file.display());
     let lens = lens(&calibration.distortion, camera.family).map_err(|reason| told(&reason))?;
     let matrix = CameraMatrix::from_rows(calibration.matrix).map_err(|error| told(&error))?;
-    Ok(CalibratedFrame { lens, matrix, size: calibration.size, field_of_view: camera.field_of_view })
+    Ok(CalibratedCamera { lens, matrix, size: calibration.size, field_of_view: camera.field_of_view })
 }
 
 fn lens(distortion: &Distortion, family: LensFamily) -> Result<CalibratedLens, String> {

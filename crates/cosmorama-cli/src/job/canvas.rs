@@ -2,7 +2,7 @@ use std::fmt::Display;
 use std::path::Path;
 
 use anyhow::Result;
-use cosmorama::world::{Canvas, Frame};
+use cosmorama::camera::{CameraModel, Canvas};
 use cosmorama_io::{Header, Window};
 
 use crate::failure::usage;
@@ -48,11 +48,11 @@ pub(super) fn lies_on_canvas(name: impl Display, (columns, rows): (usize, usize)
 }
 
 /// A map whose shape is known was meant otherwise if it has another: its pixels would be stretched.
-pub(super) fn fits_shape(path: &Path, frame: Frame, canvas: Canvas) -> Result<()> {
+pub(super) fn fits_shape(path: &Path, frame: CameraModel, canvas: Canvas) -> Result<()> {
     let (what, whole) = match frame {
-        Frame::Equirect(_) => ("panorama of its field of view", "hfov=360,vfov=180 (or its own)"),
-        Frame::WorldMap(_) => ("map of the world", "canvas=WxH+0+0"),
-        Frame::Octahedral(_) => ("octahedral map", "canvas=WxH+0+0"),
+        CameraModel::Equirect(_) => ("panorama of its field of view", "hfov=360,vfov=180 (or its own)"),
+        CameraModel::WorldMap(_) => ("map of the world", "canvas=WxH+0+0"),
+        CameraModel::Octahedral(_) => ("octahedral map", "canvas=WxH+0+0"),
         _ => return Ok(()),
     };
     let expected = frame.natural_height(canvas.width);

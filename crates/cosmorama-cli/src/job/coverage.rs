@@ -1,7 +1,9 @@
 use anyhow::{Error, Result, anyhow, bail};
+use cosmorama::camera::{Canvas, PixelRect, View};
+use cosmorama::filter::Filter;
 use cosmorama::raster::Rgba;
-use cosmorama::resample::{Filter, Need, Needs};
-use cosmorama::world::{Canvas, PixelRect, Source, View, World, WorldView};
+use cosmorama::render::{Need, Needs};
+use cosmorama::world::{Source, World, WorldView};
 use cosmorama_spec::Missing;
 
 use super::{Input, InputView, MemoryBudget, Target, TargetView};

@@ -1,8 +1,9 @@
 use std::path::Path;
 
 use anyhow::{Result, bail};
+use cosmorama::camera::{CameraModel, EquirectCamera, Placement, SamplePositions};
 use cosmorama::circle::Found;
-use cosmorama::world::{EquirectFrame, FaceOrder, Frame, LayoutKind, Placement, SamplePositions};
+use cosmorama::layout::{FaceOrder, LayoutKind};
 use cosmorama_io::{EnvMap, Header, Window};
 use cosmorama_spec::{Cube, Packing, Shape, Single, Spec, SphereSamples, StereoSpec};
 
@@ -134,7 +135,7 @@ fn ambiguous(path: &Path, header: &Header, layouts: &[LayoutKind], seen: &Seen) 
 }
 
 fn panorama(samples: SamplePositions, window: Option<Window>) -> Shape {
-    let frame = Frame::Equirect(EquirectFrame { samples, ..EquirectFrame::default() });
+    let frame = CameraModel::Equirect(EquirectCamera { samples, ..EquirectCamera::default() });
     let placement = Placement { canvas: window.map(canvas_of), ..Placement::new(frame) };
     Shape::Single(Single { placement, samples: SphereSamples::ByFormat, any_shape: false })
 }
@@ -170,7 +171,7 @@ pub(super) fn declared(shape: &Shape, pattern: &str, header: &Header, warnings: 
 
 /// A whole panorama of which the file says that it is only a part of it.
 fn windowed(mut single: Single, header: &Header) -> Single {
-    let whole = Frame::Equirect(EquirectFrame::default());
+    let whole = CameraModel::Equirect(EquirectCamera::default());
     if let (Some(window), None) = (header.metadata.panorama, single.placement.canvas)
         && single.placement.frame == whole
     {

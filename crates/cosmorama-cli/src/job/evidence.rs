@@ -2,9 +2,10 @@
 
 use std::path::Path;
 
+use cosmorama::camera::{CameraModel, Mirror, OmnimaxCamera, PixelRect};
 use cosmorama::circle::{self, Circle, Found};
+use cosmorama::layout::{Arrangement, CubeLayout, LayoutKind};
 use cosmorama::raster::{EncodedImage, Image, Rgba, Transfer, Uniform};
-use cosmorama::world::{Arrangement, CubeLayout, Frame, LayoutKind, Mirror, OmnimaxFrame, PixelRect};
 use cosmorama_io::{Header, IoError, Limits, probe, read};
 
 use super::halves::{Circles, Twins};
@@ -197,7 +198,7 @@ fn is_omnimax(codes: &Image<Rgba>) -> bool {
     if width <= height || !corners.iter().all(|(i, j)| is_black(codes.get(*i, *j))) {
         return false;
     }
-    let Ok(view) = Frame::Omnimax(OmnimaxFrame::default()).view(width, height) else { return false };
+    let Ok(view) = CameraModel::Omnimax(OmnimaxCamera::default()).view(width, height) else { return false };
     let shown = Image::from_fn(width, height, |i, j| view.screen_pixel(i, j).is_some());
     let hidden = shown.pixels().iter().filter(|shown| !**shown).count();
     // Of a frame that shows nearly everything nothing can be told.

@@ -1,7 +1,8 @@
 use std::path::Path;
 
 use anyhow::{Result, anyhow};
-use cosmorama::world::{Canvas, Eye, LayoutError, PixelRect, Stereo, View};
+use cosmorama::camera::{Canvas, PixelRect, View};
+use cosmorama::layout::{Eye, LayoutError, Stereo};
 use cosmorama_io::{Header, Metadata};
 use cosmorama_spec::Size;
 

@@ -1,6 +1,7 @@
 use anyhow::Result;
+use cosmorama::camera::Canvas;
+use cosmorama::layout::{FacePart, FacePlacement};
 use cosmorama::sphere::{CubeFace, Orientation};
-use cosmorama::world::{Canvas, FacePart, FacePlacement};
 use cosmorama_io::{FaceFile, Header};
 use cosmorama_spec::Cube;
 

@@ -1,8 +1,9 @@
 use std::path::PathBuf;
 
 use anyhow::{Result, anyhow};
+use cosmorama::camera::Canvas;
+use cosmorama::layout::{FacePart, FacePlacement};
 use cosmorama::sphere::CubeFace;
-use cosmorama::world::{Canvas, FacePart, FacePlacement};
 
 /// A face's picture as its file has it.
 pub(super) struct FacePicture {

@@ -1,5 +1,5 @@
+use cosmorama::camera::{Canvas, Mirror, Placement};
 use cosmorama::sphere::{Angle, CubeFace, Orientation};
-use cosmorama::world::{Canvas, Mirror, Placement};
 use cosmorama_io::FacePlacement;
 use cosmorama_spec::Cube;
 

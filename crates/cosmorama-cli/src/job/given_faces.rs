@@ -1,9 +1,8 @@
 use cosmorama::arrange::{Border, Change, Fit, Mismatch, Pose, Verdict, changes, fits_as_well, is_continuous, judge};
+use cosmorama::camera::{LayoutFaceCamera, Mirror, SamplePositions};
+use cosmorama::layout::{CubeLayout, FaceOrder, FacePlacement, LayoutKind, PlacedFace};
 use cosmorama::raster::{Image, Rgba};
 use cosmorama::sphere::CubeFace;
-use cosmorama::world::{
-    CubeLayout, FaceOrder, FacePlacement, LayoutFaceFrame, LayoutKind, Mirror, PlacedFace, SamplePositions,
-};
 use cosmorama_io::{EnvMap, Naming};
 use cosmorama_spec::{Cube, Packing};
 
@@ -81,7 +80,7 @@ impl GivenFaces {
         by_file: SamplePositions,
         faces: impl Iterator<Item = (CubeFace, FacePlacement)>,
     ) -> Option<Self> {
-        let meet = cube.field_of_view == LayoutFaceFrame::RIGHT_ANGLE;
+        let meet = cube.field_of_view == LayoutFaceCamera::RIGHT_ANGLE;
         let is_one_image = matches!(packing, GivenPacking::OneImage(_));
         let is_plain = meet && cube.half.is_none() && (is_one_image || cube.mirror == Mirror::default());
         let poses = faces.map(|(face, lies)| Pose::new(face, lies)).collect();

@@ -1,7 +1,7 @@
 //! What GPano metadata say of panoramas that are written.
 
+use cosmorama::camera::{CameraModel, Canvas, EquirectCamera, Mirror, Placement, SamplePositions};
 use cosmorama::sphere::Angle;
-use cosmorama::world::{Canvas, EquirectFrame, Frame, Mirror, Placement, SamplePositions};
 use cosmorama_io::{Format, Window};
 use cosmorama_spec::{Shape, Single, Spec};
 
@@ -27,8 +27,8 @@ pub(super) fn window(single: &Single, (width, height): (usize, usize)) -> Option
 }
 
 /// The panorama, if it is one of those that they have words for.
-fn described(single: &Single) -> Option<EquirectFrame> {
-    let Placement { frame: Frame::Equirect(frame), mirror, .. } = single.placement else { return None };
+fn described(single: &Single) -> Option<EquirectCamera> {
+    let Placement { frame: CameraModel::Equirect(frame), mirror, .. } = single.placement else { return None };
     (frame.samples == SamplePositions::Centres && mirror == Mirror::default()).then_some(frame)
 }
 
@@ -48,7 +48,7 @@ pub(super) fn warning(geometry: &GeometryArgs, target: &Target) -> Option<String
     let frame = described(single)?;
     let output = target.views.first()?;
     let size = (output.view.width(), output.view.height());
-    let is_whole = single.placement.canvas.is_none() && frame == EquirectFrame::default();
+    let is_whole = single.placement.canvas.is_none() && frame == EquirectCamera::default();
     if target.panorama.is_some() || is_whole || !matches!(target.format, Format::Jpeg | Format::Png) {
         return None;
     }

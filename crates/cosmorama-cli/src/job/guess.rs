@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use cosmorama::circle::{Circle, Found};
-use cosmorama::world::{Arrangement, FaceOrder, LayoutKind};
+use cosmorama::layout::{Arrangement, FaceOrder, LayoutKind};
 use cosmorama_io::{EnvMap, Header, Window};
 use cosmorama_spec::{Cube, Packing};
 

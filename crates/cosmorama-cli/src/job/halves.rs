@@ -1,9 +1,10 @@
 //! Images of two pictures: two circles, or the same for two eyes.
 
+use cosmorama::camera::PixelRect;
 use cosmorama::circle::{self, Circle, Found};
 use cosmorama::compare::likeness;
+use cosmorama::layout::{Arrangement, LensSide};
 use cosmorama::raster::{Image, Rgba};
-use cosmorama::world::{Arrangement, LensSide, PixelRect};
 
 use super::evidence::{fills, is_round};
 

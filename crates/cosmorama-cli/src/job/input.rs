@@ -2,7 +2,9 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use anyhow::{Result, bail};
-use cosmorama::world::{Blend, Canvas, FacePart, View, ViewMask, WorldView};
+use cosmorama::camera::{Canvas, View};
+use cosmorama::layout::FacePart;
+use cosmorama::world::{Blend, ViewMask, WorldView};
 use cosmorama_io::{EnvMap, FaceFile, FacePattern, FaceSet, FrameList, Header, probe};
 use cosmorama_spec::{Cube, Packing, Shape, Single, Spec};
 

@@ -4,8 +4,9 @@ use std::path::Path;
 use std::sync::Arc;
 
 use anyhow::{Result, bail};
+use cosmorama::camera::Canvas;
 use cosmorama::raster::{EncodedImage, Rgba, Transfer};
-use cosmorama::world::{Canvas, MaskShape, ViewMask};
+use cosmorama::world::{MaskShape, ViewMask};
 use cosmorama_io::{Limits, probe, read};
 
 use super::{InputView, MemoryBudget};

@@ -1,9 +1,9 @@
 use std::path::Path;
 
 use anyhow::{Result, bail};
+use cosmorama::camera::View;
 use cosmorama::projection::{ProjectionKind, StMapTable};
 use cosmorama::raster::Rgba;
-use cosmorama::world::View;
 use cosmorama_io::{Format, Header};
 use cosmorama_spec::MemorySize;
 

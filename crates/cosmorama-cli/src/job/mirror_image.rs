@@ -1,7 +1,8 @@
 //! Faces that are mirrored: what `flip=x` makes of them.
 
 use cosmorama::arrange::Pose;
-use cosmorama::world::{CubeLayout, FaceOrder, FacePlacement, LayoutKind, Mirror};
+use cosmorama::camera::Mirror;
+use cosmorama::layout::{CubeLayout, FaceOrder, FacePlacement, LayoutKind};
 
 pub(super) const ACROSS: Mirror = Mirror { x: true, y: false };
 

@@ -68,8 +68,9 @@ pub(crate) use thin_alpha::ThinAlpha;
 use std::path::PathBuf;
 
 use anyhow::Result;
+use cosmorama::filter::Filter;
 use cosmorama::raster::{Channels, Depth, Rgba};
-use cosmorama::resample::{Filter, Resampler};
+use cosmorama::render::Resampler;
 use cosmorama::world::World;
 use cosmorama_io::{Compression, Format, WriteOptions};
 use cosmorama_spec::{CompressionLevel, Missing};
@@ -227,7 +228,7 @@ fn told_of_shape(geometry: &GeometryArgs, target: &Target) -> Option<String> {
 
 /// The filter that was asked for.
 pub(crate) fn filter(geometry: &GeometryArgs, warnings: &mut Vec<String>) -> Filter {
-    use cosmorama::resample::{FilterKind, Kernel};
+    use cosmorama::filter::{FilterKind, Kernel};
     let (kind, kernel) = (geometry.filter.0, geometry.kernel.kernel);
     let is_weighed = !matches!(kind, FilterKind::Point | FilterKind::Bilinear);
     if !is_weighed && (kernel != Kernel::ADAPTIVE || geometry.anti_ringing.is_some()) {

@@ -1,8 +1,10 @@
 use std::path::Path;
 
 use anyhow::Result;
+use cosmorama::camera::{CameraError, CameraModel, Placement, View};
+use cosmorama::layout::{FacePart, FacePlacement};
 use cosmorama::sphere::{CubeFace, Orientation};
-use cosmorama::world::{Blend, FacePart, FacePlacement, Frame, FrameError, Placement, View};
+use cosmorama::world::Blend;
 use cosmorama_spec::{Shape, Size, Spec};
 
 use super::eye::{EyePart, eye_size};
@@ -40,7 +42,7 @@ impl Input {
 }
 
 fn views(from: &Spec, given: Option<Size>, pixels_per_radian: f64) -> Result<Vec<InputView>> {
-    let size = |frame: Frame| match given {
+    let size = |frame: CameraModel| match given {
         Some(Size { width, height }) => Ok((width, height.unwrap_or_else(|| frame.natural_height(width)))),
         None => frame.size_at(pixels_per_radian).map_err(wrong),
     };
@@ -70,7 +72,7 @@ fn views(from: &Spec, given: Option<Size>, pixels_per_radian: f64) -> Result<Vec
     }
 }
 
-fn wrong(error: FrameError) -> anyhow::Error {
+fn wrong(error: CameraError) -> anyhow::Error {
     usage(format!("--from: {error}"))
 }
 

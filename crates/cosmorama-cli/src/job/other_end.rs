@@ -1,6 +1,7 @@
 //! Crosses with their long arm at the other end: mirrored as a whole, their faces lie in other places.
 
-use cosmorama::world::{CubeLayout, LayoutKind, Mirror, PixelRect};
+use cosmorama::camera::{Mirror, PixelRect};
+use cosmorama::layout::{CubeLayout, LayoutKind};
 
 use super::Continuity;
 use super::mirror_image::flip_key;

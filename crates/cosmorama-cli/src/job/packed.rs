@@ -1,8 +1,9 @@
 use std::path::Path;
 
 use anyhow::{Result, anyhow, bail};
+use cosmorama::camera::{FisheyeFit, LensCircle, LensScale};
+use cosmorama::layout::{Arrangement, DualFisheye, DualLens};
 use cosmorama::sphere::Orientation;
-use cosmorama::world::{Arrangement, DualFisheye, DualLens, FisheyeFit, LensCircle, LensScale};
 use cosmorama_io::Header;
 use cosmorama_spec::{Cube, Dual};
 

@@ -1,8 +1,7 @@
 use anyhow::Result;
+use cosmorama::camera::{CameraError, CameraModel, Mirror, Placement, SamplePositions, View};
+use cosmorama::layout::{CubeLayout, Eye, FaceOrder, FacePart, LayoutKind};
 use cosmorama::sphere::CubeFace;
-use cosmorama::world::{
-    CubeLayout, Eye, FaceOrder, FacePart, Frame, FrameError, LayoutKind, Mirror, Placement, SamplePositions, View,
-};
 use cosmorama_io::{EnvMap, Format, Naming, Window};
 use cosmorama_spec::{Cube, Dual, Packing, Shape, Single, Size, SphereSamples, StereoSpec};
 
@@ -189,7 +188,7 @@ pub(super) fn world_of(eye: Option<Eye>, count: usize) -> usize {
     if eye == Some(Eye::Right) { count.saturating_sub(1) } else { 0 }
 }
 
-fn wrong(error: FrameError) -> anyhow::Error {
+fn wrong(error: CameraError) -> anyhow::Error {
     usage(format!("--to: {error}"))
 }
 
@@ -239,7 +238,7 @@ fn single_view(single: Single, geometry: &GeometryArgs, pixels_per_radian: Optio
 
 /// OpenEXR's environment maps have their samples on the edges and show the whole sphere.
 fn panorama_envmap(single: &Single) -> Option<EnvMap> {
-    let Frame::Equirect(frame) = single.placement.frame else { return None };
+    let CameraModel::Equirect(frame) = single.placement.frame else { return None };
     let whole = frame.horizontal.degrees() > 359.999 && frame.vertical.degrees() > 179.999;
     let by_format = single.samples != SphereSamples::Given(SamplePositions::Centres);
     let upright = single.placement.canvas.is_none() && single.placement.mirror == Mirror::default();

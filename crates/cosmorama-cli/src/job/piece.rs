@@ -1,7 +1,7 @@
+use cosmorama::camera::{CameraError, Canvas, PixelRect, Placement, View};
+use cosmorama::layout::{CubeLayout, LayoutError, PlacedFace, PlacedLens};
 use cosmorama::sphere::{CubeFace, Orientation};
-use cosmorama::world::{
-    Blend, Canvas, CubeLayout, FrameError, LayoutError, PixelRect, PlacedFace, PlacedLens, Placement, View,
-};
+use cosmorama::world::Blend;
 use cosmorama_spec::{Cube, Dual};
 
 use super::face_view::face_placement;
@@ -50,13 +50,13 @@ impl Piece {
     }
 
     /// The geometry of its pixels, all of it turned further.
-    pub(super) fn view(&self, outer: Orientation) -> Result<View, FrameError> {
+    pub(super) fn view(&self, outer: Orientation) -> Result<View, CameraError> {
         let placement = Placement { orientation: self.placement.orientation.within(outer), ..self.placement };
         placement.view(self.rect.width(), self.rect.height())
     }
 
     /// The geometry of its whole picture.
-    pub(super) fn nominal(&self) -> Result<View, FrameError> {
+    pub(super) fn nominal(&self) -> Result<View, CameraError> {
         Placement { canvas: None, ..self.placement }.view(self.canvas.width, self.canvas.height)
     }
 }

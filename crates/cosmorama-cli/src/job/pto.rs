@@ -3,10 +3,11 @@
 use std::path::Path;
 
 use anyhow::{Context, Result, anyhow};
-use cosmorama::sphere::{Angle, Orientation};
-use cosmorama::world::{
-    Blend, Canvas, Frame, HuginFrame, HuginProjection, MaskShape, Mirror, PixelPoint, Placement, WorldMapFrame,
+use cosmorama::camera::{
+    CameraModel, Canvas, HuginCamera, HuginProjection, Mirror, PixelPoint, Placement, WorldMapCamera,
 };
+use cosmorama::sphere::{Angle, Orientation};
+use cosmorama::world::{Blend, MaskShape};
 use cosmorama_io::{PtoImage, PtoPanorama, PtoProject, probe};
 use cosmorama_spec::{Shape, Single, Size, Spec, SphereSamples};
 
@@ -90,7 +91,7 @@ fn view(folder: &Path, image: &PtoImage, memory: MemoryBudget) -> Result<InputVi
         let found = format!("{}x{}", whole.width, whole.height);
         return Err(anyhow!("{} has {found} pixels, but the project says w{width} h{height}", path.display()));
     }
-    let frame = HuginFrame {
+    let frame = HuginCamera {
         projection: lens(image.lens)?,
         field_of_view: Angle::from_degrees(image.field_of_view),
         correction: image.correction,
@@ -98,7 +99,8 @@ fn view(folder: &Path, image: &PtoImage, memory: MemoryBudget) -> Result<InputVi
     };
     let [yaw, pitch, roll] = image.yaw_pitch_roll.map(Angle::from_degrees);
     let orientation = Orientation::from_yaw_pitch_roll(yaw, pitch, roll);
-    let placement = |canvas| Placement { frame: Frame::Hugin(frame), orientation, mirror: Mirror::default(), canvas };
+    let placement =
+        |canvas| Placement { frame: CameraModel::Hugin(frame), orientation, mirror: Mirror::default(), canvas };
     let Part { corner, size } = Part::of(image)?;
     let shapes = shapes(image);
     let mask = if shapes.is_empty() { None } else { Some(super::mask::of_shapes(&shapes, corner, size, memory)?) };
@@ -168,17 +170,17 @@ fn lens(f: u32) -> Result<HuginProjection> {
 }
 
 /// The frame of the p-line's f.
-fn output_frame(panorama: &PtoPanorama) -> Result<Frame, String> {
+fn output_frame(panorama: &PtoPanorama) -> Result<CameraModel, String> {
     let field_of_view = Angle::from_degrees(panorama.field_of_view);
     let f = panorama.projection;
     let Some(projection) = HuginProjection::of_panorama(f) else {
         return match (f, is_whole_world(panorama)) {
-            (7, true) => Ok(Frame::WorldMap(WorldMapFrame::Sinusoidal)),
-            (21, true) => Ok(Frame::WorldMap(WorldMapFrame::Hammer)),
+            (7, true) => Ok(CameraModel::WorldMap(WorldMapCamera::Sinusoidal)),
+            (21, true) => Ok(CameraModel::WorldMap(WorldMapCamera::Hammer)),
             _ => Err(format!("the panorama's projection f{f} is not supported as it is; give --to SPEC and --size")),
         };
     };
-    Ok(Frame::Hugin(HuginFrame { projection, field_of_view, correction: [0.0; 3], shift: [0.0; 2] }))
+    Ok(CameraModel::Hugin(HuginCamera { projection, field_of_view, correction: [0.0; 3], shift: [0.0; 2] }))
 }
 
 /// Maps of the world come whole or not at all.

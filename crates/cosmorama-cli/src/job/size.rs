@@ -1,5 +1,5 @@
 use anyhow::Result;
-use cosmorama::world::{Frame, FrameError};
+use cosmorama::camera::{CameraError, CameraModel};
 use cosmorama_spec::{Dual, Size};
 
 use crate::failure::usage;
@@ -7,7 +7,7 @@ use crate::failure::usage;
 /// The size of an image: as given, of a width, or with so many pixels a radian at its centre. `option` is the one that has
 /// the frame.
 pub(super) fn size(
-    frame: Frame,
+    frame: CameraModel,
     given: Option<Size>,
     pixels_per_radian: Option<f64>,
     option: &str,
@@ -22,7 +22,7 @@ pub(super) fn size(
             height => Ok((width, height)),
         },
         (None, Some(pixels)) => frame.size_at(pixels).map_err(|error| match error {
-            FrameError::SizeNeeded | FrameError::SizeUnbounded { .. } => {
+            CameraError::SizeNeeded | CameraError::SizeUnbounded { .. } => {
                 usage(format!("{option}: {error}, with --size WxH"))
             }
             error => usage(format!("{option}: {error}")),
@@ -41,7 +41,7 @@ pub(super) fn lens_image_size(
     if let Some(Size { width, height: Some(height) }) = given {
         return Ok((width, height));
     }
-    let of = |frame| size(Frame::Fisheye(frame), given, pixels_per_radian, option);
+    let of = |frame| size(CameraModel::Fisheye(frame), given, pixels_per_radian, option);
     let (front, back) = (of(dual.picture.front.frame)?, of(dual.picture.back.frame)?);
     Ok(dual.picture.arrangement.whole((front.0.max(back.0), front.1.max(back.1))))
 }

@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use anyhow::{Error, Result, anyhow};
+use cosmorama::camera::{CameraModel, FieldOfView, Mirror, PerspectiveCamera, Placement, StMapCamera};
 use cosmorama::sphere::{Angle, Orientation};
-use cosmorama::world::{FieldOfView, Frame, Mirror, PerspectiveFrame, Placement, StMapFrame};
 use cosmorama_io::{Header, Limits, StPairs, probe, probe_pairs, read_pairs};
 use cosmorama_spec::{Shape, Single, Size, Spec, SphereSamples, StMapBase, StMapSpec};
 
@@ -165,8 +165,8 @@ fn without_base(side: Side) -> Error {
 
 /// A plain picture: a pinhole camera so narrow that directions are as good as a plane.
 fn plain() -> Spec {
-    let camera = PerspectiveFrame::new(FieldOfView::Horizontal(Angle::from_degrees(1.0)));
-    let placement = Placement::new(Frame::Perspective(camera));
+    let camera = PerspectiveCamera::new(FieldOfView::Horizontal(Angle::from_degrees(1.0)));
+    let placement = Placement::new(CameraModel::Perspective(camera));
     let single = Single { placement, samples: SphereSamples::NotAPanorama, any_shape: false };
     Spec { name: "perspective", shape: Shape::Single(single), stereo: None, files: Vec::new() }
 }
@@ -215,13 +215,17 @@ fn spec(map: &StMapSpec, pairs: &StPairs, base: Base, side: Side, memory: Memory
     memory.check_table(&map.file, map_size, !has_pixels_of_map)?;
     let pair = |i, j| pairs.get(i, j);
     let frame = if has_pixels_of_map {
-        StMapFrame::looking(map_size, pair, &view)
+        StMapCamera::looking(map_size, pair, &view)
     } else {
-        StMapFrame::looked_at(map_size, pair, &view)
+        StMapCamera::looked_at(map_size, pair, &view)
     };
     let frame = frame.map_err(|error| anyhow!("{}: {error}", map.file.display()))?;
-    let placement =
-        Placement { frame: Frame::StMap(frame), orientation: map.orientation, mirror: map.mirror, canvas: map.canvas };
+    let placement = Placement {
+        frame: CameraModel::StMap(frame),
+        orientation: map.orientation,
+        mirror: map.mirror,
+        canvas: map.canvas,
+    };
     let single = Single { placement, samples: SphereSamples::NotAPanorama, any_shape: false };
     Ok(Spec { name: "st-map", shape: Shape::Single(single), stereo: None, files: vec![map.file.clone()] })
 }

@@ -1,6 +1,7 @@
 use anyhow::{Result, bail};
+use cosmorama::camera::Canvas;
 use cosmorama::raster::Image;
-use cosmorama::world::{Canvas, StPixel};
+use cosmorama::world::StPixel;
 use cosmorama_io::Header;
 
 use super::{ConvertJob, Input, InputView, Place, TargetView};

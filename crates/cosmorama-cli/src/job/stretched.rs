@@ -1,6 +1,6 @@
 //! Maps that are made in another shape than their own.
 
-use cosmorama::world::Frame;
+use cosmorama::camera::CameraModel;
 use cosmorama_spec::{Shape, Size, Spec};
 
 use super::Target;
@@ -13,9 +13,9 @@ pub(super) fn warning(geometry: &GeometryArgs, target: &Target) -> Option<String
     let Some(Size { height: Some(_), .. }) = geometry.size else { return None };
     let frame = single.placement.frame;
     let (fills_any_shape, whole) = match frame {
-        Frame::Equirect(_) => (true, ", or, if it is meant, give hfov= and vfov="),
-        Frame::WorldMap(_) | Frame::Octahedral(_) => (true, ""),
-        Frame::Cylinder(frame) => (frame.top.is_some(), ""),
+        CameraModel::Equirect(_) => (true, ", or, if it is meant, give hfov= and vfov="),
+        CameraModel::WorldMap(_) | CameraModel::Octahedral(_) => (true, ""),
+        CameraModel::Cylinder(frame) => (frame.top.is_some(), ""),
         _ => (false, ""),
     };
     if !fills_any_shape || single.any_shape || single.placement.canvas.is_some() {

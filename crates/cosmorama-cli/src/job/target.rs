@@ -1,7 +1,8 @@
 use std::path::{Path, PathBuf};
 
 use anyhow::Result;
-use cosmorama::world::{Eye, View};
+use cosmorama::camera::View;
+use cosmorama::layout::Eye;
 use cosmorama_io::{EnvMap, FacePattern, FaceSet, Format, Naming, Window};
 use cosmorama_spec::{Cube, Packing, Shape, Size, Spec};
 

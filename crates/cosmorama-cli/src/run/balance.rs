@@ -1,8 +1,10 @@
 //! Light that is kept from one form of a world to another, to the last sun.
 
+use cosmorama::camera::View;
+use cosmorama::filter::{FilterKind, Kernel};
+use cosmorama::lighting::LightBalance;
 use cosmorama::raster::{Image, Rgba};
-use cosmorama::resample::{FilterKind, Kernel, LightBalance, Plan};
-use cosmorama::world::View;
+use cosmorama::render::Plan;
 
 use crate::job::{ConvertJob, Coverage};
 

@@ -2,9 +2,9 @@ use std::path::Path;
 use std::process::ExitCode;
 
 use anyhow::{Context, Result};
+use cosmorama::camera::{CameraModel, FisheyeCamera, OmnimaxCamera};
 use cosmorama::compare::{Comparison, Mask, compare, difference_image};
 use cosmorama::raster::{Channels, Depth, EncodedImage, Image, Rgba, Transfer};
-use cosmorama::world::{FisheyeFrame, Frame, OmnimaxFrame};
 use cosmorama_io::{FacePattern, Format, FramePattern, Limits, Metadata, WriteOptions, probe, read, write};
 use serde_json::{Value, json};
 
@@ -88,8 +88,8 @@ fn region(region: Region, image: &Image<Rgba>) -> Result<Mask> {
     let (width, height) = (image.width(), image.height());
     let frame = match region {
         Region::All => return Ok(Mask::everything(width, height)),
-        Region::Disc => Frame::Fisheye(FisheyeFrame::default()),
-        Region::Omnimax => Frame::Omnimax(OmnimaxFrame::default()),
+        Region::Disc => CameraModel::Fisheye(FisheyeCamera::default()),
+        Region::Omnimax => CameraModel::Omnimax(OmnimaxCamera::default()),
     };
     let view = frame.view(width, height)?;
     Ok(Mask::from_fn(width, height, |i, j| view.screen_pixel(i, j).is_some_and(|pixel| pixel.coverage == 1.0)))

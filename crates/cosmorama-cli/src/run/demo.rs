@@ -4,11 +4,13 @@ use std::time::Instant;
 
 use anyhow::Result;
 use clap::Parser;
+use cosmorama::camera::{CameraModel, Canvas, OmnimaxCamera, PixelRect, View};
 use cosmorama::explain::{Figures, Underlay};
+use cosmorama::filter::Filter;
 use cosmorama::raster::{Channels, Depth, EncodedImage, Transfer};
-use cosmorama::resample::{Filter, Needs};
+use cosmorama::render::Needs;
 use cosmorama::sphere::{CubeFace, Orientation};
-use cosmorama::world::{Canvas, Frame, OmnimaxFrame, PixelRect, View, World};
+use cosmorama::world::World;
 use cosmorama_builtin::{DemoWorld, picture};
 use cosmorama_io::{FacePlacement, Metadata, WriteOptions, write};
 use cosmorama_spec::Cube;
@@ -44,7 +46,7 @@ pub(super) fn run(args: &DemoArgs) -> Result<ExitCode> {
         )));
     }
     let start = Instant::now();
-    let target = Frame::Omnimax(OmnimaxFrame::default()).view(FRAME.0, FRAME.1)?;
+    let target = CameraModel::Omnimax(OmnimaxCamera::default()).view(FRAME.0, FRAME.1)?;
     let faces = needed_faces(&target)?;
     if !args.may_replace() {
         refuse_existing(outputs(&args.dir, &faces).iter().map(PathBuf::as_path), "")?;

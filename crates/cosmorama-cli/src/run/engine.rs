@@ -3,7 +3,7 @@ use std::sync::OnceLock;
 
 use anyhow::{Result, bail};
 use cosmorama::raster::{FixedCodec, FixedLight, Image, Rgba};
-use cosmorama::resample::ScreenMask;
+use cosmorama::render::ScreenMask;
 use cosmorama::world::Source;
 use cosmorama_io::WriteOptions;
 

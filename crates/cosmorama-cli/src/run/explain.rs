@@ -2,9 +2,10 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use anyhow::Result;
+use cosmorama::camera::PixelRect;
 use cosmorama::explain::{Centre, Figures, Magnification, Report, ViewReport};
-use cosmorama::resample::Needs;
-use cosmorama::world::{PixelRect, World};
+use cosmorama::render::Needs;
+use cosmorama::world::World;
 use cosmorama_io::pending::Hidden;
 use serde_json::{Value, json};
 

@@ -1,7 +1,8 @@
 use std::cell::Cell;
 
+use cosmorama::filter::FilterKind;
 use cosmorama::raster::{Channels, Depth, FixedCodec, FixedDecoder, FixedLight, Image, Rgba};
-use cosmorama::resample::{FilterKind, FixedPlan, Plan, PyramidPlan, Resampler, SavedPlan};
+use cosmorama::render::{FixedPlan, Plan, PyramidPlan, Resampler, SavedPlan};
 
 use super::balance::{self, Balance, BalancedLight};
 use super::plan_cache::PlanCache;

@@ -1,8 +1,8 @@
 //! What `info` says of worlds of many views.
 
 use anyhow::Result;
+use cosmorama::camera::{PixelPoint, View};
 use cosmorama::sphere::{Direction, Extent};
-use cosmorama::world::{PixelPoint, View};
 use serde_json::{Value, json};
 
 use crate::failure::warn;

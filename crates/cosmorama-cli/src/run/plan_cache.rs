@@ -3,7 +3,7 @@ use std::io::{ErrorKind, Write};
 use std::path::Path;
 
 use anyhow::Result;
-use cosmorama::resample::{PlanKey, Resampler, SavedPlan};
+use cosmorama::render::{PlanKey, Resampler, SavedPlan};
 use cosmorama_io::pending::Pending;
 
 use super::make_folder;

@@ -3,8 +3,8 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use anyhow::Result;
+use cosmorama::filter::Filter;
 use cosmorama::raster::{Depth, Image, Rgba};
-use cosmorama::resample::Filter;
 use cosmorama::world::{ST_NOWHERE, StPixel};
 use cosmorama_io::{Format, WriteOptions, write_planes};
 use cosmorama_spec::Missing;

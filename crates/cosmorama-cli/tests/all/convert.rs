@@ -1,14 +1,14 @@
 //! What a conversion promises: geometry, faces, files.
 
 use crate::bench::{Bench, eight_bits, flat, floats, picture, word};
+use cosmorama::camera::{CameraModel, CubeFaceCamera, PixelPoint};
 use cosmorama::raster::{Channels, Depth, EncodedImage, Samples, Transfer};
 use cosmorama::sphere::{CubeFace, Direction};
-use cosmorama::world::{CubeFaceFrame, Frame, PixelPoint};
 use serde_json::Value;
 
 /// Cube faces whose colour is their direction, from −1…1 to 0…1.
 fn direction_faces(bench: &Bench, size: usize) {
-    let view = Frame::CubeFace(CubeFaceFrame).view(size, size).unwrap();
+    let view = CameraModel::CubeFace(CubeFaceCamera).view(size, size).unwrap();
     for face in CubeFace::ALL {
         let image = floats(size, size, |i, j| {
             let direction = face.orientation().to_world(view.direction(PixelPoint::centre(i, j)).unwrap());
@@ -167,7 +167,7 @@ fn a_face_spans_ninety_degrees_whatever_its_pixels() {
     direction_faces(&bench, 64);
     let camera = ["--to", "perspective:fov=40", "--size", "65x65", "--yaw", "45"];
     bench.succeed(&[&["convert", "world_{face}.exr", "square.exr"][..], &camera].concat());
-    let view = Frame::CubeFace(CubeFaceFrame).view(64, 60).unwrap();
+    let view = CameraModel::CubeFace(CubeFaceCamera).view(64, 60).unwrap();
     bench.save(
         "world_right.exr",
         &floats(64, 60, |i, j| {

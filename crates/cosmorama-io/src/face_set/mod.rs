@@ -3,6 +3,6 @@
 mod pattern;
 mod set;
 
-pub use cosmorama::world::{FacePlacement, Naming};
+pub use cosmorama::layout::{FacePlacement, Naming};
 pub use pattern::{FacePattern, LetterCase};
 pub use set::{FaceFile, FaceSet};

@@ -1,6 +1,6 @@
 use std::str::FromStr;
 
-use cosmorama::resample::{CrossSection, Kernel};
+use cosmorama::filter::{CrossSection, Kernel};
 
 /// A kernel by name, with its parameters.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,6 +1,6 @@
 use std::str::FromStr;
 
-use cosmorama::resample::FilterKind;
+use cosmorama::filter::FilterKind;
 
 /// A filter by name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,8 +1,7 @@
+use cosmorama::camera::{CameraModel, Canvas, CubeFaceCamera, FaceMapping, LayoutFaceCamera, Mirror, SamplePositions};
+use cosmorama::layout::{CubeLayout, FaceOrder, FacePlacement, LayoutKind, Naming};
 use cosmorama::sphere::{Angle, CubeFace, Orientation};
-use cosmorama::world::{
-    Blend, Canvas, CubeFaceFrame, CubeLayout, FaceMapping, FaceOrder, FacePlacement, Frame, LayoutFaceFrame,
-    LayoutKind, Mirror, Naming, SamplePositions,
-};
+use cosmorama::world::Blend;
 
 use super::fields::{Fields, wrong};
 use crate::SpecError;
@@ -54,7 +53,7 @@ impl Default for Cube {
             naming: None,
             order: None,
             rotate: None,
-            field_of_view: LayoutFaceFrame::RIGHT_ANGLE,
+            field_of_view: LayoutFaceCamera::RIGHT_ANGLE,
             feather: None,
             half: None,
             samples: None,
@@ -110,18 +109,22 @@ impl Cube {
     }
 
     /// How the pixels of a face see the world.
-    pub fn frame(&self) -> Frame {
+    pub fn frame(&self) -> CameraModel {
         let mapping = match self.layout {
             Some(Packing::OneImage(kind)) => kind.mapping(),
             Some(Packing::Files) | None => FaceMapping::Perspective,
         };
-        let frame = LayoutFaceFrame { mapping, samples: self.samples(), field_of_view: self.field_of_view };
-        if frame == LayoutFaceFrame::default() { Frame::CubeFace(CubeFaceFrame) } else { Frame::LayoutFace(frame) }
+        let frame = LayoutFaceCamera { mapping, samples: self.samples(), field_of_view: self.field_of_view };
+        if frame == LayoutFaceCamera::default() {
+            CameraModel::CubeFace(CubeFaceCamera)
+        } else {
+            CameraModel::LayoutFace(frame)
+        }
     }
 
     /// How faces take part where they overlap: each falls to nothing at its own border.
     pub fn blend(&self) -> Blend {
-        let shared = self.field_of_view - LayoutFaceFrame::RIGHT_ANGLE;
+        let shared = self.field_of_view - LayoutFaceCamera::RIGHT_ANGLE;
         let feather = if shared > Angle::ZERO { self.feather.unwrap_or(shared) } else { Angle::ZERO };
         Blend { priority: 0, feather }
     }
@@ -136,7 +139,7 @@ impl Cube {
             naming: naming(fields)?,
             order: order(fields)?,
             rotate: fields.read("rotate", "six quarter turns from 0 to 3, as in rotate=000102", turns)?,
-            field_of_view: fields.angle("fov")?.unwrap_or(LayoutFaceFrame::RIGHT_ANGLE),
+            field_of_view: fields.angle("fov")?.unwrap_or(LayoutFaceCamera::RIGHT_ANGLE),
             feather: fields.feather()?,
             half,
             samples: fields.samples()?,
@@ -162,7 +165,7 @@ impl Cube {
         if one_image && (self.canvas.is_some() || !self.face_canvas.is_empty()) {
             return Err(SpecError::Both { first: "canvas", second: "layout" });
         }
-        if let (Some(feather), true) = (fields.get("feather"), self.field_of_view <= LayoutFaceFrame::RIGHT_ANGLE) {
+        if let (Some(feather), true) = (fields.get("feather"), self.field_of_view <= LayoutFaceCamera::RIGHT_ANGLE) {
             return Err(wrong("feather", feather, "faces that overlap, as with fov=100; these have nothing to blend"));
         }
         if self.half.is_some() && self.samples() == SamplePositions::Edges {

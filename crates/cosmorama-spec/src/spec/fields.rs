@@ -1,7 +1,7 @@
 use std::path::{Path, PathBuf};
 
+use cosmorama::camera::{Canvas, LensCircle, Mirror, PixelPoint, SamplePositions};
 use cosmorama::sphere::{Angle, Orientation};
-use cosmorama::world::{Canvas, LensCircle, Mirror, PixelPoint, SamplePositions};
 
 use crate::SpecError;
 use crate::angle::parse_degrees;

@@ -1,6 +1,6 @@
 //! The table of projections and their keys.
 
-use cosmorama::world::{CylinderKind, Frame, WorldMapFrame};
+use cosmorama::camera::{CameraModel, CylinderKind, WorldMapCamera};
 
 use super::camera::{dome, hugin, lens, pinhole};
 use super::fields::Fields;
@@ -268,21 +268,21 @@ pub(crate) static KINDS: &[Kind] = &[
         about: "Hammer's equal-area map of the world",
         keys: &[],
         refused: &[FITS],
-        build: |fields| Shape::single(fields, Frame::WorldMap(WorldMapFrame::Hammer)),
+        build: |fields| Shape::single(fields, CameraModel::WorldMap(WorldMapCamera::Hammer)),
     },
     Kind {
         name: "mollweide",
         about: "Mollweide's equal-area map of the world",
         keys: &[],
         refused: &[FITS],
-        build: |fields| Shape::single(fields, Frame::WorldMap(WorldMapFrame::Mollweide)),
+        build: |fields| Shape::single(fields, CameraModel::WorldMap(WorldMapCamera::Mollweide)),
     },
     Kind {
         name: "sinusoidal",
         about: "the sinusoidal equal-area map of the world",
         keys: &[],
         refused: &[FITS],
-        build: |fields| Shape::single(fields, Frame::WorldMap(WorldMapFrame::Sinusoidal)),
+        build: |fields| Shape::single(fields, CameraModel::WorldMap(WorldMapCamera::Sinusoidal)),
     },
     Kind {
         name: "pannini",

@@ -1,4 +1,4 @@
-use cosmorama::world::{Frame, Placement, SamplePositions};
+use cosmorama::camera::{CameraModel, Placement, SamplePositions};
 
 use super::fields::Fields;
 use super::{CalibrationSpec, Cube, Dual, StMapSpec};
@@ -21,7 +21,7 @@ pub enum Shape {
 
 impl Shape {
     /// One image in a frame, placed as its keys say.
-    pub(super) fn single(fields: &Fields, frame: Frame) -> Result<Self, SpecError> {
+    pub(super) fn single(fields: &Fields, frame: CameraModel) -> Result<Self, SpecError> {
         let placement = Placement {
             frame,
             orientation: fields.orientation()?,
@@ -29,8 +29,8 @@ impl Shape {
             canvas: fields.canvas("canvas")?,
         };
         let samples = match frame {
-            Frame::Equirect(frame) if fields.get("samples").is_some() => SphereSamples::Given(frame.samples),
-            Frame::Equirect(_) => SphereSamples::ByFormat,
+            CameraModel::Equirect(frame) if fields.get("samples").is_some() => SphereSamples::Given(frame.samples),
+            CameraModel::Equirect(_) => SphereSamples::ByFormat,
             _ => SphereSamples::NotAPanorama,
         };
         let any_shape = fields.get("hfov").is_some() && fields.get("vfov").is_some();
@@ -63,7 +63,7 @@ pub enum SphereSamples {
 impl Single {
     /// The same with samples where a file format has them, unless the SPEC says where.
     pub fn with_samples(mut self, samples: SamplePositions) -> Self {
-        if let (Frame::Equirect(frame), SphereSamples::ByFormat) = (&mut self.placement.frame, self.samples) {
+        if let (CameraModel::Equirect(frame), SphereSamples::ByFormat) = (&mut self.placement.frame, self.samples) {
             frame.samples = samples;
         }
         self

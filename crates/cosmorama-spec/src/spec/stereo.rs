@@ -1,4 +1,4 @@
-use cosmorama::world::{Arrangement, Eye, Stereo};
+use cosmorama::layout::{Arrangement, Eye, Stereo};
 
 use super::fields::{Fields, wrong};
 use crate::SpecError;

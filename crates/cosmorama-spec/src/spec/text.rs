@@ -1,7 +1,7 @@
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
-use cosmorama::world::LensSide;
+use cosmorama::layout::LensSide;
 
 use super::alias::{refusal, without_alias};
 use super::fields::Fields;

@@ -89,7 +89,7 @@ impl fmt::Display for Change {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::world::FacePlacement;
+    use crate::layout::FacePlacement;
 
     fn cube() -> Vec<Pose> {
         CubeFace::ALL.map(|face| Pose::new(face, FacePlacement::UPRIGHT)).to_vec()

@@ -1,6 +1,6 @@
 use super::Side;
+use crate::layout::FacePlacement;
 use crate::sphere::CubeFace;
-use crate::world::FacePlacement;
 
 /// How a picture lies on the cube: the face that it is, and the faces to which its right and upper side point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,7 +1,7 @@
 use super::symmetry::Symmetry;
 use super::{Mismatch, Pose, Side};
+use crate::layout::FacePlacement;
 use crate::sphere::CubeFace::{self, Back, Down, Front, Left, Right, Up};
-use crate::world::FacePlacement;
 
 /// An arrangement and its mismatch.
 #[derive(Clone, Debug, PartialEq)]

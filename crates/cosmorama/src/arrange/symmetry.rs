@@ -39,7 +39,7 @@ impl Symmetry {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::world::FacePlacement;
+    use crate::layout::FacePlacement;
 
     #[test]
     fn there_are_forty_eight_and_they_keep_neighbours() {

@@ -1,4 +1,6 @@
-use super::{CompareError, Difference, Mask, Registration, edges::edge_free, pair::Pair};
+use super::edges::edge_free;
+use super::pair::Pair;
+use super::{CompareError, Difference, Mask, Registration};
 use crate::raster::{ColourChannel, Image, Rgba, Transfer};
 
 /// How far two pictures are apart.

@@ -1,9 +1,7 @@
 use rayon::prelude::*;
 
-use super::{
-    pair::{Pair, Site},
-    quantile::quantile,
-};
+use super::pair::{Pair, Site};
+use super::quantile::quantile;
 
 /// How far the values of two pictures are apart, over red, green and blue of the pixels that count, white being 1.
 #[derive(Clone, Copy, Debug, PartialEq)]

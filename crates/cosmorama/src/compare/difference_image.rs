@@ -1,7 +1,5 @@
-use super::{
-    CompareError, Mask,
-    pair::{Pair, Site},
-};
+use super::pair::{Pair, Site};
+use super::{CompareError, Mask};
 use crate::raster::{Image, Rgba};
 
 /// The absolute difference of two pictures, by channel, times `gain`; transparent where pixels do not count.

@@ -1,6 +1,7 @@
 use rayon::prelude::*;
 
-use super::{CompareError, Mask, pair::Pair};
+use super::pair::Pair;
+use super::{CompareError, Mask};
 use crate::raster::{Image, Rgba};
 
 /// Range of a channel among a pixel and its eight neighbours, in linear light, above which there is an edge.

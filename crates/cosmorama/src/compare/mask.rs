@@ -1,4 +1,5 @@
-use super::{CompareError, pair::common_size};
+use super::CompareError;
+use super::pair::common_size;
 use crate::raster::{Image, Rgba};
 
 /// Alpha of a pixel that counts as opaque: a weighted average of ones may fall short of one by rounding.

@@ -1,12 +1,10 @@
 use rayon::prelude::*;
 
-use super::{
-    Mask,
-    gaussian::blurred,
-    least_squares::{NormalEquations, Vector, dot},
-    pair::Pair,
-    quantile::quantile,
-};
+use super::Mask;
+use super::gaussian::blurred;
+use super::least_squares::{NormalEquations, Vector, dot};
+use super::pair::Pair;
+use super::quantile::quantile;
 use crate::raster::{Image, Rgba};
 
 /// Pixels this near to one that does not count are left out: their gradients may see it.

@@ -1,8 +1,9 @@
-use super::drawing::{Anchor, Drawing};
-use super::theme::{INK, LABEL, MARGIN, PAPER, TITLE};
+use super::sheet::drawing::{Anchor, Drawing};
+use super::sheet::theme::{INK, LABEL, MARGIN, PAPER, TITLE};
 use super::{footprints, ownership, unfolded};
-use crate::resample::Needs;
-use crate::world::{View, World};
+use crate::camera::View;
+use crate::render::Needs;
+use crate::world::World;
 
 /// Pictures of a conversion, each an SVG document. Their letters are drawn, so they need no font, and the same
 /// conversion gives the same bytes.
@@ -45,7 +46,7 @@ impl Figures<'_> {
 }
 
 /// A sheet with a title and a line under it.
-pub(super) fn sheet((width, height): (f64, f64), title: &str, subtitle: &str) -> Drawing {
+pub(crate) fn sheet((width, height): (f64, f64), title: &str, subtitle: &str) -> Drawing {
     let mut drawing = Drawing::new(width, height, PAPER);
     drawing.label(title, (MARGIN, MARGIN + TITLE * 0.5), TITLE, Anchor::Start, INK);
     drawing.label(subtitle, (MARGIN, MARGIN + TITLE * 0.5 + 21.0), LABEL * 0.8, Anchor::Start, INK);
@@ -53,6 +54,6 @@ pub(super) fn sheet((width, height): (f64, f64), title: &str, subtitle: &str) ->
 }
 
 /// `1024×960`.
-pub(super) fn size_text((width, height): (usize, usize)) -> String {
+pub(crate) fn size_text((width, height): (usize, usize)) -> String {
     format!("{width}×{height}")
 }

@@ -2,15 +2,16 @@
 
 use glam::{DMat2, DVec2};
 
-use super::drawing::{Anchor, Drawing, Paint, Rect};
-use super::field;
 use super::figures::{sheet, size_text};
 use super::magnification::central_footprint;
-use super::net::Net;
-use super::theme::{DARK, FAINT, INK, LABEL, PAPER, SMALL, colour};
+use super::sheet::drawing::{Anchor, Drawing, Paint, Rect};
+use super::sheet::field;
+use super::sheet::net::Net;
+use super::sheet::theme::{DARK, FAINT, INK, LABEL, PAPER, SMALL, colour};
+use crate::camera::{PixelPoint, ScreenPixel, View};
+use crate::filter::Ellipse;
 use crate::projection::PlanePoint;
-use crate::resample::Ellipse;
-use crate::world::{PixelPoint, ScreenPixel, Source, View, World};
+use crate::world::{Source, World};
 
 /// Space between footprints on the sheet, where the target's centre looks, by the square root of the image's width
 /// there: 9 on a face, 18 on a lone image.
@@ -22,7 +23,7 @@ const NARROWEST: f64 = 0.75;
 /// The part of the way between two footprints that each one is drawn wide, on the target.
 const WIDTH: f64 = 0.8;
 
-pub(super) fn draw(world: &World, target: &View) -> String {
+pub(crate) fn draw(world: &World, target: &View) -> String {
     let net = Net::of(world);
     let every = spacing(world, target, &net);
     let enlarged = (WIDTH * every as f64).max(1.0);

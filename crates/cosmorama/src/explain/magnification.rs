@@ -1,8 +1,8 @@
 use glam::DMat2;
 
+use crate::camera::{Footprint, PixelPoint, View};
+use crate::filter::semi_axes;
 use crate::projection::{PlanePoint, Projection};
-use crate::resample::semi_axes;
-use crate::world::{Footprint, PixelPoint, View};
 
 /// How many texels a target pixel is long: less than 1 enlarges, more than 1 reduces.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -15,14 +15,14 @@ pub struct Magnification {
 
 impl Magnification {
     /// The singular values of a footprint's matrix.
-    pub(super) fn of(jacobian: DMat2) -> Self {
+    pub(crate) fn of(jacobian: DMat2) -> Self {
         let [greatest, least] = semi_axes(jacobian);
         Self { least, greatest }
     }
 
     /// The range that holds both.
     #[must_use]
-    pub(super) fn union(self, other: Self) -> Self {
+    pub(crate) fn union(self, other: Self) -> Self {
         Self { least: self.least.min(other.least), greatest: self.greatest.max(other.greatest) }
     }
 }
@@ -47,7 +47,7 @@ pub struct FaceSize {
 
 impl FaceSize {
     /// Sizes of `source` for a target whose central pixel sees `footprint`; `None` where either is singular.
-    pub(super) fn of(source: &View, footprint: &Footprint) -> Option<Self> {
+    pub(crate) fn of(source: &View, footprint: &Footprint) -> Option<Self> {
         let pixel = footprint.jacobian.solid_angle().sqrt();
         let step = source.grid.step();
         // The texel at the plane's origin, whether or not the image holds it, so that all faces get one advice.
@@ -66,7 +66,7 @@ impl FaceSize {
 }
 
 /// The footprint of the pixel at a target's centre: on the lens's axis, or else in the middle of the frame.
-pub(super) fn central_footprint(target: &View) -> Option<Footprint> {
+pub(crate) fn central_footprint(target: &View) -> Option<Footprint> {
     let axis = target.grid.to_pixel(PlanePoint::new(0.0, 0.0));
     let middle = PixelPoint::new(target.width() as f64 / 2.0, target.height() as f64 / 2.0);
     let centre = if target.shows(axis) { axis } else { middle };

@@ -1,10 +1,11 @@
 //! Figure 4: which view gives which pixel.
 
-use super::contour::Regions;
-use super::drawing::{Paint, Rect};
 use super::figures::{sheet, size_text};
-use super::theme::{DARK, HEADER, INK, LABEL, MARGIN, PAPER, SMALL, colour};
-use crate::world::{PixelPoint, View, World};
+use super::sheet::contour::Regions;
+use super::sheet::drawing::{Paint, Rect};
+use super::sheet::theme::{DARK, HEADER, INK, LABEL, MARGIN, PAPER, SMALL, colour};
+use crate::camera::{PixelPoint, View};
+use crate::world::World;
 
 /// The longer side of the frame on the sheet.
 const LONGER: f64 = 960.0;
@@ -20,7 +21,7 @@ enum Content {
     View(usize),
 }
 
-pub(super) fn draw(world: &World, target: &View) -> String {
+pub(crate) fn draw(world: &World, target: &View) -> String {
     let (width, height) = (target.width() as f64, target.height() as f64);
     let scale = LONGER / width.max(height);
     let frame = Rect { x: MARGIN, y: HEADER, width: width * scale, height: height * scale };

@@ -1,10 +1,12 @@
 use super::magnification::central_footprint;
 use super::survey::{Survey, used_part};
 use super::{FaceSize, Magnification};
+use crate::camera::View;
+use crate::filter::Filter;
 use crate::raster::Rgba;
-use crate::resample::{Filter, Need, Needs, Resampler, Uncovered};
+use crate::render::{Need, Needs, Resampler, Uncovered};
 use crate::sphere::Direction;
-use crate::world::{Source, View, World};
+use crate::world::{Source, World};
 
 /// What a conversion takes and does, in numbers. Its text form is for people.
 ///
@@ -116,7 +118,7 @@ impl Report {
 }
 
 impl Centre {
-    fn of(world: &World, footprint: &crate::world::Footprint) -> Self {
+    fn of(world: &World, footprint: &crate::camera::Footprint) -> Self {
         let direction = footprint.direction;
         let view = world.owner(direction).and_then(|(index, _)| {
             let (_, jacobian) = world.sources()[index].view.texel_footprint(footprint)?;

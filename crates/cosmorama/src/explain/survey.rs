@@ -1,27 +1,29 @@
 use rayon::prelude::*;
 
 use super::Magnification;
-use crate::resample::{Filter, KernelTable, Pyramid, Resampler, TexelCount};
-use crate::world::{PixelPoint, ScreenPixel, Source, View, World};
+use crate::camera::{PixelPoint, ScreenPixel, View};
+use crate::filter::{Filter, KernelTable};
+use crate::render::{Pyramid, Resampler, TexelCount};
+use crate::world::{Source, World};
 
 /// Pixels, and texels of a view, that a survey looks at; of more it takes every second one, third one and so on.
 const SAMPLES: usize = 1 << 17;
 
 /// What a look at the pixels of a target finds.
 #[derive(Clone, Debug)]
-pub(super) struct Survey {
+pub(crate) struct Survey {
     /// Pixels looked at, and how many of them show something.
-    pub(super) sampled: usize,
-    pub(super) shown: usize,
+    pub(crate) sampled: usize,
+    pub(crate) shown: usize,
     /// Texels gathered by all the pixels looked at, and the most by one.
-    pub(super) texels: usize,
-    pub(super) most: usize,
+    pub(crate) texels: usize,
+    pub(crate) most: usize,
     /// For each view, the pixels that look into it, and how long they are in texels.
-    pub(super) views: Vec<(usize, Option<Magnification>)>,
+    pub(crate) views: Vec<(usize, Option<Magnification>)>,
 }
 
 impl Survey {
-    pub(super) fn of(world: &World, target: &View, filter: &Filter) -> Self {
+    pub(crate) fn of(world: &World, target: &View, filter: &Filter) -> Self {
         let step = stride(target.width(), target.height());
         let rows: Vec<usize> = sampled(target.height(), step).collect();
         let few = rows.len().div_ceil(8 * rayon::current_num_threads()).max(1);
@@ -77,7 +79,7 @@ impl Survey {
 }
 
 /// The part of a view's texels whose centres a target shows.
-pub(super) fn used_part(source: &Source, target: &View) -> f64 {
+pub(crate) fn used_part(source: &Source, target: &View) -> f64 {
     let view = &source.view;
     let step = stride(view.width(), view.height());
     let rows: Vec<usize> = sampled(view.height(), step).collect();

@@ -1,13 +1,14 @@
 //! Figure 3: the unfolded world with the field of view marked.
 
 use super::Underlay;
-use super::drawing::{Anchor, Drawing, Paint, Rect};
-use super::field::shown;
 use super::figures::{sheet, size_text};
-use super::net::Net;
-use super::theme::{CURVE, DARK, FAINT, INK, LABEL, PAPER, SMALL, colour};
-use crate::resample::{Need, Needs};
-use crate::world::{PixelRect, Source, View, World};
+use super::sheet::drawing::{Anchor, Drawing, Paint, Rect};
+use super::sheet::field::shown;
+use super::sheet::net::Net;
+use super::sheet::theme::{CURVE, DARK, FAINT, INK, LABEL, PAPER, SMALL, colour};
+use crate::camera::{PixelRect, View};
+use crate::render::{Need, Needs};
+use crate::world::{Source, World};
 
 /// How far a name reaches from its middle, about.
 const ROOM: f64 = 34.0;
@@ -15,7 +16,7 @@ const ROOM: f64 = 34.0;
 /// How much of a picture the veil over what is not needed hides.
 const VEIL: f64 = 0.74;
 
-pub(super) fn draw(world: &World, target: &View, needs: &Needs, underlays: &[Underlay]) -> String {
+pub(crate) fn draw(world: &World, target: &View, needs: &Needs, underlays: &[Underlay]) -> String {
     let net = Net::of(world);
     let subtitle = format!(
         "Bright: what a target of {} pixels needs. Yellow: the edge of its field of view.",

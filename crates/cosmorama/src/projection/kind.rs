@@ -54,7 +54,7 @@ impl ProjectionKind {
 }
 
 /// Cameras as they are measured: bent along radii, every way, and by a quotient.
-pub(super) fn bent_cameras() -> impl Iterator<Item = Calibrated<BrownConrady>> {
+pub(crate) fn bent_cameras() -> impl Iterator<Item = Calibrated<BrownConrady>> {
     let bent = [
         &[-0.28, 0.07, 0.0, 0.0][..],
         &[-0.265, -0.047, 0.0018, -0.0003, 0.252],
@@ -67,7 +67,7 @@ pub(super) fn bent_cameras() -> impl Iterator<Item = Calibrated<BrownConrady>> {
 }
 
 /// And one whose rows lean.
-pub(super) fn skewed_fisheye() -> Calibrated<Azimuthal<FisheyeLens>> {
+pub(crate) fn skewed_fisheye() -> Calibrated<Azimuthal<FisheyeLens>> {
     Calibrated::new(Azimuthal(FisheyeLens::EQUISOLID), -0.02, Angle::from_degrees(95.0))
 }
 

@@ -1,48 +1,39 @@
 //! Projections: invertible mappings between directions and a plane.
 //!
 //! A projection knows nothing of pixels, orientation or the edge of an image: those belong to
-//! [`crate::world::View`]. Each one is a small file, and adding one touches its file and the list in this one.
+//! [`crate::camera::View`]. Each one is a small file, and adding one touches its file and the list in this one.
 
 pub mod azimuthal;
-mod brown_conrady;
-mod calibrated;
+pub(crate) mod bounds;
 pub mod cylindrical;
-mod equi_angular;
-mod graticule;
-mod hammer;
-mod meridian;
-mod mirror_ball;
-mod octahedral;
-mod one_of;
-mod outline;
-mod pannini;
-mod perspective;
+mod enum_dispatch;
+mod monotone;
+pub(crate) mod planar;
 mod plane;
 pub mod pseudocylindrical;
-mod rising;
-mod st_map;
+pub(crate) mod st_map;
+pub(crate) mod world_map;
 
-pub use brown_conrady::{BrownConrady, BrownConradyCoefficients};
-pub use calibrated::Calibrated;
-pub use equi_angular::EquiAngular;
-pub use hammer::Hammer;
-pub use mirror_ball::MirrorBall;
-pub use octahedral::{Octahedral, OctahedralKind};
-pub(crate) use one_of::one_of;
-pub use outline::{Outline, Ring, Sector};
-pub use pannini::Pannini;
-pub use perspective::Perspective;
-pub use plane::{PlanePoint, PlaneRect};
-pub use st_map::{StMap, StMapError, StMapTable};
-
+pub use azimuthal::mirror_ball::MirrorBall;
 use azimuthal::{Azimuthal, FisheyeLens, OmnimaxLens};
+pub use bounds::cap_region::{Outline, Ring, Sector};
 use cylindrical::{Central, Cylindrical, EqualArea, Equirectangular, Mercator};
+pub(crate) use enum_dispatch::enum_dispatch;
 use glam::{DVec2, DVec3};
+pub use planar::brown_conrady::{BrownConrady, BrownConradyCoefficients};
+pub use planar::calibrated::Calibrated;
+pub use planar::equi_angular::EquiAngular;
+pub use planar::pannini::Pannini;
+pub use planar::perspective::Perspective;
+pub use plane::{PlanePoint, PlaneRect};
 use pseudocylindrical::{Mollweide, Pseudocylindrical, Sinusoidal};
+pub use st_map::{StMap, StMapError, StMapTable};
+pub use world_map::hammer::Hammer;
+pub use world_map::octahedral::{Octahedral, OctahedralKind};
 
 use crate::sphere::{Angle, Direction, DirectionJacobian};
 
-one_of! { ($)
+enum_dispatch! { ($)
     /// Every projection, chosen at run time.
     pub enum ProjectionKind {
         /// A pinhole camera; a cube face is one of 90°.

@@ -34,7 +34,7 @@ impl PlaneRect {
     }
 
     /// What holds no point.
-    pub(super) const NOTHING: Self = Self {
+    pub(crate) const NOTHING: Self = Self {
         min: PlanePoint::new(f64::INFINITY, f64::INFINITY),
         max: PlanePoint::new(f64::NEG_INFINITY, f64::NEG_INFINITY),
     };

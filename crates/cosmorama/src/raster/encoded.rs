@@ -104,7 +104,7 @@ impl EncodedImage {
     }
 
     /// Parts that are known to fit.
-    pub(super) fn from_parts(
+    pub(crate) fn from_parts(
         width: usize,
         height: usize,
         channels: Channels,

@@ -1,4 +1,5 @@
-use super::{Footprint, PixelPoint, Source, View};
+use super::Source;
+use crate::camera::{Footprint, PixelPoint, View};
 use crate::projection::Projection;
 use crate::sphere::{Angle, Direction, DirectionJacobian};
 
@@ -14,11 +15,11 @@ pub struct Blend {
 
 /// What a view has of one direction.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Presence {
+pub(crate) struct Presence {
     /// Index of the view.
-    pub(super) index: usize,
+    pub(crate) index: usize,
     /// Where in its image.
-    pub(super) pixel: PixelPoint,
+    pub(crate) pixel: PixelPoint,
     /// One inside, falling to zero at a feathered border.
     weight: f64,
     /// Of a texel, in steradians.
@@ -28,7 +29,7 @@ pub(super) struct Presence {
 
 impl Presence {
     /// That of a view at a point of its image which shows something.
-    pub(super) fn at(index: usize, source: &Source, pixel: PixelPoint) -> Self {
+    pub(crate) fn at(index: usize, source: &Source, pixel: PixelPoint) -> Self {
         let (view, blend) = (&source.view, source.blend);
         let feather = blend.feather.radians();
         if feather > 0.0 {
@@ -41,7 +42,7 @@ impl Presence {
     }
 
     /// That of a view, if it shows the direction.
-    pub(super) fn of(index: usize, source: &Source, direction: Direction) -> Option<Self> {
+    pub(crate) fn of(index: usize, source: &Source, direction: Direction) -> Option<Self> {
         let pixel = source.view.wrapped(source.view.pixel(direction)?);
         source.shows(pixel).then(|| Self::at(index, source, pixel))
     }
@@ -51,7 +52,7 @@ impl Presence {
 ///
 /// Parts are continuous wherever borders are feathered: a view comes in with weight zero, and what it leaves goes to the
 /// others.
-pub(super) fn parts(present: &[Presence]) -> Vec<f64> {
+pub(crate) fn parts(present: &[Presence]) -> Vec<f64> {
     let mut parts = vec![0.0; present.len()];
     let mut left = 1.0;
     let mut priorities: Vec<i32> = present.iter().map(|one| one.blend.priority).collect();
@@ -105,7 +106,7 @@ fn border_distance(source: &Source, pixel: PixelPoint) -> f64 {
 
 /// Which edges of an image are where its picture ends.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Border {
+pub(crate) struct Border {
     /// Left and right: not where the picture goes all the way round.
     sides: bool,
     /// The upper one: not where it is a pole.
@@ -116,7 +117,7 @@ pub(super) struct Border {
 
 impl Border {
     /// That of a view.
-    pub(super) fn of(view: &View) -> Self {
+    pub(crate) fn of(view: &View) -> Self {
         Self {
             sides: view.period().is_none_or(|period| period > view.width()),
             top: !is_a_point(view, 0.0),

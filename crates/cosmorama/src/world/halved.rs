@@ -2,7 +2,8 @@
 
 use std::sync::Arc;
 
-use super::{Source, View, ViewMask, World, WorldView};
+use super::{Source, ViewMask, World, WorldView};
+use crate::camera::View;
 
 impl World {
     /// The world of the same views in half as many columns and rows, rounded up; `None` where there is nothing left to halve.
@@ -56,7 +57,8 @@ pub(crate) fn held(size: usize, half: usize, index: usize) -> std::ops::Range<us
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::world::{PixelPoint, panorama};
+    use crate::camera::PixelPoint;
+    use crate::world::panorama;
 
     fn world(view: View, mask: Option<ViewMask>) -> World {
         let view = WorldView { name: "all".to_owned(), view, blend: Default::default(), mask: mask.map(Arc::new) };

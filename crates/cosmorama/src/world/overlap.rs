@@ -1,8 +1,9 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
+use super::Source;
 use super::blend::{Presence, parts};
-use super::{PixelPoint, PixelRect, Source, View};
+use crate::camera::{PixelPoint, PixelRect, View};
 use crate::projection::PlanePoint;
 use crate::sphere::Direction;
 
@@ -18,7 +19,7 @@ const INSIDE_A_STOP: f64 = 1e-6;
 /// Where pictures overlap, a direction has a texel of each, and each counts for its part: the outermost texels of cube
 /// faces whose samples lie on the edges, and whatever photographs have in common. Says of each view which others overlap
 /// it, and which of its texels count whole.
-pub(super) fn share(sources: &mut [Source]) {
+pub(crate) fn share(sources: &mut [Source]) {
     let rims: Vec<Vec<Direction>> = sources.iter().map(|source| rim(&source.view)).collect();
     let sees = |view: usize, rim: usize| rims[rim].iter().any(|direction| sources[view].view.sees(*direction));
     let others: Vec<Vec<usize>> = (0..sources.len())
@@ -63,7 +64,7 @@ fn share_texels(sources: &[Source], index: usize, solid_angles: &mut [f32]) -> V
 }
 
 /// The largest rectangle with the same margin on all sides in which no texel is shared; an empty one if there is none.
-pub(super) fn unshared(mut rect: PixelRect, width: usize, is_shared: &[bool]) -> PixelRect {
+pub(crate) fn unshared(mut rect: PixelRect, width: usize, is_shared: &[bool]) -> PixelRect {
     while rect.left < rect.right && rect.top < rect.bottom {
         let row = |j: usize| is_shared[j * width + rect.left..j * width + rect.right].contains(&true);
         let sides = |j: usize| is_shared[j * width + rect.left] || is_shared[j * width + rect.right - 1];
@@ -126,10 +127,11 @@ fn around() -> impl Iterator<Item = (f64, f64)> {
 
 #[cfg(test)]
 mod tests {
-    use crate::sphere::{Angle, CubeFace, Orientation};
-    use crate::world::{
-        FisheyeFrame, Frame, LayoutFaceFrame, LensCircle, OmnimaxFrame, Placement, SamplePositions, World,
+    use crate::camera::{
+        CameraModel, FisheyeCamera, LayoutFaceCamera, LensCircle, OmnimaxCamera, Placement, SamplePositions,
     };
+    use crate::sphere::{Angle, CubeFace, Orientation};
+    use crate::world::World;
 
     const SPHERE: f64 = 4.0 * std::f64::consts::PI;
 
@@ -138,7 +140,7 @@ mod tests {
     }
 
     fn cube(samples: SamplePositions) -> World {
-        let frame = Frame::LayoutFace(LayoutFaceFrame { samples, ..LayoutFaceFrame::default() });
+        let frame = CameraModel::LayoutFace(LayoutFaceCamera { samples, ..LayoutFaceCamera::default() });
         let view = |face: CubeFace| Placement { orientation: face.orientation(), ..Placement::new(frame) }.view(33, 33);
         World::new(CubeFace::ALL.map(|face| (face.to_string(), view(face).unwrap()))).unwrap()
     }
@@ -156,7 +158,7 @@ mod tests {
     }
 
     /// Two pictures, one ahead and one behind.
-    fn back_to_back(frame: Frame, size: usize) -> World {
+    fn back_to_back(frame: CameraModel, size: usize) -> World {
         let turned = |degrees: f64| {
             let yaw = Angle::from_degrees(degrees);
             Orientation::from_yaw_pitch_roll(yaw, Angle::from_degrees(0.0), Angle::from_degrees(0.0))
@@ -169,8 +171,8 @@ mod tests {
     fn what_two_lenses_share_counts_once_however_small_their_circles_are() {
         for radius in [99.0, 80.0, 50.0, 45.0, 30.0] {
             let circle = LensCircle { radius: Some(radius), ..LensCircle::FITTED };
-            let frame = FisheyeFrame { field_of_view: Angle::from_degrees(200.0), circle, ..FisheyeFrame::default() };
-            let sum = whole(&back_to_back(Frame::Fisheye(frame), 200));
+            let frame = FisheyeCamera { field_of_view: Angle::from_degrees(200.0), circle, ..FisheyeCamera::default() };
+            let sum = whole(&back_to_back(CameraModel::Fisheye(frame), 200));
             assert!((sum / SPHERE - 1.0).abs() < 0.01, "radius {radius}: {sum}");
         }
     }
@@ -178,7 +180,7 @@ mod tests {
     #[test]
     fn the_rim_goes_along_what_stops_the_field_of_view() {
         let circle = LensCircle { radius: Some(20.0), ..LensCircle::FITTED };
-        let view = Frame::Omnimax(OmnimaxFrame { circle, ..OmnimaxFrame::default() }).view(300, 300).unwrap();
+        let view = CameraModel::Omnimax(OmnimaxCamera { circle, ..OmnimaxCamera::default() }).view(300, 300).unwrap();
         let cut = view.stop.half_space.expect("a lower cut");
         let on_the_cut = super::rim(&view).into_iter().filter(|rim| cut.dot(*rim).abs() < 1e-5).count();
         assert!(on_the_cut > 50, "{on_the_cut}");

@@ -1,6 +1,6 @@
+use crate::camera::{FieldStop, PixelGrid, View};
 use crate::projection::{PlanePoint, PlaneRect, ProjectionKind};
 use crate::sphere::Orientation;
-use crate::world::{FieldStop, PixelGrid, View};
 
 /// An upright panorama of the whole sphere, for tests.
 pub(crate) fn panorama(width: usize, height: usize) -> View {

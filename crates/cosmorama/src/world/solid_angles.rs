@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use rayon::prelude::*;
 
-use super::View;
+use crate::camera::View;
 
 /// Solid angle of each texel of a view in steradians, row by row; zero for one that shows nothing.
 ///
@@ -23,7 +23,7 @@ impl SolidAngles {
     }
 
     /// To change them for one view, whatever others have.
-    pub(super) fn make_mut(&mut self) -> &mut [f32] {
+    pub(crate) fn make_mut(&mut self) -> &mut [f32] {
         Arc::<Vec<f32>>::make_mut(&mut self.0)
     }
 }
@@ -46,12 +46,13 @@ impl fmt::Debug for SolidAngles {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::camera::{CameraModel, CubeFaceCamera, Placement};
     use crate::sphere::CubeFace;
-    use crate::world::{Blend, CubeFaceFrame, Frame, Placement, World, WorldView};
+    use crate::world::{Blend, World, WorldView};
 
     #[test]
     fn faces_of_a_cube_share_them() {
-        let front = Placement::new(Frame::CubeFace(CubeFaceFrame));
+        let front = Placement::new(CameraModel::CubeFace(CubeFaceCamera));
         let view = |face: CubeFace| {
             let placement = Placement { orientation: face.orientation(), ..front };
             (face.name().to_owned(), placement.view(8, 8).unwrap())
@@ -63,8 +64,8 @@ mod tests {
 
     #[test]
     fn a_part_of_a_world_keeps_them() {
-        let front = Placement::new(Frame::CubeFace(CubeFaceFrame)).view(8, 8).unwrap();
-        let small = Placement::new(Frame::CubeFace(CubeFaceFrame)).view(4, 4).unwrap();
+        let front = Placement::new(CameraModel::CubeFace(CubeFaceCamera)).view(8, 8).unwrap();
+        let small = Placement::new(CameraModel::CubeFace(CubeFaceCamera)).view(4, 4).unwrap();
         let small = View { orientation: CubeFace::Right.orientation(), ..small };
         let part = |view| WorldView { name: "view".to_owned(), view, blend: Blend::default(), mask: None };
         let whole = World::blended([part(front)]).unwrap();

@@ -1,6 +1,7 @@
 use rayon::prelude::*;
 
-use super::{Canvas, View, World};
+use super::World;
+use crate::camera::{Canvas, View};
 use crate::raster::Image;
 use crate::sphere::Direction;
 

@@ -3,9 +3,10 @@ use std::sync::Arc;
 use thiserror::Error;
 
 use super::blend::{Blend, Border, Presence, parts};
-use super::seen_cone::SeenCone;
-use super::view::ROUNDING;
-use super::{PixelPoint, PixelRect, SolidAngles, View, ViewMask, overlap};
+use super::bounding_cone::SeenCone;
+use super::{SolidAngles, ViewMask, overlap};
+use crate::camera::ROUNDING;
+use crate::camera::{PixelPoint, PixelRect, View};
 use crate::projection::{Projection, ProjectionKind};
 use crate::raster::FixedLight;
 use crate::sphere::Direction;
@@ -65,13 +66,13 @@ pub struct Source {
     /// How it takes part where other views show the same.
     pub blend: Blend,
     /// Where its picture ends.
-    pub(super) border: Border,
+    pub(crate) border: Border,
     /// A cone that holds all that it shows, where that is not the world.
     cone: Option<SeenCone>,
     /// Which of its texels count, if not all.
     pub mask: Option<Arc<ViewMask>>,
     /// Indices of the views that overlap this one.
-    pub(super) others: Vec<usize>,
+    pub(crate) others: Vec<usize>,
     /// Texels that count for all that they show: no other view has a part in them, and none of them is there twice.
     pub(crate) whole: PixelRect,
 }
@@ -134,7 +135,7 @@ impl Source {
     }
 
     /// Whether a point of the image shows something that counts.
-    pub(super) fn shows(&self, pixel: PixelPoint) -> bool {
+    pub(crate) fn shows(&self, pixel: PixelPoint) -> bool {
         self.view.shows(pixel) && self.mask.as_ref().is_none_or(|mask| mask.shows(pixel))
     }
 

@@ -1,10 +1,12 @@
 //! Reports and figures: their numbers against the paper's and the lens's, their form against XML.
 
+use cosmorama::camera::{FieldStop, OmnimaxFraming, PixelGrid, PixelPoint, View};
 use cosmorama::explain::{Figures, Magnification, Report, Underlay};
+use cosmorama::filter::Filter;
 use cosmorama::projection::ProjectionKind;
-use cosmorama::resample::{Filter, Needs, Resampler, SavedPlan};
+use cosmorama::render::{Needs, Resampler, SavedPlan};
 use cosmorama::sphere::{CubeFace, Orientation};
-use cosmorama::world::{FieldStop, OmnimaxFraming, PixelGrid, PixelPoint, View, World};
+use cosmorama::world::World;
 use glam::DVec2;
 use testkit::{cube, equirect, fisheye, omnimax, perspective, turned};
 

@@ -1,11 +1,11 @@
 //! Points of published references, to the digits that those print.
 
+use cosmorama::camera::{CalibratedCamera, CalibratedLens, CameraMatrix, CameraModel, PixelPoint};
 use cosmorama::projection::azimuthal::{FisheyeLens, KannalaBrandt, Ocam};
 use cosmorama::projection::{
     BrownConrady, BrownConradyCoefficients, Octahedral, OctahedralKind, PlanePoint, Projection, ProjectionKind,
 };
 use cosmorama::sphere::{Angle, Direction};
-use cosmorama::world::{CalibratedFrame, CalibratedLens, CameraMatrix, Frame, PixelPoint};
 use glam::DVec3;
 
 /// PROJ's test/gie/builtins.gie, on the sphere of 6 400 000 m: longitude 2°, latitude 1°, and where that lands in metres.
@@ -59,10 +59,10 @@ const POINTS: [[f64; 3]; 3] = [[0.3, -0.2, 1.0], [-0.5, 0.4, 1.0], [0.05, 0.6, 1
 /// first one's CENTRE is at (0, 0).
 fn is_seen_as(lens: CalibratedLens, skew: f64, expected: [[f64; 2]; 3]) {
     let matrix = CameraMatrix::from_rows([[500.0, 500.0 * skew, 330.0], [0.0, 510.0, 250.0]]).expect("a camera");
-    let frame = CalibratedFrame { lens, matrix, size: Some((640, 480)), field_of_view: None };
-    let view = Frame::Calibrated(frame).view(640, 480).expect("a view");
+    let frame = CalibratedCamera { lens, matrix, size: Some((640, 480)), field_of_view: None };
+    let view = CameraModel::Calibrated(frame).view(640, 480).expect("a view");
     // Of twice the size, the same.
-    let large = Frame::Calibrated(frame).view(1280, 960).expect("a view");
+    let large = CameraModel::Calibrated(frame).view(1280, 960).expect("a view");
     for ([x, y, z], [column, row]) in POINTS.into_iter().zip(expected) {
         let direction = Direction::new(DVec3::new(x, -y, -z)).expect("a direction");
         let PixelPoint { x, y } = view.pixel(direction).expect("in the picture");
@@ -141,8 +141,8 @@ fn ocamcalib_s_rays_are_its_own() {
     let (c, d, e) = (1.01, 0.02, -0.03);
     let lens = CalibratedLens::Fisheye(FisheyeLens::Ocam(Ocam::from_coefficients(polynomial).expect("a lens")));
     let matrix = CameraMatrix::from_rows([[1.0, e, column], [d, c, row]]).expect("a camera");
-    let frame = CalibratedFrame { lens, matrix, size: Some((1024, 768)), field_of_view: None };
-    let view = Frame::Calibrated(frame).view(1024, 768).expect("a view");
+    let frame = CalibratedCamera { lens, matrix, size: Some((1024, 768)), field_of_view: None };
+    let view = CameraModel::Calibrated(frame).view(1024, 768).expect("a view");
     for (i, j) in [(510.0, 383.0), (700.0, 300.0), (200.0, 600.0), (430.0, 50.0), (900.0, 390.0)] {
         let (down, right) = (j - row, i - column);
         let determinant = c - d * e;

@@ -1,6 +1,6 @@
 //! A world in another form and back: nothing moves, and no seam of the other form is left.
 
-use cosmorama::resample::Filter;
+use cosmorama::filter::Filter;
 use testkit::{Form, RoundTrip};
 
 /// What is promised, in pixels.

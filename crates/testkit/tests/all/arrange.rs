@@ -4,9 +4,10 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use cosmorama::arrange::{Border, Change, Mismatch, Pose, Side, Verdict, changes, fits_as_well, judge};
+use cosmorama::camera::{PixelPoint, View};
+use cosmorama::layout::FacePlacement;
 use cosmorama::raster::{Image, Rgba, Transfer};
 use cosmorama::sphere::{CubeFace, Direction};
-use cosmorama::world::{FacePlacement, PixelPoint, View};
 use cosmorama_io::{Limits, read};
 
 /// Pictures and how they lie.

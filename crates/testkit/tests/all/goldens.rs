@@ -7,11 +7,13 @@
 
 use std::path::{Path, PathBuf};
 
+use cosmorama::camera::View;
 use cosmorama::compare::{Mask, compare};
+use cosmorama::filter::{Filter, FilterKind};
 use cosmorama::raster::{Channels, Depth, EncodedImage, Image, Rgba, Transfer};
-use cosmorama::resample::{Filter, FilterKind, Resampler};
+use cosmorama::render::Resampler;
 use cosmorama::sphere::CubeFace;
-use cosmorama::world::{View, World};
+use cosmorama::world::World;
 use cosmorama_builtin::{DemoWorld, picture};
 use cosmorama_io::{Limits, Metadata, WriteOptions, read, write};
 use testkit::{cube, cube_face, equirect, fisheye, omnimax, perspective};

@@ -1,7 +1,7 @@
 //! What skies with a sun keep of their light in another form, at as many pixels.
 
+use cosmorama::filter::Filter;
 use cosmorama::raster::{Rgba, Transfer};
-use cosmorama::resample::Filter;
 use cosmorama::world::World;
 use cosmorama_io::{Limits, read};
 use testkit::{Form, HARD_PLACES, LIGHT, Sky, equirect, equirect_density, shared, sun};

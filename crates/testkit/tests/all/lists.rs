@@ -61,10 +61,10 @@ fn first_word(text: &str) -> &str {
 #[test]
 fn what_has_code_is_in_its_list() {
     let projections = code_of_file("cosmorama/src/projection/mod.rs");
-    let frames = code_of_file("cosmorama/src/world/frame/mod.rs");
+    let cameras = code_of_file("cosmorama/src/camera/mod.rs");
     let lists = [
         (list(&projections, "ProjectionKind"), ["Projection for ", "Profile for ", "Parallels for "].as_slice()),
-        (list(&frames, "Frame"), &["ImageFrame for "]),
+        (list(&cameras, "CameraModel"), &["Camera for "]),
     ];
     for (name, code) in files() {
         for (list, traits) in &lists {
@@ -78,16 +78,16 @@ fn what_has_code_is_in_its_list() {
 }
 
 #[test]
-fn every_frame_can_be_asked_for() {
-    let frames = code_of_file("cosmorama/src/world/frame/mod.rs");
+fn every_camera_can_be_asked_for() {
+    let cameras = code_of_file("cosmorama/src/camera/mod.rs");
     let texts: String = files()
         .into_iter()
         .filter(|(name, _)| name.starts_with("cosmorama-cli/") || name.starts_with("cosmorama-spec/"))
         .map(|(_, code)| code)
         .collect();
-    let kinds: Vec<&str> = list(&frames, "Frame").lines().map(|line| first_word(line.trim())).collect();
+    let kinds: Vec<&str> = list(&cameras, "CameraModel").lines().map(|line| first_word(line.trim())).collect();
     assert!(kinds.contains(&"Perspective"));
     for kind in kinds.into_iter().filter(|kind| !kind.is_empty()) {
-        assert!(texts.contains(&format!("Frame::{kind}(")), "no SPEC nor file makes a Frame::{kind}");
+        assert!(texts.contains(&format!("CameraModel::{kind}(")), "no SPEC nor file makes a CameraModel::{kind}");
     }
 }

@@ -4,9 +4,9 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use crate::bench::{Bench, assert_says};
+use cosmorama::camera::{CameraModel, FulldomeCamera, PixelPoint, Placement};
 use cosmorama::raster::{Channels, Depth, Transfer};
 use cosmorama::sphere::{Angle, Orientation};
-use cosmorama::world::{Frame, FulldomeFrame, PixelPoint, Placement};
 use serde_json::Value;
 
 #[test]
@@ -106,7 +106,7 @@ fn maps_of_directions_hold_what_pixels_see() {
         channels(&bench.path(output))
     };
     let orientation = Orientation::from_yaw_pitch_roll(Angle::from_degrees(30.0), Angle::ZERO, Angle::ZERO);
-    let upright = Placement::new(Frame::Fulldome(FulldomeFrame::default()));
+    let upright = Placement::new(CameraModel::Fulldome(FulldomeCamera::default()));
     let view = Placement { orientation: upright.orientation.within(orientation), ..upright }.view(41, 41).unwrap();
     let names = ["direction.X", "direction.Y", "direction.Z", "dx.X", "dx.Y", "dx.Z", "dy.X", "dy.Y", "dy.Z"];
     let whole = map("whole.exr", "builtin:direction-map:footprint=yes", &[]);

@@ -1,6 +1,6 @@
 //! Domes and Omnimax frames as they are typed.
 
-use cosmorama::world::{Frame, FulldomeFrame, OmnimaxFrame, OmnimaxFraming};
+use cosmorama::camera::{CameraModel, FulldomeCamera, OmnimaxCamera, OmnimaxFraming};
 
 use crate::SpecError;
 use crate::angle::parse_degrees;
@@ -8,12 +8,12 @@ use crate::spec::Shape;
 use crate::spec::fields::Fields;
 
 pub(crate) fn fulldome(fields: &Fields) -> Result<Shape, SpecError> {
-    let frame = FulldomeFrame {
+    let frame = FulldomeCamera {
         field_of_view: fields.angle_or("fov", 180.0)?,
         tilt: fields.angle_or("tilt", 0.0)?,
         pixel_aspect: fields.aspect()?,
     };
-    Shape::single(fields, Frame::Fulldome(frame))
+    Shape::single(fields, CameraModel::Fulldome(frame))
 }
 
 pub(crate) fn omnimax(fields: &Fields) -> Result<Shape, SpecError> {
@@ -26,13 +26,13 @@ pub(crate) fn omnimax(fields: &Fields) -> Result<Shape, SpecError> {
             return Err(SpecError::Both { first: "framing", second: key });
         }
     }
-    let default = OmnimaxFrame::default();
-    let frame = OmnimaxFrame {
+    let default = OmnimaxCamera::default();
+    let frame = OmnimaxCamera {
         framing: fields.choice("framing", &framings)?.unwrap_or_default(),
         lower: lower.unwrap_or(default.lower),
         circle: fields.circle()?,
         axis: fields.angle_or("axis", 0.0)?,
         pixel_aspect: fields.aspect()?,
     };
-    Shape::single(fields, Frame::Omnimax(frame))
+    Shape::single(fields, CameraModel::Omnimax(frame))
 }

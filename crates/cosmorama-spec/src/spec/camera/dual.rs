@@ -1,5 +1,6 @@
+use cosmorama::camera::{FisheyeCamera, LensScale, Mirror};
+use cosmorama::layout::{Arrangement, DualFisheye, DualLens, LensSide};
 use cosmorama::sphere::Orientation;
-use cosmorama::world::{Arrangement, DualFisheye, DualLens, FisheyeFrame, LensScale, LensSide, Mirror};
 
 use super::lens::{fit, lens};
 use crate::SpecError;
@@ -21,12 +22,12 @@ impl Dual {
     pub(in crate::spec) fn build(fields: &Fields) -> Result<Self, SpecError> {
         let arrangements = [("side-by-side", Arrangement::SideBySide), ("top-bottom", Arrangement::TopBottom)];
         let orders = [("fb", LensSide::Front), ("bf", LensSide::Back)];
-        let both = FisheyeFrame {
+        let both = FisheyeCamera {
             lens: lens(fields)?,
             field_of_view: fields.angle("fov")?.unwrap_or(DualFisheye::FIELD_OF_VIEW),
             scale: LensScale::Circle(fit(fields)?),
             pixel_aspect: fields.aspect()?,
-            ..FisheyeFrame::default()
+            ..FisheyeCamera::default()
         };
         let picture = DualFisheye {
             arrangement: fields.choice("layout", &arrangements)?.unwrap_or_default(),
@@ -40,9 +41,9 @@ impl Dual {
 }
 
 /// One of the two, with what is said of it alone.
-fn one(fields: &Fields, side: LensSide, both: FisheyeFrame) -> Result<DualLens, SpecError> {
+fn one(fields: &Fields, side: LensSide, both: FisheyeCamera) -> Result<DualLens, SpecError> {
     let prefix = format!("{}.", side.name());
     let field_of_view = fields.angle(&format!("{prefix}fov"))?.unwrap_or(both.field_of_view);
-    let frame = FisheyeFrame { field_of_view, circle: fields.circle_of(&prefix)?, ..both };
+    let frame = FisheyeCamera { field_of_view, circle: fields.circle_of(&prefix)?, ..both };
     Ok(DualLens { frame, turned: fields.orientation_of(&prefix)? })
 }

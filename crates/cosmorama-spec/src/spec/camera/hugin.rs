@@ -1,7 +1,7 @@
 //! Hugin's lenses as they are typed: an i-line's f, v and a b c d e.
 
+use cosmorama::camera::{CameraModel, HuginCamera, HuginProjection};
 use cosmorama::sphere::Angle;
-use cosmorama::world::{Frame, HuginFrame, HuginProjection};
 
 use crate::SpecError;
 use crate::spec::Shape;
@@ -20,7 +20,7 @@ pub(crate) fn hugin(fields: &Fields) -> Result<Shape, SpecError> {
     let projection = fields.choice("lens", &LENSES)?.unwrap_or(HuginProjection::Rectilinear);
     let usual = if projection == HuginProjection::Rectilinear { 90.0 } else { 180.0 };
     let coefficient = |key: &str| number(fields, key, &format!("a coefficient of Hugin's, as in {key}=-0.02"));
-    let frame = HuginFrame {
+    let frame = HuginCamera {
         projection,
         field_of_view: fields.angle("fov")?.unwrap_or(Angle::from_degrees(usual)),
         correction: [coefficient("a")?, coefficient("b")?, coefficient("c")?],
@@ -29,7 +29,7 @@ pub(crate) fn hugin(fields: &Fields) -> Result<Shape, SpecError> {
             number(fields, "e", "pixels below the image's middle, as in e=-7")?,
         ],
     };
-    Shape::single(fields, Frame::Hugin(frame))
+    Shape::single(fields, CameraModel::Hugin(frame))
 }
 
 fn number(fields: &Fields, key: &str, expected: &str) -> Result<f64, SpecError> {

@@ -1,10 +1,10 @@
 //! Fisheye lenses as they are typed: `lens=NAME,k=…`, and how large their picture is.
 
+use cosmorama::camera::{CameraModel, FisheyeCamera, FisheyeFit, LensScale};
 use cosmorama::projection::azimuthal::{
     DoubleSphere, FieldOfViewLens, FisheyeLens, KannalaBrandt, LensError, OCAM_COEFFICIENTS, Ocam, Polynomial, Unified,
 };
 use cosmorama::sphere::Angle;
-use cosmorama::world::{FisheyeFit, FisheyeFrame, Frame, LensScale};
 
 use crate::SpecError;
 use crate::spec::fields::{Fields, wrong};
@@ -45,23 +45,23 @@ pub(crate) fn fisheye(fields: &Fields) -> Result<Shape, SpecError> {
     let scale = scale(fields)?;
     let field_of_view = match (fields.angle("fov")?, scale) {
         (Some(angle), _) => angle,
-        (None, LensScale::Circle(_)) => FisheyeFrame::default().field_of_view,
+        (None, LensScale::Circle(_)) => FisheyeCamera::default().field_of_view,
         // The scale says how large the picture is; the lens shows what it can.
-        (None, _) => FisheyeFrame::whole_field(lens),
+        (None, _) => FisheyeCamera::whole_field(lens),
     };
-    let frame = FisheyeFrame { lens, field_of_view, scale, circle: fields.circle()?, pixel_aspect: fields.aspect()? };
-    Shape::single(fields, Frame::Fisheye(frame))
+    let frame = FisheyeCamera { lens, field_of_view, scale, circle: fields.circle()?, pixel_aspect: fields.aspect()? };
+    Shape::single(fields, CameraModel::Fisheye(frame))
 }
 
 /// Debevec's light probes: an equidistant fisheye that sees everything.
 pub(crate) fn angular_map(fields: &Fields) -> Result<Shape, SpecError> {
-    let frame = FisheyeFrame {
+    let frame = FisheyeCamera {
         field_of_view: Angle::TURN,
         circle: fields.circle()?,
         pixel_aspect: fields.aspect()?,
-        ..FisheyeFrame::default()
+        ..FisheyeCamera::default()
     };
-    Shape::single(fields, Frame::Fisheye(frame))
+    Shape::single(fields, CameraModel::Fisheye(frame))
 }
 
 fn scale(fields: &Fields) -> Result<LensScale, SpecError> {

@@ -1,7 +1,7 @@
 //! Pinhole cameras and stereographic views as they are typed.
 
+use cosmorama::camera::{CameraModel, FieldOfView, PerspectiveCamera, StereographicCamera};
 use cosmorama::sphere::Angle;
-use cosmorama::world::{FieldOfView, Frame, PerspectiveFrame, StereographicFrame};
 
 use crate::SpecError;
 use crate::spec::fields::Fields;
@@ -23,15 +23,15 @@ pub(crate) fn perspective(fields: &Fields) -> Result<Shape, SpecError> {
     if matches!(field_of_view, FieldOfView::Both { .. }) && fields.get("aspect").is_some() {
         return Err(SpecError::Both { first: "aspect", second: "vfov" });
     }
-    let frame = PerspectiveFrame { field_of_view, pixel_aspect: fields.aspect()? };
-    Shape::single(fields, Frame::Perspective(frame))
+    let frame = PerspectiveCamera { field_of_view, pixel_aspect: fields.aspect()? };
+    Shape::single(fields, CameraModel::Perspective(frame))
 }
 
 pub(crate) fn stereographic(fields: &Fields) -> Result<Shape, SpecError> {
-    let default = StereographicFrame::default();
-    let frame = StereographicFrame {
+    let default = StereographicCamera::default();
+    let frame = StereographicCamera {
         field_of_view: fields.angle("fov")?.unwrap_or(default.field_of_view),
         pixel_aspect: fields.aspect()?,
     };
-    Shape::single(fields, Frame::Stereographic(frame))
+    Shape::single(fields, CameraModel::Stereographic(frame))
 }

@@ -1,7 +1,7 @@
 use std::path::{Path, PathBuf};
 
+use cosmorama::camera::{Canvas, Mirror};
 use cosmorama::sphere::Orientation;
-use cosmorama::world::{Canvas, Mirror};
 
 use crate::SpecError;
 use crate::spec::fields::{Fields, wrong};

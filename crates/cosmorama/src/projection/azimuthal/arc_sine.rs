@@ -11,18 +11,18 @@ fn on_the_rim(x: f64) -> f64 {
 }
 
 /// asin x and its derivative for 0 ≤ x ≤ 1, NaN beyond.
-pub(super) fn arc_sine(x: f64) -> (f64, f64) {
+pub(crate) fn arc_sine(x: f64) -> (f64, f64) {
     let x = on_the_rim(x);
     (x.asin(), ((1.0 - x) * (1.0 + x)).sqrt().recip())
 }
 
 /// Sine and cosine of asin x for 0 ≤ x ≤ 1; no cosine beyond.
-pub(super) fn sine(x: f64) -> (f64, f64) {
+pub(crate) fn sine(x: f64) -> (f64, f64) {
     let x = on_the_rim(x);
     (x, ((1.0 - x) * (1.0 + x)).sqrt())
 }
 
 /// Sine and cosine of twice an angle of which they are given.
-pub(super) fn twice((sin, cos): (f64, f64)) -> (f64, f64) {
+pub(crate) fn twice((sin, cos): (f64, f64)) -> (f64, f64) {
     (2.0 * sin * cos, (cos - sin) * (cos + sin))
 }

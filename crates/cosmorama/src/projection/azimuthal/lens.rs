@@ -46,7 +46,7 @@ pub enum LensError {
 
 impl LensError {
     /// An error unless `holds`.
-    pub(super) fn unless(holds: bool, what: &'static str, found: f64, expected: &'static str) -> Result<(), Self> {
+    pub(crate) fn unless(holds: bool, what: &'static str, found: f64, expected: &'static str) -> Result<(), Self> {
         if holds { Ok(()) } else { Err(Self::Parameter { what, found, expected }) }
     }
 }

@@ -1,48 +1,40 @@
 //! Fisheye lenses: the angle from the axis is a function of the radius in the picture.
 
-mod arc_sine;
-mod ball;
-mod by_angle;
-mod by_radius;
-mod double_sphere;
-mod equidistant;
-mod equisolid;
-mod field_of_view;
-mod hugin;
-mod kannala_brandt;
-mod lens;
-mod ocam;
-mod omnimax;
-mod orthographic;
-mod polynomial;
-mod stereographic;
-mod unified;
+pub(crate) mod arc_sine;
+pub(crate) mod ball;
+pub(crate) mod calibrated;
+pub(crate) mod equidistant;
+pub(crate) mod equisolid;
+pub(crate) mod lens;
+pub(crate) mod mirror_ball;
+pub(crate) mod omnimax;
+pub(crate) mod orthographic;
+pub(crate) mod stereographic;
 
 pub use ball::BallLens;
-pub use by_angle::ByAngle;
-pub use by_radius::ByRadius;
-pub use double_sphere::DoubleSphere;
+pub use calibrated::by_angle::ByAngle;
+pub use calibrated::by_radius::ByRadius;
+pub use calibrated::double_sphere::DoubleSphere;
+pub use calibrated::field_of_view::FieldOfViewLens;
+pub use calibrated::hugin::{Hugin, HuginIdeal};
+pub use calibrated::kannala_brandt::KannalaBrandt;
+pub use calibrated::ocam::{OCAM_COEFFICIENTS, Ocam};
+pub use calibrated::polynomial::Polynomial;
+pub use calibrated::unified::Unified;
 pub use equidistant::Equidistant;
 pub use equisolid::Equisolid;
-pub use field_of_view::FieldOfViewLens;
-pub use hugin::{Hugin, HuginIdeal};
-pub use kannala_brandt::KannalaBrandt;
 pub use lens::{Lens, LensError};
-pub use ocam::{OCAM_COEFFICIENTS, Ocam};
 pub use omnimax::OmnimaxLens;
 pub use orthographic::Orthographic;
-pub use polynomial::Polynomial;
-pub use stereographic::Stereographic;
-pub use unified::Unified;
-
 use std::f64::consts::PI;
+pub use stereographic::Stereographic;
 
 use glam::DVec3;
 
-use super::{Outline, PlanePoint, PlaneRect, Projection, Ring, Sector, one_of};
+use super::{Outline, PlanePoint, PlaneRect, Projection, Ring, Sector, enum_dispatch};
 use crate::sphere::{Angle, Direction, DirectionJacobian};
 
-one_of! { ($)
+enum_dispatch! { ($)
     /// Every fisheye lens, chosen at run time; the examples of measured ones are lenses that somebody has.
     pub enum FisheyeLens {
         /// r = φ.
@@ -76,7 +68,7 @@ one_of! { ($)
     }
 }
 
-mod fisheye_lens;
+pub(crate) mod fisheye_lens;
 
 /// The projection of a [`Lens`]: the plane's unit is the lens's own unit of radius, its origin the axis.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -169,7 +161,7 @@ fn ratio((sin, cos): (f64, f64), (depth, slope): (f64, f64)) -> (f64, f64) {
 }
 
 /// All coefficients are numbers.
-pub(super) fn finite(what: &'static str, coefficients: &[f64]) -> Result<(), LensError> {
+pub(crate) fn finite(what: &'static str, coefficients: &[f64]) -> Result<(), LensError> {
     let Some(found) = coefficients.iter().find(|k| !k.is_finite()) else { return Ok(()) };
     LensError::unless(false, what, *found, "a finite number")
 }

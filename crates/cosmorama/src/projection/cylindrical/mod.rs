@@ -9,12 +9,11 @@ pub use central::Central;
 pub use equal_area::EqualArea;
 pub use equirectangular::Equirectangular;
 pub use mercator::Mercator;
-
 use std::f64::consts::TAU;
 
 use glam::{DVec2, DVec3};
 
-use super::graticule::Graticule;
+use super::bounds::lat_lon_box::Graticule;
 use super::{PlanePoint, PlaneRect, Projection};
 use crate::sphere::{Angle, Direction, DirectionJacobian};
 

@@ -5,14 +5,14 @@ mod sinusoidal;
 
 pub use mollweide::Mollweide;
 pub use sinusoidal::Sinusoidal;
-
 use std::f64::consts::PI;
 
 use glam::{DVec2, DVec3};
 
+use super::bounds::lat_lon_box::Graticule;
+use super::bounds::meridian;
 use super::cylindrical::Latitude;
-use super::graticule::Graticule;
-use super::{Outline, PlanePoint, PlaneRect, Projection, meridian};
+use super::{Outline, PlanePoint, PlaneRect, Projection};
 use crate::sphere::{Angle, Direction, DirectionJacobian};
 
 /// Where the parallels of a map lie.

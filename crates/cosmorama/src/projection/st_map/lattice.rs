@@ -8,27 +8,27 @@ const LEAST_TEAR: f32 = 0.01;
 
 /// A quantity on a lattice of samples, sample (i, j) at the middle (i + ½, j + ½) of its square.
 #[derive(Clone, Debug)]
-pub(super) struct Samples {
-    pub(super) width: usize,
-    pub(super) height: usize,
+pub(crate) struct Samples {
+    pub(crate) width: usize,
+    pub(crate) height: usize,
     /// Row by row; not a number where there is none.
-    pub(super) values: Vec<Vec3>,
+    pub(crate) values: Vec<Vec3>,
 }
 
 /// Which samples there are, and which neighbours belong together.
 #[derive(Clone, Debug)]
-pub(super) struct Links {
-    pub(super) width: usize,
-    pub(super) height: usize,
+pub(crate) struct Links {
+    pub(crate) width: usize,
+    pub(crate) height: usize,
     flags: Vec<u8>,
 }
 
 /// A value with its derivatives along the lattice, per sample.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Jet {
-    pub(super) value: DVec3,
-    pub(super) dx: DVec3,
-    pub(super) dy: DVec3,
+pub(crate) struct Jet {
+    pub(crate) value: DVec3,
+    pub(crate) dx: DVec3,
+    pub(crate) dy: DVec3,
 }
 
 const VALID: u8 = 1;
@@ -59,7 +59,7 @@ impl Samples {
 
 impl Links {
     /// The links of samples that all of `tables` have, and along which none of them is torn.
-    pub(super) fn of(tables: &[&Samples]) -> Self {
+    pub(crate) fn of(tables: &[&Samples]) -> Self {
         let (width, height) = (tables[0].width, tables[0].height);
         let joined = |at, step| tables.iter().all(|table| table.is_continuous(at, step));
         let flags_of = |i: i64, j: i64| {
@@ -79,12 +79,12 @@ impl Links {
     }
 
     /// Whether there is a sample.
-    pub(super) fn is_valid(&self, i: usize, j: usize) -> bool {
+    pub(crate) fn is_valid(&self, i: usize, j: usize) -> bool {
         self.has(i as i64, j as i64, VALID)
     }
 
     /// Whether the samples (i, j) to (i + 1, j + 1) belong together.
-    pub(super) fn is_whole(&self, i: i64, j: i64) -> bool {
+    pub(crate) fn is_whole(&self, i: i64, j: i64) -> bool {
         self.has(i, j, RIGHT) && self.has(i, j, BELOW) && self.has(i + 1, j, BELOW) && self.has(i, j + 1, RIGHT)
     }
 
@@ -92,7 +92,7 @@ impl Links {
     /// Rom 1974) between four samples that belong together. Where they do not, the square of each sample goes on as its
     /// other neighbours have it, so that nothing is interpolated across a tear and the squares of the outermost samples are
     /// covered, too.
-    pub(super) fn jet(&self, samples: &Samples, x: f64, y: f64, beyond: f64) -> Option<Jet> {
+    pub(crate) fn jet(&self, samples: &Samples, x: f64, y: f64, beyond: f64) -> Option<Jet> {
         let (width, height) = (self.width as f64, self.height as f64);
         let inside = |at: f64, size: f64| (-beyond..=size + beyond).contains(&at);
         if !(inside(x, width) && inside(y, height)) {

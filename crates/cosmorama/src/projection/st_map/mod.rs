@@ -2,6 +2,8 @@
 
 mod lattice;
 mod piece;
+#[cfg(test)]
+mod tests;
 mod tree;
 
 use std::f64::consts::PI;
@@ -274,6 +276,3 @@ impl Projection for StMap {
         Outline::Rects(if rects.len() > MOST_RECTS { vec![self.cap_bounds(centre, radius)] } else { rects })
     }
 }
-
-#[cfg(test)]
-mod tests;

@@ -3,25 +3,25 @@ use rayon::prelude::*;
 use super::lattice::{Links, Samples};
 
 /// Squares of the lattice along the side of a leaf.
-pub(super) const LEAF: usize = 8;
+pub(crate) const LEAF: usize = 8;
 
 /// A block of the lattice: columns and rows from its corner.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Leaf {
-    pub(super) column: usize,
-    pub(super) row: usize,
+pub(crate) struct Leaf {
+    pub(crate) column: usize,
+    pub(crate) row: usize,
 }
 
 impl Leaf {
     /// Its squares' corners, least and greatest.
-    pub(super) fn rectangle(self, samples: &Samples) -> [(f64, f64); 2] {
+    pub(crate) fn rectangle(self, samples: &Samples) -> [(f64, f64); 2] {
         let (left, top) = (self.column * LEAF, self.row * LEAF);
         let (right, bottom) = ((left + LEAF).min(samples.width), (top + LEAF).min(samples.height));
         [(left as f64, top as f64), (right as f64, bottom as f64)]
     }
 
     /// The same with what lies beyond the table beside it.
-    pub(super) fn rectangle_with(self, samples: &Samples, beyond: f64) -> [(f64, f64); 2] {
+    pub(crate) fn rectangle_with(self, samples: &Samples, beyond: f64) -> [(f64, f64); 2] {
         let [(left, top), (right, bottom)] = self.rectangle(samples);
         let low = |at: f64| if at == 0.0 { -beyond } else { at };
         let high = |at: f64, size: usize| if at == size as f64 { at + beyond } else { at };
@@ -29,7 +29,7 @@ impl Leaf {
     }
 
     /// Whether the table ends beside it.
-    pub(super) fn is_outer(self, samples: &Samples) -> bool {
+    pub(crate) fn is_outer(self, samples: &Samples) -> bool {
         self.rectangle_with(samples, 1.0) != self.rectangle(samples)
     }
 
@@ -44,17 +44,17 @@ impl Leaf {
 /// What belongs together of a leaf and the samples beside it. A leaf across a tear has a piece on each side: one box around
 /// both would reach across all that lies between them.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct Piece {
-    pub(super) leaf: Leaf,
+pub(crate) struct Piece {
+    pub(crate) leaf: Leaf,
     /// The cells between four samples of it, by their upper left corners.
-    pub(super) cells: Vec<(usize, usize)>,
+    pub(crate) cells: Vec<(usize, usize)>,
     /// Whether that is all the leaf has: nothing is torn.
-    pub(super) is_whole: bool,
+    pub(crate) is_whole: bool,
 }
 
 impl Piece {
     /// The pieces of a lattice, leaf by leaf.
-    pub(super) fn all(links: &Links) -> Vec<Self> {
+    pub(crate) fn all(links: &Links) -> Vec<Self> {
         let (columns, rows) = (links.width.div_ceil(LEAF), links.height.div_ceil(LEAF));
         let leaf = |k: usize| Leaf { column: k % columns, row: k / columns };
         (0..columns * rows).into_par_iter().flat_map_iter(|k| Self::of(leaf(k), links)).collect()

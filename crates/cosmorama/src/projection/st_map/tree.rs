@@ -10,7 +10,7 @@ use super::piece::{Leaf, Piece};
 const STEPS: usize = 16;
 
 /// How far outside a table its leaves' boxes reach, in squares.
-pub(super) const MOST_BEYOND: f64 = 3.0;
+pub(crate) const MOST_BEYOND: f64 = 3.0;
 
 /// A part of a square of the lattice to which a point is found.
 const FOUND: f64 = 1e-9;
@@ -23,9 +23,9 @@ const CONVERGING: f64 = 0.25;
 
 /// A box of values; nothing, where its sides are crossed.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Bounds {
-    pub(super) min: Vec3,
-    pub(super) max: Vec3,
+pub(crate) struct Bounds {
+    pub(crate) min: Vec3,
+    pub(crate) max: Vec3,
 }
 
 impl Bounds {
@@ -42,14 +42,14 @@ impl Bounds {
 
 /// Where in a table a value is: an R-tree of boxes around the pieces of its lattice.
 #[derive(Clone, Debug)]
-pub(super) struct Tree {
+pub(crate) struct Tree {
     boxes: Vec<Bounds>,
     index: RTree<GeomWithData<Rectangle<[f32; 3]>, usize>>,
 }
 
 impl Tree {
     /// The boxes around what pieces of a table hold, up to `beyond` squares outside it.
-    pub(super) fn new(samples: &Samples, links: &Links, pieces: &[Piece], beyond: f64) -> Self {
+    pub(crate) fn new(samples: &Samples, links: &Links, pieces: &[Piece], beyond: f64) -> Self {
         let boxes: Vec<Bounds> = pieces.par_iter().map(|piece| bounds(samples, links, piece, beyond)).collect();
         let entry = |(number, held): (usize, &Bounds)| {
             GeomWithData::new(Rectangle::from_corners(held.min.to_array(), held.max.to_array()), number)
@@ -59,18 +59,18 @@ impl Tree {
     }
 
     /// The box around what a piece holds.
-    pub(super) fn bounds(&self, piece: usize) -> Bounds {
+    pub(crate) fn bounds(&self, piece: usize) -> Bounds {
         self.boxes[piece]
     }
 
     /// The numbers of all pieces that may hold anything within `reach` of a value.
-    pub(super) fn within(&self, value: Vec3, reach: f32) -> impl Iterator<Item = usize> {
+    pub(crate) fn within(&self, value: Vec3, reach: f32) -> impl Iterator<Item = usize> {
         self.index.locate_within_distance(value.to_array(), reach * reach).map(|entry| entry.data)
     }
 
     /// The point of the lattice, in the first piece that has any, at which a table has this value; up to `beyond` squares
     /// outside it, at most [`MOST_BEYOND`].
-    pub(super) fn find(
+    pub(crate) fn find(
         &self,
         (samples, links, leaves): (&Samples, &Links, &[Leaf]),
         value: DVec3,

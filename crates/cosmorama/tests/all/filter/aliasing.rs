@@ -1,7 +1,8 @@
 //! What a filter must not do: alias, ring, or make light of nothing.
 
+use cosmorama::filter::{CrossSection, Filter, FilterKind, Kernel};
 use cosmorama::raster::{ColourChannel, Rgba, Transfer};
-use cosmorama::resample::{CrossSection, Filter, FilterKind, Kernel, Resampler};
+use cosmorama::render::Resampler;
 use cosmorama::sphere::{CubeFace, Direction};
 use testkit::{cube, fisheye, light_by_direction, light_by_texel, perspective};
 

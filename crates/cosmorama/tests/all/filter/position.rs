@@ -1,9 +1,11 @@
 //! Worlds with closed-form answers: constant, and coloured by direction.
 
+use cosmorama::camera::{CameraModel, EquirectCamera, SamplePositions, ScreenPixel, View};
+use cosmorama::filter::{CrossSection, Filter, FilterKind, Kernel};
 use cosmorama::raster::Rgba;
-use cosmorama::resample::{CrossSection, Filter, FilterKind, Kernel, Resampler};
+use cosmorama::render::Resampler;
 use cosmorama::sphere::CubeFace;
-use cosmorama::world::{EquirectFrame, Frame, SamplePositions, ScreenPixel, View, World};
+use cosmorama::world::World;
 use testkit::{
     cube, equirect, fisheye, light_by_direction, omnimax, partial_worlds, perspective, position_error, power,
     whole_worlds,
@@ -49,7 +51,7 @@ fn directions_come_back_from_cube_faces() {
 /// A row of texels on the very pole.
 #[test]
 fn directions_come_back_at_poles_with_samples_on_the_edges() {
-    let frame = Frame::Equirect(EquirectFrame { samples: SamplePositions::Edges, ..EquirectFrame::default() });
+    let frame = CameraModel::Equirect(EquirectCamera { samples: SamplePositions::Edges, ..EquirectCamera::default() });
     let panorama = |width| frame.view(width, width / 2).expect("a size");
     for (from, to) in [(1024, 1024), (512, 512), (1024, 500), (1024, 100), (300, 1024)] {
         let world = World::new([("panorama".to_owned(), panorama(from))]).expect("one view");

@@ -2,11 +2,13 @@
 
 use std::f64::consts::PI;
 
+use cosmorama::camera::{CameraModel, MirrorBallCamera, View};
 use cosmorama::explain::Report;
+use cosmorama::filter::{Filter, FilterKind};
 use cosmorama::raster::{ColourChannel, Image, Rgba, Transfer};
-use cosmorama::resample::{Filter, FilterKind, Needs, Resampler};
+use cosmorama::render::{Needs, Resampler};
 use cosmorama::sphere::{CubeFace, Direction};
-use cosmorama::world::{Frame, MirrorBallFrame, View, World};
+use cosmorama::world::World;
 use glam::DVec3;
 use testkit::{
     cube, equirect, fisheye, light_by_direction, light_by_texel, omnimax, perspective, position_error, turned,
@@ -36,7 +38,7 @@ fn direction_colour(direction: Direction) -> [f32; 3] {
 fn inside<'a>(
     target: &'a View,
     image: &'a Image<Rgba>,
-) -> impl Iterator<Item = (cosmorama::world::Footprint, Rgba)> + 'a {
+) -> impl Iterator<Item = (cosmorama::camera::Footprint, Rgba)> + 'a {
     image.pixels().iter().enumerate().filter_map(|(at, pixel)| {
         let screen = target.screen_pixel(at % target.width(), at / target.width())?;
         Some((screen.footprint, *pixel * (screen.coverage as f32).recip()))
@@ -190,7 +192,7 @@ fn it_stays_near_to_ewa() {
 /// Around what it hides a ball's texels are long and narrow, and others from one to the next.
 #[test]
 fn it_stays_near_to_ewa_behind_a_mirror_ball() {
-    let ball = Frame::MirrorBall(MirrorBallFrame::default()).view(500, 500).expect("a ball");
+    let ball = CameraModel::MirrorBall(MirrorBallCamera::default()).view(500, 500).expect("a ball");
     let world = World::new([("ball".to_owned(), ball)]).expect("one view");
     let light = light_by_direction(&world, |d| stripes(d, 20.0));
     for size in [16, 24, 32, 64] {

@@ -1,9 +1,11 @@
 //! The fast paths against the slow, obvious ones.
 
+use cosmorama::camera::View;
+use cosmorama::filter::{CrossSection, Filter, FilterKind, Kernel, TextureDerivatives, WeightTable, ewa};
 use cosmorama::raster::{Image, Rgba};
-use cosmorama::resample::{CrossSection, Filter, FilterKind, Kernel, Resampler, TextureDerivatives, WeightTable, ewa};
+use cosmorama::render::Resampler;
 use cosmorama::sphere::{Angle, CubeFace, Direction, Orientation};
-use cosmorama::world::{View, World};
+use cosmorama::world::World;
 use testkit::{cube, equirect, fisheye, light_by_direction, light_by_texel, omnimax, perspective};
 
 fn render(world: &World, target: &View, filter: Filter, light: &[Rgba]) -> Image<Rgba> {

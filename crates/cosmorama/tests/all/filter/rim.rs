@@ -1,9 +1,11 @@
 //! The rim of a lens: nothing leaks in over it, and nothing rings there.
 
+use cosmorama::camera::{PixelPoint, View};
+use cosmorama::filter::Filter;
 use cosmorama::raster::Rgba;
-use cosmorama::resample::{Filter, Resampler};
+use cosmorama::render::Resampler;
 use cosmorama::sphere::{CubeFace, Direction};
-use cosmorama::world::{PixelPoint, View, World};
+use cosmorama::world::World;
 use testkit::{cube, equirect, fisheye, light_by_texel, omnimax};
 
 fn worlds() -> [World; 2] {

@@ -1,9 +1,11 @@
 //! No step where one view ends and another begins: across the edges and corners of the cube, at ±180° and at the poles.
 
+use cosmorama::camera::View;
+use cosmorama::filter::{Filter, FilterKind};
 use cosmorama::raster::Rgba;
-use cosmorama::resample::{Filter, FilterKind, Resampler};
+use cosmorama::render::Resampler;
 use cosmorama::sphere::{CubeFace, Direction};
-use cosmorama::world::{View, World};
+use cosmorama::world::World;
 use testkit::{cube, equirect, light_by_direction, omnimax, perspective, whole_worlds};
 
 /// Waves of some forty texels: smooth enough that the filter itself changes next to nothing, so that what a wrong weight
@@ -161,7 +163,7 @@ fn what_lies_outside_a_partial_face_never_leaks_in() {
     let mut soiled = clean.clone();
     for source in world.sources() {
         for (k, texel) in soiled[source.texels()].iter_mut().enumerate() {
-            let pixel = cosmorama::world::PixelPoint::centre(k % source.view.width(), k / source.view.width());
+            let pixel = cosmorama::camera::PixelPoint::centre(k % source.view.width(), k / source.view.width());
             let direction = source.view.direction(pixel).expect("a face is all directions");
             let below = direction.vector().y < direction.vector().z;
             let beyond = direction.angle_to(Direction::FRONT).degrees() > 90.162 + 45.0 / 128.0 * 1.5;

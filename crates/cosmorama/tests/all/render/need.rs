@@ -1,9 +1,11 @@
 //! What a conversion needs: exact rectangles, against the filter itself.
 
+use cosmorama::camera::{PixelRect, View};
+use cosmorama::filter::{CrossSection, Filter, FilterKind, Kernel};
 use cosmorama::raster::{Image, Rgba};
-use cosmorama::resample::{CrossSection, Filter, FilterKind, Kernel, Need, Needs, Plan, Resampler};
+use cosmorama::render::{Need, Needs, Plan, Resampler};
 use cosmorama::sphere::CubeFace;
-use cosmorama::world::{PixelRect, Source, View, World};
+use cosmorama::world::{Source, World};
 use testkit::{cube, equirect, fisheye, omnimax, perspective, turned, whole_worlds};
 
 fn rect(left: usize, top: usize, right: usize, bottom: usize) -> Option<PixelRect> {
@@ -249,7 +251,7 @@ fn directions_that_nothing_covers_are_counted() {
     assert_eq!(needs_of_two(&world).map(|found| found.target), Some(1));
 }
 
-fn needs_of_two(world: &World) -> Option<cosmorama::resample::Uncovered> {
+fn needs_of_two(world: &World) -> Option<cosmorama::render::Uncovered> {
     let covered = perspective(40, 40, 60.0, 0.0, 0.0, 0.0);
     let beside = perspective(40, 40, 60.0, 60.0, 0.0, 0.0);
     Needs::of(world, &[covered, beside], &Filter::DEFAULT).uncovered

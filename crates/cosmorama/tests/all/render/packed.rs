@@ -1,13 +1,13 @@
 //! Pictures that overlap by construction, two fisheyes back to back and faces of more than 90°: nothing counts twice,
 //! nothing is displaced, and one goes over into the other without an edge.
 
+use cosmorama::camera::{CameraModel, FisheyeCamera, LayoutFaceCamera, Mirror, Placement, View};
+use cosmorama::filter::Filter;
+use cosmorama::layout::{Arrangement, DualFisheye, DualLens, LensSide};
 use cosmorama::raster::{Image, Rgba};
-use cosmorama::resample::{Filter, Resampler};
+use cosmorama::render::Resampler;
 use cosmorama::sphere::{Angle, CubeFace, Orientation};
-use cosmorama::world::{
-    Arrangement, Blend, DualFisheye, DualLens, FisheyeFrame, Frame, LayoutFaceFrame, LensSide, Mirror, Placement, View,
-    World, WorldView,
-};
+use cosmorama::world::{Blend, World, WorldView};
 use testkit::{equirect, fisheye, light_by_direction, light_by_texel, perspective, position_error, turned};
 
 /// Pixels by which a point of the world may be displaced.
@@ -16,7 +16,7 @@ const POSITION_PROMISE: f64 = 0.01;
 /// Two circles of so many pixels, a little turned, as real cameras are; blended over all that both see.
 fn dual_fisheye(edge: usize, field_of_view: [f64; 2]) -> World {
     let [front, back] = field_of_view
-        .map(|degrees| FisheyeFrame { field_of_view: Angle::from_degrees(degrees), ..FisheyeFrame::default() });
+        .map(|degrees| FisheyeCamera { field_of_view: Angle::from_degrees(degrees), ..FisheyeCamera::default() });
     let dual = DualFisheye {
         arrangement: Arrangement::SideBySide,
         first: LensSide::Front,
@@ -24,7 +24,7 @@ fn dual_fisheye(edge: usize, field_of_view: [f64; 2]) -> World {
         back: DualLens { frame: back, turned: turned([0.7, -0.4, 91.0]) },
         feather: None,
     };
-    let view = |lens: cosmorama::world::PlacedLens| {
+    let view = |lens: cosmorama::layout::PlacedLens| {
         let view = lens.placement.view(edge, edge).expect("a square");
         WorldView { name: lens.side.name().to_owned(), view, blend: dual.blend(), mask: None }
     };
@@ -34,8 +34,8 @@ fn dual_fisheye(edge: usize, field_of_view: [f64; 2]) -> World {
 /// Faces that see so much both ways, blended over all that two see.
 fn wide_cube(edge: usize, degrees: f64) -> World {
     let field_of_view = Angle::from_degrees(degrees);
-    let frame = Frame::LayoutFace(LayoutFaceFrame { field_of_view, ..LayoutFaceFrame::default() });
-    let blend = Blend { priority: 0, feather: field_of_view - LayoutFaceFrame::RIGHT_ANGLE };
+    let frame = CameraModel::LayoutFace(LayoutFaceCamera { field_of_view, ..LayoutFaceCamera::default() });
+    let blend = Blend { priority: 0, feather: field_of_view - LayoutFaceCamera::RIGHT_ANGLE };
     let view = |face: CubeFace| {
         let placement = Placement { orientation: face.orientation(), ..Placement::new(frame) };
         let view = placement.view(edge, edge).expect("a square");

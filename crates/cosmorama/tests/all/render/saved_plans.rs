@@ -1,10 +1,12 @@
 //! Plans as bytes: what comes back makes the same pixels, and what does not belong is refused.
 
+use cosmorama::camera::{FieldStop, PixelGrid, View};
+use cosmorama::filter::{Filter, FilterKind, Kernel};
 use cosmorama::projection::{PlanePoint, PlaneRect, ProjectionKind, StMap, StMapTable};
 use cosmorama::raster::{FixedCodec, FixedLight, Image, Rgba, Transfer};
-use cosmorama::resample::{Filter, FilterKind, FixedPlan, Kernel, Plan, PlanError, Resampler, SavedPlan};
+use cosmorama::render::{FixedPlan, Plan, PlanError, Resampler, SavedPlan};
 use cosmorama::sphere::{Angle, CubeFace, Direction, Orientation};
-use cosmorama::world::{Blend, FieldStop, PixelGrid, View, ViewMask, World, WorldView};
+use cosmorama::world::{Blend, ViewMask, World, WorldView};
 use proptest::prelude::*;
 use std::sync::Arc;
 

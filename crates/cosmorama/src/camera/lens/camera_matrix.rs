@@ -1,0 +1,68 @@
+use glam::DVec2;
+
+use crate::camera::CameraError;
+use crate::sphere::Angle;
+
+/// How the pixels of a measured camera lie in its lens's plane: OpenCV's camera matrix, or OCamCalib's affine one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CameraMatrix {
+    /// Pixels a unit of the lens's plane, along rows and along columns.
+    pub(crate) focal: DVec2,
+    /// Units to the right for each unit down.
+    pub(crate) skew: f64,
+    /// Where the axis is seen, from the image's outer corner, in pixels.
+    pub(crate) principal: DVec2,
+    /// How the sensor is turned behind the lens.
+    pub(crate) roll: Angle,
+}
+
+impl CameraMatrix {
+    /// Of the two rows that give columns and rows of the image, from 0 at the CENTRE of its first pixel as OpenCV and
+    /// OCamCalib count, for a point (right, down, 1) of the lens's plane.
+    ///
+    /// # Errors
+    /// When it mirrors the picture or leaves nothing of it, or holds what is no number.
+    pub fn from_rows(rows: [[f64; 3]; 2]) -> Result<Self, CameraError> {
+        let [[a, b, x], [c, d, y]] = rows;
+        let determinant = a * d - b * c;
+        if !(determinant > 0.0 && rows.as_flattened().iter().all(|number| number.is_finite())) {
+            return Err(CameraError::CameraMatrix { determinant });
+        }
+        // An upper triangular matrix times a rotation, which is the sensor's.
+        let across = c.hypot(d);
+        let (sin, cos) = (c / across, d / across);
+        let focal = DVec2::new(a * cos - b * sin, across);
+        Ok(Self {
+            focal,
+            skew: (a * sin + b * cos) / focal.x,
+            principal: DVec2::new(x + 0.5, y + 0.5),
+            // The picture turns clockwise when the camera turns the other way.
+            roll: Angle::from_radians(-sin.atan2(cos)),
+        })
+    }
+
+    /// That of an image so many times as large.
+    pub(crate) fn scaled(self, scale: DVec2) -> Self {
+        let (focal, principal) = (self.focal * scale, self.principal * scale);
+        // Units of x for each unit of y stay what they are: pixels are scaled, not the plane.
+        Self { focal, principal, ..self }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_turned_sensor_is_taken_apart() {
+        let (sin, cos) = 0.1f64.sin_cos();
+        let (fx, fy, skew) = (300.0, 310.0, 0.02);
+        let rows = [[fx * (cos + skew * sin), fx * (skew * cos - sin), 10.0], [fy * sin, fy * cos, 20.0]];
+        let matrix = CameraMatrix::from_rows(rows).unwrap();
+        assert!((matrix.focal - DVec2::new(fx, fy)).length() < 1e-10 && (matrix.skew - skew).abs() < 1e-12);
+        assert!((matrix.roll.radians() + 0.1).abs() < 1e-12);
+        assert_eq!(matrix.principal, DVec2::new(10.5, 20.5));
+        assert!(CameraMatrix::from_rows([[1.0, 0.0, 0.0], [0.0, -1.0, 0.0]]).is_err());
+        assert!(CameraMatrix::from_rows([[f64::NAN, 0.0, 0.0], [0.0, 1.0, 0.0]]).is_err());
+    }
+}

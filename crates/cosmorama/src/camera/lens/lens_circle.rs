@@ -1,0 +1,70 @@
+use crate::camera::error::check_positive;
+use crate::camera::{CameraError, PixelGrid, PixelPoint};
+
+/// Where a lens's circle lies in an image, in place of where the frame's own rule puts it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LensCircle {
+    /// Its centre.
+    pub centre: Option<PixelPoint>,
+    /// Its radius, in pixel widths.
+    pub radius: Option<f64>,
+}
+
+impl LensCircle {
+    /// As the frame's own rule says.
+    pub const FITTED: Self = Self { centre: None, radius: None };
+
+    /// The grid with its circle of `plane_radius` plane units where this says.
+    pub(crate) fn place(self, grid: PixelGrid, plane_radius: f64) -> Result<PixelGrid, CameraError> {
+        if let Some(radius) = self.radius {
+            check_positive("the radius", radius)?;
+        }
+        let step = grid.step();
+        let scale = self.radius.map_or(1.0, |radius| plane_radius / radius / step.x);
+        let centre = self.centre.unwrap_or_else(|| grid.to_pixel(crate::projection::PlanePoint::new(0.0, 0.0)));
+        let placed = PixelGrid::centred(grid.width(), grid.height(), centre, step * scale);
+        if self != Self::FITTED {
+            self.check_seen(&placed, centre, plane_radius)?;
+        }
+        Ok(placed)
+    }
+
+    /// A circle of which nothing is on the image was placed by mistake.
+    fn check_seen(self, grid: &PixelGrid, centre: PixelPoint, plane_radius: f64) -> Result<(), CameraError> {
+        let (width, height) = (grid.width(), grid.height());
+        let (across, down) = (plane_radius / grid.step().x.abs(), plane_radius / grid.step().y.abs());
+        // The nearest place on the image, in radii.
+        let x = (centre.x.clamp(0.0, width as f64) - centre.x) / across;
+        let y = (centre.y.clamp(0.0, height as f64) - centre.y) / down;
+        if x * x + y * y < 1.0 {
+            return Ok(());
+        }
+        Err(CameraError::CircleOffImage { centre: (centre.x, centre.y), radius: across, width, height })
+    }
+}
+
+impl Default for LensCircle {
+    fn default() -> Self {
+        Self::FITTED
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::DVec2;
+
+    #[test]
+    fn a_circle_off_the_image_is_refused_and_one_at_its_edge_is_not() {
+        let grid = PixelGrid::centred(100, 50, PixelPoint::new(50.0, 25.0), DVec2::splat(0.04));
+        let place =
+            |x: f64, y: f64| LensCircle { centre: Some(PixelPoint::new(x, y)), radius: Some(20.0) }.place(grid, 1.0);
+        for (x, y) in [(50.0, 25.0), (-19.0, 25.0), (119.0, 25.0), (113.0, 63.0), (50.0, 69.0)] {
+            assert!(place(x, y).is_ok(), "{x}, {y}");
+        }
+        for (x, y) in [(-20.0, 25.0), (121.0, 25.0), (115.0, 65.0), (50.0, 900.0)] {
+            let error = place(x, y).unwrap_err().to_string();
+            assert!(error.contains("radius 20") && error.contains("100x50"), "{error}");
+        }
+    }
+}

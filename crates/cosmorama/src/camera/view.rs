@@ -1,0 +1,248 @@
+use std::ops::Range;
+
+use glam::{DMat2, DVec2};
+
+use super::{FieldStop, PixelBounds, PixelGrid, PixelPoint};
+use crate::projection::{Outline, PlanePoint, Projection, ProjectionKind};
+use crate::sphere::{Angle, Direction, DirectionJacobian, Orientation};
+
+/// What a screen pixel sees of the world, to first order: the direction of a point of it, and how that direction moves
+/// for one pixel to the right (dx) and one pixel down (dy).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Footprint {
+    /// The direction, in the world's frame.
+    pub direction: Direction,
+    /// Its derivatives per pixel, in the world's frame.
+    pub jacobian: DirectionJacobian,
+}
+
+/// Texels from a steep rim within which a texel is measured from side to side.
+const STEEP: f64 = 4.0;
+
+/// Pixels by which rounding may displace a point: what is nearer to an edge, or to a whole number of columns, is there.
+pub(crate) const ROUNDING: f64 = 1e-6;
+
+/// An image's geometry: how its pixels see the world. As a source it says where its texels lie, as a target which
+/// pixels are wanted; the image itself is elsewhere.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct View {
+    /// The lens.
+    pub projection: ProjectionKind,
+    /// How the camera is turned.
+    pub orientation: Orientation,
+    /// How pixels lie in the projection's plane.
+    pub grid: PixelGrid,
+    /// Where the field of view ends inside the image.
+    pub stop: FieldStop,
+}
+
+/// Halvings of the way to the border of a picture: to a millionth of it.
+const BORDER_STEPS: usize = 20;
+
+impl View {
+    /// Columns.
+    pub fn width(&self) -> usize {
+        self.grid.width()
+    }
+
+    /// Rows.
+    pub fn height(&self) -> usize {
+        self.grid.height()
+    }
+
+    /// The direction at a point of the image, in the world's frame, whether or not the field stop hides it.
+    pub fn direction(&self, pixel: PixelPoint) -> Option<Direction> {
+        let direction = self.projection.unproject(self.grid.to_plane(pixel))?;
+        Some(self.orientation.to_world(direction))
+    }
+
+    /// The directions of pixel centres beside each other in row `j`, each with its column.
+    pub fn row_directions(&self, j: usize, columns: Range<usize>, mut visit: impl FnMut(usize, Direction)) {
+        let first = self.grid.to_plane(PixelPoint::centre(columns.start, j));
+        self.projection.unproject_row(first, self.grid.step().x, columns.len(), |k, direction| {
+            visit(columns.start + k, self.orientation.to_world(direction));
+        });
+    }
+
+    /// The last direction in the picture on the way from its middle to one outside.
+    pub(crate) fn border_towards(&self, direction: Direction) -> Option<Direction> {
+        let middle = self.direction(PixelPoint::new(self.width() as f64 / 2.0, self.height() as f64 / 2.0))?.vector();
+        let at = |part: f64| Direction::new(middle.lerp(direction.vector(), part));
+        let is_inside = |part: f64| at(part).and_then(|d| self.pixel(d)).is_some_and(|pixel| self.grid.contains(pixel));
+        let (mut inside, mut outside) = (0.0, 1.0);
+        for _ in 0..BORDER_STEPS {
+            let part = 0.5 * (inside + outside);
+            if is_inside(part) { inside = part } else { outside = part }
+        }
+        at(inside)
+    }
+
+    /// Whether every direction of the world is in the picture: it goes all the way round, from pole to pole.
+    pub fn covers_sphere(&self) -> bool {
+        let sees_pole = |pole| {
+            let pole = self.orientation.to_world(pole);
+            self.pixel(pole).is_some_and(|pixel| (-ROUNDING..=self.height() as f64 + ROUNDING).contains(&pixel.y))
+        };
+        self.period().is_some_and(|period| period <= self.width())
+            && self.stop == FieldStop::NONE
+            && sees_pole(Direction::UP)
+            && sees_pole(Direction::DOWN)
+    }
+
+    /// The direction at a point of the image with its derivatives per pixel.
+    pub fn footprint(&self, pixel: PixelPoint) -> Option<Footprint> {
+        let point = self.grid.to_plane(pixel);
+        let (direction, plane) = self.projection.unproject_with_jacobian(point)?;
+        let step = self.grid.step();
+        let jacobian = DirectionJacobian { dx: plane.dx * step.x, dy: plane.dy * -step.y };
+        Some(Footprint {
+            direction: self.orientation.to_world(direction),
+            jacobian: self.orientation.jacobian_to_world(jacobian),
+        })
+    }
+
+    /// Where a direction of the world lands, in the image or outside it.
+    pub fn pixel(&self, direction: Direction) -> Option<PixelPoint> {
+        self.projection.project(self.orientation.to_view(direction)).map(|point| self.grid.to_pixel(point))
+    }
+
+    /// Whether the point of the image shows something: it lies in the image and the field stop lets it pass.
+    pub fn shows(&self, pixel: PixelPoint) -> bool {
+        self.grid.contains(pixel) && self.stop_passes(pixel)
+    }
+
+    /// Whether a direction of the world is in the picture.
+    pub fn sees(&self, direction: Direction) -> bool {
+        self.pixel(direction).is_some_and(|pixel| self.shows(self.wrapped(pixel)))
+    }
+
+    /// A footprint in this view's own pixels: its centre and the matrix whose columns are the steps for one screen pixel
+    /// along x and y ((Ux, Vx) and (Uy, Vy) in Greene & Heckbert).
+    pub fn texel_footprint(&self, footprint: &Footprint) -> Option<(PixelPoint, DMat2)> {
+        if self.projection.has_steep_rim() {
+            let pixel = self.pixel(footprint.direction)?;
+            let texel = self.texel(pixel)?;
+            let [x, y] = [footprint.jacobian.dx, footprint.jacobian.dy].map(|t| texel.pseudo_inverse(t));
+            return Some((pixel, DMat2::from_cols(x?, y?)));
+        }
+        let direction = self.orientation.to_view(footprint.direction);
+        let tangents = [footprint.jacobian.dx, footprint.jacobian.dy].map(|t| self.orientation.vector_to_view(t));
+        let (point, [x, y]) = self.projection.project_with_derivatives(direction, tangents)?;
+        let step = self.grid.step();
+        let texels = DMat2::from_cols(DVec2::new(x.x / step.x, -x.y / step.y), DVec2::new(y.x / step.x, -y.y / step.y));
+        Some((self.grid.to_pixel(point), texels))
+    }
+
+    /// How the direction moves over the texel around a point of the image, per texel: its derivatives. On a steep rim, where
+    /// those of a point say nothing of a texel, from one side of the texel to the other.
+    pub(crate) fn texel(&self, pixel: PixelPoint) -> Option<DirectionJacobian> {
+        let footprint = self.footprint(pixel)?;
+        let Footprint { direction, jacobian } = footprint;
+        if !self.is_steep_at(&footprint) {
+            return Some(jacobian);
+        }
+        let at = |dx: f64, dy: f64| self.direction(PixelPoint::new(pixel.x + dx, pixel.y + dy)).map(Direction::vector);
+        let across = |dx: f64, dy: f64| {
+            let here = direction.vector();
+            let between = at(dx / 2.0, dy / 2.0).zip(at(-dx / 2.0, -dy / 2.0)).map(|(next, last)| next - last);
+            between.or_else(|| at(-dx, -dy).map(|last| here - last)).or_else(|| at(dx, dy).map(|next| next - here))
+        };
+        Some(DirectionJacobian { dx: across(1.0, 0.0)?, dy: across(0.0, 1.0)? })
+    }
+
+    /// Solid angle of a texel in steradians (to first order), zero where it shows nothing.
+    pub fn texel_solid_angle(&self, i: usize, j: usize) -> f64 {
+        let pixel = PixelPoint::centre(i, j);
+        // Where nothing is seen, there is no solid angle either.
+        let shows = self.grid.contains(pixel) && (self.stop == FieldStop::NONE || self.stop_passes(pixel));
+        if shows { self.solid_angle(pixel).unwrap_or(0.0) } else { 0.0 }
+    }
+
+    /// The same of the first texels of a row.
+    pub(crate) fn row_solid_angles(&self, j: usize, row: &mut [f32]) {
+        if self.stop != FieldStop::NONE || self.projection.has_steep_rim() {
+            row.iter_mut().enumerate().for_each(|(i, angle)| *angle = self.texel_solid_angle(i, j) as f32);
+            return;
+        }
+        let (first, step) = (self.grid.to_plane(PixelPoint::centre(0, j)), self.grid.step());
+        let area = (step.x * step.y).abs();
+        self.projection.row_solid_angles(first, step.x, row.len(), |i, solid_angle| {
+            row[i] = solid_angle.map_or(0.0, |solid_angle| (solid_angle * area) as f32);
+        });
+    }
+
+    /// Solid angle in steradians (to first order) of a texel around a point of the image or beyond it, whether or not it
+    /// shows something.
+    pub(crate) fn solid_angle(&self, pixel: PixelPoint) -> Option<f64> {
+        let step = self.grid.step();
+        let solid_angle = self.projection.solid_angle(self.grid.to_plane(pixel))? * (step.x * step.y).abs();
+        if !self.projection.has_steep_rim() {
+            return Some(solid_angle);
+        }
+        // On the very rim the derivatives may be infinite, and the texel is not.
+        Some(solid_angle.min(2.0 * self.texel(pixel)?.solid_angle()))
+    }
+
+    /// Pixels for each radian at the centre of the projection, the mean of both ways where pixels are not square.
+    pub fn pixels_per_radian(&self) -> f64 {
+        let step = self.grid.step();
+        let centre = self.projection.jacobian(PlanePoint::new(0.0, 0.0)).map_or(1.0, |jacobian| jacobian.solid_angle());
+        (centre * (step.x * step.y).abs()).sqrt().recip()
+    }
+
+    /// After how many columns the picture repeats, where it goes all the way round.
+    pub fn period(&self) -> Option<usize> {
+        let columns = (self.projection.period()? / self.grid.step().x).abs();
+        let whole = columns.round();
+        ((columns - whole).abs() < ROUNDING && whole >= 1.0).then_some(whole as usize)
+    }
+
+    /// Whether the field stop lets a point of the plane pass, inside the image or outside it.
+    pub fn stop_passes(&self, pixel: PixelPoint) -> bool {
+        let point = self.grid.to_plane(pixel);
+        self.projection.unproject(point).is_some_and(|direction| self.stop.passes(point, || Some(direction)))
+    }
+
+    /// [`Projection::margin`] of a direction of the world.
+    pub fn margin(&self, direction: Direction) -> f64 {
+        self.projection.margin(self.orientation.to_view(direction))
+    }
+
+    /// [`Projection::beyond_seam`] of a direction of the world.
+    pub(crate) fn beyond_seam(&self, direction: Direction) -> Option<Direction> {
+        let beyond = self.projection.beyond_seam(self.orientation.to_view(direction))?;
+        Some(self.orientation.to_world(beyond))
+    }
+
+    /// Whether a rim or a pole is so near that a texel of this footprint is measured from side to side.
+    pub(crate) fn is_steep_at(&self, footprint: &Footprint) -> bool {
+        let Footprint { direction, jacobian } = footprint;
+        let size = (jacobian.dx.length_squared() + jacobian.dy.length_squared()).sqrt();
+        self.projection.has_steep_rim() && self.margin(*direction) <= STEEP * size
+    }
+
+    /// The rectangle that holds every direction within `radius` of a direction of the world.
+    pub fn cap_bounds(&self, centre: Direction, radius: Angle) -> PixelBounds {
+        let plane = self.projection.cap_bounds(self.orientation.to_view(centre), radius);
+        let (a, b) = (self.grid.to_pixel(plane.min), self.grid.to_pixel(plane.max));
+        PixelBounds {
+            min: PixelPoint::new(a.x.min(b.x), a.y.min(b.y)),
+            max: PixelPoint::new(a.x.max(b.x), a.y.max(b.y)),
+        }
+    }
+
+    /// The part of the projection's plane that holds every direction within `radius` of a direction of the world.
+    pub(crate) fn cap_outline(&self, centre: Direction, radius: Angle) -> Outline {
+        self.projection.cap_outline(self.orientation.to_view(centre), radius)
+    }
+
+    /// The same point in the turn that the image shows.
+    pub fn wrapped(&self, pixel: PixelPoint) -> PixelPoint {
+        match self.projection.period() {
+            Some(period) if !self.grid.contains(pixel) => {
+                PixelPoint { x: pixel.x.rem_euclid((period / self.grid.step().x).abs()), ..pixel }
+            }
+            _ => pixel,
+        }
+    }
+}

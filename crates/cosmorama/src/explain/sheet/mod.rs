@@ -1,0 +1,8 @@
+//! Sheets that figures are drawn on: shapes, lines of text, colours, unfolded faces, contours.
+
+pub(crate) mod contour;
+pub(crate) mod drawing;
+pub(crate) mod field;
+pub mod lettering;
+pub(crate) mod net;
+pub(crate) mod theme;

@@ -1,0 +1,136 @@
+use std::f64::consts::FRAC_PI_2;
+
+use crate::camera::{FieldStop, Footprint, PixelBounds, PixelPoint, PixelRect, View};
+use crate::filter::Kernel;
+use crate::sphere::{Angle, Direction};
+use crate::world::Source;
+
+/// What a mapping may bend by between the corners of a block, relative to the block's size, without being noticed.
+const BEND: f64 = 1.25;
+
+/// A block that spans more than this, in radians, is not judged as a whole.
+const WIDEST: f64 = 0.5;
+
+/// All that a block sees lies within `radius` of `centre`.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Cap {
+    centre: Direction,
+    radius: f64,
+    /// Size of the block's largest pixel: the root of its summed squared derivatives, in radians.
+    pixel: f64,
+}
+
+impl Cap {
+    /// The cap around a centre that holds all between these corners; `None` where it would be wide.
+    pub(crate) fn around(centre: Direction, corners: &[Footprint]) -> Option<Self> {
+        let (mut radius, mut pixel) = (0f64, 0f64);
+        for corner in corners {
+            radius = radius.max(BEND * centre.angle_to(corner.direction).radians());
+            let (dx, dy) = (corner.jacobian.dx, corner.jacobian.dy);
+            pixel = pixel.max(BEND * (dx.length_squared() + dy.length_squared()).sqrt());
+        }
+        (radius < WIDEST).then_some(Self { centre, radius, pixel })
+    }
+
+    /// The same with so many radians more around it.
+    pub(crate) fn widened(self, by: f64) -> Self {
+        Self { radius: self.radius + by, ..self }
+    }
+
+    /// The same for whole pixels, if it was that of their centres.
+    pub(crate) fn of_whole_pixels(self) -> Self {
+        self.widened(self.pixel)
+    }
+
+    /// Whether all of it is below a great circle of the view, whose pole is `side`.
+    pub(crate) fn is_below(&self, side: Direction, view: &View) -> bool {
+        side.dot(view.orientation.to_view(self.centre)) < -self.radius.min(FRAC_PI_2).sin()
+    }
+
+    /// Radians from the centre.
+    pub(crate) fn radius(&self) -> f64 {
+        self.radius
+    }
+
+    /// Whether the view's field stop cuts off nothing of it.
+    pub(crate) fn is_clear_of_stop(&self, view: &View) -> bool {
+        let bounds = || view.cap_bounds(self.centre, Angle::from_radians(self.radius));
+        view.stop == FieldStop::NONE || self.passes_stop_of(view, &bounds())
+    }
+
+    /// Whether all of it is inside the view's field, none of it near a rim, as far as formulas tell.
+    pub(crate) fn is_inside(&self, view: &View) -> bool {
+        !view.projection.ends_between_samples() && view.margin(self.centre) > self.radius && self.is_clear_of_stop(view)
+    }
+
+    /// Whether one source shows all of the cap.
+    pub(crate) fn is_shown_by(&self, source: &Source) -> bool {
+        let view = &source.view;
+        let bounds = view.cap_bounds(self.centre, Angle::from_radians(self.radius));
+        let columns = source.period.is_some_and(|period| period <= view.width())
+            || (bounds.min.x >= 0.0 && bounds.max.x <= view.width() as f64);
+        let rows = bounds.min.y >= 0.0 && bounds.max.y <= view.height() as f64;
+        // What ends without a field stop does at a rim; what a mask hides may lie anywhere.
+        let is_inside = source.period.is_some() || view.margin(self.centre) > self.radius;
+        let is_bare = source.mask.is_none();
+        is_bare && is_inside && columns && rows && self.passes_stop_of(view, &bounds)
+    }
+
+    fn passes_stop_of(&self, view: &View, bounds: &PixelBounds) -> bool {
+        let half_space = view
+            .stop
+            .half_space
+            .is_none_or(|side| side.dot(view.orientation.to_view(self.centre)) >= self.radius.sin());
+        // A disc that holds the corners of a rectangle holds the rectangle.
+        let in_circle = |radius: f64| {
+            let corners = [
+                (bounds.min.x, bounds.min.y),
+                (bounds.max.x, bounds.min.y),
+                (bounds.min.x, bounds.max.y),
+                (bounds.max.x, bounds.max.y),
+            ];
+            corners.into_iter().all(|(x, y)| {
+                let point = view.grid.to_plane(PixelPoint::new(x, y));
+                point.x.hypot(point.y) <= radius
+            })
+        };
+        half_space && view.stop.circle.is_none_or(in_circle)
+    }
+
+    /// The texels of a source that the block's pixels themselves can fall in.
+    pub(crate) fn seen_texels(&self, source: &Source) -> Option<PixelRect> {
+        texels_within(source, self.centre, self.radius)
+    }
+
+    /// The largest texels around of any of these sources, in radians.
+    pub(crate) fn coarsest_pitch(&self, sources: &[Source]) -> f64 {
+        sources.iter().map(|source| source.texel_pitch_within(self.centre, self.radius)).fold(0.0, f64::max)
+    }
+
+    /// The texels of a source that a kernel around the block's pixels can touch.
+    ///
+    /// A kernel may be as wide as texels of the coarsest pitch around make it.
+    pub(crate) fn read_texels(&self, source: &Source, coarsest: f64, kernel: &Kernel) -> Option<PixelRect> {
+        // The gather's own bound of a kernel, half as much again for what it takes as linear, and the few texels of the
+        // look-ups that have no kernel.
+        let texel_pitch = source.texel_pitch_within(self.centre, self.radius).max(coarsest);
+        let unit = (kernel.scale * self.pixel).max(kernel.floor * texel_pitch);
+        let reach = 1.5 * kernel.radius().max(1.0) * unit + 3.0 * texel_pitch;
+        texels_within(source, self.centre, self.radius + reach)
+    }
+}
+
+/// The texels of a source that can lie within `radius` radians of a direction.
+pub(crate) fn texels_within(source: &Source, centre: Direction, radius: f64) -> Option<PixelRect> {
+    if !source.reaches(centre, radius) {
+        return None;
+    }
+    let (width, height) = (source.view.width(), source.view.height());
+    let bounds = source.view.cap_bounds(centre, Angle::from_radians(radius));
+    let wraps = source.period.is_some() && (bounds.min.x < 0.0 || bounds.max.x > width as f64);
+    let low = |value: f64, size: usize| value.floor().clamp(0.0, size as f64) as usize;
+    let high = |value: f64, size: usize| value.ceil().clamp(0.0, size as f64) as usize;
+    let (left, right) = if wraps { (0, width) } else { (low(bounds.min.x, width), high(bounds.max.x, width)) };
+    let (top, bottom) = (low(bounds.min.y, height), high(bounds.max.y, height));
+    (left < right && top < bottom).then_some(PixelRect { left, top, right, bottom })
+}

@@ -1,0 +1,149 @@
+use std::ops::Range;
+
+use glam::DVec3;
+
+use super::cap::texels_within;
+use crate::camera::PixelPoint;
+use crate::projection::PlanePoint;
+use crate::sphere::{Angle, Direction};
+use crate::world::Source;
+
+/// Caps beside each other that hold all of a long ellipse, where one cap would hold many times as much.
+#[derive(Clone, Debug)]
+pub(crate) struct CapChain {
+    /// The cap that holds all of it.
+    whole: (Direction, f64),
+    links: Vec<(Direction, f64)>,
+}
+
+/// Ellipses up to so many times as long as wide have one cap.
+const ROUND: f64 = 2.0;
+
+/// Longer ones, in radians, have one cap as well: on them the sphere bends too much.
+const LONG: f64 = 0.5;
+
+/// Caps in a chain, at most.
+const MOST: f64 = 16.0;
+
+impl CapChain {
+    /// Around the ellipse with these semi-axes in the plane tangent to the sphere at `centre`: all directions whose offset,
+    /// seen along `centre`, lies in it.
+    pub(crate) fn around(centre: Direction, major: DVec3, minor: f64) -> Self {
+        let length = major.length();
+        let one = Self::of(centre, length);
+        if length <= ROUND * minor || length > LONG {
+            return one;
+        }
+        let count = (length / minor).ceil().min(MOST);
+        // Nothing of the ellipse is further than this from a disc's centre in the plane, and on the sphere than the chord.
+        let radius = minor.hypot(length / count);
+        let chord = radius / (1.0 - length * length).sqrt();
+        let link = |k: usize| {
+            let offset = major * ((2 * k + 1) as f64 / count - 1.0);
+            let up = (1.0 - offset.length_squared()).sqrt();
+            (Direction::from_unit(offset + centre.vector() * up), 2.0 * (chord / 2.0).min(1.0).asin())
+        };
+        Self { links: (0..count as usize).map(link).collect(), ..one }
+    }
+
+    /// One cap around a disc of that plane.
+    pub(crate) fn of(centre: Direction, radius: f64) -> Self {
+        let whole = (centre, radius.min(1.0).asin());
+        Self { whole, links: vec![whole] }
+    }
+
+    /// Gives the runs of texels of a source that can lie in it to `visit`, row by row and none of them twice: far fewer, around
+    /// a rim, than the rectangle that holds them.
+    pub(crate) fn each_run(&self, source: &Source, mut visit: impl FnMut(usize, Range<usize>)) {
+        let (centre, radius) = self.whole;
+        let Some(rect) = texels_within(source, centre, radius) else { return };
+        if source.period.is_some() {
+            return (rect.top..rect.bottom).for_each(|j| visit(j, rect.left..rect.right));
+        }
+        let grid = &source.view.grid;
+        let outline =
+            |(centre, radius): &(Direction, f64)| source.view.cap_outline(*centre, Angle::from_radians(*radius));
+        let outlines: Vec<_> = self.links.iter().map(outline).collect();
+        let column = |x: f64, y: f64| grid.to_pixel(PlanePoint::new(x, y)).x.clamp(rect.left as f64, rect.right as f64);
+        let mut spans = Vec::new();
+        for j in rect.top..rect.bottom {
+            let y = grid.to_plane(PixelPoint::centre(rect.left, j)).y;
+            spans.clear();
+            outlines.iter().for_each(|outline| outline.cut(y, &mut spans));
+            for span in &mut spans {
+                let [a, b] = span.map(|x| column(x, y));
+                // In a mirrored image, columns run against x.
+                *span = [a.min(b), a.max(b)];
+            }
+            spans.sort_unstable_by(|a, b| a[0].total_cmp(&b[0]));
+            let mut done = rect.left;
+            for [left, right] in &spans {
+                let (left, right) = (done.max(left.floor() as usize), right.ceil() as usize);
+                if left < right {
+                    visit(j, left..right);
+                    done = right;
+                }
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::camera::{CameraModel, EquirectCamera, MirrorBallCamera, OctahedralCamera, WorldMapCamera};
+    use crate::world::World;
+
+    fn worlds() -> impl Iterator<Item = World> {
+        let frames = [
+            CameraModel::MirrorBall(MirrorBallCamera::default()),
+            CameraModel::Octahedral(OctahedralCamera::default()),
+            CameraModel::WorldMap(WorldMapCamera::Hammer),
+            CameraModel::Equirect(EquirectCamera::default()),
+        ];
+        frames.into_iter().map(|frame| {
+            let view = frame.view(64, frame.natural_height(64)).expect("a view");
+            World::new([("all".to_owned(), view)]).expect("one view")
+        })
+    }
+
+    #[test]
+    fn a_chain_holds_its_ellipse_and_nothing_twice() {
+        for world in worlds() {
+            let source = &world.sources()[0];
+            for (k, centre) in Direction::spread(300).enumerate() {
+                let (right, up) = centre.vector().any_orthonormal_pair();
+                let (sin, cos) = (k as f64).sin_cos();
+                let (length, minor) = (0.05 + 0.001 * k as f64, [0.3, 0.05, 0.01][k % 3]);
+                let (along, across) = (right * cos + up * sin, up * cos - right * sin);
+                let chain = CapChain::around(centre, along * length.max(minor), minor.min(length));
+                let mut visits = vec![0; source.view.width() * source.view.height()];
+                chain.each_run(source, |j, columns| {
+                    columns.for_each(|i| visits[j * source.view.width() + i] += 1);
+                });
+                assert!(visits.iter().all(|visits| *visits < 2), "{centre:?}");
+                for (texel, visits) in visits.into_iter().enumerate() {
+                    let at = PixelPoint::centre(texel % source.view.width(), texel / source.view.width());
+                    let Some(direction) = source.view.direction(at) else { continue };
+                    let offset = direction.vector();
+                    let place = (along.dot(offset) / length.max(minor), across.dot(offset) / minor.min(length));
+                    let is_inside = centre.dot(direction) > 0.0 && place.0.hypot(place.1) < 1.0;
+                    assert!(visits == 1 || !is_inside, "{:?}: {at:?} around {centre:?}", source.view.projection);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_long_ellipse_is_walked_along() {
+        let world = worlds().next().expect("a mirror ball");
+        let count = |chain: CapChain| {
+            let mut count = 0;
+            chain.each_run(&world.sources()[0], |_, columns| count += columns.len());
+            count
+        };
+        let (centre, major) = (Direction::UP, DVec3::X * 0.4);
+        let (chain, cap) = (count(CapChain::around(centre, major, 0.03)), count(CapChain::of(centre, 0.4)));
+        assert!(4 * chain < cap, "{chain} texels, not {cap}");
+    }
+}

@@ -1,0 +1,88 @@
+use glam::{DMat2, DVec2, DVec3};
+
+use crate::camera::{PixelPoint, View};
+use crate::projection::Projection;
+use crate::sphere::Direction;
+
+/// How a view's texels lie on the sphere around a point: rows and columns of texels are curves there, and their distances
+/// change. To first order a texel at offset Δ appears at Δ; this is the second-order correction.
+///
+/// In the plane tangent to the sphere, measured in the texels of that point, it is at Δ + ½(uu ΔU² + 2 uv ΔU ΔV + vv ΔV²):
+/// these are the sphere's Christoffel symbols in the view's coordinates.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Bend {
+    pub(crate) uu: DVec2,
+    pub(crate) uv: DVec2,
+    pub(crate) vv: DVec2,
+}
+
+impl Bend {
+    /// That of a view around a point of its image; `None` where it looks nowhere.
+    pub(crate) fn around(view: &View, at: PixelPoint) -> Option<Self> {
+        // In the view's own frame: it is the same in any.
+        let plane = |u: f64, v: f64| view.grid.to_plane(PixelPoint::new(at.x + u, at.y + v));
+        let look = |u: f64, v: f64| view.projection.unproject(plane(u, v)).map(Direction::vector);
+        let here = look(0.0, 0.0)?;
+        let [left, right, above, below] = [look(-1.0, 0.0)?, look(1.0, 0.0)?, look(0.0, -1.0)?, look(0.0, 1.0)?];
+        let diagonal = look(1.0, 1.0)? + look(-1.0, -1.0)?;
+        let (du, dv) = ((right - left) / 2.0, (below - above) / 2.0);
+        let (uu, vv) = (left + right - 2.0 * here, above + below - 2.0 * here);
+        let uv = (diagonal - 2.0 * here - uu - vv) / 2.0;
+        // What of a vector lies in the plane of du and dv, as multiples of these.
+        let gram = DMat2::from_cols_array(&[du.dot(du), du.dot(dv), du.dot(dv), dv.dot(dv)]);
+        let inverse = gram.inverse();
+        let in_texels = |vector: DVec3| inverse * DVec2::new(du.dot(vector), dv.dot(vector));
+        let bend = Self { uu: in_texels(uu), uv: in_texels(uv), vv: in_texels(vv) };
+        (bend.uu + bend.uv + bend.vv).is_finite().then_some(bend)
+    }
+
+    /// Where a texel is seen that lies at an offset.
+    pub(crate) fn of(&self, offset: DVec2) -> DVec2 {
+        let DVec2 { x: u, y: v } = offset;
+        offset + (self.uu * (u * u) + self.uv * (2.0 * u * v) + self.vv * (v * v)) / 2.0
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::world::panorama;
+
+    #[test]
+    fn parallels_bend_as_the_formula_says() {
+        // On the sphere a parallel curves to its pole by sin φ cos φ, and meridians come together by tan φ.
+        let (width, height) = (4000, 1000);
+        let view = panorama(width, height);
+        let (across, down) = (std::f64::consts::TAU / width as f64, std::f64::consts::PI / height as f64);
+        for row in [200.0, 500.0, 870.0] {
+            let latitude = std::f64::consts::FRAC_PI_2 - row * down;
+            let bend = Bend::around(&view, PixelPoint::new(1234.0, row)).expect("a panorama looks everywhere");
+            let (sin, cos) = latitude.sin_cos();
+            let expected = Bend {
+                uu: DVec2::new(0.0, -sin * cos * across * across / down),
+                uv: DVec2::new(sin / cos * down, 0.0),
+                vv: DVec2::ZERO,
+            };
+            for (found, expected) in [(bend.uu, expected.uu), (bend.uv, expected.uv), (bend.vv, expected.vv)] {
+                assert!(found.distance(expected) < 1e-2 * across, "row {row}: {bend:?}, not {expected:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_bent_offset_is_where_the_texel_is_seen() {
+        let view = panorama(400, 200);
+        let at = PixelPoint::new(57.3, 41.6);
+        let look = |u: f64, v: f64| view.direction(PixelPoint::new(at.x + u, at.y + v)).expect("everywhere").vector();
+        let bend = Bend::around(&view, at).expect("everywhere");
+        let (du, dv) = ((look(1e-4, 0.0) - look(-1e-4, 0.0)) / 2e-4, (look(0.0, 1e-4) - look(0.0, -1e-4)) / 2e-4);
+        for (u, v) in [(2.0, 0.0), (2.0, -1.0), (1.5, 1.5), (-1.0, 2.0)] {
+            let seen = look(u, v) - look(0.0, 0.0);
+            let offset = bend.of(DVec2::new(u, v));
+            let tangential = |vector: DVec3| DVec2::new(du.dot(vector), dv.dot(vector)) / du.length();
+            let error = tangential(seen - du * offset.x - dv * offset.y).length() / du.length();
+            let straight = tangential(seen - du * u - dv * v).length() / du.length();
+            assert!(error < 0.1 * straight, "({u}, {v}): {error}, and {straight} without");
+        }
+    }
+}

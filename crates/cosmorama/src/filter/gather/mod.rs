@@ -1,0 +1,407 @@
+//! EWA across views: a footprint that crosses from one view into another gathers from both.
+//!
+//! Each view tests only texels that it owns, in its own plane, with its own ellipse; each weight is multiplied by the
+//! texel's solid angle. No padded borders, no double counting: what one view leaves the next one has.
+
+pub(crate) mod cap;
+pub(crate) mod cap_chain;
+pub(crate) mod clearance;
+pub(crate) mod curvature;
+pub(crate) mod seam_scale;
+pub(crate) mod tap_weights;
+pub(crate) mod texel_run;
+
+use glam::{DMat2, DVec2, DVec3};
+
+use super::gather::cap::Cap;
+use super::gather::cap_chain::CapChain;
+use super::gather::curvature::Bend;
+use super::gather::seam_scale::Meeting;
+use super::gather::tap_weights::{Candidate, settle};
+use super::gather::texel_run::{Run, TexelBox, ceil, floor, runs_around};
+use super::kernel::KernelTable;
+use super::rim::clamp_set;
+use super::rim::field_edge::FieldEdge;
+use super::rim::visible_texels::SeenTexels;
+use super::taps::Taps;
+use super::{Ellipse, Kernel, lookup};
+use crate::camera::{FieldStop, Footprint, PixelPoint, View};
+use crate::projection::Projection;
+use crate::sphere::{Direction, DirectionJacobian};
+use crate::world::{Source, World};
+use clearance::{Clearance, Grid};
+
+/// A mapping is taken as linear over a kernel that is smaller than this part of the way to its nearest singularity. At a
+/// fifth, the tests find no point of a direction-coloured world displaced by more than 0.005 pixel.
+const LINEAR_PART: f64 = 0.2;
+
+/// Beside a steep rim texels grow as the mapping bends, and what it displaces is a part of the kernel's square over the way to
+/// the rim: so large that part may be in pixels.
+const STEEP_PART: f64 = 0.1;
+
+/// Where the field of view ends under a pixel the floor is so much higher: up to half a texel beyond the last one, the
+/// kernel must reach four rows of texels, since three do not tell a slope from an edge that a renderer smoothed.
+const RIM_FLOOR: f64 = 1.7;
+
+/// Where a pixel lies, which decides what its kernel is held to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum RimRegion {
+    /// Nothing ends under the pixel.
+    Inside,
+    /// The field of view does.
+    Rim,
+}
+
+/// The gather for one world and kernel.
+pub(crate) struct Gather<'a> {
+    world: &'a World,
+    table: &'a KernelTable,
+    /// Where the target's field of view ends, if it does.
+    field: Option<FieldEdge<'a>>,
+    /// Which texels it falls upon, where those outside count for nothing.
+    seen: Option<SeenTexels<'a>>,
+    /// The largest texel of any view, in radians.
+    texel_pitch: f64,
+    candidates: Vec<Candidate>,
+    /// The view that held all of the last footprint: the likeliest for the next.
+    last: usize,
+}
+
+impl<'a> Gather<'a> {
+    pub(crate) fn new(world: &'a World, target: &'a View, table: &'a KernelTable) -> Self {
+        let texel_pitch = world.sources().iter().map(|source| source.texel_pitch).fold(0.0, f64::max);
+        let field = FieldEdge::of(target);
+        let edge = field.filter(|edge| edge.is_wider_than(texel_pitch));
+        let seen = edge.map(|edge| SeenTexels::new(world, edge));
+        Self { world, table, field, seen, texel_pitch, candidates: Vec::new(), last: 0 }
+    }
+
+    /// The taps of a footprint, weights adding to one; none where no view is near.
+    pub(crate) fn taps(&mut self, footprint: &Footprint, taps: &mut Taps) {
+        taps.clear();
+        let footprint = &with_width(*footprint);
+        let centred = self.table.kernel().centred;
+        let ends_under = self.collect(footprint, RimRegion::Inside);
+        let at_rim = centred && (ends_under || self.ends_beside());
+        if at_rim {
+            self.collect(footprint, RimRegion::Rim);
+        }
+        settle(&mut self.candidates, centred, at_rim.then_some(&footprint.jacobian), taps);
+        if taps.is_empty() {
+            lookup::nearest(self.world, footprint.direction, |texel, weight| taps.push_under(texel, weight as f32));
+        }
+    }
+
+    /// Whether all texels that count lie to one side: beyond them there is no view, or none that anybody needed to give.
+    fn ends_beside(&self) -> bool {
+        !self.candidates.is_empty() && clamp_set::reach(&self.candidates).is_none()
+    }
+
+    /// Finds the texels that count; true if the field of view ends under the pixel.
+    fn collect(&mut self, footprint: &Footprint, region: RimRegion) -> bool {
+        self.candidates.clear();
+        let (sources, floor) = (self.world.sources(), self.floor(region));
+        if !self.gather_from(&sources[self.last], footprint, region, floor) && sources.len() > 1 {
+            self.candidates.clear();
+            let meeting = Meeting::at(self.world, self.table.kernel(), footprint.direction);
+            let mut coarsest = 0f64;
+            for (index, source) in sources.iter().enumerate() {
+                let start = self.candidates.len();
+                let floor = floor * meeting.map_or(1.0, |meeting| meeting.widening(source));
+                if self.gather_from(source, footprint, region, floor) {
+                    // A kernel wholly inside one view ignores the others; they could only enter through a bent ellipse, and the
+                    // result would depend on the order of views or on the last footprint.
+                    self.candidates.drain(..start);
+                    self.last = index;
+                    break;
+                }
+                coarsest = self.measure_alike(start, coarsest, self.reach(footprint, source.texel_pitch, floor));
+            }
+        }
+        self.drop_unseen(footprint, region)
+    }
+
+    /// Rescales candidates' distances to the coarsest kernel's unit, so that texels of the finer view still count as under the
+    /// pixel: else every slope beside a coarser view would be clamped. Candidates from `start` on are of a kernel of this
+    /// `reach`, those before of the `coarsest` so far. Returns the reach of the coarsest.
+    fn measure_alike(&mut self, start: usize, coarsest: f64, reach: f64) -> f64 {
+        if start == self.candidates.len() {
+            return coarsest;
+        }
+        let (before, these) = self.candidates.split_at_mut(start);
+        let (finer, part) = if reach < coarsest { (these, reach / coarsest) } else { (before, coarsest / reach) };
+        finer.iter_mut().for_each(|candidate| candidate.q *= (part * part) as f32);
+        coarsest.max(reach)
+    }
+
+    pub(crate) fn world(&self) -> &'a World {
+        self.world
+    }
+
+    pub(crate) fn kernel(&self) -> &'a Kernel {
+        self.table.kernel()
+    }
+
+    /// Whether the target's field of view may end within `reach` radians of a direction.
+    pub(crate) fn is_near_edge(&self, direction: Direction, reach: f64) -> bool {
+        self.field.is_some_and(|edge| edge.is_near(direction, reach))
+    }
+
+    /// How far the edge of the target's field of view is from a patch of it whose kernels are ellipses of texels that the edge
+    /// of no view cuts; `None` if they are not. `screen` are points of the patch, row by row.
+    pub(crate) fn clearance(&self, source: &Source, screen: &Grid<Footprint>) -> Option<Clearance> {
+        let (middle, corners) = (screen[1][1].direction, [screen[0][0], screen[0][2], screen[2][0], screen[2][2]]);
+        let cap = Cap::around(middle, &corners)?;
+        let floor = self.floor(RimRegion::Inside);
+        let largest = |of: &dyn Fn(&Footprint) -> f64| corners.iter().map(of).fold(0.0, f64::max);
+        let reach = largest(&|corner| self.reach(corner, source.texel_pitch_at(corner.direction), floor));
+        let seen = cap.widened(reach);
+        let margin = source.view.margin(middle) - cap.radius();
+        let is_linear = corners.iter().all(|corner| is_linear(source, corner, reach, margin));
+        if !is_linear || !seen.is_clear_of_stop(&source.view) {
+            return None;
+        }
+        if !self.is_near_edge(middle, seen.radius()) {
+            return Some(Clearance::Whole);
+        }
+        // What single pixels go by, and no less than the pixels themselves.
+        let kernel = largest(&|corner| self.reach(corner, self.texel_pitch, floor));
+        Some(Clearance::Within(largest(&pixel_size).max(kernel)))
+    }
+
+    /// What lies outside the field of view does not leak in. True if any of that lies under the pixel.
+    fn drop_unseen(&mut self, footprint: &Footprint, region: RimRegion) -> bool {
+        let reach = self.reach(footprint, self.texel_pitch, self.floor(region));
+        let Some(seen) = self.seen.as_mut().filter(|seen| seen.ends_near(footprint.direction, reach)) else {
+            return false;
+        };
+        let mut ends_under = false;
+        self.candidates.retain(|candidate| {
+            let is_seen = seen.holds(candidate.texel);
+            ends_under |= candidate.is_under() && !is_seen;
+            is_seen
+        });
+        ends_under
+    }
+
+    /// The kernel's unit in texels, at least.
+    fn floor(&self, region: RimRegion) -> f64 {
+        self.table.kernel().floor * if region == RimRegion::Rim { RIM_FLOOR } else { 1.0 }
+    }
+
+    /// An upper bound of the kernel's radius on the sphere, in radians, among texels of this pitch, so many of which its unit is
+    /// at least.
+    fn reach(&self, footprint: &Footprint, texel_pitch: f64, floor: f64) -> f64 {
+        let kernel = self.table.kernel();
+        kernel.radius() * (kernel.scale * pixel_size(footprint)).max(floor * texel_pitch)
+    }
+
+    /// Adds the texels of one view; true if the kernel lies wholly inside it.
+    fn gather_from(&mut self, source: &Source, footprint: &Footprint, region: RimRegion, floor: f64) -> bool {
+        let radius = self.reach(footprint, source.texel_pitch_at(footprint.direction), floor);
+        let margin = source.view.margin(footprint.direction);
+        if margin + radius <= 0.0 || !source.reaches(footprint.direction, radius) {
+            return false;
+        }
+        // At a rim, what the mapping bends does not cancel between two sides.
+        if is_linear(source, footprint, radius, margin) && region == RimRegion::Inside {
+            self.gather_ellipse(source, footprint, floor)
+        } else {
+            self.gather_cap(source, footprint, radius, floor);
+            false
+        }
+    }
+
+    /// The common case: the footprint is an ellipse of texels.
+    fn gather_ellipse(&mut self, source: &Source, footprint: &Footprint, unit: f64) -> bool {
+        let Some((centre, jacobian)) = source.view.texel_footprint(footprint) else { return false };
+        let kernel = self.table.kernel();
+        let coarseness = kernel.coarseness(jacobian.determinant().abs().sqrt()) as f32;
+        let ellipse = Ellipse::new(jacobian * kernel.scale, unit);
+        let to_screen = jacobian.inverse();
+        let bend = if kernel.centred { Bend::around(&source.view, centre) } else { None }.unwrap_or_default();
+        let reach = ellipse.half_extent(self.table.radius_squared());
+        let bounds = TexelBox::around(centre, reach);
+        let rows = ellipse.rows(self.table.radius_squared());
+        let height = source.view.height() as i64;
+        for j in bounds.top.max(0)..=bounds.bottom.min(height - 1) {
+            let v = j as f64 + 0.5 - centre.y;
+            let Some((least, greatest)) = rows.range(v) else { continue };
+            let row = j as usize * source.view.width();
+            let (left, end) = (ceil(centre.x + least - 0.5), floor(centre.x + greatest - 0.5) + 1);
+            let mut gather = |run: Run| {
+                if run.length == 0 {
+                    return;
+                }
+                let offset = DVec2::new(run.unrolled as f64 + 0.5 - centre.x, v);
+                let first = row + run.column;
+                let texels = (source.offset + first, &source.solid_angles[first..first + run.length]);
+                self.gather_run(texels, offset, &ellipse, coarseness, (to_screen, &bend));
+            };
+            match source.period {
+                None => gather(Run::within(left.max(0), end.min(source.view.width() as i64), 0)),
+                Some(period) => runs_around(source, period as i64, left, end).for_each(gather),
+            }
+        }
+        // Inside means that no other view has a part in what the kernel touches.
+        let whole = &source.whole;
+        let whole_turn = source.period.is_some_and(|period| period == whole.right - whole.left);
+        source.view.stop == FieldStop::NONE
+            && bounds.top >= whole.top as i64
+            && bounds.bottom < whole.bottom as i64
+            && (whole_turn || (bounds.left >= whole.left as i64 && bounds.right < whole.right as i64))
+    }
+
+    /// Texels beside each other in a row, all inside, given the index of the first and the solid angle of each: Q = AU² + BUV + CV²
+    /// by finite differences (Greene & Heckbert 1986).
+    fn gather_run(
+        &mut self,
+        (first, solid_angles): (usize, &[f32]),
+        first_offset: DVec2,
+        ellipse: &Ellipse,
+        coarseness: f32,
+        (to_screen, bend): (DMat2, &Bend),
+    ) {
+        let mut q = ellipse.distance_squared(first_offset);
+        let mut dq = ellipse.a * (2.0 * first_offset.x + 1.0) + ellipse.b * first_offset.y;
+        let ddq = 2.0 * ellipse.a;
+        let mut offset = to_screen * bend.of(first_offset);
+        let mut step = to_screen * bend.of(first_offset + DVec2::X) - offset;
+        let change = to_screen * bend.uu;
+        for (texel, &solid_angle) in solid_angles.iter().enumerate() {
+            if solid_angle > 0.0 {
+                self.candidates.push(self.table.candidate(first + texel, solid_angle, q, coarseness, offset));
+            }
+            q += dq;
+            dq += ddq;
+            offset += step;
+            step += change;
+        }
+    }
+
+    /// Near a pole, a horizon or a rim the ellipse would be wrong: each texel is weighed by its direction instead, in
+    /// the plane tangent to the sphere at the footprint.
+    fn gather_cap(&mut self, source: &Source, footprint: &Footprint, radius: f64, floor: f64) {
+        let here = footprint.direction.vector();
+        let (right, up) = here.any_orthonormal_pair();
+        let [along, across] = [right, up].map(|axis| axis / source.texel_pitch);
+        let in_tangent_plane = |vector: DVec3| DVec2::new(along.dot(vector), across.dot(vector));
+        let tangent =
+            DMat2::from_cols(in_tangent_plane(footprint.jacobian.dx), in_tangent_plane(footprint.jacobian.dy));
+        let to_screen = tangent.inverse();
+        // The ellipse that the texels have here, as far as they have one: at the very pole, texels as large as any.
+        let jacobian = footprint_among_texels(source, footprint).unwrap_or(tangent);
+        let to_texels = jacobian * to_screen;
+        let kernel = self.table.kernel();
+        let coarseness = kernel.coarseness(jacobian.determinant().abs().sqrt()) as f32;
+        // Beyond a seam texels lie otherwise: weighed by this side's ellipse, a thin one might miss them all.
+        let beyond = source.view.beyond_seam(footprint.direction).and_then(|direction| {
+            let (_, jacobian) = source.view.texel_footprint(&Footprint { direction, ..*footprint })?;
+            // So far away, none of them counts, and what is seen here may lie edge on there.
+            let across = direction.vector() - here;
+            (across.length() < 2.0 * radius).then_some((across, jacobian))
+        });
+        // On a seam the lattices of both sides mirror each other, and a quarter of the disc may be empty on both.
+        let nearness = beyond.map_or(0.0, |(across, _)| 1.0 - 0.5 * across.length() / radius);
+        let widening = 1.0 + (RIM_FLOOR - 1.0) * nearness;
+        let ellipse = |jacobian: DMat2| Ellipse::new(jacobian * kernel.scale, floor * widening);
+        let beyond = beyond.map(|(across, jacobian)| (across, ellipse(jacobian), jacobian * to_screen));
+        let ellipse = ellipse(jacobian);
+        let (major, minor) = ellipse.semi_axes_in(to_texels);
+        let unit = kernel.radius() * source.texel_pitch;
+        let reach = match beyond {
+            None => CapChain::around(footprint.direction, (right * major.x + up * major.y) * unit, minor * unit),
+            Some((_, ellipse, to_texels)) => {
+                let other = ellipse.semi_axes_in(to_texels).0.length();
+                CapChain::of(footprint.direction, major.length().max(other) * unit)
+            }
+        };
+        reach.each_run(source, |j, columns| {
+            let row = j * source.view.width();
+            source.view.row_directions(j, columns, |i, texel| {
+                let offset = in_tangent_plane(texel.vector() - here);
+                let here = ellipse.distance_squared(to_texels * offset);
+                let q = beyond.as_ref().map_or(here, |(across, ellipse, to_texels)| {
+                    let there = ellipse.distance_squared(*to_texels * offset);
+                    let (own, other) = if across.dot(texel.vector()) > 0.0 { (there, here) } else { (here, there) };
+                    // On the seam itself each ellipse by itself may reach along it one way only: the same way.
+                    own.min(other / (nearness * nearness))
+                });
+                let solid_angle = source.solid_angles[row + i];
+                let in_front = texel.dot(footprint.direction) > 0.0;
+                if in_front && q < self.table.radius_squared() && solid_angle > 0.0 {
+                    let offset = to_screen * offset;
+                    let texel = source.offset + row + i;
+                    self.candidates.push(self.table.candidate(texel, solid_angle, q, coarseness, offset));
+                }
+            });
+        });
+    }
+}
+
+/// The root of a pixel's summed squared derivatives, in radians.
+fn pixel_size(footprint: &Footprint) -> f64 {
+    (footprint.jacobian.dx.length_squared() + footprint.jacobian.dy.length_squared()).sqrt()
+}
+
+/// A pixel whose sides are narrower than this part of their length has no width, as on the very pole of a panorama.
+const NO_WIDTH: f64 = 1e-6;
+
+/// What a pixel without width is taken to have of its length: far less than any texel's floor, but offsets across it can
+/// still be told.
+const SOME_WIDTH: f64 = 0.01;
+
+/// The same footprint, if it has any width; else a narrow one.
+fn with_width(footprint: Footprint) -> Footprint {
+    let Footprint { direction, jacobian: DirectionJacobian { dx, dy } } = footprint;
+    let across = |side: DVec3| direction.vector().cross(side) * SOME_WIDTH;
+    let (x, y) = (dx.length(), dy.length());
+    let jacobian = if x <= NO_WIDTH * y {
+        DirectionJacobian { dx: -across(dy), dy }
+    } else if y <= NO_WIDTH * x {
+        DirectionJacobian { dx, dy: across(dx) }
+    } else {
+        return footprint;
+    };
+    Footprint { direction, jacobian }
+}
+
+/// The footprint in texels, in those of a panorama's outermost row where it lies beyond their centres: texels nearer to a
+/// pole would be narrower, but there are none.
+fn footprint_among_texels(source: &Source, footprint: &Footprint) -> Option<DMat2> {
+    let Some((centre, jacobian)) = source.view.texel_footprint(footprint) else {
+        return footprint_on_border(source, footprint);
+    };
+    if source.period.is_none() {
+        return Some(jacobian);
+    }
+    let row = |inset: f64| PixelPoint::new(centre.x, centre.y.clamp(inset, source.view.height() as f64 - inset));
+    // With samples on the edges the outermost row is the pole itself: half a texel beside it, as without.
+    let is_pole = |at| source.view.direction(at).is_some_and(|d| source.view.margin(d) < 0.25 * source.texel_pitch);
+    let nearest = if is_pole(row(0.5)) { row(1.0) } else { row(0.5) };
+    if nearest == centre {
+        return Some(jacobian);
+    }
+    let there = Footprint { direction: source.view.direction(nearest)?, ..*footprint };
+    source.view.texel_footprint(&there).map(|(_, jacobian)| jacobian)
+}
+
+/// The texels of a wide camera's border are this part of its largest, at most.
+const FINE_BORDER: f64 = 0.25;
+
+/// The footprint in the texels of the border, for what lies beyond a camera's horizon, where those are far smaller than in the
+/// middle: in texels as large as any, a kernel would hold most of the picture.
+fn footprint_on_border(source: &Source, footprint: &Footprint) -> Option<DMat2> {
+    let direction = source.view.border_towards(footprint.direction)?;
+    let texel = source.view.footprint(source.view.pixel(direction)?)?.jacobian;
+    let is_fine = texel.dx.length().max(texel.dy.length()) < FINE_BORDER * source.texel_pitch;
+    let there = Footprint { direction, ..*footprint };
+    is_fine.then(|| source.view.texel_footprint(&there)).flatten().map(|(_, jacobian)| jacobian)
+}
+
+/// Whether the mapping is linear, as far as can be seen, over a kernel of this radius so far from its nearest singularity.
+fn is_linear(source: &Source, footprint: &Footprint, radius: f64, margin: f64) -> bool {
+    let pixel = || footprint.jacobian.solid_angle().sqrt();
+    radius < LINEAR_PART * margin
+        && (!source.view.projection.has_steep_rim() || radius * radius < STEEP_PART * margin * pixel())
+}

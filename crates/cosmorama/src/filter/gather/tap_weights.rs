@@ -1,0 +1,145 @@
+use glam::DVec2;
+
+use crate::filter::kernel::UNDER;
+use crate::filter::rim::clamp_set;
+use crate::filter::taps::{Tap, Taps};
+use crate::sphere::DirectionJacobian;
+
+/// A texel that a kernel reaches, before the weights are settled.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Candidate {
+    /// Index in the world's buffer.
+    pub(crate) texel: u32,
+    /// Square of its distance from the pixel's centre, in the unit of the coarsest kernel here.
+    pub(crate) q: f32,
+    /// The kernel's weight times the texel's solid angle.
+    pub(crate) weight: f32,
+    /// How much of a correction it may take: positive, falling to nothing at the kernel's edge.
+    pub(crate) window: f32,
+    /// Where it lies from the pixel's centre, in screen pixels.
+    pub(crate) offset: [f32; 2],
+}
+
+impl Candidate {
+    /// Whether it lies under the pixel.
+    pub(crate) fn is_under(&self) -> bool {
+        f64::from(self.q) < UNDER
+    }
+}
+
+/// Makes taps whose weights add to one, none if their sum would be noise; with `centred`, their centroid is the pixel's
+/// centre. Where something ends under the pixel or beside it, the footprint tells how a slope goes on beyond them.
+pub(crate) fn settle(candidates: &mut [Candidate], centred: bool, rim: Option<&DirectionJacobian>, taps: &mut Taps) {
+    soften(candidates);
+    let correction = if centred { Correction::centring(candidates) } else { Correction::default() };
+    let surrounding = if rim.is_none() { clamp_set::reach(candidates) } else { None };
+    let reach = surrounding.unwrap_or(UNDER as f32);
+    let (mut sum, mut size, mut under) = (0f64, 0f64, 0);
+    for candidate in candidates.iter_mut() {
+        candidate.weight += correction.of(candidate);
+        sum += f64::from(candidate.weight);
+        size += f64::from(candidate.weight.abs());
+        under += usize::from(candidate.q < reach);
+    }
+    // Where only negative lobes reach a texel, beside a missing face, there is no average.
+    if sum <= 0.05 * size {
+        return;
+    }
+    let scale = sum.recip() as f32;
+    let settled = candidates.iter().map(|c| (c.q < reach, Tap { texel: c.texel, weight: c.weight * scale }));
+    taps.fill(settled, candidates.len(), under);
+    if let Some(jacobian) = rim {
+        let (under, around) = (candidates.iter().filter(|c| c.q < reach), candidates.iter().filter(|c| c.q >= reach));
+        let places = Places::of(jacobian);
+        taps.set_places(under.chain(around).map(|candidate| places.at(candidate.offset)));
+    }
+}
+
+/// Where offsets on the screen lie in the plane tangent to the sphere, in radians.
+struct Places {
+    dx: [f32; 2],
+    dy: [f32; 2],
+}
+
+impl Places {
+    /// Those around a footprint's centre.
+    fn of(jacobian: &DirectionJacobian) -> Self {
+        let (length, along) = (jacobian.dx.length(), jacobian.dx.dot(jacobian.dy) / jacobian.dx.length());
+        let across = jacobian.dx.cross(jacobian.dy).length() / length;
+        Self { dx: [length as f32, 0.0], dy: [along as f32, across as f32] }
+    }
+
+    fn at(&self, [x, y]: [f32; 2]) -> [f32; 2] {
+        [x * self.dx[0] + y * self.dy[0], x * self.dx[1] + y * self.dy[1]]
+    }
+}
+
+/// The part of the weights' size that their sum has at least: on one lattice it is much more.
+const LEAST_SUM: f32 = 0.3;
+
+/// Where a fine view meets a coarse one, a few large texels in the negative lobe can all but cancel the small ones under
+/// the pixel. As far as they do, the weights give way to positive ones.
+fn soften(candidates: &mut [Candidate]) {
+    let (mut sum, mut size) = (0f32, 0f32);
+    for candidate in candidates.iter() {
+        sum += candidate.weight;
+        size += candidate.weight.abs();
+    }
+    let part = 1.0 - sum / (LEAST_SUM * size);
+    // Beside a missing face there may be nothing but negative lobes.
+    if part <= 0.0 || !candidates.iter().any(Candidate::is_under) {
+        return;
+    }
+    for candidate in candidates {
+        candidate.weight += part.min(1.0) * (candidate.window - candidate.weight);
+    }
+}
+
+/// Texels whose second moments have a smaller determinant than this part of their product lie in a line, as far as single
+/// precision tells: rounding leaves some 1e-7 of it.
+pub(crate) const THINNEST: f32 = 1e-6;
+
+/// What is added to the weights so that their centroid is the pixel's centre, their sum unchanged: v·g·(p − p̄).
+///
+/// A radial kernel on a lattice of texels weighs one side a little more than the other, which shifts the picture by up
+/// to 0.17 of a pixel. A correction linear in the offset p is that of moving least squares (Lancaster & Salkauskas
+/// 1981): a world whose colour is linear in the screen's coordinates comes back exactly.
+#[derive(Clone, Copy, Debug, Default)]
+struct Correction {
+    gradient: [f32; 2],
+    constant: f32,
+}
+
+impl Correction {
+    fn centring(candidates: &[Candidate]) -> Self {
+        let (mut window, mut window_p, mut weight_p) = (0f32, [0f32; 2], [0f32; 2]);
+        let (mut xx, mut xy, mut yy) = (0f32, 0f32, 0f32);
+        for candidate in candidates {
+            let [x, y] = candidate.offset;
+            let windowed = [x * candidate.window, y * candidate.window];
+            window += candidate.window;
+            window_p = [window_p[0] + windowed[0], window_p[1] + windowed[1]];
+            weight_p = [weight_p[0] + x * candidate.weight, weight_p[1] + y * candidate.weight];
+            xx += windowed[0] * x;
+            xy += windowed[0] * y;
+            yy += windowed[1] * y;
+        }
+        let mean = DVec2::new(window_p[0].into(), window_p[1].into()) / f64::from(window);
+        let xx = f64::from(xx) - f64::from(window_p[0]) * mean.x;
+        let xy = f64::from(xy) - f64::from(window_p[0]) * mean.y;
+        let yy = f64::from(yy) - f64::from(window_p[1]) * mean.y;
+        let determinant = xx * yy - xy * xy;
+        if determinant.is_nan() || determinant <= f64::from(THINNEST) * xx * yy {
+            // All in one line: nothing to move the centroid with.
+            return Self::default();
+        }
+        let p = DVec2::new(weight_p[0].into(), weight_p[1].into());
+        let gradient = DVec2::new(xy * p.y - yy * p.x, xy * p.x - xx * p.y) / determinant;
+        Self { gradient: [gradient.x as f32, gradient.y as f32], constant: -gradient.dot(mean) as f32 }
+    }
+
+    fn of(&self, candidate: &Candidate) -> f32 {
+        let [x, y] = candidate.offset;
+        candidate.window * (self.gradient[0] * x + self.gradient[1] * y + self.constant)
+    }
+}

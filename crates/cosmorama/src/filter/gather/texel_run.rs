@@ -1,0 +1,80 @@
+//! The texels that a kernel reaches, as runs of a row.
+
+use glam::DVec2;
+
+use crate::camera::PixelPoint;
+use crate::world::Source;
+
+/// Columns and rows of texels, both ends included; columns may run past a panorama's edges.
+pub(crate) struct TexelBox {
+    pub(crate) left: i64,
+    pub(crate) right: i64,
+    pub(crate) top: i64,
+    pub(crate) bottom: i64,
+}
+
+impl TexelBox {
+    /// All texels whose centres are within `reach` of a point.
+    pub(crate) fn around(centre: PixelPoint, reach: DVec2) -> Self {
+        Self {
+            left: ceil(centre.x - reach.x - 0.5),
+            right: floor(centre.x + reach.x - 0.5),
+            top: ceil(centre.y - reach.y - 0.5),
+            bottom: floor(centre.y + reach.y - 0.5),
+        }
+    }
+}
+
+/// A run of texels in one row: its first column in the image, the same column counted on past the image's
+/// edge, and its length.
+pub(crate) struct Run {
+    pub(crate) column: usize,
+    pub(crate) unrolled: i64,
+    pub(crate) length: usize,
+}
+
+impl Run {
+    /// Columns `left..end` of the image's turn that starts at `turn`; an empty run if there are none.
+    pub(crate) fn within(left: i64, end: i64, turn: i64) -> Self {
+        Self { column: (left - turn) as usize, unrolled: left, length: (end - left).max(0) as usize }
+    }
+}
+
+/// The runs of the columns `left..end` of a panorama: one, or where they cross its edge, one for each turn.
+pub(crate) fn runs_around(source: &Source, period: i64, left: i64, end: i64) -> impl Iterator<Item = Run> + use<> {
+    // Never the same texel twice.
+    let (end, width) = (end.min(left + period), (source.view.width() as i64).min(period));
+    let turns = if left < end { left.div_euclid(period)..(end - 1).div_euclid(period) + 1 } else { 0..0 };
+    turns.map(move |k| Run::within(left.max(k * period), end.min(k * period + width), k * period))
+}
+
+/// No texel lies as far away, and two such places can be added and subtracted: absurd geometry puts kernels anywhere.
+const FARTHEST: f64 = (1_u64 << 52) as f64;
+
+/// The largest integer that is not greater. Without SSE4.1 `f64::floor` is a call, and every row of texels needs it.
+pub(crate) fn floor(value: f64) -> i64 {
+    let value = value.clamp(-FARTHEST, FARTHEST);
+    let truncated = value as i64;
+    truncated - i64::from(value < truncated as f64)
+}
+
+/// The smallest integer that is not less.
+pub(crate) fn ceil(value: f64) -> i64 {
+    let value = value.clamp(-FARTHEST, FARTHEST);
+    let truncated = value as i64;
+    truncated + i64::from(value > truncated as f64)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn places_beyond_all_images_are_far_away_and_no_more() {
+        for far in [f64::MAX, f64::INFINITY, 9.3e18] {
+            assert!(floor(far) == ceil(far) && floor(far) - floor(-far) + 1 > 1 << 52, "{far}");
+            assert!(floor(-far) == ceil(-far) && ceil(-far) < 0, "{far}");
+        }
+        assert_eq!([floor(-0.5), ceil(-0.5), floor(2.0), ceil(2.5)], [-1, 0, 2, 3]);
+    }
+}

@@ -1,0 +1,56 @@
+use super::gather::Gather;
+use super::kernel::KernelTable;
+use super::taps::Taps;
+use super::{Filter, FilterKind, lookup, reference};
+use crate::camera::{ScreenPixel, View};
+use crate::world::World;
+
+/// The texels that single pixels of a target are made of.
+pub(crate) struct PixelTaps<'a> {
+    world: &'a World,
+    target: &'a View,
+    filter: &'a Filter,
+    gather: Gather<'a>,
+    taps: Taps,
+}
+
+impl<'a> PixelTaps<'a> {
+    /// Pixels of `target` made by `filter` from `world`; `table` is that of the filter's kernel.
+    pub(crate) fn new(world: &'a World, target: &'a View, filter: &'a Filter, table: &'a KernelTable) -> Self {
+        Self { world, target, filter, gather: Gather::new(world, target, table), taps: Taps::default() }
+    }
+
+    /// What gathers them where the filter is EWA.
+    pub(crate) fn gather(&self) -> &Gather<'a> {
+        &self.gather
+    }
+
+    /// The taps of a pixel, weights adding to one; `None` for the reference, which has too many to list.
+    pub(crate) fn taps(&mut self, screen: &ScreenPixel) -> Option<&Taps> {
+        let (direction, taps) = (screen.footprint.direction, &mut self.taps);
+        match self.filter.kind {
+            FilterKind::Ewa | FilterKind::EwaPyramid => self.gather.taps(&screen.footprint, taps),
+            FilterKind::Point => {
+                taps.clear();
+                lookup::nearest(self.world, direction, |texel, weight| taps.push_under(texel, weight as f32));
+            }
+            FilterKind::Bilinear => {
+                taps.clear();
+                lookup::bilinear(self.world, direction, |texel, weight| taps.push_under(texel, weight as f32));
+                taps.normalise();
+            }
+            FilterKind::Reference { .. } => return None,
+        }
+        Some(&self.taps)
+    }
+
+    /// Gives the index of every texel that the filter reads for a pixel to `visit`, some of them perhaps twice.
+    pub(crate) fn for_each_texel(&mut self, pixel: (usize, usize), screen: &ScreenPixel, mut visit: impl FnMut(usize)) {
+        if let FilterKind::Reference { samples } = self.filter.kind {
+            let mut read = |texel: u32, _: f64| visit(texel as usize);
+            reference::for_each_texel(self.world, self.target, self.filter, samples, pixel, &mut read);
+        } else if let Some(taps) = self.taps(screen) {
+            taps.as_slice().iter().for_each(|tap| visit(tap.texel as usize));
+        }
+    }
+}

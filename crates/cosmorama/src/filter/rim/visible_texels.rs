@@ -1,0 +1,77 @@
+use super::field_edge::FieldEdge;
+use crate::sphere::Direction;
+use crate::world::{TexelPlace, World};
+
+/// Which texels of a world a target's field of view falls upon. Pixels beside each other at its edge ask for the same ones.
+#[derive(Clone, Debug)]
+pub(crate) struct SeenTexels<'a> {
+    world: &'a World,
+    edge: FieldEdge<'a>,
+    /// Texels that were asked for lately, and what was found.
+    found: Vec<Option<(u32, bool)>>,
+}
+
+/// As many are remembered: those around a row of patches at an edge.
+const MEMORY: usize = 1 << 10;
+
+impl<'a> SeenTexels<'a> {
+    pub(crate) fn new(world: &'a World, edge: FieldEdge<'a>) -> Self {
+        Self { world, edge, found: vec![None; MEMORY] }
+    }
+
+    /// Whether some texel within `reach` radians of a direction may be unseen.
+    pub(crate) fn ends_near(&self, direction: Direction, reach: f64) -> bool {
+        self.edge.is_near(direction, reach)
+    }
+
+    /// Whether a part of the field falls upon the texel of this index.
+    pub(crate) fn holds(&mut self, index: u32) -> bool {
+        let slot = &mut self.found[slot(index)];
+        match *slot {
+            Some((known, is_seen)) if known == index => is_seen,
+            _ => {
+                let TexelPlace { view, texel } = self.world.texel(index);
+                let is_seen = self.edge.touches(&self.world.sources()[view], texel);
+                *slot = Some((index, is_seen));
+                is_seen
+            }
+        }
+    }
+}
+
+/// Where a texel is remembered: by a multiplicative hash (Knuth 1973), since texels above each other lie a power of two apart.
+fn slot(index: u32) -> usize {
+    (index.wrapping_mul(2_654_435_769) >> (u32::BITS - MEMORY.ilog2())) as usize
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::camera::{FieldStop, PixelGrid, View};
+    use crate::projection::{PlanePoint, PlaneRect, ProjectionKind};
+    use crate::sphere::Orientation;
+    use crate::world::panorama;
+
+    #[test]
+    fn what_is_remembered_is_what_the_edge_says() {
+        let rect = PlaneRect { min: PlanePoint::new(-1.0, -1.0), max: PlanePoint::new(1.0, 1.0) };
+        let target = View {
+            projection: ProjectionKind::EQUIDISTANT,
+            orientation: Orientation::IDENTITY,
+            grid: PixelGrid::spanning(60, 60, rect),
+            stop: FieldStop::circle(0.7),
+        };
+        let world = World::new(["a", "b"].map(|name| (name.to_owned(), panorama(90, 45)))).expect("two views");
+        let edge = FieldEdge::of(&target).expect("a circle");
+        let mut seen = SeenTexels::new(&world, edge);
+        let mut count = 0;
+        // Far more than are remembered, each of them twice.
+        for index in (0..world.texel_count() as u32).flat_map(|index| [index, index]) {
+            let TexelPlace { view, texel } = world.texel(index);
+            let is_seen = edge.touches(&world.sources()[view], texel);
+            assert_eq!(seen.holds(index), is_seen, "{texel:?}");
+            count += usize::from(is_seen);
+        }
+        assert!(count > 1000 && count < world.texel_count(), "{count} texels are seen");
+    }
+}

@@ -1,0 +1,136 @@
+#[cfg(test)]
+use crate::raster::Rgba;
+
+/// Texels that are added up in single precision before the sum goes on in double: a pixel of thousands of texels must not lose
+/// digits, and a common one pays nothing.
+pub(crate) const BLOCK: usize = 32;
+
+/// One texel's part in an output pixel.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Tap {
+    /// Index of the texel in the world's buffer.
+    pub(crate) texel: u32,
+    /// Its weight.
+    pub(crate) weight: f32,
+}
+
+/// All the texels of an output pixel with their weights: what a filter makes of a footprint.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Taps {
+    taps: Vec<Tap>,
+    /// How many lie under the pixel: the first ones.
+    under: usize,
+    /// Offsets from the pixel's centre, in screen pixels; filled only if every tap lies to one side of it.
+    places: Vec<[f32; 2]>,
+}
+
+/// The same, wherever they are kept.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct TapList<'a> {
+    /// All taps, those under the pixel first.
+    pub(crate) taps: &'a [Tap],
+    /// How many lie under the pixel: anti-ringing holds their average to what these hold.
+    pub(crate) under: usize,
+    /// Where each lies, if all lie to one side of the pixel's centre: a slope goes on beyond them. Else none.
+    pub(crate) places: &'a [[f32; 2]],
+}
+
+impl Taps {
+    /// Forgets all taps but keeps the memory.
+    pub(crate) fn clear(&mut self) {
+        self.taps.clear();
+        self.under = 0;
+        self.places.clear();
+    }
+
+    /// All taps, those under the pixel first.
+    pub(crate) fn as_slice(&self) -> &[Tap] {
+        &self.taps
+    }
+
+    /// All that is known of them.
+    pub(crate) fn list(&self) -> TapList<'_> {
+        TapList { taps: &self.taps, under: self.under, places: &self.places }
+    }
+
+    /// Whether there is no tap.
+    pub(crate) fn is_empty(&self) -> bool {
+        self.taps.is_empty()
+    }
+
+    /// Adds a tap under the pixel; call before any tap outside it.
+    pub(crate) fn push_under(&mut self, texel: u32, weight: f32) {
+        self.taps.push(Tap { texel, weight });
+        self.under = self.taps.len();
+    }
+
+    /// Takes `count` taps, each with whether it is one of the `under` that lie under the pixel.
+    pub(crate) fn fill(&mut self, taps: impl Iterator<Item = (bool, Tap)>, count: usize, under: usize) {
+        self.clear();
+        self.taps.resize(count, Tap { texel: 0, weight: 0.0 });
+        // Where none lies under the pixel, beyond a view's edge, all of them bound it.
+        self.under = if under == 0 { count } else { under };
+        // Each tap goes to the end of its own part.
+        let mut ends = [under, 0];
+        for (is_under, tap) in taps {
+            let end = &mut ends[usize::from(is_under)];
+            self.taps[*end] = tap;
+            *end += 1;
+        }
+    }
+
+    /// All of them lie to one side of the pixel's centre: where, in their order.
+    pub(crate) fn set_places(&mut self, places: impl Iterator<Item = [f32; 2]>) {
+        self.places.clear();
+        self.places.extend(places);
+    }
+
+    /// Scales the weights to a sum of one.
+    pub(crate) fn normalise(&mut self) {
+        let sum: f64 = self.taps.iter().map(|tap| f64::from(tap.weight)).sum();
+        for tap in &mut self.taps {
+            tap.weight = (f64::from(tap.weight) / sum) as f32;
+        }
+    }
+}
+
+/// The weighted average of taps, held to what those under the pixel hold if there is to be no ringing, one after the other: what
+/// all pixels are measured against. `light` is that of a texel.
+#[cfg(test)]
+pub(crate) fn average(list: TapList, light: impl Fn(u32) -> Rgba, anti_ringing: bool) -> Rgba {
+    use super::rim::rim_extrapolation::{Bounds, Rim};
+
+    let add = |sum: &mut [f64; 4], part: [f32; 4]| (0..4).for_each(|c| sum[c] += f64::from(part[c]));
+    let mut sum = [0f64; 4];
+    let mut bounds = Bounds { least: [f32::INFINITY; 4], greatest: [f32::NEG_INFINITY; 4] };
+    let Bounds { least, greatest } = &mut bounds;
+    let (inner, outer) = list.taps.split_at(list.under);
+    for block in inner.chunks(BLOCK) {
+        let mut part = [0f32; 4];
+        for tap in block {
+            let texel = light(tap.texel).0;
+            for c in 0..4 {
+                part[c] += tap.weight * texel[c];
+                least[c] = if texel[c] < least[c] { texel[c] } else { least[c] };
+                greatest[c] = if texel[c] > greatest[c] { texel[c] } else { greatest[c] };
+            }
+        }
+        add(&mut sum, part);
+    }
+    for block in outer.chunks(BLOCK) {
+        let mut part = [0f32; 4];
+        for tap in block {
+            let texel = light(tap.texel).0;
+            for c in 0..4 {
+                part[c] += tap.weight * texel[c];
+            }
+        }
+        add(&mut sum, part);
+    }
+    let average = Rgba(sum.map(|value| value as f32));
+    if !anti_ringing || list.under == 0 {
+        return average;
+    }
+    let texels: Vec<Rgba> = list.taps.iter().map(|tap| light(tap.texel)).collect();
+    Rim::new(list.places).hold_at_best(average, &bounds, &texels)
+}

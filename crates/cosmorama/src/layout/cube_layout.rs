@@ -1,0 +1,239 @@
+use super::{FaceOrder, FacePart, FacePlacement, LayoutError, LayoutKind};
+use crate::camera::{Canvas, Mirror, PixelRect};
+use crate::sphere::CubeFace;
+
+/// The faces of a cube in one picture.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CubeLayout {
+    kind: LayoutKind,
+    cells: [Cell; 6],
+    half: Option<CubeFace>,
+}
+
+/// A square of a layout's grid.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Cell {
+    column: usize,
+    row: usize,
+    face: CubeFace,
+    lies: FacePlacement,
+}
+
+/// A face in a picture.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PlacedFace {
+    /// Which.
+    pub face: CubeFace,
+    /// How its picture lies.
+    pub lies: FacePlacement,
+    /// Its pixels.
+    pub rect: PixelRect,
+    /// The whole face, of which half a cube may have only a part.
+    pub canvas: Canvas,
+}
+
+/// Columns and rows in halves of a face: `left..right`, `top..bottom`.
+type Halves = PixelRect;
+
+impl CubeLayout {
+    /// A layout with the faces in its own order.
+    pub fn new(kind: LayoutKind) -> Self {
+        let (places, faces, turns) = (kind.places(), kind.faces(), kind.turns());
+        let cell = |i: usize| {
+            let (column, row) = places[i];
+            Cell { column, row, face: faces[i], lies: FacePlacement::turned(turns[i]) }
+        };
+        Self { kind, cells: std::array::from_fn(cell), half: None }
+    }
+
+    /// The same with the faces in another order.
+    #[must_use]
+    pub fn with_order(mut self, order: &FaceOrder) -> Self {
+        for (cell, face) in self.cells.iter_mut().zip(order.faces) {
+            cell.face = face;
+        }
+        match order.turns {
+            Some(turns) => self.with_turns(turns),
+            None => self,
+        }
+    }
+
+    /// The same with the picture in each place, in reading order, turned clockwise by so many quarters.
+    #[must_use]
+    pub fn with_turns(mut self, turns: [u8; 6]) -> Self {
+        for (cell, turns) in self.cells.iter_mut().zip(turns) {
+            cell.lies = FacePlacement::turned(turns);
+        }
+        self
+    }
+
+    /// Half of the same: the half around a face. Faces keep their places; what no longer shows anything is cut off.
+    #[must_use]
+    pub fn with_half(self, half: CubeFace) -> Self {
+        Self { half: Some(half), ..self }
+    }
+
+    /// The places of a picture that is mirrored as a whole. The faces' own pictures are mirrored by their views.
+    #[must_use]
+    pub fn mirrored(mut self, mirror: Mirror) -> Self {
+        let (columns, rows) = self.kind.grid();
+        for cell in &mut self.cells {
+            cell.column = if mirror.x { columns - 1 - cell.column } else { cell.column };
+            cell.row = if mirror.y { rows - 1 - cell.row } else { cell.row };
+        }
+        self
+    }
+
+    /// Where the faces lie.
+    pub fn kind(&self) -> LayoutKind {
+        self.kind
+    }
+
+    /// The picture's size for faces of `edge`×`edge` pixels.
+    ///
+    /// # Errors
+    /// When faces of an odd number of pixels are to be halved.
+    pub fn size(&self, edge: usize) -> Result<(usize, usize), LayoutError> {
+        self.check_edge(edge)?;
+        let bounds = self.bounds();
+        Ok((bounds.width() * edge / 2, bounds.height() * edge / 2))
+    }
+
+    /// The edge of the faces of a picture.
+    ///
+    /// # Errors
+    /// When the picture has another shape than the layout.
+    pub fn edge(&self, width: usize, height: usize) -> Result<usize, LayoutError> {
+        let bounds = self.bounds();
+        let edge = 2 * width / bounds.width();
+        let fits = edge > 0 && edge * bounds.width() == 2 * width && edge * bounds.height() == 2 * height;
+        if !fits {
+            let divisor = greatest_common_divisor(bounds.width(), bounds.height());
+            return Err(LayoutError::Shape {
+                kind: self.kind,
+                width,
+                height,
+                shape: (bounds.width() / divisor, bounds.height() / divisor),
+                fits: LayoutKind::ALL.into_iter().filter(|kind| kind.has_shape(width, height)).collect(),
+            });
+        }
+        self.check_edge(edge)?;
+        Ok(edge)
+    }
+
+    /// The faces of a picture whose faces have `edge`×`edge` pixels.
+    pub fn faces(&self, edge: usize) -> Vec<PlacedFace> {
+        let bounds = self.bounds();
+        let half = |halves: usize| halves * edge / 2;
+        let place = |cell: &Cell| {
+            let kept = self.kept(cell)?;
+            let rect = PixelRect {
+                left: half(kept.left - bounds.left),
+                top: half(kept.top - bounds.top),
+                right: half(kept.right - bounds.left),
+                bottom: half(kept.bottom - bounds.top),
+            };
+            let canvas = Canvas {
+                width: edge,
+                height: edge,
+                left: half(kept.left - 2 * cell.column) as i64,
+                top: half(kept.top - 2 * cell.row) as i64,
+            };
+            Some(PlacedFace { face: cell.face, lies: cell.lies, rect, canvas })
+        };
+        self.cells.iter().filter_map(place).collect()
+    }
+
+    fn check_edge(&self, edge: usize) -> Result<(), LayoutError> {
+        if self.half.is_some() && edge % 2 == 1 { Err(LayoutError::Odd { edge }) } else { Ok(()) }
+    }
+
+    /// What is left of a cell, in halves of a face from the grid's corner.
+    fn kept(&self, cell: &Cell) -> Option<Halves> {
+        let part = FacePart::of(cell.face, cell.lies, self.half)?.halves;
+        let (left, top) = (2 * cell.column, 2 * cell.row);
+        Some(Halves {
+            left: left + part.left,
+            top: top + part.top,
+            right: left + part.right,
+            bottom: top + part.bottom,
+        })
+    }
+
+    /// The picture, in halves of a face: all of the grid, or what halves of it show.
+    fn bounds(&self) -> Halves {
+        let (columns, rows) = self.kind.grid();
+        let all = Halves { left: 0, top: 0, right: 2 * columns, bottom: 2 * rows };
+        if self.half.is_none() {
+            return all;
+        }
+        self.cells.iter().filter_map(|cell| self.kept(cell)).reduce(Halves::union).unwrap_or(all)
+    }
+}
+
+fn greatest_common_divisor(a: usize, b: usize) -> usize {
+    if b == 0 { a } else { greatest_common_divisor(b, a % b) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sphere::{Direction, Orientation};
+
+    #[test]
+    fn the_axes_of_a_turned_picture_are_a_cameras() {
+        for face in CubeFace::ALL {
+            for quarter_turns in 0..4 {
+                let (right, up) = FacePlacement { quarter_turns, mirrored: false }.axes(face);
+                let camera = Orientation::from_axes(right, up, face.forward());
+                assert_eq!(camera.to_world(Direction::FRONT).vector(), face.forward().vector());
+            }
+        }
+    }
+
+    #[test]
+    fn every_layout_fills_its_shape_without_overlap() {
+        for kind in LayoutKind::ALL {
+            let layout = CubeLayout::new(kind);
+            let (width, height) = layout.size(8).unwrap();
+            assert_eq!(layout.edge(width, height), Ok(8), "{kind}");
+            let faces = layout.faces(8);
+            assert_eq!(faces.len(), 6);
+            let mut used = vec![0; width * height];
+            for placed in &faces {
+                for y in placed.rect.top..placed.rect.bottom {
+                    (placed.rect.left..placed.rect.right).for_each(|x| used[y * width + x] += 1);
+                }
+            }
+            assert_eq!(used.iter().sum::<usize>(), 6 * 64, "{kind}");
+            assert!(used.iter().all(|&count| count <= 1), "{kind}");
+        }
+    }
+
+    #[test]
+    fn another_shape_names_the_layouts_that_have_it() {
+        let error = CubeLayout::new(LayoutKind::CrossH).edge(768, 512).unwrap_err().to_string();
+        assert_eq!(error, "768x512 pixels are no cross-h of square faces, whose shape is 4:3; of that shape: 3x2, eac");
+        let error = CubeLayout::new(LayoutKind::Eac).edge(1920, 1080).unwrap_err().to_string();
+        assert!(error.ends_with("no layout has that shape"), "{error}");
+        assert!(CubeLayout::new(LayoutKind::StripH).edge(0, 0).is_err());
+    }
+
+    #[test]
+    fn half_a_cross_is_cut_off() {
+        let cross = CubeLayout::new(LayoutKind::CrossH);
+        let sky = cross.clone().with_half(CubeFace::Up);
+        assert_eq!(sky.size(8), Ok((32, 12)));
+        assert_eq!(sky.faces(8).len(), 5);
+        assert_eq!(sky.size(7), Err(LayoutError::Odd { edge: 7 }));
+        let front = sky.faces(8).into_iter().find(|placed| placed.face == CubeFace::Front).unwrap();
+        assert_eq!(front.rect, PixelRect { left: 8, top: 8, right: 16, bottom: 12 });
+        assert_eq!(front.canvas, Canvas { width: 8, height: 8, left: 0, top: 0 });
+        // The hemicube of radiosity: the front, and half of each neighbour around it.
+        assert_eq!(cross.with_half(CubeFace::Front).size(8), Ok((16, 16)));
+        // The back of the vertical cross stands on its head.
+        let down = CubeLayout::new(LayoutKind::CrossV).with_half(CubeFace::Down);
+        let back = down.faces(8).into_iter().find(|placed| placed.face == CubeFace::Back).unwrap();
+        assert_eq!((back.rect.height(), back.canvas.top), (4, 0));
+    }
+}

@@ -1,0 +1,168 @@
+use super::{Arrangement, LayoutError};
+use crate::camera::{CameraModel, FisheyeCamera, LensCircle, Mirror, PixelPoint, PixelRect, Placement};
+use crate::sphere::{Angle, Orientation};
+use crate::world::Blend;
+
+/// Two fisheye pictures in one image, of cameras back to back.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DualFisheye {
+    /// How the two share the image.
+    pub arrangement: Arrangement,
+    /// The one that comes first.
+    pub first: LensSide,
+    /// The camera that looks ahead.
+    pub front: DualLens,
+    /// The camera that looks back.
+    pub back: DualLens,
+    /// Over how wide a band at its circle each fades out where the other shows the same; `None` for all that they share.
+    pub feather: Option<Angle>,
+}
+
+/// Where one of two cameras looks.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum LensSide {
+    /// Ahead.
+    Front,
+    /// Back.
+    Back,
+}
+
+impl LensSide {
+    /// Both.
+    pub const ALL: [Self; 2] = [Self::Front, Self::Back];
+
+    /// In a word.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Front => "front",
+            Self::Back => "back",
+        }
+    }
+
+    /// The orientation of a camera that looks there.
+    pub fn orientation(self) -> Orientation {
+        let yaw = match self {
+            Self::Front => Angle::ZERO,
+            Self::Back => Angle::HALF_TURN,
+        };
+        Orientation::from_yaw_pitch_roll(yaw, Angle::ZERO, Angle::ZERO)
+    }
+}
+
+/// One of two cameras.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DualLens {
+    /// Its picture. A circle that is placed is placed in pixels of the whole image.
+    pub frame: FisheyeCamera,
+    /// How it is turned from where it should look, as it sees that itself.
+    pub turned: Orientation,
+}
+
+/// One of two fisheye pictures in an image.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PlacedLens {
+    /// Which.
+    pub side: LensSide,
+    /// Its pixels.
+    pub rect: PixelRect,
+    /// How its picture sees the world.
+    pub placement: Placement,
+}
+
+impl DualFisheye {
+    /// What most such cameras see: each a little more than half the world.
+    pub const FIELD_OF_VIEW: Angle = Angle::from_degrees(195.0);
+
+    /// The pictures in an image of `width` × `height` pixels, which may be mirrored as a whole; the first in it first.
+    ///
+    /// # Errors
+    /// When the image has no halves.
+    pub fn lenses(&self, width: usize, height: usize, mirror: Mirror) -> Result<[PlacedLens; 2], LayoutError> {
+        let halves = self.arrangement.halves(width, height)?;
+        let is_turned_round = match self.arrangement {
+            Arrangement::SideBySide => mirror.x,
+            Arrangement::TopBottom => mirror.y,
+        };
+        let sides = if self.first == LensSide::Front { LensSide::ALL } else { [LensSide::Back, LensSide::Front] };
+        let lens = |place: usize| {
+            // Circles are placed in the image as it was before it was mirrored.
+            let (side, unmirrored) = (sides[if is_turned_round { 1 - place } else { place }], halves[place]);
+            let drawn = if is_turned_round { halves[1 - place] } else { unmirrored };
+            let DualLens { frame, turned } = self.lens(side);
+            let circle = within(frame.circle, drawn);
+            let frame = CameraModel::Fisheye(FisheyeCamera { circle, ..frame });
+            let orientation = turned.within(side.orientation());
+            PlacedLens { side, rect: halves[place], placement: Placement { frame, orientation, mirror, canvas: None } }
+        };
+        Ok([lens(0), lens(1)])
+    }
+
+    fn lens(&self, side: LensSide) -> DualLens {
+        match side {
+            LensSide::Front => self.front,
+            LensSide::Back => self.back,
+        }
+    }
+
+    /// How the two take part where both show the same: each falls to nothing at its own circle.
+    pub fn blend(&self) -> Blend {
+        let shared = (self.front.frame.field_of_view + self.back.frame.field_of_view) * 0.5 - Angle::HALF_TURN;
+        let feather = self.feather.unwrap_or(shared);
+        Blend { priority: 0, feather: if feather > Angle::ZERO { feather } else { Angle::ZERO } }
+    }
+}
+
+/// A circle in pixels of the half in which it lies.
+fn within(circle: LensCircle, half: PixelRect) -> LensCircle {
+    let centre = circle.centre.map(|at| PixelPoint::new(at.x - half.left as f64, at.y - half.top as f64));
+    LensCircle { centre, ..circle }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sphere::Direction;
+
+    fn camera() -> DualFisheye {
+        let frame = FisheyeCamera { field_of_view: DualFisheye::FIELD_OF_VIEW, ..FisheyeCamera::default() };
+        let lens = DualLens { frame, turned: Orientation::IDENTITY };
+        let arrangement = Arrangement::SideBySide;
+        DualFisheye { arrangement, first: LensSide::Front, front: lens, back: lens, feather: None }
+    }
+
+    fn seen(lens: &PlacedLens, x: f64, y: f64) -> Direction {
+        let view = lens.placement.view(lens.rect.width(), lens.rect.height()).unwrap();
+        view.direction(PixelPoint::new(x, y)).unwrap()
+    }
+
+    #[test]
+    fn one_looks_ahead_and_one_back() {
+        let [front, back] = camera().lenses(200, 100, Mirror::default()).unwrap();
+        assert!(seen(&front, 50.0, 50.0).angle_to(Direction::FRONT).degrees() < 1e-9);
+        assert!(seen(&back, 50.0, 50.0).angle_to(Direction::BACK).degrees() < 1e-9);
+        // Right in the picture of the camera that looks back is left in the world.
+        assert!(seen(&back, 90.0, 50.0).dot(Direction::LEFT) > 0.9);
+        assert_eq!((front.rect.left, back.rect.left), (0, 100));
+        assert!(camera().lenses(201, 100, Mirror::default()).is_err());
+    }
+
+    #[test]
+    fn a_mirrored_image_has_its_halves_exchanged() {
+        let mut camera = camera();
+        let circle = LensCircle { centre: Some(PixelPoint::new(148.0, 50.0)), radius: Some(45.0) };
+        camera.back.frame.circle = circle;
+        let [back, front] = camera.lenses(200, 100, Mirror { x: true, y: false }).unwrap();
+        assert_eq!((back.side, back.rect.left, front.side), (LensSide::Back, 0, LensSide::Front));
+        // Column 148 of 200 is 52 from the other side.
+        assert!(seen(&back, 52.0, 50.0).angle_to(Direction::BACK).degrees() < 1e-9);
+        assert!(seen(&front, 90.0, 50.0).dot(Direction::LEFT) > 0.9);
+    }
+
+    #[test]
+    fn they_share_what_both_see() {
+        assert!((camera().blend().feather.degrees() - 15.0).abs() < 1e-9);
+        let mut narrow = camera();
+        narrow.front.frame.field_of_view = Angle::from_degrees(150.0);
+        assert_eq!(narrow.blend().feather, Angle::ZERO);
+    }
+}

@@ -1,0 +1,105 @@
+use crate::camera::FaceMapping;
+use crate::sphere::CubeFace::{self, Back, Down, Front, Left, Right, Up};
+
+/// Where the six faces lie, each in a square of a grid.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum LayoutKind {
+    /// Beside each other.
+    StripH,
+    /// One below the other.
+    StripV,
+    /// Three beside each other, in two rows.
+    ThreeByTwo,
+    /// Two beside each other, in three rows.
+    TwoByThree,
+    /// A cross: the sides beside each other, the front second.
+    CrossH,
+    /// A cross: the back below the bottom, turned upside down.
+    CrossV,
+    /// Three by two faces in equal angles: left, front and right above; down, back and up, lying, below.
+    Eac,
+}
+
+impl LayoutKind {
+    /// All of them.
+    pub const ALL: [Self; 7] =
+        [Self::StripH, Self::StripV, Self::ThreeByTwo, Self::TwoByThree, Self::CrossH, Self::CrossV, Self::Eac];
+
+    /// As `layout=` has it.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::StripH => "strip-h",
+            Self::StripV => "strip-v",
+            Self::ThreeByTwo => "3x2",
+            Self::TwoByThree => "2x3",
+            Self::CrossH => "cross-h",
+            Self::CrossV => "cross-v",
+            Self::Eac => "eac",
+        }
+    }
+
+    /// Columns and rows of its grid.
+    pub const fn grid(self) -> (usize, usize) {
+        match self {
+            Self::StripH => (6, 1),
+            Self::StripV => (1, 6),
+            Self::ThreeByTwo | Self::Eac => (3, 2),
+            Self::TwoByThree => (2, 3),
+            Self::CrossH => (4, 3),
+            Self::CrossV => (3, 4),
+        }
+    }
+
+    /// Whether a picture of this size holds it in square faces.
+    pub const fn has_shape(self, width: usize, height: usize) -> bool {
+        let (columns, rows) = self.grid();
+        let whole = width > 0 && width.is_multiple_of(columns) && height.is_multiple_of(rows);
+        whole && width / columns == height / rows
+    }
+
+    /// How its faces see the world.
+    pub const fn mapping(self) -> FaceMapping {
+        match self {
+            Self::Eac => FaceMapping::EquiAngular,
+            _ => FaceMapping::Perspective,
+        }
+    }
+
+    /// Column and row of each of its places, in reading order.
+    pub(crate) const fn places(self) -> [(usize, usize); 6] {
+        match self {
+            Self::StripH => [(0, 0), (1, 0), (2, 0), (3, 0), (4, 0), (5, 0)],
+            Self::StripV => [(0, 0), (0, 1), (0, 2), (0, 3), (0, 4), (0, 5)],
+            Self::ThreeByTwo | Self::Eac => [(0, 0), (1, 0), (2, 0), (0, 1), (1, 1), (2, 1)],
+            Self::TwoByThree => [(0, 0), (1, 0), (0, 1), (1, 1), (0, 2), (1, 2)],
+            Self::CrossH => [(1, 0), (0, 1), (1, 1), (2, 1), (3, 1), (1, 2)],
+            Self::CrossV => [(1, 0), (0, 1), (1, 1), (2, 1), (1, 2), (1, 3)],
+        }
+    }
+
+    /// The face in each place, unless another order is given: for strips and grids ffmpeg's.
+    pub(crate) const fn faces(self) -> [CubeFace; 6] {
+        match self {
+            Self::StripH | Self::StripV | Self::ThreeByTwo | Self::TwoByThree => [Right, Left, Up, Down, Front, Back],
+            Self::CrossH => [Up, Left, Front, Right, Back, Down],
+            Self::CrossV => [Up, Left, Front, Right, Down, Back],
+            Self::Eac => [Left, Front, Right, Down, Back, Up],
+        }
+    }
+
+    /// By how many quarters the picture in each place is turned clockwise.
+    pub(crate) const fn turns(self) -> [u8; 6] {
+        match self {
+            Self::StripH | Self::StripV | Self::ThreeByTwo | Self::TwoByThree | Self::CrossH => [0; 6],
+            Self::CrossV => [0, 0, 0, 0, 0, 2],
+            // Its lower row goes on without a break, too.
+            Self::Eac => [0, 0, 0, 3, 1, 3],
+        }
+    }
+}
+
+impl std::fmt::Display for LayoutKind {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(self.name())
+    }
+}

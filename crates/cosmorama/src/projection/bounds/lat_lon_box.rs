@@ -1,0 +1,58 @@
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
+
+use crate::projection::{PlanePoint, PlaneRect};
+use crate::sphere::{Angle, Direction};
+
+/// A box of longitudes and latitudes, in radians; west may be less than −π, east more than π.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Graticule {
+    pub(crate) west: f64,
+    pub(crate) east: f64,
+    pub(crate) south: f64,
+    pub(crate) north: f64,
+}
+
+impl Graticule {
+    /// The box that holds every direction within `radius` of `centre`: all longitudes if a pole is among them.
+    pub(crate) fn around(centre: Direction, radius: Angle) -> Self {
+        let (longitude, latitude) = centre.longitude_latitude();
+        let (longitude, latitude, radius) = (longitude.radians(), latitude.radians(), radius.radians());
+        let (south, north) = (latitude - radius, latitude + radius);
+        let holds_a_pole = south <= -FRAC_PI_2 || north >= FRAC_PI_2;
+        let half_width = if holds_a_pole { PI } else { (radius.sin() / latitude.cos()).min(1.0).asin() };
+        Self {
+            west: longitude - half_width,
+            east: longitude + half_width,
+            south: south.max(-FRAC_PI_2),
+            north: north.min(FRAC_PI_2),
+        }
+    }
+
+    /// The same on a map that ends at the meridian behind: in two parts if it crosses that, with all longitudes if it goes
+    /// round.
+    pub(crate) fn parts(self) -> Vec<Self> {
+        let Self { west, east, .. } = self;
+        if west >= -PI && east <= PI {
+            vec![self]
+        } else if east - west >= TAU {
+            vec![Self { west: -PI, east: PI, ..self }]
+        } else {
+            let (west, east) = ((west + PI).rem_euclid(TAU) - PI, (east + PI).rem_euclid(TAU) - PI);
+            vec![Self { west, east: PI, ..self }, Self { west: -PI, east, ..self }]
+        }
+    }
+
+    /// The rectangle of the plane that holds the box's image, for a mapping of longitude and latitude in which x rises with
+    /// the longitude, y with the latitude, and either depends on the other's distance from 0 alone, rising or falling with
+    /// it: as in every map that is symmetrical about its middle.
+    pub(crate) fn bounds(self, place: impl Fn(f64, f64) -> PlanePoint) -> PlaneRect {
+        let with_least = |low: f64, high: f64| [low, high, 0f64.clamp(low, high)];
+        let mut rect = PlaneRect::NOTHING;
+        for longitude in with_least(self.west, self.east) {
+            for latitude in with_least(self.south, self.north) {
+                rect = rect.with(place(longitude, latitude));
+            }
+        }
+        rect
+    }
+}

@@ -1,0 +1,257 @@
+use half::f16;
+use rayon::prelude::*;
+
+use super::decode::CHUNK;
+use super::quantizer::Quantizer;
+use crate::raster::{AlphaMode, Channels, ColourChannel, Depth, EncodedImage, Image, Rgba, Samples, Transfer};
+
+impl EncodedImage {
+    /// The samples of an image of light, by an [`Encoder`] of its own and all threads.
+    pub fn encode(light: &Image<Rgba>, channels: Channels, depth: Depth, transfer: &Transfer) -> Self {
+        Encoder::new(channels, depth, transfer).encode(light, Threads::All)
+    }
+}
+
+/// Who works on an image.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Threads {
+    /// The thread that asks for it: others have images of their own.
+    One,
+    /// All.
+    All,
+}
+
+/// Makes samples of light: what it works out for one image serves the next.
+///
+/// Integers are rounded and clamped, with straight alpha; floats are premultiplied and keep light beyond
+/// white. Without an alpha channel the colour is written as it is: composite over a background first.
+/// Grey is the luminance of Rec. 709. A NaN never gets out: it becomes zero.
+#[derive(Debug)]
+pub struct Encoder {
+    channels: Channels,
+    depth: Depth,
+    transfer: Transfer,
+    /// For integers.
+    quantizer: Option<Quantizer>,
+}
+
+impl Encoder {
+    /// For samples of one kind.
+    pub fn new(channels: Channels, depth: Depth, transfer: &Transfer) -> Self {
+        let last = match depth {
+            Depth::Eight => Some(255),
+            Depth::Ten => Some(1023),
+            Depth::Twelve => Some(4095),
+            Depth::Sixteen => Some(65535),
+            Depth::Half | Depth::Float => None,
+        };
+        let quantizer = last.map(|last| Quantizer::new(transfer, last));
+        Self { channels, depth, transfer: transfer.clone(), quantizer }
+    }
+
+    /// The samples of an image.
+    pub fn encode(&self, light: &Image<Rgba>, threads: Threads) -> EncodedImage {
+        let samples = match (&self.quantizer, self.depth) {
+            (Some(codes), Depth::Ten) => {
+                Samples::U16(self.integers(codes, 1023, light, threads, |code| code << 6 | code >> 4))
+            }
+            (Some(codes), Depth::Twelve) => {
+                Samples::U16(self.integers(codes, 4095, light, threads, |code| code << 4 | code >> 8))
+            }
+            (Some(codes), Depth::Sixteen) => Samples::U16(self.integers(codes, 65535, light, threads, |code| code)),
+            (Some(codes), _) => Samples::U8(self.integers(codes, 255, light, threads, |code| code as u8)),
+            (None, Depth::Half) => Samples::Half(self.floats(light, threads, to_half)),
+            (None, _) => Samples::Float(self.floats(light, threads, |sample| sample)),
+        };
+        let alpha_mode = if self.depth.is_float() { AlphaMode::Premultiplied } else { AlphaMode::Straight };
+        EncodedImage::from_parts(light.width(), light.height(), self.channels, self.depth, alpha_mode, samples)
+    }
+
+    fn integers<S: Send>(
+        &self,
+        codes: &Quantizer,
+        last: u16,
+        light: &Image<Rgba>,
+        threads: Threads,
+        spread: impl Fn(u16) -> S + Sync,
+    ) -> Vec<S> {
+        let channels = self.channels;
+        let quantize = |light: f32, channel| spread(codes.code(light, channel));
+        let straight = |pixel: Rgba| {
+            let [red, green, blue, _] = pixel.0;
+            if channels.has_alpha() { pixel.unpremultiplied() } else { [red, green, blue] }
+        };
+        let grey = |pixel: Rgba| quantize(luminance(straight(pixel)), ColourChannel::Green);
+        let colour = |pixel: Rgba| {
+            let colour = straight(pixel);
+            ColourChannel::ALL.map(|channel| quantize(colour[channel.index()], channel))
+        };
+        let alpha = |pixel: Rgba| spread((pixel.alpha().clamp(0.0, 1.0) * f32::from(last)).round() as u16);
+        interleaved((light, channels, threads), grey, colour, alpha)
+    }
+
+    fn floats<S: Send>(&self, light: &Image<Rgba>, threads: Threads, sample: impl Fn(f32) -> S + Sync) -> Vec<S> {
+        let channels = self.channels;
+        let code = |light, alpha, channel| sample(code_of(light, alpha, channels, &self.transfer, channel));
+        let grey = |pixel: Rgba| {
+            let [red, green, blue, alpha] = pixel.finite().0;
+            code(luminance([red, green, blue]), alpha, ColourChannel::Green)
+        };
+        let colour = |pixel: Rgba| {
+            let light = pixel.finite().0;
+            ColourChannel::ALL.map(|channel| code(light[channel.index()], light[3], channel))
+        };
+        let alpha = |pixel: Rgba| sample(pixel.finite().alpha());
+        interleaved((light, channels, threads), grey, colour, alpha)
+    }
+}
+
+/// Rec. 709 luminance weights.
+const LUMINANCE: [f32; 3] = [0.2126, 0.7152, 0.0722];
+
+fn luminance([red, green, blue]: [f32; 3]) -> f32 {
+    if red == green && green == blue {
+        return green;
+    }
+    LUMINANCE[0] * red + LUMINANCE[1] * green + LUMINANCE[2] * blue
+}
+
+fn to_half(sample: f32) -> f16 {
+    // Larger values would become infinite.
+    f16::from_f32(sample.clamp(f16::MIN.to_f32(), f16::MAX.to_f32()))
+}
+
+/// The samples of an image's channels, pixel by pixel.
+fn interleaved<S: Send>(
+    (light, channels, threads): (&Image<Rgba>, Channels, Threads),
+    grey: impl Fn(Rgba) -> S + Sync,
+    colour: impl Fn(Rgba) -> [S; 3] + Sync,
+    alpha: impl Fn(Rgba) -> S + Sync,
+) -> Vec<S> {
+    match channels {
+        Channels::Grey => by_pixels(light, threads, |pixel| [grey(pixel)]),
+        Channels::GreyAlpha => by_pixels(light, threads, |pixel| [grey(pixel), alpha(pixel)]),
+        Channels::Rgb => by_pixels(light, threads, colour),
+        Channels::Rgba => by_pixels(light, threads, |pixel| {
+            let [red, green, blue] = colour(pixel);
+            [red, green, blue, alpha(pixel)]
+        }),
+    }
+}
+
+/// As many samples of each pixel, in memory that is not made empty before.
+fn by_pixels<S: Send, const COUNT: usize>(
+    light: &Image<Rgba>,
+    threads: Threads,
+    samples: impl Fn(Rgba) -> [S; COUNT] + Sync,
+) -> Vec<S> {
+    let samples: Vec<[S; COUNT]> = match threads {
+        Threads::One => light.pixels().iter().map(|pixel| samples(*pixel)).collect(),
+        Threads::All => light.pixels().par_iter().with_min_len(CHUNK).map(|pixel| samples(*pixel)).collect(),
+    };
+    samples.into_flattened()
+}
+
+/// The premultiplied code value of premultiplied light.
+fn code_of(light: f32, alpha: f32, channels: Channels, transfer: &Transfer, channel: ColourChannel) -> f32 {
+    if *transfer == Transfer::Linear {
+        return light;
+    }
+    // The transfer function is for the colour itself; a glow (alpha zero) has none, only light.
+    let alpha = if channels.has_alpha() && alpha > 0.0 { alpha } else { 1.0 };
+    transfer.encode(f64::from(light / alpha), channel) as f32 * alpha
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::raster::ToneCurve;
+    use std::sync::Arc;
+
+    fn transfers() -> Vec<Transfer> {
+        let table = |gamma: f32| (0..4096).map(|i| (i as f32 / 4095.0).powf(gamma)).collect::<Vec<_>>();
+        let curve = ToneCurve::new([table(1.8), table(2.0), table(2.2)]).unwrap();
+        let gammas = [1.0, 1.8, 2.2, 2.6].map(Transfer::Gamma);
+        let mut all = vec![Transfer::Srgb, Transfer::Linear, Transfer::Bt1886, Transfer::Pq, Transfer::Hlg];
+        all.extend(gammas);
+        all.push(Transfer::Curve(Arc::new(curve)));
+        all
+    }
+
+    fn round_trip(image: &EncodedImage, transfer: &Transfer) -> EncodedImage {
+        EncodedImage::encode(&image.to_light(transfer), image.channels(), image.depth(), transfer)
+    }
+
+    #[test]
+    fn every_8_bit_code_comes_back() {
+        let codes: Vec<u8> = (0..=255).flat_map(|code| [code, code, code]).collect();
+        let image = EncodedImage::new(256, 1, Channels::Rgb, Depth::Eight, Samples::U8(codes)).unwrap();
+        for transfer in transfers() {
+            assert_eq!(round_trip(&image, &transfer), image, "{transfer:?}");
+        }
+    }
+
+    #[test]
+    fn every_16_bit_code_comes_back() {
+        let codes: Vec<u16> = (0..=65535).flat_map(|code| [code, code, code]).collect();
+        let image = EncodedImage::new(256, 256, Channels::Rgb, Depth::Sixteen, Samples::U16(codes)).unwrap();
+        for transfer in transfers() {
+            assert!(round_trip(&image, &transfer) == image, "{transfer:?}");
+        }
+    }
+
+    #[test]
+    fn every_10_and_12_bit_code_comes_back_and_fills_the_range() {
+        for (depth, bits) in [(Depth::Ten, 10), (Depth::Twelve, 12)] {
+            let spread = |code: u32| (code << (16 - bits) | code >> (2 * bits - 16)) as u16;
+            let codes: Vec<u16> = (0..1 << bits).map(spread).collect();
+            assert_eq!(codes.last(), Some(&u16::MAX));
+            let image = EncodedImage::new(codes.len(), 1, Channels::Grey, depth, Samples::U16(codes)).unwrap();
+            assert!(round_trip(&image, &Transfer::Srgb) == image, "{depth}");
+        }
+    }
+
+    #[test]
+    fn grey_and_alpha_come_back() {
+        let samples: Vec<u8> = (0..=255).flat_map(|code: u8| [code, code.max(1)]).collect();
+        let image = EncodedImage::new(256, 1, Channels::GreyAlpha, Depth::Eight, Samples::U8(samples)).unwrap();
+        assert_eq!(round_trip(&image, &Transfer::Srgb), image);
+    }
+
+    #[test]
+    fn floats_come_back_through_every_transfer() {
+        let light = Image::new(1, 1, vec![Rgba([0.25, 0.125, 0.0625, 0.5])]).unwrap();
+        for transfer in transfers() {
+            let back = EncodedImage::encode(&light, Channels::Rgba, Depth::Float, &transfer).to_light(&transfer);
+            for channel in 0..4 {
+                let (a, b) = (back.get(0, 0).0[channel], light.get(0, 0).0[channel]);
+                assert!((a - b).abs() < 1e-5, "{transfer:?}: {a} is not {b}");
+            }
+        }
+    }
+
+    #[test]
+    fn nothing_that_is_not_finite_gets_out() {
+        let light = Image::new(2, 1, vec![Rgba::opaque(f32::NAN, -1.0, 9.0), Rgba::opaque(f32::INFINITY, 1e30, 0.0)]);
+        let light = light.unwrap();
+        let Samples::U8(bytes) =
+            EncodedImage::encode(&light, Channels::Rgb, Depth::Eight, &Transfer::Srgb).into_samples()
+        else {
+            panic!("8 bits")
+        };
+        assert_eq!(bytes, [0, 0, 255, 255, 255, 0]);
+        let Samples::Half(halves) =
+            EncodedImage::encode(&light, Channels::Rgb, Depth::Half, &Transfer::Linear).into_samples()
+        else {
+            panic!("halves")
+        };
+        assert!(halves.iter().all(|sample| sample.is_finite()));
+    }
+
+    #[test]
+    fn grey_is_luminance() {
+        let light = Image::new(1, 1, vec![Rgba::opaque(0.0, 1.0, 0.0)]).unwrap();
+        let grey = EncodedImage::encode(&light, Channels::Grey, Depth::Float, &Transfer::Linear);
+        assert_eq!(*grey.samples(), Samples::Float(vec![0.7152]));
+    }
+}

@@ -1,0 +1,5 @@
+//! From encoded samples to linear light, and back.
+
+pub(crate) mod decode;
+pub(crate) mod encode;
+pub(crate) mod quantizer;

@@ -1,0 +1,95 @@
+use crate::raster::{ColourChannel, Transfer};
+
+/// From light to integer codes, exactly as rounding the transfer function would, without computing it: the light
+/// at which each code begins is tabulated, and the table is entered through the bits of the float.
+#[derive(Debug)]
+pub(crate) struct Quantizer {
+    channels: Vec<Thresholds>,
+}
+
+impl Quantizer {
+    /// For codes from 0 to `last`.
+    pub(crate) fn new(transfer: &Transfer, last: u16) -> Self {
+        let thresholds = |channel: &ColourChannel| Thresholds::new(transfer, last, *channel);
+        Self { channels: transfer.channels().iter().map(thresholds).collect() }
+    }
+
+    /// The code of some light: 0 for a NaN and below, `last` for white and above.
+    pub(crate) fn code(&self, light: f32, channel: ColourChannel) -> u16 {
+        self.channels[channel.index().min(self.channels.len() - 1)].code(light)
+    }
+}
+
+/// Bits of a float that are dropped to find its bucket: 512 buckets for each doubling of the light.
+const SHIFT: u32 = 14;
+
+#[derive(Debug)]
+struct Thresholds {
+    /// The least light of codes 1, 2, 3 …
+    least: Vec<f32>,
+    /// For each bucket of floats, the number of codes that begin before it; one more at the end.
+    before: Vec<u16>,
+}
+
+impl Thresholds {
+    fn new(transfer: &Transfer, last: u16, channel: ColourChannel) -> Self {
+        let boundary = |code: u16| transfer.decode((f64::from(code) - 0.5) / f64::from(last), channel) as f32;
+        let least: Vec<f32> = (1..=last).map(boundary).collect();
+        let greatest = least.last().copied().unwrap_or(0.0);
+        let mut code = 0;
+        let before = (0..=bucket(greatest) + 1)
+            .map(|bucket| {
+                let start = f32::from_bits((bucket << SHIFT) as u32);
+                while code < least.len() && least[code] < start {
+                    code += 1;
+                }
+                code as u16
+            })
+            .collect();
+        Self { least, before }
+    }
+
+    fn code(&self, light: f32) -> u16 {
+        if light.is_nan() || light <= 0.0 {
+            return 0;
+        }
+        let bucket = bucket(light);
+        let (Some(&from), Some(&to)) = (self.before.get(bucket), self.before.get(bucket + 1)) else {
+            return self.least.len() as u16;
+        };
+        let (from, to) = (usize::from(from), usize::from(to));
+        (from + self.least[from..to].partition_point(|&least| least <= light)) as u16
+    }
+}
+
+fn bucket(light: f32) -> usize {
+    (light.to_bits() >> SHIFT) as usize
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::raster::codec::quantizer::ColourChannel::Red;
+
+    #[test]
+    fn codes_are_the_rounded_transfer_function() {
+        for transfer in [Transfer::Srgb, Transfer::Linear, Transfer::Gamma(2.2), Transfer::Pq] {
+            for last in [255, 1023, 65535] {
+                let quantizer = Quantizer::new(&transfer, last);
+                for i in 0..20_000 {
+                    let light = i as f32 / 15_000.0;
+                    let exact = transfer.encode(f64::from(light), Red).min(1.0) * f64::from(last);
+                    let error = (f64::from(quantizer.code(light, Red)) - exact).abs();
+                    assert!(error < 0.504, "{transfer:?} {last} {light}: off by {error} codes");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn the_ends_are_clamped() {
+        let quantizer = Quantizer::new(&Transfer::Srgb, 255);
+        assert_eq!([f32::NAN, -1.0, 0.0, -0.0, f32::NEG_INFINITY].map(|light| quantizer.code(light, Red)), [0; 5]);
+        assert_eq!([1.0, 2.0, f32::MAX, f32::INFINITY].map(|light| quantizer.code(light, Red)), [255; 4]);
+    }
+}

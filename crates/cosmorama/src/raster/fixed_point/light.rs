@@ -1,0 +1,155 @@
+use crate::raster::{Rgba, RowLayout};
+
+/// Texels in 64 bytes, which processors keep together.
+const LINE: usize = 8;
+
+/// Rows of fewer texels than these are kept without anything between them: of so small views a cache holds whole regions.
+const SHORT: usize = 128;
+
+/// 15-bit linear light of a world's opaque texels, red, green and blue from 0 to 32767: a product of two fits in 32 bits.
+///
+/// Texels lie view by view and row by row, but rows may be filled up so that what lies one below the other is not in one place of a
+/// processor's cache: see [`FixedLight::pitch`].
+#[derive(Clone, Debug)]
+pub struct FixedLight {
+    /// The fourth sample of each is not used. What fills up rows is black.
+    texels: Vec<[i16; 4]>,
+    views: Vec<RowLayout>,
+}
+
+impl FixedLight {
+    /// The sample of white.
+    pub(crate) const WHITE: f32 = i16::MAX as f32;
+
+    /// Black views of these sizes, columns and rows.
+    pub fn black(sizes: impl IntoIterator<Item = [usize; 2]>) -> Self {
+        let views = RowLayout::of(sizes, Self::pitch);
+        Self { texels: vec![[0; 4]; views.last().map_or(0, RowLayout::end)], views }
+    }
+
+    /// How many texels there are from one row of a view to the next, if rows hold so many.
+    ///
+    /// It is an odd number of lines of cache: an even one divides by two how many places in it a column's texels may be in, and rows of
+    /// 2048 texels would all come to lie in one.
+    pub fn pitch(width: usize) -> usize {
+        if width < SHORT { width } else { LINE.saturating_mul(width.div_ceil(LINE) | 1) }
+    }
+
+    /// Columns and rows of each view.
+    pub fn sizes(&self) -> impl Iterator<Item = [usize; 2]> + '_ {
+        self.views.iter().map(|view| view.size)
+    }
+
+    /// How many texels there are.
+    pub fn len(&self) -> usize {
+        self.sizes().map(|[columns, rows]| columns * rows).sum()
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// Each view from its first row to its last, with what fills them up.
+    pub fn views_mut(&mut self) -> impl Iterator<Item = &mut [[i16; 4]]> {
+        let mut rest = self.texels.as_mut_slice();
+        self.views.iter().map(move |view| rest.split_off_mut(..view.end() - view.offset).expect("room for each view"))
+    }
+
+    /// All texels, one after the other as a world has them.
+    pub fn texels_mut(&mut self) -> impl Iterator<Item = &mut [i16; 4]> {
+        let Self { texels, views } = self;
+        let pitches = views.iter().flat_map(|view| std::iter::repeat_n((view.pitch, view.size[0]), view.size[1]));
+        let mut rest = texels.as_mut_slice();
+        let rows =
+            pitches.map(move |(pitch, width)| &mut rest.split_off_mut(..pitch).expect("room for each row")[..width]);
+        rows.flatten()
+    }
+
+    /// Where each view lies.
+    pub(crate) fn layout(&self) -> &[RowLayout] {
+        &self.views
+    }
+
+    /// All texels as they lie, with what fills up rows.
+    pub(crate) fn as_laid_out(&self) -> &[[i16; 4]] {
+        &self.texels
+    }
+
+    /// Four samples for each texel, and for what fills up rows.
+    pub(crate) fn samples(&self) -> &[i16] {
+        self.texels.as_flattened()
+    }
+
+    /// One texel, given its index as a world has them.
+    ///
+    /// # Panics
+    /// If there is none so late.
+    pub fn rgba(&self, texel: usize) -> Rgba {
+        let (mut views, mut within) = (self.views.iter(), texel);
+        loop {
+            let view = views.next().expect("a texel that there is");
+            let [columns, rows] = view.size;
+            if within < columns * rows {
+                return Self::light(self.texels[view.index([within % columns, within / columns])]);
+            }
+            within -= columns * rows;
+        }
+    }
+
+    /// What a texel's samples stand for.
+    pub fn light(samples: [i16; 4]) -> Rgba {
+        let [red, green, blue, _] = samples.map(|sample| f32::from(sample) / Self::WHITE);
+        Rgba::opaque(red, green, blue)
+    }
+
+    /// The samples of a texel of this light, from black to white.
+    pub fn texel(Rgba([red, green, blue, _]): Rgba) -> [i16; 4] {
+        let [red, green, blue] =
+            [red, green, blue].map(|light| (light * Self::WHITE).round().clamp(0.0, Self::WHITE) as i16);
+        [red, green, blue, 0]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn texels_below_each_other_lie_all_over_a_cache() {
+        // Lines of a set of a cache have one place among these.
+        const PLACES: usize = 64;
+        for width in SHORT..3000 {
+            let pitch = FixedLight::pitch(width);
+            assert!((width..width + 2 * LINE).contains(&pitch), "{width}: {pitch}");
+            let mut places: Vec<usize> = (0..PLACES).map(|row| row * pitch / LINE % PLACES).collect();
+            places.sort_unstable();
+            assert!(places.into_iter().eq(0..PLACES), "{width}: {pitch}");
+        }
+        assert!((0..SHORT).all(|width| FixedLight::pitch(width) == width));
+    }
+
+    #[test]
+    fn texels_are_those_of_the_world_whatever_lies_between() {
+        let sizes = [[130, 3], [5, 4], [256, 2]];
+        let mut light = FixedLight::black(sizes);
+        assert!(light.sizes().eq(sizes) && light.len() == 390 + 20 + 512);
+        for (index, texel) in light.texels_mut().enumerate() {
+            *texel = [index as i16 + 1; 4];
+        }
+        let red = |index: usize| (light.rgba(index).0[0] * FixedLight::WHITE).round() as usize;
+        assert!((0..light.len()).all(|index| red(index) == index + 1));
+        let rows: Vec<usize> = light.views_mut().zip(sizes).map(|(view, [_, rows])| view.len() / rows).collect();
+        assert_eq!(rows, [136, 5, 264]);
+        let [_, narrow, wide] = light.views_mut().collect::<Vec<_>>().try_into().expect("three views");
+        assert_eq!([narrow[0], narrow[19], wide[255], wide[264]].map(|texel| texel[0]), [391, 410, 666, 667]);
+        // Nobody has written between rows.
+        assert!(wide[256..264].iter().all(|texel| *texel == [0; 4]));
+    }
+
+    #[test]
+    #[should_panic(expected = "a texel that there is")]
+    fn there_is_no_texel_after_the_last() {
+        FixedLight::black([[130, 3], [5, 4]]).rgba(410);
+    }
+}

@@ -1,0 +1,282 @@
+//! From 8-bit codes to linear light of 15 bits, and back.
+
+pub(crate) mod light;
+
+use rayon::prelude::*;
+
+use super::codec::quantizer::Quantizer;
+use super::fixed_point::light::FixedLight;
+use super::{Channels, ColourChannel, EncodedImage, Image, Rgba, Samples, Transfer};
+
+/// Texels by code, as numbers.
+type ByCode = [u64; 256];
+
+/// From 8-bit codes to light.
+#[derive(Clone, Debug)]
+pub struct FixedDecoder {
+    /// What a code of each channel is of a texel, nothing in the others: a texel is the sum of three.
+    channels: [ByCode; 3],
+    grey: ByCode,
+}
+
+impl FixedDecoder {
+    /// `None` where 15 bits cannot tell all codes apart, or light goes beyond white.
+    pub fn new(transfer: &Transfer) -> Option<Self> {
+        let light = |code: usize, channel| transfer.decode(code as f64 / 255.0, channel);
+        let quantizer = Quantizer::new(transfer, 255);
+        let comes_back = |channel: ColourChannel| {
+            (0..256).all(|code| {
+                let light = (light(code, channel) * f64::from(FixedLight::WHITE)).round() as f32;
+                (0.0..=FixedLight::WHITE).contains(&light)
+                    && usize::from(quantizer.code(light / FixedLight::WHITE, channel)) == code
+            })
+        };
+        let level = |code, channel| (light(code, channel) * f64::from(FixedLight::WHITE)).round() as i16;
+        let alone = |channel: ColourChannel| {
+            by_code(|code| {
+                let mut texel = [0; 4];
+                texel[channel.index()] = level(code, channel);
+                texel
+            })
+        };
+        // Grey goes by green, where the channels' curves differ.
+        let grey = |code| level(code, ColourChannel::Green);
+        ColourChannel::ALL.into_iter().all(comes_back).then(|| Self {
+            channels: ColourChannel::ALL.map(alone),
+            grey: by_code(|code| [grey(code), grey(code), grey(code), 0]),
+        })
+    }
+
+    /// Whether it can make light of an image: an opaque one of 8 bits.
+    pub fn takes(&self, image: &EncodedImage) -> bool {
+        matches!(image.samples(), Samples::U8(_)) && !image.channels().has_alpha()
+    }
+
+    /// The light of an opaque image of 8 bits; false, changing nothing, if it is none. `into` is a view's of [`FixedLight`].
+    ///
+    /// # Panics
+    /// When the view has not as many columns and rows as the image.
+    pub fn decode(&self, image: &EncodedImage, into: &mut [[i16; 4]]) -> bool {
+        let pitch = FixedLight::pitch(image.width());
+        assert_eq!(into.len(), pitch * image.height(), "one texel for each pixel of the file");
+        let some = image.rows_at_once();
+        let parts = into.par_chunks_mut((some * pitch).max(1)).enumerate();
+        parts.map(|(part, into)| self.decode_rows(image, part * some, into)).all(|is_light| is_light)
+    }
+
+    /// The same of as many rows as `into` is for, from the row `first` on, by the thread that calls it.
+    ///
+    /// # Panics
+    /// When `into` is not for whole rows, or the image has fewer.
+    pub fn decode_rows(&self, image: &EncodedImage, first: usize, into: &mut [[i16; 4]]) -> bool {
+        let Samples::U8(samples) = image.samples() else { return false };
+        let pitch = FixedLight::pitch(image.width()).max(1);
+        assert!(into.len().is_multiple_of(pitch), "whole rows of light");
+        let samples = &samples[image.samples_of_rows(first, into.len() / pitch * image.width())];
+        // What fills up a row is left alone.
+        let into = into.chunks_exact_mut(pitch).map(|row| &mut row[..image.width()]);
+        let [red, green, blue] = &self.channels;
+        let of = |table: &ByCode, code: u8| table[usize::from(code)];
+        match image.channels() {
+            Channels::Grey => fill(into, samples, |&[s]| of(&self.grey, s)),
+            Channels::Rgb => fill(into, samples, |&[r, g, b]| of(red, r) | of(green, g) | of(blue, b)),
+            Channels::GreyAlpha | Channels::Rgba => return false,
+        }
+        true
+    }
+}
+
+fn by_code(texel: impl Fn(usize) -> [i16; 4]) -> ByCode {
+    std::array::from_fn(|code| bytemuck::cast(texel(code)))
+}
+
+fn fill<'a, const N: usize>(
+    rows: impl Iterator<Item = &'a mut [[i16; 4]]>,
+    samples: &[u8],
+    texel: impl Fn(&[u8; N]) -> u64,
+) {
+    let (mut samples, _) = samples.as_chunks::<N>();
+    for row in rows {
+        let (of_row, rest) = samples.split_at(row.len());
+        samples = rest;
+        for (into, sample) in row.iter_mut().zip(of_row) {
+            *into = bytemuck::cast(texel(sample));
+        }
+    }
+}
+
+/// The code of each light; twice as many as there is light, so that any number of 16 bits has one.
+type Codes = [u8; 1 << 16];
+
+/// Steps of light that a weighted sum of texels and weights, all of them rounded, is hardly ever wrong by more than: they may not be
+/// more than one code.
+const ERROR: usize = 4;
+
+/// By how much the last of some codes is more than the first.
+fn rise(codes: &[u8]) -> i16 {
+    i16::from(codes[codes.len() - 1]) - i16::from(codes[0])
+}
+
+/// How much light there is, black and white among it.
+const LIGHT: usize = 1 << 15;
+
+/// From light to 8-bit codes.
+#[derive(Clone, Debug)]
+pub struct FixedCodec {
+    /// The codes of all light there is, once for all channels or for each.
+    codes: Vec<Codes>,
+    is_srgb: bool,
+    background: Rgba,
+}
+
+impl FixedCodec {
+    /// `background` is what lies behind the picture, linear light. `None` where codes are closer than sums of light are right.
+    pub fn new(transfer: &Transfer, background: Rgba) -> Option<Self> {
+        let quantizer = Quantizer::new(transfer, 255);
+        let code = |light: usize, channel| quantizer.code(light as f32 / FixedLight::WHITE, channel) as u8;
+        let channels = transfer.channels();
+        let mut codes = vec![[0; 1 << 16]; channels.len()];
+        for (channel, codes) in channels.iter().zip(&mut codes) {
+            codes[..LIGHT].iter_mut().enumerate().for_each(|(light, into)| *into = code(light, *channel));
+        }
+        let is_fine = |codes: &Codes| codes[..LIGHT].windows(1 + ERROR).all(|some| (0..=1).contains(&rise(some)));
+        let is_srgb = *transfer == Transfer::Srgb;
+        codes.iter().all(is_fine).then_some(Self { codes, is_srgb, background })
+    }
+
+    /// The codes of the background.
+    pub fn background(&self) -> [u8; 3] {
+        self.codes_of(self.background)
+    }
+
+    /// Its light.
+    pub(crate) fn background_light(&self) -> Rgba {
+        self.background
+    }
+
+    /// The codes of all light.
+    #[inline(always)]
+    pub(crate) fn codes(&self) -> FixedCodes<'_> {
+        let last = self.codes.len() - 1;
+        FixedCodes { channels: [&self.codes[0], &self.codes[last / 2], &self.codes[last]], are_srgb: self.is_srgb }
+    }
+
+    /// The codes of a picture, in front of the background.
+    pub fn encode(&self, light: &Image<Rgba>) -> Image<[u8; 3]> {
+        let mut codes = Image::filled(light.width(), light.height(), [0; 3]);
+        let pixels = codes.pixels_mut().par_iter_mut().zip(light.pixels());
+        pixels.for_each(|(codes, light)| *codes = self.codes_of(light.over(self.background)));
+        codes
+    }
+
+    /// The codes of light in floats.
+    pub(crate) fn codes_of(&self, light: Rgba) -> [u8; 3] {
+        let light = light.0.map(|light| ((light * FixedLight::WHITE).clamp(0.0, FixedLight::WHITE) + 0.5) as i32);
+        let [red, green, blue, _] = self.codes().of(light).to_le_bytes();
+        [red, green, blue]
+    }
+}
+
+/// The codes of all light.
+#[derive(Clone, Copy)]
+pub(crate) struct FixedCodes<'a> {
+    /// Of red, green and blue.
+    channels: [&'a Codes; 3],
+    are_srgb: bool,
+}
+
+impl FixedCodes<'_> {
+    /// Whether they are those of sRGB.
+    pub(crate) fn are_srgb(self) -> bool {
+        self.are_srgb
+    }
+
+    /// The codes of some light, red, green and blue from 0 to 32767, in the bytes of a number from the lowest on.
+    #[inline(always)]
+    pub(crate) fn of(self, light: [i32; 4]) -> u32 {
+        let [red, green, blue] = self.channels;
+        let code = |codes: &Codes, light: i32| u32::from(codes[usize::from(light as u16)]);
+        code(red, light[0]) | code(green, light[1]) << 8 | code(blue, light[2]) << 16
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::raster::Depth;
+
+    #[test]
+    fn transfer_functions_are_taken_where_15_bits_are_enough() {
+        for transfer in [Transfer::Srgb, Transfer::Linear, Transfer::Gamma(1.6)] {
+            assert!(FixedDecoder::new(&transfer).is_some(), "{transfer:?}");
+            assert!(FixedCodec::new(&transfer, Rgba::BLACK).is_some(), "{transfer:?}");
+        }
+        // All codes come back, but a sum that is wrong by two steps of light next to black is wrong by two codes.
+        assert!(FixedDecoder::new(&Transfer::Gamma(1.8)).is_some());
+        assert!(FixedCodec::new(&Transfer::Gamma(1.8), Rgba::BLACK).is_none());
+        for transfer in [Transfer::Gamma(2.2), Transfer::Bt1886, Transfer::Pq] {
+            assert!(FixedDecoder::new(&transfer).is_none(), "{transfer:?}");
+            assert!(FixedCodec::new(&transfer, Rgba::BLACK).is_none(), "{transfer:?}");
+        }
+    }
+
+    fn decode(decoder: &FixedDecoder, image: &EncodedImage, light: &mut FixedLight) -> bool {
+        light.views_mut().all(|view| decoder.decode(image, view))
+    }
+
+    #[test]
+    fn every_code_comes_back() {
+        let codes: Vec<u8> = (0..=255).flat_map(|code| [code, 255 - code, code / 2]).collect();
+        let image = EncodedImage::new(256, 1, Channels::Rgb, Depth::Eight, Samples::U8(codes.clone())).unwrap();
+        let mut light = FixedLight::black([[256, 1]]);
+        for transfer in [Transfer::Srgb, Transfer::Linear] {
+            let decoder = FixedDecoder::new(&transfer).expect("a decoder");
+            assert!(decode(&decoder, &image, &mut light));
+            let codec = FixedCodec::new(&transfer, Rgba::BLACK).expect("a codec");
+            let back: Vec<u8> = (0..256).flat_map(|texel| codec.codes_of(light.rgba(texel))).collect();
+            assert_eq!(back, codes);
+        }
+    }
+
+    #[test]
+    fn grey_is_the_light_of_three_equal_codes() {
+        let decoder = FixedDecoder::new(&Transfer::Srgb).expect("a decoder");
+        let light = |channels, codes: Vec<u8>| {
+            let image = EncodedImage::new(256, 1, channels, Depth::Eight, Samples::U8(codes)).unwrap();
+            let mut light = FixedLight::black([[256, 1]]);
+            assert!(decode(&decoder, &image, &mut light));
+            light.samples().to_vec()
+        };
+        let grey = light(Channels::Grey, (0..=255).collect());
+        assert_eq!(grey, light(Channels::Rgb, (0..=255).flat_map(|code| [code; 3]).collect()));
+    }
+
+    #[test]
+    fn rows_of_any_width_become_rows_of_light() {
+        let decoder = FixedDecoder::new(&Transfer::Linear).expect("a decoder");
+        for (width, height) in [(1, 9), (127, 5), (128, 700), (133, 4), (256, 300)] {
+            let codes: Vec<u8> = (0..3 * width * height).map(|sample| (sample % 251) as u8).collect();
+            let image = EncodedImage::new(width, height, Channels::Rgb, Depth::Eight, Samples::U8(codes.clone()));
+            let mut light = FixedLight::black([[width, height]]);
+            assert!(decode(&decoder, &image.expect("an image"), &mut light));
+            let codec = FixedCodec::new(&Transfer::Linear, Rgba::BLACK).expect("a codec");
+            let back = (0..width * height).flat_map(|texel| codec.codes_of(light.rgba(texel)));
+            assert!(back.eq(codes), "{width}x{height}");
+        }
+    }
+
+    #[test]
+    fn pictures_with_alpha_or_of_more_bits_are_not_taken() {
+        let decoder = FixedDecoder::new(&Transfer::Srgb).expect("a decoder");
+        let mut light = FixedLight::black([[1, 1]]);
+        for (channels, depth, samples) in [
+            (Channels::Rgba, Depth::Eight, Samples::U8(vec![9; 4])),
+            (Channels::GreyAlpha, Depth::Eight, Samples::U8(vec![9; 2])),
+            (Channels::Rgb, Depth::Sixteen, Samples::U16(vec![9; 3])),
+        ] {
+            let image = EncodedImage::new(1, 1, channels, depth, samples).unwrap();
+            assert!(!decode(&decoder, &image, &mut light));
+            assert_eq!(light.samples()[..4], [0; 4]);
+        }
+    }
+}

@@ -1,0 +1,321 @@
+//! The texels of a group's small windows, put once into the order in which all of them take theirs.
+//!
+//! Each texel of a patch is in a dozen windows. In the light it lies on a page of its own with those beside it, in each mirror another
+//! one, in this order or the other; here all mirrors' lie beside each other, with those of the next column, as products need them.
+
+use fearless_simd::Simd;
+
+use super::blocks::Blocks;
+use super::texels::Texels;
+use super::weights::{HIGHEST, WIDEST};
+use crate::render::plan::band::Run;
+use crate::render::plan::symmetry::{TOGETHER, exchanged};
+
+/// Columns and rows that there is room for: small windows of a patch are hardly ever farther apart.
+const ROOM: usize = 21;
+
+/// Samples of a pair of texels.
+const PAIR: usize = 8;
+
+/// Texels that are read at once.
+const READ: usize = 4;
+
+/// The pairs that begin in each texel of a rectangle, row by row, those of all mirrors after each other, from left to right in all of
+/// them: two samples of each channel.
+pub(crate) struct PatchTexels {
+    pairs: Box<Pairs>,
+    /// The column and row of the first texel.
+    first: [u32; 2],
+    held: Held,
+}
+
+/// Which small windows of a group are held.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Held {
+    None,
+    All,
+    /// The last one that was asked for: there is no room for all.
+    Last,
+}
+
+/// As many as fit in, where lines of memory begin.
+#[repr(C, align(64))]
+struct Pairs([i16; ROOM * ROOM * TOGETHER * PAIR]);
+
+/// Columns and rows from a texel on.
+#[derive(Clone, Copy)]
+struct Rectangle {
+    first: [u32; 2],
+    size: [usize; 2],
+}
+
+impl PatchTexels {
+    /// Room for them.
+    pub(crate) fn new() -> Self {
+        Self { pairs: Box::new(Pairs([0; ROOM * ROOM * TOGETHER * PAIR])), first: [0; 2], held: Held::None }
+    }
+
+    /// Forgets what is held.
+    #[inline(always)]
+    pub(crate) fn clear(&mut self) {
+        self.held = Held::None;
+    }
+
+    /// Holds a small window that begins here, and with it all others of its group, if there is room.
+    #[inline(always)]
+    pub(crate) fn hold<S: Simd, V: Blocks<S, N>, const N: usize, const R: usize, const TURNED: bool>(
+        &mut self,
+        simd: S,
+        texels: &Texels<i16, N, R>,
+        group: &[Run],
+        window: [u32; 2],
+    ) {
+        let view = exchanged(texels.size(), TURNED);
+        let one = || Rectangle::of_windows(window, window, view);
+        let rectangle = match self.held {
+            Held::All => return,
+            Held::Last => one(),
+            Held::None => {
+                let all = Rectangle::of(group, view);
+                let has_room = all.size.iter().all(|length| *length <= ROOM);
+                self.held = if has_room { Held::All } else { Held::Last };
+                if has_room { all } else { one() }
+            }
+        };
+        self.first = rectangle.first;
+        if TURNED {
+            self.fill_turned::<S, V, N, R>(simd, texels, rectangle);
+        } else {
+            self.fill_upright::<S, V, N, R>(simd, texels, rectangle);
+        }
+    }
+
+    /// The pairs of a window that is held: of each row those that begin in every column.
+    #[inline(always)]
+    pub(crate) fn window<const N: usize, const WIDTH: usize, const HEIGHT: usize>(
+        &self,
+        first: [u32; 2],
+    ) -> Window<'_, N, WIDTH, HEIGHT> {
+        let [column, row] = [0, 1].map(|axis| first[axis].wrapping_sub(self.first[axis]) as usize);
+        assert!(column + WIDTH <= ROOM && row + HEIGHT <= ROOM, "a window within the room");
+        let pair = N * PAIR;
+        Window { pairs: &self.pairs.0[(row * ROOM + column) * pair..][..((HEIGHT - 1) * ROOM + WIDTH - 1) * pair] }
+    }
+
+    #[inline(always)]
+    fn fill_upright<S: Simd, V: Blocks<S, N>, const N: usize, const R: usize>(
+        &mut self,
+        simd: S,
+        texels: &Texels<i16, N, R>,
+        Rectangle { first, size: [columns, rows] }: Rectangle,
+    ) {
+        let pair = N * PAIR;
+        for column in (0..columns - 1).step_by(READ - 1) {
+            let column = column.min(columns - READ);
+            let mut into = &mut self.pairs.0[column * pair..];
+            for texels in texels.strips::<READ, 16>([first[0] + column as u32, first[1]], rows) {
+                // Written out: vectors that an iterator hands on would lie in memory.
+                let [first, second, third] = V::three_pairs::<R>(simd, texels);
+                first.store_slice(&mut into[..pair]);
+                second.store_slice(&mut into[pair..][..pair]);
+                third.store_slice(&mut into[2 * pair..][..pair]);
+                into = into.get_mut(ROOM * pair..).unwrap_or_default();
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn fill_turned<S: Simd, V: Blocks<S, N>, const N: usize, const R: usize>(
+        &mut self,
+        simd: S,
+        texels: &Texels<i16, N, R>,
+        Rectangle { first, size: [columns, rows] }: Rectangle,
+    ) {
+        let pair = N * PAIR;
+        for row in (0..rows).step_by(READ) {
+            let row = row.min(rows - READ);
+            let mut into = &mut self.pairs.0[row * ROOM * pair..];
+            let mut strips = texels.strips::<READ, 16>([first[1] + row as u32, first[0]], columns);
+            let Some(mut left) = strips.next() else { return };
+            for right in strips {
+                let [first, second, third, fourth] = V::four_upright::<R>(simd, [left, right]);
+                first.store_slice(&mut into[..pair]);
+                second.store_slice(&mut into[ROOM * pair..][..pair]);
+                third.store_slice(&mut into[2 * ROOM * pair..][..pair]);
+                fourth.store_slice(&mut into[3 * ROOM * pair..][..pair]);
+                left = right;
+                into = into.get_mut(pair..).unwrap_or_default();
+            }
+        }
+    }
+}
+
+impl Rectangle {
+    /// What all windows of a group lie in, in a view of this size, as if all of them were small.
+    #[inline(always)]
+    fn of(group: &[Run], view: [usize; 2]) -> Self {
+        let (mut first, mut last) = ([u32::MAX; 2], [0; 2]);
+        for run in group {
+            let (corner, farthest) = run.corners();
+            for axis in 0..2 {
+                first[axis] = first[axis].min(corner[axis]);
+                last[axis] = last[axis].max(farthest[axis]);
+            }
+        }
+        Self::of_windows(first, last, view)
+    }
+
+    /// The same of windows that begin from one texel to another.
+    #[inline(always)]
+    fn of_windows(first: [u32; 2], last: [u32; 2], view: [usize; 2]) -> Self {
+        let largest = [2 * WIDEST, HIGHEST];
+        let end = |axis: usize| view[axis].min(last[axis] as usize + largest[axis]);
+        Self { first, size: [0, 1].map(|axis| end(axis) - first[axis] as usize) }
+    }
+}
+
+/// The pairs of a window of so many columns and rows, in N mirrors.
+#[derive(Clone, Copy)]
+pub(crate) struct Window<'a, const N: usize, const WIDTH: usize, const HEIGHT: usize> {
+    pairs: &'a [i16],
+}
+
+impl<const N: usize, const WIDTH: usize, const HEIGHT: usize> Window<'_, N, WIDTH, HEIGHT> {
+    /// The pair that begins in a column of a row, in all of them.
+    #[inline(always)]
+    pub(crate) fn pair<S: Simd, V: Blocks<S, N>>(&self, simd: S, row: usize, column: usize) -> V {
+        V::from_slice(simd, &self.pairs[(row * ROOM + column) * N * PAIR..][..N * PAIR])
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use fearless_simd::{dispatch, i16x8, i16x16, i16x32, prelude::*};
+
+    use super::*;
+    use crate::filter::simd_levels::levels;
+    use crate::render::plan::symmetry::Walk;
+
+    /// A view of so many columns and rows, of which every texel says where it is.
+    const SIZE: [usize; 2] = [40, 30];
+
+    fn samples() -> Vec<i16> {
+        (0..SIZE[0] * SIZE[1] * 4).map(|sample| sample as i16).collect()
+    }
+
+    /// The first texel of each mirror, and steps from there: as it lies, upside down, and both from right to left.
+    fn ways() -> [Walk; 4] {
+        let [columns, rows] = SIZE.map(|length| length as u32);
+        let walk = |first, is_reversed, down: i32| Walk { first, is_turned: false, is_reversed, down };
+        let (last, down) = (columns * (rows - 1), columns as i32);
+        [
+            walk(0, false, down),
+            walk(last, false, -down),
+            walk(columns - 1, true, down),
+            walk(last + columns - 1, true, -down),
+        ]
+    }
+
+    /// The sample of a channel in a column and row that a mirror shows; with columns for rows, if they are `TURNED`.
+    fn sample<const TURNED: bool>(walk: Walk, place: [usize; 2], channel: usize) -> i16 {
+        let walk = Walk { is_turned: TURNED, ..walk };
+        (4 * walk.texel(place) as usize + channel) as i16
+    }
+
+    /// Groups of runs whose windows begin in these columns and rows, the last of them as that of a run's last lane.
+    fn group(corners: &[[u32; 2]]) -> Vec<Run> {
+        let run = |corner: &[u32; 2]| Run::of_lanes(1, 0).from(*corner);
+        let mut runs: Vec<Run> = corners.iter().map(run).collect();
+        if let [.., first, last] = corners
+            && first[0] <= last[0]
+            && first[1] <= last[1]
+        {
+            let offset = [0, 1].map(|axis| (last[axis] - first[axis]) as u8);
+            runs.truncate(corners.len() - 2);
+            runs.push(run(first).with_last(offset));
+        }
+        runs
+    }
+
+    /// Windows as large as small ones are at most, which are held as this says.
+    fn assert_held<const TURNED: bool>(corners: &[[u32; 2]], held: Held) {
+        let (samples, ways, group) = (samples(), ways(), group(corners));
+        let all = Texels::<i16, 4, 2>::new(&samples, ways, SIZE);
+        let two = Texels::<i16, 2, 1>::new(&samples, [ways[0], ways[2]], SIZE);
+        let one = Texels::<i16, 1, 1>::new(&samples, [ways[3]], SIZE);
+        for level in levels() {
+            let [mut patch, mut patch_of_two, mut patch_of_one] = std::array::from_fn(|_| PatchTexels::new());
+            for &corner in corners {
+                dispatch!(level, simd => {
+                    patch.hold::<_, i16x32<_>, 4, 2, TURNED>(simd, &all, &group, corner);
+                    patch_of_two.hold::<_, i16x16<_>, 2, 1, TURNED>(simd, &two, &group, corner);
+                    patch_of_one.hold::<_, i16x8<_>, 1, 1, TURNED>(simd, &one, &group, corner);
+                });
+                assert_eq!(patch.held, held, "{corners:?}");
+                let size = [0, 1].map(|axis| exchanged(SIZE, TURNED)[axis] - corner[axis] as usize);
+                let (columns, rows) = (size[0].min(2 * WIDEST), size[1].min(HIGHEST));
+                for (row, column) in (0..rows).flat_map(|row| (0..columns - 1).map(move |column| (row, column))) {
+                    let pairs: [i16; 32] = dispatch!(level, simd => {
+                        let pairs: i16x32<_> = patch.window::<4, 6, 5>(corner).pair(simd, row, column);
+                        pairs.to_array()
+                    });
+                    let place = |at: usize| [corner[0] as usize + column + at % 2, corner[1] as usize + row];
+                    let expected = |walk, at: usize| sample::<TURNED>(walk, place(at), at % 8 / 2);
+                    assert_eq!(
+                        pairs,
+                        std::array::from_fn(|at| expected(ways[at / 8], at)),
+                        "{corner:?} {row} {column}"
+                    );
+                    let pairs: [i16; 16] = dispatch!(level, simd => {
+                        let pairs: i16x16<_> = patch_of_two.window::<2, 6, 5>(corner).pair(simd, row, column);
+                        pairs.to_array()
+                    });
+                    assert_eq!(
+                        pairs,
+                        std::array::from_fn(|at| expected(ways[at / 8 * 2], at)),
+                        "{corner:?} {row} {column}"
+                    );
+                    let pairs: [i16; 8] = dispatch!(level, simd => {
+                        let pairs: i16x8<_> = patch_of_one.window::<1, 6, 5>(corner).pair(simd, row, column);
+                        pairs.to_array()
+                    });
+                    assert_eq!(pairs, std::array::from_fn(|at| expected(ways[3], at)), "{corner:?} {row} {column}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn pairs_of_windows_near_each_other_are_held_together() {
+        assert_held::<false>(&[[3, 5], [7, 5], [8, 14]], Held::All);
+        // Columns and rows are exchanged there.
+        assert_held::<true>(&[[3, 5], [7, 5], [8, 14]], Held::All);
+    }
+
+    #[test]
+    fn pairs_of_windows_at_the_edge_are_held() {
+        assert_held::<false>(&[[36, 26], [30, 20]], Held::All);
+        assert_held::<true>(&[[26, 36], [20, 30]], Held::All);
+    }
+
+    #[test]
+    fn pairs_of_windows_far_from_each_other_are_held_one_by_one() {
+        assert_held::<false>(&[[0, 0], [36, 26], [1, 3]], Held::Last);
+        assert_held::<true>(&[[0, 0], [26, 36], [1, 3]], Held::Last);
+    }
+
+    #[test]
+    fn pairs_of_windows_that_just_have_room_are_held() {
+        for (last, held) in [([15, 16], Held::All), ([16, 16], Held::Last), ([15, 17], Held::Last)] {
+            assert_held::<false>(&[[0, 0], last], held);
+            assert_held::<true>(&[[0, 0], last], held);
+        }
+    }
+
+    #[test]
+    fn no_window_is_found_beyond_the_room() {
+        let patch = PatchTexels::new();
+        let is_found = |corner| std::panic::catch_unwind(|| _ = patch.window::<4, 6, 5>(corner)).is_ok();
+        assert!(is_found([15, 16]) && !is_found([16, 16]) && !is_found([15, 17]) && !is_found([u32::MAX, 0]));
+    }
+}

@@ -1,0 +1,47 @@
+//! Large windows of integers in mirrors that show columns as rows: pairs of texels beside each other lie there above each other.
+
+use fearless_simd::{Simd, i16x8, prelude::*};
+
+use super::blocks::Blocks;
+use super::texels::Texels;
+use super::weights::Shape;
+use super::window::{Large, Sums};
+
+impl Large<'_> {
+    /// The same of a window of any size.
+    #[inline(always)]
+    pub(crate) fn add_turned<S: Simd, V: Blocks<S, N>, const N: usize, const R: usize>(
+        &self,
+        simd: S,
+        texels: &Texels<i16, N, R>,
+        first: [u32; 2],
+        sums: &mut Sums<S, V, N>,
+    ) {
+        let Shape { pairs, height, .. } = self.shape;
+        for pair in 0..pairs {
+            let mut rows: [[&[i16]; 2]; N] = [[&[]; 2]; N];
+            for (image, rows) in rows.iter_mut().enumerate() {
+                for (below, samples) in rows.iter_mut().enumerate() {
+                    *samples = texels.row(image, [first[1], first[0] + (2 * pair + below) as u32], height);
+                }
+            }
+            for row in 0..height {
+                let mut blocks = [i16x8::splat(simd, 0); N];
+                for (image, block) in blocks.iter_mut().enumerate() {
+                    let column = if image < N - R { row } else { height - 1 - row };
+                    let [above, below] = rows[image].map(|samples| first_half(simd, &samples[4 * column..]));
+                    *block = above.zip_low(below);
+                }
+                self.add_pair(simd, sums, [row, pair], V::join(blocks));
+            }
+        }
+    }
+}
+
+/// The samples of a texel, and as many zeros.
+#[inline(always)]
+fn first_half<S: Simd>(simd: S, samples: &[i16]) -> i16x8<S> {
+    let mut all = [0; 8];
+    all[..4].copy_from_slice(&samples[..4]);
+    i16x8::load_array(simd, all)
+}

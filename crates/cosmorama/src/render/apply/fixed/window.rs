@@ -1,0 +1,235 @@
+//! Windows of integers, in mirrors that go through them one way or the other, pair by pair.
+
+use std::ops::Range;
+
+use fearless_simd::{Simd, i16x8, prelude::*};
+
+use super::blocks::{self, Blocks};
+use super::patch_texels::{self, PatchTexels};
+use super::texels::Texels;
+use super::weights::{Header, PAIRS_UNDER, ROWS_UNDER, Shape, mark_words};
+
+/// A pixel's window.
+#[derive(Clone, Copy)]
+pub(crate) struct Window<'a, S: Simd> {
+    pub(crate) simd: S,
+    /// The texels of its group's small windows, this among them if it is one.
+    pub(crate) patch: &'a PatchTexels,
+    /// Where it begins.
+    pub(crate) first: [u32; 2],
+    /// Its header and its weights, and more.
+    pub(crate) numbers: &'a [u32],
+    /// Whether its light is to lie within that of the texels under the pixel.
+    pub(crate) is_bounded: bool,
+}
+
+impl<S: Simd> Window<'_, S> {
+    /// The light of a window of one of the sizes of [`Shape::SMALL`], and how many numbers tell of it. Written out: loops would stay
+    /// loops.
+    #[inline(always)]
+    pub(crate) fn small<
+        V: Blocks<S, N>,
+        const N: usize,
+        const WIDTH: usize,
+        const HEIGHT: usize,
+        const UNDER: usize,
+    >(
+        self,
+    ) -> (V::Widened, usize) {
+        let Self { simd, patch, first, numbers, is_bounded } = self;
+        let mut sums = Sums::<S, V, N>::new(simd, Header(numbers[0]).bits(), is_bounded);
+        debug_assert_eq!(
+            Shape::SMALL.get(Header(numbers[0]).shape() as usize),
+            Some(&Shape { pairs: WIDTH / 2, height: HEIGHT, under: UNDER }),
+            "the table's order is that of the match"
+        );
+        let length = 1 + WIDTH / 2 * HEIGHT;
+        let (texels, marks) = (patch.window::<N, WIDTH, HEIGHT>(first), V::pair(simd, numbers[0]));
+        SmallWindow { simd, texels, weights: &numbers[1..length], marks }.add::<UNDER>(&mut sums);
+        (sums.average(Header(numbers[0]).bits()), length)
+    }
+
+    /// The same of any size, whose rows `under` may hold texels under the pixel, given the view's; in the last R mirrors from right to
+    /// left, in all of them, if these are `TURNED`, with columns for rows.
+    #[inline(always)]
+    pub(crate) fn large<V: Blocks<S, N>, const N: usize, const R: usize, const TURNED: bool>(
+        self,
+        texels: &Texels<i16, N, R>,
+        shape: Shape,
+        under: Range<usize>,
+    ) -> (V::Widened, usize) {
+        let Self { simd, first, numbers, is_bounded, .. } = self;
+        let mut sums = Sums::<S, V, N>::new(simd, Header(numbers[0]).bits(), is_bounded);
+        let words = mark_words(shape.pairs);
+        let (marks, weights) = numbers[1..].split_at(under.len() * words);
+        let large = Large { shape, under, words, marks, weights: &weights[..shape.pairs * shape.height] };
+        if TURNED {
+            large.add_turned(simd, texels, first, &mut sums);
+        } else {
+            large.add(simd, texels, first, &mut sums);
+        }
+        (sums.average(Header(numbers[0]).bits()), 1 + marks.len() + shape.pairs * shape.height)
+    }
+}
+
+/// What is known of a window of any size.
+pub(crate) struct Large<'a> {
+    pub(crate) shape: Shape,
+    under: Range<usize>,
+    /// How many numbers tell of a row which texels lie under the pixel.
+    words: usize,
+    marks: &'a [u32],
+    weights: &'a [u32],
+}
+
+impl Large<'_> {
+    #[inline(always)]
+    fn add<S: Simd, V: Blocks<S, N>, const N: usize, const R: usize>(
+        &self,
+        simd: S,
+        texels: &Texels<i16, N, R>,
+        first: [u32; 2],
+        sums: &mut Sums<S, V, N>,
+    ) {
+        let Shape { pairs, height, .. } = self.shape;
+        let order = V::Bytes::from_slice(simd, blocks::order::<N, R>());
+        for row in 0..height {
+            let mut rows: [&[i16]; N] = [&[]; N];
+            for (image, samples) in rows.iter_mut().enumerate() {
+                *samples = texels.row(image, [first[0], first[1] + row as u32], 2 * pairs);
+            }
+            for pair in 0..pairs {
+                let mut blocks = [i16x8::splat(simd, 0); N];
+                for image in 0..N {
+                    let pair = if image < N - R { pair } else { pairs - 1 - pair };
+                    blocks[image] = i16x8::from_slice(simd, &rows[image][8 * pair..][..8]);
+                }
+                self.add_pair(simd, sums, [row, pair], V::join(blocks).swizzle_dyn_within_blocks(order));
+            }
+        }
+    }
+
+    /// Adds a pair of texels of a row.
+    #[inline(always)]
+    pub(crate) fn add_pair<S: Simd, V: Blocks<S, N>, const N: usize>(
+        &self,
+        simd: S,
+        sums: &mut Sums<S, V, N>,
+        [row, pair]: [usize; 2],
+        texels: V,
+    ) {
+        sums.add(texels, V::pair(simd, self.weights[row * self.shape.pairs + pair]), 0);
+        if self.under.contains(&row) {
+            let marks = V::pair(simd, self.marks[(row - self.under.start) * self.words + pair / 16]);
+            sums.bound(simd, texels, marks << (15 - pair as u32 % 16));
+        }
+    }
+}
+
+/// A window of a small size.
+#[derive(Clone, Copy)]
+struct SmallWindow<'a, S: Simd, V: Blocks<S, N>, const N: usize, const WIDTH: usize, const HEIGHT: usize> {
+    simd: S,
+    texels: patch_texels::Window<'a, N, WIDTH, HEIGHT>,
+    weights: &'a [u32],
+    marks: V,
+}
+
+impl<S: Simd, V: Blocks<S, N>, const N: usize, const WIDTH: usize, const HEIGHT: usize>
+    SmallWindow<'_, S, V, N, WIDTH, HEIGHT>
+{
+    #[inline(always)]
+    fn add<const UNDER: usize>(&self, sums: &mut Sums<S, V, N>) {
+        // From the last pair to the first: the one whose mark is next to the sign.
+        let mut marks = self.marks << (16 - ROWS_UNDER * PAIRS_UNDER) as u32;
+        if HEIGHT == 5 {
+            self.add_row::<UNDER>(sums, &mut marks, 4);
+        }
+        self.add_row::<UNDER>(sums, &mut marks, 3);
+        self.add_row::<UNDER>(sums, &mut marks, 2);
+        self.add_row::<UNDER>(sums, &mut marks, 1);
+        self.add_row::<UNDER>(sums, &mut marks, 0);
+    }
+
+    #[inline(always)]
+    fn add_row<const UNDER: usize>(&self, sums: &mut Sums<S, V, N>, marks: &mut V, row: usize) {
+        if WIDTH == 6 {
+            self.add_pair::<UNDER>(sums, marks, row, 2);
+        }
+        self.add_pair::<UNDER>(sums, marks, row, 1);
+        self.add_pair::<UNDER>(sums, marks, row, 0);
+    }
+
+    #[inline(always)]
+    fn add_pair<const UNDER: usize>(&self, sums: &mut Sums<S, V, N>, marks: &mut V, row: usize, pair: usize) {
+        let texels: V = self.texels.pair(self.simd, row, 2 * pair);
+        let at = WIDTH / 2 * row + pair;
+        sums.add(texels, V::pair(self.simd, self.weights[at]), at);
+        if (UNDER..UNDER + ROWS_UNDER).contains(&row) && pair < PAIRS_UNDER {
+            sums.bound(self.simd, texels, *marks);
+            // The next one's mark becomes the sign: a sum takes half the time of a shift.
+            *marks = *marks + *marks;
+        }
+    }
+}
+
+/// Sums that are made beside each other where a product and a sum are one instruction, so that each waits for others than the last.
+/// Elsewhere sums alone are fast, and registers few.
+const CHAINS: usize = 2;
+
+/// What adds up over a window.
+#[derive(Clone, Copy)]
+pub(crate) struct Sums<S: Simd, V: Blocks<S, N>, const N: usize> {
+    sums: [V::Widened; CHAINS],
+    /// The largest samples under the pixel, and the smallest.
+    greatest: V,
+    least: V::Unsigned,
+}
+
+impl<S: Simd, V: Blocks<S, N>, const N: usize> Sums<S, V, N> {
+    /// Of no texels, given by how many bits weights are scaled; whether the sum is to lie within what lies under the pixel.
+    #[inline(always)]
+    pub(crate) fn new(simd: S, bits: u32, is_bounded: bool) -> Self {
+        let half = V::Widened::splat(simd, 1 << (bits - 1));
+        // Without bounds no texel changes these any more.
+        let [least, greatest] = if is_bounded { [i16::MAX, 0] } else { [0, i16::MAX] };
+        Self {
+            sums: [half, V::Widened::splat(simd, 0)],
+            greatest: V::splat(simd, greatest),
+            least: V::Unsigned::splat(simd, least.cast_unsigned()),
+        }
+    }
+
+    /// Adds pairs of texels, the ones after the others to another chain.
+    #[inline(always)]
+    pub(crate) fn add(&mut self, texels: V, weights: V, chain: usize) {
+        let sum = &mut self.sums[if V::are_products_added(texels.token()) { chain % CHAINS } else { 0 }];
+        *sum = V::add_products(*sum, texels, weights);
+    }
+
+    /// Notes those of a pair that lie under the pixel: whose mark, a sign, is not set.
+    #[inline(always)]
+    pub(crate) fn bound(&mut self, simd: S, texels: V, marks: V) {
+        // With the sign of those that do not, they are less than all others, and more if it is taken for a bit.
+        let samples = texels | marks & V::splat(simd, i16::MIN);
+        self.greatest = self.greatest.max(samples);
+        self.least = self.least.min(samples.bitcast::<V::Unsigned>());
+    }
+
+    /// The sum as light, within its bounds.
+    #[inline(always)]
+    pub(crate) fn average(self, bits: u32) -> V::Widened {
+        let [a, b] = self.sums;
+        let least: [V::Widened; 2] = halves(self.least);
+        let greatest: [V::Widened; 2] = halves(self.greatest);
+        let ([fewest, few], [most, many]) = (least, greatest);
+        ((a + b) >> bits).max(fewest.min(few)).min(most.max(many))
+    }
+}
+
+/// The samples of each pair, none of which is negative.
+#[inline(always)]
+fn halves<S: Simd, V: SimdInt<S>, W: SimdInt<S, Element = i32, ByteVector = V::ByteVector>>(samples: V) -> [W; 2] {
+    let pairs: W = samples.bitcast();
+    [pairs & i32::from(i16::MAX), pairs >> 16]
+}

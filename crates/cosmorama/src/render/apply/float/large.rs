@@ -1,0 +1,332 @@
+//! Windows of floats of any size, in mirrors that go through them one way or the other.
+
+use std::ops::Range;
+
+use fearless_simd::{Simd, f32x4, f32x16, mask32x16, prelude::*};
+
+use super::shape::{BLOCK, Shape};
+use super::window::{BLOCK_SAMPLES, Marks, SAMPLES, Sum, spread, way};
+use crate::render::apply::fixed::texels::{Rows, Texels};
+
+/// What is known of one.
+pub(crate) struct Large<'a> {
+    pub(crate) shape: Shape,
+    /// The rows that may hold texels under the pixel.
+    pub(crate) under: Range<usize>,
+    /// How many numbers tell of such a row which texels do.
+    pub(crate) words: usize,
+    pub(crate) marks: &'a [u32],
+    pub(crate) weights: &'a [u32],
+}
+
+/// A row of one in N mirrors, in the last R of them from right to left.
+#[derive(Clone, Copy)]
+struct Row<'a, const N: usize, const R: usize> {
+    /// Its texels as they lie in memory, first those that are in blocks.
+    blocks: [&'a [[f32; BLOCK_SAMPLES]]; N],
+    others: [&'a [[f32; SAMPLES]]; N],
+    weights: &'a [[u32; BLOCK]],
+    other_weights: &'a [u32],
+}
+
+impl<'a, const N: usize, const R: usize> Row<'a, N, R> {
+    /// Takes the next row of each mirror.
+    #[inline(always)]
+    fn next(rows: &mut [Rows<'a, f32>; N], weights: &'a [u32], other_weights: &'a [u32]) -> Self {
+        let weights = weights.as_chunks().0;
+        let (mut blocks, mut others): ([&[[f32; BLOCK_SAMPLES]]; N], [&[f32]; N]) = ([&[]; N], [&[]; N]);
+        for image in 0..N {
+            let samples = rows[image].next().unwrap_or_default();
+            (blocks[image], others[image]) = if way::<N, R>(image) == 0 {
+                samples.as_chunks()
+            } else {
+                let (others, blocks) = samples.as_rchunks();
+                (blocks, others)
+            };
+        }
+        // Checked here once, and not at each texel.
+        let mut row = Self { blocks, others: [&[]; N], weights, other_weights };
+        for image in 0..N {
+            row.blocks[image] = &blocks[image][..weights.len()];
+            row.others[image] = &others[image].as_chunks().0[..other_weights.len()];
+        }
+        row
+    }
+
+    #[inline(always)]
+    fn block<S: Simd>(&self, simd: S, image: usize, index: usize) -> f32x16<S> {
+        let blocks = self.blocks[image];
+        let index = if way::<N, R>(image) == 0 { index } else { blocks.len() - 1 - index };
+        f32x16::load_array_ref(simd, &blocks[index])
+    }
+
+    #[inline(always)]
+    fn other<S: Simd>(&self, simd: S, image: usize, index: usize) -> f32x4<S> {
+        let others = self.others[image];
+        let index = if way::<N, R>(image) == 0 { index } else { others.len() - 1 - index };
+        f32x4::load_array_ref(simd, &others[index])
+    }
+
+    /// Adds it, if none of its texels lies under the pixel.
+    #[inline(always)]
+    fn add<S: Simd>(&self, simd: S, sums: &mut [Sum<S>; N]) {
+        for (index, weights) in self.weights.iter().enumerate() {
+            let weights = spread(simd, weights);
+            for (image, sum) in sums.iter_mut().enumerate() {
+                sum.blocks += self.block(simd, image, index) * weights[way::<N, R>(image)];
+            }
+        }
+        for (index, weight) in self.other_weights.iter().enumerate() {
+            for (image, sum) in sums.iter_mut().enumerate() {
+                sum.last += self.other(simd, image, index) * f32::from_bits(*weight);
+            }
+        }
+    }
+
+    /// Adds it, given which of its texels do.
+    #[inline(always)]
+    fn add_bounding<S: Simd>(&self, simd: S, sums: &mut [Sum<S>; N], marks: &[u32]) {
+        for (index, weights) in self.weights.iter().enumerate() {
+            let weights = spread(simd, weights);
+            let is_beside = Marks::new(simd, marks[BLOCK * index / 32] >> (BLOCK * index % 32)).beside(0);
+            for (image, sum) in sums.iter_mut().enumerate() {
+                let (texels, way) = (self.block(simd, image, index), way::<N, R>(image));
+                sum.blocks += texels * weights[way];
+                sum.bound(texels, is_beside[way]);
+            }
+        }
+        for (column, (index, weight)) in (BLOCK * self.weights.len()..).zip(self.other_weights.iter().enumerate()) {
+            let is_under = marks[column / 32] >> (column % 32) & 1 == 1;
+            for (image, sum) in sums.iter_mut().enumerate() {
+                let texel = self.other(simd, image, index);
+                sum.last += texel * f32::from_bits(*weight);
+                if is_under {
+                    // Blocks of the same texel.
+                    sum.bound(f32x16::block_splat(texel), mask32x16::splat(simd, false));
+                }
+            }
+        }
+    }
+}
+
+impl Large<'_> {
+    /// Sums over it, in mirrors that go through its rows as rows.
+    #[inline(always)]
+    pub(crate) fn upright<S: Simd, const N: usize, const R: usize>(
+        &self,
+        simd: S,
+        texels: &Texels<f32, N, R>,
+        first: [u32; 2],
+    ) -> [Sum<S>; N] {
+        let Shape { width, height } = self.shape;
+        let whole = self.shape.in_blocks();
+        let (mut weights, mut other_weights) = self.weights.split_at(whole * height);
+        let (mut marks, mut sums) = (self.marks, [Sum::zero(simd); N]);
+        let mut rows = texels.rows(first, [width, height]);
+        for row in 0..height {
+            let (these, others);
+            (these, weights) = weights.split_at(whole);
+            (others, other_weights) = other_weights.split_at(width - whole);
+            let next = Row::<N, R>::next(&mut rows, these, others);
+            if self.under.contains(&row) {
+                let these;
+                (these, marks) = marks.split_at(self.words);
+                next.add_bounding(simd, &mut sums, these);
+            } else {
+                next.add(simd, &mut sums);
+            }
+        }
+        sums
+    }
+
+    /// Sums over it, in mirrors that go through them with columns for rows.
+    #[inline(always)]
+    pub(crate) fn turned<S: Simd, const N: usize, const R: usize>(
+        &self,
+        simd: S,
+        texels: &Texels<f32, N, R>,
+        first: [u32; 2],
+    ) -> [Sum<S>; N] {
+        let Shape { width, height } = self.shape;
+        let mut sums = [Sum::zero(simd); N];
+        let whole = height / BLOCK * BLOCK;
+        for column in 0..width {
+            let mut columns: [&[f32]; N] = [&[]; N];
+            for (image, samples) in columns.iter_mut().enumerate() {
+                *samples = texels.row(image, [first[1], first[0] + column as u32], height);
+            }
+            for row in (0..whole).step_by(BLOCK) {
+                let weights = spread(simd, &std::array::from_fn(|at| self.weights[self.shape.index(row + at, column)]));
+                let marks = (0..BLOCK).fold(0, |marks, at| marks | self.mark(row + at, column) << at);
+                let is_beside = Marks::new(simd, marks).beside(0);
+                for (image, (sum, samples)) in sums.iter_mut().zip(columns).enumerate() {
+                    let way = way::<N, R>(image);
+                    let first = if way == 0 { row } else { height - BLOCK - row };
+                    let texels = f32x16::from_slice(simd, &samples[SAMPLES * first..][..BLOCK_SAMPLES]);
+                    sum.blocks += texels * weights[way];
+                    sum.bound(texels, is_beside[way]);
+                }
+            }
+            for row in whole..height {
+                let weight = f32::from_bits(self.weights[self.shape.index(row, column)]);
+                let is_beside = mask32x16::splat(simd, self.mark(row, column) == 0);
+                for (image, (sum, samples)) in sums.iter_mut().zip(columns).enumerate() {
+                    let at = if way::<N, R>(image) == 0 { row } else { height - 1 - row };
+                    let texel = f32x4::from_slice(simd, &samples[SAMPLES * at..][..SAMPLES]);
+                    sum.last += texel * weight;
+                    // Blocks of the same texel.
+                    sum.bound(f32x16::block_splat(texel), is_beside);
+                }
+            }
+        }
+        sums
+    }
+
+    /// 1 if a texel lies under the pixel.
+    #[inline(always)]
+    fn mark(&self, row: usize, column: usize) -> u32 {
+        if !self.under.contains(&row) {
+            return 0;
+        }
+        self.marks[(row - self.under.start) * self.words + column / 32] >> (column % 32) & 1
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use fearless_simd::{Level, dispatch};
+
+    use super::*;
+    use crate::render::apply::float::shape::mark_words;
+    use crate::render::plan::symmetry::Walk;
+
+    /// Columns and rows of a square view, so that columns may be its rows.
+    const SIDE: usize = 40;
+
+    /// As they lie, upside down, and both from right to left.
+    const WALKS: [Walk; 4] = [
+        Walk { first: 0, is_turned: false, is_reversed: false, down: SIDE as i32 },
+        Walk { first: (SIDE * (SIDE - 1)) as u32, is_turned: false, is_reversed: false, down: -(SIDE as i32) },
+        Walk { first: SIDE as u32 - 1, is_turned: false, is_reversed: true, down: SIDE as i32 },
+        Walk { first: (SIDE * SIDE) as u32 - 1, is_turned: false, is_reversed: true, down: -(SIDE as i32) },
+    ];
+
+    /// Some number between 0 and 1.
+    fn noise(at: usize) -> f32 {
+        (at.wrapping_mul(2_654_435_761) >> 7 & 1023) as f32 / 1023.0
+    }
+
+    /// A window of noise, and its first texel.
+    struct Case {
+        shape: Shape,
+        first: [u32; 2],
+        under: Range<usize>,
+        /// Added to each weight, so that sums are beyond one bound or the other.
+        bias: f32,
+    }
+
+    impl Case {
+        fn weight(&self, row: usize, column: usize) -> f32 {
+            noise(31 * row + column) - 0.5 + self.bias
+        }
+
+        fn is_under(&self, row: usize, column: usize) -> bool {
+            // One at least, and the last one of a row.
+            let is_last = column + 1 == self.shape.width;
+            self.under.contains(&row) && (noise(77 * row + 3 * column) < 0.3 || is_last)
+        }
+
+        /// The light of a texel of the window in a mirror.
+        fn texel(&self, samples: &[f32], walk: &Walk, is_turned: bool, [row, column]: [usize; 2]) -> [f32; SAMPLES] {
+            let (across, down) = if is_turned { (row, column) } else { (column, row) };
+            let [first_across, first_down] = if is_turned { [self.first[1], self.first[0]] } else { self.first };
+            let across = (first_across as usize + across) as i32 * if walk.is_reversed { -1 } else { 1 };
+            let at = walk.first as i32 + across + walk.down * (first_down as usize + down) as i32;
+            samples.as_chunks().0[at as usize]
+        }
+
+        /// What a plain loop makes of it in a mirror: the sum, as it is and within its bounds.
+        fn expected(&self, samples: &[f32], walk: &Walk, is_turned: bool) -> [[f32; SAMPLES]; 2] {
+            let mut sum = [0f64; SAMPLES];
+            let (mut least, mut greatest) = ([f32::INFINITY; SAMPLES], [f32::NEG_INFINITY; SAMPLES]);
+            for row in 0..self.shape.height {
+                for column in 0..self.shape.width {
+                    let texel = self.texel(samples, walk, is_turned, [row, column]);
+                    for sample in 0..SAMPLES {
+                        sum[sample] += f64::from(texel[sample]) * f64::from(self.weight(row, column));
+                        if self.is_under(row, column) {
+                            least[sample] = least[sample].min(texel[sample]);
+                            greatest[sample] = greatest[sample].max(texel[sample]);
+                        }
+                    }
+                }
+            }
+            let sum = sum.map(|sum| sum as f32);
+            [sum, std::array::from_fn(|sample| sum[sample].max(least[sample]).min(greatest[sample]))]
+        }
+
+        /// That, by all four mirrors at once.
+        fn assert(&self, is_turned: bool) {
+            let samples: Vec<f32> = (0..SAMPLES * SIDE * SIDE).map(noise).collect();
+            let texels = Texels::<f32, 4, 2>::new(&samples, WALKS, [SIDE, SIDE]);
+            let Shape { width, height } = self.shape;
+            let words = mark_words(width);
+            let mut marks = vec![0; words * self.under.len()];
+            let mut weights = vec![0; self.shape.area()];
+            for row in 0..height {
+                for column in 0..width {
+                    weights[self.shape.index(row, column)] = self.weight(row, column).to_bits();
+                    if self.is_under(row, column) {
+                        marks[(row - self.under.start) * words + column / 32] |= 1 << (column % 32);
+                    }
+                }
+            }
+            let under = self.under.clone();
+            let large = Large { shape: self.shape, under, words, marks: &marks, weights: &weights };
+            let found = averages(&large, &texels, self.first, is_turned);
+            for (found, walk) in found.iter().zip(&WALKS) {
+                let expected = self.expected(&samples, walk, is_turned);
+                for (found, expected) in found.as_flattened().iter().zip(expected.as_flattened()) {
+                    let is_near = (found - expected).abs() < 1e-4 * (1.0 + expected.abs());
+                    assert!(is_near, "{found} is not {expected}: {:?} {:?} {is_turned}", self.shape, self.under);
+                }
+            }
+        }
+    }
+
+    /// The sums in each mirror, as they are and within their bounds.
+    fn averages(
+        large: &Large,
+        texels: &Texels<f32, 4, 2>,
+        first: [u32; 2],
+        is_turned: bool,
+    ) -> [[[f32; SAMPLES]; 2]; 4] {
+        let level = Level::new();
+        dispatch!(level, simd => {
+            let sums = if is_turned { large.turned(simd, texels, first) } else { large.upright(simd, texels, first) };
+            sums.map(|sum| [sum.average(false), sum.average(true)].map(|light| {
+                let mut samples = [0.0; SAMPLES];
+                light.store_slice(&mut samples);
+                samples
+            }))
+        })
+    }
+
+    /// Blocks and what is beside them, words of marks and what is beside those; rows under the pixel at both ends, and none at them.
+    #[test]
+    fn sums_are_those_of_a_plain_loop() {
+        for [width, height] in [[1, 1], [3, 9], [4, 4], [8, 3], [9, 5], [10, 8], [31, 6], [32, 7], [33, 5], [39, 33]] {
+            let shape = Shape { width, height };
+            let middle = height / 3;
+            for under in [0..1, middle..height.min(middle + 2), height - 1..height, 0..height] {
+                for bias in [0.0, -1.0, 1.0] {
+                    let first = [(SIDE - width) as u32, (SIDE - height) as u32 / 2];
+                    let case = Case { shape, first, under: under.clone(), bias };
+                    case.assert(false);
+                    // Exchanged, the same numbers are a column and a row of the view.
+                    case.assert(true);
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,293 @@
+//! Windows of floats, in mirrors that go through them one way or the other.
+//!
+//! Four texels of a row are weighed together, as they lie in memory; what their four columns add up to is added at the end. The order
+//! in which sums are made is the same whatever the instructions.
+//!
+//! The bounds of what lies under a pixel are found where nobody asks for anti-ringing, too: to leave them out there would take all
+//! this code once more, for each size, way and number of mirrors. What is rendered without takes as long as with it.
+
+use std::ops::Range;
+
+use fearless_simd::{Simd, f32x4, f32x16, mask32x16, prelude::*, u8x64, u32x4, u32x16};
+
+use super::large::Large;
+use super::shape::{BLOCK, Header, ROWS_UNDER, Shape, Small, mark_words};
+use super::turned::TurnedWindow;
+use crate::render::apply::fixed::texels::{self, Texels};
+
+/// Samples of a texel, and of a block of them.
+pub(crate) const SAMPLES: usize = 4;
+pub(crate) const BLOCK_SAMPLES: usize = BLOCK * SAMPLES;
+
+/// A pixel's window in N mirrors, in the last R of them from right to left; if they are `TURNED`, its rows are columns there.
+#[derive(Clone, Copy)]
+pub(crate) struct Window<'a, S, const N: usize, const R: usize, const TURNED: bool> {
+    pub(crate) simd: S,
+    /// Those of the view.
+    pub(crate) texels: &'a Texels<'a, f32, N, R>,
+    /// Where it begins.
+    pub(crate) first: [u32; 2],
+}
+
+impl<'a, S: Simd, const N: usize, const R: usize, const TURNED: bool> Window<'a, S, N, R, TURNED> {
+    /// Sums over a window of one of the sizes of [`Small::ALL`], and how many numbers tell of it. Written out: loops would stay
+    /// loops.
+    #[inline(always)]
+    pub(crate) fn small<const WIDTH: usize, const HEIGHT: usize, const UNDER: usize>(
+        self,
+        header: Header,
+        numbers: &[u32],
+    ) -> ([Sum<S>; N], usize) {
+        debug_assert_eq!(
+            Small::ALL.get(header.index() as usize),
+            Some(&Small { shape: Shape { width: WIDTH, height: HEIGHT }, under: UNDER }),
+            "the table's order is that of the match"
+        );
+        let (marks, weights) = (Marks::new(self.simd, header.marks()), &numbers[1..][..WIDTH * HEIGHT]);
+        let length = 1 + WIDTH * HEIGHT;
+        if TURNED {
+            let texels = self.texels.windows([self.first[1], self.first[0]]);
+            let window = TurnedWindow::<S, N, R, WIDTH, HEIGHT> { simd: self.simd, texels, weights, marks };
+            return (window.sums::<UNDER>(), length);
+        }
+        let texels = self.texels.windows::<WIDTH, HEIGHT>(self.first);
+        let row = SmallRow::<S, N, R, WIDTH, HEIGHT> { simd: self.simd, texels };
+        let mut sums = row.first::<UNDER>(weights, marks);
+        const { assert!(ROWS_UNDER == 3 && UNDER <= 1 && (HEIGHT == 4 || HEIGHT == 5)) };
+        if UNDER == 0 {
+            row.add_bounding(&mut sums, weights, 1, marks.beside(1));
+        }
+        row.add_bounding(&mut sums, weights, 2, marks.beside(2 - UNDER));
+        if UNDER == 1 {
+            row.add_bounding(&mut sums, weights, 3, marks.beside(2));
+        } else {
+            row.add(&mut sums, weights, 3);
+        }
+        if HEIGHT == 5 {
+            row.add(&mut sums, weights, 4);
+        }
+        if WIDTH > BLOCK {
+            row.add_last_column(&mut sums, &weights[BLOCK * HEIGHT..]);
+        }
+        (sums, length)
+    }
+
+    /// The same of any size, whose rows from `under` on may hold texels under the pixel.
+    #[inline(always)]
+    pub(crate) fn large(self, shape: Shape, under: Range<usize>, numbers: &[u32]) -> ([Sum<S>; N], usize) {
+        let words = mark_words(shape.width);
+        let (marks, weights) = numbers[1..].split_at(under.len() * words);
+        let large = Large { shape, under, words, marks, weights: &weights[..shape.area()] };
+        let length = 1 + marks.len() + shape.area();
+        let Self { simd, texels, first } = self;
+        if TURNED { (large.turned(simd, texels, first), length) } else { (large.upright(simd, texels, first), length) }
+    }
+}
+
+/// The rows of a window of a small size.
+#[derive(Clone, Copy)]
+struct SmallRow<'a, S, const N: usize, const R: usize, const WIDTH: usize, const HEIGHT: usize> {
+    simd: S,
+    texels: [texels::Window<'a, f32, WIDTH, HEIGHT>; N],
+}
+
+impl<S: Simd, const N: usize, const R: usize, const WIDTH: usize, const HEIGHT: usize>
+    SmallRow<'_, S, N, R, WIDTH, HEIGHT>
+{
+    /// Where its first four columns lie in memory, and the one after them: as texels run, and the other way.
+    const BLOCK_AT: [usize; 2] = [0, WIDTH - BLOCK];
+    const LAST_AT: [usize; 2] = [WIDTH - 1, 0];
+
+    /// Sums over the first row and, if it is not that, the first of those whose texels may lie under the pixel.
+    #[inline(always)]
+    fn first<const UNDER: usize>(&self, weights: &[u32], marks: Marks<S>) -> [Sum<S>; N] {
+        let mut sums = [Sum::zero(self.simd); N];
+        let (first, is_beside) = (self.weights(weights, 0), marks.beside(0));
+        for (image, sum) in sums.iter_mut().enumerate() {
+            let way = way::<N, R>(image);
+            sum.blocks = self.block(image, 0) * first[way];
+            let texels = self.block(image, UNDER);
+            sum.least = is_beside[way].select(sum.least, texels);
+            sum.greatest = is_beside[way].select(sum.greatest, texels);
+        }
+        if UNDER > 0 {
+            let weights = self.weights(weights, UNDER);
+            for (image, sum) in sums.iter_mut().enumerate() {
+                sum.blocks += self.block(image, UNDER) * weights[way::<N, R>(image)];
+            }
+        }
+        sums
+    }
+
+    /// Adds a block of a row none of whose texels lies under the pixel.
+    #[inline(always)]
+    fn add(&self, sums: &mut [Sum<S>; N], weights: &[u32], row: usize) {
+        let weights = self.weights(weights, row);
+        for (image, sum) in sums.iter_mut().enumerate() {
+            sum.blocks += self.block(image, row) * weights[way::<N, R>(image)];
+        }
+    }
+
+    /// Adds one some of whose texels may.
+    #[inline(always)]
+    fn add_bounding(&self, sums: &mut [Sum<S>; N], weights: &[u32], row: usize, is_beside: [mask32x16<S>; 2]) {
+        let weights = self.weights(weights, row);
+        for (image, sum) in sums.iter_mut().enumerate() {
+            let texels = self.block(image, row);
+            let way = way::<N, R>(image);
+            sum.blocks += texels * weights[way];
+            sum.bound(texels, is_beside[way]);
+        }
+    }
+
+    #[inline(always)]
+    fn weights(&self, weights: &[u32], row: usize) -> [f32x16<S>; 2] {
+        spread(self.simd, &weights.as_chunks().0[row])
+    }
+
+    #[inline(always)]
+    fn block(&self, image: usize, row: usize) -> f32x16<S> {
+        f32x16::load_array_ref(
+            self.simd,
+            self.texels[image].samples::<BLOCK_SAMPLES>(row, Self::BLOCK_AT[way::<N, R>(image)]),
+        )
+    }
+
+    /// Adds the column after the blocks.
+    #[inline(always)]
+    fn add_last_column(&self, sums: &mut [Sum<S>; N], weights: &[u32]) {
+        self.add_last(sums, weights, 0);
+        self.add_last(sums, weights, 1);
+        self.add_last(sums, weights, 2);
+        self.add_last(sums, weights, 3);
+        if HEIGHT == 5 {
+            self.add_last(sums, weights, 4);
+        }
+    }
+
+    #[inline(always)]
+    fn add_last(&self, sums: &mut [Sum<S>; N], weights: &[u32], row: usize) {
+        let weight = f32x4::splat(self.simd, f32::from_bits(weights[row]));
+        for (image, sum) in sums.iter_mut().enumerate() {
+            let texel = self.texels[image].samples::<SAMPLES>(row, Self::LAST_AT[way::<N, R>(image)]);
+            sum.last += f32x4::load_array_ref(self.simd, texel) * weight;
+        }
+    }
+}
+
+/// How a mirror, of N of which the last R go from right to left, goes through windows: 1 is that.
+#[inline(always)]
+pub(crate) const fn way<const N: usize, const R: usize>(image: usize) -> usize {
+    if image < N - R { 0 } else { 1 }
+}
+
+/// Four weights, each for all samples of a texel, for each way.
+#[inline(always)]
+pub(crate) fn spread<S: Simd>(simd: S, weights: &[u32; BLOCK]) -> [f32x16<S>; 2] {
+    let weights: f32x4<S> = u32x4::load_array_ref(simd, weights).bitcast();
+    let all = f32x16::block_splat(weights);
+    [
+        all.swizzle_dyn_within_blocks(u8x64::load_array_ref(simd, &ORDER[0])),
+        all.swizzle_dyn_within_blocks(u8x64::load_array_ref(simd, &ORDER[1])),
+    ]
+}
+
+/// From four numbers in each block to one of them: the first in the first block, or the last.
+static ORDER: [[u8; 64]; 2] = {
+    let mut order = [[0; 64]; 2];
+    let mut at = 0;
+    while at < 64 {
+        let within = (at % 4) as u8;
+        order[0][at] = 4 * (at / 16) as u8 + within;
+        order[1][at] = 4 * (3 - at / 16) as u8 + within;
+        at += 1;
+    }
+    order
+};
+
+/// Which texels of some rows of a block lie under a pixel, a bit for each.
+#[derive(Clone, Copy)]
+pub(crate) struct Marks<S: Simd>(u32x16<S>);
+
+impl<S: Simd> Marks<S> {
+    #[inline(always)]
+    pub(crate) fn new(simd: S, marks: u32) -> Self {
+        Self(u32x16::splat(simd, marks))
+    }
+
+    /// The samples of those texels of a row that do not, for each way.
+    #[inline(always)]
+    pub(crate) fn beside(self, row: usize) -> [mask32x16<S>; 2] {
+        [self.without(&MARK.0[0][row]), self.without(&MARK.0[1][row])]
+    }
+
+    /// The samples whose bits are not among the marks.
+    #[inline(always)]
+    pub(crate) fn without(self, bits: &[u32; BLOCK_SAMPLES]) -> mask32x16<S> {
+        (self.0 & u32x16::load_array_ref(self.0.token(), bits)).simd_eq(0)
+    }
+}
+
+/// In whole lines of memory.
+#[repr(align(64))]
+pub(crate) struct Lines<T>(pub(crate) T);
+
+/// Of each sample of a block its texel's bit among those of some rows.
+static MARK: Lines<[[[u32; BLOCK_SAMPLES]; ROWS_UNDER]; 2]> = {
+    let mut mark = [[[0; BLOCK_SAMPLES]; ROWS_UNDER]; 2];
+    let mut at = 0;
+    while at < BLOCK_SAMPLES * ROWS_UNDER {
+        let (row, sample) = (at / BLOCK_SAMPLES, at % BLOCK_SAMPLES);
+        let texel = sample / SAMPLES;
+        mark[0][row][sample] = 1 << (BLOCK * row + texel);
+        mark[1][row][sample] = 1 << (BLOCK * row + BLOCK - 1 - texel);
+        at += 1;
+    }
+    Lines(mark)
+};
+
+/// What adds up over a window in a mirror, and the bounds of what lies under the pixel, column by column of the blocks.
+#[derive(Clone, Copy)]
+pub(crate) struct Sum<S: Simd> {
+    pub(crate) blocks: f32x16<S>,
+    /// Over what is in no block.
+    pub(crate) last: f32x4<S>,
+    least: f32x16<S>,
+    greatest: f32x16<S>,
+}
+
+impl<S: Simd> Sum<S> {
+    #[inline(always)]
+    pub(crate) fn zero(simd: S) -> Self {
+        Self {
+            blocks: f32x16::splat(simd, 0.0),
+            last: f32x4::splat(simd, 0.0),
+            least: f32x16::splat(simd, f32::INFINITY),
+            greatest: f32x16::splat(simd, f32::NEG_INFINITY),
+        }
+    }
+
+    /// Notes texels, but for those beside the pixel.
+    #[inline(always)]
+    pub(crate) fn bound(&mut self, texels: f32x16<S>, is_beside: mask32x16<S>) {
+        self.least = is_beside.select(self.least, self.least.min(texels));
+        self.greatest = is_beside.select(self.greatest, self.greatest.max(texels));
+    }
+
+    /// The sum; within what lies under the pixel, if that is asked for.
+    #[inline(always)]
+    pub(crate) fn average(&self, is_bounded: bool) -> f32x4<S> {
+        let (a, b) = self.blocks.split();
+        let (a, b) = (a + b).split();
+        let sum = a + b + self.last;
+        if !is_bounded {
+            return sum;
+        }
+        let (a, b) = self.least.split();
+        let (a, b) = a.min(b).split();
+        let least = a.min(b);
+        let (a, b) = self.greatest.split();
+        let (a, b) = a.max(b).split();
+        sum.max(least).min(a.max(b))
+    }
+}

@@ -1,0 +1,343 @@
+//! The other door behind which indices are not checked each time: bands write to one picture, each to pixels of its own.
+#![allow(unsafe_code)]
+
+use std::marker::PhantomData;
+use std::ops::Range;
+
+use bytemuck::NoUninit;
+
+use crate::render::plan::symmetry::{MOST_IMAGES, MirrorImage, Mirrors};
+
+/// The pixels of a picture that one band makes, in all mirrors: its own rows and those that mirror it from below; with mirrors along
+/// the diagonals a frame as wide as it is high, within which lie those of the next bands.
+pub(crate) struct PicturePart<'a, P> {
+    pixels: *mut P,
+    /// Columns of the band, and how many rows.
+    columns: Range<usize>,
+    rows: usize,
+    images: [Shown; MOST_IMAGES],
+    /// Whether pixels are written past the caches, and whether some were since the last fence.
+    is_streamed: bool,
+    is_unfenced: bool,
+    picture: PhantomData<&'a mut [P]>,
+}
+
+// SAFETY: it is an exclusive borrow of some pixels, which no other part has.
+unsafe impl<P: Send> Send for PicturePart<'_, P> {}
+
+/// Bytes from which on a picture leaves the caches before anyone reads it: then what it overwrites need not be read into them either.
+/// Tests look at small ones.
+const STREAMED: usize = if cfg!(test) { 1 << 14 } else { 1 << 25 };
+
+/// Where a mirror shows pixels of a band.
+#[derive(Clone, Copy, Debug, Default)]
+struct Shown {
+    is_turned: bool,
+    /// Where in the picture the pixel of the first column and row of the band's rows is.
+    first: isize,
+    /// Pixels of the picture from one column to the next, and from one row to the next.
+    steps: [isize; 2],
+}
+
+impl<'a, P: Copy> PicturePart<'a, P> {
+    /// Cuts a picture, `width` pixels wide, into what bands of `rows` rows make, from the top one on.
+    ///
+    /// # Panics
+    /// If it is not of the size that the mirrors make.
+    pub(crate) fn all(pixels: &'a mut [P], width: usize, rows: usize, mirrors: &Mirrors) -> Vec<Self> {
+        if pixels.is_empty() {
+            return Vec::new();
+        }
+        let height = pixels.len() / width;
+        let is_halved = |axis: usize| mirrors.images.iter().any(|image| image.is_turned || image.flips[axis]);
+        let all = |axis: usize, length: usize| if is_halved(axis) { 2 * length } else { length };
+        let is_whole = all(0, mirrors.columns) == width && all(1, mirrors.rows) == height;
+        assert!(is_whole && pixels.len() == width * height, "a picture as large as the mirrors make it");
+        let may_turn = width == height && mirrors.has_diagonals();
+        let are_known = mirrors.images.iter().all(|image| may_turn || !image.is_turned);
+        assert!(
+            are_known && mirrors.images.len() <= MOST_IMAGES,
+            "columns are rows in squares with all their diagonals"
+        );
+        let is_streamed = size_of_val(pixels) >= STREAMED && can_stream(pixels);
+        let pixels = pixels.as_mut_ptr();
+        let part = |index: usize| {
+            let first = index * rows;
+            let mut images = [Shown::default(); MOST_IMAGES];
+            for (shown, image) in images.iter_mut().zip(&mirrors.images) {
+                *shown = Shown::new(image, first, [width, height]);
+            }
+            let (columns, rows) = (mirrors.first_column(first)..mirrors.columns, rows.min(mirrors.rows - first));
+            Self { pixels, columns, rows, images, is_streamed, is_unfenced: false, picture: PhantomData }
+        };
+        (0..mirrors.rows.div_ceil(rows)).map(part).collect()
+    }
+
+    /// How many rows the band has.
+    pub(crate) fn rows(&self) -> usize {
+        self.rows
+    }
+
+    /// The columns of the band.
+    pub(crate) fn columns(&self) -> Range<usize> {
+        self.columns.clone()
+    }
+
+    /// So many pixels beside each other in the picture, as a mirror shows them, of which this column and row of the band is the first
+    /// or, from right to left, the last one. They are columns of the band; where columns are rows, rows.
+    ///
+    /// # Panics
+    /// If they are not all in the band, or there are not so many mirrors.
+    #[inline(always)]
+    pub(crate) fn beside(&mut self, image: usize, pixel: [usize; 2], count: usize) -> &mut [P] {
+        self.fence();
+        let size = if self.images[image].is_turned { [1, count] } else { [count, 1] };
+        let first = self.place(image, pixel, size).first;
+        // SAFETY: `place` made sure that these are pixels of the band, beside each other. Nobody else has the picture meanwhile, and what is
+        // borrowed from this part is given back before more is.
+        unsafe { std::slice::from_raw_parts_mut(first, count) }
+    }
+
+    /// Where a mirror shows so many columns and rows of the band, from this pixel on.
+    ///
+    /// # Panics
+    /// If they are not all in the band, or there are not so many mirrors.
+    #[inline(always)]
+    fn place(&self, image: usize, [column, row]: [usize; 2], [columns, rows]: [usize; 2]) -> Place<P> {
+        let Shown { is_turned, first, steps: [across, down] } = self.images[image];
+        let (along, next) = if is_turned { (down, across) } else { (across, down) };
+        let (length, lines) = if is_turned { (rows, columns) } else { (columns, rows) };
+        // No sum that may begin anew at zero.
+        let is_within = self.columns.contains(&column)
+            && columns <= self.columns.end - column
+            && row < self.rows
+            && rows <= self.rows - row;
+        assert!(is_within && along != 0 && length > 0, "pixels of the band");
+        let first = first + across * column as isize + down * row as isize;
+        let first = if along < 0 { first - (length as isize - 1) } else { first };
+        // A pixel of the band is one of `Mirrors`, which any of its mirrors shows somewhere in the picture: `all` found that to be as large
+        // as they make it. No other part has it. Without diagonals, bands are rows of the picture or of its upper half, and mirrors show
+        // those as themselves or as far from the bottom. With them, its columns and rows are halves of a square, in which each mirror shows a
+        // pixel as far from the nearest edge as min(column, row); the columns of a band begin with the number of its first row, so that this
+        // is one of the band's rows.
+        Place { first: self.pixels.wrapping_offset(first), next, length, lines }
+    }
+}
+
+/// Where a mirror shows pixels of a band: some lines of the picture, all of them pixels of the band.
+struct Place<P> {
+    /// The leftmost pixel of the first line.
+    first: *mut P,
+    /// Pixels from one line to the next.
+    next: isize,
+    /// Pixels of a line.
+    length: usize,
+    lines: usize,
+}
+
+/// Pixels of a band in lines of the picture, which are written from left to right.
+pub(crate) struct Lines<'a, P> {
+    place: Place<P>,
+    is_streamed: bool,
+    picture: PhantomData<&'a mut [P]>,
+}
+
+impl<P: NoUninit> PicturePart<'_, P> {
+    /// What a mirror shows of so many columns and rows from this pixel on, to be written to: rows are lines, or columns where they are
+    /// rows.
+    ///
+    /// # Panics
+    /// If they are not all in the band, or there are not so many mirrors.
+    #[inline(always)]
+    pub(crate) fn lines(&mut self, image: usize, pixel: [usize; 2], size: [usize; 2]) -> Lines<'_, P> {
+        let (place, is_streamed) = (self.place(image, pixel, size), self.is_streamed);
+        self.is_unfenced |= is_streamed;
+        Lines { place, is_streamed, picture: PhantomData }
+    }
+}
+
+impl<P: NoUninit> Lines<'_, P> {
+    /// Writes all pixels of a line.
+    ///
+    /// # Panics
+    /// If there is no such line, or it has not as many.
+    #[inline(always)]
+    pub(crate) fn write<const LENGTH: usize>(&mut self, line: usize, pixels: &[P; LENGTH]) {
+        let Place { first, next, length, lines } = self.place;
+        assert!(line < lines && LENGTH == length, "a line of the picture");
+        let first = first.wrapping_offset(next * line as isize);
+        // SAFETY: `place` made sure that these are pixels of the band, beside each other. Nobody else has the picture meanwhile.
+        let into = unsafe { std::slice::from_raw_parts_mut(first, LENGTH) };
+        if self.is_streamed { stream(into, pixels) } else { into.copy_from_slice(pixels) }
+    }
+}
+
+impl<P> PicturePart<'_, P> {
+    /// Lets what was written past the caches be seen by whoever looks at it from now on.
+    #[inline(always)]
+    fn fence(&mut self) {
+        #[cfg(target_arch = "x86_64")]
+        if std::mem::take(&mut self.is_unfenced) {
+            // SAFETY: all processors of this kind have the instruction.
+            unsafe { std::arch::x86_64::_mm_sfence() }
+        }
+    }
+}
+
+impl<P> Drop for PicturePart<'_, P> {
+    fn drop(&mut self) {
+        self.fence();
+    }
+}
+
+/// Bytes that are written past the caches by one instruction.
+const BLOCK: usize = 16;
+
+/// Whether pixels can be written past the caches, one by one.
+fn can_stream<P>(pixels: &[P]) -> bool {
+    cfg!(target_arch = "x86_64") && size_of::<P>() == BLOCK && pixels.as_ptr().addr().is_multiple_of(BLOCK)
+}
+
+/// Copies as many pixels past the caches.
+///
+/// # Panics
+/// If they cannot be, or they are not as many.
+#[inline(always)]
+fn stream<P: NoUninit>(into: &mut [P], pixels: &[P]) {
+    assert!(can_stream(into) && into.len() == pixels.len(), "pixels that can be streamed");
+    #[cfg(target_arch = "x86_64")]
+    for (into, pixel) in into.iter_mut().zip(pixels) {
+        use std::arch::x86_64::{_mm_loadu_si128, _mm_stream_si128};
+        // SAFETY: a pixel has sixteen bytes, all of them known, and each begins at a multiple of sixteen, as the first one does.
+        unsafe { _mm_stream_si128(std::ptr::from_mut(into).cast(), _mm_loadu_si128(std::ptr::from_ref(pixel).cast())) }
+    }
+}
+
+impl Shown {
+    /// Where a mirror shows a band that begins in this row.
+    fn new(image: &MirrorImage, top: usize, [width, height]: [usize; 2]) -> Self {
+        // In the picture, from left to right and from top to bottom: the pixel that the first one is seen as, and which way others follow.
+        let [column, row] = [0, 1].map(|axis| if image.flips[axis] { [width, height][axis] as isize - 1 } else { 0 });
+        let [right, below] = [0, 1].map(|axis| if image.flips[axis] { -1 } else { 1 });
+        let (width, top) = (width as isize, top as isize);
+        let steps = if image.is_turned { [below * width, right] } else { [right, below * width] };
+        Self { is_turned: image.is_turned, first: row * width + column + steps[1] * top, steps }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::raster::RowLayout;
+
+    /// Rows of a band.
+    const ROWS: usize = 4;
+
+    /// So many of the mirrors that there may be, of pictures so wide and high.
+    fn mirrors(size: [usize; 2], count: usize) -> Mirrors {
+        let layout = RowLayout::of([[4, 4]], |width| width);
+        let flips = [[false, false], [true, false], [false, true], [true, true]];
+        let image = |at: usize| {
+            let mut image = MirrorImage::itself(&layout);
+            (image.is_turned, image.flips) = (at >= 4, flips[at % 4]);
+            image
+        };
+        let length = |axis: usize| if count > 1 << axis { size[axis] / 2 } else { size[axis] };
+        Mirrors::new([length(0), length(1)], (0..count).map(image).collect())
+    }
+
+    #[test]
+    fn each_pixel_is_in_the_part_of_one_band() {
+        for (size, count) in [
+            ([10, 7], 1),
+            ([10, 7], 2),
+            ([6, 14], 4),
+            ([26, 26], 8),
+            ([8, 8], 8),
+            ([2, 2], 8),
+            ([0, 0], 1),
+            ([0, 5], 1),
+        ] {
+            let mirrors = mirrors(size, count);
+            // For each pixel by how many bands it is made, and in which one.
+            let mut picture = vec![(0, 0); size[0] * size[1]];
+            let parts = PicturePart::all(&mut picture, size[0], ROWS, &mirrors);
+            assert_eq!(parts.len(), if size.contains(&0) { 0 } else { mirrors.rows.div_ceil(ROWS) });
+            for (band, mut part) in parts.into_iter().enumerate() {
+                for row in 0..part.rows() {
+                    for pixel in part.columns().map(|column| [column, row]) {
+                        for image in 0..count {
+                            let [(made, by)] = part.beside(image, pixel, 1) else { unreachable!("one pixel") };
+                            // Along a diagonal the same ones are made twice, by the same band.
+                            assert!(*made == 0 || *by == band, "{size:?} {count}: {pixel:?} of {band} and {by}");
+                            (*made, *by) = (*made + 1, band);
+                        }
+                    }
+                }
+            }
+            assert!(picture.iter().all(|(made, _)| *made > 0), "{size:?} {count}: {picture:?}");
+            assert!(count == 8 || picture.iter().all(|(made, _)| *made == 1), "{size:?} {count}: {picture:?}");
+        }
+    }
+
+    #[test]
+    fn pixels_beside_each_other_are_those_that_follow_in_the_picture() {
+        let mirrors = mirrors([24, 24], 8);
+        let mut picture: Vec<usize> = (0..24 * 24).collect();
+        let mut parts = PicturePart::all(&mut picture, 24, ROWS, &mirrors);
+        let seen = |part: &mut PicturePart<usize>, image: usize| part.beside(image, [5, 1], 3).to_vec();
+        let row = |column: usize, row: usize| vec![24 * row + column, 24 * row + column + 1, 24 * row + column + 2];
+        // Of the second band, whose first row is the fifth: columns 5 to 7, and rows 5 to 7 of column 5.
+        let expected = [[5, 5], [16, 5], [5, 18], [16, 18], [5, 5], [16, 5], [5, 18], [16, 18]];
+        for (image, [column, at]) in expected.into_iter().enumerate() {
+            assert_eq!(seen(&mut parts[1], image), row(column, at), "{image}");
+        }
+    }
+
+    #[test]
+    #[cfg(target_arch = "x86_64")]
+    fn pixels_are_written_past_the_caches_as_they_would_be_into_them() {
+        for (side, is_streamed) in [(24, false), (40, true)] {
+            let mirrors = mirrors([side, side], 8);
+            let mut picture = vec![0u128; side * side];
+            {
+                let mut parts = PicturePart::all(&mut picture, side, ROWS, &mirrors);
+                assert!(parts.iter().all(|part| part.is_streamed == is_streamed), "{side}");
+                parts[1].lines(3, [5, 1], [3, 1]).write(0, &[1, 2, u128::MAX]);
+                parts[1].lines(4, [5, 1], [2, 3]).write(1, &[4, 5, 6]);
+            }
+            let (flipped, turned) = (side * (side - 6) + side - 8, side * 6 + 5);
+            assert_eq!((&picture[flipped..][..3], &picture[turned..][..3]), (&[1, 2, u128::MAX][..], &[4, 5, 6][..]));
+            assert_eq!(picture.iter().filter(|pixel| **pixel != 0).count(), 6);
+        }
+        let bytes = [0u128; 3];
+        let shifted: &[[u8; 16]] = bytemuck::cast_slice(&bytemuck::cast_slice::<u128, u8>(&bytes)[1..33]);
+        assert!(can_stream(&bytes) && !can_stream(shifted) && !can_stream(&[[0u8; 3]; 16]));
+    }
+
+    #[test]
+    fn no_pixel_is_given_that_another_band_makes() {
+        let mirrors = mirrors([24, 24], 8);
+        let mut picture = vec![0; 24 * 24];
+        let mut parts = PicturePart::all(&mut picture, 24, ROWS, &mirrors);
+        let mut is_given = |image: usize, pixel: [usize; 2], count: usize| {
+            let given = std::panic::AssertUnwindSafe(|| parts[1].beside(image, pixel, count).len());
+            std::panic::catch_unwind(given).is_ok_and(|given| given == count)
+        };
+        assert!(is_given(0, [4, 0], 8) && is_given(3, [11, 3], 1) && is_given(4, [11, 0], 4));
+        for (image, pixel, count) in [(0, [3, 0], 1), (0, [4, 4], 1), (1, [5, 0], 8), (4, [4, 1], 4), (8, [4, 0], 1)] {
+            assert!(!is_given(image, pixel, count), "{count} from {pixel:?} in {image}");
+        }
+        assert!(
+            !is_given(0, [usize::MAX, 0], 1) && !is_given(0, [4, 0], usize::MAX) && !is_given(5, [4, usize::MAX], 1)
+        );
+        let are_parts = |width: usize, height: usize, mirrors: &Mirrors| {
+            std::panic::catch_unwind(|| PicturePart::all(&mut vec![0; width * height], width, ROWS, mirrors).len())
+                .is_ok()
+        };
+        assert!(are_parts(24, 24, &mirrors) && !are_parts(24, 23, &mirrors) && !are_parts(23, 24, &mirrors));
+        // Columns are rows in squares alone, and with all that the diagonals make of them.
+        assert!(!are_parts(24, 20, &super::tests::mirrors([24, 20], 8)));
+        assert!(!are_parts(24, 24, &super::tests::mirrors([24, 24], 5)));
+    }
+}

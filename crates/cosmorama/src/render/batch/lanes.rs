@@ -1,0 +1,41 @@
+use fearless_simd::{Simd, f32x8, f32x16, prelude::*};
+
+/// A number for each pixel of as many rows of a patch as are worked on together.
+pub(crate) trait Lanes<S: Simd>: SimdFloat<S, Element = f32> {
+    const ROWS: usize;
+
+    /// From the numbers of two rows, as many of which as there are here.
+    fn of_rows(rows: [f32x8<S>; 2]) -> Self;
+
+    /// Those of one row.
+    fn row(self, row: usize) -> f32x8<S>;
+}
+
+impl<S: Simd> Lanes<S> for f32x8<S> {
+    const ROWS: usize = 1;
+
+    #[inline(always)]
+    fn of_rows([first, _]: [Self; 2]) -> Self {
+        first
+    }
+
+    #[inline(always)]
+    fn row(self, _: usize) -> Self {
+        self
+    }
+}
+
+impl<S: Simd> Lanes<S> for f32x16<S> {
+    const ROWS: usize = 2;
+
+    #[inline(always)]
+    fn of_rows([first, second]: [f32x8<S>; 2]) -> Self {
+        first.combine(second)
+    }
+
+    #[inline(always)]
+    fn row(self, row: usize) -> f32x8<S> {
+        let (first, second) = self.split();
+        if row == 0 { first } else { second }
+    }
+}

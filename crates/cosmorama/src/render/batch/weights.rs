@@ -1,0 +1,180 @@
+//! The weights of many pixels at once: a lane for each, a window of texels around each.
+
+use std::ops::Range;
+
+use fearless_simd::{Simd, dispatch, f32x8, f32x16, prelude::*};
+
+use super::centring::{Correction, Moments, RowSums};
+use super::cubic::Cubics;
+use super::ellipse::Ellipses;
+use super::lanes::Lanes;
+use super::window::{Level, ROOM, Size, Windows};
+use crate::filter::Kernel;
+use crate::filter::kernel::UNDER;
+use crate::render::scan::patch::Patch;
+use crate::render::scan::tile::SIDE;
+
+/// Rows of a patch that are weighed together, at most.
+const ROWS: usize = 2;
+
+/// Weighs texels by one kernel.
+pub(crate) struct Weigher {
+    level: Level,
+    cubics: Cubics,
+    kernel: Kernel,
+    /// What is weighed together.
+    windows: [Windows; ROWS],
+    /// Of each texel, before they are centred: weights, and by how much a correction may change them.
+    loose: Vec<f32>,
+}
+
+impl Weigher {
+    /// `None` for a kernel that lanes cannot weigh: one not cubic, or with a floor under one, so that there could be no texel under
+    /// a pixel to clamp to.
+    pub(crate) fn new(kernel: &Kernel, level: Level) -> Option<Self> {
+        let cubics = Cubics::of(kernel).filter(|_| kernel.floor >= 1.0)?;
+        let windows = std::array::from_fn(|_| Windows::new(level));
+        Some(Self { level, cubics, kernel: *kernel, windows, loose: vec![0.0; 2 * ROWS * SIDE * ROOM] })
+    }
+
+    /// The windows of a patch.
+    pub(crate) fn rows<'w>(&'w mut self, patch: &'w Patch<'w>) -> PatchWindows<'w> {
+        PatchWindows { weigher: self, patch, weighed: 0..0 }
+    }
+
+    /// Those of a row of a patch, and perhaps of the next; how many they are.
+    fn weigh(&mut self, patch: &Patch, row: usize) -> usize {
+        let level = self.level;
+        dispatch!(level, simd => self.weigh_rows(simd, patch, row))
+    }
+
+    #[inline(always)]
+    fn weigh_rows<S: Simd>(&mut self, simd: S, patch: &Patch, row: usize) -> usize {
+        if S::f32s::LEN == f32x16::<S>::LEN && row + 1 < SIDE {
+            let ellipses = Ellipses::<f32x16<S>>::new(simd, &self.kernel, patch, row);
+            if ellipses.size(0) == ellipses.size(1) {
+                self.fill(simd, &ellipses, patch);
+                return 2;
+            }
+        }
+        self.fill(simd, &Ellipses::<f32x8<S>>::new(simd, &self.kernel, patch, row), patch);
+        1
+    }
+
+    /// Windows of one size.
+    #[inline(always)]
+    fn fill<S: Simd, V: Lanes<S>>(&mut self, simd: S, ellipses: &Ellipses<V>, patch: &Patch) {
+        let size = ellipses.size(0);
+        let mut any = false;
+        for (row, windows) in self.windows[..V::ROWS].iter_mut().enumerate() {
+            any |= windows.place(patch, &ellipses.first(row), size);
+        }
+        if any {
+            self.make_room(size[0] * size[1]);
+            let moments = self.measure(simd, ellipses, size);
+            let correction = moments.correction(simd, self.kernel.centred.then_some(&patch.bend));
+            self.settle(simd, &ellipses.start, size, &correction);
+        }
+    }
+
+    /// Makes room for windows of so many texels, in all rows.
+    fn make_room(&mut self, texels: usize) {
+        let length = 2 * ROWS * SIDE * texels;
+        if self.loose.len() < length {
+            self.loose.resize(length, 0.0);
+            self.windows.iter_mut().for_each(|windows| windows.make_room(texels));
+        }
+    }
+
+    /// Weighs each texel by the kernel and its solid angle.
+    #[inline(always)]
+    fn measure<S: Simd, V: Lanes<S>>(
+        &mut self,
+        simd: S,
+        ellipses: &Ellipses<V>,
+        [width, height]: [usize; 2],
+    ) -> Moments<V> {
+        let [x0, mut y] = ellipses.start;
+        let zero = V::splat(simd, 0.0);
+        let inverse = ((self.kernel.radius() * self.kernel.radius()) as f32).recip();
+        let curve = self.cubics.blend(ellipses.coarseness);
+        let reach = V::splat(simd, UNDER as f32);
+        let mut moments = Moments::zero(simd);
+        let mut loose = self.loose.chunks_exact_mut(2 * V::LEN);
+        let [first, second] = &mut self.windows;
+        let mut under = first.under.iter_mut().zip(&mut second.under);
+        for _ in 0..height {
+            let row = ellipses.texels_at(y);
+            let mut sums = RowSums::zero(simd);
+            let mut x = x0;
+            for (loose, under) in loose.by_ref().zip(under.by_ref()).take(width) {
+                let (q, solid_angle) = (row.distance_squared(x), row.solid_angle(x));
+                let falloff = (zero + 1.0 - q * inverse).max(zero);
+                let (w, v) = (curve.weight(q) * solid_angle, falloff * falloff * solid_angle);
+                let (weight, slack) = loose.split_at_mut(V::LEN);
+                w.store_slice(weight);
+                v.store_slice(slack);
+                let lanes = q.simd_lt(reach).to_bitmask();
+                (*under.0, *under.1) = (lanes as u8, (lanes >> SIDE) as u8);
+                sums.add(w, v, x);
+                x += 1.0;
+            }
+            moments.add(&sums, y);
+            y += 1.0;
+        }
+        moments
+    }
+
+    /// Moves the centroid of the weights onto the pixel's centre and their sum to one.
+    #[inline(always)]
+    fn settle<S: Simd, V: Lanes<S>>(
+        &mut self,
+        simd: S,
+        [x0, y0]: &[V; 2],
+        [width, height]: [usize; 2],
+        correction: &Correction<V>,
+    ) {
+        let mut loose = self.loose.chunks_exact(2 * V::LEN);
+        let [first, second] = &mut self.windows;
+        let mut weights = first.weights.iter_mut().zip(&mut second.weights);
+        let (mut largest, mut sum) = (V::splat(simd, 0.0), V::splat(simd, 0.0));
+        let mut y = *y0;
+        for _ in 0..height {
+            let row = correction.row(y);
+            let mut x = *x0;
+            for (loose, weights) in loose.by_ref().zip(weights.by_ref()).take(width) {
+                let (weight, slack) = loose.split_at(V::LEN);
+                let settled = row.apply(V::from_slice(simd, weight), V::from_slice(simd, slack), x);
+                largest = largest.max(settled.abs());
+                sum += settled.abs();
+                *weights.0 = settled.row(0).to_array();
+                if V::ROWS == 2 {
+                    *weights.1 = settled.row(1).to_array();
+                }
+                x += 1.0;
+            }
+            y += 1.0;
+        }
+        for (row, windows) in self.windows[..V::ROWS].iter_mut().enumerate() {
+            windows.size = Size { largest: largest.row(row).reduce_max(), sum: sum.row(row).reduce_max() };
+        }
+    }
+}
+
+/// The windows of a patch, as they are asked for.
+pub(crate) struct PatchWindows<'w> {
+    weigher: &'w mut Weigher,
+    patch: &'w Patch<'w>,
+    /// The rows that the weigher holds.
+    weighed: Range<usize>,
+}
+
+impl PatchWindows<'_> {
+    /// Those of a row.
+    pub(crate) fn row(&mut self, row: usize) -> &Windows {
+        if !self.weighed.contains(&row) {
+            self.weighed = row..row + self.weigher.weigh(self.patch, row);
+        }
+        &self.weigher.windows[row - self.weighed.start]
+    }
+}

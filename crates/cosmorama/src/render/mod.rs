@@ -1,0 +1,20 @@
+//! Whole pictures: how a filter is applied to every pixel of a target, fast.
+
+pub(crate) mod apply;
+pub(crate) mod batch;
+pub(crate) mod plan;
+pub(crate) mod pyramid;
+pub(crate) mod required;
+pub(crate) mod resampler;
+pub(crate) mod scan;
+
+pub use plan::key::PlanKey;
+pub use plan::saved::PlanError;
+pub use plan::saved_plan::SavedPlan;
+pub use plan::{FixedPlan, Plan};
+pub use pyramid::PyramidPlan;
+pub(crate) use pyramid::{Pyramid, TexelCount};
+pub use required::need::{Need, Needs};
+pub use required::screen_mask::ScreenMask;
+pub use required::uncovered::Uncovered;
+pub use resampler::Resampler;

@@ -1,0 +1,328 @@
+use std::ops::Range;
+
+use super::stored::{Stored, stored};
+use super::symmetry::Mirrors;
+use super::tap_lists::Singles;
+use super::weights::Weights;
+use crate::render::batch::window::Windows;
+use crate::render::scan::tile::{SIDE, lanes_of};
+use crate::world::World;
+
+/// What makes a few rows of a target.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Band<W> {
+    pub(crate) runs: Vec<Run>,
+    pub(crate) weights: W,
+    pub(crate) singles: Singles,
+}
+
+/// Up to [`SIDE`] pixels beside each other, whose windows have one size and lie in one view.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Run {
+    /// The first column and the row of the window that is farthest to the left, and of the one that is highest.
+    corner: [u32; 2],
+    /// How far from there each window begins.
+    offsets: [[u8; 2]; SIDE],
+    /// Where the weights of its group begin among those of the band.
+    pub(crate) weights: u32,
+    /// Column of its first pixel.
+    column: u32,
+    /// The view.
+    pub(crate) view: u16,
+    /// Row in the band.
+    row: u8,
+    /// Which of the pixels it makes, a bit for each.
+    lanes: u8,
+    pub(crate) width: u8,
+    pub(crate) height: u8,
+    /// Rows of its windows: from, to.
+    under: [u8; 2],
+}
+
+/// Column and row of the first texel of each lane's window, in the lanes that have one.
+pub(crate) type Corners = [Option<[u32; 2]>; SIDE];
+
+impl Run {
+    /// The pixels that it makes, by lane.
+    #[inline(always)]
+    pub(crate) fn lanes(&self) -> impl Iterator<Item = usize> + use<> {
+        let mut rest = self.lanes;
+        std::iter::from_fn(move || {
+            let lane = rest.trailing_zeros() as usize;
+            rest &= rest.wrapping_sub(1);
+            (lane < SIDE).then_some(lane)
+        })
+    }
+
+    /// The same, a bit for each.
+    pub(crate) fn lane_bits(&self) -> u8 {
+        self.lanes
+    }
+
+    /// Whether it makes a pixel in each lane.
+    #[inline(always)]
+    pub(crate) fn is_whole(&self) -> bool {
+        self.lanes == u8::MAX
+    }
+
+    /// The column farthest to the left and the row farthest up of its windows' texels.
+    #[inline(always)]
+    pub(crate) fn corner(&self) -> [usize; 2] {
+        self.corner.map(|at| at as usize)
+    }
+
+    /// About the column and the row after the last ones that its windows hold.
+    #[inline(always)]
+    pub(crate) fn end(&self) -> [usize; 2] {
+        // Windows follow each other in one direction, and those of lanes that have none stay where the next ones are.
+        let [first, last] = [self.offsets[0], self.offsets[SIDE - 1]];
+        let end = |axis: usize, size: u8| {
+            self.corner[axis] as usize + usize::from(first[axis].max(last[axis])) + usize::from(size)
+        };
+        [end(0, self.width), end(1, self.height)]
+    }
+
+    /// The first column and row in which a window begins, and the last ones.
+    #[inline(always)]
+    pub(crate) fn corners(&self) -> ([u32; 2], [u32; 2]) {
+        let farthest = self.offsets.iter().fold([0; 2], |all, offset| [all[0].max(offset[0]), all[1].max(offset[1])]);
+        (self.corner, [0, 1].map(|axis| self.corner[axis].wrapping_add(u32::from(farthest[axis]))))
+    }
+
+    /// The column and the row where a lane's window begins.
+    #[inline(always)]
+    pub(crate) fn first(&self, lane: usize) -> [u32; 2] {
+        let [column, row] = self.offsets[lane].map(u32::from);
+        [self.corner[0].wrapping_add(column), self.corner[1].wrapping_add(row)]
+    }
+
+    /// One that makes these lanes, of the first view's first patch.
+    #[cfg(test)]
+    pub(crate) fn of_lanes(lanes: u8, weights: u32) -> Self {
+        let offsets = [[0; 2]; SIDE];
+        Self { corner: [0; 2], offsets, weights, column: 0, view: 0, row: 0, lanes, width: 4, height: 4, under: [0; 2] }
+    }
+
+    /// The same, of windows that begin at this texel.
+    #[cfg(test)]
+    pub(crate) fn from(self, corner: [u32; 2]) -> Self {
+        Self { corner, ..self }
+    }
+
+    /// The same, but for the last lane's, which begins so many columns and rows after the first one.
+    #[cfg(test)]
+    pub(crate) fn with_last(mut self, offset: [u8; 2]) -> Self {
+        self.offsets[SIDE - 1] = offset;
+        self
+    }
+
+    /// The same of other pixels.
+    #[cfg(test)]
+    pub(crate) fn at(self, [column, row]: [usize; 2]) -> Self {
+        Self { column: column as u32, row: row as u8, ..self }
+    }
+
+    /// A lane's column, and the row in the band.
+    #[inline(always)]
+    pub(crate) fn pixel(&self, lane: usize) -> [usize; 2] {
+        [self.column as usize + lane, usize::from(self.row)]
+    }
+
+    /// Its row in the patch.
+    #[inline(always)]
+    pub(crate) fn row_in_patch(&self) -> usize {
+        usize::from(self.row) % SIDE
+    }
+
+    /// Whether a run that begins at this pixel is of the same patch.
+    fn shares_patch(&self, [column, row]: [usize; 2]) -> bool {
+        self.column as usize == column && usize::from(self.row) / SIDE == row / SIDE
+    }
+
+    /// The rows of its windows that hold texels under a pixel.
+    #[inline(always)]
+    pub(crate) fn rows_under(&self) -> Range<usize> {
+        usize::from(self.under[0])..usize::from(self.under[1])
+    }
+
+    /// The run of windows that begin at these texels; `None` if it cannot be written down.
+    pub(crate) fn new(windows: &Windows, corners: &Corners, [column, row]: [usize; 2], weights: usize) -> Option<Self> {
+        let lanes = lanes_of(|lane| corners[lane].is_some());
+        // Lanes without a window count as the last one before them that has one, or as the first: loops go without branches then.
+        let first = corners[lanes.trailing_zeros() as usize % SIDE]?;
+        let corner = corners.map(|corner| corner.unwrap_or(first)).into_iter();
+        let corner = corner.fold(first, |least, texel| [least[0].min(texel[0]), least[1].min(texel[1])]);
+        let mut last = first;
+        let offsets = corners.map(|texel| {
+            last = texel.unwrap_or(last);
+            [last[0] - corner[0], last[1] - corner[1]]
+        });
+        if offsets.as_flattened().iter().fold(0, |all, offset| all | offset) > u32::from(u8::MAX) {
+            return None;
+        }
+        let offsets = offsets.map(|offset| offset.map(|texels| texels as u8));
+        let under = windows.rows_under();
+        Some(Self {
+            corner,
+            offsets,
+            weights: u32::try_from(weights).ok()?,
+            column: column as u32,
+            view: u16::try_from(windows.view()).ok()?,
+            row: row as u8,
+            lanes,
+            width: u8::try_from(windows.width()).ok()?,
+            height: u8::try_from(windows.height()).ok()?,
+            under: [under.start as u8, under.end as u8],
+        })
+    }
+}
+
+impl<W: Weights> Band<W> {
+    /// Forgets all but the memory.
+    pub(crate) fn clear(&mut self) {
+        self.runs.clear();
+        self.weights.truncate(0);
+        self.singles.clear();
+    }
+
+    /// Puts what is kept in the order in which it is made fastest, and gives back memory that is not needed.
+    pub(crate) fn settle(&mut self) {
+        self.runs.shrink_to_fit();
+        self.weights.settle(groups(&self.runs));
+        self.singles.shrink();
+    }
+
+    /// Runs of one patch that lie in one view, [`SIDE`] at most; in each mirror they share most of their texels.
+    pub(crate) fn groups(&self) -> impl Iterator<Item = &[Run]> + Clone {
+        groups(&self.runs)
+    }
+
+    /// The last runs, if another one in this view that begins at this pixel goes with them.
+    pub(crate) fn open_group(&self, pixel: [usize; 2], view: usize) -> &[Run] {
+        let last = self.runs.chunk_by(are_grouped).next_back().unwrap_or_default();
+        let is_open = |run: &Run| run.shares_patch(pixel) && usize::from(run.view) == view && last.len() < SIDE;
+        if last.first().is_some_and(is_open) { last } else { &[] }
+    }
+
+    /// Bytes that it takes.
+    pub(crate) fn bytes(&self) -> usize {
+        self.runs.capacity() * size_of::<Run>() + self.weights.bytes() + self.singles.bytes()
+    }
+
+    /// Bytes of what it holds, without room for more.
+    pub(crate) fn used_bytes(&self) -> usize {
+        size_of_val(&*self.runs) + self.weights.used_bytes() + self.singles.used_bytes()
+    }
+}
+
+fn groups(runs: &[Run]) -> impl Iterator<Item = &[Run]> + Clone {
+    runs.chunk_by(are_grouped)
+}
+
+/// Whether the weights of two runs are kept together.
+fn are_grouped(a: &Run, b: &Run) -> bool {
+    a.weights == b.weights
+}
+
+stored!(Run {
+    corner: [u32; 2],
+    offsets: [[u8; 2]; SIDE],
+    weights: u32,
+    column: u32,
+    view: u16,
+    row: u8,
+    lanes: u8,
+    width: u8,
+    height: u8,
+    under: [u8; 2],
+});
+
+impl<W: Weights> Stored for Band<W> {
+    const LEAST: usize = W::LEAST + Vec::<Run>::LEAST + Singles::LEAST;
+
+    fn store(&self, into: &mut Vec<u8>) {
+        self.runs.store(into);
+        self.weights.store(into);
+        self.singles.store(into);
+    }
+
+    fn load(from: &mut &[u8]) -> Option<Self> {
+        Some(Self { runs: Vec::load(from)?, weights: W::load(from)?, singles: Singles::load(from)? })
+    }
+}
+
+/// What a band may speak of.
+pub(crate) struct Room<'a> {
+    pub(crate) world: &'a World,
+    pub(crate) mirrors: &'a Mirrors,
+    /// The first row of the band, and how many it has.
+    pub(crate) first_row: usize,
+    pub(crate) rows: usize,
+}
+
+impl Room<'_> {
+    /// The columns that the band may make.
+    fn columns(&self) -> Range<usize> {
+        self.mirrors.first_column(self.first_row)..self.mirrors.columns
+    }
+}
+
+impl<W: Weights> Band<W> {
+    /// Whether all pixels, texels and weights that it speaks of are there.
+    pub(crate) fn is_sound(&self, room: &Room) -> bool {
+        let (texels, images) = (room.mirrors.texel_count(), room.mirrors.images.len());
+        self.groups().all(|group| is_group_sound(group, room, &self.weights))
+            && self.singles.are_sound((room.columns(), room.rows), texels, images)
+            && self.makes_each_once(room)
+    }
+
+    /// Whether no pixel is made twice, given that all are there.
+    fn makes_each_once(&self, room: &Room) -> bool {
+        let bytes = room.mirrors.columns.div_ceil(SIDE);
+        let mut made = vec![0u8; room.rows * bytes];
+        let runs = self.runs.iter().map(|run| (run.pixel(0), run.lanes));
+        let singles = self.singles.pixels().iter().map(|single| {
+            let column = single.column as usize;
+            ([column, usize::from(single.row)], 1 << (column % SIDE))
+        });
+        runs.chain(singles).all(|([column, row], lanes)| {
+            let made = &mut made[row * bytes + column / SIDE];
+            let is_new = *made & lanes == 0;
+            *made |= lanes;
+            is_new
+        })
+    }
+}
+
+/// Whether the runs of a group belong together, and all that they speak of is there.
+fn is_group_sound(group: &[Run], room: &Room, weights: &impl Weights) -> bool {
+    let first = &group[0];
+    let Some(source) = room.world.sources().get(usize::from(first.view)) else { return false };
+    let size = [source.view.width(), source.view.height()];
+    group.len() <= SIDE
+        && group.iter().all(|run| run.view == first.view && first.shares_patch(run.pixel(0)) && run.is_sound(room))
+        && weights.are_sound(group, size)
+}
+
+impl Run {
+    fn is_sound(&self, room: &Room) -> bool {
+        let after_last = SIDE - self.lanes.leading_zeros() as usize;
+        let [from, to] = self.under;
+        self.lanes != 0
+            && room.columns().contains(&(self.column as usize))
+            // As patches do: on the diagonal one has fewer mirrors than the next.
+            && (self.column as usize).is_multiple_of(SIDE)
+            && self.column as usize + after_last <= room.columns().end
+            && usize::from(self.row) < room.rows
+            && self.width > 0
+            && self.height > 0
+            && from <= to
+            && to <= self.height
+    }
+
+    /// Whether a lane's window of some size lies within a view of another.
+    pub(crate) fn is_within(&self, lane: usize, window: [usize; 2], view: [usize; 2]) -> bool {
+        let first = |axis: usize| u64::from(self.corner[axis]) + u64::from(self.offsets[lane][axis]);
+        (0..2).all(|axis| first(axis) + window[axis] as u64 <= view[axis] as u64)
+    }
+}

@@ -1,0 +1,299 @@
+//! Geometry compiled once for any number of frames.
+
+pub(crate) mod band;
+pub(crate) mod fixed_check;
+pub(crate) mod key;
+pub(crate) mod recorder;
+pub(crate) mod saved;
+pub(crate) mod saved_plan;
+pub(crate) mod stored;
+pub(crate) mod symmetry;
+pub(crate) mod tap_lists;
+#[cfg(test)]
+mod tests;
+pub(crate) mod transpose;
+pub(crate) mod traversal;
+pub(crate) mod weights;
+pub(crate) mod window_order;
+
+use std::ops::Range;
+
+use bytemuck::NoUninit;
+use rayon::prelude::*;
+
+use crate::render::apply::fixed::FixedFilter;
+use crate::render::apply::fixed::weights::FixedWeights;
+use crate::render::apply::float::FloatFilter;
+use crate::render::apply::float::weights::FloatWeights;
+use crate::render::apply::tile_writer::Canvas;
+use band::Band;
+use recorder::Recorder;
+use symmetry::{MirrorImage, Mirrors, exchanged};
+use weights::Weights;
+
+use super::Resampler;
+use super::batch::window::Level;
+use super::scan::tile::SIDE;
+use super::scan::wanted::Wanted;
+use super::scan::{Area, Scan};
+use crate::camera::PixelRect;
+use crate::filter::kernel::KernelTable;
+use crate::filter::taps::Taps;
+use crate::raster::{FixedCodec, FixedLight, Image, Rgba};
+
+/// Rows of a target that are worked on together, in tiles: those of a few patches.
+const BAND: usize = 4 * SIDE;
+
+/// The geometry of a conversion: which texels, with which weights, make each pixel of the target.
+///
+/// It depends on the views, the target and the filter, not on the light: one plan serves all frames of a sequence.
+#[derive(Clone, Debug)]
+pub struct Plan(Compiled<FloatWeights>);
+
+/// A [`Plan`] for light of 15 bits: opaque pictures of 8-bit files.
+#[derive(Clone, Debug)]
+pub struct FixedPlan(Compiled<FixedWeights>);
+
+#[derive(Clone, Debug)]
+pub(crate) struct Compiled<W> {
+    width: usize,
+    height: usize,
+    anti_ringing: bool,
+    mirrors: Mirrors,
+    bands: Vec<Band<W>>,
+}
+
+impl Plan {
+    pub(crate) fn new(resampler: &Resampler) -> Self {
+        Self(Compiled::new(resampler, None, Level::new()))
+    }
+
+    /// That of the wanted patches alone; other pixels become transparent.
+    pub(crate) fn of_part(resampler: &Resampler, wanted: &Wanted) -> Self {
+        Self(Compiled::new(resampler, Some(wanted), Level::new()))
+    }
+
+    /// One frame. `texels` is the world's buffer of light.
+    ///
+    /// # Panics
+    /// If it has fewer texels than the world.
+    pub fn apply(&self, texels: &[Rgba]) -> Image<Rgba> {
+        self.apply_over(texels, Rgba::TRANSPARENT)
+    }
+
+    /// One frame in front of a background, linear and premultiplied as all light is.
+    ///
+    /// # Panics
+    /// If there are fewer texels than in the world.
+    pub fn apply_over(&self, texels: &[Rgba], background: Rgba) -> Image<Rgba> {
+        let mut image = Image::zeroed(self.0.width, self.0.height);
+        self.apply_into(texels, background, &mut image);
+        image
+    }
+
+    /// The same into an image that is there already: fresh memory may cost as much as its pixels.
+    ///
+    /// # Panics
+    /// If it is not of the target's size, or there are fewer texels than in the world.
+    pub fn apply_into(&self, texels: &[Rgba], background: Rgba, image: &mut Image<Rgba>) {
+        let Self(Compiled { anti_ringing, mirrors, .. }) = self;
+        let filter = FloatFilter { level: Level::new(), mirrors, texels, anti_ringing: *anti_ringing, background };
+        self.0.fill(image, background, |band, canvas| filter.fill(band, canvas));
+    }
+
+    /// About how many that of a conversion would hold, or of its wanted patches: found from some bands of rows, keeping nothing.
+    pub(crate) fn bytes_estimate(resampler: &Resampler, wanted: Option<&Wanted>) -> usize {
+        bytes_estimate::<FloatWeights>(resampler, wanted)
+    }
+}
+
+impl FixedPlan {
+    pub(crate) fn new(resampler: &Resampler) -> Self {
+        Self(Compiled::new(resampler, None, Level::new()))
+    }
+
+    /// One frame: the code values of each pixel. `light` is that of all the world's texels.
+    ///
+    /// # Panics
+    /// If it is of other views than the world's.
+    pub fn apply(&self, light: &FixedLight, codec: &FixedCodec) -> Image<[u8; 3]> {
+        let mut image = Image::zeroed(self.0.width, self.0.height);
+        self.apply_into(light, codec, &mut image);
+        image
+    }
+
+    /// The same into an image that is there already: fresh memory may cost a third of a frame.
+    ///
+    /// # Panics
+    /// If it is not of the target's size, or the light not of views of the world's sizes.
+    pub fn apply_into(&self, light: &FixedLight, codec: &FixedCodec, image: &mut Image<[u8; 3]>) {
+        let Self(Compiled { anti_ringing, mirrors, .. }) = self;
+        assert!(mirrors.layout().eq(light.layout()), "light of the world's views");
+        let filter = FixedFilter { level: Level::new(), mirrors, light, codec, anti_ringing: *anti_ringing };
+        self.0.fill(image, codec.background(), |band, canvas| filter.fill(band, canvas));
+    }
+
+    /// About how many that of a conversion would hold: found from some bands of rows, keeping nothing.
+    pub(crate) fn bytes_estimate(resampler: &Resampler) -> usize {
+        bytes_estimate::<FixedWeights>(resampler, None)
+    }
+}
+
+/// A frame without a plan that is kept: each band's geometry is forgotten when its pixels are made.
+pub(crate) fn render(resampler: &Resampler, texels: &[Rgba], background: Rgba, level: Level) -> Image<Rgba> {
+    render_part(resampler, None, (texels, background), level)
+}
+
+/// The wanted patches of one, all else background.
+pub(crate) fn render_part(
+    resampler: &Resampler,
+    wanted: Option<&Wanted>,
+    (texels, background): (&[Rgba], Rgba),
+    level: Level,
+) -> Image<Rgba> {
+    let mirrors = &Mirrors::of::<FloatWeights>(resampler);
+    let (width, height) = (resampler.target.width(), resampler.target.height());
+    let mut image = Image::zeroed(width, height);
+    let filter = FloatFilter { level, mirrors, texels, anti_ringing: resampler.filter.anti_ringing, background };
+    let pixels = (image.pixels_mut(), background);
+    each_band((resampler, wanted), mirrors, pixels, level, |band, canvas| filter.fill(band, canvas));
+    image
+}
+
+/// The same in 15 bits.
+pub(crate) fn render_fixed(resampler: &Resampler, light: &FixedLight, codec: &FixedCodec) -> Image<[u8; 3]> {
+    let mirrors = &Mirrors::of::<FixedWeights>(resampler);
+    let (width, height) = (resampler.target.width(), resampler.target.height());
+    let mut image = Image::zeroed(width, height);
+    let level = Level::new();
+    let filter = FixedFilter { level, mirrors, light, codec, anti_ringing: resampler.filter.anti_ringing };
+    let pixels = (image.pixels_mut(), codec.background());
+    each_band((resampler, None), mirrors, pixels, level, |band, canvas| filter.fill(band, canvas));
+    image
+}
+
+/// Bytes that the plan of a conversion would hold, found from a row of patches in each band, keeping none of them. Of a small
+/// picture from all, which takes hundredths of a second: it has few bands, and a pole in one of them holds most of the bytes.
+fn bytes_estimate<W: Weights>(resampler: &Resampler, wanted: Option<&Wanted>) -> usize {
+    const SMALL: usize = 512 * 512;
+    let mirrors = &Mirrors::of::<W>(resampler);
+    let table = KernelTable::new(&resampler.filter.kernel);
+    let is_small = mirrors.rows * mirrors.columns <= SMALL;
+    let bytes = |index: usize| {
+        let band = mirrors.band(index);
+        // Not the same in all bands: what lies at the edge of a picture would count too often.
+        let top = band.start + index % (BAND / SIDE) * SIDE;
+        let rows = if top < band.end && !is_small { top..band.end.min(top + SIDE) } else { band };
+        let (mut kept, mut bytes, count) = (Band::<W>::default(), 0, rows.len());
+        record((resampler, wanted), mirrors, &table, rows, Level::new(), &mut kept, |band| {
+            bytes += band.used_bytes();
+            band.clear();
+        });
+        (bytes + kept.used_bytes(), count)
+    };
+    let sampled = (0..mirrors.rows.div_ceil(BAND)).into_par_iter().map(bytes);
+    let (bytes, rows) = sampled.reduce(|| (0, 0), |a, b| (a.0 + b.0, a.1 + b.1));
+    bytes * mirrors.rows / rows.max(1)
+}
+
+impl<W: Weights> Compiled<W> {
+    fn new(resampler: &Resampler, wanted: Option<&Wanted>, level: Level) -> Self {
+        let Resampler { target, filter, .. } = resampler;
+        let mirrors = Mirrors::of::<W>(resampler);
+        let table = KernelTable::new(&filter.kernel);
+        let compile = |index| {
+            let mut band = Band::default();
+            record((resampler, wanted), &mirrors, &table, mirrors.band(index), level, &mut band, |_| {});
+            band.settle();
+            band
+        };
+        // One by one, as below.
+        let bands = (0..mirrors.rows.div_ceil(BAND)).into_par_iter().with_max_len(1).map(compile).collect();
+        let (width, height) = (target.width(), target.height());
+        Self { width, height, anti_ringing: filter.anti_ringing, mirrors, bands }
+    }
+
+    fn fill<P: NoUninit + Send + Sync>(
+        &self,
+        image: &mut Image<P>,
+        background: P,
+        make: impl Fn(&Band<W>, &mut Canvas<P>) + Sync,
+    ) {
+        let (found, expected) = ((image.width(), image.height()), (self.width, self.height));
+        assert_eq!(found, expected, "an image as large as the target");
+        let canvases = Canvas::bands(image.pixels_mut(), self.width, BAND, &self.mirrors, background);
+        // One by one: with mirrors along the diagonals the first bands have far more pixels than the last.
+        let bands = canvases.into_par_iter().zip(&self.bands).with_max_len(1);
+        bands.for_each(|(mut canvas, band)| make(band, &mut canvas));
+    }
+
+    fn bytes(&self) -> usize {
+        self.bands.iter().map(Band::bytes).sum()
+    }
+}
+
+/// Records each band, makes its pixels and forgets it.
+fn each_band<W: Weights, P: NoUninit + Send + Sync>(
+    (resampler, wanted): (&Resampler, Option<&Wanted>),
+    mirrors: &Mirrors,
+    (pixels, background): (&mut [P], P),
+    level: Level,
+    make: impl Fn(&Band<W>, &mut Canvas<P>) + Sync,
+) {
+    let table = &KernelTable::new(&resampler.filter.kernel);
+    let canvases = Canvas::bands(pixels, resampler.target.width(), BAND, mirrors, background);
+    canvases.into_par_iter().enumerate().for_each_init(Band::default, |band, (index, mut canvas)| {
+        band.clear();
+        record((resampler, wanted), mirrors, table, mirrors.band(index), level, band, |band| {
+            make(band, &mut canvas);
+            band.clear();
+        });
+        make(band, &mut canvas);
+    });
+}
+
+/// Records some rows; `spill` may take from the band what it holds, when that is much.
+fn record<W: Weights>(
+    (resampler, wanted): (&Resampler, Option<&Wanted>),
+    mirrors: &Mirrors,
+    table: &KernelTable,
+    rows: Range<usize>,
+    level: Level,
+    band: &mut Band<W>,
+    spill: impl FnMut(&mut Band<W>),
+) {
+    let mut recorder =
+        Recorder { world: resampler.world, mirrors, band, taps: Taps::default(), places: Vec::new(), spill };
+    let area = Area { columns: mirrors.columns, rows, skips_left_of_diagonal: mirrors.has_diagonals() };
+    Scan::new(resampler, table, level).only(wanted).pixels(&area, &mut recorder);
+}
+
+/// The patches that must be computed, in whatever mirror something is wanted of them, given which rectangles of the target are.
+pub(crate) fn wanted(resampler: &Resampler, is_wanted: impl Fn(PixelRect) -> bool + Sync) -> Wanted {
+    // What is seen in which mirror is the same for all light.
+    let mirrors = Mirrors::of::<FloatWeights>(resampler);
+    let size = [resampler.target.width(), resampler.target.height()];
+    Wanted::new([mirrors.columns, mirrors.rows], |patch| {
+        mirrors.images.iter().any(|image| is_wanted(image.shown(patch, size)))
+    })
+}
+
+impl MirrorImage {
+    /// Where in a target of this size it shows a patch.
+    fn shown(&self, first: [usize; 2], size: [usize; 2]) -> PixelRect {
+        let first = exchanged(first, self.is_turned);
+        let along = |axis: usize| {
+            let (from, to) = (first[axis], size[axis].min(first[axis] + SIDE));
+            if self.flips[axis] { [size[axis] - to, size[axis] - from] } else { [from, to] }
+        };
+        let ([left, right], [top, bottom]) = (along(0), along(1));
+        PixelRect { left, top, right, bottom }
+    }
+}
+
+impl Mirrors {
+    /// The rows of a band.
+    fn band(&self, index: usize) -> Range<usize> {
+        index * BAND..self.rows.min((index + 1) * BAND)
+    }
+}

@@ -1,0 +1,71 @@
+use super::band::{Band, Corners, Run};
+use super::symmetry::Mirrors;
+use super::weights::Weights;
+use crate::filter::taps::Taps;
+use crate::render::batch::window::Windows;
+use crate::render::scan::Sink;
+use crate::render::scan::tile::SIDE;
+use crate::world::{TexelPlace, World};
+
+/// Writes down what makes the pixels of a band.
+pub(crate) struct Recorder<'a, W, F> {
+    pub(crate) world: &'a World,
+    pub(crate) mirrors: &'a Mirrors,
+    pub(crate) band: &'a mut Band<W>,
+    pub(crate) taps: Taps,
+    /// Where those of a single pixel lie.
+    pub(crate) places: Vec<TexelPlace>,
+    /// What is done with a band that holds more than [`MANY`] texels, or more of windows than [`NUMBERS`].
+    pub(crate) spill: F,
+}
+
+/// Texels of single pixels, in all mirrors, that a band may hold before something is done with them: a small picture of a large
+/// world may have millions for each pixel.
+const MANY: usize = 1 << 17;
+
+/// Numbers of windows' weights, of four bytes, that it may hold before: a pixel has up to a thousand.
+const NUMBERS: usize = 1 << 20;
+
+impl<W: Weights, F: FnMut(&mut Band<W>)> Sink for Recorder<'_, W, F> {
+    fn pixel(&mut self, pixel: [usize; 2], coverage: f32, taps: &Taps) {
+        self.single(pixel, coverage, taps);
+    }
+
+    fn windows(&mut self, pixel: [usize; 2], lanes: u8, windows: &Windows) {
+        let lanes = lanes & windows.held();
+        // Nothing was weighed.
+        if lanes == 0 {
+            return;
+        }
+        if self.band.weights.len() > NUMBERS && self.band.open_group(pixel, windows.view()).is_empty() {
+            (self.spill)(self.band);
+        }
+        let first = self.band.weights.len();
+        let mut corners: Corners = std::array::from_fn(|lane| windows.corner(lane).filter(|_| lanes >> lane & 1 == 1));
+        let group = self.band.open_group(pixel, windows.view());
+        let (index, weights) = (group.len(), group.first().map_or(first, |run| run.weights as usize));
+        if self.band.weights.keep(windows, &mut corners, index) {
+            if let Some(run) = Run::new(windows, &corners, pixel, weights) {
+                self.band.runs.push(run);
+                return;
+            }
+            self.band.weights.truncate(first);
+        }
+        for lane in (0..SIDE).filter(|&lane| lanes >> lane & 1 == 1) {
+            let mut taps = std::mem::take(&mut self.taps);
+            windows.taps(lane, &mut taps);
+            self.single([pixel[0] + lane, pixel[1]], 1.0, &taps);
+            self.taps = taps;
+        }
+    }
+}
+
+impl<W, F: FnMut(&mut Band<W>)> Recorder<'_, W, F> {
+    /// A pixel by itself, in all mirrors.
+    fn single(&mut self, pixel: [usize; 2], coverage: f32, taps: &Taps) {
+        self.band.singles.push((self.world, self.mirrors), pixel, coverage, taps, &mut self.places);
+        if self.band.singles.texel_count() > MANY {
+            (self.spill)(self.band);
+        }
+    }
+}

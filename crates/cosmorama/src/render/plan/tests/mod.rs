@@ -1,0 +1,345 @@
+mod palettes;
+mod runs;
+mod sizes;
+mod worlds;
+
+use super::band::{Corners, Run};
+use super::saved_plan::SavedPlan;
+use super::stored::Stored;
+use super::symmetry::{MirrorImage, Mirrors};
+use super::*;
+use crate::camera::{FieldStop, View};
+use crate::filter::taps::{Tap, TapList, average};
+use crate::filter::{Filter, FilterKind};
+use crate::projection::ProjectionKind;
+use crate::raster::{ColourChannel, RowLayout, Transfer};
+use crate::render::batch::window::Windows;
+use crate::sphere::{CubeFace, Orientation};
+use crate::world::{Blend, World, WorldView};
+use worlds::*;
+
+fn resampler<'a>(world: &'a World, target: &'a View) -> Resampler<'a> {
+    Resampler { world, target, filter: Filter::DEFAULT }
+}
+
+#[test]
+fn mirrors_are_found_where_there_are_some() {
+    for (world, target, images) in conversions() {
+        let found = Mirrors::of::<FloatWeights>(&resampler(&world, &target));
+        assert_eq!(found.images.len(), images, "{:?} of {:?}", target.projection, target.orientation);
+        assert_eq!(found.columns * found.rows * images.min(4), target.width() * target.height());
+    }
+    // A middle of the world that is nobody's mirror image: the front and the left face alone are left out.
+    let up = turned(0.0, 90.0, 0.0);
+    let count = |world: &World, target: &View| Mirrors::of::<FloatWeights>(&resampler(world, target)).images.len();
+    let mut faces: Vec<_> = CubeFace::ALL.into_iter().filter(|face| *face != CubeFace::Left).collect();
+    assert_eq!(count(&cube(&faces, 64), &dome(64, up)), 2);
+    faces.retain(|face| *face != CubeFace::Back);
+    assert_eq!(count(&cube(&faces, 64), &dome(64, up)), 1);
+    let off_centre = View { grid: dome(64, up).grid.window(64, 64, 0.25, 0.0), ..dome(64, up) };
+    assert_eq!(count(&cube(&CubeFace::ALL, 64), &off_centre), 2);
+    let (world, target) = (cube(&CubeFace::ALL, 64), dome(64, up));
+    let filter = Filter { kind: FilterKind::Point, ..Filter::DEFAULT };
+    let point = Resampler { filter, ..resampler(&world, &target) };
+    assert_eq!(Mirrors::of::<FloatWeights>(&point).images.len(), 1);
+}
+
+#[test]
+fn nothing_is_mirrored_that_is_not_alike() {
+    let up = turned(0.0, 90.0, 0.0);
+    let whole = |face: CubeFace| view(ProjectionKind::PERSPECTIVE, (64, 64), (1.0, 1.0), face.orientation());
+    let alter = |change: &dyn Fn(CubeFace, &mut WorldView)| {
+        let part = |face: CubeFace| {
+            let mut part =
+                WorldView { name: face.name().to_owned(), view: whole(face), blend: Blend::default(), mask: None };
+            change(face, &mut part);
+            part
+        };
+        let world = World::blended(CubeFace::ALL.map(part)).expect("six faces");
+        Mirrors::of::<FloatWeights>(&resampler(&world, &dome(64, up))).images.len()
+    };
+    assert_eq!(alter(&|_, _| ()), 8);
+    // One face of another size, one cut, one turned by a hair, one that looks through a stop, one that reaches into others.
+    let size = |face: CubeFace, part: &mut WorldView| {
+        if face == CubeFace::Right {
+            part.view = view(ProjectionKind::PERSPECTIVE, (66, 66), (1.0, 1.0), face.orientation());
+        }
+    };
+    let cut = |face: CubeFace, part: &mut WorldView| {
+        if face == CubeFace::Right {
+            part.view.grid = part.view.grid.window(60, 64, 4.0, 0.0);
+        }
+    };
+    let turn = |face: CubeFace, part: &mut WorldView| {
+        if face == CubeFace::Right {
+            part.view.orientation = turned(90.001, 0.0, 0.0);
+        }
+    };
+    let stop = |face: CubeFace, part: &mut WorldView| {
+        if face == CubeFace::Right {
+            part.view.stop = FieldStop::circle(1.2);
+        }
+    };
+    let wide = |face: CubeFace, part: &mut WorldView| {
+        if face == CubeFace::Right {
+            part.view = view(ProjectionKind::PERSPECTIVE, (64, 64), (1.1, 1.1), face.orientation());
+        }
+    };
+    for change in [&size as &dyn Fn(CubeFace, &mut WorldView), &cut, &turn, &stop, &wide] {
+        assert!(alter(change) <= 2, "left and right are no mirror images");
+    }
+}
+
+#[test]
+fn pictures_of_any_size_are_made() {
+    let world = cube(&CubeFace::ALL, 40);
+    for (width, height) in [(0, 0), (0, 5), (1, 1), (1, 7), (7, 1), (2, 2), (6, 34), (10, 3), (18, 66)] {
+        let target = view(ProjectionKind::PERSPECTIVE, (width, height), (1.0, 1.0), Orientation::IDENTITY);
+        let (light, resampler) = (light(&world), resampler(&world, &target));
+        let codec = FixedCodec::new(&Transfer::Srgb, Rgba::opaque(1.0, 0.0, 1.0)).expect("sRGB has 8 bits");
+        let (image, codes) = (resampler.render(&floats(&light)), resampler.render_fixed(&light, &codec));
+        assert_eq!((image.pixels().len(), codes.pixels().len()), (width * height, width * height));
+        assert!(image.pixels().iter().all(|pixel| pixel.alpha() > 0.999), "{width}x{height}");
+        assert!(codes.pixels().iter().all(|codes| *codes != [255, 0, 255]), "{width}x{height}");
+    }
+}
+
+#[test]
+fn what_mirrors_show_is_what_would_be_computed() {
+    for (world, target, _) in conversions() {
+        let light = light(&world);
+        let resampler = resampler(&world, &target);
+        let layout = RowLayout::of(world.view_sizes(), FloatWeights::pitch);
+        let alone = Mirrors::new([target.width(), target.height()], vec![MirrorImage::itself(&layout)]);
+        let mut expected = Image::filled(target.width(), target.height(), Rgba::TRANSPARENT);
+        let texels = floats(&light);
+        let (level, background) = (Level::new(), Rgba::TRANSPARENT);
+        let filter = FloatFilter { level, mirrors: &alone, texels: &texels, anti_ringing: true, background };
+        each_band((&resampler, None), &alone, (expected.pixels_mut(), background), level, |band, canvas| {
+            filter.fill(band, canvas)
+        });
+        let made = resampler.render(&texels);
+        for (a, b) in made.pixels().iter().zip(expected.pixels()) {
+            // Patches lie otherwise there: what one of them holds may be a pixel by itself, whose weights differ a little.
+            assert!((0..4).all(|c| (a.0[c] - b.0[c]).abs() < 5e-3), "{a:?} is not {b:?}, {:?}", target.projection);
+        }
+    }
+}
+
+#[test]
+fn a_plan_makes_the_pixels_that_are_made_without() {
+    for (world, target, _) in conversions() {
+        let (light, resampler) = (light(&world), resampler(&world, &target));
+        let (opaque, plan) = (floats(&light), resampler.plan().expect("a plan"));
+        let veiled = opaque.iter().enumerate().map(|(at, texel)| *texel * (0.3 + (at % 8) as f32 * 0.1)).collect();
+        for texels in [opaque, veiled] {
+            let mut light_alone = resampler.render(&texels);
+            assert!(plan.apply(&texels) == light_alone);
+            let background = Rgba::opaque(0.25, 0.5, 0.0);
+            light_alone.lay_over(background);
+            assert!(plan.apply_over(&texels, background) == light_alone);
+            let mut image = Image::filled(target.width(), target.height(), Rgba([7.0; 4]));
+            plan.apply_into(&texels, background, &mut image);
+            assert!(image == light_alone);
+            assert!(resampler.render_over(&texels, background) == light_alone);
+        }
+        let codec = FixedCodec::new(&Transfer::Srgb, Rgba::BLACK).expect("sRGB has 8 bits");
+        let plan = resampler.fixed_plan().expect("a plan");
+        let codes_alone = resampler.render_fixed(&light, &codec);
+        assert!(plan.apply(&light, &codec) == codes_alone);
+        // Whatever was in the image before.
+        let mut codes = Image::filled(target.width(), target.height(), [77; 3]);
+        plan.apply_into(&light, &codec, &mut codes);
+        assert!(codes == codes_alone);
+    }
+}
+
+/// Keeps no window, so that each pixel of it is made by itself.
+#[derive(Clone, Debug, Default)]
+struct NoWindows;
+
+impl Stored for NoWindows {
+    const LEAST: usize = 0;
+
+    fn store(&self, _: &mut Vec<u8>) {}
+
+    fn load(_: &mut &[u8]) -> Option<Self> {
+        Some(Self)
+    }
+}
+
+impl Weights for NoWindows {
+    fn pitch(width: usize) -> usize {
+        width
+    }
+
+    fn len(&self) -> usize {
+        0
+    }
+
+    fn keep(&mut self, _: &Windows, _: &mut Corners, _: usize) -> bool {
+        false
+    }
+
+    fn truncate(&mut self, _: usize) {}
+
+    fn settle<'a>(&mut self, _: impl Iterator<Item = &'a [Run]>) {}
+
+    fn are_sound(&self, _: &[Run], _: [usize; 2]) -> bool {
+        false
+    }
+
+    fn bytes(&self) -> usize {
+        0
+    }
+
+    fn used_bytes(&self) -> usize {
+        0
+    }
+}
+
+/// Windows of all sizes, four texels at once, and pixels by themselves in all mirrors at once, against lists of texels one after the
+/// other.
+#[test]
+fn windows_of_floats_make_what_their_texels_make_one_by_one() {
+    for (world, target, _) in conversions() {
+        let texels = floats(&light(&world));
+        for anti_ringing in [true, false] {
+            let resampler =
+                Resampler { filter: Filter { anti_ringing, ..Filter::DEFAULT }, ..resampler(&world, &target) };
+            let mut expected = Image::filled(target.width(), target.height(), Rgba::TRANSPARENT);
+            let (mirrors, level) = (Mirrors::of::<NoWindows>(&resampler), Level::new());
+            let background = Rgba::TRANSPARENT;
+            let filter = FloatFilter { level, mirrors: &mirrors, texels: &texels, anti_ringing, background };
+            let mut one_by_one = expected.clone();
+            let pixels = (one_by_one.pixels_mut(), background);
+            each_band((&resampler, None), &mirrors, pixels, level, |band: &Band<NoWindows>, canvas| {
+                filter.fill_singles(&band.singles, canvas);
+            });
+            let pixels = (expected.pixels_mut(), background);
+            each_band((&resampler, None), &mirrors, pixels, level, |band: &Band<NoWindows>, canvas| {
+                for single in band.singles.pixels() {
+                    let taps = band.singles.taps(single, mirrors.images.len());
+                    let at = [single.column as usize, usize::from(single.row)];
+                    for index in 0..canvas.images_of(at).len() {
+                        let texels_of = taps.texels.chunks(mirrors.images.len()).map(|texels| texels[index]);
+                        let list = texels_of.zip(taps.weights).map(|(texel, &weight)| Tap { texel, weight });
+                        let list = TapList { taps: &list.collect::<Vec<_>>(), under: taps.under, places: taps.places };
+                        let colour = average(list, |texel| texels[texel as usize], anti_ringing);
+                        let pixel = canvas.pixel(index, at);
+                        *pixel = colour * single.coverage;
+                    }
+                }
+            });
+            assert!(one_by_one == expected, "to the last bit");
+            for (made, expected) in resampler.render(&texels).pixels().iter().zip(expected.pixels()) {
+                assert!((0..4).all(|c| (made.0[c] - expected.0[c]).abs() < 4e-6), "{made:?} is not {expected:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn all_levels_of_instructions_make_the_same_pixels() {
+    for (world, target, _) in conversions() {
+        let (light, resampler) = (light(&world), resampler(&world, &target));
+        let (texels, mirrors) = (floats(&light), Mirrors::of::<FixedWeights>(&resampler));
+        let codec = FixedCodec::new(&Transfer::Srgb, Rgba::BLACK).expect("sRGB has 8 bits");
+        let plan = resampler.fixed_plan().expect("a plan");
+        let made = |level| {
+            let mut codes = Image::filled(target.width(), target.height(), codec.background());
+            let filter = FixedFilter { level, mirrors: &mirrors, light: &light, codec: &codec, anti_ringing: true };
+            plan.0.fill(&mut codes, codec.background(), |band, canvas| filter.fill(band, canvas));
+            (render(&resampler, &texels, Rgba::TRANSPARENT, level), codes)
+        };
+        let mut all = crate::filter::simd_levels::levels().into_iter().map(made);
+        let first = all.next().expect("at least the plain one");
+        assert!(all.all(|made| made == first));
+    }
+}
+
+#[test]
+fn all_levels_of_instructions_make_the_same_plans() {
+    for (world, target, _) in conversions() {
+        let resampler = resampler(&world, &target);
+        let made = |level| {
+            let fixed = FixedPlan(Compiled::new(&resampler, None, level)).to_bytes(FixedPlan::key(&resampler));
+            (fixed, Plan(Compiled::new(&resampler, None, level)).to_bytes(Plan::key(&resampler)))
+        };
+        let mut all = crate::filter::simd_levels::levels().into_iter().map(made);
+        let first = all.next().expect("at least the plain one");
+        assert!(all.all(|made| made == first), "{:?}", target.projection);
+    }
+}
+
+/// Black and white in no order, of which next to black sums are as wrong as they can be.
+fn black_and_white(world: &World) -> FixedLight {
+    let mut light = light(world);
+    let mut state = 1u64;
+    for sample in light.texels_mut().flat_map(|texel| &mut texel[..3]) {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        *sample = if state >> 63 == 0 { 0 } else { i16::MAX };
+    }
+    light
+}
+
+#[test]
+fn integers_are_within_one_code_of_floats() {
+    for (world, target, _) in conversions() {
+        let (srgb, linear, steepest) = (Transfer::Srgb, Transfer::Linear, Transfer::Gamma(1.6));
+        for (transfer, light, anti_ringing) in [
+            (srgb.clone(), light(&world), true),
+            (linear, light(&world), true),
+            (srgb.clone(), light(&world), false),
+            (srgb, black_and_white(&world), true),
+            (steepest, black_and_white(&world), true),
+        ] {
+            let filter = Filter { anti_ringing, ..Filter::DEFAULT };
+            let resampler = Resampler { filter, ..resampler(&world, &target) };
+            let background = Rgba::opaque(0.25, 0.5, 0.0);
+            let codec = FixedCodec::new(&transfer, background).expect("a codec");
+            let made = resampler.render_fixed(&light, &codec);
+            let exact = resampler.render(&floats(&light));
+            let (mut equal, mut count) = (0, 0);
+            for (a, b) in made.pixels().iter().zip(exact.pixels()) {
+                let b = b.over(background);
+                for c in 0..3 {
+                    let code = transfer.encode(f64::from(b.0[c].clamp(0.0, 1.0)), ColourChannel::ALL[c]) * 255.0;
+                    let error = (f64::from(a[c]) - code).abs();
+                    // As one that rounds it may say half a code less or more.
+                    assert!(error < 1.5, "{a:?} is not {b:?}: {error} in {:?}", target.projection);
+                    equal += usize::from(f64::from(a[c]) == code.round());
+                    count += 1;
+                }
+            }
+            assert!(equal * 100 >= count * 97, "{equal} of {count} are equal, {:?} {transfer:?}", target.projection);
+        }
+    }
+}
+
+/// What a plan takes from texels to pixels it takes back from pixels to texels, in all its mirrors.
+#[test]
+fn spreading_is_the_plan_the_other_way_round() {
+    for (world, target, _) in conversions() {
+        let filter = Filter { anti_ringing: false, ..Filter::DEFAULT };
+        let plan = Resampler { world: &world, target: &target, filter }.plan().expect("a plan");
+        let light = floats(&light(&world));
+        // Their part inside the field of view is not the plan's weights.
+        let average = |pixel: &Rgba| if pixel.alpha() > 0.0 { f64::from(pixel.0[0] / pixel.alpha()) } else { 0.0 };
+        let made = plan.apply(&light);
+        let values: Vec<f32> = (0..made.pixels().len()).map(|k| (k % 97) as f32 / 97.0).collect();
+        let there: f64 =
+            made.pixels().iter().zip(&values).map(|(pixel, value)| average(pixel) * f64::from(*value)).sum();
+        let mut shares = vec![0.0; world.texel_count()];
+        plan.spread(&values, &mut shares);
+        // The same to the last bit, however the threads part the texels.
+        for threads in [1, 3, 8, 11] {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
+            let mut again = vec![0.0; shares.len()];
+            pool.install(|| plan.spread(&values, &mut again));
+            assert!(again == shares, "{target:?} on {threads} threads");
+        }
+        let back: f64 = light.iter().zip(&shares).map(|(light, share)| f64::from(light.0[0]) * share).sum();
+        assert!((there / back - 1.0).abs() < 1e-5, "{target:?}: {there}, not {back}");
+    }
+}

@@ -1,0 +1,41 @@
+use fearless_simd::{Simd, dispatch};
+
+use super::*;
+use crate::render::plan::tap_lists::Palette;
+
+/// The light of a texel as it is worked with, by each level's instructions.
+fn lights(palette: &impl Palette, texel: u32) -> impl Iterator<Item = [f32; 4]> {
+    crate::filter::simd_levels::levels()
+        .into_iter()
+        .map(move |level| dispatch!(level, simd => of(simd, palette, texel)))
+}
+
+#[inline(always)]
+fn of<S: Simd>(simd: S, palette: &impl Palette, texel: u32) -> [f32; 4] {
+    palette.light(simd, texel).into()
+}
+
+#[test]
+fn texels_have_one_light_whoever_asks() {
+    const WHITE: i16 = i16::MAX;
+    let size = [1 << 8, 1 << 7];
+    let mut light = FixedLight::black([size]);
+    // All samples that there are, in each channel.
+    for (sample, texel) in (0..=WHITE).zip(light.texels_mut()) {
+        *texel = [sample, WHITE - sample, sample ^ 0x55, 0];
+    }
+    let texels = floats(&light);
+    let (world, target, _) = conversions().remove(0);
+    let mirrors = Mirrors::of::<FixedWeights>(&resampler(&world, &target));
+    let codec = FixedCodec::new(&Transfer::Srgb, Rgba::BLACK).expect("sRGB has 8 bits");
+    let level = Level::new();
+    let fixed = FixedFilter { level, mirrors: &mirrors, light: &light, codec: &codec, anti_ringing: true };
+    let float =
+        FloatFilter { level, mirrors: &mirrors, texels: &texels, anti_ringing: true, background: Rgba::TRANSPARENT };
+    let pitch = FixedLight::pitch(size[0]);
+    for (at, expected) in texels.iter().enumerate() {
+        assert!(lights(&float, at as u32).all(|light| light == expected.0), "{expected:?}");
+        let laid_out = (at / size[0] * pitch + at % size[0]) as u32;
+        assert!(lights(&fixed, laid_out).all(|light| light == expected.0), "{expected:?}");
+    }
+}

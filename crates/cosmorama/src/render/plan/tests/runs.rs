@@ -1,0 +1,113 @@
+use super::*;
+use crate::render::apply::output_region::PicturePart;
+use crate::render::plan::band::Room;
+
+/// Whether the ends of all runs of a plan are those of their windows, and how many of them lack a window at one end.
+fn cut_runs<W>(compiled: &Compiled<W>) -> usize {
+    let mut cut = 0;
+    for run in compiled.bands.iter().flat_map(|band| &band.runs) {
+        let (corner, end) = (run.corner(), run.end());
+        for (axis, size) in [run.width, run.height].into_iter().enumerate() {
+            let offsets = || run.lanes().map(|lane| run.first(lane)[axis] as usize - corner[axis]);
+            let expected = corner[axis] + offsets().max().expect("a lane") + usize::from(size);
+            // Windows are kept from where their weights begin, which may be a texel later than in the lane beside.
+            assert!((expected - 1..=expected).contains(&end[axis]), "{run:?} ends at {end:?}, not {expected}");
+            assert_eq!(offsets().min(), Some(0), "{run:?}");
+        }
+        cut += usize::from(run.lanes().min() != Some(0) || run.lanes().max() != Some(SIDE - 1));
+    }
+    cut
+}
+
+#[test]
+fn runs_end_where_their_windows_do() {
+    let (mut floats, mut integers) = (0, 0);
+    for (world, target, _) in conversions() {
+        let resampler = resampler(&world, &target);
+        floats += cut_runs(&resampler.plan().expect("a plan").0);
+        integers += cut_runs(&resampler.fixed_plan().expect("a plan").0);
+    }
+    assert!(floats > 100 && integers > 100, "{floats} and {integers} runs lack windows at an end");
+}
+
+/// Of pixels of many texels each, a band would take more memory the wider the picture is.
+#[test]
+fn bands_of_large_windows_are_made_before_they_are_all_there() {
+    let (mut spilled, mut most) = (0, 0);
+    for (world, target, _) in conversions() {
+        let (resampler, level) = (resampler(&world, &target), Level::new());
+        let (mirrors, table) = (Mirrors::of::<FloatWeights>(&resampler), KernelTable::new(&resampler.filter.kernel));
+        let mut band = Band::<FloatWeights>::default();
+        record((&resampler, None), &mirrors, &table, 0..BAND.min(mirrors.rows), level, &mut band, |band| {
+            spilled += usize::from(band.weights.len() > 1 << 20);
+            most = most.max(band.weights.len());
+            band.clear();
+        });
+        most = most.max(band.weights.len());
+    }
+    // A patch more, whose windows have a thousand texels each and some marks.
+    assert!(spilled > 0 && most < (1 << 20) + (1 << 17), "{spilled} times, {most} numbers");
+}
+
+/// Each pixel of a picture, in whatever mirror, is one of those that a patch is said to be shown as there.
+#[test]
+fn patches_are_shown_where_their_pixels_are() {
+    for (world, target, _) in conversions() {
+        let mirrors = Mirrors::of::<FixedWeights>(&resampler(&world, &target));
+        let size = [target.width(), target.height()];
+        let mut picture: Vec<usize> = (0..size[0] * size[1]).collect();
+        let mut times_made = vec![0; picture.len()];
+        for (band, mut part) in PicturePart::all(&mut picture, size[0], BAND, &mirrors).into_iter().enumerate() {
+            for row in 0..part.rows() {
+                let top = (band * BAND + row) / SIDE * SIDE;
+                for column in mirrors.first_column(top)..mirrors.columns {
+                    let images = mirrors.images_of([column, band * BAND + row]);
+                    for (index, image) in images.iter().enumerate() {
+                        let shown = image.shown([column / SIDE * SIDE, top], size);
+                        let at = part.beside(index, [column, row], 1)[0];
+                        let (x, y) = (at % size[0], at / size[0]);
+                        let is_shown = (shown.left..shown.right).contains(&x) && (shown.top..shown.bottom).contains(&y);
+                        assert!(is_shown, "{column} {row} of {band} in {index} is {x} {y}, not in {shown:?}");
+                        times_made[at] += 1;
+                    }
+                }
+            }
+        }
+        assert!(times_made.iter().all(|times| *times == 1), "{:?} {size:?}", target.projection);
+    }
+}
+
+#[test]
+fn a_pixel_without_texels_has_none_in_any_mirror() {
+    for (world, target, _) in conversions() {
+        let mirrors = Mirrors::of::<FixedWeights>(&resampler(&world, &target));
+        let mut singles = tap_lists::Singles::default();
+        singles.push((&world, &mirrors), [0, 0], 1.0, &Taps::default(), &mut Vec::new());
+        assert!(singles.taps(&singles.pixels()[0], mirrors.images.len()).texels.is_empty());
+    }
+}
+
+/// A picture is written past the caches: a pixel that a band makes twice would be looked at too early.
+#[test]
+fn a_band_that_makes_a_pixel_twice_is_not_sound() {
+    for (world, target, _) in conversions() {
+        let resampler = resampler(&world, &target);
+        let Compiled { mirrors, bands, .. } = resampler.plan().expect("a plan").0;
+        let rows = mirrors.band(0);
+        let room = Room { world: &world, mirrors: &mirrors, first_row: rows.start, rows: rows.len() };
+        assert!(bands[0].is_sound(&room));
+        let sound_with = |pixel: [usize; 2]| {
+            let mut band = bands[0].clone();
+            band.singles.push((&world, &mirrors), pixel, 1.0, &Taps::default(), &mut Vec::new());
+            band.is_sound(&room)
+        };
+        let of_runs = bands[0].runs.iter().flat_map(|run| run.lanes().map(|lane| run.pixel(lane)));
+        let singles = bands[0].singles.pixels().iter();
+        let of_singles = singles.map(|single| [single.column as usize, usize::from(single.row)]);
+        let made: Vec<_> = of_runs.chain(of_singles).collect();
+        let all = rows.flat_map(|row| (mirrors.first_column(0)..mirrors.columns).map(move |column| [column, row]));
+        for pixel in all.step_by(5) {
+            assert_eq!(sound_with(pixel), !made.contains(&pixel), "{pixel:?}");
+        }
+    }
+}

@@ -1,0 +1,108 @@
+use rayon::prelude::*;
+
+use super::band::{Band, Run};
+use super::symmetry::{MirrorImage, Walk, exchanged};
+use super::{BAND, Plan};
+use crate::render::apply::float::weights::FloatWeights;
+
+/// Parts of a world's texels, at most. For each of them all of the plan is gone through, and so the work grows with them: beyond as
+/// many, threads would do little but that, and take time from others.
+const MOST_PARTS: usize = 8;
+
+impl Plan {
+    /// Takes a number from each pixel back to the texels that it is made of, times their weights: what the plan does the other
+    /// way round. Adds it to a number of each texel.
+    pub(crate) fn spread(&self, pixels: &[f32], texels: &mut [f64]) {
+        // Each thread goes through all of the plan and adds up its own texels only: in the plan's order, however many there are.
+        let parts = rayon::current_num_threads().min(MOST_PARTS);
+        let some = texels.len().div_ceil(parts).max(1);
+        texels.par_chunks_mut(some).enumerate().for_each(|(part, texels)| {
+            let mut part = Part { first: part * some, texels };
+            for (index, band) in self.0.bands.iter().enumerate() {
+                let spread = Spread { plan: self, band, top: index * BAND };
+                band.groups().for_each(|group| spread.group(group, pixels, &mut part));
+                spread.singles(pixels, &mut part);
+            }
+        });
+    }
+}
+
+/// Some of a world's texels.
+struct Part<'a> {
+    first: usize,
+    texels: &'a mut [f64],
+}
+
+impl Part<'_> {
+    /// Adds to a texel, if it is one of these.
+    fn add(&mut self, texel: usize, number: f64) {
+        if let Some(sum) = self.texels.get_mut(texel.wrapping_sub(self.first)) {
+            *sum += number;
+        }
+    }
+
+    /// Whether none of a window's texels can be one of these.
+    fn is_beside(&self, walk: Walk, [columns, rows]: [usize; 2]) -> bool {
+        // It reaches from one corner to another.
+        let corners = [[0, 0], [columns - 1, 0], [0, rows - 1], [columns - 1, rows - 1]];
+        let corners = corners.map(|corner| walk.texel(corner) as usize);
+        corners.iter().all(|&texel| texel < self.first)
+            || corners.iter().all(|&texel| texel >= self.first + self.texels.len())
+    }
+}
+
+struct Spread<'a> {
+    plan: &'a Plan,
+    band: &'a Band<FloatWeights>,
+    /// Its first row.
+    top: usize,
+}
+
+impl Spread<'_> {
+    /// That of a pixel in place of which a mirror shows this one; none, if that mirror is not one that shows it.
+    fn pixel(&self, pixels: &[f32], image: usize, [column, row]: [usize; 2]) -> f64 {
+        let Plan(plan) = self.plan;
+        let MirrorImage { flips, is_turned, .. } = plan.mirrors.images[image];
+        let pixel = [column, self.top + row];
+        if image >= plan.mirrors.images_of(pixel).len() {
+            return 0.0;
+        }
+        let [column, row] = exchanged(pixel, is_turned);
+        let column = if flips[0] { plan.width - 1 - column } else { column };
+        let row = if flips[1] { plan.height - 1 - row } else { row };
+        f64::from(pixels[row * plan.width + column])
+    }
+
+    fn group(&self, group: &[Run], pixels: &[f32], part: &mut Part) {
+        let Plan(plan) = self.plan;
+        for (index, image) in plan.mirrors.images.iter().enumerate() {
+            let view = image.view(usize::from(group[0].view));
+            for (run, lane, window) in self.band.weights.windows(group) {
+                let walk = view.walk(run.first(lane).map(|at| at as usize));
+                if part.is_beside(walk, [window.shape.width, window.shape.height]) {
+                    continue;
+                }
+                let pixel = self.pixel(pixels, index, run.pixel(lane));
+                for row in 0..window.shape.height {
+                    for column in 0..window.shape.width {
+                        let texel = walk.texel([column, row]) as usize;
+                        part.add(texel, pixel * f64::from(window.weight(row, column)));
+                    }
+                }
+            }
+        }
+    }
+
+    fn singles(&self, pixels: &[f32], part: &mut Part) {
+        let images = self.plan.0.mirrors.images.len();
+        for single in self.band.singles.pixels() {
+            let taps = self.band.singles.taps(single, images);
+            for image in 0..images {
+                let pixel = self.pixel(pixels, image, [single.column as usize, usize::from(single.row)]);
+                for (weight, texels) in taps.weights.iter().zip(taps.texels.chunks(images)) {
+                    part.add(texels[image] as usize, pixel * f64::from(*weight));
+                }
+            }
+        }
+    }
+}

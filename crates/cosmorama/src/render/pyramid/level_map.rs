@@ -1,0 +1,217 @@
+use glam::DMat2;
+use rayon::prelude::*;
+
+use crate::camera::{Footprint, PixelPoint, PixelRect, View};
+use crate::filter::Kernel;
+use crate::filter::ellipse::semi_axes;
+use crate::filter::rim::field_edge::FieldEdge;
+use crate::projection::Projection;
+use crate::world::{Source, World};
+
+/// Texels of the finer of two levels that the kernel's unit is at least, across its minor axis, and half of what it is at most:
+/// 1.75 to 3.5 texels a pixel by default. The more, the nearer to exact EWA, and the more texels.
+const UNIT: f64 = 1.4;
+
+/// A kernel longer than so many times its width is widened: the number of its texels stays bounded.
+const LONGEST: f64 = 16.0;
+
+/// The last part of the way from one level to the next, on which the two are mixed; before, the finer one is nearer to exact EWA.
+const BLENDED: f32 = 0.25;
+
+/// Within so many pixels of where the field of view ends, levels are finer: texels that the edge cuts have the light of what it
+/// leaves of them, which is not that of their centres. So they are beside a steep rim of a view, where a texel's width and length
+/// change within few of them.
+const BESIDE_EDGE: usize = 3;
+const FINER: f64 = 2.0;
+
+/// Points along a picture's longer side between which levels are interpolated, at least.
+const POINTS: usize = 512;
+
+/// Which levels of a pyramid each pixel of a target is made from.
+///
+/// A level is a number: at 2 and beyond a pixel is made from the second halved world, from [`BLENDED`] before 3 more and more from
+/// the third. It is the logarithm of the footprint's minor axis among the texels of the view that shows it, interpolated between
+/// points a few pixels apart, so that it is continuous across the edges of views as well.
+#[derive(Clone, Debug)]
+pub(crate) struct LevelMap {
+    /// Pixels from point to point: a power of two.
+    step: usize,
+    /// Points in a row.
+    columns: usize,
+    levels: Vec<f32>,
+}
+
+impl LevelMap {
+    /// Levels for a target whose field of view may end at an edge.
+    pub(crate) fn new(world: &World, target: &View, kernel: &Kernel, edge: Option<FieldEdge>) -> Self {
+        let longer = target.width().max(target.height());
+        let step = 1 << (longer / POINTS).clamp(1, 8).ilog2();
+        let [columns, rows] = [target.width(), target.height()].map(|size| size.div_ceil(step) + 1);
+        let mut levels = vec![f32::NAN; columns * rows];
+        levels.par_chunks_mut(columns).enumerate().for_each(|(j, row)| {
+            for (i, level) in row.iter_mut().enumerate() {
+                let at = PixelPoint::new((i * step) as f64, (j * step) as f64);
+                let found = target.footprint(at).and_then(|footprint| {
+                    let pixels = (BESIDE_EDGE + step) as f64;
+                    let is_cut = edge.is_some_and(|edge| edge.is_near(footprint.direction, pixels * width(&footprint)));
+                    let source = source_of(world, &footprint)?;
+                    let level = level_of_footprint(source, &footprint, kernel)?;
+                    Some(if is_cut || is_beside_rim(source, &footprint, pixels) { level - FINER } else { level })
+                });
+                *level = found.map_or(f32::NAN, |level| level as f32);
+            }
+        });
+        let mut map = Self { step, columns, levels };
+        map.fill_gaps();
+        map
+    }
+
+    /// The finest level everywhere.
+    pub(crate) fn finest(target: &View) -> Self {
+        let step = target.width().max(target.height()).max(1).next_power_of_two();
+        Self { step, columns: 2, levels: vec![0.0; 4] }
+    }
+
+    /// Points that see nothing lie beside some that do, or no pixel around them sees anything: they get the least level there.
+    fn fill_gaps(&mut self) {
+        for _ in 0..2 {
+            let known = self.levels.clone();
+            let rows = known.len() / self.columns;
+            for (at, level) in self.levels.iter_mut().enumerate().filter(|(at, _)| known[*at].is_nan()) {
+                let (i, j) = (at % self.columns, at / self.columns);
+                let around = (j.saturating_sub(1)..rows.min(j + 2))
+                    .flat_map(|j| (i.saturating_sub(1)..self.columns.min(i + 2)).map(move |i| (i, j)));
+                let known = around.map(|(i, j)| known[j * self.columns + i]).filter(|level| !level.is_nan());
+                *level = known.fold(f32::NAN, f32::min);
+            }
+        }
+        self.levels.iter_mut().filter(|level| level.is_nan()).for_each(|level| *level = 0.0);
+    }
+
+    /// Makes do with levels up to the `coarsest`.
+    pub(crate) fn limit(&mut self, coarsest: usize) {
+        self.levels.iter_mut().for_each(|level| *level = level.min(coarsest as f32));
+    }
+
+    /// The number of the coarsest level that is needed.
+    pub(crate) fn coarsest(&self) -> usize {
+        let most = self.levels.iter().fold(0f32, |most, level| most.max(*level));
+        (0..).find(|level| is_beyond(most, *level)).map_or(0, |level| level - 1)
+    }
+
+    /// The numbers of the pixels of a row.
+    pub(crate) fn row(&self, row: usize) -> impl Iterator<Item = f32> {
+        let [above, below] = self.rows_around(row);
+        let (_, t) = self.place(row);
+        let points: Vec<f32> = above.iter().zip(below).map(|(above, below)| between([*above, *below], t)).collect();
+        (0..).map(move |column| {
+            let (i, s) = self.place(column);
+            between([points[i], points[i + 1]], s)
+        })
+    }
+
+    /// That of one pixel.
+    pub(crate) fn at(&self, row: usize, column: usize) -> f32 {
+        let [above, below] = self.rows_around(row);
+        let ((_, t), (i, s)) = (self.place(row), self.place(column));
+        between([between([above[i], below[i]], t), between([above[i + 1], below[i + 1]], t)], s)
+    }
+
+    /// The rows of points above and below a row of pixels.
+    fn rows_around(&self, row: usize) -> [&[f32]; 2] {
+        let (j, _) = self.place(row);
+        [j, j + 1].map(|j| &self.levels[j * self.columns..][..self.columns])
+    }
+
+    /// The point before a pixel's centre, and the part of the way to the next.
+    fn place(&self, pixel: usize) -> (usize, f32) {
+        // A shift: to divide would take longer than all else.
+        let within = pixel & (self.step - 1);
+        (pixel >> self.step.ilog2(), (within as f32 + 0.5) / self.step as f32)
+    }
+
+    /// The least and the greatest level of the pixels in a rectangle, or somewhat less and more.
+    fn range(&self, rect: PixelRect) -> [f32; 2] {
+        let (left, right) = (rect.left / self.step, (rect.right - 1) / self.step + 2);
+        let rows = rect.top / self.step..(rect.bottom - 1) / self.step + 2;
+        rows.flat_map(|j| &self.levels[j * self.columns..][left..right])
+            .fold([f32::INFINITY, f32::NEG_INFINITY], |[least, most], &level| [least.min(level), most.max(level)])
+    }
+
+    /// Whether a pixel in a rectangle may be made from a level.
+    pub(crate) fn needs(&self, level: usize, rect: PixelRect) -> bool {
+        let [least, most] = self.range(rect);
+        !is_beyond(most, level) && !is_before(least, level)
+    }
+}
+
+fn between([from, to]: [f32; 2], part: f32) -> f32 {
+    from + (to - from) * part
+}
+
+/// Whether a level is coarser than those that a number stands for.
+fn is_beyond(number: f32, level: usize) -> bool {
+    level > 0 && number <= level as f32 - BLENDED
+}
+
+/// Whether a level is finer than those that a number stands for.
+fn is_before(number: f32, level: usize) -> bool {
+    number >= level as f32 + 1.0
+}
+
+/// The part of a pixel of this number that is made from a level.
+pub(crate) fn part(number: f32, level: usize) -> f32 {
+    let beyond = number.max(0.0) - level as f32;
+    let coarser = |way: f32| ((way - 1.0) / BLENDED + 1.0).clamp(0.0, 1.0);
+    if beyond < 0.0 { coarser(beyond + 1.0) } else { 1.0 - coarser(beyond) }
+}
+
+/// The angle that a pixel is wide or high, in radians.
+fn width(footprint: &Footprint) -> f64 {
+    footprint.jacobian.dx.length().max(footprint.jacobian.dy.length())
+}
+
+/// The view that shows a footprint, if one does.
+fn source_of<'a>(world: &'a World, footprint: &Footprint) -> Option<&'a Source> {
+    let (owner, _) = world.owner(footprint.direction)?;
+    Some(&world.sources()[owner])
+}
+
+/// Whether a steep rim of a view is within so many pixels of a footprint.
+fn is_beside_rim(source: &Source, footprint: &Footprint, pixels: f64) -> bool {
+    source.view.projection.has_steep_rim() && source.view.margin(footprint.direction) < pixels * width(footprint)
+}
+
+/// The level for a footprint among the texels of a view; `None` where it has none.
+fn level_of_footprint(source: &Source, footprint: &Footprint, kernel: &Kernel) -> Option<f64> {
+    let (_, jacobian) = source.view.texel_footprint(footprint)?;
+    // Around a pole whole rows are in a footprint however coarse they are.
+    let longest = if source.period.is_some() { f64::INFINITY } else { LONGEST };
+    let level = level_of(jacobian, kernel, longest);
+    level.is_finite().then_some(level)
+}
+
+/// The level for a footprint in texels: 0, or less, where it is the finest.
+fn level_of(jacobian: DMat2, kernel: &Kernel, longest: f64) -> f64 {
+    let [major, minor] = semi_axes(jacobian);
+    let width = minor.max(major / longest);
+    // Where a pixel holds no more than one texel, nothing needs be smaller.
+    (width / (UNIT / kernel.scale).max(1.0)).log2().max(-1.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn parts_add_to_one() {
+        for number in [-1.0, 0.0, 0.2, 0.5, 1.0, 1.7, 3.0, 3.4f32] {
+            let parts: Vec<f32> = (0..6).map(|level| part(number, level)).collect();
+            assert!((parts.iter().sum::<f32>() - 1.0).abs() < 1e-6, "{number}: {parts:?}");
+            for (level, part) in parts.iter().enumerate() {
+                let is_left_out = is_beyond(number, level) || is_before(number, level);
+                assert!(*part == 0.0 || !is_left_out, "{number}: {parts:?}");
+            }
+        }
+    }
+}

@@ -1,0 +1,205 @@
+//! EWA at a bounded cost: among smaller copies of the world, wherever a pixel holds many texels.
+//!
+//! Heckbert 1989 interpolates between two EWA look-ups, in the two levels of a pyramid that fit the ellipse best.
+
+pub(crate) mod halving;
+pub(crate) mod level_map;
+
+use rayon::prelude::*;
+
+use super::batch::window::Level as Instructions;
+use super::pyramid::halving::Halving;
+use super::pyramid::level_map::{LevelMap, part};
+use super::scan::wanted::Wanted;
+use super::{Plan, Resampler, SavedPlan, plan};
+use crate::camera::ScreenPixel;
+use crate::filter::rim::field_edge::FieldEdge;
+use crate::filter::{Filter, FilterKind, KernelTable, PixelTaps};
+use crate::raster::{Image, Rgba};
+use crate::world::World;
+
+/// The worlds that a conversion is made from: the given one, and where the filter asks for it that of half as many texels each
+/// way, and so on.
+pub(crate) struct Pyramid<'a> {
+    resampler: &'a Resampler<'a>,
+    /// Those from the first halved one on, with how each is made from the one before.
+    levels: Vec<(World, Halving)>,
+    map: LevelMap,
+}
+
+impl<'a> Pyramid<'a> {
+    /// As many levels as the target needs.
+    pub(crate) fn new(resampler: &'a Resampler<'a>) -> Self {
+        let Resampler { world, target, filter } = resampler;
+        let mut levels: Vec<(World, Halving)> = Vec::new();
+        if filter.kind != FilterKind::EwaPyramid {
+            return Self { resampler, levels, map: LevelMap::finest(target) };
+        }
+        let edge = edge(resampler);
+        let mut map = LevelMap::new(world, target, &filter.kernel, edge);
+        while levels.len() < map.coarsest() {
+            let finer = levels.last().map_or(*world, |(world, _)| world);
+            let Some(coarser) = finer.halved() else { break };
+            let halving = Halving::new(finer, &coarser, edge);
+            levels.push((coarser, halving));
+        }
+        map.limit(levels.len());
+        Self { resampler, levels, map }
+    }
+
+    fn world(&self, level: usize) -> &World {
+        level.checked_sub(1).map_or(self.resampler.world, |halved| &self.levels[halved].0)
+    }
+
+    /// What is made from one level.
+    fn level(&self, level: usize) -> Resampler<'_> {
+        let kind = match self.resampler.filter.kind {
+            FilterKind::EwaPyramid => FilterKind::Ewa,
+            other => other,
+        };
+        let filter = Filter { kind, ..self.resampler.filter };
+        Resampler { world: self.world(level), target: self.resampler.target, filter }
+    }
+
+    /// Which patches need a level; `None` if none does.
+    fn wanted(&self, level: usize) -> Option<Wanted> {
+        let wanted = plan::wanted(&self.level(level), |rect| self.map.needs(level, rect));
+        wanted.any().then_some(wanted)
+    }
+}
+
+/// How many texels a pixel takes, those of all levels together.
+pub(crate) struct TexelCount<'a> {
+    map: &'a LevelMap,
+    levels: Vec<PixelTaps<'a>>,
+}
+
+impl<'a> TexelCount<'a> {
+    /// That of pixels of a target; `table` is that of the filter's kernel.
+    pub(crate) fn new(pyramid: &'a Pyramid<'a>, table: &'a KernelTable) -> Self {
+        let Resampler { target, .. } = pyramid.resampler;
+        let taps = |level| PixelTaps::new(pyramid.world(level), target, &pyramid.resampler.filter, table);
+        Self { map: &pyramid.map, levels: (0..=pyramid.levels.len()).map(taps).collect() }
+    }
+
+    /// That of one pixel.
+    pub(crate) fn of(&mut self, (column, row): (usize, usize), screen: &ScreenPixel) -> usize {
+        let number = self.map.at(row, column);
+        let mut count = 0;
+        for (level, taps) in self.levels.iter_mut().enumerate() {
+            if part(number, level) > 0.0 {
+                taps.for_each_texel((column, row), screen, |_| count += 1);
+            }
+        }
+        count
+    }
+}
+
+/// Where the target's field of view ends, as the filter has it: one that is smaller than a few texels is made of what is around it.
+fn edge<'a>(resampler: &Resampler<'a>) -> Option<FieldEdge<'a>> {
+    let pitch = resampler.world.sources().iter().map(|source| source.texel_pitch).fold(0.0, f64::max);
+    FieldEdge::of(resampler.target).filter(|edge| edge.is_wider_than(pitch))
+}
+
+/// Bytes that the levels of a conversion take at most, without computing them.
+pub(crate) fn bytes(resampler: &Resampler) -> usize {
+    let Resampler { world, target, filter } = resampler;
+    if LevelMap::new(world, target, &filter.kernel, edge(resampler)).coarsest() == 0 {
+        return 0;
+    }
+    // All levels have a third of the texels, or little more where sizes are odd; besides light a solid angle and a few bits.
+    let texels = world.texel_count() / 5 * 2;
+    texels * (size_of::<Rgba>() + size_of::<f32>() + size_of::<u16>())
+        + target.width() * target.height() * size_of::<Rgba>()
+}
+
+/// One frame without a plan.
+pub(crate) fn render(resampler: &Resampler, texels: &[Rgba]) -> Image<Rgba> {
+    let pyramid = Pyramid::new(resampler);
+    if pyramid.levels.is_empty() {
+        return plan::render(&pyramid.level(0), texels, Rgba::TRANSPARENT, Instructions::new());
+    }
+    let halvings: Vec<&Halving> = pyramid.levels.iter().map(|(_, halving)| halving).collect();
+    let size = (resampler.target.width(), resampler.target.height());
+    mix(&pyramid.map, size, &halvings, texels, |level, texels| {
+        let wanted = pyramid.wanted(level)?;
+        Some(plan::render_part(&pyramid.level(level), Some(&wanted), (texels, Rgba::TRANSPARENT), Instructions::new()))
+    })
+}
+
+/// Makes the light of one level after the other, and of each its part of the picture: `picture` gives what is made from a
+/// level's light, where anything is.
+fn mix(
+    map: &LevelMap,
+    (width, height): (usize, usize),
+    halvings: &[&Halving],
+    texels: &[Rgba],
+    picture: impl Fn(usize, &[Rgba]) -> Option<Image<Rgba>>,
+) -> Image<Rgba> {
+    let mut image = Image::filled(width, height, Rgba::TRANSPARENT);
+    let mut light = Vec::new();
+    for level in 0..=halvings.len() {
+        if level > 0 {
+            let finer = if level == 1 { texels } else { &light };
+            light = halvings[level - 1].light(finer);
+        }
+        let Some(picture) = picture(level, if level == 0 { texels } else { &light }) else { continue };
+        let rows = image.pixels_mut().par_chunks_mut(width.max(1)).enumerate();
+        rows.for_each(|(j, row)| {
+            for ((pixel, made), number) in row.iter_mut().zip(picture.row(j)).zip(map.row(j)) {
+                *pixel += *made * part(number, level);
+            }
+        });
+    }
+    image
+}
+
+/// The geometry of a conversion by a pyramid, for any number of frames: how each level is made, which texels of it make each
+/// pixel, and how much of the pixel is made from it.
+#[derive(Clone, Debug)]
+pub struct PyramidPlan {
+    size: (usize, usize),
+    map: LevelMap,
+    halvings: Vec<Halving>,
+    /// By level; none where nothing is made from it.
+    plans: Vec<Option<Plan>>,
+}
+
+impl PyramidPlan {
+    pub(crate) fn new(resampler: &Resampler) -> Self {
+        let pyramid = Pyramid::new(resampler);
+        let plan = |level| Some(Plan::of_part(&pyramid.level(level), &pyramid.wanted(level)?));
+        let plans = (0..=pyramid.levels.len()).map(plan).collect();
+        let Pyramid { levels, map, .. } = pyramid;
+        let size = (resampler.target.width(), resampler.target.height());
+        Self { size, map, halvings: levels.into_iter().map(|(_, halving)| halving).collect(), plans }
+    }
+
+    /// One frame. `texels` is the world's buffer of light.
+    pub fn apply(&self, texels: &[Rgba]) -> Image<Rgba> {
+        let halvings: Vec<&Halving> = self.halvings.iter().collect();
+        mix(&self.map, self.size, &halvings, texels, |level, texels| Some(self.plans[level].as_ref()?.apply(texels)))
+    }
+
+    /// The same in front of a background, linear and premultiplied as all light is.
+    pub fn apply_over(&self, texels: &[Rgba], background: Rgba) -> Image<Rgba> {
+        let mut image = self.apply(texels);
+        image.lay_over(background);
+        image
+    }
+
+    /// About how many bytes that of a conversion would hold.
+    pub(crate) fn bytes_estimate(resampler: &Resampler) -> usize {
+        let pyramid = Pyramid::new(resampler);
+        let levels =
+            (0..=pyramid.levels.len()).filter_map(|level| Some((pyramid.level(level), pyramid.wanted(level)?)));
+        let plans: usize = levels.map(|(level, wanted)| Plan::bytes_estimate(&level, Some(&wanted))).sum();
+        plans + pyramid.levels.iter().map(|(_, halving)| halving.bytes()).sum::<usize>()
+    }
+
+    /// Bytes of memory that the plan holds.
+    pub fn bytes(&self) -> usize {
+        let plans: usize = self.plans.iter().flatten().map(Plan::bytes).sum();
+        plans + self.halvings.iter().map(Halving::bytes).sum::<usize>()
+    }
+}

@@ -1,0 +1,7 @@
+//! Which texels a conversion needs, and what no view covers.
+
+pub(crate) mod block;
+pub(crate) mod bounds;
+pub(crate) mod need;
+pub(crate) mod screen_mask;
+pub(crate) mod uncovered;

@@ -1,0 +1,303 @@
+//! What a conversion needs of its sources, before any light is looked at.
+
+use rayon::prelude::*;
+
+use super::block::Block;
+use crate::camera::{PixelPoint, PixelRect, View};
+use crate::filter::gather::cap::Cap;
+use crate::filter::kernel::KernelTable;
+use crate::filter::pixel_taps::PixelTaps;
+use crate::filter::{Filter, FilterKind, Kernel};
+use crate::render::Uncovered;
+use crate::sphere::Direction;
+use crate::world::{Source, World};
+
+/// What targets need of one view of a world.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Need {
+    /// The view's name.
+    pub name: String,
+    /// Bounding rectangle of the texels in which target pixels (their centres, or the centroids of what a rim leaves of
+    /// them) fall. Without these there would be holes in the picture.
+    pub seen: Option<PixelRect>,
+    /// Bounding rectangle of all texels that the filter touches. Whatever is outside never changes a pixel.
+    pub read: Option<PixelRect>,
+}
+
+/// What targets need of a world.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Needs {
+    /// One for each view, in the world's order.
+    pub views: Vec<Need>,
+    /// What no view covers.
+    pub uncovered: Option<Uncovered>,
+}
+
+impl Needs {
+    /// What `targets` need of the world's views when they are made with `filter`.
+    ///
+    /// To ask for views whose image is missing, give a world of nominal views: it holds no light. The result is exact:
+    /// it comes from the taps of the filter itself. Only blocks of pixels that cannot widen the rectangles found so far
+    /// are passed over.
+    ///
+    /// Of a pyramid's texels, whose parts are many, it is known what they hold at most.
+    pub fn of(world: &World, targets: &[View], filter: &Filter) -> Self {
+        let reads = if filter.kind == FilterKind::EwaPyramid { Reads::AtMost } else { Reads::Exactly };
+        Self::surveyed(world, targets, filter, reads)
+    }
+
+    /// Like [`Needs::of`], but `read` is only an upper bound, a few texels too large, which is far quicker to find: where views
+    /// hold it, nothing more need be known.
+    pub fn at_most(world: &World, targets: &[View], filter: &Filter) -> Self {
+        Self::surveyed(world, targets, filter, Reads::AtMost)
+    }
+
+    /// The same, made exact for views of which it is not yet known whether anything is read: `asked` says which.
+    #[must_use]
+    pub fn settled(mut self, world: &World, targets: &[View], filter: &Filter, asked: &[bool]) -> Self {
+        if filter.kind == FilterKind::EwaPyramid {
+            return self;
+        }
+        let undecided = self.views.iter_mut().zip(asked).filter(|(_, asked)| **asked);
+        undecided.for_each(|(need, _)| need.read = None);
+        let uncovered = self.uncovered;
+        let needs = Self::surveyed_from(self, world, targets, filter, Reads::Of(asked));
+        Self { uncovered, ..needs }
+    }
+
+    fn surveyed(world: &World, targets: &[View], filter: &Filter, reads: Reads) -> Self {
+        Self::surveyed_from(Self::nothing(world), world, targets, filter, reads)
+    }
+
+    fn surveyed_from(known: Self, world: &World, targets: &[View], filter: &Filter, reads: Reads) -> Self {
+        let mut needs = known;
+        for (index, target) in targets.iter().enumerate() {
+            let survey = Survey { world, target, index, filter, reads };
+            // The extremes lie where the frame, the lens or a view ends, in this order of likelihood: with those known,
+            // the rest is quick.
+            let mut ranks: [Vec<Judged>; 3] = Default::default();
+            for judged in survey.judged_blocks() {
+                ranks[judged.rank].push(judged);
+            }
+            needs = ranks.iter().fold(needs, |needs, blocks| survey.blocks(blocks, needs));
+        }
+        needs
+    }
+
+    /// That of no pixel.
+    pub(crate) fn nothing(world: &World) -> Self {
+        let need = |source: &Source| Need { name: source.name.clone(), seen: None, read: None };
+        Self { views: world.sources().iter().map(need).collect(), uncovered: None }
+    }
+
+    /// Both together.
+    pub(crate) fn merged(mut self, other: &Self) -> Self {
+        for (mine, theirs) in self.views.iter_mut().zip(&other.views) {
+            mine.seen = union(mine.seen, theirs.seen);
+            mine.read = union(mine.read, theirs.read);
+        }
+        if let Some(other) = other.uncovered {
+            self.add_uncovered(other);
+        }
+        self
+    }
+
+    fn add_uncovered(&mut self, other: Uncovered) {
+        self.uncovered = Some(self.uncovered.map_or(other, |mine| mine.union(other)));
+    }
+}
+
+fn union(a: Option<PixelRect>, b: Option<PixelRect>) -> Option<PixelRect> {
+    a.into_iter().chain(b).reduce(PixelRect::union)
+}
+
+/// Whether nothing of `part` is outside `whole`.
+fn within(part: Option<PixelRect>, whole: Option<PixelRect>) -> bool {
+    part.is_none_or(|part| whole.is_some_and(|whole| whole.contains(&part)))
+}
+
+/// One target's look at a world.
+pub(crate) struct Survey<'a> {
+    pub(crate) world: &'a World,
+    pub(crate) target: &'a View,
+    pub(crate) index: usize,
+    pub(crate) filter: &'a Filter,
+    pub(crate) reads: Reads<'a>,
+}
+
+/// How well it is found what a filter reads.
+#[derive(Clone, Copy)]
+pub(crate) enum Reads<'a> {
+    /// By the taps of each pixel.
+    Exactly,
+    /// By what kernels around a block of pixels can reach.
+    AtMost,
+    /// By the taps of each pixel, for these views alone; all else is known.
+    Of(&'a [bool]),
+}
+
+/// A block and what is known of it as a whole. Large ones are inside the picture, and one view shows all of them.
+pub(crate) struct Judged {
+    block: Block,
+    cap: Option<Cap>,
+    /// The source that shows all of it.
+    owner: Option<usize>,
+    /// Whether all of it is inside the field of view: each pixel sees what its centre does.
+    is_inside: bool,
+    /// 0 at the edge of the picture, 1 at the edge of a view, 2 inside both.
+    rank: usize,
+}
+
+impl Survey<'_> {
+    fn judged_blocks(&self) -> Vec<Judged> {
+        let blocks = Block::largest(self.target).into_par_iter();
+        blocks
+            .flat_map_iter(|block| {
+                let mut judged = Vec::new();
+                self.judge(block, &mut judged);
+                judged
+            })
+            .collect()
+    }
+
+    /// Adds a block if it is not hidden; one at the edge of the picture or of a view in its smallest parts.
+    fn judge(&self, block: Block, into: &mut Vec<Judged>) {
+        if block.is_hidden(self.target) {
+            return;
+        }
+        let judged = self.judged(block);
+        match block.parts() {
+            Some(parts) if judged.rank < 2 || !judged.is_inside => parts.for_each(|part| self.judge(part, into)),
+            _ => into.push(judged),
+        }
+    }
+
+    pub(crate) fn judged(&self, block: Block) -> Judged {
+        let cap = block.cap(self.target);
+        let owner = cap.and_then(|cap| self.world.sources().iter().position(|source| cap.is_shown_by(source)));
+        let rank = if cap.is_none() || block.is_at_edge_of(self.target) { 0 } else { 1 + usize::from(owner.is_some()) };
+        let is_inside = cap.is_some_and(|cap| cap.is_inside(self.target));
+        Judged { block, cap, owner, is_inside, rank }
+    }
+
+    /// Adds what these blocks need to what is known already.
+    fn blocks(&self, blocks: &[Judged], known: Needs) -> Needs {
+        let few = blocks.len().div_ceil(8 * rayon::current_num_threads()).max(1);
+        let table = KernelTable::new(&self.filter.kernel);
+        let found: Vec<Needs> = blocks
+            .par_chunks(few)
+            .map(|blocks| {
+                let mut found = Needs { uncovered: None, ..known.clone() };
+                let mut pixels = PixelTaps::new(self.world, self.target, self.filter, &table);
+                for judged in blocks {
+                    self.add_block(judged, &mut pixels, &mut found);
+                }
+                found
+            })
+            .collect();
+        found.iter().fold(known, Needs::merged)
+    }
+
+    /// Adds what the pixels of a block need, unless they surely need nothing new.
+    pub(crate) fn add_block(&self, judged: &Judged, pixels: &mut PixelTaps, needs: &mut Needs) {
+        let reads_nothing_new = judged.cap.is_some_and(|cap| match self.reads {
+            Reads::Exactly => self.reads_within(&cap, needs, |_| true),
+            Reads::Of(asked) => self.reads_within(&cap, needs, |view| asked[view]),
+            Reads::AtMost if judged.block.parts().is_some() => self.reads_within(&cap, needs, |_| true),
+            Reads::AtMost => {
+                self.add_reach(&cap, needs);
+                true
+            }
+        });
+        let is_seen_known = matches!(self.reads, Reads::Of(_));
+        let sees_nothing_new = is_seen_known
+            || judged.cap.zip(judged.owner).is_some_and(|(cap, owner)| {
+                within(cap.seen_texels(&self.world.sources()[owner]), needs.views[owner].seen)
+            });
+        if reads_nothing_new && sees_nothing_new {
+            return;
+        }
+        if let Some(parts) = judged.block.parts() {
+            return parts.for_each(|part| self.add_block(&self.judged(part), pixels, needs));
+        }
+        for (i, j) in judged.block.pixels() {
+            if reads_nothing_new && judged.is_inside {
+                self.add_centre((i, j), needs);
+                continue;
+            }
+            let Some(screen) = self.target.screen_pixel(i, j) else { continue };
+            if !is_seen_known {
+                self.add_pixel((i, j), screen.footprint.direction, needs);
+            }
+            if reads_nothing_new {
+                continue;
+            }
+            if self.filter.kind == FilterKind::EwaPyramid {
+                let cap = Cap::around(screen.footprint.direction, &[screen.footprint]);
+                cap.iter().for_each(|cap| self.add_reach(cap, needs));
+            } else {
+                pixels.for_each_texel((i, j), &screen, |texel| add_read(self.world, texel, &mut needs.views));
+            }
+        }
+    }
+
+    /// Whether kernels around a block's pixels touch only texels that are needed anyway.
+    fn reads_within(&self, cap: &Cap, needs: &Needs, is_asked: impl Fn(usize) -> bool) -> bool {
+        let (sources, kernel) = (self.world.sources(), &self.filter.kernel);
+        let coarsest = cap.coarsest_pitch(sources);
+        let mut views = sources.iter().zip(&needs.views).enumerate().filter(|(view, _)| is_asked(*view));
+        views.all(|(_, (source, need))| within(cap.read_texels(source, coarsest, kernel), need.read))
+    }
+
+    /// Adds all that kernels around a block's pixels can touch.
+    pub(crate) fn add_reach(&self, cap: &Cap, needs: &mut Needs) {
+        let (sources, kernel) = (self.world.sources(), self.filter.kernel);
+        // A texel of the coarser of two levels is as wide as a pixel at most: its floor in such texels, and half of one.
+        let scale =
+            if self.filter.kind == FilterKind::EwaPyramid { kernel.scale + kernel.floor + 1.0 } else { kernel.scale };
+        let kernel = Kernel { scale, ..kernel };
+        let coarsest = cap.coarsest_pitch(sources);
+        for (source, need) in sources.iter().zip(&mut needs.views) {
+            need.read = union(need.read, cap.read_texels(source, coarsest, &kernel));
+        }
+    }
+
+    /// Adds what the centre of a pixel sees.
+    pub(crate) fn add_centre(&self, (i, j): (usize, usize), needs: &mut Needs) {
+        let direction = self.target.direction(PixelPoint::centre(i, j));
+        direction.into_iter().for_each(|direction| self.add_pixel((i, j), direction, needs));
+    }
+
+    /// Adds what a pixel sees, if it shows something.
+    pub(crate) fn add_screen(&self, (i, j): (usize, usize), needs: &mut Needs) {
+        let screen = self.target.screen_pixel(i, j);
+        screen.into_iter().for_each(|screen| self.add_pixel((i, j), screen.footprint.direction, needs));
+    }
+
+    fn add_pixel(&self, (column, row): (usize, usize), direction: Direction, needs: &mut Needs) {
+        match self.world.owner(direction) {
+            Some((owner, at)) => add_seen(&self.world.sources()[owner], at, &mut needs.views[owner]),
+            None => {
+                needs.add_uncovered(Uncovered::pixel(self.index, (column, row), direction));
+            }
+        }
+    }
+}
+
+fn add_seen(source: &Source, pixel: PixelPoint, need: &mut Need) {
+    let inside = |value: f64, size: usize| (value.max(0.0) as usize).min(size - 1);
+    let (i, j) = (inside(pixel.x, source.view.width()), inside(pixel.y, source.view.height()));
+    need.seen = union(need.seen, Some(one_texel(i, j)));
+}
+
+fn add_read(world: &World, texel: usize, needs: &mut [Need]) {
+    let owner = world.sources().iter().position(|source| source.texels().contains(&texel));
+    let Some(index) = owner else { return };
+    let source = &world.sources()[index];
+    let (i, j) = ((texel - source.offset) % source.view.width(), (texel - source.offset) / source.view.width());
+    needs[index].read = union(needs[index].read, Some(one_texel(i, j)));
+}
+
+fn one_texel(i: usize, j: usize) -> PixelRect {
+    PixelRect { left: i, top: j, right: i + 1, bottom: j + 1 }
+}

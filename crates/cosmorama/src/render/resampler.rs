@@ -1,0 +1,111 @@
+use super::batch::window::Level;
+use super::plan::{self, FixedPlan, Plan};
+use super::pyramid::{self, PyramidPlan};
+use crate::camera::View;
+use crate::filter::{Filter, FilterKind, reference};
+use crate::raster::{FixedCodec, FixedLight, Image, Rgba};
+use crate::world::World;
+
+/// A conversion from a world to a target view.
+#[derive(Clone, Copy, Debug)]
+pub struct Resampler<'a> {
+    /// Where light comes from.
+    pub world: &'a World,
+    /// Where it goes.
+    pub target: &'a View,
+    /// How.
+    pub filter: Filter,
+}
+
+impl Resampler<'_> {
+    /// One frame, computed without storing the geometry. `texels` is the world's buffer of light.
+    ///
+    /// A [`Plan`] makes the same pixels.
+    ///
+    /// Pixels are premultiplied by their coverage: transparent outside the lens. A pixel just beyond the world's last texel
+    /// takes what its kernel still reaches; [`super::ScreenMask`] tells which pixels see nothing.
+    ///
+    /// # Panics
+    /// If `texels` is not as long as [`World::texel_count`] says.
+    pub fn render(&self, texels: &[Rgba]) -> Image<Rgba> {
+        self.render_over(texels, Rgba::TRANSPARENT)
+    }
+
+    /// The same in front of a background, linear and premultiplied as all light is.
+    ///
+    /// # Panics
+    /// As [`Resampler::render`].
+    pub fn render_over(&self, texels: &[Rgba], background: Rgba) -> Image<Rgba> {
+        assert_eq!(texels.len(), self.world.texel_count(), "one texel of light for each texel of the world");
+        let mut image = match self.filter.kind {
+            FilterKind::Ewa | FilterKind::Point | FilterKind::Bilinear => {
+                return plan::render(self, texels, background, Level::new());
+            }
+            FilterKind::Reference { samples } => {
+                reference::render(self.world, self.target, &self.filter, samples, texels)
+            }
+            FilterKind::EwaPyramid => pyramid::render(self, texels),
+        };
+        image.lay_over(background);
+        image
+    }
+
+    /// One frame of 8 bits, opaque, of light that has 15: the code values of each pixel, within one of those of
+    /// [`Resampler::render`].
+    ///
+    /// # Panics
+    /// If `light` is not that of the world's texels.
+    pub fn render_fixed(&self, light: &FixedLight, codec: &FixedCodec) -> Image<[u8; 3]> {
+        assert!(light.sizes().eq(self.world.view_sizes()), "light of the world's views");
+        if !self.has_plan() {
+            let texels: Vec<Rgba> = (0..light.len()).map(|texel| light.rgba(texel)).collect();
+            return codec.encode(&self.render(&texels));
+        }
+        plan::render_fixed(self, light, codec)
+    }
+
+    /// The geometry, for any number of frames; `None` for the reference filter, which has too many samples to store, and for
+    /// that of pyramids, whose geometry is a [`PyramidPlan`].
+    pub fn plan(&self) -> Option<Plan> {
+        self.has_plan().then(|| Plan::new(self))
+    }
+
+    /// The geometry of a pyramid's levels, and of what is made from each of them; `None` for other filters.
+    pub fn pyramid_plan(&self) -> Option<PyramidPlan> {
+        (self.filter.kind == FilterKind::EwaPyramid).then(|| PyramidPlan::new(self))
+    }
+
+    /// The geometry for frames of 8 bits.
+    pub fn fixed_plan(&self) -> Option<FixedPlan> {
+        self.has_plan().then(|| FixedPlan::new(self))
+    }
+
+    /// About how many bytes [`Resampler::plan`] would hold, or [`Resampler::pyramid_plan`]: found from a part of the rows, keeping
+    /// nothing.
+    pub fn plan_bytes_estimate(&self) -> usize {
+        match self.filter.kind {
+            FilterKind::EwaPyramid => PyramidPlan::bytes_estimate(self),
+            _ if self.has_plan() => Plan::bytes_estimate(self, None),
+            _ => 0,
+        }
+    }
+
+    /// Bytes at most that the levels of a pyramid take while a frame is made of them; zero for other filters, and where the
+    /// world's own texels are large enough.
+    pub fn level_bytes(&self) -> usize {
+        if self.filter.kind == FilterKind::EwaPyramid { pyramid::bytes(self) } else { 0 }
+    }
+
+    /// Estimated bytes of what [`Resampler::fixed_plan`] gives; 0 without a plan.
+    pub fn fixed_plan_bytes_estimate(&self) -> usize {
+        if self.has_plan() { FixedPlan::bytes_estimate(self) } else { 0 }
+    }
+
+    /// Whether each pixel is a list of the world's own texels that can be kept.
+    fn has_plan(&self) -> bool {
+        match self.filter.kind {
+            FilterKind::Ewa | FilterKind::Point | FilterKind::Bilinear => true,
+            FilterKind::EwaPyramid | FilterKind::Reference { .. } => false,
+        }
+    }
+}

@@ -1,0 +1,112 @@
+use glam::{DMat2, DVec2};
+
+use super::tile::{HALF, SIDE};
+use crate::camera::{Footprint, PixelPoint, View};
+use crate::filter::gather::cap::Cap;
+use crate::world::Source;
+
+/// The points that patches are measured at: of the nine of each, neighbours share five, and each is computed once.
+#[derive(Clone, Debug)]
+pub(crate) struct Lattice<'a> {
+    target: &'a View,
+    slots: Vec<Slot>,
+}
+
+/// A point of a patch: where it lies among the texels of a view, and its derivatives.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Point {
+    pub(crate) place: DVec2,
+    pub(crate) jacobian: DMat2,
+}
+
+/// What is known of the last point that came by here.
+#[derive(Clone, Copy, Debug, Default)]
+struct Slot {
+    /// The pixel at whose centre it lies.
+    pixel: Option<[usize; 2]>,
+    screen: Option<Footprint>,
+    /// As a view sees it, by the view's index.
+    seen: Option<(usize, Option<Point>)>,
+}
+
+/// Points across that are remembered: more than a tile has.
+const ACROSS: usize = 32;
+
+/// And down: more than a patch has.
+const DOWN: usize = 4;
+
+impl<'a> Lattice<'a> {
+    pub(crate) fn new(target: &'a View) -> Self {
+        Self { target, slots: vec![Slot::default(); ACROSS * DOWN] }
+    }
+
+    pub(crate) fn target(&self) -> &'a View {
+        self.target
+    }
+
+    /// The footprint of a pixel whose column and row are whole halves of a patch.
+    pub(crate) fn footprint(&mut self, pixel: [usize; 2]) -> Option<Footprint> {
+        self.slot(pixel).screen
+    }
+
+    /// The same, and where it lies in a view of this index.
+    pub(crate) fn point(
+        &mut self,
+        pixel: [usize; 2],
+        (view, source): (usize, &Source),
+    ) -> Option<(Footprint, Option<Point>)> {
+        let slot = self.slot(pixel);
+        let screen = slot.screen?;
+        let point = match slot.seen {
+            Some((known, point)) if known == view => point,
+            _ => {
+                let seen = source.view.texel_footprint(&screen);
+                let point = seen.map(|(at, jacobian)| Point { place: DVec2::new(at.x, at.y), jacobian });
+                slot.seen = Some((view, point));
+                point
+            }
+        };
+        Some((screen, point))
+    }
+
+    /// The cap that holds the pixels of the patch of which this is the first; `None` where a corner has no direction, or where
+    /// it would be wide.
+    pub(crate) fn cap(&mut self, [i, j]: [usize; 2]) -> Option<Cap> {
+        let middle = self.footprint([i + HALF, j + HALF])?.direction;
+        let mut corner = |i, j| self.footprint([i, j]);
+        let corners = [corner(i, j)?, corner(i + SIDE, j)?, corner(i, j + SIDE)?, corner(i + SIDE, j + SIDE)?];
+        Cap::around(middle, &corners).map(Cap::of_whole_pixels)
+    }
+
+    fn slot(&mut self, pixel @ [i, j]: [usize; 2]) -> &mut Slot {
+        let slot = &mut self.slots[j / HALF % DOWN * ACROSS + i / HALF % ACROSS];
+        if slot.pixel != Some(pixel) {
+            let screen = self.target.footprint(PixelPoint::centre(i, j));
+            *slot = Slot { pixel: Some(pixel), screen, seen: None };
+        }
+        slot
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::world::{World, panorama};
+
+    #[test]
+    fn points_are_those_of_the_pixels_asked_for() {
+        let (target, sky) = (panorama(800, 400), panorama(640, 320));
+        let world = World::new(["a", "b"].map(|name| (name.to_owned(), sky))).expect("two views");
+        let mut lattice = Lattice::new(&target);
+        // Some that have one slot, each of them twice, and in two views.
+        for (k, pixel) in [[4, 8], [4 + 128, 8], [4, 8], [4, 24], [4, 24], [8, 24], [4, 8]].into_iter().enumerate() {
+            let exact = target.footprint(PixelPoint::centre(pixel[0], pixel[1]));
+            let source = &world.sources()[k % 2];
+            let (screen, point) = lattice.point(pixel, (k % 2, source)).expect("a panorama looks everywhere");
+            assert_eq!((Some(screen), lattice.footprint(pixel)), (exact, exact));
+            let (at, jacobian) = source.view.texel_footprint(&screen).expect("a panorama looks everywhere");
+            let point = point.expect("a panorama looks everywhere");
+            assert_eq!((point.place, point.jacobian), (DVec2::new(at.x, at.y), jacobian));
+        }
+    }
+}

@@ -1,0 +1,128 @@
+pub(crate) mod coons;
+pub(crate) mod lattice;
+pub(crate) mod patch;
+#[cfg(test)]
+mod tests;
+pub(crate) mod tile;
+pub(crate) mod wanted;
+
+use std::ops::Range;
+
+use super::Resampler;
+use super::batch::weights::Weigher;
+use super::batch::window::{Level, Windows};
+use super::scan::lattice::Lattice;
+use super::scan::patch::Patch;
+use super::scan::tile::{HALF, SIDE};
+use super::scan::wanted::Wanted;
+use crate::camera::PixelRect;
+use crate::filter::FilterKind;
+use crate::filter::kernel::KernelTable;
+use crate::filter::pixel_taps::PixelTaps;
+use crate::filter::taps::Taps;
+
+/// Columns that are gone through together: pixels above each other share texels, which are still at hand.
+const TILE: usize = 8 * SIDE;
+
+/// Goes through pixels of a target and gives what makes each of them to a [`Sink`]: patch by patch where the geometry is
+/// smooth, one by one elsewhere.
+pub(crate) struct Scan<'a> {
+    resampler: &'a Resampler<'a>,
+    pixels: PixelTaps<'a>,
+    /// For filters that work in windows.
+    weigher: Option<Weigher>,
+    lattice: Lattice<'a>,
+    /// The patches to go through, if not all.
+    wanted: Option<&'a Wanted>,
+}
+
+/// A part of a target.
+pub(crate) struct Area {
+    /// So many of the first ones.
+    pub(crate) columns: usize,
+    pub(crate) rows: Range<usize>,
+    /// Whether patches to the left of the diagonal through the first column and row of the target are left out.
+    pub(crate) skips_left_of_diagonal: bool,
+}
+
+/// What takes the pixels of a [`Scan`], each with its column in the target and its row among those of the scan.
+pub(crate) trait Sink {
+    /// A pixel by itself, and the part of it inside the field of view.
+    fn pixel(&mut self, pixel: [usize; 2], coverage: f32, taps: &Taps);
+
+    /// Pixels beside each other, whole ones, in the lanes that have a bit; those whose windows do not hold come by themselves.
+    fn windows(&mut self, pixel: [usize; 2], lanes: u8, windows: &Windows);
+}
+
+impl<'a> Scan<'a> {
+    /// `table` is that of the filter's kernel.
+    pub(crate) fn new(resampler: &'a Resampler<'a>, table: &'a KernelTable, level: Level) -> Self {
+        let Resampler { world, target, filter } = resampler;
+        let weigher = matches!(filter.kind, FilterKind::Ewa | FilterKind::EwaPyramid)
+            .then(|| Weigher::new(&filter.kernel, level))
+            .flatten();
+        let pixels = PixelTaps::new(world, target, filter, table);
+        Self { resampler, pixels, weigher, lattice: Lattice::new(target), wanted: None }
+    }
+
+    /// The same of these patches alone.
+    pub(crate) fn only(self, wanted: Option<&'a Wanted>) -> Self {
+        Self { wanted, ..self }
+    }
+
+    /// All pixels of a part that show something.
+    pub(crate) fn pixels(&mut self, Area { columns, rows, skips_left_of_diagonal }: &Area, sink: &mut impl Sink) {
+        for tile in (0..*columns).step_by(TILE) {
+            // Patches lie alike whatever the first row: so do the pixels that they make.
+            for top in (rows.start / SIDE * SIDE..rows.end).step_by(SIDE) {
+                let from = if *skips_left_of_diagonal { tile.max(top) } else { tile };
+                for left in (from..(tile + TILE).min(*columns)).step_by(SIDE) {
+                    self.patch([left, top], *columns, rows, sink);
+                }
+            }
+        }
+    }
+
+    /// Whether a great circle that ends the field of view surely hides the patch of which this is the first pixel. Of one whose
+    /// middle it does not hide no more is asked.
+    fn is_cut_off(&mut self, first: [usize; 2]) -> bool {
+        let target = self.resampler.target;
+        let Some(side) = target.stop.half_space else { return false };
+        let middle = self.lattice.footprint(first.map(|at| at + HALF));
+        middle.is_some_and(|middle| side.dot(target.orientation.to_view(middle.direction)) < 0.0)
+            && self.lattice.cap(first).is_some_and(|cap| cap.is_below(side, target))
+    }
+
+    fn patch(&mut self, [left, top]: [usize; 2], columns: usize, rows: &Range<usize>, sink: &mut impl Sink) {
+        if self.wanted.is_some_and(|wanted| !wanted.holds([left, top])) {
+            return;
+        }
+        let first = rows.start;
+        let target = self.resampler.target;
+        let rows = top.max(rows.start)..rows.end.min(top + SIDE);
+        let count = SIDE.min(columns - left);
+        let (all, right) = (u8::MAX >> (SIDE - count), left + count);
+        let rect = PixelRect { left, top: rows.start, right, bottom: rows.end };
+        if target.outline_hides(rect) || self.is_cut_off([left, top]) {
+            return;
+        }
+        let gather = self.pixels.gather();
+        let patch = self.weigher.as_ref().and_then(|_| Patch::new(gather, &mut self.lattice, [left, top]));
+        let mut windows = self.weigher.as_mut().zip(patch.as_ref()).map(|(weigher, patch)| weigher.rows(patch));
+        for row in rows {
+            let within = row - first;
+            let lanes = patch.as_ref().map_or(0, |patch| all & patch.lanes(self.pixels.gather(), target, [left, row]));
+            let mut made = 0;
+            if let Some(windows) = windows.as_mut().filter(|_| lanes != 0) {
+                let windows = windows.row(row - top);
+                sink.windows([left, within], lanes, windows);
+                made = lanes & windows.held();
+            }
+            for lane in (0..count).filter(|lane| made >> lane & 1 == 0) {
+                let Some(screen) = target.screen_pixel(left + lane, row) else { continue };
+                let Some(taps) = self.pixels.taps(&screen) else { continue };
+                sink.pixel([left + lane, within], screen.coverage as f32, taps);
+            }
+        }
+    }
+}

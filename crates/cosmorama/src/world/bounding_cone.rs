@@ -1,0 +1,110 @@
+use crate::camera::{PixelPoint, View};
+use crate::projection::{PlanePoint, Projection};
+use crate::sphere::{Angle, Direction};
+
+/// A cone that holds every direction which a picture shows.
+///
+/// Far outside, around the point behind a lens or beside a horizon, small caps lie all over the image's plane: what the cone
+/// does not reach need not be looked for there.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct SeenCone {
+    middle: Direction,
+    half: Angle,
+}
+
+/// Points along each edge of an image, and across it, that are looked at.
+const STEPS: usize = 48;
+
+impl SeenCone {
+    /// That of a view; `None` where it is not known to be narrower than the world.
+    pub(crate) fn of(view: &View) -> Option<Self> {
+        match view.stop.circle {
+            Some(radius) => Self::of_circle(view, radius),
+            None => Self::of_image(view),
+        }
+    }
+
+    fn of_circle(view: &View, radius: f64) -> Option<Self> {
+        let middle = view.projection.unproject(PlanePoint::new(0.0, 0.0))?;
+        let half = middle.angle_to(view.projection.unproject(PlanePoint::new(radius, 0.0))?);
+        Some(Self { middle: view.orientation.to_world(middle), half })
+    }
+
+    /// The cone around a lattice of points of the image, and around as much more as two neighbours of them are apart.
+    fn of_image(view: &View) -> Option<Self> {
+        // A panorama goes round; what a table relates may be torn between any two points.
+        if view.period().is_some() || view.projection.ends_between_samples() {
+            return None;
+        }
+        let at = |size: usize, step: usize| size as f64 * step as f64 / STEPS as f64;
+        let look = |i: usize, j: usize| view.direction(PixelPoint::new(at(view.width(), i), at(view.height(), j)));
+        let middle = look(STEPS / 2, STEPS / 2)?;
+        let (mut half, mut apart) = (0f64, 0f64);
+        for (i, j) in (0..=STEPS).flat_map(|j| (0..=STEPS).map(move |i| (i, j))) {
+            let here = look(i, j)?;
+            half = half.max(middle.angle_to(here).radians());
+            let before = [(i > 0).then(|| look(i - 1, j)), (j > 0).then(|| look(i, j - 1))];
+            for neighbour in before.into_iter().flatten() {
+                apart = apart.max(here.angle_to(neighbour?).radians());
+            }
+        }
+        let half = Angle::from_radians(half + apart);
+        (half < Angle::HALF_TURN).then_some(Self { middle, half })
+    }
+
+    /// Whether it comes within `radius` radians of a direction.
+    pub(crate) fn reaches(&self, direction: Direction, radius: f64) -> bool {
+        self.middle.angle_to(direction).radians() <= self.half.radians() + radius
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::camera::{
+        CameraModel, CubeFaceCamera, CylinderCamera, CylinderKind, EquirectCamera, FieldOfView, FisheyeCamera,
+        MirrorBallCamera, PanniniCamera, PerspectiveCamera, Placement, StereographicCamera, WorldMapCamera,
+    };
+    use crate::sphere::Orientation;
+
+    fn cone_holds_the_picture(frame: CameraModel, (width, height): (usize, usize)) -> bool {
+        let turn = [0.7, -0.4, 0.2].map(Angle::from_radians);
+        let orientation = Orientation::from_yaw_pitch_roll(turn[0], turn[1], turn[2]);
+        let view = Placement { orientation, ..Placement::new(frame) }.view(width, height).expect("a size");
+        let Some(cone) = SeenCone::of(&view) else { return false };
+        for (i, j) in (0..height).flat_map(|j| (0..width).map(move |i| (i, j))) {
+            let pixel = PixelPoint::centre(i, j);
+            if let Some(direction) = view.direction(pixel).filter(|_| view.shows(pixel)) {
+                assert!(cone.reaches(direction, 1e-9), "{frame:?}: {direction:?} at {i}, {j} is outside {cone:?}");
+            }
+        }
+        true
+    }
+
+    #[test]
+    fn what_a_picture_shows_is_inside() {
+        let pannini = PanniniCamera::default();
+        for frame in [
+            CameraModel::CubeFace(CubeFaceCamera),
+            CameraModel::Perspective(PerspectiveCamera::new(FieldOfView::Horizontal(Angle::from_degrees(150.0)))),
+            CameraModel::Pannini(pannini),
+            CameraModel::Stereographic(StereographicCamera::default()),
+            CameraModel::Fisheye(FisheyeCamera::default()),
+        ] {
+            assert!(cone_holds_the_picture(frame, (97, 61)), "{frame:?} has no cone");
+        }
+    }
+
+    #[test]
+    fn what_goes_round_or_shows_the_world_has_none() {
+        for frame in [
+            CameraModel::Equirect(EquirectCamera::default()),
+            CameraModel::Cylinder(CylinderCamera::new(CylinderKind::Mercator)),
+            CameraModel::WorldMap(WorldMapCamera::Hammer),
+        ] {
+            assert!(!cone_holds_the_picture(frame, (96, 48)), "{frame:?}");
+        }
+        // A ball shows the world but for the point behind it.
+        cone_holds_the_picture(CameraModel::MirrorBall(MirrorBallCamera::default()), (64, 64));
+    }
+}

@@ -1,0 +1,85 @@
+use crate::camera::PixelPoint;
+
+/// A shape in an image, that a mask leaves or takes away.
+#[derive(Clone, Debug, PartialEq)]
+pub enum MaskShape {
+    /// Only what lies in the circle counts.
+    Circle {
+        /// Its centre.
+        centre: PixelPoint,
+        /// Its radius in pixels.
+        radius: f64,
+    },
+    /// What lies in the polygon does not count; where it crosses itself, by even and odd.
+    Hole(Vec<PixelPoint>),
+}
+
+impl MaskShape {
+    /// Whether a point of the image counts, as far as this shape is concerned.
+    pub fn leaves(&self, point: PixelPoint) -> bool {
+        self.row(point.y).leaves(point.x)
+    }
+
+    /// What it leaves of a line at a height.
+    pub(crate) fn row(&self, y: f64) -> RowCut {
+        match self {
+            Self::Circle { centre, radius } => {
+                RowCut::Circle { middle: centre.x, height: y - centre.y, radius: *radius }
+            }
+            Self::Hole(corners) => RowCut::Hole(crossings(corners, y)),
+        }
+    }
+}
+
+/// What a shape leaves of a line: all that is asked of a polygon's corners is asked once for the line.
+#[derive(Clone, Debug)]
+pub(crate) enum RowCut {
+    Circle {
+        middle: f64,
+        /// Of the line over the middle.
+        height: f64,
+        radius: f64,
+    },
+    /// Where a polygon crosses it, from left to right.
+    Hole(Vec<f64>),
+}
+
+impl RowCut {
+    /// Whether it leaves the point at `x`.
+    pub(crate) fn leaves(&self, x: f64) -> bool {
+        match self {
+            Self::Circle { middle, height, radius } => (x - middle).hypot(*height) <= *radius,
+            // A ray to the right leaves the polygon an even number of times.
+            Self::Hole(crossings) => {
+                (crossings.len() - crossings.partition_point(|crossing| *crossing <= x)).is_multiple_of(2)
+            }
+        }
+    }
+}
+
+fn crossings(corners: &[PixelPoint], y: f64) -> Vec<f64> {
+    let sides = corners.iter().zip(corners.iter().cycle().skip(1));
+    let crossing = sides.filter(|(a, b)| (a.y > y) != (b.y > y));
+    let mut crossings: Vec<f64> = crossing.map(|(a, b)| a.x + (b.x - a.x) * (y - a.y) / (b.y - a.y)).collect();
+    crossings.sort_unstable_by(f64::total_cmp);
+    crossings
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_hole_is_what_its_corners_enclose() {
+        let corners = [(1.0, 1.0), (9.0, 1.0), (9.0, 9.0), (5.0, 4.0), (1.0, 9.0)];
+        let hole = MaskShape::Hole(corners.map(|(x, y)| PixelPoint::new(x, y)).to_vec());
+        for (x, y, leaves) in
+            [(5.0, 2.0, false), (5.0, 6.0, true), (2.0, 6.0, false), (0.5, 5.0, true), (9.5, 5.0, true)]
+        {
+            assert_eq!(hole.leaves(PixelPoint::new(x, y)), leaves, "({x}, {y})");
+        }
+        assert!(MaskShape::Hole(Vec::new()).leaves(PixelPoint::new(0.0, 0.0)));
+        let circle = MaskShape::Circle { centre: PixelPoint::new(5.0, 5.0), radius: 2.0 };
+        assert!(circle.leaves(PixelPoint::new(6.9, 5.0)) && !circle.leaves(PixelPoint::new(6.5, 6.5)));
+    }
+}
