@@ -10,7 +10,7 @@ use std::sync::Mutex;
 use std::time::Instant;
 
 use cosmorama::raster::{Image, Rgba};
-use cosmorama::render::{FixedPlan, SavedPlan};
+use cosmorama::render::FixedPlan;
 use cpu_time::ProcessTime;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use testkit::Dome;

@@ -1,5 +1,3 @@
-use std::path::PathBuf;
-
 use clap::builder::NonEmptyStringValueParser;
 use clap::{Args, ValueHint};
 use cosmorama_io::FrameList;
@@ -84,11 +82,6 @@ pub(crate) struct ConvertArgs {
     pub(crate) compression: Option<CompressionLevel>,
     #[command(flatten)]
     pub(crate) limits: LimitArgs,
-    /// Keep the geometry of conversions in a folder, for the next run of the same one; safe to delete. Each has a file about as
-    /// large as its plan in memory, which explain tells: 6 to 11 bytes a pixel of a dome as fine as its input, some 50 of what
-    /// mirrors nothing, and thousands of pixels that hold many texels each
-    #[arg(long, value_name = "DIR", value_hint = ValueHint::DirPath, help_heading = "Run")]
-    pub(crate) plan_cache: Option<PathBuf>,
     /// How to tell what is going on, on standard error
     #[arg(long, value_enum, value_name = "STYLE", default_value_t = ProgressStyle::Auto, help_heading = "Run")]
     pub(crate) progress: ProgressStyle,

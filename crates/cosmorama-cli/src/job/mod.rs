@@ -65,8 +65,6 @@ pub(crate) use st_pixels::st_pixels;
 pub(crate) use target::{Sheet, Target, TargetView};
 pub(crate) use thin_alpha::ThinAlpha;
 
-use std::path::PathBuf;
-
 use anyhow::Result;
 use cosmorama::filter::Filter;
 use cosmorama::raster::{Channels, Depth, Rgba};
@@ -99,8 +97,6 @@ pub(crate) struct ConvertJob {
     missing: Missing,
     /// What may be used.
     pub(crate) memory: MemoryBudget,
-    /// Where plans are kept.
-    pub(crate) plan_cache: Option<PathBuf>,
     /// What should be known.
     pub(crate) warnings: Vec<String>,
 }
@@ -149,9 +145,8 @@ impl ConvertJob {
         });
         let levels = levels.max().unwrap_or(0);
         let memory = memory.beside_levels(levels, &input, &target)?;
-        let (missing, plan_cache) = (args.missing, args.plan_cache.clone());
-        let warnings = std::mem::take(warnings);
-        Ok(Self { input, worlds, target, filter, light, outputs, coverage, missing, memory, plan_cache, warnings })
+        let (missing, warnings) = (args.missing, std::mem::take(warnings));
+        Ok(Self { input, worlds, target, filter, light, outputs, coverage, missing, memory, warnings })
     }
 
     /// The conversion to one of the target's views.
@@ -193,9 +188,6 @@ fn check_file_options(args: &ConvertArgs, format: Format) -> Result<()> {
         return Err(usage(
             "--transfer has no effect beside --in-transfer and --out-transfer; leave it or one of them out",
         ));
-    }
-    if args.plan_cache.is_some() && (args.st_map || Builtin::named(&args.input)?.is_some()) {
-        return Err(usage("--plan-cache keeps how pictures are filtered, but here none is; leave it out"));
     }
     Ok(())
 }

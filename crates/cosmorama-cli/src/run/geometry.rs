@@ -1,11 +1,8 @@
-use std::cell::Cell;
-
 use cosmorama::filter::FilterKind;
 use cosmorama::raster::{Channels, Depth, FixedCodec, FixedDecoder, FixedLight, Image, Rgba};
-use cosmorama::render::{FixedPlan, Plan, PyramidPlan, Resampler, SavedPlan};
+use cosmorama::render::{FixedPlan, Plan, PyramidPlan, Resampler};
 
 use super::balance::{self, Balance, BalancedLight};
-use super::plan_cache::PlanCache;
 use crate::job::{ConvertJob, Coverage, TargetView};
 
 /// The geometry of a job, in the form that its light needs: compiled by target view, where that pays and fits into memory.
@@ -21,41 +18,39 @@ pub(super) enum Geometry {
 const UNBALANCED: &str = "--kernel light: there is not memory enough for all of the geometry; near poles, seams and the corners \
                           of faces light may be added or lost. Give more with --memory";
 
-const UNKEPT: &str = "--plan-cache: plans of pyramids and of the reference are not kept; with --filter ewa they are";
-
-/// Where there is no room for geometry that would be used again: in this run, and in the next.
+/// Where there is no room for geometry that would be used again.
 const ANEW: &str =
     "there is not memory enough to hold the geometry: it is computed anew for each frame; give more with --memory";
-const NO_ROOM: &str =
-    "--plan-cache: there is not memory enough to hold the plan: none is kept; give more with --memory";
 
 impl Geometry {
     /// That of a job, and what should be known of it.
     pub(super) fn compile(job: &ConvertJob) -> (Self, Vec<String>) {
         let mut warnings = Vec::new();
         if job.filter.kind == FilterKind::EwaPyramid {
-            if job.plan_cache.is_some() {
-                warnings.push(UNKEPT.to_owned());
-            }
-            let lacks_room = Cell::new(false);
-            let plan =
-                |r: &Resampler, left| fitting(r, left, |r| r.plan_bytes_estimate(), |r| r.pyramid_plan(), &lacks_room);
-            let plans = plans(job, 0, |r, left| if pays(job) { plan(r, left) } else { None }, PyramidPlan::bytes);
-            warnings.extend(lacks_room.get().then(|| ANEW.to_owned()));
+            let compile = Compile {
+                estimate: |r| r.plan_bytes_estimate(),
+                plan: |r| r.pyramid_plan(),
+                bytes: PyramidPlan::bytes,
+            };
+            let plans = plans(job, (pays(job), 0), &compile, &mut warnings);
             return (Self::Pyramid(plans), warnings);
         }
         let geometry = match codec(job) {
             Some(codec) => {
-                let plans =
-                    kept(job, (pays(job), 0), |r| r.fixed_plan_bytes_estimate(), |r| r.fixed_plan(), &mut warnings);
-                Self::Fixed(plans, codec)
+                let compile = Compile {
+                    estimate: |r| r.fixed_plan_bytes_estimate(),
+                    plan: |r| r.fixed_plan(),
+                    bytes: FixedPlan::bytes,
+                };
+                Self::Fixed(plans(job, (pays(job), 0), &compile, &mut warnings), codec)
             }
             None => {
                 let groups = balance::groups(job);
                 let taken = balance::bytes_of(job, &groups);
                 // What is balanced needs its plan, even for one picture.
                 let is_kept = pays(job) || !groups.is_empty();
-                let plans = kept(job, (is_kept, taken), |r| r.plan_bytes_estimate(), |r| r.plan(), &mut warnings);
+                let compile = Compile { estimate: |r| r.plan_bytes_estimate(), plan: |r| r.plan(), bytes: Plan::bytes };
+                let plans = plans(job, (is_kept, taken), &compile, &mut warnings);
                 if groups.iter().flatten().any(|view| plans[*view].is_none()) {
                     warnings.push(UNBALANCED.to_owned());
                 }
@@ -154,67 +149,40 @@ fn pays(job: &ConvertJob) -> bool {
     job.outputs.frames.len() > 1
 }
 
-/// The plans of all target views; `plan_of` is told how many bytes are left for them beside what is `taken`.
+/// How plans of one kind are made.
+struct Compile<P> {
+    /// About how many bytes one would hold.
+    estimate: fn(&Resampler) -> usize,
+    plan: fn(&Resampler) -> Option<P>,
+    /// How many it holds.
+    bytes: fn(&P) -> usize,
+}
+
+/// The plans of all target views, if they are to be kept, as far as they fit into memory beside what is `taken`.
 fn plans<P>(
     job: &ConvertJob,
-    taken: u64,
-    mut plan_of: impl FnMut(&Resampler, u64) -> Option<P>,
-    bytes: impl Fn(&P) -> usize,
-) -> Vec<Option<P>> {
-    let left = job.memory.left_for_plan(&job.input, &job.target, rayon::current_num_threads());
-    let mut left = left.saturating_sub(taken);
-    let plan_of = |target: &TargetView| {
-        let plan = plan_of(&job.resampler(target), left)?;
-        left = left.saturating_sub(bytes(&plan) as u64);
-        Some(plan)
-    };
-    job.target.views.iter().map(plan_of).collect()
-}
-
-/// A plan, if it fits into so many bytes; if not, that is noted.
-fn fitting<P>(
-    resampler: &Resampler,
-    left: u64,
-    estimate: impl Fn(&Resampler) -> usize,
-    plan: impl Fn(&Resampler) -> Option<P>,
-    lacks_room: &Cell<bool>,
-) -> Option<P> {
-    if estimate(resampler) as u64 > left {
-        lacks_room.set(true);
-        return None;
-    }
-    plan(resampler)
-}
-
-/// Geometry for many frames is computed once, and once for many runs where it is kept, as far as it fits into memory.
-fn kept<P: SavedPlan>(
-    job: &ConvertJob,
     (is_kept, taken): (bool, u64),
-    estimate: impl Fn(&Resampler) -> usize,
-    plan: impl Fn(&Resampler) -> Option<P>,
+    compile: &Compile<P>,
     warnings: &mut Vec<String>,
 ) -> Vec<Option<P>> {
-    let lacks_room = Cell::new(false);
-    let plan_of = |resampler: &Resampler, left: u64| {
-        let compute = || fitting(resampler, left, &estimate, &plan, &lacks_room);
-        match &job.plan_cache {
-            Some(folder) if !job.outputs.frames.is_empty() => {
-                let mut cache = PlanCache::new(folder, left);
-                let plan = cache.plan(resampler, compute);
-                warnings.append(&mut cache.warnings);
-                plan
-            }
-            _ if is_kept => compute(),
-            _ => None,
+    let left = job.memory.left_for_plan(&job.input, &job.target, rayon::current_num_threads());
+    let (mut left, mut lacks_room) = (left.saturating_sub(taken), false);
+    let plan_of = |target: &TargetView| {
+        let resampler = job.resampler(target);
+        if !is_kept {
+            return None;
         }
+        if (compile.estimate)(&resampler) as u64 > left {
+            lacks_room = true;
+            return None;
+        }
+        let plan = (compile.plan)(&resampler)?;
+        left = left.saturating_sub((compile.bytes)(&plan) as u64);
+        Some(plan)
     };
-    let plans = plans(job, taken, plan_of, P::bytes);
-    let is_complete = job.outputs.frames.is_empty() || plans.iter().all(Option::is_some);
-    match (&job.plan_cache, lacks_room.get()) {
-        (Some(_), true) => warnings.push(NO_ROOM.to_owned()),
-        (Some(_), false) if !is_complete => warnings.push(UNKEPT.to_owned()),
-        (None, true) if pays(job) => warnings.push(ANEW.to_owned()),
-        _ => {}
+    let plans = job.target.views.iter().map(plan_of).collect();
+    if lacks_room && pays(job) {
+        warnings.push(ANEW.to_owned());
     }
     plans
 }

@@ -16,7 +16,6 @@ mod info_faces;
 mod info_world;
 mod interrupt;
 mod pipe;
-mod plan_cache;
 mod progress;
 mod report;
 mod sequence;

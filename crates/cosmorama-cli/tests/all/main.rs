@@ -48,7 +48,6 @@ mod output {
 }
 
 mod sequence {
-    mod plan_cache;
     mod resume;
     #[cfg(target_os = "linux")]
     mod sequence_memory;

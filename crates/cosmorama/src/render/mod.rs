@@ -8,9 +8,6 @@ pub(crate) mod required;
 pub(crate) mod resampler;
 pub(crate) mod scan;
 
-pub use plan::key::PlanKey;
-pub use plan::saved::PlanError;
-pub use plan::saved_plan::SavedPlan;
 pub use plan::{FixedPlan, Plan};
 pub use pyramid::PyramidPlan;
 pub(crate) use pyramid::{Pyramid, TexelCount};

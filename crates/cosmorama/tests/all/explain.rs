@@ -4,7 +4,7 @@ use cosmorama::camera::{FieldStop, OmnimaxFraming, PixelGrid, PixelPoint, View};
 use cosmorama::explain::{Figures, Magnification, Report, Underlay};
 use cosmorama::filter::Filter;
 use cosmorama::projection::ProjectionKind;
-use cosmorama::render::{Needs, Resampler, SavedPlan};
+use cosmorama::render::{Needs, Resampler};
 use cosmorama::sphere::{CubeFace, Orientation};
 use cosmorama::world::World;
 use glam::DVec2;

@@ -18,5 +18,4 @@ mod filter {
 mod render {
     mod need;
     mod packed;
-    mod saved_plans;
 }

@@ -80,12 +80,6 @@ fn a_folder_that_takes_no_files_is_named_without_the_temporary_file() {
     let message = bench.fail(1, &["convert", "sky.png", "/sys/out.png", "--to", "omnimax", "--size", "32"]);
     assert_says(&message, &["cannot write /sys/out.png", "no files can be made in its folder /sys", "choose another"]);
     assert!(!message.contains(".part"), "{message}");
-    let args = ["convert", "sky.png", "out.png", "--to", "omnimax", "--size", "32", "--plan-cache", "/sys"];
-    let output = bench.run(&args);
-    let message = crate::bench::text(&output.stderr);
-    assert!(output.status.success(), "{message}");
-    assert_says(&message, &["warning: --plan-cache /sys: the plan is not kept", "choose another"]);
-    assert!(!message.contains(".part"), "{message}");
 }
 
 #[test]

@@ -338,3 +338,28 @@ fn compression_changes_sizes_and_no_pixel() {
     let refused = ["convert", "sky_01.png", "out.tga", "--to", "fisheye", "--compression", "fast"];
     crate::bench::assert_says(&bench.fail(2, &refused), &["--compression", "out.tga", "TGA", "PNG, TIFF and OpenEXR"]);
 }
+
+#[test]
+fn geometry_without_room_is_computed_anew_for_each_frame() {
+    let bench = Bench::new();
+    for frame in 1..=3 {
+        bench.save(&format!("sky_{frame}.png"), &picture(frame, 64, 32));
+    }
+    let args =
+        ["convert", "sky_#.png", "out_#.png", "--from=equirect", "--to=fisheye", "--size", "128", "-y", "--json"];
+    let outputs = |more: &[&str]| -> (Vec<Vec<u8>>, Vec<String>) {
+        let report: Value = serde_json::from_str(&bench.succeed(&[&args[..], more].concat())).unwrap();
+        let warnings = report["warnings"].as_array().unwrap().iter();
+        let warnings = warnings.map(|warning| warning.as_str().unwrap().to_owned()).collect();
+        ((1..=3).map(|frame| bench.bytes(&format!("out_{frame}.png"))).collect(), warnings)
+    };
+    for filter in ["ewa", "ewa-pyramid"] {
+        let (plain, none) = outputs(&["--filter", filter]);
+        let (anew, warnings) = outputs(&["--filter", filter, "--memory", "1200K"]);
+        assert!(anew == plain && none.is_empty(), "{filter}: {none:?}");
+        let told = "computed anew for each frame; give more with --memory";
+        assert!(warnings.len() == 1 && warnings[0].ends_with(told), "{filter}: {warnings:?}");
+    }
+    // A single picture needs none that is held.
+    assert_eq!(outputs(&["--memory", "1200K", "--frames", "1"]).1, [""; 0]);
+}

@@ -1,12 +1,9 @@
 use std::ops::Range;
 
-use super::stored::{Stored, stored};
-use super::symmetry::Mirrors;
 use super::tap_lists::Singles;
 use super::weights::Weights;
 use crate::render::batch::window::Windows;
 use crate::render::scan::tile::{SIDE, lanes_of};
-use crate::world::World;
 
 /// What makes a few rows of a target.
 #[derive(Clone, Debug, Default)]
@@ -222,107 +219,4 @@ fn groups(runs: &[Run]) -> impl Iterator<Item = &[Run]> + Clone {
 /// Whether the weights of two runs are kept together.
 fn are_grouped(a: &Run, b: &Run) -> bool {
     a.weights == b.weights
-}
-
-stored!(Run {
-    corner: [u32; 2],
-    offsets: [[u8; 2]; SIDE],
-    weights: u32,
-    column: u32,
-    view: u16,
-    row: u8,
-    lanes: u8,
-    width: u8,
-    height: u8,
-    under: [u8; 2],
-});
-
-impl<W: Weights> Stored for Band<W> {
-    const LEAST: usize = W::LEAST + Vec::<Run>::LEAST + Singles::LEAST;
-
-    fn store(&self, into: &mut Vec<u8>) {
-        self.runs.store(into);
-        self.weights.store(into);
-        self.singles.store(into);
-    }
-
-    fn load(from: &mut &[u8]) -> Option<Self> {
-        Some(Self { runs: Vec::load(from)?, weights: W::load(from)?, singles: Singles::load(from)? })
-    }
-}
-
-/// What a band may speak of.
-pub(crate) struct Room<'a> {
-    pub(crate) world: &'a World,
-    pub(crate) mirrors: &'a Mirrors,
-    /// The first row of the band, and how many it has.
-    pub(crate) first_row: usize,
-    pub(crate) rows: usize,
-}
-
-impl Room<'_> {
-    /// The columns that the band may make.
-    fn columns(&self) -> Range<usize> {
-        self.mirrors.first_column(self.first_row)..self.mirrors.columns
-    }
-}
-
-impl<W: Weights> Band<W> {
-    /// Whether all pixels, texels and weights that it speaks of are there.
-    pub(crate) fn is_sound(&self, room: &Room) -> bool {
-        let (texels, images) = (room.mirrors.texel_count(), room.mirrors.images.len());
-        self.groups().all(|group| is_group_sound(group, room, &self.weights))
-            && self.singles.are_sound((room.columns(), room.rows), texels, images)
-            && self.makes_each_once(room)
-    }
-
-    /// Whether no pixel is made twice, given that all are there.
-    fn makes_each_once(&self, room: &Room) -> bool {
-        let bytes = room.mirrors.columns.div_ceil(SIDE);
-        let mut made = vec![0u8; room.rows * bytes];
-        let runs = self.runs.iter().map(|run| (run.pixel(0), run.lanes));
-        let singles = self.singles.pixels().iter().map(|single| {
-            let column = single.column as usize;
-            ([column, usize::from(single.row)], 1 << (column % SIDE))
-        });
-        runs.chain(singles).all(|([column, row], lanes)| {
-            let made = &mut made[row * bytes + column / SIDE];
-            let is_new = *made & lanes == 0;
-            *made |= lanes;
-            is_new
-        })
-    }
-}
-
-/// Whether the runs of a group belong together, and all that they speak of is there.
-fn is_group_sound(group: &[Run], room: &Room, weights: &impl Weights) -> bool {
-    let first = &group[0];
-    let Some(source) = room.world.sources().get(usize::from(first.view)) else { return false };
-    let size = [source.view.width(), source.view.height()];
-    group.len() <= SIDE
-        && group.iter().all(|run| run.view == first.view && first.shares_patch(run.pixel(0)) && run.is_sound(room))
-        && weights.are_sound(group, size)
-}
-
-impl Run {
-    fn is_sound(&self, room: &Room) -> bool {
-        let after_last = SIDE - self.lanes.leading_zeros() as usize;
-        let [from, to] = self.under;
-        self.lanes != 0
-            && room.columns().contains(&(self.column as usize))
-            // As patches do: on the diagonal one has fewer mirrors than the next.
-            && (self.column as usize).is_multiple_of(SIDE)
-            && self.column as usize + after_last <= room.columns().end
-            && usize::from(self.row) < room.rows
-            && self.width > 0
-            && self.height > 0
-            && from <= to
-            && to <= self.height
-    }
-
-    /// Whether a lane's window of some size lies within a view of another.
-    pub(crate) fn is_within(&self, lane: usize, window: [usize; 2], view: [usize; 2]) -> bool {
-        let first = |axis: usize| u64::from(self.corner[axis]) + u64::from(self.offsets[lane][axis]);
-        (0..2).all(|axis| first(axis) + window[axis] as u64 <= view[axis] as u64)
-    }
 }

@@ -1,12 +1,7 @@
 //! Geometry compiled once for any number of frames.
 
 pub(crate) mod band;
-pub(crate) mod fixed_check;
-pub(crate) mod key;
 pub(crate) mod recorder;
-pub(crate) mod saved;
-pub(crate) mod saved_plan;
-pub(crate) mod stored;
 pub(crate) mod symmetry;
 pub(crate) mod tap_lists;
 #[cfg(test)]
@@ -101,6 +96,11 @@ impl Plan {
         self.0.fill(image, background, |band, canvas| filter.fill(band, canvas));
     }
 
+    /// Bytes of memory that the plan holds.
+    pub fn bytes(&self) -> usize {
+        self.0.bytes()
+    }
+
     /// About how many that of a conversion would hold, or of its wanted patches: found from some bands of rows, keeping nothing.
     pub(crate) fn bytes_estimate(resampler: &Resampler, wanted: Option<&Wanted>) -> usize {
         bytes_estimate::<FloatWeights>(resampler, wanted)
@@ -131,6 +131,11 @@ impl FixedPlan {
         assert!(mirrors.layout().eq(light.layout()), "light of the world's views");
         let filter = FixedFilter { level: Level::new(), mirrors, light, codec, anti_ringing: *anti_ringing };
         self.0.fill(image, codec.background(), |band, canvas| filter.fill(band, canvas));
+    }
+
+    /// Bytes of memory that the plan holds.
+    pub fn bytes(&self) -> usize {
+        self.0.bytes()
     }
 
     /// About how many that of a conversion would hold: found from some bands of rows, keeping nothing.

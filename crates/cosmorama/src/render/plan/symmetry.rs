@@ -246,11 +246,6 @@ impl Mirrors {
         self.images[0].views.iter().map(|view| &view.rows)
     }
 
-    /// Texels of the light, with what fills up their rows.
-    pub(crate) fn texel_count(&self) -> usize {
-        self.images[0].views.last().map_or(0, |view| view.rows.end())
-    }
-
     /// How windows of a view are walked through.
     pub(crate) fn ways(&self, view: usize) -> &Ways {
         &self.ways[view]

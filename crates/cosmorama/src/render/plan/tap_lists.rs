@@ -1,12 +1,9 @@
 //! Pixels that come by themselves, each with a list of its texels: on the edges between views, at rims, and wherever windows
 //! cannot be held. What is the same in all mirrors is kept once, and done once.
 
-use std::ops::Range;
-
 use bytemuck::NoUninit;
 use fearless_simd::{Simd, f32x4, prelude::*};
 
-use super::stored::stored;
 use super::symmetry::Mirrors;
 use crate::filter::rim::rim_extrapolation::{Bounds, Rim, TexelLight};
 use crate::filter::taps::{BLOCK, Taps};
@@ -199,18 +196,6 @@ impl Singles {
             }
         }
     }
-
-    /// Whether all that they speak of is there: columns and rows of a band, and so many texels in each of some mirrors.
-    pub(crate) fn are_sound(&self, (columns, rows): (Range<usize>, usize), texels: usize, images: usize) -> bool {
-        self.weights.len().checked_mul(images) == Some(self.texels.len())
-            && self
-                .pixels
-                .iter()
-                .all(|single| single.is_sound((columns.clone(), rows), [self.weights.len(), self.places.len()]))
-            && self.weights.iter().all(|weight| weight.is_finite())
-            && self.texels.iter().all(|texel| (*texel as usize) < texels)
-            && self.places.as_flattened().iter().all(|place| place.is_finite())
-    }
 }
 
 /// The light of a pixel's texels in one of N mirrors.
@@ -286,95 +271,5 @@ fn add<S: Simd, const N: usize>(sums: &mut [[f64; 4]; N], parts: [f32x4<S>; N]) 
         for (sum, part) in sum.iter_mut().zip(part.to_array()) {
             *sum += f64::from(part);
         }
-    }
-}
-
-impl Single {
-    fn is_sound(&self, (columns, rows): (Range<usize>, usize), lengths: [usize; 2]) -> bool {
-        let lists = [(self.first, self.taps), (self.first_place, self.places)];
-        let is_there = |((first, count), length): ((usize, u32), usize)| {
-            first.checked_add(count as usize).is_some_and(|end| end <= length)
-        };
-        lists.into_iter().zip(lengths).all(is_there)
-            && self.under <= self.taps
-            && (self.places == 0 || self.places == self.taps)
-            && (0.0..=1.0).contains(&self.coverage)
-            && columns.contains(&(self.column as usize))
-            && usize::from(self.row) < rows
-    }
-}
-
-stored!(Single {
-    first: usize,
-    taps: u32,
-    under: u32,
-    first_place: usize,
-    places: u32,
-    coverage: f32,
-    column: u32,
-    row: u8,
-});
-
-stored!(Singles { pixels: Vec<Single>, weights: Vec<f32>, texels: Vec<u32>, places: Vec<[f32; 2]> });
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Room for two columns and three rows, and nine texels in each of two mirrors.
-    fn are_sound(singles: &Singles) -> bool {
-        singles.are_sound((0..2, 3), 9, 2)
-    }
-
-    /// A pixel of two texels, and one at a rim, of three.
-    fn sound() -> Singles {
-        let first = Single { first: 0, taps: 2, under: 1, first_place: 0, places: 0, coverage: 1.0, column: 0, row: 2 };
-        let second = Single { first: 2, taps: 3, under: 3, places: 3, coverage: 0.5, column: 1, row: 0, ..first };
-        Singles {
-            pixels: vec![first, second],
-            weights: vec![0.5, 0.5, 1.5, -0.25, -0.25],
-            texels: vec![0, 8, 1, 7, 2, 6, 3, 5, 4, 4],
-            places: vec![[0.1, 0.0], [0.2, 0.1], [0.3, -0.1]],
-        }
-    }
-
-    #[test]
-    fn what_is_not_there_is_not_sound() {
-        assert!(are_sound(&sound()));
-        let single: [fn(&mut Single); 13] = [
-            |single| single.first = usize::MAX,
-            |single| single.first = 3,
-            |single| single.taps = 4,
-            |single| single.under = 4,
-            |single| single.places = 2,
-            |single| single.places = 4,
-            |single| single.first_place = 1,
-            |single| single.first_place = usize::MAX,
-            |single| single.coverage = f32::NAN,
-            |single| single.coverage = 1.1,
-            |single| single.coverage = -0.1,
-            |single| single.column = 2,
-            |single| single.row = 3,
-        ];
-        for (index, spoil) in single.into_iter().enumerate() {
-            let mut singles = sound();
-            spoil(&mut singles.pixels[1]);
-            assert!(!are_sound(&singles), "{index}: {:?}", singles.pixels[1]);
-        }
-        let lists: [fn(&mut Singles); 6] = [
-            |singles| singles.weights[4] = f32::INFINITY,
-            |singles| singles.texels[9] = 9,
-            |singles| singles.places[2][1] = f32::NAN,
-            |singles| singles.texels.truncate(9),
-            |singles| singles.texels.push(0),
-            |singles| singles.weights.truncate(4),
-        ];
-        for (index, spoil) in lists.into_iter().enumerate() {
-            let mut singles = sound();
-            spoil(&mut singles);
-            assert!(!are_sound(&singles), "{index}");
-        }
-        assert!(!sound().are_sound((0..2, 3), 9, 1) && !sound().are_sound((0..2, 3), 9, usize::MAX));
-        assert!(!sound().are_sound((1..2, 3), 9, 2), "a column that another band makes");
     }
 }

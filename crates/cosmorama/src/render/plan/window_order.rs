@@ -76,22 +76,6 @@ pub(crate) fn sort<'a>(
     *numbers = sorted;
 }
 
-/// Whether a group's windows are all there, each of its runs' lanes once, given whether that of a run in a lane is sound, which takes
-/// its numbers.
-pub(crate) fn are_all_there(
-    mut numbers: &[u32],
-    group: &[Run],
-    mut takes: impl FnMut(&mut &[u32], &Run, usize) -> Option<()>,
-) -> bool {
-    let mut missing: [u8; SIDE] = std::array::from_fn(|run| group.get(run).map_or(0, Run::lane_bits));
-    (0..window_count(group)).all(|_| {
-        let Some(Place { run, lane }) = numbers.first().map(|header| Place::of(*header)) else { return false };
-        let is_missing = missing[run] >> lane & 1 == 1;
-        missing[run] &= !(1 << lane);
-        is_missing && takes(&mut numbers, &group[run], lane).is_some()
-    })
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -105,32 +89,12 @@ mod tests {
         Told { shape: header & 7, length: 1 + (header & 7) as usize }
     }
 
-    fn takes(numbers: &mut &[u32], run: &Run, _: usize) -> Option<()> {
-        let Told { length, .. } = told(run, numbers[0]);
-        numbers.split_off(..length).map(|_| ())
-    }
-
     #[test]
     fn windows_of_a_shape_follow_each_other() {
         let runs = [Run::of_lanes(0b101, 0), Run::of_lanes(0b10, 0), Run::of_lanes(0b1, 11)];
         let groups = || [&runs[..2], &runs[2..]].into_iter();
         let mut numbers = [window(0, 0, 5), window(0, 2, 0), window(1, 1, 3), window(0, 0, 1)].concat();
-        assert!(groups().all(|group| are_all_there(&numbers[group[0].weights as usize..], group, takes)));
         sort(&mut numbers, groups(), told);
         assert_eq!(numbers, [window(0, 2, 0), window(1, 1, 3), window(0, 0, 5), window(0, 0, 1)].concat());
-        assert!(groups().all(|group| are_all_there(&numbers[group[0].weights as usize..], group, takes)));
-    }
-
-    #[test]
-    fn each_lane_has_its_window() {
-        let group = [Run::of_lanes(0b11, 0), Run::of_lanes(0b1000_0000, 0)];
-        let are_there = |windows: [Vec<u32>; 3]| are_all_there(&windows.concat(), &group, takes);
-        assert!(are_there([window(1, 7, 2), window(0, 1, 0), window(0, 0, 7)]));
-        // One twice, one of another lane, one of a run that is not there.
-        assert!(!are_there([window(1, 7, 2), window(0, 1, 0), window(0, 1, 0)]));
-        assert!(!are_there([window(1, 7, 2), window(0, 1, 0), window(1, 0, 0)]));
-        assert!(!are_there([window(1, 7, 2), window(0, 1, 0), window(2, 0, 0)]));
-        assert!(!are_all_there(&window(1, 7, 2), &group, takes), "two are missing");
-        assert!(!are_all_there(&window(1, 7, 2)[..2], &group[1..], takes), "one is cut");
     }
 }

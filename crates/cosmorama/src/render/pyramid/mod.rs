@@ -11,7 +11,7 @@ use super::batch::window::Level as Instructions;
 use super::pyramid::halving::Halving;
 use super::pyramid::level_map::{LevelMap, part};
 use super::scan::wanted::Wanted;
-use super::{Plan, Resampler, SavedPlan, plan};
+use super::{Plan, Resampler, plan};
 use crate::camera::ScreenPixel;
 use crate::filter::rim::field_edge::FieldEdge;
 use crate::filter::{Filter, FilterKind, KernelTable, PixelTaps};

@@ -4,8 +4,6 @@ use super::quantize::{Origin, Rounded};
 use crate::raster::FixedLight;
 use crate::render::batch::window::Windows;
 use crate::render::plan::band::{Corners, Run};
-use crate::render::plan::fixed_check::is_sound;
-use crate::render::plan::stored::Stored;
 use crate::render::plan::weights::Weights;
 use crate::render::plan::window_order::{self, Place, Told};
 use crate::render::scan::tile::SIDE;
@@ -227,18 +225,6 @@ impl FixedWeights {
     }
 }
 
-impl Stored for FixedWeights {
-    const LEAST: usize = Vec::<u32>::LEAST;
-
-    fn store(&self, into: &mut Vec<u8>) {
-        self.numbers.store(into);
-    }
-
-    fn load(from: &mut &[u8]) -> Option<Self> {
-        Some(Self { numbers: Vec::load(from)?, rounded: Rounded::default() })
-    }
-}
-
 impl Weights for FixedWeights {
     fn pitch(width: usize) -> usize {
         FixedLight::pitch(width)
@@ -260,10 +246,6 @@ impl Weights for FixedWeights {
     fn settle<'a>(&mut self, groups: impl Iterator<Item = &'a [Run]>) {
         window_order::sort(&mut self.numbers, groups, |run, header| Header(header).told(run));
         self.rounded = Rounded::default();
-    }
-
-    fn are_sound(&self, group: &[Run], view: [usize; 2]) -> bool {
-        self.numbers.get(group[0].weights as usize..).is_some_and(|numbers| is_sound(numbers, group, view))
     }
 
     fn bytes(&self) -> usize {

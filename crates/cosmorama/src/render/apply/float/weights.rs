@@ -4,9 +4,8 @@ use super::lanes::Lanes;
 use super::shape::{BLOCK, Header, Shape, Small, mark_words};
 use crate::render::batch::window::Windows;
 use crate::render::plan::band::{Corners, Run};
-use crate::render::plan::stored::Stored;
 use crate::render::plan::weights::Weights;
-use crate::render::plan::window_order::{self, Place, are_all_there};
+use crate::render::plan::window_order::{self, Place};
 use crate::render::scan::tile::SIDE;
 
 /// The weights of windows, pixel by pixel, as the bits of floats.
@@ -126,18 +125,6 @@ impl FloatWeights {
     }
 }
 
-impl Stored for FloatWeights {
-    const LEAST: usize = Vec::<u32>::LEAST;
-
-    fn store(&self, into: &mut Vec<u8>) {
-        self.numbers.store(into);
-    }
-
-    fn load(from: &mut &[u8]) -> Option<Self> {
-        Some(Self { numbers: Vec::load(from)? })
-    }
-}
-
 impl Weights for FloatWeights {
     fn pitch(width: usize) -> usize {
         width
@@ -159,15 +146,6 @@ impl Weights for FloatWeights {
 
     fn settle<'a>(&mut self, groups: impl Iterator<Item = &'a [Run]>) {
         window_order::sort(&mut self.numbers, groups, |run, header| Header(header).told(run));
-    }
-
-    fn are_sound(&self, group: &[Run], view: [usize; 2]) -> bool {
-        let Some(numbers) = self.numbers.get(group[0].weights as usize..) else { return false };
-        are_all_there(numbers, group, |numbers, run, lane| {
-            let Kept { shape, weights } = Kept::take(numbers, run)?;
-            let is_within = run.is_within(lane, [shape.width, shape.height], view);
-            (is_within && weights.iter().all(|bits| f32::from_bits(*bits).is_finite())).then_some(())
-        })
     }
 
     fn bytes(&self) -> usize {

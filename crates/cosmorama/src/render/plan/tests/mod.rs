@@ -4,8 +4,6 @@ mod sizes;
 mod worlds;
 
 use super::band::{Corners, Run};
-use super::saved_plan::SavedPlan;
-use super::stored::Stored;
 use super::symmetry::{MirrorImage, Mirrors};
 use super::*;
 use crate::camera::{FieldStop, View};
@@ -158,16 +156,6 @@ fn a_plan_makes_the_pixels_that_are_made_without() {
 #[derive(Clone, Debug, Default)]
 struct NoWindows;
 
-impl Stored for NoWindows {
-    const LEAST: usize = 0;
-
-    fn store(&self, _: &mut Vec<u8>) {}
-
-    fn load(_: &mut &[u8]) -> Option<Self> {
-        Some(Self)
-    }
-}
-
 impl Weights for NoWindows {
     fn pitch(width: usize) -> usize {
         width
@@ -184,10 +172,6 @@ impl Weights for NoWindows {
     fn truncate(&mut self, _: usize) {}
 
     fn settle<'a>(&mut self, _: impl Iterator<Item = &'a [Run]>) {}
-
-    fn are_sound(&self, _: &[Run], _: [usize; 2]) -> bool {
-        false
-    }
 
     fn bytes(&self) -> usize {
         0
@@ -263,8 +247,10 @@ fn all_levels_of_instructions_make_the_same_plans() {
     for (world, target, _) in conversions() {
         let resampler = resampler(&world, &target);
         let made = |level| {
-            let fixed = FixedPlan(Compiled::new(&resampler, None, level)).to_bytes(FixedPlan::key(&resampler));
-            (fixed, Plan(Compiled::new(&resampler, None, level)).to_bytes(Plan::key(&resampler)))
+            let fixed = Compiled::<FixedWeights>::new(&resampler, None, level);
+            let floats = Compiled::<FloatWeights>::new(&resampler, None, level);
+            // As text, in which each number comes back.
+            (format!("{:?}", fixed.bands), format!("{:?}", floats.bands))
         };
         let mut all = crate::filter::simd_levels::levels().into_iter().map(made);
         let first = all.next().expect("at least the plain one");
@@ -342,4 +328,13 @@ fn spreading_is_the_plan_the_other_way_round() {
         let back: f64 = light.iter().zip(&shares).map(|(light, share)| f64::from(light.0[0]) * share).sum();
         assert!((there / back - 1.0).abs() < 1e-5, "{target:?}: {there}, not {back}");
     }
+}
+
+#[test]
+#[should_panic(expected = "light of the world's views")]
+fn light_of_as_many_texels_in_other_views_is_refused() {
+    let (world, target) = (cube(&CubeFace::ALL, 32), dome(16, turned(0.0, 90.0, 0.0)));
+    let codec = FixedCodec::new(&Transfer::Srgb, Rgba::BLACK).expect("sRGB has 8 bits");
+    let light = FixedLight::black(world.view_sizes().map(|[width, height]| [2 * width, height / 2]));
+    resampler(&world, &target).fixed_plan().expect("a plan").apply(&light, &codec);
 }

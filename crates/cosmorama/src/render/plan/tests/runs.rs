@@ -1,6 +1,5 @@
 use super::*;
 use crate::render::apply::output_region::PicturePart;
-use crate::render::plan::band::Room;
 
 /// Whether the ends of all runs of a plan are those of their windows, and how many of them lack a window at one end.
 fn cut_runs<W>(compiled: &Compiled<W>) -> usize {
@@ -84,30 +83,5 @@ fn a_pixel_without_texels_has_none_in_any_mirror() {
         let mut singles = tap_lists::Singles::default();
         singles.push((&world, &mirrors), [0, 0], 1.0, &Taps::default(), &mut Vec::new());
         assert!(singles.taps(&singles.pixels()[0], mirrors.images.len()).texels.is_empty());
-    }
-}
-
-/// A picture is written past the caches: a pixel that a band makes twice would be looked at too early.
-#[test]
-fn a_band_that_makes_a_pixel_twice_is_not_sound() {
-    for (world, target, _) in conversions() {
-        let resampler = resampler(&world, &target);
-        let Compiled { mirrors, bands, .. } = resampler.plan().expect("a plan").0;
-        let rows = mirrors.band(0);
-        let room = Room { world: &world, mirrors: &mirrors, first_row: rows.start, rows: rows.len() };
-        assert!(bands[0].is_sound(&room));
-        let sound_with = |pixel: [usize; 2]| {
-            let mut band = bands[0].clone();
-            band.singles.push((&world, &mirrors), pixel, 1.0, &Taps::default(), &mut Vec::new());
-            band.is_sound(&room)
-        };
-        let of_runs = bands[0].runs.iter().flat_map(|run| run.lanes().map(|lane| run.pixel(lane)));
-        let singles = bands[0].singles.pixels().iter();
-        let of_singles = singles.map(|single| [single.column as usize, usize::from(single.row)]);
-        let made: Vec<_> = of_runs.chain(of_singles).collect();
-        let all = rows.flat_map(|row| (mirrors.first_column(0)..mirrors.columns).map(move |column| [column, row]));
-        for pixel in all.step_by(5) {
-            assert_eq!(sound_with(pixel), !made.contains(&pixel), "{pixel:?}");
-        }
     }
 }
