@@ -46,7 +46,7 @@ fn faces() -> Option<(World, Vec<Rgba>)> {
     Some((cube(&CubeFace::ALL, 1024, 1024), names.into_iter().flat_map(file).collect()))
 }
 
-/// The same world as a panorama.
+/// Resamples a world into a panorama.
 fn panorama((world, light): &(World, Vec<Rgba>)) -> (World, Vec<Rgba>) {
     let target = equirect(4096);
     let light = Resampler { world, target: &target, filter: Filter::DEFAULT }.render(light);

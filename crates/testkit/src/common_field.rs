@@ -20,7 +20,7 @@ const REACH: f64 = 4.0;
 const APART: f64 = 24.0;
 
 impl<'a> CommonField<'a> {
-    /// That of a view of one form and another form, both of which show the whole world, or not.
+    /// Finds the part of the sphere that `view` shares with `other`; `are_whole` when both show the whole world.
     pub(crate) fn new(view: &'a View, are_whole: bool, other: &'a World) -> Self {
         let pixels = || (0..view.height()).flat_map(|j| (0..view.width()).map(move |i| PixelPoint::centre(i, j)));
         let place = |pixel: PixelPoint| view.direction(pixel).and_then(|direction| other.owner(direction));

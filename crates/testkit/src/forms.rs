@@ -85,7 +85,7 @@ fn both_circles(camera: &DualFisheye, rows: usize) -> Vec<View> {
     lenses.iter().map(view).collect()
 }
 
-/// Those of one view, as the command line names them.
+/// Forms of a single view, as the command line names them.
 fn frames() -> Vec<(&'static str, CameraModel)> {
     let fisheye = |lens: FisheyeLens, fov: f64| {
         CameraModel::Fisheye(FisheyeCamera {

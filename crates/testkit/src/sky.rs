@@ -31,7 +31,7 @@ impl Sky {
         Self { world: to.world(), plans, balance: None }
     }
 
-    /// The same with its light in balance.
+    /// Computes the sky's geometry and balances its light ([`LightBalance`]).
     pub fn balanced(from: &World, to: &Form, filter: Filter) -> Self {
         let sky = Self::new(from, to, filter);
         let targets: Vec<_> = sky.plans.iter().zip(&to.views).collect();

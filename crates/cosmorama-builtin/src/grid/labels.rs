@@ -11,7 +11,7 @@ pub(super) struct Scale {
     pub(super) height: f64,
     /// From one azimuth to the next along the horizon.
     azimuths: i32,
-    /// The same along the parallels at 45°, if there.
+    /// From one azimuth to the next along the parallels at 45°; `None` leaves these out.
     at_45: Option<i32>,
     /// The meridians with elevations beside them.
     meridians: i32,

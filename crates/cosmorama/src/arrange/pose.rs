@@ -46,7 +46,7 @@ impl Pose {
         sides.into_iter().chain(far).find_map(near)
     }
 
-    /// The same after faces were renamed by a turn or a reflection of the cube.
+    /// Renames the faces of this pose, as a turn or a reflection of the cube does.
     pub(super) fn map(self, rename: impl Fn(CubeFace) -> CubeFace) -> Self {
         Self { face: rename(self.face), right: rename(self.right), up: rename(self.up) }
     }

@@ -111,7 +111,7 @@ impl PixelGrid {
         Self { width, height, origin: self.origin - DVec2::new(x, y), ..self }
     }
 
-    /// The same picture in so many times fewer columns and rows, which must be whole numbers.
+    /// Returns the grid of the same picture with its columns and rows divided by these numbers, without remainder.
     #[must_use]
     pub fn squeezed(self, (across, down): (usize, usize)) -> Self {
         let by = DVec2::new(across as f64, down as f64);
@@ -127,14 +127,14 @@ impl PixelGrid {
         Self { width, height, origin: self.origin / by, step: self.step * by }
     }
 
-    /// The same picture mirrored left to right.
+    /// Returns the grid of the picture mirrored left to right.
     #[must_use]
     pub fn flipped_x(self) -> Self {
         let origin = DVec2::new(self.width as f64 - self.origin.x, self.origin.y);
         Self { origin, step: DVec2::new(-self.step.x, self.step.y), ..self }
     }
 
-    /// The same picture mirrored top to bottom.
+    /// Returns the grid of the picture mirrored top to bottom.
     #[must_use]
     pub fn flipped_y(self) -> Self {
         let origin = DVec2::new(self.origin.x, self.height as f64 - self.origin.y);

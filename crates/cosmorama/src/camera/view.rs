@@ -158,7 +158,7 @@ impl View {
         if shows { self.solid_angle(pixel).unwrap_or(0.0) } else { 0.0 }
     }
 
-    /// The same of the first texels of a row.
+    /// Computes the solid angles of the first texels of row `j`, in steradians, as [`View::texel_solid_angle`] does one by one.
     pub(crate) fn row_solid_angles(&self, j: usize, row: &mut [f32]) {
         if self.stop != FieldStop::NONE || self.projection.has_steep_rim() {
             row.iter_mut().enumerate().for_each(|(i, angle)| *angle = self.texel_solid_angle(i, j) as f32);
@@ -236,7 +236,7 @@ impl View {
         self.projection.cap_outline(self.orientation.to_view(centre), radius)
     }
 
-    /// The same point in the turn that the image shows.
+    /// Shifts a point by whole turns into the image, in projections that repeat along x. Others return it unchanged.
     pub fn wrapped(&self, pixel: PixelPoint) -> PixelPoint {
         match self.projection.period() {
             Some(period) if !self.grid.contains(pixel) => {

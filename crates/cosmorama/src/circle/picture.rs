@@ -16,7 +16,7 @@ const SEEN: f64 = 0.4;
 const DARK: f64 = 0.85;
 /// Points so near a circle, in the frame's shorter side, lie on it.
 const TOLERANCE: f64 = 0.006;
-/// The same for discs that end raggedly.
+/// Tolerance for discs with a ragged edge, in the frame's shorter side.
 const RAGGED: f64 = 0.03;
 /// Where such a disc ends, in its radius; the outline of a square lies further in than this.
 const ROUND: f64 = 0.75;

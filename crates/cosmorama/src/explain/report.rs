@@ -76,7 +76,7 @@ pub struct Memory {
     pub levels: usize,
     /// The geometry of a sequence in floats, estimated; a single frame keeps none.
     pub plan: usize,
-    /// The same of opaque pictures of 8 bits, in integers: less. Zero where the filter makes them in floats.
+    /// Bytes of a sequence's geometry in integers, estimated, for opaque pictures of 8 bits. Zero where the filter uses floats.
     pub fixed_plan: usize,
 }
 

@@ -46,7 +46,7 @@ impl CubeLayout {
         Self { kind, cells: std::array::from_fn(cell), half: None }
     }
 
-    /// The same with the faces in another order.
+    /// Returns this layout with its faces, and their turns if the order has some, replaced by those of `order`.
     #[must_use]
     pub fn with_order(mut self, order: &FaceOrder) -> Self {
         for (cell, face) in self.cells.iter_mut().zip(order.faces) {
@@ -58,7 +58,7 @@ impl CubeLayout {
         }
     }
 
-    /// The same with the picture in each place, in reading order, turned clockwise by so many quarters.
+    /// Returns this layout with the picture of each cell turned clockwise by so many quarters, cells in reading order.
     #[must_use]
     pub fn with_turns(mut self, turns: [u8; 6]) -> Self {
         for (cell, turns) in self.cells.iter_mut().zip(turns) {

@@ -105,7 +105,7 @@ pub trait Projection {
         self.jacobian(point).map(|jacobian| jacobian.solid_angle())
     }
 
-    /// The same at `count` points beside each other, `step` apart along x, each with its number.
+    /// Computes solid angles at `count` points of a row, `step` apart along x, and calls `visit` with each point's number.
     fn row_solid_angles(&self, first: PlanePoint, step: f64, count: usize, mut visit: impl FnMut(usize, Option<f64>)) {
         for k in 0..count {
             visit(k, self.solid_angle(PlanePoint::new(first.x + k as f64 * step, first.y)));

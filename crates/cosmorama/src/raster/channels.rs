@@ -35,13 +35,13 @@ impl Channels {
         matches!(self, Self::Rgb | Self::Rgba)
     }
 
-    /// The same with alpha.
+    /// Returns these channels with alpha added.
     #[must_use]
     pub const fn with_alpha(self) -> Self {
         if self.is_colour() { Self::Rgba } else { Self::GreyAlpha }
     }
 
-    /// The same without alpha.
+    /// Returns these channels with alpha removed.
     #[must_use]
     pub const fn without_alpha(self) -> Self {
         if self.is_colour() { Self::Rgb } else { Self::Grey }

@@ -116,8 +116,9 @@ impl EncodedImage {
         Self { width, height, channels, depth, alpha_mode, samples }
     }
 
-    /// The same float samples, taken as straight or premultiplied. Integer samples stay straight: multiplied,
-    /// they would have lost the bits that a transfer function needs.
+    /// Reinterprets float samples as straight or premultiplied, without changing them.
+    ///
+    /// Integer samples stay straight: premultiplied, they would have lost bits that a transfer function needs.
     #[must_use]
     pub fn with_alpha_mode(self, alpha_mode: AlphaMode) -> Self {
         let alpha_mode = if self.depth.is_float() { alpha_mode } else { AlphaMode::Straight };

@@ -10,7 +10,7 @@ pub(crate) struct RowLayout {
 }
 
 impl RowLayout {
-    /// Those of views of these sizes one after the other, given the pitch of rows of some width.
+    /// Lays out views of these sizes one after the other; `pitch` maps a row's width to its pitch.
     pub(crate) fn of(sizes: impl IntoIterator<Item = [usize; 2]>, pitch: impl Fn(usize) -> usize) -> Vec<Self> {
         let mut offset = 0;
         let after = |size: [usize; 2]| {

@@ -28,7 +28,7 @@ pub(crate) struct Presence {
 }
 
 impl Presence {
-    /// That of a view at a point of its image which shows something.
+    /// Computes the presence of a view at a point of its image that shows something.
     pub(crate) fn at(index: usize, source: &Source, pixel: PixelPoint) -> Self {
         let (view, blend) = (&source.view, source.blend);
         let feather = blend.feather.radians();
@@ -41,7 +41,7 @@ impl Presence {
         Self { index, pixel, weight: 1.0, solid_angle, blend }
     }
 
-    /// That of a view, if it shows the direction.
+    /// Computes the presence of a view in a direction; `None` where the view does not show it.
     pub(crate) fn of(index: usize, source: &Source, direction: Direction) -> Option<Self> {
         let pixel = source.view.wrapped(source.view.pixel(direction)?);
         source.shows(pixel).then(|| Self::at(index, source, pixel))
@@ -116,7 +116,7 @@ pub(crate) struct Border {
 }
 
 impl Border {
-    /// That of a view.
+    /// Finds at which edges of its image a view's picture ends.
     pub(crate) fn of(view: &View) -> Self {
         Self {
             sides: view.period().is_none_or(|period| period > view.width()),
@@ -151,7 +151,7 @@ fn is_a_point(view: &View, y: f64) -> bool {
     matches!(ends, [Some(a), Some(b)] if a.angle_to(b).radians() < 1e-6)
 }
 
-/// The same, from the field stop.
+/// Computes about how far a point of the image is from the field stop, in radians.
 fn stop_distance(view: &View, pixel: PixelPoint, jacobian: &DirectionJacobian) -> f64 {
     let mut distance = f64::INFINITY;
     if let Some(radius) = view.stop.circle {

@@ -16,7 +16,7 @@ pub(crate) struct SeenCone {
 const STEPS: usize = 48;
 
 impl SeenCone {
-    /// That of a view; `None` where it is not known to be narrower than the world.
+    /// Computes the cone of a view; `None` where the view may be as wide as the world.
     pub(crate) fn of(view: &View) -> Option<Self> {
         match view.stop.circle {
             Some(radius) => Self::of_circle(view, radius),

@@ -36,7 +36,7 @@ const ROUNDING: f32 = 0.02;
 const BLOCK: usize = 8;
 
 impl RimTexels {
-    /// Those of a view.
+    /// Finds the texels of a view that the edge of its field of view cuts.
     pub fn of(view: &View) -> Self {
         let mut found = Self { size: [view.width(), view.height()], ..Self::default() };
         // Fields of view are convex, all but a little: one that holds the corners of the image holds all of it.

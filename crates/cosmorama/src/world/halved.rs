@@ -1,4 +1,4 @@
-//! The same world in half as many texels each way: a level of a pyramid.
+//! Halving of a world: a level of the pyramid, with half as many texels each way.
 
 use std::sync::Arc;
 

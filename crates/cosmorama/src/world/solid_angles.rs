@@ -13,7 +13,7 @@ use crate::camera::View;
 pub struct SolidAngles(Arc<Vec<f32>>);
 
 impl SolidAngles {
-    /// Those of a view of which so many columns count.
+    /// Computes the solid angles of a view's texels, in its first `columns` columns; further ones have none.
     pub(crate) fn of(view: &View, columns: usize) -> Self {
         let (width, mut angles) = (view.width(), vec![0.0; view.width() * view.height()]);
         angles.par_chunks_mut(width).enumerate().for_each(|(j, row)| {

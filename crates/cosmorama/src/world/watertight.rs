@@ -79,7 +79,7 @@ mod tests {
         assert!(!is_closed(vec![("all".to_owned(), panorama(16, 8))]));
     }
 
-    /// Those views that are asked for by their index mirrored.
+    /// Mirrors the views whose index `asked` selects.
     fn mirrored(
         views: Vec<(String, View)>,
         flip: fn(PixelGrid) -> PixelGrid,

@@ -27,7 +27,7 @@ pub enum WorldError {
         name: String,
         /// Columns and rows of the mask.
         mask: (usize, usize),
-        /// Those of the view.
+        /// Columns and rows of the view.
         view: (usize, usize),
     },
     /// Texels are counted in 32 bits, with what light may have between their rows.
@@ -104,8 +104,9 @@ impl Source {
         texel.map_or(self.texel_pitch, |texel| (texel.dx.length_squared() + texel.dy.length_squared()).sqrt())
     }
 
-    /// The same for all that is within `radius` radians of a direction. Towards a steep rim texels grow no faster than the way
-    /// to it shrinks.
+    /// Computes an upper bound of a texel's larger side, in radians, within `radius` radians of a direction.
+    ///
+    /// Towards a steep rim texels grow no faster than the distance to it shrinks.
     pub(crate) fn texel_pitch_within(&self, direction: Direction, radius: f64) -> f64 {
         let margin = self.view.margin(direction);
         if 2.0 * radius > margin {
@@ -178,8 +179,9 @@ impl World {
         Self::made(views.into_iter().collect(), Vec::new())
     }
 
-    /// The world of other views. What is known of texels that both have is not computed again; all else of this world is given
-    /// up before, since whole pictures may be far larger than the parts of them that there are.
+    /// Builds a world of other views, and reuses the solid angles of texels that both worlds have.
+    ///
+    /// The rest of this world is freed first: whole pictures may be far larger than the parts at hand.
     ///
     /// # Errors
     /// Those of [`World::new`].

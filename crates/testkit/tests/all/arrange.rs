@@ -69,7 +69,7 @@ impl Dice {
     }
 }
 
-/// The same faces given in another order, each turned and mirrored in any way.
+/// Shuffles faces, and turns and mirrors each at random.
 fn shuffled(faces: &[Pose], dice: &mut Dice) -> Vec<Pose> {
     let mut given: Vec<CubeFace> = faces.iter().map(|pose| pose.face).collect();
     for k in (1..given.len()).rev() {

@@ -16,7 +16,7 @@ pub struct LayoutFaceCamera {
 }
 
 impl LayoutFaceCamera {
-    /// That of faces which meet at the cube's edges.
+    /// Field of view of faces that meet at the cube's edges without overlap: 90°.
     pub const RIGHT_ANGLE: Angle = Angle::from_degrees(90.0);
 }
 

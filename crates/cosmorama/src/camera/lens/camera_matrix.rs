@@ -41,7 +41,7 @@ impl CameraMatrix {
         })
     }
 
-    /// That of an image so many times as large.
+    /// Returns the camera matrix of the image resized by these factors along x and y.
     pub(crate) fn scaled(self, scale: DVec2) -> Self {
         let (focal, principal) = (self.focal * scale, self.principal * scale);
         // Units of x for each unit of y stay what they are: pixels are scaled, not the plane.

@@ -28,8 +28,7 @@ impl Graticule {
         }
     }
 
-    /// The same on a map that ends at the meridian behind: in two parts if it crosses that, with all longitudes if it goes
-    /// round.
+    /// Splits the box at the meridian behind, where maps end. A box that spans a whole turn becomes one of all longitudes.
     pub(crate) fn parts(self) -> Vec<Self> {
         let Self { west, east, .. } = self;
         if west >= -PI && east <= PI {

@@ -20,7 +20,7 @@ impl Leaf {
         [(left as f64, top as f64), (right as f64, bottom as f64)]
     }
 
-    /// The same with what lies beyond the table beside it.
+    /// Returns the rectangle, extended by `beyond` past each end of the table that it touches.
     pub(crate) fn rectangle_with(self, samples: &Samples, beyond: f64) -> [(f64, f64); 2] {
         let [(left, top), (right, bottom)] = self.rectangle(samples);
         let low = |at: f64| if at == 0.0 { -beyond } else { at };
@@ -60,7 +60,7 @@ impl Piece {
         (0..columns * rows).into_par_iter().flat_map_iter(|k| Self::of(leaf(k), links)).collect()
     }
 
-    /// Those of a leaf: sets of cells that have samples in common.
+    /// Finds the pieces of a leaf: sets of cells connected by common samples.
     fn of(leaf: Leaf, links: &Links) -> Vec<Self> {
         let all = leaf.cells(links.width, links.height);
         let mut left: Vec<_> = all.filter(|&(i, j)| links.is_whole(i as i64, j as i64)).collect();

@@ -46,7 +46,7 @@ impl Decoder {
         parts.map(|(part, into)| self.decode_rows(image, transfer, part * some, into)).sum()
     }
 
-    /// The same of as many rows as `into` is for, from the row `first` on, by the thread that calls it.
+    /// Decodes rows from `first` on until `into` is full, on the calling thread; see [`Self::decode`].
     ///
     /// # Panics
     /// When `into` is not for whole rows, or the image has fewer.

@@ -227,7 +227,7 @@ fn nearness_to_ewa(world: &World, target: &View, light: &[Rgba]) -> f64 {
 /// texels are √3 times as long as wide, and a quarter of that in the coarser level; across an edge both faces have some.
 const MOST: usize = 400;
 
-/// The same of a footprint of any shape: sixteen times as long as wide at most, 1576 texels and a quarter of that.
+/// Texels a pixel at most, for a footprint of any shape: sixteen times as long as wide, 1576 texels and a quarter of that.
 const MOST_OF_LONG: usize = 2000;
 
 /// Beside a rim levels are two finer: sixteen times as many.

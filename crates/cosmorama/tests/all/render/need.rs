@@ -144,7 +144,7 @@ fn what_is_within_reach_is_little_more_than_what_is_read_at_most() {
     }
 }
 
-/// The same from pictures alone: a texel is read if its light changes the picture, and seen if point sampling shows it.
+/// Finds needs from pictures alone: a texel is read if its light changes the picture, and seen if point sampling shows it.
 fn plain_scan(world: &World, target: &View) -> Vec<Need> {
     let plan_of = |kind| {
         let filter = Filter { kind, anti_ringing: false, ..Filter::DEFAULT };
