@@ -144,14 +144,6 @@ pub enum IoError {
         /// What that one makes of them.
         second_faces: String,
     },
-    /// A list of frames that cannot be understood.
-    #[error("frames {list}: {reason}; expected a list such as 5, 1-10 or 1-3,5,7-20:2; all frames are the default")]
-    FrameList {
-        /// The list as given.
-        list: String,
-        /// What is wrong.
-        reason: String,
-    },
     /// A sequence has no frames at all.
     #[error("{pattern}: no frame found in {}; {}", folder.display(), expected_frames(example, found.as_deref()))]
     NoFrames {

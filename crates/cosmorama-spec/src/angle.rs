@@ -1,7 +1,22 @@
+use std::fmt;
+
 use cosmorama::sphere::Angle;
 
-/// An angle in degrees.
+use crate::number::decimal;
+
+/// Parses an angle in degrees, with or without a degree sign.
 pub fn parse_degrees(text: &str) -> Option<Angle> {
     let degrees: f64 = text.trim_end_matches('°').parse().ok()?;
     degrees.is_finite().then(|| Angle::from_degrees(degrees))
+}
+
+/// Angle that is printed as the shortest number of degrees that [`parse_degrees`] makes the same angle of.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Degrees(pub Angle);
+
+impl fmt::Display for Degrees {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self(angle) = *self;
+        write!(f, "{}", decimal(angle.degrees(), |degrees| Angle::from_degrees(degrees) == angle))
+    }
 }

@@ -1,3 +1,4 @@
+use std::fmt;
 use std::str::FromStr;
 
 /// Effort of lossless compression of an output, by name.
@@ -35,6 +36,12 @@ impl CompressionLevel {
             Self::Balanced => "Between the two",
             Self::High => "For size; OpenEXR: as balanced",
         }
+    }
+}
+
+impl fmt::Display for CompressionLevel {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
     }
 }
 

@@ -1,5 +1,7 @@
 use std::str::FromStr;
 
+use crate::number::decimal;
+
 /// An amount of memory: bytes, with `K`, `M`, `G` or `T` (powers of 1024), or a part of what is free.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum MemorySize {
@@ -25,7 +27,7 @@ impl std::fmt::Display for MemorySize {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
             Self::Bytes(bytes) => write!(f, "{bytes}"),
-            Self::Part(part) => write!(f, "{}%", part * 100.0),
+            Self::Part(part) => write!(f, "{}%", decimal(part * 100.0, |percent| percent / 100.0 == *part)),
         }
     }
 }

@@ -1,3 +1,4 @@
+use std::fmt;
 use std::str::FromStr;
 
 /// Pixels: `WxH`, or the width alone.
@@ -12,6 +13,15 @@ pub struct Size {
 impl Size {
     /// Columns or rows at most: more than any image format holds.
     pub const MOST: usize = 1_000_000;
+}
+
+impl fmt::Display for Size {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.height {
+            Some(height) => write!(f, "{}x{height}", self.width),
+            None => write!(f, "{}", self.width),
+        }
+    }
 }
 
 impl FromStr for Size {

@@ -1,3 +1,5 @@
+use std::fmt;
+
 use cosmorama::camera::Canvas;
 
 /// As far as a canvas may go, and a window on it lie, each way: as far as OpenEXR counts pixels.
@@ -17,6 +19,16 @@ pub(crate) fn parse_window(text: &str) -> Option<Canvas> {
     let is_side = |side: usize| (1..=FARTHEST as usize).contains(&side);
     (is_side(width) && is_side(height)).then_some(())?;
     Some(Canvas { width, height, left: offset(left)?, top: offset(top)? })
+}
+
+/// Canvas that is printed as [`parse_window`] reads it.
+pub(crate) struct Window(pub(crate) Canvas);
+
+impl fmt::Display for Window {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Canvas { width, height, left, top } = self.0;
+        write!(f, "{width}x{height}{left:+}{top:+}")
+    }
 }
 
 fn offset(text: &str) -> Option<i64> {

@@ -2,7 +2,8 @@ use clap::builder::NonEmptyStringValueParser;
 use clap::{Args, ValueHint};
 use cosmorama_io::FrameList;
 use cosmorama_spec::{
-    Colour, CompressionLevel, DepthName, FilterName, KernelName, MemorySize, Missing, Size, Spec, TransferName,
+    Colour, CompressionLevel, DepthName, FilterName, FrameRanges, FrameRangesError, KernelName, MemorySize, Missing,
+    Size, Spec, TransferName,
 };
 
 use super::ProgressStyle;
@@ -59,7 +60,7 @@ pub(crate) struct ConvertArgs {
     #[arg(long, value_name = "error|COLOR|transparent", default_value = "error", help_heading = "Light")]
     pub(crate) missing: Missing,
     /// Which frames: 5, 1-10 or 1-3,5,7-20:2 [default: all from the first that exists to the last]
-    #[arg(long, value_name = "LIST", allow_hyphen_values = true, help_heading = "Frames and files")]
+    #[arg(long, value_name = "LIST", value_parser = frame_list, allow_hyphen_values = true, help_heading = "Frames and files")]
     pub(crate) frames: Option<FrameList>,
     /// Replace existing outputs
     #[arg(short = 'y', long, conflicts_with = "resume", help_heading = "Frames and files")]
@@ -144,6 +145,10 @@ impl GeometryArgs {
         let [yaw, pitch, roll] = [self.yaw, self.pitch, self.roll].map(cosmorama::sphere::Angle::from_degrees);
         cosmorama::sphere::Orientation::from_yaw_pitch_roll(yaw, pitch, roll)
     }
+}
+
+fn frame_list(text: &str) -> Result<FrameList, FrameRangesError> {
+    text.parse().map(|ranges: FrameRanges| FrameList::new(ranges.frames()))
 }
 
 fn on_or_off(text: &str) -> Result<bool, String> {

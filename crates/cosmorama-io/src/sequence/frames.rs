@@ -96,9 +96,9 @@ mod tests {
     #[test]
     fn a_list_needs_only_its_own_frames() {
         let (_folder, pattern) = sequence(&[1, 3, 5]);
-        let list = "1-5:2".parse().unwrap();
+        let list = FrameList::new([1, 3, 5]);
         assert_eq!(Frames::find(pattern.clone(), Some(&list)).unwrap().list().frames(), [1, 3, 5]);
-        let list = "4-5".parse().unwrap();
+        let list = FrameList::new([4, 5]);
         let message = Frames::find(pattern, Some(&list)).unwrap_err().to_string();
         assert!(
             message.contains("1 frame is missing: 4; the first that exists is 1, the last 5; make it,"),

@@ -1,9 +1,11 @@
+use std::fmt;
 use std::str::FromStr;
 
 use cosmorama::filter::{CrossSection, Kernel};
 
 /// A kernel by name, with its parameters.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct KernelName {
     /// What it is.
     pub kernel: Kernel,
@@ -29,6 +31,30 @@ impl FromStr for KernelName {
             set(&mut kernel, name, key, value)?;
         }
         Ok(Self { kernel, anti_ringing: name != LIGHT })
+    }
+}
+
+/// Prints the name, and what differs from the kernel of this name.
+impl fmt::Display for KernelName {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { kernel, anti_ringing } = *self;
+        let scaled = |other: Kernel| Kernel { scale: kernel.scale, floor: kernel.floor, ..other };
+        let of_name = |name: &&str| (*name == LIGHT) != anti_ringing && named(name).map(scaled) == Some(kernel);
+        let name = NAMES.split(", ").find(of_name).unwrap_or("gaussian");
+        let usual = named(name).unwrap_or(kernel);
+        let mut keys = Vec::new();
+        if let (CrossSection::Gaussian { alpha, cutoff }, CrossSection::Gaussian { alpha: two, cutoff: one }) =
+            (kernel.fine, usual.fine)
+        {
+            keys.extend([("alpha", alpha, two), ("cutoff", cutoff, one)]);
+        }
+        keys.extend([("scale", kernel.scale, usual.scale), ("floor", kernel.floor, usual.floor)]);
+        f.write_str(name)?;
+        let given = keys.into_iter().filter(|(_, value, usual)| value != usual);
+        given.enumerate().try_for_each(|(index, (key, value, _))| {
+            let separator = if index == 0 { ":" } else { "," };
+            write!(f, "{separator}{key}={value}")
+        })
     }
 }
 

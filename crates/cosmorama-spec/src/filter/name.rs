@@ -1,3 +1,4 @@
+use std::fmt;
 use std::str::FromStr;
 
 use cosmorama::filter::FilterKind;
@@ -5,6 +6,19 @@ use cosmorama::filter::FilterKind;
 /// A filter by name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct FilterName(pub FilterKind);
+
+impl fmt::Display for FilterName {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.0 {
+            FilterKind::Ewa => f.write_str("ewa"),
+            FilterKind::EwaPyramid => f.write_str("ewa-pyramid"),
+            FilterKind::Point => f.write_str("point"),
+            FilterKind::Bilinear => f.write_str("bilinear"),
+            FilterKind::Reference { samples: SAMPLES } => f.write_str("reference"),
+            FilterKind::Reference { samples } => write!(f, "reference:samples={samples}"),
+        }
+    }
+}
 
 /// Sub-samples along a pixel's side, unless told.
 const SAMPLES: usize = 4;

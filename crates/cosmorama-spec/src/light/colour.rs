@@ -1,3 +1,4 @@
+use std::fmt;
 use std::str::FromStr;
 
 use cosmorama::raster::{ColourChannel, Rgba, Transfer};
@@ -20,6 +21,27 @@ const NAMES: [(&str, &str); 11] = [
     ("magenta", "ff00ff"),
     ("yellow", "ffff00"),
 ];
+
+/// Prints linear light, `r,g,b` or `r,g,b,a`, or `transparent`.
+impl fmt::Display for Colour {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Rgba([red, green, blue, alpha]) = self.0;
+        if self.0 == Rgba::TRANSPARENT {
+            return f.write_str("transparent");
+        }
+        if alpha == 1.0 {
+            return write!(f, "{red},{green},{blue}");
+        }
+        let [red, green, blue] = [red, green, blue].map(|light| unweighted(light, alpha));
+        write!(f, "{red},{green},{blue},{alpha}")
+    }
+}
+
+/// Light that times alpha is this, to the last bit where there is such a number.
+fn unweighted(light: f32, alpha: f32) -> f32 {
+    let near = light / alpha;
+    [near, near.next_up(), near.next_down()].into_iter().find(|other| other * alpha == light).unwrap_or(near)
+}
 
 impl FromStr for Colour {
     type Err = String;

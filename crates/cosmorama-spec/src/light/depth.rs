@@ -1,3 +1,4 @@
+use std::fmt;
 use std::str::FromStr;
 
 use cosmorama::raster::Depth;
@@ -39,6 +40,12 @@ impl DepthName {
             Depth::Half => "16-bit floats",
             Depth::Float => "32-bit floats",
         }
+    }
+}
+
+impl fmt::Display for DepthName {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
     }
 }
 

@@ -1,3 +1,4 @@
+use std::fmt;
 use std::str::FromStr;
 
 use cosmorama::raster::Rgba;
@@ -11,6 +12,15 @@ pub enum Missing {
     Error,
     /// They are filled, possibly with nothing.
     Fill(Rgba),
+}
+
+impl fmt::Display for Missing {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Error => f.write_str("error"),
+            Self::Fill(colour) => Colour(*colour).fmt(f),
+        }
+    }
 }
 
 impl FromStr for Missing {

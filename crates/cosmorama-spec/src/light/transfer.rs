@@ -1,3 +1,4 @@
+use std::fmt;
 use std::str::FromStr;
 
 use cosmorama::raster::Transfer;
@@ -9,6 +10,21 @@ pub enum TransferName {
     Auto,
     /// This one.
     Fixed(Transfer),
+}
+
+/// Prints the name; the curves of an ICC profile, which have none, as `auto`, since a file holds them.
+impl fmt::Display for TransferName {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Auto | Self::Fixed(Transfer::Curve(_)) => f.write_str("auto"),
+            Self::Fixed(Transfer::Srgb) => f.write_str("srgb"),
+            Self::Fixed(Transfer::Linear) => f.write_str("linear"),
+            Self::Fixed(Transfer::Bt1886) => f.write_str("bt1886"),
+            Self::Fixed(Transfer::Pq) => f.write_str("pq"),
+            Self::Fixed(Transfer::Hlg) => f.write_str("hlg"),
+            Self::Fixed(Transfer::Gamma(gamma)) => write!(f, "gamma:{gamma}"),
+        }
+    }
 }
 
 impl FromStr for TransferName {

@@ -1,10 +1,16 @@
+use std::fmt;
+
 use cosmorama::camera::{CameraModel, Canvas, CubeFaceCamera, FaceMapping, LayoutFaceCamera, Mirror, SamplePositions};
 use cosmorama::layout::{CubeLayout, FaceOrder, FacePlacement, LayoutKind, Naming};
 use cosmorama::sphere::{Angle, CubeFace, Orientation};
 use cosmorama::world::Blend;
 
-use super::fields::{Fields, wrong};
+use super::Shape;
+use super::fields::{Fields, samples_name, wrong};
+use super::keys::Keys;
 use crate::SpecError;
+use crate::angle::Degrees;
+use crate::window::Window;
 
 /// The faces of a cube, a file each or in one image.
 #[derive(Clone, Debug, PartialEq)]
@@ -44,6 +50,16 @@ pub enum Packing {
     Files,
     /// All in one image.
     OneImage(LayoutKind),
+}
+
+/// Prints the value of `layout=`.
+impl fmt::Display for Packing {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Files => "faces",
+            Self::OneImage(kind) => kind.name(),
+        })
+    }
 }
 
 impl Default for Cube {
@@ -151,6 +167,32 @@ impl Cube {
         };
         cube.check(fields)?;
         Ok(cube)
+    }
+
+    /// Writes its keys, if the shape is one.
+    pub(super) fn write(shape: &Shape) -> Option<Keys> {
+        let Shape::Cube(cube) = shape else { return None };
+        let order = cube.order.map(|order| match order.name {
+            "" => order.letters(),
+            name => name.to_owned(),
+        });
+        let rotate = cube.rotate.map(|turns| turns.map(|turn| turn.to_string()).concat());
+        let faces: Vec<&str> = cube.faces.iter().map(|face| face.name()).collect();
+        let keys = Keys::default()
+            .maybe("layout", cube.layout)
+            .maybe("order", order)
+            .maybe("rotate", rotate)
+            .angle("fov", cube.field_of_view, LayoutFaceCamera::RIGHT_ANGLE)
+            .maybe("feather", cube.feather.map(Degrees))
+            .maybe("half", cube.half.map(CubeFace::name))
+            .maybe("samples", cube.samples.map(samples_name))
+            .maybe("naming", cube.naming.map(|naming| naming.name))
+            .maybe("faces", Some(faces.join(",")).filter(|_| cube.faces != CubeFace::ALL));
+        let keys = cube
+            .face_canvas
+            .iter()
+            .fold(keys, |keys, (face, canvas)| keys.with(format!("canvas.{}", face.name()), Window(*canvas)));
+        Some(keys.placed(cube.orientation, cube.mirror, cube.canvas))
     }
 
     /// Keys for files do not go with a layout in one image, nor the other way round.

@@ -134,6 +134,14 @@ impl<'f> Fields<'f> {
     }
 }
 
+/// Word for where the outermost samples lie.
+pub(super) fn samples_name(samples: SamplePositions) -> &'static str {
+    match samples {
+        SamplePositions::Centres => "centres",
+        SamplePositions::Edges => "edges",
+    }
+}
+
 pub(super) fn wrong(key: &str, value: &str, expected: impl Into<String>) -> SpecError {
     SpecError::Value { key: key.to_owned(), value: value.to_owned(), expected: expected.into() }
 }

@@ -4,6 +4,7 @@ use cosmorama::camera::{CameraModel, CylinderKind, WorldMapCamera};
 
 use super::camera::{dome, hugin, lens, pinhole};
 use super::fields::Fields;
+use super::keys::Keys;
 use super::map::world_map;
 use super::{Cube, Dual, Shape, StMapSpec};
 use crate::SpecError;
@@ -20,6 +21,8 @@ pub(crate) struct Kind {
     pub(crate) refused: &'static [Refused],
     /// What it stands for with these keys.
     pub(crate) build: fn(&Fields) -> Result<Shape, SpecError>,
+    /// The keys that stand for a shape, if the shape is one of its own.
+    pub(crate) write: fn(&Shape) -> Option<Keys>,
 }
 
 /// A common key that a name does not take.
@@ -90,6 +93,7 @@ pub(crate) static KINDS: &[Kind] = &[
         ],
         refused: &[FITS],
         build: |fields| Cube::build(fields).map(Shape::Cube),
+        write: Cube::write,
     },
     Kind {
         name: "perspective",
@@ -106,6 +110,7 @@ pub(crate) static KINDS: &[Kind] = &[
         ],
         refused: &[],
         build: pinhole::perspective,
+        write: pinhole::write_perspective,
     },
     Kind {
         name: "equirect",
@@ -117,6 +122,7 @@ pub(crate) static KINDS: &[Kind] = &[
         ],
         refused: &[FITS],
         build: world_map::equirect,
+        write: world_map::write_equirect,
     },
     Kind {
         name: "fisheye",
@@ -143,6 +149,7 @@ pub(crate) static KINDS: &[Kind] = &[
         ],
         refused: &[],
         build: lens::fisheye,
+        write: lens::write_fisheye,
     },
     Kind {
         name: "stereographic",
@@ -150,6 +157,7 @@ pub(crate) static KINDS: &[Kind] = &[
         keys: &[key("fov", "DEGREES", "horizontal field of view (270)")],
         refused: &[],
         build: pinhole::stereographic,
+        write: pinhole::write_stereographic,
     },
     Kind {
         name: "hugin",
@@ -173,6 +181,7 @@ pub(crate) static KINDS: &[Kind] = &[
         ],
         refused: &[SQUARE],
         build: hugin::hugin,
+        write: hugin::write,
     },
     Kind {
         name: "fulldome",
@@ -183,6 +192,7 @@ pub(crate) static KINDS: &[Kind] = &[
         ],
         refused: &[],
         build: dome::fulldome,
+        write: dome::write_fulldome,
     },
     Kind {
         name: "dual-fisheye",
@@ -204,6 +214,7 @@ pub(crate) static KINDS: &[Kind] = &[
         ],
         refused: &[NO_CANVAS],
         build: |fields| Dual::build(fields).map(Box::new).map(Shape::Dual),
+        write: Dual::write,
     },
     Kind {
         name: "omnimax",
@@ -217,6 +228,7 @@ pub(crate) static KINDS: &[Kind] = &[
         ],
         refused: &[],
         build: dome::omnimax,
+        write: dome::write_omnimax,
     },
     Kind {
         name: "mercator",
@@ -227,6 +239,7 @@ pub(crate) static KINDS: &[Kind] = &[
         ],
         refused: &[],
         build: |fields| world_map::cylinder(fields, CylinderKind::Mercator),
+        write: |shape| world_map::write_cylinder(shape, CylinderKind::Mercator),
     },
     Kind {
         name: "cylinder",
@@ -234,6 +247,7 @@ pub(crate) static KINDS: &[Kind] = &[
         keys: &CYLINDER_KEYS,
         refused: &[],
         build: |fields| world_map::cylinder(fields, CylinderKind::Central),
+        write: |shape| world_map::write_cylinder(shape, CylinderKind::Central),
     },
     Kind {
         name: "equal-area",
@@ -241,6 +255,7 @@ pub(crate) static KINDS: &[Kind] = &[
         keys: &CYLINDER_KEYS,
         refused: &[],
         build: |fields| world_map::cylinder(fields, CylinderKind::EqualArea),
+        write: |shape| world_map::write_cylinder(shape, CylinderKind::EqualArea),
     },
     Kind {
         name: "mirror-ball",
@@ -252,6 +267,7 @@ pub(crate) static KINDS: &[Kind] = &[
         ],
         refused: &[],
         build: world_map::mirror_ball,
+        write: world_map::write_mirror_ball,
     },
     Kind {
         name: "angular-map",
@@ -262,6 +278,7 @@ pub(crate) static KINDS: &[Kind] = &[
         ],
         refused: &[],
         build: lens::angular_map,
+        write: lens::write_angular_map,
     },
     Kind {
         name: "hammer",
@@ -269,6 +286,7 @@ pub(crate) static KINDS: &[Kind] = &[
         keys: &[],
         refused: &[FITS],
         build: |fields| Shape::single(fields, CameraModel::WorldMap(WorldMapCamera::Hammer)),
+        write: |shape| world_map::write_whole(shape, WorldMapCamera::Hammer),
     },
     Kind {
         name: "mollweide",
@@ -276,6 +294,7 @@ pub(crate) static KINDS: &[Kind] = &[
         keys: &[],
         refused: &[FITS],
         build: |fields| Shape::single(fields, CameraModel::WorldMap(WorldMapCamera::Mollweide)),
+        write: |shape| world_map::write_whole(shape, WorldMapCamera::Mollweide),
     },
     Kind {
         name: "sinusoidal",
@@ -283,6 +302,7 @@ pub(crate) static KINDS: &[Kind] = &[
         keys: &[],
         refused: &[FITS],
         build: |fields| Shape::single(fields, CameraModel::WorldMap(WorldMapCamera::Sinusoidal)),
+        write: |shape| world_map::write_whole(shape, WorldMapCamera::Sinusoidal),
     },
     Kind {
         name: "pannini",
@@ -293,6 +313,7 @@ pub(crate) static KINDS: &[Kind] = &[
         ],
         refused: &[],
         build: world_map::pannini,
+        write: world_map::write_pannini,
     },
     Kind {
         name: "octahedral",
@@ -300,6 +321,7 @@ pub(crate) static KINDS: &[Kind] = &[
         keys: &[key("kind", "equal-area|plain", "Clarberg's, as pbrt stores environments, or along rays (equal-area)")],
         refused: &[FITS],
         build: world_map::octahedral,
+        write: world_map::write_octahedral,
     },
     Kind {
         name: "st-map",
@@ -317,6 +339,7 @@ pub(crate) static KINDS: &[Kind] = &[
         ],
         refused: &[FITS, NO_EYES],
         build: |fields| StMapSpec::build(fields).map(Shape::StMap),
+        write: StMapSpec::write,
     },
 ];
 

@@ -8,6 +8,7 @@ mod camera;
 mod cube;
 mod fields;
 mod help;
+mod keys;
 mod kind;
 mod map;
 mod shape;

@@ -1,6 +1,7 @@
 use cosmorama::camera::{CameraModel, Placement, SamplePositions};
 
 use super::fields::Fields;
+use super::keys::Keys;
 use super::{CalibrationSpec, Cube, Dual, StMapSpec};
 use crate::SpecError;
 
@@ -35,6 +36,26 @@ impl Shape {
         };
         let any_shape = fields.get("hfov").is_some() && fields.get("vfov").is_some();
         Ok(Self::Single(Single { placement, samples, any_shape }))
+    }
+}
+
+impl Shape {
+    /// Returns the camera of one image.
+    pub(in crate::spec) fn camera(&self) -> Option<CameraModel> {
+        match self {
+            Self::Single(single) => Some(single.placement.frame),
+            Self::Calibrated(_) | Self::Cube(_) | Self::Dual(_) | Self::StMap(_) => None,
+        }
+    }
+
+    /// Adds how one image lies in the world; the other shapes write that themselves.
+    pub(in crate::spec) fn write_place(&self, keys: Keys) -> Keys {
+        match self {
+            Self::Single(Single { placement, .. }) => {
+                keys.placed(placement.orientation, placement.mirror, placement.canvas)
+            }
+            Self::Calibrated(_) | Self::Cube(_) | Self::Dual(_) | Self::StMap(_) => keys,
+        }
     }
 }
 

@@ -1,6 +1,7 @@
 use cosmorama::layout::{Arrangement, Eye, Stereo};
 
 use super::fields::{Fields, wrong};
+use super::keys::Keys;
 use crate::SpecError;
 
 /// That a picture is two, one for each eye.
@@ -12,18 +13,21 @@ pub struct StereoSpec {
     pub eye: Option<Eye>,
 }
 
+const fn packing(arrangement: Arrangement, is_half: bool) -> Stereo {
+    Stereo { arrangement, is_half, is_swapped: false }
+}
+
+const PACKINGS: [(&str, Stereo); 4] = [
+    ("sbs", packing(Arrangement::SideBySide, false)),
+    ("tb", packing(Arrangement::TopBottom, false)),
+    ("sbs-half", packing(Arrangement::SideBySide, true)),
+    ("tb-half", packing(Arrangement::TopBottom, true)),
+];
+
 impl StereoSpec {
     /// The keys of a stereo picture; `None` where it is none.
     pub(super) fn build(fields: &Fields) -> Result<Option<Self>, SpecError> {
-        use Arrangement::{SideBySide, TopBottom};
-        let packing = |arrangement, is_half| Stereo { arrangement, is_half, is_swapped: false };
-        let packings = [
-            ("sbs", packing(SideBySide, false)),
-            ("tb", packing(TopBottom, false)),
-            ("sbs-half", packing(SideBySide, true)),
-            ("tb-half", packing(TopBottom, true)),
-        ];
-        let Some(packing) = fields.choice("stereo", &packings)? else {
+        let Some(packing) = fields.choice("stereo", &PACKINGS)? else {
             let alone = ["swap", "eye"].into_iter().find_map(|key| Some((key, fields.get(key)?)));
             let needs =
                 |(key, value)| wrong(key, value, "stereo= beside it, as in stereo=sbs; without, there is one eye");
@@ -32,6 +36,13 @@ impl StereoSpec {
         let is_swapped = fields.choice("swap", &[("yes", true), ("no", false)])?.unwrap_or(false);
         let eye = fields.choice("eye", &Eye::ALL.map(|eye| (eye.name(), eye)))?;
         Ok(Some(Self { packing: Stereo { is_swapped, ..packing }, eye }))
+    }
+
+    /// Adds its keys.
+    pub(super) fn write(self, keys: Keys) -> Keys {
+        let packing = Stereo { is_swapped: false, ..self.packing };
+        let name = PACKINGS.iter().find(|(_, other)| *other == packing).map(|(name, _)| *name);
+        keys.maybe("stereo", name).switch("swap", self.packing.is_swapped).maybe("eye", self.eye.map(Eye::name))
     }
 
     /// The eyes that are used.

@@ -1,10 +1,13 @@
+use std::fmt;
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
+use cosmorama::camera::CameraModel;
 use cosmorama::layout::LensSide;
 
 use super::alias::{refusal, without_alias};
 use super::fields::Fields;
+use super::keys::Keys;
 use super::kind::{KINDS, Kind};
 use super::shape::Shape;
 use super::stereo::StereoSpec;
@@ -58,6 +61,47 @@ impl Spec {
         }
         Ok(Self { name: kind.name, shape, stereo, files })
     }
+}
+
+/// The SPEC of a shape, by the name that the shape has.
+impl From<Shape> for Spec {
+    fn from(shape: Shape) -> Self {
+        let name = named(&shape).map_or("picture", |(kind, _)| kind.name);
+        Self { name, shape, stereo: None, files: Vec::new() }
+    }
+}
+
+/// Prints the SPEC as it would be typed: parsed again, it is the same. What is default is left out.
+///
+/// A picture whose calibration or map has been read prints the file that it was read from.
+impl fmt::Display for Spec {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        // A fisheye that shows everything has two names.
+        let own = Kind::named(self.name).and_then(|kind| Some((kind, (kind.write)(&self.shape)?)));
+        let (name, keys) = match own.or_else(|| named(&self.shape)) {
+            Some((kind, keys)) => (kind.name, keys),
+            None => (self.name, self.read_from()),
+        };
+        let keys = self.shape.write_place(keys);
+        let keys = match self.stereo {
+            Some(stereo) => stereo.write(keys),
+            None => keys,
+        };
+        if keys.is_empty() { f.write_str(name) } else { write!(f, "{name}:{keys}") }
+    }
+}
+
+impl Spec {
+    /// Writes the file of which a picture's frame was made.
+    fn read_from(&self) -> Keys {
+        let key = if matches!(self.shape.camera(), Some(CameraModel::StMap(_))) { "file" } else { "calibration" };
+        Keys::default().maybe(key, self.files.first().map(|file| file.display()))
+    }
+}
+
+/// Finds the name that writes a shape, and the keys that it has for it.
+fn named(shape: &Shape) -> Option<(&'static Kind, Keys)> {
+    KINDS.iter().find_map(|kind| Some((kind, (kind.write)(shape)?)))
 }
 
 /// Keys and values. A part without `=` goes on with the value before it: `faces=front,left`.

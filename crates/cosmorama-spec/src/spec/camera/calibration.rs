@@ -4,7 +4,9 @@ use cosmorama::camera::{Canvas, Mirror};
 use cosmorama::sphere::{Angle, Orientation};
 
 use crate::SpecError;
+use crate::angle::Degrees;
 use crate::spec::fields::{Fields, wrong};
+use crate::spec::keys::Keys;
 
 /// Kind of lens that a calibration is read for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -53,5 +55,12 @@ impl CalibrationSpec {
             mirror: fields.mirror()?,
             canvas: fields.canvas("canvas")?,
         }))
+    }
+
+    /// Writes its keys, if it is of this kind.
+    pub(in crate::spec) fn write(&self, family: LensFamily) -> Option<Keys> {
+        let keys = Keys::default().with("calibration", self.file.display());
+        let keys = keys.maybe("fov", self.field_of_view.map(Degrees));
+        (self.family == family).then(|| keys.placed(self.orientation, self.mirror, self.canvas))
     }
 }

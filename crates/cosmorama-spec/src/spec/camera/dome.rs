@@ -1,11 +1,13 @@
 //! Domes and Omnimax frames as they are typed.
 
 use cosmorama::camera::{CameraModel, FulldomeCamera, OmnimaxCamera, OmnimaxFraming};
+use cosmorama::sphere::Angle;
 
 use crate::SpecError;
-use crate::angle::parse_degrees;
+use crate::angle::{Degrees, parse_degrees};
 use crate::spec::Shape;
 use crate::spec::fields::Fields;
+use crate::spec::keys::Keys;
 
 pub(crate) fn fulldome(fields: &Fields) -> Result<Shape, SpecError> {
     let frame = FulldomeCamera {
@@ -16,8 +18,9 @@ pub(crate) fn fulldome(fields: &Fields) -> Result<Shape, SpecError> {
     Shape::single(fields, CameraModel::Fulldome(frame))
 }
 
+const FRAMINGS: [(&str, OmnimaxFraming); 2] = [("fit", OmnimaxFraming::Fit), ("circle", OmnimaxFraming::Circle)];
+
 pub(crate) fn omnimax(fields: &Fields) -> Result<Shape, SpecError> {
-    let framings = [("fit", OmnimaxFraming::Fit), ("circle", OmnimaxFraming::Circle)];
     let lower = fields.read("lower", "an angle in degrees below the axis, or none, as in lower=45", |value| {
         if value == "none" { Some(None) } else { parse_degrees(value).map(Some) }
     })?;
@@ -28,11 +31,29 @@ pub(crate) fn omnimax(fields: &Fields) -> Result<Shape, SpecError> {
     }
     let default = OmnimaxCamera::default();
     let frame = OmnimaxCamera {
-        framing: fields.choice("framing", &framings)?.unwrap_or_default(),
+        framing: fields.choice("framing", &FRAMINGS)?.unwrap_or_default(),
         lower: lower.unwrap_or(default.lower),
         circle: fields.circle()?,
         axis: fields.angle_or("axis", 0.0)?,
         pixel_aspect: fields.aspect()?,
     };
     Shape::single(fields, CameraModel::Omnimax(frame))
+}
+
+pub(crate) fn write_fulldome(shape: &Shape) -> Option<Keys> {
+    let CameraModel::Fulldome(frame) = shape.camera()? else { return None };
+    let keys = Keys::default().angle("fov", frame.field_of_view, Angle::from_degrees(180.0));
+    Some(keys.angle("tilt", frame.tilt, Angle::ZERO).aspect(frame.pixel_aspect))
+}
+
+pub(crate) fn write_omnimax(shape: &Shape) -> Option<Keys> {
+    let CameraModel::Omnimax(frame) = shape.camera()? else { return None };
+    let default = OmnimaxCamera::default();
+    let lower = frame.lower.map_or_else(|| "none".to_owned(), |lower| Degrees(lower).to_string());
+    let keys = Keys::default()
+        .choice("framing", frame.framing, default.framing, &FRAMINGS)
+        .maybe("lower", Some(lower).filter(|_| frame.lower != default.lower))
+        .circle("", frame.circle)
+        .angle("axis", frame.axis, default.axis);
+    Some(keys.aspect(frame.pixel_aspect))
 }

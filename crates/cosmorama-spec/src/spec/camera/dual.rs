@@ -2,9 +2,12 @@ use cosmorama::camera::{FisheyeCamera, LensScale, Mirror};
 use cosmorama::layout::{Arrangement, DualFisheye, DualLens, LensSide};
 use cosmorama::sphere::Orientation;
 
-use super::lens::{fit, lens};
+use super::lens::{fit, lens, write_lens, write_scale};
 use crate::SpecError;
+use crate::angle::Degrees;
+use crate::spec::Shape;
 use crate::spec::fields::Fields;
+use crate::spec::keys::Keys;
 
 /// Two fisheye pictures in one image.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -17,11 +20,13 @@ pub struct Dual {
     pub mirror: Mirror,
 }
 
+const ARRANGEMENTS: [(&str, Arrangement); 2] =
+    [("side-by-side", Arrangement::SideBySide), ("top-bottom", Arrangement::TopBottom)];
+const ORDERS: [(&str, LensSide); 2] = [("fb", LensSide::Front), ("bf", LensSide::Back)];
+
 impl Dual {
     /// The pictures of these keys.
     pub(in crate::spec) fn build(fields: &Fields) -> Result<Self, SpecError> {
-        let arrangements = [("side-by-side", Arrangement::SideBySide), ("top-bottom", Arrangement::TopBottom)];
-        let orders = [("fb", LensSide::Front), ("bf", LensSide::Back)];
         let both = FisheyeCamera {
             lens: lens(fields)?,
             field_of_view: fields.angle("fov")?.unwrap_or(DualFisheye::FIELD_OF_VIEW),
@@ -30,13 +35,32 @@ impl Dual {
             ..FisheyeCamera::default()
         };
         let picture = DualFisheye {
-            arrangement: fields.choice("layout", &arrangements)?.unwrap_or_default(),
-            first: fields.choice("order", &orders)?.unwrap_or(LensSide::Front),
+            arrangement: fields.choice("layout", &ARRANGEMENTS)?.unwrap_or_default(),
+            first: fields.choice("order", &ORDERS)?.unwrap_or(LensSide::Front),
             front: one(fields, LensSide::Front, both)?,
             back: one(fields, LensSide::Back, both)?,
             feather: fields.feather()?,
         };
         Ok(Self { picture, orientation: fields.orientation()?, mirror: fields.mirror()? })
+    }
+
+    /// Writes its keys, if the shape is one.
+    pub(in crate::spec) fn write(shape: &Shape) -> Option<Keys> {
+        let Shape::Dual(dual) = shape else { return None };
+        let DualFisheye { arrangement, first, front, back, feather } = dual.picture;
+        let both = front.frame;
+        let keys = Keys::default()
+            .angle("fov", both.field_of_view, DualFisheye::FIELD_OF_VIEW)
+            .choice("layout", arrangement, Arrangement::default(), &ARRANGEMENTS)
+            .choice("order", first, LensSide::Front, &ORDERS)
+            .maybe("feather", feather.map(Degrees));
+        let keys = write_scale(write_lens(keys, both.lens), both.scale).aspect(both.pixel_aspect);
+        let keys = keys.angle("back.fov", back.frame.field_of_view, both.field_of_view);
+        let keys = [(LensSide::Front, front), (LensSide::Back, back)].into_iter().fold(keys, |keys, (side, lens)| {
+            let prefix = format!("{}.", side.name());
+            keys.circle(&prefix, lens.frame.circle).orientation(&prefix, lens.turned)
+        });
+        Some(keys.placed(dual.orientation, dual.mirror, None))
     }
 }
 

@@ -6,6 +6,7 @@ use cosmorama::sphere::Angle;
 use crate::SpecError;
 use crate::spec::Shape;
 use crate::spec::fields::Fields;
+use crate::spec::keys::Keys;
 
 /// The lenses of an i-line that a, b and c correct, by its f: 0, 2 or 3, 8, 10, 21.
 const LENSES: [(&str, HuginProjection); 5] = [
@@ -18,11 +19,10 @@ const LENSES: [(&str, HuginProjection); 5] = [
 
 pub(crate) fn hugin(fields: &Fields) -> Result<Shape, SpecError> {
     let projection = fields.choice("lens", &LENSES)?.unwrap_or(HuginProjection::Rectilinear);
-    let usual = if projection == HuginProjection::Rectilinear { 90.0 } else { 180.0 };
     let coefficient = |key: &str| number(fields, key, &format!("a coefficient of Hugin's, as in {key}=-0.02"));
     let frame = HuginCamera {
         projection,
-        field_of_view: fields.angle("fov")?.unwrap_or(Angle::from_degrees(usual)),
+        field_of_view: fields.angle("fov")?.unwrap_or(usual(projection)),
         correction: [coefficient("a")?, coefficient("b")?, coefficient("c")?],
         shift: [
             number(fields, "d", "pixels to the right of the image's middle, as in d=12.5")?,
@@ -30,6 +30,23 @@ pub(crate) fn hugin(fields: &Fields) -> Result<Shape, SpecError> {
         ],
     };
     Shape::single(fields, CameraModel::Hugin(frame))
+}
+
+/// Field of view of a lens, unless given.
+fn usual(projection: HuginProjection) -> Angle {
+    Angle::from_degrees(if projection == HuginProjection::Rectilinear { 90.0 } else { 180.0 })
+}
+
+pub(crate) fn write(shape: &Shape) -> Option<Keys> {
+    let CameraModel::Hugin(frame) = shape.camera()? else { return None };
+    let ([a, b, c], [d, e]) = (frame.correction, frame.shift);
+    let keys = Keys::default().choice("lens", frame.projection, HuginProjection::Rectilinear, &LENSES).angle(
+        "fov",
+        frame.field_of_view,
+        usual(frame.projection),
+    );
+    let numbers = [("a", a), ("b", b), ("c", c), ("d", d), ("e", e)];
+    Some(numbers.into_iter().fold(keys, |keys, (key, value)| keys.number(key, value, 0.0)))
 }
 
 fn number(fields: &Fields, key: &str, expected: &str) -> Result<f64, SpecError> {

@@ -8,6 +8,7 @@ use cosmorama::sphere::Angle;
 
 use crate::SpecError;
 use crate::spec::fields::{Fields, wrong};
+use crate::spec::keys::Keys;
 use crate::spec::{CalibrationSpec, LensFamily, Shape};
 
 /// A lens by name.
@@ -93,16 +94,17 @@ fn scale(fields: &Fields) -> Result<LensScale, SpecError> {
     })
 }
 
+const FITS: [(&str, FisheyeFit); 5] = [
+    ("short", FisheyeFit::Short),
+    ("long", FisheyeFit::Long),
+    ("width", FisheyeFit::Width),
+    ("height", FisheyeFit::Height),
+    ("diagonal", FisheyeFit::Diagonal),
+];
+
 /// Which length of the image the circle spans.
 pub(crate) fn fit(fields: &Fields) -> Result<FisheyeFit, SpecError> {
-    let fits = [
-        ("short", FisheyeFit::Short),
-        ("long", FisheyeFit::Long),
-        ("width", FisheyeFit::Width),
-        ("height", FisheyeFit::Height),
-        ("diagonal", FisheyeFit::Diagonal),
-    ];
-    Ok(fields.choice("fit", &fits)?.unwrap_or_default())
+    Ok(fields.choice("fit", &FITS)?.unwrap_or_default())
 }
 
 /// How the angle goes with the radius.
@@ -161,4 +163,58 @@ fn coefficients<const N: usize>(fields: &Fields, least: usize, expected: &str) -
         (count >= least).then_some(numbers)
     };
     fields.read("k", expected, numbers)?.ok_or_else(|| wrong("k", "", expected))
+}
+
+pub(crate) fn write_fisheye(shape: &Shape) -> Option<Keys> {
+    if let Shape::Calibrated(camera) = shape {
+        return camera.write(LensFamily::Fisheye);
+    }
+    let CameraModel::Fisheye(frame) = shape.camera()? else { return None };
+    let usual = match frame.scale {
+        LensScale::Circle(_) => FisheyeCamera::default().field_of_view,
+        LensScale::Focal(_) | LensScale::SensorWidth(_) => FisheyeCamera::whole_field(frame.lens),
+    };
+    let keys = write_lens(Keys::default().angle("fov", frame.field_of_view, usual), frame.lens);
+    Some(write_scale(keys, frame.scale).circle("", frame.circle).aspect(frame.pixel_aspect))
+}
+
+pub(crate) fn write_angular_map(shape: &Shape) -> Option<Keys> {
+    let CameraModel::Fisheye(frame) = shape.camera()? else { return None };
+    let plain = FisheyeCamera {
+        field_of_view: Angle::TURN,
+        circle: frame.circle,
+        pixel_aspect: frame.pixel_aspect,
+        ..FisheyeCamera::default()
+    };
+    (frame == plain).then(|| Keys::default().circle("", frame.circle).aspect(frame.pixel_aspect))
+}
+
+/// Adds what says how large the picture of a lens is.
+pub(in crate::spec) fn write_scale(keys: Keys, scale: LensScale) -> Keys {
+    match scale {
+        LensScale::Circle(fit) => keys.choice("fit", fit, FisheyeFit::default(), &FITS),
+        LensScale::Focal(pixels) => keys.with("focal", pixels),
+        LensScale::SensorWidth(millimetres) => keys.with("sensor", millimetres),
+    }
+}
+
+/// Adds the name of a lens and its coefficients.
+pub(in crate::spec) fn write_lens(keys: Keys, lens: FisheyeLens) -> Keys {
+    let (name, k): (&str, Vec<f64>) = match lens {
+        FisheyeLens::Equidistant(_) | FisheyeLens::Hugin(_) => return keys,
+        FisheyeLens::Equisolid(_) => return keys.with("lens", "equisolid"),
+        FisheyeLens::Stereographic(_) => return keys.with("lens", "stereographic"),
+        FisheyeLens::Orthographic(_) => return keys.with("lens", "orthographic"),
+        FisheyeLens::Polynomial(lens) => ("polynomial", lens.to_blender().to_vec()),
+        FisheyeLens::KannalaBrandt(lens) => ("kannala-brandt", lens.to_opencv().to_vec()),
+        FisheyeLens::Ocam(lens) => ("ocam", lens.coefficients().to_vec()),
+        FisheyeLens::Unified(lens) => match lens.parameters() {
+            [alpha, 1.0] => ("ucm", vec![alpha]),
+            [alpha, beta] => ("eucm", vec![alpha, beta]),
+        },
+        FisheyeLens::DoubleSphere(lens) => ("double-sphere", lens.parameters().to_vec()),
+        FisheyeLens::FieldOfView(lens) => ("fov", vec![lens.omega()]),
+    };
+    let k: Vec<String> = k.iter().map(f64::to_string).collect();
+    keys.with("lens", name).with("k", k.join(":"))
 }

@@ -5,6 +5,7 @@ use cosmorama::sphere::Orientation;
 
 use crate::SpecError;
 use crate::spec::fields::{Fields, wrong};
+use crate::spec::keys::Keys;
 use crate::spec::{CalibrationSpec, Shape, Single, Spec};
 
 /// A picture that an st map relates to another one, before the map has been read.
@@ -53,11 +54,29 @@ impl StMapSpec {
 }
 
 impl StMapSpec {
+    /// Writes its keys, if the shape is one.
+    pub(in crate::spec) fn write(shape: &Shape) -> Option<Keys> {
+        let Shape::StMap(map) = shape else { return None };
+        let base = map.base.clone().map(|base| base.spec().to_string().replace(',', ":"));
+        let keys = Keys::default().with("file", map.file.display()).switch("invert", map.invert).maybe("base", base);
+        Some(keys.placed(map.orientation, map.mirror, map.canvas))
+    }
+
     /// Returns the file that `base=` names, if any.
     pub(in crate::spec) fn base_file(&self) -> Option<&PathBuf> {
         match &self.base {
             Some(StMapBase::Calibrated(camera)) => Some(&camera.file),
             Some(StMapBase::Single(_)) | None => None,
+        }
+    }
+}
+
+impl StMapBase {
+    /// Returns the SPEC of this picture by itself.
+    fn spec(self) -> Spec {
+        match self {
+            Self::Single(single) => Shape::Single(single).into(),
+            Self::Calibrated(camera) => Shape::Calibrated(camera).into(),
         }
     }
 }

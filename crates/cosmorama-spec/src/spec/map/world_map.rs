@@ -2,12 +2,15 @@
 
 use cosmorama::camera::{
     CameraModel, CylinderCamera, CylinderKind, EquirectCamera, MirrorBallCamera, OctahedralCamera, PanniniCamera,
+    WorldMapCamera,
 };
 use cosmorama::projection::OctahedralKind;
 
 use crate::SpecError;
-use crate::spec::Shape;
-use crate::spec::fields::Fields;
+use crate::angle::Degrees;
+use crate::spec::fields::{Fields, samples_name};
+use crate::spec::keys::Keys;
+use crate::spec::{Shape, SphereSamples};
 
 pub(crate) fn equirect(fields: &Fields) -> Result<Shape, SpecError> {
     let frame = EquirectCamera {
@@ -59,8 +62,68 @@ pub(crate) fn pannini(fields: &Fields) -> Result<Shape, SpecError> {
     Shape::single(fields, CameraModel::Pannini(frame))
 }
 
+const KINDS: [(&str, OctahedralKind); 2] =
+    [("equal-area", OctahedralKind::EqualArea), ("plain", OctahedralKind::Plain)];
+
 pub(crate) fn octahedral(fields: &Fields) -> Result<Shape, SpecError> {
-    let kinds = [("equal-area", OctahedralKind::EqualArea), ("plain", OctahedralKind::Plain)];
-    let frame = OctahedralCamera { kind: fields.choice("kind", &kinds)?.unwrap_or_default() };
+    let frame = OctahedralCamera { kind: fields.choice("kind", &KINDS)?.unwrap_or_default() };
     Shape::single(fields, CameraModel::Octahedral(frame))
+}
+
+pub(crate) fn write_equirect(shape: &Shape) -> Option<Keys> {
+    let Shape::Single(single) = shape else { return None };
+    let CameraModel::Equirect(frame) = shape.camera()? else { return None };
+    let default = EquirectCamera::default();
+    let keys = match single.any_shape {
+        true => Keys::default().with("hfov", Degrees(frame.horizontal)).with("vfov", Degrees(frame.vertical)),
+        false => Keys::default().angle("hfov", frame.horizontal, default.horizontal).angle(
+            "vfov",
+            frame.vertical,
+            default.vertical,
+        ),
+    };
+    let samples = match single.samples {
+        SphereSamples::Given(samples) => Some(samples),
+        SphereSamples::ByFormat | SphereSamples::NotAPanorama => {
+            Some(frame.samples).filter(|samples| *samples != default.samples)
+        }
+    };
+    Some(keys.maybe("samples", samples.map(samples_name)))
+}
+
+pub(crate) fn write_cylinder(shape: &Shape, kind: CylinderKind) -> Option<Keys> {
+    let Shape::Single(single) = shape else { return None };
+    let CameraModel::Cylinder(frame) = shape.camera()? else { return None };
+    let horizontal =
+        Some(frame.horizontal).filter(|angle| single.any_shape || *angle != CylinderCamera::new(kind).horizontal);
+    let (edge, top) = match kind {
+        CylinderKind::Mercator => ("lat", frame.top),
+        CylinderKind::Central | CylinderKind::EqualArea => ("vfov", frame.top.map(|top| top * 2.0)),
+    };
+    let keys = Keys::default().maybe("hfov", horizontal.map(Degrees)).maybe(edge, top.map(Degrees));
+    (frame.kind == kind).then(|| keys.aspect(frame.pixel_aspect))
+}
+
+pub(crate) fn write_mirror_ball(shape: &Shape) -> Option<Keys> {
+    let CameraModel::MirrorBall(frame) = shape.camera()? else { return None };
+    let keys = Keys::default().maybe("distance", frame.distance).circle("", frame.circle);
+    Some(keys.aspect(frame.pixel_aspect))
+}
+
+/// Writes a map of the whole world, which has no keys of its own.
+pub(crate) fn write_whole(shape: &Shape, map: WorldMapCamera) -> Option<Keys> {
+    let CameraModel::WorldMap(frame) = shape.camera()? else { return None };
+    (frame == map).then(Keys::default)
+}
+
+pub(crate) fn write_pannini(shape: &Shape) -> Option<Keys> {
+    let CameraModel::Pannini(frame) = shape.camera()? else { return None };
+    let default = PanniniCamera::default();
+    let keys = Keys::default().angle("fov", frame.field_of_view, default.field_of_view);
+    Some(keys.number("d", frame.distance, default.distance).aspect(frame.pixel_aspect))
+}
+
+pub(crate) fn write_octahedral(shape: &Shape) -> Option<Keys> {
+    let CameraModel::Octahedral(frame) = shape.camera()? else { return None };
+    Some(Keys::default().choice("kind", frame.kind, OctahedralKind::default(), &KINDS))
 }

@@ -13,7 +13,7 @@ pub trait RadiusFormula {
 /// The lens of a formula, as far as that rises.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ByAngle<F> {
-    formula: F,
+    pub(super) formula: F,
     /// The angle and the radius at which the image ends: at 180°, or where the formula turns back or away.
     rim: (f64, f64),
 }

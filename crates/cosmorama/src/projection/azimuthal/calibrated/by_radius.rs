@@ -12,7 +12,7 @@ pub trait AngleFormula {
 /// The lens of a formula, as far as that rises.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ByRadius<F> {
-    formula: F,
+    pub(super) formula: F,
     /// The radius and the angle at which the image ends: at 180°, or where the formula turns back.
     rim: (f64, f64),
 }

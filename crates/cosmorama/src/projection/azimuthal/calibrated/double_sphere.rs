@@ -24,6 +24,11 @@ impl DoubleSphere {
         LensError::unless((0.0..=1.0).contains(&alpha), "alpha", alpha, "from 0 to 1")?;
         Self::new(DoubleSphereFormula { xi, alpha })
     }
+
+    /// Returns ξ and α.
+    pub fn parameters(&self) -> [f64; 2] {
+        [self.formula.xi, self.formula.alpha]
+    }
 }
 
 impl RadiusFormula for DoubleSphereFormula {

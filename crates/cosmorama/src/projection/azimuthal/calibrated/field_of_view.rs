@@ -18,6 +18,11 @@ impl FieldOfViewLens {
         LensError::unless(inside, "omega", omega, "more than 0 and less than 3.14159 radians")?;
         Ok(Self { omega, factor: 2.0 * (omega / 2.0).tan() })
     }
+
+    /// Returns ω in radians.
+    pub fn omega(&self) -> f64 {
+        self.omega
+    }
 }
 
 impl Lens for FieldOfViewLens {

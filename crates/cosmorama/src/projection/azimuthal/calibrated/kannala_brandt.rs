@@ -17,6 +17,11 @@ impl KannalaBrandt {
         finite("a coefficient of Kannala-Brandt", &k)?;
         Self::new(KannalaBrandtFormula(k))
     }
+
+    /// Returns OpenCV's coefficients k1 to k4.
+    pub fn to_opencv(&self) -> [f64; 4] {
+        self.formula.0
+    }
 }
 
 impl RadiusFormula for KannalaBrandtFormula {

@@ -25,6 +25,11 @@ impl Ocam {
         let ahead = a[0].signum();
         Self::new(OcamFormula(a.map(|a| a * ahead)))
     }
+
+    /// Returns the coefficients a0, a1, a2 and so on, a0 positive.
+    pub fn coefficients(&self) -> [f64; OCAM_COEFFICIENTS] {
+        self.formula.0
+    }
 }
 
 impl AngleFormula for OcamFormula {

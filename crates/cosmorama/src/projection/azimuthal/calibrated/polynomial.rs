@@ -31,6 +31,12 @@ impl Polynomial {
         LensError::unless(slope > 0.0, "k1 of the polynomial", k[1], "less than 0, as Blender has it")?;
         Self::new(PolynomialFormula { offset, fade, k: [-k[1], -k[2], -k[3], -k[4]] })
     }
+
+    /// Returns Blender's coefficients k0 to k4.
+    pub fn to_blender(&self) -> [f64; 5] {
+        let PolynomialFormula { offset, k: [k1, k2, k3, k4], .. } = self.formula;
+        [offset, k1, k2, k3, k4].map(|k| 0.0 - k)
+    }
 }
 
 impl AngleFormula for PolynomialFormula {

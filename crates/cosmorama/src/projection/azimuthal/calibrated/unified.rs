@@ -22,6 +22,11 @@ impl Unified {
         LensError::unless(beta > 0.0 && beta.is_finite(), "beta", beta, "more than 0")?;
         Self::new(UnifiedFormula { alpha, beta })
     }
+
+    /// Returns α and β.
+    pub fn parameters(&self) -> [f64; 2] {
+        [self.formula.alpha, self.formula.beta]
+    }
 }
 
 impl RadiusFormula for UnifiedFormula {

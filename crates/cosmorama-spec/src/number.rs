@@ -1,0 +1,15 @@
+/// Number of neighbours on each side among which a decimal is looked for: more than rounding moves a number.
+const NEIGHBOURS: usize = 8;
+
+/// Returns the shortest decimal near a number that is exact by a test, or the number itself where none is.
+///
+/// Units of text and of values differ by a factor, so that the number that was typed comes back rounded: 7 % as
+/// 7.000000000000001.
+pub(crate) fn decimal(near: f64, is_exact: impl Fn(f64) -> bool) -> f64 {
+    let rounded = (0..=15).filter_map(|places| format!("{near:.places$}").parse().ok());
+    let above = std::iter::successors(Some(near), |number| Some(number.next_up())).take(NEIGHBOURS);
+    let below = std::iter::successors(Some(near), |number| Some(number.next_down())).take(NEIGHBOURS);
+    let found = rounded.chain(above).chain(below).find(|number: &f64| is_exact(*number)).unwrap_or(near);
+    // Not "-0".
+    found + 0.0
+}
