@@ -300,9 +300,12 @@ fn a_constant_world_stays_constant() {
     let light = vec![colour; world.texel_count()];
     for kernel in cross_sections {
         for kind in [FilterKind::Ewa, FilterKind::Bilinear, FilterKind::Point, FilterKind::Reference { samples: 3 }] {
+            // A pixel of the reference takes as long as hundreds of others; rims, poles and a corner are in few of them, too.
+            let side = if matches!(kind, FilterKind::Reference { .. }) { 32 } else { 64 };
             for anti_ringing in [false, true] {
                 let filter = Filter { kind, kernel, anti_ringing };
-                for target in [fisheye(64, 360.0), equirect(24), perspective(64, 48, 10.0, 45.0, 35.0, 0.0)] {
+                let corner = perspective(side, side * 3 / 4, 10.0, 45.0, 35.0, 0.0);
+                for target in [fisheye(side, 360.0), equirect(24), corner] {
                     let image = Resampler { world: &world, target: &target, filter }.render(&light);
                     for (index, pixel) in image.pixels().iter().enumerate() {
                         let (i, j) = (index % image.width(), index / image.width());
