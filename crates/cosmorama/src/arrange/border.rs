@@ -1,7 +1,7 @@
 use super::Side;
 use crate::raster::Rgba;
 
-/// What a picture shows along its four sides.
+/// Samples of a picture along its four sides.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Border {
     /// By side, clockwise.
@@ -13,7 +13,7 @@ pub struct Border {
 pub(super) struct Sample {
     /// Red, green and blue, as the eye weighs them, where the picture ends.
     pub(super) colour: [f32; 3],
-    /// How far each may be off, squared: what is guessed from the slope across the side, and from that along it.
+    /// Variance of each channel: from the slopes across and along the side.
     pub(super) doubt: [f32; 3],
 }
 

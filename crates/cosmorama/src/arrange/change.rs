@@ -3,13 +3,12 @@ use std::fmt;
 use super::Pose;
 use crate::sphere::CubeFace;
 
-/// What has to be done to pictures that lie on the wrong faces, or lie on them wrongly. Pictures are called by the face
-/// that they were given as.
+/// A change to pictures that lie on wrong faces, or lie on them wrongly. Pictures are named by the face given for them.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Change {
-    /// Two pictures are each other's.
+    /// Two pictures are exchanged.
     Swapped(CubeFace, CubeFace),
-    /// A picture is that of another face.
+    /// A picture belongs to another face.
     Moved {
         /// What it was given as.
         from: CubeFace,
@@ -32,7 +31,7 @@ pub enum Change {
     },
 }
 
-/// What leads from one arrangement of pictures to another.
+/// Finds the changes that turn one arrangement of pictures into another.
 ///
 /// # Panics
 /// When the two are not of the same number of pictures.

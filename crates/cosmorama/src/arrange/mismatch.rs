@@ -1,7 +1,7 @@
 use super::border::Sample;
 use super::{Border, Pose, Side};
 
-/// How ill any side of any picture goes with any side of any other.
+/// Mismatch of each side of each picture with each side of the others.
 ///
 /// A sample's mismatch is `ln(1 + d² / s²)`, d the difference of tones and s how far both may be off: nothing for what
 /// agrees, and no more for what differs wildly than for what differs much, so that a seam within a face's own border does

@@ -14,7 +14,7 @@ pub struct Pose {
 }
 
 impl Pose {
-    /// A face's picture that has to be turned so.
+    /// Builds the pose of a face's picture that must be turned so to be upright.
     pub fn new(face: CubeFace, lies: FacePlacement) -> Self {
         let (right, up) = lies.axes(face);
         Self { face, right: CubeFace::of(right), up: CubeFace::of(up) }

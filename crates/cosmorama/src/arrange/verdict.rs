@@ -3,7 +3,7 @@ use super::search::{Found, Search, is_same};
 use super::symmetry::Symmetry;
 use super::{Change, Mismatch, Pose, changes};
 
-/// What continuity says of an arrangement of pictures.
+/// Judgement of an arrangement of pictures by the continuity of its borders.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Verdict {
     /// It fits, and no other does.
@@ -19,7 +19,7 @@ pub enum Verdict {
     },
 }
 
-/// How sure it is that an arrangement fits.
+/// Confidence in an arrangement that fits.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Fit {
     /// From 0 to 1: at least so likely none of all other arrangements looks so much worse by chance.

@@ -1,6 +1,6 @@
 use thiserror::Error;
 
-/// Why a frame cannot be made.
+/// Reason why a camera model gives no view.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 pub enum CameraError {
     /// An image of nothing.
@@ -114,7 +114,7 @@ pub enum CameraError {
         /// Rows.
         height: usize,
     },
-    /// So fine a picture that no image holds it.
+    /// A resolution that no image can hold.
     #[error("as fine as the input, the image would have {width:.3e}x{height:.3e} pixels; its size must be given")]
     SizeUnbounded {
         /// Columns.

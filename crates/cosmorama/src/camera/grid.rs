@@ -119,7 +119,7 @@ impl PixelGrid {
         Self { width, height, origin: self.origin / by, step: self.step * by }
     }
 
-    /// The first so many columns and all rows, which keep their place, in half as many, rounded up.
+    /// Halves the resolution of the first `columns` columns and all rows, rounded up; the picture keeps its place.
     #[must_use]
     pub(crate) fn halved(self, columns: usize) -> Self {
         let (width, height) = (columns.div_ceil(2), self.height.div_ceil(2));

@@ -6,21 +6,21 @@ use super::Circle;
 use super::rim::Brightness;
 use crate::raster::{Image, Rgba};
 
-/// Threes of points that are tried.
+/// Number of point triples that RANSAC tries.
 const TRIALS: usize = 600;
 /// Rays along which the rim is measured.
 const RAYS: usize = 720;
-/// Of the rim inside the frame, so much must be found on the circle.
+/// Least part of the rim inside the frame that must be found on the circle.
 const SEEN: f64 = 0.4;
-/// Of the frame outside the circle, so much must be black: a flare may spill over some of it.
+/// Least part of the frame outside the circle that must be black: a flare may spill over some of it.
 const DARK: f64 = 0.85;
-/// Points so near a circle, in the frame's shorter side, lie on it.
+/// Largest distance of a point on the circle, as a part of the frame's shorter side.
 const TOLERANCE: f64 = 0.006;
 /// Tolerance for discs with a ragged edge, in the frame's shorter side.
 const RAGGED: f64 = 0.03;
-/// Where such a disc ends, in its radius; the outline of a square lies further in than this.
+/// Least distance of a ragged disc's end, as a part of its radius; the outline of a square comes nearer than this.
 const ROUND: f64 = 0.75;
-/// Of the frame, so much at least must lie outside.
+/// Least part of the frame that must lie outside the circle.
 const AROUND: f64 = 0.02;
 
 /// A circle on black.

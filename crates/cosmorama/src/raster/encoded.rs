@@ -140,7 +140,7 @@ impl EncodedImage {
             }
     }
 
-    /// A part of the same: columns from `left`, rows from `top`.
+    /// Copies a part of the image: columns from `left`, rows from `top`.
     ///
     /// # Panics
     /// When the part is not inside the image.

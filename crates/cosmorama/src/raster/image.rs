@@ -4,7 +4,7 @@ use thiserror::Error;
 
 use super::{Depth, Rgba};
 
-/// Why an image cannot be made.
+/// Reason why an image cannot be built.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub enum ImageError {
     /// The pixels given are not width × height of them.

@@ -5,7 +5,7 @@ pub(crate) struct RowLayout {
     pub(crate) offset: usize,
     /// Columns and rows of the view.
     pub(crate) size: [usize; 2],
-    /// From a row's first texel to the next one's: as many as a row has, or more.
+    /// Texels from the start of one row to the start of the next: the row's width or more.
     pub(crate) pitch: usize,
 }
 

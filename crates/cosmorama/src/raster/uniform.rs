@@ -1,6 +1,6 @@
 use super::{Image, Rgba};
 
-/// The colour that most of a region has.
+/// A colour of a region, and the part of the region that has it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Uniform {
     /// The colour of the region's first pixel.
@@ -9,7 +9,7 @@ pub struct Uniform {
     pub share: f64,
 }
 
-/// What a lossy codec may make of one colour.
+/// Largest change that a lossy codec makes to a uniform colour.
 const TOLERANCE: f32 = 0.02;
 
 impl Image<Rgba> {

@@ -3,8 +3,7 @@ use rayon::prelude::*;
 use crate::camera::{PixelPoint, View};
 use crate::raster::Rgba;
 
-/// The texels of a view that the edge of its own field of view cuts: the rim of a fisheye's circle, of a mirror ball, of an
-/// oval map.
+/// Texels of a view that are cut by the edge of its field of view, such as the rim of a circle, ball or oval map.
 ///
 /// Whoever made the picture may have antialiased its rim: then they are mixed with what lies around it, and whatever is made
 /// of them would show the rim, an oval map's as a line from pole to pole. Or they hold what the whole texel sees. They are

@@ -41,7 +41,7 @@ pub(crate) fn share(sources: &mut [Source]) {
     }
 }
 
-/// Leaves each texel of a view its part; says which ones have less than all.
+/// Multiplies each texel of a view by its part, and returns which texels have less than all.
 fn share_texels(sources: &[Source], index: usize, solid_angles: &mut [f32]) -> Vec<bool> {
     let source = &sources[index];
     let width = source.view.width();

@@ -22,7 +22,7 @@ impl SolidAngles {
         Self(Arc::new(angles))
     }
 
-    /// To change them for one view, whatever others have.
+    /// Returns the list for changes, copied first if other views share it.
     pub(crate) fn make_mut(&mut self) -> &mut [f32] {
         Arc::<Vec<f32>>::make_mut(&mut self.0)
     }

@@ -8,7 +8,7 @@ use crate::sphere::Direction;
 /// The numbers of an st map's pixel: s to the right, t up, and the part of the pixel that shows anything.
 pub type StPixel = [f32; 3];
 
-/// What a pixel holds that shows nothing: a place outside.
+/// Value of an st map's pixel that shows nothing: a place outside the picture.
 pub const ST_NOWHERE: StPixel = [-1.0, -1.0, 0.0];
 
 impl World {

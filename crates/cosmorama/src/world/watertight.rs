@@ -3,12 +3,13 @@ use crate::camera::{FieldStop, PixelPoint};
 use crate::projection::ProjectionKind;
 use crate::sphere::Direction;
 
-/// Corners of pictures that are nearer to each other than this, in radians, are one: rounding.
+/// Largest distance of two corners that count as one, in radians: rounding.
 const SAME: f64 = 1e-12;
 
 impl World {
-    /// Whether its views surely leave no hole between them: pictures whose sides are great circles, each of them the side of
-    /// another picture, too, as those of a cube's faces are.
+    /// Whether the views certainly leave no hole between them.
+    ///
+    /// Their pictures must have great circles for sides, each of them the side of another picture, too, as a cube's faces have.
     pub(crate) fn is_closed(&self) -> bool {
         let corners: Option<Vec<[Direction; 4]>> = self.sources().iter().map(corners).collect();
         let Some(corners) = corners else { return false };

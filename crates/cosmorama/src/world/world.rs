@@ -11,10 +11,10 @@ use crate::projection::{Projection, ProjectionKind};
 use crate::raster::FixedLight;
 use crate::sphere::Direction;
 
-/// Why views make no world.
+/// Reason why views do not make a world.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub enum WorldError {
-    /// There is nothing to look at.
+    /// There is no view.
     #[error("a world needs at least one view")]
     Empty,
     /// A view has no pixels.
@@ -87,8 +87,9 @@ pub(crate) struct TexelPlace {
 }
 
 impl Source {
-    /// Whether no texel is larger than [`Self::texel_pitch`] says, which is measured at some points. Between those, texels
-    /// beside a steep rim may be, and so may those of a table.
+    /// Whether [`Self::texel_pitch`] bounds every texel.
+    ///
+    /// It is measured at some points. Between those, texels beside a steep rim may be larger, and so may those of a table.
     pub(crate) fn has_bounded_texels(&self) -> bool {
         let projection = &self.view.projection;
         !projection.has_steep_rim() && !matches!(projection, ProjectionKind::StMap(_))
@@ -122,8 +123,7 @@ impl Source {
         self.cone.is_none_or(|cone| cone.reaches(direction, radius))
     }
 
-    /// How many texels a direction lies beyond what the image holds, zero inside; `None` where the projection has no place for
-    /// it.
+    /// Distance of a direction from the image, in texels; zero inside, `None` where the projection has no place for it.
     pub(crate) fn texels_beyond(&self, direction: Direction) -> Option<f64> {
         let pixel = self.view.wrapped(self.view.pixel(direction)?);
         let (width, height) = (self.view.width() as f64, self.view.height() as f64);
@@ -171,7 +171,7 @@ impl World {
         Self::blended(views.into_iter().map(part))
     }
 
-    /// The world of views each of which takes its part where it overlaps others.
+    /// Builds a world of views that blend where they overlap.
     ///
     /// # Errors
     /// Those of [`World::new`].
@@ -248,7 +248,7 @@ impl World {
         Some(largest.1)
     }
 
-    /// Gives every view that holds a direction to `visit`, with where in its image, and its part: they add to one.
+    /// Calls `visit` with each view that holds a direction, the point in its image, and its part; the parts add to one.
     pub(crate) fn for_each_holder(&self, direction: Direction, mut visit: impl FnMut(usize, PixelPoint, f64)) {
         let Some((first, pixel)) = self.first_to_hold(direction) else { return };
         let source = &self.sources[first];
@@ -330,7 +330,7 @@ fn check(views: &[WorldView]) -> Result<(), WorldError> {
 /// Texels are counted in 32 bits, in light whose rows are filled up, too.
 const MOST_TEXELS: usize = u32::MAX as usize;
 
-/// Texels that a mask hides weigh nothing.
+/// Sets the solid angles of masked texels to zero.
 fn hide(sources: &mut [Source]) {
     for source in sources {
         let Some(mask) = &source.mask else { continue };

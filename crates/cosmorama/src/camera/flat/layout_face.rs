@@ -7,11 +7,11 @@ use crate::sphere::{Angle, Orientation};
 /// outermost samples lie on the cube's edges, or the face goes on beyond those.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LayoutFaceCamera {
-    /// How angles go with pixels.
+    /// Mapping of pixels to angles.
     pub mapping: FaceMapping,
     /// Where the outermost samples lie.
     pub samples: SamplePositions,
-    /// What a face sees from edge to edge: of more than 90° it shows what its neighbours show, too.
+    /// Field of view from edge to edge; a face of more than 90° overlaps its neighbours.
     pub field_of_view: Angle,
 }
 

@@ -18,9 +18,9 @@ pub enum CalibratedLens {
 /// A picture of a camera that a program measured: focal lengths and axis in pixels of the image that was measured.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CalibratedCamera {
-    /// How the lens bends.
+    /// Mapping of angles to radii.
     pub lens: CalibratedLens,
-    /// How the pixels lie.
+    /// Mapping of the lens's plane to pixels.
     pub matrix: CameraMatrix,
     /// Columns and rows of the image that was measured; images of another size are that one scaled.
     pub size: Option<(usize, usize)>,
@@ -28,7 +28,7 @@ pub struct CalibratedCamera {
     pub field_of_view: Option<Angle>,
 }
 
-/// What a lens shows further from its axis than this, in focal lengths, is at infinity.
+/// Distance from the axis beyond which a lens's image counts as infinite, in focal lengths.
 const INFINITELY_FAR: f64 = 1e6;
 
 /// Kernels reach a little beyond an image's corners; so does what the projection knows, as a part of the angle.
@@ -61,7 +61,7 @@ impl Camera for CalibratedCamera {
 }
 
 impl CalibratedCamera {
-    /// How much larger an image is than the one that was measured.
+    /// Computes the scale factors from the measured image to one of this size.
     fn scale(&self, width: usize, height: usize) -> Result<DVec2, CameraError> {
         let Some((w, h)) = self.size else { return Ok(DVec2::ONE) };
         if w == 0 || h == 0 {

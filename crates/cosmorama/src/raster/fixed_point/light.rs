@@ -3,7 +3,7 @@ use crate::raster::{Rgba, RowLayout};
 /// Texels in 64 bytes, which processors keep together.
 const LINE: usize = 8;
 
-/// Rows of fewer texels than these are kept without anything between them: of so small views a cache holds whole regions.
+/// Rows with fewer texels are not padded: a cache holds whole regions of such small views.
 const SHORT: usize = 128;
 
 /// 15-bit linear light of a world's opaque texels, red, green and blue from 0 to 32767: a product of two fits in 32 bits.
@@ -50,7 +50,7 @@ impl FixedLight {
         self.len() == 0
     }
 
-    /// Each view from its first row to its last, with what fills them up.
+    /// Iterates over the views, each from its first row to its last, padding included.
     pub fn views_mut(&mut self) -> impl Iterator<Item = &mut [[i16; 4]]> {
         let mut rest = self.texels.as_mut_slice();
         self.views.iter().map(move |view| rest.split_off_mut(..view.end() - view.offset).expect("room for each view"))
@@ -71,12 +71,12 @@ impl FixedLight {
         &self.views
     }
 
-    /// All texels as they lie, with what fills up rows.
+    /// Returns all texels in memory order, padding included.
     pub(crate) fn as_laid_out(&self) -> &[[i16; 4]] {
         &self.texels
     }
 
-    /// Four samples for each texel, and for what fills up rows.
+    /// Returns four samples for each texel, padding included.
     pub(crate) fn samples(&self) -> &[i16] {
         self.texels.as_flattened()
     }
@@ -97,7 +97,7 @@ impl FixedLight {
         }
     }
 
-    /// What a texel's samples stand for.
+    /// Converts a texel's samples to linear light in floats.
     pub fn light(samples: [i16; 4]) -> Rgba {
         let [red, green, blue, _] = samples.map(|sample| f32::from(sample) / Self::WHITE);
         Rgba::opaque(red, green, blue)

@@ -11,10 +11,10 @@ use super::{Channels, ColourChannel, EncodedImage, Image, Rgba, Samples, Transfe
 /// Texels by code, as numbers.
 type ByCode = [u64; 256];
 
-/// From 8-bit codes to light.
+/// Decoder of 8-bit codes to 15-bit linear light.
 #[derive(Clone, Debug)]
 pub struct FixedDecoder {
-    /// What a code of each channel is of a texel, nothing in the others: a texel is the sum of three.
+    /// Part of a texel that each code of a channel adds; a texel is the sum of its three parts.
     channels: [ByCode; 3],
     grey: ByCode,
 }
@@ -108,19 +108,18 @@ fn fill<'a, const N: usize>(
 /// The code of each light; twice as many as there is light, so that any number of 16 bits has one.
 type Codes = [u8; 1 << 16];
 
-/// Steps of light that a weighted sum of texels and weights, all of them rounded, is hardly ever wrong by more than: they may not be
-/// more than one code.
+/// Largest error of a rounded weighted sum, in steps of 15-bit light; it must not exceed one code.
 const ERROR: usize = 4;
 
-/// By how much the last of some codes is more than the first.
+/// Difference between the last and the first of some codes.
 fn rise(codes: &[u8]) -> i16 {
     i16::from(codes[codes.len() - 1]) - i16::from(codes[0])
 }
 
-/// How much light there is, black and white among it.
+/// Number of light values, black and white included.
 const LIGHT: usize = 1 << 15;
 
-/// From light to 8-bit codes.
+/// Encoder of 15-bit linear light to 8-bit codes.
 #[derive(Clone, Debug)]
 pub struct FixedCodec {
     /// The codes of all light there is, once for all channels or for each.

@@ -1,7 +1,7 @@
 use crate::camera::PixelPoint;
 use crate::world::MaskShape;
 
-/// Which texels of a view count: what a mask hides is as if the view did not hold it.
+/// Mask of a view: texels that it hides count as if the view did not hold them.
 #[derive(Clone, PartialEq)]
 pub struct ViewMask {
     width: usize,
@@ -31,7 +31,7 @@ impl ViewMask {
         Self { width, distance: squares.into_iter().map(|square| square.sqrt() as f32).collect() }
     }
 
-    /// The mask that shapes leave of a view of this size, in pixels of the picture whose corner at (left, top) the view has.
+    /// Builds the mask of a view from shapes, given in pixels of a picture in which (left, top) is the view's corner.
     pub fn of_shapes(shapes: &[MaskShape], (left, top): (usize, usize), (width, height): (usize, usize)) -> Self {
         let mut counts = vec![true; width * height];
         for (j, row) in counts.chunks_mut(width.max(1)).enumerate() {
@@ -66,8 +66,7 @@ impl ViewMask {
         self.counts(inside(pixel.x, width), inside(pixel.y, height))
     }
 
-    /// How far, in texels, a point is from what does not count: from the outermost centres of what does, so that it falls
-    /// to nothing there.
+    /// Distance of a point to the nearest masked texel, in texels, measured from the outermost visible centres.
     pub(crate) fn depth(&self, pixel: PixelPoint) -> f64 {
         let (width, height) = self.size();
         let place = |value: f64, size: usize| {

@@ -1,6 +1,6 @@
 use crate::camera::PixelPoint;
 
-/// A shape in an image, that a mask leaves or takes away.
+/// A shape in an image that a mask keeps or removes.
 #[derive(Clone, Debug, PartialEq)]
 pub enum MaskShape {
     /// Only what lies in the circle counts.
