@@ -3,10 +3,10 @@ use super::pair::Pair;
 use super::{CompareError, Difference, Mask, Registration};
 use crate::raster::{ColourChannel, Image, Rgba, Transfer};
 
-/// How far two pictures are apart.
+/// Differences of two pictures, and the shift between them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Comparison {
-    /// How many pixels count.
+    /// Number of pixels compared.
     pub pixels: usize,
     /// Differences of linear light.
     pub linear: Difference,

@@ -14,7 +14,7 @@ pub struct Difference {
     pub mean: f64,
     /// The largest difference.
     pub largest: Largest,
-    /// What the largest channel's difference does not exceed in 99.9 % of the pixels.
+    /// 99.9th percentile of the largest channel's difference, over pixels.
     pub percentile_99_9: f64,
 }
 

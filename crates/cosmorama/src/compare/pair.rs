@@ -3,7 +3,7 @@ use thiserror::Error;
 use super::Mask;
 use crate::raster::{Image, Rgba};
 
-/// Why two pictures cannot be compared.
+/// Reason why two pictures cannot be compared.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub enum CompareError {
     /// The pictures are not of one size.

@@ -8,7 +8,7 @@ use crate::render::{Need, Needs, Resampler, Uncovered};
 use crate::sphere::Direction;
 use crate::world::{Source, World};
 
-/// What a conversion takes and does, in numbers. Its text form is for people.
+/// Figures of a conversion before it runs: coverage, needs, magnification and memory. Its text form is for people.
 ///
 /// What needs a look at every pixel of a large target is counted on a regular part of them, at least 130 000; the needed
 /// rectangles are exact.
@@ -39,7 +39,7 @@ pub struct Centre {
     pub view: Option<(usize, Magnification)>,
 }
 
-/// What a conversion takes from one view.
+/// Part of one view in a conversion.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ViewReport {
     /// The rectangles of texels that are needed.
@@ -50,9 +50,9 @@ pub struct ViewReport {
     pub used: f64,
     /// The part of the target's picture that it gives, 0 to 1.
     pub share: f64,
-    /// How long its pixels are, over the target.
+    /// Range of its texels along a target's pixel.
     pub magnification: Option<Magnification>,
-    /// How large it could be.
+    /// Image sizes that would suit the target.
     pub advised: Option<FaceSize>,
 }
 
@@ -81,7 +81,7 @@ pub struct Memory {
 }
 
 impl Report {
-    /// What making `target` from `world` takes. The world needs no light: it may be of nominal views.
+    /// Computes the report of making `target` from `world`. The world needs no light: it may be of planned views.
     pub fn of(world: &World, target: &View, filter: &Filter) -> Self {
         let needs = Needs::of(world, &[*target], filter);
         let survey = Survey::of(world, target, filter);

@@ -9,7 +9,7 @@ use crate::world::{Source, World};
 /// Pixels, and texels of a view, that a survey looks at; of more it takes every second one, third one and so on.
 const SAMPLES: usize = 1 << 17;
 
-/// What a look at the pixels of a target finds.
+/// Statistics over a target's pixels.
 #[derive(Clone, Debug)]
 pub(crate) struct Survey {
     /// Pixels looked at, and how many of them show something.

@@ -67,13 +67,13 @@ impl CubeLayout {
         self
     }
 
-    /// Half of the same: the half around a face. Faces keep their places; what no longer shows anything is cut off.
+    /// Cuts the layout down to the half cube around a face. Faces keep their places; places that show nothing are removed.
     #[must_use]
     pub fn with_half(self, half: CubeFace) -> Self {
         Self { half: Some(half), ..self }
     }
 
-    /// The places of a picture that is mirrored as a whole. The faces' own pictures are mirrored by their views.
+    /// Moves the faces to their places in the mirrored picture. The faces' own pictures are mirrored by their views.
     #[must_use]
     pub fn mirrored(mut self, mirror: Mirror) -> Self {
         let (columns, rows) = self.kind.grid();

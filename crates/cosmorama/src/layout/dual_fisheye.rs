@@ -14,7 +14,7 @@ pub struct DualFisheye {
     pub front: DualLens,
     /// The camera that looks back.
     pub back: DualLens,
-    /// Over how wide a band at its circle each fades out where the other shows the same; `None` for all that they share.
+    /// Width of the band at each circle in which the picture fades out; `None` for the whole overlap.
     pub feather: Option<Angle>,
 }
 
@@ -54,7 +54,7 @@ impl LensSide {
 pub struct DualLens {
     /// Its picture. A circle that is placed is placed in pixels of the whole image.
     pub frame: FisheyeCamera,
-    /// How it is turned from where it should look, as it sees that itself.
+    /// Deviation of the camera's orientation from its nominal one, in the camera's own frame.
     pub turned: Orientation,
 }
 
@@ -70,7 +70,7 @@ pub struct PlacedLens {
 }
 
 impl DualFisheye {
-    /// What most such cameras see: each a little more than half the world.
+    /// Usual field of view of such cameras: a little more than half the world.
     pub const FIELD_OF_VIEW: Angle = Angle::from_degrees(195.0);
 
     /// The pictures in an image of `width` × `height` pixels, which may be mirrored as a whole; the first in it first.
@@ -104,7 +104,7 @@ impl DualFisheye {
         }
     }
 
-    /// How the two take part where both show the same: each falls to nothing at its own circle.
+    /// Blend of the two pictures where they overlap: each fades to zero at its own circle.
     pub fn blend(&self) -> Blend {
         let shared = (self.front.frame.field_of_view + self.back.frame.field_of_view) * 0.5 - Angle::HALF_TURN;
         let feather = self.feather.unwrap_or(shared);

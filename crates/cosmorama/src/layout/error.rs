@@ -2,7 +2,7 @@ use thiserror::Error;
 
 use super::{Arrangement, LayoutKind};
 
-/// Why a picture is none in a layout.
+/// Reason why a picture does not fit a layout.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub enum LayoutError {
     /// The faces would not be square.

@@ -1,10 +1,10 @@
 use crate::camera::SamplePositions;
 use crate::sphere::CubeFace::{self, Back, Down, Front, Left, Right, Up};
 
-/// In which order a tool lays the faces into one picture, and how they are turned there.
+/// Order of the faces in a tool's pictures, and how each is turned.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct FaceOrder {
-    /// What `order=` calls it.
+    /// Name in `order=`.
     pub name: &'static str,
     /// Other tools whose order is the same.
     pub aliases: &'static [&'static str],

@@ -4,7 +4,7 @@
 pub(crate) const PAPER: &str = "#faf9f6";
 /// Text and outlines.
 pub(crate) const INK: &str = "#1d2430";
-/// Outlines that should not speak.
+/// Inconspicuous outlines.
 pub(crate) const FAINT: &str = "#b9bec7";
 /// What is not needed, and what lies outside the lens.
 pub(crate) const DARK: &str = "#232a36";

@@ -26,7 +26,7 @@ pub trait Lens {
     }
 }
 
-/// Why the coefficients of a measured lens make no lens.
+/// Reason why coefficients do not make a lens.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum LensError {
     /// A coefficient that is no number, or outside what the formula is made for.
@@ -45,7 +45,7 @@ pub enum LensError {
 }
 
 impl LensError {
-    /// An error unless `holds`.
+    /// Returns an error unless `holds`.
     pub(crate) fn unless(holds: bool, what: &'static str, found: f64, expected: &'static str) -> Result<(), Self> {
         if holds { Ok(()) } else { Err(Self::Parameter { what, found, expected }) }
     }

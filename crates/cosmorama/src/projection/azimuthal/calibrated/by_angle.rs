@@ -10,7 +10,7 @@ pub trait RadiusFormula {
     fn formula(&self, angle: f64) -> (f64, f64);
 }
 
-/// The lens of a formula, as far as that rises.
+/// Lens of a formula r(φ), up to the angle where the formula stops rising.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ByAngle<F> {
     pub(super) formula: F,

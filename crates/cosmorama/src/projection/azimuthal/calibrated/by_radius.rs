@@ -9,7 +9,7 @@ pub trait AngleFormula {
     fn formula(&self, radius: f64) -> (f64, f64);
 }
 
-/// The lens of a formula, as far as that rises.
+/// Lens of a formula φ(r), up to the radius where the formula stops rising.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ByRadius<F> {
     pub(super) formula: F,
