@@ -3,9 +3,10 @@
 use std::process::ExitCode;
 
 use clap::error::{ContextKind, ContextValue, ErrorKind};
+use cosmorama_convert::ConvertError;
 use thiserror::Error;
 
-use crate::stream;
+use crate::console::{Console, in_options, say};
 
 /// An error of the person who typed the command: exit code 2.
 #[derive(Debug, Error)]
@@ -17,18 +18,18 @@ pub(crate) fn usage(message: impl Into<String>) -> anyhow::Error {
     Usage(message.into()).into()
 }
 
-/// The same error in other words.
-pub(crate) fn retold(error: &anyhow::Error, words: impl Fn(&str) -> String) -> anyhow::Error {
-    let text = words(&message(error));
-    if is_usage(error) { usage(text) } else { anyhow::anyhow!(text) }
-}
-
 fn is_usage(error: &anyhow::Error) -> bool {
-    error.chain().any(|cause| cause.is::<Usage>())
+    match error.downcast_ref::<ConvertError>() {
+        Some(error) => error.is_of_settings(),
+        None => error.chain().any(|cause| cause.is::<Usage>()),
+    }
 }
 
 /// An error and its causes on one line.
 fn message(error: &anyhow::Error) -> String {
+    if let Some(error) = error.downcast_ref::<ConvertError>() {
+        return in_options(&error.message());
+    }
     let mut message = String::new();
     for cause in error.chain().map(ToString::to_string) {
         // Many errors tell their cause themselves.
@@ -40,14 +41,9 @@ fn message(error: &anyhow::Error) -> String {
     message
 }
 
-/// Something that should be known but does not stop the work.
-pub(crate) fn warn(message: &str) {
-    stream::say(format_args!("warning: {}", stream::told(message)));
-}
-
 /// Prints an error, its causes on the same line, and chooses the exit code.
-pub(crate) fn report(error: &anyhow::Error) -> ExitCode {
-    stream::say(format_args!("error: {}", stream::told(&message(error))));
+pub(crate) fn report(error: &anyhow::Error, console: &Console) -> ExitCode {
+    say(format_args!("error: {}", console.told(&message(error))));
     if is_usage(error) { ExitCode::from(2) } else { ExitCode::FAILURE }
 }
 

@@ -1,15 +1,18 @@
 //! The `cosmorama` program.
 //!
-//! Arguments are parsed as typed ([`args`]), resolved into a job in which everything is checked ([`job`]), and run
-//! ([`run`]).
+//! Arguments are parsed as typed and made settings of `cosmorama-convert` ([`args`]); each verb runs ([`verbs`]) and says what
+//! there is to say ([`console`]).
 
 mod args;
+mod console;
 mod failure;
-mod job;
+mod interrupt;
 mod large_pages;
-mod run;
+mod pipe;
+mod progress;
+mod report;
 mod spare_memory;
-mod stream;
+mod verbs;
 
 use std::process::ExitCode;
 
@@ -23,8 +26,9 @@ fn main() -> ExitCode {
         Ok(args) => args,
         Err(error) => return failure::report_arguments(error),
     };
-    match run::run(args.verb) {
+    let mut console = console::Console::default();
+    match verbs::run(args.verb, &mut console) {
         Ok(code) => code,
-        Err(error) => failure::report(&error),
+        Err(error) => failure::report(&error, &console),
     }
 }

@@ -139,14 +139,6 @@ pub(crate) struct LimitArgs {
     pub(crate) memory: Option<MemorySize>,
 }
 
-impl GeometryArgs {
-    /// Where the output looks.
-    pub(crate) fn orientation(&self) -> cosmorama::sphere::Orientation {
-        let [yaw, pitch, roll] = [self.yaw, self.pitch, self.roll].map(cosmorama::sphere::Angle::from_degrees);
-        cosmorama::sphere::Orientation::from_yaw_pitch_roll(yaw, pitch, roll)
-    }
-}
-
 fn frame_list(text: &str) -> Result<FrameList, FrameRangesError> {
     text.parse().map(|ranges: FrameRanges| FrameList::new(ranges.frames()))
 }
@@ -177,7 +169,7 @@ fn threads(text: &str) -> Result<usize, String> {
 fn after_help() -> String {
     let mut text = cosmorama_spec::help();
     text += "\nbuiltin:NAME is a world by formula, in any projection and --size:\n\n";
-    for (name, about) in crate::job::Builtin::all() {
+    for (name, about) in cosmorama_convert::Builtin::all() {
         text += &format!("  {name:<13} {about}\n");
     }
     text

@@ -1,4 +1,4 @@
-//! The command line as typed. What it means is worked out in [`crate::job`].
+//! The command line as typed. What it means is worked out by `cosmorama-convert`.
 
 mod compare;
 mod compression;
@@ -9,6 +9,7 @@ mod explain;
 mod info;
 mod number;
 mod progress;
+mod settings;
 mod shell;
 
 use clap::{Parser, Subcommand};

@@ -18,6 +18,13 @@ const NAMES: &str = "adaptive, gaussian, mitchell, robidoux, robidoux-sharp, cat
 /// The kernel that keeps the light of suns.
 const LIGHT: &str = "light";
 
+/// Returns the kernel that is used where none is named.
+impl Default for KernelName {
+    fn default() -> Self {
+        Self { kernel: Kernel::ADAPTIVE, anti_ringing: true }
+    }
+}
+
 impl FromStr for KernelName {
     type Err = String;
 

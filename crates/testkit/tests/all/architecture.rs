@@ -53,7 +53,7 @@ struct CratePlan {
     reason: &'static str,
 }
 
-const CRATES: [CratePlan; 6] = [
+const CRATES: [CratePlan; 7] = [
     CratePlan {
         name: "cosmorama",
         crates: &[],
@@ -87,8 +87,28 @@ const CRATES: [CratePlan; 6] = [
         reason: "files know no geometry and no terminal",
     },
     CratePlan {
-        name: "cosmorama-cli",
+        name: "cosmorama-convert",
         crates: &["cosmorama", "cosmorama-builtin", "cosmorama-io", "cosmorama-spec"],
+        rooms: ALL,
+        banned_std: &["f32", "f64", "net", "process"],
+        banned: &[
+            "clap",
+            "anyhow",
+            "print",
+            "println",
+            "eprint",
+            "eprintln",
+            "build_global",
+            "glam",
+            "sin",
+            "cos",
+            "sqrt",
+        ],
+        reason: "a conversion is a value: no terminal, no state of the process, no mathematics",
+    },
+    CratePlan {
+        name: "cosmorama-cli",
+        crates: &["cosmorama", "cosmorama-builtin", "cosmorama-convert", "cosmorama-io", "cosmorama-spec"],
         rooms: ALL,
         banned_std: &["f32", "f64"],
         banned: &[
@@ -120,6 +140,26 @@ const CRATES: [CratePlan; 6] = [
         reason: "",
     },
 ];
+
+/// The crate whose texts name settings, not options: each caller writes those in its own way.
+const SPELLS_NO_OPTION: &str = "cosmorama-convert";
+
+#[test]
+fn only_the_command_line_spells_options() {
+    let mut found = Vec::new();
+    for file in rust_files(&crates_folder().join(SPELLS_NO_OPTION).join("src")) {
+        let source = std::fs::read_to_string(&file).unwrap();
+        let lines = source.lines().enumerate().filter(|(_, line)| spells_option(line));
+        found.extend(lines.map(|(index, line)| format!("{}:{}: {}", file.display(), index + 1, line.trim())));
+    }
+    assert!(found.is_empty(), "{}", found.join("\n"));
+}
+
+/// Whether a line that is no comment holds an option of the command line.
+fn spells_option(line: &str) -> bool {
+    let is_comment = line.trim_start().starts_with("//");
+    !is_comment && line.split("--").skip(1).any(|rest| rest.starts_with(|c: char| c.is_ascii_lowercase()))
+}
 
 /// Lines of a file at most, without its tests.
 const LONGEST: usize = 600;
@@ -394,6 +434,12 @@ mod the_rules {
         assert_eq!(words("println!(a)"), ["println"]);
         let files = names_under("use std::{fs::File, path::Path};", "std::");
         assert!(files.contains("fs") && files.contains("path"));
+    }
+
+    #[test]
+    fn find_an_option() {
+        assert!(spells_option("    let text = \"give --from\";"));
+        assert!(!spells_option("    /// The option --from.") && !spells_option("let text = \"% 1.0 --- a\";"));
     }
 
     #[test]

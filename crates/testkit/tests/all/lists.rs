@@ -82,7 +82,7 @@ fn every_camera_can_be_asked_for() {
     let cameras = code_of_file("cosmorama/src/camera/mod.rs");
     let texts: String = files()
         .into_iter()
-        .filter(|(name, _)| name.starts_with("cosmorama-cli/") || name.starts_with("cosmorama-spec/"))
+        .filter(|(name, _)| name.starts_with("cosmorama-convert/") || name.starts_with("cosmorama-spec/"))
         .map(|(_, code)| code)
         .collect();
     let kinds: Vec<&str> = list(&cameras, "CameraModel").lines().map(|line| first_word(line.trim())).collect();

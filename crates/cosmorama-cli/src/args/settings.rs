@@ -1,0 +1,79 @@
+//! Arguments as the settings of a conversion: nothing else sees them from then on.
+
+use cosmorama::raster::Depth;
+use cosmorama::sphere::{Angle, Orientation};
+use cosmorama_convert::{Conversion, Existing, ExplanationSettings, GeometrySettings, LimitSettings};
+use cosmorama_io::Compression;
+use cosmorama_spec::CompressionLevel;
+
+use super::convert::{GeometryArgs, LimitArgs};
+use super::{ConvertArgs, ExplainArgs};
+
+impl From<ConvertArgs> for Conversion {
+    fn from(args: ConvertArgs) -> Self {
+        Self {
+            input: args.input,
+            output: args.output,
+            geometry: args.geometry.into(),
+            st_map: args.st_map,
+            transfer: args.transfer,
+            in_transfer: args.in_transfer,
+            out_transfer: args.out_transfer,
+            depth: args.depth.map(Depth::from),
+            background: args.background.map(|colour| colour.0),
+            missing: args.missing,
+            frames: args.frames,
+            existing: match (args.overwrite, args.resume) {
+                (true, _) => Existing::Replace,
+                (false, true) => Existing::Resume,
+                (false, false) => Existing::Refuse,
+            },
+            to_stream: args.format.is_some(),
+            mips: args.mips,
+            quality: args.quality,
+            compression: args.compression.map(compression),
+            limits: args.limits.into(),
+        }
+    }
+}
+
+impl From<ExplainArgs> for ExplanationSettings {
+    fn from(args: ExplainArgs) -> Self {
+        Self {
+            input: args.input,
+            input_size: args.input_size,
+            geometry: args.geometry.into(),
+            limits: args.limits.into(),
+        }
+    }
+}
+
+impl From<GeometryArgs> for GeometrySettings {
+    fn from(args: GeometryArgs) -> Self {
+        let [yaw, pitch, roll] = [args.yaw, args.pitch, args.roll].map(Angle::from_degrees);
+        Self {
+            from: args.from,
+            to: args.to,
+            size: args.size,
+            orientation: Orientation::from_yaw_pitch_roll(yaw, pitch, roll),
+            filter: args.filter,
+            kernel: args.kernel,
+            anti_ringing: args.anti_ringing,
+        }
+    }
+}
+
+impl From<LimitArgs> for LimitSettings {
+    fn from(args: LimitArgs) -> Self {
+        Self { threads: args.threads, memory: args.memory }
+    }
+}
+
+fn compression(level: CompressionLevel) -> Compression {
+    match level {
+        CompressionLevel::None => Compression::None,
+        CompressionLevel::Fast => Compression::Fast,
+        CompressionLevel::Balanced => Compression::Balanced,
+        CompressionLevel::High => Compression::High,
+    }
+}

@@ -1,0 +1,55 @@
+//! Where messages and reports go, and what they call the files that stand for streams: standard input and output, pipes.
+
+use std::fmt::Display;
+use std::io::{ErrorKind, Write, stderr, stdout};
+use std::path::Path;
+
+use anyhow::{Context, Result};
+use cosmorama_convert::{Diagnostic, Message, Setting};
+
+/// The streams of a run.
+#[derive(Debug, Default)]
+pub(crate) struct Console {
+    /// Each file that stands for a stream with its name for people.
+    names: Vec<(String, String)>,
+}
+
+impl Console {
+    /// From now on a file is called so.
+    pub(crate) fn call(&mut self, file: &Path, name: &str) {
+        self.names.push((file.to_string_lossy().into_owned(), name.to_owned()));
+    }
+
+    /// A text for people, with files called as they have it.
+    pub(crate) fn told(&self, text: &str) -> String {
+        self.names.iter().fold(text.to_owned(), |text, (file, name)| text.replace(file, name))
+    }
+
+    /// Says something that should be known but does not stop the work.
+    pub(crate) fn warn(&self, diagnostic: &Diagnostic) {
+        say(format_args!("warning: {}", self.told(&in_options(&diagnostic.message))));
+    }
+
+    /// Prints what was asked for on standard output.
+    pub(crate) fn print(&self, text: &str) -> Result<()> {
+        let mut out = stdout().lock();
+        match out.write_all(self.told(text).as_bytes()).and_then(|()| out.flush()) {
+            // Whoever read our output has seen enough.
+            Err(error) if error.kind() == ErrorKind::BrokenPipe => Ok(()),
+            result => result.context("cannot write to standard output"),
+        }
+    }
+}
+
+/// Says a line on standard error. Where nobody reads it any more, since a pipe is closed or a disk is full, the work goes on.
+pub(crate) fn say(line: impl Display) {
+    let _ = writeln!(stderr(), "{line}");
+}
+
+/// A message in which settings are options of the command line.
+pub(crate) fn in_options(message: &Message) -> String {
+    message.render(|setting| match setting {
+        Setting::Overwrite => "-y (--overwrite)".to_owned(),
+        other => format!("--{}", other.name()),
+    })
+}

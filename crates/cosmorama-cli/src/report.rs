@@ -1,0 +1,70 @@
+//! What is told of a conversion that is done.
+
+use std::path::PathBuf;
+
+use anyhow::Result;
+use cosmorama_convert::{CpuSeconds, Remade, Report};
+use serde::Serialize;
+
+use crate::console::{Console, in_options, say};
+
+/// What `--json` prints after a conversion.
+#[derive(Serialize)]
+struct JsonReport<'a> {
+    inputs: &'a [PathBuf],
+    outputs: &'a [PathBuf],
+    frames: usize,
+    skipped: usize,
+    remade: Vec<JsonRemade<'a>>,
+    wall_seconds: f64,
+    cpu_seconds: JsonCpuSeconds,
+    peak_memory_bytes: Option<u64>,
+    warnings: Vec<String>,
+}
+
+#[derive(Serialize)]
+struct JsonRemade<'a> {
+    output: &'a PathBuf,
+    reason: &'a str,
+}
+
+#[derive(Serialize)]
+struct JsonCpuSeconds {
+    decode: f64,
+    plan: f64,
+    filter: f64,
+    encode: f64,
+}
+
+/// A report for programs.
+pub(crate) fn to_json(report: &Report) -> Result<String> {
+    let CpuSeconds { decode, plan, filter, encode } = report.cpu_seconds;
+    let json = JsonReport {
+        inputs: &report.inputs,
+        outputs: &report.outputs,
+        frames: report.frames,
+        skipped: report.skipped,
+        remade: report.remade.iter().map(|Remade { output, reason }| JsonRemade { output, reason }).collect(),
+        wall_seconds: report.wall.as_secs_f64(),
+        cpu_seconds: JsonCpuSeconds { decode, plan, filter, encode },
+        peak_memory_bytes: report.peak_memory_bytes,
+        warnings: report.diagnostics.iter().map(|diagnostic| in_options(&diagnostic.message)).collect(),
+    };
+    Ok(serde_json::to_string_pretty(&json)? + "\n")
+}
+
+/// What people want to know, on standard error.
+pub(crate) fn tell(report: &Report, console: &Console) {
+    let what = match (&report.outputs[..], report.frames) {
+        ([], _) => "nothing to do".to_owned(),
+        ([one], _) => console.told(&one.to_string_lossy()),
+        (many, 1) => format!("{} files", many.len()),
+        (many, frames) => format!("{} files of {frames} frames", many.len()),
+    };
+    let skipped = if report.skipped == 0 { String::new() } else { format!(", {} kept", report.skipped) };
+    let CpuSeconds { decode, plan, filter, encode } = report.cpu_seconds;
+    say(format_args!(
+        "{what}{skipped} in {:.2} s (CPU: decode {decode:.2} s, plan {plan:.2} s, filter {filter:.2} s, encode {encode:.2} s)",
+        report.wall.as_secs_f64()
+    ));
+}

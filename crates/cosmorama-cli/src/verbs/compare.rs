@@ -1,0 +1,176 @@
+use std::path::Path;
+use std::process::ExitCode;
+
+use anyhow::{Context, Result};
+use cosmorama::camera::{CameraModel, FisheyeCamera, OmnimaxCamera};
+use cosmorama::compare::{Comparison, Mask, compare, difference_image};
+use cosmorama::raster::{Channels, Depth, EncodedImage, Image, Rgba, Transfer};
+use cosmorama_convert::{InputTransfer, MemoryBudget, real_path, refuse_existing};
+use cosmorama_io::{FacePattern, Format, FramePattern, Limits, Metadata, WriteOptions, probe, read, write};
+use serde_json::{Value, json};
+
+use crate::args::{CompareArgs, Region};
+use crate::console::{Console, say};
+use crate::failure::usage;
+use crate::pipe::KeptStreams;
+
+/// Said of a shift.
+const NOT_MEASURABLE: &str =
+    "not measurable: the pictures differ by more than a shift of about a pixel explains, or too few pixels count";
+
+/// Compares two pictures.
+pub(super) fn run(args: &CompareArgs, console: &mut Console) -> Result<ExitCode> {
+    let (mut kept, mut args) = (KeptStreams::default(), args.clone());
+    for picture in [&mut args.first, &mut args.second] {
+        // A name that is no text is none of those that stand for a stream or for many files.
+        if let Some(name) = picture.to_str() {
+            check_one(name)?;
+            *picture = kept.input(name, console)?.into();
+        }
+    }
+    let args = &args;
+    let format = args.diff.as_deref().map(|diff| diff_format(diff, args)).transpose()?;
+    let headers = (probe(&args.first)?, probe(&args.second)?);
+    MemoryBudget::new(args.memory).check_comparison([(&args.first, &headers.0), (&args.second, &headers.1)])?;
+    let (first, second) = (light(&args.first, args)?, light(&args.second, args)?);
+    let mask = region(args.region, &first)?;
+    let comparison = compare(&first, &second, &mask)
+        .with_context(|| format!("cannot compare {} with {}", args.first.display(), args.second.display()))?;
+    if let (Some(path), Some(format)) = (&args.diff, format) {
+        let difference = difference_image(&first, &second, &mask, args.gain)?;
+        let (depth, channels) = (format.nearest_depth(Depth::Eight), format.nearest_channels(Channels::Rgb));
+        let transfer = if depth.is_float() { Transfer::Linear } else { Transfer::Srgb };
+        let encoded = EncodedImage::encode(&difference, channels, depth, &transfer);
+        let metadata = Metadata { transfer: Some(transfer), ..Metadata::default() };
+        write(path, &encoded, &WriteOptions::with_metadata(metadata))?;
+    }
+    let failures = failures(args, &comparison);
+    let text = if args.json { json_text(args, &comparison, &failures)? } else { plain_text(&comparison) };
+    console.print(&text)?;
+    failures.iter().for_each(|failure| say(format_args!("failed: {failure}")));
+    Ok(if failures.is_empty() { ExitCode::SUCCESS } else { ExitCode::FAILURE })
+}
+
+/// A pattern is not told apart from a file that is not there.
+fn check_one(name: &str) -> Result<()> {
+    let is_pattern = FacePattern::parse(name).is_some() || FramePattern::parse(name).is_some();
+    if is_pattern && !Path::new(name).exists() {
+        return Err(usage(format!("{name} is a pattern, but compare takes two pictures; name one file of it")));
+    }
+    if Path::new(name).is_dir() {
+        return Err(usage(format!("{name} is a folder, but compare takes two pictures; name one file in it")));
+    }
+    Ok(())
+}
+
+/// The format of the difference picture, which may not replace what is compared, nor anything else unasked.
+fn diff_format(diff: &Path, args: &CompareArgs) -> Result<Format> {
+    let format = Format::from_extension(diff).map_err(|error| usage(error.to_string()))?;
+    if [&args.first, &args.second].iter().any(|picture| real_path(picture) == real_path(diff)) {
+        let message = format!("{}: --diff would replace a picture to compare; choose another name", diff.display());
+        return Err(usage(message));
+    }
+    if !args.overwrite {
+        refuse_existing(std::iter::once(diff))?;
+    }
+    Ok(format)
+}
+
+fn light(path: &Path, args: &CompareArgs) -> Result<Image<Rgba>> {
+    let file = read(path, &Limits::memory(MemoryBudget::new(args.memory).bytes))?;
+    let transfer = InputTransfer::new(&args.transfer, None).of(file.image.depth(), &file.metadata);
+    Ok(file.image.to_light(&transfer))
+}
+
+/// The pixels inside a lens, those cut by its rim left out.
+fn region(region: Region, image: &Image<Rgba>) -> Result<Mask> {
+    let (width, height) = (image.width(), image.height());
+    let frame = match region {
+        Region::All => return Ok(Mask::everything(width, height)),
+        Region::Disc => CameraModel::Fisheye(FisheyeCamera::default()),
+        Region::Omnimax => CameraModel::Omnimax(OmnimaxCamera::default()),
+    };
+    let view = frame.view(width, height)?;
+    Ok(Mask::from_fn(width, height, |i, j| view.screen_pixel(i, j).is_some_and(|pixel| pixel.coverage == 1.0)))
+}
+
+fn failures(args: &CompareArgs, comparison: &Comparison) -> Vec<String> {
+    let mut failures = Vec::new();
+    if let Some(least) = args.min_psnr.filter(|least| comparison.linear.psnr < *least) {
+        failures.push(format!("PSNR {:.2} dB is less than --min-psnr {least}", comparison.linear.psnr));
+    }
+    if let Some(most) = args.max_shift {
+        match comparison.registration {
+            Some(registration) if registration.shift() <= most => {}
+            Some(found) => failures.push(format!("a shift of {:.4} px is more than --max-shift {most}", found.shift())),
+            None => failures.push(format!("the shift is {NOT_MEASURABLE}")),
+        }
+    }
+    failures
+}
+
+fn plain_text(comparison: &Comparison) -> String {
+    let Comparison { pixels, linear, srgb, edge_free, alpha, registration } = comparison;
+    let mut text = format!(
+        "pixels compared    {pixels}\n\
+         PSNR linear        {:.2} dB (rms {:.6}, mean {:+.6})\n\
+         PSNR sRGB-encoded  {:.2} dB (rms {:.6}, mean {:+.6})\n",
+        linear.psnr, linear.rms, linear.mean, srgb.psnr, srgb.rms, srgb.mean
+    );
+    if let Some(edge_free) = edge_free {
+        text += &format!("PSNR off edges     {:.2} dB ({} pixels)\n", edge_free.linear.psnr, edge_free.pixels);
+    }
+    let (column, row) = linear.largest.pixel;
+    text += &format!(
+        "largest difference {:.6} at {column},{row} (99.9 % are within {:.6}; alpha: {alpha:.6})\n",
+        linear.largest.value, linear.percentile_99_9
+    );
+    match registration {
+        Some(found) => {
+            text += &format!(
+                "shift              {:.4} px (x {:+.4}, y {:+.4}; scale {:+.2e} {:+.2e}, turn {:+.2e})\n",
+                found.shift(),
+                found.dx,
+                found.dy,
+                found.scale_x,
+                found.scale_y,
+                found.rotation
+            );
+        }
+        None => text += &format!("shift              {NOT_MEASURABLE}\n"),
+    }
+    text
+}
+
+fn json_text(args: &CompareArgs, comparison: &Comparison, failures: &[String]) -> Result<String> {
+    let difference = |difference: &cosmorama::compare::Difference| {
+        json!({
+            "psnr": decibels(difference.psnr),
+            "rms": difference.rms,
+            "mean": difference.mean,
+            "largest": difference.largest.value,
+            "largest_at": [difference.largest.pixel.0, difference.largest.pixel.1],
+            "percentile_99_9": difference.percentile_99_9,
+        })
+    };
+    let report = json!({
+        "first": args.first.display().to_string(),
+        "second": args.second.display().to_string(),
+        "pixels": comparison.pixels,
+        "linear": difference(&comparison.linear),
+        "srgb": difference(&comparison.srgb),
+        "edge_free_psnr": comparison.edge_free.map(|edge_free| decibels(edge_free.linear.psnr)),
+        "alpha": comparison.alpha,
+        "shift": comparison.registration.map(|found| json!({
+            "pixels": found.shift(), "x": found.dx, "y": found.dy,
+            "scale_x": found.scale_x, "scale_y": found.scale_y, "rotation": found.rotation,
+        })),
+        "failures": failures,
+    });
+    Ok(serde_json::to_string_pretty(&report)? + "\n")
+}
+
+/// JSON has no infinity: pictures that do not differ have no figure.
+fn decibels(psnr: f64) -> Value {
+    if psnr.is_finite() { json!(psnr) } else { Value::Null }
+}

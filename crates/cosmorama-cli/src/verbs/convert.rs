@@ -1,0 +1,60 @@
+use std::process::ExitCode;
+
+use anyhow::Result;
+use cosmorama_convert::{Conversion, Diagnostic, Observer, Report};
+
+use crate::args::{ConvertArgs, ProgressStyle};
+use crate::console::Console;
+use crate::large_pages::keep_spare;
+use crate::pipe::Piped;
+use crate::progress::Progress;
+use crate::report;
+
+/// Converts, and tells what it has done.
+pub(super) fn run(args: ConvertArgs, console: &mut Console) -> Result<ExitCode> {
+    let (progress, as_json) = (args.progress, args.json);
+    let piped = Piped::open(args, console)?;
+    let report = convert(piped.args.clone().into(), progress, console)?;
+    piped.finish()?;
+    if as_json {
+        console.print(&report::to_json(&report)?)?;
+    } else if progress.is_for_people() {
+        report::tell(&report, console);
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+/// Converts, and says meanwhile what there is to say.
+pub(super) fn convert(conversion: Conversion, style: ProgressStyle, console: &Console) -> Result<Report> {
+    let checked = conversion.check();
+    checked.diagnostics.iter().for_each(|diagnostic| console.warn(diagnostic));
+    let mut watch = Watch { console, style, progress: None };
+    let report = checked.result?.run(&mut watch)?;
+    watch.progress.iter().for_each(Progress::finish);
+    Ok(report)
+}
+
+/// Tells on standard error what a conversion does.
+struct Watch<'a> {
+    console: &'a Console,
+    style: ProgressStyle,
+    progress: Option<Progress>,
+}
+
+impl Observer for Watch<'_> {
+    fn begin(&mut self, frames: usize) {
+        self.progress = Some(Progress::new(self.style, frames));
+    }
+
+    fn diagnostic(&mut self, diagnostic: &Diagnostic) {
+        self.console.warn(diagnostic);
+    }
+
+    fn frame_done(&mut self, frame: Option<u64>) {
+        self.progress.iter_mut().for_each(|progress| progress.frame_done(frame));
+    }
+
+    fn memory_in_flight(&mut self, bytes: u64) {
+        keep_spare(bytes);
+    }
+}

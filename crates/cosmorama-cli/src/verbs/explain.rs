@@ -1,0 +1,143 @@
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+use anyhow::Result;
+use cosmorama::camera::PixelRect;
+use cosmorama::explain::{Centre, Figures, Magnification, Report, ViewReport};
+use cosmorama::render::Needs;
+use cosmorama::world::World;
+use cosmorama_convert::{Explanation, ExplanationSettings, Picture, check_apart, refuse_existing};
+use cosmorama_io::pending::Hidden;
+use serde_json::{Value, json};
+
+use super::{diagram, make_folder};
+use crate::args::ExplainArgs;
+use crate::console::Console;
+use crate::pipe::KeptStreams;
+
+/// Tells what a conversion will do.
+pub(super) fn run(mut args: ExplainArgs, console: &mut Console) -> Result<ExitCode> {
+    let mut kept = KeptStreams::default();
+    args.input = args.input.map(|input| kept.input(&input, console)).transpose()?;
+    let (output, overwrite, as_json, has_input) = (args.output.take(), args.overwrite, args.json, args.input.is_some());
+    let checked = ExplanationSettings::from(args).check();
+    let explanation = checked.result?;
+    checked.diagnostics.iter().for_each(|diagnostic| console.warn(diagnostic));
+    if let Some(folder) = &output {
+        check_diagrams(folder, &explanation, overwrite)?;
+    }
+    let worlds = explanation.worlds()?;
+    let (mut text, mut reports, mut drawn) = (String::new(), Vec::new(), Vec::new());
+    for picture in explanation.pictures() {
+        let report = explanation.report(&worlds, picture);
+        if let Some(label) = picture.label() {
+            text += &format!("{label}:\n");
+        }
+        text += &format!("{report}");
+        let files = match &output {
+            Some(folder) => {
+                drawn.extend(draw(folder, picture, &worlds[picture.world(worlds.len())], &needs(&report))?);
+                diagrams(folder, picture)
+            }
+            None => Vec::new(),
+        };
+        for file in &files {
+            text += &format!("wrote    {}\n", file.display());
+        }
+        reports.push(to_json(&report, &explanation, &files));
+    }
+    // All diagrams, or none.
+    drawn.into_iter().try_for_each(Hidden::appear)?;
+    if has_input {
+        for view in explanation.views_without_files() {
+            let folder = if view.files.is_folder() { ", but a folder of this name" } else { "" };
+            text += &format!("missing  {}: no {}{folder}\n", view.name, view.files.path(None).display());
+        }
+    }
+    if as_json {
+        console.print(&(serde_json::to_string_pretty(&reports)? + "\n"))?;
+    } else {
+        console.print(&text)?;
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+/// Diagrams replace no input, nor anything else unasked.
+fn check_diagrams(folder: &Path, explanation: &Explanation, overwrite: bool) -> Result<()> {
+    let files: Vec<PathBuf> = explanation.pictures().iter().flat_map(|picture| diagrams(folder, picture)).collect();
+    files.iter().try_for_each(|path| check_apart(path, explanation.files()))?;
+    if !overwrite {
+        refuse_existing(files.iter().map(PathBuf::as_path))?;
+    }
+    Ok(())
+}
+
+/// What the report has found out already.
+fn needs(report: &Report) -> Needs {
+    Needs { views: report.views.iter().map(|view| view.need.clone()).collect(), uncovered: report.uncovered }
+}
+
+fn draw(folder: &Path, picture: &Picture, world: &World, needs: &Needs) -> Result<Vec<Hidden>> {
+    make_folder(folder)?;
+    let figures = Figures { world, target: &picture.view };
+    let drawings = [figures.unfolded(needs, &[]), figures.ownership(), figures.footprints()];
+    let mut files = Vec::new();
+    for (name, svg) in diagram_names(picture).iter().zip(&drawings) {
+        files.extend(diagram::draw(folder, name, svg)?);
+    }
+    Ok(files)
+}
+
+fn diagram_names(picture: &Picture) -> [String; 3] {
+    let suffix = picture.label().map_or_else(String::new, |label| format!("-{label}"));
+    ["unfolded", "ownership", "footprints"].map(|name| format!("{name}{suffix}"))
+}
+
+/// The files that the diagrams of a picture go to.
+fn diagrams(folder: &Path, picture: &Picture) -> Vec<PathBuf> {
+    diagram_names(picture).iter().flat_map(|name| diagram::files(folder, name)).collect()
+}
+
+fn to_json(report: &Report, explanation: &Explanation, files: &[PathBuf]) -> Value {
+    let views: Vec<Value> = report.views.iter().map(view_json).collect();
+    let missing: Vec<&str> = explanation.views_without_files().map(|view| view.name.as_str()).collect();
+    json!({
+        "width": report.size.0,
+        "height": report.size.1,
+        "shown": report.shown,
+        "centre": report.centre.map(|centre| centre_json(&centre, report)),
+        "texels_used": report.used(),
+        "texels_a_pixel": { "mean": report.gathered.mean, "most": report.gathered.most },
+        "memory_bytes": {
+            "texels": report.memory.texels, "pixels": report.memory.pixels, "levels": report.memory.levels,
+            "plan": report.memory.plan, "plan_8_bits": report.memory.fixed_plan,
+        },
+        "uncovered_pixels": report.uncovered.map_or(0, |uncovered| uncovered.pixels),
+        "views": views,
+        "views_without_files": missing,
+        "diagrams": files.iter().map(|file| file.display().to_string()).collect::<Vec<_>>(),
+    })
+}
+
+fn centre_json(centre: &Centre, report: &Report) -> Value {
+    let (yaw, pitch) = centre.direction.longitude_latitude();
+    let view = centre.view.map(|(index, _)| report.views[index].need.name.as_str());
+    let texels = centre.view.map(|(_, found)| [found.least, found.greatest]);
+    json!({ "yaw": yaw.degrees(), "pitch": pitch.degrees(), "view": view, "texels_a_pixel": texels })
+}
+
+fn view_json(view: &ViewReport) -> Value {
+    let rect = |rect: PixelRect| rect.to_string();
+    let range = |found: Magnification| json!([found.least, found.greatest]);
+    json!({
+        "name": view.need.name,
+        "width": view.size.0,
+        "height": view.size.1,
+        "needed": view.need.seen.map(rect),
+        "read": view.need.read.map(rect),
+        "texels_used": view.used,
+        "share_of_picture": view.share,
+        "texels_a_pixel": view.magnification.map(range),
+        "advised_size": view.advised.map(|advised| [advised.parity.0, advised.parity.1]),
+    })
+}

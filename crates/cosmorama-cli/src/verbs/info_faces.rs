@@ -1,0 +1,75 @@
+//! What `info` says of how faces lie.
+
+use std::path::Path;
+
+use anyhow::Result;
+use cosmorama::raster::{Image, Rgba};
+use cosmorama_convert::{Continuity, FacePixels, Files, GivenFaces, Likely, existing_frames, light_of};
+use cosmorama_io::{EnvMap, FaceSet};
+use cosmorama_spec::{Cube, Packing};
+use serde_json::{Value, json};
+
+use crate::console::in_options;
+
+/// Of the first frame of a face set; `None` where its files have too few whole faces to tell.
+pub(super) fn of_files(set: &FaceSet) -> Result<Option<Value>> {
+    let lie: Vec<_> = set.faces().iter().map(|file| (file.face, file.placement)).collect();
+    let Some(given) = GivenFaces::of_files(&Cube::default(), set.naming(), &lie) else { return Ok(None) };
+    let mut pictures = Vec::new();
+    for (index, file) in set.faces().iter().enumerate().filter(|(_, file)| file.present) {
+        let files = Files::new(&file.path);
+        let Some(picture) = light_of(&files.path(existing_frames(&files)?.first().copied())) else { return Ok(None) };
+        pictures.push((index, picture));
+    }
+    // Crops have other borders than their faces.
+    let size = |picture: &Image<Rgba>| (picture.width(), picture.height());
+    if pictures.windows(2).any(|pair| size(&pair[0].1) != size(&pair[1].1)) {
+        return Ok(None);
+    }
+    let lights: Vec<_> = pictures.iter().map(|(index, picture)| (*index, size(picture), pixel_of(picture))).collect();
+    let pixels = lights.iter().map(|(index, size, light)| (*index, FacePixels { size: *size, light }));
+    Ok(given.judge(&pixels.collect::<Vec<_>>()).as_ref().map(report))
+}
+
+/// Of faces in one image. Where its shape alone says that it may be one, it is if the borders do, and they say which.
+pub(super) fn of_image(path: &Path, likely: &Likely, envmap: Option<EnvMap>) -> Option<Value> {
+    let picture = if likely.cubes.is_empty() { return None } else { light_of(path)? };
+    let judge = |cube: &Cube| {
+        let found = GivenFaces::of_image(cube, envmap)?.judge_image(&picture)?;
+        Some(if likely.may_be_none { named(found, cube) } else { found })
+    };
+    let judged = likely.cubes.iter().filter_map(judge);
+    let mut found: Vec<Continuity> = judged.filter(|judged| !likely.may_be_none || judged.fits.is_some()).collect();
+    // Of several layouts the one that lies rightly.
+    found.sort_by_key(|judged| judged.fits != Some(true));
+    found.first().map(report)
+}
+
+/// What fits, with the layout in which it does.
+fn named(found: Continuity, cube: &Cube) -> Continuity {
+    match cube.layout {
+        Some(Packing::OneImage(kind)) if found.fits == Some(true) => {
+            let spec = format!("cube:layout={kind}");
+            Continuity { told: found.told.after(&format!("as {spec}, ")), spec: Some(spec), ..found }
+        }
+        _ => found,
+    }
+}
+
+fn pixel_of(picture: &Image<Rgba>) -> impl Fn(usize, usize) -> Rgba + '_ {
+    |i, j| *picture.get(i, j)
+}
+
+fn report(continuity: &Continuity) -> Value {
+    let mut report = json!({ "told": in_options(&continuity.told), "fits": continuity.fits });
+    if let Some(confidence) = continuity.confidence {
+        report["confidence"] = json!(confidence);
+    }
+    if !continuity.changes.is_empty() {
+        report["changes"] = json!(continuity.changes);
+    }
+    if let Some(spec) = &continuity.spec {
+        report["spec"] = json!(spec);
+    }
+    report
+}

@@ -1,0 +1,45 @@
+//! What the program does, a file for each verb.
+
+mod compare;
+mod convert;
+mod demo;
+mod diagram;
+mod explain;
+mod info;
+mod info_faces;
+mod info_world;
+mod shell;
+
+use std::path::Path;
+use std::process::ExitCode;
+
+use anyhow::{Result, anyhow};
+
+use crate::args::Verb;
+use crate::console::Console;
+use crate::failure::usage;
+use crate::interrupt;
+
+/// Does what was asked for.
+pub(crate) fn run(verb: Verb, console: &mut Console) -> Result<ExitCode> {
+    interrupt::install()?;
+    match verb {
+        Verb::Demo(args) => demo::run(&args, console),
+        Verb::Convert(args) => convert::run(*args, console),
+        Verb::Info(args) => info::run(&args, console),
+        Verb::Explain(args) => explain::run(*args, console),
+        Verb::Compare(args) => compare::run(&args, console),
+        Verb::Completions(args) => shell::completions(&args, console),
+        Verb::Man => shell::man(console),
+    }
+}
+
+/// A folder that is there from now on, with those above it.
+fn make_folder(folder: &Path) -> Result<()> {
+    if folder.is_file() {
+        return Err(usage(format!("{} is a file, where a folder was expected; name another", folder.display())));
+    }
+    std::fs::create_dir_all(folder).map_err(|error| {
+        anyhow!("the folder {} cannot be made ({error}); choose another, where you may write", folder.display())
+    })
+}

@@ -1,0 +1,285 @@
+use std::path::Path;
+
+use cosmorama::camera::View;
+use cosmorama::projection::{ProjectionKind, StMapTable};
+use cosmorama::raster::Rgba;
+use cosmorama_io::{Format, Header};
+use cosmorama_spec::MemorySize;
+
+use crate::budget::system_memory::{all_bytes, free_bytes};
+use crate::budget::{FrameMemory, QueueDepth};
+use crate::diagnostic::{FILTER, MEMORY, Result, bail};
+use crate::input::{Input, InputView};
+use crate::target::{Sheet, Target};
+
+/// How much memory may be used.
+#[derive(Clone, Copy, Debug)]
+pub struct MemoryBudget {
+    /// Bytes.
+    pub bytes: u64,
+    /// What was asked for, if that is more than there is.
+    too_much: Option<u64>,
+}
+
+/// What is used where nothing else is asked for.
+const DEFAULT_PART: f64 = 0.75;
+
+/// Where the system does not tell how much memory is free.
+const UNKNOWN_FREE: u64 = 4 << 30;
+
+impl MemoryBudget {
+    /// What was asked for, or three quarters of free memory; never more than there is.
+    pub fn new(asked: Option<MemorySize>) -> Self {
+        let part = |part: f64| (free_bytes().unwrap_or(UNKNOWN_FREE) as f64 * part) as u64;
+        let wanted = match asked {
+            Some(MemorySize::Bytes(bytes)) => bytes,
+            Some(MemorySize::Part(fraction)) => part(fraction),
+            None => part(DEFAULT_PART),
+        };
+        let all = all_bytes().unwrap_or(u64::MAX);
+        Self { bytes: wanted.min(all), too_much: (wanted > all).then_some(wanted) }
+    }
+
+    /// Whether the geometry of whole pictures fits, with the light of the largest file, before memory is taken: a small
+    /// file may say that it is huge, or a window of something huge.
+    pub(crate) fn check_pictures(self, input: &Input) -> Result<()> {
+        let texels = |view: &InputView| pixels(&view.nominal);
+        let geometry = input.views().map(texels).fold(0, u64::saturating_add).saturating_mul(SOLID_ANGLE);
+        let tables = input.views().map(|view| table_bytes(&view.nominal)).fold(0, u64::saturating_add);
+        let light = input.present().map(|(_, header, _)| light_bytes(header)).max().unwrap_or(0);
+        let needed = geometry.saturating_add(tables).saturating_add(light);
+        let largest = input.views().max_by_key(|view| texels(view)).map_or_else(String::new, |view| {
+            let (width, height) = (view.nominal.width(), view.nominal.height());
+            format!("; the largest whole picture, {}, has {width}x{height} pixels", view.name)
+        });
+        self.allow(needed, "the input", &largest)
+    }
+
+    /// Whether a mask of this size fits while it is made, of a picture of so many bytes a pixel.
+    pub(crate) fn check_mask(self, (width, height): (usize, usize), picture: u64) -> Result<()> {
+        // Its squared distances in double precision, and those that are kept.
+        let bytes = (size_of::<f64>() + size_of::<f32>()) as u64 + picture;
+        let needed = (width as u64).saturating_mul(height as u64).saturating_mul(bytes);
+        self.allow(needed, "a mask", &format!("; it has {width}x{height} pixels"))
+    }
+
+    /// Whether the table that is made of an st map of this size fits beside the map's own numbers.
+    pub(crate) fn check_table(self, file: &Path, size: (usize, usize), has_places: bool) -> Result<()> {
+        let (width, height) = size;
+        let numbers = (size_of::<[f32; 2]>() as u64).saturating_mul(width as u64).saturating_mul(height as u64);
+        let needed = StMapTable::bytes(size, has_places).saturating_add(numbers);
+        self.allow(needed, "an st map", &format!("; {} has {width}x{height} pixels", file.display()))
+    }
+
+    /// Whether the outputs of a frame fit, before anything is made of them.
+    pub(crate) fn check_outputs(self, target: &Target) -> Result<()> {
+        self.allow(output_bytes(target), "a frame", &describe(target, "; "))
+    }
+
+    /// Whether pictures of these sizes fit that are only told of: as many as a frame of them would have to hold.
+    pub(crate) fn check_sizes(self, sizes: impl IntoIterator<Item = (usize, usize)>) -> Result<()> {
+        let sizes: Vec<(usize, usize)> = sizes.into_iter().collect();
+        let largest = sizes.iter().max_by_key(|size| area(**size));
+        let why = largest.map_or_else(String::new, |(width, height)| format!("; the output {width}x{height}"));
+        self.allow(pixel_bytes(sizes), "a frame", &why)
+    }
+
+    /// Whether a frame fits, with the light of the views that are wanted, before memory is taken.
+    pub(crate) fn check_frame(self, input: &Input, target: &Target) -> Result<()> {
+        let largest = input.present().max_by_key(|(_, header, _)| header.width.saturating_mul(header.height));
+        let largest = largest.map_or_else(String::new, |(view, header, _)| {
+            format!(
+                "; the largest input, {}, has {}x{} pixels",
+                view.files.path(None).display(),
+                header.width,
+                header.height
+            )
+        });
+        self.allow(frame_bytes(input, target), "a frame", &(largest + &describe(target, ", and ")))
+    }
+
+    /// What is left beside the levels of pyramids, which frames make one after the other, if a frame and they fit.
+    pub(crate) fn beside_levels(self, levels: u64, input: &Input, target: &Target) -> Result<Self> {
+        let needed = frame_bytes(input, target).saturating_add(levels);
+        let why = format!("; smaller copies of the input, for {FILTER} ewa-pyramid, are {} of it", human(levels));
+        self.allow(needed, "a frame", &why)?;
+        Ok(Self { bytes: self.bytes - levels, ..self })
+    }
+
+    /// Whether two pictures fit, with the copies that comparing them takes, before memory is taken.
+    pub fn check_comparison(self, pictures: [(&Path, &Header); 2]) -> Result<()> {
+        // Beside its light each picture is blurred, in double precision.
+        let bytes = |header: &Header| light_bytes(header).saturating_add(header_pixels(header).saturating_mul(16));
+        let needed = pictures.iter().map(|(_, header)| bytes(header)).fold(0, u64::saturating_add);
+        let size = |(path, header): (&Path, &Header)| {
+            format!("{} has {}x{} pixels", path.display(), header.width, header.height)
+        };
+        self.allow(needed, "comparing", &format!("; {}, {}", size(pictures[0]), size(pictures[1])))
+    }
+
+    fn allow(self, needed: u64, what: &str, why: &str) -> Result<()> {
+        if needed <= self.bytes {
+            return Ok(());
+        }
+        if let Some(asked) = self.too_much {
+            bail!(
+                Memory: "{what} needs about {} of memory, but there are {}, whatever {MEMORY} says ({}){why}; make pictures smaller, or \
+                 do it where there is more memory",
+                human_at_least(needed),
+                human(self.bytes),
+                human(asked),
+            );
+        }
+        bail!(
+            Memory: "{what} needs about {} of memory, but only {} may be used{why}; if that is right, raise {MEMORY}",
+            human_at_least(needed),
+            human(self.bytes),
+        );
+    }
+
+    /// What is left for the geometry that all frames share.
+    pub(crate) fn left_for_plan(self, input: &Input, target: &Target, threads: usize) -> u64 {
+        self.beside_program(threads).saturating_sub(frame_bytes(input, target)).saturating_sub(plane_bytes(target))
+    }
+
+    /// What is left beside the program itself. A frame alone is made in less, too: what it needs is not so much as is counted.
+    fn beside_program(self, threads: usize) -> u64 {
+        self.bytes.saturating_sub(PROGRAM).saturating_sub(THREAD.saturating_mul(threads as u64))
+    }
+
+    /// How many frames may be in flight around the one that is filtered, beside the geometry that they share. The files of one
+    /// frame each keep a thread busy, so that more than it takes to keep all of them busy are of no use.
+    pub(crate) fn queue_depth(self, input: &Input, target: &Target, plans: u64, threads: usize) -> QueueDepth {
+        let moving = input.present().filter(|(view, ..)| view.files.sequence().is_some());
+        let (files, read) = moving
+            .fold((0, 0_u64), |(files, bytes), (_, header, _)| (files + 1, bytes.saturating_add(read_bytes(header))));
+        let wanted = |files: usize| 1 + threads.div_ceil(files.max(1));
+        let geometry = geometry_bytes(input, target);
+        let planes = plane_bytes(target);
+        let frame = FrameMemory {
+            all: frame_bytes(input, target).saturating_sub(geometry).saturating_add(planes),
+            read,
+            written: output_bytes(target).saturating_add(planes),
+        };
+        let room = self.beside_program(threads).saturating_sub(plans).saturating_sub(geometry);
+        QueueDepth::fitting(room, frame, (wanted(files), wanted(target.files.len())))
+    }
+}
+
+/// What the program takes without any picture, with its tables.
+const PROGRAM: u64 = 8 << 20;
+
+/// What a thread takes beside the pictures that it works on: bands of geometry, blocks of files, and what the system's allocator keeps
+/// for it.
+const THREAD: u64 = 3 << 20;
+
+/// Bytes of a texel's solid angle.
+const SOLID_ANGLE: u64 = size_of::<f32>() as u64;
+
+fn header_pixels(header: &Header) -> u64 {
+    area((header.width, header.height))
+}
+
+/// Bytes of a pixel's samples.
+fn sample_bytes(header: &Header) -> u64 {
+    (header.channels.count() * header.depth.bytes()) as u64
+}
+
+/// A file's samples.
+fn read_bytes(header: &Header) -> u64 {
+    header_pixels(header).saturating_mul(sample_bytes(header))
+}
+
+/// A file's samples and the light made of them.
+pub(crate) fn light_bytes(header: &Header) -> u64 {
+    header_pixels(header).saturating_mul(sample_bytes(header) + size_of::<Rgba>() as u64)
+}
+
+fn pixels(view: &View) -> u64 {
+    area((view.width(), view.height()))
+}
+
+fn describe(target: &Target, link: &str) -> String {
+    let size = |Sheet { size: (width, height), .. }: &Sheet| format!("{link}the output {width}x{height}");
+    target.files.first().map_or_else(String::new, |file| size(&file.sheet))
+}
+
+/// The outputs with their encoded twins.
+fn output_bytes(target: &Target) -> u64 {
+    pixel_bytes(target.files.iter().flat_map(|file| file.levels()).map(|sheet| sheet.size))
+}
+
+/// OpenEXR's samples are sorted into planes, while the pictures that they are of wait to be handed on.
+fn plane_bytes(target: &Target) -> u64 {
+    if target.format == Format::Exr { output_bytes(target) / 2 } else { 0 }
+}
+
+/// Pictures of these sizes with their encoded twins.
+fn pixel_bytes(sizes: impl IntoIterator<Item = (usize, usize)>) -> u64 {
+    let pixels = sizes.into_iter().map(area).fold(0, u64::saturating_add);
+    pixels.saturating_mul(2 * size_of::<Rgba>() as u64)
+}
+
+fn area((width, height): (usize, usize)) -> u64 {
+    (width as u64).saturating_mul(height as u64)
+}
+
+/// What a view's projection holds besides numbers.
+fn table_bytes(view: &View) -> u64 {
+    match &view.projection {
+        ProjectionKind::StMap(map) => map.bytes(),
+        _ => 0,
+    }
+}
+
+/// What all frames share, but for plans: the solid angle of every texel, and tables.
+fn geometry_bytes(input: &Input, target: &Target) -> u64 {
+    let angles = (input.texels() as u64).saturating_mul(SOLID_ANGLE);
+    let views = input.views().map(|view| &view.nominal).chain(target.views.iter().map(|target| &target.view));
+    let tables = views.map(table_bytes).fold(0, u64::saturating_add);
+    angles.saturating_add(tables)
+}
+
+/// A frame with what it shares: its files, their light, and the outputs.
+fn frame_bytes(input: &Input, target: &Target) -> u64 {
+    let light = input.present().map(|(_, header, _)| light_bytes(header)).fold(0, u64::saturating_add);
+    light.saturating_add(geometry_bytes(input, target)).saturating_add(output_bytes(target))
+}
+
+/// An amount of memory as people say it.
+pub(crate) fn human(bytes: u64) -> String {
+    told(bytes, |tenths| tenths)
+}
+
+/// The same, so that who gives as much as is told gives enough.
+fn human_at_least(bytes: u64) -> String {
+    told(bytes, f64::ceil)
+}
+
+fn told(bytes: u64, round: fn(f64) -> f64) -> String {
+    let units = ["bytes", "KiB", "MiB", "GiB", "TiB"];
+    let mut value = bytes as f64;
+    let mut unit = 0;
+    while value >= 1024.0 && unit + 1 < units.len() {
+        value /= 1024.0;
+        unit += 1;
+    }
+    match (unit, bytes) {
+        (0, 1) => "1 byte".to_owned(),
+        (0, _) => format!("{bytes} bytes"),
+        _ => format!("{:.1} {}", round(value * 10.0) / 10.0, units[unit]),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn as_much_as_is_told_to_be_needed_is_enough() {
+        let mebibyte = 1 << 20;
+        assert_eq!([10 * mebibyte, 10 * mebibyte + 1].map(human_at_least), ["10.0 MiB", "10.1 MiB"]);
+        assert_eq!([10 * mebibyte, 10 * mebibyte + 1].map(human), ["10.0 MiB", "10.0 MiB"]);
+        assert_eq!([0, 1, 1023].map(human_at_least), ["0 bytes", "1 byte", "1023 bytes"]);
+    }
+}

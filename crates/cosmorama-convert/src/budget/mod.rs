@@ -1,0 +1,12 @@
+//! Memory: what there is, what a conversion takes, how many frames may be in flight.
+
+mod memory;
+mod queue_depth;
+mod system_memory;
+
+pub use memory::MemoryBudget;
+pub(crate) use queue_depth::QueueDepth;
+pub use system_memory::peak_bytes;
+
+pub(crate) use memory::light_bytes;
+pub(crate) use queue_depth::FrameMemory;

@@ -1,0 +1,81 @@
+/// Frames in flight around the one that is filtered.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct QueueDepth {
+    /// Those that are being read, or wait for their turn. Of one alone the files are read when the frame before it is made: the
+    /// samples of that are gone then.
+    pub(crate) read: usize,
+    /// Those whose pictures there are: of all but one they are being written, of the last they are made. One alone is written before
+    /// there are pictures of the next.
+    pub(crate) written: usize,
+    /// Bytes that all of them may take together, with the one that is filtered, beside what they share.
+    pub(crate) bytes: u64,
+}
+
+/// Bytes that a frame takes.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct FrameMemory {
+    /// Samples, light and outputs.
+    pub(crate) all: u64,
+    /// Its samples, where they are not the same in all frames.
+    pub(crate) read: u64,
+    /// Its outputs.
+    pub(crate) written: u64,
+}
+
+impl QueueDepth {
+    /// As many as fit into so many bytes, and no more than are wanted to be read and written.
+    pub(crate) fn fitting(room: u64, frame: FrameMemory, (read, written): (usize, usize)) -> Self {
+        let mut left = room.saturating_sub(frame.all);
+        let mut fitting = Self { read: 1, written: 1, bytes: 0 };
+        // In turns, so that neither side waits for the other.
+        loop {
+            let before = fitting;
+            if fitting.read < read && left >= frame.read {
+                (fitting.read, left) = (fitting.read + 1, left - frame.read);
+            }
+            if fitting.written < written && left >= frame.written {
+                (fitting.written, left) = (fitting.written + 1, left - frame.written);
+            }
+            if fitting == before {
+                return Self { bytes: room - left, ..fitting };
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const FRAME: FrameMemory = FrameMemory { all: 100, read: 10, written: 30 };
+
+    fn fitting(room: u64, wanted: usize) -> [u64; 3] {
+        let QueueDepth { read, written, bytes } = QueueDepth::fitting(room, FRAME, (wanted, wanted));
+        [read as u64, written as u64, bytes]
+    }
+
+    #[test]
+    fn without_room_frames_come_one_by_one() {
+        assert_eq!(fitting(109, 4), [1, 1, 100]);
+        assert_eq!(fitting(100, 4), [1, 1, 100]);
+        assert_eq!(fitting(60, 4), [1, 1, 60], "never more than there is room for");
+    }
+
+    #[test]
+    fn both_sides_grow_in_turns_until_nothing_more_fits() {
+        assert_eq!(fitting(110, 4), [2, 1, 110]);
+        assert_eq!(fitting(140, 4), [2, 2, 140]);
+        assert_eq!(fitting(169, 4), [4, 2, 160]);
+        assert_eq!(fitting(1000, 4), [4, 4, 220]);
+        assert_eq!(fitting(1000, 1), [1, 1, 100]);
+    }
+
+    #[test]
+    fn bytes_are_those_of_all_that_is_alive_at_once() {
+        for room in 0..400 {
+            let [read, written, bytes] = fitting(room, 5);
+            let alive = FRAME.all + (read - 1) * FRAME.read + (written - 1) * FRAME.written;
+            assert_eq!(bytes, alive.min(room), "{room}");
+        }
+    }
+}

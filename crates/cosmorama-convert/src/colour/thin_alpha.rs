@@ -1,0 +1,42 @@
+//! Alpha that is full nowhere: pictures that cover nothing wholly are rare, and multipliers are kept there, too.
+
+use cosmorama::raster::Rgba;
+
+/// Nothing more is full, in floats that were made of codes.
+const FULL: f32 = 0.999;
+
+/// The range of alpha in pixels of which none is full.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ThinAlpha {
+    least: f32,
+    greatest: f32,
+}
+
+impl ThinAlpha {
+    /// That of some pixels; `None` where one has full alpha.
+    pub fn of(mut pixels: impl Iterator<Item = Rgba>) -> Option<Self> {
+        let none = Self { least: 1.0, greatest: 0.0 };
+        pixels.try_fold(none, |range, pixel| {
+            let alpha = pixel.alpha();
+            (alpha < FULL).then(|| range.with(Self { least: alpha, greatest: alpha }))
+        })
+    }
+
+    /// That of both.
+    pub(crate) fn with(self, other: Self) -> Self {
+        Self { least: self.least.min(other.least), greatest: self.greatest.max(other.greatest) }
+    }
+
+    /// What should be known; nothing of a picture that is as transparent everywhere, which no multiplier is.
+    pub fn told(self) -> Option<String> {
+        (self.least < self.greatest).then(|| {
+            format!(
+                "no pixel's alpha is full: it is from {:.0} to {:.0} %. If it is a multiplier of the colours, as in RGBM and \
+                 RGBD, and no coverage, what is made of it is almost transparent: make plain colours of it first, with the \
+                 tool that wrote it",
+                100.0 * self.least,
+                100.0 * self.greatest
+            )
+        })
+    }
+}

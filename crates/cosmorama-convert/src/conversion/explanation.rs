@@ -1,0 +1,137 @@
+use std::collections::HashSet;
+use std::path::PathBuf;
+
+use cosmorama::explain;
+use cosmorama::filter::Filter;
+use cosmorama::world::World;
+use cosmorama_spec::Size;
+use rayon::ThreadPool;
+
+use super::check::threads;
+use super::options::filter;
+use super::{GeometrySettings, LimitSettings};
+use crate::budget::MemoryBudget;
+use crate::coverage::whole_worlds;
+use crate::diagnostic::{Diagnostic, FROM, Outcome, Result, TO, usage};
+use crate::input::spec_files::st_map::settled;
+use crate::input::{Builtin, Input, InputView};
+use crate::output::files_read;
+use crate::target::Picture;
+
+/// Settings of an explanation: what a conversion would do, perhaps of an input that does not exist yet.
+#[derive(Clone, Debug, Default)]
+pub struct ExplanationSettings {
+    /// The input, if there is one.
+    pub input: Option<String>,
+    /// Size of an input that does not exist yet, or of its faces; parity with the output at the centre, unless given.
+    pub input_size: Option<Size>,
+    /// What light comes from where and goes where.
+    pub geometry: GeometrySettings,
+    /// What the run may take.
+    pub limits: LimitSettings,
+}
+
+/// What a conversion would do, picture by picture.
+pub struct Explanation {
+    input: Input,
+    pictures: Vec<Picture>,
+    filter: Filter,
+    memory: MemoryBudget,
+    /// Files that are read, by where they lie.
+    files: HashSet<PathBuf>,
+    pool: ThreadPool,
+}
+
+impl ExplanationSettings {
+    /// Finds the files and the pictures. An input on disk decides how large the output is; one that does not exist yet follows
+    /// the output.
+    pub fn check(&self) -> Outcome<Explanation> {
+        let mut diagnostics = Vec::new();
+        let result = threads(self.limits.threads)
+            .and_then(|pool| Ok((pool.install(|| self.resolve(&mut diagnostics))?, pool)))
+            .map(|((input, pictures, filter), pool)| Explanation {
+                files: files_read(&input, &self.geometry),
+                memory: MemoryBudget::new(self.limits.memory),
+                input,
+                pictures,
+                filter,
+                pool,
+            });
+        Outcome { result, diagnostics }
+    }
+
+    fn resolve(&self, warnings: &mut Vec<Diagnostic>) -> Result<(Input, Vec<Picture>, Filter)> {
+        let memory = MemoryBudget::new(self.limits.memory);
+        let geometry = &settled(&self.geometry, self.input.as_deref(), memory, warnings)?;
+        if geometry.to.is_none() {
+            let example = format!("{TO} omnimax");
+            return Err(usage(format!("{TO} is missing: say which projection the output is to have, as in {example}")));
+        }
+        let (mut input, pictures) = self.find(geometry, memory, warnings)?;
+        warnings.extend(input.turned());
+        input.fit_eyes(pictures.iter().any(|picture| picture.eye.is_some()), warnings);
+        let filter = filter(&self.geometry, warnings);
+        Ok((input, pictures, filter))
+    }
+
+    fn find(
+        &self,
+        geometry: &GeometrySettings,
+        memory: MemoryBudget,
+        warnings: &mut Vec<Diagnostic>,
+    ) -> Result<(Input, Vec<Picture>)> {
+        match (&self.input, &geometry.from) {
+            (Some(pattern), _) if Builtin::named(pattern)?.is_some() => Err(usage(format!(
+                "{pattern} is a formula: nothing is resampled, so there is nothing to explain; for its picture in a projection, \
+                 explain {FROM} SPEC"
+            ))),
+            (Some(pattern), from) => {
+                let input = Input::find(pattern, from.as_ref(), None, memory, warnings)?;
+                let pictures = Picture::all(geometry, None, Some(input.pixels_per_radian()))?;
+                Ok((input, pictures))
+            }
+            (None, Some(from)) => {
+                let own = match self.input_size {
+                    Some(_) => Some(Input::planned(from, self.input_size, 0.0)?.pixels_per_radian()),
+                    None => None,
+                };
+                let pictures = Picture::all(geometry, None, own)?;
+                let centre = pictures.first().map_or(1.0, |picture| picture.view.pixels_per_radian());
+                Ok((Input::planned(from, self.input_size, centre)?, pictures))
+            }
+            (None, None) => Err(usage(format!("give an input, or {FROM} for one that does not exist yet"))),
+        }
+    }
+}
+
+impl Explanation {
+    /// Returns the pictures that would be made.
+    pub fn pictures(&self) -> &[Picture] {
+        &self.pictures
+    }
+
+    /// Returns the files that are read, by where they lie.
+    pub fn files(&self) -> &HashSet<PathBuf> {
+        &self.files
+    }
+
+    /// Computes the worlds of whole pictures, whether their files are there or not: one, or one for each eye.
+    ///
+    /// # Errors
+    /// When they or the pictures need more memory than may be used, or views cannot be a world.
+    pub fn worlds(&self) -> Result<Vec<World>> {
+        self.memory.check_sizes(self.pictures.iter().map(|picture| (picture.view.width(), picture.view.height())))?;
+        self.pool.install(|| whole_worlds(&self.input, self.memory))
+    }
+
+    /// Explains one of the pictures.
+    pub fn report(&self, worlds: &[World], picture: &Picture) -> explain::Report {
+        let world = &worlds[picture.world(worlds.len())];
+        self.pool.install(|| explain::Report::of(world, &picture.view, &self.filter))
+    }
+
+    /// Returns the views that have no file yet.
+    pub fn views_without_files(&self) -> impl Iterator<Item = &InputView> {
+        self.input.views().filter(|view| view.window.is_none())
+    }
+}

@@ -1,0 +1,116 @@
+use cosmorama::filter::Filter;
+use cosmorama::raster::Rgba;
+use cosmorama::render::Resampler;
+use cosmorama::world::World;
+use cosmorama_spec::Missing;
+
+use super::options::{check_file_options, filter};
+use super::{Content, Conversion};
+use crate::budget::MemoryBudget;
+use crate::colour::Light;
+use crate::coverage::{Coverage, whole_worlds};
+use crate::diagnostic::{Diagnostic, Result};
+use crate::input::Input;
+use crate::input::spec_files::st_map::settled;
+use crate::output::Outputs;
+use crate::target::{Target, TargetView, told_of_shape};
+
+/// A conversion, ready to run.
+pub(crate) struct ConvertJob {
+    /// Where light comes from; nothing, where it is a formula.
+    pub(crate) input: Input,
+    /// Its geometry: one world, or one for each eye.
+    pub(crate) worlds: Vec<World>,
+    /// Where it goes.
+    pub(crate) target: Target,
+    /// How.
+    pub(crate) filter: Filter,
+    /// How code values relate to light on both sides, and what the outputs hold.
+    pub(crate) light: Light,
+    /// The outputs to be made, frame by frame.
+    pub(crate) outputs: Outputs,
+    /// What no view covers, where that is to be filled.
+    pub(crate) coverage: Coverage,
+    /// What becomes of directions without light.
+    missing: Missing,
+    /// What may be used.
+    pub(crate) memory: MemoryBudget,
+}
+
+impl ConvertJob {
+    /// Resolves settings and checks everything that can be checked without decoding a pixel.
+    pub(crate) fn resolve(settings: &Conversion, content: Content, warnings: &mut Vec<Diagnostic>) -> Result<Self> {
+        let memory = MemoryBudget::new(settings.limits.memory);
+        let file = content.has_files().then_some(settings.input.as_str());
+        let geometry = &settled(&settings.geometry, file, memory, warnings)?;
+        // Mistakes in the settings themselves come first: they do not depend on any file.
+        let format = Target::check_names(&settings.output, geometry)?;
+        check_file_options(settings, format)?;
+        let mut input = content.input(settings, geometry, memory, warnings)?;
+        let parity = content.has_files().then(|| input.pixels_per_radian());
+        let mut target = Target::resolve(&settings.output, geometry, parity)?;
+        if settings.mips {
+            target = target.with_mips(&settings.output, geometry)?;
+        }
+        warnings.extend(input.turned());
+        warnings.extend(input.complaints());
+        warnings.extend(told_of_shape(geometry, &target));
+        content.fit_eyes(&mut input, &target, warnings);
+        let filter = if content.has_files() { filter(geometry, warnings) } else { Filter::DEFAULT };
+        let mut light = Light::resolve(settings, &input, &target, warnings)?;
+        content.settle(settings, &target, &mut light, warnings)?;
+        memory.check_outputs(&target)?;
+        let outputs = Outputs::plan(settings, &input, &target, &light, memory)?;
+        warnings.extend(outputs.warning());
+        let missing = settings.missing;
+        let mut job = Self {
+            input,
+            worlds: Vec::new(),
+            target,
+            filter,
+            light,
+            outputs,
+            coverage: Coverage::Complete,
+            missing,
+            memory,
+        };
+        if content.has_files() {
+            job.cover(warnings)?;
+        }
+        content.check_last(settings, format, job.light.depth, warnings)?;
+        Ok(job)
+    }
+
+    /// Finds out whether the input covers the output, and whether memory suffices.
+    fn cover(&mut self, warnings: &mut Vec<Diagnostic>) -> Result<()> {
+        let Self { input, target, filter, memory, .. } = self;
+        let whole = whole_worlds(input, *memory)?;
+        let (coverage, worlds) = Coverage::check(input, whole, target, filter, self.missing, warnings)?;
+        memory.check_frame(input, target)?;
+        let levels = target.views.iter().map(|view| {
+            let world = &worlds[view.world(worlds.len())];
+            Resampler { world, target: &view.view, filter: *filter }.level_bytes() as u64
+        });
+        self.memory = memory.beside_levels(levels.max().unwrap_or(0), input, target)?;
+        (self.coverage, self.worlds) = (coverage, worlds);
+        Ok(())
+    }
+
+    /// The conversion to one of the target's views.
+    pub(crate) fn resampler<'a>(&'a self, target: &'a TargetView) -> Resampler<'a> {
+        Resampler { world: self.world(target), target: &target.view, filter: self.filter }
+    }
+
+    /// What a target shows.
+    pub(crate) fn world(&self, target: &TargetView) -> &World {
+        &self.worlds[target.world(self.worlds.len())]
+    }
+
+    /// What pixels without light get; `None` where they are an error.
+    pub(crate) fn fill_for_missing(&self) -> Option<Rgba> {
+        match self.missing {
+            Missing::Error => None,
+            Missing::Fill(colour) => Some(colour),
+        }
+    }
+}

@@ -1,0 +1,56 @@
+use cosmorama::filter::{Filter, FilterKind, Kernel};
+use cosmorama_io::{Compression, Format, WriteOptions};
+
+use super::{Conversion, GeometrySettings};
+use crate::colour::Light;
+use crate::diagnostic::{
+    ANTI_RINGING, COMPRESSION, Code, Diagnostic, FILTER, IN_TRANSFER, KERNEL, OUT_TRANSFER, QUALITY, Result, TRANSFER,
+    usage,
+};
+use crate::output::Outputs;
+
+/// Checks that every option has an effect: if not, another format was meant, or another option.
+pub(crate) fn check_file_options(settings: &Conversion, format: Format) -> Result<()> {
+    let output = &settings.output;
+    if settings.quality.is_some() && format != Format::Jpeg {
+        return Err(usage(format!(
+            "{QUALITY} is for JPEG, but {output} is {format}; leave it out, or name the output .jpg"
+        )));
+    }
+    if settings.compression.is_some() && (!format.has_compression() || settings.st_map) {
+        let what = if settings.st_map { "an st map".to_owned() } else { format.to_string() };
+        let instead = if format == Format::Jpeg { format!(", or choose a {QUALITY}") } else { String::new() };
+        return Err(usage(format!(
+            "{COMPRESSION} is for pictures in PNG, TIFF and OpenEXR, but {output} is {what}; leave it out{instead}"
+        )));
+    }
+    if settings.transfer.fixed().is_some() && settings.in_transfer.is_some() && settings.out_transfer.is_some() {
+        return Err(usage(format!(
+            "{TRANSFER} has no effect beside {IN_TRANSFER} and {OUT_TRANSFER}; leave it or one of them out"
+        )));
+    }
+    Ok(())
+}
+
+/// How outputs are written. Frames come by the thousand, and are read again: as PNG they are written for speed, unless
+/// something else is asked for.
+pub(crate) fn write_options(settings: &Conversion, format: Format, outputs: &Outputs, light: &Light) -> WriteOptions {
+    let default = WriteOptions::default();
+    let usual = if format == Format::Png && outputs.is_sequence() { Compression::Fast } else { default.compression };
+    WriteOptions {
+        quality: settings.quality.unwrap_or(default.quality),
+        compression: settings.compression.unwrap_or(usual),
+        metadata: light.metadata.clone(),
+    }
+}
+
+/// The filter that was asked for.
+pub(crate) fn filter(geometry: &GeometrySettings, warnings: &mut Vec<Diagnostic>) -> Filter {
+    let (kind, kernel) = (geometry.filter.0, geometry.kernel.kernel);
+    let is_weighed = !matches!(kind, FilterKind::Point | FilterKind::Bilinear);
+    if !is_weighed && (kernel != Kernel::ADAPTIVE || geometry.anti_ringing.is_some()) {
+        let message = format!("{KERNEL} and {ANTI_RINGING} have no effect on {FILTER} point and bilinear");
+        warnings.push(Diagnostic::warning(Code::NoEffect, message));
+    }
+    Filter { kind, kernel, anti_ringing: geometry.anti_ringing.unwrap_or(geometry.kernel.anti_ringing) }
+}

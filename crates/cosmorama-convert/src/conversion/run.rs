@@ -1,0 +1,142 @@
+use std::collections::BTreeSet;
+use std::path::PathBuf;
+
+use rayon::ThreadPool;
+use rayon::prelude::*;
+
+use super::options::write_options;
+use super::{Checked, Content, ConvertJob, Observer, Report};
+use crate::diagnostic::{Diagnostic, Result};
+use crate::engine::{
+    Engine, FrameFile, FrameLight, Sequence, Stage, Stages, ViewImage, Watcher, Which, formula, st_map,
+};
+use crate::output::FrameOutputs;
+
+impl Checked {
+    /// Makes the outputs. Each appears whole or not at all.
+    ///
+    /// # Errors
+    /// When a file cannot be read or written, or does not hold what its header said.
+    pub fn run(mut self, observer: &mut dyn Observer) -> Result<Report> {
+        observer.begin(self.job.outputs.frames.len());
+        match self.content {
+            Content::World => self.convert(observer)?,
+            Content::StMap => self.each_file(observer, st_map::make)?,
+            Content::Formula(world) => {
+                let options = write_options(&self.settings, self.job.target.format, &self.job.outputs, &self.job.light);
+                self.each_file(observer, |run, file, path| formula::picture(run, world, &options, file, path))?;
+            }
+            Content::Directions(map) => {
+                self.each_file(observer, |run, file, path| formula::directions(run, map, file, path))?
+            }
+        }
+        let Self { job, settings, stages, diagnostics, start, content, .. } = self;
+        let inputs: BTreeSet<PathBuf> = if content.has_files() {
+            job.outputs.frames.iter().flat_map(|frame| job.input.paths(frame.frame)).collect()
+        } else {
+            BTreeSet::from([PathBuf::from(&settings.input)])
+        };
+        Ok(Report::new(inputs, &job.outputs, start.elapsed(), &stages, diagnostics))
+    }
+
+    /// Makes one file after the other.
+    fn each_file(
+        &self,
+        observer: &mut dyn Observer,
+        make: impl Fn(&Self, usize, &std::path::Path) -> Result<()> + Sync,
+    ) -> Result<()> {
+        for FrameOutputs { frame, files } in &self.job.outputs.frames {
+            self.pool.install(|| files.iter().try_for_each(|(file, path)| make(self, *file, path)))?;
+            observer.frame_done(*frame);
+        }
+        Ok(())
+    }
+
+    /// Converts the light of files.
+    fn convert(&mut self, observer: &mut dyn Observer) -> Result<()> {
+        let Self { settings, job, pool, stages, diagnostics, .. } = self;
+        let options = write_options(settings, job.target.format, &job.outputs, &job.light);
+        let engine = &pool.install(|| stages.alone(Stage::Plan, || Engine::new(job, options)));
+        let mut run = Run { job, engine, stages, pool, observer, diagnostics, is_first: true };
+        run.tell(engine.told().to_vec());
+        match &job.outputs.frames[..] {
+            [] => Ok(()),
+            [frame] => run.still(frame),
+            _ => {
+                let sequence = Sequence { job, engine, stages, pool };
+                stages.among(Stage::Filter, || sequence.run(&mut run))
+            }
+        }
+    }
+}
+
+/// A conversion of light under way.
+struct Run<'a> {
+    job: &'a ConvertJob,
+    engine: &'a Engine<'a>,
+    stages: &'a Stages,
+    pool: &'a ThreadPool,
+    observer: &'a mut dyn Observer,
+    diagnostics: &'a mut Vec<Diagnostic>,
+    /// Whether no frame has been looked at yet.
+    is_first: bool,
+}
+
+impl Run<'_> {
+    /// A single picture: stage by stage, each with all threads, and in memory no longer than it is needed.
+    fn still(&mut self, frame: &FrameOutputs) -> Result<()> {
+        let Self { engine, stages, pool, .. } = *self;
+        let job = self.job;
+        let light = pool.install(|| light_of(job, engine, stages, frame))?;
+        self.look(frame, &light);
+        let pictures = pool.install(|| stages.alone(Stage::Filter, || engine.render(frame, &light, Vec::new())))?;
+        drop(light);
+        let write = || {
+            let outputs = frame.files.par_iter().zip(pictures);
+            outputs.try_for_each(|((_, path), levels)| engine.writer().save(levels, path))
+        };
+        pool.install(|| stages.alone(Stage::Encode, write))?;
+        self.done(frame);
+        Ok(())
+    }
+}
+
+impl Watcher for Run<'_> {
+    fn begin(&mut self, bytes: u64) {
+        self.observer.memory_in_flight(bytes);
+    }
+
+    fn look(&mut self, frame: &FrameOutputs, light: &FrameLight) {
+        // The first frame tells how the faces lie.
+        let (engine, is_first) = (self.engine, std::mem::take(&mut self.is_first));
+        let found = self.pool.install(|| {
+            let continuity = if is_first { engine.continuity(light) } else { None };
+            engine.warnings(frame.frame, light).into_iter().chain(continuity).collect()
+        });
+        self.tell(found);
+    }
+
+    fn done(&mut self, frame: &FrameOutputs) {
+        self.observer.frame_done(frame.frame);
+    }
+}
+
+impl Run<'_> {
+    fn tell(&mut self, found: Vec<Diagnostic>) {
+        found.iter().for_each(|diagnostic| self.observer.diagnostic(diagnostic));
+        self.diagnostics.extend(found);
+    }
+}
+
+/// Reads the files of a frame and makes light of them.
+fn light_of(job: &ConvertJob, engine: &Engine, stages: &Stages, frame: &FrameOutputs) -> Result<FrameLight> {
+    let mut light = engine.frame_light();
+    let images = stages.alone(Stage::Decode, || {
+        let files = FrameFile::all(job, frame.frame, Which::All).into_par_iter();
+        // In the order of files, so that of several errors it is always the same that is told.
+        files.map(|file| file.read(job)).collect::<Vec<_>>().into_iter().collect::<Result<Vec<_>>>()
+    })?;
+    let images: Vec<ViewImage> = images.into_iter().flatten().collect();
+    light.fill(job, frame.frame, &images, stages)?;
+    Ok(light)
+}

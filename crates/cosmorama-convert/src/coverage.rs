@@ -1,0 +1,182 @@
+use cosmorama::camera::{Canvas, PixelRect, View};
+use cosmorama::filter::Filter;
+use cosmorama::raster::Rgba;
+use cosmorama::render::{Need, Needs};
+use cosmorama::world::{Source, World, WorldView};
+use cosmorama_spec::Missing;
+
+use crate::budget::MemoryBudget;
+use crate::diagnostic::{Code, ConvertError, Diagnostic, MISSING, PITCH, ROLL, Result, YAW, bail, failed_as};
+use crate::input::{Input, InputView};
+use crate::target::{Target, TargetView};
+
+/// What becomes of pixels that look where no view does.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Coverage {
+    /// There are none.
+    Complete,
+    /// They are filled.
+    Fill(Rgba),
+}
+
+/// The worlds of whole pictures, whether their files are there or not: one, or one for each eye.
+pub(crate) fn whole_worlds(input: &Input, memory: MemoryBudget) -> Result<Vec<World>> {
+    memory.check_pictures(input)?;
+    let world = |views: &Vec<InputView>| Ok(World::blended(views.iter().map(|view| view.world_view(view.nominal)))?);
+    input.worlds.iter().map(world).collect()
+}
+
+impl Coverage {
+    /// Compares what the target needs with what the input holds, before any pixel is computed. Also gives the worlds that
+    /// the input holds of the nominal ones.
+    pub(crate) fn check(
+        input: &mut Input,
+        nominal: Vec<World>,
+        target: &Target,
+        filter: &Filter,
+        missing: Missing,
+        warnings: &mut Vec<Diagnostic>,
+    ) -> Result<(Self, Vec<World>)> {
+        let mut gaps = Vec::new();
+        let count = nominal.len();
+        for (index, (views, nominal)) in input.worlds.iter_mut().zip(&nominal).enumerate() {
+            gaps.extend(find_gaps(views, nominal, &target.of_world(index, count), filter, warnings)?);
+        }
+        let coverage = match missing {
+            _ if gaps.is_empty() => Self::Complete,
+            Missing::Fill(colour) => Self::Fill(colour),
+            Missing::Error => bail!(
+                Uncovered: "the input does not cover what the output shows:\n  {}\nadd what is missing, or fill it with {MISSING} \
+                 COLOR or {MISSING} transparent",
+                gaps.join("\n  ")
+            ),
+        };
+        let worlds: Result<_> =
+            input.worlds.iter().zip(nominal).map(|(views, nominal)| held_world(views, nominal)).collect();
+        Ok((coverage, worlds?))
+    }
+}
+
+/// What is missing of the views of a world. Notes which of them are wanted.
+fn find_gaps(
+    views: &mut [InputView],
+    nominal: &World,
+    targets: &[&TargetView],
+    filter: &Filter,
+    warnings: &mut Vec<Diagnostic>,
+) -> Result<Vec<String>> {
+    if let [view] = views
+        && view.nominal.covers_sphere()
+        && view.mask.is_none()
+        && view.window.as_ref().is_some_and(|(held, _)| *held == view.nominal)
+    {
+        // A whole panorama lacks nothing, whatever is asked of it.
+        view.wanted = true;
+        return Ok(Vec::new());
+    }
+    let geometry: Vec<View> = targets.iter().map(|target| target.view).collect();
+    let uncovered = |needs: &Needs| needs.uncovered.map(|gap| format!("{}: {gap}", targets[gap.target].name));
+    let quick = Needs::within_reach(nominal, &geometry, filter);
+    let mut needs = quick.unwrap_or_else(|| Needs::at_most(nominal, &geometry, filter));
+    // A view that shows no pixel's direction may still be read around them; if not, its file is not wanted.
+    let unsure: Vec<bool> = needs.views.iter().map(|need| need.seen.is_none() && need.read.is_some()).collect();
+    if unsure.contains(&true) {
+        needs = needs.settled(nominal, &geometry, filter, &unsure);
+    }
+    if needs.views.iter().any(|need| need.seen.is_some()) && views.iter().zip(&needs.views).all(holds) {
+        views.iter_mut().zip(&needs.views).for_each(|(view, need)| view.wanted = need.read.is_some());
+        return Ok(uncovered(&needs).into_iter().collect());
+    }
+    let needs = Needs::of(nominal, &geometry, filter);
+    let mut gaps = Vec::new();
+    for (view, need) in views.iter_mut().zip(&needs.views) {
+        view.wanted = need.read.is_some();
+        gaps.extend(shortfall(view, need));
+        warnings.extend(frayed(view, need));
+    }
+    gaps.extend(uncovered(&needs));
+    if !views.iter().any(|view| view.wanted && view.window.is_some()) {
+        gaps.push("nothing of what the input shows is in the output's field of view".to_owned());
+        return Err(empty(&gaps));
+    }
+    Ok(gaps)
+}
+
+/// Whether all that may be needed of a view is there.
+fn holds((view, need): (&InputView, &Need)) -> bool {
+    let held = view.window.as_ref().map(|(held, canvas)| rect(canvas, held));
+    need.read.is_none_or(|read| held.is_some_and(|held| held.contains(&read)))
+}
+
+/// The world of what files hold: often that of the whole pictures.
+fn held_world(views: &[InputView], nominal: World) -> Result<World> {
+    let held = || views.iter().filter_map(InputView::present).map(|(view, _, held)| view.world_view(*held));
+    let is_same = |(part, source): (WorldView, &Source)| {
+        part.name == source.name && part.view == source.view && part.blend == source.blend && part.mask == source.mask
+    };
+    if held().count() == nominal.sources().len() && held().zip(nominal.sources()).all(is_same) {
+        return Ok(nominal);
+    }
+    Ok(nominal.with_views(held())?)
+}
+
+/// Without any view there is nothing to fill up.
+fn empty(gaps: &[String]) -> ConvertError {
+    let gaps = gaps.join("\n  ");
+    let message =
+        format!("the output would be empty:\n  {gaps}\nturn it with {YAW}, {PITCH} and {ROLL}, or add the views");
+    failed_as(Code::Uncovered, message)
+}
+
+/// What pixels of the output look at and the file does not hold.
+fn shortfall(view: &InputView, need: &Need) -> Option<String> {
+    let seen = need.seen?;
+    match &view.window {
+        None => Some(format!(
+            "{}: {seen} of its {}x{} pixels are needed, but {} is {}",
+            view.name,
+            view.nominal.width(),
+            view.nominal.height(),
+            view.files.path(None).display(),
+            if view.files.is_folder() { "a folder, not an image" } else { "missing" }
+        )),
+        Some((held, canvas)) => {
+            let held = rect(canvas, held);
+            (!held.contains(&seen)).then(|| {
+                format!(
+                    "{}: {seen} of its {}x{} pixels are needed, but {} holds only {held}",
+                    view.name,
+                    view.nominal.width(),
+                    view.nominal.height(),
+                    view.files.path(None).display()
+                )
+            })
+        }
+    }
+}
+
+/// Where all that pixels look at is there, but not all that the filter would read around it.
+fn frayed(view: &InputView, need: &Need) -> Option<Diagnostic> {
+    let (seen, read, (held, canvas)) = (need.seen?, need.read?, view.window.as_ref()?);
+    let held = rect(canvas, held);
+    (held.contains(&seen) && !held.contains(&read)).then(|| {
+        let message = format!(
+            "{}: the filter would read {read}, but the file holds {held}; pixels at its edge go without the rest",
+            view.name
+        );
+        Diagnostic::warning(Code::Frayed, message).about(&view.name)
+    })
+}
+
+/// The part of its canvas that an image shows. One that goes all the way round shows every column, wherever it begins.
+fn rect(canvas: &Canvas, held: &View) -> PixelRect {
+    let edge = |at: i64, size: usize| at.clamp(0, size as i64) as usize;
+    let goes_round = held.period().is_some_and(|period| held.width() >= period);
+    let left = if goes_round { 0 } else { canvas.left };
+    PixelRect {
+        left: edge(left, canvas.width),
+        top: edge(canvas.top, canvas.height),
+        right: edge(left + held.width() as i64, canvas.width),
+        bottom: edge(canvas.top + held.height() as i64, canvas.height),
+    }
+}

@@ -1,0 +1,233 @@
+//! What one image is a picture of, where nobody says.
+
+use std::path::Path;
+
+use cosmorama::circle::{Circle, Found};
+use cosmorama::layout::{Arrangement, FaceOrder, LayoutKind};
+use cosmorama_io::{EnvMap, Header, Window};
+use cosmorama_spec::{Cube, Packing};
+
+use crate::detect::{Circles, Evidence, Readings, Seen};
+
+/// What one image is a picture of, as far as its metadata, its shape and its pixels tell.
+pub(crate) enum Guess {
+    /// What its metadata say.
+    Said(EnvMap),
+    /// A part of a panorama, say its metadata.
+    Panorama(Window),
+    /// A panorama, by its shape: twice as wide as high. If its halves are alike, it may be two.
+    TwoToOne(Option<Arrangement>),
+    /// A panorama for each eye, by its shape and its halves, which are alike: the SPEC.
+    Stereo(&'static str),
+    /// A strip of faces, by its shape: no camera makes pictures so long.
+    Strip(LayoutKind),
+    /// A cross of faces, circles or an oval, by what is blank around them.
+    Blank(Evidence),
+    /// One of these layouts of faces, by its shape, or anything else, in spite of what was seen.
+    Unknown(Vec<LayoutKind>, Seen),
+}
+
+/// Pictures that are black around a circle that fills a square, beside domemasters.
+pub(crate) const ROUND_ONES: &str = "fisheye:fov=DEGREES, mirror-ball or angular-map";
+
+/// A mirror ball of which no circle was found.
+const BALL: &str = "mirror-ball (with center= and radius= unless the ball touches the borders)";
+
+/// Pictures of 2:1 with one colour around an oval.
+pub(crate) const OVAL_ONES: &str = "hammer, mollweide or sinusoidal";
+
+impl Guess {
+    /// Looks at a header, and at the pixels where nothing else tells; with what is the matter if those cannot be read.
+    pub(crate) fn of(path: &Path, header: &Header) -> (Self, Option<String>) {
+        if let Some(envmap) = header.metadata.envmap {
+            return (Self::Said(envmap), None);
+        }
+        if let Some(window) = header.metadata.panorama {
+            return (Self::Panorama(window), None);
+        }
+        let (width, height) = size(header);
+        let layouts: Vec<LayoutKind> = layouts_of_shape(width, height).collect();
+        if let [kind @ (LayoutKind::StripH | LayoutKind::StripV)] = layouts[..] {
+            return (Self::Strip(kind), None);
+        }
+        let seen = Seen::of(path, header);
+        let damage = match &seen {
+            Seen::Damaged(damage) => Some(damage.clone()),
+            _ => None,
+        };
+        (Self::by_pixels((width, height), layouts, seen), damage)
+    }
+
+    fn by_pixels((width, height): (usize, usize), layouts: Vec<LayoutKind>, seen: Seen) -> Self {
+        match seen {
+            Seen::Evidence(evidence @ (Evidence::Circles(_) | Evidence::Oval)) => Self::Blank(evidence),
+            Seen::Evidence(Evidence::Twins(arrangement)) if width == 2 * height => Self::TwoToOne(Some(arrangement)),
+            _ if width == 2 * height => Self::TwoToOne(None),
+            Seen::Evidence(Evidence::Twins(arrangement)) => match (arrangement, width, height) {
+                (Arrangement::TopBottom, ..) if width == height => Self::Stereo("equirect:stereo=tb"),
+                (Arrangement::SideBySide, ..) if width == 4 * height => Self::Stereo("equirect:stereo=sbs"),
+                _ => Self::Unknown(layouts, seen),
+            },
+            Seen::Evidence(evidence) => Self::Blank(evidence),
+            Seen::Nothing | Seen::Unseen(_) | Seen::Damaged(_) => Self::Unknown(layouts, seen),
+        }
+    }
+
+    /// Whether the pixels had to be looked at for it.
+    pub(crate) fn has_looked(&self) -> bool {
+        !matches!(self, Self::Said(_) | Self::Panorama(_) | Self::Strip(_))
+    }
+
+    /// The cubes that an image may hold the faces of.
+    pub(crate) fn cubes(self) -> Vec<Cube> {
+        let of = |kind: LayoutKind| Cube { layout: Some(Packing::OneImage(kind)), ..Cube::default() };
+        match self {
+            Self::Said(EnvMap::Cube) => vec![Cube { order: Some(FaceOrder::OPENEXR), ..of(LayoutKind::StripV) }],
+            Self::Said(EnvMap::GlCube) => vec![of(LayoutKind::StripV)],
+            Self::Strip(kind) | Self::Blank(Evidence::Cross(kind) | Evidence::CrossElsewhere(kind, _)) => {
+                vec![of(kind)]
+            }
+            Self::Unknown(kinds, _) => kinds.into_iter().map(of).collect(),
+            Self::Said(EnvMap::LatLong) | Self::Panorama(_) | Self::TwoToOne(_) | Self::Stereo(_) => Vec::new(),
+            Self::Blank(_) => Vec::new(),
+        }
+    }
+
+    /// In words.
+    pub(crate) fn describe(&self, header: &Header) -> String {
+        match self {
+            Self::Said(EnvMap::LatLong) => "equirect, samples on the edges (envmap attribute)".to_owned(),
+            Self::Said(EnvMap::Cube) => {
+                "cube:layout=strip-v,order=openexr, samples on the edges (envmap attribute)".to_owned()
+            }
+            Self::Said(EnvMap::GlCube) => "cube (the file's own six faces, one below the other)".to_owned(),
+            Self::Panorama(Window { canvas_width, canvas_height, x, y }) => {
+                let whole = (*canvas_width, *canvas_height) == (header.width, header.height);
+                let canvas =
+                    if whole { String::new() } else { format!(":canvas={canvas_width}x{canvas_height}+{x}+{y}") };
+                format!("equirect{canvas} (GPano metadata)")
+            }
+            Self::TwoToOne(None) => "equirect (2:1)".to_owned(),
+            Self::TwoToOne(Some(halves)) => {
+                format!("equirect (2:1), or, since its halves are alike, {}", two_eyes(*halves))
+            }
+            Self::Stereo(spec) => format!("{spec} (by its shape, and since its halves are alike)"),
+            Self::Strip(kind) => format!("cube:layout={kind} (by its shape)"),
+            Self::Blank(evidence) => describe_blank(evidence),
+            Self::Unknown(kinds, seen) => {
+                let (width, height) = size(header);
+                let face = if width == height { "a face of a cube (a pattern with {face}), " } else { "" };
+                format!("unknown: {face}{}? ({})", candidates(header, kinds), describe_nothing(seen))
+            }
+        }
+    }
+}
+
+fn describe_blank(evidence: &Evidence) -> String {
+    match evidence {
+        Evidence::Cross(kind) => format!("cube:layout={kind} (one colour surrounds a cross)"),
+        Evidence::CrossElsewhere(kind, mirror) => {
+            let Readings { mirrored, upright, on_its_head } = Readings::new(*kind, *mirror);
+            format!(
+                "{mirrored} (one colour surrounds a cross that is mirrored), or {upright} (or one that is not), or \
+                 {on_its_head} (or one that stands on its head)"
+            )
+        }
+        Evidence::Disc(found) => {
+            let how = match found {
+                Found::Measured(_) => "a circle on black",
+                Found::Roughly(_) => "roughly: a disc on black, too dark at its rim to measure",
+            };
+            let (fisheye, ball) = (circle_spec("fisheye:fov=180,", found), circle_spec("mirror-ball:", found));
+            format!("{fisheye} ({how}; 180 degrees are a guess), or {ball}")
+        }
+        Evidence::Circle => format!("fulldome (square, black around a circle), or {ROUND_ONES}"),
+        Evidence::Omnimax => "omnimax (black around a circle that is cut off below)".to_owned(),
+        Evidence::Circles(circles) if circles.are_alike => {
+            format!("{} (a circle on black for each eye: alike), or {}", dome_spec(circles), circles.dual_spec())
+        }
+        Evidence::Circles(circles) => {
+            format!("{} (two circles on black; 195 degrees are a guess)", circles.dual_spec())
+        }
+        Evidence::Oval => format!("{OVAL_ONES} (2:1, one colour around an oval), or equirect"),
+        Evidence::Twins(_) => "two pictures that are alike".to_owned(),
+    }
+}
+
+/// Two domemasters in one image.
+pub(crate) fn dome_spec(circles: &Circles) -> &'static str {
+    match circles.arrangement {
+        Arrangement::SideBySide => "fulldome:stereo=sbs",
+        Arrangement::TopBottom => "fulldome:stereo=tb",
+    }
+}
+
+/// What a picture of 2:1 is if it is for two eyes.
+pub(crate) fn two_eyes(halves: Arrangement) -> &'static str {
+    match halves {
+        Arrangement::SideBySide => "equirect:hfov=180,stereo=sbs or equirect:stereo=sbs-half",
+        Arrangement::TopBottom => "equirect:stereo=tb-half",
+    }
+}
+
+/// Why nothing is known.
+fn describe_nothing(seen: &Seen) -> &str {
+    match seen {
+        Seen::Nothing => "no circle on black",
+        Seen::Unseen(why) => why,
+        Seen::Damaged(_) => "its pixels cannot be read",
+        Seen::Evidence(_) => "its halves are alike, as for two eyes: stereo= may belong to it",
+    }
+}
+
+/// What an image of unknown projection could be: names for `--from`.
+pub(crate) fn candidates(header: &Header, layouts: &[LayoutKind]) -> String {
+    let (width, height) = size(header);
+    let mut names: Vec<String> = layouts.iter().map(|kind| format!("cube:layout={kind}")).collect();
+    let by_shape: &[&str] = if width == height {
+        &[
+            "fulldome",
+            "fisheye:fov=DEGREES",
+            BALL,
+            "angular-map",
+            "octahedral",
+            "equirect:stereo=tb",
+            "perspective:fov=DEGREES",
+            "omnimax",
+            "equirect",
+        ]
+    } else if width == 4 * height {
+        &["equirect:stereo=sbs", "perspective:fov=DEGREES", "cylinder", "equirect"]
+    } else if height == 2 * width {
+        &[
+            "dual-fisheye:layout=top-bottom",
+            "fulldome:stereo=tb",
+            "equirect:hfov=180,stereo=tb",
+            "perspective:fov=DEGREES",
+        ]
+    } else {
+        &["perspective:fov=DEGREES", "equirect", "fisheye:fov=DEGREES", BALL, "fulldome", "omnimax"]
+    };
+    names.extend(by_shape.iter().map(|name| (*name).to_owned()));
+    let last = names.pop().unwrap_or_default();
+    if names.is_empty() { last } else { format!("{} or {last}", names.join(", ")) }
+}
+
+/// The SPEC of a circle: its beginning, completed by where it lies.
+pub(crate) fn circle_spec(start: &str, found: &Found) -> String {
+    let Circle { centre: (x, y), radius } = found.circle();
+    match found {
+        Found::Measured(_) => format!("{start}center={x:.1}:{y:.1},radius={radius:.1}"),
+        Found::Roughly(_) => format!("{start}center={x:.0}:{y:.0},radius={radius:.0}"),
+    }
+}
+
+/// The size of the whole picture.
+fn size(header: &Header) -> (usize, usize) {
+    header.window.map_or((header.width, header.height), |window| (window.canvas_width, window.canvas_height))
+}
+
+/// The layouts of a cube's faces that have this shape.
+pub(crate) fn layouts_of_shape(width: usize, height: usize) -> impl Iterator<Item = LayoutKind> {
+    LayoutKind::ALL.into_iter().filter(move |kind| kind.has_shape(width, height))
+}

@@ -1,0 +1,246 @@
+use std::path::Path;
+
+use cosmorama::camera::{CameraModel, EquirectCamera, Placement, SamplePositions};
+use cosmorama::circle::Found;
+use cosmorama::layout::{FaceOrder, LayoutKind};
+use cosmorama_io::{EnvMap, Header, Window};
+use cosmorama_spec::{Cube, Packing, Shape, Single, Spec, SphereSamples, StereoSpec};
+
+use crate::detect::decision::{OVAL_ONES, ROUND_ONES, candidates, circle_spec, dome_spec, layouts_of_shape, two_eyes};
+use crate::detect::pixels::damage_of;
+use crate::detect::{Evidence, Guess, Readings, Seen};
+use crate::diagnostic::{Code, Diagnostic, FROM, Remedy, Result, Setting, bail, usage};
+use crate::input::canvas::canvas_of;
+
+/// The projection of an image for which no `--from` was given, which may have a picture for each eye. What is only guessed
+/// is announced.
+pub(crate) fn detect(
+    path: &Path,
+    header: &Header,
+    warnings: &mut Vec<Diagnostic>,
+) -> Result<(Shape, Option<StereoSpec>)> {
+    let (guess, damage) = Guess::of(path, header);
+    if let Some(damage) = damage {
+        bail!("{damage}");
+    }
+    let mono = |shape: Shape| Ok((shape, None));
+    let mut announce = |what: &str, spec: &str, why: &str| {
+        let remedy = Remedy::Set(Setting::From, spec.to_owned());
+        let what = format!("{what} ({FROM} {spec})");
+        let message = format!("{} is taken for {what}, because {why}", path.display());
+        warnings.push(Diagnostic::warning(Code::Detected, message).about(path.display()).with_remedy(remedy));
+    };
+    match guess {
+        Guess::Said(EnvMap::LatLong) => mono(panorama(SamplePositions::Edges, None)),
+        Guess::Said(EnvMap::Cube | EnvMap::GlCube) => {
+            mono(Shape::Cube(declared_cube(&Cube::default(), &path.to_string_lossy(), header, warnings)?))
+        }
+        Guess::Panorama(window) => mono(panorama(SamplePositions::Centres, Some(window))),
+        Guess::TwoToOne(halves) => {
+            let else_what = halves.map(|halves| {
+                format!("; its halves are alike: if they are for two eyes, give {FROM} {}", two_eyes(halves))
+            });
+            let why = format!("it is twice as wide as high{}", else_what.unwrap_or_default());
+            announce("a panorama", "equirect", &why);
+            mono(panorama(SamplePositions::Centres, None))
+        }
+        Guess::Stereo(spec) => {
+            announce("a panorama for each eye", spec, "of its shape and because its halves are alike");
+            parsed(spec)
+        }
+        Guess::Strip(kind) => {
+            announce("the faces of a cube", &format!("cube:layout={kind}"), "of its shape");
+            mono(one_image(kind))
+        }
+        Guess::Blank(evidence) => {
+            let (spec, what, why) = guessed(path, evidence)?;
+            announce(what, &spec, &why);
+            parsed(&spec)
+        }
+        Guess::Unknown(kinds, seen) => bail!("{}", ambiguous(path, header, &kinds, &seen)),
+    }
+}
+
+/// What is guessed from what is blank: the SPEC, what it is called, and why.
+fn guessed(path: &Path, evidence: Evidence) -> Result<(String, &'static str, String)> {
+    Ok(match evidence {
+        Evidence::Cross(kind) => {
+            let why = "of its shape and because one colour surrounds a cross".to_owned();
+            (format!("cube:layout={kind}"), "the faces of a cube", why)
+        }
+        Evidence::CrossElsewhere(kind, mirror) => {
+            let Readings { mirrored, upright, on_its_head } = Readings::new(kind, mirror);
+            bail!(
+                "{}: one colour surrounds a cross whose long arm is at the other end; give {FROM} {mirrored} if the picture is \
+                 mirrored, so that writing in it reads backwards, {FROM} {on_its_head} if it stands on its head, or {FROM} \
+                 {upright} if it does neither",
+                path.display()
+            )
+        }
+        Evidence::Circle => {
+            let why =
+                format!("it is square and black around a circle; so may {ROUND_ONES} be, which {FROM} has to say");
+            ("fulldome".to_owned(), "a domemaster", why)
+        }
+        Evidence::Omnimax => {
+            let why = "it is black around a circle that is cut off below".to_owned();
+            ("omnimax".to_owned(), "an Omnimax frame", why)
+        }
+        Evidence::Circles(circles) if circles.are_alike => {
+            let why = format!(
+                "it has two circles on black that are alike; two cameras back to back would be {FROM} {}",
+                circles.dual_spec()
+            );
+            (dome_spec(&circles).to_owned(), "a domemaster for each eye", why)
+        }
+        Evidence::Circles(circles) => {
+            let why =
+                "it has two circles on black; that each sees 195 degrees is a guess, which fov= can mend".to_owned();
+            (circles.dual_spec(), "two fisheyes", why)
+        }
+        Evidence::Disc(found) => bail!(
+            "{}: a circle on black, as a fisheye lens leaves it, whose field of view is not known; give {FROM} {}, or, for a \
+             mirror ball, {FROM} {}",
+            path.display(),
+            circle_spec("fisheye:fov=DEGREES,", &found),
+            circle_spec("mirror-ball:", &found)
+        ),
+        Evidence::Oval => bail!(
+            "{}: twice as wide as high, with one colour around an oval, as oval maps have it; give {FROM} {OVAL_ONES}, or \
+             {FROM} equirect if it is a panorama all the same",
+            path.display()
+        ),
+        Evidence::Twins(_) => bail!("{}: two pictures that are alike; give {FROM} SPEC with stereo=", path.display()),
+    })
+}
+
+/// A guess that is written as it would be typed.
+fn parsed(spec: &str) -> Result<(Shape, Option<StereoSpec>)> {
+    let Spec { shape, stereo, .. } = spec.parse()?;
+    Ok((shape, stereo))
+}
+
+/// What an image of unknown projection could be.
+fn ambiguous(path: &Path, header: &Header, layouts: &[LayoutKind], seen: &Seen) -> String {
+    let halves = match seen {
+        Seen::Evidence(Evidence::Twins(_)) => "; its halves are alike: for two eyes add stereo= to it",
+        _ => "",
+    };
+    format!(
+        "{}: {}x{} pixels do not tell the projection; give {FROM} {}, or a pattern with {{face}} for the faces of a \
+         cube{halves}",
+        path.display(),
+        header.width,
+        header.height,
+        candidates(header, layouts)
+    )
+}
+
+fn panorama(samples: SamplePositions, window: Option<Window>) -> Shape {
+    let frame = CameraModel::Equirect(EquirectCamera { samples, ..EquirectCamera::default() });
+    let placement = Placement { canvas: window.map(canvas_of), ..Placement::new(frame) };
+    Shape::Single(Single { placement, samples: SphereSamples::ByFormat, any_shape: false })
+}
+
+fn one_image(kind: LayoutKind) -> Shape {
+    Shape::Cube(Cube { layout: Some(Packing::OneImage(kind)), ..Cube::default() })
+}
+
+/// What `--from` says of a file, completed by what the file says of itself.
+pub(crate) fn declared(shape: &Shape, pattern: &str, header: &Header, warnings: &mut Vec<Diagnostic>) -> Result<Shape> {
+    match shape {
+        Shape::Single(single) if header.metadata.envmap == Some(EnvMap::LatLong) => {
+            Ok(Shape::Single(single.with_samples(SamplePositions::Edges)))
+        }
+        Shape::Single(single) => {
+            if let Some(EnvMap::Cube | EnvMap::GlCube) = header.metadata.envmap {
+                let message = format!(
+                    "{pattern} holds the six faces of a cube, as its format or its envmap attribute says, but {FROM} says \
+                     otherwise; it is read as {FROM} has it"
+                );
+                warnings.push(Diagnostic::warning(Code::Declared, message).about(pattern));
+            }
+            Ok(Shape::Single(windowed(*single, header)))
+        }
+        Shape::StMap(_) | Shape::Calibrated(_) => Ok(shape.clone()),
+        Shape::Cube(Cube { layout: Some(Packing::Files), .. }) => Err(usage(format!(
+            "{FROM} cube:layout=faces wants a file for each face, but {pattern} has no {{face}} or %c where a face's name \
+             stands"
+        ))),
+        Shape::Dual(_) => Ok(shape.clone()),
+        Shape::Cube(cube) => Ok(Shape::Cube(declared_cube(cube, pattern, header, warnings)?)),
+    }
+}
+
+/// A whole panorama of which the file says that it is only a part of it.
+fn windowed(mut single: Single, header: &Header) -> Single {
+    let whole = CameraModel::Equirect(EquirectCamera::default());
+    if let (Some(window), None) = (header.metadata.panorama, single.placement.canvas)
+        && single.placement.frame == whole
+    {
+        single.placement.canvas = Some(canvas_of(window));
+    }
+    single
+}
+
+/// The layout and the order that the file's format has, where none is given.
+fn declared_cube(cube: &Cube, pattern: &str, header: &Header, warnings: &mut Vec<Diagnostic>) -> Result<Cube> {
+    let strip = |order: Option<FaceOrder>| Cube {
+        layout: cube.layout.or(Some(Packing::OneImage(LayoutKind::StripV))),
+        order: cube.order.or(order),
+        ..cube.clone()
+    };
+    match header.metadata.envmap {
+        Some(EnvMap::Cube) => return Ok(strip(Some(FaceOrder::OPENEXR))),
+        Some(EnvMap::GlCube) => return Ok(strip(None)),
+        Some(EnvMap::LatLong) | None if cube.layout.is_some() => return Ok(cube.clone()),
+        Some(EnvMap::LatLong) | None => {}
+    }
+    let kinds: Vec<LayoutKind> = layouts_of_shape(header.width, header.height).collect();
+    match kinds[..] {
+        [kind] => {
+            let message = format!("{pattern} is read as {FROM} cube:layout={kind}, because of its shape");
+            let remedy = Remedy::Set(Setting::From, format!("cube:layout={kind}"));
+            warnings.push(Diagnostic::warning(Code::Detected, message).about(pattern).with_remedy(remedy));
+            Ok(Cube { layout: Some(Packing::OneImage(kind)), ..cube.clone() })
+        }
+        _ => {
+            let names = if kinds.is_empty() { LayoutKind::ALL.to_vec() } else { kinds };
+            let names: Vec<String> = names.iter().map(|kind| format!("cube:layout={kind}")).collect();
+            Err(usage(format!(
+                "{FROM} cube: {pattern} has no {{face}} or %c where a face's name stands, and its {}x{} pixels do not tell \
+                 how the faces lie in it; if it holds them all, give {FROM} {}",
+                header.width,
+                header.height,
+                names.join(" or ")
+            )))
+        }
+    }
+}
+
+/// What `info` says of an image.
+pub struct Likely {
+    /// Its projection.
+    pub projection: String,
+    /// The circle that a lens left on black.
+    pub circle: Option<Found>,
+    /// The cubes that it may hold the faces of.
+    pub cubes: Vec<Cube>,
+    /// Whether its shape alone says that it may hold any.
+    pub may_be_none: bool,
+    /// What is the matter where its pixels cannot be read.
+    pub damage: Option<String>,
+}
+
+/// Looks at an image.
+pub fn likely(path: &Path, header: &Header) -> Likely {
+    let (guess, damage) = Guess::of(path, header);
+    // Whoever asks what a file is wants to know whether it is whole.
+    let damage = damage.or_else(|| if guess.has_looked() { None } else { damage_of(path) });
+    let circle = match guess {
+        Guess::Blank(Evidence::Disc(found)) => Some(found),
+        _ => None,
+    };
+    let may_be_none = matches!(guess, Guess::Unknown(..));
+    Likely { projection: guess.describe(header), circle, cubes: guess.cubes(), may_be_none, damage }
+}

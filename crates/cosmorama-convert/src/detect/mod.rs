@@ -1,0 +1,19 @@
+//! What a picture is of, where nobody says: by metadata, shape, pixels, and the borders of faces.
+
+pub(crate) mod cross_variants;
+mod decision;
+pub(crate) mod detection;
+mod face_continuity;
+mod mirrored_faces;
+mod oval;
+pub(crate) mod pixels;
+mod split;
+
+pub use detection::{Likely, likely};
+pub use face_continuity::{Continuity, FacePixels, GivenFaces};
+pub use pixels::{damage_of, light_of};
+
+pub(crate) use cross_variants::Readings;
+pub(crate) use decision::Guess;
+pub(crate) use pixels::{Evidence, Seen};
+pub(crate) use split::{Circles, Twins};

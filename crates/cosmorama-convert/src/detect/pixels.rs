@@ -1,0 +1,234 @@
+//! What the pixels of an image say about its projection.
+
+use std::path::Path;
+
+use cosmorama::camera::{CameraModel, Mirror, OmnimaxCamera, PixelRect};
+use cosmorama::circle;
+use cosmorama::circle::{Circle, Found};
+use cosmorama::layout::{Arrangement, CubeLayout, LayoutKind};
+use cosmorama::raster::{EncodedImage, Image, Rgba, Transfer, Uniform};
+use cosmorama_io::{Header, IoError, Limits, probe, read};
+
+use crate::budget::light_bytes;
+use crate::detect::oval::is_oval;
+use crate::detect::{Circles, Twins, cross_variants};
+use crate::diagnostic::Result;
+
+/// Beyond this an image is not decoded only to find out what it is.
+const MOST_BYTES: u64 = 1 << 30;
+/// Of what should be blank, so much must be.
+const BLANK: f64 = 0.98;
+/// A picture of which more is blank shows nothing that could tell.
+const EMPTY: f64 = 0.9;
+/// Pixels around what is drawn that a JPEG file's blocks may blur into.
+pub(crate) const BLOCK: usize = 8;
+/// A circle whose rim can be measured fills a square if it does so to this part of it, or to so many pixels.
+const EXACTLY: (f64, f64) = (0.005, 2.0);
+/// One whose rim cannot, or that is one of two, does so to this part.
+const ROUGHLY: f64 = 0.02;
+/// Codes up to this are black, in a picture of codes from 0 to 1.
+pub(crate) const BLACK: f32 = 0.06;
+
+/// The light of an image, as far as it matters to see what it is; `None` where it is too large or damaged.
+pub fn light_of(path: &Path) -> Option<Image<Rgba>> {
+    let image = decoded(path).ok()?;
+    let transfer = if image.depth().is_float() { Transfer::Linear } else { Transfer::Srgb };
+    Some(image.to_light(&transfer))
+}
+
+fn decoded(path: &Path) -> Result<EncodedImage, IoError> {
+    // Light takes more memory than the samples that it is made of.
+    let limit = if light_bytes(&probe(path)?) > MOST_BYTES { 0 } else { MOST_BYTES };
+    Ok(read(path, &Limits::memory(limit))?.image)
+}
+
+/// What is the matter with a file whose pixels cannot be read; `None` also where it is too large to try.
+pub fn damage_of(path: &Path) -> Option<String> {
+    match decoded(path) {
+        Ok(_) | Err(IoError::TooLarge { .. }) => None,
+        Err(error) => Some(error.to_string()),
+    }
+}
+
+/// What an image is, as far as its blank parts tell.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Evidence {
+    /// A circle that fills a square, black around it.
+    Circle,
+    /// A cross of faces, one colour around it.
+    Cross(LayoutKind),
+    /// A cross with its long arm at the other end, as if it was mirrored so.
+    CrossElsewhere(LayoutKind, Mirror),
+    /// A circle somewhere, black around it.
+    Disc(Found),
+    /// A circle in each half, black around them.
+    Circles(Circles),
+    /// The circle of an Omnimax frame, cut off below, black around it.
+    Omnimax,
+    /// An oval that fills a picture of 2:1, one colour around it.
+    Oval,
+    /// Halves that are alike, as for two eyes.
+    Twins(Arrangement),
+}
+
+/// What came of looking at the pixels.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Seen {
+    /// Something that tells.
+    Evidence(Evidence),
+    /// Nothing that tells: no circle on black, no cross on one colour, no halves alike.
+    Nothing,
+    /// They were not looked at, for this reason.
+    Unseen(String),
+    /// They cannot be read: this is what the file's reader says.
+    Damaged(String),
+}
+
+impl Seen {
+    /// Looks at the pixels: at what its shape gives reason to expect first.
+    pub(crate) fn of(path: &Path, header: &Header) -> Self {
+        if header.window.is_some() {
+            return Self::Unseen("it is a part of a larger picture".to_owned());
+        }
+        let codes = match decoded(path) {
+            Ok(image) => image.to_light(&Transfer::Linear),
+            Err(IoError::TooLarge { .. }) => return Self::Unseen("it is too large to look at its pixels".to_owned()),
+            Err(error) => return Self::Damaged(error.to_string()),
+        };
+        Evidence::of(&codes).map_or(Self::Nothing, Self::Evidence)
+    }
+}
+
+impl Evidence {
+    fn of(codes: &Image<Rgba>) -> Option<Self> {
+        let is_empty = codes.uniformity(|_, _| true).is_none_or(|all| all.share >= EMPTY);
+        if is_empty {
+            return circle::find(codes).filter(|found| !is_domemaster(found, codes)).map(Self::Disc);
+        }
+        let crosses = [LayoutKind::CrossH, LayoutKind::CrossV];
+        if let Some(kind) = crosses.into_iter().find(|kind| is_cross(*kind, Mirror::default(), codes)) {
+            return Some(Self::Cross(kind));
+        }
+        let elsewhere = crosses.into_iter().filter_map(|kind| Some((kind, cross_variants::axis(kind)?)));
+        if let Some((kind, mirror)) = elsewhere.into_iter().find(|(kind, mirror)| is_cross(*kind, *mirror, codes)) {
+            return Some(Self::CrossElsewhere(kind, mirror));
+        }
+        if let Some(circles) = Circles::find(codes) {
+            return Some(Self::Circles(circles));
+        }
+        if is_oval(codes) {
+            return Some(Self::Oval);
+        }
+        if is_omnimax(codes) {
+            return Some(Self::Omnimax);
+        }
+        match circle::find(codes) {
+            Some(found) if !is_domemaster(&found, codes) => Some(Self::Disc(found)),
+            _ if is_round(codes) => Some(Self::Circle),
+            _ => Twins::find(codes).map(Self::Twins),
+        }
+    }
+}
+
+pub(crate) fn is_blank(around: Option<Uniform>) -> bool {
+    around.is_some_and(|around| around.share >= BLANK)
+}
+
+/// Whether one colour surrounds a cross that is mirrored so.
+fn is_cross(kind: LayoutKind, mirror: Mirror, codes: &Image<Rgba>) -> bool {
+    let layout = CubeLayout::new(kind).mirrored(mirror);
+    let Ok(edge) = layout.edge(codes.width(), codes.height()) else { return false };
+    let faces = layout.faces(edge);
+    let within = |k: usize, start: usize, end: usize| k + BLOCK >= start && k < end + BLOCK;
+    let near = |rect: PixelRect, i, j| within(i, rect.left, rect.right) && within(j, rect.top, rect.bottom);
+    is_blank(codes.uniformity(|i, j| !faces.iter().any(|face| near(face.rect, i, j))))
+}
+
+/// Whether a square is black around the circle that fills it.
+pub(crate) fn is_round(codes: &Image<Rgba>) -> bool {
+    let side = codes.width() as i64;
+    if codes.width() != codes.height() {
+        return false;
+    }
+    // In half pixels from the centre.
+    let radius = side + 2 * BLOCK as i64;
+    let outside = |i: usize, j: usize| {
+        let (x, y) = (2 * i as i64 + 1 - side, 2 * j as i64 + 1 - side);
+        x * x + y * y > radius * radius
+    };
+    is_black_where(codes, outside)
+}
+
+/// Whether nearly all of a region is black, or has nothing in it.
+fn is_black_where(codes: &Image<Rgba>, region: impl FnMut(usize, usize) -> bool) -> bool {
+    let around = codes.uniformity(region);
+    is_blank(around) && around.is_some_and(|around| is_black(&around.colour))
+}
+
+fn is_black(pixel: &Rgba) -> bool {
+    pixel.alpha() == 0.0 || pixel.0[..3].iter().all(|code| *code <= BLACK)
+}
+
+/// Whether a circle is the one that fills a square, as far as it was measured.
+fn is_domemaster(found: &Found, codes: &Image<Rgba>) -> bool {
+    let (part, pixels) = EXACTLY;
+    match found {
+        Found::Measured(circle) => is_inscribed(circle, codes, pixels.max(part * codes.width() as f64)),
+        Found::Roughly(circle) => fills(circle, codes),
+    }
+}
+
+/// Whether a circle is about the one that fills a square.
+pub(crate) fn fills(circle: &Circle, codes: &Image<Rgba>) -> bool {
+    is_inscribed(circle, codes, ROUGHLY * codes.width() as f64)
+}
+
+fn is_inscribed(circle: &Circle, codes: &Image<Rgba>, reach: f64) -> bool {
+    let half = codes.width() as f64 / 2.0;
+    let (x, y) = circle.centre;
+    codes.width() == codes.height() && [x, y, circle.radius].iter().all(|length| (length - half).abs() < reach)
+}
+
+/// Whether a picture is black where an Omnimax frame of its size has no picture, and lit as far as that reaches to the left,
+/// the right, up and down: a smaller disc is not.
+fn is_omnimax(codes: &Image<Rgba>) -> bool {
+    let (width, height) = (codes.width(), codes.height());
+    let (right, bottom) = (width.saturating_sub(1), height.saturating_sub(1));
+    // Most pictures have lit corners: nothing else is worth a look.
+    let corners = [(0, 0), (right, 0), (0, bottom), (right, bottom)];
+    if width <= height || !corners.iter().all(|(i, j)| is_black(codes.get(*i, *j))) {
+        return false;
+    }
+    let Ok(view) = CameraModel::Omnimax(OmnimaxCamera::default()).view(width, height) else { return false };
+    let shown = Image::from_fn(width, height, |i, j| view.screen_pixel(i, j).is_some());
+    let hidden = shown.pixels().iter().filter(|shown| !**shown).count();
+    // Of a frame that shows nearly everything nothing can be told.
+    if 10 * hidden < width * height {
+        return false;
+    }
+    let lit = |i: usize, j: usize| !is_black(codes.get(i, j));
+    let (Some(expected), Some(found)) = (extent(&shown, |i, j| *shown.get(i, j)), extent(codes, lit)) else {
+        return false;
+    };
+    let reach = BLOCK + width / 50;
+    let is_far = |i: usize, j: usize| {
+        let near = |k: usize, size: usize, at: usize| (k + at).clamp(BLOCK, size + BLOCK - 1) - BLOCK;
+        [0, BLOCK, 2 * BLOCK]
+            .iter()
+            .all(|x| [0, BLOCK, 2 * BLOCK].iter().all(|y| !*shown.get(near(i, width, *x), near(j, height, *y))))
+    };
+    expected.iter().zip(found).all(|(expected, found)| expected.abs_diff(found) <= reach)
+        && is_black_where(codes, is_far)
+}
+
+/// The first and last column and row of what is chosen.
+fn extent<P>(image: &Image<P>, chosen: impl Fn(usize, usize) -> bool) -> Option<[usize; 4]> {
+    let mut extent: Option<[usize; 4]> = None;
+    for j in 0..image.height() {
+        for i in (0..image.width()).filter(|i| chosen(*i, j)) {
+            let [left, right, top, bottom] = extent.unwrap_or([i, i, j, j]);
+            extent = Some([left.min(i), right.max(i), top.min(j), bottom.max(j)]);
+        }
+    }
+    extent
+}

@@ -1,0 +1,103 @@
+//! Images of two pictures: two circles, or the same for two eyes.
+
+use cosmorama::camera::PixelRect;
+use cosmorama::circle;
+use cosmorama::circle::{Circle, Found};
+use cosmorama::compare::likeness;
+use cosmorama::layout::{Arrangement, LensSide};
+use cosmorama::raster::{Image, Rgba};
+
+use crate::detect::pixels::{fills, is_round};
+
+/// More alike than this are only pictures of one thing.
+const ALIKE: f64 = 0.85;
+
+/// A circle in each half of an image.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Circles {
+    /// How the halves lie.
+    pub(crate) arrangement: Arrangement,
+    /// The circles in pixels of the whole image, the first half's first, unless they fill their halves.
+    pub(crate) circles: Option<[Circle; 2]>,
+    /// Whether they show the same: two eyes, not two sides.
+    pub(crate) are_alike: bool,
+}
+
+/// Halves that show the same.
+pub(crate) struct Twins;
+
+impl Circles {
+    /// Looks for a circle in each of two squares.
+    pub(crate) fn find(codes: &Image<Rgba>) -> Option<Self> {
+        let (width, height) = (codes.width(), codes.height());
+        let arrangement = match (width == 2 * height, height == 2 * width) {
+            (true, _) => Arrangement::SideBySide,
+            (_, true) => Arrangement::TopBottom,
+            _ => return None,
+        };
+        let (rects, halves) = halves(codes, arrangement)?;
+        let found = [circle(&halves[0])?, circle(&halves[1])?];
+        let circles = match found {
+            [InSquare::Filling, InSquare::Filling] => None,
+            [InSquare::At(a), InSquare::At(b)] => Some([placed(a, rects[0]), placed(b, rects[1])]),
+            _ => return None,
+        };
+        let side = halves[0].width();
+        let inside = |i: usize, j: usize| {
+            let (x, y) = (2 * i as i64 + 1 - side as i64, 2 * j as i64 + 1 - side as i64);
+            10 * (x * x + y * y) < 6 * (side * side) as i64
+        };
+        let are_alike = likeness(&halves[0], &halves[1], inside).is_some_and(|likeness| likeness > ALIKE);
+        Some(Self { arrangement, circles, are_alike })
+    }
+
+    /// The SPEC of two cameras back to back, whose field of view is a guess.
+    pub(crate) fn dual_spec(&self) -> String {
+        let mut keys = match self.arrangement {
+            Arrangement::SideBySide => Vec::new(),
+            Arrangement::TopBottom => vec!["layout=top-bottom".to_owned()],
+        };
+        for (side, Circle { centre: (x, y), radius }) in LensSide::ALL.iter().zip(self.circles.into_iter().flatten()) {
+            let name = side.name();
+            keys.push(format!("{name}.center={x:.1}:{y:.1},{name}.radius={radius:.1}"));
+        }
+        if keys.is_empty() { "dual-fisheye".to_owned() } else { format!("dual-fisheye:{}", keys.join(",")) }
+    }
+}
+
+impl Twins {
+    /// The halves that show the same, where an image has such: those side by side in a wide one, else one above the other.
+    pub(crate) fn find(codes: &Image<Rgba>) -> Option<Arrangement> {
+        let both = [Arrangement::SideBySide, Arrangement::TopBottom];
+        both.into_iter().find(|arrangement| {
+            let same = |(_, [a, b]): ([PixelRect; 2], [Image<Rgba>; 2])| likeness(&a, &b, |_, _| true);
+            // Bands of a flag are alike, too, but nothing that has any shape.
+            halves(codes, *arrangement).and_then(same).is_some_and(|likeness| likeness > ALIKE)
+        })
+    }
+}
+
+/// How a circle lies in a square.
+enum InSquare {
+    Filling,
+    At(Circle),
+}
+
+fn circle(codes: &Image<Rgba>) -> Option<InSquare> {
+    match circle::find(codes) {
+        Some(Found::Measured(found)) if !fills(&found, codes) => Some(InSquare::At(found)),
+        _ => is_round(codes).then_some(InSquare::Filling),
+    }
+}
+
+fn placed(circle: Circle, rect: PixelRect) -> Circle {
+    let (x, y) = circle.centre;
+    Circle { centre: (x + rect.left as f64, y + rect.top as f64), ..circle }
+}
+
+fn halves(codes: &Image<Rgba>, arrangement: Arrangement) -> Option<([PixelRect; 2], [Image<Rgba>; 2])> {
+    let rects = arrangement.halves(codes.width(), codes.height()).ok()?;
+    let half =
+        |rect: PixelRect| Image::from_fn(rect.width(), rect.height(), |i, j| *codes.get(rect.left + i, rect.top + j));
+    Some((rects, rects.map(half)))
+}

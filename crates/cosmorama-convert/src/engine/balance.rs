@@ -1,0 +1,101 @@
+//! Light that is kept from one form of a world to another, to the last sun.
+
+use cosmorama::camera::View;
+use cosmorama::filter::{FilterKind, Kernel};
+use cosmorama::lighting::LightBalance;
+use cosmorama::raster::{Image, Rgba};
+use cosmorama::render::Plan;
+
+use crate::conversion::ConvertJob;
+use crate::coverage::Coverage;
+
+/// The balance of a job's pictures, where they are to keep light and can.
+#[cfg_attr(test, derive(Default))]
+pub(crate) struct Balance(Vec<Group>);
+
+/// The light of a frame, as it was made for the last group that asked: views of a group mostly come one after the other.
+#[derive(Default)]
+pub(crate) struct BalancedLight(Option<(usize, Vec<Rgba>)>);
+
+/// The views of one size that together show a world.
+struct Group {
+    /// Indices of the job's target views.
+    views: Vec<usize>,
+    balance: LightBalance,
+    bytes: u64,
+}
+
+/// Whether a job's filter is to keep light, and its weights are those that can be balanced: `--kernel light` without anti-ringing,
+/// which depends on the light.
+pub(crate) fn is_asked_for(job: &ConvertJob) -> bool {
+    job.filter.kind == FilterKind::Ewa && job.filter.kernel == Kernel::LIGHT && !job.filter.anti_ringing
+}
+
+/// The views of each size that together show what a world shows. Where pixels are filled since no view looks there, or alpha says how
+/// much of a texel there is, light is in no balance.
+pub(crate) fn groups(job: &ConvertJob) -> Vec<Vec<usize>> {
+    if !is_asked_for(job) || job.light.input_alpha || matches!(job.coverage, Coverage::Fill(_)) {
+        return Vec::new();
+    }
+    let key = |index: usize| {
+        let target = &job.target.views[index];
+        (target.world(job.worlds.len()), target.view.width(), target.view.height())
+    };
+    let mut groups: Vec<Vec<usize>> = Vec::new();
+    for index in 0..job.target.views.len() {
+        match groups.iter_mut().find(|group| key(group[0]) == key(index)) {
+            Some(group) => group.push(index),
+            None => groups.push(vec![index]),
+        }
+    }
+    groups.retain(|group| LightBalance::applies(job.world(&job.target.views[group[0]]), &views(job, group)));
+    groups
+}
+
+/// Bytes that the balance of these takes.
+pub(crate) fn bytes_of(job: &ConvertJob, groups: &[Vec<usize>]) -> u64 {
+    groups.iter().map(|group| LightBalance::bytes(job.world(&job.target.views[group[0]]), &views(job, group))).sum()
+}
+
+fn views<'a>(job: &'a ConvertJob, group: &[usize]) -> Vec<&'a View> {
+    group.iter().map(|index| &job.target.views[*index].view).collect()
+}
+
+impl Balance {
+    /// Of groups whose plans are kept.
+    pub(crate) fn of(job: &ConvertJob, groups: Vec<Vec<usize>>, plans: &[Option<Plan>]) -> Self {
+        let balanced = |indices: Vec<usize>| {
+            let plan = |index: &usize| Some((plans[*index].as_ref()?, &job.target.views[*index].view));
+            let targets: Vec<_> = indices.iter().map(plan).collect::<Option<_>>()?;
+            let balance = LightBalance::new(job.world(&job.target.views[indices[0]]), &targets);
+            let bytes = bytes_of(job, std::slice::from_ref(&indices));
+            Some(Group { views: indices, balance, bytes })
+        };
+        Self(groups.into_iter().filter_map(balanced).collect())
+    }
+
+    /// Bytes that it takes, with the light that it makes.
+    pub(crate) fn bytes(&self) -> u64 {
+        self.0.iter().map(|group| group.bytes).sum()
+    }
+
+    /// The light from which a target view is to be made, if not as it is. `last` is of the same frame.
+    pub(crate) fn light<'a>(&self, view: usize, texels: &[Rgba], last: &'a mut BalancedLight) -> Option<&'a [Rgba]> {
+        let index = self.0.iter().position(|group| group.views.contains(&view))?;
+        if last.0.as_ref().is_none_or(|(group, _)| *group != index) {
+            // Never both at once.
+            last.0 = None;
+            last.0 = Some((index, self.0[index].balance.balanced(texels)));
+        }
+        last.0.as_ref().map(|(_, light)| light.as_slice())
+    }
+
+    /// Completes a target view that was made so.
+    pub(crate) fn complete(&self, view: usize, image: &mut Image<Rgba>) {
+        self.group(view).iter().for_each(|(group, place)| group.balance.complete(*place, image));
+    }
+
+    fn group(&self, view: usize) -> Option<(&Group, usize)> {
+        self.0.iter().find_map(|group| Some((group, group.views.iter().position(|index| *index == view)?)))
+    }
+}

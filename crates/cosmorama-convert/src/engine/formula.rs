@@ -1,0 +1,60 @@
+//! Pictures of worlds by formula, and maps of directions.
+
+use std::path::Path;
+
+use cosmorama::raster::Image;
+use cosmorama_builtin::{BuiltinWorld, DirectionMap, DirectionPixel};
+use cosmorama_io::{WriteOptions, write_planes};
+
+use crate::colour::Light;
+use crate::conversion::{Checked, ConvertJob};
+use crate::diagnostic::Result;
+use crate::engine::{Levels, Stage, Writer, assemble};
+
+/// Makes a picture of a world.
+pub(crate) fn picture(
+    run: &Checked,
+    world: BuiltinWorld,
+    options: &WriteOptions,
+    file: usize,
+    path: &Path,
+) -> Result<()> {
+    let Checked { job, stages, .. } = run;
+    let levels = stages.alone(Stage::Filter, || levels(job, world, file))?;
+    stages.alone(Stage::Encode, || Writer::new(&job.light, options.clone()).save(levels, path))
+}
+
+/// Makes a map of directions.
+pub(crate) fn directions(run: &Checked, map: DirectionMap, file: usize, path: &Path) -> Result<()> {
+    let Checked { job, stages, .. } = run;
+    let pixels = stages.alone(Stage::Filter, || pixels(job, map, file))?;
+    stages.alone(Stage::Encode, || save_map(&job.light, map, &pixels, path))
+}
+
+/// The picture of a file and its smaller copies, in front of their background.
+fn levels(job: &ConvertJob, world: BuiltinWorld, file: usize) -> Result<Levels> {
+    let background = job.light.background;
+    let picture = |index: usize| {
+        let mut image = world.picture(&job.target.views[index].view);
+        image.pixels_mut().iter_mut().for_each(|pixel| *pixel = pixel.over(background));
+        Ok(image)
+    };
+    let levels = job.target.files[file].levels();
+    Ok(Levels::Light(levels.map(|sheet| assemble(sheet, background, picture)).collect::<Result<_>>()?))
+}
+
+/// The directions of a file's pixels.
+fn pixels(job: &ConvertJob, map: DirectionMap, file: usize) -> Result<Image<DirectionPixel>> {
+    assemble(&job.target.files[file].sheet, DirectionPixel::default(), |index| {
+        Ok(map.pixels(&job.target.views[index].view))
+    })
+}
+
+/// Writes a map of directions, a plane for each number of its pixels.
+fn save_map(light: &Light, map: DirectionMap, pixels: &Image<DirectionPixel>, path: &Path) -> Result<()> {
+    let plane = |number: usize| pixels.pixels().iter().map(|pixel| pixel[number]).collect();
+    let planes = map.channels().iter().enumerate().map(|(number, name)| (*name, plane(number))).collect();
+    let options = WriteOptions::with_metadata(light.metadata.clone());
+    write_planes(path, (pixels.width(), pixels.height()), planes, light.depth, &options)?;
+    Ok(())
+}

@@ -1,0 +1,256 @@
+use std::path::Path;
+use std::sync::OnceLock;
+
+use cosmorama::raster::{FixedCodec, FixedLight, Image, Rgba};
+use cosmorama::render::ScreenMask;
+use cosmorama::world::Source;
+use cosmorama_io::WriteOptions;
+
+use crate::budget::QueueDepth;
+use crate::conversion::ConvertJob;
+use crate::coverage::Coverage;
+use crate::detect::FacePixels;
+use crate::detect::pixels::light_of;
+use crate::diagnostic::{BACKGROUND, Code, Diagnostic, MISSING, Result, bail};
+use crate::engine::{BalancedLight, FrameLight, Geometry, Levels, Texels, Writer, warnings};
+use crate::input::InputView;
+use crate::output::FrameOutputs;
+use crate::target::Sheet;
+
+/// Makes the outputs of a job, frame by frame.
+pub(crate) struct Engine<'a> {
+    job: &'a ConvertJob,
+    geometry: Geometry,
+    /// What should be known of it.
+    told: Vec<Diagnostic>,
+    masks: Vec<OnceLock<ScreenMask>>,
+    writer: Writer,
+}
+
+impl<'a> Engine<'a> {
+    /// Prepares the geometry.
+    pub(crate) fn new(job: &'a ConvertJob, options: WriteOptions) -> Self {
+        let masks = job.target.views.iter().map(|_| OnceLock::new()).collect();
+        let (geometry, told) = Geometry::compile(job);
+        Self { job, geometry, told, masks, writer: Writer::new(&job.light, options) }
+    }
+
+    /// What should be known before there are frames.
+    pub(crate) fn told(&self) -> &[Diagnostic] {
+        &self.told
+    }
+
+    /// How many frames may be read ahead and written behind the one that is filtered.
+    pub(crate) fn queue_depth(&self, threads: usize) -> QueueDepth {
+        self.job.memory.queue_depth(&self.job.input, &self.job.target, self.geometry.bytes(), threads)
+    }
+
+    /// Room for the light of a frame.
+    pub(crate) fn frame_light(&self) -> FrameLight {
+        FrameLight::new(self.job, self.geometry.codec().is_some())
+    }
+
+    /// What writes the pictures.
+    pub(crate) fn writer(&self) -> &Writer {
+        &self.writer
+    }
+
+    /// Where faces are clearly not as they are said to be, as their borders in this frame show.
+    pub(crate) fn continuity(&self, light: &FrameLight) -> Option<Diagnostic> {
+        let given = self.job.input.faces.as_ref()?;
+        // Of a stereo pair, the left eye's.
+        let (views, sources) = (self.job.input.worlds.first()?.iter(), self.job.worlds.first()?.sources());
+        let present = views.enumerate().filter(|(_, view)| view.present().is_some()).map(|(index, _)| index);
+        let texels = |source: &Source| {
+            let (width, first) = (source.view.width(), source.offset);
+            move |i: usize, j: usize| light.texels().rgba(0, first + j * width + i)
+        };
+        let lights: Vec<_> = sources.iter().map(texels).collect();
+        let size = |source: &Source| (source.view.width(), source.view.height());
+        let pictures = sources.iter().zip(&lights).map(|(source, light)| FacePixels { size: size(source), light });
+        let whole = || {
+            let first = self.job.input.views().next().filter(|_| self.job.input.worlds.len() == 1)?;
+            light_of(&first.files.path(self.job.outputs.frames.first()?.frame))
+        };
+        let told = given.warning(&present.zip(pictures).collect::<Vec<_>>(), whole)?;
+        Some(Diagnostic::warning(Code::Arrangement, told))
+    }
+
+    /// What should be known about the light of a frame.
+    pub(crate) fn warnings(&self, frame: Option<u64>, light: &FrameLight) -> Vec<Diagnostic> {
+        let tell = |(view, count): (&InputView, usize)| {
+            let path = view.files.path(frame);
+            let message = format!("{}: {count} pixels are NaN and count as missing", path.display());
+            Diagnostic::warning(Code::NotANumber, message).about(path.display())
+        };
+        // Of a sequence, the first frame tells whether there are suns, and alpha that is none.
+        let is_first = self.job.outputs.frames.first().is_some_and(|first| first.frame == frame);
+        let suns = if is_first { warnings::suns(self.job, light) } else { None };
+        let thin = if is_first { warnings::thin_alpha(self.job, frame, light) } else { Vec::new() };
+        let flat = |path: &Path| {
+            let message = format!(
+                "{}: transparent pixels, but the first frame has no alpha: they are laid over the background; to keep them \
+                 transparent, give {BACKGROUND} transparent and a format with alpha",
+                path.display()
+            );
+            Diagnostic::warning(Code::AlphaFlattened, message).about(path.display())
+        };
+        self.incomplete(light).map(tell).chain(light.flattened().map(flat)).chain(thin).chain(suns).collect()
+    }
+
+    /// Views with missing texels, and how many.
+    fn incomplete<'b>(&'b self, light: &'b FrameLight) -> impl Iterator<Item = (&'b InputView, usize)> {
+        let views = self.job.input.present().zip(light.missing());
+        views.filter(|(_, count)| **count > 0).map(|((view, _, _), count)| (view, *count))
+    }
+
+    /// Makes the pictures of a frame: filtered light, complete with what lies outside, faces in their places. Those of another
+    /// frame that nobody uses any more, if there are some, are made use of one after the other: of another size, they are dropped.
+    pub(crate) fn render(&self, frame: &FrameOutputs, light: &FrameLight, used: Vec<Levels>) -> Result<Vec<Levels>> {
+        let mut balanced = BalancedLight::default();
+        let mut used = used.into_iter();
+        let files = frame.files.iter();
+        files.map(|(index, _)| self.render_file(*index, (frame.frame, light), used.next(), &mut balanced)).collect()
+    }
+
+    fn render_file(
+        &self,
+        file: usize,
+        (frame, light): (Option<u64>, &FrameLight),
+        used: Option<Levels>,
+        balanced: &mut BalancedLight,
+    ) -> Result<Levels> {
+        let sheets = self.job.target.files[file].levels();
+        match (light.texels(), self.geometry.codec()) {
+            (Texels::Fixed(worlds), Some(codec)) => {
+                let mut used = used.and_then(Levels::into_codes).into_iter().flatten();
+                let mut picture = |sheet| {
+                    let mut used = used.next();
+                    assemble(sheet, codec.background(), |index| Ok(self.codes(index, worlds, codec, used.take())))
+                };
+                Ok(Levels::Codes(sheets.map(&mut picture).collect::<Result<_>>()?))
+            }
+            _ => {
+                let mut used = used.and_then(Levels::into_light).into_iter().flatten();
+                let mut picture = |sheet| {
+                    let mut used = used.next();
+                    let mut view = |index| self.render_view(index, (frame, light), used.take(), balanced);
+                    assemble(sheet, self.job.light.background, &mut view)
+                };
+                Ok(Levels::Light(sheets.map(&mut picture).collect::<Result<_>>()?))
+            }
+        }
+    }
+
+    fn codes(
+        &self,
+        index: usize,
+        worlds: &[FixedLight],
+        codec: &FixedCodec,
+        used: Option<Image<[u8; 3]>>,
+    ) -> Image<[u8; 3]> {
+        let target = &self.job.target.views[index];
+        let light = &worlds[target.world(worlds.len())];
+        self.geometry.codes(index, self.job.resampler(target), (light, codec), used)
+    }
+
+    fn render_view(
+        &self,
+        index: usize,
+        (frame, light): (Option<u64>, &FrameLight),
+        used: Option<Image<Rgba>>,
+        balanced: &mut BalancedLight,
+    ) -> Result<Image<Rgba>> {
+        let target = &self.job.target.views[index];
+        let Texels::Float(worlds) = light.texels() else { bail!("light of 8 bits where floats were expected") };
+        let (resampler, texels) = (self.job.resampler(target), &worlds[target.world(worlds.len())]);
+        if self.is_complete(light) && !self.job.light.channels.has_alpha() {
+            // A file without alpha shows everything in front of the background.
+            let background = self.job.light.background;
+            return Ok(self.geometry.light(index, resampler, (texels, false), background, used, balanced));
+        }
+        let holed = (&texels[..], self.has_holes(light));
+        let mut image = self.geometry.light(index, resampler, holed, Rgba::TRANSPARENT, used, balanced);
+        self.close_holes(index, (frame, light), &mut image)?;
+        self.complete(index, &mut image);
+        Ok(image)
+    }
+
+    /// Whether nothing is to be done where texels are missing or no view looks.
+    fn is_complete(&self, light: &FrameLight) -> bool {
+        !matches!(self.job.coverage, Coverage::Fill(_)) && !self.has_holes(light)
+    }
+
+    /// Whether texels of opaque inputs are missing.
+    fn has_holes(&self, light: &FrameLight) -> bool {
+        !self.job.light.input_alpha && self.incomplete(light).next().is_some()
+    }
+
+    fn complete(&self, index: usize, image: &mut Image<Rgba>) {
+        if let Coverage::Fill(colour) = self.job.coverage {
+            self.mask(index).fill_unseen(image, colour);
+        }
+        self.lay_background(index, image);
+    }
+
+    fn mask(&self, index: usize) -> &ScreenMask {
+        let target = &self.job.target.views[index];
+        self.masks[index].get_or_init(|| ScreenMask::new(self.job.world(target), &target.view))
+    }
+
+    /// Missing texels of opaque inputs leave the pixel to the others; a pixel that has none left is like one that no
+    /// view covers.
+    fn close_holes(
+        &self,
+        index: usize,
+        (frame, light): (Option<u64>, &FrameLight),
+        image: &mut Image<Rgba>,
+    ) -> Result<()> {
+        if !self.has_holes(light) {
+            return Ok(());
+        }
+        let fill = self.job.fill_for_missing();
+        let empty = self.mask(index).close_holes(image, fill.unwrap_or(Rgba::TRANSPARENT));
+        if empty > 0 && fill.is_none() {
+            let culprit =
+                |(view, count): (&InputView, usize)| format!("{} ({count})", view.files.path(frame).display());
+            let culprits: Vec<_> = self.incomplete(light).map(culprit).collect();
+            bail!(
+                "{empty} pixels of {} see nothing but missing pixels (NaN), found in {}; render those again, or fill the \
+                 gaps with {MISSING} COLOR or {MISSING} transparent",
+                self.job.target.views[index].name,
+                culprits.join(", ")
+            );
+        }
+        Ok(())
+    }
+
+    fn lay_background(&self, index: usize, image: &mut Image<Rgba>) {
+        let background = self.job.light.background;
+        if !self.job.light.channels.has_alpha() {
+            image.lay_over(background);
+        } else if background != Rgba::TRANSPARENT {
+            self.mask(index).surround(image, background);
+        }
+    }
+}
+
+/// A picture: an image, or several in their places on a background.
+pub(crate) fn assemble<P: Copy>(
+    sheet: &Sheet,
+    background: P,
+    mut image: impl FnMut(usize) -> Result<Image<P>>,
+) -> Result<Image<P>> {
+    let mut picture = None;
+    for &(index, (left, top)) in &sheet.pieces {
+        let piece = image(index)?;
+        if (piece.width(), piece.height()) == sheet.size {
+            return Ok(piece);
+        }
+        let picture = picture.get_or_insert_with(|| Image::filled(sheet.size.0, sheet.size.1, background));
+        for j in 0..piece.height() {
+            picture.pixels_mut()[(top + j) * sheet.size.0 + left..][..piece.width()].copy_from_slice(piece.row(j));
+        }
+    }
+    Ok(picture.unwrap_or_else(|| Image::filled(sheet.size.0, sheet.size.1, background)))
+}

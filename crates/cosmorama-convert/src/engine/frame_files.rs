@@ -1,0 +1,90 @@
+use std::path::PathBuf;
+
+use cosmorama::raster::{EncodedImage, Transfer};
+use cosmorama_io::{Limits, read};
+
+use crate::conversion::ConvertJob;
+use crate::diagnostic::{FRAMES, Result, bail};
+use crate::input::Files;
+
+/// A view of a frame as its file holds it.
+pub(crate) struct ViewImage {
+    /// Which, among the views that are present.
+    pub(crate) view: usize,
+    /// Its file.
+    pub(crate) path: PathBuf,
+    /// Its pixels.
+    pub(crate) image: EncodedImage,
+    /// How their code values relate to light.
+    pub(crate) transfer: Transfer,
+}
+
+/// Which views of a frame.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Which {
+    /// All of them.
+    All,
+    /// Those that have a file for each frame.
+    Moving,
+    /// Those whose file serves all frames.
+    Still,
+}
+
+/// A file of a frame, and the views whose pixels it holds.
+pub(crate) struct FrameFile {
+    path: PathBuf,
+    views: Vec<usize>,
+}
+
+impl FrameFile {
+    /// The files of a frame.
+    pub(crate) fn all(job: &ConvertJob, frame: Option<u64>, which: Which) -> Vec<Self> {
+        let mut files: Vec<Self> = Vec::new();
+        for (view, (input, ..)) in job.input.present().enumerate() {
+            let is_moving = matches!(input.files, Files::Sequence(_));
+            if which != Which::All && is_moving != (which == Which::Moving) {
+                continue;
+            }
+            let path = input.files.path(frame);
+            match files.iter_mut().find(|file| file.path == path) {
+                Some(file) => file.views.push(view),
+                None => files.push(Self { path, views: vec![view] }),
+            }
+        }
+        files
+    }
+
+    /// Reads it. One thread does all of it, where it is one of several in a pool.
+    pub(crate) fn read(&self, job: &ConvertJob) -> Result<Vec<ViewImage>> {
+        let Self { path, views } = self;
+        let present: Vec<_> = job.input.present().collect();
+        let Some((first, header, _)) = views.first().map(|view| present[*view]) else { return Ok(Vec::new()) };
+        let expected = first.part.map_or((header.width, header.height), |part| part.of);
+        let file = read(path, &Limits::memory(job.memory.bytes))?;
+        let found = (file.image.width(), file.image.height());
+        if found != expected || file.window != header.window {
+            bail!(
+                "{}: {}x{} pixels, but {}, of the first frame, has {}x{}{}; render it again as that one is, or convert \
+                 frames like it in a run of their own, with {FRAMES}",
+                path.display(),
+                found.0,
+                found.1,
+                first.files.path(job.input.frames[0]).display(),
+                expected.0,
+                expected.1,
+                if found == expected { " at another place of its canvas" } else { "" }
+            );
+        }
+        let transfer = job.light.input_transfer(file.image.depth(), &file.metadata);
+        let view_image = |view: usize, image| ViewImage { view, path: path.clone(), image, transfer: transfer.clone() };
+        if let (&[view], None) = (&views[..], first.part) {
+            return Ok(vec![view_image(view, file.image)]);
+        }
+        let part = |&view: &usize| {
+            let (input, header, _) = present[view];
+            let image = input.part.map(|part| file.image.cropped(part.corner, (header.width, header.height)));
+            view_image(view, image.unwrap_or_else(|| file.image.clone()))
+        };
+        Ok(views.iter().map(part).collect())
+    }
+}

@@ -1,0 +1,236 @@
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use cosmorama::raster::{Decoder, FixedDecoder, FixedLight, Rgba, Transfer};
+use cosmorama::world::{RimTexels, Source, World};
+use rayon::prelude::*;
+
+use crate::conversion::ConvertJob;
+use crate::diagnostic::{Result, bail};
+use crate::engine::{FrameFile, Stage, Stages, ViewImage, Which};
+
+/// The light of a frame. Its memory, and what does not change from frame to frame, serves the next one.
+pub(crate) struct FrameLight {
+    texels: Texels,
+    /// Texels that are missing (NaN), by view.
+    missing: Vec<usize>,
+    /// The texels that each view's own rim cuts.
+    rims: Vec<RimTexels>,
+    /// Files with transparent pixels, where the outputs are opaque since the first frame is.
+    flattened: BTreeSet<PathBuf>,
+    /// Whether frames are to be held in 15 bits, if they can be.
+    is_fixed: bool,
+    /// Whether it holds the views that do not change from frame to frame.
+    has_still: bool,
+    decoder: Decoder,
+    fixed_decoders: Vec<(Transfer, Option<FixedDecoder>)>,
+}
+
+/// Light of the texels of each world.
+pub(crate) enum Texels {
+    /// Of any range.
+    Float(Vec<Vec<Rgba>>),
+    /// Of opaque pictures of 8 bits.
+    Fixed(Vec<FixedLight>),
+}
+
+/// Texels that a thread makes at once, about.
+const PIECE: usize = 1 << 16;
+
+impl FrameLight {
+    /// Room for that of a job.
+    pub(crate) fn new(job: &ConvertJob, is_fixed: bool) -> Self {
+        let texels = if is_fixed { Texels::fixed(job) } else { Texels::floats(job) };
+        let rims: Vec<RimTexels> =
+            job.worlds.iter().flat_map(World::sources).map(|source| RimTexels::of(&source.view)).collect();
+        let missing = vec![0; rims.len()];
+        let decoder = Decoder::default();
+        let flattened = BTreeSet::new();
+        Self { texels, missing, rims, flattened, is_fixed, has_still: false, decoder, fixed_decoders: Vec::new() }
+    }
+
+    /// All the texels.
+    pub(crate) fn texels(&self) -> &Texels {
+        &self.texels
+    }
+
+    /// Texels that are missing (NaN), by view.
+    pub(crate) fn missing(&self) -> &[usize] {
+        &self.missing
+    }
+
+    /// Files with transparent pixels that nobody has announced: the first frame has none, and the outputs have no alpha.
+    pub(crate) fn flattened(&self) -> impl Iterator<Item = &Path> {
+        self.flattened.iter().map(PathBuf::as_path)
+    }
+
+    /// Takes in a frame: all its views, or those that are not the same in all frames.
+    pub(crate) fn fill(
+        &mut self,
+        job: &ConvertJob,
+        frame: Option<u64>,
+        images: &[ViewImage],
+        stages: &Stages,
+    ) -> Result<()> {
+        // A frame unlike the first, with alpha or in another encoding, is held in floats. What a frame becomes must not
+        // depend on the one before.
+        let is_fixed = self.is_fixed && images.iter().all(|image| self.takes(image));
+        if is_fixed != matches!(self.texels, Texels::Fixed(_)) {
+            // Never both at once.
+            self.texels = Texels::Float(Vec::new());
+            self.texels = if is_fixed { Texels::fixed(job) } else { Texels::floats(job) };
+            self.has_still = false;
+        }
+        if !self.has_still && images.len() < self.missing.len() {
+            for file in FrameFile::all(job, frame, Which::Still) {
+                let still = stages.beside(Stage::Decode, || file.read(job))?;
+                if let (true, Some(image)) = (is_fixed, still.iter().find(|image| !self.takes(image))) {
+                    let path = image.path.display();
+                    bail!("{path}: no longer opaque and of 8 bits; leave files alone while they are read");
+                }
+                self.decode(job, &still, stages)?;
+            }
+        }
+        self.has_still = true;
+        let is_announced = job.light.input_alpha || job.light.channels.has_alpha();
+        let flattened = images.iter().filter(|image| !is_announced && !image.image.is_opaque());
+        self.flattened = flattened.map(|image| image.path.clone()).collect();
+        self.decode(job, images, stages)
+    }
+
+    /// Whether an image can be held in 15 bits.
+    fn takes(&mut self, image: &ViewImage) -> bool {
+        let known = self.fixed_decoders.iter().position(|(transfer, _)| *transfer == image.transfer);
+        let index = known.unwrap_or_else(|| {
+            self.fixed_decoders.push((image.transfer.clone(), FixedDecoder::new(&image.transfer)));
+            self.fixed_decoders.len() - 1
+        });
+        self.fixed_decoders[index].1.as_ref().is_some_and(|decoder| decoder.takes(&image.image))
+    }
+
+    fn decode(&mut self, job: &ConvertJob, images: &[ViewImage], stages: &Stages) -> Result<()> {
+        let Self { texels, rims, decoder, fixed_decoders, .. } = self;
+        let missing = match texels {
+            Texels::Fixed(worlds) => {
+                let decoder = |image: &ViewImage| {
+                    fixed_decoders.iter().find(|(transfer, _)| *transfer == image.transfer)?.1.as_ref()
+                };
+                let rows = |image: &ViewImage, first: usize, into: &mut [[i16; 4]]| {
+                    decoder(image).map(|decoder| decoder.decode_rows(&image.image, first, into));
+                    // An integer is always a number.
+                    0
+                };
+                decode(images, worlds.iter_mut().flat_map(FixedLight::views_mut), stages, rows)
+            }
+            Texels::Float(worlds) => {
+                let rows = |image: &ViewImage, first: usize, into: &mut [Rgba]| {
+                    decoder.decode_rows(&image.image, &image.transfer, first, into)
+                };
+                decode(images, views(job, worlds), stages, rows)
+            }
+        };
+        texels.restore_rims(job, images, rims);
+        for (image, missing) in images.iter().zip(missing) {
+            let count = image.image.width() * image.image.height();
+            if missing == count && job.fill_for_missing().is_none() {
+                let name = job.input.present().nth(image.view).map_or("", |(view, ..)| &view.name);
+                let path = image.path.display();
+                bail!("{path}: the {name} view holds no light; render it again: every pixel is NaN");
+            }
+            self.missing[image.view] = missing;
+        }
+        Ok(())
+    }
+}
+
+impl Texels {
+    fn floats(job: &ConvertJob) -> Self {
+        // Not written to: each thread touches first what it decodes.
+        Self::Float(job.worlds.iter().map(|world| bytemuck::zeroed_vec(world.texel_count())).collect())
+    }
+
+    fn fixed(job: &ConvertJob) -> Self {
+        Self::Fixed(job.worlds.iter().map(|world| FixedLight::black(world.view_sizes())).collect())
+    }
+
+    /// Mends what the rims of these images have of what lies around.
+    fn restore_rims(&mut self, job: &ConvertJob, images: &[ViewImage], rims: &[RimTexels]) {
+        match self {
+            Self::Float(worlds) => {
+                let views = views(job, worlds);
+                each_read(images, rims, views, |image, rim, view| {
+                    let is_float = image.image.depth().is_float();
+                    rim.restore(view, |texel| texel, |light| if is_float { light } else { within_white(light) });
+                });
+            }
+            Self::Fixed(worlds) => {
+                let views = worlds.iter_mut().flat_map(FixedLight::views_mut);
+                each_read(images, rims, views, |_, rim, view| {
+                    rim.restore(view, FixedLight::light, FixedLight::texel);
+                });
+            }
+        }
+    }
+
+    /// The light of a world's texel.
+    pub(crate) fn rgba(&self, world: usize, texel: usize) -> Rgba {
+        match self {
+            Self::Float(worlds) => worlds[world][texel],
+            Self::Fixed(worlds) => worlds[world].rgba(texel),
+        }
+    }
+}
+
+/// Makes light of images, piece by piece in parallel; how many pixels of each are missing. Of each view there are its rows, all as
+/// long; `rows` makes the light of some.
+fn decode<'a, T: Send + 'a>(
+    images: &[ViewImage],
+    views: impl Iterator<Item = &'a mut [T]>,
+    stages: &Stages,
+    rows: impl Fn(&ViewImage, usize, &mut [T]) -> usize + Sync,
+) -> Vec<usize> {
+    let mut views: Vec<_> = views.map(Some).collect();
+    let missing: Vec<AtomicUsize> = images.iter().map(|_| AtomicUsize::new(0)).collect();
+    let mut pieces = Vec::new();
+    for (image, missing) in images.iter().zip(&missing) {
+        let some = PIECE.div_ceil(image.image.width().max(1));
+        let view = views[image.view].take().expect("one image for each view");
+        let pitch = (view.len() / image.image.height().max(1)).max(1);
+        let texels = view.chunks_mut(some * pitch).enumerate();
+        pieces.extend(texels.map(|(piece, into)| (image, missing, piece * some, into)));
+    }
+    pieces.into_par_iter().for_each(|(image, missing, first, into)| {
+        let found = stages.beside(Stage::Decode, || rows(image, first, into));
+        missing.fetch_add(found, Ordering::Relaxed);
+    });
+    missing.into_iter().map(AtomicUsize::into_inner).collect()
+}
+
+/// The light of a texel, no brighter than one of a file of integers can be: with 15 bits and with floats it is the same.
+fn within_white(light: Rgba) -> Rgba {
+    Rgba(light.0.map(|sample| sample.min(light.alpha())))
+}
+
+/// Gives each image that was read, its view's rim and the texels of that to `visit`.
+fn each_read<'a, T: 'a>(
+    images: &[ViewImage],
+    rims: &[RimTexels],
+    views: impl Iterator<Item = &'a mut [T]>,
+    visit: impl Fn(&ViewImage, &RimTexels, &mut [T]),
+) {
+    for (view, (texels, rim)) in views.zip(rims).enumerate() {
+        if let Some(image) = images.iter().find(|image| image.view == view) {
+            visit(image, rim, texels);
+        }
+    }
+}
+
+/// The texels of each view of all worlds, given those of the worlds.
+fn views<'a>(job: &'a ConvertJob, worlds: &'a mut [Vec<Rgba>]) -> impl Iterator<Item = &'a mut [Rgba]> {
+    job.worlds.iter().zip(worlds).flat_map(|(world, texels)| {
+        let mut rest = texels.as_mut_slice();
+        let view = move |source: &Source| rest.split_off_mut(..source.texels().len()).expect("light of all the world");
+        world.sources().iter().map(view)
+    })
+}

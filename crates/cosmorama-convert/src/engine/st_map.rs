@@ -1,0 +1,65 @@
+//! Maps by which other programs do a conversion: where in the input's file the pixels of an output look.
+
+use std::path::Path;
+
+use cosmorama::camera::Canvas;
+use cosmorama::raster::{Depth, Image};
+use cosmorama::world::{ST_NOWHERE, StPixel};
+use cosmorama_io::{Header, WriteOptions, write_planes};
+
+use crate::conversion::{Checked, ConvertJob};
+use crate::diagnostic::{Result, ST_MAP, TO, bail};
+use crate::engine::{Stage, assemble};
+use crate::input::{Input, InputView};
+use crate::target::{Place, TargetView};
+
+/// The names of an st map's numbers, in their order.
+const CHANNELS: [&str; 3] = ["R", "G", "B"];
+
+/// Makes a file.
+pub(crate) fn make(run: &Checked, file: usize, path: &Path) -> Result<()> {
+    let Checked { job, stages, .. } = run;
+    let map = |view: usize| st_pixels(job, &job.target.views[view]);
+    let image = stages.alone(Stage::Filter, || assemble(&job.target.files[file].sheet, ST_NOWHERE, map))?;
+    stages.alone(Stage::Encode, || save(&image, path, job.light.depth))
+}
+
+/// Where in the input's file the pixels of an output look.
+fn st_pixels(job: &ConvertJob, target: &TargetView) -> Result<Image<StPixel>> {
+    check_one_file(&job.input)?;
+    let index = target.world(job.worlds.len());
+    let present = job.input.worlds[index].iter().filter_map(InputView::present);
+    let canvases: Vec<Canvas> = present.map(|(view, header, _)| canvas_in_file(view, header)).collect();
+    Ok(job.worlds[index].st_pixels(&target.view, &canvases))
+}
+
+fn check_one_file(input: &Input) -> Result<()> {
+    let mut files: Vec<_> = input.paths(input.frames[0]);
+    files.sort_unstable();
+    files.dedup();
+    match files.len() {
+        1 => Ok(()),
+        count => bail!(
+            "{ST_MAP} tells places in one image, but the input has {count}; put them into one first, as with {TO} \
+             cube:layout=3x2"
+        ),
+    }
+}
+
+/// The part of its file that a view is, and of the canvas that the file may be a window of.
+fn canvas_in_file(view: &InputView, header: &Header) -> Canvas {
+    let Place { corner: (left, top), of: (width, height) } =
+        view.part.unwrap_or(Place::whole((header.width, header.height)));
+    let ((x, y), (width, height)) = match header.window {
+        Some(window) => ((window.x, window.y), (window.canvas_width, window.canvas_height)),
+        None => ((0, 0), (width, height)),
+    };
+    Canvas { width, height, left: (left + x) as i64, top: (top + y) as i64 }
+}
+
+fn save(image: &Image<StPixel>, path: &Path, depth: Depth) -> Result<()> {
+    let plane = |number: usize| image.pixels().iter().map(|pixel| pixel[number]).collect();
+    let planes = CHANNELS.iter().enumerate().map(|(number, name)| (*name, plane(number))).collect();
+    write_planes(path, (image.width(), image.height()), planes, depth, &WriteOptions::default())?;
+    Ok(())
+}

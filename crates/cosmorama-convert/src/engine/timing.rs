@@ -1,0 +1,126 @@
+use std::sync::{Mutex, PoisonError};
+use std::time::Duration;
+
+use cpu_time::{ProcessTime, ThreadTime};
+
+/// The stages of a conversion.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Stage {
+    /// Reading files and turning code values into light.
+    Decode,
+    /// Arguments, headers, what is needed of the input, and the geometry that several frames share.
+    Plan,
+    /// Making pixels; for a single frame, its geometry too.
+    Filter,
+    /// Turning light into code values and writing files.
+    Encode,
+}
+
+/// What the stages have cost: time that the process has spent on processors, all threads added.
+#[derive(Debug, Default)]
+pub(crate) struct Stages {
+    costs: Mutex<Costs>,
+}
+
+#[derive(Clone, Copy, Debug, Default)]
+struct Costs {
+    decode: Duration,
+    plan: Duration,
+    filter: Duration,
+    encode: Duration,
+}
+
+/// CPU seconds by stage, all threads added.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CpuSeconds {
+    /// Reading files and turning code values into light.
+    pub decode: f64,
+    /// Settings, headers, and the geometry that several frames share.
+    pub plan: f64,
+    /// Making pixels.
+    pub filter: f64,
+    /// Turning light into code values and writing files.
+    pub encode: f64,
+}
+
+impl Stages {
+    /// Does a part of a stage that nothing else runs beside: whatever the process spends is the stage's.
+    pub(crate) fn alone<T>(&self, stage: Stage, work: impl FnOnce() -> T) -> T {
+        let cpu = ProcessTime::now();
+        let result = work();
+        self.add(stage, cpu.elapsed());
+        result
+    }
+
+    /// Does a part of a stage that one thread does by itself, whatever others do meanwhile.
+    pub(crate) fn beside<T>(&self, stage: Stage, work: impl FnOnce() -> T) -> T {
+        let cpu = ThreadTime::now();
+        let result = work();
+        self.add(stage, cpu.elapsed());
+        result
+    }
+
+    /// Does several stages at once. What [`beside`](Self::beside) times is its stage's, all the rest is that of `stage`.
+    pub(crate) fn among<T>(&self, stage: Stage, work: impl FnOnce() -> T) -> T {
+        let (cpu, before) = (ProcessTime::now(), self.costs().sum());
+        let result = work();
+        let others = self.costs().sum().saturating_sub(before);
+        self.add(stage, cpu.elapsed().saturating_sub(others));
+        result
+    }
+
+    fn costs(&self) -> Costs {
+        *self.costs.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    fn add(&self, stage: Stage, cpu: Duration) {
+        let mut costs = self.costs.lock().unwrap_or_else(PoisonError::into_inner);
+        *match stage {
+            Stage::Decode => &mut costs.decode,
+            Stage::Plan => &mut costs.plan,
+            Stage::Filter => &mut costs.filter,
+            Stage::Encode => &mut costs.encode,
+        } += cpu;
+    }
+
+    /// CPU seconds.
+    pub(crate) fn cpu_seconds(&self) -> CpuSeconds {
+        let Costs { decode, plan, filter, encode } = self.costs();
+        let [decode, plan, filter, encode] = [decode, plan, filter, encode].map(|cost| cost.as_secs_f64());
+        CpuSeconds { decode, plan, filter, encode }
+    }
+}
+
+impl Costs {
+    fn sum(&self) -> Duration {
+        self.decode + self.plan + self.filter + self.encode
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::hint::black_box;
+
+    use super::*;
+
+    fn work(rounds: u64) -> u64 {
+        (0..black_box(rounds)).fold(1, |sum, round| black_box(sum ^ round).rotate_left(1))
+    }
+
+    #[test]
+    fn what_others_do_meanwhile_is_not_counted_twice() {
+        let (stages, all) = (Stages::default(), ProcessTime::now());
+        stages.among(Stage::Filter, || {
+            std::thread::scope(|scope| {
+                let other = scope.spawn(|| stages.beside(Stage::Encode, || work(30_000_000)));
+                black_box(work(10_000_000));
+                other.join().unwrap_or_default()
+            })
+        });
+        let CpuSeconds { filter, encode, decode, plan } = stages.cpu_seconds();
+        // Other tests work meanwhile, too: the process's time is all that holds.
+        let all = all.elapsed().as_secs_f64();
+        assert!(encode > 0.0 && filter > 0.0 && encode + filter <= all, "{encode} {filter} {all}");
+        assert_eq!((decode, plan), (0.0, 0.0));
+    }
+}

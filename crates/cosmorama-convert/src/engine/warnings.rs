@@ -1,0 +1,76 @@
+//! What should be known of the light of a frame: suns that filters do not keep, alpha that is full nowhere.
+
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+
+use cosmorama::raster::Depth;
+use cosmorama::sphere::Direction;
+
+use crate::colour::ThinAlpha;
+use crate::conversion::ConvertJob;
+use crate::diagnostic::{Code, Diagnostic, FILTER, KERNEL, Remedy, Setting};
+use crate::engine::{FrameLight, balance};
+
+/// The part of a world's light in suns from which their change shows in what it lights.
+const MUCH: f64 = 0.1;
+
+/// Directions by which it is found whether outputs show the whole world.
+const DIRECTIONS: usize = 500;
+
+/// Where a whole world is made of light of which much comes from suns, few filters keep it.
+pub(crate) fn suns(job: &ConvertJob, light: &FrameLight) -> Option<Diagnostic> {
+    if balance::is_asked_for(job) || !is_of_any_range(job) || !shows_the_world(job) {
+        return None;
+    }
+    let parts = job.worlds.iter().enumerate();
+    let part = parts.map(|(index, world)| world.light_of_suns(|texel| light.texels().rgba(index, texel)));
+    let part = part.fold(0.0, f64::max);
+    (part > MUCH).then(|| {
+        let message = format!(
+            "{:.0} % of the light comes from suns or lamps, over a hundred times as bright as the mean; this filter \
+             may add light to them or take some away. Where the picture is to light a scene, {FILTER} ewa {KERNEL} light \
+             keeps what there is, and is a little softer",
+            100.0 * part
+        );
+        Diagnostic::warning(Code::Suns, message).with_remedy(Remedy::Set(Setting::Kernel, "light".to_owned()))
+    })
+}
+
+/// Whether some input holds more than white.
+fn is_of_any_range(job: &ConvertJob) -> bool {
+    job.input.present().any(|(_, header, _)| matches!(header.depth, Depth::Half | Depth::Float))
+}
+
+/// Whether the outputs show all directions, or all but a few.
+fn shows_the_world(job: &ConvertJob) -> bool {
+    let sees = |direction: &Direction| job.target.views.iter().any(|target| target.view.sees(*direction));
+    let seen = Direction::spread(DIRECTIONS).filter(sees).count();
+    100 * seen >= 99 * DIRECTIONS
+}
+
+/// What should be known of files of a frame in which no pixel has full alpha.
+pub(crate) fn thin_alpha(job: &ConvertJob, frame: Option<u64>, light: &FrameLight) -> Vec<Diagnostic> {
+    if !job.light.input_alpha {
+        return Vec::new();
+    }
+    // A file may hold several views, of which some may be thin.
+    let mut files: BTreeMap<PathBuf, Option<ThinAlpha>> = BTreeMap::new();
+    let worlds = job.worlds.iter().enumerate();
+    let sources = worlds.flat_map(|(index, world)| world.sources().iter().map(move |source| (index, source)));
+    for ((view, header, _), (world, source)) in job.input.present().zip(sources) {
+        let path = view.files.path(frame);
+        let known = files.get(&path).copied();
+        if !header.channels.has_alpha() || known == Some(None) {
+            continue;
+        }
+        let texels = source.offset..source.offset + source.texels().len();
+        let found = ThinAlpha::of(texels.map(|texel| light.texels().rgba(world, texel)));
+        let both = found.map(|found| known.flatten().map_or(found, |known| known.with(found)));
+        files.insert(path, both);
+    }
+    let told = |(path, alpha): (PathBuf, Option<ThinAlpha>)| {
+        let path = path.display();
+        Some(Diagnostic::warning(Code::AlphaThin, format!("{path}: {}", alpha?.told()?)).about(path))
+    };
+    files.into_iter().filter_map(told).collect()
+}

@@ -1,0 +1,77 @@
+use std::fmt::Display;
+use std::path::Path;
+
+use cosmorama::camera::{CameraModel, Canvas};
+use cosmorama_io::{Header, Window};
+
+use crate::diagnostic::{FROM, Result, usage};
+
+/// The canvas of an image that is all of it.
+pub(crate) fn whole(header: &Header) -> Canvas {
+    Canvas { width: header.width, height: header.height, left: 0, top: 0 }
+}
+
+/// A window as a placement has it.
+pub(crate) fn canvas_of(window: Window) -> Canvas {
+    Canvas { width: window.canvas_width, height: window.canvas_height, left: window.x as i64, top: window.y as i64 }
+}
+
+/// A window larger than its canvas was declared by mistake.
+pub(crate) fn fits_canvas(path: &Path, header: &Header, canvas: Canvas) -> Result<()> {
+    if header.width <= canvas.width && header.height <= canvas.height {
+        return Ok(());
+    }
+    Err(usage(format!(
+        "{}: {}x{} pixels are no window of a canvas of {}; give canvas=WxH+X+Y the size of the whole picture",
+        path.display(),
+        header.width,
+        header.height,
+        shape(&canvas)
+    )))
+}
+
+/// A picture that lies wholly beside its canvas was put there by mistake: one may reach beyond its edges, but not go round.
+/// `name` is that of what has so many columns and rows.
+pub(crate) fn lies_on_canvas(name: impl Display, (columns, rows): (usize, usize), canvas: Canvas) -> Result<()> {
+    let overlaps = |start: i64, length: usize, whole: usize| start < whole as i64 && start + length as i64 > 0;
+    if overlaps(canvas.left, columns, canvas.width) && overlaps(canvas.top, rows, canvas.height) {
+        return Ok(());
+    }
+    Err(usage(format!(
+        "{name}: {columns}x{rows} pixels at {}, {} lie beside their canvas of {}; give canvas=WxH+X+Y the place of their first \
+         pixel in the whole picture",
+        canvas.left,
+        canvas.top,
+        shape(&canvas)
+    )))
+}
+
+/// A map whose shape is known was meant otherwise if it has another: its pixels would be stretched.
+pub(crate) fn fits_shape(path: &Path, frame: CameraModel, canvas: Canvas) -> Result<()> {
+    let (what, whole) = match frame {
+        CameraModel::Equirect(_) => ("panorama of its field of view", "hfov=360,vfov=180 (or its own)"),
+        CameraModel::WorldMap(_) => ("map of the world", "canvas=WxH+0+0"),
+        CameraModel::Octahedral(_) => ("octahedral map", "canvas=WxH+0+0"),
+        _ => return Ok(()),
+    };
+    let expected = frame.natural_height(canvas.width);
+    if is_near(expected, canvas.height) {
+        return Ok(());
+    }
+    Err(usage(format!(
+        "{}: {} pixels are no {what}: {}x{expected} were expected; if it is stretched, say so with {whole}; if it is a part, \
+         give canvas=WxH+X+Y the whole, and if it is something else, another {FROM}",
+        path.display(),
+        shape(&canvas),
+        canvas.width
+    )))
+}
+
+/// Whether a height is the natural one: a row more or less is a matter of rounding.
+pub(crate) fn is_near(natural: usize, height: usize) -> bool {
+    natural.abs_diff(height) <= (natural / 100).max(1)
+}
+
+fn shape(canvas: &Canvas) -> String {
+    format!("{}x{}", canvas.width, canvas.height)
+}

@@ -1,0 +1,126 @@
+use std::path::Path;
+
+use cosmorama::camera::{Canvas, PixelRect, View};
+use cosmorama::layout::{Eye, LayoutError, Stereo};
+use cosmorama_io::{Header, Metadata};
+use cosmorama_spec::Size;
+
+use crate::diagnostic::{ConvertError, FROM, Result, failure, usage};
+use crate::input::InputView;
+use crate::input::pieces::packed::check_whole;
+use crate::target::{Picture, Place};
+
+/// The part that an eye has of a stereo image.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct EyePart {
+    pub(crate) stereo: Stereo,
+    pub(crate) eye: Eye,
+}
+
+impl EyePart {
+    /// The header of an eye's picture, as if that was a file of its own and not squeezed.
+    pub(crate) fn header(self, path: &Path, header: &Header) -> Result<Header> {
+        check_whole(path, header)?;
+        let (across, down) = self.stereo.squeeze();
+        let part = self
+            .stereo
+            .part(self.eye, header.width, header.height)
+            .map_err(|error| failure!("{}: {error} for two eyes; give {FROM} stereo= as it is", path.display()))?;
+        // What the file says of itself, it says of the two pictures together.
+        let metadata = Metadata { envmap: None, panorama: None, ..header.metadata.clone() };
+        Ok(Header { width: part.width() * across, height: part.height() * down, metadata, ..header.clone() })
+    }
+
+    /// The view of such a picture, in its place in the file.
+    pub(crate) fn place(self, view: InputView) -> Result<InputView> {
+        let squeeze = self.stereo.squeeze();
+        let (name, nominal) = (format!("{} ({} eye)", view.name, self.eye.name()), squeezed(view.nominal, squeeze)?);
+        let Some(header) = view.header else { return Ok(InputView { name, nominal, ..view }) };
+        let size = (header.width, header.height);
+        let Place { corner, of } = view.part.unwrap_or(Place { corner: (0, 0), of: size });
+        let (rect, of) = self.rect(corner, size, of)?;
+        let window = match view.window {
+            Some((held, canvas)) => Some((squeezed(held, squeeze)?, squeezed_canvas(canvas, squeeze)?)),
+            None => None,
+        };
+        Ok(InputView {
+            name,
+            part: Some(Place { corner: (rect.left, rect.top), of }),
+            header: Some(Header { width: rect.width(), height: rect.height(), ..header }),
+            nominal,
+            window,
+            ..view
+        })
+    }
+
+    /// The picture of this eye, in its place in an image for both.
+    pub(crate) fn picture(self, picture: &Picture) -> Result<Picture> {
+        let size = (picture.view.width(), picture.view.height());
+        let Place { corner, of } = picture.place.unwrap_or(Place::whole(size));
+        let (rect, of) = self.rect(corner, size, of)?;
+        Ok(Picture {
+            eye: Some(self.eye),
+            view: squeezed(picture.view, self.stereo.squeeze())?,
+            place: Some(Place { corner: (rect.left, rect.top), of }),
+            envmap: None,
+            panorama: None,
+            ..*picture
+        })
+    }
+
+    /// Where a part of this eye's picture lies in the image for both, and that image's size.
+    fn rect(
+        self,
+        corner: (usize, usize),
+        size: (usize, usize),
+        of: (usize, usize),
+    ) -> Result<(PixelRect, (usize, usize))> {
+        let image = self.stereo.image_size(of).map_err(halved)?;
+        let eye = self.stereo.part(self.eye, image.0, image.1).map_err(halved)?;
+        let squeeze = self.stereo.squeeze();
+        let (corner, (width, height)) = (divided(corner, squeeze)?, divided(size, squeeze)?);
+        let (left, top) = (eye.left + corner.0, eye.top + corner.1);
+        Ok((PixelRect { left, top, right: left + width, bottom: top + height }, image))
+    }
+}
+
+/// The size that one eye's picture has before it is squeezed, in an image of a given size. A width alone is that of one.
+pub(crate) fn eye_size(stereo: Stereo, given: Size) -> Result<Size> {
+    let Size { width, height: Some(height) } = given else { return Ok(given) };
+    let part = stereo.part(Eye::Left, width, height).map_err(halved)?;
+    let (across, down) = stereo.squeeze();
+    Ok(Size { width: part.width() * across, height: Some(part.height() * down) })
+}
+
+fn halved(error: LayoutError) -> ConvertError {
+    usage(format!("stereo=: {error}"))
+}
+
+fn squeezed(view: View, squeeze: (usize, usize)) -> Result<View> {
+    divided((view.width(), view.height()), squeeze)?;
+    Ok(View { grid: view.grid.squeezed(squeeze), ..view })
+}
+
+fn squeezed_canvas(canvas: Canvas, (across, down): (usize, usize)) -> Result<Canvas> {
+    let (width, height) = divided((canvas.width, canvas.height), (across, down))?;
+    let (left, top) = (canvas.left / across as i64, canvas.top / down as i64);
+    if (left * across as i64, top * down as i64) != (canvas.left, canvas.top) {
+        return Err(odd((canvas.width, canvas.height)));
+    }
+    Ok(Canvas { width, height, left, top })
+}
+
+/// Columns and rows of a picture that is squeezed.
+fn divided((x, y): (usize, usize), (across, down): (usize, usize)) -> Result<(usize, usize)> {
+    if x % across != 0 || y % down != 0 {
+        return Err(odd((x, y)));
+    }
+    Ok((x / across, y / down))
+}
+
+fn odd((x, y): (usize, usize)) -> ConvertError {
+    usage(format!(
+        "stereo=: {x}x{y} pixels of a picture cannot be squeezed to half; give sizes and places in even numbers, or a \
+         packing without -half"
+    ))
+}

@@ -1,0 +1,93 @@
+use cosmorama::camera::Canvas;
+use cosmorama::layout::{FacePart, FacePlacement};
+use cosmorama::sphere::{CubeFace, Orientation};
+use cosmorama_io::{FaceFile, Header};
+use cosmorama_spec::Cube;
+
+use crate::diagnostic::Result;
+use crate::input::canvas::{canvas_of, fits_canvas, lies_on_canvas, whole};
+use crate::input::faces::face_view::face_placement;
+use crate::input::find::header;
+use crate::input::{EyePart, FacePicture, Files, InputView};
+
+/// A face whose file has been looked at.
+pub(crate) struct Face {
+    face: CubeFace,
+    placement: FacePlacement,
+    files: Files,
+    header: Option<Header>,
+    canvas: Option<Canvas>,
+}
+
+impl Face {
+    /// Looks at the file, if there is one.
+    pub(crate) fn probe(
+        cube: &Cube,
+        file: &FaceFile,
+        files: Files,
+        eye: Option<EyePart>,
+        frame: Option<u64>,
+    ) -> Result<Self> {
+        let header = file.present.then(|| header(&files.path(frame), eye)).transpose()?;
+        let placement = cube.file_placement(file.face, file.placement);
+        let part = FacePart::of(file.face, placement, cube.half);
+        let canvas = header.as_ref().map(|header| {
+            let declared = cube.canvas_of(file.face).or(header.window.map(canvas_of));
+            let whole = || part.map_or_else(|| whole(header), |part| part.canvas(header.width, header.height));
+            declared.unwrap_or_else(whole)
+        });
+        if let (Some(header), Some(canvas)) = (&header, canvas) {
+            fits_canvas(&files.path(frame), header, canvas)?;
+            lies_on_canvas(files.path(frame).display(), (header.width, header.height), canvas)?;
+        }
+        Ok(Self { face: file.face, placement, files, header, canvas })
+    }
+
+    /// Which it is, and how its picture lies.
+    pub(crate) fn lies(&self) -> (CubeFace, FacePlacement) {
+        (self.face, self.placement)
+    }
+
+    /// Whether its file, if there is one, holds all of it.
+    pub(crate) fn is_whole(&self) -> bool {
+        let same = |header: &Header| self.canvas == Some(whole(header));
+        self.header.as_ref().is_none_or(same)
+    }
+
+    /// Its picture, if there is a file.
+    pub(crate) fn picture(&self, cube: &Cube, frame: Option<u64>) -> Option<FacePicture> {
+        let is_declared = cube.canvas_of(self.face).is_some();
+        let header = self.header.as_ref()?;
+        Some(FacePicture {
+            face: self.face,
+            path: self.files.path(frame),
+            canvas: self.canvas?,
+            size: (header.width, header.height),
+            lies: self.placement,
+            is_declared,
+        })
+    }
+
+    /// As a view; `size` is that of faces without a file.
+    pub(crate) fn into_view(self, cube: &Cube, (width, height): (usize, usize)) -> Result<InputView> {
+        let outer = Orientation::IDENTITY;
+        let canvas = self.canvas.unwrap_or(Canvas { width, height, left: 0, top: 0 });
+        let nominal = face_placement(cube, self.face, self.placement, None, outer).view(canvas.width, canvas.height)?;
+        let windowed = face_placement(cube, self.face, self.placement, Some(canvas), outer);
+        let window = match &self.header {
+            Some(header) => Some((windowed.view(header.width, header.height)?, canvas)),
+            None => None,
+        };
+        Ok(InputView {
+            name: self.face.name().to_owned(),
+            files: self.files,
+            part: None,
+            header: self.header,
+            nominal,
+            window,
+            blend: cube.blend(),
+            mask: None,
+            wanted: true,
+        })
+    }
+}

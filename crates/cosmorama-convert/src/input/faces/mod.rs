@@ -1,0 +1,5 @@
+//! The faces of a cube in files of their own.
+
+pub(crate) mod face_file;
+pub(crate) mod face_shape;
+pub(crate) mod face_view;

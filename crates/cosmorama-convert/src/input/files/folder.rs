@@ -1,0 +1,85 @@
+//! Folders and wildcards, where a file or a pattern was meant: what lies there is said how to name.
+
+use std::path::{Path, PathBuf};
+
+use cosmorama_io::{FaceSet, Format, FoundFrames};
+
+use crate::detect::GivenFaces;
+use crate::diagnostic::{Result, bail, usage};
+
+/// Patterns told of a folder, at most.
+const SHOWN: usize = 3;
+
+/// A folder or a wildcard was meant for what is in it; beside a file that is not there may be frames.
+pub fn is_one_file(pattern: &str, path: &Path) -> Result<()> {
+    if path.is_dir() {
+        return Err(usage(format!("{pattern} is a folder; {}", advice(path))));
+    }
+    if path.exists() {
+        return Ok(());
+    }
+    let found = path.parent().map_or_else(Vec::new, FoundFrames::in_folder);
+    let there = if found.is_empty() { String::new() } else { format!("; there are {}", names(&found)) };
+    if pattern.contains(['*', '?', '{', '[', '$']) {
+        return Err(usage(format!(
+            "{pattern} names no file; for the faces of a cube, write {{face}} or %c where a face's name stands, for frames \
+             ####{there}"
+        )));
+    }
+    // Where there is nothing to add, to open it says what is wrong.
+    if found.is_empty() { Ok(()) } else { bail!("{pattern}: there is no such file{there}") }
+}
+
+/// What to write for what lies in a folder.
+fn advice(folder: &Path) -> String {
+    let sequences = FoundFrames::in_folder(folder);
+    let mut files = files(folder);
+    // Faces of frames come before those of one of them.
+    let patterns = sequences.iter().filter_map(|found| found.pattern.as_str().rsplit('/').next());
+    let tried: Vec<String> = patterns.map(str::to_owned).chain(files.iter().cloned()).collect();
+    if let Some(faces) = faces_in(folder, &tried) {
+        return format!("for the faces of a cube in it, write {}", faces.display());
+    }
+    if !sequences.is_empty() {
+        return format!("for the frames in it, write {}", names(&sequences));
+    }
+    files.retain(|name| Format::from_extension(Path::new(name)).is_ok());
+    match &files[..] {
+        [] => format!(
+            "no image is in it; write which file, as in {} for the faces of a cube, {} for frames",
+            folder.join("{face}.png").display(),
+            folder.join("####.png").display()
+        ),
+        [first, ..] => format!("write which file in it, as in {}", folder.join(first).display()),
+    }
+}
+
+/// Sequences, as a choice.
+fn names(found: &[FoundFrames]) -> String {
+    let mut names: Vec<String> = found.iter().take(SHOWN).map(ToString::to_string).collect();
+    if found.len() > SHOWN {
+        names.push("…".to_owned());
+    }
+    names.join(" or ")
+}
+
+/// The names in a folder, in order.
+fn files(folder: &Path) -> Vec<String> {
+    let entries = folder.read_dir().into_iter().flatten();
+    let mut names: Vec<String> = entries.filter_map(|entry| entry.ok()?.file_name().into_string().ok()).collect();
+    names.sort_unstable();
+    names
+}
+
+/// The pattern of a set of faces in a folder, if there is one: the first by name, of the files called by faces alone or with
+/// `front` in their names.
+fn faces_in(folder: &Path, names: &[String]) -> Option<PathBuf> {
+    let by_extension = |name: &String| Some(format!("{{face}}.{}", name.rsplit_once('.')?.1));
+    let by_front = |name: &String| name.contains("front").then(|| name.replacen("front", "{face}", 1));
+    let mut tried = names.iter().flat_map(|name| by_extension(name).into_iter().chain(by_front(name)));
+    let found = tried.find(|name| {
+        let set = folder.join(name).to_str().and_then(|pattern| FaceSet::find(pattern, None).ok());
+        set.is_some_and(|set| set.present().count() >= GivenFaces::LEAST)
+    })?;
+    Some(folder.join(found))
+}

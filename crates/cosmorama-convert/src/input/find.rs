@@ -1,0 +1,351 @@
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use cosmorama::camera::{Canvas, View};
+use cosmorama::layout::FacePart;
+use cosmorama::world::{Blend, ViewMask, WorldView};
+use cosmorama_io::{EnvMap, FaceFile, FacePattern, FaceSet, FrameList, Header, probe};
+use cosmorama_spec::{Cube, Packing, Shape, Single, Spec};
+
+use crate::budget::MemoryBudget;
+use crate::detect::GivenFaces;
+use crate::detect::detection::{declared, detect};
+use crate::diagnostic::{Code, Diagnostic, FROM, Result, TO, bail, usage};
+use crate::input::canvas::{canvas_of, fits_canvas, fits_shape, lies_on_canvas, whole};
+use crate::input::faces::face_shape::size_of_missing;
+use crate::input::files::folder::is_one_file;
+use crate::input::files::frames;
+use crate::input::lists::{hugin, world_file};
+use crate::input::pieces::packed;
+use crate::input::spec_files::{calibration, st_map};
+use crate::input::{EyePart, Face, FacePicture, Files};
+use crate::target::Place;
+
+/// A view of the input: an image, a face of a cube, a lens of two.
+#[derive(Clone)]
+pub struct InputView {
+    /// What messages call it.
+    pub name: String,
+    /// Its files.
+    pub files: Files,
+    /// Where it lies in a file that other views share.
+    pub part: Option<Place>,
+    /// What its first file says of itself; `None` where there is no file.
+    pub header: Option<Header>,
+    /// The geometry of its whole picture.
+    pub nominal: View,
+    /// The part of that which the file holds; `None` where there is no file.
+    pub window: Option<(View, Canvas)>,
+    /// How it takes part where other views show the same.
+    pub blend: Blend,
+    /// Which of its pixels count, if not all.
+    pub mask: Option<Arc<ViewMask>>,
+    /// Whether anything of it is needed: what is not is not even read.
+    pub wanted: bool,
+}
+
+impl InputView {
+    /// It as a part of a world, with the geometry of its whole picture or of what its file holds of that.
+    pub(crate) fn world_view(&self, view: View) -> WorldView {
+        WorldView { name: self.name.clone(), view, blend: self.blend, mask: self.mask.clone() }
+    }
+
+    /// What its file says of itself and the geometry of what it holds, where there is a file and it is wanted.
+    pub(crate) fn present(&self) -> Option<(&Self, &Header, &View)> {
+        Some((self, self.header.as_ref()?, &self.window.as_ref()?.0)).filter(|_| self.wanted)
+    }
+}
+
+/// Everything that light comes from.
+pub struct Input {
+    /// The views, missing ones too: of one world, or of the left eye's and the right eye's.
+    pub worlds: Vec<Vec<InputView>>,
+    /// The frames to work on.
+    pub frames: Vec<Option<u64>>,
+    /// How the views are the faces of one cube, if they are whole ones.
+    pub faces: Option<GivenFaces>,
+    /// The files that it takes beside those of its views: what lists them, their masks, calibrations and maps.
+    pub beside: Vec<PathBuf>,
+}
+
+/// What is told where an output has two eyes and the input one.
+pub(crate) const SAME_FOR_BOTH: &str =
+    "both eyes get the same picture, since the input has only one: there is no depth in it";
+
+impl Input {
+    /// Nothing: light comes from a formula.
+    pub(crate) fn none() -> Self {
+        Self { worlds: Vec::new(), frames: vec![None], faces: None, beside: Vec::new() }
+    }
+
+    /// Finds and probes the files of an input.
+    pub(crate) fn find(
+        pattern: &str,
+        from: Option<&Spec>,
+        wanted: Option<&FrameList>,
+        memory: MemoryBudget,
+        warnings: &mut Vec<Diagnostic>,
+    ) -> Result<Self> {
+        let refuse_spec = |what: &str| match from {
+            Some(spec) => {
+                Err(usage(format!("{pattern} says itself what its {what} are; leave out {FROM} {}", spec.name)))
+            }
+            None => Ok(()),
+        };
+        if world_file::is_world_file(pattern) {
+            refuse_spec("views")?;
+            return world_file::find(pattern, wanted, memory, warnings);
+        }
+        if hugin::is_project(pattern) {
+            refuse_spec("pictures")?;
+            return hugin::find(pattern, memory, warnings);
+        }
+        Self::of_eyes(pattern, from, wanted, warnings)
+    }
+
+    /// The input for each eye, where a SPEC has two.
+    fn of_eyes(
+        pattern: &str,
+        from: Option<&Spec>,
+        wanted: Option<&FrameList>,
+        warnings: &mut Vec<Diagnostic>,
+    ) -> Result<Self> {
+        let Some(stereo) = from.and_then(|spec| spec.stereo) else {
+            return Self::find_one(pattern, from, None, wanted, warnings);
+        };
+        let mut found: Option<Self> = None;
+        for eye in stereo.eyes() {
+            // Whatever there is to say of the other eye has been said of the first.
+            let mut said = Vec::new();
+            let warnings = if found.is_some() { &mut said } else { &mut *warnings };
+            let mut one =
+                Self::find_one(pattern, from, Some(EyePart { stereo: stereo.packing, eye }), wanted, warnings)?;
+            match &mut found {
+                Some(found) => found.worlds.append(&mut one.worlds),
+                None => found = Some(one),
+            }
+        }
+        found.ok_or_else(|| usage("stereo=: no eye is left"))
+    }
+
+    /// The input of one eye, or that for both.
+    fn find_one(
+        pattern: &str,
+        from: Option<&Spec>,
+        eye: Option<EyePart>,
+        wanted: Option<&FrameList>,
+        warnings: &mut Vec<Diagnostic>,
+    ) -> Result<Self> {
+        let shape = from.map(|spec| (spec.name, &spec.shape));
+        let mut input = match (FacePattern::parse(pattern), shape) {
+            (Some(_), Some((_, Shape::Cube(cube)))) => Self::cube(pattern, cube, eye, wanted, warnings)?,
+            (Some(_), None) => Self::cube(pattern, &Cube::default(), eye, wanted, warnings)?,
+            (Some(_), Some((name, Shape::Single(_) | Shape::Calibrated(_) | Shape::Dual(_) | Shape::StMap(_)))) => {
+                let message =
+                    format!("{pattern} names the faces of a cube, but {FROM} is {name}; expected {FROM} cube");
+                return Err(usage(message));
+            }
+            (None, shape) => Self::one_file(pattern, shape.map(|(_, shape)| shape), eye, wanted, warnings)?,
+        };
+        if let Some(eye) = eye {
+            let place = |views: Vec<InputView>| views.into_iter().map(|view| eye.place(view)).collect();
+            input.worlds = input.worlds.into_iter().map(place).collect::<Result<_>>()?;
+        }
+        Ok(input)
+    }
+
+    /// As many worlds as the output has eyes; what that takes away or adds is told.
+    pub(crate) fn fit_eyes(&mut self, stereo: bool, warnings: &mut Vec<Diagnostic>) {
+        match (self.worlds.len(), stereo) {
+            (2, false) => {
+                self.worlds.truncate(1);
+                let message = format!(
+                    "the left eye's picture is used, since the output is for one eye; say so with eye=left, or eye=right \
+                     for the other, or {TO} with stereo="
+                );
+                warnings.push(Diagnostic::warning(Code::LeftEye, message));
+            }
+            (1, true) => warnings.push(Diagnostic::warning(Code::OneForBothEyes, SAME_FOR_BOTH)),
+            _ => {}
+        }
+    }
+
+    /// A panorama or another picture, or all faces of a cube.
+    fn one_file(
+        pattern: &str,
+        shape: Option<&Shape>,
+        eye: Option<EyePart>,
+        wanted: Option<&FrameList>,
+        warnings: &mut Vec<Diagnostic>,
+    ) -> Result<Self> {
+        let files = Files::new(Path::new(pattern));
+        let frames = frames::find(std::iter::once(&files), wanted)?;
+        let path = files.path(frames[0]);
+        is_one_file(pattern, &path)?;
+        let header = header(&path, eye)?;
+        let shape = match shape {
+            Some(shape) => declared(shape, pattern, &header, warnings)?,
+            None => match detect(&path, &header, warnings)? {
+                (shape, None) => shape,
+                (shape, stereo) => {
+                    let found = Spec { name: "what was found", shape, stereo, files: Vec::new() };
+                    return Self::of_eyes(pattern, Some(&found), wanted, warnings);
+                }
+            },
+        };
+        let envmap = header.metadata.envmap;
+        let (views, faces) = match shape {
+            Shape::Single(single) => (vec![Self::single(pattern, files, &path, header, single)?], None),
+            Shape::Cube(cube) => (packed::faces(&files, &path, &header, &cube)?, GivenFaces::of_image(&cube, envmap)),
+            Shape::Dual(dual) => (packed::lenses(&files, &path, &header, &dual)?, None),
+            Shape::StMap(map) => return Err(st_map::unread(&map)),
+            Shape::Calibrated(camera) => return Err(calibration::unread(&camera)),
+        };
+        Ok(Self { worlds: vec![views], frames, faces, beside: Vec::new() })
+    }
+
+    fn single(pattern: &str, files: Files, path: &Path, header: Header, single: Single) -> Result<InputView> {
+        let name = path.file_name().map_or_else(|| pattern.to_owned(), |name| name.to_string_lossy().into_owned());
+        let mut placement = single.placement;
+        let canvas = placement.canvas.or(header.window.map(canvas_of)).unwrap_or_else(|| whole(&header));
+        fits_canvas(path, &header, canvas)?;
+        lies_on_canvas(path.display(), (header.width, header.height), canvas)?;
+        if !single.any_shape && placement.canvas.is_none() && header.metadata.envmap != Some(EnvMap::LatLong) {
+            fits_shape(path, placement.frame, canvas)?;
+        }
+        placement.canvas = None;
+        let nominal = placement.view(canvas.width, canvas.height).map_err(|error| usage(format!("{FROM}: {error}")))?;
+        placement.canvas = Some(canvas);
+        let window = Some((placement.view(header.width, header.height)?, canvas));
+        Ok(InputView {
+            name,
+            files,
+            part: None,
+            header: Some(header),
+            nominal,
+            window,
+            blend: Blend::default(),
+            mask: None,
+            wanted: true,
+        })
+    }
+
+    fn cube(
+        pattern: &str,
+        cube: &Cube,
+        eye: Option<EyePart>,
+        wanted: Option<&FrameList>,
+        warnings: &mut Vec<Diagnostic>,
+    ) -> Result<Self> {
+        if let Some(Packing::OneImage(kind)) = cube.layout {
+            return Err(usage(format!(
+                "{pattern} names a file for each face, but {FROM} layout={kind} is for all faces in one image"
+            )));
+        }
+        if cube.order.is_some() {
+            return Err(usage(format!(
+                "{pattern} names a file for each face, but order= is for faces in one image, which have no names; which \
+                 face a file is, its name says, and naming= what names mean; if a file has the name of another face, rename it"
+            )));
+        }
+        let set = FaceSet::find(pattern, cube.naming)?;
+        let cube = &Cube { naming: Some(set.naming()), ..cube.clone() };
+        let shown = |face: &&FaceFile| {
+            let lies = cube.file_placement(face.face, face.placement);
+            cube.faces.contains(&face.face) && FacePart::of(face.face, lies, cube.half).is_some()
+        };
+        let chosen: Vec<&FaceFile> = set.faces().iter().filter(shown).collect();
+        if !chosen.iter().any(|face| face.present) {
+            bail!("{pattern}: none of the faces asked for is there; there are {}", names(set.present()));
+        }
+        let files: Vec<Files> = chosen.iter().map(|face| Files::new(&face.path)).collect();
+        let present = || files.iter().zip(&chosen).filter(|(_, face)| face.present).map(|(files, _)| files);
+        let frames = frames::find(present().collect::<Vec<_>>().into_iter(), wanted)?;
+        let mut faces = Vec::new();
+        for (face, files) in chosen.into_iter().zip(files) {
+            faces.push(Face::probe(cube, face, files, eye, frames[0])?);
+        }
+        let pictures: Vec<FacePicture> = faces.iter().filter_map(|face| face.picture(cube, frames[0])).collect();
+        let size = size_of_missing(&pictures, cube.half, warnings)?;
+        let lie: Vec<_> = faces.iter().map(Face::lies).collect();
+        let is_whole = faces.iter().all(Face::is_whole);
+        let given = GivenFaces::of_files(cube, set.naming(), &lie).filter(|_| is_whole);
+        let views: Result<_> = faces.into_iter().map(|face| face.into_view(cube, size)).collect();
+        Ok(Self { worlds: vec![views?], frames, faces: given, beside: Vec::new() })
+    }
+
+    /// What is told of files that ask for being turned, which is not done.
+    pub(crate) fn turned(&self) -> Vec<Diagnostic> {
+        let turned = self.present().filter_map(|(view, header, _)| Some((view, header.metadata.orientation?)));
+        let mut told: Vec<Diagnostic> = turned
+            .map(|(view, orientation)| {
+                let path = view.files.path(self.frames[0]);
+                let message = format!(
+                    "{} asks for being turned or mirrored (orientation {orientation}), but its pixels are taken as they are \
+                     stored; turn it first, as with magick -auto-orient",
+                    path.display()
+                );
+                Diagnostic::warning(Code::Orientation, message).about(path.display())
+            })
+            .collect();
+        // Faces may share a file.
+        told.dedup();
+        told
+    }
+
+    /// What files say of themselves that is not followed.
+    pub(crate) fn complaints(&self) -> Vec<Diagnostic> {
+        let told = |(view, header, _): (&InputView, &Header, _)| -> Vec<Diagnostic> {
+            let path = view.files.path(self.frames[0]);
+            let path = path.display();
+            let diagnostic =
+                |complaint| Diagnostic::warning(Code::Metadata, format!("{path}: {complaint}")).about(&path);
+            header.metadata.complaints.iter().map(diagnostic).collect()
+        };
+        let mut told: Vec<Diagnostic> = self.present().flat_map(told).collect();
+        // Faces may share a file.
+        told.dedup();
+        told
+    }
+
+    /// The views that have files and are wanted, with the geometry of what those hold.
+    pub(crate) fn present(&self) -> impl Iterator<Item = (&InputView, &Header, &View)> {
+        self.views().filter_map(InputView::present)
+    }
+
+    /// All views of all worlds.
+    pub(crate) fn views(&self) -> impl Iterator<Item = &InputView> {
+        self.worlds.iter().flatten()
+    }
+
+    /// Pixels a radian at the centre of the finest view.
+    pub(crate) fn pixels_per_radian(&self) -> f64 {
+        let views = self.views().filter(|view| view.wanted);
+        views.map(|view| view.nominal.pixels_per_radian()).fold(0.0, f64::max)
+    }
+
+    /// Texels of all files of a frame.
+    pub(crate) fn texels(&self) -> usize {
+        self.present().map(|(_, header, _)| header.width.saturating_mul(header.height)).fold(0, usize::saturating_add)
+    }
+
+    /// Every file that anything is read from.
+    pub(crate) fn files(&self) -> impl Iterator<Item = PathBuf> {
+        self.frames.iter().flat_map(|frame| self.paths(*frame)).chain(self.beside.iter().cloned())
+    }
+
+    /// The files of a frame.
+    pub(crate) fn paths(&self, frame: Option<u64>) -> Vec<PathBuf> {
+        self.present().map(|(input, _, _)| input.files.path(frame)).collect()
+    }
+}
+
+/// What a file says of itself, or the picture of an eye in it.
+pub(crate) fn header(path: &Path, eye: Option<EyePart>) -> Result<Header> {
+    let header = probe(path)?;
+    eye.map_or(Ok(header.clone()), |eye| eye.header(path, &header))
+}
+
+fn names<'a>(faces: impl Iterator<Item = &'a FaceFile>) -> String {
+    faces.map(|face| face.face.name()).collect::<Vec<_>>().join(", ")
+}

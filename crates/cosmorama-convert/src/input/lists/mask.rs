@@ -1,0 +1,75 @@
+//! Masks: pictures that say which pixels of a view count, and shapes that do.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use cosmorama::camera::Canvas;
+use cosmorama::raster::{EncodedImage, Rgba, Transfer};
+use cosmorama::world::{MaskShape, ViewMask};
+use cosmorama_io::{Limits, probe, read};
+
+use crate::budget::MemoryBudget;
+use crate::diagnostic::{Result, bail};
+use crate::input::InputView;
+
+/// Code values from here on (1 is white) count.
+const GREY: f32 = 0.5;
+
+/// The mask that a picture is: where it is black, darker than middle grey, or transparent, the view does not hold.
+pub(crate) fn of_file(path: &Path, view: &InputView, memory: MemoryBudget) -> Result<Arc<ViewMask>> {
+    let expected = size(view);
+    // Before its pixels take any memory.
+    let header = probe(path)?;
+    let found = (header.width, header.height);
+    if found != expected {
+        let (mask, picture) = (format!("{}x{}", found.0, found.1), format!("{}x{}", expected.0, expected.1));
+        bail!("{}: the mask has {mask} pixels, but its picture has {picture}; they must have the same", path.display());
+    }
+    memory.check_mask(found, size_of::<Rgba>() as u64)?;
+    let mask = of_image(&read(path, &Limits::memory(memory.bytes))?.image);
+    if mask.is_empty() {
+        bail!("{}: the mask is black all over: nothing of the picture would count", path.display());
+    }
+    Ok(Arc::new(mask))
+}
+
+/// The mask that some shapes leave, in pixels of the picture whose corner at (left, top) the view has.
+pub(crate) fn of_shapes(
+    shapes: &[MaskShape],
+    corner: (usize, usize),
+    size: (usize, usize),
+    memory: MemoryBudget,
+) -> Result<Arc<ViewMask>> {
+    memory.check_mask(size, size_of::<bool>() as u64)?;
+    let mask = ViewMask::of_shapes(shapes, corner, size);
+    if mask.is_empty() {
+        bail!("its masks and its crop leave nothing of it");
+    }
+    Ok(Arc::new(mask))
+}
+
+/// Gives a view its mask: what is hidden, and what its file does not hold of a larger picture, is as if nobody had ever
+/// photographed it.
+pub(crate) fn hide(view: &mut InputView, mask: Arc<ViewMask>) {
+    let (width, height) = size(view);
+    if let Some((held, canvas)) = &mut view.window {
+        view.nominal = *held;
+        *canvas = Canvas { width, height, left: 0, top: 0 };
+    }
+    view.mask = Some(mask);
+}
+
+fn size(view: &InputView) -> (usize, usize) {
+    let held = view.window.as_ref().map_or(&view.nominal, |(held, _)| held);
+    (held.width(), held.height())
+}
+
+fn of_image(image: &EncodedImage) -> ViewMask {
+    let (width, height) = (image.width(), image.height());
+    let mut texels = vec![Rgba::TRANSPARENT; width * height];
+    image.decode(&Transfer::Linear, &mut texels);
+    ViewMask::new(width, height, |i, j| {
+        let Rgba([red, green, blue, _]) = texels[j * width + i];
+        (red + green + blue) / 3.0 >= GREY
+    })
+}

@@ -1,0 +1,237 @@
+//! World files: many views, each an image or a pattern with its SPEC, in TOML.
+
+use std::ops::Range;
+use std::path::Path;
+
+use cosmorama::sphere::Angle;
+use cosmorama::world::Blend;
+use cosmorama_io::{FrameList, FramePattern};
+use cosmorama_spec::Spec;
+use serde::Deserialize;
+use toml::Spanned;
+
+use crate::budget::MemoryBudget;
+use crate::diagnostic::{ConvertError, Diagnostic, FRAMES, FROM, InPlace, Result, SIZE, TO, bail, failure};
+use crate::input::spec_files::calibration::read_calibrations;
+use crate::input::spec_files::st_map;
+use crate::input::{Builtin, Input, InputView, Listed};
+
+/// The file as it is written.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct WorldFile {
+    #[serde(default)]
+    view: Vec<Entry>,
+}
+
+/// One view, or one set of faces.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Entry {
+    /// A file, or a pattern of faces or frames, relative to the world file.
+    image: Spanned<String>,
+    /// Its projection and orientation; found as for any input where it is left out.
+    spec: Option<Spanned<String>>,
+    /// Views of higher priority cover those of lower priority.
+    #[serde(default)]
+    priority: i32,
+    /// A picture of the same size: where it is black, the view does not hold.
+    mask: Option<Spanned<String>>,
+    /// Degrees over which it fades out at its border.
+    feather: Option<Spanned<f64>>,
+}
+
+/// A world file's text and name, for messages that say where.
+struct Text<'a> {
+    name: &'a str,
+    text: &'a str,
+}
+
+/// What a world file holds.
+const SCHEMA: &str = "a [[view]] for each image, with image = \"FILE\", and where wanted spec = \"SPEC\", priority = WHOLE \
+                      NUMBER, feather = DEGREES, mask = \"FILE\"";
+
+/// What the TOML reader says, without the names that programs have for types.
+fn in_words(message: &str) -> String {
+    message.replace("expected i32", "expected a whole number").replace("expected f64", "expected a number")
+}
+
+/// What a world file has instead of the setting for an input's projection.
+const SPEC_KEY: &str = "spec =";
+
+/// Whether an input names a world file.
+pub(crate) fn is_world_file(pattern: &str) -> bool {
+    Path::new(pattern).extension().is_some_and(|extension| extension.eq_ignore_ascii_case("toml"))
+}
+
+/// Finds and probes the files of all views of a world file.
+pub(crate) fn find(
+    name: &str,
+    wanted: Option<&FrameList>,
+    memory: MemoryBudget,
+    warnings: &mut Vec<Diagnostic>,
+) -> Result<Input> {
+    let mut world = Input { worlds: vec![Vec::new()], frames: vec![None], faces: None, beside: vec![name.into()] };
+    for Listed { image, place, input, .. } in listed(name, wanted, memory, warnings)? {
+        world.frames = common_frames(&world.frames, &input.frames)
+            .at(|| format!("{image} has other frames than the views before it"))
+            .at(|| place)?;
+        world.beside.extend(input.beside);
+        join(&mut world.worlds, input.worlds);
+    }
+    Ok(world)
+}
+
+/// Each view of a world file by itself.
+pub(crate) fn listed(
+    name: &str,
+    wanted: Option<&FrameList>,
+    memory: MemoryBudget,
+    warnings: &mut Vec<Diagnostic>,
+) -> Result<Vec<Listed>> {
+    let bytes = std::fs::read(name).map_err(|error| failure!("cannot open the world file {name}: {error}"))?;
+    let Ok(text) = String::from_utf8(bytes) else {
+        bail!("{name}: not a text; expected a world file in TOML: {SCHEMA}")
+    };
+    let source = Text { name, text: &text };
+    let file: WorldFile = toml::from_str(&text)
+        .map_err(|error| source.error(error.span(), &format!("{}; expected {SCHEMA}", in_words(error.message()))))?;
+    if file.view.is_empty() {
+        bail!(
+            "{name}: no [[view]] in it; a world file has one for each image, with image = \"FILE\" and spec = \"SPEC\""
+        );
+    }
+    let list = |entry: &Entry| {
+        Ok(Listed {
+            image: entry.image.get_ref().clone(),
+            place: source.place(Some(entry.image.span())),
+            spec: entry.spec.as_ref().map(|spec| spec.get_ref().clone()),
+            input: entry.find(&source, wanted, memory, warnings)?,
+        })
+    };
+    file.view.iter().map(list).collect()
+}
+
+impl Entry {
+    fn find(
+        &self,
+        source: &Text,
+        wanted: Option<&FrameList>,
+        memory: MemoryBudget,
+        warnings: &mut Vec<Diagnostic>,
+    ) -> Result<Input> {
+        let feather = self.feather(source)?;
+        let spec = self.spec(source)?;
+        let named = spec.as_ref().map_or_else(Vec::new, |spec| spec.files.clone());
+        let spec = spec.map(|spec| st_map::read_map(spec, memory)).transpose();
+        let spec = spec.at(|| source.place(self.spec.as_ref().map(Spanned::span)))?;
+        let pattern = source.folder().join(self.image.get_ref()).to_string_lossy().into_owned();
+        if is_world_file(&pattern) {
+            let message = format!("{pattern} is a world file itself; list its views here");
+            return Err(source.error(Some(self.image.span()), &message));
+        }
+        if let Some(builtin) = Builtin::named(self.image.get_ref())? {
+            let message = format!(
+                "{} is a formula without pixels ({}); make a picture of it first, as in cosmorama convert {0} picture.exr \
+                 {TO} equirect {SIZE} 4096, and name that here",
+                self.image.get_ref(),
+                builtin.about()
+            );
+            return Err(source.error(Some(self.image.span()), &message));
+        }
+        // A still stays what it is in all frames.
+        let wanted = wanted.filter(|_| FramePattern::parse(&pattern).is_some());
+        let mut said = Vec::new();
+        let found = Input::find(&pattern, spec.as_ref(), wanted, memory, &mut said);
+        warnings.extend(said.into_iter().map(|warning| {
+            let message = warning.message.reworded(FROM, SPEC_KEY);
+            Diagnostic { message, ..warning }
+        }));
+        let mut input =
+            found.map_err(|error| error.reworded(FROM, SPEC_KEY)).at(|| source.place(Some(self.image.span())))?;
+        for view in input.worlds.iter_mut().flatten() {
+            // What a SPEC says of pictures that overlap holds where nothing else is said.
+            view.blend = Blend { priority: self.priority, feather: feather.unwrap_or(view.blend.feather) };
+        }
+        input.beside.extend(named);
+        self.mask(source, &mut input, memory)?;
+        Ok(input)
+    }
+
+    fn spec(&self, source: &Text) -> Result<Option<Spec>> {
+        let Some(spec) = &self.spec else { return Ok(None) };
+        let parsed = Spec::parse_in(source.folder(), spec.get_ref()).map_err(|error| error.to_string());
+        let told = |error| source.error(Some(spec.span()), &format!("spec = \"{}\": {error}", spec.get_ref()));
+        parsed.and_then(read_calibrations).map(Some).map_err(told)
+    }
+
+    /// Hides what the mask of a single picture hides.
+    fn mask(&self, source: &Text, input: &mut Input, memory: MemoryBudget) -> Result<()> {
+        let Some(mask) = &self.mask else { return Ok(()) };
+        let place = || source.place(Some(mask.span()));
+        let [views] = input.worlds.as_mut_slice() else {
+            let message =
+                format!("mask = \"{}\" is for one picture, but the view has one for each eye", mask.get_ref());
+            return Err(source.error(Some(mask.span()), &message));
+        };
+        let [view] = views.as_mut_slice() else {
+            let message = format!("mask = \"{}\" is for one picture, but the view has several", mask.get_ref());
+            return Err(source.error(Some(mask.span()), &message));
+        };
+        let path = source.folder().join(mask.get_ref());
+        let found = crate::input::lists::mask::of_file(&path, view, memory).at(place)?;
+        crate::input::lists::mask::hide(view, found);
+        input.beside.push(path);
+        Ok(())
+    }
+
+    fn feather(&self, source: &Text) -> Result<Option<Angle>> {
+        let Some(feather) = &self.feather else { return Ok(None) };
+        let degrees = *feather.get_ref();
+        if !(0.0..=180.0).contains(&degrees) {
+            let message = format!("feather = {degrees}: expected degrees from 0 to 180");
+            return Err(source.error(Some(feather.span()), &message));
+        }
+        Ok(Some(Angle::from_degrees(degrees)))
+    }
+}
+
+impl Text<'_> {
+    /// Where the files lie that it names.
+    fn folder(&self) -> &Path {
+        Path::new(self.name).parent().unwrap_or(Path::new(""))
+    }
+
+    fn error(&self, span: Option<Range<usize>>, message: &str) -> ConvertError {
+        failure!("{}: {message}", self.place(span))
+    }
+
+    /// The file and the line.
+    fn place(&self, span: Option<Range<usize>>) -> String {
+        let line = |span: Range<usize>| 1 + self.text.bytes().take(span.start).filter(|byte| *byte == b'\n').count();
+        span.map_or_else(|| self.name.to_owned(), |span| format!("{}, line {}", self.name, line(span)))
+    }
+}
+
+/// Adds views to the worlds. Where one side has a world for each eye, what the other side has is seen by both.
+fn join(worlds: &mut Vec<Vec<InputView>>, mut more: Vec<Vec<InputView>>) {
+    let count = worlds.len().max(more.len());
+    for side in [&mut *worlds, &mut more] {
+        let first = side.first().cloned().unwrap_or_default();
+        side.resize(count, first);
+    }
+    worlds.iter_mut().zip(more).for_each(|(world, views)| world.extend(views));
+}
+
+/// The frames of sequences that go together; a still goes with any.
+fn common_frames(a: &[Option<u64>], b: &[Option<u64>]) -> Result<Vec<Option<u64>>> {
+    match (a, b) {
+        ([None], other) | (other, [None]) => Ok(other.to_vec()),
+        _ if a == b => Ok(a.to_vec()),
+        _ => bail!(
+            "{} frames and {}; all sequences of a world must have the same, or name them with {FRAMES}",
+            a.len(),
+            b.len()
+        ),
+    }
+}

@@ -1,0 +1,87 @@
+use std::path::Path;
+
+use cosmorama::camera::{FisheyeFit, LensCircle, LensScale};
+use cosmorama::layout::{Arrangement, DualFisheye, DualLens};
+use cosmorama::sphere::Orientation;
+use cosmorama_io::Header;
+use cosmorama_spec::{Cube, Dual};
+
+use crate::diagnostic::{FROM, Result, bail, failure, usage};
+use crate::input::{Files, InputView, Piece};
+use crate::target::Place;
+
+/// The faces of a cube in one image, whose layout is known.
+pub(crate) fn faces(files: &Files, path: &Path, header: &Header, cube: &Cube) -> Result<Vec<InputView>> {
+    let Some(layout) = cube.one_image() else { bail!("{}: no layout is known", path.display()) };
+    check_whole(path, header)?;
+    let edge = layout.edge(header.width, header.height).map_err(|error| {
+        failure!("{}: {error}; give {FROM} cube:layout= the picture's own, or another projection", path.display())
+    })?;
+    let pieces = Piece::faces(cube, &layout, edge);
+    if pieces.is_empty() {
+        bail!("{}: none of the faces asked for is in its half of the cube", path.display());
+    }
+    views(files, header, &pieces)
+}
+
+/// Two fisheyes in one image.
+pub(crate) fn lenses(files: &Files, path: &Path, header: &Header, dual: &Dual) -> Result<Vec<InputView>> {
+    check_whole(path, header)?;
+    check_halves(path, header, dual)?;
+    let pieces = Piece::lenses(dual, (header.width, header.height))
+        .map_err(|error| failure!("{}: {error}; give {FROM} dual-fisheye:layout= the picture's own", path.display()))?;
+    views(files, header, &pieces)
+}
+
+/// Circles of which nothing is said fill squares: halves that are none are those of another layout.
+fn check_halves(path: &Path, header: &Header, dual: &Dual) -> Result<()> {
+    let Header { width, height, .. } = *header;
+    let DualFisheye { arrangement, front, back, .. } = dual.picture;
+    let is_fitted = |lens: &DualLens| {
+        lens.frame.circle == LensCircle::FITTED && lens.frame.scale == LensScale::Circle(FisheyeFit::Short)
+    };
+    // The size of the squares beside or above each other, by the longer side and by the shorter one.
+    let (long, short, other) = match arrangement {
+        Arrangement::SideBySide => (width, height, "top-bottom"),
+        Arrangement::TopBottom => (height, width, "side-by-side"),
+    };
+    if long > short || !is_fitted(&front) || !is_fitted(&back) {
+        return Ok(());
+    }
+    let way = if arrangement == Arrangement::SideBySide { "side by side" } else { "one above the other" };
+    Err(usage(format!(
+        "{}: {width}x{height} pixels hold no two circles {way}; give {FROM} dual-fisheye:layout={other}, or say where the \
+         circles are with front.center=, front.radius=, back.center= and back.radius=",
+        path.display()
+    )))
+}
+
+/// Several pictures are not looked for in a part of an image.
+pub(crate) fn check_whole(path: &Path, header: &Header) -> Result<()> {
+    let Some(window) = header.window else { return Ok(()) };
+    bail!(
+        "{}: only a part of a picture of {}x{} pixels; several pictures in one image are read from whole images",
+        path.display(),
+        window.canvas_width,
+        window.canvas_height
+    )
+}
+
+fn views(files: &Files, header: &Header, pieces: &[Piece]) -> Result<Vec<InputView>> {
+    let wrong = |error| usage(format!("{FROM}: {error}"));
+    let view = |piece: &Piece| {
+        let rect = piece.rect;
+        Ok(InputView {
+            name: piece.name.to_owned(),
+            files: files.clone(),
+            part: Some(Place { corner: (rect.left, rect.top), of: (header.width, header.height) }),
+            header: Some(Header { width: rect.width(), height: rect.height(), ..header.clone() }),
+            nominal: piece.nominal().map_err(wrong)?,
+            window: Some((piece.view(Orientation::IDENTITY).map_err(wrong)?, piece.canvas)),
+            blend: piece.blend,
+            mask: None,
+            wanted: true,
+        })
+    };
+    pieces.iter().map(view).collect()
+}

@@ -1,0 +1,63 @@
+use cosmorama::camera::{CameraError, Canvas, PixelRect, Placement, View};
+use cosmorama::layout::{CubeLayout, LayoutError, PlacedFace, PlacedLens};
+use cosmorama::sphere::{CubeFace, Orientation};
+use cosmorama::world::Blend;
+use cosmorama_spec::{Cube, Dual};
+
+use crate::diagnostic::Result;
+use crate::input::faces::face_view::face_placement;
+
+/// One of the pictures that share an image.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Piece {
+    /// What messages call it.
+    pub(crate) name: &'static str,
+    /// The face of a cube that it is.
+    pub(crate) face: Option<CubeFace>,
+    /// Its pixels.
+    pub(crate) rect: PixelRect,
+    /// Its place in the world, and in its whole picture.
+    pub(crate) placement: Placement,
+    /// The whole picture, of which half a cube may have only a part.
+    pub(crate) canvas: Canvas,
+    /// How it takes part where others show the same.
+    pub(crate) blend: Blend,
+}
+
+impl Piece {
+    /// The faces of a cube, where they have `edge`×`edge` pixels.
+    pub(crate) fn faces(cube: &Cube, layout: &CubeLayout, edge: usize) -> Vec<Self> {
+        let piece = |PlacedFace { face, lies, rect, canvas }| Self {
+            name: face.name(),
+            face: Some(face),
+            rect,
+            placement: face_placement(cube, face, lies, Some(canvas), Orientation::IDENTITY),
+            canvas,
+            blend: cube.blend(),
+        };
+        let wanted = layout.faces(edge).into_iter().filter(|placed| cube.faces.contains(&placed.face));
+        wanted.map(piece).collect()
+    }
+
+    /// Two fisheyes in an image of this size.
+    pub(crate) fn lenses(dual: &Dual, (width, height): (usize, usize)) -> Result<Vec<Self>, LayoutError> {
+        let piece = |PlacedLens { side, rect, placement }: PlacedLens| {
+            let canvas = Canvas { width: rect.width(), height: rect.height(), left: 0, top: 0 };
+            let orientation = placement.orientation.within(dual.orientation);
+            let placement = Placement { orientation, canvas: Some(canvas), ..placement };
+            Self { name: side.name(), face: None, rect, placement, canvas, blend: dual.picture.blend() }
+        };
+        Ok(dual.picture.lenses(width, height, dual.mirror)?.map(piece).into())
+    }
+
+    /// The geometry of its pixels, all of it turned further.
+    pub(crate) fn view(&self, outer: Orientation) -> Result<View, CameraError> {
+        let placement = Placement { orientation: self.placement.orientation.within(outer), ..self.placement };
+        placement.view(self.rect.width(), self.rect.height())
+    }
+
+    /// The geometry of its whole picture.
+    pub(crate) fn nominal(&self) -> Result<View, CameraError> {
+        Placement { canvas: None, ..self.placement }.view(self.canvas.width, self.canvas.height)
+    }
+}

@@ -1,0 +1,4 @@
+//! Files that SPECs name: calibrations and st maps.
+
+pub(crate) mod calibration;
+pub(crate) mod st_map;

@@ -1,0 +1,239 @@
+//! St maps as projections: the map is read, and what it relates to what is found out.
+
+use std::path::Path;
+
+use cosmorama::camera::{CameraModel, FieldOfView, Mirror, PerspectiveCamera, Placement, StMapCamera};
+use cosmorama::sphere::{Angle, Orientation};
+use cosmorama_io::{Header, Limits, StPairs, probe, probe_pairs, read_pairs};
+use cosmorama_spec::{Shape, Single, Size, Spec, SphereSamples, StMapBase, StMapSpec};
+
+use crate::budget::MemoryBudget;
+use crate::conversion::GeometrySettings;
+use crate::diagnostic::{Code, ConvertError, Diagnostic, FROM, Mark, Result, TO, failure, usage};
+use crate::input::Files;
+use crate::input::files::frames;
+use crate::input::lists::hugin;
+use crate::input::spec_files::calibration::read_calibrations;
+
+/// The side of a conversion that a map is given for.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Side {
+    Input,
+    Output,
+}
+
+/// The picture at the other end of a map, and its size where that is known.
+#[derive(Clone, Copy)]
+struct Base {
+    placement: Placement,
+    size: Option<(usize, usize)>,
+}
+
+/// The same with what a Hugin project says where nothing else is said, and with the maps of `--from` and `--to` read.
+/// Without `base=` a map relates the two sides of the conversion to each other; then a side that is not given is a plain
+/// picture, and the output as large as the map unless `--size` says otherwise.
+pub(crate) fn settled(
+    geometry: &GeometrySettings,
+    input: Option<&str>,
+    memory: MemoryBudget,
+    warnings: &mut Vec<Diagnostic>,
+) -> Result<GeometrySettings> {
+    let geometry = &GeometrySettings {
+        from: calibrated(&geometry.from, Side::Input)?,
+        to: calibrated(&geometry.to, Side::Output)?,
+        ..geometry.clone()
+    };
+    let mut settled = match input {
+        Some(input) => hugin::complete(input, geometry)?,
+        None => geometry.clone(),
+    };
+    if let (Some(Shape::StMap(StMapSpec { invert: false, file, .. })), None) = (shape(&geometry.to), geometry.size) {
+        // The output has the map's pixels.
+        let (width, height) = canvas_size(&probe_pairs(file)?);
+        settled.size = Some(Size { width, height: Some(height) });
+    }
+    match (shape(&geometry.from), shape(&geometry.to)) {
+        (Some(Shape::StMap(from)), Some(Shape::StMap(to))) => {
+            settled.from = Some(with_given_base(from, Side::Input, memory)?);
+            settled.to = Some(with_given_base(to, Side::Output, memory)?);
+        }
+        (Some(Shape::StMap(from)), _) if from.base.is_some() => {
+            settled.from = Some(with_given_base(from, Side::Input, memory)?);
+        }
+        (_, Some(Shape::StMap(to))) if to.base.is_some() => {
+            settled.to = Some(with_given_base(to, Side::Output, memory)?);
+        }
+        (Some(Shape::StMap(from)), None) if is_plain(from) => apply_plainly(&mut settled, from, input, memory)?,
+        (Some(Shape::StMap(from)), to) => {
+            if to.is_some() {
+                let message = format!(
+                    "{FROM} st-map has no base=: {} is taken to relate the input to the picture of {TO}",
+                    from.file.display()
+                );
+                warnings.push(Diagnostic::warning(Code::MapBase, message).about(from.file.display()));
+            }
+            settle_from(&mut settled, from, to, memory)?;
+        }
+        (from, Some(Shape::StMap(to))) => settle_to(&mut settled, to, from, input, memory)?,
+        _ => {}
+    }
+    Ok(settled)
+}
+
+/// A map alone: the output has the map's pixels, and nothing where the map says nothing.
+fn apply_plainly(
+    settled: &mut GeometrySettings,
+    from: &StMapSpec,
+    input: Option<&str>,
+    memory: MemoryBudget,
+) -> Result<()> {
+    let Some(input) = input else { return Err(without_base(Side::Input)) };
+    let pairs = read(&from.file, memory)?;
+    settled.size.get_or_insert_with(|| size_of(&pairs));
+    let Shape::Single(single) = plain().shape else { return Err(without_base(Side::Input)) };
+    let base = Base { placement: single.placement, size: Some(input_size(input)?) };
+    settled.to = Some(spec(from, &pairs, base, Side::Output, memory)?);
+    settled.from = Some(plain());
+    Ok(())
+}
+
+/// A map of `--from` that relates the input to the picture of `--to`.
+fn settle_from(
+    settled: &mut GeometrySettings,
+    from: &StMapSpec,
+    to: Option<&Shape>,
+    memory: MemoryBudget,
+) -> Result<()> {
+    let pairs = read(&from.file, memory)?;
+    let size = settled.size.get_or_insert_with(|| size_of(&pairs));
+    let other = other_side(to, Side::Input)?;
+    let height = size.height.unwrap_or_else(|| other.frame.natural_height(size.width));
+    let base = Base { placement: other, size: Some((size.width, height)) };
+    settled.from = Some(spec(from, &pairs, base, Side::Input, memory)?);
+    settled.to.get_or_insert_with(plain);
+    Ok(())
+}
+
+/// A map of `--to` that relates the output to the picture of `--from`.
+fn settle_to(
+    settled: &mut GeometrySettings,
+    to: &StMapSpec,
+    from: Option<&Shape>,
+    input: Option<&str>,
+    memory: MemoryBudget,
+) -> Result<()> {
+    let pairs = read(&to.file, memory)?;
+    settled.size.get_or_insert_with(|| size_of(&pairs));
+    let Some(input) = input else { return Err(without_base(Side::Output)) };
+    let base = Base { placement: other_side(from, Side::Output)?, size: Some(input_size(input)?) };
+    settled.to = Some(spec(to, &pairs, base, Side::Output, memory)?);
+    settled.from.get_or_insert_with(plain);
+    Ok(())
+}
+
+/// The SPEC of a world file's view, its map read.
+pub(crate) fn read_map(spec: Spec, memory: MemoryBudget) -> Result<Spec> {
+    let Shape::StMap(map) = &spec.shape else { return Ok(spec) };
+    with_given_base(map, Side::Input, memory)
+}
+
+/// A SPEC with its calibration read.
+fn calibrated(spec: &Option<Spec>, side: Side) -> Result<Option<Spec>> {
+    let read = |spec| read_calibrations(spec).map_err(|error| failure!("{} <SPEC>: {error}", option(side)));
+    spec.clone().map(read).transpose()
+}
+
+/// A map where none can be.
+pub(crate) fn unread(map: &StMapSpec) -> ConvertError {
+    usage(format!("st-map:file={}: an st map cannot be given here", map.file.display()))
+}
+
+/// Whether a map is applied as it is, without anything said of the input beside it.
+fn is_plain(map: &StMapSpec) -> bool {
+    !map.invert && map.orientation == Orientation::IDENTITY && map.mirror == Mirror::default() && map.canvas.is_none()
+}
+
+fn shape(spec: &Option<Spec>) -> Option<&Shape> {
+    spec.as_ref().map(|spec| &spec.shape)
+}
+
+fn option(side: Side) -> Mark {
+    match side {
+        Side::Input => FROM,
+        Side::Output => TO,
+    }
+}
+
+fn without_base(side: Side) -> ConvertError {
+    usage(format!(
+        "{} st-map needs base=, the projection of the picture at the map's other end, as in base=perspective:fov=60",
+        option(side)
+    ))
+}
+
+/// A plain picture: a pinhole camera so narrow that directions are as good as a plane.
+fn plain() -> Spec {
+    let camera = PerspectiveCamera::new(FieldOfView::Horizontal(Angle::from_degrees(1.0)));
+    let placement = Placement::new(CameraModel::Perspective(camera));
+    let single = Single { placement, samples: SphereSamples::NotAPanorama, any_shape: false };
+    Spec { name: "perspective", shape: Shape::Single(single), stereo: None, files: Vec::new() }
+}
+
+/// The picture on the other side of the conversion.
+fn other_side(shape: Option<&Shape>, side: Side) -> Result<Placement> {
+    let plain = plain().shape;
+    match shape.unwrap_or(&plain) {
+        Shape::Single(single) if single.placement.canvas.is_none() => Ok(single.placement),
+        _ => Err(without_base(side)),
+    }
+}
+
+/// The size of the input's first picture.
+fn input_size(input: &str) -> Result<(usize, usize)> {
+    let files = Files::new(Path::new(input));
+    let first = frames::find(std::iter::once(&files), None)?[0];
+    Ok(canvas_size(&probe(&files.path(first))?))
+}
+
+/// The size of a picture, of its canvas if it has one.
+fn canvas_size(header: &Header) -> (usize, usize) {
+    header.window.map_or((header.width, header.height), |window| (window.canvas_width, window.canvas_height))
+}
+
+fn size_of(pairs: &StPairs) -> Size {
+    Size { width: pairs.width, height: Some(pairs.height) }
+}
+
+fn read(file: &Path, memory: MemoryBudget) -> Result<StPairs> {
+    Ok(read_pairs(file, &Limits::memory(memory.bytes))?)
+}
+
+fn with_given_base(map: &StMapSpec, side: Side, memory: MemoryBudget) -> Result<Spec> {
+    let Some(StMapBase::Single(base)) = map.base else { return Err(without_base(side)) };
+    let base = Base { placement: base.placement, size: None };
+    spec(map, &read(&map.file, memory)?, base, side, memory)
+}
+
+/// What is left when a map has been read: a picture whose mapping is a table.
+fn spec(map: &StMapSpec, pairs: &StPairs, base: Base, side: Side, memory: MemoryBudget) -> Result<Spec> {
+    let has_pixels_of_map = (side == Side::Output) != map.invert;
+    let size = base.size.filter(|_| has_pixels_of_map).unwrap_or((pairs.width, pairs.height));
+    let view = base.placement.view(size.0, size.1).map_err(|error| usage(format!("{} base: {error}", option(side))))?;
+    let map_size = (pairs.width, pairs.height);
+    memory.check_table(&map.file, map_size, !has_pixels_of_map)?;
+    let pair = |i, j| pairs.get(i, j);
+    let frame = if has_pixels_of_map {
+        StMapCamera::looking(map_size, pair, &view)
+    } else {
+        StMapCamera::looked_at(map_size, pair, &view)
+    };
+    let frame = frame.map_err(|error| failure!("{}: {error}", map.file.display()))?;
+    let placement = Placement {
+        frame: CameraModel::StMap(frame),
+        orientation: map.orientation,
+        mirror: map.mirror,
+        canvas: map.canvas,
+    };
+    let single = Single { placement, samples: SphereSamples::NotAPanorama, any_shape: false };
+    Ok(Spec { name: "st-map", shape: Shape::Single(single), stereo: None, files: vec![map.file.clone()] })
+}

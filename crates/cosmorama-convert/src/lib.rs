@@ -1,0 +1,31 @@
+//! Conversions of worlds as values: settings are checked against files by their headers alone, then explained or run.
+//!
+//! [`Conversion`] holds the settings, [`Conversion::check`] finds the files and what cannot be, [`Checked::run`] makes the
+//! outputs while an [`Observer`] watches. What there is to say is a [`Diagnostic`], returned and handed to the observer, never
+//! printed; settings in its text are [`Setting`]s, which each caller writes in its own way. Nothing is kept from one conversion
+//! to the next: threads and memory are those of the run.
+#![forbid(unsafe_code)]
+
+mod budget;
+mod colour;
+mod conversion;
+mod coverage;
+mod detect;
+mod diagnostic;
+mod engine;
+mod input;
+mod output;
+mod target;
+
+pub use budget::{MemoryBudget, peak_bytes};
+pub use colour::{InputTransfer, ThinAlpha};
+pub use conversion::{
+    Checked, Conversion, Existing, Explanation, ExplanationSettings, GeometrySettings, LimitSettings, Observer, Quiet,
+    Report, threads,
+};
+pub use detect::{Continuity, FacePixels, GivenFaces, Likely, damage_of, light_of, likely};
+pub use diagnostic::{Code, ConvertError, Diagnostic, Message, Outcome, Part, Remedy, Result, Setting, Severity};
+pub use engine::CpuSeconds;
+pub use input::{Builtin, Files, Input, InputView, Listed, existing_frames, face_placement, is_one_file, listed};
+pub use output::{Remade, check_apart, real_path, refuse_existing};
+pub use target::{Picture, Place};

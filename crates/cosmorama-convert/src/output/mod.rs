@@ -1,0 +1,9 @@
+//! Where pictures go: names, what exists already, what is to be made.
+
+pub(crate) mod outputs;
+mod resume;
+
+pub use outputs::{check_apart, real_path, refuse_existing};
+pub use resume::Remade;
+
+pub(crate) use outputs::{FrameOutputs, Outputs, files_read};

@@ -1,0 +1,167 @@
+use std::collections::{HashMap, HashSet};
+use std::path::{Path, PathBuf};
+
+use cosmorama_io::pending::{Pending, place};
+
+use crate::budget::MemoryBudget;
+use crate::colour::Light;
+use crate::conversion::{Conversion, Existing, GeometrySettings};
+use crate::diagnostic::{Diagnostic, FRAMES, OVERWRITE, RESUME, Result, bail, usage};
+use crate::input::{Files, Input};
+use crate::output::Remade;
+use crate::target::{Target, TargetFile};
+
+/// A frame with the outputs that are still to be made of it.
+pub(crate) struct FrameOutputs {
+    /// Its number; `None` where there is no sequence.
+    pub(crate) frame: Option<u64>,
+    /// Index of a target file and its path.
+    pub(crate) files: Vec<(usize, PathBuf)>,
+}
+
+/// What is to be made.
+pub(crate) struct Outputs {
+    /// Frames with anything to make.
+    pub(crate) frames: Vec<FrameOutputs>,
+    /// Outputs that were there already.
+    pub(crate) skipped: usize,
+    /// Those to be made in whose place something else stands.
+    pub(crate) remade: Vec<Remade>,
+}
+
+impl Outputs {
+    /// Whether they are frames of a sequence, be it only one of them.
+    pub(crate) fn is_sequence(&self) -> bool {
+        self.frames.iter().any(|frame| frame.frame.is_some())
+    }
+
+    /// All that are to be made.
+    pub(crate) fn paths(&self) -> impl Iterator<Item = &Path> {
+        self.frames.iter().flat_map(|frame| frame.files.iter().map(|(_, path)| path.as_path()))
+    }
+
+    /// What should be known of those that are made again.
+    pub(crate) fn warning(&self) -> Option<Diagnostic> {
+        Remade::warning(&self.remade)
+    }
+
+    /// The outputs of all frames, checked against the inputs and what exists.
+    pub(crate) fn plan(
+        args: &Conversion,
+        input: &Input,
+        target: &Target,
+        light: &Light,
+        memory: MemoryBudget,
+    ) -> Result<Self> {
+        check_frame_markers(args, input, target)?;
+        let inputs = files_read(input, &args.geometry);
+        let mut frames = Vec::new();
+        let (mut folders, mut places) = (HashSet::new(), HashMap::new());
+        for &frame in &input.frames {
+            let path = |file: &TargetFile| file.files.path(frame);
+            let files: Vec<(usize, PathBuf)> = target.files.iter().map(path).enumerate().collect();
+            for (_, path) in &files {
+                check_apart(path, &inputs)?;
+                // What cannot be written is told of its frame.
+                let place = real_path(&place(path).unwrap_or_else(|_| path.clone()));
+                if folders.insert(place.parent().map(Path::to_owned)) {
+                    // A folder that is missing or read-only is found out before hours of work, not after.
+                    Pending::create(path)?;
+                }
+                if let Some(other) = places.insert(place, path.clone()) {
+                    let (path, other) = (path.display(), other.display());
+                    return Err(usage(format!(
+                        "{path} and {other} lead to one file; remove the link that one of them is, or choose another name"
+                    )));
+                }
+            }
+            frames.push(FrameOutputs { frame, files });
+        }
+        let mut remade = Vec::new();
+        let all: usize = frames.iter().map(|frame| frame.files.len()).sum();
+        if args.existing == Existing::Resume {
+            remade = Remade::find(&mut frames, &target.files, light, memory);
+        } else if args.existing == Existing::Refuse {
+            let files = frames.iter().flat_map(|frame| frame.files.iter().map(|(_, path)| path.as_path()));
+            refuse_existing_or(files, &format!(", or keep what is there with {RESUME}"))?;
+        }
+        frames.retain(|frame| !frame.files.is_empty());
+        let left: usize = frames.iter().map(|frame| frame.files.len()).sum();
+        Ok(Self { frames, skipped: all - left, remade })
+    }
+}
+
+/// Many frames need a marker in the output; one frame may go without; a marker without frames means nothing.
+fn check_frame_markers(args: &Conversion, input: &Input, target: &Target) -> Result<()> {
+    let numbered = target.files.iter().all(|file| matches!(file.files, Files::Sequence(_)));
+    if input.frames.len() > 1 && args.to_stream {
+        return Err(usage(format!(
+            "{} frames cannot go to standard output, which takes one picture; choose one of them, as in {FRAMES} {}, or name \
+             output files with ####",
+            input.frames.len(),
+            input.frames[0].unwrap_or_default()
+        )));
+    }
+    if input.frames.len() > 1 && !numbered {
+        return Err(usage(format!(
+            "{} frames cannot go into the one file {}; put #### or %04d where the frame number stands",
+            input.frames.len(),
+            args.output
+        )));
+    }
+    if numbered && input.frames == [None] {
+        return Err(usage(format!(
+            "{} has a frame marker, but the input {} has none; give both one, or neither",
+            args.output, args.input
+        )));
+    }
+    Ok(())
+}
+
+/// Every file that a job reads, those that its SPECs name among them.
+pub(crate) fn files_read(input: &Input, geometry: &GeometrySettings) -> HashSet<PathBuf> {
+    let named = [&geometry.from, &geometry.to].into_iter().flatten().flat_map(|spec| spec.files.iter().cloned());
+    input.files().chain(named).map(|path| real_path(&path)).collect()
+}
+
+/// An output that replaced what it is made of could never be made again.
+pub fn check_apart(path: &Path, inputs: &HashSet<PathBuf>) -> Result<()> {
+    if inputs.contains(&real_path(path)) {
+        return Err(usage(format!("{}: the output would replace its own input; choose another name", path.display())));
+    }
+    Ok(())
+}
+
+/// Where a path leads, whether the file exists or not.
+pub fn real_path(path: &Path) -> PathBuf {
+    if let Ok(real) = path.canonicalize() {
+        return real;
+    }
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    match (folder.canonicalize(), path.file_name()) {
+        (Ok(folder), Some(name)) => folder.join(name),
+        _ => path.to_owned(),
+    }
+}
+
+/// Refuses to replace files that exist.
+///
+/// # Errors
+/// When one exists.
+pub fn refuse_existing<'a>(files: impl Iterator<Item = &'a Path>) -> Result<()> {
+    refuse_existing_or(files, "")
+}
+
+fn refuse_existing_or<'a>(files: impl Iterator<Item = &'a Path>, instead: &str) -> Result<()> {
+    const SHOWN: usize = 5;
+    let existing: Vec<&Path> = files.filter(|path| path.exists()).collect();
+    let Some(first) = existing.first() else { return Ok(()) };
+    if existing.len() == 1 {
+        bail!(Exists: "{} exists; replace it with {OVERWRITE}{instead}", first.display());
+    }
+    let mut names: Vec<_> = existing.iter().take(SHOWN).map(|path| path.display().to_string()).collect();
+    if existing.len() > SHOWN {
+        names.push("…".to_owned());
+    }
+    bail!(Exists: "{} outputs exist ({}); replace them with {OVERWRITE}{instead}", existing.len(), names.join(", "))
+}

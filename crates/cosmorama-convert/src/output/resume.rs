@@ -1,0 +1,127 @@
+use std::path::{Path, PathBuf};
+
+use cosmorama_io::{Format, IoError, Limits, probe, read};
+use rayon::prelude::*;
+
+use crate::budget::MemoryBudget;
+use crate::colour::Light;
+use crate::diagnostic::{Code, Diagnostic, RESUME};
+use crate::output::FrameOutputs;
+use crate::target::TargetFile;
+
+/// An output that `--resume` found in its place, but not as it is to be.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Remade {
+    /// Which.
+    pub output: PathBuf,
+    /// What was found there.
+    pub reason: String,
+}
+
+/// What stands in the place of an output.
+enum Found {
+    Nothing,
+    /// The output, whole.
+    Complete,
+    /// Something else, in words.
+    Other(String),
+}
+
+impl Remade {
+    /// Leaves to each frame the outputs that are still to be made. Those of them in whose place something else stands.
+    pub(crate) fn find(
+        frames: &mut [FrameOutputs],
+        targets: &[TargetFile],
+        light: &Light,
+        memory: MemoryBudget,
+    ) -> Vec<Self> {
+        // As many at once as fit into memory, decoded.
+        let largest = targets.iter().map(|file| light.file_bytes(file.sheet.size)).max().unwrap_or(0);
+        let at_once = (memory.bytes / largest.max(1)).clamp(1, frames.len().max(1) as u64) as usize;
+        let mut all = Vec::new();
+        for some in frames.chunks_mut(at_once) {
+            let remade: Vec<Vec<Self>> = some.par_iter_mut().map(|frame| Self::of(frame, targets, light)).collect();
+            all.extend(remade.into_iter().flatten());
+        }
+        all
+    }
+
+    fn of(frame: &mut FrameOutputs, targets: &[TargetFile], light: &Light) -> Vec<Self> {
+        let mut remade = Vec::new();
+        frame.files.retain(|(index, path)| match Found::at(path, &targets[*index], light) {
+            Found::Nothing => true,
+            Found::Complete => false,
+            Found::Other(reason) => {
+                remade.push(Self { output: path.clone(), reason });
+                true
+            }
+        });
+        remade
+    }
+
+    /// What to say of them; `None` where there are none.
+    pub(crate) fn warning(all: &[Self]) -> Option<Diagnostic> {
+        const SHOWN: usize = 5;
+        let mut shown: Vec<String> =
+            all.iter().take(SHOWN).map(|one| format!("{} ({})", one.output.display(), one.reason)).collect();
+        if all.len() > SHOWN {
+            shown.push("…".to_owned());
+        }
+        let count = if all.len() == 1 { "1 output is".to_owned() } else { format!("{} outputs are", all.len()) };
+        (!all.is_empty()).then(|| {
+            let shown = shown.join(", ");
+            let message = format!("{RESUME}: {count} not what this conversion makes and will be made again: {shown}");
+            Diagnostic::warning(Code::Remade, message)
+        })
+    }
+}
+
+impl Found {
+    /// Outputs appear whole, so one that is an image of the right size and kind, and can be read, is done.
+    fn at(path: &Path, target: &TargetFile, light: &Light) -> Self {
+        let Ok(found) = path.metadata() else { return Self::Nothing };
+        // What is no file might wait for ever to be read.
+        if !found.is_file() {
+            return Self::Other("not a regular file".to_owned());
+        }
+        let header = match probe(path) {
+            Ok(header) => header,
+            Err(error) => return Self::unreadable(error),
+        };
+        let size = |(width, height): &(usize, usize)| format!("{width}x{height}");
+        let format = Format::from_extension(path).unwrap_or(header.format);
+        let told: Vec<String> = [
+            instead(&header.format, &format, ToString::to_string),
+            instead(&(header.width, header.height), &target.sheet.size, size),
+            instead(&header.channels, &light.channels, ToString::to_string),
+            instead(&header.depth, &light.depth, |depth| format!("depth {depth}")),
+        ]
+        .into_iter()
+        .flatten()
+        .collect();
+        // What is of another size need not be decoded, and takes no memory.
+        if !told.is_empty() {
+            return Self::Other(told.join(", "));
+        }
+        match read(path, &Limits::memory(light.file_bytes(target.sheet.size))) {
+            Ok(_) => Self::Complete,
+            Err(error) => Self::unreadable(error),
+        }
+    }
+
+    fn unreadable(error: IoError) -> Self {
+        // The file is named already, and to make it again is what is done.
+        Self::Other(match error {
+            IoError::Damaged { format, reason, .. } => format!("damaged or truncated {format}: {reason}"),
+            IoError::UnknownContent { .. } => "not an image of a known format".to_owned(),
+            IoError::Empty { .. } => "an empty file".to_owned(),
+            IoError::Open { source, .. } => source.to_string(),
+            other => other.to_string(),
+        })
+    }
+}
+
+/// What is found in words, where it is not what was expected.
+fn instead<T: PartialEq>(found: &T, expected: &T, words: impl Fn(&T) -> String) -> Option<String> {
+    (found != expected).then(|| format!("{} instead of {}", words(found), words(expected)))
+}

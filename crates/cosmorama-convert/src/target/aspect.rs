@@ -1,0 +1,34 @@
+//! Maps that are made in another shape than their own.
+
+use cosmorama::camera::CameraModel;
+use cosmorama_spec::{Shape, Size, Spec};
+
+use crate::conversion::GeometrySettings;
+use crate::diagnostic::{Code, Diagnostic, Remedy, SIZE, Setting, TO};
+use crate::input::canvas::is_near;
+use crate::target::Target;
+
+/// What should be known where nobody said that pixels are not to be square: as an input such a map is refused.
+pub(crate) fn warning(geometry: &GeometrySettings, target: &Target) -> Option<Diagnostic> {
+    let Some(Spec { name, shape: Shape::Single(single), stereo: None, .. }) = &geometry.to else { return None };
+    let Some(Size { height: Some(_), .. }) = geometry.size else { return None };
+    let frame = single.placement.frame;
+    let (fills_any_shape, whole) = match frame {
+        CameraModel::Equirect(_) => (true, ", or, if it is meant, give hfov= and vfov="),
+        CameraModel::WorldMap(_) | CameraModel::Octahedral(_) => (true, ""),
+        CameraModel::Cylinder(frame) => (frame.top.is_some(), ""),
+        _ => (false, ""),
+    };
+    if !fills_any_shape || single.any_shape || single.placement.canvas.is_some() {
+        return None;
+    }
+    let view = &target.views.first()?.view;
+    let (width, height) = (view.width(), view.height());
+    let natural = frame.natural_height(width);
+    (!is_near(natural, height)).then(|| {
+        let message = format!(
+            "{TO} {name}: pixels are not square: {width}x{height}; the natural height is {natural}: give {SIZE} {width}{whole}"
+        );
+        Diagnostic::warning(Code::Aspect, message).with_remedy(Remedy::Set(Setting::Size, width.to_string()))
+    })
+}

@@ -1,0 +1,257 @@
+use cosmorama::camera::{CameraError, CameraModel, Mirror, Placement, SamplePositions, View};
+use cosmorama::layout::{CubeLayout, Eye, FaceOrder, FacePart, LayoutKind};
+use cosmorama::sphere::CubeFace;
+use cosmorama_io::{EnvMap, Format, Naming, Window};
+use cosmorama_spec::{Cube, Dual, Packing, Shape, Single, Size, SphereSamples, StereoSpec};
+
+use crate::conversion::GeometrySettings;
+use crate::diagnostic::{ConvertError, Result, SIZE, TO, usage};
+use crate::input::canvas::lies_on_canvas;
+use crate::input::eye::eye_size;
+use crate::input::faces::face_view::face_placement;
+use crate::input::{EyePart, Piece};
+use crate::target::gpano;
+use crate::target::size::{lens_image_size, size};
+
+/// The geometry of an image to make.
+#[derive(Clone, Copy, Debug)]
+pub struct Picture {
+    /// The face of a cube that it is.
+    pub face: Option<CubeFace>,
+    /// What it is of an image that it shares with others, or of a cube.
+    pub part: Option<&'static str>,
+    /// Whose picture it is, where there are two.
+    pub eye: Option<Eye>,
+    /// The geometry.
+    pub view: View,
+    /// Where it lies in an image that it shares with others.
+    pub place: Option<Place>,
+    /// What the file says that it is a picture of.
+    pub envmap: Option<EnvMap>,
+    /// The panorama of which it is a part or all.
+    pub panorama: Option<Window>,
+}
+
+/// A place in an image.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Place {
+    /// The first column and row.
+    pub corner: (usize, usize),
+    /// Columns and rows of the image.
+    pub of: (usize, usize),
+}
+
+impl Place {
+    /// All of an image.
+    pub(crate) fn whole(size: (usize, usize)) -> Self {
+        Self { corner: (0, 0), of: size }
+    }
+}
+
+impl Picture {
+    /// The images that `--to`, `--size` and the orientation stand for, in one file of a format, or in files of their own.
+    /// Without a size, the centre gets so many pixels a radian.
+    pub(crate) fn all(
+        geometry: &GeometrySettings,
+        format: Option<Format>,
+        pixels_per_radian: Option<f64>,
+    ) -> Result<Vec<Self>> {
+        let pictures = match geometry.to.as_ref().and_then(|spec| spec.stereo) {
+            Some(stereo) => Self::stereo(stereo, geometry, pixels_per_radian)?,
+            None => Self::mono(geometry, format, pixels_per_radian)?,
+        };
+        match format {
+            Some(format) if format.is_cube_map() && pictures[0].envmap != Some(EnvMap::GlCube) => Err(usage(format!(
+                "{format} files hold the six whole faces of a cube in their own order; expected {TO} cube",
+            ))),
+            _ => Ok(pictures),
+        }
+    }
+
+    /// The same for both eyes: each eye's picture, squeezed where it is to be, in its place.
+    fn stereo(stereo: StereoSpec, geometry: &GeometrySettings, pixels_per_radian: Option<f64>) -> Result<Vec<Self>> {
+        if let Some(eye) = stereo.eye {
+            return Err(usage(format!("{TO}: eye={} is for inputs; an output with stereo= has both eyes", eye.name())));
+        }
+        let size = geometry.size.map(|size| eye_size(stereo.packing, size)).transpose()?;
+        // What a format has of its own, it has for one picture.
+        let one = Self::mono(&GeometrySettings { size, ..geometry.clone() }, None, pixels_per_radian)?;
+        let both = Eye::ALL.into_iter().flat_map(|eye| one.iter().map(move |picture| (eye, picture)));
+        both.map(|(eye, picture)| EyePart { stereo: stereo.packing, eye }.picture(picture)).collect()
+    }
+
+    /// What messages call it, if it is not all that there is.
+    pub fn label(&self) -> Option<String> {
+        let eye = self.eye.map(|eye| format!("{}-eye", eye.name()));
+        let parts: Vec<String> = eye.into_iter().chain(self.part.map(str::to_owned)).collect();
+        (!parts.is_empty()).then(|| parts.join("-"))
+    }
+
+    /// The index of the world that it shows, of so many.
+    pub fn world(&self, count: usize) -> usize {
+        world_of(self.eye, count)
+    }
+
+    fn mono(geometry: &GeometrySettings, format: Option<Format>, pixels_per_radian: Option<f64>) -> Result<Vec<Self>> {
+        match geometry.to.as_ref().map(|spec| &spec.shape) {
+            Some(Shape::Single(single)) => Self::single(single, geometry, format, pixels_per_radian),
+            Some(Shape::Cube(cube)) => {
+                let cube = completed(cube, format);
+                match cube.one_image() {
+                    Some(layout) => Self::sheet(&cube, &layout, geometry, format, pixels_per_radian),
+                    None => Self::faces(&cube, geometry, pixels_per_radian),
+                }
+            }
+            Some(Shape::Dual(dual)) => Self::lenses(dual, geometry, pixels_per_radian),
+            Some(Shape::StMap(map)) => Err(crate::input::spec_files::st_map::unread(map)),
+            Some(Shape::Calibrated(camera)) => Err(crate::input::spec_files::calibration::unread(camera)),
+            None => Self::faces(&Cube::default(), geometry, pixels_per_radian),
+        }
+    }
+
+    fn single(
+        single: &Single,
+        geometry: &GeometrySettings,
+        format: Option<Format>,
+        pixels_per_radian: Option<f64>,
+    ) -> Result<Vec<Self>> {
+        let picture = |view, envmap, panorama| vec![Self { envmap, panorama, ..Self::new(view) }];
+        if format == Some(Format::Exr) {
+            // OpenEXR's attribute, and its samples on the edges, are for the whole sphere alone.
+            let edges = single.with_samples(SamplePositions::Edges);
+            let view = single_view(edges, geometry, pixels_per_radian)?;
+            if let Some(envmap) = panorama_envmap(&edges).filter(|_| view.covers_sphere()) {
+                return Ok(picture(view, Some(envmap), None));
+            }
+        }
+        let view = single_view(*single, geometry, pixels_per_radian)?;
+        Ok(picture(view, None, gpano::window(single, (view.width(), view.height()))))
+    }
+
+    fn faces(cube: &Cube, geometry: &GeometrySettings, pixels_per_radian: Option<f64>) -> Result<Vec<Self>> {
+        let (width, height) = size(cube.frame(), geometry.size, pixels_per_radian, TO)?;
+        let mut pictures = Vec::new();
+        for &face in &cube.faces {
+            let lies = cube.file_placement(face, naming(cube).placement(face));
+            let Some(part) = FacePart::of(face, lies, cube.half) else { continue };
+            let (width, height) = part.size(width, height);
+            let canvas = cube.canvas_of(face).or_else(|| cube.half.map(|_| part.canvas(width, height)));
+            let placement = face_placement(cube, face, lies, canvas, geometry.orientation);
+            let view = placement.view(width, height).map_err(wrong)?;
+            pictures.push(Self { face: Some(face), part: Some(face.name()), ..Self::new(view) });
+        }
+        check_any(pictures)
+    }
+
+    /// The faces of a cube in one image.
+    fn sheet(
+        cube: &Cube,
+        layout: &CubeLayout,
+        geometry: &GeometrySettings,
+        format: Option<Format>,
+        pixels_per_radian: Option<f64>,
+    ) -> Result<Vec<Self>> {
+        let edge = match geometry.size {
+            Some(Size { width, height: Some(height) }) => {
+                layout.edge(width, height).map_err(|error| usage(format!("{SIZE}: {error}")))?
+            }
+            edge => size(cube.frame(), edge, pixels_per_radian, TO)?.0,
+        };
+        let of = layout.size(edge).map_err(|error| usage(format!("{TO}: {error}")))?;
+        let envmap = cube_envmap(cube, format);
+        let pieces = Piece::faces(cube, layout, edge);
+        let pictures = pieces.iter().map(|piece| Ok(Self { envmap, ..Self::of(piece, of, geometry)? }));
+        check_any(pictures.collect::<Result<_>>()?)
+    }
+
+    /// Two fisheyes in one image.
+    fn lenses(dual: &Dual, geometry: &GeometrySettings, pixels_per_radian: Option<f64>) -> Result<Vec<Self>> {
+        let of = lens_image_size(dual, geometry.size, pixels_per_radian, TO)?;
+        let pieces = Piece::lenses(dual, of).map_err(|error| usage(format!("{TO}: {error}")))?;
+        pieces.iter().map(|piece| Self::of(piece, of, geometry)).collect()
+    }
+
+    fn of(piece: &Piece, of: (usize, usize), geometry: &GeometrySettings) -> Result<Self> {
+        let view = piece.view(geometry.orientation).map_err(wrong)?;
+        let place = Some(Place { corner: (piece.rect.left, piece.rect.top), of });
+        Ok(Self { face: piece.face, part: Some(piece.name), place, ..Self::new(view) })
+    }
+
+    fn new(view: View) -> Self {
+        Self { face: None, part: None, eye: None, view, place: None, envmap: None, panorama: None }
+    }
+}
+
+/// The index of the world that an eye sees, of so many.
+pub(crate) fn world_of(eye: Option<Eye>, count: usize) -> usize {
+    if eye == Some(Eye::Right) { count.saturating_sub(1) } else { 0 }
+}
+
+fn wrong(error: CameraError) -> ConvertError {
+    usage(format!("{TO}: {error}"))
+}
+
+fn check_any(pictures: Vec<Picture>) -> Result<Vec<Picture>> {
+    if pictures.is_empty() {
+        return Err(usage(format!("{TO}: half= leaves nothing of the faces= that are asked for")));
+    }
+    Ok(pictures)
+}
+
+/// How faces are named and lie, unless told: in words.
+pub(crate) fn naming(cube: &Cube) -> &'static Naming {
+    cube.naming.unwrap_or(&Naming::presets()[0])
+}
+
+/// The layout and order that a format has of its own for a cube in one file.
+pub(crate) fn own_layout(format: Format) -> Option<(LayoutKind, Option<FaceOrder>)> {
+    match format {
+        Format::Exr => Some((LayoutKind::StripV, Some(FaceOrder::OPENEXR))),
+        format if format.is_cube_map() => Some((LayoutKind::StripV, None)),
+        _ => None,
+    }
+}
+
+/// What a format has of its own, where nothing else is asked for.
+fn completed(cube: &Cube, format: Option<Format>) -> Cube {
+    match (cube.layout, format.and_then(own_layout)) {
+        (None, Some((kind, order))) => {
+            Cube { layout: Some(Packing::OneImage(kind)), order: cube.order.or(order), ..cube.clone() }
+        }
+        _ => cube.clone(),
+    }
+}
+
+fn single_view(single: Single, geometry: &GeometrySettings, pixels_per_radian: Option<f64>) -> Result<View> {
+    let Placement { frame, orientation, mirror, canvas } = single.placement;
+    if canvas.is_some() && geometry.size.is_none() {
+        return Err(usage(format!("{TO} has canvas=, so the size of the window on it must be given with {SIZE} WxH")));
+    }
+    let (width, height) = size(frame, geometry.size, pixels_per_radian, TO)?;
+    if let Some(canvas) = canvas {
+        lies_on_canvas(TO, (width, height), canvas)?;
+    }
+    let placement = Placement { frame, orientation: orientation.within(geometry.orientation), mirror, canvas };
+    placement.view(width, height).map_err(|error| usage(format!("{TO}: {error}")))
+}
+
+/// OpenEXR's environment maps have their samples on the edges and show the whole sphere.
+fn panorama_envmap(single: &Single) -> Option<EnvMap> {
+    let CameraModel::Equirect(frame) = single.placement.frame else { return None };
+    let whole = frame.horizontal.degrees() > 359.999 && frame.vertical.degrees() > 179.999;
+    let by_format = single.samples != SphereSamples::Given(SamplePositions::Centres);
+    let upright = single.placement.canvas.is_none() && single.placement.mirror == Mirror::default();
+    (whole && by_format && upright).then_some(EnvMap::LatLong)
+}
+
+/// Whether six whole faces lie as the format's own cubes have them.
+fn cube_envmap(cube: &Cube, format: Option<Format>) -> Option<EnvMap> {
+    let (kind, order) = own_layout(format?)?;
+    let own = Cube { layout: Some(Packing::OneImage(kind)), order, ..Cube::default() };
+    let same = cube.one_image() == own.one_image()
+        && cube.frame() == own.frame()
+        && cube.mirror == Mirror::default()
+        && CubeFace::ALL.iter().all(|face| cube.faces.contains(face));
+    let envmap = if format == Some(Format::Exr) { EnvMap::Cube } else { EnvMap::GlCube };
+    same.then_some(envmap)
+}

@@ -1,0 +1,209 @@
+use std::path::{Path, PathBuf};
+
+use cosmorama::camera::View;
+use cosmorama::layout::Eye;
+use cosmorama_io::{EnvMap, FacePattern, FaceSet, Format, Naming, Window};
+use cosmorama_spec::{Cube, Packing, Shape, Size, Spec};
+
+use crate::conversion::GeometrySettings;
+use crate::diagnostic::{MIPS, Result, SIZE, TO, usage};
+use crate::input::Files;
+use crate::target::picture::world_of;
+use crate::target::{Picture, Place};
+
+/// An image to make.
+pub(crate) struct TargetView {
+    /// What messages call it.
+    pub(crate) name: String,
+    /// Its geometry.
+    pub(crate) view: View,
+    /// Whose picture it is, where there are two.
+    pub(crate) eye: Option<Eye>,
+}
+
+impl TargetView {
+    /// The index of the world that it shows, of so many: a picture for the right eye shows the second where there are two.
+    pub(crate) fn world(&self, count: usize) -> usize {
+        world_of(self.eye, count)
+    }
+}
+
+/// A file to make.
+pub(crate) struct TargetFile {
+    /// Its name, frame by frame.
+    pub(crate) files: Files,
+    /// Its picture.
+    pub(crate) sheet: Sheet,
+    /// The smaller copies of that, each half as large as the one before.
+    pub(crate) mips: Vec<Sheet>,
+}
+
+/// A picture of one image, or of the faces of a cube laid into it.
+pub(crate) struct Sheet {
+    /// Its columns and rows.
+    pub(crate) size: (usize, usize),
+    /// The images in it, by their index, each with the place of its first column and row.
+    pub(crate) pieces: Vec<(usize, (usize, usize))>,
+}
+
+impl TargetFile {
+    /// Its picture and the smaller copies.
+    pub(crate) fn levels(&self) -> impl Iterator<Item = &Sheet> {
+        std::iter::once(&self.sheet).chain(&self.mips)
+    }
+}
+
+/// Everything that light goes to.
+pub(crate) struct Target {
+    /// The images of a frame: one, or the faces of a cube.
+    pub(crate) views: Vec<TargetView>,
+    /// The files of a frame.
+    pub(crate) files: Vec<TargetFile>,
+    /// The file format.
+    pub(crate) format: Format,
+    /// What the files say that they are pictures of.
+    pub(crate) envmap: Option<EnvMap>,
+    /// The panorama of which the file is a part or all.
+    pub(crate) panorama: Option<Window>,
+}
+
+impl Target {
+    /// Checks what an output's name says against `--to`.
+    pub(crate) fn check_names(output: &str, geometry: &GeometrySettings) -> Result<Format> {
+        let format = Format::from_extension(Path::new(output)).map_err(|error| usage(error.to_string()))?;
+        let faces = FacePattern::parse(output).is_some();
+        check_markers(output)?;
+        match geometry.to.as_ref() {
+            None if !faces => Err(usage(format!(
+                "{TO} is missing: say which projection the output is to have, as in {TO} omnimax, {TO} fulldome, \
+                 {TO} equirect or {TO} perspective:fov=60"
+            ))),
+            Some(Spec { shape: Shape::Cube(cube), stereo, .. }) => {
+                check_cube(output, faces, cube, stereo.is_some(), format)
+            }
+            Some(Spec { name, .. }) if format.is_cube_map() => Err(usage(format!(
+                "{output} is a {format} file, which holds the six whole faces of a cube, but {TO} is {name}; expected {TO} \
+                 cube, or an output of another format"
+            ))),
+            Some(Spec { name, .. }) if faces => {
+                Err(usage(format!("{output} names the faces of a cube, but {TO} is {name}; expected {TO} cube")))
+            }
+            _ => Ok(format),
+        }
+    }
+
+    /// The images that an output's name, its projection and the size stand for. Without a size, the centre gets so many
+    /// pixels a radian.
+    pub(crate) fn resolve(output: &str, geometry: &GeometrySettings, pixels_per_radian: Option<f64>) -> Result<Self> {
+        let format = Self::check_names(output, geometry)?;
+        let container = FacePattern::parse(output).is_none().then_some(format);
+        let pictures = Picture::all(geometry, container, pixels_per_radian)?;
+        let given = match geometry.to.as_ref().map(|spec| &spec.shape) {
+            Some(Shape::Cube(cube)) => cube.naming,
+            _ => None,
+        };
+        // `%c` is Bourke's mark: one letter a face.
+        let marked = || Naming::named("bourke").filter(|_| output.contains("%c"));
+        let naming = given.or_else(marked).unwrap_or_else(|| crate::target::picture::naming(&Cube::default()));
+        let named = FacePattern::parse(output).is_some();
+        let (mut views, mut files): (Vec<TargetView>, Vec<TargetFile>) = (Vec::new(), Vec::new());
+        let mut paths: Vec<PathBuf> = Vec::new();
+        for (index, picture) in pictures.iter().enumerate() {
+            let path = match picture.face.filter(|_| named) {
+                Some(face) => FaceSet::named(output, naming)?.face(face).path.clone(),
+                None => output.into(),
+            };
+            let size = (picture.view.width(), picture.view.height());
+            let Place { corner, of } = picture.place.unwrap_or(Place::whole(size));
+            let name = picture.label().unwrap_or_else(|| output.to_owned());
+            views.push(TargetView { name, view: picture.view, eye: picture.eye });
+            match paths.iter().position(|other| *other == path) {
+                Some(shared) => files[shared].sheet.pieces.push((index, corner)),
+                None => {
+                    let sheet = Sheet { size: of, pieces: vec![(index, corner)] };
+                    files.push(TargetFile { files: Files::new(&path), sheet, mips: Vec::new() });
+                    paths.push(path);
+                }
+            }
+        }
+        for TargetFile { sheet: Sheet { size: (width, height), .. }, .. } in &files {
+            if let Some(most) = format.longest_side().filter(|most| width.max(height) > most) {
+                return Err(usage(format!(
+                    "{output}: {format} counts no more than {most} pixels on a side, but {width}x{height} are asked for; give a \
+                     smaller {SIZE}, or name the output .png or .tif"
+                )));
+            }
+        }
+        let envmap = pictures.first().and_then(|picture| picture.envmap);
+        let panorama = pictures.first().and_then(|picture| picture.panorama);
+        Ok(Self { views, files, format, envmap, panorama })
+    }
+
+    /// The same with the smaller copies of its cube, down to faces of one pixel: each what the conversion would give at its
+    /// size, so that they meet at the edges as the largest do.
+    pub(crate) fn with_mips(mut self, output: &str, geometry: &GeometrySettings) -> Result<Self> {
+        if !self.format.holds_levels() {
+            return Err(usage(format!(
+                "{MIPS} is for textures, but {output} is {}; leave it out, or name the output .ktx2 or .dds",
+                self.format
+            )));
+        }
+        let mut edge = self.views.first().map_or(0, |target| target.view.width());
+        while edge > 1 {
+            edge /= 2;
+            let size = Some(Size { width: edge, height: None });
+            let level = Self::resolve(output, &GeometrySettings { size, ..geometry.clone() }, None)?;
+            let first = self.views.len();
+            self.views.extend(level.views);
+            for (file, smaller) in self.files.iter_mut().zip(level.files) {
+                let pieces = smaller.sheet.pieces.into_iter().map(|(index, corner)| (first + index, corner)).collect();
+                file.mips.push(Sheet { pieces, ..smaller.sheet });
+            }
+        }
+        Ok(self)
+    }
+
+    /// Whether there is a picture for each eye.
+    pub(crate) fn is_stereo(&self) -> bool {
+        self.views.iter().any(|target| target.eye.is_some())
+    }
+
+    /// The images that show a world, of one or of two.
+    pub(crate) fn of_world(&self, index: usize, count: usize) -> Vec<&TargetView> {
+        self.views.iter().filter(|target| target.world(count) == index).collect()
+    }
+}
+
+/// What looks like a marker and is none would become a file's name. Folders that are there may be called as they like.
+fn check_markers(output: &str) -> Result<()> {
+    let path = Path::new(output);
+    let is_in_folder = path.parent().is_some_and(Path::is_dir);
+    let made = path.file_name().and_then(|name| name.to_str()).filter(|_| is_in_folder).unwrap_or(output);
+    let marked = |at: usize| Some(&made[at..=at + made[at..].find('}')?]);
+    let unknown = made.match_indices('{').filter_map(|(at, _)| marked(at)).find(|marker| *marker != "{face}");
+    match unknown.or(made.contains('*').then_some("*")) {
+        None => Ok(()),
+        Some(marker) => Err(usage(format!(
+            "{output}: {marker} stands for nothing in an output's name; write {{face}} or %c where a face's name stands, #### or \
+             %04d where a frame's number does"
+        ))),
+    }
+}
+
+/// The faces of a cube go into files of their own, or into one whose layout is known.
+fn check_cube(output: &str, faces: bool, cube: &Cube, stereo: bool, format: Format) -> Result<Format> {
+    match (faces, cube.layout) {
+        (true, Some(Packing::OneImage(kind))) => Err(usage(format!(
+            "{TO} cube:layout={kind} makes one image, but {output} names a file for each face; leave {{face}} or %c out"
+        ))),
+        (true, _) if cube.order.is_some() => Err(usage(format!(
+            "{TO} cube has order=, but {output} names a file for each face; leave {{face}} or %c out, or give naming="
+        ))),
+        (true, _) | (false, Some(Packing::OneImage(_))) => Ok(format),
+        (false, None) if crate::target::picture::own_layout(format).is_some() && !stereo => Ok(format),
+        (false, _) => Err(usage(format!(
+            "{TO} cube makes a file for each face, but {output} has no {{face}} or %c where a face's name stands; for one \
+             image give {TO} cube:layout=strip-h, strip-v, 3x2, 2x3, cross-h, cross-v or eac"
+        ))),
+    }
+}

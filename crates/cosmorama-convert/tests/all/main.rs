@@ -1,0 +1,5 @@
+//! Tests of conversions as values, in one program.
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on should stop where it stands")]
+
+mod at_once;
+mod diagnostics;
