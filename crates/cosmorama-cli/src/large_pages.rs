@@ -45,7 +45,7 @@ fn spare() -> MutexGuard<'static, Spare> {
     SPARE.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// The same, unless somebody has it: it may be that its list wants more memory, and that there is none.
+/// Locks the spare memory unless it is locked already, which may be by the allocation of its own list.
 fn spare_if_free() -> Option<MutexGuard<'static, Spare>> {
     match SPARE.try_lock() {
         Ok(spare) => Some(spare),

@@ -94,7 +94,7 @@ fn is_pipe(_: &Path) -> bool {
 
 /// A conversion between files, some of which stand for streams.
 pub(crate) struct Piped {
-    /// The same with the names of files.
+    /// Arguments with names of files in place of streams.
     pub(crate) args: ConvertArgs,
     /// Where those lie.
     _kept: KeptStreams,

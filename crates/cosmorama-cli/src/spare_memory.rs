@@ -7,7 +7,7 @@ pub(crate) const BLOCKS: usize = 1 << 10;
 /// Memory that was given back and is kept for the next who asks for as much: frames of a sequence hold pictures of the same
 /// sizes, one after the other. `M` is how a block of it is known.
 pub(crate) struct SpareMemory<M> {
-    /// Those that were given back last are last.
+    /// Blocks in the order in which they were given back, latest last.
     blocks: VecDeque<(Layout, M)>,
     /// Bytes of these.
     spare: usize,

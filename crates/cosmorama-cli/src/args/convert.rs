@@ -43,10 +43,10 @@ pub(crate) struct ConvertArgs {
     /// How integer code values relate to light: auto, srgb, linear, bt1886, pq, hlg, gamma:G; float files are linear
     #[arg(long, value_name = "T", default_value = "auto", help_heading = "Light")]
     pub(crate) transfer: TransferName,
-    /// The same for the input alone, a float file too
+    /// As --transfer, for the input alone, a float file too
     #[arg(long, value_name = "T", help_heading = "Light")]
     pub(crate) in_transfer: Option<TransferName>,
-    /// The same for the output alone, a float file too
+    /// As --transfer, for the output alone, a float file too
     #[arg(long, value_name = "T", help_heading = "Light")]
     pub(crate) out_transfer: Option<TransferName>,
     /// Output sample type [default: as the input, where the format can]

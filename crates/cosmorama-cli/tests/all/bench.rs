@@ -138,7 +138,7 @@ pub(crate) fn floats(width: usize, height: usize, pixel: impl Fn(usize, usize) -
     EncodedImage::new(width, height, Channels::Rgb, Depth::Float, Samples::Float(samples)).unwrap()
 }
 
-/// The same with alpha: 1 everywhere.
+/// Float pixels with an alpha of 1 everywhere.
 pub(crate) fn veiled(width: usize, height: usize, pixel: impl Fn(usize, usize) -> [f32; 3]) -> EncodedImage {
     let opaque = floats(width, height, pixel);
     let Samples::Float(samples) = opaque.into_samples() else { panic!("floats are floats") };

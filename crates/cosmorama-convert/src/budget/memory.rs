@@ -251,7 +251,7 @@ pub(crate) fn human(bytes: u64) -> String {
     told(bytes, |tenths| tenths)
 }
 
-/// The same, so that who gives as much as is told gives enough.
+/// Formats an amount of memory rounded up, so that giving as much as is printed is enough.
 fn human_at_least(bytes: u64) -> String {
     told(bytes, f64::ceil)
 }

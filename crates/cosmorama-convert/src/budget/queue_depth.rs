@@ -1,11 +1,11 @@
 /// Frames in flight around the one that is filtered.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct QueueDepth {
-    /// Those that are being read, or wait for their turn. Of one alone the files are read when the frame before it is made: the
-    /// samples of that are gone then.
+    /// Frames that are being read or wait for their turn. A single one is read once the frame before it is made, and its
+    /// samples are freed.
     pub(crate) read: usize,
-    /// Those whose pictures there are: of all but one they are being written, of the last they are made. One alone is written before
-    /// there are pictures of the next.
+    /// Frames whose pictures exist: the last is being made, the others written. A single one is written before the next
+    /// has pictures.
     pub(crate) written: usize,
     /// Bytes that all of them may take together, with the one that is filtered, beside what they share.
     pub(crate) bytes: u64,

@@ -13,7 +13,7 @@ pub struct ThinAlpha {
 }
 
 impl ThinAlpha {
-    /// That of some pixels; `None` where one has full alpha.
+    /// Finds the range of alpha over some pixels; `None` where one has full alpha.
     pub fn of(mut pixels: impl Iterator<Item = Rgba>) -> Option<Self> {
         let none = Self { least: 1.0, greatest: 0.0 };
         pixels.try_fold(none, |range, pixel| {
@@ -22,7 +22,7 @@ impl ThinAlpha {
         })
     }
 
-    /// That of both.
+    /// Returns the range that spans both.
     pub(crate) fn with(self, other: Self) -> Self {
         Self { least: self.least.min(other.least), greatest: self.greatest.max(other.greatest) }
     }

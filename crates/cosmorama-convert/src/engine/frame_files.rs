@@ -24,9 +24,9 @@ pub(crate) struct ViewImage {
 pub(crate) enum Which {
     /// All of them.
     All,
-    /// Those that have a file for each frame.
+    /// Views with a file for each frame.
     Moving,
-    /// Those whose file serves all frames.
+    /// Views whose file serves all frames.
     Still,
 }
 

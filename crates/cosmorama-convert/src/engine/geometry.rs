@@ -35,7 +35,7 @@ fn anew() -> Diagnostic {
 }
 
 impl Geometry {
-    /// That of a job, and what should be known of it.
+    /// Compiles the geometry of a job, and returns it with its warnings.
     pub(crate) fn compile(job: &ConvertJob) -> (Self, Vec<Diagnostic>) {
         let mut warnings = Vec::new();
         if job.filter.kind == FilterKind::EwaPyramid {
@@ -199,7 +199,7 @@ fn plans<P>(
     plans
 }
 
-/// That of a job whose inputs and outputs are opaque pictures of 8 bits that 15 bits of light are enough for.
+/// Returns the integer codec of a job; `None` unless its pictures are opaque, of 8 bits, and fit 15-bit light.
 fn codec(job: &ConvertJob) -> Option<FixedCodec> {
     let light = &job.light;
     let is_possible = !matches!(job.filter.kind, FilterKind::Reference { .. } | FilterKind::EwaPyramid)

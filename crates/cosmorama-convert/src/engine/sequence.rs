@@ -1,9 +1,8 @@
 //! Frames in order through three stages that overlap.
 //!
-//! One thread conducts: it has files read ahead, makes light of the frame whose turn it is and filters that, with all
-//! threads, and has pictures written behind. Whatever takes time is done by the one pool of threads, so that codecs and
-//! the filter share the cores, and no thread of that pool ever waits for a queue: the conductor does, which is none of
-//! them. Both queues are bounded, and both are in the frames' order.
+//! One scheduling thread has files read ahead, filters the current frame, and has pictures written behind. All work runs in
+//! one thread pool, so that codecs and the filter share the cores. Pool threads never block on a queue; only the scheduling
+//! thread does. Both queues are bounded, and keep the frames' order.
 
 use std::collections::VecDeque;
 use std::path::Path;

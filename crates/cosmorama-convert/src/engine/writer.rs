@@ -15,12 +15,12 @@ pub(crate) enum Levels {
 }
 
 impl Levels {
-    /// Those of light.
+    /// Returns the images if they are of light.
     pub(crate) fn into_light(self) -> Option<Vec<Image<Rgba>>> {
         if let Self::Light(images) = self { Some(images) } else { None }
     }
 
-    /// Those of code values.
+    /// Returns the images if they are of code values.
     pub(crate) fn into_codes(self) -> Option<Vec<Image<[u8; 3]>>> {
         if let Self::Codes(images) = self { Some(images) } else { None }
     }
@@ -49,7 +49,7 @@ impl Writer {
         self.write(&encoded, path)
     }
 
-    /// The same by the thread that asks. Gives the images back: fresh ones for the next frame would be made empty first.
+    /// Encodes and writes the images on the calling thread, and returns them: fresh ones for the next frame would be zeroed.
     pub(crate) fn save_and_hand_on(&self, levels: Levels, path: &Path) -> Result<Levels> {
         match levels {
             Levels::Light(images) => {

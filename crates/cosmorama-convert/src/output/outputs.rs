@@ -25,7 +25,7 @@ pub(crate) struct Outputs {
     pub(crate) frames: Vec<FrameOutputs>,
     /// Outputs that were there already.
     pub(crate) skipped: usize,
-    /// Those to be made in whose place something else stands.
+    /// Outputs to be made again: something else stands in their place.
     pub(crate) remade: Vec<Remade>,
 }
 

@@ -68,7 +68,7 @@ impl Picture {
         }
     }
 
-    /// The same for both eyes: each eye's picture, squeezed where it is to be, in its place.
+    /// Lays out the pictures of both eyes, each in its place, squeezed where the packing asks for it.
     fn stereo(stereo: StereoSpec, geometry: &GeometrySettings, pixels_per_radian: Option<f64>) -> Result<Vec<Self>> {
         if let Some(eye) = stereo.eye {
             return Err(usage(format!("{TO}: eye={} is for inputs; an output with stereo= has both eyes", eye.name())));

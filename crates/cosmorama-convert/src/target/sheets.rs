@@ -139,8 +139,9 @@ impl Target {
         Ok(Self { views, files, format, envmap, panorama })
     }
 
-    /// The same with the smaller copies of its cube, down to faces of one pixel: each what the conversion would give at its
-    /// size, so that they meet at the edges as the largest do.
+    /// Adds the mip levels of its cube, down to faces of one pixel.
+    ///
+    /// Each level is what the conversion gives at its size, so that its faces meet at the edges as the largest do.
     pub(crate) fn with_mips(mut self, output: &str, geometry: &GeometrySettings) -> Result<Self> {
         if !self.format.holds_levels() {
             return Err(usage(format!(

@@ -108,12 +108,12 @@ impl FaceSet {
         &self.faces[face as usize]
     }
 
-    /// Those that exist.
+    /// Iterates over the faces whose files exist.
     pub fn present(&self) -> impl Iterator<Item = &FaceFile> {
         self.faces.iter().filter(|face| face.present)
     }
 
-    /// Those that do not.
+    /// Iterates over the faces whose files are missing.
     pub fn missing(&self) -> impl Iterator<Item = &FaceFile> {
         self.faces.iter().filter(|face| !face.present)
     }

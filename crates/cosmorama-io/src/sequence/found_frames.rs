@@ -60,7 +60,7 @@ impl FoundFrames {
         found.into_iter().filter_map(is_new).collect()
     }
 
-    /// Those with one text around their numbers, where there are two or more.
+    /// Finds the frames with the same text around their numbers; `None` where there are fewer than two.
     fn of(folder: &Path, (before, after): &Around, numbers: &[String]) -> Option<Self> {
         let places = numbers.iter().map(String::len).min()?;
         // Longer ones with zeros before them are not what so many signs find.

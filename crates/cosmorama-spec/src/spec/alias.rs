@@ -34,7 +34,7 @@ const ALIASES: [(&str, &str); 26] = [
 
 /// Projections of ffmpeg's v360 that are not on offer.
 const REFUSED: [&str; 5] = ["barrel", "fb", "barrelsplit", "tsp", "tetrahedron"];
-/// The same of envutil: a cube of equal angles.
+/// Projection of envutil that is not on offer: a cube of equal angles.
 const REFUSED_OF_ENVUTIL: &str = "biatan6";
 
 /// The SPEC with its name as we have it. Keys that were typed follow those that the name stands for, in whose place they

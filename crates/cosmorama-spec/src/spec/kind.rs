@@ -17,7 +17,7 @@ pub(crate) struct Kind {
     pub(crate) about: &'static str,
     /// Its own keys.
     pub(crate) keys: &'static [Key],
-    /// Those of the common keys that mean nothing here.
+    /// Common keys that mean nothing here.
     pub(crate) refused: &'static [Refused],
     /// What it stands for with these keys.
     pub(crate) build: fn(&Fields) -> Result<Shape, SpecError>,

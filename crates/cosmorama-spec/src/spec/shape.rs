@@ -82,7 +82,7 @@ pub enum SphereSamples {
 }
 
 impl Single {
-    /// The same with samples where a file format has them, unless the SPEC says where.
+    /// Places samples where a file format has them, unless the SPEC says where.
     pub fn with_samples(mut self, samples: SamplePositions) -> Self {
         if let (CameraModel::Equirect(frame), SphereSamples::ByFormat) = (&mut self.placement.frame, self.samples) {
             frame.samples = samples;

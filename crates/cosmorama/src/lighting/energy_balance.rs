@@ -6,8 +6,10 @@ use crate::render::Plan;
 use crate::sphere::Direction;
 use crate::world::{SolidAngles, World};
 
-/// Factors that make of weights which add to one over a pixel's texels such as add to a texel's solid angle over its pixels,
-/// too: then a picture of the whole world has the light of the world that it is made of, wherever that comes from.
+/// Row and column scale factors that make the weight matrix conservative.
+///
+/// Each pixel's weights then sum to one, and each texel's to its solid angle. A picture of a whole sphere keeps the world's
+/// total radiance, wherever that comes from.
 ///
 /// Near poles, seams and the corners of faces a kernel that looks right from each pixel gives some texels more than their
 /// share. The factors, one for each texel and one for each pixel, are those of R. Sinkhorn and P. Knopp (*Concerning

@@ -29,7 +29,8 @@ struct Base {
     size: Option<(usize, usize)>,
 }
 
-/// The same with what a Hugin project says where nothing else is said, and with the maps of `--from` and `--to` read.
+/// Completes the settings from a Hugin project where nothing else is given, and reads the maps of `--from` and `--to`.
+///
 /// Without `base=` a map relates the two sides of the conversion to each other; then a side that is not given is a plain
 /// picture, and the output as large as the map unless `--size` says otherwise.
 pub(crate) fn settled(

@@ -144,7 +144,7 @@ fn texels(format: D3DFormat) -> Option<Texels> {
     })
 }
 
-/// The same for Direct3D 10 and later, and whether the format is one of sRGB.
+/// Finds the texels of a format of Direct3D 10 and later, and whether it is one of sRGB.
 fn modern_texels(format: DxgiFormat) -> (Option<Texels>, bool) {
     let blocks = |format| Texels::Blocks(format);
     let (texels, srgb) = match format {
