@@ -2,10 +2,10 @@ use cosmorama::layout::LensSide;
 use cosmorama::projection::azimuthal::LensError;
 use thiserror::Error;
 
-/// Why a SPEC cannot be understood.
+/// Reason for which a SPEC cannot be understood.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum SpecError {
-    /// The name is in no table.
+    /// A name that no projection has.
     #[error("unknown projection '{name}'{}; there are {}", did_you_mean(.name, .known), .known.join(", "))]
     UnknownName {
         /// Name of the projection.
@@ -13,7 +13,7 @@ pub enum SpecError {
         /// Names that there are.
         known: Vec<&'static str>,
     },
-    /// Another program has it, and we do not.
+    /// A projection of another program that is not on offer here.
     #[error(
         "the projection '{name}' of other programs is not on offer here; it is converted there, from and to equirect, {way}"
     )]
@@ -23,7 +23,7 @@ pub enum SpecError {
         /// How to convert it by way of another program.
         way: String,
     },
-    /// The key is not one of this name's.
+    /// A key that the projection does not take.
     #[error("unknown key '{key}' for {name}{}; it takes {}", meant(.key, .known), .known.join(", "))]
     UnknownKey {
         /// Name of the projection.
@@ -33,7 +33,7 @@ pub enum SpecError {
         /// Names that there are.
         known: Vec<&'static str>,
     },
-    /// A common key that means nothing for this name.
+    /// A common key that means nothing for this projection.
     #[error("{name} takes no {key}=: {why}")]
     Refused {
         /// Name of the projection.
@@ -49,7 +49,7 @@ pub enum SpecError {
         /// Part as typed.
         part: String,
     },
-    /// A key twice.
+    /// A key that is given twice.
     #[error("{key}= is given twice")]
     Twice {
         /// Key as typed.
@@ -65,7 +65,7 @@ pub enum SpecError {
         /// Description of a good value.
         expected: String,
     },
-    /// A key without which the name means nothing.
+    /// A key that is missing, without which the name means nothing.
     #[error("{name} needs {key}=, as in {example}")]
     Missing {
         /// Name of the projection.
@@ -93,7 +93,7 @@ pub enum SpecError {
     },
 }
 
-/// The key that was meant, where one of a lens or a face was typed as it stands in the table, or another is like it.
+/// Returns the key that was meant, where one of a lens or a face was typed as it stands in the table, or another is like it.
 fn meant(typed: &str, known: &[&str]) -> String {
     match typed.split_once('.') {
         Some((_, key)) if known.contains(&&*format!("LENS.{key}")) => {
@@ -106,7 +106,7 @@ fn meant(typed: &str, known: &[&str]) -> String {
     }
 }
 
-/// The known name that is most like what was typed, as a question; nothing where none is.
+/// Returns the known name that is most like what was typed, as a question; nothing where none is.
 pub fn did_you_mean(typed: &str, known: &[&str]) -> String {
     let likeness = |name: &&&str| (strsim::normalized_damerau_levenshtein(typed, name) * 1000.0) as i64;
     match known.iter().max_by_key(likeness).filter(|best| likeness(best) >= 500) {

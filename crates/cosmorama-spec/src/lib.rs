@@ -1,8 +1,32 @@
 //! Text forms of cosmorama's values: projections, filters, kernels, transfer functions, colours, sizes.
 //!
-//! A [`Spec`] says what a picture shows: `NAME[:key=value[,key=value]…]`. Parsing touches no file: a calibration or an st map
-//! that a text names is kept as a path, for whoever opens inputs. What cannot be understood is a [`SpecError`], which names
-//! the key, the value and what was expected.
+//! A [`Spec`] names the projection of a picture: `NAME[:key=value[,key=value]…]`. Every type here parses with [`FromStr`] and
+//! prints with [`Display`]; what it prints is parsed to the same value.
+//!
+//! ```
+//! use cosmorama_spec::{FilterName, Shape, Size, Spec};
+//!
+//! let spec: Spec = "fulldome:tilt=20.0,fov=180".parse()?;
+//! let Shape::Single(single) = &spec.shape else { panic!("a dome is one image") };
+//! let view = single.placement.view(1024, 1024).expect("a dome of this size");
+//! assert_eq!(view.width(), 1024);
+//! // What is default is left out.
+//! assert_eq!(spec.to_string(), "fulldome:tilt=20");
+//!
+//! assert_eq!("4096".parse::<Size>().map(|size| size.width), Ok(4096));
+//! assert_eq!("reference:samples=4".parse::<FilterName>().map(|filter| filter.to_string()), Ok("reference".into()));
+//!
+//! // An error names the key, the value and what was expected.
+//! let error = "fulldome:tilt=wide".parse::<Spec>().unwrap_err();
+//! assert_eq!(error.to_string(), "tilt=wide: expected an angle in degrees, as in tilt=90");
+//! # Ok::<(), cosmorama_spec::SpecError>(())
+//! ```
+//!
+//! Parsing touches no file. A calibration or an st map that a text names is kept as a path, for whoever opens inputs
+//! ([`Shape::Calibrated`], [`Shape::StMap`], [`Spec::files`]).
+//!
+//! [`FromStr`]: std::str::FromStr
+//! [`Display`]: std::fmt::Display
 #![forbid(unsafe_code)]
 
 mod angle;

@@ -7,7 +7,7 @@ use crate::number::decimal;
 pub enum MemorySize {
     /// Bytes.
     Bytes(u64),
-    /// Of free memory, 1 for all.
+    /// Part of free memory, 1 for all.
     Part(f64),
 }
 
@@ -22,7 +22,7 @@ impl FromStr for MemorySize {
     }
 }
 
-/// As it may be typed.
+/// Prints bytes, or a part in percent.
 impl std::fmt::Display for MemorySize {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {

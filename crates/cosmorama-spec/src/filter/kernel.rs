@@ -3,13 +3,15 @@ use std::str::FromStr;
 
 use cosmorama::filter::{CrossSection, Kernel};
 
-/// A kernel by name, with its parameters.
+/// Kernel by name, with its parameters: `gaussian:alpha=3,scale=0.6`.
+///
+/// Only parsing makes one, so that each has a name to print.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct KernelName {
-    /// What it is.
+    /// Weights that the name stands for.
     pub kernel: Kernel,
-    /// Whether there is anti-ringing where nothing is said of it: of what keeps light, it would take some away.
+    /// Default of anti-ringing: off for `light`, which it would keep from keeping all light.
     pub anti_ringing: bool,
 }
 

@@ -3,7 +3,7 @@ use std::str::FromStr;
 
 use cosmorama::filter::FilterKind;
 
-/// A filter by name.
+/// Filter by name: `ewa`, `ewa-pyramid`, `point`, `bilinear` or `reference[:samples=N]`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct FilterName(pub FilterKind);
 

@@ -3,7 +3,7 @@ use std::str::FromStr;
 
 use cosmorama::raster::{ColourChannel, Rgba, Transfer};
 
-/// A colour: a name, `#rrggbb` or `#rrggbbaa` (sRGB), or `r,g,b[,a]` of linear light.
+/// Colour as premultiplied linear light, typed as a name, `#rrggbb` or `#rrggbbaa` (sRGB), or `r,g,b[,a]` of linear light.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Colour(pub Rgba);
 
@@ -37,7 +37,7 @@ impl fmt::Display for Colour {
     }
 }
 
-/// Light that times alpha is this, to the last bit where there is such a number.
+/// Returns the light that times alpha is this, to the last bit where there is such a number.
 fn unweighted(light: f32, alpha: f32) -> f32 {
     let near = light / alpha;
     [near, near.next_up(), near.next_down()].into_iter().find(|other| other * alpha == light).unwrap_or(near)

@@ -5,12 +5,12 @@ use cosmorama::raster::Rgba;
 
 use super::Colour;
 
-/// What becomes of directions that no view covers.
+/// Treatment of directions that no view covers: `error` or a [`Colour`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Missing {
-    /// They are an error.
+    /// Failure: every direction must be covered.
     Error,
-    /// They are filled, possibly with nothing.
+    /// Filling with a colour, possibly a transparent one.
     Fill(Rgba),
 }
 

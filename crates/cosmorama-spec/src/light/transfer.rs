@@ -3,12 +3,12 @@ use std::str::FromStr;
 
 use cosmorama::raster::Transfer;
 
-/// A transfer function by name.
+/// Transfer function by name: `auto`, `srgb`, `linear`, `bt1886`, `pq`, `hlg` or `gamma:G`.
 #[derive(Clone, Debug, PartialEq)]
 pub enum TransferName {
-    /// What the file says, else sRGB.
+    /// Transfer function that the file names, else sRGB.
     Auto,
-    /// This one.
+    /// Transfer function that holds whatever the file says.
     Fixed(Transfer),
 }
 
@@ -53,7 +53,7 @@ impl FromStr for TransferName {
 }
 
 impl TransferName {
-    /// The one asked for, unless it is to be found.
+    /// Returns the transfer function that was asked for; `None` where the file decides.
     pub fn fixed(&self) -> Option<Transfer> {
         match self {
             Self::Auto => None,

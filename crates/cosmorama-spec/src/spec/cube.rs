@@ -12,38 +12,38 @@ use crate::SpecError;
 use crate::angle::Degrees;
 use crate::window::Window;
 
-/// The faces of a cube, a file each or in one image.
+/// Faces of a cube, a file each or in one image.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Cube {
-    /// How the faces lie in files; `None` where the file's name, its metadata or its shape decides.
+    /// Packing of the faces in files; `None` where the file's name, its metadata or its shape decides.
     pub layout: Option<Packing>,
-    /// How files are named.
+    /// Naming of the files.
     pub naming: Option<&'static Naming>,
-    /// In which order faces lie in one image.
+    /// Order of the faces in one image.
     pub order: Option<FaceOrder>,
-    /// By how many quarters each picture is turned clockwise: in reading order, or of files in the order `rludfb`.
+    /// Quarter turns clockwise of each picture: in reading order, or of files in the order `rludfb`.
     pub rotate: Option<[u8; 6]>,
-    /// What a face sees from edge to edge.
+    /// Field of view of a face, from edge to edge.
     pub field_of_view: Angle,
-    /// Over how wide a band at its border a face fades out, if given.
+    /// Width of the band at its border over which a face fades out, if given.
     pub feather: Option<Angle>,
-    /// Only the half around this face.
+    /// Face around which half a cube lies; `None` for a whole one.
     pub half: Option<CubeFace>,
-    /// Where the outermost samples of a face lie, if given.
+    /// Position of the outermost samples of a face, if given.
     pub samples: Option<SamplePositions>,
-    /// Which faces count.
+    /// Faces that count.
     pub faces: Vec<CubeFace>,
-    /// How the cube is turned.
+    /// Orientation of the cube.
     pub orientation: Orientation,
-    /// How every picture is mirrored.
+    /// Mirroring of every picture.
     pub mirror: Mirror,
-    /// The canvas of every face.
+    /// Canvas of every face.
     pub canvas: Option<Canvas>,
-    /// The canvas of single faces.
+    /// Canvas of single faces.
     pub face_canvas: Vec<(CubeFace, Canvas)>,
 }
 
-/// How the faces of a cube lie in files.
+/// Packing of the faces of a cube in files.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Packing {
     /// A file each.
@@ -83,13 +83,13 @@ impl Default for Cube {
 }
 
 impl Cube {
-    /// The canvas of a face.
+    /// Returns the canvas of a face.
     pub fn canvas_of(&self, face: CubeFace) -> Option<Canvas> {
         let own = self.face_canvas.iter().find(|(other, _)| *other == face).map(|(_, canvas)| *canvas);
         own.or(self.canvas)
     }
 
-    /// How the faces lie in one image, if they do.
+    /// Returns the layout of the faces in one image, if they lie in one.
     pub fn one_image(&self) -> Option<CubeLayout> {
         let Some(Packing::OneImage(kind)) = self.layout else { return None };
         let mut layout = CubeLayout::new(kind);
@@ -105,7 +105,7 @@ impl Cube {
         Some(layout.mirrored(self.mirror))
     }
 
-    /// How a face's own file lies, which its naming says, and `rotate=`.
+    /// Returns how the picture in a face's own file lies, by its naming and `rotate=`.
     pub fn file_placement(&self, face: CubeFace, named: FacePlacement) -> FacePlacement {
         let place = FaceOrder::parse("rludfb").and_then(|order| order.faces.iter().position(|other| *other == face));
         match (self.rotate, place) {
@@ -117,14 +117,14 @@ impl Cube {
         }
     }
 
-    /// Where the outermost samples of a face lie.
+    /// Returns the position of the outermost samples of a face.
     pub fn samples(&self) -> SamplePositions {
         let by_order = self.order.as_ref().map(|order| order.samples);
         let by_naming = self.naming.map(|naming| naming.samples);
         self.samples.or(by_order).or(by_naming).unwrap_or_default()
     }
 
-    /// How the pixels of a face see the world.
+    /// Returns the camera model of a face.
     pub fn frame(&self) -> CameraModel {
         let mapping = match self.layout {
             Some(Packing::OneImage(kind)) => kind.mapping(),
@@ -138,14 +138,14 @@ impl Cube {
         }
     }
 
-    /// How faces take part where they overlap: each falls to nothing at its own border.
+    /// Returns the blending of faces that overlap: each falls to nothing at its own border.
     pub fn blend(&self) -> Blend {
         let shared = self.field_of_view - LayoutFaceCamera::RIGHT_ANGLE;
         let feather = if shared > Angle::ZERO { self.feather.unwrap_or(shared) } else { Angle::ZERO };
         Blend { priority: 0, feather }
     }
 
-    /// The cube of these keys.
+    /// Reads the keys of a cube.
     pub(super) fn build(fields: &Fields) -> Result<Self, SpecError> {
         let faces =
             fields.get("faces").map(|list| list.split([',', '+', ' ']).map(|name| face("faces", list, name)).collect());
@@ -195,7 +195,7 @@ impl Cube {
         Some(keys.placed(cube.orientation, cube.mirror, cube.canvas))
     }
 
-    /// Keys for files do not go with a layout in one image, nor the other way round.
+    /// Checks that keys fit: keys for files do not go with a layout in one image, nor the other way round.
     fn check(&self, fields: &Fields) -> Result<(), SpecError> {
         let one_image = matches!(self.layout, Some(Packing::OneImage(_))) || self.order.is_some();
         if let (true, Some(naming)) = (one_image, self.naming) {
@@ -251,7 +251,7 @@ fn face_canvas(fields: &Fields) -> Result<Vec<(CubeFace, Canvas)>, SpecError> {
     Ok(canvases)
 }
 
-/// A face by our own name, or one of the two that others have for up and down.
+/// Finds a face by our own name, or one of the two that others have for up and down.
 fn face(key: &str, value: &str, name: &str) -> Result<CubeFace, SpecError> {
     let own = match name.trim() {
         "top" => "up",

@@ -2,7 +2,7 @@
 
 use super::kind::{COMMON, KINDS, Key};
 
-/// All that a SPEC may be.
+/// Returns the help on SPECs: every projection with its keys.
 pub fn help() -> String {
     let mut text = String::from("SPEC is NAME[:key=value[,key=value]...]:\n");
     for kind in KINDS {

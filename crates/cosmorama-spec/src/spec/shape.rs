@@ -5,7 +5,7 @@ use super::keys::Keys;
 use super::{CalibrationSpec, Cube, Dual, StMapSpec};
 use crate::SpecError;
 
-/// What a SPEC stands for.
+/// Pictures that a SPEC stands for, by how they lie in files.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Shape {
     /// One image.
@@ -21,7 +21,7 @@ pub enum Shape {
 }
 
 impl Shape {
-    /// One image in a frame, placed as its keys say.
+    /// Makes one image of a camera, placed as its keys say.
     pub(super) fn single(fields: &Fields, frame: CameraModel) -> Result<Self, SpecError> {
         let placement = Placement {
             frame,
@@ -59,25 +59,25 @@ impl Shape {
     }
 }
 
-/// One image.
+/// One image, its projection given by a formula.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Single {
-    /// Its frame and place in the world.
+    /// Camera model and place in the world.
     pub placement: Placement,
-    /// Whether `samples=` was given for a panorama.
+    /// Position of a panorama's outermost samples.
     pub samples: SphereSamples,
     /// Whether the field of view was given both ways, so that any shape of pixels is meant.
     pub any_shape: bool,
 }
 
-/// Where a panorama's outermost samples lie, and who says so.
+/// Position of a panorama's outermost samples, and what decides it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SphereSamples {
-    /// The projection has no such choice.
+    /// No choice: the projection is no panorama.
     NotAPanorama,
-    /// As the file format has it.
+    /// Position that the file format has.
     ByFormat,
-    /// As the SPEC says.
+    /// Position that the SPEC gives.
     Given(SamplePositions),
 }
 

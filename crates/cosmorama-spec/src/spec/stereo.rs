@@ -4,12 +4,12 @@ use super::fields::{Fields, wrong};
 use super::keys::Keys;
 use crate::SpecError;
 
-/// That a picture is two, one for each eye.
+/// Division of a picture between two eyes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct StereoSpec {
-    /// How they share an image.
+    /// Arrangement of both in one image.
     pub packing: Stereo,
-    /// The only one that is used, if not both are.
+    /// Only eye that is used; `None` for both.
     pub eye: Option<Eye>,
 }
 
@@ -25,7 +25,7 @@ const PACKINGS: [(&str, Stereo); 4] = [
 ];
 
 impl StereoSpec {
-    /// The keys of a stereo picture; `None` where it is none.
+    /// Reads the keys of a stereo picture; `None` where it is none.
     pub(super) fn build(fields: &Fields) -> Result<Option<Self>, SpecError> {
         let Some(packing) = fields.choice("stereo", &PACKINGS)? else {
             let alone = ["swap", "eye"].into_iter().find_map(|key| Some((key, fields.get(key)?)));
@@ -45,7 +45,7 @@ impl StereoSpec {
         keys.maybe("stereo", name).switch("swap", self.packing.is_swapped).maybe("eye", self.eye.map(Eye::name))
     }
 
-    /// The eyes that are used.
+    /// Returns the eyes that are used.
     pub fn eyes(self) -> Vec<Eye> {
         self.eye.map_or_else(|| Eye::ALL.to_vec(), |eye| vec![eye])
     }

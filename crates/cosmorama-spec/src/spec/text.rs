@@ -13,16 +13,31 @@ use super::shape::Shape;
 use super::stereo::StereoSpec;
 use crate::SpecError;
 
-/// A SPEC as it was typed, taken apart and found good.
+/// Projection of a picture as it is typed, `NAME[:key=value[,key=value]…]`, checked.
+///
+/// ```
+/// use cosmorama_spec::{Cube, Packing, Shape, Spec};
+/// use cosmorama::layout::LayoutKind;
+///
+/// // Names of other programs are understood; values print in this one's words.
+/// let spec: Spec = "c3x2:flip=x".parse()?;
+/// assert_eq!(spec.to_string(), "cube:layout=3x2,flip=x");
+///
+/// // A value that a program made prints, too.
+/// let layout = Some(Packing::OneImage(LayoutKind::ALL[0]));
+/// let spec = Spec::from(Shape::Cube(Cube { layout, ..Cube::default() }));
+/// assert_eq!(spec.to_string().parse(), Ok(spec));
+/// # Ok::<(), cosmorama_spec::SpecError>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Spec {
-    /// The projection's name.
+    /// Name of the projection.
     pub name: &'static str,
-    /// What it means.
+    /// Pictures that it stands for.
     pub shape: Shape,
-    /// Whether it is there twice, once for each eye.
+    /// Division of the picture between two eyes; `None` for one eye.
     pub stereo: Option<StereoSpec>,
-    /// The files that it names.
+    /// Files that it names.
     pub files: Vec<PathBuf>,
 }
 
@@ -35,7 +50,10 @@ impl FromStr for Spec {
 }
 
 impl Spec {
-    /// A SPEC that names files as seen from a folder.
+    /// Parses a SPEC that names files as seen from a folder.
+    ///
+    /// # Errors
+    /// When the name is none, or a key or a value is not one of the name's.
     pub fn parse_in(folder: &Path, text: &str) -> Result<Self, SpecError> {
         let text = without_alias(text);
         let (name, rest) = text.split_once(':').unwrap_or((&text, ""));
@@ -63,7 +81,7 @@ impl Spec {
     }
 }
 
-/// The SPEC of a shape, by the name that the shape has.
+/// Makes the SPEC of a shape, by the name that the shape has.
 impl From<Shape> for Spec {
     fn from(shape: Shape) -> Self {
         let name = named(&shape).map_or("picture", |(kind, _)| kind.name);

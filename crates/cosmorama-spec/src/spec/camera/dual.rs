@@ -12,11 +12,11 @@ use crate::spec::keys::Keys;
 /// Two fisheye pictures in one image.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Dual {
-    /// The pictures.
+    /// Both pictures, and their places in the image.
     pub picture: DualFisheye,
-    /// How both are turned.
+    /// Orientation of both together.
     pub orientation: Orientation,
-    /// How the image is mirrored.
+    /// Mirroring of the image.
     pub mirror: Mirror,
 }
 
@@ -25,7 +25,7 @@ const ARRANGEMENTS: [(&str, Arrangement); 2] =
 const ORDERS: [(&str, LensSide); 2] = [("fb", LensSide::Front), ("bf", LensSide::Back)];
 
 impl Dual {
-    /// The pictures of these keys.
+    /// Reads the keys of two fisheyes.
     pub(in crate::spec) fn build(fields: &Fields) -> Result<Self, SpecError> {
         let both = FisheyeCamera {
             lens: lens(fields)?,
@@ -64,7 +64,7 @@ impl Dual {
     }
 }
 
-/// One of the two, with what is said of it alone.
+/// Reads one of the two, with what is said of it alone.
 fn one(fields: &Fields, side: LensSide, both: FisheyeCamera) -> Result<DualLens, SpecError> {
     let prefix = format!("{}.", side.name());
     let field_of_view = fields.angle(&format!("{prefix}fov"))?.unwrap_or(both.field_of_view);

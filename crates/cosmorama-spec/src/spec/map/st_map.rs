@@ -8,20 +8,20 @@ use crate::spec::fields::{Fields, wrong};
 use crate::spec::keys::Keys;
 use crate::spec::{CalibrationSpec, Shape, Single, Spec};
 
-/// A picture that an st map relates to another one, before the map has been read.
+/// Picture that an st map relates to another one, before the map has been read.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StMapSpec {
-    /// The map.
+    /// File of the map.
     pub file: PathBuf,
     /// Whether it is used the other way round.
     pub invert: bool,
     /// Picture at the map's other end, if given.
     pub base: Option<StMapBase>,
-    /// How this picture is turned.
+    /// Orientation of this picture.
     pub orientation: Orientation,
-    /// How it is mirrored.
+    /// Mirroring of this picture.
     pub mirror: Mirror,
-    /// The canvas that it is a window of.
+    /// Canvas that this picture is a window of.
     pub canvas: Option<Canvas>,
 }
 
@@ -81,7 +81,7 @@ impl StMapBase {
     }
 }
 
-/// A SPEC within a SPEC, whose commas are colons.
+/// Parses a SPEC within a SPEC, whose commas are colons.
 fn base(text: &str, folder: &Path) -> Result<StMapBase, SpecError> {
     let expected = |what: &str| wrong("base", text, what);
     let (name, keys) = text.split_once(':').unwrap_or((text, ""));
