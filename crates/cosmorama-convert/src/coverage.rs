@@ -1,7 +1,7 @@
 use cosmorama::camera::{Canvas, PixelRect, View};
 use cosmorama::filter::Filter;
 use cosmorama::raster::Rgba;
-use cosmorama::render::{Need, Needs};
+use cosmorama::render::{Accuracy, Need, Needs};
 use cosmorama::world::{Source, World, WorldView};
 use cosmorama_spec::Missing;
 
@@ -76,18 +76,12 @@ fn find_gaps(
     }
     let geometry: Vec<View> = targets.iter().map(|target| target.view).collect();
     let uncovered = |needs: &Needs| needs.uncovered.map(|gap| format!("{}: {gap}", targets[gap.target].name));
-    let quick = Needs::within_reach(nominal, &geometry, filter);
-    let mut needs = quick.unwrap_or_else(|| Needs::at_most(nominal, &geometry, filter));
-    // A view that shows no pixel's direction may still be read around them; if not, its file is not wanted.
-    let unsure: Vec<bool> = needs.views.iter().map(|need| need.seen.is_none() && need.read.is_some()).collect();
-    if unsure.contains(&true) {
-        needs = needs.settled(nominal, &geometry, filter, &unsure);
-    }
+    let needs = Needs::of(nominal, &geometry, filter, Accuracy::Bounds);
     if needs.views.iter().any(|need| need.seen.is_some()) && views.iter().zip(&needs.views).all(holds) {
         views.iter_mut().zip(&needs.views).for_each(|(view, need)| view.wanted = need.read.is_some());
         return Ok(uncovered(&needs).into_iter().collect());
     }
-    let needs = Needs::of(nominal, &geometry, filter);
+    let needs = Needs::of(nominal, &geometry, filter, Accuracy::Exact);
     let mut gaps = Vec::new();
     for (view, need) in views.iter_mut().zip(&needs.views) {
         view.wanted = need.read.is_some();

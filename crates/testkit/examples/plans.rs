@@ -10,7 +10,7 @@ use std::sync::Mutex;
 use std::time::Instant;
 
 use cosmorama::raster::{Image, Rgba};
-use cosmorama::render::FixedPlan;
+use cosmorama::render::{Arithmetic, Plan};
 use cpu_time::ProcessTime;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use testkit::Dome;
@@ -60,18 +60,18 @@ fn median(costs: &[Cost]) -> Cost {
 /// Frames that are made by a plan, all into one image.
 struct Frames<'a> {
     dome: &'a Dome,
-    plan: &'a FixedPlan,
+    plan: &'a Plan,
     image: Mutex<Image<[u8; 3]>>,
 }
 
 impl<'a> Frames<'a> {
-    fn new(dome: &'a Dome, plan: &'a FixedPlan) -> Self {
-        Self { dome, plan, image: Mutex::new(plan.apply(&dome.light, &dome.codec)) }
+    fn new(dome: &'a Dome, plan: &'a Plan) -> Self {
+        Self { dome, plan, image: Mutex::new(plan.apply_fixed(&dome.light, &dome.codec)) }
     }
 
     fn next(&self) {
         let mut image = self.image.lock().expect("nobody fails");
-        self.plan.apply_into(&self.dome.light, &self.dome.codec, &mut image);
+        self.plan.apply_fixed_into(&self.dome.light, &self.dome.codec, &mut image);
     }
 }
 
@@ -83,7 +83,10 @@ fn still(dome: &Dome) {
 fn turns(size: usize) {
     let dome = Dome::new(size);
     let texels: Vec<Rgba> = (0..dome.world.texel_count()).map(|texel| dome.light.rgba(texel)).collect();
-    let (plan, floats) = (dome.resampler().fixed_plan().expect("a plan"), dome.resampler().plan().expect("a plan"));
+    let (plan, floats) = (
+        dome.resampler().plan(Arithmetic::Fixed).expect("a plan"),
+        dome.resampler().plan(Arithmetic::Float).expect("a plan"),
+    );
     let (frames, image) = (Frames::new(&dome, &plan), Mutex::new(floats.apply(&texels)));
     let pool = ThreadPoolBuilder::new().num_threads(1).build().expect("a thread");
     let of_floats = || floats.apply_into(&texels, Rgba::BLACK, &mut image.lock().expect("nobody fails"));
@@ -101,7 +104,7 @@ fn turns(size: usize) {
 /// Lines of: what, threads, seconds, CPU-seconds.
 fn threads(size: usize) {
     let dome = Dome::new(size);
-    let plan = dome.resampler().fixed_plan().expect("a plan");
+    let plan = dome.resampler().plan(Arithmetic::Fixed).expect("a plan");
     let pool = |threads| ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
     let pools: Vec<(usize, ThreadPool)> = [1, 2].map(|threads| (threads, pool(threads))).into();
     let taking_turns = |name: &str, work: &(dyn Fn() + Sync)| {
@@ -130,7 +133,7 @@ fn size(size: usize) {
     let rounds = (PIXELS / pixels).clamp(LEAST, MOST);
     let nanoseconds = |costs: &[Cost]| median(costs).cpu / pixels as f64 * 1e9;
     let repeated = |work: &dyn Fn()| nanoseconds(&(0..rounds).map(|_| cost(work).0).collect::<Vec<_>>());
-    let (making, plan) = cost(|| dome.resampler().fixed_plan().expect("a plan"));
+    let (making, plan) = cost(|| dome.resampler().plan(Arithmetic::Fixed).expect("a plan"));
     let bytes = plan.bytes() as f64 / pixels as f64;
     let frames = Frames::new(&dome, &plan);
     let by_plan = repeated(&|| frames.next());

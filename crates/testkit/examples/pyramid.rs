@@ -8,7 +8,7 @@ use std::f64::consts::PI;
 use cosmorama::camera::View;
 use cosmorama::filter::{Filter, FilterKind};
 use cosmorama::raster::{ColourChannel, Image, Rgba, Transfer};
-use cosmorama::render::{PyramidPlan, Resampler};
+use cosmorama::render::{Arithmetic, Plan, Resampler};
 use cosmorama::sphere::CubeFace;
 use cosmorama::world::World;
 use cosmorama_io::{Limits, read};
@@ -141,7 +141,7 @@ fn cost_line(size: usize, shrink: f64) {
     let (exact, _) = timed(|| of(Filter::DEFAULT, &target).render(&light));
     let (cold, _) = timed(|| of(PYRAMID, &target).render(&light));
     let [warm, half] = [&target, &half].map(|target| {
-        let plan = of(PYRAMID, target).pyramid_plan().expect("a pyramid");
+        let plan = of(PYRAMID, target).plan(Arithmetic::Float).expect("a pyramid");
         timed(|| plan.apply(&light)).0
     });
     let (a_pixel, levels) = ((warm - half) / pixels * 1e9, 2.0 * half - warm);
@@ -177,13 +177,14 @@ fn size() {
 fn count(size: usize, shrink: f64, rows: usize) {
     let (world, target) = (cube_for(size, shrink), upper(&view(size), rows));
     let light = noise(&world);
-    let plan = Resampler { world: &world, target: &target, filter: PYRAMID }.pyramid_plan().expect("a pyramid");
+    let plan =
+        Resampler { world: &world, target: &target, filter: PYRAMID }.plan(Arithmetic::Float).expect("a pyramid");
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a thread");
     pool.install(|| counted(&plan, &light));
 }
 
 /// A function of its own, for callgrind to know it by its name.
 #[inline(never)]
-fn counted(plan: &PyramidPlan, light: &[Rgba]) {
+fn counted(plan: &Plan, light: &[Rgba]) {
     std::hint::black_box(plan.apply(light));
 }

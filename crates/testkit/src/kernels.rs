@@ -2,6 +2,7 @@ use std::cell::RefCell;
 use std::sync::Arc;
 
 use cosmorama::raster::{Channels, Depth, EncodedImage, FixedDecoder, FixedLight, Rgba, Samples, Transfer};
+use cosmorama::render::Arithmetic;
 
 use super::Dome;
 
@@ -25,12 +26,12 @@ impl Kernel {
         let dome = Arc::new(Dome::new(size));
         let texels: Arc<[Rgba]> = (0..dome.light.len()).map(|texel| dome.light.rgba(texel)).collect();
         let frame_texels = texels.clone();
-        let plan = dome.resampler().fixed_plan().expect("a plan");
-        let plan_of_floats = dome.resampler().plan().expect("a plan");
+        let plan = dome.resampler().plan(Arithmetic::Fixed).expect("a plan");
+        let plan_of_floats = dome.resampler().plan(Arithmetic::Float).expect("a plan");
         vec![
-            kernel(&dome, "plan of 8 bits", |dome| drop(dome.resampler().fixed_plan())),
-            kernel(&dome, "plan of floats", |dome| drop(dome.resampler().plan())),
-            kernel(&dome, "frame of 8 bits", move |dome| drop(plan.apply(&dome.light, &dome.codec))),
+            kernel(&dome, "plan of 8 bits", |dome| drop(dome.resampler().plan(Arithmetic::Fixed))),
+            kernel(&dome, "plan of floats", |dome| drop(dome.resampler().plan(Arithmetic::Float))),
+            kernel(&dome, "frame of 8 bits", move |dome| drop(plan.apply_fixed(&dome.light, &dome.codec))),
             kernel(&dome, "frame of floats", move |_| drop(plan_of_floats.apply(&frame_texels))),
             kernel(&dome, "still of 8 bits", |dome| drop(dome.resampler().render_fixed(&dome.light, &dome.codec))),
             kernel(&dome, "still of floats", move |dome| drop(dome.resampler().render(&texels))),

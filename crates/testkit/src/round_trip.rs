@@ -1,7 +1,7 @@
 use cosmorama::camera::{PixelPoint, View};
 use cosmorama::filter::Filter;
 use cosmorama::raster::Rgba;
-use cosmorama::render::{Plan, Resampler};
+use cosmorama::render::{Arithmetic, Plan, Resampler};
 use cosmorama::sphere::Direction;
 use cosmorama::world::World;
 use glam::{DVec2, DVec3};
@@ -82,7 +82,7 @@ impl RoundTrip {
 }
 
 fn plans(world: &World, views: &[View], filter: Filter) -> Vec<Plan> {
-    let plan = |target| Resampler { world, target, filter }.plan();
+    let plan = |target| Resampler { world, target, filter }.plan(Arithmetic::Float);
     views.iter().map(|view| plan(view).expect("a filter whose weights can be recorded")).collect()
 }
 

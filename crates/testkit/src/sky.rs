@@ -1,7 +1,7 @@
 use cosmorama::filter::Filter;
 use cosmorama::lighting::LightBalance;
 use cosmorama::raster::Rgba;
-use cosmorama::render::{Plan, Resampler};
+use cosmorama::render::{Arithmetic, Plan, Resampler};
 use cosmorama::world::World;
 
 use crate::Form;
@@ -26,7 +26,7 @@ impl Sky {
     /// # Panics
     /// With the reference filter, which records no weights.
     pub fn new(from: &World, to: &Form, filter: Filter) -> Self {
-        let plan = |target| Resampler { world: from, target, filter }.plan();
+        let plan = |target| Resampler { world: from, target, filter }.plan(Arithmetic::Float);
         let plans = to.views.iter().map(|view| plan(view).expect("a filter whose weights can be recorded")).collect();
         Self { world: to.world(), plans, balance: None }
     }

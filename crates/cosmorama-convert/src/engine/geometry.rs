@@ -1,6 +1,6 @@
 use cosmorama::filter::FilterKind;
 use cosmorama::raster::{Channels, Depth, FixedCodec, FixedDecoder, FixedLight, Image, Rgba};
-use cosmorama::render::{FixedPlan, Plan, PyramidPlan, Resampler};
+use cosmorama::render::{Arithmetic, Plan, Resampler};
 
 use crate::conversion::ConvertJob;
 use crate::coverage::Coverage;
@@ -8,14 +8,13 @@ use crate::diagnostic::{Code, Diagnostic, KERNEL, MEMORY};
 use crate::engine::{Balance, BalancedLight, balance};
 use crate::target::TargetView;
 
-/// The geometry of a job, in the form that its light needs: compiled by target view, where that pays and fits into memory.
-pub(crate) enum Geometry {
-    /// For light of any range, and how it is kept.
-    Float(Vec<Option<Plan>>, Balance),
-    /// For opaque pictures of 8 bits, in and out.
-    Fixed(Vec<Option<FixedPlan>>, FixedCodec),
-    /// For light of any range, by a pyramid of it.
-    Pyramid(Vec<Option<PyramidPlan>>),
+/// The geometry of a job: compiled by target view, where that pays and fits into memory.
+pub(crate) struct Geometry {
+    plans: Vec<Option<Plan>>,
+    /// From 15 bits to 8, where the job works in those: opaque pictures of 8 bits, in and out.
+    codec: Option<FixedCodec>,
+    /// How light is kept.
+    balance: Balance,
 }
 
 fn unbalanced() -> Diagnostic {
@@ -38,58 +37,31 @@ impl Geometry {
     /// Compiles the geometry of a job, and returns it with its warnings.
     pub(crate) fn compile(job: &ConvertJob) -> (Self, Vec<Diagnostic>) {
         let mut warnings = Vec::new();
-        if job.filter.kind == FilterKind::EwaPyramid {
-            let compile = Compile {
-                estimate: |r| r.plan_bytes_estimate(),
-                plan: |r| r.pyramid_plan(),
-                bytes: PyramidPlan::bytes,
-            };
-            let plans = plans(job, (pays(job), 0), &compile, &mut warnings);
-            return (Self::Pyramid(plans), warnings);
-        }
-        let geometry = match codec(job) {
-            Some(codec) => {
-                let compile = Compile {
-                    estimate: |r| r.fixed_plan_bytes_estimate(),
-                    plan: |r| r.fixed_plan(),
-                    bytes: FixedPlan::bytes,
-                };
-                Self::Fixed(plans(job, (pays(job), 0), &compile, &mut warnings), codec)
-            }
-            None => {
-                let groups = balance::groups(job);
-                let taken = balance::bytes_of(job, &groups);
-                // What is balanced needs its plan, even for one picture.
-                let is_kept = pays(job) || !groups.is_empty();
-                let compile = Compile { estimate: |r| r.plan_bytes_estimate(), plan: |r| r.plan(), bytes: Plan::bytes };
-                let plans = plans(job, (is_kept, taken), &compile, &mut warnings);
-                if groups.iter().flatten().any(|view| plans[*view].is_none()) {
-                    warnings.push(unbalanced());
-                }
-                let balance = Balance::of(job, groups, &plans);
-                Self::Float(plans, balance)
-            }
+        let codec = codec(job);
+        let arithmetic = if codec.is_some() { Arithmetic::Fixed } else { Arithmetic::Float };
+        let groups = balance::groups(job);
+        // What is balanced needs its plan, even for one picture.
+        let is_kept = pays(job) || !groups.is_empty();
+        let plans = if is_kept {
+            plans(job, arithmetic, balance::bytes_of(job, &groups), &mut warnings)
+        } else {
+            job.target.views.iter().map(|_| None).collect()
         };
-        (geometry, warnings)
+        if groups.iter().flatten().any(|view| plans[*view].is_none()) {
+            warnings.push(unbalanced());
+        }
+        let balance = Balance::of(job, groups, &plans);
+        (Self { plans, codec, balance }, warnings)
     }
 
     /// From 15 bits to 8, where the job works in those.
     pub(crate) fn codec(&self) -> Option<&FixedCodec> {
-        match self {
-            Self::Float(..) | Self::Pyramid(_) => None,
-            Self::Fixed(_, codec) => Some(codec),
-        }
+        self.codec.as_ref()
     }
 
     /// Bytes that it holds.
     pub(crate) fn bytes(&self) -> u64 {
-        match self {
-            Self::Float(plans, balance) => {
-                plans.iter().flatten().map(|plan| plan.bytes() as u64).sum::<u64>() + balance.bytes()
-            }
-            Self::Fixed(plans, _) => plans.iter().flatten().map(|plan| plan.bytes() as u64).sum(),
-            Self::Pyramid(plans) => plans.iter().flatten().map(|plan| plan.bytes() as u64).sum(),
-        }
+        self.plans.iter().flatten().map(|plan| plan.bytes() as u64).sum::<u64>() + self.balance.bytes()
     }
 
     /// The pixels of a target view, of any light, in front of a background. What has holes is in no balance; `last` is of the same
@@ -103,28 +75,23 @@ impl Geometry {
         used: Option<Image<Rgba>>,
         last: &mut BalancedLight,
     ) -> Image<Rgba> {
+        let plan = self.plans[index].as_ref().filter(|_| self.codec.is_none());
         // What does not serve goes before anything is made.
-        let used = used.filter(|image| matches!(self, Self::Float(..)) && fits(image, &resampler));
-        let made = match self {
-            Self::Float(plans, balance) => plans[index].as_ref().map(|plan| {
-                let over = |texels: &[Rgba], background: Rgba| match used {
-                    Some(mut image) => {
-                        plan.apply_into(texels, background, &mut image);
-                        image
-                    }
-                    None => plan.apply_over(texels, background),
-                };
-                let balanced = if has_holes { None } else { balance.light(index, texels, last) };
-                let Some(balanced) = balanced else { return over(texels, background) };
-                let mut image = over(balanced, Rgba::TRANSPARENT);
-                balance.complete(index, &mut image);
-                image.lay_over(background);
+        let used = used.filter(|image| plan.is_some() && fits(image, &resampler));
+        let Some(plan) = plan else { return resampler.render_over(texels, background) };
+        let over = |texels: &[Rgba], background: Rgba| match used {
+            Some(mut image) => {
+                plan.apply_into(texels, background, &mut image);
                 image
-            }),
-            Self::Pyramid(plans) => plans[index].as_ref().map(|plan| plan.apply_over(texels, background)),
-            Self::Fixed(..) => None,
+            }
+            None => plan.apply_over(texels, background),
         };
-        made.unwrap_or_else(|| resampler.render_over(texels, background))
+        let balanced = if has_holes { None } else { self.balance.light(index, texels, last) };
+        let Some(balanced) = balanced else { return over(texels, background) };
+        let mut image = over(balanced, Rgba::TRANSPARENT);
+        self.balance.complete(index, &mut image);
+        image.lay_over(background);
+        image
     }
 
     /// The code values of a target view; by a plan in `used`, as [`Geometry::light`] makes its pixels.
@@ -135,17 +102,14 @@ impl Geometry {
         (light, codec): (&FixedLight, &FixedCodec),
         used: Option<Image<[u8; 3]>>,
     ) -> Image<[u8; 3]> {
-        let plan = match self {
-            Self::Float(..) | Self::Pyramid(_) => None,
-            Self::Fixed(plans, _) => plans[index].as_ref(),
-        };
+        let plan = self.plans[index].as_ref().filter(|_| self.codec.is_some());
         let used = used.filter(|image| plan.is_some() && fits(image, &resampler));
         match (plan, used) {
             (Some(plan), Some(mut image)) => {
-                plan.apply_into(light, codec, &mut image);
+                plan.apply_fixed_into(light, codec, &mut image);
                 image
             }
-            (Some(plan), None) => plan.apply(light, codec),
+            (Some(plan), None) => plan.apply_fixed(light, codec),
             (None, _) => resampler.render_fixed(light, codec),
         }
     }
@@ -161,35 +125,18 @@ fn pays(job: &ConvertJob) -> bool {
     job.outputs.frames.len() > 1
 }
 
-/// How plans of one kind are made.
-struct Compile<P> {
-    /// About how many bytes one would hold.
-    estimate: fn(&Resampler) -> usize,
-    plan: fn(&Resampler) -> Option<P>,
-    /// How many it holds.
-    bytes: fn(&P) -> usize,
-}
-
-/// The plans of all target views, if they are to be kept, as far as they fit into memory beside what is `taken`.
-fn plans<P>(
-    job: &ConvertJob,
-    (is_kept, taken): (bool, u64),
-    compile: &Compile<P>,
-    warnings: &mut Vec<Diagnostic>,
-) -> Vec<Option<P>> {
+/// The plans of all target views, as far as they fit into memory beside what is `taken`.
+fn plans(job: &ConvertJob, arithmetic: Arithmetic, taken: u64, warnings: &mut Vec<Diagnostic>) -> Vec<Option<Plan>> {
     let left = job.memory.left_for_plan(&job.input, &job.target, rayon::current_num_threads());
     let (mut left, mut lacks_room) = (left.saturating_sub(taken), false);
     let plan_of = |target: &TargetView| {
         let resampler = job.resampler(target);
-        if !is_kept {
-            return None;
-        }
-        if (compile.estimate)(&resampler) as u64 > left {
+        if resampler.plan_bytes_estimate(arithmetic) as u64 > left {
             lacks_room = true;
             return None;
         }
-        let plan = (compile.plan)(&resampler)?;
-        left = left.saturating_sub((compile.bytes)(&plan) as u64);
+        let plan = resampler.plan(arithmetic)?;
+        left = left.saturating_sub(plan.bytes() as u64);
         Some(plan)
     };
     let plans = job.target.views.iter().map(plan_of).collect();
@@ -237,10 +184,10 @@ mod tests {
     #[test]
     fn pictures_are_made_in_images_that_nobody_uses_any_more() {
         let dome = Dome::new(64);
-        let plan = dome.resampler().fixed_plan().expect("a plan");
-        let expected = plan.apply(&dome.light, &dome.codec);
+        let plan = dome.resampler().plan(Arithmetic::Fixed).expect("a plan");
+        let expected = plan.apply_fixed(&dome.light, &dome.codec);
         let codec = FixedCodec::new(&Transfer::Srgb, Rgba::BLACK).expect("sRGB has 8 bits");
-        let geometry = Geometry::Fixed(vec![Some(plan)], codec);
+        let geometry = Geometry { plans: vec![Some(plan)], codec: Some(codec), balance: Balance::default() };
         let codes = |used| geometry.codes(0, dome.resampler(), (&dome.light, &dome.codec), used);
         let made = codes(Some(roomy([9; 3])));
         assert!(made == expected);
@@ -250,9 +197,9 @@ mod tests {
         assert!(codes(Some(Image::filled(64, 63, [9; 3]))) == expected && codes(None) == expected, "of no other size");
 
         let texels: Vec<Rgba> = (0..dome.world.texel_count()).map(|texel| dome.light.rgba(texel)).collect();
-        let plan = dome.resampler().plan().expect("a plan");
+        let plan = dome.resampler().plan(Arithmetic::Float).expect("a plan");
         let expected = plan.apply_over(&texels, Rgba::BLACK);
-        let geometry = Geometry::Float(vec![Some(plan)], Balance::default());
+        let geometry = Geometry { plans: vec![Some(plan)], codec: None, balance: Balance::default() };
         let light = |used| {
             geometry.light(0, dome.resampler(), (&texels, false), Rgba::BLACK, used, &mut BalancedLight::default())
         };

@@ -4,7 +4,7 @@ use super::{FaceSize, Magnification};
 use crate::camera::View;
 use crate::filter::Filter;
 use crate::raster::Rgba;
-use crate::render::{Need, Needs, Resampler, Uncovered};
+use crate::render::{Accuracy, Arithmetic, Need, Needs, Resampler, Uncovered};
 use crate::sphere::Direction;
 use crate::world::{Source, World};
 
@@ -83,7 +83,7 @@ pub struct Memory {
 impl Report {
     /// Computes the report of making `target` from `world`. The world needs no light: it may be of planned views.
     pub fn of(world: &World, target: &View, filter: &Filter) -> Self {
-        let needs = Needs::of(world, &[*target], filter);
+        let needs = Needs::of(world, &[*target], filter, Accuracy::Exact);
         let survey = Survey::of(world, target, filter);
         let centre = central_footprint(target);
         let view = |(index, source): (usize, &Source)| {
@@ -135,8 +135,8 @@ impl Memory {
             texels: world.texel_count() * size_of::<Rgba>(),
             pixels: target.width() * target.height() * size_of::<Rgba>(),
             levels: resampler.level_bytes(),
-            plan: resampler.plan_bytes_estimate(),
-            fixed_plan: resampler.fixed_plan_bytes_estimate(),
+            plan: resampler.plan_bytes_estimate(Arithmetic::Float),
+            fixed_plan: resampler.plan_bytes_estimate(Arithmetic::Fixed),
         }
     }
 }

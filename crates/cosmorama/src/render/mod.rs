@@ -8,10 +8,9 @@ pub(crate) mod required;
 pub(crate) mod resampler;
 pub(crate) mod scan;
 
-pub use plan::{FixedPlan, Plan};
-pub use pyramid::PyramidPlan;
+pub use plan::{Arithmetic, Plan};
 pub(crate) use pyramid::{Pyramid, TexelCount};
-pub use required::need::{Need, Needs};
+pub use required::need::{Accuracy, Need, Needs};
 pub use required::screen_mask::ScreenMask;
 pub use required::uncovered::Uncovered;
 pub use resampler::Resampler;

@@ -1,6 +1,6 @@
 use super::batch::window::Level;
-use super::plan::{self, FixedPlan, Plan};
-use super::pyramid::{self, PyramidPlan};
+use super::plan::{self, Arithmetic, Plan};
+use super::pyramid;
 use crate::camera::View;
 use crate::filter::{Filter, FilterKind, reference};
 use crate::raster::{FixedCodec, FixedLight, Image, Rgba};
@@ -57,55 +57,27 @@ impl Resampler<'_> {
     /// If `light` is not that of the world's texels.
     pub fn render_fixed(&self, light: &FixedLight, codec: &FixedCodec) -> Image<[u8; 3]> {
         assert!(light.sizes().eq(self.world.view_sizes()), "light of the world's views");
-        if !self.has_plan() {
+        if matches!(self.filter.kind, FilterKind::EwaPyramid | FilterKind::Reference { .. }) {
             let texels: Vec<Rgba> = (0..light.len()).map(|texel| light.rgba(texel)).collect();
             return codec.encode(&self.render(&texels));
         }
         plan::render_fixed(self, light, codec)
     }
 
-    /// The geometry, for any number of frames; `None` for the reference filter, which has too many samples to store, and for
-    /// that of pyramids, whose geometry is a [`PyramidPlan`].
-    pub fn plan(&self) -> Option<Plan> {
-        self.has_plan().then(|| Plan::new(self))
+    /// Compiles the geometry, for any number of frames; `None` for the reference filter, which has too many samples to store, and in
+    /// integers for that of pyramids.
+    pub fn plan(&self, arithmetic: Arithmetic) -> Option<Plan> {
+        Plan::new(self, arithmetic)
     }
 
-    /// The geometry of a pyramid's levels, and of what is made from each of them; `None` for other filters.
-    pub fn pyramid_plan(&self) -> Option<PyramidPlan> {
-        (self.filter.kind == FilterKind::EwaPyramid).then(|| PyramidPlan::new(self))
-    }
-
-    /// The geometry for frames of 8 bits.
-    pub fn fixed_plan(&self) -> Option<FixedPlan> {
-        self.has_plan().then(|| FixedPlan::new(self))
-    }
-
-    /// About how many bytes [`Resampler::plan`] would hold, or [`Resampler::pyramid_plan`]: found from a part of the rows, keeping
-    /// nothing.
-    pub fn plan_bytes_estimate(&self) -> usize {
-        match self.filter.kind {
-            FilterKind::EwaPyramid => PyramidPlan::bytes_estimate(self),
-            _ if self.has_plan() => Plan::bytes_estimate(self, None),
-            _ => 0,
-        }
+    /// Estimates how many bytes [`Resampler::plan`] would hold, from a part of the rows, keeping nothing; 0 where there is no plan.
+    pub fn plan_bytes_estimate(&self, arithmetic: Arithmetic) -> usize {
+        plan::bytes_estimate(self, arithmetic)
     }
 
     /// Bytes at most that the levels of a pyramid take while a frame is made of them; zero for other filters, and where the
     /// world's own texels are large enough.
     pub fn level_bytes(&self) -> usize {
         if self.filter.kind == FilterKind::EwaPyramid { pyramid::bytes(self) } else { 0 }
-    }
-
-    /// Estimated bytes of what [`Resampler::fixed_plan`] gives; 0 without a plan.
-    pub fn fixed_plan_bytes_estimate(&self) -> usize {
-        if self.has_plan() { FixedPlan::bytes_estimate(self) } else { 0 }
-    }
-
-    /// Whether each pixel is a list of the world's own texels that can be kept.
-    fn has_plan(&self) -> bool {
-        match self.filter.kind {
-            FilterKind::Ewa | FilterKind::Point | FilterKind::Bilinear => true,
-            FilterKind::EwaPyramid | FilterKind::Reference { .. } => false,
-        }
     }
 }

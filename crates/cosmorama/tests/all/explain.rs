@@ -4,7 +4,7 @@ use cosmorama::camera::{FieldStop, OmnimaxFraming, PixelGrid, PixelPoint, View};
 use cosmorama::explain::{Figures, Magnification, Report, Underlay};
 use cosmorama::filter::Filter;
 use cosmorama::projection::ProjectionKind;
-use cosmorama::render::{Needs, Resampler};
+use cosmorama::render::{Accuracy, Arithmetic, Needs, Resampler};
 use cosmorama::sphere::{CubeFace, Orientation};
 use cosmorama::world::World;
 use glam::DVec2;
@@ -49,7 +49,8 @@ fn the_plan_is_estimated_well() {
     ] {
         let memory = Report::of(&world, &target, &Filter::DEFAULT).memory;
         let resampler = Resampler { world: &world, target: &target, filter: Filter::DEFAULT };
-        let (plan, fixed) = (resampler.plan().expect("a plan"), resampler.fixed_plan().expect("a plan"));
+        let (plan, fixed) =
+            (resampler.plan(Arithmetic::Float).expect("a plan"), resampler.plan(Arithmetic::Fixed).expect("a plan"));
         for (estimate, bytes) in [(memory.plan, plan.bytes()), (memory.fixed_plan, fixed.bytes())] {
             assert_close(estimate as f64 / bytes as f64, 1.0, 0.2);
         }
@@ -100,7 +101,7 @@ fn cases() -> Vec<(World, View)> {
 }
 
 fn figures_of(world: &World, target: &View) -> [String; 3] {
-    let needs = Needs::of(world, &[*target], &Filter::DEFAULT);
+    let needs = Needs::of(world, &[*target], &Filter::DEFAULT, Accuracy::Exact);
     let figures = Figures { world, target };
     let underlay = Underlay { view: 0, href: "a.png?b=\"1\"&c".to_string() };
     [figures.unfolded(&needs, &[underlay]), figures.ownership(), figures.footprints()]
@@ -140,7 +141,7 @@ fn figures_and_needs_do_not_depend_on_threads() {
 fn the_unfolded_cube_names_what_is_needed_and_what_is_not_given() {
     let faces = [CubeFace::Front, CubeFace::Right, CubeFace::Back, CubeFace::Left, CubeFace::Up];
     let (world, target) = (cube(&faces, 1024, 1024), omnimax(1966, 1436));
-    let needs = Needs::of(&world, &[target], &Filter::DEFAULT);
+    let needs = Needs::of(&world, &[target], &Filter::DEFAULT, Accuracy::Exact);
     let svg = Figures { world: &world, target: &target }.unfolded(&needs, &[]);
     for label in ["all of 1024×1024", "515×1024+509+0", "515×1024+0+0", "1024×515+0+509", "not needed", "not given"]
     {
@@ -151,7 +152,7 @@ fn the_unfolded_cube_names_what_is_needed_and_what_is_not_given() {
 #[test]
 fn an_underlay_is_drawn_under_the_veil() {
     let (world, target) = (cube(&CubeFace::ALL, 64, 64), omnimax(123, 90));
-    let needs = Needs::of(&world, &[target], &Filter::DEFAULT);
+    let needs = Needs::of(&world, &[target], &Filter::DEFAULT, Accuracy::Exact);
     let underlay = Underlay { view: 4, href: "data:image/png;base64,AA==".to_string() };
     let svg = Figures { world: &world, target: &target }.unfolded(&needs, &[underlay]);
     let image = svg.find("href=\"data:image/png;base64,AA==\"").expect("the image");

@@ -28,10 +28,12 @@ use weights::Weights;
 
 use super::Resampler;
 use super::batch::window::Level;
+use super::pyramid::PyramidPlan;
 use super::scan::tile::SIDE;
 use super::scan::wanted::Wanted;
 use super::scan::{Area, Scan};
 use crate::camera::PixelRect;
+use crate::filter::FilterKind;
 use crate::filter::kernel::KernelTable;
 use crate::filter::taps::Taps;
 use crate::raster::{FixedCodec, FixedLight, Image, Rgba};
@@ -43,11 +45,24 @@ const BAND: usize = 4 * SIDE;
 ///
 /// It depends on the views, the target and the filter, not on the light: one plan serves all frames of a sequence.
 #[derive(Clone, Debug)]
-pub struct Plan(Compiled<FloatWeights>);
+pub struct Plan(Geometry);
 
-/// A [`Plan`] for light of 15 bits: opaque pictures of 8-bit files.
+/// Numbers in which a plan holds weights and takes light.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Arithmetic {
+    /// Floats: light of any range, with alpha.
+    Float,
+    /// Integers of 15 bits: opaque pictures of 8-bit files.
+    Fixed,
+}
+
 #[derive(Clone, Debug)]
-pub struct FixedPlan(Compiled<FixedWeights>);
+enum Geometry {
+    Float(Compiled<FloatWeights>),
+    Fixed(Compiled<FixedWeights>),
+    /// In floats, by level.
+    Pyramid(PyramidPlan),
+}
 
 #[derive(Clone, Debug)]
 pub(crate) struct Compiled<W> {
@@ -59,89 +74,113 @@ pub(crate) struct Compiled<W> {
 }
 
 impl Plan {
-    pub(crate) fn new(resampler: &Resampler) -> Self {
-        Self(Compiled::new(resampler, None, Level::new()))
+    /// Compiles the geometry of a conversion; `None` for filters that have no plan in these numbers.
+    pub(crate) fn new(resampler: &Resampler, arithmetic: Arithmetic) -> Option<Self> {
+        let geometry = match (arithmetic, resampler.filter.kind) {
+            (_, FilterKind::Reference { .. }) | (Arithmetic::Fixed, FilterKind::EwaPyramid) => return None,
+            (Arithmetic::Float, FilterKind::EwaPyramid) => Geometry::Pyramid(PyramidPlan::new(resampler)),
+            (Arithmetic::Float, _) => Geometry::Float(Compiled::new(resampler, None, Level::new())),
+            (Arithmetic::Fixed, _) => Geometry::Fixed(Compiled::new(resampler, None, Level::new())),
+        };
+        Some(Self(geometry))
     }
 
-    /// That of the wanted patches alone; other pixels become transparent.
+    /// Compiles the wanted patches alone, in floats; other pixels become transparent.
     pub(crate) fn of_part(resampler: &Resampler, wanted: &Wanted) -> Self {
-        Self(Compiled::new(resampler, Some(wanted), Level::new()))
+        Self(Geometry::Float(Compiled::new(resampler, Some(wanted), Level::new())))
     }
 
-    /// One frame. `texels` is the world's buffer of light.
+    /// Makes one frame. `texels` is the world's buffer of light.
     ///
     /// # Panics
-    /// If it has fewer texels than the world.
+    /// If there are fewer texels than in the world, or the plan is one of integers.
     pub fn apply(&self, texels: &[Rgba]) -> Image<Rgba> {
         self.apply_over(texels, Rgba::TRANSPARENT)
     }
 
-    /// One frame in front of a background, linear and premultiplied as all light is.
+    /// Makes one frame in front of a background, linear and premultiplied as all light is.
     ///
     /// # Panics
-    /// If there are fewer texels than in the world.
+    /// As [`Plan::apply`].
     pub fn apply_over(&self, texels: &[Rgba], background: Rgba) -> Image<Rgba> {
-        let mut image = Image::zeroed(self.0.width, self.0.height);
+        let (width, height) = self.size();
+        let mut image = Image::zeroed(width, height);
         self.apply_into(texels, background, &mut image);
         image
     }
 
-    /// The same into an image that is there already: fresh memory may cost as much as its pixels.
+    /// Makes one frame in an image that is there already: fresh memory may cost as much as its pixels.
     ///
     /// # Panics
-    /// If it is not of the target's size, or there are fewer texels than in the world.
+    /// As [`Plan::apply`], or if the image is not of the target's size.
     pub fn apply_into(&self, texels: &[Rgba], background: Rgba, image: &mut Image<Rgba>) {
-        let Self(Compiled { anti_ringing, mirrors, .. }) = self;
-        let filter = FloatFilter { level: Level::new(), mirrors, texels, anti_ringing: *anti_ringing, background };
-        self.0.fill(image, background, |band, canvas| filter.fill(band, canvas));
+        match &self.0 {
+            Geometry::Float(compiled) => {
+                let Compiled { anti_ringing, mirrors, .. } = compiled;
+                let filter =
+                    FloatFilter { level: Level::new(), mirrors, texels, anti_ringing: *anti_ringing, background };
+                compiled.fill(image, background, |band, canvas| filter.fill(band, canvas));
+            }
+            Geometry::Pyramid(plan) => plan.apply_into(texels, background, image),
+            Geometry::Fixed(_) => panic!("a plan of integers takes light of 15 bits"),
+        }
     }
 
-    /// Bytes of memory that the plan holds.
-    pub fn bytes(&self) -> usize {
-        self.0.bytes()
-    }
-
-    /// About how many that of a conversion would hold, or of its wanted patches: found from some bands of rows, keeping nothing.
-    pub(crate) fn bytes_estimate(resampler: &Resampler, wanted: Option<&Wanted>) -> usize {
-        bytes_estimate::<FloatWeights>(resampler, wanted)
-    }
-}
-
-impl FixedPlan {
-    pub(crate) fn new(resampler: &Resampler) -> Self {
-        Self(Compiled::new(resampler, None, Level::new()))
-    }
-
-    /// One frame: the code values of each pixel. `light` is that of all the world's texels.
+    /// Makes one frame of a plan of integers: the code values of each pixel. `light` is that of all the world's texels.
     ///
     /// # Panics
-    /// If it is of other views than the world's.
-    pub fn apply(&self, light: &FixedLight, codec: &FixedCodec) -> Image<[u8; 3]> {
-        let mut image = Image::zeroed(self.0.width, self.0.height);
-        self.apply_into(light, codec, &mut image);
+    /// If the light is of other views than the world's, or the plan is not one of integers.
+    pub fn apply_fixed(&self, light: &FixedLight, codec: &FixedCodec) -> Image<[u8; 3]> {
+        let (width, height) = self.size();
+        let mut image = Image::zeroed(width, height);
+        self.apply_fixed_into(light, codec, &mut image);
         image
     }
 
-    /// The same into an image that is there already: fresh memory may cost a third of a frame.
+    /// Makes one frame of a plan of integers in an image that is there already: fresh memory may cost a third of a frame.
     ///
     /// # Panics
-    /// If it is not of the target's size, or the light not of views of the world's sizes.
-    pub fn apply_into(&self, light: &FixedLight, codec: &FixedCodec, image: &mut Image<[u8; 3]>) {
-        let Self(Compiled { anti_ringing, mirrors, .. }) = self;
+    /// As [`Plan::apply_fixed`], or if the image is not of the target's size.
+    pub fn apply_fixed_into(&self, light: &FixedLight, codec: &FixedCodec, image: &mut Image<[u8; 3]>) {
+        let Geometry::Fixed(compiled) = &self.0 else { panic!("a plan of floats takes light of any range") };
+        let Compiled { anti_ringing, mirrors, .. } = compiled;
         assert!(mirrors.layout().eq(light.layout()), "light of the world's views");
         let filter = FixedFilter { level: Level::new(), mirrors, light, codec, anti_ringing: *anti_ringing };
-        self.0.fill(image, codec.background(), |band, canvas| filter.fill(band, canvas));
+        compiled.fill(image, codec.background(), |band, canvas| filter.fill(band, canvas));
     }
 
     /// Bytes of memory that the plan holds.
     pub fn bytes(&self) -> usize {
-        self.0.bytes()
+        match &self.0 {
+            Geometry::Float(compiled) => compiled.bytes(),
+            Geometry::Fixed(compiled) => compiled.bytes(),
+            Geometry::Pyramid(plan) => plan.bytes(),
+        }
     }
 
-    /// About how many that of a conversion would hold: found from some bands of rows, keeping nothing.
-    pub(crate) fn bytes_estimate(resampler: &Resampler) -> usize {
-        bytes_estimate::<FixedWeights>(resampler, None)
+    fn size(&self) -> (usize, usize) {
+        match &self.0 {
+            Geometry::Float(Compiled { width, height, .. }) | Geometry::Fixed(Compiled { width, height, .. }) => {
+                (*width, *height)
+            }
+            Geometry::Pyramid(plan) => plan.size(),
+        }
     }
+}
+
+/// Bytes, about, that the plan of a conversion would hold: found from some bands of rows, keeping nothing. 0 where there is none.
+pub(crate) fn bytes_estimate(resampler: &Resampler, arithmetic: Arithmetic) -> usize {
+    match (arithmetic, resampler.filter.kind) {
+        (_, FilterKind::Reference { .. }) | (Arithmetic::Fixed, FilterKind::EwaPyramid) => 0,
+        (Arithmetic::Float, FilterKind::EwaPyramid) => PyramidPlan::bytes_estimate(resampler),
+        (Arithmetic::Float, _) => part_bytes_estimate::<FloatWeights>(resampler, None),
+        (Arithmetic::Fixed, _) => part_bytes_estimate::<FixedWeights>(resampler, None),
+    }
+}
+
+/// Bytes, about, that the plan of wanted patches would hold.
+pub(crate) fn float_bytes_estimate(resampler: &Resampler, wanted: &Wanted) -> usize {
+    part_bytes_estimate::<FloatWeights>(resampler, Some(wanted))
 }
 
 /// A frame without a plan that is kept: each band's geometry is forgotten when its pixels are made.
@@ -179,7 +218,7 @@ pub(crate) fn render_fixed(resampler: &Resampler, light: &FixedLight, codec: &Fi
 
 /// Bytes that the plan of a conversion would hold, found from a row of patches in each band, keeping none of them. Of a small
 /// picture from all, which takes hundredths of a second: it has few bands, and a pole in one of them holds most of the bytes.
-fn bytes_estimate<W: Weights>(resampler: &Resampler, wanted: Option<&Wanted>) -> usize {
+fn part_bytes_estimate<W: Weights>(resampler: &Resampler, wanted: Option<&Wanted>) -> usize {
     const SMALL: usize = 512 * 512;
     let mirrors = &Mirrors::of::<W>(resampler);
     let table = KernelTable::new(&resampler.filter.kernel);

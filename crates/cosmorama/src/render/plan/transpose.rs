@@ -2,7 +2,7 @@ use rayon::prelude::*;
 
 use super::band::{Band, Run};
 use super::symmetry::{MirrorImage, Walk, exchanged};
-use super::{BAND, Plan};
+use super::{BAND, Compiled, Geometry, Plan};
 use crate::render::apply::float::weights::FloatWeights;
 
 /// Parts of a world's texels, at most. For each of them all of the plan is gone through, and so the work grows with them: beyond as
@@ -12,14 +12,18 @@ const MOST_PARTS: usize = 8;
 impl Plan {
     /// Takes a number from each pixel back to the texels that it is made of, times their weights: what the plan does the other
     /// way round. Adds it to a number of each texel.
+    ///
+    /// # Panics
+    /// If the plan is one of integers, or of a pyramid.
     pub(crate) fn spread(&self, pixels: &[f32], texels: &mut [f64]) {
+        let Geometry::Float(plan) = &self.0 else { panic!("weights of floats, of the world's own texels") };
         // Each thread goes through all of the plan and adds up its own texels only: in the plan's order, however many there are.
         let parts = rayon::current_num_threads().min(MOST_PARTS);
         let some = texels.len().div_ceil(parts).max(1);
         texels.par_chunks_mut(some).enumerate().for_each(|(part, texels)| {
             let mut part = Part { first: part * some, texels };
-            for (index, band) in self.0.bands.iter().enumerate() {
-                let spread = Spread { plan: self, band, top: index * BAND };
+            for (index, band) in plan.bands.iter().enumerate() {
+                let spread = Spread { plan, band, top: index * BAND };
                 band.groups().for_each(|group| spread.group(group, pixels, &mut part));
                 spread.singles(pixels, &mut part);
             }
@@ -52,7 +56,7 @@ impl Part<'_> {
 }
 
 struct Spread<'a> {
-    plan: &'a Plan,
+    plan: &'a Compiled<FloatWeights>,
     band: &'a Band<FloatWeights>,
     /// Its first row.
     top: usize,
@@ -61,7 +65,7 @@ struct Spread<'a> {
 impl Spread<'_> {
     /// That of a pixel in place of which a mirror shows this one; none, if that mirror is not one that shows it.
     fn pixel(&self, pixels: &[f32], image: usize, [column, row]: [usize; 2]) -> f64 {
-        let Plan(plan) = self.plan;
+        let plan = self.plan;
         let MirrorImage { flips, is_turned, .. } = plan.mirrors.images[image];
         let pixel = [column, self.top + row];
         if image >= plan.mirrors.images_of(pixel).len() {
@@ -74,7 +78,7 @@ impl Spread<'_> {
     }
 
     fn group(&self, group: &[Run], pixels: &[f32], part: &mut Part) {
-        let Plan(plan) = self.plan;
+        let plan = self.plan;
         for (index, image) in plan.mirrors.images.iter().enumerate() {
             let view = image.view(usize::from(group[0].view));
             for (run, lane, window) in self.band.weights.windows(group) {
@@ -94,7 +98,7 @@ impl Spread<'_> {
     }
 
     fn singles(&self, pixels: &[f32], part: &mut Part) {
-        let images = self.plan.0.mirrors.images.len();
+        let images = self.plan.mirrors.images.len();
         for single in self.band.singles.pixels() {
             let taps = self.band.singles.taps(single, images);
             for image in 0..images {

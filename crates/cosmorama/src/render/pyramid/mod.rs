@@ -120,23 +120,25 @@ pub(crate) fn render(resampler: &Resampler, texels: &[Rgba]) -> Image<Rgba> {
         return plan::render(&pyramid.level(0), texels, Rgba::TRANSPARENT, Instructions::new());
     }
     let halvings: Vec<&Halving> = pyramid.levels.iter().map(|(_, halving)| halving).collect();
-    let size = (resampler.target.width(), resampler.target.height());
-    mix(&pyramid.map, size, &halvings, texels, |level, texels| {
+    let mut image = Image::zeroed(resampler.target.width(), resampler.target.height());
+    mix(&mut image, &pyramid.map, &halvings, texels, |level, texels| {
         let wanted = pyramid.wanted(level)?;
         Some(plan::render_part(&pyramid.level(level), Some(&wanted), (texels, Rgba::TRANSPARENT), Instructions::new()))
-    })
+    });
+    image
 }
 
-/// Makes the light of one level after the other, and of each its part of the picture: `picture` gives what is made from a
-/// level's light, where anything is.
+/// Makes the light of one level after the other, and of each its part of the picture, before which an image is transparent: `picture`
+/// gives what is made from a level's light, where anything is.
 fn mix(
+    image: &mut Image<Rgba>,
     map: &LevelMap,
-    (width, height): (usize, usize),
     halvings: &[&Halving],
     texels: &[Rgba],
     picture: impl Fn(usize, &[Rgba]) -> Option<Image<Rgba>>,
-) -> Image<Rgba> {
-    let mut image = Image::filled(width, height, Rgba::TRANSPARENT);
+) {
+    let width = image.width();
+    image.pixels_mut().par_iter_mut().for_each(|pixel| *pixel = Rgba::TRANSPARENT);
     let mut light = Vec::new();
     for level in 0..=halvings.len() {
         if level > 0 {
@@ -151,13 +153,12 @@ fn mix(
             }
         });
     }
-    image
 }
 
 /// The geometry of a conversion by a pyramid, for any number of frames: how each level is made, which texels of it make each
 /// pixel, and how much of the pixel is made from it.
 #[derive(Clone, Debug)]
-pub struct PyramidPlan {
+pub(crate) struct PyramidPlan {
     size: (usize, usize),
     map: LevelMap,
     halvings: Vec<Halving>,
@@ -175,17 +176,17 @@ impl PyramidPlan {
         Self { size, map, halvings: levels.into_iter().map(|(_, halving)| halving).collect(), plans }
     }
 
-    /// One frame. `texels` is the world's buffer of light.
-    pub fn apply(&self, texels: &[Rgba]) -> Image<Rgba> {
+    /// Makes one frame in front of a background, in an image of the target's size.
+    pub(crate) fn apply_into(&self, texels: &[Rgba], background: Rgba, image: &mut Image<Rgba>) {
+        assert_eq!((image.width(), image.height()), self.size, "an image as large as the target");
         let halvings: Vec<&Halving> = self.halvings.iter().collect();
-        mix(&self.map, self.size, &halvings, texels, |level, texels| Some(self.plans[level].as_ref()?.apply(texels)))
+        mix(image, &self.map, &halvings, texels, |level, texels| Some(self.plans[level].as_ref()?.apply(texels)));
+        image.lay_over(background);
     }
 
-    /// The same in front of a background, linear and premultiplied as all light is.
-    pub fn apply_over(&self, texels: &[Rgba], background: Rgba) -> Image<Rgba> {
-        let mut image = self.apply(texels);
-        image.lay_over(background);
-        image
+    /// Columns and rows of the target.
+    pub(crate) fn size(&self) -> (usize, usize) {
+        self.size
     }
 
     /// About how many bytes that of a conversion would hold.
@@ -193,12 +194,12 @@ impl PyramidPlan {
         let pyramid = Pyramid::new(resampler);
         let levels =
             (0..=pyramid.levels.len()).filter_map(|level| Some((pyramid.level(level), pyramid.wanted(level)?)));
-        let plans: usize = levels.map(|(level, wanted)| Plan::bytes_estimate(&level, Some(&wanted))).sum();
+        let plans: usize = levels.map(|(level, wanted)| plan::float_bytes_estimate(&level, &wanted)).sum();
         plans + pyramid.levels.iter().map(|(_, halving)| halving.bytes()).sum::<usize>()
     }
 
     /// Bytes of memory that the plan holds.
-    pub fn bytes(&self) -> usize {
+    pub(crate) fn bytes(&self) -> usize {
         let plans: usize = self.plans.iter().flatten().map(Plan::bytes).sum();
         plans + self.halvings.iter().map(Halving::bytes).sum::<usize>()
     }

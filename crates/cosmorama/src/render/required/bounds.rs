@@ -13,10 +13,9 @@ use crate::render::Needs;
 use crate::world::World;
 
 impl Needs {
-    /// Like [`Needs::at_most`] for a world of which it is known that its views leave no hole, as a cube's faces do, and several
-    /// times as quick; `None` for any other. Nothing is uncovered there; `seen` is only a part of what is, but something
-    /// wherever anything is seen.
-    pub fn within_reach(world: &World, targets: &[View], filter: &Filter) -> Option<Self> {
+    /// Finds bounds of what is read in a world whose views leave no hole, as a cube's faces do, several times as quick as elsewhere;
+    /// `None` for any other. Nothing is uncovered there; `seen` is only a part of what is, but something wherever anything is seen.
+    pub(crate) fn within_reach(world: &World, targets: &[View], filter: &Filter) -> Option<Self> {
         if !world.is_closed() {
             return None;
         }

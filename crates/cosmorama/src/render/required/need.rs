@@ -33,35 +33,47 @@ pub struct Needs {
     pub uncovered: Option<Uncovered>,
 }
 
+/// How exactly needs are found.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Accuracy {
+    /// By the taps of the filter itself.
+    Exact,
+    /// Far quicker: what is read is a few texels too large, and of what is seen a part is enough. That something of a view is read, or
+    /// seen, is exact; so is what is uncovered.
+    Bounds,
+}
+
 impl Needs {
-    /// What `targets` need of the world's views when they are made with `filter`.
+    /// Finds what `targets` need of the world's views when they are made with `filter`.
     ///
-    /// To ask for views whose image is missing, give a world of nominal views: it holds no light. The result is exact:
-    /// it comes from the taps of the filter itself. Only blocks of pixels that cannot widen the rectangles found so far
-    /// are passed over.
-    ///
-    /// Of a pyramid's texels, whose parts are many, it is known what they hold at most.
-    pub fn of(world: &World, targets: &[View], filter: &Filter) -> Self {
-        let reads = if filter.kind == FilterKind::EwaPyramid { Reads::AtMost } else { Reads::Exactly };
-        Self::surveyed(world, targets, filter, reads)
+    /// To ask for views whose image is missing, give a world of nominal views: it holds no light. Of a pyramid's texels, whose parts
+    /// are many, it is known what they hold at most, whatever the accuracy.
+    pub fn of(world: &World, targets: &[View], filter: &Filter, accuracy: Accuracy) -> Self {
+        match accuracy {
+            Accuracy::Exact if filter.kind == FilterKind::EwaPyramid => Self::at_most(world, targets, filter),
+            Accuracy::Exact => Self::surveyed(world, targets, filter, Reads::Exactly),
+            Accuracy::Bounds => {
+                let quick = Self::within_reach(world, targets, filter);
+                quick.unwrap_or_else(|| Self::at_most(world, targets, filter)).settled(world, targets, filter)
+            }
+        }
     }
 
-    /// Like [`Needs::of`], but `read` is only an upper bound, a few texels too large, which is far quicker to find: where views
-    /// hold it, nothing more need be known.
-    pub fn at_most(world: &World, targets: &[View], filter: &Filter) -> Self {
+    /// Finds bounds of what is read, a few texels too large.
+    fn at_most(world: &World, targets: &[View], filter: &Filter) -> Self {
         Self::surveyed(world, targets, filter, Reads::AtMost)
     }
 
-    /// The same, made exact for views of which it is not yet known whether anything is read: `asked` says which.
-    #[must_use]
-    pub fn settled(mut self, world: &World, targets: &[View], filter: &Filter, asked: &[bool]) -> Self {
-        if filter.kind == FilterKind::EwaPyramid {
+    /// Decides of views that show no pixel's direction whether they are still read around them.
+    fn settled(mut self, world: &World, targets: &[View], filter: &Filter) -> Self {
+        let asked: Vec<bool> = self.views.iter().map(|need| need.seen.is_none() && need.read.is_some()).collect();
+        if filter.kind == FilterKind::EwaPyramid || !asked.contains(&true) {
             return self;
         }
-        let undecided = self.views.iter_mut().zip(asked).filter(|(_, asked)| **asked);
+        let undecided = self.views.iter_mut().zip(&asked).filter(|(_, asked)| **asked);
         undecided.for_each(|(need, _)| need.read = None);
         let uncovered = self.uncovered;
-        let needs = Self::surveyed_from(self, world, targets, filter, Reads::Of(asked));
+        let needs = Self::surveyed_from(self, world, targets, filter, Reads::Of(&asked));
         Self { uncovered, ..needs }
     }
 

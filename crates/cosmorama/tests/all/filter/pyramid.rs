@@ -6,7 +6,7 @@ use cosmorama::camera::{CameraModel, MirrorBallCamera, View};
 use cosmorama::explain::Report;
 use cosmorama::filter::{Filter, FilterKind};
 use cosmorama::raster::{ColourChannel, Image, Rgba, Transfer};
-use cosmorama::render::{Needs, Resampler};
+use cosmorama::render::{Accuracy, Arithmetic, Needs, Resampler};
 use cosmorama::sphere::{CubeFace, Direction};
 use cosmorama::world::World;
 use glam::DVec3;
@@ -108,9 +108,9 @@ fn it_is_ewa_where_a_pixel_holds_one_texel() {
         let of = |filter| Resampler { world: &world, target: &target, filter };
         let exact = of(Filter::DEFAULT).render(&light);
         assert!(of(PYRAMID).render(&light).pixels() == exact.pixels(), "{:?}", target.projection);
-        let plan = of(PYRAMID).pyramid_plan().expect("the geometry of a pyramid");
+        let plan = of(PYRAMID).plan(Arithmetic::Float).expect("the geometry of a pyramid");
         assert!(plan.apply(&light).pixels() == exact.pixels(), "{:?}", target.projection);
-        assert!(of(PYRAMID).plan().is_none() && of(Filter::DEFAULT).pyramid_plan().is_none());
+        assert!(of(PYRAMID).plan(Arithmetic::Fixed).is_none());
         assert_eq!(of(PYRAMID).level_bytes(), 0);
     }
 }
@@ -122,10 +122,10 @@ fn a_plan_makes_the_same_pixels() {
         // One that mirrors, and one that does not.
         for target in [fisheye(64, 180.0), dome(texels, 6.0)] {
             let resampler = Resampler { world: &world, target: &target, filter: PYRAMID };
-            let plan = resampler.pyramid_plan().expect("the geometry of a pyramid");
+            let plan = resampler.plan(Arithmetic::Float).expect("the geometry of a pyramid");
             assert!(plan.apply(&light).pixels() == resampler.render(&light).pixels());
             assert!(plan.bytes() > 0 && resampler.level_bytes() > world.texel_count());
-            let estimate = resampler.plan_bytes_estimate() as f64 / plan.bytes() as f64;
+            let estimate = resampler.plan_bytes_estimate(Arithmetic::Float) as f64 / plan.bytes() as f64;
             assert!((0.3..3.0).contains(&estimate), "{estimate} of what the plan takes");
         }
     }
@@ -273,7 +273,7 @@ fn what_the_target_does_not_show_does_not_leak_in() {
             assert!((0..3).all(|c| (pixel.0[c] - 0.5).abs() < 1e-5), "{:?}: {pixel:?}", filter.kind);
         }
     }
-    let needs = |filter| Needs::of(&world, &[target], &filter);
+    let needs = |filter| Needs::of(&world, &[target], &filter, Accuracy::Exact);
     for (all, exact) in needs(PYRAMID).views.iter().zip(needs(Filter::DEFAULT).views) {
         assert_eq!(all.seen, exact.seen);
         assert!(exact.read.is_none_or(|read| all.read.is_some_and(|all| all.contains(&read))));

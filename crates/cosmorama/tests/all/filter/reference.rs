@@ -3,7 +3,7 @@
 use cosmorama::camera::View;
 use cosmorama::filter::{CrossSection, Filter, FilterKind, Kernel, TextureDerivatives, WeightTable, ewa};
 use cosmorama::raster::{Image, Rgba};
-use cosmorama::render::Resampler;
+use cosmorama::render::{Arithmetic, Resampler};
 use cosmorama::sphere::{Angle, CubeFace, Direction, Orientation};
 use cosmorama::world::World;
 use testkit::{cube, equirect, fisheye, light_by_direction, light_by_texel, omnimax, perspective};
@@ -82,7 +82,7 @@ fn a_plan_gives_what_is_rendered_without() {
                 for anti_ringing in [true, false] {
                     let filter = Filter { kind, anti_ringing, ..Filter::DEFAULT };
                     let resampler = Resampler { world: &world, target: &target, filter };
-                    let plan = resampler.plan().expect("these filters have plans");
+                    let plan = resampler.plan(Arithmetic::Float).expect("these filters have plans");
                     let (kept, made) = (plan.apply(&light), resampler.render(&light));
                     let difference =
                         |(a, b): (&Rgba, &Rgba)| (0..4).map(|c| (a.0[c] - b.0[c]).abs()).fold(0.0, f32::max);

@@ -20,6 +20,14 @@ fn resampler<'a>(world: &'a World, target: &'a View) -> Resampler<'a> {
     Resampler { world, target, filter: Filter::DEFAULT }
 }
 
+fn float(resampler: &Resampler) -> Compiled<FloatWeights> {
+    Compiled::new(resampler, None, Level::new())
+}
+
+fn fixed(resampler: &Resampler) -> Compiled<FixedWeights> {
+    Compiled::new(resampler, None, Level::new())
+}
+
 #[test]
 fn mirrors_are_found_where_there_are_some() {
     for (world, target, images) in conversions() {
@@ -128,7 +136,7 @@ fn what_mirrors_show_is_what_would_be_computed() {
 fn a_plan_makes_the_pixels_that_are_made_without() {
     for (world, target, _) in conversions() {
         let (light, resampler) = (light(&world), resampler(&world, &target));
-        let (opaque, plan) = (floats(&light), resampler.plan().expect("a plan"));
+        let (opaque, plan) = (floats(&light), resampler.plan(Arithmetic::Float).expect("a plan"));
         let veiled = opaque.iter().enumerate().map(|(at, texel)| *texel * (0.3 + (at % 8) as f32 * 0.1)).collect();
         for texels in [opaque, veiled] {
             let mut light_alone = resampler.render(&texels);
@@ -142,12 +150,12 @@ fn a_plan_makes_the_pixels_that_are_made_without() {
             assert!(resampler.render_over(&texels, background) == light_alone);
         }
         let codec = FixedCodec::new(&Transfer::Srgb, Rgba::BLACK).expect("sRGB has 8 bits");
-        let plan = resampler.fixed_plan().expect("a plan");
+        let plan = resampler.plan(Arithmetic::Fixed).expect("a plan");
         let codes_alone = resampler.render_fixed(&light, &codec);
-        assert!(plan.apply(&light, &codec) == codes_alone);
+        assert!(plan.apply_fixed(&light, &codec) == codes_alone);
         // Whatever was in the image before.
         let mut codes = Image::filled(target.width(), target.height(), [77; 3]);
-        plan.apply_into(&light, &codec, &mut codes);
+        plan.apply_fixed_into(&light, &codec, &mut codes);
         assert!(codes == codes_alone);
     }
 }
@@ -229,11 +237,11 @@ fn all_levels_of_instructions_make_the_same_pixels() {
         let (light, resampler) = (light(&world), resampler(&world, &target));
         let (texels, mirrors) = (floats(&light), Mirrors::of::<FixedWeights>(&resampler));
         let codec = FixedCodec::new(&Transfer::Srgb, Rgba::BLACK).expect("sRGB has 8 bits");
-        let plan = resampler.fixed_plan().expect("a plan");
+        let plan = fixed(&resampler);
         let made = |level| {
             let mut codes = Image::filled(target.width(), target.height(), codec.background());
             let filter = FixedFilter { level, mirrors: &mirrors, light: &light, codec: &codec, anti_ringing: true };
-            plan.0.fill(&mut codes, codec.background(), |band, canvas| filter.fill(band, canvas));
+            plan.fill(&mut codes, codec.background(), |band, canvas| filter.fill(band, canvas));
             (render(&resampler, &texels, Rgba::TRANSPARENT, level), codes)
         };
         let mut all = crate::filter::simd_levels::levels().into_iter().map(made);
@@ -308,7 +316,7 @@ fn integers_are_within_one_code_of_floats() {
 fn spreading_is_the_plan_the_other_way_round() {
     for (world, target, _) in conversions() {
         let filter = Filter { anti_ringing: false, ..Filter::DEFAULT };
-        let plan = Resampler { world: &world, target: &target, filter }.plan().expect("a plan");
+        let plan = Resampler { world: &world, target: &target, filter }.plan(Arithmetic::Float).expect("a plan");
         let light = floats(&light(&world));
         // Their part inside the field of view is not the plan's weights.
         let average = |pixel: &Rgba| if pixel.alpha() > 0.0 { f64::from(pixel.0[0] / pixel.alpha()) } else { 0.0 };
@@ -336,5 +344,5 @@ fn light_of_as_many_texels_in_other_views_is_refused() {
     let (world, target) = (cube(&CubeFace::ALL, 32), dome(16, turned(0.0, 90.0, 0.0)));
     let codec = FixedCodec::new(&Transfer::Srgb, Rgba::BLACK).expect("sRGB has 8 bits");
     let light = FixedLight::black(world.view_sizes().map(|[width, height]| [2 * width, height / 2]));
-    resampler(&world, &target).fixed_plan().expect("a plan").apply(&light, &codec);
+    resampler(&world, &target).plan(Arithmetic::Fixed).expect("a plan").apply_fixed(&light, &codec);
 }

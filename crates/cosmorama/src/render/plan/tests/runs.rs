@@ -23,8 +23,8 @@ fn runs_end_where_their_windows_do() {
     let (mut floats, mut integers) = (0, 0);
     for (world, target, _) in conversions() {
         let resampler = resampler(&world, &target);
-        floats += cut_runs(&resampler.plan().expect("a plan").0);
-        integers += cut_runs(&resampler.fixed_plan().expect("a plan").0);
+        floats += cut_runs(&float(&resampler));
+        integers += cut_runs(&fixed(&resampler));
     }
     assert!(floats > 100 && integers > 100, "{floats} and {integers} runs lack windows at an end");
 }

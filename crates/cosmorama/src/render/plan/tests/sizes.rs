@@ -40,7 +40,7 @@ fn count<'a, W: Weights>(
 fn windows_of_floats_are_of_all_sizes() {
     let mut counts = Counts::default();
     for (world, target, _) in conversions() {
-        let Plan(plan) = resampler(&world, &target).plan().expect("a plan");
+        let plan = float(&resampler(&world, &target));
         count(&plan, |weights| &weights.numbers, |header, run| float_shape::Header(header).told(run), &mut counts);
     }
     assert!(counts.as_flattened().iter().all(|count| *count > 0), "{counts:?}");
@@ -50,7 +50,7 @@ fn windows_of_floats_are_of_all_sizes() {
 fn windows_of_integers_are_of_all_sizes() {
     let mut counts = Counts::default();
     for (world, target, _) in conversions() {
-        let FixedPlan(plan) = resampler(&world, &target).fixed_plan().expect("a plan");
+        let plan = fixed(&resampler(&world, &target));
         count(&plan, |weights| &weights.numbers, |header, run| fixed_weights::Header(header).told(run), &mut counts);
     }
     assert!(counts.as_flattened().iter().all(|count| *count > 0), "{counts:?}");
@@ -60,7 +60,7 @@ fn windows_of_integers_are_of_all_sizes() {
 #[test]
 fn weights_in_integers_add_to_one() {
     for (world, target, _) in conversions() {
-        let FixedPlan(plan) = resampler(&world, &target).fixed_plan().expect("a plan");
+        let plan = fixed(&resampler(&world, &target));
         for (weights, group) in plan.bands.iter().flat_map(|band| band.groups().map(|group| (&band.weights, group))) {
             let mut numbers = &weights.numbers[group[0].weights as usize..];
             for _ in group.iter().flat_map(Run::lanes) {
@@ -89,12 +89,10 @@ fn largest<W>(compiled: &Compiled<W>) -> usize {
 fn some_windows_are_nearly_as_large_as_any() {
     let (mut mirrored, mut single) = (0, 0);
     for (world, target, images) in conversions() {
-        let (Plan(floats), FixedPlan(fixed)) = {
-            let resampler = resampler(&world, &target);
-            (resampler.plan().expect("a plan"), resampler.fixed_plan().expect("a plan"))
-        };
+        let resampler = resampler(&world, &target);
+        let (floats, integers) = (float(&resampler), fixed(&resampler));
         let most = if images == 1 { &mut single } else { &mut mirrored };
-        *most = largest(&floats).min(largest(&fixed)).max(*most);
+        *most = largest(&floats).min(largest(&integers)).max(*most);
     }
     assert!(single > 800 && mirrored > 800, "{single} {mirrored}");
 }
