@@ -119,6 +119,14 @@ pub enum IoError {
         /// The names tried.
         tried: String,
     },
+    /// Some faces of a cube have no files, where all six are needed.
+    #[error("{}: no such file, where a face of a cube was expected; missing faces: {missing}", path.display())]
+    MissingFaces {
+        /// Where the file of the first missing face was expected.
+        path: PathBuf,
+        /// Names of the missing faces.
+        missing: String,
+    },
     /// Where a face should be there is a folder, and no file is found.
     #[error("{}: a folder, where the file of a face was expected; write which file in it, as in {pattern}/{{face}}.png", path.display())]
     FaceIsFolder {

@@ -18,9 +18,11 @@ mod pto;
 mod sequence;
 
 pub use calibration::{Calibration, CalibrationError, Distortion};
-pub use codec::{Compression, ReadSeek, WriteOptions, svg};
+#[cfg(feature = "diagrams")]
+pub use codec::svg;
+pub use codec::{Compression, ReadSeek, WriteOptions};
 pub use error::IoError;
-pub use face_set::{FaceFile, FacePattern, FacePlacement, FaceSet, LetterCase, Naming};
+pub use face_set::{FaceFile, FaceImages, FacePattern, FacePlacement, FaceSet, LetterCase, Naming};
 pub use file::{
     StPairs, probe, probe_from, probe_pairs, probe_pairs_from, read, read_from, read_pairs, read_pairs_from, write,
     write_hidden, write_levels, write_planes, write_to,

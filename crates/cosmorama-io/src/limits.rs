@@ -4,7 +4,7 @@ use cosmorama::raster::{Channels, Depth};
 
 use crate::IoError;
 
-/// What reading a file may cost.
+/// Memory that reading a file may take.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Limits {
     /// Bytes that the samples of one image may take. What a file declares is checked before memory is taken.
@@ -15,12 +15,12 @@ impl Limits {
     /// No limit.
     pub const NONE: Self = Self { memory: u64::MAX };
 
-    /// At most so many bytes for an image.
+    /// Allows so many bytes for an image.
     pub const fn memory(bytes: u64) -> Self {
         Self { memory: bytes }
     }
 
-    /// Whether an image of this size may be read.
+    /// Checks that an image of this size may be read.
     pub(crate) fn check(
         &self,
         path: &Path,
@@ -33,7 +33,7 @@ impl Limits {
         self.check_bytes(path, (width, height), channels, depth, needed)
     }
 
-    /// Whether so many bytes may be taken for an image of this size.
+    /// Checks that so many bytes may be taken for an image of this size.
     pub(crate) fn check_bytes(
         &self,
         path: &Path,

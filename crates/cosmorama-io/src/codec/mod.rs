@@ -7,6 +7,7 @@ mod interface;
 mod jpeg;
 mod png;
 mod radiance;
+#[cfg(feature = "diagrams")]
 pub mod svg;
 mod texture;
 mod tga;

@@ -23,17 +23,17 @@ pub struct FacePattern(String);
 const MARKERS: [&str; 2] = ["{face}", "%c"];
 
 impl FacePattern {
-    /// The pattern in a file name, if it is one.
+    /// Parses a file name; `None` where no face stands in it.
     pub fn parse(text: &str) -> Option<Self> {
         MARKERS.iter().any(|marker| text.contains(marker)).then(|| Self(text.to_owned()))
     }
 
-    /// As it was written.
+    /// Returns the pattern as it was written.
     pub fn as_str(&self) -> &str {
         &self.0
     }
 
-    /// The file name (or frame pattern) of a face.
+    /// Builds the file name (or frame pattern) of a face.
     pub fn name(&self, naming: &Naming, case: LetterCase, face: CubeFace) -> String {
         let name = case.apply(naming.face_name(face));
         MARKERS.iter().fold(self.0.clone(), |text, marker| text.replace(marker, &name))
@@ -47,7 +47,7 @@ impl FacePattern {
     }
 }
 
-/// How the letters of a face's name are written.
+/// Spelling of a face's name in capital or small letters.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum LetterCase {
     /// As the preset has them: `front`.
@@ -60,10 +60,10 @@ pub enum LetterCase {
 }
 
 impl LetterCase {
-    /// All three.
+    /// Every spelling.
     pub const ALL: [Self; 3] = [Self::Lower, Self::Capitalised, Self::Upper];
 
-    /// A name, written so.
+    /// Spells a name.
     pub fn apply(self, name: &str) -> String {
         match self {
             Self::Lower => name.to_owned(),

@@ -2,26 +2,47 @@ use std::collections::{HashMap, HashSet};
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
+use cosmorama::layout::{FacePlacement, Naming};
 use cosmorama::sphere::CubeFace;
 
-use super::pattern::LetterCase;
-use super::{FacePattern, FacePlacement, Naming};
-use crate::{FramePattern, IoError};
+use super::images::{FaceImages, upright};
+use super::pattern::{FacePattern, LetterCase};
+use crate::file::read;
+use crate::header::ImageFile;
+use crate::sequence::FramePattern;
+use crate::{IoError, Limits};
 
 /// One face of a set, whether its file exists or not.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct FaceFile {
-    /// Which face.
+    /// Face of the cube.
     pub face: CubeFace,
-    /// Its file, or the pattern of its frames (see [`FramePattern::parse`]).
+    /// File of the face, or the pattern of its frames (see [`FramePattern::parse`]).
     pub path: PathBuf,
-    /// How its picture lies.
+    /// How the picture has to be turned to be upright; [`FaceSet::read_all`] does it.
     pub placement: FacePlacement,
     /// Whether the file, or any frame of it, exists.
     pub present: bool,
 }
 
-/// The six faces of a cube on disk; four or five may do.
+/// Files of the six faces of a cube; four or five may do.
+///
+/// ```
+/// use cosmorama::raster::{Channels, Depth, EncodedImage, Samples};
+/// use cosmorama_io::{FaceSet, Limits, WriteOptions, write};
+///
+/// let folder = tempfile::tempdir()?;
+/// for (grey, name) in (0..).zip(["front", "right", "back", "left", "top", "bottom"]) {
+///     let face = EncodedImage::new(4, 4, Channels::Grey, Depth::Eight, Samples::U8(vec![grey; 16]))?;
+///     write(folder.path().join(format!("{name}.png")), &face, &WriteOptions::default())?;
+/// }
+///
+/// let faces = FaceSet::find(&format!("{}/{{face}}.png", folder.path().display()), None)?;
+/// assert_eq!(faces.naming().name, "words");
+/// let light = faces.read_all(&Limits::default())?.to_light();
+/// assert_eq!(light[0].width(), 4);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct FaceSet {
     naming: &'static Naming,
@@ -72,7 +93,7 @@ impl FaceSet {
         }
     }
 
-    /// The faces that a pattern names, for writing them: their files need not exist.
+    /// Lists the faces that a pattern names, for writing them: their files need not exist.
     ///
     /// # Errors
     /// When the pattern is none.
@@ -93,17 +114,39 @@ impl FaceSet {
         self.present().count() >= Self::ENOUGH
     }
 
-    /// The preset that fits.
+    /// Reads all six faces and turns each of them upright, as the library expects them.
+    ///
+    /// # Errors
+    /// When a face has no file, or one cannot be read. `limits` are those of each file.
+    pub fn read_all(&self, limits: &Limits) -> Result<FaceImages, IoError> {
+        if let Some(missing) = self.missing().next() {
+            return Err(IoError::MissingFaces {
+                path: missing.path.clone(),
+                missing: self.missing().map(|face| face.face.to_string()).collect::<Vec<_>>().join(", "),
+            });
+        }
+        let read_upright = |file: &FaceFile| -> Result<ImageFile, IoError> {
+            let ImageFile { format, image, metadata, window } = read(&file.path, limits)?;
+            Ok(ImageFile { format, image: upright(image, file.placement), metadata, window })
+        };
+        let pair = |a: &FaceFile, b: &FaceFile| rayon::join(|| read_upright(a), || read_upright(b));
+        let [front, right, back, left, up, down] = &self.faces;
+        let (((front, right), (back, left)), (up, down)) =
+            rayon::join(|| rayon::join(|| pair(front, right), || pair(back, left)), || pair(up, down));
+        Ok(FaceImages { files: [front?, right?, back?, left?, up?, down?], samples: self.naming.samples })
+    }
+
+    /// Returns the preset that fits.
     pub fn naming(&self) -> &'static Naming {
         self.naming
     }
 
-    /// All six, in the order of [`CubeFace::ALL`].
+    /// Returns all six faces, in the order of [`CubeFace::ALL`].
     pub fn faces(&self) -> &[FaceFile; 6] {
         &self.faces
     }
 
-    /// One of them.
+    /// Returns one face.
     pub fn face(&self, face: CubeFace) -> &FaceFile {
         &self.faces[face as usize]
     }

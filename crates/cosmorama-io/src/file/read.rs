@@ -11,6 +11,20 @@ const BUFFER: usize = 1 << 16;
 
 /// Reads what a file says of itself, without decoding pixels.
 ///
+/// ```
+/// use cosmorama::raster::{Channels, Depth, EncodedImage, Samples};
+/// use cosmorama_io::{Format, WriteOptions, probe, write};
+///
+/// let folder = tempfile::tempdir()?;
+/// let path = folder.path().join("grey.png");
+/// let image = EncodedImage::new(2, 1, Channels::Grey, Depth::Eight, Samples::U8(vec![0, 255]))?;
+/// write(&path, &image, &WriteOptions::default())?;
+///
+/// let header = probe(&path)?;
+/// assert_eq!((header.format, header.width, header.height), (Format::Png, 2, 1));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
 /// # Errors
 /// When the file cannot be opened, is of no known format, or is damaged before its pixels.
 pub fn probe(path: impl AsRef<Path>) -> Result<Header, IoError> {
@@ -30,7 +44,22 @@ pub fn probe_from(mut source: impl BufRead + Seek, name: impl AsRef<Path>) -> Re
     codec(format).probe(name, &mut source)
 }
 
-/// Reads a file.
+/// Reads a file. [`ImageFile::to_light`] makes linear light of it.
+///
+/// ```
+/// use cosmorama::raster::{Channels, Depth, EncodedImage, Samples};
+/// use cosmorama_io::{Limits, WriteOptions, read, write};
+///
+/// let folder = tempfile::tempdir()?;
+/// let path = folder.path().join("grey.png");
+/// let image = EncodedImage::new(2, 1, Channels::Grey, Depth::Eight, Samples::U8(vec![0, 255]))?;
+/// write(&path, &image, &WriteOptions::default())?;
+///
+/// let file = read(&path, &Limits::default())?;
+/// assert_eq!(file.image, image);
+/// assert_eq!(file.to_light().get(1, 0).0, [1.0; 4]);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 ///
 /// # Errors
 /// When the file cannot be opened, is of no known format, declares more pixels than `limits` allow (before
@@ -41,6 +70,16 @@ pub fn read(path: impl AsRef<Path>, limits: &Limits) -> Result<ImageFile, IoErro
 }
 
 /// Reads a file in memory, or from any other reader. The file begins where the reader does.
+///
+/// ```
+/// use std::io::Cursor;
+/// use cosmorama_io::{Limits, read_from};
+///
+/// let bytes = b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 1\n\x80\x80\x80\x81";
+/// let file = read_from(Cursor::new(bytes), "a picture in memory", &Limits::default())?;
+/// assert_eq!(file.to_light().get(0, 0).0, [1.0; 4]);
+/// # Ok::<(), cosmorama_io::IoError>(())
+/// ```
 ///
 /// `name` is what messages call the file. Its extension counts only for TGA, which has no mark of its own.
 ///

@@ -11,6 +11,19 @@ use crate::{IoError, WriteOptions};
 /// Writes a file in the format that its extension names. It appears whole or not at all; an older file of the
 /// same name is replaced only when the new one is whole.
 ///
+/// ```
+/// use cosmorama::raster::{Channels, Depth, EncodedImage, Samples, Transfer};
+/// use cosmorama_io::{Metadata, WriteOptions, probe, write};
+///
+/// let folder = tempfile::tempdir()?;
+/// let path = folder.path().join("red.png");
+/// let image = EncodedImage::new(1, 1, Channels::Rgb, Depth::Eight, Samples::U8(vec![255, 0, 0]))?;
+/// let metadata = Metadata { transfer: Some(Transfer::Srgb), ..Metadata::default() };
+/// write(&path, &image, &WriteOptions::with_metadata(metadata))?;
+/// assert_eq!(probe(&path)?.metadata.transfer, Some(Transfer::Srgb));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
 /// # Errors
 /// When the extension is unknown, the format cannot hold the image, or the file cannot be written.
 pub fn write(path: impl AsRef<Path>, image: &EncodedImage, options: &WriteOptions) -> Result<(), IoError> {

@@ -2,7 +2,7 @@
 
 mod format;
 
-use cosmorama::raster::{Channels, Depth, EncodedImage};
+use cosmorama::raster::{Channels, Depth, EncodedImage, Image, Rgba, Transfer};
 
 pub use format::Format;
 
@@ -38,4 +38,19 @@ pub struct ImageFile {
     pub metadata: Metadata,
     /// Where the pixels lie in a larger canvas; `None` where they are all of it.
     pub window: Option<Window>,
+}
+
+impl ImageFile {
+    /// Returns how the file's code values relate to light: linear where they are floats, else as the file says, else sRGB.
+    pub fn transfer(&self) -> Transfer {
+        if self.image.depth().is_float() {
+            return Transfer::Linear;
+        }
+        self.metadata.transfer.clone().unwrap_or_default()
+    }
+
+    /// Computes the file's linear light.
+    pub fn to_light(&self) -> Image<Rgba> {
+        self.image.to_light(&self.transfer())
+    }
 }

@@ -10,11 +10,23 @@ use crate::{Format, FrameList, FramePattern};
 /// Files of a folder that are frames of one sequence by their names.
 ///
 /// As text it is their pattern and their numbers: `shot/dome_####.png (1-240)`.
+///
+/// ```
+/// use cosmorama_io::FoundFrames;
+///
+/// let folder = tempfile::tempdir()?;
+/// for name in ["a_1.png", "a_2.png", "b.png"] {
+///     std::fs::write(folder.path().join(name), "")?;
+/// }
+/// let found = FoundFrames::in_folder(folder.path());
+/// assert!(found.len() == 1 && found[0].to_string().ends_with("a_#.png (1,2)"));
+/// # Ok::<(), std::io::Error>(())
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct FoundFrames {
-    /// What names them.
+    /// Pattern of the names.
     pub pattern: FramePattern,
-    /// Their numbers, ascending.
+    /// Frame numbers, ascending.
     pub frames: FrameList,
 }
 
@@ -25,7 +37,7 @@ const FARTHEST: u64 = 100;
 type Around = (String, String);
 
 impl FoundFrames {
-    /// The sequences of images in a folder, the longest first; none where it cannot be read. A file is a frame of one of them
+    /// Finds the sequences of images in a folder, the longest first; none where it cannot be read. A file is a frame of one of them
     /// at most, and two make a sequence.
     pub fn in_folder(folder: &Path) -> Vec<Self> {
         // What is in the current one is told by its name alone.

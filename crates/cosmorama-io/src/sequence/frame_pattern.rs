@@ -30,19 +30,19 @@ enum Piece {
 }
 
 impl FramePattern {
-    /// The pattern in a file name, if it is one. A single `@`, as in `texture@2x.png`, is none.
+    /// Parses a file name; `None` where no number stands in it. A single `@`, as in `texture@2x.png`, is none.
     pub fn parse(text: &str) -> Option<Self> {
         let pieces = pieces(text);
         let numbered = pieces.iter().any(|piece| matches!(piece, Piece::Number(_)));
         numbered.then(|| Self { text: text.to_owned(), pieces })
     }
 
-    /// As it was written.
+    /// Returns the pattern as it was written.
     pub fn as_str(&self) -> &str {
         &self.text
     }
 
-    /// The file of a frame.
+    /// Builds the file name of a frame.
     pub fn path(&self, frame: u64) -> PathBuf {
         let write = |piece: &Piece| match piece {
             Piece::Text(text) => text.clone(),
@@ -51,13 +51,13 @@ impl FramePattern {
         self.pieces.iter().map(write).collect::<String>().into()
     }
 
-    /// The folder above the first part that varies with the frame.
+    /// Returns the folder above the first part that varies with the frame.
     pub fn folder(&self) -> PathBuf {
         let fixed = Path::new(&self.text).ancestors().find(|path| !is_numbered(path)).unwrap_or(Path::new(""));
         if fixed.as_os_str().is_empty() { PathBuf::from(".") } else { fixed.to_owned() }
     }
 
-    /// The frames whose files exist, in order.
+    /// Finds the frames whose files exist, in order.
     ///
     /// # Errors
     /// When the folder cannot be read.

@@ -4,7 +4,20 @@ use std::path::PathBuf;
 use super::FoundFrames;
 use crate::{FrameList, FramePattern, IoError};
 
-/// The frames of a sequence to work on: all are there.
+/// Frames of a sequence to work on: all are there.
+///
+/// ```
+/// use cosmorama_io::{FramePattern, Frames};
+///
+/// let folder = tempfile::tempdir()?;
+/// for frame in 1..=3 {
+///     std::fs::write(folder.path().join(format!("dome_{frame:04}.png")), "")?;
+/// }
+/// let pattern = FramePattern::parse(&format!("{}/dome_####.png", folder.path().display())).expect("a pattern");
+/// let frames = Frames::find(pattern, None)?;
+/// assert_eq!(frames.list().to_string(), "1-3");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Frames {
     pattern: FramePattern,
@@ -12,7 +25,7 @@ pub struct Frames {
 }
 
 impl Frames {
-    /// The frames that were asked for, or all that exist.
+    /// Finds the frames that were asked for, or all that exist.
     ///
     /// # Errors
     /// When there are none, when one that was asked for is missing, or when one is missing between the first
@@ -41,12 +54,12 @@ impl Frames {
         })
     }
 
-    /// Their numbers.
+    /// Returns the numbers of the frames.
     pub fn list(&self) -> &FrameList {
         &self.list
     }
 
-    /// Numbers and files.
+    /// Iterates over numbers and files.
     pub fn paths(&self) -> impl Iterator<Item = (u64, PathBuf)> {
         self.list.frames().iter().map(|&frame| (frame, self.pattern.path(frame)))
     }

@@ -2,8 +2,10 @@
 
 use std::path::Path;
 
+use cosmorama::camera::SamplePositions;
+use cosmorama::raster::{Channels, Depth, EncodedImage, Samples};
 use cosmorama::sphere::CubeFace;
-use cosmorama_io::{FacePlacement, FaceSet, IoError, Naming};
+use cosmorama_io::{FacePlacement, FaceSet, IoError, Limits, Naming, WriteOptions, write};
 
 fn folder_with(names: &[&str]) -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
@@ -140,4 +142,24 @@ fn a_name_is_found_as_it_is_written() {
         let paths: Vec<_> = set.present().map(|face| face.path.clone()).collect();
         assert_eq!(paths, names.map(|name| folder.path().join(name)));
     }
+}
+
+/// The library draws faces as [`FacePlacement::UPRIGHT`] has them: what a preset turns is turned back when it is read.
+#[test]
+fn all_faces_are_read_upright() {
+    let folder = tempfile::tempdir().unwrap();
+    for name in ["+Z", "-X", "-Z", "+X", "+Y", "-Y"] {
+        let image = EncodedImage::new(2, 1, Channels::Grey, Depth::Eight, Samples::U8(vec![1, 2])).unwrap();
+        write(folder.path().join(format!("{name}.png")), &image, &WriteOptions::default()).unwrap();
+    }
+    let pattern = folder.path().join("{face}.png").display().to_string();
+    let faces = FaceSet::find(&pattern, None).unwrap().read_all(&Limits::default()).unwrap();
+    assert_eq!(faces.samples, SamplePositions::Edges);
+    for face in CubeFace::ALL {
+        let expected = if matches!(face, CubeFace::Up | CubeFace::Down) { vec![2, 1] } else { vec![1, 2] };
+        assert_eq!(*faces.face(face).samples(), Samples::U8(expected), "{face}");
+    }
+    std::fs::remove_file(folder.path().join("+Y.png")).unwrap();
+    let error = FaceSet::find(&pattern, None).unwrap().read_all(&Limits::default()).unwrap_err().to_string();
+    assert!(error.contains("+Y.png") && error.ends_with("missing faces: up"), "{error}");
 }
