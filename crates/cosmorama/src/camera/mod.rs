@@ -6,6 +6,7 @@
 mod error;
 mod field_stop;
 pub(crate) mod flat;
+mod footprint;
 mod grid;
 pub(crate) mod lens;
 pub(crate) mod map;
@@ -22,6 +23,7 @@ pub use flat::field_of_view::FieldOfView;
 pub use flat::layout_face::{FaceMapping, LayoutFaceCamera};
 pub use flat::pannini::PanniniCamera;
 pub use flat::perspective::PerspectiveCamera;
+pub use footprint::{Covariance, Footprint};
 pub use grid::{PixelBounds, PixelGrid, PixelPoint, PixelRect};
 pub use lens::calibrated::{CalibratedCamera, CalibratedLens};
 pub use lens::camera_matrix::CameraMatrix;
@@ -41,7 +43,7 @@ pub use placement::{Canvas, Mirror, Placement};
 pub use screen_pixel::ScreenPixel;
 pub use st_map::StMapCamera;
 pub(crate) use view::ROUNDING;
-pub use view::{Footprint, View};
+pub use view::View;
 
 enum_dispatch! { ($)
     /// Every kind of frame, chosen at run time.

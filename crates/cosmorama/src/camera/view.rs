@@ -2,19 +2,9 @@ use std::ops::Range;
 
 use glam::{DMat2, DVec2};
 
-use super::{FieldStop, PixelBounds, PixelGrid, PixelPoint};
+use super::{FieldStop, Footprint, PixelBounds, PixelGrid, PixelPoint};
 use crate::projection::{Outline, PlanePoint, Projection, ProjectionKind};
 use crate::sphere::{Angle, Direction, DirectionJacobian, Orientation};
-
-/// What a screen pixel sees of the world, to first order: the direction of a point of it, and how that direction moves
-/// for one pixel to the right (dx) and one pixel down (dy).
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Footprint {
-    /// The direction, in the world's frame.
-    pub direction: Direction,
-    /// Its derivatives per pixel, in the world's frame.
-    pub jacobian: DirectionJacobian,
-}
 
 /// Texels from a steep rim within which a texel is measured from side to side.
 const STEEP: f64 = 4.0;

@@ -1,22 +1,27 @@
 //! Filters: what is averaged over a footprint.
 
-pub(crate) mod ellipse;
-pub(crate) mod ewa_paper;
+pub(crate) mod ewa;
+pub(crate) mod ewa_pyramid;
 pub(crate) mod gather;
 pub(crate) mod kernel;
 pub(crate) mod lookup;
 pub(crate) mod pixel_taps;
+pub(crate) mod prepared;
 pub(crate) mod reference;
 pub(crate) mod rim;
 pub(crate) mod settings;
-#[cfg(test)]
-pub(crate) mod simd_levels;
 pub(crate) mod taps;
 
-pub use ellipse::Ellipse;
-pub(crate) use ellipse::semi_axes;
-pub use ewa_paper::{TextureDerivatives, WeightTable, ewa};
+pub use ewa::Ewa;
+pub use ewa::paper::{TextureDerivatives, WeightTable, ewa};
+pub use ewa_pyramid::EwaPyramid;
+pub use ewa_pyramid::level::MOST_TEXELS;
+pub use gather::ellipse::Ellipse;
+pub(crate) use gather::ellipse::semi_axes;
 pub(crate) use kernel::KernelTable;
 pub use kernel::{CrossSection, Kernel};
+pub use lookup::{Bilinear, Point};
 pub(crate) use pixel_taps::PixelTaps;
+pub use prepared::{FootprintFilter, Prepared, SetupCost, WIDEST};
+pub use reference::Reference;
 pub use settings::{Filter, FilterKind};

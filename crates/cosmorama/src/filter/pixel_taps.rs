@@ -1,5 +1,6 @@
 use super::gather::Gather;
 use super::kernel::KernelTable;
+use super::rim::field_edge::FieldEdge;
 use super::taps::Taps;
 use super::{Filter, FilterKind, lookup, reference};
 use crate::camera::{ScreenPixel, View};
@@ -17,7 +18,7 @@ pub(crate) struct PixelTaps<'a> {
 impl<'a> PixelTaps<'a> {
     /// Pixels of `target` made by `filter` from `world`; `table` is that of the filter's kernel.
     pub(crate) fn new(world: &'a World, target: &'a View, filter: &'a Filter, table: &'a KernelTable) -> Self {
-        Self { world, target, filter, gather: Gather::new(world, target, table), taps: Taps::default() }
+        Self { world, target, filter, gather: Gather::new(world, FieldEdge::of(target), table), taps: Taps::default() }
     }
 
     /// What gathers them where the filter is EWA.
@@ -48,7 +49,7 @@ impl<'a> PixelTaps<'a> {
     pub(crate) fn for_each_texel(&mut self, pixel: (usize, usize), screen: &ScreenPixel, mut visit: impl FnMut(usize)) {
         if let FilterKind::Reference { samples } = self.filter.kind {
             let mut read = |texel: u32, _: f64| visit(texel as usize);
-            reference::for_each_texel(self.world, self.target, self.filter, samples, pixel, &mut read);
+            reference::for_each_texel(self.world, self.target, &self.filter.reference(samples), pixel, &mut read);
         } else if let Some(taps) = self.taps(screen) {
             taps.as_slice().iter().for_each(|tap| visit(tap.texel as usize));
         }

@@ -3,19 +3,67 @@
 use rayon::prelude::*;
 
 use super::kernel::UNDER;
-use super::{Filter, lookup};
-use crate::camera::{PixelPoint, View};
+use super::prepared::{FootprintFilter, Prepared, SetupCost, bounded};
+use super::{Kernel, lookup};
+use crate::camera::{Footprint, PixelPoint, View};
 use crate::raster::{Image, Rgba};
 use crate::sphere::Direction;
-use crate::world::World;
+use crate::world::{Light, LightError, World};
+
+/// Brute force: N × N sub-samples a pixel, weighted by the kernel in screen space, in f64. Slow: the judge of the others.
+///
+/// Of a picture the exact mapping of each sub-sample is known, and [`Resampler::render`](crate::render::Resampler::render) goes by it. Of a
+/// footprint only the derivatives are: a sub-sample lies in the tangent plane where they say, and on the sphere as far away along
+/// a great circle ([`Footprint::direction_at`]). Those more than a quarter turn away do not count.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Reference {
+    /// Sub-samples along a pixel's side.
+    pub samples: usize,
+    /// The weights; their floor and their centring play no part.
+    pub kernel: Kernel,
+    /// Whether the average is clamped, per channel, to what lies under the footprint.
+    pub anti_ringing: bool,
+}
+
+impl FootprintFilter for Reference {
+    fn prepare<'w>(&self, world: &'w World, light: &'w Light) -> Result<Box<dyn Prepared + 'w>, LightError> {
+        light.check(world)?;
+        Ok(Box::new(PreparedReference { world, light: light.texels(), filter: *self }))
+    }
+
+    fn setup(&self, _: &World) -> SetupCost {
+        SetupCost::default()
+    }
+}
+
+struct PreparedReference<'w> {
+    world: &'w World,
+    light: &'w [Rgba],
+    filter: Reference,
+}
+
+impl Prepared for PreparedReference<'_> {
+    fn world(&self) -> &World {
+        self.world
+    }
+
+    fn average(&self, footprint: &Footprint) -> Rgba {
+        let Some(footprint) = bounded(footprint) else { return Rgba::TRANSPARENT };
+        let in_front = |there: &Direction| there.dot(footprint.direction) > 0.0;
+        let look_at = |x: f64, y: f64| footprint.direction_at(x, y).filter(in_front);
+        let kernel = KernelSquare::new(self.world, &self.filter, Some(&footprint), look_at);
+        let average = kernel.average(self.light).or_else(|| look(self.world, footprint.direction, self.light));
+        average.unwrap_or(Rgba::TRANSPARENT)
+    }
+}
 
 /// The target by brute force. Slow, obvious, the judge of the other filters.
-pub(crate) fn render(world: &World, target: &View, filter: &Filter, samples: usize, texels: &[Rgba]) -> Image<Rgba> {
+pub(crate) fn render(world: &World, target: &View, filter: &Reference, texels: &[Rgba]) -> Image<Rgba> {
     let mut image = Image::filled(target.width(), target.height(), Rgba::TRANSPARENT);
     image.pixels_mut().par_chunks_mut(target.width().max(1)).enumerate().for_each(|(j, row)| {
         for (i, pixel) in row.iter_mut().enumerate() {
             if let Some(screen) = target.screen_pixel(i, j) {
-                let kernel = KernelSquare::new(world, target, filter, samples, (i, j));
+                let kernel = square_of_pixel(world, target, filter, (i, j));
                 let average = kernel.average(texels).or_else(|| look(world, screen.footprint.direction, texels));
                 *pixel = average.unwrap_or(Rgba::TRANSPARENT) * screen.coverage as f32;
             }
@@ -28,34 +76,47 @@ pub(crate) fn render(world: &World, target: &View, filter: &Filter, samples: usi
 pub(crate) fn for_each_texel(
     world: &World,
     target: &View,
-    filter: &Filter,
-    samples: usize,
+    filter: &Reference,
     pixel: (usize, usize),
     mut visit: impl FnMut(u32, f64),
 ) {
-    let kernel = KernelSquare::new(world, target, filter, samples, pixel);
-    kernel.for_each_sample(|_, _, at| {
-        if let Some(direction) = kernel.direction(at) {
+    let kernel = square_of_pixel(world, target, filter, pixel);
+    kernel.for_each_sample(|_, _, direction| {
+        if let Some(direction) = direction {
             lookup::bilinear(world, direction, &mut visit);
         }
     });
 }
 
-/// The square of sub-samples that a kernel reaches around a pixel.
-struct KernelSquare<'a> {
+/// The square of a target's pixel, through the exact mapping and as far as the field stop lets it pass.
+fn square_of_pixel<'a>(
     world: &'a World,
     target: &'a View,
-    filter: &'a Filter,
-    samples: usize,
-    centre: PixelPoint,
-    coarseness: f64,
+    filter: &'a Reference,
+    (i, j): (usize, usize),
+) -> KernelSquare<'a, impl Fn(f64, f64) -> Option<Direction>> {
+    let centre = PixelPoint::centre(i, j);
+    let look_at = move |x: f64, y: f64| {
+        let at = PixelPoint::new(centre.x + x, centre.y + y);
+        target.stop_passes(at).then(|| target.direction(at))?
+    };
+    KernelSquare::new(world, filter, target.footprint(centre).as_ref(), look_at)
 }
 
-impl<'a> KernelSquare<'a> {
-    fn new(world: &'a World, target: &'a View, filter: &'a Filter, samples: usize, (i, j): (usize, usize)) -> Self {
-        let centre = PixelPoint::centre(i, j);
-        let coarseness = texels_per_pixel(world, target, centre).map_or(1.0, |s| filter.kernel.coarseness(s));
-        Self { world, target, filter, samples, centre, coarseness }
+/// The square of sub-samples that a kernel reaches around a pixel.
+struct KernelSquare<'a, F> {
+    world: &'a World,
+    filter: &'a Reference,
+    coarseness: f64,
+    /// The direction at an offset from the pixel's centre, in pixels.
+    look_at: F,
+}
+
+impl<'a, F: Fn(f64, f64) -> Option<Direction>> KernelSquare<'a, F> {
+    fn new(world: &'a World, filter: &'a Reference, footprint: Option<&Footprint>, look_at: F) -> Self {
+        let coarseness = footprint.and_then(|footprint| texels_per_pixel(world, footprint));
+        let coarseness = coarseness.map_or(1.0, |s| filter.kernel.coarseness(s));
+        Self { world, filter, coarseness, look_at }
     }
 
     /// `None` if no sub-sample is inside the field of view, as in a pixel of which the rim leaves a sliver.
@@ -63,7 +124,7 @@ impl<'a> KernelSquare<'a> {
         let (mut sum, mut weights, mut size) = ([0f64; 4], 0f64, 0f64);
         let (mut least, mut greatest) = ([f64::INFINITY; 4], [f64::NEG_INFINITY; 4]);
         self.for_each_sample(|weight, r, at| {
-            let Some((colour, found)) = self.sample(at, texels) else { return };
+            let Some((colour, found)) = at.map(|at| weighted_light(self.world, at, texels)) else { return };
             weights += weight * found;
             size += weight.abs() * found;
             for c in 0..4 {
@@ -85,20 +146,20 @@ impl<'a> KernelSquare<'a> {
         })))
     }
 
-    /// Calls `visit` with the weight, the distance in the kernel's unit and the place of each sub-sample that counts.
-    fn for_each_sample(&self, mut visit: impl FnMut(f64, f64, PixelPoint)) {
+    /// Calls `visit` with the weight, the distance in the kernel's unit and the direction of each sub-sample that counts.
+    fn for_each_sample(&self, mut visit: impl FnMut(f64, f64, Option<Direction>)) {
         let scale = self.filter.kernel.scale;
-        let reach = (self.filter.kernel.radius() * scale * self.samples as f64).ceil() as i64 + 1;
-        let step = (self.samples as f64).recip();
+        let reach = (self.filter.kernel.radius() * scale * self.filter.samples as f64).ceil() as i64 + 1;
+        let step = (self.filter.samples as f64).recip();
         // Sub-samples lie at the centres of an N×N grid in each pixel.
-        let phase = if self.samples.is_multiple_of(2) { 0.5 } else { 0.0 };
+        let phase = if self.filter.samples.is_multiple_of(2) { 0.5 } else { 0.0 };
         for b in -reach..=reach {
             for a in -reach..=reach {
                 let (x, y) = ((a as f64 + phase) * step, (b as f64 + phase) * step);
                 let (rx, ry) = (x / scale, y / scale);
                 let weight = self.weight(rx, ry);
                 if weight != 0.0 {
-                    visit(weight, rx.hypot(ry), PixelPoint::new(self.centre.x + x, self.centre.y + y));
+                    visit(weight, rx.hypot(ry), (self.look_at)(x, y));
                 }
             }
         }
@@ -108,20 +169,10 @@ impl<'a> KernelSquare<'a> {
         let kernel = &self.filter.kernel;
         kernel.fine.weight_at(x, y) * (1.0 - self.coarseness) + kernel.coarse.weight_at(x, y) * self.coarseness
     }
-
-    /// The direction at a point of the target, if the field stop lets it pass.
-    fn direction(&self, at: PixelPoint) -> Option<Direction> {
-        self.target.stop_passes(at).then(|| self.target.direction(at))?
-    }
-
-    /// Light at a point of the target times the part of it that the world holds, and that part.
-    fn sample(&self, at: PixelPoint, texels: &[Rgba]) -> Option<([f64; 4], f64)> {
-        Some(weighted_light(self.world, self.direction(at)?, texels))
-    }
 }
 
 /// The light in one direction, bilinear.
-fn look(world: &World, direction: Direction, texels: &[Rgba]) -> Option<Rgba> {
+pub(crate) fn look(world: &World, direction: Direction, texels: &[Rgba]) -> Option<Rgba> {
     let (colour, found) = weighted_light(world, direction, texels);
     (found > 0.0).then(|| Rgba(colour.map(|c| (c / found) as f32)))
 }
@@ -138,10 +189,9 @@ fn weighted_light(world: &World, direction: Direction, texels: &[Rgba]) -> ([f64
 }
 
 /// s = √|det J|, in the view that shows the pixel's centre.
-fn texels_per_pixel(world: &World, target: &View, centre: PixelPoint) -> Option<f64> {
-    let footprint = target.footprint(centre)?;
+fn texels_per_pixel(world: &World, footprint: &Footprint) -> Option<f64> {
     let (index, _) = world.owner(footprint.direction)?;
     let source = &world.sources()[index];
-    let (_, jacobian) = source.view.texel_footprint(&footprint)?;
+    let (_, jacobian) = source.view.texel_footprint(footprint)?;
     Some(jacobian.determinant().abs().sqrt())
 }

@@ -1,4 +1,5 @@
-use super::Kernel;
+use super::{Bilinear, Ewa, EwaPyramid, FootprintFilter, Kernel, Point, Prepared, Reference, SetupCost};
+use crate::world::{Light, LightError, World};
 
 /// How the texels under a footprint become a pixel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -34,6 +35,35 @@ pub struct Filter {
 impl Filter {
     /// EWA with the adaptive kernel and anti-ringing: what is used when nothing else is asked for.
     pub const DEFAULT: Self = Self { kind: FilterKind::Ewa, kernel: Kernel::ADAPTIVE, anti_ringing: true };
+}
+
+impl Filter {
+    /// The filter that these settings name.
+    fn chosen(&self) -> Box<dyn FootprintFilter> {
+        let Self { kind, kernel, anti_ringing } = *self;
+        match kind {
+            FilterKind::Ewa => Box::new(Ewa { kernel, anti_ringing }),
+            FilterKind::EwaPyramid => Box::new(EwaPyramid { kernel, anti_ringing }),
+            FilterKind::Point => Box::new(Point),
+            FilterKind::Bilinear => Box::new(Bilinear),
+            FilterKind::Reference { samples } => Box::new(Reference { samples, kernel, anti_ringing }),
+        }
+    }
+
+    /// The reference filter of so many sub-samples along a pixel's side, with this kernel.
+    pub(crate) fn reference(&self, samples: usize) -> Reference {
+        Reference { samples, kernel: self.kernel, anti_ringing: self.anti_ringing }
+    }
+}
+
+impl FootprintFilter for Filter {
+    fn prepare<'w>(&self, world: &'w World, light: &'w Light) -> Result<Box<dyn Prepared + 'w>, LightError> {
+        self.chosen().prepare(world, light)
+    }
+
+    fn setup(&self, world: &World) -> SetupCost {
+        self.chosen().setup(world)
+    }
 }
 
 impl Default for Filter {

@@ -1,4 +1,6 @@
-#[cfg(test)]
+use fearless_simd::{Level, Simd, dispatch, f32x4, prelude::*};
+
+use super::rim::rim_extrapolation::{Bounds, Rim, TexelLight};
 use crate::raster::Rgba;
 
 /// Texels that are added up in single precision before the sum goes on in double: a pixel of thousands of texels must not lose
@@ -94,43 +96,47 @@ impl Taps {
     }
 }
 
-/// The weighted average of taps, held to what those under the pixel hold if there is to be no ringing, one after the other: what
-/// all pixels are measured against. `light` is that of a texel.
-#[cfg(test)]
+/// The weighted average of taps; with `anti_ringing` held to what those under the pixel hold. `light` is that of a texel.
 pub(crate) fn average(list: TapList, light: impl Fn(u32) -> Rgba, anti_ringing: bool) -> Rgba {
-    use super::rim::rim_extrapolation::{Bounds, Rim};
-
-    let add = |sum: &mut [f64; 4], part: [f32; 4]| (0..4).for_each(|c| sum[c] += f64::from(part[c]));
     let mut sum = [0f64; 4];
     let mut bounds = Bounds { least: [f32::INFINITY; 4], greatest: [f32::NEG_INFINITY; 4] };
-    let Bounds { least, greatest } = &mut bounds;
     let (inner, outer) = list.taps.split_at(list.under);
-    for block in inner.chunks(BLOCK) {
-        let mut part = [0f32; 4];
-        for tap in block {
-            let texel = light(tap.texel).0;
-            for c in 0..4 {
-                part[c] += tap.weight * texel[c];
-                least[c] = if texel[c] < least[c] { texel[c] } else { least[c] };
-                greatest[c] = if texel[c] > greatest[c] { texel[c] } else { greatest[c] };
-            }
+    add(&mut sum, inner, |texel| {
+        let texel = light(texel);
+        for c in 0..4 {
+            bounds.least[c] = bounds.least[c].min(texel.0[c]);
+            bounds.greatest[c] = bounds.greatest[c].max(texel.0[c]);
         }
-        add(&mut sum, part);
-    }
-    for block in outer.chunks(BLOCK) {
-        let mut part = [0f32; 4];
-        for tap in block {
-            let texel = light(tap.texel).0;
-            for c in 0..4 {
-                part[c] += tap.weight * texel[c];
-            }
-        }
-        add(&mut sum, part);
-    }
+        texel
+    });
+    add(&mut sum, outer, &light);
     let average = Rgba(sum.map(|value| value as f32));
     if !anti_ringing || list.under == 0 {
         return average;
     }
-    let texels: Vec<Rgba> = list.taps.iter().map(|tap| light(tap.texel)).collect();
-    Rim::new(list.places).hold_at_best(average, &bounds, &texels)
+    let (rim, texels) = (Rim::new(list.places), TapLight { taps: list.taps, light });
+    dispatch!(Level::new(), simd => rim.hold(simd, average, &bounds, &texels))
+}
+
+/// Adds the light of taps, block by block.
+fn add(sum: &mut [f64; 4], taps: &[Tap], mut light: impl FnMut(u32) -> Rgba) {
+    for block in taps.chunks(BLOCK) {
+        let mut part = Rgba::TRANSPARENT;
+        for tap in block {
+            part += light(tap.texel) * tap.weight;
+        }
+        (0..4).for_each(|c| sum[c] += f64::from(part.0[c]));
+    }
+}
+
+/// The light of taps, in their order.
+struct TapLight<'a, F> {
+    taps: &'a [Tap],
+    light: F,
+}
+
+impl<F: Fn(u32) -> Rgba> TexelLight for TapLight<'_, F> {
+    fn light<S: Simd>(&self, simd: S, index: usize) -> f32x4<S> {
+        f32x4::load_array_ref(simd, &(self.light)(self.taps[index].texel).0)
+    }
 }

@@ -104,6 +104,10 @@ impl Projection for ProjectionKind {
         each!(self, projection => projection.project_with_derivatives(direction, tangents))
     }
 
+    fn curvature(&self, point: PlanePoint) -> Option<[DVec2; 3]> {
+        each!(self, projection => projection.curvature(point))
+    }
+
     fn margin(&self, direction: Direction) -> f64 {
         each!(self, projection => projection.margin(direction))
     }

@@ -124,6 +124,12 @@ pub trait Projection {
         Some((point, [jacobian.pseudo_inverse(tangents[0])?, jacobian.pseudo_inverse(tangents[1])?]))
     }
 
+    /// How lines of equal x and y bend on the sphere, where that is known in closed form: ∂²direction/∂x², ∂x∂y and ∂y², each by
+    /// what of it lies in the tangent plane, as multiples of ∂direction/∂x and ∂y (Christoffel symbols).
+    fn curvature(&self, _point: PlanePoint) -> Option<[DVec2; 3]> {
+        None
+    }
+
     /// A lower bound, in radians, of the angle from a direction to the nearest one at which the mapping is singular (a
     /// pole, a horizon, a rim); negative beyond a horizon. A footprint much smaller than this is mapped to an ellipse, a
     /// larger one is weighed on the sphere.

@@ -2,12 +2,14 @@
 
 pub(crate) mod apply;
 pub(crate) mod batch;
+mod picture;
 pub(crate) mod plan;
 pub(crate) mod pyramid;
 pub(crate) mod required;
 pub(crate) mod resampler;
 pub(crate) mod scan;
 
+pub use picture::picture;
 pub use plan::{Arithmetic, Plan};
 pub(crate) use pyramid::{Pyramid, TexelCount};
 pub use required::need::{Accuracy, Need, Needs};

@@ -42,7 +42,7 @@ impl Resampler<'_> {
                 return plan::render(self, texels, background, Level::new());
             }
             FilterKind::Reference { samples } => {
-                reference::render(self.world, self.target, &self.filter, samples, texels)
+                reference::render(self.world, self.target, &self.filter.reference(samples), texels)
             }
             FilterKind::EwaPyramid => pyramid::render(self, texels),
         };

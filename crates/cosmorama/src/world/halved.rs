@@ -31,6 +31,16 @@ impl Source {
         WorldView { name: self.name.clone(), view, blend: self.blend, mask }
     }
 
+    /// The geometry alone of the picture in half as many texels each way; `None` where there is nothing left to halve. It has no
+    /// solid angles: what it is for is to measure how large texels are.
+    pub(crate) fn coarser(&self) -> Option<Self> {
+        if self.view.width().max(self.view.height()) < SMALLEST {
+            return None;
+        }
+        let view = View { grid: self.view.grid.halved(self.columns()), ..self.view };
+        Some(self.with_geometry_of(view))
+    }
+
     /// Columns of the picture, those that show the same once more left out.
     pub(crate) fn columns(&self) -> usize {
         self.period.map_or(self.view.width(), |period| period.min(self.view.width()))

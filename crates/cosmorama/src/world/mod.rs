@@ -4,10 +4,9 @@ mod blend;
 mod bounding_cone;
 mod edge_decontamination;
 mod halved;
+mod light;
 pub(crate) mod mask;
 mod overlap;
-#[cfg(test)]
-mod panorama;
 mod solid_angles;
 mod st_pixels;
 mod watertight;
@@ -17,11 +16,26 @@ mod world;
 pub use blend::Blend;
 pub use edge_decontamination::RimTexels;
 pub(crate) use halved::held;
+pub use light::{Light, LightError};
 pub use mask::mask::ViewMask;
 pub use mask::shape::MaskShape;
-#[cfg(test)]
-pub(crate) use panorama::panorama;
 pub use solid_angles::SolidAngles;
 pub use st_pixels::{ST_NOWHERE, StPixel};
 pub(crate) use world::TexelPlace;
 pub use world::{Source, World, WorldError, WorldView};
+
+/// An upright panorama of the whole sphere, for tests.
+#[cfg(test)]
+pub(crate) fn panorama(width: usize, height: usize) -> crate::camera::View {
+    use crate::camera::{FieldStop, PixelGrid, View};
+    use crate::projection::{PlanePoint, PlaneRect, ProjectionKind};
+
+    let (x, y) = (std::f64::consts::PI, std::f64::consts::FRAC_PI_2);
+    let rect = PlaneRect { min: PlanePoint::new(-x, -y), max: PlanePoint::new(x, y) };
+    View {
+        projection: ProjectionKind::EQUIRECTANGULAR,
+        orientation: crate::sphere::Orientation::IDENTITY,
+        grid: PixelGrid::spanning(width, height, rect),
+        stop: FieldStop::NONE,
+    }
+}

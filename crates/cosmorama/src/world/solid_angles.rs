@@ -22,6 +22,11 @@ impl SolidAngles {
         Self(Arc::new(angles))
     }
 
+    /// Returns the list of no texel.
+    pub(super) fn none() -> Self {
+        Self(Arc::default())
+    }
+
     /// Returns the list for changes, copied first if other views share it.
     pub(crate) fn make_mut(&mut self) -> &mut [f32] {
         Arc::<Vec<f32>>::make_mut(&mut self.0)

@@ -118,6 +118,25 @@ impl Source {
 }
 
 impl Source {
+    /// This source with another grid over the same picture, and without solid angles.
+    pub(super) fn with_geometry_of(&self, view: View) -> Self {
+        let larger = (view.grid.step() / self.view.grid.step()).max_element();
+        // Beside a steep rim texels grow otherwise.
+        let is_steep = view.projection.has_steep_rim();
+        Self {
+            name: String::new(),
+            view,
+            offset: 0,
+            period: view.period(),
+            texel_pitch: if is_steep { texel_pitch(&view) } else { self.texel_pitch * larger },
+            solid_angles: SolidAngles::none(),
+            mask: None,
+            others: Vec::new(),
+            whole: owned(&view),
+            ..*self
+        }
+    }
+
     /// Whether anything within `radius` radians of a direction may be shown.
     pub(crate) fn reaches(&self, direction: Direction, radius: f64) -> bool {
         self.cone.is_none_or(|cone| cone.reaches(direction, radius))

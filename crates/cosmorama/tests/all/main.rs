@@ -8,6 +8,8 @@ mod round_trips;
 
 mod filter {
     mod aliasing;
+    mod bound;
+    mod footprint;
     mod position;
     mod pyramid;
     mod reference;

@@ -1,10 +1,11 @@
+use std::f64::consts::FRAC_PI_4;
 use std::ops::Range;
 
 use glam::DVec3;
 
 use super::cap::texels_within;
 use crate::camera::PixelPoint;
-use crate::projection::PlanePoint;
+use crate::projection::{PlanePoint, PlaneRect};
 use crate::sphere::{Angle, Direction};
 use crate::world::Source;
 
@@ -14,6 +15,8 @@ pub(crate) struct CapChain {
     /// The cap that holds all of it.
     whole: (Direction, f64),
     links: Vec<(Direction, f64)>,
+    /// What part of its caps, all together, the ellipse in them is.
+    filled: f64,
 }
 
 /// Ellipses up to so many times as long as wide have one cap.
@@ -30,7 +33,7 @@ impl CapChain {
     /// seen along `centre`, lies in it.
     pub(crate) fn around(centre: Direction, major: DVec3, minor: f64) -> Self {
         let length = major.length();
-        let one = Self::of(centre, length);
+        let one = Self { filled: minor / length, ..Self::of(centre, length) };
         if length <= ROUND * minor || length > LONG {
             return one;
         }
@@ -43,13 +46,14 @@ impl CapChain {
             let up = (1.0 - offset.length_squared()).sqrt();
             (Direction::from_unit(offset + centre.vector() * up), 2.0 * (chord / 2.0).min(1.0).asin())
         };
-        Self { links: (0..count as usize).map(link).collect(), ..one }
+        let filled = length * minor / (count * radius * radius);
+        Self { links: (0..count as usize).map(link).collect(), filled, ..one }
     }
 
     /// One cap around a disc of that plane.
     pub(crate) fn of(centre: Direction, radius: f64) -> Self {
         let whole = (centre, radius.min(1.0).asin());
-        Self { whole, links: vec![whole] }
+        Self { whole, links: vec![whole], filled: 1.0 }
     }
 
     /// Gives the runs of texels of a source that can lie in it to `visit`, row by row and none of them twice: far fewer, around
@@ -85,6 +89,32 @@ impl CapChain {
                 }
             }
         }
+    }
+
+    /// About how many texels of a source lie in its ellipse: as many as its caps have, in proportion.
+    pub(crate) fn texels(&self, source: &Source) -> f64 {
+        let (centre, radius) = self.whole;
+        let Some(rect) = texels_within(source, centre, radius) else { return 0.0 };
+        let all = (rect.width() * rect.height()) as f64;
+        if let Some(period) = source.period {
+            // Around a pole the rows of half the cap's height have all their texels in it, in the mean.
+            let from_pole = source.view.margin(centre);
+            let part =
+                if rect.width() < period.min(source.view.width()) { FRAC_PI_4 } else { radius / (radius + from_pole) };
+            return all * part * self.filled;
+        }
+        let grid = &source.view.grid;
+        let corners = [PixelPoint::new(0.0, 0.0), PixelPoint::new(grid.width() as f64, grid.height() as f64)];
+        let [a, b] = corners.map(|corner| grid.to_plane(corner));
+        let picture = PlaneRect {
+            min: PlanePoint::new(a.x.min(b.x), a.y.min(b.y)),
+            max: PlanePoint::new(a.x.max(b.x), a.y.max(b.y)),
+        };
+        let area = |(centre, radius): &(Direction, f64)| {
+            source.view.cap_outline(*centre, Angle::from_radians(*radius)).area_within(picture)
+        };
+        let texel = grid.step().x * grid.step().y;
+        all.min(self.links.iter().map(area).sum::<f64>() * self.filled / texel.abs())
     }
 }
 

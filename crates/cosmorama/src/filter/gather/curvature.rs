@@ -36,6 +36,15 @@ impl Bend {
         (bend.uu + bend.uv + bend.vv).is_finite().then_some(bend)
     }
 
+    /// That of a view whose projection knows it in closed form, many times as fast.
+    pub(crate) fn in_closed_form(view: &View, at: PixelPoint) -> Option<Self> {
+        let [xx, xy, yy] = view.projection.curvature(view.grid.to_plane(at))?;
+        // From the plane's unit to texels, of which y runs down.
+        let step = view.grid.step() * DVec2::new(1.0, -1.0);
+        let scaled = |curvature: DVec2, by: f64| curvature * by / step;
+        Some(Self { uu: scaled(xx, step.x * step.x), uv: scaled(xy, step.x * step.y), vv: scaled(yy, step.y * step.y) })
+    }
+
     /// Where a texel is seen that lies at an offset.
     pub(crate) fn of(&self, offset: DVec2) -> DVec2 {
         let DVec2 { x: u, y: v } = offset;
@@ -46,6 +55,8 @@ impl Bend {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::camera::PixelGrid;
+    use crate::projection::{PlanePoint, PlaneRect, ProjectionKind};
     use crate::world::panorama;
 
     #[test]
@@ -67,6 +78,21 @@ mod tests {
                 assert!(found.distance(expected) < 1e-2 * across, "row {row}: {bend:?}, not {expected:?}");
             }
         }
+    }
+
+    #[test]
+    fn closed_forms_are_what_differences_come_to() {
+        let rect = PlaneRect { min: PlanePoint::new(-1.0, -0.7), max: PlanePoint::new(1.2, 0.8) };
+        let grid = PixelGrid::spanning(400, 300, rect);
+        let view = View { projection: ProjectionKind::PERSPECTIVE, grid, ..panorama(4, 2) };
+        for (x, y) in [(3.0, 290.0), (200.0, 150.0), (390.5, 20.3)] {
+            let at = PixelPoint::new(x, y);
+            let [exact, found] = [Bend::in_closed_form(&view, at), Bend::around(&view, at)].map(Option::unwrap);
+            for (exact, found) in [(exact.uu, found.uu), (exact.uv, found.uv), (exact.vv, found.vv)] {
+                assert!(exact.distance(found) < 1e-6, "{exact} is not {found} at {at:?}");
+            }
+        }
+        assert_eq!(Bend::in_closed_form(&panorama(4, 2), PixelPoint::new(1.0, 1.0)), None);
     }
 
     #[test]

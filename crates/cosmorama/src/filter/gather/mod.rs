@@ -7,16 +7,19 @@ pub(crate) mod cap;
 pub(crate) mod cap_chain;
 pub(crate) mod clearance;
 pub(crate) mod curvature;
+pub(crate) mod ellipse;
 pub(crate) mod seam_scale;
+pub(crate) mod tangent_kernel;
 pub(crate) mod tap_weights;
 pub(crate) mod texel_run;
 
 use glam::{DMat2, DVec2, DVec3};
 
 use super::gather::cap::Cap;
-use super::gather::cap_chain::CapChain;
 use super::gather::curvature::Bend;
+use super::gather::ellipse::EllipseRows;
 use super::gather::seam_scale::Meeting;
+use super::gather::tangent_kernel::{RIM_FLOOR, TangentKernel};
 use super::gather::tap_weights::{Candidate, settle};
 use super::gather::texel_run::{Run, TexelBox, ceil, floor, runs_around};
 use super::kernel::KernelTable;
@@ -25,7 +28,7 @@ use super::rim::field_edge::FieldEdge;
 use super::rim::visible_texels::SeenTexels;
 use super::taps::Taps;
 use super::{Ellipse, Kernel, lookup};
-use crate::camera::{FieldStop, Footprint, PixelPoint, View};
+use crate::camera::{FieldStop, Footprint, PixelPoint};
 use crate::projection::Projection;
 use crate::sphere::{Direction, DirectionJacobian};
 use crate::world::{Source, World};
@@ -39,10 +42,6 @@ const LINEAR_PART: f64 = 0.2;
 /// the rim: so large that part may be in pixels.
 const STEEP_PART: f64 = 0.1;
 
-/// Where the field of view ends under a pixel the floor is so much higher: up to half a texel beyond the last one, the
-/// kernel must reach four rows of texels, since three do not tell a slope from an edge that a renderer smoothed.
-const RIM_FLOOR: f64 = 1.7;
-
 /// Where a pixel lies, which decides what its kernel is held to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum RimRegion {
@@ -50,6 +49,14 @@ enum RimRegion {
     Inside,
     /// The field of view does.
     Rim,
+}
+
+/// What a gather works in and keeps from one footprint to the next.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Scratch {
+    candidates: Vec<Candidate>,
+    /// The view that held all of the last footprint: the likeliest for the next.
+    last: usize,
 }
 
 /// The gather for one world and kernel.
@@ -62,18 +69,29 @@ pub(crate) struct Gather<'a> {
     seen: Option<SeenTexels<'a>>,
     /// The largest texel of any view, in radians.
     texel_pitch: f64,
-    candidates: Vec<Candidate>,
-    /// The view that held all of the last footprint: the likeliest for the next.
-    last: usize,
+    scratch: Scratch,
 }
 
 impl<'a> Gather<'a> {
-    pub(crate) fn new(world: &'a World, target: &'a View, table: &'a KernelTable) -> Self {
-        let texel_pitch = world.sources().iter().map(|source| source.texel_pitch).fold(0.0, f64::max);
-        let field = FieldEdge::of(target);
+    /// Gathers from a world by a kernel; `field` is where the field of view ends that footprints are part of, if it does.
+    pub(crate) fn new(world: &'a World, field: Option<FieldEdge<'a>>, table: &'a KernelTable) -> Self {
+        // Asked for at an edge alone.
+        let pitches = || world.sources().iter().map(|source| source.texel_pitch);
+        let texel_pitch = if field.is_some() { pitches().fold(0.0, f64::max) } else { 0.0 };
         let edge = field.filter(|edge| edge.is_wider_than(texel_pitch));
         let seen = edge.map(|edge| SeenTexels::new(world, edge));
-        Self { world, table, field, seen, texel_pitch, candidates: Vec::new(), last: 0 }
+        Self { world, table, field, seen, texel_pitch, scratch: Scratch::default() }
+    }
+
+    /// Gathers in memory that an earlier gather used; in another world, too.
+    pub(crate) fn with_scratch(self, scratch: Scratch) -> Self {
+        let last = scratch.last.min(self.world.sources().len() - 1);
+        Self { scratch: Scratch { last, ..scratch }, ..self }
+    }
+
+    /// Gives the memory back.
+    pub(crate) fn into_scratch(self) -> Scratch {
+        self.scratch
     }
 
     /// The taps of a footprint, weights adding to one; none where no view is near.
@@ -86,7 +104,7 @@ impl<'a> Gather<'a> {
         if at_rim {
             self.collect(footprint, RimRegion::Rim);
         }
-        settle(&mut self.candidates, centred, at_rim.then_some(&footprint.jacobian), taps);
+        settle(&mut self.scratch.candidates, centred, at_rim.then_some(&footprint.jacobian), taps);
         if taps.is_empty() {
             lookup::nearest(self.world, footprint.direction, |texel, weight| taps.push_under(texel, weight as f32));
         }
@@ -94,25 +112,25 @@ impl<'a> Gather<'a> {
 
     /// Whether all texels that count lie to one side: beyond them there is no view, or none that anybody needed to give.
     fn ends_beside(&self) -> bool {
-        !self.candidates.is_empty() && clamp_set::reach(&self.candidates).is_none()
+        !self.scratch.candidates.is_empty() && clamp_set::reach(&self.scratch.candidates).is_none()
     }
 
     /// Finds the texels that count; true if the field of view ends under the pixel.
     fn collect(&mut self, footprint: &Footprint, region: RimRegion) -> bool {
-        self.candidates.clear();
+        self.scratch.candidates.clear();
         let (sources, floor) = (self.world.sources(), self.floor(region));
-        if !self.gather_from(&sources[self.last], footprint, region, floor) && sources.len() > 1 {
-            self.candidates.clear();
+        if !self.gather_from(&sources[self.scratch.last], footprint, region, floor) && sources.len() > 1 {
+            self.scratch.candidates.clear();
             let meeting = Meeting::at(self.world, self.table.kernel(), footprint.direction);
             let mut coarsest = 0f64;
             for (index, source) in sources.iter().enumerate() {
-                let start = self.candidates.len();
+                let start = self.scratch.candidates.len();
                 let floor = floor * meeting.map_or(1.0, |meeting| meeting.widening(source));
                 if self.gather_from(source, footprint, region, floor) {
                     // A kernel wholly inside one view ignores the others; they could only enter through a bent ellipse, and the
                     // result would depend on the order of views or on the last footprint.
-                    self.candidates.drain(..start);
-                    self.last = index;
+                    self.scratch.candidates.drain(..start);
+                    self.scratch.last = index;
                     break;
                 }
                 coarsest = self.measure_alike(start, coarsest, self.reach(footprint, source.texel_pitch, floor));
@@ -125,10 +143,10 @@ impl<'a> Gather<'a> {
     /// pixel: else every slope beside a coarser view would be clamped. Candidates from `start` on are of a kernel of this
     /// `reach`, those before of the `coarsest` so far. Returns the reach of the coarsest.
     fn measure_alike(&mut self, start: usize, coarsest: f64, reach: f64) -> f64 {
-        if start == self.candidates.len() {
+        if start == self.scratch.candidates.len() {
             return coarsest;
         }
-        let (before, these) = self.candidates.split_at_mut(start);
+        let (before, these) = self.scratch.candidates.split_at_mut(start);
         let (finer, part) = if reach < coarsest { (these, reach / coarsest) } else { (before, coarsest / reach) };
         finer.iter_mut().for_each(|candidate| candidate.q *= (part * part) as f32);
         coarsest.max(reach)
@@ -176,7 +194,7 @@ impl<'a> Gather<'a> {
             return false;
         };
         let mut ends_under = false;
-        self.candidates.retain(|candidate| {
+        self.scratch.candidates.retain(|candidate| {
             let is_seen = seen.holds(candidate.texel);
             ends_under |= candidate.is_under() && !is_seen;
             is_seen
@@ -192,8 +210,7 @@ impl<'a> Gather<'a> {
     /// An upper bound of the kernel's radius on the sphere, in radians, among texels of this pitch, so many of which its unit is
     /// at least.
     fn reach(&self, footprint: &Footprint, texel_pitch: f64, floor: f64) -> f64 {
-        let kernel = self.table.kernel();
-        kernel.radius() * (kernel.scale * pixel_size(footprint)).max(floor * texel_pitch)
+        reach(self.table.kernel(), footprint, texel_pitch, floor)
     }
 
     /// Adds the texels of one view; true if the kernel lies wholly inside it.
@@ -270,7 +287,7 @@ impl<'a> Gather<'a> {
         let change = to_screen * bend.uu;
         for (texel, &solid_angle) in solid_angles.iter().enumerate() {
             if solid_angle > 0.0 {
-                self.candidates.push(self.table.candidate(first + texel, solid_angle, q, coarseness, offset));
+                self.scratch.candidates.push(self.table.candidate(first + texel, solid_angle, q, coarseness, offset));
             }
             q += dq;
             dq += ddq;
@@ -282,61 +299,86 @@ impl<'a> Gather<'a> {
     /// Near a pole, a horizon or a rim the ellipse would be wrong: each texel is weighed by its direction instead, in
     /// the plane tangent to the sphere at the footprint.
     fn gather_cap(&mut self, source: &Source, footprint: &Footprint, radius: f64, floor: f64) {
-        let here = footprint.direction.vector();
-        let (right, up) = here.any_orthonormal_pair();
-        let [along, across] = [right, up].map(|axis| axis / source.texel_pitch);
-        let in_tangent_plane = |vector: DVec3| DVec2::new(along.dot(vector), across.dot(vector));
-        let tangent =
-            DMat2::from_cols(in_tangent_plane(footprint.jacobian.dx), in_tangent_plane(footprint.jacobian.dy));
-        let to_screen = tangent.inverse();
-        // The ellipse that the texels have here, as far as they have one: at the very pole, texels as large as any.
-        let jacobian = footprint_among_texels(source, footprint).unwrap_or(tangent);
-        let to_texels = jacobian * to_screen;
-        let kernel = self.table.kernel();
-        let coarseness = kernel.coarseness(jacobian.determinant().abs().sqrt()) as f32;
-        // Beyond a seam texels lie otherwise: weighed by this side's ellipse, a thin one might miss them all.
-        let beyond = source.view.beyond_seam(footprint.direction).and_then(|direction| {
-            let (_, jacobian) = source.view.texel_footprint(&Footprint { direction, ..*footprint })?;
-            // So far away, none of them counts, and what is seen here may lie edge on there.
-            let across = direction.vector() - here;
-            (across.length() < 2.0 * radius).then_some((across, jacobian))
-        });
-        // On a seam the lattices of both sides mirror each other, and a quarter of the disc may be empty on both.
-        let nearness = beyond.map_or(0.0, |(across, _)| 1.0 - 0.5 * across.length() / radius);
-        let widening = 1.0 + (RIM_FLOOR - 1.0) * nearness;
-        let ellipse = |jacobian: DMat2| Ellipse::new(jacobian * kernel.scale, floor * widening);
-        let beyond = beyond.map(|(across, jacobian)| (across, ellipse(jacobian), jacobian * to_screen));
-        let ellipse = ellipse(jacobian);
-        let (major, minor) = ellipse.semi_axes_in(to_texels);
-        let unit = kernel.radius() * source.texel_pitch;
-        let reach = match beyond {
-            None => CapChain::around(footprint.direction, (right * major.x + up * major.y) * unit, minor * unit),
-            Some((_, ellipse, to_texels)) => {
-                let other = ellipse.semi_axes_in(to_texels).0.length();
-                CapChain::of(footprint.direction, major.length().max(other) * unit)
-            }
-        };
-        reach.each_run(source, |j, columns| {
+        let kernel = TangentKernel::new(self.table.kernel(), source, footprint, (radius, floor, 0.0));
+        kernel.reach.each_run(source, |j, columns| {
             let row = j * source.view.width();
             source.view.row_directions(j, columns, |i, texel| {
-                let offset = in_tangent_plane(texel.vector() - here);
-                let here = ellipse.distance_squared(to_texels * offset);
-                let q = beyond.as_ref().map_or(here, |(across, ellipse, to_texels)| {
-                    let there = ellipse.distance_squared(*to_texels * offset);
-                    let (own, other) = if across.dot(texel.vector()) > 0.0 { (there, here) } else { (here, there) };
-                    // On the seam itself each ellipse by itself may reach along it one way only: the same way.
-                    own.min(other / (nearness * nearness))
-                });
                 let solid_angle = source.solid_angles[row + i];
-                let in_front = texel.dot(footprint.direction) > 0.0;
-                if in_front && q < self.table.radius_squared() && solid_angle > 0.0 {
-                    let offset = to_screen * offset;
+                let Some((q, offset)) = kernel.place(texel) else { return };
+                if q < self.table.radius_squared() && solid_angle > 0.0 {
                     let texel = source.offset + row + i;
-                    self.candidates.push(self.table.candidate(texel, solid_angle, q, coarseness, offset));
+                    self.scratch.candidates.push(self.table.candidate(
+                        texel,
+                        solid_angle,
+                        q,
+                        kernel.coarseness,
+                        offset,
+                    ));
                 }
             });
         });
     }
+}
+
+/// The texels of a kernel that lie wholly inside one view, in an ellipse.
+pub(crate) struct EllipseOfTexels {
+    pub(crate) centre: PixelPoint,
+    /// The footprint in texels.
+    pub(crate) jacobian: DMat2,
+    pub(crate) ellipse: Ellipse,
+    pub(crate) rows: EllipseRows,
+    pub(crate) bounds: TexelBox,
+}
+
+/// The ellipse of a footprint's kernel among the texels of a source; `None` where it is none or not all of it is inside.
+pub(crate) fn ellipse_of_texels(kernel: &Kernel, source: &Source, footprint: &Footprint) -> Option<EllipseOfTexels> {
+    let footprint = &with_width(*footprint);
+    let radius = reach(kernel, footprint, source.texel_pitch_at(footprint.direction), kernel.floor);
+    if source.view.stop != FieldStop::NONE
+        || !is_linear(source, footprint, radius, source.view.margin(footprint.direction))
+    {
+        return None;
+    }
+    let (centre, jacobian) = source.view.texel_footprint(footprint)?;
+    let ellipse = Ellipse::new(jacobian * kernel.scale, kernel.floor);
+    let reach = kernel.radius().powi(2);
+    let bounds = TexelBox::around(centre, ellipse.half_extent(reach));
+    let whole = &source.whole;
+    let is_inside = bounds.left >= whole.left as i64
+        && bounds.right < whole.right as i64
+        && bounds.top >= whole.top as i64
+        && bounds.bottom < whole.bottom as i64;
+    is_inside.then(|| EllipseOfTexels { centre, jacobian, ellipse, rows: ellipse.rows(reach), bounds })
+}
+
+/// About how many texels of a source a kernel looks at for a footprint, measured from side to side; those `around` it in addition,
+/// in radians.
+pub(crate) fn texels_of(kernel: &Kernel, source: &Source, footprint: &Footprint, around: f64) -> f64 {
+    let footprint = &with_width(*footprint);
+    let radius = reach(kernel, footprint, source.texel_pitch_at(footprint.direction), kernel.floor);
+    let margin = source.view.margin(footprint.direction);
+    if margin + radius + around <= 0.0 || !source.reaches(footprint.direction, radius + around) {
+        return 0.0;
+    }
+    if !is_linear(source, footprint, radius, margin) {
+        return TangentKernel::new(kernel, source, footprint, (radius, kernel.floor, around)).reach.texels(source);
+    }
+    source
+        .view
+        .texel_footprint(footprint)
+        .map_or(0.0, |(_, jacobian)| Ellipse::new(jacobian * kernel.scale, kernel.floor).area(kernel.radius().powi(2)))
+}
+
+/// Whether derivatives tell how many texels a footprint holds: nothing under its kernel bends, ends or comes together.
+pub(crate) fn is_regular(kernel: &Kernel, source: &Source, footprint: &Footprint) -> bool {
+    let radius = reach(kernel, footprint, source.texel_pitch_at(footprint.direction), kernel.floor);
+    let margin = source.view.margin(footprint.direction);
+    source.period.is_none() && is_linear(source, footprint, radius, margin)
+}
+
+/// An upper bound of a kernel's radius on the sphere, in radians, among texels of this pitch, so many of which its unit is at least.
+fn reach(kernel: &Kernel, footprint: &Footprint, texel_pitch: f64, floor: f64) -> f64 {
+    kernel.radius() * (kernel.scale * pixel_size(footprint)).max(floor * texel_pitch)
 }
 
 /// The root of a pixel's summed squared derivatives, in radians.
@@ -364,39 +406,6 @@ fn with_width(footprint: Footprint) -> Footprint {
         return footprint;
     };
     Footprint { direction, jacobian }
-}
-
-/// The footprint in texels, in those of a panorama's outermost row where it lies beyond their centres: texels nearer to a
-/// pole would be narrower, but there are none.
-fn footprint_among_texels(source: &Source, footprint: &Footprint) -> Option<DMat2> {
-    let Some((centre, jacobian)) = source.view.texel_footprint(footprint) else {
-        return footprint_on_border(source, footprint);
-    };
-    if source.period.is_none() {
-        return Some(jacobian);
-    }
-    let row = |inset: f64| PixelPoint::new(centre.x, centre.y.clamp(inset, source.view.height() as f64 - inset));
-    // With samples on the edges the outermost row is the pole itself: half a texel beside it, as without.
-    let is_pole = |at| source.view.direction(at).is_some_and(|d| source.view.margin(d) < 0.25 * source.texel_pitch);
-    let nearest = if is_pole(row(0.5)) { row(1.0) } else { row(0.5) };
-    if nearest == centre {
-        return Some(jacobian);
-    }
-    let there = Footprint { direction: source.view.direction(nearest)?, ..*footprint };
-    source.view.texel_footprint(&there).map(|(_, jacobian)| jacobian)
-}
-
-/// The texels of a wide camera's border are this part of its largest, at most.
-const FINE_BORDER: f64 = 0.25;
-
-/// The footprint in the texels of the border, for what lies beyond a camera's horizon, where those are far smaller than in the
-/// middle: in texels as large as any, a kernel would hold most of the picture.
-fn footprint_on_border(source: &Source, footprint: &Footprint) -> Option<DMat2> {
-    let direction = source.view.border_towards(footprint.direction)?;
-    let texel = source.view.footprint(source.view.pixel(direction)?)?.jacobian;
-    let is_fine = texel.dx.length().max(texel.dy.length()) < FINE_BORDER * source.texel_pitch;
-    let there = Footprint { direction, ..*footprint };
-    is_fine.then(|| source.view.texel_footprint(&there)).flatten().map(|(_, jacobian)| jacobian)
 }
 
 /// Whether the mapping is linear, as far as can be seen, over a kernel of this radius so far from its nearest singularity.

@@ -3,4 +3,6 @@
 pub(crate) mod clamp_set;
 pub(crate) mod field_edge;
 pub(crate) mod rim_extrapolation;
+#[cfg(test)]
+pub(crate) mod simd_levels;
 pub(crate) mod visible_texels;

@@ -74,14 +74,6 @@ pub(crate) trait TexelLight {
 }
 
 #[cfg(test)]
-impl Rim<'_> {
-    /// The same by the best instructions that there are.
-    pub(crate) fn hold_at_best(&self, average: Rgba, under: &Bounds, texels: &Vec<Rgba>) -> Rgba {
-        fearless_simd::dispatch!(fearless_simd::Level::new(), simd => self.hold(simd, average, under, texels))
-    }
-}
-
-#[cfg(test)]
 impl TexelLight for Vec<Rgba> {
     fn light<S: Simd>(&self, simd: S, index: usize) -> f32x4<S> {
         f32x4::load_array_ref(simd, &self[index].0)
@@ -178,7 +170,7 @@ mod tests {
     use fearless_simd::dispatch;
 
     use super::*;
-    use crate::filter::simd_levels::levels;
+    use crate::filter::rim::simd_levels::levels;
 
     fn hold(average: Rgba, under: &Bounds, texels: impl Iterator<Item = (Rgba, [f32; 2])>) -> Rgba {
         let (texels, places): (Vec<_>, Vec<_>) = texels.unzip();

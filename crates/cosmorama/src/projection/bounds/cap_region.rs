@@ -1,4 +1,4 @@
-use std::f64::consts::FRAC_PI_2;
+use std::f64::consts::{FRAC_PI_2, PI};
 
 use glam::DVec2;
 
@@ -23,6 +23,24 @@ impl Outline {
                 spans.extend(at.map(|rect| [rect.min.x, rect.max.x]));
             }
             Self::Ring(ring) => ring.cut(y, spans),
+        }
+    }
+
+    /// Its area, that of rectangles within `rect`; where they overlap it counts more than once.
+    pub fn area_within(&self, rect: PlaneRect) -> f64 {
+        match self {
+            Self::Rects(rects) => {
+                let side = |min: f64, max: f64| (max - min).max(0.0);
+                let shared = |other: &PlaneRect| {
+                    side(rect.min.x.max(other.min.x), rect.max.x.min(other.max.x))
+                        * side(rect.min.y.max(other.min.y), rect.max.y.min(other.max.y))
+                };
+                rects.iter().map(shared).sum()
+            }
+            Self::Ring(Ring { inner, outer, sector }) => {
+                let half_width = sector.map_or(PI, |sector| sector.half_width);
+                half_width * (outer * outer - inner.max(0.0).powi(2))
+            }
         }
     }
 

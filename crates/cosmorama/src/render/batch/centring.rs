@@ -2,7 +2,7 @@
 
 use fearless_simd::{Simd, prelude::*};
 
-use super::lanes::Lanes;
+use crate::filter::ewa::lanes::Lanes;
 use crate::filter::gather::curvature::Bend;
 use crate::filter::gather::tap_weights::THINNEST;
 

@@ -2,8 +2,8 @@
 
 use fearless_simd::{Simd, f32x8, i32x8, prelude::*};
 
-use super::lanes::Lanes;
 use crate::filter::Kernel;
+use crate::filter::ewa::lanes::Lanes;
 use crate::render::scan::coons::{Columns, Coons};
 use crate::render::scan::patch::{Density, Geometry, Patch};
 use crate::render::scan::tile::SIDE;

@@ -5,11 +5,11 @@ use std::ops::Range;
 use fearless_simd::{Simd, dispatch, f32x8, f32x16, prelude::*};
 
 use super::centring::{Correction, Moments, RowSums};
-use super::cubic::Cubics;
 use super::ellipse::Ellipses;
-use super::lanes::Lanes;
 use super::window::{Level, ROOM, Size, Windows};
 use crate::filter::Kernel;
+use crate::filter::ewa::cubic::Cubics;
+use crate::filter::ewa::lanes::Lanes;
 use crate::filter::kernel::UNDER;
 use crate::render::scan::patch::Patch;
 use crate::render::scan::tile::SIDE;

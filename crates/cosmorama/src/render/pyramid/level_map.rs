@@ -1,28 +1,14 @@
-use glam::DMat2;
 use rayon::prelude::*;
 
-use crate::camera::{Footprint, PixelPoint, PixelRect, View};
+use crate::camera::{PixelPoint, PixelRect, View};
 use crate::filter::Kernel;
-use crate::filter::ellipse::semi_axes;
+use crate::filter::ewa_pyramid::level::{LevelNeed, LevelRule, is_before, is_beyond, width};
 use crate::filter::rim::field_edge::FieldEdge;
-use crate::projection::Projection;
-use crate::world::{Source, World};
-
-/// Texels of the finer of two levels that the kernel's unit is at least, across its minor axis, and half of what it is at most:
-/// 1.75 to 3.5 texels a pixel by default. The more, the nearer to exact EWA, and the more texels.
-const UNIT: f64 = 1.4;
-
-/// A kernel longer than so many times its width is widened: the number of its texels stays bounded.
-const LONGEST: f64 = 16.0;
-
-/// The last part of the way from one level to the next, on which the two are mixed; before, the finer one is nearer to exact EWA.
-const BLENDED: f32 = 0.25;
+use crate::world::World;
 
 /// Within so many pixels of where the field of view ends, levels are finer: texels that the edge cuts have the light of what it
-/// leaves of them, which is not that of their centres. So they are beside a steep rim of a view, where a texel's width and length
-/// change within few of them.
+/// leaves of them, which is not that of their centres.
 const BESIDE_EDGE: usize = 3;
-const FINER: f64 = 2.0;
 
 /// Points along a picture's longer side between which levels are interpolated, at least.
 const POINTS: usize = 512;
@@ -44,6 +30,7 @@ pub(crate) struct LevelMap {
 impl LevelMap {
     /// Levels for a target whose field of view may end at an edge.
     pub(crate) fn new(world: &World, target: &View, kernel: &Kernel, edge: Option<FieldEdge>) -> Self {
+        let rule = LevelRule::new(world, kernel);
         let longer = target.width().max(target.height());
         let step = 1 << (longer / POINTS).clamp(1, 8).ilog2();
         let [columns, rows] = [target.width(), target.height()].map(|size| size.div_ceil(step) + 1);
@@ -52,11 +39,10 @@ impl LevelMap {
             for (i, level) in row.iter_mut().enumerate() {
                 let at = PixelPoint::new((i * step) as f64, (j * step) as f64);
                 let found = target.footprint(at).and_then(|footprint| {
-                    let pixels = (BESIDE_EDGE + step) as f64;
-                    let is_cut = edge.is_some_and(|edge| edge.is_near(footprint.direction, pixels * width(&footprint)));
-                    let source = source_of(world, &footprint)?;
-                    let level = level_of_footprint(source, &footprint, kernel)?;
-                    Some(if is_cut || is_beside_rim(source, &footprint, pixels) { level - FINER } else { level })
+                    let reach = (BESIDE_EDGE + step) as f64 * width(&footprint);
+                    let is_cut = edge.is_some_and(|edge| edge.is_near(footprint.direction, reach));
+                    let (source, _) = world.owner(footprint.direction)?;
+                    rule.level(source, &footprint, LevelNeed { is_cut, pixels_around: (step - 1) as f64 })
                 });
                 *level = found.map_or(f32::NAN, |level| level as f32);
             }
@@ -147,71 +133,4 @@ impl LevelMap {
 
 fn between([from, to]: [f32; 2], part: f32) -> f32 {
     from + (to - from) * part
-}
-
-/// Whether a level is coarser than those that a number stands for.
-fn is_beyond(number: f32, level: usize) -> bool {
-    level > 0 && number <= level as f32 - BLENDED
-}
-
-/// Whether a level is finer than those that a number stands for.
-fn is_before(number: f32, level: usize) -> bool {
-    number >= level as f32 + 1.0
-}
-
-/// The part of a pixel of this number that is made from a level.
-pub(crate) fn part(number: f32, level: usize) -> f32 {
-    let beyond = number.max(0.0) - level as f32;
-    let coarser = |way: f32| ((way - 1.0) / BLENDED + 1.0).clamp(0.0, 1.0);
-    if beyond < 0.0 { coarser(beyond + 1.0) } else { 1.0 - coarser(beyond) }
-}
-
-/// The angle that a pixel is wide or high, in radians.
-fn width(footprint: &Footprint) -> f64 {
-    footprint.jacobian.dx.length().max(footprint.jacobian.dy.length())
-}
-
-/// The view that shows a footprint, if one does.
-fn source_of<'a>(world: &'a World, footprint: &Footprint) -> Option<&'a Source> {
-    let (owner, _) = world.owner(footprint.direction)?;
-    Some(&world.sources()[owner])
-}
-
-/// Whether a steep rim of a view is within so many pixels of a footprint.
-fn is_beside_rim(source: &Source, footprint: &Footprint, pixels: f64) -> bool {
-    source.view.projection.has_steep_rim() && source.view.margin(footprint.direction) < pixels * width(footprint)
-}
-
-/// The level for a footprint among the texels of a view; `None` where it has none.
-fn level_of_footprint(source: &Source, footprint: &Footprint, kernel: &Kernel) -> Option<f64> {
-    let (_, jacobian) = source.view.texel_footprint(footprint)?;
-    // Around a pole whole rows are in a footprint however coarse they are.
-    let longest = if source.period.is_some() { f64::INFINITY } else { LONGEST };
-    let level = level_of(jacobian, kernel, longest);
-    level.is_finite().then_some(level)
-}
-
-/// The level for a footprint in texels: 0, or less, where it is the finest.
-fn level_of(jacobian: DMat2, kernel: &Kernel, longest: f64) -> f64 {
-    let [major, minor] = semi_axes(jacobian);
-    let width = minor.max(major / longest);
-    // Where a pixel holds no more than one texel, nothing needs be smaller.
-    (width / (UNIT / kernel.scale).max(1.0)).log2().max(-1.0)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn parts_add_to_one() {
-        for number in [-1.0, 0.0, 0.2, 0.5, 1.0, 1.7, 3.0, 3.4f32] {
-            let parts: Vec<f32> = (0..6).map(|level| part(number, level)).collect();
-            assert!((parts.iter().sum::<f32>() - 1.0).abs() < 1e-6, "{number}: {parts:?}");
-            for (level, part) in parts.iter().enumerate() {
-                let is_left_out = is_beyond(number, level) || is_before(number, level);
-                assert!(*part == 0.0 || !is_left_out, "{number}: {parts:?}");
-            }
-        }
-    }
 }

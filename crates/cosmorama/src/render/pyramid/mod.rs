@@ -2,17 +2,17 @@
 //!
 //! Heckbert 1989 interpolates between two EWA look-ups, in the two levels of a pyramid that fit the ellipse best.
 
-pub(crate) mod halving;
 pub(crate) mod level_map;
 
 use rayon::prelude::*;
 
 use super::batch::window::Level as Instructions;
-use super::pyramid::halving::Halving;
-use super::pyramid::level_map::{LevelMap, part};
+use super::pyramid::level_map::LevelMap;
 use super::scan::wanted::Wanted;
 use super::{Plan, Resampler, plan};
 use crate::camera::ScreenPixel;
+use crate::filter::ewa_pyramid::halving::Halving;
+use crate::filter::ewa_pyramid::level::part;
 use crate::filter::rim::field_edge::FieldEdge;
 use crate::filter::{Filter, FilterKind, KernelTable, PixelTaps};
 use crate::raster::{Image, Rgba};

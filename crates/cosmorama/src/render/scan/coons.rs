@@ -4,8 +4,8 @@ use glam::{DMat2, DVec2};
 
 use super::lattice::Point;
 use super::tile::{HALF, SIDE};
-use crate::filter::ellipse::semi_axes;
 use crate::filter::gather::clearance::Grid;
+use crate::filter::semi_axes;
 
 /// How far interpolated places half way between a patch's corners may be from the exact ones: in texels, or by the shorter
 /// axis of the middle pixel where that is longer, since what weights are measured by is the larger of both. The cubic curves

@@ -8,9 +8,9 @@ use super::coons::{Coons, largest};
 use super::lattice::{Lattice, Point};
 use crate::camera::{PixelPoint, View};
 use crate::filter::Kernel;
-use crate::filter::ellipse::semi_axes;
 use crate::filter::gather::Gather;
 use crate::filter::gather::curvature::Bend;
+use crate::filter::semi_axes;
 use crate::render::batch::window::LARGEST;
 use crate::world::Source;
 

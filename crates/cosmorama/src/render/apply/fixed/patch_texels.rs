@@ -193,7 +193,7 @@ mod tests {
     use fearless_simd::{dispatch, i16x8, i16x16, i16x32, prelude::*};
 
     use super::*;
-    use crate::filter::simd_levels::levels;
+    use crate::filter::rim::simd_levels::levels;
     use crate::render::plan::symmetry::Walk;
 
     /// A view of so many columns and rows, of which every texel says where it is.

@@ -267,7 +267,7 @@ mod tests {
     use fearless_simd::dispatch;
 
     use super::*;
-    use crate::filter::simd_levels::levels;
+    use crate::filter::rim::simd_levels::levels;
 
     #[test]
     fn bits_are_turned() {

@@ -244,7 +244,7 @@ fn all_levels_of_instructions_make_the_same_pixels() {
             plan.fill(&mut codes, codec.background(), |band, canvas| filter.fill(band, canvas));
             (render(&resampler, &texels, Rgba::TRANSPARENT, level), codes)
         };
-        let mut all = crate::filter::simd_levels::levels().into_iter().map(made);
+        let mut all = crate::filter::rim::simd_levels::levels().into_iter().map(made);
         let first = all.next().expect("at least the plain one");
         assert!(all.all(|made| made == first));
     }
@@ -260,7 +260,7 @@ fn all_levels_of_instructions_make_the_same_plans() {
             // As text, in which each number comes back.
             (format!("{:?}", fixed.bands), format!("{:?}", floats.bands))
         };
-        let mut all = crate::filter::simd_levels::levels().into_iter().map(made);
+        let mut all = crate::filter::rim::simd_levels::levels().into_iter().map(made);
         let first = all.next().expect("at least the plain one");
         assert!(all.all(|made| made == first), "{:?}", target.projection);
     }

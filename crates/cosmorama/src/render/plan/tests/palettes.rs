@@ -5,7 +5,7 @@ use crate::render::plan::tap_lists::Palette;
 
 /// The light of a texel as it is worked with, by each level's instructions.
 fn lights(palette: &impl Palette, texel: u32) -> impl Iterator<Item = [f32; 4]> {
-    crate::filter::simd_levels::levels()
+    crate::filter::rim::simd_levels::levels()
         .into_iter()
         .map(move |level| dispatch!(level, simd => of(simd, palette, texel)))
 }

@@ -44,6 +44,11 @@ impl Ellipse {
         self.a * offset.x * offset.x + self.b * offset.x * offset.y + self.c * offset.y * offset.y
     }
 
+    /// The area of r² < `q`, in texels.
+    pub(crate) fn area(&self, q: f64) -> f64 {
+        std::f64::consts::PI * q / self.determinant.sqrt()
+    }
+
     /// Half the width and height of the box around r² = `q`.
     pub fn half_extent(&self, q: f64) -> DVec2 {
         DVec2::new((q * self.c / self.determinant).sqrt(), (q * self.a / self.determinant).sqrt())

@@ -1,5 +1,11 @@
 //! Looking a single direction up: the nearest texel, or the four around it, across the edges of views.
 
+mod bilinear;
+mod point;
+
+pub use bilinear::Bilinear;
+pub use point::Point;
+
 use crate::camera::PixelPoint;
 use crate::sphere::Direction;
 use crate::world::{Source, World};

@@ -1,0 +1,138 @@
+//! EWA of a footprint, in any world.
+
+pub(crate) mod cubic;
+pub(crate) mod direct;
+pub(crate) mod lanes;
+pub(crate) mod paper;
+mod pool;
+
+use direct::Direct;
+use pool::Pool;
+
+use super::Kernel;
+use super::gather::{Gather, Scratch};
+use super::kernel::KernelTable;
+use super::prepared::{FootprintFilter, Prepared, SetupCost, bounded};
+use super::taps::{self, Taps};
+use crate::camera::Footprint;
+use crate::raster::Rgba;
+use crate::world::{Light, LightError, World};
+
+/// The elliptical weighted average (Greene & Heckbert 1986), across the edges of views.
+///
+/// Its cost grows with the number of texels under a footprint: [`EwaPyramid`](super::EwaPyramid) bounds it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ewa {
+    /// The weights.
+    pub kernel: Kernel,
+    /// Whether the average is clamped, per channel, to the texels under the footprint.
+    pub anti_ringing: bool,
+}
+
+impl Default for Ewa {
+    fn default() -> Self {
+        Self { kernel: Kernel::ADAPTIVE, anti_ringing: true }
+    }
+}
+
+impl FootprintFilter for Ewa {
+    fn prepare<'w>(&self, world: &'w World, light: &'w Light) -> Result<Box<dyn Prepared + 'w>, LightError> {
+        light.check(world)?;
+        Ok(Box::new(PreparedEwa { world, light: light.texels(), average: Averager::new(self) }))
+    }
+
+    fn setup(&self, _: &World) -> SetupCost {
+        SetupCost::default()
+    }
+}
+
+struct PreparedEwa<'w> {
+    world: &'w World,
+    light: &'w [Rgba],
+    average: Averager,
+}
+
+impl Prepared for PreparedEwa<'_> {
+    fn world(&self) -> &World {
+        self.world
+    }
+
+    fn average(&self, footprint: &Footprint) -> Rgba {
+        let average = |footprint| self.average.of(self.world, self.light, &footprint, None);
+        bounded(footprint).map_or(Rgba::TRANSPARENT, average)
+    }
+}
+
+/// Averages the texels of footprints in any world by one kernel.
+pub(crate) struct Averager {
+    table: KernelTable,
+    anti_ringing: bool,
+    /// For kernels that it can weigh.
+    direct: Option<Direct>,
+    scratch: Pool<(Scratch, Taps)>,
+}
+
+impl Averager {
+    /// The averager of a filter.
+    pub(crate) fn new(filter: &Ewa) -> Self {
+        let (kernel, anti_ringing) = (&filter.kernel, filter.anti_ringing);
+        Self {
+            table: KernelTable::new(kernel),
+            anti_ringing,
+            direct: Direct::new(kernel, anti_ringing),
+            scratch: Pool::default(),
+        }
+    }
+
+    /// The average of a footprint; `view` is the view that shows it, if that is known.
+    pub(crate) fn of(&self, world: &World, light: &[Rgba], footprint: &Footprint, view: Option<usize>) -> Rgba {
+        let direct = self.direct.as_ref().and_then(|direct| direct.average(world, light, footprint, view));
+        direct.unwrap_or_else(|| self.by_taps(world, light, footprint))
+    }
+
+    /// The same by a list of taps, wherever the texels lie.
+    pub(crate) fn by_taps(&self, world: &World, light: &[Rgba], footprint: &Footprint) -> Rgba {
+        self.scratch.lend(|(scratch, taps)| {
+            let mut gather = Gather::new(world, None, &self.table).with_scratch(std::mem::take(scratch));
+            gather.taps(footprint, taps);
+            *scratch = gather.into_scratch();
+            taps::average(taps.list(), |texel| light[texel as usize], self.anti_ringing)
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sphere::Direction;
+    use crate::world::panorama;
+
+    /// Light that is another in each texel.
+    fn noise(count: usize) -> Vec<Rgba> {
+        let value = |texel: usize| (texel.wrapping_mul(2_654_435_761) >> 7) % 1000;
+        (0..count).map(|texel| value(texel) as f32 / 999.0).map(|v| Rgba::opaque(v, v * v, 1.0 - v)).collect()
+    }
+
+    #[test]
+    fn the_direct_way_averages_as_taps_do() {
+        let world = World::new([("all".to_owned(), panorama(800, 400))]).expect("a view");
+        let light = noise(world.texel_count());
+        let averager = Averager::new(&Ewa::default());
+        let direct = averager.direct.as_ref().expect("a kernel of cubics");
+        let mut count = 0;
+        for (k, at) in Direction::spread(4000).enumerate() {
+            let (right, up) = at.vector().any_orthonormal_pair();
+            let (sin, cos) = (k as f64).sin_cos();
+            let width = 0.004 * 1.0008f64.powi(k as i32);
+            let long = [1.0, 2.0, 0.3][k % 3];
+            let footprint =
+                Footprint::new(at, (right * cos + up * sin) * width, (up * cos - right * sin) * width * long);
+            let Some(found) = direct.average(&world, &light, &footprint, None) else { continue };
+            let expected = averager.by_taps(&world, &light, &footprint);
+            let error = (0..4).map(|c| (found.0[c] - expected.0[c]).abs()).fold(0.0, f32::max);
+            assert!(error < 2e-3, "{found:?}, not {expected:?}: {footprint:?}");
+            count += 1;
+        }
+        assert!(count > 2000, "{count} by the direct way");
+    }
+}

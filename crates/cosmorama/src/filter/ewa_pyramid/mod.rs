@@ -1,0 +1,102 @@
+//! EWA on a pyramid: a bounded number of texels, however wide a footprint is.
+
+pub(crate) mod halving;
+pub(crate) mod level;
+
+use halving::Halving;
+use level::{LevelNeed, LevelRule, part};
+
+use super::Kernel;
+use super::ewa::{Averager, Ewa};
+use super::prepared::{FootprintFilter, Prepared, SetupCost, bounded};
+use crate::camera::Footprint;
+use crate::raster::Rgba;
+use crate::world::{Light, LightError, World};
+
+/// EWA on a pyramid: the ellipse is averaged on the levels of halved worlds that fit it best, at a bounded cost (Heckbert 1989).
+///
+/// However wide a footprint is, it looks at no more than [`MOST_TEXELS`](super::MOST_TEXELS) texels of a view.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct EwaPyramid {
+    /// The weights.
+    pub kernel: Kernel,
+    /// Whether the average is clamped, per channel, to the texels under the footprint.
+    pub anti_ringing: bool,
+}
+
+impl Default for EwaPyramid {
+    fn default() -> Self {
+        let Ewa { kernel, anti_ringing } = Ewa::default();
+        Self { kernel, anti_ringing }
+    }
+}
+
+impl FootprintFilter for EwaPyramid {
+    fn prepare<'w>(&self, world: &'w World, light: &'w Light) -> Result<Box<dyn Prepared + 'w>, LightError> {
+        light.check(world)?;
+        let mut coarser: Vec<(World, Vec<Rgba>)> = Vec::new();
+        loop {
+            let (finer, texels) = coarser.last().map_or((world, light.texels()), |(world, texels)| (world, texels));
+            let Some(halved) = finer.halved() else { break };
+            let texels = Halving::new(finer, &halved, None).light(texels);
+            coarser.push((halved, texels));
+        }
+        let average = Averager::new(&Ewa { kernel: self.kernel, anti_ringing: self.anti_ringing });
+        let rule = LevelRule::new(world, &self.kernel);
+        Ok(Box::new(PreparedPyramid { world, light: light.texels(), coarser, rule, average }))
+    }
+
+    fn setup(&self, world: &World) -> SetupCost {
+        // All levels have a third of the texels; besides light a solid angle.
+        let texels = world.texel_count();
+        SetupCost { texels, bytes: texels / 3 * (size_of::<Rgba>() + size_of::<f32>()) }
+    }
+}
+
+struct PreparedPyramid<'w> {
+    world: &'w World,
+    light: &'w [Rgba],
+    /// From the first halved world on.
+    coarser: Vec<(World, Vec<Rgba>)>,
+    rule: LevelRule,
+    average: Averager,
+}
+
+impl PreparedPyramid<'_> {
+    /// A level's world and its light.
+    fn level(&self, level: usize) -> (&World, &[Rgba]) {
+        level.checked_sub(1).map_or((self.world, self.light), |at| (&self.coarser[at].0, &self.coarser[at].1))
+    }
+
+    /// The number of the level for a footprint, and the view that shows it.
+    fn number(&self, footprint: &Footprint) -> (f32, Option<usize>) {
+        let view = self.world.owner(footprint.direction).map(|(view, _)| view);
+        let level = match view {
+            Some(view) => self.rule.level(view, footprint, LevelNeed::default()),
+            None => self.rule.level_beside(footprint),
+        };
+        let coarsest = self.coarser.len() as f32;
+        (level.map_or(0.0, |level| level as f32).clamp(0.0, coarsest), view)
+    }
+}
+
+impl Prepared for PreparedPyramid<'_> {
+    fn world(&self) -> &World {
+        self.world
+    }
+
+    fn average(&self, footprint: &Footprint) -> Rgba {
+        let Some(footprint) = bounded(footprint) else { return Rgba::TRANSPARENT };
+        let (number, view) = self.number(&footprint);
+        let mut sum = Rgba::TRANSPARENT;
+        let finer = number as usize;
+        for level in finer..=finer + 1 {
+            let part = part(number, level);
+            if part > 0.0 {
+                let (world, light) = self.level(level);
+                sum += self.average.of(world, light, &footprint, view) * part;
+            }
+        }
+        sum
+    }
+}

@@ -1,0 +1,141 @@
+use glam::{DMat2, DVec2, DVec3};
+
+use super::cap_chain::CapChain;
+use super::ellipse::Ellipse;
+use crate::camera::{Footprint, PixelPoint};
+use crate::filter::Kernel;
+use crate::sphere::Direction;
+use crate::world::Source;
+
+/// Where the field of view ends under a pixel the floor is so much higher: up to half a texel beyond the last one, the
+/// kernel must reach four rows of texels, since three do not tell a slope from an edge that a renderer smoothed.
+pub(crate) const RIM_FLOOR: f64 = 1.7;
+
+/// A kernel among the texels of one view, in the plane tangent to the sphere at a footprint: near a pole, a horizon or a rim,
+/// where an ellipse of texels would be wrong, each texel is weighed by its direction.
+pub(crate) struct TangentKernel {
+    direction: Direction,
+    /// Two axes of the plane, as long as one over the view's largest texel.
+    axes: [DVec3; 2],
+    to_texels: DMat2,
+    /// From the plane to screen pixels.
+    to_screen: DMat2,
+    ellipse: Ellipse,
+    /// How much of the coarse cross-section counts.
+    pub(crate) coarseness: f32,
+    beyond: Option<BeyondSeam>,
+    /// What holds all of it on the sphere.
+    pub(crate) reach: CapChain,
+}
+
+/// What of a kernel lies beyond a seam, where texels lie otherwise: weighed by the near side's ellipse, a thin one might miss them
+/// all.
+struct BeyondSeam {
+    /// From the footprint to the same place on the other side.
+    across: DVec3,
+    ellipse: Ellipse,
+    to_texels: DMat2,
+    /// One on the seam, falling to nothing where the kernel ends.
+    nearness: f64,
+}
+
+impl TangentKernel {
+    /// The kernel of a footprint, at most `radius` radians wide, whose unit is at least `floor` texels. `around` is added on all
+    /// sides of what holds it, in radians.
+    pub(crate) fn new(
+        kernel: &Kernel,
+        source: &Source,
+        footprint: &Footprint,
+        (radius, floor, around): (f64, f64, f64),
+    ) -> Self {
+        let here = footprint.direction.vector();
+        let (right, up) = here.any_orthonormal_pair();
+        let axes = [right, up].map(|axis| axis / source.texel_pitch);
+        let in_plane = |vector: DVec3| DVec2::new(axes[0].dot(vector), axes[1].dot(vector));
+        let tangent = DMat2::from_cols(in_plane(footprint.jacobian.dx), in_plane(footprint.jacobian.dy));
+        let to_screen = tangent.inverse();
+        // The ellipse that the texels have here, as far as they have one: at the very pole, texels as large as any.
+        let jacobian = footprint_among_texels(source, footprint).unwrap_or(tangent);
+        let to_texels = jacobian * to_screen;
+        let coarseness = kernel.coarseness(jacobian.determinant().abs().sqrt()) as f32;
+        let beyond = source.view.beyond_seam(footprint.direction).and_then(|direction| {
+            let (_, jacobian) = source.view.texel_footprint(&Footprint { direction, ..*footprint })?;
+            // So far away, none of them counts, and what is seen here may lie edge on there.
+            let across = direction.vector() - here;
+            (across.length() < 2.0 * radius).then_some((across, jacobian))
+        });
+        // On a seam the lattices of both sides mirror each other, and a quarter of the disc may be empty on both.
+        let nearness = beyond.map_or(0.0, |(across, _)| 1.0 - 0.5 * across.length() / radius);
+        let widening = 1.0 + (RIM_FLOOR - 1.0) * nearness;
+        let ellipse = |jacobian: DMat2| Ellipse::new(jacobian * kernel.scale, floor * widening);
+        let beyond = beyond.map(|(across, jacobian)| BeyondSeam {
+            across,
+            ellipse: ellipse(jacobian),
+            to_texels: jacobian * to_screen,
+            nearness,
+        });
+        let ellipse = ellipse(jacobian);
+        let (major, minor) = ellipse.semi_axes_in(to_texels);
+        let unit = kernel.radius() * source.texel_pitch;
+        let reach = match &beyond {
+            None => {
+                let major = (right * major.x + up * major.y) * unit;
+                let longer = 1.0 + around / major.length();
+                CapChain::around(footprint.direction, major * longer, minor * unit + around)
+            }
+            Some(BeyondSeam { ellipse, to_texels, .. }) => {
+                let other = ellipse.semi_axes_in(*to_texels).0.length();
+                CapChain::of(footprint.direction, major.length().max(other) * unit + around)
+            }
+        };
+        Self { direction: footprint.direction, axes, to_texels, to_screen, ellipse, coarseness, beyond, reach }
+    }
+
+    /// Square of the distance from the centre of a texel in this direction, in the kernel's unit, and its offset in screen
+    /// pixels; `None` behind the plane.
+    pub(crate) fn place(&self, texel: Direction) -> Option<(f64, DVec2)> {
+        let from = texel.vector() - self.direction.vector();
+        let offset = DVec2::new(self.axes[0].dot(from), self.axes[1].dot(from));
+        let here = self.ellipse.distance_squared(self.to_texels * offset);
+        let q = self.beyond.as_ref().map_or(here, |BeyondSeam { across, ellipse, to_texels, nearness }| {
+            let there = ellipse.distance_squared(*to_texels * offset);
+            let (own, other) = if across.dot(texel.vector()) > 0.0 { (there, here) } else { (here, there) };
+            // On the seam itself each ellipse by itself may reach along it one way only: the same way.
+            own.min(other / (nearness * nearness))
+        });
+        (texel.dot(self.direction) > 0.0).then(|| (q, self.to_screen * offset))
+    }
+}
+
+/// The footprint in texels, in those of a panorama's outermost row where it lies beyond their centres: texels nearer to a
+/// pole would be narrower, but there are none.
+fn footprint_among_texels(source: &Source, footprint: &Footprint) -> Option<DMat2> {
+    let Some((centre, jacobian)) = source.view.texel_footprint(footprint) else {
+        return footprint_on_border(source, footprint);
+    };
+    if source.period.is_none() {
+        return Some(jacobian);
+    }
+    let row = |inset: f64| PixelPoint::new(centre.x, centre.y.clamp(inset, source.view.height() as f64 - inset));
+    // With samples on the edges the outermost row is the pole itself: half a texel beside it, as without.
+    let is_pole = |at| source.view.direction(at).is_some_and(|d| source.view.margin(d) < 0.25 * source.texel_pitch);
+    let nearest = if is_pole(row(0.5)) { row(1.0) } else { row(0.5) };
+    if nearest == centre {
+        return Some(jacobian);
+    }
+    let there = Footprint { direction: source.view.direction(nearest)?, ..*footprint };
+    source.view.texel_footprint(&there).map(|(_, jacobian)| jacobian)
+}
+
+/// The texels of a wide camera's border are this part of its largest, at most.
+const FINE_BORDER: f64 = 0.25;
+
+/// The footprint in the texels of the border, for what lies beyond a camera's horizon, where those are far smaller than in the
+/// middle: in texels as large as any, a kernel would hold most of the picture.
+fn footprint_on_border(source: &Source, footprint: &Footprint) -> Option<DMat2> {
+    let direction = source.view.border_towards(footprint.direction)?;
+    let texel = source.view.footprint(source.view.pixel(direction)?)?.jacobian;
+    let is_fine = texel.dx.length().max(texel.dy.length()) < FINE_BORDER * source.texel_pitch;
+    let there = Footprint { direction, ..*footprint };
+    is_fine.then(|| source.view.texel_footprint(&there)).flatten().map(|(_, jacobian)| jacobian)
+}

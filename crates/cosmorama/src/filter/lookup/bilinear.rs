@@ -1,0 +1,36 @@
+use crate::camera::Footprint;
+use crate::filter::prepared::{FootprintFilter, Prepared, SetupCost, bounded};
+use crate::filter::reference;
+use crate::raster::Rgba;
+use crate::world::{Light, LightError, World};
+
+/// The four texels around the middle of a footprint.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Bilinear;
+
+impl FootprintFilter for Bilinear {
+    fn prepare<'w>(&self, world: &'w World, light: &'w Light) -> Result<Box<dyn Prepared + 'w>, LightError> {
+        light.check(world)?;
+        Ok(Box::new(PreparedBilinear { world, light: light.texels() }))
+    }
+
+    fn setup(&self, _: &World) -> SetupCost {
+        SetupCost::default()
+    }
+}
+
+struct PreparedBilinear<'w> {
+    world: &'w World,
+    light: &'w [Rgba],
+}
+
+impl Prepared for PreparedBilinear<'_> {
+    fn world(&self) -> &World {
+        self.world
+    }
+
+    fn average(&self, footprint: &Footprint) -> Rgba {
+        let look = |footprint: Footprint| reference::look(self.world, footprint.direction, self.light);
+        bounded(footprint).and_then(look).unwrap_or(Rgba::TRANSPARENT)
+    }
+}

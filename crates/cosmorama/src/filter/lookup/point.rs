@@ -1,0 +1,39 @@
+use super::nearest;
+use crate::camera::Footprint;
+use crate::filter::prepared::{FootprintFilter, Prepared, SetupCost, bounded};
+use crate::raster::Rgba;
+use crate::world::{Light, LightError, World};
+
+/// The one texel that the middle of a footprint sees: no filter at all.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Point;
+
+impl FootprintFilter for Point {
+    fn prepare<'w>(&self, world: &'w World, light: &'w Light) -> Result<Box<dyn Prepared + 'w>, LightError> {
+        light.check(world)?;
+        Ok(Box::new(PreparedPoint { world, light: light.texels() }))
+    }
+
+    fn setup(&self, _: &World) -> SetupCost {
+        SetupCost::default()
+    }
+}
+
+struct PreparedPoint<'w> {
+    world: &'w World,
+    light: &'w [Rgba],
+}
+
+impl Prepared for PreparedPoint<'_> {
+    fn world(&self) -> &World {
+        self.world
+    }
+
+    fn average(&self, footprint: &Footprint) -> Rgba {
+        let mut found = Rgba::TRANSPARENT;
+        if let Some(footprint) = bounded(footprint) {
+            nearest(self.world, footprint.direction, |texel, _| found = self.light[texel as usize]);
+        }
+        found
+    }
+}

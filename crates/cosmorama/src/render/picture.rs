@@ -1,0 +1,21 @@
+use rayon::prelude::*;
+
+use crate::camera::View;
+use crate::filter::Prepared;
+use crate::raster::{Image, Rgba};
+
+/// Makes a picture by any filter, pixel by pixel: the average of each one's footprint, as much of it as the field of view covers.
+///
+/// [`Resampler`](super::Resampler) makes the same pictures faster by the filters that it knows. Beside the edge of the target's field
+/// of view they differ: there a `Resampler` leaves out texels that no part of the field falls upon.
+pub fn picture(prepared: &dyn Prepared, target: &View) -> Image<Rgba> {
+    let mut image = Image::filled(target.width(), target.height(), Rgba::TRANSPARENT);
+    image.pixels_mut().par_chunks_mut(target.width().max(1)).enumerate().for_each(|(j, row)| {
+        for (i, pixel) in row.iter_mut().enumerate() {
+            if let Some(screen) = target.screen_pixel(i, j) {
+                *pixel = prepared.average(&screen.footprint) * screen.coverage as f32;
+            }
+        }
+    });
+    image
+}
