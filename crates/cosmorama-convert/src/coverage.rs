@@ -1,5 +1,5 @@
 use cosmorama::camera::{Canvas, PixelRect, View};
-use cosmorama::filter::Filter;
+use cosmorama::filter::FilterSettings;
 use cosmorama::raster::Rgba;
 use cosmorama::render::{Accuracy, Need, Needs};
 use cosmorama::world::{Source, World, WorldView};
@@ -33,7 +33,7 @@ impl Coverage {
         input: &mut Input,
         nominal: Vec<World>,
         target: &Target,
-        filter: &Filter,
+        filter: &FilterSettings,
         missing: Missing,
         warnings: &mut Vec<Diagnostic>,
     ) -> Result<(Self, Vec<World>)> {
@@ -62,7 +62,7 @@ fn find_gaps(
     views: &mut [InputView],
     nominal: &World,
     targets: &[&TargetView],
-    filter: &Filter,
+    filter: &FilterSettings,
     warnings: &mut Vec<Diagnostic>,
 ) -> Result<Vec<String>> {
     if let [view] = views

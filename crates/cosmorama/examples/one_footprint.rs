@@ -2,7 +2,7 @@
 #![allow(clippy::print_stdout, reason = "a program prints")]
 
 use cosmorama::camera::{CameraModel, Covariance, EquirectCamera, Footprint};
-use cosmorama::filter::{EwaPyramid, FootprintFilter};
+use cosmorama::filter::{EwaPyramid, Filter};
 use cosmorama::raster::Rgba;
 use cosmorama::sphere::{Angle, Direction};
 use cosmorama::world::{Light, World};

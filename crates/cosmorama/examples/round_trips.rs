@@ -2,7 +2,7 @@
 //!
 //! `cargo run --release -p cosmorama --example round_trips [FROM [THROUGH]]`
 
-use cosmorama::filter::Filter;
+use cosmorama::filter::FilterSettings;
 use rayon::prelude::*;
 use testkit::{Form, RoundTrip};
 
@@ -55,7 +55,7 @@ fn main() {
     };
     let through = wanted(1, Form::all(4.0 * FROM));
     let measure = |from: Form| {
-        let trips = through.iter().map(|through| RoundTrip::measure(&from, through, Filter::DEFAULT)).collect();
+        let trips = through.iter().map(|through| RoundTrip::measure(&from, through, FilterSettings::DEFAULT)).collect();
         Row { from, trips }
     };
     let rows: Vec<Row> = wanted(0, Form::all(FROM)).into_par_iter().map(measure).collect();

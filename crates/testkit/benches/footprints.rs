@@ -8,7 +8,7 @@ use criterion::{Criterion, criterion_group, criterion_main};
 use std::hint::black_box;
 
 use cosmorama::camera::Footprint;
-use cosmorama::filter::{Ewa, EwaPyramid, FootprintFilter, Prepared};
+use cosmorama::filter::{Ewa, EwaPyramid, Filter, Prepared};
 use cosmorama::raster::Rgba;
 use cosmorama::sphere::{CubeFace, Direction};
 use cosmorama::world::Light;
@@ -106,7 +106,8 @@ fn measure(criterion: &mut Criterion) {
         ("ewa-pyramid of any width", &*pyramid, any_width),
     ];
     for (name, prepared, widths) in cases {
-        for (order, footprints) in [("scattered", scattered(widths)), ("beside each other", beside_each_other(widths))] {
+        for (order, footprints) in [("scattered", scattered(widths)), ("beside each other", beside_each_other(widths))]
+        {
             let mut at = 0;
             group.bench_function(format!("{name}, {order}"), |bencher| {
                 bencher.iter(|| {

@@ -2,7 +2,7 @@
 //!
 //! `cargo run --release -p testkit --example light_kept`
 
-use cosmorama::filter::{CrossSection, Filter, Kernel};
+use cosmorama::filter::{CrossSection, FilterSettings, Kernel};
 use cosmorama::raster::{Rgba, Transfer};
 use cosmorama::world::World;
 use cosmorama_io::{Limits, read};
@@ -24,11 +24,11 @@ const PAIRS: [(&str, &str); 7] = [
     ("cube", "equirect"),
 ];
 
-fn filters() -> [(&'static str, Filter); 7] {
-    let of = |kernel, anti_ringing| Filter { kernel, anti_ringing, ..Filter::DEFAULT };
+fn filters() -> [(&'static str, FilterSettings); 7] {
+    let of = |kernel, anti_ringing| FilterSettings { kernel, anti_ringing, ..FilterSettings::DEFAULT };
     let gaussian = Kernel::uniform(CrossSection::Gaussian { alpha: 2.0, cutoff: 1.0 });
     [
-        ("default", Filter::DEFAULT),
+        ("default", FilterSettings::DEFAULT),
         ("default, --anti-ringing off", of(Kernel::ADAPTIVE, false)),
         ("mitchell", of(Kernel::uniform(CrossSection::MITCHELL), true)),
         ("gaussian", of(gaussian, true)),
@@ -55,7 +55,7 @@ fn main() {
         let (world, skies) = if from == "equirect" {
             (panorama.clone(), skies.clone())
         } else {
-            let sky = Sky::new(&panorama, form(from), Filter::DEFAULT);
+            let sky = Sky::new(&panorama, form(from), FilterSettings::DEFAULT);
             (form(from).world(), skies.iter().map(|light| sky.light(light)).collect())
         };
         for (name, filter) in filters() {

@@ -6,7 +6,7 @@
 use std::f64::consts::PI;
 
 use cosmorama::camera::View;
-use cosmorama::filter::{Filter, FilterKind};
+use cosmorama::filter::{FilterKind, FilterSettings};
 use cosmorama::raster::{ColourChannel, Image, Rgba, Transfer};
 use cosmorama::render::{Arithmetic, Plan, Resampler};
 use cosmorama::sphere::CubeFace;
@@ -15,7 +15,7 @@ use cosmorama_io::{Limits, read};
 use cpu_time::ProcessTime;
 use testkit::{cube, equirect, fisheye, perspective, shared};
 
-const PYRAMID: Filter = Filter { kind: FilterKind::EwaPyramid, ..Filter::DEFAULT };
+const PYRAMID: FilterSettings = FilterSettings { kind: FilterKind::EwaPyramid, ..FilterSettings::DEFAULT };
 
 #[allow(clippy::print_stdout)] // An example may talk; the library may not.
 fn main() {
@@ -49,7 +49,7 @@ fn faces() -> Option<(World, Vec<Rgba>)> {
 /// Resamples a world into a panorama.
 fn panorama((world, light): &(World, Vec<Rgba>)) -> (World, Vec<Rgba>) {
     let target = equirect(4096);
-    let light = Resampler { world, target: &target, filter: Filter::DEFAULT }.render(light);
+    let light = Resampler { world, target: &target, filter: FilterSettings::DEFAULT }.render(light);
     (World::new([("panorama".to_owned(), target)]).expect("one view"), light.pixels().to_vec())
 }
 
@@ -79,8 +79,8 @@ fn quality() {
     for (name, density, (world, light)) in &worlds {
         for shrink in [2.0, 4.0, 8.0, 16.0, 32.0, 64.0] {
             let target = dome(*density, shrink);
-            let [exact, pyramid] =
-                [Filter::DEFAULT, PYRAMID].map(|filter| Resampler { world, target: &target, filter }.render(light));
+            let [exact, pyramid] = [FilterSettings::DEFAULT, PYRAMID]
+                .map(|filter| Resampler { world, target: &target, filter }.render(light));
             let by_code = |code: fn(f64) -> f64| psnr(&exact, &pyramid, &target, code);
             let (linear, encoded) =
                 (by_code(|light| light), by_code(|light| Transfer::Srgb.encode(light, ColourChannel::Green)));
@@ -138,7 +138,7 @@ fn cost_line(size: usize, shrink: f64) {
     let half = upper(&target, size / 2);
     let pixels = (size * size / 2) as f64;
     let of = |filter, target| Resampler { world: &world, target, filter };
-    let (exact, _) = timed(|| of(Filter::DEFAULT, &target).render(&light));
+    let (exact, _) = timed(|| of(FilterSettings::DEFAULT, &target).render(&light));
     let (cold, _) = timed(|| of(PYRAMID, &target).render(&light));
     let [warm, half] = [&target, &half].map(|target| {
         let plan = of(PYRAMID, target).plan(Arithmetic::Float).expect("a pyramid");

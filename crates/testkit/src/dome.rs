@@ -1,5 +1,5 @@
 use cosmorama::camera::View;
-use cosmorama::filter::Filter;
+use cosmorama::filter::FilterSettings;
 use cosmorama::raster::{FixedCodec, FixedLight, Rgba, Transfer};
 use cosmorama::render::Resampler;
 use cosmorama::sphere::CubeFace;
@@ -37,7 +37,7 @@ impl Dome {
 
     /// What makes it.
     pub fn resampler(&self) -> Resampler<'_> {
-        Resampler { world: &self.world, target: &self.target, filter: Filter::DEFAULT }
+        Resampler { world: &self.world, target: &self.target, filter: FilterSettings::DEFAULT }
     }
 
     /// Pixels of the square that it is in.

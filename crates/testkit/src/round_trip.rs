@@ -1,5 +1,5 @@
 use cosmorama::camera::{PixelPoint, View};
-use cosmorama::filter::Filter;
+use cosmorama::filter::FilterSettings;
 use cosmorama::raster::Rgba;
 use cosmorama::render::{Arithmetic, Plan, Resampler};
 use cosmorama::sphere::Direction;
@@ -51,7 +51,7 @@ impl RoundTrip {
     ///
     /// # Panics
     /// With the reference filter, which records no weights.
-    pub fn measure(from: &Form, through: &Form, filter: Filter) -> Option<Self> {
+    pub fn measure(from: &Form, through: &Form, filter: FilterSettings) -> Option<Self> {
         let (first, second) = (from.world(), through.world());
         let (there, back) = (plans(&first, &through.views, filter), plans(&second, &from.views, filter));
         let travelled = |light: &[Rgba]| apply(&back, &apply(&there, light));
@@ -81,7 +81,7 @@ impl RoundTrip {
     }
 }
 
-fn plans(world: &World, views: &[View], filter: Filter) -> Vec<Plan> {
+fn plans(world: &World, views: &[View], filter: FilterSettings) -> Vec<Plan> {
     let plan = |target| Resampler { world, target, filter }.plan(Arithmetic::Float);
     views.iter().map(|view| plan(view).expect("a filter whose weights can be recorded")).collect()
 }

@@ -1,4 +1,4 @@
-use cosmorama::filter::Filter;
+use cosmorama::filter::FilterSettings;
 use cosmorama::lighting::LightBalance;
 use cosmorama::raster::Rgba;
 use cosmorama::render::{Arithmetic, Plan, Resampler};
@@ -25,14 +25,14 @@ impl Sky {
     ///
     /// # Panics
     /// With the reference filter, which records no weights.
-    pub fn new(from: &World, to: &Form, filter: Filter) -> Self {
+    pub fn new(from: &World, to: &Form, filter: FilterSettings) -> Self {
         let plan = |target| Resampler { world: from, target, filter }.plan(Arithmetic::Float);
         let plans = to.views.iter().map(|view| plan(view).expect("a filter whose weights can be recorded")).collect();
         Self { world: to.world(), plans, balance: None }
     }
 
     /// Computes the sky's geometry and balances its light ([`LightBalance`]).
-    pub fn balanced(from: &World, to: &Form, filter: Filter) -> Self {
+    pub fn balanced(from: &World, to: &Form, filter: FilterSettings) -> Self {
         let sky = Self::new(from, to, filter);
         let targets: Vec<_> = sky.plans.iter().zip(&to.views).collect();
         Self { balance: Some(LightBalance::new(from, &targets)), ..sky }

@@ -1,4 +1,4 @@
-use cosmorama::filter::{Filter, Kernel};
+use cosmorama::filter::{FilterSettings, Kernel};
 use cosmorama::raster::Rgba;
 use cosmorama::sphere::Direction;
 use cosmorama::world::World;
@@ -6,7 +6,8 @@ use cosmorama::world::World;
 use crate::light_by_direction;
 
 /// The filter that keeps light.
-pub const LIGHT: Filter = Filter { kernel: Kernel::LIGHT, anti_ringing: false, ..Filter::DEFAULT };
+pub const LIGHT: FilterSettings =
+    FilterSettings { kernel: Kernel::LIGHT, anti_ringing: false, ..FilterSettings::DEFAULT };
 
 /// Directions in which some form or other is singular: poles, the octahedron's vertices, an edge and a corner of the cube, the
 /// seam behind and beside it, what lies before a mirror ball.

@@ -5,7 +5,7 @@ use std::time::Instant;
 use anyhow::Result;
 use cosmorama::camera::{CameraModel, Canvas, OmnimaxCamera, PixelRect, View};
 use cosmorama::explain::{Figures, Underlay};
-use cosmorama::filter::{Filter, FilterKind};
+use cosmorama::filter::{FilterSettings, FilterKind};
 use cosmorama::raster::{Channels, Depth, EncodedImage, Transfer};
 use cosmorama::render::{Accuracy, Needs};
 use cosmorama::sphere::{CubeFace, Orientation};
@@ -80,7 +80,7 @@ fn face_file(folder: &Path, face: CubeFace) -> PathBuf {
 fn needed_faces(target: &View) -> Result<Vec<PartialFace>> {
     let whole = |face: CubeFace| face_view(face, None, FACE, FACE);
     let views: Result<Vec<_>> = CubeFace::ALL.iter().map(|&face| Ok((face.name().to_owned(), whole(face)?))).collect();
-    let needs = Needs::of(&World::new(views?)?, &[*target], &Filter::DEFAULT, Accuracy::Exact);
+    let needs = Needs::of(&World::new(views?)?, &[*target], &FilterSettings::DEFAULT, Accuracy::Exact);
     let mut faces = Vec::new();
     for (face, need) in CubeFace::ALL.into_iter().zip(&needs.views) {
         let Some(window) = need.seen.and(need.read) else { continue };
@@ -157,7 +157,7 @@ fn quoted(word: &str) -> String {
 fn draw_unfolded(folder: &Path, faces: &[PartialFace], target: &View, console: &Console) -> Result<()> {
     let start = Instant::now();
     let world = World::new(faces.iter().map(|partial| (partial.face.name().to_owned(), partial.view)))?;
-    let needs = Needs::of(&world, &[*target], &Filter::DEFAULT, Accuracy::Exact);
+    let needs = Needs::of(&world, &[*target], &FilterSettings::DEFAULT, Accuracy::Exact);
     let underlay =
         |(view, partial): (usize, &PartialFace)| Underlay { view, href: format!("{FACES}/{}.png", partial.face) };
     let underlays: Vec<Underlay> = faces.iter().enumerate().map(underlay).collect();

@@ -2,7 +2,7 @@ use super::magnification::central_footprint;
 use super::survey::{Survey, used_part};
 use super::{FaceSize, Magnification};
 use crate::camera::View;
-use crate::filter::Filter;
+use crate::filter::FilterSettings;
 use crate::raster::Rgba;
 use crate::render::{Accuracy, Arithmetic, Need, Needs, Resampler, Uncovered};
 use crate::sphere::Direction;
@@ -82,7 +82,7 @@ pub struct Memory {
 
 impl Report {
     /// Computes the report of making `target` from `world`. The world needs no light: it may be of planned views.
-    pub fn of(world: &World, target: &View, filter: &Filter) -> Self {
+    pub fn of(world: &World, target: &View, filter: &FilterSettings) -> Self {
         let needs = Needs::of(world, &[*target], filter, Accuracy::Exact);
         let survey = Survey::of(world, target, filter);
         let centre = central_footprint(target);
@@ -129,7 +129,7 @@ impl Centre {
 }
 
 impl Memory {
-    fn of(world: &World, target: &View, filter: &Filter) -> Self {
+    fn of(world: &World, target: &View, filter: &FilterSettings) -> Self {
         let resampler = Resampler { world, target, filter: *filter };
         Self {
             texels: world.texel_count() * size_of::<Rgba>(),

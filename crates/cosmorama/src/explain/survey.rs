@@ -2,7 +2,7 @@ use rayon::prelude::*;
 
 use super::Magnification;
 use crate::camera::{PixelPoint, ScreenPixel, View};
-use crate::filter::{Filter, KernelTable};
+use crate::filter::{FilterSettings, KernelTable};
 use crate::render::{Pyramid, Resampler, TexelCount};
 use crate::world::{Source, World};
 
@@ -23,7 +23,7 @@ pub(crate) struct Survey {
 }
 
 impl Survey {
-    pub(crate) fn of(world: &World, target: &View, filter: &Filter) -> Self {
+    pub(crate) fn of(world: &World, target: &View, filter: &FilterSettings) -> Self {
         let step = stride(target.width(), target.height());
         let rows: Vec<usize> = sampled(target.height(), step).collect();
         let few = rows.len().div_ceil(8 * rayon::current_num_threads()).max(1);

@@ -22,6 +22,6 @@ pub(crate) use kernel::KernelTable;
 pub use kernel::{CrossSection, Kernel};
 pub use lookup::{Bilinear, Point};
 pub(crate) use pixel_taps::PixelTaps;
-pub use prepared::{FootprintFilter, Prepared, SetupCost, WIDEST};
+pub use prepared::{Filter, Prepared, SetupCost, WIDEST};
 pub use reference::Reference;
-pub use settings::{Filter, FilterKind};
+pub use settings::{FilterKind, FilterSettings};

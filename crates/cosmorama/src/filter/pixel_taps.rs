@@ -2,7 +2,7 @@ use super::gather::Gather;
 use super::kernel::KernelTable;
 use super::rim::field_edge::FieldEdge;
 use super::taps::Taps;
-use super::{Filter, FilterKind, lookup, reference};
+use super::{FilterKind, FilterSettings, lookup, reference};
 use crate::camera::{ScreenPixel, View};
 use crate::world::World;
 
@@ -10,14 +10,14 @@ use crate::world::World;
 pub(crate) struct PixelTaps<'a> {
     world: &'a World,
     target: &'a View,
-    filter: &'a Filter,
+    filter: &'a FilterSettings,
     gather: Gather<'a>,
     taps: Taps,
 }
 
 impl<'a> PixelTaps<'a> {
     /// Pixels of `target` made by `filter` from `world`; `table` is that of the filter's kernel.
-    pub(crate) fn new(world: &'a World, target: &'a View, filter: &'a Filter, table: &'a KernelTable) -> Self {
+    pub(crate) fn new(world: &'a World, target: &'a View, filter: &'a FilterSettings, table: &'a KernelTable) -> Self {
         Self { world, target, filter, gather: Gather::new(world, FieldEdge::of(target), table), taps: Taps::default() }
     }
 

@@ -8,12 +8,12 @@ use crate::world::{Light, LightError, World};
 /// What is averaged, and how: one of this room's filters, or your own.
 ///
 /// Every caller that needs the light under a footprint asks this way: a picture's pixel, a reflected or refracted ray, a lobe, a
-/// pixel that moves. [`FilterSettings`](super::Filter) is a filter chosen at run time; [`Ewa`](super::Ewa) and those beside it are
+/// pixel that moves. [`FilterSettings`](super::FilterSettings) is a filter chosen at run time; [`Ewa`](super::Ewa) and those beside it are
 /// single ones.
 ///
 /// ```
 /// use cosmorama::camera::{CameraModel, Covariance, EquirectCamera, Footprint};
-/// use cosmorama::filter::{Ewa, FootprintFilter};
+/// use cosmorama::filter::{Ewa, Filter};
 /// use cosmorama::raster::Rgba;
 /// use cosmorama::sphere::{Angle, Direction};
 /// use cosmorama::world::{Light, World};
@@ -31,7 +31,7 @@ use crate::world::{Light, LightError, World};
 /// assert_eq!(average.alpha(), 1.0);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-pub trait FootprintFilter {
+pub trait Filter {
     /// Makes all that the filter needs of a world and its light, once for any number of footprints.
     ///
     /// # Errors

@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use super::kernel::UNDER;
-use super::prepared::{FootprintFilter, Prepared, SetupCost, bounded};
+use super::prepared::{Filter, Prepared, SetupCost, bounded};
 use super::{Kernel, lookup};
 use crate::camera::{Footprint, PixelPoint, View};
 use crate::raster::{Image, Rgba};
@@ -25,7 +25,7 @@ pub struct Reference {
     pub anti_ringing: bool,
 }
 
-impl FootprintFilter for Reference {
+impl Filter for Reference {
     fn prepare<'w>(&self, world: &'w World, light: &'w Light) -> Result<Box<dyn Prepared + 'w>, LightError> {
         light.check(world)?;
         Ok(Box::new(PreparedReference { world, light: light.texels(), filter: *self }))

@@ -1,4 +1,4 @@
-use super::{Bilinear, Ewa, EwaPyramid, FootprintFilter, Kernel, Point, Prepared, Reference, SetupCost};
+use super::{Bilinear, Ewa, EwaPyramid, Filter, Kernel, Point, Prepared, Reference, SetupCost};
 use crate::world::{Light, LightError, World};
 
 /// How the texels under a footprint become a pixel.
@@ -21,9 +21,9 @@ pub enum FilterKind {
     },
 }
 
-/// A filter with its parameters.
+/// A filter chosen at run time, with its parameters.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Filter {
+pub struct FilterSettings {
     /// The method.
     pub kind: FilterKind,
     /// The weights, for the methods that have a choice.
@@ -32,14 +32,14 @@ pub struct Filter {
     pub anti_ringing: bool,
 }
 
-impl Filter {
+impl FilterSettings {
     /// EWA with the adaptive kernel and anti-ringing: what is used when nothing else is asked for.
     pub const DEFAULT: Self = Self { kind: FilterKind::Ewa, kernel: Kernel::ADAPTIVE, anti_ringing: true };
 }
 
-impl Filter {
+impl FilterSettings {
     /// The filter that these settings name.
-    fn chosen(&self) -> Box<dyn FootprintFilter> {
+    fn chosen(&self) -> Box<dyn Filter> {
         let Self { kind, kernel, anti_ringing } = *self;
         match kind {
             FilterKind::Ewa => Box::new(Ewa { kernel, anti_ringing }),
@@ -56,7 +56,7 @@ impl Filter {
     }
 }
 
-impl FootprintFilter for Filter {
+impl Filter for FilterSettings {
     fn prepare<'w>(&self, world: &'w World, light: &'w Light) -> Result<Box<dyn Prepared + 'w>, LightError> {
         self.chosen().prepare(world, light)
     }
@@ -66,7 +66,7 @@ impl FootprintFilter for Filter {
     }
 }
 
-impl Default for Filter {
+impl Default for FilterSettings {
     fn default() -> Self {
         Self::DEFAULT
     }

@@ -2,7 +2,7 @@ use super::batch::window::Level;
 use super::plan::{self, Arithmetic, Plan};
 use super::pyramid;
 use crate::camera::View;
-use crate::filter::{Filter, FilterKind, reference};
+use crate::filter::{FilterKind, FilterSettings, reference};
 use crate::raster::{FixedCodec, FixedLight, Image, Rgba};
 use crate::world::World;
 
@@ -14,7 +14,7 @@ pub struct Resampler<'a> {
     /// Where it goes.
     pub target: &'a View,
     /// How.
-    pub filter: Filter,
+    pub filter: FilterSettings,
 }
 
 impl Resampler<'_> {

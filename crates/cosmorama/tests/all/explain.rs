@@ -2,7 +2,7 @@
 
 use cosmorama::camera::{FieldStop, OmnimaxFraming, PixelGrid, PixelPoint, View};
 use cosmorama::explain::{Figures, Magnification, Report, Underlay};
-use cosmorama::filter::Filter;
+use cosmorama::filter::FilterSettings;
 use cosmorama::projection::ProjectionKind;
 use cosmorama::render::{Accuracy, Arithmetic, Needs, Resampler};
 use cosmorama::sphere::{CubeFace, Orientation};
@@ -16,7 +16,7 @@ fn assert_close(found: f64, expected: f64, tolerance: f64) {
 
 #[test]
 fn six_faces_to_omnimax() {
-    let report = Report::of(&cube(&CubeFace::ALL, 1024, 1024), &omnimax(1966, 1436), &Filter::DEFAULT);
+    let report = Report::of(&cube(&CubeFace::ALL, 1024, 1024), &omnimax(1966, 1436), &FilterSettings::DEFAULT);
     // The lens: 1.411269 rad a radius of 921.523 pixels at the centre; a texel of the front face is 2/1024 there.
     let (view, Magnification { least, greatest }) = report.centre.expect("a centre").view.expect("a view");
     let expected = 1.411269 / 921.523 * 512.0;
@@ -47,8 +47,8 @@ fn the_plan_is_estimated_well() {
         (panorama(512), perspective(640, 640, 90.0, 0.0, 90.0, 0.0)),
         (panorama(1024), perspective(640, 480, 90.0, 33.0, 20.0, 7.0)),
     ] {
-        let memory = Report::of(&world, &target, &Filter::DEFAULT).memory;
-        let resampler = Resampler { world: &world, target: &target, filter: Filter::DEFAULT };
+        let memory = Report::of(&world, &target, &FilterSettings::DEFAULT).memory;
+        let resampler = Resampler { world: &world, target: &target, filter: FilterSettings::DEFAULT };
         let (plan, fixed) =
             (resampler.plan(Arithmetic::Float).expect("a plan"), resampler.plan(Arithmetic::Fixed).expect("a plan"));
         for (estimate, bytes) in [(memory.plan, plan.bytes()), (memory.fixed_plan, fixed.bytes())] {
@@ -67,7 +67,7 @@ fn the_paper_calls_its_own_case_two_to_three() {
         stop: FieldStop::circle(1.0),
     };
     let faces = [CubeFace::Front, CubeFace::Right, CubeFace::Left, CubeFace::Up];
-    let report = Report::of(&cube(&faces, 1024, 960), &target, &Filter::DEFAULT);
+    let report = Report::of(&cube(&faces, 1024, 960), &target, &FilterSettings::DEFAULT);
     let (across, down) = report.views[0].advised.expect("a size").ratio;
     assert_close(across, 0.735, 5e-4);
     assert_close(down, 0.689, 5e-4);
@@ -79,7 +79,7 @@ fn the_paper_calls_its_own_case_two_to_three() {
 #[test]
 fn a_report_reads_well() {
     let world = cube(&[CubeFace::Front, CubeFace::Right], 256, 256);
-    let report = Report::of(&world, &perspective(320, 240, 80.0, 0.0, 60.0, 0.0), &Filter::DEFAULT);
+    let report = Report::of(&world, &perspective(320, 240, 80.0, 0.0, 60.0, 0.0), &FilterSettings::DEFAULT);
     let text = report.to_string();
     for part in
         ["target   320x240", "pixels look where no view does", "front  256x256  needs ", "right  256x256  needs "]
@@ -101,7 +101,7 @@ fn cases() -> Vec<(World, View)> {
 }
 
 fn figures_of(world: &World, target: &View) -> [String; 3] {
-    let needs = Needs::of(world, &[*target], &Filter::DEFAULT, Accuracy::Exact);
+    let needs = Needs::of(world, &[*target], &FilterSettings::DEFAULT, Accuracy::Exact);
     let figures = Figures { world, target };
     let underlay = Underlay { view: 0, href: "a.png?b=\"1\"&c".to_string() };
     [figures.unfolded(&needs, &[underlay]), figures.ownership(), figures.footprints()]
@@ -123,7 +123,7 @@ fn figures_and_needs_do_not_depend_on_threads() {
     let with_threads = |threads: usize, (world, target): &(World, View)| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
         pool.install(|| {
-            let report = Report::of(world, target, &Filter::DEFAULT);
+            let report = Report::of(world, target, &FilterSettings::DEFAULT);
             (figures_of(world, target), report.to_string(), report)
         })
     };
@@ -141,7 +141,7 @@ fn figures_and_needs_do_not_depend_on_threads() {
 fn the_unfolded_cube_names_what_is_needed_and_what_is_not_given() {
     let faces = [CubeFace::Front, CubeFace::Right, CubeFace::Back, CubeFace::Left, CubeFace::Up];
     let (world, target) = (cube(&faces, 1024, 1024), omnimax(1966, 1436));
-    let needs = Needs::of(&world, &[target], &Filter::DEFAULT, Accuracy::Exact);
+    let needs = Needs::of(&world, &[target], &FilterSettings::DEFAULT, Accuracy::Exact);
     let svg = Figures { world: &world, target: &target }.unfolded(&needs, &[]);
     for label in ["all of 1024×1024", "515×1024+509+0", "515×1024+0+0", "1024×515+0+509", "not needed", "not given"]
     {
@@ -152,7 +152,7 @@ fn the_unfolded_cube_names_what_is_needed_and_what_is_not_given() {
 #[test]
 fn an_underlay_is_drawn_under_the_veil() {
     let (world, target) = (cube(&CubeFace::ALL, 64, 64), omnimax(123, 90));
-    let needs = Needs::of(&world, &[target], &Filter::DEFAULT, Accuracy::Exact);
+    let needs = Needs::of(&world, &[target], &FilterSettings::DEFAULT, Accuracy::Exact);
     let underlay = Underlay { view: 4, href: "data:image/png;base64,AA==".to_string() };
     let svg = Figures { world: &world, target: &target }.unfolded(&needs, &[underlay]);
     let image = svg.find("href=\"data:image/png;base64,AA==\"").expect("the image");

@@ -1,6 +1,6 @@
 //! A world in another form and back: nothing moves, and no seam of the other form is left.
 
-use cosmorama::filter::Filter;
+use cosmorama::filter::FilterSettings;
 use testkit::{Form, RoundTrip};
 
 /// What is promised, in pixels.
@@ -11,7 +11,7 @@ const SHIFT: f64 = 0.005;
 const DISPLACEMENT: f64 = 0.05;
 
 fn returns(from: &Form, through: &Form, error: f64) {
-    let trip = RoundTrip::measure(from, through, Filter::DEFAULT)
+    let trip = RoundTrip::measure(from, through, FilterSettings::DEFAULT)
         .unwrap_or_else(|| panic!("{} → {}: too little in common", from.name, through.name));
     let pair = format!("{} → {}: {trip:?}", from.name, through.name);
     assert!(trip.shift <= SHIFT, "{pair}");

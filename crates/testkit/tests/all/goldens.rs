@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 
 use cosmorama::camera::View;
 use cosmorama::compare::{Mask, compare};
-use cosmorama::filter::{Filter, FilterKind};
+use cosmorama::filter::{FilterKind, FilterSettings};
 use cosmorama::raster::{Channels, Depth, EncodedImage, Image, Rgba, Transfer};
 use cosmorama::render::Resampler;
 use cosmorama::sphere::CubeFace;
@@ -21,7 +21,8 @@ use testkit::{cube, cube_face, equirect, fisheye, omnimax, perspective};
 /// Edge of the cube faces that the pictures are made of.
 const FACE: usize = 128;
 
-const REFERENCE: Filter = Filter { kind: FilterKind::Reference { samples: 8 }, ..Filter::DEFAULT };
+const REFERENCE: FilterSettings =
+    FilterSettings { kind: FilterKind::Reference { samples: 8 }, ..FilterSettings::DEFAULT };
 
 /// One step of eight bits: another machine's rounding, nothing more.
 const ROUNDING: f32 = 1.01 / 255.0;
@@ -70,7 +71,7 @@ fn reference_and_ewa_are_as_the_goldens() {
         let kept = read(&path, &Limits::default()).unwrap().image;
         check_codes(name, &kept.to_light(&Transfer::Linear), &encoded(&reference).to_light(&Transfer::Linear));
 
-        let (ewa, kept) = (by(Filter::DEFAULT), kept.to_light(&Transfer::Srgb));
+        let (ewa, kept) = (by(FilterSettings::DEFAULT), kept.to_light(&Transfer::Srgb));
         let mask = Mask::opaque(&ewa, &kept).unwrap();
         let psnr = compare(&ewa, &kept, &mask).unwrap().srgb.psnr;
         println!("{name}: EWA is {psnr:.2} dB from the reference");

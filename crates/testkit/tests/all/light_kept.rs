@@ -1,6 +1,6 @@
 //! What skies with a sun keep of their light in another form, at as many pixels.
 
-use cosmorama::filter::Filter;
+use cosmorama::filter::FilterSettings;
 use cosmorama::raster::{Rgba, Transfer};
 use cosmorama::world::World;
 use cosmorama_io::{Limits, read};
@@ -69,7 +69,7 @@ fn daylight_keeps_its_light() {
         let world = form(from).world();
         // Ten degrees wide.
         let light = sun(&world, [0.4, 0.7, -0.3], 0.17);
-        let gain = Sky::new(&world, form(to), Filter::DEFAULT).gain(&world, &light);
+        let gain = Sky::new(&world, form(to), FilterSettings::DEFAULT).gain(&world, &light);
         assert!(gain.abs() < 0.002, "{from} to {to}: {gain}");
     }
 }

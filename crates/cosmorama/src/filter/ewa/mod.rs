@@ -12,7 +12,7 @@ use pool::Pool;
 use super::Kernel;
 use super::gather::{Gather, Scratch};
 use super::kernel::KernelTable;
-use super::prepared::{FootprintFilter, Prepared, SetupCost, bounded};
+use super::prepared::{Filter, Prepared, SetupCost, bounded};
 use super::taps::{self, Taps};
 use crate::camera::Footprint;
 use crate::raster::Rgba;
@@ -35,7 +35,7 @@ impl Default for Ewa {
     }
 }
 
-impl FootprintFilter for Ewa {
+impl Filter for Ewa {
     fn prepare<'w>(&self, world: &'w World, light: &'w Light) -> Result<Box<dyn Prepared + 'w>, LightError> {
         light.check(world)?;
         Ok(Box::new(PreparedEwa { world, light: light.texels(), average: Averager::new(self) }))

@@ -8,7 +8,7 @@ use level::{LevelNeed, LevelRule, part};
 
 use super::Kernel;
 use super::ewa::{Averager, Ewa};
-use super::prepared::{FootprintFilter, Prepared, SetupCost, bounded};
+use super::prepared::{Filter, Prepared, SetupCost, bounded};
 use crate::camera::Footprint;
 use crate::raster::Rgba;
 use crate::world::{Light, LightError, World};
@@ -31,7 +31,7 @@ impl Default for EwaPyramid {
     }
 }
 
-impl FootprintFilter for EwaPyramid {
+impl Filter for EwaPyramid {
     fn prepare<'w>(&self, world: &'w World, light: &'w Light) -> Result<Box<dyn Prepared + 'w>, LightError> {
         light.check(world)?;
         let mut coarser: Vec<(World, Vec<Rgba>)> = Vec::new();

@@ -1,5 +1,5 @@
 use crate::camera::Footprint;
-use crate::filter::prepared::{FootprintFilter, Prepared, SetupCost, bounded};
+use crate::filter::prepared::{Filter, Prepared, SetupCost, bounded};
 use crate::filter::reference;
 use crate::raster::Rgba;
 use crate::world::{Light, LightError, World};
@@ -8,7 +8,7 @@ use crate::world::{Light, LightError, World};
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Bilinear;
 
-impl FootprintFilter for Bilinear {
+impl Filter for Bilinear {
     fn prepare<'w>(&self, world: &'w World, light: &'w Light) -> Result<Box<dyn Prepared + 'w>, LightError> {
         light.check(world)?;
         Ok(Box::new(PreparedBilinear { world, light: light.texels() }))

@@ -1,6 +1,6 @@
 use super::nearest;
 use crate::camera::Footprint;
-use crate::filter::prepared::{FootprintFilter, Prepared, SetupCost, bounded};
+use crate::filter::prepared::{Filter, Prepared, SetupCost, bounded};
 use crate::raster::Rgba;
 use crate::world::{Light, LightError, World};
 
@@ -8,7 +8,7 @@ use crate::world::{Light, LightError, World};
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Point;
 
-impl FootprintFilter for Point {
+impl Filter for Point {
     fn prepare<'w>(&self, world: &'w World, light: &'w Light) -> Result<Box<dyn Prepared + 'w>, LightError> {
         light.check(world)?;
         Ok(Box::new(PreparedPoint { world, light: light.texels() }))

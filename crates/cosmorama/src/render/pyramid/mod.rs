@@ -14,7 +14,7 @@ use crate::camera::ScreenPixel;
 use crate::filter::ewa_pyramid::halving::Halving;
 use crate::filter::ewa_pyramid::level::part;
 use crate::filter::rim::field_edge::FieldEdge;
-use crate::filter::{Filter, FilterKind, KernelTable, PixelTaps};
+use crate::filter::{FilterKind, FilterSettings, KernelTable, PixelTaps};
 use crate::raster::{Image, Rgba};
 use crate::world::World;
 
@@ -57,7 +57,7 @@ impl<'a> Pyramid<'a> {
             FilterKind::EwaPyramid => FilterKind::Ewa,
             other => other,
         };
-        let filter = Filter { kind, ..self.resampler.filter };
+        let filter = FilterSettings { kind, ..self.resampler.filter };
         Resampler { world: self.world(level), target: self.resampler.target, filter }
     }
 

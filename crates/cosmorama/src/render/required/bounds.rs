@@ -5,7 +5,7 @@ use rayon::prelude::*;
 use super::block::Block;
 use super::need::{Reads, Survey};
 use crate::camera::View;
-use crate::filter::Filter;
+use crate::filter::FilterSettings;
 use crate::filter::gather::cap::Cap;
 use crate::filter::kernel::KernelTable;
 use crate::filter::pixel_taps::PixelTaps;
@@ -15,7 +15,7 @@ use crate::world::World;
 impl Needs {
     /// Finds bounds of what is read in a world whose views leave no hole, as a cube's faces do, several times as quick as elsewhere;
     /// `None` for any other. Nothing is uncovered there; `seen` is only a part of what is, but something wherever anything is seen.
-    pub(crate) fn within_reach(world: &World, targets: &[View], filter: &Filter) -> Option<Self> {
+    pub(crate) fn within_reach(world: &World, targets: &[View], filter: &FilterSettings) -> Option<Self> {
         if !world.is_closed() {
             return None;
         }

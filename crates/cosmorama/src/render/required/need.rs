@@ -7,7 +7,7 @@ use crate::camera::{PixelPoint, PixelRect, View};
 use crate::filter::gather::cap::Cap;
 use crate::filter::kernel::KernelTable;
 use crate::filter::pixel_taps::PixelTaps;
-use crate::filter::{Filter, FilterKind, Kernel};
+use crate::filter::{FilterKind, FilterSettings, Kernel};
 use crate::render::Uncovered;
 use crate::sphere::Direction;
 use crate::world::{Source, World};
@@ -48,7 +48,7 @@ impl Needs {
     ///
     /// To ask for views whose image is missing, give a world of nominal views: it holds no light. Of a pyramid's texels, whose parts
     /// are many, it is known what they hold at most, whatever the accuracy.
-    pub fn of(world: &World, targets: &[View], filter: &Filter, accuracy: Accuracy) -> Self {
+    pub fn of(world: &World, targets: &[View], filter: &FilterSettings, accuracy: Accuracy) -> Self {
         match accuracy {
             Accuracy::Exact if filter.kind == FilterKind::EwaPyramid => Self::at_most(world, targets, filter),
             Accuracy::Exact => Self::surveyed(world, targets, filter, Reads::Exactly),
@@ -60,12 +60,12 @@ impl Needs {
     }
 
     /// Finds bounds of what is read, a few texels too large.
-    fn at_most(world: &World, targets: &[View], filter: &Filter) -> Self {
+    fn at_most(world: &World, targets: &[View], filter: &FilterSettings) -> Self {
         Self::surveyed(world, targets, filter, Reads::AtMost)
     }
 
     /// Decides of views that show no pixel's direction whether they are still read around them.
-    fn settled(mut self, world: &World, targets: &[View], filter: &Filter) -> Self {
+    fn settled(mut self, world: &World, targets: &[View], filter: &FilterSettings) -> Self {
         let asked: Vec<bool> = self.views.iter().map(|need| need.seen.is_none() && need.read.is_some()).collect();
         if filter.kind == FilterKind::EwaPyramid || !asked.contains(&true) {
             return self;
@@ -77,11 +77,11 @@ impl Needs {
         Self { uncovered, ..needs }
     }
 
-    fn surveyed(world: &World, targets: &[View], filter: &Filter, reads: Reads) -> Self {
+    fn surveyed(world: &World, targets: &[View], filter: &FilterSettings, reads: Reads) -> Self {
         Self::surveyed_from(Self::nothing(world), world, targets, filter, reads)
     }
 
-    fn surveyed_from(known: Self, world: &World, targets: &[View], filter: &Filter, reads: Reads) -> Self {
+    fn surveyed_from(known: Self, world: &World, targets: &[View], filter: &FilterSettings, reads: Reads) -> Self {
         let mut needs = known;
         for (index, target) in targets.iter().enumerate() {
             let survey = Survey { world, target, index, filter, reads };
@@ -133,7 +133,7 @@ pub(crate) struct Survey<'a> {
     pub(crate) world: &'a World,
     pub(crate) target: &'a View,
     pub(crate) index: usize,
-    pub(crate) filter: &'a Filter,
+    pub(crate) filter: &'a FilterSettings,
     pub(crate) reads: Reads<'a>,
 }
 

@@ -1,7 +1,7 @@
 use super::*;
 use crate::camera::{FieldStop, PixelGrid, View};
 use crate::filter::taps::average;
-use crate::filter::{CrossSection, Filter, Kernel};
+use crate::filter::{CrossSection, FilterSettings, Kernel};
 use crate::projection::{PlanePoint, PlaneRect, ProjectionKind};
 use crate::raster::{ColourChannel, Image, Rgba, Transfer};
 use crate::sphere::{Angle, CubeFace, Orientation};
@@ -70,7 +70,7 @@ fn collect(scan: &mut Scan, target: &View) -> Collector {
 
 /// How many pixels came in windows, after checking that they are as single ones.
 fn check_windows(world: &World, target: &View, kernel: Kernel) -> usize {
-    let resampler = Resampler { world, target, filter: Filter { kernel, ..Filter::DEFAULT } };
+    let resampler = Resampler { world, target, filter: FilterSettings { kernel, ..FilterSettings::DEFAULT } };
     let table = KernelTable::new(&kernel);
     let fast = collect(&mut Scan::new(&resampler, &table, Level::new()), target);
     let slow = collect(&mut Scan { weigher: None, ..Scan::new(&resampler, &table, Level::new()) }, target);
@@ -192,7 +192,7 @@ fn what_the_lower_cut_hides_is_passed_over_and_no_more() {
         for lower in [-30.0, 0.0, 20.0, 45.0, 70.0] {
             let stop = FieldStop::circle(1.0).with_lower(Angle::from_degrees(lower));
             let target = View { stop, ..view(projection, (size, size), (1.0, 1.0), turned) };
-            let resampler = Resampler { world: &world, target: &target, filter: Filter::DEFAULT };
+            let resampler = Resampler { world: &world, target: &target, filter: FilterSettings::DEFAULT };
             let table = KernelTable::new(&resampler.filter.kernel);
             let mut scan = Scan::new(&resampler, &table, Level::new());
             let rows = (0..size).step_by(SIDE);
@@ -249,7 +249,7 @@ fn deep_pictures_are_what_each_pixel_makes_by_itself_in_double_precision() {
     for world in [cube(256), cube(700), sky(1200)] {
         let texels = grey(&world);
         for target in &targets() {
-            let resampler = Resampler { world: &world, target, filter: Filter::DEFAULT };
+            let resampler = Resampler { world: &world, target, filter: FilterSettings::DEFAULT };
             let table = KernelTable::new(&resampler.filter.kernel);
             let image = Image::filled(target.width(), target.height(), Rgba::TRANSPARENT);
             let mut exact = Averages { texels: &texels, image };

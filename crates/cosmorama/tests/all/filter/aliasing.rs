@@ -1,6 +1,6 @@
 //! What a filter must not do: alias, ring, or make light of nothing.
 
-use cosmorama::filter::{CrossSection, Filter, FilterKind, Kernel};
+use cosmorama::filter::{CrossSection, FilterKind, FilterSettings, Kernel};
 use cosmorama::raster::{ColourChannel, Rgba, Transfer};
 use cosmorama::render::Resampler;
 use cosmorama::sphere::{CubeFace, Direction};
@@ -18,7 +18,9 @@ fn checker_statistics(kind: FilterKind) -> (f64, f64) {
         Rgba::opaque(value, value, value)
     });
     let target = fisheye(512, 180.0);
-    let image = Resampler { world: &world, target: &target, filter: Filter { kind, ..Filter::DEFAULT } }.render(&light);
+    let image =
+        Resampler { world: &world, target: &target, filter: FilterSettings { kind, ..FilterSettings::DEFAULT } }
+            .render(&light);
     let inside = image.pixels().iter().enumerate().filter(|(index, _)| {
         target.screen_pixel(index % 512, index / 512).is_some_and(|screen| screen.coverage == 1.0)
     });
@@ -52,7 +54,7 @@ fn no_dark_ring_round_a_sun() {
     let light = light_by_direction(&world, sun);
     let lanczos = Kernel::uniform(CrossSection::JincJinc { lobes: 3, blur: 1.0 });
     for kernel in [Kernel::ADAPTIVE, lanczos] {
-        let filter = Filter { kernel, ..Filter::DEFAULT };
+        let filter = FilterSettings { kernel, ..FilterSettings::DEFAULT };
         for (fov, size) in [(5.0, 200), (40.0, 200), (90.0, 60)] {
             let target = perspective(size, size, fov, 44.7, 20.0, 0.0);
             let image = Resampler { world: &world, target: &target, filter }.render(&light);
@@ -73,8 +75,8 @@ fn a_missing_texel_is_left_out() {
     let mut light = vec![grey; world.texel_count()];
     light[16 * 32 + 16] = Rgba([f32::NAN, 0.5, 0.5, 1.0]).finite();
     let target = perspective(64, 64, 90.0, 0.0, 0.0, 0.0);
-    let filter = Filter { kind: FilterKind::Bilinear, ..Filter::DEFAULT };
-    for filter in [filter, Filter::DEFAULT] {
+    let filter = FilterSettings { kind: FilterKind::Bilinear, ..FilterSettings::DEFAULT };
+    for filter in [filter, FilterSettings::DEFAULT] {
         let image = Resampler { world: &world, target: &target, filter }.render(&light);
         for pixel in image.pixels() {
             assert!(pixel.0.iter().all(|c| c.is_finite()), "{pixel:?}");
@@ -92,7 +94,7 @@ fn an_infinite_texel_is_the_largest_half() {
     let mut light = vec![Rgba::opaque(0.5, 0.5, 0.5); world.texel_count()];
     light[16 * 32 + 16] = Rgba([f32::INFINITY, 0.5, 0.5, 1.0]).finite();
     let target = perspective(64, 64, 90.0, 0.0, 0.0, 0.0);
-    let image = Resampler { world: &world, target: &target, filter: Filter::DEFAULT }.render(&light);
+    let image = Resampler { world: &world, target: &target, filter: FilterSettings::DEFAULT }.render(&light);
     let brightest = image.pixels().iter().map(|pixel| pixel.0[0]).fold(0.0, f32::max);
     assert!(brightest > 30_000.0 && brightest <= 65_504.0, "{brightest}");
 }

@@ -1,7 +1,7 @@
 //! The one door: a world averaged over a footprint, by every filter.
 
 use cosmorama::camera::{CameraModel, Covariance, Footprint, MirrorBallCamera, View};
-use cosmorama::filter::{Filter, FilterKind, FootprintFilter, Prepared};
+use cosmorama::filter::{Filter, FilterKind, FilterSettings, Prepared};
 use cosmorama::raster::{Image, Rgba};
 use cosmorama::render::{Resampler, picture};
 use cosmorama::sphere::{CubeFace, Direction};
@@ -17,8 +17,8 @@ const KINDS: [FilterKind; 5] = [
     FilterKind::Reference { samples: 4 },
 ];
 
-fn filter(kind: FilterKind) -> Filter {
-    Filter { kind, ..Filter::DEFAULT }
+fn filter(kind: FilterKind) -> FilterSettings {
+    FilterSettings { kind, ..FilterSettings::DEFAULT }
 }
 
 fn one(view: View) -> World {
@@ -200,9 +200,9 @@ fn a_lobe_blurs_as_its_covariance_says() {
     });
     let gaussian = cosmorama::filter::CrossSection::Gaussian { alpha: 2.0, cutoff: 2.0 };
     let kernel = cosmorama::filter::Kernel::uniform(gaussian);
-    let filter = Filter { kernel, anti_ringing: false, ..Filter::DEFAULT };
+    let filter = FilterSettings { kernel, anti_ringing: false, ..FilterSettings::DEFAULT };
     for kind in [FilterKind::Ewa, FilterKind::EwaPyramid, FilterKind::Reference { samples: 16 }] {
-        let prepared = Filter { kind, ..filter }.prepare(&world, &light).expect("light of the world");
+        let prepared = FilterSettings { kind, ..filter }.prepare(&world, &light).expect("light of the world");
         for sigma in [0.01f64, 0.02, 0.03] {
             let lobe = Covariance::along(DVec3::X * sigma) + Covariance::along(DVec3::Y * 0.005);
             let found = prepared.average(&Footprint::from_covariance(Direction::FRONT, lobe)).0[0];

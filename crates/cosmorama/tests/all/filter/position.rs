@@ -1,7 +1,7 @@
 //! Worlds with closed-form answers: constant, and coloured by direction.
 
 use cosmorama::camera::{CameraModel, EquirectCamera, SamplePositions, ScreenPixel, View};
-use cosmorama::filter::{CrossSection, Filter, FilterKind, Kernel};
+use cosmorama::filter::{CrossSection, FilterKind, FilterSettings, Kernel};
 use cosmorama::raster::Rgba;
 use cosmorama::render::Resampler;
 use cosmorama::sphere::CubeFace;
@@ -15,7 +15,12 @@ use testkit::{
 const POSITION_TOLERANCE: f64 = 0.005;
 
 /// Of all pixels that count, those that a lens's rim cuts too.
-fn worst_position_error(world: &World, target: &View, filter: Filter, counts: impl Fn(&ScreenPixel) -> bool) -> f64 {
+fn worst_position_error(
+    world: &World,
+    target: &View,
+    filter: FilterSettings,
+    counts: impl Fn(&ScreenPixel) -> bool,
+) -> f64 {
     let light = light_by_direction(world, |d| d.vector().to_array().map(|c| c as f32));
     let image = Resampler { world, target, filter }.render(&light);
     let mut worst = 0f64;
@@ -43,7 +48,7 @@ fn directions_come_back_from_cube_faces() {
         ("a corner, seven times enlarged", perspective(320, 240, 8.0, -135.0, -35.26, 30.0)),
     ];
     for (name, target) in targets {
-        let error = worst_position_error(&world, &target, Filter::DEFAULT, |_| true);
+        let error = worst_position_error(&world, &target, FilterSettings::DEFAULT, |_| true);
         assert!(error < POSITION_TOLERANCE, "{name}: {error} px");
     }
 }
@@ -56,7 +61,7 @@ fn directions_come_back_at_poles_with_samples_on_the_edges() {
     for (from, to) in [(1024, 1024), (512, 512), (1024, 500), (1024, 100), (300, 1024)] {
         let world = World::new([("panorama".to_owned(), panorama(from))]).expect("one view");
         let (target, light) = (panorama(to), light_by_direction(&world, |d| d.vector().to_array().map(|c| c as f32)));
-        let image = Resampler { world: &world, target: &target, filter: Filter::DEFAULT }.render(&light);
+        let image = Resampler { world: &world, target: &target, filter: FilterSettings::DEFAULT }.render(&light);
         for (j, i) in (0..image.height()).flat_map(|j| (0..image.width()).map(move |i| (j, i))) {
             let screen = target.screen_pixel(i, j).expect("a panorama looks everywhere");
             let Rgba([x, y, z, _]) = *image.get(i, j);
@@ -79,7 +84,7 @@ fn directions_come_back_where_a_field_touches_faces_that_are_not_there() {
         ("omnimax, enlarged", &four[..], 256, omnimax(1966, 1436)),
         ("a fisheye inside one face", &four[..1], 256, fisheye(601, 90.0)),
     ] {
-        let error = worst_position_error(&cube(faces, edge, edge), &target, Filter::DEFAULT, |_| true);
+        let error = worst_position_error(&cube(faces, edge, edge), &target, FilterSettings::DEFAULT, |_| true);
         println!("{name}: {error:.4} px");
         assert!(error < 2.0 * POSITION_TOLERANCE, "{name}: {error} px");
     }
@@ -104,7 +109,7 @@ fn directions_come_back_where_faces_of_different_sizes_meet() {
         }));
         let world = world.expect("six faces");
         for (name, target) in &targets {
-            let error = worst_position_error(&world, target, Filter::DEFAULT, |_| true);
+            let error = worst_position_error(&world, target, FilterSettings::DEFAULT, |_| true);
             println!("{name}, {front} beside {others}: {error}");
             assert!(error < POSITION_TOLERANCE, "{name}, {front} beside {others}: {error} px");
         }
@@ -123,7 +128,7 @@ fn directions_come_back_from_faces_whose_texels_are_not_square() {
             ("an upper edge, enlarged", perspective(320, 240, 20.0, 5.0, 45.0, 0.0)),
             ("a corner, enlarged", perspective(320, 240, 8.0, -135.0, -35.26, 30.0)),
         ] {
-            let error = worst_position_error(&world, &target, Filter::DEFAULT, |_| true);
+            let error = worst_position_error(&world, &target, FilterSettings::DEFAULT, |_| true);
             assert!(error < POSITION_TOLERANCE, "{name} from {width}x{height}: {error} px");
         }
     }
@@ -141,7 +146,7 @@ fn directions_come_back_from_small_worlds() {
         ("omnimax from faces", &faces, omnimax(600, 438)),
         ("a camera in a fisheye", &ball, perspective(320, 240, 60.0, 20.0, 10.0, 0.0)),
     ] {
-        let error = worst_position_error(world, &target, Filter::DEFAULT, |_| true);
+        let error = worst_position_error(world, &target, FilterSettings::DEFAULT, |_| true);
         assert!(error < POSITION_TOLERANCE, "{name}: {error} px");
     }
 }
@@ -151,7 +156,7 @@ fn directions_come_back_from_small_worlds() {
 fn directions_come_back_from_panorama_to_panorama() {
     for (from, to) in [(1024, 430), (1024, 614), (1000, 1000), (1024, 700), (512, 1024), (700, 300), (600, 1366)] {
         let world = World::new([("panorama".to_owned(), equirect(from))]).expect("one view");
-        let error = worst_position_error(&world, &equirect(to), Filter::DEFAULT, |_| true);
+        let error = worst_position_error(&world, &equirect(to), FilterSettings::DEFAULT, |_| true);
         assert!(error < POSITION_TOLERANCE, "{from} to {to}: {error} px");
     }
 }
@@ -168,7 +173,7 @@ fn directions_come_back_from_a_panorama() {
         ("reduced", fisheye(128, 360.0)),
     ];
     for (name, target) in targets {
-        let error = worst_position_error(&world, &target, Filter::DEFAULT, |_| true);
+        let error = worst_position_error(&world, &target, FilterSettings::DEFAULT, |_| true);
         assert!(error < POSITION_TOLERANCE, "{name}: {error} px");
     }
 }
@@ -187,7 +192,7 @@ fn directions_come_back_at_the_rim_of_a_lens() {
         ("omnimax, enlarged", omnimax(1966, 1436)),
     ] {
         for (world, from) in [(&panorama, "a panorama"), (&faces, "faces")] {
-            let error = worst_position_error(world, &target, Filter::DEFAULT, |_| true);
+            let error = worst_position_error(world, &target, FilterSettings::DEFAULT, |_| true);
             assert!(error < POSITION_TOLERANCE, "{name} from {from}: {error} px");
         }
     }
@@ -201,7 +206,7 @@ fn directions_come_back_from_a_fisheye() {
         ("side", perspective(320, 240, 60.0, 90.0, 30.0, 0.0)),
         ("behind, beside the rim", perspective(320, 240, 60.0, 140.0, 0.0, 0.0)),
     ] {
-        let error = worst_position_error(&world, &target, Filter::DEFAULT, |_| true);
+        let error = worst_position_error(&world, &target, FilterSettings::DEFAULT, |_| true);
         assert!(error < POSITION_TOLERANCE, "{name}: {error} px");
     }
 }
@@ -217,7 +222,7 @@ const BENT: f64 = 16.0;
 fn directions_come_back_in_every_projection() {
     let world = cube(&CubeFace::ALL, 384, 384);
     for (name, target) in whole_worlds(384).into_iter().chain(partial_worlds(384)) {
-        let error = worst_position_error(&world, &target, Filter::DEFAULT, |screen| {
+        let error = worst_position_error(&world, &target, FilterSettings::DEFAULT, |screen| {
             let jacobian = &screen.footprint.jacobian;
             let margin = target.margin(screen.footprint.direction);
             screen.coverage == 1.0 && margin > BENT * jacobian.dx.length().max(jacobian.dy.length())
@@ -233,7 +238,7 @@ fn directions_come_back_from_every_projection() {
         // Away from the rim: a ball's is ahead.
         let yaw = if name == "mirror ball" { 210.0 } else { 30.0 };
         let target = perspective(160, 120, 60.0, yaw, 20.0, 0.0);
-        let error = worst_position_error(&world, &target, Filter::DEFAULT, |_| true);
+        let error = worst_position_error(&world, &target, FilterSettings::DEFAULT, |_| true);
         assert!(error < POSITION_PROMISE, "from {name}: {error} px");
     }
 }
@@ -248,7 +253,7 @@ fn directions_come_back_where_the_ends_of_an_oval_map_meet() {
         let world = World::new([(name.to_owned(), source)]).expect("one view");
         for pitch in [0.0, 30.0, 57.0, -65.0] {
             let target = perspective(16, 16, 1.6, 180.3, pitch, 7.0);
-            let error = worst_position_error(&world, &target, Filter::DEFAULT, |_| true);
+            let error = worst_position_error(&world, &target, FilterSettings::DEFAULT, |_| true);
             println!("from {name}, {pitch}° up: {error}");
             assert!(error < POSITION_PROMISE, "from {name}, {pitch}° up: {error} px");
         }
@@ -260,7 +265,7 @@ fn directions_come_back_where_the_ends_of_an_oval_map_meet() {
 fn directions_come_back_far_from_the_seam_of_an_oval_map() {
     for (name, source) in whole_worlds(768).into_iter().filter(|(name, _)| *name == "mollweide") {
         let world = World::new([(name.to_owned(), source)]).expect("one view");
-        let error = worst_position_error(&world, &equirect(256), Filter::DEFAULT, |_| true);
+        let error = worst_position_error(&world, &equirect(256), FilterSettings::DEFAULT, |_| true);
         println!("from {name}: {error}");
         assert!(error < POSITION_PROMISE, "from {name}: {error} px");
     }
@@ -275,7 +280,7 @@ fn light_is_kept_from_projection_to_projection() {
     });
     let before = power(&cube, &light);
     for (name, target) in whole_worlds(400) {
-        let image = Resampler { world: &cube, target: &target, filter: Filter::DEFAULT }.render(&light);
+        let image = Resampler { world: &cube, target: &target, filter: FilterSettings::DEFAULT }.render(&light);
         let world = World::new([(name.to_owned(), target)]).expect("one view");
         // A pixel that an edge cuts is dark by the part that it lacks; its light is that of the rest.
         let whole: Vec<Rgba> =
@@ -303,7 +308,7 @@ fn a_constant_world_stays_constant() {
             // A pixel of the reference takes as long as hundreds of others; rims, poles and a corner are in few of them, too.
             let side = if matches!(kind, FilterKind::Reference { .. }) { 32 } else { 64 };
             for anti_ringing in [false, true] {
-                let filter = Filter { kind, kernel, anti_ringing };
+                let filter = FilterSettings { kind, kernel, anti_ringing };
                 let corner = perspective(side, side * 3 / 4, 10.0, 45.0, 35.0, 0.0);
                 for target in [fisheye(side, 360.0), equirect(24), corner] {
                     let image = Resampler { world: &world, target: &target, filter }.render(&light);

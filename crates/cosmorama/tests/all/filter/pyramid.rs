@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use cosmorama::camera::{CameraModel, MirrorBallCamera, View};
 use cosmorama::explain::Report;
-use cosmorama::filter::{Filter, FilterKind};
+use cosmorama::filter::{FilterKind, FilterSettings};
 use cosmorama::raster::{ColourChannel, Image, Rgba, Transfer};
 use cosmorama::render::{Accuracy, Arithmetic, Needs, Resampler};
 use cosmorama::sphere::{CubeFace, Direction};
@@ -14,9 +14,9 @@ use testkit::{
     cube, equirect, fisheye, light_by_direction, light_by_texel, omnimax, perspective, position_error, turned,
 };
 
-const PYRAMID: Filter = Filter { kind: FilterKind::EwaPyramid, ..Filter::DEFAULT };
+const PYRAMID: FilterSettings = FilterSettings { kind: FilterKind::EwaPyramid, ..FilterSettings::DEFAULT };
 
-fn render(world: &World, target: &View, filter: Filter, light: &[Rgba]) -> Image<Rgba> {
+fn render(world: &World, target: &View, filter: FilterSettings, light: &[Rgba]) -> Image<Rgba> {
     Resampler { world, target, filter }.render(light)
 }
 
@@ -56,7 +56,7 @@ fn positions_hold_at_every_shrink() {
                 let image = render(world, &target, filter, &light);
                 inside(&target, &image).map(|(footprint, pixel)| position_error(&footprint, pixel)).fold(0.0, f64::max)
             };
-            let (exact, found) = (worst(Filter::DEFAULT), worst(PYRAMID));
+            let (exact, found) = (worst(FilterSettings::DEFAULT), worst(PYRAMID));
             assert!(found < 0.01, "{name}, {shrink} texels a pixel: {found} px, and {exact} by EWA");
         }
     }
@@ -106,7 +106,7 @@ fn it_is_ewa_where_a_pixel_holds_one_texel() {
     });
     for target in [dome(64.0, 1.0), perspective(200, 150, 70.0, 30.0, 20.0, 5.0), equirect(360)] {
         let of = |filter| Resampler { world: &world, target: &target, filter };
-        let exact = of(Filter::DEFAULT).render(&light);
+        let exact = of(FilterSettings::DEFAULT).render(&light);
         assert!(of(PYRAMID).render(&light).pixels() == exact.pixels(), "{:?}", target.projection);
         let plan = of(PYRAMID).plan(Arithmetic::Float).expect("the geometry of a pyramid");
         assert!(plan.apply(&light).pixels() == exact.pixels(), "{:?}", target.projection);
@@ -212,7 +212,7 @@ fn stripes(direction: Direction, finest: f64) -> [f32; 3] {
 
 /// Decibels between what a pyramid makes and what exact EWA does.
 fn nearness_to_ewa(world: &World, target: &View, light: &[Rgba]) -> f64 {
-    let [exact, found] = [Filter::DEFAULT, PYRAMID].map(|filter| render(world, target, filter, light));
+    let [exact, found] = [FilterSettings::DEFAULT, PYRAMID].map(|filter| render(world, target, filter, light));
     let pairs = inside(target, &exact).zip(inside(target, &found));
     let (mut sum, mut count) = (0.0, 0);
     for ((_, a), (_, b)) in pairs {
@@ -248,7 +248,7 @@ fn a_pixel_takes_a_bounded_number_of_texels() {
         let found = gathered(&camera, PYRAMID);
         assert!(found.most < MOST, "{shrink}: {found:?}");
         if shrink > 8.0 {
-            assert!(gathered(&camera, Filter::DEFAULT).mean > 2.0 * found.mean);
+            assert!(gathered(&camera, FilterSettings::DEFAULT).mean > 2.0 * found.mean);
         }
     }
 }
@@ -267,14 +267,14 @@ fn what_the_target_does_not_show_does_not_leak_in() {
         let near = around.iter().any(|by| touches(Direction::from_unit((direction + *by * 1.5 * pitch).normalize())));
         if near { grey } else { Rgba::opaque(1000.0, 0.0, 0.0) }
     });
-    for filter in [Filter::DEFAULT, PYRAMID] {
+    for filter in [FilterSettings::DEFAULT, PYRAMID] {
         let image = render(&world, &target, filter, &light);
         for (_, pixel) in inside(&target, &image) {
             assert!((0..3).all(|c| (pixel.0[c] - 0.5).abs() < 1e-5), "{:?}: {pixel:?}", filter.kind);
         }
     }
     let needs = |filter| Needs::of(&world, &[target], &filter, Accuracy::Exact);
-    for (all, exact) in needs(PYRAMID).views.iter().zip(needs(Filter::DEFAULT).views) {
+    for (all, exact) in needs(PYRAMID).views.iter().zip(needs(FilterSettings::DEFAULT).views) {
         assert_eq!(all.seen, exact.seen);
         assert!(exact.read.is_none_or(|read| all.read.is_some_and(|all| all.contains(&read))));
     }

@@ -1,14 +1,14 @@
 //! The fast paths against the slow, obvious ones.
 
 use cosmorama::camera::View;
-use cosmorama::filter::{CrossSection, Filter, FilterKind, Kernel, TextureDerivatives, WeightTable, ewa};
+use cosmorama::filter::{CrossSection, FilterKind, FilterSettings, Kernel, TextureDerivatives, WeightTable, ewa};
 use cosmorama::raster::{Image, Rgba};
 use cosmorama::render::{Arithmetic, Resampler};
 use cosmorama::sphere::{Angle, CubeFace, Direction, Orientation};
 use cosmorama::world::World;
 use testkit::{cube, equirect, fisheye, light_by_direction, light_by_texel, omnimax, perspective};
 
-fn render(world: &World, target: &View, filter: Filter, light: &[Rgba]) -> Image<Rgba> {
+fn render(world: &World, target: &View, filter: FilterSettings, light: &[Rgba]) -> Image<Rgba> {
     Resampler { world, target, filter }.render(light)
 }
 
@@ -26,8 +26,8 @@ fn gaussian_ewa_is_the_reference_at_parity() {
     let kernel = Kernel::uniform(CrossSection::Gaussian { alpha: 2.0, cutoff: 1.0 });
     // Parity: 256 texels over two units of the face's plane are 128 a radian at its centre.
     let target = fisheye(402, 180.0);
-    let fast = render(&world, &target, Filter { kind: FilterKind::Ewa, kernel, anti_ringing: false }, &light);
-    let judge = Filter { kind: FilterKind::Reference { samples: 4 }, kernel, anti_ringing: false };
+    let fast = render(&world, &target, FilterSettings { kind: FilterKind::Ewa, kernel, anti_ringing: false }, &light);
+    let judge = FilterSettings { kind: FilterKind::Reference { samples: 4 }, kernel, anti_ringing: false };
     let slow = render(&world, &target, judge, &light);
     let (mut sum, mut count) = (0f64, 0usize);
     for (a, b) in fast.pixels().iter().zip(slow.pixels()).filter(|(a, _)| a.alpha() > 0.0) {
@@ -49,7 +49,7 @@ fn the_paper_is_the_gather_where_one_view_suffices() {
     });
     let image = Image::new(200, 160, light.clone()).expect("as many texels as the view has");
     let kernel = Kernel { floor: 0.0, ..Kernel::uniform(CrossSection::Gaussian { alpha: 2.0, cutoff: 1.0 }) };
-    let filter = Filter { kind: FilterKind::Ewa, kernel, anti_ringing: false };
+    let filter = FilterSettings { kind: FilterKind::Ewa, kernel, anti_ringing: false };
     let table = WeightTable::gaussian(2.0, 1 << 16);
     let target = perspective(40, 30, 0.4, 0.02, -0.01, 25.0);
     let found = render(&world, &target, filter, &light);
@@ -80,7 +80,7 @@ fn a_plan_gives_what_is_rendered_without() {
         for kind in [FilterKind::Ewa, FilterKind::Point, FilterKind::Bilinear] {
             for target in [omnimax(197 * size, 143 * size), equirect(100 * size), fisheye(90 * size, 360.0)] {
                 for anti_ringing in [true, false] {
-                    let filter = Filter { kind, anti_ringing, ..Filter::DEFAULT };
+                    let filter = FilterSettings { kind, anti_ringing, ..FilterSettings::DEFAULT };
                     let resampler = Resampler { world: &world, target: &target, filter };
                     let plan = resampler.plan(Arithmetic::Float).expect("these filters have plans");
                     let (kept, made) = (plan.apply(&light), resampler.render(&light));
@@ -101,7 +101,7 @@ fn the_number_of_threads_changes_no_bit() {
     let target = omnimax(393, 287);
     let render_with = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
-        pool.install(|| render(&world, &target, Filter::DEFAULT, &light))
+        pool.install(|| render(&world, &target, FilterSettings::DEFAULT, &light))
     };
     let one = render_with(1);
     assert!(one == render_with(2) && one == render_with(7));
@@ -120,8 +120,8 @@ fn turning_world_and_view_together_changes_nothing() {
         World::new(world.sources().iter().map(|source| (source.name.clone(), turned(source.view)))).expect("six faces");
     let light = light_by_direction(&world, waves);
     let target = perspective(160, 120, 100.0, 30.0, 25.0, 5.0);
-    let still = render(&world, &target, Filter::DEFAULT, &light);
-    let moved = render(&turned_world, &turned(target), Filter::DEFAULT, &light);
+    let still = render(&world, &target, FilterSettings::DEFAULT, &light);
+    let moved = render(&turned_world, &turned(target), FilterSettings::DEFAULT, &light);
     for (a, b) in still.pixels().iter().zip(moved.pixels()) {
         assert!((0..4).all(|c| (a.0[c] - b.0[c]).abs() < 2e-4), "{a:?} is not {b:?}");
     }
@@ -132,12 +132,12 @@ fn every_filter_sees_the_same_picture() {
     let world = cube(&CubeFace::ALL, 256, 256);
     let light = light_by_direction(&world, waves);
     let target = fisheye(300, 200.0);
-    let judge = Filter { kind: FilterKind::Reference { samples: 3 }, ..Filter::DEFAULT };
+    let judge = FilterSettings { kind: FilterKind::Reference { samples: 3 }, ..FilterSettings::DEFAULT };
     let reference = render(&world, &target, judge, &light);
     // The reference's kernel over bilinear sub-samples has a sharpness of its own: on these waves both others differ from
     // it by one hundredth of their contrast.
     for (kind, tolerance) in [(FilterKind::Ewa, 0.015), (FilterKind::Bilinear, 0.015), (FilterKind::Point, 0.1)] {
-        let image = render(&world, &target, Filter { kind, ..Filter::DEFAULT }, &light);
+        let image = render(&world, &target, FilterSettings { kind, ..FilterSettings::DEFAULT }, &light);
         for (index, (a, b)) in image.pixels().iter().zip(reference.pixels()).enumerate() {
             let worst = (0..4).map(|c| (a.0[c] - b.0[c]).abs()).fold(0.0, f32::max);
             assert!(worst < tolerance, "{kind:?} at pixel {index}: {worst}");

@@ -1,7 +1,7 @@
 //! The rim of a lens: nothing leaks in over it, and nothing rings there.
 
 use cosmorama::camera::{PixelPoint, View};
-use cosmorama::filter::Filter;
+use cosmorama::filter::FilterSettings;
 use cosmorama::raster::Rgba;
 use cosmorama::render::Resampler;
 use cosmorama::sphere::{CubeFace, Direction};
@@ -37,8 +37,9 @@ fn what_the_field_does_not_fall_upon_may_hold_anything() {
                 let seen = is_seen(&target, &world.sources()[view].view, i, j);
                 if seen { picture(i, j) } else { Rgba([1e6; 4]) }
             });
-            let [clean, spoilt] = [clean, spoilt]
-                .map(|light| Resampler { world: &world, target: &target, filter: Filter::DEFAULT }.render(&light));
+            let [clean, spoilt] = [clean, spoilt].map(|light| {
+                Resampler { world: &world, target: &target, filter: FilterSettings::DEFAULT }.render(&light)
+            });
             assert!(clean == spoilt);
         }
     }
@@ -64,7 +65,8 @@ fn suns_dots_and_steps_do_not_ring_at_the_rim() {
         for target in targets() {
             for (name, least, greatest, picture) in pictures {
                 let light = light_by_texel(&world, |_, i, j, _| Rgba::opaque(picture(i, j), 0.0, 0.0));
-                let image = Resampler { world: &world, target: &target, filter: Filter::DEFAULT }.render(&light);
+                let image =
+                    Resampler { world: &world, target: &target, filter: FilterSettings::DEFAULT }.render(&light);
                 for (index, pixel) in image.pixels().iter().enumerate() {
                     let (i, j) = (index % image.width(), index / image.width());
                     let Some(screen) = target.screen_pixel(i, j) else { continue };
@@ -113,7 +115,7 @@ fn antialiased_stripes_edges_and_suns_do_not_ring_at_the_rim() {
             let is_bright = |direction| picture(direction, width * texel);
             let light = rendered(world, |d| if is_bright(d) { *RANGE.end() } else { *RANGE.start() });
             for target in &targets {
-                let image = Resampler { world, target, filter: Filter::DEFAULT }.render(&light);
+                let image = Resampler { world, target, filter: FilterSettings::DEFAULT }.render(&light);
                 for (index, pixel) in image.pixels().iter().enumerate() {
                     let (i, j) = (index % image.width(), index / image.width());
                     let Some(screen) = target.screen_pixel(i, j) else { continue };

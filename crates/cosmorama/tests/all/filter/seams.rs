@@ -1,7 +1,7 @@
 //! No step where one view ends and another begins: across the edges and corners of the cube, at ±180° and at the poles.
 
 use cosmorama::camera::View;
-use cosmorama::filter::{Filter, FilterKind};
+use cosmorama::filter::{FilterKind, FilterSettings};
 use cosmorama::raster::Rgba;
 use cosmorama::render::Resampler;
 use cosmorama::sphere::{CubeFace, Direction};
@@ -19,14 +19,19 @@ fn detail(direction: Direction) -> [f32; 3] {
 /// No step on an edge is larger, of a contrast of one: an eighth of a code value of eight bits.
 const STEP: f64 = 0.0005;
 
-const JUDGE: Filter = Filter { kind: FilterKind::Reference { samples: 3 }, ..Filter::DEFAULT };
+const JUDGE: FilterSettings = FilterSettings { kind: FilterKind::Reference { samples: 3 }, ..FilterSettings::DEFAULT };
 
 /// Pixels beside an edge with which the edge itself is compared: the same texels, the same light, but no crossing.
 const BESIDE: usize = 5;
 
 /// Differences of neighbouring pixels' errors: beside edges, and across them. The error is the result less the
 /// true light, so the world's own contrast does not count, only what the filter adds.
-fn steps(world: &World, target: &View, filter: Filter, on_edge: impl Fn(Direction, Direction) -> bool) -> [Steps; 2] {
+fn steps(
+    world: &World,
+    target: &View,
+    filter: FilterSettings,
+    on_edge: impl Fn(Direction, Direction) -> bool,
+) -> [Steps; 2] {
     let light = light_by_direction(world, detail);
     let image = Resampler { world, target, filter }.render(&light);
     let direction = |i, j| target.screen_pixel(i, j).map(|screen| screen.footprint.direction);
@@ -77,7 +82,7 @@ impl Steps {
 /// reference's does.
 fn assert_no_seam(world: &World, targets: &[(&str, View)], on_edge: impl Fn(Direction, Direction) -> bool + Copy) {
     for (name, target) in targets {
-        let [beside, across] = steps(world, target, Filter::DEFAULT, on_edge);
+        let [beside, across] = steps(world, target, FilterSettings::DEFAULT, on_edge);
         assert!(across.largest > 0.0 && beside.largest > 0.0, "{name}: no edge in the picture");
         assert!(
             across.largest <= beside.largest && across.largest < STEP,
@@ -134,7 +139,7 @@ fn no_step_where_the_edges_of_a_map_meet() {
     let target = perspective(160, 120, 40.0, 180.0, 10.0, 3.0);
     for (name, map) in whole_worlds(512) {
         let world = World::new([(name.to_owned(), map)]).expect("one view");
-        let [beside, across] = steps(&world, &target, Filter::DEFAULT, behind).map(|steps| steps.largest);
+        let [beside, across] = steps(&world, &target, FilterSettings::DEFAULT, behind).map(|steps| steps.largest);
         // The lattices of both sides do not match; where texels are coarse, that shows no more than the texels themselves.
         assert!(across > 0.0 && beside > 0.0, "{name}: no edge in the picture");
         assert!(across < STEP.max(1.5 * beside), "{name}: {across} across, {beside} beside");
@@ -147,7 +152,7 @@ fn no_step_around_the_poles_of_a_panorama_beyond_the_reference() {
     let near_pole = |a: Direction, b: Direction| a.vector().y.abs().min(b.vector().y.abs()) > 0.999;
     for target in [perspective(160, 120, 40.0, 0.0, 90.0, 0.0), perspective(160, 120, 40.0, 77.0, -85.0, 0.0)] {
         let [around, reference] =
-            [Filter::DEFAULT, JUDGE].map(|filter| steps(&world, &target, filter, near_pole)[1].largest);
+            [FilterSettings::DEFAULT, JUDGE].map(|filter| steps(&world, &target, filter, near_pole)[1].largest);
         assert!(around > 0.0 && around <= reference && around < STEP, "{around}, {reference} by the reference");
     }
 }
@@ -157,7 +162,7 @@ fn what_lies_outside_a_partial_face_never_leaks_in() {
     let world = cube(&CubeFace::ALL, 128, 128);
     let clean = light_by_direction(&world, detail);
     let target = testkit::omnimax(246, 180);
-    let resampler = Resampler { world: &world, target: &target, filter: Filter::DEFAULT };
+    let resampler = Resampler { world: &world, target: &target, filter: FilterSettings::DEFAULT };
     let expected = resampler.render(&clean);
     // Whatever the field of view does not touch: 90.162° and a texel's diagonal around the axis, 45° below it.
     let mut soiled = clean.clone();
@@ -177,7 +182,7 @@ fn what_lies_outside_a_partial_face_never_leaks_in() {
 
 /// How far the error of a world whose colour is its direction jumps from a pixel to the next across the edge of a face, at the
 /// most: zero where the edge cannot be told.
-fn step_across(world: &World, light: &[Rgba], target: &View, filter: Filter) -> f64 {
+fn step_across(world: &World, light: &[Rgba], target: &View, filter: FilterSettings) -> f64 {
     let image = Resampler { world, target, filter }.render(light);
     let seen = |i, j| target.screen_pixel(i, j).filter(|screen| screen.coverage == 1.0);
     let error = |i, j| {
@@ -215,9 +220,9 @@ fn directions_step_across_edges_no_more_than_by_the_reference() {
         // Enlarged and reduced; what lies between, the near ones show.
         let wide = if size == 256 { [].as_slice() } else { &[omnimax(491, 359), equirect(512)] };
         for target in near.iter().chain(wide) {
-            let reference = Filter { kind: FilterKind::Reference { samples: 4 }, ..Filter::DEFAULT };
+            let reference = FilterSettings { kind: FilterKind::Reference { samples: 4 }, ..FilterSettings::DEFAULT };
             let [ours, reference] =
-                [Filter::DEFAULT, reference].map(|filter| step_across(&world, &light, target, filter));
+                [FilterSettings::DEFAULT, reference].map(|filter| step_across(&world, &light, target, filter));
             assert!(ours <= reference + ROUNDING, "{size}: {ours} is more than {reference}, {:?}", target.projection);
         }
     }

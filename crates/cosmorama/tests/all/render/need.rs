@@ -1,7 +1,7 @@
 //! What a conversion needs: exact rectangles, against the filter itself.
 
 use cosmorama::camera::{PixelRect, View};
-use cosmorama::filter::{CrossSection, Filter, FilterKind, Kernel};
+use cosmorama::filter::{CrossSection, FilterKind, FilterSettings, Kernel};
 use cosmorama::raster::{Image, Rgba};
 use cosmorama::render::{Accuracy, Arithmetic, Need, Needs, Plan, Resampler};
 use cosmorama::sphere::CubeFace;
@@ -13,10 +13,10 @@ fn rect(left: usize, top: usize, right: usize, bottom: usize) -> Option<PixelRec
 }
 
 fn needs(world: &World, target: View) -> Needs {
-    Needs::of(world, &[target], &Filter::DEFAULT, Accuracy::Exact)
+    Needs::of(world, &[target], &FilterSettings::DEFAULT, Accuracy::Exact)
 }
 
-fn bounds(world: &World, target: View, filter: &Filter) -> Needs {
+fn bounds(world: &World, target: View, filter: &FilterSettings) -> Needs {
     Needs::of(world, &[target], filter, Accuracy::Bounds)
 }
 
@@ -68,7 +68,7 @@ fn at_most_so_much_is_read_and_exactly_so_much_is_seen() {
     let mut unseen = 0;
     for world in [panorama, dome, five] {
         for target in [omnimax(200, 146), equirect(160), perspective(160, 120, 70.0, 40.0, 20.0, 5.0)] {
-            let (exact, most) = (needs(&world, target), bounds(&world, target, &Filter::DEFAULT));
+            let (exact, most) = (needs(&world, target), bounds(&world, target, &FilterSettings::DEFAULT));
             assert_eq!(exact.uncovered, most.uncovered, "{target:?}");
             for (exact, most) in exact.views.iter().zip(&most.views) {
                 assert_eq!(exact.seen, most.seen, "{target:?}");
@@ -92,13 +92,13 @@ fn what_is_within_reach_of_a_cube_holds_what_is_read() {
         let turned = perspective(160, 120, 70.0, 40.0, 20.0, 5.0);
         for target in [omnimax(200, 146), omnimax(983, 718), tilted, front, turned, equirect(160), fisheye(300, 180.0)]
         {
-            check_reach(&world, target, &Filter::DEFAULT);
+            check_reach(&world, target, &FilterSettings::DEFAULT);
         }
     }
 }
 
 /// What is found from blocks holds what each pixel needs.
-fn check_reach(world: &World, target: View, filter: &Filter) {
+fn check_reach(world: &World, target: View, filter: &FilterSettings) {
     let exact = Needs::of(world, &[target], filter, Accuracy::Exact);
     let quick = bounds(world, target, filter);
     assert_eq!(exact.uncovered, quick.uncovered, "{target:?}");
@@ -119,7 +119,7 @@ fn what_is_within_reach_holds_what_any_map_reads_by_any_filter() {
     for (_, map) in whole_worlds(72) {
         for orientation in [map.orientation, turned([25.0, -70.0, 15.0])] {
             for kind in kinds {
-                check_reach(&world, View { orientation, ..map }, &Filter { kind, ..Filter::DEFAULT });
+                check_reach(&world, View { orientation, ..map }, &FilterSettings { kind, ..FilterSettings::DEFAULT });
             }
         }
     }
@@ -129,7 +129,7 @@ fn what_is_within_reach_holds_what_any_map_reads_by_any_filter() {
 fn what_is_within_reach_is_little_more_than_what_is_read() {
     let world = cube(&CubeFace::ALL, 512, 512);
     for target in [fisheye(1024, 180.0), omnimax(983, 718), perspective(300, 200, 90.0, 10.0, 0.0, 0.0)] {
-        let (exact, quick) = (needs(&world, target), bounds(&world, target, &Filter::DEFAULT));
+        let (exact, quick) = (needs(&world, target), bounds(&world, target, &FilterSettings::DEFAULT));
         for (most, quick) in exact.views.iter().zip(&quick.views) {
             let wider = |most: PixelRect| PixelRect {
                 left: most.left.saturating_sub(10),
@@ -146,7 +146,7 @@ fn what_is_within_reach_is_little_more_than_what_is_read() {
 /// Finds needs from pictures alone: a texel is read if its light changes the picture, and seen if point sampling shows it.
 fn plain_scan(world: &World, target: &View) -> Vec<Need> {
     let plan_of = |kind| {
-        let filter = Filter { kind, anti_ringing: false, ..Filter::DEFAULT };
+        let filter = FilterSettings { kind, anti_ringing: false, ..FilterSettings::DEFAULT };
         Resampler { world, target, filter }.plan(Arithmetic::Float).expect("a filter with a plan")
     };
     let (point, ewa) = (plan_of(FilterKind::Point), plan_of(FilterKind::Ewa));
@@ -193,11 +193,11 @@ fn light_outside_what_is_read_changes_no_byte() {
     let gaussian =
         Kernel { scale: 0.6, floor: 0.75, ..Kernel::uniform(CrossSection::Gaussian { alpha: 2.0, cutoff: 1.0 }) };
     let kinds = [
-        Filter::DEFAULT,
-        Filter { kernel: gaussian, ..Filter::DEFAULT },
-        Filter { kind: FilterKind::Point, ..Filter::DEFAULT },
-        Filter { kind: FilterKind::Bilinear, ..Filter::DEFAULT },
-        Filter { kind: FilterKind::Reference { samples: 3 }, ..Filter::DEFAULT },
+        FilterSettings::DEFAULT,
+        FilterSettings { kernel: gaussian, ..FilterSettings::DEFAULT },
+        FilterSettings { kind: FilterKind::Point, ..FilterSettings::DEFAULT },
+        FilterSettings { kind: FilterKind::Bilinear, ..FilterSettings::DEFAULT },
+        FilterSettings { kind: FilterKind::Reference { samples: 3 }, ..FilterSettings::DEFAULT },
     ];
     for target in [omnimax(246, 180), perspective(90, 70, 60.0, 30.0, 35.0, 10.0)] {
         for filter in kinds {
@@ -253,5 +253,5 @@ fn directions_that_nothing_covers_are_counted() {
 fn needs_of_two(world: &World) -> Option<cosmorama::render::Uncovered> {
     let covered = perspective(40, 40, 60.0, 0.0, 0.0, 0.0);
     let beside = perspective(40, 40, 60.0, 60.0, 0.0, 0.0);
-    Needs::of(world, &[covered, beside], &Filter::DEFAULT, Accuracy::Exact).uncovered
+    Needs::of(world, &[covered, beside], &FilterSettings::DEFAULT, Accuracy::Exact).uncovered
 }

@@ -2,7 +2,7 @@
 //! nothing is displaced, and one goes over into the other without an edge.
 
 use cosmorama::camera::{CameraModel, FisheyeCamera, LayoutFaceCamera, Mirror, Placement, View};
-use cosmorama::filter::Filter;
+use cosmorama::filter::FilterSettings;
 use cosmorama::layout::{Arrangement, DualFisheye, DualLens, LensSide};
 use cosmorama::raster::{Image, Rgba};
 use cosmorama::render::Resampler;
@@ -84,7 +84,7 @@ fn a_constant_world_stays_constant() {
     for (name, world) in worlds() {
         let light = vec![colour; world.texel_count()];
         for (of, target) in targets() {
-            let image = Resampler { world: &world, target: &target, filter: Filter::DEFAULT }.render(&light);
+            let image = Resampler { world: &world, target: &target, filter: FilterSettings::DEFAULT }.render(&light);
             for_each_pixel(&target, |i, j| {
                 let Some(screen) = target.screen_pixel(i, j) else { return };
                 for c in 0..4 {
@@ -101,7 +101,7 @@ fn directions_come_back_from_what_overlaps() {
     for (name, world) in worlds() {
         let light = light_by_direction(&world, |d| d.vector().to_array().map(|c| c as f32));
         for (of, target) in targets() {
-            let image = Resampler { world: &world, target: &target, filter: Filter::DEFAULT }.render(&light);
+            let image = Resampler { world: &world, target: &target, filter: FilterSettings::DEFAULT }.render(&light);
             let mut worst = 0f64;
             for_each_pixel(&target, |i, j| {
                 let Some(screen) = target.screen_pixel(i, j) else { return };
@@ -148,7 +148,7 @@ fn one_view_goes_over_into_the_other_without_an_edge() {
             let brightness = if view == 0 { 1.0 } else { 0.0 };
             Rgba::opaque(brightness, brightness, brightness)
         });
-        let image = Resampler { world: &world, target: &target, filter: Filter::DEFAULT }.render(&light);
+        let image = Resampler { world: &world, target: &target, filter: FilterSettings::DEFAULT }.render(&light);
         let (step, allowed) = (largest_step(&image, &target), (1.5 * pixel / f64::to_radians(band)) as f32);
         println!("{name}: step {step:.4}, allowed {allowed:.4}");
         assert!(

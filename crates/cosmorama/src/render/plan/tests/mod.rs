@@ -8,7 +8,7 @@ use super::symmetry::{MirrorImage, Mirrors};
 use super::*;
 use crate::camera::{FieldStop, View};
 use crate::filter::taps::{Tap, TapList, average};
-use crate::filter::{Filter, FilterKind};
+use crate::filter::{FilterKind, FilterSettings};
 use crate::projection::ProjectionKind;
 use crate::raster::{ColourChannel, RowLayout, Transfer};
 use crate::render::batch::window::Windows;
@@ -17,7 +17,7 @@ use crate::world::{Blend, World, WorldView};
 use worlds::*;
 
 fn resampler<'a>(world: &'a World, target: &'a View) -> Resampler<'a> {
-    Resampler { world, target, filter: Filter::DEFAULT }
+    Resampler { world, target, filter: FilterSettings::DEFAULT }
 }
 
 fn float(resampler: &Resampler) -> Compiled<FloatWeights> {
@@ -45,7 +45,7 @@ fn mirrors_are_found_where_there_are_some() {
     let off_centre = View { grid: dome(64, up).grid.window(64, 64, 0.25, 0.0), ..dome(64, up) };
     assert_eq!(count(&cube(&CubeFace::ALL, 64), &off_centre), 2);
     let (world, target) = (cube(&CubeFace::ALL, 64), dome(64, up));
-    let filter = Filter { kind: FilterKind::Point, ..Filter::DEFAULT };
+    let filter = FilterSettings { kind: FilterKind::Point, ..FilterSettings::DEFAULT };
     let point = Resampler { filter, ..resampler(&world, &target) };
     assert_eq!(Mirrors::of::<FloatWeights>(&point).images.len(), 1);
 }
@@ -197,8 +197,10 @@ fn windows_of_floats_make_what_their_texels_make_one_by_one() {
     for (world, target, _) in conversions() {
         let texels = floats(&light(&world));
         for anti_ringing in [true, false] {
-            let resampler =
-                Resampler { filter: Filter { anti_ringing, ..Filter::DEFAULT }, ..resampler(&world, &target) };
+            let resampler = Resampler {
+                filter: FilterSettings { anti_ringing, ..FilterSettings::DEFAULT },
+                ..resampler(&world, &target)
+            };
             let mut expected = Image::filled(target.width(), target.height(), Rgba::TRANSPARENT);
             let (mirrors, level) = (Mirrors::of::<NoWindows>(&resampler), Level::new());
             let background = Rgba::TRANSPARENT;
@@ -288,7 +290,7 @@ fn integers_are_within_one_code_of_floats() {
             (srgb, black_and_white(&world), true),
             (steepest, black_and_white(&world), true),
         ] {
-            let filter = Filter { anti_ringing, ..Filter::DEFAULT };
+            let filter = FilterSettings { anti_ringing, ..FilterSettings::DEFAULT };
             let resampler = Resampler { filter, ..resampler(&world, &target) };
             let background = Rgba::opaque(0.25, 0.5, 0.0);
             let codec = FixedCodec::new(&transfer, background).expect("a codec");
@@ -315,7 +317,7 @@ fn integers_are_within_one_code_of_floats() {
 #[test]
 fn spreading_is_the_plan_the_other_way_round() {
     for (world, target, _) in conversions() {
-        let filter = Filter { anti_ringing: false, ..Filter::DEFAULT };
+        let filter = FilterSettings { anti_ringing: false, ..FilterSettings::DEFAULT };
         let plan = Resampler { world: &world, target: &target, filter }.plan(Arithmetic::Float).expect("a plan");
         let light = floats(&light(&world));
         // Their part inside the field of view is not the plan's weights.
