@@ -104,7 +104,7 @@ impl Covariance {
     /// No spread.
     pub const ZERO: Self = Self(DMat3::ZERO);
 
-    /// The same variance, in radians², along all tangents of a direction: that of a round lobe.
+    /// One variance, in radians², along all tangents of a direction, as of a round lobe.
     pub fn round(direction: Direction, variance: f64) -> Self {
         let [right, up] = tangent_basis(direction);
         (Self::along(right) + Self::along(up)) * variance

@@ -42,7 +42,7 @@ impl CrossSection {
     pub const CATMULL_ROM: Self = Self::Cubic { b: 0.0, c: 0.5 };
     /// N. Robidoux's cubic for cylindrical EWA: B = 12/(19 + 9√2), C = 113/(58 + 216√2).
     pub const ROBIDOUX: Self = Self::Cubic { b: 0.378_215_755_092_149_7, c: 0.310_892_122_453_925_1 };
-    /// The same, sharper: B = 6/(13 + 7√2), C = 7/(2 + 12√2).
+    /// Robidoux's sharper cubic: B = 6/(13 + 7√2), C = 7/(2 + 12√2).
     pub const ROBIDOUX_SHARP: Self = Self::Cubic { b: 0.262_014_575_123_939_1, c: 0.368_992_712_438_030_4 };
 
     /// The distance beyond which every weight is zero.

@@ -6,8 +6,8 @@ use crate::world::{Light, LightError, World};
 pub enum FilterKind {
     /// The elliptical weighted average.
     Ewa,
-    /// The same of few texels, however many a pixel holds: those of smaller copies of the world, each half as large as the one
-    /// before; of the two that fit a pixel best, each gives its part (Heckbert 1989).
+    /// EWA on a pyramid of smaller copies of the world, each half as large as the one before: of few texels, however many a
+    /// pixel holds. Of the two levels that fit a pixel best, each gives its part (Heckbert 1989).
     EwaPyramid,
     /// The one texel that the pixel's centre sees: no filter at all.
     Point,

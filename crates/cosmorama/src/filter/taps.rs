@@ -26,7 +26,7 @@ pub(crate) struct Taps {
     places: Vec<[f32; 2]>,
 }
 
-/// The same, wherever they are kept.
+/// All the texels of an output pixel with their weights, wherever they are kept.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct TapList<'a> {
     /// All taps, those under the pixel first.

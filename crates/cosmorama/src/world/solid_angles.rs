@@ -22,7 +22,7 @@ impl SolidAngles {
         Self(Arc::new(angles))
     }
 
-    /// Returns the list of no texel.
+    /// Returns the solid angles of no texel.
     pub(super) fn none() -> Self {
         Self(Arc::default())
     }

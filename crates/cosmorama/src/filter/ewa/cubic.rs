@@ -15,7 +15,7 @@ pub(crate) struct Cubics {
 type Coefficients = [f32; 5];
 
 impl Cubics {
-    /// Those of a kernel; `None` if one is no cubic.
+    /// Returns the cubics of a kernel; `None` if one of its cross-sections is no cubic.
     pub(crate) fn of(kernel: &Kernel) -> Option<Self> {
         Some(Self { fine: coefficients(kernel.fine)?, coarse: coefficients(kernel.coarse)? })
     }

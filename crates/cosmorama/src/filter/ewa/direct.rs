@@ -8,6 +8,7 @@ use crate::camera::{Footprint, View};
 use crate::filter::Kernel;
 use crate::filter::gather::curvature::Bend;
 use crate::filter::gather::tap_weights::THINNEST;
+use crate::filter::gather::texel_run::{ceil, floor};
 use crate::filter::gather::{EllipseOfTexels, ellipse_of_texels};
 use crate::filter::kernel::UNDER;
 use crate::raster::Rgba;
@@ -43,9 +44,10 @@ impl Direct {
         };
         let ellipse = ellipse_of_texels(&self.kernel, source, footprint)?;
         let weights = self.weights(&source.view, &ellipse)?;
-        let rows = Rows { light: &light[source.texels()], stride: source.view.width(), ellipse: &ellipse };
+        let light = &light[source.texels()];
+        let rows = Rows::of(&ellipse, source.view.width())?;
         let level = self.level;
-        Some(dispatch!(level, simd => self.sum(simd, &rows, &weights)))
+        Some(dispatch!(level, simd => self.sum(simd, light, rows.each(), &weights)))
     }
 
     /// What weighs the texels of an ellipse; `None` where it is not known how they lie around its middle.
@@ -59,26 +61,25 @@ impl Direct {
     }
 
     #[inline(always)]
-    fn sum<S: Simd>(&self, simd: S, rows: &Rows, weights: &Weights) -> Rgba {
+    fn sum<S: Simd>(&self, simd: S, light: &[Rgba], rows: &[Row], weights: &Weights) -> Rgba {
         let curve = self.cubics.blend(f32x8::splat(simd, weights.coarseness));
         let lanes = LaneWeights { curve, inverse: (self.kernel.radius().powi(2) as f32).recip(), weights };
         let correction = lanes.moments(simd, rows).correction(weights.bend.as_ref());
+        let (nothing, far) = (f32x8::splat(simd, 0.0), f32x8::splat(simd, f32::INFINITY));
         let mut sum = f32x4::splat(simd, 0.0);
         let (mut least, mut greatest) = (f32x4::splat(simd, f32::INFINITY), f32x4::splat(simd, f32::NEG_INFINITY));
-        for row in rows.each() {
-            let texels = rows.texels(&row);
+        for row in rows {
             let at = correction.row(row.v);
-            for (block, texels) in texels.chunks(f32x8::<S>::LEN).enumerate() {
+            for (block, texels) in light[row.first..row.first + row.count].chunks(f32x8::<S>::LEN).enumerate() {
                 let x = lanes_from(simd, row.u + (block * f32x8::<S>::LEN) as f32);
                 let (w, v, q) = lanes.of(simd, x, row.v);
-                let corrected = (w * at.scale + v * (x * at.gx + at.constant)).to_array();
-                let under = q.simd_lt(f32x8::splat(simd, UNDER as f32)).to_bitmask();
-                for (lane, texel) in texels.iter().enumerate() {
+                let weight = (w * at.scale + v * (x * at.gx + at.constant)).to_array();
+                // What is not under the footprint bounds nothing: it is moved out of the way, without a branch for each.
+                let aside = q.simd_lt(f32x8::splat(simd, UNDER as f32)).select(nothing, far).to_array();
+                for ((texel, weight), aside) in texels.iter().zip(weight).zip(aside) {
                     let texel = f32x4::load_array_ref(simd, &texel.0);
-                    sum += texel * corrected[lane];
-                    if under >> lane & 1 == 1 {
-                        (least, greatest) = (least.min(texel), greatest.max(texel));
-                    }
+                    sum += texel * weight;
+                    (least, greatest) = (least.min(texel + aside), greatest.max(texel - aside));
                 }
             }
         }
@@ -96,41 +97,51 @@ fn holds(source: &Source, footprint: &Footprint) -> bool {
     })
 }
 
-/// The rows of texels under a kernel, and their light.
-struct Rows<'a> {
-    /// That of the view, and how many texels are from one row to the next.
-    light: &'a [Rgba],
-    stride: usize,
-    ellipse: &'a EllipseOfTexels,
+/// Rows of texels under a kernel, at most; of more, they are listed one by one.
+const MOST_ROWS: usize = 64;
+
+/// The rows of texels under a kernel.
+struct Rows {
+    rows: [Row; MOST_ROWS],
+    count: usize,
 }
 
-/// One row: its texels' columns, and the offset of the first one's centre from the footprint's.
+/// One of them.
+#[derive(Clone, Copy, Default)]
 struct Row {
-    row: usize,
-    left: usize,
-    end: usize,
+    /// Index of its first texel in the view, and how many there are.
+    first: usize,
+    count: usize,
+    /// Offset of the first one's centre from the footprint's.
     u: f32,
     v: f32,
 }
 
-impl Rows<'_> {
-    #[inline(always)]
-    fn each(&self) -> impl Iterator<Item = Row> {
-        let EllipseOfTexels { centre, bounds, rows, .. } = self.ellipse;
-        (bounds.top..=bounds.bottom).filter_map(move |j| {
+impl Rows {
+    /// Cuts an ellipse in a view of so many columns into rows; `None` if it has too many.
+    fn of(ellipse: &EllipseOfTexels, columns: usize) -> Option<Self> {
+        let EllipseOfTexels { centre, bounds, rows, .. } = ellipse;
+        if bounds.bottom - bounds.top >= MOST_ROWS as i64 {
+            return None;
+        }
+        let mut found = Self { rows: [Row::default(); MOST_ROWS], count: 0 };
+        for j in bounds.top..=bounds.bottom {
             let v = j as f64 + 0.5 - centre.y;
-            let (least, greatest) = rows.range(v)?;
-            let left = (centre.x + least - 0.5).ceil();
-            let end = (centre.x + greatest - 0.5).floor() + 1.0;
-            let u = left + 0.5 - centre.x;
-            Some(Row { row: j as usize, left: left as usize, end: end as usize, u: u as f32, v: v as f32 })
-        })
+            let Some((least, greatest)) = rows.range(v) else { continue };
+            let left = ceil(centre.x + least - 0.5).max(bounds.left);
+            let right = floor(centre.x + greatest - 0.5).min(bounds.right);
+            if left <= right {
+                let first = j as usize * columns + left as usize;
+                let u = left as f64 + 0.5 - centre.x;
+                found.rows[found.count] = Row { first, count: (right + 1 - left) as usize, u: u as f32, v: v as f32 };
+                found.count += 1;
+            }
+        }
+        Some(found)
     }
 
-    #[inline(always)]
-    fn texels(&self, row: &Row) -> &[Rgba] {
-        let first = row.row * self.stride;
-        &self.light[first + row.left..first + row.end.max(row.left)]
+    fn each(&self) -> &[Row] {
+        &self.rows[..self.count]
     }
 }
 
@@ -173,13 +184,13 @@ impl<S: Simd> LaneWeights<'_, f32x8<S>> {
 
     /// The moments of all texels.
     #[inline(always)]
-    fn moments(&self, simd: S, rows: &Rows) -> Moments {
+    fn moments(&self, simd: S, rows: &[Row]) -> Moments {
         let zero = f32x8::splat(simd, 0.0);
         let mut sums = [zero; 12];
-        for row in rows.each() {
+        for row in rows {
             let mut line = [zero; 6];
-            for first in (row.left..row.end).step_by(f32x8::<S>::LEN) {
-                let x = lanes_from(simd, row.u + (first - row.left) as f32);
+            for first in (0..row.count).step_by(f32x8::<S>::LEN) {
+                let x = lanes_from(simd, row.u + first as f32);
                 let (w, v, _) = self.of(simd, x, row.v);
                 let (wx, vx) = (w * x, v * x);
                 for (sum, term) in line.iter_mut().zip([w, wx, wx * x, v, vx, vx * x]) {
@@ -207,7 +218,7 @@ struct Correction {
     constant: f64,
 }
 
-/// The same for one row.
+/// A correction in one row.
 struct RowCorrection {
     scale: f32,
     gx: f32,

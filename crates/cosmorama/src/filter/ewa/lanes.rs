@@ -7,7 +7,7 @@ pub(crate) trait Lanes<S: Simd>: SimdFloat<S, Element = f32> {
     /// From the numbers of two rows, as many of which as there are here.
     fn of_rows(rows: [f32x8<S>; 2]) -> Self;
 
-    /// Those of one row.
+    /// Returns the numbers of one row.
     fn row(self, row: usize) -> f32x8<S>;
 }
 

@@ -90,7 +90,7 @@ impl Averager {
         direct.unwrap_or_else(|| self.by_taps(world, light, footprint))
     }
 
-    /// The same by a list of taps, wherever the texels lie.
+    /// Averages by a list of taps, wherever the texels lie.
     pub(crate) fn by_taps(&self, world: &World, light: &[Rgba], footprint: &Footprint) -> Rgba {
         self.scratch.lend(|(scratch, taps)| {
             let mut gather = Gather::new(world, None, &self.table).with_scratch(std::mem::take(scratch));

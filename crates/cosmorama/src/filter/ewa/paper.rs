@@ -81,7 +81,7 @@ pub fn ewa(image: &Image<Rgba>, centre: PixelPoint, derivatives: TextureDerivati
 mod tests {
     use super::*;
 
-    /// The same sum, texel by texel, from the definition.
+    /// Adds texel by texel, from the definition.
     fn by_definition(image: &Image<Rgba>, centre: PixelPoint, d: TextureDerivatives, alpha: f64) -> f64 {
         let determinant = d.ux * d.vy - d.uy * d.vx;
         let (mut num, mut den) = (0.0, 0.0);

@@ -32,12 +32,12 @@ impl Cap {
         (radius < WIDEST).then_some(Self { centre, radius, pixel })
     }
 
-    /// The same with so many radians more around it.
+    /// Returns the cap with so many radians more around it.
     pub(crate) fn widened(self, by: f64) -> Self {
         Self { radius: self.radius + by, ..self }
     }
 
-    /// The same for whole pixels, if it was that of their centres.
+    /// Returns the cap of whole pixels, if this is that of their centres.
     pub(crate) fn of_whole_pixels(self) -> Self {
         self.widened(self.pixel)
     }

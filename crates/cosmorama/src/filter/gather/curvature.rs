@@ -17,7 +17,7 @@ pub(crate) struct Bend {
 }
 
 impl Bend {
-    /// That of a view around a point of its image; `None` where it looks nowhere.
+    /// Measures how a view's texels bend around a point of its image; `None` where it looks nowhere.
     pub(crate) fn around(view: &View, at: PixelPoint) -> Option<Self> {
         // In the view's own frame: it is the same in any.
         let plane = |u: f64, v: f64| view.grid.to_plane(PixelPoint::new(at.x + u, at.y + v));
@@ -36,7 +36,7 @@ impl Bend {
         (bend.uu + bend.uv + bend.vv).is_finite().then_some(bend)
     }
 
-    /// That of a view whose projection knows it in closed form, many times as fast.
+    /// Returns how a view's texels bend where its projection knows it in closed form, many times as fast.
     pub(crate) fn in_closed_form(view: &View, at: PixelPoint) -> Option<Self> {
         let [xx, xy, yy] = view.projection.curvature(view.grid.to_plane(at))?;
         // From the plane's unit to texels, of which y runs down.

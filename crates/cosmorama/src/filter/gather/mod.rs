@@ -393,7 +393,7 @@ const NO_WIDTH: f64 = 1e-6;
 /// still be told.
 const SOME_WIDTH: f64 = 0.01;
 
-/// The same footprint, if it has any width; else a narrow one.
+/// Returns a footprint as it is if it has any width; else a narrow one.
 fn with_width(footprint: Footprint) -> Footprint {
     let Footprint { direction, jacobian: DirectionJacobian { dx, dy } } = footprint;
     let across = |side: DVec3| direction.vector().cross(side) * SOME_WIDTH;

@@ -62,7 +62,7 @@ struct Places {
 }
 
 impl Places {
-    /// Those around a footprint's centre.
+    /// Returns the places around a footprint's centre.
     fn of(jacobian: &DirectionJacobian) -> Self {
         let (length, along) = (jacobian.dx.length(), jacobian.dx.dot(jacobian.dy) / jacobian.dx.length());
         let across = jacobian.dx.cross(jacobian.dy).length() / length;

@@ -69,7 +69,7 @@ impl<'a> Rim<'a> {
 
 /// The light of a pixel's texels, in the order of their places.
 pub(crate) trait TexelLight {
-    /// That of one.
+    /// Returns the light of one.
     fn light<S: Simd>(&self, simd: S, index: usize) -> f32x4<S>;
 }
 
@@ -90,7 +90,7 @@ struct Lattice {
 }
 
 impl Lattice {
-    /// That of some places; `None` if they lie in a line, or are too few to tell.
+    /// Returns the lattice of some places; `None` if they lie in a line, or are too few to tell.
     fn of(places: &[[f32; 2]]) -> Option<Self> {
         let mut terms: Vec<DVec3> = places.iter().map(|place| self::terms(*place)).collect();
         let count = terms.len() as f64;
