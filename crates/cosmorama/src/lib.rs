@@ -8,6 +8,7 @@ pub mod explain;
 pub mod filter;
 pub mod layout;
 pub mod lighting;
+pub mod prelude;
 pub mod projection;
 pub mod raster;
 pub mod render;

@@ -5,7 +5,7 @@ use std::time::Instant;
 use anyhow::Result;
 use cosmorama::camera::{CameraModel, Canvas, OmnimaxCamera, PixelRect, View};
 use cosmorama::explain::{Figures, Underlay};
-use cosmorama::filter::{FilterSettings, FilterKind};
+use cosmorama::filter::{FilterKind, FilterSettings};
 use cosmorama::raster::{Channels, Depth, EncodedImage, Transfer};
 use cosmorama::render::{Accuracy, Needs};
 use cosmorama::sphere::{CubeFace, Orientation};

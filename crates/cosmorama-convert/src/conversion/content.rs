@@ -1,4 +1,4 @@
-use cosmorama::filter::Filter;
+use cosmorama::filter::FilterSettings;
 use cosmorama::raster::{Channels, Depth, Rgba};
 use cosmorama_builtin::{BuiltinWorld, DirectionMap, Grid};
 use cosmorama_io::Format;
@@ -62,7 +62,7 @@ impl Content {
             return Input::find(&settings.input, geometry.from.as_ref(), settings.frames.as_ref(), memory, warnings);
         }
         check_input_options(settings)?;
-        if filter(geometry, warnings) != Filter::DEFAULT {
+        if filter(geometry, warnings) != FilterSettings::DEFAULT {
             let name = &settings.input;
             let message = format!("{FILTER}, {KERNEL} and {ANTI_RINGING} have no effect on {name}: a formula");
             warnings.push(Diagnostic::warning(Code::NoEffect, message).about(name));
@@ -188,7 +188,8 @@ fn check_st_map(settings: &Conversion, format: Format) -> Result<()> {
         return Err(usage(format!("{ST_MAP} writes numbers, but {output} is {format}; name the output .exr")));
     }
     let geometry = &settings.geometry;
-    let is_plain = geometry.filter.0 == Filter::DEFAULT.kind && geometry.kernel.kernel == Filter::DEFAULT.kernel;
+    let is_plain =
+        geometry.filter.0 == FilterSettings::DEFAULT.kind && geometry.kernel.kernel == FilterSettings::DEFAULT.kernel;
     if !is_plain || geometry.anti_ringing.is_some() {
         return Err(usage(format!(
             "{FILTER}, {KERNEL} and {ANTI_RINGING} are for texels that are weighed, but an st map has none; leave them out"

@@ -2,7 +2,7 @@ use std::collections::HashSet;
 use std::path::PathBuf;
 
 use cosmorama::explain;
-use cosmorama::filter::Filter;
+use cosmorama::filter::FilterSettings;
 use cosmorama::world::World;
 use cosmorama_spec::Size;
 use rayon::ThreadPool;
@@ -35,7 +35,7 @@ pub struct ExplanationSettings {
 pub struct Explanation {
     input: Input,
     pictures: Vec<Picture>,
-    filter: Filter,
+    filter: FilterSettings,
     memory: MemoryBudget,
     /// Files that are read, by where they lie.
     files: HashSet<PathBuf>,
@@ -60,7 +60,7 @@ impl ExplanationSettings {
         Outcome { result, diagnostics }
     }
 
-    fn resolve(&self, warnings: &mut Vec<Diagnostic>) -> Result<(Input, Vec<Picture>, Filter)> {
+    fn resolve(&self, warnings: &mut Vec<Diagnostic>) -> Result<(Input, Vec<Picture>, FilterSettings)> {
         let memory = MemoryBudget::new(self.limits.memory);
         let geometry = &settled(&self.geometry, self.input.as_deref(), memory, warnings)?;
         if geometry.to.is_none() {

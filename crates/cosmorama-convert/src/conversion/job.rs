@@ -1,4 +1,4 @@
-use cosmorama::filter::Filter;
+use cosmorama::filter::FilterSettings;
 use cosmorama::raster::Rgba;
 use cosmorama::render::Resampler;
 use cosmorama::world::World;
@@ -24,7 +24,7 @@ pub(crate) struct ConvertJob {
     /// Where it goes.
     pub(crate) target: Target,
     /// How.
-    pub(crate) filter: Filter,
+    pub(crate) filter: FilterSettings,
     /// How code values relate to light on both sides, and what the outputs hold.
     pub(crate) light: Light,
     /// The outputs to be made, frame by frame.
@@ -56,7 +56,7 @@ impl ConvertJob {
         warnings.extend(input.complaints());
         warnings.extend(told_of_shape(geometry, &target));
         content.fit_eyes(&mut input, &target, warnings);
-        let filter = if content.has_files() { filter(geometry, warnings) } else { Filter::DEFAULT };
+        let filter = if content.has_files() { filter(geometry, warnings) } else { FilterSettings::DEFAULT };
         let mut light = Light::resolve(settings, &input, &target, warnings)?;
         content.settle(settings, &target, &mut light, warnings)?;
         memory.check_outputs(&target)?;

@@ -1,4 +1,4 @@
-use cosmorama::filter::{Filter, FilterKind, Kernel};
+use cosmorama::filter::{FilterKind, FilterSettings, Kernel};
 use cosmorama_io::{Compression, Format, WriteOptions};
 
 use super::{Conversion, GeometrySettings};
@@ -45,12 +45,12 @@ pub(crate) fn write_options(settings: &Conversion, format: Format, outputs: &Out
 }
 
 /// The filter that was asked for.
-pub(crate) fn filter(geometry: &GeometrySettings, warnings: &mut Vec<Diagnostic>) -> Filter {
+pub(crate) fn filter(geometry: &GeometrySettings, warnings: &mut Vec<Diagnostic>) -> FilterSettings {
     let (kind, kernel) = (geometry.filter.0, geometry.kernel.kernel);
     let is_weighed = !matches!(kind, FilterKind::Point | FilterKind::Bilinear);
     if !is_weighed && (kernel != Kernel::ADAPTIVE || geometry.anti_ringing.is_some()) {
         let message = format!("{KERNEL} and {ANTI_RINGING} have no effect on {FILTER} point and bilinear");
         warnings.push(Diagnostic::warning(Code::NoEffect, message));
     }
-    Filter { kind, kernel, anti_ringing: geometry.anti_ringing.unwrap_or(geometry.kernel.anti_ringing) }
+    FilterSettings { kind, kernel, anti_ringing: geometry.anti_ringing.unwrap_or(geometry.kernel.anti_ringing) }
 }

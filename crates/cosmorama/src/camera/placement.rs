@@ -49,6 +49,12 @@ pub struct Placement {
     pub canvas: Option<Canvas>,
 }
 
+impl From<CameraModel> for Placement {
+    fn from(camera: CameraModel) -> Self {
+        Self::new(camera)
+    }
+}
+
 impl Placement {
     /// A whole picture, unturned.
     pub const fn new(frame: CameraModel) -> Self {

@@ -1,5 +1,4 @@
 use super::CompareError;
-use super::pair::common_size;
 use crate::raster::{Image, Rgba};
 
 /// Alpha of a pixel that counts as opaque: a weighted average of ones may fall short of one by rounding.
@@ -109,6 +108,12 @@ fn sweep(distance: &mut [u8], width: usize, outside: u8) {
         let above = if k < width { outside } else { distance[k - width] };
         distance[k] = distance[k].min(left.min(above).saturating_add(1));
     }
+}
+
+/// The size that both pictures have.
+pub(super) fn common_size(first: &Image<Rgba>, second: &Image<Rgba>) -> Result<(usize, usize), CompareError> {
+    let [first, second] = [first, second].map(|picture| (picture.width(), picture.height()));
+    if first == second { Ok(first) } else { Err(CompareError::SizesDiffer { first, second }) }
 }
 
 #[cfg(test)]

@@ -1,37 +1,6 @@
-use thiserror::Error;
-
-use super::Mask;
+use super::CompareError;
+use super::mask::{Mask, common_size};
 use crate::raster::{Image, Rgba};
-
-/// Reason why two pictures cannot be compared.
-#[derive(Clone, Debug, PartialEq, Eq, Error)]
-pub enum CompareError {
-    /// The pictures are not of one size.
-    #[error(
-        "the first picture is {}x{}, the second {}x{}: only pictures of one size can be compared",
-        first.0, first.1, second.0, second.1
-    )]
-    SizesDiffer {
-        /// Columns and rows of the first.
-        first: (usize, usize),
-        /// Columns and rows of the second.
-        second: (usize, usize),
-    },
-    /// The mask is not of the pictures' size.
-    #[error("the mask is {}x{}, the pictures are {}x{}", mask.0, mask.1, pictures.0, pictures.1)]
-    MaskSize {
-        /// Columns and rows of the mask.
-        mask: (usize, usize),
-        /// Columns and rows of the pictures.
-        pictures: (usize, usize),
-    },
-    /// The mask leaves no pixel to compare.
-    #[error("no pixel is left to compare: the mask leaves out all of the {}x{} picture", size.0, size.1)]
-    NothingCounts {
-        /// Columns and rows of the pictures.
-        size: (usize, usize),
-    },
-}
 
 /// Two pictures of one size and the pixels that count in them.
 #[derive(Clone, Copy)]
@@ -83,10 +52,4 @@ impl<'a> Pair<'a> {
             second: second.finite(),
         })
     }
-}
-
-/// The size that both pictures have.
-pub(super) fn common_size(first: &Image<Rgba>, second: &Image<Rgba>) -> Result<(usize, usize), CompareError> {
-    let [first, second] = [first, second].map(|picture| (picture.width(), picture.height()));
-    if first == second { Ok(first) } else { Err(CompareError::SizesDiffer { first, second }) }
 }

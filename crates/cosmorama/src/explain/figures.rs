@@ -1,5 +1,4 @@
-use super::sheet::drawing::{Anchor, Drawing};
-use super::sheet::theme::{INK, LABEL, MARGIN, PAPER, TITLE};
+use super::unfolded::Underlay;
 use super::{footprints, ownership, unfolded};
 use crate::camera::View;
 use crate::render::Needs;
@@ -18,15 +17,6 @@ pub struct Figures<'a> {
     pub target: &'a View,
 }
 
-/// A picture of a view to draw a figure over.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Underlay {
-    /// Index of the view in the world.
-    pub view: usize,
-    /// Its picture: an address, or a data URI such as `data:image/png;base64,…`. It is stretched over the view.
-    pub href: String,
-}
-
 impl Figures<'_> {
     /// Figure 3: the unfolded cube (or the world's other images), the needed regions bright, the edge of the target's
     /// field of view as a curve.
@@ -43,17 +33,4 @@ impl Figures<'_> {
     pub fn footprints(&self) -> String {
         footprints::draw(self.world, self.target)
     }
-}
-
-/// A sheet with a title and a line under it.
-pub(crate) fn sheet((width, height): (f64, f64), title: &str, subtitle: &str) -> Drawing {
-    let mut drawing = Drawing::new(width, height, PAPER);
-    drawing.label(title, (MARGIN, MARGIN + TITLE * 0.5), TITLE, Anchor::Start, INK);
-    drawing.label(subtitle, (MARGIN, MARGIN + TITLE * 0.5 + 21.0), LABEL * 0.8, Anchor::Start, INK);
-    drawing
-}
-
-/// `1024×960`.
-pub(crate) fn size_text((width, height): (usize, usize)) -> String {
-    format!("{width}×{height}")
 }

@@ -2,10 +2,10 @@
 
 use glam::{DMat2, DVec2};
 
-use super::figures::{sheet, size_text};
 use super::magnification::central_footprint;
 use super::sheet::drawing::{Anchor, Drawing, Paint, Rect};
 use super::sheet::field;
+use super::sheet::heading::{sheet, size_text};
 use super::sheet::net::Net;
 use super::sheet::theme::{DARK, FAINT, INK, LABEL, PAPER, SMALL, colour};
 use crate::camera::{PixelPoint, ScreenPixel, View};

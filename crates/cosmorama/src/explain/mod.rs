@@ -10,7 +10,8 @@ mod survey;
 mod text;
 mod unfolded;
 
-pub use figures::{Figures, Underlay};
+pub use figures::Figures;
 pub use magnification::{FaceSize, Magnification};
 pub use report::{Centre, Gathered, Memory, Report, ViewReport};
 pub use sheet::lettering;
+pub use unfolded::Underlay;

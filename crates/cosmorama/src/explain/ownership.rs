@@ -1,8 +1,8 @@
 //! Figure 4: which view gives which pixel.
 
-use super::figures::{sheet, size_text};
 use super::sheet::contour::Regions;
 use super::sheet::drawing::{Paint, Rect};
+use super::sheet::heading::{sheet, size_text};
 use super::sheet::theme::{DARK, HEADER, INK, LABEL, MARGIN, PAPER, SMALL, colour};
 use crate::camera::{PixelPoint, View};
 use crate::world::World;

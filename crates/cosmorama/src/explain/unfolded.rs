@@ -1,9 +1,8 @@
 //! Figure 3: the unfolded world with the field of view marked.
 
-use super::Underlay;
-use super::figures::{sheet, size_text};
 use super::sheet::drawing::{Anchor, Drawing, Paint, Rect};
 use super::sheet::field::shown;
+use super::sheet::heading::{sheet, size_text};
 use super::sheet::net::Net;
 use super::sheet::theme::{CURVE, DARK, FAINT, INK, LABEL, PAPER, SMALL, colour};
 use crate::camera::{PixelRect, View};
@@ -12,6 +11,15 @@ use crate::world::{Source, World};
 
 /// How far a name reaches from its middle, about.
 const ROOM: f64 = 34.0;
+
+/// A picture of a view to draw a figure over.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Underlay {
+    /// Index of the view in the world.
+    pub view: usize,
+    /// Its picture: an address, or a data URI such as `data:image/png;base64,…`. It is stretched over the view.
+    pub href: String,
+}
 
 /// How much of a picture the veil over what is not needed hides.
 const VEIL: f64 = 0.74;

@@ -1,7 +1,5 @@
 use std::f64::consts::PI;
 
-use super::gather::tap_weights::Candidate;
-
 /// The cross-section of a radial kernel: weight by distance r from the centre, in the kernel's unit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum CrossSection {
@@ -232,25 +230,6 @@ impl KernelTable {
         let ([fine, coarse], [next_fine, next_coarse]) = (self.weights[entry], self.weights[entry + 1]);
         let (fine, coarse) = (fine + (next_fine - fine) * part, coarse + (next_coarse - coarse) * part);
         fine + (coarse - fine) * coarseness
-    }
-
-    /// A texel at distance² `q` < [`KernelTable::radius_squared`] and at this offset in screen pixels.
-    pub(crate) fn candidate(
-        &self,
-        texel: usize,
-        solid_angle: f32,
-        q: f64,
-        coarseness: f32,
-        offset: glam::DVec2,
-    ) -> Candidate {
-        let falloff = 1.0 - (q / self.radius_squared) as f32;
-        Candidate {
-            texel: texel as u32,
-            q: q as f32,
-            weight: self.weight(q, coarseness) * solid_angle,
-            window: falloff * falloff * solid_angle,
-            offset: [offset.x as f32, offset.y as f32],
-        }
     }
 }
 

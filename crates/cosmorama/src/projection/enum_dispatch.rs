@@ -28,6 +28,12 @@ macro_rules! enum_dispatch {
             $($(#[$what])* $Variant($held),)*
         }
 
+        $(impl From<$held> for $Kind {
+            fn from(held: $held) -> Self {
+                Self::$Variant(held)
+            }
+        })*
+
         macro_rules! each {
             ($d kind:expr, $d inside:ident => $d call:expr) => {
                 match $d kind {

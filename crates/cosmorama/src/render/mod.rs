@@ -13,6 +13,7 @@ pub use picture::picture;
 pub use plan::{Arithmetic, Plan};
 pub(crate) use pyramid::{Pyramid, TexelCount};
 pub use required::need::{Accuracy, Need, Needs};
+pub use required::require::MissingLight;
 pub use required::screen_mask::ScreenMask;
 pub use required::uncovered::Uncovered;
 pub use resampler::Resampler;

@@ -17,6 +17,19 @@ pub struct Resampler<'a> {
     pub filter: FilterSettings,
 }
 
+impl<'a> Resampler<'a> {
+    /// Returns the conversion by the default filter.
+    pub const fn new(world: &'a World, target: &'a View) -> Self {
+        Self { world, target, filter: FilterSettings::DEFAULT }
+    }
+
+    /// Returns the conversion by another filter.
+    #[must_use]
+    pub const fn by(self, filter: FilterSettings) -> Self {
+        Self { filter, ..self }
+    }
+}
+
 impl Resampler<'_> {
     /// One frame, computed without storing the geometry. `texels` is the world's buffer of light.
     ///

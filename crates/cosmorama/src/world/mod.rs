@@ -16,7 +16,7 @@ mod world;
 pub use blend::Blend;
 pub use edge_decontamination::RimTexels;
 pub(crate) use halved::held;
-pub use light::{Light, LightError};
+pub use light::{Light, LightError, PictureError};
 pub use mask::mask::ViewMask;
 pub use mask::shape::MaskShape;
 pub use solid_angles::SolidAngles;

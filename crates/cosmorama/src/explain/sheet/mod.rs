@@ -3,6 +3,7 @@
 pub(crate) mod contour;
 pub(crate) mod drawing;
 pub(crate) mod field;
+pub(crate) mod heading;
 pub mod lettering;
 pub(crate) mod net;
 pub(crate) mod theme;

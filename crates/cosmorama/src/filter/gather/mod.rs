@@ -3,6 +3,7 @@
 //! Each view tests only texels that it owns, in its own plane, with its own ellipse; each weight is multiplied by the
 //! texel's solid angle. No padded borders, no double counting: what one view leaves the next one has.
 
+pub(crate) mod candidate;
 pub(crate) mod cap;
 pub(crate) mod cap_chain;
 pub(crate) mod clearance;
@@ -15,12 +16,12 @@ pub(crate) mod texel_run;
 
 use glam::{DMat2, DVec2, DVec3};
 
+use super::gather::candidate::Candidate;
 use super::gather::cap::Cap;
 use super::gather::curvature::Bend;
 use super::gather::ellipse::EllipseRows;
 use super::gather::seam_scale::Meeting;
 use super::gather::tangent_kernel::{RIM_FLOOR, TangentKernel};
-use super::gather::tap_weights::{Candidate, settle};
 use super::gather::texel_run::{Run, TexelBox, ceil, floor, runs_around};
 use super::kernel::KernelTable;
 use super::rim::clamp_set;
@@ -33,6 +34,7 @@ use crate::projection::Projection;
 use crate::sphere::{Direction, DirectionJacobian};
 use crate::world::{Source, World};
 use clearance::{Clearance, Grid};
+use tap_weights::settle;
 
 /// A mapping is taken as linear over a kernel that is smaller than this part of the way to its nearest singularity. At a
 /// fifth, the tests find no point of a direction-coloured world displaced by more than 0.005 pixel.
@@ -287,7 +289,14 @@ impl<'a> Gather<'a> {
         let change = to_screen * bend.uu;
         for (texel, &solid_angle) in solid_angles.iter().enumerate() {
             if solid_angle > 0.0 {
-                self.scratch.candidates.push(self.table.candidate(first + texel, solid_angle, q, coarseness, offset));
+                self.scratch.candidates.push(Candidate::weighed(
+                    self.table,
+                    first + texel,
+                    solid_angle,
+                    q,
+                    coarseness,
+                    offset,
+                ));
             }
             q += dq;
             dq += ddq;
@@ -307,7 +316,8 @@ impl<'a> Gather<'a> {
                 let Some((q, offset)) = kernel.place(texel) else { return };
                 if q < self.table.radius_squared() && solid_angle > 0.0 {
                     let texel = source.offset + row + i;
-                    self.scratch.candidates.push(self.table.candidate(
+                    self.scratch.candidates.push(Candidate::weighed(
+                        self.table,
                         texel,
                         solid_angle,
                         q,

@@ -1,31 +1,10 @@
 use glam::DVec2;
 
+use super::candidate::Candidate;
 use crate::filter::kernel::UNDER;
 use crate::filter::rim::clamp_set;
 use crate::filter::taps::{Tap, Taps};
 use crate::sphere::DirectionJacobian;
-
-/// A texel that a kernel reaches, before the weights are settled.
-#[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Candidate {
-    /// Index in the world's buffer.
-    pub(crate) texel: u32,
-    /// Square of its distance from the pixel's centre, in the unit of the coarsest kernel here.
-    pub(crate) q: f32,
-    /// The kernel's weight times the texel's solid angle.
-    pub(crate) weight: f32,
-    /// How much of a correction it may take: positive, falling to nothing at the kernel's edge.
-    pub(crate) window: f32,
-    /// Where it lies from the pixel's centre, in screen pixels.
-    pub(crate) offset: [f32; 2],
-}
-
-impl Candidate {
-    /// Whether it lies under the pixel.
-    pub(crate) fn is_under(&self) -> bool {
-        f64::from(self.q) < UNDER
-    }
-}
 
 /// Makes taps whose weights add to one, none if their sum would be noise; with `centred`, their centroid is the pixel's
 /// centre. Where something ends under the pixel or beside it, the footprint tells how a slope goes on beyond them.

@@ -1,4 +1,4 @@
-use crate::filter::gather::tap_weights::Candidate;
+use crate::filter::gather::candidate::Candidate;
 use crate::filter::kernel::UNDER;
 
 /// The r² within which texels bound a pixel: those under it, or so many more of the nearest that they surround its centre.

@@ -12,6 +12,22 @@ impl EncodedImage {
     }
 }
 
+impl Image<Rgba> {
+    /// Encodes linear light as a file's samples: red, green and blue, and alpha where any pixel is transparent.
+    ///
+    /// ```
+    /// use cosmorama::raster::{Channels, Depth, Image, Rgba, Transfer};
+    ///
+    /// let codes = Image::filled(2, 2, Rgba::opaque(1.0, 0.5, 0.0)).to_codes(Depth::Eight, &Transfer::Srgb);
+    /// assert_eq!(codes.channels(), Channels::Rgb);
+    /// ```
+    pub fn to_codes(&self, depth: Depth, transfer: &Transfer) -> EncodedImage {
+        let is_opaque = self.pixels().iter().all(|pixel| pixel.alpha() >= 1.0);
+        let channels = if is_opaque { Channels::Rgb } else { Channels::Rgba };
+        EncodedImage::encode(self, channels, depth, transfer)
+    }
+}
+
 /// Who works on an image.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Threads {

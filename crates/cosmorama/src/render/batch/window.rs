@@ -5,11 +5,7 @@ pub(crate) use fearless_simd::Level;
 
 use crate::filter::taps::{Tap, Taps};
 use crate::render::scan::patch::Patch;
-use crate::render::scan::tile::SIDE;
-
-/// Texels of the largest window: of more, weights in integers have too few bits. Of pixels of 1764 texels of noise fewer than 97 % had
-/// the codes that floats make.
-pub(crate) const LARGEST: usize = 1024;
+use crate::render::scan::tile::{LARGEST, SIDE};
 
 /// Texels that there is room for at first. What larger ones take is far apart in memory, and made when they come.
 pub(crate) const ROOM: usize = 256;

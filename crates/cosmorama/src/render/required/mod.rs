@@ -3,5 +3,6 @@
 pub(crate) mod block;
 pub(crate) mod bounds;
 pub(crate) mod need;
+pub(crate) mod require;
 pub(crate) mod screen_mask;
 pub(crate) mod uncovered;

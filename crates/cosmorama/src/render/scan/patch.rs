@@ -11,7 +11,7 @@ use crate::filter::Kernel;
 use crate::filter::gather::Gather;
 use crate::filter::gather::curvature::Bend;
 use crate::filter::semi_axes;
-use crate::render::batch::window::LARGEST;
+use crate::render::scan::tile::LARGEST;
 use crate::world::Source;
 
 /// By what part of itself, at a kernel's edge, the solid angle of a texel may differ from one that changes linearly within

@@ -8,3 +8,7 @@ pub(crate) const HALF: usize = SIDE / 2;
 pub(crate) fn lanes_of(holds: impl Fn(usize) -> bool) -> u8 {
     (0..SIDE).fold(0, |lanes, lane| lanes | u8::from(holds(lane)) << lane)
 }
+
+/// Texels of the largest window: of more, weights in integers have too few bits. Of pixels of 1764 texels of noise fewer than 97 % had
+/// the codes that floats make.
+pub(crate) const LARGEST: usize = 1024;

@@ -5,7 +5,8 @@ use std::ops::Range;
 use fearless_simd::{Simd, f32x8, i16x8, i32x8, prelude::*};
 
 use super::weights::{HIGHEST, PAIRS_UNDER, ROWS_UNDER, Shape, mark};
-use crate::render::batch::window::{LARGEST, Size, Windows};
+use crate::render::batch::window::{Size, Windows};
+use crate::render::scan::tile::LARGEST;
 use crate::render::scan::tile::SIDE;
 
 /// The windows of a run before they are sorted by pixel. Bits of bytes are lanes, until they are turned.

@@ -1,3 +1,7 @@
+mod pictures;
+
+pub use pictures::PictureError;
+
 use rayon::prelude::*;
 use thiserror::Error;
 

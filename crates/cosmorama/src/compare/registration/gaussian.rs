@@ -8,7 +8,7 @@ const RADIUS: usize = 4;
 type Taps = [f32; 2 * RADIUS + 1];
 
 /// A plane blurred by a Gaussian of σ = 1 px; beyond its border it goes on mirrored, the outermost pixel repeated.
-pub(super) fn blurred(plane: &Image<f32>) -> Image<f32> {
+pub(crate) fn blurred(plane: &Image<f32>) -> Image<f32> {
     let taps = taps();
     let (width, height) = (plane.width(), plane.height());
     let mut result = Image::filled(width, height, 0.0);

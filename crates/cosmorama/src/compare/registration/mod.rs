@@ -1,11 +1,14 @@
+mod gaussian;
+mod least_squares;
+
 use rayon::prelude::*;
 
-use super::Mask;
-use super::gaussian::blurred;
-use super::least_squares::{NormalEquations, Vector, dot};
 use super::pair::Pair;
 use super::quantile::quantile;
+use crate::compare::Mask;
 use crate::raster::{Image, Rgba};
+use gaussian::blurred;
+use least_squares::{NormalEquations, Vector, dot};
 
 /// Pixels this near to one that does not count are left out: their gradients may see it.
 const RIM: u8 = 8;
@@ -55,7 +58,7 @@ impl Registration {
 
     /// The fit; `None` when every pixel that counts is near one that does not, or when the pictures differ as if it was wrong by
     /// [`DOUBT`] and more.
-    pub(super) fn between(pair: &Pair<'_>) -> Option<Self> {
+    pub(in crate::compare) fn between(pair: &Pair<'_>) -> Option<Self> {
         let flow = Flow::new(pair);
         let mut fit = flow.fit(|_| true);
         for _ in 1..PASSES {

@@ -1,9 +1,9 @@
 use std::array::from_fn;
 
 /// Unknowns of an affine flow.
-pub(super) const UNKNOWNS: usize = 6;
+pub(crate) const UNKNOWNS: usize = 6;
 
-pub(super) type Vector = [f64; UNKNOWNS];
+pub(crate) type Vector = [f64; UNKNOWNS];
 type Matrix = [Vector; UNKNOWNS];
 
 /// Eigenvalues below this part of the greatest are noise: the equations say nothing about their direction.
@@ -14,7 +14,7 @@ const SWEEPS: usize = 30;
 
 /// The normal equations of a linear least-squares problem in six unknowns.
 #[derive(Clone, Default)]
-pub(super) struct NormalEquations {
+pub(crate) struct NormalEquations {
     /// Its upper triangle only, until it is solved.
     matrix: Matrix,
     right: Vector,
@@ -22,7 +22,7 @@ pub(super) struct NormalEquations {
 
 impl NormalEquations {
     /// One observation: `factors · unknowns = value`.
-    pub(super) fn observe(&mut self, factors: &Vector, value: f64) {
+    pub(crate) fn observe(&mut self, factors: &Vector, value: f64) {
         for r in 0..UNKNOWNS {
             for c in r..UNKNOWNS {
                 self.matrix[r][c] += factors[r] * factors[c];
@@ -32,7 +32,7 @@ impl NormalEquations {
     }
 
     /// The observations of both.
-    pub(super) fn add(&mut self, other: &Self) {
+    pub(crate) fn add(&mut self, other: &Self) {
         for r in 0..UNKNOWNS {
             for c in r..UNKNOWNS {
                 self.matrix[r][c] += other.matrix[r][c];
@@ -42,7 +42,7 @@ impl NormalEquations {
     }
 
     /// The least-squares solution; the shortest one where the observations leave a choice.
-    pub(super) fn solve(&self) -> Vector {
+    pub(crate) fn solve(&self) -> Vector {
         let symmetric = from_fn(|r| from_fn(|c| self.matrix[r.min(c)][r.max(c)]));
         let (values, vectors) = eigen(symmetric);
         let least = RANK * values.iter().copied().fold(0.0, f64::max);
@@ -88,7 +88,7 @@ fn rotate(matrix: &mut Matrix, vectors: &mut Matrix, p: usize, q: usize) {
     }
 }
 
-pub(super) fn dot(a: &Vector, b: &Vector) -> f64 {
+pub(crate) fn dot(a: &Vector, b: &Vector) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
