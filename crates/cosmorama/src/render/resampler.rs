@@ -44,7 +44,7 @@ impl Resampler<'_> {
         self.render_over(texels, Rgba::TRANSPARENT)
     }
 
-    /// The same in front of a background, linear and premultiplied as all light is.
+    /// Renders over a background in linear, premultiplied light.
     ///
     /// # Panics
     /// As [`Resampler::render`].

@@ -52,8 +52,9 @@ pub(crate) fn prefetch_lines<T>(items: &[T], first: u32, last: u32) {
     texels::prefetch(items, first.wrapping_add(last));
 }
 
-/// The same of so many rows, each of which begins so many texels after the one above, if that is so many lines and the one of the last
-/// texel: without a loop in each row, which would be more than what it does.
+/// Prefetches `rows` rows of `LINES + 1` cache lines, `down` texels apart.
+///
+/// Unrolled: an inner loop would cost more than the prefetches.
 #[inline(always)]
 fn prefetch_rows<T, const LINES: u32>(texels: &[T], [mut left, last]: [u32; 2], rows: usize, down: i32) {
     for _ in 0..rows {

@@ -22,7 +22,7 @@ pub(crate) struct Moments<V> {
     vyy: V,
 }
 
-/// The same sums over one row of a window, where the offset down is one.
+/// Moments of weights over one row of a window, whose offset down is a constant.
 pub(crate) struct RowSums<V> {
     w: V,
     wx: V,
@@ -151,7 +151,7 @@ pub(crate) struct Correction<V> {
     constant: V,
 }
 
-/// The same for one row.
+/// Coefficients of the correction along one row, at a fixed offset down.
 pub(crate) struct RowCorrection<V> {
     scale: V,
     gx: V,

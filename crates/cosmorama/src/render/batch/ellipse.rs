@@ -54,7 +54,7 @@ impl<V> EllipsesRow<V> {
 }
 
 impl<V> Ellipses<V> {
-    /// Those of the rows of a patch from this one on.
+    /// Computes the ellipses of a patch's pixels, from this row on.
     #[inline(always)]
     pub(crate) fn new<S: Simd>(simd: S, kernel: &Kernel, patch: &Patch, row: usize) -> Self
     where

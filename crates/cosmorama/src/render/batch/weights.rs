@@ -42,7 +42,7 @@ impl Weigher {
         PatchWindows { weigher: self, patch, weighed: 0..0 }
     }
 
-    /// Those of a row of a patch, and perhaps of the next; how many they are.
+    /// Weighs a row of a patch, with wide vectors the next one, too; returns the number of rows.
     fn weigh(&mut self, patch: &Patch, row: usize) -> usize {
         let level = self.level;
         dispatch!(level, simd => self.weigh_rows(simd, patch, row))
@@ -170,7 +170,7 @@ pub(crate) struct PatchWindows<'w> {
 }
 
 impl PatchWindows<'_> {
-    /// Those of a row.
+    /// Returns the windows of a row; weighs it first if necessary.
     pub(crate) fn row(&mut self, row: usize) -> &Windows {
         if !self.weighed.contains(&row) {
             self.weighed = row..row + self.weigher.weigh(self.patch, row);

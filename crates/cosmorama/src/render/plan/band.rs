@@ -51,7 +51,7 @@ impl Run {
         })
     }
 
-    /// The same, a bit for each.
+    /// Returns the lanes that make a pixel, one bit for each.
     pub(crate) fn lane_bits(&self) -> u8 {
         self.lanes
     }
@@ -100,20 +100,20 @@ impl Run {
         Self { corner: [0; 2], offsets, weights, column: 0, view: 0, row: 0, lanes, width: 4, height: 4, under: [0; 2] }
     }
 
-    /// The same, of windows that begin at this texel.
+    /// Moves the run's windows to begin at this texel.
     #[cfg(test)]
     pub(crate) fn from(self, corner: [u32; 2]) -> Self {
         Self { corner, ..self }
     }
 
-    /// The same, but for the last lane's, which begins so many columns and rows after the first one.
+    /// Sets how many columns and rows after the first window the last lane's begins.
     #[cfg(test)]
     pub(crate) fn with_last(mut self, offset: [u8; 2]) -> Self {
         self.offsets[SIDE - 1] = offset;
         self
     }
 
-    /// The same of other pixels.
+    /// Moves the run to other pixels.
     #[cfg(test)]
     pub(crate) fn at(self, [column, row]: [usize; 2]) -> Self {
         Self { column: column as u32, row: row as u8, ..self }

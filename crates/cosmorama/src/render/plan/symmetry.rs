@@ -173,7 +173,7 @@ impl MirrorImage {
 }
 
 impl Mirrors {
-    /// Those in which a conversion is the same, for the light that weights like these are for.
+    /// Finds the symmetries of a conversion, in the layout of light that these weights apply to.
     pub(crate) fn of<W: Weights>(Resampler { world, target, filter }: &Resampler) -> Self {
         let (width, height) = (target.width(), target.height());
         let layout = RowLayout::of(world.view_sizes(), W::pitch);
@@ -229,7 +229,7 @@ impl Mirrors {
         self.images.len() == MOST_IMAGES
     }
 
-    /// Those in which a pixel is shown: in patches on the diagonal, which are computed whole, it is not turned into another of them.
+    /// Returns the mirror images of a pixel. In patches on the diagonal, computed whole, none of them is transposed.
     #[inline(always)]
     pub(crate) fn images_of(&self, [column, row]: [usize; 2]) -> &[MirrorImage] {
         let is_on_diagonal = self.has_diagonals() && column / SIDE == row / SIDE;

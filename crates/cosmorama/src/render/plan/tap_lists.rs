@@ -11,7 +11,7 @@ use crate::raster::Rgba;
 use crate::render::apply::tile_writer::Canvas;
 use crate::world::{TexelPlace, World};
 
-/// Those of a band.
+/// Single pixels of a band, as lists of taps.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Singles {
     pixels: Vec<Single>,

@@ -63,7 +63,7 @@ struct Spread<'a> {
 }
 
 impl Spread<'_> {
-    /// That of a pixel in place of which a mirror shows this one; none, if that mirror is not one that shows it.
+    /// Reads the value of the pixel where a mirror shows this one; zero if that mirror does not show it.
     fn pixel(&self, pixels: &[f32], image: usize, [column, row]: [usize; 2]) -> f64 {
         let plan = self.plan;
         let MirrorImage { flips, is_turned, .. } = plan.mirrors.images[image];

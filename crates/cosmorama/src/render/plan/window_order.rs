@@ -1,8 +1,7 @@
-//! Windows of the runs of a patch that lie in one view: they are kept, and made, in any order.
+//! Order of the windows of a patch's runs in one view.
 //!
-//! A plan keeps those of one shape after each other. What a shape asks for is code of its own, and where shapes vary from pixel to
-//! pixel, a processor guesses wrong three times of five which comes next, one time of eleven where it has only to guess where they
-//! change; all that it does ahead is lost with a wrong guess. In order a frame of 8 bits takes a tenth less.
+//! Each window shape has its own code path. Unsorted, 60 % of these branches are mispredicted; sorted by shape within a patch,
+//! 9 %. Sorting saves a tenth of an 8-bit frame's time.
 
 use super::band::Run;
 use crate::render::scan::tile::SIDE;

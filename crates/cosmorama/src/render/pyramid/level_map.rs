@@ -96,7 +96,7 @@ impl LevelMap {
         })
     }
 
-    /// That of one pixel.
+    /// Interpolates the level at one pixel.
     pub(crate) fn at(&self, row: usize, column: usize) -> f32 {
         let [above, below] = self.rows_around(row);
         let ((_, t), (i, s)) = (self.place(row), self.place(column));

@@ -49,7 +49,7 @@ impl<'a> Lattice<'a> {
         self.slot(pixel).screen
     }
 
-    /// The same, and where it lies in a view of this index.
+    /// Returns the footprint of a pixel at half-patch steps, and its point in the view at this index.
     pub(crate) fn point(
         &mut self,
         pixel: [usize; 2],

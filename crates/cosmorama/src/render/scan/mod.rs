@@ -65,7 +65,7 @@ impl<'a> Scan<'a> {
         Self { resampler, pixels, weigher, lattice: Lattice::new(target), wanted: None }
     }
 
-    /// The same of these patches alone.
+    /// Restricts the scan to these patches.
     pub(crate) fn only(self, wanted: Option<&'a Wanted>) -> Self {
         Self { wanted, ..self }
     }

@@ -112,8 +112,9 @@ impl<'a> Patch<'a> {
     }
 }
 
-/// By what part of the largest derivative in its middle those of a patch may differ from it: what is known of the middle alone, how
-/// texels lie around and how far away the end of the view is, holds for all of it.
+/// Largest relative change of derivatives across a patch.
+///
+/// Below it, curvature and edge distance measured at the centre hold for the whole patch.
 const CHANGE: f64 = 0.25;
 
 /// Whether windows may hold what a kernel reaches around this point.
@@ -123,8 +124,9 @@ fn is_held(point: &Point, kernel: &Kernel) -> bool {
 }
 
 impl Exact {
-    /// That of the patch of a target whose top left pixel this is, as a view sees it, given the derivatives in its middle; `None` where
-    /// it does not see all of them, beside a steep rim, or where derivatives change much.
+    /// Measures every pixel of the patch with this top left pixel in a view, given the derivatives in the patch's middle.
+    ///
+    /// `None` where the view does not show all of it, beside a steep rim, or where derivatives change much.
     fn of((target, [i, j]): (&View, [usize; 2]), source: &Source, (origin, middle): (DVec2, DMat2)) -> Option<Self> {
         let bound = CHANGE * largest(middle);
         let mut exact = Self { place: [[[0.0; SIDE]; SIDE]; 2], jacobian: [[[0.0; SIDE]; SIDE]; 4] };
@@ -152,7 +154,7 @@ impl Exact {
 }
 
 impl Density {
-    /// That of a view's texels around the middle of a patch; `None` where it bends within a kernel.
+    /// Measures the density of a view's texels around the middle of a patch; `None` where it bends within a kernel.
     fn around(view: &View, points: &Grid<Point>, kernel: &Kernel) -> Option<Self> {
         let size = |point: &Point| {
             let [x, y] = [point.jacobian.x_axis, point.jacobian.y_axis];

@@ -38,7 +38,7 @@ impl Develop for LookUp<'_> {
 #[derive(Clone, Copy)]
 pub(crate) struct Compute<'a> {
     pub(crate) level: Avx512,
-    /// The same.
+    /// Codes to look up, where they are not computed.
     pub(crate) codes: LookUp<'a>,
 }
 

@@ -1,7 +1,7 @@
-//! The texels of a group's small windows, put once into the order in which all of them take theirs.
+//! Texels of a patch's small windows, copied once into the order in which windows read them.
 //!
-//! Each texel of a patch is in a dozen windows. In the light it lies on a page of its own with those beside it, in each mirror another
-//! one, in this order or the other; here all mirrors' lie beside each other, with those of the next column, as products need them.
+//! Each texel of a patch is in a dozen windows. In the source each mirror of a patch lies on its own page, forward or reversed.
+//! Here all mirrors of a texel are adjacent, in the order in which products consume them.
 
 use fearless_simd::Simd;
 
@@ -165,7 +165,7 @@ impl Rectangle {
         Self::of_windows(first, last, view)
     }
 
-    /// The same of windows that begin from one texel to another.
+    /// Finds the rectangle of texels that windows may read whose first texels lie between `first` and `last`.
     #[inline(always)]
     fn of_windows(first: [u32; 2], last: [u32; 2], view: [usize; 2]) -> Self {
         let largest = [2 * WIDEST, HIGHEST];

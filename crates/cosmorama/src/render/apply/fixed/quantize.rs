@@ -292,7 +292,7 @@ mod tests {
         }
     }
 
-    /// That of a window six texels wide and four high, all of which count, given in which columns some lie under the pixel.
+    /// Finds the shape of a window 6 texels wide and 4 high; `columns_under` marks columns with texels under the pixel.
     fn shape(columns_under: u8) -> Option<usize> {
         let mut found = levels().into_iter().map(|level| {
             let mut rounded = Rounded { width: 6, height: 4, is_small: true, ..Rounded::default() };

@@ -20,7 +20,7 @@ pub(crate) struct Texels<'a, T, const N: usize, const R: usize> {
 }
 
 impl<'a, T: Copy, const N: usize, const R: usize> Texels<'a, T, N, R> {
-    /// Those of a view of so many columns and rows, given how each mirror goes through it from its first column and row on.
+    /// Checks the texels of a view of this size against their buffer, as each mirror walks through it.
     ///
     /// # Panics
     /// If they are not all among the samples, or one goes another way than it should.

@@ -8,7 +8,7 @@ use super::weights::Shape;
 use super::window::{Large, Sums};
 
 impl Large<'_> {
-    /// The same of a window of any size.
+    /// Adds the products of a window of any size, transposed.
     #[inline(always)]
     pub(crate) fn add_turned<S: Simd, V: Blocks<S, N>, const N: usize, const R: usize>(
         &self,

@@ -22,7 +22,7 @@ pub(crate) enum ViewTexels<'a, T> {
 pub(crate) type FourTexels<'a, T> = Texels<'a, T, TOGETHER, 2>;
 
 impl<'a, T: Copy> ViewTexels<'a, T> {
-    /// Those of each view, in the order of its [`Ways`], given the samples of the light.
+    /// Checks the texels of every view against the samples of the light, in the order of the view's [`Ways`].
     ///
     /// # Panics
     /// If a view is not among the samples.

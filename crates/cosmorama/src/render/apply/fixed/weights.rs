@@ -49,7 +49,7 @@ impl Shape {
         Self { pairs, height, under }
     }
 
-    /// That of windows as large as their run's.
+    /// Returns the shape of windows that are as large as their run's.
     #[inline(always)]
     pub(crate) fn of_run(run: &Run) -> Self {
         Self::new(usize::from(run.width).div_ceil(2), usize::from(run.height), 0)

@@ -49,8 +49,9 @@ impl<S: Simd> Window<'_, S> {
         (sums.average(Header(numbers[0]).bits()), length)
     }
 
-    /// The same of any size, whose rows `under` may hold texels under the pixel, given the view's; in the last R mirrors from right to
-    /// left, in all of them, if these are `TURNED`, with columns for rows.
+    /// Applies a window of any size; the rows `under` may hold texels under the pixel.
+    ///
+    /// The last R mirrors read it from right to left. If `TURNED`, all of them read it transposed.
     #[inline(always)]
     pub(crate) fn large<V: Blocks<S, N>, const N: usize, const R: usize, const TURNED: bool>(
         self,

@@ -13,7 +13,7 @@ pub(crate) struct Shape {
 pub(crate) const BLOCK: usize = 4;
 
 impl Shape {
-    /// That of windows as large as their run's.
+    /// Returns the shape of windows that are as large as their run's.
     #[inline(always)]
     pub(crate) fn of_run(run: &Run) -> Self {
         Self { width: usize::from(run.width), height: usize::from(run.height) }

@@ -23,7 +23,7 @@ pub(crate) const BLOCK_SAMPLES: usize = BLOCK * SAMPLES;
 #[derive(Clone, Copy)]
 pub(crate) struct Window<'a, S, const N: usize, const R: usize, const TURNED: bool> {
     pub(crate) simd: S,
-    /// Those of the view.
+    /// Texels of the view.
     pub(crate) texels: &'a Texels<'a, f32, N, R>,
     /// Where it begins.
     pub(crate) first: [u32; 2],
@@ -72,7 +72,7 @@ impl<'a, S: Simd, const N: usize, const R: usize, const TURNED: bool> Window<'a,
         (sums, length)
     }
 
-    /// The same of any size, whose rows from `under` on may hold texels under the pixel.
+    /// Sums over a window of any size, and counts its numbers; the rows `under` may hold texels under the pixel.
     #[inline(always)]
     pub(crate) fn large(self, shape: Shape, under: Range<usize>, numbers: &[u32]) -> ([Sum<S>; N], usize) {
         let words = mark_words(shape.width);

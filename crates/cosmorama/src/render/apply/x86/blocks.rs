@@ -18,7 +18,7 @@ kernel!(
 );
 
 kernel!(
-    /// Those of the samples of two vectors whose places are told, of the second one from 32 on.
+    /// Picks samples out of two vectors by their places; those of the second vector count from 32 on.
     #[inline(always)]
     pub(crate) fn chosen(token: Avx512, a: __m512i, places: __m512i, b: __m512i) -> __m512i {
         _mm512_permutex2var_epi16(a, places, b)

@@ -56,7 +56,7 @@ fn windows_of_integers_are_of_all_sizes() {
     assert!(counts.as_flattened().iter().all(|count| *count > 0), "{counts:?}");
 }
 
-/// That of the last one a product may be missing: a weight of one is more than 16 bits hold.
+/// Checks sums of weights; the last may lack one unit, since a weight of one does not fit in 16 bits.
 #[test]
 fn weights_in_integers_add_to_one() {
     for (world, target, _) in conversions() {
