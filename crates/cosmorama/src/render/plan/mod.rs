@@ -204,7 +204,7 @@ pub(crate) fn render_part(
     image
 }
 
-/// The same in 15 bits.
+/// Renders a picture from 15-bit light, without keeping a plan.
 pub(crate) fn render_fixed(resampler: &Resampler, light: &FixedLight, codec: &FixedCodec) -> Image<[u8; 3]> {
     let mirrors = &Mirrors::of::<FixedWeights>(resampler);
     let (width, height) = (resampler.target.width(), resampler.target.height());

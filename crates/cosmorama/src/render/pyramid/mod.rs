@@ -22,7 +22,7 @@ use crate::world::World;
 /// way, and so on.
 pub(crate) struct Pyramid<'a> {
     resampler: &'a Resampler<'a>,
-    /// Those from the first halved one on, with how each is made from the one before.
+    /// Halved worlds, largest first, each with the mapping that makes its light from the level before.
     levels: Vec<(World, Halving)>,
     map: LevelMap,
 }
@@ -75,14 +75,14 @@ pub(crate) struct TexelCount<'a> {
 }
 
 impl<'a> TexelCount<'a> {
-    /// That of pixels of a target; `table` is that of the filter's kernel.
+    /// Counts texels for the pixels of a target; `table` is of the filter's kernel.
     pub(crate) fn new(pyramid: &'a Pyramid<'a>, table: &'a KernelTable) -> Self {
         let Resampler { target, .. } = pyramid.resampler;
         let taps = |level| PixelTaps::new(pyramid.world(level), target, &pyramid.resampler.filter, table);
         Self { map: &pyramid.map, levels: (0..=pyramid.levels.len()).map(taps).collect() }
     }
 
-    /// That of one pixel.
+    /// Counts the texels of one pixel.
     pub(crate) fn of(&mut self, (column, row): (usize, usize), screen: &ScreenPixel) -> usize {
         let number = self.map.at(row, column);
         let mut count = 0;

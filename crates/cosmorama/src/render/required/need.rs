@@ -96,7 +96,7 @@ impl Needs {
         needs
     }
 
-    /// That of no pixel.
+    /// Returns the needs of no pixels: nothing seen, nothing read.
     pub(crate) fn nothing(world: &World) -> Self {
         let need = |source: &Source| Need { name: source.name.clone(), seen: None, read: None };
         Self { views: world.sources().iter().map(need).collect(), uncovered: None }
