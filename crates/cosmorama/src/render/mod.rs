@@ -2,6 +2,7 @@
 
 pub(crate) mod apply;
 pub(crate) mod batch;
+mod frame;
 mod picture;
 pub(crate) mod plan;
 pub(crate) mod pyramid;

@@ -1,9 +1,5 @@
-use super::batch::window::Level;
-use super::plan::{self, Arithmetic, Plan};
-use super::pyramid;
 use crate::camera::View;
-use crate::filter::{FilterKind, FilterSettings, reference};
-use crate::raster::{FixedCodec, FixedLight, Image, Rgba};
+use crate::filter::FilterSettings;
 use crate::world::World;
 
 /// A conversion from a world to a target view.
@@ -27,70 +23,5 @@ impl<'a> Resampler<'a> {
     #[must_use]
     pub const fn by(self, filter: FilterSettings) -> Self {
         Self { filter, ..self }
-    }
-}
-
-impl Resampler<'_> {
-    /// One frame, computed without storing the geometry. `texels` is the world's buffer of light.
-    ///
-    /// A [`Plan`] makes the same pixels.
-    ///
-    /// Pixels are premultiplied by their coverage: transparent outside the lens. A pixel just beyond the world's last texel
-    /// takes what its kernel still reaches; [`super::ScreenMask`] tells which pixels see nothing.
-    ///
-    /// # Panics
-    /// If `texels` is not as long as [`World::texel_count`] says.
-    pub fn render(&self, texels: &[Rgba]) -> Image<Rgba> {
-        self.render_over(texels, Rgba::TRANSPARENT)
-    }
-
-    /// Renders over a background in linear, premultiplied light.
-    ///
-    /// # Panics
-    /// As [`Resampler::render`].
-    pub fn render_over(&self, texels: &[Rgba], background: Rgba) -> Image<Rgba> {
-        assert_eq!(texels.len(), self.world.texel_count(), "one texel of light for each texel of the world");
-        let mut image = match self.filter.kind {
-            FilterKind::Ewa | FilterKind::Point | FilterKind::Bilinear => {
-                return plan::render(self, texels, background, Level::new());
-            }
-            FilterKind::Reference { samples } => {
-                reference::render(self.world, self.target, &self.filter.reference(samples), texels)
-            }
-            FilterKind::EwaPyramid => pyramid::render(self, texels),
-        };
-        image.lay_over(background);
-        image
-    }
-
-    /// One frame of 8 bits, opaque, of light that has 15: the code values of each pixel, within one of those of
-    /// [`Resampler::render`].
-    ///
-    /// # Panics
-    /// If `light` is not that of the world's texels.
-    pub fn render_fixed(&self, light: &FixedLight, codec: &FixedCodec) -> Image<[u8; 3]> {
-        assert!(light.sizes().eq(self.world.view_sizes()), "light of the world's views");
-        if matches!(self.filter.kind, FilterKind::EwaPyramid | FilterKind::Reference { .. }) {
-            let texels: Vec<Rgba> = (0..light.len()).map(|texel| light.rgba(texel)).collect();
-            return codec.encode(&self.render(&texels));
-        }
-        plan::render_fixed(self, light, codec)
-    }
-
-    /// Compiles the geometry, for any number of frames; `None` for the reference filter, which has too many samples to store, and in
-    /// integers for that of pyramids.
-    pub fn plan(&self, arithmetic: Arithmetic) -> Option<Plan> {
-        Plan::new(self, arithmetic)
-    }
-
-    /// Estimates how many bytes [`Resampler::plan`] would hold, from a part of the rows, keeping nothing; 0 where there is no plan.
-    pub fn plan_bytes_estimate(&self, arithmetic: Arithmetic) -> usize {
-        plan::bytes_estimate(self, arithmetic)
-    }
-
-    /// Bytes at most that the levels of a pyramid take while a frame is made of them; zero for other filters, and where the
-    /// world's own texels are large enough.
-    pub fn level_bytes(&self) -> usize {
-        if self.filter.kind == FilterKind::EwaPyramid { pyramid::bytes(self) } else { 0 }
     }
 }

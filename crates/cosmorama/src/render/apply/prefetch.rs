@@ -1,7 +1,7 @@
 use std::ops::Range;
 
 use super::fixed::texels;
-use crate::render::plan::band::Run;
+use crate::render::plan::span::Run;
 use crate::render::plan::symmetry::{Mirrors, exchanged};
 use crate::render::plan::traversal::Pass;
 use crate::render::scan::tile::SIDE;

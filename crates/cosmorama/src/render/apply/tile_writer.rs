@@ -4,7 +4,7 @@ use bytemuck::NoUninit;
 
 use super::output_region::PicturePart;
 use super::pack::{Develop, GroupLight};
-use crate::render::plan::band::Run;
+use crate::render::plan::span::Run;
 use crate::render::plan::symmetry::{MirrorImage, Mirrors, TOGETHER, UPRIGHT, Ways};
 use crate::render::plan::traversal::Pass;
 use crate::render::scan::tile::SIDE;

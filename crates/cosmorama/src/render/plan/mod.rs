@@ -2,6 +2,7 @@
 
 pub(crate) mod band;
 pub(crate) mod recorder;
+pub(crate) mod span;
 pub(crate) mod symmetry;
 pub(crate) mod tap_lists;
 #[cfg(test)]

@@ -1,4 +1,5 @@
-use super::band::{Band, Corners, Run};
+use super::band::Band;
+use super::span::{Corners, Run};
 use super::symmetry::Mirrors;
 use super::weights::Weights;
 use crate::filter::taps::Taps;

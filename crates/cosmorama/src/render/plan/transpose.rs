@@ -1,6 +1,7 @@
 use rayon::prelude::*;
 
-use super::band::{Band, Run};
+use super::band::Band;
+use super::span::Run;
 use super::symmetry::{MirrorImage, Walk, exchanged};
 use super::{BAND, Compiled, Geometry, Plan};
 use crate::render::apply::float::weights::FloatWeights;

@@ -1,6 +1,6 @@
 use std::ops::Range;
 
-use super::band::Run;
+use super::span::Run;
 use super::symmetry::TOGETHER;
 
 /// What is worked on together: a patch's runs that lie in one view, in some of its mirrors.

@@ -1,6 +1,6 @@
 use std::fmt::Debug;
 
-use super::band::{Corners, Run};
+use super::span::{Corners, Run};
 use crate::render::batch::window::Windows;
 
 /// How a plan keeps the weights of a band's windows, one group of runs after the other.

@@ -3,7 +3,7 @@
 //! Each window shape has its own code path. Unsorted, 60 % of these branches are mispredicted; sorted by shape within a patch,
 //! 9 %. Sorting saves a tenth of an 8-bit frame's time.
 
-use super::band::Run;
+use super::span::Run;
 use crate::render::scan::tile::SIDE;
 
 /// Where a window belongs: to which run of its group, and in which lane. Headers of all kinds leave room for it.

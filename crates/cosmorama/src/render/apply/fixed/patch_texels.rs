@@ -8,7 +8,7 @@ use fearless_simd::Simd;
 use super::blocks::Blocks;
 use super::texels::Texels;
 use super::weights::{HIGHEST, WIDEST};
-use crate::render::plan::band::Run;
+use crate::render::plan::span::Run;
 use crate::render::plan::symmetry::{TOGETHER, exchanged};
 
 /// Columns and rows that there is room for: small windows of a patch are hardly ever farther apart.

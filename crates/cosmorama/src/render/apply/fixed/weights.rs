@@ -3,7 +3,7 @@ use fearless_simd::{Simd, dispatch};
 use super::quantize::{Origin, Rounded};
 use crate::raster::FixedLight;
 use crate::render::batch::window::Windows;
-use crate::render::plan::band::{Corners, Run};
+use crate::render::plan::span::{Corners, Run};
 use crate::render::plan::weights::Weights;
 use crate::render::plan::window_order::{self, Place, Told};
 use crate::render::scan::tile::SIDE;

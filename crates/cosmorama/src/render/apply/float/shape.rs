@@ -1,4 +1,4 @@
-use crate::render::plan::band::Run;
+use crate::render::plan::span::Run;
 use crate::render::plan::window_order::{Place, Told};
 
 /// The size of a pixel's window, and how its weights follow each other: first those of its blocks, row by row, then those of the

@@ -3,7 +3,7 @@ use fearless_simd::{Simd, dispatch};
 use super::lanes::Lanes;
 use super::shape::{BLOCK, Header, Shape, Small, mark_words};
 use crate::render::batch::window::Windows;
-use crate::render::plan::band::{Corners, Run};
+use crate::render::plan::span::{Corners, Run};
 use crate::render::plan::weights::Weights;
 use crate::render::plan::window_order::{self, Place};
 use crate::render::scan::tile::SIDE;

@@ -3,7 +3,7 @@ mod runs;
 mod sizes;
 mod worlds;
 
-use super::band::{Corners, Run};
+use super::span::{Corners, Run};
 use super::symmetry::{MirrorImage, Mirrors};
 use super::*;
 use crate::camera::{FieldStop, View};

@@ -1,7 +1,7 @@
 use fearless_simd::{Simd, dispatch};
 
 use super::*;
-use crate::render::plan::tap_lists::Palette;
+use crate::render::apply::tap_lists::Palette;
 
 /// The light of a texel as it is worked with, by each level's instructions.
 fn lights(palette: &impl Palette, texel: u32) -> impl Iterator<Item = [f32; 4]> {

@@ -1,0 +1,165 @@
+use std::ops::Range;
+
+use crate::render::batch::window::Windows;
+use crate::render::scan::tile::{SIDE, lanes_of};
+
+/// Up to [`SIDE`] pixels beside each other, whose windows have one size and lie in one view.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Run {
+    /// The first column and the row of the window that is farthest to the left, and of the one that is highest.
+    corner: [u32; 2],
+    /// How far from there each window begins.
+    offsets: [[u8; 2]; SIDE],
+    /// Where the weights of its group begin among those of the band.
+    pub(crate) weights: u32,
+    /// Column of its first pixel.
+    column: u32,
+    /// The view.
+    pub(crate) view: u16,
+    /// Row in the band.
+    row: u8,
+    /// Which of the pixels it makes, a bit for each.
+    lanes: u8,
+    pub(crate) width: u8,
+    pub(crate) height: u8,
+    /// Rows of its windows: from, to.
+    under: [u8; 2],
+}
+
+/// Column and row of the first texel of each lane's window, in the lanes that have one.
+pub(crate) type Corners = [Option<[u32; 2]>; SIDE];
+
+impl Run {
+    /// The pixels that it makes, by lane.
+    #[inline(always)]
+    pub(crate) fn lanes(&self) -> impl Iterator<Item = usize> + use<> {
+        let mut rest = self.lanes;
+        std::iter::from_fn(move || {
+            let lane = rest.trailing_zeros() as usize;
+            rest &= rest.wrapping_sub(1);
+            (lane < SIDE).then_some(lane)
+        })
+    }
+
+    /// Returns the lanes that make a pixel, one bit for each.
+    pub(crate) fn lane_bits(&self) -> u8 {
+        self.lanes
+    }
+
+    /// Whether it makes a pixel in each lane.
+    #[inline(always)]
+    pub(crate) fn is_whole(&self) -> bool {
+        self.lanes == u8::MAX
+    }
+
+    /// The column farthest to the left and the row farthest up of its windows' texels.
+    #[inline(always)]
+    pub(crate) fn corner(&self) -> [usize; 2] {
+        self.corner.map(|at| at as usize)
+    }
+
+    /// About the column and the row after the last ones that its windows hold.
+    #[inline(always)]
+    pub(crate) fn end(&self) -> [usize; 2] {
+        // Windows follow each other in one direction, and those of lanes that have none stay where the next ones are.
+        let [first, last] = [self.offsets[0], self.offsets[SIDE - 1]];
+        let end = |axis: usize, size: u8| {
+            self.corner[axis] as usize + usize::from(first[axis].max(last[axis])) + usize::from(size)
+        };
+        [end(0, self.width), end(1, self.height)]
+    }
+
+    /// The first column and row in which a window begins, and the last ones.
+    #[inline(always)]
+    pub(crate) fn corners(&self) -> ([u32; 2], [u32; 2]) {
+        let farthest = self.offsets.iter().fold([0; 2], |all, offset| [all[0].max(offset[0]), all[1].max(offset[1])]);
+        (self.corner, [0, 1].map(|axis| self.corner[axis].wrapping_add(u32::from(farthest[axis]))))
+    }
+
+    /// The column and the row where a lane's window begins.
+    #[inline(always)]
+    pub(crate) fn first(&self, lane: usize) -> [u32; 2] {
+        let [column, row] = self.offsets[lane].map(u32::from);
+        [self.corner[0].wrapping_add(column), self.corner[1].wrapping_add(row)]
+    }
+
+    /// One that makes these lanes, of the first view's first patch.
+    #[cfg(test)]
+    pub(crate) fn of_lanes(lanes: u8, weights: u32) -> Self {
+        let offsets = [[0; 2]; SIDE];
+        Self { corner: [0; 2], offsets, weights, column: 0, view: 0, row: 0, lanes, width: 4, height: 4, under: [0; 2] }
+    }
+
+    /// Moves the run's windows to begin at this texel.
+    #[cfg(test)]
+    pub(crate) fn from(self, corner: [u32; 2]) -> Self {
+        Self { corner, ..self }
+    }
+
+    /// Sets how many columns and rows after the first window the last lane's begins.
+    #[cfg(test)]
+    pub(crate) fn with_last(mut self, offset: [u8; 2]) -> Self {
+        self.offsets[SIDE - 1] = offset;
+        self
+    }
+
+    /// Moves the run to other pixels.
+    #[cfg(test)]
+    pub(crate) fn at(self, [column, row]: [usize; 2]) -> Self {
+        Self { column: column as u32, row: row as u8, ..self }
+    }
+
+    /// A lane's column, and the row in the band.
+    #[inline(always)]
+    pub(crate) fn pixel(&self, lane: usize) -> [usize; 2] {
+        [self.column as usize + lane, usize::from(self.row)]
+    }
+
+    /// Its row in the patch.
+    #[inline(always)]
+    pub(crate) fn row_in_patch(&self) -> usize {
+        usize::from(self.row) % SIDE
+    }
+
+    /// Whether a run that begins at this pixel is of the same patch.
+    pub(crate) fn shares_patch(&self, [column, row]: [usize; 2]) -> bool {
+        self.column as usize == column && usize::from(self.row) / SIDE == row / SIDE
+    }
+
+    /// The rows of its windows that hold texels under a pixel.
+    #[inline(always)]
+    pub(crate) fn rows_under(&self) -> Range<usize> {
+        usize::from(self.under[0])..usize::from(self.under[1])
+    }
+
+    /// The run of windows that begin at these texels; `None` if it cannot be written down.
+    pub(crate) fn new(windows: &Windows, corners: &Corners, [column, row]: [usize; 2], weights: usize) -> Option<Self> {
+        let lanes = lanes_of(|lane| corners[lane].is_some());
+        // Lanes without a window count as the last one before them that has one, or as the first: loops go without branches then.
+        let first = corners[lanes.trailing_zeros() as usize % SIDE]?;
+        let corner = corners.map(|corner| corner.unwrap_or(first)).into_iter();
+        let corner = corner.fold(first, |least, texel| [least[0].min(texel[0]), least[1].min(texel[1])]);
+        let mut last = first;
+        let offsets = corners.map(|texel| {
+            last = texel.unwrap_or(last);
+            [last[0] - corner[0], last[1] - corner[1]]
+        });
+        if offsets.as_flattened().iter().fold(0, |all, offset| all | offset) > u32::from(u8::MAX) {
+            return None;
+        }
+        let offsets = offsets.map(|offset| offset.map(|texels| texels as u8));
+        let under = windows.rows_under();
+        Some(Self {
+            corner,
+            offsets,
+            weights: u32::try_from(weights).ok()?,
+            column: column as u32,
+            view: u16::try_from(windows.view()).ok()?,
+            row: row as u8,
+            lanes,
+            width: u8::try_from(windows.width()).ok()?,
+            height: u8::try_from(windows.height()).ok()?,
+            under: [under.start as u8, under.end as u8],
+        })
+    }
+}
