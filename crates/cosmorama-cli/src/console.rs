@@ -6,12 +6,15 @@ use std::path::Path;
 
 use anyhow::{Context, Result};
 use cosmorama_convert::{Diagnostic, Message, Setting};
+use cosmorama_io::pending::Unfinished;
 
 /// The streams of a run.
 #[derive(Debug, Default)]
 pub(crate) struct Console {
     /// Each file that stands for a stream with its name for people.
     names: Vec<(String, String)>,
+    /// Files that are being written: an interrupt removes them.
+    pub(crate) unfinished: Unfinished,
 }
 
 impl Console {

@@ -1,10 +1,11 @@
 use anyhow::Result;
+use cosmorama_io::pending::Unfinished;
 
 /// Watches for interrupts: files in the making are removed, then the program ends with 130, 143 or, on Linux, when its terminal
 /// goes away, 129. What was ignored when it began, as `nohup` has it, stays so. A file that grows beyond the limit (`ulimit -f`)
 /// does not end it: writing fails, which is told and leaves nothing behind.
 #[cfg(unix)]
-pub(crate) fn install() -> Result<()> {
+pub(crate) fn install(unfinished: Unfinished) -> Result<()> {
     use anyhow::Context;
     use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM, SIGXFSZ};
 
@@ -15,7 +16,7 @@ pub(crate) fn install() -> Result<()> {
     let mut signals = signal_hook::iterator::Signals::new(watched).context("cannot watch for interrupts")?;
     let watch = move || {
         if let Some(signal) = signals.forever().next() {
-            cosmorama_io::pending::remove_all();
+            unfinished.remove_all();
             std::process::exit(128 + signal);
         }
     };
@@ -35,6 +36,6 @@ fn ignored() -> u64 {
 
 /// Elsewhere the system ends the program; what it was writing stays as a `.cosmorama-*.part` file.
 #[cfg(not(unix))]
-pub(crate) fn install() -> Result<()> {
+pub(crate) fn install(_: Unfinished) -> Result<()> {
     Ok(())
 }

@@ -55,7 +55,7 @@ impl KeptStreams {
         console: &mut Console,
     ) -> Result<String> {
         self.inputs += 1;
-        let folder = self.folder()?.join(format!("input-{}", self.inputs));
+        let folder = self.folder(console)?.join(format!("input-{}", self.inputs));
         std::fs::create_dir(&folder).with_context(|| format!("cannot keep {name}"))?;
         let path = folder.join(file_name);
         console.call(&path, name);
@@ -64,11 +64,11 @@ impl KeptStreams {
         Ok(path.display().to_string())
     }
 
-    fn folder(&mut self) -> Result<PathBuf> {
+    fn folder(&mut self, console: &Console) -> Result<PathBuf> {
         if let Some(folder) = &self.folder {
             return Ok(folder.path().to_owned());
         }
-        let folder = Scratch::create().map_err(|error| {
+        let folder = Scratch::create(&console.unfinished).map_err(|error| {
             let place = std::env::temp_dir();
             anyhow!(
                 "no folder for what is piped can be made in {} ({}); name one where you may write, as in TMPDIR=/var/tmp",
@@ -110,7 +110,7 @@ impl Piped {
         let mut kept = KeptStreams::default();
         args.input = kept.input(&args.input, console)?;
         if let Some(format) = &args.format {
-            let path = kept.folder()?.join(format!("standard output.{}", format.trim_start_matches('.')));
+            let path = kept.folder(console)?.join(format!("standard output.{}", format.trim_start_matches('.')));
             console.call(&path, "standard output");
             args.output = path.display().to_string();
         }

@@ -1,14 +1,14 @@
 //! Files that are being written and do not count yet.
 //!
-//! [`write`](crate::write()) writes to a temporary file beside the output and renames it when it is whole. An
-//! interrupt handler calls [`remove_all`] before the program ends: no part of a file stays behind. Files that a
-//! killed program left are named `.cosmorama-*.part`.
+//! [`write`](crate::write()) writes to a temporary file beside the output and renames it when it is whole. Meanwhile the file
+//! is on a list, [`Unfinished`]; an interrupt handler calls [`Unfinished::remove_all`] before the program ends: no part of a
+//! file stays behind. Files that a killed program left are named `.cosmorama-*.part`.
 
 use std::collections::BTreeSet;
 use std::fs::File;
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
-use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use tempfile::{Builder, TempDir, TempPath};
 
@@ -17,26 +17,38 @@ use crate::IoError;
 const PREFIX: &str = ".cosmorama-";
 const SUFFIX: &str = ".part";
 
-static IN_FLIGHT: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
+/// List of temporary files that are being written. Clones are the same list.
+#[derive(Clone, Debug, Default)]
+pub struct Unfinished(Arc<Mutex<BTreeSet<PathBuf>>>);
 
-fn in_flight() -> MutexGuard<'static, BTreeSet<PathBuf>> {
-    // A set of paths is whole after every step, even if a thread panicked.
-    IN_FLIGHT.lock().unwrap_or_else(PoisonError::into_inner)
-}
-
-/// Deletes all temporary files that are being written now. For interrupt handlers: the program must end next, because
-/// whoever begins, finishes or gives up a file from now on waits until it does. So nothing can appear after all was
-/// removed, and no writer's failure is told in place of the interrupt.
-pub fn remove_all() {
-    let paths = in_flight();
-    for path in paths.iter() {
-        // One that is gone already is as wanted.
-        let _ = if path.is_dir() { std::fs::remove_dir_all(path) } else { std::fs::remove_file(path) };
+impl Unfinished {
+    /// Deletes all temporary files on the list. For interrupt handlers: the program must end next, because whoever begins,
+    /// finishes or gives up a file of this list from now on waits until it does. So nothing can appear after all was removed,
+    /// and no writer's failure is told in place of the interrupt.
+    pub fn remove_all(&self) {
+        let paths = self.paths();
+        for path in paths.iter() {
+            // One that is gone already is as wanted.
+            let _ = if path.is_dir() { std::fs::remove_dir_all(path) } else { std::fs::remove_file(path) };
+        }
+        std::mem::forget(paths);
     }
-    std::mem::forget(paths);
+
+    fn paths(&self) -> MutexGuard<'_, BTreeSet<PathBuf>> {
+        // A set of paths is whole after every step, even if a thread panicked.
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Puts on the list what is made while nobody can remove all.
+    fn list<T>(&self, make: impl FnOnce() -> io::Result<(PathBuf, T)>) -> io::Result<(T, Listed)> {
+        let mut paths = self.paths();
+        let (path, made) = make()?;
+        paths.insert(path.clone());
+        Ok((made, Listed { path, list: self.clone() }))
+    }
 }
 
-/// A folder for files that nobody is to see. It goes away when it is dropped, and with [`remove_all`].
+/// A folder for files that nobody is to see. It goes away when it is dropped, and with [`Unfinished::remove_all`].
 pub struct Scratch {
     // Deleted before it is struck off the list.
     folder: TempDir,
@@ -48,12 +60,12 @@ impl Scratch {
     ///
     /// # Errors
     /// When there cannot be one.
-    pub fn create() -> io::Result<Self> {
-        let mut paths = in_flight();
-        let folder = Builder::new().prefix(PREFIX).tempdir()?;
-        paths.insert(folder.path().to_owned());
-        let listed = Listed(folder.path().to_owned());
-        Ok(Self { folder, _listed: listed })
+    pub fn create(unfinished: &Unfinished) -> io::Result<Self> {
+        let (folder, _listed) = unfinished.list(|| {
+            let folder = Builder::new().prefix(PREFIX).tempdir()?;
+            Ok((folder.path().to_owned(), folder))
+        })?;
+        Ok(Self { folder, _listed })
     }
 
     /// Where it is.
@@ -72,11 +84,14 @@ pub struct Pending {
 }
 
 /// An entry of the list, as long as it lives.
-struct Listed(PathBuf);
+struct Listed {
+    path: PathBuf,
+    list: Unfinished,
+}
 
 impl Drop for Listed {
     fn drop(&mut self) {
-        in_flight().remove(&self.0);
+        self.list.paths().remove(&self.path);
     }
 }
 
@@ -85,7 +100,7 @@ impl Pending {
     ///
     /// # Errors
     /// When the folder is missing or cannot be written to, or what stands in the place is no file.
-    pub fn create(target: &Path) -> Result<Self, IoError> {
+    pub fn create(target: &Path, unfinished: &Unfinished) -> Result<Self, IoError> {
         let target = &place(target)?;
         let folder = match target.parent() {
             Some(folder) if !folder.as_os_str().is_empty() => folder,
@@ -93,13 +108,12 @@ impl Pending {
         };
         let mut builder = Builder::new();
         builder.prefix(PREFIX).suffix(SUFFIX);
-        // The list is held meanwhile: a file that is not on it would survive an interrupt.
-        let mut paths = in_flight();
-        // Not by `tempfile`'s own hand, whose files only their owner can read: an output is for everyone that the umask lets.
-        let made = builder.make_in(folder, |path| File::create_new(path));
-        let file = made.map_err(|error| refused(target, folder, &error))?;
-        paths.insert(file.path().to_owned());
-        let listed = Listed(file.path().to_owned());
+        let make = || {
+            // Not by `tempfile`'s own hand, whose files only their owner can read: an output is for everyone that the umask lets.
+            let file = builder.make_in(folder, |path| File::create_new(path))?;
+            Ok((file.path().to_owned(), file))
+        };
+        let (file, listed) = unfinished.list(make).map_err(|error| refused(target, folder, &error))?;
         let (file, path) = file.into_parts();
         Ok(Self { target: target.to_owned(), file: BufWriter::with_capacity(1 << 18, file), path, listed })
     }

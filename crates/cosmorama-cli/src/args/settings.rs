@@ -4,6 +4,7 @@ use cosmorama::raster::Depth;
 use cosmorama::sphere::{Angle, Orientation};
 use cosmorama_convert::{Conversion, Existing, ExplanationSettings, GeometrySettings, LimitSettings};
 use cosmorama_io::Compression;
+use cosmorama_io::pending::Unfinished;
 use cosmorama_spec::CompressionLevel;
 
 use super::convert::{GeometryArgs, LimitArgs};
@@ -33,6 +34,7 @@ impl From<ConvertArgs> for Conversion {
             quality: args.quality,
             compression: args.compression.map(compression),
             limits: args.limits.into(),
+            unfinished: Unfinished::default(),
         }
     }
 }

@@ -42,7 +42,8 @@ pub(super) fn run(args: &CompareArgs, console: &mut Console) -> Result<ExitCode>
         let transfer = if depth.is_float() { Transfer::Linear } else { Transfer::Srgb };
         let encoded = EncodedImage::encode(&difference, channels, depth, &transfer);
         let metadata = Metadata { transfer: Some(transfer), ..Metadata::default() };
-        write(path, &encoded, &WriteOptions::with_metadata(metadata))?;
+        let options = WriteOptions { unfinished: console.unfinished.clone(), ..WriteOptions::with_metadata(metadata) };
+        write(path, &encoded, &options)?;
     }
     let failures = failures(args, &comparison);
     let text = if args.json { json_text(args, &comparison, &failures)? } else { plain_text(&comparison) };

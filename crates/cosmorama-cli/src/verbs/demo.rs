@@ -103,7 +103,8 @@ fn render_face(partial: &PartialFace, folder: &Path, console: &Console) -> Resul
     let encoded = EncodedImage::encode(&light, Channels::Rgb, Depth::Eight, &Transfer::Srgb);
     let metadata = Metadata { transfer: Some(Transfer::Srgb), ..Metadata::default() };
     let path = face_file(folder, *face);
-    write(&path, &encoded, &WriteOptions::with_metadata(metadata))?;
+    let options = WriteOptions { unfinished: console.unfinished.clone(), ..WriteOptions::with_metadata(metadata) };
+    write(&path, &encoded, &options)?;
     tell(console, &path, &format!("the {face} face, {window} of {FACE}x{FACE}, rendered"), start)
 }
 
@@ -162,7 +163,7 @@ fn draw_unfolded(folder: &Path, faces: &[PartialFace], target: &View, console: &
         |(view, partial): (usize, &PartialFace)| Underlay { view, href: format!("{FACES}/{}.png", partial.face) };
     let underlays: Vec<Underlay> = faces.iter().enumerate().map(underlay).collect();
     let svg = Figures { world: &world, target }.unfolded(&needs, &underlays);
-    for file in diagram::draw(folder, UNFOLDED, &svg)? {
+    for file in diagram::draw(folder, UNFOLDED, &svg, &console.unfinished)? {
         file.appear()?;
     }
     let [vector, raster] = diagram::files(folder, UNFOLDED);

@@ -3,7 +3,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result};
 use cosmorama::raster::Transfer;
-use cosmorama_io::pending::{Hidden, Pending};
+use cosmorama_io::pending::{Hidden, Pending, Unfinished};
 use cosmorama_io::{Metadata, WriteOptions, svg, write_hidden};
 
 /// Pixels of a PNG for each unit of its drawing.
@@ -15,12 +15,13 @@ pub(super) fn files(folder: &Path, name: &str) -> [PathBuf; 2] {
 }
 
 /// Writes a drawing as `NAME.svg` and `NAME.png`; pictures that it refers to are found beside it. Both wait to appear.
-pub(super) fn draw(folder: &Path, name: &str, drawing: &str) -> Result<[Hidden; 2]> {
+pub(super) fn draw(folder: &Path, name: &str, drawing: &str, unfinished: &Unfinished) -> Result<[Hidden; 2]> {
     let [vector, raster] = files(folder, name);
-    let mut pending = Pending::create(&vector)?;
+    let mut pending = Pending::create(&vector, unfinished)?;
     let written = pending.writer().write_all(drawing.as_bytes());
     written.with_context(|| format!("cannot write {}", vector.display()))?;
     let metadata = Metadata { transfer: Some(Transfer::Srgb), ..Metadata::default() };
+    let options = WriteOptions { unfinished: unfinished.clone(), ..WriteOptions::with_metadata(metadata) };
     let image = svg::rasterise(drawing, SCALE, Some(folder)).context("cannot draw a diagram")?;
-    Ok([pending.close()?, write_hidden(&raster, &image, &WriteOptions::with_metadata(metadata))?])
+    Ok([pending.close()?, write_hidden(&raster, &image, &options)?])
 }

@@ -36,7 +36,7 @@ pub(super) fn run(mut args: ExplainArgs, console: &mut Console) -> Result<ExitCo
         text += &format!("{report}");
         let files = match &output {
             Some(folder) => {
-                drawn.extend(draw(folder, picture, &worlds[picture.world(worlds.len())], &needs(&report))?);
+                drawn.extend(draw(folder, picture, &worlds[picture.world(worlds.len())], &needs(&report), console)?);
                 diagrams(folder, picture)
             }
             None => Vec::new(),
@@ -77,13 +77,13 @@ fn needs(report: &Report) -> Needs {
     Needs { views: report.views.iter().map(|view| view.need.clone()).collect(), uncovered: report.uncovered }
 }
 
-fn draw(folder: &Path, picture: &Picture, world: &World, needs: &Needs) -> Result<Vec<Hidden>> {
+fn draw(folder: &Path, picture: &Picture, world: &World, needs: &Needs, console: &Console) -> Result<Vec<Hidden>> {
     make_folder(folder)?;
     let figures = Figures { world, target: &picture.view };
     let drawings = [figures.unfolded(needs, &[]), figures.ownership(), figures.footprints()];
     let mut files = Vec::new();
     for (name, svg) in diagram_names(picture).iter().zip(&drawings) {
-        files.extend(diagram::draw(folder, name, svg)?);
+        files.extend(diagram::draw(folder, name, svg, &console.unfinished)?);
     }
     Ok(files)
 }

@@ -22,7 +22,7 @@ use crate::interrupt;
 
 /// Does what was asked for.
 pub(crate) fn run(verb: Verb, console: &mut Console) -> Result<ExitCode> {
-    interrupt::install()?;
+    interrupt::install(console.unfinished.clone())?;
     match verb {
         Verb::Demo(args) => demo::run(&args, console),
         Verb::Convert(args) => convert::run(*args, console),

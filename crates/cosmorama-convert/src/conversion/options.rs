@@ -41,6 +41,7 @@ pub(crate) fn write_options(settings: &Conversion, format: Format, outputs: &Out
         quality: settings.quality.unwrap_or(default.quality),
         compression: settings.compression.unwrap_or(usual),
         metadata: light.metadata.clone(),
+        unfinished: settings.unfinished.clone(),
     }
 }
 

@@ -1,6 +1,7 @@
 use cosmorama::filter::FilterKind;
 use cosmorama::raster::{Depth, Rgba};
 use cosmorama::sphere::{Angle, Orientation};
+use cosmorama_io::pending::Unfinished;
 use cosmorama_io::{Compression, FrameList};
 use cosmorama_spec::{FilterName, KernelName, MemorySize, Missing, Size, Spec, TransferName};
 
@@ -55,6 +56,8 @@ pub struct Conversion {
     pub compression: Option<Compression>,
     /// What the run may take.
     pub limits: LimitSettings,
+    /// List of the files that are being written, for whoever has to remove them.
+    pub unfinished: Unfinished,
 }
 
 /// What light comes from where and goes where.
@@ -132,6 +135,7 @@ impl Default for Conversion {
             quality: None,
             compression: None,
             limits: LimitSettings::default(),
+            unfinished: Unfinished::default(),
         }
     }
 }

@@ -2,11 +2,10 @@
 
 use std::path::Path;
 
-use cosmorama::raster::Image;
+use cosmorama::raster::{Depth, Image};
 use cosmorama_builtin::{BuiltinWorld, DirectionMap, DirectionPixel};
 use cosmorama_io::{WriteOptions, write_planes};
 
-use crate::colour::Light;
 use crate::conversion::{Checked, ConvertJob};
 use crate::diagnostic::Result;
 use crate::engine::{Levels, Stage, Writer, assemble};
@@ -28,7 +27,9 @@ pub(crate) fn picture(
 pub(crate) fn directions(run: &Checked, map: DirectionMap, file: usize, path: &Path) -> Result<()> {
     let Checked { job, stages, .. } = run;
     let pixels = stages.alone(Stage::Filter, || pixels(job, map, file))?;
-    stages.alone(Stage::Encode, || save_map(&job.light, map, &pixels, path))
+    let metadata = job.light.metadata.clone();
+    let options = WriteOptions { unfinished: run.settings.unfinished.clone(), ..WriteOptions::with_metadata(metadata) };
+    stages.alone(Stage::Encode, || save_map(job.light.depth, map, &pixels, path, &options))
 }
 
 /// The picture of a file and its smaller copies, in front of their background.
@@ -51,10 +52,15 @@ fn pixels(job: &ConvertJob, map: DirectionMap, file: usize) -> Result<Image<Dire
 }
 
 /// Writes a map of directions, a plane for each number of its pixels.
-fn save_map(light: &Light, map: DirectionMap, pixels: &Image<DirectionPixel>, path: &Path) -> Result<()> {
+fn save_map(
+    depth: Depth,
+    map: DirectionMap,
+    pixels: &Image<DirectionPixel>,
+    path: &Path,
+    options: &WriteOptions,
+) -> Result<()> {
     let plane = |number: usize| pixels.pixels().iter().map(|pixel| pixel[number]).collect();
     let planes = map.channels().iter().enumerate().map(|(number, name)| (*name, plane(number))).collect();
-    let options = WriteOptions::with_metadata(light.metadata.clone());
-    write_planes(path, (pixels.width(), pixels.height()), planes, light.depth, &options)?;
+    write_planes(path, (pixels.width(), pixels.height()), planes, depth, options)?;
     Ok(())
 }

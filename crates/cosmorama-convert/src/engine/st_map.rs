@@ -21,7 +21,8 @@ pub(crate) fn make(run: &Checked, file: usize, path: &Path) -> Result<()> {
     let Checked { job, stages, .. } = run;
     let map = |view: usize| st_pixels(job, &job.target.views[view]);
     let image = stages.alone(Stage::Filter, || assemble(&job.target.files[file].sheet, ST_NOWHERE, map))?;
-    stages.alone(Stage::Encode, || save(&image, path, job.light.depth))
+    let options = WriteOptions { unfinished: run.settings.unfinished.clone(), ..WriteOptions::default() };
+    stages.alone(Stage::Encode, || save(&image, path, job.light.depth, &options))
 }
 
 /// Where in the input's file the pixels of an output look.
@@ -57,9 +58,9 @@ fn canvas_in_file(view: &InputView, header: &Header) -> Canvas {
     Canvas { width, height, left: (left + x) as i64, top: (top + y) as i64 }
 }
 
-fn save(image: &Image<StPixel>, path: &Path, depth: Depth) -> Result<()> {
+fn save(image: &Image<StPixel>, path: &Path, depth: Depth, options: &WriteOptions) -> Result<()> {
     let plane = |number: usize| image.pixels().iter().map(|pixel| pixel[number]).collect();
     let planes = CHANNELS.iter().enumerate().map(|(number, name)| (*name, plane(number))).collect();
-    write_planes(path, (image.width(), image.height()), planes, depth, &WriteOptions::default())?;
+    write_planes(path, (image.width(), image.height()), planes, depth, options)?;
     Ok(())
 }

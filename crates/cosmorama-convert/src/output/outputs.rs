@@ -66,7 +66,7 @@ impl Outputs {
                 let place = real_path(&place(path).unwrap_or_else(|_| path.clone()));
                 if folders.insert(place.parent().map(Path::to_owned)) {
                     // A folder that is missing or read-only is found out before hours of work, not after.
-                    Pending::create(path)?;
+                    Pending::create(path, &args.unfinished)?;
                 }
                 if let Some(other) = places.insert(place, path.clone()) {
                     let (path, other) = (path.display(), other.display());

@@ -1,4 +1,5 @@
 use crate::metadata::Metadata;
+use crate::pending::Unfinished;
 
 /// How to write a file, and what to say in it beside the pixels.
 #[derive(Clone, Debug)]
@@ -9,6 +10,8 @@ pub struct WriteOptions {
     pub compression: Compression,
     /// What the file is to say about its pixels, as far as its format can.
     pub metadata: Metadata,
+    /// List of the files that are being written, for whoever has to remove them: its own, unless given.
+    pub unfinished: Unfinished,
 }
 
 impl WriteOptions {
@@ -20,7 +23,12 @@ impl WriteOptions {
 
 impl Default for WriteOptions {
     fn default() -> Self {
-        Self { quality: 95, compression: Compression::default(), metadata: Metadata::default() }
+        Self {
+            quality: 95,
+            compression: Compression::default(),
+            metadata: Metadata::default(),
+            unfinished: Unfinished::default(),
+        }
     }
 }
 

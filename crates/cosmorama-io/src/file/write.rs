@@ -75,7 +75,7 @@ fn hidden(path: &Path, levels: &[EncodedImage], options: &WriteOptions) -> Resul
             expected: "one picture; KTX2 and DDS hold several levels".to_owned(),
         });
     }
-    let mut pending = Pending::create(path)?;
+    let mut pending = Pending::create(path, &options.unfinished)?;
     codec(format).encode_levels(path, pending.writer(), levels, options)?;
     pending.close()
 }
@@ -104,7 +104,7 @@ pub fn write_planes(
     if let Some((name, plane)) = planes.iter().find(|(_, plane)| size.0.checked_mul(size.1) != Some(plane.len())) {
         return cannot_hold(format!("{} numbers in {name}", plane.len()), format!("{}x{}", size.0, size.1));
     }
-    let mut pending = Pending::create(path)?;
+    let mut pending = Pending::create(path, &options.unfinished)?;
     encode_planes(path, pending.writer(), size, planes, depth, options)?;
     pending.finish()
 }

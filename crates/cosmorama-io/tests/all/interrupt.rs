@@ -4,7 +4,7 @@ use std::io::Write;
 use std::process::Command;
 use std::time::Duration;
 
-use cosmorama_io::pending::{Pending, remove_all};
+use cosmorama_io::pending::{Pending, Unfinished};
 
 use crate::common::files;
 
@@ -25,15 +25,19 @@ fn after_an_interrupt_no_file_appears() {
 
 fn interrupt() {
     let folder = tempfile::tempdir().unwrap();
-    let mut begun = Pending::create(&folder.path().join("begun.png")).unwrap();
+    let unfinished = Unfinished::default();
+    let mut begun = Pending::create(&folder.path().join("begun.png"), &unfinished).unwrap();
     begun.writer().write_all(b"half of it").unwrap();
     assert_eq!(files(folder.path()).len(), 1);
-    remove_all();
+    let other = Pending::create(&folder.path().join("other.png"), &Unfinished::default()).unwrap();
+    unfinished.remove_all();
+    assert_eq!(files(folder.path()).len(), 1, "another list has its own");
+    drop(other);
     assert_eq!(files(folder.path()).len(), 0);
     let late = folder.path().join("late.png");
     let writers = [
         std::thread::spawn(move || begun.finish().is_ok()),
-        std::thread::spawn(move || Pending::create(&late).is_ok()),
+        std::thread::spawn(move || Pending::create(&late, &unfinished).is_ok()),
     ];
     std::thread::sleep(Duration::from_millis(200));
     // They wait for the end of the program, and tell of no failure meanwhile.
