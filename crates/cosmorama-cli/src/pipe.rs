@@ -1,11 +1,13 @@
-//! Streams as files: what comes in is kept in a folder that goes away, what goes out is made there and passed on when it
-//! is whole.
+//! Streams as files: what comes in is held in memory, what goes out is made in a folder that goes away and passed on when it is
+//! whole.
 
 use std::fs::File;
 use std::io::{ErrorKind, IsTerminal, Read, Write, copy, stdin, stdout};
-use std::path::{Path, PathBuf};
+use std::path::Path;
+use std::sync::Arc;
 
 use anyhow::{Context, Result, anyhow};
+use cosmorama_convert::{Files, InMemory};
 use cosmorama_io::Format;
 use cosmorama_io::pending::Scratch;
 
@@ -16,20 +18,21 @@ use crate::failure::usage;
 /// What a standard stream is called.
 const STREAM: &str = "-";
 
-/// Files that stand for streams, as long as this lives.
+/// The name of standard input where pictures have names.
+const STDIN: &str = "standard input";
+
+/// What has come in through streams.
 #[derive(Default)]
 pub(crate) struct KeptStreams {
-    folder: Option<Scratch>,
-    /// Inputs so far.
-    inputs: usize,
+    files: InMemory,
     /// Whether standard input is one of them.
     has_stdin: bool,
 }
 
 impl KeptStreams {
-    /// The name of an input that can be read as often as wanted: its own, or that of a file that keeps what comes through
-    /// standard input or a pipe.
-    pub(crate) fn input(&mut self, name: &str, console: &mut Console) -> Result<String> {
+    /// The name of an input that can be read as often as wanted: its own, or that under which what comes through standard input
+    /// or a pipe is held in memory.
+    pub(crate) fn input(&mut self, name: &str) -> Result<String> {
         if name == STREAM {
             if self.has_stdin {
                 return Err(usage("- is given twice, but standard input can be read only once; name a file"));
@@ -38,45 +41,26 @@ impl KeptStreams {
                 return Err(usage("standard input is a terminal; pipe a picture into it, or name a file"));
             }
             self.has_stdin = true;
-            return self.keep(&mut stdin().lock(), ("standard input", "standard input"), console);
+            self.keep(&mut stdin().lock(), STDIN)?;
+            return Ok(STDIN.to_owned());
         }
-        if !is_pipe(Path::new(name)) {
-            return Ok(name.to_owned());
+        if is_pipe(Path::new(name)) {
+            let mut pipe = File::open(name).with_context(|| format!("cannot open {name}"))?;
+            self.keep(&mut pipe, name)?;
         }
-        let file_name = Path::new(name).file_name().map_or_else(|| "pipe".into(), |name| name.to_string_lossy());
-        let mut pipe = File::open(name).with_context(|| format!("cannot open {name}"))?;
-        self.keep(&mut pipe, (name, &file_name), console)
+        Ok(name.to_owned())
     }
 
-    fn keep(
-        &mut self,
-        source: &mut dyn Read,
-        (name, file_name): (&str, &str),
-        console: &mut Console,
-    ) -> Result<String> {
-        self.inputs += 1;
-        let folder = self.folder(console)?.join(format!("input-{}", self.inputs));
-        std::fs::create_dir(&folder).with_context(|| format!("cannot keep {name}"))?;
-        let path = folder.join(file_name);
-        console.call(&path, name);
-        let mut file = File::create(&path).with_context(|| format!("cannot keep {name}"))?;
-        copy(source, &mut file).with_context(|| format!("cannot read {name}"))?;
-        Ok(path.display().to_string())
+    /// Where the bytes of inputs come from from now on.
+    pub(crate) fn files(self) -> Arc<dyn Files> {
+        Arc::new(self.files)
     }
 
-    fn folder(&mut self, console: &Console) -> Result<PathBuf> {
-        if let Some(folder) = &self.folder {
-            return Ok(folder.path().to_owned());
-        }
-        let folder = Scratch::create(&console.unfinished).map_err(|error| {
-            let place = std::env::temp_dir();
-            anyhow!(
-                "no folder for what is piped can be made in {} ({}); name one where you may write, as in TMPDIR=/var/tmp",
-                place.display(),
-                error.kind()
-            )
-        })?;
-        Ok(self.folder.insert(folder).path().to_owned())
+    fn keep(&mut self, source: &mut dyn Read, name: &str) -> Result<()> {
+        let mut bytes = Vec::new();
+        source.read_to_end(&mut bytes).with_context(|| format!("cannot read {name}"))?;
+        self.files.insert(name, bytes);
+        Ok(())
     }
 }
 
@@ -96,30 +80,31 @@ fn is_pipe(_: &Path) -> bool {
 pub(crate) struct Piped {
     /// Arguments with names of files in place of streams.
     pub(crate) args: ConvertArgs,
-    /// Where those lie.
-    _kept: KeptStreams,
-    /// Whether the output goes on to standard output.
-    to_stdout: bool,
+    /// Where the bytes of inputs come from.
+    pub(crate) files: Arc<dyn Files>,
+    /// Where the output is made that goes on to standard output.
+    scratch: Option<Scratch>,
 }
 
 impl Piped {
     /// Takes in what is piped, and finds a place for what goes to standard output.
     pub(crate) fn open(mut args: ConvertArgs, console: &mut Console) -> Result<Self> {
-        let to_stdout = args.output == STREAM;
-        check(&args, to_stdout)?;
+        check(&args, args.output == STREAM)?;
         let mut kept = KeptStreams::default();
-        args.input = kept.input(&args.input, console)?;
+        args.input = kept.input(&args.input)?;
+        let mut scratch = None;
         if let Some(format) = &args.format {
-            let path = kept.folder(console)?.join(format!("standard output.{}", format.trim_start_matches('.')));
+            let folder = scratch.insert(folder(console)?);
+            let path = folder.path().join(format!("standard output.{}", format.trim_start_matches('.')));
             console.call(&path, "standard output");
             args.output = path.display().to_string();
         }
-        Ok(Self { args, _kept: kept, to_stdout })
+        Ok(Self { args, files: kept.files(), scratch })
     }
 
     /// Passes on what was made.
     pub(crate) fn finish(self) -> Result<()> {
-        if self.to_stdout {
+        if self.scratch.is_some() {
             let mut file = File::open(&self.args.output).context("nothing was made for standard output")?;
             let mut out = stdout().lock();
             match copy(&mut file, &mut out).and_then(|_| out.flush()) {
@@ -130,6 +115,18 @@ impl Piped {
         }
         Ok(())
     }
+}
+
+/// A folder for what goes to standard output.
+fn folder(console: &Console) -> Result<Scratch> {
+    Scratch::create(&console.unfinished).map_err(|error| {
+        let place = std::env::temp_dir();
+        anyhow!(
+            "no folder for what is piped can be made in {} ({}); name one where you may write, as in TMPDIR=/var/tmp",
+            place.display(),
+            error.kind()
+        )
+    })
 }
 
 fn check(args: &ConvertArgs, to_stdout: bool) -> Result<()> {

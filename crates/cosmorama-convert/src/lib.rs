@@ -26,6 +26,9 @@ pub use conversion::{
 pub use detect::{Continuity, FacePixels, GivenFaces, Likely, damage_of, light_of, likely};
 pub use diagnostic::{Code, ConvertError, Diagnostic, Message, Outcome, Part, Remedy, Result, Setting, Severity};
 pub use engine::CpuSeconds;
-pub use input::{Builtin, Files, Input, InputView, Listed, existing_frames, face_placement, is_one_file, listed};
+pub use input::{
+    Builtin, Disk, Files, InMemory, Input, InputView, Listed, ViewFiles, existing_frames, face_placement, is_one_file,
+    listed, probe, read,
+};
 pub use output::{Remade, check_apart, real_path, refuse_existing};
 pub use target::{Picture, Place};

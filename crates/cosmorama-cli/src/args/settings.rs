@@ -4,7 +4,6 @@ use cosmorama::raster::Depth;
 use cosmorama::sphere::{Angle, Orientation};
 use cosmorama_convert::{Conversion, Existing, ExplanationSettings, GeometrySettings, LimitSettings};
 use cosmorama_io::Compression;
-use cosmorama_io::pending::Unfinished;
 use cosmorama_spec::CompressionLevel;
 
 use super::convert::{GeometryArgs, LimitArgs};
@@ -34,7 +33,7 @@ impl From<ConvertArgs> for Conversion {
             quality: args.quality,
             compression: args.compression.map(compression),
             limits: args.limits.into(),
-            unfinished: Unfinished::default(),
+            ..Self::default()
         }
     }
 }
@@ -46,6 +45,7 @@ impl From<ExplainArgs> for ExplanationSettings {
             input_size: args.input_size,
             geometry: args.geometry.into(),
             limits: args.limits.into(),
+            ..Self::default()
         }
     }
 }

@@ -5,8 +5,8 @@ use anyhow::{Context, Result};
 use cosmorama::camera::{CameraModel, FisheyeCamera, OmnimaxCamera};
 use cosmorama::compare::{Comparison, Mask, compare, difference_image};
 use cosmorama::raster::{Channels, Depth, EncodedImage, Image, Rgba, Transfer};
-use cosmorama_convert::{InputTransfer, MemoryBudget, real_path, refuse_existing};
-use cosmorama_io::{FacePattern, Format, FramePattern, Limits, Metadata, WriteOptions, probe, read, write};
+use cosmorama_convert::{Files, InputTransfer, MemoryBudget, probe, read, real_path, refuse_existing};
+use cosmorama_io::{FacePattern, Format, FramePattern, Limits, Metadata, WriteOptions, write};
 use serde_json::{Value, json};
 
 use crate::args::{CompareArgs, Region};
@@ -25,14 +25,14 @@ pub(super) fn run(args: &CompareArgs, console: &mut Console) -> Result<ExitCode>
         // A name that is no text is none of those that stand for a stream or for many files.
         if let Some(name) = picture.to_str() {
             check_one(name)?;
-            *picture = kept.input(name, console)?.into();
+            *picture = kept.input(name)?.into();
         }
     }
-    let args = &args;
+    let (args, files) = (&args, &*kept.files());
     let format = args.diff.as_deref().map(|diff| diff_format(diff, args)).transpose()?;
-    let headers = (probe(&args.first)?, probe(&args.second)?);
+    let headers = (probe(files, &args.first)?, probe(files, &args.second)?);
     MemoryBudget::new(args.memory).check_comparison([(&args.first, &headers.0), (&args.second, &headers.1)])?;
-    let (first, second) = (light(&args.first, args)?, light(&args.second, args)?);
+    let (first, second) = (light(files, &args.first, args)?, light(files, &args.second, args)?);
     let mask = region(args.region, &first)?;
     let comparison = compare(&first, &second, &mask)
         .with_context(|| format!("cannot compare {} with {}", args.first.display(), args.second.display()))?;
@@ -77,8 +77,8 @@ fn diff_format(diff: &Path, args: &CompareArgs) -> Result<Format> {
     Ok(format)
 }
 
-fn light(path: &Path, args: &CompareArgs) -> Result<Image<Rgba>> {
-    let file = read(path, &Limits::memory(MemoryBudget::new(args.memory).bytes))?;
+fn light(files: &dyn Files, path: &Path, args: &CompareArgs) -> Result<Image<Rgba>> {
+    let file = read(files, path, &Limits::memory(MemoryBudget::new(args.memory).bytes))?;
     let transfer = InputTransfer::new(&args.transfer, None).of(file.image.depth(), &file.metadata);
     Ok(file.image.to_light(&transfer))
 }

@@ -1,4 +1,5 @@
 use std::process::ExitCode;
+use std::sync::Arc;
 
 use anyhow::Result;
 use cosmorama_convert::{Conversion, Diagnostic, Observer, Report};
@@ -14,7 +15,7 @@ use crate::report;
 pub(super) fn run(args: ConvertArgs, console: &mut Console) -> Result<ExitCode> {
     let (progress, as_json) = (args.progress, args.json);
     let piped = Piped::open(args, console)?;
-    let report = convert(piped.args.clone().into(), progress, console)?;
+    let report = convert(Conversion::from(piped.args.clone()).files(Arc::clone(&piped.files)), progress, console)?;
     piped.finish()?;
     if as_json {
         console.print(&report::to_json(&report)?)?;

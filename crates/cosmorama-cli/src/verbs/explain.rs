@@ -18,9 +18,9 @@ use crate::pipe::KeptStreams;
 /// Tells what a conversion will do.
 pub(super) fn run(mut args: ExplainArgs, console: &mut Console) -> Result<ExitCode> {
     let mut kept = KeptStreams::default();
-    args.input = args.input.map(|input| kept.input(&input, console)).transpose()?;
+    args.input = args.input.map(|input| kept.input(&input)).transpose()?;
     let (output, overwrite, as_json, has_input) = (args.output.take(), args.overwrite, args.json, args.input.is_some());
-    let checked = ExplanationSettings::from(args).check();
+    let checked = ExplanationSettings { files: kept.files(), ..args.into() }.check();
     let explanation = checked.result?;
     checked.diagnostics.iter().for_each(|diagnostic| console.warn(diagnostic));
     if let Some(folder) = &output {

@@ -4,8 +4,10 @@ use std::process::ExitCode;
 use anyhow::Result;
 use cosmorama::circle::{Circle, Found};
 use cosmorama::raster::Transfer;
-use cosmorama_convert::{Builtin, Files, ThinAlpha, damage_of, existing_frames, is_one_file, light_of, likely};
-use cosmorama_io::{EnvMap, FacePattern, FaceSet, Header, probe};
+use cosmorama_convert::{
+    Builtin, Files, ThinAlpha, ViewFiles, damage_of, existing_frames, is_one_file, light_of, likely, probe,
+};
+use cosmorama_io::{EnvMap, FacePattern, FaceSet, Header};
 use serde_json::{Value, json};
 
 use super::info_faces::{of_files, of_image};
@@ -17,15 +19,16 @@ use crate::pipe::KeptStreams;
 /// Tells what a file or a face set is.
 pub(super) fn run(args: &InfoArgs, console: &mut Console) -> Result<ExitCode> {
     let mut kept = KeptStreams::default();
-    let input = &kept.input(&args.input, console)?;
+    let input = &kept.input(&args.input)?;
+    let files = &*kept.files();
     let report = if let Some(builtin) = Builtin::named(input)? {
         json!({ "input": input, "projection": "any (a formula)", "shows": builtin.about() })
     } else if FacePattern::parse(input).is_some() {
-        faces(input)?
-    } else if let Some(world) = info_world::report(input, console)? {
+        faces(files, input)?
+    } else if let Some(world) = info_world::report(files, input, console)? {
         world
     } else {
-        single(input)?
+        single(files, input)?
     };
     if args.json {
         console.print(&(serde_json::to_string_pretty(&report)? + "\n"))?;
@@ -35,21 +38,21 @@ pub(super) fn run(args: &InfoArgs, console: &mut Console) -> Result<ExitCode> {
     Ok(ExitCode::SUCCESS)
 }
 
-fn single(pattern: &str) -> Result<Value> {
-    let files = Files::new(Path::new(pattern));
+fn single(inputs: &dyn Files, pattern: &str) -> Result<Value> {
+    let files = ViewFiles::new(Path::new(pattern));
     let frames = existing_frames(&files)?;
     let path = files.path(frames.first().copied());
-    is_one_file(pattern, &path)?;
-    let header = probe(&path)?;
+    is_one_file(inputs, pattern, &path)?;
+    let header = probe(inputs, &path)?;
     let mut report = json!({ "input": pattern });
     add_frames(&mut report, &frames);
     merge(&mut report, header_report(&header));
-    let likely = likely(&path, &header);
+    let likely = likely(inputs, &path, &header);
     report["projection"] = json!(likely.projection);
     if let Some(damage) = &likely.damage {
         report["damaged"] = json!(damage);
     }
-    let picture = if header.channels.has_alpha() { light_of(&path) } else { None };
+    let picture = if header.channels.has_alpha() { light_of(inputs, &path) } else { None };
     if let Some(told) = picture.and_then(|light| ThinAlpha::of(light.pixels().iter().copied())?.told()) {
         report["alpha"] = json!(told);
     }
@@ -57,7 +60,7 @@ fn single(pattern: &str) -> Result<Value> {
         let Circle { centre: (x, y), radius } = found.circle();
         report["circle"] = json!({ "x": x, "y": y, "radius": radius, "measured": matches!(found, Found::Measured(_)) });
     }
-    if let Some(continuity) = of_image(&path, &likely, header.metadata.envmap) {
+    if let Some(continuity) = of_image(inputs, &path, &likely, header.metadata.envmap) {
         if let (true, Value::String(spec)) = (continuity["fits"] == true, &continuity["spec"]) {
             report["projection"] = json!(format!("{spec} (by its shape, and because the borders of its faces meet)"));
         }
@@ -66,7 +69,7 @@ fn single(pattern: &str) -> Result<Value> {
     Ok(report)
 }
 
-fn faces(pattern: &str) -> Result<Value> {
+fn faces(inputs: &dyn Files, pattern: &str) -> Result<Value> {
     let set = FaceSet::find(pattern, None)?;
     let mut report = json!({ "input": pattern, "projection": "cube", "naming": set.naming().name });
     let mut faces = serde_json::Map::new();
@@ -80,27 +83,27 @@ fn faces(pattern: &str) -> Result<Value> {
             ));
         }
         if file.present {
-            let files = Files::new(&file.path);
+            let files = ViewFiles::new(&file.path);
             let frames = existing_frames(&files)?;
             add_frames(&mut face, &frames);
-            merge(&mut face, header_report(&probe(&files.path(frames.first().copied()))?));
+            merge(&mut face, header_report(&probe(inputs, &files.path(frames.first().copied()))?));
         }
         faces.insert(file.face.name().to_owned(), face);
     }
     report["faces"] = Value::Object(faces);
-    match of_files(&set)? {
+    match of_files(inputs, &set)? {
         Some(continuity) => report["arrangement"] = continuity,
         // Something may be the matter with a file.
-        None => add_damage(&mut report, &set)?,
+        None => add_damage(&mut report, inputs, &set)?,
     }
     Ok(report)
 }
 
 /// Tells what is the matter with faces whose pixels cannot be read.
-fn add_damage(report: &mut Value, set: &FaceSet) -> Result<()> {
+fn add_damage(report: &mut Value, inputs: &dyn Files, set: &FaceSet) -> Result<()> {
     for file in set.present() {
-        let files = Files::new(&file.path);
-        if let Some(damage) = damage_of(&files.path(existing_frames(&files)?.first().copied())) {
+        let files = ViewFiles::new(&file.path);
+        if let Some(damage) = damage_of(inputs, &files.path(existing_frames(&files)?.first().copied())) {
             report["faces"][file.face.name()]["damaged"] = json!(damage);
         }
     }

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use anyhow::Result;
 use cosmorama::raster::{Image, Rgba};
-use cosmorama_convert::{Continuity, FacePixels, Files, GivenFaces, Likely, existing_frames, light_of};
+use cosmorama_convert::{Continuity, FacePixels, Files, GivenFaces, Likely, ViewFiles, existing_frames, light_of};
 use cosmorama_io::{EnvMap, FaceSet};
 use cosmorama_spec::{Cube, Packing};
 use serde_json::{Value, json};
@@ -12,13 +12,15 @@ use serde_json::{Value, json};
 use crate::console::in_options;
 
 /// Of the first frame of a face set; `None` where its files have too few whole faces to tell.
-pub(super) fn of_files(set: &FaceSet) -> Result<Option<Value>> {
+pub(super) fn of_files(inputs: &dyn Files, set: &FaceSet) -> Result<Option<Value>> {
     let lie: Vec<_> = set.faces().iter().map(|file| (file.face, file.placement)).collect();
     let Some(given) = GivenFaces::of_files(&Cube::default(), set.naming(), &lie) else { return Ok(None) };
     let mut pictures = Vec::new();
     for (index, file) in set.faces().iter().enumerate().filter(|(_, file)| file.present) {
-        let files = Files::new(&file.path);
-        let Some(picture) = light_of(&files.path(existing_frames(&files)?.first().copied())) else { return Ok(None) };
+        let files = ViewFiles::new(&file.path);
+        let Some(picture) = light_of(inputs, &files.path(existing_frames(&files)?.first().copied())) else {
+            return Ok(None);
+        };
         pictures.push((index, picture));
     }
     // Crops have other borders than their faces.
@@ -32,8 +34,8 @@ pub(super) fn of_files(set: &FaceSet) -> Result<Option<Value>> {
 }
 
 /// Of faces in one image. Where its shape alone says that it may be one, it is if the borders do, and they say which.
-pub(super) fn of_image(path: &Path, likely: &Likely, envmap: Option<EnvMap>) -> Option<Value> {
-    let picture = if likely.cubes.is_empty() { return None } else { light_of(path)? };
+pub(super) fn of_image(inputs: &dyn Files, path: &Path, likely: &Likely, envmap: Option<EnvMap>) -> Option<Value> {
+    let picture = if likely.cubes.is_empty() { return None } else { light_of(inputs, path)? };
     let judge = |cube: &Cube| {
         let found = GivenFaces::of_image(cube, envmap)?.judge_image(&picture)?;
         Some(if likely.may_be_none { named(found, cube) } else { found })

@@ -3,7 +3,7 @@
 use anyhow::Result;
 use cosmorama::camera::{PixelPoint, View};
 use cosmorama::sphere::{Direction, Extent};
-use cosmorama_convert::{InputView, Listed, MemoryBudget, listed};
+use cosmorama_convert::{Files, InputView, Listed, MemoryBudget, listed};
 use serde_json::{Value, json};
 
 use crate::console::Console;
@@ -12,9 +12,9 @@ use crate::console::Console;
 const DIRECTIONS: usize = 100_000;
 
 /// The report on a world file or a Hugin project; `None` where an input is neither.
-pub(super) fn report(name: &str, console: &Console) -> Result<Option<Value>> {
+pub(super) fn report(files: &dyn Files, name: &str, console: &Console) -> Result<Option<Value>> {
     let mut warnings = Vec::new();
-    let Some(list) = listed(name, MemoryBudget::new(None), &mut warnings)? else { return Ok(None) };
+    let Some(list) = listed(name, files, MemoryBudget::new(None), &mut warnings)? else { return Ok(None) };
     warnings.iter().for_each(|warning| console.warn(warning));
     let sphere: Vec<Direction> = Direction::spread(DIRECTIONS).collect();
     let views: Vec<Value> = list.iter().flat_map(|listed| views(listed, &sphere)).collect();

@@ -6,13 +6,12 @@ use cosmorama_spec::Missing;
 
 use super::options::filter;
 use super::{Conversion, GeometrySettings};
-use crate::budget::MemoryBudget;
 use crate::colour::Light;
 use crate::diagnostic::{
     ANTI_RINGING, BACKGROUND, Code, DEPTH, Diagnostic, FILTER, FRAMES, FROM, IN_TRANSFER, KERNEL, MISSING, Mark,
     OUT_TRANSFER, OVERWRITE, RESUME, Result, ST_MAP, TRANSFER, usage,
 };
-use crate::input::{Builtin, Input, SAME_FOR_BOTH};
+use crate::input::{Access, Builtin, Input, SAME_FOR_BOTH};
 use crate::target::{Target, TargetView};
 
 /// What pixels are made of.
@@ -55,11 +54,11 @@ impl Content {
         self,
         settings: &Conversion,
         geometry: &GeometrySettings,
-        memory: MemoryBudget,
+        access: Access,
         warnings: &mut Vec<Diagnostic>,
     ) -> Result<Input> {
         if self.has_files() {
-            return Input::find(&settings.input, geometry.from.as_ref(), settings.frames.as_ref(), memory, warnings);
+            return Input::find(&settings.input, geometry.from.as_ref(), settings.frames.as_ref(), access, warnings);
         }
         check_input_options(settings)?;
         if filter(geometry, warnings) != FilterSettings::DEFAULT {

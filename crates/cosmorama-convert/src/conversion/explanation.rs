@@ -1,5 +1,6 @@
 use std::collections::HashSet;
 use std::path::PathBuf;
+use std::sync::Arc;
 
 use cosmorama::explain;
 use cosmorama::filter::FilterSettings;
@@ -14,12 +15,12 @@ use crate::budget::MemoryBudget;
 use crate::coverage::whole_worlds;
 use crate::diagnostic::{Diagnostic, FROM, Outcome, Result, TO, usage};
 use crate::input::spec_files::st_map::settled;
-use crate::input::{Builtin, Input, InputView};
+use crate::input::{Access, Builtin, Disk, Files, Input, InputView};
 use crate::output::files_read;
 use crate::target::Picture;
 
 /// Settings of an explanation: what a conversion would do, perhaps of an input that does not exist yet.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub struct ExplanationSettings {
     /// The input, if there is one.
     pub input: Option<String>,
@@ -29,6 +30,20 @@ pub struct ExplanationSettings {
     pub geometry: GeometrySettings,
     /// What the run may take.
     pub limits: LimitSettings,
+    /// Where the bytes of pictures come from: disk, unless given.
+    pub files: Arc<dyn Files>,
+}
+
+impl Default for ExplanationSettings {
+    fn default() -> Self {
+        Self {
+            input: None,
+            input_size: None,
+            geometry: GeometrySettings::default(),
+            limits: LimitSettings::default(),
+            files: Arc::new(Disk),
+        }
+    }
 }
 
 /// What a conversion would do, picture by picture.
@@ -62,12 +77,13 @@ impl ExplanationSettings {
 
     fn resolve(&self, warnings: &mut Vec<Diagnostic>) -> Result<(Input, Vec<Picture>, FilterSettings)> {
         let memory = MemoryBudget::new(self.limits.memory);
-        let geometry = &settled(&self.geometry, self.input.as_deref(), memory, warnings)?;
+        let access = Access { files: &*self.files, memory };
+        let geometry = &settled(&self.geometry, self.input.as_deref(), access, warnings)?;
         if geometry.to.is_none() {
             let example = format!("{TO} omnimax");
             return Err(usage(format!("{TO} is missing: say which projection the output is to have, as in {example}")));
         }
-        let (mut input, pictures) = self.find(geometry, memory, warnings)?;
+        let (mut input, pictures) = self.find(geometry, access, warnings)?;
         warnings.extend(input.turned());
         input.fit_eyes(pictures.iter().any(|picture| picture.eye.is_some()), warnings);
         let filter = filter(&self.geometry, warnings);
@@ -77,7 +93,7 @@ impl ExplanationSettings {
     fn find(
         &self,
         geometry: &GeometrySettings,
-        memory: MemoryBudget,
+        access: Access,
         warnings: &mut Vec<Diagnostic>,
     ) -> Result<(Input, Vec<Picture>)> {
         match (&self.input, &geometry.from) {
@@ -86,7 +102,7 @@ impl ExplanationSettings {
                  explain {FROM} SPEC"
             ))),
             (Some(pattern), from) => {
-                let input = Input::find(pattern, from.as_ref(), None, memory, warnings)?;
+                let input = Input::find(pattern, from.as_ref(), None, access, warnings)?;
                 let pictures = Picture::all(geometry, None, Some(input.pixels_per_radian()))?;
                 Ok((input, pictures))
             }

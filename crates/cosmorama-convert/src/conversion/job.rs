@@ -1,3 +1,5 @@
+use std::sync::Arc;
+
 use cosmorama::filter::FilterSettings;
 use cosmorama::raster::Rgba;
 use cosmorama::render::Resampler;
@@ -10,13 +12,15 @@ use crate::budget::MemoryBudget;
 use crate::colour::Light;
 use crate::coverage::{Coverage, whole_worlds};
 use crate::diagnostic::{Diagnostic, Result};
-use crate::input::Input;
 use crate::input::spec_files::st_map::settled;
+use crate::input::{Access, Files, Input};
 use crate::output::Outputs;
 use crate::target::{Target, TargetView, told_of_shape};
 
 /// A conversion, ready to run.
 pub(crate) struct ConvertJob {
+    /// Where bytes of pictures come from.
+    pub(crate) files: Arc<dyn Files>,
     /// Where light comes from; nothing, where it is a formula.
     pub(crate) input: Input,
     /// Its geometry: one world, or one for each eye.
@@ -42,11 +46,12 @@ impl ConvertJob {
     pub(crate) fn resolve(settings: &Conversion, content: Content, warnings: &mut Vec<Diagnostic>) -> Result<Self> {
         let memory = MemoryBudget::new(settings.limits.memory);
         let file = content.has_files().then_some(settings.input.as_str());
-        let geometry = &settled(&settings.geometry, file, memory, warnings)?;
+        let access = Access { files: &*settings.files, memory };
+        let geometry = &settled(&settings.geometry, file, access, warnings)?;
         // Mistakes in the settings themselves come first: they do not depend on any file.
         let format = Target::check_names(&settings.output, geometry)?;
         check_file_options(settings, format)?;
-        let mut input = content.input(settings, geometry, memory, warnings)?;
+        let mut input = content.input(settings, geometry, access, warnings)?;
         let parity = content.has_files().then(|| input.pixels_per_radian());
         let mut target = Target::resolve(&settings.output, geometry, parity)?;
         if settings.mips {
@@ -64,6 +69,7 @@ impl ConvertJob {
         warnings.extend(outputs.warning());
         let missing = settings.missing;
         let mut job = Self {
+            files: Arc::clone(&settings.files),
             input,
             worlds: Vec::new(),
             target,

@@ -1,9 +1,13 @@
+use std::sync::Arc;
+
 use cosmorama::filter::FilterKind;
 use cosmorama::raster::{Depth, Rgba};
 use cosmorama::sphere::{Angle, Orientation};
 use cosmorama_io::pending::Unfinished;
 use cosmorama_io::{Compression, FrameList};
 use cosmorama_spec::{FilterName, KernelName, MemorySize, Missing, Size, Spec, TransferName};
+
+use crate::input::{Disk, Files};
 
 /// Settings of a conversion: from an input, in whatever form, to pictures of another projection.
 ///
@@ -56,6 +60,8 @@ pub struct Conversion {
     pub compression: Option<Compression>,
     /// What the run may take.
     pub limits: LimitSettings,
+    /// Where the bytes of pictures come from: disk, unless given.
+    pub files: Arc<dyn Files>,
     /// List of the files that are being written, for whoever has to remove them.
     pub unfinished: Unfinished,
 }
@@ -135,6 +141,7 @@ impl Default for Conversion {
             quality: None,
             compression: None,
             limits: LimitSettings::default(),
+            files: Arc::new(Disk),
             unfinished: Unfinished::default(),
         }
     }
@@ -199,6 +206,13 @@ impl Conversion {
     #[must_use]
     pub fn existing(mut self, existing: Existing) -> Self {
         self.existing = existing;
+        self
+    }
+
+    /// Says where the bytes of pictures come from.
+    #[must_use]
+    pub fn files(mut self, files: Arc<dyn Files>) -> Self {
+        self.files = files;
         self
     }
 

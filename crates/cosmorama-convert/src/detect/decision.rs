@@ -8,6 +8,7 @@ use cosmorama_io::{EnvMap, Header, Window};
 use cosmorama_spec::{Cube, Packing};
 
 use crate::detect::{Circles, Evidence, Readings, Seen};
+use crate::input::Files;
 
 /// What one image is a picture of, as far as its metadata, its shape and its pixels tell.
 pub(crate) enum Guess {
@@ -38,7 +39,7 @@ pub(crate) const OVAL_ONES: &str = "hammer, mollweide or sinusoidal";
 
 impl Guess {
     /// Looks at a header, and at the pixels where nothing else tells; with what is the matter if those cannot be read.
-    pub(crate) fn of(path: &Path, header: &Header) -> (Self, Option<String>) {
+    pub(crate) fn of(files: &dyn Files, path: &Path, header: &Header) -> (Self, Option<String>) {
         if let Some(envmap) = header.metadata.envmap {
             return (Self::Said(envmap), None);
         }
@@ -50,7 +51,7 @@ impl Guess {
         if let [kind @ (LayoutKind::StripH | LayoutKind::StripV)] = layouts[..] {
             return (Self::Strip(kind), None);
         }
-        let seen = Seen::of(path, header);
+        let seen = Seen::of(files, path, header);
         let damage = match &seen {
             Seen::Damaged(damage) => Some(damage.clone()),
             _ => None,

@@ -10,16 +10,18 @@ use crate::detect::decision::{OVAL_ONES, ROUND_ONES, candidates, circle_spec, do
 use crate::detect::pixels::damage_of;
 use crate::detect::{Evidence, Guess, Readings, Seen};
 use crate::diagnostic::{Code, Diagnostic, FROM, Remedy, Result, Setting, bail, usage};
+use crate::input::Files;
 use crate::input::canvas::canvas_of;
 
 /// The projection of an image for which no `--from` was given, which may have a picture for each eye. What is only guessed
 /// is announced.
 pub(crate) fn detect(
+    files: &dyn Files,
     path: &Path,
     header: &Header,
     warnings: &mut Vec<Diagnostic>,
 ) -> Result<(Shape, Option<StereoSpec>)> {
-    let (guess, damage) = Guess::of(path, header);
+    let (guess, damage) = Guess::of(files, path, header);
     if let Some(damage) = damage {
         bail!("{damage}");
     }
@@ -233,10 +235,10 @@ pub struct Likely {
 }
 
 /// Looks at an image.
-pub fn likely(path: &Path, header: &Header) -> Likely {
-    let (guess, damage) = Guess::of(path, header);
+pub fn likely(files: &dyn Files, path: &Path, header: &Header) -> Likely {
+    let (guess, damage) = Guess::of(files, path, header);
     // Whoever asks what a file is wants to know whether it is whole.
-    let damage = damage.or_else(|| if guess.has_looked() { None } else { damage_of(path) });
+    let damage = damage.or_else(|| if guess.has_looked() { None } else { damage_of(files, path) });
     let circle = match guess {
         Guess::Blank(Evidence::Disc(found)) => Some(found),
         _ => None,

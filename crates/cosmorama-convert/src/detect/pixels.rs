@@ -7,12 +7,13 @@ use cosmorama::circle;
 use cosmorama::circle::{Circle, Found};
 use cosmorama::layout::{Arrangement, CubeLayout, LayoutKind};
 use cosmorama::raster::{EncodedImage, Image, Rgba, Transfer, Uniform};
-use cosmorama_io::{Header, IoError, Limits, probe, read};
+use cosmorama_io::{Header, IoError, Limits};
 
 use crate::budget::light_bytes;
 use crate::detect::oval::is_oval;
 use crate::detect::{Circles, Twins, cross_variants};
 use crate::diagnostic::Result;
+use crate::input::{Files, probe, read};
 
 /// Beyond this an image is not decoded only to find out what it is.
 const MOST_BYTES: u64 = 1 << 30;
@@ -30,21 +31,21 @@ const ROUGHLY: f64 = 0.02;
 pub(crate) const BLACK: f32 = 0.06;
 
 /// The light of an image, as far as it matters to see what it is; `None` where it is too large or damaged.
-pub fn light_of(path: &Path) -> Option<Image<Rgba>> {
-    let image = decoded(path).ok()?;
+pub fn light_of(files: &dyn Files, path: &Path) -> Option<Image<Rgba>> {
+    let image = decoded(files, path).ok()?;
     let transfer = if image.depth().is_float() { Transfer::Linear } else { Transfer::Srgb };
     Some(image.to_light(&transfer))
 }
 
-fn decoded(path: &Path) -> Result<EncodedImage, IoError> {
+fn decoded(files: &dyn Files, path: &Path) -> Result<EncodedImage, IoError> {
     // Light takes more memory than the samples that it is made of.
-    let limit = if light_bytes(&probe(path)?) > MOST_BYTES { 0 } else { MOST_BYTES };
-    Ok(read(path, &Limits::memory(limit))?.image)
+    let limit = if light_bytes(&probe(files, path)?) > MOST_BYTES { 0 } else { MOST_BYTES };
+    Ok(read(files, path, &Limits::memory(limit))?.image)
 }
 
 /// What is the matter with a file whose pixels cannot be read; `None` also where it is too large to try.
-pub fn damage_of(path: &Path) -> Option<String> {
-    match decoded(path) {
+pub fn damage_of(files: &dyn Files, path: &Path) -> Option<String> {
+    match decoded(files, path) {
         Ok(_) | Err(IoError::TooLarge { .. }) => None,
         Err(error) => Some(error.to_string()),
     }
@@ -86,11 +87,11 @@ pub(crate) enum Seen {
 
 impl Seen {
     /// Looks at the pixels: at what its shape gives reason to expect first.
-    pub(crate) fn of(path: &Path, header: &Header) -> Self {
+    pub(crate) fn of(files: &dyn Files, path: &Path, header: &Header) -> Self {
         if header.window.is_some() {
             return Self::Unseen("it is a part of a larger picture".to_owned());
         }
-        let codes = match decoded(path) {
+        let codes = match decoded(files, path) {
             Ok(image) => image.to_light(&Transfer::Linear),
             Err(IoError::TooLarge { .. }) => return Self::Unseen("it is too large to look at its pixels".to_owned()),
             Err(error) => return Self::Damaged(error.to_string()),

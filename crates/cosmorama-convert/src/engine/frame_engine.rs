@@ -70,7 +70,7 @@ impl<'a> Engine<'a> {
         let pictures = sources.iter().zip(&lights).map(|(source, light)| FacePixels { size: size(source), light });
         let whole = || {
             let first = self.job.input.views().next().filter(|_| self.job.input.worlds.len() == 1)?;
-            light_of(&first.files.path(self.job.outputs.frames.first()?.frame))
+            light_of(&*self.job.files, &first.files.path(self.job.outputs.frames.first()?.frame))
         };
         let told = given.warning(&present.zip(pictures).collect::<Vec<_>>(), whole)?;
         Some(Diagnostic::warning(Code::Arrangement, told))

@@ -1,11 +1,11 @@
 use std::path::PathBuf;
 
 use cosmorama::raster::{EncodedImage, Transfer};
-use cosmorama_io::{Limits, read};
+use cosmorama_io::Limits;
 
 use crate::conversion::ConvertJob;
 use crate::diagnostic::{FRAMES, Result, bail};
-use crate::input::Files;
+use crate::input::{ViewFiles, read};
 
 /// A view of a frame as its file holds it.
 pub(crate) struct ViewImage {
@@ -41,7 +41,7 @@ impl FrameFile {
     pub(crate) fn all(job: &ConvertJob, frame: Option<u64>, which: Which) -> Vec<Self> {
         let mut files: Vec<Self> = Vec::new();
         for (view, (input, ..)) in job.input.present().enumerate() {
-            let is_moving = matches!(input.files, Files::Sequence(_));
+            let is_moving = matches!(input.files, ViewFiles::Sequence(_));
             if which != Which::All && is_moving != (which == Which::Moving) {
                 continue;
             }
@@ -60,7 +60,7 @@ impl FrameFile {
         let present: Vec<_> = job.input.present().collect();
         let Some((first, header, _)) = views.first().map(|view| present[*view]) else { return Ok(Vec::new()) };
         let expected = first.part.map_or((header.width, header.height), |part| part.of);
-        let file = read(path, &Limits::memory(job.memory.bytes))?;
+        let file = read(&*job.files, path, &Limits::memory(job.memory.bytes))?;
         let found = (file.image.width(), file.image.height());
         if found != expected || file.window != header.window {
             bail!(

@@ -4,10 +4,9 @@ use std::sync::Arc;
 use cosmorama::camera::{Canvas, View};
 use cosmorama::layout::FacePart;
 use cosmorama::world::{Blend, ViewMask, WorldView};
-use cosmorama_io::{EnvMap, FaceFile, FacePattern, FaceSet, FrameList, Header, probe};
+use cosmorama_io::{EnvMap, FaceFile, FacePattern, FaceSet, FrameList, Header};
 use cosmorama_spec::{Cube, Packing, Shape, Single, Spec};
 
-use crate::budget::MemoryBudget;
 use crate::detect::GivenFaces;
 use crate::detect::detection::{declared, detect};
 use crate::diagnostic::{Code, Diagnostic, FROM, Result, TO, bail, usage};
@@ -18,7 +17,7 @@ use crate::input::files::frames;
 use crate::input::lists::{hugin, world_file};
 use crate::input::pieces::packed;
 use crate::input::spec_files::{calibration, st_map};
-use crate::input::{EyePart, Face, FacePicture, Files};
+use crate::input::{Access, EyePart, Face, FacePicture, ViewFiles};
 use crate::target::Place;
 
 /// A view of the input: an image, a face of a cube, a lens of two.
@@ -27,7 +26,7 @@ pub struct InputView {
     /// What messages call it.
     pub name: String,
     /// Its files.
-    pub files: Files,
+    pub files: ViewFiles,
     /// Where it lies in a file that other views share.
     pub part: Option<Place>,
     /// What its first file says of itself; `None` where there is no file.
@@ -83,7 +82,7 @@ impl Input {
         pattern: &str,
         from: Option<&Spec>,
         wanted: Option<&FrameList>,
-        memory: MemoryBudget,
+        access: Access,
         warnings: &mut Vec<Diagnostic>,
     ) -> Result<Self> {
         let refuse_spec = |what: &str| match from {
@@ -94,13 +93,13 @@ impl Input {
         };
         if world_file::is_world_file(pattern) {
             refuse_spec("views")?;
-            return world_file::find(pattern, wanted, memory, warnings);
+            return world_file::find(pattern, wanted, access, warnings);
         }
         if hugin::is_project(pattern) {
             refuse_spec("pictures")?;
-            return hugin::find(pattern, memory, warnings);
+            return hugin::find(pattern, access, warnings);
         }
-        Self::of_eyes(pattern, from, wanted, warnings)
+        Self::of_eyes(pattern, from, wanted, access, warnings)
     }
 
     /// The input for each eye, where a SPEC has two.
@@ -108,18 +107,24 @@ impl Input {
         pattern: &str,
         from: Option<&Spec>,
         wanted: Option<&FrameList>,
+        access: Access,
         warnings: &mut Vec<Diagnostic>,
     ) -> Result<Self> {
         let Some(stereo) = from.and_then(|spec| spec.stereo) else {
-            return Self::find_one(pattern, from, None, wanted, warnings);
+            return Self::find_one(pattern, from, (None, access), wanted, warnings);
         };
         let mut found: Option<Self> = None;
         for eye in stereo.eyes() {
             // Whatever there is to say of the other eye has been said of the first.
             let mut said = Vec::new();
             let warnings = if found.is_some() { &mut said } else { &mut *warnings };
-            let mut one =
-                Self::find_one(pattern, from, Some(EyePart { stereo: stereo.packing, eye }), wanted, warnings)?;
+            let mut one = Self::find_one(
+                pattern,
+                from,
+                (Some(EyePart { stereo: stereo.packing, eye }), access),
+                wanted,
+                warnings,
+            )?;
             match &mut found {
                 Some(found) => found.worlds.append(&mut one.worlds),
                 None => found = Some(one),
@@ -132,20 +137,20 @@ impl Input {
     fn find_one(
         pattern: &str,
         from: Option<&Spec>,
-        eye: Option<EyePart>,
+        (eye, access): (Option<EyePart>, Access),
         wanted: Option<&FrameList>,
         warnings: &mut Vec<Diagnostic>,
     ) -> Result<Self> {
         let shape = from.map(|spec| (spec.name, &spec.shape));
         let mut input = match (FacePattern::parse(pattern), shape) {
-            (Some(_), Some((_, Shape::Cube(cube)))) => Self::cube(pattern, cube, eye, wanted, warnings)?,
-            (Some(_), None) => Self::cube(pattern, &Cube::default(), eye, wanted, warnings)?,
+            (Some(_), Some((_, Shape::Cube(cube)))) => Self::cube(pattern, cube, (eye, access), wanted, warnings)?,
+            (Some(_), None) => Self::cube(pattern, &Cube::default(), (eye, access), wanted, warnings)?,
             (Some(_), Some((name, Shape::Single(_) | Shape::Calibrated(_) | Shape::Dual(_) | Shape::StMap(_)))) => {
                 let message =
                     format!("{pattern} names the faces of a cube, but {FROM} is {name}; expected {FROM} cube");
                 return Err(usage(message));
             }
-            (None, shape) => Self::one_file(pattern, shape.map(|(_, shape)| shape), eye, wanted, warnings)?,
+            (None, shape) => Self::one_file(pattern, shape.map(|(_, shape)| shape), (eye, access), wanted, warnings)?,
         };
         if let Some(eye) = eye {
             let place = |views: Vec<InputView>| views.into_iter().map(|view| eye.place(view)).collect();
@@ -174,22 +179,22 @@ impl Input {
     fn one_file(
         pattern: &str,
         shape: Option<&Shape>,
-        eye: Option<EyePart>,
+        (eye, access): (Option<EyePart>, Access),
         wanted: Option<&FrameList>,
         warnings: &mut Vec<Diagnostic>,
     ) -> Result<Self> {
-        let files = Files::new(Path::new(pattern));
+        let files = ViewFiles::new(Path::new(pattern));
         let frames = frames::find(std::iter::once(&files), wanted)?;
         let path = files.path(frames[0]);
-        is_one_file(pattern, &path)?;
-        let header = header(&path, eye)?;
+        is_one_file(access.files, pattern, &path)?;
+        let header = header(access, &path, eye)?;
         let shape = match shape {
             Some(shape) => declared(shape, pattern, &header, warnings)?,
-            None => match detect(&path, &header, warnings)? {
+            None => match detect(access.files, &path, &header, warnings)? {
                 (shape, None) => shape,
                 (shape, stereo) => {
                     let found = Spec { name: "what was found", shape, stereo, files: Vec::new() };
-                    return Self::of_eyes(pattern, Some(&found), wanted, warnings);
+                    return Self::of_eyes(pattern, Some(&found), wanted, access, warnings);
                 }
             },
         };
@@ -204,7 +209,7 @@ impl Input {
         Ok(Self { worlds: vec![views], frames, faces, beside: Vec::new() })
     }
 
-    fn single(pattern: &str, files: Files, path: &Path, header: Header, single: Single) -> Result<InputView> {
+    fn single(pattern: &str, files: ViewFiles, path: &Path, header: Header, single: Single) -> Result<InputView> {
         let name = path.file_name().map_or_else(|| pattern.to_owned(), |name| name.to_string_lossy().into_owned());
         let mut placement = single.placement;
         let canvas = placement.canvas.or(header.window.map(canvas_of)).unwrap_or_else(|| whole(&header));
@@ -233,7 +238,7 @@ impl Input {
     fn cube(
         pattern: &str,
         cube: &Cube,
-        eye: Option<EyePart>,
+        (eye, access): (Option<EyePart>, Access),
         wanted: Option<&FrameList>,
         warnings: &mut Vec<Diagnostic>,
     ) -> Result<Self> {
@@ -258,12 +263,12 @@ impl Input {
         if !chosen.iter().any(|face| face.present) {
             bail!("{pattern}: none of the faces asked for is there; there are {}", names(set.present()));
         }
-        let files: Vec<Files> = chosen.iter().map(|face| Files::new(&face.path)).collect();
+        let files: Vec<ViewFiles> = chosen.iter().map(|face| ViewFiles::new(&face.path)).collect();
         let present = || files.iter().zip(&chosen).filter(|(_, face)| face.present).map(|(files, _)| files);
         let frames = frames::find(present().collect::<Vec<_>>().into_iter(), wanted)?;
         let mut faces = Vec::new();
         for (face, files) in chosen.into_iter().zip(files) {
-            faces.push(Face::probe(cube, face, files, eye, frames[0])?);
+            faces.push(Face::probe(cube, face, files, (eye, access), frames[0])?);
         }
         let pictures: Vec<FacePicture> = faces.iter().filter_map(|face| face.picture(cube, frames[0])).collect();
         let size = size_of_missing(&pictures, cube.half, warnings)?;
@@ -341,8 +346,8 @@ impl Input {
 }
 
 /// What a file says of itself, or the picture of an eye in it.
-pub(crate) fn header(path: &Path, eye: Option<EyePart>) -> Result<Header> {
-    let header = probe(path)?;
+pub(crate) fn header(access: Access, path: &Path, eye: Option<EyePart>) -> Result<Header> {
+    let header = access.probe(path)?;
     eye.map_or(Ok(header.clone()), |eye| eye.header(path, &header))
 }
 

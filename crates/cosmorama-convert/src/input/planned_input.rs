@@ -9,7 +9,7 @@ use cosmorama_spec::{Shape, Size, Spec};
 use crate::diagnostic::{ConvertError, FROM, Result, usage};
 use crate::input::eye::eye_size;
 use crate::input::faces::face_view::face_placement;
-use crate::input::{EyePart, Files, Input, InputView, Piece};
+use crate::input::{EyePart, Input, InputView, Piece, ViewFiles};
 use crate::target::size::lens_image_size;
 
 impl Input {
@@ -75,7 +75,7 @@ fn wrong(error: CameraError) -> ConvertError {
 }
 
 fn view(name: &str, nominal: View, blend: Blend) -> InputView {
-    let files = Files::new(Path::new(name));
+    let files = ViewFiles::new(Path::new(name));
     InputView {
         name: name.to_owned(),
         files,

@@ -7,7 +7,7 @@ use crate::budget::MemoryBudget;
 use crate::colour::Light;
 use crate::conversion::{Conversion, Existing, GeometrySettings};
 use crate::diagnostic::{Diagnostic, FRAMES, OVERWRITE, RESUME, Result, bail, usage};
-use crate::input::{Files, Input};
+use crate::input::{Input, ViewFiles};
 use crate::output::Remade;
 use crate::target::{Target, TargetFile};
 
@@ -93,7 +93,7 @@ impl Outputs {
 
 /// Many frames need a marker in the output; one frame may go without; a marker without frames means nothing.
 fn check_frame_markers(args: &Conversion, input: &Input, target: &Target) -> Result<()> {
-    let numbered = target.files.iter().all(|file| matches!(file.files, Files::Sequence(_)));
+    let numbered = target.files.iter().all(|file| matches!(file.files, ViewFiles::Sequence(_)));
     if input.frames.len() > 1 && args.to_stream {
         return Err(usage(format!(
             "{} frames cannot go to standard output, which takes one picture; choose one of them, as in {FRAMES} {}, or name \

@@ -7,7 +7,7 @@ use cosmorama_spec::{Cube, Packing, Shape, Size, Spec};
 
 use crate::conversion::GeometrySettings;
 use crate::diagnostic::{MIPS, Result, SIZE, TO, usage};
-use crate::input::Files;
+use crate::input::ViewFiles;
 use crate::target::picture::world_of;
 use crate::target::{Picture, Place};
 
@@ -31,7 +31,7 @@ impl TargetView {
 /// A file to make.
 pub(crate) struct TargetFile {
     /// Its name, frame by frame.
-    pub(crate) files: Files,
+    pub(crate) files: ViewFiles,
     /// Its picture.
     pub(crate) sheet: Sheet,
     /// The smaller copies of that, each half as large as the one before.
@@ -121,7 +121,7 @@ impl Target {
                 Some(shared) => files[shared].sheet.pieces.push((index, corner)),
                 None => {
                     let sheet = Sheet { size: of, pieces: vec![(index, corner)] };
-                    files.push(TargetFile { files: Files::new(&path), sheet, mips: Vec::new() });
+                    files.push(TargetFile { files: ViewFiles::new(&path), sheet, mips: Vec::new() });
                     paths.push(path);
                 }
             }

@@ -3,3 +3,4 @@
 
 mod at_once;
 mod diagnostics;
+mod in_memory;

@@ -97,7 +97,10 @@ pub fn read_from(
 }
 
 /// Opens a file for reading.
-pub(super) fn open(path: &Path) -> Result<BufReader<File>, IoError> {
+///
+/// # Errors
+/// When it cannot be opened, or is a folder.
+pub fn open(path: &Path) -> Result<BufReader<File>, IoError> {
     let fail = |error| IoError::open(path, error);
     let file = File::open(path).map_err(fail)?;
     if file.metadata().map_err(fail)?.is_dir() {

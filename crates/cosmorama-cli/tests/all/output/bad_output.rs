@@ -62,7 +62,7 @@ fn a_folder_that_is_missing_or_read_only() {
     let message = bench.fail(1, &["explain", "sky.png", "--to", "omnimax", "--output", "sky.png/diagrams"]);
     assert_says(&message, &["the folder sky.png/diagrams cannot be made", "choose another"]);
     let piped = bench
-        .command(&["convert", "-", "out.png", "--to", "omnimax"])
+        .command(&["convert", "sky.png", "-", "--format", "png", "--to", "omnimax"])
         .env("TMPDIR", bench.path("sky.png"))
         .output()
         .unwrap();

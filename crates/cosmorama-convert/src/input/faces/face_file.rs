@@ -8,13 +8,13 @@ use crate::diagnostic::Result;
 use crate::input::canvas::{canvas_of, fits_canvas, lies_on_canvas, whole};
 use crate::input::faces::face_view::face_placement;
 use crate::input::find::header;
-use crate::input::{EyePart, FacePicture, Files, InputView};
+use crate::input::{Access, EyePart, FacePicture, InputView, ViewFiles};
 
 /// A face whose file has been looked at.
 pub(crate) struct Face {
     face: CubeFace,
     placement: FacePlacement,
-    files: Files,
+    files: ViewFiles,
     header: Option<Header>,
     canvas: Option<Canvas>,
 }
@@ -24,11 +24,11 @@ impl Face {
     pub(crate) fn probe(
         cube: &Cube,
         file: &FaceFile,
-        files: Files,
-        eye: Option<EyePart>,
+        files: ViewFiles,
+        (eye, access): (Option<EyePart>, Access),
         frame: Option<u64>,
     ) -> Result<Self> {
-        let header = file.present.then(|| header(&files.path(frame), eye)).transpose()?;
+        let header = file.present.then(|| header(access, &files.path(frame), eye)).transpose()?;
         let placement = cube.file_placement(file.face, file.placement);
         let part = FacePart::of(file.face, placement, cube.half);
         let canvas = header.as_ref().map(|header| {

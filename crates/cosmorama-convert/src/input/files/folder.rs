@@ -6,12 +6,16 @@ use cosmorama_io::{FaceSet, Format, FoundFrames};
 
 use crate::detect::GivenFaces;
 use crate::diagnostic::{Result, bail, usage};
+use crate::input::Files;
 
 /// Patterns told of a folder, at most.
 const SHOWN: usize = 3;
 
 /// A folder or a wildcard was meant for what is in it; beside a file that is not there may be frames.
-pub fn is_one_file(pattern: &str, path: &Path) -> Result<()> {
+pub fn is_one_file(files: &dyn Files, pattern: &str, path: &Path) -> Result<()> {
+    if files.holds(path) {
+        return Ok(());
+    }
     if path.is_dir() {
         return Err(usage(format!("{pattern} is a folder; {}", advice(path))));
     }

@@ -3,16 +3,16 @@ use std::collections::BTreeSet;
 use cosmorama_io::{FrameList, FramePattern, Frames};
 
 use crate::diagnostic::{FRAMES, Result, bail, usage};
-use crate::input::Files;
+use crate::input::ViewFiles;
 
 /// The frames to work on: those asked for, or all that any view has. `[None]` where there is no sequence.
 ///
 /// All missing frames of all views are named at once.
 pub(crate) fn find<'a>(
-    files: impl Iterator<Item = &'a Files> + Clone,
+    files: impl Iterator<Item = &'a ViewFiles> + Clone,
     wanted: Option<&FrameList>,
 ) -> Result<Vec<Option<u64>>> {
-    let sequences: Vec<&FramePattern> = files.filter_map(Files::sequence).collect();
+    let sequences: Vec<&FramePattern> = files.filter_map(ViewFiles::sequence).collect();
     if sequences.is_empty() {
         return match wanted {
             Some(_) => Err(usage(format!(
@@ -38,7 +38,7 @@ pub(crate) fn find<'a>(
 }
 
 /// The frames that exist; none where there is no sequence.
-pub fn existing(files: &Files) -> Result<Vec<u64>> {
+pub fn existing(files: &ViewFiles) -> Result<Vec<u64>> {
     let Some(pattern) = files.sequence() else { return Ok(Vec::new()) };
     let frames = pattern.existing()?;
     if frames.is_empty() {

@@ -4,14 +4,14 @@ use cosmorama_io::FramePattern;
 
 /// The file of a view, or its files by frame.
 #[derive(Clone, Debug)]
-pub enum Files {
+pub enum ViewFiles {
     /// One file for all frames.
     One(PathBuf),
     /// A file for each frame.
     Sequence(FramePattern),
 }
 
-impl Files {
+impl ViewFiles {
     /// A file name, which may hold a frame marker.
     pub fn new(path: &Path) -> Self {
         match path.to_str().and_then(FramePattern::parse) {

@@ -7,13 +7,12 @@ use cosmorama::camera::{
 };
 use cosmorama::sphere::{Angle, Orientation};
 use cosmorama::world::{Blend, MaskShape};
-use cosmorama_io::{PtoImage, PtoPanorama, PtoProject, probe};
+use cosmorama_io::{PtoImage, PtoPanorama, PtoProject};
 use cosmorama_spec::{Shape, Single, Size, Spec, SphereSamples};
 
-use crate::budget::MemoryBudget;
 use crate::conversion::GeometrySettings;
 use crate::diagnostic::{Code, Diagnostic, InPlace, Result, SIZE, TO, failure, usage};
-use crate::input::{Files, Input, InputView, Listed};
+use crate::input::{Access, Input, InputView, Listed, ViewFiles};
 use crate::target::Place;
 
 /// Degrees over which pictures of a project fade into each other.
@@ -25,20 +24,20 @@ pub(crate) fn is_project(pattern: &str) -> bool {
 }
 
 /// Finds and probes the pictures of a project.
-pub(crate) fn find(name: &str, memory: MemoryBudget, warnings: &mut Vec<Diagnostic>) -> Result<Input> {
+pub(crate) fn find(name: &str, access: Access, warnings: &mut Vec<Diagnostic>) -> Result<Input> {
     let project = PtoProject::read(Path::new(name))?;
     let told = |warning| Diagnostic::warning(Code::Project, format!("{name}: {warning}")).about(name);
     warnings.extend(project.warnings.iter().map(told));
     let folder = Path::new(name).parent().unwrap_or(Path::new(""));
-    let view = |image: &PtoImage| view(folder, image, memory).at(|| format!("{name}, line {}", image.line));
+    let view = |image: &PtoImage| view(folder, image, access).at(|| format!("{name}, line {}", image.line));
     let views = project.images.iter().map(view).collect::<Result<_>>()?;
     Ok(Input { worlds: vec![views], frames: vec![None], faces: None, beside: vec![name.into()] })
 }
 
 /// Each picture of a project by itself.
-pub(crate) fn listed(name: &str, memory: MemoryBudget, warnings: &mut Vec<Diagnostic>) -> Result<Vec<Listed>> {
+pub(crate) fn listed(name: &str, access: Access, warnings: &mut Vec<Diagnostic>) -> Result<Vec<Listed>> {
     let images = PtoProject::read(Path::new(name))?.images;
-    let views = find(name, memory, warnings)?.worlds.into_iter().flatten();
+    let views = find(name, access, warnings)?.worlds.into_iter().flatten();
     let list = |(image, view): (PtoImage, InputView)| Listed {
         image: image.file.display().to_string(),
         place: format!("{name}, line {}", image.line),
@@ -84,9 +83,9 @@ pub(crate) fn complete(input: &str, geometry: &GeometrySettings) -> Result<Geome
     Ok(geometry)
 }
 
-fn view(folder: &Path, image: &PtoImage, memory: MemoryBudget) -> Result<InputView> {
+fn view(folder: &Path, image: &PtoImage, access: Access) -> Result<InputView> {
     let path = folder.join(&image.file);
-    let whole = probe(&path)?;
+    let whole = access.probe(&path)?;
     let (width, height) = image.size;
     if (whole.width, whole.height) != image.size {
         let found = format!("{}x{}", whole.width, whole.height);
@@ -107,13 +106,13 @@ fn view(folder: &Path, image: &PtoImage, memory: MemoryBudget) -> Result<InputVi
     let mask = if shapes.is_empty() {
         None
     } else {
-        Some(crate::input::lists::mask::of_shapes(&shapes, corner, size, memory)?)
+        Some(crate::input::lists::mask::of_shapes(&shapes, corner, size, access)?)
     };
     let canvas = Canvas { width, height, left: corner.0 as i64, top: corner.1 as i64 };
     let held = placement(Some(canvas)).view(size.0, size.1)?;
     Ok(InputView {
         name: image.file.display().to_string(),
-        files: Files::One(path),
+        files: ViewFiles::One(path),
         part: (size != image.size).then_some(Place { corner, of: image.size }),
         header: Some(cosmorama_io::Header { width: size.0, height: size.1, ..whole }),
         // What was cropped away is not there, as if it had never been photographed.

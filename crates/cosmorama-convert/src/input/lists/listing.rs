@@ -2,8 +2,8 @@
 
 use crate::budget::MemoryBudget;
 use crate::diagnostic::{Diagnostic, Result};
-use crate::input::Input;
 use crate::input::lists::{hugin, world_file};
+use crate::input::{Access, Files, Input};
 
 /// A view as a world file or a Hugin project lists it.
 pub struct Listed {
@@ -18,12 +18,18 @@ pub struct Listed {
 }
 
 /// The views of a world file or of a Hugin project; `None` where an input is neither.
-pub fn listed(name: &str, memory: MemoryBudget, warnings: &mut Vec<Diagnostic>) -> Result<Option<Vec<Listed>>> {
+pub fn listed(
+    name: &str,
+    files: &dyn Files,
+    memory: MemoryBudget,
+    warnings: &mut Vec<Diagnostic>,
+) -> Result<Option<Vec<Listed>>> {
+    let access = Access { files, memory };
     if world_file::is_world_file(name) {
-        return world_file::listed(name, None, memory, warnings).map(Some);
+        return world_file::listed(name, None, access, warnings).map(Some);
     }
     if hugin::is_project(name) {
-        return hugin::listed(name, memory, warnings).map(Some);
+        return hugin::listed(name, access, warnings).map(Some);
     }
     Ok(None)
 }

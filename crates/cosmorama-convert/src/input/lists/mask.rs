@@ -6,27 +6,27 @@ use std::sync::Arc;
 use cosmorama::camera::Canvas;
 use cosmorama::raster::{EncodedImage, Rgba, Transfer};
 use cosmorama::world::{MaskShape, ViewMask};
-use cosmorama_io::{Limits, probe, read};
+use cosmorama_io::Limits;
 
-use crate::budget::MemoryBudget;
 use crate::diagnostic::{Result, bail};
+use crate::input::Access;
 use crate::input::InputView;
 
 /// Code values from here on (1 is white) count.
 const GREY: f32 = 0.5;
 
 /// The mask that a picture is: where it is black, darker than middle grey, or transparent, the view does not hold.
-pub(crate) fn of_file(path: &Path, view: &InputView, memory: MemoryBudget) -> Result<Arc<ViewMask>> {
+pub(crate) fn of_file(path: &Path, view: &InputView, access: Access) -> Result<Arc<ViewMask>> {
     let expected = size(view);
     // Before its pixels take any memory.
-    let header = probe(path)?;
+    let header = access.probe(path)?;
     let found = (header.width, header.height);
     if found != expected {
         let (mask, picture) = (format!("{}x{}", found.0, found.1), format!("{}x{}", expected.0, expected.1));
         bail!("{}: the mask has {mask} pixels, but its picture has {picture}; they must have the same", path.display());
     }
-    memory.check_mask(found, size_of::<Rgba>() as u64)?;
-    let mask = of_image(&read(path, &Limits::memory(memory.bytes))?.image);
+    access.memory.check_mask(found, size_of::<Rgba>() as u64)?;
+    let mask = of_image(&read(access.files, path, &Limits::memory(access.memory.bytes))?.image);
     if mask.is_empty() {
         bail!("{}: the mask is black all over: nothing of the picture would count", path.display());
     }
@@ -38,9 +38,9 @@ pub(crate) fn of_shapes(
     shapes: &[MaskShape],
     corner: (usize, usize),
     size: (usize, usize),
-    memory: MemoryBudget,
+    access: Access,
 ) -> Result<Arc<ViewMask>> {
-    memory.check_mask(size, size_of::<bool>() as u64)?;
+    access.memory.check_mask(size, size_of::<bool>() as u64)?;
     let mask = ViewMask::of_shapes(shapes, corner, size);
     if mask.is_empty() {
         bail!("its masks and its crop leave nothing of it");

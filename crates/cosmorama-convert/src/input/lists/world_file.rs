@@ -10,11 +10,10 @@ use cosmorama_spec::Spec;
 use serde::Deserialize;
 use toml::Spanned;
 
-use crate::budget::MemoryBudget;
 use crate::diagnostic::{ConvertError, Diagnostic, FRAMES, FROM, InPlace, Result, SIZE, TO, bail, failure};
 use crate::input::spec_files::calibration::read_calibrations;
 use crate::input::spec_files::st_map;
-use crate::input::{Builtin, Input, InputView, Listed};
+use crate::input::{Access, Builtin, Input, InputView, Listed};
 
 /// The file as it is written.
 #[derive(Deserialize)]
@@ -68,11 +67,11 @@ pub(crate) fn is_world_file(pattern: &str) -> bool {
 pub(crate) fn find(
     name: &str,
     wanted: Option<&FrameList>,
-    memory: MemoryBudget,
+    access: Access,
     warnings: &mut Vec<Diagnostic>,
 ) -> Result<Input> {
     let mut world = Input { worlds: vec![Vec::new()], frames: vec![None], faces: None, beside: vec![name.into()] };
-    for Listed { image, place, input, .. } in listed(name, wanted, memory, warnings)? {
+    for Listed { image, place, input, .. } in listed(name, wanted, access, warnings)? {
         world.frames = common_frames(&world.frames, &input.frames)
             .at(|| format!("{image} has other frames than the views before it"))
             .at(|| place)?;
@@ -86,7 +85,7 @@ pub(crate) fn find(
 pub(crate) fn listed(
     name: &str,
     wanted: Option<&FrameList>,
-    memory: MemoryBudget,
+    access: Access,
     warnings: &mut Vec<Diagnostic>,
 ) -> Result<Vec<Listed>> {
     let bytes = std::fs::read(name).map_err(|error| failure!("cannot open the world file {name}: {error}"))?;
@@ -106,7 +105,7 @@ pub(crate) fn listed(
             image: entry.image.get_ref().clone(),
             place: source.place(Some(entry.image.span())),
             spec: entry.spec.as_ref().map(|spec| spec.get_ref().clone()),
-            input: entry.find(&source, wanted, memory, warnings)?,
+            input: entry.find(&source, wanted, access, warnings)?,
         })
     };
     file.view.iter().map(list).collect()
@@ -117,13 +116,13 @@ impl Entry {
         &self,
         source: &Text,
         wanted: Option<&FrameList>,
-        memory: MemoryBudget,
+        access: Access,
         warnings: &mut Vec<Diagnostic>,
     ) -> Result<Input> {
         let feather = self.feather(source)?;
         let spec = self.spec(source)?;
         let named = spec.as_ref().map_or_else(Vec::new, |spec| spec.files.clone());
-        let spec = spec.map(|spec| st_map::read_map(spec, memory)).transpose();
+        let spec = spec.map(|spec| st_map::read_map(spec, access)).transpose();
         let spec = spec.at(|| source.place(self.spec.as_ref().map(Spanned::span)))?;
         let pattern = source.folder().join(self.image.get_ref()).to_string_lossy().into_owned();
         if is_world_file(&pattern) {
@@ -142,7 +141,7 @@ impl Entry {
         // A still stays what it is in all frames.
         let wanted = wanted.filter(|_| FramePattern::parse(&pattern).is_some());
         let mut said = Vec::new();
-        let found = Input::find(&pattern, spec.as_ref(), wanted, memory, &mut said);
+        let found = Input::find(&pattern, spec.as_ref(), wanted, access, &mut said);
         warnings.extend(said.into_iter().map(|warning| {
             let message = warning.message.reworded(FROM, SPEC_KEY);
             Diagnostic { message, ..warning }
@@ -154,7 +153,7 @@ impl Entry {
             view.blend = Blend { priority: self.priority, feather: feather.unwrap_or(view.blend.feather) };
         }
         input.beside.extend(named);
-        self.mask(source, &mut input, memory)?;
+        self.mask(source, &mut input, access)?;
         Ok(input)
     }
 
@@ -166,7 +165,7 @@ impl Entry {
     }
 
     /// Hides what the mask of a single picture hides.
-    fn mask(&self, source: &Text, input: &mut Input, memory: MemoryBudget) -> Result<()> {
+    fn mask(&self, source: &Text, input: &mut Input, access: Access) -> Result<()> {
         let Some(mask) = &self.mask else { return Ok(()) };
         let place = || source.place(Some(mask.span()));
         let [views] = input.worlds.as_mut_slice() else {
@@ -179,7 +178,7 @@ impl Entry {
             return Err(source.error(Some(mask.span()), &message));
         };
         let path = source.folder().join(mask.get_ref());
-        let found = crate::input::lists::mask::of_file(&path, view, memory).at(place)?;
+        let found = crate::input::lists::mask::of_file(&path, view, access).at(place)?;
         crate::input::lists::mask::hide(view, found);
         input.beside.push(path);
         Ok(())

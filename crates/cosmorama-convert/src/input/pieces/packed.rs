@@ -7,11 +7,11 @@ use cosmorama_io::Header;
 use cosmorama_spec::{Cube, Dual};
 
 use crate::diagnostic::{FROM, Result, bail, failure, usage};
-use crate::input::{Files, InputView, Piece};
+use crate::input::{InputView, Piece, ViewFiles};
 use crate::target::Place;
 
 /// The faces of a cube in one image, whose layout is known.
-pub(crate) fn faces(files: &Files, path: &Path, header: &Header, cube: &Cube) -> Result<Vec<InputView>> {
+pub(crate) fn faces(files: &ViewFiles, path: &Path, header: &Header, cube: &Cube) -> Result<Vec<InputView>> {
     let Some(layout) = cube.one_image() else { bail!("{}: no layout is known", path.display()) };
     check_whole(path, header)?;
     let edge = layout.edge(header.width, header.height).map_err(|error| {
@@ -25,7 +25,7 @@ pub(crate) fn faces(files: &Files, path: &Path, header: &Header, cube: &Cube) ->
 }
 
 /// Two fisheyes in one image.
-pub(crate) fn lenses(files: &Files, path: &Path, header: &Header, dual: &Dual) -> Result<Vec<InputView>> {
+pub(crate) fn lenses(files: &ViewFiles, path: &Path, header: &Header, dual: &Dual) -> Result<Vec<InputView>> {
     check_whole(path, header)?;
     check_halves(path, header, dual)?;
     let pieces = Piece::lenses(dual, (header.width, header.height))
@@ -67,7 +67,7 @@ pub(crate) fn check_whole(path: &Path, header: &Header) -> Result<()> {
     )
 }
 
-fn views(files: &Files, header: &Header, pieces: &[Piece]) -> Result<Vec<InputView>> {
+fn views(files: &ViewFiles, header: &Header, pieces: &[Piece]) -> Result<Vec<InputView>> {
     let wrong = |error| usage(format!("{FROM}: {error}"));
     let view = |piece: &Piece| {
         let rect = piece.rect;

@@ -4,13 +4,13 @@ use std::path::Path;
 
 use cosmorama::camera::{CameraModel, FieldOfView, Mirror, PerspectiveCamera, Placement, StMapCamera};
 use cosmorama::sphere::{Angle, Orientation};
-use cosmorama_io::{Header, Limits, StPairs, probe, probe_pairs, read_pairs};
+use cosmorama_io::{Header, StPairs};
 use cosmorama_spec::{Shape, Single, Size, Spec, SphereSamples, StMapBase, StMapSpec};
 
-use crate::budget::MemoryBudget;
 use crate::conversion::GeometrySettings;
 use crate::diagnostic::{Code, ConvertError, Diagnostic, FROM, Mark, Result, TO, failure, usage};
-use crate::input::Files;
+use crate::input::Access;
+use crate::input::ViewFiles;
 use crate::input::files::frames;
 use crate::input::lists::hugin;
 use crate::input::spec_files::calibration::read_calibrations;
@@ -36,7 +36,7 @@ struct Base {
 pub(crate) fn settled(
     geometry: &GeometrySettings,
     input: Option<&str>,
-    memory: MemoryBudget,
+    access: Access,
     warnings: &mut Vec<Diagnostic>,
 ) -> Result<GeometrySettings> {
     let geometry = &GeometrySettings {
@@ -50,21 +50,21 @@ pub(crate) fn settled(
     };
     if let (Some(Shape::StMap(StMapSpec { invert: false, file, .. })), None) = (shape(&geometry.to), geometry.size) {
         // The output has the map's pixels.
-        let (width, height) = canvas_size(&probe_pairs(file)?);
+        let (width, height) = canvas_size(&access.probe_pairs(file)?);
         settled.size = Some(Size { width, height: Some(height) });
     }
     match (shape(&geometry.from), shape(&geometry.to)) {
         (Some(Shape::StMap(from)), Some(Shape::StMap(to))) => {
-            settled.from = Some(with_given_base(from, Side::Input, memory)?);
-            settled.to = Some(with_given_base(to, Side::Output, memory)?);
+            settled.from = Some(with_given_base(from, Side::Input, access)?);
+            settled.to = Some(with_given_base(to, Side::Output, access)?);
         }
         (Some(Shape::StMap(from)), _) if from.base.is_some() => {
-            settled.from = Some(with_given_base(from, Side::Input, memory)?);
+            settled.from = Some(with_given_base(from, Side::Input, access)?);
         }
         (_, Some(Shape::StMap(to))) if to.base.is_some() => {
-            settled.to = Some(with_given_base(to, Side::Output, memory)?);
+            settled.to = Some(with_given_base(to, Side::Output, access)?);
         }
-        (Some(Shape::StMap(from)), None) if is_plain(from) => apply_plainly(&mut settled, from, input, memory)?,
+        (Some(Shape::StMap(from)), None) if is_plain(from) => apply_plainly(&mut settled, from, input, access)?,
         (Some(Shape::StMap(from)), to) => {
             if to.is_some() {
                 let message = format!(
@@ -73,44 +73,34 @@ pub(crate) fn settled(
                 );
                 warnings.push(Diagnostic::warning(Code::MapBase, message).about(from.file.display()));
             }
-            settle_from(&mut settled, from, to, memory)?;
+            settle_from(&mut settled, from, to, access)?;
         }
-        (from, Some(Shape::StMap(to))) => settle_to(&mut settled, to, from, input, memory)?,
+        (from, Some(Shape::StMap(to))) => settle_to(&mut settled, to, from, input, access)?,
         _ => {}
     }
     Ok(settled)
 }
 
 /// A map alone: the output has the map's pixels, and nothing where the map says nothing.
-fn apply_plainly(
-    settled: &mut GeometrySettings,
-    from: &StMapSpec,
-    input: Option<&str>,
-    memory: MemoryBudget,
-) -> Result<()> {
+fn apply_plainly(settled: &mut GeometrySettings, from: &StMapSpec, input: Option<&str>, access: Access) -> Result<()> {
     let Some(input) = input else { return Err(without_base(Side::Input)) };
-    let pairs = read(&from.file, memory)?;
+    let pairs = read(&from.file, access)?;
     settled.size.get_or_insert_with(|| size_of(&pairs));
     let Shape::Single(single) = plain().shape else { return Err(without_base(Side::Input)) };
-    let base = Base { placement: single.placement, size: Some(input_size(input)?) };
-    settled.to = Some(spec(from, &pairs, base, Side::Output, memory)?);
+    let base = Base { placement: single.placement, size: Some(input_size(input, access)?) };
+    settled.to = Some(spec(from, &pairs, base, Side::Output, access)?);
     settled.from = Some(plain());
     Ok(())
 }
 
 /// A map of `--from` that relates the input to the picture of `--to`.
-fn settle_from(
-    settled: &mut GeometrySettings,
-    from: &StMapSpec,
-    to: Option<&Shape>,
-    memory: MemoryBudget,
-) -> Result<()> {
-    let pairs = read(&from.file, memory)?;
+fn settle_from(settled: &mut GeometrySettings, from: &StMapSpec, to: Option<&Shape>, access: Access) -> Result<()> {
+    let pairs = read(&from.file, access)?;
     let size = settled.size.get_or_insert_with(|| size_of(&pairs));
     let other = other_side(to, Side::Input)?;
     let height = size.height.unwrap_or_else(|| other.frame.natural_height(size.width));
     let base = Base { placement: other, size: Some((size.width, height)) };
-    settled.from = Some(spec(from, &pairs, base, Side::Input, memory)?);
+    settled.from = Some(spec(from, &pairs, base, Side::Input, access)?);
     settled.to.get_or_insert_with(plain);
     Ok(())
 }
@@ -121,21 +111,21 @@ fn settle_to(
     to: &StMapSpec,
     from: Option<&Shape>,
     input: Option<&str>,
-    memory: MemoryBudget,
+    access: Access,
 ) -> Result<()> {
-    let pairs = read(&to.file, memory)?;
+    let pairs = read(&to.file, access)?;
     settled.size.get_or_insert_with(|| size_of(&pairs));
     let Some(input) = input else { return Err(without_base(Side::Output)) };
-    let base = Base { placement: other_side(from, Side::Output)?, size: Some(input_size(input)?) };
-    settled.to = Some(spec(to, &pairs, base, Side::Output, memory)?);
+    let base = Base { placement: other_side(from, Side::Output)?, size: Some(input_size(input, access)?) };
+    settled.to = Some(spec(to, &pairs, base, Side::Output, access)?);
     settled.from.get_or_insert_with(plain);
     Ok(())
 }
 
 /// The SPEC of a world file's view, its map read.
-pub(crate) fn read_map(spec: Spec, memory: MemoryBudget) -> Result<Spec> {
+pub(crate) fn read_map(spec: Spec, access: Access) -> Result<Spec> {
     let Shape::StMap(map) = &spec.shape else { return Ok(spec) };
-    with_given_base(map, Side::Input, memory)
+    with_given_base(map, Side::Input, access)
 }
 
 /// A SPEC with its calibration read.
@@ -190,10 +180,10 @@ fn other_side(shape: Option<&Shape>, side: Side) -> Result<Placement> {
 }
 
 /// The size of the input's first picture.
-fn input_size(input: &str) -> Result<(usize, usize)> {
-    let files = Files::new(Path::new(input));
+fn input_size(input: &str, access: Access) -> Result<(usize, usize)> {
+    let files = ViewFiles::new(Path::new(input));
     let first = frames::find(std::iter::once(&files), None)?[0];
-    Ok(canvas_size(&probe(&files.path(first))?))
+    Ok(canvas_size(&access.probe(&files.path(first))?))
 }
 
 /// The size of a picture, of its canvas if it has one.
@@ -205,23 +195,23 @@ fn size_of(pairs: &StPairs) -> Size {
     Size { width: pairs.width, height: Some(pairs.height) }
 }
 
-fn read(file: &Path, memory: MemoryBudget) -> Result<StPairs> {
-    Ok(read_pairs(file, &Limits::memory(memory.bytes))?)
+fn read(file: &Path, access: Access) -> Result<StPairs> {
+    Ok(access.read_pairs(file)?)
 }
 
-fn with_given_base(map: &StMapSpec, side: Side, memory: MemoryBudget) -> Result<Spec> {
+fn with_given_base(map: &StMapSpec, side: Side, access: Access) -> Result<Spec> {
     let Some(StMapBase::Single(base)) = map.base else { return Err(without_base(side)) };
     let base = Base { placement: base.placement, size: None };
-    spec(map, &read(&map.file, memory)?, base, side, memory)
+    spec(map, &read(&map.file, access)?, base, side, access)
 }
 
 /// What is left when a map has been read: a picture whose mapping is a table.
-fn spec(map: &StMapSpec, pairs: &StPairs, base: Base, side: Side, memory: MemoryBudget) -> Result<Spec> {
+fn spec(map: &StMapSpec, pairs: &StPairs, base: Base, side: Side, access: Access) -> Result<Spec> {
     let has_pixels_of_map = (side == Side::Output) != map.invert;
     let size = base.size.filter(|_| has_pixels_of_map).unwrap_or((pairs.width, pairs.height));
     let view = base.placement.view(size.0, size.1).map_err(|error| usage(format!("{} base: {error}", option(side))))?;
     let map_size = (pairs.width, pairs.height);
-    memory.check_table(&map.file, map_size, !has_pixels_of_map)?;
+    access.memory.check_table(&map.file, map_size, !has_pixels_of_map)?;
     let pair = |i, j| pairs.get(i, j);
     let frame = if has_pixels_of_map {
         StMapCamera::looking(map_size, pair, &view)

@@ -1,0 +1,112 @@
+use std::collections::BTreeMap;
+use std::fmt::Debug;
+use std::io::Cursor;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use cosmorama_io::{
+    Header, ImageFile, IoError, Limits, ReadSeek, StPairs, open, probe_from, probe_pairs_from, read_from,
+    read_pairs_from,
+};
+
+use crate::budget::MemoryBudget;
+
+/// Place that the bytes of pictures come from: disk, memory, an archive. What lists pictures, and calibrations, are on disk.
+pub trait Files: Debug + Send + Sync {
+    /// Opens a file.
+    ///
+    /// # Errors
+    /// When it cannot be opened.
+    fn open(&self, path: &Path) -> Result<Box<dyn ReadSeek>, IoError>;
+
+    /// Returns whether a file is held here, whatever is on disk.
+    fn holds(&self, path: &Path) -> bool;
+}
+
+/// Files on disk.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Disk;
+
+impl Files for Disk {
+    fn open(&self, path: &Path) -> Result<Box<dyn ReadSeek>, IoError> {
+        Ok(Box::new(open(path)?))
+    }
+
+    fn holds(&self, _: &Path) -> bool {
+        false
+    }
+}
+
+/// Files whose bytes are in memory, as those of standard input, each under a name. All others are on disk.
+#[derive(Clone, Default)]
+pub struct InMemory {
+    files: BTreeMap<PathBuf, Arc<[u8]>>,
+}
+
+impl InMemory {
+    /// Adds a file.
+    pub fn insert(&mut self, name: impl Into<PathBuf>, bytes: Vec<u8>) {
+        self.files.insert(name.into(), bytes.into());
+    }
+}
+
+impl Debug for InMemory {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_set().entries(self.files.keys()).finish()
+    }
+}
+
+impl Files for InMemory {
+    fn open(&self, path: &Path) -> Result<Box<dyn ReadSeek>, IoError> {
+        match self.files.get(path) {
+            Some(bytes) => Ok(Box::new(Cursor::new(Arc::clone(bytes)))),
+            None => Disk.open(path),
+        }
+    }
+
+    fn holds(&self, path: &Path) -> bool {
+        self.files.contains_key(path)
+    }
+}
+
+/// Reads what a picture says of itself.
+///
+/// # Errors
+/// When it cannot be opened, is of no known format, or is damaged before its pixels.
+pub fn probe(files: &dyn Files, path: &Path) -> Result<Header, IoError> {
+    probe_from(files.open(path)?, path)
+}
+
+/// Reads a picture.
+///
+/// # Errors
+/// When it cannot be opened, is of no known format, declares more pixels than the limits allow, or is damaged.
+pub fn read(files: &dyn Files, path: &Path, limits: &Limits) -> Result<ImageFile, IoError> {
+    read_from(files.open(path)?, path, limits)
+}
+
+/// What is needed to read inputs.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Access<'a> {
+    /// Where their bytes come from.
+    pub(crate) files: &'a dyn Files,
+    /// What may be used.
+    pub(crate) memory: MemoryBudget,
+}
+
+impl Access<'_> {
+    /// Reads what a picture says of itself.
+    pub(crate) fn probe(self, path: &Path) -> Result<Header, IoError> {
+        probe(self.files, path)
+    }
+
+    /// Reads what an st map says of itself.
+    pub(crate) fn probe_pairs(self, path: &Path) -> Result<Header, IoError> {
+        probe_pairs_from(self.files.open(path)?, path)
+    }
+
+    /// Reads an st map.
+    pub(crate) fn read_pairs(self, path: &Path) -> Result<StPairs, IoError> {
+        read_pairs_from(self.files.open(path)?, path, &Limits::memory(self.memory.bytes))
+    }
+}
