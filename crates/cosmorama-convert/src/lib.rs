@@ -15,20 +15,19 @@ mod diagnostic;
 mod engine;
 mod input;
 mod output;
+mod settings;
 mod target;
 
 pub use budget::{MemoryBudget, peak_bytes};
 pub use colour::{InputTransfer, ThinAlpha};
-pub use conversion::{
-    Checked, Conversion, Existing, Explanation, ExplanationSettings, GeometrySettings, LimitSettings, Observer, Quiet,
-    Report, threads,
-};
+pub use conversion::{Checked, Explanation, ExplanationSettings, Observer, Quiet, Report, threads};
 pub use detect::{Continuity, FacePixels, GivenFaces, Likely, damage_of, light_of, likely};
 pub use diagnostic::{Code, ConvertError, Diagnostic, Message, Outcome, Part, Remedy, Result, Setting, Severity};
 pub use engine::CpuSeconds;
 pub use input::{
-    Builtin, Disk, Files, InMemory, Input, InputView, Listed, ViewFiles, existing_frames, face_placement, is_one_file,
-    listed, probe, read,
+    Builtin, Disk, Files, InMemory, Input, InputView, Listed, Place, ViewFiles, existing_frames, face_placement,
+    is_one_file, listed, probe, read,
 };
 pub use output::{Remade, check_apart, real_path, refuse_existing};
-pub use target::{Picture, Place};
+pub use settings::{Conversion, Existing, GeometrySettings, LimitSettings};
+pub use target::Picture;

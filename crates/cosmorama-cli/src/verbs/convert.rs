@@ -15,7 +15,8 @@ use crate::report;
 pub(super) fn run(args: ConvertArgs, console: &mut Console) -> Result<ExitCode> {
     let (progress, as_json) = (args.progress, args.json);
     let piped = Piped::open(args, console)?;
-    let report = convert(Conversion::from(piped.args.clone()).files(Arc::clone(&piped.files)), progress, console)?;
+    let conversion: Conversion = piped.args.clone().into();
+    let report = convert(conversion.files(Arc::clone(&piped.files)), progress, console)?;
     piped.finish()?;
     if as_json {
         console.print(&report::to_json(&report)?)?;

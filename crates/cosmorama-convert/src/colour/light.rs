@@ -2,9 +2,9 @@ use cosmorama::raster::{Channels, Depth, Rgba, Transfer};
 use cosmorama_io::{Header, Metadata};
 use cosmorama_spec::{Missing, TransferName};
 
-use crate::conversion::Conversion;
 use crate::diagnostic::{BACKGROUND, Code, DEPTH, Diagnostic, MISSING, Result, usage};
 use crate::input::Input;
+use crate::settings::Conversion;
 use crate::target::Target;
 
 /// How code values relate to light on both sides, and what the outputs hold.

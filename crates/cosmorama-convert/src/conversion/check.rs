@@ -3,9 +3,10 @@ use std::time::Instant;
 use cosmorama::explain;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
-use super::{Content, Conversion, ConvertJob};
+use super::{Content, ConvertJob};
 use crate::diagnostic::{Diagnostic, Outcome, Result, failure};
 use crate::engine::{Stage, Stages};
+use crate::settings::Conversion;
 
 /// A conversion of which everything has been checked that can be without decoding a pixel.
 pub struct Checked {

@@ -5,13 +5,13 @@ use cosmorama_io::Format;
 use cosmorama_spec::Missing;
 
 use super::options::filter;
-use super::{Conversion, GeometrySettings};
 use crate::colour::Light;
 use crate::diagnostic::{
     ANTI_RINGING, BACKGROUND, Code, DEPTH, Diagnostic, FILTER, FRAMES, FROM, IN_TRANSFER, KERNEL, MISSING, Mark,
     OUT_TRANSFER, OVERWRITE, RESUME, Result, ST_MAP, TRANSFER, usage,
 };
 use crate::input::{Access, Builtin, Input, SAME_FOR_BOTH};
+use crate::settings::{Conversion, GeometrySettings};
 use crate::target::{Target, TargetView};
 
 /// What pixels are made of.
@@ -166,7 +166,7 @@ fn check_map(settings: &Conversion, format: Format) -> Result<()> {
             "{output} is {format}, but the numbers of {input} go into named channels; name the output .exr"
         )));
     }
-    if settings.existing == super::Existing::Resume {
+    if settings.existing == crate::settings::Existing::Resume {
         return Err(usage(format!(
             "{RESUME} cannot tell whether a file of {input} is complete; replace it with {OVERWRITE}"
         )));

@@ -10,13 +10,13 @@ use rayon::ThreadPool;
 
 use super::check::threads;
 use super::options::filter;
-use super::{GeometrySettings, LimitSettings};
 use crate::budget::MemoryBudget;
 use crate::coverage::whole_worlds;
 use crate::diagnostic::{Diagnostic, FROM, Outcome, Result, TO, usage};
 use crate::input::spec_files::st_map::settled;
 use crate::input::{Access, Builtin, Disk, Files, Input, InputView};
 use crate::output::files_read;
+use crate::settings::{GeometrySettings, LimitSettings};
 use crate::target::Picture;
 
 /// Settings of an explanation: what a conversion would do, perhaps of an input that does not exist yet.

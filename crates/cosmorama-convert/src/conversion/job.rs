@@ -6,8 +6,8 @@ use cosmorama::render::Resampler;
 use cosmorama::world::World;
 use cosmorama_spec::Missing;
 
+use super::Content;
 use super::options::{check_file_options, filter};
-use super::{Content, Conversion};
 use crate::budget::MemoryBudget;
 use crate::colour::Light;
 use crate::coverage::{Coverage, whole_worlds};
@@ -15,6 +15,7 @@ use crate::diagnostic::{Diagnostic, Result};
 use crate::input::spec_files::st_map::settled;
 use crate::input::{Access, Files, Input};
 use crate::output::Outputs;
+use crate::settings::Conversion;
 use crate::target::{Target, TargetView, told_of_shape};
 
 /// A conversion, ready to run.

@@ -1,4 +1,4 @@
-//! A conversion from its settings to its report: [`Conversion`] → [`Conversion::check`] → [`Checked`] → [`Checked::run`].
+//! A conversion from its settings to its report: [`Conversion`](crate::Conversion) → [`check`](crate::Conversion::check) → [`Checked`] → [`Checked::run`].
 
 mod check;
 mod content;
@@ -8,14 +8,12 @@ mod observer;
 mod options;
 mod report;
 mod run;
-mod settings;
 
 pub use check::Checked;
 pub use check::threads;
 pub use explanation::{Explanation, ExplanationSettings};
 pub use observer::{Observer, Quiet};
 pub use report::Report;
-pub use settings::{Conversion, Existing, GeometrySettings, LimitSettings};
 
 pub(crate) use content::Content;
 pub(crate) use job::ConvertJob;

@@ -1,13 +1,13 @@
 use cosmorama::filter::{FilterKind, FilterSettings, Kernel};
 use cosmorama_io::{Compression, Format, WriteOptions};
 
-use super::{Conversion, GeometrySettings};
 use crate::colour::Light;
 use crate::diagnostic::{
     ANTI_RINGING, COMPRESSION, Code, Diagnostic, FILTER, IN_TRANSFER, KERNEL, OUT_TRANSFER, QUALITY, Result, TRANSFER,
     usage,
 };
 use crate::output::Outputs;
+use crate::settings::{Conversion, GeometrySettings};
 
 /// Checks that every option has an effect: if not, another format was meant, or another option.
 pub(crate) fn check_file_options(settings: &Conversion, format: Format) -> Result<()> {

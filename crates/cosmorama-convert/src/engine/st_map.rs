@@ -10,8 +10,8 @@ use cosmorama_io::{Header, WriteOptions, write_planes};
 use crate::conversion::{Checked, ConvertJob};
 use crate::diagnostic::{Result, ST_MAP, TO, bail};
 use crate::engine::{Stage, assemble};
-use crate::input::{Input, InputView};
-use crate::target::{Place, TargetView};
+use crate::input::{Input, InputView, Place};
+use crate::target::TargetView;
 
 /// The names of an st map's numbers, in their order.
 const CHANNELS: [&str; 3] = ["R", "G", "B"];

@@ -6,9 +6,8 @@ use cosmorama_io::{Header, Metadata};
 use cosmorama_spec::Size;
 
 use crate::diagnostic::{ConvertError, FROM, Result, failure, usage};
-use crate::input::InputView;
 use crate::input::pieces::packed::check_whole;
-use crate::target::{Picture, Place};
+use crate::input::{InputView, Place};
 
 /// The part that an eye has of a stereo image.
 #[derive(Clone, Copy, Debug)]
@@ -53,23 +52,8 @@ impl EyePart {
         })
     }
 
-    /// The picture of this eye, in its place in an image for both.
-    pub(crate) fn picture(self, picture: &Picture) -> Result<Picture> {
-        let size = (picture.view.width(), picture.view.height());
-        let Place { corner, of } = picture.place.unwrap_or(Place::whole(size));
-        let (rect, of) = self.rect(corner, size, of)?;
-        Ok(Picture {
-            eye: Some(self.eye),
-            view: squeezed(picture.view, self.stereo.squeeze())?,
-            place: Some(Place { corner: (rect.left, rect.top), of }),
-            envmap: None,
-            panorama: None,
-            ..*picture
-        })
-    }
-
     /// Where a part of this eye's picture lies in the image for both, and that image's size.
-    fn rect(
+    pub(crate) fn rect(
         self,
         corner: (usize, usize),
         size: (usize, usize),
@@ -96,7 +80,7 @@ fn halved(error: LayoutError) -> ConvertError {
     usage(format!("stereo=: {error}"))
 }
 
-fn squeezed(view: View, squeeze: (usize, usize)) -> Result<View> {
+pub(crate) fn squeezed(view: View, squeeze: (usize, usize)) -> Result<View> {
     divided((view.width(), view.height()), squeeze)?;
     Ok(View { grid: view.grid.squeezed(squeeze), ..view })
 }

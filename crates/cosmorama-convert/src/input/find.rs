@@ -17,8 +17,7 @@ use crate::input::files::frames;
 use crate::input::lists::{hugin, world_file};
 use crate::input::pieces::packed;
 use crate::input::spec_files::{calibration, st_map};
-use crate::input::{Access, EyePart, Face, FacePicture, ViewFiles};
-use crate::target::Place;
+use crate::input::{Access, EyePart, Face, FacePicture, Place, ViewFiles};
 
 /// A view of the input: an image, a face of a cube, a lens of two.
 #[derive(Clone)]

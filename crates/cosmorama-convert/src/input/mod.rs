@@ -19,6 +19,7 @@ pub use files::frames::existing as existing_frames;
 pub use files::view_files::ViewFiles;
 pub use find::{Input, InputView};
 pub use lists::listing::{Listed, listed};
+pub use pieces::place::Place;
 
 pub(crate) use eye::EyePart;
 pub(crate) use faces::face_file::Face;

@@ -9,8 +9,8 @@ use cosmorama_spec::{Shape, Size, Spec};
 use crate::diagnostic::{ConvertError, FROM, Result, usage};
 use crate::input::eye::eye_size;
 use crate::input::faces::face_view::face_placement;
+use crate::input::pieces::size::lens_image_size;
 use crate::input::{EyePart, Input, InputView, Piece, ViewFiles};
-use crate::target::size::lens_image_size;
 
 impl Input {
     /// An input that does not exist yet: of a size, or at parity with an output of so many pixels a radian.

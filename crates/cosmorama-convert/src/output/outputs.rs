@@ -5,10 +5,10 @@ use cosmorama_io::pending::{Pending, place};
 
 use crate::budget::MemoryBudget;
 use crate::colour::Light;
-use crate::conversion::{Conversion, Existing, GeometrySettings};
 use crate::diagnostic::{Diagnostic, FRAMES, OVERWRITE, RESUME, Result, bail, usage};
 use crate::input::{Input, ViewFiles};
 use crate::output::Remade;
+use crate::settings::{Conversion, Existing, GeometrySettings};
 use crate::target::{Target, TargetFile};
 
 /// A frame with the outputs that are still to be made of it.

@@ -3,9 +3,9 @@
 use cosmorama::camera::CameraModel;
 use cosmorama_spec::{Shape, Size, Spec};
 
-use crate::conversion::GeometrySettings;
 use crate::diagnostic::{Code, Diagnostic, Remedy, SIZE, Setting, TO};
 use crate::input::canvas::is_near;
+use crate::settings::GeometrySettings;
 use crate::target::Target;
 
 /// What should be known where nobody said that pixels are not to be square: as an input such a map is refused.

@@ -5,8 +5,8 @@ use cosmorama::sphere::Angle;
 use cosmorama_io::{Format, Window};
 use cosmorama_spec::{Shape, Single, Spec};
 
-use crate::conversion::GeometrySettings;
 use crate::diagnostic::{Code, Diagnostic, SIZE};
+use crate::settings::GeometrySettings;
 use crate::target::Target;
 
 /// What they say of a panorama of 360°×180°, or of a window of one, of so many columns and rows.

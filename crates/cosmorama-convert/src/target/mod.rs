@@ -4,13 +4,12 @@ pub(crate) mod aspect;
 pub(crate) mod gpano;
 pub(crate) mod picture;
 pub(crate) mod sheets;
-pub(crate) mod size;
 
-pub use picture::{Picture, Place};
+pub use picture::Picture;
 pub(crate) use sheets::{Sheet, Target, TargetFile, TargetView};
 
-use crate::conversion::GeometrySettings;
 use crate::diagnostic::Diagnostic;
+use crate::settings::GeometrySettings;
 
 /// What should be known of an output's shape.
 pub(crate) fn told_of_shape(geometry: &GeometrySettings, target: &Target) -> Option<Diagnostic> {

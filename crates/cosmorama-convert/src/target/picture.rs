@@ -4,14 +4,14 @@ use cosmorama::sphere::CubeFace;
 use cosmorama_io::{EnvMap, Format, Naming, Window};
 use cosmorama_spec::{Cube, Dual, Packing, Shape, Single, Size, SphereSamples, StereoSpec};
 
-use crate::conversion::GeometrySettings;
 use crate::diagnostic::{ConvertError, Result, SIZE, TO, usage};
 use crate::input::canvas::lies_on_canvas;
-use crate::input::eye::eye_size;
+use crate::input::eye::{eye_size, squeezed};
 use crate::input::faces::face_view::face_placement;
-use crate::input::{EyePart, Piece};
+use crate::input::pieces::size::{lens_image_size, size};
+use crate::input::{EyePart, Piece, Place};
+use crate::settings::GeometrySettings;
 use crate::target::gpano;
-use crate::target::size::{lens_image_size, size};
 
 /// The geometry of an image to make.
 #[derive(Clone, Copy, Debug)]
@@ -30,22 +30,6 @@ pub struct Picture {
     pub envmap: Option<EnvMap>,
     /// The panorama of which it is a part or all.
     pub panorama: Option<Window>,
-}
-
-/// A place in an image.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Place {
-    /// The first column and row.
-    pub corner: (usize, usize),
-    /// Columns and rows of the image.
-    pub of: (usize, usize),
-}
-
-impl Place {
-    /// All of an image.
-    pub(crate) fn whole(size: (usize, usize)) -> Self {
-        Self { corner: (0, 0), of: size }
-    }
 }
 
 impl Picture {
@@ -77,7 +61,7 @@ impl Picture {
         // What a format has of its own, it has for one picture.
         let one = Self::mono(&GeometrySettings { size, ..geometry.clone() }, None, pixels_per_radian)?;
         let both = Eye::ALL.into_iter().flat_map(|eye| one.iter().map(move |picture| (eye, picture)));
-        both.map(|(eye, picture)| EyePart { stereo: stereo.packing, eye }.picture(picture)).collect()
+        both.map(|(eye, picture)| eye_picture(EyePart { stereo: stereo.packing, eye }, picture)).collect()
     }
 
     /// What messages call it, if it is not all that there is.
@@ -254,4 +238,19 @@ fn cube_envmap(cube: &Cube, format: Option<Format>) -> Option<EnvMap> {
         && CubeFace::ALL.iter().all(|face| cube.faces.contains(face));
     let envmap = if format == Some(Format::Exr) { EnvMap::Cube } else { EnvMap::GlCube };
     same.then_some(envmap)
+}
+
+/// The picture of an eye, in its place in an image for both.
+fn eye_picture(part: EyePart, picture: &Picture) -> Result<Picture> {
+    let size = (picture.view.width(), picture.view.height());
+    let Place { corner, of } = picture.place.unwrap_or(Place::whole(size));
+    let (rect, of) = part.rect(corner, size, of)?;
+    Ok(Picture {
+        eye: Some(part.eye),
+        view: squeezed(picture.view, part.stereo.squeeze())?,
+        place: Some(Place { corner: (rect.left, rect.top), of }),
+        envmap: None,
+        panorama: None,
+        ..*picture
+    })
 }

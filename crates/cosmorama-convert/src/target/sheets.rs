@@ -5,11 +5,11 @@ use cosmorama::layout::Eye;
 use cosmorama_io::{EnvMap, FacePattern, FaceSet, Format, Naming, Window};
 use cosmorama_spec::{Cube, Packing, Shape, Size, Spec};
 
-use crate::conversion::GeometrySettings;
 use crate::diagnostic::{MIPS, Result, SIZE, TO, usage};
-use crate::input::ViewFiles;
+use crate::input::{Place, ViewFiles};
+use crate::settings::GeometrySettings;
+use crate::target::Picture;
 use crate::target::picture::world_of;
-use crate::target::{Picture, Place};
 
 /// An image to make.
 pub(crate) struct TargetView {

@@ -10,10 +10,9 @@ use cosmorama::world::{Blend, MaskShape};
 use cosmorama_io::{PtoImage, PtoPanorama, PtoProject};
 use cosmorama_spec::{Shape, Single, Size, Spec, SphereSamples};
 
-use crate::conversion::GeometrySettings;
 use crate::diagnostic::{Code, Diagnostic, InPlace, Result, SIZE, TO, failure, usage};
-use crate::input::{Access, Input, InputView, Listed, ViewFiles};
-use crate::target::Place;
+use crate::input::{Access, Input, InputView, Listed, Place, ViewFiles};
+use crate::settings::GeometrySettings;
 
 /// Degrees over which pictures of a project fade into each other.
 const FEATHER: f64 = 3.0;

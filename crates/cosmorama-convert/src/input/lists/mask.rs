@@ -9,8 +9,7 @@ use cosmorama::world::{MaskShape, ViewMask};
 use cosmorama_io::Limits;
 
 use crate::diagnostic::{Result, bail};
-use crate::input::Access;
-use crate::input::InputView;
+use crate::input::{Access, InputView, read};
 
 /// Code values from here on (1 is white) count.
 const GREY: f32 = 0.5;

@@ -2,3 +2,5 @@
 
 pub(crate) mod packed;
 pub(crate) mod piece;
+pub(crate) mod place;
+pub(crate) mod size;

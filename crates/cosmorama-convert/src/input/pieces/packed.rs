@@ -7,8 +7,7 @@ use cosmorama_io::Header;
 use cosmorama_spec::{Cube, Dual};
 
 use crate::diagnostic::{FROM, Result, bail, failure, usage};
-use crate::input::{InputView, Piece, ViewFiles};
-use crate::target::Place;
+use crate::input::{InputView, Piece, Place, ViewFiles};
 
 /// The faces of a cube in one image, whose layout is known.
 pub(crate) fn faces(files: &ViewFiles, path: &Path, header: &Header, cube: &Cube) -> Result<Vec<InputView>> {

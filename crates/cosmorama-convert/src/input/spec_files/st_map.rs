@@ -7,13 +7,13 @@ use cosmorama::sphere::{Angle, Orientation};
 use cosmorama_io::{Header, StPairs};
 use cosmorama_spec::{Shape, Single, Size, Spec, SphereSamples, StMapBase, StMapSpec};
 
-use crate::conversion::GeometrySettings;
 use crate::diagnostic::{Code, ConvertError, Diagnostic, FROM, Mark, Result, TO, failure, usage};
 use crate::input::Access;
 use crate::input::ViewFiles;
 use crate::input::files::frames;
 use crate::input::lists::hugin;
 use crate::input::spec_files::calibration::read_calibrations;
+use crate::settings::GeometrySettings;
 
 /// The side of a conversion that a map is given for.
 #[derive(Clone, Copy, PartialEq, Eq)]
