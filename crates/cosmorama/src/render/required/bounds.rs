@@ -86,3 +86,52 @@ impl Survey<'_> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::camera::{FieldStop, OmnimaxFraming, PixelGrid, PixelRect};
+    use crate::projection::{PlanePoint, PlaneRect, ProjectionKind};
+    use crate::sphere::{Angle, CubeFace, Orientation};
+
+    fn view(projection: ProjectionKind, size: [usize; 2], half: [f64; 2], orientation: Orientation) -> View {
+        let rect = PlaneRect { min: PlanePoint::new(-half[0], -half[1]), max: PlanePoint::new(half[0], half[1]) };
+        View { projection, orientation, grid: PixelGrid::spanning(size[0], size[1], rect), stop: FieldStop::NONE }
+    }
+
+    #[test]
+    fn what_is_within_reach_is_little_more_than_what_is_read_at_most() {
+        let face = |face: CubeFace| view(ProjectionKind::PERSPECTIVE, [512; 2], [1.0; 2], face.orientation());
+        let world = World::new(CubeFace::ALL.map(|f| (f.name().to_owned(), face(f)))).expect("six faces");
+        let quarter = Angle::from_degrees(90.0).radians();
+        let [yaw, none] = [10.0, 0.0].map(Angle::from_degrees);
+        let turned = Orientation::from_yaw_pitch_roll(yaw, none, none);
+        let fisheye = view(ProjectionKind::EQUIDISTANT, [1024; 2], [quarter; 2], Orientation::IDENTITY);
+        let omnimax = View {
+            projection: ProjectionKind::OMNIMAX,
+            orientation: Orientation::IDENTITY,
+            grid: OmnimaxFraming::Fit.grid(983, 718, 1.0),
+            stop: FieldStop::circle(1.0).with_lower(Angle::from_degrees(45.0)),
+        };
+        let targets = [
+            View { stop: FieldStop::circle(quarter), ..fisheye },
+            omnimax,
+            view(ProjectionKind::PERSPECTIVE, [300, 200], [1.0, 2.0 / 3.0], turned),
+        ];
+        for target in targets {
+            let most = Needs::at_most(&world, &[target], &FilterSettings::DEFAULT);
+            let quick =
+                Needs::within_reach(&world, &[target], &FilterSettings::DEFAULT).expect("six faces leave no hole");
+            for (most, quick) in most.views.iter().zip(&quick.views) {
+                let wider = |most: PixelRect| PixelRect {
+                    left: most.left.saturating_sub(10),
+                    top: most.top.saturating_sub(10),
+                    right: most.right + 10,
+                    bottom: most.bottom + 10,
+                };
+                let holds = |quick| most.read.is_some_and(|most| wider(most).contains(&quick));
+                assert!(quick.read.is_none_or(holds), "{quick:?} is not in {most:?}: {target:?}");
+            }
+        }
+    }
+}

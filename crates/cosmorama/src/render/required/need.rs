@@ -60,7 +60,7 @@ impl Needs {
     }
 
     /// Finds bounds of what is read, a few texels too large.
-    fn at_most(world: &World, targets: &[View], filter: &FilterSettings) -> Self {
+    pub(crate) fn at_most(world: &World, targets: &[View], filter: &FilterSettings) -> Self {
         Self::surveyed(world, targets, filter, Reads::AtMost)
     }
 
