@@ -5,6 +5,7 @@
 //! printed; settings in its text are [`Setting`]s, which each caller writes in its own way. Nothing is kept from one conversion
 //! to the next: threads and memory are those of the run.
 #![forbid(unsafe_code)]
+#![doc = include_str!("../README.md")]
 
 mod budget;
 mod colour;
