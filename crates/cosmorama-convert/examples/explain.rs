@@ -1,6 +1,7 @@
 //! What would a conversion need? Asked before there is any input.
 //!
 //! `cargo run -p cosmorama-convert --example explain`
+#![allow(clippy::print_stdout, reason = "a program that shows something says so")]
 
 use std::error::Error;
 

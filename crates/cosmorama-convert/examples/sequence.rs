@@ -1,6 +1,7 @@
 //! A sequence of panoramas becomes a sequence of domes: the geometry is computed once, frames follow each other.
 //!
 //! `cargo run -p cosmorama-convert --example sequence`
+#![allow(clippy::print_stdout, reason = "a program that shows something says so")]
 
 use std::error::Error;
 use std::path::Path;

@@ -1,6 +1,7 @@
 //! A conversion's geometry as an st map for other programs, and back: the map as a lens.
 //!
 //! `cargo run -p cosmorama-convert --example st_map`
+#![allow(clippy::print_stdout, reason = "a program that shows something says so")]
 
 use std::error::Error;
 

@@ -1,6 +1,7 @@
 //! How far are two pictures apart, in decibels and in fractions of a pixel?
 //!
 //! `cargo run -p cosmorama-io --example compare -- a.png b.png`; without arguments it compares a filter with no filter.
+#![allow(clippy::print_stdout, reason = "a program that shows something says so")]
 
 use std::error::Error;
 use std::path::Path;

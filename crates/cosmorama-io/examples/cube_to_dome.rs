@@ -1,6 +1,7 @@
 //! Six faces of a cube become a domemaster, tilted as a theatre's dome is.
 //!
 //! `cargo run -p cosmorama-io --example cube_to_dome -- 'faces/{face}.png' dome.png`; without arguments it makes faces of its own.
+#![allow(clippy::print_stdout, reason = "a program that shows something says so")]
 
 use std::error::Error;
 use std::path::Path;

@@ -1,6 +1,7 @@
 //! A panorama becomes the six faces of a cube.
 //!
 //! `cargo run -p cosmorama-io --example panorama_to_cube -- sky.png faces`; without arguments it makes a panorama of its own.
+#![allow(clippy::print_stdout, reason = "a program that shows something says so")]
 
 use std::error::Error;
 use std::path::Path;

@@ -20,7 +20,8 @@ struct Kind {
 
 /// Reads the projections, and the keys of each, from help.
 fn kinds() -> Vec<Kind> {
-    let (mut kinds, mut common): (Vec<Kind>, Vec<(String, String, Vec<String>)>) = (Vec::new(), Vec::new());
+    let mut kinds: Vec<Kind> = Vec::new();
+    let mut common = Vec::new();
     let (mut is_common, help) = (false, help());
     for line in help.lines().skip(1).filter(|line| !line.is_empty()) {
         let words = line.trim_start();

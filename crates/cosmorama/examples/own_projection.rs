@@ -1,6 +1,7 @@
 //! A projection of your own: a formula from a place in a picture to a direction, and it is a camera like any other.
 //!
 //! `cargo run -p cosmorama --example own_projection`
+#![allow(clippy::print_stdout, reason = "a program that shows something says so")]
 
 use std::error::Error;
 

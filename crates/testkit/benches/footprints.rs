@@ -91,6 +91,9 @@ fn beside_each_other(widths: fn(&mut Draw) -> [f64; 2]) -> Vec<Footprint> {
         .collect()
 }
 
+/// Draws the two widths of a footprint.
+type Widths = fn(&mut Draw) -> [f64; 2];
+
 fn measure(criterion: &mut Criterion) {
     let world = cube(&CubeFace::ALL, SIDE, SIDE);
     let light = Light::by_direction(&world, |direction| {
@@ -100,7 +103,7 @@ fn measure(criterion: &mut Criterion) {
     let ewa = Ewa::default().prepare(&world, &light).expect("light of the world");
     let pyramid = EwaPyramid::default().prepare(&world, &light).expect("light of the world");
     let mut group = criterion.benchmark_group("a footprint");
-    let cases: [(&str, &dyn Prepared, fn(&mut Draw) -> [f64; 2]); 3] = [
+    let cases: [(&str, &dyn Prepared, Widths); 3] = [
         ("ewa of 1 to 4 texels", &*ewa, narrow),
         ("ewa-pyramid of 1 to 4 texels", &*pyramid, narrow),
         ("ewa-pyramid of any width", &*pyramid, any_width),

@@ -40,7 +40,7 @@ fn faces() -> Option<(World, Vec<Rgba>)> {
         name => name,
     });
     let file = |name| {
-        let file = read(&folder.join(format!("face_{name}.png")), &Limits::default()).expect("a face");
+        let file = read(folder.join(format!("face_{name}.png")), &Limits::default()).expect("a face");
         file.image.to_light(&Transfer::Linear).pixels().to_vec()
     };
     Some((cube(&CubeFace::ALL, 1024, 1024), names.into_iter().flat_map(file).collect()))

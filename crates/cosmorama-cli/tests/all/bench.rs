@@ -98,7 +98,7 @@ impl Bench {
     }
 
     pub(crate) fn load(&self, name: &str) -> EncodedImage {
-        read(&self.path(name), &Limits::NONE).unwrap().image
+        read(self.path(name), &Limits::NONE).unwrap().image
     }
 
     pub(crate) fn bytes(&self, name: &str) -> Vec<u8> {

@@ -299,7 +299,7 @@ fn what_is_no_image_is_said_to_be_none() {
     let path = folder.path().join("a.png");
     std::fs::write(&path, "hello").unwrap();
     assert!(matches!(read(&path, &Limits::default()), Err(IoError::UnknownContent { .. })));
-    assert!(matches!(read(&folder.path().join("b.png"), &Limits::default()), Err(IoError::Open { .. })));
+    assert!(matches!(read(folder.path().join("b.png"), &Limits::default()), Err(IoError::Open { .. })));
     assert!(matches!(read(folder.path(), &Limits::default()), Err(IoError::Open { .. })));
     for name in ["a.png", "a.tga"] {
         let path = folder.path().join(name);

@@ -1,5 +1,6 @@
 //! Tests of what is read and written, in one program.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on should stop where it stands")]
+#![allow(clippy::print_stderr, reason = "a check that is left out says so")]
 
 mod calibrations;
 mod common;

@@ -33,7 +33,7 @@ fn openexr_environments_say_what_they_are() {
         ("OrientationCube.exr", EnvMap::Cube),
         ("OrientationLatLong.exr", EnvMap::LatLong),
     ] {
-        let header = probe(&folder.join(name)).unwrap();
+        let header = probe(folder.join(name)).unwrap();
         assert_eq!(header.metadata.envmap, Some(kind), "{name}");
         assert_eq!(header.depth, Depth::Half, "{name}");
     }

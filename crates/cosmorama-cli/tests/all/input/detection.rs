@@ -53,7 +53,7 @@ fn a_panorama_that_says_it_is_huge_is_refused_before_memory_is_taken() {
     let bench = Bench::new();
     let panorama = Some(Window { canvas_width: 4_000_000_000, canvas_height: 2_000_000_000, x: 0, y: 0 });
     let metadata = Metadata { panorama, ..Metadata::default() };
-    write(&bench.path("a.png"), &picture(1, 40, 20), &WriteOptions::with_metadata(metadata)).unwrap();
+    write(bench.path("a.png"), &picture(1, 40, 20), &WriteOptions::with_metadata(metadata)).unwrap();
     let message = bench.fail(1, &[&["convert", "a.png", "b.png", "--memory", "1G"], &TO[..]].concat());
     assert!(message.contains("4000000000x2000000000") && message.contains("--memory"), "{message}");
 }

@@ -23,7 +23,7 @@ fn close(bench: &Bench, found: &str, expected: &str, psnr: &str, shift: &str) {
 }
 
 fn pairs(bench: &Bench, name: &str) -> StPairs {
-    read_pairs(&bench.path(name), &Limits::default()).unwrap()
+    read_pairs(bench.path(name), &Limits::default()).unwrap()
 }
 
 /// oiiotool, if it is installed.
@@ -93,7 +93,7 @@ fn a_map_of_two_channels_alone_gives_the_size() {
     {
         let planes = vec![(channels[0], plane(0)), (channels[1], plane(1))];
         let size = (map.width, map.height);
-        write_planes(&bench.path(name), size, planes, Depth::Float, &WriteOptions::default()).unwrap();
+        write_planes(bench.path(name), size, planes, Depth::Float, &WriteOptions::default()).unwrap();
         bench.succeed(&["convert", "plate.exr", "out.exr", "--to", &format!("st-map:file={name}"), "-y"]);
         let image = bench.load("out.exr");
         assert_eq!((image.width(), image.height()), (400, 300), "{name}");

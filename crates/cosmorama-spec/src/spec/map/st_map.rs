@@ -27,6 +27,7 @@ pub struct StMapSpec {
 
 /// Picture at the other end of an st map.
 #[derive(Clone, Debug, PartialEq)]
+#[allow(clippy::large_enum_variant, reason = "a conversion holds two of them at most")]
 pub enum StMapBase {
     /// A picture whose projection is a formula.
     Single(Single),

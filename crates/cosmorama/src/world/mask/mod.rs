@@ -1,4 +1,4 @@
 //! Masks: which part of an image counts.
 
-pub(crate) mod mask;
 pub(crate) mod shape;
+pub(crate) mod view_mask;

@@ -82,7 +82,6 @@ fn check(light: impl Fn(&World) -> Light, kinds: &[FilterKind], bound: [f64; 2])
             for target in &targets() {
                 let fast = Resampler { world: &world, target, filter: filter(kind) }.render(light.texels());
                 let found = difference(&world, target, &fast, &picture(&*prepared, target));
-                println!("{name}, {kind:?}, {}: {found:?}", target.width());
                 assert!(found[0] < bound[0] && found[1] < bound[1], "{name}, {kind:?}, {}: {found:?}", target.width());
             }
         }
@@ -182,8 +181,8 @@ fn the_widest_footprint_is_half_the_world() {
                 (0..3).for_each(|c| sum[c] += f64::from(waves(there).0[c]));
                 weights += 1.0;
             }
-            for c in 0..3 {
-                let error = (f64::from(found.0[c]) - sum[c] / weights).abs();
+            for (channel, sum) in found.0.iter().zip(sum) {
+                let error = (f64::from(*channel) - sum / weights).abs();
                 assert!(error < bound, "{kind:?}, {direction:?}: {error}");
             }
         }
