@@ -22,7 +22,8 @@ pub(crate) enum Coverage {
 /// The worlds of whole pictures, whether their files are there or not: one, or one for each eye.
 pub(crate) fn whole_worlds(input: &Input, memory: MemoryBudget) -> Result<Vec<World>> {
     memory.check_pictures(input)?;
-    let world = |views: &Vec<InputView>| Ok(World::blended(views.iter().map(|view| view.world_view(view.nominal)))?);
+    let world =
+        |views: &Vec<InputView>| Ok(World::blended(views.iter().map(|view| view.world_view(view.nominal.clone())))?);
     input.worlds.iter().map(world).collect()
 }
 
@@ -74,7 +75,7 @@ fn find_gaps(
         view.wanted = true;
         return Ok(Vec::new());
     }
-    let geometry: Vec<View> = targets.iter().map(|target| target.view).collect();
+    let geometry: Vec<View> = targets.iter().map(|target| target.view.clone()).collect();
     let uncovered = |needs: &Needs| needs.uncovered.map(|gap| format!("{}: {gap}", targets[gap.target].name));
     let needs = Needs::of(nominal, &geometry, filter, Accuracy::Bounds);
     if needs.views.iter().any(|need| need.seen.is_some()) && views.iter().zip(&needs.views).all(holds) {
@@ -104,7 +105,7 @@ fn holds((view, need): (&InputView, &Need)) -> bool {
 
 /// The world of what files hold: often that of the whole pictures.
 fn held_world(views: &[InputView], nominal: World) -> Result<World> {
-    let held = || views.iter().filter_map(InputView::present).map(|(view, _, held)| view.world_view(*held));
+    let held = || views.iter().filter_map(InputView::present).map(|(view, _, held)| view.world_view(held.clone()));
     let is_same = |(part, source): (WorldView, &Source)| {
         part.name == source.name && part.view == source.view && part.blend == source.blend && part.mask == source.mask
     };

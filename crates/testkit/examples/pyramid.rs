@@ -114,7 +114,7 @@ fn noise(world: &World) -> Vec<Rgba> {
 
 /// The upper part of a picture, in the same pixels.
 fn upper(view: &View, rows: usize) -> View {
-    View { grid: view.grid.window(view.width(), rows, 0.0, 0.0), ..*view }
+    View { grid: view.grid.window(view.width(), rows, 0.0, 0.0), ..view.clone() }
 }
 
 /// A cube of which a pixel of [`view`] holds so many texels.

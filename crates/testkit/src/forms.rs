@@ -35,7 +35,7 @@ impl Form {
     pub fn world(&self) -> World {
         let part = |(index, view): (usize, &View)| WorldView {
             name: format!("{} {index}", self.name),
-            view: *view,
+            view: view.clone(),
             blend: self.blend,
             mask: None,
         };
@@ -45,12 +45,14 @@ impl Form {
     /// Every form of a world, with about so many pixels for each steradian that it shows.
     pub fn all(pixels_per_steradian: f64) -> Vec<Self> {
         let one = |(name, frame): (&'static str, CameraModel)| {
-            Self::of(name, pixels_per_steradian, Blend::default(), |rows| vec![in_shape(frame, rows)])
+            Self::of(name, pixels_per_steradian, Blend::default(), |rows| vec![in_shape(frame.clone(), rows)])
         };
         let cube = |mapping| {
             let frame = CameraModel::LayoutFace(LayoutFaceCamera { mapping, ..LayoutFaceCamera::default() });
             move |rows| {
-                CubeFace::ALL.map(|face| View { orientation: face.orientation(), ..in_shape(frame, rows) }).to_vec()
+                CubeFace::ALL
+                    .map(|face| View { orientation: face.orientation(), ..in_shape(frame.clone(), rows) })
+                    .to_vec()
             }
         };
         let (camera, circles) = (both_ways(), |rows| both_circles(&both_ways(), rows));

@@ -180,7 +180,8 @@ mod tests {
     fn a_known_displacement_is_found() {
         let (view, pixels) = (equirect(200), 0.01);
         let yaw = Angle::from_degrees(360.0 / 200.0 * pixels);
-        let turned = View { orientation: Orientation::from_yaw_pitch_roll(yaw, Angle::ZERO, Angle::ZERO), ..view };
+        let turned =
+            View { orientation: Orientation::from_yaw_pitch_roll(yaw, Angle::ZERO, Angle::ZERO), ..view.clone() };
         let sums = measured(&view, &turned);
         assert!((sums.shift - pixels).abs() < 1e-5, "{}", sums.shift);
         // On the equator, where pixels are square.

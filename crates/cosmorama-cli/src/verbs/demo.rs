@@ -80,7 +80,8 @@ fn face_file(folder: &Path, face: CubeFace) -> PathBuf {
 fn needed_faces(target: &View) -> Result<Vec<PartialFace>> {
     let whole = |face: CubeFace| face_view(face, None, FACE, FACE);
     let views: Result<Vec<_>> = CubeFace::ALL.iter().map(|&face| Ok((face.name().to_owned(), whole(face)?))).collect();
-    let needs = Needs::of(&World::new(views?)?, &[*target], &FilterSettings::DEFAULT, Accuracy::Exact);
+    let needs =
+        Needs::of(&World::new(views?)?, std::slice::from_ref(target), &FilterSettings::DEFAULT, Accuracy::Exact);
     let mut faces = Vec::new();
     for (face, need) in CubeFace::ALL.into_iter().zip(&needs.views) {
         let Some(window) = need.seen.and(need.read) else { continue };
@@ -157,8 +158,8 @@ fn quoted(word: &str) -> String {
 
 fn draw_unfolded(folder: &Path, faces: &[PartialFace], target: &View, console: &Console) -> Result<()> {
     let start = Instant::now();
-    let world = World::new(faces.iter().map(|partial| (partial.face.name().to_owned(), partial.view)))?;
-    let needs = Needs::of(&world, &[*target], &FilterSettings::DEFAULT, Accuracy::Exact);
+    let world = World::new(faces.iter().map(|partial| (partial.face.name().to_owned(), partial.view.clone())))?;
+    let needs = Needs::of(&world, std::slice::from_ref(target), &FilterSettings::DEFAULT, Accuracy::Exact);
     let underlay =
         |(view, partial): (usize, &PartialFace)| Underlay { view, href: format!("{FACES}/{}.png", partial.face) };
     let underlays: Vec<Underlay> = faces.iter().enumerate().map(underlay).collect();

@@ -152,7 +152,7 @@ fn one_image(kind: LayoutKind) -> Shape {
 pub(crate) fn declared(shape: &Shape, pattern: &str, header: &Header, warnings: &mut Vec<Diagnostic>) -> Result<Shape> {
     match shape {
         Shape::Single(single) if header.metadata.envmap == Some(EnvMap::LatLong) => {
-            Ok(Shape::Single(single.with_samples(SamplePositions::Edges)))
+            Ok(Shape::Single(single.clone().with_samples(SamplePositions::Edges)))
         }
         Shape::Single(single) => {
             if let Some(EnvMap::Cube | EnvMap::GlCube) = header.metadata.envmap {
@@ -162,7 +162,7 @@ pub(crate) fn declared(shape: &Shape, pattern: &str, header: &Header, warnings: 
                 );
                 warnings.push(Diagnostic::warning(Code::Declared, message).about(pattern));
             }
-            Ok(Shape::Single(windowed(*single, header)))
+            Ok(Shape::Single(windowed(single.clone(), header)))
         }
         Shape::StMap(_) | Shape::Calibrated(_) => Ok(shape.clone()),
         Shape::Cube(Cube { layout: Some(Packing::Files), .. }) => Err(usage(format!(

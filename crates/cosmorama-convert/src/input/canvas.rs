@@ -47,7 +47,7 @@ pub(crate) fn lies_on_canvas(name: impl Display, (columns, rows): (usize, usize)
 }
 
 /// A map whose shape is known was meant otherwise if it has another: its pixels would be stretched.
-pub(crate) fn fits_shape(path: &Path, frame: CameraModel, canvas: Canvas) -> Result<()> {
+pub(crate) fn fits_shape(path: &Path, frame: &CameraModel, canvas: Canvas) -> Result<()> {
     let (what, whole) = match frame {
         CameraModel::Equirect(_) => ("panorama of its field of view", "hfov=360,vfov=180 (or its own)"),
         CameraModel::WorldMap(_) => ("map of the world", "canvas=WxH+0+0"),

@@ -215,7 +215,7 @@ impl Input {
         fits_canvas(path, &header, canvas)?;
         lies_on_canvas(path.display(), (header.width, header.height), canvas)?;
         if !single.any_shape && placement.canvas.is_none() && header.metadata.envmap != Some(EnvMap::LatLong) {
-            fits_shape(path, placement.frame, canvas)?;
+            fits_shape(path, &placement.frame, canvas)?;
         }
         placement.canvas = None;
         let nominal = placement.view(canvas.width, canvas.height).map_err(|error| usage(format!("{FROM}: {error}")))?;

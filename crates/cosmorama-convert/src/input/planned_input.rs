@@ -46,8 +46,8 @@ fn views(from: &Spec, given: Option<Size>, pixels_per_radian: f64) -> Result<Vec
     };
     match &from.shape {
         Shape::Single(single) => {
-            let placement = Placement { canvas: None, ..single.placement };
-            let (width, height) = size(placement.frame)?;
+            let placement = Placement { canvas: None, ..single.placement.clone() };
+            let (width, height) = size(placement.frame.clone())?;
             Ok(vec![view(from.name, placement.view(width, height).map_err(wrong)?, Blend::default())])
         }
         Shape::Cube(cube) => {

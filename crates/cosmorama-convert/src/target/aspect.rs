@@ -12,7 +12,7 @@ use crate::target::Target;
 pub(crate) fn warning(geometry: &GeometrySettings, target: &Target) -> Option<Diagnostic> {
     let Some(Spec { name, shape: Shape::Single(single), stereo: None, .. }) = &geometry.to else { return None };
     let Some(Size { height: Some(_), .. }) = geometry.size else { return None };
-    let frame = single.placement.frame;
+    let frame = &single.placement.frame;
     let (fills_any_shape, whole) = match frame {
         CameraModel::Equirect(_) => (true, ", or, if it is meant, give hfov= and vfov="),
         CameraModel::WorldMap(_) | CameraModel::Octahedral(_) => (true, ""),

@@ -68,7 +68,7 @@ const FURTHEST: usize = 1024;
 
 /// The size next to a width of which there are metadata.
 fn near(single: &Single, width: usize) -> Option<(usize, usize)> {
-    let frame = single.placement.frame;
+    let frame = &single.placement.frame;
     let widths = (0..FURTHEST.min(width)).flat_map(|off| [width + off, width - off]);
     let mut sizes = widths.map(|width| (width, frame.natural_height(width)));
     sizes.find(|size| window(single, *size).is_some())

@@ -14,7 +14,7 @@ use crate::settings::GeometrySettings;
 use crate::target::gpano;
 
 /// The geometry of an image to make.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct Picture {
     /// The face of a cube that it is.
     pub face: Option<CubeFace>,
@@ -102,14 +102,15 @@ impl Picture {
         let picture = |view, envmap, panorama| vec![Self { envmap, panorama, ..Self::new(view) }];
         if format == Some(Format::Exr) {
             // OpenEXR's attribute, and its samples on the edges, are for the whole sphere alone.
-            let edges = single.with_samples(SamplePositions::Edges);
-            let view = single_view(edges, geometry, pixels_per_radian)?;
+            let edges = single.clone().with_samples(SamplePositions::Edges);
+            let view = single_view(&edges, geometry, pixels_per_radian)?;
             if let Some(envmap) = panorama_envmap(&edges).filter(|_| view.covers_sphere()) {
                 return Ok(picture(view, Some(envmap), None));
             }
         }
-        let view = single_view(*single, geometry, pixels_per_radian)?;
-        Ok(picture(view, None, gpano::window(single, (view.width(), view.height()))))
+        let view = single_view(single, geometry, pixels_per_radian)?;
+        let panorama = gpano::window(single, (view.width(), view.height()));
+        Ok(picture(view, None, panorama))
     }
 
     fn faces(cube: &Cube, geometry: &GeometrySettings, pixels_per_radian: Option<f64>) -> Result<Vec<Self>> {
@@ -206,12 +207,12 @@ fn completed(cube: &Cube, format: Option<Format>) -> Cube {
     }
 }
 
-fn single_view(single: Single, geometry: &GeometrySettings, pixels_per_radian: Option<f64>) -> Result<View> {
-    let Placement { frame, orientation, mirror, canvas } = single.placement;
+fn single_view(single: &Single, geometry: &GeometrySettings, pixels_per_radian: Option<f64>) -> Result<View> {
+    let Placement { frame, orientation, mirror, canvas } = single.placement.clone();
     if canvas.is_some() && geometry.size.is_none() {
         return Err(usage(format!("{TO} has canvas=, so the size of the window on it must be given with {SIZE} WxH")));
     }
-    let (width, height) = size(frame, geometry.size, pixels_per_radian, TO)?;
+    let (width, height) = size(frame.clone(), geometry.size, pixels_per_radian, TO)?;
     if let Some(canvas) = canvas {
         lies_on_canvas(TO, (width, height), canvas)?;
     }
@@ -247,10 +248,10 @@ fn eye_picture(part: EyePart, picture: &Picture) -> Result<Picture> {
     let (rect, of) = part.rect(corner, size, of)?;
     Ok(Picture {
         eye: Some(part.eye),
-        view: squeezed(picture.view, part.stereo.squeeze())?,
+        view: squeezed(picture.view.clone(), part.stereo.squeeze())?,
         place: Some(Place { corner: (rect.left, rect.top), of }),
         envmap: None,
         panorama: None,
-        ..*picture
+        ..picture.clone()
     })
 }

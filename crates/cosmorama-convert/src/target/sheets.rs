@@ -116,7 +116,7 @@ impl Target {
             let size = (picture.view.width(), picture.view.height());
             let Place { corner, of } = picture.place.unwrap_or(Place::whole(size));
             let name = picture.label().unwrap_or_else(|| output.to_owned());
-            views.push(TargetView { name, view: picture.view, eye: picture.eye });
+            views.push(TargetView { name, view: picture.view.clone(), eye: picture.eye });
             match paths.iter().position(|other| *other == path) {
                 Some(shared) => files[shared].sheet.pieces.push((index, corner)),
                 None => {

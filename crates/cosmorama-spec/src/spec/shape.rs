@@ -29,7 +29,7 @@ impl Shape {
             mirror: fields.mirror()?,
             canvas: fields.canvas("canvas")?,
         };
-        let samples = match frame {
+        let samples = match &placement.frame {
             CameraModel::Equirect(frame) if fields.get("samples").is_some() => SphereSamples::Given(frame.samples),
             CameraModel::Equirect(_) => SphereSamples::ByFormat,
             _ => SphereSamples::NotAPanorama,
@@ -43,7 +43,7 @@ impl Shape {
     /// Returns the camera of one image.
     pub(in crate::spec) fn camera(&self) -> Option<CameraModel> {
         match self {
-            Self::Single(single) => Some(single.placement.frame),
+            Self::Single(single) => Some(single.placement.frame.clone()),
             Self::Calibrated(_) | Self::Cube(_) | Self::Dual(_) | Self::StMap(_) => None,
         }
     }
@@ -60,7 +60,7 @@ impl Shape {
 }
 
 /// One image, its projection given by a formula.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Single {
     /// Camera model and place in the world.
     pub placement: Placement,

@@ -37,7 +37,7 @@ pub struct Canvas {
 }
 
 /// A frame with its place in the world.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Placement {
     /// What the picture shows of the world around its own camera.
     pub frame: CameraModel,

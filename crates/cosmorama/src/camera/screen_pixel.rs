@@ -219,7 +219,7 @@ mod tests {
         for frame in [WorldMapCamera::Hammer, WorldMapCamera::Mollweide, WorldMapCamera::Sinusoidal] {
             let view = CameraModel::WorldMap(frame).view(80, 40).expect("a map");
             // A part of it alone, too, past its middle.
-            for view in [view, View { grid: view.grid.window(50, 30, 40.3, 20.7), ..view }] {
+            for view in [view.clone(), View { grid: view.grid.window(50, 30, 40.3, 20.7), ..view }] {
                 let (mut hidden, mut empty) = (0, 0);
                 for (j, i) in (0..view.height()).flat_map(|j| (0..view.width()).map(move |i| (j, i))) {
                     let shows = view.cut_pixel(i as f64, j as f64, |sample| view.shows(sample)).is_some();
@@ -242,7 +242,7 @@ mod tests {
             Angle::from_degrees(-30.0),
             Angle::from_degrees(5.0),
         );
-        for view in [view, View { orientation: turned, ..view }] {
+        for view in [view.clone(), View { orientation: turned, ..view }] {
             let (worst, cut) = worst(&view);
             assert!(cut > 500, "{cut} pixels are cut");
             // A row of sub-samples that just touches the circle may fall to either side.

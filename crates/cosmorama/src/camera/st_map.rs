@@ -3,7 +3,7 @@ use crate::projection::{PlanePoint, PlaneRect, ProjectionKind, StMap, StMapError
 use crate::sphere::{Direction, Orientation};
 
 /// A picture whose mapping is a table: it fills its image, whatever the size of that.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct StMapCamera {
     /// The table.
     pub map: StMap,
@@ -54,7 +54,7 @@ impl Camera for StMapCamera {
     fn view(&self, width: usize, height: usize) -> Result<View, CameraError> {
         let square = PlaneRect { min: PlanePoint::new(-0.5, -0.5), max: PlanePoint::new(0.5, 0.5) };
         Ok(View {
-            projection: ProjectionKind::StMap(self.map),
+            projection: ProjectionKind::StMap(self.map.clone()),
             orientation: Orientation::IDENTITY,
             grid: PixelGrid::spanning(width, height, square),
             stop: FieldStop::NONE,

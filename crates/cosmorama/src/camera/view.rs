@@ -14,7 +14,7 @@ pub(crate) const ROUNDING: f64 = 1e-6;
 
 /// An image's geometry: how its pixels see the world. As a source it says where its texels lie, as a target which
 /// pixels are wanted; the image itself is elsewhere.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct View {
     /// The lens.
     pub projection: ProjectionKind,

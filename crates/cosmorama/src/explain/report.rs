@@ -83,7 +83,7 @@ pub struct Memory {
 impl Report {
     /// Computes the report of making `target` from `world`. The world needs no light: it may be of planned views.
     pub fn of(world: &World, target: &View, filter: &FilterSettings) -> Self {
-        let needs = Needs::of(world, &[*target], filter, Accuracy::Exact);
+        let needs = Needs::of(world, std::slice::from_ref(target), filter, Accuracy::Exact);
         let survey = Survey::of(world, target, filter);
         let centre = central_footprint(target);
         let view = |(index, source): (usize, &Source)| {

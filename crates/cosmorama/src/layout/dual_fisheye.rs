@@ -59,7 +59,7 @@ pub struct DualLens {
 }
 
 /// One of two fisheye pictures in an image.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct PlacedLens {
     /// Which.
     pub side: LensSide,

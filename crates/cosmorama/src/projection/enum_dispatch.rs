@@ -23,7 +23,7 @@ macro_rules! enum_dispatch {
         $($(#[$what:meta])* $Variant:ident($held:ty),)*
     }) => {
         $(#[$about])*
-        #[derive(Clone, Copy, Debug, PartialEq)]
+        #[derive(Clone, Debug, PartialEq)]
         pub enum $Kind {
             $($(#[$what])* $Variant($held),)*
         }

@@ -70,7 +70,7 @@ mod tests {
     fn cone_holds_the_picture(frame: CameraModel, (width, height): (usize, usize)) -> bool {
         let turn = [0.7, -0.4, 0.2].map(Angle::from_radians);
         let orientation = Orientation::from_yaw_pitch_roll(turn[0], turn[1], turn[2]);
-        let view = Placement { orientation, ..Placement::new(frame) }.view(width, height).expect("a size");
+        let view = Placement { orientation, ..Placement::new(frame.clone()) }.view(width, height).expect("a size");
         let Some(cone) = SeenCone::of(&view) else { return false };
         for (i, j) in (0..height).flat_map(|j| (0..width).map(move |i| (i, j))) {
             let pixel = PixelPoint::centre(i, j);
@@ -91,7 +91,7 @@ mod tests {
             CameraModel::Stereographic(StereographicCamera::default()),
             CameraModel::Fisheye(FisheyeCamera::default()),
         ] {
-            assert!(cone_holds_the_picture(frame, (97, 61)), "{frame:?} has no cone");
+            assert!(cone_holds_the_picture(frame.clone(), (97, 61)), "{frame:?} has no cone");
         }
     }
 
@@ -102,7 +102,7 @@ mod tests {
             CameraModel::Cylinder(CylinderCamera::new(CylinderKind::Mercator)),
             CameraModel::WorldMap(WorldMapCamera::Hammer),
         ] {
-            assert!(!cone_holds_the_picture(frame, (96, 48)), "{frame:?}");
+            assert!(!cone_holds_the_picture(frame.clone(), (96, 48)), "{frame:?}");
         }
         // A ball shows the world but for the point behind it.
         cone_holds_the_picture(CameraModel::MirrorBall(MirrorBallCamera::default()), (64, 64));

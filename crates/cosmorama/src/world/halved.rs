@@ -26,7 +26,7 @@ impl Source {
     fn halved(&self) -> WorldView {
         let columns = self.columns();
         let grid = self.view.grid.halved(columns);
-        let view = View { grid, ..self.view };
+        let view = View { grid, ..self.view.clone() };
         let mask = self.mask.as_ref().map(|mask| Arc::new(mask.halved(columns)));
         WorldView { name: self.name.clone(), view, blend: self.blend, mask }
     }
@@ -37,7 +37,7 @@ impl Source {
         if self.view.width().max(self.view.height()) < SMALLEST {
             return None;
         }
-        let view = View { grid: self.view.grid.halved(self.columns()), ..self.view };
+        let view = View { grid: self.view.grid.halved(self.columns()), ..self.view.clone() };
         Some(self.with_geometry_of(view))
     }
 
@@ -79,7 +79,7 @@ mod tests {
     fn a_panorama_still_goes_round() {
         for width in [64, 65, 99] {
             let halved = world(panorama(width, 31), None).halved().expect("not small");
-            let view = halved.sources()[0].view;
+            let view = halved.sources()[0].view.clone();
             assert_eq!((view.width(), view.height(), view.period()), (width.div_ceil(2), 16, Some(width.div_ceil(2))));
             let corner = view.grid.to_plane(PixelPoint::new(0.0, 16.0));
             assert!((corner.x + std::f64::consts::PI).abs() < 1e-12);

@@ -141,7 +141,9 @@ mod tests {
 
     fn cube(samples: SamplePositions) -> World {
         let frame = CameraModel::LayoutFace(LayoutFaceCamera { samples, ..LayoutFaceCamera::default() });
-        let view = |face: CubeFace| Placement { orientation: face.orientation(), ..Placement::new(frame) }.view(33, 33);
+        let view = |face: CubeFace| {
+            Placement { orientation: face.orientation(), ..Placement::new(frame.clone()) }.view(33, 33)
+        };
         World::new(CubeFace::ALL.map(|face| (face.to_string(), view(face).unwrap()))).unwrap()
     }
 
@@ -163,7 +165,8 @@ mod tests {
             let yaw = Angle::from_degrees(degrees);
             Orientation::from_yaw_pitch_roll(yaw, Angle::from_degrees(0.0), Angle::from_degrees(0.0))
         };
-        let view = |degrees: f64| Placement { orientation: turned(degrees), ..Placement::new(frame) }.view(size, size);
+        let view =
+            |degrees: f64| Placement { orientation: turned(degrees), ..Placement::new(frame.clone()) }.view(size, size);
         World::new([("ahead".to_owned(), view(0.0).unwrap()), ("behind".to_owned(), view(180.0).unwrap())]).unwrap()
     }
 

@@ -59,7 +59,7 @@ mod tests {
     fn faces_of_a_cube_share_them() {
         let front = Placement::new(CameraModel::CubeFace(CubeFaceCamera));
         let view = |face: CubeFace| {
-            let placement = Placement { orientation: face.orientation(), ..front };
+            let placement = Placement { orientation: face.orientation(), ..front.clone() };
             (face.name().to_owned(), placement.view(8, 8).unwrap())
         };
         let world = World::new([CubeFace::Front, CubeFace::Right].map(view)).unwrap();
@@ -73,13 +73,13 @@ mod tests {
         let small = Placement::new(CameraModel::CubeFace(CubeFaceCamera)).view(4, 4).unwrap();
         let small = View { orientation: CubeFace::Right.orientation(), ..small };
         let part = |view| WorldView { name: "view".to_owned(), view, blend: Blend::default(), mask: None };
-        let whole = World::blended([part(front)]).unwrap();
+        let whole = World::blended([part(front.clone())]).unwrap();
         let known = whole.sources()[0].solid_angles.clone();
-        let held = whole.with_views([part(small), part(front)]).unwrap();
-        assert_eq!(held.sources(), World::blended([part(small), part(front)]).unwrap().sources());
+        let held = whole.with_views([part(small.clone()), part(front.clone())]).unwrap();
+        assert_eq!(held.sources(), World::blended([part(small), part(front.clone())]).unwrap().sources());
         assert!(Arc::ptr_eq(&held.sources()[1].solid_angles.0, &known.0));
         // Where they are shared, each has a part of its own.
-        let shared = World::blended([part(front), part(front)]).unwrap();
+        let shared = World::blended([part(front.clone()), part(front.clone())]).unwrap();
         let alone = shared.with_views([part(front)]).unwrap();
         assert_eq!(alone.sources()[0].solid_angles, known);
     }

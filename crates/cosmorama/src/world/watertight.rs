@@ -47,7 +47,7 @@ mod tests {
 
     fn cube(faces: impl IntoIterator<Item = CubeFace>, turn: Orientation) -> Vec<(String, View)> {
         let front = CameraModel::CubeFace(CubeFaceCamera).view(16, 12).expect("a face");
-        let view = |face: CubeFace| View { orientation: face.orientation().within(turn), ..front };
+        let view = |face: CubeFace| View { orientation: face.orientation().within(turn), ..front.clone() };
         faces.into_iter().map(|face| (face.name().to_owned(), view(face))).collect()
     }
 
@@ -68,7 +68,7 @@ mod tests {
         let whole = || cube(CubeFace::ALL, Orientation::IDENTITY);
         assert!(!is_closed(whole().split_off(1)));
         let mut twice = whole();
-        twice[0].1 = twice[1].1;
+        twice[0].1 = twice[1].1.clone();
         assert!(!is_closed(twice));
         let mut turned = whole();
         let little = Orientation::from_yaw_pitch_roll(Angle::from_degrees(1e-6), Angle::ZERO, Angle::ZERO);

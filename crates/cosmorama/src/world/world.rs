@@ -125,7 +125,6 @@ impl Source {
         let is_steep = view.projection.has_steep_rim();
         Self {
             name: String::new(),
-            view,
             offset: 0,
             period: view.period(),
             texel_pitch: if is_steep { texel_pitch(&view) } else { self.texel_pitch * larger },
@@ -133,6 +132,7 @@ impl Source {
             mask: None,
             others: Vec::new(),
             whole: owned(&view),
+            view,
             ..*self
         }
     }

@@ -93,7 +93,7 @@ fn cases() -> Vec<(World, View)> {
     let tilted = View { orientation: turned([30.0, -50.0, 10.0]), ..fisheye(100, 180.0) };
     vec![
         (cube(&CubeFace::ALL, 128, 128), omnimax(246, 180)),
-        (cube(&[CubeFace::Front, CubeFace::Right, CubeFace::Left, CubeFace::Up], 128, 120), tilted),
+        (cube(&[CubeFace::Front, CubeFace::Right, CubeFace::Left, CubeFace::Up], 128, 120), tilted.clone()),
         (cube(&[CubeFace::Front], 64, 64), perspective(80, 60, 60.0, 30.0, 10.0, 5.0)),
         (cube(&CubeFace::ALL, 64, 64), equirect(96)),
         (awkward, tilted),
@@ -101,7 +101,7 @@ fn cases() -> Vec<(World, View)> {
 }
 
 fn figures_of(world: &World, target: &View) -> [String; 3] {
-    let needs = Needs::of(world, &[*target], &FilterSettings::DEFAULT, Accuracy::Exact);
+    let needs = Needs::of(world, std::slice::from_ref(target), &FilterSettings::DEFAULT, Accuracy::Exact);
     let figures = Figures { world, target };
     let underlay = Underlay { view: 0, href: "a.png?b=\"1\"&c".to_string() };
     [figures.unfolded(&needs, &[underlay]), figures.ownership(), figures.footprints()]
@@ -141,7 +141,7 @@ fn figures_and_needs_do_not_depend_on_threads() {
 fn the_unfolded_cube_names_what_is_needed_and_what_is_not_given() {
     let faces = [CubeFace::Front, CubeFace::Right, CubeFace::Back, CubeFace::Left, CubeFace::Up];
     let (world, target) = (cube(&faces, 1024, 1024), omnimax(1966, 1436));
-    let needs = Needs::of(&world, &[target], &FilterSettings::DEFAULT, Accuracy::Exact);
+    let needs = Needs::of(&world, std::slice::from_ref(&target), &FilterSettings::DEFAULT, Accuracy::Exact);
     let svg = Figures { world: &world, target: &target }.unfolded(&needs, &[]);
     for label in ["all of 1024×1024", "515×1024+509+0", "515×1024+0+0", "1024×515+0+509", "not needed", "not given"]
     {
@@ -152,7 +152,7 @@ fn the_unfolded_cube_names_what_is_needed_and_what_is_not_given() {
 #[test]
 fn an_underlay_is_drawn_under_the_veil() {
     let (world, target) = (cube(&CubeFace::ALL, 64, 64), omnimax(123, 90));
-    let needs = Needs::of(&world, &[target], &FilterSettings::DEFAULT, Accuracy::Exact);
+    let needs = Needs::of(&world, std::slice::from_ref(&target), &FilterSettings::DEFAULT, Accuracy::Exact);
     let underlay = Underlay { view: 4, href: "data:image/png;base64,AA==".to_string() };
     let svg = Figures { world: &world, target: &target }.unfolded(&needs, &[underlay]);
     let image = svg.find("href=\"data:image/png;base64,AA==\"").expect("the image");

@@ -115,7 +115,7 @@ fn view(folder: &Path, image: &PtoImage, access: Access) -> Result<InputView> {
         part: (size != image.size).then_some(Place { corner, of: image.size }),
         header: Some(cosmorama_io::Header { width: size.0, height: size.1, ..whole }),
         // What was cropped away is not there, as if it had never been photographed.
-        nominal: held,
+        nominal: held.clone(),
         window: Some((held, Canvas { width: size.0, height: size.1, left: 0, top: 0 })),
         blend: Blend { priority: 0, feather: Angle::from_degrees(FEATHER) },
         mask,

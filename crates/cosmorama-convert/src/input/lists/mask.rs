@@ -52,7 +52,7 @@ pub(crate) fn of_shapes(
 pub(crate) fn hide(view: &mut InputView, mask: Arc<ViewMask>) {
     let (width, height) = size(view);
     if let Some((held, canvas)) = &mut view.window {
-        view.nominal = *held;
+        view.nominal = held.clone();
         *canvas = Canvas { width, height, left: 0, top: 0 };
     }
     view.mask = Some(mask);

@@ -8,7 +8,7 @@ use crate::diagnostic::Result;
 use crate::input::faces::face_view::face_placement;
 
 /// One of the pictures that share an image.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Piece {
     /// What messages call it.
     pub(crate) name: &'static str,
@@ -52,12 +52,12 @@ impl Piece {
 
     /// The geometry of its pixels, all of it turned further.
     pub(crate) fn view(&self, outer: Orientation) -> Result<View, CameraError> {
-        let placement = Placement { orientation: self.placement.orientation.within(outer), ..self.placement };
+        let placement = Placement { orientation: self.placement.orientation.within(outer), ..self.placement.clone() };
         placement.view(self.rect.width(), self.rect.height())
     }
 
     /// The geometry of its whole picture.
     pub(crate) fn nominal(&self) -> Result<View, CameraError> {
-        Placement { canvas: None, ..self.placement }.view(self.canvas.width, self.canvas.height)
+        Placement { canvas: None, ..self.placement.clone() }.view(self.canvas.width, self.canvas.height)
     }
 }

@@ -23,7 +23,6 @@ enum Side {
 }
 
 /// The picture at the other end of a map, and its size where that is known.
-#[derive(Clone, Copy)]
 struct Base {
     placement: Placement,
     size: Option<(usize, usize)>,
@@ -174,7 +173,7 @@ fn plain() -> Spec {
 fn other_side(shape: Option<&Shape>, side: Side) -> Result<Placement> {
     let plain = plain().shape;
     match shape.unwrap_or(&plain) {
-        Shape::Single(single) if single.placement.canvas.is_none() => Ok(single.placement),
+        Shape::Single(single) if single.placement.canvas.is_none() => Ok(single.placement.clone()),
         _ => Err(without_base(side)),
     }
 }
@@ -200,8 +199,8 @@ fn read(file: &Path, access: Access) -> Result<StPairs> {
 }
 
 fn with_given_base(map: &StMapSpec, side: Side, access: Access) -> Result<Spec> {
-    let Some(StMapBase::Single(base)) = map.base else { return Err(without_base(side)) };
-    let base = Base { placement: base.placement, size: None };
+    let Some(StMapBase::Single(base)) = &map.base else { return Err(without_base(side)) };
+    let base = Base { placement: base.placement.clone(), size: None };
     spec(map, &read(&map.file, access)?, base, side, access)
 }
 

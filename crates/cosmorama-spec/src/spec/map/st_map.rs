@@ -101,7 +101,10 @@ fn base(text: &str, folder: &Path) -> Result<StMapBase, SpecError> {
         return Err(expected("the picture of one eye, without stereo="));
     }
     let (base, canvas) = match spec.shape {
-        Shape::Single(single) => (StMapBase::Single(single), single.placement.canvas),
+        Shape::Single(single) => {
+            let canvas = single.placement.canvas;
+            (StMapBase::Single(single), canvas)
+        }
         Shape::Calibrated(camera) => {
             let canvas = camera.canvas;
             (StMapBase::Calibrated(camera), canvas)

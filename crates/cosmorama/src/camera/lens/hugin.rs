@@ -82,7 +82,7 @@ impl Camera for HuginCamera {
         let [right, down] = self.shift;
         let centre = PixelPoint::new(w / 2.0 + right, h / 2.0 + down);
         let grid = PixelGrid::centred(width, height, centre, DVec2::splat(focal.recip()));
-        if let ProjectionKind::Fisheye(lens) = projection {
+        if let ProjectionKind::Fisheye(lens) = &projection {
             self.check_correction(&lens.0, focal, (w / 2.0 + right.abs(), h / 2.0 + down.abs()))?;
         }
         Ok(View { projection, orientation: Orientation::IDENTITY, grid, stop: FieldStop::NONE })

@@ -106,7 +106,7 @@ mod tests {
             stop: FieldStop::NONE,
         };
         for half in [0.02, 0.5, 1.5, 2.2, 3.0] {
-            let target = View { stop: FieldStop::circle(half), ..target };
+            let target = View { stop: FieldStop::circle(half), ..target.clone() };
             let edge = FieldEdge::of(&target).expect("a circle");
             for (step, reach) in (0..=300).flat_map(|step| [0.0, 0.01, 0.3, 2.0].map(|reach| (step, reach))) {
                 let angle = f64::from(step) * 0.01;
@@ -143,7 +143,7 @@ mod tests {
         let kinds = ProjectionKind::all().into_iter().chain([stretched()]);
         let halves = [(1.0, 1.0), (1.07, 1.02), (3.2, 1.6)];
         kinds
-            .flat_map(move |kind| halves.map(|half| view(kind, (SIZE[0], SIZE[1]), half, FieldStop::NONE)))
+            .flat_map(move |kind| halves.map(|half| view(kind.clone(), (SIZE[0], SIZE[1]), half, FieldStop::NONE)))
             .filter_map(|view| World::new([("all".to_owned(), view)]).ok())
     }
 
@@ -152,7 +152,7 @@ mod tests {
         let lower = |stop: FieldStop| stop.with_lower(Angle::from_degrees(30.0));
         let [small, large] = [0.1, 0.8].map(FieldStop::circle);
         let stops = [small, large, lower(FieldStop::NONE), lower(large)];
-        let target = |kind| stops.map(|stop| view(kind, (60, 60), (1.0, 1.0), stop));
+        let target = |kind: ProjectionKind| stops.map(|stop| view(kind.clone(), (60, 60), (1.0, 1.0), stop));
         // The middle of a ball shows what is behind.
         let targets = [ProjectionKind::EQUIDISTANT, ProjectionKind::MIRROR_BALL].map(target);
         assert_eq!(FieldEdge::of(&targets[1][0]).expect("a circle").axis, -1.0);

@@ -36,6 +36,7 @@ use crate::sphere::{Angle, Direction, DirectionJacobian};
 
 enum_dispatch! { ($)
     /// Every fisheye lens, chosen at run time; the examples of measured ones are lenses that somebody has.
+    #[derive(Copy)]
     pub enum FisheyeLens {
         /// r = φ.
         Equidistant(Equidistant) = [Equidistant],

@@ -7,6 +7,7 @@ mod tests;
 mod tree;
 
 use std::f64::consts::PI;
+use std::sync::Arc;
 
 use glam::{DVec2, DVec3, Vec3};
 use rayon::prelude::*;
@@ -202,14 +203,14 @@ impl Samples {
 
 /// A projection that is a table.
 ///
-/// Projections are copied freely; a table is not. It is kept until the program ends, as what is read once at its start is.
-#[derive(Clone, Copy, Debug)]
-pub struct StMap(&'static StMapTable);
+/// Clones share the table.
+#[derive(Clone, Debug)]
+pub struct StMap(Arc<StMapTable>);
 
 impl StMap {
-    /// The projection that is this table, which is kept from here on.
+    /// Creates the projection that is this table.
     pub fn new(table: StMapTable) -> Self {
-        Self(Box::leak(Box::new(table)))
+        Self(Arc::new(table))
     }
 
     /// How much memory its table takes, in bytes.
@@ -221,13 +222,13 @@ impl StMap {
 /// Tables are equal if they are the same one.
 impl PartialEq for StMap {
     fn eq(&self, other: &Self) -> bool {
-        std::ptr::eq(self.0, other.0)
+        Arc::ptr_eq(&self.0, &other.0)
     }
 }
 
 impl Projection for StMap {
     fn project(&self, direction: Direction) -> Option<PlanePoint> {
-        let table = self.0;
+        let table = &*self.0;
         let (x, y) = table.by_direction.find(table.lattice(&table.directions), direction.vector(), 0.0)?;
         let [place, ..] = table.place(x, y)?;
         Some(PlanePoint::new(place.x, place.y))

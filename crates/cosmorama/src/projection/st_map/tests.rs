@@ -159,3 +159,17 @@ fn holes_and_what_lies_outside_are_not_in_the_domain() {
     let nothing = StMapTable::of_pixels(3, 3, |i, j| ((i + j) % 2 == 0).then_some(Direction::FRONT));
     assert_eq!(nothing.unwrap_err(), StMapError::NoCells { width: 3, height: 3 });
 }
+
+#[test]
+fn a_table_goes_with_the_last_that_uses_it() {
+    let map = map_of(StMapTable::of_pixels(8, 8, |i, j| {
+        ProjectionKind::PERSPECTIVE.unproject(PlanePoint::new(i as f64 / 8.0 - 0.5, j as f64 / 8.0 - 0.5))
+    }));
+    let table = Arc::downgrade(&map.0);
+    let other = ProjectionKind::StMap(map.clone());
+    assert!(other == ProjectionKind::StMap(map.clone()), "clones share a table");
+    drop(map);
+    assert!(table.upgrade().is_some());
+    drop(other);
+    assert!(table.upgrade().is_none());
+}

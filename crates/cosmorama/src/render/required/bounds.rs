@@ -119,9 +119,9 @@ mod tests {
             view(ProjectionKind::PERSPECTIVE, [300, 200], [1.0, 2.0 / 3.0], turned),
         ];
         for target in targets {
-            let most = Needs::at_most(&world, &[target], &FilterSettings::DEFAULT);
-            let quick =
-                Needs::within_reach(&world, &[target], &FilterSettings::DEFAULT).expect("six faces leave no hole");
+            let most = Needs::at_most(&world, std::slice::from_ref(&target), &FilterSettings::DEFAULT);
+            let quick = Needs::within_reach(&world, std::slice::from_ref(&target), &FilterSettings::DEFAULT)
+                .expect("six faces leave no hole");
             for (most, quick) in most.views.iter().zip(&quick.views) {
                 let wider = |most: PixelRect| PixelRect {
                     left: most.left.saturating_sub(10),

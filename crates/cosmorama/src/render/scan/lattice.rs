@@ -96,7 +96,7 @@ mod tests {
     #[test]
     fn points_are_those_of_the_pixels_asked_for() {
         let (target, sky) = (panorama(800, 400), panorama(640, 320));
-        let world = World::new(["a", "b"].map(|name| (name.to_owned(), sky))).expect("two views");
+        let world = World::new(["a", "b"].map(|name| (name.to_owned(), sky.clone()))).expect("two views");
         let mut lattice = Lattice::new(&target);
         // Some that have one slot, each of them twice, and in two views.
         for (k, pixel) in [[4, 8], [4 + 128, 8], [4, 8], [4, 24], [4, 24], [8, 24], [4, 8]].into_iter().enumerate() {

@@ -129,7 +129,7 @@ fn windows_weigh_alike_whatever_shows_the_world() {
     let map = view(ProjectionKind::EQUAL_AREA_CYLINDER, (1400, 446), (PI, 1.0), Orientation::IDENTITY);
     let (lens, ball) = (round(ProjectionKind::EQUIDISTANT, PI), round(ProjectionKind::MIRROR_BALL, 1.0));
     for (source, least) in [(lens, 0.6), (ball, 0.2), (map, 0.1)] {
-        let world = World::new([("all".to_owned(), source)]).expect("a view");
+        let world = World::new([("all".to_owned(), source.clone())]).expect("a view");
         let shares = targets().map(|target| {
             let target = View { grid: target.grid.squeezed((4, 4)), ..target };
             check_windows(&world, &target, Kernel::ADAPTIVE) as f64 / (target.width() * target.height()) as f64
@@ -187,11 +187,11 @@ fn nothing_is_seen_outside_a_field_that_is_narrower_than_a_texel() {
 fn what_the_lower_cut_hides_is_passed_over_and_no_more() {
     let (world, turned) = (cube(64), targets()[0].orientation);
     let projections = [ProjectionKind::OMNIMAX, ProjectionKind::EQUIDISTANT];
-    for (projection, size) in projections.into_iter().flat_map(|lens| [40, 201, 600].map(|size| (lens, size))) {
+    for (projection, size) in projections.into_iter().flat_map(|lens| [40, 201, 600].map(|size| (lens.clone(), size))) {
         let (mut hidden, mut passed) = (0, 0);
         for lower in [-30.0, 0.0, 20.0, 45.0, 70.0] {
             let stop = FieldStop::circle(1.0).with_lower(Angle::from_degrees(lower));
-            let target = View { stop, ..view(projection, (size, size), (1.0, 1.0), turned) };
+            let target = View { stop, ..view(projection.clone(), (size, size), (1.0, 1.0), turned) };
             let resampler = Resampler { world: &world, target: &target, filter: FilterSettings::DEFAULT };
             let table = KernelTable::new(&resampler.filter.kernel);
             let mut scan = Scan::new(&resampler, &table, Level::new());

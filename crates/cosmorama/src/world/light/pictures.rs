@@ -41,7 +41,7 @@ impl World {
     pub fn from_cube(faces: [Image<Rgba>; 6], samples: SamplePositions) -> Result<(Self, Light), PictureError> {
         let camera = CameraModel::from(LayoutFaceCamera { samples, ..LayoutFaceCamera::default() });
         let views = CubeFace::ALL.into_iter().zip(faces).map(|(face, picture)| {
-            let placement = Placement { orientation: face.orientation(), ..Placement::new(camera) };
+            let placement = Placement { orientation: face.orientation(), ..Placement::new(camera.clone()) };
             let view = placement.view(picture.width(), picture.height())?;
             Ok((face.name().to_owned(), view, picture))
         });

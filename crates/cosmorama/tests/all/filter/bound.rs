@@ -25,7 +25,7 @@ fn no_pixel_of_any_projection_takes_more_texels_than_said() {
     let worlds = whole_worlds(700).into_iter().chain(partial_worlds(500)).chain([("panorama", equirect(6000))]);
     let mut most = 0;
     for (name, view) in worlds {
-        let world = World::new([(name.to_owned(), view)]).expect("one view");
+        let world = World::new([(name.to_owned(), view.clone())]).expect("one view");
         let texels_a_radian = view.pixels_per_radian();
         for (k, [yaw, pitch, roll]) in places().enumerate() {
             let shrink = [1.0, 2.0, 3.7, 8.0, 17.0, 40.0, 64.0][k % 7];

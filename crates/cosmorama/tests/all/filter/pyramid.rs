@@ -273,7 +273,7 @@ fn what_the_target_does_not_show_does_not_leak_in() {
             assert!((0..3).all(|c| (pixel.0[c] - 0.5).abs() < 1e-5), "{:?}: {pixel:?}", filter.kind);
         }
     }
-    let needs = |filter| Needs::of(&world, &[target], &filter, Accuracy::Exact);
+    let needs = |filter| Needs::of(&world, std::slice::from_ref(&target), &filter, Accuracy::Exact);
     for (all, exact) in needs(PYRAMID).views.iter().zip(needs(FilterSettings::DEFAULT).views) {
         assert_eq!(all.seen, exact.seen);
         assert!(exact.read.is_none_or(|read| all.read.is_some_and(|all| all.contains(&read))));

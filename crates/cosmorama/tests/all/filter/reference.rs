@@ -42,7 +42,7 @@ fn gaussian_ewa_is_the_reference_at_parity() {
 fn the_paper_is_the_gather_where_one_view_suffices() {
     // A narrow view: all its texels have one solid angle, as the paper's have.
     let source = perspective(200, 160, 0.5, 0.0, 0.0, 0.0);
-    let world = World::new([("view".to_owned(), source)]).expect("one view");
+    let world = World::new([("view".to_owned(), source.clone())]).expect("one view");
     let light = light_by_texel(&world, |_, i, j, _| {
         let value = ((i * 37 + j * 101) % 29) as f32 / 29.0;
         Rgba::opaque(value, 1.0 - value, value * value)
@@ -117,7 +117,8 @@ fn turning_world_and_view_together_changes_nothing() {
     let turned = |view: View| View { orientation: view.orientation.within(turn), ..view };
     let world = cube(&CubeFace::ALL, 128, 128);
     let turned_world =
-        World::new(world.sources().iter().map(|source| (source.name.clone(), turned(source.view)))).expect("six faces");
+        World::new(world.sources().iter().map(|source| (source.name.clone(), turned(source.view.clone()))))
+            .expect("six faces");
     let light = light_by_direction(&world, waves);
     let target = perspective(160, 120, 100.0, 30.0, 25.0, 5.0);
     let still = render(&world, &target, FilterSettings::DEFAULT, &light);

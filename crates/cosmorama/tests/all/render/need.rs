@@ -50,13 +50,13 @@ fn rectangles_are_those_of_the_plain_scan() {
     let targets =
         [omnimax(200, 146), tilted, equirect(160), perspective(160, 120, 70.0, 40.0, 20.0, 5.0), fisheye(7, 360.0)];
     for world in worlds {
-        for target in targets {
-            assert_eq!(needs(&world, target).views, plain_scan(&world, &target), "{target:?}");
+        for target in &targets {
+            assert_eq!(needs(&world, target.clone()).views, plain_scan(&world, target), "{target:?}");
         }
     }
     let panorama = World::new([("panorama".to_string(), equirect(256))]).expect("a world");
     for target in targets {
-        assert_eq!(needs(&panorama, target).views, plain_scan(&panorama, &target), "{target:?}");
+        assert_eq!(needs(&panorama, target.clone()).views, plain_scan(&panorama, &target), "{target:?}");
     }
 }
 
@@ -68,7 +68,8 @@ fn at_most_so_much_is_read_and_exactly_so_much_is_seen() {
     let mut unseen = 0;
     for world in [panorama, dome, five] {
         for target in [omnimax(200, 146), equirect(160), perspective(160, 120, 70.0, 40.0, 20.0, 5.0)] {
-            let (exact, most) = (needs(&world, target), bounds(&world, target, &FilterSettings::DEFAULT));
+            let (exact, most) =
+                (needs(&world, target.clone()), bounds(&world, target.clone(), &FilterSettings::DEFAULT));
             assert_eq!(exact.uncovered, most.uncovered, "{target:?}");
             for (exact, most) in exact.views.iter().zip(&most.views) {
                 assert_eq!(exact.seen, most.seen, "{target:?}");
@@ -99,8 +100,8 @@ fn what_is_within_reach_of_a_cube_holds_what_is_read() {
 
 /// What is found from blocks holds what each pixel needs.
 fn check_reach(world: &World, target: View, filter: &FilterSettings) {
-    let exact = Needs::of(world, &[target], filter, Accuracy::Exact);
-    let quick = bounds(world, target, filter);
+    let exact = Needs::of(world, std::slice::from_ref(&target), filter, Accuracy::Exact);
+    let quick = bounds(world, target.clone(), filter);
     assert_eq!(exact.uncovered, quick.uncovered, "{target:?}");
     for (exact, quick) in exact.views.iter().zip(&quick.views) {
         let holds = |read| quick.read.is_some_and(|quick| quick.contains(&read));
@@ -119,7 +120,11 @@ fn what_is_within_reach_holds_what_any_map_reads_by_any_filter() {
     for (_, map) in whole_worlds(72) {
         for orientation in [map.orientation, turned([25.0, -70.0, 15.0])] {
             for kind in kinds {
-                check_reach(&world, View { orientation, ..map }, &FilterSettings { kind, ..FilterSettings::DEFAULT });
+                check_reach(
+                    &world,
+                    View { orientation, ..map.clone() },
+                    &FilterSettings { kind, ..FilterSettings::DEFAULT },
+                );
             }
         }
     }
@@ -183,7 +188,7 @@ fn light_outside_what_is_read_changes_no_byte() {
     ];
     for target in [omnimax(246, 180), perspective(90, 70, 60.0, 30.0, 35.0, 10.0)] {
         for filter in kinds {
-            let needs = Needs::of(&world, &[target], &filter, Accuracy::Exact);
+            let needs = Needs::of(&world, std::slice::from_ref(&target), &filter, Accuracy::Exact);
             let mut dirty = clean.clone();
             for (source, need) in world.sources().iter().zip(&needs.views) {
                 let width = source.view.width();

@@ -37,7 +37,7 @@ fn wide_cube(edge: usize, degrees: f64) -> World {
     let frame = CameraModel::LayoutFace(LayoutFaceCamera { field_of_view, ..LayoutFaceCamera::default() });
     let blend = Blend { priority: 0, feather: field_of_view - LayoutFaceCamera::RIGHT_ANGLE };
     let view = |face: CubeFace| {
-        let placement = Placement { orientation: face.orientation(), ..Placement::new(frame) };
+        let placement = Placement { orientation: face.orientation(), ..Placement::new(frame.clone()) };
         let view = placement.view(edge, edge).expect("a square");
         WorldView { name: face.name().to_owned(), view, blend, mask: None }
     };
