@@ -3,7 +3,7 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum, ValueHint};
 use cosmorama_spec::{MemorySize, TransferName};
 
-use super::number::{distance, factor, finite};
+use super::parse::number::{distance, factor, finite};
 
 /// Compare two pictures: PSNR, largest difference, sub-pixel shift.
 #[derive(Clone, Debug, Args)]

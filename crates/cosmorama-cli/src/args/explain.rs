@@ -3,7 +3,8 @@ use std::path::PathBuf;
 use clap::{Args, ValueHint};
 use cosmorama_spec::Size;
 
-use super::convert::{GeometryArgs, LimitArgs};
+use super::convert::LimitArgs;
+use super::geometry::GeometryArgs;
 
 /// Tell what a conversion will do before it does it, in text and diagrams.
 #[derive(Clone, Debug, Args)]

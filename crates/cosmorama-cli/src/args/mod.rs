@@ -1,13 +1,12 @@
 //! The command line as typed. What it means is worked out by `cosmorama-convert`.
 
 mod compare;
-mod compression;
 pub(crate) mod convert;
 mod demo;
-mod depth;
 mod explain;
+pub(crate) mod geometry;
 mod info;
-mod number;
+mod parse;
 mod progress;
 mod settings;
 mod shell;

@@ -6,7 +6,8 @@ use cosmorama_convert::{Conversion, Existing, ExplanationSettings, GeometrySetti
 use cosmorama_io::Compression;
 use cosmorama_spec::CompressionLevel;
 
-use super::convert::{GeometryArgs, LimitArgs};
+use super::convert::LimitArgs;
+use super::geometry::GeometryArgs;
 use super::{ConvertArgs, ExplainArgs};
 
 impl From<ConvertArgs> for Conversion {

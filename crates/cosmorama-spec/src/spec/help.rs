@@ -1,6 +1,6 @@
 //! The table of projections as help text.
 
-use super::kind::{COMMON, KINDS, Key};
+use super::projections::{COMMON, KINDS, Key};
 
 /// Returns the help on SPECs: every projection with its keys.
 pub fn help() -> String {

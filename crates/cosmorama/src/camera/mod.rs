@@ -1,6 +1,6 @@
-//! Frames: how a projection's picture lies in an image of a given size.
+//! Camera models: how a projection's picture lies in an image of a given size.
 //!
-//! A frame knows what a size in pixels does not: the field of view, where the lens's circle goes, the shape of a pixel.
+//! A camera model knows what a size in pixels does not: the field of view, where the lens's circle goes, the shape of a pixel.
 //! With a size it makes a [`View`]; without one it says which size suits it.
 
 mod error;

@@ -7,7 +7,7 @@ mod error;
 mod face_order;
 mod face_part;
 mod face_placement;
-mod kind;
+mod layout_kind;
 mod naming;
 mod stereo;
 
@@ -18,6 +18,6 @@ pub use error::LayoutError;
 pub use face_order::FaceOrder;
 pub use face_part::FacePart;
 pub use face_placement::FacePlacement;
-pub use kind::LayoutKind;
+pub use layout_kind::LayoutKind;
 pub use naming::Naming;
 pub use stereo::{Eye, Stereo};

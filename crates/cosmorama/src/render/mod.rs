@@ -2,13 +2,13 @@
 
 pub(crate) mod apply;
 pub(crate) mod batch;
-mod frame;
 mod picture;
 pub(crate) mod plan;
 pub(crate) mod pyramid;
 pub(crate) mod required;
 pub(crate) mod resampler;
 pub(crate) mod scan;
+mod whole_picture;
 
 pub use picture::picture;
 pub use plan::{Arithmetic, Plan};

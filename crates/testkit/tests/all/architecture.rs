@@ -293,7 +293,7 @@ const LANES: [&str; 27] = [
     "render/apply/x86/blocks.rs",
     "render/apply/x86/srgb.rs",
     "render/batch/centring.rs",
-    "render/batch/ellipse.rs",
+    "render/batch/ellipses.rs",
     "render/batch/weights.rs",
     "render/batch/window.rs",
     "render/apply/tap_lists.rs",

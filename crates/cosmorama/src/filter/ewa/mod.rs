@@ -4,10 +4,10 @@ pub(crate) mod cubic;
 pub(crate) mod direct;
 pub(crate) mod lanes;
 pub(crate) mod paper;
-mod pool;
+mod scratch_pool;
 
 use direct::Direct;
-use pool::Pool;
+use scratch_pool::Pool;
 
 use super::Kernel;
 use super::gather::{Gather, Scratch};

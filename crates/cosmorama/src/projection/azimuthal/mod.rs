@@ -1,7 +1,7 @@
 //! Fisheye lenses: the angle from the axis is a function of the radius in the picture.
 
 pub(crate) mod arc_sine;
-pub(crate) mod ball;
+pub(crate) mod ball_lens;
 pub(crate) mod calibrated;
 pub(crate) mod equidistant;
 pub(crate) mod equisolid;
@@ -11,7 +11,7 @@ pub(crate) mod omnimax;
 pub(crate) mod orthographic;
 pub(crate) mod stereographic;
 
-pub use ball::BallLens;
+pub use ball_lens::BallLens;
 pub use calibrated::by_angle::ByAngle;
 pub use calibrated::by_radius::ByRadius;
 pub use calibrated::double_sphere::DoubleSphere;

@@ -5,7 +5,7 @@ use std::ops::Range;
 use fearless_simd::{Simd, dispatch, f32x8, f32x16, prelude::*};
 
 use super::centring::{Correction, Moments, RowSums};
-use super::ellipse::Ellipses;
+use super::ellipses::Ellipses;
 use super::window::{Level, ROOM, Size, Windows};
 use crate::filter::Kernel;
 use crate::filter::ewa::cubic::Cubics;

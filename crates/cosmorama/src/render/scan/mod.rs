@@ -1,6 +1,6 @@
-pub(crate) mod coons;
 pub(crate) mod lattice;
 pub(crate) mod patch;
+pub(crate) mod patch_interpolation;
 #[cfg(test)]
 mod tests;
 pub(crate) mod tile;

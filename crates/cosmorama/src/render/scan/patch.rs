@@ -4,8 +4,8 @@ use super::tile::{HALF, SIDE, lanes_of};
 use crate::filter::gather::clearance::{Clearance, Grid};
 use glam::{DMat2, DVec2};
 
-use super::coons::{Coons, largest};
 use super::lattice::{Lattice, Point};
+use super::patch_interpolation::{Coons, largest};
 use crate::camera::{PixelPoint, View};
 use crate::filter::Kernel;
 use crate::filter::gather::Gather;

@@ -4,8 +4,8 @@ use fearless_simd::{Simd, f32x8, i32x8, prelude::*};
 
 use crate::filter::Kernel;
 use crate::filter::ewa::lanes::Lanes;
-use crate::render::scan::coons::{Columns, Coons};
 use crate::render::scan::patch::{Density, Geometry, Patch};
+use crate::render::scan::patch_interpolation::{Columns, Coons};
 use crate::render::scan::tile::SIDE;
 
 /// Where windows of texels lie, and the ellipses in them: a lane for each.

@@ -8,7 +8,7 @@ use cosmorama::layout::LensSide;
 use super::alias::{refusal, without_alias};
 use super::fields::Fields;
 use super::keys::Keys;
-use super::kind::{KINDS, Kind};
+use super::projections::{KINDS, Kind};
 use super::shape::Shape;
 use super::stereo::StereoSpec;
 use crate::SpecError;

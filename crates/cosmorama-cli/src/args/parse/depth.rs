@@ -2,7 +2,7 @@ use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use cosmorama_spec::DepthName;
 
 /// Reads a sample type, and lists all of them in help.
-pub(super) fn depth_parser() -> impl TypedValueParser<Value = DepthName> {
+pub(crate) fn depth_parser() -> impl TypedValueParser<Value = DepthName> {
     let value = |depth: DepthName| PossibleValue::new(depth.name()).help(depth.about());
     PossibleValuesParser::new(DepthName::ALL.map(value)).try_map(|name| name.parse::<DepthName>())
 }
