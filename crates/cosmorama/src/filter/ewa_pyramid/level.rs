@@ -30,7 +30,7 @@ pub const MOST_TEXELS: usize = 1 << 14;
 
 /// Texels of one view that a kernel has on one level, at most, as measured from side to side; where it would have more, around a
 /// pole or a rim at which texels come together, a coarser level is taken. A coarser level that is mixed in has half as many or
-/// less, and what is gathered is up to an eighth more than what is measured: behind a Mercator map's poles 16 786 of 15 000 were.
+/// less, and what is gathered is up to an eighth more than what is measured: near the edge of a Mercator map 16 786 where 15 000 were measured.
 const MOST_ON_LEVEL: f64 = 8_000.0;
 
 /// What lies within so many pixels both ways is in a circle of so many, about, since levels are interpolated between.
