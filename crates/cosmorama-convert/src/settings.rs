@@ -20,7 +20,7 @@ use crate::input::{Disk, Files};
 /// let conversion = Conversion::new("builtin:grid", &dome).to("fulldome:tilt=20".parse()?).size("64".parse()?);
 /// let report = conversion.check().result?.run(&mut Quiet)?;
 /// assert_eq!(report.frames, 1);
-/// assert_eq!(cosmorama_io::probe(dome.as_ref())?.width, 64);
+/// assert_eq!(cosmorama_io::probe(std::path::Path::new(&dome))?.width, 64);
 /// # Ok(())
 /// # }
 /// ```

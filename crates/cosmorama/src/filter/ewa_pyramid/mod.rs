@@ -15,7 +15,7 @@ use crate::world::{Light, LightError, World};
 
 /// EWA on a pyramid: the ellipse is averaged on the levels of halved worlds that fit it best, at a bounded cost (Heckbert 1989).
 ///
-/// However wide a footprint is, it looks at no more than [`MOST_TEXELS`](super::MOST_TEXELS) texels of a view.
+/// A footprint up to 15° wide looks at no more than [`MOST_TEXELS`](super::MOST_TEXELS) texels of a view.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EwaPyramid {
     /// The weights.

@@ -33,8 +33,12 @@ fn no_pixel_of_any_projection_takes_more_texels_than_said() {
             let pixel = shrink / texels_a_radian;
             let fov = Angle::from_radians((6.0 * pixel).min(2.0)).degrees();
             let camera = perspective(6, 6, fov, yaw, pitch, roll);
-            let map = View { orientation: turned([yaw, pitch, roll]), ..equirect(10) };
-            for target in [camera, map] {
+            let mut targets = vec![camera];
+            // A map has hundreds of pixels of 15 degrees: at one of these places.
+            if k / 2 == 2 * (number / 2 % 3) {
+                targets.push(View { orientation: turned([yaw, pitch, roll]), ..equirect(24) });
+            }
+            for target in targets {
                 let gathered = Report::of(&world, &target, &PYRAMID).gathered;
                 assert!(gathered.most <= MOST_TEXELS, "{name} at {yaw}, {pitch}, shrunk by {shrink}: {gathered:?}");
                 most = most.max(gathered.most);
