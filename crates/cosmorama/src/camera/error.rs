@@ -1,9 +1,9 @@
 use thiserror::Error;
 
-/// Reason why a camera model gives no view.
+/// Reason why a camera model cannot make a view.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 pub enum CameraError {
-    /// An image of nothing.
+    /// The image has no pixels.
     #[error("an image of {width}x{height} pixels has nothing to show")]
     NoPixels {
         /// Columns.
@@ -11,41 +11,41 @@ pub enum CameraError {
         /// Rows.
         height: usize,
     },
-    /// A field of view that the projection cannot show.
+    /// The field of view is wider than the projection can show.
     #[error("{what} is {}°; it must be more than 0° and {}", rounded(*.found), if *.below { format!("less than {}°", rounded(*.greatest)) } else { format!("at most {}°", rounded(*.greatest)) })]
     FieldOfView {
-        /// Which one.
+        /// Kind of field of view, for the message: horizontal, vertical and so on.
         what: &'static str,
-        /// Degrees asked for.
+        /// Requested angle in degrees.
         found: f64,
         /// The limit in degrees.
         greatest: f64,
         /// Whether the limit itself is excluded.
         below: bool,
     },
-    /// A field of view beyond the place where the lens's formula turns back.
+    /// The field of view reaches beyond the radius at which the lens's formula turns back.
     #[error(
         "the field of view is {}°, but the lens's formula turns back at radius {}, {}° from the axis: it shows at most {}°",
         rounded(*.found), rounded(*.radius), rounded(.greatest / 2.0), rounded(*.greatest)
     )]
     LensTurnsBack {
-        /// Degrees asked for.
+        /// Requested angle in degrees.
         found: f64,
         /// The limit in degrees.
         greatest: f64,
-        /// Where that is, in the unit of the formula.
+        /// Radius at which the formula turns back, in the unit of the formula.
         radius: f64,
     },
-    /// A calibration whose formula turns back within the image.
+    /// The calibration's formula turns back within the image.
     #[error(
         "the calibration's formula turns back {}° from the axis, {} pixels from its centre, and the image reaches further; \
          give fov= (at most {}) to leave out what lies beyond, or calibrate again with points near the corners",
         rounded(.greatest / 2.0), rounded(*.radius), rounded(*.greatest)
     )]
     CalibrationTurnsBack {
-        /// The radius in pixels.
+        /// Radius at which it turns back, in pixels.
         radius: f64,
-        /// Degrees that it shows at most.
+        /// Greatest field of view that the calibration can show, in degrees.
         greatest: f64,
     },
     /// Hugin's correction turns back within the image.
@@ -55,22 +55,22 @@ pub enum CameraError {
         rounded(*.degrees), rounded(*.ideal), rounded(*.radius), rounded(*.end)
     )]
     CorrectionTurnsBack {
-        /// From the axis.
+        /// Angle from the axis at which the correction turns back, in degrees.
         degrees: f64,
-        /// In pixels, by the lens before its correction.
+        /// Radius before the correction, in pixels.
         ideal: f64,
-        /// In pixels, in the image.
+        /// Radius after the correction, in pixels of the image.
         radius: f64,
-        /// How far the image reaches from the axis, in pixels.
+        /// Distance from the axis to the image's furthest corner, in pixels.
         end: f64,
     },
-    /// Hugin's correction of a picture that is a panorama.
+    /// The picture is a panorama, for which Hugin's correction is not supported.
     #[error("a, b, c correct a lens; for panoramas (f1, f4) they must be 0")]
     CorrectedPanorama,
-    /// Coefficients of which no lens can be made.
+    /// The coefficients do not make a lens.
     #[error("{0}")]
     Lens(crate::projection::azimuthal::LensError),
-    /// An image of another shape than the one that was measured.
+    /// The image's shape differs from that of the image that was calibrated.
     #[error(
         "the image has {}x{} pixels, but the calibration was made for {}x{}, which has another shape; if the image is a part \
          of such a picture, give canvas=", found.0, found.1, measured.0, measured.1
@@ -81,31 +81,31 @@ pub enum CameraError {
         /// Columns and rows of the image that was measured.
         measured: (usize, usize),
     },
-    /// A camera matrix that no camera has.
+    /// The camera matrix is singular or mirrors the picture.
     #[error("the camera matrix has the determinant {determinant}; it must be more than 0, its numbers finite")]
     CameraMatrix {
-        /// Of its left part.
+        /// Determinant of the matrix's left 2×2 part.
         determinant: f64,
     },
-    /// A number out of its range.
+    /// A parameter is out of its range.
     #[error("{what} is {found}{unit}; it must be {range}")]
     OutOfRange {
-        /// Which one.
+        /// Name of the parameter.
         what: &'static str,
-        /// What was asked for.
+        /// Requested value.
         found: f64,
-        /// In what: ` pixels`, or nothing.
+        /// Unit for the message: ` pixels`, or nothing.
         unit: &'static str,
-        /// What there is.
+        /// Permitted range, in words.
         range: &'static str,
     },
-    /// A circle of which nothing is on the image.
+    /// The circle lies entirely outside the image.
     #[error(
         "a circle of radius {} pixels around {}:{} lies off the picture's {width}x{height} pixels; center=X:Y counts from the \
          upper left corner, and radius= in pixels", rounded(*.radius), rounded(.centre.0), rounded(.centre.1)
     )]
     CircleOffImage {
-        /// Its centre, in pixels of the image, or of the half that is its.
+        /// Centre of the circle in pixels, of the image or of the lens's half of it.
         centre: (f64, f64),
         /// Its radius in pixels.
         radius: f64,
@@ -114,7 +114,7 @@ pub enum CameraError {
         /// Rows.
         height: usize,
     },
-    /// A resolution that no image can hold.
+    /// The size that matches the requested resolution is larger than any image file.
     #[error("as fine as the input, the image would have {width:.3e}x{height:.3e} pixels; its size must be given")]
     SizeUnbounded {
         /// Columns.
@@ -122,12 +122,12 @@ pub enum CameraError {
         /// Rows.
         height: f64,
     },
-    /// The circle is placed in pixels of an unknown image.
+    /// The circle is placed in pixels, and the image's size is not known.
     #[error("the lens's centre, radius or focal length is given in pixels, so the size of the image must be given too")]
     SizeNeeded,
 }
 
-/// A field of view within its limit.
+/// Checks that a field of view is within its limit.
 pub(crate) fn check_field_of_view(
     what: &'static str,
     angle: crate::sphere::Angle,
@@ -140,13 +140,13 @@ pub(crate) fn check_field_of_view(
     if inside { Ok(()) } else { Err(CameraError::FieldOfView { what, found, greatest, below }) }
 }
 
-/// A length or ratio above zero.
+/// Checks that a length or ratio is above zero.
 pub(crate) fn check_positive(what: &'static str, found: f64) -> Result<(), CameraError> {
     let is_positive = found > 0.0 && found.is_finite();
     if is_positive { Ok(()) } else { Err(CameraError::OutOfRange { what, found, unit: "", range: "more than 0" }) }
 }
 
-/// Six decimals, without zeros at the end.
+/// Rounds to six decimals.
 pub(crate) fn rounded(value: f64) -> f64 {
     (value * 1e6).round() / 1e6
 }

@@ -4,14 +4,15 @@ use glam::{DMat2, DMat3, DVec2, DVec3};
 
 use crate::sphere::{Direction, DirectionJacobian};
 
-/// A small part of the sphere around a direction, to first order: what a pixel, a reflected ray or a lobe sees of the world.
+/// A small part of the sphere around a direction, to first order: the part of the world that a pixel, a reflected ray
+/// or a reflection lobe sees.
 ///
-/// Two derivatives span it: how the direction moves for one pixel to the right (`dx`) and one pixel down (`dy`), in radians.
-/// The unit is one pixel: a filter's kernel lies over the parallelogram of the two. Only the ellipse that they span counts, not
-/// how they are turned within it, but for the sub-samples of the reference filter.
+/// Two derivatives span it: the change of the direction for one pixel to the right (`dx`) and one pixel down (`dy`), in
+/// radians. A filter's kernel covers the parallelogram of the two, so its unit is one pixel. Filters use only the
+/// ellipse that the two span; the reference filter, which takes sub-samples, also uses their orientation.
 ///
-/// As a Gaussian, a footprint has half a pixel for its standard deviation ([`Footprint::covariance`]). What widens it, such as
-/// roughness or a shutter, is added as a variance:
+/// As a Gaussian, a footprint has a standard deviation of half a pixel ([`Footprint::covariance`]). Roughness and
+/// motion blur widen it: their variances are added.
 ///
 /// ```
 /// use cosmorama::camera::{Covariance, Footprint};
@@ -28,31 +29,32 @@ use crate::sphere::{Direction, DirectionJacobian};
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Footprint {
-    /// The direction of its middle, in the world's frame.
+    /// Direction of its centre, in the world's frame.
     pub direction: Direction,
-    /// Its derivatives per pixel, in the world's frame.
+    /// Derivatives of the direction per pixel, in the world's frame.
     pub jacobian: DirectionJacobian,
 }
 
-/// Standard deviations of a footprint's Gaussian in one pixel: exp(−2r²), Greene & Heckbert's pixel, has half a pixel.
+/// Standard deviations per pixel: Greene & Heckbert's Gaussian exp(−2r²) has a standard deviation of half a pixel.
 const DEVIATIONS: f64 = 2.0;
 
 impl Footprint {
-    /// The footprint of a direction and its derivatives per pixel; what of these points along the direction is left out.
+    /// Returns the footprint of a direction and its derivatives per pixel. The derivatives' parts along the direction
+    /// are dropped.
     pub fn new(direction: Direction, dx: DVec3, dy: DVec3) -> Self {
         let tangent = |vector: DVec3| vector - direction.vector() * direction.vector().dot(vector);
         Self { direction, jacobian: DirectionJacobian { dx: tangent(dx), dy: tangent(dy) } }
     }
 
-    /// A single direction. Filters make of it what lies between the texels around.
+    /// Returns the footprint of a single direction, of no extent; filters interpolate the texels around it.
     pub fn point(direction: Direction) -> Self {
         Self { direction, jacobian: DirectionJacobian { dx: DVec3::ZERO, dy: DVec3::ZERO } }
     }
 
-    /// The footprint whose Gaussian has this covariance: each derivative is an axis of its ellipse, two standard deviations long,
-    /// `dx` the longer one.
+    /// Returns the footprint whose Gaussian has this covariance. Each derivative is an axis of its ellipse, two
+    /// standard deviations long; `dx` is the longer one.
     ///
-    /// [`Footprint::covariance`] gives the covariance back, up to rounding.
+    /// [`Footprint::covariance`] is the inverse, up to rounding.
     pub fn from_covariance(direction: Direction, covariance: Covariance) -> Self {
         let basis = tangent_basis(direction);
         let DMat2 { x_axis: DVec2 { x: p, y: q }, y_axis: DVec2 { y: r, .. } } = covariance.within(basis);
@@ -67,20 +69,20 @@ impl Footprint {
         Self { direction, jacobian: DirectionJacobian { dx: axis(along, major), dy: axis(along.perp(), minor) } }
     }
 
-    /// The covariance of the footprint's Gaussian, whose standard deviation is half a pixel, in radians².
+    /// Returns the covariance of the footprint's Gaussian in radians²; its standard deviation is half a pixel.
     pub fn covariance(&self) -> Covariance {
         let DirectionJacobian { dx, dy } = self.jacobian;
         (Covariance::along(dx) + Covariance::along(dy)) * (DEVIATIONS * DEVIATIONS).recip()
     }
 
-    /// The footprint blurred by another Gaussian: their covariances add.
+    /// Returns the footprint blurred by another Gaussian, whose covariance is added.
     #[must_use]
     pub fn widened_by(&self, covariance: Covariance) -> Self {
         Self::from_covariance(self.direction, self.covariance() + covariance)
     }
 
-    /// The direction at an offset from the middle, in pixels: as far away along a great circle as the offset is long on the
-    /// tangent plane. `None` beyond half a turn.
+    /// Returns the direction at an offset from the centre, in pixels. Lengths on the tangent plane become lengths along
+    /// great circles. `None` beyond half a turn.
     pub fn direction_at(&self, x: f64, y: f64) -> Option<Direction> {
         let offset = self.jacobian.dx * x + self.jacobian.dy * y;
         let angle = offset.length();
@@ -93,10 +95,10 @@ impl Footprint {
     }
 }
 
-/// How far directions around one spread, in radians²: a symmetric matrix on the plane tangent to the sphere.
+/// Spread of directions around a direction, in radians²: a symmetric matrix on the plane tangent to the sphere.
 ///
-/// It is held in the world's frame, where it maps vectors along the direction to zero, so that no basis of the plane is needed:
-/// [`Covariance::within`] gives the four numbers in any. Covariances of one direction add.
+/// The matrix is held in the world's frame, where it maps vectors along the direction to zero; so it needs no basis of
+/// the tangent plane. [`Covariance::within`] gives its four numbers in any basis. Covariances around one direction add.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Covariance(DMat3);
 
@@ -104,26 +106,26 @@ impl Covariance {
     /// No spread.
     pub const ZERO: Self = Self(DMat3::ZERO);
 
-    /// One variance, in radians², along all tangents of a direction, as of a round lobe.
+    /// Returns the covariance of a round lobe: one variance, in radians², along all tangents of a direction.
     pub fn round(direction: Direction, variance: f64) -> Self {
         let [right, up] = tangent_basis(direction);
         (Self::along(right) + Self::along(up)) * variance
     }
 
-    /// A spread along one tangent vector, whose length is the standard deviation in radians. A path at an even pace from end to
-    /// end has its length over √12.
+    /// Returns the covariance of a spread along one tangent vector, whose length is the standard deviation in radians.
+    /// For a path traversed at constant speed the standard deviation is its length divided by √12.
     pub fn along(tangent: DVec3) -> Self {
         Self(DMat3::from_cols(tangent * tangent.x, tangent * tangent.y, tangent * tangent.z))
     }
 
-    /// The covariance with these numbers in a basis of the tangent plane.
+    /// Returns the covariance with these components in a basis of the tangent plane.
     pub fn from_matrix([right, up]: [DVec3; 2], matrix: DMat2) -> Self {
         let (p, q, r) = (matrix.x_axis.x, 0.5 * (matrix.x_axis.y + matrix.y_axis.x), matrix.y_axis.y);
         let column = |x: f64, y: f64| (right * p + up * q) * x + (right * q + up * r) * y;
         Self(DMat3::from_cols(column(right.x, up.x), column(right.y, up.y), column(right.z, up.z)))
     }
 
-    /// Its numbers in an orthonormal basis of the tangent plane.
+    /// Returns the components in an orthonormal basis of the tangent plane.
     pub fn within(&self, basis: [DVec3; 2]) -> DMat2 {
         let row = |axis: DVec3| DVec2::new((self.0 * axis).dot(basis[0]), (self.0 * axis).dot(basis[1]));
         DMat2::from_cols(row(basis[0]), row(basis[1]))
@@ -144,7 +146,7 @@ impl Mul<f64> for Covariance {
     }
 }
 
-/// Two tangents of a direction, perpendicular to each other and of length one.
+/// Returns two perpendicular unit tangents of a direction.
 fn tangent_basis(direction: Direction) -> [DVec3; 2] {
     let (right, up) = direction.vector().any_orthonormal_pair();
     [right, up]

@@ -2,23 +2,23 @@ use glam::DVec2;
 
 use crate::projection::{PlanePoint, PlaneRect};
 
-/// A point of an image in continuous pixel coordinates: x to the right, y DOWN, (0, 0) the outer corner of the top left
-/// pixel, whose centre is at (½, ½).
+/// A point of an image in continuous pixel coordinates: x to the right, y DOWN. (0, 0) is the outer corner of the top
+/// left pixel, whose centre is at (½, ½).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PixelPoint {
-    /// To the right.
+    /// Distance to the right of the left edge.
     pub x: f64,
-    /// Down.
+    /// Distance below the top edge.
     pub y: f64,
 }
 
 impl PixelPoint {
-    /// The point (x, y).
+    /// Returns the point (x, y).
     pub const fn new(x: f64, y: f64) -> Self {
         Self { x, y }
     }
 
-    /// The centre of the pixel in column `i` of row `j`.
+    /// Returns the centre of the pixel in column `i` of row `j`.
     pub const fn centre(i: usize, j: usize) -> Self {
         Self { x: i as f64 + 0.5, y: j as f64 + 0.5 }
     }
@@ -29,7 +29,7 @@ impl PixelPoint {
 pub struct PixelBounds {
     /// The upper left corner.
     pub min: PixelPoint,
-    /// The lower right one.
+    /// The lower right corner.
     pub max: PixelPoint,
 }
 
@@ -47,17 +47,17 @@ pub struct PixelRect {
 }
 
 impl PixelRect {
-    /// Columns.
+    /// Returns the number of columns.
     pub const fn width(&self) -> usize {
         self.right.saturating_sub(self.left)
     }
 
-    /// Rows.
+    /// Returns the number of rows.
     pub const fn height(&self) -> usize {
         self.bottom.saturating_sub(self.top)
     }
 
-    /// The smallest rectangle that holds both.
+    /// Returns the smallest rectangle that holds both.
     #[must_use]
     pub fn union(self, other: Self) -> Self {
         Self {
@@ -68,20 +68,21 @@ impl PixelRect {
         }
     }
 
-    /// Whether all of `other` lies in this one.
+    /// Returns whether all of `other` lies in this rectangle.
     pub const fn contains(&self, other: &Self) -> bool {
         self.left <= other.left && self.top <= other.top && self.right >= other.right && self.bottom >= other.bottom
     }
 }
 
-/// `WxH+X+Y`, as image windows are written.
+/// Prints `WxH+X+Y`, the usual notation for windows of an image.
 impl std::fmt::Display for PixelRect {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         write!(f, "{}x{}+{}+{}", self.width(), self.height(), self.left, self.top)
     }
 }
 
-/// How the pixels of an image lie in a projection's plane: x = (px − origin.x)·step.x, y = (origin.y − py)·step.y.
+/// Affine map between the pixels of an image and a projection's plane: x = (px − origin.x)·step.x, y = (origin.y −
+/// py)·step.y.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PixelGrid {
     width: usize,
@@ -93,19 +94,20 @@ pub struct PixelGrid {
 }
 
 impl PixelGrid {
-    /// An image whose edges are those of a rectangle of the plane.
+    /// Returns the grid of an image whose edges are those of a rectangle of the plane.
     pub fn spanning(width: usize, height: usize, rect: PlaneRect) -> Self {
         let step = DVec2::new((rect.max.x - rect.min.x) / width as f64, (rect.max.y - rect.min.y) / height as f64);
         Self { width, height, origin: DVec2::new(-rect.min.x / step.x, rect.max.y / step.y), step }
     }
 
-    /// An image with the plane's origin at `origin` and `step` plane units a pixel along x and y.
+    /// Returns the grid of an image with the plane's origin at pixel `origin` and `step` plane units per pixel along x
+    /// and y.
     pub fn centred(width: usize, height: usize, origin: PixelPoint, step: DVec2) -> Self {
         Self { width, height, origin: DVec2::new(origin.x, origin.y), step }
     }
 
-    /// The part of this grid that a cropped image of `width`×`height` pixels shows, its top left corner at (x, y).
-    /// The corner may lie outside, and so may the far one.
+    /// Returns the grid of a crop of `width`×`height` pixels whose top left corner is at (x, y). The crop may extend
+    /// beyond the image on any side.
     #[must_use]
     pub fn window(self, width: usize, height: usize, x: f64, y: f64) -> Self {
         Self { width, height, origin: self.origin - DVec2::new(x, y), ..self }
@@ -141,32 +143,32 @@ impl PixelGrid {
         Self { origin, step: DVec2::new(self.step.x, -self.step.y), ..self }
     }
 
-    /// Columns.
+    /// Returns the number of columns.
     pub fn width(&self) -> usize {
         self.width
     }
 
-    /// Rows.
+    /// Returns the number of rows.
     pub fn height(&self) -> usize {
         self.height
     }
 
-    /// Plane units per pixel along x (right) and y (up).
+    /// Returns plane units per pixel along x (right) and y (up).
     pub fn step(&self) -> DVec2 {
         self.step
     }
 
-    /// From pixel to plane.
+    /// Converts a pixel position to a point of the plane.
     pub fn to_plane(&self, pixel: PixelPoint) -> PlanePoint {
         PlanePoint::new((pixel.x - self.origin.x) * self.step.x, (self.origin.y - pixel.y) * self.step.y)
     }
 
-    /// From plane to pixel.
+    /// Converts a point of the plane to a pixel position.
     pub fn to_pixel(&self, point: PlanePoint) -> PixelPoint {
         PixelPoint::new(self.origin.x + point.x / self.step.x, self.origin.y - point.y / self.step.y)
     }
 
-    /// Whether a point lies in the image.
+    /// Returns whether a pixel position lies in the image.
     pub fn contains(&self, pixel: PixelPoint) -> bool {
         pixel.x >= 0.0 && pixel.y >= 0.0 && pixel.x < self.width as f64 && pixel.y < self.height as f64
     }

@@ -1,7 +1,7 @@
-//! Camera models: how a projection's picture lies in an image of a given size.
+//! Camera models: the placement of a projection's picture in an image of a given size.
 //!
-//! A camera model knows what a size in pixels does not: the field of view, where the lens's circle goes, the shape of a pixel.
-//! With a size it makes a [`View`]; without one it says which size suits it.
+//! A camera model holds the field of view, the place of the lens's circle and the shape of a pixel. With a size in
+//! pixels it makes a [`View`]; without one it proposes a suitable size.
 
 mod error;
 mod field_stop;
@@ -46,17 +46,17 @@ pub(crate) use view::ROUNDING;
 pub use view::View;
 
 enum_dispatch! { ($)
-    /// Every kind of frame, chosen at run time.
+    /// Any camera model, chosen at run time.
     pub enum CameraModel {
         /// A pinhole camera.
         Perspective(PerspectiveCamera),
         /// A face of a cube.
         CubeFace(CubeFaceCamera),
-        /// A face of a cube map in equal angles, or with its samples on the edges.
+        /// A face of a cube map that is equi-angular, has samples on its edges, or extends beyond 90°.
         LayoutFace(LayoutFaceCamera),
         /// A fisheye.
         Fisheye(FisheyeCamera),
-        /// A camera that was measured.
+        /// A calibrated camera.
         Calibrated(CalibratedCamera),
         /// A picture of a Hugin project.
         Hugin(HuginCamera),
@@ -74,7 +74,7 @@ enum_dispatch! { ($)
         MirrorBall(MirrorBallCamera),
         /// A map of the whole world.
         WorldMap(WorldMapCamera),
-        /// A wide picture in Pannini's manner.
+        /// A wide picture in Pannini projection.
         Pannini(PanniniCamera),
         /// An octahedron unfolded.
         Octahedral(OctahedralCamera),
@@ -83,27 +83,28 @@ enum_dispatch! { ($)
     }
 }
 
-/// What each of them tells.
+/// Behaviour of one camera model.
 trait Camera {
-    /// The view of an image that has pixels.
+    /// Returns the view of an image of `width` × `height` pixels, neither of them 0.
     fn view(&self, width: usize, height: usize) -> Result<View, CameraError>;
 
-    /// The height over the width that suits it.
+    /// Returns the preferred height over width.
     fn natural_ratio(&self) -> f64 {
         1.0
     }
 
-    /// Whether a length in pixels says how large the picture is, so that no other size fits.
+    /// Returns whether a length in pixels fixes the scale, so that the image's size cannot be chosen freely.
     fn is_measured_in_pixels(&self) -> bool {
         false
     }
 }
 
 impl CameraModel {
-    /// The view of an image of `width` × `height` pixels, its camera looking ahead (a dome's to its zenith).
+    /// Returns the view of an image of `width` × `height` pixels. The camera looks ahead; that of a dome looks to its
+    /// zenith.
     ///
     /// # Errors
-    /// When a parameter is out of its range, or an image has no pixels.
+    /// When a parameter is out of its range, or the image has no pixels.
     pub fn view(&self, width: usize, height: usize) -> Result<View, CameraError> {
         if width == 0 || height == 0 {
             return Err(CameraError::NoPixels { width, height });
@@ -111,23 +112,24 @@ impl CameraModel {
         each!(self, frame => frame.view(width, height))
     }
 
-    /// The height that suits a width: square for fisheyes, domes and cube faces, the film's 1966:1436 for Omnimax,
-    /// the shape of the field of view for a panorama, 4:3 for a camera unless its field of view is given both ways, twice as wide
-    /// as high for a map of the world.
+    /// Returns the height that suits a width. Fisheyes, domes and cube faces are square, Omnimax frames have the film's
+    /// 1966:1436, and panoramas the shape of their field of view. Cameras have 4:3 unless both angles are given, and
+    /// maps of the world 2:1.
     pub fn natural_height(&self, width: usize) -> usize {
         let ratio = each!(self, frame => frame.natural_ratio());
         ((width as f64 * ratio).round() as usize).max(1)
     }
 
-    /// The even size at which the centre has so many pixels a radian: parity with a source that has as many.
+    /// Returns the size, in even numbers, at which the centre has so many pixels per radian: that of a source with the
+    /// same resolution.
     ///
     /// # Errors
-    /// When a parameter is out of its range, the place of a lens's circle is given in pixels, which fixes the size, or no
-    /// image is that large.
+    /// When a parameter is out of its range, when the circle is placed in pixels, which fixes the size, or when the
+    /// size is larger than any image.
     pub fn size_at(&self, pixels_per_radian: f64) -> Result<(usize, usize), CameraError> {
-        /// Any size will do: pixels per radian are in proportion to it.
+        /// Size at which the resolution is measured; any would do, since pixels per radian are proportional to it.
         const TRIAL: usize = 1 << 20;
-        /// Sides that no file format counts.
+        /// Largest side that a file format can hold.
         const LARGEST: f64 = u32::MAX as f64;
         if each!(self, frame => frame.is_measured_in_pixels()) {
             return Err(CameraError::SizeNeeded);

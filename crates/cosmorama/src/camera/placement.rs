@@ -1,7 +1,7 @@
 use super::{CameraError, CameraModel, View};
 use crate::sphere::Orientation;
 
-/// Which way a picture is mirrored.
+/// Mirroring of a picture.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Mirror {
     /// Left to right.
@@ -11,41 +11,41 @@ pub struct Mirror {
 }
 
 impl Mirror {
-    /// One after the other: twice the same is nothing.
+    /// Combines two mirrorings; the same one twice cancels.
     #[must_use]
     pub const fn and(self, other: Self) -> Self {
         Self { x: self.x != other.x, y: self.y != other.y }
     }
 
-    /// Whether writing reads backwards.
+    /// Returns whether text reads backwards.
     pub const fn is_backwards(self) -> bool {
         self.x != self.y
     }
 }
 
-/// A larger image of which the one at hand is a window.
+/// A larger image of which the given image is a window.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Canvas {
-    /// Its columns.
+    /// Columns of the larger image.
     pub width: usize,
-    /// Its rows.
+    /// Rows of the larger image.
     pub height: usize,
-    /// Its column that is the window's first; negative where the window reaches beyond it.
+    /// Column of the larger image at which the window begins; negative where the window extends beyond it.
     pub left: i64,
-    /// Its row that is the window's first.
+    /// Row of the larger image at which the window begins.
     pub top: i64,
 }
 
-/// A frame with its place in the world.
+/// A camera model with its orientation, mirroring and crop.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Placement {
-    /// What the picture shows of the world around its own camera.
+    /// Camera model.
     pub frame: CameraModel,
-    /// How that camera is turned.
+    /// Orientation of the camera.
     pub orientation: Orientation,
-    /// How the picture is mirrored, its canvas as a whole.
+    /// Mirroring of the picture; a crop is mirrored with its whole canvas.
     pub mirror: Mirror,
-    /// The canvas, where the image is only a part of it.
+    /// The canvas, if the image is only a part of it.
     pub canvas: Option<Canvas>,
 }
 
@@ -56,15 +56,15 @@ impl From<CameraModel> for Placement {
 }
 
 impl Placement {
-    /// A whole picture, unturned.
+    /// Places a whole picture, neither turned nor mirrored.
     pub const fn new(frame: CameraModel) -> Self {
         Self { frame, orientation: Orientation::IDENTITY, mirror: Mirror { x: false, y: false }, canvas: None }
     }
 
-    /// The view of an image of `width` × `height` pixels.
+    /// Returns the view of an image of `width` × `height` pixels.
     ///
     /// # Errors
-    /// When a parameter of the frame is out of its range, or an image has no pixels.
+    /// When a parameter of the camera model is out of its range, or the image has no pixels.
     pub fn view(&self, width: usize, height: usize) -> Result<View, CameraError> {
         if width == 0 || height == 0 {
             return Err(CameraError::NoPixels { width, height });

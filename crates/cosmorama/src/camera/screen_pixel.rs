@@ -2,38 +2,38 @@ use super::{FieldStop, Footprint, PixelPoint, PixelRect, View};
 use crate::projection::{PlanePoint, Projection};
 use crate::sphere::Direction;
 
-/// A pixel of a target: how much of it the field of view covers, and what the covered part sees.
+/// A pixel of a target: the fraction of it that the field of view covers, and the footprint of that part.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ScreenPixel {
     /// The covered part of the pixel's area, more than 0, at most 1.
     pub coverage: f64,
-    /// The footprint at the centroid of the covered part: the centre of a whole pixel.
+    /// Footprint at the centroid of the covered part, which is the centre of a whole pixel.
     pub footprint: Footprint,
 }
 
-/// Radians across which great circles are straight, as far as sub-samples can tell.
+/// Angle, in radians, below which a great circle is taken as straight: sub-samples cannot tell the difference.
 const STRAIGHT: f64 = 0.05;
 
-/// A cut pixel is measured by a grid of this many sub-samples a side.
+/// Sub-samples per side that measure a partly covered pixel.
 const SUB_SAMPLES: usize = 16;
 
-/// The corners of a pixel, from its centre.
+/// Corners of a pixel, relative to its centre.
 const CORNERS: [(f64, f64); 4] = [(-0.5, -0.5), (0.5, -0.5), (-0.5, 0.5), (0.5, 0.5)];
 
-/// Where a pixel lies in relation to the edge of the field of view.
+/// Position of a pixel relative to the edge of the field of view.
 enum Side {
     Inside,
     Outside,
-    /// One of these may cut the pixel, or both.
+    /// Circle, great circle, or both, that may cut the pixel.
     Cut {
         circle: FieldStop,
         great_circle: Option<GreatCircle>,
     },
-    /// Its centre or a corner has no direction: anything may cut it.
+    /// The centre or a corner has no direction, so anything may cut the pixel.
     Unknown,
 }
 
-/// Sines of the angles above a great circle, between the corners of a pixel: within it the circle is all but straight.
+/// Sines of the elevations above a great circle at the corners of a pixel; within it the circle is nearly straight.
 struct GreatCircle {
     centre: PixelPoint,
     sines: [[f64; 2]; 2],
@@ -48,9 +48,9 @@ impl GreatCircle {
 }
 
 impl View {
-    /// The pixel in column `i` of row `j`; `None` if it shows nothing.
+    /// Returns the pixel in column `i` of row `j`; `None` if it shows nothing.
     ///
-    /// The rim and the lower arc are smooth because a pixel that they cut counts by its covered part.
+    /// A pixel that the rim or the lower arc cuts is weighted by its covered part, so both edges come out smooth.
     pub fn screen_pixel(&self, i: usize, j: usize) -> Option<ScreenPixel> {
         let centre = PixelPoint::centre(i, j);
         if self.is_beyond_circle(centre) {
@@ -71,8 +71,8 @@ impl View {
         }
     }
 
-    /// Where the middle of the pixel in column `i` of row `j` looks, and how that changes per pixel; `None` if the middle shows
-    /// nothing, though a part of the pixel may.
+    /// Returns the direction of the centre of the pixel in column `i` of row `j`, with its derivatives per pixel.
+    /// `None` if the centre shows nothing, even if a part of the pixel does.
     pub fn centre_footprint(&self, i: usize, j: usize) -> Option<Footprint> {
         let centre = PixelPoint::centre(i, j);
         if !self.shows(centre) {
@@ -81,7 +81,8 @@ impl View {
         self.pixel_footprint(centre).or_else(|| self.footprint(centre))
     }
 
-    /// What a pixel around a point sees. Beside a steep rim the derivatives would make it far longer than it is.
+    /// Returns the footprint of a pixel around a point. Beside a steep rim it is measured from side to side, because
+    /// derivatives would overestimate its length.
     fn pixel_footprint(&self, pixel: PixelPoint) -> Option<Footprint> {
         let footprint = self.footprint(pixel)?;
         if !self.projection.has_steep_rim() {
@@ -90,7 +91,8 @@ impl View {
         Some(Footprint { jacobian: self.texel(pixel)?, ..footprint })
     }
 
-    /// Decides without sub-samples where a pixel cannot touch the edge: it is nowhere wider than its half diagonals.
+    /// Classifies a pixel without sub-samples where it cannot touch the edge: it reaches no further than its half
+    /// diagonals.
     fn side(&self, centre: PixelPoint, footprint: &Footprint) -> Side {
         if self.ends_within(centre, footprint) {
             return Side::Unknown;
@@ -124,7 +126,7 @@ impl View {
         }
     }
 
-    /// Whether all of a rectangle of pixels is outside the limiting circle, or the outline of an oval map.
+    /// Returns whether all of a rectangle of pixels is outside the limiting circle or the outline of an oval map.
     pub(crate) fn outline_hides(&self, PixelRect { left, top, right, bottom }: PixelRect) -> bool {
         if self.stop.circle.is_none() && !self.projection.is_oval() {
             return false;
@@ -137,19 +139,20 @@ impl View {
             || (self.projection.is_oval() && self.projection.unproject(nearest).is_none())
     }
 
-    /// Whether all of a pixel is outside the limiting circle.
+    /// Returns whether all of a pixel is outside the limiting circle.
     fn is_beyond_circle(&self, centre: PixelPoint) -> bool {
         let (distance, half_diagonal) = self.distance_from_axis(centre);
         self.stop.circle.is_some_and(|radius| distance - half_diagonal > radius)
     }
 
-    /// How far a pixel's centre is from the lens's axis, and its corners from the centre, in plane units.
+    /// Returns the distance of a pixel's centre from the lens's axis, and of its corners from the centre, in plane
+    /// units.
     fn distance_from_axis(&self, centre: PixelPoint) -> (f64, f64) {
         let (point, step) = (self.grid.to_plane(centre), self.grid.step());
         ((point.x * point.x + point.y * point.y).sqrt(), step.length() / 2.0)
     }
 
-    /// How far the corners of a pixel are above a great circle.
+    /// Returns the elevations of a pixel's corners above a great circle.
     fn great_circle(&self, side: Direction, centre: PixelPoint) -> Option<GreatCircle> {
         let sine = |x: f64, y: f64| {
             let point = self.grid.to_plane(PixelPoint::new(centre.x + x, centre.y + y));
@@ -159,12 +162,13 @@ impl View {
         Some(GreatCircle { centre, sines })
     }
 
-    /// Whether a corner of a pixel sees anything.
+    /// Returns whether any corner of a pixel shows something.
     fn has_corner(&self, centre: PixelPoint) -> bool {
         CORNERS.iter().any(|(x, y)| self.direction(PixelPoint::new(centre.x + x, centre.y + y)).is_some())
     }
 
-    /// Whether the projection's own edge cuts a pixel, as that of an oval map does: a corner sees nothing.
+    /// Returns whether the edge of the projection cuts a pixel, as the outline of an oval map does: a corner shows
+    /// nothing.
     fn ends_within(&self, centre: PixelPoint, footprint: &Footprint) -> bool {
         let reach = footprint.jacobian.dx.length() + footprint.jacobian.dy.length();
         // A cylinder ends where its image does; a row of samples on the very pole is a whole one.
@@ -201,8 +205,8 @@ mod tests {
     use crate::camera::{CameraModel, OmnimaxCamera, WorldMapCamera};
     use crate::sphere::{Angle, Orientation};
 
-    /// The largest difference between coverage that is decided quickly and that of sub-samples each asked for itself, and how
-    /// many pixels are cut.
+    /// Returns the largest difference between the quick coverage and that of plain sub-samples, and the number of cut
+    /// pixels.
     fn worst(view: &View) -> (f64, usize) {
         let (mut worst, mut cut) = (0f64, 0);
         for (j, i) in (0..view.height()).flat_map(|j| (0..view.width()).map(move |i| (j, i))) {

@@ -2,21 +2,21 @@ use super::{Camera, CameraError, FieldStop, PixelGrid, PixelPoint, View};
 use crate::projection::{PlanePoint, PlaneRect, ProjectionKind, StMap, StMapError, StMapTable};
 use crate::sphere::{Direction, Orientation};
 
-/// A picture whose mapping is a table: it fills its image, whatever the size of that.
+/// A picture whose mapping is a table; the table fills the image, whatever its size.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StMapCamera {
     /// The table.
     pub map: StMap,
-    /// The height over the width that suits it.
+    /// Preferred height over width.
     pub natural_ratio: f64,
 }
 
 impl StMapCamera {
-    /// The picture whose pixels are a map's, of so many columns and rows: each looks where `base`, the picture at the map's
-    /// other end, has what the map says, s from 0 (left) to 1 and t from 0 (bottom) to 1.
+    /// Returns the picture whose pixels are those of a map of so many columns and rows. Each looks to the place in
+    /// `base`, the picture at the map's other end, that the map gives: s from 0 (left) to 1, t from 0 (bottom) to 1.
     ///
     /// # Errors
-    /// When no four neighbours look anywhere.
+    /// When no four neighbouring pixels have a place.
     pub fn looking(
         (width, height): (usize, usize),
         pair: impl Fn(usize, usize) -> [f32; 2] + Sync,
@@ -28,10 +28,10 @@ impl StMapCamera {
         Ok(Self::of(table))
     }
 
-    /// The picture in which the places lie that a map says: the map's pixels are those of `base`.
+    /// Returns the picture to which the places in a map refer, where the map's own pixels are those of `base`.
     ///
     /// # Errors
-    /// When no four neighbours belong together.
+    /// When no four neighbouring pixels belong together.
     pub fn looked_at(
         (width, height): (usize, usize),
         pair: impl Fn(usize, usize) -> [f32; 2] + Sync,
@@ -66,8 +66,8 @@ impl Camera for StMapCamera {
     }
 }
 
-/// Where a map says that its pixel looks; nowhere where it says no number or, as programs do that know of nothing better,
-/// the very corner or a place outside on both axes.
+/// Returns the place that a pixel of a map gives. `None` where its values are not finite, are exactly (0, 0), or lie
+/// outside on both axes, by which programs mark pixels without a place.
 fn place(pair: [f32; 2]) -> Option<[f64; 2]> {
     let is_nothing = pair == [0.0, 0.0] || pair == [-1.0, -1.0] || !pair.iter().all(|number| number.is_finite());
     (!is_nothing).then(|| pair.map(f64::from))

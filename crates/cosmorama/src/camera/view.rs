@@ -6,47 +6,48 @@ use super::{FieldStop, Footprint, PixelBounds, PixelGrid, PixelPoint};
 use crate::projection::{Outline, PlanePoint, Projection, ProjectionKind};
 use crate::sphere::{Angle, Direction, DirectionJacobian, Orientation};
 
-/// Texels from a steep rim within which a texel is measured from side to side.
+/// Distance from a steep rim, in texels, within which texels are measured from side to side.
 const STEEP: f64 = 4.0;
 
-/// Pixels by which rounding may displace a point: what is nearer to an edge, or to a whole number of columns, is there.
+/// Tolerance in pixels for rounding errors: a point this close to an edge, or to a whole number of columns, is taken to
+/// be there.
 pub(crate) const ROUNDING: f64 = 1e-6;
 
-/// An image's geometry: how its pixels see the world. As a source it says where its texels lie, as a target which
-/// pixels are wanted; the image itself is elsewhere.
+/// The geometry of an image: how its pixels see the world. A source's view says where its texels lie, a target's which
+/// pixels are wanted. It does not hold the image itself.
 #[derive(Clone, Debug, PartialEq)]
 pub struct View {
-    /// The lens.
+    /// Projection of the lens.
     pub projection: ProjectionKind,
-    /// How the camera is turned.
+    /// Orientation of the camera.
     pub orientation: Orientation,
-    /// How pixels lie in the projection's plane.
+    /// Place of the pixels in the projection's plane.
     pub grid: PixelGrid,
-    /// Where the field of view ends inside the image.
+    /// Limits of the field of view inside the image.
     pub stop: FieldStop,
 }
 
-/// Halvings of the way to the border of a picture: to a millionth of it.
+/// Bisection steps in the search for a picture's border, which find it to a millionth of the way.
 const BORDER_STEPS: usize = 20;
 
 impl View {
-    /// Columns.
+    /// Returns the number of columns.
     pub fn width(&self) -> usize {
         self.grid.width()
     }
 
-    /// Rows.
+    /// Returns the number of rows.
     pub fn height(&self) -> usize {
         self.grid.height()
     }
 
-    /// The direction at a point of the image, in the world's frame, whether or not the field stop hides it.
+    /// Returns the direction at a point of the image, in the world's frame, even if the field stop hides it.
     pub fn direction(&self, pixel: PixelPoint) -> Option<Direction> {
         let direction = self.projection.unproject(self.grid.to_plane(pixel))?;
         Some(self.orientation.to_world(direction))
     }
 
-    /// The directions of pixel centres beside each other in row `j`, each with its column.
+    /// Visits the directions of neighbouring pixel centres in row `j`, each with its column.
     pub fn row_directions(&self, j: usize, columns: Range<usize>, mut visit: impl FnMut(usize, Direction)) {
         let first = self.grid.to_plane(PixelPoint::centre(columns.start, j));
         self.projection.unproject_row(first, self.grid.step().x, columns.len(), |k, direction| {
@@ -54,7 +55,7 @@ impl View {
         });
     }
 
-    /// The last direction in the picture on the way from its middle to one outside.
+    /// Returns the last direction inside the picture on the way from its middle to a direction outside.
     pub(crate) fn border_towards(&self, direction: Direction) -> Option<Direction> {
         let middle = self.direction(PixelPoint::new(self.width() as f64 / 2.0, self.height() as f64 / 2.0))?.vector();
         let at = |part: f64| Direction::new(middle.lerp(direction.vector(), part));
@@ -67,7 +68,7 @@ impl View {
         at(inside)
     }
 
-    /// Whether every direction of the world is in the picture: it goes all the way round, from pole to pole.
+    /// Returns whether every direction of the world is in the picture: all longitudes, from pole to pole.
     pub fn covers_sphere(&self) -> bool {
         let sees_pole = |pole| {
             let pole = self.orientation.to_world(pole);
@@ -79,7 +80,7 @@ impl View {
             && sees_pole(Direction::DOWN)
     }
 
-    /// The direction at a point of the image with its derivatives per pixel.
+    /// Returns the direction at a point of the image with its derivatives per pixel.
     pub fn footprint(&self, pixel: PixelPoint) -> Option<Footprint> {
         let point = self.grid.to_plane(pixel);
         let (direction, plane) = self.projection.unproject_with_jacobian(point)?;
@@ -91,23 +92,23 @@ impl View {
         })
     }
 
-    /// Where a direction of the world lands, in the image or outside it.
+    /// Returns the pixel position of a direction of the world, in the image or outside it.
     pub fn pixel(&self, direction: Direction) -> Option<PixelPoint> {
         self.projection.project(self.orientation.to_view(direction)).map(|point| self.grid.to_pixel(point))
     }
 
-    /// Whether the point of the image shows something: it lies in the image and the field stop lets it pass.
+    /// Returns whether a point shows something: it lies in the image, and the field stop does not hide it.
     pub fn shows(&self, pixel: PixelPoint) -> bool {
         self.grid.contains(pixel) && self.stop_passes(pixel)
     }
 
-    /// Whether a direction of the world is in the picture.
+    /// Returns whether a direction of the world is in the picture.
     pub fn sees(&self, direction: Direction) -> bool {
         self.pixel(direction).is_some_and(|pixel| self.shows(self.wrapped(pixel)))
     }
 
-    /// A footprint in this view's own pixels: its centre and the matrix whose columns are the steps for one screen pixel
-    /// along x and y ((Ux, Vx) and (Uy, Vy) in Greene & Heckbert).
+    /// Maps a footprint to this view's own pixels: its centre, and the matrix whose columns are the steps for one
+    /// screen pixel along x and y ((Ux, Vx) and (Uy, Vy) in Greene & Heckbert).
     pub fn texel_footprint(&self, footprint: &Footprint) -> Option<(PixelPoint, DMat2)> {
         if self.projection.has_steep_rim() {
             let pixel = self.pixel(footprint.direction)?;
@@ -123,8 +124,8 @@ impl View {
         Some((self.grid.to_pixel(point), texels))
     }
 
-    /// How the direction moves over the texel around a point of the image, per texel: its derivatives. On a steep rim, where
-    /// those of a point say nothing of a texel, from one side of the texel to the other.
+    /// Returns the change of the direction over the texel around a point of the image, per texel. These are its
+    /// derivatives, except on a steep rim: there they are measured from one side of the texel to the other.
     pub(crate) fn texel(&self, pixel: PixelPoint) -> Option<DirectionJacobian> {
         let footprint = self.footprint(pixel)?;
         let Footprint { direction, jacobian } = footprint;
@@ -140,7 +141,7 @@ impl View {
         Some(DirectionJacobian { dx: across(1.0, 0.0)?, dy: across(0.0, 1.0)? })
     }
 
-    /// Solid angle of a texel in steradians (to first order), zero where it shows nothing.
+    /// Returns the solid angle of a texel in steradians (to first order), zero where it shows nothing.
     pub fn texel_solid_angle(&self, i: usize, j: usize) -> f64 {
         let pixel = PixelPoint::centre(i, j);
         // Where nothing is seen, there is no solid angle either.
@@ -161,8 +162,8 @@ impl View {
         });
     }
 
-    /// Solid angle in steradians (to first order) of a texel around a point of the image or beyond it, whether or not it
-    /// shows something.
+    /// Returns the solid angle in steradians (to first order) of a texel around a point of the image or beyond it,
+    /// whether or not it shows something.
     pub(crate) fn solid_angle(&self, pixel: PixelPoint) -> Option<f64> {
         let step = self.grid.step();
         let solid_angle = self.projection.solid_angle(self.grid.to_plane(pixel))? * (step.x * step.y).abs();
@@ -173,45 +174,45 @@ impl View {
         Some(solid_angle.min(2.0 * self.texel(pixel)?.solid_angle()))
     }
 
-    /// Pixels for each radian at the centre of the projection, the mean of both ways where pixels are not square.
+    /// Returns pixels per radian at the centre of the projection: the mean of both axes where pixels are not square.
     pub fn pixels_per_radian(&self) -> f64 {
         let step = self.grid.step();
         let centre = self.projection.jacobian(PlanePoint::new(0.0, 0.0)).map_or(1.0, |jacobian| jacobian.solid_angle());
         (centre * (step.x * step.y).abs()).sqrt().recip()
     }
 
-    /// After how many columns the picture repeats, where it goes all the way round.
+    /// Returns the number of columns after which the picture repeats, if it goes all the way round.
     pub fn period(&self) -> Option<usize> {
         let columns = (self.projection.period()? / self.grid.step().x).abs();
         let whole = columns.round();
         ((columns - whole).abs() < ROUNDING && whole >= 1.0).then_some(whole as usize)
     }
 
-    /// Whether the field stop lets a point of the plane pass, inside the image or outside it.
+    /// Returns whether the field stop lets a point of the plane pass, inside the image or outside it.
     pub fn stop_passes(&self, pixel: PixelPoint) -> bool {
         let point = self.grid.to_plane(pixel);
         self.projection.unproject(point).is_some_and(|direction| self.stop.passes(point, || Some(direction)))
     }
 
-    /// [`Projection::margin`] of a direction of the world.
+    /// Returns [`Projection::margin`] of a direction of the world.
     pub fn margin(&self, direction: Direction) -> f64 {
         self.projection.margin(self.orientation.to_view(direction))
     }
 
-    /// [`Projection::beyond_seam`] of a direction of the world.
+    /// Returns [`Projection::beyond_seam`] of a direction of the world.
     pub(crate) fn beyond_seam(&self, direction: Direction) -> Option<Direction> {
         let beyond = self.projection.beyond_seam(self.orientation.to_view(direction))?;
         Some(self.orientation.to_world(beyond))
     }
 
-    /// Whether a rim or a pole is so near that a texel of this footprint is measured from side to side.
+    /// Returns whether a rim or a pole is so close that texels of this footprint are measured from side to side.
     pub(crate) fn is_steep_at(&self, footprint: &Footprint) -> bool {
         let Footprint { direction, jacobian } = footprint;
         let size = (jacobian.dx.length_squared() + jacobian.dy.length_squared()).sqrt();
         self.projection.has_steep_rim() && self.margin(*direction) <= STEEP * size
     }
 
-    /// The rectangle that holds every direction within `radius` of a direction of the world.
+    /// Returns the rectangle that holds every direction within `radius` of a direction of the world.
     pub fn cap_bounds(&self, centre: Direction, radius: Angle) -> PixelBounds {
         let plane = self.projection.cap_bounds(self.orientation.to_view(centre), radius);
         let (a, b) = (self.grid.to_pixel(plane.min), self.grid.to_pixel(plane.max));
@@ -221,7 +222,8 @@ impl View {
         }
     }
 
-    /// The part of the projection's plane that holds every direction within `radius` of a direction of the world.
+    /// Returns the part of the projection's plane that holds every direction within `radius` of a direction of the
+    /// world.
     pub(crate) fn cap_outline(&self, centre: Direction, radius: Angle) -> Outline {
         self.projection.cap_outline(self.orientation.to_view(centre), radius)
     }

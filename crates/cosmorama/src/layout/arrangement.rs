@@ -1,7 +1,7 @@
 use super::LayoutError;
 use crate::camera::PixelRect;
 
-/// How two pictures of one size share an image.
+/// Arrangement of two pictures of the same size in one image.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Arrangement {
     /// The first left, the second right.
@@ -12,7 +12,7 @@ pub enum Arrangement {
 }
 
 impl Arrangement {
-    /// The image that holds two pictures of this size.
+    /// Returns the size of the image that holds two pictures of this size.
     pub const fn whole(self, (width, height): (usize, usize)) -> (usize, usize) {
         match self {
             Self::SideBySide => (2 * width, height),
@@ -20,10 +20,10 @@ impl Arrangement {
         }
     }
 
-    /// The halves of an image.
+    /// Returns the halves of an image.
     ///
     /// # Errors
-    /// When it has an odd number of columns or rows to be halved.
+    /// When the number of columns or rows to be halved is odd.
     pub fn halves(self, width: usize, height: usize) -> Result<[PixelRect; 2], LayoutError> {
         let (x, y) = match self {
             Self::SideBySide => (width / 2, 0),

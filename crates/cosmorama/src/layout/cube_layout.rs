@@ -2,7 +2,7 @@ use super::{FaceOrder, FacePart, FacePlacement, LayoutError, LayoutKind};
 use crate::camera::{Canvas, Mirror, PixelRect};
 use crate::sphere::CubeFace;
 
-/// The faces of a cube in one picture.
+/// The six faces of a cube in one picture.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CubeLayout {
     kind: LayoutKind,
@@ -22,13 +22,13 @@ struct Cell {
 /// A face in a picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PlacedFace {
-    /// Which.
+    /// Face of the cube.
     pub face: CubeFace,
-    /// How its picture lies.
+    /// Placement of its picture.
     pub lies: FacePlacement,
-    /// Its pixels.
+    /// Rectangle of its pixels.
     pub rect: PixelRect,
-    /// The whole face, of which half a cube may have only a part.
+    /// The whole face; in half a cube only a part of it may be there.
     pub canvas: Canvas,
 }
 
@@ -36,7 +36,7 @@ pub struct PlacedFace {
 type Halves = PixelRect;
 
 impl CubeLayout {
-    /// A layout with the faces in its own order.
+    /// Returns a layout with the faces in its usual order.
     pub fn new(kind: LayoutKind) -> Self {
         let (places, faces, turns) = (kind.places(), kind.faces(), kind.turns());
         let cell = |i: usize| {
@@ -84,25 +84,25 @@ impl CubeLayout {
         self
     }
 
-    /// Where the faces lie.
+    /// Returns the kind of layout.
     pub fn kind(&self) -> LayoutKind {
         self.kind
     }
 
-    /// The picture's size for faces of `edge`×`edge` pixels.
+    /// Returns the picture's size for faces of `edge`×`edge` pixels.
     ///
     /// # Errors
-    /// When faces of an odd number of pixels are to be halved.
+    /// When the edge is odd and faces are to be halved.
     pub fn size(&self, edge: usize) -> Result<(usize, usize), LayoutError> {
         self.check_edge(edge)?;
         let bounds = self.bounds();
         Ok((bounds.width() * edge / 2, bounds.height() * edge / 2))
     }
 
-    /// The edge of the faces of a picture.
+    /// Returns the edge of the faces in a picture of this size.
     ///
     /// # Errors
-    /// When the picture has another shape than the layout.
+    /// When the picture's shape differs from the layout's.
     pub fn edge(&self, width: usize, height: usize) -> Result<usize, LayoutError> {
         let bounds = self.bounds();
         let edge = 2 * width / bounds.width();
@@ -121,7 +121,7 @@ impl CubeLayout {
         Ok(edge)
     }
 
-    /// The faces of a picture whose faces have `edge`×`edge` pixels.
+    /// Returns the faces of a picture whose faces have `edge`×`edge` pixels.
     pub fn faces(&self, edge: usize) -> Vec<PlacedFace> {
         let bounds = self.bounds();
         let half = |halves: usize| halves * edge / 2;
@@ -148,7 +148,7 @@ impl CubeLayout {
         if self.half.is_some() && edge % 2 == 1 { Err(LayoutError::Odd { edge }) } else { Ok(()) }
     }
 
-    /// What is left of a cell, in halves of a face from the grid's corner.
+    /// Returns the remaining part of a cell, in halves of a face from the grid's corner.
     fn kept(&self, cell: &Cell) -> Option<Halves> {
         let part = FacePart::of(cell.face, cell.lies, self.half)?.halves;
         let (left, top) = (2 * cell.column, 2 * cell.row);
@@ -160,7 +160,7 @@ impl CubeLayout {
         })
     }
 
-    /// The picture, in halves of a face: all of the grid, or what halves of it show.
+    /// Returns the bounds of the picture in halves of a face: the whole grid, or the part that a half cube uses.
     fn bounds(&self) -> Halves {
         let (columns, rows) = self.kind.grid();
         let all = Halves { left: 0, top: 0, right: 2 * columns, bottom: 2 * rows };

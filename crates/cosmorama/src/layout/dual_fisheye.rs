@@ -3,35 +3,35 @@ use crate::camera::{CameraModel, FisheyeCamera, LensCircle, Mirror, PixelPoint, 
 use crate::sphere::{Angle, Orientation};
 use crate::world::Blend;
 
-/// Two fisheye pictures in one image, of cameras back to back.
+/// Two fisheye pictures in one image, by cameras back to back.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DualFisheye {
-    /// How the two share the image.
+    /// Arrangement of the two pictures.
     pub arrangement: Arrangement,
-    /// The one that comes first.
+    /// The camera whose picture comes first.
     pub first: LensSide,
-    /// The camera that looks ahead.
+    /// The camera that looks to the front.
     pub front: DualLens,
-    /// The camera that looks back.
+    /// The camera that looks to the back.
     pub back: DualLens,
     /// Width of the band at each circle in which the picture fades out; `None` for the whole overlap.
     pub feather: Option<Angle>,
 }
 
-/// Where one of two cameras looks.
+/// One of two cameras back to back, by where it looks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum LensSide {
-    /// Ahead.
+    /// To the front.
     Front,
-    /// Back.
+    /// To the back.
     Back,
 }
 
 impl LensSide {
-    /// Both.
+    /// Both cameras.
     pub const ALL: [Self; 2] = [Self::Front, Self::Back];
 
-    /// In a word.
+    /// Returns the name in messages and SPECs: `front` or `back`.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Front => "front",
@@ -39,7 +39,7 @@ impl LensSide {
         }
     }
 
-    /// The orientation of a camera that looks there.
+    /// Returns the nominal orientation of the camera.
     pub fn orientation(self) -> Orientation {
         let yaw = match self {
             Self::Front => Angle::ZERO,
@@ -49,34 +49,35 @@ impl LensSide {
     }
 }
 
-/// One of two cameras.
+/// One of two cameras, with its lens and its deviation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DualLens {
-    /// Its picture. A circle that is placed is placed in pixels of the whole image.
+    /// Fisheye model. If its circle is placed explicitly, then in pixels of the whole image.
     pub frame: FisheyeCamera,
-    /// Deviation of the camera's orientation from its nominal one, in the camera's own frame.
+    /// Rotation of the camera relative to its nominal orientation, in the camera's own frame.
     pub turned: Orientation,
 }
 
-/// One of two fisheye pictures in an image.
+/// One of two fisheye pictures in an image of known size.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PlacedLens {
-    /// Which.
+    /// Camera of the picture.
     pub side: LensSide,
-    /// Its pixels.
+    /// Rectangle of its pixels.
     pub rect: PixelRect,
-    /// How its picture sees the world.
+    /// Camera model and orientation of the picture.
     pub placement: Placement,
 }
 
 impl DualFisheye {
-    /// Usual field of view of such cameras: a little more than half the world.
+    /// Typical field of view of such cameras: a little more than half the world.
     pub const FIELD_OF_VIEW: Angle = Angle::from_degrees(195.0);
 
-    /// The pictures in an image of `width` × `height` pixels, which may be mirrored as a whole; the first in it first.
+    /// Returns the two pictures in an image of `width` × `height` pixels, in their order in the image. `mirror` mirrors
+    /// the image as a whole.
     ///
     /// # Errors
-    /// When the image has no halves.
+    /// When the image cannot be halved.
     pub fn lenses(&self, width: usize, height: usize, mirror: Mirror) -> Result<[PlacedLens; 2], LayoutError> {
         let halves = self.arrangement.halves(width, height)?;
         let is_turned_round = match self.arrangement {
@@ -104,7 +105,7 @@ impl DualFisheye {
         }
     }
 
-    /// Blend of the two pictures where they overlap: each fades to zero at its own circle.
+    /// Returns the blending of the two pictures where they overlap: each fades to zero at its own circle.
     pub fn blend(&self) -> Blend {
         let shared = (self.front.frame.field_of_view + self.back.frame.field_of_view) * 0.5 - Angle::HALF_TURN;
         let feather = self.feather.unwrap_or(shared);
@@ -112,7 +113,7 @@ impl DualFisheye {
     }
 }
 
-/// A circle in pixels of the half in which it lies.
+/// Converts a circle from pixels of the whole image to pixels of the half in which it lies.
 fn within(circle: LensCircle, half: PixelRect) -> LensCircle {
     let centre = circle.centre.map(|at| PixelPoint::new(at.x - half.left as f64, at.y - half.top as f64));
     LensCircle { centre, ..circle }

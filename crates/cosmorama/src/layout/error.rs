@@ -28,14 +28,14 @@ pub enum LayoutError {
         /// Pixels of a face's edge.
         edge: usize,
     },
-    /// Two pictures share an image that has no halves.
+    /// Two pictures share an image that cannot be halved.
     #[error(
         "{width}x{height} pixels cannot be halved {}; an even {} is needed",
         match .arrangement { Arrangement::SideBySide => "side by side", Arrangement::TopBottom => "into top and bottom" },
         match .arrangement { Arrangement::SideBySide => "width", Arrangement::TopBottom => "height" }
     )]
     NoHalves {
-        /// How they share it.
+        /// Arrangement of the two pictures.
         arrangement: Arrangement,
         /// Columns of the image.
         width: usize,

@@ -1,18 +1,18 @@
 use crate::camera::SamplePositions;
 use crate::sphere::CubeFace::{self, Back, Down, Front, Left, Right, Up};
 
-/// Order of the faces in a tool's pictures, and how each is turned.
+/// Order of the faces in one picture, and the rotation of each, as a tool arranges them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct FaceOrder {
     /// Name in `order=`.
     pub name: &'static str,
-    /// Other tools whose order is the same.
+    /// Names of other tools that use this order.
     pub aliases: &'static [&'static str],
     /// The face in each place, in reading order.
     pub faces: [CubeFace; 6],
-    /// By how many quarters each picture is turned clockwise; `None` where the layout's own turns hold.
+    /// Clockwise quarter turns of each picture; `None` where the layout's own turns apply.
     pub turns: Option<[u8; 6]>,
-    /// Where the outermost samples lie.
+    /// Position of the outermost samples.
     pub samples: SamplePositions,
 }
 
@@ -25,8 +25,8 @@ static PRESETS: [FaceOrder; 5] = [
     FaceOrder { name: "envutil", aliases: &["lux"], samples: SamplePositions::Centres, ..OPENEXR },
 ];
 
-/// +X −X +Y −Y +Z −Z in a right-handed frame. The middle of OpenEXR's panoramas is +Z, so that is the front and +X the
-/// left, and +Y and −Y lie as seen from −Z.
+/// +X −X +Y −Y +Z −Z in a right-handed frame. The middle of OpenEXR's panoramas is +Z: so +Z is the front, +X the left,
+/// and the upper and lower faces are drawn as seen from −Z.
 const OPENEXR: FaceOrder = FaceOrder {
     name: "openexr",
     aliases: &["exrenvmap"],
@@ -40,21 +40,22 @@ const fn plain(name: &'static str, aliases: &'static [&'static str], faces: [Cub
 }
 
 impl FaceOrder {
-    /// Every preset.
+    /// Returns all presets.
     pub fn presets() -> &'static [Self] {
         &PRESETS
     }
 
-    /// OpenEXR's.
+    /// OpenEXR's order.
     pub const OPENEXR: Self = OPENEXR;
 
-    /// The preset of this name or alias, or the order of six letters, each of r, l, u, d, f and b once, as in `rludfb`.
+    /// Returns the preset of this name or alias, or an order of six letters, each of r, l, u, d, f and b once:
+    /// `rludfb`.
     pub fn parse(text: &str) -> Option<Self> {
         let fits = |order: &&Self| order.name == text || order.aliases.contains(&text);
         PRESETS.iter().find(fits).copied().or_else(|| letters(text))
     }
 
-    /// The letters of its faces.
+    /// Returns the initials of its faces.
     pub fn letters(&self) -> String {
         self.faces.iter().filter_map(|face| face.name().chars().next()).collect()
     }

@@ -2,15 +2,16 @@ use super::FacePlacement;
 use crate::camera::{Canvas, PixelRect};
 use crate::sphere::{CubeFace, Direction};
 
-/// The part of a face's picture that half a cube shows: all of it, or one side.
+/// The part of a face's picture that half a cube uses: all of it, or one side.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct FacePart {
-    /// In halves of the picture: 0, 1 and 2 are its edge, its middle and its other edge.
+    /// The part in halves of the picture: 0, 1 and 2 are its first edge, its middle and its second edge.
     pub(crate) halves: PixelRect,
 }
 
 impl FacePart {
-    /// What the half around a face (`None`: the whole cube) has of another's picture; `None` where it has nothing.
+    /// Returns the part of a face that belongs to the half cube around `half` (`None`: the whole cube); `None` if no
+    /// part does.
     pub fn of(face: CubeFace, lies: FacePlacement, half: Option<CubeFace>) -> Option<Self> {
         let mut halves = PixelRect { left: 0, top: 0, right: 2, bottom: 2 };
         let Some(half) = half else { return Some(Self { halves }) };
@@ -32,14 +33,14 @@ impl FacePart {
         Some(Self { halves })
     }
 
-    /// The whole face of which an image of this size is the part.
+    /// Returns the whole face that belongs to an image of the part.
     pub fn canvas(self, width: usize, height: usize) -> Canvas {
         let (width, height) = (2 * width / self.halves.width(), 2 * height / self.halves.height());
         let (left, top) = (self.halves.left * width / 2, self.halves.top * height / 2);
         Canvas { width, height, left: left as i64, top: top as i64 }
     }
 
-    /// The size of the part, of a face of this size.
+    /// Returns the size of the part of a face of this size.
     pub fn size(self, width: usize, height: usize) -> (usize, usize) {
         (width * self.halves.width() / 2, height * self.halves.height() / 2)
     }

@@ -1,27 +1,27 @@
 use crate::sphere::{CubeFace, Direction};
 
-/// How a picture has to be turned to be the face that CONVENTIONS draws: as seen by a camera at the centre, the up face's
-/// bottom edge and the down face's top edge touching the front.
+/// Rotation and mirroring that turn a picture into an upright face. Upright faces are drawn in `docs/conventions.md`:
+/// the up face's bottom edge and the down face's top edge touch the front.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct FacePlacement {
-    /// Quarter turns of the picture, clockwise, 0 to 3; after mirroring.
+    /// Clockwise quarter turns of the picture, 0 to 3, applied after mirroring.
     pub quarter_turns: u8,
-    /// Whether left and right are to be exchanged first.
+    /// Whether left and right are exchanged first.
     pub mirrored: bool,
 }
 
 impl FacePlacement {
-    /// As it is.
+    /// The picture is upright already.
     pub const UPRIGHT: Self = Self { quarter_turns: 0, mirrored: false };
-    /// Turned upside down, by a half turn.
+    /// The picture is upside down.
     pub const HALF_TURN: Self = Self { quarter_turns: 2, mirrored: false };
 
-    /// A picture that was itself turned clockwise, by so many quarters, from how the face is drawn.
+    /// Returns the placement of a picture that was itself turned clockwise by so many quarters.
     pub const fn turned(quarter_turns: u8) -> Self {
         Self { quarter_turns: (4 - quarter_turns % 4) % 4, mirrored: false }
     }
 
-    /// The directions to the right and up in the picture as it is.
+    /// Returns the directions to the right and up in the picture before it is turned.
     pub fn axes(self, face: CubeFace) -> (Direction, Direction) {
         let (right, up) = (face.right(), face.up());
         let (right, up) = match self.quarter_turns % 4 {

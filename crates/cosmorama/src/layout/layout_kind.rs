@@ -1,31 +1,32 @@
 use crate::camera::FaceMapping;
 use crate::sphere::CubeFace::{self, Back, Down, Front, Left, Right, Up};
 
-/// Where the six faces lie, each in a square of a grid.
+/// Arrangement of the six faces in the squares of a grid.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum LayoutKind {
-    /// Beside each other.
+    /// Six faces side by side.
     StripH,
-    /// One below the other.
+    /// Six faces one below the other.
     StripV,
-    /// Three beside each other, in two rows.
+    /// Three columns, two rows.
     ThreeByTwo,
-    /// Two beside each other, in three rows.
+    /// Two columns, three rows.
     TwoByThree,
-    /// A cross: the sides beside each other, the front second.
+    /// Horizontal cross: left, front, right and back in a row, up and down above and below the front.
     CrossH,
-    /// A cross: the back below the bottom, turned upside down.
+    /// Vertical cross: the back is below the down face, upside down.
     CrossV,
-    /// Three by two faces in equal angles: left, front and right above; down, back and up, lying, below.
+    /// Equi-angular cube map (EAC) of three columns and two rows: left, front and right above; down, back and up below,
+    /// turned by quarters.
     Eac,
 }
 
 impl LayoutKind {
-    /// All of them.
+    /// All layouts.
     pub const ALL: [Self; 7] =
         [Self::StripH, Self::StripV, Self::ThreeByTwo, Self::TwoByThree, Self::CrossH, Self::CrossV, Self::Eac];
 
-    /// As `layout=` has it.
+    /// Returns the name in `layout=`.
     pub const fn name(self) -> &'static str {
         match self {
             Self::StripH => "strip-h",
@@ -38,7 +39,7 @@ impl LayoutKind {
         }
     }
 
-    /// Columns and rows of its grid.
+    /// Returns the columns and rows of its grid.
     pub const fn grid(self) -> (usize, usize) {
         match self {
             Self::StripH => (6, 1),
@@ -50,14 +51,14 @@ impl LayoutKind {
         }
     }
 
-    /// Whether a picture of this size holds it in square faces.
+    /// Returns whether a picture of this size consists of square faces in this layout.
     pub const fn has_shape(self, width: usize, height: usize) -> bool {
         let (columns, rows) = self.grid();
         let whole = width > 0 && width.is_multiple_of(columns) && height.is_multiple_of(rows);
         whole && width / columns == height / rows
     }
 
-    /// How its faces see the world.
+    /// Returns the mapping of its faces.
     pub const fn mapping(self) -> FaceMapping {
         match self {
             Self::Eac => FaceMapping::EquiAngular,
@@ -65,7 +66,7 @@ impl LayoutKind {
         }
     }
 
-    /// Column and row of each of its places, in reading order.
+    /// Returns column and row of each of its cells, in reading order.
     pub(crate) const fn places(self) -> [(usize, usize); 6] {
         match self {
             Self::StripH => [(0, 0), (1, 0), (2, 0), (3, 0), (4, 0), (5, 0)],
@@ -77,7 +78,7 @@ impl LayoutKind {
         }
     }
 
-    /// The face in each place, unless another order is given: for strips and grids ffmpeg's.
+    /// Returns the face in each cell unless another order is given; in strips and grids it is ffmpeg's.
     pub(crate) const fn faces(self) -> [CubeFace; 6] {
         match self {
             Self::StripH | Self::StripV | Self::ThreeByTwo | Self::TwoByThree => [Right, Left, Up, Down, Front, Back],
@@ -87,7 +88,7 @@ impl LayoutKind {
         }
     }
 
-    /// By how many quarters the picture in each place is turned clockwise.
+    /// Returns the clockwise quarter turns of the picture in each cell.
     pub(crate) const fn turns(self) -> [u8; 6] {
         match self {
             Self::StripH | Self::StripV | Self::ThreeByTwo | Self::TwoByThree | Self::CrossH => [0; 6],

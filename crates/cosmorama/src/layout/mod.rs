@@ -1,4 +1,4 @@
-//! Layouts: how several pictures lie in one image: the six faces of a cube, two fisheyes, those of two eyes.
+//! Layouts of several pictures in one image: six faces of a cube, two fisheyes, or the pictures of two eyes.
 
 mod arrangement;
 mod cube_layout;

@@ -2,24 +2,24 @@ use super::FacePlacement;
 use crate::camera::SamplePositions;
 use crate::sphere::CubeFace;
 
-/// How a tool names the six faces in file names.
+/// Names of the six faces in file names, as a tool writes them.
 ///
-/// Axis names follow the tool's own axes: in OpenGL's cube maps, which are left-handed, +Z is the front and +X
-/// the right; in OpenEXR's, which are right-handed, +Z, the middle of its panoramas, is the front and +X the left.
+/// Axis names follow the tool's own axes. In OpenGL's cube maps, which are left-handed, +Z is the front and +X the
+/// right. In OpenEXR's, which are right-handed, +Z is the front and +X the left.
 #[derive(Debug, PartialEq, Eq)]
 pub struct Naming {
-    /// What `naming=` calls it.
+    /// Name in `naming=`.
     pub name: &'static str,
-    /// Other tools whose names are the same.
+    /// Names of other tools that use these face names.
     pub aliases: &'static [&'static str],
     /// The names, in the order of [`CubeFace::ALL`]: front, right, back, left, up, down.
     pub names: [&'static str; 6],
-    /// How the pictures lie, in the same order.
+    /// Placement of each picture, in the same order.
     pub placements: [FacePlacement; 6],
-    /// Where the outermost samples of a face lie.
+    /// Position of the outermost samples of a face.
     pub samples: SamplePositions,
-    /// Whether files are tried against it unasked. Not where another preset has the same names and another
-    /// meaning: file names cannot tell.
+    /// Whether the preset is tried unless it is named. False where another preset has the same face names with another
+    /// meaning, since file names cannot tell them apart.
     pub automatic: bool,
 }
 
@@ -46,7 +46,7 @@ static PRESETS: [Naming; 8] = [
     ENVUTIL,
 ];
 
-/// OpenEXR's upper and lower faces lie as seen from −Z.
+/// Placements of OpenEXR's faces: the upper and lower one are drawn as seen from −Z.
 const SEEN_FROM_BEHIND: [FacePlacement; 6] = [
     FacePlacement::UPRIGHT,
     FacePlacement::UPRIGHT,
@@ -56,7 +56,7 @@ const SEEN_FROM_BEHIND: [FacePlacement; 6] = [
     FacePlacement::HALF_TURN,
 ];
 
-/// What exrenvmap writes and reads where a name has a `%`: the six parts of OpenEXR's cube.
+/// Names that exrenvmap puts in the place of `%`: the six parts of OpenEXR's cube.
 const EXRENVMAP: Naming = Naming {
     name: "exrenvmap",
     aliases: &["openexr"],
@@ -66,8 +66,8 @@ const EXRENVMAP: Naming = Naming {
     automatic: true,
 };
 
-/// envutil's names are those of `words`, but its front is OpenEXR's +Z, and its upper and lower faces lie as those do: "top
-/// and bottom align with the back image", says its manual.
+/// envutil has the face names of `words` and the placements of OpenEXR: its manual says that "top and bottom align with
+/// the back image".
 const ENVUTIL: Naming = Naming {
     name: "envutil",
     aliases: &["lux"],
@@ -78,23 +78,23 @@ const ENVUTIL: Naming = Naming {
 };
 
 impl Naming {
-    /// Every preset.
+    /// Returns all presets.
     pub fn presets() -> &'static [Self] {
         &PRESETS
     }
 
-    /// The preset of this name or alias.
+    /// Returns the preset of this name or alias.
     pub fn named(name: &str) -> Option<&'static Self> {
         let wanted = name.to_ascii_lowercase();
         PRESETS.iter().find(|naming| naming.name == wanted || naming.aliases.contains(&&*wanted))
     }
 
-    /// What this preset calls a face.
+    /// Returns the name of a face.
     pub fn face_name(&self, face: CubeFace) -> &'static str {
         self.names[face as usize]
     }
 
-    /// How the picture of a face lies.
+    /// Returns the placement of a face's picture.
     pub fn placement(&self, face: CubeFace) -> FacePlacement {
         self.placements[face as usize]
     }

@@ -11,10 +11,10 @@ pub enum Eye {
 }
 
 impl Eye {
-    /// Both.
+    /// Both eyes, the left one first.
     pub const ALL: [Self; 2] = [Self::Left, Self::Right];
 
-    /// In a word.
+    /// Returns the name in messages and SPECs: `left` or `right`.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Left => "left",
@@ -23,19 +23,19 @@ impl Eye {
     }
 }
 
-/// How the pictures of two eyes share an image.
+/// Arrangement of the pictures of two eyes in one image.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Stereo {
-    /// Where they lie.
+    /// Arrangement of the two pictures.
     pub arrangement: Arrangement,
     /// Whether each is squeezed to half its width (side by side) or height, so that the image has the size of one.
     pub is_half: bool,
-    /// Whether the right eye's comes first.
+    /// Whether the right eye's picture comes first.
     pub is_swapped: bool,
 }
 
 impl Stereo {
-    /// By how much the pictures are squeezed across and down.
+    /// Returns the factors by which the pictures are squeezed horizontally and vertically.
     pub const fn squeeze(self) -> (usize, usize) {
         match (self.is_half, self.arrangement) {
             (false, _) => (1, 1),
@@ -44,19 +44,19 @@ impl Stereo {
         }
     }
 
-    /// The part of an image that is an eye's.
+    /// Returns the part of an image that shows an eye's picture.
     ///
     /// # Errors
-    /// When the image has no halves.
+    /// When the image cannot be halved.
     pub fn part(self, eye: Eye, width: usize, height: usize) -> Result<PixelRect, LayoutError> {
         let [first, second] = self.arrangement.halves(width, height)?;
         Ok(if (eye == Eye::Left) == self.is_swapped { second } else { first })
     }
 
-    /// The image that holds two pictures which have this size before they are squeezed.
+    /// Returns the size of the image that holds two pictures which have this size before they are squeezed.
     ///
     /// # Errors
-    /// When they have an odd number of columns or rows to be halved.
+    /// When the number of columns or rows to be halved is odd.
     pub fn image_size(self, (width, height): (usize, usize)) -> Result<(usize, usize), LayoutError> {
         let (x, y) = self.squeeze();
         if width % x != 0 || height % y != 0 {

@@ -1,9 +1,9 @@
-//! Closed choices from one list.
+//! Enums whose variants each hold one type, generated from a list.
 
-/// An enum of variants that hold a type each, from one list, and `each!`, which does the same with whatever is inside. Where
-/// the lines give examples, `all` has them in the list's order.
+/// Generates an enum whose variants each hold one type, and the macro `each!`, which runs the same code on whichever is
+/// inside. `all` returns the examples in the list's order.
 ///
-/// `($)` comes first, so that there is one to write `each!` with. Modules that use `each!` stand after the list.
+/// `($)` comes first because `each!` needs a `$` to be written with. Modules that use `each!` must come after the list.
 macro_rules! enum_dispatch {
     (($d:tt) $(#[$about:meta])* pub enum $Kind:ident {
         $($(#[$what:meta])* $Variant:ident($held:ty) = $examples:expr,)*
@@ -11,7 +11,7 @@ macro_rules! enum_dispatch {
         enum_dispatch! { ($d) $(#[$about])* pub enum $Kind { $($(#[$what])* $Variant($held),)* } }
 
         impl $Kind {
-            /// One of each, for tests and listings; several of those with parameters.
+            /// Returns examples of every variant, for tests and listings; some variants have several.
             pub fn all() -> Vec<Self> {
                 let mut all = Vec::new();
                 $(all.extend($examples.into_iter().map(Self::$Variant));)*

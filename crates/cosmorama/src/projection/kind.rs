@@ -16,7 +16,7 @@ impl ProjectionKind {
     pub const OMNIMAX: Self = Self::Omnimax(Azimuthal(OmnimaxLens));
     /// The equidistant fisheye.
     pub const EQUIDISTANT: Self = Self::fisheye(FisheyeLens::EQUIDISTANT);
-    /// The panorama.
+    /// The equirectangular panorama.
     pub const EQUIRECTANGULAR: Self = Self::Equirectangular(Cylindrical(Equirectangular));
     /// A face of an equi-angular cube map.
     pub const EQUI_ANGULAR: Self = Self::EquiAngular(EquiAngular);
@@ -35,25 +35,25 @@ impl ProjectionKind {
     /// The sinusoidal map of the world.
     pub const SINUSOIDAL: Self = Self::Sinusoidal(Pseudocylindrical(Sinusoidal));
 
-    /// Whether its domain is convex and alike on all four sides of its axes: of a rectangle that has a part in it, the point that
-    /// is nearest to both axes is in it.
+    /// Returns whether the domain is convex and symmetrical about both axes. Then a rectangle that overlaps the domain
+    /// has the point nearest to both axes inside it.
     pub(crate) fn is_oval(&self) -> bool {
         matches!(self, Self::Hammer(_) | Self::Mollweide(_) | Self::Sinusoidal(_))
     }
 
-    /// Whether its domain is made of the squares of samples, so that a pixel of which neither the middle nor a corner sees
-    /// anything sees nothing.
+    /// Returns whether the domain consists of whole squares around samples. Then a pixel whose centre and corners see
+    /// nothing sees nothing at all.
     pub(crate) fn ends_between_samples(&self) -> bool {
         matches!(self, Self::StMap(_))
     }
 
-    /// A fisheye lens.
+    /// Returns the projection of a fisheye lens.
     pub const fn fisheye(lens: FisheyeLens) -> Self {
         Self::Fisheye(Azimuthal(lens))
     }
 }
 
-/// Cameras as they are measured: bent along radii, every way, and by a quotient.
+/// Examples of cameras with lens distortion: radial, general, and with a rational formula.
 pub(crate) fn bent_cameras() -> impl Iterator<Item = Calibrated<BrownConrady>> {
     let bent = [
         &[-0.28, 0.07, 0.0, 0.0][..],
@@ -66,7 +66,7 @@ pub(crate) fn bent_cameras() -> impl Iterator<Item = Calibrated<BrownConrady>> {
     })
 }
 
-/// And one whose rows lean.
+/// Example of a fisheye with skewed rows.
 pub(crate) fn skewed_fisheye() -> Calibrated<Azimuthal<FisheyeLens>> {
     Calibrated::new(Azimuthal(FisheyeLens::EQUISOLID), -0.02, Angle::from_degrees(95.0))
 }

@@ -1,7 +1,7 @@
 //! Projections: invertible mappings between directions and a plane.
 //!
-//! A projection knows nothing of pixels, orientation or the edge of an image: those belong to
-//! [`crate::camera::View`]. Each one is a small file, and adding one touches its file and the list in this one.
+//! A projection knows nothing of pixels, orientation or the edges of an image; those belong to [`crate::camera::View`].
+//! Each is a small file, and adding one touches its file and the list in this one.
 
 pub mod azimuthal;
 pub(crate) mod bounds;
@@ -34,7 +34,7 @@ pub use world_map::octahedral::{Octahedral, OctahedralKind};
 use crate::sphere::{Angle, Direction, DirectionJacobian};
 
 enum_dispatch! { ($)
-    /// Every projection, chosen at run time.
+    /// Any projection, chosen at run time.
     pub enum ProjectionKind {
         /// A pinhole camera; a cube face is one of 90°.
         Perspective(Perspective) = [Perspective],
@@ -42,11 +42,11 @@ enum_dispatch! { ($)
         Omnimax(Azimuthal<OmnimaxLens>) = [Azimuthal(OmnimaxLens)],
         /// A fisheye lens.
         Fisheye(Azimuthal<FisheyeLens>) = FisheyeLens::all().into_iter().map(Azimuthal),
-        /// A camera whose lens bends straight lines.
+        /// A pinhole camera with lens distortion.
         Pinhole(Calibrated<BrownConrady>) = kind::bent_cameras(),
-        /// A fisheye whose sensor is skewed.
+        /// A fisheye with skewed sensor rows.
         SkewedFisheye(Calibrated<Azimuthal<FisheyeLens>>) = [kind::skewed_fisheye()],
-        /// The panorama of longitude by latitude.
+        /// The equirectangular panorama.
         Equirectangular(Cylindrical<Equirectangular>) = [Cylindrical(Equirectangular)],
         /// A face of an equi-angular cube map.
         EquiAngular(EquiAngular) = [EquiAngular],
@@ -69,26 +69,26 @@ enum_dispatch! { ($)
         Pannini(Pannini) = [0.0, 0.5, 1.0, 2.0].into_iter().filter_map(Pannini::from_distance),
         /// The sphere on an octahedron.
         Octahedral(Octahedral) = [OctahedralKind::EqualArea, OctahedralKind::Plain].map(Octahedral),
-        /// A table of places and directions: it has no formula, and tests of its own.
+        /// A table of places and directions; it has no formula, and tests of its own.
         StMap(StMap) = [],
     }
 }
 
 mod kind;
 
-/// An invertible mapping between directions (in the view's own frame, −Z forward) and a plane (x right, y up) in the
+/// An invertible mapping between directions (in the view's own frame, −Z forward) and a plane (x right, y up), in the
 /// projection's natural unit.
 ///
-/// Outside the domain the answer is `None`, never NaN.
+/// Outside the domain every method returns `None`, never NaN.
 pub trait Projection {
-    /// Where a direction lands in the plane.
+    /// Returns the point of the plane at which a direction is seen.
     fn project(&self, direction: Direction) -> Option<PlanePoint>;
 
-    /// The direction seen at a point of the plane.
+    /// Returns the direction that is seen at a point of the plane.
     fn unproject(&self, point: PlanePoint) -> Option<Direction>;
 
-    /// The directions at `count` points beside each other, `step` apart along x, each with its number. For projections in
-    /// which a whole row costs less than its points; those without a direction are left out.
+    /// Visits the directions at `count` points in a row, `step` apart along x, each with its number. Points without a
+    /// direction are left out. Projections override it where a whole row costs less than its points.
     fn unproject_row(&self, first: PlanePoint, step: f64, count: usize, mut visit: impl FnMut(usize, Direction)) {
         for k in 0..count {
             if let Some(direction) = self.unproject(PlanePoint::new(first.x + k as f64 * step, first.y)) {
@@ -97,10 +97,11 @@ pub trait Projection {
         }
     }
 
-    /// ∂direction/∂plane at a point, exact; `None` exactly where [`Projection::unproject`] is `None`.
+    /// Returns the exact ∂direction/∂plane at a point; `None` exactly where [`Projection::unproject`] is `None`.
     fn jacobian(&self, point: PlanePoint) -> Option<DirectionJacobian>;
 
-    /// Solid angle of a unit square of the plane around a point, in steradians (to first order): |∂d/∂x × ∂d/∂y|.
+    /// Returns the solid angle of a unit square of the plane around a point, in steradians (to first order): |∂d/∂x ×
+    /// ∂d/∂y|.
     fn solid_angle(&self, point: PlanePoint) -> Option<f64> {
         self.jacobian(point).map(|jacobian| jacobian.solid_angle())
     }
@@ -112,55 +113,57 @@ pub trait Projection {
         }
     }
 
-    /// The direction and its derivatives at once, for projections in which they share their work.
+    /// Returns the direction and its derivatives. Projections override it where the two share work.
     fn unproject_with_jacobian(&self, point: PlanePoint) -> Option<(Direction, DirectionJacobian)> {
         Some((self.unproject(point)?, self.jacobian(point)?))
     }
 
-    /// Where a direction lands, and by how much it moves there as the direction moves along each tangent vector.
+    /// Returns the point at which a direction is seen, and its derivatives along each tangent vector.
     fn project_with_derivatives(&self, direction: Direction, tangents: [DVec3; 2]) -> Option<(PlanePoint, [DVec2; 2])> {
         let point = self.project(direction)?;
         let jacobian = self.jacobian(point)?;
         Some((point, [jacobian.pseudo_inverse(tangents[0])?, jacobian.pseudo_inverse(tangents[1])?]))
     }
 
-    /// How lines of equal x and y bend on the sphere, where that is known in closed form: ∂²direction/∂x², ∂x∂y and ∂y², each by
-    /// what of it lies in the tangent plane, as multiples of ∂direction/∂x and ∂y (Christoffel symbols).
+    /// Returns how lines of equal x and y bend on the sphere, if that has a closed form: ∂²direction/∂x², ∂x∂y and ∂y².
+    /// Each is given by its part in the tangent plane, in multiples of ∂direction/∂x and ∂y (Christoffel symbols).
     fn curvature(&self, _point: PlanePoint) -> Option<[DVec2; 3]> {
         None
     }
 
-    /// A lower bound, in radians, of the angle from a direction to the nearest one at which the mapping is singular (a
-    /// pole, a horizon, a rim); negative beyond a horizon. A footprint much smaller than this is mapped to an ellipse, a
-    /// larger one is weighed on the sphere.
+    /// Returns a lower bound, in radians, of the angle from a direction to the nearest singularity of the mapping: a
+    /// pole, a horizon or a rim. It is negative beyond a horizon. A footprint much smaller than this is mapped to an
+    /// ellipse; a larger one is weighed on the sphere.
     fn margin(&self, direction: Direction) -> f64;
 
-    /// Whether derivatives grow without bound towards a rim or a pole: there a texel is measured by its own extent.
+    /// Returns whether derivatives grow without bound towards a rim or a pole. There a texel is measured from side to
+    /// side.
     fn has_steep_rim(&self) -> bool {
         false
     }
 
-    /// Whether what it shows ends at a cone around its axis, within its plane: [`Projection::margin`] is the angle to that.
+    /// Returns whether the visible part ends at a cone around the axis; then [`Projection::margin`] is the angle to
+    /// that cone.
     fn ends_at_cone(&self) -> bool {
         false
     }
 
-    /// The direction as far on the other side of the nearest seam at which the map's sides meet askew, where texels lie as the
-    /// map has them there; `None` for maps without such a seam.
+    /// Returns the mirror image of a direction beyond the nearest seam at which the map's sides meet at an angle: the
+    /// map's texels lie there. `None` for maps without such a seam.
     fn beyond_seam(&self, _direction: Direction) -> Option<Direction> {
         None
     }
 
-    /// The rectangle of the plane that holds every direction within `radius` of `centre`.
+    /// Returns the rectangle of the plane that holds every direction within `radius` of `centre`.
     fn cap_bounds(&self, centre: Direction, radius: Angle) -> PlaneRect;
 
-    /// The part of the plane that holds every direction within `radius` of `centre`, for maps that have a cap at a rim or a
-    /// seam in places far from each other.
+    /// Returns the part of the plane that holds every direction within `radius` of `centre`. Maps override it if a cap
+    /// at a rim or a seam lies in several distant places.
     fn cap_outline(&self, centre: Direction, radius: Angle) -> Outline {
         Outline::Rects(vec![self.cap_bounds(centre, radius)])
     }
 
-    /// The distance after which x repeats, where the plane is a rolled-out cylinder.
+    /// Returns the distance after which x repeats, if the plane is an unrolled cylinder.
     fn period(&self) -> Option<f64> {
         None
     }

@@ -1,13 +1,13 @@
-//! Rising functions: how far they rise, and their inverse.
+//! Rising functions: the interval on which they rise, and their inverse.
 
 /// Steps in which a function is searched for the place where it stops rising.
 const STEPS: usize = 4096;
 
-/// Newton's iteration and halvings converge long before.
+/// Limit of iterations; Newton's method and bisection converge long before.
 const MOST_ITERATIONS: usize = 100;
 
-/// How far from 0 towards `end` a function (its value and derivative) rises: its derivative is positive and it stays finite.
-/// `None` if it does not rise at 0.
+/// Returns how far from 0 towards `end` a function (value and derivative) rises: its derivative is positive and it
+/// stays finite. `None` if it does not rise at 0.
 pub(crate) fn rises_until(function: impl Fn(f64) -> (f64, f64), end: f64) -> Option<f64> {
     let rises = |(value, slope): (f64, f64)| slope > 0.0 && slope.is_finite() && value.is_finite();
     let mut last = 0.0;
@@ -30,7 +30,7 @@ pub(crate) fn rises_until(function: impl Fn(f64) -> (f64, f64), end: f64) -> Opt
     Some(end)
 }
 
-/// The last place between `holds` and `fails` at which `test` holds.
+/// Bisects for the last place between `holds` and `fails` at which `test` holds.
 fn halved(mut holds: f64, mut fails: f64, test: impl Fn(f64) -> bool) -> f64 {
     loop {
         let middle = f64::midpoint(holds, fails);
@@ -45,8 +45,8 @@ fn halved(mut holds: f64, mut fails: f64, test: impl Fn(f64) -> bool) -> f64 {
     }
 }
 
-/// Where between `low` and `high` a rising function (its value and derivative) takes a value: Newton's iteration, and a
-/// halving wherever that would leave the bracket or gains too little.
+/// Finds the place between `low` and `high` at which a rising function (value and derivative) takes a value. Uses
+/// Newton's iteration, and bisection where that would leave the bracket or gain too little.
 pub(crate) fn inverse(function: impl Fn(f64) -> (f64, f64), value: f64, mut low: f64, mut high: f64) -> f64 {
     let (_, slope) = function(low);
     let mut at = (low + value / slope).clamp(low, high);

@@ -1,20 +1,20 @@
 /// A point of a projection's plane: x right, y up, in the projection's natural unit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PlanePoint {
-    /// To the right.
+    /// Distance to the right of the origin.
     pub x: f64,
-    /// Up.
+    /// Distance above the origin.
     pub y: f64,
 }
 
 impl PlanePoint {
-    /// The point (x, y).
+    /// Returns the point (x, y).
     pub const fn new(x: f64, y: f64) -> Self {
         Self { x, y }
     }
 }
 
-/// A rectangle of a projection's plane; infinite sides mean "without bound".
+/// A rectangle of a projection's plane. An infinite side means that it is not bounded there.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PlaneRect {
     /// Least x and y.
@@ -24,7 +24,7 @@ pub struct PlaneRect {
 }
 
 impl PlaneRect {
-    /// The smallest rectangle that also holds a point.
+    /// Returns the smallest rectangle that also holds a point.
     #[must_use]
     pub fn with(self, point: PlanePoint) -> Self {
         Self {
@@ -33,7 +33,7 @@ impl PlaneRect {
         }
     }
 
-    /// What holds no point.
+    /// The empty rectangle.
     pub(crate) const NOTHING: Self = Self {
         min: PlanePoint::new(f64::INFINITY, f64::INFINITY),
         max: PlanePoint::new(f64::NEG_INFINITY, f64::NEG_INFINITY),

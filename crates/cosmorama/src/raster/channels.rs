@@ -1,4 +1,4 @@
-/// Which channels a pixel has in a file.
+/// Channels of a pixel in a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Channels {
     /// Grey.
@@ -12,10 +12,10 @@ pub enum Channels {
 }
 
 impl Channels {
-    /// All four.
+    /// All combinations of channels.
     pub const ALL: [Self; 4] = [Self::Grey, Self::GreyAlpha, Self::Rgb, Self::Rgba];
 
-    /// Samples in a pixel.
+    /// Returns the number of samples in a pixel.
     pub const fn count(self) -> usize {
         match self {
             Self::Grey => 1,
@@ -25,12 +25,12 @@ impl Channels {
         }
     }
 
-    /// Whether there is an alpha channel.
+    /// Returns whether there is an alpha channel.
     pub const fn has_alpha(self) -> bool {
         matches!(self, Self::GreyAlpha | Self::Rgba)
     }
 
-    /// Whether there are three colours.
+    /// Returns whether there are three colours.
     pub const fn is_colour(self) -> bool {
         matches!(self, Self::Rgb | Self::Rgba)
     }

@@ -1,4 +1,4 @@
-/// One of the three channels of colour. Grey goes by green where their curves differ.
+/// One of the three colour channels. Grey uses green's curve where curves differ.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum ColourChannel {
     /// Red.
@@ -13,7 +13,7 @@ impl ColourChannel {
     /// All three, in the order of [`super::Rgba`].
     pub const ALL: [Self; 3] = [Self::Red, Self::Green, Self::Blue];
 
-    /// Its place among them.
+    /// Returns its index in [`super::Rgba`].
     pub const fn index(self) -> usize {
         self as usize
     }

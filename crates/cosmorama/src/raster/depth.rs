@@ -3,9 +3,9 @@
 pub enum Depth {
     /// 8-bit integers.
     Eight,
-    /// 10 significant bits, spread over 16-bit integers.
+    /// 10 significant bits, scaled to 16-bit integers.
     Ten,
-    /// 12 significant bits, spread over 16-bit integers.
+    /// 12 significant bits, scaled to 16-bit integers.
     Twelve,
     /// 16-bit integers.
     Sixteen,
@@ -19,7 +19,7 @@ impl Depth {
     /// All six, coarsest first.
     pub const ALL: [Self; 6] = [Self::Eight, Self::Ten, Self::Twelve, Self::Sixteen, Self::Half, Self::Float];
 
-    /// Bytes that a sample takes in memory.
+    /// Returns the bytes per sample in memory.
     pub const fn bytes(self) -> usize {
         match self {
             Self::Eight => 1,
@@ -28,7 +28,7 @@ impl Depth {
         }
     }
 
-    /// Significant bits of an integer sample; `None` for floats.
+    /// Returns the significant bits of an integer sample; `None` for floats.
     pub const fn significant_bits(self) -> Option<u32> {
         match self {
             Self::Eight => Some(8),
@@ -39,14 +39,14 @@ impl Depth {
         }
     }
 
-    /// Whether samples are floats, which hold light beyond white.
+    /// Returns whether samples are floats, which can hold light beyond white.
     pub const fn is_float(self) -> bool {
         matches!(self, Self::Half | Self::Float)
     }
 }
 
 impl std::fmt::Display for Depth {
-    /// As `--depth` has it.
+    /// Prints the name in `--depth`.
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.write_str(match self {
             Self::Eight => "8",

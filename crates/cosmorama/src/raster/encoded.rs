@@ -2,7 +2,7 @@ use half::f16;
 
 use super::{Channels, Depth, Image, ImageError};
 
-/// The samples of an image, interleaved, row by row, as a file holds them: encoded by a transfer function.
+/// Samples of an image as in a file: encoded by a transfer function, interleaved, row by row.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Samples {
     /// 8-bit integers.
@@ -11,12 +11,12 @@ pub enum Samples {
     U16(Vec<u16>),
     /// Half floats.
     Half(Vec<f16>),
-    /// Floats.
+    /// Single-precision floats.
     Float(Vec<f32>),
 }
 
 impl Samples {
-    /// Their number.
+    /// Returns the number of samples.
     pub fn len(&self) -> usize {
         match self {
             Self::U8(samples) => samples.len(),
@@ -26,7 +26,7 @@ impl Samples {
         }
     }
 
-    /// Whether there are none.
+    /// Returns whether there are no samples.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
@@ -42,20 +42,20 @@ impl Samples {
     }
 }
 
-/// How the colour samples of a file relate to its alpha.
+/// Relation of a file's colour samples to its alpha.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum AlphaMode {
-    /// The colour of the thing, whatever part of the pixel it covers: PNG, TGA. Integer samples are always so.
+    /// Colours are not multiplied by alpha, as in PNG and TGA. Integer samples are always straight.
     #[default]
     Straight,
-    /// The light of the pixel, already multiplied by alpha: OpenEXR. Light with an alpha of zero (a glow, a
-    /// flame) can only be held this way.
+    /// Colours are multiplied by alpha, as in OpenEXR. Only this mode can hold light with an alpha of zero, such as a
+    /// glow or a flame.
     Premultiplied,
 }
 
-/// An image as a file holds it.
+/// An image as it is in a file.
 ///
-/// [`decode`](Self::decode) makes light of it, [`encode`](Self::encode) makes it from light.
+/// [`decode`](Self::decode) converts it to light, [`encode`](Self::encode) makes it from light.
 #[derive(Clone, Debug, PartialEq)]
 pub struct EncodedImage {
     width: usize,
@@ -67,10 +67,10 @@ pub struct EncodedImage {
 }
 
 impl EncodedImage {
-    /// An image of the given samples, with straight alpha if it has any.
+    /// Creates an image of samples; alpha is straight if there is any.
     ///
     /// # Errors
-    /// When their number is not `width × height × channels`, or they are of another type than `depth` says.
+    /// When the number of samples is not `width × height × channels`, or their type differs from `depth`.
     pub fn new(
         width: usize,
         height: usize,
@@ -88,14 +88,14 @@ impl EncodedImage {
         Ok(Self { width, height, channels, depth, alpha_mode: AlphaMode::Straight, samples })
     }
 
-    /// An opaque image of 8-bit codes.
+    /// Creates an opaque image of 8-bit codes.
     pub fn of_codes(codes: Image<[u8; 3]>) -> Self {
         let (width, height) = (codes.width(), codes.height());
         let samples = Samples::U8(codes.into_pixels().into_flattened());
         Self::from_parts(width, height, Channels::Rgb, Depth::Eight, AlphaMode::Straight, samples)
     }
 
-    /// The codes of one that [`of_codes`](Self::of_codes) may have made; `None` of others.
+    /// Returns the codes of an opaque 8-bit RGB image, as [`of_codes`](Self::of_codes) makes it; `None` for others.
     pub fn into_codes(self) -> Option<Image<[u8; 3]>> {
         let Self { width, height, channels: Channels::Rgb, samples: Samples::U8(samples), .. } = self else {
             return None;
@@ -103,7 +103,7 @@ impl EncodedImage {
         Image::new(width, height, bytemuck::allocation::try_cast_vec(samples).ok()?).ok()
     }
 
-    /// Parts that are known to fit.
+    /// Creates an image from parts that are known to fit.
     pub(crate) fn from_parts(
         width: usize,
         height: usize,
@@ -118,14 +118,14 @@ impl EncodedImage {
 
     /// Reinterprets float samples as straight or premultiplied, without changing them.
     ///
-    /// Integer samples stay straight: premultiplied, they would have lost bits that a transfer function needs.
+    /// Integer samples stay straight: premultiplied, they would lose bits that a transfer function needs.
     #[must_use]
     pub fn with_alpha_mode(self, alpha_mode: AlphaMode) -> Self {
         let alpha_mode = if self.depth.is_float() { alpha_mode } else { AlphaMode::Straight };
         Self { alpha_mode, ..self }
     }
 
-    /// Whether every pixel has an alpha of one, or there is no alpha. NaN is none.
+    /// Returns whether every pixel has an alpha of one, or there is no alpha. An alpha of NaN is not opaque.
     pub fn is_opaque(&self) -> bool {
         fn all<S: Copy>(samples: &[S], count: usize, is_one: impl Fn(S) -> bool) -> bool {
             samples.iter().skip(count - 1).step_by(count).all(|alpha| is_one(*alpha))
@@ -163,37 +163,37 @@ impl EncodedImage {
         Self { width, height, samples, ..*self }
     }
 
-    /// Columns.
+    /// Returns the number of columns.
     pub fn width(&self) -> usize {
         self.width
     }
 
-    /// Rows.
+    /// Returns the number of rows.
     pub fn height(&self) -> usize {
         self.height
     }
 
-    /// Channels of a pixel.
+    /// Returns the channels of a pixel.
     pub fn channels(&self) -> Channels {
         self.channels
     }
 
-    /// Sample type.
+    /// Returns the sample type.
     pub fn depth(&self) -> Depth {
         self.depth
     }
 
-    /// How colour relates to alpha.
+    /// Returns the relation of colour to alpha.
     pub fn alpha_mode(&self) -> AlphaMode {
         self.alpha_mode
     }
 
-    /// All samples, interleaved, row by row.
+    /// Returns all samples, interleaved, row by row.
     pub fn samples(&self) -> &Samples {
         &self.samples
     }
 
-    /// All samples, by value.
+    /// Returns all samples by value.
     pub fn into_samples(self) -> Samples {
         self.samples
     }

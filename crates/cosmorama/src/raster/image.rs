@@ -7,20 +7,20 @@ use super::{Depth, Rgba};
 /// Reason why an image cannot be built.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub enum ImageError {
-    /// The pixels given are not width × height of them.
+    /// The number of pixels is not width × height.
     #[error("{width}x{height} pixels were expected, {found} given")]
     WrongLength {
         /// Columns.
         width: usize,
         /// Rows.
         height: usize,
-        /// Pixels given.
+        /// Number of pixels that were given.
         found: usize,
     },
-    /// The samples given are of another type.
+    /// The samples have another type than the stated depth.
     #[error("samples of depth {depth} were expected, others given")]
     WrongDepth {
-        /// What the samples were said to be.
+        /// Stated depth.
         depth: Depth,
     },
 }
@@ -36,21 +36,21 @@ pub struct Image<P> {
 }
 
 impl<P: Clone> Image<P> {
-    /// An image of one colour.
+    /// Creates an image of one colour.
     pub fn filled(width: usize, height: usize, pixel: P) -> Self {
         Self { width, height, pixels: vec![pixel; width * height] }
     }
 }
 
 impl<P: Zeroable> Image<P> {
-    /// An image of zeros, in memory that is not touched before it is written.
+    /// Creates an image of zeros, in memory that is not touched before it is written.
     pub(crate) fn zeroed(width: usize, height: usize) -> Self {
         Self { width, height, pixels: bytemuck::zeroed_vec(width * height) }
     }
 }
 
 impl Image<Rgba> {
-    /// Lays all pixels in front of a background, linear and premultiplied as they are.
+    /// Composites all pixels over a background; both are linear and premultiplied.
     pub fn lay_over(&mut self, background: Rgba) {
         if background != Rgba::TRANSPARENT {
             self.pixels.par_iter_mut().for_each(|pixel| *pixel = pixel.over(background));
@@ -59,7 +59,7 @@ impl Image<Rgba> {
 }
 
 impl<P> Image<P> {
-    /// An image of the given pixels.
+    /// Creates an image of pixels, row by row.
     ///
     /// # Errors
     /// When their number is not `width × height`.
@@ -70,46 +70,46 @@ impl<P> Image<P> {
         Ok(Self { width, height, pixels })
     }
 
-    /// An image computed pixel by pixel from column and row.
+    /// Creates an image by computing each pixel from column and row.
     pub fn from_fn(width: usize, height: usize, mut pixel: impl FnMut(usize, usize) -> P) -> Self {
         let pixels = (0..height).flat_map(|j| (0..width).map(move |i| (i, j))).map(|(i, j)| pixel(i, j)).collect();
         Self { width, height, pixels }
     }
 
-    /// Columns.
+    /// Returns the number of columns.
     pub fn width(&self) -> usize {
         self.width
     }
 
-    /// Rows.
+    /// Returns the number of rows.
     pub fn height(&self) -> usize {
         self.height
     }
 
-    /// All pixels, row by row.
+    /// Returns all pixels, row by row.
     pub fn pixels(&self) -> &[P] {
         &self.pixels
     }
 
-    /// All pixels, row by row.
+    /// Returns all pixels, row by row, for changes.
     pub fn pixels_mut(&mut self) -> &mut [P] {
         &mut self.pixels
     }
 
-    /// All pixels, row by row, by value.
+    /// Returns all pixels by value, row by row.
     pub fn into_pixels(self) -> Vec<P> {
         self.pixels
     }
 
-    /// One row.
+    /// Returns one row.
     pub fn row(&self, j: usize) -> &[P] {
         &self.pixels[j * self.width..][..self.width]
     }
 
-    /// The pixel in column `i` of row `j`.
+    /// Returns the pixel in column `i` of row `j`.
     ///
     /// # Panics
-    /// Outside the image.
+    /// When the pixel is outside the image.
     pub fn get(&self, i: usize, j: usize) -> &P {
         &self.row(j)[i]
     }

@@ -1,4 +1,4 @@
-//! Images in memory: linear light for filtering, encoded samples as files hold them, and the transfer functions between.
+//! Images in memory: linear light for filtering, encoded samples as in files, and the transfer functions between them.
 
 mod channels;
 pub(crate) mod codec;

@@ -5,33 +5,33 @@ use glam::Vec4;
 
 /// A pixel of linear light, premultiplied by alpha: red, green, blue, alpha.
 ///
-/// Rec. 709 primaries unless a file says otherwise; 1 is the white of an integer image, HDR goes beyond.
-/// Missing pixels are transparent: all four are zero.
+/// Primaries are those of Rec. 709 unless a file says otherwise. 1 is the white of an integer image; HDR goes beyond
+/// it. A missing pixel is transparent: all four values are zero.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
 #[repr(transparent)]
 pub struct Rgba(pub [f32; 4]);
 
-/// The largest finite half: what an infinite sample becomes.
+/// Largest finite half float, which replaces infinite samples.
 const LARGEST: f32 = 65504.0;
 
 impl Rgba {
-    /// Nothing: no light, no coverage.
+    /// A transparent pixel: no light, no coverage.
     pub const TRANSPARENT: Self = Self([0.0; 4]);
     /// Opaque black.
     pub const BLACK: Self = Self([0.0, 0.0, 0.0, 1.0]);
 
-    /// An opaque pixel.
+    /// Returns an opaque pixel.
     pub const fn opaque(red: f32, green: f32, blue: f32) -> Self {
         Self([red, green, blue, 1.0])
     }
 
-    /// Alpha: the covered part, 0 to 1.
+    /// Returns alpha, the covered fraction of the pixel, 0 to 1.
     pub const fn alpha(self) -> f32 {
         self.0[3]
     }
 
-    /// The one rule for non-finite samples: a pixel with a NaN is missing (transparent), and ±∞ becomes
-    /// ±65504, the largest half.
+    /// Removes non-finite samples, by one rule for all: a pixel with a NaN is missing (transparent), and ±∞ becomes
+    /// ±65504, the largest half float.
     #[must_use]
     pub fn finite(self) -> Self {
         if self.0.iter().any(|c| c.is_nan()) {
@@ -40,13 +40,13 @@ impl Rgba {
         Self(self.0.map(|c| if c.is_infinite() { LARGEST.copysign(c) } else { c }))
     }
 
-    /// Colour with alpha divided out; black where nothing is.
+    /// Returns the colour with alpha divided out; black for a transparent pixel.
     pub fn unpremultiplied(self) -> [f32; 3] {
         let [red, green, blue, alpha] = self.0;
         if alpha <= 0.0 { [0.0; 3] } else { [red / alpha, green / alpha, blue / alpha] }
     }
 
-    /// This pixel in front of another (Porter & Duff's *over*).
+    /// Returns this pixel composited over another (Porter & Duff's *over*).
     #[must_use]
     pub fn over(self, behind: Self) -> Self {
         self + behind * (1.0 - self.alpha())

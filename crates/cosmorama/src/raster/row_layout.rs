@@ -1,7 +1,7 @@
-/// Where a view's texels lie in a buffer of light: row by row, from top to bottom.
+/// Place of a view's texels in a buffer of light: row by row, from top to bottom.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct RowLayout {
-    /// Index of the first one.
+    /// Index of the first texel.
     pub(crate) offset: usize,
     /// Columns and rows of the view.
     pub(crate) size: [usize; 2],
@@ -21,12 +21,12 @@ impl RowLayout {
         sizes.into_iter().map(after).collect()
     }
 
-    /// Where the next view begins.
+    /// Returns the index at which the next view begins.
     pub(crate) fn end(&self) -> usize {
         self.offset + self.pitch * self.size[1]
     }
 
-    /// The index of the texel in this column and row.
+    /// Returns the index of the texel in this column and row.
     #[inline(always)]
     pub(crate) fn index(&self, [column, row]: [usize; 2]) -> usize {
         self.offset + row * self.pitch + column

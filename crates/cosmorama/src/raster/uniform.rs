@@ -1,11 +1,11 @@
 use super::{Image, Rgba};
 
-/// A colour of a region, and the part of the region that has it.
+/// The colour of a region, and the share of its pixels that have it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Uniform {
     /// The colour of the region's first pixel.
     pub colour: Rgba,
-    /// The part of its pixels that have this colour, as far as a lossy codec keeps it.
+    /// Share of the pixels that have this colour, within the error of a lossy codec.
     pub share: f64,
 }
 
@@ -13,7 +13,7 @@ pub struct Uniform {
 const TOLERANCE: f32 = 0.02;
 
 impl Image<Rgba> {
-    /// How uniform a region is, given by column and row; `None` where it is empty.
+    /// Measures how uniform a region is, given by column and row; `None` if it is empty.
     pub fn uniformity(&self, mut region: impl FnMut(usize, usize) -> bool) -> Option<Uniform> {
         let places = (0..self.height()).flat_map(|j| (0..self.width()).map(move |i| (i, j)));
         let mut pixels = places.filter(|&(i, j)| region(i, j)).map(|(i, j)| *self.get(i, j));

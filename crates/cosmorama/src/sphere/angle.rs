@@ -1,6 +1,6 @@
 use std::ops::{Add, Mul, Neg, Sub};
 
-/// An angle; the unit is named where it is made and where it is read.
+/// An angle. Its unit is named where it is constructed and where it is read.
 ///
 /// ```
 /// use cosmorama::sphere::Angle;
@@ -18,32 +18,32 @@ impl Angle {
     /// A full turn, 360°.
     pub const TURN: Self = Self(std::f64::consts::TAU);
 
-    /// An angle in radians.
+    /// Returns an angle of so many radians.
     pub const fn from_radians(radians: f64) -> Self {
         Self(radians)
     }
 
-    /// An angle in degrees.
+    /// Returns an angle of so many degrees.
     pub const fn from_degrees(degrees: f64) -> Self {
         Self(degrees.to_radians())
     }
 
-    /// This angle in radians.
+    /// Returns the angle in radians.
     pub const fn radians(self) -> f64 {
         self.0
     }
 
-    /// This angle in degrees.
+    /// Returns the angle in degrees.
     pub const fn degrees(self) -> f64 {
         self.0.to_degrees()
     }
 
-    /// Sine and cosine.
+    /// Returns sine and cosine.
     pub fn sin_cos(self) -> (f64, f64) {
         self.0.sin_cos()
     }
 
-    /// Tangent.
+    /// Returns the tangent.
     pub fn tan(self) -> f64 {
         self.0.tan()
     }

@@ -3,25 +3,25 @@ use super::{Direction, Orientation};
 /// One of the six faces of the cube around the world's centre.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum CubeFace {
-    /// −Z.
+    /// The face towards −Z.
     Front,
-    /// +X.
+    /// The face towards +X.
     Right,
-    /// +Z.
+    /// The face towards +Z.
     Back,
-    /// −X.
+    /// The face towards −X.
     Left,
-    /// +Y; its bottom edge touches the front face's top edge.
+    /// The face towards +Y; its bottom edge touches the front face's top edge.
     Up,
-    /// −Y; its top edge touches the front face's bottom edge.
+    /// The face towards −Y; its top edge touches the front face's bottom edge.
     Down,
 }
 
 impl CubeFace {
-    /// All six, in the project's own order.
+    /// All six faces, in the project's own order.
     pub const ALL: [Self; 6] = [Self::Front, Self::Right, Self::Back, Self::Left, Self::Up, Self::Down];
 
-    /// The project's own name of the face, in lower case.
+    /// Returns the project's own name of the face, in lower case.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Front => "front",
@@ -33,7 +33,7 @@ impl CubeFace {
         }
     }
 
-    /// Where the camera of this face looks.
+    /// Returns the direction in which the face's camera looks.
     pub const fn forward(self) -> Direction {
         match self {
             Self::Front => Direction::FRONT,
@@ -45,7 +45,7 @@ impl CubeFace {
         }
     }
 
-    /// The direction to the right in the face's image.
+    /// Returns the direction to the right in the face's image.
     pub const fn right(self) -> Direction {
         match self {
             Self::Front | Self::Up | Self::Down => Direction::RIGHT,
@@ -55,7 +55,7 @@ impl CubeFace {
         }
     }
 
-    /// The direction up in the face's image.
+    /// Returns the direction up in the face's image.
     pub const fn up(self) -> Direction {
         match self {
             Self::Front | Self::Right | Self::Back | Self::Left => Direction::UP,
@@ -64,12 +64,12 @@ impl CubeFace {
         }
     }
 
-    /// The orientation of this face's camera.
+    /// Returns the orientation of the face's camera.
     pub fn orientation(self) -> Orientation {
         Orientation::from_axes(self.right(), self.up(), self.forward())
     }
 
-    /// The face through which a direction passes. On an edge the face named first in [`CubeFace::ALL`] wins.
+    /// Returns the face through which a direction passes. On an edge the face named first in [`CubeFace::ALL`] wins.
     pub fn of(direction: Direction) -> Self {
         let mut best = Self::Front;
         for face in Self::ALL {

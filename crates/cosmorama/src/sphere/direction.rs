@@ -7,7 +7,7 @@ use super::Angle;
 pub struct Direction(DVec3);
 
 impl Direction {
-    /// −Z, where an unturned view looks.
+    /// −Z, the direction in which an unturned view looks.
     pub const FRONT: Self = Self(DVec3::NEG_Z);
     /// +Z.
     pub const BACK: Self = Self(DVec3::Z);
@@ -20,25 +20,25 @@ impl Direction {
     /// −Y.
     pub const DOWN: Self = Self(DVec3::NEG_Y);
 
-    /// The direction of a vector, which need not have length one; `None` for zero, NaN or infinity.
+    /// Returns the direction of a vector, which need not have length one; `None` for zero, NaN or infinity.
     pub fn new(vector: DVec3) -> Option<Self> {
         vector.try_normalize().map(Self)
     }
 
-    /// A vector that has length one already, up to rounding.
+    /// Returns the direction of a vector that already has length one, up to rounding.
     pub fn from_unit(unit: DVec3) -> Self {
         debug_assert!((unit.length_squared() - 1.0).abs() < 1e-9, "{unit}");
         Self(unit)
     }
 
-    /// Longitude (0 at the front, positive to the right) and latitude (positive up).
+    /// Returns the direction of a longitude (0 at the front, positive to the right) and a latitude (positive up).
     pub fn from_longitude_latitude(longitude: Angle, latitude: Angle) -> Self {
         let (sin_lon, cos_lon) = longitude.sin_cos();
         let (sin_lat, cos_lat) = latitude.sin_cos();
         Self(DVec3::new(sin_lon * cos_lat, sin_lat, -cos_lon * cos_lat))
     }
 
-    /// So many directions, spread evenly over the sphere along a spiral (a Fibonacci lattice).
+    /// Returns `count` directions spread evenly over the sphere along a spiral (a Fibonacci lattice).
     pub fn spread(count: usize) -> impl Iterator<Item = Self> {
         let golden = std::f64::consts::PI * (3.0 - 5f64.sqrt());
         (0..count).map(move |k| {
@@ -49,31 +49,31 @@ impl Direction {
         })
     }
 
-    /// Longitude (0 at the front, −180° to 180°, positive to the right) and latitude (positive up): the yaw and pitch of
-    /// a camera that looks this way.
+    /// Returns longitude (0 at the front, −180° to 180°, positive to the right) and latitude (positive up). They are
+    /// the yaw and pitch of a camera that looks this way.
     pub fn longitude_latitude(self) -> (Angle, Angle) {
         let longitude = self.0.x.atan2(-self.0.z);
         let latitude = self.0.y.atan2(self.0.x.hypot(self.0.z));
         (Angle::from_radians(longitude), Angle::from_radians(latitude))
     }
 
-    /// The unit vector.
+    /// Returns the unit vector.
     pub const fn vector(self) -> DVec3 {
         self.0
     }
 
-    /// The direction behind.
+    /// Returns the opposite direction.
     #[must_use]
     pub fn opposite(self) -> Self {
         Self::from_unit(-self.vector())
     }
 
-    /// Cosine of the angle to another direction.
+    /// Returns the cosine of the angle to another direction.
     pub fn dot(self, other: Self) -> f64 {
         self.0.dot(other.0)
     }
 
-    /// Angle to another direction, exact for small and large angles alike.
+    /// Returns the angle to another direction, exact for small and large angles alike.
     pub fn angle_to(self, other: Self) -> Angle {
         // Of near directions by the series of 2 asin(chord/2), whose next term is less than rounding.
         let squared = self.0.distance_squared(other.0);
@@ -86,8 +86,8 @@ impl Direction {
     }
 }
 
-/// ∂direction/∂(x, y): how a direction moves as a point of a plane or a pixel of a screen moves.
-/// Both columns are tangent to the sphere at the direction.
+/// Derivatives ∂direction/∂(x, y) of a direction with respect to a point of a plane or a pixel of a screen. Both
+/// columns are tangent to the sphere at the direction.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DirectionJacobian {
     /// Change of the direction for a unit step along x.
@@ -97,13 +97,13 @@ pub struct DirectionJacobian {
 }
 
 impl DirectionJacobian {
-    /// Solid angle covered by a unit square of the plane, in steradians (to first order).
+    /// Returns the solid angle covered by a unit square of the plane, in steradians (to first order).
     pub fn solid_angle(&self) -> f64 {
         self.dx.cross(self.dy).length()
     }
 
-    /// The plane step that moves the direction by `tangent`; what sticks out of the tangent plane is left out. `None` where
-    /// the mapping is singular.
+    /// Returns the step in the plane that moves the direction by `tangent`, of which only the part in the tangent plane
+    /// counts. `None` where the mapping is singular.
     pub fn pseudo_inverse(&self, tangent: DVec3) -> Option<glam::DVec2> {
         // Cramer's rule on areas in the tangent plane. The normal equations JᵀJ would square the condition number, which
         // near the rim of a lens that sees almost all of the sphere costs half of the digits.

@@ -2,23 +2,23 @@ use std::fmt;
 
 use super::Direction;
 
-/// Between which yaws and pitches a set of directions lies, in whole degrees. Sets in any order make the same extent.
+/// Range of yaws and pitches of a set of directions, in whole degrees. It does not depend on the directions' order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Extent {
-    /// A bit for each degree of yaw, from -180 on, in which a direction lies.
+    /// One bit for each degree of yaw, from -180 on, that contains a direction.
     yaws: [u64; WORDS],
-    /// The lowest and the highest pitch.
+    /// Lowest and highest pitch.
     pitches: (i32, i32),
 }
 
 const WORDS: usize = 6;
 const TURN: i32 = 360;
 
-/// Of arcs that are longer it is told what is not in them.
+/// Longest arc of yaws, in degrees, that is described by its ends; of a longer one the gap is described.
 const MOST: i32 = 300;
 
 impl Extent {
-    /// Of one direction.
+    /// Returns the extent of one direction.
     pub fn of(direction: Direction) -> Self {
         let (yaw, pitch) = direction.longitude_latitude();
         let (yaw, pitch) = (yaw.degrees(), pitch.degrees());
@@ -28,7 +28,7 @@ impl Extent {
         Self { yaws, pitches: (pitch.floor() as i32, pitch.ceil() as i32) }
     }
 
-    /// Of both together.
+    /// Returns the extent of both sets together.
     #[must_use]
     pub fn union(self, other: Self) -> Self {
         Self {
@@ -42,8 +42,8 @@ impl Extent {
         (self.yaws[bit / 64] >> (bit % 64)) & 1 == 1
     }
 
-    /// The shortest arc of yaws that holds all of them: where it begins, from -180 to 179, and where it ends, to the right of
-    /// that, in degrees.
+    /// Returns the shortest arc of yaws that holds all directions: its beginning, from -180 to 179, and its end, to the
+    /// right of it, in degrees.
     pub fn yaws(&self) -> (i32, i32) {
         // The longest run of degrees without a direction ends where the arc begins.
         let starts = (0..TURN).filter(|degree| self.has_yaw(*degree));
@@ -52,7 +52,7 @@ impl Extent {
         (start - 180, start - 180 + TURN - gap)
     }
 
-    /// The lowest and the highest pitch, in degrees.
+    /// Returns the lowest and the highest pitch, in degrees.
     pub fn pitches(&self) -> (i32, i32) {
         self.pitches
     }

@@ -2,7 +2,7 @@ use glam::{DMat3, DVec3};
 
 use super::{Angle, Direction, DirectionJacobian};
 
-/// How a view is turned in the world.
+/// Orientation of a view in the world.
 ///
 /// Yaw, then pitch, then roll: yaw > 0 turns right, pitch > 0 looks up, roll > 0 turns the camera
 /// clockwise as the photographer sees it (so the picture's content turns counter-clockwise).
@@ -18,10 +18,10 @@ pub struct Orientation {
 }
 
 impl Orientation {
-    /// Looking to the front, up is up.
+    /// Looking to the front, with up at the top.
     pub const IDENTITY: Self = Self { world_from_view: DMat3::IDENTITY };
 
-    /// The orientation of a camera turned by yaw, then pitched, then rolled about its own axes.
+    /// Returns the orientation of a camera turned by yaw, then pitch, then roll, each about its own axes.
     pub fn from_yaw_pitch_roll(yaw: Angle, pitch: Angle, roll: Angle) -> Self {
         let world_from_view = DMat3::from_rotation_y(-yaw.radians())
             * DMat3::from_rotation_x(pitch.radians())
@@ -29,8 +29,8 @@ impl Orientation {
         Self { world_from_view }
     }
 
-    /// Yaw, pitch and roll that give this orientation: yaw and roll from −180° to 180°, pitch from −90° to 90°. Straight up
-    /// and down, where yaw and roll turn about one axis, roll is zero.
+    /// Returns yaw, pitch and roll: yaw and roll from −180° to 180°, pitch from −90° to 90°. Straight up and down,
+    /// where yaw and roll turn about one axis, roll is zero.
     pub fn yaw_pitch_roll(&self) -> [Angle; 3] {
         let [right, up, back] = [self.world_from_view.x_axis, self.world_from_view.y_axis, self.world_from_view.z_axis];
         let pitch = (-back.y).clamp(-1.0, 1.0).asin();
@@ -43,34 +43,35 @@ impl Orientation {
         [yaw, pitch, roll].map(|angle| Angle::from_radians(if angle == 0.0 { 0.0 } else { angle }))
     }
 
-    /// The orientation whose image right, up and forward are these directions (an orthonormal, right-handed set).
+    /// Returns the orientation whose image right, up and forward are these directions (an orthonormal, right-handed
+    /// set).
     pub fn from_axes(right: Direction, up: Direction, forward: Direction) -> Self {
         let world_from_view = DMat3::from_cols(right.vector(), up.vector(), -forward.vector());
         debug_assert!((world_from_view.determinant() - 1.0).abs() < 1e-9, "axes are not right-handed");
         Self { world_from_view }
     }
 
-    /// This orientation as seen from a frame that is itself turned by `outer`.
+    /// Returns this orientation as seen from a frame that is itself turned by `outer`.
     pub fn within(self, outer: Self) -> Self {
         Self { world_from_view: outer.world_from_view * self.world_from_view }
     }
 
-    /// From the view's frame to the world's.
+    /// Converts a direction from the view's frame to the world's.
     pub fn to_world(&self, direction: Direction) -> Direction {
         Direction::from_unit(self.world_from_view * direction.vector())
     }
 
-    /// From the world's frame to the view's.
+    /// Converts a direction from the world's frame to the view's.
     pub fn to_view(&self, direction: Direction) -> Direction {
         Direction::from_unit(self.vector_to_view(direction.vector()))
     }
 
-    /// A tangent vector from the world's frame to the view's.
+    /// Converts a tangent vector from the world's frame to the view's.
     pub fn vector_to_view(&self, vector: DVec3) -> DVec3 {
         self.world_from_view.transpose() * vector
     }
 
-    /// Both derivatives from the view's frame to the world's.
+    /// Converts both derivatives from the view's frame to the world's.
     pub fn jacobian_to_world(&self, jacobian: DirectionJacobian) -> DirectionJacobian {
         DirectionJacobian { dx: self.world_from_view * jacobian.dx, dy: self.world_from_view * jacobian.dy }
     }

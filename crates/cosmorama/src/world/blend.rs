@@ -3,26 +3,26 @@ use crate::camera::{Footprint, PixelPoint, View};
 use crate::projection::Projection;
 use crate::sphere::{Angle, Direction, DirectionJacobian};
 
-/// How a view takes part where others show the same directions.
+/// Blending of a view with others that show the same directions.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Blend {
-    /// A view of higher priority covers those of lower priority; those of the same one share.
+    /// Priority: a view covers those of lower priority, and shares with those of the same.
     pub priority: i32,
-    /// Over how wide a band at its border a view fades out, zero for not at all. Where no view fades, the finest one, which
-    /// has most pixels for a solid angle, has it all.
+    /// Width of the band at its border over which a view fades out; zero for no fading. Where no view fades, the finest
+    /// one, with the most pixels per solid angle, is used alone.
     pub feather: Angle,
 }
 
-/// What a view has of one direction.
+/// A view's share in one direction, before it is divided among all views.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Presence {
     /// Index of the view.
     pub(crate) index: usize,
-    /// Where in its image.
+    /// Place of the direction in its image.
     pub(crate) pixel: PixelPoint,
-    /// One inside, falling to zero at a feathered border.
+    /// Weight: one inside, falling to zero at a feathered border.
     weight: f64,
-    /// Of a texel, in steradians.
+    /// Solid angle of a texel, in steradians.
     solid_angle: f64,
     blend: Blend,
 }
@@ -48,10 +48,10 @@ impl Presence {
     }
 }
 
-/// The part that each of the views which show a direction has of it; the parts add to one.
+/// Returns the share of each view that shows a direction; the shares add to one.
 ///
-/// Parts are continuous wherever borders are feathered: a view comes in with weight zero, and what it leaves goes to the
-/// others.
+/// Shares are continuous wherever borders are feathered: a view comes in with weight zero, and hands its weight over to
+/// others where it ends.
 pub(crate) fn parts(present: &[Presence]) -> Vec<f64> {
     let mut parts = vec![0.0; present.len()];
     let mut left = 1.0;
@@ -79,20 +79,21 @@ pub(crate) fn parts(present: &[Presence]) -> Vec<f64> {
     parts
 }
 
-/// One for the view whose texels are smallest, and for those that are as fine.
+/// Returns one for the view with the smallest texels, and for those that are as fine; else zero.
 fn finest<'a>(one: &Presence, all: impl Iterator<Item = &'a Presence>) -> f64 {
     const AS_FINE: f64 = 1.000_001;
     let least = all.map(|other| other.solid_angle).fold(f64::INFINITY, f64::min);
     f64::from(u8::from(one.solid_angle <= least * AS_FINE))
 }
 
-/// From 0 to 1 without a kink at either end; for two views that overlap by their feather, the two add to one.
+/// Smooth step from 0 to 1 without a kink at either end. For two views that overlap by their feather the weights add to
+/// one.
 fn smooth(t: f64) -> f64 {
     let t = t.clamp(0.0, 1.0);
     t * t * (3.0 - 2.0 * t)
 }
 
-/// About how far a point of an image is from where its picture ends, in radians.
+/// Returns the approximate distance of a point of an image to the border of its picture, in radians.
 fn border_distance(source: &Source, pixel: PixelPoint) -> f64 {
     let view = &source.view;
     let Some(footprint) = view.footprint(pixel) else { return 0.0 };
@@ -104,19 +105,19 @@ fn border_distance(source: &Source, pixel: PixelPoint) -> f64 {
     distance
 }
 
-/// Which edges of an image are where its picture ends.
+/// Edges of an image at which its picture ends.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Border {
-    /// Left and right: not where the picture goes all the way round.
+    /// Left and right edges; false if the picture goes all the way round.
     sides: bool,
-    /// The upper one: not where it is a pole.
+    /// Upper edge; false if it is a pole.
     top: bool,
-    /// The lower one.
+    /// Lower edge; false if it is a pole.
     bottom: bool,
 }
 
 impl Border {
-    /// Finds at which edges of its image a view's picture ends.
+    /// Finds the edges at which a view's picture ends.
     pub(crate) fn of(view: &View) -> Self {
         Self {
             sides: view.period().is_none_or(|period| period > view.width()),
@@ -125,7 +126,7 @@ impl Border {
         }
     }
 
-    /// About how far a point of the image is from where the picture ends, in radians.
+    /// Returns the approximate distance of a point of the image to the picture's border, in radians.
     fn distance(self, view: &View, pixel: PixelPoint, footprint: &Footprint) -> f64 {
         let DirectionJacobian { dx, dy } = footprint.jacobian;
         let (right, bottom) = (view.width() as f64, view.height() as f64);
@@ -145,13 +146,13 @@ impl Border {
     }
 }
 
-/// Whether a row of an image is a pole: the picture does not end there.
+/// Returns whether a row of an image is a pole, where the picture does not end.
 fn is_a_point(view: &View, y: f64) -> bool {
     let ends = [0.0, view.width() as f64 / 3.0].map(|x| view.direction(PixelPoint::new(x, y)));
     matches!(ends, [Some(a), Some(b)] if a.angle_to(b).radians() < 1e-6)
 }
 
-/// Computes about how far a point of the image is from the field stop, in radians.
+/// Returns the approximate distance of a point of the image to the field stop, in radians.
 fn stop_distance(view: &View, pixel: PixelPoint, jacobian: &DirectionJacobian) -> f64 {
     let mut distance = f64::INFINITY;
     if let Some(radius) = view.stop.circle {

@@ -2,21 +2,21 @@ use crate::camera::{PixelPoint, View};
 use crate::projection::{PlanePoint, Projection};
 use crate::sphere::{Angle, Direction};
 
-/// A cone that holds every direction which a picture shows.
+/// A cone that holds every direction in a picture.
 ///
-/// Far outside, around the point behind a lens or beside a horizon, small caps lie all over the image's plane: what the cone
-/// does not reach need not be looked for there.
+/// Around the point behind a lens, or beside a horizon, small caps spread over the whole plane of the image. Caps
+/// outside the cone need not be searched for there.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct SeenCone {
     middle: Direction,
     half: Angle,
 }
 
-/// Points along each edge of an image, and across it, that are looked at.
+/// Number of sampled points along each edge of an image, and across it.
 const STEPS: usize = 48;
 
 impl SeenCone {
-    /// Computes the cone of a view; `None` where the view may be as wide as the world.
+    /// Computes the cone of a view; `None` where the view may span the whole world.
     pub(crate) fn of(view: &View) -> Option<Self> {
         match view.stop.circle {
             Some(radius) => Self::of_circle(view, radius),
@@ -30,7 +30,7 @@ impl SeenCone {
         Some(Self { middle: view.orientation.to_world(middle), half })
     }
 
-    /// The cone around a lattice of points of the image, and around as much more as two neighbours of them are apart.
+    /// Returns the cone around a lattice of points of the image, widened by the distance between neighbouring points.
     fn of_image(view: &View) -> Option<Self> {
         // A panorama goes round; what a table relates may be torn between any two points.
         if view.period().is_some() || view.projection.ends_between_samples() {
@@ -52,7 +52,7 @@ impl SeenCone {
         (half < Angle::HALF_TURN).then_some(Self { middle, half })
     }
 
-    /// Whether it comes within `radius` radians of a direction.
+    /// Returns whether it comes within `radius` radians of a direction.
     pub(crate) fn reaches(&self, direction: Direction, radius: f64) -> bool {
         self.middle.angle_to(direction).radians() <= self.half.radians() + radius
     }

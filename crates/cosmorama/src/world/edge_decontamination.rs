@@ -3,35 +3,36 @@ use rayon::prelude::*;
 use crate::camera::{PixelPoint, View};
 use crate::raster::Rgba;
 
-/// Texels of a view that are cut by the edge of its field of view, such as the rim of a circle, ball or oval map.
+/// Texels that are cut by the edge of a view's field of view, such as the rim of a circle, ball or oval map.
 ///
-/// Whoever made the picture may have antialiased its rim: then they are mixed with what lies around it, and whatever is made
-/// of them would show the rim, an oval map's as a line from pole to pole. Or they hold what the whole texel sees. They are
-/// taken for what is more like the whole texels beside them. Whoever fills a world with light of pictures restores them first.
+/// A picture's rim may have been antialiased: then its texels are mixed with the surroundings, and a conversion would
+/// show the rim, in an oval map as a line from pole to pole. Or its texels hold the light of whole texels. The
+/// alternative that better matches the whole texels beside them is assumed. Mixed texels must be restored before a
+/// world is filled with the light of pictures.
 #[derive(Clone, Debug, Default)]
 pub struct RimTexels {
     /// Columns and rows of the view.
     size: [usize; 2],
     texels: Vec<RimTexel>,
-    /// Texels beside them, in the order of the image's texels.
+    /// Neighbours of the rim texels, as indices in reading order.
     beside: Vec<u32>,
 }
 
 #[derive(Clone, Debug)]
 struct RimTexel {
     at: u32,
-    /// The part of it inside.
+    /// Fraction of the texel inside the field of view.
     coverage: f32,
-    /// Where those beside it begin, how many are whole, and how many after these show nothing.
+    /// Index of its first neighbour, number of whole neighbours, and number of neighbours after them that show nothing.
     first: usize,
     whole: u8,
     outside: u8,
 }
 
-/// By what part of the light around them codes of eight bits may miss a mixture.
+/// Tolerance for 8-bit codes, as a fraction of the surrounding light.
 const ROUNDING: f32 = 0.02;
 
-/// Pixels of a block whose corners tell whether the edge may cut one of them.
+/// Side of the blocks, in pixels, whose corners show whether the edge may cut a pixel of the block.
 const BLOCK: usize = 8;
 
 impl RimTexels {
@@ -70,11 +71,11 @@ impl RimTexels {
         self.beside.extend(whole.into_iter().chain(outside));
     }
 
-    /// Restores them in the view's light, linear and premultiplied by alpha: its rows, all as long, which may be longer than the view
-    /// is wide. Texels of any kind are told by `light` and made by `texel`.
+    /// Restores the rim texels in a view's light, which is linear and premultiplied by alpha. All rows have one length,
+    /// which may exceed the view's width. `light` and `texel` convert between texels of any type and light.
     ///
     /// # Panics
-    /// When it is not so many rows, or they are shorter than the view is wide.
+    /// When the number of rows is wrong, or rows are shorter than the view's width.
     pub fn restore<T: Copy>(&self, texels: &mut [T], light: impl Fn(T) -> Rgba, texel: impl Fn(Rgba) -> T) {
         let [columns, rows] = self.size.map(|length| length.max(1));
         let pitch = texels.len() / rows;
@@ -102,15 +103,15 @@ impl RimTexels {
         }
     }
 
-    /// The texels beside one: whole ones, and those that show nothing.
+    /// Returns a texel's neighbours: whole ones, and those that show nothing.
     fn beside(&self, rim: &RimTexel) -> [&[u32]; 2] {
         let (whole, rest) = self.beside[rim.first..].split_at(usize::from(rim.whole));
         [whole, &rest[..usize::from(rim.outside)]]
     }
 }
 
-/// What is seen inside, where a texel is that mixed with what lies around. `None` if that would be darker than black: then it is no
-/// mixture.
+/// Returns the light inside, of a texel that is mixed with its surroundings. `None` if that would be darker than black,
+/// because then the texel is no mixture.
 fn inside(Rgba(mixed): Rgba, Rgba(around): Rgba, coverage: f32) -> Option<Rgba> {
     let part = |channel: usize| (mixed[channel] - (1.0 - coverage) * around[channel]) / coverage;
     let parts: [f32; 4] = std::array::from_fn(part);
@@ -119,8 +120,8 @@ fn inside(Rgba(mixed): Rgba, Rgba(around): Rgba, coverage: f32) -> Option<Rgba> 
     (0..4).all(is_light).then(|| Rgba([red, green, blue, alpha.min(1.0)]))
 }
 
-/// Whether texels are mixtures: how far they are on the way from what is expected of whole ones to what is of mixed ones, by least
-/// squares, so that rough pictures are told as well as smooth ones.
+/// Least-squares test of whether texels are mixtures: where they lie between the expected whole texels and the expected
+/// mixtures. It uses all rim texels, so it works for rough pictures too.
 #[derive(Default)]
 struct Mixture {
     way: f64,
@@ -143,20 +144,20 @@ impl Mixture {
     }
 }
 
-/// How many corners of a square of texels see something.
+/// Returns how many corners of a square of texels show something.
 fn corners_shown(view: &View, [i, j]: [usize; 2], size: usize) -> usize {
     let (right, below) = ((i + size).min(view.width()), (j + size).min(view.height()));
     let corners = [(i, j), (right, j), (i, below), (right, below)];
     corners.into_iter().filter(|(x, y)| view.shows(PixelPoint::new(*x as f64, *y as f64))).count()
 }
 
-/// The blocks in a row of them that the edge may cut.
+/// Visits the blocks in a row that the edge may cut.
 fn cut_blocks(view: &View, top: usize) -> impl Iterator<Item = [usize; 2]> + '_ {
     let blocks = (0..view.width()).step_by(BLOCK).map(move |left| [left, top]);
     blocks.filter(move |block| (1..4).contains(&corners_shown(view, *block, BLOCK)))
 }
 
-/// The texels of a block that the edge cuts and whose centre sees something: others count for nothing.
+/// Returns the texels of a block that the edge cuts and whose centre shows something; others have no weight.
 fn cut_texels(view: &View, [left, top]: [usize; 2]) -> Vec<([usize; 2], f32)> {
     let (rows, columns) = (top..(top + BLOCK).min(view.height()), left..(left + BLOCK).min(view.width()));
     let texels = rows.flat_map(|j| columns.clone().map(move |i| [i, j]));
@@ -188,7 +189,7 @@ mod tests {
         .map(view)
     }
 
-    /// A slope across the picture, mixed with what lies around by each texel's coverage if `mixed`.
+    /// Returns a gradient, mixed with its surroundings by each texel's coverage if `mixed`.
     fn picture(view: &View, around: Rgba, mixed: bool) -> Vec<Rgba> {
         let texel = |i: usize, j: usize| {
             let light = Rgba::opaque(0.5 + 0.002 * i as f32, 0.3 + 0.001 * j as f32, 0.4);
@@ -235,7 +236,7 @@ mod tests {
         }
     }
 
-    /// Of grass and leaves no single texel tells, but all together do.
+    /// No single texel of grass and leaves decides the question, but all together do.
     #[test]
     fn rough_pictures_are_told_by_the_whole_rim() {
         let noise = |k: usize| 0.02 + (k as u32).wrapping_mul(2_654_435_761) as f32 / u32::MAX as f32;

@@ -1,4 +1,4 @@
-//! Halving of a world: a level of the pyramid, with half as many texels each way.
+//! Halving of a world: a pyramid level with half the columns and rows.
 
 use std::sync::Arc;
 
@@ -6,10 +6,11 @@ use super::{Source, ViewMask, World, WorldView};
 use crate::camera::View;
 
 impl World {
-    /// The world of the same views in half as many columns and rows, rounded up; `None` where there is nothing left to halve.
+    /// Returns the world of the same views with half the columns and rows, rounded up; `None` where nothing is left to
+    /// halve.
     ///
-    /// A picture keeps its place: its edges, its field stop and the turn after which it repeats. Of a mask a texel is left that
-    /// holds one which counts.
+    /// The picture keeps its edges, its field stop and its period. A texel of a mask counts if any of the texels that
+    /// it replaces does.
     pub(crate) fn halved(&self) -> Option<Self> {
         let views = || self.sources().iter().map(|source| &source.view);
         if views().all(|view| view.width().max(view.height()) < SMALLEST) {
@@ -19,7 +20,7 @@ impl World {
     }
 }
 
-/// A picture whose longer side has fewer texels is not worth halving.
+/// Least length of the longer side of a picture that is worth halving.
 const SMALLEST: usize = 4;
 
 impl Source {
@@ -31,8 +32,8 @@ impl Source {
         WorldView { name: self.name.clone(), view, blend: self.blend, mask }
     }
 
-    /// The geometry alone of the picture in half as many texels each way; `None` where there is nothing left to halve. It has no
-    /// solid angles: what it is for is to measure how large texels are.
+    /// Returns the picture's geometry with half as many texels each way; `None` where nothing is left to halve. It has
+    /// no solid angles, because it only serves to measure the size of texels.
     pub(crate) fn coarser(&self) -> Option<Self> {
         if self.view.width().max(self.view.height()) < SMALLEST {
             return None;
@@ -41,14 +42,14 @@ impl Source {
         Some(self.with_geometry_of(view))
     }
 
-    /// Columns of the picture, those that show the same once more left out.
+    /// Returns the columns of the picture, without those that repeat the first ones.
     pub(crate) fn columns(&self) -> usize {
         self.period.map_or(self.view.width(), |period| period.min(self.view.width()))
     }
 }
 
 impl ViewMask {
-    /// The mask of the first so many columns in half as many of them and half as many rows.
+    /// Returns the mask of the first columns at half the columns and rows.
     fn halved(&self, columns: usize) -> Self {
         let (_, rows) = self.size();
         let (width, height) = (columns.div_ceil(2), rows.div_ceil(2));
@@ -59,7 +60,7 @@ impl ViewMask {
     }
 }
 
-/// Which of `size` texels in a row lie in the `index`th of `half` as many, whole or in part.
+/// Returns the range of `size` texels that lie, wholly or in part, in texel `index` of `half` as many.
 pub(crate) fn held(size: usize, half: usize, index: usize) -> std::ops::Range<usize> {
     index * size / half..((index + 1) * size).div_ceil(half)
 }

@@ -7,18 +7,19 @@ use crate::camera::{PixelPoint, PixelRect, View};
 use crate::projection::PlanePoint;
 use crate::sphere::Direction;
 
-/// Texels along a side of a picture that tell whether it overlaps another.
+/// Number of texels along a side of a picture that are tested for overlap.
 const ALONG_A_SIDE: usize = 64;
 
-/// Points around a field stop that tell it.
+/// Number of points around a field stop that are tested for overlap.
 const AROUND_A_STOP: usize = 256;
 
-/// How far inside a field stop they lie, so that rounding leaves them there: parts of its radius, or radians.
+/// Distance of these points inside the field stop, as a safeguard against rounding: a fraction of its radius, or
+/// radians.
 const INSIDE_A_STOP: f64 = 1e-6;
 
-/// Where pictures overlap, a direction has a texel of each, and each counts for its part: the outermost texels of cube
-/// faces whose samples lie on the edges, and whatever photographs have in common. Says of each view which others overlap
-/// it, and which of its texels count whole.
+/// Reduces the solid angles of texels where pictures overlap, such as the outermost texels of cube faces with samples
+/// on the edges, or the common parts of photographs. Each texel then counts for its share of the direction. Also
+/// records which views overlap each view, and which of its texels are not shared.
 pub(crate) fn share(sources: &mut [Source]) {
     let rims: Vec<Vec<Direction>> = sources.iter().map(|source| rim(&source.view)).collect();
     let sees = |view: usize, rim: usize| rims[rim].iter().any(|direction| sources[view].view.sees(*direction));
@@ -41,7 +42,7 @@ pub(crate) fn share(sources: &mut [Source]) {
     }
 }
 
-/// Multiplies each texel of a view by its part, and returns which texels have less than all.
+/// Multiplies each texel of a view by its share, and returns which texels are shared.
 fn share_texels(sources: &[Source], index: usize, solid_angles: &mut [f32]) -> Vec<bool> {
     let source = &sources[index];
     let width = source.view.width();
@@ -63,7 +64,7 @@ fn share_texels(sources: &[Source], index: usize, solid_angles: &mut [f32]) -> V
     is_shared
 }
 
-/// The largest rectangle with the same margin on all sides in which no texel is shared; an empty one if there is none.
+/// Returns the largest rectangle, with the same margin on all sides, in which no texel is shared; it may be empty.
 pub(crate) fn unshared(mut rect: PixelRect, width: usize, is_shared: &[bool]) -> PixelRect {
     while rect.left < rect.right && rect.top < rect.bottom {
         let row = |j: usize| is_shared[j * width + rect.left..j * width + rect.right].contains(&true);
@@ -80,7 +81,8 @@ pub(crate) fn unshared(mut rect: PixelRect, width: usize, is_shared: &[bool]) ->
     PixelRect { right: rect.left, bottom: rect.top, ..rect }
 }
 
-/// Directions along the rim of what a view shows: two views overlap where a part of the rim of one is in the other.
+/// Returns directions along the rim of the visible part of a view. Two views overlap where part of the rim of one is in
+/// the other.
 fn rim(view: &View) -> Vec<Direction> {
     let mut rim = image_border(view);
     rim.extend(circle_rim(view));
@@ -88,7 +90,7 @@ fn rim(view: &View) -> Vec<Direction> {
     rim
 }
 
-/// What some of the outermost texels see, those in the corners among them.
+/// Returns the directions of some of the outermost texels, corners included.
 fn image_border(view: &View) -> Vec<Direction> {
     let (last_column, last_row) = (view.width() - 1, view.height() - 1);
     let along = |last: usize| {
@@ -100,7 +102,7 @@ fn image_border(view: &View) -> Vec<Direction> {
     level.chain(upright).filter_map(|(i, j)| view.direction(PixelPoint::centre(i, j))).collect()
 }
 
-/// Directions just inside the limiting circle: it may lie well inside the image, whose own border then sees nothing.
+/// Returns directions just inside the limiting circle, which may lie well inside the image.
 fn circle_rim(view: &View) -> Vec<Direction> {
     let Some(radius) = view.stop.circle else { return Vec::new() };
     let radius = radius * (1.0 - INSIDE_A_STOP);
@@ -108,7 +110,7 @@ fn circle_rim(view: &View) -> Vec<Direction> {
     points.filter(|pixel| view.shows(*pixel)).filter_map(|pixel| view.direction(pixel)).collect()
 }
 
-/// Directions just on the visible side of the great circle that cuts off the rest.
+/// Returns directions just on the visible side of the limiting great circle.
 fn half_space_rim(view: &View) -> Vec<Direction> {
     let Some(side) = view.stop.half_space.map(Direction::vector) else { return Vec::new() };
     let (across, along) = side.any_orthonormal_pair();
@@ -117,7 +119,7 @@ fn half_space_rim(view: &View) -> Vec<Direction> {
     directions.map(|direction| view.orientation.to_world(direction)).filter(|direction| view.sees(*direction)).collect()
 }
 
-/// Cosine and sine of angles all the way round.
+/// Returns cosine and sine of angles all the way round.
 fn around() -> impl Iterator<Item = (f64, f64)> {
     (0..AROUND_A_STOP).map(|step| {
         let (sin, cos) = (std::f64::consts::TAU * step as f64 / AROUND_A_STOP as f64).sin_cos();
@@ -159,7 +161,7 @@ mod tests {
         assert!(is(0, angle(0, 0) / 3.0) && is(1, angle(1, 0) / 2.0) && is(34, angle(1, 1)));
     }
 
-    /// Two pictures, one ahead and one behind.
+    /// Makes a world of two pictures, one ahead and one behind.
     fn back_to_back(frame: CameraModel, size: usize) -> World {
         let turned = |degrees: f64| {
             let yaw = Angle::from_degrees(degrees);

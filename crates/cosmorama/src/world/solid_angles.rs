@@ -6,9 +6,9 @@ use rayon::prelude::*;
 
 use crate::camera::View;
 
-/// Solid angle of each texel of a view in steradians, row by row; zero for one that shows nothing.
+/// Solid angle of each texel of a view in steradians, row by row; zero for a texel that shows nothing.
 ///
-/// Views that are alike but for where they look, as the faces of a cube are, share one list.
+/// Views that differ only in orientation, like the faces of a cube, share one list.
 #[derive(Clone, PartialEq)]
 pub struct SolidAngles(Arc<Vec<f32>>);
 
@@ -22,12 +22,12 @@ impl SolidAngles {
         Self(Arc::new(angles))
     }
 
-    /// Returns the solid angles of no texel.
+    /// Returns an empty list.
     pub(super) fn none() -> Self {
         Self(Arc::default())
     }
 
-    /// Returns the list for changes, copied first if other views share it.
+    /// Returns the list for changes; it is copied first if other views share it.
     pub(crate) fn make_mut(&mut self) -> &mut [f32] {
         Arc::<Vec<f32>>::make_mut(&mut self.0)
     }
@@ -41,7 +41,7 @@ impl Deref for SolidAngles {
     }
 }
 
-/// How many they are: all of them would be millions.
+/// Prints only the number of texels, of which there may be millions.
 impl fmt::Debug for SolidAngles {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "SolidAngles({})", self.len())

@@ -5,14 +5,15 @@ use crate::camera::{Canvas, View};
 use crate::raster::Image;
 use crate::sphere::Direction;
 
-/// The numbers of an st map's pixel: s to the right, t up, and the part of the pixel that shows anything.
+/// A pixel of an st map: s to the right, t up, and the fraction of the pixel that shows something.
 pub type StPixel = [f32; 3];
 
-/// Value of an st map's pixel that shows nothing: a place outside the picture.
+/// A pixel of an st map that shows nothing: a place outside the picture.
 pub const ST_NOWHERE: StPixel = [-1.0, -1.0, 0.0];
 
 impl World {
-    /// Where in one image the pixels of a target look: of each view, `canvases` say which part of that image it is.
+    /// Returns the place in one image at which each pixel of a target looks. `canvases` gives the part of that image
+    /// that each view is.
     pub fn st_pixels(&self, target: &View, canvases: &[Canvas]) -> Image<StPixel> {
         let mut image = Image::filled(target.width(), target.height(), ST_NOWHERE);
         image.pixels_mut().par_chunks_mut(target.width()).enumerate().for_each(|(j, row)| {
@@ -26,7 +27,7 @@ impl World {
         image
     }
 
-    /// The place in the image as a whole, from the lower left corner to the upper right one.
+    /// Returns the place of a direction in the whole image, from (0, 0) at its lower left corner to (1, 1).
     fn place_in(&self, canvases: &[Canvas], direction: Direction) -> Option<[f64; 2]> {
         let (index, pixel) = self.owner(direction)?;
         let Canvas { width, height, left, top } = canvases.get(index)?;

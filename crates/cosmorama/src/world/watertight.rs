@@ -3,13 +3,14 @@ use crate::camera::{FieldStop, PixelPoint};
 use crate::projection::ProjectionKind;
 use crate::sphere::Direction;
 
-/// Largest distance of two corners that count as one, in radians: rounding.
+/// Distance below which two corners are the same, in radians; it allows for rounding.
 const SAME: f64 = 1e-12;
 
 impl World {
-    /// Whether the views certainly leave no hole between them.
+    /// Returns whether the views certainly leave no hole between them.
     ///
-    /// Their pictures must have great circles for sides, each of them the side of another picture, too, as a cube's faces have.
+    /// All sides of the pictures must be great circles, and each must also be the side of another picture, as in a
+    /// cube.
     pub(crate) fn is_closed(&self) -> bool {
         let corners: Option<Vec<[Direction; 4]>> = self.sources().iter().map(corners).collect();
         let Some(corners) = corners else { return false };
@@ -21,8 +22,8 @@ impl World {
     }
 }
 
-/// Where the corners of a picture look, clockwise even of one that is mirrored; `None` if its sides may be other than great
-/// circles, or not all of it counts.
+/// Returns the directions of a picture's corners, clockwise even if it is mirrored. `None` if its sides may not be
+/// great circles, or if a part of it does not count.
 fn corners(source: &Source) -> Option<[Direction; 4]> {
     let view = &source.view;
     let is_straight = matches!(view.projection, ProjectionKind::Perspective(_) | ProjectionKind::EquiAngular(_));
@@ -80,7 +81,7 @@ mod tests {
         assert!(!is_closed(vec![("all".to_owned(), panorama(16, 8))]));
     }
 
-    /// Mirrors the views whose index `asked` selects.
+    /// Mirrors the views whose indices `asked` selects.
     fn mirrored(
         views: Vec<(String, View)>,
         flip: fn(PixelGrid) -> PixelGrid,

@@ -20,7 +20,7 @@ pub enum WorldError {
     /// A view has no pixels.
     #[error("the view {0} has no pixels")]
     NoPixels(String),
-    /// A mask is of another picture.
+    /// A mask's size differs from its view's.
     #[error("the mask of the view {name} has {}x{} pixels, but the view has {}x{}", mask.0, mask.1, view.0, view.1)]
     MaskSize {
         /// The view's name.
@@ -30,73 +30,73 @@ pub enum WorldError {
         /// Columns and rows of the view.
         view: (usize, usize),
     },
-    /// Texels are counted in 32 bits, with what light may have between their rows.
+    /// The world has more texels than 32 bits can count, including any padding between their rows.
     #[error("the views take room for {0} texels together, more than {max}", max = u32::MAX)]
     TooLarge(usize),
 }
 
-/// A view that is to be a part of a world.
+/// A view for [`World::blended`], with its blending and its mask.
 #[derive(Clone, Debug)]
 pub struct WorldView {
-    /// What messages call it.
+    /// Name for messages.
     pub name: String,
-    /// Where its texels lie.
+    /// Geometry of the image.
     pub view: View,
-    /// How it takes part where other views show the same.
+    /// Blending with other views that show the same directions.
     pub blend: Blend,
-    /// Which of its texels count, if not all; of the view's size.
+    /// Mask of the view's size; `None` if all texels count.
     pub mask: Option<Arc<ViewMask>>,
 }
 
-/// One view of a world and the place of its texels among all the world's texels.
+/// One view of a world, with the place of its texels among all the world's texels.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Source {
-    /// What messages call this view, such as a face's name.
+    /// Name for messages, for example that of a cube face.
     pub name: String,
-    /// Where its texels lie.
+    /// Geometry of the image.
     pub view: View,
     /// Index of its first texel in the world's buffer; the rest follow row by row.
     pub offset: usize,
-    /// After how many columns the picture repeats, where it goes all the way round.
+    /// Number of columns after which the picture repeats, if it goes all the way round.
     pub period: Option<usize>,
-    /// The larger side of the largest texel, in radians.
+    /// Larger side of the largest texel, in radians.
     pub texel_pitch: f64,
-    /// How much of the sphere each of its texels counts for.
+    /// Solid angle of the sphere that each texel counts for.
     pub solid_angles: SolidAngles,
-    /// How it takes part where other views show the same.
+    /// Blending with other views that show the same directions.
     pub blend: Blend,
-    /// Where its picture ends.
+    /// Edges at which its picture ends.
     pub(crate) border: Border,
-    /// A cone that holds all that it shows, where that is not the world.
+    /// Cone that holds its whole field of view; `None` if that may be the whole world.
     cone: Option<SeenCone>,
-    /// Which of its texels count, if not all.
+    /// Mask; `None` if all texels count.
     pub mask: Option<Arc<ViewMask>>,
-    /// Indices of the views that overlap this one.
+    /// Indices of the views that overlap it.
     pub(crate) others: Vec<usize>,
-    /// Texels that count for all that they show: no other view has a part in them, and none of them is there twice.
+    /// Rectangle of texels that are not shared: no other view shows the same directions, and none is there twice.
     pub(crate) whole: PixelRect,
 }
 
-/// Where a texel of a world lies.
+/// Place of a texel in a world.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct TexelPlace {
-    /// The view, by its index.
+    /// Index of the view.
     pub(crate) view: usize,
-    /// Its column and row there.
+    /// Column and row in the view.
     pub(crate) texel: [usize; 2],
 }
 
 impl Source {
-    /// Whether [`Self::texel_pitch`] bounds every texel.
+    /// Returns whether [`Self::texel_pitch`] is an upper bound for every texel.
     ///
-    /// It is measured at some points. Between those, texels beside a steep rim may be larger, and so may those of a table.
+    /// The pitch is measured at some points. Between them, texels beside a steep rim, or of a table, may be larger.
     pub(crate) fn has_bounded_texels(&self) -> bool {
         let projection = &self.view.projection;
         !projection.has_steep_rim() && !matches!(projection, ProjectionKind::StMap(_))
     }
 
-    /// An upper bound of a texel's larger side, in radians, at a direction: beside a steep rim texels are far larger than
-    /// elsewhere, and the largest says nothing of the others.
+    /// Returns an upper bound of a texel's larger side, in radians, at a direction. Beside a steep rim texels are far
+    /// larger than elsewhere, so the world's largest texel would be a poor bound for the others.
     pub fn texel_pitch_at(&self, direction: Direction) -> f64 {
         if !self.view.projection.has_steep_rim() {
             return self.texel_pitch;
@@ -118,7 +118,7 @@ impl Source {
 }
 
 impl Source {
-    /// This source with another grid over the same picture, and without solid angles.
+    /// Returns this source with another grid over the same picture, and without solid angles.
     pub(super) fn with_geometry_of(&self, view: View) -> Self {
         let larger = (view.grid.step() / self.view.grid.step()).max_element();
         // Beside a steep rim texels grow otherwise.
@@ -137,12 +137,13 @@ impl Source {
         }
     }
 
-    /// Whether anything within `radius` radians of a direction may be shown.
+    /// Returns whether anything within `radius` radians of a direction may be visible.
     pub(crate) fn reaches(&self, direction: Direction, radius: f64) -> bool {
         self.cone.is_none_or(|cone| cone.reaches(direction, radius))
     }
 
-    /// Distance of a direction from the image, in texels; zero inside, `None` where the projection has no place for it.
+    /// Returns the distance of a direction from the image, in texels: zero inside, `None` where the projection has no
+    /// place for it.
     pub(crate) fn texels_beyond(&self, direction: Direction) -> Option<f64> {
         let pixel = self.view.wrapped(self.view.pixel(direction)?);
         let (width, height) = (self.view.width() as f64, self.view.height() as f64);
@@ -154,18 +155,19 @@ impl Source {
         Some(across.hypot(down).max(outside / self.view.grid.step().abs().min_element()))
     }
 
-    /// Whether a point of the image shows something that counts.
+    /// Returns whether a point of the image shows something that counts.
     pub(crate) fn shows(&self, pixel: PixelPoint) -> bool {
         self.view.shows(pixel) && self.mask.as_ref().is_none_or(|mask| mask.shows(pixel))
     }
 
-    /// The column that shows what column `i` would, the picture repeated all the way round if it does.
+    /// Returns the column that stands for column `i` in a picture that repeats all the way round; `None` outside
+    /// others.
     pub fn column(&self, i: i64) -> Option<i64> {
         let i = self.period.map_or(i, |period| i.rem_euclid(period as i64));
         (0..self.view.width() as i64).contains(&i).then_some(i)
     }
 
-    /// The range of this view's texels in the world's buffer.
+    /// Returns the range of this view's texels in the world's buffer.
     pub fn texels(&self) -> std::ops::Range<usize> {
         self.offset..self.offset + self.view.width() * self.view.height()
     }
@@ -181,16 +183,17 @@ pub struct World {
 }
 
 impl World {
-    /// The world of these named views.
+    /// Creates a world of named views.
     ///
     /// # Errors
-    /// When there is no view, one without pixels or with a mask of another size, or more texels than 32 bits can count.
+    /// When there is no view, a view has no pixels or a mask of another size, or there are more texels than 32 bits can
+    /// count.
     pub fn new(views: impl IntoIterator<Item = (String, View)>) -> Result<Self, WorldError> {
         let part = |(name, view)| WorldView { name, view, blend: Blend::default(), mask: None };
         Self::blended(views.into_iter().map(part))
     }
 
-    /// Builds a world of views that blend where they overlap.
+    /// Creates a world of views that blend where they overlap.
     ///
     /// # Errors
     /// Those of [`World::new`].
@@ -198,7 +201,7 @@ impl World {
         Self::made(views.into_iter().collect(), Vec::new())
     }
 
-    /// Builds a world of other views, and reuses the solid angles of texels that both worlds have.
+    /// Creates a world of other views, and reuses the solid angles of texels that both worlds have.
     ///
     /// The rest of this world is freed first: whole pictures may be far larger than the parts at hand.
     ///
@@ -246,13 +249,13 @@ impl World {
         Ok(Self { sources })
     }
 
-    /// The views.
+    /// Returns the views.
     pub fn sources(&self) -> &[Source] {
         &self.sources
     }
 
-    /// The index of the view that holds a direction, and where in its image; where several do, the one that has the
-    /// largest part of it.
+    /// Returns the index of the view that shows a direction, and the place in its image. Where several do, the view
+    /// with the largest share is returned.
     pub fn owner(&self, direction: Direction) -> Option<(usize, PixelPoint)> {
         let first = self.first_to_hold(direction)?;
         if self.sources[first.0].others.is_empty() {
@@ -267,7 +270,8 @@ impl World {
         Some(largest.1)
     }
 
-    /// Calls `visit` with each view that holds a direction, the point in its image, and its part; the parts add to one.
+    /// Calls `visit` with each view that shows a direction, the place in its image, and its share; the shares add to
+    /// one.
     pub(crate) fn for_each_holder(&self, direction: Direction, mut visit: impl FnMut(usize, PixelPoint, f64)) {
         let Some((first, pixel)) = self.first_to_hold(direction) else { return };
         let source = &self.sources[first];
@@ -296,7 +300,7 @@ impl World {
         })
     }
 
-    /// Where a texel lies, given its index in the buffer that holds the light.
+    /// Returns the place of a texel, by its index in the buffer of light.
     pub(crate) fn texel(&self, index: u32) -> TexelPlace {
         let view = self.sources.partition_point(|source| source.offset <= index as usize) - 1;
         let source = &self.sources[view];
@@ -305,28 +309,29 @@ impl World {
         TexelPlace { view, texel: [within % width, within / width].map(|at| at as usize) }
     }
 
-    /// Texels of all views together: the length of the buffer that holds the light.
+    /// Returns the number of texels of all views: the length of the buffer of light.
     pub fn texel_count(&self) -> usize {
         self.sources.last().map_or(0, |last| last.texels().end)
     }
 
-    /// Columns and rows of each view.
+    /// Returns the columns and rows of each view.
     pub fn view_sizes(&self) -> impl Iterator<Item = [usize; 2]> + '_ {
         self.sources.iter().map(|source| [source.view.width(), source.view.height()])
     }
 
-    /// Solid angle of each texel in steradians, in the order of the buffer that holds the light; zero for one that shows nothing.
+    /// Returns the solid angle of each texel in steradians, in the order of the buffer of light; zero for a texel that
+    /// shows nothing.
     pub fn solid_angles(&self) -> impl Iterator<Item = f32> + '_ {
         self.sources.iter().flat_map(|source| source.solid_angles.iter().copied())
     }
 }
 
-/// Whether the texels of two views are the same but for how the views are turned.
+/// Returns whether the texels of two views are the same except for the views' orientation.
 fn is_alike(a: &View, b: &View) -> bool {
     a.projection == b.projection && a.grid == b.grid && a.stop == b.stop
 }
 
-/// Whether views make a world, before memory is taken for it.
+/// Checks that views make a world, before memory is allocated for it.
 fn check(views: &[WorldView]) -> Result<(), WorldError> {
     let mut all = 0usize;
     for WorldView { name, view, mask, .. } in views {
@@ -346,7 +351,7 @@ fn check(views: &[WorldView]) -> Result<(), WorldError> {
     }
 }
 
-/// Texels are counted in 32 bits, in light whose rows are filled up, too.
+/// Largest number of texels, which are counted in 32 bits, in light with padded rows too.
 const MOST_TEXELS: usize = u32::MAX as usize;
 
 /// Sets the solid angles of masked texels to zero.
@@ -362,8 +367,8 @@ fn hide(sources: &mut [Source]) {
     }
 }
 
-/// The larger side of the largest texel, found on a coarse grid of points: no formula here bends faster. A table may, between
-/// two points; there a kernel may miss a texel that lies beyond a seam.
+/// Returns the larger side of the largest texel, found on a coarse grid of points. No formula here bends faster than
+/// that grid. A table may, and then a kernel may miss a texel beyond a seam.
 fn texel_pitch(view: &View) -> f64 {
     const STEPS: usize = 32;
     let at = |size: usize, step: usize| size as f64 * step as f64 / STEPS as f64;
@@ -372,7 +377,8 @@ fn texel_pitch(view: &View) -> f64 {
     texels.map(|texel| texel.dx.length().max(texel.dy.length())).fold(0.0, f64::max)
 }
 
-/// A panorama with samples on its edges holds one column twice: only the first of the two counts.
+/// Returns the texels of a view that count. A panorama with samples on its edges has one column twice, of which only
+/// the first counts.
 fn owned(view: &View) -> PixelRect {
     let right = view.period().map_or(view.width(), |period| period.min(view.width()));
     PixelRect { left: 0, top: 0, right, bottom: view.height() }

@@ -2,7 +2,7 @@ use crate::camera::{Camera, CameraError, FieldStop, PixelGrid, View};
 use crate::projection::{PlanePoint, PlaneRect, ProjectionKind};
 use crate::sphere::Orientation;
 
-/// A face of a cube: 90° both ways, so the pixels of an image that is not square are not square either.
+/// A face of a cube. It spans 90° both ways, so its pixels are square only if the image is.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct CubeFaceCamera;
 

@@ -9,7 +9,7 @@ pub enum FieldOfView {
     Vertical(Angle),
     /// From one corner to the opposite one.
     Diagonal(Angle),
-    /// Both ways: the pixels fit, whatever shape that makes them.
+    /// Horizontal and vertical angle; pixels are square only if the two fit the image's shape.
     Both {
         /// From the left edge to the right one.
         horizontal: Angle,

@@ -3,13 +3,13 @@ use crate::camera::{Camera, CameraError, FieldStop, PixelGrid, SamplePositions, 
 use crate::projection::{PlanePoint, PlaneRect, ProjectionKind};
 use crate::sphere::{Angle, Orientation};
 
-/// A face of a cube map whose pixels are not those of a pinhole camera that sees 90°: they see equal angles, the
-/// outermost samples lie on the cube's edges, or the face goes on beyond those.
+/// A face of a cube map that differs from a pinhole camera of 90°: it is equi-angular, its outermost samples lie on the
+/// cube's edges, or it extends beyond them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LayoutFaceCamera {
     /// Mapping of pixels to angles.
     pub mapping: FaceMapping,
-    /// Where the outermost samples lie.
+    /// Position of the outermost samples.
     pub samples: SamplePositions,
     /// Field of view from edge to edge; a face of more than 90° overlaps its neighbours.
     pub field_of_view: Angle,
@@ -26,7 +26,7 @@ impl Default for LayoutFaceCamera {
     }
 }
 
-/// How the pixels of a face of a cube see the world.
+/// Mapping of a cube face's pixels to directions.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum FaceMapping {
     /// As a pinhole camera does.

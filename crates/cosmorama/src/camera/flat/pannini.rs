@@ -5,12 +5,12 @@ use crate::camera::{Camera, CameraError, FieldStop, PixelGrid, PixelPoint, View}
 use crate::projection::{Pannini, ProjectionKind};
 use crate::sphere::{Angle, Orientation};
 
-/// A wide picture in Pannini's manner: upright lines stay straight, and so do those towards the middle.
+/// A wide picture in Pannini projection: vertical lines, and lines through the centre, stay straight.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PanniniCamera {
-    /// d: 0 is a pinhole camera, 1 Pannini's own.
+    /// Distance d of the eye behind the cylinder's axis: 0 is a pinhole camera, 1 Pannini's own view.
     pub distance: f64,
-    /// From the left edge to the right one.
+    /// Horizontal field of view, from edge to edge.
     pub field_of_view: Angle,
     /// A pixel's width over its height.
     pub pixel_aspect: f64,
@@ -22,7 +22,7 @@ impl Default for PanniniCamera {
     }
 }
 
-/// Height over width where nothing tells the shape.
+/// Default height over width.
 const DEFAULT_RATIO: f64 = 1.0 / 2.0;
 
 impl Camera for PanniniCamera {

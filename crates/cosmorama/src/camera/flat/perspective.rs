@@ -5,20 +5,20 @@ use crate::camera::{Camera, CameraError, FieldOfView, FieldStop, PixelGrid, Pixe
 use crate::projection::ProjectionKind;
 use crate::sphere::{Angle, Orientation};
 
-/// A pinhole camera's picture, its axis in the middle.
+/// A pinhole camera whose axis is in the middle of the image.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PerspectiveCamera {
-    /// How much it shows.
+    /// Field of view.
     pub field_of_view: FieldOfView,
     /// A pixel's width over its height; unused where the field of view is given both ways.
     pub pixel_aspect: f64,
 }
 
-/// Height over width where nothing tells the shape.
+/// Default height over width.
 const DEFAULT_RATIO: f64 = 3.0 / 4.0;
 
 impl PerspectiveCamera {
-    /// A camera with square pixels.
+    /// Returns a camera with square pixels.
     pub const fn new(field_of_view: FieldOfView) -> Self {
         Self { field_of_view, pixel_aspect: 1.0 }
     }

@@ -11,27 +11,27 @@ use crate::sphere::{Angle, Direction, Orientation};
 pub enum CalibratedLens {
     /// A fisheye.
     Fisheye(FisheyeLens),
-    /// A pinhole camera that bends straight lines.
+    /// A pinhole camera with lens distortion.
     Pinhole(BrownConrady),
 }
 
-/// A picture of a camera that a program measured: focal lengths and axis in pixels of the image that was measured.
+/// A camera calibrated by another program: focal lengths and principal point are in pixels of the calibrated image.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CalibratedCamera {
     /// Mapping of angles to radii.
     pub lens: CalibratedLens,
     /// Mapping of the lens's plane to pixels.
     pub matrix: CameraMatrix,
-    /// Columns and rows of the image that was measured; images of another size are that one scaled.
+    /// Columns and rows of the calibrated image. An image of another size is taken as that one resized.
     pub size: Option<(usize, usize)>,
-    /// The cone around the axis that counts: all that the image shows unless given.
+    /// Field of view around the axis that is used; the whole image unless given.
     pub field_of_view: Option<Angle>,
 }
 
-/// Distance from the axis beyond which a lens's image counts as infinite, in focal lengths.
+/// Distance from the axis, in focal lengths, beyond which a lens's image counts as infinite.
 const INFINITELY_FAR: f64 = 1e6;
 
-/// Kernels reach a little beyond an image's corners; so does what the projection knows, as a part of the angle.
+/// Factor by which the projection's angle extends beyond an image's corners, because kernels reach a little further.
 const BEYOND_CORNERS: f64 = 1.05;
 
 impl Camera for CalibratedCamera {
@@ -48,7 +48,7 @@ impl Camera for CalibratedCamera {
         Ok(View { projection, orientation, grid, stop })
     }
 
-    /// Height over width.
+    /// Height over width of the calibrated image.
     fn natural_ratio(&self) -> f64 {
         self.size
             .filter(|(width, height)| width.min(height) > &0)
@@ -61,7 +61,7 @@ impl Camera for CalibratedCamera {
 }
 
 impl CalibratedCamera {
-    /// Computes the scale factors from the measured image to one of this size.
+    /// Computes the scale factors from the calibrated image to one of this size.
     fn scale(&self, width: usize, height: usize) -> Result<DVec2, CameraError> {
         let Some((w, h)) = self.size else { return Ok(DVec2::ONE) };
         if w == 0 || h == 0 {
@@ -112,7 +112,8 @@ impl CalibratedCamera {
         Ok(ProjectionKind::Pinhole(Calibrated::new(lens, matrix.skew, limit)))
     }
 
-    /// The greatest angle from the axis that counts, of a lens that ends at `reach` radians and turns back at a radius.
+    /// Returns the greatest angle from the axis that is used, of a lens that ends at `reach` radians and turns back at
+    /// a radius.
     fn limit(
         &self,
         reach: f64,
@@ -137,7 +138,7 @@ impl CalibratedCamera {
     }
 }
 
-/// The image's corners in the lens's plane.
+/// Returns the image's corners in the lens's plane.
 fn corners(matrix: &CameraMatrix, grid: &PixelGrid) -> [PlanePoint; 4] {
     let (right, bottom) = (grid.width() as f64, grid.height() as f64);
     [(0.0, 0.0), (right, 0.0), (0.0, bottom), (right, bottom)].map(|(x, y)| {

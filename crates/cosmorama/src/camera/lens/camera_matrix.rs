@@ -3,25 +3,25 @@ use glam::DVec2;
 use crate::camera::CameraError;
 use crate::sphere::Angle;
 
-/// How the pixels of a measured camera lie in its lens's plane: OpenCV's camera matrix, or OCamCalib's affine one.
+/// Affine map from a calibrated lens's plane to pixels: OpenCV's camera matrix, or OCamCalib's affine parameters.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CameraMatrix {
-    /// Pixels a unit of the lens's plane, along rows and along columns.
+    /// Pixels per unit of the lens's plane, along rows and along columns.
     pub(crate) focal: DVec2,
-    /// Units to the right for each unit down.
+    /// Skew: units to the right for each unit down.
     pub(crate) skew: f64,
-    /// Where the axis is seen, from the image's outer corner, in pixels.
+    /// Principal point, from the image's outer corner, in pixels.
     pub(crate) principal: DVec2,
-    /// How the sensor is turned behind the lens.
+    /// Rotation of the sensor about the axis.
     pub(crate) roll: Angle,
 }
 
 impl CameraMatrix {
-    /// Of the two rows that give columns and rows of the image, from 0 at the CENTRE of its first pixel as OpenCV and
-    /// OCamCalib count, for a point (right, down, 1) of the lens's plane.
+    /// Returns the matrix whose two rows map a point (right, down, 1) of the lens's plane to columns and rows of the
+    /// image. As in OpenCV and OCamCalib, (0, 0) is the CENTRE of the first pixel.
     ///
     /// # Errors
-    /// When it mirrors the picture or leaves nothing of it, or holds what is no number.
+    /// When the matrix mirrors the picture, is singular, or holds a value that is not finite.
     pub fn from_rows(rows: [[f64; 3]; 2]) -> Result<Self, CameraError> {
         let [[a, b, x], [c, d, y]] = rows;
         let determinant = a * d - b * c;

@@ -6,19 +6,19 @@ use crate::projection::ProjectionKind;
 use crate::projection::azimuthal::{FisheyeLens, Lens};
 use crate::sphere::{Angle, Orientation};
 
-/// Which length of the image the fisheye's circle spans.
+/// Dimension of the image that the fisheye's circle spans.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum FisheyeFit {
     /// The shorter side: the whole circle is in the image.
     #[default]
     Short,
-    /// The longer side: the circle is cut off at the other two.
+    /// The longer side: the circle is cut off at the two longer edges.
     Long,
     /// The width.
     Width,
     /// The height.
     Height,
-    /// The diagonal: no corner is dark.
+    /// The diagonal: the circle covers the whole image, corners included.
     Diagonal,
 }
 
@@ -34,14 +34,14 @@ impl FisheyeFit {
     }
 }
 
-/// How large a lens's picture is in its image.
+/// Scale of a lens's picture in its image.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum LensScale {
-    /// The circle of the field of view spans a length of the image.
+    /// The circle of the field of view spans a dimension of the image.
     Circle(FisheyeFit),
-    /// One unit of the lens's formula, its focal length in most, is so many pixel widths.
+    /// Pixel widths per unit of the lens's formula; for most lenses that unit is the focal length.
     Focal(f64),
-    /// The image is so many units of the lens's formula wide: millimetres of a sensor.
+    /// Width of the image in units of the lens's formula: millimetres on a sensor.
     SensorWidth(f64),
 }
 
@@ -51,16 +51,16 @@ impl Default for LensScale {
     }
 }
 
-/// A fisheye's picture; the field of view ends at its circle.
+/// A fisheye camera; its field of view ends at a circle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FisheyeCamera {
-    /// How the angle goes with the radius.
+    /// Lens formula: the angle from the axis as a function of the radius.
     pub lens: FisheyeLens,
-    /// The angle that the circle's diameter spans.
+    /// Angle across the circle's diameter.
     pub field_of_view: Angle,
-    /// How large the picture is.
+    /// Scale of the picture.
     pub scale: LensScale,
-    /// Where the circle lies, if not in the middle.
+    /// Place of the circle, if it is not centred.
     pub circle: LensCircle,
     /// A pixel's width over its height.
     pub pixel_aspect: f64,
@@ -79,7 +79,7 @@ impl Default for FisheyeCamera {
 }
 
 impl FisheyeCamera {
-    /// The field of view of all that the lens has an image of; where that goes on to infinity, of more than any image holds.
+    /// Returns the widest field of view that the lens can show, limited to what an image can hold.
     pub fn whole_field(lens: FisheyeLens) -> Angle {
         let reach = lens.reach();
         let ends = lens.radius(reach).is_some_and(|radius| radius < INFINITELY_FAR);
@@ -118,7 +118,7 @@ impl Camera for FisheyeCamera {
 }
 
 impl FisheyeCamera {
-    /// The radius at which the field of view ends, in the unit of the lens's formula.
+    /// Returns the radius at which the field of view ends, in the unit of the lens's formula.
     fn rim(&self) -> Result<f64, CameraError> {
         check_field_of_view("the field of view", self.field_of_view, 360.0, false)?;
         let (half, reach) = (self.field_of_view.radians() / 2.0, self.lens.reach());
@@ -140,10 +140,10 @@ impl FisheyeCamera {
     }
 }
 
-/// What a lens shows further from its centre than this, in its own unit, is at infinity.
+/// Radius, in the lens's unit, beyond which an image point counts as infinitely far.
 const INFINITELY_FAR: f64 = 1e9;
 
-/// Further from the centre than an image's corner, in a lens's own unit.
+/// Radius, in the lens's unit, that is greater than that of any image's corner.
 const BEYOND_IMAGES: f64 = 1e6;
 
 #[cfg(test)]

@@ -2,21 +2,22 @@ use glam::DVec2;
 
 use crate::camera::{PixelGrid, PixelPoint};
 
-/// How the Omnimax circle lies in the film frame.
+/// Placement of the Omnimax circle in the film frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum OmnimaxFraming {
-    /// The frame is filled from the top of the circle down to the lower cut, as far as its shape allows.
+    /// The frame shows the circle from its top down to the lower cut, as far as the frame's shape permits.
     #[default]
     Fit,
-    /// The whole circle, as large as fits, in the frame's centre.
+    /// The whole circle is in the frame, centred and as large as possible.
     Circle,
 }
 
-/// Width over height of the visible part: 2/(1 + r(45°)). POV-Ray's `omnimax` camera has this constant.
+/// Width over height of the visible part: 2/(1 + r(45°)), the constant of POV-Ray's `omnimax` camera.
 const FIT_ASPECT: f64 = 1.283458;
 
 impl OmnimaxFraming {
-    /// The grid of a frame; `pixel_aspect` is a pixel's width over its height. One plane unit is the lens radius.
+    /// Returns the grid of a frame; `pixel_aspect` is a pixel's width over its height. One plane unit is the lens
+    /// radius.
     pub fn grid(self, width: usize, height: usize, pixel_aspect: f64) -> PixelGrid {
         let (w, h) = (width as f64, height as f64);
         let aspect = w / h * pixel_aspect;
@@ -45,7 +46,7 @@ impl OmnimaxFraming {
         }
     }
 
-    /// The circle's top touches the frame's top, its centre is in the middle column.
+    /// Returns the grid whose circle touches the frame's top edge, horizontally centred.
     fn touching_top(width: usize, height: usize, step_x: f64, step_y: f64) -> PixelGrid {
         let centre = PixelPoint::new(width as f64 / 2.0, 1.0 / step_y);
         PixelGrid::centred(width, height, centre, DVec2::new(step_x, step_y))

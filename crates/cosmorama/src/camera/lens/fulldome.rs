@@ -4,14 +4,14 @@ use crate::sphere::{Angle, Orientation};
 
 /// A domemaster: an equidistant fisheye whose circle is tangent to the square, seen looking up into the dome.
 ///
-/// Without tilt the centre is the zenith, the bottom of the picture is the front, and the right is the right: the
-/// picture of a camera that looks ahead and then pitches up by 90°. A dome tilted by `tilt` leans towards the front, so
-/// the centre is that much nearer to it.
+/// Without tilt the zenith is at the centre, the front at the bottom, and the right on the right: the picture of a
+/// camera that looks ahead and then pitches up by 90°. `tilt` leans the dome towards the front, so its centre looks
+/// that much lower.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FulldomeCamera {
     /// The angle that the dome spans.
     pub field_of_view: Angle,
-    /// How far the dome leans to the front.
+    /// Angle by which the dome leans to the front.
     pub tilt: Angle,
     /// A pixel's width over its height.
     pub pixel_aspect: f64,

@@ -6,31 +6,31 @@ use crate::projection::ProjectionKind;
 use crate::projection::azimuthal::{FisheyeLens, Hugin, HuginIdeal, Lens};
 use crate::sphere::{Angle, Orientation};
 
-/// What the images of a Hugin project are pictures of.
+/// Projection of an image or a panorama in a Hugin project.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum HuginProjection {
-    /// On a plane: f0.
+    /// Rectilinear: f0.
     Rectilinear,
-    /// A swept panorama on a cylinder: f1.
+    /// Swept panorama on a cylinder: f1.
     Cylinder,
-    /// A fisheye, r = φ: f2 and f3.
+    /// Equidistant fisheye, r = φ: f2 and f3.
     Equidistant,
-    /// A panorama of longitude by latitude: f4.
+    /// Equirectangular panorama: f4.
     Equirectangular,
-    /// A fisheye, r = sin φ: f8.
+    /// Orthographic fisheye, r = sin φ: f8.
     Orthographic,
-    /// A fisheye, r = 2 tan(φ/2): f10.
+    /// Stereographic fisheye, r = 2 tan(φ/2): f10.
     Stereographic,
-    /// A fisheye, r = 2 sin(φ/2): f21.
+    /// Equisolid fisheye, r = 2 sin(φ/2): f21.
     Equisolid,
-    /// Mercator's map, of panoramas alone.
+    /// Mercator's map; panoramas only.
     Mercator,
-    /// Lambert's equal-area cylinder, of panoramas alone.
+    /// Lambert's equal-area cylinder; panoramas only.
     EqualArea,
 }
 
 impl HuginProjection {
-    /// The lens of an i-line's f.
+    /// Returns the projection that `f` means in an i-line.
     pub const fn of_lens(f: u32) -> Option<Self> {
         Some(match f {
             0 => Self::Rectilinear,
@@ -44,7 +44,8 @@ impl HuginProjection {
         })
     }
 
-    /// The panorama of the p-line's f, of those that show a part of the world too: its numbers are others than an i-line's.
+    /// Returns the projection that `f` means in a p-line, for panoramas of a part of the world; its numbers differ from
+    /// an i-line's.
     pub const fn of_panorama(f: u32) -> Option<Self> {
         Some(match f {
             0 => Self::Rectilinear,
@@ -61,16 +62,16 @@ impl HuginProjection {
     }
 }
 
-/// An image of a Hugin project, as an i-line describes its lens.
+/// An image of a Hugin project, with the lens parameters of its i-line.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HuginCamera {
-    /// The kind of lens: f.
+    /// Lens type: f.
     pub projection: HuginProjection,
-    /// Across the width of the image, by the lens before its correction: v.
+    /// Field of view across the image's width, before the correction: v.
     pub field_of_view: Angle,
-    /// a, b and c of the correction.
+    /// Coefficients a, b and c of the correction.
     pub correction: [f64; 3],
-    /// Pixels by which the axis is to the right of the image's middle and below it: d and e.
+    /// Offset of the axis from the image's centre, right and down, in pixels: d and e.
     pub shift: [f64; 2],
 }
 
@@ -88,19 +89,19 @@ impl Camera for HuginCamera {
         Ok(View { projection, orientation: Orientation::IDENTITY, grid, stop: FieldStop::NONE })
     }
 
-    /// As most cameras' pictures.
+    /// Height over width of most cameras' pictures.
     fn natural_ratio(&self) -> f64 {
         0.75
     }
 
-    /// d and e are pixels.
+    /// d and e are in pixels.
     fn is_measured_in_pixels(&self) -> bool {
         self.shift != [0.0; 2]
     }
 }
 
 impl HuginCamera {
-    /// Pixels a unit of the projection.
+    /// Returns pixels per unit of the projection.
     fn focal(&self, width: f64) -> Result<f64, CameraError> {
         let (greatest, below) = match self.projection {
             HuginProjection::Rectilinear => (180.0, true),
@@ -118,7 +119,7 @@ impl HuginCamera {
         Ok(width / 2.0 / self.ideal(self.field_of_view * 0.5))
     }
 
-    /// How far from the axis the lens before its correction, or the panorama, has what is at an angle from it.
+    /// Returns the distance from the axis, before the correction, at which an angle is seen.
     fn ideal(&self, angle: Angle) -> f64 {
         let half = angle * 0.5;
         match self.projection {
@@ -130,9 +131,8 @@ impl HuginCamera {
         }
     }
 
-    /// A correction that turns back within the image is none of it, whether its radius be taken before or after it. A
-    /// rectilinear image has no corner that the lens does not show; a fisheye's circle may end anywhere beyond 90°, and in
-    /// the corners.
+    /// Checks that the correction does not turn back within the image, by radii before and after it. A rectilinear lens
+    /// shows every corner. A fisheye's circle may end anywhere beyond 90°, corners included.
     fn check_correction(&self, lens: &FisheyeLens, focal: f64, reach: (f64, f64)) -> Result<(), CameraError> {
         let (angle, end) = match self.projection {
             HuginProjection::Rectilinear => (90.0, reach.0.hypot(reach.1)),

@@ -1,7 +1,7 @@
 use crate::camera::error::check_positive;
 use crate::camera::{CameraError, PixelGrid, PixelPoint};
 
-/// Where a lens's circle lies in an image, in place of where the frame's own rule puts it.
+/// Explicit place of a lens's circle in an image; it overrides the camera model's own.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LensCircle {
     /// Its centre.
@@ -11,10 +11,10 @@ pub struct LensCircle {
 }
 
 impl LensCircle {
-    /// As the frame's own rule says.
+    /// No override: the camera model places the circle.
     pub const FITTED: Self = Self { centre: None, radius: None };
 
-    /// The grid with its circle of `plane_radius` plane units where this says.
+    /// Moves and scales a grid so that its circle of `plane_radius` plane units lies as requested.
     pub(crate) fn place(self, grid: PixelGrid, plane_radius: f64) -> Result<PixelGrid, CameraError> {
         if let Some(radius) = self.radius {
             check_positive("the radius", radius)?;
@@ -29,7 +29,7 @@ impl LensCircle {
         Ok(placed)
     }
 
-    /// A circle of which nothing is on the image was placed by mistake.
+    /// Returns an error if no part of the circle is on the image.
     fn check_seen(self, grid: &PixelGrid, centre: PixelPoint, plane_radius: f64) -> Result<(), CameraError> {
         let (width, height) = (grid.width(), grid.height());
         let (across, down) = (plane_radius / grid.step().x.abs(), plane_radius / grid.step().y.abs());

@@ -5,12 +5,12 @@ use crate::camera::{Camera, CameraError, FieldStop, LensCircle, PixelGrid, Pixel
 use crate::projection::{MirrorBall, ProjectionKind};
 use crate::sphere::Orientation;
 
-/// A photograph of a mirror ball: the camera looks ahead, the ball's outline is a circle.
+/// A photograph of a mirror ball: the camera looks ahead at it, and the ball's outline is a circle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MirrorBallCamera {
-    /// From the camera to the ball's centre, in ball radii; `None` for a camera far away.
+    /// Distance from the camera to the ball's centre, in ball radii; `None` for a distant camera.
     pub distance: Option<f64>,
-    /// Where the outline lies, if it does not just fit the image.
+    /// Place of the outline, if it does not fit the image exactly.
     pub circle: LensCircle,
     /// A pixel's width over its height.
     pub pixel_aspect: f64,

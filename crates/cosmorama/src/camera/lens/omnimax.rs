@@ -6,11 +6,11 @@ use crate::sphere::{Angle, Orientation};
 /// An Omnimax film frame (Greene & Heckbert 1986).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OmnimaxCamera {
-    /// How the limiting circle lies in the frame.
+    /// Placement of the limiting circle in the frame.
     pub framing: OmnimaxFraming,
-    /// The great circle that cuts the bottom off, so far below the axis; `None` shows the whole circle.
+    /// Angle below the axis of the great circle that cuts off the bottom; `None` shows the whole circle.
     pub lower: Option<Angle>,
-    /// Where the limiting circle lies, if not where the framing puts it.
+    /// Place of the limiting circle, if it differs from the framing's.
     pub circle: LensCircle,
     /// Elevation of the axis of projection: 11° in a theatre.
     pub axis: Angle,

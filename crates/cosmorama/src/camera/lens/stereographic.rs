@@ -6,10 +6,10 @@ use crate::projection::ProjectionKind;
 use crate::projection::azimuthal::{FisheyeLens, Lens, Stereographic};
 use crate::sphere::{Angle, Orientation};
 
-/// A stereographic picture that fills its image, corners too: looking straight down, a little planet.
+/// A stereographic picture that fills its image, corners included. Looking straight down it is a little planet.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StereographicCamera {
-    /// From the left edge to the right one.
+    /// Horizontal field of view, from edge to edge.
     pub field_of_view: Angle,
     /// A pixel's width over its height.
     pub pixel_aspect: f64,

@@ -5,7 +5,7 @@ use crate::camera::{Camera, CameraError, FieldStop, PixelGrid, PixelPoint, View}
 use crate::projection::{Projection, ProjectionKind};
 use crate::sphere::{Angle, Direction, Orientation};
 
-/// How a panorama's height goes with the latitude.
+/// Cylindrical projection: the height as a function of the latitude.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CylinderKind {
     /// Mercator's map.
@@ -25,8 +25,8 @@ impl CylinderKind {
         }
     }
 
-    /// Half the height of an image of which nothing but the width is known: Mercator's map as the web has it, a square;
-    /// 45° up and down; everything.
+    /// Half the plane's height of an image whose height is not given. Mercator's map is the web's square, the central
+    /// cylinder shows 45° up and down, and the equal-area cylinder shows everything.
     fn usual_height(self) -> f64 {
         match self {
             Self::Mercator => std::f64::consts::PI,
@@ -35,22 +35,22 @@ impl CylinderKind {
     }
 }
 
-/// A panorama on a cylinder, the front in its middle.
+/// A panorama on a cylinder, with the front in its middle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CylinderCamera {
-    /// How its height goes with the latitude.
+    /// Cylindrical projection.
     pub kind: CylinderKind,
-    /// Longitudes shown.
+    /// Range of longitudes.
     pub horizontal: Angle,
-    /// Latitude of the upper edge, and of the lower one: the pixels fit. Without it they have the shape of `pixel_aspect` at the
-    /// equator.
+    /// Latitude of the upper edge, and of the lower one. The pixels' shape follows from it. Without it, pixels have the
+    /// shape of `pixel_aspect` at the equator.
     pub top: Option<Angle>,
     /// A pixel's width over its height, at the equator; unused where the top is given.
     pub pixel_aspect: f64,
 }
 
 impl CylinderCamera {
-    /// All the way round, square pixels at the equator.
+    /// Returns a full turn of 360° with square pixels at the equator.
     pub const fn new(kind: CylinderKind) -> Self {
         Self { kind, horizontal: Angle::TURN, top: None, pixel_aspect: 1.0 }
     }
@@ -82,7 +82,7 @@ impl Camera for CylinderCamera {
 }
 
 impl CylinderCamera {
-    /// The plane's height at the upper edge, where that is given.
+    /// Returns the plane's height at the upper edge, if `top` is given.
     fn half_height(&self) -> Result<Option<f64>, CameraError> {
         let Some(top) = self.top else { return Ok(None) };
         let whole = top * 2.0;

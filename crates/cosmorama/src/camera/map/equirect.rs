@@ -5,24 +5,24 @@ use crate::camera::{Camera, CameraError, FieldStop, PixelGrid, PixelPoint, View}
 use crate::projection::ProjectionKind;
 use crate::sphere::{Angle, Orientation};
 
-/// Where the first and last samples of a panorama lie.
+/// Position of the first and last samples of a row or column.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum SamplePositions {
-    /// Half a pixel inside the edge: pixels tile the field of view.
+    /// Half a pixel inside the edges: the pixels tile the field of view.
     #[default]
     Centres,
-    /// On the edge itself, as OpenEXR's environment maps have it: the first and last columns show the same.
+    /// On the edges themselves, as in OpenEXR's environment maps: the first and the last column show the same.
     Edges,
 }
 
-/// A panorama of longitude by latitude, the front in its middle.
+/// An equirectangular panorama with the front in its middle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EquirectCamera {
-    /// Longitudes shown.
+    /// Range of longitudes.
     pub horizontal: Angle,
-    /// Latitudes shown.
+    /// Range of latitudes.
     pub vertical: Angle,
-    /// Where the outermost samples lie.
+    /// Position of the outermost samples.
     pub samples: SamplePositions,
 }
 

@@ -2,10 +2,10 @@ use crate::camera::{Camera, CameraError, FieldStop, PixelGrid, View};
 use crate::projection::{Octahedral, OctahedralKind, PlanePoint, PlaneRect, ProjectionKind};
 use crate::sphere::Orientation;
 
-/// The whole world on an octahedron unfolded into the image, the front in its middle.
+/// The whole world on an octahedron unfolded into the image, with the front in its middle.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct OctahedralCamera {
-    /// How the sphere is laid onto the octahedron.
+    /// Mapping of the sphere to the octahedron.
     pub kind: OctahedralKind,
 }
 

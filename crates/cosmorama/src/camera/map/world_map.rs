@@ -4,15 +4,14 @@ use crate::camera::{Camera, CameraError, FieldStop, PixelGrid, View};
 use crate::projection::{PlanePoint, PlaneRect, ProjectionKind};
 use crate::sphere::Orientation;
 
-/// A map of the whole world that just fits its image; images that are not twice as wide as high have pixels that are not
-/// square.
+/// A map of the whole world that just fits its image. Pixels are square only if the image is twice as wide as high.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum WorldMapCamera {
     /// Hammer's.
     Hammer,
     /// Mollweide's.
     Mollweide,
-    /// The sinusoidal one.
+    /// The sinusoidal map.
     Sinusoidal,
 }
 

@@ -3,11 +3,11 @@ use std::f64::consts::PI;
 use super::Lens;
 use super::arc_sine::{arc_sine, sine, twice};
 
-/// What a mirror ball shows: the angle from the direction back to the camera, r = 1 at the ball's outline.
+/// Lens formula of a mirror ball: the angle from the direction back to the camera, with r = 1 at the ball's outline.
 ///
-/// The ray at the angle α from the axis meets the ball (radius 1, its centre at the distance D) at the angle of incidence
-/// i with sin i = D sin α, and leaves it at 2i − α from the direction back. The outline has sin α = 1/D, so that
-/// tan α = r/√(D² − 1); for a distant camera what is left is 2 asin r.
+/// The ray at the angle α from the axis meets the ball (radius 1, centre at the distance D) at the angle of incidence
+/// i, with sin i = D sin α, and leaves it at 2i − α from the direction back. The outline has sin α = 1/D, so tan α =
+/// r/√(D² − 1). For a distant camera the angle becomes 2 asin r.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BallLens {
     /// 1/D.
@@ -15,15 +15,15 @@ pub struct BallLens {
 }
 
 impl BallLens {
-    /// Seen by a distant camera.
+    /// The ball as seen by a distant camera.
     pub const DISTANT: Self = Self { nearness: 0.0 };
 
-    /// Seen from a distance from the ball's centre in ball radii; `None` unless that is more than 1.
+    /// Returns the ball as seen from a distance to its centre, in ball radii; `None` unless the distance exceeds 1.
     pub fn from_distance(distance: f64) -> Option<Self> {
         (distance > 1.0).then(|| Self { nearness: distance.recip() })
     }
 
-    /// √(1 − 1/D²).
+    /// Returns √(1 − 1/D²).
     fn cosine(&self) -> f64 {
         ((1.0 - self.nearness) * (1.0 + self.nearness)).sqrt()
     }
@@ -49,8 +49,8 @@ impl Lens for BallLens {
         (sin * cos_alpha - cos * sin_alpha, cos * cos_alpha + sin * sin_alpha)
     }
 
-    /// The ray met the ball at the angle β from the axis, seen from its centre: i = α + β, so that φ = 2β + α with
-    /// tan α = sin β/(D − cos β). Newton's iteration on β.
+    /// Solves for the angle β at the ball's centre between the axis and the point that the ray meets. With i = α + β, φ
+    /// = 2β + α and tan α = sin β/(D − cos β). Uses Newton's iteration on β.
     fn radius(&self, angle: f64) -> Option<f64> {
         let n = self.nearness;
         if angle > self.reach() {

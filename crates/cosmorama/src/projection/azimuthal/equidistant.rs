@@ -1,6 +1,6 @@
 use super::Lens;
 
-/// The equidistant fisheye: the radius is the angle, r = φ, in radians. Domemasters are made with it.
+/// The equidistant fisheye: the radius is the angle in radians, r = φ. Domemasters use it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Equidistant;
 

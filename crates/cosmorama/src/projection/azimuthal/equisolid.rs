@@ -1,7 +1,7 @@
 use super::Lens;
 use super::arc_sine::{arc_sine, sine, twice};
 
-/// The equisolid fisheye: r = 2 sin(φ/2) focal lengths, so that equal areas show equal solid angles (Miyamoto 1964).
+/// The equisolid fisheye, r = 2 sin(φ/2) focal lengths: areas are proportional to solid angles (Miyamoto 1964).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Equisolid;
 

@@ -1,13 +1,13 @@
 use super::{Equidistant, Equisolid, FisheyeLens, Lens, Orthographic, Stereographic};
 
 impl FisheyeLens {
-    /// r = φ.
+    /// The equidistant lens, r = φ.
     pub const EQUIDISTANT: Self = Self::Equidistant(Equidistant);
-    /// r = 2 sin(φ/2).
+    /// The equisolid lens, r = 2 sin(φ/2).
     pub const EQUISOLID: Self = Self::Equisolid(Equisolid);
-    /// r = 2 tan(φ/2).
+    /// The stereographic lens, r = 2 tan(φ/2).
     pub const STEREOGRAPHIC: Self = Self::Stereographic(Stereographic);
-    /// r = sin φ.
+    /// The orthographic lens, r = sin φ.
     pub const ORTHOGRAPHIC: Self = Self::Orthographic(Orthographic);
 }
 

@@ -4,26 +4,27 @@ use super::{Azimuthal, BallLens};
 use crate::projection::{Outline, PlanePoint, PlaneRect, Projection};
 use crate::sphere::{Angle, Direction, DirectionJacobian};
 
-/// A mirror ball as photographed: the plane's unit is the radius of the ball's outline. The middle shows what is behind the
-/// camera (the photographer), the rim what lies straight ahead, and writing is mirrored.
+/// A mirror ball as photographed; the plane's unit is the radius of the ball's outline. The middle shows the
+/// photographer, the rim shows the world straight ahead, and text is mirrored.
 ///
-/// The angle from the direction back to the camera is a lens's function of the radius ([`BallLens`]), and the picture is
-/// that lens's in a world whose front and back are exchanged. The use of such photographs: P. Debevec, *Rendering synthetic
-/// objects into real scenes* (SIGGRAPH '98); the formula is the law of reflection on a sphere.
+/// The angle from the direction back to the camera is a function of the radius ([`BallLens`]). The picture is that of
+/// such a lens in a world whose front and back are exchanged. On the use of such photographs see P. Debevec, *Rendering
+/// synthetic objects into real scenes* (SIGGRAPH '98). The formula is the law of reflection on a sphere.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MirrorBall(Azimuthal<BallLens>);
 
 impl MirrorBall {
-    /// A ball seen by a distant camera.
+    /// The ball as seen by a distant camera.
     pub const DISTANT: Self = Self(Azimuthal(BallLens::DISTANT));
 
-    /// A ball seen from a distance between the camera and the ball's centre in ball radii, more than 1.
+    /// Returns the ball as seen from a distance between camera and ball centre, in ball radii; `None` unless it exceeds
+    /// 1.
     pub fn from_distance(distance: f64) -> Option<Self> {
         BallLens::from_distance(distance).map(|lens| Self(Azimuthal(lens)))
     }
 }
 
-/// Front and back exchanged.
+/// Exchanges front and back.
 fn exchanged(vector: DVec3) -> DVec3 {
     DVec3::new(vector.x, vector.y, -vector.z)
 }

@@ -35,16 +35,16 @@ use super::{Outline, PlanePoint, PlaneRect, Projection, Ring, Sector, enum_dispa
 use crate::sphere::{Angle, Direction, DirectionJacobian};
 
 enum_dispatch! { ($)
-    /// Every fisheye lens, chosen at run time; the examples of measured ones are lenses that somebody has.
+    /// Any fisheye lens, chosen at run time. The examples of calibrated lenses are real ones.
     #[derive(Copy)]
     pub enum FisheyeLens {
-        /// r = φ.
+        /// The equidistant lens, r = φ.
         Equidistant(Equidistant) = [Equidistant],
-        /// r = 2 sin(φ/2).
+        /// The equisolid lens, r = 2 sin(φ/2).
         Equisolid(Equisolid) = [Equisolid],
-        /// r = 2 tan(φ/2).
+        /// The stereographic lens, r = 2 tan(φ/2).
         Stereographic(Stereographic) = [Stereographic],
-        /// r = sin φ.
+        /// The orthographic lens, r = sin φ.
         Orthographic(Orthographic) = [Orthographic],
         /// Blender's polynomial, in millimetres.
         Polynomial(Polynomial) = Polynomial::from_blender([0.0, -1.2, 0.0, 0.1, -0.02]),
@@ -71,7 +71,7 @@ enum_dispatch! { ($)
 
 pub(crate) mod fisheye_lens;
 
-/// The projection of a [`Lens`]: the plane's unit is the lens's own unit of radius, its origin the axis.
+/// The projection of a [`Lens`]; the plane's unit is the lens's unit of radius, and its origin is on the axis.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Azimuthal<L>(pub L);
 
@@ -151,17 +151,17 @@ impl<L: Lens> Projection for Azimuthal<L> {
     }
 }
 
-/// √(x² + y²) for coordinates that cannot overflow: several times faster than `hypot`.
+/// Returns √(x² + y²) for coordinates that cannot overflow; several times faster than `hypot`.
 fn length(x: f64, y: f64) -> f64 {
     (x * x + y * y).sqrt()
 }
 
-/// sin φ/depth(φ) and its derivative, of (sin φ, cos φ) and of the depth with its derivative.
+/// Returns sin φ/depth(φ) and its derivative, from (sin φ, cos φ) and from the depth and its derivative.
 fn ratio((sin, cos): (f64, f64), (depth, slope): (f64, f64)) -> (f64, f64) {
     (sin / depth, (cos * depth - sin * slope) / (depth * depth))
 }
 
-/// All coefficients are numbers.
+/// Returns an error unless all coefficients are finite.
 pub(crate) fn finite(what: &'static str, coefficients: &[f64]) -> Result<(), LensError> {
     let Some(found) = coefficients.iter().find(|k| !k.is_finite()) else { return Ok(()) };
     LensError::unless(false, what, *found, "a finite number")

@@ -21,8 +21,8 @@ impl Lens for OmnimaxLens {
         (radius * (C1 + r2 * (C3 + r2 * C5)), C1 + r2 * (3.0 * C3 + r2 * 5.0 * C5))
     }
 
-    /// Newton's iteration. φ is concave up to r = 0.33 and convex after, and φ′ is never under 1.36, so from this start
-    /// it converges quadratically for every angle up to 180°.
+    /// Uses Newton's iteration. φ is concave up to r = 0.33 and convex after it, and φ′ is at least 1.36. From this
+    /// start the iteration therefore converges quadratically for every angle up to 180°.
     fn radius(&self, angle: f64) -> Option<f64> {
         let mut radius = angle / C1;
         for _ in 0..20 {

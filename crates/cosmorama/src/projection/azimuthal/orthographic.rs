@@ -3,7 +3,7 @@ use std::f64::consts::FRAC_PI_2;
 use super::Lens;
 use super::arc_sine::{arc_sine, sine};
 
-/// The orthographic fisheye: r = sin φ focal lengths. Nothing beyond 90° from the axis has an image.
+/// The orthographic fisheye, r = sin φ focal lengths. Directions beyond 90° from the axis have no image.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Orthographic;
 

@@ -2,8 +2,9 @@ use std::f64::consts::PI;
 
 use super::Lens;
 
-/// The stereographic fisheye: r = 2 tan(φ/2) focal lengths. It keeps angles; what lies straight behind is at infinity (J. P.
-/// Snyder, *Map Projections: A Working Manual*, USGS Professional Paper 1395, 1987, chapter 21, of the sphere).
+/// The stereographic fisheye, r = 2 tan(φ/2) focal lengths. It preserves angles, and the direction straight behind is
+/// at infinity (J. P. Snyder, *Map Projections: A Working Manual*, USGS Professional Paper 1395, 1987, chapter 21, on
+/// the sphere).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Stereographic;
 

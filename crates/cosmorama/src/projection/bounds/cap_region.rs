@@ -4,18 +4,18 @@ use glam::DVec2;
 
 use crate::projection::{PlanePoint, PlaneRect};
 
-/// A part of the plane that holds all of a cap of the sphere, and not much else: around a rim or across a seam a rectangle
-/// that holds it may be most of the picture.
+/// A part of the plane that holds the image of a spherical cap, and little else. Around a rim or across a seam, a
+/// single rectangle might be most of the picture.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Outline {
-    /// In these rectangles, which may overlap: a cap across a seam lies in several places.
+    /// Rectangles, which may overlap: a cap across a seam lies in several places.
     Rects(Vec<PlaneRect>),
-    /// In a ring around the origin.
+    /// A ring around the origin.
     Ring(Ring),
 }
 
 impl Outline {
-    /// Adds the intervals of x, in any order, in which the line at the height `y` lies inside.
+    /// Appends the intervals of x, in any order, in which the line at height `y` lies inside.
     pub fn cut(&self, y: f64, spans: &mut Vec<[f64; 2]>) {
         match self {
             Self::Rects(rects) => {
@@ -26,7 +26,7 @@ impl Outline {
         }
     }
 
-    /// Its area, that of rectangles within `rect`; where they overlap it counts more than once.
+    /// Returns the area. Rectangles are limited to `rect`, and their overlap is counted more than once.
     pub fn area_within(&self, rect: PlaneRect) -> f64 {
         match self {
             Self::Rects(rects) => {
@@ -44,7 +44,7 @@ impl Outline {
         }
     }
 
-    /// The smallest rectangle that holds it.
+    /// Returns the smallest rectangle that holds the region.
     pub fn bounds(&self) -> PlaneRect {
         match self {
             Self::Rects(rects) => {
@@ -56,23 +56,23 @@ impl Outline {
     }
 }
 
-/// What lies between two circles around the origin, all the way round or in a sector.
+/// The region between two circles around the origin: a full ring or a sector of it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ring {
     /// Radius of the smaller circle.
     pub inner: f64,
-    /// Radius of the larger one, finite.
+    /// Radius of the larger circle, finite.
     pub outer: f64,
-    /// Where the sector is, if not all round.
+    /// Azimuths of the sector; `None` for a full ring.
     pub sector: Option<Sector>,
 }
 
-/// Azimuths around one of them.
+/// A range of azimuths around a direction.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sector {
     azimuth: f64,
     half_width: f64,
-    /// Perpendicular to its two sides, inwards.
+    /// Normals of its two sides, pointing inwards.
     inward: [DVec2; 2],
 }
 
@@ -111,13 +111,13 @@ impl Ring {
 }
 
 impl Sector {
-    /// The azimuths within `half_width` ≤ π/2 of `azimuth`, in radians.
+    /// Returns the azimuths within `half_width` ≤ π/2 of `azimuth`, in radians.
     pub fn new(azimuth: f64, half_width: f64) -> Self {
         let (right, left) = (DVec2::from_angle(azimuth - half_width), DVec2::from_angle(azimuth + half_width));
         Self { azimuth, half_width, inward: [right.perp(), -left.perp()] }
     }
 
-    /// Least and greatest x at the height `y`: to the left of one side and to the right of the other.
+    /// Returns the least and greatest x at height `y`, limited by the sector's two sides.
     fn cut(&self, y: f64) -> [f64; 2] {
         let mut span = [f64::NEG_INFINITY, f64::INFINITY];
         for inward in self.inward {
@@ -135,7 +135,7 @@ impl Sector {
     }
 }
 
-/// Least and greatest cosine of the angles within `half_width` ≤ π/2 of `centre`.
+/// Returns the least and greatest cosine of the angles within `half_width` ≤ π/2 of `centre`.
 fn cosine_range(centre: f64, half_width: f64) -> (f64, f64) {
     use std::f64::consts::{PI, TAU};
     let (a, b) = ((centre - half_width).cos(), (centre + half_width).cos());

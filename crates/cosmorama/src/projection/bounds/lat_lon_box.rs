@@ -3,7 +3,7 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use crate::projection::{PlanePoint, PlaneRect};
 use crate::sphere::{Angle, Direction};
 
-/// A box of longitudes and latitudes, in radians; west may be less than −π, east more than π.
+/// A box of longitudes and latitudes, in radians. West may be less than −π, east more than π.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Graticule {
     pub(crate) west: f64,
@@ -13,7 +13,7 @@ pub(crate) struct Graticule {
 }
 
 impl Graticule {
-    /// The box that holds every direction within `radius` of `centre`: all longitudes if a pole is among them.
+    /// Returns the box that holds every direction within `radius` of `centre`: all longitudes if a pole is among them.
     pub(crate) fn around(centre: Direction, radius: Angle) -> Self {
         let (longitude, latitude) = centre.longitude_latitude();
         let (longitude, latitude, radius) = (longitude.radians(), latitude.radians(), radius.radians());
@@ -28,7 +28,8 @@ impl Graticule {
         }
     }
 
-    /// Splits the box at the meridian behind, where maps end. A box that spans a whole turn becomes one of all longitudes.
+    /// Splits the box at the meridian behind, where maps end. A box that spans a full turn becomes one of all
+    /// longitudes.
     pub(crate) fn parts(self) -> Vec<Self> {
         let Self { west, east, .. } = self;
         if west >= -PI && east <= PI {
@@ -41,9 +42,9 @@ impl Graticule {
         }
     }
 
-    /// The rectangle of the plane that holds the box's image, for a mapping of longitude and latitude in which x rises with
-    /// the longitude, y with the latitude, and either depends on the other's distance from 0 alone, rising or falling with
-    /// it: as in every map that is symmetrical about its middle.
+    /// Returns the rectangle of the plane that holds the box's image. The mapping must be symmetrical about its middle:
+    /// x rises with the longitude, y with the latitude, and either depends on the other's distance from 0 alone, rising
+    /// or falling with it.
     pub(crate) fn bounds(self, place: impl Fn(f64, f64) -> PlanePoint) -> PlaneRect {
         let with_least = |low: f64, high: f64| [low, high, 0f64.clamp(low, high)];
         let mut rect = PlaneRect::NOTHING;

@@ -1,10 +1,10 @@
 use super::{Latitude, Profile};
 
-/// The central cylinder: y = tan φ. It keeps upright lines straight; the poles are at infinity.
+/// The central cylinder: y = tan φ. Vertical lines stay straight; the poles are at infinity.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Central;
 
-/// Heights beyond this, at which their squares overflow, have no direction.
+/// Greatest height with a direction; beyond it squares overflow.
 const HIGHEST: f64 = 1e150;
 
 impl Profile for Central {

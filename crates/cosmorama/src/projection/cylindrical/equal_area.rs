@@ -1,6 +1,6 @@
 use super::{Latitude, Profile};
 
-/// Lambert's equal-area cylinder: y = sin φ, so that equal areas show equal solid angles.
+/// Lambert's equal-area cylinder, y = sin φ: areas are proportional to solid angles.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct EqualArea;
 

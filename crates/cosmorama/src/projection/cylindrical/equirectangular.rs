@@ -2,7 +2,7 @@ use std::f64::consts::FRAC_PI_2;
 
 use super::{Latitude, Profile};
 
-/// The panorama: y is the latitude, in radians.
+/// The equirectangular panorama: y is the latitude in radians.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Equirectangular;
 

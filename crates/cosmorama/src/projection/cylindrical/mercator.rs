@@ -1,7 +1,7 @@
 use super::{Latitude, Profile};
 
-/// Mercator's map: y = ln tan(π/4 + φ/2). It keeps angles; the poles are at infinity (J. P. Snyder, *Map Projections: A
-/// Working Manual*, USGS Professional Paper 1395, 1987, equations 7-1 and 7-2).
+/// Mercator's map: y = ln tan(π/4 + φ/2). It preserves angles; the poles are at infinity (J. P. Snyder, *Map
+/// Projections: A Working Manual*, USGS Professional Paper 1395, 1987, equations 7-1 and 7-2).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Mercator;
 

@@ -1,4 +1,4 @@
-//! Cylinders around the vertical axis: x is the longitude, y a function of the latitude.
+//! Cylindrical projections: x is the longitude, y a function of the latitude.
 
 mod central;
 mod equal_area;
@@ -17,21 +17,21 @@ use super::bounds::lat_lon_box::Graticule;
 use super::{PlanePoint, PlaneRect, Projection};
 use crate::sphere::{Angle, Direction, DirectionJacobian};
 
-/// How a cylinder's height goes with the latitude, strictly rising.
+/// Height of a cylindrical projection as a strictly rising function of the latitude.
 pub trait Profile {
-    /// The height at a latitude, of which sine and cosine are given; `None` where it is infinite.
+    /// Returns the height at a latitude; `None` where it is infinite.
     fn height(&self, latitude: Latitude) -> Option<f64>;
 
-    /// The latitude at a height, and its derivative; `None` beyond the poles.
+    /// Returns the latitude at a height, and its derivative; `None` beyond the poles.
     fn latitude(&self, height: f64) -> Option<(Latitude, f64)>;
 
-    /// Whether the latitude's derivative grows without bound towards the poles.
+    /// Returns whether the latitude's derivative grows without bound towards the poles.
     fn has_steep_poles(&self) -> bool {
         false
     }
 }
 
-/// A latitude φ by its sine and cosine.
+/// A latitude φ, given by its sine and cosine.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Latitude {
     /// sin φ.

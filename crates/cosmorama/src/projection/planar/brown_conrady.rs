@@ -5,21 +5,22 @@ use crate::projection::monotone::{inverse, rises_until};
 use crate::projection::{Perspective, PlanePoint, PlaneRect, Projection};
 use crate::sphere::{Angle, Direction, DirectionJacobian};
 
-/// A pinhole camera with a lens that bends: Brown's model with Conrady's tangential terms, as OpenCV has it
+/// A pinhole camera with lens distortion: Brown's model with Conrady's tangential terms, as in OpenCV
 /// (`cv::calibrateCamera`, `cv::projectPoints`). The plane's unit is the focal length.
 ///
-/// It ends where it folds: at the angle from the axis beyond which, in some bearing, two directions have one image. Within,
-/// the mapping's derivative is positive definite in a disc, so that each point has one direction.
+/// The field of view ends where the formula folds: at the angle from the axis beyond which two directions have the same
+/// image in some bearing. Within it the mapping's derivative is positive definite on a disc, so each point has one
+/// direction.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BrownConrady {
     coefficients: BrownConradyCoefficients,
-    /// The tangent of the angle from the axis at which it ends.
+    /// Tangent of the angle from the axis at which the field of view ends.
     reach: f64,
-    /// Whether it folds there.
+    /// Whether it ends because the formula folds.
     folds: bool,
-    /// The rectangle that holds all of its picture.
+    /// Rectangle that holds the whole picture.
     bounds: PlaneRect,
-    /// No point of its picture is further from the middle.
+    /// Greatest distance of a point of the picture from the middle.
     outermost: f64,
 }
 
@@ -28,23 +29,24 @@ pub struct BrownConrady {
 pub struct BrownConradyCoefficients {
     /// k1 to k6: (1 + k1 r² + k2 r⁴ + k3 r⁶)/(1 + k4 r² + k5 r⁴ + k6 r⁶).
     pub radial: [f64; 6],
-    /// p1 and p2.
+    /// Tangential coefficients p1 and p2.
     pub tangential: [f64; 2],
-    /// s1 to s4 of the thin prism.
+    /// Thin prism coefficients s1 to s4.
     pub prism: [f64; 4],
 }
 
-/// No pinhole camera sees further from its axis, in radians: there tangents have five digits before the point.
+/// Greatest angle of a pinhole camera from its axis, in radians; its tangent is about 10⁵.
 const WIDEST: f64 = 1.570_786;
 
-/// Bearings in which a fold is looked for: lenses bend by three waves a turn at most.
+/// Bearings in which a fold is searched; distortions have at most three waves per turn.
 const BEARINGS: usize = 64;
 
-/// Newton's iteration doubles its digits with each step; what takes longer has no image.
+/// Limit of Newton steps. Each step doubles the digits, so a point that takes longer has no image.
 const MOST_STEPS: usize = 40;
 
 impl BrownConradyCoefficients {
-    /// In the order of OpenCV's vectors of 4, 5, 8 or 12: k1 k2 p1 p2, k3, k4 k5 k6, s1 s2 s3 s4. What is missing is 0.
+    /// Returns coefficients in the order of OpenCV's vectors of 4, 5, 8 or 12: k1 k2 p1 p2, k3, k4 k5 k6, s1 s2 s3 s4.
+    /// Missing ones are 0.
     pub fn from_opencv(numbers: &[f64]) -> Self {
         let at = |index: usize| numbers.get(index).copied().unwrap_or(0.0);
         Self {
@@ -54,7 +56,7 @@ impl BrownConradyCoefficients {
         }
     }
 
-    /// Where the point at `u` (tangents of the angles from the axis, y down) is seen, and the derivative.
+    /// Returns the image of the point `u` (tangents of the angles from the axis, y down), and the derivative.
     fn bend(&self, u: DVec2) -> (DVec2, DMat2) {
         let [k1, k2, k3, k4, k5, k6] = self.radial;
         let ([p1, p2], [s1, s2, s3, s4]) = (self.tangential, self.prism);
@@ -75,7 +77,7 @@ impl BrownConradyCoefficients {
         (bent, DMat2::from_cols(dx + prism * x, dy + prism * y))
     }
 
-    /// The least that a small step at `u` moves the image along itself, for a step of 1: it folds where that is 0.
+    /// Returns the smallest eigenvalue of the symmetric part of the derivative at `u`: the formula folds where it is 0.
     fn least_gain(&self, u: DVec2) -> f64 {
         let (_, m) = self.bend(u);
         let (mean, half, cross) = (
@@ -90,7 +92,7 @@ impl BrownConradyCoefficients {
         self.tangential == [0.0; 2] && self.prism == [0.0; 4]
     }
 
-    /// r times its scale, and the derivative.
+    /// Returns r times its radial scale, and the derivative.
     fn radius(&self, r: f64) -> (f64, f64) {
         let radial = Self { radial: self.radial, ..Self::default() };
         let (bent, slope) = radial.bend(DVec2::new(r, 0.0));
@@ -99,10 +101,10 @@ impl BrownConradyCoefficients {
 }
 
 impl BrownConrady {
-    /// The lens with these coefficients.
+    /// Returns the lens with these coefficients.
     ///
     /// # Errors
-    /// When a coefficient is no number, or the picture folds at the axis already.
+    /// When a coefficient is not finite, or the picture folds at the axis.
     pub fn new(coefficients: BrownConradyCoefficients) -> Result<Self, LensError> {
         let BrownConradyCoefficients { radial, tangential, prism } = coefficients;
         for numbers in [&radial[..], &tangential, &prism] {
@@ -128,23 +130,23 @@ impl BrownConrady {
         Ok(lens)
     }
 
-    /// The angle from the axis, in radians, at which it ends.
+    /// Returns the angle from the axis, in radians, at which the field of view ends.
     pub fn reach(&self) -> f64 {
         self.reach.atan()
     }
 
-    /// Whether it ends because the picture turns back upon itself there.
+    /// Returns whether the field of view ends because the formula folds.
     pub fn folds(&self) -> bool {
         self.folds
     }
 
-    /// The distance from the middle at which it ends to the right, in focal lengths.
+    /// Returns the distance from the middle at which the picture ends to the right, in focal lengths.
     pub fn rim(&self) -> f64 {
         let (bent, _) = self.coefficients.bend(DVec2::new(self.reach, 0.0));
         bent.length()
     }
 
-    /// The tangents (y up) of what is seen at a point.
+    /// Returns the tangents (y up) of the direction seen at a point.
     fn straightened(&self, point: PlanePoint) -> Option<DVec2> {
         let target = DVec2::new(point.x, -point.y);
         let start = self.first_guess(target)?;
@@ -152,7 +154,7 @@ impl BrownConrady {
         (straight.length() <= self.reach).then(|| DVec2::new(straight.x, -straight.y))
     }
 
-    /// Exact for lenses that bend along radii alone.
+    /// Returns a starting point for Newton's iteration, exact for purely radial distortion.
     fn first_guess(&self, target: DVec2) -> Option<DVec2> {
         let distance = target.length();
         if distance == 0.0 {
@@ -166,7 +168,8 @@ impl BrownConrady {
         Some(target * (radius / distance))
     }
 
-    /// Newton's iteration, each step halved until it comes nearer: the derivative is positive definite all the way.
+    /// Uses Newton's iteration, halving each step until it comes nearer; the derivative is positive definite
+    /// throughout.
     fn newton(&self, start: DVec2, target: DVec2) -> Option<DVec2> {
         let mut at = start;
         let (mut bent, mut slope) = self.coefficients.bend(at);
@@ -197,14 +200,14 @@ impl BrownConrady {
         None
     }
 
-    /// The greatest distance from the middle that a point of its rim has, and a thousandth more for those between.
+    /// Returns the greatest distance of a rim point from the middle, plus a thousandth for the points between samples.
     fn outermost(&self) -> f64 {
         let around = |k: usize| DVec2::from_angle(k as f64 / (4 * BEARINGS) as f64 * std::f64::consts::TAU);
         let distance = |k: usize| self.coefficients.bend(around(k) * self.reach).0.length();
         1.001 * (0..4 * BEARINGS).map(distance).fold(0.0, f64::max)
     }
 
-    /// A rectangle that holds the image of a disc of tangents (y down): it is the image of its circle's inside.
+    /// Returns a rectangle that holds the image of a disc of tangents (y down).
     fn disc_bounds(&self, centre: DVec2, radius: f64) -> PlaneRect {
         let mut bounds: Option<PlaneRect> = None;
         for k in 0..BEARINGS {
@@ -275,7 +278,7 @@ impl Projection for BrownConrady {
 }
 
 impl BrownConrady {
-    /// ∂image/∂tangents, both with y up.
+    /// Returns ∂image/∂tangents, both with y up.
     fn derivative(&self, straight: DVec2) -> DMat2 {
         let (_, m) = self.coefficients.bend(DVec2::new(straight.x, -straight.y));
         DMat2::from_cols(DVec2::new(m.x_axis.x, -m.x_axis.y), DVec2::new(-m.y_axis.x, m.y_axis.y))

@@ -3,31 +3,32 @@ use glam::{DVec2, DVec3};
 use crate::projection::{PlanePoint, PlaneRect, Projection};
 use crate::sphere::{Angle, Direction, DirectionJacobian};
 
-/// A camera as it was measured: its sensor's rows may lean (skew), and its field of view ends at a cone.
+/// A calibrated camera: its sensor's rows may be skewed, and its field of view ends at a cone.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Calibrated<P> {
     camera: P,
-    /// How far to the right a point lies for each unit that it lies lower.
+    /// Skew: shift to the right for each unit downwards.
     skew: f64,
     /// Greatest angle from the axis, in radians.
     limit: f64,
-    /// Whether that is so near to where the lens's picture turns back that derivatives grow without bound.
+    /// Whether the limit is so close to the fold of the lens formula that derivatives grow without bound.
     is_steep: bool,
-    /// No picture of what counts is further than that from the middle: what is outside need not be searched for.
+    /// Greatest distance from the middle at which anything inside the limit is seen.
     outermost: f64,
 }
 
-/// Bearings in which the outermost picture is looked for.
+/// Bearings that are sampled for the greatest distance.
 const BEARINGS: usize = 256;
 
-/// What lies between two of them may be further out by so much.
+/// Factor that covers the distances between sampled bearings.
 const SPARE: f64 = 1.001;
 
-/// Further than this, in radians, from where a lens's picture turns back its derivatives are tame.
+/// Angle, in radians, from the fold of a lens formula beyond which its derivatives are moderate.
 const TAME: f64 = 0.02;
 
 impl<P: Projection> Calibrated<P> {
-    /// A camera with a skew, in units of x a unit of y downwards, that shows what is at most `limit` from its axis.
+    /// Returns a camera with a skew, in units of x per unit of y downwards, and a field of view of `limit` from its
+    /// axis.
     pub fn new(camera: P, skew: f64, limit: Angle) -> Self {
         let (sin, cos) = limit.sin_cos();
         let rim = Direction::from_unit(DVec3::new(sin, 0.0, -cos));
@@ -36,7 +37,7 @@ impl<P: Projection> Calibrated<P> {
         Self { camera, skew, limit: limit.radians(), is_steep, outermost }
     }
 
-    /// The point without the skew; `None` where nothing that counts is seen.
+    /// Returns the point with the skew removed; `None` if it is outside the field of view.
     fn upright(&self, point: PlanePoint) -> Option<PlanePoint> {
         let upright = PlanePoint::new(point.x + self.skew * point.y, point.y);
         (upright.x.hypot(upright.y) <= self.outermost).then_some(upright)
@@ -51,7 +52,8 @@ impl<P: Projection> Calibrated<P> {
     }
 }
 
-/// How far from the middle a camera shows what is at an angle from its axis; without bound where it does not.
+/// Returns the greatest distance from the middle at which a camera shows a given angle from its axis; infinite if it
+/// does not.
 fn outermost(camera: &impl Projection, angle: Angle) -> f64 {
     let (sin, cos) = angle.sin_cos();
     let radius = |k: usize| {

@@ -5,14 +5,14 @@ use glam::{DVec2, DVec3};
 use crate::projection::{Perspective, PlanePoint, PlaneRect, Projection};
 use crate::sphere::{Angle, Direction, DirectionJacobian};
 
-/// The face of an equi-angular cube map: x and y are the angles from the axis, in radians, of which the pinhole camera
-/// has the tangents. Pixels of a face of 90° are more alike in size than those of a camera (C. Brown, *Bringing pixels front
-/// and center in VR video*, Google, 2017).
+/// A face of an equi-angular cube map: x and y are angles from the axis in radians, where a pinhole camera has their
+/// tangents. The pixels of a face of 90° are more uniform in size than a pinhole camera's (C. Brown, *Bringing pixels
+/// front and center in VR video*, Google, 2017).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct EquiAngular;
 
-/// The horizon has its image in the four corners of a square, around which the mapping bends without bound. Directions
-/// closer to it (as a sine) than this have none; the corners of a face of 90° are at 0.577.
+/// Sine of the angle to the horizon below which directions have no image. The horizon's image is in the four corners of
+/// a square, around which the mapping bends without bound. The corners of a face of 90° are at 0.577.
 const HORIZON: f64 = 0.125;
 
 impl Projection for EquiAngular {
@@ -63,7 +63,7 @@ impl Projection for EquiAngular {
     }
 }
 
-/// The angles between which a cap lies, seen along one axis of the plane: those of [`Perspective`], as angles.
+/// Returns the range of angles of a cap along one axis of the plane: that of [`Perspective`], as angles.
 fn angle_range(across: f64, depth: f64, radius: Angle) -> (f64, f64) {
     let sine = radius.radians().sin() / across.hypot(depth);
     if sine.is_nan() || sine >= 1.0 || radius.degrees() >= 90.0 {

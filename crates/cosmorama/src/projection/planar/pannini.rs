@@ -7,9 +7,9 @@ use crate::projection::bounds::meridian;
 use crate::projection::{PlanePoint, PlaneRect, Projection};
 use crate::sphere::{Angle, Direction, DirectionJacobian};
 
-/// The general Pannini projection (Sharpless, Postle & German 2010): a picture on a cylinder, seen from the distance d behind
-/// its axis. x = S sin λ, y = S tan φ with S = (d + 1)/(d + cos λ). d = 0 is the pinhole, d = 1 Pannini's own, and what is
-/// very large the orthographic cylinder.
+/// The general Pannini projection (Sharpless, Postle & German 2010): a picture on a cylinder, seen from the distance d
+/// behind its axis. x = S sin λ and y = S tan φ with S = (d + 1)/(d + cos λ). d = 0 is the pinhole camera, d = 1
+/// Pannini's own view, and a very large d the orthographic cylinder.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pannini {
     distance: f64,
@@ -17,33 +17,33 @@ pub struct Pannini {
     limit: DVec2,
 }
 
-/// Points further away have no direction: their squares overflow.
+/// Greatest distance of a point with a direction; beyond it squares overflow.
 const FURTHEST: f64 = 1e100;
 
-/// Where x turns back the discriminant vanishes; so near to it there is no derivative.
+/// Discriminant below which there is no derivative: it vanishes where x turns back.
 const RIM: f64 = 1e-20;
 
 impl Pannini {
-    /// Seen from this distance, 0 or more; `None` for others.
+    /// Returns the projection seen from this distance, 0 or more; `None` for others.
     pub fn from_distance(distance: f64) -> Option<Self> {
         let is_distance = (0.0..=1e6).contains(&distance);
         let cos = -if distance <= 1.0 { distance } else { distance.recip() };
         is_distance.then(|| Self { distance, limit: DVec2::new(cos, ((1.0 - cos) * (1.0 + cos)).sqrt()) })
     }
 
-    /// The longitude that nothing shown reaches.
+    /// Returns the longitude that bounds the picture.
     pub fn limit(&self) -> Angle {
         Angle::from_radians(self.limit.y.atan2(self.limit.x))
     }
 
-    /// S at a longitude of which cosine and sine are given.
+    /// Returns S at a longitude given by its cosine and sine.
     fn scale(&self, cos: f64, sin: f64) -> f64 {
         // 1 + cos λ without its loss of digits behind.
         let versed = if cos < 0.0 { sin * sin / (1.0 - cos) } else { 1.0 + cos };
         (self.distance + 1.0) / (self.distance - 1.0 + versed)
     }
 
-    /// Bounds of a cap that holds a pole or touches the longitude where the picture ends: infinite on that side.
+    /// Returns bounds of a cap that holds a pole or touches the limiting longitude; they are infinite on that side.
     fn singular_bounds(&self, centre: Direction, radius: f64) -> PlaneRect {
         let (longitude, latitude) = centre.longitude_latitude();
         let (longitude, latitude) = (longitude.radians(), latitude.radians());
@@ -63,7 +63,7 @@ impl Pannini {
         PlaneRect { min, max }
     }
 
-    /// x at a longitude, whether or not something is seen there.
+    /// Returns x at a longitude, even where nothing is seen.
     pub fn across(&self, longitude: Angle) -> f64 {
         let (sin, cos) = longitude.sin_cos();
         self.scale(cos, sin) * sin

@@ -3,12 +3,12 @@ use glam::{DVec2, DVec3};
 use crate::projection::{PlanePoint, PlaneRect, Projection};
 use crate::sphere::{Angle, Direction, DirectionJacobian};
 
-/// The pinhole camera: x and y are tangents of the angles from the axis. Maps call it gnomonic (J. P. Snyder, *Map
-/// Projections: A Working Manual*, USGS Professional Paper 1395, 1987, chapter 22).
+/// The pinhole camera: x and y are tangents of the angles from the axis. As a map it is called gnomonic (J. P. Snyder,
+/// *Map Projections: A Working Manual*, USGS Professional Paper 1395, 1987, chapter 22).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Perspective;
 
-/// Directions closer than this (as a sine) to the plane of the pinhole have no image.
+/// Sine of the angle to the pinhole's plane below which directions have no image.
 const HORIZON: f64 = 1e-9;
 
 impl Projection for Perspective {
@@ -75,8 +75,8 @@ impl Projection for Perspective {
     }
 }
 
-/// The tangents between which a cap lies, seen along one axis of the plane: the planes through the other axis that
-/// touch the cap stand at asin(sin ρ / m) to both sides of its centre, m being the centre's distance from that axis.
+/// Returns the range of tangents of a cap along one axis of the plane. The planes through the other axis that touch the
+/// cap are at asin(sin ρ / m) to both sides of its centre, where m is the centre's distance from that axis.
 fn tangent_range(across: f64, depth: f64, radius: Angle) -> (f64, f64) {
     let sine = radius.radians().sin() / across.hypot(depth);
     if sine.is_nan() || sine >= 1.0 || radius.degrees() >= 90.0 {

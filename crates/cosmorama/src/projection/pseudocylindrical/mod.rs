@@ -1,4 +1,4 @@
-//! Oval maps of the whole world whose parallels are straight: x is in proportion to the longitude.
+//! Oval maps of the whole world with straight parallels: x is proportional to the longitude.
 
 mod mollweide;
 mod sinusoidal;
@@ -15,26 +15,26 @@ use super::cylindrical::Latitude;
 use super::{Outline, PlanePoint, PlaneRect, Projection};
 use crate::sphere::{Angle, Direction, DirectionJacobian};
 
-/// Where the parallels of a map lie.
+/// Positions of a map's parallels.
 pub trait Parallels {
-    /// The height of a parallel, and its half width over π.
+    /// Returns the height of a parallel, and its half width divided by π.
     fn place(&self, latitude: Latitude) -> (f64, f64);
 
-    /// The parallel at a height; `None` beyond the poles.
+    /// Returns the parallel at a height; `None` beyond the poles.
     fn at(&self, height: f64) -> Option<Parallel>;
 
-    /// Whether the latitude's derivative grows without bound towards the poles.
+    /// Returns whether the latitude's derivative grows without bound towards the poles.
     fn has_steep_poles(&self) -> bool {
         false
     }
 }
 
-/// A parallel of a map, and what changes with the height y.
+/// A parallel of a map, with its derivatives along the height y.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Parallel {
     /// Its latitude φ.
     pub latitude: Latitude,
-    /// x over the longitude, never 0.
+    /// x divided by the longitude, never 0.
     pub width: f64,
     /// dφ/dy.
     pub latitude_slope: f64,
@@ -46,7 +46,7 @@ pub struct Parallel {
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Pseudocylindrical<M>(pub M);
 
-/// A longitude that rounding moved past 180° by this much is on the map's edge.
+/// Tolerance for rounding: a longitude this far beyond 180° is on the map's edge.
 const ROUNDING: f64 = 1e-9;
 
 fn is_on_the_map(longitude: f64) -> bool {

@@ -3,20 +3,21 @@ use std::f64::consts::{PI, SQRT_2};
 use super::{Parallel, Parallels};
 use crate::projection::cylindrical::Latitude;
 
-/// Mollweide's map, in an ellipse 2√2 by √2 to each side: x = (2√2/π) λ cos θ, y = √2 sin θ, where 2θ + sin 2θ = π sin φ.
-/// Equal areas show equal solid angles.
+/// Mollweide's map, in an ellipse with semi-axes 2√2 and √2: x = (2√2/π) λ cos θ, y = √2 sin θ, where 2θ + sin 2θ = π
+/// sin φ. Areas are proportional to solid angles.
 ///
-/// Near a pole θ is computed from the angle δ = π/2 − θ to it, with 2δ − sin 2δ = π (1 − sin φ), which stays exact there.
+/// Near a pole θ is computed from the angle δ = π/2 − θ to it, with 2δ − sin 2δ = π (1 − sin φ), which stays exact
+/// there.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Mollweide;
 
-/// x over λ cos θ.
+/// x divided by λ cos θ.
 const WIDTH: f64 = 2.0 * SQRT_2 / PI;
 
-/// At the pole itself, which is a point, sin δ and cos φ are at least this.
+/// Least sin δ and cos φ; at the pole itself, which is a point, they would be 0.
 const NARROWEST: f64 = 1e-12;
 
-/// x − sin x; a series where the difference would lose its digits.
+/// Returns x − sin x, by a series where the difference would lose digits.
 fn excess(x: f64) -> f64 {
     if x > 1.0 {
         return x - x.sin();
@@ -27,7 +28,7 @@ fn excess(x: f64) -> f64 {
     x * x2 / 6.0 * series
 }
 
-/// Sine and cosine of θ at a latitude of the north: Newton's iteration.
+/// Returns sine and cosine of θ at a northern latitude, by Newton's iteration.
 fn auxiliary(latitude: Latitude) -> (f64, f64) {
     let sin = latitude.sin.abs().min(1.0);
     if sin < 0.5 {
@@ -43,7 +44,7 @@ fn auxiliary(latitude: Latitude) -> (f64, f64) {
     (cos_delta, sin_delta)
 }
 
-/// The root near `start` of a function given with its derivative; `start` itself where that vanishes.
+/// Finds the root near `start` of a function given with its derivative; `start` itself where the derivative vanishes.
 fn newton(start: f64, function: impl Fn(f64) -> (f64, f64)) -> f64 {
     let mut at = start;
     for _ in 0..50 {

@@ -3,11 +3,11 @@ use std::f64::consts::FRAC_PI_2;
 use super::{Parallel, Parallels};
 use crate::projection::cylindrical::Latitude;
 
-/// The sinusoidal map: x = λ cos φ, y = φ, in radians. Equal areas show equal solid angles.
+/// The sinusoidal map: x = λ cos φ, y = φ, in radians. Areas are proportional to solid angles.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Sinusoidal;
 
-/// At the pole itself, which is a point, the parallel has this width.
+/// Least width of a parallel; at the pole itself, which is a point, it would be 0.
 const NARROWEST: f64 = 1e-12;
 
 impl Parallels for Sinusoidal {

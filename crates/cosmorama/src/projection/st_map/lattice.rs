@@ -1,21 +1,21 @@
 use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 
-/// How far the step between two samples may exceed those beside it before the table counts as torn there, and the
-/// length below which no step is a tear: an hundredth of a picture or of a radian.
+/// Ratio of a step between two samples to its neighbours above which the table counts as torn. `LEAST_TEAR`, a
+/// hundredth of a picture or of a radian, is the shortest tear.
 const TEAR: f32 = 4.0;
 const LEAST_TEAR: f32 = 0.01;
 
-/// A quantity on a lattice of samples, sample (i, j) at the middle (i + ½, j + ½) of its square.
+/// A quantity on a lattice of samples; sample (i, j) is at the middle (i + ½, j + ½) of its square.
 #[derive(Clone, Debug)]
 pub(crate) struct Samples {
     pub(crate) width: usize,
     pub(crate) height: usize,
-    /// Row by row; not a number where there is none.
+    /// Values, row by row; NaN where there is none.
     pub(crate) values: Vec<Vec3>,
 }
 
-/// Which samples there are, and which neighbours belong together.
+/// Marks of valid samples, and of neighbours that are connected.
 #[derive(Clone, Debug)]
 pub(crate) struct Links {
     pub(crate) width: usize,
@@ -32,7 +32,7 @@ pub(crate) struct Jet {
 }
 
 const VALID: u8 = 1;
-/// With the sample to the right, and with the one below.
+/// Bit flags: connected to the sample to the right, and to the one below.
 const RIGHT: u8 = 2;
 const BELOW: u8 = 4;
 
@@ -47,7 +47,7 @@ impl Samples {
         self.values[j as usize * self.width + i as usize].as_dvec3()
     }
 
-    /// Whether the step from (i, j) by `step` is like those before and after it, as far as there are any.
+    /// Returns whether the step from (i, j) by `step` is similar to those before and after it, if there are any.
     fn is_continuous(&self, (i, j): (i64, i64), step: (i64, i64)) -> bool {
         let at = |k: i64| self.get(i + k * step.0, j + k * step.1);
         let length = |k: i64| at(k).zip(at(k + 1)).map(|(a, b)| a.distance(b));
@@ -58,7 +58,7 @@ impl Samples {
 }
 
 impl Links {
-    /// The links of samples that all of `tables` have, and along which none of them is torn.
+    /// Returns the links between samples that all of `tables` have, along which none of them is torn.
     pub(crate) fn of(tables: &[&Samples]) -> Self {
         let (width, height) = (tables[0].width, tables[0].height);
         let joined = |at, step| tables.iter().all(|table| table.is_continuous(at, step));
@@ -78,20 +78,19 @@ impl Links {
         inside && self.flags[j as usize * self.width + i as usize] & flag != 0
     }
 
-    /// Whether there is a sample.
+    /// Returns whether there is a sample.
     pub(crate) fn is_valid(&self, i: usize, j: usize) -> bool {
         self.has(i as i64, j as i64, VALID)
     }
 
-    /// Whether the samples (i, j) to (i + 1, j + 1) belong together.
+    /// Returns whether the samples (i, j) to (i + 1, j + 1) are connected.
     pub(crate) fn is_whole(&self, i: i64, j: i64) -> bool {
         self.has(i, j, RIGHT) && self.has(i, j, BELOW) && self.has(i + 1, j, BELOW) && self.has(i, j + 1, RIGHT)
     }
 
-    /// A quantity at a point of the lattice or, where that goes on, up to `beyond` squares outside it: bicubic (Catmull &
-    /// Rom 1974) between four samples that belong together. Where they do not, the square of each sample goes on as its
-    /// other neighbours have it, so that nothing is interpolated across a tear and the squares of the outermost samples are
-    /// covered, too.
+    /// Interpolates a quantity at a point of the lattice, or up to `beyond` squares outside it. Between four connected
+    /// samples it is bicubic (Catmull & Rom 1974). Elsewhere each sample's square is extrapolated from its connected
+    /// neighbours. Nothing is interpolated across a tear, and the squares of the outermost samples are covered.
     pub(crate) fn jet(&self, samples: &Samples, x: f64, y: f64, beyond: f64) -> Option<Jet> {
         let (width, height) = (self.width as f64, self.height as f64);
         let inside = |at: f64, size: f64| (-beyond..=size + beyond).contains(&at);
@@ -128,7 +127,7 @@ impl Links {
     }
 }
 
-/// The two columns or rows of cells around the sample nearest to a point: the one that holds it, and the other.
+/// Returns the two columns or rows of cells around the sample nearest to a point; the cell that holds it comes first.
 fn cells(at: f64, size: f64) -> [f64; 2] {
     let nearest = at.floor().clamp(0.0, size - 1.0);
     let cell = (at - 0.5).floor();
@@ -140,7 +139,7 @@ struct Cubic {
     slopes: [f64; 4],
 }
 
-/// The weights of four samples between the middle two, and their derivatives.
+/// Returns the weights of four samples at a point between the middle two, and their derivatives.
 fn cubic(t: f64) -> Cubic {
     let (t2, t3) = (t * t, t * t * t);
     Cubic {
@@ -159,7 +158,7 @@ fn cubic(t: f64) -> Cubic {
     }
 }
 
-/// Four samples in a row, of which the outer ones, where they are missing, go on as a parabola, or straight.
+/// Completes four samples in a row: missing outer ones are extrapolated by a parabola, or linearly.
 fn completed(before: Option<DVec3>, [p, q]: [DVec3; 2], after: Option<DVec3>) -> [DVec3; 4] {
     let (far, near) = (after.unwrap_or(q * 2.0 - p), before.unwrap_or(p * 2.0 - q));
     [before.unwrap_or((p - q) * 3.0 + far), p, q, after.unwrap_or((q - p) * 3.0 + near)]

@@ -1,4 +1,4 @@
-//! Projections that are given by a table, as the st maps of compositing programs are.
+//! Projections that are given by a table, like the st maps of compositing programs.
 
 mod lattice;
 mod piece;
@@ -19,40 +19,40 @@ use self::tree::{MOST_BEYOND, Tree};
 use super::{Outline, PlanePoint, PlaneRect, Projection};
 use crate::sphere::{Angle, Direction, DirectionJacobian};
 
-/// Pairs of a point of a picture and the direction seen there, on a lattice of samples: what an st map together with the
-/// projection of the picture at its other end says.
+/// Pairs of a place in a picture and the direction seen there, on a lattice of samples. An st map, together with the
+/// projection of the picture at its other end, gives such a table.
 ///
-/// Directions are known where there are samples, and half a sample beyond. Places are known a little further.
+/// Directions are defined where there are samples, and half a sample beyond. Places are defined a little further.
 ///
-/// The picture's plane is a square of side one around its middle, whatever the picture's shape: x from −½ (left) to ½, y from
-/// −½ (bottom) to ½. Between samples the table is bicubic; where neighbours do not belong together, because one is
-/// missing or the step between them is far longer than those beside it, each sample has the square around it for itself.
+/// The picture's plane is a square of side one around its middle, whatever the picture's shape: x from −½ (left) to ½,
+/// y from −½ (bottom) to ½. Between samples the table is bicubic. Where neighbours are not connected, because one is
+/// missing or the step between them is far longer than those beside it, each sample has the square around it to itself.
 #[derive(Clone, Debug)]
 pub struct StMapTable {
     places: Places,
     directions: Samples,
     links: Links,
-    /// Of its pieces, in their order in the trees.
+    /// Leaves of the pieces, in their order in the trees.
     leaves: Vec<Leaf>,
     by_direction: Tree,
 }
 
-/// So many rectangles are no outline any more.
+/// Greatest number of rectangles of an outline; beyond it one rectangle is used.
 const MOST_RECTS: usize = 64;
 
-/// Where in the picture the samples are.
+/// Positions of the samples in the picture.
 #[derive(Clone, Debug)]
 enum Places {
-    /// At the middles of its pixels.
+    /// At the centres of its pixels.
     Regular,
-    /// Anywhere.
+    /// Anywhere, by a table and its search tree.
     Table(Samples, Tree),
 }
 
-/// Why no projection can be made of a table.
+/// Reason why a table does not make a projection.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 pub enum StMapError {
-    /// Nothing to interpolate between.
+    /// No four neighbouring samples are connected.
     #[error("no four neighbouring samples of the {width}x{height} hold places that belong together")]
     NoCells {
         /// Columns.
@@ -63,10 +63,10 @@ pub enum StMapError {
 }
 
 impl StMapTable {
-    /// The table of a picture of which `direction` says where the pixel in column i of row j looks.
+    /// Creates the table of a picture; `direction` gives the direction of the pixel in column i of row j.
     ///
     /// # Errors
-    /// When no four neighbours look anywhere.
+    /// When no four neighbouring pixels have a direction.
     pub fn of_pixels(
         width: usize,
         height: usize,
@@ -76,11 +76,11 @@ impl StMapTable {
         Self::joined(directions, None)
     }
 
-    /// The table of samples anywhere in the picture: `sample` gives the place and the direction of that in column i of row j.
-    /// Where several samples hold a place or a direction, as in a map that folds, the first of them has it.
+    /// Creates the table of samples anywhere in the picture; `sample` gives the place and the direction of the sample
+    /// in column i of row j. Where several samples hold a place or a direction, as in a map that folds, the first wins.
     ///
     /// # Errors
-    /// When no four neighbours belong together.
+    /// When no four neighbouring samples are connected.
     pub fn of_places(
         width: usize,
         height: usize,
@@ -108,12 +108,12 @@ impl StMapTable {
         Ok(Self { places, directions, links, leaves, by_direction })
     }
 
-    /// Columns and rows of samples.
+    /// Returns the columns and rows of samples.
     pub fn size(&self) -> (usize, usize) {
         (self.directions.width, self.directions.height)
     }
 
-    /// The place in the picture at a point of the lattice or just outside it, and its derivatives.
+    /// Returns the place in the picture at a point of the lattice or just outside it, and its derivatives.
     fn place(&self, x: f64, y: f64) -> Option<[DVec2; 3]> {
         let (width, height) = (self.directions.width as f64, self.directions.height as f64);
         match &self.places {
@@ -129,8 +129,8 @@ impl StMapTable {
         }
     }
 
-    /// The point of the lattice at a place in the picture. Places around the outermost samples are found, too, so that a filter
-    /// finds texels on all sides of what those see.
+    /// Finds the point of the lattice at a place in the picture. It also finds places just outside the outermost
+    /// samples, so that a filter finds texels on all sides of a footprint there.
     fn find_place(&self, point: PlanePoint) -> Option<(f64, f64)> {
         let (width, height) = (self.directions.width as f64, self.directions.height as f64);
         match &self.places {
@@ -145,7 +145,7 @@ impl StMapTable {
         (samples, &self.links, &self.leaves)
     }
 
-    /// The parts of the picture in which directions within `radius` of another one may be, piece by piece.
+    /// Returns, piece by piece, the parts of the picture that may hold directions within `radius` of a direction.
     fn rects_within(&self, centre: Direction, radius: Angle) -> impl Iterator<Item = PlaneRect> {
         let chord = 2.0 * (radius.radians().min(PI) / 2.0).sin();
         let (width, height) = (self.directions.width as f64, self.directions.height as f64);
@@ -166,7 +166,8 @@ impl StMapTable {
         self.by_direction.within(centre.vector().as_vec3(), chord as f32).map(rect)
     }
 
-    /// About how much memory a table of so many columns and rows takes, in bytes, with or without places of its own.
+    /// Estimates the memory, in bytes, that a table of so many columns and rows takes, with or without places of its
+    /// own.
     pub fn bytes((width, height): (usize, usize), has_places: bool) -> u64 {
         let tables = if has_places { 2 } else { 1 };
         // A value and the share of a leaf's box in each table, and the flags of a sample.
@@ -174,7 +175,7 @@ impl StMapTable {
         (width as u64).saturating_mul(height as u64).saturating_mul(sample as u64)
     }
 
-    /// How far outside the lattice there are places.
+    /// Returns how far outside the lattice places are defined.
     fn beyond(&self) -> f64 {
         match self.places {
             Places::Regular => 0.0,
@@ -182,7 +183,7 @@ impl StMapTable {
         }
     }
 
-    /// The direction at a point of the lattice, with its derivatives along the lattice.
+    /// Returns the direction at a point of the lattice, with its derivatives along the lattice.
     fn direction(&self, x: f64, y: f64) -> Option<(Direction, DirectionJacobian)> {
         let Jet { value, dx, dy } = self.links.jet(&self.directions, x, y, self.beyond())?;
         let (direction, length) = (Direction::new(value)?, value.length());
@@ -201,25 +202,25 @@ impl Samples {
     }
 }
 
-/// A projection that is a table.
+/// A projection that is given by a table.
 ///
 /// Clones share the table.
 #[derive(Clone, Debug)]
 pub struct StMap(Arc<StMapTable>);
 
 impl StMap {
-    /// Creates the projection that is this table.
+    /// Creates the projection of a table.
     pub fn new(table: StMapTable) -> Self {
         Self(Arc::new(table))
     }
 
-    /// How much memory its table takes, in bytes.
+    /// Returns the memory that its table takes, in bytes.
     pub fn bytes(&self) -> u64 {
         StMapTable::bytes(self.0.size(), matches!(self.0.places, Places::Table(..)))
     }
 }
 
-/// Tables are equal if they are the same one.
+/// Two projections are equal if they share one table.
 impl PartialEq for StMap {
     fn eq(&self, other: &Self) -> bool {
         Arc::ptr_eq(&self.0, &other.0)
@@ -259,7 +260,7 @@ impl Projection for StMap {
         Some((direction, jacobian))
     }
 
-    /// A table is nowhere singular, as far as it knows: where it ends, nothing is seen.
+    /// Returns π: a table has no known singularity, and beyond its end nothing is seen.
     fn margin(&self, _: Direction) -> f64 {
         PI
     }
@@ -271,7 +272,7 @@ impl Projection for StMap {
         if bounds.min.x <= bounds.max.x { bounds } else { PlaneRect { min: nowhere, max: nowhere } }
     }
 
-    /// A cap across a tear lies in two places, far from each other.
+    /// Returns a rectangle for each piece, because a cap across a tear lies in two places.
     fn cap_outline(&self, centre: Direction, radius: Angle) -> Outline {
         let rects: Vec<PlaneRect> = self.0.rects_within(centre, radius).take(MOST_RECTS + 1).collect();
         Outline::Rects(if rects.len() > MOST_RECTS { vec![self.cap_bounds(centre, radius)] } else { rects })

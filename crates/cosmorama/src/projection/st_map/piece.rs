@@ -2,10 +2,10 @@ use rayon::prelude::*;
 
 use super::lattice::{Links, Samples};
 
-/// Squares of the lattice along the side of a leaf.
+/// Side of a leaf, in squares of the lattice.
 pub(crate) const LEAF: usize = 8;
 
-/// A block of the lattice: columns and rows from its corner.
+/// A block of the lattice, in columns and rows from its corner.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Leaf {
     pub(crate) column: usize,
@@ -13,7 +13,7 @@ pub(crate) struct Leaf {
 }
 
 impl Leaf {
-    /// Its squares' corners, least and greatest.
+    /// Returns the corners of its squares, least and greatest.
     pub(crate) fn rectangle(self, samples: &Samples) -> [(f64, f64); 2] {
         let (left, top) = (self.column * LEAF, self.row * LEAF);
         let (right, bottom) = ((left + LEAF).min(samples.width), (top + LEAF).min(samples.height));
@@ -28,12 +28,13 @@ impl Leaf {
         [(low(left), low(top)), (high(right, samples.width), high(bottom, samples.height))]
     }
 
-    /// Whether the table ends beside it.
+    /// Returns whether the table ends beside it.
     pub(crate) fn is_outer(self, samples: &Samples) -> bool {
         self.rectangle_with(samples, 1.0) != self.rectangle(samples)
     }
 
-    /// The cells between its samples and those beside it, up to which its cubics are, by their upper left corners.
+    /// Visits the cells between its samples and those beside it, as far as its cubics reach, by their upper left
+    /// corners.
     fn cells(self, width: usize, height: usize) -> impl Iterator<Item = (usize, usize)> {
         let ends = |start: usize, size: usize| start.saturating_sub(1)..(start + LEAF).min(size - 1);
         let (columns, rows) = (ends(self.column * LEAF, width), ends(self.row * LEAF, height));
@@ -41,19 +42,19 @@ impl Leaf {
     }
 }
 
-/// What belongs together of a leaf and the samples beside it. A leaf across a tear has a piece on each side: one box around
-/// both would reach across all that lies between them.
+/// The connected part of a leaf and of the samples beside it. A leaf across a tear has a piece on each side; one box
+/// around both would be far too large.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Piece {
     pub(crate) leaf: Leaf,
-    /// The cells between four samples of it, by their upper left corners.
+    /// Upper left corners of the cells between four of its samples.
     pub(crate) cells: Vec<(usize, usize)>,
-    /// Whether that is all the leaf has: nothing is torn.
+    /// Whether it is the leaf's only piece, because nothing is torn.
     pub(crate) is_whole: bool,
 }
 
 impl Piece {
-    /// The pieces of a lattice, leaf by leaf.
+    /// Returns the pieces of a lattice, leaf by leaf.
     pub(crate) fn all(links: &Links) -> Vec<Self> {
         let (columns, rows) = (links.width.div_ceil(LEAF), links.height.div_ceil(LEAF));
         let leaf = |k: usize| Leaf { column: k % columns, row: k / columns };

@@ -6,22 +6,22 @@ use rstar::primitives::{GeomWithData, Rectangle};
 use super::lattice::{Jet, Links, Samples};
 use super::piece::{Leaf, Piece};
 
-/// Steps of Newton's method. From the nearest sample, four are enough where a table is smooth.
+/// Limit of Newton steps. From the nearest sample, four suffice where a table is smooth.
 const STEPS: usize = 16;
 
-/// How far outside a table its leaves' boxes reach, in squares.
+/// Distance outside a table, in squares, to which its leaves' boxes extend.
 pub(crate) const MOST_BEYOND: f64 = 3.0;
 
-/// A part of a square of the lattice to which a point is found.
+/// Precision to which a point is found, in squares of the lattice.
 const FOUND: f64 = 1e-9;
 
-/// After a step as short as this the next one would be shorter than [`FOUND`], since it goes with the square of the last.
+/// Step after which the iteration stops: the next step, quadratic in this one, would be shorter than [`FOUND`].
 const LAST_STEP: f64 = 1e-5;
 
-/// After a step shorter than this, in squares, what is left is shorter still.
+/// Step, in squares, below which the iteration converges.
 const CONVERGING: f64 = 0.25;
 
-/// A box of values; nothing, where its sides are crossed.
+/// A box of values; it is empty if its sides are crossed.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Bounds {
     pub(crate) min: Vec3,
@@ -40,7 +40,7 @@ impl Bounds {
     }
 }
 
-/// Where in a table a value is: an R-tree of boxes around the pieces of its lattice.
+/// Index of values in a table: an R-tree of boxes around the pieces of its lattice.
 #[derive(Clone, Debug)]
 pub(crate) struct Tree {
     boxes: Vec<Bounds>,
@@ -48,7 +48,7 @@ pub(crate) struct Tree {
 }
 
 impl Tree {
-    /// The boxes around what pieces of a table hold, up to `beyond` squares outside it.
+    /// Creates the tree of the boxes around pieces of a table, extended by up to `beyond` squares outside it.
     pub(crate) fn new(samples: &Samples, links: &Links, pieces: &[Piece], beyond: f64) -> Self {
         let boxes: Vec<Bounds> = pieces.par_iter().map(|piece| bounds(samples, links, piece, beyond)).collect();
         let entry = |(number, held): (usize, &Bounds)| {
@@ -58,18 +58,18 @@ impl Tree {
         Self { boxes, index }
     }
 
-    /// The box around what a piece holds.
+    /// Returns the box around a piece.
     pub(crate) fn bounds(&self, piece: usize) -> Bounds {
         self.boxes[piece]
     }
 
-    /// The numbers of all pieces that may hold anything within `reach` of a value.
+    /// Returns the numbers of all pieces that may hold a value within `reach` of a value.
     pub(crate) fn within(&self, value: Vec3, reach: f32) -> impl Iterator<Item = usize> {
         self.index.locate_within_distance(value.to_array(), reach * reach).map(|entry| entry.data)
     }
 
-    /// The point of the lattice, in the first piece that has any, at which a table has this value; up to `beyond` squares
-    /// outside it, at most [`MOST_BEYOND`].
+    /// Finds the point of the lattice at which the table has this value, in the first piece that holds it. The point
+    /// may lie up to `beyond` squares outside, at most [`MOST_BEYOND`].
     pub(crate) fn find(
         &self,
         (samples, links, leaves): (&Samples, &Links, &[Leaf]),
@@ -87,8 +87,8 @@ impl Tree {
     }
 }
 
-/// Around a piece's samples, with room for what cubics overshoot between them, for the half squares beside its outermost
-/// ones, and for what lies beside the table.
+/// Returns the box around a piece's samples. It includes the overshoot of cubics, the half squares beside the outermost
+/// samples, and the surroundings of the table.
 fn bounds(samples: &Samples, links: &Links, piece: &Piece, beyond: f64) -> Bounds {
     let value = |i: usize, j: usize| samples.values[j * samples.width + i];
     let (mut bounds, mut longest) = (Bounds::NOTHING, 0f32);
@@ -114,7 +114,7 @@ fn bounds(samples: &Samples, links: &Links, piece: &Piece, beyond: f64) -> Bound
     bounds.widened(room * longest + 1e-6)
 }
 
-/// Newton's method from the leaf's nearest sample.
+/// Uses Newton's method from the leaf's nearest sample.
 fn find_in_leaf(samples: &Samples, links: &Links, leaf: Leaf, value: DVec3, beyond: f64) -> Option<(f64, f64)> {
     let [(left, top), (right, bottom)] = leaf.rectangle_with(samples, beyond);
     let (width, height) = (samples.width as f64, samples.height as f64);
@@ -142,7 +142,7 @@ fn find_in_leaf(samples: &Samples, links: &Links, leaf: Leaf, value: DVec3, beyo
     None
 }
 
-/// The middle of the square of the sample nearest to a value.
+/// Returns the middle of the square of the sample nearest to a value.
 fn nearest(samples: &Samples, links: &Links, leaf: Leaf, value: Vec3) -> Option<(f64, f64)> {
     let [(left, top), (right, bottom)] = leaf.rectangle(samples);
     let mut best: Option<(f32, usize, usize)> = None;
@@ -157,7 +157,7 @@ fn nearest(samples: &Samples, links: &Links, leaf: Leaf, value: Vec3) -> Option<
     best.map(|(_, i, j)| (i as f64 + 0.5, j as f64 + 0.5))
 }
 
-/// The step along the lattice that comes nearest to a value; what sticks out of the table's surface is left out.
+/// Returns the step along the lattice that comes nearest to a value; the part outside the table's surface is ignored.
 fn solve(jet: &Jet, value: DVec3) -> Option<(f64, f64)> {
     let tangent = value - jet.value;
     let normal = jet.dx.cross(jet.dy);

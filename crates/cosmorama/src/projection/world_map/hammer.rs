@@ -7,15 +7,15 @@ use crate::projection::bounds::meridian;
 use crate::projection::{Outline, PlanePoint, PlaneRect, Projection};
 use crate::sphere::{Angle, Direction, DirectionJacobian};
 
-/// Hammer's map, in an ellipse 2√2 by √2 to each side: Lambert's equal-area view of the hemisphere on which longitudes are
-/// halved, stretched to twice its width. Equal areas show equal solid angles.
+/// Hammer's map, in an ellipse with semi-axes 2√2 and √2: Lambert's equal-area view of a hemisphere, in which
+/// longitudes are halved and the picture is stretched to twice its width. Areas are proportional to solid angles.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Hammer;
 
-/// The hemisphere's edge is at the squared radius 2; what rounding moved past it by this much is on it.
+/// Squared radius of the hemisphere's edge, with a tolerance for rounding.
 const EDGE: f64 = 2.0 + 1e-9;
 
-/// A direction whose longitude is halved: `right`, `up` and `ahead`, of length 1.
+/// A unit direction whose longitude is halved, by its components `right`, `up` and `ahead`.
 struct Halved {
     right: f64,
     up: f64,
@@ -23,24 +23,25 @@ struct Halved {
 }
 
 impl Halved {
-    /// cos φ.
+    /// Returns cos φ.
     fn across(&self) -> f64 {
         self.right.hypot(self.ahead)
     }
 
-    /// Cosine and sine of the halved longitude; at the poles any will do.
+    /// Returns cosine and sine of the halved longitude; at the poles any longitude will do.
     fn longitude(&self) -> (f64, f64) {
         let across = self.across();
         if across > 0.0 { (self.ahead / across, self.right / across) } else { (1.0, 0.0) }
     }
 
-    /// The direction with the whole longitude.
+    /// Returns the direction with the full longitude.
     fn doubled(&self) -> Direction {
         let (across, (cos, sin)) = (self.across(), self.longitude());
         Direction::from_unit(DVec3::new(2.0 * cos * sin * across, self.up, (sin * sin - cos * cos) * across))
     }
 
-    /// How that moves as `right`, `up` and `ahead` do. With q = cos φ, X = 2 right ahead/q and Z = (right² − ahead²)/q.
+    /// Returns the change of the full direction for a change of `right`, `up` and `ahead`. With q = cos φ, X = 2 right
+    /// ahead/q and Z = (right² − ahead²)/q.
     fn doubled_moves(&self, right: f64, up: f64, ahead: f64) -> DVec3 {
         let (cos, sin) = self.longitude();
         DVec3::new(

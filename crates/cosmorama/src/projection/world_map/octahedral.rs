@@ -5,34 +5,34 @@ use glam::DVec3;
 use crate::projection::{Outline, PlanePoint, PlaneRect, Projection};
 use crate::sphere::{Angle, Direction, DirectionJacobian};
 
-/// How the sphere is laid onto an octahedron.
+/// Mapping of the sphere to an octahedron.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum OctahedralKind {
-    /// Equal areas show equal solid angles (Clarberg 2008), as pbrt stores its environments.
+    /// Areas are proportional to solid angles (Clarberg 2008), as in pbrt's environment maps.
     #[default]
     EqualArea,
-    /// Along the ray from the centre (Engelhardt & Dachsbacher 2008), as game engines have it.
+    /// Central projection along rays (Engelhardt & Dachsbacher 2008), as in game engines.
     Plain,
 }
 
-/// The sphere on an octahedron unfolded into a square, −1 to 1 both ways: the front in the middle, the back in all four
-/// corners.
+/// The sphere on an octahedron unfolded into a square, −1 to 1 both ways, with the front in the middle and the back in
+/// all four corners.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Octahedral(pub OctahedralKind);
 
-/// What rounding moved past the square's edge by this much is on it.
+/// Half side of the square, with a tolerance for rounding.
 const EDGE: f64 = 1.0 + 1e-9;
 
-/// In a quarter of the square no coordinate moves faster than this with the angle in radians.
+/// Greatest speed of a coordinate, per radian, in a quarter of the square.
 const FASTEST: f64 = 1.42;
 
-/// Turns the corner (x, y) of a quarter beyond the diagonal back, or out again.
+/// Folds the corner (x, y) of a quarter across its diagonal; the fold is its own inverse.
 fn folded(x: f64, y: f64) -> (f64, f64) {
     (1.0 - y, 1.0 - x)
 }
 
 impl OctahedralKind {
-    /// Where a direction of which no coordinate is negative lands in the quarter x + y ≤ 1.
+    /// Returns the place of a direction without negative components in the quarter x + y ≤ 1.
     fn place(self, right: f64, up: f64, ahead: f64) -> (f64, f64) {
         match self {
             Self::Plain => {
@@ -56,7 +56,7 @@ impl OctahedralKind {
         }
     }
 
-    /// The direction (right, up, ahead) at a point of that quarter, and its derivatives.
+    /// Returns the direction (right, up, ahead) at a point of that quarter, and its derivatives.
     fn seen(self, x: f64, y: f64) -> [DVec3; 3] {
         match self {
             Self::Plain => {
@@ -70,7 +70,7 @@ impl OctahedralKind {
         }
     }
 
-    /// With r = x + y: ahead = 1 − r², across = r √(2 − r²), azimuth = (π/2) y/r.
+    /// Computes the equal-area direction. With r = x + y: ahead = 1 − r², across = r √(2 − r²), azimuth = (π/2) y/r.
     fn equal_area(x: f64, y: f64) -> [DVec3; 3] {
         let radius = x + y;
         let part = if radius > 0.0 { y / radius } else { 0.0 };
@@ -84,7 +84,7 @@ impl OctahedralKind {
     }
 }
 
-/// 1 with the sign of a number.
+/// Returns 1 with the sign of a number.
 fn sign(value: f64) -> f64 {
     1f64.copysign(value)
 }
@@ -120,7 +120,7 @@ impl Projection for Octahedral {
         })
     }
 
-    /// Along the planes between the octahedron's faces the mapping has creases.
+    /// Returns the angle to the nearest plane between faces of the octahedron, along which the mapping has creases.
     fn margin(&self, direction: Direction) -> f64 {
         direction.vector().abs().min_element()
     }

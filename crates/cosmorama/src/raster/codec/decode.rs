@@ -7,16 +7,17 @@ use rayon::prelude::*;
 use crate::raster::{AlphaMode, Channels, ColourChannel, EncodedImage, Image, Rgba, Samples, Transfer};
 
 impl EncodedImage {
-    /// Linear light, premultiplied, of every pixel. Grey becomes red = green = blue; without an alpha channel
-    /// alpha is 1; float samples go by the rule of [`Rgba::finite`]. Gives the number of pixels that are NaN, and so missing.
+    /// Decodes every pixel to linear light, premultiplied by alpha. Grey becomes red = green = blue, and alpha is 1
+    /// without an alpha channel. Float samples follow the rule of [`Rgba::finite`]. Returns the number of pixels that
+    /// are NaN, and therefore missing.
     ///
     /// # Panics
-    /// When `into` is not as long as the image has pixels.
+    /// When the length of `into` is not the image's number of pixels.
     pub fn decode(&self, transfer: &Transfer, into: &mut [Rgba]) -> usize {
         Decoder::default().decode(self, transfer, into)
     }
 
-    /// [`decode`](Self::decode) into a new image.
+    /// Decodes to a new image; see [`decode`](Self::decode).
     pub fn to_light(&self, transfer: &Transfer) -> Image<Rgba> {
         let mut light = Image::filled(self.width(), self.height(), Rgba::TRANSPARENT);
         self.decode(transfer, light.pixels_mut());
@@ -24,21 +25,21 @@ impl EncodedImage {
     }
 }
 
-/// Decodes many images: what it works out for the code values of one serves the next of the same kind.
+/// Decodes many images. Its tables of code values are reused for images of the same kind.
 #[derive(Debug, Default)]
 pub struct Decoder {
-    /// By transfer function and number of codes; the latest last.
+    /// Tables by transfer function and number of codes; the most recently used last.
     tables: Mutex<Vec<(Transfer, u32, Arc<Tables>)>>,
 }
 
 impl Decoder {
-    /// Kinds of images that are kept in mind: more than a set of faces has, and no more memory than a small image.
+    /// Number of tables that are kept: more than a set of faces needs, in less memory than a small image.
     const MOST: usize = 8;
 
-    /// [`EncodedImage::decode`] of one of many.
+    /// Decodes one of many images; see [`EncodedImage::decode`].
     ///
     /// # Panics
-    /// When `into` is not as long as the image has pixels.
+    /// When the length of `into` is not the image's number of pixels.
     pub fn decode(&self, image: &EncodedImage, transfer: &Transfer, into: &mut [Rgba]) -> usize {
         assert_eq!(into.len(), image.width() * image.height(), "one pixel of light for each pixel of the file");
         let some = image.rows_at_once();
@@ -49,7 +50,7 @@ impl Decoder {
     /// Decodes rows from `first` on until `into` is full, on the calling thread; see [`Self::decode`].
     ///
     /// # Panics
-    /// When `into` is not for whole rows, or the image has fewer.
+    /// When `into` does not hold whole rows, or the image has fewer rows.
     pub fn decode_rows(&self, image: &EncodedImage, transfer: &Transfer, first: usize, into: &mut [Rgba]) -> usize {
         let rows = image.samples_of_rows(first, into.len());
         match image.samples() {
@@ -60,7 +61,7 @@ impl Decoder {
         }
     }
 
-    /// Whoever wants the same meanwhile waits for it.
+    /// Returns the tables of a transfer function. Other threads that need the same ones wait for them.
     fn tables(&self, transfer: &Transfer, codes: u32) -> Arc<Tables> {
         // The list is whole after every step, even if a thread panicked.
         let mut known = self.tables.lock().unwrap_or_else(PoisonError::into_inner);
@@ -76,7 +77,7 @@ impl Decoder {
     }
 }
 
-/// Light of every code value: one table for all channels, where they have one curve, or one for each.
+/// Linear light of every code value: one table if all channels share a curve, else one for each channel.
 #[derive(Debug)]
 struct Tables {
     colour: Vec<Vec<f32>>,
@@ -92,22 +93,22 @@ impl Tables {
         Self { colour: transfer.channels().iter().map(table).collect(), last: last as f32 }
     }
 
-    /// The table of a channel.
+    /// Returns the table of a channel.
     fn of(&self, channel: ColourChannel) -> &[f32] {
         &self.colour[channel.index() % self.colour.len()]
     }
 }
 
-/// Pixels that a thread takes at once, about.
+/// Approximate number of pixels that a thread processes at once.
 pub(crate) const CHUNK: usize = 1 << 14;
 
 impl EncodedImage {
-    /// Rows that a thread takes at once.
+    /// Returns the number of rows that a thread processes at once.
     pub(crate) fn rows_at_once(&self) -> usize {
         CHUNK.div_ceil(self.width().max(1))
     }
 
-    /// Where the samples of so many pixels lie, whole rows from one on.
+    /// Returns the range of samples of so many pixels, in whole rows from `first` on.
     pub(crate) fn samples_of_rows(&self, first: usize, pixels: usize) -> Range<usize> {
         assert!(pixels.is_multiple_of(self.width().max(1)), "whole rows of {} pixels", self.width());
         let count = self.channels().count();

@@ -6,7 +6,7 @@ use super::quantizer::Quantizer;
 use crate::raster::{AlphaMode, Channels, ColourChannel, Depth, EncodedImage, Image, Rgba, Samples, Transfer};
 
 impl EncodedImage {
-    /// The samples of an image of light, by an [`Encoder`] of its own and all threads.
+    /// Encodes an image of light, with an [`Encoder`] of its own and all threads.
     pub fn encode(light: &Image<Rgba>, channels: Channels, depth: Depth, transfer: &Transfer) -> Self {
         Encoder::new(channels, depth, transfer).encode(light, Threads::All)
     }
@@ -28,31 +28,31 @@ impl Image<Rgba> {
     }
 }
 
-/// Who works on an image.
+/// Threads that work on an image.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Threads {
-    /// The thread that asks for it: others have images of their own.
+    /// Only the calling thread: other threads have images of their own.
     One,
-    /// All.
+    /// All threads.
     All,
 }
 
-/// Makes samples of light: what it works out for one image serves the next.
+/// Encodes light as samples. Its tables are reused for further images.
 ///
-/// Integers are rounded and clamped, with straight alpha; floats are premultiplied and keep light beyond
-/// white. Without an alpha channel the colour is written as it is: composite over a background first.
-/// Grey is the luminance of Rec. 709. A NaN never gets out: it becomes zero.
+/// Integers are rounded and clamped, with straight alpha; floats are premultiplied and keep light beyond white. Without
+/// an alpha channel, alpha is ignored: composite over a background first. Grey is the luminance of Rec. 709. NaN
+/// becomes zero.
 #[derive(Debug)]
 pub struct Encoder {
     channels: Channels,
     depth: Depth,
     transfer: Transfer,
-    /// For integers.
+    /// Quantizer for integer samples; `None` for floats.
     quantizer: Option<Quantizer>,
 }
 
 impl Encoder {
-    /// For samples of one kind.
+    /// Creates the encoder for samples of one kind.
     pub fn new(channels: Channels, depth: Depth, transfer: &Transfer) -> Self {
         let last = match depth {
             Depth::Eight => Some(255),
@@ -65,7 +65,7 @@ impl Encoder {
         Self { channels, depth, transfer: transfer.clone(), quantizer }
     }
 
-    /// The samples of an image.
+    /// Encodes an image.
     pub fn encode(&self, light: &Image<Rgba>, threads: Threads) -> EncodedImage {
         let samples = match (&self.quantizer, self.depth) {
             (Some(codes), Depth::Ten) => {
@@ -137,7 +137,7 @@ fn to_half(sample: f32) -> f16 {
     f16::from_f32(sample.clamp(f16::MIN.to_f32(), f16::MAX.to_f32()))
 }
 
-/// The samples of an image's channels, pixel by pixel.
+/// Returns the samples of an image's channels, pixel by pixel.
 fn interleaved<S: Send>(
     (light, channels, threads): (&Image<Rgba>, Channels, Threads),
     grey: impl Fn(Rgba) -> S + Sync,
@@ -155,7 +155,7 @@ fn interleaved<S: Send>(
     }
 }
 
-/// As many samples of each pixel, in memory that is not made empty before.
+/// Fills the samples of each pixel in parallel, in memory that is not zeroed first.
 fn by_pixels<S: Send, const COUNT: usize>(
     light: &Image<Rgba>,
     threads: Threads,
@@ -168,7 +168,7 @@ fn by_pixels<S: Send, const COUNT: usize>(
     samples.into_flattened()
 }
 
-/// The premultiplied code value of premultiplied light.
+/// Returns the premultiplied code value of premultiplied light.
 fn code_of(light: f32, alpha: f32, channels: Channels, transfer: &Transfer, channel: ColourChannel) -> f32 {
     if *transfer == Transfer::Linear {
         return light;

@@ -1,4 +1,4 @@
-//! From encoded samples to linear light, and back.
+//! Conversion of encoded samples to linear light, and back.
 
 pub(crate) mod decode;
 pub(crate) mod encode;

@@ -1,33 +1,33 @@
 use crate::raster::{ColourChannel, Transfer};
 
-/// From light to integer codes, exactly as rounding the transfer function would, without computing it: the light
-/// at which each code begins is tabulated, and the table is entered through the bits of the float.
+/// Table from light to integer codes, exactly as rounding the transfer function would give them. It holds the least
+/// light of each code, and is indexed by the bits of the float.
 #[derive(Debug)]
 pub(crate) struct Quantizer {
     channels: Vec<Thresholds>,
 }
 
 impl Quantizer {
-    /// For codes from 0 to `last`.
+    /// Creates the table for codes from 0 to `last`.
     pub(crate) fn new(transfer: &Transfer, last: u16) -> Self {
         let thresholds = |channel: &ColourChannel| Thresholds::new(transfer, last, *channel);
         Self { channels: transfer.channels().iter().map(thresholds).collect() }
     }
 
-    /// The code of some light: 0 for a NaN and below, `last` for white and above.
+    /// Returns the code of a light value: 0 for NaN and negative light, `last` for white and above.
     pub(crate) fn code(&self, light: f32, channel: ColourChannel) -> u16 {
         self.channels[channel.index().min(self.channels.len() - 1)].code(light)
     }
 }
 
-/// Bits of a float that are dropped to find its bucket: 512 buckets for each doubling of the light.
+/// Number of low bits of a float that are dropped to find its bucket: 512 buckets per doubling of the light.
 const SHIFT: u32 = 14;
 
 #[derive(Debug)]
 struct Thresholds {
-    /// The least light of codes 1, 2, 3 …
+    /// Least light of codes 1, 2, 3 …
     least: Vec<f32>,
-    /// For each bucket of floats, the number of codes that begin before it; one more at the end.
+    /// Number of codes that begin before each bucket; one more entry at the end.
     before: Vec<u16>,
 }
 

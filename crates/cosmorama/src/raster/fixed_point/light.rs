@@ -1,51 +1,52 @@
 use crate::raster::{Rgba, RowLayout};
 
-/// Texels in 64 bytes, which processors keep together.
+/// Texels in a cache line of 64 bytes.
 const LINE: usize = 8;
 
-/// Rows with fewer texels are not padded: a cache holds whole regions of such small views.
+/// Shortest row that is padded: the cache holds whole regions of views with shorter rows.
 const SHORT: usize = 128;
 
-/// 15-bit linear light of a world's opaque texels, red, green and blue from 0 to 32767: a product of two fits in 32 bits.
+/// 15-bit linear light of a world's opaque texels. Red, green and blue are 0 to 32767, so a product of two fits in 32
+/// bits.
 ///
-/// Texels lie view by view and row by row, but rows may be filled up so that what lies one below the other is not in one place of a
-/// processor's cache: see [`FixedLight::pitch`].
+/// Texels lie view by view and row by row. Rows may be padded, so that vertical neighbours do not compete for one set
+/// of the processor's cache: see [`FixedLight::pitch`].
 #[derive(Clone, Debug)]
 pub struct FixedLight {
-    /// The fourth sample of each is not used. What fills up rows is black.
+    /// Texels with an unused fourth sample. The padding is black.
     texels: Vec<[i16; 4]>,
     views: Vec<RowLayout>,
 }
 
 impl FixedLight {
-    /// The sample of white.
+    /// Sample value of white.
     pub(crate) const WHITE: f32 = i16::MAX as f32;
 
-    /// Black views of these sizes, columns and rows.
+    /// Creates black views of these sizes, in columns and rows.
     pub fn black(sizes: impl IntoIterator<Item = [usize; 2]>) -> Self {
         let views = RowLayout::of(sizes, Self::pitch);
         Self { texels: vec![[0; 4]; views.last().map_or(0, RowLayout::end)], views }
     }
 
-    /// How many texels there are from one row of a view to the next, if rows hold so many.
+    /// Returns the number of texels from one row of a view to the next, for rows of this width.
     ///
-    /// It is an odd number of lines of cache: an even one divides by two how many places in it a column's texels may be in, and rows of
-    /// 2048 texels would all come to lie in one.
+    /// It is an odd number of cache lines. An even number would halve the cache sets that a column can use, and all
+    /// rows of 2048 texels would fall into a single set.
     pub fn pitch(width: usize) -> usize {
         if width < SHORT { width } else { LINE.saturating_mul(width.div_ceil(LINE) | 1) }
     }
 
-    /// Columns and rows of each view.
+    /// Returns the columns and rows of each view.
     pub fn sizes(&self) -> impl Iterator<Item = [usize; 2]> + '_ {
         self.views.iter().map(|view| view.size)
     }
 
-    /// How many texels there are.
+    /// Returns the number of texels.
     pub fn len(&self) -> usize {
         self.sizes().map(|[columns, rows]| columns * rows).sum()
     }
 
-    /// Whether there are none.
+    /// Returns whether there are no texels.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
@@ -56,7 +57,7 @@ impl FixedLight {
         self.views.iter().map(move |view| rest.split_off_mut(..view.end() - view.offset).expect("room for each view"))
     }
 
-    /// All texels, one after the other as a world has them.
+    /// Iterates over all texels in the world's order, without padding.
     pub fn texels_mut(&mut self) -> impl Iterator<Item = &mut [i16; 4]> {
         let Self { texels, views } = self;
         let pitches = views.iter().flat_map(|view| std::iter::repeat_n((view.pitch, view.size[0]), view.size[1]));
@@ -66,7 +67,7 @@ impl FixedLight {
         rows.flatten()
     }
 
-    /// Where each view lies.
+    /// Returns the place of each view.
     pub(crate) fn layout(&self) -> &[RowLayout] {
         &self.views
     }
@@ -81,10 +82,10 @@ impl FixedLight {
         self.texels.as_flattened()
     }
 
-    /// One texel, given its index as a world has them.
+    /// Returns one texel, by its index in the world.
     ///
     /// # Panics
-    /// If there is none so late.
+    /// When the index is not below [`FixedLight::len`].
     pub fn rgba(&self, texel: usize) -> Rgba {
         let (mut views, mut within) = (self.views.iter(), texel);
         loop {
@@ -103,7 +104,7 @@ impl FixedLight {
         Rgba::opaque(red, green, blue)
     }
 
-    /// The samples of a texel of this light, from black to white.
+    /// Converts linear light, from black to white, to a texel's samples.
     pub fn texel(Rgba([red, green, blue, _]): Rgba) -> [i16; 4] {
         let [red, green, blue] =
             [red, green, blue].map(|light| (light * Self::WHITE).round().clamp(0.0, Self::WHITE) as i16);

@@ -1,4 +1,4 @@
-//! From 8-bit codes to linear light of 15 bits, and back.
+//! Conversion of 8-bit codes to 15-bit linear light, and back.
 
 pub(crate) mod light;
 
@@ -8,19 +8,19 @@ use super::codec::quantizer::Quantizer;
 use super::fixed_point::light::FixedLight;
 use super::{Channels, ColourChannel, EncodedImage, Image, Rgba, Samples, Transfer};
 
-/// Texels by code, as numbers.
+/// Texels by code, packed into numbers.
 type ByCode = [u64; 256];
 
 /// Decoder of 8-bit codes to 15-bit linear light.
 #[derive(Clone, Debug)]
 pub struct FixedDecoder {
-    /// Part of a texel that each code of a channel adds; a texel is the sum of its three parts.
+    /// Contribution of each code of a channel to a packed texel, which is the sum of three contributions.
     channels: [ByCode; 3],
     grey: ByCode,
 }
 
 impl FixedDecoder {
-    /// `None` where 15 bits cannot tell all codes apart, or light goes beyond white.
+    /// Creates the decoder; `None` where 15 bits cannot separate all codes, or light goes beyond white.
     pub fn new(transfer: &Transfer) -> Option<Self> {
         let light = |code: usize, channel| transfer.decode(code as f64 / 255.0, channel);
         let quantizer = Quantizer::new(transfer, 255);
@@ -47,15 +47,16 @@ impl FixedDecoder {
         })
     }
 
-    /// Whether it can make light of an image: an opaque one of 8 bits.
+    /// Returns whether it can decode an image: an opaque one of 8 bits.
     pub fn takes(&self, image: &EncodedImage) -> bool {
         matches!(image.samples(), Samples::U8(_)) && !image.channels().has_alpha()
     }
 
-    /// The light of an opaque image of 8 bits; false, changing nothing, if it is none. `into` is a view's of [`FixedLight`].
+    /// Decodes an opaque image of 8 bits into a view of [`FixedLight`]. Returns false, and changes nothing, for other
+    /// images.
     ///
     /// # Panics
-    /// When the view has not as many columns and rows as the image.
+    /// When the view's columns and rows differ from the image's.
     pub fn decode(&self, image: &EncodedImage, into: &mut [[i16; 4]]) -> bool {
         let pitch = FixedLight::pitch(image.width());
         assert_eq!(into.len(), pitch * image.height(), "one texel for each pixel of the file");
@@ -67,7 +68,7 @@ impl FixedDecoder {
     /// Decodes rows from `first` on until `into` is full, on the calling thread; see [`Self::decode`].
     ///
     /// # Panics
-    /// When `into` is not for whole rows, or the image has fewer.
+    /// When `into` does not hold whole rows, or the image has fewer rows.
     pub fn decode_rows(&self, image: &EncodedImage, first: usize, into: &mut [[i16; 4]]) -> bool {
         let Samples::U8(samples) = image.samples() else { return false };
         let pitch = FixedLight::pitch(image.width()).max(1);
@@ -105,31 +106,33 @@ fn fill<'a, const N: usize>(
     }
 }
 
-/// The code of each light; twice as many as there is light, so that any number of 16 bits has one.
+/// Code of each light value. The table has twice as many entries as there are values, so that any 16-bit index is
+/// valid.
 type Codes = [u8; 1 << 16];
 
-/// Largest error of a rounded weighted sum, in steps of 15-bit light; it must not exceed one code.
+/// Largest error of a rounded weighted sum, in steps of 15-bit light; it must stay within one code.
 const ERROR: usize = 4;
 
-/// Difference between the last and the first of some codes.
+/// Returns the difference between the last and the first of some codes.
 fn rise(codes: &[u8]) -> i16 {
     i16::from(codes[codes.len() - 1]) - i16::from(codes[0])
 }
 
-/// Number of light values, black and white included.
+/// Number of light values, including black and white.
 const LIGHT: usize = 1 << 15;
 
 /// Encoder of 15-bit linear light to 8-bit codes.
 #[derive(Clone, Debug)]
 pub struct FixedCodec {
-    /// The codes of all light there is, once for all channels or for each.
+    /// Codes of all light values: one table for all channels, or one for each.
     codes: Vec<Codes>,
     is_srgb: bool,
     background: Rgba,
 }
 
 impl FixedCodec {
-    /// `background` is what lies behind the picture, linear light. `None` where codes are closer than sums of light are right.
+    /// Creates the encoder; `background` is linear light behind the picture. `None` where codes are closer together
+    /// than the error of sums.
     pub fn new(transfer: &Transfer, background: Rgba) -> Option<Self> {
         let quantizer = Quantizer::new(transfer, 255);
         let code = |light: usize, channel| quantizer.code(light as f32 / FixedLight::WHITE, channel) as u8;
@@ -143,24 +146,24 @@ impl FixedCodec {
         codes.iter().all(is_fine).then_some(Self { codes, is_srgb, background })
     }
 
-    /// The codes of the background.
+    /// Returns the codes of the background.
     pub fn background(&self) -> [u8; 3] {
         self.codes_of(self.background)
     }
 
-    /// Its light.
+    /// Returns the background's light.
     pub(crate) fn background_light(&self) -> Rgba {
         self.background
     }
 
-    /// The codes of all light.
+    /// Returns the codes of all light values.
     #[inline(always)]
     pub(crate) fn codes(&self) -> FixedCodes<'_> {
         let last = self.codes.len() - 1;
         FixedCodes { channels: [&self.codes[0], &self.codes[last / 2], &self.codes[last]], are_srgb: self.is_srgb }
     }
 
-    /// The codes of a picture, in front of the background.
+    /// Encodes a picture in front of the background.
     pub fn encode(&self, light: &Image<Rgba>) -> Image<[u8; 3]> {
         let mut codes = Image::filled(light.width(), light.height(), [0; 3]);
         let pixels = codes.pixels_mut().par_iter_mut().zip(light.pixels());
@@ -168,7 +171,7 @@ impl FixedCodec {
         codes
     }
 
-    /// The codes of light in floats.
+    /// Returns the codes of a light value in floats.
     pub(crate) fn codes_of(&self, light: Rgba) -> [u8; 3] {
         let light = light.0.map(|light| ((light * FixedLight::WHITE).clamp(0.0, FixedLight::WHITE) + 0.5) as i32);
         let [red, green, blue, _] = self.codes().of(light).to_le_bytes();
@@ -176,21 +179,22 @@ impl FixedCodec {
     }
 }
 
-/// The codes of all light.
+/// Codes of all light values, by channel.
 #[derive(Clone, Copy)]
 pub(crate) struct FixedCodes<'a> {
-    /// Of red, green and blue.
+    /// Tables of red, green and blue.
     channels: [&'a Codes; 3],
     are_srgb: bool,
 }
 
 impl FixedCodes<'_> {
-    /// Whether they are those of sRGB.
+    /// Returns whether the codes are those of sRGB.
     pub(crate) fn are_srgb(self) -> bool {
         self.are_srgb
     }
 
-    /// The codes of some light, red, green and blue from 0 to 32767, in the bytes of a number from the lowest on.
+    /// Returns the codes of a light value, red, green and blue from 0 to 32767, in the bytes of a number from the
+    /// lowest on.
     #[inline(always)]
     pub(crate) fn of(self, light: [i32; 4]) -> u32 {
         let [red, green, blue] = self.channels;

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::{ColourChannel, ToneCurve};
 
-/// How code values, scaled to 0–1, relate to linear light.
+/// Relation between code values, scaled to 0–1, and linear light.
 ///
 /// Powers are continued below zero as odd functions, so that float files with negative values survive a round trip.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -12,7 +12,7 @@ pub enum Transfer {
     /// IEC 61966-2-1.
     #[default]
     Srgb,
-    /// Code values are light.
+    /// Code values are linear light.
     Linear,
     /// A pure power, light = code^γ.
     Gamma(f64),
@@ -27,7 +27,7 @@ pub enum Transfer {
 }
 
 impl Transfer {
-    /// Linear light of a code value. Only an ICC profile's curves differ between channels.
+    /// Returns the linear light of a code value. Channels differ only in the curves of an ICC profile.
     pub fn decode(&self, code: f64, channel: ColourChannel) -> f64 {
         match self {
             Self::Srgb => odd(code, srgb_decode),
@@ -40,7 +40,7 @@ impl Transfer {
         }
     }
 
-    /// The code value of linear light: the inverse of [`Transfer::decode`].
+    /// Returns the code value of linear light: the inverse of [`Transfer::decode`].
     pub fn encode(&self, light: f64, channel: ColourChannel) -> f64 {
         match self {
             Self::Srgb => odd(light, srgb_encode),
@@ -53,12 +53,12 @@ impl Transfer {
         }
     }
 
-    /// Channels of which each has a curve of its own: one where all share theirs.
+    /// Returns the channels with different curves: one channel if all share a curve.
     pub(crate) fn channels(&self) -> &'static [ColourChannel] {
         if self.is_common() { &ColourChannel::ALL[..1] } else { &ColourChannel::ALL }
     }
 
-    /// Whether the three channels share one curve.
+    /// Returns whether the three channels share one curve.
     pub(crate) fn is_common(&self) -> bool {
         match self {
             Self::Curve(curve) => curve.is_common(),
@@ -103,12 +103,12 @@ fn pq_encode(light: f64) -> f64 {
 const HLG_A: f64 = 0.178_832_77;
 const HLG_B: f64 = 1.0 - 4.0 * HLG_A;
 
-/// Third constant of STD-B67: makes both pieces meet at half signal.
+/// Returns the third constant of STD-B67, which makes both pieces meet at half signal.
 fn hlg_c() -> f64 {
     0.5 - HLG_A * (4.0 * HLG_A).ln()
 }
 
-/// Scene light, 0–1, of a signal.
+/// Returns the scene light, 0–1, of a signal.
 fn hlg_scene(code: f64) -> f64 {
     if code <= 0.5 { code * code / 3.0 } else { (((code - hlg_c()) / HLG_A).exp() + HLG_B) / 12.0 }
 }

@@ -7,8 +7,8 @@ pub struct ToneCurve {
 }
 
 impl ToneCurve {
-    /// Curves from three tables. Each is made finite and non-decreasing, so that it can be inverted;
-    /// `None` when one has less than two entries.
+    /// Creates curves from three tables. Each is made finite and non-decreasing, so that it can be inverted. `None`
+    /// when a table has fewer than two entries.
     pub fn new(channels: [Vec<f32>; 3]) -> Option<Self> {
         if channels.iter().any(|table| table.len() < 2) {
             return None;
@@ -16,7 +16,7 @@ impl ToneCurve {
         Some(Self { channels: channels.map(monotone) })
     }
 
-    /// Linear light of a code value; codes outside 0–1 are clamped.
+    /// Returns the linear light of a code value; codes outside 0–1 are clamped.
     pub fn decode(&self, code: f64, channel: ColourChannel) -> f64 {
         let table = &self.channels[channel.index()];
         let last = table.len() - 1;
@@ -26,7 +26,7 @@ impl ToneCurve {
         low + (high - low) * (position - below as f64)
     }
 
-    /// The least code value with this light, by search; light beyond the curve's ends is clamped.
+    /// Finds the least code value with this light; light beyond the curve's ends is clamped.
     pub fn encode(&self, light: f64, channel: ColourChannel) -> f64 {
         let table = &self.channels[channel.index()];
         let last = table.len() - 1;
@@ -43,7 +43,7 @@ impl ToneCurve {
         ((above - 1) as f64 + (light - low) / (high - low)) / last as f64
     }
 
-    /// Whether the three channels share one curve.
+    /// Returns whether the three channels share one curve.
     pub fn is_common(&self) -> bool {
         self.channels[0] == self.channels[1] && self.channels[1] == self.channels[2]
     }

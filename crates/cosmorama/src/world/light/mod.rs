@@ -10,27 +10,27 @@ use crate::camera::PixelPoint;
 use crate::raster::{Image, Rgba};
 use crate::sphere::Direction;
 
-/// Why light is not that of a world.
+/// Reason why light does not belong to a world.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub enum LightError {
-    /// There are more texels or fewer than the world's views have.
+    /// The number of texels differs from the world's.
     #[error("the views have {expected} texels, but light is given for {found}")]
     WrongLength {
         /// Texels of the world.
         expected: usize,
-        /// Texels given.
+        /// Texels that were given.
         found: usize,
     },
-    /// The pictures are not of the views' sizes.
+    /// The pictures' sizes differ from the views'.
     #[error("the light is not that of these views: they have other sizes")]
     WrongViews,
 }
 
 /// The light of a world: a texel for each texel of each of its views.
 ///
-/// A world is geometry, and serves all the light that is ever seen in it: a light belongs to all worlds whose views have the same
-/// sizes, in the same order. Texels are linear and premultiplied. One that holds a NaN is transparent, and an infinite one as
-/// bright as half floats can be ([`Rgba::finite`]).
+/// A world is geometry, and can be filled with any light: one light fits all worlds whose views have the same sizes, in
+/// the same order. Texels are linear and premultiplied. A texel with a NaN becomes transparent, and infinite light
+/// becomes the largest half float ([`Rgba::finite`]).
 ///
 /// ```
 /// use cosmorama::camera::{CameraModel, EquirectCamera};
@@ -53,10 +53,10 @@ pub struct Light {
 }
 
 impl Light {
-    /// Light by texel: view after view, each row by row.
+    /// Creates light from texels: view after view, each row by row.
     ///
     /// # Errors
-    /// When there are not as many texels as the world has.
+    /// When the number of texels differs from the world's.
     pub fn new(world: &World, mut texels: Vec<Rgba>) -> Result<Self, LightError> {
         let (expected, found) = (world.texel_count(), texels.len());
         if expected != found {
@@ -71,10 +71,10 @@ impl Light {
         Ok(Self { texels, sizes: world.view_sizes().collect() })
     }
 
-    /// The light of a picture for each view.
+    /// Creates light from one picture for each view.
     ///
     /// # Errors
-    /// When there are not as many pictures as views, or one is not as large as its view.
+    /// When the number of pictures differs from the views', or a picture's size from its view's.
     pub fn of_pictures(world: &World, pictures: impl IntoIterator<Item = Image<Rgba>>) -> Result<Self, LightError> {
         let (mut texels, mut sizes) = (Vec::with_capacity(world.texel_count()), Vec::new());
         for picture in pictures {
@@ -87,7 +87,8 @@ impl Light {
         Self::new(world, texels)
     }
 
-    /// The light that a formula gives in the direction of each texel's centre; transparent where a texel has none.
+    /// Creates light by a formula, from the direction of each texel's centre. Texels without a direction are
+    /// transparent.
     pub fn by_direction(world: &World, light: impl Fn(Direction) -> Rgba + Sync) -> Self {
         let mut texels = vec![Rgba::TRANSPARENT; world.texel_count()];
         for source in world.sources() {
@@ -102,20 +103,20 @@ impl Light {
         Self { texels, sizes: world.view_sizes().collect() }
     }
 
-    /// All texels: view after view, each row by row.
+    /// Returns all texels: view after view, each row by row.
     pub fn texels(&self) -> &[Rgba] {
         &self.texels
     }
 
-    /// All texels, by value.
+    /// Returns all texels by value.
     pub fn into_texels(self) -> Vec<Rgba> {
         self.texels
     }
 
-    /// Whether this is light of a world's views.
+    /// Checks that this is light of a world's views.
     ///
     /// # Errors
-    /// When it is not.
+    /// When the sizes differ.
     pub fn check(&self, world: &World) -> Result<(), LightError> {
         if self.sizes.iter().copied().eq(world.view_sizes()) { Ok(()) } else { Err(LightError::WrongViews) }
     }

@@ -1,4 +1,4 @@
-//! Worlds of pictures, with the light that these hold: what a program starts with.
+//! Worlds made from pictures, with their light: the start of most programs.
 
 use thiserror::Error;
 
@@ -8,16 +8,16 @@ use crate::raster::{Image, Rgba};
 use crate::sphere::CubeFace;
 use crate::world::{RimTexels, World, WorldError};
 
-/// Why pictures make no world.
+/// Reason why pictures do not make a world.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum PictureError {
-    /// A camera cannot have taken a picture of this size.
+    /// The camera model does not fit the picture's size.
     #[error(transparent)]
     Camera(#[from] CameraError),
-    /// The views make no world.
+    /// The views do not make a world.
     #[error(transparent)]
     World(#[from] WorldError),
-    /// A picture has another size than its view.
+    /// A picture's size differs from its view's.
     #[error(transparent)]
     Light(#[from] LightError),
 }
@@ -25,7 +25,7 @@ pub enum PictureError {
 impl World {
     /// Makes a world of the six faces of a cube, in the order of [`CubeFace::ALL`], each upright as seen from inside.
     ///
-    /// Pictures hold linear light, premultiplied by alpha. `samples` says where a face's outermost samples lie.
+    /// The pictures hold linear light, premultiplied by alpha. `samples` is the position of a face's outermost samples.
     ///
     /// ```
     /// use cosmorama::prelude::*;
@@ -48,7 +48,7 @@ impl World {
         Self::from_pictures(views.collect::<Result<Vec<_>, CameraError>>()?)
     }
 
-    /// Makes a world of one panorama of longitude by latitude, all the way round and from pole to pole, pixels tiling it.
+    /// Makes a world of one equirectangular panorama of the whole sphere, whose pixels tile it.
     ///
     /// ```
     /// use cosmorama::prelude::*;
@@ -64,7 +64,8 @@ impl World {
         Self::from_lens(CameraModel::from(EquirectCamera::default()), picture)
     }
 
-    /// Makes a world of one picture by any camera: a fisheye, a perspective view, a mirror ball, a map. It need not be whole.
+    /// Makes a world of one picture by any camera: a fisheye, a perspective view, a mirror ball, a map. It need not
+    /// cover the sphere.
     ///
     /// ```
     /// use cosmorama::prelude::*;
@@ -83,12 +84,12 @@ impl World {
         Self::from_pictures([("picture".to_owned(), view, picture)])
     }
 
-    /// Makes a world of named views with their pictures, of linear light, premultiplied by alpha.
+    /// Makes a world of named views with their pictures, in linear light, premultiplied by alpha.
     ///
-    /// Texels that a view's own rim cuts are restored from what lies beside them ([`RimTexels`]).
+    /// Texels that a view's own rim cuts are restored from their neighbours ([`RimTexels`]).
     ///
     /// # Errors
-    /// When there is no view, or a picture is not as large as its view.
+    /// When there is no view, or a picture's size differs from its view's.
     pub fn from_pictures(
         pictures: impl IntoIterator<Item = (String, View, Image<Rgba>)>,
     ) -> Result<(Self, Light), PictureError> {

@@ -1,4 +1,4 @@
-//! Masks: which part of an image counts.
+//! Masks: the part of an image that counts.
 
 pub(crate) mod shape;
 pub(crate) mod view_mask;

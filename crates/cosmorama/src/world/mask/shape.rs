@@ -3,24 +3,24 @@ use crate::camera::PixelPoint;
 /// A shape in an image that a mask keeps or removes.
 #[derive(Clone, Debug, PartialEq)]
 pub enum MaskShape {
-    /// Only what lies in the circle counts.
+    /// Keeps only the inside of a circle.
     Circle {
-        /// Its centre.
+        /// Centre of the circle.
         centre: PixelPoint,
-        /// Its radius in pixels.
+        /// Radius in pixels.
         radius: f64,
     },
-    /// What lies in the polygon does not count; where it crosses itself, by even and odd.
+    /// Removes the inside of a polygon; where it crosses itself, by the even-odd rule.
     Hole(Vec<PixelPoint>),
 }
 
 impl MaskShape {
-    /// Whether a point of the image counts, as far as this shape is concerned.
+    /// Returns whether this shape keeps a point of the image.
     pub fn leaves(&self, point: PixelPoint) -> bool {
         self.row(point.y).leaves(point.x)
     }
 
-    /// What it leaves of a line at a height.
+    /// Returns the part of a horizontal line that the shape keeps.
     pub(crate) fn row(&self, y: f64) -> RowCut {
         match self {
             Self::Circle { centre, radius } => {
@@ -31,21 +31,21 @@ impl MaskShape {
     }
 }
 
-/// What a shape leaves of a line: all that is asked of a polygon's corners is asked once for the line.
+/// The part of a horizontal line that a shape keeps. A polygon's corners are examined once per line.
 #[derive(Clone, Debug)]
 pub(crate) enum RowCut {
     Circle {
         middle: f64,
-        /// Of the line over the middle.
+        /// Height of the line above the circle's centre.
         height: f64,
         radius: f64,
     },
-    /// Where a polygon crosses it, from left to right.
+    /// Crossings of the line with a polygon, from left to right.
     Hole(Vec<f64>),
 }
 
 impl RowCut {
-    /// Whether it leaves the point at `x`.
+    /// Returns whether the point at `x` is kept.
     pub(crate) fn leaves(&self, x: f64) -> bool {
         match self {
             Self::Circle { middle, height, radius } => (x - middle).hypot(*height) <= *radius,

@@ -1,20 +1,19 @@
 use crate::camera::PixelPoint;
 use crate::world::MaskShape;
 
-/// Mask of a view: texels that it hides count as if the view did not hold them.
+/// Mask of a view: texels that it hides are treated as if the view did not have them.
 #[derive(Clone, PartialEq)]
 pub struct ViewMask {
     width: usize,
-    /// For each texel that counts, how far its centre is from that of the nearest one that does not, in texels; 0 for those
-    /// that do not.
+    /// Distance of each visible texel's centre to that of the nearest hidden one, in texels; 0 for hidden texels.
     distance: Vec<f32>,
 }
 
-/// The square of a distance: no texel is a million texels from another.
+/// Square of a distance greater than any between two texels.
 const FAR_SQUARED: f64 = 1e12;
 
 impl ViewMask {
-    /// The mask of a view of `width` columns and `height` rows.
+    /// Creates the mask of a view of `width` columns and `height` rows.
     pub fn new(width: usize, height: usize, counts: impl Fn(usize, usize) -> bool) -> Self {
         // Squares of distances: along columns first, then along rows (Felzenszwalb & Huttenlocher 2012).
         let mut squares: Vec<f64> = (0..width * height)
@@ -31,7 +30,7 @@ impl ViewMask {
         Self { width, distance: squares.into_iter().map(|square| square.sqrt() as f32).collect() }
     }
 
-    /// Builds the mask of a view from shapes, given in pixels of a picture in which (left, top) is the view's corner.
+    /// Creates the mask of a view from shapes, given in pixels of a picture in which (left, top) is the view's corner.
     pub fn of_shapes(shapes: &[MaskShape], (left, top): (usize, usize), (width, height): (usize, usize)) -> Self {
         let mut counts = vec![true; width * height];
         for (j, row) in counts.chunks_mut(width.max(1)).enumerate() {
@@ -44,22 +43,22 @@ impl ViewMask {
         Self::new(width, height, |i, j| counts[j * width + i])
     }
 
-    /// Whether the texel in column `i` of row `j` counts.
+    /// Returns whether the texel in column `i` of row `j` is visible.
     pub fn counts(&self, i: usize, j: usize) -> bool {
         self.distance.get(j * self.width + i).is_some_and(|distance| *distance > 0.0)
     }
 
-    /// Whether nothing counts.
+    /// Returns whether all texels are hidden.
     pub fn is_empty(&self) -> bool {
         self.distance.iter().all(|distance| *distance == 0.0)
     }
 
-    /// Columns and rows.
+    /// Returns the columns and rows.
     pub fn size(&self) -> (usize, usize) {
         (self.width, self.distance.len() / self.width.max(1))
     }
 
-    /// Whether the texel at a point of the image counts.
+    /// Returns whether the texel at a point of the image is visible.
     pub fn shows(&self, pixel: PixelPoint) -> bool {
         let (width, height) = self.size();
         let inside = |value: f64, size: usize| (value.max(0.0) as usize).min(size.saturating_sub(1));
@@ -89,17 +88,17 @@ impl std::fmt::Debug for ViewMask {
     }
 }
 
-/// The lower envelope of parabolas x² + f(k), each around its own place k.
+/// Lower envelope of parabolas f(k) + (x − k)², one around each place k.
 #[derive(Default)]
 struct Envelope {
     places: Vec<usize>,
-    /// From where on each of them is the lowest.
+    /// Places at which each parabola becomes the lowest.
     starts: Vec<f64>,
     lowest: Vec<f64>,
 }
 
 impl Envelope {
-    /// Puts the least of f(k) + (x − k)² in place of f(x).
+    /// Replaces f(x) by the least of f(k) + (x − k)².
     fn widen(&mut self, f: &mut [f64]) {
         self.places.clear();
         self.starts.clear();

@@ -3,23 +3,23 @@ use std::f64::consts::PI;
 use crate::projection::azimuthal::{Lens, LensError};
 use crate::projection::monotone::{inverse, rises_until};
 
-/// A measured lens whose formula gives the radius of an angle.
+/// A calibrated lens whose formula gives the radius as a function of the angle.
 pub trait RadiusFormula {
-    /// The radius, in focal lengths, at the angle φ (radians, 0 to π) from the axis, and its derivative, wherever the formula
-    /// can be evaluated.
+    /// Returns the radius, in focal lengths, at the angle φ (radians, 0 to π) from the axis, and its derivative. It may
+    /// be called wherever the formula can be evaluated.
     fn formula(&self, angle: f64) -> (f64, f64);
 }
 
-/// Lens of a formula r(φ), up to the angle where the formula stops rising.
+/// Lens with a formula r(φ), up to the angle where the formula stops rising.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ByAngle<F> {
     pub(super) formula: F,
-    /// The angle and the radius at which the image ends: at 180°, or where the formula turns back or away.
+    /// Angle and radius at which the image ends: at 180°, or where the formula stops rising.
     rim: (f64, f64),
 }
 
 impl<F: RadiusFormula> ByAngle<F> {
-    /// The lens of a formula.
+    /// Creates the lens with a formula.
     pub(crate) fn new(formula: F) -> Result<Self, LensError> {
         let angle = rises_until(|angle| formula.formula(angle), PI).ok_or(LensError::NoImage)?;
         let (radius, _) = formula.formula(angle);

@@ -3,22 +3,23 @@ use std::f64::consts::PI;
 use crate::projection::azimuthal::{Lens, LensError};
 use crate::projection::monotone::{inverse, rises_until};
 
-/// A measured lens whose formula gives the angle of a radius.
+/// A calibrated lens whose formula gives the angle as a function of the radius.
 pub trait AngleFormula {
-    /// The angle from the axis, in radians, at radius r ≥ 0, and its derivative, wherever the formula can be evaluated.
+    /// Returns the angle from the axis, in radians, at radius r ≥ 0, and its derivative. It may be called wherever the
+    /// formula can be evaluated.
     fn formula(&self, radius: f64) -> (f64, f64);
 }
 
-/// Lens of a formula φ(r), up to the radius where the formula stops rising.
+/// Lens with a formula φ(r), up to the radius where the formula stops rising.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ByRadius<F> {
     pub(super) formula: F,
-    /// The radius and the angle at which the image ends: at 180°, or where the formula turns back.
+    /// Radius and angle at which the image ends: at 180°, or where the formula stops rising.
     rim: (f64, f64),
 }
 
 impl<F: AngleFormula> ByRadius<F> {
-    /// The lens of a formula.
+    /// Creates the lens with a formula.
     pub(crate) fn new(formula: F) -> Result<Self, LensError> {
         let (_, slope) = formula.formula(0.0);
         if !(slope > 0.0 && slope.is_finite()) {

@@ -9,13 +9,13 @@ pub struct DoubleSphereFormula {
     alpha: f64,
 }
 
-/// The lens of this formula.
+/// Lens with the double sphere formula.
 pub type DoubleSphere = ByAngle<DoubleSphereFormula>;
 
 impl DoubleSphere {
-    /// The lens with these parameters, −1 < ξ < 1 and 0 ≤ α ≤ 1.
+    /// Returns the lens with these parameters, −1 < ξ < 1 and 0 ≤ α ≤ 1.
     ///
-    /// The radius is in focal lengths times 1 + ξ, as the paper has it.
+    /// As in the paper, the radius is in focal lengths times 1 + ξ.
     ///
     /// # Errors
     /// When a parameter is out of its range.

@@ -9,7 +9,7 @@ pub struct FieldOfViewLens {
 }
 
 impl FieldOfViewLens {
-    /// The lens with this ω, 0 < ω < π radians.
+    /// Returns the lens with this ω, 0 < ω < π radians.
     ///
     /// # Errors
     /// When ω is out of its range.

@@ -1,18 +1,18 @@
 use super::by_angle::{ByAngle, RadiusFormula};
 use crate::projection::azimuthal::{LensError, finite};
 
-/// Hugin's lens correction (that of the Panorama Tools): a point that an ideal lens shows at r is seen at
-/// r (a r³ + b r² + c r + d), d = 1 − a − b − c, r in units of its own.
+/// Hugin's lens correction, that of the Panorama Tools. A point at radius r of an ideal lens is seen at r (a r³ + b r²
+/// + c r + d) with d = 1 − a − b − c, where r is in Hugin's own unit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HuginFormula {
     ideal: HuginIdeal,
-    /// a, b, c.
+    /// Coefficients a, b and c.
     k: [f64; 3],
-    /// Units of Hugin's radius (half the image's shorter side) in a focal length.
+    /// Focal length in Hugin's unit of radius, half the image's shorter side.
     unit: f64,
 }
 
-/// The ideal lens that Hugin corrects towards.
+/// Ideal lens to which Hugin's correction applies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum HuginIdeal {
     /// r = tan φ.
@@ -27,14 +27,14 @@ pub enum HuginIdeal {
     Orthographic,
 }
 
-/// The lens of this formula; its unit is the focal length.
+/// Lens with Hugin's correction; its unit of radius is the focal length.
 pub type Hugin = ByAngle<HuginFormula>;
 
 impl Hugin {
-    /// The lens with Hugin's a, b and c, whose focal length is so many halves of the image's shorter side.
+    /// Returns the lens with Hugin's a, b and c, and a focal length in halves of the image's shorter side.
     ///
     /// # Errors
-    /// When a coefficient is no number, or the radius does not rise at the axis.
+    /// When a coefficient is not finite, or the radius does not rise at the axis.
     pub fn from_abc(ideal: HuginIdeal, k: [f64; 3], unit: f64) -> Result<Self, LensError> {
         finite("a coefficient of Hugin's", &k)?;
         LensError::unless(unit > 0.0 && unit.is_finite(), "the focal length", unit, "more than 0")?;
@@ -43,7 +43,7 @@ impl Hugin {
 }
 
 impl HuginIdeal {
-    /// The radius in focal lengths at an angle, and its derivative.
+    /// Returns the radius in focal lengths at an angle, and its derivative.
     fn radius(self, angle: f64) -> (f64, f64) {
         let (half_sin, half_cos) = (angle / 2.0).sin_cos();
         match self {

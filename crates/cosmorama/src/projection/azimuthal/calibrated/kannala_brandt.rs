@@ -1,18 +1,18 @@
 use super::by_angle::{ByAngle, RadiusFormula};
 use crate::projection::azimuthal::{LensError, finite};
 
-/// Kannala & Brandt's fisheye as OpenCV has it (`cv::fisheye`): r = θ (1 + k1 θ² + k2 θ⁴ + k3 θ⁶ + k4 θ⁸) focal lengths.
+/// Kannala & Brandt's fisheye, as in OpenCV (`cv::fisheye`): r = θ (1 + k1 θ² + k2 θ⁴ + k3 θ⁶ + k4 θ⁸) focal lengths.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct KannalaBrandtFormula([f64; 4]);
 
-/// The lens of this formula.
+/// Lens with Kannala & Brandt's formula.
 pub type KannalaBrandt = ByAngle<KannalaBrandtFormula>;
 
 impl KannalaBrandt {
-    /// The lens with OpenCV's coefficients k1 to k4.
+    /// Returns the lens with OpenCV's coefficients k1 to k4.
     ///
     /// # Errors
-    /// When a coefficient is no number.
+    /// When a coefficient is not finite.
     pub fn from_opencv(k: [f64; 4]) -> Result<Self, LensError> {
         finite("a coefficient of Kannala-Brandt", &k)?;
         Self::new(KannalaBrandtFormula(k))

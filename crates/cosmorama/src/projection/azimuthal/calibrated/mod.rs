@@ -1,4 +1,4 @@
-//! Lens formulas whose coefficients somebody measured.
+//! Lens formulas with calibrated coefficients.
 
 pub(crate) mod by_angle;
 pub(crate) mod by_radius;

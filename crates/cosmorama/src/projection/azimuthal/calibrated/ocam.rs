@@ -1,24 +1,25 @@
 use super::by_radius::{AngleFormula, ByRadius};
 use crate::projection::azimuthal::{LensError, finite};
 
-/// Scaramuzza's polynomial (OCamCalib): the ray through the picture's point at ρ pixels from the centre is (ρ, f(ρ)) across
-/// and along the axis, f(ρ) = a0 + a1 ρ + a2 ρ² + ….
+/// Scaramuzza's polynomial (OCamCalib). The ray through the point at ρ pixels from the centre has the component ρ
+/// across the axis and f(ρ) = a0 + a1 ρ + a2 ρ² + … along it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OcamFormula([f64; OCAM_COEFFICIENTS]);
 
-/// The most coefficients that a calibration has.
+/// Largest number of coefficients of a calibration.
 pub const OCAM_COEFFICIENTS: usize = 8;
 
-/// The lens of this formula.
+/// Lens with OCamCalib's polynomial.
 pub type Ocam = ByRadius<OcamFormula>;
 
 impl Ocam {
-    /// The lens with the coefficients a0, a1, a2 and so on, those that are missing 0.
+    /// Returns the lens with the coefficients a0, a1, a2 and so on; unused ones are 0.
     ///
-    /// OCamCalib's a0 is negative (its axis points away from the scene), MATLAB's is positive: both are understood.
+    /// OCamCalib's a0 is negative, because its axis points away from the scene; MATLAB's is positive. Both are
+    /// accepted.
     ///
     /// # Errors
-    /// When a coefficient is no number, or a0 is 0.
+    /// When a coefficient is not finite, or a0 is 0.
     pub fn from_coefficients(a: [f64; OCAM_COEFFICIENTS]) -> Result<Self, LensError> {
         finite("a coefficient of OCamCalib", &a)?;
         LensError::unless(a[0] != 0.0, "a0 of OCamCalib", a[0], "another number than 0")?;
@@ -26,7 +27,7 @@ impl Ocam {
         Self::new(OcamFormula(a.map(|a| a * ahead)))
     }
 
-    /// Returns the coefficients a0, a1, a2 and so on, a0 positive.
+    /// Returns the coefficients a0, a1, a2 and so on, with a0 positive.
     pub fn coefficients(&self) -> [f64; OCAM_COEFFICIENTS] {
         self.formula.0
     }

@@ -7,23 +7,24 @@ use crate::projection::azimuthal::{LensError, finite};
 pub struct PolynomialFormula {
     /// −k0.
     offset: f64,
-    /// The radius within which the offset fades away.
+    /// Radius within which the offset fades to zero.
     fade: f64,
     /// −k1 to −k4.
     k: [f64; 4],
 }
 
-/// The lens of this formula.
+/// Lens with Blender's polynomial.
 pub type Polynomial = ByRadius<PolynomialFormula>;
 
 impl Polynomial {
-    /// The lens with Blender's coefficients k0 to k4.
+    /// Returns the lens with Blender's coefficients k0 to k4.
     ///
-    /// A k0 other than 0 tears a hole of that angle into the axis, or folds it over. Within the hundredth of a pixel where
-    /// that shows, at radii up to 2 |k0/k1|, the constant fades to nothing, so that each direction keeps one image.
+    /// A k0 other than 0 makes a hole of that angle around the axis, or folds the picture over. Where that shows, at
+    /// radii up to 2 |k0/k1| (about a hundredth of a pixel), the constant fades to zero, so that each direction keeps
+    /// one image.
     ///
     /// # Errors
-    /// When the angle does not rise at the axis. Blender's k1 is negative.
+    /// When the angle does not rise at the axis; Blender's k1 is negative.
     pub fn from_blender(k: [f64; 5]) -> Result<Self, LensError> {
         finite("a coefficient of the polynomial", &k)?;
         let [offset, slope, ..] = k.map(|k| -k);
@@ -59,7 +60,7 @@ mod tests {
     use super::*;
     use crate::projection::azimuthal::Lens;
 
-    /// The coefficients that Blender's panoramic camera starts with.
+    /// Coefficients with which Blender's panoramic camera starts.
     const BLENDER: [f64; 5] = [
         -1.173_514_371_296_757_7e-5,
         -0.019_988_736_953_434_998,

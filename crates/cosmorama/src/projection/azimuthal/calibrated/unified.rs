@@ -9,11 +9,11 @@ pub struct UnifiedFormula {
     beta: f64,
 }
 
-/// The lens of this formula.
+/// Lens with the unified formula.
 pub type Unified = ByAngle<UnifiedFormula>;
 
 impl Unified {
-    /// The lens with these parameters, 0 ≤ α ≤ 1 and β > 0; β = 1 is the plain unified model.
+    /// Returns the lens with these parameters, 0 ≤ α ≤ 1 and β > 0; β = 1 is the plain unified model.
     ///
     /// # Errors
     /// When a parameter is out of its range.
