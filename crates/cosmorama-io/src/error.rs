@@ -6,60 +6,60 @@ use thiserror::Error;
 
 use crate::Format;
 
-/// Why a file cannot be read, written or found. Each message names the file, what was found, what was expected
-/// and what to do.
+/// Reason why a file cannot be read, written or found. Each message names the file, what was found, what was expected,
+/// and a remedy.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum IoError {
     /// A file or folder cannot be opened.
     #[error("cannot open {}: {source}", path.display())]
     Open {
-        /// Which.
+        /// Path of the file or folder.
         path: PathBuf,
-        /// Why.
+        /// Error of the operating system.
         source: io::Error,
     },
-    /// An extension belongs to no format that can be written.
+    /// The file name's extension belongs to no format that can be written.
     #[error("{}: {}", path.display(), unnamed(path))]
     UnknownExtension {
         /// The file to write.
         path: PathBuf,
     },
-    /// The first bytes of a file belong to no format.
+    /// The first bytes of a file match no known format.
     #[error("{}: not an image of a known format (PNG, JPEG, TIFF, Radiance HDR, OpenEXR, KTX or DDS; TGA is known by its extension .tga)", path.display())]
     UnknownContent {
         /// The file read.
         path: PathBuf,
     },
-    /// A file has no bytes: often what is left of a program that was interrupted, or of a full disk.
+    /// The file has no bytes, often because a program was interrupted or a disk was full.
     #[error("{}: an empty file (0 bytes), where an image was expected; make it again", path.display())]
     Empty {
         /// The file read.
         path: PathBuf,
     },
-    /// A file breaks the rules of its format, or ends too early.
+    /// The file breaks the rules of its format, or ends too early.
     #[error("{}: damaged or truncated {format} file ({reason}); make it again", path.display())]
     Damaged {
         /// The file read.
         path: PathBuf,
         /// Its format.
         format: Format,
-        /// What the decoder found.
+        /// Finding of the decoder.
         reason: String,
     },
-    /// A file is in order, but of a kind that is not read.
+    /// The file is valid, but of a kind that is not supported.
     #[error("{}: this {format} file holds {found}; expected {expected}; convert it first", path.display())]
     Unsupported {
         /// The file read.
         path: PathBuf,
         /// Its format.
         format: Format,
-        /// What it holds.
+        /// Content of the file.
         found: String,
-        /// What could be read.
+        /// Supported content.
         expected: &'static str,
     },
-    /// The pixels that a file declares do not fit into the memory allowed.
+    /// The declared pixels do not fit into the permitted memory.
     #[error(
         "{}: {width}x{height} pixels, {channels}, depth {depth}, need {needed} bytes, \
          but only {limit} may be used; if the file is right, raise --memory",
@@ -68,40 +68,40 @@ pub enum IoError {
     TooLarge {
         /// The file read.
         path: PathBuf,
-        /// Columns declared.
+        /// Declared columns.
         width: u64,
-        /// Rows declared.
+        /// Declared rows.
         height: u64,
-        /// Channels declared.
+        /// Declared channels.
         channels: Channels,
-        /// Depth declared.
+        /// Declared depth.
         depth: Depth,
         /// Bytes of all samples.
         needed: u128,
-        /// Bytes allowed.
+        /// Permitted bytes.
         limit: u64,
     },
-    /// A format cannot hold what is to be written.
+    /// The format cannot hold the picture.
     #[error("{}: {format} cannot hold {found}; it can hold {expected}", path.display())]
     CannotHold {
         /// The file to write.
         path: PathBuf,
         /// Its format.
         format: Format,
-        /// What was to be written.
+        /// Property of the picture that the format cannot hold.
         found: String,
-        /// What the format holds.
+        /// Properties that the format can hold.
         expected: String,
     },
-    /// A file cannot be written: nothing was left behind.
+    /// The file cannot be written; nothing was left behind.
     #[error("cannot write {}: {reason}", path.display())]
     Write {
         /// The file to write.
         path: PathBuf,
-        /// Why.
+        /// Cause of the failure.
         reason: String,
     },
-    /// A face pattern has no `{face}` or `%c` in it.
+    /// The face pattern contains neither `{face}` nor `%c`.
     #[error(
         "{pattern}: no {{face}} or %c in this pattern; put one where the face's name stands, as in faces/{{face}}.png"
     )]
@@ -109,25 +109,25 @@ pub enum IoError {
         /// The pattern.
         pattern: String,
     },
-    /// No naming preset finds a file.
+    /// No file matches any naming preset.
     #[error("{pattern}: no face found in {}; tried {tried}", folder.display())]
     NoFaces {
         /// The pattern.
         pattern: String,
-        /// Where files were looked for.
+        /// Folder that was searched.
         folder: PathBuf,
-        /// The names tried.
+        /// Names that were tried.
         tried: String,
     },
-    /// Some faces of a cube have no files, where all six are needed.
+    /// Some faces of a cube have no files, although all six are needed.
     #[error("{}: no such file, where a face of a cube was expected; missing faces: {missing}", path.display())]
     MissingFaces {
-        /// Where the file of the first missing face was expected.
+        /// Expected file of the first missing face.
         path: PathBuf,
         /// Names of the missing faces.
         missing: String,
     },
-    /// Where a face should be there is a folder, and no file is found.
+    /// A folder has the name of a face, and no file is found.
     #[error("{}: a folder, where the file of a face was expected; write which file in it, as in {pattern}/{{face}}.png", path.display())]
     FaceIsFolder {
         /// The pattern.
@@ -135,7 +135,7 @@ pub enum IoError {
         /// The folder.
         path: PathBuf,
     },
-    /// Two naming presets find files and disagree about them.
+    /// Two naming presets match files and disagree about them.
     #[error(
         "{pattern}: the files fit two namings: {first} ({first_faces}) and {second} ({second_faces}); \
          say which with naming={first} or naming={second}"
@@ -143,25 +143,25 @@ pub enum IoError {
     AmbiguousNaming {
         /// The pattern.
         pattern: String,
-        /// One preset.
+        /// First preset.
         first: &'static str,
-        /// What it makes of the files.
+        /// Faces that the first preset finds.
         first_faces: String,
-        /// Another preset.
+        /// Second preset.
         second: &'static str,
-        /// What that one makes of them.
+        /// Faces that the second preset finds.
         second_faces: String,
     },
-    /// A sequence has no frames at all.
+    /// The sequence has no frames.
     #[error("{pattern}: no frame found in {}; {}", folder.display(), expected_frames(example, found.as_deref()))]
     NoFrames {
         /// The pattern.
         pattern: String,
-        /// Where frames were looked for.
+        /// Folder that was searched.
         folder: PathBuf,
         /// Name of frame 1.
         example: String,
-        /// The longest sequence that the folder does hold.
+        /// Longest sequence in the folder.
         found: Option<String>,
     },
     /// Frames of a sequence are missing.
@@ -173,22 +173,22 @@ pub enum IoError {
     MissingFrames {
         /// The pattern.
         pattern: String,
-        /// How many.
+        /// Number of missing frames.
         count: usize,
-        /// All of them, as a list that `--frames` understands.
+        /// Missing frames, as a list that `--frames` accepts.
         missing: String,
-        /// The first and the last that exist.
+        /// First and last existing frame.
         existing: (u64, u64),
     },
 }
 
-/// How the names of a sequence should be, and how those are that are there.
+/// Returns the expected names of a sequence, and the names of the sequence that was found instead.
 fn expected_frames(example: &str, found: Option<&str>) -> String {
     let expected = format!("expected names like {example}");
     found.map_or_else(|| expected.clone(), |found| format!("{expected}, but there are {found}; write that pattern"))
 }
 
-/// What to do about a file name that has no extension of a format.
+/// Returns the remedy for a file name without the extension of a format.
 fn unnamed(path: &Path) -> String {
     let is_folder = path.is_dir() || path.as_os_str().to_string_lossy().ends_with('/');
     let extensions = Format::extensions();
@@ -199,12 +199,12 @@ fn unnamed(path: &Path) -> String {
     format!("the extension names no format; use one of {extensions}")
 }
 
-/// How many frames.
+/// Returns a number of frames in words.
 fn counted(count: usize) -> String {
     if count == 1 { "1 frame is".to_owned() } else { format!("{count} frames are") }
 }
 
-/// Parts of decoders' messages on a file that ends too early.
+/// Parts of decoders' messages about a file that ends too early.
 const SHORT: [&str; 6] = [
     "failed to fill whole buffer",
     "reference to missing bytes",

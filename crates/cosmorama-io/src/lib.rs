@@ -1,8 +1,8 @@
 //! Image files for cosmorama: formats, metadata, face sets and frame sequences.
 //!
-//! [`probe`] reads what a file says of itself, [`read`] reads its pixels, [`write`](write()) makes a file appear
-//! whole or not at all. [`FaceSet`] finds the faces of a cube by the naming presets of other tools, and
-//! [`FramePattern`] the frames of a sequence.
+//! [`probe`] reads a file's header, [`read`] its pixels, and [`write`](write()) makes a file appear whole or not at
+//! all. [`FaceSet`] finds the faces of a cube by the naming presets of other tools, and [`FramePattern`] the frames of
+//! a sequence.
 #![forbid(unsafe_code)]
 
 mod calibration;

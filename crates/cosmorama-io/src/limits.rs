@@ -4,10 +4,10 @@ use cosmorama::raster::{Channels, Depth};
 
 use crate::IoError;
 
-/// Memory that reading a file may take.
+/// Limit of the memory for reading a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Limits {
-    /// Bytes that the samples of one image may take. What a file declares is checked before memory is taken.
+    /// Largest size of an image's samples in bytes. A file's declared size is checked before memory is allocated.
     pub memory: u64,
 }
 
@@ -15,7 +15,7 @@ impl Limits {
     /// No limit.
     pub const NONE: Self = Self { memory: u64::MAX };
 
-    /// Allows so many bytes for an image.
+    /// Permits this many bytes for an image.
     pub const fn memory(bytes: u64) -> Self {
         Self { memory: bytes }
     }
@@ -33,7 +33,7 @@ impl Limits {
         self.check_bytes(path, (width, height), channels, depth, needed)
     }
 
-    /// Checks that so many bytes may be taken for an image of this size.
+    /// Checks that this many bytes may be allocated for an image.
     pub(crate) fn check_bytes(
         &self,
         path: &Path,
@@ -51,7 +51,7 @@ impl Limits {
     }
 }
 
-/// Four gigabytes: callers that know the machine set their own.
+/// Returns a limit of four gigabytes; programs that know the machine set their own.
 impl Default for Limits {
     fn default() -> Self {
         Self::memory(4 << 30)

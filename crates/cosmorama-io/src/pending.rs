@@ -1,8 +1,8 @@
-//! Files that are being written and do not count yet.
+//! Files that are written under a temporary name first.
 //!
-//! [`write`](crate::write()) writes to a temporary file beside the output and renames it when it is whole. Meanwhile the file
-//! is on a list, [`Unfinished`]; an interrupt handler calls [`Unfinished::remove_all`] before the program ends: no part of a
-//! file stays behind. Files that a killed program left are named `.cosmorama-*.part`.
+//! [`write`](crate::write()) writes to a temporary file beside the output, and renames it when it is complete.
+//! Meanwhile the file is listed in [`Unfinished`]. An interrupt handler calls [`Unfinished::remove_all`] before the
+//! program ends, so that no partial file stays behind. Files left by a killed program are named `.cosmorama-*.part`.
 
 use std::collections::BTreeSet;
 use std::fs::File;
@@ -17,14 +17,14 @@ use crate::IoError;
 const PREFIX: &str = ".cosmorama-";
 const SUFFIX: &str = ".part";
 
-/// List of temporary files that are being written. Clones are the same list.
+/// List of temporary files in progress. Clones share the list.
 #[derive(Clone, Debug, Default)]
 pub struct Unfinished(Arc<Mutex<BTreeSet<PathBuf>>>);
 
 impl Unfinished {
-    /// Deletes all temporary files on the list. For interrupt handlers: the program must end next, because whoever begins,
-    /// finishes or gives up a file of this list from now on waits until it does. So nothing can appear after all was removed,
-    /// and no writer's failure is told in place of the interrupt.
+    /// Deletes all temporary files on the list, for interrupt handlers. The program must end next: from now on, whoever
+    /// begins, finishes or abandons a file of this list blocks until it does. So nothing appears after the removal, and
+    /// no writer's failure is reported in place of the interrupt.
     pub fn remove_all(&self) {
         let paths = self.paths();
         for path in paths.iter() {
@@ -39,7 +39,7 @@ impl Unfinished {
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Puts on the list what is made while nobody can remove all.
+    /// Creates a file and puts it on the list, while `remove_all` cannot run.
     fn list<T>(&self, make: impl FnOnce() -> io::Result<(PathBuf, T)>) -> io::Result<(T, Listed)> {
         let mut paths = self.paths();
         let (path, made) = make()?;
@@ -48,7 +48,7 @@ impl Unfinished {
     }
 }
 
-/// A folder for files that nobody is to see. It goes away when it is dropped, and with [`Unfinished::remove_all`].
+/// A temporary folder for private files. It is deleted when dropped, and by [`Unfinished::remove_all`].
 pub struct Scratch {
     // Deleted before it is struck off the list.
     folder: TempDir,
@@ -56,10 +56,10 @@ pub struct Scratch {
 }
 
 impl Scratch {
-    /// An empty folder among the system's temporary files.
+    /// Creates an empty folder among the system's temporary files.
     ///
     /// # Errors
-    /// When there cannot be one.
+    /// When the folder cannot be created.
     pub fn create(unfinished: &Unfinished) -> io::Result<Self> {
         let (folder, _listed) = unfinished.list(|| {
             let folder = Builder::new().prefix(PREFIX).tempdir()?;
@@ -68,13 +68,13 @@ impl Scratch {
         Ok(Self { folder, _listed })
     }
 
-    /// Where it is.
+    /// Returns its path.
     pub fn path(&self) -> &Path {
         self.folder.path()
     }
 }
 
-/// A file in the making. Dropped without [`Pending::finish`], it leaves nothing behind.
+/// A file in progress. Dropped without [`Pending::finish`], it leaves nothing behind.
 pub struct Pending {
     target: PathBuf,
     // Closed before it is deleted, and deleted before it is struck off the list.
@@ -83,7 +83,7 @@ pub struct Pending {
     listed: Listed,
 }
 
-/// An entry of the list, as long as it lives.
+/// An entry of the list, which lasts as long as this value.
 struct Listed {
     path: PathBuf,
     list: Unfinished,
@@ -96,10 +96,11 @@ impl Drop for Listed {
 }
 
 impl Pending {
-    /// A file that is to become `target`, or what that links to, in the same folder so that renaming it takes no time.
+    /// Creates a temporary file that is to become `target`, or the file that `target` links to. It is in the same
+    /// folder, so that renaming it is immediate.
     ///
     /// # Errors
-    /// When the folder is missing or cannot be written to, or what stands in the place is no file.
+    /// When the folder is missing or not writable, or something other than a file has the target's name.
     pub fn create(target: &Path, unfinished: &Unfinished) -> Result<Self, IoError> {
         let target = &place(target)?;
         let folder = match target.parent() {
@@ -118,23 +119,23 @@ impl Pending {
         Ok(Self { target: target.to_owned(), file: BufWriter::with_capacity(1 << 18, file), path, listed })
     }
 
-    /// Where to write.
+    /// Returns the writer of the file.
     pub fn writer(&mut self) -> &mut BufWriter<File> {
         &mut self.file
     }
 
-    /// Makes the file appear, whole, under its name; an older one is replaced.
+    /// Gives the complete file its name; an older file is replaced.
     ///
     /// # Errors
-    /// When the rest of it cannot be written (a full disk may show only now), or it cannot be renamed.
+    /// When the rest cannot be written, as on a full disk, or the file cannot be renamed.
     pub fn finish(self) -> Result<(), IoError> {
         self.close()?.appear()
     }
 
-    /// Ends writing. The file waits for its name, so that several can appear once all are whole.
+    /// Ends writing. The file gets its name later, so that several can appear once all are complete.
     ///
     /// # Errors
-    /// When the rest of it cannot be written: a full disk may show only now.
+    /// When the rest cannot be written, as on a full disk.
     pub fn close(self) -> Result<Hidden, IoError> {
         // What is named first goes last.
         let Self { target, listed, path, mut file } = self;
@@ -146,7 +147,7 @@ impl Pending {
     }
 }
 
-/// A whole file that does not have its name yet. Dropped without [`Hidden::appear`], it leaves nothing behind.
+/// A complete file without its name. Dropped without [`Hidden::appear`], it leaves nothing behind.
 pub struct Hidden {
     target: PathBuf,
     // Deleted or renamed before it is struck off the list.
@@ -155,24 +156,24 @@ pub struct Hidden {
 }
 
 impl Hidden {
-    /// Makes it appear under its name; an older file is replaced.
+    /// Gives the file its name; an older file is replaced.
     ///
     /// # Errors
-    /// When it cannot be renamed.
+    /// When the file cannot be renamed.
     pub fn appear(self) -> Result<(), IoError> {
         let Self { target, _listed: _last, path } = self;
         path.persist(&target).map_err(|failed| IoError::write(&target, failed.error))
     }
 }
 
-/// Links that are followed to an output's place: as many as Linux follows.
+/// Greatest number of links that are followed to an output's place, as on Linux.
 const LINKS: usize = 40;
 
-/// Where a file is to be: what its name links to, so that the link stays. What stands there and is no file is told before it is
-/// written, not after, when the file is to get its name.
+/// Returns the place of a file: the end of its chain of links, so that the links stay. Anything other than a file there
+/// is an error now, before writing, and not when the file gets its name.
 ///
 /// # Errors
-/// When a folder, a pipe or a device stands there, or links lead nowhere.
+/// When a folder, a pipe or a device is there, or a link leads nowhere.
 pub fn place(target: &Path) -> Result<PathBuf, IoError> {
     let mut path = target.to_owned();
     for _ in 0..=LINKS {
@@ -202,7 +203,7 @@ pub fn place(target: &Path) -> Result<PathBuf, IoError> {
     Err(IoError::write(target, "its links lead nowhere but to each other; choose another name"))
 }
 
-/// Lets a file be read and written by those who may the one that it is to replace: what was private stays so.
+/// Copies the permissions of the file that is replaced, so that a private file stays private.
 fn keep_permissions(old: &Path, new: &Path) -> io::Result<()> {
     let Ok(old) = std::fs::metadata(old) else { return Ok(()) };
     if !old.is_file() || std::fs::metadata(new)?.permissions() == old.permissions() {
@@ -211,8 +212,8 @@ fn keep_permissions(old: &Path, new: &Path) -> io::Result<()> {
     std::fs::set_permissions(new, old.permissions())
 }
 
-/// Why no file can be made in a folder, and what to do. Some say that it does not exist and mean that they take no files
-/// (`/proc`).
+/// Returns the error for a folder in which no file can be created, with a remedy. Some folders report that they do not
+/// exist when they accept no files (`/proc`).
 fn refused(target: &Path, folder: &Path, error: &io::Error) -> IoError {
     let name = folder.display();
     match std::fs::metadata(folder) {

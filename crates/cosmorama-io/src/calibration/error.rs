@@ -3,24 +3,24 @@ use std::path::PathBuf;
 
 use thiserror::Error;
 
-/// Why a calibration cannot be read.
+/// Reason why a calibration cannot be read.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum CalibrationError {
     /// The file cannot be opened.
     #[error("cannot open the calibration {}: {source}", path.display())]
     Open {
-        /// Which.
+        /// Path of the file.
         path: PathBuf,
-        /// Why.
+        /// Error of the operating system.
         source: io::Error,
     },
-    /// It does not hold what a calibration needs.
+    /// The file lacks what a calibration needs.
     #[error("{}: {reason}", path.display())]
     Wrong {
-        /// Which.
+        /// Path of the file.
         path: PathBuf,
-        /// What was found and what was expected.
+        /// What was found, and what was expected.
         reason: String,
     },
 }

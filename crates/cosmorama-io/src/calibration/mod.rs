@@ -1,5 +1,5 @@
-//! Calibrations: what programs that measure cameras write. One file per format; numbers are given as they are
-//! written, and what they mean to a projection is said in the library.
+//! Calibrations as camera calibration programs write them, one file per format. Numbers are returned as written; the
+//! library interprets them.
 
 mod error;
 mod ocam;
@@ -14,40 +14,41 @@ use std::fs::File;
 use std::io::Read;
 use std::path::Path;
 
-/// A camera that was measured.
+/// A calibrated camera.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Calibration {
-    /// How its lens bends.
+    /// Distortion of its lens.
     pub distortion: Distortion,
-    /// Columns and rows of the image, from 0 at the centre of its first pixel, of a point (right, down, 1) of the lens's
-    /// plane.
+    /// First two rows of the camera matrix. They map a point (right, down, 1) of the lens's plane to columns and rows
+    /// of the image, counted from 0 at the centre of its first pixel.
     pub matrix: [[f64; 3]; 2],
-    /// Columns and rows of the image that was measured.
+    /// Columns and rows of the calibrated image.
     pub size: Option<(usize, usize)>,
 }
 
-/// The model of a lens with its numbers, in its program's own order.
+/// Distortion model of a lens, with its coefficients in the program's own order.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Distortion {
-    /// OpenCV's k1 k2 p1 p2, k3 and so on, or its fisheye's k1 to k4: four numbers are either.
+    /// OpenCV's k1 k2 p1 p2, k3 and so on, or k1 to k4 of its fisheye model; four numbers may be either.
     OpenCv {
         /// The numbers.
         coefficients: Vec<f64>,
-        /// Whether the file says that they are (or are not) a fisheye's.
+        /// Whether the file says that they belong to the fisheye model; `None` if it does not say.
         is_fisheye: Option<bool>,
     },
-    /// OCamCalib's polynomial, a0 first.
+    /// OCamCalib's polynomial, beginning with a0.
     Ocam(Vec<f64>),
 }
 
-/// No calibration is as long as that.
+/// Greatest length of a calibration file in bytes.
 const LONGEST: u64 = 1 << 20;
 
 impl Calibration {
-    /// Reads a file: OpenCV's YAML, JSON or XML, or OCamCalib's `calib_results.txt`, told apart by what they begin with.
+    /// Reads OpenCV's YAML, JSON or XML, or OCamCalib's `calib_results.txt`. The file's first characters tell which it
+    /// is.
     ///
     /// # Errors
-    /// When the file cannot be read, is of no such kind, or lacks what a calibration needs.
+    /// When the file cannot be read, is none of these, or lacks what a calibration needs.
     pub fn read(path: &Path) -> Result<Self, CalibrationError> {
         let text = text(path)?;
         let found = match text.trim_start_matches('\u{feff}').trim_start().as_bytes() {

@@ -40,10 +40,10 @@ pub(crate) fn codec(format: Format) -> &'static dyn Codec {
     }
 }
 
-/// Bytes at the start of a file that say its format.
+/// Number of bytes at the start of a file that identify its format.
 const START: u64 = 16;
 
-/// Finds the format of a file by its first bytes, which stay to be read again.
+/// Finds the format of a file by its first bytes, which are not consumed.
 pub(crate) fn recognise(path: &Path, source: Source<'_>) -> Result<Format, IoError> {
     let mut start = Vec::with_capacity(START as usize);
     let mut begin = || {
@@ -62,7 +62,7 @@ pub(crate) fn recognise(path: &Path, source: Source<'_>) -> Result<Format, IoErr
 }
 
 impl Format {
-    /// Returns the format that a file name's extension asks for.
+    /// Returns the format for a file name's extension.
     ///
     /// # Errors
     /// When the extension is unknown or missing.

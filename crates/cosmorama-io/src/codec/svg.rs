@@ -7,10 +7,10 @@ use resvg::tiny_skia::{Pixmap, Transform};
 use resvg::usvg::{ImageHrefResolver, Options, Tree};
 use thiserror::Error;
 
-/// The longest side of a picture: a diagram larger than this is a mistake, not a wish.
+/// Longest side of a picture; a larger diagram is a mistake.
 const LONGEST: f32 = 16384.0;
 
-/// Why an SVG document cannot be turned into a picture.
+/// Reason why an SVG document cannot be turned into a picture.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum SvgError {
@@ -32,10 +32,10 @@ pub enum SvgError {
     Image(#[from] ImageError),
 }
 
-/// Draws an SVG document, `scale` pixels for each of its units, as 8-bit RGBA in sRGB.
+/// Draws an SVG document as 8-bit RGBA in sRGB, at `scale` pixels per unit.
 ///
-/// Text must be drawn as shapes; pictures in it are data URIs or files under `folder`. Without a folder, nothing outside
-/// the document is read.
+/// Text must be drawn as shapes. Embedded pictures are data URIs or files under `folder`; without a folder, nothing
+/// outside the document is read.
 ///
 /// # Errors
 /// When the document is damaged, or the picture would be empty or longer than 16384 pixels.

@@ -1,16 +1,16 @@
 use crate::metadata::Metadata;
 use crate::pending::Unfinished;
 
-/// How to write a file, and what to say in it beside the pixels.
+/// Options for writing a file, and the metadata to write into it.
 #[derive(Clone, Debug)]
 pub struct WriteOptions {
     /// JPEG quality, 1 to 100.
     pub quality: u8,
-    /// How hard PNG, TIFF and OpenEXR files are compressed, always without loss.
+    /// Compression of PNG, TIFF and OpenEXR files, always lossless.
     pub compression: Compression,
-    /// What the file is to say about its pixels, as far as its format can.
+    /// Metadata about the pixels; those that the format cannot hold are left out.
     pub metadata: Metadata,
-    /// List of the files that are being written, for whoever has to remove them: its own, unless given.
+    /// Registry of files in progress, which a signal handler removes; a private one unless given.
     pub unfinished: Unfinished,
 }
 
@@ -32,7 +32,7 @@ impl Default for WriteOptions {
     }
 }
 
-/// Trade of time against size in lossless compression.
+/// Trade-off between time and size in lossless compression.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Compression {
     /// None: as large as the samples.

@@ -5,13 +5,13 @@ use cosmorama::sphere::CubeFace;
 
 use crate::header::ImageFile;
 
-/// Pictures of the six faces of a cube, each turned upright: as a camera at the centre sees it, the up face's bottom edge and
-/// the down face's top edge touching the front.
+/// Pictures of the six faces of a cube, all upright as seen by a camera at the centre: the up face's bottom edge and
+/// the down face's top edge touch the front.
 #[derive(Clone, Debug)]
 pub struct FaceImages {
     /// Files in the order of [`CubeFace::ALL`], their pixels turned upright.
     pub files: [ImageFile; 6],
-    /// Where the outermost samples of a face lie.
+    /// Position of the outermost samples of a face.
     pub samples: SamplePositions,
 }
 
@@ -21,7 +21,7 @@ impl FaceImages {
         &self.files[face as usize].image
     }
 
-    /// Computes the linear light of all faces, in the order of [`CubeFace::ALL`].
+    /// Decodes the linear light of all faces, in the order of [`CubeFace::ALL`].
     pub fn to_light(&self) -> [Image<Rgba>; 6] {
         CubeFace::ALL.map(|face| self.files[face as usize].to_light())
     }
@@ -47,7 +47,7 @@ pub(super) fn upright(image: EncodedImage, placement: FacePlacement) -> EncodedI
     }
 }
 
-/// A picture's shape and how it has to be turned.
+/// Shape of a picture, and the rotation that it needs.
 struct Turn {
     width: usize,
     height: usize,

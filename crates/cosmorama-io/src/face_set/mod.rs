@@ -1,4 +1,4 @@
-//! The faces of a cube as other tools name them.
+//! Files of the faces of a cube, named by any tool's convention.
 
 mod images;
 mod pattern;

@@ -4,10 +4,10 @@ use cosmorama::sphere::CubeFace;
 
 use super::Naming;
 
-/// A file name in which the name of a face stands: `{face}`, or `%c` as Bourke's tools write it.
+/// A file name with a placeholder for the face's name: `{face}`, or `%c` as in Bourke's tools.
 ///
-/// Every one of them is replaced, so that the face may also name a folder; frame markers (`####`, `%04d`, `@@@@`)
-/// stay as they are.
+/// Every placeholder is replaced, so that a folder may be named by the face, too. Frame markers (`####`, `%04d`,
+/// `@@@@`) are kept.
 ///
 /// ```
 /// use cosmorama_io::{FacePattern, Naming};
@@ -23,12 +23,12 @@ pub struct FacePattern(String);
 const MARKERS: [&str; 2] = ["{face}", "%c"];
 
 impl FacePattern {
-    /// Parses a file name; `None` where no face stands in it.
+    /// Parses a file name; `None` if it has no placeholder for a face.
     pub fn parse(text: &str) -> Option<Self> {
         MARKERS.iter().any(|marker| text.contains(marker)).then(|| Self(text.to_owned()))
     }
 
-    /// Returns the pattern as it was written.
+    /// Returns the pattern as it was typed.
     pub fn as_str(&self) -> &str {
         &self.0
     }
@@ -39,7 +39,7 @@ impl FacePattern {
         MARKERS.iter().fold(self.0.clone(), |text, marker| text.replace(marker, &name))
     }
 
-    /// The folder above the first part that varies with the face.
+    /// Returns the folder above the first part that varies with the face.
     pub(crate) fn folder(&self) -> &Path {
         let varying = |path: &Path| MARKERS.iter().any(|marker| path.to_string_lossy().contains(marker));
         let folder = Path::new(&self.0).ancestors().find(|path| !varying(path)).unwrap_or(Path::new(""));
@@ -47,23 +47,23 @@ impl FacePattern {
     }
 }
 
-/// Spelling of a face's name in capital or small letters.
+/// Case of a face's name.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum LetterCase {
-    /// As the preset has them: `front`.
+    /// As in the preset: `front`.
     #[default]
     Lower,
-    /// `Front`.
+    /// Capitalised: `Front`.
     Capitalised,
-    /// `FRONT`.
+    /// In capitals: `FRONT`.
     Upper,
 }
 
 impl LetterCase {
-    /// Every spelling.
+    /// All three cases.
     pub const ALL: [Self; 3] = [Self::Lower, Self::Capitalised, Self::Upper];
 
-    /// Spells a name.
+    /// Spells a name in this case.
     pub fn apply(self, name: &str) -> String {
         match self {
             Self::Lower => name.to_owned(),

@@ -19,13 +19,14 @@ pub struct FaceFile {
     pub face: CubeFace,
     /// File of the face, or the pattern of its frames (see [`FramePattern::parse`]).
     pub path: PathBuf,
-    /// How the picture has to be turned to be upright; [`FaceSet::read_all`] does it.
+    /// Rotation that turns the picture upright. [`FaceSet::read_all`] applies it; programs that read the file
+    /// themselves must do so.
     pub placement: FacePlacement,
     /// Whether the file, or any frame of it, exists.
     pub present: bool,
 }
 
-/// Files of the six faces of a cube; four or five may do.
+/// Files of the six faces of a cube, of which some may be missing.
 ///
 /// ```
 /// use cosmorama::raster::{Channels, Depth, EncodedImage, Samples};
@@ -50,16 +51,15 @@ pub struct FaceSet {
 }
 
 impl FaceSet {
-    /// As many faces as a dome needs: fewer may be files of something else beside them.
+    /// Number of faces that a dome needs. A set of fewer may be unrelated files.
     const ENOUGH: usize = 4;
 
-    /// Finds the faces of a pattern by the files that exist: of the presets under which there is at least one,
-    /// the one that explains most. One whose files are some of another's gives way to that other, and one of so few
-    /// that they may be strays to one of four or more; two others that disagree are an error. With a naming given,
-    /// only that is looked for.
+    /// Finds the faces of a pattern among existing files. Without `naming`, every automatic preset is tried, and the
+    /// one that explains most files wins. A preset that finds only some of another's files gives way to it, and so does
+    /// one with too few faces to one with four or more. Two others that disagree are an error.
     ///
     /// # Errors
-    /// When the pattern is none, nothing is found, or two presets fit.
+    /// When the text is not a face pattern, nothing is found, or two presets fit.
     pub fn find(pattern: &str, naming: Option<&'static Naming>) -> Result<Self, IoError> {
         let pattern = parse(pattern)?;
         let namings: Vec<&'static Naming> = match naming {
@@ -93,10 +93,10 @@ impl FaceSet {
         }
     }
 
-    /// Lists the faces that a pattern names, for writing them: their files need not exist.
+    /// Lists the files that a pattern and a preset name, for writing: they need not exist.
     ///
     /// # Errors
-    /// When the pattern is none.
+    /// When the text is not a face pattern.
     pub fn named(pattern: &str, naming: &'static Naming) -> Result<Self, IoError> {
         Ok(Self::look(&parse(pattern)?, naming, LetterCase::Lower, &mut Folders::default()))
     }
@@ -114,10 +114,10 @@ impl FaceSet {
         self.present().count() >= Self::ENOUGH
     }
 
-    /// Reads all six faces and turns each of them upright, as the library expects them.
+    /// Reads all six faces and turns each of them upright, as the library expects them. `limits` apply to each file.
     ///
     /// # Errors
-    /// When a face has no file, or one cannot be read. `limits` are those of each file.
+    /// When a face has no file, or one cannot be read.
     pub fn read_all(&self, limits: &Limits) -> Result<FaceImages, IoError> {
         if let Some(missing) = self.missing().next() {
             return Err(IoError::MissingFaces {
@@ -136,7 +136,7 @@ impl FaceSet {
         Ok(FaceImages { files: [front?, right?, back?, left?, up?, down?], samples: self.naming.samples })
     }
 
-    /// Returns the preset that fits.
+    /// Returns the matching preset.
     pub fn naming(&self) -> &'static Naming {
         self.naming
     }
@@ -161,7 +161,7 @@ impl FaceSet {
         self.faces.iter().filter(|face| !face.present)
     }
 
-    /// Whether every file that the other set found is in this one, too, with the same meaning.
+    /// Returns whether every file that the other set found is in this one, with the same meaning.
     fn includes(&self, other: &Self) -> bool {
         other.present().all(|face| *self.face(face.face) == *face)
     }
@@ -176,13 +176,13 @@ fn parse(pattern: &str) -> Result<FacePattern, IoError> {
     FacePattern::parse(pattern).ok_or_else(|| IoError::NotAFacePattern { pattern: pattern.to_owned() })
 }
 
-/// What folders hold, letter by letter: a disk that takes `FRONT.png` for `front.png` would show the same file under
-/// every way to write its name.
+/// Listings of folders, compared letter by letter. On a disk that ignores case, `FRONT.png` would otherwise also be
+/// found as `front.png`.
 #[derive(Default)]
 struct Folders(HashMap<PathBuf, Option<HashSet<OsString>>>);
 
 impl Folders {
-    /// Whether a file, or any frame of it, is there under exactly this name, as far as it varies below `fixed`.
+    /// Returns whether a file, or any frame of it, exists under exactly this name, as far as it varies below `fixed`.
     fn hold(&mut self, fixed: &Path, path: &Path) -> bool {
         match path.to_str().and_then(FramePattern::parse) {
             Some(frames) => {
@@ -203,7 +203,7 @@ impl Folders {
         })
     }
 
-    /// `None` for a folder that cannot be listed; its files may still be opened by name.
+    /// Lists a folder; `None` if it cannot be listed, although its files may still be opened by name.
     fn entries(&mut self, folder: &Path) -> Option<&HashSet<OsString>> {
         let list = || {
             let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
@@ -217,7 +217,7 @@ fn file_name(path: &Path) -> String {
     path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned()
 }
 
-/// Where a folder is called as a face would be.
+/// Returns the error for a folder that has the name of a face.
 fn folder(pattern: &FacePattern, namings: &[&'static Naming]) -> Option<IoError> {
     let cases = |naming: &&'static Naming| LetterCase::ALL.map(|case| (*naming, case));
     let paths = namings.iter().flat_map(cases).flat_map(|(naming, case)| {

@@ -1,4 +1,4 @@
-//! Files on disk and in memory: what they say of themselves, their pixels, and how they appear whole or not at all.
+//! Files on disk and in memory: headers, pixels, and writing a file whole or not at all.
 
 mod read;
 mod st_pairs;

@@ -6,10 +6,10 @@ use crate::codec::{codec, recognise};
 use crate::header::{Header, ImageFile};
 use crate::{IoError, Limits};
 
-/// Bytes that are read from a file at once.
+/// Number of bytes that are read from a file at once.
 const BUFFER: usize = 1 << 16;
 
-/// Reads what a file says of itself, without decoding pixels.
+/// Reads the header of a file, without decoding pixels.
 ///
 /// ```
 /// use cosmorama::raster::{Channels, Depth, EncodedImage, Samples};
@@ -32,9 +32,9 @@ pub fn probe(path: impl AsRef<Path>) -> Result<Header, IoError> {
     probe_from(open(path)?, path)
 }
 
-/// Reads what a file in memory, or from any other reader, says of itself. The file begins where the reader does.
+/// Reads the header of a file in memory, or from any other reader, which stands at the file's first byte.
 ///
-/// `name` is what messages call the file. Its extension counts only for TGA, which has no mark of its own.
+/// `name` is the file's name in messages. Its extension counts only for TGA, which has no identifying first bytes.
 ///
 /// # Errors
 /// When reading fails, the format is unknown, or the file is damaged before its pixels.
@@ -44,7 +44,7 @@ pub fn probe_from(mut source: impl BufRead + Seek, name: impl AsRef<Path>) -> Re
     codec(format).probe(name, &mut source)
 }
 
-/// Reads a file. [`ImageFile::to_light`] makes linear light of it.
+/// Reads a file. [`ImageFile::to_light`] decodes it to linear light.
 ///
 /// ```
 /// use cosmorama::raster::{Channels, Depth, EncodedImage, Samples};
@@ -62,14 +62,14 @@ pub fn probe_from(mut source: impl BufRead + Seek, name: impl AsRef<Path>) -> Re
 /// ```
 ///
 /// # Errors
-/// When the file cannot be opened, is of no known format, declares more pixels than `limits` allow (before
-/// memory is taken), or is damaged.
+/// When the file cannot be opened, is of no known format, or is damaged. A file that declares more pixels than `limits`
+/// allow is refused before memory is allocated.
 pub fn read(path: impl AsRef<Path>, limits: &Limits) -> Result<ImageFile, IoError> {
     let path = path.as_ref();
     read_from(open(path)?, path, limits)
 }
 
-/// Reads a file in memory, or from any other reader. The file begins where the reader does.
+/// Reads a file in memory, or from any other reader, which stands at the file's first byte.
 ///
 /// ```
 /// use std::io::Cursor;
@@ -81,11 +81,11 @@ pub fn read(path: impl AsRef<Path>, limits: &Limits) -> Result<ImageFile, IoErro
 /// # Ok::<(), cosmorama_io::IoError>(())
 /// ```
 ///
-/// `name` is what messages call the file. Its extension counts only for TGA, which has no mark of its own.
+/// `name` is the file's name in messages. Its extension counts only for TGA, which has no identifying first bytes.
 ///
 /// # Errors
-/// When reading fails, the format is unknown, the file declares more pixels than `limits` allow (before memory is taken), or
-/// it is damaged.
+/// When reading fails, the format is unknown, or the file is damaged. A file that declares more pixels than `limits`
+/// allow is refused before memory is allocated.
 pub fn read_from(
     mut source: impl BufRead + Seek,
     name: impl AsRef<Path>,
@@ -99,7 +99,7 @@ pub fn read_from(
 /// Opens a file for reading.
 ///
 /// # Errors
-/// When it cannot be opened, or is a folder.
+/// When the file cannot be opened, or is a folder.
 pub fn open(path: &Path) -> Result<BufReader<File>, IoError> {
     let fail = |error| IoError::open(path, error);
     let file = File::open(path).map_err(fail)?;

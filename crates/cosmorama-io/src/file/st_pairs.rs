@@ -8,14 +8,14 @@ use crate::codec::{codec, recognise};
 use crate::header::{Format, Header, ImageFile};
 use crate::{IoError, Limits};
 
-/// Numbers of an st map as its file has them: two a pixel, s to the right and t up.
+/// Values of an st map as in its file: two per pixel, s to the right and t up.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StPairs {
     /// Columns.
     pub width: usize,
     /// Rows.
     pub height: usize,
-    /// Row by row from the top; not numbers where the file holds no pixel of its canvas.
+    /// Pairs row by row from the top; NaN where the canvas has no pixel in the file.
     pub pairs: Vec<[f32; 2]>,
 }
 
@@ -26,40 +26,39 @@ impl StPairs {
     }
 }
 
-/// Reads what a file says of its st map before its numbers: as [`probe`](crate::probe), but of the channels that
-/// [`read_pairs`] reads.
+/// Reads the header of an st map's file: like [`probe`](crate::probe), but for the channels that [`read_pairs`] reads.
 ///
 /// # Errors
-/// When an OpenEXR file has no two such channels, and where [`probe`](crate::probe) fails.
+/// When an OpenEXR file has no such pair of channels, or [`probe`](crate::probe) fails.
 pub fn probe_pairs(path: impl AsRef<Path>) -> Result<Header, IoError> {
     let path = path.as_ref();
     probe_pairs_from(open(path)?, path)
 }
 
-/// Reads what an st map in memory, or from any other reader, says of itself. `name` is what messages call it.
+/// Reads the header of an st map in memory, or from any other reader. `name` is the file's name in messages.
 ///
 /// # Errors
-/// When reading fails, and where [`probe_pairs`] fails.
+/// When reading fails, or [`probe_pairs`] fails.
 pub fn probe_pairs_from(mut source: impl BufRead + Seek, name: impl AsRef<Path>) -> Result<Header, IoError> {
     let name = name.as_ref();
     let format = recognise(name, &mut source)?;
     codec(format).probe_pairs(name, &mut source)
 }
 
-/// Reads the first two channels of a picture as they are: of OpenEXR files R and G, or what else such maps are called (u and
-/// v, s and t, x and y, also in a layer); integers as parts of their greatest value.
+/// Reads the two channels of an st map without decoding them. In OpenEXR files these are R and G, u and v, s and t, or
+/// x and y, also in a layer. Integers are scaled to 0–1.
 ///
 /// # Errors
-/// When there are not two channels or no more than 8 bits, and where [`read`](crate::read) fails.
+/// When there are fewer than two channels or at most 8 bits, or [`read`](crate::read) fails.
 pub fn read_pairs(path: impl AsRef<Path>, limits: &Limits) -> Result<StPairs, IoError> {
     let path = path.as_ref();
     read_pairs_from(open(path)?, path, limits)
 }
 
-/// Reads an st map in memory, or from any other reader, as [`read_pairs`] does. `name` is what messages call it.
+/// Reads an st map in memory, or from any other reader, like [`read_pairs`]. `name` is the file's name in messages.
 ///
 /// # Errors
-/// When reading fails, and where [`read_pairs`] fails.
+/// When reading fails, or [`read_pairs`] fails.
 pub fn read_pairs_from(
     mut source: impl BufRead + Seek,
     name: impl AsRef<Path>,

@@ -8,8 +8,8 @@ use crate::header::Format;
 use crate::pending::{Hidden, Pending};
 use crate::{IoError, WriteOptions};
 
-/// Writes a file in the format that its extension names. It appears whole or not at all; an older file of the
-/// same name is replaced only when the new one is whole.
+/// Writes a file in the format of its extension. It appears whole or not at all: an older file of the same name is
+/// replaced only when the new one is complete.
 ///
 /// ```
 /// use cosmorama::raster::{Channels, Depth, EncodedImage, Samples, Transfer};
@@ -30,17 +30,17 @@ pub fn write(path: impl AsRef<Path>, image: &EncodedImage, options: &WriteOption
     write_levels(path, std::slice::from_ref(image), options)
 }
 
-/// Writes a picture with its mip levels, the largest first, as [`write()`] does a single one. Each level is half as large, rounded
-/// down, as the one before.
+/// Writes a picture with its mip levels, the largest first, like [`write()`]. Each level has half the size of the one
+/// before, rounded down.
 ///
 /// # Errors
-/// When [`write()`] would fail, when the format holds no levels and there are several, and when their sizes or sample types
-/// do not go together.
+/// When [`write()`] would fail, the format does not hold several levels, or the levels' sizes or sample types do not
+/// match.
 pub fn write_levels(path: impl AsRef<Path>, levels: &[EncodedImage], options: &WriteOptions) -> Result<(), IoError> {
     hidden(path.as_ref(), levels, options)?.appear()
 }
 
-/// Writes a picture that appears under its name when it is told to, as together with others.
+/// Writes a picture that gets its name later, for example together with others.
 ///
 /// # Errors
 /// When [`write()`] would fail.
@@ -48,7 +48,7 @@ pub fn write_hidden(path: impl AsRef<Path>, image: &EncodedImage, options: &Writ
     hidden(path.as_ref(), std::slice::from_ref(image), options)
 }
 
-/// Writes a file in a format into memory, or to any other writer. `name` is what messages call the file.
+/// Encodes a picture to memory, or to any other writer. `name` is the file's name in messages.
 ///
 /// # Errors
 /// When the format cannot hold the image, or writing fails.
@@ -80,12 +80,12 @@ fn hidden(path: &Path, levels: &[EncodedImage], options: &WriteOptions) -> Resul
     pending.close()
 }
 
-/// Writes planes of numbers that are no picture, each under its name, as halves or floats. The file appears whole or not
+/// Writes named planes of numbers, as halves or floats, for data that is not a picture. The file appears whole or not
 /// at all.
 ///
 /// # Errors
-/// When the file is not named as OpenEXR, the only format with named channels; when a plane does not hold
-/// width × height numbers; when the file cannot be written.
+/// When the extension is not OpenEXR's, the only format with named channels; when a plane does not hold width × height
+/// numbers; or when the file cannot be written.
 pub fn write_planes(
     path: impl AsRef<Path>,
     size: (usize, usize),

@@ -17,17 +17,17 @@ pub enum Format {
     Hdr,
     /// OpenEXR.
     Exr,
-    /// Faces of a cube in a KTX 2 texture.
+    /// KTX 2 texture with the faces of a cube.
     Ktx2,
-    /// Faces of a cube in a KTX texture of version 1, which is only read.
+    /// KTX texture of version 1 with the faces of a cube; read-only.
     Ktx,
-    /// Faces of a cube in a DirectDraw surface.
+    /// DirectDraw surface with the faces of a cube.
     Dds,
 }
 
-/// What the files of a format can hold.
+/// Properties of a format's files.
 struct Properties {
-    /// As messages call it.
+    /// Name in messages.
     name: &'static str,
     /// Extensions of files that are written, in lower case.
     extensions: &'static [&'static str],
@@ -42,7 +42,7 @@ struct Properties {
 }
 
 impl Properties {
-    /// Common properties of the formats: 8 bits, any channels, nothing beside the pixels.
+    /// Properties that most formats share: 8 bits, any channels, no metadata.
     const PLAIN: Self = Self {
         name: "",
         extensions: &[],
@@ -56,7 +56,7 @@ impl Properties {
         holds_icc: false,
     };
 
-    /// Common properties of textures of cubes: the depths and channels that every graphics card takes.
+    /// Properties that cube map textures share: the depths and channels that every graphics card supports.
     const TEXTURE: Self = Self {
         depths: &[Depth::Eight, Depth::Half],
         channels: &[Channels::Rgba],
@@ -120,7 +120,7 @@ impl Properties {
 }
 
 impl Format {
-    /// Every format.
+    /// All formats.
     pub const ALL: [Self; 9] =
         [Self::Png, Self::Jpeg, Self::Tiff, Self::Tga, Self::Hdr, Self::Exr, Self::Ktx2, Self::Ktx, Self::Dds];
 
@@ -138,13 +138,13 @@ impl Format {
         }
     }
 
-    /// Returns the format whose files are written with this extension, in whatever case.
+    /// Returns the format with this extension, in any case, among those that can be written.
     pub fn of_extension(extension: &str) -> Option<Self> {
         let extension = extension.to_ascii_lowercase();
         Self::ALL.into_iter().find(|format| format.properties().extensions.contains(&&*extension))
     }
 
-    /// Lists every extension of what can be written, for messages.
+    /// Lists every extension that can be written, for messages.
     pub fn extensions() -> String {
         let all: Vec<_> = Self::ALL.iter().flat_map(|format| format.properties().extensions).copied().collect();
         all.join(", ")
@@ -155,7 +155,7 @@ impl Format {
         self.properties().depths
     }
 
-    /// Returns the most columns, and rows, that a picture can have, where the format counts no further.
+    /// Returns the greatest number of columns and rows that the format can hold, if it has such a limit.
     pub const fn longest_side(self) -> Option<usize> {
         self.properties().longest_side
     }
@@ -170,7 +170,7 @@ impl Format {
         self.depths().contains(&depth) && self.channels().contains(&channels)
     }
 
-    /// Returns the depth itself where the format can hold it, else the one that loses least.
+    /// Returns this depth if the format can hold it, else the one that loses least.
     pub fn nearest_depth(self, depth: Depth) -> Depth {
         if self.depths().contains(&depth) {
             return depth;
@@ -184,7 +184,7 @@ impl Format {
         }
     }
 
-    /// Returns the channels themselves where the format can hold them, else those that lose least.
+    /// Returns these channels if the format can hold them, else those that lose least.
     pub fn nearest_channels(self, channels: Channels) -> Channels {
         match self {
             Self::Png | Self::Tiff | Self::Tga | Self::Exr => channels,
@@ -194,12 +194,12 @@ impl Format {
         }
     }
 
-    /// Returns whether an integer file of the format can say how its code values relate to light, without an ICC profile.
+    /// Returns whether the format's integer files can name their transfer function without an ICC profile.
     pub const fn names_transfer(self) -> bool {
         self.properties().names_transfer
     }
 
-    /// Returns whether the format's files hold the faces of a cube and nothing else, in an order of their own.
+    /// Returns whether the format's files hold the faces of a cube and nothing else, in an order of the format's own.
     pub const fn is_cube_map(self) -> bool {
         self.properties().is_cube_map
     }
@@ -209,7 +209,7 @@ impl Format {
         self.properties().holds_levels
     }
 
-    /// Returns whether files can be compressed more or less, without loss.
+    /// Returns whether the format offers several levels of lossless compression.
     pub const fn has_compression(self) -> bool {
         self.properties().has_compression
     }

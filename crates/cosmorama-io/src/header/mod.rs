@@ -1,4 +1,4 @@
-//! What files say of themselves before their pixels, and the formats that they are of.
+//! Headers of files, and file formats.
 
 mod format;
 
@@ -8,7 +8,7 @@ pub use format::Format;
 
 use crate::metadata::{Metadata, Window};
 
-/// What a file says of itself before its pixels.
+/// Header of a file: everything before its pixels.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Header {
     /// Format, found from the file's content.
@@ -17,31 +17,31 @@ pub struct Header {
     pub width: usize,
     /// Rows.
     pub height: usize,
-    /// Channels that [`read`](crate::read) gives.
+    /// Channels of the image that [`read`](crate::read) returns.
     pub channels: Channels,
-    /// Depth that [`read`](crate::read) gives.
+    /// Depth of the image that [`read`](crate::read) returns.
     pub depth: Depth,
-    /// What the file says about its pixels.
+    /// Metadata about the pixels.
     pub metadata: Metadata,
-    /// Where the pixels lie in a larger canvas; `None` where they are all of it.
+    /// Place of the pixels in a larger canvas; `None` if they are all of it.
     pub window: Option<Window>,
 }
 
-/// A file in memory: its pixels and what it says about them.
+/// A file in memory: its pixels and metadata.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ImageFile {
     /// Format, found from the file's content.
     pub format: Format,
-    /// Pixels as the file codes them.
+    /// Encoded pixels.
     pub image: EncodedImage,
-    /// What the file says about its pixels.
+    /// Metadata about the pixels.
     pub metadata: Metadata,
-    /// Where the pixels lie in a larger canvas; `None` where they are all of it.
+    /// Place of the pixels in a larger canvas; `None` if they are all of it.
     pub window: Option<Window>,
 }
 
 impl ImageFile {
-    /// Returns how the file's code values relate to light: linear where they are floats, else as the file says, else sRGB.
+    /// Returns the file's transfer function: linear for floats, else the one that the file names, else sRGB.
     pub fn transfer(&self) -> Transfer {
         if self.image.depth().is_float() {
             return Transfer::Linear;
@@ -49,7 +49,7 @@ impl ImageFile {
         self.metadata.transfer.clone().unwrap_or_default()
     }
 
-    /// Computes the file's linear light.
+    /// Decodes the file to linear light.
     pub fn to_light(&self) -> Image<Rgba> {
         self.image.to_light(&self.transfer())
     }

@@ -3,52 +3,52 @@ pub(crate) mod icc;
 
 use cosmorama::raster::Transfer;
 
-/// What a file says about its pixels, and what is carried from input to output.
+/// Metadata of a file about its pixels, of which the parts that apply are carried from input to output.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Metadata {
-    /// How code values relate to light; `None` where the file says nothing.
-    /// In a PNG, cICP goes before iCCP, iCCP before sRGB, sRGB before gAMA, as the specification has it.
+    /// Transfer function; `None` if the file does not name one. In a PNG, cICP takes precedence over iCCP, iCCP over
+    /// sRGB, and sRGB over gAMA, as the specification requires.
     pub transfer: Option<Transfer>,
-    /// An ICC profile, carried to outputs that can hold one (PNG, JPEG, TIFF). When writing, it goes before
-    /// `transfer`: leave it out where the output is encoded by another curve than the profile's.
+    /// ICC profile, carried to outputs that can hold one (PNG, JPEG, TIFF). When writing, it takes precedence over
+    /// `transfer`: omit it if the output is encoded by another curve than the profile's.
     pub icc: Option<Vec<u8>>,
-    /// What the file says that it is a picture of.
+    /// Kind of environment map that the file declares.
     pub envmap: Option<EnvMap>,
-    /// The equirectangular panorama of which the image is this window, as GPano metadata of JPEG and PNG have it.
+    /// Whole panorama of which the image is this window, as in the GPano metadata of JPEG and PNG.
     pub panorama: Option<Window>,
-    /// What the file says of itself that cannot be right and is left out, or is not followed: in words, one a line.
+    /// Statements of the file that cannot be right, or that are ignored, in words, one per line.
     pub complaints: Vec<String>,
-    /// Channels of the file that are not read.
+    /// Names of channels that are not read.
     pub other_channels: Vec<String>,
-    /// Colour primaries by their number in ITU-T H.273 (cICP); they are carried, never converted.
+    /// Colour primaries by their number in ITU-T H.273 (cICP). They are carried, never converted.
     pub primaries: Option<u8>,
-    /// How the file asks viewers to turn or mirror its picture: the Orientation of TIFF (tag 274), 2 to 8; `None` where it
-    /// is to stay as it is. Nothing here turns it: pixels are read as they are stored.
+    /// Orientation tag of TIFF (274), 2 to 8, by which the file asks viewers to turn or mirror its picture; `None` for
+    /// no change. Pixels are read as stored.
     pub orientation: Option<u16>,
-    /// The program that wrote the file.
+    /// Name of the program that wrote the file.
     pub software: Option<String>,
 }
 
-/// A picture of the whole world.
+/// An environment map: a picture of the whole world.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum EnvMap {
-    /// OpenEXR's equirectangular panorama, its samples on the edges.
+    /// OpenEXR's equirectangular panorama, with samples on the edges.
     LatLong,
-    /// OpenEXR's six faces one below the other: +X −X +Y −Y +Z −Z in a right-handed frame, samples on the edges.
+    /// OpenEXR's six faces one below the other: +X −X +Y −Y +Z −Z in a right-handed frame, with samples on the edges.
     Cube,
-    /// The faces of a KTX or DDS file, one below the other: +X −X +Y −Y +Z −Z, left-handed, +Z ahead.
+    /// Faces of a KTX or DDS file, one below the other: +X −X +Y −Y +Z −Z, left-handed, with +Z ahead.
     GlCube,
 }
 
-/// Where an image lies in a larger canvas: OpenEXR's data window in its display window, a part of a panorama.
+/// Place of an image in a larger canvas: OpenEXR's data window in its display window, or a part of a panorama.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Window {
     /// Columns of the canvas.
     pub canvas_width: usize,
     /// Rows of the canvas.
     pub canvas_height: usize,
-    /// Column of the canvas in which the image's first column lies.
+    /// Column of the canvas at which the image begins.
     pub x: usize,
-    /// Row of the canvas in which the image's first row lies.
+    /// Row of the canvas at which the image begins.
     pub y: usize,
 }

@@ -3,34 +3,34 @@ use std::path::PathBuf;
 
 use thiserror::Error;
 
-/// Why a Hugin project cannot be read.
+/// Reason why a Hugin project cannot be read.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum PtoError {
     /// The file cannot be opened.
     #[error("cannot open the Hugin project {}: {source}", path.display())]
     Open {
-        /// Which.
+        /// Path of the file.
         path: PathBuf,
-        /// Why.
+        /// Error of the operating system.
         source: io::Error,
     },
-    /// A line that cannot be understood, or asks for what is not supported.
+    /// A line cannot be understood, or asks for something unsupported.
     #[error("{}, line {line}: {reason}", path.display())]
     Line {
-        /// The project.
+        /// Path of the project.
         path: PathBuf,
-        /// Which line, from 1.
+        /// Number of the line, from 1.
         line: usize,
-        /// What was found and what was expected.
+        /// What was found, and what was expected.
         reason: String,
     },
-    /// Something is missing.
+    /// A part of the project is missing.
     #[error("{}: {reason}", path.display())]
     Project {
-        /// The project.
+        /// Path of the project.
         path: PathBuf,
-        /// What was found and what was expected.
+        /// What was found, and what was expected.
         reason: String,
     },
 }

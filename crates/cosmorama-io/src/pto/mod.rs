@@ -1,4 +1,4 @@
-//! Hugin projects (`.pto`): the text format of the Panorama Tools, as far as it says where pictures look.
+//! Hugin projects (`.pto`): the text format of the Panorama Tools, as far as it describes where pictures look.
 
 mod error;
 mod line;

@@ -4,61 +4,61 @@ use std::path::{Path, PathBuf};
 use super::PtoError;
 use super::line::{Line, Value};
 
-/// A project: its pictures and the panorama that it makes of them.
+/// A project: its pictures, and the panorama that is made of them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PtoProject {
-    /// The pictures, in their order.
+    /// Pictures, in the project's order.
     pub images: Vec<PtoImage>,
-    /// The panorama, if there is a p-line.
+    /// Panorama, if there is a p-line.
     pub panorama: Option<PtoPanorama>,
-    /// What is left out of account, and does no harm.
+    /// Notes on harmless statements that are ignored.
     pub warnings: Vec<String>,
 }
 
-/// An i-line. Angles in degrees.
+/// A picture, from an i-line. Angles are in degrees.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PtoImage {
-    /// Its line, from 1.
+    /// Number of its line, from 1.
     pub line: usize,
-    /// The file, relative to the project.
+    /// File, relative to the project.
     pub file: PathBuf,
     /// Columns and rows.
     pub size: (usize, usize),
-    /// The kind of lens: f.
+    /// Lens type: f.
     pub lens: u32,
-    /// Across its width: v.
+    /// Field of view across the width: v.
     pub field_of_view: f64,
-    /// y, p, r.
+    /// Orientation: y, p, r.
     pub yaw_pitch_roll: [f64; 3],
-    /// a, b, c.
+    /// Lens correction: a, b, c.
     pub correction: [f64; 3],
-    /// d, e.
+    /// Offset of the axis in pixels: d, e.
     pub shift: [f64; 2],
-    /// S: left, right, top and bottom of the part that counts.
+    /// Crop: left, right, top and bottom (S).
     pub crop: Option<[i64; 4]>,
-    /// Corners, in pixels, of the polygons that are masked out: k-lines.
+    /// Corners, in pixels, of masked-out polygons: k-lines.
     pub holes: Vec<Vec<[f64; 2]>>,
 }
 
-/// The p-line.
+/// The panorama, from the p-line.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PtoPanorama {
-    /// Its line, from 1.
+    /// Number of its line, from 1.
     pub line: usize,
-    /// The kind of projection: f.
+    /// Projection: f.
     pub projection: u32,
-    /// Columns and rows of the whole.
+    /// Columns and rows of the whole panorama.
     pub size: (usize, usize),
-    /// Degrees across its width: v.
+    /// Field of view across the width, in degrees: v.
     pub field_of_view: f64,
-    /// S: left, right, top and bottom of the part that is made.
+    /// Crop: left, right, top and bottom of the part to make (S).
     pub crop: Option<[i64; 4]>,
 }
 
-/// No project is as long as that.
+/// Greatest length of a project in bytes.
 const LONGEST: u64 = 16 << 20;
 
-/// What bends a picture in ways that are not supported, and what each is called.
+/// Unsupported distortions of a picture, and their names.
 const BENDS: [(&str, &str); 8] = [
     ("g", "shear"),
     ("t", "shear"),
@@ -70,17 +70,18 @@ const BENDS: [(&str, &str); 8] = [
     ("X", "translation of the camera"),
 ];
 
-/// What changes light within a picture: its value where it changes nothing.
+/// Parameters of vignetting, each with the value that has no effect.
 const VIGNETTING: [(&str, f64); 6] = [("Va", 1.0), ("Vb", 0.0), ("Vc", 0.0), ("Vd", 0.0), ("Vx", 0.0), ("Vy", 0.0)];
 
-/// What changes light from picture to picture: alike in all of them it changes nothing.
+/// Parameters of exposure and response. They have no effect if they are alike in all pictures.
 const EXPOSURE: [&str; 8] = ["Eev", "Er", "Eb", "Ra", "Rb", "Rc", "Rd", "Re"];
 
 impl PtoProject {
     /// Reads a project.
     ///
     /// # Errors
-    /// When the file cannot be read, a line cannot be understood, or it asks for what is not supported, by name.
+    /// When the file cannot be read, a line cannot be understood, or it asks for something unsupported; the message
+    /// names it.
     pub fn read(path: &Path) -> Result<Self, PtoError> {
         let open = |source| PtoError::Open { path: path.to_owned(), source };
         let project = |reason: &str| PtoError::Project { path: path.to_owned(), reason: reason.to_owned() };

@@ -7,9 +7,9 @@ use std::path::Path;
 use super::frame_list::LAST_FRAME;
 use crate::{Format, FrameList, FramePattern};
 
-/// Files of a folder that are frames of one sequence by their names.
+/// Files of a folder whose names form one sequence.
 ///
-/// As text it is their pattern and their numbers: `shot/dome_####.png (1-240)`.
+/// It prints as the pattern with the numbers: `shot/dome_####.png (1-240)`.
 ///
 /// ```
 /// use cosmorama_io::FoundFrames;
@@ -30,15 +30,15 @@ pub struct FoundFrames {
     pub frames: FrameList,
 }
 
-/// From one frame to the next, on average: numbers farther apart are sizes or dates.
+/// Greatest average distance between frame numbers; numbers further apart are sizes or dates.
 const FARTHEST: u64 = 100;
 
-/// What stands before a number in a name, and after it.
+/// Text before and after a number in a name.
 type Around = (String, String);
 
 impl FoundFrames {
-    /// Finds the sequences of images in a folder, the longest first; none where it cannot be read. A file is a frame of one of them
-    /// at most, and two make a sequence.
+    /// Finds the sequences of images in a folder, the longest first; none if it cannot be read. A file belongs to at
+    /// most one sequence, and a sequence has at least two files.
     pub fn in_folder(folder: &Path) -> Vec<Self> {
         // What is in the current one is told by its name alone.
         let here = Path::new(".");
@@ -72,7 +72,7 @@ impl FoundFrames {
         found.into_iter().filter_map(is_new).collect()
     }
 
-    /// Finds the frames with the same text around their numbers; `None` where there are fewer than two.
+    /// Finds the frames with the same text around their numbers; `None` for fewer than two.
     fn of(folder: &Path, (before, after): &Around, numbers: &[String]) -> Option<Self> {
         let places = numbers.iter().map(String::len).min()?;
         // Longer ones with zeros before them are not what so many signs find.

@@ -1,26 +1,26 @@
 use std::fmt;
 
-/// Frame numbers in the order in which they were asked for, each once.
+/// Frame numbers without duplicates, in the requested order.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct FrameList(Vec<u64>);
 
-/// The largest number of a frame: a larger one is a date or a hash.
+/// Largest frame number; a larger number is a date or a hash.
 pub(super) const LAST_FRAME: u64 = u32::MAX as u64;
 
 impl FrameList {
-    /// These frames.
+    /// Creates a list of these frames.
     pub fn new(frames: impl IntoIterator<Item = u64>) -> Self {
         let mut seen = std::collections::HashSet::new();
         Self(frames.into_iter().filter(|frame| seen.insert(*frame)).collect())
     }
 
-    /// The numbers.
+    /// Returns the numbers.
     pub fn frames(&self) -> &[u64] {
         &self.0
     }
 }
 
-/// The shortest list that stands for the same frames: runs become ranges.
+/// Prints the shortest list of the same frames, with ranges for runs.
 impl fmt::Display for FrameList {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let mut rest = &self.0[..];

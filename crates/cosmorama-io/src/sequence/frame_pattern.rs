@@ -5,10 +5,10 @@ use std::path::{Component, Path, PathBuf};
 use super::frame_list::LAST_FRAME;
 use crate::IoError;
 
-/// A file name in which the frame number stands: `####` or `@@@@` (as many digits as signs), `%04d` or `%d`.
+/// A file name with a placeholder for the frame number: `####` or `@@@@` (one sign per digit), `%04d` or `%d`.
 ///
-/// It may stand in several places, folders included; every one holds the same number. Numbers with more digits
-/// than places are written and found as they are.
+/// It may occur in several places, folders included; all hold the same number. Numbers with more digits than places are
+/// written and found without truncation.
 ///
 /// ```
 /// use cosmorama_io::FramePattern;
@@ -25,19 +25,19 @@ pub struct FramePattern {
 #[derive(Clone, Debug, PartialEq, Eq)]
 enum Piece {
     Text(String),
-    /// A frame number of at least so many digits.
+    /// Frame number with at least this many digits.
     Number(usize),
 }
 
 impl FramePattern {
-    /// Parses a file name; `None` where no number stands in it. A single `@`, as in `texture@2x.png`, is none.
+    /// Parses a file name; `None` if it has no placeholder. A single `@`, as in `texture@2x.png`, is not one.
     pub fn parse(text: &str) -> Option<Self> {
         let pieces = pieces(text);
         let numbered = pieces.iter().any(|piece| matches!(piece, Piece::Number(_)));
         numbered.then(|| Self { text: text.to_owned(), pieces })
     }
 
-    /// Returns the pattern as it was written.
+    /// Returns the pattern as it was typed.
     pub fn as_str(&self) -> &str {
         &self.text
     }
@@ -79,7 +79,7 @@ impl FramePattern {
         Ok(frames)
     }
 
-    /// The first part of the path that varies.
+    /// Returns the first part of the path that varies.
     fn first_varying(&self) -> Option<OsString> {
         let names = Path::new(&self.text).components().filter_map(|part| match part {
             Component::Normal(name) => Some(name.to_owned()),
@@ -115,10 +115,10 @@ fn pieces(text: &str) -> Vec<Piece> {
     pieces
 }
 
-/// The longest name that a file can have anywhere: no more digits can be found in one, nor written.
+/// Longest file name that any system permits, which limits the number of digits.
 const LONGEST_NAME: usize = 255;
 
-/// Digits that the marker at the start of a text asks for, and the marker's own length.
+/// Returns the number of digits of the marker at the start of a text, and the marker's length.
 fn marker(text: &str) -> Option<(usize, usize)> {
     let run = |sign: u8| {
         let length = text.bytes().take_while(|byte| *byte == sign).count();
@@ -137,7 +137,7 @@ fn marker(text: &str) -> Option<(usize, usize)> {
     }
 }
 
-/// The frame number in a file name.
+/// Returns the frame number in a file name.
 fn number_in(name: &str, pieces: &[Piece]) -> Option<u64> {
     let mut rest = name;
     let mut found = None;

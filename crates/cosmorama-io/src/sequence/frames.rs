@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use super::FoundFrames;
 use crate::{FrameList, FramePattern, IoError};
 
-/// Frames of a sequence to work on: all are there.
+/// Frames of a sequence that all exist.
 ///
 /// ```
 /// use cosmorama_io::{FramePattern, Frames};
@@ -25,11 +25,11 @@ pub struct Frames {
 }
 
 impl Frames {
-    /// Finds the frames that were asked for, or all that exist.
+    /// Finds the requested frames, or all that exist.
     ///
     /// # Errors
-    /// When there are none, when one that was asked for is missing, or when one is missing between the first
-    /// and the last; the message names all of them. With a list, only the list's frames need to exist.
+    /// When there are no frames, a requested frame is missing, or, without a list, a frame between the first and the
+    /// last is missing. The message names all missing frames.
     pub fn find(pattern: FramePattern, wanted: Option<&FrameList>) -> Result<Self, IoError> {
         let existing = pattern.existing()?;
         let (Some(&first), Some(&last)) = (existing.first(), existing.last()) else {
@@ -74,7 +74,7 @@ fn no_frames(pattern: &FramePattern) -> IoError {
     }
 }
 
-/// The frames that are not there between the first and the last; of an absurd number of them, the first million.
+/// Returns the missing frames between the first and the last; at most the first million.
 fn holes(existing: &BTreeSet<u64>, first: u64, last: u64) -> FrameList {
     const MOST: usize = 1_000_000;
     FrameList::new((first..=last).filter(|frame| !existing.contains(frame)).take(MOST))
