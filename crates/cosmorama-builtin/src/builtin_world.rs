@@ -3,26 +3,26 @@ use cosmorama::raster::{Image, Rgba};
 
 use crate::{Checker, DemoWorld, Directions, Grid, ZonePlate, picture};
 
-/// A world that comes with the program.
+/// A world that comes with the program, by name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum BuiltinWorld {
-    /// [`Grid`].
+    /// A grid of azimuth and elevation ([`Grid`]).
     Grid,
-    /// [`Checker`].
+    /// A checkerboard ([`Checker`]).
     Checker,
-    /// [`Directions`].
+    /// Colours that are directions ([`Directions`]).
     Directions,
-    /// [`ZonePlate`].
+    /// Rings of rising frequency ([`ZonePlate`]).
     ZonePlate,
-    /// [`DemoWorld`].
+    /// The demo's arcade ([`DemoWorld`]).
     Demo,
 }
 
 impl BuiltinWorld {
-    /// All of them.
+    /// All built-in worlds.
     pub const ALL: [Self; 5] = [Self::Grid, Self::Checker, Self::Directions, Self::ZonePlate, Self::Demo];
 
-    /// As it is typed.
+    /// Returns the name after `builtin:`.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Grid => "grid",
@@ -33,7 +33,7 @@ impl BuiltinWorld {
         }
     }
 
-    /// What it shows.
+    /// Returns a line of help.
     pub const fn about(self) -> &'static str {
         match self {
             Self::Grid => "degrees of azimuth and elevation, to align the projectors of a dome by",
@@ -44,7 +44,7 @@ impl BuiltinWorld {
         }
     }
 
-    /// Makes a view's picture of it ([`picture()`]).
+    /// Renders a view of the world ([`picture()`]).
     pub fn picture(self, view: &View) -> Image<Rgba> {
         match self {
             Self::Grid => picture(&Grid::new(), view),

@@ -5,17 +5,17 @@ use crate::compass::Compass;
 use crate::pixel_window::{part_within, spread};
 use crate::{Average, Radiance};
 
-/// Black and white checks, 10° of azimuth by 10° of elevation: half of all light, on every part of the sphere.
+/// Black and white checks of 10° of azimuth by 10° of elevation. Half of every part of the sphere is white.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Checker;
 
 /// Side of a check.
 const CHECK: Angle = Angle::from_degrees(10.0);
 
-/// The edge before the pole, in checks from the horizon: beyond the pole lie checks of the same colours.
+/// Last edge before the pole, in checks from the horizon; the checks beyond the pole have the same colours.
 const LAST_EDGE: f64 = 8.0;
 
-/// A pixel that blurs by more than this part of a check may see beyond the next edges.
+/// Blur, in checks, above which a pixel may see more than one edge.
 const COARSE: f64 = 0.1;
 
 impl Radiance for Checker {
@@ -29,7 +29,7 @@ impl Radiance for Checker {
     }
 }
 
-/// The part of a pixel that white checks cover, where at most one edge is in it.
+/// Returns the white fraction of a pixel that contains at most one edge; `None` for others.
 fn white_part(pixel: &Footprint) -> Option<f64> {
     let compass = Compass::of(pixel.direction);
     let along_azimuth = even_part(compass.azimuth, f64::INFINITY, spread(pixel, compass.azimuth_gradient()?))?;
@@ -44,7 +44,7 @@ fn is_even(angle: Angle) -> bool {
     (angle.radians() / CHECK.radians()).floor().rem_euclid(2.0) == 0.0
 }
 
-/// The part of a window that even stripes cover; `None` where more than one edge is in it.
+/// Returns the fraction of a window that even stripes cover; `None` if it contains more than one edge.
 fn even_part(angle: Angle, last_edge: f64, spread: f64) -> Option<f64> {
     let (stripes, spread) = (angle.radians() / CHECK.radians(), spread / CHECK.radians());
     if spread > COARSE {

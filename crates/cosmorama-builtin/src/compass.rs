@@ -1,7 +1,7 @@
 use cosmorama::sphere::{Angle, Direction};
 use glam::DVec3;
 
-/// Where a direction is on the dome: its azimuth (0 at the front, growing to the right, −180° to 180°) and elevation.
+/// Azimuth (0 at the front, growing to the right, −180° to 180°) and elevation of a direction on the dome.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Compass {
     pub(crate) azimuth: Angle,
@@ -11,7 +11,7 @@ pub(crate) struct Compass {
     pub(crate) cosine: f64,
 }
 
-/// Nearer to a pole than this, azimuths crowd too much to be told.
+/// Cosine of the elevation below which azimuths are undefined.
 const POLE: f64 = 1e-9;
 
 impl Compass {
@@ -22,18 +22,18 @@ impl Compass {
         Self { azimuth, elevation, direction: vector, cosine }
     }
 
-    /// Towards growing azimuth: a unit vector.
+    /// Returns the unit vector towards growing azimuth.
     fn east(&self) -> Option<DVec3> {
         let DVec3 { x, z, .. } = self.direction;
         (self.cosine > POLE).then(|| DVec3::new(-z, 0.0, x) / self.cosine)
     }
 
-    /// How azimuth grows; `None` at the poles.
+    /// Returns the gradient of the azimuth; `None` at the poles.
     pub(crate) fn azimuth_gradient(&self) -> Option<DVec3> {
         Some(self.east()? / self.cosine)
     }
 
-    /// How elevation grows; `None` at the poles.
+    /// Returns the gradient of the elevation; `None` at the poles.
     pub(crate) fn elevation_gradient(&self) -> Option<DVec3> {
         Some(self.east()?.cross(self.direction))
     }

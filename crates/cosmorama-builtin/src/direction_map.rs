@@ -2,28 +2,29 @@ use cosmorama::camera::View;
 use cosmorama::raster::Image;
 use rayon::prelude::*;
 
-/// A map of where each pixel of a view looks, for other programs to take our geometry from.
+/// A map of the direction of each pixel of a view, through which other programs can use our geometry.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct DirectionMap {
-    /// Whether it holds the footprint, too: how the direction changes from a pixel to the next.
+    /// Whether it also holds the footprint: the change of the direction from pixel to pixel.
     pub footprint: bool,
 }
 
-/// The numbers of a pixel: its direction, and its change for one pixel to the right and one down; x, y and z of each.
+/// Values of a pixel: its direction, and the change for one pixel to the right and one down; x, y and z of each.
 pub type DirectionPixel = [f32; 9];
 
-/// Their names, in their order.
+/// Names of the values, in their order.
 const CHANNELS: [&str; 9] =
     ["direction.X", "direction.Y", "direction.Z", "dx.X", "dx.Y", "dx.Z", "dy.X", "dy.Y", "dy.Z"];
 
 impl DirectionMap {
-    /// The names of the channels that it holds, in the order of a pixel's numbers.
+    /// Returns the names of the channels, in the order of a pixel's values.
     pub fn channels(self) -> &'static [&'static str] {
         if self.footprint { &CHANNELS } else { &CHANNELS[..3] }
     }
 
-    /// Makes the map of a view: unit vectors in the world's frame (+X right, +Y up, −Z front) and their derivatives per
-    /// pixel, in radians, at each pixel's middle. Pixels whose middle shows nothing are zero, which no direction is.
+    /// Computes the map of a view: unit vectors in the world's frame (+X right, +Y up, −Z front) at each pixel's
+    /// centre, and their derivatives per pixel, in radians. Pixels whose centre shows nothing are zero, which no
+    /// direction is.
     pub fn pixels(self, view: &View) -> Image<DirectionPixel> {
         let mut image = Image::filled(view.width(), view.height(), [0.0; 9]);
         image.pixels_mut().par_chunks_mut(view.width().max(1)).enumerate().for_each(|(j, row)| {

@@ -3,8 +3,8 @@ use cosmorama::sphere::Direction;
 
 use crate::{Average, Radiance};
 
-/// The world whose colour is its direction: red, green and blue are x, y and z from −1…1 brought to 0…1. It is as good
-/// as linear within a pixel, so a pixel has the colour of its middle.
+/// A world whose colour is its direction: x, y and z from −1…1 become red, green and blue from 0…1. It is nearly linear
+/// within a pixel, so a pixel has the colour of its centre.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Directions;
 

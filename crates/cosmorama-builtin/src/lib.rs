@@ -1,8 +1,8 @@
 //! Procedural worlds for cosmorama: radiance by direction, given by formula.
 //!
-//! A world here is infinitely sharp: [`Radiance`] is a point sample. [`picture()`] makes a view's picture of it, each pixel
-//! the weighted mean of what it sees, by formula where the world has one. [`BuiltinWorld`] is the list of worlds that users
-//! can name. A [`DirectionMap`] says where each pixel of a view looks.
+//! These worlds have unlimited detail: [`Radiance`] is a point sample. [`picture()`] renders a view of a world. Each
+//! pixel is a weighted mean, by formula if the world has one. [`BuiltinWorld`] lists the worlds that users can name. A
+//! [`DirectionMap`] holds the direction of each pixel of a view.
 #![forbid(unsafe_code)]
 
 mod builtin_world;

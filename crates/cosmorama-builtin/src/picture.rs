@@ -5,16 +5,16 @@ use rayon::prelude::*;
 use crate::pixel_window::sample_places;
 use crate::{Average, Radiance};
 
-/// Sides of the grids of samples: that which looks for edges, that which resolves them, that for intricate pixels.
+/// Sides of the sample grids: to look for edges, to resolve edges, and for intricate pixels.
 const COARSE: usize = 2;
 const FINE: usize = 5;
 const FINEST: usize = 16;
 
-/// The least relative difference between samples that counts as an edge.
+/// Least relative difference between samples that counts as an edge.
 const CONTRAST: f32 = 0.1;
 
-/// Makes a view's picture of a world, in linear light: each pixel weighted by exp(−2r²) around its middle, by formula
-/// where the world has one, else by samples. Pixels that the field of view cuts are covered in part; those outside are
+/// Renders a view of a world in linear light. Each pixel is weighted by exp(−2r²) around its centre, by formula if the
+/// world has one, else by samples. Pixels that the field of view cuts are partly covered, and those outside are
 /// transparent. The result does not depend on the number of threads.
 pub fn picture(world: &impl Radiance, view: &View) -> Image<Rgba> {
     let [coarse, fine, finest] = [COARSE, FINE, FINEST].map(sample_places);
@@ -39,7 +39,7 @@ pub fn picture(world: &impl Radiance, view: &View) -> Image<Rgba> {
     image
 }
 
-/// The samples of one pixel, summed up.
+/// Sums of the samples of one pixel.
 struct Samples {
     count: usize,
     sum: [f32; 3],
@@ -48,7 +48,7 @@ struct Samples {
 }
 
 impl Samples {
-    /// Looks through a pixel at places around its middle, as far as the projection goes.
+    /// Samples a pixel at places around its centre, where the projection has directions.
     fn of(world: &impl Radiance, view: &View, (i, j): (usize, usize), places: &[(f64, f64)]) -> Self {
         let mut seen = Self { count: 0, sum: [0.0; 3], least: [f32::INFINITY; 3], greatest: [0.0; 3] };
         let middle = PixelPoint::centre(i, j);
@@ -64,9 +64,9 @@ impl Samples {
         seen
     }
 
-    /// Whether they differ visibly.
+    /// Returns whether samples differ visibly.
     fn differ(&self) -> bool {
-        /// Differences in deep shadow do not matter: light below this counts as this much.
+        /// Light below which differences in shadow are ignored.
         const SHADOW: f32 = 0.05;
         (0..3).any(|c| self.greatest[c] - self.least[c] > CONTRAST * (self.greatest[c] + SHADOW))
     }

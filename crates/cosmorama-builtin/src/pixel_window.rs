@@ -1,25 +1,24 @@
-//! The window that weighs light around a pixel's middle: exp(−2r²), Greene and Heckbert's Gaussian.
+//! The weighting window around a pixel's centre: exp(−2r²), Greene and Heckbert's Gaussian.
 
 use cosmorama::camera::Footprint;
 use glam::DVec3;
 
-/// Its standard deviation, in pixels.
+/// Standard deviation of the window in pixels.
 const SIGMA: f64 = 0.5;
 
-/// How far a pixel blurs a quantity that grows by `gradient` a radian: the standard deviation of what its window sees
-/// of it.
+/// Returns the standard deviation of a quantity within the window, given the quantity's gradient per radian.
 pub(crate) fn spread(pixel: &Footprint, gradient: DVec3) -> f64 {
     SIGMA * pitch(pixel, gradient)
 }
 
-/// How much a quantity that grows by `gradient` a radian changes from a pixel to the next, both ways taken together.
+/// Returns the change of a quantity from pixel to pixel, in both directions together, given its gradient per radian.
 pub(crate) fn pitch(pixel: &Footprint, gradient: DVec3) -> f64 {
     let (x, y) = (gradient.dot(pixel.jacobian.dx), gradient.dot(pixel.jacobian.dy));
     // hypot() cares for overflow, at ten times the price.
     (x * x + y * y).sqrt()
 }
 
-/// The part of a window of this spread that lies on the near side of an edge, `distance` beyond its middle.
+/// Returns the fraction of a window of this spread on the near side of an edge, `distance` beyond its centre.
 pub(crate) fn part_within(distance: f64, spread: f64) -> f64 {
     // Further out the window holds less than 1e-6.
     const END: f64 = 5.0;
@@ -35,13 +34,13 @@ pub(crate) fn part_within(distance: f64, spread: f64) -> f64 {
     }
 }
 
-/// The part of a window that a line covers whose middle passes at a distance.
+/// Returns the fraction of a window that a line covers, given the distance of the line's middle.
 pub(crate) fn part_on_line(distance: f64, half_width: f64, spread: f64) -> f64 {
     part_within(half_width - distance, spread) - part_within(-half_width - distance, spread)
 }
 
-/// The places of side² samples around a pixel's middle, as dense as the window is high, so that all count alike. No two
-/// share a column or a row: an edge along the pixels gets as many steps as there are samples.
+/// Returns the places of side² samples around a pixel's centre, as dense as the window is high, so that all have equal
+/// weight. No two share a column or a row: an edge along the pixels gets as many steps as there are samples.
 pub(crate) fn sample_places(side: usize) -> Vec<(f64, f64)> {
     let n = side as f64;
     let place = |coarse: usize, fine: usize| SIGMA * quantile((coarse as f64 + (fine as f64 + 0.5) / n) / n);
@@ -49,7 +48,7 @@ pub(crate) fn sample_places(side: usize) -> Vec<(f64, f64)> {
     (0..side * side).map(|k| (k % side, k / side)).map(|(a, b)| (place(a, b), place(b, side - 1 - a))).collect()
 }
 
-/// The integral of the standard normal distribution (Abramowitz & Stegun 26.2.17; to 1e-7).
+/// Returns the integral of the standard normal distribution (Abramowitz & Stegun 26.2.17; to 1e-7).
 fn normal(x: f64) -> f64 {
     let t = (1.0 + 0.231_641_9 * x.abs()).recip();
     let series =
@@ -58,7 +57,7 @@ fn normal(x: f64) -> f64 {
     if x > 0.0 { 1.0 - beyond } else { beyond }
 }
 
-/// Where [`normal`] reaches a part.
+/// Returns the inverse of [`normal`].
 fn quantile(part: f64) -> f64 {
     let (mut low, mut high) = (-8.0, 8.0);
     for _ in 0..50 {

@@ -3,14 +3,14 @@ use cosmorama::sphere::Direction;
 
 /// A world given by formula: how much light comes from each direction.
 ///
-/// Linear light, Rec. 709 primaries, finite and never negative; 1 is the white of an integer image.
-/// It is a point sample without any filter, so whoever makes pixels of it must average.
+/// Light is linear, in Rec. 709 primaries, finite and never negative; 1 is the white of an integer image. It is a point
+/// sample without any filter, so a renderer must average.
 pub trait Radiance: Sync {
-    /// Red, green and blue light that arrives from `direction`.
+    /// Returns the red, green and blue light that arrives from `direction`.
     fn radiance(&self, direction: Direction) -> [f32; 3];
 
-    /// The mean of the light over a pixel, weighted by exp(−2r²), r in pixels from its middle, as far as the formula
-    /// gives it.
+    /// Returns the mean light over a pixel, weighted by exp(−2r²) with r in pixels from its centre, if a formula gives
+    /// it.
     fn average(&self, pixel: &Footprint) -> Average {
         let _ = pixel;
         Average::Unknown
@@ -23,13 +23,13 @@ impl<F: Fn(Direction) -> [f32; 3] + Sync> Radiance for F {
     }
 }
 
-/// What a formula knows of the light of a pixel.
+/// Knowledge of a formula about the light of a pixel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Average {
-    /// Its mean.
+    /// The mean light.
     Known([f32; 3]),
-    /// That it changes a lot within the pixel: many samples have to be averaged.
+    /// The light varies a lot within the pixel, so many samples are needed.
     Intricate,
-    /// Nothing: some samples have to tell how many are needed.
+    /// Nothing is known, so samples must tell how many are needed.
     Unknown,
 }

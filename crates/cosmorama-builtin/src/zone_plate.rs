@@ -5,17 +5,17 @@ use glam::DVec3;
 use crate::pixel_window::pitch;
 use crate::{Average, Radiance};
 
-/// Rings around each of the six axes, ever finer outwards: from none in the middle to eight a degree at 45°. They meet
-/// where the faces of a cube do. A pixel shows rings as far as pixels can, then grey: a picture of it has false rings
-/// only if somebody made them later.
+/// Rings around each of the six axes, ever finer outwards: from none at the axis to eight cycles per degree at 45°,
+/// where the faces of a cube meet. Rings that pixels cannot show become grey, so false rings in a conversion come from
+/// the conversion.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct ZonePlate;
 
-/// How the rings' frequency grows, in cycles a radian for each radian from the axis.
+/// Growth of the rings' frequency, in cycles per radian for each radian from the axis.
 const CHIRP: f64 = 8.0 / 45.0 * (180.0 / std::f64::consts::PI) * (180.0 / std::f64::consts::PI);
 
-/// Cycles a pixel up to which rings are shown whole, and from which on they are grey: half a cycle a pixel is the most
-/// that pixels can show, and near it they beat.
+/// Cycles per pixel up to which rings are fully visible, and beyond which they are grey. Pixels can show half a cycle
+/// per pixel at most, and near that limit rings beat.
 const WHOLE: f64 = 0.25;
 const GREY: f64 = 0.5;
 
@@ -33,7 +33,7 @@ impl Radiance for ZonePlate {
     }
 }
 
-/// The angle from the nearest axis, and the unit tangent that points away from it.
+/// Returns the angle from the nearest axis, and the unit tangent that points away from it.
 fn angle_from_axis(direction: DVec3) -> (f64, DVec3) {
     let size = direction.abs();
     let axis = if size.x >= size.y && size.x >= size.z {
@@ -53,7 +53,7 @@ fn rings(angle: f64, contrast: f64) -> f32 {
     (0.5 + 0.5 * contrast * (std::f64::consts::PI * CHIRP * angle * angle).cos()) as f32
 }
 
-/// The part of the contrast that pixels show of so many cycles each.
+/// Returns the contrast that pixels show at a number of cycles per pixel.
 fn shown(cycles: f64) -> f64 {
     let beyond = ((cycles - WHOLE) / (GREY - WHOLE)).clamp(0.0, 1.0);
     0.5 + 0.5 * (std::f64::consts::PI * beyond).cos()

@@ -17,14 +17,14 @@ use ray::{Hit, Part, Ray, Surface};
 /// Height of the eyes above the ground, in metres.
 const EYE_HEIGHT: f64 = 1.6;
 
-/// The demo world, seen from a point between its columns: a checkered floor to the horizon, an arcade with a
-/// barrel vault of iron lattice overhead, lamps on thin rods, a notice that hangs ahead and reads
-/// "COSMORAMA 1986", stepped pyramids to the left and behind, a mirroring ball to the right, a balloon,
-/// clouds and a low sun. Full of thin lines and edges, because these show aliasing and seams.
+/// The demo world, seen from a point between its columns. It has a checkered floor that reaches the horizon, an arcade
+/// with a barrel vault of iron lattice, lamps on thin rods, a notice ahead that reads "COSMORAMA 1986", stepped
+/// pyramids to the left and behind, a mirror ball to the right, a balloon, clouds and a low sun. Its many thin lines
+/// and edges show aliasing and seams.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct DemoWorld;
 
-/// Everything that can be met, cheap and near things first.
+/// Parts of the world; cheap and near ones come first.
 const PARTS: [&dyn Part; 9] = [
     &thing::ground::Ground,
     &thing::vault::Vault,
@@ -49,7 +49,7 @@ impl Radiance for DemoWorld {
     }
 }
 
-/// The light along a ray, and where a mirror sends the ray on with what share of the light.
+/// Returns the light along a ray, and the mirrored ray with its share of the light.
 fn look(ray: &Ray) -> (DVec3, Option<(Ray, f64)>) {
     let Some(hit) = first_hit(ray) else { return (sky::light(ray.direction), None) };
     let point = ray.at(hit.distance);
@@ -69,7 +69,7 @@ fn first_hit(ray: &Ray) -> Option<Hit> {
     nearest
 }
 
-/// Light that a surface sends off by itself: its glow, and what it scatters of sun and sky.
+/// Returns the light that leaves a surface: its own glow, and the scattered light of sun and sky.
 fn shade(point: DVec3, hit: &Hit) -> DVec3 {
     let Surface { albedo, glow, mirror } = hit.surface;
     let facing = hit.normal.dot(sky::SUN);
@@ -82,7 +82,7 @@ fn shade(point: DVec3, hit: &Hit) -> DVec3 {
     glow + albedo * (sun + sky::ambient(hit.normal)) * (1.0 - mirror)
 }
 
-/// The mirrored ray and its share of light: more at grazing angles (Schlick's approximation).
+/// Returns the mirrored ray and its share of light, which grows at grazing angles (Schlick's approximation).
 fn mirrored(ray: &Ray, point: DVec3, hit: &Hit) -> Option<(Ray, f64)> {
     let mirror = hit.surface.mirror;
     if mirror <= 0.0 {

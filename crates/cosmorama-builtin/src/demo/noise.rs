@@ -1,7 +1,6 @@
 use glam::DVec2;
 
-/// Smooth noise between 0 and 1: random values on the whole-numbered points of the plane, with a smooth
-/// blend between.
+/// Returns smooth noise between 0 and 1: random values at integer points of the plane, blended smoothly between them.
 pub(in crate::demo) fn noise(point: DVec2) -> f64 {
     let (column, row) = (floor(point.x), floor(point.y));
     let within = point - DVec2::new(column as f64, row as f64);
@@ -13,13 +12,13 @@ pub(in crate::demo) fn noise(point: DVec2) -> f64 {
     top + (bottom - top) * blend.y
 }
 
-/// The standard floor is a function call on older processors, and noise takes many.
+/// Rounds down. The standard floor is a function call on older processors, and noise calls it often.
 fn floor(value: f64) -> i64 {
     let toward_zero = value as i64;
     toward_zero - i64::from(value < toward_zero as f64)
 }
 
-/// Noise in octaves, each twice as fine and half as strong; between 0 and 1.
+/// Returns noise in octaves, each twice as fine and half as strong; between 0 and 1.
 pub(in crate::demo) fn octaves(point: DVec2, count: u32) -> f64 {
     let (mut sum, mut total, mut strength, mut point) = (0.0, 0.0, 1.0, point);
     for _ in 0..count {
@@ -32,7 +31,7 @@ pub(in crate::demo) fn octaves(point: DVec2, count: u32) -> f64 {
     sum / total
 }
 
-/// A value between 0 and 1 for a lattice point: bits mixed by multiplications.
+/// Returns a value between 0 and 1 for a lattice point, by mixing bits with multiplications.
 fn hash(column: u32, row: u32) -> f64 {
     let mut bits = column.wrapping_mul(0x9E37_79B1) ^ row.wrapping_mul(0x85EB_CA77);
     bits = (bits ^ (bits >> 15)).wrapping_mul(0x2C1B_3C6D);
@@ -40,7 +39,7 @@ fn hash(column: u32, row: u32) -> f64 {
     f64::from(bits ^ (bits >> 15)) / f64::from(u32::MAX)
 }
 
-/// 0 below `low`, 1 above `high`, smooth between.
+/// Returns 0 below `low`, 1 above `high`, and a smooth transition between.
 pub(in crate::demo) fn smoothstep(low: f64, high: f64, value: f64) -> f64 {
     let t = ((value - low) / (high - low)).clamp(0.0, 1.0);
     t * t * (3.0 - 2.0 * t)

@@ -2,20 +2,20 @@ use glam::{DVec2, DVec3};
 
 use super::noise::{noise, octaves, smoothstep};
 
-/// Where the sun stands: 28° left of the front, 33° high. A unit vector.
+/// Direction of the sun, a unit vector: 28° left of the front, 33° high.
 pub(in crate::demo) const SUN: DVec3 = DVec3::new(-0.393731982196, 0.544639035015, -0.740502159169);
-/// Sunlight on a surface that faces the sun.
+/// Light of the sun on a surface that faces it.
 pub(in crate::demo) const SUNLIGHT: DVec3 = DVec3::new(1.62, 1.12, 0.66);
-/// Cosine of the sun's radius of 0.7°, larger than life as in a painting.
+/// Cosine of the sun's angular radius of 0.7°, which is larger than in reality.
 const SUN_EDGE: f64 = 0.999_925_37;
-/// The sun's disc itself: bright enough to burn into everything that filters badly.
+/// Radiance of the sun's disc, bright enough to show faults of a filter.
 const DISC: DVec3 = DVec3::new(30.0, 24.0, 15.0);
 
 const HORIZON: DVec3 = DVec3::new(0.93, 0.62, 0.40);
 const MIDDLE: DVec3 = DVec3::new(0.42, 0.48, 0.60);
 const ZENITH: DVec3 = DVec3::new(0.08, 0.19, 0.42);
 
-/// Light of the sky along a direction: hills, clouds, sun and air.
+/// Returns the light of the sky in a direction: hills, clouds, sun and air.
 pub(in crate::demo) fn light(direction: DVec3) -> DVec3 {
     let air = air(direction);
     let hills = hills(direction);
@@ -28,18 +28,18 @@ pub(in crate::demo) fn light(direction: DVec3) -> DVec3 {
     (air + disc).lerp(cloud, cover)
 }
 
-/// How much of a thing's own light is left after a distance through the air.
+/// Returns the fraction of an object's light that is left after a distance through the air.
 pub(in crate::demo) fn clarity(distance: f64) -> f64 {
     (-distance / 260.0).exp()
 }
 
-/// What far things fade into: the air at the horizon below or above them.
+/// Returns the colour of the haze into which distant objects fade.
 pub(in crate::demo) fn haze(direction: DVec3) -> DVec3 {
     let flat = DVec3::new(direction.x, 0.0, direction.z).try_normalize().unwrap_or(DVec3::NEG_Z);
     air(flat)
 }
 
-/// Light of the sky and of the lit ground on a surface that looks along `normal`.
+/// Returns the light of the sky and of the sunlit ground on a surface that faces `normal`.
 pub(in crate::demo) fn ambient(normal: DVec3) -> DVec3 {
     const ABOVE: DVec3 = DVec3::new(0.40, 0.43, 0.52);
     const BELOW: DVec3 = DVec3::new(0.30, 0.22, 0.17);
@@ -60,7 +60,7 @@ fn air(direction: DVec3) -> DVec3 {
     gradient + glow
 }
 
-/// Sine of the elevation of the hills' outline.
+/// Returns the sine of the elevation of the hills' outline.
 fn hills(direction: DVec3) -> f64 {
     if direction.y > 0.15 {
         return 0.0;
@@ -69,7 +69,7 @@ fn hills(direction: DVec3) -> f64 {
     0.012 + 0.085 * octaves(flat * 2.3 + DVec2::splat(3.7), 5).powi(2)
 }
 
-/// Cover and colour of the clouds: a flat layer, thinner towards the horizon.
+/// Returns cover and colour of the clouds: a flat layer, thinner towards the horizon.
 fn clouds(direction: DVec3) -> (f64, DVec3) {
     let ceiling = DVec2::new(direction.x, direction.z) / (direction.y + 0.12);
     let point = ceiling * DVec2::new(1.5, 2.1) + DVec2::new(5.2, 1.3);

@@ -4,7 +4,7 @@ use glam::{DVec2, DVec3};
 
 use super::ray::Ray;
 
-/// Where a ray enters a solid: distance and outward normal. Rays that start inside a solid do not meet it.
+/// Entry of a ray into a solid: distance and outward normal. Rays that start inside a solid do not hit it.
 pub(in crate::demo) type Entry = (f64, DVec3);
 
 /// A ball.
@@ -27,7 +27,7 @@ impl Ball {
     }
 }
 
-/// A box along the axes.
+/// A box aligned with the axes.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::demo) struct Cuboid {
     pub(in crate::demo) least: DVec3,
@@ -35,7 +35,7 @@ pub(in crate::demo) struct Cuboid {
 }
 
 impl Cuboid {
-    /// Where along the ray it is inside the box: the quick test for what the box surrounds.
+    /// Returns the range of distances at which the ray is inside the box: a quick test for its contents.
     pub(in crate::demo) fn inside(&self, ray: &Ray) -> Option<(f64, f64)> {
         let (enter, leave, _) = self.span(ray);
         let (enter, leave) = (enter.max(0.0), leave.min(ray.reach));
@@ -52,7 +52,7 @@ impl Cuboid {
         Some((enter, normal))
     }
 
-    /// Distances at which the ray's line enters and leaves, and the axis along which it enters.
+    /// Returns the distances at which the ray's line enters and leaves, and the axis of the face where it enters.
     fn span(&self, ray: &Ray) -> (f64, f64, usize) {
         let (mut enter, mut leave) = (f64::NEG_INFINITY, f64::INFINITY);
         let mut axis = 0;
@@ -68,10 +68,10 @@ impl Cuboid {
     }
 }
 
-/// An upright cylinder with a floor and a lid.
+/// An upright cylinder with top and bottom.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::demo) struct Drum {
-    /// x and z of its axis.
+    /// x and z of the cylinder's axis.
     pub(in crate::demo) axis: DVec2,
     pub(in crate::demo) radius: f64,
     pub(in crate::demo) bottom: f64,
@@ -93,7 +93,7 @@ impl Drum {
         Some((enter, DVec3::new(outward.x, 0.0, outward.z)))
     }
 
-    /// The least and greatest height that a ray has inside: the quick test for what the drum surrounds.
+    /// Returns the range of heights of the ray inside: a quick test for the drum's contents.
     pub(in crate::demo) fn heights(&self, ray: &Ray) -> Option<(f64, f64)> {
         let (side_in, side_out) = self.side(ray)?;
         let (lid_in, lid_out) = slab(ray.origin.y, ray.inverse.y, self.bottom, self.top);
@@ -102,7 +102,7 @@ impl Drum {
         (enter < leave).then_some((a.min(b), a.max(b)))
     }
 
-    /// Distances at which the ray's line enters and leaves the endless cylinder.
+    /// Returns the distances at which the ray's line enters and leaves the infinite cylinder.
     fn side(&self, ray: &Ray) -> Option<(f64, f64)> {
         let from_axis = DVec2::new(ray.origin.x, ray.origin.z) - self.axis;
         let across = DVec2::new(ray.direction.x, ray.direction.z);
@@ -118,32 +118,32 @@ impl Drum {
     }
 }
 
-/// Distances at which a ray enters and leaves the slab between two planes, along one axis. For a ray along
-/// the planes the inverse is infinite, and so are the distances, as is wanted.
+/// Returns the distances at which a ray enters and leaves the slab between two planes, along one axis. For a ray
+/// parallel to the planes the inverse is infinite, and so are the distances, as required.
 fn slab(origin: f64, inverse: f64, least: f64, greatest: f64) -> (f64, f64) {
     let (a, b) = ((least - origin) * inverse, (greatest - origin) * inverse);
     (a.min(b), a.max(b))
 }
 
-/// Equal things in a row along z, so that a ray tests only those that it passes.
+/// A row of equal objects along z, of which a ray tests only those that it passes.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::demo) struct Row {
-    /// Where the row stands.
+    /// x of the row.
     pub(in crate::demo) x: f64,
-    /// z of the first thing, the one furthest to the front.
+    /// z of the first object, the one furthest to the front.
     pub(in crate::demo) first: f64,
     pub(in crate::demo) spacing: f64,
     pub(in crate::demo) count: usize,
-    /// No thing is wider than this about its axis.
+    /// Greatest radius of an object about its axis.
     pub(in crate::demo) radius: f64,
-    /// No thing is lower than this.
+    /// Lowest height of an object.
     pub(in crate::demo) bottom: f64,
-    /// No thing is higher than this.
+    /// Greatest height of an object.
     pub(in crate::demo) top: f64,
 }
 
 impl Row {
-    /// z of each thing that the ray may meet.
+    /// Visits the z of each object that the ray may hit.
     pub(in crate::demo) fn passed(&self, ray: &Ray) -> impl Iterator<Item = f64> + use<> {
         let (first, spacing) = (self.first, self.spacing);
         self.indices(ray).map(move |i| first + spacing * i as f64)

@@ -4,26 +4,26 @@ use glam::DVec3;
 
 use super::strokes::Stroke;
 
-/// Letters of one size, and what they are put beside: the coarser a picture, the larger and fewer.
+/// Lettering for one resolution: the coarser a picture, the larger and fewer its letters.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Scale {
     /// Height of capitals, in degrees.
     pub(super) height: f64,
-    /// From one azimuth to the next along the horizon.
+    /// Degrees between azimuths that are labelled along the horizon.
     azimuths: i32,
-    /// From one azimuth to the next along the parallels at 45°; `None` leaves these out.
+    /// Degrees between azimuths that are labelled along the parallels at 45°; `None` for none.
     at_45: Option<i32>,
-    /// The meridians with elevations beside them.
+    /// Degrees between meridians along which elevations are labelled.
     meridians: i32,
-    /// From one elevation to the next.
+    /// Degrees between labelled elevations.
     elevations: i32,
-    /// The last elevation on the meridians ahead, to the sides and behind, and on the others.
+    /// Last labelled elevation on the meridians of front, back and sides, and on the others.
     last: (i32, i32),
-    /// Whether the poles have their names.
+    /// Whether the poles are labelled.
     poles: bool,
 }
 
-/// The finest first: each has letters twice as high as those of the one before.
+/// Scales, the finest first; each has letters twice as high as the one before.
 pub(super) const SCALES: [Scale; 4] = [
     Scale { height: 1.4, azimuths: 10, at_45: Some(30), meridians: 30, elevations: 10, last: (80, 60), poles: true },
     Scale { height: 2.8, azimuths: 30, at_45: None, meridians: 90, elevations: 30, last: (60, 60), poles: true },
@@ -31,15 +31,15 @@ pub(super) const SCALES: [Scale; 4] = [
     Scale { height: 11.2, azimuths: 90, at_45: None, meridians: 90, elevations: 45, last: (45, 45), poles: false },
 ];
 
-/// From a line to the letters beside it, in heights of these.
+/// Gap between a line and its letters, in heights of capitals.
 const GAP: f64 = 0.36;
 
-/// What is said of azimuth and of elevation has about the colours of the lines.
+/// Colours of labels, close to those of their lines.
 const AZIMUTH: DVec3 = DVec3::new(0.55, 1.0, 0.6);
 const ELEVATION: DVec3 = DVec3::new(0.45, 0.8, 1.0);
 const NAME: DVec3 = DVec3::new(1.0, 1.0, 1.0);
 
-/// The strokes of all labels of a scale.
+/// Returns the strokes of all labels of a scale.
 pub(super) fn all(scale: &Scale) -> Vec<Stroke> {
     let mut strokes = Vec::new();
     let mut write = |colour: DVec3, text: &str, azimuth: i32, elevation: f64| {
@@ -72,7 +72,8 @@ pub(super) fn all(scale: &Scale) -> Vec<Stroke> {
     strokes
 }
 
-/// A label to the right of a line of azimuth and above one of elevation, upright as seen from the middle of the dome.
+/// Returns the strokes of a label to the right of a line of azimuth and above a line of elevation, upright as seen from
+/// the middle of the dome.
 fn label(height: f64, colour: DVec3, text: &str, azimuth: i32, elevation: f64) -> Vec<Stroke> {
     let (yaw, pitch) = (Angle::from_degrees(f64::from(azimuth)), Angle::from_degrees(elevation));
     let corner = Orientation::from_yaw_pitch_roll(yaw, pitch, Angle::ZERO);

@@ -5,24 +5,24 @@ use glam::DVec3;
 use crate::compass::Compass;
 use crate::pixel_window::{part_on_line, pitch, spread};
 
-/// How a line looks.
+/// Style of a line.
 struct Pen {
     colour: DVec3,
-    /// Degrees.
+    /// Width in degrees.
     width: f64,
 }
 
 /// Lines at the multiples of an angle.
 struct Family {
     pen: Pen,
-    /// Degrees from one to the next, and between those of them that another style draws.
+    /// Degrees between lines, and between those lines that another style draws.
     every: f64,
     except: f64,
-    /// Lines of azimuth end at this elevation, above and below, where they come too close.
+    /// Elevation, above and below, at which lines of azimuth end because they come too close.
     until: f64,
 }
 
-/// Weak ones first: the others lie over them.
+/// Styles from weak to strong; later ones cover earlier ones.
 const AZIMUTHS: [Family; 3] = [
     Family { pen: Pen { colour: DVec3::new(0.02, 0.16, 0.05), width: 0.06 }, every: 5.0, except: 10.0, until: 70.0 },
     Family { pen: Pen { colour: DVec3::new(0.06, 0.55, 0.14), width: 0.1 }, every: 10.0, except: 30.0, until: 80.0 },
@@ -32,18 +32,18 @@ const ELEVATIONS: [Family; 2] = [
     Family { pen: Pen { colour: DVec3::new(0.01, 0.12, 0.22), width: 0.06 }, every: 5.0, except: 10.0, until: 90.0 },
     Family { pen: Pen { colour: DVec3::new(0.03, 0.4, 0.75), width: 0.1 }, every: 10.0, except: 180.0, until: 90.0 },
 ];
-/// To the right, the back and the left, as far as the poles.
+/// Style of the meridians to the right, the back and the left, which extend to the poles.
 const MERIDIAN: Pen = Pen { colour: DVec3::new(0.2, 0.9, 0.3), width: 0.15 };
 const FRONT: DVec3 = DVec3::new(1.0, 0.08, 0.04);
 const HORIZON: Pen = Pen { colour: DVec3::new(1.0, 0.6, 0.02), width: 0.25 };
-/// The rings around zenith and nadir.
+/// Style of the rings around zenith and nadir.
 const MARK: Pen = Pen { colour: FRONT, width: 0.15 };
 const MARK_RADIUS: Angle = Angle::from_degrees(1.0);
 
-/// No line is thinner than this many pixels.
+/// Least width of a line in pixels.
 const LEAST_WIDTH: f64 = 1.0;
 
-/// Draws the lines that a pixel is on: a colour, and how much of the pixel it covers.
+/// Draws the lines on a pixel: for each a colour, and the fraction of the pixel that it covers.
 pub(super) fn draw(pixel: &Footprint, compass: &Compass, draw: &mut impl FnMut(DVec3, f64)) {
     let elevation = compass.elevation.degrees();
     if let Some(gradient) = compass.azimuth_gradient() {
@@ -76,7 +76,7 @@ pub(super) fn draw_marks(pixel: &Footprint, draw: &mut impl FnMut(DVec3, f64)) {
 }
 
 impl Family {
-    /// The part of a pixel on the nearest of the lines. Each radian of `angle` is `scale` radians of the sphere.
+    /// Returns the fraction of a pixel on the nearest line. Each radian of `angle` is `scale` radians of the sphere.
     fn nearest(&self, pixel: &Footprint, angle: Angle, scale: f64, gradient: DVec3) -> f64 {
         let every = Angle::from_degrees(self.every).radians();
         let multiple = (angle.radians() / every).round();
@@ -91,14 +91,14 @@ impl Family {
 }
 
 impl Pen {
-    /// The part of a pixel on the great circle in the plane at right angles to `pole`.
+    /// Returns the fraction of a pixel on the great circle perpendicular to `pole`.
     fn great_circle(&self, pixel: &Footprint, pole: DVec3) -> f64 {
         let direction = pixel.direction.vector();
         let sine = direction.dot(pole);
         self.line(pixel, sine.abs(), pole - direction * sine)
     }
 
-    /// The part of a pixel on a line whose middle passes at a distance in radians that grows along `gradient`.
+    /// Returns the fraction of a pixel on a line, given the distance to the line's middle in radians and its gradient.
     fn line(&self, pixel: &Footprint, distance: f64, gradient: DVec3) -> f64 {
         let half_width =
             (Angle::from_degrees(self.width).radians() / 2.0).max(LEAST_WIDTH / 2.0 * pitch(pixel, gradient));
@@ -106,7 +106,7 @@ impl Pen {
     }
 }
 
-/// From nothing to all between two values.
+/// Returns a linear ramp from 0 at `nothing` to 1 at `all`.
 pub(super) fn fade(value: f64, nothing: f64, all: f64) -> f64 {
     ((value - nothing) / (all - nothing)).clamp(0.0, 1.0)
 }

@@ -1,4 +1,4 @@
-//! The grid by which projectors are aligned on a dome.
+//! A grid for the alignment of projectors on a dome.
 
 mod labels;
 mod lines;
@@ -13,34 +13,35 @@ use crate::{Average, Radiance};
 use labels::{SCALES, Scale};
 use strokes::Strokes;
 
-/// Lines of azimuth and elevation on black: strong ones every 10°, weak ones every 5°, the horizon yellow, the line to the
-/// front red, degrees beside them, marks at the zenith and the nadir. Azimuth is 0 at the front and grows to the right.
+/// Lines of azimuth and elevation on black: strong ones every 10°, weak ones every 5°. The horizon is yellow, the line
+/// to the front red; degrees stand beside the lines, and rings mark zenith and nadir. Azimuth is 0 at the front and
+/// grows to the right.
 ///
-/// Lines have their width in degrees, but are never thinner than a pixel; where they would crowd, they fade. Where letters
-/// would be too small to read, fewer and larger ones stand in their place, as far as [`Grid::width_for_letters`] allows.
+/// Lines have a width in degrees, but never less than a pixel; where they would crowd, they fade. Where letters would
+/// be too small to read, fewer and larger ones replace them, as far as [`Grid::width_for_letters`] permits.
 #[derive(Clone, Debug)]
 pub struct Grid {
-    /// The finest first.
+    /// Labels by scale, the finest first.
     labels: Vec<Strokes>,
 }
 
-/// Letters are shown from so many pixels a capital on, whole from the second number.
+/// Height of a capital, in pixels, at which letters begin to appear, and at which they are fully visible.
 const LEGIBLE: (f64, f64) = (6.5, 7.0);
 
 impl Grid {
-    /// Where a picture is too coarse for any letters in its middle: the width from which on it has some.
+    /// Returns the width from which on a picture has letters in its middle; `None` if this one has some.
     pub fn width_for_letters(view: &View) -> Option<usize> {
         let height = Angle::from_degrees(SCALES[SCALES.len() - 1].height).radians() * view.pixels_per_radian();
         (height < LEGIBLE.1).then(|| (view.width() as f64 * LEGIBLE.1 / height).ceil() as usize)
     }
 
-    /// The grid, its letters laid out.
+    /// Creates the grid with all its labels.
     pub fn new() -> Self {
         let strokes = |scale: &Scale| Strokes::new(labels::all(scale), scale.height, LEGIBLE.0);
         Self { labels: SCALES.iter().map(strokes).collect() }
     }
 
-    /// Draws the finest letters that can be read.
+    /// Draws the finest letters that are legible.
     fn draw_labels(&self, pixel: &Footprint, compass: &Compass, draw: &mut impl FnMut(DVec3, f64)) {
         let step = pixel.jacobian.dx.length().max(pixel.jacobian.dy.length());
         let mut left = 1.0;

@@ -5,7 +5,7 @@ use glam::DVec3;
 use crate::compass::Compass;
 use crate::pixel_window::{part_on_line, spread};
 
-/// A straight stroke of a pen, short beside the sphere.
+/// A straight stroke of a pen, short compared with the sphere.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Stroke {
     pub(super) colour: DVec3,
@@ -13,31 +13,32 @@ pub(super) struct Stroke {
     pub(super) to: DVec3,
 }
 
-/// Strokes of letters, found by where they are: a table of fields of azimuth and elevation, each with the strokes near it.
+/// Strokes of letters, indexed by place: a table of fields of azimuth and elevation, each with the strokes near it.
 #[derive(Clone, Debug)]
 pub(super) struct Strokes {
     fields: Vec<Vec<Stroke>>,
     pen: Pen,
 }
 
-/// What draws strokes; in radians.
+/// Properties of the pen, in radians.
 #[derive(Clone, Copy, Debug)]
 struct Pen {
     width: f64,
-    /// No pixel that shows the strokes sees further than this.
+    /// Greatest reach of a pixel that shows the strokes.
     reach: f64,
 }
 
-/// Side of a field in degrees, and how many there are.
+/// Side of a field in degrees, and number of fields.
 const FIELD: f64 = 5.0;
 const COLUMNS: usize = 72;
 const ROWS: usize = 36;
 
-/// A stroke's width, in heights of capitals.
+/// Width of a stroke, in heights of capitals.
 const WIDTH: f64 = 0.125;
 
 impl Strokes {
-    /// The strokes of letters whose capitals have a height, in degrees, for pictures in which that is so many pixels at least.
+    /// Indexes the strokes of letters with capitals of a height in degrees, for pictures in which that is at least
+    /// `least_pixels`.
     pub(super) fn new(strokes: Vec<Stroke>, height: f64, least_pixels: f64) -> Self {
         let height = Angle::from_degrees(height).radians();
         let width = WIDTH * height;
@@ -51,7 +52,7 @@ impl Strokes {
         Self { fields, pen }
     }
 
-    /// Draws a part of the stroke that covers most of a pixel: those that meet are one line, not two on top of each other.
+    /// Draws the stroke that covers most of a pixel: strokes that meet count once, not twice.
     pub(super) fn draw(&self, pixel: &Footprint, compass: &Compass, shown: f64, draw: &mut impl FnMut(DVec3, f64)) {
         let parts = self.fields[field(compass)].iter().map(|stroke| (stroke.colour, stroke.cover(self.pen, pixel)));
         if let Some((colour, part)) = parts.max_by(|a, b| a.1.total_cmp(&b.1)) {
@@ -66,7 +67,7 @@ fn field(compass: &Compass) -> usize {
     cell(elevation, ROWS) * COLUMNS + cell(azimuth, COLUMNS)
 }
 
-/// The middle of a field, and how far its corners are from it at most.
+/// Returns the middle of a field, and the greatest distance of its corners from it.
 fn bounds(column: usize, row: usize) -> (DVec3, f64) {
     let at = |column: f64, row: f64| {
         let (azimuth, elevation) = (column * FIELD - 180.0, row * FIELD - 90.0);
@@ -80,7 +81,7 @@ fn bounds(column: usize, row: usize) -> (DVec3, f64) {
 }
 
 impl Stroke {
-    /// The point of the stroke that is nearest to another.
+    /// Returns the point of the stroke that is nearest to a point.
     fn nearest(&self, point: DVec3) -> DVec3 {
         let along = self.to - self.from;
         let length = along.length_squared();
@@ -92,7 +93,7 @@ impl Stroke {
         self.nearest(middle).distance(middle) <= radius
     }
 
-    /// The part of a pixel that the stroke covers, its ends round.
+    /// Returns the fraction of a pixel that the stroke covers, with round ends.
     fn cover(&self, pen: Pen, pixel: &Footprint) -> f64 {
         let point = pixel.direction.vector();
         let aside = point - self.nearest(point);

@@ -7,10 +7,10 @@ use crate::demo::solid::{Ball, Cuboid, Drum};
 pub(in crate::demo) struct Balloon;
 
 const ENVELOPE: Ball = Ball { centre: DVec3::new(49.0, 27.0, -45.0), radius: 8.5 };
-/// Lengths of cloth round the envelope.
+/// Number of gores in the envelope.
 const GORES: f64 = 16.0;
 const CAR: Cuboid = Cuboid { least: DVec3::new(47.6, 10.6, -46.4), greatest: DVec3::new(50.4, 12.4, -43.6) };
-/// Round all of it, for the many rays that pass far from it.
+/// Bounding box, for the many rays that miss it.
 const BOUNDS: Cuboid = Cuboid { least: DVec3::new(40.0, 10.0, -54.0), greatest: DVec3::new(58.0, 36.0, -36.0) };
 const ROPE_SPREAD: f64 = 1.25;
 

@@ -60,7 +60,7 @@ fn column(ray: &Ray, axis: DVec2) -> Option<Hit> {
     })
 }
 
-/// The normal in a flute: the shaft stays round, its shading is hollowed.
+/// Returns the normal in a flute: the shaft's outline stays round, only its shading is hollow.
 fn flute(normal: DVec3) -> DVec3 {
     let phase = normal.z.atan2(normal.x) * FLUTES / std::f64::consts::TAU;
     let aside = (phase - phase.round()) * 2.0;
@@ -81,14 +81,14 @@ fn beam(ray: &Ray, side: f64) -> Option<Hit> {
     Some(Hit { distance, normal, surface: Surface::matte(colour) })
 }
 
-/// The cities that a cosmorama showed, once round each row of columns.
+/// The inscription: cities in which cosmoramas were shown, repeated around each row of columns.
 const CITIES: Line =
     Line { text: "PARIS * WIEN * LONDON * ROMA * CAIRO * ", middle: DVec2::new(0.0, 4.92), height: 0.24 };
 
-/// Brings no city behind the lamp beside the viewer.
+/// Offset of the inscription that keeps words clear of the lamp beside the viewer.
 const BETWEEN_LAMPS: f64 = -1.43;
 
-/// Colour of a beam's side: mouldings, a row of dentils and, on the inward side, the inscription.
+/// Returns the colour of a beam's side: mouldings, a row of dentils, and on the inner side the inscription.
 fn frieze(point: DVec3, normal: DVec3, inward: Option<f64>) -> DVec3 {
     const SHADOWED: DVec3 = DVec3::new(0.30, 0.20, 0.13);
     if normal.y.abs() > 0.5 {

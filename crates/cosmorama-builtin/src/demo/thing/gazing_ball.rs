@@ -3,12 +3,12 @@ use glam::{DVec2, DVec3};
 use crate::demo::ray::{Hit, Part, Ray, Surface, nearer};
 use crate::demo::solid::{Ball, Cuboid, Drum};
 
-/// A ball of silvered glass on a pedestal, out to the right: the whole world once more.
+/// A ball of silvered glass on a pedestal, to the right, which mirrors the whole world.
 pub(in crate::demo) struct GazingBall;
 
 const AXIS: DVec2 = DVec2::new(8.6, -1.4);
 const BALL: Ball = Ball { centre: DVec3::new(AXIS.x, 2.45, AXIS.y), radius: 1.35 };
-/// Round ball and pedestal, for the many rays that pass them.
+/// Bounding box of ball and pedestal, for the many rays that miss them.
 const BOUNDS: Cuboid = Cuboid {
     least: DVec3::new(AXIS.x - BALL.radius, 0.0, AXIS.y - BALL.radius),
     greatest: DVec3::new(AXIS.x + BALL.radius, BALL.centre.y + BALL.radius, AXIS.y + BALL.radius),

@@ -6,8 +6,8 @@ use crate::demo::hall;
 use crate::demo::noise::noise;
 use crate::demo::ray::{Hit, Part, Ray, Surface};
 
-/// The floor, which runs on to the horizon: polished marble in the arcade, paving outside, a compass rose
-/// under the viewer.
+/// The floor, which extends to the horizon: polished marble in the arcade, paving outside, and a compass rose under the
+/// viewer.
 pub(in crate::demo) struct Ground;
 
 const IVORY: DVec3 = DVec3::new(0.78, 0.72, 0.62);

@@ -10,16 +10,16 @@ pub(in crate::demo) struct Panel;
 
 const PLANE: f64 = -7.6;
 const MIDDLE: DVec2 = DVec2::new(0.0, 3.55);
-/// Half its width and half its height.
+/// Half the panel's width and half its height.
 const HALF: DVec2 = DVec2::new(2.45, 1.15);
-/// Round the board and its hangers, for the many rays that pass them.
+/// Bounding box of the board and its hangers, for the many rays that miss them.
 const BOUNDS: Cuboid = Cuboid {
     least: DVec3::new(-HALF.x, MIDDLE.y - HALF.y, PLANE - 0.02),
     greatest: DVec3::new(HALF.x, hall::SPRINGING + hall::HALF_WIDTH, PLANE + 0.02),
 };
 const HANGERS: [f64; 2] = [-1.9, 1.9];
 
-/// From the panel's middle.
+/// Lines of text, placed from the panel's middle.
 const LINES: [Line; 6] = [
     Line { text: "COSMORAMA", middle: DVec2::new(0.0, 0.66), height: 0.46 },
     Line { text: "1986", middle: DVec2::new(0.0, 0.20), height: 0.34 },
@@ -60,7 +60,7 @@ fn board(ray: &Ray) -> Option<Hit> {
     Some(Hit { distance, normal: DVec3::Z * -ray.direction.z.signum(), surface })
 }
 
-/// The printed side: a gilt frame, a double rule, the lines of text and a chart of ever finer bars.
+/// Returns the surface of the printed side: a gilt frame, a double rule, lines of text, and a chart of ever finer bars.
 fn face(spot: DVec2, to_rim: f64) -> Surface {
     const GILT: DVec3 = DVec3::new(0.75, 0.52, 0.20);
     const INK: DVec3 = DVec3::new(0.05, 0.02, 0.02);
@@ -77,7 +77,7 @@ fn face(spot: DVec2, to_rim: f64) -> Surface {
     Surface { albedo: DVec3::new(0.6, 0.55, 0.45), glow: DVec3::new(0.92, 0.72, 0.43) * lamp, mirror: 0.0 }
 }
 
-/// Upright bars, finer and finer to the right.
+/// Returns whether a point is on an upright bar of the chart; bars become finer to the right.
 fn is_bar(spot: DVec2) -> bool {
     if (spot.y + 0.80).abs() > 0.08 || spot.x.abs() > 2.1 {
         return false;

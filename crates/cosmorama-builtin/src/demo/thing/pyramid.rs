@@ -5,17 +5,17 @@ use crate::demo::solid::{Ball, Cuboid};
 
 /// Stairs on all four sides, with a golden ball on top.
 pub(in crate::demo) struct Pyramid {
-    /// Middle of its foot.
+    /// Middle of its base.
     foot: DVec3,
     steps: u32,
-    /// Height of a step; each is set back by twice as much.
+    /// Height of a step; each is set back by twice this length.
     rise: f64,
 }
 
 impl Pyramid {
-    /// A small one close by, out to the left.
+    /// A small pyramid nearby, to the left.
     pub(in crate::demo) const LEFT: Self = Self { foot: DVec3::new(-15.0, 0.0, -5.0), steps: 14, rise: 0.28 };
-    /// A great one behind the viewer, at the end of the arcade's axis.
+    /// A great pyramid behind the viewer, at the end of the arcade's axis.
     pub(in crate::demo) const BACK: Self = Self { foot: DVec3::new(0.0, 0.0, 62.0), steps: 16, rise: 0.9 };
 
     fn half_width(&self, step: u32) -> f64 {
@@ -41,7 +41,7 @@ impl Pyramid {
         bounds
     }
 
-    /// The steps at the heights that the ray has inside the bounds.
+    /// Returns the hit with a step, among those at the heights that the ray passes inside the bounds.
     fn stairs(&self, ray: &Ray, inside: (f64, f64)) -> Option<Hit> {
         let (from, to) = (ray.at(inside.0).y / self.rise, ray.at(inside.1).y / self.rise);
         // Casts saturate; the margin is for rounding.

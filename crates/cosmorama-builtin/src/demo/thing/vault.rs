@@ -22,7 +22,7 @@ impl Part for Vault {
     }
 }
 
-/// The nearest bar that the ray meets, of the one or two places where it pierces the half cylinder.
+/// Returns the nearest bar that the ray hits, at the one or two places where it pierces the half cylinder.
 fn shell(ray: &Ray) -> Option<Hit> {
     let from_axis = DVec2::new(ray.origin.x, ray.origin.y - hall::SPRINGING);
     let across = DVec2::new(ray.direction.x, ray.direction.y);
@@ -52,8 +52,8 @@ fn pierced(ray: &Ray, distance: f64) -> Option<Hit> {
     Some(Hit { distance, normal, surface: Surface::matte(colour) })
 }
 
-/// The bar at a point of the unrolled vault: its colour and where across its width the point lies (along the
-/// arc and along z, up to ±1).
+/// Returns the bar at a point of the unrolled vault: its colour, and the position across its width (along the arc and
+/// along z, up to ±1).
 fn bar(arc: f64, z: f64) -> Option<(DVec3, DVec2)> {
     let length = PI * hall::HALF_WIDTH;
     let across_arch = stripe(z - hall::FIRST_COLUMN, hall::BAY, 0.26);
@@ -72,7 +72,7 @@ fn bar(arc: f64, z: f64) -> Option<(DVec3, DVec2)> {
         .map(|at| (IRON, DVec2::splat(0.5 * at)))
 }
 
-/// A fan of spokes and rings in the half disc at an end of the vault.
+/// Returns the hit with a fan of spokes and rings in the half disc at an end of the vault.
 fn fan(ray: &Ray, z: f64) -> Option<Hit> {
     let distance = (z - ray.origin.z) / ray.direction.z;
     if !ray.reaches(distance) {
@@ -99,7 +99,7 @@ fn fan_bar(spot: DVec2, radius: f64) -> Option<DVec3> {
     (ring || aside < 0.03).then_some(IRON)
 }
 
-/// Where across a stripe a point lies, −1 to 1, of stripes of a width centred on the multiples of a period.
+/// Returns the position across a stripe, −1 to 1, for stripes centred on multiples of a period; `None` between them.
 fn stripe(position: f64, period: f64, width: f64) -> Option<f64> {
     let aside = position - (position / period).round() * period;
     (aside.abs() < width / 2.0).then(|| aside * 2.0 / width)
