@@ -10,7 +10,7 @@ pub fn parse_degrees(text: &str) -> Option<Angle> {
     degrees.is_finite().then(|| Angle::from_degrees(degrees))
 }
 
-/// Angle that is printed as the shortest number of degrees that [`parse_degrees`] makes the same angle of.
+/// An angle that prints as the shortest number of degrees which [`parse_degrees`] turns into the same angle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Degrees(pub Angle);
 

@@ -15,10 +15,10 @@ pub enum CompressionLevel {
 }
 
 impl CompressionLevel {
-    /// Every level, in the order in which help lists them.
+    /// All levels, in the order of the help.
     pub const ALL: [Self; 4] = [Self::None, Self::Fast, Self::Balanced, Self::High];
 
-    /// Returns the name as it is typed.
+    /// Returns the name that users type.
     pub fn name(self) -> &'static str {
         match self {
             Self::None => "none",

@@ -2,98 +2,98 @@ use cosmorama::layout::LensSide;
 use cosmorama::projection::azimuthal::LensError;
 use thiserror::Error;
 
-/// Reason for which a SPEC cannot be understood.
+/// Reason why a SPEC cannot be understood.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum SpecError {
-    /// A name that no projection has.
+    /// The projection's name is unknown.
     #[error("unknown projection '{name}'{}; there are {}", did_you_mean(.name, .known), .known.join(", "))]
     UnknownName {
-        /// Name of the projection.
+        /// Name as typed.
         name: String,
-        /// Names that there are.
+        /// Known names.
         known: Vec<&'static str>,
     },
-    /// A projection of another program that is not on offer here.
+    /// The projection belongs to another program and is not supported here.
     #[error(
         "the projection '{name}' of other programs is not on offer here; it is converted there, from and to equirect, {way}"
     )]
     NotOffered {
-        /// Name of the projection.
+        /// Name as typed.
         name: String,
-        /// How to convert it by way of another program.
+        /// Remedy: a conversion by the other program.
         way: String,
     },
-    /// A key that the projection does not take.
+    /// The projection does not have this key.
     #[error("unknown key '{key}' for {name}{}; it takes {}", meant(.key, .known), .known.join(", "))]
     UnknownKey {
         /// Name of the projection.
         name: &'static str,
         /// Key as typed.
         key: String,
-        /// Names that there are.
+        /// Known keys.
         known: Vec<&'static str>,
     },
-    /// A common key that means nothing for this projection.
+    /// The key, common to most projections, has no meaning for this one.
     #[error("{name} takes no {key}=: {why}")]
     Refused {
         /// Name of the projection.
         name: &'static str,
         /// Key as typed.
         key: String,
-        /// Reason for which it means nothing.
+        /// Reason why it has no meaning.
         why: &'static str,
     },
-    /// A part that is no `key=value`.
+    /// A part is not of the form `key=value`.
     #[error("'{part}' is no key=value; a SPEC is NAME[:key=value[,key=value]...], as in fisheye:fov=220,fit=width")]
     NoValue {
         /// Part as typed.
         part: String,
     },
-    /// A key that is given twice.
+    /// A key is given twice.
     #[error("{key}= is given twice")]
     Twice {
         /// Key as typed.
         key: String,
     },
-    /// A value that is not of the expected kind.
+    /// A value is not of the expected kind.
     #[error("{key}={value}: expected {expected}")]
     Value {
         /// Key as typed.
         key: String,
         /// Value as typed.
         value: String,
-        /// Description of a good value.
+        /// Description of a valid value.
         expected: String,
     },
-    /// A key that is missing, without which the name means nothing.
+    /// A required key is missing.
     #[error("{name} needs {key}=, as in {example}")]
     Missing {
         /// Name of the projection.
         name: &'static str,
-        /// Key as typed.
+        /// Missing key.
         key: &'static str,
-        /// SPEC that has it.
+        /// Example of a SPEC with the key.
         example: &'static str,
     },
-    /// Coefficients of which no lens can be made.
+    /// The coefficients do not make a lens.
     #[error("k={value}: {error}")]
     Coefficients {
         /// Value as typed.
         value: String,
-        /// Reason for which the lens cannot be made.
+        /// Reason why they do not.
         error: LensError,
     },
-    /// Keys that say the same thing differently.
+    /// Two keys contradict or exclude each other.
     #[error("{first}= and {second}= cannot both be given")]
     Both {
-        /// One key.
+        /// First key.
         first: &'static str,
-        /// Other key.
+        /// Second key.
         second: &'static str,
     },
 }
 
-/// Returns the key that was meant, where one of a lens or a face was typed as it stands in the table, or another is like it.
+/// Returns a suggestion for a mistyped key: the full name of a lens's or face's key, or the most similar key.
 fn meant(typed: &str, known: &[&str]) -> String {
     match typed.split_once('.') {
         Some((_, key)) if known.contains(&&*format!("LENS.{key}")) => {
@@ -106,7 +106,7 @@ fn meant(typed: &str, known: &[&str]) -> String {
     }
 }
 
-/// Returns the known name that is most like what was typed, as a question; nothing where none is.
+/// Returns "did you mean …?" with the most similar known name; empty if none is similar.
 pub fn did_you_mean(typed: &str, known: &[&str]) -> String {
     let likeness = |name: &&&str| (strsim::normalized_damerau_levenshtein(typed, name) * 1000.0) as i64;
     match known.iter().max_by_key(likeness).filter(|best| likeness(best) >= 500) {

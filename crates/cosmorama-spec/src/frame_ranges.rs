@@ -3,7 +3,7 @@ use std::str::FromStr;
 
 use thiserror::Error;
 
-/// Frame numbers as they are typed, in the order in which they are wanted: `1-3,5,7-20:2`.
+/// Frame numbers as typed, in the requested order: `1-3,5,7-20:2`.
 ///
 /// ```
 /// use cosmorama_spec::FrameRanges;
@@ -15,24 +15,24 @@ use thiserror::Error;
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct FrameRanges(Vec<Range>);
 
-/// Reason for which a list of frames cannot be understood.
+/// Reason why a list of frames cannot be understood.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 #[error("frames {list}: {reason}; expected a list such as 5, 1-10 or 1-3,5,7-20:2; all frames are the default")]
 pub struct FrameRangesError {
     /// List as typed.
     pub list: String,
-    /// Description of what is wrong.
+    /// Description of the mistake.
     pub reason: String,
 }
 
-/// Largest number of a frame: a larger one is a date or a hash.
+/// Largest frame number; a larger number is a date or a hash.
 const LAST_FRAME: u64 = u32::MAX as u64;
 
-/// More frames than any film has: a slip of the finger.
+/// Greatest number of frames; more is a typing error.
 const MOST: u64 = 10_000_000;
 
 impl FrameRanges {
-    /// Returns the numbers, range by range; one in two ranges comes twice.
+    /// Returns the numbers, range by range; a number in two ranges occurs twice.
     pub fn frames(&self) -> impl Iterator<Item = u64> {
         self.0.iter().flat_map(|range| range.frames())
     }
@@ -66,7 +66,7 @@ impl FromStr for FrameRanges {
     }
 }
 
-/// Frame numbers from a first to a last one.
+/// Frame numbers from the first to the last, by a step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 struct Range {
     first: u64,
@@ -134,7 +134,7 @@ fn number(text: &str) -> Result<u64, String> {
     text.parse().ok().filter(|frame| *frame <= LAST_FRAME).ok_or_else(|| format!("{text} is too large"))
 }
 
-/// What to write for all frames between two.
+/// Returns the text for all frames between two numbers.
 fn meant(first: u64, last: u64) -> String {
     if first < last { format!("for frames {first} to {last} write {first}-{last}") } else { format!("write {first}") }
 }

@@ -1,7 +1,7 @@
 //! Text forms of cosmorama's values: projections, filters, kernels, transfer functions, colours, sizes.
 //!
-//! A [`Spec`] names the projection of a picture: `NAME[:key=value[,key=value]…]`. Every type here parses with [`FromStr`] and
-//! prints with [`Display`]; what it prints is parsed to the same value.
+//! A [`Spec`] names the projection of a picture: `NAME[:key=value[,key=value]…]`. Every type here parses with
+//! [`FromStr`] and prints with [`Display`]; the printed text parses to the same value.
 //!
 //! ```
 //! use cosmorama_spec::{FilterName, Shape, Size, Spec};
@@ -22,7 +22,7 @@
 //! # Ok::<(), cosmorama_spec::SpecError>(())
 //! ```
 //!
-//! Parsing touches no file. A calibration or an st map that a text names is kept as a path, for whoever opens inputs
+//! Parsing touches no file. A calibration or an st map that the text names is kept as a path, to be read later
 //! ([`Shape::Calibrated`], [`Shape::StMap`], [`Spec::files`]).
 //!
 //! [`FromStr`]: std::str::FromStr

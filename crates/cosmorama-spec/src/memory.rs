@@ -2,12 +2,12 @@ use std::str::FromStr;
 
 use crate::number::decimal;
 
-/// An amount of memory: bytes, with `K`, `M`, `G` or `T` (powers of 1024), or a part of what is free.
+/// An amount of memory: bytes, with `K`, `M`, `G` or `T` (powers of 1024), or a percentage of free memory.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum MemorySize {
-    /// Bytes.
+    /// Number of bytes.
     Bytes(u64),
-    /// Part of free memory, 1 for all.
+    /// Fraction of free memory; 1 is all of it.
     Part(f64),
 }
 
@@ -22,7 +22,7 @@ impl FromStr for MemorySize {
     }
 }
 
-/// Prints bytes, or a part in percent.
+/// Prints bytes, or a percentage.
 impl std::fmt::Display for MemorySize {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {

@@ -1,10 +1,9 @@
-/// Number of neighbours on each side among which a decimal is looked for: more than rounding moves a number.
+/// Number of neighbouring floats on each side among which a decimal is searched; rounding moves a number less.
 const NEIGHBOURS: usize = 8;
 
-/// Returns the shortest decimal near a number that is exact by a test, or the number itself where none is.
+/// Returns the shortest decimal near a number that passes a test; the number itself if none does.
 ///
-/// Units of text and of values differ by a factor, so that the number that was typed comes back rounded: 7 % as
-/// 7.000000000000001.
+/// Units in text and in values differ by a factor, so that a typed number comes back rounded: 7 % as 7.000000000000001.
 pub(crate) fn decimal(near: f64, is_exact: impl Fn(f64) -> bool) -> f64 {
     let rounded = (0..=15).filter_map(|places| format!("{near:.places$}").parse().ok());
     let above = std::iter::successors(Some(near), |number| Some(number.next_up())).take(NEIGHBOURS);

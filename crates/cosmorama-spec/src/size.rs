@@ -1,7 +1,7 @@
 use std::fmt;
 use std::str::FromStr;
 
-/// Size of a picture in pixels: `WxH`, or the width alone.
+/// The size of a picture in pixels: `WxH`, or the width alone.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Size {
     /// Columns.
@@ -11,7 +11,7 @@ pub struct Size {
 }
 
 impl Size {
-    /// Largest number of columns or rows: more than any image format holds.
+    /// Largest number of columns or rows; no image format holds more.
     pub const MOST: usize = 1_000_000;
 }
 

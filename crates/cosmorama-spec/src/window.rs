@@ -2,10 +2,10 @@ use std::fmt;
 
 use cosmorama::camera::Canvas;
 
-/// As far as a canvas may go, and a window on it lie, each way: as far as OpenEXR counts pixels.
+/// Greatest coordinate of a canvas or its window, the limit of OpenEXR's coordinates.
 const FARTHEST: i64 = i32::MAX as i64;
 
-/// A canvas with the place of its window: `WxH+X+Y`, X and Y possibly negative (`+-8` or `-8`).
+/// Parses a canvas with the place of its window: `WxH+X+Y`, where X and Y may be negative (`+-8` or `-8`).
 pub(crate) fn parse_window(text: &str) -> Option<Canvas> {
     let (width, rest) = text.split_once('x')?;
     let height_end = rest.find(['+', '-'])?;
@@ -21,7 +21,7 @@ pub(crate) fn parse_window(text: &str) -> Option<Canvas> {
     Some(Canvas { width, height, left: offset(left)?, top: offset(top)? })
 }
 
-/// Canvas that is printed as [`parse_window`] reads it.
+/// A canvas that prints as [`parse_window`] reads it.
 pub(crate) struct Window(pub(crate) Canvas);
 
 impl fmt::Display for Window {

@@ -3,24 +3,24 @@ use std::str::FromStr;
 
 use cosmorama::filter::{CrossSection, Kernel};
 
-/// Kernel by name, with its parameters: `gaussian:alpha=3,scale=0.6`.
+/// A kernel by name, with its parameters: `gaussian:alpha=3,scale=0.6`.
 ///
-/// Only parsing makes one, so that each has a name to print.
+/// It is only made by parsing, so that every kernel has a name to print.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct KernelName {
-    /// Weights that the name stands for.
+    /// Weights of the kernel.
     pub kernel: Kernel,
-    /// Default of anti-ringing: off for `light`, which it would keep from keeping all light.
+    /// Default of anti-ringing: off for `light`, because clamping would change the total light.
     pub anti_ringing: bool,
 }
 
 const NAMES: &str = "adaptive, gaussian, mitchell, robidoux, robidoux-sharp, catmull-rom, lanczos2, lanczos3, lanczos3-sharp, tent, box, light";
 
-/// The kernel that keeps the light of suns.
+/// Name of the kernel that keeps the light of suns.
 const LIGHT: &str = "light";
 
-/// Returns the kernel that is used where none is named.
+/// Returns the default kernel.
 impl Default for KernelName {
     fn default() -> Self {
         Self { kernel: Kernel::ADAPTIVE, anti_ringing: true }
@@ -43,7 +43,7 @@ impl FromStr for KernelName {
     }
 }
 
-/// Prints the name, and what differs from the kernel of this name.
+/// Prints the name, and parameters that differ from those of the named kernel.
 impl fmt::Display for KernelName {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { kernel, anti_ringing } = *self;
@@ -106,7 +106,7 @@ fn set(kernel: &mut Kernel, name: &str, key: &str, value: f64) -> Result<(), Str
     Ok(())
 }
 
-/// The widest kernel that is still a filter of a pixel: beyond, a slip of the finger would take hours.
+/// Greatest scale of a kernel; more is a typing error that would take hours.
 const MOST: f64 = 32.0;
 
 fn within_reach(text: &str) -> Option<f64> {

@@ -20,7 +20,7 @@ impl fmt::Display for FilterName {
     }
 }
 
-/// Sub-samples along a pixel's side, unless told.
+/// Default number of sub-samples along a pixel's side.
 const SAMPLES: usize = 4;
 
 impl FromStr for FilterName {

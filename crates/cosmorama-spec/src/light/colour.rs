@@ -3,11 +3,12 @@ use std::str::FromStr;
 
 use cosmorama::raster::{ColourChannel, Rgba, Transfer};
 
-/// Colour as premultiplied linear light, typed as a name, `#rrggbb` or `#rrggbbaa` (sRGB), or `r,g,b[,a]` of linear light.
+/// A colour as premultiplied linear light, typed as a name, `#rrggbb` or `#rrggbbaa` (sRGB), or `r,g,b[,a]` in linear
+/// light.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Colour(pub Rgba);
 
-/// Names that the web has, too.
+/// Named colours, as on the web.
 const NAMES: [(&str, &str); 11] = [
     ("black", "000000"),
     ("white", "ffffff"),
@@ -37,7 +38,7 @@ impl fmt::Display for Colour {
     }
 }
 
-/// Returns the light that times alpha is this, to the last bit where there is such a number.
+/// Returns the light that multiplied by alpha is exactly this, if such a number exists.
 fn unweighted(light: f32, alpha: f32) -> f32 {
     let near = light / alpha;
     [near, near.next_up(), near.next_down()].into_iter().find(|other| other * alpha == light).unwrap_or(near)

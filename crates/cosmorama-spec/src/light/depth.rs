@@ -3,12 +3,12 @@ use std::str::FromStr;
 
 use cosmorama::raster::Depth;
 
-/// Sample type of an output, by name: `8`, `10`, `12`, `16`, `half` or `float`.
+/// The sample type of an output, by name: `8`, `10`, `12`, `16`, `half` or `float`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct DepthName(pub Depth);
 
 impl DepthName {
-    /// Every sample type, in the order in which help lists them.
+    /// All sample types, in the order of the help.
     pub const ALL: [Self; 6] = [
         Self(Depth::Eight),
         Self(Depth::Ten),
@@ -18,7 +18,7 @@ impl DepthName {
         Self(Depth::Float),
     ];
 
-    /// Returns the name as it is typed.
+    /// Returns the name that users type.
     pub fn name(self) -> &'static str {
         match self.0 {
             Depth::Eight => "8",

@@ -5,12 +5,12 @@ use cosmorama::raster::Rgba;
 
 use super::Colour;
 
-/// Treatment of directions that no view covers: `error` or a [`Colour`].
+/// Treatment of directions that no view covers: an error, or filling with a [`Colour`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Missing {
-    /// Failure: every direction must be covered.
+    /// An error: every direction must be covered.
     Error,
-    /// Filling with a colour, possibly a transparent one.
+    /// Filling with a colour, which may be transparent.
     Fill(Rgba),
 }
 

@@ -1,4 +1,4 @@
-//! Light as it is typed: colours, transfer functions, sample types.
+//! Text forms of light: colours, transfer functions, sample types.
 
 mod colour;
 mod depth;

@@ -3,16 +3,16 @@ use std::str::FromStr;
 
 use cosmorama::raster::Transfer;
 
-/// Transfer function by name: `auto`, `srgb`, `linear`, `bt1886`, `pq`, `hlg` or `gamma:G`.
+/// A transfer function by name: `auto`, `srgb`, `linear`, `bt1886`, `pq`, `hlg` or `gamma:G`.
 #[derive(Clone, Debug, PartialEq)]
 pub enum TransferName {
-    /// Transfer function that the file names, else sRGB.
+    /// The transfer function that the file names, else sRGB.
     Auto,
-    /// Transfer function that holds whatever the file says.
+    /// A transfer function that overrides the file's.
     Fixed(Transfer),
 }
 
-/// Prints the name; the curves of an ICC profile, which have none, as `auto`, since a file holds them.
+/// Prints the name. The curves of an ICC profile, which have no name, print as `auto`, because the file holds them.
 impl fmt::Display for TransferName {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -53,7 +53,7 @@ impl FromStr for TransferName {
 }
 
 impl TransferName {
-    /// Returns the transfer function that was asked for; `None` where the file decides.
+    /// Returns the transfer function that was requested; `None` if the file decides.
     pub fn fixed(&self) -> Option<Transfer> {
         match self {
             Self::Auto => None,

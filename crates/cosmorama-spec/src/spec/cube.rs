@@ -12,26 +12,26 @@ use crate::SpecError;
 use crate::angle::Degrees;
 use crate::window::Window;
 
-/// Faces of a cube, a file each or in one image.
+/// Faces of a cube, in a file each or in one image.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Cube {
-    /// Packing of the faces in files; `None` where the file's name, its metadata or its shape decides.
+    /// Packing of the faces; `None` if the file's name, metadata or shape decides.
     pub layout: Option<Packing>,
     /// Naming of the files.
     pub naming: Option<&'static Naming>,
     /// Order of the faces in one image.
     pub order: Option<FaceOrder>,
-    /// Quarter turns clockwise of each picture: in reading order, or of files in the order `rludfb`.
+    /// Clockwise quarter turns of each picture, in reading order; for files, in the order `rludfb`.
     pub rotate: Option<[u8; 6]>,
     /// Field of view of a face, from edge to edge.
     pub field_of_view: Angle,
     /// Width of the band at its border over which a face fades out, if given.
     pub feather: Option<Angle>,
-    /// Face around which half a cube lies; `None` for a whole one.
+    /// Face at the middle of half a cube; `None` for a whole cube.
     pub half: Option<CubeFace>,
     /// Position of the outermost samples of a face, if given.
     pub samples: Option<SamplePositions>,
-    /// Faces that count.
+    /// Faces that are used.
     pub faces: Vec<CubeFace>,
     /// Orientation of the cube.
     pub orientation: Orientation,
@@ -46,9 +46,9 @@ pub struct Cube {
 /// Packing of the faces of a cube in files.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Packing {
-    /// A file each.
+    /// One file per face.
     Files,
-    /// All in one image.
+    /// All faces in one image.
     OneImage(LayoutKind),
 }
 
@@ -89,7 +89,7 @@ impl Cube {
         own.or(self.canvas)
     }
 
-    /// Returns the layout of the faces in one image, if they lie in one.
+    /// Returns the layout of the faces in one image; `None` for faces in files.
     pub fn one_image(&self) -> Option<CubeLayout> {
         let Some(Packing::OneImage(kind)) = self.layout else { return None };
         let mut layout = CubeLayout::new(kind);
@@ -105,7 +105,7 @@ impl Cube {
         Some(layout.mirrored(self.mirror))
     }
 
-    /// Returns how the picture in a face's own file lies, by its naming and `rotate=`.
+    /// Returns the placement of the picture in a face's own file, from its naming and `rotate=`.
     pub fn file_placement(&self, face: CubeFace, named: FacePlacement) -> FacePlacement {
         let place = FaceOrder::parse("rludfb").and_then(|order| order.faces.iter().position(|other| *other == face));
         match (self.rotate, place) {
@@ -138,7 +138,7 @@ impl Cube {
         }
     }
 
-    /// Returns the blending of faces that overlap: each falls to nothing at its own border.
+    /// Returns the blending of overlapping faces: each fades to zero at its own border.
     pub fn blend(&self) -> Blend {
         let shared = self.field_of_view - LayoutFaceCamera::RIGHT_ANGLE;
         let feather = if shared > Angle::ZERO { self.feather.unwrap_or(shared) } else { Angle::ZERO };
@@ -195,7 +195,7 @@ impl Cube {
         Some(keys.placed(cube.orientation, cube.mirror, cube.canvas))
     }
 
-    /// Checks that keys fit: keys for files do not go with a layout in one image, nor the other way round.
+    /// Checks that keys are compatible: some apply only to files, others only to a layout in one image.
     fn check(&self, fields: &Fields) -> Result<(), SpecError> {
         let one_image = matches!(self.layout, Some(Packing::OneImage(_))) || self.order.is_some();
         if let (true, Some(naming)) = (one_image, self.naming) {

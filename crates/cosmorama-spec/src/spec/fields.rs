@@ -7,10 +7,10 @@ use crate::SpecError;
 use crate::angle::parse_degrees;
 use crate::window::parse_window;
 
-/// So many times wider than high, or higher than wide, is a pixel at most: what is more is a slip.
+/// Greatest aspect of a pixel, either way; more is a typing error.
 const LONGEST_PIXEL: f64 = 1000.0;
 
-/// The keys and values of a SPEC, all known to exist, to be read by kind; and the folder in which it names files.
+/// Keys and values of a SPEC, whose names have been checked, and the folder of the files that it names.
 pub(super) struct Fields<'a>(Vec<(String, String)>, &'a Path);
 
 impl<'f> Fields<'f> {
@@ -18,12 +18,12 @@ impl<'f> Fields<'f> {
         Self(pairs, folder)
     }
 
-    /// Where it names files.
+    /// Returns the folder of files that the SPEC names.
     pub(super) fn folder(&self) -> &Path {
         self.1
     }
 
-    /// A file that the SPEC names.
+    /// Returns the path of a file that the SPEC names.
     pub(super) fn file(&self, key: &str) -> Option<PathBuf> {
         self.get(key).map(|name| self.1.join(name))
     }
@@ -32,12 +32,12 @@ impl<'f> Fields<'f> {
         self.0.iter().find(|(name, _)| name == key).map(|(_, value)| value.as_str())
     }
 
-    /// Keys that begin so, without the beginning, and their values.
+    /// Visits the keys with a prefix, without the prefix, and their values.
     pub(super) fn with_prefix<'a>(&'a self, prefix: &'a str) -> impl Iterator<Item = (&'a str, &'a str)> {
         self.0.iter().filter_map(move |(key, value)| Some((key.strip_prefix(prefix)?, value.as_str())))
     }
 
-    /// A value read by `parse`, if there is one.
+    /// Reads a value with `parse`, if there is one.
     pub(super) fn read<T>(
         &self,
         key: &str,
@@ -55,7 +55,7 @@ impl<'f> Fields<'f> {
         Ok(self.angle(key)?.unwrap_or(Angle::from_degrees(default)))
     }
 
-    /// One of a list of words.
+    /// Reads one of a list of words.
     pub(super) fn choice<T: Copy>(&self, key: &str, choices: &[(&str, T)]) -> Result<Option<T>, SpecError> {
         let names: Vec<_> = choices.iter().map(|(name, _)| *name).collect();
         let find = |value: &str| choices.iter().find(|(name, _)| *name == value).map(|(_, choice)| *choice);
@@ -78,7 +78,7 @@ impl<'f> Fields<'f> {
         self.circle_of("")
     }
 
-    /// The circle whose keys begin so.
+    /// Reads the circle whose keys have a prefix.
     pub(super) fn circle_of(&self, prefix: &str) -> Result<LensCircle, SpecError> {
         let key = format!("{prefix}center");
         let centre = self.read(&key, &format!("X:Y in pixels, as in {key}=983:921.5"), |value| {
@@ -94,13 +94,13 @@ impl<'f> Fields<'f> {
         self.orientation_of("")
     }
 
-    /// The orientation whose keys begin so.
+    /// Reads the orientation whose keys have a prefix.
     pub(super) fn orientation_of(&self, prefix: &str) -> Result<Orientation, SpecError> {
         let [yaw, pitch, roll] = ["yaw", "pitch", "roll"].map(|key| self.angle_or(&format!("{prefix}{key}"), 0.0));
         Ok(Orientation::from_yaw_pitch_roll(yaw?, pitch?, roll?))
     }
 
-    /// Over how wide a band pictures that overlap fade out.
+    /// Reads the width of the band over which overlapping pictures fade out.
     pub(super) fn feather(&self) -> Result<Option<Angle>, SpecError> {
         self.read("feather", "degrees more than 0, at most 180, as in feather=5", |value| {
             parse_degrees(value).filter(|angle| angle.degrees() > 0.0 && angle.degrees() <= 180.0)
@@ -118,7 +118,7 @@ impl<'f> Fields<'f> {
         Ok(self.choice("flip", &choices)?.unwrap_or_default())
     }
 
-    /// Where the outermost samples lie.
+    /// Reads the position of the outermost samples.
     pub(super) fn samples(&self) -> Result<Option<SamplePositions>, SpecError> {
         let positions = [
             ("centres", SamplePositions::Centres),
@@ -134,7 +134,7 @@ impl<'f> Fields<'f> {
     }
 }
 
-/// Word for where the outermost samples lie.
+/// Returns the word for the position of the outermost samples.
 pub(super) fn samples_name(samples: SamplePositions) -> &'static str {
     match samples {
         SamplePositions::Centres => "centres",

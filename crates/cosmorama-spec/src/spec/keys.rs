@@ -6,9 +6,9 @@ use cosmorama::sphere::{Angle, Orientation};
 use crate::angle::Degrees;
 use crate::window::Window;
 
-/// Keys and values of a SPEC that is printed: the counterpart of [`Fields`](super::fields::Fields).
+/// Keys and values of a SPEC to print: the counterpart of [`Fields`](super::fields::Fields).
 ///
-/// A value that is the default has no key.
+/// Keys with default values are left out.
 #[derive(Debug, Default)]
 pub(crate) struct Keys(Vec<(String, String)>);
 
@@ -43,7 +43,7 @@ impl Keys {
         self.maybe(key, word.filter(|_| value != default))
     }
 
-    /// Adds `yes`, unless a switch is off.
+    /// Adds `yes` if a switch is on.
     pub(super) fn switch(self, key: &str, is_on: bool) -> Self {
         self.maybe(key, is_on.then_some("yes"))
     }
@@ -53,13 +53,13 @@ impl Keys {
         self.number("aspect", aspect, 1.0)
     }
 
-    /// Adds a circle whose keys begin so.
+    /// Adds a circle, with a prefix for its keys.
     pub(super) fn circle(self, prefix: &str, circle: LensCircle) -> Self {
         let centre = circle.centre.map(|centre| format!("{}:{}", centre.x, centre.y));
         self.maybe(format!("{prefix}center"), centre).maybe(format!("{prefix}radius"), circle.radius)
     }
 
-    /// Adds an orientation whose keys begin so.
+    /// Adds an orientation, with a prefix for its keys.
     pub(super) fn orientation(self, prefix: &str, orientation: Orientation) -> Self {
         let [yaw, pitch, roll] = typed(orientation);
         self.angle(format!("{prefix}yaw"), yaw, Angle::ZERO).angle(format!("{prefix}pitch"), pitch, Angle::ZERO).angle(
@@ -69,7 +69,7 @@ impl Keys {
         )
     }
 
-    /// Adds how a picture lies in the world and on a canvas.
+    /// Adds the orientation, mirroring and canvas of a picture.
     pub(super) fn placed(self, orientation: Orientation, mirror: Mirror, canvas: Option<Canvas>) -> Self {
         let flip = match mirror {
             Mirror { x: false, y: false } => None,
@@ -93,16 +93,16 @@ impl Display for Keys {
 }
 
 impl Keys {
-    /// Returns whether all is default.
+    /// Returns whether there are no keys.
     pub(super) fn is_empty(&self) -> bool {
         self.0.is_empty()
     }
 }
 
-/// Decimal places of a degree in which angles are looked for: a number that was typed is found by its own.
+/// Decimal places of a degree that are tried in the search for typed angles.
 const PLACES: i32 = 12;
 
-/// Yaw, pitch and roll of an orientation: as they were typed where numbers of few digits give it to the last bit.
+/// Returns yaw, pitch and roll as short numbers that give exactly this orientation, if there are any.
 fn typed(orientation: Orientation) -> [Angle; 3] {
     let found = orientation.yaw_pitch_roll();
     let degrees = found.map(Angle::degrees);
@@ -127,7 +127,7 @@ fn typed(orientation: Orientation) -> [Angle; 3] {
     found
 }
 
-/// Every triple of three numbers.
+/// Returns every triple of three numbers.
 fn combinations(of: [f64; 3]) -> impl Iterator<Item = (f64, f64, f64)> {
     of.into_iter().flat_map(move |a| of.into_iter().flat_map(move |b| of.into_iter().map(move |c| (a, b, c))))
 }

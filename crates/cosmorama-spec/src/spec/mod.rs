@@ -1,7 +1,7 @@
-//! Projections as they are typed: `NAME[:key=value[,key=value]…]`.
+//! Text forms of projections: `NAME[:key=value[,key=value]…]`.
 //!
-//! One table ([`projections`]) lists every name and key; all messages about wrong ones come from it. Only `base=` of an st map leads
-//! back from a builder to the parser: it is a SPEC within a SPEC.
+//! One table ([`projections`]) lists every name and key; all messages about wrong ones come from it. Only the st map's
+//! `base=`, a SPEC within a SPEC, calls the parser from a builder.
 
 mod alias;
 mod camera;

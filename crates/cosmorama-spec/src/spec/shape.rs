@@ -5,23 +5,23 @@ use super::keys::Keys;
 use super::{CalibrationSpec, Cube, Dual, StMapSpec};
 use crate::SpecError;
 
-/// Pictures that a SPEC stands for, by how they lie in files.
+/// Pictures that a SPEC describes, by how they are stored.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Shape {
     /// One image.
     Single(Single),
-    /// The faces of a cube, a file each or in one image.
+    /// The faces of a cube, in a file each or in one image.
     Cube(Cube),
     /// Two fisheyes in one image.
     Dual(Box<Dual>),
-    /// One image of a measured camera, whose calibration is still to be read.
+    /// One image of a calibrated camera, whose file is still to be read.
     Calibrated(CalibrationSpec),
-    /// One image, and a map that is still to be read.
+    /// One image and an st map, which is still to be read.
     StMap(StMapSpec),
 }
 
 impl Shape {
-    /// Makes one image of a camera, placed as its keys say.
+    /// Builds one image of a camera, with its orientation, mirroring and crop.
     pub(super) fn single(fields: &Fields, frame: CameraModel) -> Result<Self, SpecError> {
         let placement = Placement {
             frame,
@@ -48,7 +48,7 @@ impl Shape {
         }
     }
 
-    /// Adds how one image lies in the world; the other shapes write that themselves.
+    /// Adds the orientation, mirroring and crop of one image; other shapes write theirs themselves.
     pub(in crate::spec) fn write_place(&self, keys: Keys) -> Keys {
         match self {
             Self::Single(Single { placement, .. }) => {
@@ -59,30 +59,30 @@ impl Shape {
     }
 }
 
-/// One image, its projection given by a formula.
+/// One image whose projection is a formula.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Single {
     /// Camera model and place in the world.
     pub placement: Placement,
     /// Position of a panorama's outermost samples.
     pub samples: SphereSamples,
-    /// Whether the field of view was given both ways, so that any shape of pixels is meant.
+    /// Whether the field of view is given both ways, so that pixels may have any shape.
     pub any_shape: bool,
 }
 
-/// Position of a panorama's outermost samples, and what decides it.
+/// Position of a panorama's outermost samples, and its source.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SphereSamples {
-    /// No choice: the projection is no panorama.
+    /// Not applicable: the projection is not a panorama.
     NotAPanorama,
-    /// Position that the file format has.
+    /// The file format's usual position.
     ByFormat,
-    /// Position that the SPEC gives.
+    /// The position in the SPEC.
     Given(SamplePositions),
 }
 
 impl Single {
-    /// Places samples where a file format has them, unless the SPEC says where.
+    /// Sets the file format's usual position, unless the SPEC gives one.
     pub fn with_samples(mut self, samples: SamplePositions) -> Self {
         if let (CameraModel::Equirect(frame), SphereSamples::ByFormat) = (&mut self.placement.frame, self.samples) {
             frame.samples = samples;

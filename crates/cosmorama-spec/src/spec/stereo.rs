@@ -4,12 +4,12 @@ use super::fields::{Fields, wrong};
 use super::keys::Keys;
 use crate::SpecError;
 
-/// Division of a picture between two eyes.
+/// Division of a picture into those of two eyes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct StereoSpec {
-    /// Arrangement of both in one image.
+    /// Arrangement of both pictures in one image.
     pub packing: Stereo,
-    /// Only eye that is used; `None` for both.
+    /// The one eye that is used; `None` for both.
     pub eye: Option<Eye>,
 }
 
@@ -25,7 +25,7 @@ const PACKINGS: [(&str, Stereo); 4] = [
 ];
 
 impl StereoSpec {
-    /// Reads the keys of a stereo picture; `None` where it is none.
+    /// Reads the keys of a stereo picture; `None` if it is not one.
     pub(super) fn build(fields: &Fields) -> Result<Option<Self>, SpecError> {
         let Some(packing) = fields.choice("stereo", &PACKINGS)? else {
             let alone = ["swap", "eye"].into_iter().find_map(|key| Some((key, fields.get(key)?)));

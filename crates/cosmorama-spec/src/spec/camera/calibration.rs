@@ -8,37 +8,37 @@ use crate::angle::Degrees;
 use crate::spec::fields::{Fields, wrong};
 use crate::spec::keys::Keys;
 
-/// Kind of lens that a calibration is read for.
+/// Kind of lens that a calibration must describe.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LensFamily {
-    /// A lens that draws straight lines, distorted a little: `perspective:calibration=`.
+    /// A pinhole camera with lens distortion: `perspective:calibration=`.
     Pinhole,
     /// A fisheye lens: `fisheye:calibration=`.
     Fisheye,
 }
 
-/// Picture of a measured camera (`calibration=FILE`), before the file has been read.
+/// The picture of a calibrated camera (`calibration=FILE`), before the file has been read.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CalibrationSpec {
-    /// File that a calibration program wrote.
+    /// Calibration file.
     pub file: PathBuf,
     /// Kind of lens that the file must describe.
     pub family: LensFamily,
-    /// Cone around the axis that counts; `None` for all that the lens shows.
+    /// Field of view around the axis that is used; `None` for all that the lens shows.
     pub field_of_view: Option<Angle>,
     /// Orientation of the camera in the world.
     pub orientation: Orientation,
     /// Mirroring of the picture.
     pub mirror: Mirror,
-    /// Canvas that the picture is a window of.
+    /// Canvas of which the picture is a window.
     pub canvas: Option<Canvas>,
 }
 
-/// Keys whose values a calibration holds itself.
+/// Keys that a calibration file replaces.
 const HELD: [&str; 10] = ["lens", "k", "fit", "focal", "sensor", "center", "radius", "aspect", "vfov", "dfov"];
 
 impl CalibrationSpec {
-    /// Reads the keys of a measured camera; `None` without `calibration=`.
+    /// Reads the keys of a calibrated camera; `None` without `calibration=`.
     pub(in crate::spec) fn build(fields: &Fields, family: LensFamily) -> Result<Option<Self>, SpecError> {
         let Some(file) = fields.file("calibration") else { return Ok(None) };
         if fields.get("calibration") == Some("") {

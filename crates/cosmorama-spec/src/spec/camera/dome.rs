@@ -1,4 +1,4 @@
-//! Domes and Omnimax frames as they are typed.
+//! Text forms of domes and Omnimax frames.
 
 use cosmorama::camera::{CameraModel, FulldomeCamera, OmnimaxCamera, OmnimaxFraming};
 use cosmorama::sphere::Angle;

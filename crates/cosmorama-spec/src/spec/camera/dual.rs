@@ -9,10 +9,10 @@ use crate::spec::Shape;
 use crate::spec::fields::Fields;
 use crate::spec::keys::Keys;
 
-/// Two fisheye pictures in one image.
+/// Two fisheye pictures in one image, as a SPEC describes them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Dual {
-    /// Both pictures, and their places in the image.
+    /// Both pictures, with their places in the image.
     pub picture: DualFisheye,
     /// Orientation of both together.
     pub orientation: Orientation,
@@ -64,7 +64,7 @@ impl Dual {
     }
 }
 
-/// Reads one of the two, with what is said of it alone.
+/// Reads one of the two lenses, with the keys that apply to it alone.
 fn one(fields: &Fields, side: LensSide, both: FisheyeCamera) -> Result<DualLens, SpecError> {
     let prefix = format!("{}.", side.name());
     let field_of_view = fields.angle(&format!("{prefix}fov"))?.unwrap_or(both.field_of_view);

@@ -1,4 +1,4 @@
-//! Hugin's lenses as they are typed: an i-line's f, v and a b c d e.
+//! Text form of Hugin's lenses: f, v and a b c d e of an i-line.
 
 use cosmorama::camera::{CameraModel, HuginCamera, HuginProjection};
 use cosmorama::sphere::Angle;
@@ -8,7 +8,7 @@ use crate::spec::Shape;
 use crate::spec::fields::Fields;
 use crate::spec::keys::Keys;
 
-/// The lenses of an i-line that a, b and c correct, by its f: 0, 2 or 3, 8, 10, 21.
+/// Lenses of an i-line that a, b and c correct, by f: 0, 2 or 3, 8, 10, 21.
 const LENSES: [(&str, HuginProjection); 5] = [
     ("rectilinear", HuginProjection::Rectilinear),
     ("fisheye", HuginProjection::Equidistant),
@@ -32,7 +32,7 @@ pub(crate) fn hugin(fields: &Fields) -> Result<Shape, SpecError> {
     Shape::single(fields, CameraModel::Hugin(frame))
 }
 
-/// Field of view of a lens, unless given.
+/// Returns the default field of view of a lens.
 fn usual(projection: HuginProjection) -> Angle {
     Angle::from_degrees(if projection == HuginProjection::Rectilinear { 90.0 } else { 180.0 })
 }

@@ -1,4 +1,4 @@
-//! Fisheye lenses as they are typed: `lens=NAME,k=…`, and how large their picture is.
+//! Text form of fisheye lenses: `lens=NAME,k=…`, and the scale of their pictures.
 
 use cosmorama::camera::{CameraModel, FisheyeCamera, FisheyeFit, LensScale};
 use cosmorama::projection::azimuthal::{
@@ -54,7 +54,7 @@ pub(crate) fn fisheye(fields: &Fields) -> Result<Shape, SpecError> {
     Shape::single(fields, CameraModel::Fisheye(frame))
 }
 
-/// Debevec's light probes: an equidistant fisheye that sees everything.
+/// Builds Debevec's light probe: an equidistant fisheye of 360°.
 pub(crate) fn angular_map(fields: &Fields) -> Result<Shape, SpecError> {
     let frame = FisheyeCamera {
         field_of_view: Angle::TURN,
@@ -102,12 +102,12 @@ const FITS: [(&str, FisheyeFit); 5] = [
     ("diagonal", FisheyeFit::Diagonal),
 ];
 
-/// Which length of the image the circle spans.
+/// Reads the dimension of the image that the circle spans.
 pub(crate) fn fit(fields: &Fields) -> Result<FisheyeFit, SpecError> {
     Ok(fields.choice("fit", &FITS)?.unwrap_or_default())
 }
 
-/// How the angle goes with the radius.
+/// Reads the lens formula.
 pub(crate) fn lens(fields: &Fields) -> Result<FisheyeLens, SpecError> {
     let model = fields.choice("lens", &MODELS)?.unwrap_or(Model::Ideal(FisheyeLens::EQUIDISTANT));
     let refused = |error: LensError| {
@@ -151,7 +151,7 @@ pub(crate) fn lens(fields: &Fields) -> Result<FisheyeLens, SpecError> {
     }
 }
 
-/// `k=`, at least so many numbers; the rest are 0.
+/// Reads `k=`, with at least `least` numbers; the others are 0.
 fn coefficients<const N: usize>(fields: &Fields, least: usize, expected: &str) -> Result<[f64; N], SpecError> {
     let numbers = |value: &str| {
         let mut numbers = [0.0; N];
@@ -189,7 +189,7 @@ pub(crate) fn write_angular_map(shape: &Shape) -> Option<Keys> {
     (frame == plain).then(|| Keys::default().circle("", frame.circle).aspect(frame.pixel_aspect))
 }
 
-/// Adds what says how large the picture of a lens is.
+/// Adds the keys for the scale of a lens's picture.
 pub(in crate::spec) fn write_scale(keys: Keys, scale: LensScale) -> Keys {
     match scale {
         LensScale::Circle(fit) => keys.choice("fit", fit, FisheyeFit::default(), &FITS),

@@ -1,4 +1,4 @@
-//! Cameras, lenses and domes as they are typed.
+//! Text forms of cameras, lenses and domes.
 
 mod calibration;
 pub(super) mod dome;

@@ -1,4 +1,4 @@
-//! Pinhole cameras and stereographic views as they are typed.
+//! Text forms of pinhole cameras and stereographic views.
 
 use cosmorama::camera::{CameraModel, FieldOfView, PerspectiveCamera, StereographicCamera};
 use cosmorama::sphere::Angle;
@@ -9,7 +9,7 @@ use crate::spec::fields::Fields;
 use crate::spec::keys::Keys;
 use crate::spec::{CalibrationSpec, LensFamily, Shape};
 
-/// Horizontal field of view of a pinhole camera, unless given.
+/// Default horizontal field of view of a pinhole camera.
 const RIGHT_ANGLE: Angle = Angle::from_degrees(90.0);
 
 pub(crate) fn perspective(fields: &Fields) -> Result<Shape, SpecError> {

@@ -1,4 +1,4 @@
-//! Maps of the world and st maps as they are typed.
+//! Text forms of maps of the world and of st maps.
 
 mod st_map;
 pub(super) mod world_map;

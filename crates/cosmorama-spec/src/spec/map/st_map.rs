@@ -8,12 +8,12 @@ use crate::spec::fields::{Fields, wrong};
 use crate::spec::keys::Keys;
 use crate::spec::{CalibrationSpec, Shape, Single, Spec};
 
-/// Picture that an st map relates to another one, before the map has been read.
+/// A picture that an st map relates to another one, before the map has been read.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StMapSpec {
     /// File of the map.
     pub file: PathBuf,
-    /// Whether it is used the other way round.
+    /// Whether the map is used in the opposite direction.
     pub invert: bool,
     /// Picture at the map's other end, if given.
     pub base: Option<StMapBase>,
@@ -21,7 +21,7 @@ pub struct StMapSpec {
     pub orientation: Orientation,
     /// Mirroring of this picture.
     pub mirror: Mirror,
-    /// Canvas that this picture is a window of.
+    /// Canvas of which this picture is a window.
     pub canvas: Option<Canvas>,
 }
 
@@ -31,7 +31,7 @@ pub struct StMapSpec {
 pub enum StMapBase {
     /// A picture whose projection is a formula.
     Single(Single),
-    /// A picture of a measured camera, whose calibration is still to be read.
+    /// A calibrated camera, whose file is still to be read.
     Calibrated(CalibrationSpec),
 }
 

@@ -1,4 +1,4 @@
-//! Maps, mirror balls and octahedra as they are typed.
+//! Text forms of maps, mirror balls and octahedra.
 
 use cosmorama::camera::{
     CameraModel, CylinderCamera, CylinderKind, EquirectCamera, MirrorBallCamera, OctahedralCamera, PanniniCamera,
@@ -21,7 +21,8 @@ pub(crate) fn equirect(fields: &Fields) -> Result<Shape, SpecError> {
     Shape::single(fields, CameraModel::Equirect(frame))
 }
 
-/// `mercator`, `cylinder` or `equal-area`: Mercator's edges are given as a latitude, the others' as a field of view.
+/// Reads `mercator`, `cylinder` or `equal-area`. Mercator's edges are given as a latitude, the others' as a field of
+/// view.
 pub(crate) fn cylinder(fields: &Fields, kind: CylinderKind) -> Result<Shape, SpecError> {
     let (edge, top) = match kind {
         CylinderKind::Mercator => ("lat", fields.angle("lat")?),
