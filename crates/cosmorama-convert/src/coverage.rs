@@ -10,16 +10,16 @@ use crate::diagnostic::{Code, ConvertError, Diagnostic, MISSING, PITCH, ROLL, Re
 use crate::input::{Input, InputView};
 use crate::target::{Target, TargetView};
 
-/// What becomes of pixels that look where no view does.
+/// Treatment of pixels that look where no view does.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Coverage {
-    /// There are none.
+    /// There are no such pixels.
     Complete,
-    /// They are filled.
+    /// They are filled with a colour.
     Fill(Rgba),
 }
 
-/// The worlds of whole pictures, whether their files are there or not: one, or one for each eye.
+/// Returns the worlds of whole pictures, even if files are missing: one, or one for each eye.
 pub(crate) fn whole_worlds(input: &Input, memory: MemoryBudget) -> Result<Vec<World>> {
     memory.check_pictures(input)?;
     let world =
@@ -28,8 +28,8 @@ pub(crate) fn whole_worlds(input: &Input, memory: MemoryBudget) -> Result<Vec<Wo
 }
 
 impl Coverage {
-    /// Compares what the target needs with what the input holds, before any pixel is computed. Also gives the worlds that
-    /// the input holds of the nominal ones.
+    /// Compares what the target needs with what the input holds, before any pixel is computed. Also returns the worlds
+    /// that the files actually hold.
     pub(crate) fn check(
         input: &mut Input,
         nominal: Vec<World>,
@@ -58,7 +58,7 @@ impl Coverage {
     }
 }
 
-/// What is missing of the views of a world. Notes which of them are wanted.
+/// Finds what is missing in the views of a world, and marks the views that are needed.
 fn find_gaps(
     views: &mut [InputView],
     nominal: &World,
@@ -97,13 +97,13 @@ fn find_gaps(
     Ok(gaps)
 }
 
-/// Whether all that may be needed of a view is there.
+/// Returns whether everything that may be needed of a view is there.
 fn holds((view, need): (&InputView, &Need)) -> bool {
     let held = view.window.as_ref().map(|(held, canvas)| rect(canvas, held));
     need.read.is_none_or(|read| held.is_some_and(|held| held.contains(&read)))
 }
 
-/// The world of what files hold: often that of the whole pictures.
+/// Returns the world that the files hold, often equal to that of the whole pictures.
 fn held_world(views: &[InputView], nominal: World) -> Result<World> {
     let held = || views.iter().filter_map(InputView::present).map(|(view, _, held)| view.world_view(held.clone()));
     let is_same = |(part, source): (WorldView, &Source)| {
@@ -115,7 +115,7 @@ fn held_world(views: &[InputView], nominal: World) -> Result<World> {
     Ok(nominal.with_views(held())?)
 }
 
-/// Without any view there is nothing to fill up.
+/// Returns the error for an input without any view, which cannot be filled up.
 fn empty(gaps: &[String]) -> ConvertError {
     let gaps = gaps.join("\n  ");
     let message =
@@ -123,7 +123,7 @@ fn empty(gaps: &[String]) -> ConvertError {
     failed_as(Code::Uncovered, message)
 }
 
-/// What pixels of the output look at and the file does not hold.
+/// Describes what pixels of the output look at and the file does not hold.
 fn shortfall(view: &InputView, need: &Need) -> Option<String> {
     let seen = need.seen?;
     match &view.window {
@@ -150,7 +150,7 @@ fn shortfall(view: &InputView, need: &Need) -> Option<String> {
     }
 }
 
-/// Where all that pixels look at is there, but not all that the filter would read around it.
+/// Returns a warning where everything that pixels look at is there, but not all that the filter would read around it.
 fn frayed(view: &InputView, need: &Need) -> Option<Diagnostic> {
     let (seen, read, (held, canvas)) = (need.seen?, need.read?, view.window.as_ref()?);
     let held = rect(canvas, held);
@@ -163,7 +163,8 @@ fn frayed(view: &InputView, need: &Need) -> Option<Diagnostic> {
     })
 }
 
-/// The part of its canvas that an image shows. One that goes all the way round shows every column, wherever it begins.
+/// Returns the part of its canvas that an image shows. One that goes all the way round shows every column, wherever it
+/// begins.
 fn rect(canvas: &Canvas, held: &View) -> PixelRect {
     let edge = |at: i64, size: usize| at.clamp(0, size as i64) as usize;
     let goes_round = held.period().is_some_and(|period| held.width() >= period);

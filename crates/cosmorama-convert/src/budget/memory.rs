@@ -12,23 +12,23 @@ use crate::diagnostic::{FILTER, MEMORY, Result, bail};
 use crate::input::{Input, InputView};
 use crate::target::{Sheet, Target};
 
-/// How much memory may be used.
+/// Limit of the memory that a conversion may use.
 #[derive(Clone, Copy, Debug)]
 pub struct MemoryBudget {
-    /// Bytes.
+    /// Number of bytes.
     pub bytes: u64,
-    /// What was asked for, if that is more than there is.
+    /// Requested amount, if it exceeds the machine's memory.
     too_much: Option<u64>,
 }
 
-/// What is used where nothing else is asked for.
+/// Default share of free memory.
 const DEFAULT_PART: f64 = 0.75;
 
-/// Where the system does not tell how much memory is free.
+/// Assumed free memory where the system does not report it.
 const UNKNOWN_FREE: u64 = 4 << 30;
 
 impl MemoryBudget {
-    /// What was asked for, or three quarters of free memory; never more than there is.
+    /// Returns the requested limit, or three quarters of free memory; never more than the machine has.
     pub fn new(asked: Option<MemorySize>) -> Self {
         let part = |part: f64| (free_bytes().unwrap_or(UNKNOWN_FREE) as f64 * part) as u64;
         let wanted = match asked {
@@ -40,8 +40,8 @@ impl MemoryBudget {
         Self { bytes: wanted.min(all), too_much: (wanted > all).then_some(wanted) }
     }
 
-    /// Whether the geometry of whole pictures fits, with the light of the largest file, before memory is taken: a small
-    /// file may say that it is huge, or a window of something huge.
+    /// Checks that the geometry of whole pictures, and the light of the largest file, fit before memory is allocated. A
+    /// small file may declare a huge size, or be a window of a huge canvas.
     pub(crate) fn check_pictures(self, input: &Input) -> Result<()> {
         let texels = |view: &InputView| pixels(&view.nominal);
         let geometry = input.views().map(texels).fold(0, u64::saturating_add).saturating_mul(SOLID_ANGLE);
@@ -55,7 +55,7 @@ impl MemoryBudget {
         self.allow(needed, "the input", &largest)
     }
 
-    /// Whether a mask of this size fits while it is made, of a picture of so many bytes a pixel.
+    /// Checks that a mask of this size fits while it is made from a picture of so many bytes per pixel.
     pub(crate) fn check_mask(self, (width, height): (usize, usize), picture: u64) -> Result<()> {
         // Its squared distances in double precision, and those that are kept.
         let bytes = (size_of::<f64>() + size_of::<f32>()) as u64 + picture;
@@ -63,7 +63,7 @@ impl MemoryBudget {
         self.allow(needed, "a mask", &format!("; it has {width}x{height} pixels"))
     }
 
-    /// Whether the table that is made of an st map of this size fits beside the map's own numbers.
+    /// Checks that the table of an st map of this size fits together with the map's own values.
     pub(crate) fn check_table(self, file: &Path, size: (usize, usize), has_places: bool) -> Result<()> {
         let (width, height) = size;
         let numbers = (size_of::<[f32; 2]>() as u64).saturating_mul(width as u64).saturating_mul(height as u64);
@@ -71,12 +71,12 @@ impl MemoryBudget {
         self.allow(needed, "an st map", &format!("; {} has {width}x{height} pixels", file.display()))
     }
 
-    /// Whether the outputs of a frame fit, before anything is made of them.
+    /// Checks that the outputs of a frame fit, before anything is made.
     pub(crate) fn check_outputs(self, target: &Target) -> Result<()> {
         self.allow(output_bytes(target), "a frame", &describe(target, "; "))
     }
 
-    /// Whether pictures of these sizes fit that are only told of: as many as a frame of them would have to hold.
+    /// Checks that pictures of these sizes would fit in a frame, although they are only described.
     pub(crate) fn check_sizes(self, sizes: impl IntoIterator<Item = (usize, usize)>) -> Result<()> {
         let sizes: Vec<(usize, usize)> = sizes.into_iter().collect();
         let largest = sizes.iter().max_by_key(|size| area(**size));
@@ -84,7 +84,7 @@ impl MemoryBudget {
         self.allow(pixel_bytes(sizes), "a frame", &why)
     }
 
-    /// Whether a frame fits, with the light of the views that are wanted, before memory is taken.
+    /// Checks that a frame with the light of all wanted views fits, before memory is allocated.
     pub(crate) fn check_frame(self, input: &Input, target: &Target) -> Result<()> {
         let largest = input.present().max_by_key(|(_, header, _)| header.width.saturating_mul(header.height));
         let largest = largest.map_or_else(String::new, |(view, header, _)| {
@@ -98,7 +98,8 @@ impl MemoryBudget {
         self.allow(frame_bytes(input, target), "a frame", &(largest + &describe(target, ", and ")))
     }
 
-    /// What is left beside the levels of pyramids, which frames make one after the other, if a frame and they fit.
+    /// Returns the budget that is left beside the levels of pyramids, which frames make one after the other. It is an
+    /// error if a frame and its levels do not fit.
     pub(crate) fn beside_levels(self, levels: u64, input: &Input, target: &Target) -> Result<Self> {
         let needed = frame_bytes(input, target).saturating_add(levels);
         let why = format!("; smaller copies of the input, for {FILTER} ewa-pyramid, are {} of it", human(levels));
@@ -106,7 +107,7 @@ impl MemoryBudget {
         Ok(Self { bytes: self.bytes - levels, ..self })
     }
 
-    /// Whether two pictures fit, with the copies that comparing them takes, before memory is taken.
+    /// Checks that two pictures fit, with the copies that a comparison needs, before memory is allocated.
     pub fn check_comparison(self, pictures: [(&Path, &Header); 2]) -> Result<()> {
         // Beside its light each picture is blurred, in double precision.
         let bytes = |header: &Header| light_bytes(header).saturating_add(header_pixels(header).saturating_mul(16));
@@ -137,18 +138,19 @@ impl MemoryBudget {
         );
     }
 
-    /// What is left for the geometry that all frames share.
+    /// Returns the memory left for geometry that all frames share.
     pub(crate) fn left_for_plan(self, input: &Input, target: &Target, threads: usize) -> u64 {
         self.beside_program(threads).saturating_sub(frame_bytes(input, target)).saturating_sub(plane_bytes(target))
     }
 
-    /// What is left beside the program itself. A frame alone is made in less, too: what it needs is not so much as is counted.
+    /// Returns the memory left beside the program itself. A single frame may use less than is counted here, so it is
+    /// not limited by it.
     fn beside_program(self, threads: usize) -> u64 {
         self.bytes.saturating_sub(PROGRAM).saturating_sub(THREAD.saturating_mul(threads as u64))
     }
 
-    /// How many frames may be in flight around the one that is filtered, beside the geometry that they share. The files of one
-    /// frame each keep a thread busy, so that more than it takes to keep all of them busy are of no use.
+    /// Returns how many frames may be in flight around the one that is filtered, beside the geometry that they share.
+    /// Each frame's files keep a thread busy, so more frames than threads are of no use.
     pub(crate) fn queue_depth(self, input: &Input, target: &Target, plans: u64, threads: usize) -> QueueDepth {
         let moving = input.present().filter(|(view, ..)| view.files.sequence().is_some());
         let (files, read) = moving
@@ -166,11 +168,11 @@ impl MemoryBudget {
     }
 }
 
-/// What the program takes without any picture, with its tables.
+/// Memory of the program without pictures, with its tables.
 const PROGRAM: u64 = 8 << 20;
 
-/// What a thread takes beside the pictures that it works on: bands of geometry, blocks of files, and what the system's allocator keeps
-/// for it.
+/// Memory of a thread beside the pictures that it works on: bands of geometry, blocks of files, and the allocator's
+/// reserve.
 const THREAD: u64 = 3 << 20;
 
 /// Bytes of a texel's solid angle.
@@ -180,17 +182,17 @@ fn header_pixels(header: &Header) -> u64 {
     area((header.width, header.height))
 }
 
-/// Bytes of a pixel's samples.
+/// Returns the bytes of a pixel's samples.
 fn sample_bytes(header: &Header) -> u64 {
     (header.channels.count() * header.depth.bytes()) as u64
 }
 
-/// A file's samples.
+/// Returns the bytes of a file's samples.
 fn read_bytes(header: &Header) -> u64 {
     header_pixels(header).saturating_mul(sample_bytes(header))
 }
 
-/// A file's samples and the light made of them.
+/// Returns the bytes of a file's samples, and of the light decoded from them.
 pub(crate) fn light_bytes(header: &Header) -> u64 {
     header_pixels(header).saturating_mul(sample_bytes(header) + size_of::<Rgba>() as u64)
 }
@@ -204,17 +206,17 @@ fn describe(target: &Target, link: &str) -> String {
     target.files.first().map_or_else(String::new, |file| size(&file.sheet))
 }
 
-/// The outputs with their encoded twins.
+/// Returns the bytes of the outputs and their encoded samples.
 fn output_bytes(target: &Target) -> u64 {
     pixel_bytes(target.files.iter().flat_map(|file| file.levels()).map(|sheet| sheet.size))
 }
 
-/// OpenEXR's samples are sorted into planes, while the pictures that they are of wait to be handed on.
+/// Returns the bytes of OpenEXR's planes, into which samples are sorted while their pictures are still held.
 fn plane_bytes(target: &Target) -> u64 {
     if target.format == Format::Exr { output_bytes(target) / 2 } else { 0 }
 }
 
-/// Pictures of these sizes with their encoded twins.
+/// Returns the bytes of pictures of these sizes, with their encoded samples.
 fn pixel_bytes(sizes: impl IntoIterator<Item = (usize, usize)>) -> u64 {
     let pixels = sizes.into_iter().map(area).fold(0, u64::saturating_add);
     pixels.saturating_mul(2 * size_of::<Rgba>() as u64)
@@ -224,7 +226,7 @@ fn area((width, height): (usize, usize)) -> u64 {
     (width as u64).saturating_mul(height as u64)
 }
 
-/// What a view's projection holds besides numbers.
+/// Returns the bytes of tables that a view's projection holds.
 fn table_bytes(view: &View) -> u64 {
     match &view.projection {
         ProjectionKind::StMap(map) => map.bytes(),
@@ -232,7 +234,7 @@ fn table_bytes(view: &View) -> u64 {
     }
 }
 
-/// What all frames share, but for plans: the solid angle of every texel, and tables.
+/// Returns the bytes that all frames share, without plans: the solid angle of every texel, and tables.
 fn geometry_bytes(input: &Input, target: &Target) -> u64 {
     let angles = (input.texels() as u64).saturating_mul(SOLID_ANGLE);
     let views = input.views().map(|view| &view.nominal).chain(target.views.iter().map(|target| &target.view));
@@ -240,18 +242,18 @@ fn geometry_bytes(input: &Input, target: &Target) -> u64 {
     angles.saturating_add(tables)
 }
 
-/// A frame with what it shares: its files, their light, and the outputs.
+/// Returns the bytes of a frame with everything that it shares: its files, their light, and the outputs.
 fn frame_bytes(input: &Input, target: &Target) -> u64 {
     let light = input.present().map(|(_, header, _)| light_bytes(header)).fold(0, u64::saturating_add);
     light.saturating_add(geometry_bytes(input, target)).saturating_add(output_bytes(target))
 }
 
-/// An amount of memory as people say it.
+/// Formats an amount of memory.
 pub(crate) fn human(bytes: u64) -> String {
     told(bytes, |tenths| tenths)
 }
 
-/// Formats an amount of memory rounded up, so that giving as much as is printed is enough.
+/// Formats an amount of memory rounded up, so that the printed amount suffices.
 fn human_at_least(bytes: u64) -> String {
     told(bytes, f64::ceil)
 }

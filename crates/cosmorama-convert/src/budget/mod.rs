@@ -1,4 +1,4 @@
-//! Memory: what there is, what a conversion takes, how many frames may be in flight.
+//! Memory: the available amount, the needs of a conversion, and the number of frames in flight.
 
 mod memory;
 mod queue_depth;

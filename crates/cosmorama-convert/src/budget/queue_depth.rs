@@ -1,29 +1,29 @@
-/// Frames in flight around the one that is filtered.
+/// Number of frames in flight around the one that is filtered.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct QueueDepth {
-    /// Frames that are being read or wait for their turn. A single one is read once the frame before it is made, and its
-    /// samples are freed.
+    /// Frames that are being read or wait for their turn. If it is one, a frame is read when the one before it is
+    /// finished and its samples are freed.
     pub(crate) read: usize,
-    /// Frames whose pictures exist: the last is being made, the others written. A single one is written before the next
-    /// has pictures.
+    /// Frames whose pictures exist: one is being made, the others are being written. If it is one, a picture is written
+    /// before the next is made.
     pub(crate) written: usize,
-    /// Bytes that all of them may take together, with the one that is filtered, beside what they share.
+    /// Bytes of all of them together, including the frame that is filtered, without what they share.
     pub(crate) bytes: u64,
 }
 
-/// Bytes that a frame takes.
+/// Memory of a frame in bytes.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct FrameMemory {
     /// Samples, light and outputs.
     pub(crate) all: u64,
-    /// Its samples, where they are not the same in all frames.
+    /// Samples, if they differ from frame to frame.
     pub(crate) read: u64,
-    /// Its outputs.
+    /// Outputs.
     pub(crate) written: u64,
 }
 
 impl QueueDepth {
-    /// As many as fit into so many bytes, and no more than are wanted to be read and written.
+    /// Returns as many frames as fit into so many bytes, and no more than are wanted to be read and written.
     pub(crate) fn fitting(room: u64, frame: FrameMemory, (read, written): (usize, usize)) -> Self {
         let mut left = room.saturating_sub(frame.all);
         let mut fitting = Self { read: 1, written: 1, bytes: 0 };

@@ -7,36 +7,37 @@ use crate::input::Input;
 use crate::settings::Conversion;
 use crate::target::Target;
 
-/// How code values relate to light on both sides, and what the outputs hold.
+/// Transfer functions of inputs and outputs, and the outputs' channels and depth.
 #[derive(Clone, Debug)]
 pub(crate) struct Light {
-    /// Of the inputs, unless their own files say so.
+    /// Requested transfer function of the inputs; without one, files decide.
     input: InputTransfer,
-    /// Whether any input has alpha: what is transparent there stays so.
+    /// Whether any input has alpha; then transparent parts stay transparent.
     pub(crate) input_alpha: bool,
     /// Channels of the outputs.
     pub(crate) channels: Channels,
     /// Sample type of the outputs.
     pub(crate) depth: Depth,
-    /// Of the outputs.
+    /// Transfer function of the outputs.
     pub(crate) transfer: Transfer,
-    /// What the outputs say of themselves.
+    /// Metadata of the outputs.
     pub(crate) metadata: Metadata,
-    /// What lies outside the lens.
+    /// Colour outside the lens.
     pub(crate) background: Rgba,
 }
 
-/// What was asked for on the input's side.
+/// Requested transfer functions of the input.
 #[derive(Clone, Debug)]
 pub struct InputTransfer {
-    /// For integer files.
+    /// For integer files only.
     integers: Option<Transfer>,
     /// For all files.
     all: Option<Transfer>,
 }
 
 impl InputTransfer {
-    /// `--transfer` speaks of integers, since float files are linear; `--in-transfer` of whatever comes in.
+    /// Combines `--transfer`, which applies to integer files since floats are linear, with `--in-transfer`, which
+    /// applies to all.
     pub fn new(both: &TransferName, side: Option<&TransferName>) -> Self {
         match side {
             Some(side) => Self { integers: side.fixed(), all: side.fixed() },
@@ -44,7 +45,7 @@ impl InputTransfer {
         }
     }
 
-    /// For a file that says this of itself.
+    /// Returns the transfer function of a file of this depth with this metadata.
     pub fn of(&self, depth: Depth, metadata: &Metadata) -> Transfer {
         if depth.is_float() {
             return self.all.clone().unwrap_or(Transfer::Linear);
@@ -79,19 +80,19 @@ impl Light {
         })
     }
 
-    /// Bytes of an output's samples.
+    /// Returns the bytes of an output's samples.
     pub(crate) fn file_bytes(&self, (width, height): (usize, usize)) -> u64 {
         let samples = (self.channels.count() * self.depth.bytes()) as u64;
         (width as u64).saturating_mul(height as u64).saturating_mul(samples)
     }
 
-    /// How an input file's code values relate to light.
+    /// Returns the transfer function of an input file.
     pub(crate) fn input_transfer(&self, depth: Depth, metadata: &Metadata) -> Transfer {
         self.input.of(depth, metadata)
     }
 }
 
-/// As the input, with alpha if the input has it or something is to be transparent.
+/// Returns the input's channels, with alpha added if the input has it or something must be transparent.
 fn channels(
     args: &Conversion,
     headers: &[&Header],
@@ -140,7 +141,7 @@ fn depth(args: &Conversion, headers: &[&Header], target: &Target) -> Result<Dept
     Err(usage(format!("{DEPTH} {asked}: {} files hold {}", target.format, known.join(", "))))
 }
 
-/// What comes in goes out: an integer file's transfer function for an integer file, linear light for floats.
+/// Returns the output's transfer function: that of an integer input for an integer output, linear for floats.
 fn output_transfer(
     args: &Conversion,
     headers: &[&Header],

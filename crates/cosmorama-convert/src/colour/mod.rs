@@ -1,4 +1,4 @@
-//! How code values relate to light on both sides, and what is told of alpha.
+//! Transfer functions of both sides, and messages about alpha.
 
 mod light;
 mod thin_alpha;

@@ -1,11 +1,11 @@
-//! Alpha that is full nowhere: pictures that cover nothing wholly are rare, and multipliers are kept there, too.
+//! Detection of alpha that is nowhere full. Such pictures are rare, and some files hold a multiplier there.
 
 use cosmorama::raster::Rgba;
 
-/// Nothing more is full, in floats that were made of codes.
+/// Alpha from which a pixel counts as full; allows for floats that were made from codes.
 const FULL: f32 = 0.999;
 
-/// The range of alpha in pixels of which none is full.
+/// Range of alpha in pixels of which none is full.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ThinAlpha {
     least: f32,
@@ -27,7 +27,7 @@ impl ThinAlpha {
         Self { least: self.least.min(other.least), greatest: self.greatest.max(other.greatest) }
     }
 
-    /// What should be known; nothing of a picture that is as transparent everywhere, which no multiplier is.
+    /// Returns the warning; `None` if alpha is the same everywhere, because a multiplier varies.
     pub fn told(self) -> Option<String> {
         (self.least < self.greatest).then(|| {
             format!(

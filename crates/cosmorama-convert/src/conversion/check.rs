@@ -8,22 +8,22 @@ use crate::diagnostic::{Diagnostic, Outcome, Result, failure};
 use crate::engine::{Stage, Stages};
 use crate::settings::Conversion;
 
-/// A conversion of which everything has been checked that can be without decoding a pixel.
+/// A conversion that has been checked as far as possible without decoding pixels.
 pub struct Checked {
     pub(crate) settings: Conversion,
     pub(crate) content: Content,
     pub(crate) job: ConvertJob,
-    /// The threads that everything runs on.
+    /// Threads of the conversion.
     pub(crate) pool: ThreadPool,
-    /// What has been said so far.
+    /// Diagnostics so far.
     pub(crate) diagnostics: Vec<Diagnostic>,
     pub(crate) stages: Stages,
     pub(crate) start: Instant,
 }
 
 impl Conversion {
-    /// Checks the settings against the files, of which only headers are read, and pixels where nothing else tells what they are.
-    /// What cannot be done may have been guessed wrongly: diagnostics count with an error, too.
+    /// Checks the settings against the files. Only headers are read, and pixels only where nothing else tells the
+    /// projection. Diagnostics are valid with an error, too: the cause may be a wrong guess.
     pub fn check(self) -> Outcome<Checked> {
         let mut diagnostics = Vec::new();
         let result = self.checked(&mut diagnostics);
@@ -41,8 +41,8 @@ impl Conversion {
 }
 
 impl Checked {
-    /// Explains what the conversion does: for each picture its name and which part of which view it shows, with what
-    /// magnification. Formulas have no views.
+    /// Explains the conversion. For each picture it returns the name and a report of the parts of each view that it
+    /// shows, with their magnification. Formulas have no views.
     pub fn explain(&self) -> Vec<(String, explain::Report)> {
         let Self { job, pool, content, .. } = self;
         let views = job.target.views.iter().filter(|_| content.has_files());
@@ -53,7 +53,7 @@ impl Checked {
     }
 }
 
-/// Starts threads to work with.
+/// Starts a pool of threads.
 pub fn threads(count: Option<usize>) -> Result<ThreadPool> {
     let pool = ThreadPoolBuilder::new().num_threads(count.unwrap_or(0)).build();
     pool.map_err(|error| failure!("cannot start threads: {error}"))

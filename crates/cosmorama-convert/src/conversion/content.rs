@@ -14,12 +14,12 @@ use crate::input::{Access, Builtin, Input, SAME_FOR_BOTH};
 use crate::settings::{Conversion, GeometrySettings};
 use crate::target::{Target, TargetView};
 
-/// What pixels are made of.
+/// Source of the output's pixels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Content {
     /// Light of files, filtered.
     World,
-    /// Places in a file, instead of its light.
+    /// Places in the input file, for an st map.
     StMap,
     /// Light by a formula.
     Formula(BuiltinWorld),
@@ -27,11 +27,11 @@ pub(crate) enum Content {
     Directions(DirectionMap),
 }
 
-/// Nobody makes wider pictures for the sake of letters.
+/// Greatest width that is suggested for the sake of legible letters.
 const WIDEST: usize = 1 << 15;
 
 impl Content {
-    /// What settings ask for.
+    /// Returns the content that the settings request.
     pub(crate) fn of(settings: &Conversion) -> Result<Self> {
         match Builtin::named(&settings.input)? {
             Some(_) if settings.st_map => {
@@ -44,12 +44,12 @@ impl Content {
         }
     }
 
-    /// Whether there are files to read.
+    /// Returns whether there are files to read.
     pub(crate) fn has_files(self) -> bool {
         matches!(self, Self::World | Self::StMap)
     }
 
-    /// Finds and probes the input's files, where there are any.
+    /// Finds and probes the input's files, if there are any.
     pub(crate) fn input(
         self,
         settings: &Conversion,
@@ -69,7 +69,7 @@ impl Content {
         Ok(Input::none())
     }
 
-    /// Fits the input to the eyes of the target; a formula shows both the same.
+    /// Fits the input to the eyes of the target; a formula shows both eyes the same.
     pub(crate) fn fit_eyes(self, input: &mut Input, target: &Target, warnings: &mut Vec<Diagnostic>) {
         if self.has_files() {
             input.fit_eyes(target.is_stereo(), warnings);

@@ -1,22 +1,22 @@
 use crate::diagnostic::Diagnostic;
 
-/// Watches a conversion while it runs.
+/// Callbacks of a running conversion.
 pub trait Observer {
-    /// Learns how many frames are to be made, before the first.
+    /// Called with the number of frames to make, before the first.
     fn begin(&mut self, _frames: usize) {}
 
-    /// Learns what should be known.
+    /// Called with a diagnostic.
     fn diagnostic(&mut self, _diagnostic: &Diagnostic) {}
 
-    /// Learns that a frame is written; `None` is one without a number.
+    /// Called when a frame is written; `None` for one without a number.
     fn frame_done(&mut self, _frame: Option<u64>) {}
 
-    /// Learns how many bytes all frames in flight take at most, before the first of a sequence: memory of one that is done is as
-    /// large as what the next one wants.
+    /// Called before the first frame of a sequence with the most bytes that all frames in flight take. Memory of a
+    /// finished frame has the size that the next one needs.
     fn memory_in_flight(&mut self, _bytes: u64) {}
 }
 
-/// Watches nothing.
+/// An observer that ignores everything.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Quiet;
 

@@ -9,7 +9,7 @@ use crate::diagnostic::{
 use crate::output::Outputs;
 use crate::settings::{Conversion, GeometrySettings};
 
-/// Checks that every option has an effect: if not, another format was meant, or another option.
+/// Checks that every file option has an effect on this format; otherwise another format or option was intended.
 pub(crate) fn check_file_options(settings: &Conversion, format: Format) -> Result<()> {
     let output = &settings.output;
     if settings.quality.is_some() && format != Format::Jpeg {
@@ -32,8 +32,8 @@ pub(crate) fn check_file_options(settings: &Conversion, format: Format) -> Resul
     Ok(())
 }
 
-/// How outputs are written. Frames come by the thousand, and are read again: as PNG they are written for speed, unless
-/// something else is asked for.
+/// Returns the options for writing outputs. PNG sequences are written for speed by default, because their frames are
+/// many and are read again.
 pub(crate) fn write_options(settings: &Conversion, format: Format, outputs: &Outputs, light: &Light) -> WriteOptions {
     let default = WriteOptions::default();
     let usual = if format == Format::Png && outputs.is_sequence() { Compression::Fast } else { default.compression };
@@ -45,7 +45,7 @@ pub(crate) fn write_options(settings: &Conversion, format: Format, outputs: &Out
     }
 }
 
-/// The filter that was asked for.
+/// Returns the requested filter.
 pub(crate) fn filter(geometry: &GeometrySettings, warnings: &mut Vec<Diagnostic>) -> FilterSettings {
     let (kind, kernel) = (geometry.filter.0, geometry.kernel.kernel);
     let is_weighed = !matches!(kind, FilterKind::Point | FilterKind::Bilinear);

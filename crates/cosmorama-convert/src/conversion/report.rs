@@ -7,7 +7,7 @@ use crate::diagnostic::Diagnostic;
 use crate::engine::{CpuSeconds, Stages};
 use crate::output::{Outputs, Remade};
 
-/// What a conversion has done.
+/// Results of a conversion.
 #[derive(Clone, Debug)]
 pub struct Report {
     /// Files that were read.
@@ -16,17 +16,17 @@ pub struct Report {
     pub outputs: Vec<PathBuf>,
     /// Frames that were made.
     pub frames: usize,
-    /// Outputs that were complete already.
+    /// Outputs that were already complete.
     pub skipped: usize,
-    /// Outputs that were there in another state, and that were made again.
+    /// Outputs that existed in another state, and were made again.
     pub remade: Vec<Remade>,
     /// Time from the check to the end.
     pub wall: Duration,
-    /// Time on processors by stage, all threads added.
+    /// Processor time by stage, summed over all threads.
     pub cpu_seconds: CpuSeconds,
-    /// The most memory that this process has held, where the system tells it.
+    /// Most memory that this process has held, where the system reports it.
     pub peak_memory_bytes: Option<u64>,
-    /// What should be known.
+    /// Diagnostics of the conversion.
     pub diagnostics: Vec<Diagnostic>,
 }
 

@@ -16,7 +16,7 @@ impl Checked {
     /// Makes the outputs. Each appears whole or not at all.
     ///
     /// # Errors
-    /// When a file cannot be read or written, or does not hold what its header said.
+    /// When a file cannot be read or written, or its content contradicts its header.
     pub fn run(mut self, observer: &mut dyn Observer) -> Result<Report> {
         observer.begin(self.job.outputs.frames.len());
         match self.content {
@@ -78,12 +78,12 @@ struct Run<'a> {
     pool: &'a ThreadPool,
     observer: &'a mut dyn Observer,
     diagnostics: &'a mut Vec<Diagnostic>,
-    /// Whether no frame has been looked at yet.
+    /// Whether no frame has been examined yet.
     is_first: bool,
 }
 
 impl Run<'_> {
-    /// A single picture: stage by stage, each with all threads, and in memory no longer than it is needed.
+    /// Makes a single picture, stage by stage, each with all threads, and frees memory as early as possible.
     fn still(&mut self, frame: &FrameOutputs) -> Result<()> {
         let Self { engine, stages, pool, .. } = *self;
         let job = self.job;
@@ -128,7 +128,7 @@ impl Run<'_> {
     }
 }
 
-/// Reads the files of a frame and makes light of them.
+/// Reads the files of a frame and decodes them to light.
 fn light_of(job: &ConvertJob, engine: &Engine, stages: &Stages, frame: &FrameOutputs) -> Result<FrameLight> {
     let mut light = engine.frame_light();
     let images = stages.alone(Stage::Decode, || {

@@ -1,4 +1,4 @@
-//! Crosses with their long arm at the other end: mirrored as a whole, their faces lie in other places.
+//! Crosses with their long arm at the other end. They are mirrored as a whole, so their faces lie in other places.
 
 use cosmorama::camera::{Mirror, PixelRect};
 use cosmorama::layout::{CubeLayout, LayoutKind};
@@ -7,7 +7,7 @@ use crate::detect::Continuity;
 use crate::detect::mirrored_faces::flip_key;
 use crate::diagnostic::FROM;
 
-/// How a picture of a layout has to be mirrored for its faces to lie in other places, if it can be.
+/// Returns the mirroring that moves a layout's faces to other places, if there is one.
 pub(crate) fn axis(kind: LayoutKind) -> Option<Mirror> {
     let places = |mirror: Mirror| -> Vec<PixelRect> {
         CubeLayout::new(kind).mirrored(mirror).faces(2).iter().map(|placed| placed.rect).collect()
@@ -17,14 +17,14 @@ pub(crate) fn axis(kind: LayoutKind) -> Option<Mirror> {
     axes.into_iter().find(|axis| places(*axis).iter().any(|place| !own.contains(place)))
 }
 
-/// The SPECs under which faces are in the places of a picture that is mirrored so. Borders do not tell one from the other.
+/// SPECs that put faces into the places of a mirrored picture. Borders cannot tell them apart.
 pub(crate) struct Readings {
-    /// As mirrored.
+    /// The mirrored reading.
     pub(crate) mirrored: String,
-    /// As a cross whose arm is at its other end: turned upside down, which puts faces into the same places, with the world
+    /// A cross with its arm at the other end: turned upside down, which moves faces to the same places, with the world
     /// turned back.
     pub(crate) upright: String,
-    /// As a cross that was itself turned upside down.
+    /// A cross that was itself turned upside down.
     pub(crate) on_its_head: String,
 }
 
@@ -39,13 +39,13 @@ impl Readings {
     }
 }
 
-/// The other axis, which leaves every place one.
+/// Returns the mirroring along the other axis, which keeps every place.
 fn along(kind: LayoutKind) -> Mirror {
     let both = Mirror { x: true, y: true };
     axis(kind).map_or(both, |axis| both.and(axis))
 }
 
-/// What is told of faces that were looked for in the places of a picture that is mirrored so.
+/// Returns the message about faces that were found in the places of a mirrored picture.
 pub(crate) fn told_elsewhere(kind: LayoutKind, mirror: Mirror, found: Continuity) -> Continuity {
     let what = if mirror == Mirror::default() {
         "the picture is not mirrored".to_owned()
@@ -66,7 +66,7 @@ pub(crate) fn told_elsewhere(kind: LayoutKind, mirror: Mirror, found: Continuity
     Continuity { told: told.into(), fits: Some(false), changes: vec![what], spec: Some(spec), ..found }
 }
 
-/// What is told beside this of faces that meet as they lie, where those of the mirror image would, too.
+/// Returns the addition to the message for faces that would also meet in the mirror image.
 pub(crate) fn mirror_image(kind: LayoutKind, mirror: Mirror) -> String {
     let spec = format!("cube:layout={kind}{}", flip_key(mirror.and(along(kind))));
     let backwards = if mirror.is_backwards() { "does not read backwards" } else { "reads backwards" };

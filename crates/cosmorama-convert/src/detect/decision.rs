@@ -1,4 +1,4 @@
-//! What one image is a picture of, where nobody says.
+//! Decision on what an image is a picture of, where nothing is declared.
 
 use std::path::Path;
 
@@ -10,35 +10,36 @@ use cosmorama_spec::{Cube, Packing};
 use crate::detect::{Circles, Evidence, Readings, Seen};
 use crate::input::Files;
 
-/// What one image is a picture of, as far as its metadata, its shape and its pixels tell.
+/// Kind of picture, as far as metadata, shape and pixels tell.
 pub(crate) enum Guess {
-    /// What its metadata say.
+    /// Kind that the metadata names.
     Said(EnvMap),
-    /// A part of a panorama, say its metadata.
+    /// Part of a panorama, by its metadata.
     Panorama(Window),
-    /// A panorama, by its shape: twice as wide as high. If its halves are alike, it may be two.
+    /// Panorama, because it is twice as wide as high. If its halves are alike, it may hold two pictures.
     TwoToOne(Option<Arrangement>),
-    /// A panorama for each eye, by its shape and its halves, which are alike: the SPEC.
+    /// One panorama for each eye, by shape and by halves that are alike; holds the SPEC.
     Stereo(&'static str),
-    /// A strip of faces, by its shape: no camera makes pictures so long.
+    /// Strip of faces, by its shape.
     Strip(LayoutKind),
-    /// A cross of faces, circles or an oval, by what is blank around them.
+    /// Cross of faces, circles or an oval, by blank areas around them.
     Blank(Evidence),
-    /// One of these layouts of faces, by its shape, or anything else, in spite of what was seen.
+    /// Unknown: by its shape one of these layouts or anything else, and the pixels did not decide.
     Unknown(Vec<LayoutKind>, Seen),
 }
 
-/// Pictures that are black around a circle that fills a square, beside domemasters.
+/// Kinds of pictures, besides domemasters, that are black around a circle that fills a square.
 pub(crate) const ROUND_ONES: &str = "fisheye:fov=DEGREES, mirror-ball or angular-map";
 
-/// A mirror ball of which no circle was found.
+/// Suggestion for a mirror ball whose circle was not found.
 const BALL: &str = "mirror-ball (with center= and radius= unless the ball touches the borders)";
 
-/// Pictures of 2:1 with one colour around an oval.
+/// Kinds of pictures of 2:1 with one colour around an oval.
 pub(crate) const OVAL_ONES: &str = "hammer, mollweide or sinusoidal";
 
 impl Guess {
-    /// Looks at a header, and at the pixels where nothing else tells; with what is the matter if those cannot be read.
+    /// Examines a header, and the pixels where nothing else decides. Also returns the damage if the pixels cannot be
+    /// read.
     pub(crate) fn of(files: &dyn Files, path: &Path, header: &Header) -> (Self, Option<String>) {
         if let Some(envmap) = header.metadata.envmap {
             return (Self::Said(envmap), None);
@@ -74,12 +75,12 @@ impl Guess {
         }
     }
 
-    /// Whether the pixels had to be looked at for it.
+    /// Returns whether the pixels were needed for the decision.
     pub(crate) fn has_looked(&self) -> bool {
         !matches!(self, Self::Said(_) | Self::Panorama(_) | Self::Strip(_))
     }
 
-    /// The cubes that an image may hold the faces of.
+    /// Returns the cubes whose faces the image may hold.
     pub(crate) fn cubes(self) -> Vec<Cube> {
         let of = |kind: LayoutKind| Cube { layout: Some(Packing::OneImage(kind)), ..Cube::default() };
         match self {
@@ -94,7 +95,7 @@ impl Guess {
         }
     }
 
-    /// In words.
+    /// Describes the kind in words.
     pub(crate) fn describe(&self, header: &Header) -> String {
         match self {
             Self::Said(EnvMap::LatLong) => "equirect, samples on the edges (envmap attribute)".to_owned(),
@@ -155,7 +156,7 @@ fn describe_blank(evidence: &Evidence) -> String {
     }
 }
 
-/// Two domemasters in one image.
+/// Returns the SPEC of two domemasters in one image.
 pub(crate) fn dome_spec(circles: &Circles) -> &'static str {
     match circles.arrangement {
         Arrangement::SideBySide => "fulldome:stereo=sbs",
@@ -163,7 +164,7 @@ pub(crate) fn dome_spec(circles: &Circles) -> &'static str {
     }
 }
 
-/// What a picture of 2:1 is if it is for two eyes.
+/// Returns the SPEC of a picture of 2:1 that is for two eyes.
 pub(crate) fn two_eyes(halves: Arrangement) -> &'static str {
     match halves {
         Arrangement::SideBySide => "equirect:hfov=180,stereo=sbs or equirect:stereo=sbs-half",
@@ -171,7 +172,7 @@ pub(crate) fn two_eyes(halves: Arrangement) -> &'static str {
     }
 }
 
-/// Why nothing is known.
+/// Returns the reason why nothing is known.
 fn describe_nothing(seen: &Seen) -> &str {
     match seen {
         Seen::Nothing => "no circle on black",
@@ -181,7 +182,7 @@ fn describe_nothing(seen: &Seen) -> &str {
     }
 }
 
-/// What an image of unknown projection could be: names for `--from`.
+/// Lists possible projections of an unknown image: names for `--from`.
 pub(crate) fn candidates(header: &Header, layouts: &[LayoutKind]) -> String {
     let (width, height) = size(header);
     let mut names: Vec<String> = layouts.iter().map(|kind| format!("cube:layout={kind}")).collect();
@@ -214,7 +215,7 @@ pub(crate) fn candidates(header: &Header, layouts: &[LayoutKind]) -> String {
     if names.is_empty() { last } else { format!("{} or {last}", names.join(", ")) }
 }
 
-/// The SPEC of a circle: its beginning, completed by where it lies.
+/// Completes the beginning of a SPEC by the place of a circle.
 pub(crate) fn circle_spec(start: &str, found: &Found) -> String {
     let Circle { centre: (x, y), radius } = found.circle();
     match found {
@@ -223,12 +224,12 @@ pub(crate) fn circle_spec(start: &str, found: &Found) -> String {
     }
 }
 
-/// The size of the whole picture.
+/// Returns the size of the whole picture.
 fn size(header: &Header) -> (usize, usize) {
     header.window.map_or((header.width, header.height), |window| (window.canvas_width, window.canvas_height))
 }
 
-/// The layouts of a cube's faces that have this shape.
+/// Returns the layouts of cube faces with this shape.
 pub(crate) fn layouts_of_shape(width: usize, height: usize) -> impl Iterator<Item = LayoutKind> {
     LayoutKind::ALL.into_iter().filter(move |kind| kind.has_shape(width, height))
 }

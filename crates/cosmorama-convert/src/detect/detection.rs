@@ -13,8 +13,7 @@ use crate::diagnostic::{Code, Diagnostic, FROM, Remedy, Result, Setting, bail, u
 use crate::input::Files;
 use crate::input::canvas::canvas_of;
 
-/// The projection of an image for which no `--from` was given, which may have a picture for each eye. What is only guessed
-/// is announced.
+/// Detects the projection of an image without `--from`, which may hold a picture for each eye. A guess is announced.
 pub(crate) fn detect(
     files: &dyn Files,
     path: &Path,
@@ -63,7 +62,7 @@ pub(crate) fn detect(
     }
 }
 
-/// What is guessed from what is blank: the SPEC, what it is called, and why.
+/// Returns the guess from blank areas: the SPEC, its name in messages, and the reason.
 fn guessed(path: &Path, evidence: Evidence) -> Result<(String, &'static str, String)> {
     Ok(match evidence {
         Evidence::Cross(kind) => {
@@ -116,13 +115,13 @@ fn guessed(path: &Path, evidence: Evidence) -> Result<(String, &'static str, Str
     })
 }
 
-/// A guess that is written as it would be typed.
+/// Parses a guess, which is written as users would type it.
 fn parsed(spec: &str) -> Result<(Shape, Option<StereoSpec>)> {
     let Spec { shape, stereo, .. } = spec.parse()?;
     Ok((shape, stereo))
 }
 
-/// What an image of unknown projection could be.
+/// Returns the error that lists possible projections of an unknown image.
 fn ambiguous(path: &Path, header: &Header, layouts: &[LayoutKind], seen: &Seen) -> String {
     let halves = match seen {
         Seen::Evidence(Evidence::Twins(_)) => "; its halves are alike: for two eyes add stereo= to it",
@@ -148,7 +147,7 @@ fn one_image(kind: LayoutKind) -> Shape {
     Shape::Cube(Cube { layout: Some(Packing::OneImage(kind)), ..Cube::default() })
 }
 
-/// What `--from` says of a file, completed by what the file says of itself.
+/// Completes the projection of `--from` by the metadata of the file.
 pub(crate) fn declared(shape: &Shape, pattern: &str, header: &Header, warnings: &mut Vec<Diagnostic>) -> Result<Shape> {
     match shape {
         Shape::Single(single) if header.metadata.envmap == Some(EnvMap::LatLong) => {
@@ -174,7 +173,7 @@ pub(crate) fn declared(shape: &Shape, pattern: &str, header: &Header, warnings: 
     }
 }
 
-/// A whole panorama of which the file says that it is only a part of it.
+/// Crops a whole panorama to the part that its file declares.
 fn windowed(mut single: Single, header: &Header) -> Single {
     let whole = CameraModel::Equirect(EquirectCamera::default());
     if let (Some(window), None) = (header.metadata.panorama, single.placement.canvas)
@@ -185,7 +184,7 @@ fn windowed(mut single: Single, header: &Header) -> Single {
     single
 }
 
-/// The layout and the order that the file's format has, where none is given.
+/// Completes a cube by the layout and the order of the file's format, unless they are given.
 fn declared_cube(cube: &Cube, pattern: &str, header: &Header, warnings: &mut Vec<Diagnostic>) -> Result<Cube> {
     let strip = |order: Option<FaceOrder>| Cube {
         layout: cube.layout.or(Some(Packing::OneImage(LayoutKind::StripV))),
@@ -220,21 +219,21 @@ fn declared_cube(cube: &Cube, pattern: &str, header: &Header, warnings: &mut Vec
     }
 }
 
-/// What `info` says of an image.
+/// Findings of `info` about an image.
 pub struct Likely {
     /// Its projection.
     pub projection: String,
-    /// The circle that a lens left on black.
+    /// Circle of a lens on black.
     pub circle: Option<Found>,
-    /// The cubes that it may hold the faces of.
+    /// Cubes whose faces it may hold.
     pub cubes: Vec<Cube>,
-    /// Whether its shape alone says that it may hold any.
+    /// Whether only its shape suggests that it holds any.
     pub may_be_none: bool,
-    /// What is the matter where its pixels cannot be read.
+    /// Damage, if its pixels cannot be read.
     pub damage: Option<String>,
 }
 
-/// Looks at an image.
+/// Examines an image.
 pub fn likely(files: &dyn Files, path: &Path, header: &Header) -> Likely {
     let (guess, damage) = Guess::of(files, path, header);
     // Whoever asks what a file is wants to know whether it is whole.

@@ -11,65 +11,65 @@ use crate::detect::mirrored_faces::{ACROSS, flip_key};
 use crate::detect::{cross_variants, mirrored_faces};
 use crate::diagnostic::{FROM, Message};
 
-/// How pictures are said, or taken, to be the faces of a cube.
+/// Declared or assumed arrangement of pictures as the faces of a cube.
 #[derive(Clone, Debug)]
 pub struct GivenFaces {
-    /// How each lies, in the order of the input's views.
+    /// Placement of each picture, in the order of the input's views.
     poses: Vec<Pose>,
     packing: GivenPacking,
-    /// How the image that holds them is mirrored as a whole: they lie as they do once that is undone.
+    /// Mirroring of the image that holds them; placements apply after it is undone.
     mirror: Mirror,
-    /// Where their outermost samples are said, or taken, to lie: borders do not tell that.
+    /// Declared or assumed position of the outermost samples, which borders do not tell.
     samples: SamplePositions,
 }
 
-/// The SPEC of a tool whose files or places lie so.
+/// SPEC of a tool whose files or places have this arrangement.
 struct Preset {
     spec: String,
-    /// The layout, where it is another one than the given.
+    /// Layout, if it differs from the declared one.
     other: Option<LayoutKind>,
 }
 
 #[derive(Clone, Copy, Debug)]
 enum GivenPacking {
-    /// Files, named so.
+    /// Files with a naming.
     Files(&'static Naming),
-    /// Places of one image.
+    /// Places in one image.
     OneImage(LayoutKind),
 }
 
-/// What the borders of faces say of how they lie.
+/// Findings from the borders of faces.
 pub struct Continuity {
-    /// In one line.
+    /// Message in one line.
     pub told: Message,
-    /// Whether they fit as they lie; `None` where that cannot be told.
+    /// Whether the faces fit as they are; `None` if that cannot be decided.
     pub fits: Option<bool>,
-    /// From 0 to 1.
+    /// Confidence from 0 to 1.
     pub confidence: Option<f64>,
-    /// What has to be done where they do not.
+    /// Changes that would make them fit.
     pub changes: Vec<String>,
-    /// The SPEC under which they fit, where there is one.
+    /// SPEC under which they fit, if there is one.
     pub spec: Option<String>,
 }
 
-/// A picture's size and its light by column and row.
+/// Size of a picture, and its light by column and row.
 pub struct FacePixels<'a> {
     /// Columns and rows.
     pub size: (usize, usize),
-    /// Light of the pixel in a column and a row.
+    /// Returns the light of the pixel in a column and a row.
     pub light: &'a dyn Fn(usize, usize) -> Rgba,
 }
 
 impl GivenFaces {
-    /// Fewer have too few borders in common.
+    /// Least number of faces; fewer have too few common borders.
     pub(crate) const LEAST: usize = 4;
 
-    /// Whole faces; of cropped ones no borders meet.
+    /// Describes whole faces in files; `None` for crops, whose borders do not meet.
     pub fn of_files(cube: &Cube, naming: &'static Naming, faces: &[(CubeFace, FacePlacement)]) -> Option<Self> {
         Self::new(cube, GivenPacking::Files(naming), SamplePositions::Centres, faces.iter().copied())
     }
 
-    /// The faces of an image in this layout, of which its file may say what it is.
+    /// Describes the faces in an image of a layout, whose file may have metadata of its own.
     pub fn of_image(cube: &Cube, envmap: Option<EnvMap>) -> Option<Self> {
         let (Some(Packing::OneImage(kind)), Some(layout)) = (cube.layout, cube.one_image()) else { return None };
         let faces = layout.faces(2).into_iter().map(|placed| (placed.face, placed.lies));
@@ -91,14 +91,14 @@ impl GivenFaces {
         is_plain.then_some(Self { poses, packing, mirror: cube.mirror, samples: cube.samples.unwrap_or(by_file) })
     }
 
-    /// Judges the faces of which there are pictures, by their number. `None` where they are too few or too small.
+    /// Judges the faces whose pictures are given, by index. `None` if they are too few or too small.
     pub fn judge(&self, pictures: &[(usize, FacePixels<'_>)]) -> Option<Continuity> {
         let (mismatch, given) = self.compare(pictures)?;
         let verdict = judge(&mismatch, &given);
         Some(self.continuity(&mismatch, &given, verdict))
     }
 
-    /// Judges all faces of an image, whose shape must be that of the layout. They may lie in other places than given.
+    /// Judges all faces of an image, whose shape must fit the layout. They may lie in other places than declared.
     pub fn judge_image(&self, picture: &Image<Rgba>) -> Option<Continuity> {
         let found = self.judge_places(picture);
         if found.as_ref().is_some_and(|found| found.fits == Some(true)) {
@@ -134,8 +134,8 @@ impl GivenFaces {
         self.judge(&pixels.collect::<Vec<_>>())
     }
 
-    /// What is told of the places that the faces have if the image is mirrored, and, of those that are given, if not. With
-    /// `is_known`, only if they fit there as they lie.
+    /// Returns the findings for the places that faces have in the mirrored image. With `is_known`, only if they fit
+    /// there as they are.
     fn elsewhere(&self, picture: &Image<Rgba>, is_known: bool) -> Option<Continuity> {
         let GivenPacking::OneImage(kind) = self.packing else { return None };
         let mirror = self.mirror.and(cross_variants::axis(kind)?);
@@ -144,8 +144,8 @@ impl GivenFaces {
         is_found.then(|| told_elsewhere(kind, mirror, found))
     }
 
-    /// What should be known where faces are clearly not as they are said to be. In `whole`, the image that holds them all,
-    /// they may lie in other places.
+    /// Returns a warning if faces clearly do not fit as declared. In `whole`, the image that holds all of them, they
+    /// may lie in other places.
     pub(crate) fn warning(
         &self,
         pictures: &[(usize, FacePixels<'_>)],
@@ -229,8 +229,8 @@ impl GivenFaces {
         Continuity { told: told.into(), fits: Some(false), confidence: Some(fit.confidence), changes, spec }
     }
 
-    /// The SPEC of a tool whose files or places lie so, as they are or every picture mirrored. Layouts as they are go before
-    /// any other order in them.
+    /// Finds the SPEC of a tool with this arrangement, as it is or with every picture mirrored. A layout's own order is
+    /// preferred.
     fn preset(&self, mismatch: &Mismatch, given: &[Pose], fits: &[Pose], is_flipped: bool) -> Option<Preset> {
         let all_given = self.poses.len() == given.len();
         let is_it = |poses: &Vec<Pose>| all_given && fits_as_well(mismatch, fits, poses);
@@ -270,8 +270,8 @@ impl GivenFaces {
         }
     }
 
-    /// The SPEC that says how they lie place by place, perhaps in another layout, where no picture is mirrored or has another
-    /// face's name.
+    /// Returns the SPEC that describes the arrangement place by place, perhaps in another layout. `None` if a picture
+    /// is mirrored, or has another face's name.
     fn spec(&self, fits: &[Pose], other: Option<LayoutKind>) -> Option<String> {
         if fits.len() != 6 || fits.iter().any(|pose| pose.is_mirrored()) {
             return None;
@@ -301,14 +301,14 @@ impl GivenFaces {
     }
 }
 
-/// The layouts whose places are those of a kind: itself first.
+/// Returns the layouts with the places of a kind, beginning with the kind itself.
 fn same_places(kind: LayoutKind) -> impl Iterator<Item = LayoutKind> {
     let places = |kind: LayoutKind| CubeLayout::new(kind).faces(2).into_iter().map(|placed| placed.rect);
     let others = LayoutKind::ALL.into_iter().filter(move |other| *other != kind);
     [kind].into_iter().chain(others.filter(move |other| places(*other).eq(places(kind))))
 }
 
-/// What pictures are called, where some go elsewhere and some, perhaps the same, are turned.
+/// Returns the noun for pictures of which some are moved and some, perhaps the same, are turned.
 fn calls(changes: &[Change]) -> &'static str {
     let goes = |change: &&Change| matches!(change, Change::Swapped(..) | Change::Moved { .. });
     let moved = changes.iter().filter(goes).count();
@@ -318,13 +318,13 @@ fn calls(changes: &[Change]) -> &'static str {
     " (each is called by the face that it was given as throughout: turn pictures before they change places)"
 }
 
-/// How the pictures of a layout lie, in the order of its places.
+/// Returns the placements of a layout's pictures, in the order of its places.
 fn poses(layout: CubeLayout) -> Vec<Pose> {
     layout.faces(2).iter().map(|placed| Pose::new(placed.face, placed.lies)).collect()
 }
 
-/// What to do about faces that fit as `plain` has them, or, if that is what happened to them, all mirrored; `is_mirrored`
-/// says that they are already. Borders do not tell a cube from its mirror image.
+/// Returns the advice for faces that fit as in `plain` or, if all were mirrored, as in `flipped`. `is_mirrored` says
+/// that mirroring is declared already. Borders cannot tell a cube from its mirror image.
 fn advice(plain: Option<&str>, flipped: Option<&str>, is_mirrored: bool) -> String {
     let when = if is_mirrored {
         "no face is mirrored, so that writing in it does not read backwards"
@@ -344,7 +344,7 @@ fn sure(fit: &Fit) -> String {
     format!(" (confidence {:.1} %)", 100.0 * fit.confidence.min(0.999))
 }
 
-/// Faces whose own turn the borders do not show.
+/// Lists faces whose own rotation the borders do not show.
 fn undetermined(fit: &Fit, given: &[Pose]) -> String {
     let names: Vec<&str> = fit.free.iter().map(|picture| given[*picture].face.name()).collect();
     if names.is_empty() { String::new() } else { format!("; how {} is turned does not show", names.join(", ")) }

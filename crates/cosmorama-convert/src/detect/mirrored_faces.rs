@@ -1,4 +1,4 @@
-//! Faces that are mirrored: what `flip=x` makes of them.
+//! Mirrored faces: the effect of `flip=x`.
 
 use cosmorama::arrange::Pose;
 use cosmorama::camera::Mirror;
@@ -6,14 +6,14 @@ use cosmorama::layout::{CubeLayout, FaceOrder, FacePlacement, LayoutKind};
 
 pub(crate) const ACROSS: Mirror = Mirror { x: true, y: false };
 
-/// A picture that is mirrored before it is turned.
+/// Returns the placement of a picture that is mirrored before it is turned.
 pub(crate) fn of(pose: Pose) -> Pose {
     let lies = pose.placement();
     Pose::new(pose.face, FacePlacement { mirrored: !lies.mirrored, ..lies })
 }
 
-/// How pictures lie in the places of a kind of layout where the image is the mirror image of one in a layout of that kind:
-/// every face mirrored, in the place across. `None` where those are no places of its own.
+/// Returns the placements of pictures in a kind of layout, if the image is the mirror image of one in `layout`: every
+/// face mirrored, in the opposite place. `None` if the kind does not have these places.
 pub(crate) fn poses(kind: LayoutKind, layout: CubeLayout) -> Option<Vec<Pose>> {
     let across = layout.mirrored(ACROSS).faces(2);
     let places = CubeLayout::new(kind).faces(2);
@@ -22,7 +22,7 @@ pub(crate) fn poses(kind: LayoutKind, layout: CubeLayout) -> Option<Vec<Pose>> {
     places.iter().map(|place| pose(place.rect)).collect()
 }
 
-/// The end of a SPEC that says how a picture is mirrored.
+/// Returns the end of a SPEC that mirrors a picture.
 pub(crate) fn flip_key(mirror: Mirror) -> &'static str {
     match (mirror.x, mirror.y) {
         (false, false) => "",
@@ -32,7 +32,7 @@ pub(crate) fn flip_key(mirror: Mirror) -> &'static str {
     }
 }
 
-/// The order and the turns under which pictures that are mirrored as `flip=x` has it lie so, in the order of the layout's
+/// Returns the order and the turns for pictures mirrored by `flip=x` that lie as given, in the order of the layout's
 /// places.
 pub(crate) fn spec(kind: LayoutKind, lie: &[Pose]) -> Option<String> {
     let plain = || CubeLayout::new(kind);

@@ -1,4 +1,4 @@
-//! What a picture is of, where nobody says: by metadata, shape, pixels, and the borders of faces.
+//! Detection of what a picture shows, where nothing is declared: by metadata, shape, pixels, and the borders of faces.
 
 pub(crate) mod cross_variants;
 mod decision;

@@ -1,17 +1,17 @@
-//! The oval that Hammer's, Mollweide's and the sinusoidal map fill or touch.
+//! Detection of the oval that Hammer's, Mollweide's and the sinusoidal map fill or touch.
 
 use cosmorama::raster::{Image, Rgba};
 
 use crate::detect::pixels::is_blank;
 use crate::detect::pixels::{BLACK, BLOCK};
 
-/// Just inside the oval, at its four ends, the square of the part of the way from the middle is this.
+/// Squared distances from the middle, as fractions of the oval, that are just inside it at its four ends.
 const INSIDE: std::ops::Range<f64> = 0.81..0.94;
-/// How far from an axis an end is, as a part of the oval.
+/// Greatest distance of an end from an axis, as a fraction of the oval.
 const END: f64 = 0.1;
 
-/// Whether a picture twice as wide as high has one colour around an oval that fills it, and others at each end of that: a
-/// panorama whose sky and ground have one colour is none.
+/// Returns whether a picture twice as wide as high has one colour around an oval that fills it, and other colours at
+/// the oval's ends. A panorama whose sky and ground have one colour does not qualify.
 pub(crate) fn is_oval(codes: &Image<Rgba>) -> bool {
     let (width, height) = (codes.width(), codes.height());
     // Where a pixel lies in an oval so many pixels larger on each side.

@@ -1,4 +1,4 @@
-//! What the pixels of an image say about its projection.
+//! Evidence in the pixels of an image about its projection.
 
 use std::path::Path;
 
@@ -15,22 +15,22 @@ use crate::detect::{Circles, Twins, cross_variants};
 use crate::diagnostic::Result;
 use crate::input::{Files, probe, read};
 
-/// Beyond this an image is not decoded only to find out what it is.
+/// Size, in bytes, above which an image is not decoded for detection only.
 const MOST_BYTES: u64 = 1 << 30;
-/// Of what should be blank, so much must be.
+/// Least fraction of an area that must be blank.
 const BLANK: f64 = 0.98;
-/// A picture of which more is blank shows nothing that could tell.
+/// Greatest blank fraction of a picture that can tell anything.
 const EMPTY: f64 = 0.9;
-/// Pixels around what is drawn that a JPEG file's blocks may blur into.
+/// Pixels around drawn content into which a JPEG file's blocks may blur.
 pub(crate) const BLOCK: usize = 8;
-/// A circle whose rim can be measured fills a square if it does so to this part of it, or to so many pixels.
+/// Tolerances, as a fraction and in pixels, for a measured circle that fills a square.
 const EXACTLY: (f64, f64) = (0.005, 2.0);
-/// One whose rim cannot, or that is one of two, does so to this part.
+/// Tolerance for a circle whose rim cannot be measured, or that is one of two.
 const ROUGHLY: f64 = 0.02;
-/// Codes up to this are black, in a picture of codes from 0 to 1.
+/// Greatest code that counts as black, of codes from 0 to 1.
 pub(crate) const BLACK: f32 = 0.06;
 
-/// The light of an image, as far as it matters to see what it is; `None` where it is too large or damaged.
+/// Reads the light of an image for detection; `None` if it is too large or damaged.
 pub fn light_of(files: &dyn Files, path: &Path) -> Option<Image<Rgba>> {
     let image = decoded(files, path).ok()?;
     let transfer = if image.depth().is_float() { Transfer::Linear } else { Transfer::Srgb };
@@ -43,7 +43,7 @@ fn decoded(files: &dyn Files, path: &Path) -> Result<EncodedImage, IoError> {
     Ok(read(files, path, &Limits::memory(limit))?.image)
 }
 
-/// What is the matter with a file whose pixels cannot be read; `None` also where it is too large to try.
+/// Returns the damage of a file whose pixels cannot be read; `None` also for one that is too large to try.
 pub fn damage_of(files: &dyn Files, path: &Path) -> Option<String> {
     match decoded(files, path) {
         Ok(_) | Err(IoError::TooLarge { .. }) => None,
@@ -51,42 +51,42 @@ pub fn damage_of(files: &dyn Files, path: &Path) -> Option<String> {
     }
 }
 
-/// What an image is, as far as its blank parts tell.
+/// Finding from the blank areas of an image.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Evidence {
-    /// A circle that fills a square, black around it.
+    /// A circle that fills a square, on black.
     Circle,
-    /// A cross of faces, one colour around it.
+    /// A cross of faces on one colour.
     Cross(LayoutKind),
-    /// A cross with its long arm at the other end, as if it was mirrored so.
+    /// A cross with its long arm at the other end, as if mirrored so.
     CrossElsewhere(LayoutKind, Mirror),
-    /// A circle somewhere, black around it.
+    /// A circle elsewhere, on black.
     Disc(Found),
-    /// A circle in each half, black around them.
+    /// A circle in each half, on black.
     Circles(Circles),
-    /// The circle of an Omnimax frame, cut off below, black around it.
+    /// The circle of an Omnimax frame, cut off below, on black.
     Omnimax,
-    /// An oval that fills a picture of 2:1, one colour around it.
+    /// An oval that fills a picture of 2:1, on one colour.
     Oval,
     /// Halves that are alike, as for two eyes.
     Twins(Arrangement),
 }
 
-/// What came of looking at the pixels.
+/// Result of an examination of the pixels.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Seen {
-    /// Something that tells.
+    /// A finding.
     Evidence(Evidence),
-    /// Nothing that tells: no circle on black, no cross on one colour, no halves alike.
+    /// No finding: no circle on black, no cross on one colour, no halves that are alike.
     Nothing,
-    /// They were not looked at, for this reason.
+    /// The pixels were not examined, for this reason.
     Unseen(String),
-    /// They cannot be read: this is what the file's reader says.
+    /// The pixels cannot be read; holds the reader's message.
     Damaged(String),
 }
 
 impl Seen {
-    /// Looks at the pixels: at what its shape gives reason to expect first.
+    /// Examines the pixels, beginning with what the image's shape suggests.
     pub(crate) fn of(files: &dyn Files, path: &Path, header: &Header) -> Self {
         if header.window.is_some() {
             return Self::Unseen("it is a part of a larger picture".to_owned());
@@ -135,7 +135,7 @@ pub(crate) fn is_blank(around: Option<Uniform>) -> bool {
     around.is_some_and(|around| around.share >= BLANK)
 }
 
-/// Whether one colour surrounds a cross that is mirrored so.
+/// Returns whether one colour surrounds a cross that is mirrored so.
 fn is_cross(kind: LayoutKind, mirror: Mirror, codes: &Image<Rgba>) -> bool {
     let layout = CubeLayout::new(kind).mirrored(mirror);
     let Ok(edge) = layout.edge(codes.width(), codes.height()) else { return false };
@@ -145,7 +145,7 @@ fn is_cross(kind: LayoutKind, mirror: Mirror, codes: &Image<Rgba>) -> bool {
     is_blank(codes.uniformity(|i, j| !faces.iter().any(|face| near(face.rect, i, j))))
 }
 
-/// Whether a square is black around the circle that fills it.
+/// Returns whether a square is black around the circle that fills it.
 pub(crate) fn is_round(codes: &Image<Rgba>) -> bool {
     let side = codes.width() as i64;
     if codes.width() != codes.height() {
@@ -160,7 +160,7 @@ pub(crate) fn is_round(codes: &Image<Rgba>) -> bool {
     is_black_where(codes, outside)
 }
 
-/// Whether nearly all of a region is black, or has nothing in it.
+/// Returns whether nearly all of a region is black, or the region is empty.
 fn is_black_where(codes: &Image<Rgba>, region: impl FnMut(usize, usize) -> bool) -> bool {
     let around = codes.uniformity(region);
     is_blank(around) && around.is_some_and(|around| is_black(&around.colour))
@@ -170,7 +170,7 @@ fn is_black(pixel: &Rgba) -> bool {
     pixel.alpha() == 0.0 || pixel.0[..3].iter().all(|code| *code <= BLACK)
 }
 
-/// Whether a circle is the one that fills a square, as far as it was measured.
+/// Returns whether a circle fills a square, as far as it was measured.
 fn is_domemaster(found: &Found, codes: &Image<Rgba>) -> bool {
     let (part, pixels) = EXACTLY;
     match found {
@@ -179,7 +179,7 @@ fn is_domemaster(found: &Found, codes: &Image<Rgba>) -> bool {
     }
 }
 
-/// Whether a circle is about the one that fills a square.
+/// Returns whether a circle roughly fills a square.
 pub(crate) fn fills(circle: &Circle, codes: &Image<Rgba>) -> bool {
     is_inscribed(circle, codes, ROUGHLY * codes.width() as f64)
 }
@@ -190,8 +190,8 @@ fn is_inscribed(circle: &Circle, codes: &Image<Rgba>, reach: f64) -> bool {
     codes.width() == codes.height() && [x, y, circle.radius].iter().all(|length| (length - half).abs() < reach)
 }
 
-/// Whether a picture is black where an Omnimax frame of its size has no picture, and lit as far as that reaches to the left,
-/// the right, up and down: a smaller disc is not.
+/// Returns whether a picture is black outside an Omnimax frame of its size, and lit up to its left, right, upper and
+/// lower limits. A smaller disc does not qualify.
 fn is_omnimax(codes: &Image<Rgba>) -> bool {
     let (width, height) = (codes.width(), codes.height());
     let (right, bottom) = (width.saturating_sub(1), height.saturating_sub(1));
@@ -222,7 +222,7 @@ fn is_omnimax(codes: &Image<Rgba>) -> bool {
         && is_black_where(codes, is_far)
 }
 
-/// The first and last column and row of what is chosen.
+/// Returns the first and last column and row of the chosen pixels.
 fn extent<P>(image: &Image<P>, chosen: impl Fn(usize, usize) -> bool) -> Option<[usize; 4]> {
     let mut extent: Option<[usize; 4]> = None;
     for j in 0..image.height() {

@@ -1,4 +1,4 @@
-//! Images of two pictures: two circles, or the same for two eyes.
+//! Detection of images with two pictures: two circles, or one picture for each eye.
 
 use cosmorama::camera::PixelRect;
 use cosmorama::circle;
@@ -9,17 +9,17 @@ use cosmorama::raster::{Image, Rgba};
 
 use crate::detect::pixels::{fills, is_round};
 
-/// More alike than this are only pictures of one thing.
+/// Similarity above which two pictures show the same.
 const ALIKE: f64 = 0.85;
 
 /// A circle in each half of an image.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Circles {
-    /// How the halves lie.
+    /// Arrangement of the halves.
     pub(crate) arrangement: Arrangement,
-    /// The circles in pixels of the whole image, the first half's first, unless they fill their halves.
+    /// Circles in pixels of the whole image, the first half's first; `None` if they fill their halves.
     pub(crate) circles: Option<[Circle; 2]>,
-    /// Whether they show the same: two eyes, not two sides.
+    /// Whether both show the same: two eyes, not two sides.
     pub(crate) are_alike: bool,
 }
 
@@ -51,7 +51,7 @@ impl Circles {
         Some(Self { arrangement, circles, are_alike })
     }
 
-    /// The SPEC of two cameras back to back, whose field of view is a guess.
+    /// Returns the SPEC of two cameras back to back, with a guessed field of view.
     pub(crate) fn dual_spec(&self) -> String {
         let mut keys = match self.arrangement {
             Arrangement::SideBySide => Vec::new(),
@@ -66,7 +66,7 @@ impl Circles {
 }
 
 impl Twins {
-    /// The halves that show the same, where an image has such: those side by side in a wide one, else one above the other.
+    /// Finds halves that show the same: side by side in a wide image, else one above the other.
     pub(crate) fn find(codes: &Image<Rgba>) -> Option<Arrangement> {
         let both = [Arrangement::SideBySide, Arrangement::TopBottom];
         both.into_iter().find(|arrangement| {
@@ -77,7 +77,7 @@ impl Twins {
     }
 }
 
-/// How a circle lies in a square.
+/// Place of a circle in a square.
 enum InSquare {
     Filling,
     At(Circle),
