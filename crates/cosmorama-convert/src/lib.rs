@@ -1,9 +1,9 @@
 //! Conversions of worlds as values: settings are checked against files by their headers alone, then explained or run.
 //!
-//! [`Conversion`] holds the settings, [`Conversion::check`] finds the files and what cannot be, [`Checked::run`] makes the
-//! outputs while an [`Observer`] watches. What there is to say is a [`Diagnostic`], returned and handed to the observer, never
-//! printed; settings in its text are [`Setting`]s, which each caller writes in its own way. Nothing is kept from one conversion
-//! to the next: threads and memory are those of the run.
+//! [`Conversion`] holds the settings. [`Conversion::check`] finds the files and reports what is impossible, and
+//! [`Checked::run`] makes the outputs while an [`Observer`] watches. Every message is a [`Diagnostic`], returned and
+//! passed to the observer, never printed; settings in its text are [`Setting`]s, which each caller writes in its own
+//! way. No state survives a conversion: threads and memory belong to the run.
 #![forbid(unsafe_code)]
 #![doc = include_str!("../README.md")]
 

@@ -1,65 +1,65 @@
-/// Kinds of diagnostics.
+/// Kind of a diagnostic.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Code {
-    /// Settings are wrong, or go neither together nor with the files.
+    /// Settings are wrong, or do not fit together or to the files.
     Settings,
-    /// The work cannot be done, for another reason than those below.
+    /// The work cannot be done, for a reason without a kind of its own.
     Failed,
-    /// Files do not hold what the output shows.
+    /// Files do not cover what the output shows.
     Uncovered,
-    /// More memory is needed than may be used.
+    /// More memory is needed than permitted.
     Memory,
     /// Outputs exist already.
     Exists,
-    /// A projection was found without being given, and may be another.
+    /// A projection was detected, and may be another.
     Detected,
-    /// A file says that it is something else than it is declared to be.
+    /// A file's metadata contradicts its declaration.
     Declared,
     /// A setting has no effect.
     NoEffect,
-    /// There is one picture for two eyes.
+    /// One picture is used for both eyes.
     OneForBothEyes,
-    /// There are two pictures for one eye.
+    /// Of two pictures, only the left eye's is used.
     LeftEye,
-    /// A file asks for being turned.
+    /// A file asks to be rotated, which is ignored.
     Orientation,
-    /// A file's metadata are left out.
+    /// A file's metadata is ignored.
     Metadata,
     /// Pixels of the output are not square.
     Aspect,
-    /// The output cannot say which part of a panorama it is.
+    /// The output cannot record which part of a panorama it is.
     Panorama,
-    /// The output's format holds no alpha.
+    /// The output's format has no alpha.
     AlphaLost,
-    /// A later frame has alpha that the first has not.
+    /// A later frame has alpha although the first has none.
     AlphaFlattened,
-    /// Alpha is full nowhere.
+    /// Alpha is nowhere full.
     AlphaThin,
     /// A colour profile is not carried over.
     ProfileLost,
-    /// Outputs that were there are made again.
+    /// Existing outputs are made again.
     Remade,
-    /// The filter would read beyond what a file holds.
+    /// The filter reads beyond what a file holds.
     Frayed,
     /// A face has another shape than the others.
     FaceShape,
-    /// Faces do not meet as they lie.
+    /// The borders of faces do not match.
     Arrangement,
-    /// Pixels are no numbers.
+    /// Pixels are NaN.
     NotANumber,
-    /// Much of the light comes from suns.
+    /// Much of the light comes from bright, small sources.
     Suns,
-    /// Light is not kept in balance, for lack of memory.
+    /// The total light is not kept, for lack of memory.
     Unbalanced,
-    /// Geometry is computed anew for each frame, for lack of memory.
+    /// Geometry is computed again for each frame, for lack of memory.
     PlanAnew,
     /// Letters of the grid are too small to read.
     Letters,
-    /// Numbers of a map are coarse.
+    /// The values of a map are coarse.
     Coarse,
-    /// What a map relates to is taken from the other side.
+    /// The picture to which a map relates is taken from the other side of the conversion.
     MapBase,
-    /// A project says something that is not followed.
+    /// A statement of a project is ignored.
     Project,
 }

@@ -9,14 +9,14 @@ use thiserror::Error;
 
 use super::{Code, Diagnostic, Mark, Message};
 
-/// Why a conversion cannot be done.
+/// Reason why a conversion fails.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum ConvertError {
-    /// Settings are wrong, or go neither together nor with the files.
+    /// Settings are wrong, or do not fit together or to the files.
     #[error("{0}")]
     Settings(Box<Diagnostic>),
-    /// The files, or the machine, are not as they would have to be.
+    /// The state of the files or the machine prevents the conversion.
     #[error("{0}")]
     Failed(Box<Diagnostic>),
     /// A file cannot be read, written or found.
@@ -25,44 +25,44 @@ pub enum ConvertError {
     /// A Hugin project cannot be read.
     #[error(transparent)]
     Project(#[from] PtoError),
-    /// A projection cannot be had.
+    /// A camera model does not make a view.
     #[error(transparent)]
     CameraModel(#[from] CameraError),
-    /// Views cannot be a world.
+    /// Views do not make a world.
     #[error(transparent)]
     World(#[from] WorldError),
-    /// Pictures cannot lie so in an image.
+    /// Pictures do not fit a layout.
     #[error(transparent)]
     Layout(#[from] LayoutError),
     /// A SPEC cannot be understood.
     #[error(transparent)]
     Spec(#[from] SpecError),
-    /// An error in a place: a line of a file, a frame.
+    /// An error with its place: a line of a file, or a frame.
     #[error("{place}")]
     At {
-        /// Where.
+        /// Place, in words.
         place: String,
-        /// What.
+        /// The error.
         #[source]
         error: Box<ConvertError>,
     },
 }
 
-/// Result of what may not be possible.
+/// Result of a fallible step.
 pub type Result<T, E = ConvertError> = std::result::Result<T, E>;
 
-/// A result with what should be known either way.
+/// A result together with diagnostics, which are valid on success and failure.
 #[derive(Debug)]
 pub struct Outcome<T> {
-    /// What came of it.
+    /// The result.
     pub result: Result<T>,
-    /// What should be known, in the order in which it was found.
+    /// Diagnostics, in the order in which they arose.
     pub diagnostics: Vec<Diagnostic>,
 }
 
-/// Adds the place of an error.
+/// Extension that adds the place of an error.
 pub(crate) trait InPlace<T> {
-    /// Says where an error is.
+    /// Adds a place to an error.
     fn at(self, place: impl FnOnce() -> String) -> Result<T>;
 }
 
@@ -72,22 +72,22 @@ impl<T, E: Into<ConvertError>> InPlace<T> for Result<T, E> {
     }
 }
 
-/// An error of whoever made the settings.
+/// Creates an error about settings.
 pub(crate) fn usage(message: impl Into<Message>) -> ConvertError {
     ConvertError::Settings(Box::new(Diagnostic::error(Code::Settings, message)))
 }
 
-/// An error of what was found.
+/// Creates an error about files or the machine.
 pub(crate) fn failed(message: impl Into<Message>) -> ConvertError {
     failed_as(Code::Failed, message)
 }
 
-/// An error of what was found, of a kind.
+/// Creates an error about files or the machine, of a kind.
 pub(crate) fn failed_as(code: Code, message: impl Into<Message>) -> ConvertError {
     ConvertError::Failed(Box::new(Diagnostic::error(code, message)))
 }
 
-/// Ends a function with an error of what was found, perhaps of a kind: `bail!(Uncovered: "…")`.
+/// Returns from a function with an error about files or the machine, perhaps of a kind: `bail!(Uncovered: "…")`.
 macro_rules! bail {
     ($code:ident: $($text:tt)*) => {
         return Err($crate::diagnostic::failed_as($crate::diagnostic::Code::$code, format!($($text)*)))
@@ -96,7 +96,7 @@ macro_rules! bail {
         return Err($crate::diagnostic::failed(format!($($text)*)))
     };
 }
-/// An error of what was found.
+/// Creates an error about files or the machine.
 macro_rules! failure {
     ($($text:tt)*) => {
         $crate::diagnostic::failed(format!($($text)*))
@@ -105,7 +105,7 @@ macro_rules! failure {
 pub(crate) use {bail, failure};
 
 impl ConvertError {
-    /// Returns whether settings are to blame, not files or the machine.
+    /// Returns whether settings are the cause, not files or the machine.
     pub fn is_of_settings(&self) -> bool {
         match self {
             Self::Settings(_) => true,
@@ -114,7 +114,7 @@ impl ConvertError {
         }
     }
 
-    /// Returns what kind of error it is.
+    /// Returns the kind of the error.
     pub fn code(&self) -> Code {
         match self {
             Self::Settings(diagnostic) | Self::Failed(diagnostic) => diagnostic.code,
@@ -136,7 +136,7 @@ impl ConvertError {
         message.into()
     }
 
-    /// Says the same in other words, where a setting is called otherwise.
+    /// Replaces a setting in the text by other words.
     pub(crate) fn reworded(&self, setting: Mark, words: &str) -> Self {
         let message = self.message().reworded(setting, words);
         if self.is_of_settings() { usage(message) } else { failed_as(self.code(), message) }

@@ -1,13 +1,14 @@
-//! Marks that stand for settings in a text while it is written: [`Message`](super::Message) tells them from the rest.
+//! Marks that stand for settings in a text under construction: [`Message`](super::Message) separates them from the
+//! rest.
 
 use std::fmt::{Display, Formatter, Result, Write};
 
 use super::Setting;
 
-/// Noncharacters of Unicode, which no text for people holds: the first mark is that of the first setting.
+/// First mark, a noncharacter of Unicode, which no readable text contains. One mark for each setting follows.
 const FIRST: u32 = 0xfdd0;
 
-/// A setting in a text that is being written.
+/// Formats a setting as its mark.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Mark(pub(crate) Setting);
 
@@ -18,7 +19,7 @@ impl Display for Mark {
     }
 }
 
-/// The setting that a character of a text stands for.
+/// Returns the setting that a mark stands for; `None` for other characters.
 pub(super) fn setting(character: char) -> Option<Setting> {
     Setting::ALL.get(u32::from(character).checked_sub(FIRST)? as usize).copied()
 }

@@ -3,17 +3,17 @@ use std::fmt::{Display, Formatter};
 use super::Setting;
 use super::mark::{self, Mark};
 
-/// Text for people, in which settings stand by themselves: a command line writes `--from`, Python would write `from_=`.
+/// A readable text that refers to settings by value: a command line writes `--from`, Python would write `from_=`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Message {
-    /// A setting is one of its marks here.
+    /// Text in which each setting is a mark.
     text: String,
 }
 
 /// A part of a message.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Part<'a> {
-    /// Text as it is.
+    /// Plain text.
     Text(&'a str),
     /// A setting, which each caller writes in its own way.
     Setting(Setting),
@@ -36,7 +36,7 @@ impl Message {
         })
     }
 
-    /// Writes it with each setting as `name` has it.
+    /// Writes the text with each setting as `name` gives it.
     pub fn render(&self, name: impl Fn(Setting) -> String) -> String {
         let written = |part| match part {
             Part::Text(text) => text.to_owned(),
@@ -45,18 +45,18 @@ impl Message {
         self.parts().map(written).collect()
     }
 
-    /// Puts a text before it.
+    /// Prepends a text.
     #[must_use]
     pub fn after(&self, text: &str) -> Self {
         Self { text: format!("{text}{}", self.text) }
     }
 
-    /// Writes other words for a setting that is followed by its value.
+    /// Replaces a setting, together with the text that joins it to its value, by other words.
     pub(crate) fn reworded(&self, setting: Mark, words: &str) -> Self {
         Self { text: self.text.replace(&format!("{setting} "), &format!("{words} ")) }
     }
 
-    /// The text with its marks, to be made a part of another message.
+    /// Returns the text with its marks, for use in another message.
     pub(crate) fn marked(&self) -> &str {
         &self.text
     }
@@ -74,7 +74,7 @@ impl From<&str> for Message {
     }
 }
 
-/// Writes it with settings by their plain names.
+/// Writes the text with the settings' plain names.
 impl Display for Message {
     fn fmt(&self, f: &mut Formatter<'_>) -> std::fmt::Result {
         self.parts().try_for_each(|part| match part {

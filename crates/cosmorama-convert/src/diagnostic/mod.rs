@@ -1,4 +1,4 @@
-//! What a conversion has to say: typed, and handed to the caller instead of printed.
+//! Diagnostics of a conversion: typed, and returned to the caller instead of printed.
 
 mod code;
 mod error;
@@ -14,36 +14,36 @@ pub use setting::Setting;
 pub(crate) use error::{InPlace, bail, failed, failed_as, failure, usage};
 pub(crate) use mark::*;
 
-/// Something that should be known about a conversion.
+/// A diagnostic of a conversion.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Diagnostic {
-    /// What kind of thing it is.
+    /// Kind.
     pub code: Code,
-    /// Whether the work goes on.
+    /// Severity: whether the work continues.
     pub severity: Severity,
-    /// What it is about: a file, a view, an output.
+    /// Subject: a file, a view or an output.
     pub subject: Option<String>,
-    /// Text for people.
+    /// Readable text.
     pub message: Message,
-    /// What would change it, where one setting would.
+    /// Remedy, if one setting provides it.
     pub remedy: Option<Remedy>,
 }
 
-/// How much a diagnostic matters.
+/// Severity of a diagnostic.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Severity {
-    /// Ends the work.
+    /// The work ends.
     Error,
-    /// Should be known; the work goes on.
+    /// The work continues.
     Warning,
 }
 
-/// What a caller may do about a diagnostic.
+/// Change of a setting that resolves a diagnostic.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Remedy {
-    /// Give a setting this value.
+    /// Set a setting to this value.
     Set(Setting, String),
-    /// Leave a setting out.
+    /// Remove a setting.
     Drop(Setting),
 }
 
@@ -58,20 +58,20 @@ impl Diagnostic {
         Self { severity: Severity::Error, ..Self::warning(code, message) }
     }
 
-    /// Says what it is about.
+    /// Sets the subject.
     #[must_use]
     pub fn about(self, subject: impl std::fmt::Display) -> Self {
         Self { subject: Some(subject.to_string()), ..self }
     }
 
-    /// Says what a caller may do.
+    /// Sets the remedy.
     #[must_use]
     pub fn with_remedy(self, remedy: Remedy) -> Self {
         Self { remedy: Some(remedy), ..self }
     }
 }
 
-/// Writes the message, settings by their plain names.
+/// Writes the message with the settings' plain names.
 impl std::fmt::Display for Diagnostic {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         self.message.fmt(f)

@@ -1,35 +1,35 @@
-/// A setting of a conversion, as messages refer to it.
+/// A setting of a conversion, for reference in messages.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Setting {
     /// The input's projection.
     From,
     /// The output's projection.
     To,
-    /// Pixels of the output.
+    /// Size of the output in pixels.
     Size,
-    /// Turn of the output to the right.
+    /// Rotation of the output to the right.
     Yaw,
-    /// Turn of the output upwards.
+    /// Rotation of the output upwards.
     Pitch,
-    /// Turn of the output's camera, clockwise.
+    /// Clockwise rotation of the output's camera.
     Roll,
-    /// What pixels average.
+    /// Filter.
     Filter,
-    /// The weights of that average.
+    /// Kernel of the filter.
     Kernel,
     /// Whether pixels are clamped to their texels.
     AntiRinging,
-    /// How code values relate to light, on both sides.
+    /// Transfer function of both sides.
     Transfer,
-    /// How the input's code values relate to light.
+    /// Transfer function of the input.
     InTransfer,
-    /// How the output's code values relate to light.
+    /// Transfer function of the output.
     OutTransfer,
     /// Sample type of the output.
     Depth,
     /// Colour outside the lens.
     Background,
-    /// What becomes of directions that no view covers.
+    /// Treatment of directions that no view covers.
     Missing,
     /// Frames of a sequence.
     Frames,
@@ -37,15 +37,15 @@ pub enum Setting {
     Overwrite,
     /// Whether complete outputs are kept.
     Resume,
-    /// Whether smaller copies are added.
+    /// Whether mip levels are written.
     Mips,
     /// JPEG quality.
     Quality,
-    /// How hard files are pressed.
+    /// Effort of lossless compression.
     Compression,
-    /// Memory to use at most.
+    /// Limit of memory.
     Memory,
-    /// Whether places in the input are written instead of light.
+    /// Whether an st map is written instead of a picture.
     StMap,
 }
 
@@ -77,7 +77,7 @@ impl Setting {
         Self::StMap,
     ];
 
-    /// Returns the plain name, words joined by `-`.
+    /// Returns the plain name, with words joined by `-`.
     pub fn name(self) -> &'static str {
         match self {
             Self::From => "from",

@@ -1,4 +1,4 @@
-//! Light that is kept from one form of a world to another, to the last sun.
+//! Energy balance: the total light of a world is kept from one form to another, suns included.
 
 use cosmorama::camera::View;
 use cosmorama::filter::{FilterKind, Kernel};
@@ -9,15 +9,15 @@ use cosmorama::render::Plan;
 use crate::conversion::ConvertJob;
 use crate::coverage::Coverage;
 
-/// The balance of a job's pictures, where they are to keep light and can.
+/// Energy balance of a job's pictures, for those that can and should keep light.
 #[cfg_attr(test, derive(Default))]
 pub(crate) struct Balance(Vec<Group>);
 
-/// The light of a frame, as it was made for the last group that asked: views of a group mostly come one after the other.
+/// Balanced light of a frame for the most recent group; views of a group mostly follow one another.
 #[derive(Default)]
 pub(crate) struct BalancedLight(Option<(usize, Vec<Rgba>)>);
 
-/// The views of one size that together show a world.
+/// Views of one size that together show a world.
 struct Group {
     /// Indices of the job's target views.
     views: Vec<usize>,
@@ -25,14 +25,14 @@ struct Group {
     bytes: u64,
 }
 
-/// Whether a job's filter is to keep light, and its weights are those that can be balanced: `--kernel light` without anti-ringing,
-/// which depends on the light.
+/// Returns whether a job's filter should keep light and can be balanced: `--kernel light` without anti-ringing, whose
+/// weights depend on the light.
 pub(crate) fn is_asked_for(job: &ConvertJob) -> bool {
     job.filter.kind == FilterKind::Ewa && job.filter.kernel == Kernel::LIGHT && !job.filter.anti_ringing
 }
 
-/// The views of each size that together show what a world shows. Where pixels are filled since no view looks there, or alpha says how
-/// much of a texel there is, light is in no balance.
+/// Returns the views of each size that together show all that a world shows. Pixels filled for lack of a view, and
+/// alpha, rule out a balance.
 pub(crate) fn groups(job: &ConvertJob) -> Vec<Vec<usize>> {
     if !is_asked_for(job) || job.light.input_alpha || matches!(job.coverage, Coverage::Fill(_)) {
         return Vec::new();
@@ -52,7 +52,7 @@ pub(crate) fn groups(job: &ConvertJob) -> Vec<Vec<usize>> {
     groups
 }
 
-/// Bytes that the balance of these takes.
+/// Returns the bytes that the balance of these groups takes.
 pub(crate) fn bytes_of(job: &ConvertJob, groups: &[Vec<usize>]) -> u64 {
     groups.iter().map(|group| LightBalance::bytes(job.world(&job.target.views[group[0]]), &views(job, group))).sum()
 }
@@ -62,7 +62,7 @@ fn views<'a>(job: &'a ConvertJob, group: &[usize]) -> Vec<&'a View> {
 }
 
 impl Balance {
-    /// Of groups whose plans are kept.
+    /// Computes the balance of groups whose plans are kept.
     pub(crate) fn of(job: &ConvertJob, groups: Vec<Vec<usize>>, plans: &[Option<Plan>]) -> Self {
         let balanced = |indices: Vec<usize>| {
             let plan = |index: &usize| Some((plans[*index].as_ref()?, &job.target.views[*index].view));
@@ -74,12 +74,13 @@ impl Balance {
         Self(groups.into_iter().filter_map(balanced).collect())
     }
 
-    /// Bytes that it takes, with the light that it makes.
+    /// Returns the bytes that it takes, with the light that it makes.
     pub(crate) fn bytes(&self) -> u64 {
         self.0.iter().map(|group| group.bytes).sum()
     }
 
-    /// The light from which a target view is to be made, if not as it is. `last` is of the same frame.
+    /// Returns the balanced light for a target view; `None` where light is used unchanged. `last` belongs to the same
+    /// frame.
     pub(crate) fn light<'a>(&self, view: usize, texels: &[Rgba], last: &'a mut BalancedLight) -> Option<&'a [Rgba]> {
         let index = self.0.iter().position(|group| group.views.contains(&view))?;
         if last.0.as_ref().is_none_or(|(group, _)| *group != index) {
@@ -90,7 +91,7 @@ impl Balance {
         last.0.as_ref().map(|(_, light)| light.as_slice())
     }
 
-    /// Completes a target view that was made so.
+    /// Applies the factors of a target view's pixels.
     pub(crate) fn complete(&self, view: usize, image: &mut Image<Rgba>) {
         self.group(view).iter().for_each(|(group, place)| group.balance.complete(*place, image));
     }

@@ -10,7 +10,7 @@ use crate::conversion::{Checked, ConvertJob};
 use crate::diagnostic::Result;
 use crate::engine::{Levels, Stage, Writer, assemble};
 
-/// Makes a picture of a world.
+/// Makes a picture of a world by formula.
 pub(crate) fn picture(
     run: &Checked,
     world: BuiltinWorld,
@@ -32,7 +32,7 @@ pub(crate) fn directions(run: &Checked, map: DirectionMap, file: usize, path: &P
     stages.alone(Stage::Encode, || save_map(job.light.depth, map, &pixels, path, &options))
 }
 
-/// The picture of a file and its smaller copies, in front of their background.
+/// Renders a file's picture and its mip levels over their background.
 fn levels(job: &ConvertJob, world: BuiltinWorld, file: usize) -> Result<Levels> {
     let background = job.light.background;
     let picture = |index: usize| {
@@ -44,14 +44,14 @@ fn levels(job: &ConvertJob, world: BuiltinWorld, file: usize) -> Result<Levels> 
     Ok(Levels::Light(levels.map(|sheet| assemble(sheet, background, picture)).collect::<Result<_>>()?))
 }
 
-/// The directions of a file's pixels.
+/// Computes the directions of a file's pixels.
 fn pixels(job: &ConvertJob, map: DirectionMap, file: usize) -> Result<Image<DirectionPixel>> {
     assemble(&job.target.files[file].sheet, DirectionPixel::default(), |index| {
         Ok(map.pixels(&job.target.views[index].view))
     })
 }
 
-/// Writes a map of directions, a plane for each number of its pixels.
+/// Writes a map of directions, with a plane for each value of its pixels.
 fn save_map(
     depth: Depth,
     map: DirectionMap,

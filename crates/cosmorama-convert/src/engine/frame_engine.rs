@@ -21,7 +21,7 @@ use crate::target::Sheet;
 pub(crate) struct Engine<'a> {
     job: &'a ConvertJob,
     geometry: Geometry,
-    /// What should be known of it.
+    /// Diagnostics about the geometry.
     told: Vec<Diagnostic>,
     masks: Vec<OnceLock<ScreenMask>>,
     writer: Writer,
@@ -35,27 +35,27 @@ impl<'a> Engine<'a> {
         Self { job, geometry, told, masks, writer: Writer::new(&job.light, options) }
     }
 
-    /// What should be known before there are frames.
+    /// Returns the diagnostics that are known before any frame.
     pub(crate) fn told(&self) -> &[Diagnostic] {
         &self.told
     }
 
-    /// How many frames may be read ahead and written behind the one that is filtered.
+    /// Returns how many frames may be read ahead and written behind the one that is filtered.
     pub(crate) fn queue_depth(&self, threads: usize) -> QueueDepth {
         self.job.memory.queue_depth(&self.job.input, &self.job.target, self.geometry.bytes(), threads)
     }
 
-    /// Room for the light of a frame.
+    /// Allocates the light of a frame.
     pub(crate) fn frame_light(&self) -> FrameLight {
         FrameLight::new(self.job, self.geometry.codec().is_some())
     }
 
-    /// What writes the pictures.
+    /// Returns the writer of the pictures.
     pub(crate) fn writer(&self) -> &Writer {
         &self.writer
     }
 
-    /// Where faces are clearly not as they are said to be, as their borders in this frame show.
+    /// Returns a warning if the borders in this frame show that faces are clearly not as declared.
     pub(crate) fn continuity(&self, light: &FrameLight) -> Option<Diagnostic> {
         let given = self.job.input.faces.as_ref()?;
         // Of a stereo pair, the left eye's.
@@ -76,7 +76,7 @@ impl<'a> Engine<'a> {
         Some(Diagnostic::warning(Code::Arrangement, told))
     }
 
-    /// What should be known about the light of a frame.
+    /// Returns the warnings about the light of a frame.
     pub(crate) fn warnings(&self, frame: Option<u64>, light: &FrameLight) -> Vec<Diagnostic> {
         let tell = |(view, count): (&InputView, usize)| {
             let path = view.files.path(frame);
@@ -98,14 +98,14 @@ impl<'a> Engine<'a> {
         self.incomplete(light).map(tell).chain(light.flattened().map(flat)).chain(thin).chain(suns).collect()
     }
 
-    /// Views with missing texels, and how many.
+    /// Visits the views with missing texels, and their number.
     fn incomplete<'b>(&'b self, light: &'b FrameLight) -> impl Iterator<Item = (&'b InputView, usize)> {
         let views = self.job.input.present().zip(light.missing());
         views.filter(|(_, count)| **count > 0).map(|((view, _, _), count)| (view, *count))
     }
 
-    /// Makes the pictures of a frame: filtered light, complete with what lies outside, faces in their places. Those of another
-    /// frame that nobody uses any more, if there are some, are made use of one after the other: of another size, they are dropped.
+    /// Renders the pictures of a frame: filtered light over the background, with faces in their places. Images of a
+    /// finished frame are reused where the size fits, and dropped otherwise.
     pub(crate) fn render(&self, frame: &FrameOutputs, light: &FrameLight, used: Vec<Levels>) -> Result<Vec<Levels>> {
         let mut balanced = BalancedLight::default();
         let mut used = used.into_iter();
@@ -176,12 +176,12 @@ impl<'a> Engine<'a> {
         Ok(image)
     }
 
-    /// Whether nothing is to be done where texels are missing or no view looks.
+    /// Returns whether no texels are missing and every pixel has a view.
     fn is_complete(&self, light: &FrameLight) -> bool {
         !matches!(self.job.coverage, Coverage::Fill(_)) && !self.has_holes(light)
     }
 
-    /// Whether texels of opaque inputs are missing.
+    /// Returns whether texels of opaque inputs are missing.
     fn has_holes(&self, light: &FrameLight) -> bool {
         !self.job.light.input_alpha && self.incomplete(light).next().is_some()
     }
@@ -198,8 +198,8 @@ impl<'a> Engine<'a> {
         self.masks[index].get_or_init(|| ScreenMask::new(self.job.world(target), &target.view))
     }
 
-    /// Missing texels of opaque inputs leave the pixel to the others; a pixel that has none left is like one that no
-    /// view covers.
+    /// Fills pixels of opaque inputs whose texels are missing: the remaining texels make the pixel, and a pixel without
+    /// any is treated as one without a view.
     fn close_holes(
         &self,
         index: usize,
@@ -235,7 +235,7 @@ impl<'a> Engine<'a> {
     }
 }
 
-/// A picture: an image, or several in their places on a background.
+/// Assembles a picture: one image, or several in their places on a background.
 pub(crate) fn assemble<P: Copy>(
     sheet: &Sheet,
     background: P,

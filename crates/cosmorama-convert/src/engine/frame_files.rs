@@ -7,26 +7,26 @@ use crate::conversion::ConvertJob;
 use crate::diagnostic::{FRAMES, Result, bail};
 use crate::input::{ViewFiles, read};
 
-/// A view of a frame as its file holds it.
+/// Image of a view in one frame, as in its file.
 pub(crate) struct ViewImage {
-    /// Which, among the views that are present.
+    /// Index among the views that are present.
     pub(crate) view: usize,
     /// Its file.
     pub(crate) path: PathBuf,
     /// Its pixels.
     pub(crate) image: EncodedImage,
-    /// How their code values relate to light.
+    /// Transfer function of the image.
     pub(crate) transfer: Transfer,
 }
 
-/// Which views of a frame.
+/// Selection of a frame's views.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Which {
-    /// All of them.
+    /// All views.
     All,
     /// Views with a file for each frame.
     Moving,
-    /// Views whose file serves all frames.
+    /// Views with one file for all frames.
     Still,
 }
 
@@ -37,7 +37,7 @@ pub(crate) struct FrameFile {
 }
 
 impl FrameFile {
-    /// The files of a frame.
+    /// Lists the files of a frame.
     pub(crate) fn all(job: &ConvertJob, frame: Option<u64>, which: Which) -> Vec<Self> {
         let mut files: Vec<Self> = Vec::new();
         for (view, (input, ..)) in job.input.present().enumerate() {
@@ -54,7 +54,7 @@ impl FrameFile {
         files
     }
 
-    /// Reads it. One thread does all of it, where it is one of several in a pool.
+    /// Reads the file. One thread does all of it if it is one of several in a pool.
     pub(crate) fn read(&self, job: &ConvertJob) -> Result<Vec<ViewImage>> {
         let Self { path, views } = self;
         let present: Vec<_> = job.input.present().collect();

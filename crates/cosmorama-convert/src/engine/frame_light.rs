@@ -10,18 +10,18 @@ use crate::conversion::ConvertJob;
 use crate::diagnostic::{Result, bail};
 use crate::engine::{FrameFile, Stage, Stages, ViewImage, Which};
 
-/// The light of a frame. Its memory, and what does not change from frame to frame, serves the next one.
+/// Light of a frame. Its memory, and views that do not change, are reused for the next frame.
 pub(crate) struct FrameLight {
     texels: Texels,
-    /// Texels that are missing (NaN), by view.
+    /// Number of missing (NaN) texels by view.
     missing: Vec<usize>,
-    /// The texels that each view's own rim cuts.
+    /// Texels of each view that its own rim cuts.
     rims: Vec<RimTexels>,
-    /// Files with transparent pixels, where the outputs are opaque since the first frame is.
+    /// Files with transparent pixels, if the outputs are opaque because the first frame is.
     flattened: BTreeSet<PathBuf>,
-    /// Whether frames are to be held in 15 bits, if they can be.
+    /// Whether frames are held in 15 bits where possible.
     is_fixed: bool,
-    /// Whether it holds the views that do not change from frame to frame.
+    /// Whether the views that do not change from frame to frame have been read.
     has_still: bool,
     decoder: Decoder,
     fixed_decoders: Vec<(Transfer, Option<FixedDecoder>)>,
@@ -29,17 +29,17 @@ pub(crate) struct FrameLight {
 
 /// Light of the texels of each world.
 pub(crate) enum Texels {
-    /// Of any range.
+    /// Light of any range, in floats.
     Float(Vec<Vec<Rgba>>),
-    /// Of opaque pictures of 8 bits.
+    /// Light of opaque 8-bit pictures, in 15 bits.
     Fixed(Vec<FixedLight>),
 }
 
-/// Texels that a thread makes at once, about.
+/// Approximate number of texels that a thread decodes at once.
 const PIECE: usize = 1 << 16;
 
 impl FrameLight {
-    /// Room for that of a job.
+    /// Allocates the light of a job's frames.
     pub(crate) fn new(job: &ConvertJob, is_fixed: bool) -> Self {
         let texels = if is_fixed { Texels::fixed(job) } else { Texels::floats(job) };
         let rims: Vec<RimTexels> =
@@ -50,22 +50,22 @@ impl FrameLight {
         Self { texels, missing, rims, flattened, is_fixed, has_still: false, decoder, fixed_decoders: Vec::new() }
     }
 
-    /// All the texels.
+    /// Returns all texels.
     pub(crate) fn texels(&self) -> &Texels {
         &self.texels
     }
 
-    /// Texels that are missing (NaN), by view.
+    /// Returns the number of missing (NaN) texels by view.
     pub(crate) fn missing(&self) -> &[usize] {
         &self.missing
     }
 
-    /// Files with transparent pixels that nobody has announced: the first frame has none, and the outputs have no alpha.
+    /// Returns files with transparent pixels that have not been reported, where the outputs have no alpha.
     pub(crate) fn flattened(&self) -> impl Iterator<Item = &Path> {
         self.flattened.iter().map(PathBuf::as_path)
     }
 
-    /// Takes in a frame: all its views, or those that are not the same in all frames.
+    /// Decodes a frame: all its views, or those that change from frame to frame.
     pub(crate) fn fill(
         &mut self,
         job: &ConvertJob,
@@ -99,7 +99,7 @@ impl FrameLight {
         self.decode(job, images, stages)
     }
 
-    /// Whether an image can be held in 15 bits.
+    /// Returns whether an image can be held in 15 bits.
     fn takes(&mut self, image: &ViewImage) -> bool {
         let known = self.fixed_decoders.iter().position(|(transfer, _)| *transfer == image.transfer);
         let index = known.unwrap_or_else(|| {
@@ -154,7 +154,7 @@ impl Texels {
         Self::Fixed(job.worlds.iter().map(|world| FixedLight::black(world.view_sizes())).collect())
     }
 
-    /// Mends what the rims of these images have of what lies around.
+    /// Restores the rim texels of these images, which may be mixed with their surroundings.
     fn restore_rims(&mut self, job: &ConvertJob, images: &[ViewImage], rims: &[RimTexels]) {
         match self {
             Self::Float(worlds) => {
@@ -173,7 +173,7 @@ impl Texels {
         }
     }
 
-    /// The light of a world's texel.
+    /// Returns the light of a world's texel.
     pub(crate) fn rgba(&self, world: usize, texel: usize) -> Rgba {
         match self {
             Self::Float(worlds) => worlds[world][texel],
@@ -182,8 +182,8 @@ impl Texels {
     }
 }
 
-/// Makes light of images, piece by piece in parallel; how many pixels of each are missing. Of each view there are its rows, all as
-/// long; `rows` makes the light of some.
+/// Decodes images in parallel pieces, and returns the number of missing pixels of each. Each view is given by its rows,
+/// all of one length; `rows` decodes some of them.
 fn decode<'a, T: Send + 'a>(
     images: &[ViewImage],
     views: impl Iterator<Item = &'a mut [T]>,
@@ -207,12 +207,12 @@ fn decode<'a, T: Send + 'a>(
     missing.into_iter().map(AtomicUsize::into_inner).collect()
 }
 
-/// The light of a texel, no brighter than one of a file of integers can be: with 15 bits and with floats it is the same.
+/// Limits light to white, as in files of integers, so that 15 bits and floats give the same.
 fn within_white(light: Rgba) -> Rgba {
     Rgba(light.0.map(|sample| sample.min(light.alpha())))
 }
 
-/// Gives each image that was read, its view's rim and the texels of that to `visit`.
+/// Passes each image that was read, with its view's rim and texels, to `visit`.
 fn each_read<'a, T: 'a>(
     images: &[ViewImage],
     rims: &[RimTexels],
@@ -226,7 +226,7 @@ fn each_read<'a, T: 'a>(
     }
 }
 
-/// The texels of each view of all worlds, given those of the worlds.
+/// Splits the texels of all worlds by view.
 fn views<'a>(job: &'a ConvertJob, worlds: &'a mut [Vec<Rgba>]) -> impl Iterator<Item = &'a mut [Rgba]> {
     job.worlds.iter().zip(worlds).flat_map(|(world, texels)| {
         let mut rest = texels.as_mut_slice();

@@ -8,12 +8,12 @@ use crate::diagnostic::{Code, Diagnostic, KERNEL, MEMORY};
 use crate::engine::{Balance, BalancedLight, balance};
 use crate::target::TargetView;
 
-/// The geometry of a job: compiled by target view, where that pays and fits into memory.
+/// Geometry of a job, compiled for each target view where that pays and fits into memory.
 pub(crate) struct Geometry {
     plans: Vec<Option<Plan>>,
-    /// From 15 bits to 8, where the job works in those: opaque pictures of 8 bits, in and out.
+    /// Encoder from 15 bits to 8, for jobs with opaque 8-bit pictures in and out.
     codec: Option<FixedCodec>,
-    /// How light is kept.
+    /// Energy balance.
     balance: Balance,
 }
 
@@ -25,7 +25,7 @@ fn unbalanced() -> Diagnostic {
     Diagnostic::warning(Code::Unbalanced, message)
 }
 
-/// Where there is no room for geometry that would be used again.
+/// Returns the warning that reusable geometry does not fit into memory.
 fn anew() -> Diagnostic {
     let message = format!(
         "there is not memory enough to hold the geometry: it is computed anew for each frame; give more with {MEMORY}"
@@ -54,18 +54,18 @@ impl Geometry {
         (Self { plans, codec, balance }, warnings)
     }
 
-    /// From 15 bits to 8, where the job works in those.
+    /// Returns the encoder from 15 bits to 8, if the job uses it.
     pub(crate) fn codec(&self) -> Option<&FixedCodec> {
         self.codec.as_ref()
     }
 
-    /// Bytes that it holds.
+    /// Returns the bytes that it holds.
     pub(crate) fn bytes(&self) -> u64 {
         self.plans.iter().flatten().map(|plan| plan.bytes() as u64).sum::<u64>() + self.balance.bytes()
     }
 
-    /// The pixels of a target view, of any light, in front of a background. What has holes is in no balance; `last` is of the same
-    /// frame. By a plan they are made in `used`, an image that nobody uses any more, if it is as large.
+    /// Renders a target view from light of any range over a background. With holes there is no balance; `last` belongs
+    /// to the same frame. With a plan, pixels are written into `used`, an image to reuse, if its size fits.
     pub(crate) fn light(
         &self,
         index: usize,
@@ -94,7 +94,7 @@ impl Geometry {
         image
     }
 
-    /// The code values of a target view; by a plan in `used`, as [`Geometry::light`] makes its pixels.
+    /// Renders the code values of a target view. With a plan, they are written into `used`, as in [`Geometry::light`].
     pub(crate) fn codes(
         &self,
         index: usize,
@@ -115,17 +115,17 @@ impl Geometry {
     }
 }
 
-/// Whether an image is as large as a conversion's target.
+/// Returns whether an image has the size of a conversion's target.
 fn fits<P>(image: &Image<P>, resampler: &Resampler) -> bool {
     (image.width(), image.height()) == (resampler.target.width(), resampler.target.height())
 }
 
-/// Whether geometry that is computed is used more than once.
+/// Returns whether geometry would be used more than once.
 fn pays(job: &ConvertJob) -> bool {
     job.outputs.frames.len() > 1
 }
 
-/// The plans of all target views, as far as they fit into memory beside what is `taken`.
+/// Makes the plans of all target views, as far as they fit into memory beside what is `taken`.
 fn plans(job: &ConvertJob, arithmetic: Arithmetic, taken: u64, warnings: &mut Vec<Diagnostic>) -> Vec<Option<Plan>> {
     let left = job.memory.left_for_plan(&job.input, &job.target, rayon::current_num_threads());
     let (mut left, mut lacks_room) = (left.saturating_sub(taken), false);

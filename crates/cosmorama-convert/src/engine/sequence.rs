@@ -17,7 +17,7 @@ use crate::diagnostic::{InPlace, Result, bail};
 use crate::engine::{Engine, FrameFile, FrameLight, Levels, Stage, Stages, ViewImage, Which};
 use crate::output::FrameOutputs;
 
-/// The frames of a job, as they are made.
+/// The frames of a job while they are made.
 pub(crate) struct Sequence<'a> {
     pub(crate) job: &'a ConvertJob,
     pub(crate) engine: &'a Engine<'a>,
@@ -25,22 +25,23 @@ pub(crate) struct Sequence<'a> {
     pub(crate) pool: &'a ThreadPool,
 }
 
-/// Watches frames while they are made, in their order.
+/// Callbacks about frames, in their order.
 pub(crate) trait Watcher {
-    /// Learns how many bytes frames in flight take.
+    /// Called with the bytes that frames in flight take.
     fn begin(&mut self, bytes: u64);
 
-    /// Looks at the light of a frame.
+    /// Called with the light of a frame.
     fn look(&mut self, frame: &FrameOutputs, light: &FrameLight);
 
-    /// Learns that a frame is written.
+    /// Called when a frame is written.
     fn done(&mut self, frame: &FrameOutputs);
 }
 
-/// What comes of tasks that were given to the pool.
+/// Results of tasks in the pool.
 type Results<T> = Vec<Receiver<Result<T>>>;
 
-/// Frames that are being read, with their place in the sequence, and those that are being written; each by its outputs and its files.
+/// Frames that are being read, with their index in the sequence, and frames that are being written; each by its outputs
+/// and its files.
 #[derive(Default)]
 struct Queues<'a> {
     read: VecDeque<(usize, &'a FrameOutputs, Results<Vec<ViewImage>>)>,
@@ -48,8 +49,8 @@ struct Queues<'a> {
 }
 
 impl<'a> Sequence<'a> {
-    /// Makes all frames. The first error ends it: frames before that one are finished, none is begun any more; those under
-    /// way are finished.
+    /// Makes all frames. The first error ends the run: frames before it, and those in progress, are finished, and no
+    /// other is begun.
     pub(crate) fn run(&self, watcher: &mut dyn Watcher) -> Result<()> {
         let failure = &FirstFailure::none();
         let mut queues = Queues::default();
@@ -110,7 +111,7 @@ impl<'a> Sequence<'a> {
         }
     }
 
-    /// Has the files of a frame read.
+    /// Starts reading the files of a frame.
     fn have_read<'s>(&self, turn: Turn<'_, 's>, frame: &FrameOutputs, which: Which) -> Results<Vec<ViewImage>>
     where
         'a: 's,
@@ -121,7 +122,7 @@ impl<'a> Sequence<'a> {
         files.map(read).collect()
     }
 
-    /// Has the pictures of a frame written.
+    /// Starts writing the pictures of a frame.
     fn have_written<'s>(&self, turn: Turn<'_, 's>, frame: &'a FrameOutputs, pictures: Vec<Levels>) -> Results<Levels>
     where
         'a: 's,
@@ -136,8 +137,8 @@ impl<'a> Sequence<'a> {
 }
 
 impl Queues<'_> {
-    /// Waits until no more than so many frames are being written; the pictures of the last that is, which nobody uses any more.
-    /// After one that fails none is waited for: what becomes of later ones is told by nobody.
+    /// Waits until at most `most` frames are being written, and returns the pictures of the last one for reuse. After a
+    /// failed frame nothing is awaited, because nobody reports on later frames.
     fn finish_written(&mut self, most: usize, watcher: &mut dyn Watcher) -> Result<Vec<Levels>> {
         let mut used = Vec::new();
         while self.written.len() > most {
@@ -149,7 +150,7 @@ impl Queues<'_> {
     }
 }
 
-/// Which frame is the first that failed, by its place: they count from one.
+/// Index of the first frame that failed, counted from one.
 struct FirstFailure(AtomicUsize);
 
 impl FirstFailure {
@@ -161,21 +162,21 @@ impl FirstFailure {
         self.0.fetch_min(place, Ordering::Relaxed);
     }
 
-    /// Nobody wants anything any more.
+    /// Cancels all further work.
     fn end(&self) {
         self.note(0);
     }
 
-    /// Whether one before this has failed, so that nobody wants this one any more.
+    /// Returns whether a frame before this one has failed, so that this one is no longer wanted.
     fn is_before(&self, place: usize) -> bool {
         self.0.load(Ordering::Relaxed) < place
     }
 }
 
-/// Where the tasks of a frame go, what they are to mind, and its place.
+/// Scope for the tasks of a frame, the failure to observe, and the frame's index.
 type Turn<'t, 's> = (&'t Scope<'s>, &'s FirstFailure, usize);
 
-/// Gives a task to the pool. Once a frame before its own has failed, it is not begun.
+/// Starts a task in the pool. It is skipped if an earlier frame has failed.
 fn task<'s, T: Send + 's>(
     (scope, failure, place): Turn<'_, 's>,
     work: impl FnOnce() -> Result<T> + Send + 's,
@@ -195,7 +196,7 @@ fn task<'s, T: Send + 's>(
     receiver
 }
 
-/// Waits for tasks; the error of the first that failed.
+/// Waits for tasks; returns the error of the first that failed.
 fn all_of<T>(results: Results<T>) -> Result<Vec<T>> {
     let wait = |result: Receiver<Result<T>>| match result.recv() {
         Ok(result) => result,
@@ -205,7 +206,7 @@ fn all_of<T>(results: Results<T>) -> Result<Vec<T>> {
     results.into_iter().map(wait).collect()
 }
 
-/// A frame, as errors name it.
+/// Returns the name of a frame in error messages.
 fn told(frame: &FrameOutputs) -> String {
     frame.frame.map_or_else(|| "the frame".to_owned(), |number| format!("frame {number}"))
 }

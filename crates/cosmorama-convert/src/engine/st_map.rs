@@ -1,4 +1,4 @@
-//! Maps by which other programs do a conversion: where in the input's file the pixels of an output look.
+//! St maps: the place in the input's file at which each pixel of an output looks.
 
 use std::path::Path;
 
@@ -13,10 +13,10 @@ use crate::engine::{Stage, assemble};
 use crate::input::{Input, InputView, Place};
 use crate::target::TargetView;
 
-/// The names of an st map's numbers, in their order.
+/// Channel names of an st map, in order.
 const CHANNELS: [&str; 3] = ["R", "G", "B"];
 
-/// Makes a file.
+/// Writes the st map of a file.
 pub(crate) fn make(run: &Checked, file: usize, path: &Path) -> Result<()> {
     let Checked { job, stages, .. } = run;
     let map = |view: usize| st_pixels(job, &job.target.views[view]);
@@ -25,7 +25,7 @@ pub(crate) fn make(run: &Checked, file: usize, path: &Path) -> Result<()> {
     stages.alone(Stage::Encode, || save(&image, path, job.light.depth, &options))
 }
 
-/// Where in the input's file the pixels of an output look.
+/// Computes the places in the input's file at which the pixels of an output look.
 fn st_pixels(job: &ConvertJob, target: &TargetView) -> Result<Image<StPixel>> {
     check_one_file(&job.input)?;
     let index = target.world(job.worlds.len());
@@ -47,7 +47,7 @@ fn check_one_file(input: &Input) -> Result<()> {
     }
 }
 
-/// The part of its file that a view is, and of the canvas that the file may be a window of.
+/// Returns the part of its file that a view is, and of the canvas of which the file may be a window.
 fn canvas_in_file(view: &InputView, header: &Header) -> Canvas {
     let Place { corner: (left, top), of: (width, height) } =
         view.part.unwrap_or(Place::whole((header.width, header.height)));

@@ -3,20 +3,20 @@ use std::time::Duration;
 
 use cpu_time::{ProcessTime, ThreadTime};
 
-/// The stages of a conversion.
+/// Stage of a conversion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Stage {
-    /// Reading files and turning code values into light.
+    /// Reading files and decoding them to light.
     Decode,
-    /// Arguments, headers, what is needed of the input, and the geometry that several frames share.
+    /// Arguments, headers, needs of the input, and geometry that several frames share.
     Plan,
     /// Making pixels; for a single frame, its geometry too.
     Filter,
-    /// Turning light into code values and writing files.
+    /// Encoding light and writing files.
     Encode,
 }
 
-/// What the stages have cost: time that the process has spent on processors, all threads added.
+/// Cost of the stages: processor time of the process, summed over all threads.
 #[derive(Debug, Default)]
 pub(crate) struct Stages {
     costs: Mutex<Costs>,
@@ -30,21 +30,21 @@ struct Costs {
     encode: Duration,
 }
 
-/// CPU seconds by stage, all threads added.
+/// Processor seconds by stage, summed over all threads.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CpuSeconds {
-    /// Reading files and turning code values into light.
+    /// Reading files and decoding them to light.
     pub decode: f64,
-    /// Settings, headers, and the geometry that several frames share.
+    /// Settings, headers, and geometry that several frames share.
     pub plan: f64,
     /// Making pixels.
     pub filter: f64,
-    /// Turning light into code values and writing files.
+    /// Encoding light and writing files.
     pub encode: f64,
 }
 
 impl Stages {
-    /// Does a part of a stage that nothing else runs beside: whatever the process spends is the stage's.
+    /// Runs a part of a stage while nothing else runs, and charges all processor time to the stage.
     pub(crate) fn alone<T>(&self, stage: Stage, work: impl FnOnce() -> T) -> T {
         let cpu = ProcessTime::now();
         let result = work();
@@ -52,7 +52,7 @@ impl Stages {
         result
     }
 
-    /// Does a part of a stage that one thread does by itself, whatever others do meanwhile.
+    /// Runs a part of a stage on one thread, whatever other threads do.
     pub(crate) fn beside<T>(&self, stage: Stage, work: impl FnOnce() -> T) -> T {
         let cpu = ThreadTime::now();
         let result = work();
@@ -60,7 +60,7 @@ impl Stages {
         result
     }
 
-    /// Does several stages at once. What [`beside`](Self::beside) times is its stage's, all the rest is that of `stage`.
+    /// Runs several stages at once. Time in [`beside`](Self::beside) is charged to its stage, and the rest to `stage`.
     pub(crate) fn among<T>(&self, stage: Stage, work: impl FnOnce() -> T) -> T {
         let (cpu, before) = (ProcessTime::now(), self.costs().sum());
         let result = work();
@@ -83,7 +83,7 @@ impl Stages {
         } += cpu;
     }
 
-    /// CPU seconds.
+    /// Returns processor seconds by stage.
     pub(crate) fn cpu_seconds(&self) -> CpuSeconds {
         let Costs { decode, plan, filter, encode } = self.costs();
         let [decode, plan, filter, encode] = [decode, plan, filter, encode].map(|cost| cost.as_secs_f64());

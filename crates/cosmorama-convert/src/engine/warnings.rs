@@ -1,4 +1,4 @@
-//! What should be known of the light of a frame: suns that filters do not keep, alpha that is full nowhere.
+//! Warnings about the light of a frame: bright sources that filters do not keep, and alpha that is nowhere full.
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -11,13 +11,13 @@ use crate::conversion::ConvertJob;
 use crate::diagnostic::{Code, Diagnostic, FILTER, KERNEL, Remedy, Setting};
 use crate::engine::{FrameLight, balance};
 
-/// The part of a world's light in suns from which their change shows in what it lights.
+/// Fraction of a world's light in bright sources above which a change of it shows in lighting.
 const MUCH: f64 = 0.1;
 
-/// Directions by which it is found whether outputs show the whole world.
+/// Number of directions that are tested to see whether outputs show the whole world.
 const DIRECTIONS: usize = 500;
 
-/// Where a whole world is made of light of which much comes from suns, few filters keep it.
+/// Warns where a whole world is made from light with bright sources, which few filters keep.
 pub(crate) fn suns(job: &ConvertJob, light: &FrameLight) -> Option<Diagnostic> {
     if balance::is_asked_for(job) || !is_of_any_range(job) || !shows_the_world(job) {
         return None;
@@ -36,19 +36,19 @@ pub(crate) fn suns(job: &ConvertJob, light: &FrameLight) -> Option<Diagnostic> {
     })
 }
 
-/// Whether some input holds more than white.
+/// Returns whether some input holds light beyond white.
 fn is_of_any_range(job: &ConvertJob) -> bool {
     job.input.present().any(|(_, header, _)| matches!(header.depth, Depth::Half | Depth::Float))
 }
 
-/// Whether the outputs show all directions, or all but a few.
+/// Returns whether the outputs show all directions, or nearly all.
 fn shows_the_world(job: &ConvertJob) -> bool {
     let sees = |direction: &Direction| job.target.views.iter().any(|target| target.view.sees(*direction));
     let seen = Direction::spread(DIRECTIONS).filter(sees).count();
     100 * seen >= 99 * DIRECTIONS
 }
 
-/// What should be known of files of a frame in which no pixel has full alpha.
+/// Warns about files of a frame in which no pixel has full alpha.
 pub(crate) fn thin_alpha(job: &ConvertJob, frame: Option<u64>, light: &FrameLight) -> Vec<Diagnostic> {
     if !job.light.input_alpha {
         return Vec::new();

@@ -6,9 +6,9 @@ use cosmorama_io::{WriteOptions, write_levels};
 use crate::colour::Light;
 use crate::diagnostic::Result;
 
-/// A picture and its smaller copies.
+/// A picture and its mip levels.
 pub(crate) enum Levels {
-    /// Light, to be encoded.
+    /// Light to be encoded.
     Light(Vec<Image<Rgba>>),
     /// Code values of 8 bits.
     Codes(Vec<Image<[u8; 3]>>),
@@ -26,7 +26,7 @@ impl Levels {
     }
 }
 
-/// Writes pictures, all of one kind.
+/// Writer of pictures that share one kind of samples.
 pub(crate) struct Writer {
     encoder: Encoder,
     options: WriteOptions,
@@ -37,7 +37,7 @@ impl Writer {
         Self { encoder: Encoder::new(light.channels, light.depth, &light.transfer), options }
     }
 
-    /// Writes an output, a picture and its smaller copies.
+    /// Writes an output: a picture and its mip levels.
     pub(crate) fn save(&self, levels: Levels, path: &Path) -> Result<()> {
         let encoded: Vec<EncodedImage> = match levels {
             // Each picture of light goes as soon as it is encoded.
@@ -49,7 +49,7 @@ impl Writer {
         self.write(&encoded, path)
     }
 
-    /// Encodes and writes the images on the calling thread, and returns them: fresh ones for the next frame would be zeroed.
+    /// Encodes and writes images on the calling thread, and returns them for reuse: new ones would have to be zeroed.
     pub(crate) fn save_and_hand_on(&self, levels: Levels, path: &Path) -> Result<Levels> {
         match levels {
             Levels::Light(images) => {

@@ -3,23 +3,23 @@ use cosmorama_spec::did_you_mean;
 
 use crate::diagnostic::{ConvertError, Result, usage};
 
-/// What a built-in input's name begins with.
+/// Prefix of a built-in input's name.
 const PREFIX: &str = "builtin:";
 
-/// The name of the map of directions, which is no world: its pixels are numbers.
+/// Name of the map of directions, whose pixels are values, not light.
 const DIRECTION_MAP: &str = "direction-map";
 
-/// What comes with the program.
+/// A built-in input.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Builtin {
     /// A world.
     World(BuiltinWorld),
-    /// Where pixels look.
+    /// A map of the directions of pixels.
     DirectionMap(DirectionMap),
 }
 
 impl Builtin {
-    /// What an input names; `None` where it names a file.
+    /// Returns the built-in input of a name; `None` if it names a file.
     pub fn named(input: &str) -> Result<Option<Self>> {
         let Some(typed) = input.strip_prefix(PREFIX) else { return Ok(None) };
         let (name, keys) = typed.split_once(':').map_or((typed, None), |(name, keys)| (name, Some(keys)));
@@ -42,7 +42,7 @@ impl Builtin {
         }
     }
 
-    /// What it shows.
+    /// Returns a line of help.
     pub fn about(self) -> &'static str {
         match self {
             Self::World(world) => world.about(),
@@ -50,7 +50,7 @@ impl Builtin {
         }
     }
 
-    /// All that can be named, with what they show.
+    /// Returns all names, with a line of help each.
     pub fn all() -> impl Iterator<Item = (&'static str, &'static str)> {
         let worlds = BuiltinWorld::ALL.into_iter().map(|world| (world.name(), world.about()));
         worlds.chain([(DIRECTION_MAP, Self::DirectionMap(DirectionMap::default()).about())])

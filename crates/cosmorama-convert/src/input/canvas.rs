@@ -6,17 +6,17 @@ use cosmorama_io::{Header, Window};
 
 use crate::diagnostic::{FROM, Result, usage};
 
-/// The canvas of an image that is all of it.
+/// Returns the canvas of an image that is all of it.
 pub(crate) fn whole(header: &Header) -> Canvas {
     Canvas { width: header.width, height: header.height, left: 0, top: 0 }
 }
 
-/// A window as a placement has it.
+/// Converts a window to a canvas.
 pub(crate) fn canvas_of(window: Window) -> Canvas {
     Canvas { width: window.canvas_width, height: window.canvas_height, left: window.x as i64, top: window.y as i64 }
 }
 
-/// A window larger than its canvas was declared by mistake.
+/// Checks that a window is not larger than its declared canvas.
 pub(crate) fn fits_canvas(path: &Path, header: &Header, canvas: Canvas) -> Result<()> {
     if header.width <= canvas.width && header.height <= canvas.height {
         return Ok(());
@@ -30,8 +30,8 @@ pub(crate) fn fits_canvas(path: &Path, header: &Header, canvas: Canvas) -> Resul
     )))
 }
 
-/// A picture that lies wholly beside its canvas was put there by mistake: one may reach beyond its edges, but not go round.
-/// `name` is that of what has so many columns and rows.
+/// Checks that a picture does not lie entirely beside its canvas. It may extend beyond the edges, but not go all the
+/// way round. `name` is that of the picture with so many columns and rows.
 pub(crate) fn lies_on_canvas(name: impl Display, (columns, rows): (usize, usize), canvas: Canvas) -> Result<()> {
     let overlaps = |start: i64, length: usize, whole: usize| start < whole as i64 && start + length as i64 > 0;
     if overlaps(canvas.left, columns, canvas.width) && overlaps(canvas.top, rows, canvas.height) {
@@ -46,7 +46,7 @@ pub(crate) fn lies_on_canvas(name: impl Display, (columns, rows): (usize, usize)
     )))
 }
 
-/// A map whose shape is known was meant otherwise if it has another: its pixels would be stretched.
+/// Checks that a map of a fixed shape has that shape; otherwise its pixels would be stretched.
 pub(crate) fn fits_shape(path: &Path, frame: &CameraModel, canvas: Canvas) -> Result<()> {
     let (what, whole) = match frame {
         CameraModel::Equirect(_) => ("panorama of its field of view", "hfov=360,vfov=180 (or its own)"),
@@ -67,7 +67,7 @@ pub(crate) fn fits_shape(path: &Path, frame: &CameraModel, canvas: Canvas) -> Re
     )))
 }
 
-/// Whether a height is the natural one: a row more or less is a matter of rounding.
+/// Returns whether a height is the natural one, within a row of rounding.
 pub(crate) fn is_near(natural: usize, height: usize) -> bool {
     natural.abs_diff(height) <= (natural / 100).max(1)
 }

@@ -9,7 +9,7 @@ use crate::diagnostic::{ConvertError, FROM, Result, failure, usage};
 use crate::input::pieces::packed::check_whole;
 use crate::input::{InputView, Place};
 
-/// The part that an eye has of a stereo image.
+/// An eye's part of a stereo image.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct EyePart {
     pub(crate) stereo: Stereo,
@@ -17,7 +17,7 @@ pub(crate) struct EyePart {
 }
 
 impl EyePart {
-    /// The header of an eye's picture, as if that was a file of its own and not squeezed.
+    /// Returns the header of an eye's picture, as if it were a file of its own and not squeezed.
     pub(crate) fn header(self, path: &Path, header: &Header) -> Result<Header> {
         check_whole(path, header)?;
         let (across, down) = self.stereo.squeeze();
@@ -30,7 +30,7 @@ impl EyePart {
         Ok(Header { width: part.width() * across, height: part.height() * down, metadata, ..header.clone() })
     }
 
-    /// The view of such a picture, in its place in the file.
+    /// Places an eye's view in the file.
     pub(crate) fn place(self, view: InputView) -> Result<InputView> {
         let squeeze = self.stereo.squeeze();
         let (name, nominal) = (format!("{} ({} eye)", view.name, self.eye.name()), squeezed(view.nominal, squeeze)?);
@@ -52,7 +52,7 @@ impl EyePart {
         })
     }
 
-    /// Where a part of this eye's picture lies in the image for both, and that image's size.
+    /// Returns the place of a part of this eye's picture in the image for both, and that image's size.
     pub(crate) fn rect(
         self,
         corner: (usize, usize),
@@ -68,7 +68,8 @@ impl EyePart {
     }
 }
 
-/// The size that one eye's picture has before it is squeezed, in an image of a given size. A width alone is that of one.
+/// Returns the size of one eye's picture before it is squeezed, in an image of a given size. A width alone is that of
+/// one eye.
 pub(crate) fn eye_size(stereo: Stereo, given: Size) -> Result<Size> {
     let Size { width, height: Some(height) } = given else { return Ok(given) };
     let part = stereo.part(Eye::Left, width, height).map_err(halved)?;
@@ -94,7 +95,7 @@ fn squeezed_canvas(canvas: Canvas, (across, down): (usize, usize)) -> Result<Can
     Ok(Canvas { width, height, left, top })
 }
 
-/// Columns and rows of a picture that is squeezed.
+/// Returns the columns and rows of a squeezed picture.
 fn divided((x, y): (usize, usize), (across, down): (usize, usize)) -> Result<(usize, usize)> {
     if x % across != 0 || y % down != 0 {
         return Err(odd((x, y)));

@@ -19,59 +19,59 @@ use crate::input::pieces::packed;
 use crate::input::spec_files::{calibration, st_map};
 use crate::input::{Access, EyePart, Face, FacePicture, Place, ViewFiles};
 
-/// A view of the input: an image, a face of a cube, a lens of two.
+/// A view of the input: an image, a face of a cube, or one of two lenses.
 #[derive(Clone)]
 pub struct InputView {
-    /// What messages call it.
+    /// Name in messages.
     pub name: String,
     /// Its files.
     pub files: ViewFiles,
-    /// Where it lies in a file that other views share.
+    /// Place in a file that several views share.
     pub part: Option<Place>,
-    /// What its first file says of itself; `None` where there is no file.
+    /// Header of its first file; `None` without a file.
     pub header: Option<Header>,
-    /// The geometry of its whole picture.
+    /// Geometry of its whole picture.
     pub nominal: View,
-    /// The part of that which the file holds; `None` where there is no file.
+    /// Part of it that the file holds; `None` without a file.
     pub window: Option<(View, Canvas)>,
-    /// How it takes part where other views show the same.
+    /// Blending with other views that show the same directions.
     pub blend: Blend,
-    /// Which of its pixels count, if not all.
+    /// Mask, if not all pixels count.
     pub mask: Option<Arc<ViewMask>>,
-    /// Whether anything of it is needed: what is not is not even read.
+    /// Whether anything of it is needed; other views are not read.
     pub wanted: bool,
 }
 
 impl InputView {
-    /// It as a part of a world, with the geometry of its whole picture or of what its file holds of that.
+    /// Converts it to a view of a world, with the geometry of its whole picture or of its file.
     pub(crate) fn world_view(&self, view: View) -> WorldView {
         WorldView { name: self.name.clone(), view, blend: self.blend, mask: self.mask.clone() }
     }
 
-    /// What its file says of itself and the geometry of what it holds, where there is a file and it is wanted.
+    /// Returns its header and the geometry of its file, if there is a file and the view is wanted.
     pub(crate) fn present(&self) -> Option<(&Self, &Header, &View)> {
         Some((self, self.header.as_ref()?, &self.window.as_ref()?.0)).filter(|_| self.wanted)
     }
 }
 
-/// Everything that light comes from.
+/// The input of a conversion: views, frames and files.
 pub struct Input {
-    /// The views, missing ones too: of one world, or of the left eye's and the right eye's.
+    /// Views, including missing ones: of one world, or of the left eye's and the right eye's.
     pub worlds: Vec<Vec<InputView>>,
-    /// The frames to work on.
+    /// Frames to work on.
     pub frames: Vec<Option<u64>>,
-    /// How the views are the faces of one cube, if they are whole ones.
+    /// Arrangement of the views as faces of one cube, if they are whole faces.
     pub faces: Option<GivenFaces>,
-    /// The files that it takes beside those of its views: what lists them, their masks, calibrations and maps.
+    /// Files beside those of views: lists of views, masks, calibrations and maps.
     pub beside: Vec<PathBuf>,
 }
 
-/// What is told where an output has two eyes and the input one.
+/// Message for an output with two eyes and an input with one.
 pub(crate) const SAME_FOR_BOTH: &str =
     "both eyes get the same picture, since the input has only one: there is no depth in it";
 
 impl Input {
-    /// Nothing: light comes from a formula.
+    /// Returns an empty input, for light by a formula.
     pub(crate) fn none() -> Self {
         Self { worlds: Vec::new(), frames: vec![None], faces: None, beside: Vec::new() }
     }
@@ -101,7 +101,7 @@ impl Input {
         Self::of_eyes(pattern, from, wanted, access, warnings)
     }
 
-    /// The input for each eye, where a SPEC has two.
+    /// Finds the input for each eye, where a SPEC has two.
     fn of_eyes(
         pattern: &str,
         from: Option<&Spec>,
@@ -132,7 +132,7 @@ impl Input {
         found.ok_or_else(|| usage("stereo=: no eye is left"))
     }
 
-    /// The input of one eye, or that for both.
+    /// Finds the input of one eye, or of both.
     fn find_one(
         pattern: &str,
         from: Option<&Spec>,
@@ -158,7 +158,7 @@ impl Input {
         Ok(input)
     }
 
-    /// As many worlds as the output has eyes; what that takes away or adds is told.
+    /// Provides as many worlds as the output has eyes, and reports what is dropped or duplicated.
     pub(crate) fn fit_eyes(&mut self, stereo: bool, warnings: &mut Vec<Diagnostic>) {
         match (self.worlds.len(), stereo) {
             (2, false) => {
@@ -174,7 +174,7 @@ impl Input {
         }
     }
 
-    /// A panorama or another picture, or all faces of a cube.
+    /// Finds a panorama or another single picture, or all faces of a cube in one.
     fn one_file(
         pattern: &str,
         shape: Option<&Shape>,
@@ -278,7 +278,7 @@ impl Input {
         Ok(Self { worlds: vec![views?], frames, faces: given, beside: Vec::new() })
     }
 
-    /// What is told of files that ask for being turned, which is not done.
+    /// Warns about files that ask to be rotated, which is ignored.
     pub(crate) fn turned(&self) -> Vec<Diagnostic> {
         let turned = self.present().filter_map(|(view, header, _)| Some((view, header.metadata.orientation?)));
         let mut told: Vec<Diagnostic> = turned
@@ -297,7 +297,7 @@ impl Input {
         told
     }
 
-    /// What files say of themselves that is not followed.
+    /// Warns about statements of files that are ignored.
     pub(crate) fn complaints(&self) -> Vec<Diagnostic> {
         let told = |(view, header, _): (&InputView, &Header, _)| -> Vec<Diagnostic> {
             let path = view.files.path(self.frames[0]);
@@ -312,39 +312,39 @@ impl Input {
         told
     }
 
-    /// The views that have files and are wanted, with the geometry of what those hold.
+    /// Visits the views that have files and are wanted, with the geometry of those files.
     pub(crate) fn present(&self) -> impl Iterator<Item = (&InputView, &Header, &View)> {
         self.views().filter_map(InputView::present)
     }
 
-    /// All views of all worlds.
+    /// Visits all views of all worlds.
     pub(crate) fn views(&self) -> impl Iterator<Item = &InputView> {
         self.worlds.iter().flatten()
     }
 
-    /// Pixels a radian at the centre of the finest view.
+    /// Returns pixels per radian at the centre of the finest view.
     pub(crate) fn pixels_per_radian(&self) -> f64 {
         let views = self.views().filter(|view| view.wanted);
         views.map(|view| view.nominal.pixels_per_radian()).fold(0.0, f64::max)
     }
 
-    /// Texels of all files of a frame.
+    /// Returns the number of texels in all files of a frame.
     pub(crate) fn texels(&self) -> usize {
         self.present().map(|(_, header, _)| header.width.saturating_mul(header.height)).fold(0, usize::saturating_add)
     }
 
-    /// Every file that anything is read from.
+    /// Visits every file that is read.
     pub(crate) fn files(&self) -> impl Iterator<Item = PathBuf> {
         self.frames.iter().flat_map(|frame| self.paths(*frame)).chain(self.beside.iter().cloned())
     }
 
-    /// The files of a frame.
+    /// Returns the files of a frame.
     pub(crate) fn paths(&self, frame: Option<u64>) -> Vec<PathBuf> {
         self.present().map(|(input, _, _)| input.files.path(frame)).collect()
     }
 }
 
-/// What a file says of itself, or the picture of an eye in it.
+/// Reads the header of a file, or of an eye's picture in it.
 pub(crate) fn header(access: Access, path: &Path, eye: Option<EyePart>) -> Result<Header> {
     let header = access.probe(path)?;
     eye.map_or(Ok(header.clone()), |eye| eye.header(path, &header))

@@ -1,4 +1,4 @@
-//! Where light comes from: files found and probed, their views, and what lists them.
+//! Inputs: files found and probed, their views, and lists of views.
 
 mod builtin;
 pub(crate) mod canvas;

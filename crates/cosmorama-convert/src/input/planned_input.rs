@@ -13,7 +13,8 @@ use crate::input::pieces::size::lens_image_size;
 use crate::input::{EyePart, Input, InputView, Piece, ViewFiles};
 
 impl Input {
-    /// An input that does not exist yet: of a size, or at parity with an output of so many pixels a radian.
+    /// Describes an input that does not exist yet, of a given size, or as fine as an output with so many pixels per
+    /// radian.
     pub(crate) fn planned(from: &Spec, size: Option<Size>, pixels_per_radian: f64) -> Result<Self> {
         let Some(stereo) = from.stereo else {
             return Ok(Self {

@@ -1,4 +1,4 @@
-//! Where pictures go: names, what exists already, what is to be made.
+//! Outputs: their names, which of them exist, and which are to be made.
 
 pub(crate) mod outputs;
 mod resume;

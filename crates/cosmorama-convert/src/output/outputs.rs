@@ -11,7 +11,7 @@ use crate::output::Remade;
 use crate::settings::{Conversion, Existing, GeometrySettings};
 use crate::target::{Target, TargetFile};
 
-/// A frame with the outputs that are still to be made of it.
+/// A frame with its outputs that are still to be made.
 pub(crate) struct FrameOutputs {
     /// Its number; `None` where there is no sequence.
     pub(crate) frame: Option<u64>,
@@ -19,33 +19,33 @@ pub(crate) struct FrameOutputs {
     pub(crate) files: Vec<(usize, PathBuf)>,
 }
 
-/// What is to be made.
+/// Outputs of a conversion.
 pub(crate) struct Outputs {
-    /// Frames with anything to make.
+    /// Frames with outputs to make.
     pub(crate) frames: Vec<FrameOutputs>,
-    /// Outputs that were there already.
+    /// Number of outputs that exist already.
     pub(crate) skipped: usize,
-    /// Outputs to be made again: something else stands in their place.
+    /// Outputs that are made again because something else is in their place.
     pub(crate) remade: Vec<Remade>,
 }
 
 impl Outputs {
-    /// Whether they are frames of a sequence, be it only one of them.
+    /// Returns whether the outputs are frames of a sequence, even if there is only one.
     pub(crate) fn is_sequence(&self) -> bool {
         self.frames.iter().any(|frame| frame.frame.is_some())
     }
 
-    /// All that are to be made.
+    /// Visits all outputs to make.
     pub(crate) fn paths(&self) -> impl Iterator<Item = &Path> {
         self.frames.iter().flat_map(|frame| frame.files.iter().map(|(_, path)| path.as_path()))
     }
 
-    /// What should be known of those that are made again.
+    /// Returns the warning about outputs that are made again.
     pub(crate) fn warning(&self) -> Option<Diagnostic> {
         Remade::warning(&self.remade)
     }
 
-    /// The outputs of all frames, checked against the inputs and what exists.
+    /// Plans the outputs of all frames, and checks them against the inputs and existing files.
     pub(crate) fn plan(
         args: &Conversion,
         input: &Input,
@@ -91,7 +91,8 @@ impl Outputs {
     }
 }
 
-/// Many frames need a marker in the output; one frame may go without; a marker without frames means nothing.
+/// Checks frame markers: several frames need one in the output, one frame may do without, and one without frames is an
+/// error.
 fn check_frame_markers(args: &Conversion, input: &Input, target: &Target) -> Result<()> {
     let numbered = target.files.iter().all(|file| matches!(file.files, ViewFiles::Sequence(_)));
     if input.frames.len() > 1 && args.to_stream {
@@ -118,13 +119,13 @@ fn check_frame_markers(args: &Conversion, input: &Input, target: &Target) -> Res
     Ok(())
 }
 
-/// Every file that a job reads, those that its SPECs name among them.
+/// Returns every file that a job reads, including those that its SPECs name.
 pub(crate) fn files_read(input: &Input, geometry: &GeometrySettings) -> HashSet<PathBuf> {
     let named = [&geometry.from, &geometry.to].into_iter().flatten().flat_map(|spec| spec.files.iter().cloned());
     input.files().chain(named).map(|path| real_path(&path)).collect()
 }
 
-/// An output that replaced what it is made of could never be made again.
+/// Checks that an output does not replace one of its own inputs.
 pub fn check_apart(path: &Path, inputs: &HashSet<PathBuf>) -> Result<()> {
     if inputs.contains(&real_path(path)) {
         return Err(usage(format!("{}: the output would replace its own input; choose another name", path.display())));
@@ -132,7 +133,7 @@ pub fn check_apart(path: &Path, inputs: &HashSet<PathBuf>) -> Result<()> {
     Ok(())
 }
 
-/// Where a path leads, whether the file exists or not.
+/// Resolves the links of a path, whether the file exists or not.
 pub fn real_path(path: &Path) -> PathBuf {
     if let Ok(real) = path.canonicalize() {
         return real;

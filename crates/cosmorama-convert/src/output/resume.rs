@@ -9,26 +9,26 @@ use crate::diagnostic::{Code, Diagnostic, RESUME};
 use crate::output::FrameOutputs;
 use crate::target::TargetFile;
 
-/// An output that `--resume` found in its place, but not as it is to be.
+/// An output whose place holds something else than `--resume` expects.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Remade {
-    /// Which.
+    /// Path of the output.
     pub output: PathBuf,
-    /// What was found there.
+    /// Description of what was found there.
     pub reason: String,
 }
 
-/// What stands in the place of an output.
+/// Content in the place of an output.
 enum Found {
     Nothing,
-    /// The output, whole.
+    /// The complete output.
     Complete,
     /// Something else, in words.
     Other(String),
 }
 
 impl Remade {
-    /// Leaves to each frame the outputs that are still to be made. Those of them in whose place something else stands.
+    /// Removes from each frame the outputs that are complete. Returns the others whose places hold something else.
     pub(crate) fn find(
         frames: &mut [FrameOutputs],
         targets: &[TargetFile],
@@ -59,7 +59,7 @@ impl Remade {
         remade
     }
 
-    /// What to say of them; `None` where there are none.
+    /// Returns the warning about them; `None` if there are none.
     pub(crate) fn warning(all: &[Self]) -> Option<Diagnostic> {
         const SHOWN: usize = 5;
         let mut shown: Vec<String> =
@@ -77,7 +77,8 @@ impl Remade {
 }
 
 impl Found {
-    /// Outputs appear whole, so one that is an image of the right size and kind, and can be read, is done.
+    /// Examines the place of an output. Outputs appear whole, so a readable image of the right size and kind is
+    /// complete.
     fn at(path: &Path, target: &TargetFile, light: &Light) -> Self {
         let Ok(found) = path.metadata() else { return Self::Nothing };
         // What is no file might wait for ever to be read.
@@ -121,7 +122,7 @@ impl Found {
     }
 }
 
-/// What is found in words, where it is not what was expected.
+/// Describes a finding that differs from the expectation.
 fn instead<T: PartialEq>(found: &T, expected: &T, words: impl Fn(&T) -> String) -> Option<String> {
     (found != expected).then(|| format!("{} instead of {}", words(found), words(expected)))
 }

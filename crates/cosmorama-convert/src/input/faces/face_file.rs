@@ -10,7 +10,7 @@ use crate::input::faces::face_view::face_placement;
 use crate::input::find::header;
 use crate::input::{Access, EyePart, FacePicture, InputView, ViewFiles};
 
-/// A face whose file has been looked at.
+/// A face whose file has been probed.
 pub(crate) struct Face {
     face: CubeFace,
     placement: FacePlacement,
@@ -20,7 +20,7 @@ pub(crate) struct Face {
 }
 
 impl Face {
-    /// Looks at the file, if there is one.
+    /// Probes the file, if there is one.
     pub(crate) fn probe(
         cube: &Cube,
         file: &FaceFile,
@@ -43,18 +43,18 @@ impl Face {
         Ok(Self { face: file.face, placement, files, header, canvas })
     }
 
-    /// Which it is, and how its picture lies.
+    /// Returns the face, and the placement of its picture.
     pub(crate) fn lies(&self) -> (CubeFace, FacePlacement) {
         (self.face, self.placement)
     }
 
-    /// Whether its file, if there is one, holds all of it.
+    /// Returns whether its file, if there is one, holds the whole face.
     pub(crate) fn is_whole(&self) -> bool {
         let same = |header: &Header| self.canvas == Some(whole(header));
         self.header.as_ref().is_none_or(same)
     }
 
-    /// Its picture, if there is a file.
+    /// Returns its picture, if there is a file.
     pub(crate) fn picture(&self, cube: &Cube, frame: Option<u64>) -> Option<FacePicture> {
         let is_declared = cube.canvas_of(self.face).is_some();
         let header = self.header.as_ref()?;
@@ -68,7 +68,7 @@ impl Face {
         })
     }
 
-    /// As a view; `size` is that of faces without a file.
+    /// Converts it to a view; `size` is that of faces without a file.
     pub(crate) fn into_view(self, cube: &Cube, (width, height): (usize, usize)) -> Result<InputView> {
         let outer = Orientation::IDENTITY;
         let canvas = self.canvas.unwrap_or(Canvas { width, height, left: 0, top: 0 });

@@ -6,32 +6,33 @@ use cosmorama::sphere::CubeFace;
 
 use crate::diagnostic::{Code, ConvertError, Diagnostic, FROM, Result, failure};
 
-/// A face's picture as its file has it.
+/// Picture of a face, as in its file.
 pub(crate) struct FacePicture {
     pub(crate) face: CubeFace,
     pub(crate) path: PathBuf,
     pub(crate) canvas: Canvas,
     /// Columns and rows of the file.
     pub(crate) size: (usize, usize),
-    /// How it lies in the file.
+    /// Placement in the file.
     pub(crate) lies: FacePlacement,
-    /// Whether `canvas=` says so: then it is right, whatever its shape.
+    /// Whether `canvas=` declares its shape, which then is not checked.
     pub(crate) is_declared: bool,
 }
 
-/// Faces span 90° both ways whatever their pixels, but one that is stretched more than this is none: it is the whole
-/// picture of something else, or a crop without its window.
+/// Greatest stretch of a face. A face spans 90° both ways whatever its pixels, but a picture that is stretched more is
+/// something else, or a crop without its window.
 const MOST_STRETCH: f64 = 1.5;
 
-/// Beside faces of another shape, one is taken as whole up to this difference, the most that television's pixels differ
-/// from squares (1024x960 beside 1024x1024 is 1.07). Beyond it, it looks cropped.
+/// Greatest difference in shape at which a face among others still counts as whole; it allows for television's pixels
+/// (1024x960 beside 1024x1024 is 1.07). Beyond it, the face looks cropped.
 const MOST_DIFFERENCE: f64 = 1.125;
 
-/// Under this, shapes are the same but for whole pixels.
+/// Difference below which shapes are equal but for rounding to whole pixels.
 const SAME: f64 = 1.01;
 
-/// The size of a face that has no file: that of the first of the shape which most faces have. A face that looks cropped
-/// is an error; one that differs by a little is told. `half` is the half of a cube that the files are said to hold.
+/// Returns the size of a face without a file: that of the first face with the most common shape. A face that looks
+/// cropped is an error; one that differs a little is reported. `half` is the half of a cube that the files are declared
+/// to hold.
 pub(crate) fn size_of_missing(
     pictures: &[FacePicture],
     half: Option<CubeFace>,
@@ -57,8 +58,8 @@ pub(crate) fn size_of_missing(
     Ok(size)
 }
 
-/// Whether files are those of a half of a cube (`None`: of a whole one): then all faces are squares, or nearly so, alike; and
-/// of a half they have one size, while crops a little over the middle do not.
+/// Returns whether files are those of a half of a cube (`None`: of a whole one). Then whole faces are nearly square and
+/// alike; and half faces have one size, unlike crops a little beyond the middle.
 fn are_of(pictures: &[FacePicture], half: Option<CubeFace>) -> bool {
     let canvas = |picture: &FacePicture| {
         let part = FacePart::of(picture.face, picture.lies, half)?;
@@ -73,7 +74,7 @@ fn are_of(pictures: &[FacePicture], half: Option<CubeFace>) -> bool {
     canvases.is_some_and(|all| all.iter().all(|one| is_face(one) && is_alike(one, &all[0])))
 }
 
-/// What is the matter where files would fit if they were said to hold another half of a cube, or a whole one.
+/// Returns the error for files that would fit if another half of a cube, or a whole one, were declared.
 fn other_half_error(first: &FacePicture, pictures: &[FacePicture], half: Option<CubeFace>) -> Option<ConvertError> {
     let FacePicture { face, path, size: (width, height), .. } = first;
     let found = format!("{}: the {face} face's file is {width}x{height}", path.display());
@@ -89,7 +90,7 @@ fn other_half_error(first: &FacePicture, pictures: &[FacePicture], half: Option<
         .then(|| failure!("{found}, half a face, and so are others: give {FROM} cube:{}", names.join(" or ")))
 }
 
-/// What half a cube holds.
+/// Describes what half a cube holds.
 fn about(half: CubeFace) -> &'static str {
     match half {
         CubeFace::Up => "the sky: the upper halves of the sides and the top",
@@ -101,7 +102,7 @@ fn about(half: CubeFace) -> &'static str {
     }
 }
 
-/// What most faces look like, of those that look like faces, if any do.
+/// Returns the most common shape among pictures that look like faces.
 fn usual(pictures: &[FacePicture]) -> Option<&Canvas> {
     let alike = |canvas: &Canvas| pictures.iter().filter(|other| difference(canvas, &other.canvas) < SAME).count();
     let rank = |canvas: &&Canvas| (is_face(canvas), alike(canvas));
@@ -113,7 +114,7 @@ fn is_face(canvas: &Canvas) -> bool {
     (MOST_STRETCH.recip()..=MOST_STRETCH).contains(&ratio(canvas))
 }
 
-/// How much more stretched one is than the other, at least 1.
+/// Returns the ratio of two stretches, at least 1.
 fn difference(a: &Canvas, b: &Canvas) -> f64 {
     let quotient = ratio(a) / ratio(b);
     quotient.max(quotient.recip())

@@ -3,7 +3,7 @@ use cosmorama::sphere::{Angle, CubeFace, Orientation};
 use cosmorama_io::FacePlacement;
 use cosmorama_spec::Cube;
 
-/// The placement of a face's picture in the world.
+/// Returns the placement of a face's picture in the world.
 pub fn face_placement(
     cube: &Cube,
     face: CubeFace,

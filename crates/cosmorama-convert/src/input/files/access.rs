@@ -11,12 +11,12 @@ use cosmorama_io::{
 
 use crate::budget::MemoryBudget;
 
-/// Place that the bytes of pictures come from: disk, memory, an archive. What lists pictures, and calibrations, are on disk.
+/// Source of the bytes of pictures: disk, memory, an archive. Lists of pictures, and calibrations, are always on disk.
 pub trait Files: Debug + Send + Sync {
     /// Opens a file.
     ///
     /// # Errors
-    /// When it cannot be opened.
+    /// When the file cannot be opened.
     fn open(&self, path: &Path) -> Result<Box<dyn ReadSeek>, IoError>;
 
     /// Returns whether a file is held here, whatever is on disk.
@@ -37,7 +37,7 @@ impl Files for Disk {
     }
 }
 
-/// Files whose bytes are in memory, as those of standard input, each under a name. All others are on disk.
+/// Named files in memory, for example standard input; all other files are on disk.
 #[derive(Clone, Default)]
 pub struct InMemory {
     files: BTreeMap<PathBuf, Arc<[u8]>>,
@@ -69,10 +69,10 @@ impl Files for InMemory {
     }
 }
 
-/// Reads what a picture says of itself.
+/// Reads the header of a picture.
 ///
 /// # Errors
-/// When it cannot be opened, is of no known format, or is damaged before its pixels.
+/// When the file cannot be opened, is of no known format, or is damaged before its pixels.
 pub fn probe(files: &dyn Files, path: &Path) -> Result<Header, IoError> {
     probe_from(files.open(path)?, path)
 }
@@ -80,27 +80,27 @@ pub fn probe(files: &dyn Files, path: &Path) -> Result<Header, IoError> {
 /// Reads a picture.
 ///
 /// # Errors
-/// When it cannot be opened, is of no known format, declares more pixels than the limits allow, or is damaged.
+/// When the file cannot be opened, is of no known format, declares more pixels than the limits allow, or is damaged.
 pub fn read(files: &dyn Files, path: &Path, limits: &Limits) -> Result<ImageFile, IoError> {
     read_from(files.open(path)?, path, limits)
 }
 
-/// What is needed to read inputs.
+/// Means of reading inputs.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Access<'a> {
-    /// Where their bytes come from.
+    /// Source of bytes.
     pub(crate) files: &'a dyn Files,
-    /// What may be used.
+    /// Memory budget.
     pub(crate) memory: MemoryBudget,
 }
 
 impl Access<'_> {
-    /// Reads what a picture says of itself.
+    /// Reads the header of a picture.
     pub(crate) fn probe(self, path: &Path) -> Result<Header, IoError> {
         probe(self.files, path)
     }
 
-    /// Reads what an st map says of itself.
+    /// Reads the header of an st map.
     pub(crate) fn probe_pairs(self, path: &Path) -> Result<Header, IoError> {
         probe_pairs_from(self.files.open(path)?, path)
     }

@@ -1,4 +1,4 @@
-//! Folders and wildcards, where a file or a pattern was meant: what lies there is said how to name.
+//! Folders and wildcards in the place of a file or a pattern: the error says how to name what is there.
 
 use std::path::{Path, PathBuf};
 
@@ -8,10 +8,10 @@ use crate::detect::GivenFaces;
 use crate::diagnostic::{Result, bail, usage};
 use crate::input::Files;
 
-/// Patterns told of a folder, at most.
+/// Greatest number of suggested patterns.
 const SHOWN: usize = 3;
 
-/// A folder or a wildcard was meant for what is in it; beside a file that is not there may be frames.
+/// Checks that a path is one file, not a folder or a wildcard. If it is missing, frames beside it are suggested.
 pub fn is_one_file(files: &dyn Files, pattern: &str, path: &Path) -> Result<()> {
     if files.holds(path) {
         return Ok(());
@@ -34,7 +34,7 @@ pub fn is_one_file(files: &dyn Files, pattern: &str, path: &Path) -> Result<()> 
     if found.is_empty() { Ok(()) } else { bail!("{pattern}: there is no such file{there}") }
 }
 
-/// What to write for what lies in a folder.
+/// Suggests patterns for the contents of a folder.
 fn advice(folder: &Path) -> String {
     let sequences = FoundFrames::in_folder(folder);
     let mut files = files(folder);
@@ -58,7 +58,7 @@ fn advice(folder: &Path) -> String {
     }
 }
 
-/// Sequences, as a choice.
+/// Lists sequences as alternatives.
 fn names(found: &[FoundFrames]) -> String {
     let mut names: Vec<String> = found.iter().take(SHOWN).map(ToString::to_string).collect();
     if found.len() > SHOWN {
@@ -67,7 +67,7 @@ fn names(found: &[FoundFrames]) -> String {
     names.join(" or ")
 }
 
-/// The names in a folder, in order.
+/// Returns the names in a folder, in order.
 fn files(folder: &Path) -> Vec<String> {
     let entries = folder.read_dir().into_iter().flatten();
     let mut names: Vec<String> = entries.filter_map(|entry| entry.ok()?.file_name().into_string().ok()).collect();
@@ -75,8 +75,8 @@ fn files(folder: &Path) -> Vec<String> {
     names
 }
 
-/// The pattern of a set of faces in a folder, if there is one: the first by name, of the files called by faces alone or with
-/// `front` in their names.
+/// Returns the pattern of a set of faces in a folder, if there is one: the first by name, among files named by faces
+/// alone or with `front` in their names.
 fn faces_in(folder: &Path, names: &[String]) -> Option<PathBuf> {
     let by_extension = |name: &String| Some(format!("{{face}}.{}", name.rsplit_once('.')?.1));
     let by_front = |name: &String| name.contains("front").then(|| name.replacen("front", "{face}", 1));

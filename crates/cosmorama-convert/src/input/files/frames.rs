@@ -5,9 +5,9 @@ use cosmorama_io::{FrameList, FramePattern, Frames};
 use crate::diagnostic::{FRAMES, Result, bail, usage};
 use crate::input::ViewFiles;
 
-/// The frames to work on: those asked for, or all that any view has. `[None]` where there is no sequence.
+/// Finds the frames to work on: the requested ones, or all that any view has. `[None]` where there is no sequence.
 ///
-/// All missing frames of all views are named at once.
+/// All missing frames of all views are named in one error.
 pub(crate) fn find<'a>(
     files: impl Iterator<Item = &'a ViewFiles> + Clone,
     wanted: Option<&FrameList>,
@@ -37,7 +37,7 @@ pub(crate) fn find<'a>(
     Ok(list.frames().iter().copied().map(Some).collect())
 }
 
-/// The frames that exist; none where there is no sequence.
+/// Returns the existing frames; none where there is no sequence.
 pub fn existing(files: &ViewFiles) -> Result<Vec<u64>> {
     let Some(pattern) = files.sequence() else { return Ok(Vec::new()) };
     let frames = pattern.existing()?;
@@ -48,7 +48,7 @@ pub fn existing(files: &ViewFiles) -> Result<Vec<u64>> {
     Ok(frames.into_iter().collect())
 }
 
-/// From the first frame that any view has to the last.
+/// Returns all frames from the first to the last of any view.
 fn all_frames(sequences: &[&FramePattern]) -> Result<FrameList> {
     let mut existing = BTreeSet::new();
     for pattern in sequences {

@@ -2,7 +2,7 @@ use std::path::{Path, PathBuf};
 
 use cosmorama_io::FramePattern;
 
-/// The file of a view, or its files by frame.
+/// File of a view, or its files by frame.
 #[derive(Clone, Debug)]
 pub enum ViewFiles {
     /// One file for all frames.
@@ -12,7 +12,7 @@ pub enum ViewFiles {
 }
 
 impl ViewFiles {
-    /// A file name, which may hold a frame marker.
+    /// Parses a file name, which may contain a frame marker.
     pub fn new(path: &Path) -> Self {
         match path.to_str().and_then(FramePattern::parse) {
             // A file that really has such a name is no sequence.
@@ -21,7 +21,7 @@ impl ViewFiles {
         }
     }
 
-    /// The file of a frame.
+    /// Returns the file of a frame.
     pub fn path(&self, frame: Option<u64>) -> PathBuf {
         match (self, frame) {
             (Self::One(path), _) => path.clone(),
@@ -30,7 +30,7 @@ impl ViewFiles {
         }
     }
 
-    /// The pattern, if it is one.
+    /// Returns the pattern, if it is one.
     pub(crate) fn sequence(&self) -> Option<&FramePattern> {
         match self {
             Self::One(_) => None,
@@ -38,7 +38,7 @@ impl ViewFiles {
         }
     }
 
-    /// Whether a folder stands where an image should be.
+    /// Returns whether there is a folder in the place of an image.
     pub fn is_folder(&self) -> bool {
         self.path(None).is_dir()
     }

@@ -1,4 +1,4 @@
-//! Worlds of many views, view by view.
+//! Views of worlds that list them, one by one.
 
 use crate::budget::MemoryBudget;
 use crate::diagnostic::{Diagnostic, Result};
@@ -7,17 +7,17 @@ use crate::input::{Access, Files, Input};
 
 /// A view as a world file or a Hugin project lists it.
 pub struct Listed {
-    /// The file or pattern, as it is written.
+    /// File or pattern, as written.
     pub image: String,
-    /// The list's name and line.
+    /// Name of the list, and line.
     pub place: String,
-    /// What is said of its projection, as it is written.
+    /// Projection, as written.
     pub spec: Option<String>,
-    /// What was found: a view, or several that share an image or a pattern.
+    /// Findings: a view, or several that share an image or a pattern.
     pub input: Input,
 }
 
-/// The views of a world file or of a Hugin project; `None` where an input is neither.
+/// Lists the views of a world file or of a Hugin project; `None` if an input is neither.
 pub fn listed(
     name: &str,
     files: &dyn Files,

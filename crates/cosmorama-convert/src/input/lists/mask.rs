@@ -1,4 +1,4 @@
-//! Masks: pictures that say which pixels of a view count, and shapes that do.
+//! Masks of views, from pictures and from shapes.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -11,10 +11,10 @@ use cosmorama_io::Limits;
 use crate::diagnostic::{Result, bail};
 use crate::input::{Access, InputView, read};
 
-/// Code values from here on (1 is white) count.
+/// Least code value that counts as visible; 1 is white.
 const GREY: f32 = 0.5;
 
-/// The mask that a picture is: where it is black, darker than middle grey, or transparent, the view does not hold.
+/// Returns the mask in a picture: pixels that are black, darker than middle grey, or transparent are hidden.
 pub(crate) fn of_file(path: &Path, view: &InputView, access: Access) -> Result<Arc<ViewMask>> {
     let expected = size(view);
     // Before its pixels take any memory.
@@ -32,7 +32,7 @@ pub(crate) fn of_file(path: &Path, view: &InputView, access: Access) -> Result<A
     Ok(Arc::new(mask))
 }
 
-/// The mask that some shapes leave, in pixels of the picture whose corner at (left, top) the view has.
+/// Returns the mask made of shapes, in pixels of a picture in which the view's corner is at (left, top).
 pub(crate) fn of_shapes(
     shapes: &[MaskShape],
     corner: (usize, usize),
@@ -47,8 +47,8 @@ pub(crate) fn of_shapes(
     Ok(Arc::new(mask))
 }
 
-/// Gives a view its mask: what is hidden, and what its file does not hold of a larger picture, is as if nobody had ever
-/// photographed it.
+/// Applies a mask to a view. Hidden parts, and parts that its file lacks of a larger picture, are treated as never
+/// photographed.
 pub(crate) fn hide(view: &mut InputView, mask: Arc<ViewMask>) {
     let (width, height) = size(view);
     if let Some((held, canvas)) = &mut view.window {

@@ -15,7 +15,7 @@ use crate::input::spec_files::calibration::read_calibrations;
 use crate::input::spec_files::st_map;
 use crate::input::{Access, Builtin, Input, InputView, Listed};
 
-/// The file as it is written.
+/// A world file as written.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct WorldFile {
@@ -27,38 +27,38 @@ struct WorldFile {
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Entry {
-    /// A file, or a pattern of faces or frames, relative to the world file.
+    /// File, or pattern of faces or frames, relative to the world file.
     image: Spanned<String>,
-    /// Its projection and orientation; found as for any input where it is left out.
+    /// Projection and orientation; detected as for any input if omitted.
     spec: Option<Spanned<String>>,
-    /// Views of higher priority cover those of lower priority.
+    /// Priority: views of higher priority cover those of lower priority.
     #[serde(default)]
     priority: i32,
-    /// A picture of the same size: where it is black, the view does not hold.
+    /// Mask, a picture of the same size; black hides.
     mask: Option<Spanned<String>>,
-    /// Degrees over which it fades out at its border.
+    /// Degrees over which the view fades out at its border.
     feather: Option<Spanned<f64>>,
 }
 
-/// A world file's text and name, for messages that say where.
+/// Text and name of a world file, for messages with places.
 struct Text<'a> {
     name: &'a str,
     text: &'a str,
 }
 
-/// What a world file holds.
+/// Description of a world file's content.
 const SCHEMA: &str = "a [[view]] for each image, with image = \"FILE\", and where wanted spec = \"SPEC\", priority = WHOLE \
                       NUMBER, feather = DEGREES, mask = \"FILE\"";
 
-/// What the TOML reader says, without the names that programs have for types.
+/// Rewrites a message of the TOML reader without programming terms.
 fn in_words(message: &str) -> String {
     message.replace("expected i32", "expected a whole number").replace("expected f64", "expected a number")
 }
 
-/// What a world file has instead of the setting for an input's projection.
+/// Name in a world file of the setting for an input's projection.
 const SPEC_KEY: &str = "spec =";
 
-/// Whether an input names a world file.
+/// Returns whether an input names a world file.
 pub(crate) fn is_world_file(pattern: &str) -> bool {
     Path::new(pattern).extension().is_some_and(|extension| extension.eq_ignore_ascii_case("toml"))
 }
@@ -81,7 +81,7 @@ pub(crate) fn find(
     Ok(world)
 }
 
-/// Each view of a world file by itself.
+/// Returns each view of a world file by itself.
 pub(crate) fn listed(
     name: &str,
     wanted: Option<&FrameList>,
@@ -164,7 +164,7 @@ impl Entry {
         parsed.and_then(read_calibrations).map(Some).map_err(told)
     }
 
-    /// Hides what the mask of a single picture hides.
+    /// Applies the mask of a single picture.
     fn mask(&self, source: &Text, input: &mut Input, access: Access) -> Result<()> {
         let Some(mask) = &self.mask else { return Ok(()) };
         let place = || source.place(Some(mask.span()));
@@ -196,7 +196,7 @@ impl Entry {
 }
 
 impl Text<'_> {
-    /// Where the files lie that it names.
+    /// Returns the folder of the files that it names.
     fn folder(&self) -> &Path {
         Path::new(self.name).parent().unwrap_or(Path::new(""))
     }
@@ -205,14 +205,14 @@ impl Text<'_> {
         failure!("{}: {message}", self.place(span))
     }
 
-    /// The file and the line.
+    /// Returns the file and the line.
     fn place(&self, span: Option<Range<usize>>) -> String {
         let line = |span: Range<usize>| 1 + self.text.bytes().take(span.start).filter(|byte| *byte == b'\n').count();
         span.map_or_else(|| self.name.to_owned(), |span| format!("{}, line {}", self.name, line(span)))
     }
 }
 
-/// Adds views to the worlds. Where one side has a world for each eye, what the other side has is seen by both.
+/// Adds views to the worlds. If one side has a world for each eye, both eyes see the other side's views.
 fn join(worlds: &mut Vec<Vec<InputView>>, mut more: Vec<Vec<InputView>>) {
     let count = worlds.len().max(more.len());
     for side in [&mut *worlds, &mut more] {
@@ -222,7 +222,7 @@ fn join(worlds: &mut Vec<Vec<InputView>>, mut more: Vec<Vec<InputView>>) {
     worlds.iter_mut().zip(more).for_each(|(world, views)| world.extend(views));
 }
 
-/// The frames of sequences that go together; a still goes with any.
+/// Returns the common frames of two sequences; a still goes with any.
 fn common_frames(a: &[Option<u64>], b: &[Option<u64>]) -> Result<Vec<Option<u64>>> {
     match (a, b) {
         ([None], other) | (other, [None]) => Ok(other.to_vec()),

@@ -1,4 +1,4 @@
-//! Pictures that share one image: faces in a layout, two lenses.
+//! Pictures that share one image: faces in a layout, or two lenses.
 
 pub(crate) mod packed;
 pub(crate) mod piece;

@@ -9,7 +9,7 @@ use cosmorama_spec::{Cube, Dual};
 use crate::diagnostic::{FROM, Result, bail, failure, usage};
 use crate::input::{InputView, Piece, Place, ViewFiles};
 
-/// The faces of a cube in one image, whose layout is known.
+/// Returns the faces of a cube in one image of a known layout.
 pub(crate) fn faces(files: &ViewFiles, path: &Path, header: &Header, cube: &Cube) -> Result<Vec<InputView>> {
     let Some(layout) = cube.one_image() else { bail!("{}: no layout is known", path.display()) };
     check_whole(path, header)?;
@@ -23,7 +23,7 @@ pub(crate) fn faces(files: &ViewFiles, path: &Path, header: &Header, cube: &Cube
     views(files, header, &pieces)
 }
 
-/// Two fisheyes in one image.
+/// Returns the two fisheyes in one image.
 pub(crate) fn lenses(files: &ViewFiles, path: &Path, header: &Header, dual: &Dual) -> Result<Vec<InputView>> {
     check_whole(path, header)?;
     check_halves(path, header, dual)?;
@@ -32,7 +32,7 @@ pub(crate) fn lenses(files: &ViewFiles, path: &Path, header: &Header, dual: &Dua
     views(files, header, &pieces)
 }
 
-/// Circles of which nothing is said fill squares: halves that are none are those of another layout.
+/// Checks that circles without a declared place have square halves; otherwise the layout is another.
 fn check_halves(path: &Path, header: &Header, dual: &Dual) -> Result<()> {
     let Header { width, height, .. } = *header;
     let DualFisheye { arrangement, front, back, .. } = dual.picture;
@@ -55,7 +55,7 @@ fn check_halves(path: &Path, header: &Header, dual: &Dual) -> Result<()> {
     )))
 }
 
-/// Several pictures are not looked for in a part of an image.
+/// Checks that a file with several pictures is whole, not a window of a canvas.
 pub(crate) fn check_whole(path: &Path, header: &Header) -> Result<()> {
     let Some(window) = header.window else { return Ok(()) };
     bail!(

@@ -7,25 +7,25 @@ use cosmorama_spec::{Cube, Dual};
 use crate::diagnostic::Result;
 use crate::input::faces::face_view::face_placement;
 
-/// One of the pictures that share an image.
+/// One of several pictures in one image.
 #[derive(Clone, Debug)]
 pub(crate) struct Piece {
-    /// What messages call it.
+    /// Name in messages.
     pub(crate) name: &'static str,
-    /// The face of a cube that it is.
+    /// Face of the cube, if it is one.
     pub(crate) face: Option<CubeFace>,
-    /// Its pixels.
+    /// Rectangle of its pixels.
     pub(crate) rect: PixelRect,
-    /// Its place in the world, and in its whole picture.
+    /// Camera model and orientation, and its place in its whole picture.
     pub(crate) placement: Placement,
-    /// The whole picture, of which half a cube may have only a part.
+    /// Whole picture, of which half a cube may use only a part.
     pub(crate) canvas: Canvas,
-    /// How it takes part where others show the same.
+    /// Blending with others that show the same directions.
     pub(crate) blend: Blend,
 }
 
 impl Piece {
-    /// The faces of a cube, where they have `edge`×`edge` pixels.
+    /// Returns the faces of a cube of `edge`×`edge` pixels.
     pub(crate) fn faces(cube: &Cube, layout: &CubeLayout, edge: usize) -> Vec<Self> {
         let piece = |PlacedFace { face, lies, rect, canvas }| Self {
             name: face.name(),
@@ -39,7 +39,7 @@ impl Piece {
         wanted.map(piece).collect()
     }
 
-    /// Two fisheyes in an image of this size.
+    /// Returns the two fisheyes in an image of this size.
     pub(crate) fn lenses(dual: &Dual, (width, height): (usize, usize)) -> Result<Vec<Self>, LayoutError> {
         let piece = |PlacedLens { side, rect, placement }: PlacedLens| {
             let canvas = Canvas { width: rect.width(), height: rect.height(), left: 0, top: 0 };
@@ -50,13 +50,13 @@ impl Piece {
         Ok(dual.picture.lenses(width, height, dual.mirror)?.map(piece).into())
     }
 
-    /// The geometry of its pixels, all of it turned further.
+    /// Returns the geometry of its pixels, with all of it turned by `outer`.
     pub(crate) fn view(&self, outer: Orientation) -> Result<View, CameraError> {
         let placement = Placement { orientation: self.placement.orientation.within(outer), ..self.placement.clone() };
         placement.view(self.rect.width(), self.rect.height())
     }
 
-    /// The geometry of its whole picture.
+    /// Returns the geometry of its whole picture.
     pub(crate) fn nominal(&self) -> Result<View, CameraError> {
         Placement { canvas: None, ..self.placement.clone() }.view(self.canvas.width, self.canvas.height)
     }

@@ -1,14 +1,14 @@
 /// A place in an image.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Place {
-    /// The first column and row.
+    /// First column and row.
     pub corner: (usize, usize),
     /// Columns and rows of the image.
     pub of: (usize, usize),
 }
 
 impl Place {
-    /// All of an image.
+    /// Returns the place that is all of an image.
     pub(crate) fn whole(size: (usize, usize)) -> Self {
         Self { corner: (0, 0), of: size }
     }

@@ -3,8 +3,8 @@ use cosmorama_spec::{Dual, Size};
 
 use crate::diagnostic::{Mark, Result, SIZE, usage};
 
-/// The size of an image: as given, of a width, or with so many pixels a radian at its centre. `option` is the one that has
-/// the frame.
+/// Returns the size of an image: as given, from a width, or with so many pixels per radian at its centre. `option` is
+/// the setting that holds the camera model.
 pub(crate) fn size(
     frame: CameraModel,
     given: Option<Size>,
@@ -32,7 +32,7 @@ pub(crate) fn size(
     }
 }
 
-/// The size of an image of two circles. A width alone is that of one.
+/// Returns the size of an image of two circles. A width alone is that of one circle.
 pub(crate) fn lens_image_size(
     dual: &Dual,
     given: Option<Size>,

@@ -1,4 +1,4 @@
-//! Calibrations that a SPEC names: the file is read, and the camera made of it.
+//! Calibrations that a SPEC names: reads the file and makes the camera.
 
 use std::fmt::Display;
 
@@ -10,10 +10,10 @@ use cosmorama_spec::{CalibrationSpec, LensFamily, Shape, Single, Spec, SphereSam
 
 use crate::diagnostic::{ConvertError, Result, usage};
 
-/// A SPEC whose calibration, or that of its `base=`, has been read; as it is where it names none.
+/// Reads the calibration of a SPEC, or of its `base=`. A SPEC without one is returned unchanged.
 ///
 /// # Errors
-/// When a calibration cannot be read, or no camera of this kind can be made of it.
+/// When a calibration cannot be read, or does not make a camera of this kind.
 pub(crate) fn read_calibrations(mut spec: Spec) -> Result<Spec, String> {
     match &mut spec.shape {
         Shape::Calibrated(camera) => spec.shape = Shape::Single(single(camera)?),
@@ -27,7 +27,7 @@ pub(crate) fn read_calibrations(mut spec: Spec) -> Result<Spec, String> {
     Ok(spec)
 }
 
-/// Makes the error of a calibration where none can be.
+/// Returns the error for a calibration in a place where none is possible.
 pub(crate) fn unread(camera: &CalibrationSpec) -> ConvertError {
     usage(format!("calibration={}: a calibration cannot be given here", camera.file.display()))
 }

@@ -1,4 +1,4 @@
-//! St maps as projections: the map is read, and what it relates to what is found out.
+//! St maps as projections: reads the map, and finds the picture that it relates to.
 
 use std::path::Path;
 
@@ -15,23 +15,23 @@ use crate::input::lists::hugin;
 use crate::input::spec_files::calibration::read_calibrations;
 use crate::settings::GeometrySettings;
 
-/// The side of a conversion that a map is given for.
+/// Side of a conversion for which a map is given.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Side {
     Input,
     Output,
 }
 
-/// The picture at the other end of a map, and its size where that is known.
+/// Picture at the other end of a map, with its size where known.
 struct Base {
     placement: Placement,
     size: Option<(usize, usize)>,
 }
 
-/// Completes the settings from a Hugin project where nothing else is given, and reads the maps of `--from` and `--to`.
+/// Completes the settings from a Hugin project, if no projection is given, and reads the maps of `--from` and `--to`.
 ///
-/// Without `base=` a map relates the two sides of the conversion to each other; then a side that is not given is a plain
-/// picture, and the output as large as the map unless `--size` says otherwise.
+/// Without `base=` a map relates the two sides of the conversion to each other. A side that is not given is then a
+/// plain picture, and the output has the size of the map unless `--size` gives another.
 pub(crate) fn settled(
     geometry: &GeometrySettings,
     input: Option<&str>,
@@ -80,7 +80,7 @@ pub(crate) fn settled(
     Ok(settled)
 }
 
-/// A map alone: the output has the map's pixels, and nothing where the map says nothing.
+/// Applies a map alone: the output has the map's pixels, and is empty where the map has no place.
 fn apply_plainly(settled: &mut GeometrySettings, from: &StMapSpec, input: Option<&str>, access: Access) -> Result<()> {
     let Some(input) = input else { return Err(without_base(Side::Input)) };
     let pairs = read(&from.file, access)?;
@@ -92,7 +92,7 @@ fn apply_plainly(settled: &mut GeometrySettings, from: &StMapSpec, input: Option
     Ok(())
 }
 
-/// A map of `--from` that relates the input to the picture of `--to`.
+/// Completes a map of `--from`, which relates the input to the picture of `--to`.
 fn settle_from(settled: &mut GeometrySettings, from: &StMapSpec, to: Option<&Shape>, access: Access) -> Result<()> {
     let pairs = read(&from.file, access)?;
     let size = settled.size.get_or_insert_with(|| size_of(&pairs));
@@ -104,7 +104,7 @@ fn settle_from(settled: &mut GeometrySettings, from: &StMapSpec, to: Option<&Sha
     Ok(())
 }
 
-/// A map of `--to` that relates the output to the picture of `--from`.
+/// Completes a map of `--to`, which relates the output to the picture of `--from`.
 fn settle_to(
     settled: &mut GeometrySettings,
     to: &StMapSpec,
@@ -121,24 +121,24 @@ fn settle_to(
     Ok(())
 }
 
-/// The SPEC of a world file's view, its map read.
+/// Reads the map of a world file's view.
 pub(crate) fn read_map(spec: Spec, access: Access) -> Result<Spec> {
     let Shape::StMap(map) = &spec.shape else { return Ok(spec) };
     with_given_base(map, Side::Input, access)
 }
 
-/// A SPEC with its calibration read.
+/// Reads the calibration of a SPEC.
 fn calibrated(spec: &Option<Spec>, side: Side) -> Result<Option<Spec>> {
     let read = |spec| read_calibrations(spec).map_err(|error| failure!("{} <SPEC>: {error}", option(side)));
     spec.clone().map(read).transpose()
 }
 
-/// A map where none can be.
+/// Returns the error for a map in a place where none is possible.
 pub(crate) fn unread(map: &StMapSpec) -> ConvertError {
     usage(format!("st-map:file={}: an st map cannot be given here", map.file.display()))
 }
 
-/// Whether a map is applied as it is, without anything said of the input beside it.
+/// Returns whether a map is applied alone, without a declaration of the input.
 fn is_plain(map: &StMapSpec) -> bool {
     !map.invert && map.orientation == Orientation::IDENTITY && map.mirror == Mirror::default() && map.canvas.is_none()
 }
@@ -161,7 +161,7 @@ fn without_base(side: Side) -> ConvertError {
     ))
 }
 
-/// A plain picture: a pinhole camera so narrow that directions are as good as a plane.
+/// Returns a plain picture: a pinhole camera so narrow that directions form a plane.
 fn plain() -> Spec {
     let camera = PerspectiveCamera::new(FieldOfView::Horizontal(Angle::from_degrees(1.0)));
     let placement = Placement::new(CameraModel::Perspective(camera));
@@ -169,7 +169,7 @@ fn plain() -> Spec {
     Spec { name: "perspective", shape: Shape::Single(single), stereo: None, files: Vec::new() }
 }
 
-/// The picture on the other side of the conversion.
+/// Returns the picture on the other side of the conversion.
 fn other_side(shape: Option<&Shape>, side: Side) -> Result<Placement> {
     let plain = plain().shape;
     match shape.unwrap_or(&plain) {
@@ -178,14 +178,14 @@ fn other_side(shape: Option<&Shape>, side: Side) -> Result<Placement> {
     }
 }
 
-/// The size of the input's first picture.
+/// Returns the size of the input's first picture.
 fn input_size(input: &str, access: Access) -> Result<(usize, usize)> {
     let files = ViewFiles::new(Path::new(input));
     let first = frames::find(std::iter::once(&files), None)?[0];
     Ok(canvas_size(&access.probe(&files.path(first))?))
 }
 
-/// The size of a picture, of its canvas if it has one.
+/// Returns the size of a picture, or of its canvas if it has one.
 fn canvas_size(header: &Header) -> (usize, usize) {
     header.window.map_or((header.width, header.height), |window| (window.canvas_width, window.canvas_height))
 }
@@ -204,7 +204,7 @@ fn with_given_base(map: &StMapSpec, side: Side, access: Access) -> Result<Spec> 
     spec(map, &read(&map.file, access)?, base, side, access)
 }
 
-/// What is left when a map has been read: a picture whose mapping is a table.
+/// Converts a map that has been read to a picture whose mapping is a table.
 fn spec(map: &StMapSpec, pairs: &StPairs, base: Base, side: Side, access: Access) -> Result<Spec> {
     let has_pixels_of_map = (side == Side::Output) != map.invert;
     let size = base.size.filter(|_| has_pixels_of_map).unwrap_or((pairs.width, pairs.height));
