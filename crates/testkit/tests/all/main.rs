@@ -6,4 +6,5 @@ mod arrange;
 mod goldens;
 mod light_kept;
 mod lists;
+mod names;
 mod source;
