@@ -1,4 +1,4 @@
-//! What most programs need, in one `use`.
+//! Imports for most programs, in one `use`.
 //!
 //! ```
 //! use cosmorama::prelude::*;

@@ -1,32 +1,32 @@
 use super::Side;
 use crate::raster::Rgba;
 
-/// Samples of a picture along its four sides.
+/// Samples along the four sides of a picture.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Border {
-    /// By side, clockwise.
+    /// Samples of each side, clockwise.
     sides: [Vec<Sample>; 4],
 }
 
 /// A place on a side.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Sample {
-    /// Red, green and blue, as the eye weighs them, where the picture ends.
+    /// Red, green and blue at the picture's edge, on a perceptual scale.
     pub(super) colour: [f32; 3],
-    /// Variance of each channel: from the slopes across and along the side.
+    /// Variance of each channel, estimated from the slopes across and along the side.
     pub(super) doubt: [f32; 3],
 }
 
-/// Samples a side, at most.
+/// Greatest number of samples on a side.
 const SAMPLES: usize = 128;
 
 impl Border {
-    /// How many samples a side pictures with this least width or height should all have.
+    /// Returns the common number of samples on a side for pictures whose least width or height is given.
     pub fn samples_for(least: usize) -> usize {
         least.min(SAMPLES)
     }
 
-    /// The sides of a picture of `width`×`height` pixels of linear light, `samples` each.
+    /// Samples the sides of a picture of `width`×`height` pixels of linear light, at `samples` places each.
     pub fn of((width, height): (usize, usize), samples: usize, light: impl Fn(usize, usize) -> Rgba) -> Self {
         let side = |side: Side| {
             let length = if matches!(side, Side::Top | Side::Bottom) { width } else { height };
@@ -46,7 +46,8 @@ impl Border {
     }
 }
 
-/// The pixel so far along a side, clockwise, and so far from it; a picture of one row has no second.
+/// Returns the pixel at a position along a side, clockwise, and at a distance from it; a picture of one row has no
+/// second.
 fn light_at(
     side: Side,
     (width, height): (usize, usize),
@@ -63,7 +64,7 @@ fn light_at(
     }
 }
 
-/// A row of pixels as so many averages, in tones.
+/// Averages a row of pixels into samples on the perceptual scale.
 fn strip(length: usize, samples: usize, light: impl Fn(usize) -> Rgba) -> Vec<[f32; 3]> {
     let average = |k: usize| {
         let (start, end) = (k * length / samples, ((k + 1) * length / samples).max(k * length / samples + 1));
@@ -79,12 +80,12 @@ fn strip(length: usize, samples: usize, light: impl Fn(usize) -> Rgba) -> Vec<[f
     (0..samples).map(average).collect()
 }
 
-/// Light as the eye weighs it: about that of sRGB up to white, and on beyond, so that suns do not outweigh all else.
+/// Converts light to a perceptual scale: about sRGB up to white, and continued beyond, so that suns do not dominate.
 fn tone(light: f32) -> f32 {
     light.max(0.0).powf(1.0 / 2.2)
 }
 
-/// What the outermost row and the one inside it say of the place half a pixel further out.
+/// Extrapolates the outermost row, and the one inside it, to the edge half a pixel further out.
 fn extrapolated(outer: &[[f32; 3]], inner: &[[f32; 3]]) -> Vec<Sample> {
     let at = |k: usize| {
         let (before, after) = (outer[k.saturating_sub(1)], outer[(k + 1).min(outer.len() - 1)]);

@@ -3,38 +3,39 @@ use std::fmt;
 use super::Pose;
 use crate::sphere::CubeFace;
 
-/// A change to pictures that lie on wrong faces, or lie on them wrongly. Pictures are named by the face given for them.
+/// A change to pictures that are on wrong faces, or lie wrongly on their faces. A picture is named by its declared
+/// face.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Change {
     /// Two pictures are exchanged.
     Swapped(CubeFace, CubeFace),
-    /// A picture belongs to another face.
+    /// A picture belongs to another face than declared.
     Moved {
-        /// What it was given as.
+        /// Declared face.
         from: CubeFace,
-        /// What it is.
+        /// Actual face.
         to: CubeFace,
     },
     /// A picture has to be turned clockwise.
     Turned {
-        /// Which.
+        /// Face of the picture.
         face: CubeFace,
-        /// Quarters.
+        /// Number of clockwise quarter turns.
         quarter_turns: u8,
     },
-    /// A picture is mirrored, and after that has to be turned clockwise.
+    /// A picture is mirrored, and must then be turned clockwise.
     Mirrored {
-        /// Which.
+        /// Face of the picture.
         face: CubeFace,
-        /// Quarters.
+        /// Number of clockwise quarter turns.
         quarter_turns: u8,
     },
 }
 
-/// Finds the changes that turn one arrangement of pictures into another.
+/// Finds the changes that convert one arrangement of pictures to another.
 ///
 /// # Panics
-/// When the two are not of the same number of pictures.
+/// When the two arrangements differ in their number of pictures.
 pub fn changes(given: &[Pose], wanted: &[Pose]) -> Vec<Change> {
     assert_eq!(given.len(), wanted.len(), "a pose for each picture");
     let mut changes: Vec<Change> = Vec::new();
@@ -53,7 +54,7 @@ pub fn changes(given: &[Pose], wanted: &[Pose]) -> Vec<Change> {
     changes
 }
 
-/// What is left to be done to a picture on its own face.
+/// Returns the rotation or mirroring that a picture on its own face still needs.
 fn turn(given: Pose, wanted: Pose) -> Option<Change> {
     let (face, lies, should) = (given.face, given.placement(), wanted.placement());
     if lies.mirrored == should.mirrored {

@@ -1,36 +1,36 @@
 use super::border::Sample;
 use super::{Border, Pose, Side};
 
-/// Mismatch of each side of each picture with each side of the others.
+/// Mismatch between each side of each picture and each side of the others.
 ///
-/// A sample's mismatch is `ln(1 + d² / s²)`, d the difference of tones and s how far both may be off: nothing for what
-/// agrees, and no more for what differs wildly than for what differs much, so that a seam within a face's own border does
-/// not outweigh the rest. It is kept by part of the side, to tell from chance what is more than that.
+/// A sample's mismatch is `ln(1 + d² / s²)`, where d is the difference of tones and s the uncertainty of both. It is 0
+/// where they agree, and grows slowly for large differences, so that a seam inside a face's own border does not
+/// dominate. It is stored for parts of a side, to separate chance from more than chance.
 #[derive(Clone, Debug)]
 pub struct Mismatch {
     pictures: usize,
     seams: Vec<Seam>,
 }
 
-/// Two sides beside each other.
+/// Two sides next to each other.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Seam {
-    /// The sum of the mismatch of its parts.
+    /// Sum of the mismatch over its parts.
     pub(super) cost: f64,
-    /// The variance of that sum, as far as its parts tell.
+    /// Variance of that sum, estimated from its parts.
     pub(super) variance: f64,
 }
 
-/// Tones that differ by this may be the same: two codes of eight bits.
+/// Difference of tones that may be no difference: two 8-bit codes.
 const TONE: f32 = 2.0 / 255.0;
-/// Parts that differ by chance differ by at least this, however smooth they are.
+/// Least spread of parts that differ by chance, however smooth they are.
 const LEAST_SPREAD: f64 = 0.25;
 
 impl Mismatch {
-    /// Parts of a side.
+    /// Number of parts of a side.
     pub(super) const PARTS: usize = 8;
 
-    /// Compares the borders of pictures, all of as many samples.
+    /// Compares the borders of pictures, which all have the same number of samples.
     ///
     /// # Panics
     /// When borders have different numbers of samples.
@@ -51,22 +51,22 @@ impl Mismatch {
         Self { pictures, seams }
     }
 
-    /// How many pictures there are.
+    /// Returns the number of pictures.
     pub(super) fn pictures(&self) -> usize {
         self.pictures
     }
 
-    /// Panics unless there is a pose for each picture.
+    /// Panics unless there is one pose for each picture.
     pub(super) fn check(&self, poses: &[Pose]) {
         assert_eq!(poses.len(), self.pictures, "a pose for each picture");
     }
 
-    /// Two sides; `mirrored` where one of the two pictures is and the other is not.
+    /// Returns the mismatch of two sides; `mirrored` if exactly one of the two pictures is mirrored.
     pub(super) fn seam(&self, here: (usize, Side), there: (usize, Side), mirrored: bool) -> Seam {
         self.seams[index(self.pictures, here, there, mirrored)]
     }
 
-    /// The seams of an arrangement: where pictures lie beside each other.
+    /// Returns the seams of an arrangement, where pictures lie next to each other.
     pub(super) fn seams(&self, poses: &[Pose]) -> Vec<SeamKey> {
         let pairs = (0..poses.len()).flat_map(|a| (a + 1..poses.len()).map(move |b| (a, b)));
         let key = |(a, b): (usize, usize)| {
@@ -77,7 +77,7 @@ impl Mismatch {
         pairs.filter_map(key).collect()
     }
 
-    /// The mismatch of some seams.
+    /// Returns the total mismatch of some seams.
     pub(super) fn sum<'a>(&self, keys: impl Iterator<Item = &'a SeamKey>) -> Seam {
         keys.map(|key| self.seam(key.here, key.there, key.mirrored)).fold(Seam::default(), |sum, seam| Seam {
             cost: sum.cost + seam.cost,
@@ -85,7 +85,7 @@ impl Mismatch {
         })
     }
 
-    /// The least mismatch of all.
+    /// Returns the least mismatch of all pairs of sides.
     pub(super) fn least(&self) -> f64 {
         let of_two = |index: &usize| index / (8 * 4 * self.pictures) != index / 8 % self.pictures;
         let costs = (0..self.seams.len()).filter(of_two).map(|index| self.seams[index].cost);
@@ -93,7 +93,7 @@ impl Mismatch {
     }
 }
 
-/// Which sides lie beside each other.
+/// A pair of sides that lie next to each other.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct SeamKey {
     here: (usize, Side),
@@ -107,7 +107,8 @@ fn index(pictures: usize, here: (usize, Side), there: (usize, Side), mirrored: b
 }
 
 impl Seam {
-    /// Both sides go round their picture clockwise, so that one of them runs backwards, unless one picture is mirrored.
+    /// Compares two sides. Both run clockwise around their pictures, so one is reversed, unless one picture is
+    /// mirrored.
     fn between(here: &[Sample], there: &[Sample], mirrored: bool) -> Self {
         let count = here.len();
         let mut parts = [(0.0, 0_usize); Mismatch::PARTS];

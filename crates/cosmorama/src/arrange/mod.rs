@@ -1,9 +1,9 @@
-//! How six pictures are the faces of one cube, found from what their borders show.
+//! Arrangement of six pictures as the faces of one cube, found from their borders.
 //!
-//! Where two faces meet they show the same. [`Border`]s are compared side by side ([`Mismatch`]); of all ways to lay the
-//! pictures round a cube, any order, any quarter turn, any of them mirrored, the most continuous one is searched for, and
-//! the given one is judged by it ([`judge`]). Continuity knows no front and no hand: an arrangement and the same turned or
-//! mirrored as a whole are one.
+//! Where two faces meet they show the same. [`Border`]s are compared side by side ([`Mismatch`]). The most continuous
+//! arrangement of the pictures around a cube is searched, over any order, any quarter turns and any mirroring, and the
+//! declared one is judged by it ([`judge`]). Continuity does not determine the front or the handedness: an arrangement
+//! is the same when it is turned or mirrored as a whole.
 
 mod border;
 mod change;

@@ -3,44 +3,44 @@ use super::{Mismatch, Pose, Side};
 use crate::layout::FacePlacement;
 use crate::sphere::CubeFace::{self, Back, Down, Front, Left, Right, Up};
 
-/// An arrangement and its mismatch.
+/// An arrangement with its mismatch.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Found {
     pub(super) poses: Vec<Pose>,
     pub(super) cost: f64,
 }
 
-/// Faces in an order in which each soon has neighbours among those before it.
+/// Faces in an order in which each has early neighbours among those before it.
 const ORDER: [CubeFace; 6] = [Front, Right, Up, Left, Down, Back];
 
-/// Looks through the arrangements of pictures on some faces, each face with one picture, by branch and bound.
+/// Branch-and-bound search through the arrangements of pictures on given faces, one picture on each.
 pub(super) struct Search<'a> {
     mismatch: &'a Mismatch,
     faces: Vec<CubeFace>,
-    /// Pictures of which one turn is as good as any other.
+    /// Whether each picture is free: all its rotations fit equally.
     free: &'a [bool],
-    /// The picture that is laid first, as it is, where turning the whole cube brings it there.
+    /// Picture that is placed first, unturned, if a rotation of the whole cube permits it.
     anchor: Option<usize>,
-    /// The eight poses of each face, and which side they turn to each earlier face.
+    /// Eight poses for each face, with the sides that they turn to each earlier face.
     places: Vec<Vec<Place>>,
-    /// At each depth, what the seams that are still to come cost at least.
+    /// Lower bound, at each depth, of the mismatch of the remaining seams.
     rest: Vec<f64>,
     best: [Option<Found>; 2],
-    /// Steps that may still be taken.
+    /// Number of steps that are left.
     steps: usize,
 }
 
-/// Where so many steps lead to no end, too many arrangements are as good as the best: pictures that differ take a tenth.
+/// Limit of search steps. If it is reached, too many arrangements are equally good; different pictures take a tenth.
 const STEPS: usize = 200_000;
 
-/// A pose, and what it touches of the faces before it: which of them, and with which side.
+/// A pose, with its neighbours among earlier faces and the sides that touch them.
 struct Place {
     pose: Pose,
     is_mirrored: bool,
     touches: Vec<(usize, Side)>,
 }
 
-/// A picture that has been laid.
+/// A picture that has been placed.
 #[derive(Clone, Copy)]
 struct Laid {
     picture: usize,
@@ -48,7 +48,8 @@ struct Laid {
 }
 
 impl<'a> Search<'a> {
-    /// Over all arrangements of the pictures on as many faces. Of `free` pictures only one turn is tried.
+    /// Prepares a search over all arrangements of the pictures on as many faces. Of `free` pictures one rotation is
+    /// tried.
     pub(super) fn new(mismatch: &'a Mismatch, faces: &[CubeFace], free: &'a [bool]) -> Self {
         let faces: Vec<CubeFace> = ORDER.into_iter().filter(|face| faces.contains(face)).collect();
         let place = |depth: usize| {
@@ -66,8 +67,8 @@ impl<'a> Search<'a> {
         Self { mismatch, faces, free, anchor, places, rest, best: [None, None], steps: STEPS }
     }
 
-    /// The best arrangement, and the next best, if any, that is not the same turned or mirrored as a whole. `None` where
-    /// too many are as good.
+    /// Returns the best arrangement, and the best one that is not the same when turned or mirrored as a whole, if any.
+    /// `None` if too many are equally good.
     pub(super) fn run(mut self) -> Option<(Found, Option<Found>)> {
         self.go_on(&mut Vec::with_capacity(6), 0.0);
         let [best, second] = self.best;
@@ -93,7 +94,7 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// The pictures that may be laid next, in every way, each with the mismatch that it adds.
+    /// Returns the possible next placements, each with the mismatch that it adds.
     fn choices(&self, laid: &[Laid]) -> Vec<(Laid, f64)> {
         let depth = laid.len();
         let anchored = self.anchor.filter(|_| depth == 0);
@@ -108,7 +109,7 @@ impl<'a> Search<'a> {
         choices.map(|choice| (choice, self.added(laid, choice.picture, &self.places[depth][choice.place]))).collect()
     }
 
-    /// The mismatch that a picture in a place has with those laid before.
+    /// Returns the mismatch of a picture in a place with those placed before.
     fn added(&self, laid: &[Laid], picture: usize, place: &Place) -> f64 {
         let face = self.faces[laid.len()];
         let seam = |&(earlier, here): &(usize, Side)| {
@@ -140,7 +141,8 @@ impl<'a> Search<'a> {
     }
 }
 
-/// Whether two arrangements differ by a turn or a reflection of the whole cube, and by how free pictures lie.
+/// Returns whether two arrangements differ only by a rotation or reflection of the whole cube, and by rotations of free
+/// pictures.
 pub(super) fn is_same(a: &[Pose], b: &[Pose], is_free: &[bool]) -> bool {
     let same = |((a, b), free): ((&Pose, &Pose), &bool)| a == b || (*free && a.face == b.face);
     Symmetry::all().any(|symmetry| symmetry.of(a).iter().zip(b).zip(is_free).all(same))

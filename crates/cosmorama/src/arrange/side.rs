@@ -1,4 +1,4 @@
-/// A side of a picture, clockwise from the top; its samples go round clockwise, too.
+/// A side of a picture, clockwise from the top. Its samples run clockwise, too.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Side {
     /// Left to right.
@@ -12,6 +12,6 @@ pub enum Side {
 }
 
 impl Side {
-    /// All four.
+    /// All four sides.
     pub const ALL: [Self; 4] = [Self::Top, Self::Right, Self::Bottom, Self::Left];
 }

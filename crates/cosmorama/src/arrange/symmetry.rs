@@ -2,7 +2,7 @@ use super::Pose;
 use super::pose::opposite;
 use crate::sphere::CubeFace;
 
-/// One of the 48 turns and reflections of the cube, by where it takes its front, right and upper face.
+/// One of the 48 rotations and reflections of the cube, given by the images of its front, right and upper face.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Symmetry {
     front: CubeFace,
@@ -11,7 +11,7 @@ pub(super) struct Symmetry {
 }
 
 impl Symmetry {
-    /// All of them.
+    /// Returns all 48 of them.
     pub(super) fn all() -> impl Iterator<Item = Self> {
         CubeFace::ALL.into_iter().flat_map(Pose::all_of).map(|pose| {
             let [front, right, up] = pose.axes();
@@ -30,7 +30,7 @@ impl Symmetry {
         }
     }
 
-    /// An arrangement, turned or reflected as a whole.
+    /// Returns an arrangement, rotated or reflected as a whole.
     pub(super) fn of(self, poses: &[Pose]) -> Vec<Pose> {
         poses.iter().map(|pose| pose.map(|face| self.rename(face))).collect()
     }

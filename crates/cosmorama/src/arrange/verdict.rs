@@ -6,15 +6,15 @@ use super::{Change, Mismatch, Pose, changes};
 /// Judgement of an arrangement of pictures by the continuity of its borders.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Verdict {
-    /// It fits, and no other does.
+    /// The arrangement fits, and no other does.
     Fits(Fit),
-    /// Others fit no worse, or none fits: the borders do not tell.
+    /// The borders do not tell: others fit as well, or none fits.
     CannotTell,
-    /// Another one fits, and this one does not.
+    /// Another arrangement fits, and the declared one does not.
     Wrong {
-        /// The one that fits, turned and mirrored as a whole to be as like the given one as can be.
+        /// The arrangement that fits, turned and mirrored as a whole to resemble the declared one.
         fits: Vec<Pose>,
-        /// How sure that is.
+        /// Confidence in it.
         fit: Fit,
     },
 }
@@ -22,28 +22,29 @@ pub enum Verdict {
 /// Confidence in an arrangement that fits.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Fit {
-    /// From 0 to 1: at least so likely none of all other arrangements looks so much worse by chance.
+    /// Confidence from 0 to 1: a lower bound of the probability that no other arrangement looks this much worse by
+    /// chance.
     pub confidence: f64,
-    /// Pictures whose own turn does not show: their borders are the same all round. By number.
+    /// Indices of pictures whose rotation does not show, because their borders are the same all round.
     pub free: Vec<usize>,
 }
 
-/// Less than this is not enough to call an arrangement wrong.
+/// Least confidence for calling an arrangement wrong.
 const SURE: f64 = 0.99;
-/// Less than this is not enough to call it the only one.
+/// Least confidence for calling an arrangement the only one.
 const LIKELY: f64 = 0.9;
-/// Seams with more mismatch than this, on average, are none of a picture of the world.
+/// Greatest average mismatch of seams within one picture of the world.
 const CONTINUOUS: f64 = 1.0;
 
 /// Judges an arrangement of pictures by the continuity of their borders.
 ///
-/// An arrangement is clearly worse than another where its mismatch is greater by more than chance allows, given how much
-/// the mismatch varies along a seam and how many arrangements there are to choose from. It is called wrong only where
-/// another one is continuous and no third one is as good: faces that were never continuous, such as test patterns, fit
-/// somehow in many ways.
+/// An arrangement is clearly worse than another if its mismatch is greater by more than chance. Chance is estimated
+/// from the variation of mismatch along seams, and from the number of possible arrangements. An arrangement is called
+/// wrong only if another one is continuous and no third is as good. Faces that were never continuous, such as test
+/// patterns, fit in many ways.
 ///
 /// # Panics
-/// When there is not a pose for each picture.
+/// When the number of poses differs from that of pictures.
 pub fn judge(mismatch: &Mismatch, given: &[Pose]) -> Verdict {
     mismatch.check(given);
     let faces: Vec<_> = given.iter().map(|pose| pose.face).collect();
@@ -75,30 +76,30 @@ pub fn judge(mismatch: &Mismatch, given: &[Pose]) -> Verdict {
     }
 }
 
-/// Whether every picture meets its neighbours.
+/// Returns whether every picture matches its neighbours.
 ///
 /// # Panics
-/// When there is not a pose for each picture.
+/// When the number of poses differs from that of pictures.
 pub fn is_continuous(mismatch: &Mismatch, poses: &[Pose]) -> bool {
     mismatch.check(poses);
     mismatch.seams(poses).iter().all(|seam| is_seamless(mismatch, std::slice::from_ref(seam)))
 }
 
-/// Whether seams show, on average, one picture across them.
+/// Returns whether seams are, on average, within one picture of the world.
 fn is_seamless(mismatch: &Mismatch, seams: &[SeamKey]) -> bool {
     mismatch.sum(seams.iter()).cost <= CONTINUOUS * (seams.len() * Mismatch::PARTS) as f64
 }
 
-/// Whether an arrangement is not clearly worse than one that fits.
+/// Returns whether an arrangement is not clearly worse than one that fits.
 ///
 /// # Panics
-/// When there is not a pose for each picture.
+/// When the number of poses differs from that of pictures.
 pub fn fits_as_well(mismatch: &Mismatch, fitting: &[Pose], other: &[Pose]) -> bool {
     [fitting, other].into_iter().for_each(|poses| mismatch.check(poses));
     confidence(mismatch, fitting, other) < SURE
 }
 
-/// Whether all ways to lay one picture on its face are as good as the best.
+/// Returns whether all poses of a picture on its face are as good as the best.
 fn turns_freely(mismatch: &Mismatch, best: &Found, picture: usize) -> bool {
     let mut other = best.poses.clone();
     Pose::all_of(best.poses[picture].face).into_iter().all(|pose| {
@@ -107,8 +108,8 @@ fn turns_freely(mismatch: &Mismatch, best: &Found, picture: usize) -> bool {
     })
 }
 
-/// An arrangement, turned and mirrored as a whole so that the least has to be done to what was given. Free
-/// pictures lie as they were given.
+/// Turns and mirrors an arrangement as a whole, so that it differs least from the declared one. Free pictures keep
+/// their declared rotation.
 fn nearest(poses: &[Pose], given: &[Pose], is_free: &[bool]) -> Vec<Pose> {
     let faces = |poses: &[Pose]| poses.iter().all(|pose| given.iter().any(|given| given.face == pose.face));
     let images = Symmetry::all().map(|symmetry| symmetry.of(poses)).filter(|image| faces(image));
@@ -122,8 +123,8 @@ fn nearest(poses: &[Pose], given: &[Pose], is_free: &[bool]) -> Vec<Pose> {
     with_free.min_by_key(|image| effort(image, given)).unwrap_or_else(|| poses.to_vec())
 }
 
-/// How much has to be done to lay pictures otherwise than they were given, as it is told. A turned picture is a more likely
-/// mistake than one on another face or a mirrored one; two pictures that are exchanged are one mistake.
+/// Returns the effort of the changes between two arrangements. A rotated picture is a more likely mistake than a
+/// mirrored one or one on another face. Two exchanged pictures are one mistake.
 fn effort(poses: &[Pose], given: &[Pose]) -> u32 {
     let cost = |change: &Change| match change {
         Change::Swapped(..) | Change::Moved { .. } => 2,
@@ -133,8 +134,8 @@ fn effort(poses: &[Pose], given: &[Pose]) -> u32 {
     changes(given, poses).iter().map(cost).sum()
 }
 
-/// The chance, at least, that no arrangement as continuous as the better one would look as much worse as the other does by
-/// chance. Only the seams count in which they differ.
+/// Returns a lower bound of the probability that no arrangement as continuous as `better` looks as much worse as
+/// `worse` does by chance. Only seams in which they differ count.
 fn confidence(mismatch: &Mismatch, better: &[Pose], worse: &[Pose]) -> f64 {
     let pictures = better.len();
     let (here, there) = (mismatch.seams(better), mismatch.seams(worse));
@@ -152,7 +153,7 @@ fn confidence(mismatch: &Mismatch, better: &[Pose], worse: &[Pose]) -> f64 {
     (1.0 - chance).clamp(0.0, 1.0)
 }
 
-/// How many ways there are to lay so many pictures round a cube, but for turns and reflections of the whole.
+/// Returns the number of ways to arrange pictures around a cube, apart from rotations and reflections of the whole.
 fn arrangements(pictures: usize) -> f64 {
     (1..=pictures).map(|count| 8.0 * count as f64).product::<f64>() / 48.0
 }

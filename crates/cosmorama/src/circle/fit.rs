@@ -3,19 +3,19 @@ use glam::{DMat3, DVec2, DVec3};
 /// A circle in a picture, in pixels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Circle {
-    /// Its centre, from the picture's upper left corner.
+    /// Centre, from the picture's upper left corner.
     pub centre: (f64, f64),
-    /// Its radius.
+    /// Radius.
     pub radius: f64,
 }
 
 impl Circle {
-    /// How far a point lies outside.
+    /// Returns the distance of a point outside the circle; negative inside.
     pub(super) fn beyond(&self, point: DVec2) -> f64 {
         (point - DVec2::from(self.centre)).length() - self.radius
     }
 
-    /// The circle through three points; `None` where they lie on a line.
+    /// Returns the circle through three points; `None` if they are collinear.
     pub(super) fn through([a, b, c]: [DVec2; 3]) -> Option<Self> {
         let (to_b, to_c) = (b - a, c - a);
         let twice_area = 2.0 * to_b.perp_dot(to_c);
@@ -27,8 +27,8 @@ impl Circle {
         Some(Self { centre: (a + from_a).into(), radius: from_a.length() })
     }
 
-    /// The circle with the least sum of squared distances to points, those far off weighing less and less (Tukey's
-    /// biweight, with the points' own median distance as its scale), starting from this one.
+    /// Fits a circle to points by least squares, starting from this one. Distant points get less weight (Tukey's
+    /// biweight, scaled by the median distance).
     pub(super) fn fitted(self, points: &[DVec2]) -> Option<Self> {
         let mut circle = self;
         for _ in 0..24 {

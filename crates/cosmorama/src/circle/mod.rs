@@ -1,4 +1,4 @@
-//! The circle that a fisheye lens leaves on a photograph, found from the black around it.
+//! Detection of a fisheye lens's circle in a photograph, by the black around it.
 
 mod fit;
 mod picture;

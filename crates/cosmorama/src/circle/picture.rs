@@ -10,49 +10,50 @@ use crate::raster::{Image, Rgba};
 const TRIALS: usize = 600;
 /// Rays along which the rim is measured.
 const RAYS: usize = 720;
-/// Least part of the rim inside the frame that must be found on the circle.
+/// Least fraction of the rim inside the frame that must be found on the circle.
 const SEEN: f64 = 0.4;
-/// Least part of the frame outside the circle that must be black: a flare may spill over some of it.
+/// Least fraction of the frame outside the circle that must be black; a flare may cover the rest.
 const DARK: f64 = 0.85;
-/// Largest distance of a point on the circle, as a part of the frame's shorter side.
+/// Greatest distance of a rim point from the circle, as a fraction of the frame's shorter side.
 const TOLERANCE: f64 = 0.006;
-/// Tolerance for discs with a ragged edge, in the frame's shorter side.
+/// Tolerance for discs with a ragged edge, as a fraction of the frame's shorter side.
 const RAGGED: f64 = 0.03;
-/// Least distance of a ragged disc's end, as a part of its radius; the outline of a square comes nearer than this.
+/// Least distance of a ragged disc's edge from the centre, as a fraction of its radius; a square's outline comes
+/// nearer.
 const ROUND: f64 = 0.75;
-/// Least part of the frame that must lie outside the circle.
+/// Least fraction of the frame outside the circle.
 const AROUND: f64 = 0.02;
 
-/// A circle on black.
+/// A circle found on black.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Found {
-    /// Measured along its rim.
+    /// A circle measured along its rim.
     Measured(Circle),
-    /// A disc of light with no rim to be seen, as under a dark canopy: its outline as far as there is light.
+    /// A bright disc without a visible rim, as under a dark canopy: the circle encloses its light.
     Roughly(Circle),
 }
 
 impl Found {
-    /// The circle.
+    /// Returns the circle.
     pub fn circle(&self) -> Circle {
         let (Self::Measured(circle) | Self::Roughly(circle)) = self;
         *circle
     }
 }
 
-/// The circle that a lens leaves on black, from an image in its own codes; `None` where there is none, as in a picture
-/// that fills its frame.
+/// Finds the circle that a lens leaves on black, in an image of code values. `None` if there is none, for example
+/// because the picture fills its frame.
 ///
-/// The end of the black along rows and columns gives points, most of them on the rim; of circles through three of them, the
-/// one that most others lie on (RANSAC) is a first guess. Along rays from its centre the rim is then measured to a part of
-/// a pixel, and the circle fitted to that, what lies far off counting less and less.
+/// The ends of black along rows and columns are mostly points on the rim. Of circles through three such points, the one
+/// with most others on it is the first guess (RANSAC). Along rays from its centre the rim is then measured to a
+/// fraction of a pixel, and the circle is fitted to it with less weight for distant points.
 pub fn find(codes: &Image<Rgba>) -> Option<Found> {
     let picture = Brightness::new(codes)?;
     let coarse = picture.coarse_rim();
     measure(&picture, &coarse).map(Found::Measured).or_else(|| outline(&picture, &coarse).map(Found::Roughly))
 }
 
-/// The circle of a rim that can be seen.
+/// Measures a circle with a visible rim.
 fn measure(picture: &Brightness<'_>, coarse: &[DVec2]) -> Option<Circle> {
     let (width, height) = picture.size();
     let least = width.min(height) as f64;
@@ -66,7 +67,7 @@ fn measure(picture: &Brightness<'_>, coarse: &[DVec2]) -> Option<Circle> {
     (is_likely && seen(picture, &circle, &points) >= SEEN && is_on_black(picture, &circle, DARK)).then_some(circle)
 }
 
-/// The circle round a disc of light that ends raggedly: about its middle, as far out as nearly all of its light reaches.
+/// Returns the circle around a bright disc with a ragged edge: centred on it, and as large as nearly all of its light.
 fn outline(picture: &Brightness<'_>, coarse: &[DVec2]) -> Option<Circle> {
     let (width, height) = picture.size();
     let least = width.min(height) as f64;
@@ -109,7 +110,7 @@ fn rays() -> impl Iterator<Item = DVec2> {
     (0..RAYS).map(|k| DVec2::from_angle(TAU * k as f64 / RAYS as f64))
 }
 
-/// How much of the rim that is inside the frame was found where the circle has it.
+/// Returns the fraction of the rim inside the frame that was found on the circle.
 fn seen(picture: &Brightness<'_>, circle: &Circle, points: &[DVec2]) -> f64 {
     let (width, height) = picture.size();
     let inside = |point: DVec2| point.x > 0.0 && point.y > 0.0 && point.x < width as f64 && point.y < height as f64;
@@ -138,7 +139,7 @@ fn is_on_black(picture: &Brightness<'_>, circle: &Circle, dark: f64) -> bool {
 mod tests {
     use super::*;
 
-    /// A textured disc on black, box-filtered, with noise and, if asked for, light that spills over its rim.
+    /// Draws a textured disc on black, box-filtered, with noise and optionally a flare across its rim.
     fn disc((width, height): (usize, usize), circle: Circle, noise: f64, flare: f64) -> Image<Rgba> {
         let mut state: u64 = 3;
         let mut chance = || {

@@ -2,22 +2,22 @@ use glam::DVec2;
 
 use crate::raster::{Image, Rgba};
 
-/// A picture as brightness, by the brightest of its channels, in code values.
+/// The brightness of a picture, in code values: that of its brightest channel.
 pub(super) struct Brightness<'a> {
     codes: &'a Image<Rgba>,
-    /// What its black is.
+    /// Level of black.
     pub(super) black: f64,
-    /// What is brighter than that by no more is black, too.
+    /// Level above black up to which pixels count as black.
     pub(super) least: f64,
 }
 
-/// Black is no brighter than this.
+/// Greatest level of black.
 const BLACK: f64 = 0.2;
-/// What is to count as a picture must be brighter than black by this: a few codes of eight bits.
+/// Least difference from black of a picture's content: a few 8-bit codes.
 const LEAST: f64 = 3.0 / 255.0;
 
 impl<'a> Brightness<'a> {
-    /// A picture with at least one black corner.
+    /// Wraps a picture with at least one black corner; `None` for others.
     pub(super) fn new(codes: &'a Image<Rgba>) -> Option<Self> {
         let (width, height) = (codes.width(), codes.height());
         let side = (width.min(height) / 40).max(2);
@@ -44,7 +44,7 @@ impl<'a> Brightness<'a> {
         brightness(self.codes.get(i, j)) - self.black < self.least
     }
 
-    /// Between pixels' centres, linearly; `None` outside.
+    /// Interpolates linearly between pixel centres; `None` outside.
     fn at(&self, point: DVec2) -> Option<f64> {
         let (x, y) = (point.x - 0.5, point.y - 0.5);
         let (width, height) = self.size();
@@ -58,7 +58,7 @@ impl<'a> Brightness<'a> {
         Some((1.0 - v) * upper + v * ((1.0 - u) * value(i, j + 1) + u * value(i + 1, j + 1)))
     }
 
-    /// Where the black ends, to a pixel, along rows and columns from the picture's edges.
+    /// Returns where black ends along rows and columns from the picture's edges, to a pixel.
     pub(super) fn coarse_rim(&self) -> Vec<DVec2> {
         let (width, height) = self.size();
         let mut points = Vec::new();
@@ -79,8 +79,9 @@ impl<'a> Brightness<'a> {
         points
     }
 
-    /// Where the picture ends along a ray that crosses its rim near a radius, to a part of a pixel: half way up from what
-    /// is outside to what is just inside. `None` where the picture is dark there, or the ray leaves the frame.
+    /// Returns where the picture ends along a ray that crosses its rim near a radius, to a fraction of a pixel: half
+    /// way between the levels outside and just inside. `None` if the picture is dark there, or the ray leaves the
+    /// frame.
     pub(super) fn rim(&self, centre: DVec2, direction: DVec2, radius: f64, reach: f64) -> Option<DVec2> {
         let steps = (2.0 * reach / STEP) as usize;
         let at = |k: usize| self.at(centre + (radius + reach - k as f64 * STEP) * direction);
@@ -101,9 +102,9 @@ impl<'a> Brightness<'a> {
     }
 }
 
-/// Rows and columns along which the black's end is looked for.
+/// Number of rows and columns along which the end of black is searched.
 const LINES: usize = 128;
-/// Of what is inside a rim, so much may lie before it: the blocks of JPEG files ring.
+/// Fraction of the inner level that may occur outside the rim, because the blocks of JPEG files ring.
 const RINGING: f64 = 0.125;
 /// Pixels between samples along a ray.
 const STEP: f64 = 0.25;

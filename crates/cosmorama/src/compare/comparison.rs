@@ -3,42 +3,42 @@ use super::pair::Pair;
 use super::{CompareError, Difference, Mask, Registration};
 use crate::raster::{ColourChannel, Image, Rgba, Transfer};
 
-/// Differences of two pictures, and the shift between them.
+/// Result of a comparison of two pictures: their differences, and the shift between them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Comparison {
     /// Number of pixels compared.
     pub pixels: usize,
     /// Differences of linear light.
     pub linear: Difference,
-    /// Differences of sRGB code values, nearer to what is seen; light beyond 0–1 is clipped.
+    /// Differences of sRGB code values, which are closer to perception; light beyond 0–1 is clipped.
     pub srgb: Difference,
     /// Differences of linear light away from edges; `None` where every pixel is near an edge.
     pub edge_free: Option<EdgeFree>,
-    /// The largest absolute difference of alpha.
+    /// Largest absolute difference of alpha.
     pub alpha: f32,
-    /// Where the first picture lies on the second; `None` where every pixel that counts is near one that does not, or the
+    /// Place of the first picture on the second. `None` if every compared pixel is near one that is not, or if the
     /// pictures differ by more than a shift of about a pixel explains.
     pub registration: Option<Registration>,
 }
 
 /// Differences of linear light away from edges, where the filters of two renderers should agree.
 ///
-/// Never a judgement by itself: it hides misplacement.
+/// Do not judge by these figures alone: they hide shifts.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EdgeFree {
-    /// How many of the pixels that count are away from edges of the second picture.
+    /// Number of compared pixels away from edges of the second picture.
     pub pixels: usize,
-    /// Their differences.
+    /// Differences of those pixels.
     pub linear: Difference,
 }
 
-/// Compares the first picture with the second, which is the reference: its edges are those of the edge-free figures.
+/// Compares the first picture with the second, the reference, whose edges define the edge-free figures.
 ///
-/// Colour counts as it stands, premultiplied by alpha. Pixels with a NaN are transparent, infinities are the largest
-/// half.
+/// Colours are compared as stored, premultiplied by alpha. Pixels with a NaN are transparent, and infinities are the
+/// largest half float.
 ///
 /// # Errors
-/// When the pictures or the mask differ in size, or no pixel counts.
+/// When the pictures or the mask differ in size, or no pixel is left to compare.
 pub fn compare(first: &Image<Rgba>, second: &Image<Rgba>, mask: &Mask) -> Result<Comparison, CompareError> {
     let pair = Pair::new(first, second, mask)?;
     let nothing = CompareError::NothingCounts { size: pair.size() };

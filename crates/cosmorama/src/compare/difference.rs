@@ -3,32 +3,32 @@ use rayon::prelude::*;
 use super::pair::{Pair, Site};
 use super::quantile::quantile;
 
-/// How far the values of two pictures are apart, over red, green and blue of the pixels that count, white being 1.
+/// Differences between the values of two pictures, over red, green and blue of the compared pixels; white is 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Difference {
     /// Peak signal-to-noise ratio for a peak of 1, in dB; infinite when nothing differs.
     pub psnr: f64,
-    /// Root of the mean squared difference.
+    /// Root mean square difference.
     pub rms: f64,
-    /// Mean of second minus first: whether one is brighter.
+    /// Mean of the second picture minus the first, which shows whether one is brighter.
     pub mean: f64,
-    /// The largest difference.
+    /// Largest difference.
     pub largest: Largest,
-    /// 99.9th percentile of the largest channel's difference, over pixels.
+    /// 99.9th percentile, over pixels, of the largest channel's difference.
     pub percentile_99_9: f64,
 }
 
-/// The largest absolute difference of any channel, and where.
+/// The largest absolute difference of any channel, and its place.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Largest {
     /// The absolute difference.
     pub value: f64,
-    /// Column and row; the first of equals, row by row.
+    /// Column and row; the first one in reading order among equals.
     pub pixel: (usize, usize),
 }
 
 impl Difference {
-    /// Of the values after `encode`; `None` when no pixel counts.
+    /// Computes the differences of values after `encode`; `None` when no pixel is compared.
     pub(super) fn between(pair: &Pair<'_>, encode: impl Fn(f64) -> f64 + Sync) -> Option<Self> {
         let (_, height) = pair.size();
         // Rows are added in their order, so that the sums do not depend on the number of threads.
@@ -39,13 +39,13 @@ impl Difference {
     }
 }
 
-/// What a part of the picture contributes.
+/// Partial sums over a part of the picture.
 #[derive(Default)]
 struct Tally {
     sum: f64,
     squares: f64,
     largest: Option<Largest>,
-    /// By pixel, the largest channel's absolute difference.
+    /// Largest absolute difference of any channel, for each pixel.
     worst: Vec<f32>,
 }
 
@@ -89,7 +89,7 @@ impl Tally {
     }
 }
 
-/// Second minus first, by channel.
+/// Returns the second picture's values minus the first's, by channel.
 fn differences(site: &Site, encode: impl Fn(f64) -> f64) -> [f64; 3] {
     std::array::from_fn(|c| encode(site.second.0[c].into()) - encode(site.first.0[c].into()))
 }

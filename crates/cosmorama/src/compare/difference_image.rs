@@ -2,9 +2,10 @@ use super::pair::{Pair, Site};
 use super::{CompareError, Mask};
 use crate::raster::{Image, Rgba};
 
-/// The absolute difference of two pictures, by channel, times `gain`; transparent where pixels do not count.
+/// Draws the absolute difference of two pictures, by channel, times `gain`; pixels that are not compared are
+/// transparent.
 ///
-/// Opaque, and not clipped: what exceeds white shows as white in an integer file.
+/// The result is opaque elsewhere, and not clipped: an integer file shows values beyond white as white.
 ///
 /// # Errors
 /// When the pictures or the mask differ in size.

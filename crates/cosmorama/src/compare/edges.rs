@@ -7,10 +7,10 @@ use crate::raster::{Image, Rgba};
 /// Range of a channel among a pixel and its eight neighbours, in linear light, above which there is an edge.
 const RANGE: f32 = 0.06;
 
-/// How many steps around an edge belong to it: what a filter may have spread.
+/// Steps around an edge that a filter may have affected.
 const REACH: u8 = 2;
 
-/// The counted pixels away from edges of the second picture.
+/// Returns the compared pixels away from edges of the second picture.
 ///
 /// At edges the filters of two renderers differ most; away from them their values must agree closely.
 pub(super) fn edge_free(pair: &Pair<'_>) -> Result<Mask, CompareError> {
@@ -30,7 +30,7 @@ fn edges(picture: &Image<Rgba>) -> Mask {
     edges.into()
 }
 
-/// By column, the range of the pixel in row `j` and those above and below it.
+/// Returns, by column, the range of the pixel in row `j` and those above and below it.
 fn columns_range(picture: &Image<Rgba>, j: usize) -> Vec<Range> {
     let rows = j.saturating_sub(1)..picture.height().min(j + 2);
     let mut ranges: Vec<Range> = picture.row(j).iter().map(|&pixel| Range::of(pixel)).collect();

@@ -3,18 +3,18 @@ use thiserror::Error;
 /// Reason why two pictures cannot be compared.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub enum CompareError {
-    /// The pictures are not of one size.
+    /// The pictures differ in size.
     #[error(
         "the first picture is {}x{}, the second {}x{}: only pictures of one size can be compared",
         first.0, first.1, second.0, second.1
     )]
     SizesDiffer {
-        /// Columns and rows of the first.
+        /// Columns and rows of the first picture.
         first: (usize, usize),
-        /// Columns and rows of the second.
+        /// Columns and rows of the second picture.
         second: (usize, usize),
     },
-    /// The mask is not of the pictures' size.
+    /// The mask's size differs from the pictures'.
     #[error("the mask is {}x{}, the pictures are {}x{}", mask.0, mask.1, pictures.0, pictures.1)]
     MaskSize {
         /// Columns and rows of the mask.

@@ -1,16 +1,17 @@
 use crate::raster::{Image, Rgba};
 
-/// Columns and rows of cells over which pictures are averaged: a near thing lies a few pixels aside for the other eye.
+/// Columns and rows of cells over which pictures are averaged. Near objects are displaced by a few pixels between two
+/// eyes.
 const CELLS: (usize, usize) = (32, 16);
-/// Fewer cells tell nothing.
+/// Least number of cells that allow a judgement.
 const LEAST: usize = 64;
-/// Cells that vary less than this, in their mean square, show nothing.
+/// Mean square below which a cell has no content.
 const FLAT: f64 = 1e-5;
 
-/// How alike two pictures of one size are as a whole: the correlation of what they show along their rows, from −1 to 1.
-/// The two eyes of a stereo pair are close to 1, unlike pictures near 0. What a whole row has in common does not count,
-/// since most pictures have their sky above, nor do pixels for which `counts` is false. `None` where pictures differ in
-/// size, or show too little to tell.
+/// Returns the similarity of two pictures of one size: the correlation of their contents along rows, from −1 to 1. The
+/// two eyes of a stereo pair are close to 1, unrelated pictures near 0. The average of a row is ignored, because most
+/// pictures have their sky above, and so are pixels for which `counts` is false. `None` if sizes differ, or there is
+/// too little content.
 pub fn likeness(a: &Image<Rgba>, b: &Image<Rgba>, counts: impl Fn(usize, usize) -> bool) -> Option<f64> {
     if (a.width(), a.height()) != (b.width(), b.height()) || a.width() < CELLS.0 || a.height() < CELLS.1 {
         return None;
@@ -37,7 +38,7 @@ pub fn likeness(a: &Image<Rgba>, b: &Image<Rgba>, counts: impl Fn(usize, usize) 
     shows.then(|| ab / (aa * bb).sqrt())
 }
 
-/// A part of two pictures.
+/// Sums over a part of two pictures.
 #[derive(Clone, Copy, Default)]
 struct Cell {
     sums: [f64; 2],
@@ -55,7 +56,7 @@ impl Cell {
     }
 }
 
-/// Of codes, bounded: a single sun in a float picture would outweigh all else.
+/// Returns the brightness of a pixel in code values, bounded so that a sun in a float picture does not dominate.
 fn brightness(pixel: &Rgba) -> f64 {
     let sum: f32 = pixel.0[..3].iter().map(|code| if code.is_finite() { code.clamp(0.0, 1.0) } else { 1.0 }).sum();
     f64::from(sum)

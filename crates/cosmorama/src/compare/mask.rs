@@ -1,10 +1,10 @@
 use super::CompareError;
 use crate::raster::{Image, Rgba};
 
-/// Alpha of a pixel that counts as opaque: a weighted average of ones may fall short of one by rounding.
+/// Least alpha of a pixel that counts as opaque; a weighted average of ones may be slightly less than one.
 const OPAQUE: f32 = 1.0 - 1e-6;
 
-/// Which pixels of a picture count.
+/// A selection of a picture's pixels.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Mask(Image<bool>);
 
@@ -15,17 +15,17 @@ impl From<Image<bool>> for Mask {
 }
 
 impl Mask {
-    /// Every pixel counts.
+    /// Selects every pixel.
     pub fn everything(width: usize, height: usize) -> Self {
         Self(Image::filled(width, height, true))
     }
 
-    /// The pixels, by column and row, for which `counts` holds.
+    /// Selects the pixels, by column and row, for which `counts` holds.
     pub fn from_fn(width: usize, height: usize, counts: impl FnMut(usize, usize) -> bool) -> Self {
         Self(Image::from_fn(width, height, counts))
     }
 
-    /// The pixels that are finite and opaque in both pictures.
+    /// Selects the pixels that are finite and opaque in both pictures.
     ///
     /// # Errors
     /// When the sizes differ.
@@ -36,22 +36,22 @@ impl Mask {
         Ok(Self::from_fn(width, first.height(), |i, j| both(j * width + i)))
     }
 
-    /// Columns and rows.
+    /// Returns the columns and rows.
     pub fn size(&self) -> (usize, usize) {
         (self.0.width(), self.0.height())
     }
 
-    /// How many pixels count.
+    /// Returns the number of selected pixels.
     pub fn count(&self) -> usize {
         self.0.pixels().iter().filter(|counts| **counts).count()
     }
 
-    /// Which pixels of a row count.
+    /// Returns which pixels of a row are selected.
     pub fn row(&self, j: usize) -> &[bool] {
         self.0.row(j)
     }
 
-    /// The pixels that count in both masks.
+    /// Selects the pixels that are in both masks.
     ///
     /// # Errors
     /// When the sizes differ.
@@ -59,7 +59,7 @@ impl Mask {
         self.combined(other, |mine, theirs| mine && theirs)
     }
 
-    /// The pixels that count here but not in the other mask.
+    /// Selects the pixels that are in this mask but not in the other.
     ///
     /// # Errors
     /// When the sizes differ.
@@ -67,13 +67,14 @@ impl Mask {
         self.combined(other, |mine, theirs| mine && !theirs)
     }
 
-    /// The pixels with no uncounted pixel, nor the picture's border, within so many steps left, right, up or down.
+    /// Selects pixels that are more than so many steps left, right, up or down from any unselected pixel and from the
+    /// border.
     #[must_use]
     pub fn eroded(&self, steps: u8) -> Self {
         self.by_distance(|counts| !counts, 0, |distance| distance > steps)
     }
 
-    /// The pixels with a counted pixel within so many steps left, right, up or down.
+    /// Selects pixels within so many steps left, right, up or down of a selected one.
     #[must_use]
     pub fn grown(&self, steps: u8) -> Self {
         self.by_distance(|counts| counts, u8::MAX, |distance| distance <= steps)
@@ -87,8 +88,7 @@ impl Mask {
         Ok(Self::from_fn(width, height, |i, j| rule(*self.0.get(i, j), *other.0.get(i, j))))
     }
 
-    /// The pixels whose taxicab distance to the nearest source satisfies `kept`; beyond the border, the
-    /// distance is `outside`.
+    /// Selects pixels by their taxicab distance to the nearest source; beyond the border the distance is `outside`.
     fn by_distance(&self, source: impl Fn(bool) -> bool, outside: u8, kept: impl Fn(u8) -> bool) -> Self {
         let (width, height) = self.size();
         let mut distance: Vec<u8> = self.0.pixels().iter().map(|&c| if source(c) { 0 } else { u8::MAX }).collect();
@@ -101,7 +101,7 @@ impl Mask {
     }
 }
 
-/// Carries distances rightwards and downwards.
+/// Propagates distances to the right and down.
 fn sweep(distance: &mut [u8], width: usize, outside: u8) {
     for k in 0..distance.len() {
         let left = if k % width == 0 { outside } else { distance[k - 1] };
@@ -110,7 +110,7 @@ fn sweep(distance: &mut [u8], width: usize, outside: u8) {
     }
 }
 
-/// The size that both pictures have.
+/// Returns the size of both pictures.
 pub(super) fn common_size(first: &Image<Rgba>, second: &Image<Rgba>) -> Result<(usize, usize), CompareError> {
     let [first, second] = [first, second].map(|picture| (picture.width(), picture.height()));
     if first == second { Ok(first) } else { Err(CompareError::SizesDiffer { first, second }) }

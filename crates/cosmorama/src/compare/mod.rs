@@ -1,7 +1,7 @@
-//! How far two pictures are apart: in value (PSNR, largest difference) and in place (sub-pixel registration).
+//! Comparison of two pictures in value (PSNR, largest difference) and in place (sub-pixel registration).
 //!
-//! Value alone is not enough: pictures half a pixel apart can still score 54 dB away from edges, and a
-//! sharper filter scores worse than a blurrier one that is misplaced. So [`compare`] measures both.
+//! Value alone is not enough. Pictures half a pixel apart can still score 54 dB away from edges, and a sharper filter
+//! scores worse than a blurrier one that is displaced. So [`compare`] measures both.
 
 mod comparison;
 mod difference;

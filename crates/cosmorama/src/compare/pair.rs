@@ -2,7 +2,7 @@ use super::CompareError;
 use super::mask::{Mask, common_size};
 use crate::raster::{Image, Rgba};
 
-/// Two pictures of one size and the pixels that count in them.
+/// Two pictures of one size, with the pixels to compare.
 #[derive(Clone, Copy)]
 pub(super) struct Pair<'a> {
     first: &'a Image<Rgba>,
@@ -10,7 +10,7 @@ pub(super) struct Pair<'a> {
     mask: &'a Mask,
 }
 
-/// A pixel that counts: its column and both values, finite.
+/// A compared pixel: its column, and both values, which are finite.
 pub(super) struct Site {
     pub(super) column: usize,
     pub(super) first: Rgba,
@@ -38,12 +38,12 @@ impl<'a> Pair<'a> {
         self.mask
     }
 
-    /// Columns and rows.
+    /// Returns the columns and rows.
     pub(super) fn size(&self) -> (usize, usize) {
         self.mask.size()
     }
 
-    /// The pixels of a row that count.
+    /// Visits the compared pixels of a row.
     pub(super) fn row(&self, j: usize) -> impl Iterator<Item = Site> {
         let values = self.first.row(j).iter().zip(self.second.row(j)).enumerate();
         values.zip(self.mask.row(j)).filter(|(_, counts)| **counts).map(|((column, (first, second)), _)| Site {

@@ -1,5 +1,5 @@
-/// The value below which the fraction `q` of all values lies, interpolated between neighbours in rank; the values
-/// are reordered. `None` of nothing.
+/// Returns the value below which the fraction `q` of all values lies, interpolated between neighbours in rank. It
+/// reorders the values. `None` if there are none.
 pub(super) fn quantile(values: &mut [f32], q: f64) -> Option<f64> {
     let rank = q * values.len().checked_sub(1)? as f64;
     let (_, lower, above) = values.select_nth_unstable_by(rank as usize, f32::total_cmp);

@@ -4,32 +4,32 @@ use crate::camera::View;
 use crate::render::Needs;
 use crate::world::World;
 
-/// Pictures of a conversion, each an SVG document. Their letters are drawn, so they need no font, and the same
+/// Drawings of a conversion as SVG documents. Letters are drawn as shapes, so that no font is needed and the same
 /// conversion gives the same bytes.
 ///
-/// They are the paper's figures of the same numbers (Greene & Heckbert 1986), for any world and target. The world needs
-/// no light.
+/// They are figures 3, 4 and 7 of the paper (Greene & Heckbert 1986), for any world and target. The world needs no
+/// light.
 #[derive(Clone, Copy, Debug)]
 pub struct Figures<'a> {
-    /// Where light comes from.
+    /// World that is converted.
     pub world: &'a World,
-    /// Where it goes.
+    /// View that is made.
     pub target: &'a View,
 }
 
 impl Figures<'_> {
-    /// Figure 3: the unfolded cube (or the world's other images), the needed regions bright, the edge of the target's
-    /// field of view as a curve.
+    /// Draws figure 3: the unfolded cube, or the world's other images, with needed regions bright and the edge of the
+    /// target's field of view as a curve.
     pub fn unfolded(&self, needs: &Needs, underlays: &[Underlay]) -> String {
         unfolded::draw(self.world, self.target, needs, underlays)
     }
 
-    /// Figure 4: which view gives which pixel of the target, the edges of the views as curves.
+    /// Draws figure 4: which view gives which pixel of the target, with the edges of views as curves.
     pub fn ownership(&self) -> String {
         ownership::draw(self.world, self.target)
     }
 
-    /// Figure 7: what a regular grid of the target's pixels covers in each view.
+    /// Draws figure 7: the footprints of a regular grid of target pixels in each view.
     pub fn footprints(&self) -> String {
         footprints::draw(self.world, self.target)
     }

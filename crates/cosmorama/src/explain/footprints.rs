@@ -13,14 +13,14 @@ use crate::filter::Ellipse;
 use crate::projection::PlanePoint;
 use crate::world::{Source, World};
 
-/// Space between footprints on the sheet, where the target's centre looks, by the square root of the image's width
-/// there: 9 on a face, 18 on a lone image.
+/// Distance between footprints on the sheet at the target's centre, as a fraction of the square root of the image's
+/// width there: 9 on a face, 18 on a single image.
 const SPACING: f64 = 0.58;
 
-/// The narrowest footprint that is drawn: under it there is nothing but outlines.
+/// Narrowest footprint that is drawn; a smaller one would be all outline.
 const NARROWEST: f64 = 0.75;
 
-/// The part of the way between two footprints that each one is drawn wide, on the target.
+/// Width of a footprint, as a fraction of the distance between two, on the target.
 const WIDTH: f64 = 0.8;
 
 pub(crate) fn draw(world: &World, target: &View) -> String {
@@ -51,7 +51,7 @@ pub(crate) fn draw(world: &World, target: &View) -> String {
     drawing.finish("Footprints in texture space")
 }
 
-/// Pixels between two footprints.
+/// Returns the number of pixels between two footprints.
 fn spacing(world: &World, target: &View, net: &Net) -> usize {
     let longer = target.width().max(target.height());
     let on_sheet = central_footprint(target).and_then(|footprint| {
@@ -67,7 +67,7 @@ fn spacing(world: &World, target: &View, net: &Net) -> usize {
     (every.round() as usize).clamp(1, (longer / 16).max(1))
 }
 
-/// Every so many pixels in both directions, counted from the axis of the lens so that the grid has its symmetry.
+/// Returns every `every`th pixel in both directions, counted from the axis of the lens so that the grid is symmetric.
 fn grid_of_pixels(target: &View, every: usize) -> impl Iterator<Item = ScreenPixel> + '_ {
     let axis = target.grid.to_pixel(PlanePoint::new(0.0, 0.0));
     let indices = move |size: usize, origin: f64| {

@@ -4,49 +4,50 @@ use crate::camera::{Footprint, PixelPoint, View};
 use crate::filter::semi_axes;
 use crate::projection::{PlanePoint, Projection};
 
-/// How many texels a target pixel is long: less than 1 enlarges, more than 1 reduces.
+/// Length of a target pixel in texels: less than 1 enlarges, more than 1 reduces.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Magnification {
-    /// Along the direction in which the pixel holds fewest.
+    /// Length along the direction with the fewest texels.
     pub least: f64,
-    /// Along the direction in which it holds most.
+    /// Length along the direction with the most texels.
     pub greatest: f64,
 }
 
 impl Magnification {
-    /// The singular values of a footprint's matrix.
+    /// Computes the singular values of a footprint's matrix.
     pub(crate) fn of(jacobian: DMat2) -> Self {
         let [greatest, least] = semi_axes(jacobian);
         Self { least, greatest }
     }
 
-    /// The range that holds both.
+    /// Returns the range that holds both.
     #[must_use]
     pub(crate) fn union(self, other: Self) -> Self {
         Self { least: self.least.min(other.least), greatest: self.greatest.max(other.greatest) }
     }
 }
 
-/// Sizes of a source image by what a target's centre asks for.
+/// Sizes of a source image that suit the target's centre.
 ///
-/// At parity a texel of the source's centre is as large as a pixel of the target's centre. For the Omnimax lens, whose
-/// slope there is 1.411269 radians a radius, a cube face at parity is 2·radius/1.411269 texels wide.
+/// At parity, a texel at the source's centre is as large as a pixel at the target's centre. The Omnimax lens has a
+/// slope of 1.411269 radians per radius there, so a cube face at parity is 2·radius/1.411269 texels wide.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FaceSize {
-    /// Texels for one target pixel, along columns and rows, as the source is: its source to destination ratio.
+    /// Texels per target pixel, along columns and rows, with the present source: the source to destination ratio.
     pub ratio: (f64, f64),
     /// Width and height at parity.
     pub parity: (usize, usize),
     /// Width and height at 2:3.
     ///
-    /// Greene & Heckbert call their faces and frame a source to destination ratio of 2:3. It is the ratio at the
-    /// centre: when the limiting circle spans the frame's 1966 pixels, a pixel is 1.411269/983 radians, a texel of a
-    /// 1024×960 face 2/1024 by 2/960, and the ratio is 0.735 by 0.689.
+    /// Greene & Heckbert give their faces and frame a source to destination ratio of 2:3 at the centre. When the
+    /// limiting circle spans the frame's 1966 pixels, a pixel is 1.411269/983 radians. A texel of a 1024×960 face is
+    /// 2/1024 by 2/960, so the ratio is 0.735 by 0.689.
     pub two_thirds: (usize, usize),
 }
 
 impl FaceSize {
-    /// Sizes of `source` for a target whose central pixel sees `footprint`; `None` where either is singular.
+    /// Computes the sizes of `source` for a target whose central pixel has this footprint; `None` where either is
+    /// singular.
     pub(crate) fn of(source: &View, footprint: &Footprint) -> Option<Self> {
         let pixel = footprint.jacobian.solid_angle().sqrt();
         let step = source.grid.step();
@@ -65,7 +66,7 @@ impl FaceSize {
     }
 }
 
-/// The footprint of the pixel at a target's centre: on the lens's axis, or else in the middle of the frame.
+/// Returns the footprint of the pixel at a target's centre: on the lens's axis, or else in the middle of the frame.
 pub(crate) fn central_footprint(target: &View) -> Option<Footprint> {
     let axis = target.grid.to_pixel(PlanePoint::new(0.0, 0.0));
     let middle = PixelPoint::new(target.width() as f64 / 2.0, target.height() as f64 / 2.0);

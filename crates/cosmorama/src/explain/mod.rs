@@ -1,4 +1,4 @@
-//! What a conversion will do before it does it: figures in numbers ([`Report`]) and in pictures ([`Figures`]).
+//! Description of a conversion before it runs: figures in numbers ([`Report`]) and drawings ([`Figures`]).
 
 mod figures;
 mod footprints;

@@ -7,17 +7,17 @@ use super::sheet::theme::{DARK, HEADER, INK, LABEL, MARGIN, PAPER, SMALL, colour
 use crate::camera::{PixelPoint, View};
 use crate::world::World;
 
-/// The longer side of the frame on the sheet.
+/// Longer side of the frame on the sheet.
 const LONGER: f64 = 960.0;
 
-/// What a point of the target shows.
+/// Content of a point of the target.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Content {
-    /// Nothing: it is outside the lens.
+    /// Outside the lens.
     Outside,
-    /// A direction that no view covers.
+    /// A direction that no view shows.
     Uncovered,
-    /// The view of this index.
+    /// A direction of the view with this index.
     View(usize),
 }
 

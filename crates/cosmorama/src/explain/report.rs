@@ -8,80 +8,80 @@ use crate::render::{Accuracy, Arithmetic, Need, Needs, Resampler, Uncovered};
 use crate::sphere::Direction;
 use crate::world::{Source, World};
 
-/// Figures of a conversion before it runs: coverage, needs, magnification and memory. Its text form is for people.
+/// Figures of a conversion before it runs: coverage, needs, magnification and memory. It prints as readable text.
 ///
-/// What needs a look at every pixel of a large target is counted on a regular part of them, at least 130 000; the needed
-/// rectangles are exact.
+/// Figures that would need every pixel of a large target are counted on a regular subset of at least 130 000 pixels.
+/// The needed rectangles are exact.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Report {
     /// Width and height of the target.
     pub size: (usize, usize),
-    /// The part of the target's pixels that show something, 0 to 1.
+    /// Fraction of the target's pixels that show something, 0 to 1.
     pub shown: f64,
-    /// What the target's centre sees.
+    /// Direction and view at the target's centre.
     pub centre: Option<Centre>,
     /// Each view of the world.
     pub views: Vec<ViewReport>,
-    /// Pixels that no view covers.
+    /// Pixels whose directions no view shows.
     pub uncovered: Option<Uncovered>,
-    /// Texels that go into a pixel.
+    /// Texels per pixel.
     pub gathered: Gathered,
-    /// Bytes.
+    /// Memory in bytes.
     pub memory: Memory,
 }
 
-/// What the pixel at a target's centre (on the axis of its lens, if it shows that) sees.
+/// Direction and view of the pixel at a target's centre, which is on the lens's axis if that is visible.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Centre {
-    /// Where it looks.
+    /// Direction in which it looks.
     pub direction: Direction,
-    /// The view that gives it, by index, and how long the pixel is there.
+    /// Index of the view that gives it, and the pixel's length there.
     pub view: Option<(usize, Magnification)>,
 }
 
-/// Part of one view in a conversion.
+/// Role of one view in a conversion.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ViewReport {
-    /// The rectangles of texels that are needed.
+    /// Rectangles of needed texels.
     pub need: Need,
     /// Width and height of the image.
     pub size: (usize, usize),
-    /// The part of its texels that the target shows, 0 to 1.
+    /// Fraction of its texels that the target shows, 0 to 1.
     pub used: f64,
-    /// The part of the target's picture that it gives, 0 to 1.
+    /// Fraction of the target's picture that it gives, 0 to 1.
     pub share: f64,
-    /// Range of its texels along a target's pixel.
+    /// Range of its texels per target pixel.
     pub magnification: Option<Magnification>,
     /// Image sizes that would suit the target.
     pub advised: Option<FaceSize>,
 }
 
-/// How many texels go into a pixel.
+/// Number of texels that are averaged for a pixel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Gathered {
-    /// On average over the pixels that show something.
+    /// Mean over the pixels that show something.
     pub mean: f64,
-    /// At most.
+    /// Maximum.
     pub most: usize,
 }
 
-/// What a conversion holds in memory, in bytes.
+/// Memory of a conversion in bytes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Memory {
-    /// The light of all views.
+    /// Light of all views.
     pub texels: usize,
-    /// The target's pixels.
+    /// Pixels of the target.
     pub pixels: usize,
-    /// The smaller copies of a pyramid, at most; zero for other filters.
+    /// Upper bound of a pyramid's levels; zero for other filters.
     pub levels: usize,
-    /// The geometry of a sequence in floats, estimated; a single frame keeps none.
+    /// Estimate of a sequence's geometry in floats; a single frame keeps none.
     pub plan: usize,
-    /// Bytes of a sequence's geometry in integers, estimated, for opaque pictures of 8 bits. Zero where the filter uses floats.
+    /// Estimate of a sequence's geometry in integers, for opaque 8-bit pictures; zero where the filter uses floats.
     pub fixed_plan: usize,
 }
 
 impl Report {
-    /// Computes the report of making `target` from `world`. The world needs no light: it may be of planned views.
+    /// Computes the report of making `target` from `world`. The world needs no light, and may consist of planned views.
     pub fn of(world: &World, target: &View, filter: &FilterSettings) -> Self {
         let needs = Needs::of(world, std::slice::from_ref(target), filter, Accuracy::Exact);
         let survey = Survey::of(world, target, filter);
@@ -109,7 +109,7 @@ impl Report {
         }
     }
 
-    /// Texels that the target shows, of all texels given, 0 to 1.
+    /// Returns the fraction of all texels that the target shows, 0 to 1.
     pub fn used(&self) -> f64 {
         let texels = |view: &ViewReport| (view.size.0 * view.size.1) as f64;
         let given: f64 = self.views.iter().map(texels).sum();

@@ -6,19 +6,20 @@ use crate::filter::{FilterSettings, KernelTable};
 use crate::render::{Pyramid, Resampler, TexelCount};
 use crate::world::{Source, World};
 
-/// Pixels, and texels of a view, that a survey looks at; of more it takes every second one, third one and so on.
+/// Greatest number of pixels, or of texels of a view, that a survey visits; of more it visits every second, third and
+/// so on.
 const SAMPLES: usize = 1 << 17;
 
 /// Statistics over a target's pixels.
 #[derive(Clone, Debug)]
 pub(crate) struct Survey {
-    /// Pixels looked at, and how many of them show something.
+    /// Number of visited pixels, and of those that show something.
     pub(crate) sampled: usize,
     pub(crate) shown: usize,
-    /// Texels gathered by all the pixels looked at, and the most by one.
+    /// Texels gathered by all visited pixels, and the most by one.
     pub(crate) texels: usize,
     pub(crate) most: usize,
-    /// For each view, the pixels that look into it, and how long they are in texels.
+    /// For each view, the number of pixels that look into it, and their length in texels.
     pub(crate) views: Vec<(usize, Option<Magnification>)>,
 }
 
@@ -78,7 +79,7 @@ impl Survey {
     }
 }
 
-/// The part of a view's texels whose centres a target shows.
+/// Returns the fraction of a view's texels whose centres a target shows.
 pub(crate) fn used_part(source: &Source, target: &View) -> f64 {
     let view = &source.view;
     let step = stride(view.width(), view.height());
@@ -100,7 +101,7 @@ fn stride(width: usize, height: usize) -> usize {
     ((width * height) as f64 / SAMPLES as f64).sqrt().ceil().max(1.0) as usize
 }
 
-/// Every `step`th index, and the last one: the extremes lie at the borders.
+/// Visits every `step`th index and the last one, because extremes lie at borders.
 fn sampled(size: usize, step: usize) -> impl Iterator<Item = usize> + Clone {
     (0..size).filter(move |index| index % step == 0 || index + 1 == size)
 }

@@ -1,4 +1,4 @@
-//! A report as text.
+//! Readable text of a report.
 
 use std::fmt::{Display, Formatter, Result};
 
@@ -43,7 +43,7 @@ impl Display for Report {
 }
 
 impl Report {
-    /// One line for all views that are advised alike.
+    /// Writes one line for all views with the same advice.
     fn write_advice(&self, f: &mut Formatter<'_>) -> Result {
         let mut seen = Vec::new();
         for advised in self.views.iter().filter_map(|view| view.advised) {
@@ -79,7 +79,7 @@ impl Display for ViewReport {
 
 impl Display for Magnification {
     fn fmt(&self, f: &mut Formatter<'_>) -> Result {
-        /// More than any image has across: the pole of a map, all of whose last row is one point.
+        /// Texels per pixel above which the text says "any number", as at a map's pole, whose last row is one point.
         const MANY: f64 = 1e6;
         if self.greatest > MANY {
             return write!(f, "{:.2} to any number of texels a pixel", self.least);
@@ -88,7 +88,7 @@ impl Display for Magnification {
     }
 }
 
-/// A part as a percentage.
+/// A fraction as a percentage.
 struct Percent(f64);
 
 impl Display for Percent {
@@ -97,7 +97,7 @@ impl Display for Percent {
     }
 }
 
-/// A size in memory.
+/// An amount of memory.
 struct Bytes(usize);
 
 impl Display for Bytes {

@@ -9,19 +9,19 @@ use crate::camera::{PixelRect, View};
 use crate::render::{Need, Needs};
 use crate::world::{Source, World};
 
-/// How far a name reaches from its middle, about.
+/// Approximate half width of a name.
 const ROOM: f64 = 34.0;
 
-/// A picture of a view to draw a figure over.
+/// A picture of a view that lies under a figure.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Underlay {
     /// Index of the view in the world.
     pub view: usize,
-    /// Its picture: an address, or a data URI such as `data:image/png;base64,…`. It is stretched over the view.
+    /// Address of its picture, or a data URI like `data:image/png;base64,…`. It is stretched over the view.
     pub href: String,
 }
 
-/// How much of a picture the veil over what is not needed hides.
+/// Opacity of the veil over parts that are not needed.
 const VEIL: f64 = 0.74;
 
 pub(crate) fn draw(world: &World, target: &View, needs: &Needs, underlays: &[Underlay]) -> String {
@@ -97,7 +97,7 @@ fn draw_names(drawing: &mut Drawing, source: &Source, need: &Need, frame: Rect, 
     }
 }
 
-/// What is needed of an image: all of it, or a window of it as images name it.
+/// Describes the needed part of an image: all of it, or a window in the usual notation.
 fn needed_text(needed: &PixelRect, source: &Source, size: &str) -> String {
     let is_whole = (needed.width(), needed.height()) == (source.view.width(), source.view.height());
     if is_whole {

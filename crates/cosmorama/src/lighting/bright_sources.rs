@@ -2,12 +2,13 @@ use crate::raster::Rgba;
 use crate::world::World;
 
 impl World {
-    /// Texels brighter than so many times the mean of their world count as a sun or lamp. They fill less than a hundredth of the
-    /// sphere.
+    /// Multiple of a world's mean light above which a texel counts as a sun or lamp. Such texels fill less than a
+    /// hundredth of the sphere.
     pub const SUN: f64 = 100.0;
 
-    /// The part of all light, radiance times solid angle, that comes from texels over [`World::SUN`] times as bright as the
-    /// mean: what a filter must count exactly to keep a world's light. `light` is that of a texel of the world's buffer.
+    /// Returns the fraction of all light, radiance times solid angle, from texels over [`World::SUN`] times as bright
+    /// as the mean. To keep a world's light, a filter must count them exactly. `light` returns the light of a texel, by
+    /// its index in the world's buffer.
     pub fn light_of_suns(&self, light: impl Fn(usize) -> Rgba) -> f64 {
         let lights = || {
             let texels = self.solid_angles().enumerate();
@@ -23,7 +24,7 @@ impl World {
     }
 }
 
-/// The mean of the channels, none for what is missing.
+/// Returns the mean of the channels; 0 for missing texels.
 fn brightness(light: Rgba) -> f64 {
     let [red, green, blue, _] = light.0.map(f64::from);
     ((red + green + blue) / 3.0).max(0.0)

@@ -6,37 +6,39 @@ use crate::render::Plan;
 use crate::sphere::Direction;
 use crate::world::{SolidAngles, World};
 
-/// Row and column scale factors that make the weight matrix conservative.
+/// Scale factors of rows and columns that make the weight matrix conservative.
 ///
-/// Each pixel's weights then sum to one, and each texel's to its solid angle. A picture of a whole sphere keeps the world's
-/// total radiance, wherever that comes from.
+/// With them, each pixel's weights sum to one, and each texel's to its solid angle. Pictures of a whole sphere then
+/// keep the world's total radiance, wherever it comes from.
 ///
-/// Near poles, seams and the corners of faces a kernel that looks right from each pixel gives some texels more than their
-/// share. The factors, one for each texel and one for each pixel, are those of R. Sinkhorn and P. Knopp (*Concerning
-/// nonnegative matrices and doubly stochastic matrices*, Pacific Journal of Mathematics 21, 1967). Texels' shares are right in
-/// the end, and a constant world stays constant but for what the last step leaves.
+/// Near poles, seams and the corners of faces, a kernel that is normalised for each pixel gives some texels too much
+/// weight. One factor for each texel and one for each pixel correct this, by the iteration of R. Sinkhorn and P. Knopp
+/// (*Concerning nonnegative matrices and doubly stochastic matrices*, Pacific Journal of Mathematics 21, 1967). It ends
+/// with a step for the texels, whose sums are therefore exact; a constant world stays constant up to the error of the
+/// last step.
 #[derive(Clone, Debug)]
 pub struct LightBalance {
     texels: Vec<f32>,
-    /// For each target.
+    /// Factors of the pixels of each target.
     pixels: Vec<Vec<f32>>,
 }
 
-/// Steps after which a constant world is constant to 0.3 % (rms), but for single pixels beside poles and rims: of pictures as fine
-/// as a panorama 1024 wide up to 1 % in cubes, panoramas and octahedra, 5 % in others, of smaller ones twice as much.
+/// Number of iterations. They leave a constant world constant to 0.3 % (rms), except for single pixels beside poles and
+/// rims. In pictures as fine as a panorama 1024 wide these differ by up to 1 % in cubes, panoramas and octahedra, and
+/// by 5 % in other forms; in smaller ones by twice as much.
 const STEPS: usize = 8;
 
-/// A texel gets so many times its light at most, or is left with this part of it.
+/// Greatest factor of a texel's light, and the inverse of the least.
 const MOST: f64 = 16.0;
 
-/// Directions by which it is found whether a world and its targets show the same.
+/// Number of directions that are tested to see whether a world and its targets show the same.
 const DIRECTIONS: usize = 2000;
 
-/// By what part they may differ: what rims cut.
+/// Fraction by which they may differ, because of rims.
 const DIFFERENCE: f64 = 0.01;
 
 impl LightBalance {
-    /// Whether targets show what the world shows, all of it and nothing twice: else its light cannot be kept.
+    /// Returns whether targets show all that the world shows, and nothing twice. Otherwise light cannot be kept.
     pub fn applies(world: &World, targets: &[&View]) -> bool {
         let few = |part: f64| part <= DIFFERENCE;
         let is_seen = |direction: &Direction| targets.iter().any(|view| view.sees(*direction));
@@ -47,14 +49,15 @@ impl LightBalance {
         few(differing as f64 / DIRECTIONS as f64) && few((shown / held - 1.0).abs())
     }
 
-    /// Bytes that one takes while it is made and used, beside plans and pictures.
+    /// Returns the bytes of a balance while it is made and used, beside plans and pictures.
     pub fn bytes(world: &World, targets: &[&View]) -> u64 {
         let pixels: u64 = targets.iter().map(|view| view.width() as u64 * view.height() as u64).sum();
         // Factors, solid angles and shares of texels, and their light; factors, solid angles and what is spread of pixels.
         (world.texel_count() * (4 + 4 + 8 + size_of::<Rgba>())) as u64 + pixels * (4 + 4 + 4 + size_of::<Rgba>() as u64)
     }
 
-    /// Of a conversion for which [`LightBalance::applies`] and in which every pixel sees something; plans are of weights that are not negative.
+    /// Computes the balance of a conversion to which [`LightBalance::applies`]. Every pixel must show something, and
+    /// the plans' weights must not be negative.
     pub fn new(world: &World, targets: &[(&Plan, &View)]) -> Self {
         let wanted: Vec<f32> = world.solid_angles().collect();
         let own: Vec<SolidAngles> = targets.iter().map(|(_, view)| solid_angles(view)).collect();
@@ -72,7 +75,7 @@ impl LightBalance {
         balance
     }
 
-    /// Gives each texel its share of the pixels.
+    /// Updates the factors of texels, so that each has its share of the pixels.
     fn share<'a>(
         &mut self,
         plans: impl Iterator<Item = &'a Plan>,
@@ -92,7 +95,7 @@ impl LightBalance {
         });
     }
 
-    /// Makes pixels of a constant world constant.
+    /// Updates the factors of pixels, so that a constant world stays constant.
     fn settle<'a>(&mut self, plans: impl Iterator<Item = &'a Plan>) {
         let light: Vec<Rgba> = self.texels.par_iter().map(|factor| Rgba::opaque(*factor, *factor, *factor)).collect();
         for (plan, factors) in plans.zip(&mut self.pixels) {
@@ -103,15 +106,15 @@ impl LightBalance {
         }
     }
 
-    /// The light of the world, opaque, as plans are to take it.
+    /// Returns the world's light with the texels' factors applied, opaque, as input for the plans.
     pub fn balanced(&self, light: &[Rgba]) -> Vec<Rgba> {
         light.par_iter().zip(&self.texels).map(|(light, factor)| brighter(light, *factor)).collect()
     }
 
-    /// Completes what the plan of a target makes of balanced light.
+    /// Applies the pixels' factors to the result of a target's plan for balanced light.
     ///
     /// # Panics
-    /// When it is not of that target's size.
+    /// When the image's size differs from the target's.
     pub fn complete(&self, target: usize, image: &mut Image<Rgba>) {
         let factors = &self.pixels[target];
         assert_eq!(image.pixels().len(), factors.len(), "a factor for each pixel");
@@ -119,7 +122,7 @@ impl LightBalance {
     }
 }
 
-/// Light times a factor, as opaque as before.
+/// Multiplies light by a factor, with alpha unchanged.
 fn brighter(Rgba([red, green, blue, alpha]): &Rgba, factor: f32) -> Rgba {
     Rgba([red * factor, green * factor, blue * factor, *alpha])
 }

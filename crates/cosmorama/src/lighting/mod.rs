@@ -1,4 +1,4 @@
-//! The light that a world sheds: its balance of energy and its bright sources.
+//! Light of a world: its energy balance and its bright sources.
 
 pub(crate) mod bright_sources;
 pub(crate) mod energy_balance;

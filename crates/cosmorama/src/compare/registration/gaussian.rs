@@ -7,7 +7,7 @@ const RADIUS: usize = 4;
 
 type Taps = [f32; 2 * RADIUS + 1];
 
-/// A plane blurred by a Gaussian of σ = 1 px; beyond its border it goes on mirrored, the outermost pixel repeated.
+/// Blurs a plane by a Gaussian of σ = 1 px; beyond its border the plane is mirrored, with the outermost pixel repeated.
 pub(crate) fn blurred(plane: &Image<f32>) -> Image<f32> {
     let taps = taps();
     let (width, height) = (plane.width(), plane.height());
@@ -25,7 +25,7 @@ fn taps() -> Taps {
     bell.map(|weight| (weight / sum) as f32)
 }
 
-/// Row `j` after the blur down the columns, with its mirrored continuation at both ends.
+/// Returns row `j` after the blur along columns, with its mirrored continuation at both ends.
 fn blurred_down(plane: &Image<f32>, j: usize, taps: &Taps) -> Vec<f32> {
     let width = plane.width();
     let mut row = vec![0.0; width];
@@ -42,7 +42,7 @@ fn blur_along(extended: &[f32], row: &mut [f32], taps: &Taps) {
     }
 }
 
-/// The index, of `length`, that `shifted − RADIUS` mirrors to: … 1 0 | 0 1 … n−1 | n−1 ….
+/// Returns the index below `length` to which `shifted − RADIUS` is mirrored: … 1 0 | 0 1 … n−1 | n−1 ….
 fn mirrored(shifted: usize, length: usize) -> usize {
     let period = 2 * length as isize;
     let index = (shifted as isize - RADIUS as isize).rem_euclid(period);

@@ -6,22 +6,22 @@ pub(crate) const UNKNOWNS: usize = 6;
 pub(crate) type Vector = [f64; UNKNOWNS];
 type Matrix = [Vector; UNKNOWNS];
 
-/// Eigenvalues below this part of the greatest are noise: the equations say nothing about their direction.
+/// Ratio to the greatest eigenvalue below which an eigenvalue is noise: its direction is not determined.
 const RANK: f64 = 1e-13;
 
-/// Sweeps of rotations; symmetric matrices of this size are diagonal after about six.
+/// Limit of sweeps of rotations; symmetric matrices of this size are diagonal after about six.
 const SWEEPS: usize = 30;
 
 /// The normal equations of a linear least-squares problem in six unknowns.
 #[derive(Clone, Default)]
 pub(crate) struct NormalEquations {
-    /// Its upper triangle only, until it is solved.
+    /// Matrix; only its upper triangle is used until it is solved.
     matrix: Matrix,
     right: Vector,
 }
 
 impl NormalEquations {
-    /// One observation: `factors · unknowns = value`.
+    /// Adds one observation: `factors · unknowns = value`.
     pub(crate) fn observe(&mut self, factors: &Vector, value: f64) {
         for r in 0..UNKNOWNS {
             for c in r..UNKNOWNS {
@@ -31,7 +31,7 @@ impl NormalEquations {
         }
     }
 
-    /// The observations of both.
+    /// Adds the observations of other equations.
     pub(crate) fn add(&mut self, other: &Self) {
         for r in 0..UNKNOWNS {
             for c in r..UNKNOWNS {
@@ -41,7 +41,7 @@ impl NormalEquations {
         }
     }
 
-    /// The least-squares solution; the shortest one where the observations leave a choice.
+    /// Returns the least-squares solution; the shortest one if several are equally good.
     pub(crate) fn solve(&self) -> Vector {
         let symmetric = from_fn(|r| from_fn(|c| self.matrix[r.min(c)][r.max(c)]));
         let (values, vectors) = eigen(symmetric);
@@ -55,7 +55,7 @@ impl NormalEquations {
     }
 }
 
-/// Eigenvalues and eigenvectors (rows) of a symmetric matrix, by Jacobi's rotations.
+/// Returns the eigenvalues and eigenvectors (rows) of a symmetric matrix, by Jacobi's rotations.
 fn eigen(mut matrix: Matrix) -> (Vector, Matrix) {
     let mut vectors: Matrix = from_fn(|r| from_fn(|c| f64::from(u8::from(r == c))));
     for _ in 0..SWEEPS {
@@ -68,7 +68,7 @@ fn eigen(mut matrix: Matrix) -> (Vector, Matrix) {
     (from_fn(|k| matrix[k][k]), vectors)
 }
 
-/// Turns the plane of axes p and q so that the element they share vanishes.
+/// Rotates the plane of axes p and q so that their common element vanishes.
 fn rotate(matrix: &mut Matrix, vectors: &mut Matrix, p: usize, q: usize) {
     if matrix[p][q] == 0.0 {
         return;

@@ -10,45 +10,46 @@ use crate::raster::{Image, Rgba};
 use gaussian::blurred;
 use least_squares::{NormalEquations, Vector, dot};
 
-/// Pixels this near to one that does not count are left out: their gradients may see it.
+/// Distance from an excluded pixel within which pixels are left out, because their gradients may see it.
 const RIM: u8 = 8;
 
-/// Fits; each after the first leaves out the pixels that fitted worst before.
+/// Number of fits; each after the first leaves out the pixels that fitted worst.
 const PASSES: usize = 3;
 
-/// The part of the pixels that a fit keeps from the one before.
+/// Fraction of the pixels that a fit keeps from the one before.
 const KEPT: f64 = 0.98;
 
-/// Pixels: a flow is found by slopes, which tell of places no farther than this.
+/// Greatest flow, in pixels, that can be trusted: slopes tell nothing about places further away.
 const DOUBT: f64 = 1.0;
 
-/// Where one picture lies on another: the affine flow u that fits second(x) = first(x + u) best.
+/// Place of one picture on another: the affine flow u for which second(x) = first(x + u) fits best.
 ///
-/// Of pictures that are geometrically identical all figures are zero; so is what the picture does not show, as the
-/// shift along stripes.
+/// All figures are zero for geometrically identical pictures, and so is any component that the pictures do not show,
+/// such as a shift along stripes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Registration {
-    /// How far the first picture lies to the right of the second, at the centre, in pixels.
+    /// Distance by which the first picture lies to the right of the second, at the centre, in pixels.
     pub dx: f64,
-    /// How far the first picture lies below the second, at the centre, in pixels.
+    /// Distance by which the first picture lies below the second, at the centre, in pixels.
     pub dy: f64,
-    /// How much wider the first picture is, as a part of its width: 0.01 is 1 %.
+    /// Relative excess of the first picture's width: 0.01 is 1 %.
     pub scale_x: f64,
-    /// How much taller the first picture is, as a part of its height.
+    /// Relative excess of the first picture's height.
     pub scale_y: f64,
-    /// How far the first picture is turned clockwise, in radians.
+    /// Clockwise rotation of the first picture, in radians.
     pub rotation: f64,
-    /// How far the first picture is sheared: half the change of the angle between its axes, in radians.
+    /// Shear of the first picture: half the change of the angle between its axes, in radians.
     pub shear: f64,
 }
 
 impl Registration {
-    /// The length of the shift at the centre, in pixels.
+    /// Returns the length of the shift at the centre, in pixels.
     pub fn shift(&self) -> f64 {
         self.dx.hypot(self.dy)
     }
 
-    /// The displacement, right and down, of the point that lies so many pixels right of the centre and below it.
+    /// Returns the displacement, right and down, of a point given by its distances right of and below the centre, in
+    /// pixels.
     pub fn displacement(&self, right: f64, down: f64) -> (f64, f64) {
         (
             self.dx + self.scale_x * right + (self.shear - self.rotation) * down,
@@ -56,8 +57,8 @@ impl Registration {
         )
     }
 
-    /// The fit; `None` when every pixel that counts is near one that does not, or when the pictures differ as if it was wrong by
-    /// [`DOUBT`] and more.
+    /// Fits the flow. `None` when every compared pixel is near one that is not, or when the differences correspond to
+    /// an error of [`DOUBT`] or more.
     pub(in crate::compare) fn between(pair: &Pair<'_>) -> Option<Self> {
         let flow = Flow::new(pair);
         let mut fit = flow.fit(|_| true);
@@ -69,7 +70,7 @@ impl Registration {
     }
 }
 
-/// The equations of the flow: one for each pixel, brightness difference = gradient · displacement.
+/// Equations of the flow, one for each pixel: brightness difference = gradient · displacement.
 struct Flow {
     first: Image<f32>,
     second: Image<f32>,
@@ -82,7 +83,7 @@ impl Flow {
         Self { first, second, counted: pair.mask().eroded(RIM) }
     }
 
-    /// The flow that fits best, of the equations to be kept.
+    /// Returns the flow that best fits the equations to be kept.
     fn fit(&self, kept: impl Fn(&Equation) -> bool + Sync) -> Vector {
         let of_row = |j| {
             let mut equations = NormalEquations::default();
@@ -102,8 +103,8 @@ impl Flow {
         rows.concat()
     }
 
-    /// How far off a displacement would have to be, in pixels, to make what a flow leaves unexplained: the deviation of that over
-    /// the slopes'. Of pictures that show something else it is about as long as what they show is wide.
+    /// Returns the displacement, in pixels, that would explain the differences left by a flow: their deviation divided
+    /// by that of the slopes. For pictures of different content it is about as long as their features are wide.
     fn doubt(&self, flow: &Vector) -> f64 {
         let of_row = |j| {
             let rest = |equation: Equation| {
@@ -120,13 +121,14 @@ impl Flow {
         if variance > 0.0 { (2.0 * variance / slopes).sqrt() } else { 0.0 }
     }
 
-    /// The equations of the pixels of a row that count.
+    /// Visits the equations of a row's compared pixels.
     fn row(&self, j: usize) -> impl Iterator<Item = Equation> {
         let counted = self.counted.row(j).iter().enumerate().filter(|(_, counted)| **counted);
         counted.map(move |(i, _)| self.equation(i, j))
     }
 
-    /// The unknowns are the displacement at the centre and its change from there to the picture's longer edge.
+    /// Returns a pixel's equation. The unknowns are the displacement at the centre, and its change from there to the
+    /// picture's longer edge.
     fn equation(&self, i: usize, j: usize) -> Equation {
         let average = |i, j| (f64::from(*self.first.get(i, j)) + f64::from(*self.second.get(i, j))) / 2.0;
         let across = (average(i + 1, j) - average(i - 1, j)) / 2.0;
@@ -139,7 +141,8 @@ impl Flow {
         }
     }
 
-    /// Pixels from the centre to the farther edges: as a unit of length, it makes all unknowns alike in size.
+    /// Returns the distance from the centre to the farther edges in pixels; as a unit of length it gives all unknowns a
+    /// similar size.
     fn reach(&self) -> f64 {
         self.first.width().max(self.first.height()) as f64 / 2.0
     }
@@ -151,7 +154,7 @@ impl Flow {
     }
 }
 
-/// One pixel's: `factors · flow = value`.
+/// Equation of one pixel: `factors · flow = value`.
 struct Equation {
     factors: Vector,
     value: f64,
@@ -178,7 +181,7 @@ fn brightness(picture: &Image<Rgba>) -> Image<f32> {
 mod tests {
     use super::*;
 
-    /// A smooth picture, of the wave over the plane at the place of each pixel.
+    /// Draws a smooth picture: the value of a wave at the place of each pixel.
     fn waves(place: impl Fn(f64, f64) -> (f64, f64)) -> Image<Rgba> {
         Image::from_fn(96, 80, |i, j| {
             let (x, y) = place(i as f64 - 47.5, j as f64 - 39.5);

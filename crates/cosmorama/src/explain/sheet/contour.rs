@@ -1,24 +1,24 @@
-//! Regions of a picture that a label tells apart: their areas as runs, and the curves between them.
+//! Regions of a picture, distinguished by labels: their areas as runs, and the curves between them.
 
 use super::drawing::{Point, Rect};
 
-/// Halvings of the interval in which a label changes: to 1/256 of a step.
+/// Bisections of the interval in which a label changes, to 1/256 of a step.
 const HALVINGS: usize = 8;
 
-/// Nodes along each side of the grid on which a name's place is looked for.
+/// Nodes along each side of the grid that is searched for a name's place.
 const STEPS: usize = 64;
 
-/// Labels of the points of a rectangle, `columns`×`rows` steps of a drawing's units.
+/// Labels of the points of a rectangle, sampled at `columns`×`rows` steps.
 pub(crate) struct Regions<F> {
     pub(crate) frame: Rect,
     pub(crate) columns: usize,
     pub(crate) rows: usize,
-    /// The label of a point at (x, y) within the frame, both from 0 to 1.
+    /// Returns the label of a point (x, y) in the frame, both from 0 to 1.
     pub(crate) label: F,
 }
 
 impl<L: Copy + PartialEq, F: Fn(f64, f64) -> L> Regions<F> {
-    /// The area of one label: a strip for each run of each row.
+    /// Returns the area of one label, as a strip for each run of each row.
     pub(crate) fn area(&self, wanted: L) -> Vec<Rect> {
         let row_height = self.frame.height / self.rows as f64;
         let mut strips = Vec::new();
@@ -57,7 +57,8 @@ impl<L: Copy + PartialEq, F: Fn(f64, f64) -> L> Regions<F> {
         runs
     }
 
-    /// The curves where the label changes, as short segments (marching squares, each crossing found by halving).
+    /// Returns the curves where the label changes, as short segments (marching squares, with crossings found by
+    /// bisection).
     pub(crate) fn edges(&self) -> Vec<[Point; 2]> {
         let node = |i: usize, j: usize| (i as f64 / self.columns as f64, j as f64 / self.rows as f64);
         let label = |(u, v): Point| (self.label)(inset(u), inset(v));
@@ -104,8 +105,8 @@ impl<L: Copy + PartialEq, F: Fn(f64, f64) -> L> Regions<F> {
         (self.frame.x + u * self.frame.width, self.frame.y + v * self.frame.height)
     }
 
-    /// A point of a label's region with about as much room around it as there is anywhere, for its name, and how far it
-    /// is from the region's edges; `None` if the region is hardly there.
+    /// Returns a point in a label's region with nearly the most room around it, for its name, and its distance from the
+    /// region's edges. `None` if the region is very small.
     pub(crate) fn middle(&self, wanted: L) -> Option<(Point, f64)> {
         let at = |k: usize| (k as f64 + 0.5) / STEPS as f64;
         let nodes = || (0..STEPS).flat_map(|j| (0..STEPS).map(move |i| (i, j)));
@@ -129,19 +130,19 @@ impl<L: Copy + PartialEq, F: Fn(f64, f64) -> L> Regions<F> {
     }
 }
 
-/// Whether a node of the grid lies outside a region, next to it.
+/// Returns whether a node of the grid is outside a region, next to it.
 fn is_just_outside(inside: &[bool], (i, j): (usize, usize)) -> bool {
     let neighbours = [(i.wrapping_sub(1), j), (i + 1, j), (i, j.wrapping_sub(1)), (i, j + 1)];
     let is_inside = |(i, j): (usize, usize)| i < STEPS && j < STEPS && inside[j * STEPS + i];
     !inside[j * STEPS + i] && neighbours.into_iter().any(is_inside)
 }
 
-/// Labels on the very border are asked for a hair inside it.
+/// Moves a position on the border slightly inside it.
 fn inset(value: f64) -> f64 {
     value.clamp(1e-5, 1.0 - 1e-5)
 }
 
-/// Where a condition that is false at 0 and true at 1 becomes true.
+/// Finds where a condition that is false at 0 and true at 1 becomes true.
 fn bisect(is_after: impl Fn(f64) -> bool) -> f64 {
     let (mut low, mut high) = (0.0, 1.0);
     for _ in 0..HALVINGS {

@@ -1,10 +1,10 @@
-//! A small SVG writer: shapes in document order, numbers rounded, so that a figure's bytes are always the same.
+//! A small SVG writer. Shapes are in document order and numbers are rounded, so that a figure's bytes are reproducible.
 
 use std::fmt::Write as _;
 
 use super::lettering;
 
-/// A point of a drawing, in its units: x to the right, y down.
+/// A point of a drawing in its units: x to the right, y down.
 pub(crate) type Point = (f64, f64);
 
 /// An upright rectangle.
@@ -16,7 +16,7 @@ pub(crate) struct Rect {
     pub(crate) height: f64,
 }
 
-/// How a shape is painted.
+/// Paint of a shape.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Paint<'a> {
     pub(crate) fill: &'a str,
@@ -44,14 +44,14 @@ impl<'a> Paint<'a> {
     }
 }
 
-/// Which point of a label its position is.
+/// Point of a label that is at its position.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Anchor {
     Start,
     Middle,
 }
 
-/// An SVG document that is being drawn.
+/// An SVG document under construction.
 #[derive(Clone, Debug)]
 pub(crate) struct Drawing {
     width: f64,
@@ -60,7 +60,7 @@ pub(crate) struct Drawing {
 }
 
 impl Drawing {
-    /// An empty sheet.
+    /// Creates an empty sheet.
     pub(crate) fn new(width: f64, height: f64, background: &str) -> Self {
         let mut drawing = Self { width, height, body: String::new() };
         drawing.rect(Rect { x: 0.0, y: 0.0, width, height }, Paint::fill(background));
@@ -73,7 +73,7 @@ impl Drawing {
         self.shape(&format!(r#"rect x="{x}" y="{y}" width="{width}" height="{height}""#), paint);
     }
 
-    /// Many rectangles of one paint.
+    /// Draws many rectangles with one paint.
     pub(crate) fn rects(&mut self, frames: &[Rect], paint: Paint) {
         let mut path = String::new();
         for frame in frames {
@@ -100,7 +100,7 @@ impl Drawing {
         }
     }
 
-    /// An ellipse of two semi-axes, the first one turned by `angle` radians from x towards y.
+    /// Draws an ellipse of two semi-axes, the first one turned by `angle` radians from x towards y.
     pub(crate) fn ellipse(&mut self, (x, y): Point, (major, minor): (f64, f64), angle: f64, paint: Paint) {
         let (x, y, major, minor, degrees) =
             (Number(x), Number(y), Number(major), Number(minor), Number(angle.to_degrees()));
@@ -108,7 +108,7 @@ impl Drawing {
         self.shape(&format!(r#"ellipse rx="{major}" ry="{minor}" {turn}"#), paint);
     }
 
-    /// A picture, by its address or as a data URI.
+    /// Draws a picture, given by its address or as a data URI.
     pub(crate) fn image(&mut self, frame: Rect, href: &str) {
         let Rect { x, y, width, height } = frame;
         let (x, y, width, height) = (Number(x), Number(y), Number(width), Number(height));
@@ -116,7 +116,7 @@ impl Drawing {
         let _ = writeln!(self.body, r#"<image {place} href="{}"/>"#, escaped(href));
     }
 
-    /// Text whose capitals are `size` high, standing on (x, y).
+    /// Draws text on a baseline at (x, y), with capitals of height `size`.
     pub(crate) fn label(&mut self, text: &str, (x, y): Point, size: f64, anchor: Anchor, colour: &str) {
         let (lines, width) = lettering::polylines(text);
         let x = match anchor {
@@ -130,7 +130,7 @@ impl Drawing {
         self.body.push_str("</g>\n");
     }
 
-    /// As [`Drawing::label`] from its start, on a ground of its own.
+    /// Draws text like [`Drawing::label`] from its start, on a background of its own.
     pub(crate) fn label_on(&mut self, text: &str, (x, y): Point, size: f64, ground: &str, colour: &str) {
         let width = lettering::polylines(text).1 * size;
         let frame = Rect { x: x - 0.5 * size, y: y - 1.5 * size, width: width + size, height: 2.2 * size };
@@ -138,7 +138,7 @@ impl Drawing {
         self.label(text, (x, y), size, Anchor::Start, colour);
     }
 
-    /// Centred lines of text with their sizes, on a ground of their own, kept within `bounds` where it fits.
+    /// Draws centred lines of text with their sizes, on a background of their own, inside `bounds` if possible.
     pub(crate) fn plaque(&mut self, lines: &[(&str, f64)], (x, y): Point, bounds: Rect, ground: &str, colour: &str) {
         let width = lines.iter().map(|(text, size)| lettering::polylines(text).1 * size).fold(0.0, f64::max) + 18.0;
         let height = lines.iter().map(|(_, size)| 1.7 * size).sum::<f64>() + 9.0;
@@ -157,7 +157,7 @@ impl Drawing {
         }
     }
 
-    /// The document.
+    /// Returns the document.
     pub(crate) fn finish(self, title: &str) -> String {
         let (width, height) = (Number(self.width), Number(self.height));
         format!(
@@ -183,7 +183,7 @@ impl Drawing {
     }
 }
 
-/// A number of at most two decimals, without trailing zeros.
+/// A number with at most two decimals, without trailing zeros.
 struct Number(f64);
 
 impl std::fmt::Display for Number {
@@ -194,7 +194,7 @@ impl std::fmt::Display for Number {
     }
 }
 
-/// Text as XML may hold it in content and in attributes; characters that XML forbids are replaced.
+/// Escapes text for XML content and attributes; characters that XML forbids are replaced.
 fn escaped(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     for character in text.chars() {

@@ -3,8 +3,8 @@ use super::drawing::Rect;
 use crate::camera::{PixelPoint, View};
 use crate::world::Source;
 
-/// Which points of a view's image a target shows. `frame` is the image's place on the sheet, and the region reaches
-/// `beyond` it on all sides, in the sheet's units: there the view's plane goes on.
+/// Returns which points of a view's image a target shows. `frame` is the image's place on the sheet. The region extends
+/// `beyond` it on all sides, in the sheet's units, because the view's plane continues there.
 pub(crate) fn shown<'a>(
     source: &'a Source,
     (frame, beyond): (Rect, f64),

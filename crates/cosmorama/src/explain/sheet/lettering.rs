@@ -1,4 +1,4 @@
-//! Letters as strokes: figures look the same on machines without fonts.
+//! Letters as strokes, so that figures look the same on machines without fonts.
 
 /// Rows of the letters' grid from the top of a capital to the baseline.
 const CAPITAL: f64 = 6.0;
@@ -9,10 +9,10 @@ const GAP: f64 = 1.8;
 /// Columns of a space.
 const SPACE: f64 = 2.2;
 
-/// Shown in place of a character that has no drawing here.
+/// Strokes in the place of a character without a drawing.
 const UNKNOWN: &str = "0040460600";
 
-/// The strokes of a character: polylines, apart by spaces, of points written as two digits, column and row.
+/// Returns the strokes of a character: polylines, separated by spaces, of points written as two digits, column and row.
 fn strokes(character: char) -> Option<&'static str> {
     Some(match character {
         '0' | 'O' => "103041453616050110",
@@ -98,8 +98,8 @@ fn strokes(character: char) -> Option<&'static str> {
     })
 }
 
-/// A line of text as polylines, in units of the capitals' height: x to the right from the line's start, y down from the
-/// baseline. Also the width of it all.
+/// Returns a line of text as polylines, in units of the capitals' height: x to the right from the line's start, y down
+/// from the baseline. Also returns the total width.
 pub fn polylines(text: &str) -> (Vec<Vec<(f64, f64)>>, f64) {
     let (mut lines, mut x) = (Vec::new(), 0.0);
     for character in text.chars() {

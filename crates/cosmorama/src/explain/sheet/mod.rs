@@ -1,4 +1,4 @@
-//! Sheets that figures are drawn on: shapes, lines of text, colours, unfolded faces, contours.
+//! Sheets for figures: shapes, lines of text, colours, unfolded faces, contours.
 
 pub(crate) mod contour;
 pub(crate) mod drawing;

@@ -5,19 +5,19 @@ use crate::projection::ProjectionKind;
 use crate::sphere::{CubeFace, Direction};
 use crate::world::{Source, World};
 
-/// Width of a cube face, of a lone image and of one of many.
+/// Widths of a cube face, of a single image, and of one of many.
 const FACE: f64 = 240.0;
 const LONE: f64 = 960.0;
 const ONE_OF_MANY: f64 = 320.0;
 
-/// Space between images that do not belong together.
+/// Space between unrelated images.
 const GUTTER: f64 = 24.0;
 
-/// Where each view's image lies on a sheet: the faces of a cube unfolded as a cross, other images side by side.
+/// Places of the views' images on a sheet: the faces of a cube unfolded as a cross, other images side by side.
 pub(crate) struct Net {
     /// The frame of each view, in the world's order.
     pub(crate) images: Vec<Rect>,
-    /// Faces of the cube that the world lacks.
+    /// Faces of the cube that are not in the world.
     pub(crate) lacking: Vec<(CubeFace, Rect)>,
     /// Whether the images are faces of one cube.
     is_cross: bool,
@@ -33,8 +33,8 @@ impl Net {
         }
     }
 
-    /// How far beyond an image's frame its field of view is looked for: where the field ends on the very edge between
-    /// two faces, only a look beyond finds it.
+    /// Returns an image's frame extended by a margin, and the margin, for the search of its field of view. A field that
+    /// ends exactly on the edge between two faces is only found beyond it.
     pub(crate) fn outset(&self, frame: Rect) -> (Rect, f64) {
         (frame, if self.is_cross { 2.0 } else { 0.0 })
     }
@@ -67,14 +67,14 @@ impl Net {
     }
 }
 
-/// Width over height of an image as its pixels lie in the plane, kept within what fits a sheet.
+/// Returns width over height of an image as its pixels lie in the plane, limited to what fits a sheet.
 fn aspect(source: &Source) -> f64 {
     let step = source.view.grid.step().abs();
     let (width, height) = (source.view.width() as f64 * step.x, source.view.height() as f64 * step.y);
     (width / height).clamp(0.25, 8.0)
 }
 
-/// Which face of the cube each view is; `None` if they are not the faces of one cube.
+/// Returns the face of each view; `None` if the views are not the faces of one cube.
 fn faces(world: &World) -> Option<Vec<CubeFace>> {
     let sources = world.sources();
     let is_pinhole = |source: &Source| matches!(source.view.projection, ProjectionKind::Perspective(_));
@@ -91,7 +91,7 @@ fn faces(world: &World) -> Option<Vec<CubeFace>> {
     by_orientation.or_else(|| sources.iter().map(named).collect()).and_then(distinct)
 }
 
-/// The face whose orientation a view has.
+/// Returns the face whose orientation a view has.
 fn facing(source: &Source) -> Option<CubeFace> {
     const TOLERANCE: f64 = 1e-6;
     let orientation = &source.view.orientation;
@@ -99,7 +99,7 @@ fn facing(source: &Source) -> Option<CubeFace> {
     CubeFace::ALL.into_iter().find(|face| is_at(Direction::FRONT, face.forward()) && is_at(Direction::UP, face.up()))
 }
 
-/// The square of a face on the sheet: back is beyond right.
+/// Returns the square of a face on the sheet; the back is beyond the right face.
 fn cell(face: CubeFace) -> Rect {
     let (column, row) = match face {
         CubeFace::Left => (0.0, 1.0),
@@ -112,7 +112,7 @@ fn cell(face: CubeFace) -> Rect {
     Rect { x: MARGIN + column * FACE, y: HEADER + row * FACE, width: FACE, height: FACE }
 }
 
-/// The part of a face's square that an image shows, which may be a window of the face or wider than it.
+/// Returns the part of a face's square that an image shows. It may be a window of the face, or extend beyond it.
 fn within_face(source: &Source, cell: Rect) -> Rect {
     let grid = &source.view.grid;
     let start = grid.to_plane(PixelPoint::new(0.0, 0.0));
