@@ -9,7 +9,7 @@ use cosmorama_spec::{FilterName, KernelName, MemorySize, Missing, Size, Spec, Tr
 
 use crate::input::{Disk, Files};
 
-/// Settings of a conversion: from an input, in whatever form, to pictures of another projection.
+/// Settings of a conversion from an input, in any form, to pictures of another projection.
 ///
 /// ```
 /// use cosmorama_convert::{Conversion, Quiet};
@@ -26,83 +26,83 @@ use crate::input::{Disk, Files};
 /// ```
 #[derive(Clone, Debug)]
 pub struct Conversion {
-    /// An image, a pattern of faces and frames, a world file, a Hugin project, or `builtin:NAME`.
+    /// Input: an image, a pattern of faces and frames, a world file, a Hugin project, or `builtin:NAME`.
     pub input: String,
-    /// An image or a pattern; the extension chooses the format.
+    /// Output: an image or a pattern; the extension chooses the format.
     pub output: String,
-    /// What light comes from where and goes where.
+    /// Projections, size, orientation and filter.
     pub geometry: GeometrySettings,
-    /// Whether places in the input are written instead of light.
+    /// Whether an st map is written instead of a picture.
     pub st_map: bool,
-    /// How integer code values relate to light.
+    /// Transfer function of integer files.
     pub transfer: TransferName,
-    /// How the input's code values relate to light, those of floats too.
+    /// Transfer function of the input, including floats; overrides `transfer`.
     pub in_transfer: Option<TransferName>,
-    /// How the output's code values relate to light, those of floats too.
+    /// Transfer function of the output, including floats; overrides `transfer`.
     pub out_transfer: Option<TransferName>,
-    /// Sample type of the output; as the input's, where the format can, unless given.
+    /// Sample type of the output; the input's, where the format can hold it, unless given.
     pub depth: Option<Depth>,
-    /// Light of pixels outside the lens; black, or transparent where the output has alpha, unless given.
+    /// Light of pixels outside the lens; black, or transparent if the output has alpha, unless given.
     pub background: Option<Rgba>,
-    /// What becomes of directions that no view covers.
+    /// Treatment of directions that no view covers.
     pub missing: Missing,
     /// Frames of a sequence; all that exist, unless given.
     pub frames: Option<FrameList>,
-    /// What becomes of outputs that exist already.
+    /// Treatment of outputs that exist already.
     pub existing: Existing,
     /// Whether the output stands for a stream, which takes one picture.
     pub to_stream: bool,
-    /// Whether smaller copies are added, in formats that hold them.
+    /// Whether mip levels are written, in formats that hold them.
     pub mips: bool,
     /// JPEG quality from 1 to 100; that of [`cosmorama_io::WriteOptions`], unless given.
     pub quality: Option<u8>,
-    /// How hard files are pressed, without loss; sequences of PNG files for speed, unless given.
+    /// Lossless compression; sequences of PNG files are compressed for speed, unless given.
     pub compression: Option<Compression>,
-    /// What the run may take.
+    /// Limits of threads and memory.
     pub limits: LimitSettings,
-    /// Where the bytes of pictures come from: disk, unless given.
+    /// Source of the bytes of pictures; disk by default.
     pub files: Arc<dyn Files>,
-    /// List of the files that are being written, for whoever has to remove them.
+    /// Registry of files in progress, which a signal handler removes.
     pub unfinished: Unfinished,
 }
 
-/// What light comes from where and goes where.
+/// Projections, size, orientation and filter of a conversion.
 #[derive(Clone, Debug)]
 pub struct GeometrySettings {
-    /// The input's projection; found from metadata, names or shape, unless given.
+    /// Projection of the input; detected from metadata, names or shape, unless given.
     pub from: Option<Spec>,
-    /// The output's projection; a cube, unless given, where the output has a name for each face.
+    /// Projection of the output; a cube if the output has a name for each face, unless given.
     pub to: Option<Spec>,
-    /// Pixels of the output; parity with the input at the centre, unless given.
+    /// Size of the output; as fine as the input at the centre, unless given.
     pub size: Option<Size>,
-    /// Where the output looks.
+    /// Orientation of the output.
     pub orientation: Orientation,
-    /// What pixels average.
+    /// Filter.
     pub filter: FilterName,
-    /// The weights of that average.
+    /// Kernel of the filter.
     pub kernel: KernelName,
-    /// Whether pixels are clamped to their texels; as the kernel has it, unless given.
+    /// Whether pixels are clamped to their texels; the kernel's own default, unless given.
     pub anti_ringing: Option<bool>,
 }
 
-/// What becomes of outputs that exist already.
+/// Treatment of outputs that exist already.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Existing {
-    /// They are an error, before any work.
+    /// An error, before any work.
     #[default]
     Refuse,
-    /// They are replaced.
+    /// Replacement.
     Replace,
-    /// Complete ones are kept, others replaced.
+    /// Complete outputs are kept, others are replaced.
     Resume,
 }
 
-/// What a run may take.
+/// Limits of a run.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct LimitSettings {
-    /// Threads to work with; one for each core, unless given.
+    /// Number of threads; one for each core, unless given.
     pub threads: Option<usize>,
-    /// Memory to use at most; three quarters of what is free, unless given.
+    /// Memory limit; three quarters of free memory, unless given.
     pub memory: Option<MemorySize>,
 }
 
@@ -120,7 +120,7 @@ impl Default for GeometrySettings {
     }
 }
 
-/// The settings that hold unless others are given; input and output have no names yet.
+/// Returns the default settings, without names of input and output.
 impl Default for Conversion {
     fn default() -> Self {
         Self {
@@ -148,26 +148,26 @@ impl Default for Conversion {
 }
 
 impl Conversion {
-    /// Creates the settings of a conversion between these, all others as they are by default.
+    /// Creates default settings for a conversion from an input to an output.
     pub fn new(input: impl Into<String>, output: impl Into<String>) -> Self {
         Self { input: input.into(), output: output.into(), ..Self::default() }
     }
 
-    /// Gives the input's projection.
+    /// Sets the input's projection.
     #[must_use]
     pub fn from(mut self, spec: Spec) -> Self {
         self.geometry.from = Some(spec);
         self
     }
 
-    /// Gives the output's projection.
+    /// Sets the output's projection.
     #[must_use]
     pub fn to(mut self, spec: Spec) -> Self {
         self.geometry.to = Some(spec);
         self
     }
 
-    /// Gives the output's size.
+    /// Sets the output's size.
     #[must_use]
     pub fn size(mut self, size: Size) -> Self {
         self.geometry.size = Some(size);
@@ -181,49 +181,49 @@ impl Conversion {
         self
     }
 
-    /// Gives the filter.
+    /// Sets the filter.
     #[must_use]
     pub fn filter(mut self, filter: FilterName) -> Self {
         self.geometry.filter = filter;
         self
     }
 
-    /// Says what becomes of directions that no view covers.
+    /// Sets the treatment of directions that no view covers.
     #[must_use]
     pub fn missing(mut self, missing: Missing) -> Self {
         self.missing = missing;
         self
     }
 
-    /// Chooses frames of a sequence.
+    /// Selects frames of a sequence.
     #[must_use]
     pub fn frames(mut self, frames: FrameList) -> Self {
         self.frames = Some(frames);
         self
     }
 
-    /// Says what becomes of outputs that exist already.
+    /// Sets the treatment of outputs that exist already.
     #[must_use]
     pub fn existing(mut self, existing: Existing) -> Self {
         self.existing = existing;
         self
     }
 
-    /// Says where the bytes of pictures come from.
+    /// Sets the source of the bytes of pictures.
     #[must_use]
     pub fn files(mut self, files: Arc<dyn Files>) -> Self {
         self.files = files;
         self
     }
 
-    /// Limits the threads to work with.
+    /// Limits the number of threads.
     #[must_use]
     pub fn threads(mut self, threads: usize) -> Self {
         self.limits.threads = Some(threads);
         self
     }
 
-    /// Limits the memory to use.
+    /// Limits the memory.
     #[must_use]
     pub fn memory(mut self, memory: MemorySize) -> Self {
         self.limits.memory = Some(memory);

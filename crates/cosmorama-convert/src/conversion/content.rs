@@ -78,7 +78,8 @@ impl Content {
         }
     }
 
-    /// Says what outputs hold where that is not light, and checks that the settings and the format go with it.
+    /// Adapts the outputs' channels and depth to content that is not light, and warns about illegible letters of a
+    /// grid.
     pub(crate) fn settle(
         self,
         settings: &Conversion,
@@ -103,7 +104,7 @@ impl Content {
         Ok(())
     }
 
-    /// Checks what must hold once all else does.
+    /// Checks the settings of an st map, after all others have been checked.
     pub(crate) fn check_last(
         self,
         settings: &Conversion,
@@ -125,7 +126,7 @@ impl Content {
     }
 }
 
-/// What is to be said of a picture of the grid that is too coarse for its letters, those in its middle.
+/// Returns the warning about a grid that is too coarse for letters in its middle.
 fn without_letters(target: &Target) -> Option<Diagnostic> {
     let TargetView { name, view, .. } = target.views.first()?;
     Grid::width_for_letters(view).map(|enough| {
@@ -142,7 +143,7 @@ fn without_letters(target: &Target) -> Option<Diagnostic> {
     })
 }
 
-/// What speaks of files means nothing for a formula.
+/// Refuses settings about input files, which have no effect on a formula.
 fn check_input_options(settings: &Conversion) -> Result<()> {
     let given: [(bool, Mark, &str); 4] = [
         (settings.geometry.from.is_some(), FROM, "it is a formula, with no projection of its own"),
@@ -158,7 +159,7 @@ fn check_input_options(settings: &Conversion) -> Result<()> {
     }
 }
 
-/// A map of directions holds no colours.
+/// Refuses settings about colours, which a map of directions does not have.
 fn check_map(settings: &Conversion, format: Format) -> Result<()> {
     let (input, output) = (&settings.input, &settings.output);
     if format != Format::Exr {
@@ -180,7 +181,7 @@ fn check_map(settings: &Conversion, format: Format) -> Result<()> {
     Ok(())
 }
 
-/// An st map holds no colours.
+/// Refuses settings about colours, which an st map does not have.
 fn check_st_map(settings: &Conversion, format: Format) -> Result<()> {
     if format != Format::Exr {
         let output = &settings.output;

@@ -19,18 +19,18 @@ use crate::output::files_read;
 use crate::settings::{GeometrySettings, LimitSettings};
 use crate::target::Picture;
 
-/// Settings of an explanation: what a conversion would do, perhaps of an input that does not exist yet.
+/// Settings of an explanation, possibly for an input that does not exist yet.
 #[derive(Clone, Debug)]
 pub struct ExplanationSettings {
-    /// The input, if there is one.
+    /// Input, if there is one.
     pub input: Option<String>,
-    /// Size of an input that does not exist yet, or of its faces; parity with the output at the centre, unless given.
+    /// Size of an input, or of its faces, that does not exist yet; as fine as the output at the centre, unless given.
     pub input_size: Option<Size>,
-    /// What light comes from where and goes where.
+    /// Projections, size, orientation and filter.
     pub geometry: GeometrySettings,
-    /// What the run may take.
+    /// Limits of threads and memory.
     pub limits: LimitSettings,
-    /// Where the bytes of pictures come from: disk, unless given.
+    /// Source of the bytes of pictures; disk by default.
     pub files: Arc<dyn Files>,
 }
 
@@ -46,20 +46,20 @@ impl Default for ExplanationSettings {
     }
 }
 
-/// What a conversion would do, picture by picture.
+/// Explanation of a conversion, picture by picture.
 pub struct Explanation {
     input: Input,
     pictures: Vec<Picture>,
     filter: FilterSettings,
     memory: MemoryBudget,
-    /// Files that are read, by where they lie.
+    /// Files that are read, by their real paths.
     files: HashSet<PathBuf>,
     pool: ThreadPool,
 }
 
 impl ExplanationSettings {
-    /// Finds the files and the pictures. An input on disk decides how large the output is; one that does not exist yet follows
-    /// the output.
+    /// Finds the files and the pictures. The size of the output follows from an existing input; the size of an input
+    /// that does not exist yet follows from the output.
     pub fn check(&self) -> Outcome<Explanation> {
         let mut diagnostics = Vec::new();
         let result = threads(self.limits.threads)
@@ -126,15 +126,15 @@ impl Explanation {
         &self.pictures
     }
 
-    /// Returns the files that are read, by where they lie.
+    /// Returns the files that are read, by their real paths.
     pub fn files(&self) -> &HashSet<PathBuf> {
         &self.files
     }
 
-    /// Computes the worlds of whole pictures, whether their files are there or not: one, or one for each eye.
+    /// Computes the worlds of whole pictures, even if files are missing: one, or one for each eye.
     ///
     /// # Errors
-    /// When they or the pictures need more memory than may be used, or views cannot be a world.
+    /// When they or the pictures need more memory than permitted, or the views do not make a world.
     pub fn worlds(&self) -> Result<Vec<World>> {
         self.memory.check_sizes(self.pictures.iter().map(|picture| (picture.view.width(), picture.view.height())))?;
         self.pool.install(|| whole_worlds(&self.input, self.memory))

@@ -20,30 +20,30 @@ use crate::target::{Target, TargetView, told_of_shape};
 
 /// A conversion, ready to run.
 pub(crate) struct ConvertJob {
-    /// Where bytes of pictures come from.
+    /// Source of the bytes of pictures.
     pub(crate) files: Arc<dyn Files>,
-    /// Where light comes from; nothing, where it is a formula.
+    /// Input; empty for a formula.
     pub(crate) input: Input,
-    /// Its geometry: one world, or one for each eye.
+    /// Geometry of the input: one world, or one for each eye.
     pub(crate) worlds: Vec<World>,
-    /// Where it goes.
+    /// Pictures to make.
     pub(crate) target: Target,
-    /// How.
+    /// Filter.
     pub(crate) filter: FilterSettings,
-    /// How code values relate to light on both sides, and what the outputs hold.
+    /// Transfer functions of both sides, and the outputs' channels and depth.
     pub(crate) light: Light,
-    /// The outputs to be made, frame by frame.
+    /// Outputs to make, by frame.
     pub(crate) outputs: Outputs,
-    /// What no view covers, where that is to be filled.
+    /// Treatment of pixels that no view covers.
     pub(crate) coverage: Coverage,
-    /// What becomes of directions without light.
+    /// Requested treatment of directions without light.
     missing: Missing,
-    /// What may be used.
+    /// Memory budget.
     pub(crate) memory: MemoryBudget,
 }
 
 impl ConvertJob {
-    /// Resolves settings and checks everything that can be checked without decoding a pixel.
+    /// Resolves the settings and checks everything that can be checked without decoding pixels.
     pub(crate) fn resolve(settings: &Conversion, content: Content, warnings: &mut Vec<Diagnostic>) -> Result<Self> {
         let memory = MemoryBudget::new(settings.limits.memory);
         let file = content.has_files().then_some(settings.input.as_str());
@@ -88,7 +88,7 @@ impl ConvertJob {
         Ok(job)
     }
 
-    /// Finds out whether the input covers the output, and whether memory suffices.
+    /// Checks that the input covers the output, and that memory suffices.
     fn cover(&mut self, warnings: &mut Vec<Diagnostic>) -> Result<()> {
         let Self { input, target, filter, memory, .. } = self;
         let whole = whole_worlds(input, *memory)?;
@@ -103,17 +103,17 @@ impl ConvertJob {
         Ok(())
     }
 
-    /// The conversion to one of the target's views.
+    /// Returns the resampler for one of the target's views.
     pub(crate) fn resampler<'a>(&'a self, target: &'a TargetView) -> Resampler<'a> {
         Resampler { world: self.world(target), target: &target.view, filter: self.filter }
     }
 
-    /// What a target shows.
+    /// Returns the world that a target shows.
     pub(crate) fn world(&self, target: &TargetView) -> &World {
         &self.worlds[target.world(self.worlds.len())]
     }
 
-    /// What pixels without light get; `None` where they are an error.
+    /// Returns the fill colour of pixels without light; `None` if they are an error.
     pub(crate) fn fill_for_missing(&self) -> Option<Rgba> {
         match self.missing {
             Missing::Error => None,

@@ -1,4 +1,4 @@
-//! Maps that are made in another shape than their own.
+//! Maps in another shape than their natural one.
 
 use cosmorama::camera::CameraModel;
 use cosmorama_spec::{Shape, Size, Spec};
@@ -8,7 +8,7 @@ use crate::input::canvas::is_near;
 use crate::settings::GeometrySettings;
 use crate::target::Target;
 
-/// What should be known where nobody said that pixels are not to be square: as an input such a map is refused.
+/// Returns a warning if pixels are not square although nobody asked for that: such a map is refused as an input.
 pub(crate) fn warning(geometry: &GeometrySettings, target: &Target) -> Option<Diagnostic> {
     let Some(Spec { name, shape: Shape::Single(single), stereo: None, .. }) = &geometry.to else { return None };
     let Some(Size { height: Some(_), .. }) = geometry.size else { return None };

@@ -1,4 +1,4 @@
-//! What GPano metadata say of panoramas that are written.
+//! GPano metadata of panoramas that are written.
 
 use cosmorama::camera::{CameraModel, Canvas, EquirectCamera, Mirror, Placement, SamplePositions};
 use cosmorama::sphere::Angle;
@@ -9,7 +9,7 @@ use crate::diagnostic::{Code, Diagnostic, SIZE};
 use crate::settings::GeometrySettings;
 use crate::target::Target;
 
-/// What they say of a panorama of 360°×180°, or of a window of one, of so many columns and rows.
+/// Returns the metadata of a panorama of 360°×180°, or of a window of one, of so many columns and rows.
 pub(crate) fn window(single: &Single, (width, height): (usize, usize)) -> Option<Window> {
     let frame = described(single)?;
     let part = single.placement.canvas.unwrap_or(Canvas { width, height, left: 0, top: 0 });
@@ -27,14 +27,14 @@ pub(crate) fn window(single: &Single, (width, height): (usize, usize)) -> Option
     })
 }
 
-/// The panorama, if it is one of those that they have words for.
+/// Returns the panorama if GPano can describe it.
 fn described(single: &Single) -> Option<EquirectCamera> {
     let Placement { frame: CameraModel::Equirect(frame), mirror, .. } = single.placement else { return None };
     (frame.samples == SamplePositions::Centres && mirror == Mirror::default()).then_some(frame)
 }
 
-/// The pixels of all degrees of which so many pixels are a field of view, and those before it; `None` where they are no
-/// whole numbers, which is all that the metadata hold.
+/// Returns the pixels of the full angle, and those before the picture, where `pixels` span the field of view. `None` if
+/// they are not whole numbers, because the metadata holds only those.
 fn around(pixels: usize, field_of_view: Angle, degrees: f64) -> Option<(usize, i64)> {
     let exact = pixels as f64 * degrees / field_of_view.degrees();
     let whole = exact.round();
@@ -43,7 +43,8 @@ fn around(pixels: usize, field_of_view: Angle, degrees: f64) -> Option<(usize, i
     (is_whole && before >= 0 && before % 2 == 0).then_some((whole as usize, before / 2))
 }
 
-/// What should be known where a part of a panorama goes into a file that could say which, but not of this one.
+/// Returns a warning if a part of a panorama is written to a format with GPano metadata, but this size cannot be
+/// described.
 pub(crate) fn warning(geometry: &GeometrySettings, target: &Target) -> Option<Diagnostic> {
     let Some(Spec { shape: Shape::Single(single), stereo: None, .. }) = &geometry.to else { return None };
     let frame = described(single)?;
@@ -63,10 +64,10 @@ pub(crate) fn warning(geometry: &GeometrySettings, target: &Target) -> Option<Di
     Some(Diagnostic::warning(Code::Panorama, message).about(&output.name))
 }
 
-/// Sizes further away are other pictures.
+/// Greatest difference to a suggested size.
 const FURTHEST: usize = 1024;
 
-/// The size next to a width of which there are metadata.
+/// Returns the size nearest to a width for which there is metadata.
 fn near(single: &Single, width: usize) -> Option<(usize, usize)> {
     let frame = &single.placement.frame;
     let widths = (0..FURTHEST.min(width)).flat_map(|off| [width + off, width - off]);

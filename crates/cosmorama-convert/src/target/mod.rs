@@ -1,4 +1,4 @@
-//! What is made: pictures of a projection, laid into files.
+//! Targets: pictures of a projection, laid out in files.
 
 pub(crate) mod aspect;
 pub(crate) mod gpano;
@@ -11,7 +11,7 @@ pub(crate) use sheets::{Sheet, Target, TargetFile, TargetView};
 use crate::diagnostic::Diagnostic;
 use crate::settings::GeometrySettings;
 
-/// What should be known of an output's shape.
+/// Returns the warnings about an output's shape.
 pub(crate) fn told_of_shape(geometry: &GeometrySettings, target: &Target) -> Option<Diagnostic> {
     aspect::warning(geometry, target).or_else(|| gpano::warning(geometry, target))
 }

@@ -13,28 +13,28 @@ use crate::input::{EyePart, Piece, Place};
 use crate::settings::GeometrySettings;
 use crate::target::gpano;
 
-/// The geometry of an image to make.
+/// An image to make, with its geometry and its role.
 #[derive(Clone, Debug)]
 pub struct Picture {
-    /// The face of a cube that it is.
+    /// Face of the cube, if it is one.
     pub face: Option<CubeFace>,
-    /// What it is of an image that it shares with others, or of a cube.
+    /// Name of its part in an image that it shares with others, or in a cube.
     pub part: Option<&'static str>,
-    /// Whose picture it is, where there are two.
+    /// Eye, if there are two.
     pub eye: Option<Eye>,
-    /// The geometry.
+    /// Geometry of the image.
     pub view: View,
-    /// Where it lies in an image that it shares with others.
+    /// Place in an image that it shares with others.
     pub place: Option<Place>,
-    /// What the file says that it is a picture of.
+    /// Environment map that the file declares.
     pub envmap: Option<EnvMap>,
-    /// The panorama of which it is a part or all.
+    /// Whole panorama of which it is a part, or all.
     pub panorama: Option<Window>,
 }
 
 impl Picture {
-    /// The images that `--to`, `--size` and the orientation stand for, in one file of a format, or in files of their own.
-    /// Without a size, the centre gets so many pixels a radian.
+    /// Returns the images for `--to`, `--size` and the orientation, in one file of a format or in files of their own.
+    /// Without a size, the centre gets so many pixels per radian.
     pub(crate) fn all(
         geometry: &GeometrySettings,
         format: Option<Format>,
@@ -52,7 +52,7 @@ impl Picture {
         }
     }
 
-    /// Lays out the pictures of both eyes, each in its place, squeezed where the packing asks for it.
+    /// Lays out the pictures of both eyes, squeezed if the packing requires it.
     fn stereo(stereo: StereoSpec, geometry: &GeometrySettings, pixels_per_radian: Option<f64>) -> Result<Vec<Self>> {
         if let Some(eye) = stereo.eye {
             return Err(usage(format!("{TO}: eye={} is for inputs; an output with stereo= has both eyes", eye.name())));
@@ -64,14 +64,14 @@ impl Picture {
         both.map(|(eye, picture)| eye_picture(EyePart { stereo: stereo.packing, eye }, picture)).collect()
     }
 
-    /// What messages call it, if it is not all that there is.
+    /// Returns its name in messages; `None` if it is the only one.
     pub fn label(&self) -> Option<String> {
         let eye = self.eye.map(|eye| format!("{}-eye", eye.name()));
         let parts: Vec<String> = eye.into_iter().chain(self.part.map(str::to_owned)).collect();
         (!parts.is_empty()).then(|| parts.join("-"))
     }
 
-    /// The index of the world that it shows, of so many.
+    /// Returns the index of the world that it shows, among so many.
     pub fn world(&self, count: usize) -> usize {
         world_of(self.eye, count)
     }
@@ -128,7 +128,7 @@ impl Picture {
         check_any(pictures)
     }
 
-    /// The faces of a cube in one image.
+    /// Lays out the faces of a cube in one image.
     fn sheet(
         cube: &Cube,
         layout: &CubeLayout,
@@ -149,7 +149,7 @@ impl Picture {
         check_any(pictures.collect::<Result<_>>()?)
     }
 
-    /// Two fisheyes in one image.
+    /// Lays out two fisheyes in one image.
     fn lenses(dual: &Dual, geometry: &GeometrySettings, pixels_per_radian: Option<f64>) -> Result<Vec<Self>> {
         let of = lens_image_size(dual, geometry.size, pixels_per_radian, TO)?;
         let pieces = Piece::lenses(dual, of).map_err(|error| usage(format!("{TO}: {error}")))?;
@@ -167,7 +167,7 @@ impl Picture {
     }
 }
 
-/// The index of the world that an eye sees, of so many.
+/// Returns the index of the world that an eye sees, among so many.
 pub(crate) fn world_of(eye: Option<Eye>, count: usize) -> usize {
     if eye == Some(Eye::Right) { count.saturating_sub(1) } else { 0 }
 }
@@ -183,12 +183,12 @@ fn check_any(pictures: Vec<Picture>) -> Result<Vec<Picture>> {
     Ok(pictures)
 }
 
-/// How faces are named and lie, unless told: in words.
+/// Returns the naming of faces: in words, unless given.
 pub(crate) fn naming(cube: &Cube) -> &'static Naming {
     cube.naming.unwrap_or(&Naming::presets()[0])
 }
 
-/// The layout and order that a format has of its own for a cube in one file.
+/// Returns the layout and order of a format's own cube files.
 pub(crate) fn own_layout(format: Format) -> Option<(LayoutKind, Option<FaceOrder>)> {
     match format {
         Format::Exr => Some((LayoutKind::StripV, Some(FaceOrder::OPENEXR))),
@@ -197,7 +197,7 @@ pub(crate) fn own_layout(format: Format) -> Option<(LayoutKind, Option<FaceOrder
     }
 }
 
-/// What a format has of its own, where nothing else is asked for.
+/// Completes a cube by the format's own layout, unless another is given.
 fn completed(cube: &Cube, format: Option<Format>) -> Cube {
     match (cube.layout, format.and_then(own_layout)) {
         (None, Some((kind, order))) => {
@@ -220,7 +220,7 @@ fn single_view(single: &Single, geometry: &GeometrySettings, pixels_per_radian: 
     placement.view(width, height).map_err(|error| usage(format!("{TO}: {error}")))
 }
 
-/// OpenEXR's environment maps have their samples on the edges and show the whole sphere.
+/// Returns OpenEXR's environment map for a whole panorama with samples on the edges.
 fn panorama_envmap(single: &Single) -> Option<EnvMap> {
     let CameraModel::Equirect(frame) = single.placement.frame else { return None };
     let whole = frame.horizontal.degrees() > 359.999 && frame.vertical.degrees() > 179.999;
@@ -229,7 +229,7 @@ fn panorama_envmap(single: &Single) -> Option<EnvMap> {
     (whole && by_format && upright).then_some(EnvMap::LatLong)
 }
 
-/// Whether six whole faces lie as the format's own cubes have them.
+/// Returns the format's own environment map, if six whole faces lie as it requires.
 fn cube_envmap(cube: &Cube, format: Option<Format>) -> Option<EnvMap> {
     let (kind, order) = own_layout(format?)?;
     let own = Cube { layout: Some(Packing::OneImage(kind)), order, ..Cube::default() };
@@ -241,7 +241,7 @@ fn cube_envmap(cube: &Cube, format: Option<Format>) -> Option<EnvMap> {
     same.then_some(envmap)
 }
 
-/// The picture of an eye, in its place in an image for both.
+/// Places the picture of an eye in an image for both.
 fn eye_picture(part: EyePart, picture: &Picture) -> Result<Picture> {
     let size = (picture.view.width(), picture.view.height());
     let Place { corner, of } = picture.place.unwrap_or(Place::whole(size));

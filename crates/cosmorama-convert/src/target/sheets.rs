@@ -13,16 +13,16 @@ use crate::target::picture::world_of;
 
 /// An image to make.
 pub(crate) struct TargetView {
-    /// What messages call it.
+    /// Name in messages.
     pub(crate) name: String,
-    /// Its geometry.
+    /// Geometry.
     pub(crate) view: View,
-    /// Whose picture it is, where there are two.
+    /// Eye, if there are two.
     pub(crate) eye: Option<Eye>,
 }
 
 impl TargetView {
-    /// The index of the world that it shows, of so many: a picture for the right eye shows the second where there are two.
+    /// Returns the index of the world that it shows, among so many; the right eye's picture shows the second of two.
     pub(crate) fn world(&self, count: usize) -> usize {
         world_of(self.eye, count)
     }
@@ -30,45 +30,45 @@ impl TargetView {
 
 /// A file to make.
 pub(crate) struct TargetFile {
-    /// Its name, frame by frame.
+    /// Name, by frame.
     pub(crate) files: ViewFiles,
-    /// Its picture.
+    /// Picture.
     pub(crate) sheet: Sheet,
-    /// The smaller copies of that, each half as large as the one before.
+    /// Mip levels, each half as large as the one before.
     pub(crate) mips: Vec<Sheet>,
 }
 
-/// A picture of one image, or of the faces of a cube laid into it.
+/// A picture of one image, or of several images laid into it.
 pub(crate) struct Sheet {
-    /// Its columns and rows.
+    /// Columns and rows.
     pub(crate) size: (usize, usize),
-    /// The images in it, by their index, each with the place of its first column and row.
+    /// Images by index, each with the place of its first column and row.
     pub(crate) pieces: Vec<(usize, (usize, usize))>,
 }
 
 impl TargetFile {
-    /// Its picture and the smaller copies.
+    /// Visits its picture and its mip levels.
     pub(crate) fn levels(&self) -> impl Iterator<Item = &Sheet> {
         std::iter::once(&self.sheet).chain(&self.mips)
     }
 }
 
-/// Everything that light goes to.
+/// Everything that a conversion makes for a frame.
 pub(crate) struct Target {
-    /// The images of a frame: one, or the faces of a cube.
+    /// Images of a frame: one, or the faces of a cube.
     pub(crate) views: Vec<TargetView>,
-    /// The files of a frame.
+    /// Files of a frame.
     pub(crate) files: Vec<TargetFile>,
-    /// The file format.
+    /// File format.
     pub(crate) format: Format,
-    /// What the files say that they are pictures of.
+    /// Environment map that the files declare.
     pub(crate) envmap: Option<EnvMap>,
-    /// The panorama of which the file is a part or all.
+    /// Whole panorama of which the file is a part, or all.
     pub(crate) panorama: Option<Window>,
 }
 
 impl Target {
-    /// Checks what an output's name says against `--to`.
+    /// Checks that an output's name is consistent with `--to`.
     pub(crate) fn check_names(output: &str, geometry: &GeometrySettings) -> Result<Format> {
         let format = Format::from_extension(Path::new(output)).map_err(|error| usage(error.to_string()))?;
         let faces = FacePattern::parse(output).is_some();
@@ -92,8 +92,8 @@ impl Target {
         }
     }
 
-    /// The images that an output's name, its projection and the size stand for. Without a size, the centre gets so many
-    /// pixels a radian.
+    /// Returns the target for an output's name, its projection and size. Without a size, the centre gets so many pixels
+    /// per radian.
     pub(crate) fn resolve(output: &str, geometry: &GeometrySettings, pixels_per_radian: Option<f64>) -> Result<Self> {
         let format = Self::check_names(output, geometry)?;
         let container = FacePattern::parse(output).is_none().then_some(format);
@@ -141,7 +141,7 @@ impl Target {
 
     /// Adds the mip levels of its cube, down to faces of one pixel.
     ///
-    /// Each level is what the conversion gives at its size, so that its faces meet at the edges as the largest do.
+    /// Each level is converted at its own size, so that its faces match at the edges like the largest ones.
     pub(crate) fn with_mips(mut self, output: &str, geometry: &GeometrySettings) -> Result<Self> {
         if !self.format.holds_levels() {
             return Err(usage(format!(
@@ -164,18 +164,19 @@ impl Target {
         Ok(self)
     }
 
-    /// Whether there is a picture for each eye.
+    /// Returns whether there is a picture for each eye.
     pub(crate) fn is_stereo(&self) -> bool {
         self.views.iter().any(|target| target.eye.is_some())
     }
 
-    /// The images that show a world, of one or of two.
+    /// Returns the images that show a world, among one or two.
     pub(crate) fn of_world(&self, index: usize, count: usize) -> Vec<&TargetView> {
         self.views.iter().filter(|target| target.world(count) == index).collect()
     }
 }
 
-/// What looks like a marker and is none would become a file's name. Folders that are there may be called as they like.
+/// Refuses names that contain an invalid marker, which would become part of a file's name. Existing folders may have
+/// any name.
 fn check_markers(output: &str) -> Result<()> {
     let path = Path::new(output);
     let is_in_folder = path.parent().is_some_and(Path::is_dir);
@@ -191,7 +192,7 @@ fn check_markers(output: &str) -> Result<()> {
     }
 }
 
-/// The faces of a cube go into files of their own, or into one whose layout is known.
+/// Checks that the faces of a cube go into files of their own, or into one file with a known layout.
 fn check_cube(output: &str, faces: bool, cube: &Cube, stereo: bool, format: Format) -> Result<Format> {
     match (faces, cube.layout) {
         (true, Some(Packing::OneImage(kind))) => Err(usage(format!(

@@ -1,4 +1,4 @@
-//! Hugin projects: each picture is a view, and the p-line says what comes of them unless told.
+//! Hugin projects: each picture is a view, and the p-line is the default output.
 
 use std::path::Path;
 
@@ -14,10 +14,10 @@ use crate::diagnostic::{Code, Diagnostic, InPlace, Result, SIZE, TO, failure, us
 use crate::input::{Access, Input, InputView, Listed, Place, ViewFiles};
 use crate::settings::GeometrySettings;
 
-/// Degrees over which pictures of a project fade into each other.
+/// Degrees over which pictures of a project blend.
 const FEATHER: f64 = 3.0;
 
-/// Whether an input names a Hugin project.
+/// Returns whether an input names a Hugin project.
 pub(crate) fn is_project(pattern: &str) -> bool {
     Path::new(pattern).extension().is_some_and(|extension| extension.eq_ignore_ascii_case("pto"))
 }
@@ -33,7 +33,7 @@ pub(crate) fn find(name: &str, access: Access, warnings: &mut Vec<Diagnostic>) -
     Ok(Input { worlds: vec![views], frames: vec![None], faces: None, beside: vec![name.into()] })
 }
 
-/// Each picture of a project by itself.
+/// Returns each picture of a project by itself.
 pub(crate) fn listed(name: &str, access: Access, warnings: &mut Vec<Diagnostic>) -> Result<Vec<Listed>> {
     let images = PtoProject::read(Path::new(name))?.images;
     let views = find(name, access, warnings)?.worlds.into_iter().flatten();
@@ -46,7 +46,7 @@ pub(crate) fn listed(name: &str, access: Access, warnings: &mut Vec<Diagnostic>)
     Ok(images.into_iter().zip(views).map(list).collect())
 }
 
-/// What is made of a project where the command line does not say.
+/// Completes projection and size from a project's p-line, where they are not given.
 pub(crate) fn complete(input: &str, geometry: &GeometrySettings) -> Result<GeometrySettings> {
     let mut geometry = geometry.clone();
     if !is_project(input) || geometry.to.is_some() {
@@ -123,7 +123,7 @@ fn view(folder: &Path, image: &PtoImage, access: Access) -> Result<InputView> {
     })
 }
 
-/// The part of a picture that counts.
+/// Visible part of a picture.
 struct Part {
     corner: (usize, usize),
     size: (usize, usize),
@@ -145,7 +145,7 @@ impl Part {
     }
 }
 
-/// What masks and a round crop leave of a picture.
+/// Returns the shapes of a picture's masks and of a round crop.
 fn shapes(image: &PtoImage) -> Vec<MaskShape> {
     let hole =
         |corners: &Vec<[f64; 2]>| MaskShape::Hole(corners.iter().map(|[x, y]| PixelPoint::new(*x, *y)).collect());
@@ -156,10 +156,10 @@ fn shapes(image: &PtoImage) -> Vec<MaskShape> {
     image.holes.iter().map(hole).chain(circle).collect()
 }
 
-/// A fisheye whose crop is round.
+/// Lens number of a fisheye with a round crop.
 const CIRCULAR: u32 = 2;
 
-/// The lens of an i-line's f.
+/// Returns the lens of an i-line's f.
 fn lens(f: u32) -> Result<HuginProjection> {
     HuginProjection::of_lens(f).ok_or_else(|| {
         let name = match f {
@@ -172,7 +172,7 @@ fn lens(f: u32) -> Result<HuginProjection> {
     })
 }
 
-/// The frame of the p-line's f.
+/// Returns the camera model of the p-line's f.
 fn output_frame(panorama: &PtoPanorama) -> Result<CameraModel, String> {
     let field_of_view = Angle::from_degrees(panorama.field_of_view);
     let f = panorama.projection;
@@ -186,7 +186,7 @@ fn output_frame(panorama: &PtoPanorama) -> Result<CameraModel, String> {
     Ok(CameraModel::Hugin(HuginCamera { projection, field_of_view, correction: [0.0; 3], shift: [0.0; 2] }))
 }
 
-/// Maps of the world come whole or not at all.
+/// Returns whether the panorama is the whole world, as maps of the world must be.
 fn is_whole_world(panorama: &PtoPanorama) -> bool {
     let (width, height) = panorama.size;
     panorama.field_of_view >= 360.0 && width == 2 * height
