@@ -71,7 +71,7 @@ fn text(path: &Path) -> Result<String, CalibrationError> {
     String::from_utf8(bytes).map_err(|_| wrong("not a text; expected OpenCV's YAML, JSON or XML, or OCamCalib's text"))
 }
 
-/// A list of numbers, all of them finite.
+/// Parses a list of finite numbers.
 fn numbers<'a>(what: &str, words: impl IntoIterator<Item = &'a str>) -> Result<Vec<f64>, String> {
     let number = |word: &str| match word.parse::<f64>() {
         Ok(number) if number.is_finite() => Ok(number),
@@ -80,7 +80,7 @@ fn numbers<'a>(what: &str, words: impl IntoIterator<Item = &'a str>) -> Result<V
     words.into_iter().map(number).collect()
 }
 
-/// Numbers as a message shows them: the first, and how many.
+/// Formats numbers for a message: the first ones, and how many there are.
 fn brief(numbers: &[f64]) -> String {
     const SHOWN: usize = 9;
     match numbers.get(..SHOWN) {
@@ -89,7 +89,7 @@ fn brief(numbers: &[f64]) -> String {
     }
 }
 
-/// Columns and rows: whole numbers above zero that an image may have.
+/// Converts a number of columns or rows: whole, above zero, and possible for an image.
 fn side(what: &str, number: f64) -> Result<usize, String> {
     if (1.0..=f64::from(u32::MAX)).contains(&number) && number.fract() == 0.0 {
         return Ok(number as usize);

@@ -1,15 +1,15 @@
 use super::{Calibration, Distortion, brief, numbers, side};
 
-/// The most coefficients that are read: more have no meaning at double precision.
+/// Largest number of coefficients that are read; more have no effect in double precision.
 const MOST: usize = 8;
 
-/// Whether a text is OCamCalib's `calib_results.txt`: comments that name what follows.
+/// Returns whether a text is OCamCalib's `calib_results.txt`, by the comments that introduce its parts.
 pub(super) fn is_ocam(text: &str) -> bool {
     text.lines().any(|line| line.starts_with('#') && line.contains("polynomial coefficients for the DIRECT mapping"))
 }
 
-/// Four or five lines of numbers in this order: the polynomial and its inverse, each after its count, the centre (row and
-/// column from 0), c d e of the affine matrix, the image's height and width.
+/// Parses the lines of numbers, in this order: the polynomial and its inverse, each after its count; the centre (row
+/// and column from 0); c, d and e of the affine matrix; the image's height and width.
 pub(super) fn parse(text: &str) -> Result<Calibration, String> {
     let mut lines = text.lines().map(str::trim).filter(|line| !line.is_empty() && !line.starts_with('#'));
     let mut line = |what: &str| {
@@ -31,7 +31,7 @@ pub(super) fn parse(text: &str) -> Result<Calibration, String> {
     Ok(Calibration { distortion: Distortion::Ocam(polynomial), matrix, size: Some(size) })
 }
 
-/// As many numbers as the first of them says.
+/// Reads as many numbers as the first of them says.
 fn counted(what: &str, numbers: &[f64]) -> Result<Vec<f64>, String> {
     match numbers.split_first() {
         Some((count, rest)) if *count == rest.len() as f64 && !rest.is_empty() => Ok(rest.to_vec()),

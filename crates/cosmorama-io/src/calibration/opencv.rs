@@ -1,11 +1,11 @@
 use super::words::Words;
 use super::{Calibration, Distortion, brief, numbers, side};
 
-/// What writers call the camera matrix.
+/// Names of the camera matrix in various files.
 const MATRIX: [&str; 7] =
     ["cameramatrix", "intrinsicmatrix", "intrinsicsmatrix", "k", "mtx", "cameramatrix1", "intrinsics"];
 
-/// And the coefficients.
+/// Names of the distortion coefficients.
 const COEFFICIENTS: [&str; 8] = [
     "distortioncoefficients",
     "distcoeffs",
@@ -17,13 +17,13 @@ const COEFFICIENTS: [&str; 8] = [
     "distortioncoefficients1",
 ];
 
-/// A stereo file has two of them.
+/// Names that only a stereo calibration has, which describes two cameras.
 const SECOND: [&str; 6] = ["m2", "k2", "d2", "cameramatrix2", "distcoeffs2", "distortioncoefficients2"];
 
-/// The lengths of OpenCV's vectors; the last has a tilted sensor.
+/// Lengths of OpenCV's coefficient vectors; the last includes a tilted sensor.
 const LENGTHS: [usize; 5] = [4, 5, 8, 12, 14];
 
-/// The calibration that OpenCV's `FileStorage`, its samples, ROS and common scripts write.
+/// Interprets a calibration as written by OpenCV's `FileStorage`, its samples, ROS and common scripts.
 pub(super) fn interpret(words: &Words) -> Result<Calibration, String> {
     if let Some((name, _)) = words.find(&SECOND) {
         return Err(format!("the calibration of two cameras ({name}); give each camera a file of its own"));
@@ -43,7 +43,7 @@ pub(super) fn interpret(words: &Words) -> Result<Calibration, String> {
     Ok(Calibration { distortion: Distortion::OpenCv { coefficients, is_fisheye }, matrix, size: size(words)? })
 }
 
-/// The first two rows; the last is 0, 0, 1.
+/// Returns the first two rows of the matrix; the last must be 0, 0, 1.
 fn matrix(name: &str, numbers: &[f64]) -> Result<[[f64; 3]; 2], String> {
     let [a, b, c, d, e, f, 0.0, 0.0, 1.0] = numbers[..] else {
         return Err(format!("{name} is {}; expected fx, skew, cx, 0, fy, cy, 0, 0, 1", brief(numbers)));
@@ -54,7 +54,7 @@ fn matrix(name: &str, numbers: &[f64]) -> Result<[[f64; 3]; 2], String> {
     Ok([[a, b, c], [d, e, f]])
 }
 
-/// Samples and ROS say which model it is; OpenCV's own files do not.
+/// Returns whether the file names the fisheye model; `None` if it names no model, as OpenCV's own files do.
 fn is_fisheye(words: &Words) -> Result<Option<bool>, String> {
     let word = |name: &str| words.find(&[name]).and_then(|(_, words)| words.first().copied());
     if let Some(model) = word("distortionmodel") {

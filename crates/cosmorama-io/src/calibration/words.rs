@@ -1,4 +1,4 @@
-/// A file of names and values, nested or not, laid flat: the words under each path of names.
+/// The content of a file of names and values, nested or not: the words under each path of names.
 #[derive(Debug, Default, PartialEq)]
 pub(super) struct Words(Vec<(String, Vec<String>)>);
 
@@ -12,8 +12,8 @@ impl Words {
         }
     }
 
-    /// The words under the first of some names that is there, or under its `data`, wherever it is nested; names as
-    /// [`name`] has them.
+    /// Finds the words under the first of some names that occurs, or under its `data`, at any depth. Names are
+    /// normalised as by [`name`].
     pub(super) fn find(&self, names: &[&str]) -> Option<(&str, Vec<&str>)> {
         let is = |path: &str, name: &str| {
             let path = path.strip_suffix(".data").unwrap_or(path);
@@ -24,13 +24,13 @@ impl Words {
     }
 }
 
-/// Bytes of the longest name.
+/// Greatest length of a name in bytes.
 const LONGEST: usize = 256;
 
-/// A name without what writers differ in: `cameraMatrix`, `camera_matrix` and `Camera_Matrix` are one.
+/// Normalises a name: `cameraMatrix`, `camera_matrix` and `Camera_Matrix` become equal.
 ///
 /// # Errors
-/// Where it is so long that it is none: each word repeats the names that it is under.
+/// When the name is too long. Each word repeats the names above it, so that long names would take much memory.
 pub(super) fn name(text: &str) -> Result<String, String> {
     if text.len() > LONGEST {
         return Err(format!("a name of {} bytes; expected a calibration's names", text.len()));

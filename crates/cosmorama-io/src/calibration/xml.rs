@@ -2,10 +2,10 @@ use roxmltree::{Document, Node};
 
 use super::words::{Words, name};
 
-/// Deeper nested is no calibration.
+/// Greatest depth of nesting.
 const DEEPEST: usize = 64;
 
-/// The words of an XML file, by the elements that they are in.
+/// Returns the words of an XML file, by their elements.
 pub(super) fn words(text: &str) -> Result<Words, String> {
     let document = Document::parse(text.trim_start_matches('\u{feff}').trim_start())
         .map_err(|error| format!("no XML: {error}"))?;

@@ -2,10 +2,10 @@ use yaml_rust2::parser::{Event, Parser};
 
 use super::words::{Words, name};
 
-/// Deeper nested is no calibration.
+/// Greatest depth of nesting.
 const DEEPEST: usize = 64;
 
-/// What of a YAML (or JSON) file is open.
+/// An open collection of a YAML (or JSON) file.
 enum Open {
     Sequence,
     /// A mapping, and whether its next scalar is a name.
@@ -14,7 +14,7 @@ enum Open {
     },
 }
 
-/// The words of a YAML file; a JSON file is one.
+/// Returns the words of a YAML file; a JSON file is one, too.
 pub(super) fn words(text: &str) -> Result<Words, String> {
     let mut reader = Reader::default();
     let body = without_directive(text);
@@ -28,7 +28,7 @@ pub(super) fn words(text: &str) -> Result<Words, String> {
     }
 }
 
-/// OpenCV begins its files with `%YAML:1.0`, which is no YAML.
+/// Replaces OpenCV's first line `%YAML:1.0`, which is not valid YAML.
 fn without_directive(text: &str) -> String {
     match text.split_once('\n') {
         Some((first, rest)) if first.starts_with("%YAML:") => format!("\n{rest}"),
@@ -40,7 +40,7 @@ fn without_directive(text: &str) -> String {
 struct Reader {
     words: Words,
     open: Vec<Open>,
-    /// The names that lead to what is open, one for each mapping.
+    /// Names of the open mappings, from the outermost to the innermost.
     path: Vec<String>,
 }
 

@@ -73,7 +73,7 @@ impl Codec for Jpeg {
     }
 }
 
-/// A segment with an XMP packet, for which the encoder has no words.
+/// Returns a segment with an XMP packet, which the encoder cannot write itself.
 fn xmp_segment(packet: &str) -> Vec<u8> {
     const NAME: &[u8] = b"http://ns.adobe.com/xap/1.0/\0";
     // A packet has a few hundred bytes; a segment can have 65533.
@@ -81,7 +81,7 @@ fn xmp_segment(packet: &str) -> Vec<u8> {
     [&[0xff, 0xe1], &length.to_be_bytes()[..], NAME, packet.as_bytes()].concat()
 }
 
-/// Where the mark of the beginning ends, and the JFIF segment, which must be the first.
+/// Returns the end of the start mark and of the JFIF segment, which must come first.
 fn end_of_jfif(bytes: &[u8]) -> usize {
     match bytes {
         [_, _, 0xff, 0xe0, high, low, ..] => bytes.len().min(4 + usize::from(u16::from_be_bytes([*high, *low]))),
@@ -95,8 +95,8 @@ fn whole(path: &Path, source: Source<'_>) -> Result<Vec<u8>, IoError> {
     Ok(bytes)
 }
 
-/// Whether the last scan has an end mark: the decoder forgives a scan that lacks only its last few blocks. Inside
-/// a scan neither mark can occur.
+/// Returns whether the last scan has an end mark, because the decoder tolerates a scan that lacks its last few blocks.
+/// Inside a scan neither mark can occur.
 fn ends(bytes: &[u8]) -> bool {
     const START_OF_SCAN: [u8; 2] = [0xff, 0xda];
     const END_OF_IMAGE: [u8; 2] = [0xff, 0xd9];
@@ -115,7 +115,7 @@ fn decoder<T: ZByteReaderTrait>(path: &Path, source: T) -> Result<JpegDecoder<T>
     Ok(decoder)
 }
 
-/// One line of what the decoder says, which may be many.
+/// Returns the first line of the decoder's message, which may have many.
 fn reason(error: &zune_jpeg::errors::DecodeErrors) -> String {
     let text = format!("{error:?}");
     text.lines().next().unwrap_or_default().trim().to_owned()

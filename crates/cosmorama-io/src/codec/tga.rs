@@ -58,7 +58,7 @@ fn decoder<'a>(path: &Path, source: Source<'a>) -> Result<TgaDecoder<Source<'a>>
     TgaDecoder::new(source).map_err(|error| IoError::damaged(path, FORMAT, error))
 }
 
-/// The number of alpha bits that the header declares.
+/// Returns the number of alpha bits that the header declares.
 fn alpha_bits(path: &Path, source: Source<'_>) -> Result<u8, IoError> {
     let mut start = [0; 18];
     source.read_exact(&mut start).map_err(|_| IoError::damaged(path, FORMAT, "it ends too early"))?;

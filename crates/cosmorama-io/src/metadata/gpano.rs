@@ -2,19 +2,19 @@ use roxmltree::{Document, Node};
 
 use crate::Window;
 
-/// Adobe's XMP packets say in words of Google's that a photograph is a panorama, and which part of one.
+/// Namespace of Google's XMP properties, which declare that a photograph is a panorama, and which part of one.
 const NAMESPACE: &str = "http://ns.google.com/photos/1.0/panorama/";
 
-/// What a packet says.
+/// Content of a packet.
 #[derive(Debug, Default, PartialEq)]
 pub(crate) struct Said {
-    /// The part of an equirectangular panorama of 360°×180° that the picture is.
+    /// Part of an equirectangular panorama of 360°×180° that the picture is.
     pub(crate) window: Option<Window>,
-    /// What cannot be right, or is not followed.
+    /// Statements that cannot be right, or that are ignored.
     pub(crate) complaints: Vec<String>,
 }
 
-/// What a packet says of a picture of this size: nothing where it has no words of Google's.
+/// Parses a packet for a picture of this size; the result is empty if the packet has no GPano properties.
 pub(crate) fn parse(packet: &[u8], size: (usize, usize)) -> Said {
     let Ok(text) = std::str::from_utf8(packet) else { return Said::default() };
     let Ok(document) = Document::parse(text.trim_matches(|c: char| c == '\0' || c.is_whitespace())) else {
@@ -30,7 +30,7 @@ pub(crate) fn parse(packet: &[u8], size: (usize, usize)) -> Said {
     }
 }
 
-/// The properties of a packet.
+/// Properties of a packet.
 struct Words<'a>(&'a Document<'a>);
 
 impl<'a> Words<'a> {
@@ -38,14 +38,14 @@ impl<'a> Words<'a> {
         self.0.descendants().find_map(|node| property(node, name)).map(str::trim)
     }
 
-    /// A number of pixels; the error says what stands there instead.
+    /// Reads a number of pixels; the error quotes the invalid text.
     fn pixels(&self, name: &str) -> Result<Option<usize>, String> {
         let number =
             |text: &str| text.parse().map_err(|_| format!("{name} is \"{text}\", which is no number of pixels"));
         self.word(name).map(number).transpose()
     }
 
-    /// A number of pixels that cannot be 0.
+    /// Reads a number of pixels that must not be 0.
     fn side(&self, name: &str) -> Result<Option<usize>, String> {
         match self.pixels(name)? {
             Some(0) => Err(format!("{name} is 0")),
@@ -82,7 +82,7 @@ fn window(words: &Words<'_>, (width, height): (usize, usize)) -> Result<Option<W
     Ok(Some(Window { canvas_width, canvas_height, x, y }))
 }
 
-/// What is said of a panorama's width or height.
+/// Properties of a panorama along one axis.
 struct Axis {
     name: &'static str,
     start: &'static str,
@@ -92,7 +92,7 @@ struct Axis {
 }
 
 impl Axis {
-    /// The whole panorama and where the picture begins in it, in pixels of a picture that has so many.
+    /// Returns the size of the whole panorama and the picture's offset in it, scaled to a picture of so many pixels.
     fn scaled(&self, pixels: usize) -> Result<(usize, usize), String> {
         let left = self.left.unwrap_or(0);
         if left.checked_add(self.part).is_none_or(|end| end > self.full) {
@@ -111,7 +111,7 @@ impl Axis {
     }
 }
 
-/// How the camera was turned, which is not followed.
+/// Describes the camera's pose, which is ignored.
 fn pose(words: &Words<'_>) -> Option<String> {
     let turned = ["PoseHeadingDegrees", "PosePitchDegrees", "PoseRollDegrees"].into_iter().filter_map(|name| {
         let text = words.word(name)?;
@@ -127,7 +127,7 @@ fn pose(words: &Words<'_>) -> Option<String> {
     })
 }
 
-/// A property is written as an attribute or as an element.
+/// Reads a property, which may be an attribute or an element.
 fn property<'a>(node: Node<'a, '_>, name: &str) -> Option<&'a str> {
     let element = node.tag_name();
     if element.namespace() == Some(NAMESPACE) && element.name() == name {
@@ -136,7 +136,7 @@ fn property<'a>(node: Node<'a, '_>, name: &str) -> Option<&'a str> {
     node.attribute((NAMESPACE, name))
 }
 
-/// The packet that says the same of a picture of this size.
+/// Returns the packet for a picture of this size.
 pub(crate) fn packet(window: Window, (width, height): (usize, usize)) -> String {
     let Window { canvas_width, canvas_height, x, y } = window;
     format!(

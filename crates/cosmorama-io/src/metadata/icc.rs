@@ -5,14 +5,14 @@ use std::sync::Arc;
 use cosmorama::raster::{ColourChannel, ToneCurve, Transfer};
 use moxcms::{ColorProfile, DataColorSpace, ToneReprCurve};
 
-/// Entries of a tabulated curve.
+/// Number of entries of a tabulated curve.
 const ENTRIES: usize = 4096;
 
-/// The largest error, in code values from 0 to 1, by which a curve may miss a standard one and still be it:
-/// a quarter of an 8-bit step, as tables in profiles are rounded.
+/// Largest deviation, in code values from 0 to 1, at which a curve counts as a standard one: a quarter of an 8-bit
+/// step, because tables in profiles are rounded.
 const TOLERANCE: f64 = 0.25 / 255.0;
 
-/// The transfer function of a profile; `None` where it has no tone curves (print profiles) or cannot be read.
+/// Returns the transfer function of a profile; `None` if it has no tone curves (print profiles) or cannot be read.
 pub(crate) fn transfer(profile: &[u8]) -> Option<Transfer> {
     let profile = ColorProfile::new_from_slice(profile).ok()?;
     let curves = match profile.color_space {
@@ -34,7 +34,7 @@ fn table(curve: &ToneReprCurve) -> Option<Vec<f32>> {
     Some((0..ENTRIES).map(entry).collect())
 }
 
-/// The standard function that a curve practically is: exact formulas beat tables.
+/// Returns the standard function that a curve matches, if any; exact formulas are better than tables.
 fn standard(curve: &ToneCurve) -> Option<Transfer> {
     // Where a pure power would have to be at half code.
     let gamma = curve.decode(0.5, ColourChannel::Green).log(0.5);

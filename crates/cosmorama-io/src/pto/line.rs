@@ -1,4 +1,4 @@
-/// The letters of the parameters of i- and p-lines, the longer ones first.
+/// Names of the parameters of i- and p-lines, longer ones first.
 const NAMES: [&str; 62] = [
     "TrX", "TrY", "TrZ", "Tpy", "Tpp", "TiX", "TiY", "TiZ", "TiS", "Eev", "Er", "Eb", "Ra", "Rb", "Rc", "Rd", "Re",
     "Va", "Vb", "Vc", "Vd", "Vx", "Vy", "Vm", "Vf", "P0", "P1", "P2", "P3", "P4", "P5", "P6", "P7", "P8", "P9", "w",
@@ -6,19 +6,19 @@ const NAMES: [&str; 62] = [
     "E", "R", "P",
 ];
 
-/// The parameters of a line, in their order, values as they are written.
+/// Parameters of a line in their order, with values as written.
 pub(super) struct Line<'a> {
     words: Vec<(&'static str, &'a str)>,
 }
 
-/// A value, or the number of the image whose value it is.
+/// A value, or the number of the image whose value is used.
 pub(super) enum Value {
     Number(f64),
     Of(usize),
 }
 
 impl<'a> Line<'a> {
-    /// Takes what follows a line's first letter apart.
+    /// Parses the text after a line's first letter.
     pub(super) fn parse(text: &'a str) -> Result<Self, String> {
         let mut words = Vec::new();
         let mut rest = text.trim_start();
@@ -43,7 +43,7 @@ impl<'a> Line<'a> {
         self.words.iter().find(|(found, _)| *found == name).map(|(_, value)| *value)
     }
 
-    /// A number or a reference (`=0`); `None` where nothing is written.
+    /// Returns a number or a reference (`=0`); `None` if the parameter is absent.
     pub(super) fn value(&self, name: &str) -> Result<Option<Value>, String> {
         let Some(text) = self.get(name) else { return Ok(None) };
         let wrong = || format!("{name}{text}: expected a number, or = and the number of an image before it");
@@ -56,7 +56,7 @@ impl<'a> Line<'a> {
         }
     }
 
-    /// A number, 0 where nothing is written.
+    /// Returns a number; 0 if the parameter is absent.
     pub(super) fn number(&self, name: &str) -> Result<f64, String> {
         match self.value(name)? {
             None => Ok(0.0),
@@ -65,7 +65,7 @@ impl<'a> Line<'a> {
         }
     }
 
-    /// A whole number of pixels.
+    /// Returns a whole number of pixels.
     pub(super) fn side(&self, name: &str) -> Result<usize, String> {
         let number = self.number(name)?;
         if (1.0..=f64::from(u32::MAX)).contains(&number) && number.fract() == 0.0 {
@@ -74,7 +74,7 @@ impl<'a> Line<'a> {
         Err(format!("{name}{number}: expected a whole number of pixels, more than 0"))
     }
 
-    /// `S` or another crop: left, right, top, bottom in pixels. One that is empty is none.
+    /// Returns `S` or another crop: left, right, top, bottom in pixels; `None` if it is absent or empty.
     pub(super) fn crop(&self, name: &str) -> Result<Option<[i64; 4]>, String> {
         let Some(text) = self.get(name) else { return Ok(None) };
         let sides: Option<Vec<i64>> = text.split(',').map(|side| side.parse::<i32>().ok().map(i64::from)).collect();

@@ -100,7 +100,7 @@ impl PtoProject {
         })
     }
 
-    /// An error has its line, 0 for all.
+    /// Parses the text; an error has its line, 0 for the whole project.
     fn parse(text: &str) -> Result<Self, (usize, String)> {
         let mut images: Vec<(usize, Line)> = Vec::new();
         let mut panorama = None;
@@ -148,7 +148,7 @@ impl PtoProject {
     }
 }
 
-/// A parameter of an image, its own or that of the one it refers to.
+/// Returns a parameter of an image, its own or that of the image it refers to.
 fn number(images: &[(usize, Line)], index: usize, name: &str, absent: f64) -> Result<f64, String> {
     match images[index].1.value(name)? {
         None => Ok(absent),
@@ -196,13 +196,13 @@ fn image(images: &[(usize, Line)], index: usize) -> Result<PtoImage, String> {
     })
 }
 
-/// A k-line: a polygon of an image.
+/// A k-line: a masked polygon of an image.
 struct Hole {
     image: usize,
     corners: Vec<[f64; 2]>,
 }
 
-/// `k i0 t0 p"x y x y x y"`.
+/// Parses `k i0 t0 p"x y x y x y"`.
 fn hole(text: &str) -> Result<Hole, String> {
     let (words, points) = text.split_once("p\"").ok_or("p, the mask's corners, are missing")?;
     let mut image = None;
@@ -248,7 +248,7 @@ fn kind(number: f64) -> Result<u32, String> {
     Err(format!("f{number}: expected the number of a projection"))
 }
 
-/// Exposure and response that are alike in all pictures leave them as they are; others are not supported.
+/// Checks exposure and response: equal in all pictures they have no effect, different ones are not supported.
 fn photometry(images: &[(usize, Line)]) -> Result<Vec<String>, (usize, String)> {
     let mut warnings = Vec::new();
     for name in EXPOSURE {

@@ -1,12 +1,12 @@
 use exr::block::chunk::{Chunk, CompressedBlock};
 use exr::compression::Compression;
 
-/// The eleven counters at the start of a DWA chunk which say how large its sections are when decompressed: the
-/// decoder takes that memory without asking.
+/// Places, among the eleven counters at the start of a DWA chunk, of those for the decompressed sizes of its sections.
+/// The decoder allocates that much memory without a check.
 const SIZES: [usize; 5] = [1, 6, 7, 8, 9];
 
-/// Whether a chunk declares sections that a block of so many bytes could have. A lossy block is padded to squares
-/// of 8 × 8, which may make a narrow one sixteen times as large.
+/// Returns whether a chunk declares sizes that are plausible for a block of so many bytes. A lossy block is padded to
+/// squares of 8 × 8, which may make a narrow one sixteen times as large.
 pub(super) fn is_plausible(chunk: &Chunk, compression: Compression, block_bytes: u128) -> bool {
     if !matches!(compression, Compression::DWAA(_) | Compression::DWAB(_)) {
         return true;

@@ -21,9 +21,9 @@ use crate::{EnvMap, Format, Header, ImageFile, IoError, Limits, Metadata};
 
 const FORMAT: Format = Format::Exr;
 
-/// Chunks that are decompressed together at most: enough for all cores.
+/// Greatest number of chunks that are decompressed together; enough for all cores.
 const BATCH: usize = 64;
-/// Bytes that they may take together, except that there is always one.
+/// Bytes of these chunks together; a single chunk may have more.
 const BATCH_BYTES: u128 = 1 << 26;
 
 pub(crate) fn probe(path: &Path, source: Source<'_>) -> Result<Header, IoError> {
@@ -31,7 +31,7 @@ pub(crate) fn probe(path: &Path, source: Source<'_>) -> Result<Header, IoError> 
     Ok(announce(path, reader.headers(), PICTURE)?.0)
 }
 
-/// What a file says of the two channels of its st map.
+/// Reads a file's header for the two channels of its st map.
 pub(crate) fn probe_pairs(path: &Path, source: Source<'_>) -> Result<Header, IoError> {
     let reader = open(path, source)?;
     Ok(announce(path, reader.headers(), PAIR)?.0)
@@ -42,17 +42,17 @@ pub(crate) fn read(path: &Path, source: Source<'_>, limits: &Limits) -> Result<I
     read_selected(path, source, limits, PICTURE)
 }
 
-/// Reads the two channels of an st map, in an image of two channels.
+/// Reads the two channels of an st map as an image of two channels.
 pub(crate) fn read_pairs(path: &Path, source: Source<'_>, limits: &Limits) -> Result<ImageFile, IoError> {
     read_selected(path, source, limits, PAIR)
 }
 
-/// Which channels are wanted.
+/// Selection of channels.
 #[derive(Clone, Copy)]
 struct Wanted {
-    /// An error is what was found instead.
+    /// Selects channels; the error describes what was found instead.
     select: fn(&[Part]) -> Result<Selection, String>,
-    /// As messages say it.
+    /// Expected channels, for messages.
     expected: &'static str,
 }
 
@@ -79,14 +79,15 @@ fn read_selected(path: &Path, source: Source<'_>, limits: &Limits, wanted: Wante
     Ok(file)
 }
 
-/// The display window may be small and the data window huge: both it and a block of all its channels have to fit.
+/// Checks the memory for the display window and for a block of all channels, since a small display window may have a
+/// huge data window.
 fn check_limits(path: &Path, part: &Part, header: &Header, limits: &Limits) -> Result<(), IoError> {
     let size = (part.layer_size.width() as u64, part.layer_size.height() as u64);
     limits.check(path, size, header.channels, header.depth)?;
     limits.check_bytes(path, size, header.channels, header.depth, block_bytes(part))
 }
 
-/// Bytes of the largest block, all channels.
+/// Returns the bytes of the largest block, with all channels.
 fn block_bytes(part: &Part) -> u128 {
     let (width, height) = (part.layer_size.width(), part.layer_size.height());
     let (columns, rows) = match part.blocks {
@@ -102,10 +103,10 @@ fn open<'a>(path: &Path, source: Source<'a>) -> Result<Reader<Source<'a>>, IoErr
     exr::block::read(source, strictly).map_err(|error| damaged(path, error))
 }
 
-/// Whether a file of one part is refused for its `chunkCount` alone, which then counts for nothing, as in OpenEXR's own
-/// library: that takes the number of chunks from sizes and compression, and programs such as exrenvmap hand on what their
-/// input said of itself. It is the stricter way of reading that does not compare the number: exr 1.74 hands the flag on inverted
-/// (`MetaData::read_validated_from_buffered_peekable`); once that is mended, such files are not refused here.
+/// Returns whether a file of one part is refused only for its `chunkCount`, which then is ignored, as in OpenEXR's own
+/// library. That library computes the number of chunks from size and compression, and programs like exrenvmap copy the
+/// attribute from their input. The stricter way of reading does not compare the number, because exr 1.74 inverts the
+/// flag (`MetaData::read_validated_from_buffered_peekable`); once that is fixed, such files are not refused here.
 fn has_wrong_count(source: Source<'_>) -> io::Result<bool> {
     let is_refused = matches!(exr::block::read(&mut *source, false), Err(Error::Invalid(_)));
     source.rewind()?;
@@ -122,7 +123,7 @@ fn damaged(path: &Path, error: Error) -> IoError {
     }
 }
 
-/// The part and the channels to read, and what is to be said of them.
+/// Chooses the part and the channels to read, and returns their header.
 fn announce(path: &Path, parts: &[Part], wanted: Wanted) -> Result<(Header, Selection, Crop), IoError> {
     let selection =
         (wanted.select)(parts).map_err(|found| IoError::unsupported(path, FORMAT, found, wanted.expected))?;
@@ -153,7 +154,7 @@ fn announce(path: &Path, parts: &[Part], wanted: Wanted) -> Result<(Header, Sele
     Ok((header, selection, crop))
 }
 
-/// Reads the samples of a line of one channel, which the first slice says where to put: every so many samples.
+/// Reads the samples of a line of one channel and passes each, with its column, to a callback.
 type ReadLine<S> = fn(&LineRef<'_>, SampleType, &mut dyn FnMut(usize, S)) -> Result<(), Error>;
 
 fn half_line(line: &LineRef<'_>, _: SampleType, put: &mut dyn FnMut(usize, f16)) -> Result<(), Error> {

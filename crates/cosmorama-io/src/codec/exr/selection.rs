@@ -2,24 +2,24 @@ use cosmorama::raster::{Channels, Depth};
 use exr::meta::attribute::SampleType;
 use exr::meta::header::Header as Part;
 
-/// The channels of a file that make its picture.
+/// The channels of a file that form its picture.
 #[derive(Clone, Debug)]
 pub(super) struct Selection {
-    /// Which part of a multi-part file.
+    /// Index of the part in a multi-part file.
     pub(super) part: usize,
     pub(super) channels: Channels,
     pub(super) depth: Depth,
-    /// Everything else in the file, by name.
+    /// Names of all other channels.
     pub(super) others: Vec<String>,
     /// Indices of the channels, in the order of a pixel's samples.
     indices: Vec<usize>,
 }
 
 impl Selection {
-    /// The first part with plain R, G, B or Y; without one, the first with such channels in a layer
-    /// (`beauty.R`); without one, the first with a single channel, whatever it is called.
+    /// Selects the first part with plain R, G, B or Y; without one, the first with such channels in a layer
+    /// (`beauty.R`); without one, the first with a single channel of any name.
     ///
-    /// An error is what was found instead.
+    /// The error describes what was found instead.
     pub(super) fn of(parts: &[Part]) -> Result<Self, String> {
         let plain = |part: &Part| in_layer(part, "");
         let layered = |part: &Part| layers(part).iter().find_map(|layer| in_layer(part, layer));
@@ -35,10 +35,10 @@ impl Selection {
         Self::checked(parts, part, indices)
     }
 
-    /// The two channels of an st map, in the first flat part that has such: R and G, else u and v, s and t or x and y, plain
-    /// or in a layer (`forward.u`); else the only two.
+    /// Selects the two channels of an st map in the first flat part that has such: R and G, else u and v, s and t, or x
+    /// and y, plain or in a layer (`forward.u`); else the only two.
     ///
-    /// An error is what was found instead.
+    /// The error describes what was found instead.
     pub(super) fn pair(parts: &[Part]) -> Result<Self, String> {
         const NAMES: [(&str, &str); 4] = [("R", "G"), ("u", "v"), ("s", "t"), ("x", "y")];
         let flat = || parts.iter().enumerate().filter(|(_, part)| !part.deep);
@@ -81,7 +81,7 @@ impl Selection {
         Ok(Self { part, channels, depth, others, indices })
     }
 
-    /// The place of a channel of the file among a pixel's samples.
+    /// Returns the position of a channel among a pixel's samples.
     pub(super) fn slot(&self, channel: usize) -> Option<usize> {
         self.indices.iter().position(|&index| index == channel)
     }
@@ -91,12 +91,12 @@ fn names(parts: &[Part]) -> Vec<String> {
     parts.iter().flat_map(|part| part.channels.list.iter().map(|channel| channel.name.to_string())).collect()
 }
 
-/// `R` of `beauty.R`.
+/// Returns the channel's name without its layer: `R` of `beauty.R`.
 fn base_name(name: &str) -> &str {
     name.rsplit('.').next().unwrap_or(name)
 }
 
-/// The layers whose channels have prefixes, in the file's order, each with its last point.
+/// Returns the layers' prefixes in the file's order, each with its final point.
 fn layers(part: &Part) -> Vec<String> {
     let mut layers: Vec<String> = Vec::new();
     for channel in &part.channels.list {
@@ -114,7 +114,7 @@ fn find_in_layer(part: &Part, layer: &str, name: &str) -> Option<usize> {
     part.channels.list.iter().position(|channel| channel.name.to_string().eq_ignore_ascii_case(&wanted))
 }
 
-/// Two channels of a layer. Beside z, x and y are no pair but parts of a vector, as in maps of directions.
+/// Finds two channels of a layer. With a z beside them, x and y are parts of a vector, as in maps of directions.
 fn pair_in_layer(part: &Part, layer: &str, (first, second): (&str, &str)) -> Option<Vec<usize>> {
     if first == "x" && find_in_layer(part, layer, "z").is_some() {
         return None;
@@ -122,7 +122,8 @@ fn pair_in_layer(part: &Part, layer: &str, (first, second): (&str, &str)) -> Opt
     Some(vec![find_in_layer(part, layer, first)?, find_in_layer(part, layer, second)?])
 }
 
-/// R, G, B or Y of a layer, with A if there is one. Beside X and Z, Y is no luminance but a part of a vector.
+/// Finds R, G, B or Y of a layer, with A if there is one. With X and Z beside it, Y is part of a vector and not a
+/// luminance.
 fn in_layer(part: &Part, layer: &str) -> Option<Vec<usize>> {
     let find = |name: &str| find_in_layer(part, layer, name);
     let colour = match (find("R"), find("G"), find("B")) {

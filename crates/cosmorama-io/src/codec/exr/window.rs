@@ -2,8 +2,8 @@ use exr::meta::header::Header as Part;
 
 use crate::Window;
 
-/// The part of the data window that lies in the display window. What reaches beyond, the camera was not meant to
-/// see: it is cut off.
+/// The part of the data window inside the display window. Pixels outside the display window are overscan, and are cut
+/// off.
 pub(super) struct Crop {
     /// Columns that remain.
     pub(super) width: usize,
@@ -13,12 +13,12 @@ pub(super) struct Crop {
     left: usize,
     /// Rows cut off at the top.
     top: usize,
-    /// Where the rest lies in the display window, if it is not all of it.
+    /// Place of the remaining pixels in the display window, if they do not fill it.
     pub(super) window: Option<Window>,
 }
 
 impl Crop {
-    /// `None` where data and display window have nothing in common.
+    /// Computes the crop; `None` if data and display window do not overlap.
     pub(super) fn of(part: &Part) -> Option<Self> {
         let data = part.own_attributes.layer_position;
         let display = part.shared_attributes.display_window;
@@ -31,18 +31,18 @@ impl Crop {
         Some(Self { width, height, left, top, window })
     }
 
-    /// The row of the image in which a row of the data lies.
+    /// Returns the image's row for a row of the data.
     pub(super) fn row(&self, data_row: usize) -> Option<usize> {
         data_row.checked_sub(self.top).filter(|row| *row < self.height)
     }
 
-    /// The column of the image in which a column of the data lies.
+    /// Returns the image's column for a column of the data.
     pub(super) fn column(&self, data_column: usize) -> Option<usize> {
         data_column.checked_sub(self.left).filter(|column| *column < self.width)
     }
 }
 
-/// Two intervals, each by start and length: where their overlap begins in the one and in the other, and its length.
+/// Intersects two intervals, each given by start and length. Returns where the overlap begins in each, and its length.
 fn overlap(data: i32, data_length: usize, display: i32, display_length: usize) -> Option<(usize, usize, usize)> {
     let (data, display) = (i64::from(data), i64::from(display));
     let start = data.max(display);

@@ -13,7 +13,7 @@ use half::f16;
 use crate::codec::interface::is_beside_others;
 use crate::{Compression, EnvMap, IoError, Metadata, WriteOptions};
 
-/// Scan lines; light premultiplied, as the format has it.
+/// Writes scan lines of premultiplied light, as the format requires.
 pub(crate) fn write(
     path: &Path,
     output: impl Write + Seek,
@@ -35,7 +35,7 @@ pub(crate) fn write(
     save(path, output, (image.width(), image.height()), list, metadata, compression)
 }
 
-/// Writes planes of numbers under the names given; as halves or as floats.
+/// Writes named planes of numbers, as halves or as floats.
 pub(crate) fn write_planes(
     path: &Path,
     output: impl Write + Seek,
@@ -87,7 +87,7 @@ fn save(
     written.map_err(|error| IoError::write(path, error))
 }
 
-/// The samples of one channel.
+/// Returns the samples of one channel.
 fn plane(path: &Path, image: &EncodedImage, channel: usize) -> Result<FlatSamples, IoError> {
     match image.samples() {
         Samples::Half(samples) => Ok(FlatSamples::F16(multiplied(samples, image, channel, |sample, alpha| {

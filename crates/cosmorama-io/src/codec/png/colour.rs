@@ -1,4 +1,4 @@
-//! What the chunks of a PNG say about colour.
+//! Colour metadata in the chunks of a PNG.
 
 use cosmorama::raster::Transfer;
 use png::chunk::ChunkType;
@@ -9,7 +9,7 @@ use crate::metadata::{gpano, icc};
 
 pub(super) const CICP: ChunkType = ChunkType(*b"cICP");
 
-/// Reads them; the specification's order of precedence is cICP, iCCP, sRGB, gAMA.
+/// Reads the chunks; by the specification the order of precedence is cICP, iCCP, sRGB, gAMA.
 pub(super) fn metadata(info: &Info<'_>) -> Metadata {
     let profile = info.icc_profile.as_ref().map(|profile| profile.to_vec());
     let cicp = info.coding_independent_code_points;
@@ -31,9 +31,9 @@ pub(super) fn metadata(info: &Info<'_>) -> Metadata {
     }
 }
 
-/// The keyword of an XMP packet.
+/// Keyword of an XMP packet.
 pub(super) const XMP: &str = "XML:com.adobe.xmp";
-/// A packet of more bytes than this is none.
+/// Greatest length of an XMP packet in bytes.
 const LONGEST_PACKET: usize = 1 << 20;
 
 fn panorama(info: &Info<'_>) -> Option<gpano::Said> {
@@ -42,7 +42,7 @@ fn panorama(info: &Info<'_>) -> Option<gpano::Said> {
     Some(gpano::parse(packet.get_text().ok()?.as_bytes(), (info.width as usize, info.height as usize)))
 }
 
-/// ITU-T H.273, transfer characteristics.
+/// Returns the transfer function of a code point of ITU-T H.273.
 fn from_code_points(code: u8) -> Option<Transfer> {
     match code {
         1 | 6 | 14 | 15 => Some(Transfer::Bt1886),
@@ -67,14 +67,14 @@ fn from_gamma(encoding: ScaledFloat) -> Option<Transfer> {
     Some(Transfer::Gamma(exponent.recip()))
 }
 
-/// How a transfer function is written down.
+/// Representation of a transfer function in the file.
 pub(super) enum Tag {
     Srgb(SrgbRenderingIntent),
     Gamma(ScaledFloat),
     CodePoints(CodingIndependentCodePoints),
 }
 
-/// The tag for a transfer function; `None` where only an ICC profile could say it.
+/// Returns the tag for a transfer function; `None` if only an ICC profile could describe it.
 pub(super) fn tag(transfer: &Transfer, primaries: Option<u8>) -> Option<Tag> {
     let code_points = |transfer_function| {
         Some(Tag::CodePoints(CodingIndependentCodePoints {

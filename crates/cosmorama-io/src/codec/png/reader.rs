@@ -80,7 +80,7 @@ fn header<R: std::io::BufRead + std::io::Seek>(reader: &Reader<R>) -> Header {
     }
 }
 
-/// The depth of 16-bit samples: the sBIT chunk may say that fewer of them matter.
+/// Returns the depth of 16-bit samples, of which the sBIT chunk may declare fewer bits significant.
 fn significant(info: &Info<'_>) -> Depth {
     let bits = info.sbit.as_ref().and_then(|bits| bits.iter().copied().max());
     match bits {

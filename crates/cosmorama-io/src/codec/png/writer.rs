@@ -51,7 +51,7 @@ fn encode(
     writer.finish()
 }
 
-/// What the encoder has words for.
+/// Returns the metadata that the encoder can write itself.
 fn info<'a>(image: &EncodedImage, metadata: &'a Metadata, tag: Option<&Tag>) -> Result<Info<'a>, EncodingError> {
     let mut info = Info::with_size(dimension(image.width())?, dimension(image.height())?);
     info.color_type = match image.channels() {
@@ -70,7 +70,7 @@ fn info<'a>(image: &EncodedImage, metadata: &'a Metadata, tag: Option<&Tag>) -> 
     Ok(info)
 }
 
-/// What it has none for.
+/// Writes the chunks that the encoder cannot write itself.
 fn write_chunks(writer: &mut Writer<impl Write>, image: &EncodedImage, tag: Option<Tag>) -> Result<(), EncodingError> {
     if let Some(Tag::CodePoints(cicp)) = tag {
         let full_range = u8::from(cicp.is_video_full_range_image);

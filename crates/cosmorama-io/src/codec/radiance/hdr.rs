@@ -9,12 +9,12 @@ use crate::{Format, Header, ImageFile, IoError, Limits, Metadata, WriteOptions};
 
 const FORMAT: Format = Format::Hdr;
 
-/// Bytes that are read of the pixels at once.
+/// Number of bytes of pixels that are read at once.
 const BUFFER: usize = 1 << 16;
 
-/// A header line longer than this is no header line.
+/// Greatest length of a header line.
 const LONGEST_LINE: u64 = 4096;
-/// A header of more lines than this is no header.
+/// Greatest number of header lines.
 const MOST_LINES: usize = 1024;
 
 /// Codec of Radiance RGBE.
@@ -47,7 +47,7 @@ impl Codec for Hdr {
         whole_image(path, header, Samples::Float(samples))
     }
 
-    /// Light beyond what the format can count is the most that it can; there is no alpha.
+    /// Writes a picture. Light beyond the format's range is clamped; there is no alpha.
     fn encode(&self, path: &Path, output: Sink<'_>, image: &EncodedImage, _: &WriteOptions) -> Result<(), IoError> {
         let (Samples::Float(samples), Channels::Rgb) = (image.samples(), image.channels()) else {
             return Err(IoError::write(path, "Radiance HDR holds RGB floats"));
@@ -69,10 +69,10 @@ impl Codec for Hdr {
     }
 }
 
-/// The text before the pixels.
+/// Header before the pixels.
 struct Preamble {
     header: Header,
-    /// The pixels were multiplied by this.
+    /// Factor by which the pixels were multiplied.
     exposure: f32,
     upside_down: bool,
 }
@@ -117,7 +117,7 @@ fn read_line(source: Source<'_>) -> Option<String> {
     Some(String::from_utf8_lossy(line.strip_suffix(b"\r").unwrap_or(line)).into_owned())
 }
 
-/// `-Y 512 +X 1024`: rows from the top, columns from the left. Rows from the bottom are read, too.
+/// Parses `-Y 512 +X 1024`: rows from the top, columns from the left. Rows from the bottom are accepted, too.
 fn parse_size(path: &Path, line: &str) -> Result<(usize, usize, bool), IoError> {
     let words: Vec<&str> = line.split_whitespace().collect();
     let [y, height, x, width] = words[..] else {

@@ -1,14 +1,14 @@
-//! Radiance's pixels: three mantissas and their common exponent in four bytes, and the scan lines made of them.
+//! Radiance's pixels, three mantissas with a common exponent in four bytes, and the scan lines made of them.
 //!
-//! The codec of the `image` crate is not used: it truncates where it should round (half a step of bias), wraps
-//! exponents below 2⁻¹²⁸ round to huge ones, and its old-style run lengths overflow on hostile files.
+//! The codec of the `image` crate is not used: it truncates instead of rounding (a bias of half a step), wraps
+//! exponents below 2⁻¹²⁸ to huge ones, and its old-style run lengths overflow on hostile files.
 
 use std::io::{self, Read, Write};
 
-/// A pixel as it lies in a file: red, green, blue, exponent.
+/// A pixel as in a file: red, green, blue, exponent.
 pub(super) type Rgbe = [u8; 4];
 
-/// Light of a pixel.
+/// Returns the light of a pixel.
 pub(super) fn decode([red, green, blue, exponent]: Rgbe) -> [f32; 3] {
     if exponent == 0 {
         return [0.0; 3];
@@ -18,7 +18,7 @@ pub(super) fn decode([red, green, blue, exponent]: Rgbe) -> [f32; 3] {
     [red, green, blue].map(|mantissa| (f64::from(mantissa) * scale) as f32)
 }
 
-/// The pixel nearest to some light; negative light and NaN become zero.
+/// Returns the pixel nearest to a light value; negative light and NaN become zero.
 pub(super) fn encode(light: [f32; 3]) -> Rgbe {
     let light = light.map(|c| f64::from(c.max(0.0)));
     let brightest = light[0].max(light[1]).max(light[2]).min(f64::from(f32::MAX));
@@ -35,12 +35,12 @@ pub(super) fn encode(light: [f32; 3]) -> Rgbe {
     [red, green, blue, (power + 128) as u8]
 }
 
-/// Widths that the run-length scheme of today can count.
+/// Returns whether today's run-length encoding permits a width.
 fn can_be_run_length_encoded(width: usize) -> bool {
     (8..=0x7fff).contains(&width)
 }
 
-/// Reads one scan line in any of the three ways in which it may be stored.
+/// Reads one scan line in any of its three encodings.
 pub(super) fn read_line(source: &mut impl Read, line: &mut [Rgbe]) -> io::Result<()> {
     let first = read_pixel(source)?;
     let [two, also_two, high, low] = first;
@@ -70,7 +70,7 @@ fn read_byte(source: &mut impl Read) -> io::Result<u8> {
     Ok(byte[0])
 }
 
-/// One of the four components of a run-length encoded line.
+/// Reads one of the four components of a run-length encoded line.
 fn read_component(source: &mut impl Read, line: &mut [Rgbe], component: usize) -> io::Result<()> {
     let mut rest = line;
     while !rest.is_empty() {
@@ -91,7 +91,7 @@ fn read_component(source: &mut impl Read, line: &mut [Rgbe], component: usize) -
     Ok(())
 }
 
-/// A line pixel by pixel, in which 1 1 1 n repeats the last pixel n times (n · 256 after another, and so on).
+/// Reads a line pixel by pixel, in which 1 1 1 n repeats the last pixel n times (n · 256 after another, and so on).
 fn read_plain_line(source: &mut impl Read, line: &mut [Rgbe], first: Rgbe) -> io::Result<()> {
     let mut pixel = first;
     let mut shift = 0;
@@ -121,7 +121,7 @@ fn read_plain_line(source: &mut impl Read, line: &mut [Rgbe], first: Rgbe) -> io
     Ok(())
 }
 
-/// Writes one scan line, run-length encoded where its width allows it.
+/// Writes one scan line, run-length encoded if its width permits.
 pub(super) fn write_line(output: &mut impl Write, line: &[Rgbe]) -> io::Result<()> {
     if !can_be_run_length_encoded(line.len()) {
         return line.iter().try_for_each(|pixel| output.write_all(pixel));
@@ -136,7 +136,7 @@ pub(super) fn write_line(output: &mut impl Write, line: &[Rgbe]) -> io::Result<(
     Ok(())
 }
 
-/// Bytes from which on a run is worth its two bytes between literals.
+/// Shortest run that saves bytes between literals.
 const SHORTEST_RUN: usize = 4;
 
 fn write_component(output: &mut impl Write, bytes: &[u8]) -> io::Result<()> {

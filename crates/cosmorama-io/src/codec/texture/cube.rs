@@ -10,30 +10,30 @@ use super::texel::Texels;
 use crate::codec::interface::{Source, is_beside_others, whole_image};
 use crate::{EnvMap, Format, Header, ImageFile, IoError, Limits, Metadata};
 
-/// What can be read, for messages.
+/// Supported textures, for messages.
 pub(super) const EXPECTED: &str = "a cube of 8-bit, half or float texels, RGB9E5, R11G11B10, BC1 to BC3, BC6H or BC7, as it is or packed by Zstandard \
      or zlib; textures of BasisLZ and UASTC are unpacked by `ktx transcode`";
 
-/// The faces of a cube in a texture file: where the largest pictures of +X −X +Y −Y +Z −Z lie, and how.
+/// The faces of a cube in a texture file: offsets of the largest pictures of +X −X +Y −Y +Z −Z, and their encoding.
 pub(super) struct CubeTexture {
-    /// How texels are stored.
+    /// Encoding of texels.
     pub(super) texels: Texels,
-    /// How code values relate to light, if the file says so.
+    /// Transfer function, if the file names one.
     pub(super) transfer: Option<Transfer>,
-    /// How colour relates to alpha.
+    /// Relation of colour to alpha.
     pub(super) alpha: AlphaMode,
     /// Columns and rows of a face.
     pub(super) edge: u32,
-    /// Rows begin at multiples of so many bytes.
+    /// Alignment of rows in bytes.
     pub(super) row_alignment: u64,
-    /// Where each face begins; where they are packed, in what is packed.
+    /// Offset of each face; in supercompressed files, in the unpacked data.
     pub(super) offsets: [u64; 6],
-    /// How all faces together are packed, if they are.
+    /// Supercompression of all faces together, if any.
     pub(super) packed: Option<Packed>,
 }
 
 impl CubeTexture {
-    /// What the file says of itself: six pictures one below the other.
+    /// Returns the header of an image of six pictures one below the other.
     pub(super) fn header(&self, format: Format) -> Header {
         let edge = self.edge as usize;
         Header {
@@ -47,8 +47,8 @@ impl CubeTexture {
         }
     }
 
-    /// Each level is half of the one before: so many there are at most, down to a face of one texel. `field` is what the
-    /// format calls their number.
+    /// Checks the number of levels: each has half the size of the one before, down to a face of one texel. `field` is
+    /// the format's name of that number.
     pub(super) fn check_levels(&self, path: &Path, format: Format, field: &str, levels: u32) -> Result<(), IoError> {
         let most = self.edge.checked_ilog2().map_or(1, |halvings| halvings + 1);
         if levels <= most {
@@ -59,14 +59,14 @@ impl CubeTexture {
         Err(IoError::damaged(path, format, reason))
     }
 
-    /// Bytes of a face.
+    /// Returns the bytes of a face.
     pub(super) fn face_bytes(&self) -> u64 {
         let blocks = u64::from(self.edge.div_ceil(self.texels.block_edge()));
         let row = (blocks * self.texels.block_bytes()).next_multiple_of(self.row_alignment);
         row.saturating_mul(blocks)
     }
 
-    /// Reads the faces, after it is known that they are there and may take the memory.
+    /// Reads the faces, after checking that they exist and fit into memory.
     pub(super) fn read(
         &self,
         path: &Path,
@@ -98,7 +98,7 @@ impl CubeTexture {
         Ok(file)
     }
 
-    /// The bytes of the faces, where they lie in the file as they are.
+    /// Returns the bytes of the faces, where they are not supercompressed.
     fn faces(&self, path: &Path, format: Format, source: Source<'_>) -> Result<Vec<Vec<u8>>, IoError> {
         let bytes = self.face_bytes();
         let length = source.seek(SeekFrom::End(0)).map_err(|error| IoError::open(path, error))?;
@@ -136,8 +136,8 @@ fn joined(faces: Vec<Samples>) -> Samples {
     all
 }
 
-/// The samples of six faces, to be written: RGBA, one face after the other, level by level from the largest, and a face's
-/// edge in the largest.
+/// Returns the samples of six faces to write, and a face's edge in the largest level: RGBA, face by face in each level,
+/// beginning with the largest.
 pub(super) fn levels_to_write(
     path: &Path,
     format: Format,
@@ -159,7 +159,7 @@ pub(super) fn levels_to_write(
     Ok((bytes, edge))
 }
 
-/// The samples of six faces.
+/// Returns the samples of six faces.
 fn faces_to_write(path: &Path, format: Format, image: &EncodedImage, metadata: &Metadata) -> Result<Vec<u8>, IoError> {
     let cannot = |found: String| IoError::CannotHold {
         path: path.to_owned(),

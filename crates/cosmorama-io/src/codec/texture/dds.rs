@@ -14,10 +14,10 @@ use crate::{Format, Header, ImageFile, IoError, Limits, WriteOptions};
 const FORMAT: Format = Format::Dds;
 
 const MAGIC: &[u8; 4] = b"DDS ";
-/// Where `dwCaps2` stands.
+/// Offset of `dwCaps2`.
 const CAPS2: usize = 112;
 
-/// Codec of the faces of a cube in a DirectDraw surface.
+/// Codec of cube maps in DirectDraw surfaces.
 pub(crate) struct Dds;
 
 impl Codec for Dds {
@@ -43,8 +43,8 @@ impl Codec for Dds {
         self.encode_levels(path, output, std::slice::from_ref(image), options)
     }
 
-    /// Six faces and their smaller copies: RGBA of 8 bits under the old header, which every program reads and which does not say
-    /// how bytes relate to light; premultiplied halves under that of Direct3D 10.
+    /// Writes six faces with their mip levels: RGBA of 8 bits under the old header, which every program reads but which
+    /// does not record the transfer function, or premultiplied halves under the header of Direct3D 10.
     fn encode_levels(
         &self,
         path: &Path,
@@ -65,7 +65,7 @@ impl Codec for Dds {
     }
 }
 
-/// What the file holds, without its texels.
+/// Reads the file's structure without its texels.
 fn texture(path: &Path, source: Source<'_>) -> Result<CubeTexture, IoError> {
     let damaged = |reason: &dyn std::fmt::Display| IoError::damaged(path, FORMAT, reason);
     let unsupported = |found: String| IoError::unsupported(path, FORMAT, found, EXPECTED);
@@ -117,14 +117,14 @@ fn texture(path: &Path, source: Source<'_>) -> Result<CubeTexture, IoError> {
     Ok(cube)
 }
 
-/// Bytes of a face with all its smaller copies, which follow it.
+/// Returns the bytes of a face with its mip levels, which follow it.
 fn face_stride(cube: &CubeTexture, levels: u32) -> u64 {
     // A face of 2³¹ pixels has 32.
     let level = |level: u32| CubeTexture { edge: (cube.edge >> level).max(1), transfer: None, ..*cube }.face_bytes();
     (0..levels.clamp(1, 32)).map(level).fold(0, u64::saturating_add)
 }
 
-/// How texels of Direct3D 9 are stored; its names begin with the highest byte.
+/// Returns the encoding of texels of Direct3D 9, whose names begin with the highest byte.
 fn texels(format: D3DFormat) -> Option<Texels> {
     Some(match format {
         D3DFormat::L8 => Texels::GREY8,
@@ -144,7 +144,7 @@ fn texels(format: D3DFormat) -> Option<Texels> {
     })
 }
 
-/// Finds the texels of a format of Direct3D 10 and later, and whether it is one of sRGB.
+/// Returns the encoding of texels of Direct3D 10 and later, and whether it is sRGB.
 fn modern_texels(format: DxgiFormat) -> (Option<Texels>, bool) {
     let blocks = |format| Texels::Blocks(format);
     let (texels, srgb) = match format {
@@ -177,7 +177,7 @@ fn modern_texels(format: DxgiFormat) -> (Option<Texels>, bool) {
     (Some(texels), srgb)
 }
 
-/// All that stands before the texels.
+/// Returns the header.
 fn start(edge: u32, float: bool, levels: u32) -> Result<Vec<u8>, ddsfile::Error> {
     let caps2 = Some(Caps2::CUBEMAP | Caps2::CUBEMAP_ALLFACES);
     let half = DxgiFormat::R16G16B16A16_Float;

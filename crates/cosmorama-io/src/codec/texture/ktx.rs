@@ -10,7 +10,7 @@ use crate::{Format, Header, ImageFile, IoError, Limits, WriteOptions};
 
 const FORMAT: Format = Format::Ktx;
 
-/// Names of OpenGL.
+/// Constants of OpenGL.
 mod gl {
     pub(super) const UNSIGNED_BYTE: u32 = 0x1401;
     pub(super) const FLOAT: u32 = 0x1406;
@@ -39,11 +39,11 @@ mod gl {
     pub(super) const RGB_BPTC_UNSIGNED_FLOAT: u32 = 0x8e8f;
 }
 
-/// Numbers after the twelve bytes of identification.
+/// Number of integers after the twelve bytes of identification.
 const NUMBERS: usize = 13;
 const LITTLE_ENDIAN: u32 = 0x0403_0201;
 
-/// Codec of the faces of a cube in a KTX texture of version 1, which is only read.
+/// Codec of cube maps in KTX textures of version 1, read-only.
 pub(crate) struct Ktx;
 
 impl Codec for Ktx {
@@ -64,7 +64,7 @@ impl Codec for Ktx {
     }
 }
 
-/// What the file holds, without its texels. Only version 1: version 2 is another format.
+/// Reads the structure of a file of version 1, without its texels; version 2 is another format.
 fn texture(path: &Path, source: Source<'_>) -> Result<CubeTexture, IoError> {
     let short = |_| IoError::damaged(path, FORMAT, "it ends too early");
     let mut start = [0; 12 + 4 * NUMBERS];
@@ -125,7 +125,7 @@ fn texture(path: &Path, source: Source<'_>) -> Result<CubeTexture, IoError> {
     Ok(cube)
 }
 
-/// How texels are stored: compressed or packed by the internal format, else by order and type.
+/// Returns the encoding of texels: by the internal format if compressed or packed, else by order and type.
 fn texels(internal: u32, order: u32, kind: u32) -> Option<Texels> {
     let packed = match internal {
         gl::R11F_G11F_B10F => Some(Texels::SmallFloats),

@@ -12,7 +12,7 @@ use crate::{Format, Header, ImageFile, IoError, Limits, WriteOptions};
 
 const FORMAT: Format = Format::Ktx2;
 
-/// Names in the data format descriptor (Khronos Data Format Specification 1.3).
+/// Constants of the data format descriptor (Khronos Data Format Specification 1.3).
 mod descriptor {
     pub(super) const RGB_MODEL: u8 = 1;
     pub(super) const ETC1S_MODEL: u8 = 163;
@@ -22,12 +22,12 @@ mod descriptor {
     pub(super) const SRGB: u8 = 2;
     pub(super) const PREMULTIPLIED: u8 = 1;
     pub(super) const ALPHA: u8 = 15;
-    /// Alpha is linear where colour is not.
+    /// Flag of a linear sample, such as alpha beside sRGB colours.
     pub(super) const LINEAR_SAMPLE: u8 = 0x10;
     pub(super) const SIGNED_FLOAT: u8 = 0xc0;
 }
 
-/// Codec of the faces of a cube in a KTX 2 texture.
+/// Codec of cube maps in KTX 2 textures.
 pub(crate) struct Ktx2;
 
 impl Codec for Ktx2 {
@@ -53,7 +53,8 @@ impl Codec for Ktx2 {
         self.encode_levels(path, output, std::slice::from_ref(image), options)
     }
 
-    /// Six faces and their smaller copies: RGBA of 8 bits, sRGB unless the light is linear, or premultiplied halves.
+    /// Writes six faces with their mip levels: RGBA of 8 bits, sRGB unless the light is linear, or premultiplied
+    /// halves.
     fn encode_levels(
         &self,
         path: &Path,
@@ -111,7 +112,7 @@ impl Codec for Ktx2 {
     }
 }
 
-/// What the file holds, without its texels.
+/// Reads the file's structure without its texels.
 fn texture(path: &Path, source: Source<'_>) -> Result<CubeTexture, IoError> {
     let short = |_| IoError::damaged(path, FORMAT, "it ends too early");
     let mut start = [0; Ktx2Header::LENGTH];
@@ -180,7 +181,7 @@ fn texture(path: &Path, source: Source<'_>) -> Result<CubeTexture, IoError> {
     Ok(cube)
 }
 
-/// The beginning of the data format descriptor: its header, and what texels are as a whole.
+/// Beginning of the data format descriptor: its header, and properties of all texels.
 type Descriptor = [u8; 16];
 
 fn descriptor(path: &Path, source: Source<'_>, offset: u32) -> Result<Descriptor, IoError> {
@@ -192,7 +193,7 @@ fn descriptor(path: &Path, source: Source<'_>, offset: u32) -> Result<Descriptor
     Ok(start)
 }
 
-/// What texels of no Vulkan format are: the descriptor's colour model.
+/// Returns the descriptor's colour model of texels without a Vulkan format.
 fn model(descriptor: &Descriptor) -> &'static str {
     match descriptor[12] {
         descriptor::ETC1S_MODEL => "ETC1S texels, as BasisLZ packs them",
@@ -201,7 +202,7 @@ fn model(descriptor: &Descriptor) -> &'static str {
     }
 }
 
-/// Transfer function and alpha, as far as the descriptor says them in words that we know.
+/// Returns the transfer function, if it is a known one, and whether alpha is premultiplied.
 fn colour(descriptor: &Descriptor) -> (Option<Transfer>, bool) {
     let transfer = match descriptor[14] {
         descriptor::LINEAR => Some(Transfer::Linear),
@@ -211,7 +212,7 @@ fn colour(descriptor: &Descriptor) -> (Option<Transfer>, bool) {
     (transfer, descriptor[15] & descriptor::PREMULTIPLIED != 0)
 }
 
-/// How texels of a Vulkan format are stored, and whether it is one of sRGB.
+/// Returns the encoding of texels of a Vulkan format, and whether it is sRGB.
 fn texels(format: Vk) -> Option<(Texels, bool)> {
     let blocks = |format| Texels::Blocks(format);
     Some(match format {
@@ -247,7 +248,7 @@ fn texels(format: Vk) -> Option<(Texels, bool)> {
     })
 }
 
-/// The data format descriptor of RGBA.
+/// Returns the data format descriptor of RGBA.
 fn describe(float: bool, transfer: u8) -> Vec<u8> {
     let (sample_bytes, premultiplied) = if float { (2_u8, descriptor::PREMULTIPLIED) } else { (1, 0) };
     const BLOCK: u16 = 24 + 4 * 16;
@@ -274,7 +275,7 @@ fn describe(float: bool, transfer: u8) -> Vec<u8> {
     bytes
 }
 
-/// Keys and values, each pair at a multiple of four bytes.
+/// Encodes keys and values, each pair aligned to four bytes.
 fn key_values(pairs: &[(&str, &str)]) -> Vec<u8> {
     let mut bytes = Vec::new();
     for (key, value) in pairs {

@@ -1,4 +1,4 @@
-//! Cubes in textures of graphics cards: DirectDraw surfaces and Khronos textures.
+//! Cube maps in textures for graphics cards: DirectDraw surfaces and Khronos textures.
 
 mod cube;
 mod dds;

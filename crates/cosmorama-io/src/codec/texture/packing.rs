@@ -4,7 +4,7 @@ use std::path::Path;
 use crate::codec::interface::Source;
 use crate::{Format, IoError};
 
-/// How the texels of a level are packed, whatever their format.
+/// Supercompression of a level's texels, independent of their format.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Packing {
     /// Zstandard.
@@ -13,18 +13,18 @@ pub(super) enum Packing {
     Zlib,
 }
 
-/// Packed texels in a file.
+/// Supercompressed texels in a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Packed {
     pub(super) packing: Packing,
-    /// Where they begin.
+    /// Offset of the packed bytes.
     pub(super) offset: u64,
-    /// Their bytes as they are packed.
+    /// Number of packed bytes.
     pub(super) length: u64,
 }
 
 impl Packed {
-    /// Unpacks what has to be so many bytes; no more memory is taken, whatever the file says.
+    /// Unpacks exactly the expected number of bytes; no more memory is allocated, whatever the file declares.
     pub(super) fn read(
         self,
         path: &Path,

@@ -1,24 +1,24 @@
 use cosmorama::raster::{Channels, Depth, Samples};
 use half::f16;
 
-/// How the texels of a texture are stored.
+/// Encoding of a texture's texels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Texels {
-    /// Bytes: how many a texel has, and the place of each channel among them.
+    /// Bytes: their number per texel, and the position of each channel among them.
     Bytes { stride: usize, places: &'static [usize] },
-    /// Half floats: how many a texel has.
+    /// Half floats: their number per texel.
     Half(usize),
-    /// Floats: how many a texel has.
+    /// Single-precision floats: their number per texel.
     Float(usize),
-    /// Nine bits a colour and five for their exponent.
+    /// Nine bits for each colour with a shared exponent of five bits.
     SharedExponent,
-    /// Floats of eleven, eleven and ten bits.
+    /// Floats of 11, 11 and 10 bits.
     SmallFloats,
-    /// Blocks of 4×4 texels.
+    /// Compressed blocks of 4×4 texels.
     Blocks(BlockFormat),
 }
 
-/// How a block of 4×4 texels is compressed.
+/// Compression of a block of 4×4 texels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum BlockFormat {
     Bc1,
@@ -37,7 +37,7 @@ impl Texels {
     pub(super) const RGBX8: Self = Self::Bytes { stride: 4, places: &[0, 1, 2] };
     pub(super) const BGRX8: Self = Self::Bytes { stride: 4, places: &[2, 1, 0] };
 
-    /// The channels that it becomes.
+    /// Returns the channels after decoding.
     pub(super) const fn channels(self) -> Channels {
         match self {
             Self::Bytes { places, .. } => channels_of(places.len()),
@@ -47,7 +47,7 @@ impl Texels {
         }
     }
 
-    /// The depth that it becomes. Halves hold the small floats exactly.
+    /// Returns the depth after decoding. Halves hold the small floats exactly.
     pub(super) const fn depth(self) -> Depth {
         match self {
             Self::Bytes { .. } => Depth::Eight,
@@ -58,7 +58,7 @@ impl Texels {
         }
     }
 
-    /// Texels along the edge of a block.
+    /// Returns the edge of a block in texels.
     pub(super) const fn block_edge(self) -> u32 {
         match self {
             Self::Blocks(_) => 4,
@@ -66,7 +66,7 @@ impl Texels {
         }
     }
 
-    /// Bytes of a block, or of a texel.
+    /// Returns the bytes of a block, or of a texel.
     pub(super) const fn block_bytes(self) -> u64 {
         match self {
             Self::Bytes { stride, .. } => stride as u64,
@@ -78,7 +78,7 @@ impl Texels {
         }
     }
 
-    /// The samples of a square face. `bytes` holds all of it, each row at a multiple of `alignment`.
+    /// Decodes the samples of a square face. `bytes` holds all of it, each row at a multiple of `alignment`.
     pub(super) fn decode(self, bytes: &[u8], edge: usize, alignment: usize) -> Samples {
         let row = edge.div_ceil(self.block_edge() as usize) * self.block_bytes() as usize;
         let rows = bytes.chunks_exact(row.next_multiple_of(alignment)).map(|padded| &padded[..row]);
@@ -128,18 +128,18 @@ fn words<'a>(rows: impl Iterator<Item = &'a [u8]>) -> impl Iterator<Item = u32> 
     rows.flat_map(|row| row.chunks_exact(4)).map(|b| u32::from_le_bytes([b[0], b[1], b[2], b[3]]))
 }
 
-/// Red in the lowest nine bits, then green and blue, the exponent on top: m · 2^(e − 24).
+/// Decodes red in the lowest nine bits, then green and blue, with the exponent on top: m · 2^(e − 24).
 fn shared_exponent(word: u32) -> [f16; 3] {
     let scale = f32::from_bits((127 + (word >> 27) - 24) << 23);
     [0, 9, 18].map(|shift| f16::from_f32((word >> shift & 0x1ff) as f32 * scale))
 }
 
-/// Red in the lowest eleven bits, then green, and blue in ten: a half without sign and with fewer digits.
+/// Decodes red in the lowest eleven bits, then green, and blue in ten: halves without sign and with fewer digits.
 fn small_floats(word: u32) -> [f16; 3] {
     [word << 4 & 0x7ff0, word >> 7 & 0x7ff0, word >> 17 & 0x7fe0].map(|bits| f16::from_bits(bits as u16))
 }
 
-/// Rows of blocks as rows of texels, cut off at the edge.
+/// Converts rows of blocks to rows of texels, cut off at the edge.
 fn blocks<'a, S: Copy + Default, const COUNT: usize>(
     rows: impl Iterator<Item = &'a [u8]>,
     edge: usize,

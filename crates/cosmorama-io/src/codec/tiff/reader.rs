@@ -81,7 +81,7 @@ fn header(path: &Path, decoder: &mut Decoder<Source<'_>>) -> Result<Header, IoEr
     Ok(Header { format: FORMAT, width, height, channels, depth, metadata, window: None })
 }
 
-/// What is not there, or cannot be read, is simply not known.
+/// Reads the metadata; tags that are missing or unreadable are left out.
 fn metadata(decoder: &mut Decoder<Source<'_>>) -> Metadata {
     let profile = decoder.get_tag_u8_vec(ICC_PROFILE).ok();
     let software = decoder.get_tag_ascii_string(Tag::Software).ok();
@@ -95,7 +95,7 @@ fn metadata(decoder: &mut Decoder<Source<'_>>) -> Metadata {
     }
 }
 
-/// The tag that says whether alpha has been multiplied in.
+/// Reads the tag for premultiplied alpha.
 fn alpha_mode(decoder: &mut Decoder<Source<'_>>) -> AlphaMode {
     match decoder.find_tag_unsigned_vec::<u16>(Tag::ExtraSamples) {
         Ok(Some(kinds)) if kinds.first() == Some(&1) => AlphaMode::Premultiplied,
@@ -131,7 +131,7 @@ fn samples(path: &Path, result: DecodingResult, header: &Header, mode: AlphaMode
     })
 }
 
-/// The samples of the channels that are read: there may be more in a pixel.
+/// Returns the samples of the selected channels; a pixel may have more.
 fn chosen<S: Copy>(path: &Path, samples: Vec<S>, header: &Header) -> Result<Vec<S>, IoError> {
     let pixels = header.width * header.height;
     let count = header.channels.count();
@@ -145,7 +145,7 @@ fn chosen<S: Copy>(path: &Path, samples: Vec<S>, header: &Header) -> Result<Vec<
     Ok(samples.chunks_exact(stride).flat_map(|pixel| pixel[..count].iter().copied()).collect())
 }
 
-/// Integers are straight in memory.
+/// Divides integer colours by alpha, because integers are straight in memory.
 fn divide_by_alpha<S: Copy + Into<u32> + TryFrom<u32>>(samples: &mut [S], channels: Channels) {
     let full = (1_u32 << (8 * size_of::<S>())) - 1;
     for pixel in samples.chunks_exact_mut(channels.count()) {

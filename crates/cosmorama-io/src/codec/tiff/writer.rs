@@ -29,7 +29,7 @@ pub(crate) fn write(
     result.map_err(|error| IoError::write(path, error))
 }
 
-/// What a file says besides its samples, and how these are packed.
+/// Metadata and compression of a file to write.
 struct How<'a> {
     metadata: &'a Metadata,
     compression: Compression,
@@ -84,13 +84,13 @@ where
     file.write_data(samples)
 }
 
-/// A sample type. The encoder's own colour types know neither halves nor grey with alpha.
+/// A sample type. The encoder's own colour types lack halves and grey with alpha.
 trait Sample {
-    /// What the encoder writes.
+    /// Type that the encoder writes.
     type Stored: TiffValue + Copy;
     const BITS: u16;
     const FORMAT_IS_FLOAT: bool;
-    /// The difference of neighbours, which compresses better.
+    /// Returns the difference of neighbours, which compresses better.
     fn difference(a: Self::Stored, b: Self::Stored) -> Self::Stored;
 }
 
