@@ -1,22 +1,22 @@
 use cosmorama::camera::{PixelPoint, View};
 use cosmorama::world::World;
 
-/// What a view has in common with another form of the world: which of its pixels can be compared, and between which of
-/// them the other form has a seam.
+/// The common field of a view and another form of the world: the pixels that can be compared, and the seams of the
+/// other form between them.
 pub(crate) struct CommonField<'a> {
     view: &'a View,
-    /// Whether both show the whole world, so that what lies beyond the view's border lies in both.
+    /// Whether both show the whole world, so that directions beyond the view's border are in both.
     are_whole: bool,
     other: &'a World,
-    /// Where the other form has each pixel's direction: which of its views, and where in it.
+    /// View and position of each pixel's direction in the other form.
     places: Vec<Option<(usize, PixelPoint)>>,
     counted: Vec<bool>,
 }
 
-/// Pixels around one that must be in both forms for it to be compared.
+/// Distance in pixels within which all directions must be in both forms for a pixel to be compared.
 const REACH: f64 = 4.0;
 
-/// Neighbours no further from each other than this many texels of the other form are on one side of a seam.
+/// Greatest distance, in texels of the other form, between neighbours on the same side of a seam.
 const APART: f64 = 24.0;
 
 impl<'a> CommonField<'a> {
@@ -29,12 +29,13 @@ impl<'a> CommonField<'a> {
         field
     }
 
-    /// Whether a pixel can be compared.
+    /// Returns whether a pixel can be compared.
     pub(crate) fn counts(&self, i: usize, j: usize) -> bool {
         i < self.view.width() && j < self.view.height() && self.counted[j * self.view.width() + i]
     }
 
-    /// Whether the other form has a seam between two pixels: it has them far apart, and what lies between them not half way.
+    /// Returns whether the other form has a seam between two pixels: it shows them far apart, and their middle not half
+    /// way between.
     pub(crate) fn parts(&self, a: (usize, usize), b: (usize, usize)) -> bool {
         let places = [a, b].map(|(i, j)| self.places[j * self.view.width() + i]);
         let [Some((face, first)), Some((next, second))] = places else { return false };
@@ -52,7 +53,8 @@ impl<'a> CommonField<'a> {
             )
     }
 
-    /// Whether a pixel, a whole one, and those around it are in both forms, and the other form has the finer ones there.
+    /// Returns whether a pixel is whole, it and its neighbours are in both forms, and the other form has the finer
+    /// pixels there.
     fn is_common(&self, i: usize, j: usize) -> bool {
         let screen = self.view.screen_pixel(i, j).filter(|screen| screen.coverage == 1.0);
         let Some((screen, (index, at))) = screen.zip(self.places[j * self.view.width() + i]) else { return false };

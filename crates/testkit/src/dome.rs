@@ -7,23 +7,23 @@ use cosmorama::world::World;
 
 use super::{cube, fisheye, turned};
 
-/// The conversion whose speed counts: six faces to a fulldome master, the default filter, light of 8 bits.
+/// The conversion of the speed measurements: six faces to a fulldome master, the default filter, 8-bit light.
 pub struct Dome {
-    /// Faces of half as many pixels across as the dome.
+    /// Faces with half as many pixels across as the dome.
     pub world: World,
     /// The dome.
     pub target: View,
-    /// Some light, not all the same.
+    /// Light with some variation.
     pub light: FixedLight,
-    /// What makes 8 bits of it.
+    /// Encoder to 8 bits.
     pub codec: FixedCodec,
 }
 
 impl Dome {
-    /// One of so many pixels across.
+    /// Creates a dome of so many pixels across.
     ///
     /// # Panics
-    /// When it has none.
+    /// When `size` is 0.
     pub fn new(size: usize) -> Self {
         let world = cube(&CubeFace::ALL, size / 2, size / 2);
         let target = View { orientation: turned([0.0, 90.0, 0.0]), ..fisheye(size, 180.0) };
@@ -35,12 +35,12 @@ impl Dome {
         Self { world, target, light, codec }
     }
 
-    /// What makes it.
+    /// Returns the resampler of the conversion.
     pub fn resampler(&self) -> Resampler<'_> {
         Resampler { world: &self.world, target: &self.target, filter: FilterSettings::DEFAULT }
     }
 
-    /// Pixels of the square that it is in.
+    /// Returns the number of pixels of the square around the dome.
     pub fn pixels(&self) -> usize {
         self.target.width() * self.target.height()
     }

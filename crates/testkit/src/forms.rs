@@ -11,24 +11,24 @@ use cosmorama::world::{Blend, World, WorldView};
 
 use crate::frames::in_shape;
 
-/// A form that a world can have: one view, the two of a camera that looks both ways, or the six of a cube.
+/// A form of a world: one view, the two of a camera that looks both ways, or the six of a cube.
 #[derive(Clone, Debug)]
 pub struct Form {
-    /// What tables call it.
+    /// Name in tables.
     pub name: &'static str,
     /// Its views.
     pub views: Vec<View>,
-    /// How they take part where they overlap.
+    /// Blending of the views where they overlap.
     pub blend: Blend,
     /// Whether it shows the whole world.
     pub is_whole: bool,
 }
 
-/// How many rows a view has by which the size that a form needs is found.
+/// Rows of a trial view, from which the size that a form needs is computed.
 const TRIAL: usize = 256;
 
 impl Form {
-    /// The world that it makes.
+    /// Returns the world of this form.
     ///
     /// # Panics
     /// Never: a form has views, and they have pixels.
@@ -42,7 +42,7 @@ impl Form {
         World::blended(self.views.iter().enumerate().map(part)).expect("a form has views")
     }
 
-    /// Every form of a world, with about so many pixels for each steradian that it shows.
+    /// Returns every form of a world, with about so many pixels for each steradian that it shows.
     pub fn all(pixels_per_steradian: f64) -> Vec<Self> {
         let one = |(name, frame): (&'static str, CameraModel)| {
             Self::of(name, pixels_per_steradian, Blend::default(), |rows| vec![in_shape(frame.clone(), rows)])
@@ -74,7 +74,7 @@ impl Form {
     }
 }
 
-/// A camera whose two circles share a band of 15°, in which they are blended.
+/// Returns a camera whose two circles overlap by a band of 15°, in which they are blended.
 fn both_ways() -> DualFisheye {
     let frame = FisheyeCamera { field_of_view: DualFisheye::FIELD_OF_VIEW, ..FisheyeCamera::default() };
     let lens = DualLens { frame, turned: Orientation::IDENTITY };
@@ -87,7 +87,7 @@ fn both_circles(camera: &DualFisheye, rows: usize) -> Vec<View> {
     lenses.iter().map(view).collect()
 }
 
-/// Forms of a single view, as the command line names them.
+/// Returns forms of a single view, with their names on the command line.
 fn frames() -> Vec<(&'static str, CameraModel)> {
     let fisheye = |lens: FisheyeLens, fov: f64| {
         CameraModel::Fisheye(FisheyeCamera {
@@ -128,10 +128,10 @@ fn frames() -> Vec<(&'static str, CameraModel)> {
     frames
 }
 
-/// The field of view of a lens that reaches so far, in degrees.
+/// Field of view, in degrees, of lenses that permit it.
 const WIDE: f64 = 200.0;
 
-/// Lenses that somebody measured, one of each model.
+/// Returns calibrated lenses, one of each model.
 fn measured() -> Vec<(&'static str, FisheyeLens)> {
     let is_ideal = |lens: &FisheyeLens| {
         use FisheyeLens::{Equidistant, Equisolid, Orthographic, Stereographic};

@@ -10,7 +10,7 @@ use cosmorama::sphere::{Angle, CubeFace, Orientation};
 use cosmorama::world::World;
 use glam::DVec2;
 
-/// A face of the cube, 90° both ways whatever its pixels.
+/// Returns a face of the cube, 90° both ways whatever its pixels.
 pub fn cube_face(face: CubeFace, width: usize, height: usize) -> View {
     let square = PlaneRect { min: PlanePoint::new(-1.0, -1.0), max: PlanePoint::new(1.0, 1.0) };
     View {
@@ -21,13 +21,13 @@ pub fn cube_face(face: CubeFace, width: usize, height: usize) -> View {
     }
 }
 
-/// A world of some faces of one size.
+/// Returns a world of some faces of one size.
 pub fn cube(faces: &[CubeFace], width: usize, height: usize) -> World {
     let views = faces.iter().map(|&face| (face.name().to_owned(), cube_face(face, width, height)));
     World::new(views).expect("faces make a world")
 }
 
-/// An equidistant fisheye that fills a square frame.
+/// Returns an equidistant fisheye that fills a square frame.
 pub fn fisheye(size: usize, fov: f64) -> View {
     let half = Angle::from_degrees(fov / 2.0).radians();
     View {
@@ -38,7 +38,7 @@ pub fn fisheye(size: usize, fov: f64) -> View {
     }
 }
 
-/// An Omnimax frame with the paper's lower cut.
+/// Returns an Omnimax frame with the paper's lower cut.
 pub fn omnimax(width: usize, height: usize) -> View {
     View {
         projection: ProjectionKind::OMNIMAX,
@@ -48,7 +48,7 @@ pub fn omnimax(width: usize, height: usize) -> View {
     }
 }
 
-/// A full panorama, twice as wide as high.
+/// Returns a full panorama, twice as wide as high.
 pub fn equirect(width: usize) -> View {
     use std::f64::consts::{FRAC_PI_2, PI};
     let sphere = PlaneRect { min: PlanePoint::new(-PI, -FRAC_PI_2), max: PlanePoint::new(PI, FRAC_PI_2) };
@@ -60,7 +60,7 @@ pub fn equirect(width: usize) -> View {
     }
 }
 
-/// A turned pinhole camera; angles in degrees, `fov` horizontal.
+/// Returns a turned pinhole camera; angles are in degrees, and `fov` is horizontal.
 pub fn perspective(width: usize, height: usize, fov: f64, yaw: f64, pitch: f64, roll: f64) -> View {
     let step = 2.0 * Angle::from_degrees(fov / 2.0).tan() / width as f64;
     View {
@@ -71,7 +71,7 @@ pub fn perspective(width: usize, height: usize, fov: f64, yaw: f64, pitch: f64, 
     }
 }
 
-/// Frames that show the whole world, about so many pixels high.
+/// Returns views that show the whole world, about so many pixels high.
 pub fn whole_worlds(height: usize) -> Vec<(&'static str, View)> {
     let fisheye =
         |lens| CameraModel::Fisheye(FisheyeCamera { lens, field_of_view: Angle::TURN, ..FisheyeCamera::default() });
@@ -90,7 +90,7 @@ pub fn whole_worlds(height: usize) -> Vec<(&'static str, View)> {
     frames.into_iter().map(|(name, frame)| (name, in_shape(frame, height))).collect()
 }
 
-/// Frames that show a part of it, about so many pixels high.
+/// Returns views that show a part of the world, about so many pixels high.
 pub fn partial_worlds(height: usize) -> Vec<(&'static str, View)> {
     let cylinder = |kind| CameraModel::Cylinder(CylinderCamera::new(kind));
     let ball = MirrorBallCamera { distance: Some(3.0), ..MirrorBallCamera::default() };
@@ -108,7 +108,7 @@ pub fn partial_worlds(height: usize) -> Vec<(&'static str, View)> {
     frames.into_iter().chain(lenses).chain(cameras()).map(|(name, frame)| (name, in_shape(frame, height))).collect()
 }
 
-/// Measured cameras: one that bends straight lines, and a fisheye whose rows lean.
+/// Returns calibrated cameras: a pinhole camera with distortion, and a fisheye with skewed rows.
 fn cameras() -> [(&'static str, CameraModel); 2] {
     let matrix = CameraMatrix::from_rows([[210.0, 2.0, 215.0], [0.0, 200.0, 140.0]]).expect("a camera");
     let camera =
@@ -118,7 +118,7 @@ fn cameras() -> [(&'static str, CameraModel); 2] {
     [("a bent pinhole", camera(pinhole)), ("a skewed fisheye", camera(CalibratedLens::Fisheye(FisheyeLens::EQUISOLID)))]
 }
 
-/// A frame in its usual shape, about so many pixels high.
+/// Returns a view of the camera model's natural shape, about so many pixels high.
 pub(crate) fn in_shape(frame: CameraModel, height: usize) -> View {
     let ratio = frame.natural_height(1 << 20) as f64 / f64::from(1 << 20);
     frame.view((height as f64 / ratio).round() as usize, height).expect("a frame with its usual parameters")
@@ -128,7 +128,7 @@ fn middle(width: usize, height: usize) -> PixelPoint {
     PixelPoint::new(width as f64 / 2.0, height as f64 / 2.0)
 }
 
-/// Yaw, pitch and roll in degrees.
+/// Returns the orientation of yaw, pitch and roll in degrees.
 pub fn turned(degrees: [f64; 3]) -> Orientation {
     let [yaw, pitch, roll] = degrees.map(Angle::from_degrees);
     Orientation::from_yaw_pitch_roll(yaw, pitch, roll)

@@ -6,22 +6,22 @@ use cosmorama::render::Arithmetic;
 
 use super::Dome;
 
-/// A piece of work whose speed counts, ready to be done any number of times.
+/// A piece of work for speed measurements, which can be repeated.
 pub struct Kernel {
-    /// What it is called.
+    /// Name in tables.
     pub name: &'static str,
-    /// Pixels that it makes each time.
+    /// Number of pixels that one run makes.
     pub pixels: usize,
     work: Box<dyn Fn()>,
 }
 
 impl Kernel {
-    /// Does it once.
+    /// Does the work once.
     pub fn run(&self) {
         (self.work)();
     }
 
-    /// All of them, for a dome of so many pixels across from cube faces of half as many.
+    /// Returns all kernels, for a dome of so many pixels across from cube faces of half as many.
     pub fn all(size: usize) -> Vec<Self> {
         let dome = Arc::new(Dome::new(size));
         let texels: Arc<[Rgba]> = (0..dome.light.len()).map(|texel| dome.light.rgba(texel)).collect();

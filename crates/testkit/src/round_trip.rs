@@ -10,32 +10,32 @@ use crate::common_field::CommonField;
 use crate::sky::whole;
 use crate::{Form, light_by_direction};
 
-/// What a world loses in another form: measured on what came back, where both forms show it and the other one has the finer
-/// pixels.
+/// Loss of a world in another form, measured in the result of a round trip where both forms show it and the other one
+/// has the finer pixels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RoundTrip {
-    /// The part of the pixels that was compared.
+    /// Fraction of the pixels that were compared.
     pub compared: f64,
-    /// The mean difference of a channel, of a contrast of one.
+    /// Mean difference of a channel, for a contrast of one.
     pub mean_error: f64,
-    /// By how many pixels a view came back displaced, its pixels together: of the views the one that moved most. What is too
-    /// large or too small, or turned about its middle, adds to nothing here.
+    /// Mean displacement of a view's pixels, as a vector, in pixels; the largest over the views. Errors of scale, or a
+    /// rotation about the middle, do not contribute.
     pub shift: f64,
-    /// By how many pixels the pixels of a view came back displaced, whichever way: the mean, of the views the largest. A pixel
-    /// is counted as a square of its area here, and below.
+    /// Mean length of the displacements of a view's pixels; the largest over the views. A pixel is counted as a square
+    /// of its area, here and below.
     pub moved: f64,
-    /// By how many pixels the one pixel came back displaced that moved most.
+    /// Largest displacement of a pixel, in pixels.
     pub displacement: f64,
-    /// The largest step between the errors of neighbours between which the other form has a seam; zero where it has none.
+    /// Largest step between the errors of neighbours on both sides of a seam of the other form; zero if there is none.
     pub across: f64,
-    /// The largest step between all other neighbours.
+    /// Largest step between the errors of all other neighbours.
     pub elsewhere: f64,
 }
 
-/// Fewer compared pixels tell nothing of a view.
+/// Least number of compared pixels for a view to count.
 const ENOUGH: usize = 100;
 
-/// Waves of some thirty texels where there are 1500 in a steradian.
+/// Returns waves of some thirty texels, at 1500 texels per steradian.
 fn waves(direction: Direction) -> [f32; 3] {
     let d = direction.vector();
     let wave = |x: f64, y: f64| (0.5 + 0.25 * (x * 8.0).sin() + 0.25 * (y * 6.0 + x * 4.0).cos()) as f32;
@@ -43,11 +43,11 @@ fn waves(direction: Direction) -> [f32; 3] {
 }
 
 impl RoundTrip {
-    /// Takes two worlds, one of waves and one whose colour is its direction, from one form to another and back; `None` where
-    /// they have too little in common to tell.
+    /// Converts two worlds, one of waves and one whose colour is its direction, from one form to another and back.
+    /// `None` if the forms have too little in common.
     ///
-    /// The waves tell what is lost and whether a seam is seen. What moved only the directions tell: in waves that a border cuts,
-    /// or that are blurred more one way than the other, loss looks like a displacement of 0.01 pixel where there is none.
+    /// The waves show loss of contrast and visible seams. Displacement is measured with directions only: where a border
+    /// cuts waves, or they are blurred more in one direction, loss looks like a displacement of 0.01 pixel.
     ///
     /// # Panics
     /// With the reference filter, which records no weights.
@@ -106,7 +106,7 @@ struct Sums {
 }
 
 impl Sums {
-    /// Adds what directions came back in a view.
+    /// Adds the directions in a view of the result.
     fn add_directions(&mut self, view: &View, field: &CommonField, found: &[Rgba]) {
         let (mut sum, mut moves, mut count) = (DVec2::ZERO, 0.0, 0usize);
         for (k, found) in found.iter().enumerate() {
@@ -131,7 +131,7 @@ impl Sums {
         }
     }
 
-    /// Adds a view's.
+    /// Adds the errors of a view.
     fn add(&mut self, view: &View, field: &CommonField, errors: &[[f64; 3]]) {
         let width = view.width();
         for (k, error) in errors.iter().enumerate() {
@@ -163,7 +163,7 @@ mod tests {
     use crate::common_field::CommonField;
     use crate::{equirect, fisheye};
 
-    /// What is measured where a view shows the directions that another view of its size has.
+    /// Measures a view that shows the directions of another view of its size.
     fn measured(view: &View, other: &View) -> Sums {
         let directions = (0..view.width() * view.height()).map(|k| {
             let place = PixelPoint::centre(k % view.width(), k / view.width());

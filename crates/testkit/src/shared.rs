@@ -1,8 +1,8 @@
 use std::path::PathBuf;
 
-/// A path in the folder that every developer and CI has beside the checkout.
+/// Returns a path in the folder `shared`, which developers and CI have beside the checkout.
 ///
-/// Where it is absent the caller's test says so and passes; in CI (`CI` is set) that is a failure.
+/// If it is absent, the caller's test says so and passes; in CI (`CI` is set) that is a failure.
 ///
 /// # Panics
 /// In CI, when the folder is absent.

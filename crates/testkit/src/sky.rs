@@ -6,13 +6,13 @@ use cosmorama::world::World;
 
 use crate::Form;
 
-/// Radiance times solid angle by channel, over all texels of a world.
+/// Returns radiance times solid angle, by channel, over all texels of a world.
 pub fn power(world: &World, light: &[Rgba]) -> [f64; 3] {
     let of = |c: usize| light.iter().zip(world.solid_angles()).map(|(l, s)| f64::from(l.0[c]) * f64::from(s)).sum();
     [of(0), of(1), of(2)]
 }
 
-/// What a form that shows the whole world makes of the light of another world.
+/// Conversion of a world's light to a form that shows the whole world.
 #[derive(Debug)]
 pub struct Sky {
     world: World,
@@ -21,7 +21,7 @@ pub struct Sky {
 }
 
 impl Sky {
-    /// The geometry of it, for any light.
+    /// Prepares the geometry, for any light.
     ///
     /// # Panics
     /// With the reference filter, which records no weights.
@@ -38,7 +38,7 @@ impl Sky {
         Self { balance: Some(LightBalance::new(from, &targets)), ..sky }
     }
 
-    /// The light of it.
+    /// Computes the light in the new form.
     pub fn light(&self, from: &[Rgba]) -> Vec<Rgba> {
         let balanced = self.balance.as_ref().map(|balance| balance.balanced(from));
         let from = balanced.as_deref().unwrap_or(from);
@@ -50,7 +50,7 @@ impl Sky {
         self.plans.iter().enumerate().flat_map(picture).collect()
     }
 
-    /// What it gains of the light of another world, or loses: a part of the whole, of the channel that changes most.
+    /// Returns the gain or loss of light, as a fraction of the whole, of the channel that changes most.
     pub fn gain(&self, from: &World, light: &[Rgba]) -> f64 {
         let (before, after) = (power(from, light), power(&self.world, &self.light(light)));
         let gains = [0, 1, 2].map(|c| after[c] / before[c] - 1.0);
@@ -58,7 +58,7 @@ impl Sky {
     }
 }
 
-/// A pixel that an edge cuts is dark by the part that it lacks; its light is that of the rest.
+/// Restores a pixel that an edge cuts, and that is darker by the missing part, to its full light.
 pub(crate) fn whole(pixel: &Rgba) -> Rgba {
     if pixel.alpha() > 0.0 { *pixel * pixel.alpha().recip() } else { *pixel }
 }
