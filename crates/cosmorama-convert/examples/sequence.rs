@@ -4,11 +4,12 @@
 #![allow(clippy::print_stdout, reason = "a program that shows something says so")]
 
 use std::error::Error;
+use std::ops::ControlFlow;
 use std::path::Path;
 
-use cosmorama_convert::{Conversion, Observer, Quiet};
+use cosmorama_convert::{Conversion, Observer, Quiet, Stop};
 
-/// Says what is done.
+/// Says what is done, and lets it go on.
 struct Watcher;
 
 impl Observer for Watcher {
@@ -16,8 +17,9 @@ impl Observer for Watcher {
         println!("{frames} frames");
     }
 
-    fn frame_done(&mut self, frame: Option<u64>) {
+    fn frame_done(&mut self, frame: Option<u64>) -> ControlFlow<Stop> {
         println!("frame {} is written", frame.unwrap_or_default());
+        ControlFlow::Continue(())
     }
 }
 

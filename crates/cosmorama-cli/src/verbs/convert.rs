@@ -1,8 +1,9 @@
+use std::ops::ControlFlow;
 use std::process::ExitCode;
 use std::sync::Arc;
 
 use anyhow::Result;
-use cosmorama_convert::{Conversion, Diagnostic, Observer, Report};
+use cosmorama_convert::{Conversion, Diagnostic, Observer, Report, Stop};
 
 use crate::args::{ConvertArgs, ProgressStyle};
 use crate::console::Console;
@@ -52,8 +53,9 @@ impl Observer for Watch<'_> {
         self.console.warn(diagnostic);
     }
 
-    fn frame_done(&mut self, frame: Option<u64>) {
+    fn frame_done(&mut self, frame: Option<u64>) -> ControlFlow<Stop> {
         self.progress.iter_mut().for_each(|progress| progress.frame_done(frame));
+        ControlFlow::Continue(())
     }
 
     fn memory_in_flight(&mut self, bytes: u64) {

@@ -12,7 +12,7 @@ mod run;
 pub use check::Checked;
 pub use check::threads;
 pub use explanation::{Explanation, ExplanationSettings};
-pub use observer::{Observer, Quiet};
+pub use observer::{Observer, Quiet, Stop};
 pub use report::Report;
 
 pub(crate) use content::Content;

@@ -1,6 +1,12 @@
+use std::ops::ControlFlow;
+
 use crate::diagnostic::Diagnostic;
 
-/// Callbacks of a running conversion.
+/// Request of an observer to end a conversion before its last frame.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Stop;
+
+/// Watches a conversion while it runs.
 pub trait Observer {
     /// Called with the number of frames to make, before the first.
     fn begin(&mut self, _frames: usize) {}
@@ -8,8 +14,14 @@ pub trait Observer {
     /// Called with a diagnostic.
     fn diagnostic(&mut self, _diagnostic: &Diagnostic) {}
 
-    /// Called when a frame is written; `None` for one without a number.
-    fn frame_done(&mut self, _frame: Option<u64>) {}
+    /// Learns that a frame is written; `None` is one without a number. The answer says whether to go on.
+    ///
+    /// After `Break(Stop)` no frame and no file is begun. Files that are being written then are finished, and none stays behind
+    /// in part. [`run`](crate::Checked::run) returns [`ConvertError::Stopped`](crate::ConvertError::Stopped), unless this was the
+    /// last frame.
+    fn frame_done(&mut self, _frame: Option<u64>) -> ControlFlow<Stop> {
+        ControlFlow::Continue(())
+    }
 
     /// Called before the first frame of a sequence with the most bytes that all frames in flight take. Memory of a
     /// finished frame has the size that the next one needs.

@@ -1,12 +1,13 @@
 use std::collections::BTreeSet;
+use std::ops::ControlFlow;
 use std::path::PathBuf;
 
 use rayon::ThreadPool;
 use rayon::prelude::*;
 
 use super::options::write_options;
-use super::{Checked, Content, ConvertJob, Observer, Report};
-use crate::diagnostic::{Diagnostic, Result};
+use super::{Checked, Content, ConvertJob, Observer, Report, Stop};
+use crate::diagnostic::{ConvertError, Diagnostic, Result};
 use crate::engine::{
     Engine, FrameFile, FrameLight, Sequence, Stage, Stages, ViewImage, Watcher, Which, formula, st_map,
 };
@@ -16,7 +17,7 @@ impl Checked {
     /// Makes the outputs. Each appears whole or not at all.
     ///
     /// # Errors
-    /// When a file cannot be read or written, or its content contradicts its header.
+    /// When a file cannot be read or written, or does not hold what its header said, and when the observer stops it.
     pub fn run(mut self, observer: &mut dyn Observer) -> Result<Report> {
         observer.begin(self.job.outputs.frames.len());
         match self.content {
@@ -45,9 +46,10 @@ impl Checked {
         observer: &mut dyn Observer,
         make: impl Fn(&Self, usize, &std::path::Path) -> Result<()> + Sync,
     ) -> Result<()> {
-        for FrameOutputs { frame, files } in &self.job.outputs.frames {
+        let frames = &self.job.outputs.frames;
+        for (done, FrameOutputs { frame, files }) in (1..).zip(frames) {
             self.pool.install(|| files.iter().try_for_each(|(file, path)| make(self, *file, path)))?;
-            observer.frame_done(*frame);
+            tell_done(observer, *frame, (done, frames.len()))?;
         }
         Ok(())
     }
@@ -57,7 +59,7 @@ impl Checked {
         let Self { settings, job, pool, stages, diagnostics, .. } = self;
         let options = write_options(settings, job.target.format, &job.outputs, &job.light);
         let engine = &pool.install(|| stages.alone(Stage::Plan, || Engine::new(job, options)));
-        let mut run = Run { job, engine, stages, pool, observer, diagnostics, is_first: true };
+        let mut run = Run { job, engine, stages, pool, observer, diagnostics, is_first: true, done: 0 };
         run.tell(engine.told().to_vec());
         match &job.outputs.frames[..] {
             [] => Ok(()),
@@ -80,6 +82,8 @@ struct Run<'a> {
     diagnostics: &'a mut Vec<Diagnostic>,
     /// Whether no frame has been examined yet.
     is_first: bool,
+    /// Frames that are written.
+    done: usize,
 }
 
 impl Run<'_> {
@@ -96,8 +100,7 @@ impl Run<'_> {
             outputs.try_for_each(|((_, path), levels)| engine.writer().save(levels, path))
         };
         pool.install(|| stages.alone(Stage::Encode, write))?;
-        self.done(frame);
-        Ok(())
+        self.done(frame)
     }
 }
 
@@ -116,8 +119,9 @@ impl Watcher for Run<'_> {
         self.tell(found);
     }
 
-    fn done(&mut self, frame: &FrameOutputs) {
-        self.observer.frame_done(frame.frame);
+    fn done(&mut self, frame: &FrameOutputs) -> Result<()> {
+        self.done += 1;
+        tell_done(self.observer, frame.frame, (self.done, self.job.outputs.frames.len()))
     }
 }
 
@@ -128,7 +132,15 @@ impl Run<'_> {
     }
 }
 
-/// Reads the files of a frame and decodes them to light.
+/// Tells an observer that a frame is written, and how many are so of all; an error where it wants no others.
+fn tell_done(observer: &mut dyn Observer, frame: Option<u64>, (done, frames): (usize, usize)) -> Result<()> {
+    match observer.frame_done(frame) {
+        ControlFlow::Break(Stop) if done < frames => Err(ConvertError::Stopped { done, frames }),
+        _ => Ok(()),
+    }
+}
+
+/// Reads the files of a frame and makes light of them.
 fn light_of(job: &ConvertJob, engine: &Engine, stages: &Stages, frame: &FrameOutputs) -> Result<FrameLight> {
     let mut light = engine.frame_light();
     let images = stages.alone(Stage::Decode, || {

@@ -10,6 +10,8 @@ pub enum Code {
     Uncovered,
     /// More memory is needed than permitted.
     Memory,
+    /// An observer stopped the conversion.
+    Stopped,
     /// Outputs exist already.
     Exists,
     /// A projection was detected, and may be another.

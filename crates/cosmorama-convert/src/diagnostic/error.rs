@@ -37,7 +37,15 @@ pub enum ConvertError {
     /// A SPEC cannot be understood.
     #[error(transparent)]
     Spec(#[from] SpecError),
-    /// An error with its place: a line of a file, or a frame.
+    /// An observer stopped the conversion.
+    #[error("stopped after {done} of {frames} frames, as was asked for; their files are whole, and to resume makes the others")]
+    Stopped {
+        /// Frames that the observer had learned of.
+        done: usize,
+        /// Frames that were to be made.
+        frames: usize,
+    },
+    /// An error in a place: a line of a file, a frame.
     #[error("{place}")]
     At {
         /// Place, in words.
@@ -119,6 +127,7 @@ impl ConvertError {
         match self {
             Self::Settings(diagnostic) | Self::Failed(diagnostic) => diagnostic.code,
             Self::At { error, .. } => error.code(),
+            Self::Stopped { .. } => Code::Stopped,
             _ => Code::Failed,
         }
     }

@@ -33,8 +33,8 @@ pub(crate) trait Watcher {
     /// Called with the light of a frame.
     fn look(&mut self, frame: &FrameOutputs, light: &FrameLight);
 
-    /// Called when a frame is written.
-    fn done(&mut self, frame: &FrameOutputs);
+    /// Learns that a frame is written. An error ends the sequence.
+    fn done(&mut self, frame: &FrameOutputs) -> Result<()>;
 }
 
 /// Results of tasks in the pool.
@@ -137,14 +137,16 @@ impl<'a> Sequence<'a> {
 }
 
 impl Queues<'_> {
-    /// Waits until at most `most` frames are being written, and returns the pictures of the last one for reuse. After a
-    /// failed frame nothing is awaited, because nobody reports on later frames.
+    /// Waits until no more than so many frames are being written; the pictures of the last that is, which nobody uses any more.
+    /// After one that fails, or after which the watcher wants no more, none is waited for: what becomes of later ones is told by
+    /// nobody.
     fn finish_written(&mut self, most: usize, watcher: &mut dyn Watcher) -> Result<Vec<Levels>> {
         let mut used = Vec::new();
         while self.written.len() > most {
             let Some((frame, results)) = self.written.pop_front() else { break };
-            used = all_of(results).at(|| told(frame)).inspect_err(|_| self.written.clear())?;
-            watcher.done(frame);
+            let written = all_of(results).at(|| told(frame));
+            let finished = written.and_then(|pictures| watcher.done(frame).map(|()| pictures));
+            used = finished.inspect_err(|_| self.written.clear())?;
         }
         Ok(used)
     }

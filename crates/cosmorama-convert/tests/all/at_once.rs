@@ -1,9 +1,10 @@
 //! Conversions in one process know nothing of each other.
 
 use std::collections::BTreeMap;
+use std::ops::ControlFlow;
 use std::path::Path;
 
-use cosmorama_convert::{Conversion, Observer, Quiet, Report};
+use cosmorama_convert::{Conversion, Observer, Quiet, Report, Stop};
 use cosmorama_spec::MemorySize;
 
 /// A dome, sharp and turned, of each of three frames.
@@ -78,8 +79,9 @@ impl Observer for Counter {
         self.frames = frames;
     }
 
-    fn frame_done(&mut self, frame: Option<u64>) {
+    fn frame_done(&mut self, frame: Option<u64>) -> ControlFlow<Stop> {
         self.done.push(frame);
+        ControlFlow::Continue(())
     }
 }
 

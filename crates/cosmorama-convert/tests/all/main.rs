@@ -4,3 +4,4 @@
 mod at_once;
 mod diagnostics;
 mod in_memory;
+mod stop;

@@ -1,0 +1,97 @@
+//! An observer may end a conversion before its last frame.
+
+use std::ops::ControlFlow;
+use std::path::Path;
+
+use cosmorama_convert::{Code, Conversion, ConvertError, Existing, Observer, Quiet, Report, Result, Stop};
+use cosmorama_io::{Limits, read};
+
+const FRAMES: usize = 12;
+
+/// Wants no more than so many frames, and remembers which it has learned of.
+struct StopAfter {
+    most: usize,
+    done: Vec<Option<u64>>,
+}
+
+impl Observer for StopAfter {
+    fn frame_done(&mut self, frame: Option<u64>) -> ControlFlow<Stop> {
+        self.done.push(frame);
+        if self.done.len() < self.most { ControlFlow::Continue(()) } else { ControlFlow::Break(Stop) }
+    }
+}
+
+fn make_skies(folder: &Path) {
+    let first = folder.join("sky_01.png");
+    let sky = Conversion::new("builtin:demo", first.display().to_string()).to("equirect".parse().unwrap());
+    sky.size("128".parse().unwrap()).check().result.unwrap().run(&mut Quiet).unwrap();
+    for frame in 2..=FRAMES {
+        std::fs::copy(&first, folder.join(format!("sky_{frame:02}.png"))).unwrap();
+    }
+}
+
+fn domes(folder: &Path) -> Conversion {
+    let path = |name: &str| folder.join(name).display().to_string();
+    let domes = Conversion::new(path("sky_##.png"), path("dome_##.png")).to("fulldome".parse().unwrap());
+    domes.size("64".parse().unwrap())
+}
+
+fn stopped(conversion: Conversion, most: usize) -> (Result<Report>, Vec<Option<u64>>) {
+    let mut observer = StopAfter { most, done: Vec::new() };
+    (conversion.check().result.unwrap().run(&mut observer), observer.done)
+}
+
+/// The domes in a folder, each of which can be read; nothing but skies may lie beside them.
+fn whole_domes(folder: &Path) -> Vec<String> {
+    let entries = folder.read_dir().unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap());
+    let mut names: Vec<String> = entries.filter(|name| !name.starts_with("sky_")).collect();
+    names.sort_unstable();
+    for name in &names {
+        assert!(name.starts_with("dome_"), "{name}");
+        read(folder.join(name), &Limits::default()).unwrap();
+    }
+    names
+}
+
+#[test]
+fn a_sequence_ends_within_a_frame_and_leaves_whole_files_that_can_be_resumed() {
+    for threads in [1, 4] {
+        let folder = tempfile::tempdir().unwrap();
+        let folder = folder.path();
+        make_skies(folder);
+        let (result, told) = stopped(domes(folder).threads(threads), 2);
+        let error = result.unwrap_err();
+        assert!(matches!(error, ConvertError::Stopped { done: 2, frames: FRAMES }), "{error}");
+        assert_eq!((error.code(), error.is_of_settings()), (Code::Stopped, false));
+        assert_eq!(told, [Some(1), Some(2)], "of frames after the stop nothing is said");
+        let names = whole_domes(folder);
+        // Those that were under way are finished: no more than are read and written at once.
+        assert!((2..=3 + threads).contains(&names.len()), "{threads} threads: {names:?}");
+        let report = domes(folder).existing(Existing::Resume).check().result.unwrap().run(&mut Quiet).unwrap();
+        assert_eq!((report.skipped, report.frames), (names.len(), FRAMES - names.len()));
+        assert_eq!(whole_domes(folder).len(), FRAMES);
+    }
+}
+
+#[test]
+fn files_made_one_after_the_other_end_as_soon() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    make_skies(folder);
+    let path = |name: &str| folder.join(name).display().to_string();
+    let maps = Conversion { st_map: true, ..Conversion::new(path("sky_##.png"), path("dome_##.exr")) };
+    let maps = maps.from("equirect".parse().unwrap()).to("fulldome".parse().unwrap()).size("64".parse().unwrap());
+    let (result, told) = stopped(maps, 3);
+    assert!(matches!(result, Err(ConvertError::Stopped { done: 3, frames: FRAMES })));
+    assert_eq!((told.len(), whole_domes(folder).len()), (3, 3));
+}
+
+#[test]
+fn after_the_last_frame_there_is_nothing_to_stop() {
+    let folder = tempfile::tempdir().unwrap();
+    make_skies(folder.path());
+    let (result, told) = stopped(domes(folder.path()), FRAMES);
+    assert_eq!((result.unwrap().frames, told.len()), (FRAMES, FRAMES));
+    let still = domes(folder.path()).frames(cosmorama_io::FrameList::new([5])).existing(Existing::Replace);
+    assert_eq!(stopped(still, 1).0.unwrap().frames, 1);
+}
