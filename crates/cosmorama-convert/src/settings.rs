@@ -60,7 +60,7 @@ pub struct Conversion {
     pub compression: Option<Compression>,
     /// Limits of threads and memory.
     pub limits: LimitSettings,
-    /// Source of the bytes of pictures; disk by default.
+    /// Source of the bytes of inputs; disk by default.
     pub files: Arc<dyn Files>,
     /// Registry of files in progress, which a signal handler removes.
     pub unfinished: Unfinished,
@@ -209,7 +209,7 @@ impl Conversion {
         self
     }
 
-    /// Sets the source of the bytes of pictures.
+    /// Sets the source of the bytes of inputs.
     #[must_use]
     pub fn files(mut self, files: Arc<dyn Files>) -> Self {
         self.files = files;

@@ -30,7 +30,7 @@ pub struct ExplanationSettings {
     pub geometry: GeometrySettings,
     /// Limits of threads and memory.
     pub limits: LimitSettings,
-    /// Source of the bytes of pictures; disk by default.
+    /// Source of the bytes of inputs; disk by default.
     pub files: Arc<dyn Files>,
 }
 

@@ -20,7 +20,7 @@ use crate::target::{Target, TargetView, told_of_shape};
 
 /// A conversion, ready to run.
 pub(crate) struct ConvertJob {
-    /// Source of the bytes of pictures.
+    /// Source of the bytes of inputs.
     pub(crate) files: Arc<dyn Files>,
     /// Input; empty for a formula.
     pub(crate) input: Input,

@@ -1,5 +1,6 @@
-//! Pictures need not be files.
+//! Inputs need not be files on disk: pictures, and what speaks of them.
 
+use std::path::Path;
 use std::sync::Arc;
 
 use cosmorama_convert::{Conversion, InMemory, Quiet};
@@ -22,4 +23,85 @@ fn a_picture_in_memory_makes_what_it_makes_on_disk() {
     assert_eq!(report.inputs, [std::path::PathBuf::from("a picture")]);
     assert!(std::fs::read(path("memory.png")).unwrap() == std::fs::read(path("disk.png")).unwrap());
     assert!(view("a picture".to_owned(), "none.png").check().result.is_err(), "on disk there is none of this name");
+}
+
+/// A folder with a view of the demo, 96 x 72 pixels.
+fn folder_with_view() -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    let view = Conversion::new("builtin:demo", folder.path().join("view.png").display().to_string());
+    let view = view.to("perspective:fov=75".parse().unwrap()).size("96x72".parse().unwrap());
+    view.check().result.unwrap().run(&mut Quiet).unwrap();
+    folder
+}
+
+/// Converts with the files of a folder on disk, then with all of them in memory and none on disk: twice the same bytes.
+fn assert_same_from_memory(folder: &Path, conversion: Conversion) {
+    let made = tempfile::tempdir().unwrap();
+    let path = |name: &str| made.path().join(name);
+    let conversion = conversion.size("40x30".parse().unwrap());
+    let to = |name: &str| Conversion { output: path(name).display().to_string(), ..conversion.clone() };
+    to("disk.png").check().result.unwrap().run(&mut Quiet).unwrap();
+    let mut files = InMemory::default();
+    for entry in folder.read_dir().unwrap() {
+        let file = entry.unwrap().path();
+        files.insert(&file, std::fs::read(&file).unwrap());
+        std::fs::remove_file(file).unwrap();
+    }
+    to("memory.png").files(Arc::new(files)).check().result.unwrap().run(&mut Quiet).unwrap();
+    assert!(std::fs::read(path("memory.png")).unwrap() == std::fs::read(path("disk.png")).unwrap());
+    assert!(to("none.png").check().result.is_err(), "on disk there is nothing");
+}
+
+fn narrow(folder: &Path, input: &str) -> Conversion {
+    Conversion::new(folder.join(input).display().to_string(), "").to("perspective:fov=30".parse().unwrap())
+}
+
+#[test]
+fn a_world_file_its_mask_and_its_calibration_may_be_in_memory() {
+    let folder = folder_with_view();
+    let folder = folder.path();
+    let white = Conversion::new("builtin:checker", folder.join("mask.png").display().to_string());
+    let white = white.to("perspective:fov=75".parse().unwrap()).size("96x72".parse().unwrap());
+    white.check().result.unwrap().run(&mut Quiet).unwrap();
+    let camera = r#"{"image_size": [96, 72], "K": [[62, 0, 47.5], [0, 62, 35.5], [0, 0, 1]], "D": [0, 0, 0, 0, 0]}"#;
+    std::fs::write(folder.join("camera.json"), camera).unwrap();
+    let world = "[[view]]\nimage = \"view.png\"\nspec = \"perspective:calibration=camera.json\"\nmask = \"mask.png\"\n";
+    std::fs::write(folder.join("world.toml"), world).unwrap();
+    assert_same_from_memory(folder, narrow(folder, "world.toml").missing("#204060".parse().unwrap()));
+}
+
+#[test]
+fn a_calibration_of_an_input_may_be_in_memory() {
+    let folder = folder_with_view();
+    let folder = folder.path();
+    let camera = r#"{"image_size": [96, 72], "K": [[62, 0, 47.5], [0, 62, 35.5], [0, 0, 1]], "D": [0, 0, 0, 0, 0]}"#;
+    let file = folder.join("camera.json");
+    std::fs::write(&file, camera).unwrap();
+    let spec = format!("perspective:calibration={}", file.display());
+    assert_same_from_memory(folder, narrow(folder, "view.png").from(spec.parse().unwrap()));
+}
+
+#[test]
+fn a_hugin_project_may_be_in_memory() {
+    let folder = folder_with_view();
+    let folder = folder.path();
+    // What the project makes itself is read from it, too: no projection is given for the output.
+    let project = "p f0 w40 h30 v30 E0 R0 n\"PNG\"\nm i0\ni w96 h72 f0 v75 y0 p0 r0 n\"view.png\"\n";
+    std::fs::write(folder.join("project.pto"), project).unwrap();
+    let mut conversion = narrow(folder, "project.pto");
+    conversion.geometry.to = None;
+    assert_same_from_memory(folder, conversion);
+}
+
+#[test]
+fn an_st_map_may_be_in_memory() {
+    let folder = folder_with_view();
+    let folder = folder.path();
+    let map = folder.join("map.exr");
+    let st_map = Conversion { st_map: true, ..narrow(folder, "view.png") };
+    let st_map = Conversion { output: map.display().to_string(), ..st_map.from("perspective:fov=75".parse().unwrap()) };
+    st_map.size("40x30".parse().unwrap()).check().result.unwrap().run(&mut Quiet).unwrap();
+    let mut conversion = narrow(folder, "view.png").from(format!("st-map:file={}", map.display()).parse().unwrap());
+    conversion.geometry.to = None;
+    assert_same_from_memory(folder, conversion);
 }

@@ -50,21 +50,30 @@ impl Calibration {
     /// # Errors
     /// When the file cannot be read, is none of these, or lacks what a calibration needs.
     pub fn read(path: &Path) -> Result<Self, CalibrationError> {
-        let text = text(path)?;
+        let file = File::open(path).map_err(|source| CalibrationError::Open { path: path.to_owned(), source })?;
+        Self::read_from(file, path)
+    }
+
+    /// Reads a file in memory, or from any other reader; `name` is what messages call it.
+    ///
+    /// # Errors
+    /// When the file cannot be read, is of no kind that [`read`](Self::read) reads, or lacks what a calibration needs.
+    pub fn read_from(source: impl Read, name: &Path) -> Result<Self, CalibrationError> {
+        let text = text(source, name)?;
         let found = match text.trim_start_matches('\u{feff}').trim_start().as_bytes() {
             [b'#', ..] if ocam::is_ocam(&text) => ocam::parse(&text),
             [b'<', ..] => xml::words(&text).and_then(|words| opencv::interpret(&words)),
             _ => yaml::words(&text).and_then(|words| opencv::interpret(&words)),
         };
-        found.map_err(|reason| CalibrationError::Wrong { path: path.to_owned(), reason })
+        found.map_err(|reason| CalibrationError::Wrong { path: name.to_owned(), reason })
     }
 }
 
-fn text(path: &Path) -> Result<String, CalibrationError> {
+fn text(source: impl Read, path: &Path) -> Result<String, CalibrationError> {
     let open = |source| CalibrationError::Open { path: path.to_owned(), source };
     let wrong = |reason: &str| CalibrationError::Wrong { path: path.to_owned(), reason: reason.to_owned() };
     let mut bytes = Vec::new();
-    File::open(path).and_then(|file| file.take(LONGEST + 1).read_to_end(&mut bytes)).map_err(open)?;
+    source.take(LONGEST + 1).read_to_end(&mut bytes).map_err(open)?;
     if bytes.len() as u64 > LONGEST {
         return Err(wrong("more than a megabyte, which no calibration is"));
     }

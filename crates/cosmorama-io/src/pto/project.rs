@@ -1,3 +1,4 @@
+use std::fs::File;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
@@ -83,10 +84,19 @@ impl PtoProject {
     /// When the file cannot be read, a line cannot be understood, or it asks for something unsupported; the message
     /// names it.
     pub fn read(path: &Path) -> Result<Self, PtoError> {
-        let open = |source| PtoError::Open { path: path.to_owned(), source };
-        let project = |reason: &str| PtoError::Project { path: path.to_owned(), reason: reason.to_owned() };
+        let file = File::open(path).map_err(|source| PtoError::Open { path: path.to_owned(), source })?;
+        Self::read_from(file, path)
+    }
+
+    /// Reads a project in memory, or from any other reader; `name` is what messages call it.
+    ///
+    /// # Errors
+    /// When the project cannot be read, a line cannot be understood, or it asks for what is not supported, by name.
+    pub fn read_from(source: impl Read, name: &Path) -> Result<Self, PtoError> {
+        let open = |source| PtoError::Open { path: name.to_owned(), source };
+        let project = |reason: &str| PtoError::Project { path: name.to_owned(), reason: reason.to_owned() };
         let mut bytes = Vec::new();
-        std::fs::File::open(path).and_then(|file| file.take(LONGEST + 1).read_to_end(&mut bytes)).map_err(open)?;
+        source.take(LONGEST + 1).read_to_end(&mut bytes).map_err(open)?;
         if bytes.len() as u64 > LONGEST {
             return Err(project("more than 16 megabytes, which no Hugin project is"));
         }
@@ -96,7 +106,7 @@ impl PtoProject {
         let text = String::from_utf8_lossy(&bytes);
         Self::parse(&text).map_err(|(line, reason)| match line {
             0 => project(&reason),
-            line => PtoError::Line { path: path.to_owned(), line, reason },
+            line => PtoError::Line { path: name.to_owned(), line, reason },
         })
     }
 

@@ -1,17 +1,18 @@
 use std::collections::BTreeMap;
 use std::fmt::Debug;
-use std::io::Cursor;
+use std::io::{self, Cursor, Read};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use cosmorama_io::{
-    Header, ImageFile, IoError, Limits, ReadSeek, StPairs, open, probe_from, probe_pairs_from, read_from,
+    Calibration, CalibrationError, Header, ImageFile, IoError, Limits, PtoError, PtoProject, ReadSeek, StPairs, open, probe_from, probe_pairs_from, read_from,
     read_pairs_from,
 };
 
 use crate::budget::MemoryBudget;
 
-/// Source of the bytes of pictures: disk, memory, an archive. Lists of pictures, and calibrations, are always on disk.
+/// Place that the bytes of inputs come from: disk, memory, an archive. Inputs are pictures, masks, st maps, calibrations, world
+/// files and Hugin projects. Patterns of frames and faces are looked for on disk.
 pub trait Files: Debug + Send + Sync {
     /// Opens a file.
     ///
@@ -108,5 +109,32 @@ impl Access<'_> {
     /// Reads an st map.
     pub(crate) fn read_pairs(self, path: &Path) -> Result<StPairs, IoError> {
         read_pairs_from(self.files.open(path)?, path, &Limits::memory(self.memory.bytes))
+    }
+
+    /// Reads a calibration.
+    pub(crate) fn read_calibration(self, path: &Path) -> Result<Calibration, CalibrationError> {
+        let open = |source| CalibrationError::Open { path: path.to_owned(), source };
+        Calibration::read_from(self.open(path).map_err(open)?, path)
+    }
+
+    /// Reads a Hugin project.
+    pub(crate) fn read_project(self, path: &Path) -> Result<PtoProject, PtoError> {
+        let open = |source| PtoError::Open { path: path.to_owned(), source };
+        PtoProject::read_from(self.open(path).map_err(open)?, path)
+    }
+
+    /// Reads all bytes of a file.
+    pub(crate) fn read_bytes(self, path: &Path) -> io::Result<Vec<u8>> {
+        let mut bytes = Vec::new();
+        self.open(path)?.read_to_end(&mut bytes)?;
+        Ok(bytes)
+    }
+
+    /// Opens a file that is no picture: its errors name what it was to be.
+    fn open(self, path: &Path) -> io::Result<Box<dyn ReadSeek>> {
+        self.files.open(path).map_err(|error| match error {
+            IoError::Open { source, .. } => source,
+            other => io::Error::other(other),
+        })
     }
 }

@@ -7,7 +7,7 @@ use cosmorama::camera::{
 };
 use cosmorama::sphere::{Angle, Orientation};
 use cosmorama::world::{Blend, MaskShape};
-use cosmorama_io::{PtoImage, PtoPanorama, PtoProject};
+use cosmorama_io::{PtoImage, PtoPanorama};
 use cosmorama_spec::{Shape, Single, Size, Spec, SphereSamples};
 
 use crate::diagnostic::{Code, Diagnostic, InPlace, Result, SIZE, TO, failure, usage};
@@ -24,7 +24,7 @@ pub(crate) fn is_project(pattern: &str) -> bool {
 
 /// Finds and probes the pictures of a project.
 pub(crate) fn find(name: &str, access: Access, warnings: &mut Vec<Diagnostic>) -> Result<Input> {
-    let project = PtoProject::read(Path::new(name))?;
+    let project = access.read_project(Path::new(name))?;
     let told = |warning| Diagnostic::warning(Code::Project, format!("{name}: {warning}")).about(name);
     warnings.extend(project.warnings.iter().map(told));
     let folder = Path::new(name).parent().unwrap_or(Path::new(""));
@@ -35,7 +35,7 @@ pub(crate) fn find(name: &str, access: Access, warnings: &mut Vec<Diagnostic>) -
 
 /// Returns each picture of a project by itself.
 pub(crate) fn listed(name: &str, access: Access, warnings: &mut Vec<Diagnostic>) -> Result<Vec<Listed>> {
-    let images = PtoProject::read(Path::new(name))?.images;
+    let images = access.read_project(Path::new(name))?.images;
     let views = find(name, access, warnings)?.worlds.into_iter().flatten();
     let list = |(image, view): (PtoImage, InputView)| Listed {
         image: image.file.display().to_string(),
@@ -46,13 +46,13 @@ pub(crate) fn listed(name: &str, access: Access, warnings: &mut Vec<Diagnostic>)
     Ok(images.into_iter().zip(views).map(list).collect())
 }
 
-/// Completes projection and size from a project's p-line, where they are not given.
-pub(crate) fn complete(input: &str, geometry: &GeometrySettings) -> Result<GeometrySettings> {
+/// What is made of a project where the command line does not say.
+pub(crate) fn complete(input: &str, geometry: &GeometrySettings, access: Access) -> Result<GeometrySettings> {
     let mut geometry = geometry.clone();
     if !is_project(input) || geometry.to.is_some() {
         return Ok(geometry);
     }
-    let Some(panorama) = PtoProject::read(Path::new(input))?.panorama else { return Ok(geometry) };
+    let Some(panorama) = access.read_project(Path::new(input))?.panorama else { return Ok(geometry) };
     let told = |reason: String| failure!("{input}, line {}: {reason}", panorama.line);
     let frame = output_frame(&panorama).map_err(told)?;
     let (width, height) = panorama.size;

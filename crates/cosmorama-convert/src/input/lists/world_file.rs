@@ -88,7 +88,7 @@ pub(crate) fn listed(
     access: Access,
     warnings: &mut Vec<Diagnostic>,
 ) -> Result<Vec<Listed>> {
-    let bytes = std::fs::read(name).map_err(|error| failure!("cannot open the world file {name}: {error}"))?;
+    let bytes = access.read_bytes(Path::new(name)).map_err(|error| failure!("cannot open the world file {name}: {error}"))?;
     let Ok(text) = String::from_utf8(bytes) else {
         bail!("{name}: not a text; expected a world file in TOML: {SCHEMA}")
     };
@@ -120,7 +120,7 @@ impl Entry {
         warnings: &mut Vec<Diagnostic>,
     ) -> Result<Input> {
         let feather = self.feather(source)?;
-        let spec = self.spec(source)?;
+        let spec = self.spec(source, access)?;
         let named = spec.as_ref().map_or_else(Vec::new, |spec| spec.files.clone());
         let spec = spec.map(|spec| st_map::read_map(spec, access)).transpose();
         let spec = spec.at(|| source.place(self.spec.as_ref().map(Spanned::span)))?;
@@ -157,11 +157,11 @@ impl Entry {
         Ok(input)
     }
 
-    fn spec(&self, source: &Text) -> Result<Option<Spec>> {
+    fn spec(&self, source: &Text, access: Access) -> Result<Option<Spec>> {
         let Some(spec) = &self.spec else { return Ok(None) };
         let parsed = Spec::parse_in(source.folder(), spec.get_ref()).map_err(|error| error.to_string());
         let told = |error| source.error(Some(spec.span()), &format!("spec = \"{}\": {error}", spec.get_ref()));
-        parsed.and_then(read_calibrations).map(Some).map_err(told)
+        parsed.and_then(|spec| read_calibrations(spec, access)).map(Some).map_err(told)
     }
 
     /// Applies the mask of a single picture.

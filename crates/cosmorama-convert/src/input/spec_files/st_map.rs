@@ -39,12 +39,12 @@ pub(crate) fn settled(
     warnings: &mut Vec<Diagnostic>,
 ) -> Result<GeometrySettings> {
     let geometry = &GeometrySettings {
-        from: calibrated(&geometry.from, Side::Input)?,
-        to: calibrated(&geometry.to, Side::Output)?,
+        from: calibrated(&geometry.from, Side::Input, access)?,
+        to: calibrated(&geometry.to, Side::Output, access)?,
         ..geometry.clone()
     };
     let mut settled = match input {
-        Some(input) => hugin::complete(input, geometry)?,
+        Some(input) => hugin::complete(input, geometry, access)?,
         None => geometry.clone(),
     };
     if let (Some(Shape::StMap(StMapSpec { invert: false, file, .. })), None) = (shape(&geometry.to), geometry.size) {
@@ -127,9 +127,9 @@ pub(crate) fn read_map(spec: Spec, access: Access) -> Result<Spec> {
     with_given_base(map, Side::Input, access)
 }
 
-/// Reads the calibration of a SPEC.
-fn calibrated(spec: &Option<Spec>, side: Side) -> Result<Option<Spec>> {
-    let read = |spec| read_calibrations(spec).map_err(|error| failure!("{} <SPEC>: {error}", option(side)));
+/// A SPEC with its calibration read.
+fn calibrated(spec: &Option<Spec>, side: Side, access: Access) -> Result<Option<Spec>> {
+    let read = |spec| read_calibrations(spec, access).map_err(|error| failure!("{} <SPEC>: {error}", option(side)));
     spec.clone().map(read).transpose()
 }
 
