@@ -2,7 +2,7 @@ use cosmorama::raster::{Channels, Depth, Rgba, Transfer};
 use cosmorama_io::{Header, Metadata};
 use cosmorama_spec::{Missing, TransferName};
 
-use crate::diagnostic::{BACKGROUND, Code, DEPTH, Diagnostic, MISSING, Result, usage};
+use crate::diagnostic::{BACKGROUND, Code, DEPTH, Diagnostic, MISSING, Result, usage_as};
 use crate::input::Input;
 use crate::settings::Conversion;
 use crate::target::Target;
@@ -116,11 +116,14 @@ fn channels(
     let possible = target.format.nearest_channels(wanted);
     if wanted.has_alpha() && !possible.has_alpha() {
         if transparent {
-            return Err(usage(format!(
-                "{} files cannot be transparent; write PNG, TIFF, TGA or OpenEXR, or give {BACKGROUND} and {MISSING} an \
+            return Err(usage_as(
+                Code::OutputFormat,
+                format!(
+                    "{} files cannot be transparent; write PNG, TIFF, TGA or OpenEXR, or give {BACKGROUND} and {MISSING} an \
                  opaque colour",
-                target.format
-            )));
+                    target.format
+                ),
+            ));
         }
         let message = format!("{} files hold no alpha: the input's is laid over the background", target.format);
         warnings.push(Diagnostic::warning(Code::AlphaLost, message));
@@ -138,7 +141,7 @@ fn depth(args: &Conversion, headers: &[&Header], target: &Target) -> Result<Dept
         return Ok(asked);
     }
     let known: Vec<_> = target.format.depths().iter().map(ToString::to_string).collect();
-    Err(usage(format!("{DEPTH} {asked}: {} files hold {}", target.format, known.join(", "))))
+    Err(usage_as(Code::OutputFormat, format!("{DEPTH} {asked}: {} files hold {}", target.format, known.join(", "))))
 }
 
 /// Returns the output's transfer function: that of an integer input for an integer output, linear for floats.

@@ -8,7 +8,7 @@ use super::options::filter;
 use crate::colour::Light;
 use crate::diagnostic::{
     ANTI_RINGING, BACKGROUND, Code, DEPTH, Diagnostic, FILTER, FRAMES, FROM, IN_TRANSFER, KERNEL, MISSING, Mark,
-    OUT_TRANSFER, OVERWRITE, RESUME, Result, ST_MAP, TRANSFER, usage,
+    OUT_TRANSFER, OVERWRITE, RESUME, Result, ST_MAP, TRANSFER, usage, usage_as,
 };
 use crate::input::{Access, Builtin, Input, SAME_FOR_BOTH};
 use crate::settings::{Conversion, GeometrySettings};
@@ -163,9 +163,10 @@ fn check_input_options(settings: &Conversion) -> Result<()> {
 fn check_map(settings: &Conversion, format: Format) -> Result<()> {
     let (input, output) = (&settings.input, &settings.output);
     if format != Format::Exr {
-        return Err(usage(format!(
-            "{output} is {format}, but the numbers of {input} go into named channels; name the output .exr"
-        )));
+        return Err(usage_as(
+            Code::OutputFormat,
+            format!("{output} is {format}, but the numbers of {input} go into named channels; name the output .exr"),
+        ));
     }
     if settings.existing == crate::settings::Existing::Resume {
         return Err(usage(format!(
@@ -185,7 +186,10 @@ fn check_map(settings: &Conversion, format: Format) -> Result<()> {
 fn check_st_map(settings: &Conversion, format: Format) -> Result<()> {
     if format != Format::Exr {
         let output = &settings.output;
-        return Err(usage(format!("{ST_MAP} writes numbers, but {output} is {format}; name the output .exr")));
+        return Err(usage_as(
+            Code::OutputFormat,
+            format!("{ST_MAP} writes numbers, but {output} is {format}; name the output .exr"),
+        ));
     }
     let geometry = &settings.geometry;
     let is_plain =

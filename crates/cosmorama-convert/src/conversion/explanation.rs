@@ -12,7 +12,7 @@ use super::check::threads;
 use super::options::filter;
 use crate::budget::MemoryBudget;
 use crate::coverage::whole_worlds;
-use crate::diagnostic::{Diagnostic, FROM, Outcome, Result, TO, usage};
+use crate::diagnostic::{Code, Diagnostic, FROM, Outcome, Result, TO, usage, usage_as};
 use crate::input::spec_files::st_map::settled;
 use crate::input::{Access, Builtin, Disk, Files, Input, InputView};
 use crate::output::files_read;
@@ -81,7 +81,10 @@ impl ExplanationSettings {
         let geometry = &settled(&self.geometry, self.input.as_deref(), access, warnings)?;
         if geometry.to.is_none() {
             let example = format!("{TO} omnimax");
-            return Err(usage(format!("{TO} is missing: say which projection the output is to have, as in {example}")));
+            return Err(usage_as(
+                Code::MissingSetting,
+                format!("{TO} is missing: say which projection the output is to have, as in {example}"),
+            ));
         }
         let (mut input, pictures) = self.find(geometry, access, warnings)?;
         warnings.extend(input.turned());
@@ -115,7 +118,9 @@ impl ExplanationSettings {
                 let centre = pictures.first().map_or(1.0, |picture| picture.view.pixels_per_radian());
                 Ok((Input::planned(from, self.input_size, centre)?, pictures))
             }
-            (None, None) => Err(usage(format!("give an input, or {FROM} for one that does not exist yet"))),
+            (None, None) => {
+                Err(usage_as(Code::MissingSetting, format!("give an input, or {FROM} for one that does not exist yet")))
+            }
         }
     }
 }

@@ -6,7 +6,7 @@ use crate::diagnostic::Diagnostic;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Stop;
 
-/// Watches a conversion while it runs.
+/// Callbacks of a running conversion.
 pub trait Observer {
     /// Called with the number of frames to make, before the first.
     fn begin(&mut self, _frames: usize) {}
@@ -14,11 +14,11 @@ pub trait Observer {
     /// Called with a diagnostic.
     fn diagnostic(&mut self, _diagnostic: &Diagnostic) {}
 
-    /// Learns that a frame is written; `None` is one without a number. The answer says whether to go on.
+    /// Called when a frame is written; `None` for one without a number. The result says whether to go on.
     ///
-    /// After `Break(Stop)` no frame and no file is begun. Files that are being written then are finished, and none stays behind
-    /// in part. [`run`](crate::Checked::run) returns [`ConvertError::Stopped`](crate::ConvertError::Stopped), unless this was the
-    /// last frame.
+    /// After `Break(Stop)` no further frame and no further file is started. Files that are being written are finished, and no
+    /// partial file stays behind. [`run`](crate::Checked::run) then returns
+    /// [`ConvertError::Stopped`](crate::ConvertError::Stopped), unless this was the last frame.
     fn frame_done(&mut self, _frame: Option<u64>) -> ControlFlow<Stop> {
         ControlFlow::Continue(())
     }

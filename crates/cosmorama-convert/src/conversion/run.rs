@@ -17,7 +17,7 @@ impl Checked {
     /// Makes the outputs. Each appears whole or not at all.
     ///
     /// # Errors
-    /// When a file cannot be read or written, or does not hold what its header said, and when the observer stops it.
+    /// When a file cannot be read or written, its content contradicts its header, or the observer stops the run.
     pub fn run(mut self, observer: &mut dyn Observer) -> Result<Report> {
         observer.begin(self.job.outputs.frames.len());
         match self.content {
@@ -82,7 +82,7 @@ struct Run<'a> {
     diagnostics: &'a mut Vec<Diagnostic>,
     /// Whether no frame has been examined yet.
     is_first: bool,
-    /// Frames that are written.
+    /// Number of frames written so far.
     done: usize,
 }
 
@@ -132,7 +132,7 @@ impl Run<'_> {
     }
 }
 
-/// Tells an observer that a frame is written, and how many are so of all; an error where it wants no others.
+/// Calls an observer after a frame, when `done` of all `frames` are written. Returns an error if it stops the run early.
 fn tell_done(observer: &mut dyn Observer, frame: Option<u64>, (done, frames): (usize, usize)) -> Result<()> {
     match observer.frame_done(frame) {
         ControlFlow::Break(Stop) if done < frames => Err(ConvertError::Stopped { done, frames }),
@@ -140,7 +140,7 @@ fn tell_done(observer: &mut dyn Observer, frame: Option<u64>, (done, frames): (u
     }
 }
 
-/// Reads the files of a frame and makes light of them.
+/// Reads the files of a frame and decodes them to light.
 fn light_of(job: &ConvertJob, engine: &Engine, stages: &Stages, frame: &FrameOutputs) -> Result<FrameLight> {
     let mut light = engine.frame_light();
     let images = stages.alone(Stage::Decode, || {

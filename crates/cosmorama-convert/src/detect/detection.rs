@@ -9,7 +9,7 @@ use cosmorama_spec::{Cube, Packing, Shape, Single, Spec, SphereSamples, StereoSp
 use crate::detect::decision::{OVAL_ONES, ROUND_ONES, candidates, circle_spec, dome_spec, layouts_of_shape, two_eyes};
 use crate::detect::pixels::damage_of;
 use crate::detect::{Evidence, Guess, Readings, Seen};
-use crate::diagnostic::{Code, Diagnostic, FROM, Remedy, Result, Setting, bail, usage};
+use crate::diagnostic::{Code, Diagnostic, FROM, Remedy, Result, Setting, bail, usage, usage_as};
 use crate::input::Files;
 use crate::input::canvas::canvas_of;
 
@@ -22,7 +22,7 @@ pub(crate) fn detect(
 ) -> Result<(Shape, Option<StereoSpec>)> {
     let (guess, damage) = Guess::of(files, path, header);
     if let Some(damage) = damage {
-        bail!("{damage}");
+        bail!(Damaged: "{damage}");
     }
     let mono = |shape: Shape| Ok((shape, None));
     let mut announce = |what: &str, spec: &str, why: &str| {
@@ -58,7 +58,7 @@ pub(crate) fn detect(
             announce(what, &spec, &why);
             parsed(&spec)
         }
-        Guess::Unknown(kinds, seen) => bail!("{}", ambiguous(path, header, &kinds, &seen)),
+        Guess::Unknown(kinds, seen) => bail!(Ambiguous: "{}", ambiguous(path, header, &kinds, &seen)),
     }
 }
 
@@ -72,7 +72,7 @@ fn guessed(path: &Path, evidence: Evidence) -> Result<(String, &'static str, Str
         Evidence::CrossElsewhere(kind, mirror) => {
             let Readings { mirrored, upright, on_its_head } = Readings::new(kind, mirror);
             bail!(
-                "{}: one colour surrounds a cross whose long arm is at the other end; give {FROM} {mirrored} if the picture is \
+                Ambiguous: "{}: one colour surrounds a cross whose long arm is at the other end; give {FROM} {mirrored} if the picture is \
                  mirrored, so that writing in it reads backwards, {FROM} {on_its_head} if it stands on its head, or {FROM} \
                  {upright} if it does neither",
                 path.display()
@@ -100,18 +100,20 @@ fn guessed(path: &Path, evidence: Evidence) -> Result<(String, &'static str, Str
             (circles.dual_spec(), "two fisheyes", why)
         }
         Evidence::Disc(found) => bail!(
-            "{}: a circle on black, as a fisheye lens leaves it, whose field of view is not known; give {FROM} {}, or, for a \
+            Ambiguous: "{}: a circle on black, as a fisheye lens leaves it, whose field of view is not known; give {FROM} {}, or, for a \
              mirror ball, {FROM} {}",
             path.display(),
             circle_spec("fisheye:fov=DEGREES,", &found),
             circle_spec("mirror-ball:", &found)
         ),
         Evidence::Oval => bail!(
-            "{}: twice as wide as high, with one colour around an oval, as oval maps have it; give {FROM} {OVAL_ONES}, or \
+            Ambiguous: "{}: twice as wide as high, with one colour around an oval, as oval maps have it; give {FROM} {OVAL_ONES}, or \
              {FROM} equirect if it is a panorama all the same",
             path.display()
         ),
-        Evidence::Twins(_) => bail!("{}: two pictures that are alike; give {FROM} SPEC with stereo=", path.display()),
+        Evidence::Twins(_) => {
+            bail!(Ambiguous: "{}: two pictures that are alike; give {FROM} SPEC with stereo=", path.display())
+        }
     })
 }
 
@@ -208,13 +210,16 @@ fn declared_cube(cube: &Cube, pattern: &str, header: &Header, warnings: &mut Vec
         _ => {
             let names = if kinds.is_empty() { LayoutKind::ALL.to_vec() } else { kinds };
             let names: Vec<String> = names.iter().map(|kind| format!("cube:layout={kind}")).collect();
-            Err(usage(format!(
-                "{FROM} cube: {pattern} has no {{face}} or %c where a face's name stands, and its {}x{} pixels do not tell \
+            Err(usage_as(
+                Code::Ambiguous,
+                format!(
+                    "{FROM} cube: {pattern} has no {{face}} or %c where a face's name stands, and its {}x{} pixels do not tell \
                  how the faces lie in it; if it holds them all, give {FROM} {}",
-                header.width,
-                header.height,
-                names.join(" or ")
-            )))
+                    header.width,
+                    header.height,
+                    names.join(" or ")
+                ),
+            ))
         }
     }
 }

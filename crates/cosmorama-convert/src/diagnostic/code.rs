@@ -2,15 +2,41 @@
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Code {
-    /// Settings are wrong, or do not fit together or to the files.
+    /// Settings are wrong, or do not fit together or to the files, in a way without a kind of its own.
     Settings,
+    /// A required setting is missing.
+    MissingSetting,
+    /// The kind of an input cannot be detected; a setting has to name it.
+    Ambiguous,
     /// The work cannot be done, for a reason without a kind of its own.
     Failed,
+    /// A file, a face or a frame does not exist.
+    NotFound,
+    /// A file exists but cannot be opened or read.
+    Unreadable,
+    /// A file is empty, breaks the rules of its format, or ends too early.
+    Damaged,
+    /// A file is intact but of an unsupported kind.
+    Unsupported,
+    /// A world file, a Hugin project, a calibration or an st map lacks what it needs or contradicts itself.
+    Malformed,
+    /// A picture does not have the expected size or shape.
+    WrongSize,
+    /// A file changed while it was read.
+    Changed,
+    /// A projection, a layout or a world of views is impossible as described.
+    Geometry,
+    /// An output cannot be written.
+    Unwritable,
+    /// The output's format cannot hold what is asked for, or its name has no known extension.
+    OutputFormat,
+    /// An output would replace an input or another output.
+    SameFile,
     /// Files do not cover what the output shows.
     Uncovered,
     /// More memory is needed than permitted.
     Memory,
-    /// An observer stopped the conversion.
+    /// An observer stopped the conversion early.
     Stopped,
     /// Outputs exist already.
     Exists,

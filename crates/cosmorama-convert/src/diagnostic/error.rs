@@ -1,9 +1,10 @@
 use std::error::Error as _;
+use std::io::ErrorKind;
 
 use cosmorama::camera::CameraError;
 use cosmorama::layout::LayoutError;
 use cosmorama::world::WorldError;
-use cosmorama_io::{IoError, PtoError};
+use cosmorama_io::{CalibrationError, IoError, PtoError};
 use cosmorama_spec::SpecError;
 use thiserror::Error;
 
@@ -25,6 +26,9 @@ pub enum ConvertError {
     /// A Hugin project cannot be read.
     #[error(transparent)]
     Project(#[from] PtoError),
+    /// A calibration cannot be read.
+    #[error(transparent)]
+    Calibration(#[from] CalibrationError),
     /// A camera model does not make a view.
     #[error(transparent)]
     CameraModel(#[from] CameraError),
@@ -37,15 +41,17 @@ pub enum ConvertError {
     /// A SPEC cannot be understood.
     #[error(transparent)]
     Spec(#[from] SpecError),
-    /// An observer stopped the conversion.
-    #[error("stopped after {done} of {frames} frames, as was asked for; their files are whole, and to resume makes the others")]
+    /// An observer stopped the conversion early.
+    #[error(
+        "stopped after {done} of {frames} frames, as was asked for; their files are whole, and to resume makes the others"
+    )]
     Stopped {
-        /// Frames that the observer had learned of.
+        /// Frames that were reported as written.
         done: usize,
-        /// Frames that were to be made.
+        /// Frames that were planned.
         frames: usize,
     },
-    /// An error in a place: a line of a file, a frame.
+    /// An error with its place: a line of a file, or a frame.
     #[error("{place}")]
     At {
         /// Place, in words.
@@ -82,7 +88,12 @@ impl<T, E: Into<ConvertError>> InPlace<T> for Result<T, E> {
 
 /// Creates an error about settings.
 pub(crate) fn usage(message: impl Into<Message>) -> ConvertError {
-    ConvertError::Settings(Box::new(Diagnostic::error(Code::Settings, message)))
+    usage_as(Code::Settings, message)
+}
+
+/// Creates an error about settings, of a kind.
+pub(crate) fn usage_as(code: Code, message: impl Into<Message>) -> ConvertError {
+    ConvertError::Settings(Box::new(Diagnostic::error(code, message)))
 }
 
 /// Creates an error about files or the machine.
@@ -104,8 +115,11 @@ macro_rules! bail {
         return Err($crate::diagnostic::failed(format!($($text)*)))
     };
 }
-/// Creates an error about files or the machine.
+/// Creates an error about files or the machine, optionally of a kind: `failure!(Damaged: "…")`.
 macro_rules! failure {
+    ($code:ident: $($text:tt)*) => {
+        $crate::diagnostic::failed_as($crate::diagnostic::Code::$code, format!($($text)*))
+    };
     ($($text:tt)*) => {
         $crate::diagnostic::failed(format!($($text)*))
     };
@@ -128,7 +142,11 @@ impl ConvertError {
             Self::Settings(diagnostic) | Self::Failed(diagnostic) => diagnostic.code,
             Self::At { error, .. } => error.code(),
             Self::Stopped { .. } => Code::Stopped,
-            _ => Code::Failed,
+            Self::Io(error) => of_file(error),
+            Self::Project(error) => of_project(error),
+            Self::Calibration(error) => of_calibration(error),
+            Self::CameraModel(_) | Self::World(_) | Self::Layout(_) => Code::Geometry,
+            Self::Spec(_) => Code::Settings,
         }
     }
 
@@ -147,8 +165,16 @@ impl ConvertError {
 
     /// Replaces a setting in the text by other words.
     pub(crate) fn reworded(&self, setting: Mark, words: &str) -> Self {
-        let message = self.message().reworded(setting, words);
-        if self.is_of_settings() { usage(message) } else { failed_as(self.code(), message) }
+        self.with_message(self.message().reworded(setting, words))
+    }
+
+    /// Returns the error with a text before its message.
+    pub(crate) fn after(&self, words: &str) -> Self {
+        self.with_message(self.message().after(words))
+    }
+
+    fn with_message(&self, message: Message) -> Self {
+        if self.is_of_settings() { usage_as(self.code(), message) } else { failed_as(self.code(), message) }
     }
 
     fn causes(&self) -> Vec<String> {
@@ -166,4 +192,45 @@ impl ConvertError {
             }
         }
     }
+}
+
+/// Returns the code of an error about a file.
+fn of_file(error: &IoError) -> Code {
+    match error {
+        IoError::Open { source, .. } => of_opening(source),
+        IoError::NoFaces { .. }
+        | IoError::MissingFaces { .. }
+        | IoError::NoFrames { .. }
+        | IoError::MissingFrames { .. } => Code::NotFound,
+        IoError::FaceIsFolder { .. } => Code::Unreadable,
+        IoError::Empty { .. } | IoError::Damaged { .. } => Code::Damaged,
+        IoError::UnknownContent { .. } | IoError::Unsupported { .. } => Code::Unsupported,
+        IoError::TooLarge { .. } => Code::Memory,
+        IoError::UnknownExtension { .. } | IoError::CannotHold { .. } => Code::OutputFormat,
+        IoError::Write { .. } => Code::Unwritable,
+        IoError::NotAFacePattern { .. } => Code::Settings,
+        IoError::AmbiguousNaming { .. } => Code::Ambiguous,
+        _ => Code::Failed,
+    }
+}
+
+/// Returns the code of an error about a Hugin project.
+fn of_project(error: &PtoError) -> Code {
+    match error {
+        PtoError::Open { source, .. } => of_opening(source),
+        _ => Code::Malformed,
+    }
+}
+
+/// Returns the code of an error about a calibration.
+fn of_calibration(error: &CalibrationError) -> Code {
+    match error {
+        CalibrationError::Open { source, .. } => of_opening(source),
+        _ => Code::Malformed,
+    }
+}
+
+/// Returns the code of an error while a file is opened.
+pub(crate) fn of_opening(error: &std::io::Error) -> Code {
+    if error.kind() == ErrorKind::NotFound { Code::NotFound } else { Code::Unreadable }
 }

@@ -11,7 +11,7 @@ pub use error::{ConvertError, Outcome, Result};
 pub use message::{Message, Part};
 pub use setting::Setting;
 
-pub(crate) use error::{InPlace, bail, failed, failed_as, failure, usage};
+pub(crate) use error::{InPlace, bail, failed, failed_as, failure, of_opening, usage, usage_as};
 pub(crate) use mark::*;
 
 /// A diagnostic of a conversion.

@@ -216,7 +216,7 @@ impl<'a> Engine<'a> {
                 |(view, count): (&InputView, usize)| format!("{} ({count})", view.files.path(frame).display());
             let culprits: Vec<_> = self.incomplete(light).map(culprit).collect();
             bail!(
-                "{empty} pixels of {} see nothing but missing pixels (NaN), found in {}; render those again, or fill the \
+                NotANumber: "{empty} pixels of {} see nothing but missing pixels (NaN), found in {}; render those again, or fill the \
                  gaps with {MISSING} COLOR or {MISSING} transparent",
                 self.job.target.views[index].name,
                 culprits.join(", ")

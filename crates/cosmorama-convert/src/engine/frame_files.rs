@@ -64,7 +64,7 @@ impl FrameFile {
         let found = (file.image.width(), file.image.height());
         if found != expected || file.window != header.window {
             bail!(
-                "{}: {}x{} pixels, but {}, of the first frame, has {}x{}{}; render it again as that one is, or convert \
+                WrongSize: "{}: {}x{} pixels, but {}, of the first frame, has {}x{}{}; render it again as that one is, or convert \
                  frames like it in a run of their own, with {FRAMES}",
                 path.display(),
                 found.0,

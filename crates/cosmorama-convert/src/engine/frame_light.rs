@@ -87,7 +87,7 @@ impl FrameLight {
                 let still = stages.beside(Stage::Decode, || file.read(job))?;
                 if let (true, Some(image)) = (is_fixed, still.iter().find(|image| !self.takes(image))) {
                     let path = image.path.display();
-                    bail!("{path}: no longer opaque and of 8 bits; leave files alone while they are read");
+                    bail!(Changed: "{path}: no longer opaque and of 8 bits; leave files alone while they are read");
                 }
                 self.decode(job, &still, stages)?;
             }
@@ -136,7 +136,7 @@ impl FrameLight {
             if missing == count && job.fill_for_missing().is_none() {
                 let name = job.input.present().nth(image.view).map_or("", |(view, ..)| &view.name);
                 let path = image.path.display();
-                bail!("{path}: the {name} view holds no light; render it again: every pixel is NaN");
+                bail!(NotANumber: "{path}: the {name} view holds no light; render it again: every pixel is NaN");
             }
             self.missing[image.view] = missing;
         }

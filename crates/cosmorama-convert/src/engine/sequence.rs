@@ -33,7 +33,7 @@ pub(crate) trait Watcher {
     /// Called with the light of a frame.
     fn look(&mut self, frame: &FrameOutputs, light: &FrameLight);
 
-    /// Learns that a frame is written. An error ends the sequence.
+    /// Called when a frame is written. An error ends the sequence.
     fn done(&mut self, frame: &FrameOutputs) -> Result<()>;
 }
 
@@ -137,9 +137,8 @@ impl<'a> Sequence<'a> {
 }
 
 impl Queues<'_> {
-    /// Waits until no more than so many frames are being written; the pictures of the last that is, which nobody uses any more.
-    /// After one that fails, or after which the watcher wants no more, none is waited for: what becomes of later ones is told by
-    /// nobody.
+    /// Waits until at most `most` frames are being written, and returns the pictures of the last one for reuse. After a
+    /// failed frame, or one after which the watcher stops, nothing is awaited, because nobody reports on later frames.
     fn finish_written(&mut self, most: usize, watcher: &mut dyn Watcher) -> Result<Vec<Levels>> {
         let mut used = Vec::new();
         while self.written.len() > most {

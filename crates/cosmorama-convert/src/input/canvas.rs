@@ -4,7 +4,7 @@ use std::path::Path;
 use cosmorama::camera::{CameraModel, Canvas};
 use cosmorama_io::{Header, Window};
 
-use crate::diagnostic::{FROM, Result, usage};
+use crate::diagnostic::{Code, FROM, Result, usage_as};
 
 /// Returns the canvas of an image that is all of it.
 pub(crate) fn whole(header: &Header) -> Canvas {
@@ -21,13 +21,16 @@ pub(crate) fn fits_canvas(path: &Path, header: &Header, canvas: Canvas) -> Resul
     if header.width <= canvas.width && header.height <= canvas.height {
         return Ok(());
     }
-    Err(usage(format!(
-        "{}: {}x{} pixels are no window of a canvas of {}; give canvas=WxH+X+Y the size of the whole picture",
-        path.display(),
-        header.width,
-        header.height,
-        shape(&canvas)
-    )))
+    Err(usage_as(
+        Code::WrongSize,
+        format!(
+            "{}: {}x{} pixels are no window of a canvas of {}; give canvas=WxH+X+Y the size of the whole picture",
+            path.display(),
+            header.width,
+            header.height,
+            shape(&canvas)
+        ),
+    ))
 }
 
 /// Checks that a picture does not lie entirely beside its canvas. It may extend beyond the edges, but not go all the
@@ -37,13 +40,16 @@ pub(crate) fn lies_on_canvas(name: impl Display, (columns, rows): (usize, usize)
     if overlaps(canvas.left, columns, canvas.width) && overlaps(canvas.top, rows, canvas.height) {
         return Ok(());
     }
-    Err(usage(format!(
-        "{name}: {columns}x{rows} pixels at {}, {} lie beside their canvas of {}; give canvas=WxH+X+Y the place of their first \
+    Err(usage_as(
+        Code::WrongSize,
+        format!(
+            "{name}: {columns}x{rows} pixels at {}, {} lie beside their canvas of {}; give canvas=WxH+X+Y the place of their first \
          pixel in the whole picture",
-        canvas.left,
-        canvas.top,
-        shape(&canvas)
-    )))
+            canvas.left,
+            canvas.top,
+            shape(&canvas)
+        ),
+    ))
 }
 
 /// Checks that a map of a fixed shape has that shape; otherwise its pixels would be stretched.
@@ -58,13 +64,16 @@ pub(crate) fn fits_shape(path: &Path, frame: &CameraModel, canvas: Canvas) -> Re
     if is_near(expected, canvas.height) {
         return Ok(());
     }
-    Err(usage(format!(
-        "{}: {} pixels are no {what}: {}x{expected} were expected; if it is stretched, say so with {whole}; if it is a part, \
+    Err(usage_as(
+        Code::WrongSize,
+        format!(
+            "{}: {} pixels are no {what}: {}x{expected} were expected; if it is stretched, say so with {whole}; if it is a part, \
          give canvas=WxH+X+Y the whole, and if it is something else, another {FROM}",
-        path.display(),
-        shape(&canvas),
-        canvas.width
-    )))
+            path.display(),
+            shape(&canvas),
+            canvas.width
+        ),
+    ))
 }
 
 /// Returns whether a height is the natural one, within a row of rounding.

@@ -5,7 +5,7 @@ use cosmorama::layout::{Eye, LayoutError, Stereo};
 use cosmorama_io::{Header, Metadata};
 use cosmorama_spec::Size;
 
-use crate::diagnostic::{ConvertError, FROM, Result, failure, usage};
+use crate::diagnostic::{Code, ConvertError, FROM, Result, failure, usage, usage_as};
 use crate::input::pieces::packed::check_whole;
 use crate::input::{InputView, Place};
 
@@ -21,10 +21,9 @@ impl EyePart {
     pub(crate) fn header(self, path: &Path, header: &Header) -> Result<Header> {
         check_whole(path, header)?;
         let (across, down) = self.stereo.squeeze();
-        let part = self
-            .stereo
-            .part(self.eye, header.width, header.height)
-            .map_err(|error| failure!("{}: {error} for two eyes; give {FROM} stereo= as it is", path.display()))?;
+        let part = self.stereo.part(self.eye, header.width, header.height).map_err(
+            |error| failure!(WrongSize: "{}: {error} for two eyes; give {FROM} stereo= as it is", path.display()),
+        )?;
         // What the file says of itself, it says of the two pictures together.
         let metadata = Metadata { envmap: None, panorama: None, ..header.metadata.clone() };
         Ok(Header { width: part.width() * across, height: part.height() * down, metadata, ..header.clone() })
@@ -104,8 +103,11 @@ fn divided((x, y): (usize, usize), (across, down): (usize, usize)) -> Result<(us
 }
 
 fn odd((x, y): (usize, usize)) -> ConvertError {
-    usage(format!(
-        "stereo=: {x}x{y} pixels of a picture cannot be squeezed to half; give sizes and places in even numbers, or a \
+    usage_as(
+        Code::WrongSize,
+        format!(
+            "stereo=: {x}x{y} pixels of a picture cannot be squeezed to half; give sizes and places in even numbers, or a \
          packing without -half"
-    ))
+        ),
+    )
 }

@@ -260,7 +260,7 @@ impl Input {
         };
         let chosen: Vec<&FaceFile> = set.faces().iter().filter(shown).collect();
         if !chosen.iter().any(|face| face.present) {
-            bail!("{pattern}: none of the faces asked for is there; there are {}", names(set.present()));
+            bail!(NotFound: "{pattern}: none of the faces asked for is there; there are {}", names(set.present()));
         }
         let files: Vec<ViewFiles> = chosen.iter().map(|face| ViewFiles::new(&face.path)).collect();
         let present = || files.iter().zip(&chosen).filter(|(_, face)| face.present).map(|(files, _)| files);

@@ -5,7 +5,7 @@ use cosmorama_io::pending::{Pending, place};
 
 use crate::budget::MemoryBudget;
 use crate::colour::Light;
-use crate::diagnostic::{Diagnostic, FRAMES, OVERWRITE, RESUME, Result, bail, usage};
+use crate::diagnostic::{Code, Diagnostic, FRAMES, OVERWRITE, RESUME, Result, bail, usage, usage_as};
 use crate::input::{Input, ViewFiles};
 use crate::output::Remade;
 use crate::settings::{Conversion, Existing, GeometrySettings};
@@ -70,9 +70,12 @@ impl Outputs {
                 }
                 if let Some(other) = places.insert(place, path.clone()) {
                     let (path, other) = (path.display(), other.display());
-                    return Err(usage(format!(
-                        "{path} and {other} lead to one file; remove the link that one of them is, or choose another name"
-                    )));
+                    return Err(usage_as(
+                        Code::SameFile,
+                        format!(
+                            "{path} and {other} lead to one file; remove the link that one of them is, or choose another name"
+                        ),
+                    ));
                 }
             }
             frames.push(FrameOutputs { frame, files });
@@ -128,7 +131,10 @@ pub(crate) fn files_read(input: &Input, geometry: &GeometrySettings) -> HashSet<
 /// Checks that an output does not replace one of its own inputs.
 pub fn check_apart(path: &Path, inputs: &HashSet<PathBuf>) -> Result<()> {
     if inputs.contains(&real_path(path)) {
-        return Err(usage(format!("{}: the output would replace its own input; choose another name", path.display())));
+        return Err(usage_as(
+            Code::SameFile,
+            format!("{}: the output would replace its own input; choose another name", path.display()),
+        ));
     }
     Ok(())
 }

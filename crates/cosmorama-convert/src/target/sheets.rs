@@ -5,7 +5,7 @@ use cosmorama::layout::Eye;
 use cosmorama_io::{EnvMap, FacePattern, FaceSet, Format, Naming, Window};
 use cosmorama_spec::{Cube, Packing, Shape, Size, Spec};
 
-use crate::diagnostic::{MIPS, Result, SIZE, TO, usage};
+use crate::diagnostic::{Code, MIPS, Result, SIZE, TO, usage, usage_as};
 use crate::input::{Place, ViewFiles};
 use crate::settings::GeometrySettings;
 use crate::target::Picture;
@@ -70,14 +70,18 @@ pub(crate) struct Target {
 impl Target {
     /// Checks that an output's name is consistent with `--to`.
     pub(crate) fn check_names(output: &str, geometry: &GeometrySettings) -> Result<Format> {
-        let format = Format::from_extension(Path::new(output)).map_err(|error| usage(error.to_string()))?;
+        let format = Format::from_extension(Path::new(output))
+            .map_err(|error| usage_as(Code::OutputFormat, error.to_string()))?;
         let faces = FacePattern::parse(output).is_some();
         check_markers(output)?;
         match geometry.to.as_ref() {
-            None if !faces => Err(usage(format!(
-                "{TO} is missing: say which projection the output is to have, as in {TO} omnimax, {TO} fulldome, \
+            None if !faces => Err(usage_as(
+                Code::MissingSetting,
+                format!(
+                    "{TO} is missing: say which projection the output is to have, as in {TO} omnimax, {TO} fulldome, \
                  {TO} equirect or {TO} perspective:fov=60"
-            ))),
+                ),
+            )),
             Some(Spec { shape: Shape::Cube(cube), stereo, .. }) => {
                 check_cube(output, faces, cube, stereo.is_some(), format)
             }
@@ -128,10 +132,13 @@ impl Target {
         }
         for TargetFile { sheet: Sheet { size: (width, height), .. }, .. } in &files {
             if let Some(most) = format.longest_side().filter(|most| width.max(height) > most) {
-                return Err(usage(format!(
-                    "{output}: {format} counts no more than {most} pixels on a side, but {width}x{height} are asked for; give a \
+                return Err(usage_as(
+                    Code::OutputFormat,
+                    format!(
+                        "{output}: {format} counts no more than {most} pixels on a side, but {width}x{height} are asked for; give a \
                      smaller {SIZE}, or name the output .png or .tif"
-                )));
+                    ),
+                ));
             }
         }
         let envmap = pictures.first().and_then(|picture| picture.envmap);

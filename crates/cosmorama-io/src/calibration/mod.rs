@@ -54,7 +54,7 @@ impl Calibration {
         Self::read_from(file, path)
     }
 
-    /// Reads a file in memory, or from any other reader; `name` is what messages call it.
+    /// Reads a file in memory, or from any other reader. `name` is the name in messages.
     ///
     /// # Errors
     /// When the file cannot be read, is of no kind that [`read`](Self::read) reads, or lacks what a calibration needs.

@@ -88,7 +88,7 @@ impl PtoProject {
         Self::read_from(file, path)
     }
 
-    /// Reads a project in memory, or from any other reader; `name` is what messages call it.
+    /// Reads a project in memory, or from any other reader. `name` is the name in messages.
     ///
     /// # Errors
     /// When the project cannot be read, a line cannot be understood, or it asks for what is not supported, by name.

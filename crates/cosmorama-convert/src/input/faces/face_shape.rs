@@ -80,14 +80,15 @@ fn other_half_error(first: &FacePicture, pictures: &[FacePicture], half: Option<
     let found = format!("{}: the {face} face's file is {width}x{height}", path.display());
     if let (Some(half), true) = (half, are_of(pictures, None)) {
         return Some(failure!(
-            "{found}, a whole face, but half={half} says that it holds a half; leave half= out: of whole faces, too, only \
+            WrongSize: "{found}, a whole face, but half={half} says that it holds a half; leave half= out: of whole faces, too, only \
              what is needed is used"
         ));
     }
     let halves: Vec<_> = CubeFace::ALL.into_iter().filter(|other| are_of(pictures, Some(*other))).collect();
     let names: Vec<_> = halves.iter().map(|half| format!("half={half} ({})", about(*half))).collect();
-    (!names.is_empty())
-        .then(|| failure!("{found}, half a face, and so are others: give {FROM} cube:{}", names.join(" or ")))
+    (!names.is_empty()).then(
+        || failure!(WrongSize: "{found}, half a face, and so are others: give {FROM} cube:{}", names.join(" or ")),
+    )
 }
 
 /// Describes what half a cube holds.
@@ -133,7 +134,7 @@ fn looks_cropped_error(first: &FacePicture, others: &[&FacePicture], expected: &
     let also: Vec<_> = others.iter().map(|other| format!("{} is {}", other.face, shape(&other.canvas))).collect();
     let also = if also.is_empty() { String::new() } else { format!(" ({}, too)", also.join(", ")) };
     failure!(
-        "{}: the {face} face is {}, the wrong shape for a face{also}; expected {expected}; if it is a cropped file, declare \
+        WrongSize: "{}: the {face} face is {}, the wrong shape for a face{also}; expected {expected}; if it is a cropped file, declare \
          its place in the whole face with {FROM} cube:canvas.{face}=WxH+X+Y; if it is all of the face, say so with \
          canvas.{face}={}+0+0",
         path.display(),

@@ -5,14 +5,14 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use cosmorama_io::{
-    Calibration, CalibrationError, Header, ImageFile, IoError, Limits, PtoError, PtoProject, ReadSeek, StPairs, open, probe_from, probe_pairs_from, read_from,
-    read_pairs_from,
+    Calibration, CalibrationError, Header, ImageFile, IoError, Limits, PtoError, PtoProject, ReadSeek, StPairs, open,
+    probe_from, probe_pairs_from, read_from, read_pairs_from,
 };
 
 use crate::budget::MemoryBudget;
 
-/// Place that the bytes of inputs come from: disk, memory, an archive. Inputs are pictures, masks, st maps, calibrations, world
-/// files and Hugin projects. Patterns of frames and faces are looked for on disk.
+/// Source of the bytes of inputs: disk, memory, an archive. Inputs are pictures, masks, st maps, calibrations, world files and
+/// Hugin projects. Patterns of frames and faces are always searched on disk.
 pub trait Files: Debug + Send + Sync {
     /// Opens a file.
     ///
@@ -130,7 +130,7 @@ impl Access<'_> {
         Ok(bytes)
     }
 
-    /// Opens a file that is no picture: its errors name what it was to be.
+    /// Opens a file that is no picture. The caller says in errors what was expected.
     fn open(self, path: &Path) -> io::Result<Box<dyn ReadSeek>> {
         self.files.open(path).map_err(|error| match error {
             IoError::Open { source, .. } => source,

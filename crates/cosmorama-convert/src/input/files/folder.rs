@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use cosmorama_io::{FaceSet, Format, FoundFrames};
 
 use crate::detect::GivenFaces;
-use crate::diagnostic::{Result, bail, usage};
+use crate::diagnostic::{Code, Result, bail, usage_as};
 use crate::input::Files;
 
 /// Greatest number of suggested patterns.
@@ -17,7 +17,7 @@ pub fn is_one_file(files: &dyn Files, pattern: &str, path: &Path) -> Result<()> 
         return Ok(());
     }
     if path.is_dir() {
-        return Err(usage(format!("{pattern} is a folder; {}", advice(path))));
+        return Err(usage_as(Code::Unreadable, format!("{pattern} is a folder; {}", advice(path))));
     }
     if path.exists() {
         return Ok(());
@@ -25,13 +25,16 @@ pub fn is_one_file(files: &dyn Files, pattern: &str, path: &Path) -> Result<()> 
     let found = path.parent().map_or_else(Vec::new, FoundFrames::in_folder);
     let there = if found.is_empty() { String::new() } else { format!("; there are {}", names(&found)) };
     if pattern.contains(['*', '?', '{', '[', '$']) {
-        return Err(usage(format!(
-            "{pattern} names no file; for the faces of a cube, write {{face}} or %c where a face's name stands, for frames \
+        return Err(usage_as(
+            Code::NotFound,
+            format!(
+                "{pattern} names no file; for the faces of a cube, write {{face}} or %c where a face's name stands, for frames \
              ####{there}"
-        )));
+            ),
+        ));
     }
     // Where there is nothing to add, to open it says what is wrong.
-    if found.is_empty() { Ok(()) } else { bail!("{pattern}: there is no such file{there}") }
+    if found.is_empty() { Ok(()) } else { bail!(NotFound: "{pattern}: there is no such file{there}") }
 }
 
 /// Suggests patterns for the contents of a folder.

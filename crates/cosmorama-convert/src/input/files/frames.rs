@@ -32,7 +32,7 @@ pub(crate) fn find<'a>(
         .map(|error| error.to_string())
         .collect();
     if !missing.is_empty() {
-        bail!("{}", missing.join("\n       "));
+        bail!(NotFound: "{}", missing.join("\n       "));
     }
     Ok(list.frames().iter().copied().map(Some).collect())
 }

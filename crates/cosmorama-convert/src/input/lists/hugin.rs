@@ -46,14 +46,14 @@ pub(crate) fn listed(name: &str, access: Access, warnings: &mut Vec<Diagnostic>)
     Ok(images.into_iter().zip(views).map(list).collect())
 }
 
-/// What is made of a project where the command line does not say.
+/// Completes projection and size from a project's p-line, where they are not given.
 pub(crate) fn complete(input: &str, geometry: &GeometrySettings, access: Access) -> Result<GeometrySettings> {
     let mut geometry = geometry.clone();
     if !is_project(input) || geometry.to.is_some() {
         return Ok(geometry);
     }
     let Some(panorama) = access.read_project(Path::new(input))?.panorama else { return Ok(geometry) };
-    let told = |reason: String| failure!("{input}, line {}: {reason}", panorama.line);
+    let told = |reason: String| failure!(Unsupported: "{input}, line {}: {reason}", panorama.line);
     let frame = output_frame(&panorama).map_err(told)?;
     let (width, height) = panorama.size;
     let (size, canvas) = match panorama.crop {
@@ -88,7 +88,9 @@ fn view(folder: &Path, image: &PtoImage, access: Access) -> Result<InputView> {
     let (width, height) = image.size;
     if (whole.width, whole.height) != image.size {
         let found = format!("{}x{}", whole.width, whole.height);
-        return Err(failure!("{} has {found} pixels, but the project says w{width} h{height}", path.display()));
+        return Err(
+            failure!(WrongSize: "{} has {found} pixels, but the project says w{width} h{height}", path.display()),
+        );
     }
     let frame = HuginCamera {
         projection: lens(image.lens)?,
@@ -139,7 +141,7 @@ impl Part {
         let (left, right) = (inside(left, width), inside(right, width));
         let (top, bottom) = (inside(top, height), inside(bottom, height));
         if left >= right || top >= bottom {
-            return Err(failure!("S leaves nothing of the picture's {width}x{height} pixels"));
+            return Err(failure!(Malformed: "S leaves nothing of the picture's {width}x{height} pixels"));
         }
         Ok(Self { corner: (left, top), size: (right - left, bottom - top) })
     }
@@ -168,7 +170,7 @@ fn lens(f: u32) -> Result<HuginProjection> {
             20 => " (Thoby)",
             _ => "",
         };
-        failure!("the lens f{f}{name} is not supported; there are f0, f1, f2, f3, f4, f8, f10 and f21")
+        failure!(Unsupported: "the lens f{f}{name} is not supported; there are f0, f1, f2, f3, f4, f8, f10 and f21")
     })
 }
 

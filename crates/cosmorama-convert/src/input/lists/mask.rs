@@ -22,12 +22,12 @@ pub(crate) fn of_file(path: &Path, view: &InputView, access: Access) -> Result<A
     let found = (header.width, header.height);
     if found != expected {
         let (mask, picture) = (format!("{}x{}", found.0, found.1), format!("{}x{}", expected.0, expected.1));
-        bail!("{}: the mask has {mask} pixels, but its picture has {picture}; they must have the same", path.display());
+        bail!(WrongSize: "{}: the mask has {mask} pixels, but its picture has {picture}; they must have the same", path.display());
     }
     access.memory.check_mask(found, size_of::<Rgba>() as u64)?;
     let mask = of_image(&read(access.files, path, &Limits::memory(access.memory.bytes))?.image);
     if mask.is_empty() {
-        bail!("{}: the mask is black all over: nothing of the picture would count", path.display());
+        bail!(Uncovered: "{}: the mask is black all over: nothing of the picture would count", path.display());
     }
     Ok(Arc::new(mask))
 }
@@ -42,7 +42,7 @@ pub(crate) fn of_shapes(
     access.memory.check_mask(size, size_of::<bool>() as u64)?;
     let mask = ViewMask::of_shapes(shapes, corner, size);
     if mask.is_empty() {
-        bail!("its masks and its crop leave nothing of it");
+        bail!(Uncovered: "its masks and its crop leave nothing of it");
     }
     Ok(Arc::new(mask))
 }

@@ -10,7 +10,9 @@ use cosmorama_spec::Spec;
 use serde::Deserialize;
 use toml::Spanned;
 
-use crate::diagnostic::{ConvertError, Diagnostic, FRAMES, FROM, InPlace, Result, SIZE, TO, bail, failure};
+use crate::diagnostic::{
+    ConvertError, Diagnostic, FRAMES, FROM, InPlace, Result, SIZE, TO, bail, failed_as, failure, of_opening,
+};
 use crate::input::spec_files::calibration::read_calibrations;
 use crate::input::spec_files::st_map;
 use crate::input::{Access, Builtin, Input, InputView, Listed};
@@ -88,16 +90,17 @@ pub(crate) fn listed(
     access: Access,
     warnings: &mut Vec<Diagnostic>,
 ) -> Result<Vec<Listed>> {
-    let bytes = access.read_bytes(Path::new(name)).map_err(|error| failure!("cannot open the world file {name}: {error}"))?;
+    let cannot_open = |error| failed_as(of_opening(&error), format!("cannot open the world file {name}: {error}"));
+    let bytes = access.read_bytes(Path::new(name)).map_err(cannot_open)?;
     let Ok(text) = String::from_utf8(bytes) else {
-        bail!("{name}: not a text; expected a world file in TOML: {SCHEMA}")
+        bail!(Malformed: "{name}: not a text; expected a world file in TOML: {SCHEMA}")
     };
     let source = Text { name, text: &text };
     let file: WorldFile = toml::from_str(&text)
         .map_err(|error| source.error(error.span(), &format!("{}; expected {SCHEMA}", in_words(error.message()))))?;
     if file.view.is_empty() {
         bail!(
-            "{name}: no [[view]] in it; a world file has one for each image, with image = \"FILE\" and spec = \"SPEC\""
+            Malformed: "{name}: no [[view]] in it; a world file has one for each image, with image = \"FILE\" and spec = \"SPEC\""
         );
     }
     let list = |entry: &Entry| {
@@ -159,9 +162,12 @@ impl Entry {
 
     fn spec(&self, source: &Text, access: Access) -> Result<Option<Spec>> {
         let Some(spec) = &self.spec else { return Ok(None) };
-        let parsed = Spec::parse_in(source.folder(), spec.get_ref()).map_err(|error| error.to_string());
-        let told = |error| source.error(Some(spec.span()), &format!("spec = \"{}\": {error}", spec.get_ref()));
-        parsed.and_then(|spec| read_calibrations(spec, access)).map(Some).map_err(told)
+        let text = spec.get_ref();
+        let place = || source.place(Some(spec.span()));
+        let parsed = Spec::parse_in(source.folder(), text)
+            .map_err(|error| source.error(Some(spec.span()), &format!("spec = \"{text}\": {error}")))?;
+        let told = |error: ConvertError| error.after(&format!("spec = \"{text}\": "));
+        read_calibrations(parsed, access).map_err(told).at(place).map(Some)
     }
 
     /// Applies the mask of a single picture.
@@ -202,7 +208,7 @@ impl Text<'_> {
     }
 
     fn error(&self, span: Option<Range<usize>>, message: &str) -> ConvertError {
-        failure!("{}: {message}", self.place(span))
+        failure!(Malformed: "{}: {message}", self.place(span))
     }
 
     /// Returns the file and the line.
@@ -228,7 +234,7 @@ fn common_frames(a: &[Option<u64>], b: &[Option<u64>]) -> Result<Vec<Option<u64>
         ([None], other) | (other, [None]) => Ok(other.to_vec()),
         _ if a == b => Ok(a.to_vec()),
         _ => bail!(
-            "{} frames and {}; all sequences of a world must have the same, or name them with {FRAMES}",
+            Malformed: "{} frames and {}; all sequences of a world must have the same, or name them with {FRAMES}",
             a.len(),
             b.len()
         ),

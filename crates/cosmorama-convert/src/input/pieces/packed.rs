@@ -6,19 +6,19 @@ use cosmorama::sphere::Orientation;
 use cosmorama_io::Header;
 use cosmorama_spec::{Cube, Dual};
 
-use crate::diagnostic::{FROM, Result, bail, failure, usage};
+use crate::diagnostic::{Code, FROM, Result, bail, failure, usage, usage_as};
 use crate::input::{InputView, Piece, Place, ViewFiles};
 
 /// Returns the faces of a cube in one image of a known layout.
 pub(crate) fn faces(files: &ViewFiles, path: &Path, header: &Header, cube: &Cube) -> Result<Vec<InputView>> {
-    let Some(layout) = cube.one_image() else { bail!("{}: no layout is known", path.display()) };
+    let Some(layout) = cube.one_image() else { bail!(Ambiguous: "{}: no layout is known", path.display()) };
     check_whole(path, header)?;
     let edge = layout.edge(header.width, header.height).map_err(|error| {
-        failure!("{}: {error}; give {FROM} cube:layout= the picture's own, or another projection", path.display())
+        failure!(WrongSize: "{}: {error}; give {FROM} cube:layout= the picture's own, or another projection", path.display())
     })?;
     let pieces = Piece::faces(cube, &layout, edge);
     if pieces.is_empty() {
-        bail!("{}: none of the faces asked for is in its half of the cube", path.display());
+        bail!(Uncovered: "{}: none of the faces asked for is in its half of the cube", path.display());
     }
     views(files, header, &pieces)
 }
@@ -27,8 +27,9 @@ pub(crate) fn faces(files: &ViewFiles, path: &Path, header: &Header, cube: &Cube
 pub(crate) fn lenses(files: &ViewFiles, path: &Path, header: &Header, dual: &Dual) -> Result<Vec<InputView>> {
     check_whole(path, header)?;
     check_halves(path, header, dual)?;
-    let pieces = Piece::lenses(dual, (header.width, header.height))
-        .map_err(|error| failure!("{}: {error}; give {FROM} dual-fisheye:layout= the picture's own", path.display()))?;
+    let pieces = Piece::lenses(dual, (header.width, header.height)).map_err(
+        |error| failure!(WrongSize: "{}: {error}; give {FROM} dual-fisheye:layout= the picture's own", path.display()),
+    )?;
     views(files, header, &pieces)
 }
 
@@ -48,18 +49,21 @@ fn check_halves(path: &Path, header: &Header, dual: &Dual) -> Result<()> {
         return Ok(());
     }
     let way = if arrangement == Arrangement::SideBySide { "side by side" } else { "one above the other" };
-    Err(usage(format!(
-        "{}: {width}x{height} pixels hold no two circles {way}; give {FROM} dual-fisheye:layout={other}, or say where the \
+    Err(usage_as(
+        Code::WrongSize,
+        format!(
+            "{}: {width}x{height} pixels hold no two circles {way}; give {FROM} dual-fisheye:layout={other}, or say where the \
          circles are with front.center=, front.radius=, back.center= and back.radius=",
-        path.display()
-    )))
+            path.display()
+        ),
+    ))
 }
 
 /// Checks that a file with several pictures is whole, not a window of a canvas.
 pub(crate) fn check_whole(path: &Path, header: &Header) -> Result<()> {
     let Some(window) = header.window else { return Ok(()) };
     bail!(
-        "{}: only a part of a picture of {}x{} pixels; several pictures in one image are read from whole images",
+        Unsupported: "{}: only a part of a picture of {}x{} pixels; several pictures in one image are read from whole images",
         path.display(),
         window.canvas_width,
         window.canvas_height

@@ -1,7 +1,7 @@
 use cosmorama::camera::{CameraError, CameraModel};
 use cosmorama_spec::{Dual, Size};
 
-use crate::diagnostic::{Mark, Result, SIZE, usage};
+use crate::diagnostic::{Code, Mark, Result, SIZE, usage, usage_as};
 
 /// Returns the size of an image: as given, from a width, or with so many pixels per radian at its centre. `option` is
 /// the setting that holds the camera model.
@@ -26,9 +26,10 @@ pub(crate) fn size(
             }
             error => usage(format!("{option}: {error}")),
         }),
-        (None, None) => {
-            Err(usage(format!("{SIZE} is missing: without an input, nothing tells how large the output is to be")))
-        }
+        (None, None) => Err(usage_as(
+            Code::MissingSetting,
+            format!("{SIZE} is missing: without an input, nothing tells how large the output is to be"),
+        )),
     }
 }
 

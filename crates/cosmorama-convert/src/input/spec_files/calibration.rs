@@ -8,14 +8,14 @@ use cosmorama::projection::{BrownConrady, BrownConradyCoefficients};
 use cosmorama_io::Distortion;
 use cosmorama_spec::{CalibrationSpec, LensFamily, Shape, Single, Spec, SphereSamples, StMapBase};
 
-use crate::diagnostic::{ConvertError, Result, usage};
+use crate::diagnostic::{ConvertError, Result, failure, usage};
 use crate::input::Access;
 
 /// Reads the calibration of a SPEC, or of its `base=`. A SPEC without one is returned unchanged.
 ///
 /// # Errors
-/// When a calibration cannot be read, or no camera of this kind can be made of it.
-pub(crate) fn read_calibrations(mut spec: Spec, access: Access) -> Result<Spec, String> {
+/// When a calibration cannot be read, or does not make a camera of this kind.
+pub(crate) fn read_calibrations(mut spec: Spec, access: Access) -> Result<Spec> {
     match &mut spec.shape {
         Shape::Calibrated(camera) => spec.shape = Shape::Single(single(camera, access)?),
         Shape::StMap(map) => {
@@ -33,8 +33,8 @@ pub(crate) fn unread(camera: &CalibrationSpec) -> ConvertError {
     usage(format!("calibration={}: a calibration cannot be given here", camera.file.display()))
 }
 
-fn single(camera: &CalibrationSpec, access: Access) -> Result<Single, String> {
-    let frame = frame(camera, access).map_err(|reason| format!("calibration=: {reason}"))?;
+fn single(camera: &CalibrationSpec, access: Access) -> Result<Single> {
+    let frame = frame(camera, access).map_err(|error| error.after("calibration=: "))?;
     let placement = Placement {
         frame: CameraModel::Calibrated(frame),
         orientation: camera.orientation,
@@ -44,9 +44,9 @@ fn single(camera: &CalibrationSpec, access: Access) -> Result<Single, String> {
     Ok(Single { placement, samples: SphereSamples::NotAPanorama, any_shape: false })
 }
 
-fn frame(camera: &CalibrationSpec, access: Access) -> Result<CalibratedCamera, String> {
-    let calibration = access.read_calibration(&camera.file).map_err(|error| error.to_string())?;
-    let told = |reason: &dyn Display| format!("{}: {reason}", camera.file.display());
+fn frame(camera: &CalibrationSpec, access: Access) -> Result<CalibratedCamera> {
+    let calibration = access.read_calibration(&camera.file)?;
+    let told = |reason: &dyn Display| failure!(Malformed: "{}: {reason}", camera.file.display());
     let lens = lens(&calibration.distortion, camera.family).map_err(|reason| told(&reason))?;
     let matrix = CameraMatrix::from_rows(calibration.matrix).map_err(|error| told(&error))?;
     Ok(CalibratedCamera { lens, matrix, size: calibration.size, field_of_view: camera.field_of_view })

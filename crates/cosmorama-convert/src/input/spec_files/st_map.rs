@@ -7,7 +7,7 @@ use cosmorama::sphere::{Angle, Orientation};
 use cosmorama_io::{Header, StPairs};
 use cosmorama_spec::{Shape, Single, Size, Spec, SphereSamples, StMapBase, StMapSpec};
 
-use crate::diagnostic::{Code, ConvertError, Diagnostic, FROM, Mark, Result, TO, failure, usage};
+use crate::diagnostic::{Code, ConvertError, Diagnostic, FROM, Mark, Result, TO, failure, usage, usage_as};
 use crate::input::Access;
 use crate::input::ViewFiles;
 use crate::input::files::frames;
@@ -127,9 +127,10 @@ pub(crate) fn read_map(spec: Spec, access: Access) -> Result<Spec> {
     with_given_base(map, Side::Input, access)
 }
 
-/// A SPEC with its calibration read.
+/// Reads the calibration of a SPEC.
 fn calibrated(spec: &Option<Spec>, side: Side, access: Access) -> Result<Option<Spec>> {
-    let read = |spec| read_calibrations(spec, access).map_err(|error| failure!("{} <SPEC>: {error}", option(side)));
+    let read =
+        |spec| read_calibrations(spec, access).map_err(|error| error.after(&format!("{} <SPEC>: ", option(side))));
     spec.clone().map(read).transpose()
 }
 
@@ -155,10 +156,13 @@ fn option(side: Side) -> Mark {
 }
 
 fn without_base(side: Side) -> ConvertError {
-    usage(format!(
-        "{} st-map needs base=, the projection of the picture at the map's other end, as in base=perspective:fov=60",
-        option(side)
-    ))
+    usage_as(
+        Code::MissingSetting,
+        format!(
+            "{} st-map needs base=, the projection of the picture at the map's other end, as in base=perspective:fov=60",
+            option(side)
+        ),
+    )
 }
 
 /// Returns a plain picture: a pinhole camera so narrow that directions form a plane.
@@ -217,7 +221,7 @@ fn spec(map: &StMapSpec, pairs: &StPairs, base: Base, side: Side, access: Access
     } else {
         StMapCamera::looked_at(map_size, pair, &view)
     };
-    let frame = frame.map_err(|error| failure!("{}: {error}", map.file.display()))?;
+    let frame = frame.map_err(|error| failure!(Malformed: "{}: {error}", map.file.display()))?;
     let placement = Placement {
         frame: CameraModel::StMap(frame),
         orientation: map.orientation,
