@@ -24,7 +24,7 @@ static ALLOCATOR: large_pages::LargePages = large_pages::LargePages;
 fn main() -> ExitCode {
     let args = match args::Args::try_parse() {
         Ok(args) => args,
-        Err(error) => return failure::report_arguments(error),
+        Err(error) => return failure::report_arguments(&error),
     };
     let mut console = console::Console::default();
     match verbs::run(args.verb, &mut console) {

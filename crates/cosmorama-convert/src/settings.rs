@@ -50,6 +50,8 @@ pub struct Conversion {
     pub frames: Option<FrameList>,
     /// Treatment of outputs that exist already.
     pub existing: Existing,
+    /// Whether folders of outputs that do not exist are made; else they are an error.
+    pub make_folders: bool,
     /// Whether the output stands for a stream, which takes one picture.
     pub to_stream: bool,
     /// Whether mip levels are written, in formats that hold them.
@@ -136,6 +138,7 @@ impl Default for Conversion {
             missing: Missing::Error,
             frames: None,
             existing: Existing::default(),
+            make_folders: true,
             to_stream: false,
             mips: false,
             quality: None,

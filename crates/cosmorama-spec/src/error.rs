@@ -1,3 +1,5 @@
+use std::fmt;
+
 use cosmorama::layout::LensSide;
 use cosmorama::projection::azimuthal::LensError;
 use thiserror::Error;
@@ -6,10 +8,12 @@ use thiserror::Error;
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum SpecError {
     /// The projection's name is unknown.
-    #[error("unknown projection '{name}'{}; there are {}", did_you_mean(.name, .known), .known.join(", "))]
+    #[error("unknown projection '{name}'{}; there are {}", question(.meant.as_deref()), .known.join(", "))]
     UnknownName {
         /// Name as typed.
         name: String,
+        /// Name or SPEC that was meant, as far as that can be told.
+        meant: Option<String>,
         /// Known names.
         known: Vec<&'static str>,
     },
@@ -49,7 +53,13 @@ pub enum SpecError {
         /// Part as typed.
         part: String,
     },
-    /// A key is given twice.
+    /// Keys that are separated by colons, as ffmpeg's filters have them.
+    #[error("keys are separated by commas here, not by colons{}", written(.instead.as_deref()))]
+    Colons {
+        /// SPEC to write instead, as far as that can be told.
+        instead: Option<String>,
+    },
+        /// A key is given twice.
     #[error("{key}= is given twice")]
     Twice {
         /// Key as typed.
@@ -93,6 +103,69 @@ pub enum SpecError {
     },
 }
 
+impl SpecError {
+    /// Returns what is wrong without the list of keys, for who prints that in a better form.
+    pub fn summary(&self) -> String {
+        match self {
+            Self::UnknownKey { name, key, known } => format!("unknown key '{key}' for {name}{}", meant(key, known)),
+            other => other.to_string(),
+        }
+    }
+}
+
+/// Reason for which a word names no filter, kernel or transfer function.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+pub enum WordError {
+    /// A word that is none of those that there are.
+    #[error("unknown {what} '{word}'{}; there are {known}", question(.meant.as_deref()))]
+    Unknown {
+        /// What was expected.
+        what: WordKind,
+        /// Word as typed.
+        word: String,
+        /// Word that was meant, as far as that can be told.
+        meant: Option<String>,
+        /// Words that there are.
+        known: &'static str,
+    },
+    /// A word for something else.
+    #[error("'{word}' is no {what}; that is a {of}: {name}")]
+    OfOther {
+        /// What was expected.
+        what: WordKind,
+        /// Word as typed.
+        word: String,
+        /// What the word is for.
+        of: WordKind,
+        /// Name that it has there.
+        name: String,
+    },
+    /// A parameter that is unknown or wrong.
+    #[error("{0}")]
+    Parameter(String),
+}
+
+/// What a word stands for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum WordKind {
+    /// What a pixel averages.
+    Filter,
+    /// The weights of that average.
+    Kernel,
+    /// How code values relate to light.
+    Transfer,
+}
+
+impl fmt::Display for WordKind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Filter => "filter",
+            Self::Kernel => "kernel",
+            Self::Transfer => "transfer function",
+        })
+    }
+}
+
 /// Returns a suggestion for a mistyped key: the full name of a lens's or face's key, or the most similar key.
 fn meant(typed: &str, known: &[&str]) -> String {
     match typed.split_once('.') {
@@ -100,17 +173,49 @@ fn meant(typed: &str, known: &[&str]) -> String {
             let each: Vec<String> = LensSide::ALL.iter().map(|side| format!("'{}.{key}'", side.name())).collect();
             format!("; did you mean {}?", each.join(" or "))
         }
-        // A camera's fov is the horizontal one, which others call so; by letters dfov is as near.
-        _ if matches!(typed, "hfov" | "h_fov") && known.contains(&"fov") => "; did you mean 'fov'?".to_owned(),
-        _ => did_you_mean(typed, known),
+        _ => match key_for(typed, known) {
+            Some(key) => question(Some(key)),
+            None => did_you_mean(typed, known),
+        },
     }
+}
+
+/// Finds the key for a field of view or a centre that has another name elsewhere: ffmpeg's `h_fov`, a panorama's `hfov`.
+///
+/// A camera's `fov` is the horizontal one; by letters `dfov` is as near.
+pub(crate) fn key_for<'k>(typed: &str, known: &[&'k str]) -> Option<&'k str> {
+    let plain = typed.to_ascii_lowercase().replace(['_', '-'], "");
+    let names: &[&str] = match plain.as_str() {
+        "hfov" | "ihfov" | "fov" => &["hfov", "fov"],
+        "vfov" | "ivfov" => &["vfov"],
+        "dfov" | "idfov" => &["dfov", "fov"],
+        "centre" => &["center"],
+        other => &[other],
+    };
+    names.iter().find_map(|name| known.iter().copied().find(|key| key == name))
 }
 
 /// Returns "did you mean …?" with the most similar known name; empty if none is similar.
 pub fn did_you_mean(typed: &str, known: &[&str]) -> String {
-    let likeness = |name: &&&str| (strsim::normalized_damerau_levenshtein(typed, name) * 1000.0) as i64;
-    match known.iter().max_by_key(likeness).filter(|best| likeness(best) >= 500) {
-        Some(best) => format!("; did you mean '{best}'?"),
-        None => String::new(),
+    question(nearest(typed, known))
+}
+
+/// Finds the known name that is most like what was typed.
+pub fn nearest<'k>(typed: &str, known: &[&'k str]) -> Option<&'k str> {
+    let typed = typed.to_ascii_lowercase();
+    let likeness = |name: &&str| (strsim::normalized_damerau_levenshtein(&typed, name) * 1000.0) as i64;
+    known.iter().copied().max_by_key(likeness).filter(|best| likeness(best) >= 500)
+}
+
+/// Asks whether a name was meant.
+fn question(name: Option<&str>) -> String {
+    name.map_or_else(String::new, |name| format!("; did you mean '{name}'?"))
+}
+
+/// Says what to write.
+fn written(spec: Option<&str>) -> String {
+    match spec {
+        Some(spec) => format!("; write {spec}"),
+        None => ", as in fisheye:fov=220,fit=width".to_owned(),
     }
 }

@@ -43,13 +43,13 @@ mod window;
 
 pub use angle::{Degrees, parse_degrees};
 pub use compression::CompressionLevel;
-pub use error::{SpecError, did_you_mean};
+pub use error::{SpecError, WordError, WordKind, did_you_mean, nearest};
 pub use filter::{FilterName, KernelName};
 pub use frame_ranges::{FrameRanges, FrameRangesError};
 pub use light::{Colour, DepthName, Missing, TransferName};
 pub use memory::MemorySize;
 pub use size::Size;
 pub use spec::{
-    CalibrationSpec, Cube, Dual, LensFamily, Packing, Shape, Single, Spec, SphereSamples, StMapBase, StMapSpec,
-    StereoSpec, help,
+    CalibrationSpec, Cube, Dual, LensFamily, Packing, Shape, Single, Spec, SpecKey, SpecKind, SphereSamples, StMapBase,
+    StMapSpec, StereoSpec, help,
 };

@@ -1,7 +1,7 @@
 use std::fmt;
 use std::str::FromStr;
 
-/// The size of a picture in pixels: `WxH`, or the width alone.
+/// The size of a picture in pixels: `WxH`, or the width alone; `4k` is 4096.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Size {
     /// Columns.
@@ -29,12 +29,20 @@ impl FromStr for Size {
 
     fn from_str(text: &str) -> Result<Self, String> {
         let most = Self::MOST;
-        let expected = || format!("expected WxH or a width, in pixels from 1 to {most}, as in 1966x1436 or 4096");
-        let side = |text: &str| text.parse().ok().filter(|side| (1..=most).contains(side)).ok_or_else(expected);
+        let expected = || format!("expected WxH or a width, in pixels from 1 to {most}, as in 1966x1436, 4096 or 4k");
+        let side = |text: &str| pixels(text).filter(|side| (1..=most).contains(side)).ok_or_else(expected);
         match text.split_once(['x', 'X', '×']) {
             Some((width, height)) => Ok(Self { width: side(width)?, height: Some(side(height)?) }),
             None => Ok(Self { width: side(text)?, height: None }),
         }
+    }
+}
+
+/// Parses a number of pixels, of which `k` makes 1024: pictures of 2k, 4k and 8k are powers of two wide.
+fn pixels(text: &str) -> Option<usize> {
+    match text.strip_suffix(['k', 'K']) {
+        Some(thousands) => thousands.parse::<usize>().ok()?.checked_mul(1024),
+        None => text.parse().ok(),
     }
 }
 
@@ -46,7 +54,11 @@ mod tests {
     fn sizes() {
         assert_eq!("1966x1436".parse(), Ok(Size { width: 1966, height: Some(1436) }));
         assert_eq!("4096".parse(), Ok(Size { width: 4096, height: None }));
-        for wrong in ["0", "0x4", "4x", "-3", "wide", "99999999"] {
+        for (text, width) in [("2k", 2048), ("4k", 4096), ("8K", 8192)] {
+            assert_eq!(text.parse(), Ok(Size { width, height: None }));
+        }
+        assert_eq!("8kx4k".parse(), Ok(Size { width: 8192, height: Some(4096) }));
+        for wrong in ["0", "0x4", "4x", "-3", "wide", "99999999", "k", "0k", "4kk", "18446744073709551615k"] {
             assert!(wrong.parse::<Size>().is_err(), "{wrong}");
         }
     }

@@ -6,7 +6,7 @@ use std::str::FromStr;
 
 use cosmorama_spec::{
     Colour, CompressionLevel, DepthName, FilterName, FrameRanges, KernelName, MemorySize, Missing, Size, Spec,
-    TransferName, help,
+    SpecKind, TransferName,
 };
 use proptest::prelude::*;
 use proptest::sample::select;
@@ -18,38 +18,17 @@ struct Kind {
     keys: Vec<(String, String)>,
 }
 
-/// Reads the projections, and the keys of each, from help.
+/// Every projection with the keys that help lists.
 fn kinds() -> Vec<Kind> {
-    let mut kinds: Vec<Kind> = Vec::new();
-    let mut common = Vec::new();
-    let (mut is_common, help) = (false, help());
-    for line in help.lines().skip(1).filter(|line| !line.is_empty()) {
-        let words = line.trim_start();
-        match line.len() - words.len() {
-            2 if words.starts_with("Every SPEC") => is_common = true,
-            2 => kinds.push(Kind { name: words.split(' ').next().unwrap().to_owned(), keys: Vec::new() }),
-            4 => {
-                let (key, value) = words.split(' ').next().unwrap().split_once('=').unwrap();
-                match is_common {
-                    true => common.push((key.to_owned(), value.to_owned(), Vec::new())),
-                    false => kinds.last_mut().unwrap().keys.push((key.to_owned(), value.to_owned())),
-                }
-            }
-            _ => {
-                let without = words.strip_prefix("not ").unwrap().split(", ");
-                common.last_mut().unwrap().2 = without.map(str::to_owned).collect();
-            }
-        }
-    }
-    for kind in &mut kinds {
-        let is_taken = |without: &[String]| !without.contains(&kind.name);
+    let with_keys = |kind: SpecKind| {
         // What says which eye goes with stereo=.
-        let has_eyes = common.iter().any(|(key, _, without)| key == "stereo" && is_taken(without));
-        let is_of_eyes = |key: &str| matches!(key, "swap" | "eye");
-        let taken = common.iter().filter(|(key, _, without)| is_taken(without) && (has_eyes || !is_of_eyes(key)));
-        kind.keys.extend(taken.map(|(key, value, _)| (key.clone(), value.clone())));
-    }
-    assert!(kinds.len() >= 20 && !common.is_empty());
+        let has_eyes = kind.key("stereo").is_some();
+        let common = kind.common_keys().filter(|key| has_eyes || !matches!(key.name, "swap" | "eye"));
+        let keys = kind.own_keys().iter().chain(common).map(|key| (key.name.to_owned(), key.value.to_owned()));
+        Kind { name: kind.name().to_owned(), keys: keys.collect() }
+    };
+    let kinds: Vec<Kind> = SpecKind::all().map(with_keys).collect();
+    assert!(kinds.len() >= 20 && kinds.iter().all(|kind| kind.keys.len() > 3));
     kinds
 }
 

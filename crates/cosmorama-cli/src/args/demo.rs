@@ -3,12 +3,14 @@ use std::path::{Path, PathBuf};
 use clap::{Args, ValueHint};
 
 use super::convert::LimitArgs;
+use super::with_examples;
+
+/// Commands that its help shows.
+pub(super) const EXAMPLES: [&str; 2] = ["cosmorama demo", "cosmorama demo /tmp/demo -y --threads 1"];
 
 /// Render an embedded world onto cube faces and make an Omnimax frame of them.
 #[derive(Debug, Args)]
-#[command(before_help = "Examples:
-  cosmorama demo
-  cosmorama demo /tmp/demo -y --threads 1")]
+#[command(help_template = with_examples(&EXAMPLES))]
 pub(crate) struct DemoArgs {
     /// Where to write
     #[arg(default_value = OWN_FOLDER, value_hint = ValueHint::DirPath)]

@@ -5,19 +5,26 @@ use cosmorama_spec::Size;
 
 use super::convert::LimitArgs;
 use super::geometry::GeometryArgs;
+use super::{SEE_MORE, projections, with_examples};
+
+/// Commands that its help shows.
+pub(super) const EXAMPLES: [&str; 3] = [
+    "cosmorama explain 'faces/{face}.png' --to omnimax --output diagrams",
+    "cosmorama explain --from cube --to omnimax --size 1966x1436",
+    "cosmorama explain --from cube --input-size 1024x960 --to omnimax --size 4k",
+];
 
 /// Tell what a conversion will do before it does it, in text and diagrams.
 #[derive(Clone, Debug, Args)]
-#[command(before_help = "Examples:
-  cosmorama explain 'faces/{face}.png' --to omnimax --output diagrams
-  cosmorama explain --from cube --to omnimax --size 1966x1436
-  cosmorama explain --from cube --input-size 1024x960 --to omnimax --size 1966x1436")]
-#[command(after_help = cosmorama_spec::help())]
+#[command(help_template = with_examples(&EXAMPLES))]
+#[command(after_help = SEE_MORE, after_long_help = projections())]
 pub(crate) struct ExplainArgs {
-    /// The input, if there is one already: an image or a pattern; - is standard input
+    /// The input, if there is one: an image or a pattern; - is standard input
     #[arg(value_hint = ValueHint::FilePath)]
     pub(crate) input: Option<String>,
-    /// Size of an input (or of its faces) that does not exist yet [default: parity with the output at the centre]
+    /// Size of an input, or of its faces, that does not exist yet
+    ///
+    /// Unless given, it is parity with the output at the centre.
     #[arg(
         long,
         value_name = "WxH|N",

@@ -1,14 +1,22 @@
 use clap::{Args, ValueHint};
 
+use super::with_examples;
+
+/// Commands that its help shows.
+pub(super) const EXAMPLES: [&str; 3] = [
+    "cosmorama info panorama.exr",
+    "cosmorama info 'faces/{face}.png'",
+    "cosmorama info '{face}/{face}_####.exr' --json",
+];
+
 /// Tell what a file or a face set is.
 #[derive(Debug, Args)]
-#[command(before_help = "Examples:
-  cosmorama info panorama.exr
-  cosmorama info 'faces/{face}.png'
-  cosmorama info '{face}/{face}_####.exr' --json")]
+#[command(help_template = with_examples(&EXAMPLES))]
 pub(crate) struct InfoArgs {
-    /// An image, or a pattern with {face} or %c (faces) and ####, @@@@ or %04d (frames), a world
-    /// file (.toml), a Hugin project (.pto) or builtin:NAME; - is standard input
+    /// An image, a pattern or builtin:NAME; - is standard input
+    ///
+    /// A pattern has {face} or %c where faces' names stand, and ####, @@@@ or %04d where frame numbers do. A world file (.toml)
+    /// or a Hugin project (.pto) is read, too.
     #[arg(value_hint = ValueHint::FilePath)]
     pub(crate) input: String,
     /// Print the same as JSON

@@ -5,30 +5,52 @@ pub(crate) mod convert;
 mod demo;
 mod explain;
 pub(crate) mod geometry;
+mod help;
 mod info;
 mod parse;
 mod progress;
 mod settings;
-mod shell;
 
-use clap::{Parser, Subcommand};
+use clap::{Arg, Command, CommandFactory, Parser, Subcommand};
+
+use cosmorama_spec::SpecKind;
 
 pub(crate) use compare::{CompareArgs, Region};
-pub(crate) use convert::ConvertArgs;
+pub(crate) use convert::{ConvertArgs, builtins};
 pub(crate) use demo::DemoArgs;
 pub(crate) use explain::ExplainArgs;
+pub(crate) use help::{CompletionsArgs, HelpArgs, ManArgs, SPEC_TOPIC};
 pub(crate) use info::InfoArgs;
 pub(crate) use progress::ProgressStyle;
-pub(crate) use shell::CompletionsArgs;
+
+/// Commands that the program's own help shows.
+const EXAMPLES: [&str; 3] = [
+    "cosmorama demo",
+    "cosmorama convert 'faces/{face}.png' dome.png --to omnimax --size 1966x1436",
+    "cosmorama info 'faces/{face}.png'",
+];
+
+/// Every verb with its examples.
+const VERBS: [(&str, &[&str]); 8] = [
+    ("demo", &demo::EXAMPLES),
+    ("convert", &convert::EXAMPLES),
+    ("info", &info::EXAMPLES),
+    ("explain", &explain::EXAMPLES),
+    ("compare", &compare::EXAMPLES),
+    ("completions", &help::COMPLETIONS_EXAMPLES),
+    ("man", &help::MAN_EXAMPLES),
+    ("help", &help::EXAMPLES),
+];
 
 /// World projections: Omnimax, fulldome, fisheye, panorama and cube faces, made from one another with an
 /// elliptical weighted average filter.
 #[derive(Debug, Parser)]
 #[command(name = "cosmorama", version, propagate_version = true, arg_required_else_help = true)]
-#[command(before_help = "Examples:
-  cosmorama demo
-  cosmorama convert 'faces/{face}.png' dome.png --to omnimax --size 1966x1436
-  cosmorama info 'faces/{face}.png'")]
+#[command(
+    disable_help_subcommand = true,
+    after_help = "'cosmorama VERB -h' lists a verb's options; 'cosmorama help spec' lists projections and their keys"
+)]
+#[command(help_template = with_examples(&EXAMPLES))]
 pub(crate) struct Args {
     /// What to do.
     #[command(subcommand)]
@@ -50,6 +72,46 @@ pub(crate) enum Verb {
     Compare(CompareArgs),
     /// Print a shell's completion script
     Completions(CompletionsArgs),
-    /// Print the manual page
-    Man,
+    /// Print the manual, or write its pages into a folder
+    Man(ManArgs),
+    /// Print the help of a verb, or of SPECs: projections, keys, other names
+    Help(HelpArgs),
+}
+
+/// Names of all verbs.
+pub(crate) fn verbs() -> impl Iterator<Item = &'static str> {
+    VERBS.iter().map(|(verb, _)| *verb)
+}
+
+/// Commands that a verb's help shows; the program's own without a verb.
+pub(crate) fn examples(verb: Option<&str>) -> &'static [&'static str] {
+    let of_verb = VERBS.iter().find(|(name, _)| Some(*name) == verb).map(|(_, examples)| *examples);
+    of_verb.unwrap_or(&EXAMPLES)
+}
+
+/// Long names of a verb's options, without dashes.
+pub(crate) fn options(verb: &str) -> Vec<String> {
+    let mut command = Args::command();
+    command.build();
+    let arguments = command.find_subcommand(verb).into_iter().flat_map(Command::get_arguments);
+    arguments.filter_map(Arg::get_long).map(str::to_owned).collect()
+}
+
+/// Where short help sends those who look for more.
+const SEE_MORE: &str = "More: '--help' explains every option, 'cosmorama help spec' every projection with its keys.";
+
+/// Every projection, a line each.
+fn projections() -> String {
+    let mut text =
+        "SPEC is NAME[:key=value[,key=value]...]; 'cosmorama help spec' lists keys and other names:\n\n".to_owned();
+    for kind in SpecKind::all() {
+        text += &format!("  {:<12} {}\n", kind.name(), kind.about());
+    }
+    text
+}
+
+/// Help that begins with examples. As a part of the template they are never wrapped: who copies a command copies all of it.
+fn with_examples(examples: &[&str]) -> String {
+    let lines: String = examples.iter().map(|example| format!("  {example}\n")).collect();
+    format!("Examples:\n{lines}\n{{about-with-newline}}\n{{usage-heading}} {{usage}}\n\n{{all-args}}{{after-help}}")
 }

@@ -29,6 +29,7 @@ impl From<ConvertArgs> for Conversion {
                 (false, true) => Existing::Resume,
                 (false, false) => Existing::Refuse,
             },
+            make_folders: !args.no_mkdir,
             to_stream: args.format.is_some(),
             mips: args.mips,
             quality: args.quality,

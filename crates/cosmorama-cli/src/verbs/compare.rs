@@ -9,6 +9,7 @@ use cosmorama_convert::{Files, InputTransfer, MemoryBudget, probe, read, real_pa
 use cosmorama_io::{FacePattern, Format, FramePattern, Limits, Metadata, WriteOptions, write};
 use serde_json::{Value, json};
 
+use super::make_folder;
 use crate::args::{CompareArgs, Region};
 use crate::console::{Console, say};
 use crate::failure::usage;
@@ -43,6 +44,8 @@ pub(super) fn run(args: &CompareArgs, console: &mut Console) -> Result<ExitCode>
         let encoded = EncodedImage::encode(&difference, channels, depth, &transfer);
         let metadata = Metadata { transfer: Some(transfer), ..Metadata::default() };
         let options = WriteOptions { unfinished: console.unfinished.clone(), ..WriteOptions::with_metadata(metadata) };
+        let folder = path.parent().filter(|folder| !args.no_mkdir && !folder.exists());
+        let _folders = folder.map(|folder| make_folder(folder, console)).transpose()?;
         write(path, &encoded, &options)?;
     }
     let failures = failures(args, &comparison);

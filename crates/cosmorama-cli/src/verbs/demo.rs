@@ -52,7 +52,7 @@ pub(super) fn run(args: &DemoArgs, console: &Console) -> Result<ExitCode> {
         refuse_existing(outputs(&args.dir, &faces).iter().map(PathBuf::as_path))?;
     }
     let folder = args.dir.join(FACES);
-    make_folder(&folder)?;
+    let _folders = make_folder(&folder, console)?;
     for partial in &faces {
         pool.install(|| render_face(partial, &folder, console))?;
     }

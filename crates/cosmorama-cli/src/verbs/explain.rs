@@ -27,6 +27,7 @@ pub(super) fn run(mut args: ExplainArgs, console: &mut Console) -> Result<ExitCo
         check_diagrams(folder, &explanation, overwrite)?;
     }
     let worlds = explanation.worlds()?;
+    let _folders = output.as_deref().map(|folder| make_folder(folder, console)).transpose()?;
     let (mut text, mut reports, mut drawn) = (String::new(), Vec::new(), Vec::new());
     for picture in explanation.pictures() {
         let report = explanation.report(&worlds, picture);
@@ -78,7 +79,6 @@ fn needs(report: &Report) -> Needs {
 }
 
 fn draw(folder: &Path, picture: &Picture, world: &World, needs: &Needs, console: &Console) -> Result<Vec<Hidden>> {
-    make_folder(folder)?;
     let figures = Figures { world, target: &picture.view };
     let drawings = [figures.unfolded(needs, &[]), figures.ownership(), figures.footprints()];
     let mut files = Vec::new();

@@ -5,15 +5,16 @@ mod convert;
 mod demo;
 mod diagram;
 mod explain;
+mod help;
 mod info;
 mod info_faces;
 mod info_world;
-mod shell;
 
 use std::path::Path;
 use std::process::ExitCode;
 
 use anyhow::{Result, anyhow};
+use cosmorama_io::pending::NewFolders;
 
 use crate::args::Verb;
 use crate::console::Console;
@@ -29,17 +30,20 @@ pub(crate) fn run(verb: Verb, console: &mut Console) -> Result<ExitCode> {
         Verb::Info(args) => info::run(&args, console),
         Verb::Explain(args) => explain::run(*args, console),
         Verb::Compare(args) => compare::run(&args, console),
-        Verb::Completions(args) => shell::completions(&args, console),
-        Verb::Man => shell::man(console),
+        Verb::Completions(args) => help::completions(&args, console),
+        Verb::Man(args) => help::man(&args, console),
+        Verb::Help(args) => help::help(&args, console),
     }
 }
 
-/// A folder that is there from now on, with those above it.
-fn make_folder(folder: &Path) -> Result<()> {
+/// Makes a folder that does not exist yet, with those above it. What stays empty goes away with what is returned.
+fn make_folder(folder: &Path, console: &Console) -> Result<NewFolders> {
     if folder.is_file() {
         return Err(usage(format!("{} is a file, where a folder was expected; name another", folder.display())));
     }
-    std::fs::create_dir_all(folder).map_err(|error| {
+    let mut folders = NewFolders::new(&console.unfinished);
+    folders.make(folder).map_err(|error| {
         anyhow!("the folder {} cannot be made ({error}); choose another, where you may write", folder.display())
-    })
+    })?;
+    Ok(folders)
 }

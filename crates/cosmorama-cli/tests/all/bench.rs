@@ -41,11 +41,12 @@ impl Bench {
         out
     }
 
-    /// Runs what must fail with this exit code, with one message, nothing on standard output and no new file. The
+    /// Runs what must fail with this exit code, with one message, nothing on standard output and no new file or folder. The
     /// message.
     pub(crate) fn fail(&self, code: i32, args: &[&str]) -> String {
-        let before = self.files();
+        let (before, folders) = (self.files(), self.folders());
         let output = self.run(args);
+        assert_eq!(self.folders(), folders, "no folder may be left");
         self.check_failure(code, &output, &before)
     }
 
@@ -61,19 +62,27 @@ impl Bench {
 
     /// Every file under the folder, hidden ones too.
     pub(crate) fn files(&self) -> BTreeSet<PathBuf> {
-        fn walk(folder: &Path, files: &mut BTreeSet<PathBuf>) {
+        self.entries().into_iter().filter(|path| !path.is_dir()).collect()
+    }
+
+    /// Every folder under the folder.
+    pub(crate) fn folders(&self) -> BTreeSet<PathBuf> {
+        self.entries().into_iter().filter(|path| path.is_dir()).collect()
+    }
+
+    fn entries(&self) -> BTreeSet<PathBuf> {
+        fn walk(folder: &Path, entries: &mut BTreeSet<PathBuf>) {
             for entry in std::fs::read_dir(folder).unwrap() {
                 let path = entry.unwrap().path();
                 if path.is_dir() {
-                    walk(&path, files);
-                } else {
-                    files.insert(path);
+                    walk(&path, entries);
                 }
+                entries.insert(path);
             }
         }
-        let mut files = BTreeSet::new();
-        walk(self.folder.path(), &mut files);
-        files
+        let mut entries = BTreeSet::new();
+        walk(self.folder.path(), &mut entries);
+        entries
     }
 
     /// Six faces of a size, `PREFIX_front.png` and so on, each with its own pattern.

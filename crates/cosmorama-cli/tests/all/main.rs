@@ -56,7 +56,9 @@ mod sequence {
 
 mod usage {
     mod advice;
+    mod help;
     mod messages;
+    mod mistakes;
     mod verbs;
     mod wrong_usage;
 }

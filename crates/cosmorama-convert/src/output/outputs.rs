@@ -1,11 +1,11 @@
 use std::collections::{HashMap, HashSet};
 use std::path::{Path, PathBuf};
 
-use cosmorama_io::pending::{Pending, place};
+use cosmorama_io::pending::{NewFolders, Pending, place};
 
 use crate::budget::MemoryBudget;
 use crate::colour::Light;
-use crate::diagnostic::{Code, Diagnostic, FRAMES, OVERWRITE, RESUME, Result, bail, usage, usage_as};
+use crate::diagnostic::{Code, Diagnostic, FRAMES, OVERWRITE, RESUME, Result, bail, failure, usage, usage_as};
 use crate::input::{Input, ViewFiles};
 use crate::output::Remade;
 use crate::settings::{Conversion, Existing, GeometrySettings};
@@ -27,6 +27,8 @@ pub(crate) struct Outputs {
     pub(crate) skipped: usize,
     /// Outputs that are made again because something else is in their place.
     pub(crate) remade: Vec<Remade>,
+    /// Folders that were made for them; those that stay empty go with this.
+    _folders: NewFolders,
 }
 
 impl Outputs {
@@ -55,13 +57,17 @@ impl Outputs {
     ) -> Result<Self> {
         check_frame_markers(args, input, target)?;
         let inputs = files_read(input, &args.geometry);
-        let mut frames = Vec::new();
+        let (mut frames, mut made) = (Vec::new(), NewFolders::new(&args.unfinished));
         let (mut folders, mut places) = (HashSet::new(), HashMap::new());
         for &frame in &input.frames {
             let path = |file: &TargetFile| file.files.path(frame);
             let files: Vec<(usize, PathBuf)> = target.files.iter().map(path).enumerate().collect();
             for (_, path) in &files {
                 check_apart(path, &inputs)?;
+                // Not the folder that a link leads to: if that is missing, a disk may be.
+                if let (true, Some(folder)) = (args.make_folders, path.parent()) {
+                    make_folder(&mut made, folder)?;
+                }
                 // What cannot be written is told of its frame.
                 let place = real_path(&place(path).unwrap_or_else(|_| path.clone()));
                 if folders.insert(place.parent().map(Path::to_owned)) {
@@ -90,8 +96,15 @@ impl Outputs {
         }
         frames.retain(|frame| !frame.files.is_empty());
         let left: usize = frames.iter().map(|frame| frame.files.len()).sum();
-        Ok(Self { frames, skipped: all - left, remade })
+        Ok(Self { frames, skipped: all - left, remade, _folders: made })
     }
+}
+
+/// Makes a folder that does not exist yet, with those above it.
+fn make_folder(made: &mut NewFolders, folder: &Path) -> Result<()> {
+    made.make(folder).map_err(|error| {
+        failure!("the folder {} cannot be made ({error}); choose another, where you may write", folder.display())
+    })
 }
 
 /// Checks frame markers: several frames need one in the output, one frame may do without, and one without frames is an

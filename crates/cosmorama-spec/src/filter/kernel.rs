@@ -3,6 +3,9 @@ use std::str::FromStr;
 
 use cosmorama::filter::{CrossSection, Kernel};
 
+use super::names;
+use crate::WordError;
+
 /// A kernel by name, with its parameters: `gaussian:alpha=3,scale=0.6`.
 ///
 /// It is only made by parsing, so that every kernel has a name to print.
@@ -15,7 +18,10 @@ pub struct KernelName {
     pub anti_ringing: bool,
 }
 
-const NAMES: &str = "adaptive, gaussian, mitchell, robidoux, robidoux-sharp, catmull-rom, lanczos2, lanczos3, lanczos3-sharp, tent, box, light";
+impl KernelName {
+    /// Every name with a line of help, in the order in which help lists them.
+    pub const NAMES: [(&str, &str); 12] = names::KERNELS;
+}
 
 /// Name of the kernel that keeps the light of suns.
 const LIGHT: &str = "light";
@@ -28,16 +34,13 @@ impl Default for KernelName {
 }
 
 impl FromStr for KernelName {
-    type Err = String;
+    type Err = WordError;
 
-    fn from_str(text: &str) -> Result<Self, String> {
+    fn from_str(text: &str) -> Result<Self, WordError> {
         let (name, keys) = text.split_once(':').unwrap_or((text, ""));
-        let mut kernel = named(name).ok_or_else(|| format!("unknown kernel '{name}'; there are {NAMES}"))?;
+        let mut kernel = named(name).ok_or_else(|| names::no_kernel(name))?;
         for pair in keys.split(',').filter(|_| !keys.is_empty()) {
-            let (key, value) = pair.split_once('=').ok_or_else(|| format!("'{pair}' is no key=value"))?;
-            let value = within_reach(value)
-                .ok_or_else(|| format!("{key}={value}: expected a number more than 0, at most {MOST}"))?;
-            set(&mut kernel, name, key, value)?;
+            set_pair(&mut kernel, name, pair).map_err(WordError::Parameter)?;
         }
         Ok(Self { kernel, anti_ringing: name != LIGHT })
     }
@@ -49,7 +52,7 @@ impl fmt::Display for KernelName {
         let Self { kernel, anti_ringing } = *self;
         let scaled = |other: Kernel| Kernel { scale: kernel.scale, floor: kernel.floor, ..other };
         let of_name = |name: &&str| (*name == LIGHT) != anti_ringing && named(name).map(scaled) == Some(kernel);
-        let name = NAMES.split(", ").find(of_name).unwrap_or("gaussian");
+        let name = Self::NAMES.iter().map(|(name, _)| *name).find(of_name).unwrap_or("gaussian");
         let usual = named(name).unwrap_or(kernel);
         let mut keys = Vec::new();
         if let (CrossSection::Gaussian { alpha, cutoff }, CrossSection::Gaussian { alpha: two, cutoff: one }) =
@@ -87,6 +90,13 @@ fn named(name: &str) -> Option<Kernel> {
     Some(Kernel::uniform(cross_section))
 }
 
+fn set_pair(kernel: &mut Kernel, name: &str, pair: &str) -> Result<(), String> {
+    let (key, value) = pair.split_once('=').ok_or_else(|| format!("'{pair}' is no key=value"))?;
+    let value =
+        within_reach(value).ok_or_else(|| format!("{key}={value}: expected a number more than 0, at most {MOST}"))?;
+    set(kernel, name, key, value)
+}
+
 fn set(kernel: &mut Kernel, name: &str, key: &str, value: f64) -> Result<(), String> {
     match (key, &mut kernel.fine) {
         ("scale", _) => kernel.scale = value,
@@ -118,6 +128,17 @@ mod tests {
     use super::*;
 
     #[test]
+    fn what_is_no_kernel_is_answered_by_what_was_meant() {
+        let refused = |text: &str| text.parse::<KernelName>().unwrap_err().to_string();
+        assert_eq!(refused("ewa"), "'ewa' is no kernel; that is a filter: ewa");
+        assert_eq!(refused("nearest"), "'nearest' is no kernel; that is a filter: point");
+        assert!(refused("bicubic").contains("did you mean 'catmull-rom'?"));
+        assert!(refused("Lanczos:scale=1").starts_with("unknown kernel 'Lanczos'; did you mean 'lanczos3'?"));
+        assert!(refused("mitchel").contains("did you mean 'mitchell'?"));
+        assert!(refused("sharp").starts_with("unknown kernel 'sharp'; there are adaptive, gaussian"));
+    }
+
+    #[test]
     fn kernels_with_parameters() {
         let KernelName { kernel, .. } = "gaussian:alpha=3,cutoff=1.5,scale=0.6".parse().unwrap();
         let gaussian = CrossSection::Gaussian { alpha: 3.0, cutoff: 1.5 };
@@ -125,8 +146,9 @@ mod tests {
         let light: KernelName = "light".parse().unwrap();
         let written: KernelName = "gaussian:cutoff=2,scale=1.4,floor=1.4".parse().unwrap();
         assert_eq!(light, KernelName { anti_ringing: false, ..written });
-        for name in NAMES.split(", ") {
-            assert!(name.parse::<KernelName>().is_ok(), "{name}");
+        let listed = "nothing".parse::<KernelName>().unwrap_err().to_string();
+        for (name, _) in KernelName::NAMES {
+            assert!(name.parse::<KernelName>().is_ok() && listed.contains(name), "{name}");
             assert!(format!("{name}:scale=0.5,floor=0.75").parse::<KernelName>().is_ok(), "{name}");
         }
         for wrong in [

@@ -2,6 +2,7 @@
 
 mod kernel;
 mod name;
+mod names;
 
 pub use kernel::KernelName;
 pub use name::FilterName;

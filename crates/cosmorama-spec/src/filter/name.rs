@@ -3,9 +3,17 @@ use std::str::FromStr;
 
 use cosmorama::filter::FilterKind;
 
+use super::names;
+use crate::WordError;
+
 /// Filter by name: `ewa`, `ewa-pyramid`, `point`, `bilinear` or `reference[:samples=N]`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct FilterName(pub FilterKind);
+
+impl FilterName {
+    /// Every name with a line of help, in the order in which help lists them.
+    pub const NAMES: [(&str, &str); 5] = names::FILTERS;
+}
 
 impl fmt::Display for FilterName {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -24,14 +32,14 @@ impl fmt::Display for FilterName {
 const SAMPLES: usize = 4;
 
 impl FromStr for FilterName {
-    type Err = String;
+    type Err = WordError;
 
-    fn from_str(text: &str) -> Result<Self, String> {
+    fn from_str(text: &str) -> Result<Self, WordError> {
         let samples = |text: &str| text.parse().ok().filter(|samples| (1..=64).contains(samples));
         match text.split_once(":samples=") {
             Some(("reference", count)) => match samples(count) {
                 Some(samples) => Ok(Self(FilterKind::Reference { samples })),
-                None => Err(format!("samples={count}: expected a number from 1 to 64")),
+                None => Err(WordError::Parameter(format!("samples={count}: expected a number from 1 to 64"))),
             },
             _ => match text {
                 "ewa" => Ok(Self(FilterKind::Ewa)),
@@ -39,8 +47,32 @@ impl FromStr for FilterName {
                 "point" => Ok(Self(FilterKind::Point)),
                 "bilinear" => Ok(Self(FilterKind::Bilinear)),
                 "reference" => Ok(Self(FilterKind::Reference { samples: SAMPLES })),
-                _ => Err("there are ewa, ewa-pyramid, point, bilinear and reference[:samples=N]".to_owned()),
+                _ => Err(names::no_filter(text)),
             },
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_no_filter_is_answered_by_what_was_meant() {
+        let refused = |text: &str| text.parse::<FilterName>().unwrap_err().to_string();
+        assert_eq!(refused("bicubic"), "'bicubic' is no filter; that is a kernel: catmull-rom");
+        assert_eq!(refused("gaussian:alpha=2"), "'gaussian:alpha=2' is no filter; that is a kernel: gaussian:alpha=2");
+        assert!(refused("nearest").contains("did you mean 'point'?"));
+        assert!(refused("ewa-pyramids").contains("did you mean 'ewa-pyramid'?"));
+        assert!(refused("sharp").starts_with("unknown filter 'sharp'; there are ewa, ewa-pyramid"));
+        assert!(refused("point:samples=3").contains("only reference takes a key"));
+        assert!(refused("reference:samples=99").contains("from 1 to 64"));
+    }
+
+    #[test]
+    fn every_name_is_parsed_and_printed() {
+        for (name, _) in FilterName::NAMES {
+            assert_eq!(name.parse::<FilterName>().unwrap().to_string(), name);
         }
     }
 }

@@ -3,6 +3,9 @@ use std::str::FromStr;
 
 use cosmorama::raster::Transfer;
 
+use crate::WordError;
+use crate::error::{WordKind, nearest};
+
 /// A transfer function by name: `auto`, `srgb`, `linear`, `bt1886`, `pq`, `hlg` or `gamma:G`.
 #[derive(Clone, Debug, PartialEq)]
 pub enum TransferName {
@@ -28,9 +31,9 @@ impl fmt::Display for TransferName {
 }
 
 impl FromStr for TransferName {
-    type Err = String;
+    type Err = WordError;
 
-    fn from_str(text: &str) -> Result<Self, String> {
+    fn from_str(text: &str) -> Result<Self, WordError> {
         let transfer = match text {
             "auto" => return Ok(Self::Auto),
             "srgb" => Transfer::Srgb,
@@ -40,24 +43,98 @@ impl FromStr for TransferName {
             "hlg" => Transfer::Hlg,
             _ => match text.strip_prefix("gamma:").and_then(|gamma| gamma.parse().ok()) {
                 Some(gamma) if (0.1..=10.0).contains(&gamma) => Transfer::Gamma(gamma),
-                _ => {
-                    return Err(
-                        "there are auto, srgb, linear, bt1886, pq, hlg and gamma:G (G from 0.1 to 10, as in gamma:2.2)"
-                            .to_owned(),
-                    );
-                }
+                _ => return Err(unknown(text)),
             },
         };
         Ok(Self::Fixed(transfer))
     }
 }
 
+/// Words that other programs have for the same functions.
+const OTHER_NAMES: [(&str, &str); 14] = [
+    ("gamma", "gamma:2.2"),
+    ("lin", "linear"),
+    ("raw", "linear"),
+    ("none", "linear"),
+    ("rec709", "bt1886"),
+    ("bt709", "bt1886"),
+    ("rec.709", "bt1886"),
+    ("bt.709", "bt1886"),
+    ("hdr10", "pq"),
+    ("st2084", "pq"),
+    ("smpte2084", "pq"),
+    ("rec2100", "pq"),
+    ("iec61966-2-1", "srgb"),
+    ("b67", "hlg"),
+];
+
+fn unknown(text: &str) -> WordError {
+    WordError::Unknown {
+        what: WordKind::Transfer,
+        word: text.to_owned(),
+        meant: meant(text),
+        known: "auto, srgb, linear, bt1886, pq, hlg and gamma:G (G from 0.1 to 10, as in gamma:2.2)",
+    }
+}
+
+/// Finds the name that was meant: another program's word, a gamma without the colon, or one that is spelled alike.
+fn meant(text: &str) -> Option<String> {
+    let word = text.to_ascii_lowercase();
+    let exponent = word.trim_start_matches("gamma").trim_start_matches([':', '=', ' ']);
+    if exponent.parse::<f64>().is_ok_and(|gamma| (0.1..=10.0).contains(&gamma)) {
+        return Some(format!("gamma:{exponent}"));
+    }
+    let other = OTHER_NAMES.iter().find(|(other, _)| *other == word).map(|(_, ours)| *ours);
+    other.or_else(|| nearest(&word, &TransferName::NAMES.map(|(name, _)| name))).map(str::to_owned)
+}
+
 impl TransferName {
-    /// Returns the transfer function that was requested; `None` if the file decides.
+    /// Names with a line of help each, in the order in which help lists them.
+    pub const NAMES: [(&str, &str); 7] = [
+        ("auto", "As the file says, else srgb; float files linear"),
+        ("srgb", "sRGB's curve"),
+        ("linear", "Code values are light"),
+        ("bt1886", "Video: BT.1886, a gamma of 2.4"),
+        ("pq", "HDR video: PQ, SMPTE ST 2084"),
+        ("hlg", "HDR video: HLG"),
+        ("gamma:2.2", "Any gamma from 0.1 to 10"),
+    ];
+
+        /// Returns the transfer function that was requested; `None` if the file decides.
     pub fn fixed(&self) -> Option<Transfer> {
         match self {
             Self::Auto => None,
             Self::Fixed(transfer) => Some(transfer.clone()),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_no_transfer_function_is_answered_by_what_was_meant() {
+        let refused = |text: &str| text.parse::<TransferName>().unwrap_err().to_string();
+        for (typed, meant) in [
+            ("sRGB", "srgb"),
+            ("2.2", "gamma:2.2"),
+            ("gamma2.4", "gamma:2.4"),
+            ("gamma=1.8", "gamma:1.8"),
+            ("gamma", "gamma:2.2"),
+            ("rec709", "bt1886"),
+            ("linaer", "linear"),
+        ] {
+            let message = refused(typed);
+            let expected = format!("unknown transfer function '{typed}'; did you mean '{meant}'?; there are auto");
+            assert!(message.starts_with(&expected), "{message}");
+        }
+        assert!(refused("gamma:0").starts_with("unknown transfer function 'gamma:0'; did you mean 'gamma:2.2'?"));
+        for (name, _) in TransferName::NAMES {
+            assert_eq!(name.parse::<TransferName>().unwrap().to_string(), name);
+        }
+        for (_, ours) in OTHER_NAMES {
+            assert!(ours.parse::<TransferName>().is_ok(), "{ours}");
         }
     }
 }

@@ -1,8 +1,15 @@
-//! Names that other programs have for the same projections: ffmpeg's v360 and envutil.
+//! Names that other programs have for the same projections and keys: ffmpeg's v360 and envutil.
+
+use super::projections::Kind;
+use crate::error::key_for;
 
 /// Another program's name, and the SPEC that it stands for here.
-const ALIASES: [(&str, &str); 26] = [
+pub(super) const ALIASES: [(&str, &str); 33] = [
     ("e", "equirect"),
+    ("equirectangular", "equirect"),
+    ("latlong", "equirect"),
+    ("latlon", "equirect"),
+    ("panorama", "equirect"),
     ("spherical", "equirect"),
     ("he", "equirect:hfov=180"),
     ("hequirect", "equirect:hfov=180"),
@@ -30,6 +37,9 @@ const ALIASES: [(&str, &str); 26] = [
     ("cubemap", "cube"),
     ("domemaster", "fulldome"),
     ("little-planet", "stereographic:pitch=-90"),
+    ("littleplanet", "stereographic:pitch=-90"),
+    ("tiny-planet", "stereographic:pitch=-90"),
+    ("tinyplanet", "stereographic:pitch=-90"),
 ];
 
 /// Projections of ffmpeg's v360 that are not on offer.
@@ -59,4 +69,29 @@ pub(super) fn refusal(name: &str) -> Option<String> {
         ),
         _ => REFUSED.contains(&name).then(|| format!("as by ffmpeg's v360=input={name}:output=e")),
     }
+}
+
+/// Keys of a projection that are written as ffmpeg's filters have them, with colons between, as they are written here;
+/// `None` where they are not.
+///
+/// What the projection does not take, such as a vertical field of view beside that of a fisheye, is left out.
+pub(super) fn without_colons(kind: &'static Kind, keys: &str) -> Option<String> {
+    let has_file = |key: &str| matches!(key.trim(), "base" | "file" | "calibration");
+    let is_colons = |part: &str| {
+        let (key, value) = part.split_once('=').unwrap_or((part, ""));
+        !has_file(key) && value.split(':').skip(1).any(|later| later.contains('='))
+    };
+    if !keys.split(',').any(is_colons) {
+        return None;
+    }
+    let known: Vec<&str> = kind.all_keys().map(|key| key.name).collect();
+    let mut pairs: Vec<String> = Vec::new();
+    for part in keys.split([',', ':']) {
+        match (part.split_once('='), pairs.last_mut()) {
+            (Some((key, value)), _) => pairs.extend(key_for(key.trim(), &known).map(|key| format!("{key}={value}"))),
+            (None, Some(last)) => *last = format!("{last}:{part}"),
+            (None, None) => {}
+        }
+    }
+    Some(if pairs.is_empty() { kind.name.to_owned() } else { format!("{}:{}", kind.name, pairs.join(",")) })
 }

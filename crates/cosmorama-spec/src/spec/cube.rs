@@ -226,7 +226,15 @@ fn layout(fields: &Fields) -> Result<Option<Packing>, SpecError> {
 fn order(fields: &Fields) -> Result<Option<FaceOrder>, SpecError> {
     let names: Vec<_> = FaceOrder::presets().iter().map(|order| order.name).collect();
     let expected = format!("six letters, each of r, l, u, d, f and b once, as in rludfb, or {}", names.join(", "));
-    fields.read("order", &expected, FaceOrder::parse)
+    fields.read("order", &expected, |text| FaceOrder::parse(text).or_else(|| FaceOrder::parse(&letters(text)?)))
+}
+
+/// Letters of an order that is given in words, or that has `t` for the upper face.
+fn letters(text: &str) -> Option<String> {
+    match text.split_once([',', '+', ' ']) {
+        Some(_) => text.split([',', '+', ' ']).map(|word| named_face(word)?.name().chars().next()).collect(),
+        None => Some(text.replace('t', "u")),
+    }
 }
 
 fn turns(text: &str) -> Option<[u8; 6]> {
@@ -251,14 +259,18 @@ fn face_canvas(fields: &Fields) -> Result<Vec<(CubeFace, Canvas)>, SpecError> {
     Ok(canvases)
 }
 
-/// Finds a face by our own name, or one of the two that others have for up and down.
 fn face(key: &str, value: &str, name: &str) -> Result<CubeFace, SpecError> {
+    named_face(name).ok_or_else(|| {
+        wrong(key, value, format!("faces of a cube (front, right, back, left, up, down); '{name}' is none"))
+    })
+}
+
+/// Finds a face by our own name, or one of the two that others have for up and down.
+fn named_face(name: &str) -> Option<CubeFace> {
     let own = match name.trim() {
         "top" => "up",
         "bottom" => "down",
         name => name,
     };
-    CubeFace::ALL.into_iter().find(|face| face.name() == own).ok_or_else(|| {
-        wrong(key, value, format!("faces of a cube (front, right, back, left, up, down); '{name}' is none"))
-    })
+    CubeFace::ALL.into_iter().find(|face| face.name() == own)
 }

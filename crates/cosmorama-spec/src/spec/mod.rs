@@ -17,8 +17,9 @@ mod stereo;
 
 pub use camera::{CalibrationSpec, Dual, LensFamily};
 pub use cube::{Cube, Packing};
-pub use help::help;
+pub use help::{SpecKind, help};
 pub use map::{StMapBase, StMapSpec};
 pub use parse::Spec;
+pub use projections::Key as SpecKey;
 pub use shape::{Shape, Single, SphereSamples};
 pub use stereo::StereoSpec;

@@ -5,13 +5,14 @@ use std::str::FromStr;
 use cosmorama::camera::CameraModel;
 use cosmorama::layout::LensSide;
 
-use super::alias::{refusal, without_alias};
+use super::alias::{ALIASES, refusal, without_alias, without_colons};
 use super::fields::Fields;
 use super::keys::Keys;
 use super::projections::{KINDS, Kind};
 use super::shape::Shape;
 use super::stereo::StereoSpec;
 use crate::SpecError;
+use crate::error::nearest;
 
 /// Projection of a picture as it is typed, `NAME[:key=value[,key=value]…]`, checked.
 ///
@@ -60,10 +61,11 @@ impl Spec {
         if let Some(way) = refusal(name) {
             return Err(SpecError::NotOffered { name: name.to_owned(), way });
         }
-        let kind = Kind::named(name).ok_or_else(|| SpecError::UnknownName {
-            name: name.to_owned(),
-            known: KINDS.iter().map(|kind| kind.name).collect(),
-        })?;
+        let kind = Kind::named(name).ok_or_else(|| unknown_name(name, rest))?;
+        if let Some(instead) = without_colons(kind, rest) {
+            let instead = Some(instead).filter(|spec| Self::parse_in(folder, spec).is_ok());
+            return Err(SpecError::Colons { instead });
+        }
         let pairs = pairs(rest)?;
         for (index, (key, _)) in pairs.iter().enumerate() {
             check_key(kind, key)?;
@@ -122,17 +124,37 @@ fn named(shape: &Shape) -> Option<(&'static Kind, Keys)> {
     KINDS.iter().find_map(|kind| Some((kind, (kind.write)(shape)?)))
 }
 
+/// Says which name was meant: one that is spelled alike, or one that something else follows than a colon.
+fn unknown_name(name: &str, rest: &str) -> SpecError {
+    let known: Vec<&str> = KINDS.iter().map(|kind| kind.name).collect();
+    let names: Vec<&str> = known.iter().copied().chain(ALIASES.iter().map(|(alias, _)| *alias)).collect();
+    let without_colon = name.split_once([',', ';', ' ', '/', '=']).and_then(|(name, keys)| {
+        let keys = [keys.trim(), rest].into_iter().filter(|keys| !keys.is_empty()).collect::<Vec<_>>().join(",");
+        names.contains(&name).then(|| format!("{name}:{keys}")).filter(|spec| spec.parse::<Spec>().is_ok())
+    });
+    let meant = without_colon.or_else(|| nearest(name, &names).map(str::to_owned));
+    SpecError::UnknownName { name: name.to_owned(), meant, known }
+}
+
 /// Keys and values. A part without `=` goes on with the value before it: `faces=front,left`.
 fn pairs(text: &str) -> Result<Vec<(String, String)>, SpecError> {
     let mut pairs: Vec<(String, String)> = Vec::new();
     for part in text.split(',').filter(|_| !text.is_empty()) {
         match (part.split_once('='), pairs.last_mut()) {
-            (Some((key, value)), _) => pairs.push((key.trim().to_owned(), value.trim().to_owned())),
+            (Some((key, value)), _) => pairs.push((spelled(key.trim()), value.trim().to_owned())),
             (None, Some((_, value))) => *value = format!("{value},{}", part.trim()),
             (None, None) => return Err(SpecError::NoValue { part: part.to_owned() }),
         }
     }
     Ok(pairs)
+}
+
+/// Spells a key as this program does: `centre` is British.
+fn spelled(key: &str) -> String {
+    match key.strip_suffix("centre") {
+        Some(of) if of.is_empty() || of.ends_with('.') => format!("{of}center"),
+        _ => key.to_owned(),
+    }
 }
 
 fn check_key(kind: &'static Kind, typed: &str) -> Result<(), SpecError> {
@@ -285,6 +307,54 @@ mod tests {
                 (found, _) => panic!("{theirs} is {found:?}"),
             }
         }
+    }
+
+    #[test]
+    fn names_and_keys_that_people_have_for_the_same() {
+        let same = |theirs: &str, ours: &str| {
+            assert_eq!(theirs.parse::<Spec>().unwrap(), ours.parse::<Spec>().unwrap(), "{theirs}");
+        };
+        for name in ["equirectangular", "latlong", "latlon", "panorama", "spherical"] {
+            same(&format!("{name}:hfov=180"), "equirect:hfov=180");
+        }
+        for name in ["tinyplanet", "tiny-planet", "littleplanet", "little-planet"] {
+            same(name, "stereographic:pitch=-90");
+        }
+        same("fisheye:centre=3:4,radius=9", "fisheye:center=3:4,radius=9");
+        same("dual-fisheye:front.centre=3:4", "dual-fisheye:front.center=3:4");
+        same("equirect:samples=centers", "equirect:samples=centres");
+        same("cube:half=top", "cube:half=up");
+        same("cube:faces=top,bottom", "cube:faces=up,down");
+        same("cube:canvas.bottom=9x9+0+0", "cube:canvas.down=9x9+0+0");
+        same("cube:layout=3x2,order=rltdfb", "cube:layout=3x2,order=rludfb");
+        same("cube:layout=3x2,order=right,left,top,bottom,front,back", "cube:layout=3x2,order=rludfb");
+        assert!(refused("fisheye:center=1:2,centre=3:4").contains("given twice"));
+        assert!(refused("cube:order=right,left,top").contains("six letters"));
+    }
+
+    #[test]
+    fn ffmpegs_colons_are_answered_by_what_to_write() {
+        for (typed, written) in [
+            ("flat:h_fov=90:v_fov=60", "perspective:fov=90,vfov=60"),
+            ("e:ih_fov=180:iv_fov=90", "equirect:hfov=180,vfov=90"),
+            ("fisheye:h_fov=190:v_fov=190:yaw=3", "fisheye:fov=190,yaw=3"),
+            ("omnimax:center=3:4:radius=9", "omnimax:center=3:4,radius=9"),
+        ] {
+            assert_eq!(refused(typed), format!("keys are separated by commas here, not by colons; write {written}"));
+        }
+        assert!(refused("fulldome:tilt=a:fov=b").contains("as in fisheye:fov=220"));
+        assert!(refused("flat:h_fov=90,v_fov=60").contains("unknown key 'h_fov' for perspective; did you mean 'fov'?"));
+        assert!("fisheye:calibration=a:b=c.yml".parse::<Spec>().is_ok());
+    }
+
+    #[test]
+    fn what_follows_a_name_without_a_colon() {
+        for typed in ["fulldome,tilt=20", "fulldome tilt=20", "fulldome;tilt=20", "fulldome/tilt=20"] {
+            let message = refused(typed);
+            assert!(message.contains("did you mean 'fulldome:tilt=20'?"), "{message}");
+        }
+        assert!(refused("Fulldome").contains("did you mean 'fulldome'?"));
+        assert!(refused("panarama").contains("did you mean 'panorama'?"));
     }
 
     #[test]

@@ -43,14 +43,15 @@ const NO_EYES: Refused = Refused { key: "stereo", why: "a map is for one picture
 
 const SQUARE: Refused = Refused { key: "aspect", why: "Hugin's pixels are square" };
 
-/// A key of a SPEC.
-pub(crate) struct Key {
-    /// As typed.
-    pub(crate) name: &'static str,
-    /// What values look like.
-    pub(crate) value: &'static str,
-    /// What it does, with the default.
-    pub(crate) about: &'static str,
+/// Key of a SPEC, as help describes it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Key {
+    /// Name as it is typed.
+    pub name: &'static str,
+    /// Look of its values.
+    pub value: &'static str,
+    /// Effect, with the default.
+    pub about: &'static str,
 }
 
 const fn key(name: &'static str, value: &'static str, about: &'static str) -> Key {
@@ -73,22 +74,22 @@ pub(crate) static KINDS: &[Kind] = &[
                 "faces|strip-h|strip-v|3x2|2x3|cross-h|cross-v|eac",
                 "a file each (faces), or where they lie in one",
             ),
-            key(
-                "order",
-                "rludfb|PRESET",
-                "faces in reading order: six letters or ffmpeg, kartavr, navegar, openexr, envutil",
-            ),
+            key("order", "rludfb|PRESET", "faces in reading order: six letters, six words or a preset (below)"),
             key("rotate", "000000", "quarter turns clockwise of each picture, in the same order"),
             key("fov", "DEGREES", "what a face sees both ways (90); of more, neighbours overlap and are blended"),
             key("feather", "DEGREES", "the band at a face's border over which it fades out (all that overlaps)"),
-            key("half", "up|down|left|right|front|back", "half a cube: the half around a face"),
+            key(
+                "half",
+                "up|down|left|right|front|back",
+                "half a cube: the half around a face (top and bottom are up and down)",
+            ),
             key(
                 "samples",
                 "centres|edges",
                 "where the outermost samples of a face lie (centres; order=openexr: edges)",
             ),
-            key("naming", "PRESET", "how files are named: words, cosmorama, bourke, pannellum, opengl, px, …"),
-            key("faces", "front,left,right,up", "use (or write) only these"),
+            key("naming", "PRESET", "how files are named: a preset (below)"),
+            key("faces", "front,left,right,up", "use (or write) only these (top and bottom are up and down)"),
             key("canvas.FACE", "WxH+X+Y", "as canvas=, for one face; needed where a file is a crop"),
         ],
         refused: &[FITS],
@@ -367,7 +368,7 @@ impl Kind {
     }
 
     /// Every key it takes.
-    pub(crate) fn all_keys(&self) -> impl Iterator<Item = &Key> {
+    pub(crate) fn all_keys(&'static self) -> impl Iterator<Item = &'static Key> {
         self.keys.iter().chain(COMMON.iter().filter(|key| self.refusal(key.name).is_none()))
     }
 

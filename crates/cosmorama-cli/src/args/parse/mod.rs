@@ -2,4 +2,5 @@
 
 pub(crate) mod compression;
 pub(crate) mod depth;
+pub(crate) mod listed;
 pub(crate) mod number;

@@ -47,8 +47,10 @@ fn a_diagram_replaces_no_input() {
 fn a_folder_that_is_missing_or_read_only() {
     let bench = Bench::new();
     bench.save("sky.png", &picture(1, 64, 32));
-    let message = bench.fail(1, &["convert", "sky.png", "nowhere/out.png", "--to", "omnimax", "--size", "32"]);
-    assert_says(&message, &["nowhere/out.png", "does not exist", "make it first"]);
+    let args = ["convert", "sky.png", "nowhere/out.png", "--to", "omnimax", "--size", "32", "--no-mkdir"];
+    assert_says(&bench.fail(1, &args), &["nowhere/out.png", "does not exist", "make it first"]);
+    let message = bench.fail(1, &["convert", "sky.png", "sky.png/a/out.png", "--to", "omnimax", "--size", "32"]);
+    assert_says(&message, &["the folder sky.png/a cannot be made", "choose another"]);
     // Not even root can write here.
     let message = bench.fail(1, &["convert", "sky.png", "/proc/out.png", "--to", "omnimax", "--size", "32"]);
     assert_says(&message, &["cannot write /proc/out.png", "takes no new files"]);
@@ -69,6 +71,63 @@ fn a_folder_that_is_missing_or_read_only() {
     let message = bench.check_failure(1, &piped, &bench.files());
     assert_says(&message, &["no folder for what is piped can be made in", "TMPDIR="]);
     assert!(!message.contains(".cosmorama-"), "{message}");
+}
+
+#[test]
+fn folders_of_outputs_are_made() {
+    let bench = Bench::new();
+    for frame in 1..=2 {
+        bench.save(&format!("sky_{frame}.png"), &picture(frame, 64, 32));
+    }
+    let from = ["--from", "equirect", "--size", "16"];
+    bench.succeed(&[&["convert", "sky_1.png", "a/b/dome.png", "--to", "fulldome"], &from[..]].concat());
+    bench.succeed(&[&["convert", "sky_#.png", "frames/#/{face}/face.png", "--to", "cube"], &from[..]].concat());
+    bench.succeed(&["compare", "sky_1.png", "sky_2.png", "--diff", "c/d/difference.png"]);
+    bench.succeed(&[
+        "explain",
+        "sky_1.png",
+        "--from",
+        "equirect",
+        "--to",
+        "fulldome",
+        "--size",
+        "16",
+        "--output",
+        "e/f",
+    ]);
+    let made = ["a/b/dome.png", "frames/2/front/face.png", "c/d/difference.png", "e/f/unfolded.svg"];
+    made.into_iter().for_each(|name| assert!(bench.path(name).is_file(), "{name}"));
+    let args = ["compare", "sky_1.png", "sky_2.png", "--no-mkdir", "--diff", "g/difference.png"];
+    assert_says(&bench.fail(1, &args), &["g/difference.png", "does not exist"]);
+}
+
+#[test]
+fn a_run_that_fails_leaves_no_new_folder() {
+    let bench = Bench::new();
+    bench.save("sky.png", &picture(1, 64, 32));
+    let whole = bench.bytes("sky.png");
+    std::fs::write(bench.path("cut.png"), &whole[..whole.len() * 2 / 3]).unwrap();
+    bench.save("front.png", &picture(1, 16, 16));
+    std::fs::create_dir(bench.path("old")).unwrap();
+    let to = ["--to", "fulldome", "--size", "16"];
+    for (input, output) in [
+        // Found out before any work, and while a picture is read.
+        ("{face}.png", "new/folder/a.png"),
+        ("cut.png", "new/folder/a.png"),
+        ("cut.png", "old/new/a.png"),
+        ("cut.png", "old/a.png"),
+    ] {
+        let from = if input == "cut.png" { "equirect" } else { "cube" };
+        bench.fail(1, &[&["convert", input, output, "--from", from], &to[..]].concat());
+        let is_left = bench.path("new").exists() || bench.path("old/new").exists();
+        assert!(!is_left && bench.path("old").is_dir(), "{input} {output}");
+    }
+    // A frame that fails later leaves what was made before it.
+    bench.save("sky_1.png", &picture(1, 64, 32));
+    std::fs::copy(bench.path("cut.png"), bench.path("sky_2.png")).unwrap();
+    let output = bench.run(&[&["convert", "sky_#.png", "frames/#/a.png", "--from", "equirect"], &to[..]].concat());
+    assert_eq!(output.status.code(), Some(1));
+    assert!(bench.path("frames/1/a.png").is_file() && !bench.path("frames/2").exists());
 }
 
 /// Only Linux has `/sys`, where not even root can make a file.

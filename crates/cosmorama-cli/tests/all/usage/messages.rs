@@ -40,7 +40,7 @@ fn messages_stay_as_they_are() {
 
 /// Runs a command in the folder, which it leaves as it was: what it says, and its exit code.
 fn said(bench: &Bench, command: &str) -> String {
-    let before = bench.files();
+    let (before, folders) = (bench.files(), bench.folders());
     let mut words = words(command).into_iter();
     let mut call = Command::new(program());
     call.current_dir(bench.path("")).stdin(Stdio::null()).env("COLUMNS", "100").env("TMPDIR", bench.path(""));
@@ -62,6 +62,9 @@ fn said(bench: &Bench, command: &str) -> String {
     for made in bench.files().difference(&before) {
         fs::remove_file(made).unwrap();
     }
+    // Inner folders come after those that they are in.
+    let made: Vec<_> = bench.folders().difference(&folders).cloned().collect();
+    made.iter().rev().for_each(|folder| fs::remove_dir(folder).unwrap());
     said
 }
 

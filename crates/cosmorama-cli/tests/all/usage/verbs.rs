@@ -1,27 +1,7 @@
-//! The other verbs: `info`, `explain`, `compare`, `demo`, `completions`, `man`, and help.
+//! The other verbs: `info`, `explain`, `compare`, `demo`.
 
 use crate::bench::{Bench, flat, picture};
 use serde_json::Value;
-
-#[test]
-fn every_help_begins_with_examples() {
-    let bench = Bench::new();
-    for verb in ["demo", "convert", "info", "explain", "compare", "completions"] {
-        let help = bench.succeed(&[verb, "--help"]);
-        assert!(help.starts_with(&format!("Examples:\n  cosmorama {verb}")), "{help}");
-    }
-    assert!(bench.succeed(&["--help"]).starts_with("Examples:"));
-    assert!(bench.succeed(&["convert", "--help"]).contains("omnimax      an Omnimax film frame"));
-}
-
-#[test]
-fn completions_and_manual() {
-    let bench = Bench::new();
-    assert!(bench.succeed(&["completions", "bash"]).contains("_cosmorama()"));
-    assert!(bench.succeed(&["completions", "zsh"]).starts_with("#compdef cosmorama"));
-    let man = bench.succeed(&["man"]);
-    assert!(man.contains(".TH cosmorama 1") && man.contains("anti\\-ringing"));
-}
 
 #[test]
 fn info_of_a_file() {

@@ -1,10 +1,15 @@
 //! Errors with exit codes: 1 for what failed, 2 for wrong usage.
 
+mod arguments;
+mod unknown_option;
+mod unknown_verb;
+
 use std::process::ExitCode;
 
-use clap::error::{ContextKind, ContextValue, ErrorKind};
 use cosmorama_convert::ConvertError;
 use thiserror::Error;
+
+pub(crate) use arguments::report_arguments;
 
 use crate::console::{Console, in_options, say};
 
@@ -45,20 +50,4 @@ fn message(error: &anyhow::Error) -> String {
 pub(crate) fn report(error: &anyhow::Error, console: &Console) -> ExitCode {
     say(format_args!("error: {}", console.told(&message(error))));
     if is_usage(error) { ExitCode::from(2) } else { ExitCode::FAILURE }
-}
-
-/// Prints what is wrong with arguments, or what was asked for, and chooses the exit code.
-pub(crate) fn report_arguments(mut error: clap::Error) -> ExitCode {
-    let unknown = match error.get(ContextKind::InvalidArg) {
-        Some(ContextValue::String(argument)) if error.kind() == ErrorKind::UnknownArgument => argument.as_str(),
-        _ => "-",
-    };
-    if !unknown.starts_with('-') && error.get(ContextKind::Suggested).is_none() {
-        // The shell makes a list of files of a wildcard.
-        let tip = "many files are named by one pattern, in quotes: '####' where frame numbers stand, '{face}' where faces' names do";
-        error.insert(ContextKind::Suggested, ContextValue::StyledStrs(vec![tip.into()]));
-    }
-    // Where nobody listens any more, there is nobody to tell so.
-    let _ = error.print();
-    u8::try_from(error.exit_code()).map_or(ExitCode::FAILURE, ExitCode::from)
 }

@@ -3,6 +3,9 @@
 //! [`write`](crate::write()) writes to a temporary file beside the output, and renames it when it is complete.
 //! Meanwhile the file is listed in [`Unfinished`]. An interrupt handler calls [`Unfinished::remove_all`] before the
 //! program ends, so that no partial file stays behind. Files left by a killed program are named `.cosmorama-*.part`.
+//! Folders that are created for outputs ([`NewFolders`]) are listed, too, and removed if they stay empty.
+
+mod new_folders;
 
 use std::collections::BTreeSet;
 use std::fs::File;
@@ -12,6 +15,8 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use tempfile::{Builder, TempDir, TempPath};
 
+pub use new_folders::NewFolders;
+
 use crate::IoError;
 
 const PREFIX: &str = ".cosmorama-";
@@ -19,31 +24,44 @@ const SUFFIX: &str = ".part";
 
 /// List of temporary files in progress. Clones share the list.
 #[derive(Clone, Debug, Default)]
-pub struct Unfinished(Arc<Mutex<BTreeSet<PathBuf>>>);
+pub struct Unfinished(Arc<Mutex<Listing>>);
+
+/// What goes away when a program is interrupted.
+#[derive(Debug, Default)]
+struct Listing {
+    /// Temporary files, and temporary folders with all that is in them.
+    paths: BTreeSet<PathBuf>,
+    /// Folders for outputs, as long as nothing is in them.
+    folders: BTreeSet<PathBuf>,
+}
 
 impl Unfinished {
-    /// Deletes all temporary files on the list, for interrupt handlers. The program must end next: from now on, whoever
-    /// begins, finishes or abandons a file of this list blocks until it does. So nothing appears after the removal, and
-    /// no writer's failure is reported in place of the interrupt.
+    /// Deletes all temporary files on the list and empty new folders, for interrupt handlers. The program must end next:
+    /// from now on, whoever begins, finishes or abandons a file of this list blocks until it does. So nothing appears
+    /// after the removal, and no writer's failure is reported in place of the interrupt.
     pub fn remove_all(&self) {
-        let paths = self.paths();
-        for path in paths.iter() {
+        let listing = self.listing();
+        for path in &listing.paths {
             // One that is gone already is as wanted.
             let _ = if path.is_dir() { std::fs::remove_dir_all(path) } else { std::fs::remove_file(path) };
         }
-        std::mem::forget(paths);
+        // Inner folders come after those that they are in.
+        for folder in listing.folders.iter().rev() {
+            let _ = std::fs::remove_dir(folder);
+        }
+        std::mem::forget(listing);
     }
 
-    fn paths(&self) -> MutexGuard<'_, BTreeSet<PathBuf>> {
+    fn listing(&self) -> MutexGuard<'_, Listing> {
         // A set of paths is whole after every step, even if a thread panicked.
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     /// Creates a file and puts it on the list, while `remove_all` cannot run.
     fn list<T>(&self, make: impl FnOnce() -> io::Result<(PathBuf, T)>) -> io::Result<(T, Listed)> {
-        let mut paths = self.paths();
+        let mut listing = self.listing();
         let (path, made) = make()?;
-        paths.insert(path.clone());
+        listing.paths.insert(path.clone());
         Ok((made, Listed { path, list: self.clone() }))
     }
 }
@@ -91,7 +109,7 @@ struct Listed {
 
 impl Drop for Listed {
     fn drop(&mut self) {
-        self.list.paths().remove(&self.path);
+        self.list.listing().paths.remove(&self.path);
     }
 }
 

@@ -1,0 +1,57 @@
+//! Arguments of the verbs that tell of the program itself.
+
+use std::path::PathBuf;
+
+use clap::builder::PossibleValuesParser;
+use clap::{Args, ValueHint};
+use clap_complete::Shell;
+
+use super::{verbs, with_examples};
+
+/// Commands that the help of `help` shows.
+pub(super) const EXAMPLES: [&str; 3] = ["cosmorama help convert", "cosmorama help spec", "cosmorama help spec fisheye"];
+
+/// Commands that the help of `man` shows.
+pub(super) const MAN_EXAMPLES: [&str; 2] = ["cosmorama man | man -l -", "cosmorama man ~/.local/share/man/man1"];
+
+/// Commands that the help of `completions` shows.
+pub(super) const COMPLETIONS_EXAMPLES: [&str; 3] = [
+    "cosmorama completions bash >> ~/.bash_completion",
+    "cosmorama completions zsh > ~/.zfunc/_cosmorama",
+    "cosmorama completions fish > ~/.config/fish/completions/cosmorama.fish",
+];
+
+/// Topic of help that is no verb.
+pub(crate) const SPEC_TOPIC: &str = "spec";
+
+/// Print the help of a verb, or of SPECs: projections, keys, other names.
+#[derive(Debug, Args)]
+#[command(help_template = with_examples(&EXAMPLES))]
+pub(crate) struct HelpArgs {
+    /// A verb, or spec: how projections are typed
+    #[arg(value_parser = PossibleValuesParser::new(verbs().chain([SPEC_TOPIC])))]
+    pub(crate) topic: Option<String>,
+    /// After spec: the one projection whose keys to print
+    pub(crate) projection: Option<String>,
+}
+
+/// Print the manual, or write its pages into a folder.
+#[derive(Debug, Args)]
+#[command(help_template = with_examples(&MAN_EXAMPLES))]
+pub(crate) struct ManArgs {
+    /// Write a page for each verb, and one for SPECs, into this folder
+    #[arg(value_hint = ValueHint::DirPath)]
+    pub(crate) dir: Option<PathBuf>,
+    /// Replace existing pages
+    #[arg(short = 'y', long, requires = "dir")]
+    pub(crate) overwrite: bool,
+}
+
+/// Print a shell's completion script.
+#[derive(Debug, Args)]
+#[command(help_template = with_examples(&COMPLETIONS_EXAMPLES))]
+pub(crate) struct CompletionsArgs {
+    /// Which shell
+    #[arg(value_enum)]
+    pub(crate) shell: Shell,
+}

@@ -1,0 +1,193 @@
+//! Options that a verb does not have: keys of SPECs, other programs' words, slips.
+
+use cosmorama_spec::{SpecKey, SpecKind, nearest};
+
+use super::arguments::{Typed, see_options};
+use crate::args;
+
+/// Verbs that take projections.
+const WITH_SPECS: [&str; 2] = ["convert", "explain"];
+
+/// Words of other programs, and what to type for them.
+const OTHER_WORDS: [(&[&str], &str); 21] = [
+    (
+        &["width", "height", "w", "h", "s", "res", "resolution", "dimensions", "resize", "geometry"],
+        "--size WxH, as in --size 4096x2048, or the width alone, as in --size 4096",
+    ),
+    (
+        &["output", "out", "o", "dest", "destination"],
+        "the output without an option, after the input: cosmorama convert INPUT OUTPUT --to SPEC",
+    ),
+    (
+        &["input", "in", "i", "src"],
+        "the input without an option, before the output: cosmorama convert INPUT OUTPUT --to SPEC",
+    ),
+    (&["source", "input-projection", "in-projection", "from-projection"], "--from SPEC, as in --from equirect"),
+    (
+        &["target", "projection", "proj", "output-projection", "out-projection", "to-projection", "type"],
+        "--to SPEC, as in --to fulldome",
+    ),
+    (&["force", "replace", "yes", "clobber"], "-y, which replaces existing outputs"),
+    (
+        &["interpolation", "interp", "resample", "resampling", "sampling", "method"],
+        "--filter NAME, as in --filter bilinear, or --kernel NAME, as in --kernel catmull-rom",
+    ),
+    (&["jobs", "j", "cores", "workers", "cpus", "t"], "--threads N, as in --threads 4"),
+    (&["bits", "bit-depth", "bitdepth", "bpp", "pix-fmt"], "--depth DEPTH, as in --depth 16"),
+    (
+        &["gamma", "colorspace", "colourspace", "color-space", "colour-space", "color", "colour"],
+        "--transfer T, as in --transfer gamma:2.2",
+    ),
+    (
+        &["bg", "fill", "background-color", "background-colour", "bgcolor"],
+        "--background COLOR, as in --background black",
+    ),
+    (&["frame", "start", "end", "range", "first", "last", "start-number"], "--frames LIST, as in --frames 1-10"),
+    (&["quiet", "q", "silent", "loglevel"], "--progress none"),
+    (&["ram", "mem", "max-memory"], "--memory SIZE, as in --memory 8G"),
+    (&["pan", "heading", "azimuth", "longitude", "lon"], "--yaw D, as in --yaw 30"),
+    (&["elevation", "latitude"], "--pitch D, as in --pitch 10"),
+    (&["rotation", "orientation", "ypr", "rpy", "angle"], "--yaw D, --pitch D and --roll D"),
+    (
+        &["antialias", "aa", "supersample", "supersampling", "ss", "oversample"],
+        "nothing: the default filter averages all that a pixel sees",
+    ),
+    (&["dry-run", "n", "preview"], "cosmorama explain INPUT --to SPEC, which tells what a conversion will do"),
+    (&["mkdir", "parents", "p"], "nothing: folders that do not exist are made"),
+    (
+        &["recursive", "batch", "glob"],
+        "one pattern in quotes: '####' where frame numbers stand, '{face}' where faces' names do",
+    ),
+];
+
+/// Words for keys of SPECs that no key is called.
+const OTHER_KEYS: [(&str, &str); 6] = [
+    ("mirror", "flip"),
+    ("hflip", "flip"),
+    ("vflip", "flip"),
+    ("crop", "canvas"),
+    ("calib", "calibration"),
+    ("faceorder", "order"),
+];
+
+/// Projections that come first where a key is explained by an example.
+const USUAL: [&str; 5] = ["perspective", "fulldome", "fisheye", "equirect", "omnimax"];
+
+/// What to type in place of an argument that a verb does not take.
+pub(super) fn message(argument: &str, typed: &Typed) -> String {
+    let verb = typed.verb();
+    let Some(word) = argument.strip_prefix("--").or_else(|| argument.strip_prefix('-')) else {
+        return format!("unexpected argument '{argument}'; {}\n\n{}", lone_word(argument, typed), see_options(verb));
+    };
+    let word = word.split('=').next().unwrap_or_default().to_lowercase().replace('_', "-");
+    let who = verb.map_or_else(|| "cosmorama".to_owned(), |verb| format!("cosmorama {verb}"));
+    let takes_specs = verb.is_none_or(|verb| WITH_SPECS.contains(&verb));
+    let is_long = argument.starts_with("--");
+    let advice = key_of_spec(&word, argument, typed)
+        .filter(|_| takes_specs && is_long)
+        .or_else(|| {
+            OTHER_WORDS
+                .iter()
+                .find(|(words, _)| words.contains(&word.as_str()))
+                .map(|(_, write)| format!("write {write}"))
+        })
+        .or_else(|| own_option(&word, verb))
+        .or_else(|| option_of_other(&word, verb))
+        .unwrap_or_default();
+    let advice = if advice.is_empty() { advice } else { format!("; {advice}") };
+    format!("{who} has no option {argument}{advice}\n\n{}", see_options(verb))
+}
+
+/// What a word without an option may have been meant for.
+fn lone_word(word: &str, typed: &Typed) -> String {
+    let key = word.split_once('=').map(|(key, value)| (key.trim_start_matches(':'), value));
+    if let Some((key, value)) = key.filter(|(key, _)| SpecKind::all().any(|kind| kind.key(key).is_some())) {
+        return match SpecKind::all().find_map(|kind| example(kind, kind.key(key)?, value, typed)) {
+            Some(example) => format!("keys follow the projection's name and a colon, without spaces: {example}"),
+            None => format!("keys follow the projection's name and a colon, without spaces: --to NAME:{key}={value}"),
+        };
+    }
+    if SpecKind::of(word).is_some() {
+        return format!("that is a projection: --to {word}");
+    }
+    if word == "x" || word.parse::<f64>().is_ok() {
+        return "a size is one word, without spaces, as in --size 4096x2048".to_owned();
+    }
+    // The shell makes a list of files of a wildcard.
+    "many files are named by one pattern, in quotes: '####' where frame numbers stand, '{face}' where faces' names do"
+        .to_owned()
+}
+
+/// What to write where an option is a key of SPECs.
+fn key_of_spec(word: &str, argument: &str, typed: &Typed) -> Option<String> {
+    let word = OTHER_KEYS.iter().find(|(other, _)| *other == word).map_or(word, |(_, key)| *key);
+    let takers: Vec<(SpecKind, &SpecKey)> =
+        SpecKind::all().filter_map(|kind| Some((kind, kind.key(word).filter(|key| is_named(key, word))?))).collect();
+    let named = |option: &str| typed.value(option).and_then(SpecKind::of);
+    // The projection that was asked for may have another name for it.
+    let asked = named("--to").or_else(|| named("--from"));
+    let own = asked.and_then(|kind| Some((kind, kind.key(word)?)));
+    let first =
+        || USUAL.iter().find_map(|name| takers.iter().find(|(kind, _)| kind.name() == *name)).or(takers.first());
+    let value = typed.value(argument.split('=').next().unwrap_or_default());
+    if takers.is_empty() && own.is_none() {
+        return None;
+    }
+    let (kind, key) = own
+        .or_else(|| {
+            // Of the input, if only that takes it.
+            let from = named("--from")?;
+            takers.iter().find(|(kind, _)| kind.name() == from.name()).copied()
+        })
+        .or_else(|| first().copied())?;
+    let value = value.unwrap_or(key.value);
+    let written =
+        example(kind, key, value, typed).unwrap_or_else(|| format!("--to {}:{}={value}", kind.name(), key.name));
+    let which = match (asked, own) {
+        (Some(asked), None) => format!(", not of {}", asked.name()),
+        (_, Some((asked, key))) if key.name != word => {
+            return Some(format!("of {} that is the key {}: {written}", asked.name(), key.name));
+        }
+        _ => String::new(),
+    };
+    Some(format!("{word} is a key of {}{which}: {written}", list(&takers)))
+}
+
+/// Whether a key has this very name; `fov` may stand for `hfov` only where that was asked for.
+fn is_named(key: &SpecKey, word: &str) -> bool {
+    key.name == word || (word.contains("centre") && key.name == "center") || word.replace('-', "") == key.name
+}
+
+/// The option that was typed, `--to` or `--from`, with a key more.
+fn example(kind: SpecKind, key: &SpecKey, value: &str, typed: &Typed) -> Option<String> {
+    ["--to", "--from"].into_iter().find_map(|option| {
+        let spec = typed.value(option)?;
+        let separator = if spec.contains(':') { ',' } else { ':' };
+        (SpecKind::of(spec)?.name() == kind.name()).then(|| format!("{option} {spec}{separator}{}={value}", key.name))
+    })
+}
+
+/// Names of projections, as a sentence has them.
+fn list(takers: &[(SpecKind, &SpecKey)]) -> String {
+    let names: Vec<&str> = takers.iter().map(|(kind, _)| kind.name()).collect();
+    match names.split_last() {
+        Some((last, rest)) if !rest.is_empty() => format!("{} and {last}", rest.join(", ")),
+        _ => names.concat(),
+    }
+}
+
+/// The verb's own option that is most like what was typed.
+fn own_option(word: &str, verb: Option<&str>) -> Option<String> {
+    let names = args::options(verb?);
+    let names: Vec<&str> = names.iter().map(String::as_str).collect();
+    let begun = names.iter().copied().find(|name| word.len() > 2 && name.starts_with(word));
+    begun.or_else(|| nearest(word, &names)).map(|name| format!("did you mean --{name}?"))
+}
+
+/// Another verb that has the option.
+fn option_of_other(word: &str, verb: Option<&str>) -> Option<String> {
+    let other = args::verbs()
+        .filter(|other| Some(*other) != verb)
+        .find(|other| args::options(other).iter().any(|name| name == word))?;
+    Some(format!("cosmorama {other} has it"))
+}

@@ -1,0 +1,143 @@
+use std::io::Write as _;
+use std::path::Path;
+use std::process::ExitCode;
+
+use anyhow::Result;
+use clap::{Command, CommandFactory};
+use clap_mangen::Man;
+use cosmorama_convert::refuse_existing;
+use cosmorama_io::pending::Pending;
+use cosmorama_spec::{Spec, SpecKind};
+
+use super::make_folder;
+use crate::args::{Args, CompletionsArgs, HelpArgs, ManArgs, SPEC_TOPIC, builtins, examples};
+use crate::console::Console;
+use crate::failure::usage;
+
+/// Prints the help of a verb, or of SPECs.
+pub(super) fn help(args: &HelpArgs, console: &Console) -> Result<ExitCode> {
+    let mut command = built();
+    let text = match (args.topic.as_deref(), args.projection.as_deref()) {
+        (Some(SPEC_TOPIC), None) => cosmorama_spec::help(),
+        (Some(SPEC_TOPIC), Some(spec)) => of_projection(spec)?,
+        (_, Some(extra)) => {
+            return Err(usage(format!("unexpected argument '{extra}'; only 'help spec' takes a projection")));
+        }
+        (Some(verb), None) => {
+            let found = command.find_subcommand_mut(verb);
+            found.map_or_else(String::new, |verb| verb.render_long_help().to_string())
+        }
+        (None, None) => command.render_help().to_string(),
+    };
+    console.print(&(text.trim_end().to_owned() + "\n"))?;
+    Ok(ExitCode::SUCCESS)
+}
+
+/// The keys of one projection.
+fn of_projection(spec: &str) -> Result<String> {
+    let Some(kind) = SpecKind::of(spec) else {
+        let why = spec.parse::<Spec>().err().map_or_else(String::new, |error| error.to_string());
+        return Err(usage(why));
+    };
+    Ok(format!("{} is {}.\n\n{}", kind.name(), kind.about(), kind.help()))
+}
+
+/// Prints a completion script.
+pub(super) fn completions(args: &CompletionsArgs, console: &Console) -> Result<ExitCode> {
+    let mut script = Vec::new();
+    clap_complete::generate(args.shell, &mut Args::command(), "cosmorama", &mut script);
+    console.print(&String::from_utf8_lossy(&script))?;
+    Ok(ExitCode::SUCCESS)
+}
+
+/// Prints the manual pages one after the other, or writes each into a file.
+pub(super) fn man(args: &ManArgs, console: &Console) -> Result<ExitCode> {
+    let pages = pages()?;
+    let Some(folder) = &args.dir else {
+        console.print(&pages.into_iter().map(|page| page.text).collect::<String>())?;
+        return Ok(ExitCode::SUCCESS);
+    };
+    let files: Vec<_> = pages.iter().map(|page| folder.join(&page.file)).collect();
+    if !args.overwrite {
+        refuse_existing(files.iter().map(|file| file.as_path()))?;
+    }
+    let _folders = make_folder(folder, console)?;
+    for (file, page) in files.iter().zip(&pages) {
+        write_page(file, &page.text, console)?;
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+fn write_page(file: &Path, text: &str, console: &Console) -> Result<()> {
+    let mut pending = Pending::create(file, &console.unfinished)?;
+    pending.writer().write_all(text.as_bytes())?;
+    pending.finish()?;
+    console.print(&format!("{}\n", file.display()))
+}
+
+/// The whole command line, with all that its parts inherit.
+fn built() -> Command {
+    let mut command = Args::command();
+    command.build();
+    command
+}
+
+/// A manual page.
+struct Page {
+    /// Name of its file.
+    file: String,
+    /// Its text, for `man`.
+    text: String,
+}
+
+/// The program's own page, one for each verb, and one for SPECs.
+fn pages() -> Result<Vec<Page>> {
+    let command = built();
+    let mut pages = vec![page(&command, None)?];
+    for verb in command.get_subcommands() {
+        pages.push(page(verb, Some(verb.get_name()))?);
+    }
+    pages.push(spec_page());
+    Ok(pages)
+}
+
+fn page(command: &Command, verb: Option<&str>) -> Result<Page> {
+    let man = Man::new(command.clone());
+    let mut text = Vec::new();
+    man.render_title(&mut text)?;
+    man.render_name_section(&mut text)?;
+    man.render_synopsis_section(&mut text)?;
+    man.render_description_section(&mut text)?;
+    let mut text = String::from_utf8_lossy(&text).into_owned();
+    text += &verbatim("EXAMPLES", &examples(verb).join("\n"));
+    let mut rest = Vec::new();
+    man.render_options_section(&mut rest)?;
+    if verb.is_none() {
+        man.render_subcommands_section(&mut rest)?;
+    }
+    text += &String::from_utf8_lossy(&rest);
+    text += match verb {
+        None => ".SH \"SEE ALSO\"\ncosmorama\\-spec(7): projections and their keys\n",
+        Some(_) => ".SH \"SEE ALSO\"\ncosmorama(1), cosmorama\\-spec(7)\n",
+    };
+    Ok(Page { file: man.get_filename(), text })
+}
+
+fn spec_page() -> Page {
+    let mut text =
+        ".TH cosmorama\\-spec 7\n.SH NAME\ncosmorama\\-spec \\- projections, their keys and other names\n".to_owned();
+    text += &verbatim("DESCRIPTION", &cosmorama_spec::help());
+    text += &verbatim("WORLDS BY FORMULA", &builtins());
+    text += ".SH \"SEE ALSO\"\ncosmorama(1), cosmorama\\-convert(1)\n";
+    Page { file: "cosmorama-spec.7".to_owned(), text }
+}
+
+/// A section whose lines stay as they are.
+fn verbatim(heading: &str, text: &str) -> String {
+    let line = |line: &str| {
+        let escaped = line.replace('\\', "\\e").replace('-', "\\-");
+        // A point or an apostrophe at its beginning would make it a command.
+        if escaped.starts_with(['.', '\'']) { format!("\\&{escaped}\n") } else { escaped + "\n" }
+    };
+    format!(".SH \"{heading}\"\n.nf\n{}.fi\n", text.trim_end().lines().map(line).collect::<String>())
+}

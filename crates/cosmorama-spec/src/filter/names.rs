@@ -1,0 +1,118 @@
+//! Names of filters and kernels, and words that other programs have for them.
+
+use crate::error::{WordError, WordKind, nearest};
+
+/// Filters, each with a line of help.
+pub(super) const FILTERS: [(&str, &str); 5] = [
+    ("ewa", "Elliptical weighted average of all texels under a pixel"),
+    ("ewa-pyramid", "The same from smaller copies: bounded time at any shrink, about 40 dB from ewa"),
+    ("point", "The texel under a pixel's centre"),
+    ("bilinear", "Four texels around a pixel's centre"),
+    ("reference", "Brute force, N by N samples a pixel (:samples=N, 1 to 64)"),
+];
+
+/// Kernels, each with a line of help.
+pub(super) const KERNELS: [(&str, &str); 12] = [
+    ("adaptive", "A sharp cubic, softer the more texels a pixel holds"),
+    ("gaussian", "Heckbert's Gaussian; takes alpha= and cutoff=, too"),
+    ("mitchell", "Mitchell and Netravali's cubic"),
+    ("robidoux", "Robidoux's cubic, soft"),
+    ("robidoux-sharp", "Robidoux's sharper cubic"),
+    ("catmull-rom", "Catmull and Rom's cubic, which others call bicubic"),
+    ("lanczos2", "Jinc windowed by jinc, two lobes"),
+    ("lanczos3", "Jinc windowed by jinc, three lobes"),
+    ("lanczos3-sharp", "The same, a little sharper, as ImageMagick's LanczosSharp"),
+    ("tent", "A cone over a disc"),
+    ("box", "A disc of equal weights"),
+    ("light", "A wide Gaussian that keeps the light of suns"),
+];
+
+/// Words for kernels, each with the kernel that is meant.
+const KERNEL_WORDS: [(&str, &str); 14] = [
+    ("bicubic", "catmull-rom"),
+    ("cubic", "catmull-rom"),
+    ("catrom", "catmull-rom"),
+    ("catmull", "catmull-rom"),
+    ("catmullrom", "catmull-rom"),
+    ("spline", "mitchell"),
+    ("mitchell-netravali", "mitchell"),
+    ("gauss", "gaussian"),
+    ("lanczos", "lanczos3"),
+    ("lanczos4", "lanczos3"),
+    ("sinc", "lanczos3"),
+    ("jinc", "lanczos3"),
+    ("triangle", "tent"),
+    ("hat", "tent"),
+];
+
+/// Words for filters, each with the filter that is meant.
+const FILTER_WORDS: [(&str, &str); 12] = [
+    ("nearest", "point"),
+    ("near", "point"),
+    ("neighbor", "point"),
+    ("neighbour", "point"),
+    ("none", "point"),
+    ("linear", "bilinear"),
+    ("mipmap", "ewa-pyramid"),
+    ("trilinear", "ewa-pyramid"),
+    ("pyramid", "ewa-pyramid"),
+    ("supersampling", "reference"),
+    ("supersample", "reference"),
+    ("samples", "reference"),
+];
+
+/// Says what was meant where a text names no filter.
+pub(super) fn no_filter(text: &str) -> WordError {
+    let name = text.split(':').next().unwrap_or_default();
+    let (names, word) = (FILTERS.map(|(name, _)| name), text.to_owned());
+    if names.contains(&name) {
+        let keys = "only reference takes a key, samples=N, as in reference:samples=8";
+        return WordError::Parameter(format!("'{text}': {keys}"));
+    }
+    let is_kernel = KERNELS.iter().any(|(kernel, _)| *kernel == name);
+    match meaning(&KERNEL_WORDS, name).or(is_kernel.then_some(text)) {
+        Some(name) => WordError::OfOther { what: WordKind::Filter, word, of: WordKind::Kernel, name: name.to_owned() },
+        None => WordError::Unknown {
+            what: WordKind::Filter,
+            word,
+            meant: meaning(&FILTER_WORDS, name).or_else(|| nearest(name, &names)).map(str::to_owned),
+            known: "ewa, ewa-pyramid, point, bilinear, reference[:samples=N]",
+        },
+    }
+}
+
+/// Says what was meant where a name is that of no kernel.
+pub(super) fn no_kernel(name: &str) -> WordError {
+    let (names, word) = (KERNELS.map(|(name, _)| name), name.to_owned());
+    let is_filter = FILTERS.iter().any(|(filter, _)| *filter == name);
+    match meaning(&FILTER_WORDS, name).or(is_filter.then_some(name)) {
+        Some(name) => WordError::OfOther { what: WordKind::Kernel, word, of: WordKind::Filter, name: name.to_owned() },
+        None => WordError::Unknown {
+            what: WordKind::Kernel,
+            word,
+            meant: meaning(&KERNEL_WORDS, name).or_else(|| nearest(name, &names)).map(str::to_owned),
+            known: "adaptive, gaussian, mitchell, robidoux, robidoux-sharp, catmull-rom, lanczos2, lanczos3, \
+                    lanczos3-sharp, tent, box, light",
+        },
+    }
+}
+
+fn meaning<'w>(words: &[(&str, &'w str)], word: &str) -> Option<&'w str> {
+    words.iter().find(|(other, _)| other.eq_ignore_ascii_case(word)).map(|(_, ours)| *ours)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{FilterName, KernelName};
+
+    #[test]
+    fn other_words_mean_what_there_is() {
+        for (word, ours) in KERNEL_WORDS {
+            assert!(ours.parse::<KernelName>().is_ok() && word.parse::<KernelName>().is_err(), "{word}");
+        }
+        for (word, ours) in FILTER_WORDS {
+            assert!(ours.parse::<FilterName>().is_ok() && word.parse::<FilterName>().is_err(), "{word}");
+        }
+    }
+}
