@@ -59,7 +59,7 @@ pub enum SpecError {
         /// SPEC to write instead, as far as that can be told.
         instead: Option<String>,
     },
-        /// A key is given twice.
+    /// A key is given twice.
     #[error("{key}= is given twice")]
     Twice {
         /// Key as typed.

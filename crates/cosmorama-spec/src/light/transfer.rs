@@ -100,7 +100,7 @@ impl TransferName {
         ("gamma:2.2", "Any gamma from 0.1 to 10"),
     ];
 
-        /// Returns the transfer function that was requested; `None` if the file decides.
+    /// Returns the transfer function that was requested; `None` if the file decides.
     pub fn fixed(&self) -> Option<Transfer> {
         match self {
             Self::Auto => None,
