@@ -85,17 +85,24 @@ pub(super) fn message(argument: &str, typed: &Typed) -> String {
     let is_long = argument.starts_with("--");
     let advice = key_of_spec(&word, argument, typed)
         .filter(|_| takes_specs && is_long)
-        .or_else(|| {
-            OTHER_WORDS
-                .iter()
-                .find(|(words, _)| words.contains(&word.as_str()))
-                .map(|(_, write)| format!("write {write}"))
-        })
+        .or_else(|| other_word(&word, verb))
         .or_else(|| own_option(&word, verb))
         .or_else(|| option_of_other(&word, verb))
         .unwrap_or_default();
     let advice = if advice.is_empty() { advice } else { format!("; {advice}") };
     format!("{who} has no option {argument}{advice}\n\n{}", see_options(verb))
+}
+
+/// What to write for another program's word, where the verb has that.
+fn other_word(word: &str, verb: Option<&str>) -> Option<String> {
+    let (_, write) = OTHER_WORDS.iter().find(|(words, _)| words.contains(&word))?;
+    let option = write.split([' ', ',']).next().unwrap_or_default();
+    let option = if option == "-y" { "overwrite" } else { option.trim_start_matches('-') };
+    let has = |verb| match write.starts_with('-') {
+        true => args::options(verb).iter().any(|name| name == option),
+        false => verb == "convert",
+    };
+    verb.is_none_or(has).then(|| format!("write {write}"))
 }
 
 /// What a word without an option may have been meant for.
@@ -112,6 +119,9 @@ fn lone_word(word: &str, typed: &Typed) -> String {
     }
     if word == "x" || word.parse::<f64>().is_ok() {
         return "a size is one word, without spaces, as in --size 4096x2048".to_owned();
+    }
+    if typed.verb() == Some("compare") {
+        return "two pictures are compared".to_owned();
     }
     // The shell makes a list of files of a wildcard.
     "many files are named by one pattern, in quotes: '####' where frame numbers stand, '{face}' where faces' names do"
@@ -162,7 +172,11 @@ fn is_named(key: &SpecKey, word: &str) -> bool {
 fn example(kind: SpecKind, key: &SpecKey, value: &str, typed: &Typed) -> Option<String> {
     ["--to", "--from"].into_iter().find_map(|option| {
         let spec = typed.value(option)?;
-        let separator = if spec.contains(':') { ',' } else { ':' };
+        let separator = match spec.ends_with([':', ',']) {
+            true => "",
+            false if spec.contains(':') => ",",
+            false => ":",
+        };
         (SpecKind::of(spec)?.name() == kind.name()).then(|| format!("{option} {spec}{separator}{}={value}", key.name))
     })
 }

@@ -8,9 +8,9 @@ use cosmorama::world::Blend;
 use super::Shape;
 use super::fields::{Fields, samples_name, wrong};
 use super::keys::Keys;
-use crate::SpecError;
 use crate::angle::Degrees;
 use crate::window::Window;
+use crate::{SpecError, did_you_mean};
 
 /// Faces of a cube, in a file each or in one image.
 #[derive(Clone, Debug, PartialEq)]
@@ -243,8 +243,11 @@ fn turns(text: &str) -> Option<[u8; 6]> {
 }
 
 fn naming(fields: &Fields) -> Result<Option<&'static Naming>, SpecError> {
-    let known = || Naming::presets().iter().map(|naming| naming.name).collect::<Vec<_>>().join(", ");
-    let find = |name: &str| Naming::named(name).ok_or_else(|| wrong("naming", name, format!("one of {}", known())));
+    let known: Vec<&str> = Naming::presets().iter().map(|naming| naming.name).collect();
+    let all: Vec<&str> =
+        Naming::presets().iter().flat_map(|naming| [&[naming.name], naming.aliases].concat()).collect();
+    let expected = |name: &str| format!("one of {}{}", known.join(", "), did_you_mean(name, &all));
+    let find = |name: &str| Naming::named(name).ok_or_else(|| wrong("naming", name, expected(name)));
     fields.get("naming").map(find).transpose()
 }
 

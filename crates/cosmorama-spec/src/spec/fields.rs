@@ -3,9 +3,9 @@ use std::path::{Path, PathBuf};
 use cosmorama::camera::{Canvas, LensCircle, Mirror, PixelPoint, SamplePositions};
 use cosmorama::sphere::{Angle, Orientation};
 
-use crate::SpecError;
 use crate::angle::parse_degrees;
 use crate::window::parse_window;
+use crate::{SpecError, did_you_mean};
 
 /// Greatest aspect of a pixel, either way; more is a typing error.
 const LONGEST_PIXEL: f64 = 1000.0;
@@ -59,7 +59,8 @@ impl<'f> Fields<'f> {
     pub(super) fn choice<T: Copy>(&self, key: &str, choices: &[(&str, T)]) -> Result<Option<T>, SpecError> {
         let names: Vec<_> = choices.iter().map(|(name, _)| *name).collect();
         let find = |value: &str| choices.iter().find(|(name, _)| *name == value).map(|(_, choice)| *choice);
-        self.read(key, &format!("one of {}", names.join(", ")), find)
+        let expected = |value: &str| format!("one of {}{}", names.join(", "), did_you_mean(value, &names));
+        self.get(key).map(|value| find(value).ok_or_else(|| wrong(key, value, expected(value)))).transpose()
     }
 
     pub(super) fn positive(&self, key: &str, expected: &str) -> Result<Option<f64>, SpecError> {

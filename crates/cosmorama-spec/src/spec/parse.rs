@@ -204,6 +204,9 @@ mod tests {
         assert!(refused("fisheye:fov=10,fov=20").contains("fov= is given twice"));
         assert!(refused("fisheye:180").contains("is no key=value"));
         assert!(refused("fisheye:fit=tight").contains("short, long, width, height, diagonal"));
+        assert!(refused("fisheye:fit=widht").contains("did you mean 'width'?"));
+        assert!(refused("cube:naming=blendr").contains("one of words, cosmorama, bourke"));
+        assert!(refused("cube:naming=cube2dom").contains("did you mean 'cube2dome'?"));
         assert!(refused("fisheye:center=3").contains("X:Y"));
         assert!(refused("fisheye:lens=ucm").contains("alpha, as in k=0.55"));
         assert!(refused("fisheye:lens=ucm,k=2").contains("k=2: alpha is 2; it must be from 0 to 1"));

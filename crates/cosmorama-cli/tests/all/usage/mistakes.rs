@@ -3,7 +3,7 @@
 use crate::bench::{Bench, assert_says, picture};
 
 /// What follows `cosmorama`, and a part of the message: what to type.
-const MISTAKES: [(&str, &str); 54] = [
+const MISTAKES: [(&str, &str); 57] = [
     // Keys of SPECs as options.
     ("convert sky.png out.png --tilt 20", "tilt is a key of fulldome: --to fulldome:tilt=20"),
     ("convert sky.png out.png --to fulldome --tilt 20", "tilt is a key of fulldome: --to fulldome:tilt=20"),
@@ -25,6 +25,7 @@ const MISTAKES: [(&str, &str); 54] = [
     ("convert sky.png out.png --to fulldome --mirror x", "--to fulldome:flip=x"),
     ("explain sky.png --to omnimax --axis 11", "axis is a key of omnimax: --to omnimax:axis=11"),
     ("convert sky.png out.png --to fulldome tilt=20", "without spaces: --to fulldome:tilt=20"),
+    ("convert sky.png out.png --to fulldome: tilt=20", "without spaces: --to fulldome:tilt=20"),
     // Options of other programs.
     ("convert sky.png out.png --to fulldome --width 4096", "write --size WxH, as in --size 4096x2048"),
     ("convert sky.png out.png --to fulldome --height 4096", "write --size WxH"),
@@ -39,6 +40,8 @@ const MISTAKES: [(&str, &str); 54] = [
     ("convert sky.png out.png --to fulldome --pan 30", "write --yaw D"),
     ("convert sky.png out.png --to fulldome --overwrit", "did you mean --overwrite?"),
     ("convert sky.png out.png --to fulldome --diff d.png", "cosmorama compare has it"),
+    ("compare sky.png sky.png --width 30", "'cosmorama compare -h' lists the options"),
+    ("compare sky.png sky.png sky.png", "two pictures are compared"),
     ("info sky.png --to fulldome", "cosmorama convert has it"),
     (
         "convert sky.png out.png --to fulldome --size 64 x 64",
