@@ -1,6 +1,7 @@
 //! Errors with exit codes: 1 for what failed, 2 for wrong usage.
 
 mod arguments;
+mod spec_key;
 mod unknown_option;
 mod unknown_verb;
 

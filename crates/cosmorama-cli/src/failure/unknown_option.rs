@@ -1,8 +1,9 @@
 //! Options that a verb does not have: keys of SPECs, other programs' words, slips.
 
-use cosmorama_spec::{SpecKey, SpecKind, nearest};
+use cosmorama_spec::{SpecKind, nearest};
 
 use super::arguments::{Typed, see_options};
+use super::spec_key::{advice, with_key};
 use crate::args;
 
 /// Verbs that take projections.
@@ -60,19 +61,6 @@ const OTHER_WORDS: [(&[&str], &str); 21] = [
     ),
 ];
 
-/// Words for keys of SPECs that no key is called.
-const OTHER_KEYS: [(&str, &str); 6] = [
-    ("mirror", "flip"),
-    ("hflip", "flip"),
-    ("vflip", "flip"),
-    ("crop", "canvas"),
-    ("calib", "calibration"),
-    ("faceorder", "order"),
-];
-
-/// Projections that come first where a key is explained by an example.
-const USUAL: [&str; 5] = ["perspective", "fulldome", "fisheye", "equirect", "omnimax"];
-
 /// What to type in place of an argument that a verb does not take.
 pub(super) fn message(argument: &str, typed: &Typed) -> String {
     let verb = typed.verb();
@@ -83,7 +71,7 @@ pub(super) fn message(argument: &str, typed: &Typed) -> String {
     let who = verb.map_or_else(|| "cosmorama".to_owned(), |verb| format!("cosmorama {verb}"));
     let takes_specs = verb.is_none_or(|verb| WITH_SPECS.contains(&verb));
     let is_long = argument.starts_with("--");
-    let advice = key_of_spec(&word, argument, typed)
+    let advice = advice(&word, argument, typed)
         .filter(|_| takes_specs && is_long)
         .or_else(|| other_word(&word, verb))
         .or_else(|| own_option(&word, verb))
@@ -109,7 +97,7 @@ fn other_word(word: &str, verb: Option<&str>) -> Option<String> {
 fn lone_word(word: &str, typed: &Typed) -> String {
     let key = word.split_once('=').map(|(key, value)| (key.trim_start_matches(':'), value));
     if let Some((key, value)) = key.filter(|(key, _)| SpecKind::all().any(|kind| kind.key(key).is_some())) {
-        return match SpecKind::all().find_map(|kind| example(kind, kind.key(key)?, value, typed)) {
+        return match SpecKind::all().find_map(|kind| with_key(kind, kind.key(key)?, value, typed)) {
             Some(example) => format!("keys follow the projection's name and a colon, without spaces: {example}"),
             None => format!("keys follow the projection's name and a colon, without spaces: --to NAME:{key}={value}"),
         };
@@ -126,68 +114,6 @@ fn lone_word(word: &str, typed: &Typed) -> String {
     // The shell makes a list of files of a wildcard.
     "many files are named by one pattern, in quotes: '####' where frame numbers stand, '{face}' where faces' names do"
         .to_owned()
-}
-
-/// What to write where an option is a key of SPECs.
-fn key_of_spec(word: &str, argument: &str, typed: &Typed) -> Option<String> {
-    let word = OTHER_KEYS.iter().find(|(other, _)| *other == word).map_or(word, |(_, key)| *key);
-    let takers: Vec<(SpecKind, &SpecKey)> =
-        SpecKind::all().filter_map(|kind| Some((kind, kind.key(word).filter(|key| is_named(key, word))?))).collect();
-    let named = |option: &str| typed.value(option).and_then(SpecKind::of);
-    // The projection that was asked for may have another name for it.
-    let asked = named("--to").or_else(|| named("--from"));
-    let own = asked.and_then(|kind| Some((kind, kind.key(word)?)));
-    let first =
-        || USUAL.iter().find_map(|name| takers.iter().find(|(kind, _)| kind.name() == *name)).or(takers.first());
-    let value = typed.value(argument.split('=').next().unwrap_or_default());
-    if takers.is_empty() && own.is_none() {
-        return None;
-    }
-    let (kind, key) = own
-        .or_else(|| {
-            // Of the input, if only that takes it.
-            let from = named("--from")?;
-            takers.iter().find(|(kind, _)| kind.name() == from.name()).copied()
-        })
-        .or_else(|| first().copied())?;
-    let value = value.unwrap_or(key.value);
-    let written =
-        example(kind, key, value, typed).unwrap_or_else(|| format!("--to {}:{}={value}", kind.name(), key.name));
-    let which = match (asked, own) {
-        (Some(asked), None) => format!(", not of {}", asked.name()),
-        (_, Some((asked, key))) if key.name != word => {
-            return Some(format!("of {} that is the key {}: {written}", asked.name(), key.name));
-        }
-        _ => String::new(),
-    };
-    Some(format!("{word} is a key of {}{which}: {written}", list(&takers)))
-}
-
-/// Whether a key has this very name; `fov` may stand for `hfov` only where that was asked for.
-fn is_named(key: &SpecKey, word: &str) -> bool {
-    key.name == word || (word.contains("centre") && key.name == "center") || word.replace('-', "") == key.name
-}
-
-/// The option that was typed, `--to` or `--from`, with a key more.
-fn example(kind: SpecKind, key: &SpecKey, value: &str, typed: &Typed) -> Option<String> {
-    ["--to", "--from"].into_iter().find_map(|option| {
-        let spec = typed.value(option)?;
-        let separator = match spec.ends_with([':', ',']) {
-            true => "",
-            false if spec.contains(':') => ",",
-            false => ":",
-        };
-        (SpecKind::of(spec)?.name() == kind.name()).then(|| format!("{option} {spec}{separator}{}={value}", key.name))
-    })
-}
-
-/// Names of projections, as a sentence has them.
-fn list(takers: &[(SpecKind, &SpecKey)]) -> String {
-    let names: Vec<&str> = takers.iter().map(|(kind, _)| kind.name()).collect();
-    match names.split_last() {
-        Some((last, rest)) if !rest.is_empty() => format!("{} and {last}", rest.join(", ")),
-        _ => names.concat(),
-    }
 }
 
 /// The verb's own option that is most like what was typed.
