@@ -1,0 +1,76 @@
+//! Keys of SPECs that are typed as options.
+
+use cosmorama_spec::{SpecKey, SpecKind};
+
+use super::arguments::Typed;
+
+/// Words that people have for keys.
+const OTHER_KEYS: [(&str, &str); 6] = [
+    ("mirror", "flip"),
+    ("hflip", "flip"),
+    ("vflip", "flip"),
+    ("crop", "canvas"),
+    ("calib", "calibration"),
+    ("faceorder", "order"),
+];
+
+/// Projections that come first where a key is explained by an example.
+const USUAL: [&str; 5] = ["perspective", "fulldome", "fisheye", "equirect", "omnimax"];
+
+/// What to write in place of an option that is a key of SPECs; `None` where no projection has such a key.
+pub(super) fn advice(word: &str, option: &str, typed: &Typed) -> Option<String> {
+    let word = OTHER_KEYS.iter().find(|(other, _)| *other == word).map_or(word, |(_, key)| *key);
+    let asked: Vec<SpecKind> =
+        ["--to", "--from"].into_iter().filter_map(|side| SpecKind::of(typed.value(side)?)).collect();
+    let takers: Vec<(SpecKind, &SpecKey)> =
+        SpecKind::all().filter_map(|kind| Some((kind, exact(kind, word)?))).collect();
+    let own = asked.iter().find_map(|kind| Some((*kind, exact(*kind, word)?)));
+    // The projection that was asked for may have another name for it.
+    let alike = || asked.iter().find_map(|kind| Some((*kind, kind.key(word)?)));
+    let (kind, key) = own.or_else(alike).or_else(|| first(&takers))?;
+    let value = typed.value(option.split('=').next().unwrap_or_default()).unwrap_or(key.value);
+    let write =
+        with_key(kind, key, value, typed).unwrap_or_else(|| format!("--to {}:{}={value}", kind.name(), key.name));
+    let not = match asked.first() {
+        _ if exact(kind, word).is_none() => {
+            return Some(format!("of {} that is the key {}: {write}", kind.name(), key.name));
+        }
+        Some(asked) if own.is_none() => format!(", not of {}", asked.name()),
+        _ => String::new(),
+    };
+    Some(format!("{word} is a key of {}{not}: {write}", list(&takers)))
+}
+
+/// The key of a projection that has this very name, but for how it is spelled.
+fn exact(kind: SpecKind, word: &str) -> Option<&'static SpecKey> {
+    let plain = word.replace('-', "").replace("centre", "center");
+    kind.key(word).filter(|key| key.name == plain)
+}
+
+/// The projection that explains a key best.
+fn first<'k>(takers: &[(SpecKind, &'k SpecKey)]) -> Option<(SpecKind, &'k SpecKey)> {
+    let usual = USUAL.iter().find_map(|name| takers.iter().find(|(kind, _)| kind.name() == *name));
+    usual.or(takers.first()).copied()
+}
+
+/// The option that was typed, `--to` or `--from`, with a key more.
+pub(super) fn with_key(kind: SpecKind, key: &SpecKey, value: &str, typed: &Typed) -> Option<String> {
+    ["--to", "--from"].into_iter().find_map(|option| {
+        let spec = typed.value(option)?;
+        let separator = match spec.ends_with([':', ',']) {
+            true => "",
+            false if spec.contains(':') => ",",
+            false => ":",
+        };
+        (SpecKind::of(spec)?.name() == kind.name()).then(|| format!("{option} {spec}{separator}{}={value}", key.name))
+    })
+}
+
+/// Names of projections, as a sentence has them.
+fn list(takers: &[(SpecKind, &SpecKey)]) -> String {
+    let names: Vec<&str> = takers.iter().map(|(kind, _)| kind.name()).collect();
+    match names.split_last() {
+        Some((last, rest)) if !rest.is_empty() => format!("{} and {last}", rest.join(", ")),
+        _ => names.concat(),
+    }
+}
