@@ -12,7 +12,7 @@ use super::{verbs, with_examples};
 pub(super) const EXAMPLES: [&str; 3] = ["cosmorama help convert", "cosmorama help spec", "cosmorama help spec fisheye"];
 
 /// Commands that the help of `man` shows.
-pub(super) const MAN_EXAMPLES: [&str; 2] = ["cosmorama man | man -l -", "cosmorama man ~/.local/share/man/man1"];
+pub(super) const MAN_EXAMPLES: [&str; 2] = ["cosmorama man | man -l -", "cosmorama man ~/.local/share/man"];
 
 /// Commands that the help of `completions` shows.
 pub(super) const COMPLETIONS_EXAMPLES: [&str; 3] = [
@@ -39,7 +39,7 @@ pub(crate) struct HelpArgs {
 #[derive(Debug, Args)]
 #[command(help_template = with_examples(&MAN_EXAMPLES))]
 pub(crate) struct ManArgs {
-    /// Write a page for each verb, and one for SPECs, into this folder
+    /// Write a page for each verb (man1), and one for SPECs (man7), into this folder
     #[arg(value_hint = ValueHint::DirPath)]
     pub(crate) dir: Option<PathBuf>,
     /// Replace existing pages

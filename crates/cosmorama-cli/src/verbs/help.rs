@@ -1,5 +1,5 @@
 use std::io::Write as _;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use anyhow::Result;
@@ -61,7 +61,8 @@ pub(super) fn man(args: &ManArgs, console: &Console) -> Result<ExitCode> {
     if !args.overwrite {
         refuse_existing(files.iter().map(|file| file.as_path()))?;
     }
-    let _folders = make_folder(folder, console)?;
+    let folders = SECTIONS.map(|section| make_folder(&folder.join(section), console));
+    let _folders = folders.into_iter().collect::<Result<Vec<_>>>()?;
     for (file, page) in files.iter().zip(&pages) {
         write_page(file, &page.text, console)?;
     }
@@ -82,10 +83,13 @@ fn built() -> Command {
     command
 }
 
+/// Folders of the manual's sections: programs, and what belongs to none.
+const SECTIONS: [&str; 2] = ["man1", "man7"];
+
 /// A manual page.
 struct Page {
-    /// Name of its file.
-    file: String,
+    /// Its file, in the folder of its section.
+    file: PathBuf,
     /// Its text, for `man`.
     text: String,
 }
@@ -120,7 +124,7 @@ fn page(command: &Command, verb: Option<&str>) -> Result<Page> {
         None => ".SH \"SEE ALSO\"\ncosmorama\\-spec(7): projections and their keys\n",
         Some(_) => ".SH \"SEE ALSO\"\ncosmorama(1), cosmorama\\-spec(7)\n",
     };
-    Ok(Page { file: man.get_filename(), text })
+    Ok(Page { file: Path::new(SECTIONS[0]).join(man.get_filename()), text })
 }
 
 fn spec_page() -> Page {
@@ -129,7 +133,7 @@ fn spec_page() -> Page {
     text += &verbatim("DESCRIPTION", &cosmorama_spec::help());
     text += &verbatim("WORLDS BY FORMULA", &builtins());
     text += ".SH \"SEE ALSO\"\ncosmorama(1), cosmorama\\-convert(1)\n";
-    Page { file: "cosmorama-spec.7".to_owned(), text }
+    Page { file: Path::new(SECTIONS[1]).join("cosmorama-spec.7"), text }
 }
 
 /// A section whose lines stay as they are.
