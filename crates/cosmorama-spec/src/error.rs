@@ -12,7 +12,7 @@ pub enum SpecError {
     UnknownName {
         /// Name as typed.
         name: String,
-        /// Name or SPEC that was meant, as far as that can be told.
+        /// Suggested name or SPEC, if one is likely.
         meant: Option<String>,
         /// Known names.
         known: Vec<&'static str>,
@@ -53,10 +53,10 @@ pub enum SpecError {
         /// Part as typed.
         part: String,
     },
-    /// Keys that are separated by colons, as ffmpeg's filters have them.
+    /// The keys are separated by colons, as in ffmpeg's filters.
     #[error("keys are separated by commas here, not by colons{}", written(.instead.as_deref()))]
     Colons {
-        /// SPEC to write instead, as far as that can be told.
+        /// Suggested SPEC, if there is one.
         instead: Option<String>,
     },
     /// A key is given twice.
@@ -104,7 +104,7 @@ pub enum SpecError {
 }
 
 impl SpecError {
-    /// Returns what is wrong without the list of keys, for who prints that in a better form.
+    /// Returns the message without the list of keys, for callers that print the list in a better form.
     pub fn summary(&self) -> String {
         match self {
             Self::UnknownKey { name, key, known } => format!("unknown key '{key}' for {name}{}", meant(key, known)),
@@ -113,46 +113,46 @@ impl SpecError {
     }
 }
 
-/// Reason for which a word names no filter, kernel or transfer function.
+/// Reason why a word is not the name of a filter, kernel or transfer function.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub enum WordError {
-    /// A word that is none of those that there are.
+    /// The word is unknown.
     #[error("unknown {what} '{word}'{}; there are {known}", question(.meant.as_deref()))]
     Unknown {
-        /// What was expected.
+        /// Kind of name that was expected.
         what: WordKind,
         /// Word as typed.
         word: String,
-        /// Word that was meant, as far as that can be told.
+        /// Suggested word, if one is likely.
         meant: Option<String>,
-        /// Words that there are.
+        /// Known words.
         known: &'static str,
     },
-    /// A word for something else.
+    /// The word belongs to another setting.
     #[error("'{word}' is no {what}; that is a {of}: {name}")]
     OfOther {
-        /// What was expected.
+        /// Kind of name that was expected.
         what: WordKind,
         /// Word as typed.
         word: String,
-        /// What the word is for.
+        /// Setting to which the word belongs.
         of: WordKind,
         /// Name that it has there.
         name: String,
     },
-    /// A parameter that is unknown or wrong.
+    /// A parameter is unknown or wrong.
     #[error("{0}")]
     Parameter(String),
 }
 
-/// What a word stands for.
+/// Kind of a name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum WordKind {
-    /// What a pixel averages.
+    /// A filter: the averaging of a pixel.
     Filter,
-    /// The weights of that average.
+    /// A kernel: the weights of that average.
     Kernel,
-    /// How code values relate to light.
+    /// A transfer function.
     Transfer,
 }
 
@@ -207,12 +207,12 @@ pub fn nearest<'k>(typed: &str, known: &[&'k str]) -> Option<&'k str> {
     known.iter().copied().max_by_key(likeness).filter(|best| likeness(best) >= 500)
 }
 
-/// Asks whether a name was meant.
+/// Returns the question whether a name was meant.
 fn question(name: Option<&str>) -> String {
     name.map_or_else(String::new, |name| format!("; did you mean '{name}'?"))
 }
 
-/// Says what to write.
+/// Returns the advice to write a SPEC, or an example if there is none.
 fn written(spec: Option<&str>) -> String {
     match spec {
         Some(spec) => format!("; write {spec}"),

@@ -38,7 +38,7 @@ impl FromStr for Size {
     }
 }
 
-/// Parses a number of pixels, of which `k` makes 1024: pictures of 2k, 4k and 8k are powers of two wide.
+/// Parses a number of pixels; `k` multiplies by 1024, since pictures of 2k, 4k and 8k are powers of two wide.
 fn pixels(text: &str) -> Option<usize> {
     match text.strip_suffix(['k', 'K']) {
         Some(thousands) => thousands.parse::<usize>().ok()?.checked_mul(1024),

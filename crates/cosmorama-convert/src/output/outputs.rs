@@ -27,7 +27,7 @@ pub(crate) struct Outputs {
     pub(crate) skipped: usize,
     /// Outputs that are made again because something else is in their place.
     pub(crate) remade: Vec<Remade>,
-    /// Folders that were made for them; those that stay empty go with this.
+    /// Folders that were created for outputs; they are removed with this value if they stay empty.
     _folders: NewFolders,
 }
 
@@ -100,7 +100,7 @@ impl Outputs {
     }
 }
 
-/// Makes a folder that does not exist yet, with those above it.
+/// Creates a missing folder, with those above it.
 fn make_folder(made: &mut NewFolders, folder: &Path) -> Result<()> {
     made.make(folder).map_err(|error| {
         failure!("the folder {} cannot be made ({error}); choose another, where you may write", folder.display())

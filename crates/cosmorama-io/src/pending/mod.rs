@@ -26,12 +26,12 @@ const SUFFIX: &str = ".part";
 #[derive(Clone, Debug, Default)]
 pub struct Unfinished(Arc<Mutex<Listing>>);
 
-/// What goes away when a program is interrupted.
+/// Things to remove when a program is interrupted.
 #[derive(Debug, Default)]
 struct Listing {
-    /// Temporary files, and temporary folders with all that is in them.
+    /// Temporary files, and temporary folders with their content.
     paths: BTreeSet<PathBuf>,
-    /// Folders for outputs, as long as nothing is in them.
+    /// Folders for outputs, which are removed if they are empty.
     folders: BTreeSet<PathBuf>,
 }
 

@@ -4,24 +4,24 @@ use std::path::{Path, PathBuf};
 
 use super::Unfinished;
 
-/// Folders that were made for outputs.
+/// Folders that were created for outputs.
 ///
-/// Those that are still empty when this is dropped go away again, and so they do with [`Unfinished::remove_all`]: a run that
-/// fails leaves no folder behind that nothing is in.
+/// Folders that are still empty are removed when this value is dropped, and by [`Unfinished::remove_all`]. So a failed
+/// run leaves no empty folder behind.
 #[derive(Debug)]
 pub struct NewFolders {
-    /// Each after the one that it is in.
+    /// Paths, each after that of its parent.
     made: Vec<PathBuf>,
     list: Unfinished,
 }
 
 impl NewFolders {
-    /// Creates a list of no folders.
+    /// Creates an empty list.
     pub fn new(unfinished: &Unfinished) -> Self {
         Self { made: Vec::new(), list: unfinished.clone() }
     }
 
-    /// Makes a folder that is missing, with those above it; what exists stays as it is, whatever it is.
+    /// Creates a missing folder, with those above it; whatever exists is left unchanged.
     ///
     /// # Errors
     /// When one of them cannot be made.

@@ -19,7 +19,7 @@ pub struct KernelName {
 }
 
 impl KernelName {
-    /// Every name with a line of help, in the order in which help lists them.
+    /// Returns all names with a line of help, in the order of the help.
     pub const NAMES: [(&str, &str); 12] = names::KERNELS;
 }
 

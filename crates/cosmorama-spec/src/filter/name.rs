@@ -6,12 +6,12 @@ use cosmorama::filter::FilterKind;
 use super::names;
 use crate::WordError;
 
-/// Filter by name: `ewa`, `ewa-pyramid`, `point`, `bilinear` or `reference[:samples=N]`.
+/// A filter by name: `ewa`, `ewa-pyramid`, `point`, `bilinear` or `reference[:samples=N]`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct FilterName(pub FilterKind);
 
 impl FilterName {
-    /// Every name with a line of help, in the order in which help lists them.
+    /// Returns all names with a line of help, in the order of the help.
     pub const NAMES: [(&str, &str); 5] = names::FILTERS;
 }
 

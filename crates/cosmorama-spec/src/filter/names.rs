@@ -1,4 +1,4 @@
-//! Names of filters and kernels, and words that other programs have for them.
+//! Names of filters and kernels, and the corresponding words of other programs.
 
 use crate::error::{WordError, WordKind, nearest};
 
@@ -27,7 +27,7 @@ pub(super) const KERNELS: [(&str, &str); 12] = [
     ("light", "A wide Gaussian that keeps the light of suns"),
 ];
 
-/// Words for kernels, each with the kernel that is meant.
+/// Other programs' words for kernels, each with our name.
 const KERNEL_WORDS: [(&str, &str); 14] = [
     ("bicubic", "catmull-rom"),
     ("cubic", "catmull-rom"),
@@ -45,7 +45,7 @@ const KERNEL_WORDS: [(&str, &str); 14] = [
     ("hat", "tent"),
 ];
 
-/// Words for filters, each with the filter that is meant.
+/// Other programs' words for filters, each with our name.
 const FILTER_WORDS: [(&str, &str); 12] = [
     ("nearest", "point"),
     ("near", "point"),
@@ -61,7 +61,7 @@ const FILTER_WORDS: [(&str, &str); 12] = [
     ("samples", "reference"),
 ];
 
-/// Says what was meant where a text names no filter.
+/// Returns the error for a text that is not the name of a filter, with a suggestion.
 pub(super) fn no_filter(text: &str) -> WordError {
     let name = text.split(':').next().unwrap_or_default();
     let (names, word) = (FILTERS.map(|(name, _)| name), text.to_owned());
@@ -81,7 +81,7 @@ pub(super) fn no_filter(text: &str) -> WordError {
     }
 }
 
-/// Says what was meant where a name is that of no kernel.
+/// Returns the error for a text that is not the name of a kernel, with a suggestion.
 pub(super) fn no_kernel(name: &str) -> WordError {
     let (names, word) = (KERNELS.map(|(name, _)| name), name.to_owned());
     let is_filter = FILTERS.iter().any(|(filter, _)| *filter == name);

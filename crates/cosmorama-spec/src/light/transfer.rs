@@ -50,7 +50,7 @@ impl FromStr for TransferName {
     }
 }
 
-/// Words that other programs have for the same functions.
+/// Other programs' words for transfer functions, each with our name.
 const OTHER_NAMES: [(&str, &str); 14] = [
     ("gamma", "gamma:2.2"),
     ("lin", "linear"),
@@ -77,7 +77,7 @@ fn unknown(text: &str) -> WordError {
     }
 }
 
-/// Finds the name that was meant: another program's word, a gamma without the colon, or one that is spelled alike.
+/// Finds a suggestion: another program's word, a gamma without the colon, or a name with similar spelling.
 fn meant(text: &str) -> Option<String> {
     let word = text.to_ascii_lowercase();
     let exponent = word.trim_start_matches("gamma").trim_start_matches([':', '=', ' ']);
@@ -89,7 +89,7 @@ fn meant(text: &str) -> Option<String> {
 }
 
 impl TransferName {
-    /// Names with a line of help each, in the order in which help lists them.
+    /// Returns all names with a line of help, in the order of the help.
     pub const NAMES: [(&str, &str); 7] = [
         ("auto", "As the file says, else srgb; float files linear"),
         ("srgb", "sRGB's curve"),

@@ -1,9 +1,9 @@
-//! Names that other programs have for the same projections and keys: ffmpeg's v360 and envutil.
+//! Other programs' names for projections and keys: those of ffmpeg's v360 and of envutil.
 
 use super::projections::Kind;
 use crate::error::key_for;
 
-/// Another program's name, and the SPEC that it stands for here.
+/// Other programs' names, each with the SPEC that it stands for.
 pub(super) const ALIASES: [(&str, &str); 33] = [
     ("e", "equirect"),
     ("equirectangular", "equirect"),
@@ -42,13 +42,13 @@ pub(super) const ALIASES: [(&str, &str); 33] = [
     ("tinyplanet", "stereographic:pitch=-90"),
 ];
 
-/// Projections of ffmpeg's v360 that are not on offer.
+/// Projections of ffmpeg's v360 that are not supported.
 const REFUSED: [&str; 5] = ["barrel", "fb", "barrelsplit", "tsp", "tetrahedron"];
-/// Projection of envutil that is not on offer: a cube of equal angles.
+/// Projection of envutil that is not supported: an equi-angular cube.
 const REFUSED_OF_ENVUTIL: &str = "biatan6";
 
-/// The SPEC with its name as we have it. Keys that were typed follow those that the name stands for, in whose place they
-/// come.
+/// Replaces another program's name by the SPEC that it stands for. Typed keys follow that SPEC's own keys, and override
+/// them.
 pub(super) fn without_alias(text: &str) -> String {
     let (name, typed) = text.split_once(':').unwrap_or((text, ""));
     let Some((_, meaning)) = ALIASES.iter().find(|(alias, _)| *alias == name) else { return text.to_owned() };
@@ -60,7 +60,7 @@ pub(super) fn without_alias(text: &str) -> String {
     if keys.is_empty() { ours.to_owned() } else { format!("{ours}:{}", keys.join(",")) }
 }
 
-/// How to go by way of equirect, where another program has a projection of this name that we do not.
+/// Returns how to convert an unsupported projection by way of equirect in the other program; `None` for other names.
 pub(super) fn refusal(name: &str) -> Option<String> {
     match name {
         REFUSED_OF_ENVUTIL => Some(
@@ -71,10 +71,9 @@ pub(super) fn refusal(name: &str) -> Option<String> {
     }
 }
 
-/// Keys of a projection that are written as ffmpeg's filters have them, with colons between, as they are written here;
-/// `None` where they are not.
+/// Rewrites keys that are separated by colons, as in ffmpeg's filters, in our notation; `None` if that is not the case.
 ///
-/// What the projection does not take, such as a vertical field of view beside that of a fisheye, is left out.
+/// Keys that the projection does not have are left out, for example the vertical field of view of a fisheye.
 pub(super) fn without_colons(kind: &'static Kind, keys: &str) -> Option<String> {
     let has_file = |key: &str| matches!(key.trim(), "base" | "file" | "calibration");
     let is_colons = |part: &str| {

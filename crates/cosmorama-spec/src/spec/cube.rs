@@ -229,7 +229,7 @@ fn order(fields: &Fields) -> Result<Option<FaceOrder>, SpecError> {
     fields.read("order", &expected, |text| FaceOrder::parse(text).or_else(|| FaceOrder::parse(&letters(text)?)))
 }
 
-/// Letters of an order that is given in words, or that has `t` for the upper face.
+/// Returns the letters of an order that is given in words, or with `t` for the upper face.
 fn letters(text: &str) -> Option<String> {
     match text.split_once([',', '+', ' ']) {
         Some(_) => text.split([',', '+', ' ']).map(|word| named_face(word)?.name().chars().next()).collect(),
@@ -268,7 +268,7 @@ fn face(key: &str, value: &str, name: &str) -> Result<CubeFace, SpecError> {
     })
 }
 
-/// Finds a face by our own name, or one of the two that others have for up and down.
+/// Finds a face by its name; `top` and `bottom` are accepted for up and down.
 fn named_face(name: &str) -> Option<CubeFace> {
     let own = match name.trim() {
         "top" => "up",

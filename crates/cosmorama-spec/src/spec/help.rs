@@ -6,22 +6,22 @@ use super::alias::{ALIASES, without_alias};
 use super::projections::{COMMON, KINDS, Key, Kind};
 use crate::error::key_for;
 
-/// Projection that a SPEC can name, as help and messages describe it.
+/// A projection that a SPEC can name, for help and messages.
 #[derive(Clone, Copy)]
 pub struct SpecKind(&'static Kind);
 
 impl SpecKind {
-    /// Returns every projection, in the order in which help lists them.
+    /// Returns every projection, in the order of the help.
     pub fn all() -> impl Iterator<Item = Self> {
         KINDS.iter().map(Self)
     }
 
-    /// Finds the projection of a SPEC as it is typed, whatever its keys; names of other programs count, too.
+    /// Finds the projection of a SPEC by its name alone; names of other programs are accepted.
     pub fn of(spec: &str) -> Option<Self> {
         Kind::named(without_alias(spec).split(':').next()?).map(Self)
     }
 
-    /// Returns the name as it is typed.
+    /// Returns the name that users type.
     pub fn name(self) -> &'static str {
         self.0.name
     }
@@ -31,7 +31,7 @@ impl SpecKind {
         self.0.about
     }
 
-    /// Returns the keys that it has for itself.
+    /// Returns the keys of this projection alone.
     pub fn own_keys(self) -> &'static [Key] {
         self.0.keys
     }
@@ -41,14 +41,14 @@ impl SpecKind {
         COMMON.iter().filter(move |key| self.0.refusal(key.name).is_none())
     }
 
-    /// Finds a key that it takes by its name here, by another spelling or by ffmpeg's name.
+    /// Finds one of its keys by our name, by another spelling or by ffmpeg's name.
     pub fn key(self, typed: &str) -> Option<&'static Key> {
         let names: Vec<&str> = self.0.all_keys().map(|key| key.name).collect();
         let name = key_for(typed, &names)?;
         self.0.all_keys().find(|key| key.name == name)
     }
 
-    /// Returns what its keys do, a paragraph each.
+    /// Returns the help on its keys, a paragraph for each.
     pub fn help(self) -> String {
         let mut text = format!("{} takes\n", self.name());
         for key in self.own_keys() {
@@ -60,7 +60,7 @@ impl SpecKind {
     }
 }
 
-/// Returns the help on SPECs: every projection with its keys, other names, and the presets of cubes.
+/// Returns the help on SPECs: every projection with its keys, other names, and presets of cubes.
 pub fn help() -> String {
     let mut text = String::from("SPEC is NAME[:key=value[,key=value]...], as in fisheye:fov=220,fit=width\n");
     for kind in KINDS {
@@ -86,7 +86,7 @@ pub fn help() -> String {
     text + "\n" + &presets()
 }
 
-/// The namings and orders of a cube's faces.
+/// Returns the help on namings and orders of cube faces.
 fn presets() -> String {
     let named = |name: &str, aliases: &[&str]| [&[name], aliases].concat().join(", ");
     let mut text = String::from("cube:naming=PRESET is what files are called: front, right, back, left, up, down\n\n");
@@ -101,17 +101,17 @@ fn presets() -> String {
     text
 }
 
-/// Columns of help at most: manual pages and narrow terminals have no more.
+/// Greatest width of help in columns, for manual pages and narrow terminals.
 const WIDTH: usize = 80;
 
-/// Columns of a key and its values, with the space behind them.
+/// Width of a key with its values, including the space behind them.
 const KEY_WIDTH: usize = 24;
 
 fn key_help(indent: usize, key: &Key) -> String {
     entry(indent, KEY_WIDTH, &format!("{}={}", key.name, key.value), key.about)
 }
 
-/// A term with what is said of it beside it, or below where the term is long.
+/// Formats a term with its description beside it, or below if the term is long.
 fn entry(indent: usize, width: usize, term: &str, about: &str) -> String {
     let column = indent + width;
     let about = paragraph(column, about);
@@ -122,7 +122,7 @@ fn entry(indent: usize, width: usize, term: &str, about: &str) -> String {
     }
 }
 
-/// A paragraph of indented lines.
+/// Formats a paragraph of indented lines.
 fn paragraph(indent: usize, text: &str) -> String {
     let (mut paragraph, mut line) = (String::new(), String::new());
     for word in text.split(' ') {

@@ -14,7 +14,7 @@ use super::stereo::StereoSpec;
 use crate::SpecError;
 use crate::error::nearest;
 
-/// Projection of a picture as it is typed, `NAME[:key=value[,key=value]…]`, checked.
+/// The projection of a picture, parsed from `NAME[:key=value[,key=value]…]`.
 ///
 /// ```
 /// use cosmorama_spec::{Cube, Packing, Shape, Spec};
@@ -34,9 +34,9 @@ use crate::error::nearest;
 pub struct Spec {
     /// Name of the projection.
     pub name: &'static str,
-    /// Pictures that it stands for.
+    /// Pictures that it describes.
     pub shape: Shape,
-    /// Division of the picture between two eyes; `None` for one eye.
+    /// Division into the pictures of two eyes; `None` for one eye.
     pub stereo: Option<StereoSpec>,
     /// Files that it names.
     pub files: Vec<PathBuf>,
@@ -51,10 +51,10 @@ impl FromStr for Spec {
 }
 
 impl Spec {
-    /// Parses a SPEC that names files as seen from a folder.
+    /// Parses a SPEC; paths in it are relative to a folder.
     ///
     /// # Errors
-    /// When the name is none, or a key or a value is not one of the name's.
+    /// When the name is unknown, or a key or a value does not belong to it.
     pub fn parse_in(folder: &Path, text: &str) -> Result<Self, SpecError> {
         let text = without_alias(text);
         let (name, rest) = text.split_once(':').unwrap_or((&text, ""));
@@ -83,7 +83,7 @@ impl Spec {
     }
 }
 
-/// Makes the SPEC of a shape, by the name that the shape has.
+/// Makes the SPEC of a shape, with the shape's own name.
 impl From<Shape> for Spec {
     fn from(shape: Shape) -> Self {
         let name = named(&shape).map_or("picture", |(kind, _)| kind.name);
@@ -91,9 +91,9 @@ impl From<Shape> for Spec {
     }
 }
 
-/// Prints the SPEC as it would be typed: parsed again, it is the same. What is default is left out.
+/// Prints the SPEC as users type it, without default values; the text parses to the same SPEC.
 ///
-/// A picture whose calibration or map has been read prints the file that it was read from.
+/// For a picture whose calibration or map has been read, it prints the file's path.
 impl fmt::Display for Spec {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         // A fisheye that shows everything has two names.
@@ -112,19 +112,20 @@ impl fmt::Display for Spec {
 }
 
 impl Spec {
-    /// Writes the file of which a picture's frame was made.
+    /// Returns the key for the file from which a picture's camera was read.
     fn read_from(&self) -> Keys {
         let key = if matches!(self.shape.camera(), Some(CameraModel::StMap(_))) { "file" } else { "calibration" };
         Keys::default().maybe(key, self.files.first().map(|file| file.display()))
     }
 }
 
-/// Finds the name that writes a shape, and the keys that it has for it.
+/// Finds the projection of a shape, and the keys that describe it.
 fn named(shape: &Shape) -> Option<(&'static Kind, Keys)> {
     KINDS.iter().find_map(|kind| Some((kind, (kind.write)(shape)?)))
 }
 
-/// Says which name was meant: one that is spelled alike, or one that something else follows than a colon.
+/// Returns the error for an unknown name, with a suggestion: a name with similar spelling, or one with something other
+/// than a colon behind it.
 fn unknown_name(name: &str, rest: &str) -> SpecError {
     let known: Vec<&str> = KINDS.iter().map(|kind| kind.name).collect();
     let names: Vec<&str> = known.iter().copied().chain(ALIASES.iter().map(|(alias, _)| *alias)).collect();
@@ -136,7 +137,7 @@ fn unknown_name(name: &str, rest: &str) -> SpecError {
     SpecError::UnknownName { name: name.to_owned(), meant, known }
 }
 
-/// Keys and values. A part without `=` goes on with the value before it: `faces=front,left`.
+/// Splits a SPEC into keys and values. A part without `=` continues the value before it: `faces=front,left`.
 fn pairs(text: &str) -> Result<Vec<(String, String)>, SpecError> {
     let mut pairs: Vec<(String, String)> = Vec::new();
     for part in text.split(',').filter(|_| !text.is_empty()) {
@@ -149,7 +150,7 @@ fn pairs(text: &str) -> Result<Vec<(String, String)>, SpecError> {
     Ok(pairs)
 }
 
-/// Spells a key as this program does: `centre` is British.
+/// Returns a key in this program's spelling; `centre` becomes `center`.
 fn spelled(key: &str) -> String {
     match key.strip_suffix("centre") {
         Some(of) if of.is_empty() || of.ends_with('.') => format!("{of}center"),
@@ -259,7 +260,7 @@ mod tests {
         assert_eq!(spec("he:stereo=sbs"), spec("equirect:hfov=180,stereo=sbs"));
     }
 
-    /// Every projection of `ffmpeg -h filter=v360`, in its order, with what it is here; `None` where it is refused by name.
+    /// Every projection of `ffmpeg -h filter=v360`, in its order, with its SPEC here; `None` if it is refused by name.
     const V360: [(&str, Option<&str>); 33] = [
         ("e", Some("equirect")),
         ("equirect", Some("equirect")),

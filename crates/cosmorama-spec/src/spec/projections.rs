@@ -9,27 +9,27 @@ use super::map::world_map;
 use super::{Cube, Dual, Shape, StMapSpec};
 use crate::SpecError;
 
-/// A name with its keys.
+/// A projection's name with its keys.
 pub(crate) struct Kind {
-    /// As typed.
+    /// Name that users type.
     pub(crate) name: &'static str,
-    /// What it is.
+    /// Description.
     pub(crate) about: &'static str,
-    /// Its own keys.
+    /// Keys of this projection alone.
     pub(crate) keys: &'static [Key],
-    /// Common keys that mean nothing here.
+    /// Common keys that it refuses.
     pub(crate) refused: &'static [Refused],
-    /// What it stands for with these keys.
+    /// Builds the shape from the keys.
     pub(crate) build: fn(&Fields) -> Result<Shape, SpecError>,
-    /// The keys that stand for a shape, if the shape is one of its own.
+    /// Returns the keys that describe a shape; `None` if the shape belongs to another projection.
     pub(crate) write: fn(&Shape) -> Option<Keys>,
 }
 
-/// A common key that a name does not take.
+/// A common key that a projection refuses.
 pub(crate) struct Refused {
-    /// As typed.
+    /// Name that users type.
     pub(crate) key: &'static str,
-    /// Why.
+    /// Reason.
     pub(crate) why: &'static str,
 }
 
@@ -43,12 +43,12 @@ const NO_EYES: Refused = Refused { key: "stereo", why: "a map is for one picture
 
 const SQUARE: Refused = Refused { key: "aspect", why: "Hugin's pixels are square" };
 
-/// Key of a SPEC, as help describes it.
+/// A key of a SPEC, for help.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Key {
-    /// Name as it is typed.
+    /// Name that users type.
     pub name: &'static str,
-    /// Look of its values.
+    /// Form of its values.
     pub value: &'static str,
     /// Effect, with the default.
     pub about: &'static str,
@@ -63,7 +63,7 @@ const CYLINDER_KEYS: [Key; 2] = [
     key("vfov", "DEGREES", "latitudes shown (by the size, square pixels at the equator)"),
 ];
 
-/// Every projection on offer.
+/// All projections.
 pub(crate) static KINDS: &[Kind] = &[
     Kind {
         name: "cube",
@@ -344,7 +344,7 @@ pub(crate) static KINDS: &[Kind] = &[
     },
 ];
 
-/// Keys that every SPEC takes, but those that refuse them.
+/// Keys of every SPEC, except those that refuse them.
 pub(crate) const COMMON: [Key; 9] = [
     key("yaw", "DEGREES", "turns the view to the right"),
     key("pitch", "DEGREES", "turns it up"),
@@ -362,17 +362,17 @@ pub(crate) const COMMON: [Key; 9] = [
 ];
 
 impl Kind {
-    /// The kind of this name.
+    /// Returns the projection of this name.
     pub(crate) fn named(name: &str) -> Option<&'static Self> {
         KINDS.iter().find(|kind| kind.name == name)
     }
 
-    /// Every key it takes.
+    /// Returns every key that it takes.
     pub(crate) fn all_keys(&'static self) -> impl Iterator<Item = &'static Key> {
         self.keys.iter().chain(COMMON.iter().filter(|key| self.refusal(key.name).is_none()))
     }
 
-    /// Why it does not take a common key, if it does not.
+    /// Returns the reason why it refuses a common key; `None` if it does not.
     pub(crate) fn refusal(&self, key: &str) -> Option<&'static str> {
         self.refused.iter().find(|refused| refused.key == key).map(|refused| refused.why)
     }

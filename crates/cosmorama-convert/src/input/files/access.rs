@@ -130,7 +130,7 @@ impl Access<'_> {
         Ok(bytes)
     }
 
-    /// Opens a file that is no picture. The caller says in errors what was expected.
+    /// Opens a file other than a picture. The caller adds to errors what was expected.
     fn open(self, path: &Path) -> io::Result<Box<dyn ReadSeek>> {
         self.files.open(path).map_err(|error| match error {
             IoError::Open { source, .. } => source,
