@@ -103,7 +103,7 @@ impl Outputs {
 /// Creates a missing folder, with those above it.
 fn make_folder(made: &mut NewFolders, folder: &Path) -> Result<()> {
     made.make(folder).map_err(|error| {
-        failure!("the folder {} cannot be made ({error}); choose another, where you may write", folder.display())
+        failure!(Unwritable: "the folder {} cannot be made ({error}); choose another, where you may write", folder.display())
     })
 }
 
