@@ -2,10 +2,10 @@
 
 use std::path::PathBuf;
 
-use clap::builder::PossibleValuesParser;
 use clap::{Args, ValueHint};
 use clap_complete::Shell;
 
+use super::parse::listed;
 use super::{verbs, with_examples};
 
 /// Commands that the help of `help` shows.
@@ -28,8 +28,8 @@ pub(crate) const SPEC_TOPIC: &str = "spec";
 #[derive(Debug, Args)]
 #[command(help_template = with_examples(&EXAMPLES))]
 pub(crate) struct HelpArgs {
-    /// A verb, or spec: how projections are typed
-    #[arg(value_parser = PossibleValuesParser::new(verbs().chain([SPEC_TOPIC])))]
+    /// A verb, a projection, or spec: how projections are typed
+    #[arg(value_parser = listed::word(verbs().chain([SPEC_TOPIC]).map(|topic| (topic, ""))), hide_possible_values = true)]
     pub(crate) topic: Option<String>,
     /// After spec: the one projection whose keys to print
     pub(crate) projection: Option<String>,

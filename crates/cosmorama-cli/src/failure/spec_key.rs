@@ -14,6 +14,9 @@ const OTHER_KEYS: [(&str, &str); 6] = [
     ("faceorder", "order"),
 ];
 
+/// What else may have been meant by a word that is a key.
+const BESIDES: [(&str, &str); 1] = [("rotate", "; the view is turned by --yaw, --pitch and --roll")];
+
 /// Projections that come first where a key is explained by an example.
 const USUAL: [&str; 5] = ["perspective", "fulldome", "fisheye", "equirect", "omnimax"];
 
@@ -38,7 +41,8 @@ pub(super) fn advice(word: &str, option: &str, typed: &Typed) -> Option<String> 
         Some(asked) if own.is_none() => format!(", not of {}", asked.name()),
         _ => String::new(),
     };
-    Some(format!("{word} is a key of {}{not}: {write}", list(&takers)))
+    let besides = BESIDES.iter().find(|(key, _)| *key == word).map_or("", |(_, besides)| besides);
+    Some(format!("{word} is a key of {}{not}: {write}{besides}", list(&takers)))
 }
 
 /// The key of a projection that has this very name, but for how it is spelled.

@@ -7,10 +7,10 @@ use clap::{Command, CommandFactory};
 use clap_mangen::Man;
 use cosmorama_convert::refuse_existing;
 use cosmorama_io::pending::Pending;
-use cosmorama_spec::{Spec, SpecKind};
+use cosmorama_spec::{SpecKind, did_you_mean};
 
 use super::make_folder;
-use crate::args::{Args, CompletionsArgs, HelpArgs, ManArgs, SPEC_TOPIC, builtins, examples};
+use crate::args::{Args, CompletionsArgs, HelpArgs, ManArgs, SPEC_TOPIC, builtins, examples, verbs};
 use crate::console::Console;
 use crate::failure::usage;
 
@@ -23,10 +23,10 @@ pub(super) fn help(args: &HelpArgs, console: &Console) -> Result<ExitCode> {
         (_, Some(extra)) => {
             return Err(usage(format!("unexpected argument '{extra}'; only 'help spec' takes a projection")));
         }
-        (Some(verb), None) => {
-            let found = command.find_subcommand_mut(verb);
-            found.map_or_else(String::new, |verb| verb.render_long_help().to_string())
-        }
+        (Some(topic), None) => match command.find_subcommand_mut(topic) {
+            Some(verb) => verb.render_long_help().to_string(),
+            None => of_projection(topic)?,
+        },
         (None, None) => command.render_help().to_string(),
     };
     console.print(&(text.trim_end().to_owned() + "\n"))?;
@@ -34,10 +34,11 @@ pub(super) fn help(args: &HelpArgs, console: &Console) -> Result<ExitCode> {
 }
 
 /// The keys of one projection.
-fn of_projection(spec: &str) -> Result<String> {
-    let Some(kind) = SpecKind::of(spec) else {
-        let why = spec.parse::<Spec>().err().map_or_else(String::new, |error| error.to_string());
-        return Err(usage(why));
+fn of_projection(name: &str) -> Result<String> {
+    let Some(kind) = SpecKind::of(name) else {
+        let topics: Vec<&str> = verbs().chain([SPEC_TOPIC]).chain(SpecKind::all().map(SpecKind::name)).collect();
+        let meant = did_you_mean(name, &topics);
+        return Err(usage(format!("no help on '{name}'{meant}; topics are {}", topics.join(", "))));
     };
     Ok(format!("{} is {}.\n\n{}", kind.name(), kind.about(), kind.help()))
 }

@@ -39,6 +39,11 @@ where
     }
 }
 
+/// Reads any word, and lists some.
+pub(crate) fn word(names: impl IntoIterator<Item = (&'static str, &'static str)>) -> Listed<String> {
+    Listed::new(names)
+}
+
 /// Reads a SPEC.
 pub(crate) fn spec() -> Listed<Spec> {
     Listed::new(SpecKind::all().map(|kind| (kind.name(), kind.about())))

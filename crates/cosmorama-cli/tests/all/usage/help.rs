@@ -92,7 +92,8 @@ fn help_has_topics() {
     assert_eq!(bench.succeed(&["help"]), bench.succeed(&["--help"]));
     assert_says(&bench.fail(2, &["help", "spec", "fishey"]), &["did you mean 'fisheye'?"]);
     assert_says(&bench.fail(2, &["help", "convert", "fisheye"]), &["only 'help spec' takes a projection"]);
-    assert_says(&bench.fail(2, &["help", "convrt"]), &["convert", "spec"]);
+    assert_says(&bench.fail(2, &["help", "convrt"]), &["did you mean 'convert'?", "spec, cube"]);
+    assert_eq!(bench.succeed(&["help", "fulldome"]), bench.succeed(&["help", "spec", "domemaster"]));
 }
 
 #[test]

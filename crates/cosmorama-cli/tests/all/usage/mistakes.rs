@@ -3,7 +3,7 @@
 use crate::bench::{Bench, assert_says, picture};
 
 /// What follows `cosmorama`, and a part of the message: what to type.
-const MISTAKES: [(&str, &str); 57] = [
+const MISTAKES: [(&str, &str); 58] = [
     // Keys of SPECs as options.
     ("convert sky.png out.png --tilt 20", "tilt is a key of fulldome: --to fulldome:tilt=20"),
     ("convert sky.png out.png --to fulldome --tilt 20", "tilt is a key of fulldome: --to fulldome:tilt=20"),
@@ -23,6 +23,7 @@ const MISTAKES: [(&str, &str); 57] = [
     ),
     ("convert sky.png out.png --to fulldome --flip x", "--to fulldome:flip=x"),
     ("convert sky.png out.png --to fulldome --mirror x", "--to fulldome:flip=x"),
+    ("convert sky.png out.png --to equirect --rotate 90", "the view is turned by --yaw, --pitch and --roll"),
     ("explain sky.png --to omnimax --axis 11", "axis is a key of omnimax: --to omnimax:axis=11"),
     ("convert sky.png out.png --to fulldome tilt=20", "without spaces: --to fulldome:tilt=20"),
     ("convert sky.png out.png --to fulldome: tilt=20", "without spaces: --to fulldome:tilt=20"),
