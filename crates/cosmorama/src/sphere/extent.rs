@@ -17,6 +17,9 @@ const TURN: i32 = 360;
 /// Longest arc of yaws, in degrees, that is described by its ends; of a longer one the gap is described.
 const MOST: i32 = 300;
 
+/// Widest gap, in degrees, that is left out: coarse pixels leave such between one another.
+const LEAST_GAP: i32 = 8;
+
 impl Extent {
     /// Returns the extent of one direction.
     pub fn of(direction: Direction) -> Self {
@@ -62,7 +65,7 @@ impl fmt::Display for Extent {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let ((left, right), (low, high)) = (self.yaws(), self.pitches);
         match right - left {
-            TURN => write!(f, "all yaws")?,
+            arc if arc >= TURN - LEAST_GAP => write!(f, "all yaws")?,
             MOST..TURN => {
                 let (from, to) = if right < TURN / 2 { (right, left + TURN) } else { (right - TURN, left) };
                 write!(f, "all yaws but {from}° to {to}°")?;
@@ -96,5 +99,7 @@ mod tests {
         assert_eq!(extent(&but_behind), "all yaws but 150° to 190°, pitch 0° to 1°");
         let round: Vec<_> = (0..360).map(|yaw| (f64::from(yaw) + 0.5, -60.5)).collect();
         assert_eq!(extent(&round), "all yaws, pitch -61° to -60°");
+        let coarse: Vec<_> = (0..90).map(|yaw| (f64::from(4 * yaw) + 0.5, -60.5)).collect();
+        assert_eq!(extent(&coarse), "all yaws, pitch -61° to -60°");
     }
 }
