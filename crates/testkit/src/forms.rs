@@ -42,6 +42,11 @@ impl Form {
         World::blended(self.views.iter().enumerate().map(part)).expect("a form has views")
     }
 
+    /// Every camera of a single view, with what tables call it.
+    pub fn cameras() -> Vec<(&'static str, CameraModel)> {
+        frames()
+    }
+
     /// Returns every form of a world, with about so many pixels for each steradian that it shows.
     pub fn all(pixels_per_steradian: f64) -> Vec<Self> {
         let one = |(name, frame): (&'static str, CameraModel)| {

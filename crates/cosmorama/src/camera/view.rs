@@ -1,6 +1,6 @@
 use std::ops::Range;
 
-use glam::{DMat2, DVec2};
+use glam::{DMat2, DVec2, DVec3};
 
 use super::{FieldStop, Footprint, PixelBounds, PixelGrid, PixelPoint};
 use crate::projection::{Outline, PlanePoint, Projection, ProjectionKind};
@@ -138,7 +138,15 @@ impl View {
             let between = at(dx / 2.0, dy / 2.0).zip(at(-dx / 2.0, -dy / 2.0)).map(|(next, last)| next - last);
             between.or_else(|| at(-dx, -dy).map(|last| here - last)).or_else(|| at(dx, dy).map(|next| next - here))
         };
-        Some(DirectionJacobian { dx: across(1.0, 0.0)?, dy: across(0.0, 1.0)? })
+        let (dx, dy) = (across(1.0, 0.0), across(0.0, 1.0));
+        let Some(period) = self.projection.period() else { return Some(DirectionJacobian { dx: dx?, dy: dy? }) };
+        // Of one or two columns all round, the chord says nothing; of a row that reaches beyond both poles, there is none.
+        let dx = dx.filter(|_| self.grid.step().x.abs() < 0.4 * period);
+        let by_derivative = |side: DVec3| side * (std::f64::consts::PI / side.length()).min(1.0);
+        Some(DirectionJacobian {
+            dx: dx.unwrap_or_else(|| by_derivative(jacobian.dx)),
+            dy: dy.unwrap_or_else(|| by_derivative(jacobian.dy)),
+        })
     }
 
     /// Returns the solid angle of a texel in steradians (to first order), zero where it shows nothing.

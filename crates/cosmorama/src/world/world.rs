@@ -374,7 +374,9 @@ fn texel_pitch(view: &View) -> f64 {
     let at = |size: usize, step: usize| size as f64 * step as f64 / STEPS as f64;
     let points = (0..=STEPS).flat_map(|j| (0..=STEPS).map(move |i| (i, j)));
     let texels = points.filter_map(|(i, j)| view.texel(PixelPoint::new(at(view.width(), i), at(view.height(), j))));
-    texels.map(|texel| texel.dx.length().max(texel.dy.length())).fold(0.0, f64::max)
+    let largest = texels.map(|texel| texel.dx.length().max(texel.dy.length())).fold(0.0, f64::max);
+    // Where none has neighbours to be measured by, it may be half the sphere.
+    if largest > 0.0 { largest } else { std::f64::consts::PI }
 }
 
 /// Returns the texels of a view that count. A panorama with samples on its edges has one column twice, of which only

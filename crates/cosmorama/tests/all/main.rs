@@ -20,4 +20,5 @@ mod filter {
 mod render {
     mod need;
     mod packed;
+    mod small;
 }

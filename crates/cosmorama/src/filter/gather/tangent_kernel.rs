@@ -116,7 +116,12 @@ fn footprint_among_texels(source: &Source, footprint: &Footprint) -> Option<DMat
     if source.period.is_none() {
         return Some(jacobian);
     }
-    let row = |inset: f64| PixelPoint::new(centre.x, centre.y.clamp(inset, source.view.height() as f64 - inset));
+    let height = source.view.height() as f64;
+    let row = |inset: f64| {
+        // The only row is both outermost ones.
+        let inset = inset.min(height / 2.0);
+        PixelPoint::new(centre.x, centre.y.clamp(inset, height - inset))
+    };
     // With samples on the edges the outermost row is the pole itself: half a texel beside it, as without.
     let is_pole = |at| source.view.direction(at).is_some_and(|d| source.view.margin(d) < 0.25 * source.texel_pitch);
     let nearest = if is_pole(row(0.5)) { row(1.0) } else { row(0.5) };
