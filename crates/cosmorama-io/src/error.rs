@@ -59,6 +59,18 @@ pub enum IoError {
         /// Supported content.
         expected: &'static str,
     },
+    /// A file holds several pictures, of which only the first would be used.
+    #[error("{}: this {format} file holds {count} {found}; expected one; {}", path.display(), apart(*format))]
+    Several {
+        /// The file read.
+        path: PathBuf,
+        /// Its format.
+        format: Format,
+        /// How many pictures there are.
+        count: usize,
+        /// What they are.
+        found: String,
+    },
     /// The declared pixels do not fit into the permitted memory.
     #[error(
         "{}: {width}x{height} pixels, {channels}, depth {depth}, need {needed} bytes, \
@@ -188,6 +200,20 @@ fn expected_frames(example: &str, found: Option<&str>) -> String {
     found.map_or_else(|| expected.clone(), |found| format!("{expected}, but there are {found}; write that pattern"))
 }
 
+/// How pictures in one file become one file each.
+fn apart(format: Format) -> &'static str {
+    match format {
+        Format::Tiff => {
+            "write each page to a file of its own, as tiffsplit does, and convert those, as in page_####.tif"
+        }
+        Format::Exr => "write the part that you mean to a file of its own, as exrmultipart -separate does",
+        _ => {
+            "write each frame to a file of its own, as ffmpeg does for the name frame_%04d.png, and convert \
+             frame_####.png"
+        }
+    }
+}
+
 /// Returns the remedy for a file name without the extension of a format.
 fn unnamed(path: &Path) -> String {
     let is_folder = path.is_dir() || path.as_os_str().to_string_lossy().ends_with('/');
@@ -225,6 +251,10 @@ impl IoError {
         let is_short = SHORT.iter().any(|words| reason.contains(words));
         let reason = if is_short { "it ends too early".to_owned() } else { reason };
         Self::Damaged { path: path.to_owned(), format, reason }
+    }
+
+    pub(crate) fn several(path: &Path, format: Format, count: usize, found: impl ToString) -> Self {
+        Self::Several { path: path.to_owned(), format, count, found: found.to_string() }
     }
 
     pub(crate) fn write(path: &Path, reason: impl ToString) -> Self {

@@ -193,6 +193,7 @@ fn metadata(
         envmap: target.envmap,
         panorama: target.panorama,
         complaints: Vec::new(),
+        notes: Vec::new(),
         other_channels: Vec::new(),
         primaries: first.and_then(|metadata| metadata.primaries),
         orientation: None,

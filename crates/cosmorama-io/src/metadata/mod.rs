@@ -18,6 +18,8 @@ pub struct Metadata {
     pub panorama: Option<Window>,
     /// Statements of the file that cannot be right, or that are ignored, in words, one per line.
     pub complaints: Vec<String>,
+    /// What the file holds beside its picture and is rightly not read: in words, one a line.
+    pub notes: Vec<String>,
     /// Names of channels that are not read.
     pub other_channels: Vec<String>,
     /// Colour primaries by their number in ITU-T H.273 (cICP). They are carried, never converted.

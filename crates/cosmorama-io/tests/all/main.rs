@@ -11,3 +11,4 @@ mod interrupt;
 mod pto;
 mod real_files;
 mod round_trips;
+mod several;

@@ -127,6 +127,14 @@ fn damaged(path: &Path, error: Error) -> IoError {
 fn announce(path: &Path, parts: &[Part], wanted: Wanted) -> Result<(Header, Selection, Crop), IoError> {
     let selection =
         (wanted.select)(parts).map_err(|found| IoError::unsupported(path, FORMAT, found, wanted.expected))?;
+    if selection.alike > 1 {
+        return Err(IoError::several(
+            path,
+            FORMAT,
+            selection.alike,
+            format_args!("parts with a picture{}", named(parts)),
+        ));
+    }
     let part = &parts[selection.part];
     let crop = Crop::of(part).ok_or_else(|| {
         IoError::unsupported(path, FORMAT, "no pixels inside the display window", "a picture in the display window")
@@ -152,6 +160,13 @@ fn announce(path: &Path, parts: &[Part], wanted: Wanted) -> Result<(Header, Sele
         window: crop.window,
     };
     Ok((header, selection, crop))
+}
+
+/// The names of parts, as far as they have any.
+fn named(parts: &[Part]) -> String {
+    let names: Vec<String> =
+        parts.iter().filter_map(|part| Some(part.own_attributes.layer_name.as_ref()?.to_string())).collect();
+    if names.is_empty() { String::new() } else { format!(" among {}", names.join(", ")) }
 }
 
 /// Reads the samples of a line of one channel and passes each, with its column, to a callback.

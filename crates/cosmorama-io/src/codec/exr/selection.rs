@@ -9,6 +9,8 @@ pub(super) struct Selection {
     pub(super) part: usize,
     pub(super) channels: Channels,
     pub(super) depth: Depth,
+    /// How many parts hold such a picture, this one among them.
+    pub(super) alike: usize,
     /// Names of all other channels.
     pub(super) others: Vec<String>,
     /// Indices of the channels, in the order of a pixel's samples.
@@ -32,7 +34,8 @@ impl Selection {
             .or_else(|| find(&layered))
             .or_else(|| find(&single))
             .ok_or_else(|| format!("the channels {}", names(parts).join(", ")))?;
-        Self::checked(parts, part, indices)
+        let alike = parts.iter().filter(|part| !part.deep && plain(part).is_some()).count().max(1);
+        Ok(Self { alike, ..Self::checked(parts, part, indices)? })
     }
 
     /// Selects the two channels of an st map in the first flat part that has such: R and G, else u and v, s and t, or x
@@ -78,7 +81,7 @@ impl Selection {
         let mut others = names(parts);
         // Parts of the same picture may name their channels alike: only this part's are used.
         others.retain(|name| !used(name));
-        Ok(Self { part, channels, depth, others, indices })
+        Ok(Self { part, channels, depth, alike: 1, others, indices })
     }
 
     /// Returns the position of a channel among a pixel's samples.

@@ -1,3 +1,4 @@
+use std::io::Read;
 use std::path::Path;
 
 use bytemuck::cast_slice_mut;
@@ -10,13 +11,20 @@ use crate::{Format, Header, ImageFile, IoError, Limits};
 
 const FORMAT: Format = Format::Png;
 
+/// First bytes of every file.
+const MARK: [u8; 8] = *b"\x89PNG\r\n\x1a\n";
+
 pub(crate) fn probe(path: &Path, source: Source<'_>) -> Result<Header, IoError> {
     Ok(header(&decoder(path, source)?))
 }
 
 pub(crate) fn read(path: &Path, source: Source<'_>, limits: &Limits) -> Result<ImageFile, IoError> {
-    let mut reader = decoder(path, source)?;
+    let mut reader = decoder(path, &mut *source)?;
     let header = header(&reader);
+    let frames = reader.info().animation_control().map_or(1, |animation| animation.num_frames as usize);
+    if frames > 1 {
+        return Err(IoError::several(path, FORMAT, frames, "frames of an animation"));
+    }
     let size = (header.width as u64, header.height as u64);
     limits.check(path, size, header.channels, header.depth)?;
     let count = header.width * header.height * header.channels.count();
@@ -33,7 +41,42 @@ pub(crate) fn read(path: &Path, source: Source<'_>, limits: &Limits) -> Result<I
             Samples::U16(samples)
         }
     };
+    drop(reader);
+    let behind = count_behind(source).map_err(|error| IoError::open(path, error))?;
+    if behind > 0 {
+        return Err(IoError::several(path, FORMAT, 1 + behind, "pictures one behind the other"));
+    }
     whole_image(path, header, samples)
+}
+
+/// Counts the pictures that follow one that has been read. Bytes that begin no picture are padding, and harmless.
+fn count_behind(source: Source<'_>) -> std::io::Result<usize> {
+    let mut count = 0;
+    while next_picture(source)? {
+        count += 1;
+        while skip_chunk(source)? {}
+    }
+    Ok(count)
+}
+
+/// Whether another picture begins behind padding of zeros. Goes on to its first chunk.
+fn next_picture(source: Source<'_>) -> std::io::Result<bool> {
+    while let [0, ..] = source.fill_buf()? {
+        source.consume(1);
+    }
+    let mut mark = Vec::with_capacity(MARK.len());
+    source.take(MARK.len() as u64).read_to_end(&mut mark)?;
+    Ok(mark == MARK)
+}
+
+/// Skips a chunk; false where it was the last.
+fn skip_chunk(source: Source<'_>) -> std::io::Result<bool> {
+    let mut start = Vec::with_capacity(8);
+    source.take(8).read_to_end(&mut start)?;
+    let Ok([a, b, c, d, kind @ ..]) = <[u8; 8]>::try_from(start) else { return Ok(false) };
+    let rest = u64::from(u32::from_be_bytes([a, b, c, d])) + 4;
+    let skipped = std::io::copy(&mut source.take(rest), &mut std::io::sink())?;
+    Ok(skipped == rest && &kind != b"IEND")
 }
 
 fn decoder<'a>(path: &Path, source: Source<'a>) -> Result<Reader<Source<'a>>, IoError> {

@@ -17,7 +17,30 @@ pub(super) const ICC_PROFILE: Tag = Tag::Unknown(34675);
 
 pub(crate) fn probe(path: &Path, source: Source<'_>) -> Result<Header, IoError> {
     let mut decoder = Decoder::new(source).map_err(|error| damaged(path, &error))?;
-    header(path, &mut decoder)
+    let mut header = header(path, &mut decoder)?;
+    header.metadata.notes.extend(beside(path, &mut decoder)?);
+    Ok(header)
+}
+
+/// Refuses a file of several pages as large as the first, and tells of others. Copies at a lower resolution and masks are no
+/// pages.
+fn beside(path: &Path, decoder: &mut Decoder<Source<'_>>) -> Result<Option<String>, IoError> {
+    const NO_PAGE: u32 = 0b101;
+    let first = decoder.dimensions().ok();
+    let (mut pages, mut others) = (1, 0);
+    // What comes behind the first page is not read: where it is damaged, there is no page.
+    while decoder.more_images() && decoder.next_image().is_ok() {
+        let kind = decoder.find_tag_unsigned::<u32>(Tag::NewSubfileType).ok().flatten().unwrap_or(0);
+        match kind & NO_PAGE {
+            0 if decoder.dimensions().ok() == first => pages += 1,
+            0 => others += 1,
+            _ => {}
+        }
+    }
+    if pages > 1 {
+        return Err(IoError::several(path, FORMAT, pages, "pages of one size"));
+    }
+    Ok((others > 0).then(|| format!("pages of other sizes behind the first are not read: {others}")))
 }
 
 pub(crate) fn read(path: &Path, source: Source<'_>, limits: &Limits) -> Result<ImageFile, IoError> {
@@ -31,6 +54,7 @@ pub(crate) fn read(path: &Path, source: Source<'_>, limits: &Limits) -> Result<I
     decoder_limits.intermediate_buffer_size = decoder_limits.decoding_buffer_size;
     let mut decoder = decoder.with_limits(decoder_limits);
     let result = decoder.read_image().map_err(|error| damaged(path, &error))?;
+    beside(path, &mut decoder)?;
     let samples = samples(path, result, &header, mode)?;
     let mut file = whole_image(path, header, samples)?;
     file.image = file.image.with_alpha_mode(mode);

@@ -1,3 +1,6 @@
+mod marks;
+
+use std::io::Cursor;
 use std::path::Path;
 
 use cosmorama::raster::{Channels, Depth, EncodedImage, Samples};
@@ -23,16 +26,27 @@ impl Codec for Jpeg {
     }
 
     fn probe(&self, path: &Path, source: Source<'_>) -> Result<Header, IoError> {
+        // A file that is too short for its marks is the decoder's to refuse.
+        let listed = marks::listed(source).unwrap_or(0);
+        source.rewind().map_err(|error| IoError::open(path, error))?;
         let mut decoder = decoder(path, source)?;
-        header(path, &mut decoder)
+        let mut header = header(path, &mut decoder)?;
+        header.metadata.notes.extend(unread(listed));
+        Ok(header)
     }
 
     fn decode(&self, path: &Path, source: Source<'_>, limits: &Limits) -> Result<ImageFile, IoError> {
         let bytes = whole(path, source)?;
         let mut decoder = decoder(path, ZCursor::new(&bytes))?;
         let header = header(path, &mut decoder)?;
-        if !ends(&bytes) {
+        if marks::end(&bytes).is_none() {
             return Err(IoError::damaged(path, FORMAT, "it ends too early"));
+        }
+        // What a file lists are other pictures than its own.
+        let listed = marks::listed(&mut Cursor::new(&bytes)).unwrap_or(0);
+        let count = if listed == 0 { marks::count_alike(&bytes) } else { 1 };
+        if count > 1 {
+            return Err(IoError::several(path, FORMAT, count, "pictures one behind the other"));
         }
         limits.check(path, (header.width as u64, header.height as u64), header.channels, header.depth)?;
         let output = if header.channels == Channels::Grey { ColorSpace::Luma } else { ColorSpace::RGB };
@@ -95,13 +109,14 @@ fn whole(path: &Path, source: Source<'_>) -> Result<Vec<u8>, IoError> {
     Ok(bytes)
 }
 
-/// Returns whether the last scan has an end mark, because the decoder tolerates a scan that lacks its last few blocks.
-/// Inside a scan neither mark can occur.
-fn ends(bytes: &[u8]) -> bool {
-    const START_OF_SCAN: [u8; 2] = [0xff, 0xda];
-    const END_OF_IMAGE: [u8; 2] = [0xff, 0xd9];
-    let last_scan = bytes.windows(2).rposition(|mark| mark == START_OF_SCAN);
-    last_scan.is_some_and(|at| bytes[at..].windows(2).any(|mark| mark == END_OF_IMAGE))
+/// What is to be known of pictures that a file lists beside its own.
+fn unread(listed: u32) -> Option<String> {
+    let what = match listed {
+        0 => return None,
+        1 => "another picture".to_owned(),
+        count => format!("{count} other pictures"),
+    };
+    Some(format!("it lists {what}, such as a preview or a gain map, behind its own; they are not read"))
 }
 
 fn options() -> DecoderOptions {
