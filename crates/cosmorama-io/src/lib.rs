@@ -3,6 +3,28 @@
 //! [`probe`] reads a file's header, [`read`] its pixels, and [`write`](write()) makes a file appear whole or not at
 //! all. [`FaceSet`] finds the faces of a cube by the naming presets of other tools, and [`FramePattern`] the frames of
 //! a sequence.
+//!
+//! A panorama is read, turned into light, and written in another format:
+//!
+//! ```
+//! use cosmorama::raster::{Channels, Depth, EncodedImage, Samples, Transfer};
+//! use cosmorama_io::{Limits, Metadata, WriteOptions, read, write};
+//!
+//! let folder = tempfile::tempdir()?;
+//! let (input, output) = (folder.path().join("sky.exr"), folder.path().join("sky.png"));
+//! let sky = EncodedImage::new(2, 1, Channels::Rgb, Depth::Float, Samples::Float(vec![0.5; 6]))?;
+//! write(&input, &sky, &WriteOptions::default())?;
+//!
+//! let light = read(&input, &Limits::default())?.to_light();
+//! let codes = light.to_codes(Depth::Eight, &Transfer::Srgb);
+//! let metadata = Metadata { transfer: Some(Transfer::Srgb), ..Metadata::default() };
+//! write(&output, &codes, &WriteOptions::with_metadata(metadata))?;
+//! assert_eq!(read(&output, &Limits::default())?.image.width(), 2);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! The files of a face set may lie turned or mirrored. [`FaceSet::read_all`] turns them upright; a program that reads a
+//! [`FaceFile`] by itself must apply its [`placement`](FaceFile::placement).
 #![forbid(unsafe_code)]
 
 mod calibration;
