@@ -55,6 +55,13 @@ impl<'f> Fields<'f> {
         Ok(self.angle(key)?.unwrap_or(Angle::from_degrees(default)))
     }
 
+    /// Reads an angle between an axis and the vertical or the horizontal; none unless given.
+    pub(super) fn slope(&self, key: &str) -> Result<Angle, SpecError> {
+        let expected = format!("an angle from -90 to 90 degrees, as in {key}=20");
+        let parse = |value: &str| parse_degrees(value).filter(|angle| angle.degrees().abs() <= 90.0);
+        Ok(self.read(key, &expected, parse)?.unwrap_or(Angle::ZERO))
+    }
+
     /// Reads one of a list of words.
     pub(super) fn choice<T: Copy>(&self, key: &str, choices: &[(&str, T)]) -> Result<Option<T>, SpecError> {
         let names: Vec<_> = choices.iter().map(|(name, _)| *name).collect();

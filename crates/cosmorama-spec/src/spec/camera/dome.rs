@@ -12,7 +12,7 @@ use crate::spec::keys::Keys;
 pub(crate) fn fulldome(fields: &Fields) -> Result<Shape, SpecError> {
     let frame = FulldomeCamera {
         field_of_view: fields.angle_or("fov", 180.0)?,
-        tilt: fields.angle_or("tilt", 0.0)?,
+        tilt: fields.slope("tilt")?,
         pixel_aspect: fields.aspect()?,
     };
     Shape::single(fields, CameraModel::Fulldome(frame))
@@ -34,7 +34,7 @@ pub(crate) fn omnimax(fields: &Fields) -> Result<Shape, SpecError> {
         framing: fields.choice("framing", &FRAMINGS)?.unwrap_or_default(),
         lower: lower.unwrap_or(default.lower),
         circle: fields.circle()?,
-        axis: fields.angle_or("axis", 0.0)?,
+        axis: fields.slope("axis")?,
         pixel_aspect: fields.aspect()?,
     };
     Shape::single(fields, CameraModel::Omnimax(frame))
