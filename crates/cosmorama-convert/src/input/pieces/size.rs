@@ -3,14 +3,17 @@ use cosmorama_spec::{Dual, Size};
 
 use crate::diagnostic::{Code, Mark, Result, SIZE, usage, usage_as};
 
-/// Returns the size of an image: as given, from a width, or with so many pixels per radian at its centre. `option` is
-/// the setting that holds the camera model.
+/// Returns the size of an image: as given, from a width, as a calibration has it, or with so many pixels per radian at
+/// its centre. `option` is the setting that holds the camera model.
 pub(crate) fn size(
     frame: CameraModel,
     given: Option<Size>,
     pixels_per_radian: Option<f64>,
     option: Mark,
 ) -> Result<(usize, usize)> {
+    if let (None, Some(size)) = (given, measured(&frame)) {
+        return Ok(size);
+    }
     match (given, pixels_per_radian) {
         (Some(Size { width, height: Some(height) }), _) => Ok((width, height)),
         (Some(Size { width, height: None }), _) => match frame.natural_height(width) {
@@ -31,6 +34,12 @@ pub(crate) fn size(
             format!("{SIZE} is missing: without an input, nothing tells how large the output is to be"),
         )),
     }
+}
+
+/// Returns the size of the image by which a camera was calibrated.
+fn measured(frame: &CameraModel) -> Option<(usize, usize)> {
+    let CameraModel::Calibrated(camera) = frame else { return None };
+    camera.size
 }
 
 /// Returns the size of an image of two circles. A width alone is that of one circle.
