@@ -5,7 +5,7 @@ use std::io::{ErrorKind, Write, stderr, stdout};
 use std::path::Path;
 
 use anyhow::{Context, Result};
-use cosmorama_convert::{Diagnostic, Message, Setting};
+use cosmorama_convert::{Diagnostic, Message, Outcome, Setting, Severity};
 use cosmorama_io::pending::Unfinished;
 
 /// The streams of a run.
@@ -13,6 +13,8 @@ use cosmorama_io::pending::Unfinished;
 pub(crate) struct Console {
     /// Each file that stands for a stream with its name for people.
     names: Vec<(String, String)>,
+    /// Whether notes are said, too.
+    pub(crate) verbose: bool,
     /// Files that are being written: an interrupt removes them.
     pub(crate) unfinished: Unfinished,
 }
@@ -28,9 +30,23 @@ impl Console {
         self.names.iter().fold(text.to_owned(), |text, (file, name)| text.replace(file, name))
     }
 
-    /// Says something that should be known but does not stop the work.
+    /// Says something that should be known but does not stop the work. Notes are for those who ask for them.
     pub(crate) fn warn(&self, diagnostic: &Diagnostic) {
-        say(format_args!("warning: {}", self.told(&in_options(&diagnostic.message))));
+        if diagnostic.severity != Severity::Note || self.verbose {
+            self.tell(diagnostic);
+        }
+    }
+
+    /// Says what a check found. Where it failed, a note may tell why.
+    pub(crate) fn tell_all<T>(&self, outcome: &Outcome<T>) {
+        let has_failed = outcome.result.is_err();
+        let said = outcome.diagnostics.iter();
+        said.for_each(|diagnostic| if has_failed { self.tell(diagnostic) } else { self.warn(diagnostic) });
+    }
+
+    fn tell(&self, diagnostic: &Diagnostic) {
+        let kind = if diagnostic.severity == Severity::Note { "note" } else { "warning" };
+        say(format_args!("{kind}: {}", self.told(&in_options(&diagnostic.message))));
     }
 
     /// Prints what was asked for on standard output.

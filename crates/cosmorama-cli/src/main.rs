@@ -27,6 +27,7 @@ fn main() -> ExitCode {
         Err(error) => return failure::report_arguments(&error),
     };
     let mut console = console::Console::default();
+    console.verbose = args.verbose;
     match verbs::run(args.verb, &mut console) {
         Ok(code) => code,
         Err(error) => failure::report(&error, &console),

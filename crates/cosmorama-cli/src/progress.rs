@@ -1,7 +1,8 @@
+use std::fmt::Write;
 use std::io::IsTerminal;
 use std::time::Instant;
 
-use indicatif::{ProgressBar, ProgressStyle as BarStyle};
+use indicatif::{ProgressBar, ProgressState, ProgressStyle as BarStyle};
 
 use crate::args::ProgressStyle;
 use crate::console::say;
@@ -48,7 +49,7 @@ impl Progress {
         match &self.form {
             Form::Bar(bar) => bar.inc(1),
             Form::Plain => {
-                say(format_args!("{number}: {done} of {total} done, {rate:.2} a second, {left:.0} s left"));
+                say(format_args!("{number}: {done} of {total} done, {} a second, {left:.0} s left", steady(rate)));
             }
             Form::Json => {
                 let line = serde_json::json!({
@@ -70,7 +71,26 @@ impl Progress {
 }
 
 fn bar(total: usize) -> ProgressBar {
-    let template = "{wide_bar} {pos}/{len} frames, {per_sec}, {eta} left";
+    let template = "{wide_bar} {pos}/{len} frames, {rate} a second, {eta} left";
     let style = BarStyle::with_template(template).unwrap_or_else(|_| BarStyle::default_bar());
+    let style = style.with_key("rate", |state: &ProgressState, to: &mut dyn Write| {
+        let _ = to.write_str(&steady(state.per_sec()));
+    });
     ProgressBar::new(total as u64).with_style(style)
+}
+
+/// A rate in three digits, whether there are many a second or few.
+fn steady(rate: f64) -> String {
+    let decimals = if rate < 10.0 { 2 } else { usize::from(rate < 100.0) };
+    format!("{rate:.decimals$}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rates_have_three_digits() {
+        assert_eq!([0.0712, 1.5, 12.345, 347.8].map(steady), ["0.07", "1.50", "12.3", "348"]);
+    }
 }

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use anyhow::Result;
-use cosmorama_convert::{CpuSeconds, Remade, Report};
+use cosmorama_convert::{CpuSeconds, Remade, Report, Severity};
 use serde::Serialize;
 
 use crate::console::{Console, in_options, say};
@@ -20,6 +20,7 @@ struct JsonReport<'a> {
     cpu_seconds: JsonCpuSeconds,
     peak_memory_bytes: Option<u64>,
     warnings: Vec<String>,
+    notes: Vec<String>,
 }
 
 #[derive(Serialize)]
@@ -48,9 +49,15 @@ pub(crate) fn to_json(report: &Report) -> Result<String> {
         wall_seconds: report.wall.as_secs_f64(),
         cpu_seconds: JsonCpuSeconds { decode, plan, filter, encode },
         peak_memory_bytes: report.peak_memory_bytes,
-        warnings: report.diagnostics.iter().map(|diagnostic| in_options(&diagnostic.message)).collect(),
+        warnings: told(report, |severity| severity != Severity::Note),
+        notes: told(report, |severity| severity == Severity::Note),
     };
     Ok(serde_json::to_string_pretty(&json)? + "\n")
+}
+
+fn told(report: &Report, chosen: impl Fn(Severity) -> bool) -> Vec<String> {
+    let diagnostics = report.diagnostics.iter().filter(|diagnostic| chosen(diagnostic.severity));
+    diagnostics.map(|diagnostic| in_options(&diagnostic.message)).collect()
 }
 
 /// What people want to know, on standard error.

@@ -55,6 +55,9 @@ pub(crate) struct Args {
     /// What to do.
     #[command(subcommand)]
     pub(crate) verb: Verb,
+    /// Say also what is good to know where nothing is wrong
+    #[arg(short, long, global = true, hide_short_help = true)]
+    pub(crate) verbose: bool,
 }
 
 /// What can be done.

@@ -122,7 +122,10 @@ fn plain_text(comparison: &Comparison) -> String {
         linear.psnr, linear.rms, linear.mean, srgb.psnr, srgb.rms, srgb.mean
     );
     if let Some(edge_free) = edge_free {
-        text += &format!("PSNR off edges     {:.2} dB ({} pixels)\n", edge_free.linear.psnr, edge_free.pixels);
+        text += &format!(
+            "PSNR off edges     {:.2} dB (linear, of the {} more than 2 pixels from any edge, where filters agree)\n",
+            edge_free.linear.psnr, edge_free.pixels
+        );
     }
     let (column, row) = linear.largest.pixel;
     text += &format!(

@@ -30,7 +30,7 @@ pub(super) fn run(args: ConvertArgs, console: &mut Console) -> Result<ExitCode> 
 /// Converts, and says meanwhile what there is to say.
 pub(super) fn convert(conversion: Conversion, style: ProgressStyle, console: &Console) -> Result<Report> {
     let checked = Conversion { unfinished: console.unfinished.clone(), ..conversion }.check();
-    checked.diagnostics.iter().for_each(|diagnostic| console.warn(diagnostic));
+    console.tell_all(&checked);
     let mut watch = Watch { console, style, progress: None };
     let report = checked.result?.run(&mut watch)?;
     watch.progress.iter().for_each(Progress::finish);

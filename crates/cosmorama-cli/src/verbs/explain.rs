@@ -1,3 +1,4 @@
+use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -21,20 +22,22 @@ pub(super) fn run(mut args: ExplainArgs, console: &mut Console) -> Result<ExitCo
     args.input = args.input.map(|input| kept.input(&input)).transpose()?;
     let (output, overwrite, as_json, has_input) = (args.output.take(), args.overwrite, args.json, args.input.is_some());
     let checked = ExplanationSettings { files: kept.files(), ..args.into() }.check();
+    console.tell_all(&checked);
     let explanation = checked.result?;
-    checked.diagnostics.iter().for_each(|diagnostic| console.warn(diagnostic));
     if let Some(folder) = &output {
         check_diagrams(folder, &explanation, overwrite)?;
     }
     let worlds = explanation.worlds()?;
     let _folders = output.as_deref().map(|folder| make_folder(folder, console)).transpose()?;
     let (mut text, mut reports, mut drawn) = (String::new(), Vec::new(), Vec::new());
+    let mut needed = HashSet::new();
     for picture in explanation.pictures() {
         let report = explanation.report(&worlds, picture);
         if let Some(label) = picture.label() {
             text += &format!("{label}:\n");
         }
         text += &format!("{report}");
+        needed.extend(report.views.iter().filter(|view| view.need.seen.is_some()).map(|view| view.need.name.clone()));
         let files = match &output {
             Some(folder) => {
                 drawn.extend(draw(folder, picture, &worlds[picture.world(worlds.len())], &needs(&report), console)?);
@@ -50,7 +53,7 @@ pub(super) fn run(mut args: ExplainArgs, console: &mut Console) -> Result<ExitCo
     // All diagrams, or none.
     drawn.into_iter().try_for_each(Hidden::appear)?;
     if has_input {
-        for view in explanation.views_without_files() {
+        for view in explanation.views_without_files().filter(|view| needed.contains(&view.name)) {
             let folder = if view.files.is_folder() { ", but a folder of this name" } else { "" };
             text += &format!("missing  {}: no {}{folder}\n", view.name, view.files.path(None).display());
         }

@@ -24,21 +24,27 @@ pub(super) fn run(args: &InfoArgs, console: &mut Console) -> Result<ExitCode> {
     let report = if let Some(builtin) = Builtin::named(input)? {
         json!({ "input": input, "projection": "any (a formula)", "shows": builtin.about() })
     } else if FacePattern::parse(input).is_some() {
-        faces(files, input)?
+        faces(files, input, args.check)?
     } else if let Some(world) = info_world::report(files, input, console)? {
         world
     } else {
-        single(files, input)?
+        single(files, input, args.check)?
     };
     if args.json {
         console.print(&(serde_json::to_string_pretty(&report)? + "\n"))?;
     } else {
         console.print(&lines(&report, 0))?;
     }
-    Ok(ExitCode::SUCCESS)
+    // What is damaged is told, and no success.
+    Ok(if is_damaged(&report) { ExitCode::FAILURE } else { ExitCode::SUCCESS })
 }
 
-fn single(inputs: &dyn Files, pattern: &str) -> Result<Value> {
+fn is_damaged(report: &Value) -> bool {
+    let Value::Object(fields) = report else { return false };
+    fields.iter().any(|(key, value)| key == "damaged" || is_damaged(value))
+}
+
+fn single(inputs: &dyn Files, pattern: &str, check: bool) -> Result<Value> {
     let files = ViewFiles::new(Path::new(pattern));
     let frames = existing_frames(&files)?;
     let path = files.path(frames.first().copied());
@@ -51,6 +57,8 @@ fn single(inputs: &dyn Files, pattern: &str) -> Result<Value> {
     report["projection"] = json!(likely.projection);
     if let Some(damage) = &likely.damage {
         report["damaged"] = json!(damage);
+    } else if check && frames.len() > 1 {
+        add_damaged_frames(&mut report, inputs, &files, &frames);
     }
     let picture = if header.channels.has_alpha() { light_of(inputs, &path) } else { None };
     if let Some(told) = picture.and_then(|light| ThinAlpha::of(light.pixels().iter().copied())?.told()) {
@@ -69,7 +77,16 @@ fn single(inputs: &dyn Files, pattern: &str) -> Result<Value> {
     Ok(report)
 }
 
-fn faces(inputs: &dyn Files, pattern: &str) -> Result<Value> {
+/// Decodes every frame, and tells what is the matter with those that are damaged.
+fn add_damaged_frames(report: &mut Value, inputs: &dyn Files, files: &ViewFiles, frames: &[u64]) {
+    let damage = |frame: &u64| damage_of(inputs, &files.path(Some(*frame)));
+    let damaged: Vec<String> = frames.iter().filter_map(damage).collect();
+    if !damaged.is_empty() {
+        report["damaged"] = json!(damaged);
+    }
+}
+
+fn faces(inputs: &dyn Files, pattern: &str, check: bool) -> Result<Value> {
     let set = FaceSet::find(pattern, None)?;
     let mut report = json!({ "input": pattern, "projection": "cube", "naming": set.naming().name });
     let mut faces = serde_json::Map::new();
@@ -86,6 +103,9 @@ fn faces(inputs: &dyn Files, pattern: &str) -> Result<Value> {
             let files = ViewFiles::new(&file.path);
             let frames = existing_frames(&files)?;
             add_frames(&mut face, &frames);
+            if check {
+                add_damaged_frames(&mut face, inputs, &files, &frames);
+            }
             merge(&mut face, header_report(&probe(inputs, &files.path(frames.first().copied()))?));
         }
         faces.insert(file.face.name().to_owned(), face);
@@ -141,6 +161,9 @@ fn header_report(header: &Header) -> Value {
     }
     if !metadata.complaints.is_empty() {
         report["complaints"] = json!(metadata.complaints);
+    }
+    if !metadata.notes.is_empty() {
+        report["notes"] = json!(metadata.notes);
     }
     if !metadata.other_channels.is_empty() {
         report["other_channels"] = json!(metadata.other_channels);

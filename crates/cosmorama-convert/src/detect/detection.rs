@@ -9,27 +9,31 @@ use cosmorama_spec::{Cube, Packing, Shape, Single, Spec, SphereSamples, StereoSp
 use crate::detect::decision::{OVAL_ONES, ROUND_ONES, candidates, circle_spec, dome_spec, layouts_of_shape, two_eyes};
 use crate::detect::pixels::damage_of;
 use crate::detect::{Evidence, Guess, Readings, Seen};
-use crate::diagnostic::{Code, Diagnostic, FROM, Remedy, Result, Setting, bail, usage, usage_as};
-use crate::input::Files;
+use crate::diagnostic::{Code, Diagnostic, FROM, Remedy, Result, Setting, Severity, bail, usage, usage_as};
 use crate::input::canvas::canvas_of;
+use crate::input::{Access, Files, Kept};
 
 /// Detects the projection of an image without `--from`, which may hold a picture for each eye. A guess is announced.
 pub(crate) fn detect(
-    files: &dyn Files,
+    access: Access,
     path: &Path,
     header: &Header,
     warnings: &mut Vec<Diagnostic>,
 ) -> Result<(Shape, Option<StereoSpec>)> {
-    let (guess, damage) = Guess::of(files, path, header);
+    let (guess, damage) = Guess::of(access.files, path, header, access.kept);
     if let Some(damage) = damage {
         bail!(Damaged: "{damage}");
     }
     let mono = |shape: Shape| Ok((shape, None));
+    // What is as plain as a shape is no warning.
+    let is_plain = matches!(guess, Guess::TwoToOne(None));
     let mut announce = |what: &str, spec: &str, why: &str| {
         let remedy = Remedy::Set(Setting::From, spec.to_owned());
         let what = format!("{what} ({FROM} {spec})");
         let message = format!("{} is taken for {what}, because {why}", path.display());
-        warnings.push(Diagnostic::warning(Code::Detected, message).about(path.display()).with_remedy(remedy));
+        let severity = if is_plain { Severity::Note } else { Severity::Warning };
+        let told = Diagnostic { severity, ..Diagnostic::warning(Code::Detected, message) };
+        warnings.push(told.about(path.display()).with_remedy(remedy));
     };
     match guess {
         Guess::Said(EnvMap::LatLong) => mono(panorama(SamplePositions::Edges, None)),
@@ -240,7 +244,7 @@ pub struct Likely {
 
 /// Examines an image.
 pub fn likely(files: &dyn Files, path: &Path, header: &Header) -> Likely {
-    let (guess, damage) = Guess::of(files, path, header);
+    let (guess, damage) = Guess::of(files, path, header, &Kept::default());
     // Whoever asks what a file is wants to know whether it is whole.
     let damage = damage.or_else(|| if guess.has_looked() { None } else { damage_of(files, path) });
     let circle = match guess {

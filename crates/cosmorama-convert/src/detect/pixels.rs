@@ -6,14 +6,14 @@ use cosmorama::camera::{CameraModel, Mirror, OmnimaxCamera, PixelRect};
 use cosmorama::circle;
 use cosmorama::circle::{Circle, Found};
 use cosmorama::layout::{Arrangement, CubeLayout, LayoutKind};
-use cosmorama::raster::{EncodedImage, Image, Rgba, Transfer, Uniform};
-use cosmorama_io::{Header, IoError, Limits};
+use cosmorama::raster::{EncodedImage, Image, Rgba, Samples, Transfer, Uniform};
+use cosmorama_io::{Header, ImageFile, IoError, Limits};
 
 use crate::budget::light_bytes;
 use crate::detect::oval::is_oval;
 use crate::detect::{Circles, Twins, cross_variants};
 use crate::diagnostic::Result;
-use crate::input::{Files, probe, read};
+use crate::input::{Files, Kept, probe, read};
 
 /// Size, in bytes, above which an image is not decoded for detection only.
 const MOST_BYTES: u64 = 1 << 30;
@@ -27,20 +27,22 @@ pub(crate) const BLOCK: usize = 8;
 const EXACTLY: (f64, f64) = (0.005, 2.0);
 /// Tolerance for a circle whose rim cannot be measured, or that is one of two.
 const ROUGHLY: f64 = 0.02;
+/// Columns of the coarse copy of a panorama, at least.
+const COARSE: usize = 1024;
 /// Greatest code that counts as black, of codes from 0 to 1.
 pub(crate) const BLACK: f32 = 0.06;
 
 /// Reads the light of an image for detection; `None` if it is too large or damaged.
 pub fn light_of(files: &dyn Files, path: &Path) -> Option<Image<Rgba>> {
-    let image = decoded(files, path).ok()?;
+    let image = decoded(files, path).ok()?.image;
     let transfer = if image.depth().is_float() { Transfer::Linear } else { Transfer::Srgb };
     Some(image.to_light(&transfer))
 }
 
-fn decoded(files: &dyn Files, path: &Path) -> Result<EncodedImage, IoError> {
+fn decoded(files: &dyn Files, path: &Path) -> Result<ImageFile, IoError> {
     // Light takes more memory than the samples that it is made of.
     let limit = if light_bytes(&probe(files, path)?) > MOST_BYTES { 0 } else { MOST_BYTES };
-    Ok(read(files, path, &Limits::memory(limit))?.image)
+    read(files, path, &Limits::memory(limit))
 }
 
 /// Returns the damage of a file whose pixels cannot be read; `None` also for one that is too large to try.
@@ -87,20 +89,36 @@ pub(crate) enum Seen {
 
 impl Seen {
     /// Examines the pixels, beginning with what the image's shape suggests.
-    pub(crate) fn of(files: &dyn Files, path: &Path, header: &Header) -> Self {
+    pub(crate) fn of(files: &dyn Files, path: &Path, header: &Header, kept: &Kept) -> Self {
         if header.window.is_some() {
             return Self::Unseen("it is a part of a larger picture".to_owned());
         }
-        let codes = match decoded(files, path) {
-            Ok(image) => image.to_light(&Transfer::Linear),
+        let file = match decoded(files, path) {
+            Ok(file) => file,
             Err(IoError::TooLarge { .. }) => return Self::Unseen("it is too large to look at its pixels".to_owned()),
             Err(error) => return Self::Damaged(error.to_string()),
         };
-        Evidence::of(&codes).map_or(Self::Nothing, Self::Evidence)
+        let seen = Evidence::of_image(&file.image).map_or(Self::Nothing, Self::Evidence);
+        kept.put(path, file);
+        seen
     }
 }
 
 impl Evidence {
+    /// Looks at a picture; at a coarse copy first where its shape is a panorama's, which most have nothing to tell.
+    fn of_image(image: &EncodedImage) -> Option<Self> {
+        let step = image.width() / COARSE;
+        if image.width() == 2 * image.height() && step > 1 {
+            match thinned(image, step).map(|coarse| Self::of(&coarse.to_light(&Transfer::Linear))) {
+                Some(None) => return None,
+                Some(Some(Self::Twins(arrangement))) => return Some(Self::Twins(arrangement)),
+                // Circles and ovals are measured in all pixels.
+                _ => {}
+            }
+        }
+        Self::of(&image.to_light(&Transfer::Linear))
+    }
+
     fn of(codes: &Image<Rgba>) -> Option<Self> {
         let is_empty = codes.uniformity(|_, _| true).is_none_or(|all| all.share >= EMPTY);
         if is_empty {
@@ -129,6 +147,26 @@ impl Evidence {
             _ => Twins::find(codes).map(Self::Twins),
         }
     }
+}
+
+/// Returns a copy with every so many columns and rows.
+fn thinned(image: &EncodedImage, step: usize) -> Option<EncodedImage> {
+    let (width, height, count) = (image.width() / step, image.height() / step, image.channels().count());
+    let places = (0..height).flat_map(|j| (0..width).map(move |i| (i, j)));
+    let first = |(i, j): (usize, usize)| ((j * step + step / 2) * image.width() + i * step + step / 2) * count;
+    let starts = places.map(first);
+    let samples = match image.samples() {
+        Samples::U8(all) => Samples::U8(chosen(all, starts, count)),
+        Samples::U16(all) => Samples::U16(chosen(all, starts, count)),
+        Samples::Half(all) => Samples::Half(chosen(all, starts, count)),
+        Samples::Float(all) => Samples::Float(chosen(all, starts, count)),
+    };
+    let thinned = EncodedImage::new(width, height, image.channels(), image.depth(), samples).ok()?;
+    Some(thinned.with_alpha_mode(image.alpha_mode()))
+}
+
+fn chosen<S: Copy>(all: &[S], starts: impl Iterator<Item = usize>, count: usize) -> Vec<S> {
+    starts.flat_map(|start| all[start..start + count].iter().copied()).collect()
 }
 
 pub(crate) fn is_blank(around: Option<Uniform>) -> bool {

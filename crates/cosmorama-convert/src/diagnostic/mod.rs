@@ -36,6 +36,8 @@ pub enum Severity {
     Error,
     /// The work continues.
     Warning,
+    /// Good to know for who asks why; nothing is wrong.
+    Note,
 }
 
 /// Change of a setting that resolves a diagnostic.
@@ -51,6 +53,11 @@ impl Diagnostic {
     /// Creates a warning.
     pub fn warning(code: Code, message: impl Into<Message>) -> Self {
         Self { code, severity: Severity::Warning, subject: None, message: message.into(), remedy: None }
+    }
+
+    /// Creates a note.
+    pub fn note(code: Code, message: impl Into<Message>) -> Self {
+        Self { severity: Severity::Note, ..Self::warning(code, message) }
     }
 
     /// Creates an error.

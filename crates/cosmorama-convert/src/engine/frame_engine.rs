@@ -80,7 +80,7 @@ impl<'a> Engine<'a> {
     pub(crate) fn warnings(&self, frame: Option<u64>, light: &FrameLight) -> Vec<Diagnostic> {
         let tell = |(view, count): (&InputView, usize)| {
             let path = view.files.path(frame);
-            let message = format!("{}: {count} pixels are NaN and count as missing", path.display());
+            let message = format!("{}: {} and count as missing", path.display(), counted(count, "is NaN", "are NaN"));
             Diagnostic::warning(Code::NotANumber, message).about(path.display())
         };
         // Of a sequence, the first frame tells whether there are suns, and alpha that is none.
@@ -216,9 +216,10 @@ impl<'a> Engine<'a> {
                 |(view, count): (&InputView, usize)| format!("{} ({count})", view.files.path(frame).display());
             let culprits: Vec<_> = self.incomplete(light).map(culprit).collect();
             bail!(
-                NotANumber: "{empty} pixels of {} see nothing but missing pixels (NaN), found in {}; render those again, or fill the \
+                NotANumber: "in {}, {} nothing but missing pixels (NaN), found in {}; render those again, or fill the \
                  gaps with {MISSING} COLOR or {MISSING} transparent",
                 self.job.target.views[index].name,
+                counted(empty, "sees", "see"),
                 culprits.join(", ")
             );
         }
@@ -233,6 +234,11 @@ impl<'a> Engine<'a> {
             self.mask(index).surround(image, background);
         }
     }
+}
+
+/// Counts pixels, with the verb for one and that for several.
+fn counted(pixels: usize, one: &str, several: &str) -> String {
+    if pixels == 1 { format!("1 pixel {one}") } else { format!("{pixels} pixels {several}") }
 }
 
 /// Assembles a picture: one image, or several in their places on a background.

@@ -60,7 +60,10 @@ impl FrameFile {
         let present: Vec<_> = job.input.present().collect();
         let Some((first, header, _)) = views.first().map(|view| present[*view]) else { return Ok(Vec::new()) };
         let expected = first.part.map_or((header.width, header.height), |part| part.of);
-        let file = read(&*job.files, path, &Limits::memory(job.memory.bytes))?;
+        let file = match job.kept.take(path) {
+            Some(file) => file,
+            None => read(&*job.files, path, &Limits::memory(job.memory.bytes))?,
+        };
         let found = (file.image.width(), file.image.height());
         if found != expected || file.window != header.window {
             bail!(

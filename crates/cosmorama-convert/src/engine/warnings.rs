@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
-use cosmorama::raster::Depth;
+use cosmorama::filter::FilterKind;
 use cosmorama::sphere::Direction;
 
 use crate::colour::ThinAlpha;
@@ -26,9 +26,11 @@ pub(crate) fn suns(job: &ConvertJob, light: &FrameLight) -> Option<Diagnostic> {
     let part = parts.map(|(index, world)| world.light_of_suns(|texel| light.texels().rgba(index, texel)));
     let part = part.fold(0.0, f64::max);
     (part > MUCH).then(|| {
+        // The default filter needs no naming.
+        let filter = if job.filter.kind == FilterKind::Ewa { String::new() } else { format!("{FILTER} ewa ") };
         let message = format!(
             "{:.0} % of the light comes from suns or lamps, over a hundred times as bright as the mean; this filter \
-             may add light to them or take some away. Where the picture is to light a scene, {FILTER} ewa {KERNEL} light \
+             may add light to them or take some away. Where the picture is to light a scene, {filter}{KERNEL} light \
              keeps what there is, and is a little softer",
             100.0 * part
         );
@@ -36,9 +38,9 @@ pub(crate) fn suns(job: &ConvertJob, light: &FrameLight) -> Option<Diagnostic> {
     })
 }
 
-/// Returns whether some input holds light beyond white.
+/// Returns whether some input holds light beyond white. Numbers in one channel are no light but depth, or a mask.
 fn is_of_any_range(job: &ConvertJob) -> bool {
-    job.input.present().any(|(_, header, _)| matches!(header.depth, Depth::Half | Depth::Float))
+    job.input.present().any(|(_, header, _)| header.depth.is_float() && header.channels.is_colour())
 }
 
 /// Returns whether the outputs show all directions, or nearly all.

@@ -189,7 +189,7 @@ impl Input {
         let header = header(access, &path, eye)?;
         let shape = match shape {
             Some(shape) => declared(shape, pattern, &header, warnings)?,
-            None => match detect(access.files, &path, &header, warnings)? {
+            None => match detect(access, &path, &header, warnings)? {
                 (shape, None) => shape,
                 (shape, stereo) => {
                     let found = Spec { name: "what was found", shape, stereo, files: Vec::new() };
@@ -302,9 +302,10 @@ impl Input {
         let told = |(view, header, _): (&InputView, &Header, _)| -> Vec<Diagnostic> {
             let path = view.files.path(self.frames[0]);
             let path = path.display();
-            let diagnostic =
-                |complaint| Diagnostic::warning(Code::Metadata, format!("{path}: {complaint}")).about(&path);
-            header.metadata.complaints.iter().map(diagnostic).collect()
+            let complaint = |words| Diagnostic::warning(Code::Metadata, format!("{path}: {words}")).about(&path);
+            let note = |words| Diagnostic::note(Code::Metadata, format!("{path}: {words}")).about(&path);
+            let metadata = &header.metadata;
+            metadata.complaints.iter().map(complaint).chain(metadata.notes.iter().map(note)).collect()
         };
         let mut told: Vec<Diagnostic> = self.present().flat_map(told).collect();
         // Faces may share a file.

@@ -2,8 +2,10 @@
 
 use std::path::Path;
 use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
-use cosmorama_convert::{Conversion, InMemory, Quiet};
+use cosmorama_convert::{Conversion, Disk, Files, InMemory, Quiet};
+use cosmorama_io::{IoError, ReadSeek};
 
 #[test]
 fn a_picture_in_memory_makes_what_it_makes_on_disk() {
@@ -23,6 +25,39 @@ fn a_picture_in_memory_makes_what_it_makes_on_disk() {
     assert_eq!(report.inputs, [std::path::PathBuf::from("a picture")]);
     assert!(std::fs::read(path("memory.png")).unwrap() == std::fs::read(path("disk.png")).unwrap());
     assert!(view("a picture".to_owned(), "none.png").check().result.is_err(), "on disk there is none of this name");
+}
+
+/// Files on disk, and how often one was opened.
+#[derive(Debug, Default)]
+struct Counted(AtomicUsize);
+
+impl Files for Counted {
+    fn open(&self, path: &Path) -> Result<Box<dyn ReadSeek>, IoError> {
+        self.0.fetch_add(1, Ordering::Relaxed);
+        Disk.open(path)
+    }
+
+    fn holds(&self, path: &Path) -> bool {
+        Disk.holds(path)
+    }
+}
+
+#[test]
+fn what_is_decoded_to_see_what_it_is_is_not_decoded_again() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name).display().to_string();
+    let panorama = Conversion::new("builtin:demo", path("sky.png")).to("equirect".parse().unwrap());
+    panorama.size("128".parse().unwrap()).check().result.unwrap().run(&mut Quiet).unwrap();
+    let opened = |from: Option<&str>, output: &str| {
+        let counted = Arc::new(Counted::default());
+        let mut conversion = Conversion::new(path("sky.png"), path(output)).to("perspective:fov=60".parse().unwrap());
+        conversion.geometry.from = from.map(|spec| spec.parse().unwrap());
+        conversion.files(counted.clone()).check().result.unwrap().run(&mut Quiet).unwrap();
+        counted.0.load(Ordering::Relaxed)
+    };
+    // Its header is read once more, to see whether it may be decoded.
+    assert_eq!(opened(None, "found.png"), opened(Some("equirect"), "given.png") + 1);
+    assert!(std::fs::read(path("found.png")).unwrap() == std::fs::read(path("given.png")).unwrap());
 }
 
 /// A folder with a view of the demo, 96 x 72 pixels.

@@ -230,7 +230,9 @@ fn what_cannot_be_read_is_not_said_to_have_been_looked_at() {
     bench.save("a.png", &patchwork(300, 200));
     let whole = bench.bytes("a.png");
     std::fs::write(bench.path("b.png"), &whole[..whole.len() / 2]).unwrap();
-    let told = bench.succeed(&["info", "b.png"]);
+    let output = bench.run(&["info", "b.png"]);
+    assert_eq!(output.status.code(), Some(1));
+    let told = text(&output.stdout);
     assert_says(&told, &["300", "its pixels cannot be read", "damaged: b.png: damaged or truncated PNG"]);
     assert!(!told.contains("no circle"), "{told}");
     let message = bench.fail(1, &[&["convert", "b.png", "c.png"], &TO[..]].concat());

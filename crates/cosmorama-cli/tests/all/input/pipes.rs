@@ -60,6 +60,22 @@ fn what_is_wrong_is_said_and_no_byte_written() {
 }
 
 #[test]
+fn a_stream_of_pictures_is_no_picture() {
+    let bench = Bench::new();
+    let to = ["--from", "equirect", "--to", "fulldome", "--size", "16"];
+    bench.save("a.png", &picture(3, 64, 32));
+    bench.succeed(
+        &[&["convert", "a.png", "b.jpg"][..], &["--from", "equirect", "--to", "equirect", "--size", "64"]].concat(),
+    );
+    for name in ["a.png", "b.jpg"] {
+        let frames = bench.bytes(name).repeat(24);
+        let output = piped(&bench, &[&["convert", "-", "c.png"][..], &to].concat(), &frames);
+        let message = bench.check_failure(1, &output, &bench.files());
+        assert_says(&message, &["standard input", "24 pictures", "frame_####.png"]);
+    }
+}
+
+#[test]
 fn every_verb_reads_standard_input() {
     let bench = Bench::new();
     bench.save("a.png", &picture(3, 64, 32));

@@ -44,6 +44,15 @@ fn what_a_camera_saw_is_seen_again() {
 }
 
 #[test]
+fn a_calibration_has_a_size_of_its_own() {
+    let bench = bench();
+    for spec in ["perspective:calibration=camera/pinhole.yml", "fisheye:calibration=camera/fisheye.json"] {
+        bench.succeed(&["convert", "sky.png", "seen.png", "--to", spec, "-y"]);
+        assert_says(&bench.succeed(&["info", "seen.png"]), &["width: 320", "height: 240"]);
+    }
+}
+
+#[test]
 fn world_files_name_calibrations_beside_them() {
     let bench = bench();
     let to = "perspective:calibration=camera/pinhole.yml";

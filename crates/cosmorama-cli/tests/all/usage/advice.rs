@@ -107,6 +107,7 @@ fn files_that_end_too_early_say_so_in_info() {
         for part in [2, 3] {
             std::fs::write(bench.path(name), &whole[..whole.len() * (part - 1) / part]).unwrap();
             let output = bench.run(&["info", name]);
+            assert_eq!(output.status.code(), Some(1), "{name}");
             let told = text(&output.stdout) + &text(&output.stderr);
             assert_says(&told, &[name, "damaged or truncated"]);
         }
@@ -120,9 +121,56 @@ fn a_face_that_ends_too_early_is_told_of_in_info() {
     assert!(!bench.succeed(&["info", "face_{face}.png"]).contains("damaged"));
     let whole = bench.bytes("face_left.png");
     std::fs::write(bench.path("face_left.png"), &whole[..whole.len() / 2]).unwrap();
-    let told = bench.succeed(&["info", "face_{face}.png"]);
+    let output = bench.run(&["info", "face_{face}.png"]);
+    assert_eq!(output.status.code(), Some(1));
+    let told = text(&output.stdout);
     assert_eq!(told.matches("damaged: ").count(), 1, "{told}");
     assert_says(&told, &["damaged: face_left.png: damaged or truncated"]);
+}
+
+#[test]
+fn every_frame_is_read_where_that_is_asked_for() {
+    let bench = Bench::new();
+    for frame in 1..=3 {
+        bench.save(&format!("sky_{frame}.png"), &picture(frame, 64, 32));
+    }
+    let whole = bench.bytes("sky_2.png");
+    std::fs::write(bench.path("sky_2.png"), &whole[..whole.len() / 2]).unwrap();
+    bench.succeed(&["info", "sky_#.png"]);
+    let output = bench.run(&["info", "sky_#.png", "--check"]);
+    assert_eq!(output.status.code(), Some(1));
+    let told = text(&output.stdout);
+    assert_says(&told, &["damaged: sky_2.png: damaged or truncated"]);
+    assert!(!told.contains("sky_1.png:") && !told.contains("sky_3.png:"), "{told}");
+}
+
+#[test]
+fn a_plain_shape_is_a_note_and_no_warning() {
+    let bench = Bench::new();
+    bench.save("sky.png", &picture(1, 64, 32));
+    let to = ["--to", "fulldome", "--size", "16", "--overwrite"];
+    let said = |more: &[&str]| text(&bench.run(&[&["convert", "sky.png", "out.png"][..], &to, more].concat()).stderr);
+    assert!(!said(&[]).contains("taken for a panorama"));
+    assert_says(&said(&["-v"]), &["note: sky.png is taken for a panorama", "--from equirect"]);
+}
+
+#[test]
+fn faces_of_several_sizes_are_told_of() {
+    let bench = Bench::new();
+    bench.faces("face_", 32);
+    bench.save("face_left.png", &picture(1, 16, 16));
+    let output = bench.run(&["convert", "face_{face}.png", "out.png", "--to", "fulldome", "--size", "16"]);
+    assert_says(&text(&output.stderr), &["different sizes", "left 16x16", "the others 32x32"]);
+}
+
+#[test]
+fn tilts_beyond_a_quarter_turn_are_refused() {
+    let bench = Bench::new();
+    bench.save("sky.png", &picture(1, 64, 32));
+    for (spec, key) in [("fulldome:tilt=200", "tilt"), ("omnimax:axis=120", "axis"), ("fulldome:tilt=-91", "tilt")] {
+        let message = bench.fail(2, &["convert", "sky.png", "out.png", "--to", spec]);
+        assert_says(&message, &[key, "-90 to 90"]);
+    }
 }
 
 #[test]

@@ -55,6 +55,11 @@ pub(crate) fn size_of_missing(
         !picture.is_declared && usual.is_some_and(|usual| difference(&picture.canvas, usual) > SAME)
     };
     warnings.extend(pictures.iter().filter(odd).map(|picture| taken_as_whole(picture, &expected)));
+    let of_other_size = |picture: &&FacePicture| {
+        let Canvas { width, height, .. } = picture.canvas;
+        !picture.is_declared && !odd(picture) && (width, height) != size
+    };
+    warnings.extend(of_several_sizes(&pictures.iter().filter(of_other_size).collect::<Vec<_>>(), size));
     Ok(size)
 }
 
@@ -141,6 +146,17 @@ fn looks_cropped_error(first: &FacePicture, others: &[&FacePicture], expected: &
         shape(canvas),
         shape(canvas),
     )
+}
+
+fn of_several_sizes(others: &[&FacePicture], (width, height): (usize, usize)) -> Option<Diagnostic> {
+    let names = |picture: &&FacePicture| format!("{} {}x{}", picture.face, picture.canvas.width, picture.canvas.height);
+    let list = others.iter().map(names).collect::<Vec<_>>().join(", ");
+    let path = others.first()?.path.display();
+    let message = format!(
+        "{path}: faces have different sizes: {list}, the others {width}x{height}; each is used as sharp as it is; if they are \
+         to be alike, render them again"
+    );
+    Some(Diagnostic::warning(Code::FaceShape, message).about(path))
 }
 
 fn taken_as_whole(picture: &FacePicture, expected: &str) -> Diagnostic {

@@ -2,7 +2,7 @@ use std::collections::BTreeMap;
 use std::fmt::Debug;
 use std::io::{self, Cursor, Read};
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use cosmorama_io::{
     Calibration, CalibrationError, Header, ImageFile, IoError, Limits, PtoError, PtoProject, ReadSeek, StPairs, open,
@@ -86,6 +86,41 @@ pub fn read(files: &dyn Files, path: &Path, limits: &Limits) -> Result<ImageFile
     read_from(files.open(path)?, path, limits)
 }
 
+/// Keeper of a picture that was decoded to find its projection, for who reads the file next.
+#[derive(Debug, Default)]
+pub(crate) struct Kept {
+    /// Greatest number of bytes that are kept.
+    most: u64,
+    picture: Mutex<Option<(PathBuf, ImageFile)>>,
+}
+
+impl Kept {
+    /// Creates a keeper of a picture of at most so many bytes.
+    pub(crate) fn up_to(most: u64) -> Self {
+        Self { most, picture: Mutex::default() }
+    }
+
+    /// Keeps a picture, unless it is too large.
+    pub(crate) fn put(&self, path: &Path, file: ImageFile) {
+        let image = &file.image;
+        let bytes = image.width() * image.height() * image.channels().count() * image.depth().bytes();
+        if bytes as u64 <= self.most {
+            *self.lock() = Some((path.to_owned(), file));
+        }
+    }
+
+    /// Hands out the picture of a file, once.
+    pub(crate) fn take(&self, path: &Path) -> Option<ImageFile> {
+        let mut picture = self.lock();
+        let is_it = picture.as_ref().is_some_and(|(kept, _)| kept == path);
+        if is_it { picture.take().map(|(_, file)| file) } else { None }
+    }
+
+    fn lock(&self) -> MutexGuard<'_, Option<(PathBuf, ImageFile)>> {
+        self.picture.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
 /// Means of reading inputs.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Access<'a> {
@@ -93,6 +128,8 @@ pub(crate) struct Access<'a> {
     pub(crate) files: &'a dyn Files,
     /// Memory budget.
     pub(crate) memory: MemoryBudget,
+    /// Keeper of a picture that is decoded before it is needed.
+    pub(crate) kept: &'a Kept,
 }
 
 impl Access<'_> {

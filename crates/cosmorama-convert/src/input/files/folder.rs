@@ -23,8 +23,10 @@ pub fn is_one_file(files: &dyn Files, pattern: &str, path: &Path) -> Result<()> 
         return Ok(());
     }
     let found = path.parent().map_or_else(Vec::new, FoundFrames::in_folder);
+    let is_wild = pattern.contains(['*', '?', '{', '[', '$']);
+    let found: Vec<_> = found.into_iter().filter(|found| is_wild || is_alike(path, found)).collect();
     let there = if found.is_empty() { String::new() } else { format!("; there are {}", names(&found)) };
-    if pattern.contains(['*', '?', '{', '[', '$']) {
+    if is_wild {
         return Err(usage_as(
             Code::NotFound,
             format!(
@@ -35,6 +37,17 @@ pub fn is_one_file(files: &dyn Files, pattern: &str, path: &Path) -> Result<()> 
     }
     // Where there is nothing to add, to open it says what is wrong.
     if found.is_empty() { Ok(()) } else { bail!(NotFound: "{pattern}: there is no such file{there}") }
+}
+
+/// Returns whether a name begins as those of frames do, so that they may be meant.
+fn is_alike(path: &Path, frames: &FoundFrames) -> bool {
+    let beginning = |path: &Path| -> Vec<char> {
+        let name = path.file_name().unwrap_or_default().to_string_lossy().to_lowercase();
+        name.chars().take_while(|letter| !letter.is_ascii_digit() && !"#@%.".contains(*letter)).collect()
+    };
+    let (typed, there) = (beginning(path), beginning(Path::new(frames.pattern.as_str())));
+    let common = typed.iter().zip(&there).take_while(|(one, other)| one == other).count();
+    2 * common >= typed.len().max(there.len())
 }
 
 /// Suggests patterns for the contents of a folder.
