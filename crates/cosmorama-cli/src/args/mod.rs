@@ -56,7 +56,7 @@ pub(crate) struct Args {
     #[command(subcommand)]
     pub(crate) verb: Verb,
     /// Say also what is good to know where nothing is wrong
-    #[arg(short, long, global = true, hide_short_help = true)]
+    #[arg(short, long, global = true)]
     pub(crate) verbose: bool,
 }
 

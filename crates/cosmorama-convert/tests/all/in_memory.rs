@@ -46,11 +46,11 @@ impl Files for Counted {
 fn what_is_decoded_to_see_what_it_is_is_not_decoded_again() {
     let folder = tempfile::tempdir().unwrap();
     let path = |name: &str| folder.path().join(name).display().to_string();
-    let panorama = Conversion::new("builtin:demo", path("sky.png")).to("equirect".parse().unwrap());
+    let panorama = Conversion::new("builtin:demo", path("sky.tif")).to("equirect".parse().unwrap());
     panorama.size("128".parse().unwrap()).check().result.unwrap().run(&mut Quiet).unwrap();
     let opened = |from: Option<&str>, output: &str| {
         let counted = Arc::new(Counted::default());
-        let mut conversion = Conversion::new(path("sky.png"), path(output)).to("perspective:fov=60".parse().unwrap());
+        let mut conversion = Conversion::new(path("sky.tif"), path(output)).to("perspective:fov=60".parse().unwrap());
         conversion.geometry.from = from.map(|spec| spec.parse().unwrap());
         conversion.files(counted.clone()).check().result.unwrap().run(&mut Quiet).unwrap();
         counted.0.load(Ordering::Relaxed)
