@@ -11,7 +11,6 @@ mod large_pages;
 mod pipe;
 mod progress;
 mod report;
-mod spare_memory;
 mod verbs;
 
 use std::process::ExitCode;
@@ -22,6 +21,7 @@ use clap::Parser;
 static ALLOCATOR: large_pages::LargePages = large_pages::LargePages;
 
 fn main() -> ExitCode {
+    large_pages::give_back_pictures();
     let args = match args::Args::try_parse() {
         Ok(args) => args,
         Err(error) => return failure::report_arguments(&error),

@@ -7,7 +7,6 @@ use cosmorama_convert::{Conversion, Diagnostic, Observer, Report, Stop};
 
 use crate::args::{ConvertArgs, ProgressStyle};
 use crate::console::Console;
-use crate::large_pages::keep_spare;
 use crate::pipe::Piped;
 use crate::progress::Progress;
 use crate::report;
@@ -56,9 +55,5 @@ impl Observer for Watch<'_> {
     fn frame_done(&mut self, frame: Option<u64>) -> ControlFlow<Stop> {
         self.progress.iter_mut().for_each(|progress| progress.frame_done(frame));
         ControlFlow::Continue(())
-    }
-
-    fn memory_in_flight(&mut self, bytes: u64) {
-        keep_spare(bytes);
     }
 }

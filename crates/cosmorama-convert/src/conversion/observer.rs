@@ -22,10 +22,6 @@ pub trait Observer {
     fn frame_done(&mut self, _frame: Option<u64>) -> ControlFlow<Stop> {
         ControlFlow::Continue(())
     }
-
-    /// Called before the first frame of a sequence with the most bytes that all frames in flight take. Memory of a
-    /// finished frame has the size that the next one needs.
-    fn memory_in_flight(&mut self, _bytes: u64) {}
 }
 
 /// An observer that ignores everything.

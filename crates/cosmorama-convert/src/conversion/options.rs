@@ -42,6 +42,7 @@ pub(crate) fn write_options(settings: &Conversion, format: Format, outputs: &Out
         compression: settings.compression.unwrap_or(usual),
         metadata: light.metadata.clone(),
         unfinished: settings.unfinished.clone(),
+        ..default
     }
 }
 

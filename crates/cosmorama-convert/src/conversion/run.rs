@@ -2,6 +2,7 @@ use std::collections::BTreeSet;
 use std::ops::ControlFlow;
 use std::path::PathBuf;
 
+use cosmorama::raster::Threads;
 use rayon::ThreadPool;
 use rayon::prelude::*;
 
@@ -93,11 +94,11 @@ impl Run<'_> {
         let job = self.job;
         let light = pool.install(|| light_of(job, engine, stages, frame))?;
         self.look(frame, &light);
-        let pictures = pool.install(|| stages.alone(Stage::Filter, || engine.render(frame, &light, Vec::new())))?;
+        let pictures = pool.install(|| stages.alone(Stage::Filter, || engine.render(frame, &light)))?;
         drop(light);
         let write = || {
             let outputs = frame.files.par_iter().zip(pictures);
-            outputs.try_for_each(|((_, path), levels)| engine.writer().save(levels, path))
+            outputs.try_for_each(|((_, path), levels)| engine.writer().save(levels, path, Threads::All))
         };
         pool.install(|| stages.alone(Stage::Encode, write))?;
         self.done(frame)
@@ -105,10 +106,6 @@ impl Run<'_> {
 }
 
 impl Watcher for Run<'_> {
-    fn begin(&mut self, bytes: u64) {
-        self.observer.memory_in_flight(bytes);
-    }
-
     fn look(&mut self, frame: &FrameOutputs, light: &FrameLight) {
         // The first frame tells how the faces lie.
         let (engine, is_first) = (self.engine, std::mem::take(&mut self.is_first));
@@ -146,9 +143,9 @@ fn light_of(job: &ConvertJob, engine: &Engine, stages: &Stages, frame: &FrameOut
     let images = stages.alone(Stage::Decode, || {
         let files = FrameFile::all(job, frame.frame, Which::All).into_par_iter();
         // In the order of files, so that of several errors it is always the same that is told.
-        files.map(|file| file.read(job)).collect::<Vec<_>>().into_iter().collect::<Result<Vec<_>>>()
+        files.map(|file| file.read(job, engine.pool())).collect::<Vec<_>>().into_iter().collect::<Result<Vec<_>>>()
     })?;
     let images: Vec<ViewImage> = images.into_iter().flatten().collect();
-    light.fill(job, frame.frame, &images, stages)?;
+    light.fill(job, frame.frame, &images, (stages, engine.pool()))?;
     Ok(light)
 }

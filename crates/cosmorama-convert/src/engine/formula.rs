@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use cosmorama::raster::{Depth, Image};
+use cosmorama::raster::{Depth, Image, Threads};
 use cosmorama_builtin::{BuiltinWorld, DirectionMap, DirectionPixel};
 use cosmorama_io::{WriteOptions, write_planes};
 
@@ -20,7 +20,7 @@ pub(crate) fn picture(
 ) -> Result<()> {
     let Checked { job, stages, .. } = run;
     let levels = stages.alone(Stage::Filter, || levels(job, world, file))?;
-    stages.alone(Stage::Encode, || Writer::new(&job.light, options.clone()).save(levels, path))
+    stages.alone(Stage::Encode, || Writer::new(&job.light, options.clone()).save(levels, path, Threads::All))
 }
 
 /// Makes a map of directions.

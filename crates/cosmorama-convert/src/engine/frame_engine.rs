@@ -1,7 +1,7 @@
 use std::path::Path;
-use std::sync::OnceLock;
+use std::sync::{Arc, OnceLock};
 
-use cosmorama::raster::{FixedCodec, FixedLight, Image, Rgba};
+use cosmorama::raster::{FixedCodec, FixedLight, FramePool, Image, Pixel, Rgba};
 use cosmorama::render::ScreenMask;
 use cosmorama::world::Source;
 use cosmorama_io::WriteOptions;
@@ -25,14 +25,22 @@ pub(crate) struct Engine<'a> {
     told: Vec<Diagnostic>,
     masks: Vec<OnceLock<ScreenMask>>,
     writer: Writer,
+    /// Frames that may be in flight around the one that is filtered.
+    queue_depth: QueueDepth,
+    /// Memory that they hand on.
+    pool: Arc<FramePool>,
 }
 
 impl<'a> Engine<'a> {
-    /// Prepares the geometry.
+    /// Prepares the geometry, on the threads that will render the frames.
     pub(crate) fn new(job: &'a ConvertJob, options: WriteOptions) -> Self {
         let masks = job.target.views.iter().map(|_| OnceLock::new()).collect();
         let (geometry, told) = Geometry::compile(job);
-        Self { job, geometry, told, masks, writer: Writer::new(&job.light, options) }
+        let threads = rayon::current_num_threads();
+        let queue_depth = job.memory.queue_depth(&job.input, &job.target, geometry.bytes(), threads);
+        let pool = Arc::new(FramePool::keeping(pool_bytes(job, queue_depth)));
+        let writer = Writer::new(&job.light, WriteOptions { pool: Arc::clone(&pool), ..options });
+        Self { job, geometry, told, masks, writer, queue_depth, pool }
     }
 
     /// Returns the diagnostics that are known before any frame.
@@ -41,8 +49,13 @@ impl<'a> Engine<'a> {
     }
 
     /// Returns how many frames may be read ahead and written behind the one that is filtered.
-    pub(crate) fn queue_depth(&self, threads: usize) -> QueueDepth {
-        self.job.memory.queue_depth(&self.job.input, &self.job.target, self.geometry.bytes(), threads)
+    pub(crate) fn queue_depth(&self) -> QueueDepth {
+        self.queue_depth
+    }
+
+    /// Returns the pool of memory that frames hand on to those after them.
+    pub(crate) fn pool(&self) -> &FramePool {
+        &self.pool
     }
 
     /// Allocates the light of a frame.
@@ -104,61 +117,44 @@ impl<'a> Engine<'a> {
         views.filter(|(_, count)| **count > 0).map(|((view, _, _), count)| (view, *count))
     }
 
-    /// Renders the pictures of a frame: filtered light over the background, with faces in their places. Images of a
-    /// finished frame are reused where the size fits, and dropped otherwise.
-    pub(crate) fn render(&self, frame: &FrameOutputs, light: &FrameLight, used: Vec<Levels>) -> Result<Vec<Levels>> {
+    /// Renders the pictures of a frame: filtered light over the background, with faces in their places.
+    pub(crate) fn render(&self, frame: &FrameOutputs, light: &FrameLight) -> Result<Vec<Levels>> {
         let mut balanced = BalancedLight::default();
-        let mut used = used.into_iter();
         let files = frame.files.iter();
-        files.map(|(index, _)| self.render_file(*index, (frame.frame, light), used.next(), &mut balanced)).collect()
+        files.map(|(index, _)| self.render_file(*index, (frame.frame, light), &mut balanced)).collect()
     }
 
     fn render_file(
         &self,
         file: usize,
         (frame, light): (Option<u64>, &FrameLight),
-        used: Option<Levels>,
         balanced: &mut BalancedLight,
     ) -> Result<Levels> {
         let sheets = self.job.target.files[file].levels();
         match (light.texels(), self.geometry.codec()) {
             (Texels::Fixed(worlds), Some(codec)) => {
-                let mut used = used.and_then(Levels::into_codes).into_iter().flatten();
-                let mut picture = |sheet| {
-                    let mut used = used.next();
-                    assemble(sheet, codec.background(), |index| Ok(self.codes(index, worlds, codec, used.take())))
-                };
-                Ok(Levels::Codes(sheets.map(&mut picture).collect::<Result<_>>()?))
+                let view = |index| Ok(self.codes(index, worlds, codec));
+                let picture = |sheet| assemble_in(&self.pool, sheet, codec.background(), view);
+                Ok(Levels::Codes(sheets.map(picture).collect::<Result<_>>()?))
             }
             _ => {
-                let mut used = used.and_then(Levels::into_light).into_iter().flatten();
-                let mut picture = |sheet| {
-                    let mut used = used.next();
-                    let mut view = |index| self.render_view(index, (frame, light), used.take(), balanced);
-                    assemble(sheet, self.job.light.background, &mut view)
-                };
-                Ok(Levels::Light(sheets.map(&mut picture).collect::<Result<_>>()?))
+                let mut view = |index| self.render_view(index, (frame, light), balanced);
+                let picture = |sheet| assemble_in(&self.pool, sheet, self.job.light.background, &mut view);
+                Ok(Levels::Light(sheets.map(picture).collect::<Result<_>>()?))
             }
         }
     }
 
-    fn codes(
-        &self,
-        index: usize,
-        worlds: &[FixedLight],
-        codec: &FixedCodec,
-        used: Option<Image<[u8; 3]>>,
-    ) -> Image<[u8; 3]> {
+    fn codes(&self, index: usize, worlds: &[FixedLight], codec: &FixedCodec) -> Image<[u8; 3]> {
         let target = &self.job.target.views[index];
         let light = &worlds[target.world(worlds.len())];
-        self.geometry.codes(index, self.job.resampler(target), (light, codec), used)
+        self.geometry.codes(index, self.job.resampler(target), (light, codec), &self.pool)
     }
 
     fn render_view(
         &self,
         index: usize,
         (frame, light): (Option<u64>, &FrameLight),
-        used: Option<Image<Rgba>>,
         balanced: &mut BalancedLight,
     ) -> Result<Image<Rgba>> {
         let target = &self.job.target.views[index];
@@ -167,10 +163,10 @@ impl<'a> Engine<'a> {
         if self.is_complete(light) && !self.job.light.channels.has_alpha() {
             // A file without alpha shows everything in front of the background.
             let background = self.job.light.background;
-            return Ok(self.geometry.light(index, resampler, (texels, false), background, used, balanced));
+            return Ok(self.geometry.light(index, resampler, (texels, false), background, &self.pool, balanced));
         }
         let holed = (&texels[..], self.has_holes(light));
-        let mut image = self.geometry.light(index, resampler, holed, Rgba::TRANSPARENT, used, balanced);
+        let mut image = self.geometry.light(index, resampler, holed, Rgba::TRANSPARENT, &self.pool, balanced);
         self.close_holes(index, (frame, light), &mut image)?;
         self.complete(index, &mut image);
         Ok(image)
@@ -245,7 +241,40 @@ fn counted(pixels: usize, one: &str, several: &str) -> String {
 pub(crate) fn assemble<P: Copy>(
     sheet: &Sheet,
     background: P,
+    image: impl FnMut(usize) -> Result<Image<P>>,
+) -> Result<Image<P>> {
+    let (width, height) = sheet.size;
+    assemble_by(sheet, || Image::filled(width, height, background), image, drop)
+}
+
+/// Returns how many bytes a pool may hold: what frames in flight may take beside their light, which has a buffer of its own. A
+/// single picture leaves nothing to others.
+fn pool_bytes(job: &ConvertJob, queue_depth: QueueDepth) -> u64 {
+    let light = job.input.texels().saturating_mul(size_of::<Rgba>()) as u64;
+    if job.outputs.frames.len() > 1 { queue_depth.bytes.saturating_sub(light) } else { 0 }
+}
+
+/// Assembles a picture in memory of a pool, and gives the memory of its pieces back.
+fn assemble_in<P: Pixel>(
+    pool: &FramePool,
+    sheet: &Sheet,
+    background: P,
+    image: impl FnMut(usize) -> Result<Image<P>>,
+) -> Result<Image<P>> {
+    let (width, height) = sheet.size;
+    let blank = || {
+        let mut blank = pool.take_image(width, height);
+        blank.pixels_mut().fill(background);
+        blank
+    };
+    assemble_by(sheet, blank, image, |image| pool.give_image(image))
+}
+
+fn assemble_by<P: Copy>(
+    sheet: &Sheet,
+    blank: impl Fn() -> Image<P>,
     mut image: impl FnMut(usize) -> Result<Image<P>>,
+    done: impl Fn(Image<P>),
 ) -> Result<Image<P>> {
     let mut picture = None;
     for &(index, (left, top)) in &sheet.pieces {
@@ -253,10 +282,11 @@ pub(crate) fn assemble<P: Copy>(
         if (piece.width(), piece.height()) == sheet.size {
             return Ok(piece);
         }
-        let picture = picture.get_or_insert_with(|| Image::filled(sheet.size.0, sheet.size.1, background));
+        let picture = picture.get_or_insert_with(&blank);
         for j in 0..piece.height() {
             picture.pixels_mut()[(top + j) * sheet.size.0 + left..][..piece.width()].copy_from_slice(piece.row(j));
         }
+        done(piece);
     }
-    Ok(picture.unwrap_or_else(|| Image::filled(sheet.size.0, sheet.size.1, background)))
+    Ok(picture.unwrap_or_else(blank))
 }

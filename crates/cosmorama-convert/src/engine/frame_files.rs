@@ -1,11 +1,11 @@
 use std::path::PathBuf;
 
-use cosmorama::raster::{EncodedImage, Transfer};
+use cosmorama::raster::{EncodedImage, FramePool, Transfer};
 use cosmorama_io::Limits;
 
 use crate::conversion::ConvertJob;
 use crate::diagnostic::{FRAMES, Result, bail};
-use crate::input::{ViewFiles, read};
+use crate::input::{Place, ViewFiles, read_in};
 
 /// Image of a view in one frame, as in its file.
 pub(crate) struct ViewImage {
@@ -54,15 +54,15 @@ impl FrameFile {
         files
     }
 
-    /// Reads the file. One thread does all of it if it is one of several in a pool.
-    pub(crate) fn read(&self, job: &ConvertJob) -> Result<Vec<ViewImage>> {
+    /// Reads the file into memory of a pool. One thread does all of it if it is one of several.
+    pub(crate) fn read(&self, job: &ConvertJob, pool: &FramePool) -> Result<Vec<ViewImage>> {
         let Self { path, views } = self;
         let present: Vec<_> = job.input.present().collect();
         let Some((first, header, _)) = views.first().map(|view| present[*view]) else { return Ok(Vec::new()) };
         let expected = first.part.map_or((header.width, header.height), |part| part.of);
         let file = match job.kept.take(path) {
             Some(file) => file,
-            None => read(&*job.files, path, &Limits::memory(job.memory.bytes))?,
+            None => read_in(&*job.files, path, &Limits::memory(job.memory.bytes), pool)?,
         };
         let found = (file.image.width(), file.image.height());
         if found != expected || file.window != header.window {
@@ -85,9 +85,11 @@ impl FrameFile {
         }
         let part = |&view: &usize| {
             let (input, header, _) = present[view];
-            let image = input.part.map(|part| file.image.cropped(part.corner, (header.width, header.height)));
-            view_image(view, image.unwrap_or_else(|| file.image.clone()))
+            let part = input.part.unwrap_or(Place::whole(expected));
+            view_image(view, file.image.cropped_in(part.corner, (header.width, header.height), pool))
         };
-        Ok(views.iter().map(part).collect())
+        let parts = views.iter().map(part).collect();
+        pool.give(file.image.into_samples());
+        Ok(parts)
     }
 }

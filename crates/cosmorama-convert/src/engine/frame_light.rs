@@ -2,7 +2,7 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use cosmorama::raster::{Decoder, FixedDecoder, FixedLight, Rgba, Transfer};
+use cosmorama::raster::{Decoder, FixedDecoder, FixedLight, FramePool, Rgba, Transfer};
 use cosmorama::world::{RimTexels, Source, World};
 use rayon::prelude::*;
 
@@ -71,7 +71,7 @@ impl FrameLight {
         job: &ConvertJob,
         frame: Option<u64>,
         images: &[ViewImage],
-        stages: &Stages,
+        (stages, pool): (&Stages, &FramePool),
     ) -> Result<()> {
         // A frame unlike the first, with alpha or in another encoding, is held in floats. What a frame becomes must not
         // depend on the one before.
@@ -84,7 +84,7 @@ impl FrameLight {
         }
         if !self.has_still && images.len() < self.missing.len() {
             for file in FrameFile::all(job, frame, Which::Still) {
-                let still = stages.beside(Stage::Decode, || file.read(job))?;
+                let still = stages.beside(Stage::Decode, || file.read(job, pool))?;
                 if let (true, Some(image)) = (is_fixed, still.iter().find(|image| !self.takes(image))) {
                     let path = image.path.display();
                     bail!(Changed: "{path}: no longer opaque and of 8 bits; leave files alone while they are read");

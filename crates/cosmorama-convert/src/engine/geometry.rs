@@ -1,5 +1,5 @@
 use cosmorama::filter::FilterKind;
-use cosmorama::raster::{Channels, Depth, FixedCodec, FixedDecoder, FixedLight, Image, Rgba};
+use cosmorama::raster::{Channels, Depth, FixedCodec, FixedDecoder, FixedLight, FramePool, Image, Rgba};
 use cosmorama::render::{Arithmetic, Plan, Resampler};
 
 use crate::conversion::ConvertJob;
@@ -65,26 +65,22 @@ impl Geometry {
     }
 
     /// Renders a target view from light of any range over a background. With holes there is no balance; `last` belongs
-    /// to the same frame. With a plan, pixels are written into `used`, an image to reuse, if its size fits.
+    /// to the same frame. With a plan, pixels are written into memory of a pool.
     pub(crate) fn light(
         &self,
         index: usize,
         resampler: Resampler,
         (texels, has_holes): (&[Rgba], bool),
         background: Rgba,
-        used: Option<Image<Rgba>>,
+        pool: &FramePool,
         last: &mut BalancedLight,
     ) -> Image<Rgba> {
         let plan = self.plans[index].as_ref().filter(|_| self.codec.is_none());
-        // What does not serve goes before anything is made.
-        let used = used.filter(|image| plan.is_some() && fits(image, &resampler));
         let Some(plan) = plan else { return resampler.render_over(texels, background) };
-        let over = |texels: &[Rgba], background: Rgba| match used {
-            Some(mut image) => {
-                plan.apply_into(texels, background, &mut image);
-                image
-            }
-            None => plan.apply_over(texels, background),
+        let over = |texels: &[Rgba], background: Rgba| {
+            let mut image = pool.take_image(resampler.target.width(), resampler.target.height());
+            plan.apply_into(texels, background, &mut image);
+            image
         };
         let balanced = if has_holes { None } else { self.balance.light(index, texels, last) };
         let Some(balanced) = balanced else { return over(texels, background) };
@@ -94,30 +90,20 @@ impl Geometry {
         image
     }
 
-    /// Renders the code values of a target view. With a plan, they are written into `used`, as in [`Geometry::light`].
+    /// Renders the code values of a target view. With a plan, they are written into memory of a pool.
     pub(crate) fn codes(
         &self,
         index: usize,
         resampler: Resampler,
         (light, codec): (&FixedLight, &FixedCodec),
-        used: Option<Image<[u8; 3]>>,
+        pool: &FramePool,
     ) -> Image<[u8; 3]> {
         let plan = self.plans[index].as_ref().filter(|_| self.codec.is_some());
-        let used = used.filter(|image| plan.is_some() && fits(image, &resampler));
-        match (plan, used) {
-            (Some(plan), Some(mut image)) => {
-                plan.apply_fixed_into(light, codec, &mut image);
-                image
-            }
-            (Some(plan), None) => plan.apply_fixed(light, codec),
-            (None, _) => resampler.render_fixed(light, codec),
-        }
+        let Some(plan) = plan else { return resampler.render_fixed(light, codec) };
+        let mut image = pool.take_image(resampler.target.width(), resampler.target.height());
+        plan.apply_fixed_into(light, codec, &mut image);
+        image
     }
-}
-
-/// Returns whether an image has the size of a conversion's target.
-fn fits<P>(image: &Image<P>, resampler: &Resampler) -> bool {
-    (image.width(), image.height()) == (resampler.target.width(), resampler.target.height())
 }
 
 /// Returns whether geometry would be used more than once.
@@ -165,46 +151,37 @@ fn codec(job: &ConvertJob) -> Option<FixedCodec> {
 
 #[cfg(test)]
 mod tests {
-    use cosmorama::raster::{EncodedImage, Transfer};
+    use cosmorama::raster::Transfer;
     use testkit::Dome;
 
     use super::*;
 
-    /// An image in more memory than it needs, by which it is known again: a fresh one may be given the place of one that has gone.
-    fn roomy<P: Copy>(pixel: P) -> Image<P> {
-        let mut pixels = Vec::with_capacity(2 * 64 * 64);
-        pixels.resize(64 * 64, pixel);
-        Image::new(64, 64, pixels).expect("as many pixels")
-    }
-
-    fn is_roomy<P>(image: Image<P>) -> bool {
-        image.into_pixels().capacity() >= 2 * 64 * 64
-    }
-
     #[test]
-    fn pictures_are_made_in_images_that_nobody_uses_any_more() {
+    fn pictures_are_made_in_memory_that_others_have_left() {
         let dome = Dome::new(64);
         let plan = dome.resampler().plan(Arithmetic::Fixed).expect("a plan");
         let expected = plan.apply_fixed(&dome.light, &dome.codec);
         let codec = FixedCodec::new(&Transfer::Srgb, Rgba::BLACK).expect("sRGB has 8 bits");
         let geometry = Geometry { plans: vec![Some(plan)], codec: Some(codec), balance: Balance::default() };
-        let codes = |used| geometry.codes(0, dome.resampler(), (&dome.light, &dome.codec), used);
-        let made = codes(Some(roomy([9; 3])));
-        assert!(made == expected);
-        // As handed on by what writes them.
-        let made = EncodedImage::of_codes(made).into_codes().expect("codes");
-        assert!(made == expected && is_roomy(made));
-        assert!(codes(Some(Image::filled(64, 63, [9; 3]))) == expected && codes(None) == expected, "of no other size");
+        let codes = |pool: &FramePool| geometry.codes(0, dome.resampler(), (&dome.light, &dome.codec), pool);
+        let pool = FramePool::keeping(1 << 20);
+        let mut left = pool.take_image::<[u8; 3]>(64, 64);
+        left.pixels_mut().fill([9; 3]);
+        let place = left.pixels().as_ptr();
+        pool.give_image(left);
+        let made = codes(&pool);
+        assert!(made == expected && made.pixels().as_ptr() == place);
+        assert!(codes(&FramePool::default()) == expected);
 
         let texels: Vec<Rgba> = (0..dome.world.texel_count()).map(|texel| dome.light.rgba(texel)).collect();
         let plan = dome.resampler().plan(Arithmetic::Float).expect("a plan");
         let expected = plan.apply_over(&texels, Rgba::BLACK);
         let geometry = Geometry { plans: vec![Some(plan)], codec: None, balance: Balance::default() };
-        let light = |used| {
-            geometry.light(0, dome.resampler(), (&texels, false), Rgba::BLACK, used, &mut BalancedLight::default())
-        };
-        let made = light(Some(roomy(Rgba::TRANSPARENT)));
-        assert!(made == expected && is_roomy(made));
-        assert!(light(Some(Image::filled(63, 64, Rgba::BLACK))) == expected && light(None) == expected);
+        let left = pool.take_image::<Rgba>(64, 64);
+        let place = left.pixels().as_ptr();
+        pool.give_image(left);
+        let mut last = BalancedLight::default();
+        let made = geometry.light(0, dome.resampler(), (&texels, false), Rgba::BLACK, &pool, &mut last);
+        assert!(made == expected && made.pixels().as_ptr() == place);
     }
 }

@@ -9,6 +9,7 @@ use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 
+use cosmorama::raster::Threads;
 use rayon::{Scope, ThreadPool};
 
 use crate::budget::QueueDepth;
@@ -27,10 +28,7 @@ pub(crate) struct Sequence<'a> {
 
 /// Callbacks about frames, in their order.
 pub(crate) trait Watcher {
-    /// Called with the bytes that frames in flight take.
-    fn begin(&mut self, bytes: u64);
-
-    /// Called with the light of a frame.
+    /// Looks at the light of a frame.
     fn look(&mut self, frame: &FrameOutputs, light: &FrameLight);
 
     /// Called when a frame is written. An error ends the sequence.
@@ -45,7 +43,7 @@ type Results<T> = Vec<Receiver<Result<T>>>;
 #[derive(Default)]
 struct Queues<'a> {
     read: VecDeque<(usize, &'a FrameOutputs, Results<Vec<ViewImage>>)>,
-    written: VecDeque<(&'a FrameOutputs, Results<Levels>)>,
+    written: VecDeque<(&'a FrameOutputs, Results<()>)>,
 }
 
 impl<'a> Sequence<'a> {
@@ -74,8 +72,7 @@ impl<'a> Sequence<'a> {
     where
         'a: 's,
     {
-        let QueueDepth { read, written, bytes } = self.engine.queue_depth(self.pool.current_num_threads());
-        watcher.begin(bytes);
+        let QueueDepth { read, written, .. } = self.engine.queue_depth();
         let mut light = self.engine.frame_light();
         let mut upcoming = (1..).zip(&self.job.outputs.frames);
         let mut which = Which::All;
@@ -97,15 +94,16 @@ impl<'a> Sequence<'a> {
             };
             let images = all_of(results).at(|| told(frame))?;
             let images: Vec<ViewImage> = images.into_iter().flatten().collect();
-            let filled = self.pool.install(|| light.fill(self.job, frame.frame, &images, self.stages));
+            let memory = self.engine.pool();
+            let filled = self.pool.install(|| light.fill(self.job, frame.frame, &images, (self.stages, memory)));
             filled.at(|| told(frame)).map_err(failed)?;
-            drop(images);
+            images.into_iter().for_each(|image| memory.give(image.image.into_samples()));
             watcher.look(frame, &light);
-            let used = queues.finish_written(written - 1, watcher)?;
+            queues.finish_written(written - 1, watcher)?;
             if failure.is_before(place) {
                 return Ok(());
             }
-            let made = self.pool.install(|| self.engine.render(frame, &light, used));
+            let made = self.pool.install(|| self.engine.render(frame, &light));
             let pictures = made.at(|| told(frame)).map_err(failed)?;
             queues.written.push_back((frame, self.have_written((scope, failure, place), frame, pictures)));
         }
@@ -116,38 +114,36 @@ impl<'a> Sequence<'a> {
     where
         'a: 's,
     {
-        let Self { job, stages, .. } = *self;
+        let Self { job, engine, stages, .. } = *self;
         let files = FrameFile::all(job, frame.frame, which).into_iter();
-        let read = |file: FrameFile| task(turn, move || stages.beside(Stage::Decode, || file.read(job)));
+        let read = |file: FrameFile| task(turn, move || stages.beside(Stage::Decode, || file.read(job, engine.pool())));
         files.map(read).collect()
     }
 
-    /// Starts writing the pictures of a frame.
-    fn have_written<'s>(&self, turn: Turn<'_, 's>, frame: &'a FrameOutputs, pictures: Vec<Levels>) -> Results<Levels>
+    /// Has the pictures of a frame written.
+    fn have_written<'s>(&self, turn: Turn<'_, 's>, frame: &'a FrameOutputs, pictures: Vec<Levels>) -> Results<()>
     where
         'a: 's,
     {
         let Self { engine, stages, .. } = *self;
         let write = |((_, path), levels): (&'a (usize, std::path::PathBuf), Levels)| {
             let path: &'a Path = path;
-            task(turn, move || stages.beside(Stage::Encode, || engine.writer().save_and_hand_on(levels, path)))
+            task(turn, move || stages.beside(Stage::Encode, || engine.writer().save(levels, path, Threads::One)))
         };
         frame.files.iter().zip(pictures).map(write).collect()
     }
 }
 
 impl Queues<'_> {
-    /// Waits until at most `most` frames are being written, and returns the pictures of the last one for reuse. After a
-    /// failed frame, or one after which the watcher stops, nothing is awaited, because nobody reports on later frames.
-    fn finish_written(&mut self, most: usize, watcher: &mut dyn Watcher) -> Result<Vec<Levels>> {
-        let mut used = Vec::new();
+    /// Waits until at most `most` frames are being written. After a failed frame, or one after which the watcher stops,
+    /// nothing is awaited, because nobody reports on later frames.
+    fn finish_written(&mut self, most: usize, watcher: &mut dyn Watcher) -> Result<()> {
         while self.written.len() > most {
             let Some((frame, results)) = self.written.pop_front() else { break };
             let written = all_of(results).at(|| told(frame));
-            let finished = written.and_then(|pictures| watcher.done(frame).map(|()| pictures));
-            used = finished.inspect_err(|_| self.written.clear())?;
+            written.and_then(|_| watcher.done(frame)).inspect_err(|_| self.written.clear())?;
         }
-        Ok(used)
+        Ok(())
     }
 }
 

@@ -14,18 +14,6 @@ pub(crate) enum Levels {
     Codes(Vec<Image<[u8; 3]>>),
 }
 
-impl Levels {
-    /// Returns the images if they are of light.
-    pub(crate) fn into_light(self) -> Option<Vec<Image<Rgba>>> {
-        if let Self::Light(images) = self { Some(images) } else { None }
-    }
-
-    /// Returns the images if they are of code values.
-    pub(crate) fn into_codes(self) -> Option<Vec<Image<[u8; 3]>>> {
-        if let Self::Codes(images) = self { Some(images) } else { None }
-    }
-}
-
 /// Writer of pictures that share one kind of samples.
 pub(crate) struct Writer {
     encoder: Encoder,
@@ -37,38 +25,20 @@ impl Writer {
         Self { encoder: Encoder::new(light.channels, light.depth, &light.transfer), options }
     }
 
-    /// Writes an output: a picture and its mip levels.
-    pub(crate) fn save(&self, levels: Levels, path: &Path) -> Result<()> {
+    /// Writes an output: a picture and its mip levels. Their memory goes back to the pool.
+    pub(crate) fn save(&self, levels: Levels, path: &Path, threads: Threads) -> Result<()> {
+        let pool = &*self.options.pool;
+        let encode = |image: Image<Rgba>| {
+            let encoded = self.encoder.encode_in(&image, threads, pool);
+            pool.give_image(image);
+            encoded
+        };
         let encoded: Vec<EncodedImage> = match levels {
-            // Each picture of light goes as soon as it is encoded.
-            Levels::Light(images) => {
-                images.into_iter().map(|image| self.encoder.encode(&image, Threads::All)).collect()
-            }
+            Levels::Light(images) => images.into_iter().map(encode).collect(),
             Levels::Codes(images) => images.into_iter().map(EncodedImage::of_codes).collect(),
         };
-        self.write(&encoded, path)
-    }
-
-    /// Encodes and writes images on the calling thread, and returns them for reuse: new ones would have to be zeroed.
-    pub(crate) fn save_and_hand_on(&self, levels: Levels, path: &Path) -> Result<Levels> {
-        match levels {
-            Levels::Light(images) => {
-                let encoded: Vec<_> = images.iter().map(|image| self.encoder.encode(image, Threads::One)).collect();
-                self.write(&encoded, path)?;
-                Ok(Levels::Light(images))
-            }
-            Levels::Codes(images) => {
-                let encoded: Vec<_> = images.into_iter().map(EncodedImage::of_codes).collect();
-                self.write(&encoded, path)?;
-                // All of them or none: each level has its place.
-                let images: Option<Vec<_>> = encoded.into_iter().map(EncodedImage::into_codes).collect();
-                Ok(Levels::Codes(images.unwrap_or_default()))
-            }
-        }
-    }
-
-    fn write(&self, encoded: &[EncodedImage], path: &Path) -> Result<()> {
-        write_levels(path, encoded, &self.options)?;
-        Ok(())
+        let written = write_levels(path, &encoded, &self.options);
+        encoded.into_iter().for_each(|image| pool.give(image.into_samples()));
+        Ok(written?)
     }
 }

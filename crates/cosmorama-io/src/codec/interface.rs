@@ -1,7 +1,7 @@
 use std::io::{BufRead, Seek, Write};
 use std::path::Path;
 
-use cosmorama::raster::{EncodedImage, Samples};
+use cosmorama::raster::{EncodedImage, FramePool, Samples};
 
 use crate::header::{Header, ImageFile};
 use crate::{IoError, Limits, WriteOptions};
@@ -32,8 +32,9 @@ pub(crate) trait Codec: Sync {
     /// Reads the header of a file, without its pixels.
     fn probe(&self, path: &Path, source: Source<'_>) -> Result<Header, IoError>;
 
-    /// Reads a file's pixels, unless they need more memory than `limits` allow.
-    fn decode(&self, path: &Path, source: Source<'_>, limits: &Limits) -> Result<ImageFile, IoError>;
+    /// Reads a file's pixels, unless they need more memory than `limits` allow. Decoders that do not allocate
+    /// themselves take the samples' memory from `pool`.
+    fn decode(&self, path: &Path, source: Source<'_>, limits: &Limits, pool: &FramePool) -> Result<ImageFile, IoError>;
 
     /// Writes a picture whose depth and channels the format supports.
     fn encode(
@@ -65,7 +66,7 @@ pub(crate) trait Codec: Sync {
 
     /// Reads the two channels of an st map, and possibly others with them.
     fn decode_pairs(&self, path: &Path, source: Source<'_>, limits: &Limits) -> Result<ImageFile, IoError> {
-        self.decode(path, source, limits)
+        self.decode(path, source, limits, &FramePool::default())
     }
 }
 

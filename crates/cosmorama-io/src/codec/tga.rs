@@ -1,7 +1,7 @@
 use std::io::SeekFrom;
 use std::path::Path;
 
-use cosmorama::raster::{Channels, Depth, EncodedImage, Samples};
+use cosmorama::raster::{Channels, Depth, EncodedImage, FramePool, Samples};
 use image::codecs::tga::{TgaDecoder, TgaEncoder};
 use image::{ColorType, ExtendedColorType, ImageDecoder};
 
@@ -23,12 +23,12 @@ impl Codec for Tga {
         header(path, &decoder(path, source)?)
     }
 
-    fn decode(&self, path: &Path, source: Source<'_>, limits: &Limits) -> Result<ImageFile, IoError> {
+    fn decode(&self, path: &Path, source: Source<'_>, limits: &Limits, pool: &FramePool) -> Result<ImageFile, IoError> {
         let alpha_declared = alpha_bits(path, source)? > 0;
         let decoder = decoder(path, source)?;
         let mut header = header(path, &decoder)?;
         limits.check(path, (header.width as u64, header.height as u64), header.channels, header.depth)?;
-        let mut samples = vec![0; header.width * header.height * header.channels.count()];
+        let mut samples = pool.take(header.width * header.height * header.channels.count());
         decoder.read_image(&mut samples).map_err(|error| IoError::damaged(path, FORMAT, error))?;
         // 32 bits a pixel, of which none are said to be alpha, are alpha to some writers and padding to others.
         if !alpha_declared && header.channels == Channels::Rgba && samples.iter().skip(3).step_by(4).all(|a| *a == 0) {

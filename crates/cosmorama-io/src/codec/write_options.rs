@@ -1,3 +1,7 @@
+use std::sync::Arc;
+
+use cosmorama::raster::FramePool;
+
 use crate::metadata::Metadata;
 use crate::pending::Unfinished;
 
@@ -12,6 +16,8 @@ pub struct WriteOptions {
     pub metadata: Metadata,
     /// Registry of files in progress, which a signal handler removes; a private one unless given.
     pub unfinished: Unfinished,
+    /// Pool of memory for samples in the file's order; the default keeps nothing.
+    pub pool: Arc<FramePool>,
 }
 
 impl WriteOptions {
@@ -28,6 +34,7 @@ impl Default for WriteOptions {
             compression: Compression::default(),
             metadata: Metadata::default(),
             unfinished: Unfinished::default(),
+            pool: Arc::default(),
         }
     }
 }

@@ -2,6 +2,8 @@ use std::fs::File;
 use std::io::{self, BufRead, BufReader, Seek};
 use std::path::Path;
 
+use cosmorama::raster::FramePool;
+
 use crate::codec::{codec, recognise};
 use crate::header::{Header, ImageFile};
 use crate::{IoError, Limits};
@@ -86,14 +88,23 @@ pub fn read(path: impl AsRef<Path>, limits: &Limits) -> Result<ImageFile, IoErro
 /// # Errors
 /// When reading fails, the format is unknown, or the file is damaged. A file that declares more pixels than `limits`
 /// allow is refused before memory is allocated.
-pub fn read_from(
+pub fn read_from(source: impl BufRead + Seek, name: impl AsRef<Path>, limits: &Limits) -> Result<ImageFile, IoError> {
+    read_in(source, name, limits, &FramePool::default())
+}
+
+/// Reads a file as [`read_from`] does, into memory of a pool: memory of an image of the same size, if one was given back.
+///
+/// # Errors
+/// As [`read_from`].
+pub fn read_in(
     mut source: impl BufRead + Seek,
     name: impl AsRef<Path>,
     limits: &Limits,
+    pool: &FramePool,
 ) -> Result<ImageFile, IoError> {
     let name = name.as_ref();
     let format = recognise(name, &mut source)?;
-    codec(format).decode(name, &mut source, limits)
+    codec(format).decode(name, &mut source, limits, pool)
 }
 
 /// Opens a file for reading.

@@ -1,6 +1,8 @@
+use std::ops::Range;
+
 use half::f16;
 
-use super::{Channels, Depth, Image, ImageError};
+use super::{Channels, Depth, FramePool, Image, ImageError};
 
 /// Samples of an image as in a file: encoded by a transfer function, interleaved, row by row.
 #[derive(Clone, Debug, PartialEq)]
@@ -29,6 +31,26 @@ impl Samples {
     /// Returns whether there are no samples.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
+    }
+
+    /// Returns the bytes of memory that they take.
+    pub fn bytes(&self) -> u64 {
+        let size = match self {
+            Self::U8(_) => 1,
+            Self::U16(_) | Self::Half(_) => 2,
+            Self::Float(_) => 4,
+        };
+        size * self.len() as u64
+    }
+
+    /// Returns where they lie in memory.
+    pub(super) fn address(&self) -> usize {
+        match self {
+            Self::U8(samples) => samples.as_ptr().addr(),
+            Self::U16(samples) => samples.as_ptr().addr(),
+            Self::Half(samples) => samples.as_ptr().addr(),
+            Self::Float(samples) => samples.as_ptr().addr(),
+        }
     }
 
     fn suit(&self, depth: Depth) -> bool {
@@ -95,14 +117,6 @@ impl EncodedImage {
         Self::from_parts(width, height, Channels::Rgb, Depth::Eight, AlphaMode::Straight, samples)
     }
 
-    /// Returns the codes of an opaque 8-bit RGB image, as [`of_codes`](Self::of_codes) makes it; `None` for others.
-    pub fn into_codes(self) -> Option<Image<[u8; 3]>> {
-        let Self { width, height, channels: Channels::Rgb, samples: Samples::U8(samples), .. } = self else {
-            return None;
-        };
-        Image::new(width, height, bytemuck::allocation::try_cast_vec(samples).ok()?).ok()
-    }
-
     /// Creates an image from parts that are known to fit.
     pub(crate) fn from_parts(
         width: usize,
@@ -145,20 +159,32 @@ impl EncodedImage {
     /// # Panics
     /// When the part is not inside the image.
     #[must_use]
-    pub fn cropped(&self, (left, top): (usize, usize), (width, height): (usize, usize)) -> Self {
+    pub fn cropped(&self, corner: (usize, usize), size: (usize, usize)) -> Self {
+        self.cropped_in(corner, size, &FramePool::default())
+    }
+
+    /// Copies a part of the image, as [`cropped`](Self::cropped) does, into memory of a pool.
+    ///
+    /// # Panics
+    /// When the part is not inside the image.
+    #[must_use]
+    pub fn cropped_in(&self, (left, top): (usize, usize), (width, height): (usize, usize), pool: &FramePool) -> Self {
         let count = self.channels.count();
         assert!(left + width <= self.width && top + height <= self.height, "the part is not inside the image");
         let rows = move || {
             (top..top + height).map(move |j| (j * self.width + left) * count).map(move |at| at..at + width * count)
         };
-        fn parts<S: Copy>(samples: &[S], rows: impl Iterator<Item = std::ops::Range<usize>>) -> Vec<S> {
-            rows.flat_map(|row| &samples[row]).copied().collect()
+        fn parts<S: Copy>(samples: &[S], rows: impl Iterator<Item = Range<usize>>, mut into: Vec<S>) -> Vec<S> {
+            into.clear();
+            rows.for_each(|row| into.extend_from_slice(&samples[row]));
+            into
         }
+        let all = width * height * count;
         let samples = match &self.samples {
-            Samples::U8(samples) => Samples::U8(parts(samples, rows())),
-            Samples::U16(samples) => Samples::U16(parts(samples, rows())),
-            Samples::Half(samples) => Samples::Half(parts(samples, rows())),
-            Samples::Float(samples) => Samples::Float(parts(samples, rows())),
+            Samples::U8(samples) => Samples::U8(parts(samples, rows(), pool.take(all))),
+            Samples::U16(samples) => Samples::U16(parts(samples, rows(), pool.take(all))),
+            Samples::Half(samples) => Samples::Half(parts(samples, rows(), pool.take(all))),
+            Samples::Float(samples) => Samples::Float(parts(samples, rows(), pool.take(all))),
         };
         Self { width, height, samples, ..*self }
     }
@@ -218,19 +244,11 @@ mod tests {
     }
 
     #[test]
-    fn codes_come_back_in_the_memory_that_they_were_in() {
+    fn codes_keep_the_memory_that_they_were_in() {
         let codes = Image::from_fn(3, 2, |i, j| [i as u8, j as u8, 9]);
-        let (same, place) = (codes.clone(), codes.pixels().as_ptr().addr());
-        let encoded = EncodedImage::of_codes(codes);
-        let back = encoded.into_codes().unwrap();
-        assert_eq!(back.pixels().as_ptr().addr(), place);
-        assert_eq!(back, same);
-        let others = [
-            (Channels::Grey, Depth::Eight, Samples::U8(vec![1])),
-            (Channels::Rgb, Depth::Half, Samples::Half(vec![f16::ONE; 3])),
-        ];
-        for (channels, depth, samples) in others {
-            assert_eq!(EncodedImage::new(1, 1, channels, depth, samples).unwrap().into_codes(), None);
-        }
+        let place = codes.pixels().as_ptr().addr();
+        let Samples::U8(samples) = EncodedImage::of_codes(codes).into_samples() else { panic!("8 bits") };
+        assert_eq!(samples.as_ptr().addr(), place);
+        assert_eq!(samples, [0, 0, 9, 1, 0, 9, 2, 0, 9, 0, 1, 9, 1, 1, 9, 2, 1, 9]);
     }
 }

@@ -4,6 +4,7 @@ use std::io::{self, Cursor, Read};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
+use cosmorama::raster::FramePool;
 use cosmorama_io::{
     Calibration, CalibrationError, Header, ImageFile, IoError, Limits, PtoError, PtoProject, ReadSeek, StPairs, open,
     probe_from, probe_pairs_from, read_from, read_pairs_from,
@@ -119,6 +120,14 @@ impl Kept {
     fn lock(&self) -> MutexGuard<'_, Option<(PathBuf, ImageFile)>> {
         self.picture.lock().unwrap_or_else(PoisonError::into_inner)
     }
+}
+
+/// Reads a picture into memory of a pool.
+///
+/// # Errors
+/// As [`read`].
+pub(crate) fn read_in(files: &dyn Files, path: &Path, limits: &Limits, pool: &FramePool) -> Result<ImageFile, IoError> {
+    cosmorama_io::read_in(files.open(path)?, path, limits, pool)
 }
 
 /// Means of reading inputs.

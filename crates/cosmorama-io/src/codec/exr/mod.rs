@@ -8,7 +8,7 @@ mod writer;
 
 use std::path::Path;
 
-use cosmorama::raster::EncodedImage;
+use cosmorama::raster::{EncodedImage, FramePool};
 
 use crate::codec::interface::{Codec, Sink, Source};
 use crate::header::{Header, ImageFile};
@@ -28,8 +28,8 @@ impl Codec for Exr {
         reader::probe(path, source)
     }
 
-    fn decode(&self, path: &Path, source: Source<'_>, limits: &Limits) -> Result<ImageFile, IoError> {
-        reader::read(path, source, limits)
+    fn decode(&self, path: &Path, source: Source<'_>, limits: &Limits, pool: &FramePool) -> Result<ImageFile, IoError> {
+        reader::read(path, source, limits, pool)
     }
 
     fn encode(
@@ -39,7 +39,7 @@ impl Codec for Exr {
         image: &EncodedImage,
         options: &WriteOptions,
     ) -> Result<(), IoError> {
-        writer::write(path, output, image, &options.metadata, options.compression)
+        writer::write(path, output, image, options)
     }
 
     fn probe_pairs(&self, path: &Path, source: Source<'_>) -> Result<Header, IoError> {

@@ -1,7 +1,7 @@
 use std::io;
 use std::path::Path;
 
-use cosmorama::raster::{AlphaMode, Depth, Samples, Transfer};
+use cosmorama::raster::{AlphaMode, Depth, FramePool, Sample, Samples, Transfer};
 use exr::block::chunk::{Chunk, TileCoordinates};
 use exr::block::lines::LineRef;
 use exr::block::reader::{ChunksReader, Reader};
@@ -38,13 +38,13 @@ pub(crate) fn probe_pairs(path: &Path, source: Source<'_>) -> Result<Header, IoE
 }
 
 /// Reads the first part that holds a picture, at its largest resolution.
-pub(crate) fn read(path: &Path, source: Source<'_>, limits: &Limits) -> Result<ImageFile, IoError> {
-    read_selected(path, source, limits, PICTURE)
+pub(crate) fn read(path: &Path, source: Source<'_>, limits: &Limits, pool: &FramePool) -> Result<ImageFile, IoError> {
+    read_selected(path, source, (limits, pool), PICTURE)
 }
 
 /// Reads the two channels of an st map as an image of two channels.
 pub(crate) fn read_pairs(path: &Path, source: Source<'_>, limits: &Limits) -> Result<ImageFile, IoError> {
-    read_selected(path, source, limits, PAIR)
+    read_selected(path, source, (limits, &FramePool::default()), PAIR)
 }
 
 /// Selection of channels.
@@ -64,15 +64,27 @@ const PAIR: Wanted = Wanted {
     expected: "the two channels of an st map, of half or float samples: R and G, u and v, s and t or x and y",
 };
 
-fn read_selected(path: &Path, source: Source<'_>, limits: &Limits, wanted: Wanted) -> Result<ImageFile, IoError> {
+fn read_selected(
+    path: &Path,
+    source: Source<'_>,
+    (limits, pool): (&Limits, &FramePool),
+    wanted: Wanted,
+) -> Result<ImageFile, IoError> {
     let reader = open(path, source)?;
     let (header, selection, crop) = announce(path, reader.headers(), wanted)?;
     check_limits(path, &reader.headers()[selection.part], &header, limits)?;
+    let fail = |error| damaged(path, error);
+    // No block may hold pixels outside the data window.
+    let count = crop.width * crop.height * selection.channels.count();
     let samples = match header.depth {
         Depth::Half => {
-            Samples::Half(pixels(reader, &selection, &crop, half_line).map_err(|error| damaged(path, error))?)
+            let samples = pool.take_zeroed(count);
+            Samples::Half(pixels(reader, &selection, &crop, half_line, samples).map_err(fail)?)
         }
-        _ => Samples::Float(pixels(reader, &selection, &crop, float_line).map_err(|error| damaged(path, error))?),
+        _ => {
+            let samples = pool.take_zeroed(count);
+            Samples::Float(pixels(reader, &selection, &crop, float_line, samples).map_err(fail)?)
+        }
     };
     let mut file = whole_image(path, header, samples)?;
     file.image = file.image.with_alpha_mode(AlphaMode::Premultiplied);
@@ -183,19 +195,19 @@ fn float_line(line: &LineRef<'_>, stored: SampleType, put: &mut dyn FnMut(usize,
     }
 }
 
-/// Decodes the chosen channels of the chosen part, interleaved.
-fn pixels<S: Clone + Default>(
+/// Decodes the chosen channels of the chosen part, interleaved, into zeroed samples.
+fn pixels<S: Sample>(
     reader: Reader<Source<'_>>,
     selection: &Selection,
     crop: &Crop,
     read_line: ReadLine<S>,
+    mut samples: Vec<S>,
 ) -> Result<Vec<S>, Error> {
     let wanted = |_: &MetaData, tile: TileCoordinates, block: BlockIndex| {
         block.layer == selection.part && tile.is_largest_resolution_level()
     };
     let block_bytes = block_bytes(&reader.headers()[selection.part]).max(1);
     let mut chunks = reader.filter_chunks(false, wanted)?;
-    let mut samples = vec![S::default(); crop.width * crop.height * selection.channels.count()];
     let batch_size = BATCH.min((BATCH_BYTES / block_bytes).clamp(1, BATCH as u128) as usize);
     loop {
         let batch = chunks.by_ref().take(batch_size).collect::<Result<Vec<Chunk>, Error>>()?;

@@ -1,7 +1,7 @@
 use std::io::{Seek, Write};
 use std::path::Path;
 
-use cosmorama::raster::{AlphaMode, Channels, Depth, EncodedImage, Samples};
+use cosmorama::raster::{AlphaMode, Channels, Depth, EncodedImage, FramePool, Sample, Samples};
 use exr::compression::Compression as Packing;
 use exr::image::write::WritableImage;
 use exr::image::{AnyChannel, AnyChannels, Encoding, FlatSamples, Image, Layer};
@@ -11,15 +11,14 @@ use exr::prelude::SmallVec;
 use half::f16;
 
 use crate::codec::interface::is_beside_others;
-use crate::{Compression, EnvMap, IoError, Metadata, WriteOptions};
+use crate::{Compression, EnvMap, IoError, WriteOptions};
 
 /// Writes scan lines of premultiplied light, as the format requires.
 pub(crate) fn write(
     path: &Path,
     output: impl Write + Seek,
     image: &EncodedImage,
-    metadata: &Metadata,
-    compression: Compression,
+    options: &WriteOptions,
 ) -> Result<(), IoError> {
     let names: &[&str] = match image.channels() {
         Channels::Grey => &["Y"],
@@ -30,9 +29,9 @@ pub(crate) fn write(
     let list: SmallVec<[AnyChannel<FlatSamples>; 4]> = names
         .iter()
         .enumerate()
-        .map(|(i, name)| Ok(AnyChannel::new(*name, plane(path, image, i)?)))
+        .map(|(i, name)| Ok(AnyChannel::new(*name, plane(path, image, i, &options.pool)?)))
         .collect::<Result<_, IoError>>()?;
-    save(path, output, (image.width(), image.height()), list, metadata, compression)
+    save(path, output, (image.width(), image.height()), list, options)
 }
 
 /// Writes named planes of numbers, as halves or as floats.
@@ -49,7 +48,7 @@ pub(crate) fn write_planes(
         _ => FlatSamples::F32(numbers),
     };
     let list = planes.into_iter().map(|(name, numbers)| AnyChannel::new(name, samples(numbers))).collect();
-    save(path, output, size, list, &options.metadata, options.compression)
+    save(path, output, size, list, options)
 }
 
 fn save(
@@ -57,17 +56,16 @@ fn save(
     output: impl Write + Seek,
     size: (usize, usize),
     list: SmallVec<[AnyChannel<FlatSamples>; 4]>,
-    metadata: &Metadata,
-    compression: Compression,
+    options: &WriteOptions,
 ) -> Result<(), IoError> {
-    let packing = match compression {
+    let packing = match options.compression {
         Compression::None => Packing::Uncompressed,
         Compression::Fast => Packing::RLE,
         Compression::Balanced | Compression::High => Packing::ZIP16,
     };
     let encoding = Encoding { compression: packing, ..Encoding::SMALL_LOSSLESS };
     let attributes = LayerAttributes {
-        environment_map: metadata.envmap.and_then(|kind| match kind {
+        environment_map: options.metadata.envmap.and_then(|kind| match kind {
             EnvMap::LatLong => Some(EnvironmentMap::LatitudeLongitude),
             EnvMap::Cube => Some(EnvironmentMap::Cube),
             EnvMap::GlCube => None,
@@ -84,26 +82,46 @@ fn save(
     } else {
         writer.non_parallel().to_buffered(output)
     };
+    picture.layer_data.channel_data.list.into_iter().for_each(|plane| give_back(plane.sample_data, &options.pool));
     written.map_err(|error| IoError::write(path, error))
 }
 
+/// Gives the memory of a written plane back.
+fn give_back(plane: FlatSamples, pool: &FramePool) {
+    match plane {
+        FlatSamples::F16(samples) => pool.give(Samples::Half(samples)),
+        FlatSamples::F32(samples) => pool.give(Samples::Float(samples)),
+        FlatSamples::U32(_) => {}
+    }
+}
+
 /// Returns the samples of one channel.
-fn plane(path: &Path, image: &EncodedImage, channel: usize) -> Result<FlatSamples, IoError> {
+fn plane(path: &Path, image: &EncodedImage, channel: usize, pool: &FramePool) -> Result<FlatSamples, IoError> {
     match image.samples() {
-        Samples::Half(samples) => Ok(FlatSamples::F16(multiplied(samples, image, channel, |sample, alpha| {
-            f16::from_f32(sample.to_f32() * alpha.to_f32())
-        }))),
+        Samples::Half(samples) => {
+            let by = |sample: f16, alpha: f16| f16::from_f32(sample.to_f32() * alpha.to_f32());
+            Ok(FlatSamples::F16(multiplied(samples, image, channel, by, pool)))
+        }
         Samples::Float(samples) => {
-            Ok(FlatSamples::F32(multiplied(samples, image, channel, |sample, alpha| sample * alpha)))
+            Ok(FlatSamples::F32(multiplied(samples, image, channel, |sample, alpha| sample * alpha, pool)))
         }
         Samples::U8(_) | Samples::U16(_) => Err(IoError::write(path, "OpenEXR holds halves and floats")),
     }
 }
 
-fn multiplied<S: Copy>(samples: &[S], image: &EncodedImage, channel: usize, by: impl Fn(S, S) -> S) -> Vec<S> {
+fn multiplied<S: Sample>(
+    samples: &[S],
+    image: &EncodedImage,
+    channel: usize,
+    by: impl Fn(S, S) -> S,
+    pool: &FramePool,
+) -> Vec<S> {
     let count = image.channels().count();
     let alpha = count - 1;
     let straight = image.channels().has_alpha() && image.alpha_mode() == AlphaMode::Straight && channel != alpha;
-    let pixels = samples.chunks_exact(count);
-    pixels.map(|pixel| if straight { by(pixel[channel], pixel[alpha]) } else { pixel[channel] }).collect()
+    let mut plane = pool.take(samples.len() / count);
+    for (into, pixel) in plane.iter_mut().zip(samples.chunks_exact(count)) {
+        *into = if straight { by(pixel[channel], pixel[alpha]) } else { pixel[channel] };
+    }
+    plane
 }

@@ -3,7 +3,7 @@ mod marks;
 use std::io::Cursor;
 use std::path::Path;
 
-use cosmorama::raster::{Channels, Depth, EncodedImage, Samples};
+use cosmorama::raster::{Channels, Depth, EncodedImage, FramePool, Samples};
 use image::codecs::jpeg::JpegEncoder;
 use image::{ExtendedColorType, ImageEncoder};
 use zune_jpeg::JpegDecoder;
@@ -35,7 +35,7 @@ impl Codec for Jpeg {
         Ok(header)
     }
 
-    fn decode(&self, path: &Path, source: Source<'_>, limits: &Limits) -> Result<ImageFile, IoError> {
+    fn decode(&self, path: &Path, source: Source<'_>, limits: &Limits, pool: &FramePool) -> Result<ImageFile, IoError> {
         let bytes = whole(path, source)?;
         let mut decoder = decoder(path, ZCursor::new(&bytes))?;
         let header = header(path, &mut decoder)?;
@@ -51,7 +51,7 @@ impl Codec for Jpeg {
         limits.check(path, (header.width as u64, header.height as u64), header.channels, header.depth)?;
         let output = if header.channels == Channels::Grey { ColorSpace::Luma } else { ColorSpace::RGB };
         decoder.set_options(options().jpeg_set_out_colorspace(output));
-        let mut samples = vec![0; header.width * header.height * header.channels.count()];
+        let mut samples = pool.take(header.width * header.height * header.channels.count());
         decoder.decode_into(&mut samples).map_err(|error| IoError::damaged(path, FORMAT, reason(&error)))?;
         whole_image(path, header, Samples::U8(samples))
     }

@@ -6,7 +6,7 @@ mod writer;
 
 use std::path::Path;
 
-use cosmorama::raster::EncodedImage;
+use cosmorama::raster::{EncodedImage, FramePool};
 
 use crate::codec::interface::{Codec, Sink, Source};
 use crate::header::{Header, ImageFile};
@@ -24,8 +24,8 @@ impl Codec for Png {
         reader::probe(path, source)
     }
 
-    fn decode(&self, path: &Path, source: Source<'_>, limits: &Limits) -> Result<ImageFile, IoError> {
-        reader::read(path, source, limits)
+    fn decode(&self, path: &Path, source: Source<'_>, limits: &Limits, pool: &FramePool) -> Result<ImageFile, IoError> {
+        reader::read(path, source, limits, pool)
     }
 
     fn encode(
@@ -35,6 +35,6 @@ impl Codec for Png {
         image: &EncodedImage,
         options: &WriteOptions,
     ) -> Result<(), IoError> {
-        writer::write(path, output, image, &options.metadata, options.compression)
+        writer::write(path, output, image, options)
     }
 }

@@ -2,7 +2,7 @@ use std::io::Read;
 use std::path::Path;
 
 use bytemuck::cast_slice_mut;
-use cosmorama::raster::{Channels, Depth, Samples};
+use cosmorama::raster::{Channels, Depth, FramePool, Samples};
 use png::{BitDepth, ColorType, Decoder, DecodingError, Info, Reader, Transformations};
 
 use super::colour;
@@ -18,7 +18,7 @@ pub(crate) fn probe(path: &Path, source: Source<'_>) -> Result<Header, IoError> 
     Ok(header(&decoder(path, source)?))
 }
 
-pub(crate) fn read(path: &Path, source: Source<'_>, limits: &Limits) -> Result<ImageFile, IoError> {
+pub(crate) fn read(path: &Path, source: Source<'_>, limits: &Limits, pool: &FramePool) -> Result<ImageFile, IoError> {
     let mut reader = decoder(path, &mut *source)?;
     let header = header(&reader);
     let frames = reader.info().animation_control().map_or(1, |animation| animation.num_frames as usize);
@@ -30,12 +30,12 @@ pub(crate) fn read(path: &Path, source: Source<'_>, limits: &Limits) -> Result<I
     let count = header.width * header.height * header.channels.count();
     let samples = match header.depth {
         Depth::Eight => {
-            let mut samples = vec![0; count];
+            let mut samples = pool.take(count);
             decode(path, &mut reader, &mut samples)?;
             Samples::U8(samples)
         }
         _ => {
-            let mut samples = vec![0_u16; count];
+            let mut samples = pool.take::<u16>(count);
             decode(path, &mut reader, cast_slice_mut(&mut samples))?;
             samples.iter_mut().for_each(|sample| *sample = u16::from_be(*sample));
             Samples::U16(samples)

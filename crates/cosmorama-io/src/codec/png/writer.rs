@@ -2,30 +2,25 @@ use std::io::Write;
 use std::path::Path;
 
 use bytemuck::cast_slice;
-use cosmorama::raster::{Channels, Depth, EncodedImage, Samples};
+use cosmorama::raster::{Channels, Depth, EncodedImage, FramePool, Samples};
 use png::chunk::sBIT;
 use png::{BitDepth, ColorType, DeflateCompression, Encoder, EncodingError, Filter, Info, Writer};
 
 use super::colour::{CICP, Tag, XMP, tag};
 use crate::metadata::gpano;
-use crate::{Compression, IoError, Metadata};
+use crate::{Compression, IoError, Metadata, WriteOptions};
 
 pub(crate) fn write(
     path: &Path,
     output: impl Write,
     image: &EncodedImage,
-    metadata: &Metadata,
-    compression: Compression,
+    options: &WriteOptions,
 ) -> Result<(), IoError> {
-    encode(output, image, metadata, compression).map_err(|error| IoError::write(path, error))
+    encode(output, image, options).map_err(|error| IoError::write(path, error))
 }
 
-fn encode(
-    output: impl Write,
-    image: &EncodedImage,
-    metadata: &Metadata,
-    compression: Compression,
-) -> Result<(), EncodingError> {
+fn encode(output: impl Write, image: &EncodedImage, options: &WriteOptions) -> Result<(), EncodingError> {
+    let metadata = &options.metadata;
     // A profile says all there is to say about colour.
     let tag = match &metadata.icc {
         Some(_) => None,
@@ -37,7 +32,7 @@ fn encode(
     }
     // zlib's level 6 takes ten to twenty times as long as fdeflate, for a tenth fewer bytes of a smooth picture. Rows
     // filtered by Up are read in a third of the time that others take.
-    let (deflate, filter) = match compression {
+    let (deflate, filter) = match options.compression {
         Compression::None => (DeflateCompression::NoCompression, Filter::NoFilter),
         Compression::Fast => (DeflateCompression::FdeflateUltraFast, Filter::Up),
         Compression::Balanced => (DeflateCompression::FdeflateUltraFast, Filter::Adaptive),
@@ -47,7 +42,7 @@ fn encode(
     encoder.set_filter(filter);
     let mut writer = encoder.write_header()?;
     write_chunks(&mut writer, image, tag)?;
-    write_samples(&mut writer, image)?;
+    write_samples(&mut writer, image, &options.pool)?;
     writer.finish()
 }
 
@@ -83,12 +78,15 @@ fn write_chunks(writer: &mut Writer<impl Write>, image: &EncodedImage, tag: Opti
     Ok(())
 }
 
-fn write_samples(writer: &mut Writer<impl Write>, image: &EncodedImage) -> Result<(), EncodingError> {
+fn write_samples(writer: &mut Writer<impl Write>, image: &EncodedImage, pool: &FramePool) -> Result<(), EncodingError> {
     match image.samples() {
         Samples::U8(samples) => writer.write_image_data(samples),
         Samples::U16(samples) => {
-            let big_endian: Vec<u16> = samples.iter().map(|sample| sample.to_be()).collect();
-            writer.write_image_data(cast_slice(&big_endian))
+            let mut big_endian = pool.take::<u16>(samples.len());
+            big_endian.iter_mut().zip(samples).for_each(|(into, sample)| *into = sample.to_be());
+            let written = writer.write_image_data(cast_slice(&big_endian));
+            pool.give(Samples::U16(big_endian));
+            written
         }
         // `Format::supports` has been asked before.
         Samples::Half(_) | Samples::Float(_) => Err(limit("PNG has no float samples")),

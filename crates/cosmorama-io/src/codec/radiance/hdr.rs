@@ -1,7 +1,7 @@
 use std::io::{BufRead, BufReader, Read};
 use std::path::Path;
 
-use cosmorama::raster::{Channels, Depth, EncodedImage, Samples, Transfer};
+use cosmorama::raster::{Channels, Depth, EncodedImage, FramePool, Samples, Transfer};
 
 use super::rgbe;
 use crate::codec::interface::{Codec, Sink, Source, whole_image};
@@ -29,12 +29,12 @@ impl Codec for Hdr {
         Ok(Preamble::read(path, source)?.header)
     }
 
-    fn decode(&self, path: &Path, source: Source<'_>, limits: &Limits) -> Result<ImageFile, IoError> {
+    fn decode(&self, path: &Path, source: Source<'_>, limits: &Limits, pool: &FramePool) -> Result<ImageFile, IoError> {
         let Preamble { header, exposure, upside_down } = Preamble::read(path, &mut *source)?;
         // Pixels are read byte by byte: from a buffer whose type is known.
         let mut source = BufReader::with_capacity(BUFFER, source);
         limits.check(path, (header.width as u64, header.height as u64), header.channels, header.depth)?;
-        let mut samples = vec![0.0_f32; header.width * header.height * 3];
+        let mut samples = pool.take::<f32>(header.width * header.height * 3);
         let mut line = vec![[0; 4]; header.width];
         for j in 0..header.height {
             rgbe::read_line(&mut source, &mut line).map_err(|error| IoError::damaged(path, FORMAT, error))?;

@@ -1,6 +1,6 @@
 use std::path::Path;
 
-use cosmorama::raster::{AlphaMode, Depth, EncodedImage, Transfer};
+use cosmorama::raster::{AlphaMode, Depth, EncodedImage, FramePool, Transfer};
 use ddsfile::{
     AlphaMode as DdsAlpha, Caps, Caps2, D3D10ResourceDimension, D3DFormat, DxgiFormat, FourCC, Header as DdsHeader,
     Header10, MiscFlag,
@@ -29,7 +29,7 @@ impl Codec for Dds {
         Ok(texture(path, source)?.header(FORMAT))
     }
 
-    fn decode(&self, path: &Path, source: Source<'_>, limits: &Limits) -> Result<ImageFile, IoError> {
+    fn decode(&self, path: &Path, source: Source<'_>, limits: &Limits, _: &FramePool) -> Result<ImageFile, IoError> {
         texture(path, source)?.read(path, FORMAT, source, limits)
     }
 

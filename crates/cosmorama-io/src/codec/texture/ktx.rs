@@ -1,7 +1,7 @@
 use std::io::SeekFrom;
 use std::path::Path;
 
-use cosmorama::raster::{AlphaMode, Depth, EncodedImage, Transfer};
+use cosmorama::raster::{AlphaMode, Depth, EncodedImage, FramePool, Transfer};
 
 use super::cube::{CubeTexture, EXPECTED};
 use super::texel::{BlockFormat, Texels};
@@ -55,7 +55,7 @@ impl Codec for Ktx {
         Ok(texture(path, source)?.header(FORMAT))
     }
 
-    fn decode(&self, path: &Path, source: Source<'_>, limits: &Limits) -> Result<ImageFile, IoError> {
+    fn decode(&self, path: &Path, source: Source<'_>, limits: &Limits, _: &FramePool) -> Result<ImageFile, IoError> {
         texture(path, source)?.read(path, FORMAT, source, limits)
     }
 

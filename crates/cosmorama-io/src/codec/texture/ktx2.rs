@@ -1,7 +1,7 @@
 use std::io::SeekFrom;
 use std::path::Path;
 
-use cosmorama::raster::{AlphaMode, Depth, EncodedImage, Transfer};
+use cosmorama::raster::{AlphaMode, Depth, EncodedImage, FramePool, Transfer};
 use ktx2::{Format as Vk, Header as Ktx2Header, Index, LevelIndex, SupercompressionScheme as Scheme};
 
 use super::cube::{CubeTexture, EXPECTED, levels_to_write};
@@ -39,7 +39,7 @@ impl Codec for Ktx2 {
         Ok(texture(path, source)?.header(FORMAT))
     }
 
-    fn decode(&self, path: &Path, source: Source<'_>, limits: &Limits) -> Result<ImageFile, IoError> {
+    fn decode(&self, path: &Path, source: Source<'_>, limits: &Limits, _: &FramePool) -> Result<ImageFile, IoError> {
         texture(path, source)?.read(path, FORMAT, source, limits)
     }
 

@@ -5,7 +5,7 @@ mod writer;
 
 use std::path::Path;
 
-use cosmorama::raster::EncodedImage;
+use cosmorama::raster::{EncodedImage, FramePool};
 
 use crate::codec::interface::{Codec, Sink, Source};
 use crate::header::{Header, ImageFile};
@@ -23,8 +23,8 @@ impl Codec for Tiff {
         reader::probe(path, source)
     }
 
-    fn decode(&self, path: &Path, source: Source<'_>, limits: &Limits) -> Result<ImageFile, IoError> {
-        reader::read(path, source, limits)
+    fn decode(&self, path: &Path, source: Source<'_>, limits: &Limits, pool: &FramePool) -> Result<ImageFile, IoError> {
+        reader::read(path, source, limits, pool)
     }
 
     fn encode(

@@ -1,8 +1,7 @@
 use std::path::Path;
 
-use cosmorama::raster::{AlphaMode, Channels, Depth, Samples};
-use half::f16;
-use tiff::decoder::{Decoder, DecodingResult};
+use cosmorama::raster::{AlphaMode, Channels, Depth, FramePool, Samples};
+use tiff::decoder::{Decoder, DecodingResult, DecodingSampleType};
 use tiff::tags::{SampleFormat, Tag};
 use tiff::{ColorType, TiffError};
 
@@ -43,7 +42,7 @@ fn beside(path: &Path, decoder: &mut Decoder<Source<'_>>) -> Result<Option<Strin
     Ok((others > 0).then(|| format!("pages of other sizes behind the first are not read: {others}")))
 }
 
-pub(crate) fn read(path: &Path, source: Source<'_>, limits: &Limits) -> Result<ImageFile, IoError> {
+pub(crate) fn read(path: &Path, source: Source<'_>, limits: &Limits, pool: &FramePool) -> Result<ImageFile, IoError> {
     let mut decoder = Decoder::new(source).map_err(|error| damaged(path, &error))?;
     let header = header(path, &mut decoder)?;
     limits.check(path, (header.width as u64, header.height as u64), header.channels, header.depth)?;
@@ -53,12 +52,30 @@ pub(crate) fn read(path: &Path, source: Source<'_>, limits: &Limits) -> Result<I
     decoder_limits.decoding_buffer_size = usize::try_from(limits.memory).unwrap_or(usize::MAX);
     decoder_limits.intermediate_buffer_size = decoder_limits.decoding_buffer_size;
     let mut decoder = decoder.with_limits(decoder_limits);
-    let result = decoder.read_image().map_err(|error| damaged(path, &error))?;
+    let result = decode(&mut decoder, &header, pool).map_err(|error| damaged(path, &error))?;
     beside(path, &mut decoder)?;
     let samples = samples(path, result, &header, mode)?;
     let mut file = whole_image(path, header, samples)?;
     file.image = file.image.with_alpha_mode(mode);
     Ok(file)
+}
+
+/// Decodes all samples. Memory comes from a pool if the file holds only the channels of the header, in their own type.
+fn decode(decoder: &mut Decoder<Source<'_>>, header: &Header, pool: &FramePool) -> Result<DecodingResult, TiffError> {
+    let count = header.width * header.height * header.channels.count();
+    let layout = decoder.image_buffer_layout()?;
+    if layout.planes != 1 || layout.complete_len != count * header.depth.bytes() {
+        return decoder.read_image();
+    }
+    let mut result = match layout.sample_type {
+        Some(DecodingSampleType::U8) => DecodingResult::U8(pool.take(count)),
+        Some(DecodingSampleType::U16) => DecodingResult::U16(pool.take(count)),
+        Some(DecodingSampleType::F16) => DecodingResult::F16(pool.take(count)),
+        Some(DecodingSampleType::F32) => DecodingResult::F32(pool.take(count)),
+        _ => return decoder.read_image(),
+    };
+    decoder.read_image_bytes(result.as_buffer(0).as_bytes_mut())?;
+    Ok(result)
 }
 
 fn damaged(path: &Path, error: &TiffError) -> IoError {
@@ -144,9 +161,7 @@ fn samples(path: &Path, result: DecodingResult, header: &Header, mode: AlphaMode
             }
             Samples::U16(samples)
         }
-        DecodingResult::F16(samples) => Samples::Half(
-            chosen(path, samples, header)?.into_iter().map(|sample| f16::from_bits(sample.to_bits())).collect(),
-        ),
+        DecodingResult::F16(samples) => Samples::Half(chosen(path, samples, header)?),
         DecodingResult::F32(samples) => Samples::Float(chosen(path, samples, header)?),
         DecodingResult::F64(samples) => {
             Samples::Float(chosen(path, samples, header)?.into_iter().map(|sample| sample as f32).collect())

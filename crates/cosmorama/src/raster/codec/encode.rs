@@ -3,7 +3,9 @@ use rayon::prelude::*;
 
 use super::decode::CHUNK;
 use super::quantizer::Quantizer;
-use crate::raster::{AlphaMode, Channels, ColourChannel, Depth, EncodedImage, Image, Rgba, Samples, Transfer};
+use crate::raster::{
+    AlphaMode, Channels, ColourChannel, Depth, EncodedImage, FramePool, Image, Rgba, Sample, Samples, Transfer,
+};
 
 impl EncodedImage {
     /// Encodes an image of light, with an [`Encoder`] of its own and all threads.
@@ -67,28 +69,31 @@ impl Encoder {
 
     /// Encodes an image.
     pub fn encode(&self, light: &Image<Rgba>, threads: Threads) -> EncodedImage {
+        self.encode_in(light, threads, &FramePool::default())
+    }
+
+    /// Encodes an image, into memory of a pool.
+    pub fn encode_in(&self, light: &Image<Rgba>, threads: Threads, pool: &FramePool) -> EncodedImage {
+        let work = &Work { light, channels: self.channels, threads, pool };
         let samples = match (&self.quantizer, self.depth) {
-            (Some(codes), Depth::Ten) => {
-                Samples::U16(self.integers(codes, 1023, light, threads, |code| code << 6 | code >> 4))
-            }
+            (Some(codes), Depth::Ten) => Samples::U16(self.integers(codes, 1023, work, |code| code << 6 | code >> 4)),
             (Some(codes), Depth::Twelve) => {
-                Samples::U16(self.integers(codes, 4095, light, threads, |code| code << 4 | code >> 8))
+                Samples::U16(self.integers(codes, 4095, work, |code| code << 4 | code >> 8))
             }
-            (Some(codes), Depth::Sixteen) => Samples::U16(self.integers(codes, 65535, light, threads, |code| code)),
-            (Some(codes), _) => Samples::U8(self.integers(codes, 255, light, threads, |code| code as u8)),
-            (None, Depth::Half) => Samples::Half(self.floats(light, threads, to_half)),
-            (None, _) => Samples::Float(self.floats(light, threads, |sample| sample)),
+            (Some(codes), Depth::Sixteen) => Samples::U16(self.integers(codes, 65535, work, |code| code)),
+            (Some(codes), _) => Samples::U8(self.integers(codes, 255, work, |code| code as u8)),
+            (None, Depth::Half) => Samples::Half(self.floats(work, to_half)),
+            (None, _) => Samples::Float(self.floats(work, |sample| sample)),
         };
         let alpha_mode = if self.depth.is_float() { AlphaMode::Premultiplied } else { AlphaMode::Straight };
         EncodedImage::from_parts(light.width(), light.height(), self.channels, self.depth, alpha_mode, samples)
     }
 
-    fn integers<S: Send>(
+    fn integers<S: Sample + Send>(
         &self,
         codes: &Quantizer,
         last: u16,
-        light: &Image<Rgba>,
-        threads: Threads,
+        work: &Work,
         spread: impl Fn(u16) -> S + Sync,
     ) -> Vec<S> {
         let channels = self.channels;
@@ -103,10 +108,10 @@ impl Encoder {
             ColourChannel::ALL.map(|channel| quantize(colour[channel.index()], channel))
         };
         let alpha = |pixel: Rgba| spread((pixel.alpha().clamp(0.0, 1.0) * f32::from(last)).round() as u16);
-        interleaved((light, channels, threads), grey, colour, alpha)
+        work.interleaved(grey, colour, alpha)
     }
 
-    fn floats<S: Send>(&self, light: &Image<Rgba>, threads: Threads, sample: impl Fn(f32) -> S + Sync) -> Vec<S> {
+    fn floats<S: Sample + Send>(&self, work: &Work, sample: impl Fn(f32) -> S + Sync) -> Vec<S> {
         let channels = self.channels;
         let code = |light, alpha, channel| sample(code_of(light, alpha, channels, &self.transfer, channel));
         let grey = |pixel: Rgba| {
@@ -118,7 +123,48 @@ impl Encoder {
             ColourChannel::ALL.map(|channel| code(light[channel.index()], light[3], channel))
         };
         let alpha = |pixel: Rgba| sample(pixel.finite().alpha());
-        interleaved((light, channels, threads), grey, colour, alpha)
+        work.interleaved(grey, colour, alpha)
+    }
+}
+
+/// Image to encode, with the threads for it and the pool of memory for its samples.
+struct Work<'a> {
+    light: &'a Image<Rgba>,
+    channels: Channels,
+    threads: Threads,
+    pool: &'a FramePool,
+}
+
+impl Work<'_> {
+    /// Returns the samples of the image's channels, pixel by pixel.
+    fn interleaved<S: Sample + Send>(
+        &self,
+        grey: impl Fn(Rgba) -> S + Sync,
+        colour: impl Fn(Rgba) -> [S; 3] + Sync,
+        alpha: impl Fn(Rgba) -> S + Sync,
+    ) -> Vec<S> {
+        match self.channels {
+            Channels::Grey => self.by_pixels(|pixel| [grey(pixel)]),
+            Channels::GreyAlpha => self.by_pixels(|pixel| [grey(pixel), alpha(pixel)]),
+            Channels::Rgb => self.by_pixels(colour),
+            Channels::Rgba => self.by_pixels(|pixel| {
+                let [red, green, blue] = colour(pixel);
+                [red, green, blue, alpha(pixel)]
+            }),
+        }
+    }
+
+    /// Fills the samples of each pixel.
+    fn by_pixels<S: Sample + Send, const COUNT: usize>(&self, samples: impl Fn(Rgba) -> [S; COUNT] + Sync) -> Vec<S> {
+        let light = self.light.pixels();
+        let mut list = self.pool.take(COUNT * light.len());
+        let (pixels, _) = list.as_chunks_mut::<COUNT>();
+        let encode = |(into, pixel): (&mut [S; COUNT], &Rgba)| *into = samples(*pixel);
+        match self.threads {
+            Threads::One => pixels.iter_mut().zip(light).for_each(encode),
+            Threads::All => pixels.par_iter_mut().zip(light).with_min_len(CHUNK).for_each(encode),
+        }
+        list
     }
 }
 
@@ -135,37 +181,6 @@ fn luminance([red, green, blue]: [f32; 3]) -> f32 {
 fn to_half(sample: f32) -> f16 {
     // Larger values would become infinite.
     f16::from_f32(sample.clamp(f16::MIN.to_f32(), f16::MAX.to_f32()))
-}
-
-/// Returns the samples of an image's channels, pixel by pixel.
-fn interleaved<S: Send>(
-    (light, channels, threads): (&Image<Rgba>, Channels, Threads),
-    grey: impl Fn(Rgba) -> S + Sync,
-    colour: impl Fn(Rgba) -> [S; 3] + Sync,
-    alpha: impl Fn(Rgba) -> S + Sync,
-) -> Vec<S> {
-    match channels {
-        Channels::Grey => by_pixels(light, threads, |pixel| [grey(pixel)]),
-        Channels::GreyAlpha => by_pixels(light, threads, |pixel| [grey(pixel), alpha(pixel)]),
-        Channels::Rgb => by_pixels(light, threads, colour),
-        Channels::Rgba => by_pixels(light, threads, |pixel| {
-            let [red, green, blue] = colour(pixel);
-            [red, green, blue, alpha(pixel)]
-        }),
-    }
-}
-
-/// Fills the samples of each pixel in parallel, in memory that is not zeroed first.
-fn by_pixels<S: Send, const COUNT: usize>(
-    light: &Image<Rgba>,
-    threads: Threads,
-    samples: impl Fn(Rgba) -> [S; COUNT] + Sync,
-) -> Vec<S> {
-    let samples: Vec<[S; COUNT]> = match threads {
-        Threads::One => light.pixels().iter().map(|pixel| samples(*pixel)).collect(),
-        Threads::All => light.pixels().par_iter().with_min_len(CHUNK).map(|pixel| samples(*pixel)).collect(),
-    };
-    samples.into_flattened()
 }
 
 /// Returns the premultiplied code value of premultiplied light.
