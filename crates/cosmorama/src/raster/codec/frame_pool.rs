@@ -6,7 +6,7 @@ use half::f16;
 use half::vec::HalfBitsVecExt;
 
 use self::sealed::Typed;
-use super::{Image, Rgba, Samples};
+use crate::raster::{Image, Rgba, Samples};
 
 /// Pool of memory of finished pictures, kept for others of the same size.
 ///
