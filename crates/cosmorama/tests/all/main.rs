@@ -15,6 +15,7 @@ mod filter {
     mod reference;
     mod rim;
     mod seams;
+    mod timing;
 }
 
 mod render {

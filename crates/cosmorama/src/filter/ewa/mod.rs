@@ -1,12 +1,17 @@
 //! EWA of a footprint, in any world.
 
+mod blocks;
 pub(crate) mod cubic;
-pub(crate) mod direct;
+mod direct;
 pub(crate) mod lanes;
 pub(crate) mod paper;
+mod pinhole;
+mod prefetch;
+mod rows;
 mod scratch_pool;
 
 use direct::Direct;
+pub(crate) use pinhole::Pinholes;
 use scratch_pool::Pool;
 
 use super::Kernel;
@@ -38,7 +43,8 @@ impl Default for Ewa {
 impl Filter for Ewa {
     fn prepare<'w>(&self, world: &'w World, light: &'w Light) -> Result<Box<dyn Prepared + 'w>, LightError> {
         light.check(world)?;
-        Ok(Box::new(PreparedEwa { world, light: light.texels(), average: Averager::new(self) }))
+        let (light, pinholes) = (light.texels(), Pinholes::of(world));
+        Ok(Box::new(PreparedEwa { world, pinholes, light, average: Averager::new(self) }))
     }
 
     fn setup(&self, _: &World) -> SetupCost {
@@ -48,6 +54,7 @@ impl Filter for Ewa {
 
 struct PreparedEwa<'w> {
     world: &'w World,
+    pinholes: Option<Pinholes>,
     light: &'w [Rgba],
     average: Averager,
 }
@@ -58,7 +65,8 @@ impl Prepared for PreparedEwa<'_> {
     }
 
     fn average(&self, footprint: &Footprint) -> Rgba {
-        let average = |footprint| self.average.of(self.world, self.light, &footprint, None);
+        let views = (self.world, self.pinholes.as_ref());
+        let average = |footprint| self.average.of(views, self.light, &footprint, None);
         bounded(footprint).map_or(Rgba::TRANSPARENT, average)
     }
 }
@@ -85,9 +93,15 @@ impl Averager {
     }
 
     /// The average of a footprint; `view` is the view that shows it, if that is known.
-    pub(crate) fn of(&self, world: &World, light: &[Rgba], footprint: &Footprint, view: Option<usize>) -> Rgba {
-        let direct = self.direct.as_ref().and_then(|direct| direct.average(world, light, footprint, view));
-        direct.unwrap_or_else(|| self.by_taps(world, light, footprint))
+    pub(crate) fn of(
+        &self,
+        views: (&World, Option<&Pinholes>),
+        light: &[Rgba],
+        footprint: &Footprint,
+        view: Option<usize>,
+    ) -> Rgba {
+        let direct = self.direct.as_ref().and_then(|direct| direct.average(views, light, footprint, view));
+        direct.unwrap_or_else(|| self.by_taps(views.0, light, footprint))
     }
 
     /// Averages by a list of taps, wherever the texels lie.
@@ -127,7 +141,7 @@ mod tests {
             let long = [1.0, 2.0, 0.3][k % 3];
             let footprint =
                 Footprint::new(at, (right * cos + up * sin) * width, (up * cos - right * sin) * width * long);
-            let Some(found) = direct.average(&world, &light, &footprint, None) else { continue };
+            let Some(found) = direct.average((&world, None), &light, &footprint, None) else { continue };
             let expected = averager.by_taps(&world, &light, &footprint);
             let error = (0..4).map(|c| (found.0[c] - expected.0[c]).abs()).fold(0.0, f32::max);
             assert!(error < 2e-3, "{found:?}, not {expected:?}: {footprint:?}");

@@ -1,9 +1,11 @@
+use std::f64::consts::PI;
+
 use glam::{DMat2, DVec2};
 
-use crate::camera::Footprint;
+use crate::camera::{Footprint, PixelPoint};
 use crate::filter::Kernel;
 use crate::filter::gather::ellipse::semi_axes;
-use crate::filter::gather::{is_regular, texels_of};
+use crate::filter::gather::{is_regular, reach, texels_of};
 use crate::projection::Projection;
 use crate::world::{Source, World};
 
@@ -25,14 +27,12 @@ const FINER: f64 = 2.0;
 const BESIDE_RIM: f64 = 4.0;
 
 /// Texels of a view that a footprint's average is made of by [`EwaPyramid`](super::EwaPyramid), those of both levels together, at
-/// most: in any projection, at poles, rims and seams, of footprints up to 15° wide. Tests hold it. Wider ones beside the edge of a
-/// cylinder that ends may take more: 62 112 were found of 36°.
-pub const MOST_TEXELS: usize = 1 << 15;
+/// most: of any footprint in any projection, at poles, rims and seams. Tests hold it.
+pub const MOST_TEXELS: usize = 1 << 14;
 
 /// Texels of one view that a kernel has on one level, at most, as measured from side to side; where it would have more, around a
 /// pole or a rim at which texels come together, a coarser level is taken. A coarser level that is mixed in has half as many or
-/// less. What is gathered may be more than what is measured: over the seam of a Mercator map, the most that tests have found,
-/// 16 786 on both levels together.
+/// less.
 const MOST_ON_LEVEL: f64 = 10_000.0;
 
 /// What lies within so many pixels both ways is in a circle of so many, about, since levels are interpolated between.
@@ -46,6 +46,8 @@ pub(crate) struct LevelRule {
     kernel: Kernel,
     /// The views' geometry: for each view, its levels from the finest on.
     views: Vec<Vec<Source>>,
+    /// Texels in a steradian of each view, at most; infinite where they come together.
+    densities: Vec<f64>,
 }
 
 /// What a level must do for.
@@ -61,11 +63,17 @@ impl LevelRule {
     /// The rule for a world's views.
     pub(crate) fn new(world: &World, kernel: &Kernel) -> Self {
         let levels = |source: &Source| std::iter::successors(Some(source.clone()), Source::coarser).collect();
-        Self { kernel: *kernel, views: world.sources().iter().map(levels).collect() }
+        let views = world.sources().iter();
+        Self { kernel: *kernel, views: views.clone().map(levels).collect(), densities: views.map(density).collect() }
     }
 
-    /// The level for a footprint that is in a view; `None` where it has no texels there.
-    pub(crate) fn level(&self, view: usize, footprint: &Footprint, need: LevelNeed) -> Option<f64> {
+    /// The level for a footprint that looks into a view, or beside all of them; `None` where no view is near.
+    pub(crate) fn level(&self, view: Option<usize>, footprint: &Footprint, need: LevelNeed) -> Option<f64> {
+        view.and_then(|view| self.level_in(view, footprint, need)).or_else(|| self.level_beside(footprint, need))
+    }
+
+    /// The level for a footprint that is in a view; `None` where derivatives do not tell how many texels it has there.
+    fn level_in(&self, view: usize, footprint: &Footprint, need: LevelNeed) -> Option<f64> {
         let source = &self.views[view][0];
         let pixels = BESIDE_RIM + need.pixels_around;
         let (_, jacobian) = source.view.texel_footprint(footprint)?;
@@ -80,12 +88,12 @@ impl LevelRule {
         if !is_finer && is_regular(&self.kernel, source, footprint) {
             return Some(level);
         }
-        Some(level.max(self.least(view, footprint, level, AROUND * need.pixels_around * width(footprint))))
+        Some(level.max(self.least(view, footprint, level, need)))
     }
 
-    /// The level for a footprint that is in no view, but beside one: from how large the texels of those are that its kernel may
+    /// The level for a footprint beside all views, or on a pole of one: from how large the texels of those are that its kernel may
     /// reach. `None` where there is none.
-    pub(crate) fn level_beside(&self, footprint: &Footprint) -> Option<f64> {
+    fn level_beside(&self, footprint: &Footprint, need: LevelNeed) -> Option<f64> {
         let pixel = footprint.jacobian.solid_angle().sqrt();
         let level = |(view, levels): (usize, &Vec<Source>)| {
             let source = &levels[0];
@@ -94,18 +102,26 @@ impl LevelRule {
             }
             let texel = source.texel_pitch_at(footprint.direction).min(source.texel_pitch);
             let level = level_of(DMat2::from_diagonal(DVec2::splat(pixel / texel)), &self.kernel, LONGEST);
-            Some(level.max(self.least(view, footprint, level, 0.0)))
+            Some(level.max(self.least(view, footprint, level, need)))
         };
         self.views.iter().enumerate().filter_map(level).reduce(f64::max)
     }
 
     /// The least level from one on in which a view has few enough texels for a footprint.
-    fn least(&self, view: usize, footprint: &Footprint, from: f64, around: f64) -> f64 {
+    fn least(&self, view: usize, footprint: &Footprint, from: f64, need: LevelNeed) -> f64 {
+        let beside = AROUND * need.pixels_around * width(footprint);
         let levels = &self.views[view];
         let first = (from.max(0.0) as usize).min(levels.len() - 1);
+        let radius = beside + reach(&self.kernel, footprint, levels[first].texel_pitch, self.kernel.floor);
+        let around = PI * radius * radius * self.densities[view] * 0.25f64.powi(first as i32);
+        let all = levels[first].view.width() * levels[first].view.height();
+        if around.min(all as f64) < 0.5 * MOST_ON_LEVEL {
+            // Nothing needs to be measured.
+            return from;
+        }
         let mut finer: Option<f64> = None;
         for (level, source) in levels.iter().enumerate().skip(first) {
-            let texels = texels_of(&self.kernel, source, footprint, around);
+            let texels = texels_of(&self.kernel, source, footprint, beside);
             if texels <= MOST_ON_LEVEL {
                 // So much before this level there are as many as may be: what is mixed from there on comes in slowly.
                 let before = match finer {
@@ -118,6 +134,18 @@ impl LevelRule {
         }
         (levels.len() - 1) as f64
     }
+}
+
+/// Texels in a steradian of a source, at most; infinite where they come together.
+fn density(source: &Source) -> f64 {
+    const STEPS: usize = 32;
+    if source.period.is_some() || !source.has_bounded_texels() {
+        return f64::INFINITY;
+    }
+    let at = |size: usize, step: usize| size as f64 * step as f64 / STEPS as f64;
+    let points = (0..=STEPS).flat_map(|j| (0..=STEPS).map(move |i| (i, j)));
+    let point = |(i, j)| PixelPoint::new(at(source.view.width(), i), at(source.view.height(), j));
+    points.filter_map(|at| source.view.solid_angle(point(at))).fold(f64::INFINITY, f64::min).recip()
 }
 
 /// The angle that a pixel is wide or high, in radians.

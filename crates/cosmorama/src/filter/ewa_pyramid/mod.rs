@@ -7,7 +7,7 @@ use halving::Halving;
 use level::{LevelNeed, LevelRule, part};
 
 use super::Kernel;
-use super::ewa::{Averager, Ewa};
+use super::ewa::{Averager, Ewa, Pinholes};
 use super::prepared::{Filter, Prepared, SetupCost, bounded};
 use crate::camera::Footprint;
 use crate::raster::Rgba;
@@ -15,7 +15,7 @@ use crate::world::{Light, LightError, World};
 
 /// EWA on a pyramid: the ellipse is averaged on the levels of halved worlds that fit it best, at a bounded cost (Heckbert 1989).
 ///
-/// A footprint up to 15° wide looks at no more than [`MOST_TEXELS`](super::MOST_TEXELS) texels of a view.
+/// A footprint looks at no more than [`MOST_TEXELS`](super::MOST_TEXELS) texels of a view.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EwaPyramid {
     /// The weights.
@@ -41,9 +41,10 @@ impl Filter for EwaPyramid {
             let texels = Halving::new(finer, &halved, None).light(texels);
             coarser.push((halved, texels));
         }
+        let pinholes = std::iter::once(world).chain(coarser.iter().map(|(world, _)| world)).map(Pinholes::of).collect();
         let average = Averager::new(&Ewa { kernel: self.kernel, anti_ringing: self.anti_ringing });
         let rule = LevelRule::new(world, &self.kernel);
-        Ok(Box::new(PreparedPyramid { world, light: light.texels(), coarser, rule, average }))
+        Ok(Box::new(PreparedPyramid { world, light: light.texels(), coarser, pinholes, rule, average }))
     }
 
     fn setup(&self, world: &World) -> SetupCost {
@@ -58,6 +59,8 @@ struct PreparedPyramid<'w> {
     light: &'w [Rgba],
     /// From the first halved world on.
     coarser: Vec<(World, Vec<Rgba>)>,
+    /// Of each level, if all its views are such.
+    pinholes: Vec<Option<Pinholes>>,
     rule: LevelRule,
     average: Averager,
 }
@@ -70,11 +73,9 @@ impl PreparedPyramid<'_> {
 
     /// The number of the level for a footprint, and the view that shows it.
     fn number(&self, footprint: &Footprint) -> (f32, Option<usize>) {
-        let view = self.world.owner(footprint.direction).map(|(view, _)| view);
-        let level = match view {
-            Some(view) => self.rule.level(view, footprint, LevelNeed::default()),
-            None => self.rule.level_beside(footprint),
-        };
+        let holder = self.pinholes[0].as_ref().and_then(|pinholes| pinholes.holder(footprint.direction));
+        let view = holder.or_else(|| self.world.owner(footprint.direction).map(|(view, _)| view));
+        let level = self.rule.level(view, footprint, LevelNeed::default());
         let coarsest = self.coarser.len() as f32;
         (level.map_or(0.0, |level| level as f32).clamp(0.0, coarsest), view)
     }
@@ -94,7 +95,7 @@ impl Prepared for PreparedPyramid<'_> {
             let part = part(number, level);
             if part > 0.0 {
                 let (world, light) = self.level(level);
-                sum += self.average.of(world, light, &footprint, view) * part;
+                sum += self.average.of((world, self.pinholes[level].as_ref()), light, &footprint, view) * part;
             }
         }
         sum

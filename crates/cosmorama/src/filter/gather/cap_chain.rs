@@ -1,11 +1,10 @@
-use std::f64::consts::FRAC_PI_4;
 use std::ops::Range;
 
 use glam::DVec3;
 
 use super::cap::texels_within;
-use crate::camera::PixelPoint;
-use crate::projection::{PlanePoint, PlaneRect};
+use crate::camera::{PixelPoint, PixelRect};
+use crate::projection::{PlanePoint, PlaneRect, Projection};
 use crate::sphere::{Angle, Direction};
 use crate::world::Source;
 
@@ -15,6 +14,8 @@ pub(crate) struct CapChain {
     /// The cap that holds all of it.
     whole: (Direction, f64),
     links: Vec<(Direction, f64)>,
+    /// Semi-axes in the tangent plane, each over its length's square.
+    axes: [DVec3; 2],
     /// What part of its caps, all together, the ellipse in them is.
     filled: f64,
 }
@@ -25,6 +26,9 @@ const ROUND: f64 = 2.0;
 /// Longer ones, in radians, have one cap as well: on them the sphere bends too much.
 const LONG: f64 = 0.5;
 
+/// Rows and columns of texels that are looked at, at most.
+const LINES: usize = 32;
+
 /// Caps in a chain, at most.
 const MOST: f64 = 16.0;
 
@@ -33,7 +37,9 @@ impl CapChain {
     /// seen along `centre`, lies in it.
     pub(crate) fn around(centre: Direction, major: DVec3, minor: f64) -> Self {
         let length = major.length();
-        let one = Self { filled: minor / length, ..Self::of(centre, length) };
+        let across = centre.vector().cross(major).normalize_or_zero() / minor;
+        let axes = [major / (length * length), across];
+        let one = Self { filled: minor / length, axes, ..Self::of(centre, length) };
         if length <= ROUND * minor || length > LONG {
             return one;
         }
@@ -53,7 +59,8 @@ impl CapChain {
     /// One cap around a disc of that plane.
     pub(crate) fn of(centre: Direction, radius: f64) -> Self {
         let whole = (centre, radius.min(1.0).asin());
-        Self { whole, links: vec![whole], filled: 1.0 }
+        let (right, up) = centre.vector().any_orthonormal_pair();
+        Self { whole, links: vec![whole], axes: [right / radius, up / radius], filled: 1.0 }
     }
 
     /// Gives the runs of texels of a source that can lie in it to `visit`, row by row and none of them twice: far fewer, around
@@ -91,17 +98,14 @@ impl CapChain {
         }
     }
 
-    /// About how many texels of a source lie in its ellipse: as many as its caps have, in proportion.
+    /// About how many texels of a source lie in its ellipse: as many as its caps have, in proportion. Where texels come together
+    /// around poles there is no such proportion, and some of them are looked at.
     pub(crate) fn texels(&self, source: &Source) -> f64 {
         let (centre, radius) = self.whole;
         let Some(rect) = texels_within(source, centre, radius) else { return 0.0 };
         let all = (rect.width() * rect.height()) as f64;
-        if let Some(period) = source.period {
-            // Around a pole the rows of half the cap's height have all their texels in it, in the mean.
-            let from_pole = source.view.margin(centre);
-            let part =
-                if rect.width() < period.min(source.view.width()) { FRAC_PI_4 } else { radius / (radius + from_pole) };
-            return all * part * self.filled;
+        if source.period.is_some() {
+            return all * self.part_of(source, rect);
         }
         let grid = &source.view.grid;
         let corners = [PixelPoint::new(0.0, 0.0), PixelPoint::new(grid.width() as f64, grid.height() as f64)];
@@ -115,6 +119,27 @@ impl CapChain {
         };
         let texel = grid.step().x * grid.step().y;
         all.min(self.links.iter().map(area).sum::<f64>() * self.filled / texel.abs())
+    }
+
+    /// The part of a rectangle of texels that lies in its ellipse, by texels of some rows and columns.
+    fn part_of(&self, source: &Source, rect: PixelRect) -> f64 {
+        let [across, down] = [rect.width(), rect.height()].map(|size| size.div_ceil(LINES));
+        let step = source.view.grid.step().x * across as f64;
+        let (mut count, mut all) = (0, 0);
+        for j in (rect.top + (rect.height() - 1) % down / 2..rect.bottom).step_by(down) {
+            let first = source.view.grid.to_plane(PixelPoint::centre(rect.left + (rect.width() - 1) % across / 2, j));
+            source.view.projection.unproject_row(first, step, rect.width().div_ceil(across), |_, direction| {
+                count += usize::from(self.holds(source.view.orientation.to_world(direction)));
+            });
+            all += rect.width().div_ceil(across);
+        }
+        f64::from(count as u32) / all.max(1) as f64
+    }
+
+    /// Whether a direction is in the ellipse.
+    fn holds(&self, direction: Direction) -> bool {
+        let [along, across] = self.axes.map(|axis| axis.dot(direction.vector()));
+        along * along + across * across < 1.0 && self.whole.0.dot(direction) > 0.0
     }
 }
 

@@ -107,7 +107,9 @@ impl EllipseRows {
 /// The semi-axes of the ellipse that is the image of the unit circle, the major one first: the singular values.
 pub(crate) fn semi_axes(jacobian: DMat2) -> [f64; 2] {
     let [a, b, c, d] = jacobian.to_cols_array();
-    let (sum, difference) = ((a + d).hypot(b - c), (a - d).hypot(b + c));
+    // Not hypot, which is a call: footprints are far from overflowing.
+    let length = |x: f64, y: f64| (x * x + y * y).sqrt();
+    let (sum, difference) = (length(a + d, b - c), length(a - d, b + c));
     let major = (sum + difference) / 2.0;
     [major, if major > 0.0 { jacobian.determinant().abs() / major } else { 0.0 }]
 }

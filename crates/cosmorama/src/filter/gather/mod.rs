@@ -19,7 +19,6 @@ use glam::{DMat2, DVec2, DVec3};
 use super::gather::candidate::Candidate;
 use super::gather::cap::Cap;
 use super::gather::curvature::Bend;
-use super::gather::ellipse::EllipseRows;
 use super::gather::seam_scale::Meeting;
 use super::gather::tangent_kernel::{RIM_FLOOR, TangentKernel};
 use super::gather::texel_run::{Run, TexelBox, ceil, floor, runs_around};
@@ -38,7 +37,7 @@ use tap_weights::settle;
 
 /// A mapping is taken as linear over a kernel that is smaller than this part of the way to its nearest singularity. At a
 /// fifth, the tests find no point of a direction-coloured world displaced by more than 0.005 pixel.
-const LINEAR_PART: f64 = 0.2;
+pub(crate) const LINEAR_PART: f64 = 0.2;
 
 /// Beside a steep rim texels grow as the mapping bends, and what it displaces is a part of the kernel's square over the way to
 /// the rim: so large that part may be in pixels.
@@ -336,8 +335,6 @@ pub(crate) struct EllipseOfTexels {
     /// The footprint in texels.
     pub(crate) jacobian: DMat2,
     pub(crate) ellipse: Ellipse,
-    pub(crate) rows: EllipseRows,
-    pub(crate) bounds: TexelBox,
 }
 
 /// The ellipse of a footprint's kernel among the texels of a source; `None` where it is none or not all of it is inside.
@@ -358,7 +355,7 @@ pub(crate) fn ellipse_of_texels(kernel: &Kernel, source: &Source, footprint: &Fo
         && bounds.right < whole.right as i64
         && bounds.top >= whole.top as i64
         && bounds.bottom < whole.bottom as i64;
-    is_inside.then(|| EllipseOfTexels { centre, jacobian, ellipse, rows: ellipse.rows(reach), bounds })
+    is_inside.then_some(EllipseOfTexels { centre, jacobian, ellipse })
 }
 
 /// About how many texels of a source a kernel looks at for a footprint, measured from side to side; those `around` it in addition,
@@ -387,7 +384,7 @@ pub(crate) fn is_regular(kernel: &Kernel, source: &Source, footprint: &Footprint
 }
 
 /// An upper bound of a kernel's radius on the sphere, in radians, among texels of this pitch, so many of which its unit is at least.
-fn reach(kernel: &Kernel, footprint: &Footprint, texel_pitch: f64, floor: f64) -> f64 {
+pub(crate) fn reach(kernel: &Kernel, footprint: &Footprint, texel_pitch: f64, floor: f64) -> f64 {
     kernel.radius() * (kernel.scale * pixel_size(footprint)).max(floor * texel_pitch)
 }
 
@@ -404,7 +401,7 @@ const NO_WIDTH: f64 = 1e-6;
 const SOME_WIDTH: f64 = 0.01;
 
 /// Returns a footprint as it is if it has any width; else a narrow one.
-fn with_width(footprint: Footprint) -> Footprint {
+pub(crate) fn with_width(footprint: Footprint) -> Footprint {
     let Footprint { direction, jacobian: DirectionJacobian { dx, dy } } = footprint;
     let across = |side: DVec3| direction.vector().cross(side) * SOME_WIDTH;
     let (x, y) = (dx.length(), dy.length());

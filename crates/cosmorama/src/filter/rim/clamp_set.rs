@@ -20,14 +20,14 @@ pub(crate) fn reach(candidates: &[Candidate]) -> Option<f32> {
 
 /// The directions between the two outermost of some points, as long as they span less than half a turn.
 #[derive(Clone, Copy, Debug, Default)]
-struct Wedge {
+pub(crate) struct Wedge {
     /// The outermost points, counterclockwise.
     sides: Option<[[f32; 2]; 2]>,
 }
 
 impl Wedge {
     /// Takes another point; true if with it the points surround the origin, or have it between two of them.
-    fn closes_with(&mut self, point: [f32; 2]) -> bool {
+    pub(crate) fn closes_with(&mut self, point: [f32; 2]) -> bool {
         let Some([right, left]) = &mut self.sides else {
             self.sides = Some([point; 2]);
             return point == [0.0; 2];

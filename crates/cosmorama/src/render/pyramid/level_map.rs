@@ -16,8 +16,8 @@ const POINTS: usize = 512;
 /// Which levels of a pyramid each pixel of a target is made from.
 ///
 /// A level is a number: at 2 and beyond a pixel is made from the second halved world, from [`BLENDED`] before 3 more and more from
-/// the third. It is the logarithm of the footprint's minor axis among the texels of the view that shows it, interpolated between
-/// points a few pixels apart, so that it is continuous across the edges of views as well.
+/// the third. It is the logarithm of the footprint's minor axis among the texels of the view that shows it, interpolated in large
+/// pictures between points a few pixels apart, so that it is continuous across the edges of views as well.
 #[derive(Clone, Debug)]
 pub(crate) struct LevelMap {
     /// Pixels from point to point: a power of two.
@@ -37,12 +37,12 @@ impl LevelMap {
         let mut levels = vec![f32::NAN; columns * rows];
         levels.par_chunks_mut(columns).enumerate().for_each(|(j, row)| {
             for (i, level) in row.iter_mut().enumerate() {
-                let at = PixelPoint::new((i * step) as f64, (j * step) as f64);
+                let at = PixelPoint::new((i * step) as f64 + first(step), (j * step) as f64 + first(step));
                 let found = target.footprint(at).and_then(|footprint| {
                     let reach = (BESIDE_EDGE + step) as f64 * width(&footprint);
                     let is_cut = edge.is_some_and(|edge| edge.is_near(footprint.direction, reach));
-                    let (source, _) = world.owner(footprint.direction)?;
-                    rule.level(source, &footprint, LevelNeed { is_cut, pixels_around: (step - 1) as f64 })
+                    let view = world.owner(footprint.direction).map(|(view, _)| view);
+                    rule.level(view, &footprint, LevelNeed { is_cut, pixels_around: (step - 1) as f64 })
                 });
                 *level = found.map_or(f32::NAN, |level| level as f32);
             }
@@ -113,7 +113,7 @@ impl LevelMap {
     fn place(&self, pixel: usize) -> (usize, f32) {
         // A shift: to divide would take longer than all else.
         let within = pixel & (self.step - 1);
-        (pixel >> self.step.ilog2(), (within as f32 + 0.5) / self.step as f32)
+        (pixel >> self.step.ilog2(), (within as f32 + 0.5 - first(self.step) as f32) / self.step as f32)
     }
 
     /// The least and the greatest level of the pixels in a rectangle, or somewhat less and more.
@@ -129,6 +129,12 @@ impl LevelMap {
         let [least, most] = self.range(rect);
         !is_beyond(most, level) && !is_before(least, level)
     }
+}
+
+/// Where the first point is: on the picture's edge, so that points mirror each other, but if each pixel has its own, in its centre.
+/// Pixels of small pictures may be so wide that their corners tell nothing of them.
+fn first(step: usize) -> f64 {
+    if step == 1 { 0.5 } else { 0.0 }
 }
 
 fn between([from, to]: [f32; 2], part: f32) -> f32 {
