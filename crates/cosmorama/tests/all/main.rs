@@ -15,7 +15,6 @@ mod filter {
     mod reference;
     mod rim;
     mod seams;
-    mod timing;
 }
 
 mod render {

@@ -23,7 +23,7 @@ pub(crate) struct LaneKernel {
 pub(crate) const LANES: usize = 8;
 
 /// Blocks that are had room for.
-const MOST: usize = 128;
+const MOST: usize = 512;
 
 /// Texels beside each other, eight at most.
 struct Block {
@@ -85,7 +85,12 @@ impl Blocks {
     /// Whether texels under the footprint lie all around its middle.
     pub(crate) fn surround(&self) -> bool {
         let mut wedge = Wedge::default();
-        let under = |block: &Block| (0..LANES).filter({ let under = block.under; move |lane| under >> lane & 1 == 1 });
+        let under = |block: &Block| {
+            (0..LANES).filter({
+                let under = block.under;
+                move |lane| under >> lane & 1 == 1
+            })
+        };
         self.0.iter().any(|block| under(block).any(|lane| wedge.closes_with([block.x[lane], block.y[lane]])))
     }
 
@@ -100,11 +105,11 @@ impl Blocks {
         let (mut least, mut greatest) = (f32x4::splat(simd, f32::INFINITY), f32x4::splat(simd, f32::NEG_INFINITY));
         for block in &self.0 {
             let [weight, window, x, y] = block.lanes(simd);
-            let weight = weight.mul_add(scale, window * x.mul_add(gx, y.mul_add(gy, constant))).to_array();
+            let weight = (weight * scale + window * (x * gx + (y * gy + constant))).to_array();
             let texels = &light[block.first..][..block.count];
             for (texel, weight) in texels.iter().zip(weight) {
                 let weight = f32x4::splat(simd, weight);
-                sum = f32x4::load_array_ref(simd, &texel.0).mul_add(weight, sum);
+                sum += f32x4::load_array_ref(simd, &texel.0) * weight;
             }
             let (from, under) = (block.under.trailing_zeros() as usize, block.under.count_ones() as usize);
             for texel in texels.iter().skip(from).take(under) {
@@ -123,17 +128,20 @@ impl Blocks {
         for block in &self.0 {
             let [w, v, x, y] = block.lanes(simd);
             let (vx, vy) = (v * x, v * y);
+            // One by one: a loop would keep them in memory.
             sums[0] += w;
+            sums[1] += w * x;
+            sums[2] += w * y;
             sums[3] += v;
             sums[4] += vx;
             sums[5] += vy;
-            for (at, [a, b]) in [(1, [w, x]), (2, [w, y]), (6, [vx, x]), (7, [vx, y]), (8, [vy, y])] {
-                sums[at] = a.mul_add(b, sums[at]);
-            }
+            sums[6] += vx * x;
+            sums[7] += vx * y;
+            sums[8] += vy * y;
         }
         let mut totals = [0f64; 9];
         for (total, sum) in totals.iter_mut().zip(sums) {
-            *total = f64::from(sum.reduce_sum());
+            *total = f64::from(sum.to_array().iter().sum::<f32>());
         }
         let [w, wx, wy, v, vx, vy, vxx, vxy, vyy] = totals;
         let mean = DVec2::new(vx, vy) / v;

@@ -118,7 +118,9 @@ impl Averager {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sphere::Direction;
+    use crate::camera::{FieldStop, PixelGrid, View};
+    use crate::projection::{PlanePoint, PlaneRect, ProjectionKind};
+    use crate::sphere::{CubeFace, Direction};
     use crate::world::panorama;
 
     /// Light that is another in each texel.
@@ -127,26 +129,53 @@ mod tests {
         (0..count).map(|texel| value(texel) as f32 / 999.0).map(|v| Rgba::opaque(v, v * v, 1.0 - v)).collect()
     }
 
-    #[test]
-    fn the_direct_way_averages_as_taps_do() {
-        let world = World::new([("all".to_owned(), panorama(800, 400))]).expect("a view");
+    /// Footprints all over, from narrow to wide, some of them long, turned anyhow.
+    fn footprints(narrowest: f64, growth: f64) -> impl Iterator<Item = Footprint> {
+        Direction::spread(4000).enumerate().map(move |(k, at)| {
+            let (right, up) = at.vector().any_orthonormal_pair();
+            let (sin, cos) = (k as f64).sin_cos();
+            let width = narrowest * growth.powi(k as i32);
+            let long = [1.0, 2.0, 0.3][k % 3];
+            Footprint::new(at, (right * cos + up * sin) * width, (up * cos - right * sin) * width * long)
+        })
+    }
+
+    /// Compares the direct way with a list of taps, and returns for how many footprints there is one.
+    fn check(world: &World, footprints: impl Iterator<Item = Footprint>) -> usize {
         let light = noise(world.texel_count());
         let averager = Averager::new(&Ewa::default());
         let direct = averager.direct.as_ref().expect("a kernel of cubics");
+        let pinholes = Pinholes::of(world);
         let mut count = 0;
-        for (k, at) in Direction::spread(4000).enumerate() {
-            let (right, up) = at.vector().any_orthonormal_pair();
-            let (sin, cos) = (k as f64).sin_cos();
-            let width = 0.004 * 1.0008f64.powi(k as i32);
-            let long = [1.0, 2.0, 0.3][k % 3];
-            let footprint =
-                Footprint::new(at, (right * cos + up * sin) * width, (up * cos - right * sin) * width * long);
-            let Some(found) = direct.average((&world, None), &light, &footprint, None) else { continue };
-            let expected = averager.by_taps(&world, &light, &footprint);
+        for footprint in footprints {
+            let Some(found) = direct.average((world, pinholes.as_ref()), &light, &footprint, None) else { continue };
+            let expected = averager.by_taps(world, &light, &footprint);
             let error = (0..4).map(|c| (found.0[c] - expected.0[c]).abs()).fold(0.0, f32::max);
             assert!(error < 2e-3, "{found:?}, not {expected:?}: {footprint:?}");
             count += 1;
         }
+        count
+    }
+
+    #[test]
+    fn the_direct_way_averages_as_taps_do() {
+        let world = World::new([("all".to_owned(), panorama(800, 400))]).expect("a view");
+        let count = check(&world, footprints(0.004, 1.0008));
         assert!(count > 2000, "{count} by the direct way");
+    }
+
+    #[test]
+    fn a_kernel_is_a_conic_of_each_face() {
+        let rect = PlaneRect { min: PlanePoint::new(-1.0, -1.0), max: PlanePoint::new(1.0, 1.0) };
+        let face = |face: CubeFace| View {
+            projection: ProjectionKind::PERSPECTIVE,
+            orientation: face.orientation(),
+            grid: PixelGrid::spanning(64, 64, rect),
+            stop: FieldStop::NONE,
+        };
+        let world = World::new(CubeFace::ALL.map(|at| (at.name().to_owned(), face(at)))).expect("six faces");
+        // Up to 0.4 radians: across edges, corners, and horizons of faces.
+        let count = check(&world, footprints(0.03, 1.00065));
+        assert!(count > 3500, "{count} by the direct way");
     }
 }

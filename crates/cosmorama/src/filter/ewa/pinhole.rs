@@ -48,6 +48,8 @@ struct Shape {
 /// A kernel in the plane of a view, by offsets (u, v) in texels from a point: that in the footprint's direction, or where that looks
 /// along the plane or away from it the image's middle.
 struct Plane {
+    /// Whether the footprint's direction has a point in it.
+    is_before: bool,
     lattice: Lattice,
     /// Offset in the kernel's unit: (middle + u·across + v·down) / √s.
     middle: DVec2,
@@ -72,7 +74,8 @@ impl Pinholes {
     /// The views of a world; `None` if not all are pinholes with texels alike, all of which count, once.
     pub(crate) fn of(world: &World) -> Option<Self> {
         let texel_pitch = world.sources()[0].texel_pitch;
-        let views = world.sources().iter().map(|source| Pinhole::of(source).filter(|_| source.texel_pitch == texel_pitch));
+        let views =
+            world.sources().iter().map(|source| Pinhole::of(source).filter(|_| source.texel_pitch == texel_pitch));
         Some(Self { views: views.collect::<Option<_>>()?, texel_pitch })
     }
 
@@ -91,7 +94,8 @@ impl Pinhole {
             && source.others.is_empty();
         let (first, step) = (view.grid.to_plane(PixelPoint::new(0.0, 0.0)), view.grid.step());
         let turned = |x: f64, y: f64, z: f64| view.orientation.vector_to_world(DVec3::new(x, y, z));
-        let [across, down, corner] = [turned(step.x, 0.0, 0.0), turned(0.0, -step.y, 0.0), turned(first.x, first.y, -1.0)];
+        let [across, down, corner] =
+            [turned(step.x, 0.0, 0.0), turned(0.0, -step.y, 0.0), turned(first.x, first.y, -1.0)];
         let size = [view.width(), view.height()];
         let [right, bottom] = size.map(|size| size as f64);
         let axis = (corner + across * (0.5 * right) + down * (0.5 * bottom)).normalize();
@@ -125,7 +129,8 @@ impl Pinhole {
     fn plane(&self, shape: &Shape, kernel: &Kernel) -> Plane {
         let at = self.to_image * shape.direction;
         let depth = at.z;
-        let (place, point) = if depth > NEAR {
+        let is_before = depth > NEAR;
+        let (place, point) = if is_before {
             ([at.x / depth, at.y / depth], shape.direction / depth)
         } else {
             let middle = self.size.map(|size| 0.5 * size as f64);
@@ -138,6 +143,7 @@ impl Pinhole {
         let (across, down) = (along(step), along(line));
         let texels = across.perp_dot(down).abs().sqrt().recip() / kernel.scale;
         Plane {
+            is_before,
             lattice: Lattice::around(place, self.size),
             middle: along(point),
             across,
@@ -218,13 +224,16 @@ impl Pinholes {
         let mut plane = self.views[own].plane(&shape, profile);
         let is_raised = plane.raise(profile.floor);
         if self.views[own].fill(simd, kernel, &plane, light, &mut blocks)? {
-            // Raised axes are others in each view. Texels that are seen from aside need none: they are finer.
-            if is_raised {
-                return None;
-            }
-            let others = self.views.iter().enumerate().filter(|(index, other)| *index != own && other.is_reached(&shape));
-            for (_, other) in others {
-                other.fill(simd, kernel, &other.plane(&shape, profile), light, &mut blocks)?;
+            for (index, other) in self.views.iter().enumerate() {
+                if index == own || !other.is_reached(&shape) {
+                    continue;
+                }
+                let mut plane = other.plane(&shape, profile);
+                // Raised axes are others in each view. From aside nothing is raised: only wide kernels reach there.
+                if is_raised || plane.is_before && plane.raise(profile.floor) {
+                    return None;
+                }
+                other.fill(simd, kernel, &plane, light, &mut blocks)?;
             }
             if !blocks.surround() {
                 return None;
@@ -232,7 +241,6 @@ impl Pinholes {
         }
         Some(blocks.average(simd, light, profile.centred, *anti_ringing))
     }
-
 }
 
 impl Pinhole {

@@ -1,4 +1,4 @@
-// Hints to the processor.
+//! Asking for memory before it is read.
 #![allow(unsafe_code)]
 
 /// Bytes that come from memory together.

@@ -39,7 +39,7 @@ pub(crate) struct Row {
 }
 
 /// Rows that there is room for.
-const MOST: usize = 128;
+const MOST: usize = 256;
 
 /// The rows of texels inside a conic, from top to bottom.
 #[derive(Default)]
@@ -54,7 +54,8 @@ impl Conic {
     fn range(&self) -> [f64; 2] {
         // Rows that it meets have a discriminant that is not negative: that is quadratic in v as well.
         let Self { uu, uv, vv, u, v, one } = *self;
-        let [square, linear, constant] = [uv * uv - 4.0 * uu * vv, 2.0 * (uv * u - 2.0 * uu * v), u * u - 4.0 * uu * one];
+        let [square, linear, constant] =
+            [uv * uv - 4.0 * uu * vv, 2.0 * (uv * u - 2.0 * uu * v), u * u - 4.0 * uu * one];
         if uu <= 0.0 || square >= 0.0 {
             return [f64::NEG_INFINITY, f64::INFINITY];
         }
@@ -70,7 +71,8 @@ impl Rows {
     pub(crate) fn cut<S: Simd>(&mut self, simd: S, conic: &Conic, lattice: &Lattice) -> Option<()> {
         let Lattice { texel: [column, row], centre, size: [width, height] } = *lattice;
         let [top, bottom] = conic.range();
-        let [top, bottom] = [(top - f64::from(centre[1])).ceil() as i32, (bottom - f64::from(centre[1])).floor() as i32];
+        let [top, bottom] =
+            [(top - f64::from(centre[1])).ceil() as i32, (bottom - f64::from(centre[1])).floor() as i32];
         let [first, last] = [top.max(-row), bottom.min(height - 1 - row)];
         self.is_cut = first != top || last != bottom;
         if last - first >= MOST as i32 {

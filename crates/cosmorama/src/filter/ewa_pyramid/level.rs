@@ -83,9 +83,9 @@ impl LevelRule {
         if !level.is_finite() {
             return None;
         }
-        let is_finer = need.is_cut || is_beside_rim(source, footprint, pixels);
-        let level = if is_finer { level - FINER } else { level };
-        if !is_finer && is_regular(&self.kernel, source, footprint) {
+        let rim = if need.is_cut { 1.0 } else { nearness_of_rim(source, footprint, pixels) };
+        let level = level - FINER * rim;
+        if rim == 0.0 && is_regular(&self.kernel, source, footprint) {
             return Some(level);
         }
         Some(level.max(self.least(view, footprint, level, need)))
@@ -153,9 +153,12 @@ pub(crate) fn width(footprint: &Footprint) -> f64 {
     footprint.jacobian.dx.length().max(footprint.jacobian.dy.length())
 }
 
-/// Whether a steep rim of a view is within so many pixels of a footprint.
-fn is_beside_rim(source: &Source, footprint: &Footprint, pixels: f64) -> bool {
-    source.view.projection.has_steep_rim() && source.view.margin(footprint.direction) < pixels * width(footprint)
+/// How near a steep rim of a view is to a footprint: one within so many pixels, falling to nothing a pixel further.
+fn nearness_of_rim(source: &Source, footprint: &Footprint, pixels: f64) -> f64 {
+    if !source.view.projection.has_steep_rim() {
+        return 0.0;
+    }
+    (pixels + 1.0 - source.view.margin(footprint.direction) / width(footprint)).clamp(0.0, 1.0)
 }
 
 /// The level for a footprint in texels: 0, or less, where it is the finest.

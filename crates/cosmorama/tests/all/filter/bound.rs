@@ -25,11 +25,11 @@ fn most(world: &World, target: &View) -> usize {
     Report::of(world, target, &PYRAMID).gathered.most
 }
 
-/// Targets that look to a place: a camera whose pixels are as wide as so many texels, up to 19°, and maps of pixels of 15° and 36°.
+/// Targets that look to a place: a camera whose pixels are as wide as so many texels, up to 19°, and maps of pixels of 22.5° and 36°.
 fn targets([yaw, pitch, roll]: [f64; 3], pixel: f64) -> [View; 3] {
     let fov = Angle::from_radians((6.0 * pixel).min(2.0)).degrees();
     let map = |width| View { orientation: turned([yaw, pitch, roll]), ..equirect(width) };
-    [perspective(6, 6, fov, yaw, pitch, roll), map(24), map(10)]
+    [perspective(6, 6, fov, yaw, pitch, roll), map(16), map(10)]
 }
 
 #[test]
@@ -39,16 +39,15 @@ fn no_pixel_of_any_projection_takes_more_texels_than_said() {
     for (number, (name, view)) in worlds.enumerate() {
         let world = World::new([(name.to_owned(), view.clone())]).expect("one view");
         let texels_a_radian = view.pixels_per_radian();
-        // Every fourth place of each world: its neighbours in the list, of the same family, have the rest.
-        for (k, place) in places().enumerate().filter(|(k, _)| k % 4 == number % 4) {
+        // Every fifth place of each world: its neighbours in the list, of the same family, have the rest.
+        for (k, place) in places().enumerate().filter(|(k, _)| k % 5 == number % 5) {
             let shrink = [1.0, 2.0, 3.7, 8.0, 17.0, 40.0, 64.0][k % 7];
             for (at, target) in targets(place, shrink / texels_a_radian).iter().enumerate() {
                 // One map at each: they have many pixels.
-                if at > 0 && (k / 4 + at) % 2 == 0 {
+                if at > 0 && (k / 5 + at) % 2 == 0 {
                     continue;
                 }
                 let found = most(&world, target);
-                println!("{name} at {place:?}, {shrink}, target {at}: {found}");
                 assert!(found <= MOST_TEXELS, "{name} at {place:?}, shrunk by {shrink}, target {at}: {found}");
                 greatest = greatest.max(found);
             }
@@ -66,7 +65,6 @@ fn wide_pixels_across_seams_and_ends_take_no_more() {
         for roll in [0.0, 17.0, 68.0] {
             for target in &targets([yaw, 0.0, roll], 0.01)[1..] {
                 let found = most(&world, target);
-                println!("{name}, roll {roll}, {}: {found}", target.width());
                 assert!(found <= MOST_TEXELS, "{name}: {found} of a map of {}", target.width());
             }
         }
