@@ -66,16 +66,12 @@ impl Orientation {
         Direction::from_unit(self.vector_to_view(direction.vector()))
     }
 
-<<<<<<< HEAD
-    /// Converts a tangent vector from the world's frame to the view's.
-=======
-    /// A vector from the view's frame to the world's.
+    /// Converts a vector from the view's frame to the world's.
     pub(crate) fn vector_to_world(&self, vector: DVec3) -> DVec3 {
         self.world_from_view * vector
     }
 
-    /// A tangent vector from the world's frame to the view's.
->>>>>>> 4399bd9 (Footprints among pinholes: a kernel is a conic in each face's plane, whose texels eight lanes weigh at once; a pyramid's levels are found in the centres of small pictures' pixels, beside views, too)
+    /// Converts a tangent vector from the world's frame to the view's.
     pub fn vector_to_view(&self, vector: DVec3) -> DVec3 {
         self.world_from_view.transpose() * vector
     }
