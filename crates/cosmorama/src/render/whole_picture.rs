@@ -1,6 +1,8 @@
 //! Whole pictures, and the plans that make many of them: the methods of a [`Resampler`].
 
 use super::Resampler;
+use super::apply::fixed::FixedArithmetic;
+use super::apply::float::FloatArithmetic;
 use super::batch::window::Level;
 use super::plan::{self, Arithmetic, Plan};
 use super::pyramid;
@@ -29,7 +31,7 @@ impl Resampler<'_> {
         assert_eq!(texels.len(), self.world.texel_count(), "one texel of light for each texel of the world");
         let mut image = match self.filter.kind {
             FilterKind::Ewa | FilterKind::Point | FilterKind::Bilinear => {
-                return plan::render(self, texels, background, Level::new());
+                return plan::render(self, None, FloatArithmetic { texels, background }, Level::new());
             }
             FilterKind::Reference { samples } => {
                 reference::render(self.world, self.target, &self.filter.reference(samples), texels)
@@ -51,7 +53,7 @@ impl Resampler<'_> {
             let texels: Vec<Rgba> = (0..light.len()).map(|texel| light.rgba(texel)).collect();
             return codec.encode(&self.render(&texels));
         }
-        plan::render_fixed(self, light, codec)
+        plan::render(self, None, FixedArithmetic { light, codec }, Level::new())
     }
 
     /// Compiles the geometry, for any number of frames; `None` for the reference filter, which has too many samples to store, and in

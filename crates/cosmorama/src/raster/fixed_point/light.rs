@@ -77,11 +77,6 @@ impl FixedLight {
         &self.texels
     }
 
-    /// Returns four samples for each texel, padding included.
-    pub(crate) fn samples(&self) -> &[i16] {
-        self.texels.as_flattened()
-    }
-
     /// Returns one texel, by its index in the world.
     ///
     /// # Panics

@@ -248,7 +248,7 @@ mod tests {
             let image = EncodedImage::new(256, 1, channels, Depth::Eight, Samples::U8(codes)).unwrap();
             let mut light = FixedLight::black([[256, 1]]);
             assert!(decode(&decoder, &image, &mut light));
-            light.samples().to_vec()
+            light.as_laid_out().to_vec()
         };
         let grey = light(Channels::Grey, (0..=255).collect());
         assert_eq!(grey, light(Channels::Rgb, (0..=255).flat_map(|code| [code; 3]).collect()));
@@ -279,7 +279,7 @@ mod tests {
         ] {
             let image = EncodedImage::new(1, 1, channels, depth, samples).unwrap();
             assert!(!decode(&decoder, &image, &mut light));
-            assert_eq!(light.samples()[..4], [0; 4]);
+            assert_eq!(light.as_laid_out()[0], [0; 4]);
         }
     }
 }

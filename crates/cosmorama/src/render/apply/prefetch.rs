@@ -1,6 +1,6 @@
 use std::ops::Range;
 
-use super::fixed::texels;
+use super::texels;
 use crate::render::plan::span::Run;
 use crate::render::plan::symmetry::{Mirrors, exchanged};
 use crate::render::plan::traversal::Pass;

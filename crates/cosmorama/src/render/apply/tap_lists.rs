@@ -3,6 +3,7 @@
 use bytemuck::NoUninit;
 use fearless_simd::{Simd, f32x4, prelude::*};
 
+use super::texels::prefetch;
 use super::tile_writer::Canvas;
 use crate::filter::rim::rim_extrapolation::{Bounds, Rim, TexelLight};
 use crate::filter::taps::BLOCK;
@@ -13,15 +14,16 @@ use crate::render::plan::tap_lists::{SingleTaps, Singles};
 /// What makes colours of texels, and pixels of colours.
 pub(crate) trait Palette {
     type Pixel: NoUninit;
+    type Sample: Copy;
+
+    /// Texels as they lie in memory.
+    fn texels(&self) -> &[[Self::Sample; 4]];
 
     /// The light of a texel.
     fn light<S: Simd>(&self, simd: S, texel: u32) -> f32x4<S>;
 
     /// What is written where light covers this part of a pixel.
     fn pixel(&self, light: Rgba, coverage: f32) -> Self::Pixel;
-
-    /// Asks for a texel that will be read soon.
-    fn prefetch(&self, texel: u32);
 }
 
 impl Singles {
@@ -55,7 +57,7 @@ impl Singles {
         let mut ahead = self.pixels().iter().skip(AHEAD);
         for single in self.pixels() {
             let later = ahead.next().map_or(&[][..], |later| self.taps(later, N).texels);
-            later.iter().for_each(|texel| palette.prefetch(*texel));
+            later.iter().for_each(|texel| prefetch(palette.texels(), *texel));
             let taps = self.taps(single, N);
             let averages = simd.vectorize(
                 #[inline(always)]

@@ -1,17 +1,18 @@
 use super::span::Run;
 use super::tap_lists::Singles;
 use super::weights::Weights;
+use super::window_format::Format;
 use crate::render::scan::tile::SIDE;
 
 /// What makes a few rows of a target.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Band<W> {
+pub(crate) struct Band<F> {
     pub(crate) runs: Vec<Run>,
-    pub(crate) weights: W,
+    pub(crate) weights: Weights<F>,
     pub(crate) singles: Singles,
 }
 
-impl<W: Weights> Band<W> {
+impl<F: Format> Band<F> {
     /// Forgets all but the memory.
     pub(crate) fn clear(&mut self) {
         self.runs.clear();

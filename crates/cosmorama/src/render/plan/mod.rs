@@ -10,6 +10,7 @@ mod tests;
 pub(crate) mod transpose;
 pub(crate) mod traversal;
 pub(crate) mod weights;
+pub(crate) mod window_format;
 pub(crate) mod window_order;
 
 use std::ops::Range;
@@ -17,15 +18,16 @@ use std::ops::Range;
 use bytemuck::NoUninit;
 use rayon::prelude::*;
 
-use crate::render::apply::fixed::FixedFilter;
-use crate::render::apply::fixed::weights::FixedWeights;
-use crate::render::apply::float::FloatFilter;
-use crate::render::apply::float::weights::FloatWeights;
+use crate::render::apply::driver::{BandFilter, WindowArithmetic};
+use crate::render::apply::fixed::FixedArithmetic;
+use crate::render::apply::fixed::weights::FixedFormat;
+use crate::render::apply::float::FloatArithmetic;
+use crate::render::apply::float::weights::FloatFormat;
 use crate::render::apply::tile_writer::Canvas;
 use band::Band;
 use recorder::Recorder;
 use symmetry::{MirrorImage, Mirrors, exchanged};
-use weights::Weights;
+use window_format::Format;
 
 use super::Resampler;
 use super::batch::window::Level;
@@ -59,19 +61,19 @@ pub enum Arithmetic {
 
 #[derive(Clone, Debug)]
 enum Geometry {
-    Float(Compiled<FloatWeights>),
-    Fixed(Compiled<FixedWeights>),
+    Float(Compiled<FloatFormat>),
+    Fixed(Compiled<FixedFormat>),
     /// In floats, by level.
     Pyramid(PyramidPlan),
 }
 
 #[derive(Clone, Debug)]
-pub(crate) struct Compiled<W> {
+pub(crate) struct Compiled<F> {
     width: usize,
     height: usize,
     anti_ringing: bool,
     mirrors: Mirrors,
-    bands: Vec<Band<W>>,
+    bands: Vec<Band<F>>,
 }
 
 impl Plan {
@@ -116,12 +118,7 @@ impl Plan {
     /// As [`Plan::apply`], or if the image is not of the target's size.
     pub fn apply_into(&self, texels: &[Rgba], background: Rgba, image: &mut Image<Rgba>) {
         match &self.0 {
-            Geometry::Float(compiled) => {
-                let Compiled { anti_ringing, mirrors, .. } = compiled;
-                let filter =
-                    FloatFilter { level: Level::new(), mirrors, texels, anti_ringing: *anti_ringing, background };
-                compiled.fill(image, background, |band, canvas| filter.fill(band, canvas));
-            }
+            Geometry::Float(compiled) => compiled.fill(FloatArithmetic { texels, background }, Level::new(), image),
             Geometry::Pyramid(plan) => plan.apply_into(texels, background, image),
             Geometry::Fixed(_) => panic!("a plan of integers takes light of 15 bits"),
         }
@@ -144,10 +141,8 @@ impl Plan {
     /// As [`Plan::apply_fixed`], or if the image is not of the target's size.
     pub fn apply_fixed_into(&self, light: &FixedLight, codec: &FixedCodec, image: &mut Image<[u8; 3]>) {
         let Geometry::Fixed(compiled) = &self.0 else { panic!("a plan of floats takes light of any range") };
-        let Compiled { anti_ringing, mirrors, .. } = compiled;
-        assert!(mirrors.layout().eq(light.layout()), "light of the world's views");
-        let filter = FixedFilter { level: Level::new(), mirrors, light, codec, anti_ringing: *anti_ringing };
-        compiled.fill(image, codec.background(), |band, canvas| filter.fill(band, canvas));
+        assert!(compiled.mirrors.layout().eq(light.layout()), "light of the world's views");
+        compiled.fill(FixedArithmetic { light, codec }, Level::new(), image);
     }
 
     /// Bytes of memory that the plan holds.
@@ -174,54 +169,37 @@ pub(crate) fn bytes_estimate(resampler: &Resampler, arithmetic: Arithmetic) -> u
     match (arithmetic, resampler.filter.kind) {
         (_, FilterKind::Reference { .. }) | (Arithmetic::Fixed, FilterKind::EwaPyramid) => 0,
         (Arithmetic::Float, FilterKind::EwaPyramid) => PyramidPlan::bytes_estimate(resampler),
-        (Arithmetic::Float, _) => part_bytes_estimate::<FloatWeights>(resampler, None),
-        (Arithmetic::Fixed, _) => part_bytes_estimate::<FixedWeights>(resampler, None),
+        (Arithmetic::Float, _) => part_bytes_estimate::<FloatFormat>(resampler, None),
+        (Arithmetic::Fixed, _) => part_bytes_estimate::<FixedFormat>(resampler, None),
     }
 }
 
 /// Bytes, about, that the plan of wanted patches would hold.
 pub(crate) fn float_bytes_estimate(resampler: &Resampler, wanted: &Wanted) -> usize {
-    part_bytes_estimate::<FloatWeights>(resampler, Some(wanted))
+    part_bytes_estimate::<FloatFormat>(resampler, Some(wanted))
 }
 
-/// A frame without a plan that is kept: each band's geometry is forgotten when its pixels are made.
-pub(crate) fn render(resampler: &Resampler, texels: &[Rgba], background: Rgba, level: Level) -> Image<Rgba> {
-    render_part(resampler, None, (texels, background), level)
-}
-
-/// The wanted patches of one, all else background.
-pub(crate) fn render_part(
+/// A frame without a plan that is kept: each band's geometry is forgotten when its pixels are made. Only the patches that are wanted,
+/// if some are, all else background.
+pub(crate) fn render<A: WindowArithmetic>(
     resampler: &Resampler,
     wanted: Option<&Wanted>,
-    (texels, background): (&[Rgba], Rgba),
+    arithmetic: A,
     level: Level,
-) -> Image<Rgba> {
-    let mirrors = &Mirrors::of::<FloatWeights>(resampler);
-    let (width, height) = (resampler.target.width(), resampler.target.height());
-    let mut image = Image::zeroed(width, height);
-    let filter = FloatFilter { level, mirrors, texels, anti_ringing: resampler.filter.anti_ringing, background };
-    let pixels = (image.pixels_mut(), background);
+) -> Image<A::Pixel> {
+    let mirrors = &Mirrors::of::<A::Format>(resampler);
+    let mut image = Image::zeroed(resampler.target.width(), resampler.target.height());
+    let pixels = (image.pixels_mut(), arithmetic.background());
+    let filter = BandFilter { level, mirrors, anti_ringing: resampler.filter.anti_ringing, arithmetic };
     each_band((resampler, wanted), mirrors, pixels, level, |band, canvas| filter.fill(band, canvas));
-    image
-}
-
-/// Renders a picture from 15-bit light, without keeping a plan.
-pub(crate) fn render_fixed(resampler: &Resampler, light: &FixedLight, codec: &FixedCodec) -> Image<[u8; 3]> {
-    let mirrors = &Mirrors::of::<FixedWeights>(resampler);
-    let (width, height) = (resampler.target.width(), resampler.target.height());
-    let mut image = Image::zeroed(width, height);
-    let level = Level::new();
-    let filter = FixedFilter { level, mirrors, light, codec, anti_ringing: resampler.filter.anti_ringing };
-    let pixels = (image.pixels_mut(), codec.background());
-    each_band((resampler, None), mirrors, pixels, level, |band, canvas| filter.fill(band, canvas));
     image
 }
 
 /// Bytes that the plan of a conversion would hold, found from a row of patches in each band, keeping none of them. Of a small
 /// picture from all, which takes hundredths of a second: it has few bands, and a pole in one of them holds most of the bytes.
-fn part_bytes_estimate<W: Weights>(resampler: &Resampler, wanted: Option<&Wanted>) -> usize {
+fn part_bytes_estimate<F: Format>(resampler: &Resampler, wanted: Option<&Wanted>) -> usize {
     const SMALL: usize = 512 * 512;
-    let mirrors = &Mirrors::of::<W>(resampler);
+    let mirrors = &Mirrors::of::<F>(resampler);
     let table = KernelTable::new(&resampler.filter.kernel);
     let is_small = mirrors.rows * mirrors.columns <= SMALL;
     let bytes = |index: usize| {
@@ -229,7 +207,7 @@ fn part_bytes_estimate<W: Weights>(resampler: &Resampler, wanted: Option<&Wanted
         // Not the same in all bands: what lies at the edge of a picture would count too often.
         let top = band.start + index % (BAND / SIDE) * SIDE;
         let rows = if top < band.end && !is_small { top..band.end.min(top + SIDE) } else { band };
-        let (mut kept, mut bytes, count) = (Band::<W>::default(), 0, rows.len());
+        let (mut kept, mut bytes, count) = (Band::<F>::default(), 0, rows.len());
         record((resampler, wanted), mirrors, &table, rows, Level::new(), &mut kept, |band| {
             bytes += band.used_bytes();
             band.clear();
@@ -241,10 +219,10 @@ fn part_bytes_estimate<W: Weights>(resampler: &Resampler, wanted: Option<&Wanted
     bytes * mirrors.rows / rows.max(1)
 }
 
-impl<W: Weights> Compiled<W> {
+impl<F: Format> Compiled<F> {
     fn new(resampler: &Resampler, wanted: Option<&Wanted>, level: Level) -> Self {
         let Resampler { target, filter, .. } = resampler;
-        let mirrors = Mirrors::of::<W>(resampler);
+        let mirrors = Mirrors::of::<F>(resampler);
         let table = KernelTable::new(&filter.kernel);
         let compile = |index| {
             let mut band = Band::default();
@@ -258,18 +236,15 @@ impl<W: Weights> Compiled<W> {
         Self { width, height, anti_ringing: filter.anti_ringing, mirrors, bands }
     }
 
-    fn fill<P: NoUninit + Send + Sync>(
-        &self,
-        image: &mut Image<P>,
-        background: P,
-        make: impl Fn(&Band<W>, &mut Canvas<P>) + Sync,
-    ) {
+    fn fill<A: WindowArithmetic<Format = F>>(&self, arithmetic: A, level: Level, image: &mut Image<A::Pixel>) {
         let (found, expected) = ((image.width(), image.height()), (self.width, self.height));
         assert_eq!(found, expected, "an image as large as the target");
-        let canvases = Canvas::bands(image.pixels_mut(), self.width, BAND, &self.mirrors, background);
+        let Self { anti_ringing, ref mirrors, .. } = *self;
+        let canvases = Canvas::bands(image.pixels_mut(), self.width, BAND, mirrors, arithmetic.background());
+        let filter = BandFilter { level, mirrors, anti_ringing, arithmetic };
         // One by one: with mirrors along the diagonals the first bands have far more pixels than the last.
         let bands = canvases.into_par_iter().zip(&self.bands).with_max_len(1);
-        bands.for_each(|(mut canvas, band)| make(band, &mut canvas));
+        bands.for_each(|(mut canvas, band)| filter.fill(band, &mut canvas));
     }
 
     fn bytes(&self) -> usize {
@@ -278,12 +253,12 @@ impl<W: Weights> Compiled<W> {
 }
 
 /// Records each band, makes its pixels and forgets it.
-fn each_band<W: Weights, P: NoUninit + Send + Sync>(
+fn each_band<F: Format, P: NoUninit + Send + Sync>(
     (resampler, wanted): (&Resampler, Option<&Wanted>),
     mirrors: &Mirrors,
     (pixels, background): (&mut [P], P),
     level: Level,
-    make: impl Fn(&Band<W>, &mut Canvas<P>) + Sync,
+    make: impl Fn(&Band<F>, &mut Canvas<P>) + Sync,
 ) {
     let table = &KernelTable::new(&resampler.filter.kernel);
     let canvases = Canvas::bands(pixels, resampler.target.width(), BAND, mirrors, background);
@@ -298,14 +273,14 @@ fn each_band<W: Weights, P: NoUninit + Send + Sync>(
 }
 
 /// Records some rows; `spill` may take from the band what it holds, when that is much.
-fn record<W: Weights>(
+fn record<F: Format>(
     (resampler, wanted): (&Resampler, Option<&Wanted>),
     mirrors: &Mirrors,
     table: &KernelTable,
     rows: Range<usize>,
     level: Level,
-    band: &mut Band<W>,
-    spill: impl FnMut(&mut Band<W>),
+    band: &mut Band<F>,
+    spill: impl FnMut(&mut Band<F>),
 ) {
     let mut recorder =
         Recorder { world: resampler.world, mirrors, band, taps: Taps::default(), places: Vec::new(), spill };
@@ -316,7 +291,7 @@ fn record<W: Weights>(
 /// The patches that must be computed, in whatever mirror something is wanted of them, given which rectangles of the target are.
 pub(crate) fn wanted(resampler: &Resampler, is_wanted: impl Fn(PixelRect) -> bool + Sync) -> Wanted {
     // What is seen in which mirror is the same for all light.
-    let mirrors = Mirrors::of::<FloatWeights>(resampler);
+    let mirrors = Mirrors::of::<FloatFormat>(resampler);
     let size = [resampler.target.width(), resampler.target.height()];
     Wanted::new([mirrors.columns, mirrors.rows], |patch| {
         mirrors.images.iter().any(|image| is_wanted(image.shown(patch, size)))

@@ -1,7 +1,7 @@
 use super::band::Band;
 use super::span::{Corners, Run};
 use super::symmetry::Mirrors;
-use super::weights::Weights;
+use super::window_format::Format;
 use crate::filter::taps::Taps;
 use crate::render::batch::window::Windows;
 use crate::render::scan::Sink;
@@ -9,15 +9,15 @@ use crate::render::scan::tile::SIDE;
 use crate::world::{TexelPlace, World};
 
 /// Writes down what makes the pixels of a band.
-pub(crate) struct Recorder<'a, W, F> {
+pub(crate) struct Recorder<'a, F, P> {
     pub(crate) world: &'a World,
     pub(crate) mirrors: &'a Mirrors,
-    pub(crate) band: &'a mut Band<W>,
+    pub(crate) band: &'a mut Band<F>,
     pub(crate) taps: Taps,
     /// Where those of a single pixel lie.
     pub(crate) places: Vec<TexelPlace>,
     /// What is done with a band that holds more than [`MANY`] texels, or more of windows than [`NUMBERS`].
-    pub(crate) spill: F,
+    pub(crate) spill: P,
 }
 
 /// Texels of single pixels, in all mirrors, that a band may hold before something is done with them: a small picture of a large
@@ -27,7 +27,7 @@ const MANY: usize = 1 << 17;
 /// Numbers of windows' weights, of four bytes, that it may hold before: a pixel has up to a thousand.
 const NUMBERS: usize = 1 << 20;
 
-impl<W: Weights, F: FnMut(&mut Band<W>)> Sink for Recorder<'_, W, F> {
+impl<F: Format, P: FnMut(&mut Band<F>)> Sink for Recorder<'_, F, P> {
     fn pixel(&mut self, pixel: [usize; 2], coverage: f32, taps: &Taps) {
         self.single(pixel, coverage, taps);
     }
@@ -61,7 +61,7 @@ impl<W: Weights, F: FnMut(&mut Band<W>)> Sink for Recorder<'_, W, F> {
     }
 }
 
-impl<W, F: FnMut(&mut Band<W>)> Recorder<'_, W, F> {
+impl<F, P: FnMut(&mut Band<F>)> Recorder<'_, F, P> {
     /// A pixel by itself, in all mirrors.
     fn single(&mut self, pixel: [usize; 2], coverage: f32, taps: &Taps) {
         self.band.singles.push((self.world, self.mirrors), pixel, coverage, taps, &mut self.places);

@@ -3,7 +3,7 @@
 
 use glam::DMat3;
 
-use super::weights::Weights;
+use super::window_format::Format;
 use crate::camera::{FieldStop, PixelPoint, PixelRect, View};
 use crate::filter::FilterKind;
 use crate::projection::ProjectionKind;
@@ -174,9 +174,9 @@ impl MirrorImage {
 
 impl Mirrors {
     /// Finds the symmetries of a conversion, in the layout of light that these weights apply to.
-    pub(crate) fn of<W: Weights>(Resampler { world, target, filter }: &Resampler) -> Self {
+    pub(crate) fn of<F: Format>(Resampler { world, target, filter }: &Resampler) -> Self {
         let (width, height) = (target.width(), target.height());
-        let layout = RowLayout::of(world.view_sizes(), W::pitch);
+        let layout = RowLayout::of(world.view_sizes(), F::pitch);
         let reflect = |flips: [bool; 2]| {
             let is_even = (!flips[0] || width % 2 == 0) && (!flips[1] || height % 2 == 0);
             // Of two texels that are as near, a point takes the one to the right, in a mirror too.

@@ -3,8 +3,9 @@ use rayon::prelude::*;
 use super::band::Band;
 use super::span::Run;
 use super::symmetry::{MirrorImage, Walk, exchanged};
+use super::window_format::Kept;
 use super::{BAND, Compiled, Geometry, Plan};
-use crate::render::apply::float::weights::FloatWeights;
+use crate::render::apply::float::weights::{FloatFormat, weight_index};
 
 /// Parts of a world's texels, at most. For each of them all of the plan is gone through, and so the work grows with them: beyond as
 /// many, threads would do little but that, and take time from others.
@@ -57,8 +58,8 @@ impl Part<'_> {
 }
 
 struct Spread<'a> {
-    plan: &'a Compiled<FloatWeights>,
-    band: &'a Band<FloatWeights>,
+    plan: &'a Compiled<FloatFormat>,
+    band: &'a Band<FloatFormat>,
     /// Its first row.
     top: usize,
 }
@@ -82,16 +83,17 @@ impl Spread<'_> {
         let plan = self.plan;
         for (index, image) in plan.mirrors.images.iter().enumerate() {
             let view = image.view(usize::from(group[0].view));
-            for (run, lane, window) in self.band.weights.windows(group) {
+            for (run, header, Kept { shape, weights, .. }) in self.band.weights.windows(group) {
+                let lane = header.place().lane;
                 let walk = view.walk(run.first(lane).map(|at| at as usize));
-                if part.is_beside(walk, [window.shape.width, window.shape.height]) {
+                if part.is_beside(walk, [shape.width, shape.height]) {
                     continue;
                 }
                 let pixel = self.pixel(pixels, index, run.pixel(lane));
-                for row in 0..window.shape.height {
-                    for column in 0..window.shape.width {
+                for row in 0..shape.height {
+                    for column in 0..shape.width {
                         let texel = walk.texel([column, row]) as usize;
-                        part.add(texel, pixel * f64::from(window.weight(row, column)));
+                        part.add(texel, pixel * f64::from(f32::from_bits(weights[weight_index(shape, [row, column])])));
                     }
                 }
             }

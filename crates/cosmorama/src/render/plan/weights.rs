@@ -1,27 +1,81 @@
-use std::fmt::Debug;
+use fearless_simd::{Simd, dispatch};
 
 use super::span::{Corners, Run};
+use super::window_format::{Format, Header, Kept, Place};
+use super::window_order;
 use crate::render::batch::window::Windows;
 
-/// How a plan keeps the weights of a band's windows, one group of runs after the other.
-pub(crate) trait Weights: Clone + Debug + Default + Send + Sync {
-    /// How many texels there are from one row of a view to the next in the light that they are for, if rows hold so many.
-    fn pitch(width: usize) -> usize;
+/// The weights of a band's windows, one group of runs after the other, pixel by pixel.
+///
+/// Before those of a pixel stands a [`Header`]; then, if its window is not small, which texels lie under the pixel,
+/// [`Shape::mark_words`](super::window_format::Shape::mark_words) numbers for each row that has some.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Weights<F> {
+    pub(crate) numbers: Vec<u32>,
+    format: F,
+}
 
+impl<F: Format> Weights<F> {
     /// How many numbers they are: where the next run's begin.
-    fn len(&self) -> usize;
+    pub(crate) fn len(&self) -> usize {
+        self.numbers.len()
+    }
 
     /// Keeps those of the windows that have a corner, as the windows of this run of their group, and says where these begin as they are
     /// kept; false, keeping nothing, if they cannot be held.
-    fn keep(&mut self, windows: &Windows, corners: &mut Corners, run: usize) -> bool;
+    pub(crate) fn keep(&mut self, windows: &Windows, corners: &mut Corners, run: usize) -> bool {
+        let level = windows.level();
+        dispatch!(level, simd => self.keep_lanes(simd, windows, corners, run))
+    }
+
+    #[inline(always)]
+    fn keep_lanes<S: Simd>(&mut self, simd: S, windows: &Windows, corners: &mut Corners, run: usize) -> bool {
+        if !self.format.take(simd, windows) {
+            return false;
+        }
+        let length = self.numbers.len();
+        for (lane, corner) in corners.iter_mut().enumerate() {
+            let Some(corner) = corner else { continue };
+            if !self.format.write(windows, Place { run, lane }, corner, &mut self.numbers) {
+                self.numbers.truncate(length);
+                return false;
+            }
+        }
+        true
+    }
 
     /// Forgets all but the first numbers, keeping the memory.
-    fn truncate(&mut self, length: usize);
+    pub(crate) fn truncate(&mut self, length: usize) {
+        self.numbers.truncate(length);
+    }
 
     /// Sorts those of each group by shape, and gives back memory that is not needed.
-    fn settle<'a>(&mut self, groups: impl Iterator<Item = &'a [Run]>);
+    pub(crate) fn settle<'a>(&mut self, groups: impl Iterator<Item = &'a [Run]>) {
+        window_order::sort(&mut self.numbers, groups, |run, numbers| {
+            (Header(numbers[0]).shape(), Kept::of::<F>(run, numbers).length())
+        });
+        self.format = F::default();
+    }
 
-    /// Bytes that they take, and of those that are held.
-    fn bytes(&self) -> usize;
-    fn used_bytes(&self) -> usize;
+    /// The windows of a group, each with its run and its header.
+    pub(crate) fn windows<'a>(&'a self, group: &'a [Run]) -> impl Iterator<Item = (&'a Run, Header, Kept<'a>)> {
+        let mut numbers = &self.numbers[group[0].weights as usize..];
+        group.iter().flat_map(Run::lanes).map(move |_| {
+            let header = Header(numbers[0]);
+            let run = &group[header.place().run];
+            let kept = Kept::of::<F>(run, numbers);
+            numbers = &numbers[kept.length()..];
+            (run, header, kept)
+        })
+    }
+
+    /// Bytes that they take.
+    pub(crate) fn bytes(&self) -> usize {
+        self.numbers.capacity() * size_of::<u32>()
+    }
+
+    /// Bytes of those that are held.
+    pub(crate) fn used_bytes(&self) -> usize {
+        size_of_val(&*self.numbers)
+    }
 }

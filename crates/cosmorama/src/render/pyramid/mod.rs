@@ -6,6 +6,7 @@ pub(crate) mod level_map;
 
 use rayon::prelude::*;
 
+use super::apply::float::FloatArithmetic;
 use super::batch::window::Level as Instructions;
 use super::pyramid::level_map::LevelMap;
 use super::scan::wanted::Wanted;
@@ -115,15 +116,20 @@ pub(crate) fn bytes(resampler: &Resampler) -> usize {
 
 /// One frame without a plan.
 pub(crate) fn render(resampler: &Resampler, texels: &[Rgba]) -> Image<Rgba> {
-    let pyramid = Pyramid::new(resampler);
+    let (pyramid, background) = (Pyramid::new(resampler), Rgba::TRANSPARENT);
     if pyramid.levels.is_empty() {
-        return plan::render(&pyramid.level(0), texels, Rgba::TRANSPARENT, Instructions::new());
+        return plan::render(&pyramid.level(0), None, FloatArithmetic { texels, background }, Instructions::new());
     }
     let halvings: Vec<&Halving> = pyramid.levels.iter().map(|(_, halving)| halving).collect();
     let mut image = Image::zeroed(resampler.target.width(), resampler.target.height());
     mix(&mut image, &pyramid.map, &halvings, texels, |level, texels| {
         let wanted = pyramid.wanted(level)?;
-        Some(plan::render_part(&pyramid.level(level), Some(&wanted), (texels, Rgba::TRANSPARENT), Instructions::new()))
+        Some(plan::render(
+            &pyramid.level(level),
+            Some(&wanted),
+            FloatArithmetic { texels, background },
+            Instructions::new(),
+        ))
     });
     image
 }

@@ -1,9 +1,9 @@
 //! A block of 128 bits for each mirror: what mirrored pixels have in common is done once for all of them.
 
 #[cfg(target_arch = "x86_64")]
-use fearless_simd::{Simd, i16x8, i16x16, i16x32, i32x16, prelude::*, u16x8, u16x16, u16x32};
+use fearless_simd::i32x16;
+use fearless_simd::{Simd, i16x8, i16x16, i16x32, prelude::*, u16x8, u16x16, u16x32};
 
-#[cfg(target_arch = "x86_64")]
 #[cfg(target_arch = "x86_64")]
 use crate::render::apply::x86::blocks as blocks_x86;
 
@@ -49,6 +49,23 @@ pub(crate) trait Blocks<S: Simd, const N: usize>:
     fn pair(simd: S, numbers: u32) -> Self {
         Self::Widened::splat(simd, numbers as i32).bitcast()
     }
+}
+
+/// Instructions, and their blocks for N mirrors.
+pub(crate) trait Mirrored<const N: usize>: Simd {
+    type Blocks: Blocks<Self, N>;
+}
+
+impl<S: Simd> Mirrored<1> for S {
+    type Blocks = i16x8<S>;
+}
+
+impl<S: Simd> Mirrored<2> for S {
+    type Blocks = i16x16<S>;
+}
+
+impl<S: Simd> Mirrored<4> for S {
+    type Blocks = i16x32<S>;
 }
 
 impl<S: Simd> Blocks<S, 1> for i16x8<S> {

@@ -4,7 +4,7 @@
 use fearless_simd::{Avx512, i32x4, prelude::*};
 
 use crate::raster::FixedCodes;
-use crate::render::apply::pack::Develop;
+use crate::render::apply::tile_writer::Develop;
 #[cfg(target_arch = "x86_64")]
 use crate::render::apply::x86::srgb;
 use crate::render::scan::tile::SIDE;

@@ -3,11 +3,11 @@
 //! Each texel of a patch is in a dozen windows. In the source each mirror of a patch lies on its own page, forward or reversed.
 //! Here all mirrors of a texel are adjacent, in the order in which products consume them.
 
-use fearless_simd::Simd;
+use fearless_simd::{Simd, prelude::*};
 
-use super::blocks::Blocks;
-use super::texels::Texels;
+use super::blocks::{Blocks, Mirrored};
 use super::weights::{HIGHEST, WIDEST};
+use crate::render::apply::texels::Texels;
 use crate::render::plan::span::Run;
 use crate::render::plan::symmetry::{TOGETHER, exchanged};
 
@@ -49,12 +49,13 @@ struct Rectangle {
     size: [usize; 2],
 }
 
-impl PatchTexels {
-    /// Room for them.
-    pub(crate) fn new() -> Self {
+impl Default for PatchTexels {
+    fn default() -> Self {
         Self { pairs: Box::new(Pairs([0; ROOM * ROOM * TOGETHER * PAIR])), first: [0; 2], held: Held::None }
     }
+}
 
+impl PatchTexels {
     /// Forgets what is held.
     #[inline(always)]
     pub(crate) fn clear(&mut self) {
@@ -63,7 +64,7 @@ impl PatchTexels {
 
     /// Holds a small window that begins here, and with it all others of its group, if there is room.
     #[inline(always)]
-    pub(crate) fn hold<S: Simd, V: Blocks<S, N>, const N: usize, const R: usize, const TURNED: bool>(
+    pub(crate) fn hold<S: Mirrored<N>, const N: usize, const R: usize, const TURNED: bool>(
         &mut self,
         simd: S,
         texels: &Texels<i16, N, R>,
@@ -84,9 +85,9 @@ impl PatchTexels {
         };
         self.first = rectangle.first;
         if TURNED {
-            self.fill_turned::<S, V, N, R>(simd, texels, rectangle);
+            self.fill_turned::<S, N, R>(simd, texels, rectangle);
         } else {
-            self.fill_upright::<S, V, N, R>(simd, texels, rectangle);
+            self.fill_upright::<S, N, R>(simd, texels, rectangle);
         }
     }
 
@@ -103,7 +104,7 @@ impl PatchTexels {
     }
 
     #[inline(always)]
-    fn fill_upright<S: Simd, V: Blocks<S, N>, const N: usize, const R: usize>(
+    fn fill_upright<S: Mirrored<N>, const N: usize, const R: usize>(
         &mut self,
         simd: S,
         texels: &Texels<i16, N, R>,
@@ -115,7 +116,7 @@ impl PatchTexels {
             let mut into = &mut self.pairs.0[column * pair..];
             for texels in texels.strips::<READ, 16>([first[0] + column as u32, first[1]], rows) {
                 // Written out: vectors that an iterator hands on would lie in memory.
-                let [first, second, third] = V::three_pairs::<R>(simd, texels);
+                let [first, second, third] = S::Blocks::three_pairs::<R>(simd, texels);
                 first.store_slice(&mut into[..pair]);
                 second.store_slice(&mut into[pair..][..pair]);
                 third.store_slice(&mut into[2 * pair..][..pair]);
@@ -125,7 +126,7 @@ impl PatchTexels {
     }
 
     #[inline(always)]
-    fn fill_turned<S: Simd, V: Blocks<S, N>, const N: usize, const R: usize>(
+    fn fill_turned<S: Mirrored<N>, const N: usize, const R: usize>(
         &mut self,
         simd: S,
         texels: &Texels<i16, N, R>,
@@ -138,7 +139,7 @@ impl PatchTexels {
             let mut strips = texels.strips::<READ, 16>([first[1] + row as u32, first[0]], columns);
             let Some(mut left) = strips.next() else { return };
             for right in strips {
-                let [first, second, third, fourth] = V::four_upright::<R>(simd, [left, right]);
+                let [first, second, third, fourth] = S::Blocks::four_upright::<R>(simd, [left, right]);
                 first.store_slice(&mut into[..pair]);
                 second.store_slice(&mut into[ROOM * pair..][..pair]);
                 third.store_slice(&mut into[2 * ROOM * pair..][..pair]);
@@ -244,12 +245,12 @@ mod tests {
         let two = Texels::<i16, 2, 1>::new(&samples, [ways[0], ways[2]], SIZE);
         let one = Texels::<i16, 1, 1>::new(&samples, [ways[3]], SIZE);
         for level in levels() {
-            let [mut patch, mut patch_of_two, mut patch_of_one] = std::array::from_fn(|_| PatchTexels::new());
+            let [mut patch, mut patch_of_two, mut patch_of_one] = std::array::from_fn(|_| PatchTexels::default());
             for &corner in corners {
                 dispatch!(level, simd => {
-                    patch.hold::<_, i16x32<_>, 4, 2, TURNED>(simd, &all, &group, corner);
-                    patch_of_two.hold::<_, i16x16<_>, 2, 1, TURNED>(simd, &two, &group, corner);
-                    patch_of_one.hold::<_, i16x8<_>, 1, 1, TURNED>(simd, &one, &group, corner);
+                    patch.hold::<_, 4, 2, TURNED>(simd, &all, &group, corner);
+                    patch_of_two.hold::<_, 2, 1, TURNED>(simd, &two, &group, corner);
+                    patch_of_one.hold::<_, 1, 1, TURNED>(simd, &one, &group, corner);
                 });
                 assert_eq!(patch.held, held, "{corners:?}");
                 let size = [0, 1].map(|axis| exchanged(SIZE, TURNED)[axis] - corner[axis] as usize);
@@ -314,7 +315,7 @@ mod tests {
 
     #[test]
     fn no_window_is_found_beyond_the_room() {
-        let patch = PatchTexels::new();
+        let patch = PatchTexels::default();
         let is_found = |corner| std::panic::catch_unwind(|| _ = patch.window::<4, 6, 5>(corner)).is_ok();
         assert!(is_found([15, 16]) && !is_found([16, 16]) && !is_found([15, 17]) && !is_found([u32::MAX, 0]));
     }

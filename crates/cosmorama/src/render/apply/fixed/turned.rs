@@ -3,11 +3,11 @@
 use fearless_simd::{Simd, i16x8, prelude::*};
 
 use super::blocks::Blocks;
-use super::texels::Texels;
-use super::weights::Shape;
-use super::window::{Large, Sums};
+use super::window::Sums;
+use crate::render::apply::texels::Texels;
+use crate::render::plan::window_format::{Kept, Shape};
 
-impl Large<'_> {
+impl Kept<'_> {
     /// Adds the products of a window of any size, transposed.
     #[inline(always)]
     pub(crate) fn add_turned<S: Simd, V: Blocks<S, N>, const N: usize, const R: usize>(
@@ -17,8 +17,8 @@ impl Large<'_> {
         first: [u32; 2],
         sums: &mut Sums<S, V, N>,
     ) {
-        let Shape { pairs, height, .. } = self.shape;
-        for pair in 0..pairs {
+        let Shape { width, height, .. } = self.shape;
+        for pair in 0..width / 2 {
             let mut rows: [[&[i16]; 2]; N] = [[&[]; 2]; N];
             for (image, rows) in rows.iter_mut().enumerate() {
                 for (below, samples) in rows.iter_mut().enumerate() {

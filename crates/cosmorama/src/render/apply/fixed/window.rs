@@ -1,89 +1,55 @@
 //! Windows of integers, in mirrors that go through them one way or the other, pair by pair.
 
-use std::ops::Range;
-
 use fearless_simd::{Simd, i16x8, prelude::*};
 
-use super::blocks::{self, Blocks};
+use super::blocks::{self, Blocks, Mirrored};
 use super::patch_texels::{self, PatchTexels};
-use super::texels::Texels;
-use super::weights::{Header, PAIRS_UNDER, ROWS_UNDER, Shape, mark_words};
+use super::weights::{FixedFormat, PAIRS_UNDER, SMALL, bits};
+use crate::render::apply::driver::Window;
+use crate::render::apply::texels::Texels;
+use crate::render::plan::window_format::{Kept, ROWS_UNDER, Shape};
 
-/// A pixel's window.
-#[derive(Clone, Copy)]
-pub(crate) struct Window<'a, S: Simd> {
-    pub(crate) simd: S,
-    /// The texels of its group's small windows, this among them if it is one.
-    pub(crate) patch: &'a PatchTexels,
-    /// Where it begins.
-    pub(crate) first: [u32; 2],
-    /// Its header and its weights, and more.
-    pub(crate) numbers: &'a [u32],
-    /// Whether its light is to lie within that of the texels under the pixel.
-    pub(crate) is_bounded: bool,
-}
-
-impl<S: Simd> Window<'_, S> {
-    /// The light of a window of one of the sizes of [`Shape::SMALL`], and how many numbers tell of it. Written out: loops would stay
-    /// loops.
+impl<S: Mirrored<N>, const N: usize, const R: usize> Window<'_, S, i16, N, R> {
+    /// The light of a window of one of the sizes of [`SMALL`], and how many numbers tell of it, given the texels of all small ones of
+    /// its group. Written out: loops would stay loops.
     #[inline(always)]
-    pub(crate) fn small<
-        V: Blocks<S, N>,
-        const N: usize,
-        const WIDTH: usize,
-        const HEIGHT: usize,
-        const UNDER: usize,
-    >(
+    pub(crate) fn small<const WIDTH: usize, const HEIGHT: usize, const UNDER: usize>(
         self,
-    ) -> (V::Widened, usize) {
-        let Self { simd, patch, first, numbers, is_bounded } = self;
-        let mut sums = Sums::<S, V, N>::new(simd, Header(numbers[0]).bits(), is_bounded);
+        patch: &PatchTexels,
+    ) -> (Light<S, N>, usize) {
+        let Self { simd, first, numbers, is_bounded, .. } = self;
         debug_assert_eq!(
-            Shape::SMALL.get(Header(numbers[0]).shape() as usize),
-            Some(&Shape { pairs: WIDTH / 2, height: HEIGHT, under: UNDER }),
+            SMALL.get(self.header().shape() as usize),
+            Some(&Shape { width: WIDTH, height: HEIGHT, under: UNDER }),
             "the table's order is that of the match"
         );
+        let mut sums = Sums::<S, S::Blocks, N>::new(simd, bits(self.header()), is_bounded);
         let length = 1 + WIDTH / 2 * HEIGHT;
-        let (texels, marks) = (patch.window::<N, WIDTH, HEIGHT>(first), V::pair(simd, numbers[0]));
+        let (texels, marks) = (patch.window::<N, WIDTH, HEIGHT>(first), S::Blocks::pair(simd, numbers[0]));
         SmallWindow { simd, texels, weights: &numbers[1..length], marks }.add::<UNDER>(&mut sums);
-        (sums.average(Header(numbers[0]).bits()), length)
+        (sums.average(bits(self.header())), length)
     }
 
-    /// Applies a window of any size; the rows `under` may hold texels under the pixel.
-    ///
-    /// The last R mirrors read it from right to left. If `TURNED`, all of them read it transposed.
+    /// The light of a window of any size, and how many numbers tell of it. If `TURNED`, all mirrors read it transposed.
     #[inline(always)]
-    pub(crate) fn large<V: Blocks<S, N>, const N: usize, const R: usize, const TURNED: bool>(
-        self,
-        texels: &Texels<i16, N, R>,
-        shape: Shape,
-        under: Range<usize>,
-    ) -> (V::Widened, usize) {
-        let Self { simd, first, numbers, is_bounded, .. } = self;
-        let mut sums = Sums::<S, V, N>::new(simd, Header(numbers[0]).bits(), is_bounded);
-        let words = mark_words(shape.pairs);
-        let (marks, weights) = numbers[1..].split_at(under.len() * words);
-        let large = Large { shape, under, words, marks, weights: &weights[..shape.pairs * shape.height] };
+    pub(crate) fn large<const TURNED: bool>(self) -> (Light<S, N>, usize) {
+        let Self { simd, texels, first, is_bounded, .. } = self;
+        let mut sums = Sums::<S, S::Blocks, N>::new(simd, bits(self.header()), is_bounded);
+        let kept = Kept::large::<FixedFormat>(self.run, self.numbers);
         if TURNED {
-            large.add_turned(simd, texels, first, &mut sums);
+            kept.add_turned(simd, texels, first, &mut sums);
         } else {
-            large.add(simd, texels, first, &mut sums);
+            kept.add(simd, texels, first, &mut sums);
         }
-        (sums.average(Header(numbers[0]).bits()), 1 + marks.len() + shape.pairs * shape.height)
+        (sums.average(bits(self.header())), kept.length())
     }
 }
 
-/// What is known of a window of any size.
-pub(crate) struct Large<'a> {
-    pub(crate) shape: Shape,
-    under: Range<usize>,
-    /// How many numbers tell of a row which texels lie under the pixel.
-    words: usize,
-    marks: &'a [u32],
-    weights: &'a [u32],
-}
+/// The light of a window in N mirrors.
+pub(crate) type Light<S, const N: usize> = <<S as Mirrored<N>>::Blocks as SimdWiden<S>>::Widened;
 
-impl Large<'_> {
+/// Large windows.
+impl Kept<'_> {
     #[inline(always)]
     fn add<S: Simd, V: Blocks<S, N>, const N: usize, const R: usize>(
         &self,
@@ -92,12 +58,13 @@ impl Large<'_> {
         first: [u32; 2],
         sums: &mut Sums<S, V, N>,
     ) {
-        let Shape { pairs, height, .. } = self.shape;
+        let Shape { width, height, .. } = self.shape;
+        let pairs = width / 2;
         let order = V::Bytes::from_slice(simd, blocks::order::<N, R>());
         for row in 0..height {
             let mut rows: [&[i16]; N] = [&[]; N];
             for (image, samples) in rows.iter_mut().enumerate() {
-                *samples = texels.row(image, [first[0], first[1] + row as u32], 2 * pairs);
+                *samples = texels.row(image, [first[0], first[1] + row as u32], width);
             }
             for pair in 0..pairs {
                 let mut blocks = [i16x8::splat(simd, 0); N];
@@ -119,10 +86,9 @@ impl Large<'_> {
         [row, pair]: [usize; 2],
         texels: V,
     ) {
-        sums.add(texels, V::pair(simd, self.weights[row * self.shape.pairs + pair]), 0);
-        if self.under.contains(&row) {
-            let marks = V::pair(simd, self.marks[(row - self.under.start) * self.words + pair / 16]);
-            sums.bound(simd, texels, marks << (15 - pair as u32 % 16));
+        sums.add(texels, V::pair(simd, self.weights[row * (self.shape.width / 2) + pair]), 0);
+        if let Some(marks) = self.marks_of(row) {
+            sums.bound(simd, texels, V::pair(simd, marks[pair / 16]) << (15 - pair as u32 % 16));
         }
     }
 }

@@ -1,23 +1,11 @@
 //! Windows of floats of any size, in mirrors that go through them one way or the other.
 
-use std::ops::Range;
-
 use fearless_simd::{Simd, f32x4, f32x16, mask32x16, prelude::*};
 
-use super::shape::{BLOCK, Shape};
+use super::weights::{BLOCK, in_blocks, weight_index};
 use super::window::{BLOCK_SAMPLES, Marks, SAMPLES, Sum, spread, way};
-use crate::render::apply::fixed::texels::{Rows, Texels};
-
-/// What is known of one.
-pub(crate) struct Large<'a> {
-    pub(crate) shape: Shape,
-    /// The rows that may hold texels under the pixel.
-    pub(crate) under: Range<usize>,
-    /// How many numbers tell of such a row which texels do.
-    pub(crate) words: usize,
-    pub(crate) marks: &'a [u32],
-    pub(crate) weights: &'a [u32],
-}
+use crate::render::apply::texels::Texels;
+use crate::render::plan::window_format::{Kept, Shape};
 
 /// A row of one in N mirrors, in the last R of them from right to left.
 #[derive(Clone, Copy)]
@@ -30,13 +18,18 @@ struct Row<'a, const N: usize, const R: usize> {
 }
 
 impl<'a, const N: usize, const R: usize> Row<'a, N, R> {
-    /// Takes the next row of each mirror.
+    /// Takes so many texels of a row of each mirror.
     #[inline(always)]
-    fn next(rows: &mut [Rows<'a, f32>; N], weights: &'a [u32], other_weights: &'a [u32]) -> Self {
+    fn new(
+        texels: &Texels<'a, f32, N, R>,
+        (corner, width): ([u32; 2], usize),
+        weights: &'a [u32],
+        other_weights: &'a [u32],
+    ) -> Self {
         let weights = weights.as_chunks().0;
         let (mut blocks, mut others): ([&[[f32; BLOCK_SAMPLES]]; N], [&[f32]; N]) = ([&[]; N], [&[]; N]);
         for image in 0..N {
-            let samples = rows[image].next().unwrap_or_default();
+            let samples = texels.row(image, corner, width);
             (blocks[image], others[image]) = if way::<N, R>(image) == 0 {
                 samples.as_chunks()
             } else {
@@ -109,7 +102,7 @@ impl<'a, const N: usize, const R: usize> Row<'a, N, R> {
     }
 }
 
-impl Large<'_> {
+impl Kept<'_> {
     /// Sums over it, in mirrors that go through its rows as rows.
     #[inline(always)]
     pub(crate) fn upright<S: Simd, const N: usize, const R: usize>(
@@ -118,22 +111,18 @@ impl Large<'_> {
         texels: &Texels<f32, N, R>,
         first: [u32; 2],
     ) -> [Sum<S>; N] {
-        let Shape { width, height } = self.shape;
-        let whole = self.shape.in_blocks();
+        let Shape { width, height, .. } = self.shape;
+        let whole = in_blocks(self.shape);
         let (mut weights, mut other_weights) = self.weights.split_at(whole * height);
-        let (mut marks, mut sums) = (self.marks, [Sum::zero(simd); N]);
-        let mut rows = texels.rows(first, [width, height]);
+        let mut sums = [Sum::zero(simd); N];
         for row in 0..height {
             let (these, others);
             (these, weights) = weights.split_at(whole);
             (others, other_weights) = other_weights.split_at(width - whole);
-            let next = Row::<N, R>::next(&mut rows, these, others);
-            if self.under.contains(&row) {
-                let these;
-                (these, marks) = marks.split_at(self.words);
-                next.add_bounding(simd, &mut sums, these);
-            } else {
-                next.add(simd, &mut sums);
+            let next = Row::<N, R>::new(texels, ([first[0], first[1] + row as u32], width), these, others);
+            match self.marks_of(row) {
+                Some(marks) => next.add_bounding(simd, &mut sums, marks),
+                None => next.add(simd, &mut sums),
             }
         }
         sums
@@ -147,7 +136,7 @@ impl Large<'_> {
         texels: &Texels<f32, N, R>,
         first: [u32; 2],
     ) -> [Sum<S>; N] {
-        let Shape { width, height } = self.shape;
+        let Shape { width, height, .. } = self.shape;
         let mut sums = [Sum::zero(simd); N];
         let whole = height / BLOCK * BLOCK;
         for column in 0..width {
@@ -156,7 +145,8 @@ impl Large<'_> {
                 *samples = texels.row(image, [first[1], first[0] + column as u32], height);
             }
             for row in (0..whole).step_by(BLOCK) {
-                let weights = spread(simd, &std::array::from_fn(|at| self.weights[self.shape.index(row + at, column)]));
+                let weights =
+                    spread(simd, &std::array::from_fn(|at| self.weights[weight_index(self.shape, [row + at, column])]));
                 let marks = (0..BLOCK).fold(0, |marks, at| marks | self.mark(row + at, column) << at);
                 let is_beside = Marks::new(simd, marks).beside(0);
                 for (image, (sum, samples)) in sums.iter_mut().zip(columns).enumerate() {
@@ -168,7 +158,7 @@ impl Large<'_> {
                 }
             }
             for row in whole..height {
-                let weight = f32::from_bits(self.weights[self.shape.index(row, column)]);
+                let weight = f32::from_bits(self.weights[weight_index(self.shape, [row, column])]);
                 let is_beside = mask32x16::splat(simd, self.mark(row, column) == 0);
                 for (image, (sum, samples)) in sums.iter_mut().zip(columns).enumerate() {
                     let at = if way::<N, R>(image) == 0 { row } else { height - 1 - row };
@@ -185,19 +175,17 @@ impl Large<'_> {
     /// 1 if a texel lies under the pixel.
     #[inline(always)]
     fn mark(&self, row: usize, column: usize) -> u32 {
-        if !self.under.contains(&row) {
-            return 0;
-        }
-        self.marks[(row - self.under.start) * self.words + column / 32] >> (column % 32) & 1
+        self.marks_of(row).map_or(0, |marks| marks[column / 32] >> (column % 32) & 1)
     }
 }
 
 #[cfg(test)]
 mod tests {
+    use std::ops::Range;
+
     use fearless_simd::{Level, dispatch};
 
     use super::*;
-    use crate::render::apply::float::shape::mark_words;
     use crate::render::plan::symmetry::Walk;
 
     /// Columns and rows of a square view, so that columns may be its rows.
@@ -269,21 +257,21 @@ mod tests {
         fn assert(&self, is_turned: bool) {
             let samples: Vec<f32> = (0..SAMPLES * SIDE * SIDE).map(noise).collect();
             let texels = Texels::<f32, 4, 2>::new(&samples, WALKS, [SIDE, SIDE]);
-            let Shape { width, height } = self.shape;
-            let words = mark_words(width);
+            let Shape { width, height, .. } = self.shape;
+            let words = self.shape.mark_words();
             let mut marks = vec![0; words * self.under.len()];
             let mut weights = vec![0; self.shape.area()];
             for row in 0..height {
                 for column in 0..width {
-                    weights[self.shape.index(row, column)] = self.weight(row, column).to_bits();
+                    weights[weight_index(self.shape, [row, column])] = self.weight(row, column).to_bits();
                     if self.is_under(row, column) {
                         marks[(row - self.under.start) * words + column / 32] |= 1 << (column % 32);
                     }
                 }
             }
             let under = self.under.clone();
-            let large = Large { shape: self.shape, under, words, marks: &marks, weights: &weights };
-            let found = averages(&large, &texels, self.first, is_turned);
+            let kept = Kept { shape: self.shape, under, marks: &marks, weights: &weights };
+            let found = averages(&kept, &texels, self.first, is_turned);
             for (found, walk) in found.iter().zip(&WALKS) {
                 let expected = self.expected(&samples, walk, is_turned);
                 for (found, expected) in found.as_flattened().iter().zip(expected.as_flattened()) {
@@ -296,7 +284,7 @@ mod tests {
 
     /// The sums in each mirror, as they are and within their bounds.
     fn averages(
-        large: &Large,
+        large: &Kept,
         texels: &Texels<f32, 4, 2>,
         first: [u32; 2],
         is_turned: bool,
@@ -316,7 +304,7 @@ mod tests {
     #[test]
     fn sums_are_those_of_a_plain_loop() {
         for [width, height] in [[1, 1], [3, 9], [4, 4], [8, 3], [9, 5], [10, 8], [31, 6], [32, 7], [33, 5], [39, 33]] {
-            let shape = Shape { width, height };
+            let shape = Shape { width, height, under: 0 };
             let middle = height / 3;
             for under in [0..1, middle..height.min(middle + 2), height - 1..height, 0..height] {
                 for bias in [0.0, -1.0, 1.0] {

@@ -2,9 +2,10 @@
 
 use fearless_simd::{Simd, f32x4, f32x16, prelude::*, u8x64, u32x4, u32x16};
 
-use super::shape::{BLOCK, ROWS_UNDER};
+use super::weights::BLOCK;
 use super::window::{BLOCK_SAMPLES, Lines, Marks, SAMPLES, Sum, spread, way};
-use crate::render::apply::fixed::texels::Window;
+use crate::render::apply::texels::Window;
+use crate::render::plan::window_format::ROWS_UNDER;
 
 /// A window of a small size, so wide and high as all mirrors see it: in these as many rows and columns.
 #[derive(Clone, Copy)]

@@ -6,45 +6,32 @@
 //! The bounds of what lies under a pixel are found where nobody asks for anti-ringing, too: to leave them out there would take all
 //! this code once more, for each size, way and number of mirrors. What is rendered without takes as long as with it.
 
-use std::ops::Range;
-
 use fearless_simd::{Simd, f32x4, f32x16, mask32x16, prelude::*, u8x64, u32x4, u32x16};
 
-use super::large::Large;
-use super::shape::{BLOCK, Header, ROWS_UNDER, Shape, Small, mark_words};
 use super::turned::TurnedWindow;
-use crate::render::apply::fixed::texels::{self, Texels};
+use super::weights::{BLOCK, FloatFormat, SMALL};
+use crate::render::apply::driver::Window;
+use crate::render::apply::texels;
+use crate::render::plan::window_format::{Kept, ROWS_UNDER, Shape};
 
 /// Samples of a texel, and of a block of them.
 pub(crate) const SAMPLES: usize = 4;
 pub(crate) const BLOCK_SAMPLES: usize = BLOCK * SAMPLES;
 
-/// A pixel's window in N mirrors, in the last R of them from right to left; if they are `TURNED`, its rows are columns there.
-#[derive(Clone, Copy)]
-pub(crate) struct Window<'a, S, const N: usize, const R: usize, const TURNED: bool> {
-    pub(crate) simd: S,
-    /// Texels of the view.
-    pub(crate) texels: &'a Texels<'a, f32, N, R>,
-    /// Where it begins.
-    pub(crate) first: [u32; 2],
-}
-
-impl<'a, S: Simd, const N: usize, const R: usize, const TURNED: bool> Window<'a, S, N, R, TURNED> {
-    /// Sums over a window of one of the sizes of [`Small::ALL`], and how many numbers tell of it. Written out: loops would stay
-    /// loops.
+impl<S: Simd, const N: usize, const R: usize> Window<'_, S, f32, N, R> {
+    /// Sums over a window of one of the sizes of [`SMALL`], and how many numbers tell of it; if `TURNED`, its rows are columns in all
+    /// mirrors. Written out: loops would stay loops.
     #[inline(always)]
-    pub(crate) fn small<const WIDTH: usize, const HEIGHT: usize, const UNDER: usize>(
+    pub(crate) fn small<const WIDTH: usize, const HEIGHT: usize, const UNDER: usize, const TURNED: bool>(
         self,
-        header: Header,
-        numbers: &[u32],
     ) -> ([Sum<S>; N], usize) {
         debug_assert_eq!(
-            Small::ALL.get(header.index() as usize),
-            Some(&Small { shape: Shape { width: WIDTH, height: HEIGHT }, under: UNDER }),
+            SMALL.get(self.header().shape() as usize),
+            Some(&Shape { width: WIDTH, height: HEIGHT, under: UNDER }),
             "the table's order is that of the match"
         );
-        let (marks, weights) = (Marks::new(self.simd, header.marks()), &numbers[1..][..WIDTH * HEIGHT]);
         let length = 1 + WIDTH * HEIGHT;
+        let (marks, weights) = (Marks::new(self.simd, self.header().0 >> 16), &self.numbers[1..length]);
         if TURNED {
             let texels = self.texels.windows([self.first[1], self.first[0]]);
             let window = TurnedWindow::<S, N, R, WIDTH, HEIGHT> { simd: self.simd, texels, weights, marks };
@@ -72,15 +59,13 @@ impl<'a, S: Simd, const N: usize, const R: usize, const TURNED: bool> Window<'a,
         (sums, length)
     }
 
-    /// Sums over a window of any size, and counts its numbers; the rows `under` may hold texels under the pixel.
+    /// Sums over a window of any size, and how many numbers tell of it; if `TURNED`, its rows are columns in all mirrors.
     #[inline(always)]
-    pub(crate) fn large(self, shape: Shape, under: Range<usize>, numbers: &[u32]) -> ([Sum<S>; N], usize) {
-        let words = mark_words(shape.width);
-        let (marks, weights) = numbers[1..].split_at(under.len() * words);
-        let large = Large { shape, under, words, marks, weights: &weights[..shape.area()] };
-        let length = 1 + marks.len() + shape.area();
-        let Self { simd, texels, first } = self;
-        if TURNED { (large.turned(simd, texels, first), length) } else { (large.upright(simd, texels, first), length) }
+    pub(crate) fn large<const TURNED: bool>(self) -> ([Sum<S>; N], usize) {
+        let Self { simd, texels, first, .. } = self;
+        let kept = Kept::large::<FloatFormat>(self.run, self.numbers);
+        let sums = if TURNED { kept.turned(simd, texels, first) } else { kept.upright(simd, texels, first) };
+        (sums, kept.length())
     }
 }
 
@@ -205,7 +190,7 @@ static ORDER: [[u8; 64]; 2] = {
     order
 };
 
-/// Which texels of some rows of a block lie under a pixel, a bit for each.
+/// Which texels of some rows of a block lie under a pixel, a bit for each; and any other bits after those.
 #[derive(Clone, Copy)]
 pub(crate) struct Marks<S: Simd>(u32x16<S>);
 

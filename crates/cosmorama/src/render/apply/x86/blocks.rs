@@ -9,7 +9,7 @@ use fearless_simd::kernel;
 
 kernel!(
     /// Adds the weighted sums of pairs to sums that began with half of what they are divided by: none leaves the 32 bits (by how
-    /// `rounded.rs` scales weights). Of its two ways that which would stop
+    /// `quantize.rs` scales weights). Of its two ways that which would stop
     /// there: the other one compilers take apart again, into a product and a sum.
     #[inline(always)]
     pub(crate) fn add_products(token: Avx512, sums: __m512i, texels: __m512i, weights: __m512i) -> __m512i {

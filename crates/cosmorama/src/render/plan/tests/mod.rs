@@ -3,8 +3,10 @@ mod runs;
 mod sizes;
 mod worlds;
 
-use super::span::{Corners, Run};
+use fearless_simd::{Simd, dispatch};
+
 use super::symmetry::{MirrorImage, Mirrors};
+use super::window_format::{Place, Shape, SmallShapes};
 use super::*;
 use crate::camera::{FieldStop, View};
 use crate::filter::taps::{Tap, TapList, average};
@@ -20,24 +22,24 @@ fn resampler<'a>(world: &'a World, target: &'a View) -> Resampler<'a> {
     Resampler { world, target, filter: FilterSettings::DEFAULT }
 }
 
-fn float(resampler: &Resampler) -> Compiled<FloatWeights> {
+fn float(resampler: &Resampler) -> Compiled<FloatFormat> {
     Compiled::new(resampler, None, Level::new())
 }
 
-fn fixed(resampler: &Resampler) -> Compiled<FixedWeights> {
+fn fixed(resampler: &Resampler) -> Compiled<FixedFormat> {
     Compiled::new(resampler, None, Level::new())
 }
 
 #[test]
 fn mirrors_are_found_where_there_are_some() {
     for (world, target, images) in conversions() {
-        let found = Mirrors::of::<FloatWeights>(&resampler(&world, &target));
+        let found = Mirrors::of::<FloatFormat>(&resampler(&world, &target));
         assert_eq!(found.images.len(), images, "{:?} of {:?}", target.projection, target.orientation);
         assert_eq!(found.columns * found.rows * images.min(4), target.width() * target.height());
     }
     // A middle of the world that is nobody's mirror image: the front and the left face alone are left out.
     let up = turned(0.0, 90.0, 0.0);
-    let count = |world: &World, target: &View| Mirrors::of::<FloatWeights>(&resampler(world, target)).images.len();
+    let count = |world: &World, target: &View| Mirrors::of::<FloatFormat>(&resampler(world, target)).images.len();
     let mut faces: Vec<_> = CubeFace::ALL.into_iter().filter(|face| *face != CubeFace::Left).collect();
     assert_eq!(count(&cube(&faces, 64), &dome(64, up)), 2);
     faces.retain(|face| *face != CubeFace::Back);
@@ -47,7 +49,7 @@ fn mirrors_are_found_where_there_are_some() {
     let (world, target) = (cube(&CubeFace::ALL, 64), dome(64, up));
     let filter = FilterSettings { kind: FilterKind::Point, ..FilterSettings::DEFAULT };
     let point = Resampler { filter, ..resampler(&world, &target) };
-    assert_eq!(Mirrors::of::<FloatWeights>(&point).images.len(), 1);
+    assert_eq!(Mirrors::of::<FloatFormat>(&point).images.len(), 1);
 }
 
 #[test]
@@ -62,7 +64,7 @@ fn nothing_is_mirrored_that_is_not_alike() {
             part
         };
         let world = World::blended(CubeFace::ALL.map(part)).expect("six faces");
-        Mirrors::of::<FloatWeights>(&resampler(&world, &dome(64, up))).images.len()
+        Mirrors::of::<FloatFormat>(&resampler(&world, &dome(64, up))).images.len()
     };
     assert_eq!(alter(&|_, _| ()), 8);
     // One face of another size, one cut, one turned by a hair, one that looks through a stop, one that reaches into others.
@@ -115,12 +117,13 @@ fn what_mirrors_show_is_what_would_be_computed() {
     for (world, target, _) in conversions() {
         let light = light(&world);
         let resampler = resampler(&world, &target);
-        let layout = RowLayout::of(world.view_sizes(), FloatWeights::pitch);
+        let layout = RowLayout::of(world.view_sizes(), FloatFormat::pitch);
         let alone = Mirrors::new([target.width(), target.height()], vec![MirrorImage::itself(&layout)]);
         let mut expected = Image::filled(target.width(), target.height(), Rgba::TRANSPARENT);
         let texels = floats(&light);
         let (level, background) = (Level::new(), Rgba::TRANSPARENT);
-        let filter = FloatFilter { level, mirrors: &alone, texels: &texels, anti_ringing: true, background };
+        let arithmetic = FloatArithmetic { texels: &texels, background };
+        let filter = BandFilter { level, mirrors: &alone, anti_ringing: true, arithmetic };
         each_band((&resampler, None), &alone, (expected.pixels_mut(), background), level, |band, canvas| {
             filter.fill(band, canvas)
         });
@@ -164,29 +167,20 @@ fn a_plan_makes_the_pixels_that_are_made_without() {
 #[derive(Clone, Debug, Default)]
 struct NoWindows;
 
-impl Weights for NoWindows {
+impl Format for NoWindows {
+    const SMALL: SmallShapes = Shape::small([4, 5]);
+    const TOGETHER: usize = 1;
+
     fn pitch(width: usize) -> usize {
         width
     }
 
-    fn len(&self) -> usize {
-        0
-    }
-
-    fn keep(&mut self, _: &Windows, _: &mut Corners, _: usize) -> bool {
+    fn take<S: Simd>(&mut self, _: S, _: &Windows) -> bool {
         false
     }
 
-    fn truncate(&mut self, _: usize) {}
-
-    fn settle<'a>(&mut self, _: impl Iterator<Item = &'a [Run]>) {}
-
-    fn bytes(&self) -> usize {
-        0
-    }
-
-    fn used_bytes(&self) -> usize {
-        0
+    fn write(&self, _: &Windows, _: Place, _: &mut [u32; 2], _: &mut Vec<u32>) -> bool {
+        false
     }
 }
 
@@ -204,11 +198,11 @@ fn windows_of_floats_make_what_their_texels_make_one_by_one() {
             let mut expected = Image::filled(target.width(), target.height(), Rgba::TRANSPARENT);
             let (mirrors, level) = (Mirrors::of::<NoWindows>(&resampler), Level::new());
             let background = Rgba::TRANSPARENT;
-            let filter = FloatFilter { level, mirrors: &mirrors, texels: &texels, anti_ringing, background };
+            let arithmetic = FloatArithmetic { texels: &texels, background };
             let mut one_by_one = expected.clone();
             let pixels = (one_by_one.pixels_mut(), background);
             each_band((&resampler, None), &mirrors, pixels, level, |band: &Band<NoWindows>, canvas| {
-                filter.fill_singles(&band.singles, canvas);
+                dispatch!(level, simd => band.singles.fill(simd, &mirrors, (&arithmetic, anti_ringing), canvas));
             });
             let pixels = (expected.pixels_mut(), background);
             each_band((&resampler, None), &mirrors, pixels, level, |band: &Band<NoWindows>, canvas| {
@@ -237,14 +231,14 @@ fn windows_of_floats_make_what_their_texels_make_one_by_one() {
 fn all_levels_of_instructions_make_the_same_pixels() {
     for (world, target, _) in conversions() {
         let (light, resampler) = (light(&world), resampler(&world, &target));
-        let (texels, mirrors) = (floats(&light), Mirrors::of::<FixedWeights>(&resampler));
+        let texels = floats(&light);
         let codec = FixedCodec::new(&Transfer::Srgb, Rgba::BLACK).expect("sRGB has 8 bits");
         let plan = fixed(&resampler);
         let made = |level| {
             let mut codes = Image::filled(target.width(), target.height(), codec.background());
-            let filter = FixedFilter { level, mirrors: &mirrors, light: &light, codec: &codec, anti_ringing: true };
-            plan.fill(&mut codes, codec.background(), |band, canvas| filter.fill(band, canvas));
-            (render(&resampler, &texels, Rgba::TRANSPARENT, level), codes)
+            plan.fill(FixedArithmetic { light: &light, codec: &codec }, level, &mut codes);
+            let arithmetic = FloatArithmetic { texels: &texels, background: Rgba::TRANSPARENT };
+            (render(&resampler, None, arithmetic, level), codes)
         };
         let mut all = crate::filter::rim::simd_levels::levels().into_iter().map(made);
         let first = all.next().expect("at least the plain one");
@@ -257,8 +251,8 @@ fn all_levels_of_instructions_make_the_same_plans() {
     for (world, target, _) in conversions() {
         let resampler = resampler(&world, &target);
         let made = |level| {
-            let fixed = Compiled::<FixedWeights>::new(&resampler, None, level);
-            let floats = Compiled::<FloatWeights>::new(&resampler, None, level);
+            let fixed = Compiled::<FixedFormat>::new(&resampler, None, level);
+            let floats = Compiled::<FloatFormat>::new(&resampler, None, level);
             // As text, in which each number comes back.
             (format!("{:?}", fixed.bands), format!("{:?}", floats.bands))
         };

@@ -1,5 +1,3 @@
-use fearless_simd::{Simd, dispatch};
-
 use super::*;
 use crate::render::apply::tap_lists::Palette;
 
@@ -25,13 +23,9 @@ fn texels_have_one_light_whoever_asks() {
         *texel = [sample, WHITE - sample, sample ^ 0x55, 0];
     }
     let texels = floats(&light);
-    let (world, target, _) = conversions().remove(0);
-    let mirrors = Mirrors::of::<FixedWeights>(&resampler(&world, &target));
     let codec = FixedCodec::new(&Transfer::Srgb, Rgba::BLACK).expect("sRGB has 8 bits");
-    let level = Level::new();
-    let fixed = FixedFilter { level, mirrors: &mirrors, light: &light, codec: &codec, anti_ringing: true };
-    let float =
-        FloatFilter { level, mirrors: &mirrors, texels: &texels, anti_ringing: true, background: Rgba::TRANSPARENT };
+    let fixed = FixedArithmetic { light: &light, codec: &codec };
+    let float = FloatArithmetic { texels: &texels, background: Rgba::TRANSPARENT };
     let pitch = FixedLight::pitch(size[0]);
     for (at, expected) in texels.iter().enumerate() {
         assert!(lights(&float, at as u32).all(|light| light == expected.0), "{expected:?}");

@@ -35,8 +35,8 @@ fn bands_of_large_windows_are_made_before_they_are_all_there() {
     let (mut spilled, mut most) = (0, 0);
     for (world, target, _) in conversions() {
         let (resampler, level) = (resampler(&world, &target), Level::new());
-        let (mirrors, table) = (Mirrors::of::<FloatWeights>(&resampler), KernelTable::new(&resampler.filter.kernel));
-        let mut band = Band::<FloatWeights>::default();
+        let (mirrors, table) = (Mirrors::of::<FloatFormat>(&resampler), KernelTable::new(&resampler.filter.kernel));
+        let mut band = Band::<FloatFormat>::default();
         record((&resampler, None), &mirrors, &table, 0..BAND.min(mirrors.rows), level, &mut band, |band| {
             spilled += usize::from(band.weights.len() > 1 << 20);
             most = most.max(band.weights.len());
@@ -52,7 +52,7 @@ fn bands_of_large_windows_are_made_before_they_are_all_there() {
 #[test]
 fn patches_are_shown_where_their_pixels_are() {
     for (world, target, _) in conversions() {
-        let mirrors = Mirrors::of::<FixedWeights>(&resampler(&world, &target));
+        let mirrors = Mirrors::of::<FixedFormat>(&resampler(&world, &target));
         let size = [target.width(), target.height()];
         let mut picture: Vec<usize> = (0..size[0] * size[1]).collect();
         let mut times_made = vec![0; picture.len()];
@@ -79,7 +79,7 @@ fn patches_are_shown_where_their_pixels_are() {
 #[test]
 fn a_pixel_without_texels_has_none_in_any_mirror() {
     for (world, target, _) in conversions() {
-        let mirrors = Mirrors::of::<FixedWeights>(&resampler(&world, &target));
+        let mirrors = Mirrors::of::<FixedFormat>(&resampler(&world, &target));
         let mut singles = tap_lists::Singles::default();
         singles.push((&world, &mirrors), [0, 0], 1.0, &Taps::default(), &mut Vec::new());
         assert!(singles.taps(&singles.pixels()[0], mirrors.images.len()).texels.is_empty());

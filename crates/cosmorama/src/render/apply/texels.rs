@@ -80,22 +80,6 @@ impl<'a, T: Copy, const N: usize, const R: usize> Texels<'a, T, N, R> {
         unsafe { std::slice::from_raw_parts(first, SAMPLES * texels) }
     }
 
-    /// The rows of a window of so many columns and rows, from this texel on, in each mirror.
-    ///
-    /// # Panics
-    /// If they are not all within the view.
-    #[inline(always)]
-    pub(crate) fn rows(&self, corner: [u32; 2], [columns, rows]: [usize; 2]) -> [Rows<'a, T>; N] {
-        self.check(corner, [columns, rows]);
-        std::array::from_fn(|image| Rows {
-            first: self.leftmost(image, corner, columns),
-            down: self.down[image % 2],
-            length: SAMPLES * columns,
-            rows,
-            samples: PhantomData,
-        })
-    }
-
     /// Columns and rows of the view, as these mirrors go through it.
     #[inline(always)]
     pub(crate) fn size(&self) -> [usize; 2] {
@@ -162,34 +146,6 @@ impl<'a, T, const COLUMNS: usize, const HEIGHT: usize> Window<'a, T, COLUMNS, HE
         // found among the samples, and the assertion that these are some of them; they are borrowed as long as the result; arrays
         // need no more alignment than one of their elements.
         unsafe { &*self.first.offset(offset).cast() }
-    }
-}
-
-/// Rows of a view, as they lie in memory, all of them among the samples given.
-pub(crate) struct Rows<'a, T> {
-    /// The first sample in memory of the next one.
-    first: *const T,
-    /// Samples from one row to the next.
-    down: isize,
-    /// Samples of a row.
-    length: usize,
-    /// How many there are.
-    rows: usize,
-    samples: PhantomData<&'a [T]>,
-}
-
-impl<'a, T> Iterator for Rows<'a, T> {
-    type Item = &'a [T];
-
-    #[inline(always)]
-    fn next(&mut self) -> Option<&'a [T]> {
-        self.rows = self.rows.checked_sub(1)?;
-        // SAFETY: `Texels::rows` made sure that as many rows of this length are texels of a view, all of which `Texels::new` has
-        // found among the samples; they are borrowed as long as the result.
-        let row = unsafe { std::slice::from_raw_parts(self.first, self.length) };
-        // After the last one this may lie anywhere: it is not read.
-        self.first = self.first.wrapping_offset(self.down);
-        Some(row)
     }
 }
 
@@ -274,10 +230,8 @@ mod tests {
             }
         }
         assert_eq!(texels.row(3, [0, 6], 2), &samples[32..40]);
-        let rows = texels.rows([3, 1], [4, 3]);
-        for (image, rows) in rows.into_iter().enumerate() {
+        for image in 0..4 {
             let expected: Vec<_> = (1..4).map(|row| texels.row(image, [3, row], 4)).collect();
-            assert_eq!(rows.collect::<Vec<_>>(), expected);
             let strips = texels.strips::<4, 16>([3, 1], 3).map(|rows| rows[image].as_slice());
             assert_eq!(strips.collect::<Vec<_>>(), expected);
         }
@@ -314,9 +268,6 @@ mod tests {
         assert!(!is_window([7, 3]) && !is_window([6, 4]) && !is_window([u32::MAX, 0]) && !is_window([0, u32::MAX]));
         for (column, count) in [(9, 2), (1, usize::MAX), (0, usize::MAX / 4 + 2)] {
             assert!(std::panic::catch_unwind(|| texels.row(2, [column, 0], count)).is_err());
-        }
-        for (corner, size) in [([7, 3], [4, 4]), ([6, 4], [4, 4]), ([0, 0], [1, usize::MAX]), ([0, 7], [1, 1])] {
-            assert!(std::panic::catch_unwind(|| texels.rows(corner, size).map(|mut rows| rows.next())).is_err());
         }
         for (corner, rows) in [([7, 3], 4), ([6, 4], 4), ([0, 0], usize::MAX), ([0, 7], 1), ([u32::MAX, 0], 1)] {
             assert!(std::panic::catch_unwind(|| texels.strips::<4, 16>(corner, rows).next()).is_err());

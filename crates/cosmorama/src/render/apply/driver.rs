@@ -1,0 +1,198 @@
+//! Makes the pixels of a band, in numbers of either type: group by group, in some mirrors at once, window by window.
+
+use bytemuck::Zeroable;
+use fearless_simd::{Level, Simd, dispatch};
+
+use super::fixed::blocks::Mirrored;
+use super::prefetch::{prefetch_pass, prefetch_runs, prefetch_weights};
+use super::tap_lists::Palette;
+use super::texels::Texels;
+use super::tile_writer::{Canvas, GroupLight};
+use super::view_texels::ViewTexels;
+use crate::render::plan::band::Band;
+use crate::render::plan::span::Run;
+use crate::render::plan::symmetry::{Mirrors, TOGETHER, Ways};
+use crate::render::plan::traversal::{Pass, passes};
+use crate::render::plan::window_format::{Format, Header, Place};
+use crate::render::plan::window_order::window_count;
+use crate::render::scan::tile::SIDE;
+
+/// How windows are weighed in one type of number, and what is made of their light.
+pub(crate) trait WindowArithmetic: Palette<Pixel: Zeroable + Send + Sync> + Sync {
+    /// How their weights are kept.
+    type Format: Format;
+    /// The light of a window.
+    type Light: Copy + Default;
+    /// Memory for what windows of a group share.
+    type Shared: Default;
+
+    /// What is shown where the target sees nothing.
+    fn background(&self) -> Self::Pixel;
+
+    /// Forgets what the windows of the last group shared.
+    fn begin(shared: &mut Self::Shared);
+
+    /// Weighs a window in N mirrors, in the last R of them from right to left; if they are `TURNED`, its rows are columns there. Returns
+    /// how many numbers tell of it.
+    fn weigh<S: Mirrored<N>, const N: usize, const R: usize, const TURNED: bool>(
+        window: Window<S, Self::Sample, N, R>,
+        shared: &mut Self::Shared,
+        light: &mut [Self::Light],
+    ) -> usize;
+
+    /// Puts the pixels of a pass's light.
+    fn put<S: Simd>(
+        &self,
+        simd: S,
+        pass: &Pass,
+        ways: &Ways,
+        light: &GroupLight<Self::Light>,
+        canvas: &mut Canvas<Self::Pixel>,
+    );
+}
+
+/// A pixel's window, in N mirrors that show the texels of its view, in the last R of them from right to left.
+#[derive(Clone, Copy)]
+pub(crate) struct Window<'a, S, T, const N: usize, const R: usize> {
+    pub(crate) simd: S,
+    pub(crate) texels: &'a Texels<'a, T, N, R>,
+    /// The runs whose windows are made with it, its own among them.
+    pub(crate) group: &'a [Run],
+    pub(crate) run: &'a Run,
+    /// Where it begins.
+    pub(crate) first: [u32; 2],
+    /// Its header and its weights, and more.
+    pub(crate) numbers: &'a [u32],
+    /// Whether its light is to lie within that of the texels under the pixel.
+    pub(crate) is_bounded: bool,
+}
+
+impl<S, T, const N: usize, const R: usize> Window<'_, S, T, N, R> {
+    #[inline(always)]
+    pub(crate) fn header(&self) -> Header {
+        Header(self.numbers[0])
+    }
+}
+
+/// Makes the pixels of a band.
+pub(crate) struct BandFilter<'a, A> {
+    pub(crate) level: Level,
+    pub(crate) mirrors: &'a Mirrors,
+    pub(crate) anti_ringing: bool,
+    pub(crate) arithmetic: A,
+}
+
+impl<A: WindowArithmetic> BandFilter<'_, A> {
+    pub(crate) fn fill(&self, band: &Band<A::Format>, canvas: &mut Canvas<A::Pixel>) {
+        let level = self.level;
+        dispatch!(level, simd => {
+            self.runs(simd, band, canvas);
+            band.singles.fill(simd, self.mirrors, (&self.arithmetic, self.anti_ringing), canvas);
+        });
+    }
+
+    // No closures below but those that `vectorize` takes: the compiler gives others no leave to use the level's instructions.
+    #[inline(always)]
+    fn runs<S: Simd>(&self, simd: S, band: &Band<A::Format>, canvas: &mut Canvas<A::Pixel>) {
+        if band.runs.is_empty() {
+            return;
+        }
+        let texels = self.arithmetic.texels();
+        let views = ViewTexels::all(self.mirrors, texels.as_flattened());
+        let mut light: GroupLight<A::Light> = [[[A::Light::default(); TOGETHER]; SIDE]; SIDE];
+        let mut shared = A::Shared::default();
+        let mut after = 0;
+        for (pass, next) in passes(band.groups(), self.mirrors.images.len()) {
+            if let Some(next) = next {
+                prefetch_pass(texels, self.mirrors, &next);
+            }
+            if pass.ways.start == 0 {
+                after += pass.group.len();
+                prefetch_runs(&band.runs, after + SIDE);
+            }
+            let run = &pass.group[0];
+            let (view, numbers) = (usize::from(run.view), &band.weights.numbers[run.weights as usize..]);
+            self.weigh(simd, &pass, (&views[view], &mut shared), numbers, &mut light);
+            self.arithmetic.put(simd, &pass, self.mirrors.ways(view), &light, canvas);
+        }
+    }
+
+    /// Adds up the light of a pass's windows. What is called from here on is compiled by itself: among all that makes a band its loop
+    /// would lack registers.
+    #[inline(never)]
+    fn weigh<S: Simd>(
+        &self,
+        simd: S,
+        Pass { group, ways }: &Pass,
+        (texels, shared): (&ViewTexels<A::Sample>, &mut A::Shared),
+        numbers: &[u32],
+        light: &mut GroupLight<A::Light>,
+    ) {
+        let group = Group { group, numbers, is_bounded: self.anti_ringing };
+        // A function for each number of mirrors: all in one would take the compiler minutes.
+        match texels {
+            ViewTexels::Turned([_, turned]) if ways.start > 0 => simd.vectorize(
+                #[inline(always)]
+                || group.weigh::<S, A, 4, 2, true>(simd, (turned, shared), 0, light),
+            ),
+            ViewTexels::Four(texels) | ViewTexels::Turned([texels, _]) => simd.vectorize(
+                #[inline(always)]
+                || group.weigh::<S, A, 4, 2, false>(simd, (texels, shared), 0, light),
+            ),
+            ViewTexels::Eight(texels) => simd.vectorize(
+                #[inline(always)]
+                || group.weigh::<S, A, 4, 2, false>(simd, (&texels[ways.start / TOGETHER], shared), 0, light),
+            ),
+            ViewTexels::Two(texels) => simd.vectorize(
+                #[inline(always)]
+                || group.weigh::<S, A, 2, 1, false>(simd, (texels, shared), 0, light),
+            ),
+            ViewTexels::OneByOne { forward, reversed } => simd.vectorize(
+                #[inline(always)]
+                || {
+                    for (image, texels) in forward.iter().enumerate() {
+                        group.weigh::<S, A, 1, 0, false>(simd, (texels, shared), image, light);
+                    }
+                    for (image, texels) in (forward.len()..).zip(reversed) {
+                        group.weigh::<S, A, 1, 1, false>(simd, (texels, shared), image, light);
+                    }
+                },
+            ),
+        }
+    }
+}
+
+/// The windows of a group.
+#[derive(Clone, Copy)]
+struct Group<'a> {
+    group: &'a [Run],
+    /// Its weights, and more.
+    numbers: &'a [u32],
+    is_bounded: bool,
+}
+
+impl Group<'_> {
+    /// The light in N mirrors from one of them on; in the last R windows are walked through from right to left, in all of them, if they
+    /// are `TURNED`, with columns for rows.
+    #[inline(always)]
+    fn weigh<S: Mirrored<N>, A: WindowArithmetic, const N: usize, const R: usize, const TURNED: bool>(
+        self,
+        simd: S,
+        (texels, shared): (&Texels<A::Sample, N, R>, &mut A::Shared),
+        image: usize,
+        light: &mut GroupLight<A::Light>,
+    ) {
+        let Self { group, mut numbers, is_bounded } = self;
+        let mut count = window_count(group);
+        A::begin(shared);
+        while count > 0 {
+            prefetch_weights(numbers);
+            let Place { run, lane } = Header(numbers[0]).place();
+            let light = &mut light[run][lane][image..][..N];
+            let run = &group[run];
+            let window = Window { simd, texels, group, run, first: run.first(lane), numbers, is_bounded };
+            let length = A::weigh::<S, N, R, TURNED>(window, shared, light);
+            (numbers, count) = (&numbers[length..], count - 1);
+        }
+    }
+}
