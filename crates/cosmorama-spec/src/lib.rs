@@ -18,7 +18,7 @@
 //!
 //! // An error names the key, the value and what was expected.
 //! let error = "fulldome:tilt=wide".parse::<Spec>().unwrap_err();
-//! assert_eq!(error.to_string(), "tilt=wide: expected an angle in degrees, as in tilt=90");
+//! assert_eq!(error.to_string(), "tilt=wide: expected an angle from -90 to 90 degrees, as in tilt=20");
 //! # Ok::<(), cosmorama_spec::SpecError>(())
 //! ```
 //!

@@ -69,6 +69,7 @@ fn values(kind: &str, key: &str, like: &str) -> BoxedStrategy<String> {
             "fov,k=0.95",
         ]),
         (_, _, "A:B:C…") => number(0.01..0.99).prop_map(|alpha| format!("{alpha},lens=ucm")).boxed(),
+        (_, "axis" | "tilt", "DEGREES") => number(-90.0..90.0),
         (_, _, "DEGREES") => number(0.001..360.0),
         (_, _, "DEGREES|none") => prop_oneof![number(0.001..90.0), Just("none".to_owned())].boxed(),
         (_, "sensor", _) => number(1.0..60.0).prop_map(|width| format!("{width},lens=polynomial,k=0:-0.02")).boxed(),
