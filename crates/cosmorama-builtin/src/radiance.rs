@@ -23,7 +23,7 @@ impl<F: Fn(Direction) -> [f32; 3] + Sync> Radiance for F {
     }
 }
 
-/// Knowledge of a formula about the light of a pixel.
+/// What a formula can tell of a pixel's mean light.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Average {
     /// The mean light.

@@ -29,7 +29,7 @@ pub struct Grid {
 const LEGIBLE: (f64, f64) = (6.5, 7.0);
 
 impl Grid {
-    /// Returns the width from which on a picture has letters in its middle; `None` if this one has some.
+    /// Returns the smallest width at which letters in the middle of this view's picture are legible; `None` if they already are.
     pub fn width_for_letters(view: &View) -> Option<usize> {
         let height = Angle::from_degrees(SCALES[SCALES.len() - 1].height).radians() * view.pixels_per_radian();
         (height < LEGIBLE.1).then(|| (view.width() as f64 * LEGIBLE.1 / height).ceil() as usize)

@@ -55,7 +55,7 @@ pub(super) fn run(args: &CompareArgs, console: &mut Console) -> Result<ExitCode>
     Ok(if failures.is_empty() { ExitCode::SUCCESS } else { ExitCode::FAILURE })
 }
 
-/// A pattern is not told apart from a file that is not there.
+/// Refuses a pattern by name; otherwise reading it would only say that there is no such file.
 fn check_one(name: &str) -> Result<()> {
     let is_pattern = FacePattern::parse(name).is_some() || FramePattern::parse(name).is_some();
     if is_pattern && !Path::new(name).exists() {

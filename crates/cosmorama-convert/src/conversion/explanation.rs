@@ -24,7 +24,7 @@ use crate::target::Picture;
 pub struct ExplanationSettings {
     /// Input, if there is one.
     pub input: Option<String>,
-    /// Size of an input, or of its faces, that does not exist yet; as fine as the output at the centre, unless given.
+    /// Assumed size of the input, or of each face, if it does not exist yet. By default, as fine as the output at its centre.
     pub input_size: Option<Size>,
     /// Projections, size, orientation and filter.
     pub geometry: GeometrySettings,

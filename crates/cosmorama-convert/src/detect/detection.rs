@@ -228,7 +228,7 @@ fn declared_cube(cube: &Cube, pattern: &str, header: &Header, warnings: &mut Vec
     }
 }
 
-/// Findings of `info` about an image.
+/// What the verb `info` reports of an image.
 pub struct Likely {
     /// Its projection.
     pub projection: String,
@@ -236,7 +236,7 @@ pub struct Likely {
     pub circle: Option<Found>,
     /// Cubes whose faces it may hold.
     pub cubes: Vec<Cube>,
-    /// Whether only its shape suggests that it holds any.
+    /// Whether `cubes` is guessed from the image's shape alone, so that it may hold none.
     pub may_be_none: bool,
     /// Damage, if its pixels cannot be read.
     pub damage: Option<String>,

@@ -73,7 +73,7 @@ impl CubeLayout {
         Self { half: Some(half), ..self }
     }
 
-    /// Moves the faces to their places in the mirrored picture. The faces' own pictures are mirrored by their views.
+    /// Returns the layout of the mirrored picture: cells change places. The picture in each cell is mirrored by its view, not here.
     #[must_use]
     pub fn mirrored(mut self, mirror: Mirror) -> Self {
         let (columns, rows) = self.kind.grid();

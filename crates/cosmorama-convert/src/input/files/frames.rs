@@ -38,6 +38,9 @@ pub(crate) fn find<'a>(
 }
 
 /// Returns the existing frames; none where there is no sequence.
+///
+/// # Errors
+/// When the files are a sequence, but not one frame exists.
 pub fn existing(files: &ViewFiles) -> Result<Vec<u64>> {
     let Some(pattern) = files.sequence() else { return Ok(Vec::new()) };
     let frames = pattern.existing()?;

@@ -30,7 +30,7 @@ pub enum HuginProjection {
 }
 
 impl HuginProjection {
-    /// Returns the projection that `f` means in an i-line.
+    /// Returns the projection that lens number `f` of an image line of a `.pto` file stands for; `None` for unsupported numbers.
     pub const fn of_lens(f: u32) -> Option<Self> {
         Some(match f {
             0 => Self::Rectilinear,
