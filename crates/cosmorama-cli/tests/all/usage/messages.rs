@@ -92,8 +92,7 @@ fn words(command: &str) -> Vec<String> {
     words
 }
 
-/// A line without what differs from run to run and from one processor to the next: times, the most memory that was held, and
-/// the last digits of long numbers.
+/// A line without what differs from run to run: times, and the most memory that was held.
 fn steady(line: &str) -> String {
     let keys = ["wall_seconds", "peak_memory_bytes", "decode", "plan", "filter", "encode", "seconds_per_frame"];
     if let Some((key, _)) = line.split_once(": ").filter(|(key, _)| keys.contains(&key.trim().trim_matches('"'))) {
@@ -106,21 +105,7 @@ fn steady(line: &str) -> String {
         words[at].parse::<f64>().is_ok() && (is_rate || ["s", "ms"].contains(&unit.unwrap_or_default()))
     };
     let steady: Vec<&str> = (0..words.len()).map(|at| if is_time(at) { "TIME" } else { words[at] }).collect();
-    without_last_digits(&steady.join(" "))
-}
-
-/// A line whose numbers have twelve decimals at most.
-fn without_last_digits(line: &str) -> String {
-    let mut decimals = None;
-    let is_kept = |mark: &char| {
-        decimals = match (mark, decimals) {
-            ('.', _) => Some(0),
-            (mark, Some(count)) if mark.is_ascii_digit() => Some(count + 1),
-            _ => None,
-        };
-        decimals.is_none_or(|count| count <= 12)
-    };
-    line.chars().filter(is_kept).collect()
+    steady.join(" ")
 }
 
 /// The files that the commands read.
