@@ -126,7 +126,7 @@ pub enum WordError {
         /// Suggested word, if one is likely.
         meant: Option<String>,
         /// Known words.
-        known: &'static str,
+        known: String,
     },
     /// The word belongs to another setting.
     #[error("'{word}' is no {what}; that is a {of}: {name}")]
@@ -190,6 +190,7 @@ pub(crate) fn key_for<'k>(typed: &str, known: &[&'k str]) -> Option<&'k str> {
         "vfov" | "ivfov" => &["vfov"],
         "dfov" | "idfov" => &["dfov", "fov"],
         "centre" => &["center"],
+        "name" | "names" => &["naming"],
         other => &[other],
     };
     names.iter().find_map(|name| known.iter().copied().find(|key| key == name))

@@ -76,7 +76,7 @@ pub(super) fn no_filter(text: &str) -> WordError {
             what: WordKind::Filter,
             word,
             meant: meaning(&FILTER_WORDS, name).or_else(|| nearest(name, &names)).map(str::to_owned),
-            known: "ewa, ewa-pyramid, point, bilinear, reference[:samples=N]",
+            known: names.map(|name| if name == "reference" { "reference[:samples=N]" } else { name }).join(", "),
         },
     }
 }
@@ -91,8 +91,7 @@ pub(super) fn no_kernel(name: &str) -> WordError {
             what: WordKind::Kernel,
             word,
             meant: meaning(&KERNEL_WORDS, name).or_else(|| nearest(name, &names)).map(str::to_owned),
-            known: "adaptive, gaussian, mitchell, robidoux, robidoux-sharp, catmull-rom, lanczos2, lanczos3, \
-                    lanczos3-sharp, tent, box, light",
+            known: names.join(", "),
         },
     }
 }

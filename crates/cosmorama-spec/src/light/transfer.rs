@@ -73,7 +73,7 @@ fn unknown(text: &str) -> WordError {
         what: WordKind::Transfer,
         word: text.to_owned(),
         meant: meant(text),
-        known: "auto, srgb, linear, bt1886, pq, hlg and gamma:G (G from 0.1 to 10, as in gamma:2.2)",
+        known: "auto, srgb, linear, bt1886, pq, hlg and gamma:G (G from 0.1 to 10, as in gamma:2.2)".to_owned(),
     }
 }
 
