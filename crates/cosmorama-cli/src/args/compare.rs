@@ -26,7 +26,7 @@ pub(crate) struct CompareArgs {
     pub(crate) second: PathBuf,
     /// Which pixels count
     ///
-    /// Those inside the circle of a fisheye (disc) or an Omnimax frame, or all; pixels cut by the rim do not.
+    /// All pixels, or only those inside the circle of a fisheye (disc) or an Omnimax frame. Pixels that the rim cuts do not count.
     #[arg(long, value_enum, value_name = "REGION", default_value_t = Region::All)]
     pub(crate) region: Region,
     /// Write a picture of the absolute difference

@@ -1,6 +1,6 @@
 //! Keys of SPECs that are typed as options.
 
-use cosmorama_spec::{SpecKey, SpecKind};
+use cosmorama_spec::{Spec, SpecError, SpecKey, SpecKind};
 
 use super::arguments::Typed;
 
@@ -31,7 +31,9 @@ pub(super) fn advice(word: &str, option: &str, typed: &Typed) -> Option<String> 
     // The projection that was asked for may have another name for it.
     let alike = || asked.iter().find_map(|kind| Some((*kind, kind.key(word)?)));
     let (kind, key) = own.or_else(alike).or_else(|| first(&takers))?;
-    let value = typed.value(option.split('=').next().unwrap_or_default()).unwrap_or(key.value);
+    let value = typed.value(option.split('=').next().unwrap_or_default());
+    // What the key refuses is no advice: then its kind of value stands there.
+    let value = value.filter(|value| takes(kind, key, value)).unwrap_or(key.value);
     let write =
         with_key(kind, key, value, typed).unwrap_or_else(|| format!("--to {}:{}={value}", kind.name(), key.name));
     let not = match asked.first() {
@@ -43,6 +45,12 @@ pub(super) fn advice(word: &str, option: &str, typed: &Typed) -> Option<String> 
     };
     let besides = BESIDES.iter().find(|(key, _)| *key == word).map_or("", |(_, besides)| besides);
     Some(format!("{word} is a key of {}{not}: {write}{besides}", list(&takers)))
+}
+
+/// Whether a value is of a key's kind.
+fn takes(kind: SpecKind, key: &SpecKey, value: &str) -> bool {
+    let parsed = format!("{}:{}={value}", kind.name(), key.name).parse::<Spec>();
+    !matches!(parsed, Err(SpecError::Value { key: of, .. }) if of == key.name)
 }
 
 /// The key of a projection that has this very name, but for how it is spelled.

@@ -1,9 +1,10 @@
 //! Commands that people type wrongly: each is answered by what to type instead.
 
 use crate::bench::{Bench, assert_says, picture};
+use cosmorama_spec::{Spec, SpecError};
 
 /// What follows `cosmorama`, and a part of the message: what to type.
-const MISTAKES: [(&str, &str); 58] = [
+const MISTAKES: [(&str, &str); 61] = [
     // Keys of SPECs as options.
     ("convert sky.png out.png --tilt 20", "tilt is a key of fulldome: --to fulldome:tilt=20"),
     ("convert sky.png out.png --to fulldome --tilt 20", "tilt is a key of fulldome: --to fulldome:tilt=20"),
@@ -48,7 +49,10 @@ const MISTAKES: [(&str, &str); 58] = [
         "convert sky.png out.png --to fulldome --size 64 x 64",
         "a size is one word, without spaces, as in --size 4096x2048",
     ),
+    ("convert sky.png out.png --to cube --rotate 90", "--to cube:rotate="),
+    ("convert sky.png out.png --to omnimax --axis 120", "--to omnimax:axis=DEGREES"),
     // SPECs.
+    ("convert sky.png out.png --to cube:names=px", "did you mean 'naming'?"),
     ("convert sky.png out.png fulldome", "that is a projection: --to fulldome"),
     ("convert sky.png out.png --to domemastre", "did you mean 'domemaster'?"),
     ("convert sky.png out.png --to Fulldome", "did you mean 'fulldome'?"),
@@ -107,7 +111,13 @@ fn every_key_that_is_typed_as_an_option_names_its_projections() {
                 continue;
             }
             let message = bench.fail(2, &["convert", "sky.png", "out.png", &option, "1"]);
-            assert_says(&message, &[&format!("{} is a key of ", key.name), kind.name(), &format!("{}=1", key.name)]);
+            assert_says(&message, &[&format!("{} is a key of ", key.name), kind.name()]);
+            // The value that was typed is advised wherever the projection takes it, and nowhere else.
+            let advised = message.split("--to ").nth(1).and_then(|rest| rest.split([' ', ';', '\n']).next()).unwrap();
+            let (typed, value) = advised.split_once(&format!("{}=", key.name)).unwrap();
+            let is_refused = format!("{typed}{}=1", key.name).parse::<Spec>();
+            let is_refused = matches!(is_refused, Err(SpecError::Value { key: of, .. }) if of == key.name);
+            assert_eq!(value == "1", !is_refused, "{advised}");
             told += 1;
         }
     }
