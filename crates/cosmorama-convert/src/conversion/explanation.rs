@@ -14,7 +14,7 @@ use crate::budget::MemoryBudget;
 use crate::coverage::whole_worlds;
 use crate::diagnostic::{Code, Diagnostic, FROM, Outcome, Result, TO, usage, usage_as};
 use crate::input::spec_files::st_map::settled;
-use crate::input::{Access, Builtin, Disk, Files, Input, InputView, Kept};
+use crate::input::{Access, Builtin, DecodedPicture, Disk, Files, Input, InputView};
 use crate::output::files_read;
 use crate::settings::{GeometrySettings, LimitSettings};
 use crate::target::Picture;
@@ -77,7 +77,7 @@ impl ExplanationSettings {
 
     fn resolve(&self, warnings: &mut Vec<Diagnostic>) -> Result<(Input, Vec<Picture>, FilterSettings)> {
         let memory = MemoryBudget::new(self.limits.memory);
-        let access = Access { files: &*self.files, memory, kept: &Kept::default() };
+        let access = Access { files: &*self.files, memory, decoded: &DecodedPicture::default() };
         let geometry = &settled(&self.geometry, self.input.as_deref(), access, warnings)?;
         if geometry.to.is_none() {
             let example = format!("{TO} omnimax");

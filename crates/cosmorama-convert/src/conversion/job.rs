@@ -13,7 +13,7 @@ use crate::colour::Light;
 use crate::coverage::{Coverage, whole_worlds};
 use crate::diagnostic::{Diagnostic, Result};
 use crate::input::spec_files::st_map::settled;
-use crate::input::{Access, Files, Input, Kept};
+use crate::input::{Access, DecodedPicture, Files, Input};
 use crate::output::Outputs;
 use crate::settings::Conversion;
 use crate::target::{Target, TargetView, told_of_shape};
@@ -41,19 +41,19 @@ pub(crate) struct ConvertJob {
     /// Memory budget.
     pub(crate) memory: MemoryBudget,
     /// A picture that has been decoded to see what it is.
-    pub(crate) kept: Kept,
+    pub(crate) decoded: DecodedPicture,
 }
 
 /// Part of the memory, at most, that a picture decoded beforehand takes.
-const KEPT_PART: u64 = 8;
+const DECODED_PART: u64 = 8;
 
 impl ConvertJob {
     /// Resolves the settings and checks everything that can be checked without decoding pixels.
     pub(crate) fn resolve(settings: &Conversion, content: Content, warnings: &mut Vec<Diagnostic>) -> Result<Self> {
         let memory = MemoryBudget::new(settings.limits.memory);
         let file = content.has_files().then_some(settings.input.as_str());
-        let kept = Kept::up_to(memory.bytes / KEPT_PART);
-        let access = Access { files: &*settings.files, memory, kept: &kept };
+        let decoded = DecodedPicture::up_to(memory.bytes / DECODED_PART);
+        let access = Access { files: &*settings.files, memory, decoded: &decoded };
         let geometry = &settled(&settings.geometry, file, access, warnings)?;
         // Mistakes in the settings themselves come first: they do not depend on any file.
         let format = Target::check_names(&settings.output, geometry)?;
@@ -86,7 +86,7 @@ impl ConvertJob {
             coverage: Coverage::Complete,
             missing,
             memory,
-            kept,
+            decoded,
         };
         if content.has_files() {
             job.cover(warnings)?;

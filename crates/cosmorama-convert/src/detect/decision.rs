@@ -8,7 +8,7 @@ use cosmorama_io::{EnvMap, Header, Window};
 use cosmorama_spec::{Cube, Packing};
 
 use crate::detect::{Circles, Evidence, Readings, Seen};
-use crate::input::{Files, Kept};
+use crate::input::{DecodedPicture, Files};
 
 /// Kind of picture, as far as metadata, shape and pixels tell.
 pub(crate) enum Guess {
@@ -40,7 +40,12 @@ pub(crate) const OVAL_ONES: &str = "hammer, mollweide or sinusoidal";
 impl Guess {
     /// Examines a header, and the pixels where nothing else decides. Also returns the damage if the pixels cannot be
     /// read.
-    pub(crate) fn of(files: &dyn Files, path: &Path, header: &Header, kept: &Kept) -> (Self, Option<String>) {
+    pub(crate) fn of(
+        files: &dyn Files,
+        path: &Path,
+        header: &Header,
+        decoded: &DecodedPicture,
+    ) -> (Self, Option<String>) {
         if let Some(envmap) = header.metadata.envmap {
             return (Self::Said(envmap), None);
         }
@@ -52,7 +57,7 @@ impl Guess {
         if let [kind @ (LayoutKind::StripH | LayoutKind::StripV)] = layouts[..] {
             return (Self::Strip(kind), None);
         }
-        let seen = Seen::of(files, path, header, kept);
+        let seen = Seen::of(files, path, header, decoded);
         let damage = match &seen {
             Seen::Damaged(damage) => Some(damage.clone()),
             _ => None,

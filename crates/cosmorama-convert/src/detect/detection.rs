@@ -11,7 +11,7 @@ use crate::detect::pixels::damage_of;
 use crate::detect::{Evidence, Guess, Readings, Seen};
 use crate::diagnostic::{Code, Diagnostic, FROM, Remedy, Result, Setting, Severity, bail, usage, usage_as};
 use crate::input::canvas::canvas_of;
-use crate::input::{Access, Files, Kept};
+use crate::input::{Access, DecodedPicture, Files};
 
 /// Detects the projection of an image without `--from`, which may hold a picture for each eye. A guess is announced.
 pub(crate) fn detect(
@@ -20,7 +20,7 @@ pub(crate) fn detect(
     header: &Header,
     warnings: &mut Vec<Diagnostic>,
 ) -> Result<(Shape, Option<StereoSpec>)> {
-    let (guess, damage) = Guess::of(access.files, path, header, access.kept);
+    let (guess, damage) = Guess::of(access.files, path, header, access.decoded);
     if let Some(damage) = damage {
         bail!(Damaged: "{damage}");
     }
@@ -244,7 +244,7 @@ pub struct Likely {
 
 /// Examines an image.
 pub fn likely(files: &dyn Files, path: &Path, header: &Header) -> Likely {
-    let (guess, damage) = Guess::of(files, path, header, &Kept::default());
+    let (guess, damage) = Guess::of(files, path, header, &DecodedPicture::default());
     // Whoever asks what a file is wants to know whether it is whole.
     let damage = damage.or_else(|| if guess.has_looked() { None } else { damage_of(files, path) });
     let circle = match guess {

@@ -13,7 +13,7 @@ use crate::budget::light_bytes;
 use crate::detect::oval::is_oval;
 use crate::detect::{Circles, Twins, cross_variants};
 use crate::diagnostic::Result;
-use crate::input::{Files, Kept, probe, read};
+use crate::input::{DecodedPicture, Files, probe, read};
 
 /// Size, in bytes, above which an image is not decoded for detection only.
 const MOST_BYTES: u64 = 1 << 30;
@@ -89,7 +89,7 @@ pub(crate) enum Seen {
 
 impl Seen {
     /// Examines the pixels, beginning with what the image's shape suggests.
-    pub(crate) fn of(files: &dyn Files, path: &Path, header: &Header, kept: &Kept) -> Self {
+    pub(crate) fn of(files: &dyn Files, path: &Path, header: &Header, held: &DecodedPicture) -> Self {
         if header.window.is_some() {
             return Self::Unseen("it is a part of a larger picture".to_owned());
         }
@@ -99,7 +99,7 @@ impl Seen {
             Err(error) => return Self::Damaged(error.to_string()),
         };
         let seen = Evidence::of_image(&file.image).map_or(Self::Nothing, Self::Evidence);
-        kept.put(path, file);
+        held.put(path, file);
         seen
     }
 }

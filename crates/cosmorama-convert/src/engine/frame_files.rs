@@ -60,7 +60,7 @@ impl FrameFile {
         let present: Vec<_> = job.input.present().collect();
         let Some((first, header, _)) = views.first().map(|view| present[*view]) else { return Ok(Vec::new()) };
         let expected = first.part.map_or((header.width, header.height), |part| part.of);
-        let file = match job.kept.take(path) {
+        let file = match job.decoded.take(path) {
             Some(file) => file,
             None => read_in(&*job.files, path, &Limits::memory(job.memory.bytes), pool)?,
         };

@@ -24,6 +24,7 @@ pub use pieces::place::Place;
 pub(crate) use eye::EyePart;
 pub(crate) use faces::face_file::Face;
 pub(crate) use faces::face_shape::FacePicture;
-pub(crate) use files::access::{Access, Kept, read_in};
+pub(crate) use files::access::{Access, read_in};
+pub(crate) use files::decoded_picture::DecodedPicture;
 pub(crate) use find::SAME_FOR_BOTH;
 pub(crate) use pieces::piece::Piece;

@@ -2,7 +2,7 @@ use std::collections::BTreeMap;
 use std::fmt::Debug;
 use std::io::{self, Cursor, Read};
 use std::path::{Path, PathBuf};
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::sync::Arc;
 
 use cosmorama::raster::FramePool;
 use cosmorama_io::{
@@ -10,6 +10,7 @@ use cosmorama_io::{
     probe_from, probe_pairs_from, read_from, read_pairs_from,
 };
 
+use super::decoded_picture::DecodedPicture;
 use crate::budget::MemoryBudget;
 
 /// Source of the bytes of inputs: disk, memory, an archive. Inputs are pictures, masks, st maps, calibrations, world files and
@@ -87,41 +88,6 @@ pub fn read(files: &dyn Files, path: &Path, limits: &Limits) -> Result<ImageFile
     read_from(files.open(path)?, path, limits)
 }
 
-/// Keeper of a picture that was decoded to find its projection, for who reads the file next.
-#[derive(Debug, Default)]
-pub(crate) struct Kept {
-    /// Greatest number of bytes that are kept.
-    most: u64,
-    picture: Mutex<Option<(PathBuf, ImageFile)>>,
-}
-
-impl Kept {
-    /// Creates a keeper of a picture of at most so many bytes.
-    pub(crate) fn up_to(most: u64) -> Self {
-        Self { most, picture: Mutex::default() }
-    }
-
-    /// Keeps a picture, unless it is too large.
-    pub(crate) fn put(&self, path: &Path, file: ImageFile) {
-        let image = &file.image;
-        let bytes = image.width() * image.height() * image.channels().count() * image.depth().bytes();
-        if bytes as u64 <= self.most {
-            *self.lock() = Some((path.to_owned(), file));
-        }
-    }
-
-    /// Hands out the picture of a file, once.
-    pub(crate) fn take(&self, path: &Path) -> Option<ImageFile> {
-        let mut picture = self.lock();
-        let is_it = picture.as_ref().is_some_and(|(kept, _)| kept == path);
-        if is_it { picture.take().map(|(_, file)| file) } else { None }
-    }
-
-    fn lock(&self) -> MutexGuard<'_, Option<(PathBuf, ImageFile)>> {
-        self.picture.lock().unwrap_or_else(PoisonError::into_inner)
-    }
-}
-
 /// Reads a picture into memory of a pool.
 ///
 /// # Errors
@@ -137,8 +103,8 @@ pub(crate) struct Access<'a> {
     pub(crate) files: &'a dyn Files,
     /// Memory budget.
     pub(crate) memory: MemoryBudget,
-    /// Keeper of a picture that is decoded before it is needed.
-    pub(crate) kept: &'a Kept,
+    /// Picture that was decoded before it is needed.
+    pub(crate) decoded: &'a DecodedPicture,
 }
 
 impl Access<'_> {

@@ -3,7 +3,7 @@
 use crate::budget::MemoryBudget;
 use crate::diagnostic::{Diagnostic, Result};
 use crate::input::lists::{hugin, world_file};
-use crate::input::{Access, Files, Input, Kept};
+use crate::input::{Access, DecodedPicture, Files, Input};
 
 /// A view as a world file or a Hugin project lists it.
 pub struct Listed {
@@ -24,7 +24,7 @@ pub fn listed(
     memory: MemoryBudget,
     warnings: &mut Vec<Diagnostic>,
 ) -> Result<Option<Vec<Listed>>> {
-    let access = Access { files, memory, kept: &Kept::default() };
+    let access = Access { files, memory, decoded: &DecodedPicture::default() };
     if world_file::is_world_file(name) {
         return world_file::listed(name, None, access, warnings).map(Some);
     }
