@@ -3,7 +3,7 @@
 use std::io::Cursor;
 use std::path::Path;
 
-use cosmorama::raster::{Channels, Depth, EncodedImage, Samples};
+use cosmorama::raster::{Channels, Depth, EncodedImage, Image, Rgba, Samples, Transfer};
 use cosmorama_io::{Format, ImageFile, IoError, Limits, WriteOptions, probe_from, read_from, write_to};
 use tiff::encoder::{TiffEncoder, colortype};
 use tiff::tags::Tag;
@@ -19,6 +19,38 @@ fn bytes(format: Format, image: &EncodedImage) -> Vec<u8> {
     bytes.into_inner()
 }
 
+/// A picture of 20 by 10 pixels in every format that may be piped.
+fn pictures() -> Vec<Vec<u8>> {
+    let light = |channels: Channels, depth| {
+        let image = Image::filled(20, 10, Rgba::opaque(0.5, 0.25, 1.0));
+        EncodedImage::encode(&image, channels, depth, &Transfer::Linear)
+    };
+    let deep = [
+        (Format::Exr, Depth::Half),
+        (Format::Exr, Depth::Float),
+        (Format::Hdr, Depth::Float),
+        (Format::Tiff, Depth::Half),
+    ];
+    let deep = deep.map(|(format, depth)| bytes(format, &light(Channels::Rgb, depth)));
+    let flat = [Format::Png, Format::Jpeg, Format::Tiff].map(|format| bytes(format, &grey(20, 10)));
+    flat.into_iter().chain(deep).chain([big_endian_tiff()]).collect()
+}
+
+/// A TIFF file as others write it: its pixels before its page.
+fn big_endian_tiff() -> Vec<u8> {
+    let mut bytes = [&b"MM\0*\0\0\0\xd0"[..], &[7; 200]].concat();
+    let entries: [(u16, u16, u32); 8] =
+        [(256, 3, 20), (257, 3, 10), (258, 3, 8), (259, 3, 1), (262, 3, 1), (273, 4, 8), (278, 3, 10), (279, 4, 200)];
+    bytes.extend((entries.len() as u16).to_be_bytes());
+    for (tag, kind, value) in entries {
+        bytes.extend([tag.to_be_bytes(), kind.to_be_bytes()].concat());
+        bytes.extend(1_u32.to_be_bytes());
+        bytes.extend(if kind == 3 { (value << 16).to_be_bytes() } else { value.to_be_bytes() });
+    }
+    bytes.extend([0; 4]);
+    bytes
+}
+
 fn read(bytes: &[u8]) -> Result<ImageFile, IoError> {
     read_from(Cursor::new(bytes), "in memory", &Limits::default())
 }
@@ -30,8 +62,7 @@ fn assert_counts(bytes: &[u8], count: usize) {
 
 #[test]
 fn pictures_one_behind_the_other_are_counted() {
-    for format in [Format::Png, Format::Jpeg] {
-        let one = bytes(format, &grey(20, 10));
+    for one in pictures() {
         assert_counts(&one.repeat(2), 2);
         assert_counts(&one.repeat(24), 24);
         assert_counts(&[&one[..], &[0; 100], &one].concat(), 2);
@@ -40,9 +71,10 @@ fn pictures_one_behind_the_other_are_counted() {
 
 #[test]
 fn padding_is_harmless() {
-    for format in [Format::Png, Format::Jpeg] {
-        let one = bytes(format, &grey(20, 10));
-        for behind in [&[0; 3][..], &[0; 5000], b"\n", b"anything else"] {
+    for one in pictures() {
+        for behind in
+            [&[0; 3][..], &[0; 5000], b"\n", b"anything else", b"#?", b"II*\0\x08\0\0\0", b"\x76\x2f\x31\x01\x02\0\0\0"]
+        {
             assert_eq!(read(&[&one[..], behind].concat()).unwrap().image.width(), 20);
         }
     }

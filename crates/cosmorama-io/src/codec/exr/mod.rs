@@ -21,7 +21,7 @@ pub(crate) struct Exr;
 
 impl Codec for Exr {
     fn recognises(&self, start: &[u8]) -> bool {
-        start.starts_with(&[0x76, 0x2f, 0x31, 0x01])
+        start.starts_with(&reader::MARK)
     }
 
     fn probe(&self, path: &Path, source: Source<'_>) -> Result<Header, IoError> {

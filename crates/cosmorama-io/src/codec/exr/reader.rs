@@ -1,4 +1,4 @@
-use std::io;
+use std::io::{self, SeekFrom};
 use std::path::Path;
 
 use cosmorama::raster::{AlphaMode, Depth, FramePool, Sample, Samples, Transfer};
@@ -16,10 +16,17 @@ use rayon::prelude::*;
 use super::dwa;
 use super::selection::Selection;
 use super::window::Crop;
+use crate::codec::behind::{count_marks, next_bytes, skip_padding};
 use crate::codec::interface::{Source, is_beside_others, whole_image};
 use crate::{EnvMap, Format, Header, ImageFile, IoError, Limits, Metadata};
 
 const FORMAT: Format = Format::Exr;
+
+/// First bytes of every file.
+pub(super) const MARK: [u8; 4] = [0x76, 0x2f, 0x31, 0x01];
+
+/// Bytes of the mark, the version and its flags.
+const START: usize = 8;
 
 /// Greatest number of chunks that are decompressed together; enough for all cores.
 const BATCH: usize = 64;
@@ -70,7 +77,7 @@ fn read_selected(
     (limits, pool): (&Limits, &FramePool),
     wanted: Wanted,
 ) -> Result<ImageFile, IoError> {
-    let reader = open(path, source)?;
+    let reader = open(path, &mut *source)?;
     let (header, selection, crop) = announce(path, reader.headers(), wanted)?;
     check_limits(path, &reader.headers()[selection.part], &header, limits)?;
     let fail = |error| damaged(path, error);
@@ -86,9 +93,26 @@ fn read_selected(
             Samples::Float(pixels(reader, &selection, &crop, float_line, samples).map_err(fail)?)
         }
     };
+    let behind = count_behind(source).map_err(|error| IoError::open(path, error))?;
+    if behind > 0 {
+        return Err(IoError::several(path, FORMAT, 1 + behind, "pictures one behind the other"));
+    }
     let mut file = whole_image(path, header, samples)?;
     file.image = file.image.with_alpha_mode(AlphaMode::Premultiplied);
     Ok(file)
+}
+
+/// Counts the files that follow one whose last chunk has been read. Bytes that begin none are padding, and harmless, and so are
+/// chunks of other parts and resolutions.
+fn count_behind(source: Source<'_>) -> io::Result<usize> {
+    let first = skip_padding(source)?;
+    let start = next_bytes(source, START)?;
+    source.seek(SeekFrom::Start(first))?;
+    if !start.starts_with(&MARK) || MetaData::read_from_buffered(&mut *source, false).is_err() {
+        return Ok(0);
+    }
+    // Those that one program has written begin alike, with their version and its flags.
+    Ok(1 + count_marks(source, &start)?)
 }
 
 /// Checks the memory for the display window and for a block of all channels, since a small display window may have a

@@ -6,6 +6,7 @@ use cosmorama::raster::{Channels, Depth, FramePool, Samples};
 use png::{BitDepth, ColorType, Decoder, DecodingError, Info, Reader, Transformations};
 
 use super::colour;
+use crate::codec::behind::{next_bytes, skip_padding};
 use crate::codec::interface::{Source, whole_image};
 use crate::{Format, Header, ImageFile, IoError, Limits};
 
@@ -61,19 +62,13 @@ fn count_behind(source: Source<'_>) -> std::io::Result<usize> {
 
 /// Whether another picture begins behind padding of zeros. Goes on to its first chunk.
 fn next_picture(source: Source<'_>) -> std::io::Result<bool> {
-    while let [0, ..] = source.fill_buf()? {
-        source.consume(1);
-    }
-    let mut mark = Vec::with_capacity(MARK.len());
-    source.take(MARK.len() as u64).read_to_end(&mut mark)?;
-    Ok(mark == MARK)
+    skip_padding(source)?;
+    Ok(next_bytes(source, MARK.len())? == MARK)
 }
 
 /// Skips a chunk; false where it was the last.
 fn skip_chunk(source: Source<'_>) -> std::io::Result<bool> {
-    let mut start = Vec::with_capacity(8);
-    source.take(8).read_to_end(&mut start)?;
-    let Ok([a, b, c, d, kind @ ..]) = <[u8; 8]>::try_from(start) else { return Ok(false) };
+    let Ok([a, b, c, d, kind @ ..]) = <[u8; 8]>::try_from(next_bytes(source, 8)?) else { return Ok(false) };
     let rest = u64::from(u32::from_be_bytes([a, b, c, d])) + 4;
     let skipped = std::io::copy(&mut source.take(rest), &mut std::io::sink())?;
     Ok(skipped == rest && &kind != b"IEND")

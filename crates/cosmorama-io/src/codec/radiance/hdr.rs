@@ -1,13 +1,17 @@
-use std::io::{BufRead, BufReader, Read};
+use std::io::{self, BufRead, BufReader, Read, Seek, SeekFrom};
 use std::path::Path;
 
 use cosmorama::raster::{Channels, Depth, EncodedImage, FramePool, Samples, Transfer};
 
 use super::rgbe;
+use crate::codec::behind::{next_bytes, skip_padding};
 use crate::codec::interface::{Codec, Sink, Source, whole_image};
 use crate::{Format, Header, ImageFile, IoError, Limits, Metadata, WriteOptions};
 
 const FORMAT: Format = Format::Hdr;
+
+/// First bytes of every file.
+const MARK: [u8; 2] = *b"#?";
 
 /// Number of bytes of pixels that are read at once.
 const BUFFER: usize = 1 << 16;
@@ -22,7 +26,7 @@ pub(crate) struct Hdr;
 
 impl Codec for Hdr {
     fn recognises(&self, start: &[u8]) -> bool {
-        start.starts_with(b"#?")
+        start.starts_with(&MARK)
     }
 
     fn probe(&self, path: &Path, source: Source<'_>) -> Result<Header, IoError> {
@@ -43,6 +47,10 @@ impl Codec for Hdr {
             for (sample, pixel) in row.chunks_exact_mut(3).zip(&line) {
                 sample.copy_from_slice(&rgbe::decode(*pixel).map(|light| light / exposure));
             }
+        }
+        let behind = count_behind(path, &mut source, &mut line).map_err(|error| IoError::open(path, error))?;
+        if behind > 0 {
+            return Err(IoError::several(path, FORMAT, 1 + behind, "pictures one behind the other"));
         }
         whole_image(path, header, Samples::Float(samples))
     }
@@ -66,6 +74,25 @@ impl Codec for Hdr {
             output.flush()
         };
         encode().map_err(|error| IoError::write(path, error))
+    }
+}
+
+/// Counts the pictures that follow one that has been read. Bytes that begin no picture are padding, and harmless.
+fn count_behind<R: Read + Seek>(path: &Path, source: &mut BufReader<R>, line: &mut Vec<[u8; 4]>) -> io::Result<usize> {
+    let mut count = 0;
+    loop {
+        let first = skip_padding(source)?;
+        let is_marked = next_bytes(source, MARK.len())? == MARK;
+        source.seek(SeekFrom::Start(first))?;
+        let preamble = if is_marked { Preamble::read(path, source).ok() } else { None };
+        let Some(Preamble { header, .. }) = preamble else { return Ok(count) };
+        count += 1;
+        // A width that the file only claims to have is not given room.
+        line.resize(header.width.min(line.len().max(1)), [0; 4]);
+        let is_whole = header.width == line.len() && (0..header.height).all(|_| rgbe::read_line(source, line).is_ok());
+        if !is_whole {
+            return Ok(count);
+        }
     }
 }
 

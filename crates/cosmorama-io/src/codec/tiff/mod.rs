@@ -1,5 +1,6 @@
 //! TIFF.
 
+mod extent;
 mod reader;
 mod writer;
 

@@ -5,6 +5,7 @@ use tiff::decoder::{Decoder, DecodingResult, DecodingSampleType};
 use tiff::tags::{SampleFormat, Tag};
 use tiff::{ColorType, TiffError};
 
+use super::extent;
 use crate::codec::interface::{Source, whole_image};
 use crate::metadata::icc;
 use crate::{Format, Header, ImageFile, IoError, Limits, Metadata};
@@ -43,7 +44,8 @@ fn beside(path: &Path, decoder: &mut Decoder<Source<'_>>) -> Result<Option<Strin
 }
 
 pub(crate) fn read(path: &Path, source: Source<'_>, limits: &Limits, pool: &FramePool) -> Result<ImageFile, IoError> {
-    let mut decoder = Decoder::new(source).map_err(|error| damaged(path, &error))?;
+    let file: Source<'_> = &mut *source;
+    let mut decoder = Decoder::new(file).map_err(|error| damaged(path, &error))?;
     let header = header(path, &mut decoder)?;
     limits.check(path, (header.width as u64, header.height as u64), header.channels, header.depth)?;
     let mode = alpha_mode(&mut decoder);
@@ -54,6 +56,11 @@ pub(crate) fn read(path: &Path, source: Source<'_>, limits: &Limits, pool: &Fram
     let mut decoder = decoder.with_limits(decoder_limits);
     let result = decode(&mut decoder, &header, pool).map_err(|error| damaged(path, &error))?;
     beside(path, &mut decoder)?;
+    drop(decoder);
+    let behind = extent::count_behind(source).map_err(|error| IoError::open(path, error))?;
+    if behind > 0 {
+        return Err(IoError::several(path, FORMAT, 1 + behind, "pictures one behind the other"));
+    }
     let samples = samples(path, result, &header, mode)?;
     let mut file = whole_image(path, header, samples)?;
     file.image = file.image.with_alpha_mode(mode);
