@@ -183,7 +183,7 @@ impl Input {
         warnings: &mut Vec<Diagnostic>,
     ) -> Result<Self> {
         let files = ViewFiles::new(Path::new(pattern));
-        let frames = frames::find(std::iter::once(&files), wanted)?;
+        let frames = frames::find(&files, wanted)?;
         let path = files.path(frames[0]);
         is_one_file(access.files, pattern, &path)?;
         let header = header(access, &path, eye)?;
@@ -263,8 +263,9 @@ impl Input {
             bail!(NotFound: "{pattern}: none of the faces asked for is there; there are {}", names(set.present()));
         }
         let files: Vec<ViewFiles> = chosen.iter().map(|face| ViewFiles::new(&face.path)).collect();
-        let present = || files.iter().zip(&chosen).filter(|(_, face)| face.present).map(|(files, _)| files);
-        let frames = frames::find(present().collect::<Vec<_>>().into_iter(), wanted)?;
+        let present = chosen.iter().zip(&files).filter(|(face, _)| face.present);
+        let present: Vec<_> = present.map(|(face, files)| (face.face.name(), files)).collect();
+        let frames = frames::find_of_faces(pattern, &present, wanted)?;
         let mut faces = Vec::new();
         for (face, files) in chosen.into_iter().zip(files) {
             faces.push(Face::probe(cube, face, files, (eye, access), frames[0])?);

@@ -1,18 +1,36 @@
 use std::collections::BTreeSet;
 
-use cosmorama_io::{FrameList, FramePattern, Frames};
+use cosmorama_io::{FrameList, FramePattern, Frames, IoError};
 
 use crate::diagnostic::{FRAMES, Result, bail, usage};
 use crate::input::ViewFiles;
 
-/// Finds the frames to work on: the requested ones, or all that any view has. `[None]` where there is no sequence.
-///
-/// All missing frames of all views are named in one error.
-pub(crate) fn find<'a>(
-    files: impl Iterator<Item = &'a ViewFiles> + Clone,
+/// Finds the frames to work on: the requested ones, or all that there are. `[None]` where there is no sequence.
+pub(crate) fn find(files: &ViewFiles, wanted: Option<&FrameList>) -> Result<Vec<Option<u64>>> {
+    find_in(files.sequence().as_slice(), wanted, |_| String::new())
+}
+
+/// Finds the frames of a cube's faces: the requested ones, or all that any face has. One error names all that are missing: faces by their
+/// names and the pattern of all.
+pub(crate) fn find_of_faces(
+    pattern: &str,
+    faces: &[(&str, &ViewFiles)],
     wanted: Option<&FrameList>,
 ) -> Result<Vec<Option<u64>>> {
-    let sequences: Vec<&FramePattern> = files.filter_map(ViewFiles::sequence).collect();
+    let named = faces.iter().filter_map(|(name, files)| Some((*name, files.sequence()?)));
+    let (names, sequences): (Vec<&str>, Vec<&FramePattern>) = named.unzip();
+    find_in(&sequences, wanted, |lacking| {
+        let names: Vec<&str> = lacking.iter().map(|face| names[*face]).collect();
+        format!("{pattern} ({})", names.join(", "))
+    })
+}
+
+/// Finds the frames of several sequences; `called` tells what those of some indices are together.
+fn find_in(
+    sequences: &[&FramePattern],
+    wanted: Option<&FrameList>,
+    called: impl Fn(&[usize]) -> String,
+) -> Result<Vec<Option<u64>>> {
     if sequences.is_empty() {
         return match wanted {
             Some(_) => Err(usage(format!(
@@ -24,17 +42,43 @@ pub(crate) fn find<'a>(
     }
     let list = match wanted {
         Some(list) => list.clone(),
-        None => all_frames(&sequences)?,
+        None => all_frames(sequences)?,
     };
-    let missing: Vec<String> = sequences
-        .iter()
-        .filter_map(|pattern| Frames::find((*pattern).clone(), Some(&list)).err())
-        .map(|error| error.to_string())
-        .collect();
+    let missing = missing(sequences, &list, called);
     if !missing.is_empty() {
         bail!(NotFound: "{}", missing.join("\n       "));
     }
     Ok(list.frames().iter().copied().map(Some).collect())
+}
+
+/// Describes the missing frames of sequences, with those that lack the same ones on one line.
+fn missing(sequences: &[&FramePattern], list: &FrameList, called: impl Fn(&[usize]) -> String) -> Vec<String> {
+    let mut found: Vec<(Vec<usize>, IoError)> = Vec::new();
+    for (index, pattern) in sequences.iter().enumerate() {
+        let Err(error) = Frames::find((*pattern).clone(), Some(list)) else { continue };
+        match found.iter_mut().find(|(_, other)| is_alike(other, &error)) {
+            Some((lacking, _)) => lacking.push(index),
+            None => found.push((vec![index], error)),
+        }
+    }
+    let told = |(lacking, mut error): (Vec<usize>, IoError)| {
+        if let (2.., IoError::MissingFrames { pattern, .. }) = (lacking.len(), &mut error) {
+            *pattern = called(&lacking);
+        }
+        error.to_string()
+    };
+    found.into_iter().map(told).collect()
+}
+
+/// Returns whether two sequences lack the same frames, and have the same first and last ones.
+fn is_alike(a: &IoError, b: &IoError) -> bool {
+    match (a, b) {
+        (
+            IoError::MissingFrames { missing: a, existing: of_a, .. },
+            IoError::MissingFrames { missing: b, existing: of_b, .. },
+        ) => a == b && of_a == of_b,
+        _ => false,
+    }
 }
 
 /// Returns the existing frames; none where there is no sequence.
@@ -61,5 +105,37 @@ fn all_frames(sequences: &[&FramePattern]) -> Result<FrameList> {
         (Some(&first), Some(&last)) if last - first < 10_000_000 => Ok(FrameList::new(first..=last)),
         // The search for one of them says best that there is none.
         _ => Ok(Frames::find(sequences[0].clone(), None)?.list().clone()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use super::*;
+
+    /// What is said of faces that have these frames, of which two are asked for.
+    fn said(faces: &[(&str, &[u64])]) -> String {
+        let folder = tempfile::tempdir().expect("a folder");
+        let pattern = folder.path().join("{face}_##.png").display().to_string();
+        let files: Vec<ViewFiles> =
+            faces.iter().map(|(face, _)| ViewFiles::new(Path::new(&pattern.replace("{face}", face)))).collect();
+        for ((_, frames), files) in faces.iter().zip(&files) {
+            frames.iter().for_each(|frame| std::fs::write(files.path(Some(*frame)), "").expect("a file"));
+        }
+        let faces: Vec<_> = faces.iter().map(|(face, _)| *face).zip(&files).collect();
+        let error = find_of_faces(&pattern, &faces, Some(&FrameList::new([1, 2]))).expect_err("frames are missing");
+        error.to_string().replace(&format!("{}/", folder.path().display()), "")
+    }
+
+    #[test]
+    fn faces_that_lack_the_same_frames_share_a_line() {
+        let rest = "the first that exists is 1, the last 1; make it, or choose others with --frames";
+        let all = said(&[("up", &[1]), ("down", &[1]), ("left", &[1])]);
+        assert_eq!(all, format!("{{face}}_##.png (up, down, left): 1 frame is missing: 2; {rest}"));
+        let two = said(&[("up", &[1]), ("down", &[1, 2]), ("left", &[2]), ("right", &[1])]);
+        let lines: Vec<&str> = two.lines().collect();
+        assert_eq!(lines[0], format!("{{face}}_##.png (up, right): 1 frame is missing: 2; {rest}"));
+        assert!(lines[1].trim().starts_with("left_##.png: 1 frame is missing: 1; ") && lines.len() == 2, "{two}");
     }
 }

@@ -185,7 +185,7 @@ fn other_side(shape: Option<&Shape>, side: Side) -> Result<Placement> {
 /// Returns the size of the input's first picture.
 fn input_size(input: &str, access: Access) -> Result<(usize, usize)> {
     let files = ViewFiles::new(Path::new(input));
-    let first = frames::find(std::iter::once(&files), None)?[0];
+    let first = frames::find(&files, None)?[0];
     Ok(canvas_size(&access.probe(&files.path(first))?))
 }
 
