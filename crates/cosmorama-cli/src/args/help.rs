@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueHint};
 use clap_complete::Shell;
+use cosmorama_spec::SpecKind;
 
 use super::parse::listed;
 use super::{verbs, with_examples};
@@ -32,6 +33,7 @@ pub(crate) struct HelpArgs {
     #[arg(value_parser = listed::word(verbs().chain([SPEC_TOPIC]).map(|topic| (topic, ""))), hide_possible_values = true)]
     pub(crate) topic: Option<String>,
     /// After spec: the one projection whose keys to print
+    #[arg(value_parser = listed::word(SpecKind::all().map(|kind| (kind.name(), kind.about()))), hide_possible_values = true)]
     pub(crate) projection: Option<String>,
 }
 

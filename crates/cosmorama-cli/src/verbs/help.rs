@@ -4,6 +4,7 @@ use std::process::ExitCode;
 
 use anyhow::Result;
 use clap::{Command, CommandFactory};
+use clap_complete::Shell;
 use clap_mangen::Man;
 use cosmorama_convert::refuse_existing;
 use cosmorama_io::pending::Pending;
@@ -47,8 +48,30 @@ fn of_projection(name: &str) -> Result<String> {
 pub(super) fn completions(args: &CompletionsArgs, console: &Console) -> Result<ExitCode> {
     let mut script = Vec::new();
     clap_complete::generate(args.shell, &mut Args::command(), "cosmorama", &mut script);
-    console.print(&String::from_utf8_lossy(&script))?;
+    let mut script = String::from_utf8_lossy(&script).into_owned();
+    if args.shell == Shell::Fish {
+        script += &words_for_fish(&Args::command());
+    }
+    console.print(&script)?;
     Ok(ExitCode::SUCCESS)
+}
+
+/// Lines of fish's script for the words of arguments without an option, which `clap_complete` leaves out.
+fn words_for_fish(command: &Command) -> String {
+    let mut lines = String::new();
+    for verb in command.get_subcommands() {
+        for argument in verb.get_positionals() {
+            let values = argument.get_possible_values();
+            let words: Vec<&str> = values.iter().map(|value| value.get_name()).collect();
+            if !words.is_empty() {
+                let (verb, words) = (verb.get_name(), words.join(" "));
+                lines += &format!(
+                    "complete -c cosmorama -n \"__fish_cosmorama_using_subcommand {verb}\" -f -a \"{words}\"\n"
+                );
+            }
+        }
+    }
+    lines
 }
 
 /// Prints the manual pages one after the other, or writes each into a file.

@@ -141,6 +141,22 @@ fn completions_know_values() {
     assert!(bench.succeed(&["completions", "zsh"]).starts_with("#compdef cosmorama"));
 }
 
+#[test]
+fn fish_and_zsh_know_words_without_options() {
+    let bench = Bench::new();
+    let fish = bench.succeed(&["completions", "fish"]);
+    let words = |verb: &str| {
+        let line = format!("complete -c cosmorama -n \"__fish_cosmorama_using_subcommand {verb}\" -f -a");
+        fish.lines().filter(|said| said.starts_with(&line)).collect::<String>()
+    };
+    assert_says(&words("completions"), &["bash elvish fish powershell zsh"]);
+    assert_says(&words("help"), &["convert", "spec", "fulldome"]);
+    assert_eq!(words("convert"), "", "files are offered there");
+    let zsh = bench.succeed(&["completions", "zsh"]);
+    let help = zsh.split("(help)").nth(1).unwrap();
+    assert_says(help, &["fulldome"]);
+}
+
 /// What bash offers behind `--to`.
 #[cfg(target_os = "linux")]
 #[test]
