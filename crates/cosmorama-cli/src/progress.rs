@@ -1,11 +1,21 @@
 use std::fmt::Write;
 use std::io::IsTerminal;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
+use cosmorama_convert::Work;
 use indicatif::{ProgressBar, ProgressState, ProgressStyle as BarStyle};
 
 use crate::args::ProgressStyle;
 use crate::console::say;
+
+/// Time from line to line while one picture, or the geometry of all, is made.
+const PAUSE: Duration = Duration::from_secs(2);
+
+/// Time before a bar tells of such work.
+const SHORT: Duration = Duration::from_secs(1);
+
+/// Steps of a bar that shows a single picture.
+const STEPS: u64 = 1000;
 
 /// Tells on standard error how far the work is.
 pub(crate) struct Progress {
@@ -13,6 +23,12 @@ pub(crate) struct Progress {
     done: usize,
     total: usize,
     start: Instant,
+    /// When a line was last said; the start before the first.
+    said: Instant,
+    /// What is being made, and since when.
+    current: Option<(Work, Instant)>,
+    /// Frames that were told to be done, with parts of one.
+    told: f64,
 }
 
 enum Form {
@@ -21,6 +37,14 @@ enum Form {
     Json,
     Openjd,
     Silent,
+}
+
+/// How far a work is.
+#[derive(Clone, Copy)]
+struct Advance {
+    work: Work,
+    fraction: f64,
+    seconds_left: f64,
 }
 
 impl Progress {
@@ -36,18 +60,80 @@ impl Progress {
             ProgressStyle::Openjd => Form::Openjd,
             ProgressStyle::None => Form::Silent,
         };
-        Self { form, done: 0, total, start: Instant::now() }
+        let start = Instant::now();
+        Self { form, done: 0, total, start, said: start, current: None, told: 0.0 }
+    }
+
+    /// A fraction of some work is done. Of what takes less than a moment nothing is said.
+    pub(crate) fn advance(&mut self, work: Work, fraction: f64) {
+        self.advance_at(Instant::now(), work, fraction).into_iter().for_each(say);
+    }
+
+    /// Moves the bar, or returns the line to say, if it is time for one.
+    fn advance_at(&mut self, now: Instant, work: Work, fraction: f64) -> Option<String> {
+        let since = match self.current {
+            Some((current, since)) if current == work => since,
+            _ => {
+                self.current = Some((work, now));
+                now
+            }
+        };
+        let elapsed = now.duration_since(since);
+        let seconds_left = elapsed.as_secs_f64() * (1.0 - fraction) / fraction.max(1e-9);
+        let advance = Advance { work, fraction, seconds_left };
+        if let Form::Bar(bar) = &self.form {
+            if self.total > 1 {
+                bar.set_message(if elapsed < SHORT { String::new() } else { format!(" ({advance})") });
+            } else if elapsed >= SHORT {
+                bar.set_position((fraction * STEPS as f64) as u64);
+                bar.set_message(advance.to_string());
+            }
+            return None;
+        }
+        if now.duration_since(self.said) < PAUSE {
+            return None;
+        }
+        self.said = now;
+        self.line(advance)
+    }
+
+    fn line(&mut self, advance: Advance) -> Option<String> {
+        let Advance { work, fraction, seconds_left } = advance;
+        match (&self.form, work) {
+            (Form::Plain, _) => Some(advance.to_string()),
+            (Form::Json, _) => {
+                let (work, frame) = match work {
+                    Work::Render(frame) => ("render", frame),
+                    _ => ("plan", None),
+                };
+                let line = serde_json::json!({
+                    "work": work, "frame": frame, "fraction": fraction, "done": self.done, "total": self.total,
+                    "seconds_left": seconds_left,
+                });
+                Some(line.to_string())
+            }
+            // Frames before this one may not be written yet: what was told stays.
+            (Form::Openjd, Work::Render(_)) => Some(self.openjd(self.done as f64 + fraction)),
+            (Form::Openjd, _) => Some(format!("openjd_status: {advance}")),
+            (Form::Bar(_) | Form::Silent, _) => None,
+        }
+    }
+
+    fn openjd(&mut self, frames: f64) -> String {
+        self.told = self.told.max(frames);
+        format!("openjd_progress: {:.2}", 100.0 * self.told / self.total as f64)
     }
 
     /// One more frame is written.
     pub(crate) fn frame_done(&mut self, frame: Option<u64>) {
         self.done += 1;
+        self.said = Instant::now();
         let (done, total) = (self.done, self.total);
         let rate = done as f64 / self.start.elapsed().as_secs_f64().max(1e-9);
         let left = (total - done) as f64 / rate;
         let number = frame.map_or_else(|| "frame".to_owned(), |frame| format!("frame {frame}"));
         match &self.form {
-            Form::Bar(bar) => bar.inc(1),
+            Form::Bar(bar) if total > 1 => bar.inc(1),
             Form::Plain => {
                 say(format_args!("{number}: {done} of {total} done, {} a second, {left:.0} s left", steady(rate)));
             }
@@ -57,8 +143,8 @@ impl Progress {
                 });
                 say(line);
             }
-            Form::Openjd => say(format_args!("openjd_progress: {:.2}", 100.0 * done as f64 / total as f64)),
-            Form::Silent => {}
+            Form::Openjd => say(self.openjd(done as f64)),
+            Form::Bar(_) | Form::Silent => {}
         }
     }
 
@@ -70,13 +156,31 @@ impl Progress {
     }
 }
 
+impl std::fmt::Display for Advance {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let Self { work, fraction, seconds_left } = *self;
+        match work {
+            Work::Render(None) => f.write_str("picture")?,
+            Work::Render(Some(frame)) => write!(f, "frame {frame}")?,
+            _ => f.write_str("geometry")?,
+        }
+        match work {
+            Work::Render(_) if fraction >= 1.0 => f.write_str(": rendered, being written"),
+            _ => write!(f, ": {:.0} % done, {seconds_left:.0} s left", (100.0 * fraction).floor()),
+        }
+    }
+}
+
 fn bar(total: usize) -> ProgressBar {
-    let template = "{wide_bar} {pos}/{len} frames, {rate} a second, {eta} left";
+    let (template, length) = match total {
+        0 | 1 => ("{wide_bar} {msg}", STEPS),
+        _ => ("{wide_bar} {pos}/{len} frames, {rate} a second, {eta} left{msg}", total as u64),
+    };
     let style = BarStyle::with_template(template).unwrap_or_else(|_| BarStyle::default_bar());
     let style = style.with_key("rate", |state: &ProgressState, to: &mut dyn Write| {
         let _ = to.write_str(&steady(state.per_sec()));
     });
-    ProgressBar::new(total as u64).with_style(style)
+    ProgressBar::new(length).with_style(style)
 }
 
 /// A rate in three digits, whether there are many a second or few.
@@ -92,5 +196,62 @@ mod tests {
     #[test]
     fn rates_have_three_digits() {
         assert_eq!([0.0712, 1.5, 12.345, 347.8].map(steady), ["0.07", "1.50", "12.3", "348"]);
+    }
+
+    /// What is said of work that is a hundredth further every tenth of a second.
+    fn said(style: ProgressStyle, total: usize, work: Work) -> Vec<String> {
+        let mut progress = Progress::new(style, total);
+        let at = |hundredth: u32| progress.start + Duration::from_millis(100) * hundredth;
+        let times: Vec<Instant> = (1..=100).map(at).collect();
+        let fractions = (1..=100).map(|hundredth| f64::from(hundredth) / 100.0);
+        times.into_iter().zip(fractions).filter_map(|(now, done)| progress.advance_at(now, work, done)).collect()
+    }
+
+    #[test]
+    fn long_work_is_told_of_every_other_second() {
+        let lines = said(ProgressStyle::Plain, 1, Work::Render(None));
+        assert_eq!(lines.len(), 5, "{lines:?}");
+        assert_eq!(lines[1], "picture: 40 % done, 6 s left");
+        assert_eq!(lines[4], "picture: rendered, being written");
+        assert_eq!(said(ProgressStyle::Plain, 9, Work::Render(Some(7)))[0], "frame 7: 20 % done, 8 s left");
+        let lines = said(ProgressStyle::Plain, 9, Work::Plan);
+        assert_eq!((&*lines[0], &*lines[4]), ("geometry: 20 % done, 8 s left", "geometry: 100 % done, 0 s left"));
+        assert_eq!(said(ProgressStyle::Openjd, 4, Work::Render(None))[1], "openjd_progress: 10.00");
+        assert_eq!(said(ProgressStyle::Openjd, 4, Work::Plan)[0], "openjd_status: geometry: 20 % done, 8 s left");
+        let line: serde_json::Value =
+            serde_json::from_str(&said(ProgressStyle::Json, 4, Work::Render(Some(7)))[1]).unwrap_or_default();
+        assert_eq!((&line["work"], &line["frame"], &line["fraction"]), (&"render".into(), &7.into(), &0.4.into()));
+        assert_eq!(said(ProgressStyle::None, 1, Work::Render(None)), [""; 0]);
+    }
+
+    #[test]
+    fn of_short_work_nothing_is_said() {
+        let mut progress = Progress::new(ProgressStyle::Plain, 1);
+        let now = progress.start + Duration::from_millis(1900);
+        assert_eq!(progress.advance_at(now, Work::Render(None), 0.9), None);
+        assert_eq!(progress.advance_at(now, Work::Render(None), 1.0), None);
+    }
+
+    #[test]
+    fn a_bar_of_a_single_picture_moves_after_a_second() {
+        let mut progress = Progress::new(ProgressStyle::Bar, 1);
+        let mut at = |tenths: u32, fraction: f64| {
+            let now = progress.start + Duration::from_millis(100) * tenths;
+            progress.advance_at(now, Work::Render(None), fraction);
+            let Form::Bar(bar) = &progress.form else { return (0, String::new()) };
+            (bar.position(), bar.message())
+        };
+        assert_eq!((at(0, 0.0), at(9, 0.1)), ((0, String::new()), (0, String::new())));
+        assert_eq!(at(20, 0.25), (250, "picture: 25 % done, 6 s left".to_owned()));
+    }
+
+    #[test]
+    fn what_openjd_was_told_is_not_taken_back() {
+        let mut progress = Progress::new(ProgressStyle::Openjd, 4);
+        let mut at = |seconds: u64, frame: u64, fraction: f64| {
+            progress.advance_at(progress.start + Duration::from_secs(seconds), Work::Render(Some(frame)), fraction)
+        };
+        assert_eq!(at(2, 1, 0.8).as_deref(), Some("openjd_progress: 20.00"));
+        assert_eq!(at(4, 2, 0.1).as_deref(), Some("openjd_progress: 20.00"), "the first is not written yet");
     }
 }

@@ -7,9 +7,9 @@ pub(crate) enum ProgressStyle {
     Auto,
     /// A bar with rate and time left
     Bar,
-    /// A line for each frame
+    /// A line for each frame, and every two seconds while one is made
     Plain,
-    /// A JSON object for each frame; warnings and errors stay lines of text
+    /// A JSON object where plain has a line; warnings and errors stay lines of text
     Json,
     /// Lines for Open Job Description: openjd_progress: 12.5
     Openjd,

@@ -3,7 +3,7 @@ use std::process::ExitCode;
 use std::sync::Arc;
 
 use anyhow::Result;
-use cosmorama_convert::{Conversion, Diagnostic, Observer, Report, Stop};
+use cosmorama_convert::{Conversion, Diagnostic, Observer, Report, Stop, Work};
 
 use crate::args::{ConvertArgs, ProgressStyle};
 use crate::console::Console;
@@ -50,6 +50,11 @@ impl Observer for Watch<'_> {
 
     fn diagnostic(&mut self, diagnostic: &Diagnostic) {
         self.console.warn(diagnostic);
+    }
+
+    fn advance(&mut self, work: Work, fraction: f64) -> ControlFlow<Stop> {
+        self.progress.iter_mut().for_each(|progress| progress.advance(work, fraction));
+        ControlFlow::Continue(())
     }
 
     fn frame_done(&mut self, frame: Option<u64>) -> ControlFlow<Stop> {

@@ -1,5 +1,6 @@
 //! A conversion from its settings to its report: [`Conversion`](crate::Conversion) → [`check`](crate::Conversion::check) → [`Checked`] → [`Checked::run`].
 
+mod advance;
 mod check;
 mod content;
 mod explanation;
@@ -12,8 +13,9 @@ mod run;
 pub use check::Checked;
 pub use check::threads;
 pub use explanation::{Explanation, ExplanationSettings};
-pub use observer::{Observer, Quiet, Stop};
+pub use observer::{Observer, Quiet, Stop, Work};
 pub use report::Report;
 
+pub(crate) use advance::{Shares, watched};
 pub(crate) use content::Content;
 pub(crate) use job::ConvertJob;

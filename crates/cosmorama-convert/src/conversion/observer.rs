@@ -6,13 +6,33 @@ use crate::diagnostic::Diagnostic;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Stop;
 
-/// Callbacks of a running conversion.
+/// Long work of a conversion, of which it tells how far it is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Work {
+    /// Compiling the geometry that all frames share.
+    Plan,
+    /// Rendering the pictures of a frame; `None` for one without a number.
+    Render(Option<u64>),
+}
+
+/// Callbacks of a running conversion, all on the thread that runs it.
 pub trait Observer {
     /// Called with the number of frames to make, before the first.
     fn begin(&mut self, _frames: usize) {}
 
     /// Called with a diagnostic.
     fn diagnostic(&mut self, _diagnostic: &Diagnostic) {}
+
+    /// Called while work goes on, with the fraction of it that is done. The result says whether to go on.
+    ///
+    /// The fractions of one work begin with 0, never fall, and end with 1. Pictures are made band by band, so that even a single one
+    /// makes progress. After `Break(Stop)` the work ends within a band, and its frame is not written. Frames before it are
+    /// finished and reported. [`run`](crate::Checked::run) then returns
+    /// [`ConvertError::Stopped`](crate::ConvertError::Stopped).
+    fn advance(&mut self, _work: Work, _fraction: f64) -> ControlFlow<Stop> {
+        ControlFlow::Continue(())
+    }
 
     /// Called when a frame is written; `None` for one without a number. The result says whether to go on.
     ///

@@ -3,14 +3,15 @@ use std::ops::ControlFlow;
 use std::path::PathBuf;
 
 use cosmorama::raster::Threads;
+use cosmorama::render::Progress;
 use rayon::ThreadPool;
 use rayon::prelude::*;
 
 use super::options::write_options;
-use super::{Checked, Content, ConvertJob, Observer, Report, Stop};
+use super::{Checked, Content, ConvertJob, Observer, Report, Stop, Work, watched};
 use crate::diagnostic::{ConvertError, Diagnostic, Result};
 use crate::engine::{
-    Engine, FrameFile, FrameLight, Sequence, Stage, Stages, ViewImage, Watcher, Which, formula, st_map,
+    Engine, FrameFile, FrameLight, Levels, Sequence, Stage, Stages, ViewImage, Watcher, Which, formula, st_map,
 };
 use crate::output::FrameOutputs;
 
@@ -59,17 +60,21 @@ impl Checked {
     fn convert(&mut self, observer: &mut dyn Observer) -> Result<()> {
         let Self { settings, job, pool, stages, diagnostics, .. } = self;
         let options = write_options(settings, job.target.format, &job.outputs, &job.light);
-        let engine = &pool.install(|| stages.alone(Stage::Plan, || Engine::new(job, options)));
+        let prepare = |progress: &dyn Progress| stages.alone(Stage::Plan, || Engine::new(job, options, progress));
+        let engine = watched(pool, observer, Work::Plan, prepare).and_then(Result::ok);
+        let Some(engine) = &engine else { return Err(stopped((0, job.outputs.frames.len()))) };
         let mut run = Run { job, engine, stages, pool, observer, diagnostics, is_first: true, done: 0 };
         run.tell(engine.told().to_vec());
-        match &job.outputs.frames[..] {
+        let made = match &job.outputs.frames[..] {
             [] => Ok(()),
             [frame] => run.still(frame),
             _ => {
                 let sequence = Sequence { job, engine, stages, pool };
                 stages.among(Stage::Filter, || sequence.run(&mut run))
             }
-        }
+        };
+        // Frames that were being written at a stop are done by now.
+        made.map_err(|error| if let ConvertError::Stopped { .. } = error { run.stopped() } else { error })
     }
 }
 
@@ -90,11 +95,10 @@ struct Run<'a> {
 impl Run<'_> {
     /// Makes a single picture, stage by stage, each with all threads, and frees memory as early as possible.
     fn still(&mut self, frame: &FrameOutputs) -> Result<()> {
-        let Self { engine, stages, pool, .. } = *self;
-        let job = self.job;
+        let Self { job, engine, stages, pool, .. } = *self;
         let light = pool.install(|| light_of(job, engine, stages, frame))?;
         self.look(frame, &light);
-        let pictures = pool.install(|| stages.alone(Stage::Filter, || engine.render(frame, &light)))?;
+        let pictures = stages.alone(Stage::Filter, || self.render(frame, &light))?;
         drop(light);
         let write = || {
             let outputs = frame.files.par_iter().zip(pictures);
@@ -116,6 +120,12 @@ impl Watcher for Run<'_> {
         self.tell(found);
     }
 
+    fn render(&mut self, frame: &FrameOutputs, light: &FrameLight) -> Result<Vec<Levels>> {
+        let engine = self.engine;
+        let render = |progress: &dyn Progress| engine.render(frame, light, progress);
+        watched(self.pool, self.observer, Work::Render(frame.frame), render).unwrap_or_else(|| Err(self.stopped()))
+    }
+
     fn done(&mut self, frame: &FrameOutputs) -> Result<()> {
         self.done += 1;
         tell_done(self.observer, frame.frame, (self.done, self.job.outputs.frames.len()))
@@ -127,12 +137,21 @@ impl Run<'_> {
         found.iter().for_each(|diagnostic| self.observer.diagnostic(diagnostic));
         self.diagnostics.extend(found);
     }
+
+    fn stopped(&self) -> ConvertError {
+        stopped((self.done, self.job.outputs.frames.len()))
+    }
+}
+
+/// Creates the error of a stop, when `done` of all `frames` are written.
+fn stopped((done, frames): (usize, usize)) -> ConvertError {
+    ConvertError::Stopped { done, frames }
 }
 
 /// Calls an observer after a frame, when `done` of all `frames` are written. Returns an error if it stops the run early.
 fn tell_done(observer: &mut dyn Observer, frame: Option<u64>, (done, frames): (usize, usize)) -> Result<()> {
     match observer.frame_done(frame) {
-        ControlFlow::Break(Stop) if done < frames => Err(ConvertError::Stopped { done, frames }),
+        ControlFlow::Break(Stop) if done < frames => Err(stopped((done, frames))),
         _ => Ok(()),
     }
 }

@@ -82,7 +82,11 @@ pub(crate) trait InPlace<T> {
 
 impl<T, E: Into<ConvertError>> InPlace<T> for Result<T, E> {
     fn at(self, place: impl FnOnce() -> String) -> Result<T> {
-        self.map_err(|error| ConvertError::At { place: place(), error: Box::new(error.into()) })
+        self.map_err(|error| match error.into() {
+            // Which frame it was is of no interest.
+            stopped @ ConvertError::Stopped { .. } => stopped,
+            error => ConvertError::At { place: place(), error: Box::new(error) },
+        })
     }
 }
 

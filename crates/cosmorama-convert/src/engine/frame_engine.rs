@@ -2,20 +2,20 @@ use std::path::Path;
 use std::sync::{Arc, OnceLock};
 
 use cosmorama::raster::{FixedCodec, FixedLight, FramePool, Image, Pixel, Rgba};
-use cosmorama::render::ScreenMask;
+use cosmorama::render::{Progress, ScreenMask, Stopped};
 use cosmorama::world::Source;
 use cosmorama_io::WriteOptions;
 
 use crate::budget::QueueDepth;
-use crate::conversion::ConvertJob;
+use crate::conversion::{ConvertJob, Shares};
 use crate::coverage::Coverage;
 use crate::detect::FacePixels;
 use crate::detect::pixels::light_of;
-use crate::diagnostic::{BACKGROUND, Code, Diagnostic, MISSING, Result, bail};
+use crate::diagnostic::{BACKGROUND, Code, ConvertError, Diagnostic, MISSING, Result, bail};
 use crate::engine::{BalancedLight, FrameLight, Geometry, Levels, Texels, Writer, warnings};
 use crate::input::InputView;
 use crate::output::FrameOutputs;
-use crate::target::Sheet;
+use crate::target::{Sheet, Target};
 
 /// Makes the outputs of a job, frame by frame.
 pub(crate) struct Engine<'a> {
@@ -31,16 +31,22 @@ pub(crate) struct Engine<'a> {
     pool: Arc<FramePool>,
 }
 
+/// State of a frame while its pictures are made.
+struct Making<'a> {
+    balanced: BalancedLight,
+    shares: Shares<'a>,
+}
+
 impl<'a> Engine<'a> {
     /// Prepares the geometry, on the threads that will render the frames.
-    pub(crate) fn new(job: &'a ConvertJob, options: WriteOptions) -> Self {
+    pub(crate) fn new(job: &'a ConvertJob, options: WriteOptions, progress: &dyn Progress) -> Result<Self, Stopped> {
         let masks = job.target.views.iter().map(|_| OnceLock::new()).collect();
-        let (geometry, told) = Geometry::compile(job);
+        let (geometry, told) = Geometry::compile(job, progress)?;
         let threads = rayon::current_num_threads();
         let queue_depth = job.memory.queue_depth(&job.input, &job.target, geometry.bytes(), threads);
         let pool = Arc::new(FramePool::keeping(pool_bytes(job, queue_depth)));
         let writer = Writer::new(&job.light, WriteOptions { pool: Arc::clone(&pool), ..options });
-        Self { job, geometry, told, masks, writer, queue_depth, pool }
+        Ok(Self { job, geometry, told, masks, writer, queue_depth, pool })
     }
 
     /// Returns the diagnostics that are known before any frame.
@@ -118,58 +124,82 @@ impl<'a> Engine<'a> {
     }
 
     /// Renders the pictures of a frame: filtered light over the background, with faces in their places.
-    pub(crate) fn render(&self, frame: &FrameOutputs, light: &FrameLight) -> Result<Vec<Levels>> {
-        let mut balanced = BalancedLight::default();
+    pub(crate) fn render(
+        &self,
+        frame: &FrameOutputs,
+        light: &FrameLight,
+        progress: &dyn Progress,
+    ) -> Result<Vec<Levels>> {
+        let Target { views, files, .. } = &self.job.target;
+        let sheets = frame.files.iter().flat_map(|(file, _)| files[*file].levels());
+        let views = sheets.flat_map(|sheet| &sheet.pieces).map(|(index, _)| &views[*index].view);
+        let mut making = Making { balanced: BalancedLight::default(), shares: Shares::new(progress, views) };
         let files = frame.files.iter();
-        files.map(|(index, _)| self.render_file(*index, (frame.frame, light), &mut balanced)).collect()
+        files.map(|(index, _)| self.render_file(*index, (frame.frame, light), &mut making)).collect()
     }
 
     fn render_file(
         &self,
         file: usize,
         (frame, light): (Option<u64>, &FrameLight),
-        balanced: &mut BalancedLight,
+        making: &mut Making,
     ) -> Result<Levels> {
         let sheets = self.job.target.files[file].levels();
         match (light.texels(), self.geometry.codec()) {
             (Texels::Fixed(worlds), Some(codec)) => {
-                let view = |index| Ok(self.codes(index, worlds, codec));
-                let picture = |sheet| assemble_in(&self.pool, sheet, codec.background(), view);
+                let mut view = |index| self.codes(index, (worlds, codec), making);
+                let picture = |sheet| assemble_in(&self.pool, sheet, codec.background(), &mut view);
                 Ok(Levels::Codes(sheets.map(picture).collect::<Result<_>>()?))
             }
             _ => {
-                let mut view = |index| self.render_view(index, (frame, light), balanced);
+                let mut view = |index| self.render_view(index, (frame, light), making);
                 let picture = |sheet| assemble_in(&self.pool, sheet, self.job.light.background, &mut view);
                 Ok(Levels::Light(sheets.map(picture).collect::<Result<_>>()?))
             }
         }
     }
 
-    fn codes(&self, index: usize, worlds: &[FixedLight], codec: &FixedCodec) -> Image<[u8; 3]> {
+    fn codes(
+        &self,
+        index: usize,
+        (worlds, codec): (&[FixedLight], &FixedCodec),
+        making: &mut Making,
+    ) -> Result<Image<[u8; 3]>> {
         let target = &self.job.target.views[index];
         let light = &worlds[target.world(worlds.len())];
-        self.geometry.codes(index, self.job.resampler(target), (light, codec), &self.pool)
+        let share = making.shares.next(&target.view);
+        let made = self.geometry.codes(index, self.job.resampler(target).watched(&share), (light, codec), &self.pool);
+        made.map_err(|Stopped| self.stopped())
     }
 
     fn render_view(
         &self,
         index: usize,
         (frame, light): (Option<u64>, &FrameLight),
-        balanced: &mut BalancedLight,
+        Making { balanced, shares }: &mut Making,
     ) -> Result<Image<Rgba>> {
         let target = &self.job.target.views[index];
         let Texels::Float(worlds) = light.texels() else { bail!("light of 8 bits where floats were expected") };
-        let (resampler, texels) = (self.job.resampler(target), &worlds[target.world(worlds.len())]);
+        let share = shares.next(&target.view);
+        let (resampler, texels) = (self.job.resampler(target).watched(&share), &worlds[target.world(worlds.len())]);
+        let mut make = |light, background| {
+            let made = self.geometry.light(index, resampler, light, background, &self.pool, balanced);
+            made.map_err(|Stopped| self.stopped())
+        };
         if self.is_complete(light) && !self.job.light.channels.has_alpha() {
             // A file without alpha shows everything in front of the background.
             let background = self.job.light.background;
-            return Ok(self.geometry.light(index, resampler, (texels, false), background, &self.pool, balanced));
+            return make((texels, false), background);
         }
-        let holed = (&texels[..], self.has_holes(light));
-        let mut image = self.geometry.light(index, resampler, holed, Rgba::TRANSPARENT, &self.pool, balanced);
+        let mut image = make((texels, self.has_holes(light)), Rgba::TRANSPARENT)?;
         self.close_holes(index, (frame, light), &mut image)?;
         self.complete(index, &mut image);
         Ok(image)
+    }
+
+    /// Creates the error of a frame that is stopped, as if it were the first: the run knows how many are done.
+    fn stopped(&self) -> ConvertError {
+        ConvertError::Stopped { done: 0, frames: self.job.outputs.frames.len() }
     }
 
     /// Returns whether no texels are missing and every pixel has a view.

@@ -1,8 +1,8 @@
 use cosmorama::filter::FilterKind;
 use cosmorama::raster::{Channels, Depth, FixedCodec, FixedDecoder, FixedLight, FramePool, Image, Rgba};
-use cosmorama::render::{Arithmetic, Plan, Resampler};
+use cosmorama::render::{Arithmetic, Plan, Progress, Stopped, Watched};
 
-use crate::conversion::ConvertJob;
+use crate::conversion::{ConvertJob, Shares};
 use crate::coverage::Coverage;
 use crate::diagnostic::{Code, Diagnostic, KERNEL, MEMORY};
 use crate::engine::{Balance, BalancedLight, balance};
@@ -35,7 +35,7 @@ fn anew() -> Diagnostic {
 
 impl Geometry {
     /// Compiles the geometry of a job, and returns it with its warnings.
-    pub(crate) fn compile(job: &ConvertJob) -> (Self, Vec<Diagnostic>) {
+    pub(crate) fn compile(job: &ConvertJob, progress: &dyn Progress) -> Result<(Self, Vec<Diagnostic>), Stopped> {
         let mut warnings = Vec::new();
         let codec = codec(job);
         let arithmetic = if codec.is_some() { Arithmetic::Fixed } else { Arithmetic::Float };
@@ -43,7 +43,7 @@ impl Geometry {
         // What is balanced needs its plan, even for one picture.
         let is_kept = pays(job) || !groups.is_empty();
         let plans = if is_kept {
-            plans(job, arithmetic, balance::bytes_of(job, &groups), &mut warnings)
+            plans((job, progress), arithmetic, balance::bytes_of(job, &groups), &mut warnings)?
         } else {
             job.target.views.iter().map(|_| None).collect()
         };
@@ -51,7 +51,7 @@ impl Geometry {
             warnings.push(unbalanced());
         }
         let balance = Balance::of(job, groups, &plans);
-        (Self { plans, codec, balance }, warnings)
+        Ok((Self { plans, codec, balance }, warnings))
     }
 
     /// Returns the encoder from 15 bits to 8, if the job uses it.
@@ -69,41 +69,48 @@ impl Geometry {
     pub(crate) fn light(
         &self,
         index: usize,
-        resampler: Resampler,
+        watched: Watched,
         (texels, has_holes): (&[Rgba], bool),
         background: Rgba,
         pool: &FramePool,
         last: &mut BalancedLight,
-    ) -> Image<Rgba> {
+    ) -> Result<Image<Rgba>, Stopped> {
         let plan = self.plans[index].as_ref().filter(|_| self.codec.is_none());
-        let Some(plan) = plan else { return resampler.render_over(texels, background) };
+        let Some(plan) = plan else { return watched.render_over(texels, background) };
+        let target = watched.resampler.target;
         let over = |texels: &[Rgba], background: Rgba| {
-            let mut image = pool.take_image(resampler.target.width(), resampler.target.height());
+            let mut image = pool.take_image(target.width(), target.height());
             plan.apply_into(texels, background, &mut image);
             image
         };
         let balanced = if has_holes { None } else { self.balance.light(index, texels, last) };
-        let Some(balanced) = balanced else { return over(texels, background) };
+        let Some(balanced) = balanced else { return whole(over(texels, background), watched) };
         let mut image = over(balanced, Rgba::TRANSPARENT);
         self.balance.complete(index, &mut image);
         image.lay_over(background);
-        image
+        whole(image, watched)
     }
 
     /// Renders the code values of a target view. With a plan, they are written into memory of a pool.
     pub(crate) fn codes(
         &self,
         index: usize,
-        resampler: Resampler,
+        watched: Watched,
         (light, codec): (&FixedLight, &FixedCodec),
         pool: &FramePool,
-    ) -> Image<[u8; 3]> {
+    ) -> Result<Image<[u8; 3]>, Stopped> {
         let plan = self.plans[index].as_ref().filter(|_| self.codec.is_some());
-        let Some(plan) = plan else { return resampler.render_fixed(light, codec) };
-        let mut image = pool.take_image(resampler.target.width(), resampler.target.height());
+        let Some(plan) = plan else { return watched.render_fixed(light, codec) };
+        let target = watched.resampler.target;
+        let mut image = pool.take_image(target.width(), target.height());
         plan.apply_fixed_into(light, codec, &mut image);
-        image
+        whole(image, watched)
     }
+}
+
+/// Reports that a picture is made at one go, by a plan.
+fn whole<P>(image: Image<P>, Watched { progress, .. }: Watched) -> Result<Image<P>, Stopped> {
+    if progress.advance(1.0).is_break() { Err(Stopped) } else { Ok(image) }
 }
 
 /// Returns whether geometry would be used more than once.
@@ -112,24 +119,30 @@ fn pays(job: &ConvertJob) -> bool {
 }
 
 /// Makes the plans of all target views, as far as they fit into memory beside what is `taken`.
-fn plans(job: &ConvertJob, arithmetic: Arithmetic, taken: u64, warnings: &mut Vec<Diagnostic>) -> Vec<Option<Plan>> {
+fn plans(
+    (job, progress): (&ConvertJob, &dyn Progress),
+    arithmetic: Arithmetic,
+    taken: u64,
+    warnings: &mut Vec<Diagnostic>,
+) -> Result<Vec<Option<Plan>>, Stopped> {
+    let mut shares = Shares::new(progress, job.target.views.iter().map(|target| &target.view));
     let left = job.memory.left_for_plan(&job.input, &job.target, rayon::current_num_threads());
     let (mut left, mut lacks_room) = (left.saturating_sub(taken), false);
     let plan_of = |target: &TargetView| {
-        let resampler = job.resampler(target);
+        let (resampler, share) = (job.resampler(target), shares.next(&target.view));
         if resampler.plan_bytes_estimate(arithmetic) as u64 > left {
             lacks_room = true;
-            return None;
+            return Ok(None);
         }
-        let plan = resampler.plan(arithmetic)?;
-        left = left.saturating_sub(plan.bytes() as u64);
-        Some(plan)
+        let plan = resampler.watched(&share).plan(arithmetic)?;
+        left = left.saturating_sub(plan.as_ref().map_or(0, Plan::bytes) as u64);
+        Ok(plan)
     };
-    let plans = job.target.views.iter().map(plan_of).collect();
+    let plans = job.target.views.iter().map(plan_of).collect::<Result<_, Stopped>>()?;
     if lacks_room && pays(job) {
         warnings.push(anew());
     }
-    plans
+    Ok(plans)
 }
 
 /// Returns the integer codec of a job; `None` unless its pictures are opaque, of 8 bits, and fit 15-bit light.
@@ -151,6 +164,8 @@ fn codec(job: &ConvertJob) -> Option<FixedCodec> {
 
 #[cfg(test)]
 mod tests {
+    use std::ops::ControlFlow;
+
     use cosmorama::raster::Transfer;
     use testkit::Dome;
 
@@ -163,7 +178,8 @@ mod tests {
         let expected = plan.apply_fixed(&dome.light, &dome.codec);
         let codec = FixedCodec::new(&Transfer::Srgb, Rgba::BLACK).expect("sRGB has 8 bits");
         let geometry = Geometry { plans: vec![Some(plan)], codec: Some(codec), balance: Balance::default() };
-        let codes = |pool: &FramePool| geometry.codes(0, dome.resampler(), (&dome.light, &dome.codec), pool);
+        let watched = || dome.resampler().watched(&|_: f64| ControlFlow::Continue(()));
+        let codes = |pool: &FramePool| geometry.codes(0, watched(), (&dome.light, &dome.codec), pool).expect("pixels");
         let pool = FramePool::keeping(1 << 20);
         let mut left = pool.take_image::<[u8; 3]>(64, 64);
         left.pixels_mut().fill([9; 3]);
@@ -181,7 +197,7 @@ mod tests {
         let place = left.pixels().as_ptr();
         pool.give_image(left);
         let mut last = BalancedLight::default();
-        let made = geometry.light(0, dome.resampler(), (&texels, false), Rgba::BLACK, &pool, &mut last);
+        let made = geometry.light(0, watched(), (&texels, false), Rgba::BLACK, &pool, &mut last).expect("pixels");
         assert!(made == expected && made.pixels().as_ptr() == place);
     }
 }

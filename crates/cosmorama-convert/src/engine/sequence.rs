@@ -31,6 +31,9 @@ pub(crate) trait Watcher {
     /// Looks at the light of a frame.
     fn look(&mut self, frame: &FrameOutputs, light: &FrameLight);
 
+    /// Renders the pictures of a frame.
+    fn render(&mut self, frame: &FrameOutputs, light: &FrameLight) -> Result<Vec<Levels>>;
+
     /// Called when a frame is written. An error ends the sequence.
     fn done(&mut self, frame: &FrameOutputs) -> Result<()>;
 }
@@ -103,7 +106,7 @@ impl<'a> Sequence<'a> {
             if failure.is_before(place) {
                 return Ok(());
             }
-            let made = self.pool.install(|| self.engine.render(frame, &light));
+            let made = watcher.render(frame, &light);
             let pictures = made.at(|| told(frame)).map_err(failed)?;
             queues.written.push_back((frame, self.have_written((scope, failure, place), frame, pictures)));
         }

@@ -3,7 +3,7 @@
 use std::ops::ControlFlow;
 use std::path::Path;
 
-use cosmorama_convert::{Code, Conversion, ConvertError, Existing, Observer, Quiet, Report, Result, Stop};
+use cosmorama_convert::{Code, Conversion, ConvertError, Existing, Observer, Quiet, Report, Result, Stop, Work};
 use cosmorama_io::{Limits, read};
 
 const FRAMES: usize = 12;
@@ -94,4 +94,99 @@ fn after_the_last_frame_there_is_nothing_to_stop() {
     assert_eq!((result.unwrap().frames, told.len()), (FRAMES, FRAMES));
     let still = domes(folder.path()).frames(cosmorama_io::FrameList::new([5])).existing(Existing::Replace);
     assert_eq!(stopped(still, 1).0.unwrap().frames, 1);
+}
+
+/// Keeps what it is told of the work, and may stop a picture at a certain fraction.
+struct Bands {
+    at: f64,
+    told: Vec<(Work, f64)>,
+    done: usize,
+}
+
+impl Bands {
+    fn stopping_at(at: f64) -> Self {
+        Self { at, told: Vec::new(), done: 0 }
+    }
+}
+
+impl Observer for Bands {
+    fn advance(&mut self, work: Work, fraction: f64) -> ControlFlow<Stop> {
+        self.told.push((work, fraction));
+        if work == Work::Plan || fraction < self.at { ControlFlow::Continue(()) } else { ControlFlow::Break(Stop) }
+    }
+
+    fn frame_done(&mut self, _: Option<u64>) -> ControlFlow<Stop> {
+        self.done += 1;
+        ControlFlow::Continue(())
+    }
+}
+
+/// One dome, large enough to be made in many bands.
+fn still(folder: &Path, name: &str) -> Conversion {
+    let path = |name: &str| folder.join(name).display().to_string();
+    let dome = Conversion::new(path("sky_01.png"), path(name)).to("fulldome".parse().unwrap());
+    dome.size("512".parse().unwrap())
+}
+
+#[test]
+fn a_single_picture_tells_how_far_it_is_and_is_the_same_for_all_who_watch() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    make_skies(folder);
+    still(folder, "dome_quiet.png").threads(1).check().result.unwrap().run(&mut Quiet).unwrap();
+    for threads in [1, 3] {
+        let mut bands = Bands::stopping_at(f64::INFINITY);
+        let name = format!("dome_{threads}.png");
+        still(folder, &name).threads(threads).check().result.unwrap().run(&mut bands).unwrap();
+        let of = |work: Work| bands.told.iter().filter(move |told| told.0 == work).map(|told| told.1);
+        let fractions: Vec<f64> = of(Work::Render(None)).collect();
+        assert_eq!(of(Work::Plan).collect::<Vec<_>>(), [0.0, 1.0], "nothing is shared");
+        assert!(
+            fractions.len() > 2 && fractions.is_sorted() && (fractions[0], fractions.last()) == (0.0, Some(&1.0)),
+            "{fractions:?}"
+        );
+        assert!(std::fs::read(folder.join(name)).unwrap() == std::fs::read(folder.join("dome_quiet.png")).unwrap());
+    }
+}
+
+#[test]
+fn a_picture_that_is_stopped_leaves_nothing_behind() {
+    for at in [0.0, 0.5, 1.0] {
+        let folder = tempfile::tempdir().unwrap();
+        let folder = folder.path();
+        make_skies(folder);
+        let mut bands = Bands::stopping_at(at);
+        let error = still(folder, "new/dome.png").check().result.unwrap().run(&mut bands).unwrap_err();
+        assert!(matches!(error, ConvertError::Stopped { done: 0, frames: 1 }), "{error}");
+        let after = bands.told.iter().filter(|(work, fraction)| *work != Work::Plan && *fraction >= at);
+        assert_eq!(after.count(), 1, "{:?}", bands.told);
+        assert_eq!((bands.done, whole_domes(folder)), (0, Vec::new()));
+    }
+}
+
+/// Stops the work on the geometry or on a frame.
+struct StopIn(Work, Vec<Option<u64>>);
+
+impl Observer for StopIn {
+    fn advance(&mut self, work: Work, _: f64) -> ControlFlow<Stop> {
+        if work == self.0 { ControlFlow::Break(Stop) } else { ControlFlow::Continue(()) }
+    }
+
+    fn frame_done(&mut self, frame: Option<u64>) -> ControlFlow<Stop> {
+        self.1.push(frame);
+        ControlFlow::Continue(())
+    }
+}
+
+#[test]
+fn a_sequence_that_is_stopped_within_a_frame_finishes_those_before_it() {
+    for (work, done) in [(Work::Plan, 0), (Work::Render(Some(1)), 0), (Work::Render(Some(5)), 4)] {
+        let folder = tempfile::tempdir().unwrap();
+        let folder = folder.path();
+        make_skies(folder);
+        let mut observer = StopIn(work, Vec::new());
+        let error = domes(folder).check().result.unwrap().run(&mut observer).unwrap_err();
+        assert!(matches!(error, ConvertError::Stopped { done: found, frames: FRAMES } if found == done), "{error}");
+        assert_eq!((observer.1.len(), whole_domes(folder).len()), (done, done), "{work:?}");
+    }
 }

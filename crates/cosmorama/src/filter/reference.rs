@@ -1,12 +1,10 @@
 //! Brute force: N×N sub-samples a pixel through the exact mapping, weighted by the kernel in screen space, in f64.
 
-use rayon::prelude::*;
-
 use super::kernel::UNDER;
 use super::prepared::{Filter, Prepared, SetupCost, bounded};
 use super::{Kernel, lookup};
 use crate::camera::{Footprint, PixelPoint, View};
-use crate::raster::{Image, Rgba};
+use crate::raster::Rgba;
 use crate::sphere::Direction;
 use crate::world::{Light, LightError, World};
 
@@ -57,19 +55,21 @@ impl Prepared for PreparedReference<'_> {
     }
 }
 
-/// The target by brute force. Slow, obvious, the judge of the other filters.
-pub(crate) fn render(world: &World, target: &View, filter: &Reference, texels: &[Rgba]) -> Image<Rgba> {
-    let mut image = Image::filled(target.width(), target.height(), Rgba::TRANSPARENT);
-    image.pixels_mut().par_chunks_mut(target.width().max(1)).enumerate().for_each(|(j, row)| {
-        for (i, pixel) in row.iter_mut().enumerate() {
-            if let Some(screen) = target.screen_pixel(i, j) {
-                let kernel = square_of_pixel(world, target, filter, (i, j));
-                let average = kernel.average(texels).or_else(|| look(world, screen.footprint.direction, texels));
-                *pixel = average.unwrap_or(Rgba::TRANSPARENT) * screen.coverage as f32;
-            }
+/// Fills a row of the target by brute force. Slow, obvious, the judge of the other filters.
+pub(crate) fn fill_row(
+    world: &World,
+    target: &View,
+    filter: &Reference,
+    texels: &[Rgba],
+    (j, row): (usize, &mut [Rgba]),
+) {
+    for (i, pixel) in row.iter_mut().enumerate() {
+        if let Some(screen) = target.screen_pixel(i, j) {
+            let kernel = square_of_pixel(world, target, filter, (i, j));
+            let average = kernel.average(texels).or_else(|| look(world, screen.footprint.direction, texels));
+            *pixel = average.unwrap_or(Rgba::TRANSPARENT) * screen.coverage as f32;
         }
-    });
-    image
+    }
 }
 
 /// Gives every texel that a pixel's sub-samples look at to `visit`.

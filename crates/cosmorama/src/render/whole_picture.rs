@@ -1,12 +1,14 @@
 //! Whole pictures, and the plans that make many of them: the methods of a [`Resampler`].
 
-use super::Resampler;
+use rayon::prelude::*;
+
 use super::apply::fixed::FixedArithmetic;
 use super::apply::float::FloatArithmetic;
 use super::batch::window::Level;
 use super::plan::{self, Arithmetic, Plan};
-use super::pyramid;
-use crate::filter::{FilterKind, reference};
+use super::progress::Watch;
+use super::{Resampler, pyramid};
+use crate::filter::{FilterKind, Reference, reference};
 use crate::raster::{FixedCodec, FixedLight, Image, Rgba};
 
 impl Resampler<'_> {
@@ -28,15 +30,18 @@ impl Resampler<'_> {
     /// # Panics
     /// As [`Resampler::render`].
     pub fn render_over(&self, texels: &[Rgba], background: Rgba) -> Image<Rgba> {
+        self.light(texels, background, Watch::NONE)
+    }
+
+    /// A picture of light over a background; its pixels are made as far as the work is not stopped.
+    pub(super) fn light(&self, texels: &[Rgba], background: Rgba, watch: Watch) -> Image<Rgba> {
         assert_eq!(texels.len(), self.world.texel_count(), "one texel of light for each texel of the world");
         let mut image = match self.filter.kind {
             FilterKind::Ewa | FilterKind::Point | FilterKind::Bilinear => {
-                return plan::render(self, None, FloatArithmetic { texels, background }, Level::new());
+                return plan::render((self, None), FloatArithmetic { texels, background }, Level::new(), watch);
             }
-            FilterKind::Reference { samples } => {
-                reference::render(self.world, self.target, &self.filter.reference(samples), texels)
-            }
-            FilterKind::EwaPyramid => pyramid::render(self, texels),
+            FilterKind::Reference { samples } => self.brute_force(&self.filter.reference(samples), texels, watch),
+            FilterKind::EwaPyramid => pyramid::render(self, texels, watch),
         };
         image.lay_over(background);
         image
@@ -48,18 +53,34 @@ impl Resampler<'_> {
     /// # Panics
     /// If `light` is not that of the world's texels.
     pub fn render_fixed(&self, light: &FixedLight, codec: &FixedCodec) -> Image<[u8; 3]> {
+        self.codes(light, codec, Watch::NONE)
+    }
+
+    /// Code values of a picture, made as far as the work is not stopped.
+    pub(super) fn codes(&self, light: &FixedLight, codec: &FixedCodec, watch: Watch) -> Image<[u8; 3]> {
         assert!(light.sizes().eq(self.world.view_sizes()), "light of the world's views");
         if matches!(self.filter.kind, FilterKind::EwaPyramid | FilterKind::Reference { .. }) {
             let texels: Vec<Rgba> = (0..light.len()).map(|texel| light.rgba(texel)).collect();
-            return codec.encode(&self.render(&texels));
+            return codec.encode(&self.light(&texels, Rgba::TRANSPARENT, watch));
         }
-        plan::render(self, None, FixedArithmetic { light, codec }, Level::new())
+        plan::render((self, None), FixedArithmetic { light, codec }, Level::new(), watch)
     }
 
     /// Compiles the geometry, for any number of frames; `None` for the reference filter, which has too many samples to store, and in
     /// integers for that of pyramids.
     pub fn plan(&self, arithmetic: Arithmetic) -> Option<Plan> {
-        Plan::new(self, arithmetic)
+        Plan::new(self, arithmetic, Watch::NONE)
+    }
+
+    /// A picture by the reference filter.
+    fn brute_force(&self, filter: &Reference, texels: &[Rgba], watch: Watch) -> Image<Rgba> {
+        let Self { world, target, .. } = self;
+        let mut image = Image::filled(target.width(), target.height(), Rgba::TRANSPARENT);
+        let parts = watch.parts(target.height());
+        image.pixels_mut().par_chunks_mut(target.width().max(1)).enumerate().for_each(|row| {
+            parts.part(|| reference::fill_row(world, target, filter, texels, row));
+        });
+        image
     }
 
     /// Estimates how many bytes [`Resampler::plan`] would hold, from a part of the rows, keeping nothing; 0 where there is no plan.

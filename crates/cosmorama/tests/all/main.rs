@@ -20,5 +20,6 @@ mod filter {
 mod render {
     mod need;
     mod packed;
+    mod progress;
     mod small;
 }

@@ -31,6 +31,7 @@ use window_format::Format;
 
 use super::Resampler;
 use super::batch::window::Level;
+use super::progress::Watch;
 use super::pyramid::PyramidPlan;
 use super::scan::tile::SIDE;
 use super::scan::wanted::Wanted;
@@ -78,19 +79,19 @@ pub(crate) struct Compiled<F> {
 
 impl Plan {
     /// Compiles the geometry of a conversion; `None` for filters that have no plan in these numbers.
-    pub(crate) fn new(resampler: &Resampler, arithmetic: Arithmetic) -> Option<Self> {
+    pub(crate) fn new(resampler: &Resampler, arithmetic: Arithmetic, watch: Watch) -> Option<Self> {
         let geometry = match (arithmetic, resampler.filter.kind) {
             (_, FilterKind::Reference { .. }) | (Arithmetic::Fixed, FilterKind::EwaPyramid) => return None,
-            (Arithmetic::Float, FilterKind::EwaPyramid) => Geometry::Pyramid(PyramidPlan::new(resampler)),
-            (Arithmetic::Float, _) => Geometry::Float(Compiled::new(resampler, None, Level::new())),
-            (Arithmetic::Fixed, _) => Geometry::Fixed(Compiled::new(resampler, None, Level::new())),
+            (Arithmetic::Float, FilterKind::EwaPyramid) => Geometry::Pyramid(PyramidPlan::new(resampler, watch)),
+            (Arithmetic::Float, _) => Geometry::Float(Compiled::new((resampler, None), Level::new(), watch)),
+            (Arithmetic::Fixed, _) => Geometry::Fixed(Compiled::new((resampler, None), Level::new(), watch)),
         };
         Some(Self(geometry))
     }
 
     /// Compiles the wanted patches alone, in floats; other pixels become transparent.
-    pub(crate) fn of_part(resampler: &Resampler, wanted: &Wanted) -> Self {
-        Self(Geometry::Float(Compiled::new(resampler, Some(wanted), Level::new())))
+    pub(crate) fn of_part(resampler: &Resampler, wanted: &Wanted, watch: Watch) -> Self {
+        Self(Geometry::Float(Compiled::new((resampler, Some(wanted)), Level::new(), watch)))
     }
 
     /// Makes one frame. `texels` is the world's buffer of light.
@@ -182,16 +183,16 @@ pub(crate) fn float_bytes_estimate(resampler: &Resampler, wanted: &Wanted) -> us
 /// A frame without a plan that is kept: each band's geometry is forgotten when its pixels are made. Only the patches that are wanted,
 /// if some are, all else background.
 pub(crate) fn render<A: WindowArithmetic>(
-    resampler: &Resampler,
-    wanted: Option<&Wanted>,
+    (resampler, wanted): (&Resampler, Option<&Wanted>),
     arithmetic: A,
     level: Level,
+    watch: Watch,
 ) -> Image<A::Pixel> {
     let mirrors = &Mirrors::of::<A::Format>(resampler);
     let mut image = Image::zeroed(resampler.target.width(), resampler.target.height());
     let pixels = (image.pixels_mut(), arithmetic.background());
     let filter = BandFilter { level, mirrors, anti_ringing: resampler.filter.anti_ringing, arithmetic };
-    each_band((resampler, wanted), mirrors, pixels, level, |band, canvas| filter.fill(band, canvas));
+    each_band((resampler, wanted), mirrors, pixels, (level, watch), |band, canvas| filter.fill(band, canvas));
     image
 }
 
@@ -220,7 +221,7 @@ fn part_bytes_estimate<F: Format>(resampler: &Resampler, wanted: Option<&Wanted>
 }
 
 impl<F: Format> Compiled<F> {
-    fn new(resampler: &Resampler, wanted: Option<&Wanted>, level: Level) -> Self {
+    fn new((resampler, wanted): (&Resampler, Option<&Wanted>), level: Level, watch: Watch) -> Self {
         let Resampler { target, filter, .. } = resampler;
         let mirrors = Mirrors::of::<F>(resampler);
         let table = KernelTable::new(&filter.kernel);
@@ -230,8 +231,11 @@ impl<F: Format> Compiled<F> {
             band.settle();
             band
         };
-        // One by one, as below.
-        let bands = (0..mirrors.rows.div_ceil(BAND)).into_par_iter().with_max_len(1).map(compile).collect();
+        let count = mirrors.rows.div_ceil(BAND);
+        let parts = watch.parts(count);
+        // One by one, as below. A plan that is stopped lacks bands; nobody sees it.
+        let bands = (0..count).into_par_iter().with_max_len(1);
+        let bands = bands.map(|index| parts.part(|| compile(index)).unwrap_or_default()).collect();
         let (width, height) = (target.width(), target.height());
         Self { width, height, anti_ringing: filter.anti_ringing, mirrors, bands }
     }
@@ -257,18 +261,21 @@ fn each_band<F: Format, P: NoUninit + Send + Sync>(
     (resampler, wanted): (&Resampler, Option<&Wanted>),
     mirrors: &Mirrors,
     (pixels, background): (&mut [P], P),
-    level: Level,
+    (level, watch): (Level, Watch),
     make: impl Fn(&Band<F>, &mut Canvas<P>) + Sync,
 ) {
     let table = &KernelTable::new(&resampler.filter.kernel);
     let canvases = Canvas::bands(pixels, resampler.target.width(), BAND, mirrors, background);
+    let parts = watch.parts(canvases.len());
     canvases.into_par_iter().enumerate().for_each_init(Band::default, |band, (index, mut canvas)| {
-        band.clear();
-        record((resampler, wanted), mirrors, table, mirrors.band(index), level, band, |band| {
-            make(band, &mut canvas);
+        parts.part(|| {
             band.clear();
+            record((resampler, wanted), mirrors, table, mirrors.band(index), level, band, |band| {
+                make(band, &mut canvas);
+                band.clear();
+            });
+            make(band, &mut canvas);
         });
-        make(band, &mut canvas);
     });
 }
 

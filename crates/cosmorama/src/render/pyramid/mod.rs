@@ -8,6 +8,7 @@ use rayon::prelude::*;
 
 use super::apply::float::FloatArithmetic;
 use super::batch::window::Level as Instructions;
+use super::progress::Watch;
 use super::pyramid::level_map::LevelMap;
 use super::scan::wanted::Wanted;
 use super::{Plan, Resampler, plan};
@@ -115,21 +116,21 @@ pub(crate) fn bytes(resampler: &Resampler) -> usize {
 }
 
 /// One frame without a plan.
-pub(crate) fn render(resampler: &Resampler, texels: &[Rgba]) -> Image<Rgba> {
+pub(crate) fn render(resampler: &Resampler, texels: &[Rgba], watch: Watch) -> Image<Rgba> {
     let (pyramid, background) = (Pyramid::new(resampler), Rgba::TRANSPARENT);
     if pyramid.levels.is_empty() {
-        return plan::render(&pyramid.level(0), None, FloatArithmetic { texels, background }, Instructions::new());
+        let light = FloatArithmetic { texels, background };
+        return plan::render((&pyramid.level(0), None), light, Instructions::new(), watch);
     }
     let halvings: Vec<&Halving> = pyramid.levels.iter().map(|(_, halving)| halving).collect();
     let mut image = Image::zeroed(resampler.target.width(), resampler.target.height());
     mix(&mut image, &pyramid.map, &halvings, texels, |level, texels| {
-        let wanted = pyramid.wanted(level)?;
-        Some(plan::render(
-            &pyramid.level(level),
-            Some(&wanted),
-            FloatArithmetic { texels, background },
-            Instructions::new(),
-        ))
+        if watch.is_stopped() {
+            return None;
+        }
+        let (resampler, wanted) = (pyramid.level(level), pyramid.wanted(level)?);
+        let (light, task) = (FloatArithmetic { texels, background }, watch.task(level, halvings.len() + 1));
+        Some(plan::render((&resampler, Some(&wanted)), light, Instructions::new(), task))
     });
     image
 }
@@ -173,9 +174,10 @@ pub(crate) struct PyramidPlan {
 }
 
 impl PyramidPlan {
-    pub(crate) fn new(resampler: &Resampler) -> Self {
+    pub(crate) fn new(resampler: &Resampler, watch: Watch) -> Self {
         let pyramid = Pyramid::new(resampler);
-        let plan = |level| Some(Plan::of_part(&pyramid.level(level), &pyramid.wanted(level)?));
+        let task = |level| watch.task(level, pyramid.levels.len() + 1);
+        let plan = |level| Some(Plan::of_part(&pyramid.level(level), &pyramid.wanted(level)?, task(level)));
         let plans = (0..=pyramid.levels.len()).map(plan).collect();
         let Pyramid { levels, map, .. } = pyramid;
         let size = (resampler.target.width(), resampler.target.height());

@@ -23,11 +23,11 @@ fn resampler<'a>(world: &'a World, target: &'a View) -> Resampler<'a> {
 }
 
 fn float(resampler: &Resampler) -> Compiled<FloatFormat> {
-    Compiled::new(resampler, None, Level::new())
+    Compiled::new((resampler, None), Level::new(), Watch::NONE)
 }
 
 fn fixed(resampler: &Resampler) -> Compiled<FixedFormat> {
-    Compiled::new(resampler, None, Level::new())
+    Compiled::new((resampler, None), Level::new(), Watch::NONE)
 }
 
 #[test]
@@ -124,9 +124,13 @@ fn what_mirrors_show_is_what_would_be_computed() {
         let (level, background) = (Level::new(), Rgba::TRANSPARENT);
         let arithmetic = FloatArithmetic { texels: &texels, background };
         let filter = BandFilter { level, mirrors: &alone, anti_ringing: true, arithmetic };
-        each_band((&resampler, None), &alone, (expected.pixels_mut(), background), level, |band, canvas| {
-            filter.fill(band, canvas)
-        });
+        each_band(
+            (&resampler, None),
+            &alone,
+            (expected.pixels_mut(), background),
+            (level, Watch::NONE),
+            |band, canvas| filter.fill(band, canvas),
+        );
         let made = resampler.render(&texels);
         for (a, b) in made.pixels().iter().zip(expected.pixels()) {
             // Patches lie otherwise there: what one of them holds may be a pixel by itself, whose weights differ a little.
@@ -201,11 +205,11 @@ fn windows_of_floats_make_what_their_texels_make_one_by_one() {
             let arithmetic = FloatArithmetic { texels: &texels, background };
             let mut one_by_one = expected.clone();
             let pixels = (one_by_one.pixels_mut(), background);
-            each_band((&resampler, None), &mirrors, pixels, level, |band: &Band<NoWindows>, canvas| {
+            each_band((&resampler, None), &mirrors, pixels, (level, Watch::NONE), |band: &Band<NoWindows>, canvas| {
                 dispatch!(level, simd => band.singles.fill(simd, &mirrors, (&arithmetic, anti_ringing), canvas));
             });
             let pixels = (expected.pixels_mut(), background);
-            each_band((&resampler, None), &mirrors, pixels, level, |band: &Band<NoWindows>, canvas| {
+            each_band((&resampler, None), &mirrors, pixels, (level, Watch::NONE), |band: &Band<NoWindows>, canvas| {
                 for single in band.singles.pixels() {
                     let taps = band.singles.taps(single, mirrors.images.len());
                     let at = [single.column as usize, usize::from(single.row)];
@@ -238,7 +242,7 @@ fn all_levels_of_instructions_make_the_same_pixels() {
             let mut codes = Image::filled(target.width(), target.height(), codec.background());
             plan.fill(FixedArithmetic { light: &light, codec: &codec }, level, &mut codes);
             let arithmetic = FloatArithmetic { texels: &texels, background: Rgba::TRANSPARENT };
-            (render(&resampler, None, arithmetic, level), codes)
+            (render((&resampler, None), arithmetic, level, Watch::NONE), codes)
         };
         let mut all = crate::filter::rim::simd_levels::levels().into_iter().map(made);
         let first = all.next().expect("at least the plain one");
@@ -251,8 +255,8 @@ fn all_levels_of_instructions_make_the_same_plans() {
     for (world, target, _) in conversions() {
         let resampler = resampler(&world, &target);
         let made = |level| {
-            let fixed = Compiled::<FixedFormat>::new(&resampler, None, level);
-            let floats = Compiled::<FloatFormat>::new(&resampler, None, level);
+            let fixed = Compiled::<FixedFormat>::new((&resampler, None), level, Watch::NONE);
+            let floats = Compiled::<FloatFormat>::new((&resampler, None), level, Watch::NONE);
             // As text, in which each number comes back.
             (format!("{:?}", fixed.bands), format!("{:?}", floats.bands))
         };
