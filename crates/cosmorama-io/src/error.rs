@@ -60,7 +60,7 @@ pub enum IoError {
         expected: &'static str,
     },
     /// A file holds several pictures, of which only the first would be used.
-    #[error("{}: this {format} file holds {count} {found}; expected one; {}", path.display(), apart(*format))]
+    #[error("{}: this {format} file holds {count} {found}; expected one; {}", path.display(), apart(*format, found))]
     Several {
         /// The file read.
         path: PathBuf,
@@ -201,12 +201,14 @@ fn expected_frames(example: &str, found: Option<&str>) -> String {
 }
 
 /// How pictures in one file become one file each.
-fn apart(format: Format) -> &'static str {
+fn apart(format: Format, found: &str) -> &'static str {
     match format {
-        Format::Tiff => {
+        Format::Tiff if found.starts_with("pages") => {
             "write each page to a file of its own, as tiffsplit does, and convert those, as in page_####.tif"
         }
-        Format::Exr => "write the part that you mean to a file of its own, as exrmultipart -separate does",
+        Format::Exr if found.starts_with("parts") => {
+            "write the part that you mean to a file of its own, as exrmultipart -separate does"
+        }
         _ => {
             "write each frame to a file of its own, as ffmpeg does for the name frame_%04d.png, and convert \
              frame_####.png"

@@ -64,6 +64,8 @@ fn assert_counts(bytes: &[u8], count: usize) {
 fn pictures_one_behind_the_other_are_counted() {
     for one in pictures() {
         assert_counts(&one.repeat(2), 2);
+        let error = read(&one.repeat(2)).err().map_or_else(String::new, |error| error.to_string());
+        assert!(error.contains("frame_%04d.png"), "how a pipe becomes files: {error}");
         assert_counts(&one.repeat(24), 24);
         assert_counts(&[&one[..], &[0; 100], &one].concat(), 2);
     }
