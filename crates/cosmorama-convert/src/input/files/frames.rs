@@ -130,12 +130,13 @@ mod tests {
 
     #[test]
     fn faces_that_lack_the_same_frames_share_a_line() {
-        let rest = "the first that exists is 1, the last 1; make it, or choose others with --frames";
+        let rest = "the first that exists is 1, the last 1; make it";
         let all = said(&[("up", &[1]), ("down", &[1]), ("left", &[1])]);
-        assert_eq!(all, format!("{{face}}_##.png (up, down, left): 1 frame is missing: 2; {rest}"));
+        assert!(all.starts_with(&format!("{{face}}_##.png (up, down, left): 1 frame is missing: 2; {rest}")), "{all}");
+        assert_eq!(all.lines().count(), 1, "{all}");
         let two = said(&[("up", &[1]), ("down", &[1, 2]), ("left", &[2]), ("right", &[1])]);
         let lines: Vec<&str> = two.lines().collect();
-        assert_eq!(lines[0], format!("{{face}}_##.png (up, right): 1 frame is missing: 2; {rest}"));
+        assert!(lines[0].starts_with(&format!("{{face}}_##.png (up, right): 1 frame is missing: 2; {rest}")), "{two}");
         assert!(lines[1].trim().starts_with("left_##.png: 1 frame is missing: 1; ") && lines.len() == 2, "{two}");
     }
 }
