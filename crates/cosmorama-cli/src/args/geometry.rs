@@ -1,4 +1,6 @@
 use clap::Args;
+use clap::builder::{PossibleValuesParser, TypedValueParser};
+use cosmorama::filter::LabelRule;
 use cosmorama_spec::{FilterName, KernelName, Size, Spec};
 
 use super::parse::listed;
@@ -38,6 +40,11 @@ pub(crate) struct GeometryArgs {
     /// bounded time, about 40 dB from ewa; reference N by N samples (reference:samples=N).
     #[arg(long, value_name = "NAME", default_value = "ewa", value_parser = listed::filter(), hide_possible_values = true, hide_default_value = true, help_heading = "Filter")]
     pub(crate) filter: FilterName,
+    /// Never mix values: for object numbers, classes and masks
+    ///
+    /// A pixel takes the value of one texel: the nearest, or the one with the most area under the pixel (vote).
+    #[arg(long, value_name = "RULE", value_parser = labels(), conflicts_with_all = ["filter", "kernel", "anti_ringing"], hide_short_help = true, help_heading = "Filter")]
+    pub(crate) labels: Option<LabelRule>,
     /// adaptive (default), mitchell, lanczos3, light, …
     ///
     /// The weights of that average: adaptive, gaussian[:alpha=2,cutoff=1], mitchell, robidoux, robidoux-sharp, catmull-rom,
@@ -50,6 +57,12 @@ pub(crate) struct GeometryArgs {
     /// All but slopes that go on to a rim where all texels confirm them: on, unless the kernel is light.
     #[arg(long, value_name = "on|off", action = clap::ArgAction::Set, value_parser = on_or_off, hide_short_help = true, help_heading = "Filter")]
     pub(crate) anti_ringing: Option<bool>,
+}
+
+/// Reads the rule by which a pixel of labels is chosen.
+fn labels() -> impl TypedValueParser<Value = LabelRule> {
+    let rule = |word: String| if word == "vote" { LabelRule::Vote } else { LabelRule::Nearest };
+    PossibleValuesParser::new(["nearest", "vote"]).map(rule)
 }
 
 fn on_or_off(text: &str) -> Result<bool, String> {

@@ -1,10 +1,11 @@
 //! Arguments as the settings of a conversion: nothing else sees them from then on.
 
+use cosmorama::filter::FilterKind;
 use cosmorama::raster::Depth;
 use cosmorama::sphere::{Angle, Orientation};
 use cosmorama_convert::{Conversion, Existing, ExplanationSettings, GeometrySettings, LimitSettings};
 use cosmorama_io::Compression;
-use cosmorama_spec::CompressionLevel;
+use cosmorama_spec::{CompressionLevel, FilterName};
 
 use super::convert::LimitArgs;
 use super::geometry::GeometryArgs;
@@ -60,7 +61,7 @@ impl From<GeometryArgs> for GeometrySettings {
             to: args.to,
             size: args.size,
             orientation: Orientation::from_yaw_pitch_roll(yaw, pitch, roll),
-            filter: args.filter,
+            filter: args.labels.map_or(args.filter, |rule| FilterName(FilterKind::Labels(rule))),
             kernel: args.kernel,
             anti_ringing: args.anti_ringing,
         }

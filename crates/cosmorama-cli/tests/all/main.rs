@@ -17,6 +17,7 @@ mod faces {
 }
 
 mod filter {
+    mod labels;
     mod light;
     mod light_balance;
     mod pyramids;

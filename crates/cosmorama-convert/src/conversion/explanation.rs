@@ -17,7 +17,7 @@ use crate::input::spec_files::st_map::settled;
 use crate::input::{Access, Builtin, DecodedPicture, Disk, Files, Input, InputView};
 use crate::output::files_read;
 use crate::settings::{GeometrySettings, LimitSettings};
-use crate::target::Picture;
+use crate::target::{Picture, aspect};
 
 /// Settings of an explanation, possibly for an input that does not exist yet.
 #[derive(Clone, Debug)]
@@ -87,7 +87,8 @@ impl ExplanationSettings {
             ));
         }
         let (mut input, pictures) = self.find(geometry, access, warnings)?;
-        warnings.extend(input.turned());
+        warnings.extend(input.diagnostics());
+        warnings.extend(pictures.first().and_then(|picture| aspect::warning(geometry, &picture.view)));
         input.fit_eyes(pictures.iter().any(|picture| picture.eye.is_some()), warnings);
         let filter = filter(&self.geometry, warnings);
         Ok((input, pictures, filter))

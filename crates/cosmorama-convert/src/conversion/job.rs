@@ -9,14 +9,14 @@ use cosmorama_spec::Missing;
 use super::Content;
 use super::options::{check_file_options, filter};
 use crate::budget::MemoryBudget;
-use crate::colour::Light;
+use crate::colour::{Light, check_labels};
 use crate::coverage::{Coverage, whole_worlds};
 use crate::diagnostic::{Diagnostic, Result};
 use crate::input::spec_files::st_map::settled;
 use crate::input::{Access, DecodedPicture, Files, Input};
 use crate::output::Outputs;
 use crate::settings::Conversion;
-use crate::target::{Target, TargetView, told_of_shape};
+use crate::target::{Target, TargetView, shape_warning};
 
 /// A conversion, ready to run.
 pub(crate) struct ConvertJob {
@@ -64,12 +64,12 @@ impl ConvertJob {
         if settings.mips {
             target = target.with_mips(&settings.output, geometry)?;
         }
-        warnings.extend(input.turned());
-        warnings.extend(input.complaints());
-        warnings.extend(told_of_shape(geometry, &target));
+        warnings.extend(input.diagnostics());
+        warnings.extend(shape_warning(geometry, &target));
         content.fit_eyes(&mut input, &target, warnings);
         let filter = if content.has_files() { filter(geometry, warnings) } else { FilterSettings::DEFAULT };
         let mut light = Light::resolve(settings, &input, &target, warnings)?;
+        check_labels(&filter, &input, &light, target.format)?;
         content.settle(settings, &target, &mut light, warnings)?;
         memory.check_outputs(&target)?;
         let outputs = Outputs::plan(settings, &input, &target, &light, memory)?;

@@ -1,4 +1,4 @@
-use cosmorama::filter::{FilterKind, FilterSettings, Kernel};
+use cosmorama::filter::{FilterKind, FilterSettings, Kernel, Labels};
 use cosmorama_io::{Compression, Format, WriteOptions};
 
 use crate::colour::Light;
@@ -49,8 +49,10 @@ pub(crate) fn write_options(settings: &Conversion, format: Format, outputs: &Out
 /// Returns the requested filter.
 pub(crate) fn filter(geometry: &GeometrySettings, warnings: &mut Vec<Diagnostic>) -> FilterSettings {
     let (kind, kernel) = (geometry.filter.0, geometry.kernel.kernel);
-    let is_weighed = !matches!(kind, FilterKind::Point | FilterKind::Bilinear);
-    if !is_weighed && (kernel != Kernel::ADAPTIVE || geometry.anti_ringing.is_some()) {
+    if let FilterKind::Labels(_) = kind {
+        return FilterSettings { kind, kernel: Labels::KERNEL, anti_ringing: false };
+    }
+    if !kind.uses_kernel() && (kernel != Kernel::ADAPTIVE || geometry.anti_ringing.is_some()) {
         let message = format!("{KERNEL} and {ANTI_RINGING} have no effect on {FILTER} point and bilinear");
         warnings.push(Diagnostic::warning(Code::NoEffect, message));
     }

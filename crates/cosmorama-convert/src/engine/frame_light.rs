@@ -2,6 +2,7 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
+use cosmorama::filter::FilterKind;
 use cosmorama::raster::{Decoder, FixedDecoder, FixedLight, FramePool, Rgba, Transfer};
 use cosmorama::world::{RimTexels, Source, World};
 use rayon::prelude::*;
@@ -42,8 +43,10 @@ impl FrameLight {
     /// Allocates the light of a job's frames.
     pub(crate) fn new(job: &ConvertJob, is_fixed: bool) -> Self {
         let texels = if is_fixed { Texels::fixed(job) } else { Texels::floats(job) };
-        let rims: Vec<RimTexels> =
-            job.worlds.iter().flat_map(World::sources).map(|source| RimTexels::of(&source.view)).collect();
+        // Labels at a rim are whole: what restores mixed colours would make new ones.
+        let has_rims = !matches!(job.filter.kind, FilterKind::Labels(_));
+        let rim = |source: &Source| if has_rims { RimTexels::of(&source.view) } else { RimTexels::default() };
+        let rims: Vec<RimTexels> = job.worlds.iter().flat_map(World::sources).map(rim).collect();
         let missing = vec![0; rims.len()];
         let decoder = Decoder::default();
         let flattened = BTreeSet::new();

@@ -1,4 +1,3 @@
-use cosmorama::filter::FilterKind;
 use cosmorama::raster::{Channels, Depth, FixedCodec, FixedDecoder, FixedLight, FramePool, Image, Rgba};
 use cosmorama::render::{Arithmetic, Plan, Progress, Stopped, Watched};
 
@@ -148,7 +147,7 @@ fn plans(
 /// Returns the integer codec of a job; `None` unless its pictures are opaque, of 8 bits, and fit 15-bit light.
 fn codec(job: &ConvertJob) -> Option<FixedCodec> {
     let light = &job.light;
-    let is_possible = !matches!(job.filter.kind, FilterKind::Reference { .. } | FilterKind::EwaPyramid)
+    let is_possible = Arithmetic::Fixed.has_plan_of(job.filter.kind)
         // A factor may take a texel beyond white.
         && !balance::is_asked_for(job)
         && light.channels == Channels::Rgb

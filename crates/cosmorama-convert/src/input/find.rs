@@ -279,8 +279,15 @@ impl Input {
         Ok(Self { worlds: vec![views?], frames, faces: given, beside: Vec::new() })
     }
 
+    /// Returns warnings and notes about what the files say of themselves.
+    pub(crate) fn diagnostics(&self) -> Vec<Diagnostic> {
+        let mut told = self.turned();
+        told.extend(self.complaints());
+        told
+    }
+
     /// Warns about files that ask to be rotated, which is ignored.
-    pub(crate) fn turned(&self) -> Vec<Diagnostic> {
+    fn turned(&self) -> Vec<Diagnostic> {
         let turned = self.present().filter_map(|(view, header, _)| Some((view, header.metadata.orientation?)));
         let mut told: Vec<Diagnostic> = turned
             .map(|(view, orientation)| {
@@ -299,7 +306,7 @@ impl Input {
     }
 
     /// Warns about statements of files that are ignored.
-    pub(crate) fn complaints(&self) -> Vec<Diagnostic> {
+    fn complaints(&self) -> Vec<Diagnostic> {
         let told = |(view, header, _): (&InputView, &Header, _)| -> Vec<Diagnostic> {
             let path = view.files.path(self.frames[0]);
             let path = path.display();

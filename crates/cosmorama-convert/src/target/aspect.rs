@@ -1,15 +1,14 @@
 //! Maps in another shape than their natural one.
 
-use cosmorama::camera::CameraModel;
+use cosmorama::camera::{CameraModel, View};
 use cosmorama_spec::{Shape, Size, Spec};
 
 use crate::diagnostic::{Code, Diagnostic, Remedy, SIZE, Setting, TO};
 use crate::input::canvas::is_near;
 use crate::settings::GeometrySettings;
-use crate::target::Target;
 
 /// Returns a warning if pixels are not square although nobody asked for that: such a map is refused as an input.
-pub(crate) fn warning(geometry: &GeometrySettings, target: &Target) -> Option<Diagnostic> {
+pub(crate) fn warning(geometry: &GeometrySettings, view: &View) -> Option<Diagnostic> {
     let Some(Spec { name, shape: Shape::Single(single), stereo: None, .. }) = &geometry.to else { return None };
     let Some(Size { height: Some(_), .. }) = geometry.size else { return None };
     let frame = &single.placement.frame;
@@ -22,7 +21,6 @@ pub(crate) fn warning(geometry: &GeometrySettings, target: &Target) -> Option<Di
     if !fills_any_shape || single.any_shape || single.placement.canvas.is_some() {
         return None;
     }
-    let view = &target.views.first()?.view;
     let (width, height) = (view.width(), view.height());
     let natural = frame.natural_height(width);
     (!is_near(natural, height)).then(|| {

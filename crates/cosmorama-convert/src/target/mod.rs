@@ -12,6 +12,7 @@ use crate::diagnostic::Diagnostic;
 use crate::settings::GeometrySettings;
 
 /// Returns the warnings about an output's shape.
-pub(crate) fn told_of_shape(geometry: &GeometrySettings, target: &Target) -> Option<Diagnostic> {
-    aspect::warning(geometry, target).or_else(|| gpano::warning(geometry, target))
+pub(crate) fn shape_warning(geometry: &GeometrySettings, target: &Target) -> Option<Diagnostic> {
+    let aspect = target.views.first().and_then(|picture| aspect::warning(geometry, &picture.view));
+    aspect.or_else(|| gpano::warning(geometry, target))
 }

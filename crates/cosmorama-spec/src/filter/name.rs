@@ -1,12 +1,13 @@
 use std::fmt;
 use std::str::FromStr;
 
-use cosmorama::filter::FilterKind;
+use cosmorama::filter::{FilterKind, LabelRule};
 
 use super::names;
 use crate::WordError;
 
-/// A filter by name: `ewa`, `ewa-pyramid`, `point`, `bilinear` or `reference[:samples=N]`.
+/// A filter by name: `ewa`, `ewa-pyramid`, `point`, `bilinear` or `reference[:samples=N]`; for labels, `labels:nearest` or
+/// `labels:vote`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct FilterName(pub FilterKind);
 
@@ -22,6 +23,8 @@ impl fmt::Display for FilterName {
             FilterKind::EwaPyramid => f.write_str("ewa-pyramid"),
             FilterKind::Point => f.write_str("point"),
             FilterKind::Bilinear => f.write_str("bilinear"),
+            FilterKind::Labels(LabelRule::Nearest) => f.write_str("labels:nearest"),
+            FilterKind::Labels(LabelRule::Vote) => f.write_str("labels:vote"),
             FilterKind::Reference { samples: SAMPLES } => f.write_str("reference"),
             FilterKind::Reference { samples } => write!(f, "reference:samples={samples}"),
         }
@@ -46,6 +49,8 @@ impl FromStr for FilterName {
                 "ewa-pyramid" => Ok(Self(FilterKind::EwaPyramid)),
                 "point" => Ok(Self(FilterKind::Point)),
                 "bilinear" => Ok(Self(FilterKind::Bilinear)),
+                "labels:nearest" => Ok(Self(FilterKind::Labels(LabelRule::Nearest))),
+                "labels:vote" => Ok(Self(FilterKind::Labels(LabelRule::Vote))),
                 "reference" => Ok(Self(FilterKind::Reference { samples: SAMPLES })),
                 _ => Err(names::no_filter(text)),
             },
@@ -71,7 +76,8 @@ mod tests {
 
     #[test]
     fn every_name_is_parsed_and_printed() {
-        for (name, _) in FilterName::NAMES {
+        let names = FilterName::NAMES.map(|(name, _)| name);
+        for name in names.into_iter().chain(["labels:nearest", "labels:vote"]) {
             assert_eq!(name.parse::<FilterName>().unwrap().to_string(), name);
         }
     }

@@ -20,7 +20,7 @@ pub use gather::ellipse::Ellipse;
 pub(crate) use gather::ellipse::semi_axes;
 pub(crate) use kernel::KernelTable;
 pub use kernel::{CrossSection, Kernel};
-pub use lookup::{Bilinear, Point};
+pub use lookup::{Bilinear, LabelRule, Labels, Point};
 pub(crate) use pixel_taps::PixelTaps;
 pub use prepared::{Filter, Prepared, SetupCost, WIDEST};
 pub use reference::Reference;

@@ -2,7 +2,7 @@ use super::gather::Gather;
 use super::kernel::KernelTable;
 use super::rim::field_edge::FieldEdge;
 use super::taps::Taps;
-use super::{FilterKind, FilterSettings, lookup, reference};
+use super::{FilterKind, FilterSettings, LabelRule, lookup, reference};
 use crate::camera::{ScreenPixel, View};
 use crate::world::World;
 
@@ -30,8 +30,10 @@ impl<'a> PixelTaps<'a> {
     pub(crate) fn taps(&mut self, screen: &ScreenPixel) -> Option<&Taps> {
         let (direction, taps) = (screen.footprint.direction, &mut self.taps);
         match self.filter.kind {
-            FilterKind::Ewa | FilterKind::EwaPyramid => self.gather.taps(&screen.footprint, taps),
-            FilterKind::Point => {
+            FilterKind::Ewa | FilterKind::EwaPyramid | FilterKind::Labels(LabelRule::Vote) => {
+                self.gather.taps(&screen.footprint, taps)
+            }
+            FilterKind::Point | FilterKind::Labels(LabelRule::Nearest) => {
                 taps.clear();
                 lookup::nearest(self.world, direction, |texel, weight| taps.push_under(texel, weight as f32));
             }

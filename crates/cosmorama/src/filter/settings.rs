@@ -1,4 +1,4 @@
-use super::{Bilinear, Ewa, EwaPyramid, Filter, Kernel, Point, Prepared, Reference, SetupCost};
+use super::{Bilinear, Ewa, EwaPyramid, Filter, Kernel, LabelRule, Labels, Point, Prepared, Reference, SetupCost};
 use crate::world::{Light, LightError, World};
 
 /// How the texels under a footprint become a pixel.
@@ -13,6 +13,8 @@ pub enum FilterKind {
     Point,
     /// The four texels around the pixel's centre.
     Bilinear,
+    /// One texel's value, chosen by a rule and never mixed with others: for labels.
+    Labels(LabelRule),
     /// N×N sub-samples a pixel through the exact mapping: slow, the judge of the others. Each sub-sample interpolates
     /// between texels, so that the kernel's floor and its centring have nothing to mend and play no part.
     Reference {
@@ -32,6 +34,32 @@ pub struct FilterSettings {
     pub anti_ringing: bool,
 }
 
+impl FilterKind {
+    /// Returns whether the kernel of [`FilterSettings`] plays a part.
+    pub fn uses_kernel(self) -> bool {
+        match self {
+            Self::Ewa | Self::EwaPyramid | Self::Labels(LabelRule::Vote) | Self::Reference { .. } => true,
+            Self::Point | Self::Bilinear | Self::Labels(LabelRule::Nearest) => false,
+        }
+    }
+
+    /// Returns whether a pixel is the average of the texels in an ellipse.
+    pub(crate) fn is_elliptical(self) -> bool {
+        match self {
+            Self::Ewa | Self::EwaPyramid => true,
+            Self::Point | Self::Bilinear | Self::Labels(_) | Self::Reference { .. } => false,
+        }
+    }
+
+    /// Returns whether one of two texels that are equally near is taken, so that mirrored pictures differ.
+    pub(crate) fn chooses_texels(self) -> bool {
+        match self {
+            Self::Point | Self::Labels(_) => true,
+            Self::Ewa | Self::EwaPyramid | Self::Bilinear | Self::Reference { .. } => false,
+        }
+    }
+}
+
 impl FilterSettings {
     /// EWA with the adaptive kernel and anti-ringing: what is used when nothing else is asked for.
     pub const DEFAULT: Self = Self { kind: FilterKind::Ewa, kernel: Kernel::ADAPTIVE, anti_ringing: true };
@@ -46,7 +74,22 @@ impl FilterSettings {
             FilterKind::EwaPyramid => Box::new(EwaPyramid { kernel, anti_ringing }),
             FilterKind::Point => Box::new(Point),
             FilterKind::Bilinear => Box::new(Bilinear),
+            FilterKind::Labels(rule) => Box::new(Labels { rule, kernel }),
             FilterKind::Reference { samples } => Box::new(Reference { samples, kernel, anti_ringing }),
+        }
+    }
+
+    /// Returns a kernel that reaches all texels that are read for a pixel.
+    pub(crate) fn reaching_kernel(&self) -> Kernel {
+        let kernel = self.kernel;
+        match self.kind {
+            // A texel of the coarser of two levels is as wide as a pixel at most: its floor in such texels, and half of one.
+            FilterKind::EwaPyramid => Kernel { scale: kernel.scale + kernel.floor + 1.0, ..kernel },
+            FilterKind::Ewa
+            | FilterKind::Point
+            | FilterKind::Bilinear
+            | FilterKind::Labels(_)
+            | FilterKind::Reference { .. } => kernel,
         }
     }
 

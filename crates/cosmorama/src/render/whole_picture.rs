@@ -8,7 +8,8 @@ use super::batch::window::Level;
 use super::plan::{self, Arithmetic, Plan};
 use super::progress::Watch;
 use super::{Resampler, pyramid};
-use crate::filter::{FilterKind, Reference, reference};
+use crate::filter::lookup::labels::PreparedLabels;
+use crate::filter::{FilterKind, Labels, reference};
 use crate::raster::{FixedCodec, FixedLight, Image, Rgba};
 
 impl Resampler<'_> {
@@ -40,7 +41,15 @@ impl Resampler<'_> {
             FilterKind::Ewa | FilterKind::Point | FilterKind::Bilinear => {
                 return plan::render((self, None), FloatArithmetic { texels, background }, Level::new(), watch);
             }
-            FilterKind::Reference { samples } => self.brute_force(&self.filter.reference(samples), texels, watch),
+            FilterKind::Reference { samples } => {
+                let filter = self.filter.reference(samples);
+                self.by_rows(watch, |row| reference::fill_row(self.world, self.target, &filter, texels, row))
+            }
+            FilterKind::Labels(rule) => {
+                let labels = Labels { rule, kernel: self.filter.kernel };
+                let prepared = PreparedLabels::new(&labels, self.world, texels);
+                self.by_rows(watch, |row| prepared.fill_row(self.target, row))
+            }
             FilterKind::EwaPyramid => pyramid::render(self, texels, watch),
         };
         image.lay_over(background);
@@ -59,7 +68,7 @@ impl Resampler<'_> {
     /// Code values of a picture, made as far as the work is not stopped.
     pub(super) fn codes(&self, light: &FixedLight, codec: &FixedCodec, watch: Watch) -> Image<[u8; 3]> {
         assert!(light.sizes().eq(self.world.view_sizes()), "light of the world's views");
-        if matches!(self.filter.kind, FilterKind::EwaPyramid | FilterKind::Reference { .. }) {
+        if !Arithmetic::Fixed.has_plan_of(self.filter.kind) {
             let texels: Vec<Rgba> = (0..light.len()).map(|texel| light.rgba(texel)).collect();
             return codec.encode(&self.light(&texels, Rgba::TRANSPARENT, watch));
         }
@@ -72,13 +81,13 @@ impl Resampler<'_> {
         Plan::new(self, arithmetic, Watch::NONE)
     }
 
-    /// A picture by the reference filter.
-    fn brute_force(&self, filter: &Reference, texels: &[Rgba], watch: Watch) -> Image<Rgba> {
-        let Self { world, target, .. } = self;
+    /// Fills a picture row by row.
+    fn by_rows(&self, watch: Watch, fill: impl Fn((usize, &mut [Rgba])) + Sync) -> Image<Rgba> {
+        let target = self.target;
         let mut image = Image::filled(target.width(), target.height(), Rgba::TRANSPARENT);
         let parts = watch.parts(target.height());
         image.pixels_mut().par_chunks_mut(target.width().max(1)).enumerate().for_each(|row| {
-            parts.part(|| reference::fill_row(world, target, filter, texels, row));
+            parts.part(|| fill(row));
         });
         image
     }

@@ -10,6 +10,7 @@ mod filter {
     mod aliasing;
     mod bound;
     mod footprint;
+    mod labels;
     mod position;
     mod pyramid;
     mod reference;

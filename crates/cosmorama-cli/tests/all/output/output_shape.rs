@@ -40,6 +40,9 @@ fn maps_in_another_shape_are_told() {
     ] {
         assert!(!told(&bench, "out.png", to, size).contains("not square"), "{to} {size}");
     }
+    // What would be told of a conversion, `explain` tells, too.
+    let run = bench.run(&["explain", "sky.png", "--to", "equirect", "--size", "60x40"]);
+    assert_says(&text(&run.stderr), &["pixels are not square"]);
     let run = bench.run(&["convert", "builtin:grid", "out.png", "-y", "--to", "equirect", "--size", "60x40"]);
     assert_says(&text(&run.stderr), &["pixels are not square"]);
 }

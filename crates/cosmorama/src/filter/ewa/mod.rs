@@ -9,16 +9,16 @@ mod pinhole;
 mod prefetch;
 mod rows;
 mod scratch_pool;
+mod tap_lender;
 
 use direct::Direct;
 pub(crate) use pinhole::Pinholes;
-use scratch_pool::Pool;
+
+pub(crate) use tap_lender::TapLender;
 
 use super::Kernel;
-use super::gather::{Gather, Scratch};
-use super::kernel::KernelTable;
 use super::prepared::{Filter, Prepared, SetupCost, bounded};
-use super::taps::{self, Taps};
+use super::taps;
 use crate::camera::Footprint;
 use crate::raster::Rgba;
 use crate::world::{Light, LightError, World};
@@ -73,23 +73,17 @@ impl Prepared for PreparedEwa<'_> {
 
 /// Averages the texels of footprints in any world by one kernel.
 pub(crate) struct Averager {
-    table: KernelTable,
+    taps: TapLender,
     anti_ringing: bool,
     /// For kernels that it can weigh.
     direct: Option<Direct>,
-    scratch: Pool<(Scratch, Taps)>,
 }
 
 impl Averager {
     /// The averager of a filter.
     pub(crate) fn new(filter: &Ewa) -> Self {
         let (kernel, anti_ringing) = (&filter.kernel, filter.anti_ringing);
-        Self {
-            table: KernelTable::new(kernel),
-            anti_ringing,
-            direct: Direct::new(kernel, anti_ringing),
-            scratch: Pool::default(),
-        }
+        Self { taps: TapLender::new(kernel), anti_ringing, direct: Direct::new(kernel, anti_ringing) }
     }
 
     /// The average of a footprint; `view` is the view that shows it, if that is known.
@@ -106,12 +100,8 @@ impl Averager {
 
     /// Averages by a list of taps, wherever the texels lie.
     pub(crate) fn by_taps(&self, world: &World, light: &[Rgba], footprint: &Footprint) -> Rgba {
-        self.scratch.lend(|(scratch, taps)| {
-            let mut gather = Gather::new(world, None, &self.table).with_scratch(std::mem::take(scratch));
-            gather.taps(footprint, taps);
-            *scratch = gather.into_scratch();
-            taps::average(taps.list(), |texel| light[texel as usize], self.anti_ringing)
-        })
+        let average = |taps: &taps::Taps| taps::average(taps.list(), |texel| light[texel as usize], self.anti_ringing);
+        self.taps.lend(world, footprint, average)
     }
 }
 

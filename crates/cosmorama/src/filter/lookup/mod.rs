@@ -1,9 +1,11 @@
 //! Looking a single direction up: the nearest texel, or the four around it, across the edges of views.
 
 mod bilinear;
+pub(crate) mod labels;
 mod point;
 
 pub use bilinear::Bilinear;
+pub use labels::{LabelRule, Labels};
 pub use point::Point;
 
 use crate::camera::PixelPoint;

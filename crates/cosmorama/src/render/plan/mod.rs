@@ -60,6 +60,18 @@ pub enum Arithmetic {
     Fixed,
 }
 
+impl Arithmetic {
+    /// Returns whether there are plans of a filter in these numbers. The reference has too many samples to keep, labels are
+    /// chosen by their values, and the levels of a pyramid are floats.
+    pub fn has_plan_of(self, filter: FilterKind) -> bool {
+        match filter {
+            FilterKind::Ewa | FilterKind::Point | FilterKind::Bilinear => true,
+            FilterKind::EwaPyramid => self == Self::Float,
+            FilterKind::Labels(_) | FilterKind::Reference { .. } => false,
+        }
+    }
+}
+
 #[derive(Clone, Debug)]
 enum Geometry {
     Float(Compiled<FloatFormat>),
@@ -80,8 +92,10 @@ pub(crate) struct Compiled<F> {
 impl Plan {
     /// Compiles the geometry of a conversion; `None` for filters that have no plan in these numbers.
     pub(crate) fn new(resampler: &Resampler, arithmetic: Arithmetic, watch: Watch) -> Option<Self> {
+        if !arithmetic.has_plan_of(resampler.filter.kind) {
+            return None;
+        }
         let geometry = match (arithmetic, resampler.filter.kind) {
-            (_, FilterKind::Reference { .. }) | (Arithmetic::Fixed, FilterKind::EwaPyramid) => return None,
             (Arithmetic::Float, FilterKind::EwaPyramid) => Geometry::Pyramid(PyramidPlan::new(resampler, watch)),
             (Arithmetic::Float, _) => Geometry::Float(Compiled::new((resampler, None), Level::new(), watch)),
             (Arithmetic::Fixed, _) => Geometry::Fixed(Compiled::new((resampler, None), Level::new(), watch)),
@@ -167,8 +181,10 @@ impl Plan {
 
 /// Bytes, about, that the plan of a conversion would hold: found from some bands of rows, keeping nothing. 0 where there is none.
 pub(crate) fn bytes_estimate(resampler: &Resampler, arithmetic: Arithmetic) -> usize {
+    if !arithmetic.has_plan_of(resampler.filter.kind) {
+        return 0;
+    }
     match (arithmetic, resampler.filter.kind) {
-        (_, FilterKind::Reference { .. }) | (Arithmetic::Fixed, FilterKind::EwaPyramid) => 0,
         (Arithmetic::Float, FilterKind::EwaPyramid) => PyramidPlan::bytes_estimate(resampler),
         (Arithmetic::Float, _) => part_bytes_estimate::<FloatFormat>(resampler, None),
         (Arithmetic::Fixed, _) => part_bytes_estimate::<FixedFormat>(resampler, None),

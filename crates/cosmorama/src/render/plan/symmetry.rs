@@ -5,7 +5,6 @@ use glam::DMat3;
 
 use super::window_format::Format;
 use crate::camera::{FieldStop, PixelPoint, PixelRect, View};
-use crate::filter::FilterKind;
 use crate::projection::ProjectionKind;
 use crate::raster::RowLayout;
 use crate::render::Resampler;
@@ -180,7 +179,7 @@ impl Mirrors {
         let reflect = |flips: [bool; 2]| {
             let is_even = (!flips[0] || width % 2 == 0) && (!flips[1] || height % 2 == 0);
             // Of two texels that are as near, a point takes the one to the right, in a mirror too.
-            (is_even && filter.kind != FilterKind::Point)
+            (is_even && !filter.kind.chooses_texels())
                 .then(|| MirrorImage::of((world, &layout), target, Flip { is_turned: false, axes: flips }))
                 .flatten()
         };

@@ -7,7 +7,7 @@ use crate::camera::{PixelPoint, PixelRect, View};
 use crate::filter::gather::cap::Cap;
 use crate::filter::kernel::KernelTable;
 use crate::filter::pixel_taps::PixelTaps;
-use crate::filter::{FilterKind, FilterSettings, Kernel};
+use crate::filter::{FilterKind, FilterSettings};
 use crate::render::Uncovered;
 use crate::sphere::Direction;
 use crate::world::{Source, World};
@@ -263,11 +263,7 @@ impl Survey<'_> {
 
     /// Adds all that kernels around a block's pixels can touch.
     pub(crate) fn add_reach(&self, cap: &Cap, needs: &mut Needs) {
-        let (sources, kernel) = (self.world.sources(), self.filter.kernel);
-        // A texel of the coarser of two levels is as wide as a pixel at most: its floor in such texels, and half of one.
-        let scale =
-            if self.filter.kind == FilterKind::EwaPyramid { kernel.scale + kernel.floor + 1.0 } else { kernel.scale };
-        let kernel = Kernel { scale, ..kernel };
+        let (sources, kernel) = (self.world.sources(), self.filter.reaching_kernel());
         let coarsest = cap.coarsest_pitch(sources);
         for (source, need) in sources.iter().zip(&mut needs.views) {
             need.read = union(need.read, cap.read_texels(source, coarsest, &kernel));

@@ -16,7 +16,6 @@ use super::scan::patch::Patch;
 use super::scan::tile::{HALF, SIDE};
 use super::scan::wanted::Wanted;
 use crate::camera::PixelRect;
-use crate::filter::FilterKind;
 use crate::filter::kernel::KernelTable;
 use crate::filter::pixel_taps::PixelTaps;
 use crate::filter::taps::Taps;
@@ -58,9 +57,7 @@ impl<'a> Scan<'a> {
     /// `table` is that of the filter's kernel.
     pub(crate) fn new(resampler: &'a Resampler<'a>, table: &'a KernelTable, level: Level) -> Self {
         let Resampler { world, target, filter } = resampler;
-        let weigher = matches!(filter.kind, FilterKind::Ewa | FilterKind::EwaPyramid)
-            .then(|| Weigher::new(&filter.kernel, level))
-            .flatten();
+        let weigher = filter.kind.is_elliptical().then(|| Weigher::new(&filter.kernel, level)).flatten();
         let pixels = PixelTaps::new(world, target, filter, table);
         Self { resampler, pixels, weigher, lattice: Lattice::new(target), wanted: None }
     }

@@ -1,0 +1,37 @@
+use cosmorama::filter::{FilterKind, FilterSettings};
+use cosmorama_io::Format;
+
+use super::Light;
+use crate::diagnostic::{Code, DEPTH, FILTER, Result, usage, usage_as};
+use crate::input::Input;
+
+/// Checks that every value of an input of labels can go to the output unchanged: all are integers of one depth and one
+/// encoding, and the output's, too.
+///
+/// # Errors
+/// When an input holds floats, or something between it and the output would change values.
+pub(crate) fn check_labels(filter: &FilterSettings, input: &Input, light: &Light, format: Format) -> Result<()> {
+    if !matches!(filter.kind, FilterKind::Labels(_)) {
+        return Ok(());
+    }
+    if format == Format::Jpeg {
+        let message = format!("{FILTER} labels: JPEG changes values; write PNG, TIFF or TGA");
+        return Err(usage_as(Code::OutputFormat, message));
+    }
+    for (view, header, _) in input.present() {
+        let path = view.files.path(None).display().to_string();
+        if header.depth.is_float() {
+            let holds = format!("{FILTER} labels: {path} holds {} samples", header.depth);
+            return Err(usage(format!("{holds}; labels are integers of 8 or 16 bits")));
+        }
+        if header.depth != light.depth {
+            let found = format!("{FILTER} labels: {path} has {} bits and the output {}", header.depth, light.depth);
+            return Err(usage(format!("{found}; give {DEPTH} {}, and inputs of one depth", header.depth)));
+        }
+        if light.input_transfer(header.depth, &header.metadata) != light.transfer {
+            let found = format!("{FILTER} labels: the output would be encoded otherwise than {path}");
+            return Err(usage(format!("{found}; leave transfer functions alone, and give inputs of one kind")));
+        }
+    }
+    Ok(())
+}
