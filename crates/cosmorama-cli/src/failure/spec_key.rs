@@ -5,13 +5,14 @@ use cosmorama_spec::{Spec, SpecError, SpecKey, SpecKind};
 use super::arguments::Typed;
 
 /// Words that people have for keys.
-const OTHER_KEYS: [(&str, &str); 6] = [
+const OTHER_KEYS: [(&str, &str); 7] = [
     ("mirror", "flip"),
     ("hflip", "flip"),
     ("vflip", "flip"),
     ("crop", "canvas"),
     ("calib", "calibration"),
     ("faceorder", "order"),
+    ("names", "naming"),
 ];
 
 /// What else may have been meant by a word that is a key.

@@ -10,9 +10,23 @@ use crate::args;
 const WITH_SPECS: [&str; 2] = ["convert", "explain"];
 
 /// Words of other programs, and what to type for them.
-const OTHER_WORDS: [(&[&str], &str); 21] = [
+const OTHER_WORDS: [(&[&str], &str); 25] = [
     (
-        &["width", "height", "w", "h", "s", "res", "resolution", "dimensions", "resize", "geometry"],
+        &[
+            "width",
+            "height",
+            "w",
+            "h",
+            "s",
+            "res",
+            "resolution",
+            "dimensions",
+            "resize",
+            "geometry",
+            "output-size",
+            "out-size",
+            "image-size",
+        ],
         "--size WxH, as in --size 4096x2048, or the width alone, as in --size 4096",
     ),
     (
@@ -28,7 +42,7 @@ const OTHER_WORDS: [(&[&str], &str); 21] = [
         &["target", "projection", "proj", "output-projection", "out-projection", "to-projection", "type"],
         "--to SPEC, as in --to fulldome",
     ),
-    (&["force", "replace", "yes", "clobber"], "-y, which replaces existing outputs"),
+    (&["force", "replace", "yes", "clobber", "y"], "-y, which replaces existing outputs"),
     (
         &["interpolation", "interp", "resample", "resampling", "sampling", "method"],
         "--filter NAME, as in --filter bilinear, or --kernel NAME, as in --kernel catmull-rom",
@@ -54,6 +68,16 @@ const OTHER_WORDS: [(&[&str], &str); 21] = [
         "nothing: the default filter averages all that a pixel sees",
     ),
     (&["dry-run", "n", "preview"], "cosmorama explain INPUT --to SPEC, which tells what a conversion will do"),
+    (
+        &["fps", "framerate", "frame-rate", "r"],
+        "nothing: pictures have no frame rate; ffmpeg is told it when it makes the video (docs/video.md)",
+    ),
+    (&["f", "vf", "filter-complex"], "--from SPEC and --to SPEC: ffmpeg's v360=e:flat is --from e --to flat"),
+    (
+        &["threshold", "tolerance", "fuzz", "epsilon"],
+        "--min-psnr DB, as in --min-psnr 36, or --max-shift PX, as in --max-shift 0.01",
+    ),
+    (&["amplify", "multiply", "exposure"], "--gain FACTOR, as in --gain 10"),
     (&["mkdir", "parents", "p"], "nothing: folders that do not exist are made"),
     (
         &["recursive", "batch", "glob"],

@@ -4,7 +4,7 @@ use crate::bench::{Bench, assert_says, picture};
 use cosmorama_spec::{Spec, SpecError};
 
 /// What follows `cosmorama`, and a part of the message: what to type.
-const MISTAKES: [(&str, &str); 61] = [
+const MISTAKES: [(&str, &str); 68] = [
     // Keys of SPECs as options.
     ("convert sky.png out.png --tilt 20", "tilt is a key of fulldome: --to fulldome:tilt=20"),
     ("convert sky.png out.png --to fulldome --tilt 20", "tilt is a key of fulldome: --to fulldome:tilt=20"),
@@ -51,6 +51,13 @@ const MISTAKES: [(&str, &str); 61] = [
     ),
     ("convert sky.png out.png --to cube --rotate 90", "--to cube:rotate="),
     ("convert sky.png out.png --to omnimax --axis 120", "--to omnimax:axis=DEGREES"),
+    ("convert sky.png out.png --to fulldome --output-size 2048", "write --size WxH"),
+    ("convert sky.png out.png --names blender", "naming is a key of cube: --to cube:naming=blender"),
+    ("convert sky.png out.png --to fulldome --fps 24", "pictures have no frame rate"),
+    ("convert sky.png out.png --to fulldome --y", "write -y"),
+    ("convert sky.png out.png -vf v360=e:flat", "is --from e --to flat"),
+    ("compare sky.png sky.png --tolerance 0.1", "--min-psnr DB"),
+    ("compare sky.png sky.png --amplify 3", "--gain FACTOR"),
     // SPECs.
     ("convert sky.png out.png --to cube:names=px", "did you mean 'naming'?"),
     ("convert sky.png out.png fulldome", "that is a projection: --to fulldome"),
