@@ -52,7 +52,7 @@ const MISTAKES: [(&str, &str); 68] = [
     ("convert sky.png out.png --to cube --rotate 90", "--to cube:rotate="),
     ("convert sky.png out.png --to omnimax --axis 120", "--to omnimax:axis=DEGREES"),
     ("convert sky.png out.png --to fulldome --output-size 2048", "write --size WxH"),
-    ("convert sky.png out.png --names blender", "naming is a key of cube: --to cube:naming=blender"),
+    ("convert sky.png out.png --names blender", "naming is a key of cube: --to cube:naming=PRESET"),
     ("convert sky.png out.png --to fulldome --fps 24", "pictures have no frame rate"),
     ("convert sky.png out.png --to fulldome --y", "write -y"),
     ("convert sky.png out.png -vf v360=e:flat", "is --from e --to flat"),
