@@ -6,7 +6,7 @@ use anyhow::Result;
 use cosmorama::raster::{Image, Rgba};
 use cosmorama_convert::{Continuity, FacePixels, Files, GivenFaces, Likely, ViewFiles, existing_frames, light_of};
 use cosmorama_io::{EnvMap, FaceSet};
-use cosmorama_spec::{Cube, Packing};
+use cosmorama_spec::{Cube, Packing, Spec};
 use serde_json::{Value, json};
 
 use crate::console::in_options;
@@ -51,7 +51,7 @@ pub(super) fn of_image(inputs: &dyn Files, path: &Path, likely: &Likely, envmap:
 fn named(found: Continuity, cube: &Cube) -> Continuity {
     match cube.layout {
         Some(Packing::OneImage(kind)) if found.fits == Some(true) => {
-            let spec = format!("cube:layout={kind}");
+            let spec = Spec::from(Cube::from(kind));
             Continuity { told: found.told.after(&format!("as {spec}, ")), spec: Some(spec), ..found }
         }
         _ => found,
@@ -71,7 +71,7 @@ fn report(continuity: &Continuity) -> Value {
         report["changes"] = json!(continuity.changes);
     }
     if let Some(spec) = &continuity.spec {
-        report["spec"] = json!(spec);
+        report["spec"] = json!(spec.to_string());
     }
     report
 }

@@ -1,14 +1,16 @@
 use std::path::Path;
 
-use cosmorama::camera::{CameraModel, EquirectCamera, Placement, SamplePositions};
+use cosmorama::camera::{CameraModel, EquirectCamera, FulldomeCamera, OmnimaxCamera, SamplePositions};
 use cosmorama::circle::Found;
 use cosmorama::layout::{FaceOrder, LayoutKind};
-use cosmorama_io::{EnvMap, Header, Window};
-use cosmorama_spec::{Cube, Packing, Shape, Single, Spec, SphereSamples, StereoSpec};
+use cosmorama_io::{EnvMap, Header};
+use cosmorama_spec::{Cube, Packing, Shape, Single, Spec, StereoSpec};
 
-use crate::detect::decision::{OVAL_ONES, ROUND_ONES, candidates, circle_spec, dome_spec, layouts_of_shape, two_eyes};
+use crate::detect::decision::{
+    OVAL_ONES, ROUND_ONES, candidates, dome_spec, in_layout, layouts_of_shape, panorama, two_eyes,
+};
 use crate::detect::pixels::damage_of;
-use crate::detect::{Evidence, Guess, Readings, Seen};
+use crate::detect::{Evidence, Guess, Readings, Seen, disc};
 use crate::diagnostic::{Code, Diagnostic, FROM, Remedy, Result, Setting, Severity, bail, usage, usage_as};
 use crate::input::canvas::canvas_of;
 use crate::input::{Access, DecodedPicture, Files};
@@ -27,13 +29,14 @@ pub(crate) fn detect(
     let mono = |shape: Shape| Ok((shape, None));
     // What is as plain as a shape is no warning.
     let is_plain = matches!(guess, Guess::TwoToOne(None));
-    let mut announce = |what: &str, spec: &str, why: &str| {
-        let remedy = Remedy::Set(Setting::From, spec.to_owned());
+    let mut announced = |what: &str, spec: Spec, why: &str| {
+        let remedy = Remedy::Set(Setting::From, spec.to_string());
         let what = format!("{what} ({FROM} {spec})");
         let message = format!("{} is taken for {what}, because {why}", path.display());
         let severity = if is_plain { Severity::Note } else { Severity::Warning };
         let told = Diagnostic { severity, ..Diagnostic::warning(Code::Detected, message) };
         warnings.push(told.about(path.display()).with_remedy(remedy));
+        Ok((spec.shape, spec.stereo))
     };
     match guess {
         Guess::Said(EnvMap::LatLong) => mono(panorama(SamplePositions::Edges, None)),
@@ -46,32 +49,26 @@ pub(crate) fn detect(
                 format!("; its halves are alike: if they are for two eyes, give {FROM} {}", two_eyes(halves))
             });
             let why = format!("it is twice as wide as high{}", else_what.unwrap_or_default());
-            announce("a panorama", "equirect", &why);
-            mono(panorama(SamplePositions::Centres, None))
+            announced("a panorama", panorama(SamplePositions::Centres, None).into(), &why)
         }
         Guess::Stereo(spec) => {
-            announce("a panorama for each eye", spec, "of its shape and because its halves are alike");
-            parsed(spec)
+            announced("a panorama for each eye", spec, "of its shape and because its halves are alike")
         }
-        Guess::Strip(kind) => {
-            announce("the faces of a cube", &format!("cube:layout={kind}"), "of its shape");
-            mono(one_image(kind))
-        }
+        Guess::Strip(kind) => announced("the faces of a cube", in_layout(kind), "of its shape"),
         Guess::Blank(evidence) => {
             let (spec, what, why) = guessed(path, evidence)?;
-            announce(what, &spec, &why);
-            parsed(&spec)
+            announced(what, spec, &why)
         }
         Guess::Unknown(kinds, seen) => bail!(Ambiguous: "{}", ambiguous(path, header, &kinds, &seen)),
     }
 }
 
 /// Returns the guess from blank areas: the SPEC, its name in messages, and the reason.
-fn guessed(path: &Path, evidence: Evidence) -> Result<(String, &'static str, String)> {
+fn guessed(path: &Path, evidence: Evidence) -> Result<(Spec, &'static str, String)> {
     Ok(match evidence {
         Evidence::Cross(kind) => {
             let why = "of its shape and because one colour surrounds a cross".to_owned();
-            (format!("cube:layout={kind}"), "the faces of a cube", why)
+            (in_layout(kind), "the faces of a cube", why)
         }
         Evidence::CrossElsewhere(kind, mirror) => {
             let Readings { mirrored, upright, on_its_head } = Readings::new(kind, mirror);
@@ -85,31 +82,32 @@ fn guessed(path: &Path, evidence: Evidence) -> Result<(String, &'static str, Str
         Evidence::Circle => {
             let why =
                 format!("it is square and black around a circle; so may {ROUND_ONES} be, which {FROM} has to say");
-            ("fulldome".to_owned(), "a domemaster", why)
+            (CameraModel::Fulldome(FulldomeCamera::default()).into(), "a domemaster", why)
         }
         Evidence::Omnimax => {
             let why = "it is black around a circle that is cut off below".to_owned();
-            ("omnimax".to_owned(), "an Omnimax frame", why)
+            (CameraModel::Omnimax(OmnimaxCamera::default()).into(), "an Omnimax frame", why)
         }
         Evidence::Circles(circles) if circles.are_alike => {
             let why = format!(
                 "it has two circles on black that are alike; two cameras back to back would be {FROM} {}",
                 circles.dual_spec()
             );
-            (dome_spec(&circles).to_owned(), "a domemaster for each eye", why)
+            (dome_spec(&circles), "a domemaster for each eye", why)
         }
         Evidence::Circles(circles) => {
             let why =
                 "it has two circles on black; that each sees 195 degrees is a guess, which fov= can mend".to_owned();
             (circles.dual_spec(), "two fisheyes", why)
         }
-        Evidence::Disc(found) => bail!(
-            Ambiguous: "{}: a circle on black, as a fisheye lens leaves it, whose field of view is not known; give {FROM} {}, or, for a \
-             mirror ball, {FROM} {}",
-            path.display(),
-            circle_spec("fisheye:fov=DEGREES,", &found),
-            circle_spec("mirror-ball:", &found)
-        ),
+        Evidence::Disc(found) => {
+            let [fisheye, ball] = disc::specs(&found, "DEGREES");
+            bail!(
+                Ambiguous: "{}: a circle on black, as a fisheye lens leaves it, whose field of view is not known; give {FROM} \
+                 {fisheye}, or, for a mirror ball, {FROM} {ball}",
+                path.display()
+            )
+        }
         Evidence::Oval => bail!(
             Ambiguous: "{}: twice as wide as high, with one colour around an oval, as oval maps have it; give {FROM} {OVAL_ONES}, or \
              {FROM} equirect if it is a panorama all the same",
@@ -119,12 +117,6 @@ fn guessed(path: &Path, evidence: Evidence) -> Result<(String, &'static str, Str
             bail!(Ambiguous: "{}: two pictures that are alike; give {FROM} SPEC with stereo=", path.display())
         }
     })
-}
-
-/// Parses a guess, which is written as users would type it.
-fn parsed(spec: &str) -> Result<(Shape, Option<StereoSpec>)> {
-    let Spec { shape, stereo, .. } = spec.parse()?;
-    Ok((shape, stereo))
 }
 
 /// Returns the error that lists possible projections of an unknown image.
@@ -141,16 +133,6 @@ fn ambiguous(path: &Path, header: &Header, layouts: &[LayoutKind], seen: &Seen) 
         header.height,
         candidates(header, layouts)
     )
-}
-
-fn panorama(samples: SamplePositions, window: Option<Window>) -> Shape {
-    let frame = CameraModel::Equirect(EquirectCamera { samples, ..EquirectCamera::default() });
-    let placement = Placement { canvas: window.map(canvas_of), ..Placement::new(frame) };
-    Shape::Single(Single { placement, samples: SphereSamples::ByFormat, any_shape: false })
-}
-
-fn one_image(kind: LayoutKind) -> Shape {
-    Shape::Cube(Cube { layout: Some(Packing::OneImage(kind)), ..Cube::default() })
 }
 
 /// Completes the projection of `--from` by the metadata of the file.
@@ -206,14 +188,15 @@ fn declared_cube(cube: &Cube, pattern: &str, header: &Header, warnings: &mut Vec
     let kinds: Vec<LayoutKind> = layouts_of_shape(header.width, header.height).collect();
     match kinds[..] {
         [kind] => {
-            let message = format!("{pattern} is read as {FROM} cube:layout={kind}, because of its shape");
-            let remedy = Remedy::Set(Setting::From, format!("cube:layout={kind}"));
+            let spec = in_layout(kind).to_string();
+            let message = format!("{pattern} is read as {FROM} {spec}, because of its shape");
+            let remedy = Remedy::Set(Setting::From, spec);
             warnings.push(Diagnostic::warning(Code::Detected, message).about(pattern).with_remedy(remedy));
             Ok(Cube { layout: Some(Packing::OneImage(kind)), ..cube.clone() })
         }
         _ => {
             let names = if kinds.is_empty() { LayoutKind::ALL.to_vec() } else { kinds };
-            let names: Vec<String> = names.iter().map(|kind| format!("cube:layout={kind}")).collect();
+            let names: Vec<String> = names.into_iter().map(|kind| in_layout(kind).to_string()).collect();
             Err(usage_as(
                 Code::Ambiguous,
                 format!(

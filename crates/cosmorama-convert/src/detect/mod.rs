@@ -3,6 +3,7 @@
 pub(crate) mod cross_variants;
 mod decision;
 pub(crate) mod detection;
+mod disc;
 mod face_continuity;
 mod mirrored_faces;
 mod oval;
