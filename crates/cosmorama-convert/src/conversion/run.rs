@@ -3,6 +3,7 @@ use std::ops::ControlFlow;
 use std::path::PathBuf;
 
 use cosmorama::raster::Threads;
+use cosmorama_spec::Spec;
 use rayon::ThreadPool;
 use rayon::prelude::*;
 
@@ -10,7 +11,7 @@ use super::options::write_options;
 use super::{Checked, Content, ConvertJob, Observer, Report, Stop};
 use crate::diagnostic::{ConvertError, Diagnostic, Result};
 use crate::engine::{
-    Engine, FrameFile, FrameLight, Sequence, Stage, Stages, ViewImage, Watcher, Which, formula, st_map,
+    Engine, FrameFile, FrameLight, Sequence, Stage, Stages, ViewImage, Watcher, Which, formula, st_map, warnings,
 };
 use crate::output::FrameOutputs;
 
@@ -60,7 +61,8 @@ impl Checked {
         let Self { settings, job, pool, stages, diagnostics, .. } = self;
         let options = write_options(settings, job.target.format, &job.outputs, &job.light);
         let engine = &pool.install(|| stages.alone(Stage::Plan, || Engine::new(job, options)));
-        let mut run = Run { job, engine, stages, pool, observer, diagnostics, is_first: true, done: 0 };
+        let from = settings.geometry.from.as_ref();
+        let mut run = Run { job, engine, stages, pool, observer, diagnostics, from, is_first: true, done: 0 };
         run.tell(engine.told().to_vec());
         match &job.outputs.frames[..] {
             [] => Ok(()),
@@ -81,6 +83,8 @@ struct Run<'a> {
     pool: &'a ThreadPool,
     observer: &'a mut dyn Observer,
     diagnostics: &'a mut Vec<Diagnostic>,
+    /// Declared projection of the input.
+    from: Option<&'a Spec>,
     /// Whether no frame has been examined yet.
     is_first: bool,
     /// Number of frames written so far.
@@ -108,10 +112,11 @@ impl Run<'_> {
 impl Watcher for Run<'_> {
     fn look(&mut self, frame: &FrameOutputs, light: &FrameLight) {
         // The first frame tells how the faces lie.
-        let (engine, is_first) = (self.engine, std::mem::take(&mut self.is_first));
+        let (job, engine, is_first) = (self.job, self.engine, std::mem::take(&mut self.is_first));
         let found = self.pool.install(|| {
             let continuity = if is_first { engine.continuity(light) } else { None };
-            engine.warnings(frame.frame, light).into_iter().chain(continuity).collect()
+            let circle = self.from.filter(|_| is_first).and_then(|from| warnings::circle(job, from, light));
+            engine.warnings(frame.frame, light).into_iter().chain(continuity).chain(circle).collect()
         });
         self.tell(found);
     }

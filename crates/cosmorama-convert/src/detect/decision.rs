@@ -9,7 +9,7 @@ use cosmorama::sphere::Angle;
 use cosmorama_io::{EnvMap, Header, Window};
 use cosmorama_spec::{Cube, Shape, Single, Spec, StereoSpec};
 
-use crate::detect::{Circles, Evidence, Readings, Seen, disc};
+use crate::detect::{Circles, Continuity, Evidence, Readings, Seen, disc, seams};
 use crate::input::canvas::canvas_of;
 use crate::input::{DecodedPicture, Files};
 
@@ -25,6 +25,8 @@ pub(crate) enum Guess {
     Stereo(Spec),
     /// Strip of faces, by its shape.
     Strip(LayoutKind),
+    /// Faces of a cube, by its shape and because their borders meet.
+    Seams(Spec),
     /// Cross of faces, circles or an oval, by blank areas around them.
     Blank(Evidence),
     /// Unknown: by its shape one of these layouts or anything else, and the pixels did not decide.
@@ -40,34 +42,45 @@ const BALL: &str = "mirror-ball (with center= and radius= unless the ball touche
 /// Kinds of pictures of 2:1 with one colour around an oval.
 pub(crate) const OVAL_ONES: &str = "hammer, mollweide or sinusoidal";
 
-impl Guess {
-    /// Examines a header, and the pixels where nothing else decides. Also returns the damage if the pixels cannot be
-    /// read.
-    pub(crate) fn of(
-        files: &dyn Files,
-        path: &Path,
-        header: &Header,
-        decoded: &DecodedPicture,
-    ) -> (Self, Option<String>) {
+/// Result of an examination.
+pub(crate) struct Examined {
+    /// Kind of picture.
+    pub(crate) guess: Guess,
+    /// Damage, if the pixels were needed and cannot be read.
+    pub(crate) damage: Option<String>,
+    /// Judgement of its faces, if it may be a cube by its shape.
+    pub(crate) borders: Option<Continuity>,
+}
+
+impl Examined {
+    /// Examines a header, and the pixels where nothing else decides.
+    pub(crate) fn of(files: &dyn Files, path: &Path, header: &Header, decoded: &DecodedPicture) -> Self {
+        let by_header = |guess| Self { guess, damage: None, borders: None };
         if let Some(envmap) = header.metadata.envmap {
-            return (Self::Said(envmap), None);
+            return by_header(Guess::Said(envmap));
         }
         if let Some(window) = header.metadata.panorama {
-            return (Self::Panorama(window), None);
+            return by_header(Guess::Panorama(window));
         }
         let (width, height) = size(header);
         let layouts: Vec<LayoutKind> = layouts_of_shape(width, height).collect();
         if let [kind @ (LayoutKind::StripH | LayoutKind::StripV)] = layouts[..] {
-            return (Self::Strip(kind), None);
+            return by_header(Guess::Strip(kind));
         }
-        let seen = Seen::of(files, path, header, decoded);
+        let (seen, borders) = Seen::of(files, path, (header, &layouts), decoded);
         let damage = match &seen {
             Seen::Damaged(damage) => Some(damage.clone()),
             _ => None,
         };
-        (Self::by_pixels((width, height), layouts, seen), damage)
+        let guess = match borders.as_ref().and_then(seams::sure) {
+            Some(spec) => Guess::Seams(spec),
+            None => Guess::by_pixels((width, height), layouts, seen),
+        };
+        Self { guess, damage, borders }
     }
+}
 
+impl Guess {
     fn by_pixels((width, height): (usize, usize), layouts: Vec<LayoutKind>, seen: Seen) -> Self {
         match seen {
             Seen::Evidence(evidence @ (Evidence::Circles(_) | Evidence::Oval)) => Self::Blank(evidence),
@@ -88,17 +101,15 @@ impl Guess {
         !matches!(self, Self::Said(_) | Self::Panorama(_) | Self::Strip(_))
     }
 
-    /// Returns the cubes whose faces the image may hold.
-    pub(crate) fn cubes(self) -> Vec<Cube> {
+    /// Returns the cubes whose faces the image may hold, if not only its shape tells of them.
+    pub(crate) fn cubes(&self) -> Vec<Cube> {
         match self {
             Self::Said(EnvMap::Cube) => vec![openexr_strip()],
             Self::Said(EnvMap::GlCube) => vec![LayoutKind::StripV.into()],
             Self::Strip(kind) | Self::Blank(Evidence::Cross(kind) | Evidence::CrossElsewhere(kind, _)) => {
-                vec![kind.into()]
+                vec![(*kind).into()]
             }
-            Self::Unknown(kinds, _) => kinds.into_iter().map(Cube::from).collect(),
-            Self::Said(EnvMap::LatLong) | Self::Panorama(_) | Self::TwoToOne(_) | Self::Stereo(_) => Vec::new(),
-            Self::Blank(_) => Vec::new(),
+            _ => Vec::new(),
         }
     }
 
@@ -121,6 +132,7 @@ impl Guess {
             }
             Self::Stereo(spec) => format!("{spec} (by its shape, and since its halves are alike)"),
             Self::Strip(kind) => format!("{} (by its shape)", in_layout(*kind)),
+            Self::Seams(spec) => format!("{spec} (by its shape, and because the borders of its faces meet)"),
             Self::Blank(evidence) => describe_blank(evidence),
             Self::Unknown(kinds, seen) => {
                 let (width, height) = size(header);

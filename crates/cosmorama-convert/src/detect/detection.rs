@@ -9,8 +9,8 @@ use cosmorama_spec::{Cube, Packing, Shape, Single, Spec, StereoSpec};
 use crate::detect::decision::{
     OVAL_ONES, ROUND_ONES, candidates, dome_spec, in_layout, layouts_of_shape, panorama, two_eyes,
 };
-use crate::detect::pixels::damage_of;
-use crate::detect::{Evidence, Guess, Readings, Seen, disc};
+use crate::detect::pixels::{damage_of, is_small, light_of};
+use crate::detect::{Continuity, Evidence, Examined, Guess, Readings, Seen, disc, seams};
 use crate::diagnostic::{Code, Diagnostic, FROM, Remedy, Result, Setting, Severity, bail, usage, usage_as};
 use crate::input::canvas::canvas_of;
 use crate::input::{Access, DecodedPicture, Files};
@@ -22,7 +22,7 @@ pub(crate) fn detect(
     header: &Header,
     warnings: &mut Vec<Diagnostic>,
 ) -> Result<(Shape, Option<StereoSpec>)> {
-    let (guess, damage) = Guess::of(access.files, path, header, access.decoded);
+    let Examined { guess, damage, borders } = Examined::of(access.files, path, header, access.decoded);
     if let Some(damage) = damage {
         bail!(Damaged: "{damage}");
     }
@@ -55,11 +55,19 @@ pub(crate) fn detect(
             announced("a panorama for each eye", spec, "of its shape and because its halves are alike")
         }
         Guess::Strip(kind) => announced("the faces of a cube", in_layout(kind), "of its shape"),
+        Guess::Seams(spec) => {
+            announced("the faces of a cube", spec, "of its shape and because the borders of its faces meet")
+        }
         Guess::Blank(evidence) => {
             let (spec, what, why) = guessed(path, evidence)?;
             announced(what, spec, &why)
         }
-        Guess::Unknown(kinds, seen) => bail!(Ambiguous: "{}", ambiguous(path, header, &kinds, &seen)),
+        Guess::Unknown(kinds, seen) => {
+            let fit = borders
+                .and_then(|found| found.spec)
+                .map(|spec| format!("; as the faces of a cube, their borders would meet by {FROM} {spec}"));
+            bail!(Ambiguous: "{}{}", ambiguous(path, header, &kinds, &seen), fit.unwrap_or_default())
+        }
     }
 }
 
@@ -217,23 +225,24 @@ pub struct Likely {
     pub projection: String,
     /// Circle of a lens on black.
     pub circle: Option<Found>,
-    /// Cubes whose faces it may hold.
-    pub cubes: Vec<Cube>,
-    /// Whether `cubes` is guessed from the image's shape alone, so that it may hold none.
-    pub may_be_none: bool,
+    /// Judgement of the faces that it holds, or may hold.
+    pub arrangement: Option<Continuity>,
     /// Damage, if its pixels cannot be read.
     pub damage: Option<String>,
 }
 
-/// Examines an image.
-pub fn likely(files: &dyn Files, path: &Path, header: &Header) -> Likely {
-    let (guess, damage) = Guess::of(files, path, header, &DecodedPicture::default());
-    // Whoever asks what a file is wants to know whether it is whole.
-    let damage = damage.or_else(|| if guess.has_looked() { None } else { damage_of(files, path) });
+/// Examines an image. With `reads_all`, its pixels are read even where its header tells what it is: whether they are
+/// whole, and how faces lie.
+pub fn likely(files: &dyn Files, path: &Path, header: &Header, reads_all: bool) -> Likely {
+    let Examined { guess, damage, borders } = Examined::of(files, path, header, &DecodedPicture::default());
+    let is_unread = reads_all && !guess.has_looked() && is_small(header);
+    let damage = damage.or_else(|| if is_unread { damage_of(files, path) } else { None });
     let circle = match guess {
         Guess::Blank(Evidence::Disc(found)) => Some(found),
         _ => None,
     };
-    let may_be_none = matches!(guess, Guess::Unknown(..));
-    Likely { projection: guess.describe(header), circle, cubes: guess.cubes(), may_be_none, damage }
+    let cubes = if reads_all { guess.cubes() } else { Vec::new() };
+    let picture = if cubes.is_empty() { None } else { light_of(files, path) };
+    let judged = picture.and_then(|picture| seams::judged(&cubes, header.metadata.envmap, &picture));
+    Likely { projection: guess.describe(header), circle, arrangement: borders.or(judged), damage }
 }
