@@ -290,9 +290,8 @@ fn a_folder_of_faces_is_called_one_with_its_pattern() {
 #[test]
 fn sheets_of_faces_are_found_by_info_and_convert_alike() {
     let bench = Bench::new();
-    bench.save("world.png", &patchwork(512, 256));
     for spec in ["cube:layout=3x2", "cube:layout=2x3", "cube:layout=eac"] {
-        bench.succeed(&["convert", "world.png", "sheet.png", "-y", "--from", "equirect", "--to", spec, "--size", "96"]);
+        bench.succeed(&["convert", "builtin:demo", "sheet.png", "-y", "--to", spec, "--size", "96"]);
         let why = "(by its shape, and because the borders of its faces meet)";
         assert_eq!(info(&bench, "sheet.png"), format!("{spec} {why}"));
         found(&bench, "sheet.png", spec, &format!("the faces of a cube (--from {spec})"));
@@ -300,7 +299,7 @@ fn sheets_of_faces_are_found_by_info_and_convert_alike() {
     }
     // Faces in another order may be a photograph: an error with the candidates, and with what the borders tell.
     let to = ["--to", "cube:layout=3x2,order=fudlrb", "--size", "96"];
-    bench.succeed(&[&["convert", "world.png", "sheet.png", "-y", "--from", "equirect"], &to[..]].concat());
+    bench.succeed(&[&["convert", "builtin:demo", "sheet.png", "-y"], &to[..]].concat());
     refused(
         &bench,
         "sheet.png",
