@@ -109,6 +109,9 @@ fn held_world(views: &[InputView], nominal: World) -> Result<World> {
     let is_same = |(part, source): (WorldView, &Source)| {
         part.name == source.name && part.view == source.view && part.blend == source.blend && part.mask == source.mask
     };
+    if held().next().is_none() {
+        return Err(empty(&["none of its pixels sees a texel of the input, which may be too small".to_owned()]));
+    }
     if held().count() == nominal.sources().len() && held().zip(nominal.sources()).all(is_same) {
         return Ok(nominal);
     }

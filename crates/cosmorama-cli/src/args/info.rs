@@ -19,7 +19,7 @@ pub(crate) struct InfoArgs {
     /// or a Hugin project (.pto) is read, too.
     #[arg(value_hint = ValueHint::FilePath)]
     pub(crate) input: String,
-    /// Decode every frame of a pattern, to find damaged ones; without it the first frame is looked at
+    /// Decode every frame of a pattern, to find damaged ones; without it, headers only where they tell enough
     #[arg(long)]
     pub(crate) check: bool,
     /// Print the same as JSON

@@ -1,4 +1,4 @@
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use anyhow::Result;
@@ -10,7 +10,7 @@ use cosmorama_convert::{
 use cosmorama_io::{EnvMap, FacePattern, FaceSet, Header};
 use serde_json::{Value, json};
 
-use super::info_faces::{of_files, of_image};
+use super::info_faces::{of_files, report as of_borders};
 use super::info_world;
 use crate::args::InfoArgs;
 use crate::console::Console;
@@ -50,17 +50,15 @@ fn single(inputs: &dyn Files, pattern: &str, check: bool) -> Result<Value> {
     let path = files.path(frames.first().copied());
     is_one_file(inputs, pattern, &path)?;
     let header = probe(inputs, &path)?;
+    let reads_all = check || frames.is_empty();
+    let likely = likely(inputs, &path, &header, reads_all);
     let mut report = json!({ "input": pattern });
-    add_frames(&mut report, &frames);
+    let damaged = if check { damages(inputs, &files, &frames) } else { likely.damage.into_iter().collect() };
+    add_damage(&mut report, damaged);
+    add_frames(&mut report, &frames, check);
     merge(&mut report, header_report(&header));
-    let likely = likely(inputs, &path, &header);
     report["projection"] = json!(likely.projection);
-    if let Some(damage) = &likely.damage {
-        report["damaged"] = json!(damage);
-    } else if check && frames.len() > 1 {
-        add_damaged_frames(&mut report, inputs, &files, &frames);
-    }
-    let picture = if header.channels.has_alpha() { light_of(inputs, &path) } else { None };
+    let picture = if reads_all && header.channels.has_alpha() { light_of(inputs, &path) } else { None };
     if let Some(told) = picture.and_then(|light| ThinAlpha::of(light.pixels().iter().copied())?.told()) {
         report["alpha"] = json!(told);
     }
@@ -68,30 +66,28 @@ fn single(inputs: &dyn Files, pattern: &str, check: bool) -> Result<Value> {
         let Circle { centre: (x, y), radius } = found.circle();
         report["circle"] = json!({ "x": x, "y": y, "radius": radius, "measured": matches!(found, Found::Measured(_)) });
     }
-    if let Some(continuity) = of_image(inputs, &path, &likely, header.metadata.envmap) {
-        if let (true, Value::String(spec)) = (continuity["fits"] == true, &continuity["spec"]) {
-            report["projection"] = json!(format!("{spec} (by its shape, and because the borders of its faces meet)"));
-        }
-        report["arrangement"] = continuity;
+    if let Some(arrangement) = &likely.arrangement {
+        report["arrangement"] = of_borders(arrangement);
     }
     Ok(report)
-}
-
-/// Decodes every frame, and tells what is the matter with those that are damaged.
-fn add_damaged_frames(report: &mut Value, inputs: &dyn Files, files: &ViewFiles, frames: &[u64]) {
-    let damage = |frame: &u64| damage_of(inputs, &files.path(Some(*frame)));
-    let damaged: Vec<String> = frames.iter().filter_map(damage).collect();
-    if !damaged.is_empty() {
-        report["damaged"] = json!(damaged);
-    }
 }
 
 fn faces(inputs: &dyn Files, pattern: &str, check: bool) -> Result<Value> {
     let set = FaceSet::find(pattern, None)?;
     let mut report = json!({ "input": pattern, "projection": "cube", "naming": set.naming().name });
+    let is_sequence = set.present().any(|file| matches!(ViewFiles::new(&file.path), ViewFiles::Sequence(_)));
+    let reads_all = check || !is_sequence;
+    let arrangement = if reads_all { of_files(inputs, &set)? } else { None };
+    // Pictures that were compared are whole, but for later frames.
+    let seeks_damage = reads_all && (is_sequence || arrangement.is_none());
     let mut faces = serde_json::Map::new();
     for file in set.faces() {
         let mut face = json!({ "file": file.path.display().to_string(), "present": file.present });
+        let files = ViewFiles::new(&file.path);
+        let frames = if file.present { existing_frames(&files)? } else { Vec::new() };
+        if file.present && seeks_damage {
+            add_damage(&mut face, damages(inputs, &files, &frames));
+        }
         if file.placement != cosmorama_io::FacePlacement::UPRIGHT {
             face["lies"] = json!(format!(
                 "turned clockwise by {} degrees{}",
@@ -100,34 +96,33 @@ fn faces(inputs: &dyn Files, pattern: &str, check: bool) -> Result<Value> {
             ));
         }
         if file.present {
-            let files = ViewFiles::new(&file.path);
-            let frames = existing_frames(&files)?;
-            add_frames(&mut face, &frames);
-            if check {
-                add_damaged_frames(&mut face, inputs, &files, &frames);
-            }
+            add_frames(&mut face, &frames, check);
             merge(&mut face, header_report(&probe(inputs, &files.path(frames.first().copied()))?));
         }
         faces.insert(file.face.name().to_owned(), face);
     }
     report["faces"] = Value::Object(faces);
-    match of_files(inputs, &set)? {
-        Some(continuity) => report["arrangement"] = continuity,
-        // Something may be the matter with a file.
-        None => add_damage(&mut report, inputs, &set)?,
+    if let Some(arrangement) = arrangement {
+        report["arrangement"] = arrangement;
     }
     Ok(report)
 }
 
-/// Tells what is the matter with faces whose pixels cannot be read.
-fn add_damage(report: &mut Value, inputs: &dyn Files, set: &FaceSet) -> Result<()> {
-    for file in set.present() {
-        let files = ViewFiles::new(&file.path);
-        if let Some(damage) = damage_of(inputs, &files.path(existing_frames(&files)?.first().copied())) {
-            report["faces"][file.face.name()]["damaged"] = json!(damage);
-        }
+/// Decodes a file, or each of its frames, and tells what is the matter with those that are damaged.
+fn damages(inputs: &dyn Files, files: &ViewFiles, frames: &[u64]) -> Vec<String> {
+    let paths: Vec<PathBuf> = match frames {
+        [] => vec![files.path(None)],
+        frames => frames.iter().map(|frame| files.path(Some(*frame))).collect(),
+    };
+    paths.iter().filter_map(|path| damage_of(inputs, path)).collect()
+}
+
+fn add_damage(report: &mut Value, damaged: Vec<String>) {
+    match &damaged[..] {
+        [] => {}
+        [one] => report["damaged"] = json!(one),
+        several => report["damaged"] = json!(several),
     }
-    Ok(())
 }
 
 fn header_report(header: &Header) -> Value {
@@ -193,9 +188,11 @@ fn transfer(header: &Header) -> String {
     }
 }
 
-fn add_frames(report: &mut Value, frames: &[u64]) {
+fn add_frames(report: &mut Value, frames: &[u64], check: bool) {
     if !frames.is_empty() {
         report["frames"] = json!(cosmorama_io::FrameList::new(frames.iter().copied()).to_string());
+        report["read"] =
+            json!(if check { "every frame" } else { "the first frame alone; --check decodes every frame" });
     }
 }
 

@@ -1,12 +1,10 @@
 //! What `info` says of how faces lie.
 
-use std::path::Path;
-
 use anyhow::Result;
 use cosmorama::raster::{Image, Rgba};
-use cosmorama_convert::{Continuity, FacePixels, Files, GivenFaces, Likely, ViewFiles, existing_frames, light_of};
-use cosmorama_io::{EnvMap, FaceSet};
-use cosmorama_spec::{Cube, Packing};
+use cosmorama_convert::{Continuity, FacePixels, Files, GivenFaces, ViewFiles, existing_frames, light_of};
+use cosmorama_io::FaceSet;
+use cosmorama_spec::Cube;
 use serde_json::{Value, json};
 
 use crate::console::in_options;
@@ -33,36 +31,12 @@ pub(super) fn of_files(inputs: &dyn Files, set: &FaceSet) -> Result<Option<Value
     Ok(given.judge(&pixels.collect::<Vec<_>>()).as_ref().map(report))
 }
 
-/// Of faces in one image. Where its shape alone says that it may be one, it is if the borders do, and they say which.
-pub(super) fn of_image(inputs: &dyn Files, path: &Path, likely: &Likely, envmap: Option<EnvMap>) -> Option<Value> {
-    let picture = if likely.cubes.is_empty() { return None } else { light_of(inputs, path)? };
-    let judge = |cube: &Cube| {
-        let found = GivenFaces::of_image(cube, envmap)?.judge_image(&picture)?;
-        Some(if likely.may_be_none { named(found, cube) } else { found })
-    };
-    let judged = likely.cubes.iter().filter_map(judge);
-    let mut found: Vec<Continuity> = judged.filter(|judged| !likely.may_be_none || judged.fits.is_some()).collect();
-    // Of several layouts the one that lies rightly.
-    found.sort_by_key(|judged| judged.fits != Some(true));
-    found.first().map(report)
-}
-
-/// What fits, with the layout in which it does.
-fn named(found: Continuity, cube: &Cube) -> Continuity {
-    match cube.layout {
-        Some(Packing::OneImage(kind)) if found.fits == Some(true) => {
-            let spec = format!("cube:layout={kind}");
-            Continuity { told: found.told.after(&format!("as {spec}, ")), spec: Some(spec), ..found }
-        }
-        _ => found,
-    }
-}
-
 fn pixel_of(picture: &Image<Rgba>) -> impl Fn(usize, usize) -> Rgba + '_ {
     |i, j| *picture.get(i, j)
 }
 
-fn report(continuity: &Continuity) -> Value {
+/// What borders tell, as JSON.
+pub(super) fn report(continuity: &Continuity) -> Value {
     let mut report = json!({ "told": in_options(&continuity.told), "fits": continuity.fits });
     if let Some(confidence) = continuity.confidence {
         report["confidence"] = json!(confidence);
@@ -71,7 +45,7 @@ fn report(continuity: &Continuity) -> Value {
         report["changes"] = json!(continuity.changes);
     }
     if let Some(spec) = &continuity.spec {
-        report["spec"] = json!(spec);
+        report["spec"] = json!(spec.to_string());
     }
     report
 }

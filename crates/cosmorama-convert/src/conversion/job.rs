@@ -11,6 +11,7 @@ use super::options::{check_file_options, filter};
 use crate::budget::MemoryBudget;
 use crate::colour::{Light, check_labels};
 use crate::coverage::{Coverage, whole_worlds};
+use crate::detect::unless_damaged;
 use crate::diagnostic::{Diagnostic, Result};
 use crate::input::spec_files::st_map::settled;
 use crate::input::{Access, DecodedPicture, Files, Input};
@@ -89,7 +90,8 @@ impl ConvertJob {
             decoded,
         };
         if content.has_files() {
-            job.cover(warnings)?;
+            let first = job.input.frames.first().map_or_else(Vec::new, |frame| job.input.paths(*frame));
+            job.cover(warnings).map_err(|error| unless_damaged(&*settings.files, first, error))?;
         }
         content.check_last(settings, format, job.light.depth, warnings)?;
         Ok(job)

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use cosmorama::raster::Threads;
 use cosmorama::render::Progress;
+use cosmorama_spec::Spec;
 use rayon::ThreadPool;
 use rayon::prelude::*;
 
@@ -12,6 +13,7 @@ use super::{Checked, Content, ConvertJob, Observer, Report, Stop, Work, watched}
 use crate::diagnostic::{ConvertError, Diagnostic, Result};
 use crate::engine::{
     Engine, FrameFile, FrameLight, Levels, Sequence, Stage, Stages, ViewImage, Watcher, Which, formula, st_map,
+    warnings,
 };
 use crate::output::FrameOutputs;
 
@@ -63,7 +65,8 @@ impl Checked {
         let prepare = |progress: &dyn Progress| stages.alone(Stage::Plan, || Engine::new(job, options, progress));
         let engine = watched(pool, observer, Work::Plan, prepare).and_then(Result::ok);
         let Some(engine) = &engine else { return Err(stopped((0, job.outputs.frames.len()))) };
-        let mut run = Run { job, engine, stages, pool, observer, diagnostics, is_first: true, done: 0 };
+        let from = settings.geometry.from.as_ref();
+        let mut run = Run { job, engine, stages, pool, observer, diagnostics, from, is_first: true, done: 0 };
         run.tell(engine.told().to_vec());
         let made = match &job.outputs.frames[..] {
             [] => Ok(()),
@@ -86,6 +89,8 @@ struct Run<'a> {
     pool: &'a ThreadPool,
     observer: &'a mut dyn Observer,
     diagnostics: &'a mut Vec<Diagnostic>,
+    /// Declared projection of the input.
+    from: Option<&'a Spec>,
     /// Whether no frame has been examined yet.
     is_first: bool,
     /// Number of frames written so far.
@@ -112,10 +117,11 @@ impl Run<'_> {
 impl Watcher for Run<'_> {
     fn look(&mut self, frame: &FrameOutputs, light: &FrameLight) {
         // The first frame tells how the faces lie.
-        let (engine, is_first) = (self.engine, std::mem::take(&mut self.is_first));
+        let (job, engine, is_first) = (self.job, self.engine, std::mem::take(&mut self.is_first));
         let found = self.pool.install(|| {
             let continuity = if is_first { engine.continuity(light) } else { None };
-            engine.warnings(frame.frame, light).into_iter().chain(continuity).collect()
+            let circle = self.from.filter(|_| is_first).and_then(|from| warnings::circle(job, from, light));
+            engine.warnings(frame.frame, light).into_iter().chain(continuity).chain(circle).collect()
         });
         self.tell(found);
     }

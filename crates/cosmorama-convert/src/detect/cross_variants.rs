@@ -2,9 +2,10 @@
 
 use cosmorama::camera::{Mirror, PixelRect};
 use cosmorama::layout::{CubeLayout, LayoutKind};
+use cosmorama::sphere::{Angle, Orientation};
+use cosmorama_spec::{Cube, Spec};
 
 use crate::detect::Continuity;
-use crate::detect::mirrored_faces::flip_key;
 use crate::diagnostic::FROM;
 
 /// Returns the mirroring that moves a layout's faces to other places, if there is one.
@@ -20,22 +21,21 @@ pub(crate) fn axis(kind: LayoutKind) -> Option<Mirror> {
 /// SPECs that put faces into the places of a mirrored picture. Borders cannot tell them apart.
 pub(crate) struct Readings {
     /// The mirrored reading.
-    pub(crate) mirrored: String,
+    pub(crate) mirrored: Spec,
     /// A cross with its arm at the other end: turned upside down, which moves faces to the same places, with the world
     /// turned back.
-    pub(crate) upright: String,
+    pub(crate) upright: Spec,
     /// A cross that was itself turned upside down.
-    pub(crate) on_its_head: String,
+    pub(crate) on_its_head: Spec,
 }
 
 impl Readings {
     pub(crate) fn new(kind: LayoutKind, mirror: Mirror) -> Self {
-        let on_its_head = format!("cube:layout={kind}{}", flip_key(mirror.and(along(kind))));
-        Self {
-            mirrored: format!("cube:layout={kind}{}", flip_key(mirror)),
-            upright: format!("{on_its_head},roll=180"),
-            on_its_head,
-        }
+        let mirrored = |mirror: Mirror| Cube { mirror, ..kind.into() };
+        let on_its_head = mirrored(mirror.and(along(kind)));
+        let orientation = Orientation::from_yaw_pitch_roll(Angle::ZERO, Angle::ZERO, Angle::HALF_TURN);
+        let upright = Cube { orientation, ..on_its_head.clone() };
+        Self { mirrored: mirrored(mirror).into(), upright: upright.into(), on_its_head: on_its_head.into() }
     }
 }
 
@@ -68,7 +68,7 @@ pub(crate) fn told_elsewhere(kind: LayoutKind, mirror: Mirror, found: Continuity
 
 /// Returns the addition to the message for faces that would also meet in the mirror image.
 pub(crate) fn mirror_image(kind: LayoutKind, mirror: Mirror) -> String {
-    let spec = format!("cube:layout={kind}{}", flip_key(mirror.and(along(kind))));
+    let spec = Spec::from(Cube { mirror: mirror.and(along(kind)), ..kind.into() });
     let backwards = if mirror.is_backwards() { "does not read backwards" } else { "reads backwards" };
     format!("; so do those of the mirror image: if writing in it {backwards}, give {FROM} {spec}")
 }
@@ -97,7 +97,7 @@ mod tests {
         let across = Mirror { x: true, y: false };
         let specs = |mirror| {
             let Readings { mirrored, upright, on_its_head } = Readings::new(LayoutKind::CrossH, mirror);
-            [mirrored, upright, on_its_head].map(|spec| spec.replace("cube:layout=cross-h", ""))
+            [mirrored, upright, on_its_head].map(|spec| spec.to_string().replace("cube:layout=cross-h", ""))
         };
         assert_eq!(specs(across), [",flip=x", ",flip=xy,roll=180", ",flip=xy"]);
         assert_eq!(specs(Mirror::default()), ["", ",flip=y,roll=180", ",flip=y"]);

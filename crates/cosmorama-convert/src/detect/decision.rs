@@ -2,12 +2,15 @@
 
 use std::path::Path;
 
-use cosmorama::circle::{Circle, Found};
-use cosmorama::layout::{Arrangement, FaceOrder, LayoutKind};
+use cosmorama::camera::{CameraModel, EquirectCamera, FulldomeCamera, Placement, SamplePositions};
+use cosmorama::circle::Found;
+use cosmorama::layout::{Arrangement, FaceOrder, LayoutKind, Stereo};
+use cosmorama::sphere::Angle;
 use cosmorama_io::{EnvMap, Header, Window};
-use cosmorama_spec::{Cube, Packing};
+use cosmorama_spec::{Cube, Shape, Single, Spec, StereoSpec};
 
-use crate::detect::{Circles, Evidence, Readings, Seen};
+use crate::detect::{Circles, Continuity, Evidence, Readings, Seen, disc, seams};
+use crate::input::canvas::canvas_of;
 use crate::input::{DecodedPicture, Files};
 
 /// Kind of picture, as far as metadata, shape and pixels tell.
@@ -18,10 +21,12 @@ pub(crate) enum Guess {
     Panorama(Window),
     /// Panorama, because it is twice as wide as high. If its halves are alike, it may hold two pictures.
     TwoToOne(Option<Arrangement>),
-    /// One panorama for each eye, by shape and by halves that are alike; holds the SPEC.
-    Stereo(&'static str),
+    /// One panorama for each eye, by shape and by halves that are alike.
+    Stereo(Spec),
     /// Strip of faces, by its shape.
     Strip(LayoutKind),
+    /// Faces of a cube, by its shape and because their borders meet.
+    Seams(Spec),
     /// Cross of faces, circles or an oval, by blank areas around them.
     Blank(Evidence),
     /// Unknown: by its shape one of these layouts or anything else, and the pixels did not decide.
@@ -37,43 +42,54 @@ const BALL: &str = "mirror-ball (with center= and radius= unless the ball touche
 /// Kinds of pictures of 2:1 with one colour around an oval.
 pub(crate) const OVAL_ONES: &str = "hammer, mollweide or sinusoidal";
 
-impl Guess {
-    /// Examines a header, and the pixels where nothing else decides. Also returns the damage if the pixels cannot be
-    /// read.
-    pub(crate) fn of(
-        files: &dyn Files,
-        path: &Path,
-        header: &Header,
-        decoded: &DecodedPicture,
-    ) -> (Self, Option<String>) {
+/// Result of an examination.
+pub(crate) struct Examined {
+    /// Kind of picture.
+    pub(crate) guess: Guess,
+    /// Damage, if the pixels were needed and cannot be read.
+    pub(crate) damage: Option<String>,
+    /// Judgement of its faces, if it may be a cube by its shape.
+    pub(crate) borders: Option<Continuity>,
+}
+
+impl Examined {
+    /// Examines a header, and the pixels where nothing else decides.
+    pub(crate) fn of(files: &dyn Files, path: &Path, header: &Header, decoded: &DecodedPicture) -> Self {
+        let by_header = |guess| Self { guess, damage: None, borders: None };
         if let Some(envmap) = header.metadata.envmap {
-            return (Self::Said(envmap), None);
+            return by_header(Guess::Said(envmap));
         }
         if let Some(window) = header.metadata.panorama {
-            return (Self::Panorama(window), None);
+            return by_header(Guess::Panorama(window));
         }
         let (width, height) = size(header);
         let layouts: Vec<LayoutKind> = layouts_of_shape(width, height).collect();
         if let [kind @ (LayoutKind::StripH | LayoutKind::StripV)] = layouts[..] {
-            return (Self::Strip(kind), None);
+            return by_header(Guess::Strip(kind));
         }
-        let seen = Seen::of(files, path, header, decoded);
+        let (seen, borders) = Seen::of(files, path, (header, &layouts), decoded);
         let damage = match &seen {
             Seen::Damaged(damage) => Some(damage.clone()),
             _ => None,
         };
-        (Self::by_pixels((width, height), layouts, seen), damage)
+        let guess = match borders.as_ref().and_then(seams::sure) {
+            Some(spec) => Guess::Seams(spec),
+            None => Guess::by_pixels((width, height), layouts, seen),
+        };
+        Self { guess, damage, borders }
     }
+}
 
+impl Guess {
     fn by_pixels((width, height): (usize, usize), layouts: Vec<LayoutKind>, seen: Seen) -> Self {
         match seen {
             Seen::Evidence(evidence @ (Evidence::Circles(_) | Evidence::Oval)) => Self::Blank(evidence),
             Seen::Evidence(Evidence::Twins(arrangement)) if width == 2 * height => Self::TwoToOne(Some(arrangement)),
             _ if width == 2 * height => Self::TwoToOne(None),
             Seen::Evidence(Evidence::Twins(arrangement)) => match (arrangement, width, height) {
-                (Arrangement::TopBottom, ..) if width == height => Self::Stereo("equirect:stereo=tb"),
-                (Arrangement::SideBySide, ..) if width == 4 * height => Self::Stereo("equirect:stereo=sbs"),
-                _ => Self::Unknown(layouts, seen),
+                (Arrangement::TopBottom, w, h) if w != h => Self::Unknown(layouts, seen),
+                (Arrangement::SideBySide, w, h) if w != 4 * h => Self::Unknown(layouts, seen),
+                _ => Self::Stereo(for_eyes(whole_sphere(), arrangement, false)),
             },
             Seen::Evidence(evidence) => Self::Blank(evidence),
             Seen::Nothing | Seen::Unseen(_) | Seen::Damaged(_) => Self::Unknown(layouts, seen),
@@ -85,18 +101,15 @@ impl Guess {
         !matches!(self, Self::Said(_) | Self::Panorama(_) | Self::Strip(_))
     }
 
-    /// Returns the cubes whose faces the image may hold.
-    pub(crate) fn cubes(self) -> Vec<Cube> {
-        let of = |kind: LayoutKind| Cube { layout: Some(Packing::OneImage(kind)), ..Cube::default() };
+    /// Returns the cubes whose faces the image may hold, if not only its shape tells of them.
+    pub(crate) fn cubes(&self) -> Vec<Cube> {
         match self {
-            Self::Said(EnvMap::Cube) => vec![Cube { order: Some(FaceOrder::OPENEXR), ..of(LayoutKind::StripV) }],
-            Self::Said(EnvMap::GlCube) => vec![of(LayoutKind::StripV)],
+            Self::Said(EnvMap::Cube) => vec![openexr_strip()],
+            Self::Said(EnvMap::GlCube) => vec![LayoutKind::StripV.into()],
             Self::Strip(kind) | Self::Blank(Evidence::Cross(kind) | Evidence::CrossElsewhere(kind, _)) => {
-                vec![of(kind)]
+                vec![(*kind).into()]
             }
-            Self::Unknown(kinds, _) => kinds.into_iter().map(of).collect(),
-            Self::Said(EnvMap::LatLong) | Self::Panorama(_) | Self::TwoToOne(_) | Self::Stereo(_) => Vec::new(),
-            Self::Blank(_) => Vec::new(),
+            _ => Vec::new(),
         }
     }
 
@@ -105,21 +118,21 @@ impl Guess {
         match self {
             Self::Said(EnvMap::LatLong) => "equirect, samples on the edges (envmap attribute)".to_owned(),
             Self::Said(EnvMap::Cube) => {
-                "cube:layout=strip-v,order=openexr, samples on the edges (envmap attribute)".to_owned()
+                format!("{}, samples on the edges (envmap attribute)", Spec::from(openexr_strip()))
             }
             Self::Said(EnvMap::GlCube) => "cube (the file's own six faces, one below the other)".to_owned(),
-            Self::Panorama(Window { canvas_width, canvas_height, x, y }) => {
-                let whole = (*canvas_width, *canvas_height) == (header.width, header.height);
-                let canvas =
-                    if whole { String::new() } else { format!(":canvas={canvas_width}x{canvas_height}+{x}+{y}") };
-                format!("equirect{canvas} (GPano metadata)")
+            Self::Panorama(window) => {
+                let is_whole = (window.canvas_width, window.canvas_height) == (header.width, header.height);
+                let part = Some(*window).filter(|_| !is_whole);
+                format!("{} (GPano metadata)", Spec::from(panorama(SamplePositions::Centres, part)))
             }
             Self::TwoToOne(None) => "equirect (2:1)".to_owned(),
             Self::TwoToOne(Some(halves)) => {
                 format!("equirect (2:1), or, since its halves are alike, {}", two_eyes(*halves))
             }
             Self::Stereo(spec) => format!("{spec} (by its shape, and since its halves are alike)"),
-            Self::Strip(kind) => format!("cube:layout={kind} (by its shape)"),
+            Self::Strip(kind) => format!("{} (by its shape)", in_layout(*kind)),
+            Self::Seams(spec) => format!("{spec} (by its shape, and because the borders of its faces meet)"),
             Self::Blank(evidence) => describe_blank(evidence),
             Self::Unknown(kinds, seen) => {
                 let (width, height) = size(header);
@@ -132,7 +145,7 @@ impl Guess {
 
 fn describe_blank(evidence: &Evidence) -> String {
     match evidence {
-        Evidence::Cross(kind) => format!("cube:layout={kind} (one colour surrounds a cross)"),
+        Evidence::Cross(kind) => format!("{} (one colour surrounds a cross)", in_layout(*kind)),
         Evidence::CrossElsewhere(kind, mirror) => {
             let Readings { mirrored, upright, on_its_head } = Readings::new(*kind, *mirror);
             format!(
@@ -145,7 +158,7 @@ fn describe_blank(evidence: &Evidence) -> String {
                 Found::Measured(_) => "a circle on black",
                 Found::Roughly(_) => "roughly: a disc on black, too dark at its rim to measure",
             };
-            let (fisheye, ball) = (circle_spec("fisheye:fov=180,", found), circle_spec("mirror-ball:", found));
+            let [fisheye, ball] = disc::specs(found, "180");
             format!("{fisheye} ({how}; 180 degrees are a guess), or {ball}")
         }
         Evidence::Circle => format!("fulldome (square, black around a circle), or {ROUND_ONES}"),
@@ -162,19 +175,44 @@ fn describe_blank(evidence: &Evidence) -> String {
 }
 
 /// Returns the SPEC of two domemasters in one image.
-pub(crate) fn dome_spec(circles: &Circles) -> &'static str {
-    match circles.arrangement {
-        Arrangement::SideBySide => "fulldome:stereo=sbs",
-        Arrangement::TopBottom => "fulldome:stereo=tb",
+pub(crate) fn dome_spec(circles: &Circles) -> Spec {
+    for_eyes(CameraModel::Fulldome(FulldomeCamera::default()), circles.arrangement, false)
+}
+
+/// Returns the SPECs of a picture of 2:1 that is for two eyes.
+pub(crate) fn two_eyes(halves: Arrangement) -> String {
+    let squeezed = for_eyes(whole_sphere(), halves, true);
+    let half = CameraModel::Equirect(EquirectCamera { horizontal: Angle::HALF_TURN, ..EquirectCamera::default() });
+    match halves {
+        Arrangement::SideBySide => format!("{} or {squeezed}", for_eyes(half, halves, false)),
+        Arrangement::TopBottom => squeezed.to_string(),
     }
 }
 
-/// Returns the SPEC of a picture of 2:1 that is for two eyes.
-pub(crate) fn two_eyes(halves: Arrangement) -> &'static str {
-    match halves {
-        Arrangement::SideBySide => "equirect:hfov=180,stereo=sbs or equirect:stereo=sbs-half",
-        Arrangement::TopBottom => "equirect:stereo=tb-half",
-    }
+fn for_eyes(frame: CameraModel, arrangement: Arrangement, is_half: bool) -> Spec {
+    let packing = Stereo { arrangement, is_half, is_swapped: false };
+    Spec { stereo: Some(StereoSpec { packing, eye: None }), ..frame.into() }
+}
+
+fn whole_sphere() -> CameraModel {
+    CameraModel::Equirect(EquirectCamera::default())
+}
+
+/// Returns a panorama, perhaps a part of one.
+pub(crate) fn panorama(samples: SamplePositions, window: Option<Window>) -> Shape {
+    let frame = CameraModel::Equirect(EquirectCamera { samples, ..EquirectCamera::default() });
+    let placement = Placement { canvas: window.map(canvas_of), ..Placement::new(frame.clone()) };
+    Shape::Single(Single { placement, ..frame.into() })
+}
+
+/// Returns the SPEC of faces in one image.
+pub(crate) fn in_layout(kind: LayoutKind) -> Spec {
+    Cube::from(kind).into()
+}
+
+/// Returns the strip that OpenEXR's attribute for environments names.
+fn openexr_strip() -> Cube {
+    Cube { order: Some(FaceOrder::OPENEXR), ..LayoutKind::StripV.into() }
 }
 
 /// Returns the reason why nothing is known.
@@ -190,7 +228,7 @@ fn describe_nothing(seen: &Seen) -> &str {
 /// Lists possible projections of an unknown image: names for `--from`.
 pub(crate) fn candidates(header: &Header, layouts: &[LayoutKind]) -> String {
     let (width, height) = size(header);
-    let mut names: Vec<String> = layouts.iter().map(|kind| format!("cube:layout={kind}")).collect();
+    let mut names: Vec<String> = layouts.iter().map(|kind| in_layout(*kind).to_string()).collect();
     let by_shape: &[&str] = if width == height {
         &[
             "fulldome",
@@ -218,15 +256,6 @@ pub(crate) fn candidates(header: &Header, layouts: &[LayoutKind]) -> String {
     names.extend(by_shape.iter().map(|name| (*name).to_owned()));
     let last = names.pop().unwrap_or_default();
     if names.is_empty() { last } else { format!("{} or {last}", names.join(", ")) }
-}
-
-/// Completes the beginning of a SPEC by the place of a circle.
-pub(crate) fn circle_spec(start: &str, found: &Found) -> String {
-    let Circle { centre: (x, y), radius } = found.circle();
-    match found {
-        Found::Measured(_) => format!("{start}center={x:.1}:{y:.1},radius={radius:.1}"),
-        Found::Roughly(_) => format!("{start}center={x:.0}:{y:.0},radius={radius:.0}"),
-    }
 }
 
 /// Returns the size of the whole picture.

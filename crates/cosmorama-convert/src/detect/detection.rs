@@ -1,14 +1,16 @@
 use std::path::Path;
 
-use cosmorama::camera::{CameraModel, EquirectCamera, Placement, SamplePositions};
+use cosmorama::camera::{CameraModel, EquirectCamera, FulldomeCamera, OmnimaxCamera, SamplePositions};
 use cosmorama::circle::Found;
 use cosmorama::layout::{FaceOrder, LayoutKind};
-use cosmorama_io::{EnvMap, Header, Window};
-use cosmorama_spec::{Cube, Packing, Shape, Single, Spec, SphereSamples, StereoSpec};
+use cosmorama_io::{EnvMap, Header};
+use cosmorama_spec::{Cube, Packing, Shape, Single, Spec, StereoSpec};
 
-use crate::detect::decision::{OVAL_ONES, ROUND_ONES, candidates, circle_spec, dome_spec, layouts_of_shape, two_eyes};
-use crate::detect::pixels::damage_of;
-use crate::detect::{Evidence, Guess, Readings, Seen};
+use crate::detect::decision::{
+    OVAL_ONES, ROUND_ONES, candidates, dome_spec, in_layout, layouts_of_shape, panorama, two_eyes,
+};
+use crate::detect::pixels::{damage_of, is_small, light_of};
+use crate::detect::{Continuity, Evidence, Examined, Guess, Readings, Seen, disc, seams};
 use crate::diagnostic::{Code, Diagnostic, FROM, Remedy, Result, Setting, Severity, bail, usage, usage_as};
 use crate::input::canvas::canvas_of;
 use crate::input::{Access, DecodedPicture, Files};
@@ -20,20 +22,21 @@ pub(crate) fn detect(
     header: &Header,
     warnings: &mut Vec<Diagnostic>,
 ) -> Result<(Shape, Option<StereoSpec>)> {
-    let (guess, damage) = Guess::of(access.files, path, header, access.decoded);
+    let Examined { guess, damage, borders } = Examined::of(access.files, path, header, access.decoded);
     if let Some(damage) = damage {
         bail!(Damaged: "{damage}");
     }
     let mono = |shape: Shape| Ok((shape, None));
     // What is as plain as a shape is no warning.
     let is_plain = matches!(guess, Guess::TwoToOne(None));
-    let mut announce = |what: &str, spec: &str, why: &str| {
-        let remedy = Remedy::Set(Setting::From, spec.to_owned());
+    let mut announced = |what: &str, spec: Spec, why: &str| {
+        let remedy = Remedy::Set(Setting::From, spec.to_string());
         let what = format!("{what} ({FROM} {spec})");
         let message = format!("{} is taken for {what}, because {why}", path.display());
         let severity = if is_plain { Severity::Note } else { Severity::Warning };
         let told = Diagnostic { severity, ..Diagnostic::warning(Code::Detected, message) };
         warnings.push(told.about(path.display()).with_remedy(remedy));
+        Ok((spec.shape, spec.stereo))
     };
     match guess {
         Guess::Said(EnvMap::LatLong) => mono(panorama(SamplePositions::Edges, None)),
@@ -46,32 +49,34 @@ pub(crate) fn detect(
                 format!("; its halves are alike: if they are for two eyes, give {FROM} {}", two_eyes(halves))
             });
             let why = format!("it is twice as wide as high{}", else_what.unwrap_or_default());
-            announce("a panorama", "equirect", &why);
-            mono(panorama(SamplePositions::Centres, None))
+            announced("a panorama", panorama(SamplePositions::Centres, None).into(), &why)
         }
         Guess::Stereo(spec) => {
-            announce("a panorama for each eye", spec, "of its shape and because its halves are alike");
-            parsed(spec)
+            announced("a panorama for each eye", spec, "of its shape and because its halves are alike")
         }
-        Guess::Strip(kind) => {
-            announce("the faces of a cube", &format!("cube:layout={kind}"), "of its shape");
-            mono(one_image(kind))
+        Guess::Strip(kind) => announced("the faces of a cube", in_layout(kind), "of its shape"),
+        Guess::Seams(spec) => {
+            announced("the faces of a cube", spec, "of its shape and because the borders of its faces meet")
         }
         Guess::Blank(evidence) => {
             let (spec, what, why) = guessed(path, evidence)?;
-            announce(what, &spec, &why);
-            parsed(&spec)
+            announced(what, spec, &why)
         }
-        Guess::Unknown(kinds, seen) => bail!(Ambiguous: "{}", ambiguous(path, header, &kinds, &seen)),
+        Guess::Unknown(kinds, seen) => {
+            let fit = borders
+                .and_then(|found| found.spec)
+                .map(|spec| format!("; as the faces of a cube, their borders would meet by {FROM} {spec}"));
+            bail!(Ambiguous: "{}{}", ambiguous(path, header, &kinds, &seen), fit.unwrap_or_default())
+        }
     }
 }
 
 /// Returns the guess from blank areas: the SPEC, its name in messages, and the reason.
-fn guessed(path: &Path, evidence: Evidence) -> Result<(String, &'static str, String)> {
+fn guessed(path: &Path, evidence: Evidence) -> Result<(Spec, &'static str, String)> {
     Ok(match evidence {
         Evidence::Cross(kind) => {
             let why = "of its shape and because one colour surrounds a cross".to_owned();
-            (format!("cube:layout={kind}"), "the faces of a cube", why)
+            (in_layout(kind), "the faces of a cube", why)
         }
         Evidence::CrossElsewhere(kind, mirror) => {
             let Readings { mirrored, upright, on_its_head } = Readings::new(kind, mirror);
@@ -85,31 +90,32 @@ fn guessed(path: &Path, evidence: Evidence) -> Result<(String, &'static str, Str
         Evidence::Circle => {
             let why =
                 format!("it is square and black around a circle; so may {ROUND_ONES} be, which {FROM} has to say");
-            ("fulldome".to_owned(), "a domemaster", why)
+            (CameraModel::Fulldome(FulldomeCamera::default()).into(), "a domemaster", why)
         }
         Evidence::Omnimax => {
             let why = "it is black around a circle that is cut off below".to_owned();
-            ("omnimax".to_owned(), "an Omnimax frame", why)
+            (CameraModel::Omnimax(OmnimaxCamera::default()).into(), "an Omnimax frame", why)
         }
         Evidence::Circles(circles) if circles.are_alike => {
             let why = format!(
                 "it has two circles on black that are alike; two cameras back to back would be {FROM} {}",
                 circles.dual_spec()
             );
-            (dome_spec(&circles).to_owned(), "a domemaster for each eye", why)
+            (dome_spec(&circles), "a domemaster for each eye", why)
         }
         Evidence::Circles(circles) => {
             let why =
                 "it has two circles on black; that each sees 195 degrees is a guess, which fov= can mend".to_owned();
             (circles.dual_spec(), "two fisheyes", why)
         }
-        Evidence::Disc(found) => bail!(
-            Ambiguous: "{}: a circle on black, as a fisheye lens leaves it, whose field of view is not known; give {FROM} {}, or, for a \
-             mirror ball, {FROM} {}",
-            path.display(),
-            circle_spec("fisheye:fov=DEGREES,", &found),
-            circle_spec("mirror-ball:", &found)
-        ),
+        Evidence::Disc(found) => {
+            let [fisheye, ball] = disc::specs(&found, "DEGREES");
+            bail!(
+                Ambiguous: "{}: a circle on black, as a fisheye lens leaves it, whose field of view is not known; give {FROM} \
+                 {fisheye}, or, for a mirror ball, {FROM} {ball}",
+                path.display()
+            )
+        }
         Evidence::Oval => bail!(
             Ambiguous: "{}: twice as wide as high, with one colour around an oval, as oval maps have it; give {FROM} {OVAL_ONES}, or \
              {FROM} equirect if it is a panorama all the same",
@@ -119,12 +125,6 @@ fn guessed(path: &Path, evidence: Evidence) -> Result<(String, &'static str, Str
             bail!(Ambiguous: "{}: two pictures that are alike; give {FROM} SPEC with stereo=", path.display())
         }
     })
-}
-
-/// Parses a guess, which is written as users would type it.
-fn parsed(spec: &str) -> Result<(Shape, Option<StereoSpec>)> {
-    let Spec { shape, stereo, .. } = spec.parse()?;
-    Ok((shape, stereo))
 }
 
 /// Returns the error that lists possible projections of an unknown image.
@@ -141,16 +141,6 @@ fn ambiguous(path: &Path, header: &Header, layouts: &[LayoutKind], seen: &Seen) 
         header.height,
         candidates(header, layouts)
     )
-}
-
-fn panorama(samples: SamplePositions, window: Option<Window>) -> Shape {
-    let frame = CameraModel::Equirect(EquirectCamera { samples, ..EquirectCamera::default() });
-    let placement = Placement { canvas: window.map(canvas_of), ..Placement::new(frame) };
-    Shape::Single(Single { placement, samples: SphereSamples::ByFormat, any_shape: false })
-}
-
-fn one_image(kind: LayoutKind) -> Shape {
-    Shape::Cube(Cube { layout: Some(Packing::OneImage(kind)), ..Cube::default() })
 }
 
 /// Completes the projection of `--from` by the metadata of the file.
@@ -206,14 +196,15 @@ fn declared_cube(cube: &Cube, pattern: &str, header: &Header, warnings: &mut Vec
     let kinds: Vec<LayoutKind> = layouts_of_shape(header.width, header.height).collect();
     match kinds[..] {
         [kind] => {
-            let message = format!("{pattern} is read as {FROM} cube:layout={kind}, because of its shape");
-            let remedy = Remedy::Set(Setting::From, format!("cube:layout={kind}"));
+            let spec = in_layout(kind).to_string();
+            let message = format!("{pattern} is read as {FROM} {spec}, because of its shape");
+            let remedy = Remedy::Set(Setting::From, spec);
             warnings.push(Diagnostic::warning(Code::Detected, message).about(pattern).with_remedy(remedy));
             Ok(Cube { layout: Some(Packing::OneImage(kind)), ..cube.clone() })
         }
         _ => {
             let names = if kinds.is_empty() { LayoutKind::ALL.to_vec() } else { kinds };
-            let names: Vec<String> = names.iter().map(|kind| format!("cube:layout={kind}")).collect();
+            let names: Vec<String> = names.into_iter().map(|kind| in_layout(kind).to_string()).collect();
             Err(usage_as(
                 Code::Ambiguous,
                 format!(
@@ -234,23 +225,24 @@ pub struct Likely {
     pub projection: String,
     /// Circle of a lens on black.
     pub circle: Option<Found>,
-    /// Cubes whose faces it may hold.
-    pub cubes: Vec<Cube>,
-    /// Whether `cubes` is guessed from the image's shape alone, so that it may hold none.
-    pub may_be_none: bool,
+    /// Judgement of the faces that it holds, or may hold.
+    pub arrangement: Option<Continuity>,
     /// Damage, if its pixels cannot be read.
     pub damage: Option<String>,
 }
 
-/// Examines an image.
-pub fn likely(files: &dyn Files, path: &Path, header: &Header) -> Likely {
-    let (guess, damage) = Guess::of(files, path, header, &DecodedPicture::default());
-    // Whoever asks what a file is wants to know whether it is whole.
-    let damage = damage.or_else(|| if guess.has_looked() { None } else { damage_of(files, path) });
+/// Examines an image. With `reads_all`, its pixels are read even where its header tells what it is: whether they are
+/// whole, and how faces lie.
+pub fn likely(files: &dyn Files, path: &Path, header: &Header, reads_all: bool) -> Likely {
+    let Examined { guess, damage, borders } = Examined::of(files, path, header, &DecodedPicture::default());
+    let is_unread = reads_all && !guess.has_looked() && is_small(header);
+    let damage = damage.or_else(|| if is_unread { damage_of(files, path) } else { None });
     let circle = match guess {
         Guess::Blank(Evidence::Disc(found)) => Some(found),
         _ => None,
     };
-    let may_be_none = matches!(guess, Guess::Unknown(..));
-    Likely { projection: guess.describe(header), circle, cubes: guess.cubes(), may_be_none, damage }
+    let cubes = if reads_all { guess.cubes() } else { Vec::new() };
+    let picture = if cubes.is_empty() { None } else { light_of(files, path) };
+    let judged = picture.and_then(|picture| seams::judged(&cubes, header.metadata.envmap, &picture));
+    Likely { projection: guess.describe(header), circle, arrangement: borders.or(judged), damage }
 }

@@ -4,10 +4,10 @@ use cosmorama::layout::{CubeLayout, FaceOrder, FacePlacement, LayoutKind, Placed
 use cosmorama::raster::{Image, Rgba};
 use cosmorama::sphere::CubeFace;
 use cosmorama_io::{EnvMap, Naming};
-use cosmorama_spec::{Cube, Packing};
+use cosmorama_spec::{Cube, Packing, Spec};
 
 use crate::detect::cross_variants::told_elsewhere;
-use crate::detect::mirrored_faces::{ACROSS, flip_key};
+use crate::detect::mirrored_faces::ACROSS;
 use crate::detect::{cross_variants, mirrored_faces};
 use crate::diagnostic::{FROM, Message};
 
@@ -23,9 +23,9 @@ pub struct GivenFaces {
     samples: SamplePositions,
 }
 
-/// SPEC of a tool whose files or places have this arrangement.
+/// Arrangement of a tool whose files or places have this arrangement.
 struct Preset {
-    spec: String,
+    cube: Cube,
     /// Layout, if it differs from the declared one.
     other: Option<LayoutKind>,
 }
@@ -49,7 +49,7 @@ pub struct Continuity {
     /// Changes that would make them fit.
     pub changes: Vec<String>,
     /// SPEC under which they fit, if there is one.
-    pub spec: Option<String>,
+    pub spec: Option<Spec>,
 }
 
 /// Size of a picture, and its light by column and row.
@@ -206,8 +206,8 @@ impl GivenFaces {
         let plain = self.preset(mismatch, given, fits, false);
         let flipped = self.preset(mismatch, given, fits, true).filter(|_| !is_mirrored);
         let other = plain.iter().chain(&flipped).find_map(|preset| preset.other);
-        let plain = plain.map(|preset| preset.spec).or_else(|| self.spec(fits, other));
-        let flipped = flipped.map(|preset| preset.spec);
+        let plain = plain.map(|preset| preset.cube).or_else(|| self.placed(fits, other)).map(Spec::from);
+        let flipped = flipped.map(|preset| Spec::from(preset.cube));
         let (changes, calls) = match other {
             Some(other) => (vec![format!("they lie as layout={other} has them")], ""),
             None => {
@@ -217,7 +217,7 @@ impl GivenFaces {
         };
         let advice = match (&self.packing, &plain, &flipped) {
             (GivenPacking::Files(_), None, None) => "; do that with the files".to_owned(),
-            _ => advice(plain.as_deref(), flipped.as_deref(), self.mirror.is_backwards()),
+            _ => advice(plain.as_ref(), flipped.as_ref(), self.mirror.is_backwards()),
         };
         let told = format!(
             "the borders of the faces do not meet as they lie{}: {}{calls}{advice}{}",
@@ -229,13 +229,13 @@ impl GivenFaces {
         Continuity { told: told.into(), fits: Some(false), confidence: Some(fit.confidence), changes, spec }
     }
 
-    /// Finds the SPEC of a tool with this arrangement, as it is or with every picture mirrored. A layout's own order is
+    /// Finds the cube of a tool with this arrangement, as it is or with every picture mirrored. A layout's own order is
     /// preferred.
     fn preset(&self, mismatch: &Mismatch, given: &[Pose], fits: &[Pose], is_flipped: bool) -> Option<Preset> {
         let all_given = self.poses.len() == given.len();
         let is_it = |poses: &Vec<Pose>| all_given && fits_as_well(mismatch, fits, poses);
-        let flip = flip_key(if is_flipped { self.mirror.and(ACROSS) } else { self.mirror });
-        let own = |spec: String| Preset { spec, other: None };
+        let mirror = if is_flipped { self.mirror.and(ACROSS) } else { self.mirror };
+        let own = |cube: Cube| Preset { cube: Cube { mirror, ..cube }, other: None };
         match self.packing {
             GivenPacking::Files(naming) => {
                 let lies = |other: &'static Naming| {
@@ -245,7 +245,7 @@ impl GivenFaces {
                 };
                 let same_names = Naming::presets().iter().filter(|other| other.names == naming.names);
                 let found = same_names.into_iter().find(|other| is_it(&lies(other)))?;
-                Some(own(format!("cube:naming={}{flip}", found.name)))
+                Some(own(Cube { naming: Some(found), ..Cube::default() }))
             }
             GivenPacking::OneImage(kind) => {
                 let fits = |layout: CubeLayout| {
@@ -253,39 +253,36 @@ impl GivenFaces {
                         .is_some_and(|poses| is_it(&poses))
                 };
                 if let Some(found) = same_places(kind).find(|other| fits(CubeLayout::new(*other))) {
-                    let spec = format!("cube:layout={found}{flip}");
-                    return Some(Preset { spec, other: Some(found).filter(|found| *found != kind) });
+                    return Some(Preset { other: Some(found).filter(|found| *found != kind), ..own(found.into()) });
                 }
                 let (likely, other): (Vec<_>, Vec<_>) =
                     FaceOrder::presets().iter().partition(|order| order.samples == self.samples);
                 let mut orders = likely.into_iter().chain(other);
                 if let Some(found) = orders.find(|order| fits(CubeLayout::new(kind).with_order(order))) {
-                    return Some(own(format!("cube:layout={kind},order={}{flip}", found.name)));
+                    return Some(own(Cube { order: Some(found), ..kind.into() }));
                 }
                 // Each picture may be mirrored in its own place.
                 let given: Vec<Pose> = given.iter().map(|pose| mirrored_faces::of(*pose)).collect();
-                let spec = if is_flipped && is_it(&given) { mirrored_faces::spec(kind, &given) } else { None };
-                spec.map(|spec| own(format!("{spec}{flip}")))
+                let cube = if is_flipped && is_it(&given) { mirrored_faces::cube(kind, &given) } else { None };
+                cube.map(own)
             }
         }
     }
 
-    /// Returns the SPEC that describes the arrangement place by place, perhaps in another layout. `None` if a picture
+    /// Returns the cube that describes the arrangement place by place, perhaps in another layout. `None` if a picture
     /// is mirrored, or has another face's name.
-    fn spec(&self, fits: &[Pose], other: Option<LayoutKind>) -> Option<String> {
+    fn placed(&self, fits: &[Pose], other: Option<LayoutKind>) -> Option<Cube> {
         if fits.len() != 6 || fits.iter().any(|pose| pose.is_mirrored()) {
             return None;
         }
         // A picture that has to be turned one way lies turned the other way.
-        let digits = |fits: &mut dyn Iterator<Item = &Pose>| -> String {
-            fits.map(|pose| char::from(b'0' + (4 - pose.placement().quarter_turns) % 4)).collect()
-        };
+        let turns = |pose: &Pose| (4 - pose.placement().quarter_turns) % 4;
         match self.packing {
             GivenPacking::OneImage(kind) => {
                 let letters: String = fits.iter().filter_map(|pose| pose.face.name().chars().next()).collect();
-                let (digits, flip) = (digits(&mut fits.iter()), flip_key(self.mirror));
-                let kind = other.unwrap_or(kind);
-                Some(format!("cube:layout={kind},order={letters},rotate={digits}{flip}"))
+                let rotate: Vec<u8> = fits.iter().map(turns).collect();
+                let (order, rotate) = (FaceOrder::parse(&letters), rotate.try_into().ok());
+                Some(Cube { order, rotate, mirror: self.mirror, ..other.unwrap_or(kind).into() })
             }
             GivenPacking::Files(naming) => {
                 let is_named = |(fits, given): (&Pose, &Pose)| fits.face == given.face;
@@ -294,8 +291,9 @@ impl GivenFaces {
                     return None;
                 }
                 let order = FaceOrder::parse("rludfb")?.faces;
-                let mut poses = order.iter().filter_map(|face| fits.iter().find(|pose| pose.face == *face));
-                Some(format!("cube:naming={},rotate={}", naming.name, digits(&mut poses)))
+                let poses = order.iter().filter_map(|face| fits.iter().find(|pose| pose.face == *face));
+                let rotate = poses.map(turns).collect::<Vec<_>>().try_into().ok();
+                Some(Cube { naming: Some(naming), rotate, ..Cube::default() })
             }
         }
     }
@@ -325,13 +323,13 @@ fn poses(layout: CubeLayout) -> Vec<Pose> {
 
 /// Returns the advice for faces that fit as in `plain` or, if all were mirrored, as in `flipped`. `is_mirrored` says
 /// that mirroring is declared already. Borders cannot tell a cube from its mirror image.
-fn advice(plain: Option<&str>, flipped: Option<&str>, is_mirrored: bool) -> String {
+fn advice(plain: Option<&Spec>, flipped: Option<&Spec>, is_mirrored: bool) -> String {
     let when = if is_mirrored {
         "no face is mirrored, so that writing in it does not read backwards"
     } else {
         "every face is mirrored instead, so that writing in it reads backwards"
     };
-    let mirrored = |spec: &str| format!("if {when}, they fit {FROM} {spec}: borders do not tell");
+    let mirrored = |spec: &Spec| format!("if {when}, they fit {FROM} {spec}: borders do not tell");
     match (plain, flipped) {
         (Some(plain), None) => format!("; they fit {FROM} {plain}"),
         (Some(plain), Some(flipped)) => format!("; they fit {FROM} {plain}; {}", mirrored(flipped)),

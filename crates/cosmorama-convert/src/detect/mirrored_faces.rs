@@ -3,6 +3,7 @@
 use cosmorama::arrange::Pose;
 use cosmorama::camera::Mirror;
 use cosmorama::layout::{CubeLayout, FaceOrder, FacePlacement, LayoutKind};
+use cosmorama_spec::Cube;
 
 pub(crate) const ACROSS: Mirror = Mirror { x: true, y: false };
 
@@ -22,19 +23,9 @@ pub(crate) fn poses(kind: LayoutKind, layout: CubeLayout) -> Option<Vec<Pose>> {
     places.iter().map(|place| pose(place.rect)).collect()
 }
 
-/// Returns the end of a SPEC that mirrors a picture.
-pub(crate) fn flip_key(mirror: Mirror) -> &'static str {
-    match (mirror.x, mirror.y) {
-        (false, false) => "",
-        (true, false) => ",flip=x",
-        (false, true) => ",flip=y",
-        (true, true) => ",flip=xy",
-    }
-}
-
-/// Returns the order and the turns for pictures mirrored by `flip=x` that lie as given, in the order of the layout's
-/// places.
-pub(crate) fn spec(kind: LayoutKind, lie: &[Pose]) -> Option<String> {
+/// Returns the cube, with its order and its turns, of pictures mirrored by `flip=x` that lie as given, in the order of the
+/// layout's places.
+pub(crate) fn cube(kind: LayoutKind, lie: &[Pose]) -> Option<Cube> {
     let plain = || CubeLayout::new(kind);
     let places = plain().faces(2);
     // An image that is mirrored has its first face last.
@@ -46,6 +37,6 @@ pub(crate) fn spec(kind: LayoutKind, lie: &[Pose]) -> Option<String> {
     let ordered = |turns: u8| plain().with_order(&order).with_turns([turns; 6]);
     let turned: Vec<Vec<Pose>> = (0..4).map(|turns| poses(kind, ordered(turns))).collect::<Option<_>>()?;
     let digit = |place: &usize| (0..4_u8).find(|turns| turned[usize::from(*turns)][*place] == lie[*place]);
-    let digits: String = seats.iter().map(|place| Some(char::from(b'0' + digit(place)?))).collect::<Option<_>>()?;
-    Some(format!("cube:layout={kind},order={letters},rotate={digits}"))
+    let rotate: Vec<u8> = seats.iter().map(digit).collect::<Option<_>>()?;
+    Some(Cube { order: Some(order), rotate: rotate.try_into().ok(), ..kind.into() })
 }

@@ -1,6 +1,6 @@
 //! Evidence in the pixels of an image about its projection.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use cosmorama::camera::{CameraModel, Mirror, OmnimaxCamera, PixelRect};
 use cosmorama::circle;
@@ -8,11 +8,12 @@ use cosmorama::circle::{Circle, Found};
 use cosmorama::layout::{Arrangement, CubeLayout, LayoutKind};
 use cosmorama::raster::{EncodedImage, Image, Rgba, Samples, Transfer, Uniform};
 use cosmorama_io::{Header, ImageFile, IoError, Limits};
+use rayon::prelude::*;
 
-use crate::budget::light_bytes;
+use crate::budget::{MemoryBudget, light_bytes};
 use crate::detect::oval::is_oval;
-use crate::detect::{Circles, Twins, cross_variants};
-use crate::diagnostic::Result;
+use crate::detect::{Circles, Continuity, Twins, cross_variants, seams};
+use crate::diagnostic::{Code, ConvertError, Result, failed_as};
 use crate::input::{DecodedPicture, Files, probe, read};
 
 /// Size, in bytes, above which an image is not decoded for detection only.
@@ -34,23 +35,37 @@ pub(crate) const BLACK: f32 = 0.06;
 
 /// Reads the light of an image for detection; `None` if it is too large or damaged.
 pub fn light_of(files: &dyn Files, path: &Path) -> Option<Image<Rgba>> {
-    let image = decoded(files, path).ok()?.image;
-    let transfer = if image.depth().is_float() { Transfer::Linear } else { Transfer::Srgb };
-    Some(image.to_light(&transfer))
+    decoded(files, path).ok().map(|file| light(&file.image))
+}
+
+fn light(image: &EncodedImage) -> Image<Rgba> {
+    image.to_light(if image.depth().is_float() { &Transfer::Linear } else { &Transfer::Srgb })
+}
+
+/// Returns whether an image is small enough to be decoded for detection only.
+pub(crate) fn is_small(header: &Header) -> bool {
+    light_bytes(header) <= MOST_BYTES
 }
 
 fn decoded(files: &dyn Files, path: &Path) -> Result<ImageFile, IoError> {
     // Light takes more memory than the samples that it is made of.
-    let limit = if light_bytes(&probe(files, path)?) > MOST_BYTES { 0 } else { MOST_BYTES };
+    let limit = if is_small(&probe(files, path)?) { MOST_BYTES } else { 0 };
     read(files, path, &Limits::memory(limit))
 }
 
-/// Returns the damage of a file whose pixels cannot be read; `None` also for one that is too large to try.
+/// Returns the damage of a file whose pixels cannot be read; `None` also for one that is too large for memory.
 pub fn damage_of(files: &dyn Files, path: &Path) -> Option<String> {
-    match decoded(files, path) {
+    match read(files, path, &Limits::memory(MemoryBudget::new(None).bytes)) {
         Ok(_) | Err(IoError::TooLarge { .. }) => None,
         Err(error) => Some(error.to_string()),
     }
+}
+
+/// Replaces an error about what files seem to lack by that about damage, if the pixels of one cannot be read.
+pub(crate) fn unless_damaged(files: &dyn Files, paths: Vec<PathBuf>, error: ConvertError) -> ConvertError {
+    let is_of_content = matches!(error.code(), Code::Uncovered | Code::WrongSize | Code::Geometry | Code::Ambiguous);
+    let damage = |path: PathBuf| if is_of_content { damage_of(files, &path) } else { None };
+    paths.into_par_iter().find_map_first(damage).map_or(error, |damage| failed_as(Code::Damaged, damage))
 }
 
 /// Finding from the blank areas of an image.
@@ -88,19 +103,29 @@ pub(crate) enum Seen {
 }
 
 impl Seen {
-    /// Examines the pixels, beginning with what the image's shape suggests.
-    pub(crate) fn of(files: &dyn Files, path: &Path, header: &Header, held: &DecodedPicture) -> Self {
+    /// Examines the pixels, beginning with what the image's shape suggests. Where its blank areas do not tell, the
+    /// borders of faces are compared that it would have in one of these layouts.
+    pub(crate) fn of(
+        files: &dyn Files,
+        path: &Path,
+        (header, layouts): (&Header, &[LayoutKind]),
+        held: &DecodedPicture,
+    ) -> (Self, Option<Continuity>) {
         if header.window.is_some() {
-            return Self::Unseen("it is a part of a larger picture".to_owned());
+            return (Self::Unseen("it is a part of a larger picture".to_owned()), None);
         }
         let file = match decoded(files, path) {
             Ok(file) => file,
-            Err(IoError::TooLarge { .. }) => return Self::Unseen("it is too large to look at its pixels".to_owned()),
-            Err(error) => return Self::Damaged(error.to_string()),
+            Err(IoError::TooLarge { .. }) => {
+                return (Self::Unseen("it is too large to look at its pixels".to_owned()), None);
+            }
+            Err(error) => return (Self::Damaged(error.to_string()), None),
         };
         let seen = Evidence::of_image(&file.image).map_or(Self::Nothing, Self::Evidence);
+        let may_be_cube = !layouts.is_empty() && matches!(seen, Self::Nothing | Self::Evidence(Evidence::Twins(_)));
+        let borders = if may_be_cube { seams::among(layouts, &light(&file.image)) } else { None };
         held.put(path, file);
-        seen
+        (seen, borders)
     }
 }
 

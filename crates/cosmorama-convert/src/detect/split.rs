@@ -1,12 +1,15 @@
 //! Detection of images with two pictures: two circles, or one picture for each eye.
 
-use cosmorama::camera::PixelRect;
+use cosmorama::camera::{FisheyeCamera, LensCircle, Mirror, PixelRect};
 use cosmorama::circle;
 use cosmorama::circle::{Circle, Found};
 use cosmorama::compare::likeness;
-use cosmorama::layout::{Arrangement, LensSide};
+use cosmorama::layout::{Arrangement, DualFisheye, DualLens, LensSide};
 use cosmorama::raster::{Image, Rgba};
+use cosmorama::sphere::Orientation;
+use cosmorama_spec::{Dual, Shape, Spec};
 
+use crate::detect::disc::lens_circle;
 use crate::detect::pixels::{fills, is_round};
 
 /// Similarity above which two pictures show the same.
@@ -52,16 +55,17 @@ impl Circles {
     }
 
     /// Returns the SPEC of two cameras back to back, with a guessed field of view.
-    pub(crate) fn dual_spec(&self) -> String {
-        let mut keys = match self.arrangement {
-            Arrangement::SideBySide => Vec::new(),
-            Arrangement::TopBottom => vec!["layout=top-bottom".to_owned()],
+    pub(crate) fn dual_spec(&self) -> Spec {
+        let [front, back] = match self.circles {
+            Some(circles) => circles.map(|circle| lens_circle(&Found::Measured(circle))),
+            None => [LensCircle::FITTED; 2],
         };
-        for (side, Circle { centre: (x, y), radius }) in LensSide::ALL.iter().zip(self.circles.into_iter().flatten()) {
-            let name = side.name();
-            keys.push(format!("{name}.center={x:.1}:{y:.1},{name}.radius={radius:.1}"));
-        }
-        if keys.is_empty() { "dual-fisheye".to_owned() } else { format!("dual-fisheye:{}", keys.join(",")) }
+        let whole = FisheyeCamera { field_of_view: DualFisheye::FIELD_OF_VIEW, ..FisheyeCamera::default() };
+        let lens = |circle| DualLens { frame: FisheyeCamera { circle, ..whole }, turned: Orientation::IDENTITY };
+        let (front, back, first) = (lens(front), lens(back), LensSide::Front);
+        let picture = DualFisheye { arrangement: self.arrangement, first, front, back, feather: None };
+        let dual = Dual { picture, orientation: Orientation::IDENTITY, mirror: Mirror::default() };
+        Shape::Dual(Box::new(dual)).into()
     }
 }
 

@@ -74,6 +74,10 @@ pub enum Code {
     FaceShape,
     /// The borders of faces do not match.
     Arrangement,
+    /// A picture is a single pixel.
+    OnePixel,
+    /// A lens's circle is elsewhere than assumed.
+    Circle,
     /// Pixels are NaN.
     NotANumber,
     /// Much of the light comes from bright, small sources.

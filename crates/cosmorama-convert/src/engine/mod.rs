@@ -9,7 +9,7 @@ mod geometry;
 mod sequence;
 pub(crate) mod st_map;
 mod timing;
-mod warnings;
+pub(crate) mod warnings;
 mod writer;
 
 pub use timing::CpuSeconds;

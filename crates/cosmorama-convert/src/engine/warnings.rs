@@ -1,13 +1,16 @@
-//! Warnings about the light of a frame: bright sources that filters do not keep, and alpha that is nowhere full.
+//! Warnings about the light of a frame: bright sources that filters do not keep, alpha that is nowhere full, and a lens's
+//! circle that is elsewhere than assumed.
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 use cosmorama::filter::FilterKind;
 use cosmorama::sphere::Direction;
+use cosmorama_spec::Spec;
 
 use crate::colour::ThinAlpha;
 use crate::conversion::ConvertJob;
+use crate::detect::disc;
 use crate::diagnostic::{Code, Diagnostic, FILTER, KERNEL, Remedy, Setting};
 use crate::engine::{FrameLight, balance};
 
@@ -75,4 +78,11 @@ pub(crate) fn thin_alpha(job: &ConvertJob, frame: Option<u64>, light: &FrameLigh
         Some(Diagnostic::warning(Code::AlphaThin, format!("{path}: {}", alpha?.told()?)).about(path))
     };
     files.into_iter().filter_map(told).collect()
+}
+
+/// Warns where a lens has left its circle elsewhere than `--from` assumes, which does not place it.
+pub(crate) fn circle(job: &ConvertJob, from: &Spec, light: &FrameLight) -> Option<Diagnostic> {
+    let (view, _, held) = job.input.present().next().filter(|(_, header, _)| header.window.is_none())?;
+    let (width, height) = (held.width(), held.height());
+    disc::elsewhere(from, (&view.name, (width, height)), |i, j| light.texels().rgba(0, j * width + i))
 }

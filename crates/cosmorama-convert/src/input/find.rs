@@ -7,8 +7,8 @@ use cosmorama::world::{Blend, ViewMask, WorldView};
 use cosmorama_io::{EnvMap, FaceFile, FacePattern, FaceSet, FrameList, Header};
 use cosmorama_spec::{Cube, Packing, Shape, Single, Spec};
 
-use crate::detect::GivenFaces;
 use crate::detect::detection::{declared, detect};
+use crate::detect::{GivenFaces, unless_damaged};
 use crate::diagnostic::{Code, Diagnostic, FROM, Result, TO, bail, usage};
 use crate::input::canvas::{canvas_of, fits_canvas, fits_shape, lies_on_canvas, whole};
 use crate::input::faces::face_shape::size_of_missing;
@@ -197,15 +197,29 @@ impl Input {
                 }
             },
         };
+        let found = Self::of_file((pattern, files), (&path, header), shape, warnings);
+        let (views, faces) = found.map_err(|error| unless_damaged(access.files, vec![path], error))?;
+        Ok(Self { worlds: vec![views], frames, faces, beside: Vec::new() })
+    }
+
+    /// Makes the views of one file, and describes them if they are the faces of a cube.
+    fn of_file(
+        (pattern, files): (&str, ViewFiles),
+        (path, header): (&Path, Header),
+        shape: Shape,
+        warnings: &mut Vec<Diagnostic>,
+    ) -> Result<(Vec<InputView>, Option<GivenFaces>)> {
         let envmap = header.metadata.envmap;
-        let (views, faces) = match shape {
-            Shape::Single(single) => (vec![Self::single(pattern, files, &path, header, single)?], None),
-            Shape::Cube(cube) => (packed::faces(&files, &path, &header, &cube)?, GivenFaces::of_image(&cube, envmap)),
-            Shape::Dual(dual) => (packed::lenses(&files, &path, &header, &dual)?, None),
+        Ok(match shape {
+            Shape::Single(single) => {
+                warnings.extend(of_one_pixel(path, &header));
+                (vec![Self::single(pattern, files, path, header, single)?], None)
+            }
+            Shape::Cube(cube) => (packed::faces(&files, path, &header, &cube)?, GivenFaces::of_image(&cube, envmap)),
+            Shape::Dual(dual) => (packed::lenses(&files, path, &header, &dual)?, None),
             Shape::StMap(map) => return Err(st_map::unread(&map)),
             Shape::Calibrated(camera) => return Err(calibration::unread(&camera)),
-        };
-        Ok(Self { worlds: vec![views], frames, faces, beside: Vec::new() })
+        })
     }
 
     fn single(pattern: &str, files: ViewFiles, path: &Path, header: Header, single: Single) -> Result<InputView> {
@@ -357,6 +371,13 @@ impl Input {
 pub(crate) fn header(access: Access, path: &Path, eye: Option<EyePart>) -> Result<Header> {
     let header = access.probe(path)?;
     eye.map_or(Ok(header.clone()), |eye| eye.header(path, &header))
+}
+
+/// Returns the note about a picture of one pixel, which is no shape to tell a projection by.
+fn of_one_pixel(path: &Path, header: &Header) -> Option<Diagnostic> {
+    let message = format!("{} is a single pixel: the same light is assumed in all directions", path.display());
+    let is_one = (header.width, header.height) == (1, 1) && header.window.is_none();
+    is_one.then(|| Diagnostic::note(Code::OnePixel, message).about(path.display()))
 }
 
 fn names<'a>(faces: impl Iterator<Item = &'a FaceFile>) -> String {

@@ -82,6 +82,13 @@ impl Default for Cube {
     }
 }
 
+/// Makes a cube whose faces lie in one image.
+impl From<LayoutKind> for Cube {
+    fn from(kind: LayoutKind) -> Self {
+        Self { layout: Some(Packing::OneImage(kind)), ..Self::default() }
+    }
+}
+
 impl Cube {
     /// Returns the canvas of a face.
     pub fn canvas_of(&self, face: CubeFace) -> Option<Canvas> {
@@ -180,13 +187,13 @@ impl Cube {
         let faces: Vec<&str> = cube.faces.iter().map(|face| face.name()).collect();
         let keys = Keys::default()
             .maybe("layout", cube.layout)
+            .maybe("naming", cube.naming.map(|naming| naming.name))
             .maybe("order", order)
             .maybe("rotate", rotate)
             .angle("fov", cube.field_of_view, LayoutFaceCamera::RIGHT_ANGLE)
             .maybe("feather", cube.feather.map(Degrees))
             .maybe("half", cube.half.map(CubeFace::name))
             .maybe("samples", cube.samples.map(samples_name))
-            .maybe("naming", cube.naming.map(|naming| naming.name))
             .maybe("faces", Some(faces.join(",")).filter(|_| cube.faces != CubeFace::ALL));
         let keys = cube
             .face_canvas

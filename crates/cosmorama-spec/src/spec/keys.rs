@@ -77,7 +77,7 @@ impl Keys {
             Mirror { x: false, y: true } => Some("y"),
             Mirror { x: true, y: true } => Some("xy"),
         };
-        self.orientation("", orientation).maybe("flip", flip).maybe("canvas", canvas.map(Window))
+        self.maybe("flip", flip).orientation("", orientation).maybe("canvas", canvas.map(Window))
     }
 }
 

@@ -6,6 +6,7 @@ use cosmorama::camera::CameraModel;
 use cosmorama::layout::LensSide;
 
 use super::alias::{ALIASES, refusal, without_alias, without_colons};
+use super::cube::Cube;
 use super::fields::Fields;
 use super::keys::Keys;
 use super::projections::{KINDS, Kind};
@@ -17,17 +18,17 @@ use crate::error::nearest;
 /// The projection of a picture, parsed from `NAME[:key=value[,key=value]…]`.
 ///
 /// ```
-/// use cosmorama_spec::{Cube, Packing, Shape, Spec};
+/// use cosmorama::camera::Mirror;
 /// use cosmorama::layout::LayoutKind;
+/// use cosmorama_spec::{Cube, Spec};
 ///
 /// // Names of other programs are understood; values print in this one's words.
 /// let spec: Spec = "c3x2:flip=x".parse()?;
 /// assert_eq!(spec.to_string(), "cube:layout=3x2,flip=x");
 ///
 /// // A value that a program made prints, too.
-/// let layout = Some(Packing::OneImage(LayoutKind::ALL[0]));
-/// let spec = Spec::from(Shape::Cube(Cube { layout, ..Cube::default() }));
-/// assert_eq!(spec.to_string().parse(), Ok(spec));
+/// let spec = Spec::from(Cube { mirror: Mirror { x: false, y: true }, ..LayoutKind::CrossV.into() });
+/// assert_eq!(spec.to_string(), "cube:layout=cross-v,flip=y");
 /// # Ok::<(), cosmorama_spec::SpecError>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
@@ -88,6 +89,20 @@ impl From<Shape> for Spec {
     fn from(shape: Shape) -> Self {
         let name = named(&shape).map_or("picture", |(kind, _)| kind.name);
         Self { name, shape, stereo: None, files: Vec::new() }
+    }
+}
+
+/// Makes the SPEC of a cube.
+impl From<Cube> for Spec {
+    fn from(cube: Cube) -> Self {
+        Shape::Cube(cube).into()
+    }
+}
+
+/// Makes the SPEC of one image of a camera.
+impl From<CameraModel> for Spec {
+    fn from(frame: CameraModel) -> Self {
+        Shape::Single(frame.into()).into()
     }
 }
 

@@ -81,6 +81,17 @@ pub enum SphereSamples {
     Given(SamplePositions),
 }
 
+/// Makes one image that looks straight ahead and is no crop.
+impl From<CameraModel> for Single {
+    fn from(frame: CameraModel) -> Self {
+        let samples = match frame {
+            CameraModel::Equirect(_) => SphereSamples::ByFormat,
+            _ => SphereSamples::NotAPanorama,
+        };
+        Self { placement: Placement::new(frame), samples, any_shape: false }
+    }
+}
+
 impl Single {
     /// Sets the file format's usual position, unless the SPEC gives one.
     pub fn with_samples(mut self, samples: SamplePositions) -> Self {

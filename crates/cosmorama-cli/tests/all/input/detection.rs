@@ -286,3 +286,101 @@ fn a_folder_of_faces_is_called_one_with_its_pattern() {
     let message = bench.fail(2, &["convert", "v", "out.png", "--to", "equirect"]);
     assert_says(&message, &["write v/sky_{face}.png"]);
 }
+
+#[test]
+fn sheets_of_faces_are_found_by_info_and_convert_alike() {
+    let bench = Bench::new();
+    for spec in ["cube:layout=3x2", "cube:layout=2x3", "cube:layout=eac"] {
+        bench.succeed(&["convert", "builtin:demo", "sheet.png", "-y", "--to", spec, "--size", "96"]);
+        let why = "(by its shape, and because the borders of its faces meet)";
+        assert_eq!(info(&bench, "sheet.png"), format!("{spec} {why}"));
+        found(&bench, "sheet.png", spec, &format!("the faces of a cube (--from {spec})"));
+        assert_says(&bench.succeed(&["explain", "sheet.png", "--to", "fulldome", "--size", "64"]), &["front"]);
+    }
+    // Faces in another order may be a photograph: an error with the candidates, and with what the borders tell.
+    let to = ["--to", "cube:layout=3x2,order=fudlrb", "--size", "96"];
+    bench.succeed(&[&["convert", "builtin:demo", "sheet.png", "-y"], &to[..]].concat());
+    refused(
+        &bench,
+        "sheet.png",
+        &["give --from cube:layout=3x2, cube:layout=eac", "would meet by --from cube:layout=3x2,"],
+    );
+}
+
+#[test]
+fn a_circle_elsewhere_than_a_lens_is_taken_to_have_it_is_told() {
+    let bench = Bench::new();
+    bench.save("world.png", &patchwork(512, 256));
+    let warned = |name: &str, from: &str| {
+        let rest = ["--from", from, "--to", "fulldome", "--size", "32", "--missing", "black", "-y"];
+        let output = bench.run(&[&["convert", name, "out.png"], &rest[..]].concat());
+        let message = text(&output.stderr);
+        assert!(output.status.success(), "{message}");
+        message.lines().find(|line| line.contains("another circle")).map(str::to_owned)
+    };
+    let make = |name: &str, size: &str, circle: &str| {
+        let to = format!("fisheye:fov=180{circle}");
+        bench.succeed(&["convert", "world.png", name, "--from", "equirect", "--to", &to, "--size", size]);
+    };
+    // A picture of more than a thousand columns is looked at coarsely.
+    for (name, size, circle) in [
+        ("small.png", "400x300", "center=190:160,radius=120"),
+        ("large.png", "2400x1800", "center=1130:930,radius=700"),
+        ("clear.png", "400x300", "center=200:150,radius=146"),
+    ] {
+        make(name, size, &format!(",{circle}"));
+        let told = warned(name, "fisheye:yaw=20").unwrap();
+        let numbers = |spec: &str| -> Vec<f64> {
+            let numbers = spec.split(|c: char| !c.is_ascii_digit() && c != '.');
+            numbers.filter_map(|number| number.parse().ok()).take(3).collect()
+        };
+        let (_, advised) = told.split_once("give --from fisheye:").unwrap();
+        for (advised, made) in numbers(advised).into_iter().zip(numbers(circle)) {
+            assert!((advised - made).abs() <= 1.5, "{name}: {told}");
+        }
+        assert!(told.ends_with("yaw=20"), "{told}");
+        assert_eq!(warned(name, &format!("fisheye:{circle}")), None);
+        assert_eq!(warned(name, "perspective"), None);
+    }
+    assert!(warned("small.png", "mirror-ball").unwrap().contains("give --from mirror-ball:center="));
+    make("filling.png", "400x300", "");
+    assert_eq!(warned("filling.png", "fisheye"), None);
+    assert_eq!(warned("world.png", "fisheye"), None);
+}
+
+#[test]
+fn a_damaged_file_is_called_so_before_what_it_seems_to_lack() {
+    let bench = Bench::new();
+    bench.save("a.png", &patchwork(300, 200));
+    let whole = bench.bytes("a.png");
+    std::fs::write(bench.path("b.png"), &whole[..whole.len() / 2]).unwrap();
+    for (verb, from, lacks) in [
+        (&["convert", "NAME", "c.png"][..], "fisheye", "does not cover"),
+        (&["convert", "NAME", "c.png"], "equirect", "are no panorama"),
+        (&["explain", "NAME"], "equirect", "are no panorama"),
+    ] {
+        let message = |name: &str| {
+            let verb = verb.iter().map(|word| if *word == "NAME" { name } else { word });
+            let result =
+                bench.run(&verb.chain(["--from", from, "--to", "equirect", "--size", "64"]).collect::<Vec<_>>());
+            assert_ne!(result.status.code(), Some(0), "{name} {from}");
+            text(&result.stderr)
+        };
+        assert_says(&message("a.png"), &[lacks]);
+        assert_says(&message("b.png"), &["b.png: damaged or truncated PNG"]);
+        assert!(!message("b.png").contains(lacks), "{from}");
+    }
+    let told = text(&bench.run(&["info", "b.png"]).stdout);
+    let place = |words: &str| told.find(words).unwrap();
+    assert!(place("damaged: b.png") < place("format: ") && place("format: ") < place("projection: "), "{told}");
+}
+
+#[test]
+fn a_single_pixel_is_a_note() {
+    let bench = Bench::new();
+    bench.save("dot.png", &crate::bench::flat(1, 1, &[90, 120, 200]));
+    let args = ["convert", "dot.png", "out.png", "--from", "equirect", "--to", "fulldome", "--size", "16", "-y"];
+    assert!(!text(&bench.run(&args).stderr).contains("single pixel"));
+    let told = text(&bench.run(&[&args[..], &["-v"]].concat()).stderr);
+    assert_says(&told, &["note: dot.png is a single pixel: the same light is assumed in all directions"]);
+}

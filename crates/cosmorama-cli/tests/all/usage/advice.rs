@@ -1,5 +1,7 @@
 //! What is refused says what was found and what to do.
 
+use cosmorama::sphere::CubeFace;
+
 use crate::bench::{Bench, assert_says, picture, text};
 
 const TO: [&str; 5] = ["-y", "--to", "fulldome", "--size", "32"];
@@ -142,6 +144,34 @@ fn every_frame_is_read_where_that_is_asked_for() {
     let told = text(&output.stdout);
     assert_says(&told, &["damaged: sky_2.png: damaged or truncated"]);
     assert!(!told.contains("sky_1.png:") && !told.contains("sky_3.png:"), "{told}");
+}
+
+#[test]
+fn frames_whose_header_says_what_they_are_are_read_only_for_a_check() {
+    let bench = Bench::new();
+    let damage = |name: &str| {
+        let whole = bench.bytes(name);
+        std::fs::write(bench.path(name), &whole[..whole.len() / 2]).unwrap();
+    };
+    // A strip by its shape; the first face by its name.
+    bench.save("strip_1.png", &picture(1, 192, 32));
+    bench.save("strip_2.png", &picture(2, 192, 32));
+    bench.faces("world", 32);
+    for face in CubeFace::ALL {
+        let word = crate::bench::word(face);
+        std::fs::rename(bench.path(&format!("world{word}.png")), bench.path(&format!("{word}_1.png"))).unwrap();
+    }
+    damage("strip_1.png");
+    damage("front_1.png");
+    for (pattern, name) in [("strip_#.png", "strip_1.png"), ("{face}_#.png", "front_1.png")] {
+        let told = bench.succeed(&["info", pattern]);
+        assert_says(&told, &["read: the first frame alone; --check decodes every frame", "projection: cube"]);
+        assert!(!told.contains("damaged") && !told.contains("arrangement"), "{told}");
+        let output = bench.run(&["info", pattern, "--check"]);
+        let told = text(&output.stdout);
+        assert_eq!((output.status.code(), told.matches("damaged: ").count()), (Some(1), 1), "{told}");
+        assert_says(&told, &[&format!("damaged: {name}: damaged or truncated"), "read: every frame"]);
+    }
 }
 
 #[test]
