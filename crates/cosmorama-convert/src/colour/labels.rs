@@ -1,7 +1,7 @@
 use cosmorama::filter::{FilterKind, FilterSettings};
 use cosmorama_io::Format;
 
-use super::Light;
+use super::{FileColours, Light};
 use crate::diagnostic::{Code, DEPTH, FILTER, Result, usage, usage_as};
 use crate::input::Input;
 
@@ -28,9 +28,11 @@ pub(crate) fn check_labels(filter: &FilterSettings, input: &Input, light: &Light
             let found = format!("{FILTER} labels: {path} has {} bits and the output {}", header.depth, light.depth);
             return Err(usage(format!("{found}; give {DEPTH} {}, and inputs of one depth", header.depth)));
         }
-        if light.input_transfer(header.depth, &header.metadata) != light.transfer {
+        let unchanged = FileColours { transfer: light.transfer.clone(), matrix: None };
+        if light.colours(header.channels, header.depth, &header.metadata) != unchanged {
             let found = format!("{FILTER} labels: the output would be encoded otherwise than {path}");
-            return Err(usage(format!("{found}; leave transfer functions alone, and give inputs of one kind")));
+            let remedy = "leave transfer functions and primaries alone, and give inputs of one kind";
+            return Err(usage(format!("{found}; {remedy}")));
         }
     }
     Ok(())

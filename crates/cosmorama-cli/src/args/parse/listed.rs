@@ -5,7 +5,7 @@ use std::str::FromStr;
 
 use clap::builder::{PossibleValue, TypedValueParser};
 use clap::{Arg, Command, Error};
-use cosmorama_spec::{FilterName, KernelName, Spec, SpecKind, TransferName};
+use cosmorama_spec::{FilterName, KernelName, PrimariesName, Spec, SpecKind, TransferName};
 
 /// Parser of a value that begins with one of some names, which completions offer.
 ///
@@ -57,6 +57,11 @@ pub(crate) fn filter() -> Listed<FilterName> {
 /// Reads the name of a kernel.
 pub(crate) fn kernel() -> Listed<KernelName> {
     Listed::new(KernelName::NAMES)
+}
+
+/// Reads the name of primaries.
+pub(crate) fn primaries() -> Listed<PrimariesName> {
+    Listed::new(PrimariesName::NAMES)
 }
 
 /// Reads the name of a transfer function.
