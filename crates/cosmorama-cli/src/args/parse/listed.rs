@@ -3,6 +3,7 @@ use std::ffi::OsStr;
 use std::marker::PhantomData;
 use std::str::FromStr;
 
+use crate::args::light::lobe::LobeName;
 use clap::builder::{PossibleValue, TypedValueParser};
 use clap::{Arg, Command, Error};
 use cosmorama_spec::{FilterName, KernelName, Spec, SpecKind, TransferName};
@@ -57,6 +58,11 @@ pub(crate) fn filter() -> Listed<FilterName> {
 /// Reads the name of a kernel.
 pub(crate) fn kernel() -> Listed<KernelName> {
     Listed::new(KernelName::NAMES)
+}
+
+/// Reads the name of a lobe.
+pub(crate) fn lobe() -> Listed<LobeName> {
+    Listed::new(LobeName::NAMES)
 }
 
 /// Reads the name of a transfer function.
