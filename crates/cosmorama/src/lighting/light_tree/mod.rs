@@ -47,7 +47,7 @@ pub struct LightTree<'w> {
 }
 
 /// Part of a block's weight that its second-order term may be. What is neglected is of third order, and cancels between blocks.
-const TOLERANCE: f64 = 0.03;
+const TOLERANCE: f64 = 0.025;
 
 /// Weight, over that far from the axis, below which none counts as small.
 const FLOOR: f32 = 0.2;
@@ -81,7 +81,7 @@ impl<'w> LightTree<'w> {
         Self { world, texels, angles, pyramids, shown, mean, tolerance: TOLERANCE }
     }
 
-    /// Sets the part of a block's weight that its second-order term may be (0.03). The less, the nearer, and the slower.
+    /// Sets the part of a block's weight that its second-order term may be (0.025). The less, the nearer, and the slower.
     #[must_use]
     pub fn with_tolerance(self, tolerance: f64) -> Self {
         Self { tolerance: tolerance.max(0.0), ..self }
