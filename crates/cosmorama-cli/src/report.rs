@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use anyhow::Result;
-use cosmorama_convert::{CpuSeconds, Remade, Report, Severity};
+use cosmorama_convert::{CpuSeconds, LightReport, Remade, Report, Severity};
 use serde::Serialize;
 
 use crate::console::{Console, in_options, say};
@@ -19,6 +19,8 @@ struct JsonReport<'a> {
     wall_seconds: f64,
     cpu_seconds: JsonCpuSeconds,
     peak_memory_bytes: Option<u64>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    light: Vec<JsonLight>,
     warnings: Vec<String>,
     notes: Vec<String>,
 }
@@ -37,6 +39,38 @@ struct JsonCpuSeconds {
     encode: f64,
 }
 
+/// What went into a map of light, and what came out.
+#[derive(Serialize)]
+struct JsonLight {
+    frame: Option<u64>,
+    /// Mean radiance over the sphere.
+    energy_in: [f64; 3],
+    /// Mean radiance of the map over the sphere; null where it does not show all of that.
+    energy_out: Option<[f64; 3]>,
+    /// Part of the light from texels over a hundred times as bright as the mean.
+    brightest_texels_share: f64,
+    shown: f64,
+    peak_in: f32,
+    peak_out: f32,
+    overflowed_samples: usize,
+}
+
+impl JsonLight {
+    fn of(report: &LightReport) -> Self {
+        let (input, output) = (&report.input, &report.output);
+        Self {
+            frame: report.frame,
+            energy_in: input.mean,
+            energy_out: ((output.shown - 1.0).abs() < 0.01).then_some(output.mean),
+            brightest_texels_share: input.suns,
+            shown: input.shown,
+            peak_in: input.peak,
+            peak_out: output.peak,
+            overflowed_samples: report.overflowed,
+        }
+    }
+}
+
 /// A report for programs.
 pub(crate) fn to_json(report: &Report) -> Result<String> {
     let CpuSeconds { decode, plan, filter, encode } = report.cpu_seconds;
@@ -49,6 +83,7 @@ pub(crate) fn to_json(report: &Report) -> Result<String> {
         wall_seconds: report.wall.as_secs_f64(),
         cpu_seconds: JsonCpuSeconds { decode, plan, filter, encode },
         peak_memory_bytes: report.peak_memory_bytes,
+        light: report.light.iter().map(JsonLight::of).collect(),
         warnings: told(report, |severity| severity != Severity::Note),
         notes: told(report, |severity| severity == Severity::Note),
     };

@@ -2,6 +2,7 @@ use cosmorama::camera::{Canvas, PixelRect, View};
 use cosmorama::filter::FilterSettings;
 use cosmorama::raster::Rgba;
 use cosmorama::render::{Accuracy, Need, Needs};
+use cosmorama::sphere::Direction;
 use cosmorama::world::{Source, World, WorldView};
 use cosmorama_spec::Missing;
 
@@ -56,6 +57,58 @@ impl Coverage {
             input.worlds.iter().zip(nominal).map(|(views, nominal)| held_world(views, nominal)).collect();
         Ok((coverage, worlds?))
     }
+}
+
+impl Coverage {
+    /// Compares the whole sphere, all of which sheds light, with what the input holds. Also returns the worlds that the files
+    /// actually hold.
+    pub(crate) fn of_sphere(input: &mut Input, nominal: Vec<World>, missing: Missing) -> Result<(Self, Vec<World>)> {
+        input.worlds.iter_mut().flatten().for_each(|view| view.wanted = true);
+        let absent: Vec<String> = input.worlds.iter().flatten().filter_map(absence).collect();
+        if input.present().next().is_none() {
+            return Err(empty(&absent));
+        }
+        let worlds: Result<Vec<World>> =
+            input.worlds.iter().zip(nominal).map(|(views, nominal)| held_world(views, nominal)).collect();
+        let worlds = worlds?;
+        let gaps: Vec<String> = absent.into_iter().chain(worlds.iter().filter_map(dark_side)).collect();
+        match missing {
+            _ if gaps.is_empty() => Ok((Self::Complete, worlds)),
+            Missing::Fill(colour) => Ok((Self::Fill(colour), worlds)),
+            Missing::Error => bail!(
+                Uncovered: "light comes from all sides, but the input does not show all:\n  {}\nadd what is missing, or fill it \
+                 with {MISSING} COLOR, as {MISSING} black, or {MISSING} transparent",
+                gaps.join("\n  ")
+            ),
+        }
+    }
+}
+
+/// Describes a view without a file.
+fn absence(view: &InputView) -> Option<String> {
+    let path = view.files.path(None);
+    let is_absent = view.present().is_none();
+    is_absent.then(|| {
+        let why = if view.files.is_folder() { "a folder, not an image" } else { "missing" };
+        format!("{}: {} is {why}", view.name, path.display())
+    })
+}
+
+/// Directions that are tested for light.
+const DIRECTIONS: usize = 4000;
+
+/// Describes where a world shows nothing.
+fn dark_side(world: &World) -> Option<String> {
+    let dark: Vec<Direction> =
+        Direction::spread(DIRECTIONS).filter(|direction| world.owner(*direction).is_none()).collect();
+    let middle = Direction::new(dark.iter().map(|direction| direction.vector()).sum())?;
+    let (yaw, pitch) = middle.longitude_latitude();
+    let part = 100.0 * dark.len() as f64 / DIRECTIONS as f64;
+    Some(format!(
+        "{part:.1} % of the sphere, around yaw {:.0}° and pitch {:.0}°, is in no view",
+        yaw.degrees(),
+        pitch.degrees()
+    ))
 }
 
 /// Finds what is missing in the views of a world, and marks the views that are needed.

@@ -24,11 +24,11 @@ pub use colour::{InputTransfer, ThinAlpha};
 pub use conversion::{Checked, Explanation, ExplanationSettings, Observer, Quiet, Report, Stop, Work, threads};
 pub use detect::{Continuity, FacePixels, GivenFaces, Likely, damage_of, light_of, likely};
 pub use diagnostic::{Code, ConvertError, Diagnostic, Message, Outcome, Part, Remedy, Result, Setting, Severity};
-pub use engine::CpuSeconds;
+pub use engine::{CpuSeconds, LightReport};
 pub use input::{
     Builtin, Disk, Files, InMemory, Input, InputView, Listed, Place, ViewFiles, existing_frames, face_placement,
     is_one_file, listed, probe, read,
 };
 pub use output::{Remade, check_apart, real_path, refuse_existing};
-pub use settings::{Conversion, Existing, GeometrySettings, LimitSettings};
+pub use settings::{Conversion, Existing, GeometrySettings, LightNormalisation, LightSettings, LimitSettings};
 pub use target::Picture;

@@ -1,6 +1,7 @@
 use std::sync::Arc;
 
 use cosmorama::filter::FilterKind;
+use cosmorama::lighting::Lobe;
 use cosmorama::raster::{Depth, Primaries, Rgba};
 use cosmorama::sphere::{Angle, Orientation};
 use cosmorama_io::pending::Unfinished;
@@ -34,6 +35,8 @@ pub struct Conversion {
     pub geometry: GeometrySettings,
     /// Whether an st map is written instead of a picture.
     pub st_map: bool,
+    /// Map of the world's light to make; a picture of the world, unless given.
+    pub light: Option<LightSettings>,
     /// Transfer function of integer files.
     pub transfer: TransferName,
     /// Transfer function of the input, including floats; overrides `transfer`.
@@ -93,6 +96,36 @@ pub struct GeometrySettings {
     pub anti_ringing: Option<bool>,
 }
 
+/// A map of a world's light: each pixel is an average under a lobe about its direction.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LightSettings {
+    /// Weight of light by its angle from a pixel's direction.
+    pub lobe: Lobe,
+    /// Unit of the map.
+    pub normalisation: LightNormalisation,
+    /// Whether every texel is summed for every pixel.
+    pub exact: bool,
+}
+
+/// Unit of a map of light.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LightNormalisation {
+    /// Irradiance E: a constant world of 1 gives π.
+    Irradiance,
+    /// Radiance, the lobe's average, which for Lambert's is E/π: a constant world of 1 gives 1.
+    Radiance,
+}
+
+impl LightSettings {
+    /// Returns the factor of an average in the map.
+    pub fn scale(&self) -> f64 {
+        match self.normalisation {
+            LightNormalisation::Irradiance => std::f64::consts::PI,
+            LightNormalisation::Radiance => 1.0,
+        }
+    }
+}
+
 /// Treatment of outputs that exist already.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Existing {
@@ -136,6 +169,7 @@ impl Default for Conversion {
             output: String::new(),
             geometry: GeometrySettings::default(),
             st_map: false,
+            light: None,
             transfer: TransferName::Auto,
             in_transfer: None,
             out_transfer: None,
@@ -197,6 +231,13 @@ impl Conversion {
     #[must_use]
     pub fn filter(mut self, filter: FilterName) -> Self {
         self.geometry.filter = filter;
+        self
+    }
+
+    /// Makes a map of the world's light instead of a picture.
+    #[must_use]
+    pub fn light(mut self, light: LightSettings) -> Self {
+        self.light = Some(light);
         self
     }
 

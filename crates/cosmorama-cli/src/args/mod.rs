@@ -7,6 +7,7 @@ mod explain;
 pub(crate) mod geometry;
 mod help;
 mod info;
+pub(crate) mod light;
 mod parse;
 mod progress;
 mod settings;
@@ -21,6 +22,7 @@ pub(crate) use demo::DemoArgs;
 pub(crate) use explain::ExplainArgs;
 pub(crate) use help::{CompletionsArgs, HelpArgs, ManArgs, SPEC_TOPIC};
 pub(crate) use info::InfoArgs;
+pub(crate) use light::{DiffuseArgs, LightArgs, LightVerb, MapArgs, SpecularArgs, Unit};
 pub(crate) use progress::ProgressStyle;
 
 /// Commands that the program's own help shows.
@@ -31,9 +33,10 @@ const EXAMPLES: [&str; 3] = [
 ];
 
 /// Every verb with its examples.
-const VERBS: [(&str, &[&str]); 8] = [
+const VERBS: [(&str, &[&str]); 9] = [
     ("demo", &demo::EXAMPLES),
     ("convert", &convert::EXAMPLES),
+    ("light", &light::EXAMPLES),
     ("info", &info::EXAMPLES),
     ("explain", &explain::EXAMPLES),
     ("compare", &compare::EXAMPLES),
@@ -67,6 +70,8 @@ pub(crate) enum Verb {
     Demo(DemoArgs),
     /// Turn a world, in whatever form, into another projection
     Convert(Box<ConvertArgs>),
+    /// Filter a world widely, to the light that it sheds on things
+    Light(LightArgs),
     /// Tell what a file or a face set is
     Info(InfoArgs),
     /// Tell what a conversion will do before it does it, in text and diagrams
@@ -96,8 +101,9 @@ pub(crate) fn examples(verb: Option<&str>) -> &'static [&'static str] {
 pub(crate) fn options(verb: &str) -> Vec<String> {
     let mut command = Args::command();
     command.build();
-    let arguments = command.find_subcommand(verb).into_iter().flat_map(Command::get_arguments);
-    arguments.filter_map(Arg::get_long).map(str::to_owned).collect()
+    let verb = command.find_subcommand(verb);
+    let parts = verb.into_iter().flat_map(|verb| std::iter::once(verb).chain(verb.get_subcommands()));
+    parts.flat_map(Command::get_arguments).filter_map(Arg::get_long).map(str::to_owned).collect()
 }
 
 /// Where short help sends those who look for more.

@@ -11,6 +11,7 @@ use cosmorama_io::pending::Pending;
 use cosmorama_spec::{SpecKind, did_you_mean};
 
 use super::make_folder;
+use crate::args::light;
 use crate::args::{Args, CompletionsArgs, HelpArgs, ManArgs, SPEC_TOPIC, builtins, examples, verbs};
 use crate::console::Console;
 use crate::failure::usage;
@@ -123,13 +124,17 @@ fn pages() -> Result<Vec<Page>> {
     let command = built();
     let mut pages = vec![page(&command, None)?];
     for verb in command.get_subcommands() {
-        pages.push(page(verb, Some(verb.get_name()))?);
+        pages.push(page(verb, Some(examples(Some(verb.get_name()))))?);
+        for part in verb.get_subcommands() {
+            pages.push(page(part, Some(light::examples(part.get_name())))?);
+        }
     }
     pages.push(spec_page());
     Ok(pages)
 }
 
-fn page(command: &Command, verb: Option<&str>) -> Result<Page> {
+/// The page of a command: of a verb with its examples, or of the program itself.
+fn page(command: &Command, of_verb: Option<&[&str]>) -> Result<Page> {
     let man = Man::new(command.clone());
     let mut text = Vec::new();
     man.render_title(&mut text)?;
@@ -137,14 +142,14 @@ fn page(command: &Command, verb: Option<&str>) -> Result<Page> {
     man.render_synopsis_section(&mut text)?;
     man.render_description_section(&mut text)?;
     let mut text = String::from_utf8_lossy(&text).into_owned();
-    text += &verbatim("EXAMPLES", &examples(verb).join("\n"));
+    text += &verbatim("EXAMPLES", &of_verb.unwrap_or(examples(None)).join("\n"));
     let mut rest = Vec::new();
     man.render_options_section(&mut rest)?;
-    if verb.is_none() {
+    if command.has_subcommands() {
         man.render_subcommands_section(&mut rest)?;
     }
     text += &String::from_utf8_lossy(&rest);
-    text += match verb {
+    text += match of_verb {
         None => ".SH \"SEE ALSO\"\ncosmorama\\-spec(7): projections and their keys\n",
         Some(_) => ".SH \"SEE ALSO\"\ncosmorama(1), cosmorama\\-spec(7)\n",
     };

@@ -9,6 +9,7 @@ mod help;
 mod info;
 mod info_faces;
 mod info_world;
+mod light;
 
 use std::path::Path;
 use std::process::ExitCode;
@@ -27,6 +28,7 @@ pub(crate) fn run(verb: Verb, console: &mut Console) -> Result<ExitCode> {
     match verb {
         Verb::Demo(args) => demo::run(&args, console),
         Verb::Convert(args) => convert::run(*args, console),
+        Verb::Light(args) => light::run(args, console),
         Verb::Info(args) => info::run(&args, console),
         Verb::Explain(args) => explain::run(*args, console),
         Verb::Compare(args) => compare::run(&args, console),

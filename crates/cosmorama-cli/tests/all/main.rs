@@ -8,6 +8,7 @@
 
 mod bench;
 mod convert;
+mod light;
 mod oracles;
 
 mod faces {

@@ -172,6 +172,10 @@ fn channels(
 
 fn depth(args: &Conversion, headers: &[&Header], target: &Target) -> Result<Depth> {
     let Some(asked) = args.depth else {
+        if args.light.is_some() {
+            // Light is not bounded by white, whatever the input was.
+            return Ok(target.format.nearest_depth(Depth::Float));
+        }
         let rank = |depth: &Depth| Depth::ALL.iter().position(|other| other == depth);
         let deepest = headers.iter().map(|header| header.depth).max_by_key(rank).unwrap_or(Depth::Eight);
         return Ok(target.format.nearest_depth(deepest));

@@ -37,6 +37,10 @@ impl Content {
             Some(_) if settings.st_map => {
                 Err(usage(format!("{ST_MAP} tells places in an image, but {} is a formula", settings.input)))
             }
+            Some(_) if settings.light.is_some() => Err(usage(format!(
+                "light is gathered from the pixels of an image, but {} is a formula; convert it to a picture first",
+                settings.input
+            ))),
             Some(Builtin::World(world)) => Ok(Self::Formula(world)),
             Some(Builtin::DirectionMap(map)) => Ok(Self::Directions(map)),
             None if settings.st_map => Ok(Self::StMap),

@@ -13,11 +13,12 @@ use crate::colour::{Light, check_labels};
 use crate::coverage::{Coverage, whole_worlds};
 use crate::detect::unless_damaged;
 use crate::diagnostic::{Diagnostic, Result};
+use crate::engine::gathered_bytes;
 use crate::input::spec_files::st_map::settled;
 use crate::input::{Access, DecodedPicture, Files, Input};
 use crate::output::Outputs;
-use crate::settings::Conversion;
-use crate::target::{Target, TargetView, shape_warning};
+use crate::settings::{Conversion, LightSettings};
+use crate::target::{Target, TargetView, of_light, shape_warning};
 
 /// A conversion, ready to run.
 pub(crate) struct ConvertJob {
@@ -37,6 +38,8 @@ pub(crate) struct ConvertJob {
     pub(crate) outputs: Outputs,
     /// Treatment of pixels that no view covers.
     pub(crate) coverage: Coverage,
+    /// Map of light that is made instead of a picture.
+    pub(crate) lighting: Option<LightSettings>,
     /// Requested treatment of directions without light.
     missing: Missing,
     /// Memory budget.
@@ -55,7 +58,11 @@ impl ConvertJob {
         let file = content.has_files().then_some(settings.input.as_str());
         let decoded = DecodedPicture::up_to(memory.bytes / DECODED_PART);
         let access = Access { files: &*settings.files, memory, decoded: &decoded };
-        let geometry = &settled(&settings.geometry, file, access, warnings)?;
+        let mut geometry = settled(&settings.geometry, file, access, warnings)?;
+        if settings.light.is_some() {
+            geometry = of_light(geometry, &settings.output);
+        }
+        let geometry = &geometry;
         // Mistakes in the settings themselves come first: they do not depend on any file.
         let format = Target::check_names(&settings.output, geometry)?;
         check_file_options(settings, format)?;
@@ -88,6 +95,7 @@ impl ConvertJob {
             light,
             outputs,
             coverage: Coverage::Complete,
+            lighting: settings.light.clone(),
             missing,
             memory,
             decoded,
@@ -104,6 +112,14 @@ impl ConvertJob {
     fn cover(&mut self, warnings: &mut Vec<Diagnostic>) -> Result<()> {
         let Self { input, target, filter, memory, .. } = self;
         let whole = whole_worlds(input, *memory)?;
+        if self.lighting.is_some() {
+            let (coverage, worlds) = Coverage::of_sphere(input, whole, self.missing)?;
+            memory.check_frame(input, target)?;
+            let gathered = worlds.iter().flat_map(World::sources).map(|source| gathered_bytes(&source.view)).sum();
+            self.memory = memory.beside_levels(gathered, input, target)?;
+            (self.coverage, self.worlds) = (coverage, worlds);
+            return Ok(());
+        }
         let (coverage, worlds) = Coverage::check(input, whole, target, filter, self.missing, warnings)?;
         memory.check_frame(input, target)?;
         let levels = target.views.iter().map(|view| {

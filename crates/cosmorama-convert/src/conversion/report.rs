@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use crate::budget::peak_bytes;
 use crate::diagnostic::Diagnostic;
-use crate::engine::{CpuSeconds, Stages};
+use crate::engine::{CpuSeconds, LightReport, Stages};
 use crate::output::{Outputs, Remade};
 
 /// Results of a conversion.
@@ -26,6 +26,8 @@ pub struct Report {
     pub cpu_seconds: CpuSeconds,
     /// Most memory that this process has held, where the system reports it.
     pub peak_memory_bytes: Option<u64>,
+    /// What maps of light amounted to, by frame; empty for pictures.
+    pub light: Vec<LightReport>,
     /// Diagnostics of the conversion.
     pub diagnostics: Vec<Diagnostic>,
 }
@@ -47,6 +49,7 @@ impl Report {
             wall,
             cpu_seconds: stages.cpu_seconds(),
             peak_memory_bytes: peak_bytes(),
+            light: Vec::new(),
             diagnostics,
         }
     }

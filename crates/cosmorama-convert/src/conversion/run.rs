@@ -10,10 +10,10 @@ use rayon::prelude::*;
 
 use super::options::write_options;
 use super::{Checked, Content, ConvertJob, Observer, Report, Stop, Work, watched};
-use crate::diagnostic::{ConvertError, Diagnostic, Result};
+use crate::diagnostic::{Code, ConvertError, DEPTH, Diagnostic, Result};
 use crate::engine::{
-    Engine, FrameFile, FrameLight, Levels, Sequence, Stage, Stages, ViewImage, Watcher, Which, formula, st_map,
-    warnings,
+    Engine, FrameFile, FrameLight, Levels, LightReport, Sequence, Stage, Stages, ViewImage, Watcher, Which, formula,
+    st_map, warnings,
 };
 use crate::output::FrameOutputs;
 
@@ -24,8 +24,9 @@ impl Checked {
     /// When a file cannot be read or written, its content contradicts its header, or the observer stops the run.
     pub fn run(mut self, observer: &mut dyn Observer) -> Result<Report> {
         observer.begin(self.job.outputs.frames.len());
+        let mut lit = Vec::new();
         match self.content {
-            Content::World => self.convert(observer)?,
+            Content::World => lit = self.convert(observer)?,
             Content::StMap => self.each_file(observer, st_map::make)?,
             Content::Formula(world) => {
                 let options = write_options(&self.settings, self.job.target.format, &self.job.outputs, &self.job.light);
@@ -41,7 +42,8 @@ impl Checked {
         } else {
             BTreeSet::from([PathBuf::from(&settings.input)])
         };
-        Ok(Report::new(inputs, &job.outputs, start.elapsed(), &stages, diagnostics))
+        let report = Report::new(inputs, &job.outputs, start.elapsed(), &stages, diagnostics);
+        Ok(Report { light: lit, ..report })
     }
 
     /// Makes one file after the other.
@@ -59,7 +61,7 @@ impl Checked {
     }
 
     /// Converts the light of files.
-    fn convert(&mut self, observer: &mut dyn Observer) -> Result<()> {
+    fn convert(&mut self, observer: &mut dyn Observer) -> Result<Vec<LightReport>> {
         let Self { settings, job, pool, stages, diagnostics, .. } = self;
         let options = write_options(settings, job.target.format, &job.outputs, &job.light);
         let prepare = |progress: &dyn Progress| stages.alone(Stage::Plan, || Engine::new(job, options, progress));
@@ -77,8 +79,24 @@ impl Checked {
             }
         };
         // Frames that were being written at a stop are done by now.
-        made.map_err(|error| if let ConvertError::Stopped { .. } = error { run.stopped() } else { error })
+        made.map_err(|error| if let ConvertError::Stopped { .. } = error { run.stopped() } else { error })?;
+        let lit = engine.light_reports();
+        run.tell(lit.iter().filter_map(|report| too_bright(job, report)).collect());
+        Ok(lit)
     }
+}
+
+/// Returns the warning about light that the output's sample type cannot hold.
+fn too_bright(job: &ConvertJob, report: &LightReport) -> Option<Diagnostic> {
+    let of_frame = report.frame.map_or_else(String::new, |frame| format!("frame {frame}: "));
+    (report.overflowed > 0).then(|| {
+        let message = format!(
+            "{of_frame}{} samples are brighter than {DEPTH} {} holds, and are cut to its largest; write OpenEXR or Radiance files \
+             with {DEPTH} float",
+            report.overflowed, job.light.depth
+        );
+        Diagnostic::warning(Code::TooBright, message)
+    })
 }
 
 /// A conversion of light under way.

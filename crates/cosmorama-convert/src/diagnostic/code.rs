@@ -86,6 +86,8 @@ pub enum Code {
     NotANumber,
     /// Much of the light comes from bright, small sources.
     Suns,
+    /// Light is brighter than the output can hold.
+    TooBright,
     /// The total light is not kept, for lack of memory.
     Unbalanced,
     /// Geometry is computed again for each frame, for lack of memory.

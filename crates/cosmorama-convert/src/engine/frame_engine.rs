@@ -1,5 +1,5 @@
 use std::path::Path;
-use std::sync::{Arc, OnceLock};
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use cosmorama::raster::{FixedCodec, FixedLight, FramePool, Image, Pixel, Rgba};
 use cosmorama::render::{Progress, ScreenMask, Stopped};
@@ -12,7 +12,7 @@ use crate::coverage::Coverage;
 use crate::detect::FacePixels;
 use crate::detect::pixels::light_of;
 use crate::diagnostic::{BACKGROUND, Code, ConvertError, Diagnostic, MISSING, Result, bail};
-use crate::engine::{BalancedLight, FrameLight, Geometry, Levels, Texels, Writer, warnings};
+use crate::engine::{BalancedLight, FrameLight, Geometry, Levels, LightMaps, LightReport, Texels, Writer, warnings};
 use crate::input::InputView;
 use crate::output::FrameOutputs;
 use crate::target::{Sheet, Target};
@@ -29,6 +29,8 @@ pub(crate) struct Engine<'a> {
     queue_depth: QueueDepth,
     /// Memory that they hand on.
     pool: Arc<FramePool>,
+    /// What maps of light amounted to, by frame.
+    lit: Mutex<Vec<LightReport>>,
 }
 
 /// State of a frame while its pictures are made.
@@ -46,7 +48,7 @@ impl<'a> Engine<'a> {
         let queue_depth = job.memory.queue_depth(&job.input, &job.target, geometry.bytes(), threads);
         let pool = Arc::new(FramePool::keeping(pool_bytes(job, queue_depth)));
         let writer = Writer::new(&job.light, WriteOptions { pool: Arc::clone(&pool), ..options });
-        Ok(Self { job, geometry, told, masks, writer, queue_depth, pool })
+        Ok(Self { job, geometry, told, masks, writer, queue_depth, pool, lit: Mutex::default() })
     }
 
     /// Returns the diagnostics that are known before any frame.
@@ -62,6 +64,11 @@ impl<'a> Engine<'a> {
     /// Returns the pool of memory that frames hand on to those after them.
     pub(crate) fn pool(&self) -> &FramePool {
         &self.pool
+    }
+
+    /// Returns what maps of light amounted to, in the order of frames.
+    pub(crate) fn light_reports(&self) -> Vec<LightReport> {
+        self.lit.lock().unwrap_or_else(PoisonError::into_inner).clone()
     }
 
     /// Allocates the light of a frame.
@@ -137,12 +144,47 @@ impl<'a> Engine<'a> {
         light: &FrameLight,
         progress: &dyn Progress,
     ) -> Result<Vec<Levels>> {
+        if let Some(maps) = LightMaps::of(self.job, light.texels())? {
+            return self.render_maps(frame, (light, &maps), progress);
+        }
         let Target { views, files, .. } = &self.job.target;
         let sheets = frame.files.iter().flat_map(|(file, _)| files[*file].levels());
         let views = sheets.flat_map(|sheet| &sheet.pieces).map(|(index, _)| &views[*index].view);
         let mut making = Making { balanced: BalancedLight::default(), shares: Shares::new(progress, views) };
         let files = frame.files.iter();
         files.map(|(index, _)| self.render_file(*index, (frame.frame, light), &mut making)).collect()
+    }
+
+    /// Makes the maps of light of a frame, and measures them.
+    fn render_maps(
+        &self,
+        frame: &FrameOutputs,
+        (light, maps): (&FrameLight, &LightMaps),
+        progress: &dyn Progress,
+    ) -> Result<Vec<Levels>> {
+        let views = &self.job.target.views;
+        let mut made = Vec::new();
+        for target in views {
+            made.push(maps.view(target));
+            if progress.advance(made.len() as f64 / views.len() as f64).is_break() {
+                return Err(self.stopped());
+            }
+        }
+        let measured: Vec<_> = views.iter().zip(&made).collect();
+        let report = LightReport::of(self.job, frame.frame, light.texels(), &measured);
+        self.lit.lock().unwrap_or_else(PoisonError::into_inner).extend(report);
+        frame.files.iter().map(|(file, _)| self.map_file(*file, &made)).collect()
+    }
+
+    /// Assembles the maps of light of a file.
+    fn map_file(&self, index: usize, maps: &[Image<Rgba>]) -> Result<Levels> {
+        let view = |index: usize| {
+            let mut image = maps[index].clone();
+            self.lay_background(index, &mut image);
+            Ok(image)
+        };
+        let picture = |sheet| assemble_in(&self.pool, sheet, self.job.light.background, view);
+        Ok(Levels::Light(self.job.target.files[index].levels().map(picture).collect::<Result<_>>()?))
     }
 
     fn render_file(

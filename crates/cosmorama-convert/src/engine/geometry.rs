@@ -36,6 +36,10 @@ impl Geometry {
     /// Compiles the geometry of a job, and returns it with its warnings.
     pub(crate) fn compile(job: &ConvertJob, progress: &dyn Progress) -> Result<(Self, Vec<Diagnostic>), Stopped> {
         let mut warnings = Vec::new();
+        if job.lighting.is_some() {
+            let plans = job.target.views.iter().map(|_| None).collect();
+            return Ok((Self { plans, codec: None, balance: Balance::of(job, Vec::new(), &[]) }, warnings));
+        }
         let codec = codec(job);
         let arithmetic = if codec.is_some() { Arithmetic::Fixed } else { Arithmetic::Float };
         let groups = balance::groups(job);

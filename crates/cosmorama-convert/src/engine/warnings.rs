@@ -42,7 +42,7 @@ pub(crate) fn clipped<'a>(
 
 /// Warns where a whole world is made from light with bright sources, which few filters keep.
 pub(crate) fn suns(job: &ConvertJob, light: &FrameLight) -> Option<Diagnostic> {
-    if balance::is_asked_for(job) || !is_of_any_range(job) || !shows_the_world(job) {
+    if job.lighting.is_some() || balance::is_asked_for(job) || !is_of_any_range(job) || !shows_the_world(job) {
         return None;
     }
     let parts = job.worlds.iter().enumerate();

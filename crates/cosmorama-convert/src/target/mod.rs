@@ -2,9 +2,11 @@
 
 pub(crate) mod aspect;
 pub(crate) mod gpano;
+pub(crate) mod light;
 pub(crate) mod picture;
 pub(crate) mod sheets;
 
+pub(crate) use light::of_light;
 pub use picture::Picture;
 pub(crate) use sheets::{Sheet, Target, TargetFile, TargetView};
 

@@ -5,7 +5,7 @@ use std::process::Command;
 use crate::bench::{Bench, assert_says, text};
 use cosmorama_spec::{FilterName, KernelName, SpecKind, TransferName};
 
-const VERBS: [&str; 8] = ["demo", "convert", "info", "explain", "compare", "completions", "man", "help"];
+const VERBS: [&str; 9] = ["demo", "convert", "light", "info", "explain", "compare", "completions", "man", "help"];
 
 /// Lines of short help at most.
 const SHORT: usize = 60;
@@ -101,7 +101,13 @@ fn every_verb_has_a_manual_page_with_examples_and_without_empty_sections() {
     let bench = Bench::new();
     bench.succeed(&["man", "pages"]);
     let names = VERBS.map(|verb| format!("man1/cosmorama-{verb}.1"));
-    let names = names.iter().map(String::as_str).chain(["man1/cosmorama.1", "man7/cosmorama-spec.7"]);
+    let others = [
+        "man1/cosmorama.1",
+        "man1/cosmorama-light-diffuse.1",
+        "man1/cosmorama-light-specular.1",
+        "man7/cosmorama-spec.7",
+    ];
+    let names = names.iter().map(String::as_str).chain(others);
     let mut all = 0;
     for name in names {
         let page = text(&bench.bytes(&format!("pages/{name}")));

@@ -1,0 +1,170 @@
+use clap::builder::NonEmptyStringValueParser;
+use clap::{Args, ValueEnum, ValueHint};
+use cosmorama::raster::Depth;
+use cosmorama::sphere::{Angle, Orientation};
+use cosmorama_convert::{Conversion, Existing, GeometrySettings};
+use cosmorama_io::FrameList;
+use cosmorama_spec::{DepthName, FrameRanges, FrameRangesError, Missing, Size, Spec, TransferName};
+
+use super::lobe::LobeName;
+use crate::args::convert::LimitArgs;
+use crate::args::parse::depth::depth_parser;
+use crate::args::parse::listed;
+use crate::args::parse::number::degrees;
+use crate::args::{ProgressStyle, with_examples};
+
+/// Commands that the help of `light diffuse` shows.
+pub(super) const DIFFUSE_EXAMPLES: [&str; 4] = [
+    "cosmorama light diffuse sky.hdr light.exr",
+    "cosmorama light diffuse sky.exr 'light/{face}.exr' --size 32",
+    "cosmorama light diffuse sky.png light.png --to mercator --normalise radiance",
+    "cosmorama light diffuse dome.exr light.exr --from fulldome --missing black",
+];
+
+/// Commands that the help of `light specular` shows.
+pub(super) const SPECULAR_EXAMPLES: [&str; 3] = [
+    "cosmorama light specular sky.exr rough.exr --alpha 0.25 --size 256",
+    "cosmorama light specular sky.exr 'rough/{face}.exr' --alpha 0.5",
+    "cosmorama light specular sky.exr glossy.exr --lobe phong:64 --to mercator",
+];
+
+/// Make a map of the light that falls on a matt surface, by the direction that it faces.
+///
+/// E(n) = ∫ L(ω) max(0, n·ω) dω, by the solid angles of texels.
+#[derive(Clone, Debug, Args)]
+#[command(help_template = with_examples(&DIFFUSE_EXAMPLES))]
+pub(crate) struct DiffuseArgs {
+    #[command(flatten)]
+    pub(crate) map: MapArgs,
+    /// irradiance: E (a world of 1 gives π); radiance: E/π (1)
+    #[arg(long, value_enum, value_name = "UNIT", default_value_t = Unit::Irradiance, hide_possible_values = true, help_heading = "Light")]
+    pub(crate) normalise: Unit,
+}
+
+/// Make a map of what a glossy surface reflects, by the mirror direction.
+///
+/// Each pixel is the average of the world's light under a lobe about its direction: a world of 1 gives 1. Normal, view and mirror
+/// direction are one (N = V = R).
+#[derive(Clone, Debug, Args)]
+#[command(help_template = with_examples(&SPECULAR_EXAMPLES))]
+pub(crate) struct SpecularArgs {
+    #[command(flatten)]
+    pub(crate) map: MapArgs,
+    /// ggx (default), charlie, phong:N or blinn:N
+    ///
+    /// ggx weighs each direction by D(h)·(n·l), charlie too, with the distribution of cloth; phong by cosᴺ θ, blinn by
+    /// cosᴺ(θ/2)·cos θ.
+    #[arg(long, value_name = "LOBE", default_value = "ggx", value_parser = listed::lobe(), hide_possible_values = true, hide_default_value = true, help_heading = "Light")]
+    pub(crate) lobe: LobeName,
+    /// Roughness α of ggx and charlie, 0.001 to 1
+    ///
+    /// α is the square of the roughness that most programs show.
+    #[arg(long, value_name = "A", allow_negative_numbers = true, help_heading = "Light")]
+    pub(crate) alpha: Option<f64>,
+}
+
+/// Unit of a diffuse map.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Unit {
+    /// E: a constant world of 1 gives π
+    Irradiance,
+    /// E/π: a constant world of 1 gives 1
+    Radiance,
+}
+
+/// A map of light: from which world to which files.
+#[derive(Clone, Debug, Args)]
+pub(crate) struct MapArgs {
+    /// An image or a pattern, as convert takes it; - is standard input
+    #[arg(value_hint = ValueHint::FilePath, value_parser = NonEmptyStringValueParser::new())]
+    pub(crate) input: String,
+    /// An image or a pattern, by its extension
+    #[arg(value_hint = ValueHint::FilePath, value_parser = NonEmptyStringValueParser::new())]
+    pub(crate) output: String,
+    /// The input's projection [default: found]
+    #[arg(long, value_name = "SPEC", value_parser = listed::spec(), hide_possible_values = true, help_heading = "Geometry")]
+    pub(crate) from: Option<Spec>,
+    /// The map's projection [default: equirect, or cube for {face}]
+    #[arg(long, value_name = "SPEC", value_parser = listed::spec(), hide_possible_values = true, help_heading = "Geometry")]
+    pub(crate) to: Option<Spec>,
+    /// The map's pixels: WxH, or the width [default: 64; faces 32]
+    #[arg(long, value_name = "WxH|N", allow_hyphen_values = true, help_heading = "Geometry")]
+    pub(crate) size: Option<Size>,
+    /// Turn the map to the right, in degrees
+    #[arg(long, value_name = "D", default_value_t = 0.0, value_parser = degrees, allow_negative_numbers = true, hide_short_help = true, help_heading = "Geometry")]
+    pub(crate) yaw: f64,
+    /// Turn the map up
+    #[arg(long, value_name = "D", default_value_t = 0.0, value_parser = degrees, allow_negative_numbers = true, hide_short_help = true, help_heading = "Geometry")]
+    pub(crate) pitch: f64,
+    /// Turn the map's camera clockwise
+    #[arg(long, value_name = "D", default_value_t = 0.0, value_parser = degrees, allow_negative_numbers = true, hide_short_help = true, help_heading = "Geometry")]
+    pub(crate) roll: f64,
+    /// Sum every texel for every pixel
+    ///
+    /// The default takes together texels over which the lobe hardly bends; docs/light.md says how near it is.
+    #[arg(long, help_heading = "Light")]
+    pub(crate) exact: bool,
+    /// What no view covers: error (default), transparent or a colour
+    #[arg(long, value_name = "COLOR", default_value = "error", hide_default_value = true, help_heading = "Light")]
+    pub(crate) missing: Missing,
+    /// How integer code values relate to light: auto (default), srgb, linear, …
+    #[arg(long, value_name = "T", default_value = "auto", value_parser = listed::transfer(), hide_possible_values = true, hide_default_value = true, help_heading = "Light")]
+    pub(crate) transfer: TransferName,
+    /// Output sample type [default: the deepest of the format]
+    #[arg(long, value_parser = depth_parser(), value_name = "DEPTH", help_heading = "Light")]
+    pub(crate) depth: Option<DepthName>,
+    /// Which frames: 5, 1-10 or 1-3,5,7-20:2 [default: all]
+    #[arg(long, value_name = "LIST", value_parser = frame_list, allow_hyphen_values = true, help_heading = "Frames and files")]
+    pub(crate) frames: Option<FrameList>,
+    /// Replace existing outputs
+    #[arg(short = 'y', long, conflicts_with = "resume", help_heading = "Frames and files")]
+    pub(crate) overwrite: bool,
+    /// Skip outputs that are already complete
+    #[arg(long, help_heading = "Frames and files")]
+    pub(crate) resume: bool,
+    /// Fail where a folder of an output does not exist
+    #[arg(long, hide_short_help = true, help_heading = "Frames and files")]
+    pub(crate) no_mkdir: bool,
+    #[command(flatten)]
+    pub(crate) limits: LimitArgs,
+    /// How to tell what is going on, on standard error
+    #[arg(long, value_enum, value_name = "STYLE", default_value_t = ProgressStyle::Auto, hide_short_help = true, help_heading = "Run")]
+    pub(crate) progress: ProgressStyle,
+    /// Print a machine-readable report on standard output
+    #[arg(long, help_heading = "Run")]
+    pub(crate) json: bool,
+}
+
+fn frame_list(text: &str) -> Result<FrameList, FrameRangesError> {
+    text.parse().map(|ranges: FrameRanges| FrameList::new(ranges.frames()))
+}
+
+impl From<MapArgs> for Conversion {
+    fn from(args: MapArgs) -> Self {
+        let [yaw, pitch, roll] = [args.yaw, args.pitch, args.roll].map(Angle::from_degrees);
+        let orientation = Orientation::from_yaw_pitch_roll(yaw, pitch, roll);
+        Self {
+            input: args.input,
+            output: args.output,
+            geometry: GeometrySettings {
+                from: args.from,
+                to: args.to,
+                size: args.size,
+                orientation,
+                ..GeometrySettings::default()
+            },
+            transfer: args.transfer,
+            depth: args.depth.map(Depth::from),
+            missing: args.missing,
+            frames: args.frames,
+            existing: match (args.overwrite, args.resume) {
+                (true, _) => Existing::Replace,
+                (false, true) => Existing::Resume,
+                (false, false) => Existing::Refuse,
+            },
+            make_folders: !args.no_mkdir,
+            limits: args.limits.into(),
+            ..Self::default()
+        }
+    }
+}

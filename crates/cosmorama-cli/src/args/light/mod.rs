@@ -1,0 +1,45 @@
+//! Arguments of the verbs that make light of a world.
+
+pub(crate) mod lobe;
+mod maps;
+
+use clap::{Args, Subcommand};
+
+use super::with_examples;
+
+pub(crate) use maps::{DiffuseArgs, MapArgs, SpecularArgs, Unit};
+
+/// Commands that its help shows.
+pub(super) const EXAMPLES: [&str; 4] = [
+    "cosmorama light diffuse sky.hdr light.exr",
+    "cosmorama light diffuse 'faces/{face}.exr' light.exr --to mercator",
+    "cosmorama light specular sky.exr rough.exr --alpha 0.25 --size 256",
+    "cosmorama light specular sky.exr glossy.png --lobe phong:64",
+];
+
+/// Filter a world widely, to the light that it sheds on things.
+#[derive(Debug, Args)]
+#[command(help_template = with_examples(&EXAMPLES), arg_required_else_help = true)]
+#[command(after_help = "'cosmorama light diffuse -h' lists the options of a map; docs/light.md has the conventions")]
+pub(crate) struct LightArgs {
+    /// What to make.
+    #[command(subcommand)]
+    pub(crate) verb: LightVerb,
+}
+
+/// What can be made of a world's light.
+#[derive(Debug, Subcommand)]
+pub(crate) enum LightVerb {
+    /// Make a map of the light that falls on a matt surface, by the direction that it faces
+    Diffuse(Box<DiffuseArgs>),
+    /// Make a map of what a glossy surface reflects, by the mirror direction
+    Specular(Box<SpecularArgs>),
+}
+
+/// Commands that the help of a verb of `light` shows.
+pub(crate) fn examples(verb: &str) -> &'static [&'static str] {
+    match verb {
+        "diffuse" => &maps::DIFFUSE_EXAMPLES,
+        _ => &maps::SPECULAR_EXAMPLES,
+    }
+}

@@ -1,0 +1,150 @@
+//! Maps of light: `light diffuse` and `light specular`.
+
+use std::path::Path;
+
+use cosmorama::raster::{Channels, Depth, EncodedImage, Image, Rgba, Transfer};
+use serde_json::Value;
+
+use crate::bench::{Bench, assert_says, text};
+
+/// A panorama in floats.
+fn save_sky(bench: &Bench, name: &str, width: usize, light: impl Fn(usize, usize) -> [f32; 3]) {
+    let picture = Image::from_fn(width, width / 2, |i, j| {
+        let [red, green, blue] = light(i, j);
+        Rgba::opaque(red, green, blue)
+    });
+    bench.save(name, &EncodedImage::encode(&picture, Channels::Rgb, Depth::Float, &Transfer::Linear));
+}
+
+fn light(bench: &Bench, name: &str) -> Vec<[f32; 3]> {
+    let light = bench.load(name).to_light(&Transfer::Linear);
+    light.pixels().iter().map(|Rgba([red, green, blue, _])| [*red, *green, *blue]).collect()
+}
+
+/// Largest and root mean square of relative errors.
+fn errors(found: &[[f32; 3]], expected: &[u8]) -> (f64, f64) {
+    let expected = expected.chunks_exact(8).map(|bytes| f64::from_le_bytes(bytes.try_into().unwrap()));
+    let errors: Vec<f64> =
+        found.iter().flatten().zip(expected).map(|(found, expected)| f64::from(*found) / expected - 1.0).collect();
+    assert_eq!(errors.len(), 64 * 32 * 3);
+    let squares: f64 = errors.iter().map(|error| error * error).sum();
+    (errors.iter().fold(0.0, |worst, error| worst.max(error.abs())), (squares / errors.len() as f64).sqrt())
+}
+
+#[test]
+fn maps_match_brute_force_by_another_program() {
+    let (Some(faces), Some(oracles)) = (testkit::shared("oracles/povray"), testkit::shared("oracles/reflection"))
+    else {
+        return;
+    };
+    let faces = faces.join("face_{face}.png").display().to_string();
+    let bench = Bench::new();
+    let diffuse = ["diffuse", "--normalise", "radiance"];
+    let cases: [(&str, &[&str], f64, f64); 4] = [
+        ("diffuse", &diffuse, 1e-3, 1e-4),
+        ("diffuse", &["diffuse", "--normalise", "radiance", "--exact"], 1e-4, 2e-5),
+        ("phong16", &["specular", "--lobe", "phong:16"], 1e-3, 5e-4),
+        ("phong64", &["specular", "--lobe", "phong:64"], 1e-3, 5e-4),
+    ];
+    for (oracle, args, most, rms) in cases {
+        let expected = std::fs::read(oracles.join(format!("{oracle}_64x32.f64"))).unwrap();
+        let linear = ["--transfer", "linear", "--size", "64", "-y"];
+        bench.succeed(&[&["light"], &args[..1], &[&faces, "map.exr"], &args[1..], &linear].concat());
+        let found = errors(&light(&bench, "map.exr"), &expected);
+        assert!(found.0 <= most && found.1 <= rms, "{args:?}: largest {:.2e}, rms {:.2e}", found.0, found.1);
+    }
+}
+
+#[test]
+fn real_skies_keep_their_energy() {
+    let Some(folder) = testkit::shared("data/equirect_hdr") else { return };
+    let bench = Bench::new();
+    let mut count = 0;
+    for entry in std::fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path().display().to_string();
+        for map in [&["diffuse"][..], &["specular", "--alpha", "0.25", "--size", "128"]] {
+            let report =
+                bench.succeed(&[&["light"], &map[..1], &[&path, "map.exr", "-y", "--json"], &map[1..]].concat());
+            let report: Value = serde_json::from_str(&report).unwrap();
+            let energy = |key: &str, channel: usize| report["light"][0][key][channel].as_f64().unwrap();
+            for channel in 0..3 {
+                let kept = energy("energy_out", channel) / energy("energy_in", channel);
+                assert!((kept - 1.0).abs() < 1e-3, "{path}, {map:?}: {kept}");
+            }
+        }
+        count += 1;
+    }
+    assert!(count >= 10, "{count} skies");
+}
+
+#[test]
+fn a_constant_world_gives_pi_or_one() {
+    let bench = Bench::new();
+    save_sky(&bench, "sky.exr", 64, |_, _| [1.0, 2.0, 0.5]);
+    let near = |name: &str, unit: f32| {
+        for [red, green, blue] in light(&bench, name) {
+            let is_near = |found: f32, expected: f32| (found / (unit * expected) - 1.0).abs() < 1e-6;
+            assert!(is_near(red, 1.0) && is_near(green, 2.0) && is_near(blue, 0.5), "{name}: {red} {green} {blue}");
+        }
+    };
+    bench.succeed(&["light", "diffuse", "sky.exr", "irradiance.exr"]);
+    near("irradiance.exr", std::f32::consts::PI);
+    let made = bench.load("irradiance.exr");
+    assert_eq!((made.width(), made.height(), made.depth()), (64, 32, Depth::Float));
+    bench.succeed(&["light", "diffuse", "sky.exr", "radiance.exr", "--normalise", "radiance", "--to", "mercator"]);
+    near("radiance.exr", 1.0);
+    bench.succeed(&["light", "specular", "sky.exr", "cube/{face}.exr", "--alpha", "0.3", "--size", "8"]);
+    near("cube/front.exr", 1.0);
+    near("cube/top.exr", 1.0);
+    let report =
+        bench.succeed(&["light", "specular", "sky.exr", "cloth.exr", "--lobe", "charlie", "--alpha", "0.5", "--json"]);
+    near("cloth.exr", 1.0);
+    let report: Value = serde_json::from_str(&report).unwrap();
+    assert!((report["light"][0]["peak_out"].as_f64().unwrap() - 2.0).abs() < 1e-5, "{report}");
+    assert_eq!(report["light"][0]["overflowed_samples"], 0);
+}
+
+#[test]
+fn half_a_world_needs_to_be_told_what_is_missing() {
+    let bench = Bench::new();
+    save_sky(&bench, "sky.exr", 128, |_, _| [1.0; 3]);
+    bench.succeed(&["convert", "sky.exr", "dome.exr", "--to", "fulldome", "--size", "128"]);
+    let map = ["light", "diffuse", "dome.exr", "map.exr", "--from", "fulldome", "--normalise", "radiance"];
+    assert_says(&bench.fail(1, &map), &["50.0 % of the sphere, around yaw", "pitch -90°", "--missing"]);
+    bench.succeed(&[&map[..], &["--missing", "black"]].concat());
+    let made = light(&bench, "map.exr");
+    assert!((made[0][0] - 1.0).abs() < 0.01 && made[31 * 64][0] < 0.01, "{:?} {:?}", made[0], made[31 * 64]);
+    bench.succeed(&[&map[..], &["--missing", "white", "-y"]].concat());
+    assert!(light(&bench, "map.exr").iter().flatten().all(|light| (light - 1.0).abs() < 2e-3));
+    bench.succeed(&[&map[..], &["--missing", "transparent", "-y"]].concat());
+    assert!(bench.load("map.exr").channels().has_alpha());
+}
+
+#[test]
+fn light_beyond_white_is_told_of() {
+    let bench = Bench::new();
+    save_sky(&bench, "sky.exr", 64, |i, j| if (i, j) == (20, 10) { [2e8; 3] } else { [1.0; 3] });
+    let output = bench.run(&["light", "diffuse", "sky.exr", "map.png"]);
+    assert!(output.status.success());
+    assert_says(&text(&output.stderr), &["samples are brighter than --depth 16 holds", "OpenEXR"]);
+    let output = bench.run(&["light", "specular", "sky.exr", "map.exr", "--alpha", "0.05", "--depth", "half"]);
+    assert_says(&text(&output.stderr), &["samples are brighter than --depth half holds"]);
+    assert!(light(&bench, "map.exr").iter().flatten().all(|light| light.is_finite() && *light <= 65504.0));
+}
+
+#[test]
+fn mistakes_are_answered() {
+    let bench = Bench::new();
+    save_sky(&bench, "sky.exr", 32, |_, _| [1.0; 3]);
+    let fail = |args: &[&str], says: &[&str]| {
+        assert_says(&bench.fail(2, &[&["light", "specular", "sky.exr", "map.exr"], args].concat()), says);
+    };
+    fail(&[], &["--alpha is missing", "--alpha 0.25"]);
+    fail(&["--alpha", "2"], &["a roughness α of 2 is outside 0.001 to 1"]);
+    fail(&["--lobe", "phong"], &["phong needs an exponent, as in phong:64"]);
+    fail(&["--lobe", "phong:16", "--alpha", "0.5"], &["--alpha is for ggx and charlie"]);
+    fail(&["--lobe", "cone"], &["expected ggx, charlie, phong:N or blinn:N"]);
+    assert_says(&bench.fail(2, &["light", "diffuse", "builtin:demo", "map.exr"]), &["is a formula"]);
+    assert_says(&bench.fail(2, &["light", "diffuse", "sky.exr", "-"]), &["name one"]);
+    assert!(!Path::new(&bench.path("map.exr")).exists());
+}

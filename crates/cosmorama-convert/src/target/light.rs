@@ -1,0 +1,24 @@
+//! Defaults of maps of light, which are smooth and therefore small.
+
+use std::path::Path;
+
+use cosmorama_io::{FacePattern, Format};
+use cosmorama_spec::{Shape, Size, Spec};
+
+use crate::settings::GeometrySettings;
+
+/// Width of a panorama of light, and edge of a face, unless given.
+const WIDTH: usize = 64;
+const EDGE: usize = 32;
+
+/// Completes the geometry of a map of light: a panorama, or a cube where the output has a name for each face, unless another
+/// projection is given.
+pub(crate) fn of_light(geometry: GeometrySettings, output: &str) -> GeometrySettings {
+    let is_cube_file = Format::from_extension(Path::new(output)).is_ok_and(Format::is_cube_map);
+    let has_faces = is_cube_file || FacePattern::parse(output).is_some();
+    let usual = || if has_faces { "cube" } else { "equirect:samples=centres" }.parse::<Spec>().ok();
+    let to = geometry.to.or_else(usual);
+    let is_cube = to.as_ref().is_some_and(|spec| matches!(spec.shape, Shape::Cube(_)));
+    let size = geometry.size.or(Some(Size { width: if is_cube { EDGE } else { WIDTH }, height: None }));
+    GeometrySettings { to, size, ..geometry }
+}

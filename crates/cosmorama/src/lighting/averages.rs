@@ -1,0 +1,89 @@
+use rayon::prelude::*;
+
+use super::Lobe;
+use crate::camera::View;
+use crate::raster::{Image, Rgba};
+use crate::sphere::Direction;
+
+/// Averages of a world's light under lobes.
+///
+/// An average is premultiplied by the part of the lobe in which the world shows something. Where it shows all, alpha is one.
+pub trait LobeAverages: Sync {
+    /// Returns the solid angle in which the world shows something, in steradians.
+    fn shown(&self) -> f64;
+
+    /// Returns whether the world shows the whole sphere, but for what the rims of lenses may lack.
+    fn is_complete(&self) -> bool {
+        Normalisation::of(self.shown()) == Normalisation::Complete
+    }
+
+    /// Returns the average under a lobe about each axis.
+    fn averages(&self, axes: &[Direction], lobe: &Lobe) -> Vec<Rgba>;
+
+    /// Returns the average under a lobe about an axis.
+    fn average(&self, axis: Direction, lobe: &Lobe) -> Rgba {
+        self.averages(&[axis], lobe)[0]
+    }
+
+    /// Makes a picture in which each pixel is the average about its direction. `unseen` is the light of directions in which the
+    /// world shows nothing. Pixels outside the target's field of view are transparent.
+    fn picture(&self, target: &View, lobe: &Lobe, unseen: Rgba) -> Image<Rgba> {
+        let (width, height) = (target.width(), target.height());
+        let seen = |[i, j]: [usize; 2]| Some((j * width + i, target.screen_pixel(i, j)?));
+        let seen: Vec<_> = by_tiles(width, height).into_par_iter().filter_map(seen).collect();
+        let axes: Vec<Direction> = seen.iter().map(|(_, pixel)| pixel.footprint.direction).collect();
+        let mut image = Image::filled(width, height, Rgba::TRANSPARENT);
+        for ((k, pixel), average) in seen.iter().zip(self.averages(&axes, lobe)) {
+            image.pixels_mut()[*k] = average.over(unseen) * pixel.coverage as f32;
+        }
+        image
+    }
+}
+
+/// Columns and rows of the tiles in which pixels follow one another: near axes share most of their work.
+const TILE: [usize; 2] = [4, 2];
+
+/// Returns the columns and rows of an image's pixels, tile by tile.
+fn by_tiles(width: usize, height: usize) -> Vec<[usize; 2]> {
+    let [across, down] = TILE;
+    let mut pixels = Vec::with_capacity(width * height);
+    for top in (0..height).step_by(down) {
+        for left in (0..width).step_by(across) {
+            let rows = top..(top + down).min(height);
+            pixels.extend(rows.flat_map(|j| (left..(left + across).min(width)).map(move |i| [i, j])));
+        }
+    }
+    pixels
+}
+
+/// Rule by which sums become averages.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Normalisation {
+    /// The world shows all the sphere: sums are divided by the weights that were summed.
+    Complete,
+    /// It does not: sums are divided by the lobe's integral, and alpha is what is shown of that.
+    Partial,
+}
+
+/// Largest part of the sphere that a complete world may lack: pixels at the rims of lenses are not exact.
+const LACKING: f64 = 1e-3;
+
+impl Normalisation {
+    /// Returns the rule for a world that shows so much, in steradians.
+    pub(super) fn of(shown: f64) -> Self {
+        let whole = 4.0 * std::f64::consts::PI;
+        if shown > whole * (1.0 - LACKING) { Self::Complete } else { Self::Partial }
+    }
+
+    /// Returns the average of sums of red, green, blue and opacity.
+    pub(super) fn average(self, [red, green, blue, shown]: [f64; 4], lobe: &Lobe) -> Rgba {
+        let whole = match self {
+            Self::Complete => shown,
+            Self::Partial => shown.max(lobe.integral()),
+        };
+        if whole <= 0.0 {
+            return Rgba::TRANSPARENT;
+        }
+        Rgba([red, green, blue, shown].map(|sum| (sum / whole) as f32))
+    }
+}
