@@ -80,23 +80,60 @@ fn there_and_back() {
     bench.succeed(&["compare", "up.exr", "world_top.exr", "--min-psnr", "55"]);
 }
 
+/// Blender, Nuke, Mitsuba and Unreal take the samples of a panorama to lie at pixel centres, and know no `envmap`.
 #[test]
-fn panoramas_in_openexr_are_environment_maps() {
+fn panoramas_in_openexr_have_pixel_centres_unless_edges_are_asked_for() {
     let bench = Bench::new();
     direction_faces(&bench, 32);
-    bench.succeed(&["convert", "world_{face}.exr", "sky.exr", "--to", "equirect", "--size", "64"]);
-    let info: Value = serde_json::from_str(&bench.succeed(&["info", "sky.exr", "--json"])).unwrap();
-    assert_eq!((&info["envmap"], &info["depth"]), (&"latlong".into(), &"float".into()));
-    assert!(info["projection"].as_str().unwrap().starts_with("equirect, samples on the edges"), "{info}");
-    let args = ["convert", "world_{face}.exr", "centred.exr", "--to", "equirect:samples=centres", "--size", "64"];
-    bench.succeed(&args);
-    let info: Value = serde_json::from_str(&bench.succeed(&["info", "centred.exr", "--json"])).unwrap();
-    assert_eq!(info["envmap"], Value::Null);
-    // On the edges, the first column and the last show the same, and the first row is the pole.
-    let sky = bench.load("sky.exr").to_light(&Transfer::Linear);
+    let convert = |output: &str, spec: &str| {
+        bench.succeed(&["convert", "world_{face}.exr", output, "--to", spec, "--size", "64"]);
+        let info = bench.succeed(&["info", output, "--json"]);
+        let info: Value = serde_json::from_str(&info).unwrap();
+        (info["envmap"].clone(), info["projection"].as_str().unwrap().to_owned())
+    };
+    let (envmap, projection) = convert("sky.exr", "equirect");
+    assert_eq!(
+        (envmap, &projection[..]),
+        (Value::Null, "equirect (2:1), samples at pixel centres (no envmap attribute)")
+    );
+    let (envmap, projection) = convert("edges.exr", "equirect:samples=edges");
+    assert_eq!((envmap, &projection[..]), ("latlong".into(), "equirect, samples on the edges (envmap attribute)"));
+    // The first sample is half a pixel inside, or else at the pole and the seam.
+    let pixels = |name: &str| bench.load(name).to_light(&Transfer::Linear);
+    let (centres, edges) = (pixels("sky.exr"), pixels("edges.exr"));
+    let looks_at = |x: usize, y: usize| {
+        let longitude = (x as f64 + 0.5) / 64.0 * std::f64::consts::TAU;
+        let latitude = (0.5 - (y as f64 + 0.5) / 32.0) * std::f64::consts::PI;
+        // The left border looks back, +Z; a quarter of the width on is the left, -X.
+        [-longitude.sin() * latitude.cos(), latitude.sin(), longitude.cos() * latitude.cos()]
+    };
+    for (x, y) in [(0, 0), (0, 16), (7, 5), (40, 20), (63, 31)] {
+        for (channel, expected) in looks_at(x, y).into_iter().enumerate() {
+            let found = f64::from(centres.get(x, y).0[channel]) * 2.0 - 1.0;
+            assert!((found - expected).abs() < 5e-3, "{x},{y}: {found} instead of {expected}");
+        }
+    }
     for c in 0..3 {
-        assert!((sky.get(0, 16).0[c] - sky.get(63, 16).0[c]).abs() < 1e-3);
-        assert!((sky.get(5, 0).0[c] - sky.get(40, 0).0[c]).abs() < 5e-3);
+        assert!((edges.get(0, 16).0[c] - edges.get(63, 16).0[c]).abs() < 1e-3);
+        assert!((edges.get(5, 0).0[c] - edges.get(40, 0).0[c]).abs() < 5e-3);
+    }
+    // Each is read by its own rule.
+    for name in ["sky.exr", "edges.exr"] {
+        bench.succeed(&[
+            "convert",
+            name,
+            "view.exr",
+            "-y",
+            "--to",
+            "perspective:fov=60",
+            "--size",
+            "64",
+            "--yaw",
+            "120",
+        ]);
+        let view = ["--to", "perspective:fov=60", "--size", "64", "--yaw", "120"];
+        bench.succeed(&[&["convert", "world_{face}.exr", "truth.exr", "-y"][..], &view].concat());
+        bench.succeed(&["compare", "view.exr", "truth.exr", "--max-shift", "0.01"]);
     }
 }
 

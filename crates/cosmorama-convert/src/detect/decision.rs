@@ -6,7 +6,7 @@ use cosmorama::camera::{CameraModel, EquirectCamera, FulldomeCamera, Placement, 
 use cosmorama::circle::Found;
 use cosmorama::layout::{Arrangement, FaceOrder, LayoutKind, Stereo};
 use cosmorama::sphere::Angle;
-use cosmorama_io::{EnvMap, Header, Window};
+use cosmorama_io::{EnvMap, Format, Header, Window};
 use cosmorama_spec::{Cube, Shape, Single, Spec, StereoSpec};
 
 use crate::detect::{Circles, Continuity, Evidence, Readings, Seen, disc, seams};
@@ -125,6 +125,9 @@ impl Guess {
                 let is_whole = (window.canvas_width, window.canvas_height) == (header.width, header.height);
                 let part = Some(*window).filter(|_| !is_whole);
                 format!("{} (GPano metadata)", Spec::from(panorama(SamplePositions::Centres, part)))
+            }
+            Self::TwoToOne(None) if header.format == Format::Exr => {
+                "equirect (2:1), samples at pixel centres (no envmap attribute)".to_owned()
             }
             Self::TwoToOne(None) => "equirect (2:1)".to_owned(),
             Self::TwoToOne(Some(halves)) => {

@@ -99,18 +99,10 @@ impl Picture {
         format: Option<Format>,
         pixels_per_radian: Option<f64>,
     ) -> Result<Vec<Self>> {
-        let picture = |view, envmap, panorama| vec![Self { envmap, panorama, ..Self::new(view) }];
-        if format == Some(Format::Exr) {
-            // OpenEXR's attribute, and its samples on the edges, are for the whole sphere alone.
-            let edges = single.clone().with_samples(SamplePositions::Edges);
-            let view = single_view(&edges, geometry, pixels_per_radian)?;
-            if let Some(envmap) = panorama_envmap(&edges).filter(|_| view.covers_sphere()) {
-                return Ok(picture(view, Some(envmap), None));
-            }
-        }
         let view = single_view(single, geometry, pixels_per_radian)?;
+        let envmap = panorama_envmap(single, format).filter(|_| view.covers_sphere());
         let panorama = gpano::window(single, (view.width(), view.height()));
-        Ok(picture(view, None, panorama))
+        Ok(vec![Self { envmap, panorama, ..Self::new(view) }])
     }
 
     fn faces(cube: &Cube, geometry: &GeometrySettings, pixels_per_radian: Option<f64>) -> Result<Vec<Self>> {
@@ -188,23 +180,23 @@ pub(crate) fn naming(cube: &Cube) -> &'static Naming {
     cube.naming.unwrap_or(&Naming::presets()[0])
 }
 
-/// Returns the layout and order of a format's own cube files.
-pub(crate) fn own_layout(format: Format) -> Option<(LayoutKind, Option<FaceOrder>)> {
-    match format {
-        Format::Exr => Some((LayoutKind::StripV, Some(FaceOrder::OPENEXR))),
-        format if format.is_cube_map() => Some((LayoutKind::StripV, None)),
-        _ => None,
-    }
+/// Returns the layout of the cubes that files of a format hold where no layout is given.
+pub(crate) fn own_layout(format: Format) -> Option<LayoutKind> {
+    (format == Format::Exr || format.is_cube_map()).then_some(LayoutKind::StripV)
 }
 
-/// Completes a cube by the format's own layout, unless another is given.
+/// Completes a cube by the format's own layout, unless another is given. In OpenEXR, faces with samples on the edges are
+/// those of its environment map.
 fn completed(cube: &Cube, format: Option<Format>) -> Cube {
-    match (cube.layout, format.and_then(own_layout)) {
-        (None, Some((kind, order))) => {
-            Cube { layout: Some(Packing::OneImage(kind)), order: cube.order.or(order), ..cube.clone() }
-        }
-        _ => cube.clone(),
+    let Some((format, kind)) = format.and_then(|format| Some((format, own_layout(format)?))) else {
+        return cube.clone();
+    };
+    if cube.layout.is_some() {
+        return cube.clone();
     }
+    let is_environment = format == Format::Exr && cube.samples == Some(SamplePositions::Edges);
+    let order = cube.order.or(is_environment.then_some(FaceOrder::OPENEXR));
+    Cube { layout: Some(Packing::OneImage(kind)), order, ..cube.clone() }
 }
 
 fn single_view(single: &Single, geometry: &GeometrySettings, pixels_per_radian: Option<f64>) -> Result<View> {
@@ -220,24 +212,27 @@ fn single_view(single: &Single, geometry: &GeometrySettings, pixels_per_radian: 
     placement.view(width, height).map_err(|error| usage(format!("{TO}: {error}")))
 }
 
-/// Returns OpenEXR's environment map for a whole panorama with samples on the edges.
-fn panorama_envmap(single: &Single) -> Option<EnvMap> {
+/// Returns OpenEXR's environment map for a whole panorama whose SPEC puts the samples on the edges, as that attribute means.
+fn panorama_envmap(single: &Single, format: Option<Format>) -> Option<EnvMap> {
     let CameraModel::Equirect(frame) = single.placement.frame else { return None };
     let whole = frame.horizontal.degrees() > 359.999 && frame.vertical.degrees() > 179.999;
-    let by_format = single.samples != SphereSamples::Given(SamplePositions::Centres);
+    let on_edges = single.samples == SphereSamples::Given(SamplePositions::Edges);
     let upright = single.placement.canvas.is_none() && single.placement.mirror == Mirror::default();
-    (whole && by_format && upright).then_some(EnvMap::LatLong)
+    (format == Some(Format::Exr) && whole && on_edges && upright).then_some(EnvMap::LatLong)
 }
 
 /// Returns the format's own environment map, if six whole faces lie as it requires.
 fn cube_envmap(cube: &Cube, format: Option<Format>) -> Option<EnvMap> {
-    let (kind, order) = own_layout(format?)?;
-    let own = Cube { layout: Some(Packing::OneImage(kind)), order, ..Cube::default() };
+    let format = format?;
+    let (order, envmap) = match format {
+        Format::Exr => (Some(FaceOrder::OPENEXR), EnvMap::Cube),
+        _ => (None, EnvMap::GlCube),
+    };
+    let own = Cube { layout: Some(Packing::OneImage(own_layout(format)?)), order, ..Cube::default() };
     let same = cube.one_image() == own.one_image()
         && cube.frame() == own.frame()
         && cube.mirror == Mirror::default()
         && CubeFace::ALL.iter().all(|face| cube.faces.contains(face));
-    let envmap = if format == Some(Format::Exr) { EnvMap::Cube } else { EnvMap::GlCube };
     same.then_some(envmap)
 }
 

@@ -86,7 +86,7 @@ pub(crate) static KINDS: &[Kind] = &[
             key(
                 "samples",
                 "centres|edges",
-                "where the outermost samples of a face lie (centres; order=openexr: edges)",
+                "where the outermost samples of a face lie (centres; order=openexr and OpenEXR's envmap: edges)",
             ),
             key("naming", "PRESET", "how files are named: a preset (below)"),
             key("faces", "front,left,right,up", "use (or write) only these (top and bottom are up and down)"),
@@ -119,7 +119,11 @@ pub(crate) static KINDS: &[Kind] = &[
         keys: &[
             key("hfov", "DEGREES", "longitudes shown (360)"),
             key("vfov", "DEGREES", "latitudes shown (180)"),
-            key("samples", "centres|edges", "where the outermost samples lie (centres; OpenEXR files: edges)"),
+            key(
+                "samples",
+                "centres|edges",
+                "where the outermost samples lie (centres; files with OpenEXR's envmap attribute: edges, which writes it)",
+            ),
         ],
         refused: &[FITS],
         build: world_map::equirect,

@@ -31,7 +31,7 @@ impl Shape {
         };
         let samples = match &placement.frame {
             CameraModel::Equirect(frame) if fields.get("samples").is_some() => SphereSamples::Given(frame.samples),
-            CameraModel::Equirect(_) => SphereSamples::ByFormat,
+            CameraModel::Equirect(_) => SphereSamples::ByFile,
             _ => SphereSamples::NotAPanorama,
         };
         let any_shape = fields.get("hfov").is_some() && fields.get("vfov").is_some();
@@ -75,8 +75,8 @@ pub struct Single {
 pub enum SphereSamples {
     /// Not applicable: the projection is not a panorama.
     NotAPanorama,
-    /// The file format's usual position.
-    ByFormat,
+    /// The file's position: the edges in files with OpenEXR's `envmap` attribute, else centres.
+    ByFile,
     /// The position in the SPEC.
     Given(SamplePositions),
 }
@@ -85,7 +85,7 @@ pub enum SphereSamples {
 impl From<CameraModel> for Single {
     fn from(frame: CameraModel) -> Self {
         let samples = match frame {
-            CameraModel::Equirect(_) => SphereSamples::ByFormat,
+            CameraModel::Equirect(_) => SphereSamples::ByFile,
             _ => SphereSamples::NotAPanorama,
         };
         Self { placement: Placement::new(frame), samples, any_shape: false }
@@ -93,9 +93,9 @@ impl From<CameraModel> for Single {
 }
 
 impl Single {
-    /// Sets the file format's usual position, unless the SPEC gives one.
+    /// Sets the file's position, unless the SPEC gives one.
     pub fn with_samples(mut self, samples: SamplePositions) -> Self {
-        if let (CameraModel::Equirect(frame), SphereSamples::ByFormat) = (&mut self.placement.frame, self.samples) {
+        if let (CameraModel::Equirect(frame), SphereSamples::ByFile) = (&mut self.placement.frame, self.samples) {
             frame.samples = samples;
         }
         self

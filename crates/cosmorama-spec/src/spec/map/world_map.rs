@@ -85,7 +85,7 @@ pub(crate) fn write_equirect(shape: &Shape) -> Option<Keys> {
     };
     let samples = match single.samples {
         SphereSamples::Given(samples) => Some(samples),
-        SphereSamples::ByFormat | SphereSamples::NotAPanorama => {
+        SphereSamples::ByFile | SphereSamples::NotAPanorama => {
             Some(frame.samples).filter(|samples| *samples != default.samples)
         }
     };
