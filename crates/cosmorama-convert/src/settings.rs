@@ -120,7 +120,7 @@ impl LightSettings {
     /// Returns the factor of an average in the map.
     pub fn scale(&self) -> f64 {
         match self.normalisation {
-            LightNormalisation::Irradiance => std::f64::consts::PI,
+            LightNormalisation::Irradiance => Lobe::LAMBERT.integral(),
             LightNormalisation::Radiance => 1.0,
         }
     }

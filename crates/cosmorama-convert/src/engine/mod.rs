@@ -1,27 +1,26 @@
 //! Makes the outputs of a checked conversion, frame by frame.
 
-mod balance;
 pub(crate) mod formula;
 mod frame_engine;
 mod frame_files;
 mod frame_light;
 mod geometry;
-mod light_maps;
+mod lighting;
 mod sequence;
 pub(crate) mod st_map;
 mod timing;
 pub(crate) mod warnings;
 mod writer;
 
-pub use light_maps::LightReport;
+pub use lighting::light_maps::LightReport;
 pub use timing::CpuSeconds;
 
-pub(crate) use balance::{Balance, BalancedLight};
 pub(crate) use frame_engine::{Engine, assemble};
 pub(crate) use frame_files::{FrameFile, ViewImage, Which};
 pub(crate) use frame_light::{FrameLight, Texels};
 pub(crate) use geometry::Geometry;
-pub(crate) use light_maps::{LightMaps, gathered_bytes};
+pub(crate) use lighting::balance::{self, Balance, BalancedLight};
+pub(crate) use lighting::light_maps::{LightMaps, gathered_bytes};
 pub(crate) use sequence::{Sequence, Watcher};
 pub(crate) use timing::{Stage, Stages};
 pub(crate) use writer::{Levels, Writer};
