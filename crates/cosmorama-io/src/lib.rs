@@ -51,6 +51,6 @@ pub use file::{
 };
 pub use header::{Format, Header, ImageFile};
 pub use limits::Limits;
-pub use metadata::{EnvMap, Metadata, Window};
+pub use metadata::{EnvMap, Metadata, ProfileFault, Window};
 pub use pto::{PtoError, PtoImage, PtoPanorama, PtoProject};
 pub use sequence::{FoundFrames, FrameList, FramePattern, Frames};

@@ -1,7 +1,12 @@
+mod colour_name;
 pub(crate) mod gpano;
 pub(crate) mod icc;
 
-use cosmorama::raster::Transfer;
+pub(crate) use colour_name::colour_name;
+
+use std::borrow::Cow;
+
+use cosmorama::raster::{EncodedImage, Primaries, Transfer};
 
 /// Metadata of a file about its pixels, of which the parts that apply are carried from input to output.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -22,13 +27,58 @@ pub struct Metadata {
     pub notes: Vec<String>,
     /// Names of channels that are not read.
     pub other_channels: Vec<String>,
-    /// Colour primaries by their number in ITU-T H.273 (cICP). They are carried, never converted.
-    pub primaries: Option<u8>,
+    /// Primaries of the pixels; `None` if the file does not name them. In a PNG, cICP, iCCP and sRGB take precedence
+    /// over cHRM.
+    pub primaries: Option<Primaries>,
+    /// Luminance of white in cd/m², from OpenEXR's `whiteLuminance`.
+    pub white_luminance: Option<f32>,
+    /// Why the ICC profile cannot be followed; `None` where it can, or there is none.
+    pub profile_fault: Option<ProfileFault>,
     /// Orientation tag of TIFF (274), 2 to 8, by which the file asks viewers to turn or mirror its picture; `None` for
     /// no change. Pixels are read as stored.
     pub orientation: Option<u16>,
     /// Name of the program that wrote the file.
     pub software: Option<String>,
+}
+
+/// Reason why an ICC profile cannot be followed.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum ProfileFault {
+    /// It consists of tables of colours instead of curves and primaries.
+    Tables,
+    /// It is damaged, or for other pictures than this one; in words.
+    Damaged(String),
+}
+
+impl Metadata {
+    /// Returns the name of the colour space as people say it, such as "Rec. 2020, PQ"; `None` where the file does not
+    /// name both primaries and transfer function.
+    pub fn colour_space(&self) -> Option<String> {
+        colour_name(self.primaries.as_ref(), self.transfer.as_ref())
+    }
+
+    /// Returns the ICC profile for a file that can describe its colours in no other way. Without one, sRGB is assumed of
+    /// integers and linear Rec. 709 of floats; grey has no primaries.
+    pub(crate) fn profile_to_write(&self, image: &EncodedImage) -> Option<Cow<'_, [u8]>> {
+        if let Some(profile) = &self.icc {
+            return Some(profile.into());
+        }
+        let is_colour = image.channels().is_colour();
+        let primaries = self.primaries.filter(|_| is_colour).unwrap_or(Primaries::REC709);
+        let usual = if image.depth().is_float() { Transfer::Linear } else { Transfer::Srgb };
+        let transfer = self.transfer.as_ref().unwrap_or(&usual);
+        if *transfer == usual && primaries.is_same(&Primaries::REC709) {
+            return None;
+        }
+        let profile = if is_colour { icc::made(transfer, &primaries) } else { icc::made_grey(transfer) };
+        profile.map(Into::into)
+    }
+
+    /// Adds an ICC profile and what it says.
+    pub(crate) fn with_profile(self, profile: Option<Vec<u8>>) -> Self {
+        let icc::Profile { transfer, primaries, fault } = profile.as_deref().map(icc::read).unwrap_or_default();
+        Self { transfer, primaries, profile_fault: fault, icc: profile, ..self }
+    }
 }
 
 /// An environment map: a picture of the whole world.

@@ -1,5 +1,6 @@
 //! OpenEXR.
 
+mod colour;
 mod dwa;
 mod reader;
 mod selection;

@@ -13,6 +13,7 @@ use exr::meta::{BlockDescription, MetaData};
 use half::f16;
 use rayon::prelude::*;
 
+use super::colour;
 use super::dwa;
 use super::selection::Selection;
 use super::window::Crop;
@@ -186,6 +187,7 @@ fn announce(path: &Path, parts: &[Part], wanted: Wanted) -> Result<(Header, Sele
         software: own.software_name.as_ref().map(ToString::to_string),
         ..Metadata::default()
     };
+    let metadata = colour::read(part, metadata);
     let header = Header {
         format: FORMAT,
         width: crop.width,

@@ -10,6 +10,7 @@ use exr::meta::header::LayerAttributes;
 use exr::prelude::SmallVec;
 use half::f16;
 
+use super::colour;
 use crate::codec::interface::is_beside_others;
 use crate::{Compression, EnvMap, IoError, WriteOptions};
 
@@ -71,10 +72,13 @@ fn save(
             EnvMap::GlCube => None,
         }),
         software_name: Some(Text::from("cosmorama")),
+        white_luminance: options.metadata.white_luminance,
+        other: colour::interop_id(&options.metadata).into_iter().collect(),
         ..LayerAttributes::default()
     };
     let layer = Layer::new(size, attributes, encoding, AnyChannels::sort(list));
-    let picture = Image::from_layer(layer);
+    let mut picture = Image::from_layer(layer);
+    picture.attributes.chromaticities = options.metadata.primaries.as_ref().map(colour::chromaticities);
     let writer = picture.write();
     // The encoder has threads of its own, for one that works alone and has some to spare.
     let written = if rayon::current_num_threads() > 1 && !is_beside_others() {

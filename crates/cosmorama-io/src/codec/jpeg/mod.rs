@@ -12,7 +12,7 @@ use zune_jpeg::zune_core::colorspace::ColorSpace;
 use zune_jpeg::zune_core::options::DecoderOptions;
 
 use crate::codec::interface::{Codec, Sink, Source, whole_image};
-use crate::metadata::{gpano, icc};
+use crate::metadata::gpano;
 use crate::{Format, Header, ImageFile, IoError, Limits, Metadata, WriteOptions};
 
 const FORMAT: Format = Format::Jpeg;
@@ -75,8 +75,8 @@ impl Codec for Jpeg {
         };
         let mut bytes = Vec::new();
         let mut encoder = JpegEncoder::new_with_quality(&mut bytes, options.quality.clamp(1, 100));
-        if let Some(profile) = &options.metadata.icc {
-            encoder.set_icc_profile(profile.clone()).map_err(|error| fail(&error))?;
+        if let Some(profile) = options.metadata.profile_to_write(image) {
+            encoder.set_icc_profile(profile.into_owned()).map_err(|error| fail(&error))?;
         }
         encoder.write_image(samples, width.into(), height.into(), colour).map_err(|error| fail(&error))?;
         let size = (image.width(), image.height());
@@ -147,12 +147,7 @@ fn header<T: ZByteReaderTrait>(path: &Path, decoder: &mut JpegDecoder<T>) -> Res
     };
     let profile = decoder.icc_profile();
     let said = decoder.xmp().map(|packet| gpano::parse(packet, (width, height))).unwrap_or_default();
-    let metadata = Metadata {
-        transfer: profile.as_deref().and_then(icc::transfer),
-        icc: profile,
-        panorama: said.window,
-        complaints: said.complaints,
-        ..Metadata::default()
-    };
+    let metadata = Metadata { panorama: said.window, complaints: said.complaints, ..Metadata::default() };
+    let metadata = metadata.with_profile(profile);
     Ok(Header { format: FORMAT, width, height, channels, depth: Depth::Eight, metadata, window: None })
 }

@@ -1,33 +1,111 @@
 //! Colour metadata in the chunks of a PNG.
 
-use cosmorama::raster::Transfer;
+use cosmorama::raster::{Primaries, Transfer};
 use png::chunk::ChunkType;
-use png::{CodingIndependentCodePoints, Info, ScaledFloat, SrgbRenderingIntent};
+use png::{CodingIndependentCodePoints, Info, ScaledFloat, SourceChromaticities, SrgbRenderingIntent};
 
 use crate::Metadata;
-use crate::metadata::{gpano, icc};
+use crate::metadata::{colour_name, gpano, icc};
 
 pub(super) const CICP: ChunkType = ChunkType(*b"cICP");
 
-/// Reads the chunks; by the specification the order of precedence is cICP, iCCP, sRGB, gAMA.
+/// Reads the chunks; by the specification the order of precedence is cICP, iCCP, sRGB, gAMA with cHRM.
 pub(super) fn metadata(info: &Info<'_>) -> Metadata {
-    let profile = info.icc_profile.as_ref().map(|profile| profile.to_vec());
-    let cicp = info.coding_independent_code_points;
-    let transfer = cicp
-        .and_then(|cicp| from_code_points(cicp.transfer_function))
-        .or_else(|| profile.as_deref().and_then(icc::transfer))
-        .or_else(|| info.srgb.map(|_| Transfer::Srgb))
-        .or_else(|| info.gama_chunk.and_then(from_gamma));
     let software = info.uncompressed_latin1_text.iter().find(|text| text.keyword == "Software");
     let said = panorama(info).unwrap_or_default();
-    Metadata {
-        transfer,
-        icc: profile,
-        primaries: cicp.map(|cicp| cicp.color_primaries),
+    let other = Metadata {
         panorama: said.window,
         complaints: said.complaints,
         software: software.map(|text| text.text.clone()),
         ..Metadata::default()
+    };
+    colour(info, other)
+}
+
+/// Adds what the chunk of highest precedence says, and tells where others contradict it.
+fn colour(info: &Info<'_>, mut metadata: Metadata) -> Metadata {
+    let profile = info.icc_profile.as_ref().map(|profile| profile.to_vec());
+    match cicp(info) {
+        Some(Err(unknown)) => metadata.complaints.push(unknown),
+        Some(Ok((primaries, transfer))) => {
+            let profile =
+                Metadata::default().with_profile(profile).colour_space().map(|name| ("its ICC profile", name));
+            let metadata = Metadata { primaries, transfer, ..metadata };
+            let sayings = [profile, info.srgb.map(|_| ("its sRGB chunk", "sRGB".to_owned()))];
+            return told("cICP", metadata, sayings).with_range(info);
+        }
+        None => {}
+    }
+    if profile.is_some() {
+        return metadata.with_profile(profile);
+    }
+    let (primaries, transfer) = (info.chrm_chunk.and_then(from_chromaticities), info.gama_chunk.and_then(from_gamma));
+    if info.srgb.is_some() {
+        let other = primaries.filter(|primaries| !primaries.is_same(&Primaries::REC709));
+        let chroma = other.map(|other| ("its cHRM chunk", other.to_string()));
+        // Its gAMA is an approximation at best.
+        let steep =
+            transfer.filter(|transfer| !matches!(transfer, Transfer::Gamma(gamma) if (2.1..2.3).contains(gamma)));
+        let gamma = colour_name(steep.as_ref().map(|_| &Primaries::REC709), steep.as_ref());
+        let metadata = Metadata { primaries: Some(Primaries::REC709), transfer: Some(Transfer::Srgb), ..metadata };
+        return told("sRGB", metadata, [chroma, gamma.map(|gamma| ("its gAMA chunk", gamma))]);
+    }
+    if info.chrm_chunk.is_some() && primaries.is_none() {
+        metadata.complaints.push("its cHRM chunk is ignored: its red, green and blue span no triangle".to_owned());
+    }
+    Metadata { primaries, transfer, ..metadata }
+}
+
+/// Complains of what contradicts the chunk that takes precedence.
+fn told(chunk: &str, mut metadata: Metadata, sayings: [Option<(&str, String)>; 2]) -> Metadata {
+    let name = metadata.colour_space().unwrap_or_default();
+    for (place, other) in sayings.into_iter().flatten().filter(|(_, other)| *other != name) {
+        metadata.complaints.push(format!(
+            "its {chunk} chunk says {name} and {place} {other}; {chunk} comes first, as the PNG specification has it"
+        ));
+    }
+    metadata
+}
+
+/// Returns whether code values run from 16 to 235, as in video.
+pub(super) fn is_narrow(info: &Info<'_>) -> bool {
+    let narrow = info.coding_independent_code_points.is_some_and(|cicp| !cicp.is_video_full_range_image);
+    narrow && matches!(cicp(info), Some(Ok(_)))
+}
+
+/// Primaries and transfer function of a cICP chunk.
+type Coded = (Option<Primaries>, Option<Transfer>);
+
+/// Reads the cICP chunk; the error says why it is ignored.
+fn cicp(info: &Info<'_>) -> Option<Result<Coded, String>> {
+    let cicp = info.coding_independent_code_points?;
+    let ignored = |what: &str, number: u8, expected: &str| {
+        Some(Err(format!("its cICP chunk is ignored: {what} {number} is unknown here, expected {expected}")))
+    };
+    if cicp.matrix_coefficients != 0 {
+        return ignored("matrix", cicp.matrix_coefficients, "0, RGB");
+    }
+    let primaries = Primaries::of_number(cicp.color_primaries);
+    if primaries.is_none() && cicp.color_primaries != UNSPECIFIED {
+        return ignored("the number of its primaries,", cicp.color_primaries, "one of ITU-T H.273's, 1 to 12 or 22");
+    }
+    let transfer = from_code_points(cicp.transfer_function);
+    if transfer.is_none() && cicp.transfer_function != UNSPECIFIED {
+        return ignored("the transfer function", cicp.transfer_function, "1, 4 to 6, 8, 13 to 16 or 18 of ITU-T H.273");
+    }
+    Some(Ok((primaries, transfer)))
+}
+
+/// Number of ITU-T H.273 for what is not known.
+const UNSPECIFIED: u8 = 2;
+
+impl Metadata {
+    fn with_range(mut self, info: &Info<'_>) -> Self {
+        if is_narrow(info) {
+            self.notes
+                .push("its code values are of narrow range, as in video; they are read as of full range".to_owned());
+        }
+        self
     }
 }
 
@@ -67,33 +145,58 @@ fn from_gamma(encoding: ScaledFloat) -> Option<Transfer> {
     Some(Transfer::Gamma(exponent.recip()))
 }
 
-/// Representation of a transfer function in the file.
-pub(super) enum Tag {
-    Srgb(SrgbRenderingIntent),
-    Gamma(ScaledFloat),
-    CodePoints(CodingIndependentCodePoints),
+fn from_chromaticities(chunk: SourceChromaticities) -> Option<Primaries> {
+    let pair = |(x, y): (ScaledFloat, ScaledFloat)| [x, y].map(|number| f64::from(number.into_scaled()) / 100_000.0);
+    Primaries::of_pairs(pair(chunk.red), pair(chunk.green), pair(chunk.blue), pair(chunk.white))
 }
 
-/// Returns the tag for a transfer function; `None` if only an ICC profile could describe it.
-pub(super) fn tag(transfer: &Transfer, primaries: Option<u8>) -> Option<Tag> {
-    let code_points = |transfer_function| {
-        Some(Tag::CodePoints(CodingIndependentCodePoints {
-            color_primaries: primaries.unwrap_or(1),
+/// Representation of colours in the file.
+pub(super) enum Tag {
+    Srgb(SrgbRenderingIntent),
+    Gamma(ScaledFloat, Option<SourceChromaticities>),
+    CodePoints(CodingIndependentCodePoints),
+    Profile(Vec<u8>),
+}
+
+/// Returns the tag for a transfer function and primaries; `None` if the transfer function has none.
+pub(super) fn tag(transfer: &Transfer, primaries: Option<&Primaries>) -> Option<Tag> {
+    let primaries = primaries.unwrap_or(&Primaries::REC709);
+    let is_usual = primaries.is_same(&Primaries::REC709);
+    let profile = || icc::made(transfer, primaries).map(Tag::Profile);
+    let code_points = |transfer_function| match primaries.number() {
+        None => profile(),
+        Some(color_primaries) => Some(Tag::CodePoints(CodingIndependentCodePoints {
+            color_primaries,
             transfer_function,
             matrix_coefficients: 0,
             is_video_full_range_image: true,
-        }))
+        })),
     };
-    let other_primaries = primaries.is_some_and(|primaries| primaries != 1);
+    let gamma = |gamma: f64| {
+        let exponent = ScaledFloat::from_scaled((100_000.0 / gamma).round() as u32);
+        if is_usual {
+            return Some(Tag::Gamma(exponent, None));
+        }
+        chromaticities(primaries).map_or_else(profile, |chroma| Some(Tag::Gamma(exponent, Some(chroma))))
+    };
     match transfer {
-        Transfer::Srgb if other_primaries => code_points(13),
-        Transfer::Srgb => Some(Tag::Srgb(SrgbRenderingIntent::RelativeColorimetric)),
-        Transfer::Linear if other_primaries => code_points(8),
-        Transfer::Linear => Some(Tag::Gamma(ScaledFloat::from_scaled(100_000))),
-        Transfer::Gamma(gamma) => Some(Tag::Gamma(ScaledFloat::from_scaled((100_000.0 / gamma).round() as u32))),
+        Transfer::Srgb if is_usual => Some(Tag::Srgb(SrgbRenderingIntent::RelativeColorimetric)),
+        Transfer::Srgb => code_points(13),
+        Transfer::Linear if !is_usual && primaries.number().is_some() => code_points(8),
+        Transfer::Linear => gamma(1.0),
+        Transfer::Gamma(exponent) => gamma(*exponent),
         Transfer::Bt1886 => code_points(1),
         Transfer::Pq => code_points(16),
         Transfer::Hlg => code_points(18),
-        Transfer::Curve(_) => None,
+        Transfer::Curve(_) if is_usual => None,
+        Transfer::Curve(_) => profile(),
     }
+}
+
+/// Returns the chunk of primaries; `None` where a number is negative, which it cannot hold.
+fn chromaticities(primaries: &Primaries) -> Option<SourceChromaticities> {
+    let scaled = |number: f64| (number >= 0.0).then(|| ScaledFloat::from_scaled((number * 100_000.0).round() as u32));
+    let pair = |[x, y]: [f64; 2]| Some((scaled(x)?, scaled(y)?));
+    let [red, green, blue, white] = primaries.pairs().map(pair);
+    Some(SourceChromaticities { white: white?, red: red?, green: green?, blue: blue? })
 }

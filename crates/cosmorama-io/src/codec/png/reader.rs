@@ -42,12 +42,37 @@ pub(crate) fn read(path: &Path, source: Source<'_>, limits: &Limits, pool: &Fram
             Samples::U16(samples)
         }
     };
+    let samples = if colour::is_narrow(reader.info()) { full_range(samples, header.channels) } else { samples };
     drop(reader);
     let behind = count_behind(source).map_err(|error| IoError::open(path, error))?;
     if behind > 0 {
         return Err(IoError::several(path, FORMAT, 1 + behind, "pictures one behind the other"));
     }
     whole_image(path, header, samples)
+}
+
+/// Stretches code values of narrow range (ITU-R BT.2100-2, table 9) to full range. Alpha always has full range.
+fn full_range(mut samples: Samples, channels: Channels) -> Samples {
+    match &mut samples {
+        Samples::U8(codes) => stretch(codes, channels, |code| narrow_to_full(f32::from(code), 1.0) as u8),
+        Samples::U16(codes) => stretch(codes, channels, |code| narrow_to_full(f32::from(code), 256.0) as u16),
+        Samples::Half(_) | Samples::Float(_) => {}
+    }
+    samples
+}
+
+/// Returns the code of full range; `step` is an 8-bit step. What is darker than black or brighter than white is clipped.
+fn narrow_to_full(code: f32, step: f32) -> f32 {
+    let last = 256.0 * step - 1.0;
+    ((code - 16.0 * step) / (219.0 * step) * last).round().clamp(0.0, last)
+}
+
+fn stretch<S: Copy>(codes: &mut [S], channels: Channels, full: impl Fn(S) -> S) {
+    let count = channels.count();
+    let colours = if channels.has_alpha() { count - 1 } else { count };
+    for pixel in codes.chunks_exact_mut(count) {
+        pixel[..colours].iter_mut().for_each(|code| *code = full(*code));
+    }
 }
 
 /// Counts the pictures that follow one that has been read. Bytes that begin no picture are padding, and harmless.

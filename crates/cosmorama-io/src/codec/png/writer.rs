@@ -24,7 +24,7 @@ fn encode(output: impl Write, image: &EncodedImage, options: &WriteOptions) -> R
     // A profile says all there is to say about colour.
     let tag = match &metadata.icc {
         Some(_) => None,
-        None => metadata.transfer.as_ref().and_then(|transfer| tag(transfer, metadata.primaries)),
+        None => metadata.transfer.as_ref().and_then(|transfer| tag(transfer, metadata.primaries.as_ref())),
     };
     let mut encoder = Encoder::with_info(output, info(image, metadata, tag.as_ref())?)?;
     if let Some(window) = metadata.panorama {
@@ -59,8 +59,11 @@ fn info<'a>(image: &EncodedImage, metadata: &'a Metadata, tag: Option<&Tag>) -> 
     info.icc_profile = metadata.icc.as_deref().map(Into::into);
     match tag {
         Some(Tag::Srgb(intent)) => info.srgb = Some(*intent),
-        Some(Tag::Gamma(gamma)) => info.source_gamma = Some(*gamma),
-        _ => {}
+        Some(Tag::Gamma(gamma, primaries)) => {
+            (info.source_gamma, info.source_chromaticities) = (Some(*gamma), *primaries);
+        }
+        Some(Tag::Profile(profile)) => info.icc_profile = Some(profile.clone().into()),
+        Some(Tag::CodePoints(_)) | None => {}
     }
     Ok(info)
 }

@@ -1,7 +1,7 @@
 use std::io::{self, BufRead, BufReader, Read, Seek, SeekFrom};
 use std::path::Path;
 
-use cosmorama::raster::{Channels, Depth, EncodedImage, FramePool, Samples, Transfer};
+use cosmorama::raster::{Channels, Depth, EncodedImage, FramePool, Primaries, Samples, Transfer};
 
 use super::rgbe;
 use crate::codec::behind::{next_bytes, skip_padding};
@@ -56,12 +56,18 @@ impl Codec for Hdr {
     }
 
     /// Writes a picture. Light beyond the format's range is clamped; there is no alpha.
-    fn encode(&self, path: &Path, output: Sink<'_>, image: &EncodedImage, _: &WriteOptions) -> Result<(), IoError> {
+    fn encode(
+        &self,
+        path: &Path,
+        output: Sink<'_>,
+        image: &EncodedImage,
+        options: &WriteOptions,
+    ) -> Result<(), IoError> {
         let (Samples::Float(samples), Channels::Rgb) = (image.samples(), image.channels()) else {
             return Err(IoError::write(path, "Radiance HDR holds RGB floats"));
         };
         let mut encode = || {
-            write!(output, "#?RADIANCE\nSOFTWARE=cosmorama\nFORMAT=32-bit_rle_rgbe\n\n")?;
+            write!(output, "#?RADIANCE\nSOFTWARE=cosmorama\n{}FORMAT=32-bit_rle_rgbe\n\n", line_of(&options.metadata))?;
             writeln!(output, "-Y {} +X {}", image.height(), image.width())?;
             let (mut line, mut bytes) = (Vec::with_capacity(image.width()), Vec::new());
             for row in samples.chunks_exact((image.width() * 3).max(1)) {
@@ -108,7 +114,7 @@ impl Preamble {
     fn read(path: &Path, source: Source<'_>) -> Result<Self, IoError> {
         let fail = |reason: &str| IoError::damaged(path, FORMAT, reason);
         let mut exposure = 1.0_f32;
-        let mut software = None;
+        let mut metadata = Metadata { transfer: Some(Transfer::Linear), ..Metadata::default() };
         for _ in 0..MOST_LINES {
             let line = read_line(source).ok_or_else(|| fail("it ends within its header"))?;
             match line.split_once('=') {
@@ -116,7 +122,7 @@ impl Preamble {
                     let size = read_line(source).ok_or_else(|| fail("it ends within its header"))?;
                     let (width, height, upside_down) = parse_size(path, &size)?;
                     let exposure = if exposure.is_normal() && exposure > 0.0 { exposure } else { 1.0 };
-                    let header = header(width, height, software);
+                    let header = header(width, height, metadata);
                     return Ok(Self { header, exposure, upside_down });
                 }
                 Some(("FORMAT", format)) if format.trim() != "32-bit_rle_rgbe" => {
@@ -124,7 +130,13 @@ impl Preamble {
                 }
                 // Every program that changed the exposure adds its own line.
                 Some(("EXPOSURE", factor)) => exposure *= factor.trim().parse().unwrap_or(1.0),
-                Some(("SOFTWARE", name)) => software = Some(name.trim().to_owned()),
+                Some(("SOFTWARE", name)) => metadata.software = Some(name.trim().to_owned()),
+                Some(("PRIMARIES", numbers)) => match primaries(numbers) {
+                    Some(primaries) => metadata.primaries = Some(primaries),
+                    None => metadata.complaints.push(format!(
+                        "its PRIMARIES are ignored: expected the x and y of red, green, blue and white, found {numbers:?}"
+                    )),
+                },
                 _ => {}
             }
         }
@@ -132,8 +144,21 @@ impl Preamble {
     }
 }
 
-fn header(width: usize, height: usize, software: Option<String>) -> Header {
-    let metadata = Metadata { transfer: Some(Transfer::Linear), software, ..Metadata::default() };
+/// Parses `PRIMARIES=rx ry gx gy bx by wx wy`.
+fn primaries(text: &str) -> Option<Primaries> {
+    let numbers: Vec<f64> = text.split_whitespace().map(str::parse).collect::<Result<_, _>>().ok()?;
+    let [rx, ry, gx, gy, bx, by, wx, wy] = numbers[..] else { return None };
+    Primaries::of_pairs([rx, ry], [gx, gy], [bx, by], [wx, wy])
+}
+
+/// Returns the line of the header that names the primaries, if they have to be named.
+fn line_of(metadata: &Metadata) -> String {
+    let Some(primaries) = metadata.primaries else { return String::new() };
+    let numbers: Vec<String> = primaries.pairs().iter().flatten().map(|number| format!("{number:.5}")).collect();
+    format!("PRIMARIES={}\n", numbers.join(" "))
+}
+
+fn header(width: usize, height: usize, metadata: Metadata) -> Header {
     Header { format: FORMAT, width, height, channels: Channels::Rgb, depth: Depth::Float, metadata, window: None }
 }
 

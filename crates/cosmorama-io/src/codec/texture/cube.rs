@@ -1,10 +1,11 @@
 use std::io::SeekFrom;
 use std::path::Path;
 
-use cosmorama::raster::{AlphaMode, Channels, EncodedImage, Samples, Transfer};
+use cosmorama::raster::{AlphaMode, Channels, EncodedImage, Primaries, Samples, Transfer};
 use half::f16;
 use rayon::prelude::*;
 
+use super::descriptor_colour;
 use super::packing::Packed;
 use super::texel::Texels;
 use crate::codec::interface::{Source, is_beside_others, whole_image};
@@ -20,6 +21,8 @@ pub(super) struct CubeTexture {
     pub(super) texels: Texels,
     /// Transfer function, if the file names one.
     pub(super) transfer: Option<Transfer>,
+    /// Primaries; the error is a number that is not known.
+    pub(super) primaries: Result<Option<Primaries>, u8>,
     /// Relation of colour to alpha.
     pub(super) alpha: AlphaMode,
     /// Columns and rows of a face.
@@ -36,13 +39,20 @@ impl CubeTexture {
     /// Returns the header of an image of six pictures one below the other.
     pub(super) fn header(&self, format: Format) -> Header {
         let edge = self.edge as usize;
+        let metadata = Metadata {
+            transfer: self.transfer.clone(),
+            primaries: self.primaries.unwrap_or_default(),
+            complaints: self.primaries.err().map(descriptor_colour::complaint).into_iter().collect(),
+            envmap: Some(EnvMap::GlCube),
+            ..Metadata::default()
+        };
         Header {
             format,
             width: edge,
             height: edge.saturating_mul(6),
             channels: self.texels.channels(),
             depth: self.texels.depth(),
-            metadata: Metadata { transfer: self.transfer.clone(), envmap: Some(EnvMap::GlCube), ..Metadata::default() },
+            metadata,
             window: None,
         }
     }

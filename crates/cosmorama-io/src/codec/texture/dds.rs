@@ -99,6 +99,7 @@ fn texture(path: &Path, source: Source<'_>) -> Result<CubeTexture, IoError> {
     let mut cube = CubeTexture {
         texels,
         transfer: if texels.depth() == Depth::Eight { srgb.then_some(Transfer::Srgb) } else { Some(Transfer::Linear) },
+        primaries: Ok(None),
         alpha: if premultiplied { AlphaMode::Premultiplied } else { AlphaMode::Straight },
         edge: header.width,
         row_alignment: 1,

@@ -104,6 +104,7 @@ fn texture(path: &Path, source: Source<'_>) -> Result<CubeTexture, IoError> {
     let mut cube = CubeTexture {
         texels,
         transfer,
+        primaries: Ok(None),
         alpha: AlphaMode::Straight,
         edge: width,
         row_alignment: 4,

@@ -5,6 +5,7 @@ use cosmorama::raster::{AlphaMode, Depth, EncodedImage, FramePool, Transfer};
 use ktx2::{Format as Vk, Header as Ktx2Header, Index, LevelIndex, SupercompressionScheme as Scheme};
 
 use super::cube::{CubeTexture, EXPECTED, levels_to_write};
+use super::descriptor_colour;
 use super::packing::{Packed, Packing};
 use super::texel::{BlockFormat, Texels};
 use crate::codec::interface::{Codec, Sink, Source};
@@ -17,7 +18,6 @@ mod descriptor {
     pub(super) const RGB_MODEL: u8 = 1;
     pub(super) const ETC1S_MODEL: u8 = 163;
     pub(super) const UASTC_MODEL: u8 = 166;
-    pub(super) const BT709: u8 = 1;
     pub(super) const LINEAR: u8 = 1;
     pub(super) const SRGB: u8 = 2;
     pub(super) const PREMULTIPLIED: u8 = 1;
@@ -66,10 +66,11 @@ impl Codec for Ktx2 {
         let float = levels.iter().any(|level| level.depth().is_float());
         let (format, type_size, transfer) = match &options.metadata.transfer {
             _ if float => (Vk::R16G16B16A16_SFLOAT, 2, descriptor::LINEAR),
-            Some(Transfer::Linear) => (Vk::R8G8B8A8_UNORM, 1, descriptor::LINEAR),
-            _ => (Vk::R8G8B8A8_SRGB, 1, descriptor::SRGB),
+            None | Some(Transfer::Srgb) => (Vk::R8G8B8A8_SRGB, 1, descriptor::SRGB),
+            Some(transfer) => (Vk::R8G8B8A8_UNORM, 1, descriptor_colour::transfer_code(transfer)),
         };
-        let described = describe(float, transfer);
+        let described =
+            describe(float, transfer, descriptor_colour::primaries_code(options.metadata.primaries.as_ref()));
         let words = key_values(&[("KTXorientation", "rd"), ("KTXwriter", "cosmorama")]);
         let dfd = (Ktx2Header::LENGTH + LevelIndex::LENGTH * faces.len()) as u32;
         let kvd = dfd + described.len() as u32;
@@ -138,7 +139,8 @@ fn texture(path: &Path, source: Source<'_>) -> Result<CubeTexture, IoError> {
     };
     let (texels, srgb) =
         texels(format).ok_or_else(|| unsupported(format!("texels of the Vulkan format {format:?}")))?;
-    let (said, premultiplied) = colour(&descriptor(path, source, header.index.dfd_byte_offset)?);
+    let descriptor = descriptor(path, source, header.index.dfd_byte_offset)?;
+    let (said, premultiplied) = (descriptor_colour::transfer(descriptor[14]), is_premultiplied(&descriptor));
     let integers = texels.depth() == Depth::Eight;
     let level = LevelIndex::from_bytes(&level);
     let mut cube = CubeTexture {
@@ -148,6 +150,7 @@ fn texture(path: &Path, source: Source<'_>) -> Result<CubeTexture, IoError> {
         } else {
             said.filter(|_| integers).or_else(|| (!integers).then_some(Transfer::Linear))
         },
+        primaries: descriptor_colour::primaries(descriptor[13]),
         alpha: if premultiplied { AlphaMode::Premultiplied } else { AlphaMode::Straight },
         edge: header.pixel_width,
         row_alignment: 1,
@@ -202,14 +205,8 @@ fn model(descriptor: &Descriptor) -> &'static str {
     }
 }
 
-/// Returns the transfer function, if it is a known one, and whether alpha is premultiplied.
-fn colour(descriptor: &Descriptor) -> (Option<Transfer>, bool) {
-    let transfer = match descriptor[14] {
-        descriptor::LINEAR => Some(Transfer::Linear),
-        descriptor::SRGB => Some(Transfer::Srgb),
-        _ => None,
-    };
-    (transfer, descriptor[15] & descriptor::PREMULTIPLIED != 0)
+fn is_premultiplied(descriptor: &Descriptor) -> bool {
+    descriptor[15] & descriptor::PREMULTIPLIED != 0
 }
 
 /// Returns the encoding of texels of a Vulkan format, and whether it is sRGB.
@@ -249,7 +246,7 @@ fn texels(format: Vk) -> Option<(Texels, bool)> {
 }
 
 /// Returns the data format descriptor of RGBA.
-fn describe(float: bool, transfer: u8) -> Vec<u8> {
+fn describe(float: bool, transfer: u8, primaries: u8) -> Vec<u8> {
     let (sample_bytes, premultiplied) = if float { (2_u8, descriptor::PREMULTIPLIED) } else { (1, 0) };
     const BLOCK: u16 = 24 + 4 * 16;
     let mut bytes = Vec::new();
@@ -257,7 +254,7 @@ fn describe(float: bool, transfer: u8) -> Vec<u8> {
     // Vendor and type: Khronos's basic block; version 1.3 of the specification.
     bytes.extend([0, 0, 0, 0, 2, 0]);
     bytes.extend(BLOCK.to_le_bytes());
-    bytes.extend([descriptor::RGB_MODEL, descriptor::BT709, transfer, premultiplied]);
+    bytes.extend([descriptor::RGB_MODEL, primaries, transfer, premultiplied]);
     // A block is one texel, in one plane.
     bytes.extend([0, 0, 0, 0, 4 * sample_bytes, 0, 0, 0, 0, 0, 0, 0]);
     for (place, channel) in [0, 1, 2, descriptor::ALPHA].into_iter().enumerate() {

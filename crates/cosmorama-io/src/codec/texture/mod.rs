@@ -2,6 +2,7 @@
 
 mod cube;
 mod dds;
+mod descriptor_colour;
 mod ktx;
 mod ktx2;
 mod packing;

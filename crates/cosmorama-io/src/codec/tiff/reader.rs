@@ -7,7 +7,6 @@ use tiff::{ColorType, TiffError};
 
 use super::extent;
 use crate::codec::interface::{Source, whole_image};
-use crate::metadata::icc;
 use crate::{Format, Header, ImageFile, IoError, Limits, Metadata};
 
 const FORMAT: Format = Format::Tiff;
@@ -134,13 +133,12 @@ fn metadata(decoder: &mut Decoder<Source<'_>>) -> Metadata {
     let profile = decoder.get_tag_u8_vec(ICC_PROFILE).ok();
     let software = decoder.get_tag_ascii_string(Tag::Software).ok();
     let orientation = decoder.find_tag_unsigned::<u16>(Tag::Orientation).ok().flatten();
-    Metadata {
-        transfer: profile.as_deref().and_then(icc::transfer),
-        icc: profile,
+    let metadata = Metadata {
         orientation: orientation.filter(|orientation| (2..=8).contains(orientation)),
         software,
         ..Metadata::default()
-    }
+    };
+    metadata.with_profile(profile)
 }
 
 /// Reads the tag for premultiplied alpha.

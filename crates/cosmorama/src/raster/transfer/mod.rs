@@ -1,3 +1,4 @@
+pub(crate) mod colour_channel;
 pub(crate) mod tone_curve;
 
 use std::sync::Arc;

@@ -10,10 +10,10 @@ pub enum ColourChannel {
 }
 
 impl ColourChannel {
-    /// All three, in the order of [`super::Rgba`].
+    /// All three, in the order of [`Rgba`](crate::raster::Rgba).
     pub const ALL: [Self; 3] = [Self::Red, Self::Green, Self::Blue];
 
-    /// Returns its index in [`super::Rgba`].
+    /// Returns its index in [`Rgba`](crate::raster::Rgba).
     pub const fn index(self) -> usize {
         self as usize
     }

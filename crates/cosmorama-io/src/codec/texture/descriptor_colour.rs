@@ -1,0 +1,64 @@
+//! Colours in a data format descriptor (Khronos Data Format Specification 1.4, sections 5.5 and 5.6).
+
+use cosmorama::raster::{Primaries, Transfer};
+
+/// Primaries by their number; `KHR_DF_PRIMARIES_…`.
+const PRIMARIES: [(u8, Primaries); 10] = [
+    (1, Primaries::REC709),
+    (2, Primaries::REC601_625),
+    (3, Primaries::REC601_525),
+    (4, Primaries::REC2020),
+    (5, Primaries::XYZ),
+    (6, Primaries::AP0),
+    (7, Primaries::AP1),
+    (8, Primaries::NTSC1953),
+    (10, Primaries::P3_D65),
+    (11, Primaries::ADOBE_RGB),
+];
+/// Number of primaries that are not named.
+const UNSPECIFIED: u8 = 0;
+
+/// Returns the primaries with a number; the error is one that is not known.
+pub(super) fn primaries(number: u8) -> Result<Option<Primaries>, u8> {
+    if number == UNSPECIFIED {
+        return Ok(None);
+    }
+    let known = PRIMARIES.iter().find(|(known, _)| *known == number);
+    known.map(|(_, primaries)| Some(*primaries)).ok_or(number)
+}
+
+/// Complains of a number that is not known.
+pub(super) fn complaint(number: u8) -> String {
+    format!(
+        "the number of its primaries, {number}, is unknown here: they are taken for Rec. 709; expected 0 to 8, 10 or 11 of the \
+         Khronos Data Format Specification"
+    )
+}
+
+/// Returns the number of primaries; unspecified for those that have none.
+pub(super) fn primaries_code(primaries: Option<&Primaries>) -> u8 {
+    let primaries = primaries.unwrap_or(&Primaries::REC709);
+    PRIMARIES.iter().find(|(_, known)| known.is_same(primaries)).map_or(UNSPECIFIED, |(number, _)| *number)
+}
+
+/// Transfer functions by their number; `KHR_DF_TRANSFER_…`. PQ and HLG are those from code values to light.
+const TRANSFERS: [(u8, Transfer); 8] = [
+    (1, Transfer::Linear),
+    (2, Transfer::Srgb),
+    (7, Transfer::Bt1886),
+    (3, Transfer::Bt1886),
+    (8, Transfer::Hlg),
+    (9, Transfer::Hlg),
+    (10, Transfer::Pq),
+    (11, Transfer::Pq),
+];
+
+/// Returns the transfer function with a number, if it is known.
+pub(super) fn transfer(number: u8) -> Option<Transfer> {
+    TRANSFERS.iter().find(|(known, _)| *known == number).map(|(_, transfer)| transfer.clone())
+}
+
+/// Returns the number of a transfer function; 0, unspecified, for those that have none.
+pub(super) fn transfer_code(transfer: &Transfer) -> u8 {
+    TRANSFERS.iter().find(|(_, known)| known == transfer).map_or(0, |(number, _)| *number)
+}

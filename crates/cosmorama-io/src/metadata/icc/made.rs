@@ -1,0 +1,124 @@
+use cosmorama::raster::{ColourChannel, ColourMatrix, Primaries, Transfer};
+use moxcms::{
+    CicpColorPrimaries, CicpProfile, ColorDateTime, ColorProfile, DataColorSpace, LocalizableString, Matrix3d,
+    MatrixCoefficients, ProfileClass, ProfileText, RenderingIntent, ToneReprCurve, TransferCharacteristics, Xyzd,
+};
+
+use super::{D50, colorants_of};
+use crate::metadata::colour_name;
+
+/// Number of entries of curves that no formula of ICC.1 can express.
+const ENTRIES: u16 = 4096;
+
+/// Returns a profile that says what light an RGB file's code values are.
+pub(crate) fn made(transfer: &Transfer, primaries: &Primaries) -> Option<Vec<u8>> {
+    let curve = |channel| Some(curve(transfer, channel));
+    let [red, green, blue] = [0, 1, 2].map(|column| {
+        let rows = colorants_of(primaries).rows();
+        Xyzd { x: rows[0][column], y: rows[1][column], z: rows[2][column] }
+    });
+    let to_d50 = ColourMatrix::adaptation(primaries.white, D50);
+    let mut profile = described(&colour_name(Some(primaries), Some(transfer))?);
+    profile.color_space = DataColorSpace::Rgb;
+    (profile.red_colorant, profile.green_colorant, profile.blue_colorant) = (red, green, blue);
+    profile.chromatic_adaptation = Some(Matrix3d { v: to_d50.rows() });
+    profile.red_trc = curve(ColourChannel::Red);
+    profile.green_trc = curve(ColourChannel::Green);
+    profile.blue_trc = curve(ColourChannel::Blue);
+    profile.cicp = code_points(transfer, primaries);
+    profile.encode().ok()
+}
+
+/// Returns a profile for a grey file. `None` for transfer functions whose curve is not all there is to say, since grey
+/// has no code points.
+pub(crate) fn made_grey(transfer: &Transfer) -> Option<Vec<u8>> {
+    if code_points(transfer, &Primaries::REC709).is_some() {
+        return None;
+    }
+    let mut profile = described("grey");
+    profile.color_space = DataColorSpace::Gray;
+    profile.gray_trc = Some(curve(transfer, ColourChannel::Green));
+    profile.encode().ok()
+}
+
+/// Returns what all profiles share.
+fn described(name: &str) -> ColorProfile {
+    let d50 = Xyzd { x: 0.9642, y: 1.0, z: 0.8249 };
+    let mut profile = ColorProfile::default();
+    profile.pcs = DataColorSpace::Xyz;
+    profile.profile_class = ProfileClass::DisplayDevice;
+    profile.rendering_intent = RenderingIntent::RelativeColorimetric;
+    profile.white_point = d50;
+    // The version that is written asks for D50 here, too; a display's own white follows from `chad`.
+    profile.media_white_point = Some(d50);
+    profile.description = Some(text(name));
+    profile.copyright = Some(text("No copyright, use freely"));
+    // The same picture gives the same file at any time.
+    let day = ColorDateTime { year: 2000, month: 1, day_of_the_month: 1, hours: 0, minutes: 0, seconds: 0 };
+    profile.creation_date_time = day;
+    profile
+}
+
+fn text(text: &str) -> ProfileText {
+    ProfileText::Localizable(vec![LocalizableString::new("en".to_owned(), "US".to_owned(), text.to_owned())])
+}
+
+fn curve(transfer: &Transfer, channel: ColourChannel) -> ToneReprCurve {
+    match transfer {
+        // Function type 3 of ICC.1:2022, 10.18.
+        Transfer::Srgb => ToneReprCurve::Parametric(vec![2.4, 1.0 / 1.055, 0.055 / 1.055, 1.0 / 12.92, 0.04045]),
+        Transfer::Linear => ToneReprCurve::Lut(Vec::new()),
+        Transfer::Gamma(gamma) => ToneReprCurve::Parametric(vec![*gamma as f32]),
+        Transfer::Bt1886 => ToneReprCurve::Parametric(vec![2.4]),
+        Transfer::Pq | Transfer::Hlg | Transfer::Curve(_) => {
+            let last = f64::from(ENTRIES - 1);
+            // A profile's light ends at 1.
+            let peak = transfer.decode(1.0, channel);
+            let entry = |i: u16| (transfer.decode(f64::from(i) / last, channel) / peak * 65535.0).round() as u16;
+            ToneReprCurve::Lut((0..ENTRIES).map(entry).collect())
+        }
+    }
+}
+
+/// Returns the code points of transfer functions whose curve is not all there is to say.
+fn code_points(transfer: &Transfer, primaries: &Primaries) -> Option<CicpProfile> {
+    let transfer_characteristics = match transfer {
+        Transfer::Pq => TransferCharacteristics::Smpte2084,
+        Transfer::Hlg => TransferCharacteristics::Hlg,
+        _ => return None,
+    };
+    let number = primaries.number().and_then(|number| CicpColorPrimaries::try_from(number).ok());
+    Some(CicpProfile {
+        color_primaries: number.unwrap_or(CicpColorPrimaries::Unspecified),
+        transfer_characteristics,
+        matrix_coefficients: MatrixCoefficients::Identity,
+        full_range: true,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::metadata::icc::read;
+
+    #[test]
+    fn what_is_made_says_what_it_was_made_for() {
+        let own = Primaries::of_pairs([0.6, 0.3], [0.3, 0.6], [0.1, 0.1], [0.32, 0.33]).unwrap();
+        let named = Primaries::NAMED.into_iter().map(|(_, primaries)| primaries);
+        for primaries in named.chain([own]) {
+            for transfer in [
+                Transfer::Srgb,
+                Transfer::Linear,
+                Transfer::Gamma(1.8),
+                Transfer::Gamma(2.4),
+                Transfer::Pq,
+                Transfer::Hlg,
+            ] {
+                let profile = read(&made(&transfer, &primaries).unwrap());
+                assert_eq!((profile.transfer, profile.fault), (Some(transfer), None), "{primaries}");
+                assert!(profile.primaries.unwrap().is_same(&primaries), "{primaries}: {:?}", profile.primaries);
+            }
+        }
+        assert_eq!(made(&Transfer::Srgb, &own), made(&Transfer::Srgb, &own));
+    }
+}
