@@ -2,7 +2,7 @@ use std::sync::Arc;
 
 use cosmorama::filter::FilterKind;
 use cosmorama::lighting::Lobe;
-use cosmorama::raster::{Depth, Rgba};
+use cosmorama::raster::{Depth, Primaries, Rgba};
 use cosmorama::sphere::{Angle, Orientation};
 use cosmorama_io::pending::Unfinished;
 use cosmorama_io::{Compression, FrameList};
@@ -43,6 +43,12 @@ pub struct Conversion {
     pub in_transfer: Option<TransferName>,
     /// Transfer function of the output, including floats; overrides `transfer`.
     pub out_transfer: Option<TransferName>,
+    /// Primaries of the output; those of the first input, unless given.
+    pub primaries: Option<Primaries>,
+    /// Primaries of inputs that name none; Rec. 709, unless given.
+    pub in_primaries: Option<Primaries>,
+    /// Whether ICC profiles of inputs are ignored.
+    pub ignore_profile: bool,
     /// Sample type of the output; the input's, where the format can hold it, unless given.
     pub depth: Option<Depth>,
     /// Light of pixels outside the lens; black, or transparent if the output has alpha, unless given.
@@ -167,6 +173,9 @@ impl Default for Conversion {
             transfer: TransferName::Auto,
             in_transfer: None,
             out_transfer: None,
+            primaries: None,
+            in_primaries: None,
+            ignore_profile: false,
             depth: None,
             background: None,
             missing: Missing::Error,

@@ -154,6 +154,8 @@ pub enum WordKind {
     Kernel,
     /// A transfer function.
     Transfer,
+    /// Primaries.
+    Primaries,
 }
 
 impl fmt::Display for WordKind {
@@ -162,6 +164,7 @@ impl fmt::Display for WordKind {
             Self::Filter => "filter",
             Self::Kernel => "kernel",
             Self::Transfer => "transfer function",
+            Self::Primaries => "primaries",
         })
     }
 }

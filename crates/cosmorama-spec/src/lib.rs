@@ -46,7 +46,7 @@ pub use compression::CompressionLevel;
 pub use error::{SpecError, WordError, WordKind, did_you_mean, nearest};
 pub use filter::{FilterName, KernelName};
 pub use frame_ranges::{FrameRanges, FrameRangesError};
-pub use light::{Colour, DepthName, Missing, TransferName};
+pub use light::{Colour, DepthName, Missing, PrimariesName, TransferName};
 pub use memory::MemorySize;
 pub use size::Size;
 pub use spec::{

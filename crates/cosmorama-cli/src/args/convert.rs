@@ -2,7 +2,8 @@ use clap::builder::NonEmptyStringValueParser;
 use clap::{Args, ValueHint};
 use cosmorama_io::FrameList;
 use cosmorama_spec::{
-    Colour, CompressionLevel, DepthName, FrameRanges, FrameRangesError, MemorySize, Missing, TransferName,
+    Colour, CompressionLevel, DepthName, FrameRanges, FrameRangesError, MemorySize, Missing, PrimariesName,
+    TransferName,
 };
 
 use super::ProgressStyle;
@@ -59,6 +60,20 @@ pub(crate) struct ConvertArgs {
     /// As --transfer, for the output alone, a float file too
     #[arg(long, value_name = "T", value_parser = listed::transfer(), hide_possible_values = true, hide_short_help = true, help_heading = "Light")]
     pub(crate) out_transfer: Option<TransferName>,
+    /// The output's primaries: rec709, p3-d65, p3-dci, rec2020, ap0, acescg, adobe-rgb [default: as the first input]
+    ///
+    /// All light is converted to them, white to white. Unless given, they are those that the first input names, else Rec. 709. A
+    /// colour that they cannot show is negative in files of floats, and clipped in integers, with a warning.
+    #[arg(long, value_name = "P", value_parser = listed::primaries(), hide_possible_values = true, hide_short_help = true, help_heading = "Light")]
+    pub(crate) primaries: Option<PrimariesName>,
+    /// Primaries of inputs that name none [default: rec709]
+    #[arg(long, value_name = "P", value_parser = listed::primaries(), hide_possible_values = true, hide_short_help = true, help_heading = "Light")]
+    pub(crate) in_primaries: Option<PrimariesName>,
+    /// Take inputs for sRGB whatever their ICC profiles say
+    ///
+    /// For a profile that is damaged, or holds tables of colours, which are not followed.
+    #[arg(long, hide_short_help = true, help_heading = "Light")]
+    pub(crate) ignore_profile: bool,
     /// Output sample type [default: as the input]
     ///
     /// Unless given, it is as the input's, where the format can.

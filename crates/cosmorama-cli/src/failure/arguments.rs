@@ -83,6 +83,7 @@ fn value(error: &Error) -> Option<String> {
             WordKind::Filter => "--filter",
             WordKind::Kernel => "--kernel",
             WordKind::Transfer => "--transfer",
+            WordKind::Primaries => "--primaries",
         };
         return Some(format!("{what}: that is a {of}: {right} {name}"));
     }

@@ -4,9 +4,9 @@ use std::process::ExitCode;
 use anyhow::{Context, Result};
 use cosmorama::camera::{CameraModel, FisheyeCamera, OmnimaxCamera};
 use cosmorama::compare::{Comparison, Mask, compare, difference_image};
-use cosmorama::raster::{Channels, Depth, EncodedImage, Image, Rgba, Transfer};
+use cosmorama::raster::{Channels, ColourMatrix, Depth, EncodedImage, Image, Primaries, Rgba, Transfer};
 use cosmorama_convert::{Files, InputTransfer, MemoryBudget, probe, read, real_path, refuse_existing};
-use cosmorama_io::{FacePattern, Format, FramePattern, Limits, Metadata, WriteOptions, write};
+use cosmorama_io::{FacePattern, Format, FramePattern, Header, Limits, Metadata, WriteOptions, write};
 use serde_json::{Value, json};
 
 use super::make_folder;
@@ -33,7 +33,12 @@ pub(super) fn run(args: &CompareArgs, console: &mut Console) -> Result<ExitCode>
     let format = args.diff.as_deref().map(|diff| diff_format(diff, args)).transpose()?;
     let headers = (probe(files, &args.first)?, probe(files, &args.second)?);
     MemoryBudget::new(args.memory).check_comparison([(&args.first, &headers.0), (&args.second, &headers.1)])?;
-    let (first, second) = (light(files, &args.first, args)?, light(files, &args.second, args)?);
+    let (first, mut second) = (light(files, &args.first, args)?, light(files, &args.second, args)?);
+    let primaries = |header: &Header| header.metadata.primaries.unwrap_or(Primaries::REC709);
+    let matrix = ColourMatrix::between(&primaries(&headers.1), &primaries(&headers.0));
+    if !matrix.is_identity() {
+        matrix.convert(second.pixels_mut());
+    }
     let mask = region(args.region, &first)?;
     let comparison = compare(&first, &second, &mask)
         .with_context(|| format!("cannot compare {} with {}", args.first.display(), args.second.display()))?;

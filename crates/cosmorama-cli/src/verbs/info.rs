@@ -7,7 +7,7 @@ use cosmorama::raster::Transfer;
 use cosmorama_convert::{
     Builtin, Files, ThinAlpha, ViewFiles, damage_of, existing_frames, is_one_file, light_of, likely, probe,
 };
-use cosmorama_io::{EnvMap, FacePattern, FaceSet, Header};
+use cosmorama_io::{EnvMap, FacePattern, FaceSet, Header, ProfileFault};
 use serde_json::{Value, json};
 
 use super::info_faces::{of_files, of_image};
@@ -147,7 +147,18 @@ fn header_report(header: &Header) -> Value {
         report["icc_profile_bytes"] = json!(icc.len());
     }
     if let Some(primaries) = metadata.primaries {
-        report["primaries"] = json!(primaries);
+        report["primaries"] = json!(primaries.to_string());
+    }
+    if let Some(space) = metadata.colour_space() {
+        report["colour_space"] = json!(space);
+    }
+    if let Some(white) = metadata.white_luminance {
+        report["white"] = json!(format!("{white} cd/m²"));
+    }
+    match &metadata.profile_fault {
+        Some(ProfileFault::Damaged(reason)) => report["icc_profile_damaged"] = json!(reason),
+        Some(ProfileFault::Tables) => report["icc_profile_holds"] = json!("tables of colours, which are not followed"),
+        None => {}
     }
     if let Some(envmap) = metadata.envmap {
         report["envmap"] = json!(match envmap {

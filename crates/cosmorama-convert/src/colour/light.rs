@@ -1,13 +1,17 @@
-use cosmorama::raster::{Channels, Depth, Rgba, Transfer};
-use cosmorama_io::{Header, Metadata};
+use std::path::Path;
+
+use cosmorama::raster::{Channels, ColourMatrix, Depth, Primaries, Rgba, Transfer};
+use cosmorama_io::{Format, Header, Metadata};
 use cosmorama_spec::{Missing, TransferName};
 
+use super::profile;
+use super::working::{Working, clips, white_of};
 use crate::diagnostic::{BACKGROUND, Code, DEPTH, Diagnostic, MISSING, Result, usage_as};
 use crate::input::Input;
 use crate::settings::Conversion;
 use crate::target::Target;
 
-/// Transfer functions of inputs and outputs, and the outputs' channels and depth.
+/// Transfer functions and primaries of inputs and outputs, and the outputs' channels and depth.
 #[derive(Clone, Debug)]
 pub(crate) struct Light {
     /// Requested transfer function of the inputs; without one, files decide.
@@ -22,8 +26,22 @@ pub(crate) struct Light {
     pub(crate) transfer: Transfer,
     /// Metadata of the outputs.
     pub(crate) metadata: Metadata,
-    /// Colour outside the lens.
+    /// Colour outside the lens, in working primaries.
     pub(crate) background: Rgba,
+    /// Primaries and white of the light.
+    pub(crate) working: Working,
+    /// Whether negative light is lost in the outputs.
+    pub(crate) clips: bool,
+    /// Whether ICC profiles of inputs are ignored.
+    ignores_profiles: bool,
+}
+
+/// How the code values of a file become working light.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct FileColours {
+    pub(crate) transfer: Transfer,
+    /// Conversion of the decoded light; `None` where nothing has to be done.
+    pub(crate) matrix: Option<ColourMatrix>,
 }
 
 /// Requested transfer functions of the input.
@@ -61,23 +79,39 @@ impl Light {
         target: &Target,
         warnings: &mut Vec<Diagnostic>,
     ) -> Result<Self> {
-        let headers: Vec<&Header> = input.present().map(|(_, header, _)| header).collect();
+        let headers = profile::headers(args, input, warnings);
+        let headers: Vec<&Header> = headers.iter().collect();
         let channels = channels(args, &headers, target, warnings)?;
         let depth = depth(args, &headers, target)?;
         let side = InputTransfer::new(&args.transfer, args.in_transfer.as_ref());
-        let transfer = output_transfer(args, &headers, &side, depth, target);
-        let metadata = metadata(&headers, target, &transfer, depth, warnings);
-        let background = args.background;
+        let transfer = output_transfer(args, &headers, &side, (depth, channels), target, warnings);
+        let primaries = Working::choose(args, &headers, target.format, warnings);
+        let first = headers.first().and_then(|first| white_of(&first.metadata, &side.of(first.depth, &first.metadata)));
+        let working = Working::new(args, primaries, &transfer, first);
+        let metadata = metadata(args, &headers, target, (&transfer, &working, depth), warnings);
         let default = if channels.has_alpha() { Rgba::TRANSPARENT } else { Rgba::BLACK };
-        Ok(Self {
+        let light = Self {
             input: side,
             input_alpha: headers.iter().any(|header| header.channels.has_alpha()),
             channels,
             depth,
             transfer,
             metadata,
-            background: background.unwrap_or(default),
-        })
+            background: args.background.map_or(default, |colour| working.colour(colour)),
+            working,
+            clips: clips(depth, target.format),
+            ignores_profiles: args.ignore_profile,
+        };
+        for (view, header, _) in input.present() {
+            light.check_profile(&view.files.path(input.frames.first().copied().flatten()), &header.metadata)?;
+        }
+        Ok(light)
+    }
+
+    /// Refuses a file whose ICC profile cannot be followed and does not go along unchanged.
+    pub(crate) fn check_profile(&self, path: &Path, metadata: &Metadata) -> Result<()> {
+        let goes_along = metadata.icc.is_some() && metadata.icc == self.metadata.icc;
+        if self.ignores_profiles || goes_along { Ok(()) } else { profile::check(path, metadata) }
     }
 
     /// Returns the bytes of an output's samples.
@@ -86,9 +120,11 @@ impl Light {
         (width as u64).saturating_mul(height as u64).saturating_mul(samples)
     }
 
-    /// Returns the transfer function of an input file.
-    pub(crate) fn input_transfer(&self, depth: Depth, metadata: &Metadata) -> Transfer {
-        self.input.of(depth, metadata)
+    /// Returns how an input file's code values become light.
+    pub(crate) fn colours(&self, channels: Channels, depth: Depth, metadata: &Metadata) -> FileColours {
+        let seen = profile::seen(metadata, self.ignores_profiles);
+        let transfer = self.input.of(depth, &seen);
+        FileColours { matrix: self.working.matrix(channels, &seen, &transfer), transfer }
     }
 }
 
@@ -153,8 +189,9 @@ fn output_transfer(
     args: &Conversion,
     headers: &[&Header],
     side: &InputTransfer,
-    depth: Depth,
+    (depth, channels): (Depth, Channels),
     target: &Target,
+    warnings: &mut Vec<Diagnostic>,
 ) -> Transfer {
     if let Some(out) = &args.out_transfer {
         if let Some(transfer) = out.fixed() {
@@ -163,43 +200,57 @@ fn output_transfer(
     } else if let (Some(transfer), false) = (args.transfer.fixed(), depth.is_float()) {
         return transfer;
     }
-    match headers.first() {
-        _ if depth.is_float() => Transfer::Linear,
-        Some(header) if !header.depth.is_float() => match side.of(header.depth, &header.metadata) {
-            // What the file cannot say of itself would be taken for sRGB.
-            Transfer::Curve(_) if target.format.holds_icc() => side.of(header.depth, &header.metadata),
-            transfer if transfer != Transfer::Srgb && !target.format.names_transfer() => Transfer::Srgb,
-            transfer => transfer,
-        },
-        _ => Transfer::Srgb,
+    let input = match headers.first() {
+        _ if depth.is_float() => return Transfer::Linear,
+        Some(header) if !header.depth.is_float() => side.of(header.depth, &header.metadata),
+        _ => return Transfer::Srgb,
+    };
+    // What the file cannot say of itself would be taken for sRGB.
+    if input == Transfer::Srgb || target.format.keeps_transfer(&input, channels) {
+        return input;
     }
+    if let Transfer::Pq | Transfer::Hlg = input {
+        let name = if input == Transfer::Pq { "PQ" } else { "HLG" };
+        let message = format!(
+            "{} {} files cannot name {name}: light is encoded as sRGB, and what is brighter than white, 203 cd/m², is \
+             clipped; a format of floats keeps it",
+            if channels.is_colour() { "coloured" } else { "grey" },
+            target.format
+        );
+        warnings.push(Diagnostic::warning(Code::Primaries, message));
+    }
+    Transfer::Srgb
 }
 
 fn metadata(
+    args: &Conversion,
     headers: &[&Header],
     target: &Target,
-    transfer: &Transfer,
-    depth: Depth,
+    (transfer, working, depth): (&Transfer, &Working, Depth),
     warnings: &mut Vec<Diagnostic>,
 ) -> Metadata {
     let first = headers.first().map(|header| &header.metadata);
     let icc = first.and_then(|metadata| metadata.icc.clone());
-    // The profile goes along while its own curve is what the output is encoded with.
-    let same_curve = first.is_some_and(|metadata| metadata.transfer.as_ref() == Some(transfer));
-    let keep = target.format.holds_icc() && same_curve && !depth.is_float();
+    let goes_along = first.is_some_and(|metadata| profile::is_kept(args, headers, metadata, (transfer, working)));
+    let keep = target.format.holds_icc() && goes_along && !depth.is_float();
     if icc.is_some() && !keep {
         let message = "the input's ICC profile is not carried over: the output is encoded differently";
         warnings.push(Diagnostic::warning(Code::ProfileLost, message));
     }
+    // What is usual is named where the input names it in its own way.
+    let is_named = !working.primaries.is_same(&Primaries::REC709)
+        || headers.first().is_some_and(|header| header.format == target.format && header.metadata.primaries.is_some());
     Metadata {
         transfer: Some(transfer.clone()),
         icc: icc.filter(|_| keep),
+        profile_fault: None,
         envmap: target.envmap,
         panorama: target.panorama,
         complaints: Vec::new(),
         notes: Vec::new(),
         other_channels: Vec::new(),
-        primaries: first.and_then(|metadata| metadata.primaries),
+        primaries: is_named.then_some(working.primaries),
+        white_luminance: working.white.filter(|_| target.format == Format::Exr).map(|white| white as f32),
         orientation: None,
         software: Some(concat!("cosmorama ", env!("CARGO_PKG_VERSION")).to_owned()),
     }

@@ -103,6 +103,7 @@ impl Content {
                 check_map(settings, target.format)?;
                 // Halves turn a direction by as much as a pixel of a large picture.
                 light.depth = settings.depth.unwrap_or(Depth::Float);
+                light.metadata.primaries = None;
             }
         }
         Ok(())

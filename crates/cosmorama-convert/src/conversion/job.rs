@@ -81,7 +81,10 @@ impl ConvertJob {
         memory.check_outputs(&target)?;
         let outputs = Outputs::plan(settings, &input, &target, &light, memory)?;
         warnings.extend(outputs.warning());
-        let missing = settings.missing;
+        let missing = match settings.missing {
+            Missing::Fill(colour) => Missing::Fill(light.working.colour(colour)),
+            Missing::Error => Missing::Error,
+        };
         let mut job = Self {
             files: Arc::clone(&settings.files),
             input,

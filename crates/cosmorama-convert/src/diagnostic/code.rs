@@ -66,6 +66,10 @@ pub enum Code {
     AlphaThin,
     /// A colour profile is not carried over.
     ProfileLost,
+    /// The output cannot name the input's primaries or transfer function.
+    Primaries,
+    /// Colours lie outside of the output's primaries, and are clipped.
+    OutOfGamut,
     /// Existing outputs are made again.
     Remade,
     /// The filter reads beyond what a file holds.

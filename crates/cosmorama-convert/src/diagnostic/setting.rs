@@ -25,6 +25,12 @@ pub enum Setting {
     InTransfer,
     /// Transfer function of the output.
     OutTransfer,
+    /// Primaries of the output.
+    Primaries,
+    /// Primaries of inputs that name none.
+    InPrimaries,
+    /// Whether ICC profiles of inputs are ignored.
+    IgnoreProfile,
     /// Sample type of the output.
     Depth,
     /// Colour outside the lens.
@@ -51,7 +57,7 @@ pub enum Setting {
 
 impl Setting {
     /// All settings.
-    pub const ALL: [Self; 23] = [
+    pub const ALL: [Self; 26] = [
         Self::From,
         Self::To,
         Self::Size,
@@ -64,6 +70,9 @@ impl Setting {
         Self::Transfer,
         Self::InTransfer,
         Self::OutTransfer,
+        Self::Primaries,
+        Self::InPrimaries,
+        Self::IgnoreProfile,
         Self::Depth,
         Self::Background,
         Self::Missing,
@@ -92,6 +101,9 @@ impl Setting {
             Self::Transfer => "transfer",
             Self::InTransfer => "in-transfer",
             Self::OutTransfer => "out-transfer",
+            Self::Primaries => "primaries",
+            Self::InPrimaries => "in-primaries",
+            Self::IgnoreProfile => "ignore-profile",
             Self::Depth => "depth",
             Self::Background => "background",
             Self::Missing => "missing",

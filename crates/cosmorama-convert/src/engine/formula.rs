@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use cosmorama::raster::{Depth, Image, Threads};
+use cosmorama::raster::{ColourMatrix, Depth, Image, Primaries, Threads};
 use cosmorama_builtin::{BuiltinWorld, DirectionMap, DirectionPixel};
 use cosmorama_io::{WriteOptions, write_planes};
 
@@ -37,6 +37,11 @@ fn levels(job: &ConvertJob, world: BuiltinWorld, file: usize) -> Result<Levels> 
     let background = job.light.background;
     let picture = |index: usize| {
         let mut image = world.picture(&job.target.views[index].view);
+        // Formulas are of Rec. 709.
+        let matrix = ColourMatrix::between(&Primaries::REC709, &job.light.working.primaries);
+        if !matrix.is_identity() {
+            matrix.convert(image.pixels_mut());
+        }
         image.pixels_mut().iter_mut().for_each(|pixel| *pixel = pixel.over(background));
         Ok(image)
     };

@@ -121,7 +121,14 @@ impl<'a> Engine<'a> {
             );
             Diagnostic::warning(Code::AlphaFlattened, message).about(path.display())
         };
-        self.incomplete(light).map(tell).chain(light.flattened().map(flat)).chain(thin).chain(suns).collect()
+        let clipped = warnings::clipped(self.job, frame, light);
+        self.incomplete(light)
+            .map(tell)
+            .chain(light.flattened().map(flat))
+            .chain(thin)
+            .chain(suns)
+            .chain(clipped)
+            .collect()
     }
 
     /// Visits the views with missing texels, and their number.

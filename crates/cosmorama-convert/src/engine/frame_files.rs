@@ -1,8 +1,9 @@
 use std::path::PathBuf;
 
-use cosmorama::raster::{EncodedImage, FramePool, Transfer};
+use cosmorama::raster::{EncodedImage, FramePool};
 use cosmorama_io::Limits;
 
+use crate::colour::FileColours;
 use crate::conversion::ConvertJob;
 use crate::diagnostic::{FRAMES, Result, bail};
 use crate::input::{Place, ViewFiles, read_in};
@@ -15,8 +16,8 @@ pub(crate) struct ViewImage {
     pub(crate) path: PathBuf,
     /// Its pixels.
     pub(crate) image: EncodedImage,
-    /// Transfer function of the image.
-    pub(crate) transfer: Transfer,
+    /// How its code values become light.
+    pub(crate) colours: FileColours,
 }
 
 /// Selection of a frame's views.
@@ -78,8 +79,9 @@ impl FrameFile {
                 if found == expected { " at another place of its canvas" } else { "" }
             );
         }
-        let transfer = job.light.input_transfer(file.image.depth(), &file.metadata);
-        let view_image = |view: usize, image| ViewImage { view, path: path.clone(), image, transfer: transfer.clone() };
+        job.light.check_profile(path, &file.metadata)?;
+        let colours = job.light.colours(file.image.channels(), file.image.depth(), &file.metadata);
+        let view_image = |view: usize, image| ViewImage { view, path: path.clone(), image, colours: colours.clone() };
         if let (&[view], None) = (&views[..], first.part) {
             return Ok(vec![view_image(view, file.image)]);
         }

@@ -6,6 +6,7 @@ use cosmorama::raster::{Decoder, FixedDecoder, FixedLight, FramePool, Rgba, Tran
 use cosmorama::world::{RimTexels, Source, World};
 use rayon::prelude::*;
 
+use crate::colour::FileColours;
 use crate::conversion::ConvertJob;
 use crate::diagnostic::{Result, bail};
 use crate::engine::{FrameFile, Stage, Stages, ViewImage, Which};
@@ -15,6 +16,8 @@ pub(crate) struct FrameLight {
     texels: Texels,
     /// Number of missing (NaN) texels by view.
     missing: Vec<usize>,
+    /// Number of texels outside of the working primaries by view, where light was converted to these.
+    outside: Vec<usize>,
     /// Texels of each view that its own rim cuts.
     rims: Vec<RimTexels>,
     /// Files with transparent pixels, if the outputs are opaque because the first frame is.
@@ -44,10 +47,11 @@ impl FrameLight {
         let texels = if is_fixed { Texels::fixed(job) } else { Texels::floats(job) };
         let rims: Vec<RimTexels> =
             job.worlds.iter().flat_map(World::sources).map(|source| RimTexels::of(&source.view)).collect();
-        let missing = vec![0; rims.len()];
+        let (missing, outside) = (vec![0; rims.len()], vec![0; rims.len()]);
         let decoder = Decoder::default();
         let flattened = BTreeSet::new();
-        Self { texels, missing, rims, flattened, is_fixed, has_still: false, decoder, fixed_decoders: Vec::new() }
+        let fixed_decoders = Vec::new();
+        Self { texels, missing, outside, rims, flattened, is_fixed, has_still: false, decoder, fixed_decoders }
     }
 
     /// Returns all texels.
@@ -58,6 +62,11 @@ impl FrameLight {
     /// Returns the number of missing (NaN) texels by view.
     pub(crate) fn missing(&self) -> &[usize] {
         &self.missing
+    }
+
+    /// Returns the number of texels outside of the working primaries by view.
+    pub(crate) fn outside(&self) -> &[usize] {
+        &self.outside
     }
 
     /// Returns files with transparent pixels that have not been reported, where the outputs have no alpha.
@@ -101,9 +110,13 @@ impl FrameLight {
 
     /// Returns whether an image can be held in 15 bits.
     fn takes(&mut self, image: &ViewImage) -> bool {
-        let known = self.fixed_decoders.iter().position(|(transfer, _)| *transfer == image.transfer);
+        let FileColours { transfer: wanted, matrix } = &image.colours;
+        if matrix.is_some() {
+            return false;
+        }
+        let known = self.fixed_decoders.iter().position(|(transfer, _)| transfer == wanted);
         let index = known.unwrap_or_else(|| {
-            self.fixed_decoders.push((image.transfer.clone(), FixedDecoder::new(&image.transfer)));
+            self.fixed_decoders.push((wanted.clone(), FixedDecoder::new(wanted)));
             self.fixed_decoders.len() - 1
         });
         self.fixed_decoders[index].1.as_ref().is_some_and(|decoder| decoder.takes(&image.image))
@@ -111,27 +124,29 @@ impl FrameLight {
 
     fn decode(&mut self, job: &ConvertJob, images: &[ViewImage], stages: &Stages) -> Result<()> {
         let Self { texels, rims, decoder, fixed_decoders, .. } = self;
-        let missing = match texels {
+        let counts = match texels {
             Texels::Fixed(worlds) => {
                 let decoder = |image: &ViewImage| {
-                    fixed_decoders.iter().find(|(transfer, _)| *transfer == image.transfer)?.1.as_ref()
+                    fixed_decoders.iter().find(|(transfer, _)| *transfer == image.colours.transfer)?.1.as_ref()
                 };
                 let rows = |image: &ViewImage, first: usize, into: &mut [[i16; 4]]| {
                     decoder(image).map(|decoder| decoder.decode_rows(&image.image, first, into));
-                    // An integer is always a number.
-                    0
+                    // An integer is always a number, and its light is in working primaries.
+                    Counts::default()
                 };
                 decode(images, worlds.iter_mut().flat_map(FixedLight::views_mut), stages, rows)
             }
             Texels::Float(worlds) => {
                 let rows = |image: &ViewImage, first: usize, into: &mut [Rgba]| {
-                    decoder.decode_rows(&image.image, &image.transfer, first, into)
+                    let FileColours { transfer, matrix } = &image.colours;
+                    let missing = decoder.decode_rows(&image.image, transfer, first, into);
+                    Counts { missing, outside: matrix.as_ref().map_or(0, |matrix| matrix.convert(into)) }
                 };
                 decode(images, views(job, worlds), stages, rows)
             }
         };
         texels.restore_rims(job, images, rims);
-        for (image, missing) in images.iter().zip(missing) {
+        for (image, Counts { missing, outside }) in images.iter().zip(counts) {
             let count = image.image.width() * image.image.height();
             if missing == count && job.fill_for_missing().is_none() {
                 let name = job.input.present().nth(image.view).map_or("", |(view, ..)| &view.name);
@@ -139,6 +154,7 @@ impl FrameLight {
                 bail!(NotANumber: "{path}: the {name} view holds no light; render it again: every pixel is NaN");
             }
             self.missing[image.view] = missing;
+            self.outside[image.view] = outside;
         }
         Ok(())
     }
@@ -160,8 +176,8 @@ impl Texels {
             Self::Float(worlds) => {
                 let views = views(job, worlds);
                 each_read(images, rims, views, |image, rim, view| {
-                    let is_float = image.image.depth().is_float();
-                    rim.restore(view, |texel| texel, |light| if is_float { light } else { within_white(light) });
+                    let is_free = image.image.depth().is_float() || image.colours.matrix.is_some();
+                    rim.restore(view, |texel| texel, |light| if is_free { light } else { within_white(light) });
                 });
             }
             Self::Fixed(worlds) => {
@@ -182,29 +198,41 @@ impl Texels {
     }
 }
 
-/// Decodes images in parallel pieces, and returns the number of missing pixels of each. Each view is given by its rows,
+/// Numbers of pixels that are to be told of.
+#[derive(Clone, Copy, Debug, Default)]
+struct Counts {
+    /// Pixels that are NaN.
+    missing: usize,
+    /// Pixels outside of the working primaries.
+    outside: usize,
+}
+
+/// Decodes images in parallel pieces, and returns the counts of each. Each view is given by its rows,
 /// all of one length; `rows` decodes some of them.
 fn decode<'a, T: Send + 'a>(
     images: &[ViewImage],
     views: impl Iterator<Item = &'a mut [T]>,
     stages: &Stages,
-    rows: impl Fn(&ViewImage, usize, &mut [T]) -> usize + Sync,
-) -> Vec<usize> {
+    rows: impl Fn(&ViewImage, usize, &mut [T]) -> Counts + Sync,
+) -> Vec<Counts> {
     let mut views: Vec<_> = views.map(Some).collect();
-    let missing: Vec<AtomicUsize> = images.iter().map(|_| AtomicUsize::new(0)).collect();
+    let counts: Vec<[AtomicUsize; 2]> = images.iter().map(|_| <[AtomicUsize; 2]>::default()).collect();
     let mut pieces = Vec::new();
-    for (image, missing) in images.iter().zip(&missing) {
+    for (image, counts) in images.iter().zip(&counts) {
         let some = PIECE.div_ceil(image.image.width().max(1));
         let view = views[image.view].take().expect("one image for each view");
         let pitch = (view.len() / image.image.height().max(1)).max(1);
         let texels = view.chunks_mut(some * pitch).enumerate();
-        pieces.extend(texels.map(|(piece, into)| (image, missing, piece * some, into)));
+        pieces.extend(texels.map(|(piece, into)| (image, counts, piece * some, into)));
     }
-    pieces.into_par_iter().for_each(|(image, missing, first, into)| {
+    pieces.into_par_iter().for_each(|(image, [missing, outside], first, into)| {
         let found = stages.beside(Stage::Decode, || rows(image, first, into));
-        missing.fetch_add(found, Ordering::Relaxed);
+        missing.fetch_add(found.missing, Ordering::Relaxed);
+        outside.fetch_add(found.outside, Ordering::Relaxed);
     });
-    missing.into_iter().map(AtomicUsize::into_inner).collect()
+    let count =
+        |[missing, outside]: [AtomicUsize; 2]| Counts { missing: missing.into_inner(), outside: outside.into_inner() };
+    counts.into_iter().map(count).collect()
 }
 
 /// Limits light to white, as in files of integers, so that 15 bits and floats give the same.

@@ -160,8 +160,11 @@ fn codec(job: &ConvertJob) -> Option<FixedCodec> {
         && light.background.alpha() >= 1.0
         && matches!(job.coverage, Coverage::Complete)
         && job.input.present().all(|(_, header, _)| {
-            let transfer = light.input_transfer(header.depth, &header.metadata);
-            header.depth == Depth::Eight && !header.channels.has_alpha() && FixedDecoder::new(&transfer).is_some()
+            let colours = light.colours(header.channels, header.depth, &header.metadata);
+            header.depth == Depth::Eight
+                && !header.channels.has_alpha()
+                && colours.matrix.is_none()
+                && FixedDecoder::new(&colours.transfer).is_some()
         });
     is_possible.then(|| FixedCodec::new(&light.transfer, light.background)).flatten()
 }

@@ -17,6 +17,26 @@ const MUCH: f64 = 0.1;
 /// Number of directions that are tested to see whether outputs show the whole world.
 const DIRECTIONS: usize = 500;
 
+/// Warns of colours outside of the outputs' primaries that are clipped there, with their share of each file.
+pub(crate) fn clipped<'a>(
+    job: &'a ConvertJob,
+    frame: Option<u64>,
+    light: &'a FrameLight,
+) -> impl Iterator<Item = Diagnostic> + 'a {
+    let views = job.input.present().zip(light.outside()).filter(|(_, count)| job.light.clips && **count > 0);
+    views.map(move |((view, header, _), count)| {
+        let path = view.files.path(frame);
+        let pixels = header.width.saturating_mul(header.height).max(1);
+        let message = format!(
+            "{}: {:.2} % of its pixels lie outside of the output's primaries, {}: they are clipped to what those can show",
+            path.display(),
+            100.0 * *count as f64 / pixels as f64,
+            job.light.working.primaries
+        );
+        Diagnostic::warning(Code::OutOfGamut, message).about(path.display())
+    })
+}
+
 /// Warns where a whole world is made from light with bright sources, which few filters keep.
 pub(crate) fn suns(job: &ConvertJob, light: &FrameLight) -> Option<Diagnostic> {
     if job.lighting.is_some() || balance::is_asked_for(job) || !is_of_any_range(job) || !shows_the_world(job) {

@@ -1,6 +1,8 @@
 use std::fmt;
 
-use cosmorama::raster::{Channels, Depth};
+use cosmorama::raster::{Channels, Depth, Primaries, Transfer};
+
+use crate::metadata::khronos;
 
 /// A file format.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -25,6 +27,17 @@ pub enum Format {
     Dds,
 }
 
+/// Primaries that a format's files can name.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum HeldPrimaries {
+    /// None; those of Rec. 709 are understood.
+    None,
+    /// Those with a number in the Khronos Data Format Specification.
+    Numbered,
+    /// Any.
+    Any,
+}
+
 /// Properties of a format's files.
 struct Properties {
     /// Name in messages.
@@ -34,7 +47,7 @@ struct Properties {
     depths: &'static [Depth],
     channels: &'static [Channels],
     longest_side: Option<usize>,
-    names_transfer: bool,
+    primaries: HeldPrimaries,
     is_cube_map: bool,
     holds_levels: bool,
     has_compression: bool,
@@ -49,7 +62,7 @@ impl Properties {
         depths: &[Depth::Eight],
         channels: &Channels::ALL,
         longest_side: None,
-        names_transfer: false,
+        primaries: HeldPrimaries::None,
         is_cube_map: false,
         holds_levels: false,
         has_compression: false,
@@ -69,7 +82,7 @@ impl Properties {
         name: "PNG",
         extensions: &["png"],
         depths: &[Depth::Eight, Depth::Ten, Depth::Twelve, Depth::Sixteen],
-        names_transfer: true,
+        primaries: HeldPrimaries::Any,
         has_compression: true,
         holds_icc: true,
         ..Self::PLAIN
@@ -79,6 +92,7 @@ impl Properties {
         name: "JPEG",
         extensions: &["jpg", "jpeg"],
         channels: &[Channels::Grey, Channels::Rgb],
+        primaries: HeldPrimaries::Any,
         longest_side: Some(u16::MAX as usize),
         holds_icc: true,
         ..Self::PLAIN
@@ -88,6 +102,7 @@ impl Properties {
         name: "TIFF",
         extensions: &["tif", "tiff"],
         depths: &Depth::ALL,
+        primaries: HeldPrimaries::Any,
         has_compression: true,
         holds_icc: true,
         ..Self::PLAIN
@@ -100,6 +115,7 @@ impl Properties {
         extensions: &["hdr", "pic"],
         depths: &[Depth::Float],
         channels: &[Channels::Rgb],
+        primaries: HeldPrimaries::Any,
         ..Self::PLAIN
     };
 
@@ -107,11 +123,13 @@ impl Properties {
         name: "OpenEXR",
         extensions: &["exr"],
         depths: &[Depth::Half, Depth::Float],
+        primaries: HeldPrimaries::Any,
         has_compression: true,
         ..Self::PLAIN
     };
 
-    const KTX2: Self = Self { name: "KTX 2", extensions: &["ktx2"], ..Self::TEXTURE };
+    const KTX2: Self =
+        Self { name: "KTX 2", extensions: &["ktx2"], primaries: HeldPrimaries::Numbered, ..Self::TEXTURE };
 
     // Files are known by their content; it is never written.
     const KTX: Self = Self { name: "KTX", depths: &[], holds_levels: false, ..Self::TEXTURE };
@@ -194,9 +212,23 @@ impl Format {
         }
     }
 
-    /// Returns whether the format's integer files can name their transfer function without an ICC profile.
-    pub const fn names_transfer(self) -> bool {
-        self.properties().names_transfer
+    /// Returns whether integer files keep this transfer function of their input: they can name it, and programs follow it.
+    pub fn keeps_transfer(self, transfer: &Transfer, channels: Channels) -> bool {
+        match (self, transfer) {
+            (Self::Png, _) => true,
+            (Self::Jpeg | Self::Tiff, Transfer::Curve(_)) => true,
+            (Self::Jpeg | Self::Tiff | Self::Ktx2, Transfer::Pq | Transfer::Hlg) => channels.is_colour(),
+            _ => *transfer == Transfer::Srgb,
+        }
+    }
+
+    /// Returns whether files can name these primaries, or they are understood.
+    pub fn holds_primaries(self, primaries: &Primaries) -> bool {
+        match self.properties().primaries {
+            HeldPrimaries::Any => true,
+            HeldPrimaries::Numbered => khronos::primaries_code(Some(primaries)) != khronos::UNSPECIFIED,
+            HeldPrimaries::None => primaries.is_same(&Primaries::REC709),
+        }
     }
 
     /// Returns whether the format's files hold the faces of a cube and nothing else, in an order of the format's own.

@@ -1,6 +1,7 @@
 mod colour_name;
 pub(crate) mod gpano;
 pub(crate) mod icc;
+pub(crate) mod khronos;
 
 pub(crate) use colour_name::colour_name;
 

@@ -3,6 +3,7 @@
 #![allow(clippy::print_stderr, reason = "a check that is left out says so")]
 
 mod calibrations;
+mod colour;
 mod common;
 mod face_sets;
 mod hostile;

@@ -211,16 +211,6 @@ fn png_says_its_transfer_function() {
 }
 
 #[test]
-fn primaries_are_carried() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("a.png");
-    let metadata = Metadata { transfer: Some(Transfer::Pq), primaries: Some(9), ..Metadata::default() };
-    write(&path, &picture(4, 4, Channels::Rgb, Depth::Sixteen), &WriteOptions::with_metadata(metadata.clone()))
-        .unwrap();
-    assert_eq!(probe(&path).unwrap().metadata.primaries, Some(9));
-}
-
-#[test]
 fn icc_profiles_are_read_and_carried() {
     let folder = tempfile::tempdir().unwrap();
     let mut profile = moxcms::ColorProfile::new_display_p3();

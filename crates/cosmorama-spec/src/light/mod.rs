@@ -3,9 +3,11 @@
 mod colour;
 mod depth;
 mod missing;
+mod primaries;
 mod transfer;
 
 pub use colour::Colour;
 pub use depth::DepthName;
 pub use missing::Missing;
+pub use primaries::PrimariesName;
 pub use transfer::TransferName;

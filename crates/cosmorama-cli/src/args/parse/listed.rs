@@ -6,7 +6,7 @@ use std::str::FromStr;
 use crate::args::light::lobe::LobeName;
 use clap::builder::{PossibleValue, TypedValueParser};
 use clap::{Arg, Command, Error};
-use cosmorama_spec::{FilterName, KernelName, Spec, SpecKind, TransferName};
+use cosmorama_spec::{FilterName, KernelName, PrimariesName, Spec, SpecKind, TransferName};
 
 /// Parser of a value that begins with one of some names, which completions offer.
 ///
@@ -63,6 +63,11 @@ pub(crate) fn kernel() -> Listed<KernelName> {
 /// Reads the name of a lobe.
 pub(crate) fn lobe() -> Listed<LobeName> {
     Listed::new(LobeName::NAMES)
+}
+
+/// Reads the name of primaries.
+pub(crate) fn primaries() -> Listed<PrimariesName> {
+    Listed::new(PrimariesName::NAMES)
 }
 
 /// Reads the name of a transfer function.

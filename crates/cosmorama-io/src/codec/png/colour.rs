@@ -188,7 +188,6 @@ pub(super) fn tag(transfer: &Transfer, primaries: Option<&Primaries>) -> Option<
         Transfer::Bt1886 => code_points(1),
         Transfer::Pq => code_points(16),
         Transfer::Hlg => code_points(18),
-        Transfer::Curve(_) if is_usual => None,
         Transfer::Curve(_) => profile(),
     }
 }

@@ -5,10 +5,10 @@ use cosmorama::raster::{AlphaMode, Channels, EncodedImage, Primaries, Samples, T
 use half::f16;
 use rayon::prelude::*;
 
-use super::descriptor_colour;
 use super::packing::Packed;
 use super::texel::Texels;
 use crate::codec::interface::{Source, is_beside_others, whole_image};
+use crate::metadata::khronos;
 use crate::{EnvMap, Format, Header, ImageFile, IoError, Limits, Metadata};
 
 /// Supported textures, for messages.
@@ -42,7 +42,7 @@ impl CubeTexture {
         let metadata = Metadata {
             transfer: self.transfer.clone(),
             primaries: self.primaries.unwrap_or_default(),
-            complaints: self.primaries.err().map(descriptor_colour::complaint).into_iter().collect(),
+            complaints: self.primaries.err().map(khronos::complaint).into_iter().collect(),
             envmap: Some(EnvMap::GlCube),
             ..Metadata::default()
         };

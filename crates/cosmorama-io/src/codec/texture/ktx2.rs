@@ -5,10 +5,10 @@ use cosmorama::raster::{AlphaMode, Depth, EncodedImage, FramePool, Transfer};
 use ktx2::{Format as Vk, Header as Ktx2Header, Index, LevelIndex, SupercompressionScheme as Scheme};
 
 use super::cube::{CubeTexture, EXPECTED, levels_to_write};
-use super::descriptor_colour;
 use super::packing::{Packed, Packing};
 use super::texel::{BlockFormat, Texels};
 use crate::codec::interface::{Codec, Sink, Source};
+use crate::metadata::khronos;
 use crate::{Format, Header, ImageFile, IoError, Limits, WriteOptions};
 
 const FORMAT: Format = Format::Ktx2;
@@ -67,10 +67,9 @@ impl Codec for Ktx2 {
         let (format, type_size, transfer) = match &options.metadata.transfer {
             _ if float => (Vk::R16G16B16A16_SFLOAT, 2, descriptor::LINEAR),
             None | Some(Transfer::Srgb) => (Vk::R8G8B8A8_SRGB, 1, descriptor::SRGB),
-            Some(transfer) => (Vk::R8G8B8A8_UNORM, 1, descriptor_colour::transfer_code(transfer)),
+            Some(transfer) => (Vk::R8G8B8A8_UNORM, 1, khronos::transfer_code(transfer)),
         };
-        let described =
-            describe(float, transfer, descriptor_colour::primaries_code(options.metadata.primaries.as_ref()));
+        let described = describe(float, transfer, khronos::primaries_code(options.metadata.primaries.as_ref()));
         let words = key_values(&[("KTXorientation", "rd"), ("KTXwriter", "cosmorama")]);
         let dfd = (Ktx2Header::LENGTH + LevelIndex::LENGTH * faces.len()) as u32;
         let kvd = dfd + described.len() as u32;
@@ -140,7 +139,7 @@ fn texture(path: &Path, source: Source<'_>) -> Result<CubeTexture, IoError> {
     let (texels, srgb) =
         texels(format).ok_or_else(|| unsupported(format!("texels of the Vulkan format {format:?}")))?;
     let descriptor = descriptor(path, source, header.index.dfd_byte_offset)?;
-    let (said, premultiplied) = (descriptor_colour::transfer(descriptor[14]), is_premultiplied(&descriptor));
+    let (said, premultiplied) = (khronos::transfer(descriptor[14]), is_premultiplied(&descriptor));
     let integers = texels.depth() == Depth::Eight;
     let level = LevelIndex::from_bytes(&level);
     let mut cube = CubeTexture {
@@ -150,7 +149,7 @@ fn texture(path: &Path, source: Source<'_>) -> Result<CubeTexture, IoError> {
         } else {
             said.filter(|_| integers).or_else(|| (!integers).then_some(Transfer::Linear))
         },
-        primaries: descriptor_colour::primaries(descriptor[13]),
+        primaries: khronos::primaries(descriptor[13]),
         alpha: if premultiplied { AlphaMode::Premultiplied } else { AlphaMode::Straight },
         edge: header.pixel_width,
         row_alignment: 1,

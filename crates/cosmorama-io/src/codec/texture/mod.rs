@@ -2,7 +2,6 @@
 
 mod cube;
 mod dds;
-mod descriptor_colour;
 mod ktx;
 mod ktx2;
 mod packing;

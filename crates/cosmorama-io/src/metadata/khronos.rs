@@ -16,10 +16,10 @@ const PRIMARIES: [(u8, Primaries); 10] = [
     (11, Primaries::ADOBE_RGB),
 ];
 /// Number of primaries that are not named.
-const UNSPECIFIED: u8 = 0;
+pub(crate) const UNSPECIFIED: u8 = 0;
 
 /// Returns the primaries with a number; the error is one that is not known.
-pub(super) fn primaries(number: u8) -> Result<Option<Primaries>, u8> {
+pub(crate) fn primaries(number: u8) -> Result<Option<Primaries>, u8> {
     if number == UNSPECIFIED {
         return Ok(None);
     }
@@ -28,7 +28,7 @@ pub(super) fn primaries(number: u8) -> Result<Option<Primaries>, u8> {
 }
 
 /// Complains of a number that is not known.
-pub(super) fn complaint(number: u8) -> String {
+pub(crate) fn complaint(number: u8) -> String {
     format!(
         "the number of its primaries, {number}, is unknown here: they are taken for Rec. 709; expected 0 to 8, 10 or 11 of the \
          Khronos Data Format Specification"
@@ -36,7 +36,7 @@ pub(super) fn complaint(number: u8) -> String {
 }
 
 /// Returns the number of primaries; unspecified for those that have none.
-pub(super) fn primaries_code(primaries: Option<&Primaries>) -> u8 {
+pub(crate) fn primaries_code(primaries: Option<&Primaries>) -> u8 {
     let primaries = primaries.unwrap_or(&Primaries::REC709);
     PRIMARIES.iter().find(|(_, known)| known.is_same(primaries)).map_or(UNSPECIFIED, |(number, _)| *number)
 }
@@ -54,11 +54,11 @@ const TRANSFERS: [(u8, Transfer); 8] = [
 ];
 
 /// Returns the transfer function with a number, if it is known.
-pub(super) fn transfer(number: u8) -> Option<Transfer> {
+pub(crate) fn transfer(number: u8) -> Option<Transfer> {
     TRANSFERS.iter().find(|(known, _)| *known == number).map(|(_, transfer)| transfer.clone())
 }
 
 /// Returns the number of a transfer function; 0, unspecified, for those that have none.
-pub(super) fn transfer_code(transfer: &Transfer) -> u8 {
+pub(crate) fn transfer_code(transfer: &Transfer) -> u8 {
     TRANSFERS.iter().find(|(_, known)| known == transfer).map_or(0, |(number, _)| *number)
 }
