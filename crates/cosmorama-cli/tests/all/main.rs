@@ -45,6 +45,8 @@ mod lenses {
 
 mod output {
     mod bad_output;
+    mod colour;
+    mod colour_table;
     mod output_shape;
 }
 

@@ -84,8 +84,11 @@ impl Light {
         let channels = channels(args, &headers, target, warnings)?;
         let depth = depth(args, &headers, target)?;
         let side = InputTransfer::new(&args.transfer, args.in_transfer.as_ref());
-        let transfer = output_transfer(args, &headers, &side, (depth, channels), target, warnings);
         let primaries = Working::choose(args, &headers, target.format, warnings);
+        // A profile for such primaries holds any transfer function, too.
+        let has_profile = target.format.holds_icc() && channels.is_colour() && !primaries.is_same(&Primaries::REC709);
+        let keeps = |transfer: &Transfer| has_profile || target.format.keeps_transfer(transfer, channels);
+        let transfer = output_transfer(args, &headers, &side, (depth, channels, &keeps), target.format, warnings);
         let first = headers.first().and_then(|first| white_of(&first.metadata, &side.of(first.depth, &first.metadata)));
         let working = Working::new(args, primaries, &transfer, first);
         let metadata = metadata(args, &headers, target, (&transfer, &working, depth), warnings);
@@ -189,8 +192,8 @@ fn output_transfer(
     args: &Conversion,
     headers: &[&Header],
     side: &InputTransfer,
-    (depth, channels): (Depth, Channels),
-    target: &Target,
+    (depth, channels, keeps): (Depth, Channels, &dyn Fn(&Transfer) -> bool),
+    format: Format,
     warnings: &mut Vec<Diagnostic>,
 ) -> Transfer {
     if let Some(out) = &args.out_transfer {
@@ -206,7 +209,7 @@ fn output_transfer(
         _ => return Transfer::Srgb,
     };
     // What the file cannot say of itself would be taken for sRGB.
-    if input == Transfer::Srgb || target.format.keeps_transfer(&input, channels) {
+    if input == Transfer::Srgb || keeps(&input) {
         return input;
     }
     if let Transfer::Pq | Transfer::Hlg = input {
@@ -215,7 +218,7 @@ fn output_transfer(
             "{} {} files cannot name {name}: light is encoded as sRGB, and what is brighter than white, 203 cd/m², is \
              clipped; a format of floats keeps it",
             if channels.is_colour() { "coloured" } else { "grey" },
-            target.format
+            format
         );
         warnings.push(Diagnostic::warning(Code::Primaries, message));
     }

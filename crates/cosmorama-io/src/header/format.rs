@@ -32,7 +32,7 @@ pub enum Format {
 enum HeldPrimaries {
     /// None; those of Rec. 709 are understood.
     None,
-    /// Those with a number in the Khronos Data Format Specification.
+    /// Primaries with a number in the Khronos Data Format Specification.
     Numbered,
     /// Any.
     Any,

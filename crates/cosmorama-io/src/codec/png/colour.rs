@@ -82,9 +82,6 @@ fn cicp(info: &Info<'_>) -> Option<Result<Coded, String>> {
     let ignored = |what: &str, number: u8, expected: &str| {
         Some(Err(format!("its cICP chunk is ignored: {what} {number} is unknown here, expected {expected}")))
     };
-    if cicp.matrix_coefficients != 0 {
-        return ignored("matrix", cicp.matrix_coefficients, "0, RGB");
-    }
     let primaries = Primaries::of_number(cicp.color_primaries);
     if primaries.is_none() && cicp.color_primaries != UNSPECIFIED {
         return ignored("the number of its primaries,", cicp.color_primaries, "one of ITU-T H.273's, 1 to 12 or 22");

@@ -89,8 +89,9 @@ fn primaries(profile: &ColorProfile) -> Option<Primaries> {
         return Some(named);
     }
     let [red, green, blue] = [0, 1, 2].map(|column| [0, 1, 2].map(|row| colorants[row][column]));
-    let to_d50 = match (profile.chromatic_adaptation, profile.media_white_point) {
-        (Some(matrix), _) => ColourMatrix::from_rows(matrix.v),
+    let given = profile.chromatic_adaptation.map(|matrix| ColourMatrix::from_rows(matrix.v)).filter(adapts_to_d50);
+    let to_d50 = match (given, profile.media_white_point) {
+        (Some(given), _) => given,
         (None, Some(white)) => ColourMatrix::adaptation(chromaticity([white.x, white.y, white.z])?, D50),
         (None, None) => ColourMatrix::IDENTITY,
     };
@@ -98,6 +99,14 @@ fn primaries(profile: &ColorProfile) -> Option<Primaries> {
     let white = [0, 1, 2].map(|row| red[row] + green[row] + blue[row]);
     let [red, green, blue, white] = [red, green, blue, white].map(|xyz| chromaticity(from_d50.apply(xyz)));
     Primaries::of_pairs(red?, green?, blue?, white?)
+}
+
+/// Returns whether a matrix adapts some white to D50. Profiles of moxcms 0.8 hold that of cone responses in its place.
+fn adapts_to_d50(matrix: &ColourMatrix) -> bool {
+    let d50 = [D50[0] / D50[1], 1.0, (1.0 - D50[0] - D50[1]) / D50[1]];
+    let Some(white) = chromaticity(matrix.inverse().apply(d50)) else { return false };
+    let usual = ColourMatrix::adaptation(white, D50).rows().into_iter().flatten();
+    usual.zip(matrix.rows().into_iter().flatten()).all(|(a, b)| (a - b).abs() < 0.1)
 }
 
 fn chromaticity([x, y, z]: [f64; 3]) -> Option<[f64; 2]> {
