@@ -88,7 +88,8 @@ impl Light {
         // A profile for such primaries holds any transfer function, too.
         let has_profile = target.format.holds_icc() && channels.is_colour() && !primaries.is_same(&Primaries::REC709);
         let keeps = |transfer: &Transfer| has_profile || target.format.keeps_transfer(transfer, channels);
-        let transfer = output_transfer(args, &headers, &side, (depth, channels, &keeps), target.format, warnings);
+        let kind = (depth, channels, target.format);
+        let transfer = output_transfer(args, &headers, &side, kind, keeps, warnings);
         let first = headers.first().and_then(|first| white_of(&first.metadata, &side.of(first.depth, &first.metadata)));
         let working = Working::new(args, primaries, &transfer, first);
         let metadata = metadata(args, &headers, target, (&transfer, &working, depth), warnings);
@@ -192,8 +193,8 @@ fn output_transfer(
     args: &Conversion,
     headers: &[&Header],
     side: &InputTransfer,
-    (depth, channels, keeps): (Depth, Channels, &dyn Fn(&Transfer) -> bool),
-    format: Format,
+    (depth, channels, format): (Depth, Channels, Format),
+    keeps: impl Fn(&Transfer) -> bool,
     warnings: &mut Vec<Diagnostic>,
 ) -> Transfer {
     if let Some(out) = &args.out_transfer {
