@@ -70,11 +70,6 @@ pub(crate) fn lobe() -> Listed<LobeName> {
     Listed::new(LobeName::NAMES)
 }
 
-/// Reads the name of primaries.
-pub(crate) fn primaries() -> Listed<PrimariesName> {
-    Listed::new(PrimariesName::NAMES)
-}
-
 /// Reads the name of a transfer function.
 pub(crate) fn transfer() -> Listed<TransferName> {
     Listed::new(TransferName::NAMES)
