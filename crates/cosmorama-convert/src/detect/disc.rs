@@ -10,7 +10,7 @@ use cosmorama_spec::{Shape, Spec};
 use crate::diagnostic::{Code, Diagnostic, FROM, Remedy, Setting};
 
 /// Columns of the coarse copy in which a circle is looked for, at least.
-const COARSE: usize = 1024;
+const COARSE: usize = 2048;
 /// Distances from the assumed circle, as parts of its radius, that are told: of a measured circle, and of a rough one.
 const APART: [f64; 2] = [0.02, 0.05];
 

@@ -140,8 +140,14 @@ impl CameraModel {
         if !(width <= LARGEST && height <= LARGEST) {
             return Err(CameraError::SizeUnbounded { width, height });
         }
-        let height = self.natural_height(width as usize);
-        Ok((width as usize, height + height % 2))
+        let width = width as usize;
+        let height = self.natural_height(width);
+        let wider = self.natural_height(width + 2);
+        // A panorama stays exactly twice as wide as high, which is how files without metadata are known.
+        if matches!(self, Self::Equirect(_)) && !height.is_multiple_of(2) && wider.is_multiple_of(2) {
+            return Ok((width + 2, wider));
+        }
+        Ok((width, height + height % 2))
     }
 }
 

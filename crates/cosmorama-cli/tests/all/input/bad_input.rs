@@ -290,7 +290,8 @@ fn frames_missing_in_the_middle_are_all_named_before_work_starts() {
     }
     let args = ["convert", "{face}/{face}_####.png", "dome_####.png", "--to", "omnimax"];
     let message = bench.fail(1, &args);
-    assert_says(&message, &["front/front_####.png", "3,5,6", "left/left_####.png", "2,3,5,6"]);
+    let five = "{face}/{face}_####.png (front, right, back, up, down): 3 frames are missing: 3,5,6";
+    assert_says(&message, &[five, "left/left_####.png: 4 frames are missing: 2,3,5,6"]);
     let message = bench.fail(1, &[&args[..], &["--frames", "4-9"]].concat());
     assert_says(&message, &["5,6,9"]);
     let message =
