@@ -279,11 +279,13 @@ fn radiance_says_its_primaries() {
     };
     let rec2020 = found("PRIMARIES= .708 .292 .17 .797 .131 .046 .3127 .329\n");
     assert_eq!(rec2020.primaries, Some(Primaries::REC2020));
-    for line in ["PRIMARIES=\n", "PRIMARIES=1 2 3\n", "PRIMARIES=0 0 0 0 0 0 0 0\n", "PRIMARIES=a b c d e f g h\n"] {
+    for line in ["PRIMARIES=\n", "PRIMARIES=1 2 3\n", "PRIMARIES=0 0 0 0 1 1 0 0\n", "PRIMARIES=a b c d e f g h\n"] {
         let found = found(line);
         assert!(found.primaries.is_none() && found.complaints[0].starts_with("its PRIMARIES are ignored"), "{line}");
     }
-    assert_eq!(found("").complaints, Vec::<String>::new());
+    for line in ["", "PRIMARIES=0 0 0 0 0 0 0 0\n"] {
+        assert!(found(line).primaries.is_none() && found(line).complaints.is_empty(), "{line}");
+    }
 }
 
 /// What a program prints about a file.

@@ -133,6 +133,10 @@ impl Preamble {
                 Some(("SOFTWARE", name)) => metadata.software = Some(name.trim().to_owned()),
                 Some(("PRIMARIES", numbers)) => match primaries(numbers) {
                     Some(primaries) => metadata.primaries = Some(primaries),
+                    // As in the skies of Poly Haven.
+                    None if numbers.split_whitespace().eq(["0"; 8]) => {
+                        metadata.notes.push("its PRIMARIES are all 0, which is taken for none".to_owned());
+                    }
                     None => metadata.complaints.push(format!(
                         "its PRIMARIES are ignored: expected the x and y of red, green, blue and white, found {numbers:?}"
                     )),
