@@ -75,7 +75,9 @@ impl HarmonicFunctions {
         for (m, start) in self.starts.iter().enumerate() {
             let (mut before, mut legendre) = (0.0, *start);
             for l in m..=self.order {
-                if l > m && let Some([up, back]) = steps.next() {
+                if l > m
+                    && let Some([up, back]) = steps.next()
+                {
                     (before, legendre) = (legendre, up * z * legendre - back * before);
                 }
                 let middle = l * l + l;
