@@ -2,7 +2,7 @@ use std::io::Write;
 use std::path::Path;
 use std::process::ExitCode;
 
-use anyhow::Result;
+use anyhow::{Context, Result};
 use cosmorama::lighting::Harmonics;
 use cosmorama_convert::{Conversion, WorldLight, check_apart, refuse_existing};
 use cosmorama_io::pending::Pending;
@@ -32,7 +32,8 @@ pub(super) fn run(mut args: HarmonicsArgs, console: &mut Console) -> Result<Exit
     // A folder that cannot be written to is found out before the work.
     let mut file = Pending::create(&path, &console.unfinished)?;
     let harmonics = harmonics(&args, &light, console)?;
-    file.writer().write_all(to_json(&args, &harmonics)?.as_bytes())?;
+    let text = to_json(&args, &harmonics)?;
+    file.writer().write_all(text.as_bytes()).with_context(|| format!("cannot write {}", path.display()))?;
     file.finish()?;
     Ok(ExitCode::SUCCESS)
 }

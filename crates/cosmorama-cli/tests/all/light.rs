@@ -205,11 +205,17 @@ fn harmonics_replace_nothing_and_need_all_the_sphere() {
     fail(&["b.json", "--window", "hamming"], &["expected hanning or lanczos"]);
     fail(&["b.json", "--window", "lanczos:0"], &["a width more than 0, as in lanczos:4"]);
     assert_says(&bench.fail(2, &["light", "harmonics", "builtin:demo", "b.json"]), &["is a formula"]);
+    save_sky(&bench, "sky_0001.exr", 16, |_, _| [1.0; 3]);
+    save_sky(&bench, "sky_0002.exr", 16, |_, _| [2.0; 3]);
+    let frames = ["light", "harmonics", "sky_####.exr", "frame.json"];
+    assert_says(&bench.fail(2, &frames), &["has 2 frames", "as in --frames 1"]);
+    bench.succeed(&[&frames[..], &["--frames", "2"]].concat());
+    assert!((coefficients(&bench, "frame.json").1[0][0] - 4.0 * std::f64::consts::PI.sqrt()).abs() < 1e-6);
     bench.succeed(&["convert", "sky.exr", "dome.exr", "--to", "fulldome", "--size", "128"]);
     let half = ["light", "harmonics", "dome.exr", "b.json", "--from", "fulldome"];
     assert_says(&bench.fail(1, &half), &["50.0 % of the sphere", "--missing"]);
     assert!(!Path::new(&bench.path("b.json")).exists());
     bench.succeed(&[&half[..], &["--missing", "white"]].concat());
     let (_, filled) = coefficients(&bench, "b.json");
-    assert!((filled[0][0] - 2.0 * std::f64::consts::PI.sqrt()).abs() < 5e-3, "{:?}", filled[0]);
+    assert!((filled[0][0] - 2.0 * std::f64::consts::PI.sqrt()).abs() < 2e-2, "{:?}", filled[0]);
 }

@@ -12,7 +12,7 @@ use super::job::Purpose;
 use super::options::write_options;
 use super::run::light_of;
 use super::{Content, ConvertJob};
-use crate::diagnostic::{Diagnostic, Outcome, Result, bail, usage};
+use crate::diagnostic::{Diagnostic, FRAMES, Outcome, Result, bail, usage};
 use crate::engine::{Engine, FrameLight, Stages, Texels, light_of_unseen};
 use crate::output::files_read;
 use crate::settings::{Conversion, LightNormalisation, LightSettings};
@@ -64,10 +64,9 @@ impl WorldLight {
         let job = pool.install(|| ConvertJob::resolve(&settings, (content, Purpose::Light), diagnostics))?;
         if job.outputs.frames.len() > 1 {
             return Err(usage(format!(
-                "{} has {} frames, but coefficients are of one world; choose a frame, as in {} {}",
+                "{} has {} frames, but coefficients are of one world; choose a frame, as in {FRAMES} {}",
                 settings.input,
                 job.outputs.frames.len(),
-                crate::diagnostic::FRAMES,
                 job.outputs.frames[0].frame.unwrap_or_default()
             )));
         }

@@ -38,7 +38,7 @@ fn sunny(direction: Direction) -> [f32; 3] {
 
 #[test]
 fn a_constant_world_has_one_coefficient() {
-    let (world, light) = panorama(64, |_| [1.0, 0.5, 2.0]);
+    let (world, light) = panorama(256, |_| [1.0, 0.5, 2.0]);
     for basis in BASES {
         let radiance = Harmonics::new(&world, &light, 3, basis).unwrap();
         let irradiance = radiance.irradiance();
@@ -82,7 +82,7 @@ fn coefficients_are_the_sums_over_all_texels() {
 
 #[test]
 fn irradiance_is_the_exact_diffuse_light_of_a_smooth_world() {
-    let (world, light) = panorama(256, soft);
+    let (world, light) = panorama(512, soft);
     let all = AllTexels::new(&world, &light).unwrap();
     for (order, basis) in [(8, HarmonicBasis::ZUp), (10, HarmonicBasis::YUp)] {
         let irradiance = Harmonics::new(&world, &light, order, basis).unwrap().irradiance();
