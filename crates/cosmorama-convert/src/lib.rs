@@ -21,7 +21,9 @@ mod target;
 
 pub use budget::{MemoryBudget, peak_bytes};
 pub use colour::{InputTransfer, ThinAlpha};
-pub use conversion::{Checked, Explanation, ExplanationSettings, Observer, Quiet, Report, Stop, Work, threads};
+pub use conversion::{
+    Checked, Explanation, ExplanationSettings, Observer, Quiet, Report, Stop, Work, WorldLight, threads,
+};
 pub use detect::{Continuity, FacePixels, GivenFaces, Likely, damage_of, light_of, likely};
 pub use diagnostic::{Code, ConvertError, Diagnostic, Message, Outcome, Part, Remedy, Result, Setting, Severity};
 pub use engine::{CpuSeconds, LightReport};

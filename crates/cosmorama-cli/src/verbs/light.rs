@@ -4,7 +4,7 @@ use anyhow::Result;
 use cosmorama::lighting::Lobe;
 use cosmorama_convert::{Conversion, LightNormalisation, LightSettings};
 
-use super::convert;
+use super::{convert, harmonics};
 use crate::args::{DiffuseArgs, LightArgs, LightVerb, MapArgs, SpecularArgs, Unit};
 use crate::console::Console;
 use crate::failure::usage;
@@ -16,6 +16,7 @@ pub(super) fn run(args: LightArgs, console: &mut Console) -> Result<ExitCode> {
     match args.verb {
         LightVerb::Diffuse(args) => diffuse(*args, console),
         LightVerb::Specular(args) => specular(*args, console),
+        LightVerb::Harmonics(args) => harmonics::run(*args, console),
     }
 }
 

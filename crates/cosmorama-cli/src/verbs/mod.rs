@@ -5,6 +5,7 @@ mod convert;
 mod demo;
 mod diagram;
 mod explain;
+mod harmonics;
 mod help;
 mod info;
 mod info_faces;

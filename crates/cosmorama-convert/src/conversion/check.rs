@@ -3,6 +3,7 @@ use std::time::Instant;
 use cosmorama::explain;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
+use super::job::Purpose;
 use super::{Content, ConvertJob};
 use crate::diagnostic::{Diagnostic, Outcome, Result, failure};
 use crate::engine::{Stage, Stages};
@@ -34,7 +35,8 @@ impl Conversion {
         let (start, stages) = (Instant::now(), Stages::default());
         let content = Content::of(&self)?;
         let pool = threads(self.limits.threads)?;
-        let resolve = || stages.alone(Stage::Plan, || ConvertJob::resolve(&self, content, diagnostics));
+        let resolve =
+            || stages.alone(Stage::Plan, || ConvertJob::resolve(&self, (content, Purpose::Pictures), diagnostics));
         let job = pool.install(resolve)?;
         Ok(Checked { settings: self, content, job, pool, diagnostics: diagnostics.clone(), stages, start })
     }

@@ -48,12 +48,25 @@ pub(crate) struct ConvertJob {
     pub(crate) decoded: DecodedPicture,
 }
 
+/// What a job is for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Purpose {
+    /// Pictures, in files.
+    Pictures,
+    /// The light of the input alone: nothing is written.
+    Light,
+}
+
 /// Part of the memory, at most, that a picture decoded beforehand takes.
 const DECODED_PART: u64 = 8;
 
 impl ConvertJob {
     /// Resolves the settings and checks everything that can be checked without decoding pixels.
-    pub(crate) fn resolve(settings: &Conversion, content: Content, warnings: &mut Vec<Diagnostic>) -> Result<Self> {
+    pub(crate) fn resolve(
+        settings: &Conversion,
+        (content, purpose): (Content, Purpose),
+        warnings: &mut Vec<Diagnostic>,
+    ) -> Result<Self> {
         let memory = MemoryBudget::new(settings.limits.memory);
         let file = content.has_files().then_some(settings.input.as_str());
         let decoded = DecodedPicture::up_to(memory.bytes / DECODED_PART);
@@ -80,7 +93,10 @@ impl ConvertJob {
         check_labels(&filter, &input, &light, target.format)?;
         content.settle(settings, &target, &mut light, warnings)?;
         memory.check_outputs(&target)?;
-        let outputs = Outputs::plan(settings, &input, &target, &light, memory)?;
+        let outputs = match purpose {
+            Purpose::Pictures => Outputs::plan(settings, &input, &target, &light, memory)?,
+            Purpose::Light => Outputs::none(&input),
+        };
         warnings.extend(outputs.warning());
         let missing = match settings.missing {
             Missing::Fill(colour) => Missing::Fill(light.working.colour(colour)),

@@ -9,12 +9,14 @@ mod observer;
 mod options;
 mod report;
 mod run;
+mod world_light;
 
 pub use check::Checked;
 pub use check::threads;
 pub use explanation::{Explanation, ExplanationSettings};
 pub use observer::{Observer, Quiet, Stop, Work};
 pub use report::Report;
+pub use world_light::WorldLight;
 
 pub(crate) use advance::{Shares, watched};
 pub(crate) use content::Content;

@@ -181,7 +181,7 @@ fn tell_done(observer: &mut dyn Observer, frame: Option<u64>, (done, frames): (u
 }
 
 /// Reads the files of a frame and decodes them to light.
-fn light_of(job: &ConvertJob, engine: &Engine, stages: &Stages, frame: &FrameOutputs) -> Result<FrameLight> {
+pub(super) fn light_of(job: &ConvertJob, engine: &Engine, stages: &Stages, frame: &FrameOutputs) -> Result<FrameLight> {
     let mut light = engine.frame_light();
     let images = stages.alone(Stage::Decode, || {
         let files = FrameFile::all(job, frame.frame, Which::All).into_par_iter();

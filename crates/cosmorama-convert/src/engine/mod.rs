@@ -20,7 +20,7 @@ pub(crate) use frame_files::{FrameFile, ViewImage, Which};
 pub(crate) use frame_light::{FrameLight, Texels};
 pub(crate) use geometry::Geometry;
 pub(crate) use lighting::balance::{self, Balance, BalancedLight};
-pub(crate) use lighting::light_maps::{LightMaps, gathered_bytes};
+pub(crate) use lighting::light_maps::{LightMaps, gathered_bytes, light_of_unseen};
 pub(crate) use sequence::{Sequence, Watcher};
 pub(crate) use timing::{Stage, Stages};
 pub(crate) use writer::{Levels, Writer};

@@ -1,7 +1,7 @@
 use std::collections::{HashMap, HashSet};
 use std::path::{Path, PathBuf};
 
-use cosmorama_io::pending::{NewFolders, Pending, place};
+use cosmorama_io::pending::{NewFolders, Pending, Unfinished, place};
 
 use crate::budget::MemoryBudget;
 use crate::colour::Light;
@@ -45,6 +45,12 @@ impl Outputs {
     /// Returns the warning about outputs that are made again.
     pub(crate) fn warning(&self) -> Option<Diagnostic> {
         Remade::warning(&self.remade)
+    }
+
+    /// Returns the frames of an input whose light is read, without any output.
+    pub(crate) fn none(input: &Input) -> Self {
+        let frames = input.frames.iter().map(|frame| FrameOutputs { frame: *frame, files: Vec::new() }).collect();
+        Self { frames, skipped: 0, remade: Vec::new(), _folders: NewFolders::new(&Unfinished::default()) }
     }
 
     /// Plans the outputs of all frames, and checks them against the inputs and existing files.

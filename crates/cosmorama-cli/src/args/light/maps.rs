@@ -135,7 +135,7 @@ pub(crate) struct MapArgs {
     pub(crate) json: bool,
 }
 
-fn frame_list(text: &str) -> Result<FrameList, FrameRangesError> {
+pub(super) fn frame_list(text: &str) -> Result<FrameList, FrameRangesError> {
     text.parse().map(|ranges: FrameRanges| FrameList::new(ranges.frames()))
 }
 

@@ -1,5 +1,6 @@
 //! Arguments of the verbs that make light of a world.
 
+mod harmonics;
 pub(crate) mod lobe;
 mod maps;
 
@@ -7,14 +8,16 @@ use clap::{Args, Subcommand};
 
 use super::with_examples;
 
+pub(crate) use harmonics::{HarmonicsArgs, Kind};
 pub(crate) use maps::{DiffuseArgs, MapArgs, SpecularArgs, Unit};
 
 /// Commands that its help shows.
-pub(super) const EXAMPLES: [&str; 4] = [
+pub(super) const EXAMPLES: [&str; 5] = [
     "cosmorama light diffuse sky.hdr light.exr",
     "cosmorama light diffuse 'faces/{face}.exr' light.exr --to mercator",
     "cosmorama light specular sky.exr rough.exr --alpha 0.25 --size 256",
     "cosmorama light specular sky.exr glossy.png --lobe phong:64",
+    "cosmorama light harmonics sky.exr light.json --order 4",
 ];
 
 /// Filter a world widely, to the light that it sheds on things.
@@ -34,12 +37,15 @@ pub(crate) enum LightVerb {
     Diffuse(Box<DiffuseArgs>),
     /// Make a map of what a glossy surface reflects, by the mirror direction
     Specular(Box<SpecularArgs>),
+    /// Sum the spherical harmonics of a world's light, as JSON
+    Harmonics(Box<HarmonicsArgs>),
 }
 
 /// Commands that the help of a verb of `light` shows.
 pub(crate) fn examples(verb: &str) -> &'static [&'static str] {
     match verb {
         "diffuse" => &maps::DIFFUSE_EXAMPLES,
+        "harmonics" => &harmonics::HARMONICS_EXAMPLES,
         _ => &maps::SPECULAR_EXAMPLES,
     }
 }

@@ -105,6 +105,7 @@ fn every_verb_has_a_manual_page_with_examples_and_without_empty_sections() {
         "man1/cosmorama.1",
         "man1/cosmorama-light-diffuse.1",
         "man1/cosmorama-light-specular.1",
+        "man1/cosmorama-light-harmonics.1",
         "man7/cosmorama-spec.7",
     ];
     let names = names.iter().map(String::as_str).chain(others);

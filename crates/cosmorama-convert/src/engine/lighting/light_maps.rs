@@ -30,14 +30,8 @@ impl<'a> LightMaps<'a> {
             }
         };
         let worlds: Vec<_> = job.worlds.iter().zip(lights).map(averages).collect();
-        let unseen = job.fill_for_missing();
-        if unseen.is_none() && !job.light.input_alpha && worlds.iter().any(|world| !world.is_complete()) {
-            bail!(
-                NotANumber: "missing pixels (NaN) leave more than a thousandth of the sphere without light; render them again, or \
-                 fill the gaps with {MISSING} COLOR or {MISSING} transparent"
-            );
-        }
-        Ok(Some(Self { settings, worlds, unseen: unseen.unwrap_or(Rgba::TRANSPARENT) }))
+        let unseen = light_of_unseen(job, worlds.iter().all(|world| world.is_complete()))?;
+        Ok(Some(Self { settings, worlds, unseen }))
     }
 
     /// Makes the map of a target view.
@@ -48,6 +42,18 @@ impl<'a> LightMaps<'a> {
         image.pixels_mut().iter_mut().for_each(|pixel| *pixel = scaled(*pixel, scale));
         image
     }
+}
+
+/// Returns the light of directions in which a frame's worlds show nothing. Where there should be none, it is an error.
+pub(crate) fn light_of_unseen(job: &ConvertJob, is_complete: bool) -> Result<Rgba> {
+    let unseen = job.fill_for_missing();
+    if unseen.is_none() && !job.light.input_alpha && !is_complete {
+        bail!(
+            NotANumber: "missing pixels (NaN) leave more than a thousandth of the sphere without light; render them again, or \
+             fill the gaps with {MISSING} COLOR or {MISSING} transparent"
+        );
+    }
+    Ok(unseen.unwrap_or(Rgba::TRANSPARENT))
 }
 
 /// What went into a map of light, and what came out.
