@@ -126,7 +126,7 @@ mod tests {
         View { projection, orientation, grid: PixelGrid::spanning(size.0, size.1, rect), stop }
     }
 
-    /// A panorama with a few columns that show far more than others, none of which is measured.
+    /// Returns a panorama in which a few columns show far more than others; none of these is measured.
     fn stretched() -> ProjectionKind {
         let table = StMapTable::of_pixels(97, 65, |i, j| {
             let x = (i as f64 + 0.5) / 97.0 - 0.5;
