@@ -8,7 +8,7 @@ use thiserror::Error;
 
 /// Receiver of reports on long work, which may stop it. Closures are receivers.
 pub trait Progress: Sync {
-    /// Called after each part of the work with the fraction that is done.
+    /// Receives the fraction of the work that is done, after each part.
     ///
     /// Fractions never fall, and the last is 1. Calls come from the threads that work, one at a time. They must return
     /// soon, and start no parallel work. After `Break` there is no further call, no further part is begun, and the work
