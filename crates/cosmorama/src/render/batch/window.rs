@@ -113,7 +113,7 @@ impl Windows {
         self.size
     }
 
-    /// Returns, for each texel, the bits of the lanes in which it lies under the pixel.
+    /// Returns the bits of the lanes in which each texel lies under its pixel.
     pub(crate) fn under(&self) -> &[u8] {
         &self.under[..self.width * self.height]
     }
