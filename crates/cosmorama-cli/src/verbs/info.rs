@@ -77,7 +77,7 @@ fn single(inputs: &dyn Files, pattern: &str, check: bool) -> Result<Value> {
     Ok(report)
 }
 
-/// Decodes every frame, and tells what is the matter with those that are damaged.
+/// Decodes every frame, and reports those that are damaged.
 fn add_damaged_frames(report: &mut Value, inputs: &dyn Files, files: &ViewFiles, frames: &[u64]) {
     let damage = |frame: &u64| damage_of(inputs, &files.path(Some(*frame)));
     let damaged: Vec<String> = frames.iter().filter_map(damage).collect();
@@ -119,7 +119,7 @@ fn faces(inputs: &dyn Files, pattern: &str, check: bool) -> Result<Value> {
     Ok(report)
 }
 
-/// Tells what is the matter with faces whose pixels cannot be read.
+/// Reports faces whose pixels cannot be read.
 fn add_damage(report: &mut Value, inputs: &dyn Files, set: &FaceSet) -> Result<()> {
     for file in set.present() {
         let files = ViewFiles::new(&file.path);
@@ -216,7 +216,7 @@ fn merge(into: &mut Value, from: Value) {
     }
 }
 
-/// The report as indented lines.
+/// Returns the report as indented lines.
 fn lines(report: &Value, indent: usize) -> String {
     let Value::Object(fields) = report else { return String::new() };
     let pad = " ".repeat(indent);

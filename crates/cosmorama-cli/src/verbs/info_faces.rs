@@ -1,4 +1,4 @@
-//! What `info` says of how faces lie.
+//! Report of `info` on how faces lie.
 
 use std::path::Path;
 
@@ -11,7 +11,7 @@ use serde_json::{Value, json};
 
 use crate::console::in_options;
 
-/// Of the first frame of a face set; `None` where its files have too few whole faces to tell.
+/// Judges the first frame of a face set; `None` where its files have too few whole faces to tell.
 pub(super) fn of_files(inputs: &dyn Files, set: &FaceSet) -> Result<Option<Value>> {
     let lie: Vec<_> = set.faces().iter().map(|file| (file.face, file.placement)).collect();
     let Some(given) = GivenFaces::of_files(&Cube::default(), set.naming(), &lie) else { return Ok(None) };
@@ -33,7 +33,8 @@ pub(super) fn of_files(inputs: &dyn Files, set: &FaceSet) -> Result<Option<Value
     Ok(given.judge(&pixels.collect::<Vec<_>>()).as_ref().map(report))
 }
 
-/// Of faces in one image. Where its shape alone says that it may be one, it is if the borders do, and they say which.
+/// Judges the faces in one image. Where only its shape suggests a layout, the borders decide whether it is one, and
+/// which.
 pub(super) fn of_image(inputs: &dyn Files, path: &Path, likely: &Likely, envmap: Option<EnvMap>) -> Option<Value> {
     let picture = if likely.cubes.is_empty() { return None } else { light_of(inputs, path)? };
     let judge = |cube: &Cube| {
@@ -47,7 +48,7 @@ pub(super) fn of_image(inputs: &dyn Files, path: &Path, likely: &Likely, envmap:
     found.first().map(report)
 }
 
-/// What fits, with the layout in which it does.
+/// Names the layout in the report, if the faces fit in it.
 fn named(found: Continuity, cube: &Cube) -> Continuity {
     match cube.layout {
         Some(Packing::OneImage(kind)) if found.fits == Some(true) => {

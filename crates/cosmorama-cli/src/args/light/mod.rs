@@ -9,7 +9,7 @@ use super::with_examples;
 
 pub(crate) use maps::{DiffuseArgs, MapArgs, SpecularArgs, Unit};
 
-/// Commands that its help shows.
+/// Example commands in its help.
 pub(super) const EXAMPLES: [&str; 4] = [
     "cosmorama light diffuse sky.hdr light.exr",
     "cosmorama light diffuse 'faces/{face}.exr' light.exr --to mercator",
@@ -36,7 +36,7 @@ pub(crate) enum LightVerb {
     Specular(Box<SpecularArgs>),
 }
 
-/// Commands that the help of a verb of `light` shows.
+/// Returns the example commands of a verb of `light`.
 pub(crate) fn examples(verb: &str) -> &'static [&'static str] {
     match verb {
         "diffuse" => &maps::DIFFUSE_EXAMPLES,
