@@ -55,7 +55,7 @@ const VERBS: [(&str, &[&str]); 9] = [
 )]
 #[command(help_template = with_examples(&EXAMPLES))]
 pub(crate) struct Args {
-    /// What to do.
+    /// Verb to run.
     #[command(subcommand)]
     pub(crate) verb: Verb,
     /// Say also what is good to know where nothing is wrong
@@ -63,7 +63,7 @@ pub(crate) struct Args {
     pub(crate) verbose: bool,
 }
 
-/// What can be done.
+/// Verbs of the program.
 #[derive(Debug, Subcommand)]
 pub(crate) enum Verb {
     /// Render an embedded world onto cube faces and make an Omnimax frame of them

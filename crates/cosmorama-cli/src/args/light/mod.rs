@@ -22,12 +22,12 @@ pub(super) const EXAMPLES: [&str; 4] = [
 #[command(help_template = with_examples(&EXAMPLES), arg_required_else_help = true)]
 #[command(after_help = "'cosmorama light diffuse -h' lists the options of a map; docs/light.md has the conventions")]
 pub(crate) struct LightArgs {
-    /// What to make.
+    /// Kind of map to make.
     #[command(subcommand)]
     pub(crate) verb: LightVerb,
 }
 
-/// What can be made of a world's light.
+/// Kinds of maps of a world's light.
 #[derive(Debug, Subcommand)]
 pub(crate) enum LightVerb {
     /// Make a map of the light that falls on a matt surface, by the direction that it faces

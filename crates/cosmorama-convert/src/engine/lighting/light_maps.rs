@@ -50,7 +50,7 @@ impl<'a> LightMaps<'a> {
     }
 }
 
-/// What went into a map of light, and what came out.
+/// Light that went into a map, and light that came out.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LightReport {
     /// Frame; `None` for a still.
