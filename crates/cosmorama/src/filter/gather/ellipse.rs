@@ -1,7 +1,9 @@
 use glam::{DMat2, DVec2};
 
-/// Ellipse of texels that a round screen pixel covers. The texel at `centre + (U, V)` is at distance r² = A U² + B U V
-/// + C V² from the centre, in the kernel's unit.
+/// Ellipse of texels that a round screen pixel covers.
+///
+/// The texel at `centre + (U, V)` is at distance r from the centre, in the kernel's unit, where
+/// r² = A U² + B U V + C V².
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ellipse {
     /// Coefficient A.

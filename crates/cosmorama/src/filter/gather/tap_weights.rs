@@ -7,8 +7,8 @@ use crate::filter::taps::{Tap, Taps};
 use crate::sphere::DirectionJacobian;
 
 /// Makes taps whose weights add to one, or none if their sum would be noise. With `centred`, their centroid is the
-/// pixel's centre. `rim` is the footprint where something ends under the pixel or beside it; it tells how a slope
-/// continues there.
+/// pixel's centre. `rim` holds the footprint's derivatives where something ends under the pixel or beside it; they tell
+/// how a slope continues there.
 pub(crate) fn settle(candidates: &mut [Candidate], centred: bool, rim: Option<&DirectionJacobian>, taps: &mut Taps) {
     soften(candidates);
     let correction = if centred { Correction::centring(candidates) } else { Correction::default() };

@@ -22,7 +22,7 @@ pub(crate) struct Run {
     lanes: u8,
     pub(crate) width: u8,
     pub(crate) height: u8,
-    /// First and last row, exclusive, of its windows that hold texels under a pixel.
+    /// First row of its windows that holds texels under a pixel, and the row after the last one.
     under: [u8; 2],
 }
 
