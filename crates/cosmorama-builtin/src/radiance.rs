@@ -23,7 +23,7 @@ impl<F: Fn(Direction) -> [f32; 3] + Sync> Radiance for F {
     }
 }
 
-/// What a formula can tell of a pixel's mean light.
+/// Mean light of a pixel, as far as a formula gives it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Average {
     /// The mean light.

@@ -1,4 +1,5 @@
-//! Where messages and reports go, and what they call the files that stand for streams: standard input and output, pipes.
+//! Output of messages and reports. Files that stand for streams (standard input and output, pipes) get readable names
+//! in it.
 
 use std::fmt::Display;
 use std::io::{ErrorKind, Write, stderr, stdout};
@@ -8,36 +9,36 @@ use anyhow::{Context, Result};
 use cosmorama_convert::{Diagnostic, Message, Outcome, Setting, Severity};
 use cosmorama_io::pending::Unfinished;
 
-/// The streams of a run.
+/// Streams of a run.
 #[derive(Debug, Default)]
 pub(crate) struct Console {
-    /// Each file that stands for a stream with its name for people.
+    /// Each file that stands for a stream, with its readable name.
     names: Vec<(String, String)>,
-    /// Whether notes are said, too.
+    /// Whether notes are printed, too.
     pub(crate) verbose: bool,
-    /// Files that are being written: an interrupt removes them.
+    /// Files that are being written; an interrupt removes them.
     pub(crate) unfinished: Unfinished,
 }
 
 impl Console {
-    /// From now on a file is called so.
+    /// Gives a file a readable name, from now on.
     pub(crate) fn call(&mut self, file: &Path, name: &str) {
         self.names.push((file.to_string_lossy().into_owned(), name.to_owned()));
     }
 
-    /// A text for people, with files called as they have it.
+    /// Returns a text with readable names of files.
     pub(crate) fn told(&self, text: &str) -> String {
         self.names.iter().fold(text.to_owned(), |text, (file, name)| text.replace(file, name))
     }
 
-    /// Says something that should be known but does not stop the work. Notes are for those who ask for them.
+    /// Prints a diagnostic that does not stop the work. Notes are printed only on request.
     pub(crate) fn warn(&self, diagnostic: &Diagnostic) {
         if diagnostic.severity != Severity::Note || self.verbose {
             self.tell(diagnostic);
         }
     }
 
-    /// Says what a check found. Where it failed, a note may tell why.
+    /// Prints what a check found. If it failed, notes are printed, too: one may tell why.
     pub(crate) fn tell_all<T>(&self, outcome: &Outcome<T>) {
         let has_failed = outcome.result.is_err();
         let said = outcome.diagnostics.iter();
@@ -49,7 +50,7 @@ impl Console {
         say(format_args!("{kind}: {}", self.told(&in_options(&diagnostic.message))));
     }
 
-    /// Prints what was asked for on standard output.
+    /// Prints a requested text on standard output.
     pub(crate) fn print(&self, text: &str) -> Result<()> {
         let mut out = stdout().lock();
         match out.write_all(self.told(text).as_bytes()).and_then(|()| out.flush()) {
@@ -60,12 +61,13 @@ impl Console {
     }
 }
 
-/// Says a line on standard error. Where nobody reads it any more, since a pipe is closed or a disk is full, the work goes on.
+/// Prints a line on standard error. If nobody reads it any more, since a pipe is closed or a disk is full, the work
+/// goes on.
 pub(crate) fn say(line: impl Display) {
     let _ = writeln!(stderr(), "{line}");
 }
 
-/// A message in which settings are options of the command line.
+/// Returns a message in which settings are options of the command line.
 pub(crate) fn in_options(message: &Message) -> String {
     message.render(|setting| match setting {
         Setting::Overwrite => "-y (--overwrite)".to_owned(),

@@ -1,9 +1,10 @@
 use anyhow::Result;
 use cosmorama_io::pending::Unfinished;
 
-/// Watches for interrupts: files in the making are removed, then the program ends with 130, 143 or, on Linux, when its terminal
-/// goes away, 129. What was ignored when it began, as `nohup` has it, stays so. A file that grows beyond the limit (`ulimit -f`)
-/// does not end it: writing fails, which is told and leaves nothing behind.
+/// Installs the handler of interrupts, which removes unfinished files and ends the program with 130 or 143. On Linux
+/// the program also ends with 129 when its terminal goes away. Signals that were ignored at the start, as under
+/// `nohup`, stay so. A file that exceeds the limit (`ulimit -f`) does not end the program: writing fails, which is
+/// reported and leaves nothing behind.
 #[cfg(unix)]
 pub(crate) fn install(unfinished: Unfinished) -> Result<()> {
     use anyhow::Context;
@@ -25,8 +26,8 @@ pub(crate) fn install(unfinished: Unfinished) -> Result<()> {
     Ok(())
 }
 
-/// The signals that this program was told to ignore, a bit for each from 1 on. Only Linux says it without `unsafe`; elsewhere
-/// the terminal's going away counts as ignored, as `nohup` has it.
+/// Returns the signals that this program was told to ignore, a bit for each from 1 on. Only Linux reports them without
+/// `unsafe`. Elsewhere the terminal's going away counts as ignored, as under `nohup`.
 #[cfg(unix)]
 fn ignored() -> u64 {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
@@ -34,7 +35,7 @@ fn ignored() -> u64 {
     bits.and_then(|bits| u64::from_str_radix(bits.trim(), 16).ok()).unwrap_or(1 << (signal_hook::consts::SIGHUP - 1))
 }
 
-/// Elsewhere the system ends the program; what it was writing stays as a `.cosmorama-*.part` file.
+/// Does nothing: the system ends the program, and what it was writing stays as a `.cosmorama-*.part` file.
 #[cfg(not(unix))]
 pub(crate) fn install(_: Unfinished) -> Result<()> {
     Ok(())

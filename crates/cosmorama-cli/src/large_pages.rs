@@ -1,14 +1,14 @@
-//! The program's allocator: that of the system, which is asked for pages of two megabytes where pictures are held.
+//! Allocator of the program: the system's, with pages of two megabytes for pictures.
 //!
-//! A fresh picture is touched once, and every page of four kilobytes costs an interruption by the system then: a third of the
-//! time that an 8-bit frame of 4096² takes. Many systems give larger pages only to those who ask (`madvise` in
-//! `/sys/kernel/mm/transparent_hugepage/enabled`). Frames of a sequence hand their memory on ([`cosmorama::raster::FramePool`]),
-//! so that only the first ones take any.
+//! A fresh picture is touched once, and every page of four kilobytes then costs an interruption by the system. Together
+//! they take a third of the time of an 8-bit frame of 4096². Many systems give larger pages only on request (`madvise`
+//! in `/sys/kernel/mm/transparent_hugepage/enabled`). Frames of a sequence hand their memory on
+//! ([`cosmorama::raster::FramePool`]), so that only the first ones take any.
 #![allow(unsafe_code)]
 
 use std::alloc::{GlobalAlloc, Layout, System};
 
-/// Bytes from which on memory is that of a picture, for which large pages are asked.
+/// Number of bytes from which memory belongs to a picture and gets large pages.
 #[cfg(any(test, target_os = "linux"))]
 const LARGE: usize = 4 << 20;
 
@@ -38,11 +38,11 @@ unsafe impl GlobalAlloc for LargePages {
     }
 }
 
-/// Asks for large pages under memory that was just given, of so many bytes; if there are none, small ones do.
+/// Requests large pages for fresh memory of this size; without them, small pages do.
 #[cfg(target_os = "linux")]
 fn prefer_large_pages(memory: *mut u8, size: usize) -> *mut u8 {
     use rustix::mm::{Advice, madvise};
-    /// Any system's pages are as large or smaller, and so few bytes at the ends do not count.
+    /// Size of a page that all systems' pages divide; the bytes left over at the ends are too few to matter.
     const PAGE: usize = 1 << 16;
     if size < LARGE || memory.is_null() {
         return memory;
@@ -54,22 +54,22 @@ fn prefer_large_pages(memory: *mut u8, size: usize) -> *mut u8 {
     memory
 }
 
-/// Other systems are not asked.
+/// Returns the memory unchanged: other systems are not asked.
 #[cfg(not(target_os = "linux"))]
 fn prefer_large_pages(memory: *mut u8, _: usize) -> *mut u8 {
     memory
 }
 
-/// Has the system's allocator give memory of pictures back at once, whatever was freed before. glibc's takes blocks that are no
-/// larger than one that was freed from heaps, one or more for each thread, and what is free in the middle of those is the
-/// system's never again.
+/// Makes the system's allocator return the memory of pictures at once, whatever was freed before. glibc takes blocks no
+/// larger than one that was freed from heaps, one or more for each thread. What is free in the middle of a heap is
+/// never returned to the system.
 #[cfg(all(target_os = "linux", target_env = "gnu"))]
 pub(crate) fn give_back_pictures() {
     // SAFETY: it takes any number, and concerns what comes after.
     unsafe { libc::mallopt(libc::M_MMAP_THRESHOLD, LARGE as libc::c_int) };
 }
 
-/// Other systems' allocators are not asked.
+/// Does nothing: other systems' allocators are not asked.
 #[cfg(not(all(target_os = "linux", target_env = "gnu")))]
 pub(crate) fn give_back_pictures() {}
 
@@ -77,7 +77,8 @@ pub(crate) fn give_back_pictures() {}
 mod tests {
     use super::*;
 
-    /// Lists of numbers around the size at which large pages are asked for, in the program's own allocator: tests use it, too.
+    /// Lists numbers around the size at which large pages are asked for, in the program's own allocator: tests use it,
+    /// too.
     const LENGTHS: [usize; 4] = [LARGE / 8 - 1, LARGE / 8, LARGE / 8 + 1, LARGE / 4 + 1234];
 
     fn numbers(count: usize) -> impl Iterator<Item = u64> {

@@ -1,7 +1,7 @@
 //! The `cosmorama` program.
 //!
-//! Arguments are parsed as typed and made settings of `cosmorama-convert` ([`args`]); each verb runs ([`verbs`]) and says what
-//! there is to say ([`console`]).
+//! Arguments are parsed and become settings of `cosmorama-convert` ([`args`]). Each verb runs ([`verbs`]) and prints
+//! its messages ([`console`]).
 
 mod args;
 mod console;

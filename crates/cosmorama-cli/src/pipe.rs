@@ -1,5 +1,4 @@
-//! Streams as files: what comes in is held in memory, what goes out is made in a folder that goes away and passed on when it is
-//! whole.
+//! Streams as files. Input is held in memory. Output is made in a temporary folder, and passed on when it is whole.
 
 use std::fs::File;
 use std::io::{ErrorKind, IsTerminal, Read, Write, copy, stdin, stdout};
@@ -15,13 +14,13 @@ use crate::args::ConvertArgs;
 use crate::console::Console;
 use crate::failure::usage;
 
-/// What a standard stream is called.
+/// Name of a standard stream on the command line.
 const STREAM: &str = "-";
 
-/// The name of standard input where pictures have names.
+/// Name of standard input where pictures have names.
 const STDIN: &str = "standard input";
 
-/// What has come in through streams.
+/// Input that has come in through streams.
 #[derive(Default)]
 pub(crate) struct KeptStreams {
     files: InMemory,
@@ -30,8 +29,8 @@ pub(crate) struct KeptStreams {
 }
 
 impl KeptStreams {
-    /// The name of an input that can be read as often as wanted: its own, or that under which what comes through standard input
-    /// or a pipe is held in memory.
+    /// Returns the name of an input that can be read repeatedly. It is the input's own, or that under which a stream is
+    /// held in memory.
     pub(crate) fn input(&mut self, name: &str) -> Result<String> {
         if name == STREAM {
             if self.has_stdin {
@@ -51,7 +50,7 @@ impl KeptStreams {
         Ok(name.to_owned())
     }
 
-    /// Where the bytes of inputs come from from now on.
+    /// Returns the source of the bytes of inputs from now on.
     pub(crate) fn files(self) -> Arc<dyn Files> {
         Arc::new(self.files)
     }
@@ -64,7 +63,7 @@ impl KeptStreams {
     }
 }
 
-/// Whether a file is a pipe, as the shell's `<(command)` is: its bytes come once.
+/// Returns whether a file is a pipe, as the shell's `<(command)` is: its bytes come once.
 #[cfg(unix)]
 fn is_pipe(path: &Path) -> bool {
     use std::os::unix::fs::FileTypeExt;
@@ -80,14 +79,14 @@ fn is_pipe(_: &Path) -> bool {
 pub(crate) struct Piped {
     /// Arguments with names of files in place of streams.
     pub(crate) args: ConvertArgs,
-    /// Where the bytes of inputs come from.
+    /// Source of the bytes of inputs.
     pub(crate) files: Arc<dyn Files>,
-    /// Where the output is made that goes on to standard output.
+    /// Folder of the output that goes on to standard output.
     scratch: Option<Scratch>,
 }
 
 impl Piped {
-    /// Takes in what is piped, and finds a place for what goes to standard output.
+    /// Reads what is piped in, and makes a place for what goes to standard output.
     pub(crate) fn open(mut args: ConvertArgs, console: &mut Console) -> Result<Self> {
         check(&args, args.output == STREAM)?;
         let mut kept = KeptStreams::default();
@@ -102,7 +101,7 @@ impl Piped {
         Ok(Self { args, files: kept.files(), scratch })
     }
 
-    /// Passes on what was made.
+    /// Passes the output on.
     pub(crate) fn finish(self) -> Result<()> {
         if self.scratch.is_some() {
             let mut file = File::open(&self.args.output).context("nothing was made for standard output")?;
@@ -117,7 +116,7 @@ impl Piped {
     }
 }
 
-/// A folder for what goes to standard output.
+/// Makes a folder for what goes to standard output.
 fn folder(console: &Console) -> Result<Scratch> {
     Scratch::create(&console.unfinished).map_err(|error| {
         let place = std::env::temp_dir();
@@ -160,7 +159,7 @@ fn check(args: &ConvertArgs, to_stdout: bool) -> Result<()> {
     }
 }
 
-/// Whether a format is one that can be written, by its extension.
+/// Returns whether a format, given by its extension, can be written.
 fn is_format(extension: &str) -> bool {
     Format::from_extension(Path::new(&format!("picture.{}", extension.trim_start_matches('.')))).is_ok()
 }

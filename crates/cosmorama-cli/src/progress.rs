@@ -8,26 +8,26 @@ use indicatif::{ProgressBar, ProgressState, ProgressStyle as BarStyle};
 use crate::args::ProgressStyle;
 use crate::console::say;
 
-/// Time from line to line while one picture, or the geometry of all, is made.
+/// Time between lines while one picture, or the geometry of all, is made.
 const PAUSE: Duration = Duration::from_secs(2);
 
-/// Time before a bar tells of such work.
+/// Time before a bar shows such work.
 const SHORT: Duration = Duration::from_secs(1);
 
-/// Steps of a bar that shows a single picture.
+/// Number of steps of a bar that shows a single picture.
 const STEPS: u64 = 1000;
 
-/// Tells on standard error how far the work is.
+/// Progress of the work on standard error.
 pub(crate) struct Progress {
     form: Form,
     done: usize,
     total: usize,
     start: Instant,
-    /// When a line was last said; the start before the first.
+    /// Time of the last line; the start before the first.
     said: Instant,
-    /// What is being made, and since when.
+    /// Current work, and the time when it began.
     current: Option<(Work, Instant)>,
-    /// Frames that were told to be done, with parts of one.
+    /// Number of frames reported as done, with parts of one.
     told: f64,
 }
 
@@ -39,7 +39,7 @@ enum Form {
     Silent,
 }
 
-/// How far a work is.
+/// Progress of one work.
 #[derive(Clone, Copy)]
 struct Advance {
     work: Work,
@@ -48,7 +48,7 @@ struct Advance {
 }
 
 impl Progress {
-    /// Progress of so many frames.
+    /// Starts the progress of this number of frames.
     pub(crate) fn new(style: ProgressStyle, total: usize) -> Self {
         let form = match style {
             ProgressStyle::Auto if std::io::stderr().is_terminal() => Form::Bar(bar(total)),
@@ -64,12 +64,12 @@ impl Progress {
         Self { form, done: 0, total, start, said: start, current: None, told: 0.0 }
     }
 
-    /// A fraction of some work is done. Of what takes less than a moment nothing is said.
+    /// Reports that a fraction of some work is done. Short work is not reported.
     pub(crate) fn advance(&mut self, work: Work, fraction: f64) {
         self.advance_at(Instant::now(), work, fraction).into_iter().for_each(say);
     }
 
-    /// Moves the bar, or returns the line to say, if it is time for one.
+    /// Moves the bar, or returns the next line if it is due.
     fn advance_at(&mut self, now: Instant, work: Work, fraction: f64) -> Option<String> {
         let since = match self.current {
             Some((current, since)) if current == work => since,
@@ -124,7 +124,7 @@ impl Progress {
         format!("openjd_progress: {:.2}", 100.0 * self.told / self.total as f64)
     }
 
-    /// One more frame is written.
+    /// Reports that another frame is written.
     pub(crate) fn frame_done(&mut self, frame: Option<u64>) {
         self.done += 1;
         self.said = Instant::now();
@@ -183,7 +183,7 @@ fn bar(total: usize) -> ProgressBar {
     ProgressBar::new(length).with_style(style)
 }
 
-/// A rate in three digits, whether there are many a second or few.
+/// Returns a rate in three digits, whether there are many a second or few.
 fn steady(rate: f64) -> String {
     let decimals = if rate < 10.0 { 2 } else { usize::from(rate < 100.0) };
     format!("{rate:.decimals$}")
@@ -198,7 +198,7 @@ mod tests {
         assert_eq!([0.0712, 1.5, 12.345, 347.8].map(steady), ["0.07", "1.50", "12.3", "348"]);
     }
 
-    /// What is said of work that is a hundredth further every tenth of a second.
+    /// Returns the lines about work that advances by a hundredth every tenth of a second.
     fn said(style: ProgressStyle, total: usize, work: Work) -> Vec<String> {
         let mut progress = Progress::new(style, total);
         let at = |hundredth: u32| progress.start + Duration::from_millis(100) * hundredth;

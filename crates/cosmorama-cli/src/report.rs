@@ -1,4 +1,4 @@
-//! What is told of a conversion that is done.
+//! Reports on a conversion that is done.
 
 use std::path::PathBuf;
 
@@ -8,7 +8,7 @@ use serde::Serialize;
 
 use crate::console::{Console, in_options, say};
 
-/// What `--json` prints after a conversion.
+/// JSON that `--json` prints after a conversion.
 #[derive(Serialize)]
 struct JsonReport<'a> {
     inputs: &'a [PathBuf],
@@ -39,13 +39,13 @@ struct JsonCpuSeconds {
     encode: f64,
 }
 
-/// What went into a map of light, and what came out.
+/// Light that went into a map, and light that came out.
 #[derive(Serialize)]
 struct JsonLight {
     frame: Option<u64>,
     /// Mean radiance over the sphere.
     energy_in: [f64; 3],
-    /// Mean radiance of the map over the sphere; null where it does not show all of that.
+    /// Mean radiance of the map over the sphere; null where it does not show all of the sphere.
     energy_out: Option<[f64; 3]>,
     /// Part of the light from texels over a hundred times as bright as the mean.
     brightest_texels_share: f64,
@@ -71,7 +71,7 @@ impl JsonLight {
     }
 }
 
-/// A report for programs.
+/// Returns the report for programs.
 pub(crate) fn to_json(report: &Report) -> Result<String> {
     let CpuSeconds { decode, plan, filter, encode } = report.cpu_seconds;
     let json = JsonReport {
@@ -95,7 +95,7 @@ fn told(report: &Report, chosen: impl Fn(Severity) -> bool) -> Vec<String> {
     diagnostics.map(|diagnostic| in_options(&diagnostic.message)).collect()
 }
 
-/// What people want to know, on standard error.
+/// Prints the report for people on standard error.
 pub(crate) fn tell(report: &Report, console: &Console) {
     let what = match (&report.outputs[..], report.frames) {
         ([], _) => "nothing to do".to_owned(),

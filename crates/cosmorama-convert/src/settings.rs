@@ -61,7 +61,7 @@ pub struct Conversion {
     pub existing: Existing,
     /// Whether folders of outputs that do not exist are made; else they are an error.
     pub make_folders: bool,
-    /// Whether the output stands for a stream, which takes one picture.
+    /// Whether the output goes to a stream, which holds one picture.
     pub to_stream: bool,
     /// Whether mip levels are written, in formats that hold them.
     pub mips: bool,

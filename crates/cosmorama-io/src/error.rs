@@ -66,9 +66,9 @@ pub enum IoError {
         path: PathBuf,
         /// Its format.
         format: Format,
-        /// How many pictures there are.
+        /// Number of pictures.
         count: usize,
-        /// What they are.
+        /// Kind of the pictures, in words.
         found: String,
     },
     /// The declared pixels do not fit into the permitted memory.
@@ -200,7 +200,7 @@ fn expected_frames(example: &str, found: Option<&str>) -> String {
     found.map_or_else(|| expected.clone(), |found| format!("{expected}, but there are {found}; write that pattern"))
 }
 
-/// How pictures in one file become one file each.
+/// Returns how to write the pictures of one file as one file each.
 fn apart(format: Format, found: &str) -> &'static str {
     match format {
         Format::Tiff if found.starts_with("pages") => {

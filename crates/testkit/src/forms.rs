@@ -42,7 +42,7 @@ impl Form {
         World::blended(self.views.iter().enumerate().map(part)).expect("a form has views")
     }
 
-    /// Every camera of a single view, with what tables call it.
+    /// Returns every camera of a single view, with its name in tables.
     pub fn cameras() -> Vec<(&'static str, CameraModel)> {
         frames()
     }

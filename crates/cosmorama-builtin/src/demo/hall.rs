@@ -17,7 +17,7 @@ pub(in crate::demo) const FIRST_COLUMN: f64 = -30.0;
 /// Columns in each row.
 pub(in crate::demo) const COLUMNS: usize = 12;
 
-/// Height of the vault's shell above the floor at a distance from the axis.
+/// Returns the height of the vault's shell above the floor at a distance from the axis.
 pub(in crate::demo) fn vault_height(x: f64) -> f64 {
     SPRINGING + (HALF_WIDTH * HALF_WIDTH - x * x).max(0.0).sqrt()
 }

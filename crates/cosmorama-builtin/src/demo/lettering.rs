@@ -12,13 +12,13 @@ pub(in crate::demo) struct Line {
 }
 
 impl Line {
-    /// Width of the whole line.
+    /// Returns the width of the whole line.
     pub(in crate::demo) const fn width(&self) -> f64 {
         self.text.len() as f64 * self.height
     }
 }
 
-/// Whether a point of the wall is covered by ink.
+/// Returns whether a point of the wall is covered by ink.
 pub(in crate::demo) fn covers(line: &Line, point: DVec2) -> bool {
     let from_top_left =
         DVec2::new(point.x - line.middle.x + line.width() / 2.0, line.middle.y + line.height / 2.0 - point.y);

@@ -7,7 +7,7 @@ use super::parse::listed;
 use super::parse::number::{distance, factor, finite};
 use super::with_examples;
 
-/// Commands that its help shows.
+/// Example commands in its help.
 pub(super) const EXAMPLES: [&str; 3] = [
     "cosmorama compare dome.png reference.png",
     "cosmorama compare dome.png reference.png --region omnimax --diff diff.png",
@@ -60,7 +60,7 @@ pub(crate) struct CompareArgs {
     pub(crate) json: bool,
 }
 
-/// Which pixels count.
+/// Pixels that count in a comparison.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Region {
     /// Inside the circle that touches the shorter sides.

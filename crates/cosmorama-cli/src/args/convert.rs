@@ -13,7 +13,7 @@ use super::parse::depth::depth_parser;
 use super::parse::listed;
 use super::{SEE_MORE, projections, with_examples};
 
-/// Commands that its help shows.
+/// Example commands in its help.
 pub(super) const EXAMPLES: [&str; 10] = [
     "cosmorama convert 'faces/{face}.png' dome.png --to omnimax --size 1966x1436",
     "cosmorama convert '%c/%c_%04d.tga' 'dome_####.png' --to fulldome:tilt=20",
@@ -130,7 +130,7 @@ pub(crate) struct ConvertArgs {
     pub(crate) json: bool,
 }
 
-/// What a run may take.
+/// Limits of threads and memory.
 #[derive(Clone, Debug, Args)]
 pub(crate) struct LimitArgs {
     /// Threads to work with [default: all cores]
@@ -161,7 +161,7 @@ fn threads(text: &str) -> Result<usize, String> {
     }
 }
 
-/// Every built-in world.
+/// Returns the list of built-in worlds.
 pub(crate) fn builtins() -> String {
     let mut text = "builtin:NAME is a world by formula, in any projection and --size:\n\n".to_owned();
     for (name, about) in cosmorama_convert::Builtin::all() {
@@ -170,7 +170,7 @@ pub(crate) fn builtins() -> String {
     text
 }
 
-/// Every projection, and every built-in world.
+/// Returns the lists of projections and built-in worlds.
 fn after_long_help() -> String {
     format!("{}\n{}", projections(), builtins())
 }

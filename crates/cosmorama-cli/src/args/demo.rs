@@ -5,7 +5,7 @@ use clap::{Args, ValueHint};
 use super::convert::LimitArgs;
 use super::with_examples;
 
-/// Commands that its help shows.
+/// Example commands in its help.
 pub(super) const EXAMPLES: [&str; 2] = ["cosmorama demo", "cosmorama demo /tmp/demo -y --threads 1"];
 
 /// Render an embedded world onto cube faces and make an Omnimax frame of them.
@@ -22,11 +22,11 @@ pub(crate) struct DemoArgs {
     pub(crate) limits: LimitArgs,
 }
 
-/// Whatever is there was left by a demo.
+/// Folder whose content was left by a demo.
 const OWN_FOLDER: &str = "cosmorama-demo";
 
 impl DemoArgs {
-    /// Whether files that are there already may be replaced.
+    /// Returns whether existing files may be replaced.
     pub(crate) fn may_replace(&self) -> bool {
         self.overwrite || self.dir == Path::new(OWN_FOLDER)
     }

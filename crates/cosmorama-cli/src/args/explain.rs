@@ -7,7 +7,7 @@ use super::convert::LimitArgs;
 use super::geometry::GeometryArgs;
 use super::{SEE_MORE, projections, with_examples};
 
-/// Commands that its help shows.
+/// Example commands in its help.
 pub(super) const EXAMPLES: [&str; 3] = [
     "cosmorama explain 'faces/{face}.png' --to omnimax --output diagrams",
     "cosmorama explain --from cube --to omnimax --size 1966x1436",

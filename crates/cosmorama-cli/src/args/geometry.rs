@@ -6,7 +6,7 @@ use cosmorama_spec::{FilterName, KernelName, Size, Spec};
 use super::parse::listed;
 use super::parse::number::degrees;
 
-/// What light comes from where and goes where: shared by `convert` and `explain`.
+/// Geometry and filter of a conversion, shared by `convert` and `explain`.
 #[derive(Clone, Debug, Args)]
 pub(crate) struct GeometryArgs {
     /// The input's projection [default: found]

@@ -1,4 +1,4 @@
-//! Arguments of the verbs that tell of the program itself.
+//! Arguments of the verbs about the program itself.
 
 use std::path::PathBuf;
 
@@ -9,13 +9,13 @@ use cosmorama_spec::SpecKind;
 use super::parse::listed;
 use super::{verbs, with_examples};
 
-/// Commands that the help of `help` shows.
+/// Example commands in the help of `help`.
 pub(super) const EXAMPLES: [&str; 3] = ["cosmorama help convert", "cosmorama help spec", "cosmorama help spec fisheye"];
 
-/// Commands that the help of `man` shows.
+/// Example commands in the help of `man`.
 pub(super) const MAN_EXAMPLES: [&str; 2] = ["cosmorama man | man -l -", "cosmorama man ~/.local/share/man"];
 
-/// Commands that the help of `completions` shows.
+/// Example commands in the help of `completions`.
 pub(super) const COMPLETIONS_EXAMPLES: [&str; 3] = [
     "cosmorama completions bash >> ~/.bash_completion",
     "cosmorama completions zsh > ~/.zfunc/_cosmorama",

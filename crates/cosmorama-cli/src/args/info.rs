@@ -2,7 +2,7 @@ use clap::{Args, ValueHint};
 
 use super::with_examples;
 
-/// Commands that its help shows.
+/// Example commands in its help.
 pub(super) const EXAMPLES: [&str; 3] = [
     "cosmorama info panorama.exr",
     "cosmorama info 'faces/{face}.png'",

@@ -1,4 +1,4 @@
-//! The command line as typed. What it means is worked out by `cosmorama-convert`.
+//! Command line as typed. `cosmorama-convert` works out what it means.
 
 mod compare;
 pub(crate) mod convert;
@@ -25,14 +25,14 @@ pub(crate) use info::InfoArgs;
 pub(crate) use light::{DiffuseArgs, HarmonicsArgs, Kind, LightArgs, LightVerb, MapArgs, SpecularArgs, Unit};
 pub(crate) use progress::ProgressStyle;
 
-/// Commands that the program's own help shows.
+/// Example commands in the program's own help.
 const EXAMPLES: [&str; 3] = [
     "cosmorama demo",
     "cosmorama convert 'faces/{face}.png' dome.png --to omnimax --size 1966x1436",
     "cosmorama info 'faces/{face}.png'",
 ];
 
-/// Every verb with its examples.
+/// All verbs with their examples.
 const VERBS: [(&str, &[&str]); 9] = [
     ("demo", &demo::EXAMPLES),
     ("convert", &convert::EXAMPLES),
@@ -55,7 +55,7 @@ const VERBS: [(&str, &[&str]); 9] = [
 )]
 #[command(help_template = with_examples(&EXAMPLES))]
 pub(crate) struct Args {
-    /// What to do.
+    /// Verb to run.
     #[command(subcommand)]
     pub(crate) verb: Verb,
     /// Say also what is good to know where nothing is wrong
@@ -63,7 +63,7 @@ pub(crate) struct Args {
     pub(crate) verbose: bool,
 }
 
-/// What can be done.
+/// Verbs of the program.
 #[derive(Debug, Subcommand)]
 pub(crate) enum Verb {
     /// Render an embedded world onto cube faces and make an Omnimax frame of them
@@ -86,18 +86,18 @@ pub(crate) enum Verb {
     Help(HelpArgs),
 }
 
-/// Names of all verbs.
+/// Lists the names of all verbs.
 pub(crate) fn verbs() -> impl Iterator<Item = &'static str> {
     VERBS.iter().map(|(verb, _)| *verb)
 }
 
-/// Commands that a verb's help shows; the program's own without a verb.
+/// Returns the example commands of a verb, or of the program itself without a verb.
 pub(crate) fn examples(verb: Option<&str>) -> &'static [&'static str] {
     let of_verb = VERBS.iter().find(|(name, _)| Some(*name) == verb).map(|(_, examples)| *examples);
     of_verb.unwrap_or(&EXAMPLES)
 }
 
-/// Long names of a verb's options, without dashes.
+/// Returns the long names of a verb's options, without dashes.
 pub(crate) fn options(verb: &str) -> Vec<String> {
     let mut command = Args::command();
     command.build();
@@ -106,10 +106,10 @@ pub(crate) fn options(verb: &str) -> Vec<String> {
     parts.flat_map(Command::get_arguments).filter_map(Arg::get_long).map(str::to_owned).collect()
 }
 
-/// Where short help sends those who look for more.
+/// Last line of short help, which tells where there is more.
 const SEE_MORE: &str = "More: '--help' explains every option, 'cosmorama help spec' every projection with its keys.";
 
-/// Every projection, a line each.
+/// Returns the list of projections, a line each.
 fn projections() -> String {
     let mut text =
         "SPEC is NAME[:key=value[,key=value]...]; 'cosmorama help spec' lists keys and other names:\n\n".to_owned();
@@ -119,7 +119,8 @@ fn projections() -> String {
     text
 }
 
-/// Help that begins with examples. As a part of the template they are never wrapped: who copies a command copies all of it.
+/// Returns a template of help that begins with examples. As a part of the template they are never wrapped, so that a
+/// command is copied whole.
 fn with_examples(examples: &[&str]) -> String {
     let lines: String = examples.iter().map(|example| format!("  {example}\n")).collect();
     format!("Examples:\n{lines}\n{{about-with-newline}}\n{{usage-heading}} {{usage}}\n\n{{all-args}}{{after-help}}")

@@ -1,6 +1,6 @@
 use clap::ValueEnum;
 
-/// How to tell what is going on, on standard error.
+/// Style of the progress on standard error.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum ProgressStyle {
     /// A bar on a terminal, else plain
@@ -18,7 +18,7 @@ pub(crate) enum ProgressStyle {
 }
 
 impl ProgressStyle {
-    /// Whether people read along, who want to know how it ended, too.
+    /// Returns whether people read along, who want a report at the end, too.
     pub(crate) fn is_for_people(self) -> bool {
         matches!(self, Self::Auto | Self::Bar | Self::Plain)
     }

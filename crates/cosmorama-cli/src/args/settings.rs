@@ -1,4 +1,4 @@
-//! Arguments as the settings of a conversion: nothing else sees them from then on.
+//! Conversion of arguments to settings; all later code sees only these.
 
 use cosmorama::filter::FilterKind;
 use cosmorama::raster::Depth;

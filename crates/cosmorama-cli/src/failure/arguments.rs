@@ -1,4 +1,4 @@
-//! Arguments that cannot be understood: what to type instead.
+//! Errors of arguments that cannot be understood, with what to type instead.
 
 use std::error::Error as _;
 use std::process::ExitCode;
@@ -11,7 +11,7 @@ use super::{unknown_option, unknown_verb};
 use crate::args::{self, examples};
 use crate::console::say;
 
-/// Words of the command line, the program's own name left out.
+/// Words of the command line, without the program's own name.
 pub(super) struct Typed(Vec<String>);
 
 impl Typed {
@@ -33,12 +33,12 @@ impl Typed {
     }
 }
 
-/// Whether a word can be an option's value: a negative number is no option.
+/// Returns whether a word can be an option's value: a negative number is no option.
 fn is_value(word: &str) -> bool {
     !word.starts_with('-') || word[1..].starts_with(|first: char| first.is_ascii_digit() || first == '.')
 }
 
-/// Prints what is wrong with arguments, or what was asked for, and chooses the exit code.
+/// Prints what is wrong with arguments, or the requested help, and chooses the exit code.
 pub(crate) fn report_arguments(error: &Error) -> ExitCode {
     if error.use_stderr() && error.kind() != ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand {
         let words = std::env::args_os().skip(1).map(|word| word.to_string_lossy().into_owned());
@@ -50,7 +50,7 @@ pub(crate) fn report_arguments(error: &Error) -> ExitCode {
     u8::try_from(error.exit_code()).map_or(ExitCode::FAILURE, ExitCode::from)
 }
 
-/// What is wrong, and what to type instead.
+/// Returns what is wrong, and what to type instead.
 fn message(error: &Error, typed: &Typed) -> String {
     let argument = text(error, ContextKind::InvalidArg);
     match error.kind() {
@@ -70,7 +70,7 @@ fn text(error: &Error, kind: ContextKind) -> Option<&str> {
     }
 }
 
-/// A value that cannot be parsed.
+/// Returns the message for a value that cannot be parsed.
 fn value(error: &Error) -> Option<String> {
     let (option, typed) = (text(error, ContextKind::InvalidArg)?, text(error, ContextKind::InvalidValue)?);
     let cause = error.source()?;
@@ -90,13 +90,13 @@ fn value(error: &Error) -> Option<String> {
     Some(format!("{what}: {cause}"))
 }
 
-/// The keys of the projection that was typed.
+/// Returns the keys of the projection that was typed.
 fn keys(spec: &str) -> String {
     let all = "'cosmorama help spec' lists every projection with its keys";
     SpecKind::of(spec).map_or_else(|| all.to_owned(), |kind| format!("{}{all}", kind.help()))
 }
 
-/// What clap says, with an example in place of its advice to read all help.
+/// Returns clap's message, with an example in place of its advice to read all help.
 fn in_claps_words(error: &Error, typed: &Typed) -> String {
     let text = error.render().to_string();
     let text = text.trim_start_matches("error: ");
@@ -108,7 +108,7 @@ fn in_claps_words(error: &Error, typed: &Typed) -> String {
     format!("{text}\n\n{example}{}", see_options(verb))
 }
 
-/// Where options are listed.
+/// Returns the command that lists the options.
 pub(super) fn see_options(verb: Option<&str>) -> String {
     match verb {
         Some(verb) => format!("'cosmorama {verb} -h' lists the options"),

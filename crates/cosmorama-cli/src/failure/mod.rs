@@ -1,4 +1,4 @@
-//! Errors with exit codes: 1 for what failed, 2 for wrong usage.
+//! Errors with exit codes: 1 for failures, 2 for wrong usage.
 
 mod arguments;
 mod spec_key;
@@ -19,7 +19,7 @@ use crate::console::{Console, in_options, say};
 #[error("{0}")]
 pub(crate) struct Usage(String);
 
-/// An error of usage.
+/// Makes an error of usage.
 pub(crate) fn usage(message: impl Into<String>) -> anyhow::Error {
     Usage(message.into()).into()
 }
@@ -31,7 +31,7 @@ fn is_usage(error: &anyhow::Error) -> bool {
     }
 }
 
-/// An error and its causes on one line.
+/// Returns an error and its causes on one line.
 fn message(error: &anyhow::Error) -> String {
     if let Some(error) = error.downcast_ref::<ConvertError>() {
         return in_options(&error.message());

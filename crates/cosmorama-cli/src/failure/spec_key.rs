@@ -4,7 +4,7 @@ use cosmorama_spec::{Spec, SpecError, SpecKey, SpecKind};
 
 use super::arguments::Typed;
 
-/// Words that people have for keys.
+/// Other words for keys.
 const OTHER_KEYS: [(&str, &str); 7] = [
     ("mirror", "flip"),
     ("hflip", "flip"),
@@ -15,13 +15,13 @@ const OTHER_KEYS: [(&str, &str); 7] = [
     ("names", "naming"),
 ];
 
-/// What else may have been meant by a word that is a key.
+/// Other possible meanings of a word that is a key.
 const BESIDES: [(&str, &str); 1] = [("rotate", "; the view is turned by --yaw, --pitch and --roll")];
 
 /// Projections that come first where a key is explained by an example.
 const USUAL: [&str; 5] = ["perspective", "fulldome", "fisheye", "equirect", "omnimax"];
 
-/// What to write in place of an option that is a key of SPECs; `None` where no projection has such a key.
+/// Returns what to write in place of an option that is a key of SPECs; `None` where no projection has such a key.
 pub(super) fn advice(word: &str, option: &str, typed: &Typed) -> Option<String> {
     let word = OTHER_KEYS.iter().find(|(other, _)| *other == word).map_or(word, |(_, key)| *key);
     let asked: Vec<SpecKind> =
@@ -48,25 +48,25 @@ pub(super) fn advice(word: &str, option: &str, typed: &Typed) -> Option<String> 
     Some(format!("{word} is a key of {}{not}: {write}{besides}", list(&takers)))
 }
 
-/// Whether a value is of a key's kind.
+/// Returns whether a key accepts a value.
 fn takes(kind: SpecKind, key: &SpecKey, value: &str) -> bool {
     let parsed = format!("{}:{}={value}", kind.name(), key.name).parse::<Spec>();
     !matches!(parsed, Err(SpecError::Value { key: of, .. }) if of == key.name)
 }
 
-/// The key of a projection that has this very name, but for how it is spelled.
+/// Returns the key of a projection that has this very name, apart from spelling.
 fn exact(kind: SpecKind, word: &str) -> Option<&'static SpecKey> {
     let plain = word.replace('-', "").replace("centre", "center");
     kind.key(word).filter(|key| key.name == plain)
 }
 
-/// The projection that explains a key best.
+/// Returns the projection that explains a key best.
 fn first<'k>(takers: &[(SpecKind, &'k SpecKey)]) -> Option<(SpecKind, &'k SpecKey)> {
     let usual = USUAL.iter().find_map(|name| takers.iter().find(|(kind, _)| kind.name() == *name));
     usual.or(takers.first()).copied()
 }
 
-/// The option that was typed, `--to` or `--from`, with a key more.
+/// Returns the option that was typed, `--to` or `--from`, with another key.
 pub(super) fn with_key(kind: SpecKind, key: &SpecKey, value: &str, typed: &Typed) -> Option<String> {
     ["--to", "--from"].into_iter().find_map(|option| {
         let spec = typed.value(option)?;
@@ -79,7 +79,7 @@ pub(super) fn with_key(kind: SpecKind, key: &SpecKey, value: &str, typed: &Typed
     })
 }
 
-/// Names of projections, as a sentence has them.
+/// Lists names of projections as in a sentence.
 fn list(takers: &[(SpecKind, &SpecKey)]) -> String {
     let names: Vec<&str> = takers.iter().map(|(kind, _)| kind.name()).collect();
     match names.split_last() {

@@ -1,4 +1,4 @@
-//! Options that a verb does not have: keys of SPECs, other programs' words, slips.
+//! Options that a verb does not have: keys of SPECs, other programs' words, typing errors.
 
 use cosmorama_spec::{SpecKind, nearest};
 
@@ -85,7 +85,7 @@ const OTHER_WORDS: [(&[&str], &str); 25] = [
     ),
 ];
 
-/// What to type in place of an argument that a verb does not take.
+/// Returns what to type in place of an argument that a verb does not take.
 pub(super) fn message(argument: &str, typed: &Typed) -> String {
     let verb = typed.verb();
     let Some(word) = argument.strip_prefix("--").or_else(|| argument.strip_prefix('-')) else {
@@ -105,7 +105,7 @@ pub(super) fn message(argument: &str, typed: &Typed) -> String {
     format!("{who} has no option {argument}{advice}\n\n{}", see_options(verb))
 }
 
-/// What to write for another program's word, where the verb has that.
+/// Returns what to write for another program's word, where the verb has that.
 fn other_word(word: &str, verb: Option<&str>) -> Option<String> {
     let (_, write) = OTHER_WORDS.iter().find(|(words, _)| words.contains(&word))?;
     let option = write.split([' ', ',']).next().unwrap_or_default();
@@ -117,7 +117,7 @@ fn other_word(word: &str, verb: Option<&str>) -> Option<String> {
     verb.is_none_or(has).then(|| format!("write {write}"))
 }
 
-/// What a word without an option may have been meant for.
+/// Returns what a word without an option may have been meant for.
 fn lone_word(word: &str, typed: &Typed) -> String {
     let key = word.split_once('=').map(|(key, value)| (key.trim_start_matches(':'), value));
     if let Some((key, value)) = key.filter(|(key, _)| SpecKind::all().any(|kind| kind.key(key).is_some())) {
@@ -140,7 +140,7 @@ fn lone_word(word: &str, typed: &Typed) -> String {
         .to_owned()
 }
 
-/// The verb's own option that is most like what was typed.
+/// Returns the verb's own option that is most similar to what was typed.
 fn own_option(word: &str, verb: Option<&str>) -> Option<String> {
     let names = args::options(verb?);
     let names: Vec<&str> = names.iter().map(String::as_str).collect();
@@ -148,7 +148,7 @@ fn own_option(word: &str, verb: Option<&str>) -> Option<String> {
     begun.or_else(|| nearest(word, &names)).map(|name| format!("did you mean --{name}?"))
 }
 
-/// Another verb that has the option.
+/// Returns another verb that has the option.
 fn option_of_other(word: &str, verb: Option<&str>) -> Option<String> {
     let other = args::verbs()
         .filter(|other| Some(*other) != verb)

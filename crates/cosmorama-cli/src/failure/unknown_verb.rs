@@ -5,7 +5,7 @@ use cosmorama_spec::{SpecKind, nearest};
 use super::arguments::see_options;
 use crate::args;
 
-/// Words for verbs that other programs have, or that people try.
+/// Other programs' words for verbs, and words that people try.
 const OTHER_NAMES: [(&[&str], &str); 7] = [
     (&["render", "remap", "project", "reproject", "transform", "warp", "make", "run", "export"], "convert"),
     (&["identify", "probe", "inspect", "stat", "show", "metadata"], "info"),
@@ -16,10 +16,10 @@ const OTHER_NAMES: [(&[&str], &str); 7] = [
     (&["manual"], "man"),
 ];
 
-/// Words that ask for what there is.
+/// Words that ask for a list.
 const LISTS: [&str; 8] = ["spec", "specs", "projections", "projection", "formats", "keys", "aliases", "list"];
 
-/// What to type in place of a first word that is no verb.
+/// Returns what to type in place of a first word that is no verb.
 pub(super) fn message(word: &str) -> String {
     let verbs: Vec<&str> = args::verbs().collect();
     let lower = word.to_lowercase();

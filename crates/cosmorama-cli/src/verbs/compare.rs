@@ -15,7 +15,7 @@ use crate::console::{Console, say};
 use crate::failure::usage;
 use crate::pipe::KeptStreams;
 
-/// Said of a shift.
+/// Message about a shift that cannot be measured.
 const NOT_MEASURABLE: &str =
     "not measurable: the pictures differ by more than a shift of about a pixel explains, or too few pixels count";
 
@@ -60,7 +60,7 @@ pub(super) fn run(args: &CompareArgs, console: &mut Console) -> Result<ExitCode>
     Ok(if failures.is_empty() { ExitCode::SUCCESS } else { ExitCode::FAILURE })
 }
 
-/// Refuses a pattern by name; otherwise reading it would only say that there is no such file.
+/// Refuses a pattern by name; otherwise the error would only be that there is no such file.
 fn check_one(name: &str) -> Result<()> {
     let is_pattern = FacePattern::parse(name).is_some() || FramePattern::parse(name).is_some();
     if is_pattern && !Path::new(name).exists() {
@@ -72,7 +72,8 @@ fn check_one(name: &str) -> Result<()> {
     Ok(())
 }
 
-/// The format of the difference picture, which may not replace what is compared, nor anything else unasked.
+/// Returns the format of the difference picture. It may not replace a compared picture, nor any other file unless asked
+/// to.
 fn diff_format(diff: &Path, args: &CompareArgs) -> Result<Format> {
     let format = Format::from_extension(diff).map_err(|error| usage(error.to_string()))?;
     if [&args.first, &args.second].iter().any(|picture| real_path(picture) == real_path(diff)) {
@@ -91,7 +92,7 @@ fn light(files: &dyn Files, path: &Path, args: &CompareArgs) -> Result<Image<Rgb
     Ok(file.image.to_light(&transfer))
 }
 
-/// The pixels inside a lens, those cut by its rim left out.
+/// Returns the mask of the pixels inside a lens, without those that its rim cuts.
 fn region(region: Region, image: &Image<Rgba>) -> Result<Mask> {
     let (width, height) = (image.width(), image.height());
     let frame = match region {
@@ -182,7 +183,7 @@ fn json_text(args: &CompareArgs, comparison: &Comparison, failures: &[String]) -
     Ok(serde_json::to_string_pretty(&report)? + "\n")
 }
 
-/// JSON has no infinity: pictures that do not differ have no figure.
+/// Converts decibels to JSON, which has no infinity: pictures that do not differ have no figure.
 fn decibels(psnr: f64) -> Value {
     if psnr.is_finite() { json!(psnr) } else { Value::Null }
 }

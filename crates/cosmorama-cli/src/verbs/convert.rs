@@ -11,7 +11,7 @@ use crate::pipe::Piped;
 use crate::progress::Progress;
 use crate::report;
 
-/// Converts, and tells what it has done.
+/// Converts, and reports the result.
 pub(super) fn run(args: ConvertArgs, console: &mut Console) -> Result<ExitCode> {
     let (progress, as_json) = (args.progress, args.json);
     let piped = Piped::open(args, console)?;
@@ -26,7 +26,7 @@ pub(super) fn run(args: ConvertArgs, console: &mut Console) -> Result<ExitCode> 
     Ok(ExitCode::SUCCESS)
 }
 
-/// Converts, and says meanwhile what there is to say.
+/// Converts, and prints diagnostics and progress meanwhile.
 pub(super) fn convert(conversion: Conversion, style: ProgressStyle, console: &Console) -> Result<Report> {
     let checked = Conversion { unfinished: console.unfinished.clone(), ..conversion }.check();
     console.tell_all(&checked);
@@ -36,7 +36,7 @@ pub(super) fn convert(conversion: Conversion, style: ProgressStyle, console: &Co
     Ok(report)
 }
 
-/// Tells on standard error what a conversion does.
+/// Observer that reports a conversion on standard error.
 struct Watch<'a> {
     console: &'a Console,
     style: ProgressStyle,

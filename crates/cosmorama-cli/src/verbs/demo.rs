@@ -24,7 +24,7 @@ use crate::failure::usage;
 const FACE: usize = 1024;
 const FRAME: (usize, usize) = (1966, 1436);
 
-/// The folder of the faces, the frames with what makes each another one, and the drawing.
+/// Folder of the faces, the frames with the filter of each, and the drawing.
 const FACES: &str = "faces";
 const FRAMES: [(&str, FilterKind); 2] = [("omnimax.png", FilterKind::Ewa), ("omnimax-point.png", FilterKind::Point)];
 const UNFOLDED: &str = "unfolded";
@@ -65,7 +65,7 @@ pub(super) fn run(args: &DemoArgs, console: &Console) -> Result<ExitCode> {
     Ok(ExitCode::SUCCESS)
 }
 
-/// Every file that is written.
+/// Returns every file that is written.
 fn outputs(folder: &Path, faces: &[PartialFace]) -> Vec<PathBuf> {
     let faces = faces.iter().map(|partial| face_file(&folder.join(FACES), partial.face));
     let frames = FRAMES.iter().map(|(name, _)| folder.join(name));
@@ -76,7 +76,7 @@ fn face_file(folder: &Path, face: CubeFace) -> PathBuf {
     folder.join(face.name()).with_extension("png")
 }
 
-/// The faces that the frame looks at, each with the window that the filter reads.
+/// Returns the faces that the frame needs, each with the window that the filter reads.
 fn needed_faces(target: &View) -> Result<Vec<PartialFace>> {
     let whole = |face: CubeFace| face_view(face, None, FACE, FACE);
     let views: Result<Vec<_>> = CubeFace::ALL.iter().map(|&face| Ok((face.name().to_owned(), whole(face)?))).collect();
@@ -109,7 +109,7 @@ fn render_face(partial: &PartialFace, folder: &Path, console: &Console) -> Resul
     tell(console, &path, &format!("the {face} face, {window} of {FACE}x{FACE}, rendered"), start)
 }
 
-/// The SPEC that declares the windows.
+/// Returns the SPEC that declares the windows.
 fn from(faces: &[PartialFace]) -> String {
     let cropped = faces.iter().filter(|partial| (partial.window.width(), partial.window.height()) != (FACE, FACE));
     let canvas = |partial: &PartialFace| {
@@ -120,7 +120,7 @@ fn from(faces: &[PartialFace]) -> String {
     if canvases.is_empty() { "cube".to_owned() } else { format!("cube:{}", canvases.join(",")) }
 }
 
-/// Converts as the command does that is printed.
+/// Converts as the printed command does.
 fn repeatable_conversion(
     args: &DemoArgs,
     input: &Path,
@@ -150,7 +150,7 @@ fn repeatable_conversion(
     console.print(&format!("  {}\n", words.iter().map(|word| quoted(word)).collect::<Vec<_>>().join(" ")))
 }
 
-/// A word as a shell wants it.
+/// Quotes a word for a shell.
 fn quoted(word: &str) -> String {
     let plain = |letter: char| letter.is_ascii_alphanumeric() || "-_./:=,+".contains(letter);
     if word.chars().all(plain) { word.to_owned() } else { format!("'{}'", word.replace('\'', "'\\''")) }

@@ -6,15 +6,16 @@ use cosmorama::raster::Transfer;
 use cosmorama_io::pending::{Hidden, Pending, Unfinished};
 use cosmorama_io::{Metadata, WriteOptions, svg, write_hidden};
 
-/// Pixels of a PNG for each unit of its drawing.
+/// Number of pixels of a PNG for each unit of its drawing.
 const SCALE: f32 = 1.5;
 
-/// The files that a drawing goes to.
+/// Returns the files that a drawing goes to.
 pub(super) fn files(folder: &Path, name: &str) -> [PathBuf; 2] {
     ["svg", "png"].map(|extension| folder.join(format!("{name}.{extension}")))
 }
 
-/// Writes a drawing as `NAME.svg` and `NAME.png`; pictures that it refers to are found beside it. Both wait to appear.
+/// Writes a drawing as `NAME.svg` and `NAME.png`; pictures that it refers to are found beside it. Both files stay
+/// hidden until they are renamed.
 pub(super) fn draw(folder: &Path, name: &str, drawing: &str, unfinished: &Unfinished) -> Result<[Hidden; 2]> {
     let [vector, raster] = files(folder, name);
     let mut pending = Pending::create(&vector, unfinished)?;

@@ -66,7 +66,7 @@ pub(super) fn run(mut args: ExplainArgs, console: &mut Console) -> Result<ExitCo
     Ok(ExitCode::SUCCESS)
 }
 
-/// Diagrams replace no input, nor anything else unasked.
+/// Checks that diagrams replace no input, nor any other file unless asked to.
 fn check_diagrams(folder: &Path, explanation: &Explanation, overwrite: bool) -> Result<()> {
     let files: Vec<PathBuf> = explanation.pictures().iter().flat_map(|picture| diagrams(folder, picture)).collect();
     files.iter().try_for_each(|path| check_apart(path, explanation.files()))?;
@@ -76,7 +76,7 @@ fn check_diagrams(folder: &Path, explanation: &Explanation, overwrite: bool) -> 
     Ok(())
 }
 
-/// What the report has found out already.
+/// Returns the needs that the report has already found.
 fn needs(report: &Report) -> Needs {
     Needs { views: report.views.iter().map(|view| view.need.clone()).collect(), uncovered: report.uncovered }
 }
@@ -96,7 +96,7 @@ fn diagram_names(picture: &Picture) -> [String; 3] {
     ["unfolded", "ownership", "footprints"].map(|name| format!("{name}{suffix}"))
 }
 
-/// The files that the diagrams of a picture go to.
+/// Returns the files that the diagrams of a picture go to.
 fn diagrams(folder: &Path, picture: &Picture) -> Vec<PathBuf> {
     diagram_names(picture).iter().flat_map(|name| diagram::files(folder, name)).collect()
 }

@@ -35,7 +35,7 @@ pub(super) fn help(args: &HelpArgs, console: &Console) -> Result<ExitCode> {
     Ok(ExitCode::SUCCESS)
 }
 
-/// The keys of one projection.
+/// Returns the keys of one projection.
 fn of_projection(name: &str) -> Result<String> {
     let Some(kind) = SpecKind::of(name) else {
         let topics: Vec<&str> = verbs().chain([SPEC_TOPIC]).chain(SpecKind::all().map(SpecKind::name)).collect();
@@ -57,7 +57,7 @@ pub(super) fn completions(args: &CompletionsArgs, console: &Console) -> Result<E
     Ok(ExitCode::SUCCESS)
 }
 
-/// Lines of fish's script for the words of arguments without an option, which `clap_complete` leaves out.
+/// Returns lines of fish's script for the words of arguments without an option, which `clap_complete` leaves out.
 fn words_for_fish(command: &Command) -> String {
     let mut lines = String::new();
     for verb in command.get_subcommands() {
@@ -101,25 +101,25 @@ fn write_page(file: &Path, text: &str, console: &Console) -> Result<()> {
     console.print(&format!("{}\n", file.display()))
 }
 
-/// The whole command line, with all that its parts inherit.
+/// Returns the whole command line, with all that its parts inherit.
 fn built() -> Command {
     let mut command = Args::command();
     command.build();
     command
 }
 
-/// Folders of the manual's sections: programs, and what belongs to none.
+/// Folders of the manual's sections: programs, and topics that belong to no program.
 const SECTIONS: [&str; 2] = ["man1", "man7"];
 
 /// A manual page.
 struct Page {
-    /// Its file, in the folder of its section.
+    /// File of the page, in the folder of its section.
     file: PathBuf,
-    /// Its text, for `man`.
+    /// Text of the page, for `man`.
     text: String,
 }
 
-/// The program's own page, one for each verb, and one for SPECs.
+/// Returns the pages: the program's own, one for each verb, and one for SPECs.
 fn pages() -> Result<Vec<Page>> {
     let command = built();
     let mut pages = vec![page(&command, None)?];
@@ -133,7 +133,7 @@ fn pages() -> Result<Vec<Page>> {
     Ok(pages)
 }
 
-/// The page of a command: of a verb with its examples, or of the program itself.
+/// Returns the page of a command: of a verb with its examples, or of the program itself.
 fn page(command: &Command, of_verb: Option<&[&str]>) -> Result<Page> {
     let man = Man::new(command.clone());
     let mut text = Vec::new();
@@ -165,7 +165,7 @@ fn spec_page() -> Page {
     Page { file: Path::new(SECTIONS[1]).join("cosmorama-spec.7"), text }
 }
 
-/// A section whose lines stay as they are.
+/// Returns a section whose lines stay as they are.
 fn verbatim(heading: &str, text: &str) -> String {
     let line = |line: &str| {
         let escaped = line.replace('\\', "\\e").replace('-', "\\-");

@@ -213,7 +213,7 @@ fn merge(into: &mut Value, from: Value) {
     }
 }
 
-/// The report as indented lines.
+/// Returns the report as indented lines.
 fn lines(report: &Value, indent: usize) -> String {
     let Value::Object(fields) = report else { return String::new() };
     let pad = " ".repeat(indent);

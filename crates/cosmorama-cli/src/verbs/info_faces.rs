@@ -1,4 +1,4 @@
-//! What `info` says of how faces lie.
+//! Report of `info` on how faces lie.
 
 use anyhow::Result;
 use cosmorama::raster::{Image, Rgba};
@@ -9,7 +9,7 @@ use serde_json::{Value, json};
 
 use crate::console::in_options;
 
-/// Of the first frame of a face set; `None` where its files have too few whole faces to tell.
+/// Judges the first frame of a face set; `None` where its files have too few whole faces to tell.
 pub(super) fn of_files(inputs: &dyn Files, set: &FaceSet) -> Result<Option<Value>> {
     let lie: Vec<_> = set.faces().iter().map(|file| (file.face, file.placement)).collect();
     let Some(given) = GivenFaces::of_files(&Cube::default(), set.naming(), &lie) else { return Ok(None) };
@@ -35,7 +35,7 @@ fn pixel_of(picture: &Image<Rgba>) -> impl Fn(usize, usize) -> Rgba + '_ {
     |i, j| *picture.get(i, j)
 }
 
-/// What borders tell, as JSON.
+/// Reports as JSON what borders tell.
 pub(super) fn report(continuity: &Continuity) -> Value {
     let mut report = json!({ "told": in_options(&continuity.told), "fits": continuity.fits });
     if let Some(confidence) = continuity.confidence {

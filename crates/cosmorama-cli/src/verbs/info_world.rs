@@ -1,4 +1,4 @@
-//! What `info` says of worlds of many views.
+//! Report of `info` on worlds of many views.
 
 use anyhow::Result;
 use cosmorama::camera::{PixelPoint, View};
@@ -8,10 +8,10 @@ use serde_json::{Value, json};
 
 use crate::console::Console;
 
-/// So many directions, each for the same part of the sphere: enough for a tenth of a percent.
+/// Number of directions, each for an equal part of the sphere: enough for a tenth of a percent.
 const DIRECTIONS: usize = 100_000;
 
-/// The report on a world file or a Hugin project; `None` where an input is neither.
+/// Returns the report on a world file or a Hugin project; `None` where an input is neither.
 pub(super) fn report(files: &dyn Files, name: &str, console: &Console) -> Result<Option<Value>> {
     let mut warnings = Vec::new();
     let Some(list) = listed(name, files, MemoryBudget::new(None), &mut warnings)? else { return Ok(None) };
@@ -64,7 +64,7 @@ fn of_view(listed: &Listed, view: &InputView, sphere: &[Direction]) -> Value {
     report
 }
 
-/// Whether a view's file has a direction, and its mask lets it through.
+/// Returns whether a view's file shows a direction and its mask lets it through.
 fn holds(view: &InputView, direction: Direction) -> bool {
     let sees = |held: &View| {
         let is_shown = |pixel: PixelPoint| view.mask.as_ref().is_none_or(|mask| mask.shows(pixel));
@@ -77,7 +77,7 @@ fn share(sphere: &[Direction], chosen: impl Fn(Direction) -> bool) -> f64 {
     sphere.iter().filter(|direction| chosen(**direction)).count() as f64 / sphere.len() as f64
 }
 
-/// Of the whole sphere.
+/// Returns a share of the whole sphere, in words.
 fn percent(share: f64) -> Value {
     json!(format!("{:.1} % of the sphere", 100.0 * share))
 }

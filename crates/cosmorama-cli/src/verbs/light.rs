@@ -35,7 +35,7 @@ fn specular(SpecularArgs { map, lobe, alpha }: SpecularArgs, console: &mut Conso
     make(map, LightSettings { lobe, normalisation: LightNormalisation::Radiance, exact }, console)
 }
 
-/// Makes maps, and tells what was done.
+/// Makes maps, and reports the result.
 fn make(mut map: MapArgs, light: LightSettings, console: &mut Console) -> Result<ExitCode> {
     if map.output == "-" {
         return Err(usage("maps of light are files; name one, as in light.exr"));

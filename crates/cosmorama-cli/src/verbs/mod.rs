@@ -1,4 +1,4 @@
-//! What the program does, a file for each verb.
+//! Verbs of the program, a file for each.
 
 mod compare;
 mod convert;
@@ -23,7 +23,7 @@ use crate::console::Console;
 use crate::failure::usage;
 use crate::interrupt;
 
-/// Does what was asked for.
+/// Runs the verb that was typed.
 pub(crate) fn run(verb: Verb, console: &mut Console) -> Result<ExitCode> {
     interrupt::install(console.unfinished.clone())?;
     match verb {
@@ -39,7 +39,8 @@ pub(crate) fn run(verb: Verb, console: &mut Console) -> Result<ExitCode> {
     }
 }
 
-/// Makes a folder that does not exist yet, with those above it. What stays empty goes away with what is returned.
+/// Makes a folder that does not exist yet, with those above it. Folders that stay empty are removed with the returned
+/// value.
 fn make_folder(folder: &Path, console: &Console) -> Result<NewFolders> {
     if folder.is_file() {
         return Err(usage(format!("{} is a file, where a folder was expected; name another", folder.display())));

@@ -36,7 +36,7 @@ pub(crate) struct Light {
     ignores_profiles: bool,
 }
 
-/// How the code values of a file become working light.
+/// Conversion of a file's code values to working light.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct FileColours {
     pub(crate) transfer: Transfer,

@@ -48,7 +48,7 @@ pub(crate) struct ConvertJob {
     pub(crate) decoded: DecodedPicture,
 }
 
-/// What a job is for.
+/// Purpose of a job.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Purpose {
     /// Pictures, in files.

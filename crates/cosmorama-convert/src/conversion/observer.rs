@@ -18,13 +18,13 @@ pub enum Work {
 
 /// Callbacks of a running conversion, all on the thread that runs it.
 pub trait Observer {
-    /// Called with the number of frames to make, before the first.
+    /// Receives the number of frames to make, before the first.
     fn begin(&mut self, _frames: usize) {}
 
-    /// Called with a diagnostic.
+    /// Receives a diagnostic.
     fn diagnostic(&mut self, _diagnostic: &Diagnostic) {}
 
-    /// Called while work goes on, with the fraction of it that is done. The result says whether to go on.
+    /// Receives the fraction of a work that is done, while it goes on. The result says whether to go on.
     ///
     /// The fractions of one work begin with 0, never fall, and end with 1. Pictures are made band by band, so that even a single one
     /// makes progress. After `Break(Stop)` the work ends within a band, and its frame is not written. Frames before it are
@@ -34,7 +34,8 @@ pub trait Observer {
         ControlFlow::Continue(())
     }
 
-    /// Called when a frame is written; `None` for one without a number. The result says whether to go on.
+    /// Receives the number of a frame that is written; `None` for one without a number. The result says whether to go
+    /// on.
     ///
     /// After `Break(Stop)` no further frame and no further file is started. Files that are being written are finished, and no
     /// partial file stays behind. [`run`](crate::Checked::run) then returns

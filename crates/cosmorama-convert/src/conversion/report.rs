@@ -26,7 +26,7 @@ pub struct Report {
     pub cpu_seconds: CpuSeconds,
     /// Most memory that this process has held, where the system reports it.
     pub peak_memory_bytes: Option<u64>,
-    /// What maps of light amounted to, by frame; empty for pictures.
+    /// Figures of maps of light, by frame; empty for pictures.
     pub light: Vec<LightReport>,
     /// Diagnostics of the conversion.
     pub diagnostics: Vec<Diagnostic>,

@@ -219,7 +219,7 @@ fn declared_cube(cube: &Cube, pattern: &str, header: &Header, warnings: &mut Vec
     }
 }
 
-/// What the verb `info` reports of an image.
+/// Guesses about an image that the verb `info` reports.
 pub struct Likely {
     /// Its projection.
     pub projection: String,

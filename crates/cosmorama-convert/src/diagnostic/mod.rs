@@ -36,7 +36,7 @@ pub enum Severity {
     Error,
     /// The work continues.
     Warning,
-    /// Good to know for who asks why; nothing is wrong.
+    /// Background for those who ask why; nothing is wrong.
     Note,
 }
 

@@ -29,7 +29,7 @@ pub(crate) struct Engine<'a> {
     queue_depth: QueueDepth,
     /// Memory that they hand on.
     pool: Arc<FramePool>,
-    /// What maps of light amounted to, by frame.
+    /// Figures of maps of light, by frame.
     lit: Mutex<Vec<LightReport>>,
 }
 

@@ -16,7 +16,7 @@ pub(crate) struct ViewImage {
     pub(crate) path: PathBuf,
     /// Its pixels.
     pub(crate) image: EncodedImage,
-    /// How its code values become light.
+    /// Conversion of its code values to light.
     pub(crate) colours: FileColours,
 }
 

@@ -34,7 +34,7 @@ pub(crate) trait Watcher {
     /// Renders the pictures of a frame.
     fn render(&mut self, frame: &FrameOutputs, light: &FrameLight) -> Result<Vec<Levels>>;
 
-    /// Called when a frame is written. An error ends the sequence.
+    /// Receives a frame that is written. An error ends the sequence.
     fn done(&mut self, frame: &FrameOutputs) -> Result<()>;
 }
 

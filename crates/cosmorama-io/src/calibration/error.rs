@@ -20,7 +20,7 @@ pub enum CalibrationError {
     Wrong {
         /// Path of the file.
         path: PathBuf,
-        /// What was found, and what was expected.
+        /// Reason: what was found, and what was expected.
         reason: String,
     },
 }

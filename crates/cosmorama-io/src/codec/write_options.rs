@@ -21,7 +21,7 @@ pub struct WriteOptions {
 }
 
 impl WriteOptions {
-    /// Builds the default options for a file that says this about its pixels.
+    /// Returns default options with this metadata.
     pub fn with_metadata(metadata: Metadata) -> Self {
         Self { metadata, ..Self::default() }
     }

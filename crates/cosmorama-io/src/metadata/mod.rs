@@ -24,7 +24,7 @@ pub struct Metadata {
     pub panorama: Option<Window>,
     /// Statements of the file that cannot be right, or that are ignored, in words, one per line.
     pub complaints: Vec<String>,
-    /// What the file holds beside its picture and is rightly not read: in words, one a line.
+    /// Other content of the file that is rightly not read, such as previews; a sentence each.
     pub notes: Vec<String>,
     /// Names of channels that are not read.
     pub other_channels: Vec<String>,

@@ -22,7 +22,7 @@ pub enum PtoError {
         path: PathBuf,
         /// Number of the line, from 1.
         line: usize,
-        /// What was found, and what was expected.
+        /// Reason: what was found, and what was expected.
         reason: String,
     },
     /// A part of the project is missing.
@@ -30,7 +30,7 @@ pub enum PtoError {
     Project {
         /// Path of the project.
         path: PathBuf,
-        /// What was found, and what was expected.
+        /// Reason: what was found, and what was expected.
         reason: String,
     },
 }

@@ -19,7 +19,7 @@ pub struct KernelName {
 }
 
 impl KernelName {
-    /// Returns all names with a line of help, in the order of the help.
+    /// All names with a line of help, in the order of the help.
     pub const NAMES: [(&str, &str); 12] = names::KERNELS;
 }
 

@@ -12,7 +12,7 @@ use crate::WordError;
 pub struct FilterName(pub FilterKind);
 
 impl FilterName {
-    /// Returns all names with a line of help, in the order of the help.
+    /// All names with a line of help, in the order of the help.
     pub const NAMES: [(&str, &str); 5] = names::FILTERS;
 }
 

@@ -79,7 +79,7 @@ fn unknown(text: &str) -> WordError {
 }
 
 impl PrimariesName {
-    /// Returns all names with a line of help, in the order of the help.
+    /// All names with a line of help, in the order of the help.
     pub const NAMES: [(&str, &str); 7] = [
         ("rec709", "Rec. 709, those of sRGB"),
         ("p3-d65", "Display P3"),

@@ -89,7 +89,7 @@ fn meant(text: &str) -> Option<String> {
 }
 
 impl TransferName {
-    /// Returns all names with a line of help, in the order of the help.
+    /// All names with a line of help, in the order of the help.
     pub const NAMES: [(&str, &str); 7] = [
         ("auto", "As the file says, else srgb; float files linear"),
         ("srgb", "sRGB's curve"),

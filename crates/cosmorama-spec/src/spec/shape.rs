@@ -70,7 +70,7 @@ pub struct Single {
     pub any_shape: bool,
 }
 
-/// Position of a panorama's outermost samples, and its source.
+/// Rule that decides the position of a panorama's outermost samples.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SphereSamples {
     /// Not applicable: the projection is not a panorama.

@@ -7,7 +7,7 @@ use crate::SpecError;
 /// Division of a picture into those of two eyes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct StereoSpec {
-    /// How the two eyes' pictures share the image: side by side or top and bottom, full or half size.
+    /// Packing of the two eyes' pictures in the image: side by side or top and bottom, full or half size.
     pub packing: Stereo,
     /// The one eye that is used; `None` for both.
     pub eye: Option<Eye>,

@@ -127,7 +127,7 @@ mod tests {
         assert_eq!(error, CompareError::NothingCounts { size: (3, 2) });
     }
 
-    /// A parabolic picture with a brighter disc; its values are exact in single precision.
+    /// Returns a parabolic picture with a brighter disc; its values are exact in single precision.
     fn parabola(shift: i32, grain: i32) -> Image<Rgba> {
         Image::from_fn(64, 48, |i, j| {
             let (i, j) = (i as i32, j as i32);
@@ -139,7 +139,7 @@ mod tests {
         })
     }
 
-    /// The expected figures are those that numpy and scipy give, in double precision, for the same measures.
+    /// Expects the figures that numpy and scipy give, in double precision, for the same measures.
     #[test]
     fn figures_agree_with_scipy() {
         let mask = Mask::from_fn(64, 48, |i, j| (i as i32 - 32).pow(2) + (j as i32 - 24).pow(2) < 500);

@@ -1,32 +1,32 @@
 use std::f64::consts::PI;
 
-/// The cross-section of a radial kernel: weight by distance r from the centre, in the kernel's unit.
+/// Cross-section of a radial kernel: weight by distance r from the centre, in the kernel's unit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum CrossSection {
-    /// exp(−α r²), cut off at a radius. Greene & Heckbert's pixel is α = 2, cutoff 1.
+    /// Gaussian exp(−α r²), cut off at a radius. Greene & Heckbert's pixel is α = 2, cutoff 1.
     Gaussian {
-        /// Falloff.
+        /// Falloff α.
         alpha: f64,
         /// Radius beyond which the weight is zero.
         cutoff: f64,
     },
-    /// Mitchell & Netravali's cubic of parameters B and C, radius 2.
+    /// Mitchell & Netravali's cubic with parameters B and C; its radius is 2.
     Cubic {
-        /// Blur.
+        /// Parameter B, the blur.
         b: f64,
-        /// Ringing.
+        /// Parameter C, the ringing.
         c: f64,
     },
-    /// A jinc windowed by a jinc, of one to three lobes (anything else counts as the nearest); `blur` stretches the radius.
+    /// Jinc windowed by a jinc, with one to three lobes; any other number counts as the nearest of these.
     JincJinc {
-        /// Zero crossings inside the radius.
+        /// Number of zero crossings inside the radius.
         lobes: usize,
-        /// Factor on the radius; under 1 is sharper.
+        /// Factor on the radius; below 1 the kernel is sharper.
         blur: f64,
     },
-    /// 1 − r, radius 1.
+    /// Tent 1 − r; its radius is 1.
     Tent,
-    /// 1 in the pixel, 0 outside. As an ellipse it is the disc of the pixel's area.
+    /// Box: 1 in the pixel, 0 outside. As an ellipse it is the disc with the pixel's area.
     Box,
 }
 
@@ -34,16 +34,16 @@ pub enum CrossSection {
 const JINC_ZEROS: [f64; 3] = [1.219_669_891_266_504, 2.233_130_594_381_528_6, 3.238_315_484_166_236];
 
 impl CrossSection {
-    /// Mitchell & Netravali 1988, B = C = ⅓.
+    /// Mitchell & Netravali's own cubic (1988): B = C = ⅓.
     pub const MITCHELL: Self = Self::Cubic { b: 1.0 / 3.0, c: 1.0 / 3.0 };
-    /// B = 0, C = ½.
+    /// Catmull-Rom spline: B = 0, C = ½.
     pub const CATMULL_ROM: Self = Self::Cubic { b: 0.0, c: 0.5 };
     /// N. Robidoux's cubic for cylindrical EWA: B = 12/(19 + 9√2), C = 113/(58 + 216√2).
     pub const ROBIDOUX: Self = Self::Cubic { b: 0.378_215_755_092_149_7, c: 0.310_892_122_453_925_1 };
     /// Robidoux's sharper cubic: B = 6/(13 + 7√2), C = 7/(2 + 12√2).
     pub const ROBIDOUX_SHARP: Self = Self::Cubic { b: 0.262_014_575_123_939_1, c: 0.368_992_712_438_030_4 };
 
-    /// The distance beyond which every weight is zero.
+    /// Returns the distance beyond which every weight is zero.
     pub fn radius(self) -> f64 {
         match self {
             Self::Gaussian { cutoff, .. } => cutoff,
@@ -54,7 +54,7 @@ impl CrossSection {
         }
     }
 
-    /// The weight at distance `r` ≥ 0.
+    /// Returns the weight at distance `r` ≥ 0.
     pub fn weight(self, r: f64) -> f64 {
         if r >= self.radius() {
             return 0.0;
@@ -71,7 +71,8 @@ impl CrossSection {
         }
     }
 
-    /// The weight at a screen distance (x, y): as [`CrossSection::weight`], but the box is the pixel's square.
+    /// Returns the weight at a screen distance (x, y). It is [`CrossSection::weight`], except that the box is the
+    /// pixel's square.
     pub fn weight_at(self, x: f64, y: f64) -> f64 {
         match self {
             Self::Box => f64::from(u8::from(x.abs() < 0.5 && y.abs() < 0.5)),
@@ -80,12 +81,12 @@ impl CrossSection {
     }
 }
 
-/// Where a jinc of this many lobes ends.
+/// Returns the distance at which a jinc with this many lobes ends.
 fn last_zero(lobes: usize) -> f64 {
     JINC_ZEROS[lobes.clamp(1, JINC_ZEROS.len()) - 1]
 }
 
-/// Mitchell & Netravali 1988, equation 8.
+/// Computes Mitchell & Netravali's cubic (1988, equation 8).
 fn cubic(b: f64, c: f64, r: f64) -> f64 {
     let sixth = if r < 1.0 {
         (12.0 - 9.0 * b - 6.0 * c) * r.powi(3) + (-18.0 + 12.0 * b + 6.0 * c) * r.powi(2) + (6.0 - 2.0 * b)
@@ -98,14 +99,14 @@ fn cubic(b: f64, c: f64, r: f64) -> f64 {
     sixth / 6.0
 }
 
-/// 2 J₁(πx)/(πx), 1 at the centre.
+/// Computes the jinc 2 J₁(πx)/(πx), which is 1 at the centre.
 fn jinc(x: f64) -> f64 {
     let t = PI * x;
     if t < 1e-8 { 1.0 } else { 2.0 * bessel_j1(t) / t }
 }
 
-/// J₁ by its integral (1/π)∫₀^π cos(τ − t sin τ) dτ: the integrand is periodic, so the midpoint rule converges faster
-/// than any power, and 32 points are exact to double precision for the arguments under 12 that kernels have.
+/// Computes J₁ by its integral (1/π)∫₀^π cos(τ − t sin τ) dτ. The integrand is periodic, so the midpoint rule converges
+/// faster than any power. With 32 points it is exact to double precision for the arguments below 12 that kernels have.
 fn bessel_j1(t: f64) -> f64 {
     const POINTS: usize = 32;
     (0..POINTS)
@@ -117,41 +118,44 @@ fn bessel_j1(t: f64) -> f64 {
         / POINTS as f64
 }
 
-/// A radial kernel with its unit: how far it reaches, in output pixels, but at least in texels.
+/// A radial kernel with its unit: the reach in output pixels, but at least in texels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Kernel {
-    /// The weights where a pixel holds few texels (s ≤ [`Kernel::FINE`]).
+    /// Cross-section where a pixel holds few texels (s ≤ [`Kernel::FINE`]).
     pub fine: CrossSection,
-    /// The weights where a pixel holds many (s ≥ [`Kernel::COARSEST`]); between the two they are blended linearly.
+    /// Cross-section where a pixel holds many texels (s ≥ [`Kernel::COARSEST`]). Between the two limits, both are
+    /// blended linearly.
     pub coarse: CrossSection,
-    /// The kernel's unit in output pixels.
+    /// Unit of the kernel in output pixels.
     pub scale: f64,
-    /// The kernel's unit is nowhere less than this many texels.
+    /// Least unit of the kernel, in texels.
     pub floor: f64,
-    /// Whether the weights are corrected so that their centroid is the pixel's centre exactly.
+    /// Whether the weights are corrected so that their centroid is exactly the pixel's centre.
     pub centred: bool,
 }
 
 impl Kernel {
-    /// Texels per pixel up to which the fine cross-section holds alone.
+    /// Texels per pixel up to which only the fine cross-section counts.
     pub const FINE: f64 = 0.8;
-    /// Texels per pixel at which the coarse cross-section has [`Kernel::KNEE`] of the blend: from here on it comes in slowly.
+    /// Texels per pixel at which the share of the coarse cross-section is [`Kernel::KNEE`]; beyond it the share grows
+    /// slowly.
     pub const COARSE: f64 = 1.5;
-    /// Texels per pixel from which the coarse cross-section holds alone.
+    /// Texels per pixel from which only the coarse cross-section counts.
     pub const COARSEST: f64 = 4.0;
-    /// The coarse part at [`Kernel::COARSE`] texels per pixel. Of [`Kernel::ADAPTIVE`], the blend has there the B of Mitchell's
-    /// cubic, and all but its C: 0.345.
+    /// Share of the coarse cross-section at [`Kernel::COARSE`]; it gives [`Kernel::ADAPTIVE`] there B = ⅓ and C =
+    /// 0.345, nearly Mitchell's.
     pub const KNEE: f64 = 0.881_330;
 
-    /// How fast the coarse part grows with s, before the knee and after it.
+    /// Growth of the coarse share with s, before the knee and after it.
     pub(crate) const SLOPES: [f64; 2] =
         [Self::KNEE / (Self::COARSE - Self::FINE), (1.0 - Self::KNEE) / (Self::COARSEST - Self::COARSE)];
 
-    /// The default: a sharp cubic (B = 0, C = 0.6) under enlargement, Mitchell's or all but his from one and a half texels per
-    /// pixel, and Robidoux's from four: the softer the more texels there are to average. Its unit is 0.8 pixel.
+    /// The default kernel, which is softer the more texels there are to average; its unit is 0.8 pixel. Under
+    /// enlargement it is a sharp cubic (B = 0, C = 0.6). At one and a half texels per pixel it is nearly Mitchell's,
+    /// from four on Robidoux's.
     ///
-    /// The floor is √5/2 texels, rounded up: the radius at which every half disc on a square lattice holds a texel, so
-    /// that there is something on each side of a pixel to interpolate between.
+    /// The floor is √5/2 texels, rounded up: the radius at which every half disc on a square lattice holds a texel. So
+    /// there is something on each side of a pixel to interpolate between.
     pub const ADAPTIVE: Self = Self {
         fine: CrossSection::Cubic { b: 0.0, c: 0.6 },
         coarse: CrossSection::ROBIDOUX,
@@ -160,30 +164,31 @@ impl Kernel {
         centred: true,
     };
 
-    /// A wide Gaussian, σ = 0.7 pixel or texel: positive, and its weights add to one over pixels, too, so that a sun of one texel
-    /// gives as much light to all pixels around it as it has. For that, nothing must hold pixels to the texels under them.
+    /// A wide Gaussian, σ = 0.7 pixel or texel, that keeps the total light. Its weights are positive, and they add to
+    /// one over pixels, too: a sun of one texel gives the pixels around it as much light as it has. This needs
+    /// anti-ringing to be off.
     pub const LIGHT: Self =
         Self { scale: 1.4, floor: 1.4, ..Self::uniform(CrossSection::Gaussian { alpha: 2.0, cutoff: 2.0 }) };
 
-    /// One cross-section at every scale, its unit one output pixel and at least one texel.
+    /// Returns the kernel with one cross-section at every scale, whose unit is one output pixel and at least one texel.
     pub const fn uniform(cross_section: CrossSection) -> Self {
         Self { fine: cross_section, coarse: cross_section, scale: 1.0, floor: 1.0, centred: false }
     }
 
-    /// How much of the coarse cross-section counts where a pixel is as wide as `s` texels.
+    /// Returns the share of the coarse cross-section where a pixel is as wide as `s` texels.
     pub fn coarseness(&self, s: f64) -> f64 {
         let [before, after] = Self::SLOPES;
         (before * (s - Self::FINE)).min(Self::KNEE + after * (s - Self::COARSE)).clamp(0.0, 1.0)
     }
 
-    /// The larger radius of the two cross-sections.
+    /// Returns the larger radius of the two cross-sections.
     pub fn radius(&self) -> f64 {
         self.fine.radius().max(self.coarse.radius())
     }
 }
 
-/// Anti-ringing clamps to the texels of r² under this. With the default floor the disc reaches 1.37 texels, so that
-/// whatever way a gradient runs there are texels on both sides of the pixel, at the corners of a cube too.
+/// r² below which texels bound a pixel in anti-ringing. With the default floor the disc reaches 1.37 texels. So there
+/// are texels on both sides of the pixel whatever way a gradient runs, at the corners of a cube, too.
 pub(crate) const UNDER: f64 = 1.5;
 
 /// The paper's WTAB, twice: both cross-sections of a kernel tabulated over r², so that Q = r² is the index.
@@ -195,8 +200,9 @@ pub(crate) struct KernelTable {
     radius_squared: f64,
 }
 
-/// Entries of a table: small enough to stay in the first cache. The line between two errs by less than 1e-4 of the peak for
-/// the cubics, but by 2 % for the tent, whose tip is sharp in r², and at the edge of the box.
+/// Number of entries of a table, which is small enough for the first-level cache. For the cubics, interpolation between
+/// two entries errs by less than 1e-4 of the peak. It errs by 2 % for the tent, whose tip is sharp in r², and at the
+/// edge of the box.
 const ENTRIES: usize = 2048;
 
 impl KernelTable {
@@ -217,12 +223,12 @@ impl KernelTable {
         &self.kernel
     }
 
-    /// r² from which every weight is zero.
+    /// Returns the r² from which every weight is zero.
     pub(crate) fn radius_squared(&self) -> f64 {
         self.radius_squared
     }
 
-    /// The weight at distance² `q` < [`KernelTable::radius_squared`].
+    /// Returns the weight at distance² `q` < [`KernelTable::radius_squared`].
     pub(crate) fn weight(&self, q: f64, coarseness: f32) -> f32 {
         let place = q * self.entries_per_unit;
         let entry = (place as usize).min(ENTRIES - 1);

@@ -6,7 +6,7 @@ use super::{FilterKind, FilterSettings, LabelRule, lookup, reference};
 use crate::camera::{ScreenPixel, View};
 use crate::world::World;
 
-/// The texels that single pixels of a target are made of.
+/// Finder of the texels that single pixels of a target are made of.
 pub(crate) struct PixelTaps<'a> {
     world: &'a World,
     target: &'a View,
@@ -16,17 +16,19 @@ pub(crate) struct PixelTaps<'a> {
 }
 
 impl<'a> PixelTaps<'a> {
-    /// Pixels of `target` made by `filter` from `world`; `table` is that of the filter's kernel.
+    /// Makes the finder for pixels of `target` that `filter` makes from `world`; `table` belongs to the filter's
+    /// kernel.
     pub(crate) fn new(world: &'a World, target: &'a View, filter: &'a FilterSettings, table: &'a KernelTable) -> Self {
         Self { world, target, filter, gather: Gather::new(world, FieldEdge::of(target), table), taps: Taps::default() }
     }
 
-    /// What gathers them where the filter is EWA.
+    /// Returns the gather, which finds the texels where the filter is EWA.
     pub(crate) fn gather(&self) -> &Gather<'a> {
         &self.gather
     }
 
-    /// The taps of a pixel, weights adding to one; `None` for the reference, which has too many to list.
+    /// Returns the taps of a pixel, whose weights add to one. `None` for the reference filter, which has too many to
+    /// list.
     pub(crate) fn taps(&mut self, screen: &ScreenPixel) -> Option<&Taps> {
         let (direction, taps) = (screen.footprint.direction, &mut self.taps);
         match self.filter.kind {
@@ -47,7 +49,7 @@ impl<'a> PixelTaps<'a> {
         Some(&self.taps)
     }
 
-    /// Gives the index of every texel that the filter reads for a pixel to `visit`, some of them perhaps twice.
+    /// Calls `visit` with the index of every texel that the filter reads for a pixel, perhaps more than once.
     pub(crate) fn for_each_texel(&mut self, pixel: (usize, usize), screen: &ScreenPixel, mut visit: impl FnMut(usize)) {
         if let FilterKind::Reference { samples } = self.filter.kind {
             let mut read = |texel: u32, _: f64| visit(texel as usize);

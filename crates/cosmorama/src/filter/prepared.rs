@@ -5,11 +5,11 @@ use crate::raster::Rgba;
 use crate::sphere::{Direction, DirectionJacobian};
 use crate::world::{Light, LightError, World};
 
-/// What is averaged, and how: one of this room's filters, or your own.
+/// A rule that makes one pixel of the texels under a footprint.
 ///
-/// Every caller that needs the light under a footprint asks this way: a picture's pixel, a reflected or refracted ray, a lobe, a
-/// pixel that moves. [`FilterSettings`](super::FilterSettings) is a filter chosen at run time; [`Ewa`](super::Ewa) and those beside it are
-/// single ones.
+/// Every caller that needs the light under a footprint uses this trait: a pixel of a picture, a reflected or refracted
+/// ray, a lobe, a pixel that moves. [`FilterSettings`](super::FilterSettings) is a filter chosen at run time.
+/// [`Ewa`](super::Ewa) and the types beside it are single filters; yours may be another.
 ///
 /// ```
 /// use cosmorama::camera::{CameraModel, Covariance, EquirectCamera, Footprint};
@@ -32,69 +32,72 @@ use crate::world::{Light, LightError, World};
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub trait Filter {
-    /// Makes all that the filter needs of a world and its light, once for any number of footprints.
+    /// Prepares the filter for a world and its light, once for any number of footprints.
     ///
     /// # Errors
-    /// When the light is not that of the world.
+    /// If the light does not belong to the world.
     fn prepare<'w>(&self, world: &'w World, light: &'w Light) -> Result<Box<dyn Prepared + 'w>, LightError>;
 
-    /// What preparing costs.
+    /// Returns what [`Filter::prepare`] costs.
     fn setup(&self, world: &World) -> SetupCost;
 }
 
-/// What it costs to prepare a filter.
+/// Cost of preparing a filter.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct SetupCost {
-    /// Texels of light that are read once.
+    /// Number of texels of light that are read once.
     pub texels: usize,
-    /// Bytes that are kept, about.
+    /// Number of bytes that are kept, about.
     pub bytes: usize,
 }
 
-/// A filter over a world with its light: averages any number of footprints, from any number of threads.
+/// A filter over a world with its light, ready to average any number of footprints from any number of threads.
 pub trait Prepared: Send + Sync {
-    /// The world.
+    /// Returns the world.
     fn world(&self) -> &World;
 
-    /// The average of the light under a footprint, premultiplied as all light is.
+    /// Averages the light under a footprint; the result is premultiplied.
     ///
-    /// What no view shows is left out: the average is that of what there is. [`Prepared::covered`] tells how much that is. It
-    /// is transparent where no view is near, and for a footprint that holds a NaN or an infinity.
+    /// Parts that no view shows are left out: the average is that of the rest. [`Prepared::covered`] returns how much
+    /// the rest is. The average is transparent where no view is near, and for a footprint that holds a NaN or an
+    /// infinity.
     ///
-    /// A footprint without width is a point: filters make of it what lies between the texels around. One wider than
-    /// [`WIDEST`] is taken as that wide. All filters see only the half of the world around the footprint's direction; one as wide
-    /// as that gives nearly the mean of this half.
+    /// A footprint without width is a point: filters interpolate there between the texels around it. A footprint wider
+    /// than [`WIDEST`] is taken as that wide. All filters see only the half of the world around the footprint's
+    /// direction. A footprint as wide as that half gives nearly its mean.
     fn average(&self, footprint: &Footprint) -> Rgba;
 
-    /// The part of a footprint's parallelogram that some view shows, from 0 to 1, told by 8 × 8 directions in it.
+    /// Returns the part of a footprint's parallelogram that some view shows, from 0 to 1. It is measured by 8 × 8
+    /// directions.
     fn covered(&self, footprint: &Footprint) -> f32 {
         let seen = directions(footprint).filter(|direction| self.world().owner(*direction).is_some()).count();
         seen as f32 / (SAMPLES * SAMPLES) as f32
     }
 
-    /// A direction under a footprint that no view shows, if one of 8 × 8 is such.
+    /// Returns a direction under a footprint that no view shows, if there is one among 8 × 8 directions.
     fn missing(&self, footprint: &Footprint) -> Option<Direction> {
         directions(footprint).find(|direction| self.world().owner(*direction).is_none())
     }
 }
 
-/// The longest derivative that filters take a footprint to have, in radians per pixel: half a turn.
+/// Longest derivative that filters take a footprint to have, in radians per pixel: half a turn.
 pub const WIDEST: f64 = std::f64::consts::PI;
 
-/// Shorter than this, in radians, a footprint has no width: far less than any texel, and enough to tell offsets apart.
+/// Length in radians below which a footprint has no width. It is far less than any texel, and enough to tell offsets
+/// apart.
 const NARROWEST: f64 = 1e-8;
 
-/// Directions along a side of a footprint's parallelogram.
+/// Number of directions along a side of a footprint's parallelogram.
 const SAMPLES: usize = 8;
 
-/// Directions in a footprint's parallelogram, evenly.
+/// Returns directions spread evenly over a footprint's parallelogram.
 fn directions(footprint: &Footprint) -> impl Iterator<Item = Direction> {
     let place = |k: usize| (k as f64 + 0.5) / SAMPLES as f64 - 0.5;
     let footprint = bounded(footprint);
     (0..SAMPLES * SAMPLES).filter_map(move |k| footprint?.direction_at(place(k % SAMPLES), place(k / SAMPLES)))
 }
 
-/// A footprint as filters take it: neither without width nor wider than [`WIDEST`]; `None` for one that is no number.
+/// Returns a footprint as filters take it: neither without width nor wider than [`WIDEST`]. `None` if it is not finite.
 pub(crate) fn bounded(footprint: &Footprint) -> Option<Footprint> {
     let Footprint { direction, jacobian: DirectionJacobian { dx, dy } } = *footprint;
     let (x, y) = (dx.length_squared(), dy.length_squared());

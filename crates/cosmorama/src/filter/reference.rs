@@ -8,18 +8,19 @@ use crate::raster::Rgba;
 use crate::sphere::Direction;
 use crate::world::{Light, LightError, World};
 
-/// Brute force: N × N sub-samples a pixel, weighted by the kernel in screen space, in f64. Slow: the judge of the others.
+/// Brute force: N × N sub-samples a pixel, weighted by the kernel in screen space, in f64. It is slow, and the judge of
+/// the other filters.
 ///
-/// Of a picture the exact mapping of each sub-sample is known, and [`Resampler::render`](crate::render::Resampler::render) goes by it. Of a
-/// footprint only the derivatives are: a sub-sample lies in the tangent plane where they say, and on the sphere as far away along
-/// a great circle ([`Footprint::direction_at`]). Those more than a quarter turn away do not count.
+/// For a picture, [`Resampler::render`](crate::render::Resampler::render) maps each sub-sample exactly. For a footprint
+/// only the derivatives are known. They place a sub-sample in the tangent plane, and its distance there becomes one
+/// along a great circle ([`Footprint::direction_at`]). Sub-samples more than a quarter turn away do not count.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Reference {
-    /// Sub-samples along a pixel's side.
+    /// Number of sub-samples along a pixel's side.
     pub samples: usize,
-    /// The weights; their floor and their centring play no part.
+    /// Kernel that weighs the sub-samples; its floor and its centring have no effect.
     pub kernel: Kernel,
-    /// Whether the average is clamped, per channel, to what lies under the footprint.
+    /// Whether the average is clamped, per channel, to the sub-samples under the footprint.
     pub anti_ringing: bool,
 }
 
@@ -55,7 +56,7 @@ impl Prepared for PreparedReference<'_> {
     }
 }
 
-/// Fills a row of the target by brute force. Slow, obvious, the judge of the other filters.
+/// Fills a row of the target by brute force. It is slow and simple, and the judge of the other filters.
 pub(crate) fn fill_row(
     world: &World,
     target: &View,
@@ -72,7 +73,7 @@ pub(crate) fn fill_row(
     }
 }
 
-/// Gives every texel that a pixel's sub-samples look at to `visit`.
+/// Calls `visit` with every texel that a pixel's sub-samples read.
 pub(crate) fn for_each_texel(
     world: &World,
     target: &View,
@@ -88,7 +89,7 @@ pub(crate) fn for_each_texel(
     });
 }
 
-/// The square of a target's pixel, through the exact mapping and as far as the field stop lets it pass.
+/// Returns the square of sub-samples of a target's pixel, by the exact mapping and cut by the field stop.
 fn square_of_pixel<'a>(
     world: &'a World,
     target: &'a View,
@@ -103,12 +104,12 @@ fn square_of_pixel<'a>(
     KernelSquare::new(world, filter, target.footprint(centre).as_ref(), look_at)
 }
 
-/// The square of sub-samples that a kernel reaches around a pixel.
+/// Square of the sub-samples that a kernel reaches around a pixel.
 struct KernelSquare<'a, F> {
     world: &'a World,
     filter: &'a Reference,
     coarseness: f64,
-    /// The direction at an offset from the pixel's centre, in pixels.
+    /// Returns the direction at an offset from the pixel's centre, in pixels.
     look_at: F,
 }
 
@@ -119,7 +120,8 @@ impl<'a, F: Fn(f64, f64) -> Option<Direction>> KernelSquare<'a, F> {
         Self { world, filter, coarseness, look_at }
     }
 
-    /// `None` if no sub-sample is inside the field of view, as in a pixel of which the rim leaves a sliver.
+    /// Averages the sub-samples. `None` if none is inside the field of view, as in a pixel at the rim of which only a
+    /// sliver is left.
     fn average(&self, texels: &[Rgba]) -> Option<Rgba> {
         let (mut sum, mut weights, mut size) = ([0f64; 4], 0f64, 0f64);
         let (mut least, mut greatest) = ([f64::INFINITY; 4], [f64::NEG_INFINITY; 4]);
@@ -146,7 +148,8 @@ impl<'a, F: Fn(f64, f64) -> Option<Direction>> KernelSquare<'a, F> {
         })))
     }
 
-    /// Calls `visit` with the weight, the distance in the kernel's unit and the direction of each sub-sample that counts.
+    /// Calls `visit` with the weight, the distance in the kernel's unit and the direction of each sub-sample that
+    /// counts.
     fn for_each_sample(&self, mut visit: impl FnMut(f64, f64, Option<Direction>)) {
         let scale = self.filter.kernel.scale;
         let reach = (self.filter.kernel.radius() * scale * self.filter.samples as f64).ceil() as i64 + 1;
@@ -171,7 +174,7 @@ impl<'a, F: Fn(f64, f64) -> Option<Direction>> KernelSquare<'a, F> {
     }
 }
 
-/// The light in one direction, bilinear.
+/// Returns the light in one direction by bilinear interpolation.
 pub(crate) fn look(world: &World, direction: Direction, texels: &[Rgba]) -> Option<Rgba> {
     let (colour, found) = weighted_light(world, direction, texels);
     (found > 0.0).then(|| Rgba(colour.map(|c| (c / found) as f32)))
@@ -188,7 +191,7 @@ fn weighted_light(world: &World, direction: Direction, texels: &[Rgba]) -> ([f64
     (colour, found)
 }
 
-/// s = √|det J|, in the view that shows the pixel's centre.
+/// Computes s = √|det J| in the view that shows the pixel's centre.
 fn texels_per_pixel(world: &World, footprint: &Footprint) -> Option<f64> {
     let (index, _) = world.owner(footprint.direction)?;
     let source = &world.sources()[index];

@@ -1,24 +1,24 @@
 use super::{Bilinear, Ewa, EwaPyramid, Filter, Kernel, LabelRule, Labels, Point, Prepared, Reference, SetupCost};
 use crate::world::{Light, LightError, World};
 
-/// How the texels under a footprint become a pixel.
+/// Method that makes a pixel of the texels under a footprint.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum FilterKind {
     /// The elliptical weighted average.
     Ewa,
-    /// EWA on a pyramid of smaller copies of the world, each half as large as the one before: of few texels, however many a
-    /// pixel holds. Of the two levels that fit a pixel best, each gives its part (Heckbert 1989).
+    /// EWA on a pyramid of smaller copies of the world, each half as large as the one before. A pixel takes few texels,
+    /// however many it holds: the two levels that fit it best each give a part (Heckbert 1989).
     EwaPyramid,
-    /// The one texel that the pixel's centre sees: no filter at all.
+    /// The one texel that the pixel's centre sees, without filtering.
     Point,
-    /// The four texels around the pixel's centre.
+    /// Bilinear interpolation between the four texels around the pixel's centre.
     Bilinear,
     /// One texel's value, chosen by a rule and never mixed with others: for labels.
     Labels(LabelRule),
-    /// N×N sub-samples a pixel through the exact mapping: slow, the judge of the others. Each sub-sample interpolates
-    /// between texels, so that the kernel's floor and its centring have nothing to mend and play no part.
+    /// N×N sub-samples a pixel through the exact mapping: slow, and the judge of the other methods. Each sub-sample
+    /// interpolates between texels, so the kernel's floor and its centring are not needed and have no effect.
     Reference {
-        /// Sub-samples along a pixel's side.
+        /// Number of sub-samples along a pixel's side.
         samples: usize,
     },
 }
@@ -26,9 +26,9 @@ pub enum FilterKind {
 /// A filter chosen at run time, with its parameters.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FilterSettings {
-    /// The method.
+    /// Method of averaging.
     pub kind: FilterKind,
-    /// The weights, for the methods that have a choice.
+    /// Kernel that weighs the texels, for methods that have a choice.
     pub kernel: Kernel,
     /// Whether the average is clamped, per channel, to the texels under the pixel.
     pub anti_ringing: bool,
@@ -61,12 +61,12 @@ impl FilterKind {
 }
 
 impl FilterSettings {
-    /// EWA with the adaptive kernel and anti-ringing: what is used when nothing else is asked for.
+    /// EWA with the adaptive kernel and anti-ringing, which is used when nothing else is asked for.
     pub const DEFAULT: Self = Self { kind: FilterKind::Ewa, kernel: Kernel::ADAPTIVE, anti_ringing: true };
 }
 
 impl FilterSettings {
-    /// The filter that these settings name.
+    /// Returns the filter that these settings name.
     fn chosen(&self) -> Box<dyn Filter> {
         let Self { kind, kernel, anti_ringing } = *self;
         match kind {
@@ -93,7 +93,7 @@ impl FilterSettings {
         }
     }
 
-    /// The reference filter of so many sub-samples along a pixel's side, with this kernel.
+    /// Returns the reference filter with this number of sub-samples along a pixel's side, and with this kernel.
     pub(crate) fn reference(&self, samples: usize) -> Reference {
         Reference { samples, kernel: self.kernel, anti_ringing: self.anti_ringing }
     }

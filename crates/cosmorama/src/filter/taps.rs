@@ -3,16 +3,16 @@ use fearless_simd::{Level, Simd, dispatch, f32x4, prelude::*};
 use super::rim::rim_extrapolation::{Bounds, Rim, TexelLight};
 use crate::raster::Rgba;
 
-/// Texels that are added up in single precision before the sum goes on in double: a pixel of thousands of texels must not lose
-/// digits, and a common one pays nothing.
+/// Number of texels that are added in single precision before the sum goes on in double. A pixel of thousands of texels
+/// loses no digits, and a common one pays nothing.
 pub(crate) const BLOCK: usize = 32;
 
-/// One texel's part in an output pixel.
+/// Part of one texel in an output pixel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Tap {
     /// Index of the texel in the world's buffer.
     pub(crate) texel: u32,
-    /// Its weight.
+    /// Weight of the texel.
     pub(crate) weight: f32,
 }
 
@@ -20,20 +20,21 @@ pub(crate) struct Tap {
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Taps {
     taps: Vec<Tap>,
-    /// How many lie under the pixel: the first ones.
+    /// Number of taps under the pixel, which are the first ones.
     under: usize,
     /// Offsets from the pixel's centre, in screen pixels; filled only if every tap lies to one side of it.
     places: Vec<[f32; 2]>,
 }
 
-/// All the texels of an output pixel with their weights, wherever they are kept.
+/// All the texels of an output pixel with their weights, borrowed from where they are kept.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct TapList<'a> {
     /// All taps, those under the pixel first.
     pub(crate) taps: &'a [Tap],
-    /// How many lie under the pixel: anti-ringing holds their average to what these hold.
+    /// Number of taps under the pixel; anti-ringing clamps the average to them.
     pub(crate) under: usize,
-    /// Where each lies, if all lie to one side of the pixel's centre: a slope goes on beyond them. Else none.
+    /// Place of each tap if all lie to one side of the pixel's centre, where a slope is continued beyond them; else
+    /// empty.
     pub(crate) places: &'a [[f32; 2]],
 }
 
@@ -45,17 +46,17 @@ impl Taps {
         self.places.clear();
     }
 
-    /// All taps, those under the pixel first.
+    /// Returns all taps, those under the pixel first.
     pub(crate) fn as_slice(&self) -> &[Tap] {
         &self.taps
     }
 
-    /// All that is known of them.
+    /// Returns the taps with all that is known of them.
     pub(crate) fn list(&self) -> TapList<'_> {
         TapList { taps: &self.taps, under: self.under, places: &self.places }
     }
 
-    /// Whether there is no tap.
+    /// Returns whether there is no tap.
     pub(crate) fn is_empty(&self) -> bool {
         self.taps.is_empty()
     }
@@ -66,7 +67,7 @@ impl Taps {
         self.under = self.taps.len();
     }
 
-    /// Takes `count` taps, each with whether it is one of the `under` that lie under the pixel.
+    /// Replaces the taps by `count` others, each with whether it is one of the `under` that lie under the pixel.
     pub(crate) fn fill(&mut self, taps: impl Iterator<Item = (bool, Tap)>, count: usize, under: usize) {
         self.clear();
         self.taps.resize(count, Tap { texel: 0, weight: 0.0 });
@@ -81,7 +82,7 @@ impl Taps {
         }
     }
 
-    /// All of them lie to one side of the pixel's centre: where, in their order.
+    /// Sets the places of all taps, in their order, where all lie to one side of the pixel's centre.
     pub(crate) fn set_places(&mut self, places: impl Iterator<Item = [f32; 2]>) {
         self.places.clear();
         self.places.extend(places);
@@ -96,7 +97,8 @@ impl Taps {
     }
 }
 
-/// The weighted average of taps; with `anti_ringing` held to what those under the pixel hold. `light` is that of a texel.
+/// Averages taps by their weights; `light` returns the light of a texel. With `anti_ringing` the average is clamped to
+/// the taps under the pixel.
 pub(crate) fn average(list: TapList, light: impl Fn(u32) -> Rgba, anti_ringing: bool) -> Rgba {
     let mut sum = [0f64; 4];
     let mut bounds = Bounds { least: [f32::INFINITY; 4], greatest: [f32::NEG_INFINITY; 4] };
@@ -129,7 +131,7 @@ fn add(sum: &mut [f64; 4], taps: &[Tap], mut light: impl FnMut(u32) -> Rgba) {
     }
 }
 
-/// The light of taps, in their order.
+/// Light of taps, in their order.
 struct TapLight<'a, F> {
     taps: &'a [Tap],
     light: F,

@@ -1,7 +1,7 @@
 use crate::raster::Rgba;
 use crate::world::World;
 
-/// What the light of a world amounts to.
+/// Figures of the light of a world.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LightFigures {
     /// Mean radiance over the whole sphere, by colour. What the world does not show is dark.

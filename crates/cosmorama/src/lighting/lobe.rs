@@ -43,7 +43,7 @@ impl Lobe {
     /// Lambert's cosine, of a matt surface (Greene 1986, section 5; Miller & Hoffman 1984): cos θ.
     pub const LAMBERT: Self = Self { shape: Shape::Lambert, integral: PI };
 
-    /// Phong's lobe about the mirror direction (Phong 1975): cosⁿ θ.
+    /// Returns Phong's lobe about the mirror direction (Phong 1975): cosⁿ θ.
     ///
     /// # Errors
     /// When the exponent is outside 0 to [`SHARPEST`].
@@ -52,7 +52,7 @@ impl Lobe {
         Ok(Self { shape: Shape::Phong { exponent }, integral: 2.0 * PI / (exponent + 1.0) })
     }
 
-    /// Blinn's lobe (Blinn 1977): cosⁿ(θ/2) · cos θ.
+    /// Returns Blinn's lobe (Blinn 1977): cosⁿ(θ/2) · cos θ.
     ///
     /// # Errors
     /// When the exponent is outside 0 to [`SHARPEST`].
@@ -65,8 +65,8 @@ impl Lobe {
         Ok(Self { shape: Shape::Blinn { exponent }, integral })
     }
 
-    /// The GGX lobe (Walter et al. 2007) as prefiltered maps use it (Karis 2013): D(h) · (n·l). α is the square of what most
-    /// programs call roughness.
+    /// Returns the GGX lobe (Walter et al. 2007) as prefiltered maps use it (Karis 2013): D(h) · (n·l). α is the square
+    /// of what most programs call roughness.
     ///
     /// With α = 1 it is Lambert's.
     ///
@@ -88,7 +88,7 @@ impl Lobe {
         Ok(Self { shape: Shape::Ggx { alpha }, integral: 2.0 * PI * part / (a * a) })
     }
 
-    /// The lobe of cloth (Estevez & Kulla 2017): sin^(1/α)(θ/2) · cos θ.
+    /// Returns the lobe of cloth (Estevez & Kulla 2017): sin^(1/α)(θ/2) · cos θ.
     ///
     /// # Errors
     /// When α is outside [`SMOOTHEST`] to 1.
@@ -133,7 +133,7 @@ pub(crate) trait Weight: Copy + Send + Sync {
     fn kink(self) -> f32;
 }
 
-/// What is done with a lobe's formula.
+/// Receiver of a lobe's formula.
 pub(crate) trait VisitWeight {
     type Output;
 

@@ -66,7 +66,7 @@ pub(crate) fn bent_cameras() -> impl Iterator<Item = Calibrated<BrownConrady>> {
     })
 }
 
-/// Example of a fisheye with skewed rows.
+/// Returns an example of a fisheye with skewed rows.
 pub(crate) fn skewed_fisheye() -> Calibrated<Azimuthal<FisheyeLens>> {
     Calibrated::new(Azimuthal(FisheyeLens::EQUISOLID), -0.02, Angle::from_degrees(95.0))
 }

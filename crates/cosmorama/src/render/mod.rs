@@ -1,4 +1,4 @@
-//! Whole pictures: how a filter is applied to every pixel of a target, fast.
+//! Whole pictures: fast application of a filter to every pixel of a target.
 
 pub(crate) mod apply;
 pub(crate) mod batch;

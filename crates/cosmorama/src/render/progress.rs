@@ -1,4 +1,4 @@
-//! How far long work is, and whether it is to go on.
+//! Progress of long work, and whether it is to go on.
 
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -8,10 +8,11 @@ use thiserror::Error;
 
 /// Receiver of reports on long work, which may stop it. Closures are receivers.
 pub trait Progress: Sync {
-    /// Called after each part of the work with the fraction that is done.
+    /// Receives the fraction of the work that is done, after each part.
     ///
-    /// Fractions never fall, and the last is 1. Calls come from the threads that work, one at a time. They must return soon, and
-    /// start no parallel work. After `Break` there is no further call, no further part is begun, and the work returns [`Stopped`].
+    /// Fractions never fall, and the last is 1. Calls come from the threads that work, one at a time. They must return
+    /// soon, and start no parallel work. After `Break` there is no further call, no further part is begun, and the work
+    /// returns [`Stopped`].
     fn advance(&self, fraction: f64) -> ControlFlow<()>;
 }
 
@@ -47,7 +48,7 @@ fn between(from: f64, to: f64, fraction: f64) -> f64 {
     from * (1.0 - fraction) + to * fraction
 }
 
-/// Who watches work, if anybody, and which stretch of the whole it is.
+/// Receiver of the progress of work, if anybody watches it, and the work's stretch of the whole.
 #[derive(Clone, Copy)]
 pub(crate) struct Watch<'a> {
     watcher: Option<(&'a dyn Progress, &'a AtomicBool)>,
@@ -66,18 +67,18 @@ impl<'a> Watch<'a> {
         if stopped.into_inner() || progress.advance(1.0).is_break() { Err(Stopped) } else { Ok(made) }
     }
 
-    /// One of `of` tasks of this work, each as long as the others.
+    /// Returns one of `of` tasks of this work, all of which take equally long.
     pub(crate) fn task(self, index: usize, of: usize) -> Self {
         let at = |tasks: usize| between(self.from, self.to, tasks as f64 / of as f64);
         Self { from: at(index), to: at(index + 1), ..self }
     }
 
-    /// The parts of this work, which may be done on several threads.
+    /// Returns the parts of this work, which may be done on several threads.
     pub(crate) fn parts(self, of: usize) -> Parts<'a> {
         Parts { watch: self, of, done: Mutex::new(0) }
     }
 
-    /// Whether the work is to end.
+    /// Returns whether the work is to end.
     pub(crate) fn is_stopped(self) -> bool {
         self.watcher.is_some_and(|(_, stopped)| stopped.load(Ordering::Relaxed))
     }
@@ -91,7 +92,7 @@ pub(crate) struct Parts<'a> {
 }
 
 impl Parts<'_> {
-    /// Does a part and tells of it; `None` if the work is stopped.
+    /// Does a part and reports it; `None` if the work is stopped.
     pub(crate) fn part<T>(&self, work: impl FnOnce() -> T) -> Option<T> {
         if self.watch.is_stopped() {
             return None;

@@ -5,11 +5,11 @@ use crate::world::World;
 /// A conversion from a world to a target view.
 #[derive(Clone, Copy, Debug)]
 pub struct Resampler<'a> {
-    /// Where light comes from.
+    /// World to average.
     pub world: &'a World,
-    /// Where it goes.
+    /// View to fill.
     pub target: &'a View,
-    /// How.
+    /// Filter to average by.
     pub filter: FilterSettings,
 }
 

@@ -4,7 +4,7 @@ use crate::raster::{FixedCodec, FixedLight, Image, Rgba};
 
 /// A [`Resampler`] whose work is watched, and may be stopped.
 ///
-/// Its methods are those of the resampler, and make the same pixels.
+/// Its methods make the same pixels as the resampler's.
 ///
 /// ```
 /// use std::ops::ControlFlow;
@@ -22,9 +22,9 @@ use crate::raster::{FixedCodec, FixedLight, Image, Rgba};
 /// ```
 #[derive(Clone, Copy)]
 pub struct Watched<'a> {
-    /// What is done.
+    /// Conversion to do.
     pub resampler: Resampler<'a>,
-    /// Who watches.
+    /// Receiver of its progress.
     pub progress: &'a dyn Progress,
 }
 
@@ -36,7 +36,7 @@ impl<'a> Resampler<'a> {
 }
 
 impl Watched<'_> {
-    /// Renders one frame, as [`Resampler::render`].
+    /// Renders one frame, like [`Resampler::render`].
     ///
     /// # Errors
     /// If the work is stopped.
@@ -47,7 +47,7 @@ impl Watched<'_> {
         self.render_over(texels, Rgba::TRANSPARENT)
     }
 
-    /// Renders over a background, as [`Resampler::render_over`].
+    /// Renders over a background, like [`Resampler::render_over`].
     ///
     /// # Errors
     /// If the work is stopped.
@@ -58,7 +58,7 @@ impl Watched<'_> {
         Watch::over(self.progress, |watch| self.resampler.light(texels, background, watch))
     }
 
-    /// Renders one frame of 8 bits, as [`Resampler::render_fixed`].
+    /// Renders one frame of 8 bits, like [`Resampler::render_fixed`].
     ///
     /// # Errors
     /// If the work is stopped.
@@ -69,7 +69,7 @@ impl Watched<'_> {
         Watch::over(self.progress, |watch| self.resampler.codes(light, codec, watch))
     }
 
-    /// Compiles the geometry, as [`Resampler::plan`].
+    /// Compiles the geometry, like [`Resampler::plan`].
     ///
     /// # Errors
     /// If the work is stopped.

@@ -1,4 +1,4 @@
-//! Whole pictures, and the plans that make many of them: the methods of a [`Resampler`].
+//! Whole pictures, and the plans that make many of them: methods of [`Resampler`].
 
 use rayon::prelude::*;
 
@@ -13,11 +13,12 @@ use crate::filter::{FilterKind, Labels, reference};
 use crate::raster::{FixedCodec, FixedLight, Image, Rgba};
 
 impl Resampler<'_> {
-    /// Renders one frame, computed without storing the geometry. `texels` is the world's buffer of light.
+    /// Renders one frame without storing the geometry. `texels` is the world's buffer of light.
     ///
     /// A [`Plan`] makes the same pixels.
     ///
-    /// Pixels are premultiplied by their coverage: transparent outside the lens. A pixel just beyond the world's last texel
+    /// Pixels are premultiplied by their coverage: transparent outside the lens. A pixel just beyond the world's last
+    /// texel takes what its kernel still reaches. [`super::ScreenMask`] tells which pixels see nothing.
     /// takes what its kernel still reaches; [`super::ScreenMask`] tells which pixels see nothing.
     ///
     /// # Panics
@@ -34,7 +35,7 @@ impl Resampler<'_> {
         self.light(texels, background, Watch::NONE)
     }
 
-    /// A picture of light over a background; its pixels are made as far as the work is not stopped.
+    /// Makes a picture of light over a background; its pixels are made until the work is stopped.
     pub(super) fn light(&self, texels: &[Rgba], background: Rgba, watch: Watch) -> Image<Rgba> {
         assert_eq!(texels.len(), self.world.texel_count(), "one texel of light for each texel of the world");
         let mut image = match self.filter.kind {
@@ -56,8 +57,8 @@ impl Resampler<'_> {
         image
     }
 
-    /// Renders one frame of 8 bits, opaque, of light that has 15: the code values of each pixel, within one of those of
-    /// [`Resampler::render`].
+    /// Renders one opaque frame of 8 bits from light of 15 bits. The code values of each pixel differ by at most one
+    /// from those of [`Resampler::render`].
     ///
     /// # Panics
     /// If `light` is not that of the world's texels.
@@ -65,7 +66,7 @@ impl Resampler<'_> {
         self.codes(light, codec, Watch::NONE)
     }
 
-    /// Code values of a picture, made as far as the work is not stopped.
+    /// Makes the code values of a picture, until the work is stopped.
     pub(super) fn codes(&self, light: &FixedLight, codec: &FixedCodec, watch: Watch) -> Image<[u8; 3]> {
         assert!(light.sizes().eq(self.world.view_sizes()), "light of the world's views");
         if !Arithmetic::Fixed.has_plan_of(self.filter.kind) {
@@ -75,8 +76,8 @@ impl Resampler<'_> {
         plan::render((self, None), FixedArithmetic { light, codec }, Level::new(), watch)
     }
 
-    /// Compiles the geometry, for any number of frames; `None` for the reference filter, which has too many samples to store, and in
-    /// integers for that of pyramids.
+    /// Compiles the geometry for any number of frames. Returns `None` for `reference`, and for `ewa-pyramid` in
+    /// integers.
     pub fn plan(&self, arithmetic: Arithmetic) -> Option<Plan> {
         Plan::new(self, arithmetic, Watch::NONE)
     }
@@ -92,13 +93,14 @@ impl Resampler<'_> {
         image
     }
 
-    /// Estimates how many bytes [`Resampler::plan`] would hold, from a part of the rows, keeping nothing; 0 where there is no plan.
+    /// Estimates the number of bytes that [`Resampler::plan`] would hold, from some of the rows and without keeping
+    /// anything. It is 0 where there is no plan.
     pub fn plan_bytes_estimate(&self, arithmetic: Arithmetic) -> usize {
         plan::bytes_estimate(self, arithmetic)
     }
 
-    /// Returns the most bytes that the levels of a pyramid take while a frame is made of them; zero for other filters, and where the
-    /// world's own texels are large enough.
+    /// Returns the greatest number of bytes that the levels of a pyramid take while a frame is made. It is 0 for other
+    /// filters, and where the world's own texels are large enough.
     pub fn level_bytes(&self) -> usize {
         if self.filter.kind == FilterKind::EwaPyramid { pyramid::bytes(self) } else { 0 }
     }

@@ -86,8 +86,8 @@ fn finest<'a>(one: &Presence, all: impl Iterator<Item = &'a Presence>) -> f64 {
     f64::from(u8::from(one.solid_angle <= least * AS_FINE))
 }
 
-/// Smooth step from 0 to 1 without a kink at either end. For two views that overlap by their feather the weights add to
-/// one.
+/// Returns a smooth step from 0 to 1 without a kink at either end. For two views that overlap by their feather the
+/// weights add to one.
 fn smooth(t: f64) -> f64 {
     let t = t.clamp(0.0, 1.0);
     t * t * (3.0 - 2.0 * t)

@@ -236,7 +236,7 @@ mod tests {
         }
     }
 
-    /// No single texel of grass and leaves decides the question, but all together do.
+    /// Tests grass and leaves, of which no single texel decides the question, but all together do.
     #[test]
     fn rough_pictures_are_told_by_the_whole_rim() {
         let noise = |k: usize| 0.02 + (k as u32).wrapping_mul(2_654_435_761) as f32 / u32::MAX as f32;

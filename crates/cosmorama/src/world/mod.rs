@@ -24,7 +24,7 @@ pub use st_pixels::{ST_NOWHERE, StPixel};
 pub(crate) use world::TexelPlace;
 pub use world::{Source, World, WorldError, WorldView};
 
-/// An upright panorama of the whole sphere, for tests.
+/// Returns an upright panorama of the whole sphere, for tests.
 #[cfg(test)]
 pub(crate) fn panorama(width: usize, height: usize) -> crate::camera::View {
     use crate::camera::{FieldStop, PixelGrid, View};

@@ -31,7 +31,7 @@ impl Part for Balloon {
     }
 }
 
-/// Red and cream gores, with a blue band and gilt edges round the middle.
+/// Paints red and cream gores, with a blue band and gilt edges round the middle.
 fn cloth(normal: DVec3) -> Surface {
     let band = (normal.y + 0.12).abs();
     if band < 0.13 {

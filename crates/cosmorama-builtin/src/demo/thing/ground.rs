@@ -69,7 +69,7 @@ fn is_even(point: DVec2) -> bool {
 /// Radius of the compass rose.
 const ROSE: f64 = 1.55;
 
-/// A star of eight points, each half light and half dark, in brass rings.
+/// Paints a star of eight points, each half light and half dark, in brass rings.
 fn rose(point: DVec2, radius: f64) -> DVec3 {
     if radius > ROSE - 0.06 || (radius - 0.55).abs() < 0.012 || (radius - 1.30).abs() < 0.008 {
         return BRASS;

@@ -20,7 +20,7 @@ impl LobeName {
         ("charlie", "cloth; --alpha is its roughness"),
     ];
 
-    /// Returns the lobe of a roughness α, which those with an exponent do not have.
+    /// Returns the lobe with a roughness α, which lobes with an exponent do not have.
     pub(crate) fn lobe(self, alpha: Option<f64>) -> Result<Lobe, String> {
         let rough =
             || alpha.ok_or("--alpha is missing: give the roughness α, 0.001 to 1, as in --alpha 0.25".to_owned());

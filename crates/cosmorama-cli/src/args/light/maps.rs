@@ -13,7 +13,7 @@ use crate::args::parse::listed;
 use crate::args::parse::number::degrees;
 use crate::args::{ProgressStyle, with_examples};
 
-/// Commands that the help of `light diffuse` shows.
+/// Example commands in the help of `light diffuse`.
 pub(super) const DIFFUSE_EXAMPLES: [&str; 4] = [
     "cosmorama light diffuse sky.hdr light.exr",
     "cosmorama light diffuse sky.exr 'light/{face}.exr' --size 32",
@@ -21,7 +21,7 @@ pub(super) const DIFFUSE_EXAMPLES: [&str; 4] = [
     "cosmorama light diffuse dome.exr light.exr --from fulldome --missing black",
 ];
 
-/// Commands that the help of `light specular` shows.
+/// Example commands in the help of `light specular`.
 pub(super) const SPECULAR_EXAMPLES: [&str; 3] = [
     "cosmorama light specular sky.exr rough.exr --alpha 0.25 --size 256",
     "cosmorama light specular sky.exr 'rough/{face}.exr' --alpha 0.5",
@@ -72,7 +72,7 @@ pub(crate) enum Unit {
     Radiance,
 }
 
-/// A map of light: from which world to which files.
+/// World and files of a map of light, and the options that both kinds of map share.
 #[derive(Clone, Debug, Args)]
 pub(crate) struct MapArgs {
     /// An image or a pattern, as convert takes it; - is standard input

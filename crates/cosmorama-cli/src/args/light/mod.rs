@@ -11,7 +11,7 @@ use super::with_examples;
 pub(crate) use harmonics::{HarmonicsArgs, Kind};
 pub(crate) use maps::{DiffuseArgs, MapArgs, SpecularArgs, Unit};
 
-/// Commands that its help shows.
+/// Example commands in its help.
 pub(super) const EXAMPLES: [&str; 5] = [
     "cosmorama light diffuse sky.hdr light.exr",
     "cosmorama light diffuse 'faces/{face}.exr' light.exr --to mercator",
@@ -25,12 +25,12 @@ pub(super) const EXAMPLES: [&str; 5] = [
 #[command(help_template = with_examples(&EXAMPLES), arg_required_else_help = true)]
 #[command(after_help = "'cosmorama light diffuse -h' lists the options of a map; docs/light.md has the conventions")]
 pub(crate) struct LightArgs {
-    /// What to make.
+    /// Kind of map to make.
     #[command(subcommand)]
     pub(crate) verb: LightVerb,
 }
 
-/// What can be made of a world's light.
+/// Kinds of maps of a world's light.
 #[derive(Debug, Subcommand)]
 pub(crate) enum LightVerb {
     /// Make a map of the light that falls on a matt surface, by the direction that it faces
@@ -41,7 +41,7 @@ pub(crate) enum LightVerb {
     Harmonics(Box<HarmonicsArgs>),
 }
 
-/// Commands that the help of a verb of `light` shows.
+/// Returns the example commands of a verb of `light`.
 pub(crate) fn examples(verb: &str) -> &'static [&'static str] {
     match verb {
         "diffuse" => &maps::DIFFUSE_EXAMPLES,

@@ -4,7 +4,8 @@ use clap::builder::{PossibleValue, TypedValueParser};
 use clap::{Arg, Command, Error};
 use cosmorama_spec::CompressionLevel;
 
-/// Reads a level, and says of others what there is and what for: clap would take `nonsense` for `none`.
+/// Parser of a compression level, whose error lists all levels and the formats that have them. Clap would take
+/// `nonsense` for `none`.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct CompressionParser;
 

@@ -10,7 +10,7 @@ use cosmorama_spec::{FilterName, KernelName, PrimariesName, Spec, SpecKind, Tran
 
 /// Parser of a value that begins with one of some names, which completions offer.
 ///
-/// Other values are read, too: names of other programs, and keys behind a name.
+/// It also reads other values, such as names of other programs and keys behind a name.
 #[derive(Clone, Debug)]
 pub(crate) struct Listed<T> {
     names: Vec<(&'static str, &'static str)>,

@@ -1,22 +1,22 @@
 use cosmorama_spec::parse_degrees;
 
-/// An angle in degrees, as `--yaw` takes it.
+/// Parses an angle in degrees, as `--yaw` takes it.
 pub(crate) fn degrees(text: &str) -> Result<f64, String> {
     parse_degrees(text).map(|angle| angle.degrees()).ok_or_else(|| "expected an angle in degrees".to_owned())
 }
 
-/// A factor: a number more than zero that single precision holds.
+/// Parses a factor: a number more than zero that single precision holds.
 pub(crate) fn factor(text: &str) -> Result<f32, String> {
     let is_factor = |number: &f32| number.is_finite() && *number > 0.0;
     text.parse().ok().filter(is_factor).ok_or_else(|| "expected a number more than 0".to_owned())
 }
 
-/// A distance: a number not less than zero.
+/// Parses a distance: a number not less than zero.
 pub(crate) fn distance(text: &str) -> Result<f64, String> {
     finite(text).ok().filter(|number| *number >= 0.0).ok_or_else(|| "expected a number not less than 0".to_owned())
 }
 
-/// A number of decibels or whatever the option says; neither infinity nor "not a number".
+/// Parses a number, such as decibels; neither infinity nor "not a number".
 pub(crate) fn finite(text: &str) -> Result<f64, String> {
     text.parse().ok().filter(|number: &f64| number.is_finite()).ok_or_else(|| "expected a number".to_owned())
 }

@@ -56,7 +56,7 @@ pub(crate) fn light_of_unseen(job: &ConvertJob, is_complete: bool) -> Result<Rgb
     Ok(unseen.unwrap_or(Rgba::TRANSPARENT))
 }
 
-/// What went into a map of light, and what came out.
+/// Light that went into a map, and light that came out.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LightReport {
     /// Frame; `None` for a still.

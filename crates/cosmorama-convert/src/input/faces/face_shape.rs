@@ -174,7 +174,7 @@ fn taken_as_whole(picture: &FacePicture, expected: &str) -> Diagnostic {
 mod tests {
     use super::*;
 
-    /// The error or the warnings of faces of these sizes.
+    /// Returns the error or the warnings of faces of these sizes.
     fn judge(sizes: &[(usize, usize)], declared: &[CubeFace]) -> Result<Vec<String>, String> {
         let picture = |(face, &(width, height)): (CubeFace, &(usize, usize))| FacePicture {
             face,

@@ -114,7 +114,7 @@ mod tests {
 
     use super::*;
 
-    /// What is said of faces that have these frames, of which two are asked for.
+    /// Returns the messages about faces that have these frames, of which two are asked for.
     fn said(faces: &[(&str, &[u64])]) -> String {
         let folder = tempfile::tempdir().expect("a folder");
         let pattern = folder.path().join("{face}_##.png").display().to_string();

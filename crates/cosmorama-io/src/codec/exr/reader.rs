@@ -200,7 +200,7 @@ fn announce(path: &Path, parts: &[Part], wanted: Wanted) -> Result<(Header, Sele
     Ok((header, selection, crop))
 }
 
-/// The names of parts, as far as they have any.
+/// Returns the names of parts, as far as they have any.
 fn named(parts: &[Part]) -> String {
     let names: Vec<String> =
         parts.iter().filter_map(|part| Some(part.own_attributes.layer_name.as_ref()?.to_string())).collect();

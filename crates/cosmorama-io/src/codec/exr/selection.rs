@@ -9,7 +9,7 @@ pub(super) struct Selection {
     pub(super) part: usize,
     pub(super) channels: Channels,
     pub(super) depth: Depth,
-    /// How many parts hold such a picture, this one among them.
+    /// Number of parts that hold such a picture, including this one.
     pub(super) alike: usize,
     /// Names of all other channels.
     pub(super) others: Vec<String>,

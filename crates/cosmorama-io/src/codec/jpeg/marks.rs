@@ -32,7 +32,7 @@ pub(super) fn count_alike(bytes: &[u8]) -> usize {
     count
 }
 
-/// Height and width as the frame's segment has them.
+/// Returns height and width as the frame's segment has them.
 fn size(bytes: &[u8]) -> Option<&[u8]> {
     let is_frame = |mark: u8| (0xc0..=0xcf).contains(&mark) && ![0xc4, 0xc8, 0xcc].contains(&mark);
     let (_, segment) = Marks { bytes, at: 0 }.find(|(mark, _)| is_frame(*mark))?;
@@ -93,7 +93,7 @@ pub(super) fn listed(source: &mut (impl BufRead + Seek + ?Sized)) -> io::Result<
     }
 }
 
-/// The number of pictures in the list, which is written as a TIFF file is.
+/// Returns the number of pictures in the list, which is written as a TIFF file is.
 fn number_of_images(list: &[u8]) -> Option<u32> {
     let is_little = list.starts_with(b"II");
     let bytes = |at: usize, count: usize| -> Option<u32> {

@@ -109,7 +109,7 @@ fn whole(path: &Path, source: Source<'_>) -> Result<Vec<u8>, IoError> {
     Ok(bytes)
 }
 
-/// What is to be known of pictures that a file lists beside its own.
+/// Describes the pictures that a file lists beside its own.
 fn unread(listed: u32) -> Option<String> {
     let what = match listed {
         0 => return None,

@@ -85,7 +85,7 @@ fn count_behind(source: Source<'_>) -> std::io::Result<usize> {
     Ok(count)
 }
 
-/// Whether another picture begins behind padding of zeros. Goes on to its first chunk.
+/// Returns whether another picture begins behind padding of zeros. Moves to its first chunk.
 fn next_picture(source: Source<'_>) -> std::io::Result<bool> {
     skip_padding(source)?;
     Ok(next_bytes(source, MARK.len())? == MARK)

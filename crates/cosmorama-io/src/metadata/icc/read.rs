@@ -15,7 +15,7 @@ const ENTRIES: usize = 4096;
 /// step, because tables in profiles are rounded.
 const TOLERANCE: f64 = 0.25 / 255.0;
 
-/// What a profile says of colour.
+/// Colour of an ICC profile.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Profile {
     pub(crate) transfer: Option<Transfer>,

@@ -75,7 +75,7 @@ mod tests {
     use super::*;
     use crate::sphere::Direction;
 
-    /// Angle in degrees between what two points of the image see.
+    /// Returns the angle in degrees between what two points of the image see.
     fn angle(view: &View, a: (f64, f64), b: (f64, f64)) -> f64 {
         let direction = |(x, y)| -> Direction { view.direction(PixelPoint::new(x, y)).unwrap() };
         direction(a).angle_to(direction(b)).degrees()

@@ -48,7 +48,7 @@ impl Camera for CalibratedCamera {
         Ok(View { projection, orientation, grid, stop })
     }
 
-    /// Height over width of the calibrated image.
+    /// Returns height over width of the calibrated image.
     fn natural_ratio(&self) -> f64 {
         self.size
             .filter(|(width, height)| width.min(height) > &0)

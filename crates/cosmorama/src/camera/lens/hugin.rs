@@ -89,12 +89,12 @@ impl Camera for HuginCamera {
         Ok(View { projection, orientation: Orientation::IDENTITY, grid, stop: FieldStop::NONE })
     }
 
-    /// Height over width of most cameras' pictures.
+    /// Returns height over width of most cameras' pictures.
     fn natural_ratio(&self) -> f64 {
         0.75
     }
 
-    /// d and e are in pixels.
+    /// Returns true: d and e are in pixels.
     fn is_measured_in_pixels(&self) -> bool {
         self.shift != [0.0; 2]
     }

@@ -1,4 +1,4 @@
-//! Texels under a kernel, eight of a row at once: weighed, centred and averaged without a list of taps.
+//! Texels under a kernel, eight of a row at once: weighted, centred and averaged without a list of taps.
 
 use arrayvec::ArrayVec;
 use fearless_simd::{Simd, f32x4, f32x8, prelude::*};
@@ -11,41 +11,41 @@ use crate::filter::kernel::UNDER;
 use crate::filter::rim::clamp_set::Wedge;
 use crate::raster::Rgba;
 
-/// A kernel of two cubics, and what is made of its weights.
+/// A kernel of two cubics, and how its weights are used.
 pub(crate) struct LaneKernel {
     pub(crate) kernel: Kernel,
     pub(crate) cubics: Cubics,
-    /// Whether averages are held to what the texels under the footprint have.
+    /// Whether averages are clamped to the texels under the footprint.
     pub(crate) anti_ringing: bool,
 }
 
-/// Texels in a block.
+/// Number of texels in a block.
 pub(crate) const LANES: usize = 8;
 
-/// Blocks that are had room for.
+/// Greatest number of blocks that fit.
 const MOST: usize = 512;
 
-/// Texels beside each other, eight at most.
+/// Up to eight neighbouring texels of a row.
 struct Block {
-    /// Index of the first one in the light, and how many there are.
+    /// Index of the first texel in the light, and the number of texels.
     first: usize,
     count: usize,
-    /// Which of them are under the footprint, a bit for each: they follow one another.
+    /// Bits of the texels that are under the footprint; these are contiguous.
     under: u64,
-    /// The kernel's weight times the solid angle; zero in lanes without a texel.
+    /// Kernel's weight times the solid angle; zero in lanes without a texel.
     weight: [f32; LANES],
-    /// How much of a correction each may take: positive, falling to nothing at the kernel's edge.
+    /// Share of a correction that each texel may take: positive, and falling to zero at the kernel's edge.
     window: [f32; LANES],
     /// Offsets from the footprint's middle, in any linear unit.
     x: [f32; LANES],
     y: [f32; LANES],
 }
 
-/// The texels under a kernel.
+/// Texels under a kernel, in blocks.
 #[derive(Default)]
 pub(crate) struct Blocks(ArrayVec<Block, MOST>);
 
-/// What is known of the texels of a block, in lanes.
+/// Weights and places of the texels of a block, in lanes.
 pub(crate) struct Weighed<S: Simd> {
     /// Square of the distance from the footprint's middle, in the kernel's unit.
     pub(crate) q: f32x8<S>,
@@ -57,14 +57,14 @@ pub(crate) struct Weighed<S: Simd> {
     pub(crate) offset: [f32x8<S>; 2],
 }
 
-/// Numbers 0 to 7 in lanes.
+/// Returns the numbers 0 to 7 in lanes.
 #[inline(always)]
 pub(crate) fn count_up<S: Simd>(simd: S) -> f32x8<S> {
     f32x8::simd_from(simd, [0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0])
 }
 
 impl Blocks {
-    /// Adds the first `count` texels of a block; `inverse` is one over the kernel's radius². `None` where there is no room.
+    /// Adds the first `count` texels of a block; `inverse` is 1 over the kernel's radius². `None` if they do not fit.
     #[inline(always)]
     pub(crate) fn push<S: Simd>(
         &mut self,
@@ -82,7 +82,7 @@ impl Blocks {
         self.0.try_push(Block { first, count, under, weight, window, x: x.to_array(), y: y.to_array() }).ok()
     }
 
-    /// Whether texels under the footprint lie all around its middle.
+    /// Returns whether texels under the footprint lie all around its middle.
     pub(crate) fn surround(&self) -> bool {
         let mut wedge = Wedge::default();
         let under = |block: &Block| {
@@ -94,8 +94,8 @@ impl Blocks {
         self.0.iter().any(|block| under(block).any(|lane| wedge.closes_with([block.x[lane], block.y[lane]])))
     }
 
-    /// The average of the texels' light; with `centred` their centroid is the footprint's middle, with `anti_ringing` it is held to
-    /// what those under the footprint have.
+    /// Averages the texels' light. With `centred`, the centroid of the weights is the footprint's middle. With
+    /// `anti_ringing`, the average is clamped to the texels under the footprint.
     #[inline(always)]
     pub(crate) fn average<S: Simd>(&self, simd: S, light: &[Rgba], centred: bool, anti_ringing: bool) -> Rgba {
         let Correction { scale, gradient, constant } = self.correction(simd, centred);
@@ -121,7 +121,8 @@ impl Blocks {
         Rgba(held.to_array())
     }
 
-    /// What makes the weights' sum one, and with `centred` their centroid the middle (see [`crate::filter::gather::tap_weights`]).
+    /// Computes the correction that makes the weights' sum one. With `centred` it also makes their centroid the middle
+    /// (see [`crate::filter::gather::tap_weights`]).
     #[inline(always)]
     fn correction<S: Simd>(&self, simd: S, centred: bool) -> Correction {
         let mut sums = [f32x8::splat(simd, 0.0); 9];
@@ -156,7 +157,7 @@ impl Blocks {
 }
 
 impl Block {
-    /// Its weights, windows and offsets.
+    /// Returns the weights, windows and offsets.
     #[inline(always)]
     fn lanes<S: Simd>(&self, simd: S) -> [f32x8<S>; 4] {
         [
@@ -168,7 +169,7 @@ impl Block {
     }
 }
 
-/// What becomes of the weights: w·scale + v·(g·p + constant).
+/// Correction of the weights: w·scale + v·(g·p + constant).
 struct Correction {
     scale: f32,
     gradient: [f32; 2],

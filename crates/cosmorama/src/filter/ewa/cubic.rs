@@ -3,15 +3,15 @@ use fearless_simd::{Simd, prelude::*};
 use super::lanes::Lanes;
 use crate::filter::{CrossSection, Kernel};
 
-/// The two cross-sections of a kernel where both are cubics of Mitchell & Netravali (1988), as polynomials: what lanes can
-/// evaluate without a table.
+/// Both cross-sections of a kernel as polynomials, which lanes can evaluate without a table. Both must be cubics of
+/// Mitchell & Netravali (1988).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Cubics {
     fine: Coefficients,
     coarse: Coefficients,
 }
 
-/// In r³, r² and 1 up to r = 1; from there in x³ and x² with x = 2 − r.
+/// Coefficients of r³, r² and 1 up to r = 1; beyond, of x³ and x², where x = 2 − r.
 type Coefficients = [f32; 5];
 
 impl Cubics {
@@ -20,7 +20,7 @@ impl Cubics {
         Some(Self { fine: coefficients(kernel.fine)?, coarse: coefficients(kernel.coarse)? })
     }
 
-    /// The polynomials of each lane.
+    /// Blends the two polynomials for each lane.
     #[inline(always)]
     pub(crate) fn blend<S: Simd, V: Lanes<S>>(&self, coarseness: V) -> Curve<V> {
         let mut curve = [coarseness; 5];
@@ -31,7 +31,8 @@ impl Cubics {
     }
 }
 
-/// Mitchell & Netravali 1988, equation 8; its outer part, which ends with value and slope zero, is factored at r = 2.
+/// Returns the coefficients of Mitchell & Netravali 1988, equation 8. Its outer part, whose value and slope end at
+/// zero, is factored at r = 2.
 fn coefficients(section: CrossSection) -> Option<Coefficients> {
     let CrossSection::Cubic { b, c } = section else { return None };
     // Beyond, negative lobes could outweigh the rest, which lanes do not look after.
@@ -46,7 +47,7 @@ fn coefficients(section: CrossSection) -> Option<Coefficients> {
 pub(crate) struct Curve<V>([V; 5]);
 
 impl<V> Curve<V> {
-    /// The weights at distances² `q`, zero from 4 on.
+    /// Returns the weights at distances² `q`; they are zero from 4 on.
     #[inline(always)]
     pub(crate) fn weight<S: Simd>(&self, q: V) -> V
     where

@@ -1,4 +1,4 @@
-//! The average of a footprint without a list of taps: eight texels of a row at once.
+//! Average of a footprint without a list of taps: eight texels of a row at once.
 
 use fearless_simd::{Level, Simd, dispatch, f32x8, prelude::*};
 use glam::DVec2;
@@ -14,21 +14,22 @@ use crate::filter::gather::{EllipseOfTexels, ellipse_of_texels};
 use crate::raster::Rgba;
 use crate::world::{Source, World};
 
-/// Averages footprints by kernels of two cubics.
+/// Average of footprints by a kernel of two cubics.
 pub(crate) struct Direct {
     kernel: LaneKernel,
     level: Level,
 }
 
 impl Direct {
-    /// `None` for a kernel that is not of cubics, or whose floor is under one, so that there could be no texel under a footprint.
+    /// Makes the average for a kernel. `None` if it is not of cubics, or if its floor is below one, so that no texel
+    /// might be under a footprint.
     pub(crate) fn new(kernel: &Kernel, anti_ringing: bool) -> Option<Self> {
         let cubics = Cubics::of(kernel).filter(|_| kernel.floor >= 1.0)?;
         Some(Self { kernel: LaneKernel { kernel: *kernel, cubics, anti_ringing }, level: Level::new() })
     }
 
-    /// The average of a footprint; `None` where its texels are to be listed one by one. `view` is the view that shows it, if that is
-    /// known.
+    /// Averages a footprint; `view` is the view that shows it, if that is known. `None` if its texels must be listed
+    /// one by one.
     pub(crate) fn average(
         &self,
         (world, pinholes): (&World, Option<&Pinholes>),
@@ -49,7 +50,7 @@ impl Direct {
     }
 }
 
-/// The average of an ellipse of texels.
+/// Averages an ellipse of texels.
 #[inline(always)]
 fn in_view<S: Simd>(
     simd: S,
@@ -91,7 +92,7 @@ fn in_view<S: Simd>(
     Some(blocks.average(simd, light, kernel.centred, *anti_ringing))
 }
 
-/// Whether a footprint's middle lies among the texels of a source that count whole.
+/// Returns whether a footprint's middle lies among the texels of a source that count whole.
 fn holds(source: &Source, footprint: &Footprint) -> bool {
     let rect = source.whole;
     source.view.pixel(footprint.direction).is_some_and(|pixel| {
@@ -100,12 +101,12 @@ fn holds(source: &Source, footprint: &Footprint) -> bool {
     })
 }
 
-/// How texels lie around, in single precision: an offset's terms of the second order.
+/// Second-order terms of texels' offsets on the sphere, in single precision.
 struct Bent {
     uu: [f32; 2],
     uv: [f32; 2],
     vv: [f32; 2],
-    /// Relative change of their solid angle along U and V: the trace of how they bend.
+    /// Relative change of the texels' solid angle along U and V: the trace of the second-order terms.
     growth: [f32; 2],
 }
 

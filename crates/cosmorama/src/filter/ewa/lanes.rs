@@ -1,10 +1,10 @@
 use fearless_simd::{Simd, f32x8, f32x16, prelude::*};
 
-/// A number for each pixel of as many rows of a patch as are worked on together.
+/// A number for each pixel of the rows of a patch that are processed together.
 pub(crate) trait Lanes<S: Simd>: SimdFloat<S, Element = f32> {
     const ROWS: usize;
 
-    /// From the numbers of two rows, as many of which as there are here.
+    /// Combines the numbers of two rows; a type of one row takes the first alone.
     fn of_rows(rows: [f32x8<S>; 2]) -> Self;
 
     /// Returns the numbers of one row.

@@ -23,12 +23,12 @@ use crate::camera::Footprint;
 use crate::raster::Rgba;
 use crate::world::{Light, LightError, World};
 
-/// The elliptical weighted average (Greene & Heckbert 1986), across the edges of views.
+/// Elliptical weighted average (Greene & Heckbert 1986), across the edges of views.
 ///
 /// Its cost grows with the number of texels under a footprint: [`EwaPyramid`](super::EwaPyramid) bounds it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ewa {
-    /// The weights.
+    /// Kernel that weighs the texels.
     pub kernel: Kernel,
     /// Whether the average is clamped, per channel, to the texels under the footprint.
     pub anti_ringing: bool,
@@ -71,22 +71,22 @@ impl Prepared for PreparedEwa<'_> {
     }
 }
 
-/// Averages the texels of footprints in any world by one kernel.
+/// Average of footprints in any world by one kernel.
 pub(crate) struct Averager {
     taps: TapLender,
     anti_ringing: bool,
-    /// For kernels that it can weigh.
+    /// Fast average for the kernels that it supports.
     direct: Option<Direct>,
 }
 
 impl Averager {
-    /// The averager of a filter.
+    /// Makes the average of a filter.
     pub(crate) fn new(filter: &Ewa) -> Self {
         let (kernel, anti_ringing) = (&filter.kernel, filter.anti_ringing);
         Self { taps: TapLender::new(kernel), anti_ringing, direct: Direct::new(kernel, anti_ringing) }
     }
 
-    /// The average of a footprint; `view` is the view that shows it, if that is known.
+    /// Averages a footprint; `view` is the view that shows it, if that is known.
     pub(crate) fn of(
         &self,
         views: (&World, Option<&Pinholes>),
@@ -98,7 +98,7 @@ impl Averager {
         direct.unwrap_or_else(|| self.by_taps(views.0, light, footprint))
     }
 
-    /// Averages by a list of taps, wherever the texels lie.
+    /// Averages a footprint by a list of taps, wherever the texels lie.
     pub(crate) fn by_taps(&self, world: &World, light: &[Rgba], footprint: &Footprint) -> Rgba {
         let average = |taps: &taps::Taps| taps::average(taps.list(), |texel| light[texel as usize], self.anti_ringing);
         self.taps.lend(world, footprint, average)
@@ -113,13 +113,13 @@ mod tests {
     use crate::sphere::{CubeFace, Direction};
     use crate::world::panorama;
 
-    /// Light that is another in each texel.
+    /// Returns light that differs in each texel.
     fn noise(count: usize) -> Vec<Rgba> {
         let value = |texel: usize| (texel.wrapping_mul(2_654_435_761) >> 7) % 1000;
         (0..count).map(|texel| value(texel) as f32 / 999.0).map(|v| Rgba::opaque(v, v * v, 1.0 - v)).collect()
     }
 
-    /// Footprints all over, from narrow to wide, some of them long, turned anyhow.
+    /// Returns footprints all over the sphere, from narrow to wide, some of them long, in any orientation.
     fn footprints(narrowest: f64, growth: f64) -> impl Iterator<Item = Footprint> {
         Direction::spread(4000).enumerate().map(move |(k, at)| {
             let (right, up) = at.vector().any_orthonormal_pair();
@@ -130,7 +130,7 @@ mod tests {
         })
     }
 
-    /// Compares the direct way with a list of taps, and returns for how many footprints there is one.
+    /// Compares the fast average with a list of taps, and returns the number of footprints that have a fast average.
     fn check(world: &World, footprints: impl Iterator<Item = Footprint>) -> usize {
         let light = noise(world.texel_count());
         let averager = Averager::new(&Ewa::default());

@@ -1,7 +1,7 @@
-//! The elliptical weighted average filter as the paper prints it, for one image (Greene & Heckbert 1986).
+//! Elliptical weighted average filter as the paper prints it, for one image (Greene & Heckbert 1986).
 //!
-//! [`Resampler`](crate::render::Resampler) does the same across views, with any kernel; this is the original, kept recognisable
-//! line by line, and a test holds the two equal where one view suffices.
+//! [`Resampler`](crate::render::Resampler) computes the average across views, with any kernel. This is the original,
+//! recognisable line by line. A test holds the two equal where one view suffices.
 
 use crate::camera::PixelPoint;
 use crate::raster::{Image, Rgba};
@@ -13,7 +13,7 @@ pub struct WeightTable {
 }
 
 impl WeightTable {
-    /// A table of `length` entries; the paper uses α = 2.
+    /// Makes a table of `length` entries; the paper uses α = 2.
     pub fn gaussian(alpha: f64, length: usize) -> Self {
         let entry = |q: usize| (-alpha * (q as f64 + 0.5) / length as f64).exp() as f32;
         Self { wtab: (0..length).map(entry).collect() }
@@ -33,8 +33,8 @@ pub struct TextureDerivatives {
     pub vy: f64,
 }
 
-/// The average of the texels of `image` under the screen pixel whose centre maps to `centre`; transparent where the
-/// ellipse holds no texel.
+/// Averages the texels of `image` under the screen pixel whose centre maps to `centre`. The result is transparent where
+/// the ellipse holds no texel.
 pub fn ewa(image: &Image<Rgba>, centre: PixelPoint, derivatives: TextureDerivatives, table: &WeightTable) -> Rgba {
     let TextureDerivatives { ux, vx, uy, vy } = derivatives;
     // Texel centres lie at half-integers; the paper's lie at integers.
@@ -81,7 +81,7 @@ pub fn ewa(image: &Image<Rgba>, centre: PixelPoint, derivatives: TextureDerivati
 mod tests {
     use super::*;
 
-    /// Adds texel by texel, from the definition.
+    /// Averages texel by texel, from the definition.
     fn by_definition(image: &Image<Rgba>, centre: PixelPoint, d: TextureDerivatives, alpha: f64) -> f64 {
         let determinant = d.ux * d.vy - d.uy * d.vx;
         let (mut num, mut den) = (0.0, 0.0);

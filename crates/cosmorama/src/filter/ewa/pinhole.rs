@@ -1,4 +1,5 @@
-//! The average of a footprint among pinhole views, across their edges: in the plane of each, a kernel on the sphere is a conic.
+//! Average of a footprint among pinhole views, across their edges: in the plane of each, a kernel on the sphere is a
+//! conic.
 
 use fearless_simd::{Simd, f32x8, prelude::*};
 use glam::{DMat2, DMat3, DVec2, DVec3};
@@ -14,64 +15,67 @@ use crate::raster::Rgba;
 use crate::sphere::Direction;
 use crate::world::{Source, World};
 
-/// Views of the same pinhole camera, turned to different sides.
+/// Views of one pinhole camera that is turned to different sides.
 pub(crate) struct Pinholes {
     views: Vec<Pinhole>,
-    /// The larger side of the largest texel, in radians.
+    /// Larger side of the largest texel, in radians.
     texel_pitch: f64,
 }
 
-/// One of them. The point (U, V) of its image looks along across·U + down·V + corner.
+/// One of the views. The point (U, V) of its image looks along across·U + down·V + corner.
 struct Pinhole {
     across: DVec3,
     down: DVec3,
     corner: DVec3,
-    /// From a direction to U, V and 1, each times the depth: the direction's part along the axis.
+    /// Matrix from a direction to U, V and 1, each times the depth: the direction's part along the axis.
     to_image: DMat3,
     size: [usize; 2],
-    /// Index of its first texel in the light.
+    /// Index of the view's first texel in the light.
     offset: usize,
-    /// A cone that holds it: its axis, and cosine and sine of its half angle.
+    /// Cone that holds the view: its axis, and cosine and sine of its half angle.
     axis: DVec3,
     cone: [f64; 2],
 }
 
-/// A footprint's kernel.
+/// Kernel of a footprint.
 struct Shape {
     direction: DVec3,
-    /// How far a direction lies along them from the footprint's middle is its distance, in the kernel's unit.
+    /// Axes whose dot products with a direction give its offset from the footprint's middle, in the kernel's unit.
     axes: [DVec3; 2],
-    /// An upper bound of its radius in radians.
+    /// Upper bound of the kernel's radius in radians.
     radius: f64,
 }
 
-/// A kernel in the plane of a view, by offsets (u, v) in texels from a point: that in the footprint's direction, or where that looks
-/// along the plane or away from it the image's middle.
+/// A kernel in the plane of a view, by offsets (u, v) in texels from a point. That is the point in the footprint's
+/// direction. Where the footprint looks along the plane or away from it, it is the image's middle.
 struct Plane {
-    /// Whether the footprint's direction has a point in it.
+    /// Whether the footprint's direction has a point in the plane.
     is_before: bool,
     lattice: Lattice,
-    /// Offset in the kernel's unit: (middle + u·across + v·down) / √s.
+    /// Terms of the offset in the kernel's unit: (middle + u·across + v·down) / √s.
     middle: DVec2,
     across: DVec2,
     down: DVec2,
-    /// s = 1 + u·s₀ + v·s₁ + u²·s₂ + v²·s₃: the square of the distance from the pinhole, over that of the point.
+    /// Terms of s = 1 + u·s₀ + v·s₁ + u²·s₂ + v²·s₃: the squared distance from the pinhole, over that of the point.
     s: [f64; 4],
-    /// Before the footprint's middle, and not behind it, is what has front₀ + u·front₁ + v·front₂ > 0.
+    /// Terms of front₀ + u·front₁ + v·front₂, which is positive in the half of the world around the footprint's
+    /// direction.
     front: [f64; 3],
-    /// Whether the kernel is so small that distances are taken as linear: s counts in solid angles and offsets alone.
+    /// Whether the kernel is so small that distances are taken as linear; s then counts in solid angles and offsets
+    /// alone.
     is_linear: bool,
-    /// Solid angle at the point.
+    /// Solid angle of a texel at the point.
     solid_angle: f64,
-    /// How much of the coarse cubic counts.
+    /// Share of the coarse cubic.
     coarseness: f64,
 }
 
-/// Depth in front of a plane, from which on a direction has a point there.
+/// Depth in front of a plane from which a direction has a point there.
 const NEAR: f64 = 0.05;
 
 impl Pinholes {
-    /// The views of a world; `None` if not all are pinholes with texels alike, all of which count, once.
+    /// Returns the views of a world. `None` unless all are pinholes with texels alike, each of which counts exactly
+    /// once.
     pub(crate) fn of(world: &World) -> Option<Self> {
         let texel_pitch = world.sources()[0].texel_pitch;
         let views =
@@ -79,7 +83,7 @@ impl Pinholes {
         Some(Self { views: views.collect::<Option<_>>()?, texel_pitch })
     }
 
-    /// The view that holds a direction.
+    /// Returns the view that holds a direction.
     pub(crate) fn holder(&self, direction: Direction) -> Option<usize> {
         self.views.iter().position(|view| view.holds(direction.vector()))
     }
@@ -107,7 +111,7 @@ impl Pinhole {
         is_plain.then_some(Self { across, down, corner, to_image, size, offset: source.offset, axis, cone })
     }
 
-    /// Whether a direction is in the picture.
+    /// Returns whether a direction is in the picture.
     #[inline(always)]
     fn holds(&self, direction: DVec3) -> bool {
         let at = self.to_image * direction;
@@ -115,7 +119,7 @@ impl Pinhole {
         at.z > 0.0 && at.x >= 0.0 && at.y >= 0.0 && at.x < right && at.y < bottom
     }
 
-    /// Whether a kernel may reach into the picture.
+    /// Returns whether a kernel may reach into the picture.
     #[inline(always)]
     fn is_reached(&self, shape: &Shape) -> bool {
         // Distances are seen along the footprint's direction: nothing is further than a right angle.
@@ -124,7 +128,7 @@ impl Pinhole {
         self.axis.dot(shape.direction) > self.cone[0] * cosine - self.cone[1] * sine
     }
 
-    /// A kernel in this view's plane.
+    /// Returns a kernel in this view's plane.
     #[inline(always)]
     fn plane(&self, shape: &Shape, kernel: &Kernel) -> Plane {
         let at = self.to_image * shape.direction;
@@ -158,7 +162,7 @@ impl Pinhole {
 }
 
 impl Shape {
-    /// The kernel of a footprint, among texels of this pitch.
+    /// Returns the kernel of a footprint, among texels of this pitch.
     #[inline(always)]
     fn of(footprint: &Footprint, kernel: &Kernel, texel_pitch: f64) -> Self {
         let footprint = with_width(*footprint);
@@ -172,7 +176,7 @@ impl Shape {
 }
 
 impl Plane {
-    /// Raises axes to so many texels; whether one was shorter.
+    /// Raises the kernel's axes to `floor` texels. Returns whether one was shorter.
     #[inline(always)]
     fn raise(&mut self, floor: f64) -> bool {
         let (a, b) = (self.across.length_squared(), self.down.length_squared());
@@ -189,7 +193,7 @@ impl Plane {
         true
     }
 
-    /// What is less than `reach` from the middle: by its square, in the kernel's unit.
+    /// Returns the conic of points whose squared distance from the middle, in the kernel's unit, is less than `reach`.
     #[inline(always)]
     fn conic(&self, reach: f64) -> Conic {
         let Self { middle, across, down, s, .. } = self;
@@ -206,8 +210,8 @@ impl Plane {
 }
 
 impl Pinholes {
-    /// The average of a footprint; `None` where its texels are to be listed one by one. `view` is the view that shows it, if that is
-    /// known.
+    /// Averages a footprint; `view` is the view that shows it, if that is known. `None` if its texels must be listed
+    /// one by one.
     #[inline(always)]
     pub(crate) fn average<S: Simd>(
         &self,
@@ -244,7 +248,8 @@ impl Pinholes {
 }
 
 impl Pinhole {
-    /// Adds what a kernel has of a view; whether it goes on outside. `None` if that is too much.
+    /// Adds the texels of a view under a kernel. Returns whether the kernel reaches outside the view; `None` if there
+    /// are too many texels.
     #[inline(always)]
     fn fill<S: Simd>(
         &self,

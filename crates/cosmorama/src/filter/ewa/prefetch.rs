@@ -1,10 +1,10 @@
-//! Asking for memory before it is read.
+//! Prefetch: requests for memory before it is read.
 #![allow(unsafe_code)]
 
-/// Bytes that come from memory together.
+/// Number of bytes in a cache line.
 const LINE: usize = 64;
 
-/// Asks memory for items that will be read soon.
+/// Requests items from memory that will be read soon.
 #[inline(always)]
 pub(crate) fn prefetch<T>(items: &[T]) {
     #[cfg(target_arch = "x86_64")]

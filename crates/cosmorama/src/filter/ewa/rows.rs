@@ -1,11 +1,11 @@
-//! The rows of texels that a kernel reaches, where it is a conic in a view's plane.
+//! Rows of texels that a kernel reaches, where it is a conic in a view's plane.
 
 use arrayvec::ArrayVec;
 use fearless_simd::{Simd, f32x8, prelude::*};
 
 use super::blocks::{LANES, count_up};
 
-/// The inside of a conic: P(u, v) < 0, where P = uu·u² + uv·uv + vv·v² + u·u + v·v + one.
+/// Inside of a conic: P(u, v) < 0, where P = uu·u² + uv·uv + vv·v² + u·u + v·v + one.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Conic {
     pub(crate) uu: f64,
@@ -19,11 +19,11 @@ pub(crate) struct Conic {
 /// Columns and rows of a view around a point of its plane, from which u and v are measured.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Lattice {
-    /// The texel that holds the point.
+    /// Texel that holds the point.
     pub(crate) texel: [i32; 2],
-    /// Where its centre is, from the point.
+    /// Offset of that texel's centre from the point.
     pub(crate) centre: [f32; 2],
-    /// Columns and rows.
+    /// Number of columns and rows.
     pub(crate) size: [i32; 2],
 }
 
@@ -33,24 +33,24 @@ pub(crate) struct Row {
     pub(crate) row: usize,
     pub(crate) column: usize,
     pub(crate) count: usize,
-    /// Where the first one's centre is.
+    /// Offset of the first texel's centre.
     pub(crate) u: f32,
     pub(crate) v: f32,
 }
 
-/// Rows that there is room for.
+/// Greatest number of rows that fit.
 const MOST: usize = 256;
 
-/// The rows of texels inside a conic, from top to bottom.
+/// Rows of texels inside a conic, from top to bottom.
 #[derive(Default)]
 pub(crate) struct Rows {
     pub(crate) rows: ArrayVec<Row, MOST>,
-    /// Whether the conic goes on outside the view.
+    /// Whether the conic continues outside the view.
     pub(crate) is_cut: bool,
 }
 
 impl Conic {
-    /// From which v to which it reaches; all, if it has no end.
+    /// Returns the least and greatest v of the conic, infinite if it has no end.
     fn range(&self) -> [f64; 2] {
         // Rows that it meets have a discriminant that is not negative: that is quadratic in v as well.
         let Self { uu, uv, vv, u, v, one } = *self;
@@ -118,7 +118,7 @@ impl Rows {
 }
 
 impl Lattice {
-    /// The texels of a view so large, around a point.
+    /// Returns the texels of a view of this size, around a point.
     #[inline(always)]
     pub(crate) fn around([x, y]: [f64; 2], [width, height]: [usize; 2]) -> Self {
         let [column, row] = [x.floor(), y.floor()];

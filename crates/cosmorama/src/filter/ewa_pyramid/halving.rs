@@ -1,4 +1,4 @@
-//! From the light of a world to that of the world in half as many texels each way.
+//! Halving of a world's light: to half as many texels each way.
 
 use std::ops::Range;
 
@@ -9,10 +9,10 @@ use crate::filter::rim::field_edge::FieldEdge;
 use crate::raster::Rgba;
 use crate::world::{Source, World, held};
 
-/// Which texels are in each texel of the halved world: whatever counts of its area, evenly.
+/// Texels that make up each texel of the halved world. All of its area that counts contributes evenly.
 ///
-/// A texel's parts lie inside it, so that no picture's edge is crossed: the filter does that, among the texels of a level.
-/// Evenly, and not by solid angle, since the light is to be that of the texel's centre.
+/// A texel's parts lie inside it, so that no picture's edge is crossed: the filter does that, among the texels of a
+/// level. They count evenly, and not by solid angle, since the light is to be that of the texel's centre.
 #[derive(Clone, Debug)]
 pub(crate) struct Halving {
     views: Vec<HalvedView>,
@@ -20,28 +20,28 @@ pub(crate) struct Halving {
 
 #[derive(Clone, Debug)]
 struct HalvedView {
-    /// The first texel of the view and how many are from one row to the next.
+    /// Index of the view's first texel, and the distance from one row to the next.
     offset: usize,
     stride: usize,
     columns: Vec<Parts>,
     rows: Vec<Parts>,
     /// Whether each texel is four whole ones.
     is_even: bool,
-    /// By row, which of its texels' parts count, if not all: a bit for each of three in each of three rows.
+    /// Parts of texels that count, by row, if not all do: a bit for each of three in each of three rows.
     counting: Vec<Option<Box<[u16]>>>,
 }
 
-/// All parts count.
+/// Bits of a texel whose parts all count.
 const ALL: u16 = 0b111_111_111;
 
-/// The texels of a row that are in one of the halved row: three at most, each with the part of it that they are.
+/// Texels of a row that lie in one texel of the halved row: three at most, each with its share of it.
 #[derive(Clone, Copy, Debug)]
 struct Parts {
     first: usize,
     parts: [f32; MOST],
 }
 
-/// Parts of a texel each way: of three texels in two, each holds one and a half.
+/// Greatest number of parts of a texel each way: if three texels become two, each holds one and a half.
 const MOST: usize = 3;
 
 impl Parts {
@@ -60,20 +60,20 @@ impl Parts {
         (0..half).map(|index| Self::of(size, half, index)).collect()
     }
 
-    /// The texels with their parts, each with its place among them.
+    /// Visits the texels with their parts, each with its place among them.
     fn each(self) -> impl Iterator<Item = (usize, usize, f32)> {
         (0..MOST).filter(move |&k| self.parts[k] > 0.0).map(move |k| (k, self.first + k, self.parts[k]))
     }
 }
 
 impl Halving {
-    /// From a world to its halved one. What lies outside a target's field of view does not count beside what is inside.
+    /// Prepares the halving of a world. Beside texels inside a target's field of view, those outside do not count.
     pub(crate) fn new(world: &World, halved: &World, edge: Option<FieldEdge>) -> Self {
         let views = world.sources().iter().zip(halved.sources());
         Self { views: views.map(|(source, coarse)| HalvedView::new(source, coarse, edge)).collect() }
     }
 
-    /// The light of the halved world.
+    /// Computes the light of the halved world.
     pub(crate) fn light(&self, texels: &[Rgba]) -> Vec<Rgba> {
         let size = |view: &HalvedView| view.columns.len() * view.rows.len();
         // Not written to: each thread touches first what it makes.
@@ -88,14 +88,14 @@ impl Halving {
         halved
     }
 
-    /// Bytes that it takes.
+    /// Returns the number of bytes that the halving takes.
     pub(crate) fn bytes(&self) -> usize {
         let bits = |view: &HalvedView| view.counting.iter().flatten().map(|bits| size_of_val(&**bits)).sum::<usize>();
         self.views.iter().map(bits).sum()
     }
 }
 
-/// Texels of a row that are judged together.
+/// Number of texels of a row that are judged together.
 const BLOCK: usize = 32;
 
 impl HalvedView {
@@ -109,7 +109,7 @@ impl HalvedView {
         view
     }
 
-    /// Which parts count in a row, if not all do.
+    /// Returns which parts count in a row, if not all do.
     fn counting_of_row(
         &self,
         row: usize,
@@ -142,7 +142,8 @@ impl HalvedView {
         bits
     }
 
-    /// The texels that are in the one in this column and row, and that count. `is_seen` is given their own columns and rows.
+    /// Returns the bits of the texels that count in the halved texel in this column and row. `is_seen` takes their own
+    /// columns and rows.
     fn bits(&self, source: &Source, [column, row]: [usize; 2], is_seen: impl Fn([usize; 2]) -> bool) -> u16 {
         let mut bits = 0;
         for (y, j, _) in self.rows[row].each() {
@@ -186,10 +187,10 @@ impl HalvedView {
     }
 }
 
-/// By how much more than its ends a row's middle may be away from what is between them.
+/// Factor by which texels of a row may be farther from its middle than its ends are.
 const BEND: f64 = 1.25;
 
-/// Whether a field of view may end within some texels of a row.
+/// Returns whether the edge of a field of view may lie within some texels of a row.
 fn is_near_edge(edge: &FieldEdge, coarse: &Source, row: usize, columns: &Range<usize>) -> bool {
     let direction = |column: usize| coarse.view.direction(PixelPoint::centre(column, row));
     let (first, last) = (columns.start, columns.end - 1);

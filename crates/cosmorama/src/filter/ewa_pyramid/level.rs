@@ -9,70 +9,75 @@ use crate::filter::gather::{is_regular, reach, texels_of};
 use crate::projection::Projection;
 use crate::world::{Source, World};
 
-/// Texels of the finer of two levels that the kernel's unit is at least, across its minor axis, and half of what it is at most:
-/// 1.75 to 3.5 texels a pixel by default. The more, the nearer to exact EWA, and the more texels.
+/// Least number of texels of the finer of two levels in the kernel's unit, across its minor axis; the most is twice as
+/// many. By default these are 1.75 to 3.5 texels a pixel. A greater number is nearer to exact EWA and needs more
+/// texels.
 const UNIT: f64 = 1.4;
 
-/// A kernel longer than so many times its width is widened: the number of its texels stays bounded.
+/// Ratio of length to width above which a kernel is widened, so that the number of its texels stays bounded.
 const LONGEST: f64 = 16.0;
 
-/// The last part of the way from one level to the next, on which the two are mixed; before, the finer one is nearer to exact EWA.
+/// Last part of the way from one level to the next, on which the two are blended. Before it, only the finer level
+/// counts, which is nearer to exact EWA.
 const BLENDED: f32 = 0.25;
 
-/// Beside a steep rim of a view, where a texel's width and length change within few of them, levels are finer by so many, and so
-/// they are beside the edge of a target's field of view.
+/// Number of levels by which the level is finer beside a steep rim of a view, where the size of texels changes quickly.
+/// So it is beside the edge of a target's field of view.
 const FINER: f64 = 2.0;
 
-/// Within so many pixels of a steep rim.
+/// Distance from a steep rim, in pixels, within which levels are finer.
 const BESIDE_RIM: f64 = 4.0;
 
-/// Texels of a view that a footprint's average is made of by [`EwaPyramid`](super::EwaPyramid), those of both levels together, at
-/// most: of any footprint in any projection, at poles, rims and seams. Tests hold it.
+/// Greatest number of texels of a view that [`EwaPyramid`](super::EwaPyramid) averages for one footprint, both levels
+/// together, in any projection. Tests hold it at poles, rims and seams.
 pub const MOST_TEXELS: usize = 1 << 14;
 
-/// Texels of one view that a kernel has on one level, at most, as measured from side to side; where it would have more, around a
-/// pole or a rim at which texels come together, a coarser level is taken. A coarser level that is mixed in has half as many or
-/// less.
+/// Greatest number of texels of one view that a kernel has on one level, as measured from side to side. Where it would
+/// have more, as around a pole at which texels come together, a coarser level is taken. A coarser level that is blended
+/// in has at most half as many.
 const MOST_ON_LEVEL: f64 = 10_000.0;
 
-/// What lies within so many pixels both ways is in a circle of so many, about, since levels are interpolated between.
+/// Radius of the circle that stands for the pixels around, as a part of their distance each way. Less than one
+/// suffices, since levels are interpolated between pixels.
 const AROUND: f64 = 0.75;
 
-/// Which level of a pyramid a footprint is made from, as a number: the finer of two by its whole part.
+/// Rule for the level of a pyramid from which a footprint is made, as a number. Its whole part is the finer of two
+/// levels.
 ///
-/// It is the logarithm of the footprint's minor axis among the texels of the view that shows it, and where derivatives do not tell
-/// how many texels that makes, no less than what leaves so few of them as [`MOST_ON_LEVEL`].
+/// The number is the logarithm of the footprint's minor axis among the texels of the view that shows it. Where
+/// derivatives do not tell how many texels that makes, it is great enough to leave no more than [`MOST_ON_LEVEL`].
 pub(crate) struct LevelRule {
     kernel: Kernel,
-    /// The views' geometry: for each view, its levels from the finest on.
+    /// Geometry of the views: for each view, its levels from the finest on.
     views: Vec<Vec<Source>>,
-    /// Texels in a steradian of each view, at most; infinite where they come together.
+    /// Greatest number of texels in a steradian of each view; infinite where texels come together.
     densities: Vec<f64>,
 }
 
-/// What a level must do for.
+/// Conditions that a level must meet.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct LevelNeed {
     /// Whether the edge of a target's field of view may cut the footprint.
     pub(crate) is_cut: bool,
-    /// For all footprints within so many pixels.
+    /// Distance in pixels within which the level must serve all footprints.
     pub(crate) pixels_around: f64,
 }
 
 impl LevelRule {
-    /// The rule for a world's views.
+    /// Makes the rule for a world's views.
     pub(crate) fn new(world: &World, kernel: &Kernel) -> Self {
         let levels = |source: &Source| std::iter::successors(Some(source.clone()), Source::coarser).collect();
         let views = world.sources().iter();
         Self { kernel: *kernel, views: views.clone().map(levels).collect(), densities: views.map(density).collect() }
     }
 
-    /// The level for a footprint that looks into a view, or beside all of them; `None` where no view is near.
+    /// Returns the level for a footprint that looks into a view, or beside all of them. `None` where no view is near.
     pub(crate) fn level(&self, view: Option<usize>, footprint: &Footprint, need: LevelNeed) -> Option<f64> {
         view.and_then(|view| self.level_in(view, footprint, need)).or_else(|| self.level_beside(footprint, need))
     }
 
-    /// The level for a footprint that is in a view; `None` where derivatives do not tell how many texels it has there.
+    /// Returns the level for a footprint that is in a view; `None` where derivatives do not tell how many texels it has
+    /// there.
     fn level_in(&self, view: usize, footprint: &Footprint, need: LevelNeed) -> Option<f64> {
         let source = &self.views[view][0];
         let pixels = BESIDE_RIM + need.pixels_around;
@@ -91,8 +96,8 @@ impl LevelRule {
         Some(level.max(self.least(view, footprint, level, need)))
     }
 
-    /// The level for a footprint beside all views, or on a pole of one: from how large the texels of those are that its kernel may
-    /// reach. `None` where there is none.
+    /// Returns the level for a footprint beside all views, or on a pole of one. It follows from the size of the texels
+    /// that the kernel may reach. `None` where there are none.
     fn level_beside(&self, footprint: &Footprint, need: LevelNeed) -> Option<f64> {
         let pixel = footprint.jacobian.solid_angle().sqrt();
         let level = |(view, levels): (usize, &Vec<Source>)| {
@@ -107,7 +112,7 @@ impl LevelRule {
         self.views.iter().enumerate().filter_map(level).reduce(f64::max)
     }
 
-    /// The least level from one on in which a view has few enough texels for a footprint.
+    /// Returns the least level, from one on, at which a view has few enough texels for a footprint.
     fn least(&self, view: usize, footprint: &Footprint, from: f64, need: LevelNeed) -> f64 {
         let beside = AROUND * need.pixels_around * width(footprint);
         let levels = &self.views[view];
@@ -136,7 +141,7 @@ impl LevelRule {
     }
 }
 
-/// Texels in a steradian of a source, at most; infinite where they come together.
+/// Returns the greatest number of texels in a steradian of a source; infinite where texels come together.
 fn density(source: &Source) -> f64 {
     const STEPS: usize = 32;
     if source.period.is_some() || !source.has_bounded_texels() {
@@ -148,12 +153,12 @@ fn density(source: &Source) -> f64 {
     points.filter_map(|at| source.view.solid_angle(point(at))).fold(f64::INFINITY, f64::min).recip()
 }
 
-/// The angle that a pixel is wide or high, in radians.
+/// Returns the larger side of a pixel as an angle, in radians.
 pub(crate) fn width(footprint: &Footprint) -> f64 {
     footprint.jacobian.dx.length().max(footprint.jacobian.dy.length())
 }
 
-/// How near a steep rim of a view is to a footprint: one within so many pixels, falling to nothing a pixel further.
+/// Returns how near a steep rim of a view is to a footprint: 1 within this many pixels, falling to 0 a pixel further.
 fn nearness_of_rim(source: &Source, footprint: &Footprint, pixels: f64) -> f64 {
     if !source.view.projection.has_steep_rim() {
         return 0.0;
@@ -161,7 +166,7 @@ fn nearness_of_rim(source: &Source, footprint: &Footprint, pixels: f64) -> f64 {
     (pixels + 1.0 - source.view.margin(footprint.direction) / width(footprint)).clamp(0.0, 1.0)
 }
 
-/// The level for a footprint in texels: 0, or less, where it is the finest.
+/// Returns the level for a footprint in texels; 0 or less means the finest.
 fn level_of(jacobian: DMat2, kernel: &Kernel, longest: f64) -> f64 {
     let [major, minor] = semi_axes(jacobian);
     let width = minor.max(major / longest);
@@ -169,17 +174,17 @@ fn level_of(jacobian: DMat2, kernel: &Kernel, longest: f64) -> f64 {
     (width / (UNIT / kernel.scale).max(1.0)).log2().max(-1.0)
 }
 
-/// Whether a level is coarser than those that a number stands for.
+/// Returns whether a level is coarser than those that a number stands for.
 pub(crate) fn is_beyond(number: f32, level: usize) -> bool {
     level > 0 && number <= level as f32 - BLENDED
 }
 
-/// Whether a level is finer than those that a number stands for.
+/// Returns whether a level is finer than those that a number stands for.
 pub(crate) fn is_before(number: f32, level: usize) -> bool {
     number >= level as f32 + 1.0
 }
 
-/// The part of a pixel of this number that is made from a level.
+/// Returns the part of a pixel with this number that is made from a level.
 pub(crate) fn part(number: f32, level: usize) -> f32 {
     let beyond = number.max(0.0) - level as f32;
     let coarser = |way: f32| ((way - 1.0) / BLENDED + 1.0).clamp(0.0, 1.0);

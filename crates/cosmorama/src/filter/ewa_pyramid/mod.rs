@@ -13,12 +13,13 @@ use crate::camera::Footprint;
 use crate::raster::Rgba;
 use crate::world::{Light, LightError, World};
 
-/// EWA on a pyramid: the ellipse is averaged on the levels of halved worlds that fit it best, at a bounded cost (Heckbert 1989).
+/// EWA on a pyramid: the ellipse is averaged on the levels of halved worlds that fit it best, at a bounded cost
+/// (Heckbert 1989).
 ///
-/// A footprint looks at no more than [`MOST_TEXELS`](super::MOST_TEXELS) texels of a view.
+/// A footprint reads at most [`MOST_TEXELS`](super::MOST_TEXELS) texels of a view.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EwaPyramid {
-    /// The weights.
+    /// Kernel that weighs the texels.
     pub kernel: Kernel,
     /// Whether the average is clamped, per channel, to the texels under the footprint.
     pub anti_ringing: bool,
@@ -57,21 +58,21 @@ impl Filter for EwaPyramid {
 struct PreparedPyramid<'w> {
     world: &'w World,
     light: &'w [Rgba],
-    /// From the first halved world on.
+    /// Halved worlds and their light, from the first on.
     coarser: Vec<(World, Vec<Rgba>)>,
-    /// Of each level, if all its views are such.
+    /// Pinhole views of each level, if all its views are pinholes.
     pinholes: Vec<Option<Pinholes>>,
     rule: LevelRule,
     average: Averager,
 }
 
 impl PreparedPyramid<'_> {
-    /// A level's world and its light.
+    /// Returns a level's world and its light.
     fn level(&self, level: usize) -> (&World, &[Rgba]) {
         level.checked_sub(1).map_or((self.world, self.light), |at| (&self.coarser[at].0, &self.coarser[at].1))
     }
 
-    /// The number of the level for a footprint, and the view that shows it.
+    /// Returns the level's number for a footprint, and the view that shows it.
     fn number(&self, footprint: &Footprint) -> (f32, Option<usize>) {
         let holder = self.pinholes[0].as_ref().and_then(|pinholes| pinholes.holder(footprint.direction));
         let view = holder.or_else(|| self.world.owner(footprint.direction).map(|(view, _)| view));

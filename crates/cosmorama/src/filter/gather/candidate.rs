@@ -2,18 +2,18 @@ use glam::DVec2;
 
 use crate::filter::kernel::{KernelTable, UNDER};
 
-/// A texel that a kernel reaches, before the weights are settled.
+/// A texel that a kernel reaches, before the weights are final.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Candidate {
-    /// Index in the world's buffer.
+    /// Index of the texel in the world's buffer.
     pub(crate) texel: u32,
     /// Square of its distance from the pixel's centre, in the unit of the coarsest kernel here.
     pub(crate) q: f32,
-    /// The kernel's weight times the texel's solid angle.
+    /// Kernel's weight times the texel's solid angle.
     pub(crate) weight: f32,
-    /// How much of a correction it may take: positive, falling to nothing at the kernel's edge.
+    /// Share of a correction that the texel may take: positive, and falling to zero at the kernel's edge.
     pub(crate) window: f32,
-    /// Where it lies from the pixel's centre, in screen pixels.
+    /// Offset from the pixel's centre, in screen pixels.
     pub(crate) offset: [f32; 2],
 }
 
@@ -37,7 +37,7 @@ impl Candidate {
         }
     }
 
-    /// Whether it lies under the pixel.
+    /// Returns whether the texel lies under the pixel.
     pub(crate) fn is_under(&self) -> bool {
         f64::from(self.q) < UNDER
     }

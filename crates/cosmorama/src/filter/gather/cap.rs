@@ -5,13 +5,13 @@ use crate::filter::Kernel;
 use crate::sphere::{Angle, Direction};
 use crate::world::Source;
 
-/// What a mapping may bend by between the corners of a block, relative to the block's size, without being noticed.
+/// Factor by which points of a block may lie farther from its centre than its corners do, because mappings bend.
 const BEND: f64 = 1.25;
 
-/// A block that spans more than this, in radians, is not judged as a whole.
+/// Span in radians above which a block is not judged as a whole.
 const WIDEST: f64 = 0.5;
 
-/// All that a block sees lies within `radius` of `centre`.
+/// Cap of the sphere: all that a block sees lies within `radius` of `centre`.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Cap {
     centre: Direction,
@@ -21,7 +21,7 @@ pub(crate) struct Cap {
 }
 
 impl Cap {
-    /// The cap around a centre that holds all between these corners; `None` where it would be wide.
+    /// Returns the cap around a centre that holds all between these corners; `None` where it would be wide.
     pub(crate) fn around(centre: Direction, corners: &[Footprint]) -> Option<Self> {
         let (mut radius, mut pixel) = (0f64, 0f64);
         for corner in corners {
@@ -32,38 +32,38 @@ impl Cap {
         (radius < WIDEST).then_some(Self { centre, radius, pixel })
     }
 
-    /// Returns the cap with so many radians more around it.
+    /// Returns the cap, wider by this number of radians on all sides.
     pub(crate) fn widened(self, by: f64) -> Self {
         Self { radius: self.radius + by, ..self }
     }
 
-    /// Returns the cap of whole pixels, if this is that of their centres.
+    /// Returns the cap that holds the whole pixels whose centres this cap holds.
     pub(crate) fn of_whole_pixels(self) -> Self {
         self.widened(self.pixel)
     }
 
-    /// Whether all of it is below a great circle of the view, whose pole is `side`.
+    /// Returns whether all of the cap is below a great circle of the view, whose pole is `side`.
     pub(crate) fn is_below(&self, side: Direction, view: &View) -> bool {
         side.dot(view.orientation.to_view(self.centre)) < -self.radius.min(FRAC_PI_2).sin()
     }
 
-    /// Radians from the centre.
+    /// Returns the radius in radians.
     pub(crate) fn radius(&self) -> f64 {
         self.radius
     }
 
-    /// Whether the view's field stop cuts off nothing of it.
+    /// Returns whether the view's field stop cuts off nothing of the cap.
     pub(crate) fn is_clear_of_stop(&self, view: &View) -> bool {
         let bounds = || view.cap_bounds(self.centre, Angle::from_radians(self.radius));
         view.stop == FieldStop::NONE || self.passes_stop_of(view, &bounds())
     }
 
-    /// Whether all of it is inside the view's field, none of it near a rim, as far as formulas tell.
+    /// Returns whether all of the cap is inside the view's field and away from its rim, as far as formulas tell.
     pub(crate) fn is_inside(&self, view: &View) -> bool {
         !view.projection.ends_between_samples() && view.margin(self.centre) > self.radius && self.is_clear_of_stop(view)
     }
 
-    /// Whether one source shows all of the cap.
+    /// Returns whether one source shows all of the cap.
     pub(crate) fn is_shown_by(&self, source: &Source) -> bool {
         let view = &source.view;
         let bounds = view.cap_bounds(self.centre, Angle::from_radians(self.radius));
@@ -97,17 +97,17 @@ impl Cap {
         half_space && view.stop.circle.is_none_or(in_circle)
     }
 
-    /// The texels of a source that the block's pixels themselves can fall in.
+    /// Returns the texels of a source that the block's pixels themselves can fall on.
     pub(crate) fn seen_texels(&self, source: &Source) -> Option<PixelRect> {
         texels_within(source, self.centre, self.radius)
     }
 
-    /// The largest texels around of any of these sources, in radians.
+    /// Returns the pitch of the largest texels around in any of these sources, in radians.
     pub(crate) fn coarsest_pitch(&self, sources: &[Source]) -> f64 {
         sources.iter().map(|source| source.texel_pitch_within(self.centre, self.radius)).fold(0.0, f64::max)
     }
 
-    /// The texels of a source that a kernel around the block's pixels can touch.
+    /// Returns the texels of a source that a kernel around the block's pixels can touch.
     ///
     /// A kernel may be as wide as texels of the coarsest pitch around make it.
     pub(crate) fn read_texels(&self, source: &Source, coarsest: f64, kernel: &Kernel) -> Option<PixelRect> {
@@ -120,7 +120,7 @@ impl Cap {
     }
 }
 
-/// The texels of a source that can lie within `radius` radians of a direction.
+/// Returns the texels of a source that can lie within `radius` radians of a direction.
 pub(crate) fn texels_within(source: &Source, centre: Direction, radius: f64) -> Option<PixelRect> {
     if !source.reaches(centre, radius) {
         return None;

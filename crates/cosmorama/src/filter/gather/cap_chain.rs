@@ -8,33 +8,33 @@ use crate::projection::{PlanePoint, PlaneRect, Projection};
 use crate::sphere::{Angle, Direction};
 use crate::world::Source;
 
-/// Caps beside each other that hold all of a long ellipse, where one cap would hold many times as much.
+/// A chain of caps that holds all of a long ellipse, where a single cap would hold many times as much.
 #[derive(Clone, Debug)]
 pub(crate) struct CapChain {
-    /// The cap that holds all of it.
+    /// The cap that holds all of the ellipse.
     whole: (Direction, f64),
     links: Vec<(Direction, f64)>,
-    /// Semi-axes in the tangent plane, each over its length's square.
+    /// Semi-axes in the tangent plane, each divided by its squared length.
     axes: [DVec3; 2],
-    /// What part of its caps, all together, the ellipse in them is.
+    /// Part of the caps' area, all together, that the ellipse fills.
     filled: f64,
 }
 
-/// Ellipses up to so many times as long as wide have one cap.
+/// Ratio of length to width up to which an ellipse has one cap.
 const ROUND: f64 = 2.0;
 
-/// Longer ones, in radians, have one cap as well: on them the sphere bends too much.
+/// Length in radians above which an ellipse has one cap as well, because the sphere bends too much along it.
 const LONG: f64 = 0.5;
 
-/// Rows and columns of texels that are looked at, at most.
+/// Greatest number of rows and of columns of texels that are tested.
 const LINES: usize = 32;
 
-/// Caps in a chain, at most.
+/// Greatest number of caps in a chain.
 const MOST: f64 = 16.0;
 
 impl CapChain {
-    /// Around the ellipse with these semi-axes in the plane tangent to the sphere at `centre`: all directions whose offset,
-    /// seen along `centre`, lies in it.
+    /// Returns the chain around an ellipse with these semi-axes in the plane tangent to the sphere at `centre`. It
+    /// holds all directions whose offset, seen along `centre`, lies in the ellipse.
     pub(crate) fn around(centre: Direction, major: DVec3, minor: f64) -> Self {
         let length = major.length();
         let across = centre.vector().cross(major).normalize_or_zero() / minor;
@@ -56,15 +56,15 @@ impl CapChain {
         Self { links: (0..count as usize).map(link).collect(), filled, ..one }
     }
 
-    /// One cap around a disc of that plane.
+    /// Returns one cap around a disc of that plane.
     pub(crate) fn of(centre: Direction, radius: f64) -> Self {
         let whole = (centre, radius.min(1.0).asin());
         let (right, up) = centre.vector().any_orthonormal_pair();
         Self { whole, links: vec![whole], axes: [right / radius, up / radius], filled: 1.0 }
     }
 
-    /// Gives the runs of texels of a source that can lie in it to `visit`, row by row and none of them twice: far fewer, around
-    /// a rim, than the rectangle that holds them.
+    /// Calls `visit` with the runs of texels of a source that can lie in the chain, row by row and each texel once.
+    /// Around a rim they are far fewer than the rectangle that holds them.
     pub(crate) fn each_run(&self, source: &Source, mut visit: impl FnMut(usize, Range<usize>)) {
         let (centre, radius) = self.whole;
         let Some(rect) = texels_within(source, centre, radius) else { return };
@@ -98,8 +98,8 @@ impl CapChain {
         }
     }
 
-    /// About how many texels of a source lie in its ellipse: as many as its caps have, in proportion. Where texels come together
-    /// around poles there is no such proportion, and some of them are looked at.
+    /// Returns about how many texels of a source lie in the ellipse: in proportion to those in its caps. Where texels
+    /// come together around poles there is no such proportion, and some of them are tested.
     pub(crate) fn texels(&self, source: &Source) -> f64 {
         let (centre, radius) = self.whole;
         let Some(rect) = texels_within(source, centre, radius) else { return 0.0 };
@@ -121,7 +121,7 @@ impl CapChain {
         all.min(self.links.iter().map(area).sum::<f64>() * self.filled / texel.abs())
     }
 
-    /// The part of a rectangle of texels that lies in its ellipse, by texels of some rows and columns.
+    /// Returns the part of a rectangle of texels that lies in the ellipse, from tests of some rows and columns.
     fn part_of(&self, source: &Source, rect: PixelRect) -> f64 {
         let [across, down] = [rect.width(), rect.height()].map(|size| size.div_ceil(LINES));
         let step = source.view.grid.step().x * across as f64;
@@ -136,7 +136,7 @@ impl CapChain {
         f64::from(count as u32) / all.max(1) as f64
     }
 
-    /// Whether a direction is in the ellipse.
+    /// Returns whether a direction is in the ellipse.
     fn holds(&self, direction: Direction) -> bool {
         let [along, across] = self.axes.map(|axis| axis.dot(direction.vector()));
         along * along + across * across < 1.0 && self.whole.0.dot(direction) > 0.0

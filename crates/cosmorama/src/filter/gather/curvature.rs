@@ -4,11 +4,11 @@ use crate::camera::{PixelPoint, View};
 use crate::projection::Projection;
 use crate::sphere::Direction;
 
-/// How a view's texels lie on the sphere around a point: rows and columns of texels are curves there, and their distances
-/// change. To first order a texel at offset Δ appears at Δ; this is the second-order correction.
+/// Second-order correction to where texels lie on the sphere around a point. Rows and columns of texels are curves
+/// there, and their distances change; to first order a texel at offset Δ appears at Δ.
 ///
-/// In the plane tangent to the sphere, measured in the texels of that point, it is at Δ + ½(uu ΔU² + 2 uv ΔU ΔV + vv ΔV²):
-/// these are the sphere's Christoffel symbols in the view's coordinates.
+/// In the plane tangent to the sphere, measured in the texels of that point, it is at Δ + ½(uu ΔU² + 2 uv ΔU ΔV + vv
+/// ΔV²). These are the sphere's Christoffel symbols in the view's coordinates.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Bend {
     pub(crate) uu: DVec2,
@@ -17,7 +17,7 @@ pub(crate) struct Bend {
 }
 
 impl Bend {
-    /// Measures how a view's texels bend around a point of its image; `None` where it looks nowhere.
+    /// Measures how a view's texels bend around a point of its image; `None` where the point has no direction.
     pub(crate) fn around(view: &View, at: PixelPoint) -> Option<Self> {
         // In the view's own frame: it is the same in any.
         let plane = |u: f64, v: f64| view.grid.to_plane(PixelPoint::new(at.x + u, at.y + v));
@@ -36,7 +36,7 @@ impl Bend {
         (bend.uu + bend.uv + bend.vv).is_finite().then_some(bend)
     }
 
-    /// Returns how a view's texels bend where its projection knows it in closed form, many times as fast.
+    /// Returns how a view's texels bend where its projection has a closed form, many times as fast.
     pub(crate) fn in_closed_form(view: &View, at: PixelPoint) -> Option<Self> {
         let [xx, xy, yy] = view.projection.curvature(view.grid.to_plane(at))?;
         // From the plane's unit to texels, of which y runs down.
@@ -45,7 +45,7 @@ impl Bend {
         Some(Self { uu: scaled(xx, step.x * step.x), uv: scaled(xy, step.x * step.y), vv: scaled(yy, step.y * step.y) })
     }
 
-    /// Where a texel is seen that lies at an offset.
+    /// Returns where a texel at an offset appears.
     pub(crate) fn of(&self, offset: DVec2) -> DVec2 {
         let DVec2 { x: u, y: v } = offset;
         offset + (self.uu * (u * u) + self.uv * (2.0 * u * v) + self.vv * (v * v)) / 2.0

@@ -1,25 +1,27 @@
 use glam::{DMat2, DVec2};
 
-/// The ellipse of texels that a round screen pixel covers: the texel at `centre + (U, V)` is at distance
-/// r² = A U² + B U V + C V² from the centre, in the kernel's unit.
+/// Ellipse of texels that a round screen pixel covers.
+///
+/// The texel at `centre + (U, V)` is at distance r from the centre, in the kernel's unit, where
+/// r² = A U² + B U V + C V².
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ellipse {
-    /// A.
+    /// Coefficient A.
     pub a: f64,
-    /// B.
+    /// Coefficient B.
     pub b: f64,
-    /// C.
+    /// Coefficient C.
     pub c: f64,
-    /// AC − B²/4, kept because a thin ellipse's would be lost to rounding.
+    /// Determinant AC − B²/4, kept because a thin ellipse would lose it to rounding.
     determinant: f64,
 }
 
 impl Ellipse {
-    /// The ellipse of the footprint with columns (Ux, Vx) and (Uy, Vy), already in the kernel's unit, whose axes are
-    /// raised to at least `floor` texels.
+    /// Returns the ellipse of the footprint with columns (Ux, Vx) and (Uy, Vy), already in the kernel's unit. Its axes
+    /// are raised to at least `floor` texels.
     ///
-    /// With J the matrix of those columns, r² = xᵀ(JJᵀ)⁻¹x; this is A, B, C of Greene & Heckbert divided by their F. The
-    /// eigenvalues of JJᵀ are the squared singular values of J, so raising them widens the axes and nothing else.
+    /// With J the matrix of those columns, r² = xᵀ(JJᵀ)⁻¹x; this is A, B, C of Greene & Heckbert divided by their F.
+    /// The eigenvalues of JJᵀ are the squared singular values of J, so raising them widens the axes and nothing else.
     pub fn new(jacobian: DMat2, floor: f64) -> Self {
         let (x, y) = (jacobian.x_axis, jacobian.y_axis);
         let (p, q, r) = (x.x * x.x + y.x * y.x, x.x * x.y + y.x * y.y, x.y * x.y + y.y * y.y);
@@ -39,23 +41,23 @@ impl Ellipse {
         }
     }
 
-    /// r² at an offset from the centre.
+    /// Returns r² at an offset from the centre.
     pub fn distance_squared(&self, offset: DVec2) -> f64 {
         self.a * offset.x * offset.x + self.b * offset.x * offset.y + self.c * offset.y * offset.y
     }
 
-    /// The area of r² < `q`, in texels.
+    /// Returns the area of r² < `q`, in texels.
     pub(crate) fn area(&self, q: f64) -> f64 {
         std::f64::consts::PI * q / self.determinant.sqrt()
     }
 
-    /// Half the width and height of the box around r² = `q`.
+    /// Returns half the width and height of the box around r² = `q`.
     pub fn half_extent(&self, q: f64) -> DVec2 {
         DVec2::new((q * self.c / self.determinant).sqrt(), (q * self.a / self.determinant).sqrt())
     }
 
-    /// The semi-axes of r = 1 in a plane that is mapped to that of the texels linearly: the major one, and the minor one's
-    /// length.
+    /// Returns the semi-axes of r = 1 in a plane that maps linearly to the plane of texels: the major one, and the
+    /// minor one's length.
     pub fn semi_axes_in(&self, to_texels: DMat2) -> (DVec2, f64) {
         // The eigenvalues of the conic in that plane, the smaller one not as a difference, which loses a thin ellipse's.
         let conic = DMat2::from_cols(DVec2::new(self.a, self.b / 2.0), DVec2::new(self.b / 2.0, self.c));
@@ -69,7 +71,7 @@ impl Ellipse {
         (DVec2::new(-sin, cos) * (greater / determinant).sqrt(), greater.recip().sqrt())
     }
 
-    /// The rows of r² < `q`, ready to be cut one after the other.
+    /// Returns the rows of r² < `q`, ready to be cut one after the other.
     pub(crate) fn rows(&self, q: f64) -> EllipseRows {
         // A U² + (B V) U + (C V² − q) = 0.
         let inverse = self.a.recip();
@@ -77,7 +79,8 @@ impl Ellipse {
         EllipseRows { slope, widest: q * inverse, narrowing: self.determinant * inverse * inverse }
     }
 
-    /// Semi-axes of r = 1 in texels, the major one first, and the major one's angle from the U axis, in radians.
+    /// Returns the semi-axes of r = 1 in texels, the major one first, and the major one's angle from the U axis, in
+    /// radians.
     pub fn axes(&self) -> (f64, f64, f64) {
         let (mean, half) = ((self.a + self.c) / 2.0, (self.a - self.c) / 2.0);
         let spread = half.hypot(self.b / 2.0);
@@ -96,7 +99,7 @@ pub(crate) struct EllipseRows {
 }
 
 impl EllipseRows {
-    /// Between which U the row at V lies inside; `None` where it misses the ellipse.
+    /// Returns the least and greatest U of the row at V inside the ellipse; `None` where it misses the ellipse.
     pub(crate) fn range(&self, v: f64) -> Option<(f64, f64)> {
         let half2 = self.widest - self.narrowing * v * v;
         let (middle, half) = (self.slope * v, half2.max(0.0).sqrt());
@@ -104,7 +107,7 @@ impl EllipseRows {
     }
 }
 
-/// The semi-axes of the ellipse that is the image of the unit circle, the major one first: the singular values.
+/// Returns the semi-axes of the image of the unit circle, the major one first: the singular values.
 pub(crate) fn semi_axes(jacobian: DMat2) -> [f64; 2] {
     let [a, b, c, d] = jacobian.to_cols_array();
     // Not hypot, which is a call: footprints are far from overflowing.
@@ -114,7 +117,7 @@ pub(crate) fn semi_axes(jacobian: DMat2) -> [f64; 2] {
     [major, if major > 0.0 { jacobian.determinant().abs() / major } else { 0.0 }]
 }
 
-/// Cosine and sine of θ where (x, y) = length·(cos 2θ, sin 2θ), each to full precision; 1 and 0 for a circle.
+/// Returns cosine and sine of θ where (x, y) = length·(cos 2θ, sin 2θ), each to full precision; 1 and 0 for a circle.
 fn half_angle(x: f64, y: f64, length: f64) -> (f64, f64) {
     if length == 0.0 {
         return (1.0, 0.0);

@@ -1,7 +1,7 @@
 //! EWA across views: a footprint that crosses from one view into another gathers from both.
 //!
-//! Each view tests only texels that it owns, in its own plane, with its own ellipse; each weight is multiplied by the
-//! texel's solid angle. No padded borders, no double counting: what one view leaves the next one has.
+//! Each view tests only texels that it owns, in its own plane, with its own ellipse. Each weight is multiplied by the
+//! texel's solid angle. There are no padded borders and no double counting: what one view leaves, the next one has.
 
 pub(crate) mod candidate;
 pub(crate) mod cap;
@@ -35,28 +35,28 @@ use crate::world::{Source, World};
 use clearance::{Clearance, Grid};
 use tap_weights::settle;
 
-/// A mapping is taken as linear over a kernel that is smaller than this part of the way to its nearest singularity. At a
-/// fifth, the tests find no point of a direction-coloured world displaced by more than 0.005 pixel.
+/// Part of the way to its nearest singularity below which a kernel's mapping is taken as linear. At a fifth, the tests
+/// find no point of a direction-coloured world displaced by more than 0.005 pixel.
 pub(crate) const LINEAR_PART: f64 = 0.2;
 
-/// Beside a steep rim texels grow as the mapping bends, and what it displaces is a part of the kernel's square over the way to
-/// the rim: so large that part may be in pixels.
+/// Greatest displacement, in pixels, by a mapping that is taken as linear beside a steep rim. Texels grow there as the
+/// mapping bends. The displacement is estimated by the kernel's squared radius over the way to the rim.
 const STEEP_PART: f64 = 0.1;
 
-/// Where a pixel lies, which decides what its kernel is held to.
+/// Region in which a pixel lies, which decides what its kernel is clamped to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum RimRegion {
     /// Nothing ends under the pixel.
     Inside,
-    /// The field of view does.
+    /// The field of view ends under the pixel.
     Rim,
 }
 
-/// What a gather works in and keeps from one footprint to the next.
+/// Working memory that a gather keeps from one footprint to the next.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Scratch {
     candidates: Vec<Candidate>,
-    /// The view that held all of the last footprint: the likeliest for the next.
+    /// View that held all of the last footprint, which is the likeliest for the next.
     last: usize,
 }
 
@@ -64,17 +64,18 @@ pub(crate) struct Scratch {
 pub(crate) struct Gather<'a> {
     world: &'a World,
     table: &'a KernelTable,
-    /// Where the target's field of view ends, if it does.
+    /// Edge of the target's field of view, if it has one.
     field: Option<FieldEdge<'a>>,
-    /// Which texels it falls upon, where those outside count for nothing.
+    /// Texels that the field falls on, where those outside do not count.
     seen: Option<SeenTexels<'a>>,
-    /// The largest texel of any view, in radians.
+    /// Pitch of the largest texel of any view, in radians.
     texel_pitch: f64,
     scratch: Scratch,
 }
 
 impl<'a> Gather<'a> {
-    /// Gathers from a world by a kernel; `field` is where the field of view ends that footprints are part of, if it does.
+    /// Makes the gather from a world by a kernel; `field` is the edge of the field of view that footprints belong to,
+    /// if any.
     pub(crate) fn new(world: &'a World, field: Option<FieldEdge<'a>>, table: &'a KernelTable) -> Self {
         // Asked for at an edge alone.
         let pitches = || world.sources().iter().map(|source| source.texel_pitch);
@@ -84,18 +85,18 @@ impl<'a> Gather<'a> {
         Self { world, table, field, seen, texel_pitch, scratch: Scratch::default() }
     }
 
-    /// Gathers in memory that an earlier gather used; in another world, too.
+    /// Reuses the memory of an earlier gather, even in another world.
     pub(crate) fn with_scratch(self, scratch: Scratch) -> Self {
         let last = scratch.last.min(self.world.sources().len() - 1);
         Self { scratch: Scratch { last, ..scratch }, ..self }
     }
 
-    /// Gives the memory back.
+    /// Returns the memory for another gather.
     pub(crate) fn into_scratch(self) -> Scratch {
         self.scratch
     }
 
-    /// The taps of a footprint, weights adding to one; none where no view is near.
+    /// Finds the taps of a footprint, whose weights add to one; none where no view is near.
     pub(crate) fn taps(&mut self, footprint: &Footprint, taps: &mut Taps) {
         taps.clear();
         let footprint = &with_width(*footprint);
@@ -111,12 +112,13 @@ impl<'a> Gather<'a> {
         }
     }
 
-    /// Whether all texels that count lie to one side: beyond them there is no view, or none that anybody needed to give.
+    /// Returns whether all texels that count lie to one side. Beyond them there is no view, or none that anybody needed
+    /// to give.
     fn ends_beside(&self) -> bool {
         !self.scratch.candidates.is_empty() && clamp_set::reach(&self.scratch.candidates).is_none()
     }
 
-    /// Finds the texels that count; true if the field of view ends under the pixel.
+    /// Finds the texels that count. Returns whether the field of view ends under the pixel.
     fn collect(&mut self, footprint: &Footprint, region: RimRegion) -> bool {
         self.scratch.candidates.clear();
         let (sources, floor) = (self.world.sources(), self.floor(region));
@@ -140,9 +142,9 @@ impl<'a> Gather<'a> {
         self.drop_unseen(footprint, region)
     }
 
-    /// Rescales candidates' distances to the coarsest kernel's unit, so that texels of the finer view still count as under the
-    /// pixel: else every slope beside a coarser view would be clamped. Candidates from `start` on are of a kernel of this
-    /// `reach`, those before of the `coarsest` so far. Returns the reach of the coarsest.
+    /// Rescales candidates' distances to the coarsest kernel's unit, and returns its reach. So texels of the finer view
+    /// still count as under the pixel; else every slope beside a coarser view would be clamped. Candidates from `start`
+    /// on belong to a kernel of this `reach`, those before to the `coarsest` so far.
     fn measure_alike(&mut self, start: usize, coarsest: f64, reach: f64) -> f64 {
         if start == self.scratch.candidates.len() {
             return coarsest;
@@ -161,13 +163,13 @@ impl<'a> Gather<'a> {
         self.table.kernel()
     }
 
-    /// Whether the target's field of view may end within `reach` radians of a direction.
+    /// Returns whether the edge of the target's field of view may lie within `reach` radians of a direction.
     pub(crate) fn is_near_edge(&self, direction: Direction, reach: f64) -> bool {
         self.field.is_some_and(|edge| edge.is_near(direction, reach))
     }
 
-    /// How far the edge of the target's field of view is from a patch of it whose kernels are ellipses of texels that the edge
-    /// of no view cuts; `None` if they are not. `screen` are points of the patch, row by row.
+    /// Returns how far a patch of the target is from the edge of its field of view. `None` unless its kernels are
+    /// ellipses of texels that the edge of no view cuts. `screen` holds points of the patch, row by row.
     pub(crate) fn clearance(&self, source: &Source, screen: &Grid<Footprint>) -> Option<Clearance> {
         let (middle, corners) = (screen[1][1].direction, [screen[0][0], screen[0][2], screen[2][0], screen[2][2]]);
         let cap = Cap::around(middle, &corners)?;
@@ -188,7 +190,8 @@ impl<'a> Gather<'a> {
         Some(Clearance::Within(largest(&pixel_size).max(kernel)))
     }
 
-    /// What lies outside the field of view does not leak in. True if any of that lies under the pixel.
+    /// Drops texels outside the field of view, so that they do not leak in. Returns whether any of them lies under the
+    /// pixel.
     fn drop_unseen(&mut self, footprint: &Footprint, region: RimRegion) -> bool {
         let reach = self.reach(footprint, self.texel_pitch, self.floor(region));
         let Some(seen) = self.seen.as_mut().filter(|seen| seen.ends_near(footprint.direction, reach)) else {
@@ -203,18 +206,18 @@ impl<'a> Gather<'a> {
         ends_under
     }
 
-    /// The kernel's unit in texels, at least.
+    /// Returns the least unit of the kernel, in texels.
     fn floor(&self, region: RimRegion) -> f64 {
         self.table.kernel().floor * if region == RimRegion::Rim { RIM_FLOOR } else { 1.0 }
     }
 
-    /// An upper bound of the kernel's radius on the sphere, in radians, among texels of this pitch, so many of which its unit is
-    /// at least.
+    /// Returns an upper bound of the kernel's radius on the sphere, in radians. The texels have this pitch, and the
+    /// kernel's unit is at least `floor` of them.
     fn reach(&self, footprint: &Footprint, texel_pitch: f64, floor: f64) -> f64 {
         reach(self.table.kernel(), footprint, texel_pitch, floor)
     }
 
-    /// Adds the texels of one view; true if the kernel lies wholly inside it.
+    /// Adds the texels of one view. Returns whether the kernel lies wholly inside it.
     fn gather_from(&mut self, source: &Source, footprint: &Footprint, region: RimRegion, floor: f64) -> bool {
         let radius = self.reach(footprint, source.texel_pitch_at(footprint.direction), floor);
         let margin = source.view.margin(footprint.direction);
@@ -230,7 +233,7 @@ impl<'a> Gather<'a> {
         }
     }
 
-    /// The common case: the footprint is an ellipse of texels.
+    /// Gathers an ellipse of texels, which is the common case. Returns whether it lies wholly inside the view.
     fn gather_ellipse(&mut self, source: &Source, footprint: &Footprint, unit: f64) -> bool {
         let Some((centre, jacobian)) = source.view.texel_footprint(footprint) else { return false };
         let kernel = self.table.kernel();
@@ -270,8 +273,8 @@ impl<'a> Gather<'a> {
             && (whole_turn || (bounds.left >= whole.left as i64 && bounds.right < whole.right as i64))
     }
 
-    /// Texels beside each other in a row, all inside, given the index of the first and the solid angle of each: Q = AU² + BUV + CV²
-    /// by finite differences (Greene & Heckbert 1986).
+    /// Adds neighbouring texels of a row, all inside, given the index of the first and the solid angle of each.
+    /// Computes Q = AU² + BUV + CV² by finite differences (Greene & Heckbert 1986).
     fn gather_run(
         &mut self,
         (first, solid_angles): (usize, &[f32]),
@@ -304,8 +307,8 @@ impl<'a> Gather<'a> {
         }
     }
 
-    /// Near a pole, a horizon or a rim the ellipse would be wrong: each texel is weighed by its direction instead, in
-    /// the plane tangent to the sphere at the footprint.
+    /// Gathers near a pole, a horizon or a rim, where the ellipse would be wrong. Each texel is weighed by its
+    /// direction instead, in the plane tangent to the sphere at the footprint.
     fn gather_cap(&mut self, source: &Source, footprint: &Footprint, radius: f64, floor: f64) {
         let kernel = TangentKernel::new(self.table.kernel(), source, footprint, (radius, floor, 0.0));
         kernel.reach.each_run(source, |j, columns| {
@@ -329,15 +332,16 @@ impl<'a> Gather<'a> {
     }
 }
 
-/// The texels of a kernel that lie wholly inside one view, in an ellipse.
+/// Texels of a kernel that lie wholly inside one view, in an ellipse.
 pub(crate) struct EllipseOfTexels {
     pub(crate) centre: PixelPoint,
-    /// The footprint in texels.
+    /// Footprint in texels.
     pub(crate) jacobian: DMat2,
     pub(crate) ellipse: Ellipse,
 }
 
-/// The ellipse of a footprint's kernel among the texels of a source; `None` where it is none or not all of it is inside.
+/// Returns the ellipse of a footprint's kernel among the texels of a source. `None` where it is none, or not all of it
+/// is inside.
 pub(crate) fn ellipse_of_texels(kernel: &Kernel, source: &Source, footprint: &Footprint) -> Option<EllipseOfTexels> {
     let footprint = &with_width(*footprint);
     let radius = reach(kernel, footprint, source.texel_pitch_at(footprint.direction), kernel.floor);
@@ -358,8 +362,8 @@ pub(crate) fn ellipse_of_texels(kernel: &Kernel, source: &Source, footprint: &Fo
     is_inside.then_some(EllipseOfTexels { centre, jacobian, ellipse })
 }
 
-/// About how many texels of a source a kernel looks at for a footprint, measured from side to side; those `around` it in addition,
-/// in radians.
+/// Returns about how many texels of a source a kernel reads for a footprint, measured from side to side. `around`
+/// widens it on all sides, in radians.
 pub(crate) fn texels_of(kernel: &Kernel, source: &Source, footprint: &Footprint, around: f64) -> f64 {
     let footprint = &with_width(*footprint);
     let radius = reach(kernel, footprint, source.texel_pitch_at(footprint.direction), kernel.floor);
@@ -376,31 +380,33 @@ pub(crate) fn texels_of(kernel: &Kernel, source: &Source, footprint: &Footprint,
         .map_or(0.0, |(_, jacobian)| Ellipse::new(jacobian * kernel.scale, kernel.floor).area(kernel.radius().powi(2)))
 }
 
-/// Whether derivatives tell how many texels a footprint holds: nothing under its kernel bends, ends or comes together.
+/// Returns whether derivatives tell how many texels a footprint holds: nothing under its kernel bends, ends or comes
+/// together.
 pub(crate) fn is_regular(kernel: &Kernel, source: &Source, footprint: &Footprint) -> bool {
     let radius = reach(kernel, footprint, source.texel_pitch_at(footprint.direction), kernel.floor);
     let margin = source.view.margin(footprint.direction);
     source.period.is_none() && is_linear(source, footprint, radius, margin)
 }
 
-/// An upper bound of a kernel's radius on the sphere, in radians, among texels of this pitch, so many of which its unit is at least.
+/// Returns an upper bound of a kernel's radius on the sphere, in radians. The texels have this pitch, and the kernel's
+/// unit is at least `floor` of them.
 pub(crate) fn reach(kernel: &Kernel, footprint: &Footprint, texel_pitch: f64, floor: f64) -> f64 {
     kernel.radius() * (kernel.scale * pixel_size(footprint)).max(floor * texel_pitch)
 }
 
-/// The root of a pixel's summed squared derivatives, in radians.
+/// Returns the root of a pixel's summed squared derivatives, in radians.
 fn pixel_size(footprint: &Footprint) -> f64 {
     (footprint.jacobian.dx.length_squared() + footprint.jacobian.dy.length_squared()).sqrt()
 }
 
-/// A pixel whose sides are narrower than this part of their length has no width, as on the very pole of a panorama.
+/// Ratio of width to length below which a pixel has no width, as on the very pole of a panorama.
 const NO_WIDTH: f64 = 1e-6;
 
-/// What a pixel without width is taken to have of its length: far less than any texel's floor, but offsets across it can
-/// still be told.
+/// Ratio of width to length that a pixel without width is given. It is far less than any texel's floor, but enough to
+/// tell offsets across the pixel.
 const SOME_WIDTH: f64 = 0.01;
 
-/// Returns a footprint as it is if it has any width; else a narrow one.
+/// Returns a footprint unchanged if it has any width; else a narrow one.
 pub(crate) fn with_width(footprint: Footprint) -> Footprint {
     let Footprint { direction, jacobian: DirectionJacobian { dx, dy } } = footprint;
     let across = |side: DVec3| direction.vector().cross(side) * SOME_WIDTH;
@@ -415,7 +421,8 @@ pub(crate) fn with_width(footprint: Footprint) -> Footprint {
     Footprint { direction, jacobian }
 }
 
-/// Whether the mapping is linear, as far as can be seen, over a kernel of this radius so far from its nearest singularity.
+/// Returns whether the mapping is linear enough over a kernel of this radius; `margin` is the distance to its nearest
+/// singularity.
 fn is_linear(source: &Source, footprint: &Footprint, radius: f64, margin: f64) -> bool {
     let pixel = || footprint.jacobian.solid_angle().sqrt();
     radius < LINEAR_PART * margin

@@ -1,28 +1,28 @@
-//! Where views of different texels meet, a kernel must find texels on both sides of the edge.
+//! Wider kernels where views of different texels meet, so that there are texels on both sides of the edge.
 
 use crate::filter::Kernel;
 use crate::sphere::Direction;
 use crate::world::{Source, World};
 
-/// What of a world's views meets at one direction.
+/// Views of different texel sizes that meet at one direction.
 ///
-/// Beside an edge, the kernel of a coarse view reaches further beyond it than that of a fine one reaches back: half a large
-/// texel from the edge only large ones would count, all to one side. So as far as a direction lies beyond a view's edge, so
-/// much wider is the kernel among that view's texels, up to the coarsest kernel there. It is as it was on the edge itself, and
-/// everywhere where views are alike.
+/// Beside an edge, the kernel of a coarse view reaches further beyond it than that of a fine view reaches back. Half a
+/// large texel from the edge only large texels would count, all to one side. So among the texels of a view, the kernel
+/// widens with the direction's distance beyond that view's edge, up to the coarsest kernel there. On the edge itself it
+/// is unchanged, and so it is where views are alike.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Meeting {
     direction: Direction,
-    /// Texels that the kernel's unit is at least.
+    /// Least unit of the kernel, in texels.
     floor: f64,
-    /// Texels that the kernel reaches at least.
+    /// Least reach of the kernel, in texels.
     reach: f64,
     /// Texel pitch of the coarsest view, in radians, reduced with distance from where its kernel starts to reach.
     coarsest: f64,
 }
 
 impl Meeting {
-    /// What meets at a direction; `None` in a world whose views are alike.
+    /// Returns the views that meet at a direction; `None` in a world whose views are alike.
     pub(crate) fn at(world: &World, kernel: &Kernel, direction: Direction) -> Option<Self> {
         let sources = world.sources();
         let pitches = || sources.iter().map(|source| source.texel_pitch);
@@ -39,7 +39,7 @@ impl Meeting {
         Some(Self { direction, floor, reach, coarsest })
     }
 
-    /// By how much a kernel is wider among the texels of a view.
+    /// Returns the factor by which a kernel is wider among the texels of a view.
     pub(crate) fn widening(&self, source: &Source) -> f64 {
         let most = self.coarsest / source.texel_pitch_at(self.direction);
         if most <= 1.0 || !source.reaches(self.direction, self.reach * self.coarsest) {

@@ -7,41 +7,41 @@ use crate::filter::Kernel;
 use crate::sphere::Direction;
 use crate::world::Source;
 
-/// Where the field of view ends under a pixel the floor is so much higher: up to half a texel beyond the last one, the
-/// kernel must reach four rows of texels, since three do not tell a slope from an edge that a renderer smoothed.
+/// Factor on the floor where the field of view ends under a pixel. Up to half a texel beyond the last one, the kernel
+/// must reach four rows of texels. Three do not tell a slope from an edge that a renderer smoothed.
 pub(crate) const RIM_FLOOR: f64 = 1.7;
 
-/// A kernel among the texels of one view, in the plane tangent to the sphere at a footprint: near a pole, a horizon or a rim,
-/// where an ellipse of texels would be wrong, each texel is weighed by its direction.
+/// A kernel among the texels of one view, in the plane tangent to the sphere at a footprint. Near a pole, a horizon or
+/// a rim, where an ellipse of texels would be wrong, it weighs each texel by its direction.
 pub(crate) struct TangentKernel {
     direction: Direction,
-    /// Two axes of the plane, as long as one over the view's largest texel.
+    /// Two axes of the plane; their length is 1 over the view's largest texel.
     axes: [DVec3; 2],
     to_texels: DMat2,
-    /// From the plane to screen pixels.
+    /// Matrix from the plane to screen pixels.
     to_screen: DMat2,
     ellipse: Ellipse,
-    /// How much of the coarse cross-section counts.
+    /// Share of the coarse cross-section.
     pub(crate) coarseness: f32,
     beyond: Option<BeyondSeam>,
-    /// What holds all of it on the sphere.
+    /// Caps that hold all of the kernel on the sphere.
     pub(crate) reach: CapChain,
 }
 
-/// What of a kernel lies beyond a seam, where texels lie otherwise: weighed by the near side's ellipse, a thin one might miss them
-/// all.
+/// Part of a kernel beyond a seam, where texels lie otherwise. The near side's ellipse, if thin, might miss all of
+/// them.
 struct BeyondSeam {
-    /// From the footprint to the same place on the other side.
+    /// Step from the footprint to the corresponding place on the other side.
     across: DVec3,
     ellipse: Ellipse,
     to_texels: DMat2,
-    /// One on the seam, falling to nothing where the kernel ends.
+    /// One on the seam, falling to zero where the kernel ends.
     nearness: f64,
 }
 
 impl TangentKernel {
-    /// The kernel of a footprint, at most `radius` radians wide, whose unit is at least `floor` texels. `around` is added on all
-    /// sides of what holds it, in radians.
+    /// Makes the kernel of a footprint, at most `radius` radians wide, whose unit is at least `floor` texels. `around`
+    /// widens the caps that hold it, in radians.
     pub(crate) fn new(
         kernel: &Kernel,
         source: &Source,
@@ -91,8 +91,8 @@ impl TangentKernel {
         Self { direction: footprint.direction, axes, to_texels, to_screen, ellipse, coarseness, beyond, reach }
     }
 
-    /// Square of the distance from the centre of a texel in this direction, in the kernel's unit, and its offset in screen
-    /// pixels; `None` behind the plane.
+    /// Returns the square of a texel's distance from the centre, in the kernel's unit, and its offset in screen pixels.
+    /// `None` behind the plane.
     pub(crate) fn place(&self, texel: Direction) -> Option<(f64, DVec2)> {
         let from = texel.vector() - self.direction.vector();
         let offset = DVec2::new(self.axes[0].dot(from), self.axes[1].dot(from));
@@ -107,8 +107,8 @@ impl TangentKernel {
     }
 }
 
-/// The footprint in texels, in those of a panorama's outermost row where it lies beyond their centres: texels nearer to a
-/// pole would be narrower, but there are none.
+/// Returns the footprint in texels. Beyond the centres of a panorama's outermost row these are that row's texels:
+/// nearer to a pole texels would be narrower, but there are none.
 fn footprint_among_texels(source: &Source, footprint: &Footprint) -> Option<DMat2> {
     let Some((centre, jacobian)) = source.view.texel_footprint(footprint) else {
         return footprint_on_border(source, footprint);
@@ -132,11 +132,11 @@ fn footprint_among_texels(source: &Source, footprint: &Footprint) -> Option<DMat
     source.view.texel_footprint(&there).map(|(_, jacobian)| jacobian)
 }
 
-/// The texels of a wide camera's border are this part of its largest, at most.
+/// Greatest size of the texels of a wide camera's border, as a part of its largest texel.
 const FINE_BORDER: f64 = 0.25;
 
-/// The footprint in the texels of the border, for what lies beyond a camera's horizon, where those are far smaller than in the
-/// middle: in texels as large as any, a kernel would hold most of the picture.
+/// Returns the footprint in the texels of the border, for directions beyond a camera's horizon. `None` unless those are
+/// far smaller than in the middle: in the largest texels a kernel would hold most of the picture.
 fn footprint_on_border(source: &Source, footprint: &Footprint) -> Option<DMat2> {
     let direction = source.view.border_towards(footprint.direction)?;
     let texel = source.view.footprint(source.view.pixel(direction)?)?.jacobian;

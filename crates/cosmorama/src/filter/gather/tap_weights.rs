@@ -6,8 +6,9 @@ use crate::filter::rim::clamp_set;
 use crate::filter::taps::{Tap, Taps};
 use crate::sphere::DirectionJacobian;
 
-/// Makes taps whose weights add to one, none if their sum would be noise; with `centred`, their centroid is the pixel's
-/// centre. Where something ends under the pixel or beside it, the footprint tells how a slope goes on beyond them.
+/// Makes taps whose weights add to one, or none if their sum would be noise. With `centred`, their centroid is the
+/// pixel's centre. `rim` holds the footprint's derivatives where something ends under the pixel or beside it; they tell
+/// how a slope continues there.
 pub(crate) fn settle(candidates: &mut [Candidate], centred: bool, rim: Option<&DirectionJacobian>, taps: &mut Taps) {
     soften(candidates);
     let correction = if centred { Correction::centring(candidates) } else { Correction::default() };
@@ -34,7 +35,7 @@ pub(crate) fn settle(candidates: &mut [Candidate], centred: bool, rim: Option<&D
     }
 }
 
-/// Where offsets on the screen lie in the plane tangent to the sphere, in radians.
+/// Places of screen offsets in the plane tangent to the sphere, in radians.
 struct Places {
     dx: [f32; 2],
     dy: [f32; 2],
@@ -53,11 +54,11 @@ impl Places {
     }
 }
 
-/// The part of the weights' size that their sum has at least: on one lattice it is much more.
+/// Least sum of the weights, as a part of the sum of their sizes: on one lattice it is much more.
 const LEAST_SUM: f32 = 0.3;
 
-/// Where a fine view meets a coarse one, a few large texels in the negative lobe can all but cancel the small ones under
-/// the pixel. As far as they do, the weights give way to positive ones.
+/// Blends the weights with positive ones as far as they cancel. Where a fine view meets a coarse one, a few large
+/// texels in the negative lobe can nearly cancel the small ones under the pixel.
 fn soften(candidates: &mut [Candidate]) {
     let (mut sum, mut size) = (0f32, 0f32);
     for candidate in candidates.iter() {
@@ -74,15 +75,15 @@ fn soften(candidates: &mut [Candidate]) {
     }
 }
 
-/// Texels whose second moments have a smaller determinant than this part of their product lie in a line, as far as single
-/// precision tells: rounding leaves some 1e-7 of it.
+/// Part of their product below which the determinant of the second moments means that texels lie in a line. Rounding to
+/// single precision leaves about 1e-7 of it.
 pub(crate) const THINNEST: f32 = 1e-6;
 
-/// What is added to the weights so that their centroid is the pixel's centre, their sum unchanged: v·g·(p − p̄).
+/// Correction that makes the weights' centroid the pixel's centre and keeps their sum: v·g·(p − p̄).
 ///
-/// A radial kernel on a lattice of texels weighs one side a little more than the other, which shifts the picture by up
+/// A radial kernel on a lattice of texels weighs one side a little more than the other. That shifts the picture by up
 /// to 0.17 of a pixel. A correction linear in the offset p is that of moving least squares (Lancaster & Salkauskas
-/// 1981): a world whose colour is linear in the screen's coordinates comes back exactly.
+/// 1981). A world whose colour is linear in the screen's coordinates comes back exactly.
 #[derive(Clone, Copy, Debug, Default)]
 struct Correction {
     gradient: [f32; 2],

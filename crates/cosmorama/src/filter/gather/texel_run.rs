@@ -1,4 +1,4 @@
-//! The texels that a kernel reaches, as runs of a row.
+//! Texels that a kernel reaches, as runs of a row.
 
 use glam::DVec2;
 
@@ -14,7 +14,7 @@ pub(crate) struct TexelBox {
 }
 
 impl TexelBox {
-    /// All texels whose centres are within `reach` of a point.
+    /// Returns the box of all texels whose centres are within `reach` of a point.
     pub(crate) fn around(centre: PixelPoint, reach: DVec2) -> Self {
         Self {
             left: ceil(centre.x - reach.x - 0.5),
@@ -25,8 +25,8 @@ impl TexelBox {
     }
 }
 
-/// A run of texels in one row: its first column in the image, the same column counted on past the image's
-/// edge, and its length.
+/// A run of texels in one row: its first column in the image, the same column counted on past the image's edge, and its
+/// length.
 pub(crate) struct Run {
     pub(crate) column: usize,
     pub(crate) unrolled: i64,
@@ -34,13 +34,13 @@ pub(crate) struct Run {
 }
 
 impl Run {
-    /// Columns `left..end` of the image's turn that starts at `turn`; an empty run if there are none.
+    /// Returns the columns `left..end` of the image's turn that starts at `turn`; the run is empty if there are none.
     pub(crate) fn within(left: i64, end: i64, turn: i64) -> Self {
         Self { column: (left - turn) as usize, unrolled: left, length: (end - left).max(0) as usize }
     }
 }
 
-/// The runs of the columns `left..end` of a panorama: one, or where they cross its edge, one for each turn.
+/// Returns the runs of the columns `left..end` of a panorama: one, or where they cross its edge, one for each turn.
 pub(crate) fn runs_around(source: &Source, period: i64, left: i64, end: i64) -> impl Iterator<Item = Run> + use<> {
     // Never the same texel twice.
     let (end, width) = (end.min(left + period), (source.view.width() as i64).min(period));
@@ -48,17 +48,19 @@ pub(crate) fn runs_around(source: &Source, period: i64, left: i64, end: i64) -> 
     turns.map(move |k| Run::within(left.max(k * period), end.min(k * period + width), k * period))
 }
 
-/// No texel lies as far away, and two such places can be added and subtracted: absurd geometry puts kernels anywhere.
+/// Bound on places in texels, farther than any texel lies: absurd geometry puts kernels anywhere. Two such places can
+/// still be added and subtracted.
 const FARTHEST: f64 = (1_u64 << 52) as f64;
 
-/// The largest integer that is not greater. Without SSE4.1 `f64::floor` is a call, and every row of texels needs it.
+/// Returns the largest integer that is not greater. Without SSE4.1 `f64::floor` is a call, and every row of texels
+/// needs it.
 pub(crate) fn floor(value: f64) -> i64 {
     let value = value.clamp(-FARTHEST, FARTHEST);
     let truncated = value as i64;
     truncated - i64::from(value < truncated as f64)
 }
 
-/// The smallest integer that is not less.
+/// Returns the smallest integer that is not less.
 pub(crate) fn ceil(value: f64) -> i64 {
     let value = value.clamp(-FARTHEST, FARTHEST);
     let truncated = value as i64;

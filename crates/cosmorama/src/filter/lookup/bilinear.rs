@@ -4,7 +4,7 @@ use crate::filter::reference;
 use crate::raster::Rgba;
 use crate::world::{Light, LightError, World};
 
-/// The four texels around the middle of a footprint.
+/// Bilinear interpolation between the four texels around the middle of a footprint.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Bilinear;
 

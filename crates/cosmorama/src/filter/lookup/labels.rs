@@ -7,7 +7,7 @@ use crate::filter::{CrossSection, Kernel};
 use crate::raster::Rgba;
 use crate::world::{Light, LightError, World};
 
-/// Which texel's value a pixel of labels takes. Labels are names, such as numbers of objects: a mixture of two is neither.
+/// Rule by which a pixel of labels takes one texel's value. Labels are names, such as numbers of objects: a mixture of two is neither.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum LabelRule {
     /// The texel that the pixel's centre sees.
@@ -22,7 +22,7 @@ pub enum LabelRule {
 /// Every average is the value of some texel. It is opaque or transparent as that texel is, at the rim of a lens, too.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Labels {
-    /// How a value is chosen.
+    /// Rule by which a value is chosen.
     pub rule: LabelRule,
     /// Weights of votes.
     pub kernel: Kernel,

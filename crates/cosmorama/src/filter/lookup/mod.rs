@@ -1,4 +1,4 @@
-//! Looking a single direction up: the nearest texel, or the four around it, across the edges of views.
+//! Look-up of a single direction: the nearest texel, or the four around it, across the edges of views.
 
 mod bilinear;
 pub(crate) mod labels;
@@ -12,7 +12,7 @@ use crate::camera::PixelPoint;
 use crate::sphere::Direction;
 use crate::world::{Source, World};
 
-/// Gives the texel nearest to a direction, with weight 1, to `tap`; nothing where no view looks.
+/// Calls `tap` with the texel nearest to a direction and weight 1, or not at all where no view shows the direction.
 pub(crate) fn nearest(world: &World, direction: Direction, mut tap: impl FnMut(u32, f64)) {
     let Some((index, pixel)) = world.owner(direction) else { return };
     let source = &world.sources()[index];
@@ -25,10 +25,10 @@ pub(crate) fn nearest(world: &World, direction: Direction, mut tap: impl FnMut(u
     }
 }
 
-/// Gives the four texels around a direction with their bilinear weights to `tap`.
+/// Calls `tap` with the four texels around a direction and their bilinear weights.
 ///
-/// A neighbour beyond the edge of the view is itself looked up, bilinearly, where the neighbouring view shows it; the
-/// weights of those that nothing shows are missing from the sum.
+/// A neighbour beyond the edge of the view is itself interpolated, bilinearly, in the neighbouring view that shows it.
+/// Where no view shows it, its weight is missing from the sum.
 pub(crate) fn bilinear(world: &World, direction: Direction, mut tap: impl FnMut(u32, f64)) {
     world.for_each_holder(direction, |index, pixel, part| {
         let source = &world.sources()[index];
@@ -53,7 +53,7 @@ fn beyond_edge(world: &World, source: &Source, (i, j): (i64, i64), weight: f64, 
     }
 }
 
-/// The 2×2 texels around a point and their bilinear weights.
+/// Returns the 2×2 texels around a point with their bilinear weights.
 fn corners(pixel: PixelPoint) -> [(i64, i64, f64); 4] {
     let (x, y) = (pixel.x - 0.5, pixel.y - 0.5);
     let (i, j) = (x.floor(), y.floor());

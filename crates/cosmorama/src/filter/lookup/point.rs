@@ -4,7 +4,7 @@ use crate::filter::prepared::{Filter, Prepared, SetupCost, bounded};
 use crate::raster::Rgba;
 use crate::world::{Light, LightError, World};
 
-/// The one texel that the middle of a footprint sees: no filter at all.
+/// The one texel that the middle of a footprint sees, without filtering.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Point;
 

@@ -1,11 +1,12 @@
 use crate::filter::gather::candidate::Candidate;
 use crate::filter::kernel::UNDER;
 
-/// The r² within which texels bound a pixel: those under it, or so many more of the nearest that they surround its centre.
+/// Returns the r² within which texels bound a pixel: those under it, or enough of the nearest to surround its centre.
+/// `None` if all texels that the kernel reaches lie to one side.
 ///
-/// What is linear has at a point that texels surround no value that is outside theirs. In one lattice those under a pixel
-/// always surround it; where the texels of two views are of different sizes or shapes, or at a pole, all of them may lie to
-/// one side. `None` where even all that the kernel reaches do.
+/// At a point that texels surround, a linear function has no value outside theirs. In one lattice, the texels under a
+/// pixel always surround it. At a pole, or where two views have texels of different sizes or shapes, they may all lie
+/// to one side.
 pub(crate) fn reach(candidates: &[Candidate]) -> Option<f32> {
     let under = UNDER as f32;
     let mut wedge = Wedge::default();
@@ -18,7 +19,7 @@ pub(crate) fn reach(candidates: &[Candidate]) -> Option<f32> {
     last.map(|candidate| candidate.q.next_up())
 }
 
-/// The directions between the two outermost of some points, as long as they span less than half a turn.
+/// Directions between the two outermost of some points, as long as they span less than half a turn.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Wedge {
     /// The outermost points, counterclockwise.
@@ -26,7 +27,7 @@ pub(crate) struct Wedge {
 }
 
 impl Wedge {
-    /// Takes another point; true if with it the points surround the origin, or have it between two of them.
+    /// Adds a point. Returns whether the points now surround the origin, or have it between two of them.
     pub(crate) fn closes_with(&mut self, point: [f32; 2]) -> bool {
         let Some([right, left]) = &mut self.sides else {
             self.sides = Some([point; 2]);

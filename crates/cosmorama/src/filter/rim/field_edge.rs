@@ -3,25 +3,25 @@ use crate::projection::{PlanePoint, Projection};
 use crate::sphere::Direction;
 use crate::world::Source;
 
-/// Where a target's field of view ends: texels that no part of it falls upon count for nothing, whatever they hold.
+/// Edge of a target's field of view. Texels that no part of the field falls on do not count, whatever they hold.
 ///
 /// A kernel at the rim of a lens reaches beyond it, into parts of faces that nobody needed to render.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct FieldEdge<'a> {
     target: &'a View,
-    /// Cosine of the limiting circle's angle from the axis: stops are for lenses, whose circles are cones. `None` where the
-    /// circle holds all that the lens shows.
+    /// Cosine of the limiting circle's angle from the axis: stops are for lenses, whose circles are cones. `None` where
+    /// the circle holds all that the lens shows.
     circle: Option<f64>,
-    /// 1 where the middle of the picture looks to the front, −1 where it looks back, as in a mirror ball.
+    /// 1 if the middle of the picture looks to the front, −1 if it looks back, as in a mirror ball.
     axis: f64,
 }
 
-/// Points of a texel by which, beside its centre, its overlap with the field is judged: its corners a hair inside, since those
-/// of a texel beyond the edge lie on it.
+/// Points of a texel that are tested for overlap with the field, besides its centre. They are the corners, a hair
+/// inside, since the corners of a texel beyond the edge lie on the edge.
 const CORNERS: [(f64, f64); 4] = [(0.001, 0.001), (0.999, 0.001), (0.001, 0.999), (0.999, 0.999)];
 
 impl<'a> FieldEdge<'a> {
-    /// The edge of a target's field; `None` if it has none inside its image.
+    /// Returns the edge of a target's field; `None` if it has none inside its image.
     pub(crate) fn of(target: &'a View) -> Option<Self> {
         let at = |radius| target.projection.unproject(PlanePoint::new(radius, 0.0));
         let circle = target.stop.circle.and_then(at).map(|direction| -direction.vector().z);
@@ -31,12 +31,13 @@ impl<'a> FieldEdge<'a> {
         (target.stop != FieldStop::NONE).then_some(Self { target, circle, axis })
     }
 
-    /// Whether the field holds a few texels of this pitch. One that does not is made of what is around it.
+    /// Returns whether the field holds a few texels of this pitch. A field that does not is made of the texels around
+    /// it.
     pub(crate) fn is_wider_than(&self, texel_pitch: f64) -> bool {
         self.circle.is_none_or(|circle| circle.acos() > 2.0 * texel_pitch)
     }
 
-    /// Whether something within `reach` radians of a direction may lie outside the field.
+    /// Returns whether something within `reach` radians of a direction may lie outside the field.
     pub(crate) fn is_near(&self, direction: Direction, reach: f64) -> bool {
         let direction = self.target.orientation.to_view(direction);
         // cos(α − ρ) = cos α cos ρ + sin α sin ρ, and no more than this.
@@ -45,37 +46,37 @@ impl<'a> FieldEdge<'a> {
             || self.target.stop.half_space.is_some_and(|side| side.dot(direction) < reach)
     }
 
-    /// Whether everything within `reach` radians of a direction surely lies outside the field.
+    /// Returns whether everything within `reach` radians of a direction surely lies outside the field.
     pub(crate) fn is_far_beyond(&self, direction: Direction, reach: f64) -> bool {
         let direction = self.target.orientation.to_view(direction);
         self.circle.is_some_and(|circle| self.axis_cosine(direction) < circle - reach)
             || self.target.stop.half_space.is_some_and(|side| side.dot(direction) < -reach)
     }
 
-    /// Whether a part of the field falls upon the texel in this column and row of a source.
+    /// Returns whether a part of the field falls on the texel in this column and row of a source.
     pub(crate) fn touches(&self, source: &Source, texel: [usize; 2]) -> bool {
         let centre = source.view.direction(PixelPoint::centre(texel[0], texel[1]));
         !self.is_refused(source, centre) && self.holds_some(&source.view, centre, texel)
     }
 
-    /// Whether no part of the field falls upon a texel with this centre, as far as that alone tells.
+    /// Returns whether the centre alone shows that no part of the field falls on a texel.
     fn is_refused(&self, source: &Source, centre: Option<Direction>) -> bool {
         // No corner of a texel is farther from its centre than its side is long.
         source.has_bounded_texels() && centre.is_some_and(|centre| self.is_far_beyond(centre, source.texel_pitch))
     }
 
-    /// Whether it holds a texel's centre or one of its corners.
+    /// Returns whether the field holds a texel's centre or one of its corners.
     fn holds_some(&self, view: &View, centre: Option<Direction>, [i, j]: [usize; 2]) -> bool {
         let at = |(x, y): &(f64, f64)| view.direction(PixelPoint::new(i as f64 + x, j as f64 + y));
         centre.into_iter().chain(CORNERS.iter().filter_map(at)).any(|direction| self.holds(direction))
     }
 
-    /// Cosine of a direction's angle from the axis.
+    /// Returns the cosine of a direction's angle from the axis.
     fn axis_cosine(&self, direction: Direction) -> f64 {
         -direction.vector().z * self.axis
     }
 
-    /// Whether it holds a direction.
+    /// Returns whether the field holds a direction.
     fn holds(&self, direction: Direction) -> bool {
         let direction = self.target.orientation.to_view(direction);
         self.circle.is_none_or(|circle| self.axis_cosine(direction) >= circle)
@@ -83,7 +84,7 @@ impl<'a> FieldEdge<'a> {
     }
 }
 
-/// The sine of an angle between 0 and π, given its cosine.
+/// Returns the sine of an angle between 0 and π, given its cosine.
 fn sine(cosine: f64) -> f64 {
     (1.0 - cosine * cosine).max(0.0).sqrt()
 }
@@ -125,7 +126,7 @@ mod tests {
         View { projection, orientation, grid: PixelGrid::spanning(size.0, size.1, rect), stop }
     }
 
-    /// A panorama with a few columns that show far more than others, none of which is measured.
+    /// Returns a panorama in which a few columns show far more than others; none of these is measured.
     fn stretched() -> ProjectionKind {
         let table = StMapTable::of_pixels(97, 65, |i, j| {
             let x = (i as f64 + 0.5) / 97.0 - 0.5;

@@ -1,4 +1,4 @@
-//! Where a field of view or a world ends under a kernel.
+//! Edges of fields of view and of worlds under a kernel.
 
 pub(crate) mod clamp_set;
 pub(crate) mod field_edge;

@@ -1,8 +1,10 @@
-//! Anti-ringing: where the last texels that count may lie half a texel before the pixel, a slope goes on beyond them.
+//! Anti-ringing at rims, where the last texels that count may lie half a texel before the pixel and a slope continues
+//! beyond them.
 //!
-//! Clamped to what those hold, every slope would end flat at the rim of a lens, and the picture be displaced there by up to
-//! half a texel. What tells a slope from a stripe, a step or a sun is a plane laid through all texels: where these lie on it,
-//! the pixel does too; by as much as one of them departs from it, the pixel may.
+//! If a pixel were clamped to those texels, every slope would end flat at the rim of a lens. The picture would be
+//! displaced there by up to half a texel. A plane fitted through all texels tells a slope from a stripe, a step or a
+//! sun. Where the texels lie on the plane, the pixel does, too. The farther one of them departs from the plane, the
+//! closer the pixel is held to the clamp.
 
 use std::cell::OnceCell;
 
@@ -11,29 +13,29 @@ use glam::{DMat3, DVec3, Vec3Swizzles};
 
 use crate::raster::Rgba;
 
-/// The channel that may not go beyond one.
+/// Index of alpha, the channel that may not exceed one.
 const ALPHA: usize = 3;
 
-/// Texels that depart from their plane by no more than this part of their range are straight: what the sphere bends a
-/// colour by that is linear in the direction.
+/// Part of their range by which texels may depart from their plane and still count as straight. A colour that is linear
+/// in the direction departs by about as much, since the sphere is curved.
 const STRAIGHT: f64 = 1.0 / 64.0;
 
-/// Deviation beyond [`STRAIGHT`] reduces extrapolation by this factor.
+/// Factor by which departures beyond [`STRAIGHT`] reduce the extrapolation.
 const DOUBT: f64 = 4.0;
 
-/// The least and the greatest of some texels, by channel.
+/// Least and greatest light of some texels, by channel.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Bounds {
     pub(crate) least: [f32; 4],
     pub(crate) greatest: [f32; 4],
 }
 
-/// Where a pixel's texels lie from its centre, if all of them lie to one side of it; no places where they lie all around. The
-/// same in all mirrors in which the pixel is seen.
+/// Places of a pixel's texels from its centre, if all of them lie to one side of it; else empty. They are equal in all
+/// mirrored parts in which the pixel is seen.
 #[derive(Clone, Debug)]
 pub(crate) struct Rim<'a> {
     places: &'a [[f32; 2]],
-    /// Found when it is first asked for.
+    /// Lattice of the places, found when it is first needed.
     lattice: OnceCell<Option<Lattice>>,
 }
 
@@ -42,7 +44,7 @@ impl<'a> Rim<'a> {
         Self { places, lattice: OnceCell::new() }
     }
 
-    /// An average held to what the texels under the pixel hold, and beyond it as far as all of them confirm.
+    /// Clamps an average to the texels under the pixel, and lets it beyond them as far as all texels confirm the slope.
     #[inline(always)]
     pub(crate) fn hold<S: Simd>(&self, simd: S, average: Rgba, under: &Bounds, texels: &impl TexelLight) -> Rgba {
         let Bounds { least, greatest } = under;
@@ -67,9 +69,9 @@ impl<'a> Rim<'a> {
     }
 }
 
-/// The light of a pixel's texels, in the order of their places.
+/// Light of a pixel's texels, in the order of their places.
 pub(crate) trait TexelLight {
-    /// Returns the light of one.
+    /// Returns the light of one texel.
     fn light<S: Simd>(&self, simd: S, index: usize) -> f32x4<S>;
 }
 
@@ -80,12 +82,12 @@ impl TexelLight for Vec<Rgba> {
     }
 }
 
-/// How places lie around their centroid: what is fitted to, by least squares.
+/// Places around their centroid, prepared for fits by least squares.
 #[derive(Clone, Debug)]
 struct Lattice {
-    /// Their [`terms`], from the mean of these.
+    /// [`terms`] of the places, less their mean.
     terms: Vec<DVec3>,
-    /// The inverse of the second moments.
+    /// Inverse of the second moments.
     inverse: DMat3,
 }
 
@@ -111,8 +113,8 @@ impl Lattice {
         is_plane.then(|| Self { terms, inverse: moments.inverse() })
     }
 
-    /// How far a slope through these texels may be from going on, by channel; `None` where one of them is not opaque: colour must stay
-    /// within alpha there.
+    /// Returns the doubt, by channel, that a slope through these texels continues. `None` where one of them is not
+    /// opaque: colour must stay within alpha there.
     // No closures: the compiler gives them no leave to use the level's instructions.
     #[inline(always)]
     fn doubts<S: Simd>(&self, simd: S, texels: &impl TexelLight) -> Option<[f64; 4]> {
@@ -152,14 +154,14 @@ fn widened<S: Simd>(light: f32x4<S>) -> f64x4<S> {
     low.combine(high)
 }
 
-/// Through fewer texels what is fitted confirms nothing.
+/// Least number of texels for which a fit confirms anything.
 const FEWEST: f64 = 8.0;
 
-/// Places whose second moments have a smaller determinant than this part of their product lie in a line.
+/// Part of their product below which the determinant of the second moments means that the places lie in a line.
 const THINNEST: f64 = 1e-6;
 
-/// What a colour that is linear in the direction is made of, at a place: its two coordinates, and how far the sphere falls
-/// away from the tangent plane there.
+/// Returns the terms of a colour that is linear in the direction, at a place: its two coordinates, and the fall of the
+/// sphere from the tangent plane.
 fn terms([x, y]: [f32; 2]) -> DVec3 {
     let (x, y) = (f64::from(x), f64::from(y));
     DVec3::new(x, y, x * x + y * y)
@@ -180,10 +182,10 @@ mod tests {
         made[0]
     }
 
-    /// Rows of texels before the pixel, the nearest half a row away.
+    /// Number of rows of texels before the pixel; the nearest is half a row away.
     const ROWS: usize = 4;
 
-    /// What an average is held to by opaque texels, the first rows of which lie under the pixel.
+    /// Returns an average clamped to opaque grey texels, whose first rows lie under the pixel.
     fn hold_grey(average: f32, texel: impl Fn(f32, f32) -> f32) -> f32 {
         hold_all(Rgba::opaque(average, average, average), |x, y| Rgba::opaque(texel(x, y), 0.5, 0.5)).0[0]
     }

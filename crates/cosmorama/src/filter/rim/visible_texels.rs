@@ -2,16 +2,17 @@ use super::field_edge::FieldEdge;
 use crate::sphere::Direction;
 use crate::world::{TexelPlace, World};
 
-/// Which texels of a world a target's field of view falls upon. Pixels beside each other at its edge ask for the same ones.
+/// Texels of a world that a target's field of view falls on. Neighbouring pixels at its edge ask for the same texels,
+/// so results are remembered.
 #[derive(Clone, Debug)]
 pub(crate) struct SeenTexels<'a> {
     world: &'a World,
     edge: FieldEdge<'a>,
-    /// Texels that were asked for lately, and what was found.
+    /// Texels that were asked for lately, each with the result.
     found: Vec<Option<(u32, bool)>>,
 }
 
-/// As many are remembered: those around a row of patches at an edge.
+/// Number of results that are remembered: enough for a row of patches at an edge.
 const MEMORY: usize = 1 << 10;
 
 impl<'a> SeenTexels<'a> {
@@ -19,12 +20,12 @@ impl<'a> SeenTexels<'a> {
         Self { world, edge, found: vec![None; MEMORY] }
     }
 
-    /// Whether some texel within `reach` radians of a direction may be unseen.
+    /// Returns whether some texel within `reach` radians of a direction may be unseen.
     pub(crate) fn ends_near(&self, direction: Direction, reach: f64) -> bool {
         self.edge.is_near(direction, reach)
     }
 
-    /// Whether a part of the field falls upon the texel of this index.
+    /// Returns whether a part of the field falls on the texel with this index.
     pub(crate) fn holds(&mut self, index: u32) -> bool {
         let slot = &mut self.found[slot(index)];
         match *slot {
@@ -39,7 +40,7 @@ impl<'a> SeenTexels<'a> {
     }
 }
 
-/// Where a texel is remembered: by a multiplicative hash (Knuth 1973), since texels above each other lie a power of two apart.
+/// Returns the slot of a texel by a multiplicative hash (Knuth 1973): texels above each other are a power of two apart.
 fn slot(index: u32) -> usize {
     (index.wrapping_mul(2_654_435_769) >> (u32::BITS - MEMORY.ilog2())) as usize
 }

@@ -102,7 +102,7 @@ fn step(l: usize, m: usize) -> [f64; 2] {
 mod tests {
     use super::*;
 
-    /// All products of functions, integrated by Gauss's rule: midpoints in longitude, 24 nodes in z by Newton's iteration.
+    /// Integrates all products of functions by Gauss's rule: midpoints in longitude, 24 nodes in z by Newton's iteration.
     #[test]
     fn functions_are_orthonormal() {
         const NODES: usize = 24;

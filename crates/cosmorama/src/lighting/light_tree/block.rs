@@ -7,11 +7,11 @@ pub(super) struct Block {
     pub(super) light: [f32; 3],
     /// Moments of each colour about the centre of the light: the sum of light times offset, by axis.
     pub(super) moments: [[f32; 3]; 3],
-    /// Where the light lies, all colours together.
+    /// Place and spread of the light, all colours together.
     pub(super) lit: Cloud,
     /// Opacity times solid angle.
     pub(super) shown: f32,
-    /// Where that lies.
+    /// Place and spread of the opacity.
     pub(super) seen: Cloud,
 }
 
@@ -130,12 +130,12 @@ impl Points {
     }
 }
 
-/// Weight of light in the place of a block. Negative light has none.
+/// Returns the weight of light in the place of a block. Negative light has none.
 fn brightness(light: DVec3) -> f64 {
     light.max(DVec3::ZERO).element_sum()
 }
 
-/// The matrix a bᵀ.
+/// Returns the matrix a bᵀ.
 fn outer(a: DVec3, b: DVec3) -> DMat3 {
     DMat3::from_cols(a * b.x, a * b.y, a * b.z)
 }

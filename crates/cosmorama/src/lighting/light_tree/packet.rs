@@ -14,7 +14,7 @@ pub(super) struct Packet {
     sums: [Lanes; 4],
 }
 
-/// How far estimates may be off.
+/// Greatest errors that estimates may have.
 #[derive(Clone, Copy)]
 pub(super) struct Tolerance {
     /// Part of a block's weight by which its estimated error may differ from that.

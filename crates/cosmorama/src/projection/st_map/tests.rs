@@ -5,14 +5,15 @@ use crate::projection::ProjectionKind;
 
 const SIZE: (usize, usize) = (96, 64);
 
-/// A lens with its barrel, over a picture of 3:2: where the pixel at (x, y) of the straight picture is in the bent one.
+/// Returns where a lens with a barrel distortion, over a picture of 3:2, puts the pixel at (x, y) of the straight
+/// picture.
 fn bent(x: f64, y: f64) -> PlanePoint {
     let (u, v) = (x - 0.5, (0.5 - y) / 1.5);
     let scale = 1.0 - 0.3 * (u * u + v * v);
     PlanePoint::new(u * scale * 1.05, v * 1.5 * scale * 1.05)
 }
 
-/// What the straight picture sees there.
+/// Returns what the straight picture sees there.
 fn straight(x: f64, y: f64) -> Direction {
     ProjectionKind::PERSPECTIVE.unproject(PlanePoint::new(2.0 * (x - 0.5), 2.0 * (0.5 - y) / 1.5)).unwrap()
 }
@@ -98,7 +99,7 @@ fn caps_are_bounded() {
     }
 }
 
-/// Finer than samples are exact, and asked for between them.
+/// Tests a table whose samples are finer than exactness needs, in directions between them.
 #[test]
 fn every_direction_of_a_fine_table_is_found() {
     let (width, height) = (480, 360);
@@ -122,7 +123,7 @@ fn every_direction_of_a_fine_table_is_found() {
     }
 }
 
-/// Two halves that look apart, and a hole.
+/// Returns a map of two halves that look apart, and a hole.
 fn torn() -> StMap {
     map_of(StMapTable::of_pixels(32, 32, |i, j| {
         let hole = (20..24).contains(&i) && (20..24).contains(&j);

@@ -192,7 +192,7 @@ impl Kept {
 mod tests {
     use super::*;
 
-    /// A pool in which these lists of bytes are spare.
+    /// Returns a pool in which these lists of bytes are spare.
     fn with_spare(allowed: u64, counts: &[usize]) -> FramePool {
         let pool = FramePool::keeping(allowed);
         let lists: Vec<Vec<u8>> = counts.iter().map(|count| pool.take(*count)).collect();

@@ -1,4 +1,4 @@
-//! Makes the pixels of a band, in numbers of either type: group by group, in some mirrors at once, window by window.
+//! Computation of a band's pixels, in either type of number: group by group, in some mirrors at once, window by window.
 
 use bytemuck::Zeroable;
 use fearless_simd::{Level, Simd, dispatch};
@@ -17,30 +17,30 @@ use crate::render::plan::window_format::{Format, Header, Place};
 use crate::render::plan::window_order::window_count;
 use crate::render::scan::tile::SIDE;
 
-/// How windows are weighed in one type of number, and what is made of their light.
+/// Arithmetic of windows in one type of number, and of the pixels made of their light.
 pub(crate) trait WindowArithmetic: Palette<Pixel: Zeroable + Send + Sync> + Sync {
-    /// How their weights are kept.
+    /// Format of windows' weights.
     type Format: Format;
-    /// The light of a window.
+    /// Light of a window.
     type Light: Copy + Default;
     /// Memory for what windows of a group share.
     type Shared: Default;
 
-    /// What is shown where the target sees nothing.
+    /// Returns the pixel that is shown where the target sees nothing.
     fn background(&self) -> Self::Pixel;
 
-    /// Forgets what the windows of the last group shared.
+    /// Clears what the windows of the last group shared.
     fn begin(shared: &mut Self::Shared);
 
-    /// Weighs a window in N mirrors, in the last R of them from right to left; if they are `TURNED`, its rows are columns there. Returns
-    /// how many numbers tell of it.
+    /// Sums a window by its weights in N mirrors, in the last R of them from right to left. If they are `TURNED`, its
+    /// rows are columns there. Returns how many numbers the window takes.
     fn weigh<S: Mirrored<N>, const N: usize, const R: usize, const TURNED: bool>(
         window: Window<S, Self::Sample, N, R>,
         shared: &mut Self::Shared,
         light: &mut [Self::Light],
     ) -> usize;
 
-    /// Puts the pixels of a pass's light.
+    /// Writes the pixels of a pass's light.
     fn put<S: Simd>(
         &self,
         simd: S,
@@ -51,19 +51,19 @@ pub(crate) trait WindowArithmetic: Palette<Pixel: Zeroable + Send + Sync> + Sync
     );
 }
 
-/// A pixel's window, in N mirrors that show the texels of its view, in the last R of them from right to left.
+/// Window of a pixel, in N mirrors that show the texels of its view, in the last R of them from right to left.
 #[derive(Clone, Copy)]
 pub(crate) struct Window<'a, S, T, const N: usize, const R: usize> {
     pub(crate) simd: S,
     pub(crate) texels: &'a Texels<'a, T, N, R>,
-    /// The runs whose windows are made with it, its own among them.
+    /// Runs whose windows are made with it, its own among them.
     pub(crate) group: &'a [Run],
     pub(crate) run: &'a Run,
-    /// Where it begins.
+    /// Column and row of its first texel.
     pub(crate) first: [u32; 2],
-    /// Its header and its weights, and more.
+    /// Numbers from its header and its weights on.
     pub(crate) numbers: &'a [u32],
-    /// Whether its light is to lie within that of the texels under the pixel.
+    /// Whether its light is clamped to the texels under the pixel.
     pub(crate) is_bounded: bool,
 }
 
@@ -74,7 +74,7 @@ impl<S, T, const N: usize, const R: usize> Window<'_, S, T, N, R> {
     }
 }
 
-/// Makes the pixels of a band.
+/// Filter of a band: what makes its pixels.
 pub(crate) struct BandFilter<'a, A> {
     pub(crate) level: Level,
     pub(crate) mirrors: &'a Mirrors,
@@ -117,8 +117,8 @@ impl<A: WindowArithmetic> BandFilter<'_, A> {
         }
     }
 
-    /// Adds up the light of a pass's windows. What is called from here on is compiled by itself: among all that makes a band its loop
-    /// would lack registers.
+    /// Sums the light of a pass's windows. From here on code is compiled separately: in one function with the rest of a
+    /// band, its loop would lack registers.
     #[inline(never)]
     fn weigh<S: Simd>(
         &self,
@@ -162,18 +162,18 @@ impl<A: WindowArithmetic> BandFilter<'_, A> {
     }
 }
 
-/// The windows of a group.
+/// Windows of a group.
 #[derive(Clone, Copy)]
 struct Group<'a> {
     group: &'a [Run],
-    /// Its weights, and more.
+    /// Numbers from its weights on.
     numbers: &'a [u32],
     is_bounded: bool,
 }
 
 impl Group<'_> {
-    /// The light in N mirrors from one of them on; in the last R windows are walked through from right to left, in all of them, if they
-    /// are `TURNED`, with columns for rows.
+    /// Sums the light in N mirrors from one of them on. In the last R, windows are traversed from right to left. If all
+    /// are `TURNED`, columns are rows.
     #[inline(always)]
     fn weigh<S: Mirrored<N>, A: WindowArithmetic, const N: usize, const R: usize, const TURNED: bool>(
         self,

@@ -3,35 +3,35 @@ use fearless_simd::{Simd, i32x8, prelude::*};
 use crate::render::plan::window_format::{COLUMNS_UNDER, ROWS_UNDER, Shape, SmallShapes};
 use crate::render::scan::tile::SIDE;
 
-/// The smallest of the small shapes that holds each lane's window, of windows with [`SIDE`] columns and rows at most.
+/// Smallest of the small shapes that holds each lane's window, for windows with at most [`SIDE`] columns and rows.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct LaneShapes {
-    /// Its index; a larger number, if none does.
+    /// Index of the shape; a larger number if none holds the window.
     shapes: [i32; SIDE],
-    /// In which column and row that begins: the only bit that is set.
+    /// Column and row in which the shape begins, as the only bit that is set.
     begin: [[i32; SIDE]; 2],
-    /// The columns of the texels under the pixel, by row, and of all rows.
+    /// Columns of the texels under the pixel, by row, and of all rows.
     under: [[u8; SIDE]; SIDE],
     columns_under: [u8; SIDE],
 }
 
 impl LaneShapes {
-    /// Forgets all: windows are larger.
+    /// Clears all shapes, for windows that are larger.
     #[inline(always)]
     pub(crate) fn clear(&mut self) {
         self.shapes = [i32::MAX; SIDE];
     }
 
-    /// Of texels under the pixel in these columns.
+    /// Returns shapes whose texels under the pixel lie in these columns.
     #[cfg(test)]
     pub(crate) fn of_columns_under(columns: u8) -> Self {
         Self { columns_under: [columns; SIDE], ..Self::default() }
     }
 
-    /// Finds them for windows of so many columns and rows, and `beyond` columns of nothing after those.
+    /// Finds the shapes for windows with this number of columns and rows, followed by `beyond` empty columns.
     ///
-    /// Bits are lanes: those in which something counts in a column and in a row, and those in which a texel of a row lies under the
-    /// pixel.
+    /// Bits are lanes. `counts` has the lanes in which a column or a row counts. `under` has the lanes in which a texel
+    /// of a row lies under the pixel.
     #[inline(always)]
     pub(crate) fn find<S: Simd>(
         &mut self,
@@ -54,8 +54,8 @@ impl LaneShapes {
         self.search(simd, (small, beyond), size, [columns, rows, columns_under, turned_bits(rows_under)]);
     }
 
-    /// Searches, given in which columns and rows something counts, and in which ones texels lie under the pixel. Where windows begin is
-    /// told by a bit, so that no lane needs a branch.
+    /// Searches the shapes, given the columns and rows that count, and those with texels under the pixel. A bit marks
+    /// where a window begins, so that no lane needs a branch.
     #[inline(always)]
     fn search<S: Simd>(
         &mut self,
@@ -107,14 +107,14 @@ impl LaneShapes {
         self.under[row % SIDE][lane]
     }
 
-    /// Returns those of all rows.
+    /// Returns the columns of a lane's texels under the pixel in all rows, a bit for each.
     #[inline(always)]
     pub(crate) fn columns_under(&self, lane: usize) -> u8 {
         self.columns_under[lane]
     }
 }
 
-/// Bits of eight bytes turned: the first of each in the first byte (Warren, Hacker's Delight, 7-3).
+/// Transposes the bits of eight bytes (Warren, Hacker's Delight, 7-3). The first byte gets the first bit of each.
 #[inline(always)]
 fn turned_bits(bytes: [u8; SIDE]) -> [u8; SIDE] {
     let mut bits = u64::from_le_bytes(bytes);
@@ -143,7 +143,8 @@ mod tests {
         }
     }
 
-    /// Finds the shape of a window 6 texels wide and 4 high; `columns_under` marks columns with texels under the pixel.
+    /// Returns the shape of a window 6 texels wide and 4 high; `columns_under` marks columns with texels under the
+    /// pixel.
     fn shape(columns_under: u8) -> Option<usize> {
         let mut found = levels().into_iter().map(|level| {
             let mut shapes = LaneShapes::default();

@@ -1,4 +1,4 @@
-//! The other door behind which indices are not checked each time: bands write to one picture, each to pixels of its own.
+//! One of two files in which indices are not checked each time: bands write to one picture, each to pixels of its own.
 #![allow(unsafe_code)]
 
 use std::marker::PhantomData;
@@ -8,11 +8,11 @@ use bytemuck::NoUninit;
 
 use crate::render::plan::symmetry::{MOST_IMAGES, MirrorImage, Mirrors};
 
-/// The pixels of a picture that one band makes, in all mirrors: its own rows and those that mirror it from below; with mirrors along
-/// the diagonals a frame as wide as it is high, within which lie those of the next bands.
+/// Pixels of a picture that one band makes, in all mirrors: its own rows and those that mirror it from below. With
+/// mirrors along the diagonals they are a square frame, inside which lie those of the next bands.
 pub(crate) struct PicturePart<'a, P> {
     pixels: *mut P,
-    /// Columns of the band, and how many rows.
+    /// Columns of the band, and the number of its rows.
     columns: Range<usize>,
     rows: usize,
     images: [Shown; MOST_IMAGES],
@@ -25,25 +25,25 @@ pub(crate) struct PicturePart<'a, P> {
 // SAFETY: it is an exclusive borrow of some pixels, which no other part has.
 unsafe impl<P: Send> Send for PicturePart<'_, P> {}
 
-/// Bytes from which on a picture leaves the caches before anyone reads it: then what it overwrites need not be read into them either.
-/// Tests look at small ones.
+/// Number of bytes from which a picture leaves the caches before anyone reads it, so that what it overwrites need not
+/// be read into them either. Tests use small ones.
 const STREAMED: usize = if cfg!(test) { 1 << 14 } else { 1 << 25 };
 
-/// Where a mirror shows pixels of a band.
+/// Place in which a mirror shows pixels of a band.
 #[derive(Clone, Copy, Debug, Default)]
 struct Shown {
     is_turned: bool,
-    /// Where in the picture the pixel of the first column and row of the band's rows is.
+    /// Index in the picture of the pixel that shows the first column and row of the band.
     first: isize,
-    /// Pixels of the picture from one column to the next, and from one row to the next.
+    /// Steps in the picture from one column to the next, and from one row to the next.
     steps: [isize; 2],
 }
 
 impl<'a, P: Copy> PicturePart<'a, P> {
-    /// Cuts a picture, `width` pixels wide, into what bands of `rows` rows make, from the top one on.
+    /// Divides a picture, `width` pixels wide, into the parts that bands of `rows` rows make, from the top one on.
     ///
     /// # Panics
-    /// If it is not of the size that the mirrors make.
+    /// If its size is not the one that the mirrors make.
     pub(crate) fn all(pixels: &'a mut [P], width: usize, rows: usize, mirrors: &Mirrors) -> Vec<Self> {
         if pixels.is_empty() {
             return Vec::new();
@@ -73,21 +73,22 @@ impl<'a, P: Copy> PicturePart<'a, P> {
         (0..mirrors.rows.div_ceil(rows)).map(part).collect()
     }
 
-    /// How many rows the band has.
+    /// Returns the number of rows of the band.
     pub(crate) fn rows(&self) -> usize {
         self.rows
     }
 
-    /// The columns of the band.
+    /// Returns the columns of the band.
     pub(crate) fn columns(&self) -> Range<usize> {
         self.columns.clone()
     }
 
-    /// So many pixels beside each other in the picture, as a mirror shows them, of which this column and row of the band is the first
-    /// or, from right to left, the last one. They are columns of the band; where columns are rows, rows.
+    /// Returns `count` neighbouring pixels of a row of the picture, as a mirror shows them. The first of them (or the
+    /// last, from right to left) shows this column and row of the band. The others show the columns after it, or where
+    /// columns are rows, the rows.
     ///
     /// # Panics
-    /// If they are not all in the band, or there are not so many mirrors.
+    /// If they are not all in the band, or there is no such mirror.
     #[inline(always)]
     pub(crate) fn beside(&mut self, image: usize, pixel: [usize; 2], count: usize) -> &mut [P] {
         self.fence();
@@ -98,10 +99,10 @@ impl<'a, P: Copy> PicturePart<'a, P> {
         unsafe { std::slice::from_raw_parts_mut(first, count) }
     }
 
-    /// Where a mirror shows so many columns and rows of the band, from this pixel on.
+    /// Returns where a mirror shows this number of columns and rows of the band, from this pixel on.
     ///
     /// # Panics
-    /// If they are not all in the band, or there are not so many mirrors.
+    /// If they are not all in the band, or there is no such mirror.
     #[inline(always)]
     fn place(&self, image: usize, [column, row]: [usize; 2], [columns, rows]: [usize; 2]) -> Place<P> {
         let Shown { is_turned, first, steps: [across, down] } = self.images[image];
@@ -124,13 +125,13 @@ impl<'a, P: Copy> PicturePart<'a, P> {
     }
 }
 
-/// Where a mirror shows pixels of a band: some lines of the picture, all of them pixels of the band.
+/// Place in which a mirror shows pixels of a band: some lines of the picture, all of them pixels of the band.
 struct Place<P> {
-    /// The leftmost pixel of the first line.
+    /// Leftmost pixel of the first line.
     first: *mut P,
-    /// Pixels from one line to the next.
+    /// Distance from one line to the next, in pixels.
     next: isize,
-    /// Pixels of a line.
+    /// Number of pixels of a line.
     length: usize,
     lines: usize,
 }
@@ -143,11 +144,11 @@ pub(crate) struct Lines<'a, P> {
 }
 
 impl<P: NoUninit> PicturePart<'_, P> {
-    /// What a mirror shows of so many columns and rows from this pixel on, to be written to: rows are lines, or columns where they are
-    /// rows.
+    /// Returns the lines in which a mirror shows these columns and rows, from this pixel on, for writing. Lines are
+    /// rows, or columns where columns are rows.
     ///
     /// # Panics
-    /// If they are not all in the band, or there are not so many mirrors.
+    /// If they are not all in the band, or there is no such mirror.
     #[inline(always)]
     pub(crate) fn lines(&mut self, image: usize, pixel: [usize; 2], size: [usize; 2]) -> Lines<'_, P> {
         let (place, is_streamed) = (self.place(image, pixel, size), self.is_streamed);
@@ -160,7 +161,7 @@ impl<P: NoUninit> Lines<'_, P> {
     /// Writes all pixels of a line.
     ///
     /// # Panics
-    /// If there is no such line, or it has not as many.
+    /// If there is no such line, or its length differs.
     #[inline(always)]
     pub(crate) fn write<const LENGTH: usize>(&mut self, line: usize, pixels: &[P; LENGTH]) {
         let Place { first, next, length, lines } = self.place;
@@ -173,7 +174,7 @@ impl<P: NoUninit> Lines<'_, P> {
 }
 
 impl<P> PicturePart<'_, P> {
-    /// Lets what was written past the caches be seen by whoever looks at it from now on.
+    /// Orders the writes past the caches before all later reads.
     #[inline(always)]
     fn fence(&mut self) {
         #[cfg(target_arch = "x86_64")]
@@ -190,18 +191,18 @@ impl<P> Drop for PicturePart<'_, P> {
     }
 }
 
-/// Bytes that are written past the caches by one instruction.
+/// Number of bytes that one instruction writes past the caches.
 const BLOCK: usize = 16;
 
-/// Whether pixels can be written past the caches, one by one.
+/// Returns whether pixels can be written past the caches, one by one.
 fn can_stream<P>(pixels: &[P]) -> bool {
     cfg!(target_arch = "x86_64") && size_of::<P>() == BLOCK && pixels.as_ptr().addr().is_multiple_of(BLOCK)
 }
 
-/// Copies as many pixels past the caches.
+/// Copies pixels past the caches.
 ///
 /// # Panics
-/// If they cannot be, or they are not as many.
+/// If that is impossible, or the lengths differ.
 #[inline(always)]
 fn stream<P: NoUninit>(into: &mut [P], pixels: &[P]) {
     assert!(can_stream(into) && into.len() == pixels.len(), "pixels that can be streamed");
@@ -214,7 +215,7 @@ fn stream<P: NoUninit>(into: &mut [P], pixels: &[P]) {
 }
 
 impl Shown {
-    /// Where a mirror shows a band that begins in this row.
+    /// Computes where a mirror shows a band that begins in this row.
     fn new(image: &MirrorImage, top: usize, [width, height]: [usize; 2]) -> Self {
         // In the picture, from left to right and from top to bottom: the pixel that the first one is seen as, and which way others follow.
         let [column, row] = [0, 1].map(|axis| if image.flips[axis] { [width, height][axis] as isize - 1 } else { 0 });
@@ -230,10 +231,10 @@ mod tests {
     use super::*;
     use crate::raster::RowLayout;
 
-    /// Rows of a band.
+    /// Number of rows of a band.
     const ROWS: usize = 4;
 
-    /// So many of the mirrors that there may be, of pictures so wide and high.
+    /// Returns this number of mirrors, of pictures of this size.
     fn mirrors(size: [usize; 2], count: usize) -> Mirrors {
         let layout = RowLayout::of([[4, 4]], |width| width);
         let flips = [[false, false], [true, false], [false, true], [true, true]];

@@ -6,17 +6,17 @@ use crate::render::plan::symmetry::{Mirrors, exchanged};
 use crate::render::plan::traversal::Pass;
 use crate::render::scan::tile::SIDE;
 
-/// Bytes that come from memory together.
+/// Number of bytes in a cache line.
 const LINE: usize = 64;
 
-/// Columns and rows of the largest region that is asked for as one; beyond, runs have little in common.
+/// Columns and rows of the largest region that is prefetched as one. Runs farther apart share little.
 const LARGEST: [usize; 2] = [64, 32];
 
-/// Weights, and more, that are asked for before they are read.
+/// Number of weights, headers included, that are prefetched ahead.
 const NUMBERS_AHEAD: u32 = 192;
 
-/// Asks for the texels that a pass will read, so that they are near by then: lines of memory that are asked for one after the other,
-/// as they are needed, take most of the time.
+/// Prefetches the texels that a pass will read. Otherwise the loads of cache lines, one after the other as they are
+/// needed, take most of the time.
 #[inline(always)]
 pub(crate) fn prefetch_pass<T>(texels: &[T], mirrors: &Mirrors, pass: &Pass) {
     let mut rest = pass.group;
@@ -31,19 +31,19 @@ pub(crate) fn prefetch_pass<T>(texels: &[T], mirrors: &Mirrors, pass: &Pass) {
     }
 }
 
-/// Asks for the runs of about a patch, from this one on: what [`prefetch_pass`] looks at has to be at hand.
+/// Prefetches the runs of about a patch, from this one on, because [`prefetch_pass`] reads them.
 #[inline(always)]
 pub(crate) fn prefetch_runs(runs: &[Run], first: usize) {
     prefetch_lines(runs, first as u32, SIDE as u32);
 }
 
-/// Asks for what will be read a dozen windows later, so that reading weights one after the other does not wait for memory.
+/// Prefetches the weights of a dozen windows later, so that reading them in order does not wait for memory.
 #[inline(always)]
 pub(crate) fn prefetch_weights(numbers: &[u32]) {
     texels::prefetch(numbers, NUMBERS_AHEAD);
 }
 
-/// Asks for each line of memory in which an item begins, from this one to the one so many after it.
+/// Prefetches each cache line in which an item begins, from `first` to the item `last` items after it.
 #[inline(always)]
 pub(crate) fn prefetch_lines<T>(items: &[T], first: u32, last: u32) {
     for at in (0..last).step_by(per_line::<T>() as usize) {
@@ -66,7 +66,7 @@ fn prefetch_rows<T, const LINES: u32>(texels: &[T], [mut left, last]: [u32; 2], 
     }
 }
 
-/// Items in a line of memory; one, if that does not hold as many.
+/// Returns the number of items in a cache line, at least one.
 const fn per_line<T>() -> u32 {
     if size_of::<T>() < LINE { (LINE / size_of::<T>()) as u32 } else { 1 }
 }
@@ -85,7 +85,7 @@ impl Region {
         Self { view: usize::from(run.view), first: run.corner(), end: run.end() }
     }
 
-    /// What holds the next run, too, if that is near, and the runs after it.
+    /// Returns the region that holds the next run, too, if that is near, and the runs after it.
     #[inline(always)]
     fn joined<'a>(&self, runs: &'a [Run]) -> Option<(Self, &'a [Run])> {
         let (run, others) = runs.split_first()?;
@@ -96,7 +96,7 @@ impl Region {
         (self.view == next.view && is_near).then_some((Self { first, end, ..*self }, others))
     }
 
-    /// Asks for it in the mirrors of these ways.
+    /// Prefetches the region in the mirrors of these ways.
     #[inline(always)]
     fn prefetch<T>(&self, texels: &[T], mirrors: &Mirrors, ways: Range<usize>) {
         for &(image, _) in &mirrors.ways(self.view).order[ways] {

@@ -1,4 +1,4 @@
-//! Pixels of a band that come by themselves, made of the lists of their texels.
+//! Single pixels of a band, made from the lists of their texels.
 
 use bytemuck::NoUninit;
 use fearless_simd::{Simd, f32x4, prelude::*};
@@ -11,23 +11,23 @@ use crate::raster::Rgba;
 use crate::render::plan::symmetry::Mirrors;
 use crate::render::plan::tap_lists::{SingleTaps, Singles};
 
-/// What makes colours of texels, and pixels of colours.
+/// Conversion of texels to colours, and of colours to pixels.
 pub(crate) trait Palette {
     type Pixel: NoUninit;
     type Sample: Copy;
 
-    /// Texels as they lie in memory.
+    /// Returns the texels as they lie in memory.
     fn texels(&self) -> &[[Self::Sample; 4]];
 
-    /// The light of a texel.
+    /// Returns the light of a texel.
     fn light<S: Simd>(&self, simd: S, texel: u32) -> f32x4<S>;
 
-    /// What is written where light covers this part of a pixel.
+    /// Returns the pixel for light that covers this part of it.
     fn pixel(&self, light: Rgba, coverage: f32) -> Self::Pixel;
 }
 
 impl Singles {
-    /// Makes their pixels in all mirrors.
+    /// Makes the pixels in all mirrors.
     #[inline(always)]
     pub(crate) fn fill<S: Simd, P: Palette>(
         &self,
@@ -71,7 +71,7 @@ impl Singles {
     }
 }
 
-/// The light of a pixel's texels in one of N mirrors.
+/// Light of a pixel's texels in one of N mirrors.
 struct ImageLight<'a, P, const N: usize> {
     palette: &'a P,
     texels: &'a [[u32; N]],
@@ -85,11 +85,11 @@ impl<P: Palette, const N: usize> TexelLight for ImageLight<'_, P, N> {
     }
 }
 
-/// Pixels that are made between asking for one's texels and reading them.
+/// Number of pixels that are made between the prefetch of one's texels and their use.
 const AHEAD: usize = 1;
 
-/// The weighted average of a pixel's texels in each of N mirrors, held to what those under the pixel hold if there is to be no
-/// ringing.
+/// Averages a pixel's texels by their weights in each of N mirrors. With `anti_ringing` the average is clamped to the
+/// texels under the pixel.
 #[inline(always)]
 fn averages<S: Simd, P: Palette, const N: usize>(
     simd: S,

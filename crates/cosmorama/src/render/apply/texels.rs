@@ -1,29 +1,29 @@
-//! One of two doors behind which indices are not checked each time: a window of texels is looked at once.
+//! One of two files in which indices are not checked each time: a window of texels is checked once.
 #![allow(unsafe_code)]
 
 use std::marker::PhantomData;
 
 use crate::render::plan::symmetry::Walk;
 
-/// Samples of a texel.
+/// Number of samples of a texel.
 const SAMPLES: usize = 4;
 
-/// The texels of a view as N mirrors show them, in the last R of them from right to left.
+/// Texels of a view as N mirrors show them, in the last R of them from right to left.
 #[derive(Clone, Copy)]
 pub(crate) struct Texels<'a, T, const N: usize, const R: usize> {
-    /// The first sample of the texel in the first column and row.
+    /// First sample of the texel in the first column and row.
     first: [*const T; N],
-    /// Samples from one row to the next, of every other one alike.
+    /// Samples from one row to the next, alike in every second mirror.
     down: [isize; 2],
     size: [u32; 2],
     samples: PhantomData<&'a [T]>,
 }
 
 impl<'a, T: Copy, const N: usize, const R: usize> Texels<'a, T, N, R> {
-    /// Checks the texels of a view of this size against their buffer, as each mirror walks through it.
+    /// Checks the texels of a view of this size against their buffer, along each mirror's walk.
     ///
     /// # Panics
-    /// If they are not all among the samples, or one goes another way than it should.
+    /// If they are not all among the samples, or a walk differs from the expected one.
     #[inline(always)]
     pub(crate) fn new(samples: &'a [T], walks: [Walk; N], size: [usize; 2]) -> Self {
         const { assert!(N > 0 && R <= N) };
@@ -45,7 +45,7 @@ impl<'a, T: Copy, const N: usize, const R: usize> Texels<'a, T, N, R> {
         Self { first, down, size: [columns as u32, rows as u32], samples: PhantomData }
     }
 
-    /// The window that begins in this column and row, in each mirror.
+    /// Returns the window that begins in this column and row, in each mirror.
     ///
     /// # Panics
     /// If it is not all within the view.
@@ -68,7 +68,7 @@ impl<'a, T: Copy, const N: usize, const R: usize> Texels<'a, T, N, R> {
         windows
     }
 
-    /// The samples of so many texels of a row, from this column on, in a mirror, as they lie in memory.
+    /// Returns the samples of this number of texels of a row, from this column on, in a mirror, as they lie in memory.
     ///
     /// # Panics
     /// If they are not all within the view.
@@ -80,13 +80,14 @@ impl<'a, T: Copy, const N: usize, const R: usize> Texels<'a, T, N, R> {
         unsafe { std::slice::from_raw_parts(first, SAMPLES * texels) }
     }
 
-    /// Columns and rows of the view, as these mirrors go through it.
+    /// Returns the columns and rows of the view, as these mirrors traverse it.
     #[inline(always)]
     pub(crate) fn size(&self) -> [usize; 2] {
         self.size.map(|length| length as usize)
     }
 
-    /// `COLUMNS` texels of so many rows, `LENGTH` samples, from this texel on, row by row, in each mirror.
+    /// Visits `COLUMNS` texels (`LENGTH` samples) of this number of rows, from this texel on, row by row, in each
+    /// mirror.
     ///
     /// # Panics
     /// If they are not all within the view.
@@ -113,7 +114,7 @@ impl<'a, T: Copy, const N: usize, const R: usize> Texels<'a, T, N, R> {
         assert!(fits(0) && fits(1), "a window lies within its view");
     }
 
-    /// The first sample in memory of so many texels, from this column of a row on.
+    /// Returns the first sample in memory of this number of texels, from this column of a row on.
     #[inline(always)]
     fn leftmost(&self, image: usize, [column, row]: [u32; 2], texels: usize) -> *const T {
         let column = column as isize;
@@ -125,7 +126,7 @@ impl<'a, T: Copy, const N: usize, const R: usize> Texels<'a, T, N, R> {
 /// A window of `COLUMNS` columns and `HEIGHT` rows, all of it among the samples given.
 #[derive(Clone, Copy)]
 pub(crate) struct Window<'a, T, const COLUMNS: usize, const HEIGHT: usize> {
-    /// The first sample of the first row.
+    /// First sample of the first row.
     first: *const T,
     /// Samples from one row to the next.
     down: isize,
@@ -133,10 +134,10 @@ pub(crate) struct Window<'a, T, const COLUMNS: usize, const HEIGHT: usize> {
 }
 
 impl<'a, T, const COLUMNS: usize, const HEIGHT: usize> Window<'a, T, COLUMNS, HEIGHT> {
-    /// So many samples of a row, from the first of a column on.
+    /// Returns `LENGTH` samples of a row, from the first of a column on.
     ///
     /// # Panics
-    /// If the window has no such row, or not so many samples in it.
+    /// If the window has no such row, or fewer samples in it.
     #[inline(always)]
     pub(crate) fn samples<const LENGTH: usize>(&self, row: usize, column: usize) -> &'a [T; LENGTH] {
         let is_within = row < HEIGHT && column < COLUMNS && LENGTH <= SAMPLES * (COLUMNS - column);
@@ -151,11 +152,11 @@ impl<'a, T, const COLUMNS: usize, const HEIGHT: usize> Window<'a, T, COLUMNS, HE
 
 /// Some columns of a view's rows in each of N mirrors, all of them among the samples given.
 pub(crate) struct Strips<'a, T, const N: usize, const LENGTH: usize> {
-    /// The first sample in memory of the next row.
+    /// First sample in memory of the next row.
     first: [*const T; N],
-    /// Samples from one row to the next, of every other mirror alike.
+    /// Samples from one row to the next, alike in every second mirror.
     down: [isize; 2],
-    /// How many rows there are.
+    /// Number of rows that are left.
     rows: usize,
     samples: PhantomData<&'a [T]>,
 }
@@ -179,8 +180,9 @@ impl<'a, T, const N: usize, const LENGTH: usize> Iterator for Strips<'a, T, N, L
     }
 }
 
-/// Asks memory for one of some items that will be read soon, a texel or a weight; any number will do. For the second cache: the
-/// nearest one is full of what is worked on, and what waited there would be gone when it is read.
+/// Requests one of some items from memory, a texel or a weight, that will be read soon; any index is allowed. The line
+/// goes to the second-level cache. The first level is full of what is in use, and lines that wait there would be
+/// evicted before they are read.
 #[inline(always)]
 pub(crate) fn prefetch<T>(items: &[T], item: u32) {
     let address = items.as_ptr().wrapping_add(item as usize);
@@ -198,7 +200,7 @@ pub(crate) fn prefetch<T>(items: &[T], item: u32) {
 mod tests {
     use super::*;
 
-    /// Ten columns and seven rows, in which every sample says where it is.
+    /// Size of a view whose samples each hold their place: ten columns and seven rows.
     const SIZE: [usize; 2] = [10, 7];
 
     fn samples<T>(of: impl Fn(i16) -> T) -> Vec<T> {
@@ -209,7 +211,7 @@ mod tests {
         Walk { first, is_turned: false, is_reversed, down }
     }
 
-    /// As they lie, upside down, and both from right to left.
+    /// Returns the walks of texels as they lie, upside down, and both from right to left.
     fn ways() -> [Walk; 4] {
         [walk(0, false, 10), walk(60, false, -10), walk(9, true, 10), walk(69, true, -10)]
     }

@@ -8,32 +8,32 @@ use crate::render::plan::symmetry::{MirrorImage, Mirrors, TOGETHER, UPRIGHT, Way
 use crate::render::plan::traversal::Pass;
 use crate::render::scan::tile::SIDE;
 
-/// The light of a pass's windows: by run, lane and mirror, these in the order in which the view's are walked through, from the pass's
-/// first one on; elsewhere any.
+/// Light of a pass's windows, by run, lane and mirror. Mirrors are in the order of the view's traversals, from the
+/// pass's first one on. Elsewhere values are arbitrary.
 pub(crate) type GroupLight<L> = [[[L; TOGETHER]; SIDE]; SIDE];
 
-/// What makes pixels of the light of windows.
+/// Conversion of windows' light to pixels.
 pub(crate) trait Develop {
     type Light: Copy;
     type Pixel: NoUninit;
 
-    /// The pixel of a window's light.
+    /// Returns the pixel of a window's light.
     fn one(&self, light: Self::Light) -> Self::Pixel;
 
-    /// The pixels of eight, which most of them are made as.
+    /// Returns the pixels of eight windows, as which most pixels are made.
     fn eight(&self, light: [&Self::Light; SIDE]) -> [Self::Pixel; SIDE];
 }
 
-/// What one band makes of a picture. What no pixel was made of is filled with a background at the end.
+/// Part of a picture that one band makes. Pixels that were not made are filled with a background at the end.
 pub(crate) struct Canvas<'a, P: NoUninit> {
     background: [P; MANY],
     mirrors: &'a Mirrors,
     part: PicturePart<'a, P>,
-    /// Which pixels of its own are made, row by row, a bit for each column: the same in all mirrors.
+    /// Bits of the band's own pixels that are made, row by row, a bit for each column; they hold for all mirrors.
     made: Vec<u8>,
 }
 
-/// Pixels of the background that are laid at once: one by one three bytes are slow.
+/// Number of background pixels that are written at once: three bytes one by one are slow.
 const MANY: usize = 8 * SIDE;
 
 impl<P: NoUninit> Drop for Canvas<'_, P> {
@@ -52,7 +52,7 @@ impl<P: NoUninit> Drop for Canvas<'_, P> {
 }
 
 impl<'a, P: NoUninit> Canvas<'a, P> {
-    /// Cuts a picture, `width` pixels wide, into what bands of `rows` rows make, from the top one on.
+    /// Divides a picture, `width` pixels wide, into the parts that bands of `rows` rows make, from the top one on.
     pub(crate) fn bands(
         pixels: &'a mut [P],
         width: usize,
@@ -67,7 +67,7 @@ impl<'a, P: NoUninit> Canvas<'a, P> {
         PicturePart::all(pixels, width, rows, mirrors).into_iter().map(canvas).collect()
     }
 
-    /// Notes pixels of a row as made: eight from this column on, those whose bits are set.
+    /// Marks pixels of a row as made: those of eight from this column on whose bits are set.
     #[inline(always)]
     fn note(&mut self, [column, row]: [usize; 2], lanes: u8) {
         let at = row * bytes_of(self.mirrors.columns) + column / 8;
@@ -76,12 +76,12 @@ impl<'a, P: NoUninit> Canvas<'a, P> {
         self.made[at + 1] |= high;
     }
 
-    /// The first column of a row that it makes itself.
+    /// Returns the first column of a row that the band makes itself.
     fn first_column(&self, row: usize) -> usize {
         self.part.columns().start + self.mirrors.first_column(row / SIDE * SIDE)
     }
 
-    /// The next columns of a row, from this one on, of which no pixel is made.
+    /// Returns the next columns of a row, from this one on, of which no pixel is made.
     fn gap(&self, row: usize, from: usize) -> Option<Range<usize>> {
         let (columns, bytes) = (self.mirrors.columns, bytes_of(self.mirrors.columns));
         let made = &self.made[row * bytes..][..bytes];
@@ -98,7 +98,7 @@ impl<'a, P: NoUninit> Canvas<'a, P> {
         (start < columns).then(|| start..next(start, true))
     }
 
-    /// Fills patches of which no pixel is made, from this row on: in one go, where a mirror shows their columns as rows.
+    /// Fills patches of which no pixel is made, from this row on, together where a mirror shows their columns as rows.
     fn fill_patches(&mut self, top: usize) {
         let bytes = bytes_of(self.mirrors.columns);
         let rows = top..self.part.rows().min(top + SIDE);
@@ -118,7 +118,7 @@ impl<'a, P: NoUninit> Canvas<'a, P> {
         }
     }
 
-    /// The mirrors that show a pixel of the band.
+    /// Returns the mirrors that show a pixel of the band.
     #[inline(always)]
     pub(crate) fn images_of(&self, [column, row]: [usize; 2]) -> &'a [MirrorImage] {
         // With diagonals the first row has the number of the first column; without, any does.
@@ -142,7 +142,8 @@ impl<'a, P: NoUninit> Canvas<'a, P> {
         }
     }
 
-    /// Makes pixels of a pass's light, in a view whose mirrors go these ways, and puts them where each mirror shows them.
+    /// Makes pixels of a pass's light, and writes them where each mirror shows them. `ways` are the traversals of the
+    /// view.
     #[inline(always)]
     pub(crate) fn put<D: Develop<Pixel = P>>(
         &mut self,
@@ -175,7 +176,7 @@ impl<'a, P: NoUninit> Canvas<'a, P> {
         }
     }
 
-    /// Puts rows of a patch where they are rows, given which of the mirrors' light is whose.
+    /// Writes rows of a patch in a mirror that shows them as rows; `at` is the mirror's index in the light.
     #[inline(always)]
     fn put_rows<D: Develop<Pixel = P>, const REVERSED: bool>(
         &mut self,
@@ -202,7 +203,7 @@ impl<'a, P: NoUninit> Canvas<'a, P> {
         }
     }
 
-    /// Puts columns of a patch that has all its pixels where they are rows.
+    /// Writes columns of a patch that has all its pixels, in a mirror that shows them as rows.
     #[inline(always)]
     fn put_columns<D: Develop<Pixel = P>, const REVERSED: bool>(
         &mut self,
@@ -221,7 +222,7 @@ impl<'a, P: NoUninit> Canvas<'a, P> {
         }
     }
 
-    /// Puts those pixels of a row that are made.
+    /// Writes those pixels of a row that are made.
     fn put_lanes<D: Develop<Pixel = P>>(
         &mut self,
         run: &Run,
@@ -234,7 +235,7 @@ impl<'a, P: NoUninit> Canvas<'a, P> {
         }
     }
 
-    /// The pixel that a mirror shows in place of the one in this column and row of the band.
+    /// Returns the pixel that a mirror shows in place of the one in this column and row of the band.
     #[inline(always)]
     pub(crate) fn pixel(&mut self, image: usize, pixel: [usize; 2]) -> &mut P {
         if image == 0 {
@@ -244,13 +245,13 @@ impl<'a, P: NoUninit> Canvas<'a, P> {
     }
 }
 
-/// An index of eight; from the other end, if they are `REVERSED`.
+/// Returns an index of eight, from the other end if they are `REVERSED`.
 #[inline(always)]
 const fn turned<const REVERSED: bool>(index: usize) -> usize {
     if REVERSED { SIDE - 1 - index } else { index }
 }
 
-/// Fills pixels. From memory: as a number that is known, the background would be written byte by byte.
+/// Fills pixels with the background, from memory: as a known number it would be written byte by byte.
 fn lay<P: Copy>(background: &[P; MANY], pixels: &mut [P]) {
     let (many, few) = pixels.as_chunks_mut();
     many.fill(*background);
@@ -260,7 +261,8 @@ fn lay<P: Copy>(background: &[P; MANY], pixels: &mut [P]) {
     others.fill(background[0]);
 }
 
-/// Bytes of bits for so many columns, and one more, which eight of them that begin within a byte may reach.
+/// Returns the number of bytes for one bit a column, and one more byte, which eight bits that begin within a byte may
+/// reach.
 const fn bytes_of(columns: usize) -> usize {
     columns.div_ceil(8) + 1
 }
@@ -272,7 +274,7 @@ mod tests {
     use crate::render::plan::symmetry::MOST_IMAGES;
     use crate::render::plan::traversal::passes;
 
-    /// Shows light as it is.
+    /// Conversion that shows light as it is.
     struct AsItIs;
 
     impl Develop for AsItIs {
@@ -288,7 +290,7 @@ mod tests {
         }
     }
 
-    /// All mirrors there may be, of a picture of 32 × 32 pixels.
+    /// Returns all possible mirrors of a picture of 32 × 32 pixels.
     fn mirrors() -> Mirrors {
         let layout = RowLayout::of([[4, 4]], |width| width);
         let flips = [[false, false], [true, false], [false, true], [true, true]];
@@ -300,13 +302,13 @@ mod tests {
         Mirrors::new([16, 16], (0..MOST_IMAGES).map(image).collect())
     }
 
-    /// Which light is that of a run, a lane and a mirror.
+    /// Returns the light of a run, a lane and a mirror.
     fn number(run: usize, lane: usize, at: usize) -> u32 {
         (1 + (SIDE * run + lane) * MOST_IMAGES + at) as u32
     }
 
-    /// Puts a group of runs of these lanes, one below the other from this pixel on; each pixel is where its mirror shows it, and no other
-    /// is touched.
+    /// Writes a group of runs with these lanes, one below the other from this pixel on. Checks that each pixel is where
+    /// its mirror shows it, and that no other is touched.
     fn assert_put(first: [usize; 2], lanes: &[u8]) {
         let mirrors = mirrors();
         let group: Vec<Run> = lanes

@@ -1,4 +1,4 @@
-//! The moments of many pixels' weights at once, and what moves their centroids.
+//! Moments of many pixels' weights at once, and the correction of their centroids.
 
 use fearless_simd::{Simd, prelude::*};
 
@@ -101,8 +101,8 @@ impl<V> Moments<V> {
         self.vyy += row.v * y * y;
     }
 
-    /// What makes the weights' sum one and, where they are to be centred, moves the centroid of the texels, that lie so bent,
-    /// onto the pixel's centre, as [`crate::filter::gather::tap_weights`] does.
+    /// Computes the correction that makes the weights' sum one. With `centring`, it also moves the centroid of the
+    /// texels, which bend like this, onto the pixel's centre, as [`crate::filter::gather::tap_weights`] does.
     ///
     /// Offsets in texels serve as well as offsets on the screen: the correction is linear in them.
     #[inline(always)]
@@ -128,7 +128,7 @@ impl<V> Moments<V> {
         Correction { scale, gx, gy, constant: zero - gx * mean_x - gy * mean_y }
     }
 
-    /// Of the weights, with the texels where they are seen.
+    /// Returns the first moments of the weights, with the texels where they appear.
     #[inline(always)]
     fn first_moments<S: Simd>(&self, bend: &Bend) -> [V; 2]
     where
@@ -143,7 +143,7 @@ impl<V> Moments<V> {
     }
 }
 
-/// What becomes of a window's weights: w·scale + v·(g·p + constant).
+/// Correction of a window's weights: w·scale + v·(g·p + constant).
 pub(crate) struct Correction<V> {
     scale: V,
     gx: V,
@@ -159,7 +159,7 @@ pub(crate) struct RowCorrection<V> {
 }
 
 impl<V> Correction<V> {
-    /// In the row at an offset down.
+    /// Returns the correction in the row at an offset down.
     #[inline(always)]
     pub(crate) fn row<S: Simd>(&self, y: V) -> RowCorrection<V>
     where
@@ -170,7 +170,7 @@ impl<V> Correction<V> {
 }
 
 impl<V> RowCorrection<V> {
-    /// The corrected weight of a texel at an offset across.
+    /// Returns the corrected weight of a texel at an offset across.
     #[inline(always)]
     pub(crate) fn apply<S: Simd>(&self, w: V, v: V, x: V) -> V
     where

@@ -1,4 +1,4 @@
-//! The ellipses of many pixels at once.
+//! Ellipses of many pixels at once.
 
 use fearless_simd::{Simd, f32x8, i32x8, prelude::*};
 
@@ -8,23 +8,23 @@ use crate::render::scan::patch::{Density, Geometry, Patch};
 use crate::render::scan::patch_interpolation::{Columns, Coons};
 use crate::render::scan::tile::SIDE;
 
-/// Where windows of texels lie, and the ellipses in them: a lane for each.
+/// Places of windows of texels, and the ellipses in them: a lane for each.
 #[derive(Clone, Copy)]
 pub(crate) struct Ellipses<V> {
     /// Offset of the first texel's centre from the pixel's, along U and V.
     pub(crate) start: [V; 2],
-    /// A, B and C.
+    /// Coefficients A, B and C.
     conic: [V; 3],
     /// Relative change of the texels' solid angle along U and V.
     gradient: [V; 2],
-    /// How much of the coarse cubic counts.
+    /// Share of the coarse cubic.
     pub(crate) coarseness: V,
     /// Columns and rows from the patch's origin to the first texel, and from there to the last.
     first: [V; 2],
     extent: [V; 2],
 }
 
-/// Texels of one row: what of their ellipses does not change along it.
+/// Texels of one row: the part of their ellipses that is constant along it.
 pub(crate) struct EllipsesRow<V> {
     a: V,
     by: V,
@@ -34,7 +34,7 @@ pub(crate) struct EllipsesRow<V> {
 }
 
 impl<V> EllipsesRow<V> {
-    /// Q = AU² + BUV + CV² (Greene & Heckbert 1986), over F, at U = `x`.
+    /// Computes Q = AU² + BUV + CV² (Greene & Heckbert 1986), over F, at U = `x`.
     #[inline(always)]
     pub(crate) fn distance_squared<S: Simd>(&self, x: V) -> V
     where
@@ -43,7 +43,7 @@ impl<V> EllipsesRow<V> {
         ((self.a * x + self.by) * x + self.cyy).max(V::splat(x.token(), 0.0))
     }
 
-    /// The solid angle of a texel, that at the pixel's centre being 1.
+    /// Returns the solid angle of a texel, relative to that at the pixel's centre.
     #[inline(always)]
     pub(crate) fn solid_angle<S: Simd>(&self, x: V) -> V
     where
@@ -100,7 +100,7 @@ impl<V> Ellipses<V> {
         }
     }
 
-    /// Columns and rows from the patch's origin to the first texels of a row's windows.
+    /// Returns the columns and rows from the patch's origin to the first texels of a row's windows.
     #[inline(always)]
     pub(crate) fn first<S: Simd>(&self, row: usize) -> [[i32; SIDE]; 2]
     where
@@ -110,7 +110,7 @@ impl<V> Ellipses<V> {
         [column.to_int_precise::<i32x8<S>>().to_array(), row.to_int_precise::<i32x8<S>>().to_array()]
     }
 
-    /// The width and the height of a row's windows.
+    /// Returns the width and the height of a row's windows.
     #[inline(always)]
     pub(crate) fn size<S: Simd>(&self, row: usize) -> [usize; 2]
     where
@@ -119,7 +119,7 @@ impl<V> Ellipses<V> {
         [greatest(self.extent[0].row(row).to_array()), greatest(self.extent[1].row(row).to_array())]
     }
 
-    /// The row of texels at V = `y`.
+    /// Returns the row of texels at V = `y`.
     #[inline(always)]
     pub(crate) fn texels_at<S: Simd>(&self, y: V) -> EllipsesRow<V>
     where
@@ -130,7 +130,7 @@ impl<V> Ellipses<V> {
     }
 }
 
-/// Relative change of the solid angle at these places.
+/// Computes the relative change of the solid angle at these places.
 #[inline(always)]
 fn gradient<S: Simd, V: Lanes<S>>(density: &Density, u: V, v: V) -> [V; 2] {
     let (u, v) = (u - density.at[0], v - density.at[1]);
@@ -138,7 +138,7 @@ fn gradient<S: Simd, V: Lanes<S>>(density: &Density, u: V, v: V) -> [V; 2] {
     [u * xx + v * xy + density.gradient[0], u * xy + v * yy + density.gradient[1]]
 }
 
-/// U and V of the pixels in rows of the patch, from this one on.
+/// Returns U and V of the pixels in rows of the patch, from this one on.
 #[inline(always)]
 fn places<S: Simd, V: Lanes<S>>(simd: S, patch: &Patch, row: usize) -> [V; 2] {
     match &patch.geometry {
@@ -154,7 +154,7 @@ fn places<S: Simd, V: Lanes<S>>(simd: S, patch: &Patch, row: usize) -> [V; 2] {
     }
 }
 
-/// Ux, Vx, Uy and Vy there.
+/// Returns Ux, Vx, Uy and Vy in rows of the patch, from this one on.
 #[inline(always)]
 fn derivatives<S: Simd, V: Lanes<S>>(simd: S, patch: &Patch, row: usize) -> [V; 4] {
     match &patch.geometry {
@@ -168,13 +168,13 @@ fn derivatives<S: Simd, V: Lanes<S>>(simd: S, patch: &Patch, row: usize) -> [V; 
     }
 }
 
-/// What is known of each pixel; after the last row it comes again.
+/// Loads the values of each pixel in rows from this one on; the last row is repeated.
 #[inline(always)]
 fn known<S: Simd, V: Lanes<S>>(simd: S, rows: &[[f32; SIDE]; SIDE], row: usize) -> V {
     V::of_rows([f32x8::load_array(simd, rows[row]), f32x8::load_array(simd, rows[(row + 1).min(SIDE - 1)])])
 }
 
-/// A quantity in rows of the patch, from this one on.
+/// Interpolates a quantity in rows of the patch, from this one on.
 #[inline(always)]
 fn rows_of<S: Simd, V: Lanes<S>>(simd: S, columns: &Columns, row: usize) -> V {
     V::of_rows([row_of(simd, columns, row), row_of(simd, columns, row + 1)])
@@ -187,7 +187,7 @@ fn row_of<S: Simd>(simd: S, columns: &Columns, row: usize) -> f32x8<S> {
     top + rise * down + f32x8::load_array(simd, columns.bow) * (down * (1.0 - down))
 }
 
-/// What the sides' bulges add to places in rows, from this one on, along one axis.
+/// Returns the sides' part of places in rows, from this one on, along one axis.
 #[inline(always)]
 fn bulges<S: Simd, V: Lanes<S>>(simd: S, coons: &Coons, row: usize, axis: usize) -> V {
     V::of_rows([bulge(simd, coons, row, axis), bulge(simd, coons, row + 1, axis)])
@@ -199,13 +199,13 @@ fn bulge<S: Simd>(simd: S, coons: &Coons, row: usize, axis: usize) -> f32x8<S> {
     ramp(simd) * (right[axis] - left[axis]) + left[axis]
 }
 
-/// How far across the patch each lane is.
+/// Returns the position of each lane across the patch, from 0 to 1.
 #[inline(always)]
 fn ramp<S: Simd>(simd: S) -> f32x8<S> {
     f32x8::load_array(simd, std::array::from_fn(|lane| lane as f32 / SIDE as f32))
 }
 
-/// How many texels there are from the first to the last, in the lane that has most.
+/// Returns the number of texels from the first to the last, in the lane that has most.
 fn greatest(extents: [f32; SIDE]) -> usize {
     extents.into_iter().fold(0f32, f32::max) as usize + 1
 }

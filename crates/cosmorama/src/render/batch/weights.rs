@@ -1,4 +1,4 @@
-//! The weights of many pixels at once: a lane for each, a window of texels around each.
+//! Weights of many pixels at once: a lane for each, a window of texels around each.
 
 use std::ops::Range;
 
@@ -14,35 +14,35 @@ use crate::filter::kernel::UNDER;
 use crate::render::scan::patch::Patch;
 use crate::render::scan::tile::SIDE;
 
-/// Rows of a patch that are weighed together, at most.
+/// Greatest number of rows of a patch that are weighed together.
 const ROWS: usize = 2;
 
-/// Weighs texels by one kernel.
+/// Weigher of texels by one kernel.
 pub(crate) struct Weigher {
     level: Level,
     cubics: Cubics,
     kernel: Kernel,
-    /// What is weighed together.
+    /// Windows that are weighed together.
     windows: [Windows; ROWS],
-    /// Of each texel, before they are centred: weights, and by how much a correction may change them.
+    /// Weight of each texel before it is centred, and the slack by which a correction may change it.
     loose: Vec<f32>,
 }
 
 impl Weigher {
-    /// `None` for a kernel that lanes cannot weigh: one not cubic, or with a floor under one, so that there could be no texel under
-    /// a pixel to clamp to.
+    /// Makes the weigher of a kernel. `None` if it is not cubic, which lanes cannot weigh. `None` also if its floor is
+    /// below one: no texel might be under a pixel to clamp to.
     pub(crate) fn new(kernel: &Kernel, level: Level) -> Option<Self> {
         let cubics = Cubics::of(kernel).filter(|_| kernel.floor >= 1.0)?;
         let windows = std::array::from_fn(|_| Windows::new(level));
         Some(Self { level, cubics, kernel: *kernel, windows, loose: vec![0.0; 2 * ROWS * SIDE * ROOM] })
     }
 
-    /// The windows of a patch.
+    /// Returns the windows of a patch.
     pub(crate) fn rows<'w>(&'w mut self, patch: &'w Patch<'w>) -> PatchWindows<'w> {
         PatchWindows { weigher: self, patch, weighed: 0..0 }
     }
 
-    /// Weighs a row of a patch, with wide vectors the next one, too; returns the number of rows.
+    /// Weighs a row of a patch, and with wide vectors the next one, too. Returns the number of rows.
     fn weigh(&mut self, patch: &Patch, row: usize) -> usize {
         let level = self.level;
         dispatch!(level, simd => self.weigh_rows(simd, patch, row))
@@ -61,7 +61,7 @@ impl Weigher {
         1
     }
 
-    /// Windows of one size.
+    /// Fills windows of one size.
     #[inline(always)]
     fn fill<S: Simd, V: Lanes<S>>(&mut self, simd: S, ellipses: &Ellipses<V>, patch: &Patch) {
         let size = ellipses.size(0);
@@ -77,7 +77,7 @@ impl Weigher {
         }
     }
 
-    /// Makes room for windows of so many texels, in all rows.
+    /// Makes room for windows of this number of texels, in all rows.
     fn make_room(&mut self, texels: usize) {
         let length = 2 * ROWS * SIDE * texels;
         if self.loose.len() < length {
@@ -125,7 +125,7 @@ impl Weigher {
         moments
     }
 
-    /// Moves the centroid of the weights onto the pixel's centre and their sum to one.
+    /// Corrects the weights: their centroid moves onto the pixel's centre, and their sum to one.
     #[inline(always)]
     fn settle<S: Simd, V: Lanes<S>>(
         &mut self,
@@ -161,11 +161,11 @@ impl Weigher {
     }
 }
 
-/// The windows of a patch, as they are asked for.
+/// Windows of a patch, computed when they are needed.
 pub(crate) struct PatchWindows<'w> {
     weigher: &'w mut Weigher,
     patch: &'w Patch<'w>,
-    /// The rows that the weigher holds.
+    /// Rows that the weigher holds.
     weighed: Range<usize>,
 }
 

@@ -1,51 +1,51 @@
 use std::ops::Range;
 
-/// The level of instructions that lanes use: found once, for all of them.
+/// Level of instructions that lanes use: found once, for all of them.
 pub(crate) use fearless_simd::Level;
 
 use crate::filter::taps::{Tap, Taps};
 use crate::render::scan::patch::Patch;
 use crate::render::scan::tile::{LARGEST, SIDE};
 
-/// Texels that there is room for at first. What larger ones take is far apart in memory, and made when they come.
+/// Number of texels that fit at first. Memory for larger windows is made when they come.
 pub(crate) const ROOM: usize = 256;
 
-/// How large weights are, whatever their sign.
+/// Magnitude of weights.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Size {
-    /// The largest of them.
+    /// Largest magnitude of a weight.
     pub(crate) largest: f32,
-    /// All of a window, in the lane in which they come to most.
+    /// Sum of all magnitudes of a window, in the lane in which it is greatest.
     pub(crate) sum: f32,
 }
 
-/// [`SIDE`] pixels beside each other, each with a window of texels wholly inside one view: all windows of one size, each
-/// in its own place, with the texels' weights, which add to one.
+/// [`SIDE`] neighbouring pixels of a row, each with a window of texels wholly inside one view. All windows have one
+/// size, and the weights of each add to one.
 #[derive(Clone, Debug)]
 pub(crate) struct Windows {
     level: Level,
     width: usize,
     height: usize,
-    /// The view that holds the texels, by its index in the world.
+    /// Index of the view that holds the texels.
     view: usize,
     /// Columns of the view that count.
     within: Range<u32>,
-    /// Index of the view's first texel in the world's buffer, and its texels from one row to the next.
+    /// Index of the view's first texel in the world's buffer, and the distance from one row to the next.
     offset: usize,
     stride: usize,
     /// Column and row of each window's first texel.
     corners: [[u32; 2]; SIDE],
-    /// Which windows lie all inside the view, a bit for each: their corners are right, and their weights.
+    /// Bits of the windows that lie wholly inside the view: only their corners and weights are right.
     held: u8,
     pub(crate) weights: Vec<[f32; SIDE]>,
-    /// Of these weights.
+    /// Magnitude of the weights.
     pub(crate) size: Size,
-    /// In which lanes a texel lies under the pixel, a bit for each.
+    /// Bits of the lanes in which a texel lies under the pixel.
     pub(crate) under: Vec<u8>,
 }
 
 impl Windows {
-    /// None yet.
+    /// Makes empty windows.
     pub(crate) fn new(level: Level) -> Self {
         Self {
             level,
@@ -63,74 +63,74 @@ impl Windows {
         }
     }
 
-    /// The level of instructions that fills them.
+    /// Returns the level of instructions that fills them.
     pub(crate) fn level(&self) -> Level {
         self.level
     }
 
-    /// Whether this lane's window lies inside the view, so that its weights are right.
+    /// Returns whether this lane's window lies inside the view, so that its weights are right.
     pub(crate) fn holds(&self, lane: usize) -> bool {
         self.held >> lane & 1 == 1
     }
 
-    /// All of these lanes, a bit for each.
+    /// Returns the bits of all lanes whose windows lie inside the view.
     pub(crate) fn held(&self) -> u8 {
         self.held
     }
 
-    /// Column and row of a lane's first texel, if its window holds.
+    /// Returns the column and row of a lane's first texel, if its window is held.
     pub(crate) fn corner(&self, lane: usize) -> Option<[u32; 2]> {
         self.holds(lane).then_some(self.corners[lane])
     }
 
-    /// The index of the view that holds the texels.
+    /// Returns the index of the view that holds the texels.
     pub(crate) fn view(&self) -> usize {
         self.view
     }
 
-    /// The columns of the view, within which all windows that hold lie.
+    /// Returns the columns of the view within which all held windows lie.
     pub(crate) fn columns_within(&self) -> Range<u32> {
         self.within.clone()
     }
 
-    /// Texels of a window across.
+    /// Returns the number of texels across a window.
     pub(crate) fn width(&self) -> usize {
         self.width
     }
 
-    /// Texels of a window down.
+    /// Returns the number of texels down a window.
     pub(crate) fn height(&self) -> usize {
         self.height
     }
 
-    /// The weights of all texels of the windows, row by row, a lane for each window.
+    /// Returns the weights of all texels of the windows, row by row, a lane for each window.
     pub(crate) fn weights(&self) -> &[[f32; SIDE]] {
         &self.weights[..self.width * self.height]
     }
 
-    /// How large these are.
+    /// Returns the magnitude of the weights.
     pub(crate) fn size(&self) -> Size {
         self.size
     }
 
-    /// In which lanes each of them lies under the pixel, a bit for each.
+    /// Returns the bits of the lanes in which each texel lies under its pixel.
     pub(crate) fn under(&self) -> &[u8] {
         &self.under[..self.width * self.height]
     }
 
-    /// Both.
+    /// Returns the weights of all texels, each with its lanes under the pixel.
     pub(crate) fn texels(&self) -> impl Iterator<Item = (&[f32; SIDE], &u8)> + Clone {
         self.weights().iter().zip(self.under())
     }
 
-    /// The rows in which some window has texels under its pixel, and those between.
+    /// Returns the rows in which some window has texels under its pixel, and those between.
     pub(crate) fn rows_under(&self) -> Range<usize> {
         let holds = |row: &usize| self.under[row * self.width..][..self.width].iter().any(|&lanes| lanes != 0);
         let first = (0..self.height).find(holds).unwrap_or(0);
         first..(first..self.height).rev().find(holds).map_or(first, |last| last + 1)
     }
 
-    /// A lane's window as a list.
+    /// Converts a lane's window to a list of taps.
     pub(crate) fn taps(&self, lane: usize, taps: &mut Taps) {
         taps.clear();
         let Some([left, top]) = self.corner(lane) else { return };
@@ -142,8 +142,8 @@ impl Windows {
         taps.fill(settled.clone(), settled.clone().count(), settled.filter(|(is_under, _)| *is_under).count());
     }
 
-    /// Finds which windows of a size, and whose first texels lie so far from the patch's origin, are inside the view; true if
-    /// any is.
+    /// Places windows of a size, given how far their first texels lie from the patch's origin. Returns whether any is
+    /// inside the view.
     pub(crate) fn place(&mut self, patch: &Patch, first: &[[i32; SIDE]; 2], [width, height]: [usize; 2]) -> bool {
         let source = patch.source;
         let whole = &source.whole;
@@ -163,7 +163,7 @@ impl Windows {
         self.held != 0
     }
 
-    /// Makes room for windows of so many texels.
+    /// Makes room for windows of this number of texels.
     pub(crate) fn make_room(&mut self, texels: usize) {
         if self.weights.len() < texels {
             self.weights.resize(texels, [0.0; SIDE]);
@@ -172,7 +172,7 @@ impl Windows {
     }
 }
 
-/// Where something so long may begin that lies within a range.
+/// Returns where something of this length may begin within a range.
 fn places(range: Range<usize>, length: usize) -> Range<i64> {
     range.start as i64..range.end as i64 - length as i64 + 1
 }

@@ -4,7 +4,7 @@ use super::weights::Weights;
 use super::window_format::Format;
 use crate::render::scan::tile::SIDE;
 
-/// What makes a few rows of a target.
+/// Geometry of a few rows of a target.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Band<F> {
     pub(crate) runs: Vec<Run>,
@@ -13,38 +13,39 @@ pub(crate) struct Band<F> {
 }
 
 impl<F: Format> Band<F> {
-    /// Forgets all but the memory.
+    /// Clears the band but keeps its memory.
     pub(crate) fn clear(&mut self) {
         self.runs.clear();
         self.weights.truncate(0);
         self.singles.clear();
     }
 
-    /// Puts what is kept in the order in which it is made fastest, and gives back memory that is not needed.
+    /// Sorts what is kept into the order in which it is made fastest, and frees memory that is not needed.
     pub(crate) fn settle(&mut self) {
         self.runs.shrink_to_fit();
         self.weights.settle(groups(&self.runs));
         self.singles.shrink();
     }
 
-    /// Runs of one patch that lie in one view, [`SIDE`] at most; in each mirror they share most of their texels.
+    /// Returns the groups: runs of one patch that lie in one view, at most [`SIDE`] each. In each mirror, the runs of a
+    /// group share most of their texels.
     pub(crate) fn groups(&self) -> impl Iterator<Item = &[Run]> + Clone {
         groups(&self.runs)
     }
 
-    /// The last runs, if another one in this view that begins at this pixel goes with them.
+    /// Returns the last group if a run in this view that begins at this pixel belongs to it; else nothing.
     pub(crate) fn open_group(&self, pixel: [usize; 2], view: usize) -> &[Run] {
         let last = self.runs.chunk_by(are_grouped).next_back().unwrap_or_default();
         let is_open = |run: &Run| run.shares_patch(pixel) && usize::from(run.view) == view && last.len() < SIDE;
         if last.first().is_some_and(is_open) { last } else { &[] }
     }
 
-    /// Bytes that it takes.
+    /// Returns the number of bytes that the band takes.
     pub(crate) fn bytes(&self) -> usize {
         self.runs.capacity() * size_of::<Run>() + self.weights.bytes() + self.singles.bytes()
     }
 
-    /// Bytes of what it holds, without room for more.
+    /// Returns the number of bytes of what the band holds, without room for more.
     pub(crate) fn used_bytes(&self) -> usize {
         size_of_val(&*self.runs) + self.weights.used_bytes() + self.singles.used_bytes()
     }
@@ -54,7 +55,7 @@ fn groups(runs: &[Run]) -> impl Iterator<Item = &[Run]> + Clone {
     runs.chunk_by(are_grouped)
 }
 
-/// Whether the weights of two runs are kept together.
+/// Returns whether the weights of two runs are kept together.
 fn are_grouped(a: &Run, b: &Run) -> bool {
     a.weights == b.weights
 }

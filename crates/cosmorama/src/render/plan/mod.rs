@@ -42,16 +42,16 @@ use crate::filter::kernel::KernelTable;
 use crate::filter::taps::Taps;
 use crate::raster::{FixedCodec, FixedLight, Image, Rgba};
 
-/// Rows of a target that are worked on together, in tiles: those of a few patches.
+/// Number of rows of a target that are processed together, in tiles: those of a few patches.
 const BAND: usize = 4 * SIDE;
 
-/// The geometry of a conversion: which texels, with which weights, make each pixel of the target.
+/// Geometry of a conversion: the texels and the weights that make each pixel of the target.
 ///
-/// It depends on the views, the target and the filter, not on the light: one plan serves all frames of a sequence.
+/// It depends on the views, the target and the filter, but not on the light: one plan serves all frames of a sequence.
 #[derive(Clone, Debug)]
 pub struct Plan(Geometry);
 
-/// Numbers in which a plan holds weights and takes light.
+/// Type of number in which a plan holds weights and takes light.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Arithmetic {
     /// Floats: light of any range, with alpha.
@@ -76,7 +76,7 @@ impl Arithmetic {
 enum Geometry {
     Float(Compiled<FloatFormat>),
     Fixed(Compiled<FixedFormat>),
-    /// In floats, by level.
+    /// Plan in floats, by level.
     Pyramid(PyramidPlan),
 }
 
@@ -108,7 +108,7 @@ impl Plan {
         Self(Geometry::Float(Compiled::new((resampler, Some(wanted)), Level::new(), watch)))
     }
 
-    /// Makes one frame. `texels` is the world's buffer of light.
+    /// Makes one frame from `texels`, the world's buffer of light.
     ///
     /// # Panics
     /// If there are fewer texels than in the world, or the plan is one of integers.
@@ -116,7 +116,7 @@ impl Plan {
         self.apply_over(texels, Rgba::TRANSPARENT)
     }
 
-    /// Makes one frame in front of a background, linear and premultiplied as all light is.
+    /// Makes one frame in front of a background, in linear, premultiplied light.
     ///
     /// # Panics
     /// As [`Plan::apply`].
@@ -127,7 +127,7 @@ impl Plan {
         image
     }
 
-    /// Makes one frame in an image that is there already: fresh memory may cost as much as its pixels.
+    /// Makes one frame in an existing image: fresh memory may cost as much as the frame's pixels.
     ///
     /// # Panics
     /// As [`Plan::apply`], or if the image is not of the target's size.
@@ -139,7 +139,7 @@ impl Plan {
         }
     }
 
-    /// Makes one frame of a plan of integers: the code values of each pixel. `light` is that of all the world's texels.
+    /// Makes the code values of one frame by a plan of integers. `light` is that of all the world's texels.
     ///
     /// # Panics
     /// If the light is of other views than the world's, or the plan is not one of integers.
@@ -150,7 +150,7 @@ impl Plan {
         image
     }
 
-    /// Makes one frame of a plan of integers in an image that is there already: fresh memory may cost a third of a frame.
+    /// Makes one frame by a plan of integers in an existing image: fresh memory may cost a third of a frame.
     ///
     /// # Panics
     /// As [`Plan::apply_fixed`], or if the image is not of the target's size.
@@ -160,7 +160,7 @@ impl Plan {
         compiled.fill(FixedArithmetic { light, codec }, Level::new(), image);
     }
 
-    /// Bytes of memory that the plan holds.
+    /// Returns the number of bytes that the plan holds.
     pub fn bytes(&self) -> usize {
         match &self.0 {
             Geometry::Float(compiled) => compiled.bytes(),
@@ -179,7 +179,8 @@ impl Plan {
     }
 }
 
-/// Bytes, about, that the plan of a conversion would hold: found from some bands of rows, keeping nothing. 0 where there is none.
+/// Estimates the bytes that the plan of a conversion would hold, from some bands of rows and without keeping anything.
+/// It is 0 where there is no plan.
 pub(crate) fn bytes_estimate(resampler: &Resampler, arithmetic: Arithmetic) -> usize {
     if !arithmetic.has_plan_of(resampler.filter.kind) {
         return 0;
@@ -191,13 +192,13 @@ pub(crate) fn bytes_estimate(resampler: &Resampler, arithmetic: Arithmetic) -> u
     }
 }
 
-/// Bytes, about, that the plan of wanted patches would hold.
+/// Estimates the bytes that the plan of wanted patches would hold.
 pub(crate) fn float_bytes_estimate(resampler: &Resampler, wanted: &Wanted) -> usize {
     part_bytes_estimate::<FloatFormat>(resampler, Some(wanted))
 }
 
-/// A frame without a plan that is kept: each band's geometry is forgotten when its pixels are made. Only the patches that are wanted,
-/// if some are, all else background.
+/// Renders a frame without keeping a plan: each band's geometry is dropped when its pixels are made. If only some
+/// patches are wanted, the rest is background.
 pub(crate) fn render<A: WindowArithmetic>(
     (resampler, wanted): (&Resampler, Option<&Wanted>),
     arithmetic: A,
@@ -212,8 +213,9 @@ pub(crate) fn render<A: WindowArithmetic>(
     image
 }
 
-/// Bytes that the plan of a conversion would hold, found from a row of patches in each band, keeping none of them. Of a small
-/// picture from all, which takes hundredths of a second: it has few bands, and a pole in one of them holds most of the bytes.
+/// Estimates the bytes that the plan of a conversion would hold, from a row of patches in each band, keeping none of
+/// them. A small picture is measured whole, in hundredths of a second: it has few bands, and a pole in one of them
+/// holds most of the bytes.
 fn part_bytes_estimate<F: Format>(resampler: &Resampler, wanted: Option<&Wanted>) -> usize {
     const SMALL: usize = 512 * 512;
     let mirrors = &Mirrors::of::<F>(resampler);
@@ -272,7 +274,7 @@ impl<F: Format> Compiled<F> {
     }
 }
 
-/// Records each band, makes its pixels and forgets it.
+/// Records each band, makes its pixels and drops it.
 fn each_band<F: Format, P: NoUninit + Send + Sync>(
     (resampler, wanted): (&Resampler, Option<&Wanted>),
     mirrors: &Mirrors,
@@ -295,7 +297,7 @@ fn each_band<F: Format, P: NoUninit + Send + Sync>(
     });
 }
 
-/// Records some rows; `spill` may take from the band what it holds, when that is much.
+/// Records some rows; `spill` may empty the band when it holds much.
 fn record<F: Format>(
     (resampler, wanted): (&Resampler, Option<&Wanted>),
     mirrors: &Mirrors,
@@ -311,7 +313,8 @@ fn record<F: Format>(
     Scan::new(resampler, table, level).only(wanted).pixels(&area, &mut recorder);
 }
 
-/// The patches that must be computed, in whatever mirror something is wanted of them, given which rectangles of the target are.
+/// Returns the patches that must be computed: those that show something wanted in any mirror. `is_wanted` tests a
+/// rectangle of the target.
 pub(crate) fn wanted(resampler: &Resampler, is_wanted: impl Fn(PixelRect) -> bool + Sync) -> Wanted {
     // What is seen in which mirror is the same for all light.
     let mirrors = Mirrors::of::<FloatFormat>(resampler);
@@ -322,7 +325,7 @@ pub(crate) fn wanted(resampler: &Resampler, is_wanted: impl Fn(PixelRect) -> boo
 }
 
 impl MirrorImage {
-    /// Where in a target of this size it shows a patch.
+    /// Returns the rectangle in which a target of this size shows a patch.
     fn shown(&self, first: [usize; 2], size: [usize; 2]) -> PixelRect {
         let first = exchanged(first, self.is_turned);
         let along = |axis: usize| {
@@ -335,7 +338,7 @@ impl MirrorImage {
 }
 
 impl Mirrors {
-    /// The rows of a band.
+    /// Returns the rows of a band.
     fn band(&self, index: usize) -> Range<usize> {
         index * BAND..self.rows.min((index + 1) * BAND)
     }

@@ -8,23 +8,23 @@ use crate::render::scan::Sink;
 use crate::render::scan::tile::SIDE;
 use crate::world::{TexelPlace, World};
 
-/// Writes down what makes the pixels of a band.
+/// Recorder of the geometry of a band's pixels.
 pub(crate) struct Recorder<'a, F, P> {
     pub(crate) world: &'a World,
     pub(crate) mirrors: &'a Mirrors,
     pub(crate) band: &'a mut Band<F>,
     pub(crate) taps: Taps,
-    /// Where those of a single pixel lie.
+    /// Places of the texels of a single pixel.
     pub(crate) places: Vec<TexelPlace>,
-    /// What is done with a band that holds more than [`MANY`] texels, or more of windows than [`NUMBERS`].
+    /// Handler of a band that holds more than [`MANY`] texels, or more than [`NUMBERS`] of windows.
     pub(crate) spill: P,
 }
 
-/// Texels of single pixels, in all mirrors, that a band may hold before something is done with them: a small picture of a large
-/// world may have millions for each pixel.
+/// Number of texels of single pixels, in all mirrors, above which a band is spilled. A small picture of a large world
+/// may have millions for each pixel.
 const MANY: usize = 1 << 17;
 
-/// Numbers of windows' weights, of four bytes, that it may hold before: a pixel has up to a thousand.
+/// Number of four-byte numbers of windows' weights above which a band is spilled; a pixel has up to a thousand.
 const NUMBERS: usize = 1 << 20;
 
 impl<F: Format, P: FnMut(&mut Band<F>)> Sink for Recorder<'_, F, P> {
@@ -62,7 +62,7 @@ impl<F: Format, P: FnMut(&mut Band<F>)> Sink for Recorder<'_, F, P> {
 }
 
 impl<F, P: FnMut(&mut Band<F>)> Recorder<'_, F, P> {
-    /// A pixel by itself, in all mirrors.
+    /// Adds a single pixel, in all mirrors.
     fn single(&mut self, pixel: [usize; 2], coverage: f32, taps: &Taps) {
         self.band.singles.push((self.world, self.mirrors), pixel, coverage, taps, &mut self.places);
         if self.band.singles.texel_count() > MANY {

@@ -3,26 +3,26 @@ use std::ops::Range;
 use crate::render::batch::window::Windows;
 use crate::render::scan::tile::{SIDE, lanes_of};
 
-/// Up to [`SIDE`] pixels beside each other, whose windows have one size and lie in one view.
+/// Up to [`SIDE`] neighbouring pixels of a row, whose windows have one size and lie in one view.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Run {
-    /// The first column and the row of the window that is farthest to the left, and of the one that is highest.
+    /// First column of the leftmost window, and first row of the highest one.
     corner: [u32; 2],
-    /// How far from there each window begins.
+    /// Offset of each window's first texel from there.
     offsets: [[u8; 2]; SIDE],
-    /// Where the weights of its group begin among those of the band.
+    /// Index of the group's first weight among those of the band.
     pub(crate) weights: u32,
-    /// Column of its first pixel.
+    /// Column of the first pixel.
     column: u32,
-    /// The view.
+    /// Index of the view.
     pub(crate) view: u16,
     /// Row in the band.
     row: u8,
-    /// Which of the pixels it makes, a bit for each.
+    /// Pixels that the run makes, a bit for each.
     lanes: u8,
     pub(crate) width: u8,
     pub(crate) height: u8,
-    /// Rows of its windows: from, to.
+    /// First row of its windows that holds texels under a pixel, and the row after the last one.
     under: [u8; 2],
 }
 
@@ -30,7 +30,7 @@ pub(crate) struct Run {
 pub(crate) type Corners = [Option<[u32; 2]>; SIDE];
 
 impl Run {
-    /// The pixels that it makes, by lane.
+    /// Returns the pixels that the run makes, by lane.
     #[inline(always)]
     pub(crate) fn lanes(&self) -> impl Iterator<Item = usize> + use<> {
         let mut rest = self.lanes;
@@ -46,19 +46,19 @@ impl Run {
         self.lanes
     }
 
-    /// Whether it makes a pixel in each lane.
+    /// Returns whether the run makes a pixel in each lane.
     #[inline(always)]
     pub(crate) fn is_whole(&self) -> bool {
         self.lanes == u8::MAX
     }
 
-    /// The column farthest to the left and the row farthest up of its windows' texels.
+    /// Returns the leftmost column and the highest row of its windows' texels.
     #[inline(always)]
     pub(crate) fn corner(&self) -> [usize; 2] {
         self.corner.map(|at| at as usize)
     }
 
-    /// About the column and the row after the last ones that its windows hold.
+    /// Returns the column and the row after the last ones that its windows hold, or nearly so.
     #[inline(always)]
     pub(crate) fn end(&self) -> [usize; 2] {
         // Windows follow each other in one direction, and those of lanes that have none stay where the next ones are.
@@ -69,21 +69,21 @@ impl Run {
         [end(0, self.width), end(1, self.height)]
     }
 
-    /// The first column and row in which a window begins, and the last ones.
+    /// Returns the least column and row at which a window begins, and the greatest.
     #[inline(always)]
     pub(crate) fn corners(&self) -> ([u32; 2], [u32; 2]) {
         let farthest = self.offsets.iter().fold([0; 2], |all, offset| [all[0].max(offset[0]), all[1].max(offset[1])]);
         (self.corner, [0, 1].map(|axis| self.corner[axis].wrapping_add(u32::from(farthest[axis]))))
     }
 
-    /// The column and the row where a lane's window begins.
+    /// Returns the column and the row at which a lane's window begins.
     #[inline(always)]
     pub(crate) fn first(&self, lane: usize) -> [u32; 2] {
         let [column, row] = self.offsets[lane].map(u32::from);
         [self.corner[0].wrapping_add(column), self.corner[1].wrapping_add(row)]
     }
 
-    /// One that makes these lanes, of the first view's first patch.
+    /// Returns a run that makes these lanes, in the first patch of the first view.
     #[cfg(test)]
     pub(crate) fn of_lanes(lanes: u8, weights: u32) -> Self {
         let offsets = [[0; 2]; SIDE];
@@ -96,7 +96,7 @@ impl Run {
         Self { corner, ..self }
     }
 
-    /// Sets how many columns and rows after the first window the last lane's begins.
+    /// Sets the offset of the last lane's window from the first, in columns and rows.
     #[cfg(test)]
     pub(crate) fn with_last(mut self, offset: [u8; 2]) -> Self {
         self.offsets[SIDE - 1] = offset;
@@ -109,30 +109,30 @@ impl Run {
         Self { column: column as u32, row: row as u8, ..self }
     }
 
-    /// A lane's column, and the row in the band.
+    /// Returns a lane's column, and the row in the band.
     #[inline(always)]
     pub(crate) fn pixel(&self, lane: usize) -> [usize; 2] {
         [self.column as usize + lane, usize::from(self.row)]
     }
 
-    /// Its row in the patch.
+    /// Returns the run's row in the patch.
     #[inline(always)]
     pub(crate) fn row_in_patch(&self) -> usize {
         usize::from(self.row) % SIDE
     }
 
-    /// Whether a run that begins at this pixel is of the same patch.
+    /// Returns whether a run that begins at this pixel belongs to the same patch.
     pub(crate) fn shares_patch(&self, [column, row]: [usize; 2]) -> bool {
         self.column as usize == column && usize::from(self.row) / SIDE == row / SIDE
     }
 
-    /// The rows of its windows that hold texels under a pixel.
+    /// Returns the rows of its windows that hold texels under a pixel.
     #[inline(always)]
     pub(crate) fn rows_under(&self) -> Range<usize> {
         usize::from(self.under[0])..usize::from(self.under[1])
     }
 
-    /// The run of windows that begin at these texels; `None` if it cannot be written down.
+    /// Makes the run of windows that begin at these texels; `None` if its numbers do not fit.
     pub(crate) fn new(windows: &Windows, corners: &Corners, [column, row]: [usize; 2], weights: usize) -> Option<Self> {
         let lanes = lanes_of(|lane| corners[lane].is_some());
         // Lanes without a window count as the last one before them that has one, or as the first: loops go without branches then.

@@ -1,5 +1,5 @@
-//! Mirror symmetry of a conversion: a dome made of a cube is the same left and right, before and behind, and on either side of a
-//! diagonal.
+//! Mirror symmetry of a conversion. A dome made from a cube is symmetric left and right, before and behind, and about
+//! its diagonals.
 
 use glam::DMat3;
 
@@ -12,51 +12,53 @@ use crate::render::scan::tile::SIDE;
 use crate::sphere::Direction;
 use crate::world::{Source, TexelPlace, World};
 
-/// By how much directions that are the same may differ, in radians: rounding.
+/// Rounding error in radians by which equal directions may differ.
 const SAME: f64 = 1e-11;
 
-/// By how many texels places that are the same may.
+/// Rounding error in texels by which equal places may differ.
 const SAME_TEXEL: f64 = 1e-6;
 
-/// Points along a side at which a symmetry is tried; the formulas between are smooth.
+/// Number of points along a side at which a symmetry is tested; the formulas between are smooth.
 const STEPS: usize = 16;
 
-/// Itself, left and right exchanged, top and bottom, both; and each of these turned over its diagonal.
+/// Greatest number of mirror images: itself, left and right exchanged, top and bottom, both; and each of these
+/// transposed.
 pub(crate) const MOST_IMAGES: usize = 8;
 
-/// How many of them show rows as rows, at most: the others come after these.
+/// Greatest number of images that show rows as rows; the transposed ones come after these.
 pub(crate) const UPRIGHT: usize = 4;
 
-/// In how many of them windows are walked through together, at most.
+/// Greatest number of images in which windows are traversed together.
 pub(crate) const TOGETHER: usize = 4;
 
-/// What is left of a target to compute, and the mirrors in which the rest is seen.
+/// Part of a target that is computed, and the mirror images that make up the rest.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Mirrors {
-    /// Columns to compute: all, or the left half.
+    /// Number of columns to compute: all, or the left half.
     pub(crate) columns: usize,
-    /// Rows to compute: all, or the upper half.
+    /// Number of rows to compute: all, or the upper half.
     pub(crate) rows: usize,
-    /// Which pictures those make; the first is what is computed itself.
+    /// Mirror images of the computed part; the first is the part itself.
     pub(crate) images: Vec<MirrorImage>,
-    /// Whether nothing lies between the texels of the light: their indices are those of the world.
+    /// Whether the light is packed without gaps, so that its indices are those of the world.
     pub(crate) is_packed: bool,
-    /// For each view of the world how windows in it are walked through in all of them.
+    /// Traversals of windows in all images, for each view of the world.
     ways: Vec<Ways>,
 }
 
-/// How the mirrors go through windows of a view: as they are before those turned over their diagonal, of either those from left to
-/// right first, and of these those that go down first.
+/// Traversals of windows of a view, one for each mirror image. Images that are not transposed come first. Among either
+/// kind, traversals from left to right come first, and among these, those that go down.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Ways {
-    /// Which mirror, and whether it exchanges left and right on the target: lanes, or rows where columns are rows.
+    /// Index of each mirror image, and whether it exchanges left and right on the target: lanes, or rows where columns
+    /// are rows.
     pub(crate) order: [(usize, bool); MOST_IMAGES],
-    /// How many there are, and how many of those that are not turned go from left to right.
+    /// Number of traversals, and the number of those from left to right that are not transposed.
     pub(crate) count: usize,
     pub(crate) forward: usize,
-    /// How many are turned.
+    /// Number of transposed traversals.
     pub(crate) turned: usize,
-    /// How each of them goes.
+    /// Walk of each traversal.
     pub(crate) walks: [Walk; MOST_IMAGES],
 }
 
@@ -80,63 +82,63 @@ impl Ways {
         ways
     }
 
-    /// Whether four from this one on go two from left to right and two from right to left, whose steps from row to row are the same
-    /// two.
+    /// Returns whether four traversals from this one on are two from left to right and two from right to left. Both
+    /// pairs must have the same two steps from row to row.
     pub(crate) fn are_four(&self, first: usize) -> bool {
         let [a, b, c, d] = self.four(first);
         let alike = |a: Walk, b: Walk| !a.is_reversed && b.is_reversed && a.down == b.down;
         alike(a, c) && alike(b, d) && [b, c, d].iter().all(|walk| walk.is_turned == a.is_turned)
     }
 
-    /// Four from this one on.
+    /// Returns four traversals from this one on.
     pub(crate) fn four(&self, first: usize) -> [Walk; TOGETHER] {
         *self.walks[first..].first_chunk().expect("four ways from the first or the fifth on")
     }
 }
 
-/// A picture of what is computed.
+/// A mirror image of the computed part.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct MirrorImage {
-    /// Whether columns are rows on the target, and rows columns: what is turned over the diagonal is exchanged after that.
+    /// Whether columns are rows on the target, and rows columns; the flips come after this.
     pub(crate) is_turned: bool,
-    /// Whether left and right are exchanged on the target, and whether top and bottom.
+    /// Whether left and right are exchanged on the target, and whether top and bottom are.
     pub(crate) flips: [bool; 2],
-    /// For each view of the world what is seen in its stead.
+    /// Reflection of each view of the world.
     views: Vec<Reflection>,
 }
 
-/// A view as a mirror shows it: another one, or the same, with its texels in another order.
+/// A view as a mirror shows it: another one, or itself, with its texels in another order.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Reflection {
-    /// Where it lies in the buffer of light.
+    /// Place of the view in the buffer of light.
     rows: RowLayout,
     /// Whether its columns are seen as rows, and its rows as columns.
     is_turned: bool,
-    /// Whether its columns run the other way, and whether its rows.
+    /// Whether its columns run the other way, and whether its rows do.
     flips: [bool; 2],
 }
 
-/// Where a window begins in the buffer of light, and the steps from texel to texel there.
+/// First texel of a window in the buffer of light, and the steps from texel to texel there.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Walk {
     pub(crate) first: u32,
-    /// Whether a row of the window is a column there: all else is told of the window as it lies there.
+    /// Whether a row of the window is a column there; the other fields describe the window as it lies there.
     pub(crate) is_turned: bool,
     /// Whether columns run the other way.
     pub(crate) is_reversed: bool,
-    /// From one row to the next.
+    /// Step from one row to the next.
     pub(crate) down: i32,
 }
 
 impl Walk {
-    /// The texels from one column of a window to the next, and from one row to the next.
+    /// Returns the steps in texels from one column of a window to the next, and from one row to the next.
     #[inline(always)]
     pub(crate) fn steps(self) -> [i32; 2] {
         let along = if self.is_reversed { -1 } else { 1 };
         if self.is_turned { [self.down, along] } else { [along, self.down] }
     }
 
-    /// The texel so many columns and rows on.
+    /// Returns the texel at this offset in columns and rows.
     #[inline(always)]
     pub(crate) fn texel(self, offset: [usize; 2]) -> u32 {
         let [across, down] = self.steps();
@@ -146,7 +148,7 @@ impl Walk {
 }
 
 impl Reflection {
-    /// The walk of a window whose first texel is in this column and row of the view itself.
+    /// Returns the walk of a window whose first texel is in this column and row of the view itself.
     #[inline(always)]
     pub(crate) fn walk(&self, texel: [usize; 2]) -> Walk {
         let RowLayout { size: [width, height], pitch, .. } = self.rows;
@@ -160,12 +162,12 @@ impl Reflection {
 }
 
 impl MirrorImage {
-    /// What is seen in place of a view.
+    /// Returns the view that is seen in place of one.
     pub(crate) fn view(&self, index: usize) -> &Reflection {
         &self.views[index]
     }
 
-    /// The texel that the mirror shows in place of one, by its index in the buffer of light.
+    /// Returns the texel that the mirror shows in place of one, by its index in the buffer of light.
     pub(crate) fn texel(&self, TexelPlace { view, texel }: TexelPlace) -> u32 {
         self.views[view].walk(texel).first
     }
@@ -196,7 +198,8 @@ impl Mirrors {
         Self::new([columns, rows], Self::with_diagonals(images, (world, &layout), target))
     }
 
-    /// Mirrors of the target, and those along its diagonals, if they are mirrors, too, and the others are all that there may be.
+    /// Adds the mirrors along the target's diagonals to those that are upright. They are added only if all upright ones
+    /// exist, and all diagonal ones too.
     fn with_diagonals(
         upright: Vec<MirrorImage>,
         (world, layout): (&World, &[RowLayout]),
@@ -222,8 +225,8 @@ impl Mirrors {
         Self { columns, rows, images, is_packed, ways }
     }
 
-    /// Whether there are mirrors along the diagonals: what lies to the left of the one through the first column and row is not
-    /// computed either.
+    /// Returns whether there are mirrors along the diagonals. If so, pixels to the left of the diagonal through the
+    /// first column and row are not computed either.
     pub(crate) fn has_diagonals(&self) -> bool {
         self.images.len() == MOST_IMAGES
     }
@@ -235,31 +238,31 @@ impl Mirrors {
         if is_on_diagonal { &self.images[..UPRIGHT] } else { &self.images }
     }
 
-    /// The first column to compute of rows from this one on that make patches or bands.
+    /// Returns the first column to compute in rows from this one on, which make patches or bands.
     pub(crate) fn first_column(&self, row: usize) -> usize {
         if self.has_diagonals() { row } else { 0 }
     }
 
-    /// Where in the light each view lies.
+    /// Returns the place of each view in the light.
     pub(crate) fn layout(&self) -> impl Iterator<Item = &RowLayout> {
         self.images[0].views.iter().map(|view| &view.rows)
     }
 
-    /// How windows of a view are walked through.
+    /// Returns the traversals of windows of a view.
     pub(crate) fn ways(&self, view: usize) -> &Ways {
         &self.ways[view]
     }
 }
 
 impl MirrorImage {
-    /// What is computed itself.
+    /// Returns the image that is the computed part itself.
     pub(crate) fn itself(layout: &[RowLayout]) -> Self {
         let (is_turned, flips) = (false, [false; 2]);
         let views = layout.iter().map(|&rows| Reflection { rows, is_turned, flips }).collect();
         Self { is_turned, flips, views }
     }
 
-    /// The target flipped, if the world has a mirror plane, or a quarter turn, to which that belongs.
+    /// Returns the flipped target; `None` unless the world has a mirror plane, or a quarter turn, that fits.
     fn of((world, layout): (&World, &[RowLayout]), target: &View, flip: Flip) -> Option<Self> {
         let mirror = mirror_of(target, flip)?;
         let seen = |source: &Source| {
@@ -274,7 +277,7 @@ impl MirrorImage {
     }
 }
 
-/// The reflection or turn (an orthogonal matrix) of the world that flips what a target shows.
+/// Returns the reflection or rotation of the world (an orthogonal matrix) that flips what a target shows.
 fn mirror_of(target: &View, flip: Flip) -> Option<DMat3> {
     let size = [target.width() as f64, target.height() as f64];
     let at = |x: f64, y: f64| PixelPoint::new(size[0] * x, size[1] * y);
@@ -307,8 +310,8 @@ fn mirror_of(target: &View, flip: Flip) -> Option<DMat3> {
     is_mirror.then_some(mirror)
 }
 
-/// How another view is flipped as the reflection of one, if it is that: no texel of either is hidden or shared. Over its diagonal
-/// only if that `may_turn`.
+/// Returns the flip that makes another view the reflection of one; `None` if it is not, or if texels of either are
+/// hidden or shared. Flips over the diagonal count only with `may_turn`.
 fn reflection(source: &Source, other: &Source, mirror: &DMat3, may_turn: bool) -> Option<Flip> {
     let (a, b) = (&source.view, &other.view);
     let is_plain = |source: &Source| {
@@ -336,21 +339,21 @@ fn reflection(source: &Source, other: &Source, mirror: &DMat3, may_turn: bool) -
     all.into_iter().find(fits)
 }
 
-/// Whether a view follows a formula that a few points tell; a table may hold anything between them.
+/// Returns whether a view follows a formula that a few points determine; a table may hold anything between them.
 fn is_formula(view: &View) -> bool {
     !matches!(view.projection, ProjectionKind::StMap(_))
 }
 
-/// Points all over a picture, as parts of its width and height, none of them on its edge.
+/// Returns points all over a picture, as parts of its width and height, none of them on its edge.
 fn points() -> impl Iterator<Item = (f64, f64)> {
     let at = |step: usize| (step as f64 + 0.37) / STEPS as f64;
     (0..STEPS).flat_map(move |j| (0..STEPS).map(move |i| (at(i), at(j))))
 }
 
-/// Of left and right, and of top and bottom, none, either or both exchanged.
+/// All flips along the axes: none, left and right exchanged, top and bottom exchanged, both.
 const FLIPS: [[bool; 2]; 4] = [[false, false], [true, false], [false, true], [true, true]];
 
-/// How a picture is flipped: first over its diagonal, or not, so that columns are rows, then along its axes.
+/// Flip of a picture: first over its diagonal, or not, so that columns become rows; then along its axes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Flip {
     is_turned: bool,
@@ -358,14 +361,14 @@ struct Flip {
 }
 
 impl Flip {
-    /// Where a point comes to lie in a flipped picture of this size.
+    /// Returns the place of a point in a flipped picture of this size.
     fn of(self, point: PixelPoint, [width, height]: [f64; 2]) -> PixelPoint {
         let [x, y] = exchanged([point.x, point.y], self.is_turned);
         PixelPoint { x: if self.axes[0] { width - x } else { x }, y: if self.axes[1] { height - y } else { y } }
     }
 }
 
-/// What is told of columns and rows, of rows and columns if those are `turned` over a diagonal.
+/// Exchanges column and row if `is_turned`.
 #[inline(always)]
 pub(crate) fn exchanged<T>([column, row]: [T; 2], is_turned: bool) -> [T; 2] {
     if is_turned { [row, column] } else { [column, row] }

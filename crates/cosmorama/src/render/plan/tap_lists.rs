@@ -1,5 +1,5 @@
-//! Pixels that come by themselves, each with a list of its texels: on the edges between views, at rims, and wherever windows
-//! cannot be held. What is the same in all mirrors is kept once, and done once.
+//! Single pixels, each with a list of its texels: on the edges between views, at rims, and wherever windows do not fit.
+//! What is equal in all mirrors is stored and computed once.
 
 use super::symmetry::Mirrors;
 use crate::filter::taps::Taps;
@@ -9,38 +9,38 @@ use crate::world::{TexelPlace, World};
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Singles {
     pixels: Vec<Single>,
-    /// What each texel of each counts.
+    /// Weight of each texel of each pixel.
     weights: Vec<f32>,
-    /// Of each weight the texels in all mirrors, beside each other.
+    /// Texels of each weight in all mirrors, side by side.
     texels: Vec<u32>,
-    /// Where texels lie from the pixel.
+    /// Offsets of texels from the pixel.
     places: Vec<[f32; 2]>,
 }
 
-/// A pixel by itself.
+/// A single pixel.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Single {
-    /// The first of its weights, how many there are, and how many of its texels lie under it.
+    /// Index of its first weight, the number of weights, and the number of its texels that lie under it.
     first: usize,
     taps: u32,
     under: u32,
-    /// The first of their places, and how many are kept.
+    /// Index of the first of their places, and the number that is kept.
     first_place: usize,
     places: u32,
-    /// The part of the pixel inside the field of view.
+    /// Part of the pixel inside the field of view.
     pub(crate) coverage: f32,
     pub(crate) column: u32,
     pub(crate) row: u8,
 }
 
-/// What is known of a pixel's texels, those under it first.
+/// Texels of a pixel with their weights, those under it first.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct SingleTaps<'a> {
     pub(crate) weights: &'a [f32],
-    /// For each of them those in all mirrors.
+    /// Texels in all mirrors, for each weight.
     pub(crate) texels: &'a [u32],
     pub(crate) under: usize,
-    /// Where they lie, if all lie to one side of the pixel's centre.
+    /// Places of the texels, if all lie to one side of the pixel's centre.
     pub(crate) places: &'a [[f32; 2]],
 }
 
@@ -59,7 +59,7 @@ impl Singles {
         self.places.shrink_to_fit();
     }
 
-    /// Bytes that they take.
+    /// Returns the number of bytes that the pixels take.
     pub(crate) fn bytes(&self) -> usize {
         self.pixels.capacity() * size_of::<Single>()
             + self.weights.capacity() * size_of::<f32>()
@@ -67,7 +67,7 @@ impl Singles {
             + self.places.capacity() * size_of::<[f32; 2]>()
     }
 
-    /// Bytes of what they hold, without room for more.
+    /// Returns the number of bytes of what the pixels hold, without room for more.
     pub(crate) fn used_bytes(&self) -> usize {
         size_of_val(&*self.pixels)
             + size_of_val(&*self.weights)
@@ -75,7 +75,7 @@ impl Singles {
             + size_of_val(&*self.places)
     }
 
-    /// How many texels they have, in all mirrors.
+    /// Returns the number of texels in all mirrors.
     pub(crate) fn texel_count(&self) -> usize {
         self.texels.len()
     }
@@ -84,7 +84,7 @@ impl Singles {
         &self.pixels
     }
 
-    /// What one is made of, in so many mirrors.
+    /// Returns the taps of a pixel, in this number of mirrors.
     #[inline(always)]
     pub(crate) fn taps(&self, single: &Single, images: usize) -> SingleTaps<'_> {
         let taps = single.taps as usize;
@@ -96,7 +96,7 @@ impl Singles {
         }
     }
 
-    /// Adds a pixel, in all mirrors. `seen` is memory for where its texels are.
+    /// Adds a pixel, in all mirrors. `seen` is working memory for the places of its texels.
     pub(crate) fn push(
         &mut self,
         (world, mirrors): (&World, &Mirrors),

@@ -7,13 +7,13 @@ use super::window_format::Kept;
 use super::{BAND, Compiled, Geometry, Plan};
 use crate::render::apply::float::weights::{FloatFormat, weight_index};
 
-/// Parts of a world's texels, at most. For each of them all of the plan is gone through, and so the work grows with them: beyond as
-/// many, threads would do little but that, and take time from others.
+/// Greatest number of parts into which a world's texels are divided. Each part reads the whole plan, so the work grows
+/// with their number. With more parts, threads would do little else, and take time from others.
 const MOST_PARTS: usize = 8;
 
 impl Plan {
-    /// Takes a number from each pixel back to the texels that it is made of, times their weights: what the plan does the other
-    /// way round. Adds it to a number of each texel.
+    /// Distributes a number of each pixel to the texels that it is made of, times their weights: the transpose of the
+    /// plan. The results are added to a number of each texel.
     ///
     /// # Panics
     /// If the plan is one of integers, or of a pyramid.
@@ -33,21 +33,21 @@ impl Plan {
     }
 }
 
-/// Some of a world's texels.
+/// A part of a world's texels.
 struct Part<'a> {
     first: usize,
     texels: &'a mut [f64],
 }
 
 impl Part<'_> {
-    /// Adds to a texel, if it is one of these.
+    /// Adds to a texel if it belongs to this part.
     fn add(&mut self, texel: usize, number: f64) {
         if let Some(sum) = self.texels.get_mut(texel.wrapping_sub(self.first)) {
             *sum += number;
         }
     }
 
-    /// Whether none of a window's texels can be one of these.
+    /// Returns whether no texel of a window can belong to this part.
     fn is_beside(&self, walk: Walk, [columns, rows]: [usize; 2]) -> bool {
         // It reaches from one corner to another.
         let corners = [[0, 0], [columns - 1, 0], [0, rows - 1], [columns - 1, rows - 1]];
@@ -60,7 +60,7 @@ impl Part<'_> {
 struct Spread<'a> {
     plan: &'a Compiled<FloatFormat>,
     band: &'a Band<FloatFormat>,
-    /// Its first row.
+    /// First row of the band.
     top: usize,
 }
 

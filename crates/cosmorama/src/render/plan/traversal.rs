@@ -3,16 +3,17 @@ use std::ops::Range;
 use super::span::Run;
 use super::symmetry::TOGETHER;
 
-/// What is worked on together: a patch's runs that lie in one view, in some of its mirrors.
+/// Windows that are processed together: a patch's runs that lie in one view, in some of its mirrors.
 #[derive(Clone, Debug)]
 pub(crate) struct Pass<'a> {
     pub(crate) group: &'a [Run],
-    /// Which of the ways through the view.
+    /// Range of the view's traversals.
     pub(crate) ways: Range<usize>,
 }
 
-/// Goes through each group in [`TOGETHER`] mirrors at once, given how many there are; with what comes next, whose texels can be asked
-/// for meanwhile. What a patch reads in eight mirrors and makes of it fills the nearest cache of most processors.
+/// Returns the passes through each group, in [`TOGETHER`] of `count` mirrors at once. Each comes with the next pass,
+/// whose texels can be prefetched meanwhile. What a patch reads and writes in eight mirrors fills the first-level cache
+/// of most processors.
 pub(crate) fn passes<'a>(
     groups: impl Iterator<Item = &'a [Run]> + Clone,
     count: usize,

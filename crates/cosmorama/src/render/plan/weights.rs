@@ -5,10 +5,10 @@ use super::window_format::{Format, Header, Kept, Place};
 use super::window_order;
 use crate::render::batch::window::Windows;
 
-/// The weights of a band's windows, one group of runs after the other, pixel by pixel.
+/// Weights of a band's windows, one group of runs after the other, pixel by pixel.
 ///
-/// Before those of a pixel stands a [`Header`]; then, if its window is not small, which texels lie under the pixel,
-/// [`Shape::mark_words`](super::window_format::Shape::mark_words) numbers for each row that has some.
+/// The weights of a pixel follow its [`Header`]. If its window is not small, bits between them mark the texels under
+/// the pixel: [`Shape::mark_words`](super::window_format::Shape::mark_words) numbers for each row that has some.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Weights<F> {
     pub(crate) numbers: Vec<u32>,
@@ -16,13 +16,13 @@ pub(crate) struct Weights<F> {
 }
 
 impl<F: Format> Weights<F> {
-    /// How many numbers they are: where the next run's begin.
+    /// Returns the number of numbers, which is where the next run's begin.
     pub(crate) fn len(&self) -> usize {
         self.numbers.len()
     }
 
-    /// Keeps those of the windows that have a corner, as the windows of this run of their group, and says where these begin as they are
-    /// kept; false, keeping nothing, if they cannot be held.
+    /// Keeps the weights of the windows that have a corner, as those of this run of their group. Moves the corners to
+    /// where the kept windows begin. Returns false, keeping nothing, if they do not fit.
     pub(crate) fn keep(&mut self, windows: &Windows, corners: &mut Corners, run: usize) -> bool {
         let level = windows.level();
         dispatch!(level, simd => self.keep_lanes(simd, windows, corners, run))
@@ -44,12 +44,12 @@ impl<F: Format> Weights<F> {
         true
     }
 
-    /// Forgets all but the first numbers, keeping the memory.
+    /// Drops all but the first numbers, keeping the memory.
     pub(crate) fn truncate(&mut self, length: usize) {
         self.numbers.truncate(length);
     }
 
-    /// Sorts those of each group by shape, and gives back memory that is not needed.
+    /// Sorts the windows of each group by shape, and frees memory that is not needed.
     pub(crate) fn settle<'a>(&mut self, groups: impl Iterator<Item = &'a [Run]>) {
         window_order::sort(&mut self.numbers, groups, |run, numbers| {
             (Header(numbers[0]).shape(), Kept::of::<F>(run, numbers).length())
@@ -57,7 +57,7 @@ impl<F: Format> Weights<F> {
         self.format = F::default();
     }
 
-    /// The windows of a group, each with its run and its header.
+    /// Returns the windows of a group, each with its run and its header.
     pub(crate) fn windows<'a>(&'a self, group: &'a [Run]) -> impl Iterator<Item = (&'a Run, Header, Kept<'a>)> {
         let mut numbers = &self.numbers[group[0].weights as usize..];
         group.iter().flat_map(Run::lanes).map(move |_| {
@@ -69,12 +69,12 @@ impl<F: Format> Weights<F> {
         })
     }
 
-    /// Bytes that they take.
+    /// Returns the number of bytes that the weights take.
     pub(crate) fn bytes(&self) -> usize {
         self.numbers.capacity() * size_of::<u32>()
     }
 
-    /// Bytes of those that are held.
+    /// Returns the number of bytes of the weights that are held.
     pub(crate) fn used_bytes(&self) -> usize {
         size_of_val(&*self.numbers)
     }

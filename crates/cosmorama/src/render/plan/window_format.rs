@@ -1,4 +1,4 @@
-//! How windows are kept in a plan: their sizes, and the number that stands before each one's weights.
+//! Format of windows in a plan: their sizes, and the header before each one's weights.
 
 use std::fmt::Debug;
 use std::ops::Range;
@@ -9,42 +9,42 @@ use super::span::Run;
 use crate::render::batch::window::Windows;
 use crate::render::scan::tile::SIDE;
 
-/// How the weights of windows are kept in one type of number.
+/// Storage of windows' weights in one type of number.
 pub(crate) trait Format: Clone + Debug + Default + Send + Sync {
-    /// The sizes of small windows.
+    /// Sizes of small windows.
     const SMALL: SmallShapes;
 
-    /// How many weights are kept in a number, of texels beside each other.
+    /// Number of weights of neighbouring texels that are kept in one number.
     const TOGETHER: usize;
 
-    /// How many texels there are from one row of a view to the next in the light that they are for, if rows hold so many.
+    /// Returns the number of texels from one row of a view to the next in the light for this format.
     fn pitch(width: usize) -> usize;
 
-    /// Takes up the windows of a run; false if they cannot be held.
+    /// Converts the windows of a run; false if they do not fit.
     fn take<S: Simd>(&mut self, simd: S, windows: &Windows) -> bool;
 
-    /// Writes down a lane's window, and where it begins; false if that cannot be.
+    /// Writes a lane's window, and moves the corner to where it begins; false if it does not fit.
     fn write(&self, windows: &Windows, place: Place, corner: &mut [u32; 2], numbers: &mut Vec<u32>) -> bool;
 }
 
-/// The size of a pixel's window as it is kept.
+/// Size of a pixel's window as it is kept.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Shape {
     pub(crate) width: usize,
     pub(crate) height: usize,
-    /// The first of the [`ROWS_UNDER`] rows outside which no texel of a small window lies under the pixel.
+    /// First of the [`ROWS_UNDER`] rows that may hold texels under the pixel, in a small window.
     pub(crate) under: usize,
 }
 
-/// Rows of a small window that may hold texels under the pixel, and columns, the first ones.
+/// Number of rows of a small window that may hold texels under the pixel, and number of columns from the first.
 pub(crate) const ROWS_UNDER: usize = 3;
 pub(crate) const COLUMNS_UNDER: usize = 4;
 
-/// Sizes of windows where a kernel is as small as may be.
+/// Sizes of windows where a kernel is as small as possible.
 pub(crate) type SmallShapes = [Shape; 2 * Shape::HEIGHTS];
 
 impl Shape {
-    /// How many of the small ones are as wide.
+    /// Number of small shapes of each width.
     pub(crate) const HEIGHTS: usize = 3;
 
     /// Lists the small shapes: as many of each width, in the same order.
@@ -55,7 +55,7 @@ impl Shape {
         [new(narrow, 4, 0), new(narrow, 4, 1), new(narrow, 5, 1), new(wide, 4, 0), new(wide, 4, 1), new(wide, 5, 1)]
     }
 
-    /// Returns the shape of large windows of so many columns and rows.
+    /// Returns the shape of large windows with this number of columns and rows.
     #[inline(always)]
     pub(crate) fn large<F: Format>([width, height]: [usize; 2]) -> Self {
         Self { width: width.next_multiple_of(F::TOGETHER), height, under: 0 }
@@ -65,21 +65,21 @@ impl Shape {
         self.width * self.height
     }
 
-    /// How many numbers tell of a row of a large window which texels lie under the pixel.
+    /// Returns the number of words that mark, in a row of a large window, which texels lie under the pixel.
     #[inline(always)]
     pub(crate) fn mark_words(self) -> usize {
         self.width.div_ceil(32)
     }
 }
 
-/// Where a window belongs: to which run of its group, and in which lane.
+/// Place of a window: the run of its group, and the lane.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Place {
     pub(crate) run: usize,
     pub(crate) lane: usize,
 }
 
-/// What is known of a pixel's window: its shape, its place, and in the other bits what its format tells.
+/// Header of a pixel's window: its shape, its place, and in the other bits data of its format.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Header(pub(crate) u32);
 
@@ -88,17 +88,17 @@ impl Header {
     const LANE: u32 = 12;
     const RUN: u32 = 29;
 
-    /// In place of an index of small shapes: as large as the run's windows are.
+    /// Index of the shape of a window that is not small, and as large as the run's windows are.
     const LARGE: usize = 7;
 
-    /// `rest` has no bits but 0 to 8 and 16 to 28.
+    /// Packs a header; `rest` may use only bits 0 to 8 and 16 to 28.
     #[inline(always)]
     pub(crate) fn new(small: Option<usize>, Place { run, lane }: Place, rest: u32) -> Self {
         let shape = small.unwrap_or(Self::LARGE);
         Self((shape << Self::SHAPE | (run % SIDE) << Self::RUN | (lane % SIDE) << Self::LANE) as u32 | rest)
     }
 
-    /// The index of its shape among the small ones; more, if it is none.
+    /// Returns the index of its shape among the small ones, or a greater number if it is not small.
     #[inline(always)]
     pub(crate) fn shape(self) -> u32 {
         self.0 >> Self::SHAPE & 7
@@ -111,13 +111,13 @@ impl Header {
     }
 }
 
-/// The numbers of a window's pixel: those after its header.
+/// Numbers of a pixel's window that follow its header.
 #[derive(Clone, Debug)]
 pub(crate) struct Kept<'a> {
     pub(crate) shape: Shape,
-    /// The rows of a large window that may hold texels under the pixel; none of a small one.
+    /// Rows of a large window that may hold texels under the pixel; empty for a small window.
     pub(crate) under: Range<usize>,
-    /// Which texels of these rows do.
+    /// Bits of the texels of these rows that lie under the pixel.
     pub(crate) marks: &'a [u32],
     pub(crate) weights: &'a [u32],
 }
@@ -141,14 +141,14 @@ impl<'a> Kept<'a> {
         }
     }
 
-    /// Returns which texels of a row of a large window lie under the pixel; nothing of rows in which none does.
+    /// Returns which texels of a row of a large window lie under the pixel; `None` for rows in which none does.
     #[inline(always)]
     pub(crate) fn marks_of(&self, row: usize) -> Option<&'a [u32]> {
         let words = self.shape.mark_words();
         self.under.contains(&row).then(|| &self.marks[(row - self.under.start) * words..][..words])
     }
 
-    /// How many numbers there are of it, the header among them.
+    /// Returns the number of numbers, including the header.
     #[inline(always)]
     pub(crate) fn length(&self) -> usize {
         1 + self.marks.len() + self.weights.len()

@@ -6,18 +6,19 @@
 use super::span::Run;
 use crate::render::scan::tile::SIDE;
 
-/// How many windows a group has.
+/// Returns the number of windows in a group.
 #[inline(always)]
 pub(crate) fn window_count(group: &[Run]) -> u32 {
     group.iter().map(|run| run.lane_bits().count_ones()).sum()
 }
 
-/// How many shapes there may be.
+/// Greatest number of shapes.
 const SHAPES: usize = 8;
 
 /// Sorts the windows of each group by shape. All groups keep their place.
 ///
-/// `told` is what the numbers of a run's window tell: the index of its shape, and how many of them are its own.
+/// `told` returns the index of a window's shape, and the number of its numbers, from the numbers of a run from this
+/// window on.
 pub(crate) fn sort<'a>(
     numbers: &mut Vec<u32>,
     groups: impl Iterator<Item = &'a [Run]>,
@@ -47,7 +48,7 @@ pub(crate) fn sort<'a>(
 mod tests {
     use super::*;
 
-    /// A window's numbers: its header, which tells its shape in its last bits, and as many more as that says.
+    /// Returns a window's numbers: its header, with the shape in its last bits, and as many more as the shape needs.
     fn window(number: u32, shape: u32) -> Vec<u32> {
         std::iter::once(number << 3 | shape).chain((0..shape).map(|number| number + 100)).collect()
     }

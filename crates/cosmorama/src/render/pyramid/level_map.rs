@@ -6,29 +6,30 @@ use crate::filter::ewa_pyramid::level::{LevelNeed, LevelRule, is_before, is_beyo
 use crate::filter::rim::field_edge::FieldEdge;
 use crate::world::World;
 
-/// Within so many pixels of where the field of view ends, levels are finer: texels that the edge cuts have the light of what it
-/// leaves of them, which is not that of their centres.
+/// Distance in pixels from the edge of the field of view within which levels are finer. Texels that the edge cuts have
+/// the light of their remaining part, not of their centres.
 const BESIDE_EDGE: usize = 3;
 
-/// Points along a picture's longer side between which levels are interpolated, at least.
+/// Least number of points along a picture's longer side between which levels are interpolated.
 const POINTS: usize = 512;
 
-/// Which levels of a pyramid each pixel of a target is made from.
+/// Levels of a pyramid from which each pixel of a target is made.
 ///
-/// A level is a number: at 2 and beyond a pixel is made from the second halved world, from [`BLENDED`] before 3 more and more from
-/// the third. It is the logarithm of the footprint's minor axis among the texels of the view that shows it, interpolated in large
-/// pictures between points a few pixels apart, so that it is continuous across the edges of views as well.
+/// A level is a number. From 2 on, a pixel is made from the second halved world; from [`BLENDED`] before 3, the third
+/// is blended in more and more. The number is the logarithm of the footprint's minor axis among the texels of the view
+/// that shows it. In large pictures it is interpolated between points a few pixels apart, so it is continuous across
+/// the edges of views as well.
 #[derive(Clone, Debug)]
 pub(crate) struct LevelMap {
-    /// Pixels from point to point: a power of two.
+    /// Number of pixels from point to point, a power of two.
     step: usize,
-    /// Points in a row.
+    /// Number of points in a row.
     columns: usize,
     levels: Vec<f32>,
 }
 
 impl LevelMap {
-    /// Levels for a target whose field of view may end at an edge.
+    /// Computes the levels for a target whose field of view may end at an edge.
     pub(crate) fn new(world: &World, target: &View, kernel: &Kernel, edge: Option<FieldEdge>) -> Self {
         let rule = LevelRule::new(world, kernel);
         let longer = target.width().max(target.height());
@@ -52,13 +53,14 @@ impl LevelMap {
         map
     }
 
-    /// The finest level everywhere.
+    /// Returns a map with the finest level everywhere.
     pub(crate) fn finest(target: &View) -> Self {
         let step = target.width().max(target.height()).max(1).next_power_of_two();
         Self { step, columns: 2, levels: vec![0.0; 4] }
     }
 
-    /// Points that see nothing lie beside some that do, or no pixel around them sees anything: they get the least level there.
+    /// Fills points that see nothing with the least level around them. Either some points beside them see something, or
+    /// no pixel around them does.
     fn fill_gaps(&mut self) {
         for _ in 0..2 {
             let known = self.levels.clone();
@@ -74,18 +76,18 @@ impl LevelMap {
         self.levels.iter_mut().filter(|level| level.is_nan()).for_each(|level| *level = 0.0);
     }
 
-    /// Makes do with levels up to the `coarsest`.
+    /// Limits the levels to the `coarsest`.
     pub(crate) fn limit(&mut self, coarsest: usize) {
         self.levels.iter_mut().for_each(|level| *level = level.min(coarsest as f32));
     }
 
-    /// The number of the coarsest level that is needed.
+    /// Returns the number of the coarsest level that is needed.
     pub(crate) fn coarsest(&self) -> usize {
         let most = self.levels.iter().fold(0f32, |most, level| most.max(*level));
         (0..).find(|level| is_beyond(most, *level)).map_or(0, |level| level - 1)
     }
 
-    /// The numbers of the pixels of a row.
+    /// Returns the levels of the pixels of a row.
     pub(crate) fn row(&self, row: usize) -> impl Iterator<Item = f32> {
         let [above, below] = self.rows_around(row);
         let (_, t) = self.place(row);
@@ -103,20 +105,20 @@ impl LevelMap {
         between([between([above[i], below[i]], t), between([above[i + 1], below[i + 1]], t)], s)
     }
 
-    /// The rows of points above and below a row of pixels.
+    /// Returns the rows of points above and below a row of pixels.
     fn rows_around(&self, row: usize) -> [&[f32]; 2] {
         let (j, _) = self.place(row);
         [j, j + 1].map(|j| &self.levels[j * self.columns..][..self.columns])
     }
 
-    /// The point before a pixel's centre, and the part of the way to the next.
+    /// Returns the point before a pixel's centre, and the part of the way to the next point.
     fn place(&self, pixel: usize) -> (usize, f32) {
         // A shift: to divide would take longer than all else.
         let within = pixel & (self.step - 1);
         (pixel >> self.step.ilog2(), (within as f32 + 0.5 - first(self.step) as f32) / self.step as f32)
     }
 
-    /// The least and the greatest level of the pixels in a rectangle, or somewhat less and more.
+    /// Returns the least and the greatest level of the pixels in a rectangle, or somewhat less and more.
     fn range(&self, rect: PixelRect) -> [f32; 2] {
         let (left, right) = (rect.left / self.step, (rect.right - 1) / self.step + 2);
         let rows = rect.top / self.step..(rect.bottom - 1) / self.step + 2;
@@ -124,15 +126,16 @@ impl LevelMap {
             .fold([f32::INFINITY, f32::NEG_INFINITY], |[least, most], &level| [least.min(level), most.max(level)])
     }
 
-    /// Whether a pixel in a rectangle may be made from a level.
+    /// Returns whether a pixel in a rectangle may be made from a level.
     pub(crate) fn needs(&self, level: usize, rect: PixelRect) -> bool {
         let [least, most] = self.range(rect);
         !is_beyond(most, level) && !is_before(least, level)
     }
 }
 
-/// Where the first point is: on the picture's edge, so that points mirror each other, but if each pixel has its own, in its centre.
-/// Pixels of small pictures may be so wide that their corners tell nothing of them.
+/// Returns the position of the first point. It is on the picture's edge, so that points mirror each other. If each
+/// pixel has its own point, it is in the pixel's centre: pixels of small pictures may be so wide that their corners
+/// tell nothing of them.
 fn first(step: usize) -> f64 {
     if step == 1 { 0.5 } else { 0.0 }
 }

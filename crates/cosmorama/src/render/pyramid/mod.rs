@@ -1,4 +1,4 @@
-//! EWA at a bounded cost: among smaller copies of the world, wherever a pixel holds many texels.
+//! EWA at a bounded cost, from smaller copies of the world wherever a pixel holds many texels.
 //!
 //! Heckbert 1989 interpolates between two EWA look-ups, in the two levels of a pyramid that fit the ellipse best.
 
@@ -20,8 +20,8 @@ use crate::filter::{FilterKind, FilterSettings, KernelTable, PixelTaps};
 use crate::raster::{Image, Rgba};
 use crate::world::World;
 
-/// The worlds that a conversion is made from: the given one, and where the filter asks for it that of half as many texels each
-/// way, and so on.
+/// Worlds that a conversion is made from. The first is the given one; where the filter asks for it, each further one
+/// has half as many texels each way.
 pub(crate) struct Pyramid<'a> {
     resampler: &'a Resampler<'a>,
     /// Halved worlds, largest first, each with the mapping that makes its light from the level before.
@@ -30,7 +30,7 @@ pub(crate) struct Pyramid<'a> {
 }
 
 impl<'a> Pyramid<'a> {
-    /// As many levels as the target needs.
+    /// Makes as many levels as the target needs.
     pub(crate) fn new(resampler: &'a Resampler<'a>) -> Self {
         let Resampler { world, target, filter } = resampler;
         let mut levels: Vec<(World, Halving)> = Vec::new();
@@ -53,7 +53,7 @@ impl<'a> Pyramid<'a> {
         level.checked_sub(1).map_or(self.resampler.world, |halved| &self.levels[halved].0)
     }
 
-    /// What is made from one level.
+    /// Returns the conversion from one level.
     fn level(&self, level: usize) -> Resampler<'_> {
         let kind = match self.resampler.filter.kind {
             FilterKind::EwaPyramid => FilterKind::Ewa,
@@ -63,21 +63,21 @@ impl<'a> Pyramid<'a> {
         Resampler { world: self.world(level), target: self.resampler.target, filter }
     }
 
-    /// Which patches need a level; `None` if none does.
+    /// Returns the patches that need a level; `None` if none does.
     fn wanted(&self, level: usize) -> Option<Wanted> {
         let wanted = plan::wanted(&self.level(level), |rect| self.map.needs(level, rect));
         wanted.any().then_some(wanted)
     }
 }
 
-/// How many texels a pixel takes, those of all levels together.
+/// Counter of the texels that a pixel takes from all levels together.
 pub(crate) struct TexelCount<'a> {
     map: &'a LevelMap,
     levels: Vec<PixelTaps<'a>>,
 }
 
 impl<'a> TexelCount<'a> {
-    /// Counts texels for the pixels of a target; `table` is of the filter's kernel.
+    /// Makes the counter for the pixels of a target; `table` belongs to the filter's kernel.
     pub(crate) fn new(pyramid: &'a Pyramid<'a>, table: &'a KernelTable) -> Self {
         let Resampler { target, .. } = pyramid.resampler;
         let taps = |level| PixelTaps::new(pyramid.world(level), target, &pyramid.resampler.filter, table);
@@ -97,13 +97,14 @@ impl<'a> TexelCount<'a> {
     }
 }
 
-/// Where the target's field of view ends, as the filter has it: one that is smaller than a few texels is made of what is around it.
+/// Returns the edge of the target's field of view, as the filter uses it. `None` if the field is smaller than a few
+/// texels; it is then made of what is around it.
 fn edge<'a>(resampler: &Resampler<'a>) -> Option<FieldEdge<'a>> {
     let pitch = resampler.world.sources().iter().map(|source| source.texel_pitch).fold(0.0, f64::max);
     FieldEdge::of(resampler.target).filter(|edge| edge.is_wider_than(pitch))
 }
 
-/// Bytes that the levels of a conversion take at most, without computing them.
+/// Returns an upper bound of the bytes that the levels of a conversion take, without computing them.
 pub(crate) fn bytes(resampler: &Resampler) -> usize {
     let Resampler { world, target, filter } = resampler;
     if LevelMap::new(world, target, &filter.kernel, edge(resampler)).coarsest() == 0 {
@@ -115,7 +116,7 @@ pub(crate) fn bytes(resampler: &Resampler) -> usize {
         + target.width() * target.height() * size_of::<Rgba>()
 }
 
-/// One frame without a plan.
+/// Renders one frame without a plan.
 pub(crate) fn render(resampler: &Resampler, texels: &[Rgba], watch: Watch) -> Image<Rgba> {
     let (pyramid, background) = (Pyramid::new(resampler), Rgba::TRANSPARENT);
     if pyramid.levels.is_empty() {
@@ -135,8 +136,8 @@ pub(crate) fn render(resampler: &Resampler, texels: &[Rgba], watch: Watch) -> Im
     image
 }
 
-/// Makes the light of one level after the other, and of each its part of the picture, before which an image is transparent: `picture`
-/// gives what is made from a level's light, where anything is.
+/// Adds up a picture from its levels in a transparent image, after making the light of each in turn. `picture` makes
+/// the pixels of a level from its light, or `None` if there are none.
 fn mix(
     image: &mut Image<Rgba>,
     map: &LevelMap,
@@ -162,14 +163,14 @@ fn mix(
     }
 }
 
-/// The geometry of a conversion by a pyramid, for any number of frames: how each level is made, which texels of it make each
-/// pixel, and how much of the pixel is made from it.
+/// Geometry of a conversion by a pyramid, for any number of frames. It holds how each level is made, which of its
+/// texels make each pixel, and the level's part in the pixel.
 #[derive(Clone, Debug)]
 pub(crate) struct PyramidPlan {
     size: (usize, usize),
     map: LevelMap,
     halvings: Vec<Halving>,
-    /// By level; none where nothing is made from it.
+    /// Plan of each level; `None` where nothing is made from it.
     plans: Vec<Option<Plan>>,
 }
 
@@ -192,12 +193,12 @@ impl PyramidPlan {
         image.lay_over(background);
     }
 
-    /// Columns and rows of the target.
+    /// Returns the number of columns and rows of the target.
     pub(crate) fn size(&self) -> (usize, usize) {
         self.size
     }
 
-    /// About how many bytes that of a conversion would hold.
+    /// Estimates the bytes that the plan of a conversion would hold.
     pub(crate) fn bytes_estimate(resampler: &Resampler) -> usize {
         let pyramid = Pyramid::new(resampler);
         let levels =
@@ -206,7 +207,7 @@ impl PyramidPlan {
         plans + pyramid.levels.iter().map(|(_, halving)| halving.bytes()).sum::<usize>()
     }
 
-    /// Bytes of memory that the plan holds.
+    /// Returns the number of bytes that the plan holds.
     pub(crate) fn bytes(&self) -> usize {
         let plans: usize = self.plans.iter().flatten().map(Plan::bytes).sum();
         plans + self.halvings.iter().map(Halving::bytes).sum::<usize>()

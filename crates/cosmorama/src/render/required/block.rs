@@ -2,29 +2,29 @@ use crate::camera::{PixelPoint, PixelRect, View};
 use crate::filter::gather::cap::Cap;
 use crate::sphere::Direction;
 
-/// Pixels along the side of the largest blocks.
+/// Number of pixels along the side of the largest blocks.
 const LARGEST: usize = 128;
 
-/// Pixels along the side of the smallest.
+/// Number of pixels along the side of the smallest blocks.
 const SMALLEST: usize = 8;
 
 /// A square of a target's pixels that is judged as a whole where possible, else in parts.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Block {
-    /// What of it lies in the target.
+    /// Part of the square that lies in the target.
     rect: PixelRect,
-    /// Pixels along its side.
+    /// Number of pixels along the square's side.
     side: usize,
 }
 
 impl Block {
-    /// The largest blocks of a target, row by row.
+    /// Returns the largest blocks of a target, row by row.
     pub(crate) fn largest(target: &View) -> Vec<Self> {
         let all = PixelRect { left: 0, top: 0, right: target.width(), bottom: target.height() };
         Self::within(all, LARGEST).collect()
     }
 
-    /// The blocks of half the side that it consists of; `None` for a smallest one.
+    /// Returns the blocks of half the side that make up this one; `None` for a smallest block.
     pub(crate) fn parts(self) -> Option<impl Iterator<Item = Self>> {
         (self.side > SMALLEST).then(|| Self::within(self.rect, self.side / 2))
     }
@@ -38,29 +38,29 @@ impl Block {
         (top..bottom).step_by(side).flat_map(move |top| (left..right).step_by(side).map(move |left| block(left, top)))
     }
 
-    /// Column and row of each of its pixels.
+    /// Returns the column and row of each pixel.
     pub(crate) fn pixels(self) -> impl Iterator<Item = (usize, usize)> {
         let rect = self.rect;
         (rect.top..rect.bottom).flat_map(move |j| (rect.left..rect.right).map(move |i| (i, j)))
     }
 
-    /// Column and row of a pixel in its middle.
+    /// Returns the column and row of a pixel in the middle.
     pub(crate) fn middle(&self) -> (usize, usize) {
         (self.rect.left.midpoint(self.rect.right), self.rect.top.midpoint(self.rect.bottom))
     }
 
-    /// Whether the frame ends here, or so near that the block's cap may be partly outside.
+    /// Returns whether the frame ends here, or so near that the block's cap may be partly outside.
     pub(crate) fn is_near_border_of(&self, target: &View) -> bool {
         self.has_border_within(self.side / 2, target)
     }
 
-    /// Whether the frame ends less than so many pixels away.
+    /// Returns whether the frame ends less than this many pixels away.
     fn has_border_within(&self, pixels: usize, target: &View) -> bool {
         let PixelRect { left, top, right, bottom } = self.rect;
         left < pixels || top < pixels || right + pixels > target.width() || bottom + pixels > target.height()
     }
 
-    /// Whether the frame ends here, or the field of view.
+    /// Returns whether the frame or the field of view ends here.
     pub(crate) fn is_at_edge_of(&self, target: &View) -> bool {
         let PixelRect { left, top, right, bottom } = self.rect;
         let hides = |(x, y): (usize, usize)| !target.stop_passes(PixelPoint::new(x as f64, y as f64));
@@ -68,13 +68,13 @@ impl Block {
             || [(left, top), (right, top), (left, bottom), (right, bottom)].into_iter().any(hides)
     }
 
-    /// Whether the target's field stop surely hides all of the block.
+    /// Returns whether the target's field stop surely hides all of the block.
     pub(crate) fn is_hidden(&self, target: &View) -> bool {
         let is_below = |side: Direction| self.cap(target).is_some_and(|cap| cap.is_below(side, target));
         target.outline_hides(self.rect) || target.stop.half_space.is_some_and(is_below)
     }
 
-    /// The cap that holds all directions of the block; `None` where part of it has none, or where it is wide.
+    /// Returns the cap that holds all directions of the block. `None` where part of it has none, or where it is wide.
     pub(crate) fn cap(&self, target: &View) -> Option<Cap> {
         let (left, right) = (self.rect.left as f64, self.rect.right as f64);
         let (top, bottom) = (self.rect.top as f64, self.rect.bottom as f64);

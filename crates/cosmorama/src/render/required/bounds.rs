@@ -1,4 +1,5 @@
-//! What kernels can reach in a world without holes: found from blocks of pixels, hardly one of which is looked at itself.
+//! Bounds of what kernels can reach in a world without holes. They are found from blocks of pixels, hardly any of which
+//! is tested itself.
 
 use rayon::prelude::*;
 
@@ -13,8 +14,9 @@ use crate::render::Needs;
 use crate::world::World;
 
 impl Needs {
-    /// Finds bounds of what is read in a world whose views leave no hole, as a cube's faces do, several times as quick as elsewhere;
-    /// `None` for any other. Nothing is uncovered there; `seen` is only a part of what is, but something wherever anything is seen.
+    /// Finds bounds of what is read in a world whose views leave no hole, as a cube's faces do; `None` for any other
+    /// world. It is several times as fast as a survey. Nothing is uncovered there. `seen` is only a part, but is `Some`
+    /// wherever anything is seen.
     pub(crate) fn within_reach(world: &World, targets: &[View], filter: &FilterSettings) -> Option<Self> {
         if !world.is_closed() {
             return None;
@@ -47,8 +49,8 @@ impl Needs {
 }
 
 impl Survey<'_> {
-    /// Adds what kernels around a block's pixels can touch, and what its middle sees. Blocks at the edge of the picture are
-    /// taken in their smallest parts; of one that has no cap, each pixel is asked.
+    /// Adds what kernels around a block's pixels can touch, and what its middle sees. A block at the edge of the
+    /// picture is divided into its smallest parts. Of a block without a cap, each pixel is tested.
     fn reach(&self, block: Block, pixels: &mut PixelTaps, needs: &mut Needs) {
         if block.is_hidden(self.target) {
             return;

@@ -1,4 +1,4 @@
-//! Which texels a conversion needs, and what no view covers.
+//! Texels that a conversion needs, and directions that no view covers.
 
 pub(crate) mod block;
 pub(crate) mod bounds;

@@ -1,4 +1,4 @@
-//! What a conversion needs of its sources, before any light is looked at.
+//! Needs of a conversion: parts of its sources, found before any light is read.
 
 use rayon::prelude::*;
 
@@ -12,42 +12,42 @@ use crate::render::Uncovered;
 use crate::sphere::Direction;
 use crate::world::{Source, World};
 
-/// What targets need of one view of a world.
+/// Part of one view of a world that targets need.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Need {
-    /// The view's name.
+    /// Name of the view.
     pub name: String,
-    /// Bounding rectangle of the texels in which target pixels (their centres, or the centroids of what a rim leaves of
-    /// them) fall. Without these there would be holes in the picture.
+    /// Bounding rectangle of the texels that target pixels fall on, without which the picture would have holes. A pixel
+    /// falls where its centre does; one at a rim, where the centroid of its remaining part does.
     pub seen: Option<PixelRect>,
-    /// Bounding rectangle of all texels that the filter touches. Whatever is outside never changes a pixel.
+    /// Bounding rectangle of all texels that the filter touches. Texels outside never change a pixel.
     pub read: Option<PixelRect>,
 }
 
-/// What targets need of a world.
+/// Parts of a world that targets need.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Needs {
-    /// One for each view, in the world's order.
+    /// Needs of each view, in the world's order.
     pub views: Vec<Need>,
-    /// What no view covers.
+    /// Target pixels that no view covers.
     pub uncovered: Option<Uncovered>,
 }
 
-/// How exactly needs are found.
+/// Accuracy with which needs are found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Accuracy {
-    /// By the taps of the filter itself.
+    /// Exact: by the taps of the filter itself.
     Exact,
-    /// Far quicker: what is read is a few texels too large, and of what is seen a part is enough. That something of a view is read, or
-    /// seen, is exact; so is what is uncovered.
+    /// Faster. `read` is a few texels too large and `seen` may be only a part; whether each is `Some`, and `uncovered`,
+    /// are exact.
     Bounds,
 }
 
 impl Needs {
     /// Finds what `targets` need of the world's views when they are made with `filter`.
     ///
-    /// To ask for views whose image is missing, give a world of nominal views: it holds no light. Of a pyramid's texels, whose parts
-    /// are many, it is known what they hold at most, whatever the accuracy.
+    /// The world needs no light, so it may hold nominal views of missing images. For `ewa-pyramid` the result is an
+    /// upper bound.
     pub fn of(world: &World, targets: &[View], filter: &FilterSettings, accuracy: Accuracy) -> Self {
         match accuracy {
             Accuracy::Exact if filter.kind == FilterKind::EwaPyramid => Self::at_most(world, targets, filter),
@@ -102,7 +102,7 @@ impl Needs {
         Self { views: world.sources().iter().map(need).collect(), uncovered: None }
     }
 
-    /// Both together.
+    /// Merges the needs of both.
     pub(crate) fn merged(mut self, other: &Self) -> Self {
         for (mine, theirs) in self.views.iter_mut().zip(&other.views) {
             mine.seen = union(mine.seen, theirs.seen);
@@ -123,12 +123,12 @@ fn union(a: Option<PixelRect>, b: Option<PixelRect>) -> Option<PixelRect> {
     a.into_iter().chain(b).reduce(PixelRect::union)
 }
 
-/// Whether nothing of `part` is outside `whole`.
+/// Returns whether nothing of `part` is outside `whole`.
 fn within(part: Option<PixelRect>, whole: Option<PixelRect>) -> bool {
     part.is_none_or(|part| whole.is_some_and(|whole| whole.contains(&part)))
 }
 
-/// One target's look at a world.
+/// Survey of what one target needs of a world.
 pub(crate) struct Survey<'a> {
     pub(crate) world: &'a World,
     pub(crate) target: &'a View,
@@ -137,26 +137,26 @@ pub(crate) struct Survey<'a> {
     pub(crate) reads: Reads<'a>,
 }
 
-/// How well it is found what a filter reads.
+/// Method by which the texels that a filter reads are found.
 #[derive(Clone, Copy)]
 pub(crate) enum Reads<'a> {
     /// By the taps of each pixel.
     Exactly,
     /// By what kernels around a block of pixels can reach.
     AtMost,
-    /// By the taps of each pixel, for these views alone; all else is known.
+    /// By the taps of each pixel, for these views alone; the rest is known.
     Of(&'a [bool]),
 }
 
-/// A block and what is known of it as a whole. Large ones are inside the picture, and one view shows all of them.
+/// A block and what is known of it as a whole. Large blocks are inside the picture, and one view shows all of each.
 pub(crate) struct Judged {
     block: Block,
     cap: Option<Cap>,
-    /// The source that shows all of it.
+    /// Source that shows all of the block.
     owner: Option<usize>,
-    /// Whether all of it is inside the field of view: each pixel sees what its centre does.
+    /// Whether all of the block is inside the field of view, where each pixel sees what its centre does.
     is_inside: bool,
-    /// 0 at the edge of the picture, 1 at the edge of a view, 2 inside both.
+    /// Order of the survey: 0 at the edge of the picture, 1 at the edge of a view, 2 inside both.
     rank: usize,
 }
 
@@ -172,7 +172,8 @@ impl Survey<'_> {
             .collect()
     }
 
-    /// Adds a block if it is not hidden; one at the edge of the picture or of a view in its smallest parts.
+    /// Adds a block if it is not hidden. A block at the edge of the picture or of a view is divided into its smallest
+    /// parts.
     fn judge(&self, block: Block, into: &mut Vec<Judged>) {
         if block.is_hidden(self.target) {
             return;
@@ -253,7 +254,7 @@ impl Survey<'_> {
         }
     }
 
-    /// Whether kernels around a block's pixels touch only texels that are needed anyway.
+    /// Returns whether kernels around a block's pixels touch only texels that are needed anyway.
     fn reads_within(&self, cap: &Cap, needs: &Needs, is_asked: impl Fn(usize) -> bool) -> bool {
         let (sources, kernel) = (self.world.sources(), &self.filter.kernel);
         let coarsest = cap.coarsest_pitch(sources);

@@ -6,7 +6,7 @@ use crate::filter::FilterSettings;
 use crate::render::{Accuracy, Needs};
 use crate::world::World;
 
-/// Why a world does not hold what a picture needs.
+/// Error of a world that does not hold what a picture needs.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[error("{0}")]
 pub struct MissingLight(pub Uncovered);
@@ -14,7 +14,7 @@ pub struct MissingLight(pub Uncovered);
 impl World {
     /// Checks that some view holds every direction that a target's pixels look at.
     ///
-    /// A partial world is no error to a filter, which averages what there is: whoever wants a whole picture asks first.
+    /// Filters accept a partial world and average what there is. If you want a whole picture, call this first.
     ///
     /// ```
     /// use cosmorama::prelude::*;

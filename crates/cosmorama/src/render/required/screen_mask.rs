@@ -4,8 +4,8 @@ use crate::camera::View;
 use crate::raster::{Image, Rgba};
 use crate::world::World;
 
-/// What a target's pixels are apart from light: how much of each lies in the field of view, and whether any view of the
-/// world looks where it does.
+/// Light-independent state of a target's pixels: the part of each inside the field of view, and whether any view covers
+/// its direction.
 #[derive(Clone, Debug)]
 pub struct ScreenMask {
     pixels: Vec<MaskPixel>,
@@ -18,7 +18,7 @@ struct MaskPixel {
 }
 
 impl ScreenMask {
-    /// The mask of a target in a world.
+    /// Makes the mask of a target in a world.
     pub fn new(world: &World, target: &View) -> Self {
         let width = target.width();
         let mut pixels = vec![MaskPixel::default(); width * target.height()];
@@ -33,7 +33,7 @@ impl ScreenMask {
         Self { pixels }
     }
 
-    /// Gives a colour to the pixels that look where no view does.
+    /// Fills the pixels whose direction no view covers with a colour.
     pub fn fill_unseen(&self, image: &mut Image<Rgba>, colour: Rgba) {
         for (pixel, mask) in image.pixels_mut().iter_mut().zip(&self.pixels) {
             if mask.unseen {
@@ -42,9 +42,9 @@ impl ScreenMask {
         }
     }
 
-    /// For worlds of opaque texels some of which are missing (NaN): what is left of a pixel's texels makes all of the
-    /// pixel, and a pixel with next to nothing left takes the mean of its neighbours. Gives `fill` to the pixels of which
-    /// nothing is left all around, and says how many they are.
+    /// Repairs pixels with missing (NaN) texels in opaque worlds. What is left of a pixel is scaled to full coverage. A
+    /// pixel with next to nothing left takes its neighbours' mean, or `fill` if those have none. Returns the number
+    /// filled.
     pub fn close_holes(&self, image: &mut Image<Rgba>, fill: Rgba) -> usize {
         // Less than this is what negative lobes leave beside a hole: noise.
         const ENOUGH: f32 = 0.05;
@@ -64,7 +64,8 @@ impl ScreenMask {
         closed.iter().filter(|colour| colour.is_none()).count()
     }
 
-    /// Lays a colour outside the field of view, and behind the pixels that its edge cuts as far as they lie outside.
+    /// Lays a colour outside the field of view. It also goes behind the pixels that the edge cuts, as far as they lie
+    /// outside.
     pub fn surround(&self, image: &mut Image<Rgba>, colour: Rgba) {
         for (pixel, mask) in image.pixels_mut().iter_mut().zip(&self.pixels) {
             *pixel += colour * (1.0 - mask.coverage);
@@ -72,7 +73,7 @@ impl ScreenMask {
     }
 }
 
-/// The opaque mean of the eight pixels around one, `None` if there is nothing in them.
+/// Returns the opaque mean of the eight pixels around one; `None` if there is nothing in them.
 fn mean_around(image: &Image<Rgba>, index: usize) -> Option<Rgba> {
     let (i, j) = (index % image.width(), index / image.width());
     let mut sum = Rgba::TRANSPARENT;

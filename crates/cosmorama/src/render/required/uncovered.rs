@@ -2,30 +2,30 @@ use std::fmt;
 
 use crate::sphere::{Direction, Extent};
 
-/// Target pixels that look where no view does.
+/// Target pixels whose direction no view covers.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Uncovered {
-    /// How many there are, in all targets together.
+    /// Number of these pixels, in all targets together.
     pub pixels: usize,
-    /// Index of the target of the first of them.
+    /// Index of the first pixel's target.
     pub target: usize,
-    /// The column of the first of them.
+    /// Column of the first pixel.
     pub column: usize,
-    /// Its row.
+    /// Row of the first pixel.
     pub row: usize,
-    /// Where it looks.
+    /// Direction of the first pixel.
     pub direction: Direction,
-    /// Where all of them look.
+    /// Extent of the directions of all these pixels.
     pub extent: Extent,
 }
 
 impl Uncovered {
-    /// One pixel of a target, and where it looks.
+    /// Returns one uncovered pixel of a target, with its direction.
     pub(crate) fn pixel(target: usize, (column, row): (usize, usize), direction: Direction) -> Self {
         Self { pixels: 1, target, column, row, direction, extent: Extent::of(direction) }
     }
 
-    /// Both together.
+    /// Returns the uncovered pixels of both.
     pub(crate) fn union(self, other: Self) -> Self {
         let place = |uncovered: &Self| (uncovered.target, uncovered.row, uncovered.column);
         let first = if place(&other) < place(&self) { other } else { self };

@@ -5,34 +5,35 @@ use crate::camera::{Footprint, PixelPoint, View};
 use crate::filter::gather::cap::Cap;
 use crate::world::Source;
 
-/// The points that patches are measured at: of the nine of each, neighbours share five, and each is computed once.
+/// Lattice of the points at which patches are measured. Of the nine of each patch, neighbours share five, and each
+/// point is computed once.
 #[derive(Clone, Debug)]
 pub(crate) struct Lattice<'a> {
     target: &'a View,
     slots: Vec<Slot>,
 }
 
-/// A point of a patch: where it lies among the texels of a view, and its derivatives.
+/// A point of a patch: its place among the texels of a view, and its derivatives.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Point {
     pub(crate) place: DVec2,
     pub(crate) jacobian: DMat2,
 }
 
-/// What is known of the last point that came by here.
+/// Results for the last point that used this slot.
 #[derive(Clone, Copy, Debug, Default)]
 struct Slot {
-    /// The pixel at whose centre it lies.
+    /// Pixel at whose centre the point lies.
     pixel: Option<[usize; 2]>,
     screen: Option<Footprint>,
-    /// As a view sees it, by the view's index.
+    /// Point as a view sees it, with the view's index.
     seen: Option<(usize, Option<Point>)>,
 }
 
-/// Points across that are remembered: more than a tile has.
+/// Number of points across that are remembered: more than a tile has.
 const ACROSS: usize = 32;
 
-/// And down: more than a patch has.
+/// Number of points down that are remembered: more than a patch has.
 const DOWN: usize = 4;
 
 impl<'a> Lattice<'a> {
@@ -44,7 +45,7 @@ impl<'a> Lattice<'a> {
         self.target
     }
 
-    /// The footprint of a pixel whose column and row are whole halves of a patch.
+    /// Returns the footprint of a pixel whose column and row are whole halves of a patch.
     pub(crate) fn footprint(&mut self, pixel: [usize; 2]) -> Option<Footprint> {
         self.slot(pixel).screen
     }
@@ -69,8 +70,8 @@ impl<'a> Lattice<'a> {
         Some((screen, point))
     }
 
-    /// The cap that holds the pixels of the patch of which this is the first; `None` where a corner has no direction, or where
-    /// it would be wide.
+    /// Returns the cap that holds the pixels of the patch with this first pixel. `None` where a corner has no
+    /// direction, or where the cap would be wide.
     pub(crate) fn cap(&mut self, [i, j]: [usize; 2]) -> Option<Cap> {
         let middle = self.footprint([i + HALF, j + HALF])?.direction;
         let mut corner = |i, j| self.footprint([i, j]);

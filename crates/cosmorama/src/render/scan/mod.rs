@@ -20,41 +20,42 @@ use crate::filter::kernel::KernelTable;
 use crate::filter::pixel_taps::PixelTaps;
 use crate::filter::taps::Taps;
 
-/// Columns that are gone through together: pixels above each other share texels, which are still at hand.
+/// Number of columns that are scanned together: pixels above each other share texels, which are still in the cache.
 const TILE: usize = 8 * SIDE;
 
-/// Goes through pixels of a target and gives what makes each of them to a [`Sink`]: patch by patch where the geometry is
-/// smooth, one by one elsewhere.
+/// Scan of a target's pixels, which gives the taps of each to a [`Sink`]: patch by patch where the geometry is smooth,
+/// one by one elsewhere.
 pub(crate) struct Scan<'a> {
     resampler: &'a Resampler<'a>,
     pixels: PixelTaps<'a>,
-    /// For filters that work in windows.
+    /// Weigher, for filters that work in windows.
     weigher: Option<Weigher>,
     lattice: Lattice<'a>,
-    /// The patches to go through, if not all.
+    /// Patches to scan, if not all.
     wanted: Option<&'a Wanted>,
 }
 
 /// A part of a target.
 pub(crate) struct Area {
-    /// So many of the first ones.
+    /// Number of columns, from the first on.
     pub(crate) columns: usize,
     pub(crate) rows: Range<usize>,
     /// Whether patches to the left of the diagonal through the first column and row of the target are left out.
     pub(crate) skips_left_of_diagonal: bool,
 }
 
-/// What takes the pixels of a [`Scan`], each with its column in the target and its row among those of the scan.
+/// Receiver of the pixels of a [`Scan`], each with its column in the target and its row among those of the scan.
 pub(crate) trait Sink {
-    /// A pixel by itself, and the part of it inside the field of view.
+    /// Takes a single pixel, and the part of it inside the field of view.
     fn pixel(&mut self, pixel: [usize; 2], coverage: f32, taps: &Taps);
 
-    /// Pixels beside each other, whole ones, in the lanes that have a bit; those whose windows do not hold come by themselves.
+    /// Takes neighbouring pixels, whole ones, in the lanes that have a bit. Pixels whose windows do not fit come
+    /// singly.
     fn windows(&mut self, pixel: [usize; 2], lanes: u8, windows: &Windows);
 }
 
 impl<'a> Scan<'a> {
-    /// `table` is that of the filter's kernel.
+    /// Prepares a scan; `table` belongs to the filter's kernel.
     pub(crate) fn new(resampler: &'a Resampler<'a>, table: &'a KernelTable, level: Level) -> Self {
         let Resampler { world, target, filter } = resampler;
         let weigher = filter.kind.is_elliptical().then(|| Weigher::new(&filter.kernel, level)).flatten();
@@ -67,7 +68,7 @@ impl<'a> Scan<'a> {
         Self { wanted, ..self }
     }
 
-    /// All pixels of a part that show something.
+    /// Scans all pixels of a part that show something.
     pub(crate) fn pixels(&mut self, Area { columns, rows, skips_left_of_diagonal }: &Area, sink: &mut impl Sink) {
         for tile in (0..*columns).step_by(TILE) {
             // Patches lie alike whatever the first row: so do the pixels that they make.
@@ -80,8 +81,8 @@ impl<'a> Scan<'a> {
         }
     }
 
-    /// Whether a great circle that ends the field of view surely hides the patch of which this is the first pixel. Of one whose
-    /// middle it does not hide no more is asked.
+    /// Returns whether a great circle that ends the field of view surely hides the patch with this first pixel. If it
+    /// does not hide the patch's middle, nothing more is tested.
     fn is_cut_off(&mut self, first: [usize; 2]) -> bool {
         let target = self.resampler.target;
         let Some(side) = target.stop.half_space else { return false };

@@ -14,27 +14,27 @@ use crate::filter::semi_axes;
 use crate::render::scan::tile::LARGEST;
 use crate::world::Source;
 
-/// By what part of itself, at a kernel's edge, the solid angle of a texel may differ from one that changes linearly within
+/// Part of itself by which a texel's solid angle, at a kernel's edge, may differ from one that changes linearly within
 /// the kernel.
 const CURVATURE: f64 = 1.0 / 256.0;
 
-/// [`SIDE`] × [`SIDE`] pixels of a target as one view sees them: where each lies among its texels, and with what footprint.
-/// Near the edge of a field of view only some of its pixels are made of it.
+/// [`SIDE`] × [`SIDE`] pixels of a target as one view sees them: the place of each among its texels, and its footprint.
+/// Near the edge of a field of view, only some pixels are made by patch.
 #[derive(Clone, Debug)]
 pub(crate) struct Patch<'a> {
-    /// The view, by its index in the world.
+    /// Index of the view in the world.
     pub(crate) view: usize,
     pub(crate) source: &'a Source,
-    /// The texel from which places are counted: near ones keep their digits in single precision.
+    /// Texel from which places are counted, so that near ones keep their digits in single precision.
     pub(crate) origin: [i64; 2],
     pub(crate) geometry: Geometry,
     pub(crate) density: Density,
-    /// How its texels lie around its middle.
+    /// Second-order terms of how its texels lie around its middle.
     pub(crate) bend: Bend,
     clearance: Clearance,
 }
 
-/// Places are counted from the patch's origin.
+/// Places and derivatives of a patch's pixels; places are counted from the patch's origin.
 #[derive(Clone, Debug)]
 #[allow(
     clippy::large_enum_variant,
@@ -42,34 +42,35 @@ pub(crate) struct Patch<'a> {
 )]
 pub(crate) enum Geometry {
     Interpolated(Coons),
-    /// Of each pixel by itself, where the mapping bends too much between a few: in a picture of few pixels each holds many texels,
-    /// and to weigh them together is worth more than what this takes. How texels lie around each is still that of the middle.
+    /// Computed for each pixel, where the mapping bends too much between a few. In a picture of few pixels each holds
+    /// many texels, and weighing them together saves more than this costs. How texels lie around each pixel is still
+    /// taken from the middle.
     Exact(Box<Exact>),
 }
 
-/// By row, and by lane.
+/// Exact places and derivatives, by row and by lane.
 #[derive(Clone, Debug)]
 pub(crate) struct Exact {
-    /// U and V.
+    /// Coordinates U and V.
     pub(crate) place: [[[f32; SIDE]; SIDE]; 2],
-    /// Ux, Vx, Uy, Vy: texels for one pixel to the right and one pixel down.
+    /// Derivatives Ux, Vx, Uy, Vy: texels for one pixel to the right and one pixel down.
     pub(crate) jacobian: [[[f32; SIDE]; SIDE]; 4],
 }
 
-/// How the solid angle of texels changes over a patch, relative to itself.
+/// Relative change of the texels' solid angle over a patch.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Density {
-    /// Where, in texels from the origin, the gradient is what it is.
+    /// Point to which the gradient belongs, in texels from the origin.
     pub(crate) at: [f32; 2],
     /// Change for one texel along U and V.
     pub(crate) gradient: [f32; 2],
-    /// Change of the gradient for one texel: along U of its U, along either of the other, along V of its V.
+    /// Change of the gradient for one texel: of its U along U, of either along the other, of its V along V.
     pub(crate) bend: [f32; 3],
 }
 
 impl<'a> Patch<'a> {
-    /// The patch whose top left pixel is in column `i` of row `j`; `None` where its pixels had better be computed one by
-    /// one: where views meet, near a singularity, where derivatives change much.
+    /// Makes the patch whose top left pixel is in column `i` of row `j`. `None` where its pixels are better computed
+    /// one by one: where views meet, near a singularity, or where derivatives change much.
     pub(crate) fn new(gather: &Gather<'a>, lattice: &mut Lattice, [i, j]: [usize; 2]) -> Option<Self> {
         let middle = lattice.footprint([i + HALF, j + HALF])?;
         let (view, _) = gather.world().owner(middle.direction)?;
@@ -102,7 +103,8 @@ impl<'a> Patch<'a> {
         Some(Self { view, source, origin, geometry, density, bend, clearance })
     }
 
-    /// Which pixels of a row come of it, a bit for each: those that the edge of the field of view is not near.
+    /// Returns which pixels of a row are made by the patch, a bit for each: those that are away from the edge of the
+    /// field of view.
     pub(crate) fn lanes(&self, gather: &Gather, target: &View, [i, j]: [usize; 2]) -> u8 {
         let Clearance::Within(reach) = self.clearance else { return u8::MAX };
         lanes_of(|lane| {
@@ -117,16 +119,17 @@ impl<'a> Patch<'a> {
 /// Below it, curvature and edge distance measured at the centre hold for the whole patch.
 const CHANGE: f64 = 0.25;
 
-/// Whether windows may hold what a kernel reaches around this point.
+/// Returns whether windows may hold what a kernel reaches around this point.
 fn is_held(point: &Point, kernel: &Kernel) -> bool {
     let [_, minor] = semi_axes(point.jacobian);
     (2.0 * kernel.radius() * kernel.scale * minor).powi(2) < LARGEST as f64
 }
 
 impl Exact {
-    /// Measures every pixel of the patch with this top left pixel in a view, given the derivatives in the patch's middle.
+    /// Measures every pixel of the patch with this top left pixel in a view, given the derivatives in the patch's
+    /// middle.
     ///
-    /// `None` where the view does not show all of it, beside a steep rim, or where derivatives change much.
+    /// `None` where the view does not show all of the patch, beside a steep rim, or where derivatives change much.
     fn of((target, [i, j]): (&View, [usize; 2]), source: &Source, (origin, middle): (DVec2, DMat2)) -> Option<Self> {
         let bound = CHANGE * largest(middle);
         let mut exact = Self { place: [[[0.0; SIDE]; SIDE]; 2], jacobian: [[[0.0; SIDE]; SIDE]; 4] };

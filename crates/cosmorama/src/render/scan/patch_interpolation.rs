@@ -7,20 +7,22 @@ use super::tile::{HALF, SIDE};
 use crate::filter::gather::clearance::Grid;
 use crate::filter::semi_axes;
 
-/// How far interpolated places half way between a patch's corners may be from the exact ones: in texels, or by the shorter
-/// axis of the middle pixel where that is longer, since what weights are measured by is the larger of both. The cubic curves
-/// between exact corners err by much less in almost all patches; where a mapping bends more, each pixel is measured.
+/// Greatest error of interpolated places half way between a patch's corners, in texels. Where the shorter axis of the
+/// middle pixel is longer than a texel, that is the unit, since the kernel's unit is the larger of both. The cubic
+/// curves between exact corners err by much less in almost all patches; where a mapping bends more, each pixel is
+/// measured.
 const PLACE: f64 = 1.0 / 2048.0;
 
-/// How far it may be in texels, however large pixels are.
+/// Greatest error of places in texels, however large pixels are.
 const FARTHEST: f64 = 1.0 / 128.0;
 
-/// By what part of the largest derivative the others may bend from bilinear ones. They are interpolated by parabolas, whose
-/// error is of the next order.
+/// Part of the largest derivative by which derivatives may bend from bilinear ones. They are interpolated by parabolas,
+/// whose error is of the next order.
 const SLOPE: f64 = 1.0 / 128.0;
 
-/// A quantity over a patch as a parabola down each column: its value in the top row, what is added to that down to the row
-/// below the last, and four times what is added half way down; that is zero for places, whose sides bulge apart.
+/// A quantity over a patch as a parabola down each column. It has the value in the top row, the rise from there to the
+/// row below the last, and four times the excess half way down. That excess is zero for places, whose sides bulge
+/// apart.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Columns {
     pub(crate) top: [f32; SIDE],
@@ -29,17 +31,17 @@ pub(crate) struct Columns {
 }
 
 impl Columns {
-    /// Straight from a function along the top edge to one along the bottom edge.
+    /// Interpolates linearly from a function along the top edge to one along the bottom edge.
     fn straight(top: impl Fn(f64) -> f64, bottom: impl Fn(f64) -> f64) -> Self {
         Self::of(|s| [top(s), (top(s) + bottom(s)) / 2.0, bottom(s)])
     }
 
-    /// The parabolas through three rows of three values, at the corners, half way between them and in the middle.
+    /// Makes the parabolas through three rows of three values: at the corners, half way between them and in the middle.
     fn parabolic(rows: [[f64; 3]; 3]) -> Self {
         Self::of(|s| rows.map(|[a, b, c]| a + s * (c - a) + s * (1.0 - s) * bow(a, b, c)))
     }
 
-    /// From the values at the top, half way down and at the bottom.
+    /// Makes the parabolas from the values at the top, half way down and at the bottom.
     fn of(column: impl Fn(f64) -> [f64; 3]) -> Self {
         let columns: [[f64; 3]; SIDE] = std::array::from_fn(|k| column(k as f64 / SIDE as f64));
         Self {
@@ -49,19 +51,20 @@ impl Columns {
         }
     }
 
-    /// The value in a column, this part of the way down.
+    /// Returns the value in a column, this part of the way down.
     fn at(&self, column: usize, t: f64) -> f64 {
         let [top, rise, bow] = [self.top, self.rise, self.bow].map(|row| f64::from(row[column]));
         top + t * rise + t * (1.0 - t) * bow
     }
 }
 
-/// Four times what a middle value is above the mean of those at the ends: t (1 − t) times this is the parabola's part.
+/// Returns four times the excess of a middle value over the mean of the ends: t (1 − t) times this is the parabola's
+/// part.
 fn bow(start: f64, middle: f64, end: f64) -> f64 {
     4.0 * middle - 2.0 * (start + end)
 }
 
-/// By how much a cubic between two values, with these derivatives at its ends, bulges from the line between them.
+/// Bulge of a cubic between two values, with given derivatives at its ends, from the straight line between them.
 #[derive(Clone, Copy, Debug)]
 struct Bulge {
     start: DVec2,
@@ -78,21 +81,22 @@ impl Bulge {
     }
 }
 
-/// Where each pixel of a patch lies among the texels of a view, and with what footprint.
+/// Place of each pixel of a patch among the texels of a view, and its footprint.
 ///
-/// The place is a Coons patch (1967) between cubics that have the exact place and derivatives at the corners, its error of
-/// fourth order; derivatives are parabolas.
+/// The place is a Coons patch (1967) between cubics that have the exact place and derivatives at the corners. Its error
+/// is of fourth order. Derivatives are parabolas.
 #[derive(Clone, Debug)]
 pub(crate) struct Coons {
-    /// U and V from the patch's origin, without what the sides bulge by.
+    /// Coordinates U and V from the patch's origin, without the bulge of the sides.
     pub(crate) place: [Columns; 2],
     sides: [Bulge; 2],
-    /// Ux, Vx, Uy, Vy: texels for one pixel to the right and one pixel down.
+    /// Derivatives Ux, Vx, Uy, Vy: texels for one pixel to the right and one pixel down.
     pub(crate) jacobian: [Columns; 4],
 }
 
 impl Coons {
-    /// That through these points, its places counted from an origin; `None` where the mapping bends too much.
+    /// Makes the Coons patch through these points, whose places are counted from an origin. `None` where the mapping
+    /// bends too much.
     pub(crate) fn through(points: &Grid<Point>, origin: DVec2) -> Option<Self> {
         let [[a, _, b], _, [c, _, d]] = *points;
         let edge = |from: Point, to: Point, along: fn(&DMat2) -> DVec2| {
@@ -115,7 +119,8 @@ impl Coons {
         (is_near && is_almost_bilinear(points)).then_some(coons)
     }
 
-    /// How far, in texels, places half way along the edges and in the middle are from the exact ones.
+    /// Returns the greatest distance, in texels, of places half way along the edges and in the middle from the exact
+    /// ones.
     fn error(&self, points: &Grid<Point>, origin: DVec2) -> f64 {
         let error = |(x, y): (usize, usize)| {
             let (s, t) = (x as f64 / 2.0, y as f64 / 2.0);
@@ -127,13 +132,13 @@ impl Coons {
         [(1, 0), (0, 1), (1, 1), (1, 2)].into_iter().map(error).fold(0.0, f64::max)
     }
 
-    /// By how much the left and the right side bulge at a row, along U and V.
+    /// Returns the bulges of the left and the right side at a row, along U and V.
     pub(crate) fn bulge(&self, row: usize) -> [[f32; 2]; 2] {
         self.sides.map(|side| side.at(row as f64 / SIDE as f64).as_vec2().to_array())
     }
 }
 
-/// Whether the derivatives half way between corners are about the mean of those there.
+/// Returns whether the derivatives half way between corners are nearly the mean of the corners' derivatives.
 fn is_almost_bilinear([top, middle, bottom]: &Grid<Point>) -> bool {
     let bends = |a: &Point, b: &Point, c: &Point| (a.jacobian + c.jacobian) * 0.5 - b.jacobian;
     let bound = SLOPE * largest(middle[1].jacobian);
@@ -141,7 +146,7 @@ fn is_almost_bilinear([top, middle, bottom]: &Grid<Point>) -> bool {
         && (0..3).all(|k| largest(bends(&top[k], &middle[k], &bottom[k])) < bound)
 }
 
-/// The largest of some derivatives, whatever its sign.
+/// Returns the largest of some derivatives, by absolute value.
 pub(crate) fn largest(jacobian: DMat2) -> f64 {
     jacobian.to_cols_array().into_iter().fold(0.0, |largest, value| largest.max(value.abs()))
 }
@@ -150,7 +155,8 @@ pub(crate) fn largest(jacobian: DMat2) -> f64 {
 mod tests {
     use super::*;
 
-    /// A point of a mapping, given its place at (s, t) and the derivatives of that, all over a patch that is 1 wide and high.
+    /// Returns a point of a mapping, given its place at (s, t) and the derivatives of that, over a patch that is 1 wide
+    /// and high.
     fn point(place: impl Fn(f64, f64) -> DVec2, (s, t): (f64, f64)) -> Point {
         let step = 1e-5;
         let slope = |ds: f64, dt: f64| (place(s + ds, t + dt) - place(s - ds, t - dt)) / (2.0 * step * SIDE as f64);
@@ -161,7 +167,7 @@ mod tests {
         std::array::from_fn(|y| std::array::from_fn(|x| point(&place, (x as f64 / 2.0, y as f64 / 2.0))))
     }
 
-    /// A cubic across whose coefficients change linearly down, and the other way round.
+    /// Computes a cubic across whose coefficients change linearly down, and the other way round.
     fn bent(s: f64, t: f64) -> DVec2 {
         DVec2::new(
             20.3 + 7.0 * s + 0.5 * t + 0.1 * s * s * t - 0.06 * s * s * s + 0.05 * t * t * t,

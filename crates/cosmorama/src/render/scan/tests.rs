@@ -7,7 +7,7 @@ use crate::raster::{ColourChannel, Image, Rgba, Transfer};
 use crate::sphere::{Angle, CubeFace, Orientation};
 use crate::world::{Source, World, panorama};
 
-/// Keeps weights by pixel and texel, and how many pixels came in windows.
+/// Receiver that keeps weights by pixel and texel, and counts the pixels that came in windows.
 struct Collector {
     width: usize,
     weights: Vec<Vec<(u32, f32)>>,
@@ -68,7 +68,7 @@ fn collect(scan: &mut Scan, target: &View) -> Collector {
     collector
 }
 
-/// How many pixels came in windows, after checking that they are as single ones.
+/// Checks that windows have the weights of single pixels, and returns how many pixels came in windows.
 fn check_windows(world: &World, target: &View, kernel: Kernel) -> usize {
     let resampler = Resampler { world, target, filter: FilterSettings { kernel, ..FilterSettings::DEFAULT } };
     let table = KernelTable::new(&kernel);
@@ -99,7 +99,7 @@ fn windows_weigh_as_single_pixels_do() {
     }
 }
 
-/// The part of the targets' pixels, so many times as large, that came in windows, after the same.
+/// Returns the share of pixels that came in windows, on targets shrunk by this factor, after the same check.
 fn share_in_windows(world: &World, shrink: usize) -> f64 {
     let shares = targets().map(|target| {
         let target = View { grid: target.grid.squeezed((shrink, shrink)), ..target };
@@ -108,7 +108,7 @@ fn share_in_windows(world: &World, shrink: usize) -> f64 {
     shares.iter().sum::<f64>() / shares.len() as f64
 }
 
-/// Up to a thousand texels in a window, and patches so wide that each of their pixels is measured.
+/// Tests up to a thousand texels in a window, and patches so wide that each of their pixels is measured.
 #[test]
 fn windows_weigh_alike_however_many_texels_a_pixel_holds() {
     let (cube, sky) = (cube(700), sky(1500));
@@ -118,7 +118,7 @@ fn windows_weigh_alike_however_many_texels_a_pixel_holds() {
     }
 }
 
-/// Among the texels of lenses, balls and maps, whose texels bend otherwise than those of a cube.
+/// Tests lenses, balls and maps, whose texels bend otherwise than those of a cube.
 #[test]
 fn windows_weigh_alike_whatever_shows_the_world() {
     use std::f64::consts::PI;
@@ -147,8 +147,8 @@ fn windows_of_one_cubic_that_is_not_centred_do_too() {
     }
 }
 
-/// At the poles of an equal-area map and the rim of a ball texels are measured from side to side; away from there,
-/// patches hold.
+/// Tests the poles of an equal-area map and the rim of a ball, where texels are measured from side to side. Away from
+/// there, patches hold.
 #[test]
 fn windows_weigh_alike_where_a_rim_is_steep() {
     let ball = View {
@@ -164,7 +164,7 @@ fn windows_weigh_alike_where_a_rim_is_steep() {
     }
 }
 
-/// A fisheye of this half angle, in radians, that looks at the middle of a face.
+/// Returns a fisheye with this half angle, in radians, that looks at the middle of a face.
 fn fisheye(size: usize, half: f64) -> View {
     let stop = FieldStop::circle(half);
     View { stop, ..view(ProjectionKind::EQUIDISTANT, (size, size), (half, half), Orientation::IDENTITY) }
@@ -211,7 +211,7 @@ fn what_the_lower_cut_hides_is_passed_over_and_no_more() {
     }
 }
 
-/// Makes pixels of the lists that it is given, one by one.
+/// Receiver that makes pixels of lists of taps, one by one.
 struct Averages<'a> {
     texels: &'a [Rgba],
     image: Image<Rgba>,
@@ -228,7 +228,7 @@ impl Sink for Averages<'_> {
     }
 }
 
-/// Grey waves some texels long, and steps between them.
+/// Returns grey waves some texels long, and steps between them.
 fn grey(world: &World) -> Vec<Rgba> {
     let light = |source: &Source| {
         let width = source.view.width();
@@ -243,7 +243,7 @@ fn grey(world: &World) -> Vec<Rgba> {
     world.sources().iter().flat_map(light).collect()
 }
 
-/// What files of 16 bits and of half floats hold: light in single precision, by interpolated geometry.
+/// Tests light in single precision, by interpolated geometry, for files of 16 bits and of half floats.
 #[test]
 fn deep_pictures_are_what_each_pixel_makes_by_itself_in_double_precision() {
     for world in [cube(256), cube(700), sky(1200)] {

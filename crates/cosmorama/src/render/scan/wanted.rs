@@ -2,7 +2,7 @@ use rayon::prelude::*;
 
 use super::tile::SIDE;
 
-/// Which patches of the pixels that a conversion computes are wanted.
+/// Patches of the target that a conversion has to compute.
 #[derive(Clone, Debug)]
 pub(crate) struct Wanted {
     columns: usize,
@@ -10,19 +10,19 @@ pub(crate) struct Wanted {
 }
 
 impl Wanted {
-    /// Of so many columns and rows, those patches of which `is_wanted` says so, given their first pixel.
+    /// Tests all patches of this many columns and rows by `is_wanted`, which takes the first pixel of each.
     pub(crate) fn new([columns, rows]: [usize; 2], is_wanted: impl Fn([usize; 2]) -> bool + Sync) -> Self {
         let (columns, rows) = (columns.div_ceil(SIDE), rows.div_ceil(SIDE));
         let patch = |at: usize| is_wanted([at % columns * SIDE, at / columns * SIDE]);
         Self { columns, patches: (0..columns * rows).into_par_iter().map(patch).collect() }
     }
 
-    /// Whether any is.
+    /// Returns whether any patch is wanted.
     pub(crate) fn any(&self) -> bool {
         self.patches.contains(&true)
     }
 
-    /// Whether the patch of which this is the first pixel is.
+    /// Returns whether the patch with this first pixel is wanted.
     pub(crate) fn holds(&self, [left, top]: [usize; 2]) -> bool {
         self.patches[top / SIDE * self.columns + left / SIDE]
     }

@@ -65,7 +65,8 @@ impl ViewMask {
         self.counts(inside(pixel.x, width), inside(pixel.y, height))
     }
 
-    /// Distance of a point to the nearest masked texel, in texels, measured from the outermost visible centres.
+    /// Returns the distance of a point to the nearest masked texel, in texels, measured from the outermost visible
+    /// centres.
     pub(crate) fn depth(&self, pixel: PixelPoint) -> f64 {
         let (width, height) = self.size();
         let place = |value: f64, size: usize| {

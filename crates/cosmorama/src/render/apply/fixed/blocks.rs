@@ -1,4 +1,4 @@
-//! A block of 128 bits for each mirror: what mirrored pixels have in common is done once for all of them.
+//! Blocks of 128 bits, one for each mirror: what mirrored pixels have in common is computed once for all of them.
 
 #[cfg(target_arch = "x86_64")]
 use fearless_simd::i32x16;
@@ -7,25 +7,25 @@ use fearless_simd::{Simd, i16x8, i16x16, i16x32, prelude::*, u16x8, u16x16, u16x
 #[cfg(target_arch = "x86_64")]
 use crate::render::apply::x86::blocks as blocks_x86;
 
-/// Two texels of each of N mirrors, red, green, blue and nothing of each.
+/// Two texels of each of N mirrors: red, green, blue and zero of each.
 pub(crate) trait Blocks<S: Simd, const N: usize>:
     SimdInt<S, Element = i16>
     + SimdIntWiden<S, Widened: SimdInt<S, Element = i32, ByteVector = <Self as SimdBase<S>>::ByteVector>>
 {
-    /// As many numbers without sign.
+    /// Unsigned type with the same number of elements.
     type Unsigned: SimdInt<S, Element = u16, ByteVector = <Self as SimdBase<S>>::ByteVector>;
 
     fn join(blocks: [i16x8<S>; N]) -> Self;
 
-    /// Of four texels in each mirror, which lie from left to right in all but the last R, the pairs beside each other, the leftmost
-    /// first: two samples of each channel.
+    /// Returns the three pairs of neighbours among four texels in each mirror, the leftmost first: two samples of each
+    /// channel. Texels lie from left to right in all mirrors but the last R.
     #[inline(always)]
     fn three_pairs<const R: usize>(simd: S, rows: [&[i16; 16]; N]) -> [Self; 3] {
         portable::three_pairs::<S, Self, N, R>(simd, rows)
     }
 
-    /// Of two rows of four texels in each mirror, which lie from left to right in all but the last R, four pairs of texels above each
-    /// other, the leftmost pair first.
+    /// Returns four pairs of texels above each other from two rows of four texels in each mirror, the leftmost pair
+    /// first. Texels lie from left to right in all mirrors but the last R.
     #[inline(always)]
     fn four_upright<const R: usize>(simd: S, rows: [[&[i16; 16]; N]; 2]) -> [Self; 4] {
         portable::four_upright::<S, Self, N, R>(simd, rows)
@@ -37,21 +37,21 @@ pub(crate) trait Blocks<S: Simd, const N: usize>:
         portable::add_products(sums, texels, weights)
     }
 
-    /// Whether one instruction does that.
+    /// Returns whether [`Blocks::add_products`] is one instruction.
     #[inline(always)]
     fn are_products_added(simd: S) -> bool {
         let _ = simd;
         false
     }
 
-    /// Two numbers of 16 bits, weights or marks, for all channels.
+    /// Repeats two numbers of 16 bits, weights or marks, for all channels.
     #[inline(always)]
     fn pair(simd: S, numbers: u32) -> Self {
         Self::Widened::splat(simd, numbers as i32).bitcast()
     }
 }
 
-/// Instructions, and their blocks for N mirrors.
+/// Set of instructions, with its blocks for N mirrors.
 pub(crate) trait Mirrored<const N: usize>: Simd {
     type Blocks: Blocks<Self, N>;
 }
@@ -159,7 +159,7 @@ impl<S: Simd> Blocks<S, 4> for i16x32<S> {
     }
 }
 
-/// How it is done where no instruction does it.
+/// Portable versions, for instruction sets without the special instructions.
 mod portable {
     use fearless_simd::{Simd, i16x8, i16x16, prelude::*};
 
@@ -217,14 +217,14 @@ mod portable {
     }
 }
 
-/// From two texels in each block to pairs of one channel each: as texels run in the first of N blocks, the other way in the last
-/// R.
+/// Returns the order that makes pairs of one channel from two texels in each block. They follow the texels in the first
+/// of N blocks, and are reversed in the last R.
 #[inline(always)]
 pub(crate) fn order<const N: usize, const R: usize>() -> &'static [u8] {
     &ORDER[16 * (2 + R - N)..][..16 * N]
 }
 
-/// Two blocks as texels run, and two the other way.
+/// Orders for two blocks that follow the texels, and for two that are reversed.
 static ORDER: [u8; 64] = {
     let pairs = [0, 1, 8, 9, 2, 3, 10, 11, 4, 5, 12, 13, 6, 7, 14, 15];
     let mut order = [0; 64];

@@ -1,4 +1,4 @@
-//! From the light of windows, 15 bits of red, green and blue and any number, to codes of 8 bits.
+//! Encoding of windows' light as codes of 8 bits. Light has 15 bits of red, green and blue, and any fourth number.
 
 #[cfg(target_arch = "x86_64")]
 use fearless_simd::{Avx512, i32x4, prelude::*};
@@ -9,7 +9,7 @@ use crate::render::apply::tile_writer::Develop;
 use crate::render::apply::x86::srgb;
 use crate::render::scan::tile::SIDE;
 
-/// Looks codes up.
+/// Encoder that looks codes up in a table.
 #[derive(Clone, Copy)]
 pub(crate) struct LookUp<'a>(pub(crate) FixedCodes<'a>);
 
@@ -32,13 +32,13 @@ impl Develop for LookUp<'_> {
     }
 }
 
-/// Computes those of sRGB, which is faster: to look them up, most of the time is taken by taking samples out of vectors and putting
-/// codes together.
+/// Encoder that computes the codes of sRGB, which is faster. A table look-up spends most of its time moving samples out
+/// of vectors and codes together.
 #[cfg(target_arch = "x86_64")]
 #[derive(Clone, Copy)]
 pub(crate) struct Compute<'a> {
     pub(crate) level: Avx512,
-    /// Codes to look up, where they are not computed.
+    /// Table of codes, for pixels that are not computed.
     pub(crate) codes: LookUp<'a>,
 }
 
@@ -71,7 +71,7 @@ mod tests {
     use super::*;
     use crate::raster::{FixedCodec, Rgba, Transfer};
 
-    /// Of each light there is, red, green and blue of each pixel have it or what it lacks of white.
+    /// Returns pixels whose red, green and blue are this light or what it lacks of white.
     fn pixels(light: i32) -> [[i32; 4]; SIDE] {
         std::array::from_fn(|at| {
             let (light, other) = if at % 2 == 0 { (light, 0x7fff - light) } else { (0x7fff - light, light) };

@@ -1,8 +1,9 @@
-//! Plans in integers: for opaque pictures of 8 bits.
+//! Plans in integers, for opaque pictures of 8 bits.
 //!
-//! Light has 15 bits and weights 16; their products are added in 32, so that the result is the same on every machine. Two texels
-//! beside each other are worked on together, red, green, blue and nothing of each, in a block of 128 bits for each mirror: the
-//! product of pairs is then a weighted sum of two texels, and weights are spread once for all mirrors.
+//! Light has 15 bits and weights have 16. Their products are added in 32 bits, so that the result is the same on every
+//! machine. Two neighbouring texels are processed together: red, green, blue and zero of each, in a block of 128 bits
+//! for each mirror. The product of pairs is then a weighted sum of two texels, and weights are spread once for all
+//! mirrors.
 
 pub(crate) mod blocks;
 pub(crate) mod encode_u8;
@@ -27,7 +28,7 @@ use crate::raster::{FixedCodec, FixedLight, Rgba};
 use crate::render::plan::symmetry::Ways;
 use crate::render::plan::traversal::Pass;
 
-/// Integers of 15 bits, and the codes of 8 that are made of them.
+/// Arithmetic in integers of 15 bits, which makes codes of 8.
 #[derive(Clone, Copy)]
 pub(crate) struct FixedArithmetic<'a> {
     pub(crate) light: &'a FixedLight,
@@ -71,7 +72,7 @@ impl WindowArithmetic for FixedArithmetic<'_> {
         length
     }
 
-    /// Apart from what weighs, so that its loop does not lack registers.
+    /// Writes the pixels, compiled apart from the sums, so that their loop does not lack registers.
     #[inline(never)]
     fn put<S: Simd>(
         &self,

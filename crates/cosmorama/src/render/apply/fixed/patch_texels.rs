@@ -1,7 +1,7 @@
 //! Texels of a patch's small windows, copied once into the order in which windows read them.
 //!
-//! Each texel of a patch is in a dozen windows. In the source each mirror of a patch lies on its own page, forward or reversed.
-//! Here all mirrors of a texel are adjacent, in the order in which products consume them.
+//! Each texel of a patch is in a dozen windows. In the source each mirror of a patch lies on its own page, forward or
+//! reversed. Here all mirrors of a texel are adjacent, in the order in which products consume them.
 
 use fearless_simd::{Simd, prelude::*};
 
@@ -11,38 +11,38 @@ use crate::render::apply::texels::Texels;
 use crate::render::plan::span::Run;
 use crate::render::plan::symmetry::{TOGETHER, exchanged};
 
-/// Columns and rows that there is room for: small windows of a patch are hardly ever farther apart.
+/// Number of columns and of rows that fit: small windows of a patch are hardly ever farther apart.
 const ROOM: usize = 21;
 
-/// Samples of a pair of texels.
+/// Number of samples of a pair of texels.
 const PAIR: usize = 8;
 
-/// Texels that are read at once.
+/// Number of texels that are read at once.
 const READ: usize = 4;
 
-/// The pairs that begin in each texel of a rectangle, row by row, those of all mirrors after each other, from left to right in all of
-/// them: two samples of each channel.
+/// Pairs that begin in each texel of a rectangle, row by row: two samples of each channel. The pairs of all mirrors
+/// follow each other, and run from left to right in all of them.
 pub(crate) struct PatchTexels {
     pairs: Box<Pairs>,
-    /// The column and row of the first texel.
+    /// Column and row of the first texel.
     first: [u32; 2],
     held: Held,
 }
 
-/// Which small windows of a group are held.
+/// Small windows of a group that are held.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Held {
     None,
     All,
-    /// The last one that was asked for: there is no room for all.
+    /// The last one that was asked for, since not all fit.
     Last,
 }
 
-/// As many as fit in, where lines of memory begin.
+/// Room for the pairs, aligned to cache lines.
 #[repr(C, align(64))]
 struct Pairs([i16; ROOM * ROOM * TOGETHER * PAIR]);
 
-/// Columns and rows from a texel on.
+/// A rectangle of columns and rows, from a texel on.
 #[derive(Clone, Copy)]
 struct Rectangle {
     first: [u32; 2],
@@ -56,13 +56,13 @@ impl Default for PatchTexels {
 }
 
 impl PatchTexels {
-    /// Forgets what is held.
+    /// Drops what is held.
     #[inline(always)]
     pub(crate) fn clear(&mut self) {
         self.held = Held::None;
     }
 
-    /// Holds a small window that begins here, and with it all others of its group, if there is room.
+    /// Copies a small window that begins here, and with it all others of its group, if they fit.
     #[inline(always)]
     pub(crate) fn hold<S: Mirrored<N>, const N: usize, const R: usize, const TURNED: bool>(
         &mut self,
@@ -91,7 +91,7 @@ impl PatchTexels {
         }
     }
 
-    /// The pairs of a window that is held: of each row those that begin in every column.
+    /// Returns the pairs of a window that is held: of each row, those that begin in every column.
     #[inline(always)]
     pub(crate) fn window<const N: usize, const WIDTH: usize, const HEIGHT: usize>(
         &self,
@@ -152,7 +152,7 @@ impl PatchTexels {
 }
 
 impl Rectangle {
-    /// What all windows of a group lie in, in a view of this size, as if all of them were small.
+    /// Returns the rectangle that holds all windows of a group, in a view of this size, as if all were small.
     #[inline(always)]
     fn of(group: &[Run], view: [usize; 2]) -> Self {
         let (mut first, mut last) = ([u32::MAX; 2], [0; 2]);
@@ -175,14 +175,14 @@ impl Rectangle {
     }
 }
 
-/// The pairs of a window of so many columns and rows, in N mirrors.
+/// Pairs of a window of WIDTH columns and HEIGHT rows, in N mirrors.
 #[derive(Clone, Copy)]
 pub(crate) struct Window<'a, const N: usize, const WIDTH: usize, const HEIGHT: usize> {
     pairs: &'a [i16],
 }
 
 impl<const N: usize, const WIDTH: usize, const HEIGHT: usize> Window<'_, N, WIDTH, HEIGHT> {
-    /// The pair that begins in a column of a row, in all of them.
+    /// Returns the pair that begins in a column of a row, in all mirrors.
     #[inline(always)]
     pub(crate) fn pair<S: Simd, V: Blocks<S, N>>(&self, simd: S, row: usize, column: usize) -> V {
         V::from_slice(simd, &self.pairs[(row * ROOM + column) * N * PAIR..][..N * PAIR])
@@ -197,14 +197,14 @@ mod tests {
     use crate::filter::rim::simd_levels::levels;
     use crate::render::plan::symmetry::Walk;
 
-    /// A view of so many columns and rows, of which every texel says where it is.
+    /// Size of a view whose texels each hold their place.
     const SIZE: [usize; 2] = [40, 30];
 
     fn samples() -> Vec<i16> {
         (0..SIZE[0] * SIZE[1] * 4).map(|sample| sample as i16).collect()
     }
 
-    /// The first texel of each mirror, and steps from there: as it lies, upside down, and both from right to left.
+    /// Returns the walks of four mirrors: as the view lies, upside down, and both from right to left.
     fn ways() -> [Walk; 4] {
         let [columns, rows] = SIZE.map(|length| length as u32);
         let walk = |first, is_reversed, down: i32| Walk { first, is_turned: false, is_reversed, down };
@@ -217,13 +217,14 @@ mod tests {
         ]
     }
 
-    /// The sample of a channel in a column and row that a mirror shows; with columns for rows, if they are `TURNED`.
+    /// Returns the sample of a channel in a column and row that a mirror shows. If it is `TURNED`, columns are rows.
     fn sample<const TURNED: bool>(walk: Walk, place: [usize; 2], channel: usize) -> i16 {
         let walk = Walk { is_turned: TURNED, ..walk };
         (4 * walk.texel(place) as usize + channel) as i16
     }
 
-    /// Groups of runs whose windows begin in these columns and rows, the last of them as that of a run's last lane.
+    /// Returns groups of runs whose windows begin in these columns and rows; the last of them is that of a run's last
+    /// lane.
     fn group(corners: &[[u32; 2]]) -> Vec<Run> {
         let run = |corner: &[u32; 2]| Run::of_lanes(1, 0).from(*corner);
         let mut runs: Vec<Run> = corners.iter().map(run).collect();
@@ -238,7 +239,7 @@ mod tests {
         runs
     }
 
-    /// Windows as large as small ones are at most, which are held as this says.
+    /// Checks that windows of the largest small size are held as expected.
     fn assert_held<const TURNED: bool>(corners: &[[u32; 2]], held: Held) {
         let (samples, ways, group) = (samples(), ways(), group(corners));
         let all = Texels::<i16, 4, 2>::new(&samples, ways, SIZE);

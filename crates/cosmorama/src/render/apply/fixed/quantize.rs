@@ -11,30 +11,30 @@ use crate::render::plan::window_format::COLUMNS_UNDER;
 use crate::render::scan::tile::LARGEST;
 use crate::render::scan::tile::SIDE;
 
-/// The windows of a run before they are sorted by pixel. Bits of bytes are lanes, until they are turned.
+/// Windows of a run before they are sorted by pixel. Bits of bytes are lanes, until they are transposed.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Rounded {
     pub(crate) width: usize,
     pub(crate) height: usize,
-    /// By how many bits weights are scaled.
+    /// Number of bits by which weights are scaled.
     pub(crate) bits: u32,
-    /// Row by row, by lane. On both sides of each row stand zeros.
+    /// Weights row by row, by lane. There are zeros on both sides of each row.
     weights: Vec<[i16; SIDE]>,
-    /// In which lanes a texel lies under the pixel; the same zeros beside.
+    /// Bits of the lanes in which a texel lies under the pixel; with the same zeros beside.
     under: Vec<u8>,
     shapes: LaneShapes,
-    /// Of windows with no more than [`SIDE`] columns or rows, the weights of a lane, by row, [`MARGIN`] zeros on either side; more rows
-    /// than are written.
+    /// Weights of each lane by row, for windows with at most [`SIDE`] columns and rows. There are [`MARGIN`] zeros on
+    /// either side, and more rows than are written.
     small: [[[i16; 2 * SIDE]; SIDE + HIGHEST]; SIDE],
 }
 
-/// Zeros on either side of a row of a small window.
+/// Number of zeros on either side of a row of a small window.
 const MARGIN: usize = SIDE / 2;
 
-/// A number so large that what is added to it is rounded to an integer, which its last bits then hold.
+/// A number so large that a sum with it is rounded to an integer, which its last bits then hold.
 const ROUNDER: f32 = 12_582_912.0;
 
-/// Where a lane's window begins among those of a run, one to the left of them at the least.
+/// First texel of a lane's window among those of a run; it may be one column to the left of them.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Origin {
     pub(crate) column: isize,
@@ -42,8 +42,8 @@ pub(crate) struct Origin {
 }
 
 impl Rounded {
-    /// Rounds the weights of all lanes; false if they are too large. What rounding takes from one texel the next one has: each
-    /// lane's sum is exactly one, but where the last weight would be one itself, which 16 bits do not hold.
+    /// Rounds the weights of all lanes; false if they are too large. The rounding error of one texel is passed to the
+    /// next, so that each lane's sum is exactly one. The exception is a last weight of one, which 16 bits do not hold.
     #[inline(always)]
     pub(crate) fn fill<S: Simd>(&mut self, simd: S, windows: &Windows) -> bool {
         let Some(bits) = scale(windows.size()) else { return false };
@@ -82,7 +82,7 @@ impl Rounded {
         true
     }
 
-    /// Makes room for windows of another size, zeros beside.
+    /// Makes room for windows of another size, with zeros beside them.
     fn resize(&mut self, windows: &Windows) {
         let size = (windows.width(), windows.height());
         if (self.width, self.height) != size {
@@ -93,12 +93,12 @@ impl Rounded {
         }
     }
 
-    /// Numbers from one row to the next.
+    /// Returns the distance from one row to the next.
     fn pitch(&self) -> usize {
         self.width.max(SIDE) + 2
     }
 
-    /// Sorts small windows by lane, given in which lanes something counts in each column and row.
+    /// Sorts small windows by lane, given the lanes that count in each column and row.
     #[inline(always)]
     fn turn<S: Simd>(&mut self, simd: S, counts: [[u8; SIDE]; 2]) {
         let (pitch, size) = (self.pitch(), [self.width, self.height]);
@@ -115,26 +115,26 @@ impl Rounded {
         self.shapes.find(simd, (&SMALL, 1), size, counts, &all_under);
     }
 
-    /// The smallest of the small shapes that holds a lane's window, by its index, and where it begins.
+    /// Returns the index of the smallest small shape that holds a lane's window, and where the window begins.
     #[inline(always)]
     pub(crate) fn shape(&self, lane: usize) -> Option<(usize, Origin)> {
         let (index, [column, row]) = self.shapes.shape(lane)?;
         Some((index, Origin { column: column as isize, row }))
     }
 
-    /// Whether all texels under the pixel of a lane's small window lie in the first [`COLUMNS_UNDER`] columns.
+    /// Returns whether all texels under the pixel of a lane's small window lie in the first [`COLUMNS_UNDER`] columns.
     #[inline(always)]
     pub(crate) fn are_marks_early(&self, lane: usize, origin: Origin) -> bool {
         texels_from(origin, self.shapes.columns_under(lane)) < 1 << COLUMNS_UNDER
     }
 
-    /// Which texels of those columns in a row of a lane's small window lie under the pixel, a bit for each.
+    /// Returns the texels of those columns in a row of a lane's small window that lie under the pixel, a bit for each.
     #[inline(always)]
     pub(crate) fn small_marks(&self, lane: usize, origin: Origin, row: usize) -> u8 {
         texels_from(origin, self.shapes.under(lane, origin.row + row)) as u8
     }
 
-    /// The weights of a lane's small window, row by row, pair by pair, and what follows.
+    /// Returns the weights of a lane's small window, row by row, pair by pair, and those that follow.
     #[inline(always)]
     pub(crate) fn small_pairs(&self, lane: usize, origin: Origin) -> [[u32; SIDE / 2]; HIGHEST] {
         let first = (MARGIN as isize + origin.column) as usize % (SIDE + 1);
@@ -145,14 +145,14 @@ impl Rounded {
         })
     }
 
-    /// The marks of a row of a lane's window, of 16 pairs at most.
+    /// Returns the marks of a row of a lane's window, for at most 16 pairs.
     pub(crate) fn marks(&self, lane: usize, origin: Origin, row: usize, pairs: Range<usize>) -> u32 {
         let first = (origin.row + row) * self.pitch() + (origin.column + 1) as usize;
         let under = &self.under[first + 2 * pairs.start..first + 2 * pairs.end];
         under.iter().enumerate().fold(0, |marks, (at, lanes)| marks | (u32::from(lanes >> lane & 1) * mark(at)))
     }
 
-    /// The weights of a row of a lane's window, pair by pair.
+    /// Returns the weights of a row of a lane's window, pair by pair.
     pub(crate) fn pairs(&self, lane: usize, origin: Origin, row: usize, pairs: usize) -> impl Iterator<Item = u32> {
         let first = (origin.row + row) * self.pitch() + (origin.column + 1) as usize;
         let weights = self.weights[first..][..2 * pairs].as_chunks().0;
@@ -160,25 +160,26 @@ impl Rounded {
     }
 }
 
-/// From columns to texels of a window that begins there, a bit for each.
+/// Converts bits of columns to bits of the texels of a window that begins there.
 #[inline(always)]
 fn texels_from(origin: Origin, columns: u8) -> u32 {
     u32::from(columns) << 1 >> (origin.column + 1)
 }
 
-/// Two weights as a number.
+/// Packs two weights into a number.
 #[inline(always)]
 fn pair([a, b]: [i16; 2]) -> u32 {
     u32::from(a as u16) | u32::from(b as u16) << 16
 }
 
-/// Fills all of a vector anew.
+/// Fills a whole vector anew.
 fn refill<T: Copy>(vector: &mut Vec<T>, length: usize, value: T) {
     vector.clear();
     vector.resize(length, value);
 }
 
-/// Eight times eight numbers turned: the first of each in the first. Three times each is zipped with the fourth after it.
+/// Transposes eight times eight numbers: the first row gets the first of each. Each row is zipped with the fourth after
+/// it, three times.
 #[inline(always)]
 fn turned<S: Simd>(mut rows: [i16x8<S>; SIDE]) -> [i16x8<S>; SIDE] {
     for _ in 0..3 {
@@ -188,7 +189,7 @@ fn turned<S: Simd>(mut rows: [i16x8<S>; SIDE]) -> [i16x8<S>; SIDE] {
     rows
 }
 
-/// By how many bits weights of this size are scaled, so that sums of products fit into 32.
+/// Returns the number of bits by which weights of this size are scaled, so that sums of products fit into 32.
 fn scale(Size { largest, sum }: Size) -> Option<u32> {
     // To what they come to rounding may add one for each texel.
     const { assert!(3.9 * (1 << 14) as f64 + (LARGEST as f64) < (1 << 16) as f64) };

@@ -1,4 +1,5 @@
-//! Large windows of integers in mirrors that show columns as rows: pairs of texels beside each other lie there above each other.
+//! Large windows of integers in mirrors that show columns as rows, where neighbouring pairs of texels lie above each
+//! other.
 
 use fearless_simd::{Simd, i16x8, prelude::*};
 
@@ -38,7 +39,7 @@ impl Kept<'_> {
     }
 }
 
-/// The samples of a texel, and as many zeros.
+/// Returns the samples of a texel, followed by as many zeros.
 #[inline(always)]
 fn first_half<S: Simd>(simd: S, samples: &[i16]) -> i16x8<S> {
     let mut all = [0; 8];

@@ -6,21 +6,22 @@ use crate::render::batch::window::Windows;
 use crate::render::plan::window_format::{COLUMNS_UNDER, Format, Header, Place, ROWS_UNDER, Shape, SmallShapes};
 use crate::render::scan::tile::SIDE;
 
-/// Weights as integers, row by row, two beside each other in each number. Of a large window marks are those of pairs ([`mark`]).
+/// Format of weights as integers, row by row, two neighbours in each number. In a large window, marks belong to pairs
+/// ([`mark`]).
 #[derive(Clone, Debug, Default)]
 pub(crate) struct FixedFormat(Rounded);
 
 /// Sizes of small windows.
 pub(crate) const SMALL: SmallShapes = Shape::small([4, 6]);
 
-/// Rows of the highest small window, and pairs of the widest.
+/// Number of rows of the highest small window, and of pairs of the widest.
 pub(crate) const HIGHEST: usize = 5;
 pub(crate) const WIDEST: usize = 3;
 
-/// Pairs of a row of a small window, the first ones, that may lie under the pixel.
+/// Number of pairs of a row of a small window, from the first, that may lie under the pixel.
 pub(crate) const PAIRS_UNDER: usize = COLUMNS_UNDER / 2;
 
-/// Numbers that hold any of them with its header, and what follows its last row.
+/// Number of numbers that hold any small window with its header, and those that follow its last row.
 const MOST: usize = 1 + WIDEST * (HIGHEST - 1) + SIDE / 2;
 
 /// All marks of a small window: of [`PAIRS_UNDER`] pairs of [`ROWS_UNDER`] rows, row by row.
@@ -29,20 +30,21 @@ const MARKS: u32 = {
     pairs << 16 | pairs
 };
 
-/// By how many bits the weights of a window are scaled.
+/// Returns the number of bits by which the weights of a window are scaled.
 #[inline(always)]
 pub(crate) fn bits(header: Header) -> u32 {
     header.0 >> 25 & 15
 }
 
-/// Marks a texel of one of 16 pairs: the first ones of pairs in the lower half of a number, in the order of the pairs, the second
-/// ones in the upper. Where both halves are channels' samples, one bit of each tells of a pair.
+/// Marks a texel of one of 16 pairs. The first texels of pairs are in the lower half of a number, in the order of the
+/// pairs, and the second ones in the upper half. Where both halves are channels' samples, one bit of each belongs to a
+/// pair.
 #[inline(always)]
 pub(crate) const fn mark(texel: usize) -> u32 {
     1 << (texel / 2 + texel % 2 * 16)
 }
 
-/// Marks of the pairs of a small window's row, given a bit for each texel.
+/// Returns the marks of the pairs of a small window's row, given a bit for each texel.
 #[inline(always)]
 fn marks_of(texels: u8) -> u32 {
     const TEXELS: usize = 2 * PAIRS_UNDER;

@@ -1,4 +1,4 @@
-//! Windows of integers, in mirrors that go through them one way or the other, pair by pair.
+//! Windows of integers, in mirrors of either direction, pair by pair.
 
 use fearless_simd::{Simd, i16x8, prelude::*};
 
@@ -10,8 +10,8 @@ use crate::render::apply::texels::Texels;
 use crate::render::plan::window_format::{Kept, ROWS_UNDER, Shape};
 
 impl<S: Mirrored<N>, const N: usize, const R: usize> Window<'_, S, i16, N, R> {
-    /// The light of a window of one of the sizes of [`SMALL`], and how many numbers tell of it, given the texels of all small ones of
-    /// its group. Written out: loops would stay loops.
+    /// Sums the light of a window of one of the sizes of [`SMALL`], given the texels of all small windows of its group.
+    /// Returns it with the number of its numbers. It is unrolled by hand: the compiler would keep loops.
     #[inline(always)]
     pub(crate) fn small<const WIDTH: usize, const HEIGHT: usize, const UNDER: usize>(
         self,
@@ -30,7 +30,8 @@ impl<S: Mirrored<N>, const N: usize, const R: usize> Window<'_, S, i16, N, R> {
         (sums.average(bits(self.header())), length)
     }
 
-    /// The light of a window of any size, and how many numbers tell of it. If `TURNED`, all mirrors read it transposed.
+    /// Sums the light of a window of any size. Returns it with the number of its numbers. If `TURNED`, all mirrors read
+    /// it transposed.
     #[inline(always)]
     pub(crate) fn large<const TURNED: bool>(self) -> (Light<S, N>, usize) {
         let Self { simd, texels, first, is_bounded, .. } = self;
@@ -45,10 +46,10 @@ impl<S: Mirrored<N>, const N: usize, const R: usize> Window<'_, S, i16, N, R> {
     }
 }
 
-/// The light of a window in N mirrors.
+/// Light of a window in N mirrors.
 pub(crate) type Light<S, const N: usize> = <<S as Mirrored<N>>::Blocks as SimdWiden<S>>::Widened;
 
-/// Large windows.
+/// Sums over large windows.
 impl Kept<'_> {
     #[inline(always)]
     fn add<S: Simd, V: Blocks<S, N>, const N: usize, const R: usize>(
@@ -140,21 +141,22 @@ impl<S: Simd, V: Blocks<S, N>, const N: usize, const WIDTH: usize, const HEIGHT:
     }
 }
 
-/// Sums that are made beside each other where a product and a sum are one instruction, so that each waits for others than the last.
+/// Number of parallel sums where product and sum are one instruction, so that each waits for others than the last.
 /// Elsewhere sums alone are fast, and registers few.
 const CHAINS: usize = 2;
 
-/// What adds up over a window.
+/// Sums over a window.
 #[derive(Clone, Copy)]
 pub(crate) struct Sums<S: Simd, V: Blocks<S, N>, const N: usize> {
     sums: [V::Widened; CHAINS],
-    /// The largest samples under the pixel, and the smallest.
+    /// Largest samples under the pixel, and the smallest.
     greatest: V,
     least: V::Unsigned,
 }
 
 impl<S: Simd, V: Blocks<S, N>, const N: usize> Sums<S, V, N> {
-    /// Of no texels, given by how many bits weights are scaled; whether the sum is to lie within what lies under the pixel.
+    /// Starts sums of no texels; `bits` is the scale of weights. `is_bounded` says whether the sum is clamped to the
+    /// texels under the pixel.
     #[inline(always)]
     pub(crate) fn new(simd: S, bits: u32, is_bounded: bool) -> Self {
         let half = V::Widened::splat(simd, 1 << (bits - 1));
@@ -167,14 +169,14 @@ impl<S: Simd, V: Blocks<S, N>, const N: usize> Sums<S, V, N> {
         }
     }
 
-    /// Adds pairs of texels, the ones after the others to another chain.
+    /// Adds pairs of texels; successive pairs go to different chains.
     #[inline(always)]
     pub(crate) fn add(&mut self, texels: V, weights: V, chain: usize) {
         let sum = &mut self.sums[if V::are_products_added(texels.token()) { chain % CHAINS } else { 0 }];
         *sum = V::add_products(*sum, texels, weights);
     }
 
-    /// Notes those of a pair that lie under the pixel: whose mark, a sign, is not set.
+    /// Updates the bounds by texels of a pair that lie under the pixel, whose mark (a sign) is not set.
     #[inline(always)]
     pub(crate) fn bound(&mut self, simd: S, texels: V, marks: V) {
         // With the sign of those that do not, they are less than all others, and more if it is taken for a bit.
@@ -183,7 +185,7 @@ impl<S: Simd, V: Blocks<S, N>, const N: usize> Sums<S, V, N> {
         self.least = self.least.min(samples.bitcast::<V::Unsigned>());
     }
 
-    /// The sum as light, within its bounds.
+    /// Returns the sum as light, within its bounds.
     #[inline(always)]
     pub(crate) fn average(self, bits: u32) -> V::Widened {
         let [a, b] = self.sums;
@@ -194,7 +196,7 @@ impl<S: Simd, V: Blocks<S, N>, const N: usize> Sums<S, V, N> {
     }
 }
 
-/// The samples of each pair, none of which is negative.
+/// Splits each pair into its samples, none of which is negative.
 #[inline(always)]
 fn halves<S: Simd, V: SimdInt<S>, W: SimdInt<S, Element = i32, ByteVector = V::ByteVector>>(samples: V) -> [W; 2] {
     let pairs: W = samples.bitcast();

@@ -1,4 +1,4 @@
-//! Windows of floats of any size, in mirrors that go through them one way or the other.
+//! Windows of floats of any size, in mirrors of either direction.
 
 use fearless_simd::{Simd, f32x4, f32x16, mask32x16, prelude::*};
 
@@ -7,10 +7,10 @@ use super::window::{BLOCK_SAMPLES, Marks, SAMPLES, Sum, spread, way};
 use crate::render::apply::texels::Texels;
 use crate::render::plan::window_format::{Kept, Shape};
 
-/// A row of one in N mirrors, in the last R of them from right to left.
+/// A row of a window in N mirrors, in the last R of them from right to left.
 #[derive(Clone, Copy)]
 struct Row<'a, const N: usize, const R: usize> {
-    /// Its texels as they lie in memory, first those that are in blocks.
+    /// Texels as they lie in memory, first those that are in blocks.
     blocks: [&'a [[f32; BLOCK_SAMPLES]]; N],
     others: [&'a [[f32; SAMPLES]]; N],
     weights: &'a [[u32; BLOCK]],
@@ -18,7 +18,7 @@ struct Row<'a, const N: usize, const R: usize> {
 }
 
 impl<'a, const N: usize, const R: usize> Row<'a, N, R> {
-    /// Takes so many texels of a row of each mirror.
+    /// Takes `width` texels of a row of each mirror.
     #[inline(always)]
     fn new(
         texels: &Texels<'a, f32, N, R>,
@@ -60,7 +60,7 @@ impl<'a, const N: usize, const R: usize> Row<'a, N, R> {
         f32x4::load_array_ref(simd, &others[index])
     }
 
-    /// Adds it, if none of its texels lies under the pixel.
+    /// Adds the row, if none of its texels lies under the pixel.
     #[inline(always)]
     fn add<S: Simd>(&self, simd: S, sums: &mut [Sum<S>; N]) {
         for (index, weights) in self.weights.iter().enumerate() {
@@ -76,7 +76,7 @@ impl<'a, const N: usize, const R: usize> Row<'a, N, R> {
         }
     }
 
-    /// Adds it, given which of its texels do.
+    /// Adds the row, given which of its texels lie under the pixel.
     #[inline(always)]
     fn add_bounding<S: Simd>(&self, simd: S, sums: &mut [Sum<S>; N], marks: &[u32]) {
         for (index, weights) in self.weights.iter().enumerate() {
@@ -103,7 +103,7 @@ impl<'a, const N: usize, const R: usize> Row<'a, N, R> {
 }
 
 impl Kept<'_> {
-    /// Sums over it, in mirrors that go through its rows as rows.
+    /// Sums over the window, in mirrors that show its rows as rows.
     #[inline(always)]
     pub(crate) fn upright<S: Simd, const N: usize, const R: usize>(
         &self,
@@ -128,7 +128,7 @@ impl Kept<'_> {
         sums
     }
 
-    /// Sums over it, in mirrors that go through them with columns for rows.
+    /// Sums over the window, in mirrors that show its columns as rows.
     #[inline(always)]
     pub(crate) fn turned<S: Simd, const N: usize, const R: usize>(
         &self,
@@ -172,7 +172,7 @@ impl Kept<'_> {
         sums
     }
 
-    /// 1 if a texel lies under the pixel.
+    /// Returns 1 if a texel lies under the pixel, else 0.
     #[inline(always)]
     fn mark(&self, row: usize, column: usize) -> u32 {
         self.marks_of(row).map_or(0, |marks| marks[column / 32] >> (column % 32) & 1)
@@ -188,10 +188,10 @@ mod tests {
     use super::*;
     use crate::render::plan::symmetry::Walk;
 
-    /// Columns and rows of a square view, so that columns may be its rows.
+    /// Number of columns and of rows of a square view, so that columns may be its rows.
     const SIDE: usize = 40;
 
-    /// As they lie, upside down, and both from right to left.
+    /// Walks of texels as they lie, upside down, and both from right to left.
     const WALKS: [Walk; 4] = [
         Walk { first: 0, is_turned: false, is_reversed: false, down: SIDE as i32 },
         Walk { first: (SIDE * (SIDE - 1)) as u32, is_turned: false, is_reversed: false, down: -(SIDE as i32) },
@@ -199,7 +199,7 @@ mod tests {
         Walk { first: (SIDE * SIDE) as u32 - 1, is_turned: false, is_reversed: true, down: -(SIDE as i32) },
     ];
 
-    /// Some number between 0 and 1.
+    /// Returns some number between 0 and 1.
     fn noise(at: usize) -> f32 {
         (at.wrapping_mul(2_654_435_761) >> 7 & 1023) as f32 / 1023.0
     }
@@ -209,7 +209,7 @@ mod tests {
         shape: Shape,
         first: [u32; 2],
         under: Range<usize>,
-        /// Added to each weight, so that sums are beyond one bound or the other.
+        /// Number added to each weight, so that sums are beyond one bound or the other.
         bias: f32,
     }
 
@@ -224,7 +224,7 @@ mod tests {
             self.under.contains(&row) && (noise(77 * row + 3 * column) < 0.3 || is_last)
         }
 
-        /// The light of a texel of the window in a mirror.
+        /// Returns the light of a texel of the window in a mirror.
         fn texel(&self, samples: &[f32], walk: &Walk, is_turned: bool, [row, column]: [usize; 2]) -> [f32; SAMPLES] {
             let (across, down) = if is_turned { (row, column) } else { (column, row) };
             let [first_across, first_down] = if is_turned { [self.first[1], self.first[0]] } else { self.first };
@@ -233,7 +233,7 @@ mod tests {
             samples.as_chunks().0[at as usize]
         }
 
-        /// What a plain loop makes of it in a mirror: the sum, as it is and within its bounds.
+        /// Computes the sum in a mirror by a plain loop, as it is and within its bounds.
         fn expected(&self, samples: &[f32], walk: &Walk, is_turned: bool) -> [[f32; SAMPLES]; 2] {
             let mut sum = [0f64; SAMPLES];
             let (mut least, mut greatest) = ([f32::INFINITY; SAMPLES], [f32::NEG_INFINITY; SAMPLES]);
@@ -253,7 +253,7 @@ mod tests {
             [sum, std::array::from_fn(|sample| sum[sample].max(least[sample]).min(greatest[sample]))]
         }
 
-        /// That, by all four mirrors at once.
+        /// Checks the sums by all four mirrors at once.
         fn assert(&self, is_turned: bool) {
             let samples: Vec<f32> = (0..SAMPLES * SIDE * SIDE).map(noise).collect();
             let texels = Texels::<f32, 4, 2>::new(&samples, WALKS, [SIDE, SIDE]);
@@ -282,7 +282,7 @@ mod tests {
         }
     }
 
-    /// The sums in each mirror, as they are and within their bounds.
+    /// Returns the sums in each mirror, as they are and within their bounds.
     fn averages(
         large: &Kept,
         texels: &Texels<f32, 4, 2>,
@@ -300,7 +300,8 @@ mod tests {
         })
     }
 
-    /// Blocks and what is beside them, words of marks and what is beside those; rows under the pixel at both ends, and none at them.
+    /// Tests blocks and texels beside them, words of marks and marks beside those; rows under the pixel at both ends,
+    /// and none there.
     #[test]
     fn sums_are_those_of_a_plain_loop() {
         for [width, height] in [[1, 1], [3, 9], [4, 4], [8, 3], [9, 5], [10, 8], [31, 6], [32, 7], [33, 5], [39, 33]] {

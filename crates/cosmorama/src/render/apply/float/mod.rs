@@ -1,4 +1,4 @@
-//! Pixels by plans in single precision: light of any range.
+//! Pixels by plans in single precision, for light of any range.
 
 pub(crate) mod large;
 pub(crate) mod turned;
@@ -17,7 +17,7 @@ use crate::render::plan::symmetry::Ways;
 use crate::render::plan::traversal::Pass;
 use crate::render::scan::tile::SIDE;
 
-/// Floats: light as it is, in front of a background.
+/// Arithmetic in floats: light as it is, in front of a background.
 #[derive(Clone, Copy)]
 pub(crate) struct FloatArithmetic<'a> {
     pub(crate) texels: &'a [Rgba],

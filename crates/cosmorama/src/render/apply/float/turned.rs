@@ -1,4 +1,4 @@
-//! Windows of floats in mirrors that show columns as rows: four texels that lie beside each other are of four rows.
+//! Windows of floats in mirrors that show columns as rows, where four neighbouring texels belong to four rows.
 
 use fearless_simd::{Simd, f32x4, f32x16, prelude::*, u8x64, u32x4, u32x16};
 
@@ -7,7 +7,7 @@ use super::window::{BLOCK_SAMPLES, Lines, Marks, SAMPLES, Sum, spread, way};
 use crate::render::apply::texels::Window;
 use crate::render::plan::window_format::ROWS_UNDER;
 
-/// A window of a small size, so wide and high as all mirrors see it: in these as many rows and columns.
+/// A window of a small size, as wide and high as all mirrors see it; here it has as many rows and columns.
 #[derive(Clone, Copy)]
 pub(crate) struct TurnedWindow<'a, S: Simd, const N: usize, const R: usize, const WIDTH: usize, const HEIGHT: usize> {
     pub(crate) simd: S,
@@ -19,7 +19,7 @@ pub(crate) struct TurnedWindow<'a, S: Simd, const N: usize, const R: usize, cons
 impl<S: Simd, const N: usize, const R: usize, const WIDTH: usize, const HEIGHT: usize>
     TurnedWindow<'_, S, N, R, WIDTH, HEIGHT>
 {
-    /// Where the texels of its first four rows lie in a column, and the one after them: as texels run, and the other way.
+    /// First texel in a column of the first four rows, and of the row after them: as texels run, and reversed.
     const BLOCK_AT: [usize; 2] = [0, HEIGHT - BLOCK];
     const LAST_AT: [usize; 2] = [HEIGHT - 1, 0];
 
@@ -87,7 +87,7 @@ impl<S: Simd, const N: usize, const R: usize, const WIDTH: usize, const HEIGHT: 
     }
 }
 
-/// In each block one of its four numbers, for all samples of a texel.
+/// Order that repeats, in each block, one of its four numbers for all samples of a texel.
 static ONE: Lines<[[u8; 64]; BLOCK]> = {
     let mut one = [[0; 64]; BLOCK];
     let mut at = 0;
@@ -98,8 +98,8 @@ static ONE: Lines<[[u8; 64]; BLOCK]> = {
     Lines(one)
 };
 
-/// Of each sample of a column's first four texels the texel's bit among those of the rows from the first or the second on, for each
-/// way; none, if it is in no such row.
+/// Bits of the texels of each sample of a column's first four texels, for each way. They count from the first or the
+/// second row on; a texel in no such row has none.
 static MARK: Lines<[[[[u32; BLOCK_SAMPLES]; BLOCK]; 2]; 2]> = {
     let mut mark = [[[[0; BLOCK_SAMPLES]; BLOCK]; 2]; 2];
     let mut at = 0;

@@ -5,7 +5,8 @@ use crate::render::batch::window::Windows;
 use crate::render::plan::window_format::{COLUMNS_UNDER, Format, Header, Place, ROWS_UNDER, Shape, SmallShapes};
 use crate::render::scan::tile::SIDE;
 
-/// Weights as the bits of floats: first those of a window's blocks, row by row, then those of the columns that make no whole block.
+/// Format of weights as the bits of floats: first those of a window's blocks, row by row, then those of the columns
+/// that make no whole block.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct FloatFormat {
     shapes: LaneShapes,
@@ -14,16 +15,16 @@ pub(crate) struct FloatFormat {
 /// Sizes of small windows.
 pub(crate) const SMALL: SmallShapes = Shape::small([4, 5]);
 
-/// Texels beside each other that are weighed together.
+/// Number of neighbouring texels that are weighted together.
 pub(crate) const BLOCK: usize = 4;
 
-/// Columns of a window in whole blocks: the first ones.
+/// Returns the number of columns of a window in whole blocks, which come first.
 #[inline(always)]
 pub(crate) fn in_blocks(shape: Shape) -> usize {
     shape.width / BLOCK * BLOCK
 }
 
-/// Where among a window's weights that of a texel stands.
+/// Returns the index of a texel's weight among those of its window.
 #[inline(always)]
 pub(crate) fn weight_index(shape: Shape, [row, column]: [usize; 2]) -> usize {
     let whole = in_blocks(shape);

@@ -1,10 +1,11 @@
-//! Windows of floats, in mirrors that go through them one way or the other.
+//! Windows of floats, in mirrors of either direction.
 //!
-//! Four texels of a row are weighed together, as they lie in memory; what their four columns add up to is added at the end. The order
-//! in which sums are made is the same whatever the instructions.
+//! Four texels of a row are weighted together, as they lie in memory. The sums of the four columns are added at the
+//! end. The order of summation does not depend on the instructions.
 //!
-//! The bounds of what lies under a pixel are found where nobody asks for anti-ringing, too: to leave them out there would take all
-//! this code once more, for each size, way and number of mirrors. What is rendered without takes as long as with it.
+//! The bounds of the texels under a pixel are found even without anti-ringing. To leave them out, all this code would
+//! be needed once more, for each size, way and number of mirrors. Rendering takes as long without anti-ringing as with
+//! it.
 
 use fearless_simd::{Simd, f32x4, f32x16, mask32x16, prelude::*, u8x64, u32x4, u32x16};
 
@@ -14,13 +15,13 @@ use crate::render::apply::driver::Window;
 use crate::render::apply::texels;
 use crate::render::plan::window_format::{Kept, ROWS_UNDER, Shape};
 
-/// Samples of a texel, and of a block of them.
+/// Number of samples of a texel, and of a block of texels.
 pub(crate) const SAMPLES: usize = 4;
 pub(crate) const BLOCK_SAMPLES: usize = BLOCK * SAMPLES;
 
 impl<S: Simd, const N: usize, const R: usize> Window<'_, S, f32, N, R> {
-    /// Sums over a window of one of the sizes of [`SMALL`], and how many numbers tell of it; if `TURNED`, its rows are columns in all
-    /// mirrors. Written out: loops would stay loops.
+    /// Sums over a window of one of the sizes of [`SMALL`]. Returns the sums with the number of its numbers. If
+    /// `TURNED`, its rows are columns in all mirrors. It is unrolled by hand: the compiler would keep loops.
     #[inline(always)]
     pub(crate) fn small<const WIDTH: usize, const HEIGHT: usize, const UNDER: usize, const TURNED: bool>(
         self,
@@ -59,7 +60,8 @@ impl<S: Simd, const N: usize, const R: usize> Window<'_, S, f32, N, R> {
         (sums, length)
     }
 
-    /// Sums over a window of any size, and how many numbers tell of it; if `TURNED`, its rows are columns in all mirrors.
+    /// Sums over a window of any size. Returns the sums with the number of its numbers. If `TURNED`, its rows are
+    /// columns in all mirrors.
     #[inline(always)]
     pub(crate) fn large<const TURNED: bool>(self) -> ([Sum<S>; N], usize) {
         let Self { simd, texels, first, .. } = self;
@@ -69,7 +71,7 @@ impl<S: Simd, const N: usize, const R: usize> Window<'_, S, f32, N, R> {
     }
 }
 
-/// The rows of a window of a small size.
+/// Rows of a window of a small size.
 #[derive(Clone, Copy)]
 struct SmallRow<'a, S, const N: usize, const R: usize, const WIDTH: usize, const HEIGHT: usize> {
     simd: S,
@@ -79,11 +81,11 @@ struct SmallRow<'a, S, const N: usize, const R: usize, const WIDTH: usize, const
 impl<S: Simd, const N: usize, const R: usize, const WIDTH: usize, const HEIGHT: usize>
     SmallRow<'_, S, N, R, WIDTH, HEIGHT>
 {
-    /// Where its first four columns lie in memory, and the one after them: as texels run, and the other way.
+    /// First texel in memory of its first four columns, and of the column after them: as texels run, and reversed.
     const BLOCK_AT: [usize; 2] = [0, WIDTH - BLOCK];
     const LAST_AT: [usize; 2] = [WIDTH - 1, 0];
 
-    /// Sums over the first row and, if it is not that, the first of those whose texels may lie under the pixel.
+    /// Sums over the first row, and over the first row whose texels may lie under the pixel, if that is another.
     #[inline(always)]
     fn first<const UNDER: usize>(&self, weights: &[u32], marks: Marks<S>) -> [Sum<S>; N] {
         let mut sums = [Sum::zero(self.simd); N];
@@ -113,7 +115,7 @@ impl<S: Simd, const N: usize, const R: usize, const WIDTH: usize, const HEIGHT: 
         }
     }
 
-    /// Adds one some of whose texels may.
+    /// Adds a block of a row some of whose texels may lie under the pixel.
     #[inline(always)]
     fn add_bounding(&self, sums: &mut [Sum<S>; N], weights: &[u32], row: usize, is_beside: [mask32x16<S>; 2]) {
         let weights = self.weights(weights, row);
@@ -160,13 +162,13 @@ impl<S: Simd, const N: usize, const R: usize, const WIDTH: usize, const HEIGHT: 
     }
 }
 
-/// How a mirror, of N of which the last R go from right to left, goes through windows: 1 is that.
+/// Returns the direction in which a mirror traverses windows: 1 means from right to left, as the last R of N do.
 #[inline(always)]
 pub(crate) const fn way<const N: usize, const R: usize>(image: usize) -> usize {
     if image < N - R { 0 } else { 1 }
 }
 
-/// Four weights, each for all samples of a texel, for each way.
+/// Spreads four weights over all samples of a texel each, for each way.
 #[inline(always)]
 pub(crate) fn spread<S: Simd>(simd: S, weights: &[u32; BLOCK]) -> [f32x16<S>; 2] {
     let weights: f32x4<S> = u32x4::load_array_ref(simd, weights).bitcast();
@@ -177,7 +179,7 @@ pub(crate) fn spread<S: Simd>(simd: S, weights: &[u32; BLOCK]) -> [f32x16<S>; 2]
     ]
 }
 
-/// From four numbers in each block to one of them: the first in the first block, or the last.
+/// Orders that repeat one of the four numbers of each block: the first in the first block, or the last.
 static ORDER: [[u8; 64]; 2] = {
     let mut order = [[0; 64]; 2];
     let mut at = 0;
@@ -190,7 +192,7 @@ static ORDER: [[u8; 64]; 2] = {
     order
 };
 
-/// Which texels of some rows of a block lie under a pixel, a bit for each; and any other bits after those.
+/// Bits of the texels of some rows of a block that lie under a pixel; any other bits may follow.
 #[derive(Clone, Copy)]
 pub(crate) struct Marks<S: Simd>(u32x16<S>);
 
@@ -200,24 +202,24 @@ impl<S: Simd> Marks<S> {
         Self(u32x16::splat(simd, marks))
     }
 
-    /// The samples of those texels of a row that do not, for each way.
+    /// Returns the samples of a row's texels that do not lie under the pixel, for each way.
     #[inline(always)]
     pub(crate) fn beside(self, row: usize) -> [mask32x16<S>; 2] {
         [self.without(&MARK.0[0][row]), self.without(&MARK.0[1][row])]
     }
 
-    /// The samples whose bits are not among the marks.
+    /// Returns the samples whose bits are not among the marks.
     #[inline(always)]
     pub(crate) fn without(self, bits: &[u32; BLOCK_SAMPLES]) -> mask32x16<S> {
         (self.0 & u32x16::load_array_ref(self.0.token(), bits)).simd_eq(0)
     }
 }
 
-/// In whole lines of memory.
+/// A value in whole cache lines.
 #[repr(align(64))]
 pub(crate) struct Lines<T>(pub(crate) T);
 
-/// Of each sample of a block its texel's bit among those of some rows.
+/// Bits of the texels of each sample of a block, among those of some rows.
 static MARK: Lines<[[[u32; BLOCK_SAMPLES]; ROWS_UNDER]; 2]> = {
     let mut mark = [[[0; BLOCK_SAMPLES]; ROWS_UNDER]; 2];
     let mut at = 0;
@@ -231,11 +233,11 @@ static MARK: Lines<[[[u32; BLOCK_SAMPLES]; ROWS_UNDER]; 2]> = {
     Lines(mark)
 };
 
-/// What adds up over a window in a mirror, and the bounds of what lies under the pixel, column by column of the blocks.
+/// Sums over a window in a mirror, and the bounds of the texels under the pixel, by column of the blocks.
 #[derive(Clone, Copy)]
 pub(crate) struct Sum<S: Simd> {
     pub(crate) blocks: f32x16<S>,
-    /// Over what is in no block.
+    /// Sum of the texels that are in no block.
     pub(crate) last: f32x4<S>,
     least: f32x16<S>,
     greatest: f32x16<S>,
@@ -252,14 +254,14 @@ impl<S: Simd> Sum<S> {
         }
     }
 
-    /// Notes texels, but for those beside the pixel.
+    /// Updates the bounds by texels, except those beside the pixel.
     #[inline(always)]
     pub(crate) fn bound(&mut self, texels: f32x16<S>, is_beside: mask32x16<S>) {
         self.least = is_beside.select(self.least, self.least.min(texels));
         self.greatest = is_beside.select(self.greatest, self.greatest.max(texels));
     }
 
-    /// The sum; within what lies under the pixel, if that is asked for.
+    /// Returns the sum, clamped to the texels under the pixel if `is_bounded`.
     #[inline(always)]
     pub(crate) fn average(&self, is_bounded: bool) -> f32x4<S> {
         let (a, b) = self.blocks.split();

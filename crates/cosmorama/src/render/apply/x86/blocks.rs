@@ -1,4 +1,4 @@
-//! What AVX-512 does in one instruction for blocks of four mirrors, and portable vectors have no word for.
+//! Operations on blocks of four mirrors that are one instruction of AVX-512 and have no portable equivalent.
 
 use std::arch::x86_64::{
     __m512i, _mm512_dpwssds_epi32, _mm512_permutex2var_epi16, _mm512_shuffle_i64x2, _mm512_unpackhi_epi16,
@@ -8,9 +8,9 @@ use std::arch::x86_64::{
 use fearless_simd::kernel;
 
 kernel!(
-    /// Adds the weighted sums of pairs to sums that began with half of what they are divided by: none leaves the 32 bits (by how
-    /// `quantize.rs` scales weights). Of its two ways that which would stop
-    /// there: the other one compilers take apart again, into a product and a sum.
+    /// Adds the weighted sums of pairs to sums that began with half of their divisor. None leaves the 32 bits, because
+    /// of how `quantize.rs` scales weights. Of its two forms this one saturates: compilers split the other into a
+    /// product and a sum.
     #[inline(always)]
     pub(crate) fn add_products(token: Avx512, sums: __m512i, texels: __m512i, weights: __m512i) -> __m512i {
         _mm512_dpwssds_epi32(sums, texels, weights)
@@ -25,8 +25,8 @@ kernel!(
     }
 );
 
-/// Where the samples of pairs are, among four texels of each of four mirrors, of which the last two run the other way: of the pair that
-/// begins in the first texel, in the second and in the third.
+/// Places of the samples of pairs among four texels of each of four mirrors, the last two of which are reversed. Pairs
+/// begin in the first texel, the second and the third.
 pub(crate) static PAIRS: [[i16; 32]; 3] = {
     let mut places = [[0; 32]; 3];
     let mut at = 0;
@@ -41,8 +41,7 @@ pub(crate) static PAIRS: [[i16; 32]; 3] = {
 };
 
 kernel!(
-    /// Of two pairs of each of four mirrors the first ones, given two mirrors in which they lie first and two in which they lie
-    /// last.
+    /// Picks the first of two pairs of each of four mirrors. In two mirrors they lie first, and in two last.
     #[inline(always)]
     pub(crate) fn first_pairs(token: Avx512, forward: __m512i, reversed: __m512i) -> __m512i {
         _mm512_shuffle_i64x2::<0b11_01_10_00>(forward, reversed)
@@ -50,7 +49,7 @@ kernel!(
 );
 
 kernel!(
-    /// The second ones.
+    /// Picks the second of two pairs of each of four mirrors. In two mirrors they lie last, and in two first.
     #[inline(always)]
     pub(crate) fn second_pairs(token: Avx512, forward: __m512i, reversed: __m512i) -> __m512i {
         _mm512_shuffle_i64x2::<0b10_00_11_01>(forward, reversed)
@@ -58,7 +57,7 @@ kernel!(
 );
 
 kernel!(
-    /// Pairs of the first texels of each block, one of either.
+    /// Pairs the first texels of each block, one from either vector.
     #[inline(always)]
     pub(crate) fn zip_first(token: Avx512, a: __m512i, b: __m512i) -> __m512i {
         _mm512_unpacklo_epi16(a, b)
@@ -66,7 +65,7 @@ kernel!(
 );
 
 kernel!(
-    /// Pairs of the second ones.
+    /// Pairs the second texels of each block, one from either vector.
     #[inline(always)]
     pub(crate) fn zip_second(token: Avx512, a: __m512i, b: __m512i) -> __m512i {
         _mm512_unpackhi_epi16(a, b)

@@ -1,4 +1,4 @@
-//! Instructions of x86 that portable vectors have no word for.
+//! Instructions of x86 that have no portable equivalent.
 
 pub(crate) mod blocks;
 pub(crate) mod srgb;

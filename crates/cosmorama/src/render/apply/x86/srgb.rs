@@ -1,4 +1,4 @@
-//! Codes of sRGB by AVX-512: a polynomial and a number for each power of two.
+//! Codes of sRGB by AVX-512: a polynomial and a factor for each power of two.
 
 use std::arch::x86_64::{
     __m512i, _MM_MANT_NORM_1_2, _MM_MANT_SIGN_ZERO, _mm512_castps_si512, _mm512_castsi512_si256,
@@ -11,20 +11,21 @@ use fearless_simd::{f32x16, kernel, prelude::*, u8x32, u8x64};
 
 use crate::render::scan::tile::SIDE;
 
-/// Light from which on the curve is a power, and codes to one step of it below (IEC 61966-2-1: 12.92 up to 0.0031308).
+/// Light from which the curve is a power, and codes for one step of light below (IEC 61966-2-1: 12.92 up to 0.0031308).
 const BEND: i32 = 103;
 const LINEAR: f32 = (12.92 * 255.0 / 32767.0) as f32;
 
-/// Codes where the power is nothing: 255 × -0.055.
+/// Codes where the power is zero: 255 × -0.055.
 const OFFSET: f32 = -14.025;
 
-/// m^(1/2.4) from 1 to 2, the highest coefficient first: within a millionth.
+/// Coefficients of m^(1/2.4) from 1 to 2, the highest power first: within a millionth.
 const POWER: [f32; 6] = [0.004_578_923_3, -0.044_878_658, 0.188_872_17, -0.462_495_4, 0.931_453_2, 0.382_471_86];
 
-/// 255 × 1.055 × (2^e / 32767)^(1/2.4) for each exponent e of light that is a power, by the last bits of what floats hold of it.
+/// Factors 255 × 1.055 × (2^e / 32767)^(1/2.4) for each exponent e of light that is a power, indexed by the last bits
+/// of a float's exponent.
 ///
-/// Some are moved by a few of their last digits, until the codes of all light are rounded as they should be: the light that is
-/// nearest to half between two codes is 0.00001 codes away from there.
+/// Some are moved by a few of their last digits, until the codes of all light are rounded correctly. The light nearest
+/// to half way between two codes is 0.00001 codes away from there.
 static SCALES: [f32; 16] = {
     let known = [19.995_657, 26.691, 35.628_212, 47.557_957, 63.482_254, 84.738_64, 113.112_5, 150.987_09, 201.543_52];
     let (mut scales, mut at) = ([0.0; 16], 0);
@@ -36,7 +37,7 @@ static SCALES: [f32; 16] = {
     scales
 };
 
-/// Of two times four pixels, a number for each sample and one for nothing, the bytes that count.
+/// Places of the bytes that count, of two times four pixels with a number for each sample and one for nothing.
 static BYTES: [u8; 64] = {
     let (mut bytes, mut at) = ([0; 64], 0);
     while at < 3 * SIDE {
@@ -47,7 +48,7 @@ static BYTES: [u8; 64] = {
 };
 
 kernel!(
-    /// The codes of light from 0 to 32767, as numbers.
+    /// Computes the codes of light from 0 to 32767, as numbers.
     #[inline(always)]
     fn codes(token: Avx512, light: __m512i) -> __m512i {
         let samples = _mm512_cvtepi32_ps(light);
@@ -65,7 +66,7 @@ kernel!(
 );
 
 kernel!(
-    /// The codes of the light of eight pixels, four and four.
+    /// Computes the codes of the light of eight pixels, four and four.
     #[inline(always)]
     pub(crate) fn eight_codes(token: Avx512, first: __m512i, last: __m512i) -> [[u8; 3]; SIDE] {
         let bytes = u8x64::load_array_ref(token, &BYTES).into();

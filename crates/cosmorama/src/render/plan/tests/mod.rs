@@ -167,7 +167,7 @@ fn a_plan_makes_the_pixels_that_are_made_without() {
     }
 }
 
-/// Keeps no window, so that each pixel of it is made by itself.
+/// Format that keeps no window, so that each pixel is made singly.
 #[derive(Clone, Debug, Default)]
 struct NoWindows;
 
@@ -188,8 +188,8 @@ impl Format for NoWindows {
     }
 }
 
-/// Windows of all sizes, four texels at once, and pixels by themselves in all mirrors at once, against lists of texels one after the
-/// other.
+/// Compares windows of all sizes, four texels at once, and single pixels in all mirrors at once, with lists of texels
+/// one after the other.
 #[test]
 fn windows_of_floats_make_what_their_texels_make_one_by_one() {
     for (world, target, _) in conversions() {
@@ -266,7 +266,7 @@ fn all_levels_of_instructions_make_the_same_plans() {
     }
 }
 
-/// Black and white in no order, of which next to black sums are as wrong as they can be.
+/// Returns black and white in no order, next to which sums in integers are as wrong as they can be.
 fn black_and_white(world: &World) -> FixedLight {
     let mut light = light(world);
     let mut state = 1u64;
@@ -311,7 +311,7 @@ fn integers_are_within_one_code_of_floats() {
     }
 }
 
-/// What a plan takes from texels to pixels it takes back from pixels to texels, in all its mirrors.
+/// Checks that spreading from pixels to texels is the transpose of the plan, in all its mirrors.
 #[test]
 fn spreading_is_the_plan_the_other_way_round() {
     for (world, target, _) in conversions() {

@@ -1,7 +1,7 @@
 use super::*;
 use crate::render::apply::tap_lists::Palette;
 
-/// The light of a texel as it is worked with, by each level's instructions.
+/// Returns the light of a texel as each level's instructions use it.
 fn lights(palette: &impl Palette, texel: u32) -> impl Iterator<Item = [f32; 4]> {
     crate::filter::rim::simd_levels::levels()
         .into_iter()

@@ -1,7 +1,8 @@
 use super::*;
 use crate::render::apply::output_region::PicturePart;
 
-/// Whether the ends of all runs of a plan are those of their windows, and how many of them lack a window at one end.
+/// Checks that the ends of all runs of a plan are those of their windows. Returns how many runs lack a window at one
+/// end.
 fn cut_runs<W>(compiled: &Compiled<W>) -> usize {
     let mut cut = 0;
     for run in compiled.bands.iter().flat_map(|band| &band.runs) {
@@ -29,7 +30,7 @@ fn runs_end_where_their_windows_do() {
     assert!(floats > 100 && integers > 100, "{floats} and {integers} runs lack windows at an end");
 }
 
-/// Of pixels of many texels each, a band would take more memory the wider the picture is.
+/// Checks that bands of pixels with many texels are spilled: else they would take more memory the wider the picture is.
 #[test]
 fn bands_of_large_windows_are_made_before_they_are_all_there() {
     let (mut spilled, mut most) = (0, 0);
@@ -48,7 +49,7 @@ fn bands_of_large_windows_are_made_before_they_are_all_there() {
     assert!(spilled > 0 && most < (1 << 20) + (1 << 17), "{spilled} times, {most} numbers");
 }
 
-/// Each pixel of a picture, in whatever mirror, is one of those that a patch is said to be shown as there.
+/// Checks that each pixel of a picture, in any mirror, lies where its patch is said to be shown.
 #[test]
 fn patches_are_shown_where_their_pixels_are() {
     for (world, target, _) in conversions() {

@@ -1,11 +1,11 @@
-//! That the conversions of these tests have windows of all sizes, so that what compares their pixels looks at each.
+//! Tests that these conversions have windows of all sizes, so that tests that compare their pixels cover each.
 
 use super::*;
 use crate::render::apply::fixed::weights::bits;
 use crate::render::apply::view_texels::ViewTexels;
 use crate::render::plan::window_format::Kept;
 
-/// How often windows of each size occur, those of any other after the small ones: from left to right, reversed, and turned.
+/// Counts of windows by size, all that are not small last: from left to right, reversed, and transposed.
 type Counts = [[usize; 7]; 3];
 
 const OTHER: usize = 6;
@@ -54,7 +54,7 @@ fn weights_in_integers_add_to_one() {
     }
 }
 
-/// Texels of the largest window.
+/// Returns the number of texels in the largest window.
 fn largest<W>(compiled: &Compiled<W>) -> usize {
     let runs = compiled.bands.iter().flat_map(|band| &band.runs);
     runs.map(|run| usize::from(run.width) * usize::from(run.height)).max().unwrap_or(0)

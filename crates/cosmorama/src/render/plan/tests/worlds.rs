@@ -1,4 +1,4 @@
-//! Worlds and targets that conversions are tried with, with and without mirrors.
+//! Worlds and targets for tests of conversions, with and without mirrors.
 
 use super::*;
 use crate::camera::PixelGrid;
@@ -36,7 +36,7 @@ pub(crate) fn dome(size: usize, orientation: Orientation) -> View {
     View { stop: FieldStop::circle(1.0), ..dome }
 }
 
-/// Any light, in steps that 15 bits hold, with edges, dots and slopes.
+/// Returns varied light in steps that 15 bits hold, with edges, dots and slopes.
 pub(crate) fn light(world: &World) -> FixedLight {
     let mut light = FixedLight::black(world.view_sizes());
     for (k, texel) in light.texels_mut().enumerate() {
@@ -51,7 +51,7 @@ pub(crate) fn floats(light: &FixedLight) -> Vec<Rgba> {
     (0..light.len()).map(|texel| light.rgba(texel)).collect()
 }
 
-/// Conversions of all kinds, and in how many mirrors each is seen.
+/// Returns conversions of all kinds, each with the number of mirror images.
 pub(crate) fn conversions() -> Vec<(World, View, usize)> {
     let up = turned(0.0, 90.0, 0.0);
     let all = CubeFace::ALL;
@@ -99,14 +99,14 @@ pub(crate) fn conversions() -> Vec<(World, View, usize)> {
     ]
 }
 
-/// A dome of all that is above.
+/// Returns a dome of all that is above.
 fn half_world(size: usize) -> View {
     let quarter = std::f64::consts::FRAC_PI_2;
     let dome = view(ProjectionKind::EQUIDISTANT, (size, size), (quarter, quarter), turned(0.0, 90.0, 0.0));
     View { stop: FieldStop::circle(quarter), ..dome }
 }
 
-/// A cube whose right face is upside down, and whose upper face lies on its side.
+/// Returns a cube whose right face is upside down, and whose upper face lies on its side.
 pub(crate) fn rolled(size: usize) -> World {
     let face = |face: CubeFace| {
         let upright = view(ProjectionKind::PERSPECTIVE, (size, size), (1.0, 1.0), face.orientation());
@@ -120,7 +120,7 @@ pub(crate) fn rolled(size: usize) -> World {
     World::new(CubeFace::ALL.map(face)).expect("six faces")
 }
 
-/// The front face of a cube in four parts, one of them upside down.
+/// Returns the front face of a cube in four parts, one of them upside down.
 pub(crate) fn quarters(size: usize) -> World {
     let part = |name: &str, [left, top]: [usize; 2], roll: f64| {
         let whole = view(ProjectionKind::PERSPECTIVE, (size, size), (1.0, 1.0), turned(0.0, 0.0, roll));
