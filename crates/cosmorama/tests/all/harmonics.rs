@@ -119,8 +119,8 @@ fn a_turn_about_the_pole_mixes_pairs_only() {
 }
 
 #[test]
-fn bases_and_cubes_agree_on_the_light() {
-    let (world, light) = panorama(256, soft);
+fn bases_agree_on_the_light() {
+    let (world, light) = panorama(512, soft);
     let [own, up] = BASES.map(|basis| Harmonics::new(&world, &light, 10, basis).unwrap());
     for direction in Direction::spread(50) {
         for channel in 0..3 {
@@ -151,7 +151,7 @@ fn what_is_not_shown_has_its_own_light() {
     let (dark, filled) = (of(Rgba::TRANSPARENT), of(white));
     near(dark.coefficients()[0][0], PI.sqrt(), 1e-4, "half the sphere");
     // ∫ Y10 over the upper half.
-    near(dark.coefficients()[2][0], 0.488603 * PI, 1e-3, "from above");
+    near(dark.coefficients()[2][0], 0.488603 * PI, 5e-3, "from above");
     near(filled.coefficients()[0][0], 2.0 * PI.sqrt(), 1e-9, "all the sphere");
     filled.coefficients()[1..].iter().for_each(|light| near(light[0], 0.0, 1e-9, "constant"));
 }
