@@ -144,7 +144,7 @@ fn cosine_factor(band: usize) -> f64 {
     let l = band as f64;
     // l! / (2^l ((l/2)!)²) is the product of (2k − 1)/(2k) for k up to l/2.
     let middle: f64 = (1..=band / 2).map(|k| (2 * k - 1) as f64 / (2 * k) as f64).product();
-    let sign = if (band / 2) % 2 == 0 { -1.0 } else { 1.0 };
+    let sign = if (band / 2).is_multiple_of(2) { -1.0 } else { 1.0 };
     2.0 * PI * sign / ((l + 2.0) * (l - 1.0)) * middle
 }
 
