@@ -47,7 +47,7 @@ pub(crate) struct HarmonicsArgs {
     /// The pole of zup's functions is the world's +Z, the back; that of yup's is the world's +Y, up.
     #[arg(long, value_enum, value_name = "AXES", default_value_t = Basis::Zup, hide_possible_values = true, help_heading = "Light")]
     pub(crate) basis: Basis,
-    /// Weaken high bands against ringing: hanning or lanczos, [:WIDTH]
+    /// Weaken high bands against ringing: hanning, lanczos or lanczos:WIDTH
     ///
     /// Bands from the width on vanish. It is the order plus one, unless given, as in hanning:4.5.
     #[arg(long, value_name = "WINDOW", help_heading = "Light")]
