@@ -4,7 +4,7 @@ use cosmorama::raster::Rgba;
 use cosmorama::render::{Accuracy, Need, Needs};
 use cosmorama::sphere::Direction;
 use cosmorama::world::{Source, World, WorldView};
-use cosmorama_spec::Missing;
+use cosmorama_spec::{Missing, Size};
 
 use crate::budget::MemoryBudget;
 use crate::diagnostic::{Code, ConvertError, Diagnostic, MISSING, PITCH, ROLL, Result, YAW, bail, failed_as};
@@ -23,9 +23,21 @@ pub(crate) enum Coverage {
 /// Returns the worlds of whole pictures, even if files are missing: one, or one for each eye.
 pub(crate) fn whole_worlds(input: &Input, memory: MemoryBudget) -> Result<Vec<World>> {
     memory.check_pictures(input)?;
+    input.views().try_for_each(check_sides)?;
     let world =
         |views: &Vec<InputView>| Ok(World::blended(views.iter().map(|view| view.world_view(view.nominal.clone())))?);
     input.worlds.iter().map(world).collect()
+}
+
+/// Refuses a canvas that is longer than any picture: thin enough, it would fit into memory, and take minutes.
+fn check_sides(view: &InputView) -> Result<()> {
+    let (width, height) = (view.nominal.width(), view.nominal.height());
+    if width.max(height) <= Size::MOST {
+        return Ok(());
+    }
+    let path = view.files.path(None);
+    let found = format!("{}: its canvas of {width}x{height} pixels is longer than any picture", path.display());
+    Err(failed_as(Code::WrongSize, format!("{found}; sides are 1 to {} pixels", Size::MOST)))
 }
 
 impl Coverage {

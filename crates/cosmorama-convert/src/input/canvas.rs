@@ -3,7 +3,6 @@ use std::path::Path;
 
 use cosmorama::camera::{CameraModel, Canvas};
 use cosmorama_io::{Header, Window};
-use cosmorama_spec::Size;
 
 use crate::diagnostic::{Code, FROM, Result, usage_as};
 
@@ -17,16 +16,8 @@ pub(crate) fn canvas_of(window: Window) -> Canvas {
     Canvas { width: window.canvas_width, height: window.canvas_height, left: window.x as i64, top: window.y as i64 }
 }
 
-/// Checks that a window is not larger than its declared canvas, and the canvas not longer than any picture.
+/// Checks that a window is not larger than its declared canvas.
 pub(crate) fn fits_canvas(path: &Path, header: &Header, canvas: Canvas) -> Result<()> {
-    if canvas.width.max(canvas.height) > Size::MOST {
-        let (path, shape) = (path.display(), shape(&canvas));
-        let message = format!(
-            "{path}: its canvas of {shape} pixels is longer than any picture; sides are 1 to {} pixels",
-            Size::MOST
-        );
-        return Err(usage_as(Code::WrongSize, message));
-    }
     if header.width <= canvas.width && header.height <= canvas.height {
         return Ok(());
     }

@@ -51,13 +51,11 @@ fn panoramas_say_that_they_are() {
 #[test]
 fn a_panorama_that_says_it_is_huge_is_refused_before_memory_is_taken() {
     let bench = Bench::new();
-    for (width, code, said) in [(4_000_000_000, 2, "longer than any picture"), (1_000_000, 1, "--memory")] {
-        let panorama = Some(Window { canvas_width: width, canvas_height: width / 2, x: 0, y: 0 });
-        let metadata = Metadata { panorama, ..Metadata::default() };
-        write(bench.path("a.png"), &picture(1, 40, 20), &WriteOptions::with_metadata(metadata)).unwrap();
-        let message = bench.fail(code, &[&["convert", "a.png", "b.png", "--memory", "1G"], &TO[..]].concat());
-        assert!(message.contains(&format!("{width}x{}", width / 2)) && message.contains(said), "{message}");
-    }
+    let panorama = Some(Window { canvas_width: 4_000_000_000, canvas_height: 2_000_000_000, x: 0, y: 0 });
+    let metadata = Metadata { panorama, ..Metadata::default() };
+    write(bench.path("a.png"), &picture(1, 40, 20), &WriteOptions::with_metadata(metadata)).unwrap();
+    let message = bench.fail(1, &[&["convert", "a.png", "b.png", "--memory", "1G"], &TO[..]].concat());
+    assert!(message.contains("4000000000x2000000000") && message.contains("--memory"), "{message}");
 }
 
 #[test]
