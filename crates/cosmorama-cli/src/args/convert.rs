@@ -143,7 +143,8 @@ pub(crate) struct LimitArgs {
     pub(crate) memory: Option<MemorySize>,
 }
 
-fn frame_list(text: &str) -> Result<FrameList, FrameRangesError> {
+/// Reads a list of frames.
+pub(super) fn frame_list(text: &str) -> Result<FrameList, FrameRangesError> {
     text.parse().map(|ranges: FrameRanges| FrameList::new(ranges.frames()))
 }
 

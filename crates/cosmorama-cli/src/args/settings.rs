@@ -28,11 +28,7 @@ impl From<ConvertArgs> for Conversion {
             background: args.background.map(|colour| colour.0),
             missing: args.missing,
             frames: args.frames,
-            existing: match (args.overwrite, args.resume) {
-                (true, _) => Existing::Replace,
-                (false, true) => Existing::Resume,
-                (false, false) => Existing::Refuse,
-            },
+            existing: existing(args.overwrite, args.resume),
             make_folders: !args.no_mkdir,
             to_stream: args.format.is_some(),
             mips: args.mips,
@@ -74,6 +70,15 @@ impl From<GeometryArgs> for GeometrySettings {
 impl From<LimitArgs> for LimitSettings {
     fn from(args: LimitArgs) -> Self {
         Self { threads: args.threads, memory: args.memory }
+    }
+}
+
+/// Returns what becomes of outputs that exist.
+pub(super) fn existing(overwrite: bool, resume: bool) -> Existing {
+    match (overwrite, resume) {
+        (true, _) => Existing::Replace,
+        (false, true) => Existing::Resume,
+        (false, false) => Existing::Refuse,
     }
 }
 

@@ -8,8 +8,7 @@ use cosmorama_convert::{Conversion, GeometrySettings};
 use cosmorama_io::FrameList;
 use cosmorama_spec::{Missing, Spec, TransferName};
 
-use super::maps::frame_list;
-use crate::args::convert::LimitArgs;
+use crate::args::convert::{LimitArgs, frame_list};
 use crate::args::parse::listed;
 use crate::args::with_examples;
 

@@ -2,15 +2,16 @@ use clap::builder::NonEmptyStringValueParser;
 use clap::{Args, ValueEnum, ValueHint};
 use cosmorama::raster::Depth;
 use cosmorama::sphere::{Angle, Orientation};
-use cosmorama_convert::{Conversion, Existing, GeometrySettings};
+use cosmorama_convert::{Conversion, GeometrySettings};
 use cosmorama_io::FrameList;
-use cosmorama_spec::{DepthName, FrameRanges, FrameRangesError, Missing, Size, Spec, TransferName};
+use cosmorama_spec::{DepthName, Missing, Size, Spec, TransferName};
 
 use super::lobe::LobeName;
-use crate::args::convert::LimitArgs;
+use crate::args::convert::{LimitArgs, frame_list};
 use crate::args::parse::depth::depth_parser;
 use crate::args::parse::listed;
 use crate::args::parse::number::degrees;
+use crate::args::settings::existing;
 use crate::args::{ProgressStyle, with_examples};
 
 /// Example commands in the help of `light diffuse`.
@@ -135,10 +136,6 @@ pub(crate) struct MapArgs {
     pub(crate) json: bool,
 }
 
-pub(super) fn frame_list(text: &str) -> Result<FrameList, FrameRangesError> {
-    text.parse().map(|ranges: FrameRanges| FrameList::new(ranges.frames()))
-}
-
 impl From<MapArgs> for Conversion {
     fn from(args: MapArgs) -> Self {
         let [yaw, pitch, roll] = [args.yaw, args.pitch, args.roll].map(Angle::from_degrees);
@@ -157,11 +154,7 @@ impl From<MapArgs> for Conversion {
             depth: args.depth.map(Depth::from),
             missing: args.missing,
             frames: args.frames,
-            existing: match (args.overwrite, args.resume) {
-                (true, _) => Existing::Replace,
-                (false, true) => Existing::Resume,
-                (false, false) => Existing::Refuse,
-            },
+            existing: existing(args.overwrite, args.resume),
             make_folders: !args.no_mkdir,
             limits: args.limits.into(),
             ..Self::default()
