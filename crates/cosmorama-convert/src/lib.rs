@@ -7,19 +7,18 @@
 #![forbid(unsafe_code)]
 #![doc = include_str!("../README.md")]
 
-mod budget;
 mod colour;
 mod conversion;
-mod coverage;
 mod detect;
 mod diagnostic;
 mod engine;
 mod input;
-mod output;
+mod job;
+mod packing;
 mod settings;
+mod source;
 mod target;
 
-pub use budget::{MemoryBudget, peak_bytes};
 pub use colour::{InputTransfer, ThinAlpha};
 pub use conversion::{
     Checked, Explanation, ExplanationSettings, Observer, Quiet, Report, Stop, Work, WorldLight, threads,
@@ -27,10 +26,9 @@ pub use conversion::{
 pub use detect::{Continuity, FacePixels, GivenFaces, Likely, damage_of, light_of, likely};
 pub use diagnostic::{Code, ConvertError, Diagnostic, Message, Outcome, Part, Remedy, Result, Setting, Severity};
 pub use engine::{CpuSeconds, LightReport};
-pub use input::{
-    Builtin, Disk, Files, InMemory, Input, InputView, Listed, Place, ViewFiles, existing_frames, face_placement,
-    is_one_file, listed, probe, read,
-};
-pub use output::{Remade, check_apart, real_path, refuse_existing};
+pub use input::{Builtin, Input, InputView, Listed, is_one_file, listed};
+pub use job::{Remade, check_apart, real_path, refuse_existing};
+pub use packing::{Place, face_placement};
 pub use settings::{Conversion, Existing, GeometrySettings, LightNormalisation, LightSettings, LimitSettings};
+pub use source::{Disk, Files, InMemory, MemoryBudget, ViewFiles, existing_frames, peak_bytes, probe, read};
 pub use target::Picture;

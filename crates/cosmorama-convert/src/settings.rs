@@ -8,7 +8,7 @@ use cosmorama_io::pending::Unfinished;
 use cosmorama_io::{Compression, FrameList};
 use cosmorama_spec::{FilterName, KernelName, MemorySize, Missing, Size, Spec, TransferName};
 
-use crate::input::{Disk, Files};
+use crate::source::{Disk, Files};
 
 /// Settings of a conversion from an input, in any form, to pictures of another projection.
 ///

@@ -3,10 +3,9 @@ use std::time::Instant;
 use cosmorama::explain;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
-use super::job::Purpose;
-use super::{Content, ConvertJob};
 use crate::diagnostic::{Diagnostic, Outcome, Result, failure};
 use crate::engine::{Stage, Stages};
+use crate::job::{Content, ConvertJob, Purpose};
 use crate::settings::Conversion;
 
 /// A conversion that has been checked as far as possible without decoding pixels.

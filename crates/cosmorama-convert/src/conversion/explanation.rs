@@ -9,14 +9,14 @@ use cosmorama_spec::Size;
 use rayon::ThreadPool;
 
 use super::check::threads;
-use super::options::filter;
-use crate::budget::MemoryBudget;
-use crate::coverage::whole_worlds;
 use crate::diagnostic::{Code, Diagnostic, FROM, Outcome, Result, TO, usage, usage_as};
 use crate::input::spec_files::st_map::settled;
-use crate::input::{Access, Builtin, DecodedPicture, Disk, Files, Input, InputView};
-use crate::output::files_read;
+use crate::input::{Builtin, Input, InputView};
+use crate::job::coverage::whole_worlds;
+use crate::job::files_read;
+use crate::job::options::filter;
 use crate::settings::{GeometrySettings, LimitSettings};
+use crate::source::{Access, DecodedPicture, Disk, Files, MemoryBudget};
 use crate::target::{Picture, aspect};
 
 /// Settings of an explanation, possibly for an input that does not exist yet.

@@ -2,11 +2,8 @@
 
 mod advance;
 mod check;
-mod content;
 mod explanation;
-mod job;
 mod observer;
-mod options;
 mod report;
 mod run;
 mod world_light;
@@ -19,5 +16,3 @@ pub use report::Report;
 pub use world_light::WorldLight;
 
 pub(crate) use advance::{Shares, watched};
-pub(crate) use content::Content;
-pub(crate) use job::ConvertJob;

@@ -2,10 +2,10 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use crate::budget::peak_bytes;
 use crate::diagnostic::Diagnostic;
 use crate::engine::{CpuSeconds, LightReport, Stages};
-use crate::output::{Outputs, Remade};
+use crate::job::{Outputs, Remade};
+use crate::source::peak_bytes;
 
 /// Results of a conversion.
 #[derive(Clone, Debug)]

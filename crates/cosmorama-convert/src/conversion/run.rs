@@ -8,14 +8,14 @@ use cosmorama_spec::Spec;
 use rayon::ThreadPool;
 use rayon::prelude::*;
 
-use super::options::write_options;
-use super::{Checked, Content, ConvertJob, Observer, Report, Stop, Work, watched};
+use super::{Checked, Observer, Report, Stop, Work, watched};
 use crate::diagnostic::{Code, ConvertError, DEPTH, Diagnostic, Result};
+use crate::engine::unfiltered::{formula, st_map};
 use crate::engine::{
-    Engine, FrameFile, FrameLight, Levels, LightReport, Sequence, Stage, Stages, ViewImage, Watcher, Which, formula,
-    st_map, warnings,
+    Engine, FrameFile, FrameLight, Levels, LightReport, Sequence, Stage, Stages, ViewImage, Watcher, Which, warnings,
 };
-use crate::output::FrameOutputs;
+use crate::job::options::write_options;
+use crate::job::{Content, ConvertJob, FrameOutputs};
 
 impl Checked {
     /// Makes the outputs. Each appears whole or not at all.

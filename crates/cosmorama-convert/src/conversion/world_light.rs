@@ -8,13 +8,11 @@ use cosmorama::world::World;
 use rayon::ThreadPool;
 
 use super::check::threads;
-use super::job::Purpose;
-use super::options::write_options;
 use super::run::light_of;
-use super::{Content, ConvertJob};
 use crate::diagnostic::{Diagnostic, FRAMES, Outcome, Result, bail, usage};
 use crate::engine::{Engine, FrameLight, Stages, Texels, light_of_unseen};
-use crate::output::files_read;
+use crate::job::options::write_options;
+use crate::job::{Content, ConvertJob, Purpose, files_read};
 use crate::settings::{Conversion, LightNormalisation, LightSettings};
 
 /// Picture whose format keeps all light: none is written.

@@ -10,8 +10,8 @@ use cosmorama_io::{EnvMap, Format, Header, Window};
 use cosmorama_spec::{Cube, Shape, Single, Spec, StereoSpec};
 
 use crate::detect::{Circles, Continuity, Evidence, Readings, Seen, disc, seams};
-use crate::input::canvas::canvas_of;
-use crate::input::{DecodedPicture, Files};
+use crate::packing::canvas::canvas_of;
+use crate::source::{DecodedPicture, Files};
 
 /// Kind of picture, as far as metadata, shape and pixels tell.
 pub(crate) enum Guess {

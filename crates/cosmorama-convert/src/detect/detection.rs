@@ -12,8 +12,8 @@ use crate::detect::decision::{
 use crate::detect::pixels::{damage_of, is_small, light_of};
 use crate::detect::{Continuity, Evidence, Examined, Guess, Readings, Seen, disc, seams};
 use crate::diagnostic::{Code, Diagnostic, FROM, Remedy, Result, Setting, Severity, bail, usage, usage_as};
-use crate::input::canvas::canvas_of;
-use crate::input::{Access, DecodedPicture, Files};
+use crate::packing::canvas::canvas_of;
+use crate::source::{Access, DecodedPicture, Files};
 
 /// Detects the projection of an image without `--from`, which may hold a picture for each eye. A guess is announced.
 pub(crate) fn detect(

@@ -10,11 +10,10 @@ use cosmorama::raster::{EncodedImage, Image, Rgba, Samples, Transfer, Uniform};
 use cosmorama_io::{Header, ImageFile, IoError, Limits};
 use rayon::prelude::*;
 
-use crate::budget::{MemoryBudget, light_bytes};
 use crate::detect::oval::is_oval;
 use crate::detect::{Circles, Continuity, Twins, cross_variants, seams};
 use crate::diagnostic::{Code, ConvertError, Result, failed_as};
-use crate::input::{DecodedPicture, Files, probe, read};
+use crate::source::{DecodedPicture, Files, MemoryBudget, light_bytes, probe, read};
 
 /// Size, in bytes, above which an image is not decoded for detection only.
 const MOST_BYTES: u64 = 1 << 30;

@@ -6,15 +6,14 @@ use cosmorama::render::{Progress, ScreenMask, Stopped};
 use cosmorama::world::Source;
 use cosmorama_io::WriteOptions;
 
-use crate::budget::QueueDepth;
-use crate::conversion::{ConvertJob, Shares};
-use crate::coverage::Coverage;
+use crate::conversion::Shares;
 use crate::detect::FacePixels;
 use crate::detect::pixels::light_of;
 use crate::diagnostic::{BACKGROUND, Code, ConvertError, Diagnostic, MISSING, Result, bail};
 use crate::engine::{BalancedLight, FrameLight, Geometry, Levels, LightMaps, LightReport, Texels, Writer, warnings};
 use crate::input::InputView;
-use crate::output::FrameOutputs;
+use crate::job::coverage::Coverage;
+use crate::job::{ConvertJob, FrameOutputs, QueueDepth};
 use crate::target::{Sheet, Target};
 
 /// Makes the outputs of a job, frame by frame.

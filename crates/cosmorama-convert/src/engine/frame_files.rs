@@ -4,9 +4,10 @@ use cosmorama::raster::{EncodedImage, FramePool};
 use cosmorama_io::Limits;
 
 use crate::colour::FileColours;
-use crate::conversion::ConvertJob;
 use crate::diagnostic::{FRAMES, Result, bail};
-use crate::input::{Place, ViewFiles, read_in};
+use crate::job::ConvertJob;
+use crate::packing::Place;
+use crate::source::{ViewFiles, read_in};
 
 /// Image of a view in one frame, as in its file.
 pub(crate) struct ViewImage {

@@ -8,9 +8,9 @@ use cosmorama::world::{RimTexels, Source, World};
 use rayon::prelude::*;
 
 use crate::colour::FileColours;
-use crate::conversion::ConvertJob;
 use crate::diagnostic::{Result, bail};
 use crate::engine::{FrameFile, Stage, Stages, ViewImage, Which};
+use crate::job::ConvertJob;
 
 /// Light of a frame. Its memory, and views that do not change, are reused for the next frame.
 pub(crate) struct FrameLight {

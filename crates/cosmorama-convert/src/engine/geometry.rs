@@ -1,10 +1,11 @@
 use cosmorama::raster::{Channels, Depth, FixedCodec, FixedDecoder, FixedLight, FramePool, Image, Rgba};
 use cosmorama::render::{Arithmetic, Plan, Progress, Stopped, Watched};
 
-use crate::conversion::{ConvertJob, Shares};
-use crate::coverage::Coverage;
+use crate::conversion::Shares;
 use crate::diagnostic::{Code, Diagnostic, KERNEL, MEMORY};
 use crate::engine::{Balance, BalancedLight, balance};
+use crate::job::ConvertJob;
+use crate::job::coverage::Coverage;
 use crate::target::TargetView;
 
 /// Geometry of a job, compiled for each target view where that pays and fits into memory.

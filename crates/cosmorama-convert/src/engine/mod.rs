@@ -1,14 +1,13 @@
 //! Makes the outputs of a checked conversion, frame by frame.
 
-pub(crate) mod formula;
 mod frame_engine;
 mod frame_files;
 mod frame_light;
 mod geometry;
 mod lighting;
 mod sequence;
-pub(crate) mod st_map;
 mod timing;
+pub(crate) mod unfiltered;
 pub(crate) mod warnings;
 mod writer;
 

@@ -12,11 +12,9 @@ use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use cosmorama::raster::Threads;
 use rayon::{Scope, ThreadPool};
 
-use crate::budget::QueueDepth;
-use crate::conversion::ConvertJob;
 use crate::diagnostic::{InPlace, Result, bail};
 use crate::engine::{Engine, FrameFile, FrameLight, Levels, Stage, Stages, ViewImage, Which};
-use crate::output::FrameOutputs;
+use crate::job::{ConvertJob, FrameOutputs, QueueDepth};
 
 /// The frames of a job while they are made.
 pub(crate) struct Sequence<'a> {

@@ -9,10 +9,10 @@ use cosmorama::sphere::Direction;
 use cosmorama_spec::Spec;
 
 use crate::colour::ThinAlpha;
-use crate::conversion::ConvertJob;
 use crate::detect::disc;
 use crate::diagnostic::{Code, Diagnostic, FILTER, KERNEL, Remedy, Setting};
 use crate::engine::{FrameLight, balance};
+use crate::job::ConvertJob;
 
 /// Fraction of a world's light in bright sources above which a change of it shows in lighting.
 const MUCH: f64 = 0.1;

@@ -10,14 +10,14 @@ use cosmorama_spec::{Cube, Packing, Shape, Single, Spec};
 use crate::detect::detection::{declared, detect};
 use crate::detect::{GivenFaces, unless_damaged};
 use crate::diagnostic::{Code, Diagnostic, FROM, Result, TO, bail, usage};
-use crate::input::canvas::{canvas_of, fits_canvas, fits_shape, lies_on_canvas, whole};
 use crate::input::faces::face_shape::size_of_missing;
-use crate::input::files::folder::is_one_file;
-use crate::input::files::frames;
+use crate::input::folder::is_one_file;
 use crate::input::lists::{hugin, world_file};
-use crate::input::pieces::packed;
 use crate::input::spec_files::{calibration, st_map};
-use crate::input::{Access, EyePart, Face, FacePicture, Place, ViewFiles};
+use crate::input::{Face, FacePicture, packed};
+use crate::packing::canvas::{canvas_of, fits_canvas, fits_shape, lies_on_canvas, whole};
+use crate::packing::{EyePart, Place};
+use crate::source::{Access, ViewFiles, frames};
 
 /// A view of the input: an image, a face of a cube, or one of two lenses.
 #[derive(Clone)]

@@ -7,10 +7,12 @@ use cosmorama::world::Blend;
 use cosmorama_spec::{Shape, Size, Spec};
 
 use crate::diagnostic::{ConvertError, FROM, Result, usage};
-use crate::input::eye::eye_size;
-use crate::input::faces::face_view::face_placement;
-use crate::input::pieces::size::lens_image_size;
-use crate::input::{EyePart, Input, InputView, Piece, ViewFiles};
+use crate::input::{Input, InputView};
+use crate::packing::eye::eye_size;
+use crate::packing::face_view::face_placement;
+use crate::packing::size::lens_image_size;
+use crate::packing::{EyePart, Piece};
+use crate::source::ViewFiles;
 
 impl Input {
     /// Describes an input that does not exist yet, of a given size, or as fine as an output with so many pixels per

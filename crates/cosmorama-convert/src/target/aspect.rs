@@ -4,7 +4,7 @@ use cosmorama::camera::{CameraModel, View};
 use cosmorama_spec::{Shape, Size, Spec};
 
 use crate::diagnostic::{Code, Diagnostic, Remedy, SIZE, Setting, TO};
-use crate::input::canvas::is_near;
+use crate::packing::canvas::is_near;
 use crate::settings::GeometrySettings;
 
 /// Returns a warning if pixels are not square although nobody asked for that: such a map is refused as an input.

@@ -5,11 +5,11 @@ use cosmorama_io::{EnvMap, Format, Naming, Window};
 use cosmorama_spec::{Cube, Dual, Packing, Shape, Single, Size, SphereSamples, StereoSpec};
 
 use crate::diagnostic::{ConvertError, Result, SIZE, TO, usage};
-use crate::input::canvas::lies_on_canvas;
-use crate::input::eye::{eye_size, squeezed};
-use crate::input::faces::face_view::face_placement;
-use crate::input::pieces::size::{lens_image_size, size};
-use crate::input::{EyePart, Piece, Place};
+use crate::packing::canvas::lies_on_canvas;
+use crate::packing::eye::{eye_size, squeezed};
+use crate::packing::face_view::face_placement;
+use crate::packing::size::{lens_image_size, size};
+use crate::packing::{EyePart, Piece, Place};
 use crate::settings::GeometrySettings;
 use crate::target::gpano;
 

@@ -6,8 +6,9 @@ use cosmorama_io::{EnvMap, FacePattern, FaceSet, Format, Naming, Window};
 use cosmorama_spec::{Cube, Packing, Shape, Size, Spec};
 
 use crate::diagnostic::{Code, MIPS, Result, SIZE, TO, usage, usage_as};
-use crate::input::{Place, ViewFiles};
+use crate::packing::Place;
 use crate::settings::GeometrySettings;
+use crate::source::ViewFiles;
 use crate::target::Picture;
 use crate::target::picture::world_of;
 

@@ -6,8 +6,8 @@ use cosmorama::lighting::LightBalance;
 use cosmorama::raster::{Image, Rgba};
 use cosmorama::render::Plan;
 
-use crate::conversion::ConvertJob;
-use crate::coverage::Coverage;
+use crate::job::ConvertJob;
+use crate::job::coverage::Coverage;
 
 /// Energy balance of a job's pictures, for those that can and should keep light.
 #[cfg_attr(test, derive(Default))]

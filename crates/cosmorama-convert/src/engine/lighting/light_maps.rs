@@ -3,9 +3,9 @@ use cosmorama::lighting::{AllTexels, LightFigures, LightTree, LobeAverages};
 use cosmorama::raster::{Depth, Image, Rgba};
 use cosmorama::world::World;
 
-use crate::conversion::ConvertJob;
 use crate::diagnostic::{MISSING, Result, bail};
 use crate::engine::Texels;
+use crate::job::ConvertJob;
 use crate::settings::LightSettings;
 use crate::target::TargetView;
 

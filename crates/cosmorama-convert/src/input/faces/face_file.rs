@@ -5,10 +5,12 @@ use cosmorama_io::{FaceFile, Header};
 use cosmorama_spec::Cube;
 
 use crate::diagnostic::Result;
-use crate::input::canvas::{canvas_of, fits_canvas, lies_on_canvas, whole};
-use crate::input::faces::face_view::face_placement;
 use crate::input::find::header;
-use crate::input::{Access, EyePart, FacePicture, InputView, ViewFiles};
+use crate::input::{FacePicture, InputView};
+use crate::packing::EyePart;
+use crate::packing::canvas::{canvas_of, fits_canvas, lies_on_canvas, whole};
+use crate::packing::face_view::face_placement;
+use crate::source::{Access, ViewFiles};
 
 /// A face whose file has been probed.
 pub(crate) struct Face {

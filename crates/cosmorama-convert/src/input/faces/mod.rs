@@ -2,4 +2,3 @@
 
 pub(crate) mod face_file;
 pub(crate) mod face_shape;
-pub(crate) mod face_view;

@@ -11,8 +11,10 @@ use cosmorama_io::{PtoImage, PtoPanorama};
 use cosmorama_spec::{Shape, Single, Size, Spec, SphereSamples};
 
 use crate::diagnostic::{Code, Diagnostic, InPlace, Result, SIZE, TO, failure, usage};
-use crate::input::{Access, Input, InputView, Listed, Place, ViewFiles};
+use crate::input::{Input, InputView, Listed};
+use crate::packing::Place;
 use crate::settings::GeometrySettings;
+use crate::source::{Access, ViewFiles};
 
 /// Degrees over which pictures of a project blend.
 const FEATHER: f64 = 3.0;

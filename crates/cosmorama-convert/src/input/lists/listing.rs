@@ -1,9 +1,9 @@
 //! Views of worlds that list them, one by one.
 
-use crate::budget::MemoryBudget;
 use crate::diagnostic::{Diagnostic, Result};
+use crate::input::Input;
 use crate::input::lists::{hugin, world_file};
-use crate::input::{Access, DecodedPicture, Files, Input};
+use crate::source::{Access, DecodedPicture, Files, MemoryBudget};
 
 /// A view as a world file or a Hugin project lists it.
 pub struct Listed {

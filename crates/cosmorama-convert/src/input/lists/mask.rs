@@ -9,7 +9,8 @@ use cosmorama::world::{MaskShape, ViewMask};
 use cosmorama_io::Limits;
 
 use crate::diagnostic::{Result, bail};
-use crate::input::{Access, InputView, read};
+use crate::input::InputView;
+use crate::source::{Access, read};
 
 /// Least code value that counts as visible; 1 is white.
 const GREY: f32 = 0.5;

@@ -15,7 +15,8 @@ use crate::diagnostic::{
 };
 use crate::input::spec_files::calibration::read_calibrations;
 use crate::input::spec_files::st_map;
-use crate::input::{Access, Builtin, Input, InputView, Listed};
+use crate::input::{Builtin, Input, InputView, Listed};
+use crate::source::Access;
 
 /// A world file as written.
 #[derive(Deserialize)]

@@ -9,7 +9,7 @@ use cosmorama_io::Distortion;
 use cosmorama_spec::{CalibrationSpec, LensFamily, Shape, Single, Spec, SphereSamples, StMapBase};
 
 use crate::diagnostic::{ConvertError, Result, failure, usage};
-use crate::input::Access;
+use crate::source::Access;
 
 /// Reads the calibration of a SPEC, or of its `base=`. A SPEC without one is returned unchanged.
 ///

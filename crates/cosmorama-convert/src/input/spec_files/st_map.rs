@@ -8,12 +8,10 @@ use cosmorama_io::{Header, StPairs};
 use cosmorama_spec::{Shape, Single, Size, Spec, SphereSamples, StMapBase, StMapSpec};
 
 use crate::diagnostic::{Code, ConvertError, Diagnostic, FROM, Mark, Result, TO, failure, usage, usage_as};
-use crate::input::Access;
-use crate::input::ViewFiles;
-use crate::input::files::frames;
 use crate::input::lists::hugin;
 use crate::input::spec_files::calibration::read_calibrations;
 use crate::settings::GeometrySettings;
+use crate::source::{Access, ViewFiles, frames};
 
 /// Side of a conversion for which a map is given.
 #[derive(Clone, Copy, PartialEq, Eq)]

@@ -7,7 +7,9 @@ use cosmorama_io::Header;
 use cosmorama_spec::{Cube, Dual};
 
 use crate::diagnostic::{Code, FROM, Result, bail, failure, usage, usage_as};
-use crate::input::{InputView, Piece, Place, ViewFiles};
+use crate::input::InputView;
+use crate::packing::{Piece, Place};
+use crate::source::ViewFiles;
 
 /// Returns the faces of a cube in one image of a known layout.
 pub(crate) fn faces(files: &ViewFiles, path: &Path, header: &Header, cube: &Cube) -> Result<Vec<InputView>> {

@@ -3,10 +3,10 @@ use std::path::{Path, PathBuf};
 use cosmorama_io::{Format, IoError, Limits, probe, read};
 use rayon::prelude::*;
 
-use crate::budget::MemoryBudget;
 use crate::colour::Light;
 use crate::diagnostic::{Code, Diagnostic, RESUME};
-use crate::output::FrameOutputs;
+use crate::job::FrameOutputs;
+use crate::source::MemoryBudget;
 use crate::target::TargetFile;
 
 /// An output whose place holds something else than `--resume` expects.

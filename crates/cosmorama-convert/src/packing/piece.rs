@@ -5,7 +5,7 @@ use cosmorama::world::Blend;
 use cosmorama_spec::{Cube, Dual};
 
 use crate::diagnostic::Result;
-use crate::input::faces::face_view::face_placement;
+use crate::packing::face_view::face_placement;
 
 /// One of several pictures in one image.
 #[derive(Clone, Debug)]

@@ -3,7 +3,7 @@ use std::collections::BTreeSet;
 use cosmorama_io::{FrameList, FramePattern, Frames, IoError};
 
 use crate::diagnostic::{FRAMES, Result, bail, usage};
-use crate::input::ViewFiles;
+use crate::source::ViewFiles;
 
 /// Finds the frames to work on: the requested ones, or all that there are. `[None]` where there is no sequence.
 pub(crate) fn find(files: &ViewFiles, wanted: Option<&FrameList>) -> Result<Vec<Option<u64>>> {

@@ -8,16 +8,16 @@ use cosmorama_spec::Missing;
 
 use super::Content;
 use super::options::{check_file_options, filter};
-use crate::budget::MemoryBudget;
 use crate::colour::{Light, check_labels};
-use crate::coverage::{Coverage, whole_worlds};
 use crate::detect::unless_damaged;
 use crate::diagnostic::{Diagnostic, Result};
 use crate::engine::gathered_bytes;
+use crate::input::Input;
 use crate::input::spec_files::st_map::settled;
-use crate::input::{Access, DecodedPicture, Files, Input};
-use crate::output::Outputs;
+use crate::job::Outputs;
+use crate::job::coverage::{Coverage, whole_worlds};
 use crate::settings::{Conversion, LightSettings};
+use crate::source::{Access, DecodedPicture, Files, MemoryBudget};
 use crate::target::{Target, TargetView, of_light, shape_warning};
 
 /// A conversion, ready to run.

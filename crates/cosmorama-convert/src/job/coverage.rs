@@ -6,9 +6,9 @@ use cosmorama::sphere::Direction;
 use cosmorama::world::{Source, World, WorldView};
 use cosmorama_spec::{Missing, Size};
 
-use crate::budget::MemoryBudget;
 use crate::diagnostic::{Code, ConvertError, Diagnostic, MISSING, PITCH, ROLL, Result, YAW, bail, failed_as};
 use crate::input::{Input, InputView};
+use crate::source::MemoryBudget;
 use crate::target::{Target, TargetView};
 
 /// Treatment of pixels that look where no view does.

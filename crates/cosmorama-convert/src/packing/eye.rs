@@ -6,8 +6,9 @@ use cosmorama_io::{Header, Metadata};
 use cosmorama_spec::Size;
 
 use crate::diagnostic::{Code, ConvertError, FROM, Result, failure, usage, usage_as};
-use crate::input::pieces::packed::check_whole;
-use crate::input::{InputView, Place};
+use crate::input::InputView;
+use crate::input::packed::check_whole;
+use crate::packing::Place;
 
 /// An eye's part of a stereo image.
 #[derive(Clone, Copy, Debug)]

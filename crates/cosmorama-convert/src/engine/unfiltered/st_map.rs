@@ -7,10 +7,12 @@ use cosmorama::raster::{Depth, Image};
 use cosmorama::world::{ST_NOWHERE, StPixel};
 use cosmorama_io::{Header, WriteOptions, write_planes};
 
-use crate::conversion::{Checked, ConvertJob};
+use crate::conversion::Checked;
 use crate::diagnostic::{Result, ST_MAP, TO, bail};
 use crate::engine::{Stage, assemble};
-use crate::input::{Input, InputView, Place};
+use crate::input::{Input, InputView};
+use crate::job::ConvertJob;
+use crate::packing::Place;
 use crate::target::TargetView;
 
 /// Channel names of an st map, in order.

@@ -6,10 +6,10 @@ use cosmorama::raster::Rgba;
 use cosmorama_io::{Format, Header};
 use cosmorama_spec::MemorySize;
 
-use crate::budget::system_memory::{all_bytes, free_bytes};
-use crate::budget::{FrameMemory, QueueDepth};
 use crate::diagnostic::{FILTER, MEMORY, Result, bail};
 use crate::input::{Input, InputView};
+use crate::job::{FrameMemory, QueueDepth};
+use crate::source::system_memory::{all_bytes, free_bytes};
 use crate::target::{Sheet, Target};
 
 /// Limit of the memory that a conversion may use.

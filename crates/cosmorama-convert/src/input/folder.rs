@@ -6,7 +6,7 @@ use cosmorama_io::{FaceSet, Format, FoundFrames};
 
 use crate::detect::GivenFaces;
 use crate::diagnostic::{Code, Result, bail, usage_as};
-use crate::input::Files;
+use crate::source::Files;
 
 /// Greatest number of suggested patterns.
 const SHOWN: usize = 3;

@@ -10,8 +10,9 @@ use crate::diagnostic::{
     ANTI_RINGING, BACKGROUND, Code, DEPTH, Diagnostic, FILTER, FRAMES, FROM, IN_TRANSFER, KERNEL, MISSING, Mark,
     OUT_TRANSFER, OVERWRITE, RESUME, Result, ST_MAP, TRANSFER, usage, usage_as,
 };
-use crate::input::{Access, Builtin, Input, SAME_FOR_BOTH};
+use crate::input::{Builtin, Input, SAME_FOR_BOTH};
 use crate::settings::{Conversion, GeometrySettings};
+use crate::source::Access;
 use crate::target::{Target, TargetView};
 
 /// Source of the output's pixels.

@@ -6,9 +6,10 @@ use cosmorama::raster::{ColourMatrix, Depth, Image, Primaries, Threads};
 use cosmorama_builtin::{BuiltinWorld, DirectionMap, DirectionPixel};
 use cosmorama_io::{WriteOptions, write_planes};
 
-use crate::conversion::{Checked, ConvertJob};
+use crate::conversion::Checked;
 use crate::diagnostic::Result;
 use crate::engine::{Levels, Stage, Writer, assemble};
+use crate::job::ConvertJob;
 
 /// Makes a picture of a world by formula.
 pub(crate) fn picture(

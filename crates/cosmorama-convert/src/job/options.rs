@@ -6,7 +6,7 @@ use crate::diagnostic::{
     ANTI_RINGING, COMPRESSION, Code, Diagnostic, FILTER, IN_TRANSFER, KERNEL, OUT_TRANSFER, QUALITY, Result, TRANSFER,
     usage,
 };
-use crate::output::Outputs;
+use crate::job::Outputs;
 use crate::settings::{Conversion, GeometrySettings};
 
 /// Checks that every file option has an effect on this format; otherwise another format or option was intended.

@@ -11,7 +11,7 @@ use cosmorama_io::{
 };
 
 use super::decoded_picture::DecodedPicture;
-use crate::budget::MemoryBudget;
+use crate::source::MemoryBudget;
 
 /// Source of the bytes of inputs: disk, memory, an archive. Inputs are pictures, masks, st maps, calibrations, world files and
 /// Hugin projects. Patterns of frames and faces are always searched on disk.

@@ -3,12 +3,12 @@ use std::path::{Path, PathBuf};
 
 use cosmorama_io::pending::{NewFolders, Pending, Unfinished, place};
 
-use crate::budget::MemoryBudget;
 use crate::colour::Light;
 use crate::diagnostic::{Code, Diagnostic, FRAMES, OVERWRITE, RESUME, Result, bail, failure, usage, usage_as};
-use crate::input::{Input, ViewFiles};
-use crate::output::Remade;
+use crate::input::Input;
+use crate::job::Remade;
 use crate::settings::{Conversion, Existing, GeometrySettings};
+use crate::source::{MemoryBudget, ViewFiles};
 use crate::target::{Target, TargetFile};
 
 /// A frame with its outputs that are still to be made.

@@ -1,0 +1,17 @@
+//! A conversion resolved against its files: content, coverage, outputs, and what of them is to be made.
+
+mod content;
+mod convert_job;
+pub(crate) mod coverage;
+pub(crate) mod options;
+pub(crate) mod outputs;
+mod queue_depth;
+mod resume;
+
+pub use outputs::{check_apart, real_path, refuse_existing};
+pub use resume::Remade;
+
+pub(crate) use content::Content;
+pub(crate) use convert_job::{ConvertJob, Purpose};
+pub(crate) use outputs::{FrameOutputs, Outputs, files_read};
+pub(crate) use queue_depth::{FrameMemory, QueueDepth};

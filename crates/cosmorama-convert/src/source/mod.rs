@@ -1,0 +1,18 @@
+//! Sources of inputs: bytes and pictures, names by frame, and the memory that reading may take.
+
+pub(crate) mod access;
+pub(crate) mod decoded_picture;
+pub(crate) mod frames;
+pub(crate) mod memory_budget;
+pub(crate) mod system_memory;
+pub(crate) mod view_files;
+
+pub use access::{Disk, Files, InMemory, probe, read};
+pub use frames::existing as existing_frames;
+pub use memory_budget::MemoryBudget;
+pub use system_memory::peak_bytes;
+pub use view_files::ViewFiles;
+
+pub(crate) use access::{Access, read_in};
+pub(crate) use decoded_picture::DecodedPicture;
+pub(crate) use memory_budget::light_bytes;
