@@ -71,6 +71,38 @@ pub enum IoError {
         /// Kind of the pictures, in words.
         found: String,
     },
+    /// A file has no part of this name or number.
+    #[error("{}: no part is called {asked}; there are {existing}", path.display())]
+    NoSuchPart {
+        /// The file read.
+        path: PathBuf,
+        /// Part asked for.
+        asked: String,
+        /// Parts that there are.
+        existing: String,
+    },
+    /// A file has no channel of this name.
+    #[error("{}: no channel is called {asked}; there are {existing}", path.display())]
+    NoSuchChannel {
+        /// The file read.
+        path: PathBuf,
+        /// Name asked for, possibly of several.
+        asked: String,
+        /// Channels that there are.
+        existing: String,
+    },
+    /// A channel is named twice.
+    #[error("{}: {channel} is named twice, by {first} and by {second}; name it once", path.display())]
+    ChannelTwice {
+        /// The file read.
+        path: PathBuf,
+        /// Channel.
+        channel: String,
+        /// First name or pattern that names it.
+        first: String,
+        /// Second one.
+        second: String,
+    },
     /// The declared pixels do not fit into the permitted memory.
     #[error(
         "{}: {width}x{height} pixels, {channels}, depth {depth}, need {needed} bytes, \

@@ -46,10 +46,12 @@ pub use codec::{Compression, ReadSeek, WriteOptions};
 pub use error::IoError;
 pub use face_set::{FaceFile, FaceImages, FacePattern, FacePlacement, FaceSet, LetterCase, Naming};
 pub use file::{
-    StPairs, open, probe, probe_from, probe_pairs, probe_pairs_from, read, read_from, read_in, read_pairs,
-    read_pairs_from, write, write_hidden, write_levels, write_planes, write_to,
+    StPairs, open, probe, probe_chosen, probe_from, probe_pairs, probe_pairs_from, read, read_chosen, read_from, read_in,
+    read_layers, read_pairs, read_pairs_from, write, write_hidden, write_layers, write_levels, write_planes, write_to,
 };
-pub use header::{Format, Header, ImageFile};
+pub use header::{
+    Choice, FilePart, Format, Header, ImageFile, LayeredImage, Layers, NamedChannel, Plane, PlaneSamples, SampleKind,
+};
 pub use limits::Limits;
 pub use metadata::{EnvMap, Metadata, ProfileFault, Window};
 pub use pto::{PtoError, PtoImage, PtoPanorama, PtoProject};

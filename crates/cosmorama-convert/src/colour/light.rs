@@ -1,7 +1,7 @@
 use std::path::Path;
 
 use cosmorama::raster::{Channels, ColourMatrix, Depth, Primaries, Rgba, Transfer};
-use cosmorama_io::{Format, Header, Metadata};
+use cosmorama_io::{Format, Header, Layers, Metadata};
 use cosmorama_spec::{Missing, TransferName};
 
 use super::profile;
@@ -253,6 +253,7 @@ fn metadata(
         complaints: Vec::new(),
         notes: Vec::new(),
         other_channels: Vec::new(),
+        layers: Layers::default(),
         primaries: is_named.then_some(working.primaries),
         white_luminance: working.white.filter(|_| target.format == Format::Exr).map(|white| white as f32),
         orientation: None,

@@ -4,7 +4,7 @@ use std::path::Path;
 use cosmorama::raster::{EncodedImage, FramePool, Samples};
 
 use crate::header::{Header, ImageFile};
-use crate::{IoError, Limits, WriteOptions};
+use crate::{Choice, IoError, Limits, Plane, WriteOptions};
 
 /// Bytes of a file from any source: a file on disk, a slice of memory, or standard input read into memory.
 ///
@@ -57,6 +57,34 @@ pub(crate) trait Codec: Sync {
             [image] => self.encode(path, output, image, options),
             _ => Err(IoError::write(path, "the format holds one picture")),
         }
+    }
+
+    /// Reads the header of a file for the picture that a choice leaves.
+    fn probe_chosen(&self, path: &Path, source: Source<'_>, _choice: &Choice) -> Result<Header, IoError> {
+        self.probe(path, source)
+    }
+
+    /// Reads the pixels that a choice leaves.
+    fn decode_chosen(
+        &self,
+        path: &Path,
+        source: Source<'_>,
+        (limits, pool): (&Limits, &FramePool),
+        _choice: &Choice,
+    ) -> Result<ImageFile, IoError> {
+        self.decode(path, source, limits, pool)
+    }
+
+    /// Reads named channels beside the picture that a choice leaves; formats without names have none.
+    fn decode_planes(
+        &self,
+        path: &Path,
+        _source: Source<'_>,
+        _limits: &Limits,
+        (_, names): (&Choice, &[&str]),
+    ) -> Result<Vec<Plane>, IoError> {
+        let (asked, existing) = (names.join(", "), "none by name".to_owned());
+        Err(IoError::NoSuchChannel { path: path.to_owned(), asked, existing })
     }
 
     /// Reads the header of a file for the two channels of an st map.

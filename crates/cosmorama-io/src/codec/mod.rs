@@ -18,7 +18,7 @@ mod write_options;
 use std::io::Read;
 use std::path::Path;
 
-pub(crate) use exr::write_planes;
+pub(crate) use exr::{write_layers, write_planes};
 pub use interface::ReadSeek;
 pub(crate) use interface::{Codec, Source};
 pub use write_options::{Compression, WriteOptions};

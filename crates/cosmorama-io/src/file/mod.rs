@@ -4,6 +4,6 @@ mod read;
 mod st_pairs;
 mod write;
 
-pub use read::{open, probe, probe_from, read, read_from, read_in};
+pub use read::{open, probe, probe_chosen, probe_from, read, read_chosen, read_from, read_in, read_layers};
 pub use st_pairs::{StPairs, probe_pairs, probe_pairs_from, read_pairs, read_pairs_from};
-pub use write::{write, write_hidden, write_levels, write_planes, write_to};
+pub use write::{write, write_hidden, write_layers, write_levels, write_planes, write_to};

@@ -6,7 +6,7 @@ use cosmorama::raster::FramePool;
 
 use crate::codec::{codec, recognise};
 use crate::header::{Header, ImageFile};
-use crate::{IoError, Limits};
+use crate::{Choice, IoError, Limits, Plane};
 
 /// Number of bytes that are read from a file at once.
 const BUFFER: usize = 1 << 16;
@@ -105,6 +105,51 @@ pub fn read_in(
     let name = name.as_ref();
     let format = recognise(name, &mut source)?;
     codec(format).decode(name, &mut source, limits, pool)
+}
+
+/// Reads the header of a file like [`probe_from`], for the picture that a choice leaves.
+///
+/// # Errors
+/// When [`probe_from`] fails, or the file has no such part or channels.
+pub fn probe_chosen(
+    mut source: impl BufRead + Seek,
+    name: impl AsRef<Path>,
+    choice: &Choice,
+) -> Result<Header, IoError> {
+    let name = name.as_ref();
+    let format = recognise(name, &mut source)?;
+    codec(format).probe_chosen(name, &mut source, choice)
+}
+
+/// Reads the picture that a choice leaves of a file, like [`read_in`].
+///
+/// # Errors
+/// When [`read_in`] fails, or the file has no such part or channels.
+pub fn read_chosen(
+    mut source: impl BufRead + Seek,
+    name: impl AsRef<Path>,
+    memory: (&Limits, &FramePool),
+    choice: &Choice,
+) -> Result<ImageFile, IoError> {
+    let name = name.as_ref();
+    let format = recognise(name, &mut source)?;
+    codec(format).decode_chosen(name, &mut source, memory, choice)
+}
+
+/// Reads channels by their full names, each in its own sample type, from the part whose picture a choice leaves. They have that
+/// picture's size.
+///
+/// # Errors
+/// When the file cannot be read, has no such part or channels, or needs more memory than `limits` allow.
+pub fn read_layers(
+    mut source: impl BufRead + Seek,
+    name: impl AsRef<Path>,
+    limits: &Limits,
+    (choice, channels): (&Choice, &[&str]),
+) -> Result<Vec<Plane>, IoError> {
+    let name = name.as_ref();
+    let format = recognise(name, &mut source)?;
+    codec(format).decode_planes(name, &mut source, limits, (choice, channels))
 }
 
 /// Opens a file for reading.

@@ -3,10 +3,10 @@ use std::path::Path;
 
 use cosmorama::raster::{Depth, EncodedImage};
 
-use crate::codec::{codec, write_planes as encode_planes};
+use crate::codec::{codec, write_layers as encode_layers, write_planes as encode_planes};
 use crate::header::Format;
 use crate::pending::{Hidden, Pending};
-use crate::{IoError, WriteOptions};
+use crate::{IoError, LayeredImage, WriteOptions};
 
 /// Writes a file in the format of its extension. It appears whole or not at all: an older file of the same name is
 /// replaced only when the new one is complete.
@@ -106,6 +106,51 @@ pub fn write_planes(
     }
     let mut pending = Pending::create(path, &options.unfinished)?;
     encode_planes(path, pending.writer(), size, planes, depth, options)?;
+    pending.finish()
+}
+
+/// Writes a picture with named channels beside it, or such channels alone, like [`write()`].
+///
+/// ```
+/// use cosmorama::raster::{Channels, Depth, EncodedImage, Samples};
+/// use cosmorama_io::{
+///     Choice, LayeredImage, Limits, Plane, PlaneSamples, WriteOptions, open, probe, read_layers, write_layers,
+/// };
+///
+/// let folder = tempfile::tempdir()?;
+/// let path = folder.path().join("layers.exr");
+/// let image = EncodedImage::new(2, 1, Channels::Rgb, Depth::Float, Samples::Float(vec![0.5; 6]))?;
+/// let id = Plane { name: "id".to_owned(), samples: PlaneSamples::Uint(vec![7, 9]) };
+/// let layered = LayeredImage { size: (2, 1), picture: Some(&image), names: Vec::new(), planes: vec![id.clone()] };
+/// write_layers(&path, layered, &WriteOptions::default())?;
+///
+/// assert_eq!(probe(&path)?.metadata.layers.further[0].name, "id");
+/// let read = read_layers(open(&path)?, &path, &Limits::default(), (&Choice::default(), &["id"]))?;
+/// assert_eq!(read, [id]);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+/// When the extension is not OpenEXR's, the only format with named channels; when the format cannot hold the picture; when a
+/// channel has another number of samples than the picture; or when the file cannot be written.
+pub fn write_layers(path: impl AsRef<Path>, layered: LayeredImage<'_>, options: &WriteOptions) -> Result<(), IoError> {
+    let path = path.as_ref();
+    let format = Format::from_extension(path)?;
+    let cannot_hold =
+        |found: String, expected: String| Err(IoError::CannotHold { path: path.to_owned(), format, found, expected });
+    if format != Format::Exr {
+        return cannot_hold(format!("{} named channels", layered.planes.len()), "a picture; OpenEXR holds more".to_owned());
+    }
+    if let Some(image) = layered.picture {
+        check_can_hold(path, format, image)?;
+    }
+    let (width, height) = layered.size;
+    let count = width.checked_mul(height);
+    if let Some(plane) = layered.planes.iter().find(|plane| count != Some(plane.samples.len())) {
+        return cannot_hold(format!("{} samples in {}", plane.samples.len(), plane.name), format!("{width}x{height}"));
+    }
+    let mut pending = Pending::create(path, &options.unfinished)?;
+    encode_layers(path, pending.writer(), layered, options)?;
     pending.finish()
 }
 

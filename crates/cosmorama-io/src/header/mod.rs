@@ -1,10 +1,18 @@
 //! Headers of files, and file formats.
 
+mod choice;
 mod format;
+mod layers;
+mod plane;
 
 use cosmorama::raster::{Channels, Depth, EncodedImage, Image, Rgba, Transfer};
 
+pub use choice::Choice;
 pub use format::Format;
+pub use layers::{FilePart, Layers, NamedChannel, SampleKind};
+pub use plane::{LayeredImage, Plane, PlaneSamples};
+
+pub(crate) use choice::matches;
 
 use crate::metadata::{Metadata, Window};
 

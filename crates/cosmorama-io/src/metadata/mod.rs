@@ -9,6 +9,8 @@ use std::borrow::Cow;
 
 use cosmorama::raster::{EncodedImage, Primaries, Transfer};
 
+use crate::Layers;
+
 /// Metadata of a file about its pixels, of which the parts that apply are carried from input to output.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Metadata {
@@ -28,6 +30,8 @@ pub struct Metadata {
     pub notes: Vec<String>,
     /// Names of channels that are not read.
     pub other_channels: Vec<String>,
+    /// Channels beside the picture's, and parts, of formats that name them.
+    pub layers: Layers,
     /// Primaries of the pixels; `None` if the file does not name them. In a PNG, cICP, iCCP and sRGB take precedence
     /// over cHRM.
     pub primaries: Option<Primaries>,

@@ -9,6 +9,7 @@ mod face_sets;
 mod hostile;
 mod interop;
 mod interrupt;
+mod layers;
 mod pto;
 mod real_files;
 mod round_trips;

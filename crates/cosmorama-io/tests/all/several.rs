@@ -1,7 +1,6 @@
 //! Several pictures in one file: an error that counts them, unless those behind the first are previews or padding.
 
 use std::io::Cursor;
-use std::path::Path;
 
 use cosmorama::raster::{Channels, Depth, EncodedImage, Image, Rgba, Samples, Transfer};
 use cosmorama_io::{Format, ImageFile, IoError, Limits, WriteOptions, probe_from, read_from, write_to};
@@ -119,21 +118,4 @@ fn pages_are_counted_and_copies_of_one_are_not() {
     let odd = pages(&[(20, 10, 0), (3, 5, 0)]);
     assert_eq!(read(&odd).unwrap().image.width(), 20);
     assert_eq!(probe_from(Cursor::new(&odd), "in memory").unwrap().metadata.notes.len(), 1);
-}
-
-#[test]
-fn parts_with_pictures_are_counted() {
-    use exr::prelude::*;
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("parts.exr");
-    let layer = |name: &str| {
-        let channels = SpecificChannels::rgb(|_: Vec2<usize>| (0.5_f32, 0.25_f32, 1.0_f32));
-        Layer::new((4, 2), LayerAttributes::named(name), Encoding::UNCOMPRESSED, channels)
-    };
-    let image = Image::empty(ImageAttributes::new(IntegerBounds::from_dimensions((4, 2))));
-    image.with_layer(layer("left")).with_layer(layer("right")).write().to_file(&path).unwrap();
-    let bytes = std::fs::read(&path).unwrap();
-    assert_counts(&bytes, 2);
-    let error = cosmorama_io::probe(Path::new(&path)).unwrap_err().to_string();
-    assert!(error.contains("left, right"), "{error}");
 }

@@ -2,6 +2,8 @@
 
 mod colour;
 mod dwa;
+mod offer;
+mod planes;
 mod reader;
 mod selection;
 mod window;
@@ -13,9 +15,9 @@ use cosmorama::raster::{EncodedImage, FramePool};
 
 use crate::codec::interface::{Codec, Sink, Source};
 use crate::header::{Header, ImageFile};
-use crate::{IoError, Limits, WriteOptions};
+use crate::{Choice, IoError, Limits, Plane, WriteOptions};
 
-pub(crate) use writer::write_planes;
+pub(crate) use writer::{write_layers, write_planes};
 
 /// Codec of OpenEXR.
 pub(crate) struct Exr;
@@ -26,11 +28,11 @@ impl Codec for Exr {
     }
 
     fn probe(&self, path: &Path, source: Source<'_>) -> Result<Header, IoError> {
-        reader::probe(path, source)
+        reader::probe(path, source, &Choice::default())
     }
 
     fn decode(&self, path: &Path, source: Source<'_>, limits: &Limits, pool: &FramePool) -> Result<ImageFile, IoError> {
-        reader::read(path, source, limits, pool)
+        reader::read(path, source, (limits, pool), &Choice::default())
     }
 
     fn encode(
@@ -41,6 +43,30 @@ impl Codec for Exr {
         options: &WriteOptions,
     ) -> Result<(), IoError> {
         writer::write(path, output, image, options)
+    }
+
+    fn probe_chosen(&self, path: &Path, source: Source<'_>, choice: &Choice) -> Result<Header, IoError> {
+        reader::probe(path, source, choice)
+    }
+
+    fn decode_chosen(
+        &self,
+        path: &Path,
+        source: Source<'_>,
+        memory: (&Limits, &FramePool),
+        choice: &Choice,
+    ) -> Result<ImageFile, IoError> {
+        reader::read(path, source, memory, choice)
+    }
+
+    fn decode_planes(
+        &self,
+        path: &Path,
+        source: Source<'_>,
+        limits: &Limits,
+        wanted: (&Choice, &[&str]),
+    ) -> Result<Vec<Plane>, IoError> {
+        planes::read_planes(path, source, limits, wanted)
     }
 
     fn probe_pairs(&self, path: &Path, source: Source<'_>) -> Result<Header, IoError> {

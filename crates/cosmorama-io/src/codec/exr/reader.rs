@@ -15,11 +15,12 @@ use rayon::prelude::*;
 
 use super::colour;
 use super::dwa;
+use super::offer::Offer;
 use super::selection::Selection;
 use super::window::Crop;
 use crate::codec::behind::{count_marks, next_bytes, skip_padding};
 use crate::codec::interface::{Source, is_beside_others, whole_image};
-use crate::{EnvMap, Format, Header, ImageFile, IoError, Limits, Metadata};
+use crate::{Choice, EnvMap, Format, Header, ImageFile, IoError, Limits, Metadata};
 
 const FORMAT: Format = Format::Exr;
 
@@ -34,49 +35,71 @@ const BATCH: usize = 64;
 /// Bytes of these chunks together; a single chunk may have more.
 const BATCH_BYTES: u128 = 1 << 26;
 
-pub(crate) fn probe(path: &Path, source: Source<'_>) -> Result<Header, IoError> {
+/// Reads a file's header for its picture, and for what a choice leaves beside it.
+pub(crate) fn probe(path: &Path, source: Source<'_>, choice: &Choice) -> Result<Header, IoError> {
     let reader = open(path, source)?;
-    Ok(announce(path, reader.headers(), PICTURE)?.0)
+    Ok(announce(path, reader.headers(), Wanted::Picture(choice))?.0)
 }
 
 /// Reads a file's header for the two channels of its st map.
 pub(crate) fn probe_pairs(path: &Path, source: Source<'_>) -> Result<Header, IoError> {
     let reader = open(path, source)?;
-    Ok(announce(path, reader.headers(), PAIR)?.0)
+    Ok(announce(path, reader.headers(), Wanted::Pair)?.0)
 }
 
 /// Reads the first part that holds a picture, at its largest resolution.
-pub(crate) fn read(path: &Path, source: Source<'_>, limits: &Limits, pool: &FramePool) -> Result<ImageFile, IoError> {
-    read_selected(path, source, (limits, pool), PICTURE)
+pub(crate) fn read(
+    path: &Path,
+    source: Source<'_>,
+    memory: (&Limits, &FramePool),
+    choice: &Choice,
+) -> Result<ImageFile, IoError> {
+    read_selected(path, source, memory, Wanted::Picture(choice))
 }
 
 /// Reads the two channels of an st map as an image of two channels.
 pub(crate) fn read_pairs(path: &Path, source: Source<'_>, limits: &Limits) -> Result<ImageFile, IoError> {
-    read_selected(path, source, (limits, &FramePool::default()), PAIR)
+    read_selected(path, source, (limits, &FramePool::default()), Wanted::Pair)
 }
 
-/// Selection of channels.
+/// Channels to select.
 #[derive(Clone, Copy)]
-struct Wanted {
-    /// Selects channels; the error describes what was found instead.
-    select: fn(&[Part]) -> Result<Selection, String>,
-    /// Expected channels, for messages.
-    expected: &'static str,
+pub(super) enum Wanted<'a> {
+    /// A picture, of what a choice leaves.
+    Picture(&'a Choice),
+    /// The two channels of an st map.
+    Pair,
 }
 
-const PICTURE: Wanted =
-    Wanted { select: Selection::of, expected: "RGB or Y channels, with or without A, of half or float samples" };
+impl Wanted<'_> {
+    fn select(self, path: &Path, parts: &[Part]) -> Result<Selection, IoError> {
+        let (selected, expected) = match self {
+            Self::Picture(choice) => {
+                let offers = Offer::chosen(path, parts, choice)?;
+                let picture = Selection::of(parts, &offers);
+                let selected = match picture {
+                    Err(found) if choice.without_picture => Selection::stand_in(parts, &offers, found),
+                    picture => picture,
+                };
+                (selected, PICTURE)
+            }
+            Self::Pair => (Selection::pair(parts), PAIR),
+        };
+        selected.map_err(|found| IoError::unsupported(path, FORMAT, found, expected))
+    }
+}
 
-const PAIR: Wanted = Wanted {
-    select: Selection::pair,
-    expected: "the two channels of an st map, of half or float samples: R and G, u and v, s and t or x and y",
-};
+/// Channels of a picture, for messages.
+const PICTURE: &str = "RGB or Y channels, with or without A, of half or float samples";
+
+/// Channels of an st map, for messages.
+const PAIR: &str = "the two channels of an st map, of half or float samples: R and G, u and v, s and t or x and y";
 
 fn read_selected(
     path: &Path,
     source: Source<'_>,
     (limits, pool): (&Limits, &FramePool),
-    wanted: Wanted,
+    wanted: Wanted<'_>,
 ) -> Result<ImageFile, IoError> {
     let reader = open(path, &mut *source)?;
     let (header, selection, crop) = announce(path, reader.headers(), wanted)?;
@@ -125,7 +148,7 @@ fn check_limits(path: &Path, part: &Part, header: &Header, limits: &Limits) -> R
 }
 
 /// Returns the bytes of the largest block, with all channels.
-fn block_bytes(part: &Part) -> u128 {
+pub(super) fn block_bytes(part: &Part) -> u128 {
     let (width, height) = (part.layer_size.width(), part.layer_size.height());
     let (columns, rows) = match part.blocks {
         BlockDescription::Tiles(tiles) => (tiles.tile_size.width().min(width), tiles.tile_size.height().min(height)),
@@ -135,7 +158,7 @@ fn block_bytes(part: &Part) -> u128 {
     (columns as u128 * rows as u128).saturating_mul(pixel as u128)
 }
 
-fn open<'a>(path: &Path, source: Source<'a>) -> Result<Reader<Source<'a>>, IoError> {
+pub(super) fn open<'a>(path: &Path, source: Source<'a>) -> Result<Reader<Source<'a>>, IoError> {
     let strictly = has_wrong_count(source).map_err(|error| IoError::open(path, error))?;
     exr::block::read(source, strictly).map_err(|error| damaged(path, error))
 }
@@ -152,7 +175,7 @@ fn has_wrong_count(source: Source<'_>) -> io::Result<bool> {
     Ok(has)
 }
 
-fn damaged(path: &Path, error: Error) -> IoError {
+pub(super) fn damaged(path: &Path, error: Error) -> IoError {
     match error {
         Error::NotSupported(found) => IoError::unsupported(path, FORMAT, found, "flat images"),
         Error::Io(error) => IoError::open(path, error),
@@ -161,17 +184,12 @@ fn damaged(path: &Path, error: Error) -> IoError {
 }
 
 /// Chooses the part and the channels to read, and returns their header.
-fn announce(path: &Path, parts: &[Part], wanted: Wanted) -> Result<(Header, Selection, Crop), IoError> {
-    let selection =
-        (wanted.select)(parts).map_err(|found| IoError::unsupported(path, FORMAT, found, wanted.expected))?;
-    if selection.alike > 1 {
-        return Err(IoError::several(
-            path,
-            FORMAT,
-            selection.alike,
-            format_args!("parts with a picture{}", named(parts)),
-        ));
-    }
+pub(super) fn announce(
+    path: &Path,
+    parts: &[Part],
+    wanted: Wanted<'_>,
+) -> Result<(Header, Selection, Crop), IoError> {
+    let selection = wanted.select(path, parts)?;
     let part = &parts[selection.part];
     let crop = Crop::of(part).ok_or_else(|| {
         IoError::unsupported(path, FORMAT, "no pixels inside the display window", "a picture in the display window")
@@ -184,6 +202,7 @@ fn announce(path: &Path, parts: &[Part], wanted: Wanted) -> Result<(Header, Sele
             EnvironmentMap::Cube => EnvMap::Cube,
         }),
         other_channels: selection.others.clone(),
+        layers: selection.layers.clone(),
         software: own.software_name.as_ref().map(ToString::to_string),
         ..Metadata::default()
     };
@@ -200,13 +219,6 @@ fn announce(path: &Path, parts: &[Part], wanted: Wanted) -> Result<(Header, Sele
     Ok((header, selection, crop))
 }
 
-/// Returns the names of parts, as far as they have any.
-fn named(parts: &[Part]) -> String {
-    let names: Vec<String> =
-        parts.iter().filter_map(|part| Some(part.own_attributes.layer_name.as_ref()?.to_string())).collect();
-    if names.is_empty() { String::new() } else { format!(" among {}", names.join(", ")) }
-}
-
 /// Reads the samples of a line of one channel and passes each, with its column, to a callback.
 type ReadLine<S> = fn(&LineRef<'_>, SampleType, &mut dyn FnMut(usize, S)) -> Result<(), Error>;
 
@@ -217,6 +229,9 @@ fn half_line(line: &LineRef<'_>, _: SampleType, put: &mut dyn FnMut(usize, f16))
 fn float_line(line: &LineRef<'_>, stored: SampleType, put: &mut dyn FnMut(usize, f32)) -> Result<(), Error> {
     match stored {
         SampleType::F16 => half_line(line, stored, &mut |i, sample| put(i, sample.to_f32())),
+        SampleType::U32 => {
+            line.read_samples::<u32>().enumerate().try_for_each(|(i, sample)| sample.map(|s| put(i, s as f32)))
+        }
         _ => line.read_samples::<f32>().enumerate().try_for_each(|(i, sample)| sample.map(|sample| put(i, sample))),
     }
 }
@@ -229,19 +244,31 @@ fn pixels<S: Sample>(
     read_line: ReadLine<S>,
     mut samples: Vec<S>,
 ) -> Result<Vec<S>, Error> {
+    each_block(reader, selection.part, |block, part| {
+        insert(block, part, selection, crop, read_line, &mut samples)
+    })?;
+    Ok(samples)
+}
+
+/// Decompresses the blocks of a part, at its largest resolution, and calls `visit` with each.
+pub(super) fn each_block(
+    reader: Reader<Source<'_>>,
+    part: usize,
+    mut visit: impl FnMut(&UncompressedBlock, &Part) -> Result<(), Error>,
+) -> Result<(), Error> {
     let wanted = |_: &MetaData, tile: TileCoordinates, block: BlockIndex| {
-        block.layer == selection.part && tile.is_largest_resolution_level()
+        block.layer == part && tile.is_largest_resolution_level()
     };
-    let block_bytes = block_bytes(&reader.headers()[selection.part]).max(1);
+    let block_bytes = block_bytes(&reader.headers()[part]).max(1);
     let mut chunks = reader.filter_chunks(false, wanted)?;
     let batch_size = BATCH.min((BATCH_BYTES / block_bytes).clamp(1, BATCH as u128) as usize);
     loop {
         let batch = chunks.by_ref().take(batch_size).collect::<Result<Vec<Chunk>, Error>>()?;
         if batch.is_empty() {
-            return Ok(samples);
+            return Ok(());
         }
         let meta = chunks.meta_data();
-        let compression = meta.headers[selection.part].compression;
+        let compression = meta.headers[part].compression;
         if !batch.iter().all(|chunk| dwa::is_plausible(chunk, compression, block_bytes)) {
             return Err(Error::Invalid("a chunk larger than its block".into()));
         }
@@ -252,7 +279,7 @@ fn pixels<S: Sample>(
             batch.into_par_iter().map(decompress).collect()
         };
         for block in blocks? {
-            insert(&block, &meta.headers[selection.part], selection, crop, read_line, &mut samples)?;
+            visit(&block, &meta.headers[part])?;
         }
     }
 }

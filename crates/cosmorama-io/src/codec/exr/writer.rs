@@ -12,7 +12,7 @@ use half::f16;
 
 use super::colour;
 use crate::codec::interface::is_beside_others;
-use crate::{Compression, EnvMap, IoError, WriteOptions};
+use crate::{Compression, EnvMap, IoError, LayeredImage, Plane, PlaneSamples, WriteOptions};
 
 /// Writes scan lines of premultiplied light, as the format requires.
 pub(crate) fn write(
@@ -21,18 +21,48 @@ pub(crate) fn write(
     image: &EncodedImage,
     options: &WriteOptions,
 ) -> Result<(), IoError> {
-    let names: &[&str] = match image.channels() {
+    save(path, output, (image.width(), image.height()), picture(path, image, &[], options)?, options)
+}
+
+/// Writes a picture with named channels beside it.
+pub(crate) fn write_layers(
+    path: &Path,
+    output: impl Write + Seek,
+    layered: LayeredImage<'_>,
+    options: &WriteOptions,
+) -> Result<(), IoError> {
+    let LayeredImage { size, picture: image, names, planes } = layered;
+    let mut list = match image {
+        Some(image) => picture(path, image, &names, options)?,
+        None => Planes::new(),
+    };
+    for Plane { name, samples } in planes {
+        let samples = match samples {
+            PlaneSamples::Half(samples) => FlatSamples::F16(samples),
+            PlaneSamples::Float(samples) => FlatSamples::F32(samples),
+            PlaneSamples::Uint(samples) => FlatSamples::U32(samples),
+        };
+        let name = Text::from(name.as_str());
+        if list.iter().all(|channel| channel.name != name) {
+            list.push(AnyChannel::new(name, samples));
+        }
+    }
+    save(path, output, size, list, options)
+}
+
+/// Channels of a file.
+type Planes = SmallVec<[AnyChannel<FlatSamples>; 4]>;
+
+/// Returns the channels of a picture, by these names or by the usual ones.
+fn picture(path: &Path, image: &EncodedImage, names: &[String], options: &WriteOptions) -> Result<Planes, IoError> {
+    let usual: &[&str] = match image.channels() {
         Channels::Grey => &["Y"],
         Channels::GreyAlpha => &["Y", "A"],
         Channels::Rgb => &["R", "G", "B"],
         Channels::Rgba => &["R", "G", "B", "A"],
     };
-    let list: SmallVec<[AnyChannel<FlatSamples>; 4]> = names
-        .iter()
-        .enumerate()
-        .map(|(i, name)| Ok(AnyChannel::new(*name, plane(path, image, i, &options.pool)?)))
-        .collect::<Result<_, IoError>>()?;
-    save(path, output, (image.width(), image.height()), list, options)
+    let name = |i: usize| names.get(i).map_or(usual[i], String::as_str);
+    (0..usual.len()).map(|i| Ok(AnyChannel::new(name(i), plane(path, image, i, &options.pool)?))).collect()
 }
 
 /// Writes named planes of numbers, as halves or as floats.
@@ -56,7 +86,7 @@ fn save(
     path: &Path,
     output: impl Write + Seek,
     size: (usize, usize),
-    list: SmallVec<[AnyChannel<FlatSamples>; 4]>,
+    list: Planes,
     options: &WriteOptions,
 ) -> Result<(), IoError> {
     let packing = match options.compression {
