@@ -8,6 +8,7 @@ use cosmorama_io::pending::Unfinished;
 use cosmorama_io::{Compression, FrameList};
 use cosmorama_spec::{FilterName, KernelName, MemorySize, Missing, Size, Spec, TransferName};
 
+use crate::colour::{DepthKind, NormalSpace};
 use crate::source::{Disk, Files};
 
 /// Settings of a conversion from an input, in any form, to pictures of another projection.
@@ -49,6 +50,12 @@ pub struct Conversion {
     pub in_primaries: Option<Primaries>,
     /// Whether ICC profiles of inputs are ignored.
     pub ignore_profile: bool,
+    /// Part of the input's OpenEXR files, by name or by number from 0; the first with a picture, unless given.
+    pub part: Option<String>,
+    /// Channels of the input's OpenEXR files, in which `*` stands for any letters; all, unless given.
+    pub channels: Vec<String>,
+    /// Treatment of channels that hold no light.
+    pub layers: LayerSettings,
     /// Sample type of the output; the input's, where the format can hold it, unless given.
     pub depth: Option<Depth>,
     /// Light of pixels outside the lens; black, or transparent if the output has alpha, unless given.
@@ -126,6 +133,15 @@ impl LightSettings {
     }
 }
 
+/// Treatment of channels that hold no light. The rule for labels is a filter's.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct LayerSettings {
+    /// Kind of the input's depth; by its projection, unless given.
+    pub depth: Option<DepthKind>,
+    /// Frame of normals; the world's, unless given.
+    pub normals: Option<NormalSpace>,
+}
+
 /// Treatment of outputs that exist already.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Existing {
@@ -176,6 +192,9 @@ impl Default for Conversion {
             primaries: None,
             in_primaries: None,
             ignore_profile: false,
+            part: None,
+            channels: Vec::new(),
+            layers: LayerSettings::default(),
             depth: None,
             background: None,
             missing: Missing::Error,

@@ -46,8 +46,9 @@ pub use codec::{Compression, ReadSeek, WriteOptions};
 pub use error::IoError;
 pub use face_set::{FaceFile, FaceImages, FacePattern, FacePlacement, FaceSet, LetterCase, Naming};
 pub use file::{
-    StPairs, open, probe, probe_chosen, probe_from, probe_pairs, probe_pairs_from, read, read_chosen, read_from, read_in,
-    read_layers, read_pairs, read_pairs_from, write, write_hidden, write_layers, write_levels, write_planes, write_to,
+    StPairs, open, probe, probe_chosen, probe_from, probe_pairs, probe_pairs_from, read, read_chosen, read_from,
+    read_in, read_layers, read_pairs, read_pairs_from, write, write_hidden, write_layers, write_levels, write_planes,
+    write_to,
 };
 pub use header::{
     Choice, FilePart, Format, Header, ImageFile, LayeredImage, Layers, NamedChannel, Plane, PlaneSamples, SampleKind,

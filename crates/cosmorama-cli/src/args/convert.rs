@@ -1,5 +1,6 @@
-use clap::builder::NonEmptyStringValueParser;
+use clap::builder::{NonEmptyStringValueParser, PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueHint};
+use cosmorama_convert::{DepthKind, NormalSpace};
 use cosmorama_io::FrameList;
 use cosmorama_spec::{
     Colour, CompressionLevel, DepthName, FrameRanges, FrameRangesError, MemorySize, Missing, PrimariesName,
@@ -14,7 +15,7 @@ use super::parse::listed;
 use super::{SEE_MORE, projections, with_examples};
 
 /// Example commands in its help.
-pub(super) const EXAMPLES: [&str; 10] = [
+pub(super) const EXAMPLES: [&str; 11] = [
     "cosmorama convert 'faces/{face}.png' dome.png --to omnimax --size 1966x1436",
     "cosmorama convert '%c/%c_%04d.tga' 'dome_####.png' --to fulldome:tilt=20",
     "cosmorama convert panorama.jpg view.png --to perspective:fov=60 --yaw 30",
@@ -23,6 +24,7 @@ pub(super) const EXAMPLES: [&str; 10] = [
     "cosmorama convert builtin:grid align.png --to fulldome --size 4k",
     "cosmorama convert a.jpg flat.png --from fisheye:calibration=cam.yml --to flat",
     "cosmorama convert project.pto panorama.png",
+    "cosmorama convert 'cube/{face}.exr' dome.exr --to fulldome --channels 'R,G,B,diffuse.*,Z'",
     "cosmorama convert panorama.exr map.exr --to fulldome --size 2048 --st-map",
     "cosmorama convert plate.exr undistorted.exr --from st-map:file=undistort.exr",
 ];
@@ -74,6 +76,28 @@ pub(crate) struct ConvertArgs {
     /// For a profile that is damaged, or holds tables of colours, which are not followed.
     #[arg(long, hide_short_help = true, help_heading = "Light")]
     pub(crate) ignore_profile: bool,
+    /// OpenEXR: the channels to take, as in 'R,G,B,diffuse.*' [default: all]
+    ///
+    /// Names in which * stands for any letters. All that are taken go into OpenEXR outputs, under their names and in their sample
+    /// types, each by the rule for what it holds: light is filtered; depth and normals see below; channels of integers, cryptomatte
+    /// and those named id take one texel's value (--labels). The first layer of colour among them is the picture.
+    #[arg(long, value_name = "LIST", value_parser = NonEmptyStringValueParser::new(), value_delimiter = ',', hide_short_help = true, help_heading = "Channels")]
+    pub(crate) channels: Vec<String>,
+    /// OpenEXR: the part to read of files of several, by name or number from 0 [default: the first picture]
+    #[arg(long, value_name = "N", value_parser = NonEmptyStringValueParser::new(), hide_short_help = true, help_heading = "Channels")]
+    pub(crate) part: Option<String>,
+    /// What the input's depth is: planar (from the camera's plane) or radial (from the camera) [default: by its projection]
+    ///
+    /// Unless given, that of flat views and cube faces is planar, with a warning, and that of others radial. It is written as planar
+    /// in flat outputs, and as radial in others.
+    #[arg(long, value_name = "KIND", value_parser = depth_kind(), hide_short_help = true, help_heading = "Channels")]
+    pub(crate) depth_kind: Option<DepthKind>,
+    /// Turn normals from the input's views to the output's
+    ///
+    /// For normals in each view's own frame: x to the right, y up, z to the viewer. Without it, or as --normals=world, they are in the
+    /// world's frame, and no view turns them.
+    #[arg(long, value_name = "FRAME", num_args = 0..=1, require_equals = true, default_missing_value = "camera", value_parser = normals(), hide_short_help = true, help_heading = "Channels")]
+    pub(crate) normals: Option<NormalSpace>,
     /// Output sample type [default: as the input]
     ///
     /// Unless given, it is as the input's, where the format can.
@@ -141,6 +165,18 @@ pub(crate) struct LimitArgs {
     /// As in 500M, 8G or 50%; never more than there is. Unless given, three quarters of what is free.
     #[arg(long, value_name = "SIZE", allow_hyphen_values = true, help_heading = "Run")]
     pub(crate) memory: Option<MemorySize>,
+}
+
+/// Reads the kind of a depth.
+fn depth_kind() -> impl TypedValueParser<Value = DepthKind> {
+    let kind = |word: String| if word == "planar" { DepthKind::Planar } else { DepthKind::Radial };
+    PossibleValuesParser::new(["planar", "radial"]).map(kind)
+}
+
+/// Reads the frame of normals.
+fn normals() -> impl TypedValueParser<Value = NormalSpace> {
+    let frame = |word: String| if word == "world" { NormalSpace::World } else { NormalSpace::Camera };
+    PossibleValuesParser::new(["world", "camera"]).map(frame)
 }
 
 /// Reads a list of frames.

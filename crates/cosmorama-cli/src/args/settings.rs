@@ -3,7 +3,7 @@
 use cosmorama::filter::FilterKind;
 use cosmorama::raster::Depth;
 use cosmorama::sphere::{Angle, Orientation};
-use cosmorama_convert::{Conversion, Existing, ExplanationSettings, GeometrySettings, LimitSettings};
+use cosmorama_convert::{Conversion, Existing, ExplanationSettings, GeometrySettings, LayerSettings, LimitSettings};
 use cosmorama_io::Compression;
 use cosmorama_spec::{CompressionLevel, FilterName};
 
@@ -24,6 +24,9 @@ impl From<ConvertArgs> for Conversion {
             primaries: args.primaries.map(|name| name.0),
             in_primaries: args.in_primaries.map(|name| name.0),
             ignore_profile: args.ignore_profile,
+            part: args.part,
+            channels: args.channels,
+            layers: LayerSettings { depth: args.depth_kind, normals: args.normals },
             depth: args.depth.map(Depth::from),
             background: args.background.map(|colour| colour.0),
             missing: args.missing,

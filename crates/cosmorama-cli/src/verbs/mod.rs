@@ -8,8 +8,6 @@ mod explain;
 mod harmonics;
 mod help;
 mod info;
-mod info_faces;
-mod info_world;
 mod light;
 
 use std::path::Path;

@@ -1,13 +1,16 @@
-//! Transfer functions and primaries of both sides, ICC profiles, what labels need, and messages about alpha.
+//! Transfer functions and primaries of both sides, ICC profiles, further channels, what labels need, and messages about alpha.
 
 mod labels;
+mod layers;
 mod light;
 mod profile;
 mod thin_alpha;
 mod working;
 
+pub use layers::{DepthKind, LayerRules, NormalSpace, contents};
 pub use light::InputTransfer;
 pub use thin_alpha::ThinAlpha;
 
 pub(crate) use labels::check_labels;
+pub(crate) use layers::{LayerContent, LayerGroup, LayerPlan, PictureNames, check_choice};
 pub(crate) use light::{FileColours, Light};

@@ -100,4 +100,10 @@ pub enum Code {
     MapBase,
     /// A statement of a project is ignored.
     Project,
+    /// A file has several parts, of which one is read.
+    Parts,
+    /// Channels are not carried over.
+    ChannelsLost,
+    /// What a channel holds is guessed.
+    Guessed,
 }

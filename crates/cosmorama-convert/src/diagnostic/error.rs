@@ -135,6 +135,7 @@ impl ConvertError {
     pub fn is_of_settings(&self) -> bool {
         match self {
             Self::Settings(_) => true,
+            Self::Io(IoError::NoSuchPart { .. } | IoError::NoSuchChannel { .. } | IoError::ChannelTwice { .. }) => true,
             Self::At { error, .. } => error.is_of_settings(),
             _ => false,
         }
@@ -212,7 +213,10 @@ fn of_file(error: &IoError) -> Code {
         IoError::TooLarge { .. } => Code::Memory,
         IoError::UnknownExtension { .. } | IoError::CannotHold { .. } => Code::OutputFormat,
         IoError::Write { .. } => Code::Unwritable,
-        IoError::NotAFacePattern { .. } => Code::Settings,
+        IoError::NotAFacePattern { .. }
+        | IoError::NoSuchPart { .. }
+        | IoError::NoSuchChannel { .. }
+        | IoError::ChannelTwice { .. } => Code::Settings,
         IoError::AmbiguousNaming { .. } => Code::Ambiguous,
         _ => Code::Failed,
     }

@@ -53,11 +53,19 @@ pub enum Setting {
     Memory,
     /// Whether an st map is written instead of a picture.
     StMap,
+    /// Part of OpenEXR files.
+    Part,
+    /// Channels of OpenEXR files.
+    Channels,
+    /// Kind of the input's depth.
+    DepthKind,
+    /// Frame of normals.
+    Normals,
 }
 
 impl Setting {
     /// All settings.
-    pub const ALL: [Self; 26] = [
+    pub const ALL: [Self; 30] = [
         Self::From,
         Self::To,
         Self::Size,
@@ -84,6 +92,10 @@ impl Setting {
         Self::Compression,
         Self::Memory,
         Self::StMap,
+        Self::Part,
+        Self::Channels,
+        Self::DepthKind,
+        Self::Normals,
     ];
 
     /// Returns the plain name, with words joined by `-`.
@@ -115,6 +127,10 @@ impl Setting {
             Self::Compression => "compression",
             Self::Memory => "memory",
             Self::StMap => "st-map",
+            Self::Part => "part",
+            Self::Channels => "channels",
+            Self::DepthKind => "depth-kind",
+            Self::Normals => "normals",
         }
     }
 }

@@ -1,6 +1,7 @@
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
+use cosmorama::camera::View;
 use cosmorama::raster::{FixedCodec, FixedLight, FramePool, Image, Pixel, Rgba};
 use cosmorama::render::{Progress, ScreenMask, Stopped};
 use cosmorama::world::Source;
@@ -10,7 +11,9 @@ use crate::conversion::Shares;
 use crate::detect::FacePixels;
 use crate::detect::pixels::light_of;
 use crate::diagnostic::{BACKGROUND, Code, ConvertError, Diagnostic, MISSING, Result, bail};
-use crate::engine::{BalancedLight, FrameLight, Geometry, Levels, LightMaps, LightReport, Texels, Writer, warnings};
+use crate::engine::{
+    BalancedLight, FrameLight, Geometry, LayerPass, Levels, LightMaps, LightReport, Texels, Writer, warnings,
+};
 use crate::input::InputView;
 use crate::job::coverage::Coverage;
 use crate::job::{ConvertJob, FrameOutputs, QueueDepth};
@@ -44,9 +47,13 @@ impl<'a> Engine<'a> {
         let masks = job.target.views.iter().map(|_| OnceLock::new()).collect();
         let (geometry, told) = Geometry::compile(job, progress)?;
         let threads = rayon::current_num_threads();
-        let queue_depth = job.memory.queue_depth(&job.input, &job.target, geometry.bytes(), threads);
+        let mut queue_depth = job.memory.queue_depth(&job.input, &job.target, geometry.bytes(), threads);
+        if !job.layers.groups.is_empty() {
+            // Further channels take the memory of many pictures, which was kept for one frame.
+            queue_depth.written = 1;
+        }
         let pool = Arc::new(FramePool::keeping(pool_bytes(job, queue_depth)));
-        let writer = Writer::new(&job.light, WriteOptions { pool: Arc::clone(&pool), ..options });
+        let writer = Writer::new(&job.light, &job.layers.picture, WriteOptions { pool: Arc::clone(&pool), ..options });
         Ok(Self { job, geometry, told, masks, writer, queue_depth, pool, lit: Mutex::default() })
     }
 
@@ -148,10 +155,34 @@ impl<'a> Engine<'a> {
         }
         let Target { views, files, .. } = &self.job.target;
         let sheets = frame.files.iter().flat_map(|(file, _)| files[*file].levels());
-        let views = sheets.flat_map(|sheet| &sheet.pieces).map(|(index, _)| &views[*index].view);
-        let mut making = Making { balanced: BalancedLight::default(), shares: Shares::new(progress, views) };
-        let files = frame.files.iter();
-        files.map(|(index, _)| self.render_file(*index, (frame.frame, light), &mut making)).collect()
+        let views: Vec<&View> = sheets.flat_map(|sheet| &sheet.pieces).map(|(index, _)| &views[*index].view).collect();
+        let layers = &self.job.layers;
+        // Once for the picture, and once for each group of further channels.
+        let times = usize::from(!layers.leaves_picture_out()) + layers.groups.len();
+        let all = views.iter().copied().cycle().take(views.len() * times);
+        let mut making = Making { balanced: BalancedLight::default(), shares: Shares::new(progress, all) };
+        let mut picture = |(index, _): &(usize, PathBuf)| {
+            if layers.leaves_picture_out() {
+                return Ok(Levels::Light(Vec::new()));
+            }
+            self.render_file(*index, (frame.frame, light), &mut making)
+        };
+        let pictures = frame.files.iter().map(&mut picture).collect::<Result<Vec<Levels>>>()?;
+        if layers.is_plain() { Ok(pictures) } else { self.with_channels(frame, pictures, &mut making.shares) }
+    }
+
+    /// Adds the further channels of a frame to its pictures.
+    fn with_channels(
+        &self,
+        frame: &FrameOutputs,
+        pictures: Vec<Levels>,
+        shares: &mut Shares<'_>,
+    ) -> Result<Vec<Levels>> {
+        let pass = LayerPass { job: self.job, geometry: &self.geometry, pool: &self.pool };
+        let made = pass.make(frame, shares)?;
+        let size = |(index, _): &(usize, PathBuf)| self.job.target.files[*index].sheet.size;
+        let all = frame.files.iter().map(size).zip(pictures).zip(made);
+        Ok(all.map(|((size, picture), planes)| picture.with_planes(size, planes)).collect())
     }
 
     /// Makes the maps of light of a frame, and measures them.

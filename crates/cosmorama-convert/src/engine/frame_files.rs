@@ -1,10 +1,10 @@
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
-use cosmorama::raster::{EncodedImage, FramePool};
-use cosmorama_io::Limits;
+use cosmorama::raster::{Channels, Depth, EncodedImage, FramePool, Samples};
+use cosmorama_io::{ImageFile, Limits};
 
 use crate::colour::FileColours;
-use crate::diagnostic::{FRAMES, Result, bail};
+use crate::diagnostic::{FRAMES, Result, bail, failure};
 use crate::job::ConvertJob;
 use crate::packing::Place;
 use crate::source::{ViewFiles, read_in};
@@ -34,8 +34,10 @@ pub(crate) enum Which {
 
 /// A file of a frame, and the views whose pixels it holds.
 pub(crate) struct FrameFile {
-    path: PathBuf,
-    views: Vec<usize>,
+    /// Its path.
+    pub(crate) path: PathBuf,
+    /// Indices of the views among those that are present.
+    pub(crate) views: Vec<usize>,
 }
 
 impl FrameFile {
@@ -81,6 +83,8 @@ impl FrameFile {
             );
         }
         job.light.check_profile(path, &file.metadata)?;
+        let image = if job.layers.leaves_picture_out() { blank(path, found)? } else { file.image };
+        let file = ImageFile { image, ..file };
         let colours = job.light.colours(file.image.channels(), file.image.depth(), &file.metadata);
         let view_image = |view: usize, image| ViewImage { view, path: path.clone(), image, colours: colours.clone() };
         if let (&[view], None) = (&views[..], first.part) {
@@ -95,4 +99,11 @@ impl FrameFile {
         pool.give(file.image.into_samples());
         Ok(parts)
     }
+}
+
+/// Returns the black picture that stands for numbers, which are no light.
+fn blank(path: &Path, (width, height): (usize, usize)) -> Result<EncodedImage> {
+    let samples = Samples::U8(vec![0; width.saturating_mul(height)]);
+    let blank = EncodedImage::new(width, height, Channels::Grey, Depth::Eight, samples);
+    blank.map_err(|error| failure!("{}: {error}", path.display()))
 }

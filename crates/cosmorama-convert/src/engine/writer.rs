@@ -1,9 +1,9 @@
 use std::path::Path;
 
 use cosmorama::raster::{EncodedImage, Encoder, Image, Rgba, Threads};
-use cosmorama_io::{WriteOptions, write_levels};
+use cosmorama_io::{LayeredImage, Plane, WriteOptions, write_layers, write_levels};
 
-use crate::colour::Light;
+use crate::colour::{Light, PictureNames};
 use crate::diagnostic::Result;
 
 /// A picture and its mip levels.
@@ -12,17 +12,35 @@ pub(crate) enum Levels {
     Light(Vec<Image<Rgba>>),
     /// Code values of 8 bits.
     Codes(Vec<Image<[u8; 3]>>),
+    /// Light, if the picture is written, with further channels.
+    Layered { size: (usize, usize), picture: Option<Image<Rgba>>, planes: Vec<Plane> },
+}
+
+impl Levels {
+    /// Adds further channels to a picture of light.
+    pub(crate) fn with_planes(self, size: (usize, usize), planes: Vec<Plane>) -> Self {
+        match self {
+            Self::Light(levels) => Self::Layered { size, picture: levels.into_iter().next(), planes },
+            other => other,
+        }
+    }
 }
 
 /// Writer of pictures that share one kind of samples.
 pub(crate) struct Writer {
     encoder: Encoder,
+    /// Names of the picture's channels, if they are not the usual ones.
+    names: Vec<String>,
     options: WriteOptions,
 }
 
 impl Writer {
-    pub(crate) fn new(light: &Light, options: WriteOptions) -> Self {
-        Self { encoder: Encoder::new(light.channels, light.depth, &light.transfer), options }
+    pub(crate) fn new(light: &Light, names: &PictureNames, options: WriteOptions) -> Self {
+        let names = match names {
+            PictureNames::Given(names) => names.clone(),
+            PictureNames::Usual | PictureNames::LeftOut => Vec::new(),
+        };
+        Self { encoder: Encoder::new(light.channels, light.depth, &light.transfer), names, options }
     }
 
     /// Writes an output: a picture and its mip levels. Their memory goes back to the pool.
@@ -36,6 +54,13 @@ impl Writer {
         let encoded: Vec<EncodedImage> = match levels {
             Levels::Light(images) => images.into_iter().map(encode).collect(),
             Levels::Codes(images) => images.into_iter().map(EncodedImage::of_codes).collect(),
+            Levels::Layered { size, picture, planes } => {
+                let picture = picture.map(encode);
+                let layered = LayeredImage { size, picture: picture.as_ref(), names: self.names.clone(), planes };
+                let written = write_layers(path, layered, &self.options);
+                picture.into_iter().for_each(|image| pool.give(image.into_samples()));
+                return Ok(written?);
+            }
         };
         let written = write_levels(path, &encoded, &self.options);
         encoded.into_iter().for_each(|image| pool.give(image.into_samples()));

@@ -1,14 +1,16 @@
+use std::path::Path;
 use std::sync::Arc;
 
 use cosmorama::filter::FilterSettings;
 use cosmorama::raster::Rgba;
 use cosmorama::render::Resampler;
 use cosmorama::world::World;
+use cosmorama_io::{Choice, Format};
 use cosmorama_spec::Missing;
 
 use super::Content;
 use super::options::{check_file_options, filter};
-use crate::colour::{Light, check_labels};
+use crate::colour::{LayerPlan, Light, check_choice, check_labels};
 use crate::detect::unless_damaged;
 use crate::diagnostic::{Diagnostic, Result};
 use crate::engine::gathered_bytes;
@@ -17,7 +19,7 @@ use crate::input::spec_files::st_map::settled;
 use crate::job::Outputs;
 use crate::job::coverage::{Coverage, whole_worlds};
 use crate::settings::{Conversion, LightSettings};
-use crate::source::{Access, DecodedPicture, Files, MemoryBudget};
+use crate::source::{Access, ChosenFiles, DecodedPicture, Files, MemoryBudget};
 use crate::target::{Target, TargetView, of_light, shape_warning};
 
 /// A conversion, ready to run.
@@ -34,6 +36,8 @@ pub(crate) struct ConvertJob {
     pub(crate) filter: FilterSettings,
     /// Transfer functions of both sides, and the outputs' channels and depth.
     pub(crate) light: Light,
+    /// Further channels that go along.
+    pub(crate) layers: LayerPlan,
     /// Outputs to make, by frame.
     pub(crate) outputs: Outputs,
     /// Treatment of pixels that no view covers.
@@ -60,6 +64,17 @@ pub(crate) enum Purpose {
 /// Part of the memory, at most, that a picture decoded beforehand takes.
 const DECODED_PART: u64 = 8;
 
+/// Part of the memory, at most, into which further channels are read at once.
+const READ_PART: u64 = 4;
+
+/// Returns the source of a conversion's files, with the choice of what is read of them.
+fn chosen(settings: &Conversion, content: Content) -> Arc<dyn Files> {
+    let (part, channels) = (settings.part.clone(), settings.channels.clone());
+    let is_exr = Format::from_extension(Path::new(&settings.output)).is_ok_and(|format| format == Format::Exr);
+    let without_picture = content == Content::World && is_exr && settings.light.is_none();
+    Arc::new(ChosenFiles { files: Arc::clone(&settings.files), choice: Choice { part, channels, without_picture } })
+}
+
 impl ConvertJob {
     /// Resolves the settings and checks everything that can be checked without decoding pixels.
     pub(crate) fn resolve(
@@ -70,7 +85,8 @@ impl ConvertJob {
         let memory = MemoryBudget::new(settings.limits.memory);
         let file = content.has_files().then_some(settings.input.as_str());
         let decoded = DecodedPicture::up_to(memory.bytes / DECODED_PART);
-        let access = Access { files: &*settings.files, memory, decoded: &decoded };
+        let files = chosen(settings, content);
+        let access = Access { files: &*files, memory, decoded: &decoded };
         let mut geometry = settled(&settings.geometry, file, access, warnings)?;
         if settings.light.is_some() {
             geometry = of_light(geometry, &settings.output);
@@ -86,15 +102,21 @@ impl ConvertJob {
             target = target.with_mips(&settings.output, geometry)?;
         }
         warnings.extend(input.diagnostics());
+        check_choice(settings, &input, warnings)?;
         warnings.extend(shape_warning(geometry, &target));
         content.fit_eyes(&mut input, &target, warnings);
-        let filter = if content.has_files() { filter(geometry, warnings) } else { FilterSettings::DEFAULT };
+        let mut filter = if content.has_files() { filter(geometry, warnings) } else { FilterSettings::DEFAULT };
         let mut light = Light::resolve(settings, &input, &target, warnings)?;
+        let layers = if content == Content::World && settings.light.is_none() {
+            LayerPlan::resolve(settings, (&input, &target, &light), &mut filter, warnings)?
+        } else {
+            LayerPlan::default()
+        };
         check_labels(&filter, &input, &light, target.format)?;
         content.settle(settings, &target, &mut light, warnings)?;
         memory.check_outputs(&target)?;
         let outputs = match purpose {
-            Purpose::Pictures => Outputs::plan(settings, &input, &target, &light, memory)?,
+            Purpose::Pictures => Outputs::plan(settings, &input, &target, (&light, &layers), memory)?,
             Purpose::Light => Outputs::none(&input),
         };
         warnings.extend(outputs.warning());
@@ -103,12 +125,13 @@ impl ConvertJob {
             Missing::Error => Missing::Error,
         };
         let mut job = Self {
-            files: Arc::clone(&settings.files),
+            files,
             input,
             worlds: Vec::new(),
             target,
             filter,
             light,
+            layers,
             outputs,
             coverage: Coverage::Complete,
             lighting: settings.light.clone(),
@@ -118,7 +141,8 @@ impl ConvertJob {
         };
         if content.has_files() {
             let first = job.input.frames.first().map_or_else(Vec::new, |frame| job.input.paths(*frame));
-            job.cover(warnings).map_err(|error| unless_damaged(&*settings.files, first, error))?;
+            let files = Arc::clone(&job.files);
+            job.cover(warnings).map_err(|error| unless_damaged(&*files, first, error))?;
         }
         content.check_last(settings, format, job.light.depth, warnings)?;
         Ok(job)
@@ -142,7 +166,10 @@ impl ConvertJob {
             let world = &worlds[view.world(worlds.len())];
             Resampler { world, target: &view.view, filter: *filter }.level_bytes() as u64
         });
-        self.memory = memory.beside_levels(levels.max().unwrap_or(0), input, target)?;
+        let memory = memory.beside_levels(levels.max().unwrap_or(0), input, target)?;
+        self.layers.room = memory.bytes / READ_PART;
+        let made = target.files.iter().map(|file| file.sheet.size.0.saturating_mul(file.sheet.size.1)).sum::<usize>();
+        self.memory = memory.beside_channels(self.layers.bytes(input.texels() as u64, made as u64), input, target)?;
         (self.coverage, self.worlds) = (coverage, worlds);
         Ok(())
     }

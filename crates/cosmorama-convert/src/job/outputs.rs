@@ -3,7 +3,7 @@ use std::path::{Path, PathBuf};
 
 use cosmorama_io::pending::{NewFolders, Pending, Unfinished, place};
 
-use crate::colour::Light;
+use crate::colour::{LayerPlan, Light};
 use crate::diagnostic::{Code, Diagnostic, FRAMES, OVERWRITE, RESUME, Result, bail, failure, usage, usage_as};
 use crate::input::Input;
 use crate::job::Remade;
@@ -58,7 +58,7 @@ impl Outputs {
         args: &Conversion,
         input: &Input,
         target: &Target,
-        light: &Light,
+        (light, layers): (&Light, &LayerPlan),
         memory: MemoryBudget,
     ) -> Result<Self> {
         check_frame_markers(args, input, target)?;
@@ -95,7 +95,7 @@ impl Outputs {
         let mut remade = Vec::new();
         let all: usize = frames.iter().map(|frame| frame.files.len()).sum();
         if args.existing == Existing::Resume {
-            remade = Remade::find(&mut frames, &target.files, light, memory);
+            remade = Remade::find(&mut frames, &target.files, (light, layers), memory);
         } else if args.existing == Existing::Refuse {
             let files = frames.iter().flat_map(|frame| frame.files.iter().map(|(_, path)| path.as_path()));
             refuse_existing_or(files, &format!(", or keep what is there with {RESUME}"))?;

@@ -1,9 +1,10 @@
 use std::path::{Path, PathBuf};
 
-use cosmorama_io::{Format, IoError, Limits, probe, read};
+use cosmorama::raster::FramePool;
+use cosmorama_io::{Choice, Format, IoError, Limits, open, probe_chosen, read_chosen};
 use rayon::prelude::*;
 
-use crate::colour::Light;
+use crate::colour::{LayerPlan, Light};
 use crate::diagnostic::{Code, Diagnostic, RESUME};
 use crate::job::FrameOutputs;
 use crate::source::MemoryBudget;
@@ -32,7 +33,7 @@ impl Remade {
     pub(crate) fn find(
         frames: &mut [FrameOutputs],
         targets: &[TargetFile],
-        light: &Light,
+        (light, layers): (&Light, &LayerPlan),
         memory: MemoryBudget,
     ) -> Vec<Self> {
         // As many at once as fit into memory, decoded.
@@ -40,15 +41,16 @@ impl Remade {
         let at_once = (memory.bytes / largest.max(1)).clamp(1, frames.len().max(1) as u64) as usize;
         let mut all = Vec::new();
         for some in frames.chunks_mut(at_once) {
-            let remade: Vec<Vec<Self>> = some.par_iter_mut().map(|frame| Self::of(frame, targets, light)).collect();
+            let remade: Vec<Vec<Self>> =
+                some.par_iter_mut().map(|frame| Self::of(frame, targets, (light, layers))).collect();
             all.extend(remade.into_iter().flatten());
         }
         all
     }
 
-    fn of(frame: &mut FrameOutputs, targets: &[TargetFile], light: &Light) -> Vec<Self> {
+    fn of(frame: &mut FrameOutputs, targets: &[TargetFile], made: (&Light, &LayerPlan)) -> Vec<Self> {
         let mut remade = Vec::new();
-        frame.files.retain(|(index, path)| match Found::at(path, &targets[*index], light) {
+        frame.files.retain(|(index, path)| match Found::at(path, &targets[*index], made) {
             Found::Nothing => true,
             Found::Complete => false,
             Found::Other(reason) => {
@@ -79,13 +81,14 @@ impl Remade {
 impl Found {
     /// Examines the place of an output. Outputs appear whole, so a readable image of the right size and kind is
     /// complete.
-    fn at(path: &Path, target: &TargetFile, light: &Light) -> Self {
+    fn at(path: &Path, target: &TargetFile, (light, layers): (&Light, &LayerPlan)) -> Self {
         let Ok(found) = path.metadata() else { return Self::Nothing };
         // What is no file might wait for ever to be read.
         if !found.is_file() {
             return Self::Other("not a regular file".to_owned());
         }
-        let header = match probe(path) {
+        let choice = Choice { without_picture: layers.leaves_picture_out(), ..Choice::default() };
+        let header = match open(path).and_then(|file| probe_chosen(file, path, &choice)) {
             Ok(header) => header,
             Err(error) => return Self::unreadable(error),
         };
@@ -94,8 +97,9 @@ impl Found {
         let told: Vec<String> = [
             instead(&header.format, &format, ToString::to_string),
             instead(&(header.width, header.height), &target.sheet.size, size),
-            instead(&header.channels, &light.channels, ToString::to_string),
-            instead(&header.depth, &light.depth, |depth| format!("depth {depth}")),
+            instead(&header.channels, &light.channels, ToString::to_string).filter(|_| !choice.without_picture),
+            instead(&header.depth, &light.depth, |depth| format!("depth {depth}")).filter(|_| !choice.without_picture),
+            (!layers.are_in(&header)).then(|| "other channels beside the picture's".to_owned()),
         ]
         .into_iter()
         .flatten()
@@ -104,7 +108,9 @@ impl Found {
         if !told.is_empty() {
             return Self::Other(told.join(", "));
         }
-        match read(path, &Limits::memory(light.file_bytes(target.sheet.size))) {
+        let limits = Limits::memory(light.file_bytes(target.sheet.size));
+        let pool = FramePool::default();
+        match open(path).and_then(|file| read_chosen(file, path, (&limits, &pool), &choice)) {
             Ok(_) => Self::Complete,
             Err(error) => Self::unreadable(error),
         }

@@ -6,8 +6,8 @@ use std::sync::Arc;
 
 use cosmorama::raster::FramePool;
 use cosmorama_io::{
-    Calibration, CalibrationError, Header, ImageFile, IoError, Limits, PtoError, PtoProject, ReadSeek, StPairs, open,
-    probe_from, probe_pairs_from, read_from, read_pairs_from,
+    Calibration, CalibrationError, Choice, Header, ImageFile, IoError, Limits, Plane, PtoError, PtoProject, ReadSeek,
+    StPairs, open, probe_chosen, probe_pairs_from, read_chosen, read_layers, read_pairs_from,
 };
 
 use super::decoded_picture::DecodedPicture;
@@ -24,6 +24,34 @@ pub trait Files: Debug + Send + Sync {
 
     /// Returns whether a file is held here, whatever is on disk.
     fn holds(&self, path: &Path) -> bool;
+
+    /// Returns what is read of pictures with several parts or with channels beside their own.
+    fn choice(&self) -> Choice {
+        Choice::default()
+    }
+}
+
+/// Files of which only a part, or some of the channels, is read.
+#[derive(Clone, Debug)]
+pub(crate) struct ChosenFiles {
+    /// Source of bytes.
+    pub(crate) files: Arc<dyn Files>,
+    /// What is read.
+    pub(crate) choice: Choice,
+}
+
+impl Files for ChosenFiles {
+    fn open(&self, path: &Path) -> Result<Box<dyn ReadSeek>, IoError> {
+        self.files.open(path)
+    }
+
+    fn holds(&self, path: &Path) -> bool {
+        self.files.holds(path)
+    }
+
+    fn choice(&self) -> Choice {
+        self.choice.clone()
+    }
 }
 
 /// Files on disk.
@@ -77,7 +105,7 @@ impl Files for InMemory {
 /// # Errors
 /// When the file cannot be opened, is of no known format, or is damaged before its pixels.
 pub fn probe(files: &dyn Files, path: &Path) -> Result<Header, IoError> {
-    probe_from(files.open(path)?, path)
+    probe_chosen(files.open(path)?, path, &files.choice())
 }
 
 /// Reads a picture.
@@ -85,7 +113,7 @@ pub fn probe(files: &dyn Files, path: &Path) -> Result<Header, IoError> {
 /// # Errors
 /// When the file cannot be opened, is of no known format, declares more pixels than the limits allow, or is damaged.
 pub fn read(files: &dyn Files, path: &Path, limits: &Limits) -> Result<ImageFile, IoError> {
-    read_from(files.open(path)?, path, limits)
+    read_in(files, path, limits, &FramePool::default())
 }
 
 /// Reads a picture into memory of a pool.
@@ -93,7 +121,20 @@ pub fn read(files: &dyn Files, path: &Path, limits: &Limits) -> Result<ImageFile
 /// # Errors
 /// As [`read`].
 pub(crate) fn read_in(files: &dyn Files, path: &Path, limits: &Limits, pool: &FramePool) -> Result<ImageFile, IoError> {
-    cosmorama_io::read_in(files.open(path)?, path, limits, pool)
+    read_chosen(files.open(path)?, path, (limits, pool), &files.choice())
+}
+
+/// Reads channels of a file beside its picture.
+///
+/// # Errors
+/// When the file cannot be read or lacks a channel.
+pub(crate) fn read_further(
+    files: &dyn Files,
+    path: &Path,
+    limits: &Limits,
+    channels: &[&str],
+) -> Result<Vec<Plane>, IoError> {
+    read_layers(files.open(path)?, path, limits, (&files.choice(), channels))
 }
 
 /// Means of reading inputs.

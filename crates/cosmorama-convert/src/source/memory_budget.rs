@@ -6,7 +6,7 @@ use cosmorama::raster::Rgba;
 use cosmorama_io::{Format, Header};
 use cosmorama_spec::MemorySize;
 
-use crate::diagnostic::{FILTER, MEMORY, Result, bail};
+use crate::diagnostic::{CHANNELS, FILTER, MEMORY, Result, bail};
 use crate::input::{Input, InputView};
 use crate::job::{FrameMemory, QueueDepth};
 use crate::source::system_memory::{all_bytes, free_bytes};
@@ -105,6 +105,14 @@ impl MemoryBudget {
         let why = format!("; smaller copies of the input, for {FILTER} ewa-pyramid, are {} of it", human(levels));
         self.allow(needed, "a frame", &why)?;
         Ok(Self { bytes: self.bytes - levels, ..self })
+    }
+
+    /// Returns the budget that is left beside the further channels of a frame. It is an error if they do not fit beside a frame.
+    pub(crate) fn beside_channels(self, bytes: u64, input: &Input, target: &Target) -> Result<Self> {
+        let needed = frame_bytes(input, target).saturating_add(bytes);
+        let why = format!("; its further channels are {} of it, and {CHANNELS} takes fewer", human(bytes));
+        self.allow(needed, "a frame", &why)?;
+        Ok(Self { bytes: self.bytes - bytes, ..self })
     }
 
     /// Checks that two pictures fit, with the copies that a comparison needs, before memory is allocated.

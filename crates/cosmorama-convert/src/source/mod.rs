@@ -13,6 +13,6 @@ pub use memory_budget::MemoryBudget;
 pub use system_memory::peak_bytes;
 pub use view_files::ViewFiles;
 
-pub(crate) use access::{Access, read_in};
+pub(crate) use access::{Access, ChosenFiles, read_further, read_in};
 pub(crate) use decoded_picture::DecodedPicture;
 pub(crate) use memory_budget::light_bytes;

@@ -139,7 +139,10 @@ pub fn write_layers(path: impl AsRef<Path>, layered: LayeredImage<'_>, options: 
     let cannot_hold =
         |found: String, expected: String| Err(IoError::CannotHold { path: path.to_owned(), format, found, expected });
     if format != Format::Exr {
-        return cannot_hold(format!("{} named channels", layered.planes.len()), "a picture; OpenEXR holds more".to_owned());
+        return cannot_hold(
+            format!("{} named channels", layered.planes.len()),
+            "a picture; OpenEXR holds more".to_owned(),
+        );
     }
     if let Some(image) = layered.picture {
         check_can_hold(path, format, image)?;

@@ -80,6 +80,20 @@ impl View {
             && sees_pole(Direction::DOWN)
     }
 
+    /// Returns whether the picture is flat, as those of pinhole cameras and cube faces are: planar depth is a distance from
+    /// the plane of such a camera.
+    pub fn is_flat(&self) -> bool {
+        use ProjectionKind::{EquiAngular, Perspective, Pinhole};
+        matches!(self.projection, Perspective(_) | Pinhole(_) | EquiAngular(_))
+    }
+
+    /// Calls `visit` with each column of row `j` that sees something, and the planar depth of a point there at the distance
+    /// 1: the cosine of its angle from the camera's axis.
+    pub fn row_planar_depths(&self, j: usize, mut visit: impl FnMut(usize, f32)) {
+        let axis = self.orientation.to_world(Direction::FRONT);
+        self.row_directions(j, 0..self.width(), |i, direction| visit(i, direction.dot(axis) as f32));
+    }
+
     /// Returns the direction at a point of the image with its derivatives per pixel.
     pub fn footprint(&self, pixel: PixelPoint) -> Option<Footprint> {
         let point = self.grid.to_plane(pixel);

@@ -76,6 +76,19 @@ impl Orientation {
         self.world_from_view.transpose() * vector
     }
 
+    /// Converts a surface's normal, of any length, from the view's frame to the world's, and gives it length one. `None` for
+    /// a vector without direction.
+    pub fn normal_to_world(&self, normal: [f32; 3]) -> Option<[f32; 3]> {
+        let direction = Direction::new(normal.map(f64::from).into())?;
+        Some(self.to_world(direction).vector().as_vec3().to_array())
+    }
+
+    /// Converts a surface's normal from the world's frame to the view's, like [`Orientation::normal_to_world`].
+    pub fn normal_to_view(&self, normal: [f32; 3]) -> Option<[f32; 3]> {
+        let direction = Direction::new(normal.map(f64::from).into())?;
+        Some(self.to_view(direction).vector().as_vec3().to_array())
+    }
+
     /// Converts both derivatives from the view's frame to the world's.
     pub fn jacobian_to_world(&self, jacobian: DirectionJacobian) -> DirectionJacobian {
         DirectionJacobian { dx: self.world_from_view * jacobian.dx, dy: self.world_from_view * jacobian.dy }
@@ -117,6 +130,20 @@ mod tests {
 
     fn assert_close(a: Direction, b: Direction) {
         assert!(a.angle_to(b).degrees() < 1e-9, "{a:?} is not {b:?}");
+    }
+
+    #[test]
+    fn normals_turn_and_get_length_one() {
+        let pose = oriented(90.0, 0.0, 0.0);
+        let close = |found: Option<[f32; 3]>, expected: [f32; 3]| {
+            found.is_some_and(|found| {
+                found.iter().zip(expected).all(|(found, expected)| (found - expected).abs() < 1e-6)
+            })
+        };
+        assert!(close(pose.normal_to_world([0.0, 0.0, -7.0]), [1.0, 0.0, 0.0]));
+        assert!(close(pose.normal_to_view([0.5, 0.0, 0.0]), [0.0, 0.0, -1.0]));
+        assert_eq!(pose.normal_to_view([0.0; 3]), None);
+        assert_eq!(pose.normal_to_world([f32::NAN, 0.0, 1.0]), None);
     }
 
     #[test]

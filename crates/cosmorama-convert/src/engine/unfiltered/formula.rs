@@ -21,7 +21,9 @@ pub(crate) fn picture(
 ) -> Result<()> {
     let Checked { job, stages, .. } = run;
     let levels = stages.alone(Stage::Filter, || levels(job, world, file))?;
-    stages.alone(Stage::Encode, || Writer::new(&job.light, options.clone()).save(levels, path, Threads::All))
+    stages.alone(Stage::Encode, || {
+        Writer::new(&job.light, &job.layers.picture, options.clone()).save(levels, path, Threads::All)
+    })
 }
 
 /// Makes a map of directions.

@@ -6,11 +6,11 @@ use std::sync::Arc;
 use cosmorama::camera::Canvas;
 use cosmorama::raster::{EncodedImage, Rgba, Transfer};
 use cosmorama::world::{MaskShape, ViewMask};
-use cosmorama_io::Limits;
+use cosmorama_io::{Limits, probe_from, read_from};
 
 use crate::diagnostic::{Result, bail};
 use crate::input::InputView;
-use crate::source::{Access, read};
+use crate::source::Access;
 
 /// Least code value that counts as visible; 1 is white.
 const GREY: f32 = 0.5;
@@ -19,14 +19,16 @@ const GREY: f32 = 0.5;
 pub(crate) fn of_file(path: &Path, view: &InputView, access: Access) -> Result<Arc<ViewMask>> {
     let expected = size(view);
     // Before its pixels take any memory.
-    let header = access.probe(path)?;
+    // Whatever is chosen of pictures is not of masks.
+    let header = probe_from(access.files.open(path)?, path)?;
     let found = (header.width, header.height);
     if found != expected {
         let (mask, picture) = (format!("{}x{}", found.0, found.1), format!("{}x{}", expected.0, expected.1));
         bail!(WrongSize: "{}: the mask has {mask} pixels, but its picture has {picture}; they must have the same", path.display());
     }
     access.memory.check_mask(found, size_of::<Rgba>() as u64)?;
-    let mask = of_image(&read(access.files, path, &Limits::memory(access.memory.bytes))?.image);
+    let limits = Limits::memory(access.memory.bytes);
+    let mask = of_image(&read_from(access.files.open(path)?, path, &limits)?.image);
     if mask.is_empty() {
         bail!(Uncovered: "{}: the mask is black all over: nothing of the picture would count", path.display());
     }

@@ -184,11 +184,7 @@ pub(super) fn damaged(path: &Path, error: Error) -> IoError {
 }
 
 /// Chooses the part and the channels to read, and returns their header.
-pub(super) fn announce(
-    path: &Path,
-    parts: &[Part],
-    wanted: Wanted<'_>,
-) -> Result<(Header, Selection, Crop), IoError> {
+pub(super) fn announce(path: &Path, parts: &[Part], wanted: Wanted<'_>) -> Result<(Header, Selection, Crop), IoError> {
     let selection = wanted.select(path, parts)?;
     let part = &parts[selection.part];
     let crop = Crop::of(part).ok_or_else(|| {
@@ -244,9 +240,7 @@ fn pixels<S: Sample>(
     read_line: ReadLine<S>,
     mut samples: Vec<S>,
 ) -> Result<Vec<S>, Error> {
-    each_block(reader, selection.part, |block, part| {
-        insert(block, part, selection, crop, read_line, &mut samples)
-    })?;
+    each_block(reader, selection.part, |block, part| insert(block, part, selection, crop, read_line, &mut samples))?;
     Ok(samples)
 }
 

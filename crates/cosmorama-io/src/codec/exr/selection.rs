@@ -44,8 +44,7 @@ impl Selection {
     pub(super) fn stand_in(parts: &[Part], offers: &[Offer<'_>], found: String) -> Result<Self, String> {
         let full = |offer: &Offer<'_>, index: usize| named(&offer.part.channels.list[index]).is_full;
         let of = |offer: &Offer<'_>| offer.channels.iter().copied().find(|index| full(offer, *index));
-        let (offer, index) =
-            offers.iter().find_map(|offer| Some((offer, of(offer)?))).ok_or_else(|| found.clone())?;
+        let (offer, index) = offers.iter().find_map(|offer| Some((offer, of(offer)?))).ok_or_else(|| found.clone())?;
         let list = &offer.part.channels.list;
         let further = offer.channels.iter().map(|index| named(&list[*index])).collect();
         let layers = Layers { no_picture: Some(found), further, picture: Vec::new(), ..layers_of(parts, offer) };

@@ -1,3 +1,7 @@
+mod faces;
+mod layers;
+mod world;
+
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -5,13 +9,13 @@ use anyhow::Result;
 use cosmorama::circle::{Circle, Found};
 use cosmorama::raster::Transfer;
 use cosmorama_convert::{
-    Builtin, Files, ThinAlpha, ViewFiles, damage_of, existing_frames, is_one_file, light_of, likely, probe,
+    Builtin, Files, ThinAlpha, ViewFiles, damage_of, existing_frames, is_one_file, light_of, likely,
 };
-use cosmorama_io::{EnvMap, FacePattern, FaceSet, Header, ProfileFault};
+use cosmorama_io::{Choice, EnvMap, FacePattern, FaceSet, Header, ProfileFault, probe_chosen};
 use serde_json::{Value, json};
 
-use super::info_faces::{of_files, report as of_borders};
-use super::info_world;
+use self::faces::{of_files, report as of_borders};
+use self::layers::add_layers;
 use crate::args::InfoArgs;
 use crate::console::Console;
 use crate::pipe::KeptStreams;
@@ -24,8 +28,8 @@ pub(super) fn run(args: &InfoArgs, console: &mut Console) -> Result<ExitCode> {
     let report = if let Some(builtin) = Builtin::named(input)? {
         json!({ "input": input, "projection": "any (a formula)", "shows": builtin.about() })
     } else if FacePattern::parse(input).is_some() {
-        faces(files, input, args.check)?
-    } else if let Some(world) = info_world::report(files, input, console)? {
+        face_set(files, input, args.check)?
+    } else if let Some(world) = world::report(files, input, console)? {
         world
     } else {
         single(files, input, args.check)?
@@ -49,7 +53,13 @@ fn single(inputs: &dyn Files, pattern: &str, check: bool) -> Result<Value> {
     let frames = existing_frames(&files)?;
     let path = files.path(frames.first().copied());
     is_one_file(inputs, pattern, &path)?;
-    let header = probe(inputs, &path)?;
+    let header = probe_any(inputs, &path)?;
+    if header.metadata.layers.no_picture.is_some() {
+        let mut report = json!({ "input": pattern });
+        add_frames(&mut report, &frames, false);
+        merge(&mut report, header_report(&header));
+        return Ok(report);
+    }
     let reads_all = check || frames.is_empty();
     let likely = likely(inputs, &path, &header, reads_all);
     let mut report = json!({ "input": pattern });
@@ -72,7 +82,7 @@ fn single(inputs: &dyn Files, pattern: &str, check: bool) -> Result<Value> {
     Ok(report)
 }
 
-fn faces(inputs: &dyn Files, pattern: &str, check: bool) -> Result<Value> {
+fn face_set(inputs: &dyn Files, pattern: &str, check: bool) -> Result<Value> {
     let set = FaceSet::find(pattern, None)?;
     let mut report = json!({ "input": pattern, "projection": "cube", "naming": set.naming().name });
     let is_sequence = set.present().any(|file| matches!(ViewFiles::new(&file.path), ViewFiles::Sequence(_)));
@@ -97,7 +107,7 @@ fn faces(inputs: &dyn Files, pattern: &str, check: bool) -> Result<Value> {
         }
         if file.present {
             add_frames(&mut face, &frames, check);
-            merge(&mut face, header_report(&probe(inputs, &files.path(frames.first().copied()))?));
+            merge(&mut face, header_report(&probe_any(inputs, &files.path(frames.first().copied()))?));
         }
         faces.insert(file.face.name().to_owned(), face);
     }
@@ -123,6 +133,12 @@ fn add_damage(report: &mut Value, damaged: Vec<String>) {
         [one] => report["damaged"] = json!(one),
         several => report["damaged"] = json!(several),
     }
+}
+
+/// Reads a file's header, of channels that form no picture, too.
+fn probe_any(inputs: &dyn Files, path: &Path) -> Result<Header> {
+    let choice = Choice { without_picture: true, ..Choice::default() };
+    Ok(probe_chosen(inputs.open(path)?, path, &choice)?)
 }
 
 fn header_report(header: &Header) -> Value {
@@ -174,6 +190,7 @@ fn header_report(header: &Header) -> Value {
     if !metadata.other_channels.is_empty() {
         report["other_channels"] = json!(metadata.other_channels);
     }
+    add_layers(&mut report, header);
     if let Some(orientation) = metadata.orientation {
         report["orientation"] = json!(format!("{orientation} (not followed: pixels are taken as they are stored)"));
     }
@@ -223,6 +240,9 @@ fn lines(report: &Value, indent: usize) -> String {
         }
         Value::Object(arrangement) if arrangement.contains_key("told") => {
             format!("{pad}{key}: {}\n", plain(&arrangement["told"]))
+        }
+        Value::Object(channel) if channel.contains_key("holds") => {
+            format!("{pad}{key}: {}, {}\n", plain(&channel["type"]), plain(&channel["holds"]))
         }
         Value::Object(_) => format!("{pad}{key}:\n{}", lines(value, indent + 2)),
         Value::Array(items) if items.iter().all(Value::is_object) => {

@@ -1,0 +1,12 @@
+//! Channels beside the picture's: what they hold, and which go along.
+
+mod plan;
+mod resolve;
+mod rules;
+
+pub use plan::{DepthKind, LayerRules, NormalSpace};
+pub use rules::contents;
+
+pub(crate) use plan::{LayerPlan, PictureNames};
+pub(crate) use resolve::check_choice;
+pub(crate) use rules::{LayerContent, LayerGroup};

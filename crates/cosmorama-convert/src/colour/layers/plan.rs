@@ -1,0 +1,208 @@
+//! The further channels of a conversion: which go along, and how.
+
+use cosmorama::filter::LabelRule;
+use cosmorama::raster::{Channels, Rgba};
+use cosmorama_io::{Header, Layers, NamedChannel, SampleKind};
+
+use super::rules::{LayerContent, LayerGroup, grouped};
+
+/// Channels that go along with a picture.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct LayerPlan {
+    /// Groups of further channels.
+    pub(crate) groups: Vec<LayerGroup>,
+    /// Names of the picture's own channels.
+    pub(crate) picture: PictureNames,
+    /// How they are made.
+    pub(crate) rules: LayerRules,
+    /// Bytes that may be read at once.
+    pub(crate) room: u64,
+}
+
+/// Names under which the picture's own channels are written.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub(crate) enum PictureNames {
+    /// R, G, B, Y and A.
+    #[default]
+    Usual,
+    /// These.
+    Given(Vec<String>),
+    /// None: it is no light, but one of the further channels, or stands for them.
+    LeftOut,
+}
+
+/// Rules for channels that are no light.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct LayerRules {
+    /// Rule by which a pixel of labels takes one texel's value.
+    pub labels: LabelRule,
+    /// Depth of the input; by its projection, unless given.
+    pub depth: Option<DepthKind>,
+    /// Frame of normals.
+    pub normals: NormalSpace,
+}
+
+/// Kind of a depth.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum DepthKind {
+    /// Distance from the plane through the camera, across its axis.
+    Planar,
+    /// Distance from the camera.
+    Radial,
+}
+
+/// Frame of normals, in the input and in the output.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum NormalSpace {
+    /// The world's: no view turns them.
+    #[default]
+    World,
+    /// Each view's own: x to the right, y up, z to the viewer.
+    Camera,
+}
+
+impl LayerPlan {
+    /// Returns whether only a picture with its usual names is made.
+    pub(crate) fn is_plain(&self) -> bool {
+        self.groups.is_empty() && self.picture == PictureNames::Usual
+    }
+
+    /// Returns whether the picture is not written.
+    pub(crate) fn leaves_picture_out(&self) -> bool {
+        self.picture == PictureNames::LeftOut
+    }
+
+    /// Returns whether a file has exactly these further channels.
+    pub(crate) fn are_in(&self, header: &Header) -> bool {
+        let own = &header.metadata.layers.picture;
+        let is_further = |channel: &NamedChannel| self.leaves_picture_out() || !own.contains(&channel.name);
+        let mut found = all_channels(header);
+        found.retain(is_further);
+        let planned: Vec<&NamedChannel> = self.groups.iter().flat_map(|group| &group.channels).collect();
+        found.len() == planned.len() && planned.into_iter().all(|channel| found.contains(channel))
+    }
+
+    /// Returns the channels of a kind.
+    pub(crate) fn of(&self, content: LayerContent) -> Vec<&str> {
+        let groups = self.groups.iter().filter(|group| group.content == content);
+        groups.flat_map(|group| &group.channels).map(|channel| channel.name.as_str()).collect()
+    }
+
+    /// Splits the groups into those that are read at once, from files of so many pixels together.
+    pub(crate) fn batches(&self, pixels: u64) -> Vec<&[LayerGroup]> {
+        let (mut batches, mut first, mut bytes) = (Vec::new(), 0, 0);
+        for (index, group) in self.groups.iter().enumerate() {
+            let more = bytes_of(group).saturating_mul(pixels);
+            if index > first && bytes + more > self.room {
+                batches.push(&self.groups[first..index]);
+                (first, bytes) = (index, 0);
+            }
+            bytes = more.saturating_add(bytes);
+        }
+        batches.extend((first < self.groups.len()).then(|| &self.groups[first..]));
+        batches
+    }
+
+    /// Returns the bytes that further channels take at once in a frame whose input and outputs have so many pixels: the channels read
+    /// together, their numbers while they are filtered, and all channels made.
+    pub(crate) fn bytes(&self, input: u64, output: u64) -> u64 {
+        if self.groups.is_empty() {
+            return 0;
+        }
+        let read = |batch: &[LayerGroup]| batch.iter().map(bytes_of).fold(0, u64::saturating_add).saturating_mul(input);
+        let read = self.batches(input).into_iter().map(read).max().unwrap_or(0);
+        let made = self.groups.iter().map(bytes_of).fold(0, u64::saturating_add).saturating_mul(output);
+        read.saturating_add(made).saturating_add(input.saturating_mul(size_of::<Rgba>() as u64))
+    }
+
+    /// Chooses the channels that all files have. Also returns names of those that not all have, or not with one sample for each
+    /// pixel.
+    pub(crate) fn of_files(headers: &[&Header], channels: Channels, rules: LayerRules) -> (Self, Vec<String>) {
+        let Some((first, others)) = headers.split_first() else { return (Self::default(), Vec::new()) };
+        let all = |header: &&Header| all_channels(header);
+        let others: Vec<Vec<NamedChannel>> = others.iter().map(all).collect();
+        let mut left_out: Vec<String> = Vec::new();
+        let mut carried = Vec::new();
+        let own = &first.metadata.layers;
+        let is_data = is_data(own);
+        for channel in all_channels(first) {
+            // What is the picture is carried by itself.
+            if own.picture.contains(&channel.name) && !is_data {
+                continue;
+            }
+            match merged(&channel, &others) {
+                Some(channel) => carried.push(channel),
+                None => left_out.push(channel.name),
+            }
+        }
+        let known = |name: &String| all_channels(first).iter().any(|channel| channel.name == *name);
+        for channel in others.iter().flatten() {
+            if !known(&channel.name) && !left_out.contains(&channel.name) {
+                left_out.push(channel.name.clone());
+            }
+        }
+        let picture = if is_data { PictureNames::LeftOut } else { names(headers, channels) };
+        (Self { groups: grouped(&carried), picture, rules, room: 0 }, left_out)
+    }
+}
+
+/// Returns the bytes of a group's samples in a pixel.
+fn bytes_of(group: &LayerGroup) -> u64 {
+    group.channels.iter().map(|channel| channel.kind.bytes() as u64).sum()
+}
+
+/// Returns all channels of a part, those of the picture, too.
+fn all_channels(header: &Header) -> Vec<NamedChannel> {
+    let layers = &header.metadata.layers;
+    let kind = SampleKind::from(header.depth);
+    let own = layers.picture.iter().map(|name| NamedChannel { name: name.clone(), kind, is_full: true });
+    own.chain(layers.further.iter().cloned()).collect()
+}
+
+/// Returns whether a file's picture is none: a single channel that holds no light, or channels that form no picture.
+fn is_data(layers: &Layers) -> bool {
+    let single = |name: &String| NamedChannel { name: name.clone(), kind: SampleKind::Float, is_full: true };
+    let only: Vec<NamedChannel> = layers.picture.iter().map(single).collect();
+    layers.no_picture.is_some()
+        || only.len() == 1 && !matches!(grouped(&only)[0].content, LayerContent::Numbers | LayerContent::Light)
+}
+
+/// Returns a channel in the finest of all files' sample types. `None` if not all files have it, or integers stand beside floats.
+fn merged(channel: &NamedChannel, others: &[Vec<NamedChannel>]) -> Option<NamedChannel> {
+    let mut merged = channel.clone();
+    for other in others {
+        let other = other.iter().find(|other| other.name == channel.name)?;
+        merged.is_full &= other.is_full;
+        merged.kind = match (merged.kind, other.kind) {
+            (one, two) if one == two => one,
+            (SampleKind::Uint, _) | (_, SampleKind::Uint) => return None,
+            _ => SampleKind::Float,
+        };
+    }
+    merged.is_full.then_some(merged)
+}
+
+/// Returns the names for a picture of these channels: those that all files give it, with its layer's alpha where they have none.
+fn names(headers: &[&Header], channels: Channels) -> PictureNames {
+    let given = |header: &&Header| header.metadata.layers.picture.clone();
+    let Some(mut names) = headers.first().map(given).filter(|names| !names.is_empty()) else {
+        return PictureNames::Usual;
+    };
+    let colours = if channels.is_colour() { 3 } else { 1 };
+    let alike = headers.iter().all(|header| given(header) == names);
+    let has_alpha = headers[0].channels.has_alpha();
+    if !alike || names.len() - usize::from(has_alpha) != colours {
+        return PictureNames::Usual;
+    }
+    if channels.has_alpha() && !has_alpha {
+        let layer = names[0].rfind('.').map_or("", |point| &names[0][..=point]).to_owned();
+        names.push(layer + "A");
+    }
+    names.truncate(channels.count());
+    let usual = ["Y", "R", "G", "B", "A"];
+    if names.iter().all(|name| usual.contains(&name.as_str())) {
+        PictureNames::Usual
+    } else {
+        PictureNames::Given(names)
+    }
+}

@@ -1,0 +1,243 @@
+//! What channels hold, by their names and types.
+
+use cosmorama_io::{NamedChannel, SampleKind};
+
+/// Channels that are filtered together by one rule.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct LayerGroup {
+    /// Channels, in the order that the rule asks for.
+    pub(crate) channels: Vec<NamedChannel>,
+    /// What they hold.
+    pub(crate) content: LayerContent,
+}
+
+/// What channels hold.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(crate) enum LayerContent {
+    /// Light: red, green, blue.
+    Light,
+    /// Numbers that mix like light: alpha, masks, positions, up to three.
+    Numbers,
+    /// One distance.
+    Depth,
+    /// A surface's normal: x, y, z.
+    Normal,
+    /// Identifiers: all channels of a layer belong to one texel.
+    Labels,
+}
+
+impl LayerContent {
+    /// Returns it in a word.
+    fn word(self) -> &'static str {
+        match self {
+            Self::Light => "light",
+            Self::Numbers => "numbers",
+            Self::Depth => "depth",
+            Self::Normal => "normals",
+            Self::Labels => "labels",
+        }
+    }
+}
+
+/// Returns what each of some channels holds, in a word, by their names and types: light, numbers, depth, normals or labels. All that
+/// belong together are to be given at once.
+pub fn contents(channels: &[NamedChannel]) -> Vec<(NamedChannel, &'static str)> {
+    let groups = grouped(channels).into_iter();
+    groups.flat_map(|group| group.channels.into_iter().map(move |channel| (channel, group.content.word()))).collect()
+}
+
+/// Most channels that are filtered at once: the fourth number of a pixel is the part of it that is covered.
+const AT_ONCE: usize = 3;
+
+/// Sorts channels into groups, in their order.
+pub(crate) fn grouped(channels: &[NamedChannel]) -> Vec<LayerGroup> {
+    let mut groups = Vec::new();
+    let mut numbers: Vec<NamedChannel> = Vec::new();
+    let mut layers: Vec<&str> = Vec::new();
+    for channel in channels {
+        let layer = layer_of(&channel.name);
+        if !layers.contains(&layer) {
+            layers.push(layer);
+            let of_layer = channels.iter().filter(|channel| layer_of(&channel.name) == layer).collect();
+            sort(layer, of_layer, &mut groups, &mut numbers);
+        }
+    }
+    groups.extend(numbers.chunks(AT_ONCE).map(|some| group(some.iter(), LayerContent::Numbers)));
+    groups
+}
+
+/// Sorts the channels of one layer into groups, and those without a rule of their own to `numbers`.
+fn sort(layer: &str, channels: Vec<&NamedChannel>, groups: &mut Vec<LayerGroup>, numbers: &mut Vec<NamedChannel>) {
+    let last = last_word(layer);
+    let names_labels = is_cryptomatte(last) || is_identifier(last);
+    let is_label =
+        |channel: &NamedChannel| names_labels || channel.kind == SampleKind::Uint || is_identifier(base(&channel.name));
+    let (labels, mut rest): (Vec<_>, Vec<_>) = channels.into_iter().partition(|channel| is_label(channel));
+    if names_labels {
+        groups.extend((!labels.is_empty()).then(|| group(labels.into_iter(), LayerContent::Labels)));
+    } else {
+        // Each is a name of its own.
+        groups.extend(labels.into_iter().map(|label| group([label].into_iter(), LayerContent::Labels)));
+    }
+    for names in [["X", "Y", "Z"], ["R", "G", "B"]] {
+        let Some(vector) = three(&rest, names) else { continue };
+        rest.retain(|channel| !vector.contains(channel));
+        let content = match (is_normal(last), names[0]) {
+            (true, _) => LayerContent::Normal,
+            (false, "R") if !is_depth(last) => LayerContent::Light,
+            _ if is_depth(last) => {
+                groups.extend(vector.into_iter().map(|one| group([one].into_iter(), LayerContent::Depth)));
+                continue;
+            }
+            _ => LayerContent::Numbers,
+        };
+        groups.push(group(vector.into_iter(), content));
+    }
+    for channel in rest {
+        let name = base(&channel.name);
+        let is_alpha = name.eq_ignore_ascii_case("A");
+        // A mist is a share of 0 to 1, whatever its channel is called.
+        let is_distance = is_depth(name) && last != "mist" || is_depth(last) && !is_alpha;
+        if is_distance {
+            groups.push(group([channel].into_iter(), LayerContent::Depth));
+        } else {
+            numbers.push(channel.clone());
+        }
+    }
+}
+
+fn group<'a>(channels: impl Iterator<Item = &'a NamedChannel>, content: LayerContent) -> LayerGroup {
+    LayerGroup { channels: channels.cloned().collect(), content }
+}
+
+/// Finds three channels of a layer by their last letters, in this order.
+fn three<'a>(channels: &[&'a NamedChannel], names: [&str; 3]) -> Option<Vec<&'a NamedChannel>> {
+    let find = |name: &&str| channels.iter().find(|channel| base(&channel.name).eq_ignore_ascii_case(name)).copied();
+    names.iter().map(find).collect()
+}
+
+/// Returns the layer of a channel's name: `a.b` of `a.b.R`.
+fn layer_of(name: &str) -> &str {
+    name.rsplit_once('.').map_or("", |(layer, _)| layer)
+}
+
+/// Returns a channel's name without its layer.
+fn base(name: &str) -> &str {
+    name.rsplit('.').next().unwrap_or(name)
+}
+
+fn last_word(layer: &str) -> &str {
+    base(layer)
+}
+
+fn is_cryptomatte(word: &str) -> bool {
+    word.to_lowercase().contains("crypto")
+}
+
+/// Returns whether a word names a normal, as renderers do: N, Normal, normals, WorldNormal, shading_normal, Nn, Ng, Ns.
+fn is_normal(word: &str) -> bool {
+    let word = word.to_lowercase();
+    ["n", "nn", "ng", "ns"].contains(&word.as_str()) || word.contains("normal")
+}
+
+/// Returns whether a word names a distance.
+fn is_depth(word: &str) -> bool {
+    let word = word.to_lowercase();
+    ["z", "zback", "distance"].contains(&word.as_str()) || word.contains("depth")
+}
+
+/// Returns whether a word names identifiers: `id`, `objectId`, `material_id`, `IndexOB`, `labels`; not `solid`.
+fn is_identifier(word: &str) -> bool {
+    let ends = |end: &str| {
+        word.strip_suffix(end).is_some_and(|rest| rest.is_empty() || rest.ends_with(|c: char| !c.is_uppercase()))
+    };
+    let whole = word.to_lowercase();
+    let plain = ["id", "ids", "label", "labels", "indexob", "indexma", "segmentation", "instance", "class"];
+    plain.contains(&whole.as_str())
+        || [ends("Id"), ends("ID"), ends("IDs"), ends("Ids")].contains(&true)
+        || ["_id", "_ids", "-id"].iter().any(|end| whole.ends_with(end))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn sorted(names: &[&str]) -> Vec<(LayerContent, String)> {
+        let channel = |name: &&str| {
+            let kind = if name.starts_with("u:") { SampleKind::Uint } else { SampleKind::Float };
+            NamedChannel { name: name.trim_start_matches("u:").to_owned(), kind, is_full: true }
+        };
+        let channels: Vec<_> = names.iter().map(channel).collect();
+        let told = |group: LayerGroup| {
+            let names: Vec<_> = group.channels.into_iter().map(|channel| channel.name).collect();
+            (group.content, names.join(" "))
+        };
+        grouped(&channels).into_iter().map(told).collect()
+    }
+
+    #[test]
+    fn names_of_many_renderers() {
+        use LayerContent::{Depth, Labels, Light, Normal, Numbers};
+        let group = |content, names: &str| (content, names.to_owned());
+        // Blender, Arnold, V-Ray and Nuke.
+        assert_eq!(
+            sorted(&[
+                "VL.Depth.Z",
+                "VL.Mist.Z",
+                "VL.Normal.X",
+                "VL.Normal.Y",
+                "VL.Normal.Z",
+                "VL.IndexOB.X",
+                "depth.A"
+            ]),
+            [
+                group(Depth, "VL.Depth.Z"),
+                group(Normal, "VL.Normal.X VL.Normal.Y VL.Normal.Z"),
+                group(Labels, "VL.IndexOB.X"),
+                group(Numbers, "VL.Mist.Z depth.A"),
+            ]
+        );
+        assert_eq!(
+            sorted(&[
+                "A",
+                "N.X",
+                "N.Y",
+                "N.Z",
+                "P.X",
+                "P.Y",
+                "P.Z",
+                "Z",
+                "diffuse.A",
+                "diffuse.B",
+                "diffuse.G",
+                "diffuse.R"
+            ]),
+            [
+                group(Depth, "Z"),
+                group(Normal, "N.X N.Y N.Z"),
+                group(Numbers, "P.X P.Y P.Z"),
+                group(Light, "diffuse.R diffuse.G diffuse.B"),
+                group(Numbers, "A diffuse.A"),
+            ]
+        );
+        assert_eq!(
+            sorted(&[
+                "u:count",
+                "crypto_object00.A",
+                "crypto_object00.R",
+                "objectId",
+                "solid",
+                "normals.b",
+                "normals.g",
+                "normals.r"
+            ]),
+            [
+                group(Labels, "count"),
+                group(Labels, "objectId"),
+                group(Labels, "crypto_object00.A crypto_object00.R"),
+                group(Normal, "normals.r normals.g normals.b"),
+                group(Numbers, "solid"),
+            ]
+        );
+    }
+}

@@ -1,0 +1,104 @@
+use cosmorama::camera::View;
+use cosmorama::raster::{ColourMatrix, Rgba};
+use cosmorama::sphere::Orientation;
+use cosmorama::world::World;
+use rayon::prelude::*;
+
+use super::ViewPlanes;
+use crate::colour::{DepthKind, LayerContent, NormalSpace};
+use crate::job::ConvertJob;
+
+/// How the numbers of a view become texels.
+struct Reading<'a> {
+    content: LayerContent,
+    view: &'a View,
+    planes: &'a ViewPlanes<'a>,
+    /// Whether depths are planar.
+    is_planar: bool,
+    /// Frame of normals in the world.
+    frame: Orientation,
+    /// Conversion of light to working primaries.
+    matrix: Option<ColourMatrix>,
+}
+
+/// Fills the texels of all worlds with a group's numbers: as light, with the part that counts in the place of alpha; distances from
+/// the camera; normals in the world's frame.
+pub(super) fn fill(job: &ConvertJob, content: LayerContent, views: &[ViewPlanes<'_>], worlds: &mut [Vec<Rgba>]) {
+    let mut present = job.input.present().zip(views);
+    for (world, texels) in job.worlds.iter().zip(worlds) {
+        for source in World::sources(world) {
+            let Some(((_, header, _), planes)) = present.next() else { return };
+            let rules = job.layers.rules;
+            let in_camera = content == LayerContent::Normal && rules.normals == NormalSpace::Camera;
+            let colours = job.light.colours(header.channels, header.depth, &header.metadata);
+            let reading = Reading {
+                content,
+                view: &source.view,
+                planes,
+                is_planar: rules.depth_of(&source.view) == DepthKind::Planar,
+                frame: if in_camera { source.view.orientation } else { Orientation::IDENTITY },
+                matrix: colours.matrix.filter(|_| content == LayerContent::Light),
+            };
+            let width = source.view.width();
+            let rows = texels[source.texels()].par_chunks_mut(width.max(1)).enumerate();
+            rows.for_each(|(j, row)| reading.fill_row(j, row));
+        }
+    }
+}
+
+/// Largest half, which stands for infinity in light.
+const LARGEST: f32 = 65504.0;
+
+impl Reading<'_> {
+    fn fill_row(&self, j: usize, row: &mut [Rgba]) {
+        let first = self.planes.row(j);
+        let number = |channel: usize, i: usize| self.planes.planes.get(channel).map_or(0.0, |p| p.number(first + i));
+        match self.content {
+            LayerContent::Light | LayerContent::Numbers => {
+                for (i, texel) in row.iter_mut().enumerate() {
+                    let [a, b, c] = [0, 1, 2].map(|channel| tame(number(channel, i)));
+                    *texel = Rgba::opaque(a, b, c);
+                }
+                if let Some(matrix) = &self.matrix {
+                    matrix.convert(row);
+                }
+            }
+            LayerContent::Depth => {
+                for (i, texel) in row.iter_mut().enumerate() {
+                    *texel = distance(number(0, i));
+                }
+                if self.is_planar {
+                    self.view.row_planar_depths(j, |i, share| row[i].0[0] /= share);
+                }
+            }
+            LayerContent::Normal => {
+                for (i, texel) in row.iter_mut().enumerate() {
+                    let normal = self.frame.normal_to_world([0, 1, 2].map(|channel| number(channel, i)));
+                    *texel = normal.map_or(Rgba::TRANSPARENT, |[x, y, z]| Rgba::opaque(x, y, z));
+                }
+            }
+            // They are no numbers.
+            LayerContent::Labels => {}
+        }
+    }
+}
+
+/// Returns a number that can be weighed: 0 for NaN, the largest half for infinity, as in pictures.
+fn tame(number: f32) -> f32 {
+    if number.is_nan() {
+        0.0
+    } else if number.is_infinite() {
+        LARGEST.copysign(number)
+    } else {
+        number
+    }
+}
+
+/// Returns a distance, whether it counts, and whether nothing is there up to infinity. All texels are seen.
+fn distance(number: f32) -> Rgba {
+    if number.is_finite() {
+        Rgba([number, 1.0, 0.0, 1.0])
+    } else {
+        Rgba([0.0, 0.0, if number == f32::INFINITY { 1.0 } else { 0.0 }, 1.0])
+    }
+}

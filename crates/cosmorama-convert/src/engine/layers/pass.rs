@@ -1,0 +1,146 @@
+use cosmorama::filter::{FilterKind, FilterSettings, Labels};
+use cosmorama::raster::{FramePool, Image, Rgba};
+use cosmorama::render::{Resampler, Stopped};
+use cosmorama_io::{Limits, Plane, PlaneSamples};
+use rayon::prelude::*;
+
+use super::fill::fill;
+use super::finish::finish;
+use super::labels::LabelTexels;
+use super::{FilePlanes, ViewPlanes};
+use crate::colour::{LayerContent, LayerGroup};
+use crate::conversion::Shares;
+use crate::diagnostic::{ConvertError, Result, bail};
+use crate::engine::{BalancedLight, FrameFile, Geometry, Which};
+use crate::job::{ConvertJob, FrameOutputs};
+use crate::packing::Place;
+use crate::source::read_further;
+use crate::target::Sheet;
+
+/// Makes the further channels of frames.
+#[derive(Clone, Copy)]
+pub(crate) struct LayerPass<'a> {
+    pub(crate) job: &'a ConvertJob,
+    pub(crate) geometry: &'a Geometry,
+    pub(crate) pool: &'a FramePool,
+}
+
+/// The numbers of a group's channels in a frame: those of each world's texels.
+struct GroupTexels<'a> {
+    group: &'a LayerGroup,
+    worlds: &'a [Vec<Rgba>],
+    labels: Option<LabelTexels<'a>>,
+}
+
+impl LayerPass<'_> {
+    /// Makes the channels of each file of a frame. Groups are made one after the other.
+    pub(crate) fn make(&self, frame: &FrameOutputs, shares: &mut Shares<'_>) -> Result<Vec<Vec<Plane>>> {
+        let job = self.job;
+        let mut made: Vec<Vec<Plane>> = frame.files.iter().map(|_| Vec::new()).collect();
+        let mut worlds: Vec<Vec<Rgba>> =
+            job.worlds.iter().map(|world| bytemuck::zeroed_vec(world.texel_count())).collect();
+        for batch in job.layers.batches(job.input.texels() as u64) {
+            let files = self.read(frame.frame, batch)?;
+            let mut first = 0;
+            for group in batch {
+                let views = self.views(&files, first..first + group.channels.len())?;
+                first += group.channels.len();
+                let labels = (group.content == LayerContent::Labels).then(|| LabelTexels::new(job, &views));
+                match &labels {
+                    Some(labels) => labels.fill(job.layers.rules.labels, &mut worlds),
+                    None => fill(job, group.content, &views, &mut worlds),
+                }
+                let texels = GroupTexels { group, worlds: &worlds, labels };
+                for ((file, _), planes) in frame.files.iter().zip(&mut made) {
+                    planes.extend(self.planes(&job.target.files[*file].sheet, &texels, shares)?);
+                }
+            }
+        }
+        Ok(made)
+    }
+
+    /// Reads the channels of some groups from all files of a frame.
+    fn read(&self, frame: Option<u64>, batch: &[LayerGroup]) -> Result<Vec<FilePlanes>> {
+        let job = self.job;
+        let names: Vec<&str> =
+            batch.iter().flat_map(|group| &group.channels).map(|channel| channel.name.as_str()).collect();
+        let limits = Limits::memory(job.memory.bytes);
+        let read = |FrameFile { path, views }: FrameFile| -> Result<FilePlanes> {
+            let planes = read_further(&*job.files, &path, &limits, &names)?;
+            Ok(FilePlanes { path, views, planes })
+        };
+        let files = FrameFile::all(job, frame, Which::All).into_par_iter();
+        // In the order of files, so that of several errors it is always the same that is told.
+        files.map(read).collect::<Vec<_>>().into_iter().collect()
+    }
+
+    /// Finds the channels `range` of what was read for each view.
+    fn views<'f>(&self, files: &'f [FilePlanes], range: std::ops::Range<usize>) -> Result<Vec<ViewPlanes<'f>>> {
+        let view = |(index, (input, header, _)): (usize, _)| {
+            let (input, header): (&crate::input::InputView, &cosmorama_io::Header) = (input, header);
+            let Some(file) = files.iter().find(|file| file.views.contains(&index)) else {
+                bail!("{}: its channels were not read", input.name)
+            };
+            let place = input.part.unwrap_or(Place::whole((header.width, header.height)));
+            let planes: Vec<&PlaneSamples> = file.planes[range.clone()].iter().map(|plane| &plane.samples).collect();
+            if planes.iter().any(|plane| plane.len() != place.of.0 * place.of.1) {
+                let path = file.path.display();
+                bail!(Changed: "{path}: its size has changed; leave files alone while they are read");
+            }
+            Ok(ViewPlanes { planes, place })
+        };
+        self.job.input.present().enumerate().map(view).collect()
+    }
+
+    /// Makes the planes of a file for a group of channels.
+    fn planes(&self, sheet: &Sheet, texels: &GroupTexels<'_>, shares: &mut Shares<'_>) -> Result<Vec<Plane>> {
+        let (width, height) = sheet.size;
+        let channels = texels.group.channels.iter();
+        let blank = |channel: &cosmorama_io::NamedChannel| Plane {
+            name: channel.name.clone(),
+            samples: PlaneSamples::zeros(channel.kind, width * height),
+        };
+        let mut planes: Vec<Plane> = channels.map(blank).collect();
+        for &(index, (left, top)) in &sheet.pieces {
+            let mut image = self.render(index, texels, shares)?;
+            let target = &self.job.target.views[index];
+            finish((texels.group.content, self.job.layers.rules), &target.view, &mut image);
+            let world = target.world(texels.worlds.len());
+            planes.par_iter_mut().enumerate().for_each(|(channel, plane)| {
+                let mut at = 0;
+                for j in 0..image.height() {
+                    let into = (top + j) * width + left;
+                    for i in 0..image.width() {
+                        let pixel = image.pixels()[at];
+                        at += 1;
+                        match &texels.labels {
+                            Some(labels) => labels.copy((world, pixel), channel, (&mut plane.samples, into + i)),
+                            None => plane.samples.set_number(into + i, pixel.0[channel]),
+                        }
+                    }
+                }
+            });
+            self.pool.give_image(image);
+        }
+        Ok(planes)
+    }
+
+    /// Filters a group for a view of the target.
+    fn render(&self, index: usize, texels: &GroupTexels<'_>, shares: &mut Shares<'_>) -> Result<Image<Rgba>> {
+        let job = self.job;
+        let target = &job.target.views[index];
+        let share = shares.next(&target.view);
+        let light = &texels.worlds[target.world(texels.worlds.len())];
+        let resampler = job.resampler(target);
+        let made = if texels.labels.is_some() {
+            let kind = FilterKind::Labels(job.layers.rules.labels);
+            let filter = FilterSettings { kind, kernel: Labels::KERNEL, anti_ringing: false };
+            Resampler { filter, ..resampler }.watched(&share).render_over(light, Rgba::TRANSPARENT)
+        } else {
+            // What is no light has no total to be kept: as with holes, nothing is balanced.
+            let (watched, mut balanced) = (resampler.watched(&share), BalancedLight::default());
+            self.geometry.light(index, watched, (light, true), Rgba::TRANSPARENT, self.pool, &mut balanced)
+        };
+        made.map_err(|Stopped| ConvertError::Stopped { done: 0, frames: job.outputs.frames.len() })
+    }
+}
