@@ -15,16 +15,15 @@ use super::parse::listed;
 use super::{SEE_MORE, projections, with_examples};
 
 /// Example commands in its help.
-pub(super) const EXAMPLES: [&str; 11] = [
+pub(super) const EXAMPLES: [&str; 10] = [
     "cosmorama convert 'faces/{face}.png' dome.png --to omnimax --size 1966x1436",
     "cosmorama convert '%c/%c_%04d.tga' 'dome_####.png' --to fulldome:tilt=20",
     "cosmorama convert panorama.jpg view.png --to perspective:fov=60 --yaw 30",
-    "cosmorama convert panorama.exr 'cube/{face}.exr' --to cube --size 1024",
+    "cosmorama convert sky.exr 'cube/{face}.exr' --to cube --channels 'R,G,B,Z'",
     "cosmorama convert dome.png sky.png --from fulldome --to equirect --missing red",
     "cosmorama convert builtin:grid align.png --to fulldome --size 4k",
     "cosmorama convert a.jpg flat.png --from fisheye:calibration=cam.yml --to flat",
     "cosmorama convert project.pto panorama.png",
-    "cosmorama convert 'cube/{face}.exr' dome.exr --to fulldome --channels 'R,G,B,diffuse.*,Z'",
     "cosmorama convert panorama.exr map.exr --to fulldome --size 2048 --st-map",
     "cosmorama convert plate.exr undistorted.exr --from st-map:file=undistort.exr",
 ];

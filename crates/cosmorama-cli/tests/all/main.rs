@@ -18,6 +18,7 @@ mod faces {
 }
 
 mod filter {
+    mod channels;
     mod labels;
     mod light;
     mod light_balance;

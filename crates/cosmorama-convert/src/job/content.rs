@@ -7,8 +7,8 @@ use cosmorama_spec::Missing;
 use super::options::filter;
 use crate::colour::Light;
 use crate::diagnostic::{
-    ANTI_RINGING, BACKGROUND, Code, DEPTH, Diagnostic, FILTER, FRAMES, FROM, IN_TRANSFER, KERNEL, MISSING, Mark,
-    OUT_TRANSFER, OVERWRITE, RESUME, Result, ST_MAP, TRANSFER, usage, usage_as,
+    ANTI_RINGING, BACKGROUND, CHANNELS, Code, DEPTH, Diagnostic, FILTER, FRAMES, FROM, IN_TRANSFER, KERNEL, MISSING,
+    Mark, OUT_TRANSFER, OVERWRITE, PART, RESUME, Result, ST_MAP, TRANSFER, usage, usage_as,
 };
 use crate::input::{Builtin, Input, SAME_FOR_BOTH};
 use crate::settings::{Conversion, GeometrySettings};
@@ -151,10 +151,12 @@ fn without_letters(target: &Target) -> Option<Diagnostic> {
 
 /// Refuses settings about input files, which have no effect on a formula.
 fn check_input_options(settings: &Conversion) -> Result<()> {
-    let given: [(bool, Mark, &str); 4] = [
+    let given: [(bool, Mark, &str); 6] = [
         (settings.geometry.from.is_some(), FROM, "it is a formula, with no projection of its own"),
         (settings.frames.is_some(), FRAMES, "it has none"),
         (settings.in_transfer.is_some(), IN_TRANSFER, "it has no code values"),
+        (settings.part.is_some(), PART, "it has none"),
+        (!settings.channels.is_empty(), CHANNELS, "it has one picture"),
         (settings.missing != Missing::Error, MISSING, "it shows something in every direction"),
     ];
     match given.into_iter().find(|(is_given, ..)| *is_given) {

@@ -37,7 +37,8 @@ impl Remade {
         memory: MemoryBudget,
     ) -> Vec<Self> {
         // As many at once as fit into memory, decoded.
-        let largest = targets.iter().map(|file| light.file_bytes(file.sheet.size)).max().unwrap_or(0);
+        let bytes = |size| light.file_bytes(size).saturating_add(layers.file_bytes(size));
+        let largest = targets.iter().map(|file| bytes(file.sheet.size)).max().unwrap_or(0);
         let at_once = (memory.bytes / largest.max(1)).clamp(1, frames.len().max(1) as u64) as usize;
         let mut all = Vec::new();
         for some in frames.chunks_mut(at_once) {
@@ -108,7 +109,8 @@ impl Found {
         if !told.is_empty() {
             return Self::Other(told.join(", "));
         }
-        let limits = Limits::memory(light.file_bytes(target.sheet.size));
+        let bytes = light.file_bytes(target.sheet.size).saturating_add(layers.file_bytes(target.sheet.size));
+        let limits = Limits::memory(bytes);
         let pool = FramePool::default();
         match open(path).and_then(|file| read_chosen(file, path, (&limits, &pool), &choice)) {
             Ok(_) => Self::Complete,

@@ -6,7 +6,7 @@ use std::process::Command;
 
 use crate::common::{picture, program};
 use cosmorama::raster::{Channels, Depth, EncodedImage, Samples, Transfer};
-use cosmorama_io::{EnvMap, IoError, Limits, Metadata, Window, WriteOptions, probe, read, write};
+use cosmorama_io::{EnvMap, Limits, Metadata, Window, WriteOptions, probe, read, write};
 
 fn run(program: &str, arguments: &[&str]) {
     let output = Command::new(program).args(arguments).output().unwrap();

@@ -9,7 +9,8 @@ const NO_LAYER: &str = "(no layer)";
 /// several.
 pub(super) fn add_layers(report: &mut Value, header: &Header) {
     let layers = &header.metadata.layers;
-    if layers.further.is_empty() && layers.parts.is_empty() {
+    let is_usual = layers.picture.iter().all(|name| ["R", "G", "B", "Y", "A"].contains(&name.as_str()));
+    if layers.further.is_empty() && layers.parts.is_empty() && is_usual {
         return;
     }
     let kind = SampleKind::from(header.depth);

@@ -10,6 +10,7 @@ use std::process::{Command, Stdio};
 
 use crate::bench::{Bench, flat, floats, picture, text, veiled};
 use cosmorama::raster::{Channels, Depth, EncodedImage, Image, Rgba, Samples, Transfer};
+use cosmorama_io::{LayeredImage, Plane, PlaneSamples, WriteOptions, write_layers};
 
 const MESSAGES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/all/usage/messages.txt");
 
@@ -148,6 +149,7 @@ fn pictures(bench: &Bench) {
     bench.save("suns.exr", &floats(128, 64, |i, j| if i == 32 && j == 16 { [90000.0; 3] } else { [0.5; 3] }));
     let one = EncodedImage::new(2, 2, Channels::Grey, Depth::Float, Samples::Float(vec![0.5; 4])).unwrap();
     bench.save("one.exr", &one);
+    layered(bench);
     let whole = bench.bytes("sky.png");
     fs::write(bench.path("cut.png"), &whole[..whole.len() * 2 / 3]).unwrap();
     fs::write(bench.path("empty.png"), "").unwrap();
@@ -162,6 +164,36 @@ fn pictures(bench: &Bench) {
     for name in ["front", "left", "f", "l"] {
         bench.save(&format!("two/{name}.png"), &picture(0, 16, 16));
     }
+}
+
+/// A panorama with channels beside its picture, channels without any, and a file of two parts.
+fn layered(bench: &Bench) {
+    let samples = |value: f32| PlaneSamples::Float(vec![value; 64 * 32]);
+    let plane = |name: &str, samples| Plane { name: name.to_owned(), samples };
+    let normal = ["N.X", "N.Y", "N.Z"].map(|name| plane(name, samples(0.5)));
+    let ids = plane("objectId", PlaneSamples::Uint(vec![7; 64 * 32]));
+    let depth = plane("Z", samples(3.0));
+    let light = ["R", "G", "B"].map(|name| plane(&format!("diffuse.{name}"), samples(0.25)));
+    let image = floats(64, 32, |_, _| [0.5; 3]);
+    let all = normal.into_iter().chain([ids, depth.clone()]).chain(light).collect();
+    for (name, picture, planes) in [("layers.exr", Some(&image), all), ("depth.exr", None, vec![depth])] {
+        let layered = LayeredImage { size: (64, 32), picture, names: Vec::new(), planes };
+        write_layers(bench.path(name), layered, &WriteOptions::default()).unwrap();
+    }
+    use exr::prelude::WritableImage as _;
+    let part = |name: &str, value: f32| {
+        use exr::prelude::{Encoding, Layer, LayerAttributes, SpecificChannels, Vec2};
+        let channels = SpecificChannels::rgb(move |_: Vec2<usize>| (value, value, value));
+        Layer::new((64, 32), LayerAttributes::named(name), Encoding::UNCOMPRESSED, channels)
+    };
+    let size = exr::prelude::IntegerBounds::from_dimensions((64, 32));
+    let parts = exr::prelude::Image::empty(exr::prelude::ImageAttributes::new(size));
+    parts
+        .with_layer(part("left", 0.5))
+        .with_layer(part("right", 0.25))
+        .write()
+        .to_file(bench.path("parts.exr"))
+        .unwrap();
 }
 
 /// A panorama of patches without any order, so that no part of it is like another.

@@ -103,6 +103,12 @@ impl LayerPlan {
         batches
     }
 
+    /// Returns the bytes of the further channels in a file.
+    pub(crate) fn file_bytes(&self, (width, height): (usize, usize)) -> u64 {
+        let pixel = self.groups.iter().map(bytes_of).fold(0, u64::saturating_add);
+        pixel.saturating_mul(width as u64).saturating_mul(height as u64)
+    }
+
     /// Returns the bytes that further channels take at once in a frame whose input and outputs have so many pixels: the channels read
     /// together, their numbers while they are filtered, and all channels made.
     pub(crate) fn bytes(&self, input: u64, output: u64) -> u64 {

@@ -33,7 +33,7 @@ pub(super) fn finish((content, rules): (LayerContent, LayerRules), view: &View, 
 /// Returns the mean of the distances that count, if they are half of what a pixel sees; otherwise infinity, if that is there. Outside
 /// of the lens it is 0.
 fn distance(Rgba([sum, counted, far, seen]): Rgba) -> f32 {
-    if counted >= 0.5 * seen && counted > 0.0 || far <= 0.0 && counted > 0.0 {
+    if counted > 0.0 && (far <= 0.0 || counted >= 0.5 * seen) {
         sum / counted
     } else if far > 0.0 {
         f32::INFINITY

@@ -12,7 +12,7 @@ use crate::job::ConvertJob;
 /// channels belong together.
 pub(super) struct LabelTexels<'a> {
     views: &'a [ViewPlanes<'a>],
-    /// Views of each world: the number of its first texel, and its columns.
+    /// Views of each world.
     worlds: Vec<Vec<LabelView>>,
 }
 
@@ -20,8 +20,33 @@ pub(super) struct LabelTexels<'a> {
 struct LabelView {
     /// Index among all views that are present.
     view: usize,
+    /// Number of its first texel.
     first: usize,
+    /// Number of its texels.
+    count: usize,
     width: usize,
+}
+
+/// First texels with some labels.
+#[derive(Default)]
+struct Firsts {
+    all: HashMap<Vec<u32>, usize>,
+    /// Those seen last, since labels come in runs.
+    last: Option<(Vec<u32>, usize)>,
+}
+
+impl Firsts {
+    /// Returns the first texel with these labels, which may be this one.
+    fn of(&mut self, bits: Vec<u32>, number: usize) -> usize {
+        match &self.last {
+            Some((last, first)) if *last == bits => *first,
+            _ => {
+                let first = *self.all.entry(bits.clone()).or_insert(number);
+                self.last = Some((bits, first));
+                first
+            }
+        }
+    }
 }
 
 /// Numbers up to which floats are exact.
@@ -36,6 +61,7 @@ impl<'a> LabelTexels<'a> {
             let view = |(source, view): (&cosmorama::world::Source, usize)| LabelView {
                 view,
                 first: source.offset,
+                count: source.texels().len(),
                 width: source.view.width(),
             };
             sources.zip(&mut present).map(view).collect()
@@ -46,21 +72,13 @@ impl<'a> LabelTexels<'a> {
     /// Fills texels with their numbers; for votes, with the number of the first texel that has the same labels.
     pub(super) fn fill(&self, rule: LabelRule, worlds: &mut [Vec<Rgba>]) {
         for (views, texels) in self.worlds.iter().zip(worlds) {
-            let mut firsts: HashMap<Vec<u32>, usize> = HashMap::new();
-            let (mut last, mut last_first) = (Vec::new(), None);
-            for (view, end) in views.iter().zip(views.iter().skip(1).map(|next| next.first).chain([texels.len()])) {
-                for number in view.first..end {
-                    let mut stands = number;
-                    if rule == LabelRule::Vote {
-                        let bits = self.bits(view, number);
-                        // Labels come in runs.
-                        if last_first.is_none() || bits != last {
-                            last_first = Some(*firsts.entry(bits.clone()).or_insert(number));
-                            last = bits;
-                        }
-                        stands = last_first.unwrap_or(number);
-                    }
-                    texels[number] = coded(stands);
+            let mut firsts = Firsts::default();
+            for view in views {
+                let numbers = view.first..view.first + view.count;
+                for (number, texel) in numbers.clone().zip(&mut texels[numbers]) {
+                    let stands =
+                        if rule == LabelRule::Vote { firsts.of(self.bits(view, number), number) } else { number };
+                    *texel = coded(stands);
                 }
             }
         }
