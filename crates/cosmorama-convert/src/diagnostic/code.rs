@@ -104,6 +104,6 @@ pub enum Code {
     Parts,
     /// Channels are not carried over.
     ChannelsLost,
-    /// What a channel holds is guessed.
+    /// The content of a channel is guessed.
     Guessed,
 }

@@ -36,7 +36,7 @@ pub trait Files: Debug + Send + Sync {
 pub(crate) struct ChosenFiles {
     /// Source of bytes.
     pub(crate) files: Arc<dyn Files>,
-    /// What is read.
+    /// Selection of what is read.
     pub(crate) choice: Choice,
 }
 

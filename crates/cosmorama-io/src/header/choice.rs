@@ -1,4 +1,4 @@
-/// What to read of a file that holds more than one picture: a part, and channels. Only OpenEXR files have such.
+/// Selection from a file that holds more than one picture: a part, and channels. Only OpenEXR files have such.
 ///
 /// ```
 /// use cosmorama_io::Choice;

@@ -9,8 +9,11 @@ mod face_sets;
 mod hostile;
 mod interop;
 mod interrupt;
-mod layers;
 mod pto;
 mod real_files;
 mod round_trips;
-mod several;
+
+mod contents {
+    mod layers;
+    mod several;
+}

@@ -13,7 +13,7 @@ pub(crate) struct LayerPlan {
     pub(crate) groups: Vec<LayerGroup>,
     /// Names of the picture's own channels.
     pub(crate) picture: PictureNames,
-    /// How they are made.
+    /// Rules by which they are made.
     pub(crate) rules: LayerRules,
     /// Bytes that may be read at once.
     pub(crate) room: u64,

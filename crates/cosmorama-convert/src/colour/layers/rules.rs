@@ -1,4 +1,4 @@
-//! What channels hold, by their names and types.
+//! Content of channels, by their names and types.
 
 use cosmorama_io::{NamedChannel, SampleKind};
 
@@ -7,11 +7,11 @@ use cosmorama_io::{NamedChannel, SampleKind};
 pub(crate) struct LayerGroup {
     /// Channels, in the order that the rule asks for.
     pub(crate) channels: Vec<NamedChannel>,
-    /// What they hold.
+    /// Their content.
     pub(crate) content: LayerContent,
 }
 
-/// What channels hold.
+/// Content of channels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) enum LayerContent {
     /// Light: red, green, blue.

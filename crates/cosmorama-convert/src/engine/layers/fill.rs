@@ -8,7 +8,7 @@ use super::ViewPlanes;
 use crate::colour::{DepthKind, LayerContent, NormalSpace};
 use crate::job::ConvertJob;
 
-/// How the numbers of a view become texels.
+/// A view's numbers, on their way to texels.
 struct Reading<'a> {
     content: LayerContent,
     view: &'a View,

@@ -31,7 +31,7 @@ struct LabelView {
 #[derive(Default)]
 struct Firsts {
     all: HashMap<Vec<u32>, usize>,
-    /// Those seen last, since labels come in runs.
+    /// Labels seen last, which come in runs.
     last: Option<(Vec<u32>, usize)>,
 }
 

@@ -20,7 +20,7 @@ struct FilePlanes {
     planes: Vec<Plane>,
 }
 
-/// Where the pixels of a view lie in a file's planes.
+/// The planes of a view's file, and the place of its pixels in them.
 struct ViewPlanes<'a> {
     /// Samples of each channel of a group.
     planes: Vec<&'a PlaneSamples>,
