@@ -26,7 +26,7 @@ pub enum IoError {
         path: PathBuf,
     },
     /// The first bytes of a file match no known format.
-    #[error("{}: not an image of a known format (PNG, JPEG, TIFF, Radiance HDR, OpenEXR, KTX or DDS; TGA is known by its extension .tga)", path.display())]
+    #[error("{}: {}", path.display(), known(path))]
     UnknownContent {
         /// The file read.
         path: PathBuf,
@@ -102,6 +102,23 @@ pub enum IoError {
         first: String,
         /// Second one.
         second: String,
+    },
+    /// A header declares more columns or rows than any picture has.
+    #[error(
+        "{}: its {format} header says {width}x{height} pixels, but a side may have at most {longest}; if no program made so \
+         large a picture, the header is damaged: make the file again", path.display()
+    )]
+    TooLong {
+        /// The file read.
+        path: PathBuf,
+        /// Its format.
+        format: Format,
+        /// Declared columns.
+        width: u64,
+        /// Declared rows.
+        height: u64,
+        /// Most columns or rows.
+        longest: u64,
     },
     /// The declared pixels do not fit into the permitted memory.
     #[error(
@@ -256,7 +273,38 @@ fn unnamed(path: &Path) -> String {
         let file = path.join("out.png");
         return format!("a folder, where a file name was expected; write one in it, as in {}", file.display());
     }
+    if is_video(path) {
+        return "a video, where pictures were expected: write frames, as in frames/#####.png, of which ffmpeg makes the video \
+                (docs/video.md)"
+            .to_owned();
+    }
+    if path.extension().is_none() {
+        return format!(
+            "without an extension, which names the format; write {}.png, or one of {extensions}",
+            path.file_name().unwrap_or_default().to_string_lossy()
+        );
+    }
     format!("the extension names no format; use one of {extensions}")
+}
+
+/// Extensions of files that ffmpeg takes apart into pictures.
+const VIDEOS: [&str; 9] = ["mp4", "mov", "mkv", "webm", "avi", "m4v", "mxf", "ts", "gif"];
+
+/// Returns whether a file is a video by its name.
+fn is_video(path: &Path) -> bool {
+    let extension = path.extension().and_then(|extension| extension.to_str()).unwrap_or_default().to_ascii_lowercase();
+    VIDEOS.contains(&extension.as_str())
+}
+
+/// Returns what was expected of a file whose content is of no known format.
+fn known(path: &Path) -> String {
+    if is_video(path) {
+        return "a video, where pictures were expected: take it apart, as with ffmpeg -i FILE -fps_mode passthrough \
+                frames/%05d.png (docs/video.md)"
+            .to_owned();
+    }
+    "not an image of a known format (PNG, JPEG, TIFF, Radiance HDR, OpenEXR, KTX or DDS; TGA is known by its extension .tga)"
+        .to_owned()
 }
 
 /// Returns a number of frames in words.
@@ -285,6 +333,10 @@ impl IoError {
         let is_short = SHORT.iter().any(|words| reason.contains(words));
         let reason = if is_short { "it ends too early".to_owned() } else { reason };
         Self::Damaged { path: path.to_owned(), format, reason }
+    }
+
+    pub(crate) fn too_long(path: &Path, format: Format, (width, height): (u64, u64), longest: u64) -> Self {
+        Self::TooLong { path: path.to_owned(), format, width, height, longest }
     }
 
     pub(crate) fn several(path: &Path, format: Format, count: usize, found: impl ToString) -> Self {

@@ -51,5 +51,5 @@ pub use memory::MemorySize;
 pub use size::Size;
 pub use spec::{
     CalibrationSpec, Cube, Dual, LensFamily, Packing, Shape, Single, Spec, SpecKey, SpecKind, SphereSamples, StMapBase,
-    StMapSpec, StereoSpec, help,
+    StMapSpec, StereoSpec, help, help_on_key, presets,
 };

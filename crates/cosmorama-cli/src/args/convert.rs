@@ -10,7 +10,6 @@ use cosmorama_spec::{
 use super::ProgressStyle;
 use super::geometry::GeometryArgs;
 use super::parse::compression::CompressionParser;
-use super::parse::depth::depth_parser;
 use super::parse::listed;
 use super::{SEE_MORE, projections, with_examples};
 
@@ -100,7 +99,7 @@ pub(crate) struct ConvertArgs {
     /// Output sample type [default: as the input]
     ///
     /// Unless given, it is as the input's, where the format can.
-    #[arg(long, value_parser = depth_parser(), value_name = "DEPTH", help_heading = "Light")]
+    #[arg(long, value_parser = listed::depth(), value_name = "DEPTH", help_heading = "Light")]
     pub(crate) depth: Option<DepthName>,
     /// Pixels outside the lens [default: black]
     ///

@@ -10,7 +10,13 @@ use super::parse::listed;
 use super::{verbs, with_examples};
 
 /// Example commands in the help of `help`.
-pub(super) const EXAMPLES: [&str; 3] = ["cosmorama help convert", "cosmorama help spec", "cosmorama help spec fisheye"];
+pub(super) const EXAMPLES: [&str; 5] = [
+    "cosmorama help convert",
+    "cosmorama help spec",
+    "cosmorama help fisheye",
+    "cosmorama help tilt",
+    "cosmorama help kernels",
+];
 
 /// Example commands in the help of `man`.
 pub(super) const MAN_EXAMPLES: [&str; 2] = ["cosmorama man | man -l -", "cosmorama man ~/.local/share/man"];
@@ -22,6 +28,10 @@ pub(super) const COMPLETIONS_EXAMPLES: [&str; 3] = [
     "cosmorama completions fish > ~/.config/fish/completions/cosmorama.fish",
 ];
 
+/// Topics of help that are lists of names.
+pub(crate) const LISTS: [&str; 8] =
+    ["kernels", "filters", "transfers", "primaries", "depths", "formats", "naming", "builtins"];
+
 /// Topic of help that is no verb.
 pub(crate) const SPEC_TOPIC: &str = "spec";
 
@@ -29,10 +39,10 @@ pub(crate) const SPEC_TOPIC: &str = "spec";
 #[derive(Debug, Args)]
 #[command(help_template = with_examples(&EXAMPLES))]
 pub(crate) struct HelpArgs {
-    /// A verb, a projection, or spec: how projections are typed
-    #[arg(value_parser = listed::word(verbs().chain([SPEC_TOPIC]).map(|topic| (topic, ""))), hide_possible_values = true)]
+    /// A verb, a projection, a key, spec (how projections are typed), kernels, formats, naming…
+    #[arg(value_parser = listed::word(verbs().chain([SPEC_TOPIC]).chain(LISTS).map(|topic| (topic, ""))), hide_possible_values = true)]
     pub(crate) topic: Option<String>,
-    /// After spec: the one projection whose keys to print
+    /// After spec: the one projection whose keys to print; after light: the kind of map
     #[arg(value_parser = listed::word(SpecKind::all().map(|kind| (kind.name(), kind.about()))), hide_possible_values = true)]
     pub(crate) projection: Option<String>,
 }

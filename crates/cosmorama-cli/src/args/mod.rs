@@ -20,7 +20,7 @@ pub(crate) use compare::{CompareArgs, Region};
 pub(crate) use convert::{ConvertArgs, builtins};
 pub(crate) use demo::DemoArgs;
 pub(crate) use explain::ExplainArgs;
-pub(crate) use help::{CompletionsArgs, HelpArgs, ManArgs, SPEC_TOPIC};
+pub(crate) use help::{CompletionsArgs, HelpArgs, LISTS, ManArgs, SPEC_TOPIC};
 pub(crate) use info::InfoArgs;
 pub(crate) use light::{DiffuseArgs, HarmonicsArgs, Kind, LightArgs, LightVerb, MapArgs, SpecularArgs, Unit};
 pub(crate) use progress::ProgressStyle;
@@ -104,6 +104,13 @@ pub(crate) fn options(verb: &str) -> Vec<String> {
     let verb = command.find_subcommand(verb);
     let parts = verb.into_iter().flat_map(|verb| std::iter::once(verb).chain(verb.get_subcommands()));
     parts.flat_map(Command::get_arguments).filter_map(Arg::get_long).map(str::to_owned).collect()
+}
+
+/// Returns the names of the verbs that a verb has of its own, as `light` does.
+pub(crate) fn parts(verb: &str) -> Vec<String> {
+    let command = Args::command();
+    let parts = command.find_subcommand(verb).into_iter().flat_map(Command::get_subcommands);
+    parts.map(|part| part.get_name().to_owned()).collect()
 }
 
 /// Last line of short help, which tells where there is more.

@@ -5,9 +5,9 @@ use std::process::ExitCode;
 
 use clap::Error;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
-use cosmorama_spec::{SpecError, SpecKind, WordError, WordKind};
+use cosmorama_spec::{Size, SpecError, SpecKind, WordError, WordKind, nearest};
 
-use super::{unknown_option, unknown_verb};
+use super::{no_projection, unknown_option, unknown_verb};
 use crate::args::{self, examples};
 use crate::console::say;
 
@@ -22,6 +22,19 @@ impl Typed {
     /// Returns the verb, if the first word is one.
     pub(super) fn verb(&self) -> Option<&str> {
         self.0.first().map(String::as_str).filter(|word| args::verbs().any(|verb| verb == *word))
+    }
+
+    /// Finds a word that is a verb's option, but with one dash: `-to`.
+    pub(super) fn option_with_one_dash(&self, verb: Option<&str>) -> Option<String> {
+        let options = args::options(verb?);
+        let names = self.0.iter().filter_map(|word| word.strip_prefix('-').filter(|rest| !rest.starts_with('-')));
+        let mut names = names.map(|name| name.split('=').next().unwrap_or_default().replace('_', "-"));
+        names.find(|name| options.contains(name))
+    }
+
+    /// Finds a word that is no text: its bytes are not UTF-8.
+    fn no_text(&self) -> Option<&str> {
+        self.0.iter().map(String::as_str).find(|word| word.contains(char::REPLACEMENT_CHARACTER))
     }
 
     /// Returns the value of an option, given as `--name value` or `--name=value`.
@@ -56,9 +69,20 @@ fn message(error: &Error, typed: &Typed) -> String {
     match error.kind() {
         ErrorKind::UnknownArgument => unknown_option::message(argument.unwrap_or_default(), typed),
         ErrorKind::InvalidSubcommand => {
-            unknown_verb::message(text(error, ContextKind::InvalidSubcommand).unwrap_or_default())
+            let word = text(error, ContextKind::InvalidSubcommand).unwrap_or_default();
+            match typed.verb() {
+                Some(verb) => unknown_verb::message_of_part(word, verb),
+                None => unknown_verb::message(word),
+            }
         }
         ErrorKind::ValueValidation => value(error).unwrap_or_else(|| in_claps_words(error, typed)),
+        ErrorKind::InvalidValue => choice(error).unwrap_or_else(|| in_claps_words(error, typed)),
+        ErrorKind::InvalidUtf8 => format!(
+            "'{}' is no text in UTF-8, as names of inputs and outputs must be; rename it, or make a link to it with a plain \
+             name\n\n{}",
+            typed.no_text().unwrap_or_default(),
+            see_options(typed.verb())
+        ),
         _ => in_claps_words(error, typed),
     }
 }
@@ -76,6 +100,20 @@ fn value(error: &Error) -> Option<String> {
     let cause = error.source()?;
     let what = format!("invalid value '{typed}' for '{option}'");
     if let Some(error) = cause.downcast_ref::<SpecError>() {
+        if let SpecError::UnknownName { name, .. } = error
+            && let Some(advice) = no_projection::advice(option.split(' ').next().unwrap_or_default(), name, typed)
+        {
+            return Some(format!("{what}: '{name}' is no projection; {advice}"));
+        }
+        let size = match error {
+            SpecError::NoValue { part, instead } if instead.is_empty() => part.parse::<Size>().ok(),
+            _ => None,
+        };
+        if size.is_some() {
+            let (name, size) = typed.split_once(':').unwrap_or((typed, ""));
+            let option = option.split(' ').next().unwrap_or_default();
+            return Some(format!("{what}: '{size}' is a size: {option} {name} --size {size}"));
+        }
         return Some(format!("{what}: {}\n\n{}", error.summary(), keys(typed)));
     }
     if let Some(WordError::OfOther { of, name, .. }) = cause.downcast_ref() {
@@ -84,10 +122,39 @@ fn value(error: &Error) -> Option<String> {
             WordKind::Kernel => "--kernel",
             WordKind::Transfer => "--transfer",
             WordKind::Primaries => "--primaries",
+            WordKind::Depth => "--depth",
         };
         return Some(format!("{what}: that is a {of}: {right} {name}"));
     }
     Some(format!("{what}: {cause}"))
+}
+
+/// Other words for values of options that take one of a few: the option, the words, and the value.
+const OTHER_VALUES: [(&str, &[&str], &str); 7] = [
+    ("--region", &["circle", "disk", "dome", "fulldome", "fisheye", "round", "lens"], "disc"),
+    ("--region", &["full", "whole", "everything", "none", "square"], "all"),
+    ("--progress", &["off", "quiet", "no", "false", "silent"], "none"),
+    ("--progress", &["text", "line", "lines", "log"], "plain"),
+    ("--labels", &["majority", "mode", "most", "area"], "vote"),
+    ("--labels", &["nn", "point", "centre", "center"], "nearest"),
+    ("<SHELL>", &["sh", "dash", "ksh"], "bash"),
+];
+
+/// Returns the message for a value that is none of a few.
+fn choice(error: &Error) -> Option<String> {
+    let (option, typed) = (text(error, ContextKind::InvalidArg)?, text(error, ContextKind::InvalidValue)?);
+    let Some(ContextValue::Strings(known)) = error.get(ContextKind::ValidValue) else { return None };
+    // Clap says so of an option without a value, too.
+    if typed.is_empty() {
+        return None;
+    }
+    let is_of = |of: &str| option.split(' ').next() == Some(of);
+    let lower = typed.to_lowercase();
+    let other = OTHER_VALUES.iter().find(|(of, words, _)| is_of(of) && words.contains(&lower.as_str()));
+    let names: Vec<&str> = known.iter().map(String::as_str).collect();
+    let meant = other.map(|(_, _, value)| *value).or_else(|| nearest(&lower, &names));
+    let meant = meant.map_or_else(String::new, |meant| format!("; did you mean '{meant}'?"));
+    Some(format!("invalid value '{typed}' for '{option}'{meant}; there are {}", names.join(", ")))
 }
 
 /// Returns the keys of the projection that was typed.
@@ -105,6 +172,10 @@ fn in_claps_words(error: &Error, typed: &Typed) -> String {
     let verb = typed.verb();
     let example = examples(verb).first().filter(|_| needs_example);
     let example = example.map_or_else(String::new, |example| format!("Example: {example}\n"));
+    if needs_example && typed.0.iter().any(String::is_empty) {
+        let empty = "an argument is empty, as where a shell's variable is not set";
+        return format!("{empty}\n\n{example}{}", see_options(verb));
+    }
     format!("{text}\n\n{example}{}", see_options(verb))
 }
 

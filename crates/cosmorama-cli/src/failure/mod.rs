@@ -1,6 +1,8 @@
 //! Errors with exit codes: 1 for failures, 2 for wrong usage.
 
 mod arguments;
+mod no_projection;
+mod other_words;
 mod spec_key;
 mod unknown_option;
 mod unknown_verb;

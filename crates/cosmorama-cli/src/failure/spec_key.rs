@@ -35,8 +35,10 @@ pub(super) fn advice(word: &str, option: &str, typed: &Typed) -> Option<String> 
     let value = typed.value(option.split('=').next().unwrap_or_default());
     // What the key refuses is no advice: then its kind of value stands there.
     let value = value.filter(|value| takes(kind, key, value)).unwrap_or(key.value);
+    // Where the output is another projection, the input must have been meant.
+    let side = if typed.value("--to").is_some() && typed.value("--from").is_none() { "--from" } else { "--to" };
     let write =
-        with_key(kind, key, value, typed).unwrap_or_else(|| format!("--to {}:{}={value}", kind.name(), key.name));
+        with_key(kind, key, value, typed).unwrap_or_else(|| format!("{side} {}:{}={value}", kind.name(), key.name));
     let not = match asked.first() {
         _ if exact(kind, word).is_none() => {
             return Some(format!("of {} that is the key {}: {write}", kind.name(), key.name));

@@ -3,7 +3,7 @@ use std::process::ExitCode;
 
 use anyhow::{Context, Result};
 use cosmorama::camera::{CameraModel, FisheyeCamera, OmnimaxCamera};
-use cosmorama::compare::{Comparison, Mask, compare, difference_image};
+use cosmorama::compare::{Comparison, Mask, OwnPeak, Registration, compare, difference_image};
 use cosmorama::raster::{Channels, ColourMatrix, Depth, EncodedImage, Image, Primaries, Rgba, Transfer};
 use cosmorama_convert::{Files, InputTransfer, MemoryBudget, probe, read, real_path, refuse_existing};
 use cosmorama_io::{FacePattern, Format, FramePattern, Header, Limits, Metadata, WriteOptions, write};
@@ -120,13 +120,24 @@ fn failures(args: &CompareArgs, comparison: &Comparison) -> Vec<String> {
 }
 
 fn plain_text(comparison: &Comparison) -> String {
-    let Comparison { pixels, linear, srgb, edge_free, alpha, registration } = comparison;
+    let Comparison { pixels, linear, own_peak, srgb, edge_free, alpha, registration } = comparison;
+    let (of_one, clipped) = match own_peak {
+        Some(_) => (" of a peak of 1", "; light above 1 is clipped"),
+        None => ("", ""),
+    };
     let mut text = format!(
         "pixels compared    {pixels}\n\
-         PSNR linear        {:.2} dB (rms {:.6}, mean {:+.6})\n\
-         PSNR sRGB-encoded  {:.2} dB (rms {:.6}, mean {:+.6})\n",
+         PSNR linear        {:.2} dB{of_one} (rms {:.6}, mean {:+.6})\n\
+         PSNR sRGB-encoded  {:.2} dB (rms {:.6}, mean {:+.6}{clipped})\n",
         linear.psnr, linear.rms, linear.mean, srgb.psnr, srgb.rms, srgb.mean
     );
+    if let Some(OwnPeak { peak, psnr, relative }) = own_peak {
+        text += &format!(
+            "PSNR of own peak   {psnr:.2} dB (linear, of {peak}, the second picture's brightest; the rms is {:.3} % of that \
+             picture's)\n",
+            100.0 * relative
+        );
+    }
     if let Some(edge_free) = edge_free {
         text += &format!(
             "PSNR off edges     {:.2} dB (linear, of the {} more than 2 pixels from any edge, where filters agree)\n",
@@ -138,21 +149,22 @@ fn plain_text(comparison: &Comparison) -> String {
         "largest difference {:.6} at {column},{row} (99.9 % are within {:.6}; alpha: {alpha:.6})\n",
         linear.largest.value, linear.percentile_99_9
     );
+    text + &shift_text(*registration)
+}
+
+fn shift_text(registration: Option<Registration>) -> String {
     match registration {
-        Some(found) => {
-            text += &format!(
-                "shift              {:.4} px (x {:+.4}, y {:+.4}; scale {:+.2e} {:+.2e}, turn {:+.2e})\n",
-                found.shift(),
-                found.dx,
-                found.dy,
-                found.scale_x,
-                found.scale_y,
-                found.rotation
-            );
-        }
-        None => text += &format!("shift              {NOT_MEASURABLE}\n"),
+        Some(found) => format!(
+            "shift              {:.4} px (x {:+.4}, y {:+.4}; scale {:+.2e} {:+.2e}, turn {:+.2e})\n",
+            found.shift(),
+            found.dx,
+            found.dy,
+            found.scale_x,
+            found.scale_y,
+            found.rotation
+        ),
+        None => format!("shift              {NOT_MEASURABLE}\n"),
     }
-    text
 }
 
 fn json_text(args: &CompareArgs, comparison: &Comparison, failures: &[String]) -> Result<String> {
@@ -172,6 +184,9 @@ fn json_text(args: &CompareArgs, comparison: &Comparison, failures: &[String]) -
         "pixels": comparison.pixels,
         "linear": difference(&comparison.linear),
         "srgb": difference(&comparison.srgb),
+        "own_peak": comparison.own_peak.map(|OwnPeak { peak, psnr, relative }| json!({
+            "peak": peak, "psnr": decibels(psnr), "relative_rms": relative,
+        })),
         "edge_free_psnr": comparison.edge_free.map(|edge_free| decibels(edge_free.linear.psnr)),
         "alpha": comparison.alpha,
         "shift": comparison.registration.map(|found| json!({

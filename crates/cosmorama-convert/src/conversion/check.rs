@@ -4,7 +4,7 @@ use cosmorama::explain;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
 use crate::diagnostic::{Diagnostic, Outcome, Result, failure};
-use crate::engine::{Stage, Stages};
+use crate::engine::{FrameFile, Stage, Stages};
 use crate::job::{Content, ConvertJob, Purpose};
 use crate::settings::Conversion;
 
@@ -37,6 +37,9 @@ impl Conversion {
         let resolve =
             || stages.alone(Stage::Plan, || ConvertJob::resolve(&self, (content, Purpose::Pictures), diagnostics));
         let job = pool.install(resolve)?;
+        if content.has_files() {
+            pool.install(|| stages.alone(Stage::Decode, || FrameFile::check_frames(&job)))?;
+        }
         Ok(Checked { settings: self, content, job, pool, diagnostics: diagnostics.clone(), stages, start })
     }
 }

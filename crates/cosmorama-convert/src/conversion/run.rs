@@ -68,7 +68,8 @@ impl Checked {
         let engine = watched(pool, observer, Work::Plan, prepare).and_then(Result::ok);
         let Some(engine) = &engine else { return Err(stopped((0, job.outputs.frames.len()))) };
         let from = settings.geometry.from.as_ref();
-        let mut run = Run { job, engine, stages, pool, observer, diagnostics, from, is_first: true, done: 0 };
+        let tally = warnings::Tally::default();
+        let mut run = Run { job, engine, stages, pool, observer, diagnostics, from, tally, is_first: true, done: 0 };
         run.tell(engine.told().to_vec());
         let made = match &job.outputs.frames[..] {
             [] => Ok(()),
@@ -78,22 +79,30 @@ impl Checked {
                 stages.among(Stage::Filter, || sequence.run(&mut run))
             }
         };
+        let mut told = run.tally.warnings(job);
+        // Maps of light are measured by frame.
+        if job.lighting.is_none() {
+            told.extend(too_bright(job, None, engine.writer().overflowed()));
+        }
+        run.tell(told);
         // Frames that were being written at a stop are done by now.
         made.map_err(|error| if let ConvertError::Stopped { .. } = error { run.stopped() } else { error })?;
         let lit = engine.light_reports();
-        run.tell(lit.iter().filter_map(|report| too_bright(job, report)).collect());
+        run.tell(lit.iter().filter_map(|report| too_bright(job, report.frame, report.overflowed)).collect());
         Ok(lit)
     }
 }
 
 /// Returns the warning about light that the output's sample type cannot hold.
-fn too_bright(job: &ConvertJob, report: &LightReport) -> Option<Diagnostic> {
-    let of_frame = report.frame.map_or_else(String::new, |frame| format!("frame {frame}: "));
-    (report.overflowed > 0).then(|| {
+fn too_bright(job: &ConvertJob, frame: Option<u64>, samples: usize) -> Option<Diagnostic> {
+    let of_frame = frame.map_or_else(String::new, |frame| format!("frame {frame}: "));
+    (samples > 0).then(|| {
         let message = format!(
-            "{of_frame}{} samples are brighter than {DEPTH} {} holds, and are cut to its largest; write OpenEXR or Radiance files \
-             with {DEPTH} float",
-            report.overflowed, job.light.depth
+            "{of_frame}{samples} {} brighter than {DEPTH} {} holds, and {} cut to its largest; write OpenEXR or Radiance files with \
+             {DEPTH} float",
+            if samples == 1 { "sample is" } else { "samples are" },
+            job.light.depth,
+            if samples == 1 { "is" } else { "are" }
         );
         Diagnostic::warning(Code::TooBright, message)
     })
@@ -109,6 +118,8 @@ struct Run<'a> {
     diagnostics: &'a mut Vec<Diagnostic>,
     /// Declared projection of the input.
     from: Option<&'a Spec>,
+    /// Counts of pixels that are told of once for all frames.
+    tally: warnings::Tally,
     /// Whether no frame has been examined yet.
     is_first: bool,
     /// Number of frames written so far.
@@ -134,6 +145,7 @@ impl Run<'_> {
 
 impl Watcher for Run<'_> {
     fn look(&mut self, frame: &FrameOutputs, light: &FrameLight) {
+        self.tally.add(self.job, frame.frame, light);
         // The first frame tells how the faces lie.
         let (job, engine, is_first) = (self.job, self.engine, std::mem::take(&mut self.is_first));
         let found = self.pool.install(|| {

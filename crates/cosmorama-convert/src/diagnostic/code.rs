@@ -64,6 +64,8 @@ pub enum Code {
     AlphaFlattened,
     /// Alpha is nowhere full.
     AlphaThin,
+    /// Alpha is below 0 or above 1.
+    AlphaRange,
     /// A colour profile is not carried over.
     ProfileLost,
     /// The output cannot name the input's primaries or transfer function.

@@ -112,7 +112,8 @@ impl<'a> Engine<'a> {
     pub(crate) fn warnings(&self, frame: Option<u64>, light: &FrameLight) -> Vec<Diagnostic> {
         let tell = |(view, count): (&InputView, usize)| {
             let path = view.files.path(frame);
-            let message = format!("{}: {} and count as missing", path.display(), counted(count, "is NaN", "are NaN"));
+            let is_nan = counted(count, "is NaN and counts as missing", "are NaN and count as missing");
+            let message = format!("{}: {is_nan}", path.display());
             Diagnostic::warning(Code::NotANumber, message).about(path.display())
         };
         // Of a sequence, the first frame tells whether there are suns, and alpha that is none.
@@ -127,20 +128,13 @@ impl<'a> Engine<'a> {
             );
             Diagnostic::warning(Code::AlphaFlattened, message).about(path.display())
         };
-        let clipped = warnings::clipped(self.job, frame, light);
-        self.incomplete(light)
-            .map(tell)
-            .chain(light.flattened().map(flat))
-            .chain(thin)
-            .chain(suns)
-            .chain(clipped)
-            .collect()
+        self.incomplete(light).map(tell).chain(light.flattened().map(flat)).chain(thin).chain(suns).collect()
     }
 
     /// Visits the views with missing texels, and their number.
     fn incomplete<'b>(&'b self, light: &'b FrameLight) -> impl Iterator<Item = (&'b InputView, usize)> {
-        let views = self.job.input.present().zip(light.missing());
-        views.filter(|(_, count)| **count > 0).map(|((view, _, _), count)| (view, *count))
+        let views = self.job.input.present().zip(light.counts());
+        views.map(|((view, ..), counts)| (view, counts.irregular.missing)).filter(|(_, count)| *count > 0)
     }
 
     /// Renders the pictures of a frame: filtered light over the background, with faces in their places.

@@ -1,13 +1,14 @@
 use std::path::{Path, PathBuf};
 
 use cosmorama::raster::{Channels, Depth, EncodedImage, FramePool, Samples};
-use cosmorama_io::{ImageFile, Limits};
+use cosmorama_io::{ImageFile, Limits, Window};
+use rayon::prelude::*;
 
 use crate::colour::FileColours;
-use crate::diagnostic::{FRAMES, Result, bail, failure};
-use crate::job::ConvertJob;
+use crate::diagnostic::{FRAMES, InPlace, Result, bail, failure};
+use crate::job::{ConvertJob, FrameOutputs};
 use crate::packing::Place;
-use crate::source::{ViewFiles, read_in};
+use crate::source::{ViewFiles, probe, read_in};
 
 /// Image of a view in one frame, as in its file.
 pub(crate) struct ViewImage {
@@ -58,6 +59,48 @@ impl FrameFile {
         files
     }
 
+    /// Checks by headers that the pictures of every frame are as large as the first frame's, before any is converted.
+    ///
+    /// # Errors
+    /// Of the first frame that is not, or whose header cannot be read.
+    pub(crate) fn check_frames(job: &ConvertJob) -> Result<()> {
+        let check = |frame: &FrameOutputs| -> Result<()> {
+            let later = Some(frame).filter(|frame| Some(&frame.frame) != job.input.frames.first());
+            let files = later.map_or_else(Vec::new, |frame| Self::all(job, frame.frame, Which::Moving));
+            files.iter().try_for_each(|file| file.check_header(job)).at(|| named(frame))
+        };
+        let frames = &job.outputs.frames;
+        let checked: Vec<Result<()>> =
+            if frames.len() > 1 { frames.par_iter().map(check).collect() } else { Vec::new() };
+        checked.into_iter().collect()
+    }
+
+    fn check_header(&self, job: &ConvertJob) -> Result<()> {
+        let header = probe(&*job.files, &self.path)?;
+        self.check_size(job, (header.width, header.height), header.window)
+    }
+
+    /// Checks that a picture of this file is as large as that of the first frame.
+    fn check_size(&self, job: &ConvertJob, found: (usize, usize), window: Option<Window>) -> Result<()> {
+        let first = self.views.first().and_then(|view| job.input.present().nth(*view));
+        let Some((first, header, _)) = first else { return Ok(()) };
+        let expected = first.part.map_or((header.width, header.height), |part| part.of);
+        if found == expected && window == header.window {
+            return Ok(());
+        }
+        bail!(
+            WrongSize: "{}: {}x{} pixels, but {}, of the first frame, has {}x{}{}; render it again as that one is, or convert frames \
+             like it in a run of their own, with {FRAMES}",
+            self.path.display(),
+            found.0,
+            found.1,
+            first.files.path(job.input.frames[0]).display(),
+            expected.0,
+            expected.1,
+            if found == expected { " at another place of its canvas" } else { "" }
+        )
+    }
+
     /// Reads the file into memory of a pool. One thread does all of it if it is one of several.
     pub(crate) fn read(&self, job: &ConvertJob, pool: &FramePool) -> Result<Vec<ViewImage>> {
         let Self { path, views } = self;
@@ -69,19 +112,7 @@ impl FrameFile {
             None => read_in(&*job.files, path, &Limits::memory(job.memory.bytes), pool)?,
         };
         let found = (file.image.width(), file.image.height());
-        if found != expected || file.window != header.window {
-            bail!(
-                WrongSize: "{}: {}x{} pixels, but {}, of the first frame, has {}x{}{}; render it again as that one is, or convert \
-                 frames like it in a run of their own, with {FRAMES}",
-                path.display(),
-                found.0,
-                found.1,
-                first.files.path(job.input.frames[0]).display(),
-                expected.0,
-                expected.1,
-                if found == expected { " at another place of its canvas" } else { "" }
-            );
-        }
+        self.check_size(job, found, file.window)?;
         job.light.check_profile(path, &file.metadata)?;
         let image = if job.layers.leaves_picture_out() { blank(path, found)? } else { file.image };
         let file = ImageFile { image, ..file };
@@ -106,4 +137,9 @@ fn blank(path: &Path, (width, height): (usize, usize)) -> Result<EncodedImage> {
     let samples = Samples::U8(vec![0; width.saturating_mul(height)]);
     let blank = EncodedImage::new(width, height, Channels::Grey, Depth::Eight, samples);
     blank.map_err(|error| failure!("{}: {error}", path.display()))
+}
+
+/// Returns the name of a frame in error messages.
+pub(crate) fn named(frame: &FrameOutputs) -> String {
+    frame.frame.map_or_else(|| "the frame".to_owned(), |number| format!("frame {number}"))
 }

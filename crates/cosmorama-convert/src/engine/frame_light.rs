@@ -1,9 +1,9 @@
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
-use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Mutex, PoisonError};
 
 use cosmorama::filter::FilterKind;
-use cosmorama::raster::{Decoder, FixedDecoder, FixedLight, FramePool, Rgba, Transfer};
+use cosmorama::raster::{Decoder, FixedDecoder, FixedLight, FramePool, IrregularPixels, Rgba, Transfer};
 use cosmorama::world::{RimTexels, Source, World};
 use rayon::prelude::*;
 
@@ -15,10 +15,8 @@ use crate::job::ConvertJob;
 /// Light of a frame. Its memory, and views that do not change, are reused for the next frame.
 pub(crate) struct FrameLight {
     texels: Texels,
-    /// Number of missing (NaN) texels by view.
-    missing: Vec<usize>,
-    /// Number of texels outside of the working primaries by view, where light was converted to these.
-    outside: Vec<usize>,
+    /// Numbers of texels that are told of, by view.
+    counts: Vec<Counts>,
     /// Texels of each view that its own rim cuts.
     rims: Vec<RimTexels>,
     /// Files with transparent pixels, if the outputs are opaque because the first frame is.
@@ -50,11 +48,11 @@ impl FrameLight {
         let has_rims = !matches!(job.filter.kind, FilterKind::Labels(_));
         let rim = |source: &Source| if has_rims { RimTexels::of(&source.view) } else { RimTexels::default() };
         let rims: Vec<RimTexels> = job.worlds.iter().flat_map(World::sources).map(rim).collect();
-        let (missing, outside) = (vec![0; rims.len()], vec![0; rims.len()]);
+        let counts = vec![Counts::default(); rims.len()];
         let decoder = Decoder::default();
         let flattened = BTreeSet::new();
         let fixed_decoders = Vec::new();
-        Self { texels, missing, outside, rims, flattened, is_fixed, has_still: false, decoder, fixed_decoders }
+        Self { texels, counts, rims, flattened, is_fixed, has_still: false, decoder, fixed_decoders }
     }
 
     /// Returns all texels.
@@ -62,14 +60,9 @@ impl FrameLight {
         &self.texels
     }
 
-    /// Returns the number of missing (NaN) texels by view.
-    pub(crate) fn missing(&self) -> &[usize] {
-        &self.missing
-    }
-
-    /// Returns the number of texels outside of the working primaries by view.
-    pub(crate) fn outside(&self) -> &[usize] {
-        &self.outside
+    /// Returns the numbers of texels that are told of, by view.
+    pub(crate) fn counts(&self) -> &[Counts] {
+        &self.counts
     }
 
     /// Returns files with transparent pixels that have not been reported, where the outputs have no alpha.
@@ -94,7 +87,7 @@ impl FrameLight {
             self.texels = if is_fixed { Texels::fixed(job) } else { Texels::floats(job) };
             self.has_still = false;
         }
-        if !self.has_still && images.len() < self.missing.len() {
+        if !self.has_still && images.len() < self.counts.len() {
             for file in FrameFile::all(job, frame, Which::Still) {
                 let still = stages.beside(Stage::Decode, || file.read(job, pool))?;
                 if let (true, Some(image)) = (is_fixed, still.iter().find(|image| !self.takes(image))) {
@@ -142,22 +135,21 @@ impl FrameLight {
             Texels::Float(worlds) => {
                 let rows = |image: &ViewImage, first: usize, into: &mut [Rgba]| {
                     let FileColours { transfer, matrix } = &image.colours;
-                    let missing = decoder.decode_rows(&image.image, transfer, first, into);
-                    Counts { missing, outside: matrix.as_ref().map_or(0, |matrix| matrix.convert(into)) }
+                    let irregular = decoder.decode_rows(&image.image, transfer, first, into);
+                    Counts { irregular, outside: matrix.as_ref().map_or(0, |matrix| matrix.convert(into)) }
                 };
                 decode(images, views(job, worlds), stages, rows)
             }
         };
         texels.restore_rims(job, images, rims);
-        for (image, Counts { missing, outside }) in images.iter().zip(counts) {
+        for (image, counts) in images.iter().zip(counts) {
             let count = image.image.width() * image.image.height();
-            if missing == count && job.fill_for_missing().is_none() {
+            if counts.irregular.missing == count && job.fill_for_missing().is_none() {
                 let name = job.input.present().nth(image.view).map_or("", |(view, ..)| &view.name);
                 let path = image.path.display();
                 bail!(NotANumber: "{path}: the {name} view holds no light; render it again: every pixel is NaN");
             }
-            self.missing[image.view] = missing;
-            self.outside[image.view] = outside;
+            self.counts[image.view] = counts;
         }
         Ok(())
     }
@@ -203,11 +195,11 @@ impl Texels {
 
 /// Numbers of pixels that are to be told of.
 #[derive(Clone, Copy, Debug, Default)]
-struct Counts {
-    /// Pixels that are NaN.
-    missing: usize,
-    /// Pixels outside of the working primaries.
-    outside: usize,
+pub(crate) struct Counts {
+    /// Pixels whose samples are no light.
+    pub(crate) irregular: IrregularPixels,
+    /// Pixels outside of the working primaries, where light was converted to these.
+    pub(crate) outside: usize,
 }
 
 /// Decodes images in parallel pieces, and returns the counts of each. Each view is given by its rows,
@@ -219,7 +211,7 @@ fn decode<'a, T: Send + 'a>(
     rows: impl Fn(&ViewImage, usize, &mut [T]) -> Counts + Sync,
 ) -> Vec<Counts> {
     let mut views: Vec<_> = views.map(Some).collect();
-    let counts: Vec<[AtomicUsize; 2]> = images.iter().map(|_| <[AtomicUsize; 2]>::default()).collect();
+    let counts: Vec<Mutex<Counts>> = images.iter().map(|_| Mutex::default()).collect();
     let mut pieces = Vec::new();
     for (image, counts) in images.iter().zip(&counts) {
         let some = PIECE.div_ceil(image.image.width().max(1));
@@ -228,14 +220,13 @@ fn decode<'a, T: Send + 'a>(
         let texels = view.chunks_mut(some * pitch).enumerate();
         pieces.extend(texels.map(|(piece, into)| (image, counts, piece * some, into)));
     }
-    pieces.into_par_iter().for_each(|(image, [missing, outside], first, into)| {
+    pieces.into_par_iter().for_each(|(image, counts, first, into)| {
         let found = stages.beside(Stage::Decode, || rows(image, first, into));
-        missing.fetch_add(found.missing, Ordering::Relaxed);
-        outside.fetch_add(found.outside, Ordering::Relaxed);
+        let mut counts = counts.lock().unwrap_or_else(PoisonError::into_inner);
+        counts.irregular = counts.irregular + found.irregular;
+        counts.outside += found.outside;
     });
-    let count =
-        |[missing, outside]: [AtomicUsize; 2]| Counts { missing: missing.into_inner(), outside: outside.into_inner() };
-    counts.into_iter().map(count).collect()
+    counts.into_iter().map(|counts| counts.into_inner().unwrap_or_else(PoisonError::into_inner)).collect()
 }
 
 /// Limits light to white, as in files of integers, so that 15 bits and floats give the same.

@@ -17,7 +17,7 @@ pub use timing::CpuSeconds;
 
 pub(crate) use frame_engine::{Engine, assemble};
 pub(crate) use frame_files::{FrameFile, ViewImage, Which};
-pub(crate) use frame_light::{FrameLight, Texels};
+pub(crate) use frame_light::{Counts, FrameLight, Texels};
 pub(crate) use geometry::Geometry;
 pub(crate) use layers::LayerPass;
 pub(crate) use lighting::balance::{self, Balance, BalancedLight};

@@ -13,6 +13,7 @@ use cosmorama::raster::Threads;
 use rayon::{Scope, ThreadPool};
 
 use crate::diagnostic::{InPlace, Result, bail};
+use crate::engine::frame_files::named;
 use crate::engine::{Engine, FrameFile, FrameLight, Levels, Stage, Stages, ViewImage, Which};
 use crate::job::{ConvertJob, FrameOutputs, QueueDepth};
 
@@ -93,11 +94,11 @@ impl<'a> Sequence<'a> {
                 failure.note(place);
                 error
             };
-            let images = all_of(results).at(|| told(frame))?;
+            let images = all_of(results).at(|| named(frame))?;
             let images: Vec<ViewImage> = images.into_iter().flatten().collect();
             let memory = self.engine.pool();
             let filled = self.pool.install(|| light.fill(self.job, frame.frame, &images, (self.stages, memory)));
-            filled.at(|| told(frame)).map_err(failed)?;
+            filled.at(|| named(frame)).map_err(failed)?;
             images.into_iter().for_each(|image| memory.give(image.image.into_samples()));
             watcher.look(frame, &light);
             queues.finish_written(written - 1, watcher)?;
@@ -105,7 +106,7 @@ impl<'a> Sequence<'a> {
                 return Ok(());
             }
             let made = watcher.render(frame, &light);
-            let pictures = made.at(|| told(frame)).map_err(failed)?;
+            let pictures = made.at(|| named(frame)).map_err(failed)?;
             queues.written.push_back((frame, self.have_written((scope, failure, place), frame, pictures)));
         }
     }
@@ -141,7 +142,7 @@ impl Queues<'_> {
     fn finish_written(&mut self, most: usize, watcher: &mut dyn Watcher) -> Result<()> {
         while self.written.len() > most {
             let Some((frame, results)) = self.written.pop_front() else { break };
-            let written = all_of(results).at(|| told(frame));
+            let written = all_of(results).at(|| named(frame));
             written.and_then(|_| watcher.done(frame)).inspect_err(|_| self.written.clear())?;
         }
         Ok(())
@@ -202,9 +203,4 @@ fn all_of<T>(results: Results<T>) -> Result<Vec<T>> {
         Err(_) => bail!("a thread has given up"),
     };
     results.into_iter().map(wait).collect()
-}
-
-/// Returns the name of a frame in error messages.
-fn told(frame: &FrameOutputs) -> String {
-    frame.frame.map_or_else(|| "the frame".to_owned(), |number| format!("frame {number}"))
 }

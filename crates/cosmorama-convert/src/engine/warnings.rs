@@ -1,8 +1,8 @@
-//! Warnings about the light of a frame: bright sources that filters do not keep, alpha that is nowhere full, and a lens's
-//! circle that is elsewhere than assumed.
+//! Warnings about light: bright sources that filters do not keep, alpha that is nowhere full, samples that are no light, and a
+//! lens's circle that is elsewhere than assumed.
 
-use std::collections::BTreeMap;
-use std::path::PathBuf;
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::{Path, PathBuf};
 
 use cosmorama::filter::FilterKind;
 use cosmorama::sphere::Direction;
@@ -11,7 +11,7 @@ use cosmorama_spec::Spec;
 use crate::colour::ThinAlpha;
 use crate::detect::disc;
 use crate::diagnostic::{Code, Diagnostic, FILTER, KERNEL, Remedy, Setting};
-use crate::engine::{FrameLight, balance};
+use crate::engine::{Counts, FrameLight, balance};
 use crate::job::ConvertJob;
 
 /// Fraction of a world's light in bright sources above which a change of it shows in lighting.
@@ -20,24 +20,89 @@ const MUCH: f64 = 0.1;
 /// Number of directions that are tested to see whether outputs show the whole world.
 const DIRECTIONS: usize = 500;
 
-/// Warns of colours outside of the outputs' primaries that are clipped there, with their share of each file.
-pub(crate) fn clipped<'a>(
-    job: &'a ConvertJob,
-    frame: Option<u64>,
-    light: &'a FrameLight,
-) -> impl Iterator<Item = Diagnostic> + 'a {
-    let views = job.input.present().zip(light.outside()).filter(|(_, count)| job.light.clips && **count > 0);
-    views.map(move |((view, header, _), count)| {
-        let path = view.files.path(frame);
-        let pixels = header.width.saturating_mul(header.height).max(1);
-        let message = format!(
-            "{}: {:.2} % of its pixels lie outside of the output's primaries, {}: they are clipped to what those can show",
-            path.display(),
-            100.0 * *count as f64 / pixels as f64,
-            job.light.working.primaries
-        );
-        Diagnostic::warning(Code::OutOfGamut, message).about(path.display())
-    })
+/// Pixels of all frames that are told of once, when the last frame is made: a sequence may have them in every frame.
+#[derive(Debug, Default)]
+pub(crate) struct Tally {
+    /// Files that have been counted. Some serve all frames.
+    counted: BTreeSet<PathBuf>,
+    clipped: Told,
+    infinite: Told,
+    alpha: Told,
+}
+
+/// Pixels of one kind, and the files that hold some.
+#[derive(Debug, Default)]
+struct Told {
+    pixels: usize,
+    /// Pixels of these files, of all kinds.
+    of: usize,
+    files: Vec<PathBuf>,
+}
+
+impl Told {
+    fn add(&mut self, pixels: usize, of: usize, path: &Path) {
+        if pixels > 0 {
+            self.pixels += pixels;
+            self.of += of;
+            self.files.push(path.to_owned());
+        }
+    }
+
+    /// Returns a warning that begins with the files; none where there are no pixels to tell of.
+    fn warning(&self, code: Code, what: impl FnOnce(&Self) -> String) -> Option<Diagnostic> {
+        let first = self.files.first()?.display();
+        let others = match self.files.len() - 1 {
+            0 => String::new(),
+            1 => " and another file".to_owned(),
+            others => format!(" and {others} other files"),
+        };
+        Some(Diagnostic::warning(code, format!("{first}{others}: {}", what(self))).about(first))
+    }
+}
+
+impl Tally {
+    /// Adds the pixels of a frame.
+    pub(crate) fn add(&mut self, job: &ConvertJob, frame: Option<u64>, light: &FrameLight) {
+        let mut frames_files = BTreeSet::new();
+        for ((view, header, _), Counts { irregular, outside }) in job.input.present().zip(light.counts()) {
+            let path = view.files.path(frame);
+            if self.counted.contains(&path) {
+                continue;
+            }
+            let of = header.width.saturating_mul(header.height);
+            self.clipped.add(if job.light.clips { *outside } else { 0 }, of, &path);
+            self.infinite.add(irregular.infinite, of, &path);
+            self.alpha.add(irregular.alpha, of, &path);
+            frames_files.insert(path);
+        }
+        self.counted.append(&mut frames_files);
+    }
+
+    /// Returns the warnings about all frames.
+    pub(crate) fn warnings(&self, job: &ConvertJob) -> Vec<Diagnostic> {
+        let clipped = |told: &Told| {
+            format!(
+                "{:.2} % of {} pixels lie outside of the output's primaries, {}: they are clipped to what those can show",
+                100.0 * told.pixels as f64 / told.of.max(1) as f64,
+                if told.files.len() == 1 { "its" } else { "their" },
+                job.light.working.primaries
+            )
+        };
+        let infinite = |told: &Told| match told.pixels {
+            1 => "1 pixel is infinite and counts as 65504, the largest half float".to_owned(),
+            pixels => format!("{pixels} pixels are infinite and count as 65504, the largest half float"),
+        };
+        let alpha = |told: &Told| match told.pixels {
+            1 => "the alpha of 1 pixel is below 0 or above 1, and counts as 0 or 1".to_owned(),
+            pixels => format!("the alpha of {pixels} pixels is below 0 or above 1, and counts as 0 or 1"),
+        };
+        let told = [
+            self.clipped.warning(Code::OutOfGamut, clipped),
+            self.infinite.warning(Code::TooBright, infinite),
+            self.alpha.warning(Code::AlphaRange, alpha),
+        ];
+        told.into_iter().flatten().collect()
+    }
 }
 
 /// Warns where a whole world is made from light with bright sources, which few filters keep.

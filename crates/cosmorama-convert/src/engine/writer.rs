@@ -1,6 +1,7 @@
 use std::path::Path;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
-use cosmorama::raster::{EncodedImage, Encoder, Image, Rgba, Threads};
+use cosmorama::raster::{Depth, EncodedImage, Encoder, Image, Rgba, Threads};
 use cosmorama_io::{LayeredImage, Plane, WriteOptions, write_layers, write_levels};
 
 use crate::colour::{Light, PictureNames};
@@ -26,12 +27,19 @@ impl Levels {
     }
 }
 
+/// Largest half float.
+const LARGEST_HALF: f32 = 65504.0;
+
 /// Writer of pictures that share one kind of samples.
 pub(crate) struct Writer {
     encoder: Encoder,
     /// Names of the picture's channels, if they are not the usual ones.
     names: Vec<String>,
     options: WriteOptions,
+    /// Whether samples are half floats.
+    is_half: bool,
+    /// Samples so far that were brighter than a half float can be.
+    overflowed: AtomicUsize,
 }
 
 impl Writer {
@@ -40,13 +48,24 @@ impl Writer {
             PictureNames::Given(names) => names.clone(),
             PictureNames::Usual | PictureNames::LeftOut => Vec::new(),
         };
-        Self { encoder: Encoder::new(light.channels, light.depth, &light.transfer), names, options }
+        let encoder = Encoder::new(light.channels, light.depth, &light.transfer);
+        Self { encoder, names, options, is_half: light.depth == Depth::Half, overflowed: AtomicUsize::new(0) }
+    }
+
+    /// Returns the number of samples so far that are written as the largest half float, because they are brighter.
+    pub(crate) fn overflowed(&self) -> usize {
+        self.overflowed.load(Ordering::Relaxed)
     }
 
     /// Writes an output: a picture and its mip levels. Their memory goes back to the pool.
     pub(crate) fn save(&self, levels: Levels, path: &Path, threads: Threads) -> Result<()> {
         let pool = &*self.options.pool;
         let encode = |image: Image<Rgba>| {
+            if self.is_half {
+                let colours = image.pixels().iter().flat_map(|pixel| &pixel.0[..3]);
+                let brighter = colours.filter(|sample| sample.abs() > LARGEST_HALF).count();
+                self.overflowed.fetch_add(brighter, Ordering::Relaxed);
+            }
             let encoded = self.encoder.encode_in(&image, threads, pool);
             pool.give_image(image);
             encoded

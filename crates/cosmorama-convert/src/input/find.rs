@@ -4,14 +4,14 @@ use std::sync::Arc;
 use cosmorama::camera::{Canvas, View};
 use cosmorama::layout::FacePart;
 use cosmorama::world::{Blend, ViewMask, WorldView};
-use cosmorama_io::{EnvMap, FaceFile, FacePattern, FaceSet, FrameList, Header};
+use cosmorama_io::{EnvMap, FaceFile, FacePattern, FrameList, Header};
 use cosmorama_spec::{Cube, Packing, Shape, Single, Spec};
 
 use crate::detect::detection::{declared, detect};
 use crate::detect::{GivenFaces, unless_damaged};
 use crate::diagnostic::{Code, Diagnostic, FROM, Result, TO, bail, usage};
 use crate::input::faces::face_shape::size_of_missing;
-use crate::input::folder::is_one_file;
+use crate::input::folder::{face_set, is_one_file, with_faces};
 use crate::input::lists::{hugin, world_file};
 use crate::input::spec_files::{calibration, st_map};
 use crate::input::{Face, FacePicture, packed};
@@ -183,7 +183,7 @@ impl Input {
         warnings: &mut Vec<Diagnostic>,
     ) -> Result<Self> {
         let files = ViewFiles::new(Path::new(pattern));
-        let frames = frames::find(&files, wanted)?;
+        let frames = frames::find(&files, wanted).map_err(with_faces)?;
         let path = files.path(frames[0]);
         is_one_file(access.files, pattern, &path)?;
         let header = header(access, &path, eye)?;
@@ -266,7 +266,7 @@ impl Input {
                  face a file is, its name says, and naming= what names mean; if a file has the name of another face, rename it"
             )));
         }
-        let set = FaceSet::find(pattern, cube.naming)?;
+        let set = face_set(pattern, cube.naming)?;
         let cube = &Cube { naming: Some(set.naming()), ..cube.clone() };
         let shown = |face: &&FaceFile| {
             let lies = cube.file_placement(face.face, face.placement);

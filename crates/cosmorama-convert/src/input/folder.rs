@@ -2,10 +2,12 @@
 
 use std::path::{Path, PathBuf};
 
-use cosmorama_io::{FaceSet, Format, FoundFrames};
+use cosmorama::layout::Naming;
+use cosmorama_io::{FaceSet, Format, FoundFrames, IoError};
 
 use crate::detect::GivenFaces;
-use crate::diagnostic::{Code, Result, bail, usage_as};
+use crate::diagnostic::{Code, ConvertError, Result, bail, failure, usage_as};
+use crate::input::Builtin;
 use crate::source::Files;
 
 /// Greatest number of suggested patterns.
@@ -27,6 +29,7 @@ pub fn is_one_file(files: &dyn Files, pattern: &str, path: &Path) -> Result<()> 
     let found: Vec<_> = found.into_iter().filter(|found| is_wild || is_alike(path, found)).collect();
     let there = if found.is_empty() { String::new() } else { format!("; there are {}", names(&found)) };
     if is_wild {
+        let there = path.parent().and_then(faces_of).map_or(there, |faces| format!("; there are {}", faces.display()));
         return Err(usage_as(
             Code::NotFound,
             format!(
@@ -35,8 +38,43 @@ pub fn is_one_file(files: &dyn Files, pattern: &str, path: &Path) -> Result<()> 
             ),
         ));
     }
+    if pattern.contains("://") {
+        bail!(NotFound: "{pattern}: an address, where a file was expected; download it first, as with curl -O {pattern}");
+    }
+    if Builtin::all().any(|(name, _)| name == pattern) {
+        bail!(NotFound: "{pattern}: there is no such file; the world by formula of this name is builtin:{pattern}");
+    }
     // Where there is nothing to add, to open it says what is wrong.
     if found.is_empty() { Ok(()) } else { bail!(NotFound: "{pattern}: there is no such file{there}") }
+}
+
+/// Finds the files of a cube's faces. Where a pattern fits none, the error says how to name what its folder holds.
+///
+/// # Errors
+/// As [`FaceSet::find`].
+pub fn face_set(pattern: &str, naming: Option<&'static Naming>) -> Result<FaceSet> {
+    FaceSet::find(pattern, naming).map_err(|error| match &error {
+        IoError::NoFaces { folder, .. } if folder.is_dir() => {
+            let advice = match naming.and_then(|_| FaceSet::find(pattern, None).ok()) {
+                Some(set) => format!("there are faces by naming={}", set.naming().name),
+                None => advice(folder),
+            };
+            failure!(NotFound: "{error}; {advice}")
+        }
+        _ => error.into(),
+    })
+}
+
+/// Adds to an error of missing frames how to name the faces of a cube, where the folder holds those.
+pub(crate) fn with_faces(error: ConvertError) -> ConvertError {
+    let faces = match &error {
+        ConvertError::Io(IoError::NoFrames { folder, .. }) => faces_of(folder),
+        _ => None,
+    };
+    match faces {
+        Some(faces) => failure!(NotFound: "{error}; or, for the faces of a cube, write {}", faces.display()),
+        None => error,
+    }
 }
 
 /// Returns whether a name begins as those of frames do, so that they may be meant.
@@ -52,14 +90,11 @@ fn is_alike(path: &Path, frames: &FoundFrames) -> bool {
 
 /// Suggests patterns for the contents of a folder.
 fn advice(folder: &Path) -> String {
-    let sequences = FoundFrames::in_folder(folder);
-    let mut files = files(folder);
-    // Faces of frames come before those of one of them.
-    let patterns = sequences.iter().filter_map(|found| found.pattern.as_str().rsplit('/').next());
-    let tried: Vec<String> = patterns.map(str::to_owned).chain(files.iter().cloned()).collect();
-    if let Some(faces) = faces_in(folder, &tried) {
+    if let Some(faces) = faces_of(folder) {
         return format!("for the faces of a cube in it, write {}", faces.display());
     }
+    let sequences = FoundFrames::in_folder(folder);
+    let mut files = files(folder);
     if !sequences.is_empty() {
         return format!("for the frames in it, write {}", names(&sequences));
     }
@@ -89,6 +124,14 @@ fn files(folder: &Path) -> Vec<String> {
     let mut names: Vec<String> = entries.filter_map(|entry| entry.ok()?.file_name().into_string().ok()).collect();
     names.sort_unstable();
     names
+}
+
+/// Returns the pattern of a set of faces in a folder, if there is one. Faces of frames come before those of one of them.
+fn faces_of(folder: &Path) -> Option<PathBuf> {
+    let sequences = FoundFrames::in_folder(folder);
+    let patterns = sequences.iter().filter_map(|found| found.pattern.as_str().rsplit('/').next());
+    let tried: Vec<String> = patterns.map(str::to_owned).chain(files(folder)).collect();
+    faces_in(folder, &tried)
 }
 
 /// Returns the pattern of a set of faces in a folder, if there is one: the first by name, among files named by faces

@@ -11,7 +11,7 @@ pub(crate) mod spec_files;
 
 pub use builtin::Builtin;
 pub use find::{Input, InputView};
-pub use folder::is_one_file;
+pub use folder::{face_set, is_one_file};
 pub use lists::listing::{Listed, listed};
 
 pub(crate) use faces::face_file::Face;

@@ -168,6 +168,11 @@ impl Format {
         all.join(", ")
     }
 
+    /// Returns the extensions of files that are written; none for a format that is only read.
+    pub const fn own_extensions(self) -> &'static [&'static str] {
+        self.properties().extensions
+    }
+
     /// Returns the depths that the format can hold, coarsest first.
     pub const fn depths(self) -> &'static [Depth] {
         self.properties().depths

@@ -64,18 +64,22 @@ const FILTER_WORDS: [(&str, &str); 12] = [
 /// Returns the error for a text that is not the name of a filter, with a suggestion.
 pub(super) fn no_filter(text: &str) -> WordError {
     let name = text.split(':').next().unwrap_or_default();
+    let keys = &text[name.len()..];
     let (names, word) = (FILTERS.map(|(name, _)| name), text.to_owned());
     if names.contains(&name) {
         let keys = "only reference takes a key, samples=N, as in reference:samples=8";
         return WordError::Parameter(format!("'{text}': {keys}"));
     }
-    let is_kernel = KERNELS.iter().any(|(kernel, _)| *kernel == name);
-    match meaning(&KERNEL_WORDS, name).or(is_kernel.then_some(text)) {
-        Some(name) => WordError::OfOther { what: WordKind::Filter, word, of: WordKind::Kernel, name: name.to_owned() },
-        None => WordError::Unknown {
+    if let Some(kernel) = meaning(&KERNEL_WORDS, name) {
+        return of_other(WordKind::Filter, text, WordKind::Kernel, kernel.to_owned());
+    }
+    match meaning(&FILTER_WORDS, name).map(Meant::Own).or_else(|| nearer(name, &names, &KERNELS.map(|(name, _)| name)))
+    {
+        Some(Meant::Other(kernel)) => of_other(WordKind::Filter, text, WordKind::Kernel, format!("{kernel}{keys}")),
+        meant => WordError::Unknown {
             what: WordKind::Filter,
             word,
-            meant: meaning(&FILTER_WORDS, name).or_else(|| nearest(name, &names)).map(str::to_owned),
+            meant: meant.map(Meant::name),
             known: names.map(|name| if name == "reference" { "reference[:samples=N]" } else { name }).join(", "),
         },
     }
@@ -83,17 +87,45 @@ pub(super) fn no_filter(text: &str) -> WordError {
 
 /// Returns the error for a text that is not the name of a kernel, with a suggestion.
 pub(super) fn no_kernel(name: &str) -> WordError {
-    let (names, word) = (KERNELS.map(|(name, _)| name), name.to_owned());
-    let is_filter = FILTERS.iter().any(|(filter, _)| *filter == name);
-    match meaning(&FILTER_WORDS, name).or(is_filter.then_some(name)) {
-        Some(name) => WordError::OfOther { what: WordKind::Kernel, word, of: WordKind::Filter, name: name.to_owned() },
-        None => WordError::Unknown {
+    let names = KERNELS.map(|(name, _)| name);
+    if let Some(filter) = meaning(&FILTER_WORDS, name) {
+        return of_other(WordKind::Kernel, name, WordKind::Filter, filter.to_owned());
+    }
+    match meaning(&KERNEL_WORDS, name).map(Meant::Own).or_else(|| nearer(name, &names, &FILTERS.map(|(name, _)| name)))
+    {
+        Some(Meant::Other(filter)) => of_other(WordKind::Kernel, name, WordKind::Filter, filter.to_owned()),
+        meant => WordError::Unknown {
             what: WordKind::Kernel,
-            word,
-            meant: meaning(&KERNEL_WORDS, name).or_else(|| nearest(name, &names)).map(str::to_owned),
+            word: name.to_owned(),
+            meant: meant.map(Meant::name),
             known: names.join(", "),
         },
     }
+}
+
+fn of_other(what: WordKind, word: &str, of: WordKind, name: String) -> WordError {
+    WordError::OfOther { what, word: word.to_owned(), of, name }
+}
+
+/// A name that was meant: one of those that were expected, or one of the other setting.
+enum Meant<'w> {
+    Own(&'w str),
+    Other(&'w str),
+}
+
+impl Meant<'_> {
+    fn name(self) -> String {
+        match self {
+            Self::Own(name) | Self::Other(name) => name.to_owned(),
+        }
+    }
+}
+
+/// Finds the name that is most like a word, among those that were expected and those of the other setting.
+fn nearer<'w>(word: &str, own: &[&'w str], other: &[&'w str]) -> Option<Meant<'w>> {
+    // Of two that are equally like it, the last wins.
+    let name = nearest(word, &[other, own].concat())?;
+    Some(if own.contains(&name) { Meant::Own(name) } else { Meant::Other(name) })
 }
 
 fn meaning<'w>(words: &[(&str, &'w str)], word: &str) -> Option<&'w str> {
@@ -110,6 +142,13 @@ mod tests {
         for (word, ours) in KERNEL_WORDS {
             assert!(ours.parse::<KernelName>().is_ok() && word.parse::<KernelName>().is_err(), "{word}");
         }
+        for (typed, kernel) in
+            [("lanzcos3", "lanczos3"), ("michell:scale=2", "mitchell:scale=2"), ("Adaptive", "adaptive")]
+        {
+            let message = typed.parse::<FilterName>().unwrap_err().to_string();
+            assert_eq!(message, format!("'{typed}' is no filter; that is a kernel: {kernel}"));
+        }
+        assert!("bilinaer".parse::<KernelName>().unwrap_err().to_string().ends_with("that is a filter: bilinear"));
         for (word, ours) in FILTER_WORDS {
             assert!(ours.parse::<FilterName>().is_ok() && word.parse::<FilterName>().is_err(), "{word}");
         }

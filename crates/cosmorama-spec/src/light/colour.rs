@@ -3,6 +3,8 @@ use std::str::FromStr;
 
 use cosmorama::raster::{ColourChannel, Rgba, Transfer};
 
+use crate::nearest;
+
 /// A colour as premultiplied linear light, typed as a name, `#rrggbb` or `#rrggbbaa` (sRGB), or `r,g,b[,a]` in linear
 /// light.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -56,9 +58,12 @@ impl FromStr for Colour {
         };
         let names: Vec<_> = NAMES.iter().map(|(name, _)| *name).collect();
         colour.map(Self).ok_or_else(|| {
+            let is_nothing = ["none", "clear", "alpha", "empty", "skip", "ignore", "allow"].contains(&text);
+            let meant = if is_nothing { Some("transparent") } else { nearest(text, &names) };
             format!(
-                "expected #rrggbb or #rrggbbaa (sRGB), r,g,b or r,g,b,a (linear light), transparent or one of {}",
-                names.join(", ")
+                "expected #rrggbb or #rrggbbaa (sRGB), r,g,b or r,g,b,a (linear light), transparent or one of {}{}",
+                names.join(", "),
+                meant.map_or_else(String::new, |meant| format!("; did you mean '{meant}'?"))
             )
         })
     }

@@ -30,7 +30,7 @@ impl FromStr for Missing {
         if text == "error" {
             return Ok(Self::Error);
         }
-        let Colour(colour) = text.parse().map_err(|message| format!("{message}, or error"))?;
+        let Colour(colour) = text.parse().map_err(|message: String| format!("{message}; or error, the default"))?;
         Ok(Self::Fill(colour))
     }
 }

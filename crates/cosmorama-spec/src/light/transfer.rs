@@ -51,7 +51,7 @@ impl FromStr for TransferName {
 }
 
 /// Other programs' words for transfer functions, each with our name.
-const OTHER_NAMES: [(&str, &str); 14] = [
+const OTHER_NAMES: [(&str, &str); 18] = [
     ("gamma", "gamma:2.2"),
     ("lin", "linear"),
     ("raw", "linear"),
@@ -60,6 +60,10 @@ const OTHER_NAMES: [(&str, &str); 14] = [
     ("bt709", "bt1886"),
     ("rec.709", "bt1886"),
     ("bt.709", "bt1886"),
+    ("rec2020", "bt1886"),
+    ("rec.2020", "bt1886"),
+    ("bt2020", "bt1886"),
+    ("bt.2020", "bt1886"),
     ("hdr10", "pq"),
     ("st2084", "pq"),
     ("smpte2084", "pq"),

@@ -42,6 +42,29 @@ pub(super) const ALIASES: [(&str, &str); 33] = [
     ("tinyplanet", "stereographic:pitch=-90"),
 ];
 
+/// Words that people try for a projection, each with the SPEC that they may mean. They are suggested, not understood: some
+/// have a second meaning.
+const TRIED: [(&[&str], &str); 12] = [
+    (&["planet", "small-planet", "smallplanet", "stereo-planet"], "little-planet"),
+    (&["dome", "planetarium", "master"], "fulldome"),
+    (&["imax", "imax-dome", "omni"], "omnimax"),
+    (&["360", "vr", "vr360", "pano", "erp", "equi", "sphere", "lat-long", "spheremap", "hdri"], "equirect"),
+    (&["180", "vr180"], "he"),
+    (&["skybox", "cube-map", "cubic", "sixpack"], "cube"),
+    (&["cross"], "cube:layout=cross-h"),
+    (&["strip"], "cube:layout=strip-h"),
+    (&["pinhole", "normal", "camera", "undistorted", "view", "flat-view", "persp"], "perspective"),
+    (&["chrome-ball", "chromeball", "mirrorball", "silver-ball"], "mirror-ball"),
+    (&["probe", "light-probe", "lightprobe", "angular"], "angular-map"),
+    (&["insta360", "theta", "two-fisheyes", "double-fisheye"], "dual-fisheye"),
+];
+
+/// Returns the SPEC that a word tried for a projection may mean.
+pub(super) fn tried(word: &str) -> Option<&'static str> {
+    let word = word.to_ascii_lowercase().replace('_', "-");
+    TRIED.iter().find(|(words, _)| words.contains(&word.as_str())).map(|(_, spec)| *spec)
+}
+
 /// Projections of ffmpeg's v360 that are not supported.
 const REFUSED: [&str; 5] = ["barrel", "fb", "barrelsplit", "tsp", "tetrahedron"];
 /// Projection of envutil that is not supported: an equi-angular cube.

@@ -21,6 +21,11 @@ impl SpecKind {
         Kind::named(without_alias(spec).split(':').next()?).map(Self)
     }
 
+    /// Returns other programs' names that are understood, each with the SPEC that it stands for.
+    pub fn other_names() -> impl Iterator<Item = (&'static str, &'static str)> {
+        ALIASES.into_iter()
+    }
+
     /// Returns the name that users type.
     pub fn name(self) -> &'static str {
         self.0.name
@@ -86,8 +91,23 @@ pub fn help() -> String {
     text + "\n" + &presets()
 }
 
+/// Returns the help on a key: the projections that take it, and what it means there. `None` if there is no such key.
+pub fn help_on_key(key: &str) -> Option<String> {
+    let mut text = String::new();
+    for kind in KINDS {
+        for own in kind.keys.iter().filter(|own| own.name == key) {
+            text += &entry(2, KEY_WIDTH, &format!("{}:{}={}", kind.name, own.name, own.value), own.about);
+        }
+    }
+    for common in COMMON.iter().filter(|common| common.name == key) {
+        text += &entry(2, KEY_WIDTH, &format!("SPEC:{}={}", common.name, common.value), common.about);
+    }
+    let heading = format!("{key} is a key: --from and --to take it behind a projection and a colon\n\n");
+    (!text.is_empty()).then(|| heading + &text)
+}
+
 /// Returns the help on namings and orders of cube faces.
-fn presets() -> String {
+pub fn presets() -> String {
     let named = |name: &str, aliases: &[&str]| [&[name], aliases].concat().join(", ");
     let mut text = String::from("cube:naming=PRESET is what files are called: front, right, back, left, up, down\n\n");
     for naming in Naming::presets() {

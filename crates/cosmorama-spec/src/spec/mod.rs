@@ -17,7 +17,7 @@ mod stereo;
 
 pub use camera::{CalibrationSpec, Dual, LensFamily};
 pub use cube::{Cube, Packing};
-pub use help::{SpecKind, help};
+pub use help::{SpecKind, help, help_on_key, presets};
 pub use map::{StMapBase, StMapSpec};
 pub use parse::Spec;
 pub use projections::Key as SpecKey;

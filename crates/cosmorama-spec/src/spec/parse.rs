@@ -5,11 +5,11 @@ use std::str::FromStr;
 use cosmorama::camera::CameraModel;
 use cosmorama::layout::LensSide;
 
-use super::alias::{ALIASES, refusal, without_alias, without_colons};
+use super::alias::{ALIASES, refusal, tried, without_alias, without_colons};
 use super::cube::Cube;
 use super::fields::Fields;
 use super::keys::Keys;
-use super::projections::{KINDS, Kind};
+use super::projections::{KINDS, Key, Kind};
 use super::shape::Shape;
 use super::stereo::StereoSpec;
 use crate::SpecError;
@@ -67,7 +67,7 @@ impl Spec {
             let instead = Some(instead).filter(|spec| Self::parse_in(folder, spec).is_ok());
             return Err(SpecError::Colons { instead });
         }
-        let pairs = pairs(rest)?;
+        let pairs = pairs(kind, rest)?;
         for (index, (key, _)) in pairs.iter().enumerate() {
             check_key(kind, key)?;
             if pairs[..index].iter().any(|(earlier, _)| earlier == key) {
@@ -139,30 +139,84 @@ fn named(shape: &Shape) -> Option<(&'static Kind, Keys)> {
     KINDS.iter().find_map(|kind| Some((kind, (kind.write)(shape)?)))
 }
 
-/// Returns the error for an unknown name, with a suggestion: a name with similar spelling, or one with something other
-/// than a colon behind it.
+/// Returns the error for an unknown name, with suggestions: what a word of others stands for, a name with something other
+/// than a colon behind it, or a name with similar spelling.
 fn unknown_name(name: &str, rest: &str) -> SpecError {
     let known: Vec<&str> = KINDS.iter().map(|kind| kind.name).collect();
     let names: Vec<&str> = known.iter().copied().chain(ALIASES.iter().map(|(alias, _)| *alias)).collect();
-    let without_colon = name.split_once([',', ';', ' ', '/', '=']).and_then(|(name, keys)| {
-        let keys = [keys.trim(), rest].into_iter().filter(|keys| !keys.is_empty()).collect::<Vec<_>>().join(",");
-        names.contains(&name).then(|| format!("{name}:{keys}")).filter(|spec| spec.parse::<Spec>().is_ok())
+    let with_keys = name.split_once([',', ';', ' ', '/', '=', '(', '-', '_']).filter(|(name, _)| names.contains(name));
+    let with_keys = with_keys.map(|(name, keys)| {
+        let keys = keys.trim().trim_end_matches(')');
+        let keys = [keys, rest].into_iter().filter(|keys| !keys.is_empty()).collect::<Vec<_>>().join(",");
+        let spec = format!("{name}:{keys}");
+        match spec.parse::<Spec>() {
+            Ok(_) => vec![spec],
+            Err(SpecError::NoValue { instead, .. }) => instead,
+            Err(_) => Vec::new(),
+        }
     });
-    let meant = without_colon.or_else(|| nearest(name, &names).map(str::to_owned));
+    let meant = with_keys.filter(|specs| !specs.is_empty()).unwrap_or_else(|| {
+        tried(name).map(str::to_owned).or_else(|| nearest(name, &names).map(str::to_owned)).into_iter().collect()
+    });
     SpecError::UnknownName { name: name.to_owned(), meant, known }
 }
 
 /// Splits a SPEC into keys and values. A part without `=` continues the value before it: `faces=front,left`.
-fn pairs(text: &str) -> Result<Vec<(String, String)>, SpecError> {
+fn pairs(kind: &'static Kind, text: &str) -> Result<Vec<(String, String)>, SpecError> {
     let mut pairs: Vec<(String, String)> = Vec::new();
     for part in text.split(',').filter(|_| !text.is_empty()) {
         match (part.split_once('='), pairs.last_mut()) {
             (Some((key, value)), _) => pairs.push((spelled(key.trim()), value.trim().to_owned())),
             (None, Some((_, value))) => *value = format!("{value},{}", part.trim()),
-            (None, None) => return Err(SpecError::NoValue { part: part.to_owned() }),
+            (None, None) => {
+                return Err(SpecError::NoValue { part: part.to_owned(), instead: with_key(kind, part, text) });
+            }
         }
     }
     Ok(pairs)
+}
+
+/// Returns the SPEC for a lone pair of angles, both fields of view or the axis of a theatre: `equirect:360x180`.
+fn both_ways(kind: &'static Kind, part: &str, text: &str) -> Option<String> {
+    let keys = match part.split_once('x') {
+        _ if ["theatre", "theater"].contains(&part) => "axis=11".to_owned(),
+        Some((width, height)) => {
+            let names = ["hfov", "fov"];
+            let across = names.into_iter().find(|name| kind.keys.iter().any(|key| key.name == *name))?;
+            format!("{across}={width},vfov={height}")
+        }
+        None => return None,
+    };
+    let spec = format!("{}:{keys}{}", kind.name, &text[part.len()..]);
+    spec.parse::<Spec>().is_ok().then_some(spec)
+}
+
+/// Most SPECs that are suggested for a lone value.
+const SUGGESTED: usize = 2;
+
+/// Returns SPECs in which a lone value, the first part of a text, has its key: `cube:layout=3x2` for `cube:3x2`.
+///
+/// They are those that parse, the projection's own keys first. The lean of a dome comes before all others: it is what people
+/// write behind one.
+fn with_key(kind: &'static Kind, part: &str, text: &str) -> Vec<String> {
+    let is_file = |key: &Key| ["FILE", "MAP"].contains(&key.value);
+    let mut keys: Vec<&Key> = kind.all_keys().filter(|key| is_file(key) == part.contains('.')).collect();
+    keys.sort_by_key(|key| !["tilt", "axis"].contains(&key.name));
+    let (own, common): (Vec<&Key>, Vec<&Key>) = keys.into_iter().partition(|key| kind.keys.contains(key));
+    let specs = |key: &&Key| {
+        let words: Vec<&str> = key.value.split('|').filter(|word| *word != key.value).collect();
+        let begun = words.iter().copied().filter(|word| word.starts_with(part));
+        let meant: Vec<&str> = [part].into_iter().chain(begun).chain(nearest(part, &words)).collect();
+        let spec = |word: &str| format!("{}:{}={word}{}", kind.name, key.name, &text[part.len()..]);
+        let mut found: Vec<String> = meant.into_iter().map(spec).filter(|spec| spec.parse::<Spec>().is_ok()).collect();
+        found.dedup();
+        found
+    };
+    if let Some(spec) = both_ways(kind, part, text) {
+        return vec![spec];
+    }
+    let of = |keys: &[&Key]| keys.iter().flat_map(specs).take(SUGGESTED).collect::<Vec<String>>();
+    Some(of(&own)).filter(|found| !found.is_empty()).unwrap_or_else(|| of(&common))
 }
 
 /// Returns a key in this program's spelling; `centre` becomes `center`.
@@ -218,7 +272,7 @@ mod tests {
     fn wrong_values_say_what_was_expected() {
         assert!(refused("fisheye:fov=wide").contains("fov=wide: expected an angle in degrees"));
         assert!(refused("fisheye:fov=10,fov=20").contains("fov= is given twice"));
-        assert!(refused("fisheye:180").contains("is no key=value"));
+        assert!(refused("fisheye:180").contains("'180' is no key=value; write fisheye:fov=180"));
         assert!(refused("fisheye:fit=tight").contains("short, long, width, height, diagonal"));
         assert!(refused("fisheye:fit=widht").contains("did you mean 'width'?"));
         assert!(refused("cube:naming=blendr").contains("one of words, cosmorama, bourke"));
@@ -374,6 +428,52 @@ mod tests {
         }
         assert!(refused("Fulldome").contains("did you mean 'fulldome'?"));
         assert!(refused("panarama").contains("did you mean 'panorama'?"));
+    }
+
+    #[test]
+    fn a_lone_value_is_answered_by_the_keys_that_it_fits() {
+        for (typed, written) in [
+            ("cube:3x2", "cube:layout=3x2"),
+            ("cube:cross", "cube:layout=cross-h or cube:layout=cross-v"),
+            ("cube:3x2,order=rludfb", "cube:layout=3x2,order=rludfb"),
+            ("cube:bourke", "cube:naming=bourke"),
+            ("cube:front,left", "cube:faces=front,left"),
+            ("fulldome:20", "fulldome:tilt=20 or fulldome:fov=20"),
+            ("fulldome:200", "fulldome:fov=200"),
+            ("omnimax:11", "omnimax:axis=11 or omnimax:lower=11"),
+            ("fisheye:equisolid", "fisheye:lens=equisolid"),
+            ("fisheye:cam.yml", "fisheye:calibration=cam.yml"),
+            ("flat:60", "perspective:fov=60 or perspective:vfov=60"),
+            ("equirect:sbs", "equirect:stereo=sbs"),
+            ("st-map:warp.exr", "st-map:file=warp.exr"),
+            ("equirect:360x90", "equirect:hfov=360,vfov=90"),
+            ("perspective:90x60,yaw=3", "perspective:fov=90,vfov=60,yaw=3"),
+            ("omnimax:theatre", "omnimax:axis=11"),
+        ] {
+            let value = typed.split([':', ',']).nth(1).unwrap();
+            assert_eq!(refused(typed), format!("'{value}' is no key=value; write {written}"));
+        }
+        assert!(refused("cube:nonsense").contains("as in fisheye:fov=220,fit=width"));
+        assert!(refused("fulldome=20").contains("did you mean 'fulldome:tilt=20' or 'fulldome:fov=20'?"));
+        assert!(refused("cube-3x2").contains("did you mean 'cube:layout=3x2'?"));
+        assert!(refused("fulldome(tilt=20)").contains("did you mean 'fulldome:tilt=20'?"));
+    }
+
+    #[test]
+    fn words_for_the_same_thing_are_nearer_than_words_of_like_spelling() {
+        for (typed, key) in [
+            ("omnimax:tilt=11", "axis"),
+            ("fulldome:axis=20", "tilt"),
+            ("perspective:tilt=20", "pitch"),
+            ("fulldome:mirror=x", "flip"),
+            ("fisheye:angle=200", "fov"),
+            ("equirect:fov=180", "hfov"),
+        ] {
+            assert!(refused(typed).contains(&format!("did you mean '{key}'?")), "{}", refused(typed));
+        }
+        for (typed, spec) in [("planet", "little-planet"), ("vr180", "he"), ("imax", "omnimax"), ("360", "equirect")] {
+            assert!(refused(typed).contains(&format!("did you mean '{spec}'?")), "{}", refused(typed));
+        }
     }
 
     #[test]

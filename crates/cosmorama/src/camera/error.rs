@@ -88,7 +88,7 @@ pub enum CameraError {
         determinant: f64,
     },
     /// A parameter is out of its range.
-    #[error("{what} is {found}{unit}; it must be {range}")]
+    #[error("{what} is {}{unit}; it must be {range}", in_short(*.found))]
     OutOfRange {
         /// Name of the parameter.
         what: &'static str,
@@ -144,6 +144,12 @@ pub(crate) fn check_field_of_view(
 pub(crate) fn check_positive(what: &'static str, found: f64) -> Result<(), CameraError> {
     let is_positive = found > 0.0 && found.is_finite();
     if is_positive { Ok(()) } else { Err(CameraError::OutOfRange { what, found, unit: "", range: "more than 0" }) }
+}
+
+/// Rounds a number of everyday size to six decimals: degrees that were turned to radians and back have more. Others stay as
+/// they are.
+fn in_short(value: f64) -> f64 {
+    if (1e-3..1e9).contains(&value.abs()) { rounded(value) } else { value }
 }
 
 /// Rounds to six decimals.

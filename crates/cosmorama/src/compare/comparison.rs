@@ -1,6 +1,6 @@
 use super::edges::edge_free;
 use super::pair::Pair;
-use super::{CompareError, Difference, Mask, Registration};
+use super::{CompareError, Difference, Mask, OwnPeak, Registration};
 use crate::raster::{ColourChannel, Image, Rgba, Transfer};
 
 /// Result of a comparison of two pictures: their differences, and the shift between them.
@@ -10,6 +10,8 @@ pub struct Comparison {
     pub pixels: usize,
     /// Differences of linear light.
     pub linear: Difference,
+    /// Differences of linear light by the second picture's own peak; `None` where that is at most 1.
+    pub own_peak: Option<OwnPeak>,
     /// Differences of sRGB code values, which are closer to perception; light beyond 0–1 is clipped.
     pub srgb: Difference,
     /// Differences of linear light away from edges; `None` where every pixel is near an edge.
@@ -42,9 +44,11 @@ pub struct EdgeFree {
 pub fn compare(first: &Image<Rgba>, second: &Image<Rgba>, mask: &Mask) -> Result<Comparison, CompareError> {
     let pair = Pair::new(first, second, mask)?;
     let nothing = CompareError::NothingCounts { size: pair.size() };
+    let linear = Difference::between(&pair, |light| light).ok_or(nothing.clone())?;
     Ok(Comparison {
         pixels: mask.count(),
-        linear: Difference::between(&pair, |light| light).ok_or(nothing.clone())?,
+        linear,
+        own_peak: OwnPeak::of(&pair, &linear),
         srgb: Difference::between(&pair, |light| Transfer::Srgb.encode(light.clamp(0.0, 1.0), ColourChannel::Green))
             .ok_or(nothing)?,
         edge_free: EdgeFree::between(first, second, &edge_free(&pair)?)?,
@@ -82,6 +86,18 @@ mod tests {
         assert!((comparison.linear.rms - 0.1).abs() < 1e-6 && (comparison.linear.mean - 0.1).abs() < 1e-6);
         let code = 1.055 * (0.6_f64.powf(1.0 / 2.4) - 0.5_f64.powf(1.0 / 2.4));
         assert!((comparison.srgb.rms - code).abs() < 1e-6);
+    }
+
+    #[test]
+    fn light_beyond_one_is_measured_by_its_own_peak() {
+        // Off by 1 everywhere, a twentieth of the peak.
+        let comparison = compare(&grey(30, 20, 19.0), &grey(30, 20, 20.0), &Mask::everything(30, 20)).unwrap();
+        let own = comparison.own_peak.unwrap();
+        assert!(comparison.linear.psnr.abs() < 1e-9);
+        assert!((own.psnr - 20.0 * 20.0_f64.log10()).abs() < 1e-9 && own.peak == 20.0);
+        assert!((own.relative - 0.05).abs() < 1e-12);
+        let dim = compare(&grey(30, 20, 0.5), &grey(30, 20, 1.0), &Mask::everything(30, 20)).unwrap();
+        assert_eq!(dim.own_peak, None);
     }
 
     #[test]

@@ -3,7 +3,8 @@ use std::f64::consts::PI;
 /// Cross-section of a radial kernel: weight by distance r from the centre, in the kernel's unit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum CrossSection {
-    /// Gaussian exp(−α r²), cut off at a radius. Greene & Heckbert's pixel is α = 2, cutoff 1.
+    /// Gaussian exp(−α r²) up to the radius `cutoff`, and zero beyond it. Greene and Heckbert use α = 2 and a cutoff of 1
+    /// pixel.
     Gaussian {
         /// Falloff α.
         alpha: f64,

@@ -14,7 +14,7 @@ pub(crate) mod transfer;
 mod uniform;
 
 pub use channels::Channels;
-pub use codec::decode::Decoder;
+pub use codec::decode::{Decoder, IrregularPixels};
 pub use codec::encode::{Encoder, Threads};
 pub use codec::frame_pool::{FramePool, Pixel, Sample};
 pub use depth::Depth;

@@ -8,7 +8,6 @@ use cosmorama_spec::{DepthName, Missing, Size, Spec, TransferName};
 
 use super::lobe::LobeName;
 use crate::args::convert::{LimitArgs, frame_list};
-use crate::args::parse::depth::depth_parser;
 use crate::args::parse::listed;
 use crate::args::parse::number::degrees;
 use crate::args::settings::existing;
@@ -112,7 +111,7 @@ pub(crate) struct MapArgs {
     #[arg(long, value_name = "T", default_value = "auto", value_parser = listed::transfer(), hide_possible_values = true, hide_default_value = true, help_heading = "Light")]
     pub(crate) transfer: TransferName,
     /// Output sample type [default: the deepest of the format]
-    #[arg(long, value_parser = depth_parser(), value_name = "DEPTH", help_heading = "Light")]
+    #[arg(long, value_parser = listed::depth(), value_name = "DEPTH", help_heading = "Light")]
     pub(crate) depth: Option<DepthName>,
     /// Which frames: 5, 1-10 or 1-3,5,7-20:2 [default: all]
     #[arg(long, value_name = "LIST", value_parser = frame_list, allow_hyphen_values = true, help_heading = "Frames and files")]

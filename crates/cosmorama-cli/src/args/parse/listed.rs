@@ -6,7 +6,7 @@ use std::str::FromStr;
 use crate::args::light::lobe::LobeName;
 use clap::builder::{PossibleValue, TypedValueParser};
 use clap::{Arg, Command, Error};
-use cosmorama_spec::{FilterName, KernelName, PrimariesName, Spec, SpecKind, TransferName};
+use cosmorama_spec::{DepthName, FilterName, KernelName, PrimariesName, Spec, SpecKind, TransferName};
 
 /// Parser of a value that begins with one of some names, which completions offer.
 ///
@@ -45,9 +45,14 @@ pub(crate) fn word(names: impl IntoIterator<Item = (&'static str, &'static str)>
     Listed::new(names)
 }
 
-/// Reads a SPEC.
+/// Reads a SPEC. Other programs' names are offered, too.
 pub(crate) fn spec() -> Listed<Spec> {
-    Listed::new(SpecKind::all().map(|kind| (kind.name(), kind.about())))
+    Listed::new(SpecKind::all().map(|kind| (kind.name(), kind.about())).chain(SpecKind::other_names()))
+}
+
+/// Reads a sample type.
+pub(crate) fn depth() -> Listed<DepthName> {
+    Listed::new(DepthName::ALL.map(|depth| (depth.name(), depth.about())))
 }
 
 /// Reads the name of a filter.

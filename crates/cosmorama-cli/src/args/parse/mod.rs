@@ -1,6 +1,5 @@
 //! Parsers of single values, for clap.
 
 pub(crate) mod compression;
-pub(crate) mod depth;
 pub(crate) mod listed;
 pub(crate) mod number;

@@ -2,7 +2,9 @@ use cosmorama_spec::parse_degrees;
 
 /// Parses an angle in degrees, as `--yaw` takes it.
 pub(crate) fn degrees(text: &str) -> Result<f64, String> {
-    parse_degrees(text).map(|angle| angle.degrees()).ok_or_else(|| "expected an angle in degrees".to_owned())
+    parse_degrees(text)
+        .map(|angle| angle.degrees())
+        .ok_or_else(|| "expected one angle in degrees, without a unit, as in 30 or -12.5".to_owned())
 }
 
 /// Parses a factor: a number more than zero that single precision holds.
@@ -18,5 +20,8 @@ pub(crate) fn distance(text: &str) -> Result<f64, String> {
 
 /// Parses a number, such as decibels; neither infinity nor "not a number".
 pub(crate) fn finite(text: &str) -> Result<f64, String> {
-    text.parse().ok().filter(|number: &f64| number.is_finite()).ok_or_else(|| "expected a number".to_owned())
+    text.parse()
+        .ok()
+        .filter(|number: &f64| number.is_finite())
+        .ok_or_else(|| "expected a number without a unit".to_owned())
 }

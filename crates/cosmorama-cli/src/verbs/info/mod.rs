@@ -9,9 +9,9 @@ use anyhow::Result;
 use cosmorama::circle::{Circle, Found};
 use cosmorama::raster::Transfer;
 use cosmorama_convert::{
-    Builtin, Files, ThinAlpha, ViewFiles, damage_of, existing_frames, is_one_file, light_of, likely,
+    Builtin, Files, ThinAlpha, ViewFiles, damage_of, existing_frames, face_set, is_one_file, light_of, likely,
 };
-use cosmorama_io::{Choice, EnvMap, FacePattern, FaceSet, Header, ProfileFault, probe_chosen};
+use cosmorama_io::{Choice, EnvMap, FacePattern, Header, ProfileFault, probe_chosen};
 use serde_json::{Value, json};
 
 use self::faces::{of_files, report as of_borders};
@@ -28,7 +28,7 @@ pub(super) fn run(args: &InfoArgs, console: &mut Console) -> Result<ExitCode> {
     let report = if let Some(builtin) = Builtin::named(input)? {
         json!({ "input": input, "projection": "any (a formula)", "shows": builtin.about() })
     } else if FacePattern::parse(input).is_some() {
-        face_set(files, input, args.check)?
+        faces_report(files, input, args.check)?
     } else if let Some(world) = world::report(files, input, console)? {
         world
     } else {
@@ -39,13 +39,16 @@ pub(super) fn run(args: &InfoArgs, console: &mut Console) -> Result<ExitCode> {
     } else {
         console.print(&lines(&report, 0))?;
     }
-    // What is damaged is told, and no success.
+    // What is damaged, a profile too, is told, and no success.
     Ok(if is_damaged(&report) { ExitCode::FAILURE } else { ExitCode::SUCCESS })
 }
 
+/// Key of the reason why an ICC profile cannot be read.
+const DAMAGED_PROFILE: &str = "icc_profile_damaged";
+
 fn is_damaged(report: &Value) -> bool {
     let Value::Object(fields) = report else { return false };
-    fields.iter().any(|(key, value)| key == "damaged" || is_damaged(value))
+    fields.iter().any(|(key, value)| key == "damaged" || key == DAMAGED_PROFILE || is_damaged(value))
 }
 
 fn single(inputs: &dyn Files, pattern: &str, check: bool) -> Result<Value> {
@@ -65,6 +68,9 @@ fn single(inputs: &dyn Files, pattern: &str, check: bool) -> Result<Value> {
     let mut report = json!({ "input": pattern });
     let damaged = if check { damages(inputs, &files, &frames) } else { likely.damage.into_iter().collect() };
     add_damage(&mut report, damaged);
+    if let Some(ProfileFault::Damaged(reason)) = &header.metadata.profile_fault {
+        report[DAMAGED_PROFILE] = json!(reason);
+    }
     add_frames(&mut report, &frames, check);
     merge(&mut report, header_report(&header));
     report["projection"] = json!(likely.projection);
@@ -82,8 +88,8 @@ fn single(inputs: &dyn Files, pattern: &str, check: bool) -> Result<Value> {
     Ok(report)
 }
 
-fn face_set(inputs: &dyn Files, pattern: &str, check: bool) -> Result<Value> {
-    let set = FaceSet::find(pattern, None)?;
+fn faces_report(inputs: &dyn Files, pattern: &str, check: bool) -> Result<Value> {
+    let set = face_set(pattern, None)?;
     let mut report = json!({ "input": pattern, "projection": "cube", "naming": set.naming().name });
     let is_sequence = set.present().any(|file| matches!(ViewFiles::new(&file.path), ViewFiles::Sequence(_)));
     let reads_all = check || !is_sequence;
@@ -167,7 +173,7 @@ fn header_report(header: &Header) -> Value {
         report["white"] = json!(format!("{white} cd/m²"));
     }
     match &metadata.profile_fault {
-        Some(ProfileFault::Damaged(reason)) => report["icc_profile_damaged"] = json!(reason),
+        Some(ProfileFault::Damaged(reason)) => report[DAMAGED_PROFILE] = json!(reason),
         Some(ProfileFault::Tables) => report["icc_profile_holds"] = json!("tables of colours, which are not followed"),
         None => {}
     }

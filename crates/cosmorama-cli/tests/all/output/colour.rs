@@ -222,6 +222,10 @@ fn profiles_that_cannot_be_followed() {
     write(bench.path("damaged.jpg"), &image, &options(tables()[..150].to_vec())).unwrap();
     let args = [&["convert", "damaged.jpg", "new.png"], &EQUIRECT[..]].concat();
     assert_says(&bench.fail(1, &args), &["damaged.jpg: its ICC profile is damaged", "--ignore-profile"]);
+    let info = bench.run(&["info", "damaged.jpg"]);
+    assert_eq!(info.status.code(), Some(1));
+    let told = text(&info.stdout);
+    assert!(told.lines().nth(1).is_some_and(|line| line.starts_with("icc_profile_damaged: ")), "{told}");
     convert(&bench, "damaged.jpg", "out.png", &["--ignore-profile"]);
     assert_eq!(probe(bench.path("out.png")).unwrap().metadata.icc, None);
     let run = convert(&bench, "out.png", "other.png", &["--ignore-profile"]);

@@ -97,6 +97,27 @@ fn help_has_topics() {
 }
 
 #[test]
+fn keys_and_lists_are_topics_of_help() {
+    let bench = Bench::new();
+    assert_says(&bench.succeed(&["help", "tilt"]), &["tilt is a key", "fulldome:tilt=DEGREES"]);
+    assert_says(&bench.succeed(&["help", "yaw"]), &["SPEC:yaw=DEGREES", "turns the view to the right"]);
+    for (name, about) in KernelName::NAMES {
+        assert_says(&bench.succeed(&["help", "kernels"]), &[name, about]);
+    }
+    assert_says(&bench.succeed(&["help", "formats"]), &["tif, tiff", "TIFF: --depth 8, 10, 12, 16, half, float"]);
+    assert_says(&bench.succeed(&["help", "naming"]), &["bourke", "cube:order=PRESET"]);
+    let part = bench.succeed(&["help", "light", "diffuse"]);
+    assert_eq!(part, bench.succeed(&["light", "diffuse", "--help"]));
+    assert_says(&bench.fail(2, &["help", "size"]), &["it is an option: 'cosmorama convert --help' explains --size"]);
+    assert_says(&bench.fail(2, &["help", "bourke"]), &["--from cube:naming=bourke"]);
+    assert_says(&bench.fail(2, &["help", "blender"]), &["docs/blender-cube.md"]);
+    assert_says(&bench.fail(2, &["help", "tilted"]), &["did you mean 'tilt'?"]);
+    // A folder of a verb's name is not made by mistake.
+    assert_says(&bench.fail(2, &["man", "convert"]), &["'cosmorama help convert' prints it", "./convert"]);
+    bench.succeed(&["man", "./convert"]);
+}
+
+#[test]
 fn every_verb_has_a_manual_page_with_examples_and_without_empty_sections() {
     let bench = Bench::new();
     bench.succeed(&["man", "pages"]);
@@ -139,6 +160,8 @@ fn completions_know_values() {
         for kind in SpecKind::all() {
             assert!(has(kind.name()), "{shell}: {}", kind.name());
         }
+        // Other programs' names are offered, too.
+        assert!(SpecKind::other_names().all(|(name, _)| has(name)), "{shell}");
         let names = [&FilterName::NAMES[..], &KernelName::NAMES, &TransferName::NAMES].concat();
         for (name, _) in names.iter().filter(|(name, _)| !name.contains(':')) {
             assert!(has(name), "{shell}: {name}");

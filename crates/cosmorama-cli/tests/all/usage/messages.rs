@@ -147,13 +147,20 @@ fn pictures(bench: &Bench) {
     bench.save("half-nan.exr", &floats(64, 32, |_, j| if j < 16 { [f32::NAN; 3] } else { [0.5; 3] }));
     bench.save("veil.exr", &veiled(64, 32, |i, j| if i < 8 && j < 4 { [f32::NAN; 3] } else { [0.5; 3] }));
     bench.save("suns.exr", &floats(128, 64, |i, j| if i == 32 && j == 16 { [90000.0; 3] } else { [0.5; 3] }));
+    bench.save("lamps.exr", &floats(128, 64, |i, j| if i == 32 && j == 16 { [80000.0; 3] } else { [0.5; 3] }));
+    // An infinite pixel, one with an alpha below 0 and one that is NaN.
+    let odd = [[f32::INFINITY, 0.5, 0.5, 1.0], [0.5, 0.5, 0.5, -1.0], [f32::NAN, 0.5, 0.5, 1.0]];
+    let odd = (0..64 * 32).flat_map(|index| odd.get(index).copied().unwrap_or([0.5, 0.5, 0.5, 1.0])).collect();
+    bench.save("odd.exr", &EncodedImage::new(64, 32, Channels::Rgba, Depth::Float, Samples::Float(odd)).unwrap());
     let one = EncodedImage::new(2, 2, Channels::Grey, Depth::Float, Samples::Float(vec![0.5; 4])).unwrap();
     bench.save("one.exr", &one);
     layered(bench);
     let whole = bench.bytes("sky.png");
     fs::write(bench.path("cut.png"), &whole[..whole.len() * 2 / 3]).unwrap();
     fs::write(bench.path("empty.png"), "").unwrap();
-    fs::write(bench.path("notes.png"), "not a picture").unwrap();
+    for name in ["notes.png", "film.mp4"] {
+        fs::write(bench.path(name), "not a picture").unwrap();
+    }
     bench.faces("face_", 64);
     bench.faces("lost/", 64);
     fs::remove_file(bench.path("lost/right.png")).unwrap();

@@ -64,7 +64,7 @@ const MISTAKES: [(&str, &str); 68] = [
     ("convert sky.png out.png --to domemastre", "did you mean 'domemaster'?"),
     ("convert sky.png out.png --to Fulldome", "did you mean 'fulldome'?"),
     ("convert sky.png out.png --to fulldome,tilt=20", "did you mean 'fulldome:tilt=20'?"),
-    ("convert sky.png out.png --to fulldome:20", "as in fisheye:fov=220,fit=width"),
+    ("convert sky.png out.png --to fulldome:20", "write fulldome:tilt=20 or fulldome:fov=20"),
     ("convert sky.png out.png --to fulldome:tlit=20", "did you mean 'tilt'?"),
     ("convert sky.png out.png --to fisheye:fov=wide", "expected an angle in degrees, as in fov=90"),
     (
@@ -144,4 +144,16 @@ fulldome takes
 'cosmorama help spec' lists every projection with its keys
 ";
     assert_eq!(message, expected);
+}
+
+/// File names are text here: what is none is named, with a remedy.
+#[cfg(unix)]
+#[test]
+fn a_name_that_is_no_text_is_named() {
+    use std::os::unix::ffi::OsStrExt as _;
+    let bench = Bench::new();
+    let name = std::ffi::OsStr::from_bytes(b"sky\xff.png");
+    let output = bench.command(&["convert"]).arg(name).args(["out.png", "--to", "fulldome"]).output().unwrap();
+    assert_eq!(output.status.code(), Some(2));
+    assert_says(&crate::bench::text(&output.stderr), &["sky\u{fffd}.png", "no text in UTF-8", "rename it"]);
 }

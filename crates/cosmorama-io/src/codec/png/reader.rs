@@ -12,6 +12,9 @@ use crate::{Format, Header, ImageFile, IoError, Limits};
 
 const FORMAT: Format = Format::Png;
 
+/// Most columns or rows that are read: as many as may be asked for of an output.
+const LONGEST_SIDE: u32 = 1_000_000;
+
 /// First bytes of every file.
 const MARK: [u8; 8] = *b"\x89PNG\r\n\x1a\n";
 
@@ -104,6 +107,11 @@ fn decoder<'a>(path: &Path, source: Source<'a>) -> Result<Reader<Source<'a>>, Io
     let mut decoder = Decoder::new(source);
     // Palettes, transparent colours and samples of less than eight bits become plain samples.
     decoder.set_transformations(Transformations::EXPAND);
+    // A row beyond that limit would be called damaged.
+    let (width, height) = decoder.read_header_info().map(Info::size).map_err(|error| damaged(path, &error))?;
+    if width.max(height) > LONGEST_SIDE {
+        return Err(IoError::too_long(path, FORMAT, (width.into(), height.into()), LONGEST_SIDE.into()));
+    }
     decoder.read_info().map_err(|error| damaged(path, &error))
 }
 

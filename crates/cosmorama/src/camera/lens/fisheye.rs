@@ -3,7 +3,7 @@ use glam::DVec2;
 use crate::camera::error::{check_field_of_view, check_positive};
 use crate::camera::{Camera, CameraError, FieldStop, LensCircle, PixelGrid, PixelPoint, View};
 use crate::projection::ProjectionKind;
-use crate::projection::azimuthal::{FisheyeLens, Lens};
+use crate::projection::azimuthal::{FisheyeLens, Lens, LensError};
 use crate::sphere::{Angle, Orientation};
 
 /// Dimension of the image that the fisheye's circle spans.
@@ -120,6 +120,7 @@ impl Camera for FisheyeCamera {
 impl FisheyeCamera {
     /// Returns the radius at which the field of view ends, in the unit of the lens's formula.
     fn rim(&self) -> Result<f64, CameraError> {
+        self.check_lens()?;
         check_field_of_view("the field of view", self.field_of_view, 360.0, false)?;
         let (half, reach) = (self.field_of_view.radians() / 2.0, self.lens.reach());
         if half > reach + 1e-9 {
@@ -140,6 +141,22 @@ impl FisheyeCamera {
     }
 }
 
+impl FisheyeCamera {
+    /// Checks that the lens has an image near its axis. Coefficients of a measured lens may be far off.
+    fn check_lens(&self) -> Result<(), CameraError> {
+        let angle = self.lens.reach().min(NEAR_AXIS);
+        match self.lens.radius(angle) {
+            Some(radius) if radius.is_nan() || radius >= INFINITELY_FAR => {
+                Err(CameraError::Lens(LensError::Endless { degrees: angle.to_degrees(), radius }))
+            }
+            _ => Ok(()),
+        }
+    }
+}
+
+/// Angle from the axis, in radians, at which every lens of use has a radius that an image can have.
+const NEAR_AXIS: f64 = 0.5;
+
 /// Radius, in the lens's unit, beyond which an image point counts as infinitely far.
 const INFINITELY_FAR: f64 = 1e9;
 
@@ -149,7 +166,7 @@ const BEYOND_IMAGES: f64 = 1e6;
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::projection::azimuthal::Unified;
+    use crate::projection::azimuthal::{KannalaBrandt, Unified};
 
     fn angle_from_axis(frame: &FisheyeCamera, x: f64, y: f64) -> f64 {
         let view = frame.view(400, 300).unwrap();
@@ -201,6 +218,19 @@ mod tests {
             let whole = FisheyeCamera::whole_field(lens).degrees();
             assert!(frame(lens, whole - 1.0).is_ok(), "{lens:?}");
             assert!(whole > 359.9 || frame(lens, whole + 1.0).is_err(), "{lens:?}");
+        }
+    }
+
+    #[test]
+    fn coefficients_that_reach_beyond_any_image_are_named() {
+        let lens = KannalaBrandt::from_opencv([1e300, 0.0, 0.0, 0.0]).map(FisheyeLens::KannalaBrandt).unwrap();
+        for scale in [LensScale::default(), LensScale::Focal(300.0)] {
+            let field_of_view = FisheyeCamera::whole_field(lens);
+            for field_of_view in [field_of_view, Angle::HALF_TURN] {
+                let frame = FisheyeCamera { lens, scale, field_of_view, ..FisheyeCamera::default() };
+                let error = frame.view(100, 100).unwrap_err().to_string();
+                assert!(error.contains("from the axis: the coefficients cannot be right"), "{error}");
+            }
         }
     }
 

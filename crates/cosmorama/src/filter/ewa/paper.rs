@@ -20,7 +20,7 @@ impl WeightTable {
     }
 }
 
-/// Change of the texture coordinates (u, v), in texels, for one screen pixel along x and along y.
+/// Derivatives of the texture coordinates (u, v) by screen x and y: texels for a step of one pixel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TextureDerivatives {
     /// ∂u/∂x.

@@ -18,11 +18,11 @@ use crate::world::{Source, World};
 /// Views of one pinhole camera that is turned to different sides.
 pub(crate) struct Pinholes {
     views: Vec<Pinhole>,
-    /// Larger side of the largest texel, in radians.
+    /// Size of the largest texel of all views: the longer of its two sides, in radians.
     texel_pitch: f64,
 }
 
-/// One of the views. The point (U, V) of its image looks along across·U + down·V + corner.
+/// A pinhole view as three vectors: the point (U, V) of its image, in pixels, looks along across·U + down·V + corner.
 struct Pinhole {
     across: DVec3,
     down: DVec3,
@@ -210,8 +210,9 @@ impl Plane {
 }
 
 impl Pinholes {
-    /// Averages a footprint; `view` is the view that shows it, if that is known. `None` if its texels must be listed
-    /// one by one.
+    /// Averages the texels under a footprint. `view` is the index of the view that shows the footprint's centre, if the caller
+    /// knows it. Returns `None` where these fast loops over rectangles of texels do not apply; the caller then lists texels one
+    /// by one.
     #[inline(always)]
     pub(crate) fn average<S: Simd>(
         &self,

@@ -1,4 +1,4 @@
-//! Halving of a world's light: to half as many texels each way.
+//! Halving of a world's light: one level of a mip pyramid, with half as many columns and rows in each view.
 
 use std::ops::Range;
 

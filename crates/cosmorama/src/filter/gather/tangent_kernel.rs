@@ -24,7 +24,7 @@ pub(crate) struct TangentKernel {
     /// Share of the coarse cross-section.
     pub(crate) coarseness: f32,
     beyond: Option<BeyondSeam>,
-    /// Caps that hold all of the kernel on the sphere.
+    /// Caps of the sphere that together contain the kernel. Texels outside of them need no test.
     pub(crate) reach: CapChain,
 }
 

@@ -44,6 +44,14 @@ pub enum LensError {
     /// The formula does not rise at the axis.
     #[error("the radius does not rise with the angle even at the axis: the first coefficients cannot be right")]
     NoImage,
+    /// The formula reaches a radius that no image has, not far from the axis.
+    #[error("the radius is {radius:e} only {}° from the axis: the coefficients cannot be right", (degrees * 1e3).round() / 1e3)]
+    Endless {
+        /// Angle from the axis, in degrees.
+        degrees: f64,
+        /// Radius there, in the lens's unit.
+        radius: f64,
+    },
 }
 
 impl LensError {

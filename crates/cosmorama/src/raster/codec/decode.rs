@@ -1,4 +1,5 @@
-use std::ops::Range;
+use std::iter::Sum;
+use std::ops::{Add, Range};
 use std::sync::{Arc, Mutex, PoisonError};
 
 use half::f16;
@@ -6,14 +7,53 @@ use rayon::prelude::*;
 
 use crate::raster::{AlphaMode, Channels, ColourChannel, EncodedImage, Image, Rgba, Samples, Transfer};
 
+/// Numbers of pixels whose samples are no light. Only files of floats can hold such.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct IrregularPixels {
+    /// Pixels with a sample that is NaN. They count as missing.
+    pub missing: usize,
+    /// Pixels with an infinite sample, which is decoded as 65504, the largest half float.
+    pub infinite: usize,
+    /// Pixels whose alpha is below 0 or above 1, which is decoded as 0 or 1.
+    pub alpha: usize,
+}
+
+impl IrregularPixels {
+    /// Examines the samples of a pixel.
+    fn of(raw: &Rgba) -> Self {
+        if raw.0.iter().any(|sample| sample.is_nan()) {
+            return Self { missing: 1, ..Self::default() };
+        }
+        let is_infinite = raw.0.iter().any(|sample| sample.is_infinite());
+        Self { missing: 0, infinite: is_infinite.into(), alpha: (!(0.0..=1.0).contains(&raw.alpha())).into() }
+    }
+}
+
+impl Add for IrregularPixels {
+    type Output = Self;
+    fn add(self, other: Self) -> Self {
+        Self {
+            missing: self.missing + other.missing,
+            infinite: self.infinite + other.infinite,
+            alpha: self.alpha + other.alpha,
+        }
+    }
+}
+
+impl Sum for IrregularPixels {
+    fn sum<I: Iterator<Item = Self>>(counts: I) -> Self {
+        counts.fold(Self::default(), Self::add)
+    }
+}
+
 impl EncodedImage {
     /// Decodes every pixel to linear light, premultiplied by alpha. Grey becomes red = green = blue, and alpha is 1
-    /// without an alpha channel. Float samples follow the rule of [`Rgba::finite`]. Returns the number of pixels that
-    /// are NaN, and therefore missing.
+    /// without an alpha channel. Float samples follow the rule of [`Rgba::finite`], and alpha is limited to 0–1. Returns how
+    /// many pixels were not light.
     ///
     /// # Panics
     /// When the length of `into` is not the image's number of pixels.
-    pub fn decode(&self, transfer: &Transfer, into: &mut [Rgba]) -> usize {
+    pub fn decode(&self, transfer: &Transfer, into: &mut [Rgba]) -> IrregularPixels {
         Decoder::default().decode(self, transfer, into)
     }
 
@@ -40,7 +80,7 @@ impl Decoder {
     ///
     /// # Panics
     /// When the length of `into` is not the image's number of pixels.
-    pub fn decode(&self, image: &EncodedImage, transfer: &Transfer, into: &mut [Rgba]) -> usize {
+    pub fn decode(&self, image: &EncodedImage, transfer: &Transfer, into: &mut [Rgba]) -> IrregularPixels {
         assert_eq!(into.len(), image.width() * image.height(), "one pixel of light for each pixel of the file");
         let some = image.rows_at_once();
         let parts = into.par_chunks_mut((some * image.width()).max(1)).enumerate();
@@ -51,7 +91,13 @@ impl Decoder {
     ///
     /// # Panics
     /// When `into` does not hold whole rows, or the image has fewer rows.
-    pub fn decode_rows(&self, image: &EncodedImage, transfer: &Transfer, first: usize, into: &mut [Rgba]) -> usize {
+    pub fn decode_rows(
+        &self,
+        image: &EncodedImage,
+        transfer: &Transfer,
+        first: usize,
+        into: &mut [Rgba],
+    ) -> IrregularPixels {
         let rows = image.samples_of_rows(first, into.len());
         match image.samples() {
             Samples::U8(samples) => decode_integers(&samples[rows], image, &self.tables(transfer, 256), into),
@@ -128,7 +174,7 @@ fn decode_integers<S: Copy + Into<u32>>(
     image: &EncodedImage,
     tables: &Tables,
     into: &mut [Rgba],
-) -> usize {
+) -> IrregularPixels {
     let [red, green, blue] = ColourChannel::ALL.map(|channel| tables.of(channel));
     let code = |sample: S| sample.into() as usize;
     let alpha = |sample: S| sample.into() as f32 / tables.last;
@@ -150,7 +196,7 @@ fn decode_integers<S: Copy + Into<u32>>(
         }),
     }
     // An integer is always a number.
-    0
+    IrregularPixels::default()
 }
 
 fn decode_floats<S: Copy>(
@@ -159,9 +205,9 @@ fn decode_floats<S: Copy>(
     image: &EncodedImage,
     transfer: &Transfer,
     into: &mut [Rgba],
-) -> usize {
+) -> IrregularPixels {
     let (channels, mode) = (image.channels(), image.alpha_mode());
-    let mut missing = 0;
+    let mut irregular = IrregularPixels::default();
     by_pixels(samples, channels, into, |s| {
         let raw = match channels {
             Channels::Grey => Rgba::opaque(float(s[0]), float(s[0]), float(s[0])),
@@ -169,12 +215,10 @@ fn decode_floats<S: Copy>(
             Channels::Rgb => Rgba::opaque(float(s[0]), float(s[1]), float(s[2])),
             Channels::Rgba => Rgba([float(s[0]), float(s[1]), float(s[2]), float(s[3])]),
         };
-        if raw.0.iter().any(|sample| sample.is_nan()) {
-            missing += 1;
-        }
+        irregular = irregular + IrregularPixels::of(&raw);
         light_of(raw.finite(), mode, transfer)
     });
-    missing
+    irregular
 }
 
 fn light_of(code: Rgba, mode: AlphaMode, transfer: &Transfer) -> Rgba {
@@ -264,13 +308,24 @@ mod tests {
         let nan = f32::NAN;
         let veiled = Samples::Float(vec![1.0, 0.5, nan, 1.0, 0.0, nan]);
         let image = EncodedImage::new(3, 1, Channels::GreyAlpha, Depth::Float, veiled).unwrap();
-        assert_eq!(image.decode(&Transfer::Linear, &mut light), 2);
+        assert_eq!(image.decode(&Transfer::Linear, &mut light).missing, 2);
         // What is transparent is not missing.
         let clear = Samples::Half(vec![f16::ONE, f16::ZERO, f16::NAN, f16::ONE, f16::ZERO, f16::ZERO]);
         let image = EncodedImage::new(3, 1, Channels::GreyAlpha, Depth::Half, clear).unwrap();
-        assert_eq!(image.decode(&Transfer::Linear, &mut light), 1);
+        assert_eq!(image.decode(&Transfer::Linear, &mut light).missing, 1);
         let opaque = EncodedImage::new(3, 1, Channels::Grey, Depth::Eight, Samples::U8(vec![0, 1, 2])).unwrap();
-        assert_eq!(opaque.decode(&Transfer::Srgb, &mut light), 0);
+        assert_eq!(opaque.decode(&Transfer::Srgb, &mut light), IrregularPixels::default());
+    }
+
+    #[test]
+    fn infinite_samples_and_impossible_alpha_are_counted() {
+        let mut light = [Rgba::TRANSPARENT; 4];
+        let (infinity, nan) = (f32::INFINITY, f32::NAN);
+        let samples = vec![infinity, -1.0, 1.0, 0.5, 2.0, 1.5, nan, infinity];
+        let image = EncodedImage::new(4, 1, Channels::GreyAlpha, Depth::Float, Samples::Float(samples)).unwrap();
+        let expected = IrregularPixels { missing: 1, infinite: 1, alpha: 2 };
+        assert_eq!(image.decode(&Transfer::Linear, &mut light), expected);
+        assert_eq!(light.map(Rgba::alpha), [0.0, 0.5, 1.0, 0.0]);
     }
 
     #[test]

@@ -52,9 +52,11 @@ pub(crate) fn prefetch_lines<T>(items: &[T], first: u32, last: u32) {
     texels::prefetch(items, first.wrapping_add(last));
 }
 
-/// Prefetches `rows` rows of `LINES + 1` cache lines, `down` texels apart.
+/// Prefetches a rectangle of texels: `rows` rows, each of at most `LINES + 1` cache lines. The next row begins `down` texels after
+/// the one before it.
 ///
-/// Unrolled: an inner loop would cost more than the prefetches.
+/// The loop over lines has a constant length, so that the compiler unrolls it: a counted loop would cost more than the
+/// prefetches.
 #[inline(always)]
 fn prefetch_rows<T, const LINES: u32>(texels: &[T], [mut left, last]: [u32; 2], rows: usize, down: i32) {
     for _ in 0..rows {
@@ -85,7 +87,8 @@ impl Region {
         Self { view: usize::from(run.view), first: run.corner(), end: run.end() }
     }
 
-    /// Returns the region that holds the next run, too, if that is near, and the runs after it.
+    /// Extends the region by the first of some runs. Returns the larger region and the remaining runs; `None` if there is no
+    /// run, or if it lies in another view or too far away for one region.
     #[inline(always)]
     fn joined<'a>(&self, runs: &'a [Run]) -> Option<(Self, &'a [Run])> {
         let (run, others) = runs.split_first()?;

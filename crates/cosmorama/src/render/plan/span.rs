@@ -14,7 +14,7 @@ pub(crate) struct Run {
     pub(crate) weights: u32,
     /// Column of the first pixel.
     column: u32,
-    /// Index of the view.
+    /// Index of the view, in the world's order, that all windows of the run lie in.
     pub(crate) view: u16,
     /// Row in the band.
     row: u8,

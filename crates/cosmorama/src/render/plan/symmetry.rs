@@ -114,7 +114,7 @@ pub(crate) struct Reflection {
     rows: RowLayout,
     /// Whether its columns are seen as rows, and its rows as columns.
     is_turned: bool,
-    /// Whether its columns run the other way, and whether its rows do.
+    /// Whether the order of columns is reversed, and whether that of rows is.
     flips: [bool; 2],
 }
 

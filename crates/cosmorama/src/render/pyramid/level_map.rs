@@ -133,9 +133,10 @@ impl LevelMap {
     }
 }
 
-/// Returns the position of the first point. It is on the picture's edge, so that points mirror each other. If each
-/// pixel has its own point, it is in the pixel's centre: pixels of small pictures may be so wide that their corners
-/// tell nothing of them.
+/// Returns the position of the first of the points at which levels are measured, in pixels from the picture's edge.
+///
+/// It is the edge itself, so that points lie symmetrically. Where each pixel has a point of its own, as in small pictures, it
+/// is the pixel's centre: there a pixel may be so wide that its corners look elsewhere.
 fn first(step: usize) -> f64 {
     if step == 1 { 0.5 } else { 0.0 }
 }

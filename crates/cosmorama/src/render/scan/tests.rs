@@ -7,7 +7,7 @@ use crate::raster::{ColourChannel, Image, Rgba, Transfer};
 use crate::sphere::{Angle, CubeFace, Orientation};
 use crate::world::{Source, World, panorama};
 
-/// Receiver that keeps weights by pixel and texel, and counts the pixels that came in windows.
+/// A sink for tests: it collects the weight of each texel for each pixel, and counts the pixels that arrived as windows.
 struct Collector {
     width: usize,
     weights: Vec<Vec<(u32, f32)>>,

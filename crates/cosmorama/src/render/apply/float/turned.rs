@@ -7,7 +7,8 @@ use super::window::{BLOCK_SAMPLES, Lines, Marks, SAMPLES, Sum, spread, way};
 use crate::render::apply::texels::Window;
 use crate::render::plan::window_format::ROWS_UNDER;
 
-/// A window of a small size, as wide and high as all mirrors see it; here it has as many rows and columns.
+/// A small window whose mirrors have exchanged rows and columns. `WIDTH` and `HEIGHT` are its size in the picture that is
+/// mirrored; in memory it has `WIDTH` rows and `HEIGHT` columns.
 #[derive(Clone, Copy)]
 pub(crate) struct TurnedWindow<'a, S: Simd, const N: usize, const R: usize, const WIDTH: usize, const HEIGHT: usize> {
     pub(crate) simd: S,

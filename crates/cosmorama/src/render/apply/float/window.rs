@@ -20,8 +20,11 @@ pub(crate) const SAMPLES: usize = 4;
 pub(crate) const BLOCK_SAMPLES: usize = BLOCK * SAMPLES;
 
 impl<S: Simd, const N: usize, const R: usize> Window<'_, S, f32, N, R> {
-    /// Sums over a window of one of the sizes of [`SMALL`]. Returns the sums with the number of its numbers. If
-    /// `TURNED`, its rows are columns in all mirrors. It is unrolled by hand: the compiler would keep loops.
+    /// Computes the weighted sums of a small window, whose size is one of [`SMALL`], in each mirror. Returns them with the number
+    /// of entries that the window takes in the list of numbers: one header, and a weight for each texel.
+    ///
+    /// With `TURNED`, all mirrors have exchanged rows and columns. The code is unrolled by hand, because the compiler would keep
+    /// the loops.
     #[inline(always)]
     pub(crate) fn small<const WIDTH: usize, const HEIGHT: usize, const UNDER: usize, const TURNED: bool>(
         self,
@@ -261,7 +264,8 @@ impl<S: Simd> Sum<S> {
         self.greatest = is_beside.select(self.greatest, self.greatest.max(texels));
     }
 
-    /// Returns the sum, clamped to the texels under the pixel if `is_bounded`.
+    /// Adds the partial sums of all columns: the filtered pixel. With `is_bounded` it is limited to the least and greatest texel
+    /// under the pixel, which prevents ringing.
     #[inline(always)]
     pub(crate) fn average(&self, is_bounded: bool) -> f32x4<S> {
         let (a, b) = self.blocks.split();

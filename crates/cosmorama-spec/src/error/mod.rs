@@ -1,19 +1,27 @@
+//! Reasons why a text is not what it should be, each with what to write instead.
+
+mod meaning;
+
 use std::fmt;
 
-use cosmorama::layout::LensSide;
 use cosmorama::projection::azimuthal::LensError;
 use thiserror::Error;
+
+pub use meaning::{did_you_mean, nearest};
+
+pub(crate) use meaning::key_for;
+use meaning::meant;
 
 /// Reason why a SPEC cannot be understood.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum SpecError {
     /// The projection's name is unknown.
-    #[error("unknown projection '{name}'{}; there are {}", question(.meant.as_deref()), .known.join(", "))]
+    #[error("unknown projection '{name}'{}; there are {}", question(.meant), .known.join(", "))]
     UnknownName {
         /// Name as typed.
         name: String,
-        /// Suggested name or SPEC, if one is likely.
-        meant: Option<String>,
+        /// Suggested names or SPECs; none if none is likely.
+        meant: Vec<String>,
         /// Known names.
         known: Vec<&'static str>,
     },
@@ -48,10 +56,12 @@ pub enum SpecError {
         why: &'static str,
     },
     /// A part is not of the form `key=value`.
-    #[error("'{part}' is no key=value; a SPEC is NAME[:key=value[,key=value]...], as in fisheye:fov=220,fit=width")]
+    #[error("'{part}' is no key=value; {}", with_key(.instead))]
     NoValue {
         /// Part as typed.
         part: String,
+        /// Suggested SPECs, in which the part is the value of a key; none if it fits no key.
+        instead: Vec<String>,
     },
     /// The keys are separated by colons, as in ffmpeg's filters.
     #[error("keys are separated by commas here, not by colons{}", written(.instead.as_deref()))]
@@ -113,11 +123,11 @@ impl SpecError {
     }
 }
 
-/// Reason why a word is not the name of a filter, kernel or transfer function.
+/// Reason why a word is not the name of a filter, kernel, transfer function, primaries or sample type.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub enum WordError {
     /// The word is unknown.
-    #[error("unknown {what} '{word}'{}; there are {known}", question(.meant.as_deref()))]
+    #[error("unknown {what} '{word}'{}; there are {known}", question(.meant.as_slice()))]
     Unknown {
         /// Kind of name that was expected.
         what: WordKind,
@@ -156,6 +166,8 @@ pub enum WordKind {
     Transfer,
     /// Primaries.
     Primaries,
+    /// A sample type.
+    Depth,
 }
 
 impl fmt::Display for WordKind {
@@ -165,55 +177,23 @@ impl fmt::Display for WordKind {
             Self::Kernel => "kernel",
             Self::Transfer => "transfer function",
             Self::Primaries => "primaries",
+            Self::Depth => "depth",
         })
     }
 }
 
-/// Returns a suggestion for a mistyped key: the full name of a lens's or face's key, or the most similar key.
-fn meant(typed: &str, known: &[&str]) -> String {
-    match typed.split_once('.') {
-        Some((_, key)) if known.contains(&&*format!("LENS.{key}")) => {
-            let each: Vec<String> = LensSide::ALL.iter().map(|side| format!("'{}.{key}'", side.name())).collect();
-            format!("; did you mean {}?", each.join(" or "))
-        }
-        _ => match key_for(typed, known) {
-            Some(key) => question(Some(key)),
-            None => did_you_mean(typed, known),
-        },
+/// Returns the question whether one of some names was meant; empty if there are none.
+fn question(names: &[impl AsRef<str>]) -> String {
+    let quoted: Vec<String> = names.iter().map(|name| format!("'{}'", name.as_ref())).collect();
+    if quoted.is_empty() { String::new() } else { format!("; did you mean {}?", quoted.join(" or ")) }
+}
+
+/// Returns the advice to write one of some SPECs, or the form of all if there are none.
+fn with_key(specs: &[String]) -> String {
+    match specs {
+        [] => "a SPEC is NAME[:key=value[,key=value]...], as in fisheye:fov=220,fit=width".to_owned(),
+        specs => format!("write {}", specs.join(" or ")),
     }
-}
-
-/// Finds the key for a field of view or a centre that has another name elsewhere: ffmpeg's `h_fov`, a panorama's `hfov`.
-///
-/// A camera's `fov` is the horizontal one; by letters `dfov` is as near.
-pub(crate) fn key_for<'k>(typed: &str, known: &[&'k str]) -> Option<&'k str> {
-    let plain = typed.to_ascii_lowercase().replace(['_', '-'], "");
-    let names: &[&str] = match plain.as_str() {
-        "hfov" | "ihfov" | "fov" => &["hfov", "fov"],
-        "vfov" | "ivfov" => &["vfov"],
-        "dfov" | "idfov" => &["dfov", "fov"],
-        "centre" => &["center"],
-        "name" | "names" => &["naming"],
-        other => &[other],
-    };
-    names.iter().find_map(|name| known.iter().copied().find(|key| key == name))
-}
-
-/// Returns "did you mean …?" with the most similar known name; empty if none is similar.
-pub fn did_you_mean(typed: &str, known: &[&str]) -> String {
-    question(nearest(typed, known))
-}
-
-/// Finds the known name that is most like what was typed.
-pub fn nearest<'k>(typed: &str, known: &[&'k str]) -> Option<&'k str> {
-    let typed = typed.to_ascii_lowercase();
-    let likeness = |name: &&str| (strsim::normalized_damerau_levenshtein(&typed, name) * 1000.0) as i64;
-    known.iter().copied().max_by_key(likeness).filter(|best| likeness(best) >= 500)
-}
-
-/// Returns the question whether a name was meant.
-fn question(name: Option<&str>) -> String {
-    name.map_or_else(String::new, |name| format!("; did you mean '{name}'?"))
 }
 
 /// Returns the advice to write a SPEC, or an example if there is none.

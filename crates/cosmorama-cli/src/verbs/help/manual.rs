@@ -1,88 +1,31 @@
+//! Manual pages.
+
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use anyhow::Result;
-use clap::{Command, CommandFactory};
-use clap_complete::Shell;
+use clap::Command;
 use clap_mangen::Man;
 use cosmorama_convert::refuse_existing;
 use cosmorama_io::pending::Pending;
-use cosmorama_spec::{SpecKind, did_you_mean};
+use cosmorama_spec::SpecKind;
 
-use super::make_folder;
-use crate::args::light;
-use crate::args::{Args, CompletionsArgs, HelpArgs, ManArgs, SPEC_TOPIC, builtins, examples, verbs};
+use super::built;
+use crate::args::{ManArgs, builtins, examples, light, verbs};
 use crate::console::Console;
 use crate::failure::usage;
-
-/// Prints the help of a verb, or of SPECs.
-pub(super) fn help(args: &HelpArgs, console: &Console) -> Result<ExitCode> {
-    let mut command = built();
-    let text = match (args.topic.as_deref(), args.projection.as_deref()) {
-        (Some(SPEC_TOPIC), None) => cosmorama_spec::help(),
-        (Some(SPEC_TOPIC), Some(spec)) => of_projection(spec)?,
-        (_, Some(extra)) => {
-            return Err(usage(format!("unexpected argument '{extra}'; only 'help spec' takes a projection")));
-        }
-        (Some(topic), None) => match command.find_subcommand_mut(topic) {
-            Some(verb) => verb.render_long_help().to_string(),
-            None => of_projection(topic)?,
-        },
-        (None, None) => command.render_help().to_string(),
-    };
-    console.print(&(text.trim_end().to_owned() + "\n"))?;
-    Ok(ExitCode::SUCCESS)
-}
-
-/// Returns the keys of one projection.
-fn of_projection(name: &str) -> Result<String> {
-    let Some(kind) = SpecKind::of(name) else {
-        let topics: Vec<&str> = verbs().chain([SPEC_TOPIC]).chain(SpecKind::all().map(SpecKind::name)).collect();
-        let meant = did_you_mean(name, &topics);
-        return Err(usage(format!("no help on '{name}'{meant}; topics are {}", topics.join(", "))));
-    };
-    Ok(format!("{} is {}.\n\n{}", kind.name(), kind.about(), kind.help()))
-}
-
-/// Prints a completion script.
-pub(super) fn completions(args: &CompletionsArgs, console: &Console) -> Result<ExitCode> {
-    let mut script = Vec::new();
-    clap_complete::generate(args.shell, &mut Args::command(), "cosmorama", &mut script);
-    let mut script = String::from_utf8_lossy(&script).into_owned();
-    if args.shell == Shell::Fish {
-        script += &words_for_fish(&Args::command());
-    }
-    console.print(&script)?;
-    Ok(ExitCode::SUCCESS)
-}
-
-/// Returns lines of fish's script for the words of arguments without an option, which `clap_complete` leaves out.
-fn words_for_fish(command: &Command) -> String {
-    let mut lines = String::new();
-    for verb in command.get_subcommands() {
-        for argument in verb.get_positionals() {
-            let values = argument.get_possible_values();
-            let words: Vec<&str> = values.iter().map(|value| value.get_name()).collect();
-            if !words.is_empty() {
-                let (verb, words) = (verb.get_name(), words.join(" "));
-                lines += &format!(
-                    "complete -c cosmorama -n \"__fish_cosmorama_using_subcommand {verb}\" -f -a \"{words}\"\n"
-                );
-            }
-        }
-    }
-    lines
-}
+use crate::verbs::make_folder;
 
 /// Prints the manual pages one after the other, or writes each into a file.
-pub(super) fn man(args: &ManArgs, console: &Console) -> Result<ExitCode> {
+pub(in crate::verbs) fn man(args: &ManArgs, console: &Console) -> Result<ExitCode> {
     let pages = pages()?;
     let Some(folder) = &args.dir else {
         console.print(&pages.into_iter().map(|page| page.text).collect::<String>())?;
         return Ok(ExitCode::SUCCESS);
     };
     let files: Vec<_> = pages.iter().map(|page| folder.join(&page.file)).collect();
+    refuse_topic(folder)?;
     if !args.overwrite {
         refuse_existing(files.iter().map(|file| file.as_path()))?;
     }
@@ -94,18 +37,21 @@ pub(super) fn man(args: &ManArgs, console: &Console) -> Result<ExitCode> {
     Ok(ExitCode::SUCCESS)
 }
 
+/// Refuses a folder that has the name of a verb: whoever types `man convert` wants to read.
+fn refuse_topic(folder: &Path) -> Result<()> {
+    let topic = folder.to_str().filter(|name| verbs().any(|verb| verb == *name) || SpecKind::of(name).is_some());
+    let Some(topic) = topic else { return Ok(()) };
+    Err(usage(format!(
+        "man takes a folder for its pages, but {topic} is a topic of help: 'cosmorama help {topic}' prints it; for a folder of \
+         this name write ./{topic}"
+    )))
+}
+
 fn write_page(file: &Path, text: &str, console: &Console) -> Result<()> {
     let mut pending = Pending::create(file, &console.unfinished)?;
     pending.writer().write_all(text.as_bytes())?;
     pending.finish()?;
     console.print(&format!("{}\n", file.display()))
-}
-
-/// Returns the whole command line, with all that its parts inherit.
-fn built() -> Command {
-    let mut command = Args::command();
-    command.build();
-    command
 }
 
 /// Folders of the manual's sections: programs, and topics that belong to no program.
