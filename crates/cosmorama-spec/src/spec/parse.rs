@@ -209,6 +209,9 @@ fn with_key(kind: &'static Kind, part: &str, text: &str) -> Vec<String> {
         let meant: Vec<&str> = [part].into_iter().chain(begun).chain(nearest(part, &words)).collect();
         let spec = |word: &str| format!("{}:{}={word}{}", kind.name, key.name, &text[part.len()..]);
         let mut found: Vec<String> = meant.into_iter().map(spec).filter(|spec| spec.parse::<Spec>().is_ok()).collect();
+        // What is written as it should be needs no longer word.
+        let most = if found.first() == Some(&spec(part)) { 1 } else { found.len() };
+        found.truncate(most);
         found.dedup();
         found
     };

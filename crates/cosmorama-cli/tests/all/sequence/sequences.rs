@@ -364,3 +364,18 @@ fn geometry_without_room_is_computed_anew_for_each_frame() {
     // A single picture needs none that is held.
     assert_eq!(outputs(&["--memory", "1200K", "--frames", "1"]).1, [""; 0]);
 }
+
+#[test]
+fn what_every_frame_has_is_told_once_with_the_sum() {
+    let bench = Bench::new();
+    for frame in 1..=3 {
+        let glare = |i, j| if (i, j) == (frame, 5) { [f32::INFINITY; 3] } else { [0.5; 3] };
+        bench.save(&format!("sky_{frame}.exr"), &crate::bench::floats(64, 32, glare));
+    }
+    let args =
+        ["convert", "sky_#.exr", "out_#.exr", "--from", "equirect", "--to", "fulldome", "--size", "16", "--json"];
+    let report: Value = serde_json::from_str(&bench.succeed(&args)).unwrap();
+    let told = report["warnings"].as_array().unwrap();
+    let told: Vec<&str> = told.iter().filter_map(Value::as_str).filter(|told| told.contains("infinite")).collect();
+    assert_eq!(told, ["sky_1.exr and 2 other files: 3 pixels are infinite and count as 65504, the largest half float"]);
+}
