@@ -106,6 +106,14 @@ pub(crate) fn options(verb: &str) -> Vec<String> {
     parts.flat_map(Command::get_arguments).filter_map(Arg::get_long).map(str::to_owned).collect()
 }
 
+/// Returns the long names of the options of a verb that another has of its own, without dashes.
+pub(crate) fn options_of_part(verb: &str, part: &str) -> Vec<String> {
+    let mut command = Args::command();
+    command.build();
+    let part = command.find_subcommand(verb).and_then(|verb| verb.find_subcommand(part));
+    part.into_iter().flat_map(Command::get_arguments).filter_map(Arg::get_long).map(str::to_owned).collect()
+}
+
 /// Returns the names of the verbs that a verb has of its own, as `light` does.
 pub(crate) fn parts(verb: &str) -> Vec<String> {
     let command = Args::command();

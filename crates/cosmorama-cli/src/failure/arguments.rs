@@ -24,6 +24,12 @@ impl Typed {
         self.0.first().map(String::as_str).filter(|word| args::verbs().any(|verb| verb == *word))
     }
 
+    /// Returns the verb of its own that a verb has, as `diffuse` of `light`, if the second word is one.
+    pub(super) fn part(&self) -> Option<&str> {
+        let parts = args::parts(self.verb()?);
+        self.0.get(1).map(String::as_str).filter(|word| parts.iter().any(|part| part == word))
+    }
+
     /// Finds a word that is a verb's option, but with one dash: `-to`.
     pub(super) fn option_with_one_dash(&self, verb: Option<&str>) -> Option<String> {
         let options = args::options(verb?);
@@ -99,6 +105,9 @@ fn value(error: &Error) -> Option<String> {
     let (option, typed) = (text(error, ContextKind::InvalidArg)?, text(error, ContextKind::InvalidValue)?);
     let cause = error.source()?;
     let what = format!("invalid value '{typed}' for '{option}'");
+    if typed.is_empty() {
+        return Some(format!("{what}: it is empty, as where a shell's variable is not set"));
+    }
     if let Some(error) = cause.downcast_ref::<SpecError>() {
         if let SpecError::UnknownName { name, .. } = error
             && let Some(advice) = no_projection::advice(option.split(' ').next().unwrap_or_default(), name, typed)

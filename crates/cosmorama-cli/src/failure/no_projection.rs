@@ -12,7 +12,11 @@ const CALIBRATIONS: [&str; 5] = [".yml", ".yaml", ".json", ".xml", ".txt"];
 pub(super) fn advice(option: &str, name: &str, typed: &str) -> Option<String> {
     let is_input = option.starts_with("--from");
     let is_path = Format::from_extension(Path::new(name)).is_ok() || name.contains(['/', '{', '#']);
-    Some(if name == "v360" {
+    Some(if is_input && ["auto", "unknown", "any", "detect", "none", "default"].contains(&name) {
+        format!("leave {option} out: then the projection is found")
+    } else if ["same", "input", "keep", "source"].contains(&name) {
+        "name the input's projection, which 'cosmorama info INPUT' tells".to_owned()
+    } else if name == "v360" {
         "that is ffmpeg's filter, whose names of projections are understood: v360=e:flat is --from e --to flat"
             .to_owned()
     } else if name == "builtin" {

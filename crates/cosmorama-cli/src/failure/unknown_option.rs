@@ -17,7 +17,8 @@ pub(super) fn message(argument: &str, typed: &Typed) -> String {
         return format!("unexpected argument '{argument}'; {}\n\n{}", lone_word(argument, typed), see_options(verb));
     };
     let word = word.split('=').next().unwrap_or_default().to_lowercase().replace('_', "-");
-    let who = verb.map_or_else(|| "cosmorama".to_owned(), |verb| format!("cosmorama {verb}"));
+    let words = ["cosmorama"].into_iter().chain(verb).chain(typed.part());
+    let who = words.collect::<Vec<_>>().join(" ");
     let takes_specs = verb.is_none_or(|verb| WITH_SPECS.contains(&verb));
     let is_long = argument.starts_with("--");
     if let Some(name) = typed.option_with_one_dash(verb).filter(|_| !is_long) {
@@ -26,6 +27,7 @@ pub(super) fn message(argument: &str, typed: &Typed) -> String {
     let advice = spec_key::advice(&word, argument, typed)
         .filter(|_| takes_specs && is_long)
         .or_else(|| other_words::advice(&word, verb))
+        .or_else(|| option_of_part(&word, typed))
         .or_else(|| own_option(&word, verb))
         .or_else(|| option_of_other(&word, verb))
         .unwrap_or_default();
@@ -74,9 +76,16 @@ fn lone_word(word: &str, typed: &Typed) -> String {
         .to_owned()
 }
 
+/// Returns the other verb of a verb's own that has the option: `light specular`, for one of `light diffuse`.
+fn option_of_part(word: &str, typed: &Typed) -> Option<String> {
+    let (verb, part) = (typed.verb()?, typed.part()?);
+    let has = |other: &String| other != part && args::options_of_part(verb, other).iter().any(|name| name == word);
+    args::parts(verb).into_iter().find(has).map(|other| format!("cosmorama {verb} {other} has it"))
+}
+
 /// Returns the verb's own option that is most similar to what was typed.
 fn own_option(word: &str, verb: Option<&str>) -> Option<String> {
-    let names = args::options(verb?);
+    let names = verb.map_or_else(|| ["help", "version", "verbose"].map(str::to_owned).to_vec(), args::options);
     let names: Vec<&str> = names.iter().map(String::as_str).collect();
     let begun = names.iter().copied().find(|name| word.len() > 2 && name.starts_with(word));
     begun.or_else(|| nearest(word, &names)).map(|name| format!("did you mean --{name}?"))

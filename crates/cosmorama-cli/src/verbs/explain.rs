@@ -14,6 +14,7 @@ use serde_json::{Value, json};
 use super::{diagram, make_folder};
 use crate::args::ExplainArgs;
 use crate::console::Console;
+use crate::failure::usage;
 use crate::pipe::KeptStreams;
 
 /// Tells what a conversion will do.
@@ -25,6 +26,7 @@ pub(super) fn run(mut args: ExplainArgs, console: &mut Console) -> Result<ExitCo
     console.tell_all(&checked);
     let explanation = checked.result?;
     if let Some(folder) = &output {
+        check_folder(folder)?;
         check_diagrams(folder, &explanation, overwrite)?;
     }
     let worlds = explanation.worlds()?;
@@ -64,6 +66,19 @@ pub(super) fn run(mut args: ExplainArgs, console: &mut Console) -> Result<ExitCo
         console.print(&text)?;
     }
     Ok(ExitCode::SUCCESS)
+}
+
+/// Refuses a folder that has the name of a drawing: one file was meant.
+fn check_folder(folder: &Path) -> Result<()> {
+    let extension =
+        folder.extension().and_then(|extension| extension.to_str()).unwrap_or_default().to_ascii_lowercase();
+    if !["svg", "png", "pdf", "jpg"].contains(&extension.as_str()) || folder.exists() {
+        return Ok(());
+    }
+    let folder = folder.display();
+    Err(usage(format!(
+        "{folder}: diagrams are several files, so that --output takes a folder; name one, as in --output diagrams"
+    )))
 }
 
 /// Checks that diagrams replace no input, nor any other file unless asked to.

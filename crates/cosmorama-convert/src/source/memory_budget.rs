@@ -139,8 +139,10 @@ impl MemoryBudget {
                 human(asked),
             );
         }
+        // Nobody means so few bytes.
+        let unit = if self.bytes < 1 << 16 { "; a number without a unit is bytes: 8G is eight gigabytes" } else { "" };
         bail!(
-            Memory: "{what} needs about {} of memory, but only {} may be used{why}; if that is right, raise {MEMORY}",
+            Memory: "{what} needs about {} of memory, but only {} may be used{why}; if that is right, raise {MEMORY}{unit}",
             human_at_least(needed),
             human(self.bytes),
         );

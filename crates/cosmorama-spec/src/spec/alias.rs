@@ -44,9 +44,10 @@ pub(super) const ALIASES: [(&str, &str); 33] = [
 
 /// Words that people try for a projection, each with the SPEC that they may mean. They are suggested, not understood: some
 /// have a second meaning.
-const TRIED: [(&[&str], &str); 12] = [
+const TRIED: [(&[&str], &str); 13] = [
     (&["planet", "small-planet", "smallplanet", "stereo-planet"], "little-planet"),
     (&["dome", "planetarium", "master"], "fulldome"),
+    (&["hemisphere", "hemispherical", "all-sky", "allsky"], "fisheye"),
     (&["imax", "imax-dome", "omni"], "omnimax"),
     (&["360", "vr", "vr360", "pano", "erp", "equi", "sphere", "lat-long", "spheremap", "hdri"], "equirect"),
     (&["180", "vr180"], "he"),

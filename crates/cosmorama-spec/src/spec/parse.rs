@@ -144,7 +144,11 @@ fn named(shape: &Shape) -> Option<(&'static Kind, Keys)> {
 fn unknown_name(name: &str, rest: &str) -> SpecError {
     let known: Vec<&str> = KINDS.iter().map(|kind| kind.name).collect();
     let names: Vec<&str> = known.iter().copied().chain(ALIASES.iter().map(|(alias, _)| *alias)).collect();
+    let digits = |letter: char| letter.is_ascii_digit();
+    let numbered = [name.trim_end_matches(digits), name.trim_start_matches(digits)].into_iter();
+    let mut numbered = numbered.map(|of| (of, name.trim_start_matches(of).trim_end_matches(of)));
     let with_keys = name.split_once([',', ';', ' ', '/', '=', '(', '-', '_']).filter(|(name, _)| names.contains(name));
+    let with_keys = with_keys.or_else(|| numbered.find(|(of, number)| names.contains(of) && !number.is_empty()));
     let with_keys = with_keys.map(|(name, keys)| {
         let keys = keys.trim().trim_end_matches(')');
         let keys = [keys, rest].into_iter().filter(|keys| !keys.is_empty()).collect::<Vec<_>>().join(",");
@@ -191,6 +195,16 @@ fn both_ways(kind: &'static Kind, part: &str, text: &str) -> Option<String> {
     spec.parse::<Spec>().is_ok().then_some(spec)
 }
 
+/// Returns the SPEC for a key without `=`: `fulldome:tilt`, whose value is still to be written, `fulldome:tilt20`.
+fn after_its_key(kind: &'static Kind, part: &str, text: &str) -> Option<String> {
+    let letters = part.trim_end_matches(|letter: char| !letter.is_alphabetic());
+    let key = kind.all_keys().find(|key| key.name == letters)?;
+    let value = part[letters.len()..].trim_start_matches([':', ' ', '-', '_']);
+    let spec = |value: &str| format!("{}:{}={value}{}", kind.name, key.name, &text[part.len()..]);
+    let is_value = !value.is_empty() && spec(value).parse::<Spec>().is_ok();
+    Some(spec(if is_value { value } else { key.value }))
+}
+
 /// Most SPECs that are suggested for a lone value.
 const SUGGESTED: usize = 2;
 
@@ -215,7 +229,7 @@ fn with_key(kind: &'static Kind, part: &str, text: &str) -> Vec<String> {
         found.dedup();
         found
     };
-    if let Some(spec) = both_ways(kind, part, text) {
+    if let Some(spec) = both_ways(kind, part, text).or_else(|| after_its_key(kind, part, text)) {
         return vec![spec];
     }
     let of = |keys: &[&Key]| keys.iter().flat_map(specs).take(SUGGESTED).collect::<Vec<String>>();
@@ -452,12 +466,17 @@ mod tests {
             ("equirect:360x90", "equirect:hfov=360,vfov=90"),
             ("perspective:90x60,yaw=3", "perspective:fov=90,vfov=60,yaw=3"),
             ("omnimax:theatre", "omnimax:axis=11"),
+            ("fulldome:tilt20,fov=200", "fulldome:tilt=20,fov=200"),
+            ("fulldome:fov", "fulldome:fov=DEGREES"),
         ] {
             let value = typed.split([':', ',']).nth(1).unwrap();
             assert_eq!(refused(typed), format!("'{value}' is no key=value; write {written}"));
         }
         assert!(refused("cube:nonsense").contains("as in fisheye:fov=220,fit=width"));
         assert!(refused("fulldome=20").contains("did you mean 'fulldome:tilt=20' or 'fulldome:fov=20'?"));
+        for name in ["fisheye180", "180fisheye"] {
+            assert!(refused(name).contains("did you mean 'fisheye:fov=180' or"), "{}", refused(name));
+        }
         assert!(refused("cube-3x2").contains("did you mean 'cube:layout=3x2'?"));
         assert!(refused("fulldome(tilt=20)").contains("did you mean 'fulldome:tilt=20'?"));
     }
