@@ -213,6 +213,26 @@ fn giant_sizes_are_refused_before_memory_is_taken() {
 }
 
 #[test]
+fn an_absurd_width_is_told_and_not_called_damage() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("wide.png");
+    let mut png = written("png");
+    png[16..20].copy_from_slice(&[0x7f, 0xff, 0xff, 0xff]);
+    let checksum = crc32(&png[12..29]);
+    png[29..33].copy_from_slice(&checksum.to_be_bytes());
+    std::fs::write(&path, &png).unwrap();
+    let probed = cosmorama_io::probe(&path).map(|_| ()).unwrap_err();
+    let found = read(&path, &Limits::NONE).map(|_| ()).unwrap_err();
+    for error in [probed, found] {
+        let message = error.to_string();
+        assert!(matches!(error, IoError::TooLong { .. }), "{message}");
+        for part in ["wide.png", "PNG", "2147483647x", "at most 1000000"] {
+            assert!(message.contains(part), "{message} lacks {part}");
+        }
+    }
+}
+
+#[test]
 fn textures_that_lie_about_their_size() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("lie");
