@@ -8,6 +8,7 @@ pub mod explain;
 pub mod filter;
 pub mod layout;
 pub mod lighting;
+pub mod motion;
 pub mod prelude;
 pub mod projection;
 pub mod raster;

@@ -41,6 +41,12 @@ impl View {
         self.grid.height()
     }
 
+    /// Returns the view of this camera when what holds it is turned: the camera's own orientation is within that one.
+    #[must_use]
+    pub fn turned(&self, outer: Orientation) -> Self {
+        Self { orientation: self.orientation.within(outer), ..self.clone() }
+    }
+
     /// Returns the direction at a point of the image, in the world's frame, even if the field stop hides it.
     pub fn direction(&self, pixel: PixelPoint) -> Option<Direction> {
         let direction = self.projection.unproject(self.grid.to_plane(pixel))?;

@@ -1,4 +1,4 @@
-use glam::{DMat3, DVec3};
+use glam::{DMat3, DQuat, DVec3};
 
 use super::{Angle, Direction, DirectionJacobian};
 
@@ -49,6 +49,17 @@ impl Orientation {
         let world_from_view = DMat3::from_cols(right.vector(), up.vector(), -forward.vector());
         debug_assert!((world_from_view.determinant() - 1.0).abs() < 1e-9, "axes are not right-handed");
         Self { world_from_view }
+    }
+
+    /// Returns the orientation of a camera that a unit quaternion turns: it takes the view's frame, in which −Z is
+    /// forward and +Y up, to the world's.
+    pub fn from_rotation(rotation: DQuat) -> Self {
+        Self { world_from_view: DMat3::from_quat(rotation.normalize()) }
+    }
+
+    /// Returns the unit quaternion that takes the view's frame to the world's.
+    pub fn rotation(&self) -> DQuat {
+        DQuat::from_mat3(&self.world_from_view)
     }
 
     /// Returns this orientation as seen from a frame that is itself turned by `outer`.

@@ -314,6 +314,11 @@ impl World {
         self.sources.last().map_or(0, |last| last.texels().end)
     }
 
+    /// Returns the width of the finest view's texels, in radians.
+    pub fn texel_pitch(&self) -> f64 {
+        self.sources.iter().map(|source| source.texel_pitch).fold(f64::INFINITY, f64::min)
+    }
+
     /// Returns the columns and rows of each view.
     pub fn view_sizes(&self) -> impl Iterator<Item = [usize; 2]> + '_ {
         self.sources.iter().map(|source| [source.view.width(), source.view.height()])

@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use crate::source::{code_of, crates_folder, rust_files};
 
 /// The rooms of the library, lowest floor first, and the rooms that each may use.
-const ROOMS: [(&str, &[&str]); 13] = [
+const ROOMS: [(&str, &[&str]); 14] = [
     ("sphere", &[]),
     ("projection", &["sphere"]),
     ("raster", &[]),
@@ -18,6 +18,7 @@ const ROOMS: [(&str, &[&str]); 13] = [
     ("filter", &["sphere", "projection", "raster", "camera", "world"]),
     ("render", &["sphere", "projection", "raster", "camera", "world", "filter"]),
     ("lighting", &["sphere", "raster", "camera", "world", "filter", "render"]),
+    ("motion", &["sphere", "raster", "camera", "filter"]),
     ("arrange", &["sphere", "raster", "camera", "layout", "world"]),
     ("circle", &["raster"]),
     ("compare", &["raster"]),
@@ -35,6 +36,7 @@ const ALL: &[&str] = &[
     "filter",
     "render",
     "lighting",
+    "motion",
     "arrange",
     "circle",
     "compare",
@@ -73,7 +75,18 @@ const CRATES: [CratePlan; 7] = [
     CratePlan {
         name: "cosmorama-spec",
         crates: &["cosmorama"],
-        rooms: &["sphere", "projection", "camera", "layout", "raster", "world", "filter", "render", "lighting"],
+        rooms: &[
+            "sphere",
+            "projection",
+            "camera",
+            "layout",
+            "raster",
+            "world",
+            "filter",
+            "render",
+            "lighting",
+            "motion",
+        ],
         banned_std: &["fs", "io", "process", "net", "env", "thread"],
         banned: &["rayon", "clap", "println", "eprintln"],
         reason: "texts are values: parsing touches neither files nor the terminal, and starts no thread",

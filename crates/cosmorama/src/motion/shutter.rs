@@ -1,0 +1,99 @@
+/// How long, and when, each frame is exposed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Shutter {
+    /// Time that it is open, as a fraction of the interval from frame to frame: 0.5 is a shutter of 180°.
+    pub fraction: f64,
+    /// Part of that time that lies before the frame's own time: 0.5 centres it, 0 begins with the frame.
+    pub phase: f64,
+    /// Light that it lets through while it is open.
+    pub curve: ShutterCurve,
+}
+
+/// Light that a shutter lets through over its time.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum ShutterCurve {
+    /// All of it, from the first moment to the last.
+    #[default]
+    Box,
+    /// Opening evenly in the first quarter, closing in the last.
+    Trapezoid,
+    /// A raised cosine.
+    Cosine,
+}
+
+/// A moment of an exposure.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Moment {
+    /// Its time, in frames.
+    pub time: f64,
+    /// Part of the exposure's light that it stands for.
+    pub weight: f64,
+}
+
+/// Part of a trapezoid's time in which it opens, and in which it closes.
+const RAMP: f64 = 0.25;
+
+impl ShutterCurve {
+    /// Returns the light that passes at a part of the time, at most 1.
+    pub fn light(self, part: f64) -> f64 {
+        match self {
+            Self::Box => 1.0,
+            Self::Trapezoid => (part.min(1.0 - part) / RAMP).clamp(0.0, 1.0),
+            Self::Cosine => 0.5 - 0.5 * (std::f64::consts::TAU * part).cos(),
+        }
+    }
+
+    /// Returns the variance of the light over the time, whose length is one.
+    pub(super) fn variance(self) -> f64 {
+        match self {
+            Self::Box => 1.0 / 12.0,
+            // The sum of two boxes' variances: a trapezoid is one box blurred by another, (1 − RAMP) and RAMP long.
+            Self::Trapezoid => ((1.0 - RAMP).powi(2) + RAMP * RAMP) / 12.0,
+            Self::Cosine => 1.0 / 12.0 - 0.5 / (std::f64::consts::PI * std::f64::consts::PI),
+        }
+    }
+}
+
+impl Shutter {
+    /// Returns the shutter that is open over a fraction of the interval, around the frame's time.
+    pub const fn centred(fraction: f64) -> Self {
+        Self { fraction, phase: 0.5, curve: ShutterCurve::Box }
+    }
+
+    /// Returns the times at which a frame's exposure begins and ends.
+    pub fn interval(&self, frame: f64) -> [f64; 2] {
+        [frame - self.phase * self.fraction, frame + (1.0 - self.phase) * self.fraction]
+    }
+
+    /// Divides an exposure into moments of equal length, each at its middle. Their weights sum to one.
+    pub fn moments(&self, frame: f64, count: usize) -> Vec<Moment> {
+        let [open, _] = self.interval(frame);
+        let part = |k: usize| (k as f64 + 0.5) / count as f64;
+        let total: f64 = (0..count).map(|k| self.curve.light(part(k))).sum();
+        let moment =
+            |k: usize| Moment { time: open + self.fraction * part(k), weight: self.curve.light(part(k)) / total };
+        (0..count).map(moment).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_phase_places_the_interval() {
+        let with = |phase| Shutter { phase, ..Shutter::centred(0.5) }.interval(10.0);
+        assert_eq!([with(0.5), with(0.0), with(1.0)], [[9.75, 10.25], [10.0, 10.5], [9.5, 10.0]]);
+    }
+
+    #[test]
+    fn moments_have_the_light_and_the_spread_of_their_curve() {
+        for curve in [ShutterCurve::Box, ShutterCurve::Trapezoid, ShutterCurve::Cosine] {
+            let moments = Shutter { curve, ..Shutter::centred(1.0) }.moments(3.0, 4000);
+            let sum = |of: &dyn Fn(f64) -> f64| moments.iter().map(|m| m.weight * of(m.time - 3.0)).sum::<f64>();
+            assert!((sum(&|_| 1.0) - 1.0).abs() < 1e-12 && sum(&|t| t).abs() < 1e-12);
+            let variance = sum(&|t| t * t);
+            assert!((variance - curve.variance()).abs() < 1e-6, "{curve:?}: {variance}, not {}", curve.variance());
+        }
+    }
+}
