@@ -15,4 +15,4 @@ pub use observer::{Observer, Quiet, Stop, Work};
 pub use report::Report;
 pub use world_light::WorldLight;
 
-pub(crate) use advance::{Shares, watched};
+pub(crate) use advance::watched;

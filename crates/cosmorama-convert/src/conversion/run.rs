@@ -10,7 +10,7 @@ use rayon::prelude::*;
 
 use super::{Checked, Observer, Report, Stop, Work, watched};
 use crate::diagnostic::{Code, ConvertError, DEPTH, Diagnostic, Result};
-use crate::engine::unfiltered::{formula, st_map};
+use crate::engine::unfiltered::{OutputFile, formula, st_map};
 use crate::engine::{
     Engine, FrameFile, FrameLight, Levels, LightReport, Sequence, Stage, Stages, ViewImage, Watcher, Which, warnings,
 };
@@ -30,11 +30,9 @@ impl Checked {
             Content::StMap => self.each_file(observer, st_map::make)?,
             Content::Formula(world) => {
                 let options = write_options(&self.settings, self.job.target.format, &self.job.outputs, &self.job.light);
-                self.each_file(observer, |run, file, path| formula::picture(run, world, &options, file, path))?;
+                self.each_file(observer, |output| formula::picture(output, world, &options))?;
             }
-            Content::Directions(map) => {
-                self.each_file(observer, |run, file, path| formula::directions(run, map, file, path))?
-            }
+            Content::Directions(map) => self.each_file(observer, |output| formula::directions(output, map))?,
         }
         let Self { job, settings, stages, diagnostics, start, content, .. } = self;
         let inputs: BTreeSet<PathBuf> = if content.has_files() {
@@ -47,14 +45,14 @@ impl Checked {
     }
 
     /// Makes one file after the other.
-    fn each_file(
-        &self,
-        observer: &mut dyn Observer,
-        make: impl Fn(&Self, usize, &std::path::Path) -> Result<()> + Sync,
-    ) -> Result<()> {
-        let frames = &self.job.outputs.frames;
+    fn each_file(&self, observer: &mut dyn Observer, make: impl Fn(&OutputFile) -> Result<()> + Sync) -> Result<()> {
+        let Self { job, stages, settings, pool, .. } = self;
+        let unfinished = &settings.unfinished;
+        let make =
+            |(index, path): &(usize, PathBuf)| make(&OutputFile { job, stages, unfinished, index: *index, path });
+        let frames = &job.outputs.frames;
         for (done, FrameOutputs { frame, files }) in (1..).zip(frames) {
-            self.pool.install(|| files.iter().try_for_each(|(file, path)| make(self, *file, path)))?;
+            pool.install(|| files.iter().try_for_each(make))?;
             tell_done(observer, *frame, (done, frames.len()))?;
         }
         Ok(())

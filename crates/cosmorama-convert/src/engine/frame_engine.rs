@@ -7,12 +7,11 @@ use cosmorama::render::{Progress, ScreenMask, Stopped};
 use cosmorama::world::Source;
 use cosmorama_io::WriteOptions;
 
-use crate::conversion::Shares;
 use crate::detect::FacePixels;
 use crate::detect::pixels::light_of;
 use crate::diagnostic::{BACKGROUND, Code, ConvertError, Diagnostic, MISSING, Result, bail};
 use crate::engine::{
-    BalancedLight, FrameLight, Geometry, LayerPass, Levels, LightMaps, LightReport, Texels, Writer, warnings,
+    BalancedLight, FrameLight, Geometry, LayerPass, Levels, LightMaps, LightReport, Shares, Texels, Writer, warnings,
 };
 use crate::input::InputView;
 use crate::job::coverage::Coverage;

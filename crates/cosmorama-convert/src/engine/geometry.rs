@@ -1,9 +1,8 @@
 use cosmorama::raster::{Channels, Depth, FixedCodec, FixedDecoder, FixedLight, FramePool, Image, Rgba};
 use cosmorama::render::{Arithmetic, Plan, Progress, Stopped, Watched};
 
-use crate::conversion::Shares;
 use crate::diagnostic::{Code, Diagnostic, KERNEL, MEMORY};
-use crate::engine::{Balance, BalancedLight, balance};
+use crate::engine::{Balance, BalancedLight, Shares, balance};
 use crate::job::ConvertJob;
 use crate::job::coverage::Coverage;
 use crate::target::TargetView;

@@ -1,19 +1,142 @@
 //! Inputs: files found and probed, their views, and lists of views.
 
 mod builtin;
+pub(crate) mod eye_view;
 pub(crate) mod faces;
 mod find;
 pub(crate) mod folder;
+mod input_view;
 pub(crate) mod lists;
 pub(crate) mod packed;
+pub(crate) mod pictures;
 mod planned_input;
 pub(crate) mod spec_files;
 
 pub use builtin::Builtin;
-pub use find::{Input, InputView};
+pub use find::listed;
 pub use folder::{face_set, is_one_file};
-pub use lists::listing::{Listed, listed};
+pub use input_view::InputView;
+pub use lists::listing::Listed;
 
 pub(crate) use faces::face_file::Face;
 pub(crate) use faces::face_shape::FacePicture;
-pub(crate) use find::SAME_FOR_BOTH;
+
+use std::path::PathBuf;
+
+use cosmorama::camera::View;
+use cosmorama_io::Header;
+
+use crate::detect::GivenFaces;
+use crate::diagnostic::{Code, Diagnostic, TO};
+
+/// The input of a conversion: views, frames and files.
+pub struct Input {
+    /// Views, including missing ones: of one world, or of the left eye's and the right eye's.
+    pub worlds: Vec<Vec<InputView>>,
+    /// Frames to work on.
+    pub frames: Vec<Option<u64>>,
+    /// Arrangement of the views as faces of one cube, if they are whole faces.
+    pub faces: Option<GivenFaces>,
+    /// Files beside those of views: lists of views, masks, calibrations and maps.
+    pub beside: Vec<PathBuf>,
+}
+
+/// Message for an output with two eyes and an input with one.
+pub(crate) const SAME_FOR_BOTH: &str =
+    "both eyes get the same picture, since the input has only one: there is no depth in it";
+
+impl Input {
+    /// Returns an empty input, for light by a formula.
+    pub(crate) fn none() -> Self {
+        Self { worlds: Vec::new(), frames: vec![None], faces: None, beside: Vec::new() }
+    }
+
+    /// Provides as many worlds as the output has eyes, and reports what is dropped or duplicated.
+    pub(crate) fn fit_eyes(&mut self, stereo: bool, warnings: &mut Vec<Diagnostic>) {
+        match (self.worlds.len(), stereo) {
+            (2, false) => {
+                self.worlds.truncate(1);
+                let message = format!(
+                    "the left eye's picture is used, since the output is for one eye; say so with eye=left, or eye=right \
+                     for the other, or {TO} with stereo="
+                );
+                warnings.push(Diagnostic::warning(Code::LeftEye, message));
+            }
+            (1, true) => warnings.push(Diagnostic::warning(Code::OneForBothEyes, SAME_FOR_BOTH)),
+            _ => {}
+        }
+    }
+
+    /// Returns warnings and notes about what the files say of themselves.
+    pub(crate) fn diagnostics(&self) -> Vec<Diagnostic> {
+        let mut told = self.turned();
+        told.extend(self.complaints());
+        told
+    }
+
+    /// Warns about files that ask to be rotated, which is ignored.
+    fn turned(&self) -> Vec<Diagnostic> {
+        let turned = self.present().filter_map(|(view, header, _)| Some((view, header.metadata.orientation?)));
+        let mut told: Vec<Diagnostic> = turned
+            .map(|(view, orientation)| {
+                let path = view.files.path(self.frames[0]);
+                let message = format!(
+                    "{} asks for being turned or mirrored (orientation {orientation}), but its pixels are taken as they are \
+                     stored; turn it first, as with magick -auto-orient",
+                    path.display()
+                );
+                Diagnostic::warning(Code::Orientation, message).about(path.display())
+            })
+            .collect();
+        // Faces may share a file.
+        told.dedup();
+        told
+    }
+
+    /// Warns about statements of files that are ignored.
+    fn complaints(&self) -> Vec<Diagnostic> {
+        let told = |(view, header, _): (&InputView, &Header, _)| -> Vec<Diagnostic> {
+            let path = view.files.path(self.frames[0]);
+            let path = path.display();
+            let complaint = |words| Diagnostic::warning(Code::Metadata, format!("{path}: {words}")).about(&path);
+            let note = |words| Diagnostic::note(Code::Metadata, format!("{path}: {words}")).about(&path);
+            let metadata = &header.metadata;
+            metadata.complaints.iter().map(complaint).chain(metadata.notes.iter().map(note)).collect()
+        };
+        let mut told: Vec<Diagnostic> = self.present().flat_map(told).collect();
+        // Faces may share a file.
+        told.dedup();
+        told
+    }
+
+    /// Visits the views that have files and are wanted, with the geometry of those files.
+    pub(crate) fn present(&self) -> impl Iterator<Item = (&InputView, &Header, &View)> {
+        self.views().filter_map(InputView::present)
+    }
+
+    /// Visits all views of all worlds.
+    pub(crate) fn views(&self) -> impl Iterator<Item = &InputView> {
+        self.worlds.iter().flatten()
+    }
+
+    /// Returns pixels per radian at the centre of the finest view.
+    pub(crate) fn pixels_per_radian(&self) -> f64 {
+        let views = self.views().filter(|view| view.wanted);
+        views.map(|view| view.nominal.pixels_per_radian()).fold(0.0, f64::max)
+    }
+
+    /// Returns the number of texels in all files of a frame.
+    pub(crate) fn texels(&self) -> usize {
+        self.present().map(|(_, header, _)| header.width.saturating_mul(header.height)).fold(0, usize::saturating_add)
+    }
+
+    /// Visits every file that is read.
+    pub(crate) fn files(&self) -> impl Iterator<Item = PathBuf> {
+        self.frames.iter().flat_map(|frame| self.paths(*frame)).chain(self.beside.iter().cloned())
+    }
+
+    /// Returns the files of a frame.
+    pub(crate) fn paths(&self, frame: Option<u64>) -> Vec<PathBuf> {
+        self.present().map(|(input, _, _)| input.files.path(frame)).collect()
+    }
+}

@@ -8,6 +8,7 @@ use cosmorama_spec::{Cube, Dual};
 
 use crate::diagnostic::{Code, FROM, Result, bail, failure, usage, usage_as};
 use crate::input::InputView;
+use crate::packing::canvas::check_whole;
 use crate::packing::{Piece, Place};
 use crate::source::ViewFiles;
 
@@ -59,17 +60,6 @@ fn check_halves(path: &Path, header: &Header, dual: &Dual) -> Result<()> {
             path.display()
         ),
     ))
-}
-
-/// Checks that a file with several pictures is whole, not a window of a canvas.
-pub(crate) fn check_whole(path: &Path, header: &Header) -> Result<()> {
-    let Some(window) = header.window else { return Ok(()) };
-    bail!(
-        Unsupported: "{}: only a part of a picture of {}x{} pixels; several pictures in one image are read from whole images",
-        path.display(),
-        window.canvas_width,
-        window.canvas_height
-    )
 }
 
 fn views(files: &ViewFiles, header: &Header, pieces: &[Piece]) -> Result<Vec<InputView>> {

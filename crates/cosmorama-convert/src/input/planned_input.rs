@@ -7,12 +7,13 @@ use cosmorama::world::Blend;
 use cosmorama_spec::{Shape, Size, Spec};
 
 use crate::diagnostic::{ConvertError, FROM, Result, usage};
+use crate::input::eye_view::placed;
 use crate::input::{Input, InputView};
 use crate::packing::eye::eye_size;
 use crate::packing::face_view::face_placement;
 use crate::packing::size::lens_image_size;
 use crate::packing::{EyePart, Piece};
-use crate::source::ViewFiles;
+use crate::source::{ViewFiles, unread};
 
 impl Input {
     /// Describes an input that does not exist yet, of a given size, or as fine as an output with so many pixels per
@@ -31,7 +32,7 @@ impl Input {
         let size = if is_cube { size } else { size.map(|size| eye_size(stereo.packing, size)).transpose()? };
         let world = |eye| {
             let part = EyePart { stereo: stereo.packing, eye };
-            views(from, size, pixels_per_radian)?.into_iter().map(|view| part.place(view)).collect()
+            views(from, size, pixels_per_radian)?.into_iter().map(|view| placed(part, view)).collect()
         };
         Ok(Self {
             worlds: stereo.eyes().into_iter().map(world).collect::<Result<_>>()?,
@@ -68,8 +69,8 @@ fn views(from: &Spec, given: Option<Size>, pixels_per_radian: f64) -> Result<Vec
             let lens = |piece: &Piece| Ok(view(piece.name, piece.nominal().map_err(wrong)?, piece.blend));
             pieces.iter().map(lens).collect()
         }
-        Shape::StMap(map) => Err(crate::input::spec_files::st_map::unread(map)),
-        Shape::Calibrated(camera) => Err(crate::input::spec_files::calibration::unread(camera)),
+        Shape::StMap(map) => Err(unread::st_map(map)),
+        Shape::Calibrated(camera) => Err(unread::calibration(camera)),
     }
 }
 

@@ -9,11 +9,11 @@ use cosmorama_io::{Choice, Format};
 use cosmorama_spec::Missing;
 
 use super::Content;
+use super::memory_needs::gathered_bytes;
 use super::options::{check_file_options, filter};
 use crate::colour::{LayerPlan, Light, check_choice, check_labels};
 use crate::detect::unless_damaged;
 use crate::diagnostic::{Diagnostic, Result};
-use crate::engine::gathered_bytes;
 use crate::input::Input;
 use crate::input::spec_files::st_map::settled;
 use crate::job::Outputs;

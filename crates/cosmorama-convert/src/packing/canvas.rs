@@ -4,7 +4,7 @@ use std::path::Path;
 use cosmorama::camera::{CameraModel, Canvas};
 use cosmorama_io::{Header, Window};
 
-use crate::diagnostic::{Code, FROM, Result, usage_as};
+use crate::diagnostic::{Code, FROM, Result, bail, usage_as};
 
 /// Returns the canvas of an image that is all of it.
 pub(crate) fn whole(header: &Header) -> Canvas {
@@ -14,6 +14,17 @@ pub(crate) fn whole(header: &Header) -> Canvas {
 /// Converts a window to a canvas.
 pub(crate) fn canvas_of(window: Window) -> Canvas {
     Canvas { width: window.canvas_width, height: window.canvas_height, left: window.x as i64, top: window.y as i64 }
+}
+
+/// Checks that a file with several pictures is whole, not a window of a canvas.
+pub(crate) fn check_whole(path: &Path, header: &Header) -> Result<()> {
+    let Some(window) = header.window else { return Ok(()) };
+    bail!(
+        Unsupported: "{}: only a part of a picture of {}x{} pixels; several pictures in one image are read from whole images",
+        path.display(),
+        window.canvas_width,
+        window.canvas_height
+    )
 }
 
 /// Checks that a window is not larger than its declared canvas.

@@ -6,9 +6,7 @@ use cosmorama_io::{Header, Metadata};
 use cosmorama_spec::Size;
 
 use crate::diagnostic::{Code, ConvertError, FROM, Result, failure, usage, usage_as};
-use crate::input::InputView;
-use crate::input::packed::check_whole;
-use crate::packing::Place;
+use crate::packing::canvas::check_whole;
 
 /// An eye's part of a stereo image.
 #[derive(Clone, Copy, Debug)]
@@ -28,28 +26,6 @@ impl EyePart {
         // What the file says of itself, it says of the two pictures together.
         let metadata = Metadata { envmap: None, panorama: None, ..header.metadata.clone() };
         Ok(Header { width: part.width() * across, height: part.height() * down, metadata, ..header.clone() })
-    }
-
-    /// Places an eye's view in the file.
-    pub(crate) fn place(self, view: InputView) -> Result<InputView> {
-        let squeeze = self.stereo.squeeze();
-        let (name, nominal) = (format!("{} ({} eye)", view.name, self.eye.name()), squeezed(view.nominal, squeeze)?);
-        let Some(header) = view.header else { return Ok(InputView { name, nominal, ..view }) };
-        let size = (header.width, header.height);
-        let Place { corner, of } = view.part.unwrap_or(Place { corner: (0, 0), of: size });
-        let (rect, of) = self.rect(corner, size, of)?;
-        let window = match view.window {
-            Some((held, canvas)) => Some((squeezed(held, squeeze)?, squeezed_canvas(canvas, squeeze)?)),
-            None => None,
-        };
-        Ok(InputView {
-            name,
-            part: Some(Place { corner: (rect.left, rect.top), of }),
-            header: Some(Header { width: rect.width(), height: rect.height(), ..header }),
-            nominal,
-            window,
-            ..view
-        })
     }
 
     /// Returns the place of a part of this eye's picture in the image for both, and that image's size.
@@ -81,12 +57,14 @@ fn halved(error: LayoutError) -> ConvertError {
     usage(format!("stereo=: {error}"))
 }
 
+/// Returns the geometry of a squeezed picture.
 pub(crate) fn squeezed(view: View, squeeze: (usize, usize)) -> Result<View> {
     divided((view.width(), view.height()), squeeze)?;
     Ok(View { grid: view.grid.squeezed(squeeze), ..view })
 }
 
-fn squeezed_canvas(canvas: Canvas, (across, down): (usize, usize)) -> Result<Canvas> {
+/// Returns the canvas of a squeezed picture.
+pub(crate) fn squeezed_canvas(canvas: Canvas, (across, down): (usize, usize)) -> Result<Canvas> {
     let (width, height) = divided((canvas.width, canvas.height), (across, down))?;
     let (left, top) = (canvas.left / across as i64, canvas.top / down as i64);
     if (left * across as i64, top * down as i64) != (canvas.left, canvas.top) {

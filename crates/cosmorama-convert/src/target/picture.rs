@@ -11,6 +11,7 @@ use crate::packing::face_view::face_placement;
 use crate::packing::size::{lens_image_size, size};
 use crate::packing::{EyePart, Piece, Place};
 use crate::settings::GeometrySettings;
+use crate::source::unread;
 use crate::target::gpano;
 
 /// An image to make, with its geometry and its role.
@@ -87,8 +88,8 @@ impl Picture {
                 }
             }
             Some(Shape::Dual(dual)) => Self::lenses(dual, geometry, pixels_per_radian),
-            Some(Shape::StMap(map)) => Err(crate::input::spec_files::st_map::unread(map)),
-            Some(Shape::Calibrated(camera)) => Err(crate::input::spec_files::calibration::unread(camera)),
+            Some(Shape::StMap(map)) => Err(unread::st_map(map)),
+            Some(Shape::Calibrated(camera)) => Err(unread::calibration(camera)),
             None => Self::faces(&Cube::default(), geometry, pixels_per_radian),
         }
     }

@@ -9,7 +9,7 @@ use super::finish::finish;
 use super::labels::LabelTexels;
 use super::{FilePlanes, ViewPlanes};
 use crate::colour::{LayerContent, LayerGroup};
-use crate::conversion::Shares;
+use crate::engine::Shares;
 use crate::diagnostic::{ConvertError, Result, bail};
 use crate::engine::{BalancedLight, FrameFile, Geometry, Which};
 use crate::job::{ConvertJob, FrameOutputs};

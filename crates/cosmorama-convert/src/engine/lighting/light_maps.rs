@@ -1,4 +1,3 @@
-use cosmorama::camera::View;
 use cosmorama::lighting::{AllTexels, LightFigures, LightTree, LobeAverages};
 use cosmorama::raster::{Depth, Image, Rgba};
 use cosmorama::world::World;
@@ -105,9 +104,4 @@ const HALF: f32 = 65504.0;
 
 fn scaled(Rgba([red, green, blue, alpha]): Rgba, scale: f32) -> Rgba {
     Rgba([red * scale, green * scale, blue * scale, alpha])
-}
-
-/// Returns the bytes that the light of a view takes while it is gathered: blocks of 4×4 texels and those above them.
-pub(crate) fn gathered_bytes(view: &View) -> u64 {
-    (view.width() as u64).saturating_mul(view.height() as u64).saturating_mul(11)
 }

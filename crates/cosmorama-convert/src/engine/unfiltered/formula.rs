@@ -6,32 +6,26 @@ use cosmorama::raster::{ColourMatrix, Depth, Image, Primaries, Threads};
 use cosmorama_builtin::{BuiltinWorld, DirectionMap, DirectionPixel};
 use cosmorama_io::{WriteOptions, write_planes};
 
-use crate::conversion::Checked;
 use crate::diagnostic::Result;
+use crate::engine::unfiltered::OutputFile;
 use crate::engine::{Levels, Stage, Writer, assemble};
 use crate::job::ConvertJob;
 
 /// Makes a picture of a world by formula.
-pub(crate) fn picture(
-    run: &Checked,
-    world: BuiltinWorld,
-    options: &WriteOptions,
-    file: usize,
-    path: &Path,
-) -> Result<()> {
-    let Checked { job, stages, .. } = run;
-    let levels = stages.alone(Stage::Filter, || levels(job, world, file))?;
+pub(crate) fn picture(output: &OutputFile, world: BuiltinWorld, options: &WriteOptions) -> Result<()> {
+    let OutputFile { job, stages, index, path, .. } = *output;
+    let levels = stages.alone(Stage::Filter, || levels(job, world, index))?;
     stages.alone(Stage::Encode, || {
         Writer::new(&job.light, &job.layers.picture, options.clone()).save(levels, path, Threads::All)
     })
 }
 
 /// Makes a map of directions.
-pub(crate) fn directions(run: &Checked, map: DirectionMap, file: usize, path: &Path) -> Result<()> {
-    let Checked { job, stages, .. } = run;
-    let pixels = stages.alone(Stage::Filter, || pixels(job, map, file))?;
+pub(crate) fn directions(output: &OutputFile, map: DirectionMap) -> Result<()> {
+    let OutputFile { job, stages, index, path, .. } = *output;
+    let pixels = stages.alone(Stage::Filter, || pixels(job, map, index))?;
     let metadata = job.light.metadata.clone();
-    let options = WriteOptions { unfinished: run.settings.unfinished.clone(), ..WriteOptions::with_metadata(metadata) };
+    let options = WriteOptions { unfinished: output.unfinished.clone(), ..WriteOptions::with_metadata(metadata) };
     stages.alone(Stage::Encode, || save_map(job.light.depth, map, &pixels, path, &options))
 }
 

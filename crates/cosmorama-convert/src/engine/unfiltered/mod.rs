@@ -2,3 +2,22 @@
 
 pub(crate) mod formula;
 pub(crate) mod st_map;
+
+use std::path::Path;
+
+use cosmorama_io::pending::Unfinished;
+
+use crate::engine::Stages;
+use crate::job::ConvertJob;
+
+/// A file to make, and what is needed for it.
+pub(crate) struct OutputFile<'a> {
+    pub(crate) job: &'a ConvertJob,
+    pub(crate) stages: &'a Stages,
+    /// Registry of files in progress.
+    pub(crate) unfinished: &'a Unfinished,
+    /// Index among the target's files.
+    pub(crate) index: usize,
+    /// Its path.
+    pub(crate) path: &'a Path,
+}

@@ -7,8 +7,8 @@ use cosmorama::raster::{Depth, Image};
 use cosmorama::world::{ST_NOWHERE, StPixel};
 use cosmorama_io::{Header, WriteOptions, write_planes};
 
-use crate::conversion::Checked;
 use crate::diagnostic::{Result, ST_MAP, TO, bail};
+use crate::engine::unfiltered::OutputFile;
 use crate::engine::{Stage, assemble};
 use crate::input::{Input, InputView};
 use crate::job::ConvertJob;
@@ -19,12 +19,12 @@ use crate::target::TargetView;
 const CHANNELS: [&str; 3] = ["R", "G", "B"];
 
 /// Writes the st map of a file.
-pub(crate) fn make(run: &Checked, file: usize, path: &Path) -> Result<()> {
-    let Checked { job, stages, .. } = run;
+pub(crate) fn make(output: &OutputFile) -> Result<()> {
+    let OutputFile { job, stages, .. } = *output;
     let map = |view: usize| st_pixels(job, &job.target.views[view]);
-    let image = stages.alone(Stage::Filter, || assemble(&job.target.files[file].sheet, ST_NOWHERE, map))?;
-    let options = WriteOptions { unfinished: run.settings.unfinished.clone(), ..WriteOptions::default() };
-    stages.alone(Stage::Encode, || save(&image, path, job.light.depth, &options))
+    let image = stages.alone(Stage::Filter, || assemble(&job.target.files[output.index].sheet, ST_NOWHERE, map))?;
+    let options = WriteOptions { unfinished: output.unfinished.clone(), ..WriteOptions::default() };
+    stages.alone(Stage::Encode, || save(&image, output.path, job.light.depth, &options))
 }
 
 /// Computes the places in the input's file at which the pixels of an output look.

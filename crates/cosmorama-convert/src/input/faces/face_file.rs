@@ -5,7 +5,7 @@ use cosmorama_io::{FaceFile, Header};
 use cosmorama_spec::Cube;
 
 use crate::diagnostic::Result;
-use crate::input::find::header;
+use crate::input::eye_view::header;
 use crate::input::{FacePicture, InputView};
 use crate::packing::EyePart;
 use crate::packing::canvas::{canvas_of, fits_canvas, lies_on_canvas, whole};

@@ -145,7 +145,7 @@ impl Entry {
         // A still stays what it is in all frames.
         let wanted = wanted.filter(|_| FramePattern::parse(&pattern).is_some());
         let mut said = Vec::new();
-        let found = Input::find(&pattern, spec.as_ref(), wanted, access, &mut said);
+        let found = Input::of_pictures(&pattern, spec.as_ref(), wanted, access, &mut said);
         warnings.extend(said.into_iter().map(|warning| {
             let message = warning.message.reworded(FROM, SPEC_KEY);
             Diagnostic { message, ..warning }

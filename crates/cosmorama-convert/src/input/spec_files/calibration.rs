@@ -8,7 +8,7 @@ use cosmorama::projection::{BrownConrady, BrownConradyCoefficients};
 use cosmorama_io::Distortion;
 use cosmorama_spec::{CalibrationSpec, LensFamily, Shape, Single, Spec, SphereSamples, StMapBase};
 
-use crate::diagnostic::{ConvertError, Result, failure, usage};
+use crate::diagnostic::{Result, failure};
 use crate::source::Access;
 
 /// Reads the calibration of a SPEC, or of its `base=`. A SPEC without one is returned unchanged.
@@ -26,11 +26,6 @@ pub(crate) fn read_calibrations(mut spec: Spec, access: Access) -> Result<Spec> 
         Shape::Single(_) | Shape::Cube(_) | Shape::Dual(_) => {}
     }
     Ok(spec)
-}
-
-/// Returns the error for a calibration in a place where none is possible.
-pub(crate) fn unread(camera: &CalibrationSpec) -> ConvertError {
-    usage(format!("calibration={}: a calibration cannot be given here", camera.file.display()))
 }
 
 fn single(camera: &CalibrationSpec, access: Access) -> Result<Single> {

@@ -132,11 +132,6 @@ fn calibrated(spec: &Option<Spec>, side: Side, access: Access) -> Result<Option<
     spec.clone().map(read).transpose()
 }
 
-/// Returns the error for a map in a place where none is possible.
-pub(crate) fn unread(map: &StMapSpec) -> ConvertError {
-    usage(format!("st-map:file={}: an st map cannot be given here", map.file.display()))
-}
-
 /// Returns whether a map is applied alone, without a declaration of the input.
 fn is_plain(map: &StMapSpec) -> bool {
     !map.invert && map.orientation == Orientation::IDENTITY && map.mirror == Mirror::default() && map.canvas.is_none()

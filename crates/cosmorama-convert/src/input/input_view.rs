@@ -1,0 +1,43 @@
+use std::sync::Arc;
+
+use cosmorama::camera::{Canvas, View};
+use cosmorama::world::{Blend, ViewMask, WorldView};
+use cosmorama_io::Header;
+
+use crate::packing::Place;
+use crate::source::ViewFiles;
+
+/// A view of the input: an image, a face of a cube, or one of two lenses.
+#[derive(Clone)]
+pub struct InputView {
+    /// Name in messages.
+    pub name: String,
+    /// Its files.
+    pub files: ViewFiles,
+    /// Place in a file that several views share.
+    pub part: Option<Place>,
+    /// Header of its first file; `None` without a file.
+    pub header: Option<Header>,
+    /// Geometry of its whole picture.
+    pub nominal: View,
+    /// Part of it that the file holds; `None` without a file.
+    pub window: Option<(View, Canvas)>,
+    /// Blending with other views that show the same directions.
+    pub blend: Blend,
+    /// Mask, if not all pixels count.
+    pub mask: Option<Arc<ViewMask>>,
+    /// Whether anything of it is needed; other views are not read.
+    pub wanted: bool,
+}
+
+impl InputView {
+    /// Converts it to a view of a world, with the geometry of its whole picture or of its file.
+    pub(crate) fn world_view(&self, view: View) -> WorldView {
+        WorldView { name: self.name.clone(), view, blend: self.blend, mask: self.mask.clone() }
+    }
+
+    /// Returns its header and the geometry of its file, if there is a file and the view is wanted.
+    pub(crate) fn present(&self) -> Option<(&Self, &Header, &View)> {
+        Some((self, self.header.as_ref()?, &self.window.as_ref()?.0)).filter(|_| self.wanted)
+    }
+}
