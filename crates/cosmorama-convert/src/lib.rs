@@ -19,7 +19,7 @@ mod settings;
 mod source;
 mod target;
 
-pub use colour::{DepthKind, InputTransfer, LayerRules, NormalSpace, ThinAlpha, contents};
+pub use colour::{InputTransfer, LayerRules, ThinAlpha, contents};
 pub use conversion::{
     Checked, Explanation, ExplanationSettings, Observer, Quiet, Report, Stop, Work, WorldLight, threads,
 };
@@ -30,7 +30,8 @@ pub use input::{Builtin, Input, InputView, Listed, face_set, is_one_file, listed
 pub use job::{Remade, check_apart, real_path, refuse_existing};
 pub use packing::{Place, face_placement};
 pub use settings::{
-    Conversion, Existing, GeometrySettings, LayerSettings, LightNormalisation, LightSettings, LimitSettings,
+    Conversion, DepthKind, Existing, GeometrySettings, LayerSettings, LightNormalisation, LightSettings, LimitSettings,
+    NormalSpace,
 };
 pub use source::{Disk, Files, InMemory, MemoryBudget, ViewFiles, existing_frames, peak_bytes, probe, read};
 pub use target::Picture;

@@ -8,7 +8,6 @@ use cosmorama_io::pending::Unfinished;
 use cosmorama_io::{Compression, FrameList};
 use cosmorama_spec::{FilterName, KernelName, MemorySize, Missing, Size, Spec, TransferName};
 
-use crate::colour::{DepthKind, NormalSpace};
 use crate::source::{Disk, Files};
 
 /// Settings of a conversion from an input, in any form, to pictures of another projection.
@@ -140,6 +139,25 @@ pub struct LayerSettings {
     pub depth: Option<DepthKind>,
     /// Frame of normals; the world's, unless given.
     pub normals: Option<NormalSpace>,
+}
+
+/// Kind of a depth.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum DepthKind {
+    /// Distance from the plane through the camera, across its axis.
+    Planar,
+    /// Distance from the camera.
+    Radial,
+}
+
+/// Frame of normals, in the input and in the output.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum NormalSpace {
+    /// The world's: no view turns them.
+    #[default]
+    World,
+    /// Each view's own: x to the right, y up, z to the viewer.
+    Camera,
 }
 
 /// Treatment of outputs that exist already.

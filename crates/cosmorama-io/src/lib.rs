@@ -50,10 +50,8 @@ pub use file::{
     read_in, read_layers, read_pairs, read_pairs_from, write, write_hidden, write_layers, write_levels, write_planes,
     write_to,
 };
-pub use header::{
-    Choice, FilePart, Format, Header, ImageFile, LayeredImage, Layers, NamedChannel, Plane, PlaneSamples, SampleKind,
-};
+pub use header::{Choice, Format, Header, ImageFile, LayeredImage, Plane, PlaneSamples};
 pub use limits::Limits;
-pub use metadata::{EnvMap, Metadata, ProfileFault, Window};
+pub use metadata::{EnvMap, FilePart, Layers, Metadata, NamedChannel, ProfileFault, SampleKind, Window};
 pub use pto::{PtoError, PtoImage, PtoPanorama, PtoProject};
 pub use sequence::{FoundFrames, FrameList, FramePattern, Frames};

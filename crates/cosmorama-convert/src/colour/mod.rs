@@ -7,7 +7,7 @@ mod profile;
 mod thin_alpha;
 mod working;
 
-pub use layers::{DepthKind, LayerRules, NormalSpace, contents};
+pub use layers::{LayerRules, contents};
 pub use light::InputTransfer;
 pub use thin_alpha::ThinAlpha;
 

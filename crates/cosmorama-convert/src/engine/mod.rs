@@ -1,8 +1,6 @@
 //! Makes the outputs of a checked conversion, frame by frame.
 
-mod frame_engine;
-mod frame_files;
-mod frame_light;
+mod frame;
 mod geometry;
 mod layers;
 mod lighting;
@@ -16,9 +14,9 @@ mod writer;
 pub use lighting::light_maps::LightReport;
 pub use timing::CpuSeconds;
 
-pub(crate) use frame_engine::{Engine, assemble};
-pub(crate) use frame_files::{FrameFile, ViewImage, Which};
-pub(crate) use frame_light::{Counts, FrameLight, Texels};
+pub(crate) use frame::files::{FrameFile, ViewImage, Which};
+pub(crate) use frame::light::{Counts, FrameLight, Texels};
+pub(crate) use frame::pictures::{Engine, assemble};
 pub(crate) use geometry::Geometry;
 pub(crate) use layers::LayerPass;
 pub(crate) use lighting::balance::{self, Balance, BalancedLight};

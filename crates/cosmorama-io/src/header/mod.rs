@@ -2,14 +2,12 @@
 
 mod choice;
 mod format;
-mod layers;
 mod plane;
 
 use cosmorama::raster::{Channels, Depth, EncodedImage, Image, Rgba, Transfer};
 
 pub use choice::Choice;
 pub use format::Format;
-pub use layers::{FilePart, Layers, NamedChannel, SampleKind};
 pub use plane::{LayeredImage, Plane, PlaneSamples};
 
 pub(crate) use choice::matches;

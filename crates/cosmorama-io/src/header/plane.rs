@@ -1,7 +1,7 @@
 use cosmorama::raster::{Depth, EncodedImage};
 use half::f16;
 
-use super::SampleKind;
+use crate::metadata::SampleKind;
 
 /// Samples of one named channel, row by row from the top left.
 #[derive(Clone, Debug, PartialEq)]

@@ -2,14 +2,14 @@ mod colour_name;
 pub(crate) mod gpano;
 pub(crate) mod icc;
 pub(crate) mod khronos;
+mod layers;
 
 pub(crate) use colour_name::colour_name;
+pub use layers::{FilePart, Layers, NamedChannel, SampleKind};
 
 use std::borrow::Cow;
 
 use cosmorama::raster::{EncodedImage, Primaries, Transfer};
-
-use crate::Layers;
 
 /// Metadata of a file about its pixels, of which the parts that apply are carried from input to output.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -1,14 +1,17 @@
 //! Dependencies point down only: reads every source file and manifest, and fails on an upward use.
 //!
-//! The two tables below are the building's plan; a new room or crate gets its line there (ARCHITECTURE.md draws it).
+//! The tables below are the building's plan; a new room or crate gets its line there (ARCHITECTURE.md draws it).
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 use crate::source::{code_of, crates_folder, rust_files};
 
+/// A room, and the rooms that it may use.
+type Room = (&'static str, &'static [&'static str]);
+
 /// The rooms of the library, lowest floor first, and the rooms that each may use.
-const ROOMS: [(&str, &[&str]); 14] = [
+const ROOMS: [Room; 14] = [
     ("sphere", &[]),
     ("projection", &["sphere"]),
     ("raster", &[]),
@@ -18,12 +21,30 @@ const ROOMS: [(&str, &[&str]); 14] = [
     ("filter", &["sphere", "projection", "raster", "camera", "world"]),
     ("render", &["sphere", "projection", "raster", "camera", "world", "filter"]),
     ("lighting", &["sphere", "raster", "camera", "world", "filter", "render"]),
-    ("motion", &["sphere", "raster", "camera", "filter"]),
+    ("motion", &["sphere", "raster", "camera", "world", "filter", "render"]),
     ("arrange", &["sphere", "raster", "camera", "layout", "world"]),
     ("circle", &["raster"]),
     ("compare", &["raster"]),
     ("explain", &["sphere", "projection", "raster", "camera", "layout", "world", "filter", "render"]),
 ];
+
+/// The rooms of `cosmorama-convert`, lowest floor first.
+const CONVERT_ROOMS: [Room; 11] = [
+    ("diagnostic", &[]),
+    ("source", &["diagnostic"]),
+    ("packing", &["diagnostic"]),
+    ("settings", &["source"]),
+    ("detect", &["diagnostic", "source", "packing"]),
+    ("input", &["diagnostic", "source", "packing", "settings", "detect"]),
+    ("target", &["diagnostic", "source", "packing", "settings"]),
+    ("colour", &["diagnostic", "settings", "input", "target"]),
+    ("job", &["diagnostic", "source", "settings", "detect", "input", "target", "colour"]),
+    ("engine", &["diagnostic", "source", "packing", "settings", "detect", "input", "target", "colour", "job"]),
+    ("conversion", &["diagnostic", "source", "settings", "input", "target", "job", "engine"]),
+];
+
+/// Crates whose rooms have floors.
+const HOUSES: [(&str, &[Room]); 2] = [("cosmorama", &ROOMS), ("cosmorama-convert", &CONVERT_ROOMS)];
 
 /// Every room, for crates that stand above the whole library.
 const ALL: &[&str] = &[
@@ -214,26 +235,31 @@ fn a_folder_is_a_room_of_at_most_a_dozen_entries() {
 
 #[test]
 fn no_room_uses_a_higher_one() {
-    let source = crates_folder().join("cosmorama/src");
     let mut found = Vec::new();
-    for file in rust_files(&source) {
-        let inside = file.strip_prefix(&source).unwrap();
-        let room = inside.iter().next().unwrap().to_str().unwrap().trim_end_matches(".rs");
-        if ["lib", "prelude"].contains(&room) {
-            continue;
-        }
-        let Some((_, allowed)) = ROOMS.iter().find(|(name, _)| *name == room) else {
-            found.push(format!("{}: the room `{room}` has no floor in ROOMS", file.display()));
-            continue;
-        };
-        let code = code_of(&std::fs::read_to_string(&file).unwrap());
-        for used in rooms_used(&code, "crate", module_depth(inside)) {
-            if used != room && !allowed.contains(&used.as_str()) {
-                found.push(format!("{}: {room} must not use {used}", file.display()));
-            }
+    for (name, rooms) in HOUSES {
+        for (room, uses) in uses_of(name, code_of) {
+            let Some((_, allowed)) = rooms.iter().find(|(name, _)| *name == room) else {
+                found.push(format!("{name}: the room `{room}` has no floor in the table of its crate"));
+                continue;
+            };
+            let upward = uses.iter().filter(|(used, _)| !allowed.contains(&used.as_str()));
+            found.extend(
+                upward.map(|(used, file)| format!("{name}/src/{}: {room} must not use {used}", file.display())),
+            );
         }
     }
     assert!(found.is_empty(), "{}", found.join("\n"));
+}
+
+#[test]
+fn no_rooms_use_each_other_in_a_circle() {
+    // Tests may use what stands above.
+    let without_tests = |source: &str| code_of(source.split("\nmod tests {").next().unwrap_or_default());
+    for plan in &CRATES {
+        let uses = uses_of(plan.name, without_tests);
+        let circle = circle_in(&uses).map(|circle| told(&circle, &uses));
+        assert_eq!(circle, None, "{}: rooms use each other", plan.name);
+    }
 }
 
 #[test]
@@ -362,6 +388,79 @@ fn rooms_used(code: &str, root: &str, depth: usize) -> BTreeSet<String> {
     names
 }
 
+/// By room of a crate, the rooms that it uses, each with a file that does. A name that the crate's root passes on counts as
+/// its own room's.
+type Uses = BTreeMap<String, BTreeMap<String, PathBuf>>;
+
+/// Files of a crate's root, which are no rooms.
+const ROOTS: [&str; 3] = ["lib", "main", "prelude"];
+
+/// Returns what the rooms of a crate use, by the paths of its files from its root and what of each is read.
+fn uses_in(files: &[(PathBuf, String)]) -> Uses {
+    let room_of =
+        |file: &Path| Path::new(file.iter().next().unwrap()).file_stem().unwrap().to_str().unwrap().to_owned();
+    let mut uses: Uses = files.iter().map(|(file, _)| (room_of(file), BTreeMap::new())).collect();
+    uses.retain(|room, _| !ROOTS.contains(&room.as_str()));
+    let root = files.iter().find(|(file, _)| file == Path::new("lib.rs"));
+    let homes = root.map_or_else(BTreeMap::new, |(_, code)| passed_on(code, &uses));
+    for (file, code) in files {
+        let room = room_of(file);
+        let to_root = "super::".repeat(module_depth(file));
+        let names = ["crate::", &to_root].into_iter().filter(|root| !root.is_empty());
+        let names: BTreeSet<String> = names.flat_map(|root| names_under(code, root)).collect();
+        let rooms = names.iter().filter_map(|name| if uses.contains_key(name) { Some(name) } else { homes.get(name) });
+        let others: Vec<String> = rooms.filter(|used| **used != room).cloned().collect();
+        if let Some(used) = uses.get_mut(&room) {
+            used.extend(others.into_iter().map(|other| (other, file.clone())));
+        }
+    }
+    uses
+}
+
+/// Reads what the rooms of a crate use, in what `code` leaves of the text of each file.
+fn uses_of(name: &str, code: impl Fn(&str) -> String) -> Uses {
+    let source = crates_folder().join(name).join("src");
+    let read = |file: &PathBuf| code(&std::fs::read_to_string(file).unwrap());
+    let files = rust_files(&source);
+    uses_in(&files.iter().map(|file| (file.strip_prefix(&source).unwrap().to_owned(), read(file))).collect::<Vec<_>>())
+}
+
+/// Returns the names that a crate's root passes on from its rooms, each with its room.
+fn passed_on(root: &str, rooms: &Uses) -> BTreeMap<String, String> {
+    let statements = root.split(';').filter_map(|statement| statement.split_once("use ")?.1.split_once("::"));
+    let words = |(room, names): (&str, &str)| {
+        let names = names.split(|c: char| !c.is_alphanumeric() && c != '_').map(str::to_owned).collect::<Vec<_>>();
+        let room = room.to_owned();
+        names.into_iter().filter(|name| !name.is_empty()).map(move |name| (name, room.clone())).collect::<Vec<_>>()
+    };
+    statements.filter(|(room, _)| rooms.contains_key(*room)).flat_map(words).collect()
+}
+
+/// Returns rooms of which each uses the next, and the last the first, if there are any.
+fn circle_in(uses: &Uses) -> Option<Vec<String>> {
+    let mut left: BTreeSet<&String> = uses.keys().collect();
+    // Whoever uses nobody that is left is in no circle.
+    while let Some(free) = left.iter().copied().find(|room| !uses[*room].keys().any(|used| left.contains(used))) {
+        left.remove(free);
+    }
+    let next = |room: &String| uses[room].keys().find(|used| left.contains(used)).cloned();
+    let mut path = vec![left.first().copied()?.clone()];
+    loop {
+        let room = next(path.last()?)?;
+        if let Some(start) = path.iter().position(|other| *other == room) {
+            return Some(path.split_off(start));
+        }
+        path.push(room);
+    }
+}
+
+/// Describes a circle, with a file for each step.
+fn told(circle: &[String], uses: &Uses) -> String {
+    let steps = circle.iter().zip(circle.iter().cycle().skip(1));
+    let step = |(room, used): (&String, &String)| format!("{room} uses {used} ({})", uses[room][used].display());
+    steps.map(step).collect::<Vec<_>>().join(", ")
+}
+
 /// The names that paths with this beginning go on with.
 fn names_under(code: &str, root: &str) -> BTreeSet<String> {
     let is_whole = |start: usize| {
@@ -434,6 +533,28 @@ mod the_rules {
         assert_eq!(used("fn f() { crate::world::World::new() }", 2), ["world"]);
         assert_eq!(used("use super::super::world::View;", 2), ["world"]);
         assert_eq!(used("use super::world::View;", 1), ["world"]);
+    }
+
+    #[test]
+    fn find_a_circle_of_rooms() {
+        let uses = |files: &[(&str, &str)]| {
+            uses_in(&files.iter().map(|(file, source)| (PathBuf::from(file), code_of(source))).collect::<Vec<_>>())
+        };
+        let lower = ("low.rs", "fn f() {}");
+        let upper = ("high/mod.rs", "use crate::low::f;");
+        assert_eq!(circle_in(&uses(&[lower, upper, ("top.rs", "use crate::{high, low};")])), None);
+        let planted = [
+            ("low.rs", "use crate::middle::g;"),
+            ("low.rs", "use crate::{other, middle::{g, h}};"),
+            ("low/deep/a.rs", "use super::super::super::middle::g;"),
+            // By way of the crate's root.
+            ("low.rs", "use crate::Middle;"),
+        ];
+        let middle = ("middle.rs", "use crate::high::f;");
+        for plant in planted {
+            let uses = uses(&[plant, upper, middle, ("lib.rs", "mod low;\npub use middle::{Middle, g};")]);
+            assert_eq!(circle_in(&uses), Some(["high", "low", "middle"].map(str::to_owned).into()), "{plant:?}");
+        }
     }
 
     #[test]

@@ -4,7 +4,7 @@ mod plan;
 mod resolve;
 mod rules;
 
-pub use plan::{DepthKind, LayerRules, NormalSpace};
+pub use plan::LayerRules;
 pub use rules::contents;
 
 pub(crate) use plan::{LayerPlan, PictureNames};

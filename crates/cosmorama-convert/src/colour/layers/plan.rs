@@ -5,6 +5,7 @@ use cosmorama::raster::{Channels, Rgba};
 use cosmorama_io::{Header, Layers, NamedChannel, SampleKind};
 
 use super::rules::{LayerContent, LayerGroup, grouped};
+use crate::settings::{DepthKind, NormalSpace};
 
 /// Channels that go along with a picture.
 #[derive(Clone, Debug, Default)]
@@ -40,25 +41,6 @@ pub struct LayerRules {
     pub depth: Option<DepthKind>,
     /// Frame of normals.
     pub normals: NormalSpace,
-}
-
-/// Kind of a depth.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum DepthKind {
-    /// Distance from the plane through the camera, across its axis.
-    Planar,
-    /// Distance from the camera.
-    Radial,
-}
-
-/// Frame of normals, in the input and in the output.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum NormalSpace {
-    /// The world's: no view turns them.
-    #[default]
-    World,
-    /// Each view's own: x to the right, y up, z to the viewer.
-    Camera,
 }
 
 impl LayerPlan {

@@ -4,11 +4,12 @@ use cosmorama::camera::View;
 use cosmorama::filter::{FilterKind, FilterSettings};
 use cosmorama_io::{Format, Header};
 
-use super::{DepthKind, LayerContent, LayerPlan, LayerRules, NormalSpace};
+use super::{LayerContent, LayerPlan, LayerRules};
 use crate::colour::Light;
 use crate::diagnostic::{CHANNELS, Code, DEPTH_KIND, Diagnostic, NORMALS, PART, Result, usage};
 use crate::input::Input;
 use crate::settings::{Conversion, LayerSettings};
+use crate::settings::{DepthKind, NormalSpace};
 use crate::target::Target;
 
 /// Most names that are listed.

@@ -5,8 +5,9 @@ use cosmorama::world::World;
 use rayon::prelude::*;
 
 use super::ViewPlanes;
-use crate::colour::{DepthKind, LayerContent, NormalSpace};
+use crate::colour::LayerContent;
 use crate::job::ConvertJob;
+use crate::settings::{DepthKind, NormalSpace};
 
 /// A view's numbers, on their way to texels.
 struct Reading<'a> {

@@ -3,7 +3,8 @@ use cosmorama::raster::{Image, Rgba};
 use cosmorama::sphere::Orientation;
 use rayon::prelude::*;
 
-use crate::colour::{LayerContent, LayerRules, NormalSpace};
+use crate::colour::{LayerContent, LayerRules};
+use crate::settings::NormalSpace;
 
 /// Turns averages into numbers of the output: distances into its kind of depth, normals into its frame, with length one.
 pub(super) fn finish((content, rules): (LayerContent, LayerRules), view: &View, image: &mut Image<Rgba>) {

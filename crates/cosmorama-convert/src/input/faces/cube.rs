@@ -5,6 +5,7 @@ use cosmorama_spec::{Cube, Packing};
 use crate::detect::GivenFaces;
 use crate::diagnostic::{Diagnostic, FROM, Result, bail, usage};
 use crate::input::faces::face_shape::size_of_missing;
+use crate::input::folder::face_set;
 use crate::input::{Face, FacePicture, Input};
 use crate::packing::EyePart;
 use crate::source::{Access, ViewFiles, frames};

@@ -1,0 +1,5 @@
+//! One frame: its files are read, their light gathered, and its pictures made.
+
+pub(crate) mod files;
+pub(crate) mod light;
+pub(crate) mod pictures;
