@@ -13,7 +13,7 @@ use cosmorama::raster::Threads;
 use rayon::{Scope, ThreadPool};
 
 use crate::diagnostic::{InPlace, Result, bail};
-use crate::engine::frame_files::named;
+use crate::engine::frame::files::named;
 use crate::engine::{Engine, FrameFile, FrameLight, Levels, Stage, Stages, ViewImage, Which};
 use crate::job::{ConvertJob, FrameOutputs, QueueDepth};
 
