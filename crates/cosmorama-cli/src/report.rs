@@ -43,6 +43,9 @@ struct JsonCpuSeconds {
 #[derive(Serialize)]
 struct JsonLight {
     frame: Option<u64>,
+    level: usize,
+    /// Roughness, 0 for a mirror; null for lobes without one.
+    alpha: Option<f64>,
     /// Mean radiance over the sphere.
     energy_in: [f64; 3],
     /// Mean radiance of the map over the sphere; null where it does not show all of the sphere.
@@ -60,6 +63,8 @@ impl JsonLight {
         let (input, output) = (&report.input, &report.output);
         Self {
             frame: report.frame,
+            level: report.level,
+            alpha: report.alpha,
             energy_in: input.mean,
             energy_out: ((output.shown - 1.0).abs() < 0.01).then_some(output.mean),
             brightest_texels_share: input.suns,

@@ -102,15 +102,26 @@ pub struct GeometrySettings {
     pub anti_ringing: Option<bool>,
 }
 
-/// A map of a world's light: each pixel is an average under a lobe about its direction.
+/// A map of a world's light, or a chain of them, one for each roughness.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LightSettings {
-    /// Weight of light by its angle from a pixel's direction.
-    pub lobe: Lobe,
+    /// What each level of the chain is, the largest first. A single one is an ordinary map.
+    pub levels: Vec<LightLevel>,
     /// Unit of the map.
     pub normalisation: LightNormalisation,
     /// Whether every texel is summed for every pixel.
     pub exact: bool,
+}
+
+/// Level of a chain of maps.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum LightLevel {
+    /// The world as a mirror shows it: a picture by the filter.
+    Mirror,
+    /// Averages under a lobe about each pixel's direction.
+    Lobe(Lobe),
+    /// Means of two by two pixels of the level before, face by face: a plain mip map.
+    Halved,
 }
 
 /// Unit of a map of light.
@@ -123,6 +134,17 @@ pub enum LightNormalisation {
 }
 
 impl LightSettings {
+    /// Returns the settings of a single map under a lobe.
+    pub fn map(lobe: Lobe, normalisation: LightNormalisation) -> Self {
+        Self { levels: vec![LightLevel::Lobe(lobe)], normalisation, exact: false }
+    }
+
+    /// Returns the lobes of its levels.
+    pub fn lobes(&self) -> Vec<Lobe> {
+        let lobe = |level: &LightLevel| if let LightLevel::Lobe(lobe) = level { Some(*lobe) } else { None };
+        self.levels.iter().filter_map(lobe).collect()
+    }
+
     /// Returns the factor of an average in the map.
     pub fn scale(&self) -> f64 {
         match self.normalisation {

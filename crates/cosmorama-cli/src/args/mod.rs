@@ -22,7 +22,7 @@ pub(crate) use demo::DemoArgs;
 pub(crate) use explain::ExplainArgs;
 pub(crate) use help::{CompletionsArgs, HelpArgs, LISTS, ManArgs, SPEC_TOPIC};
 pub(crate) use info::InfoArgs;
-pub(crate) use light::{DiffuseArgs, HarmonicsArgs, Kind, LightArgs, LightVerb, MapArgs, SpecularArgs, Unit};
+pub(crate) use light::{DiffuseArgs, HarmonicsArgs, Kind, LightArgs, LightVerb, MapArgs, Method, SpecularArgs, Unit};
 pub(crate) use progress::ProgressStyle;
 
 /// Example commands in the program's own help.

@@ -1,11 +1,14 @@
 use std::process::ExitCode;
 
 use anyhow::Result;
-use cosmorama::lighting::Lobe;
-use cosmorama_convert::{Conversion, LightNormalisation, LightSettings};
+use cosmorama::lighting::{Lobe, SMOOTHEST};
+use cosmorama_convert::{Conversion, LightLevel, LightNormalisation, LightSettings};
+use cosmorama_spec::Shape;
 
 use super::{convert, harmonics};
-use crate::args::{DiffuseArgs, LightArgs, LightVerb, MapArgs, SpecularArgs, Unit};
+use crate::args::light::lobe::LobeName;
+use crate::args::light::roughness::{ChainLevel, RoughnessMap};
+use crate::args::{DiffuseArgs, LightArgs, LightVerb, MapArgs, Method, SpecularArgs, Unit};
 use crate::console::Console;
 use crate::failure::usage;
 use crate::pipe::KeptStreams;
@@ -26,13 +29,83 @@ fn diffuse(DiffuseArgs { map, normalise }: DiffuseArgs, console: &mut Console) -
         Unit::Radiance => LightNormalisation::Radiance,
     };
     let exact = map.exact;
-    make(map, LightSettings { lobe: Lobe::LAMBERT, normalisation, exact }, console)
+    make(map, LightSettings { exact, ..LightSettings::map(Lobe::LAMBERT, normalisation) }, console)
 }
 
-fn specular(SpecularArgs { map, lobe, alpha }: SpecularArgs, console: &mut Console) -> Result<ExitCode> {
-    let lobe = lobe.lobe(alpha).map_err(usage)?;
-    let exact = map.exact;
-    make(map, LightSettings { lobe, normalisation: LightNormalisation::Radiance, exact }, console)
+fn specular(args: SpecularArgs, console: &mut Console) -> Result<ExitCode> {
+    let levels = levels(&args)?;
+    let light = LightSettings { levels, normalisation: LightNormalisation::Radiance, exact: args.map.exact };
+    make(args.map, light, console)
+}
+
+/// Returns the levels of a chain; a single one for an ordinary map.
+fn levels(args: &SpecularArgs) -> Result<Vec<LightLevel>> {
+    if args.method == Method::Mipmap {
+        return mipmap(args);
+    }
+    match (&args.alpha[..], args.levels) {
+        (alphas, None) if args.roughness_map.is_some() => Err(usage(if alphas.is_empty() {
+            "--roughness-map is for chains: give the number of levels, as in --levels 5"
+        } else {
+            "--alpha says how rough each level is; leave --roughness-map out, or give --levels instead of --alpha"
+        })),
+        ([], None) => Ok(vec![LightLevel::Lobe(args.lobe.lobe(None).map_err(usage)?)]),
+        ([], Some(levels)) => chain(args, levels),
+        (alphas, levels) if levels.is_none_or(|levels| levels == alphas.len()) => {
+            alphas.iter().map(|alpha| level(args.lobe, *alpha)).collect()
+        }
+        (alphas, levels) => Err(usage(format!(
+            "--levels is {}, but --alpha has {} values; give one for each level, or leave one of both options out",
+            levels.unwrap_or_default(),
+            alphas.len()
+        ))),
+    }
+}
+
+/// Returns the levels of plain mip maps.
+fn mipmap(args: &SpecularArgs) -> Result<Vec<LightLevel>> {
+    if !args.alpha.is_empty() || args.roughness_map.is_some() || args.lobe != LobeName::Ggx || args.map.exact {
+        return Err(usage(
+            "--method mipmap knows no lobes: each level is the one before, halved; leave out --lobe, --alpha, --roughness-map and --exact",
+        ));
+    }
+    let Some(levels) = args.levels else {
+        return Err(usage("--method mipmap needs the number of levels, as in --levels 5"));
+    };
+    let further = (1..levels).map(|_| LightLevel::Halved);
+    Ok(std::iter::once(LightLevel::Mirror).chain(further).collect())
+}
+
+/// Returns the levels of a chain by a rule.
+fn chain(args: &SpecularArgs, levels: usize) -> Result<Vec<LightLevel>> {
+    if !matches!(args.lobe, LobeName::Ggx | LobeName::Charlie) {
+        return Err(usage(
+            "--levels is for ggx and charlie, which have a roughness; phong and blinn have one exponent",
+        ));
+    }
+    let map = args.roughness_map.unwrap_or(RoughnessMap::Squared);
+    let to_cube = args.map.to.as_ref().map(|spec| matches!(spec.shape, Shape::Cube(_)));
+    let named = || ["{face}", "%c", ".ktx2", ".dds"].iter().any(|mark| args.map.output.contains(mark));
+    if map.goes_by_faces() && !to_cube.unwrap_or_else(named) {
+        return Err(usage(
+            "--roughness-map unreal and three go by the size of a cube's faces; name the output .ktx2 or .dds, or put {face} into it",
+        ));
+    }
+    let edge = args.map.size.map_or(DEFAULT_EDGE, |size| size.width);
+    let alpha = |level: usize| map.alpha(ChainLevel { level, levels, edge });
+    // What is smoother than any lobe is a mirror.
+    (0..levels).map(|at| level(args.lobe, if alpha(at) < SMOOTHEST { 0.0 } else { alpha(at) })).collect()
+}
+
+/// Edge of the first level's faces, unless given.
+const DEFAULT_EDGE: usize = 256;
+
+/// Returns the level of a roughness.
+fn level(lobe: LobeName, alpha: f64) -> Result<LightLevel> {
+    if alpha == 0.0 && matches!(lobe, LobeName::Ggx | LobeName::Charlie) {
+        return Ok(LightLevel::Mirror);
+    }
+    lobe.lobe(Some(alpha)).map(LightLevel::Lobe).map_err(usage)
 }
 
 /// Makes maps, and reports the result.

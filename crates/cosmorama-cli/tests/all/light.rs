@@ -149,6 +149,126 @@ fn mistakes_are_answered() {
     assert!(!Path::new(&bench.path("map.exr")).exists());
 }
 
+/// A panorama in which light changes slowly.
+fn save_smooth_sky(bench: &Bench) {
+    save_sky(bench, "sky.exr", 128, |i, j| {
+        let (x, y) = (i as f32 / 20.372, j as f32 / 20.372);
+        [2.0 + x.sin() * y.sin(), 1.0 + 0.5 * y.cos(), 3.0 + (2.0 * x).cos() * y.sin() * y.sin()]
+    });
+}
+
+#[test]
+fn a_chain_goes_into_the_levels_of_a_texture() {
+    let bench = Bench::new();
+    save_smooth_sky(&bench);
+    let chain = ["light", "specular", "sky.exr", "chain.ktx2", "--levels", "4", "--size", "32", "--json"];
+    let report: Value = serde_json::from_str(&bench.succeed(&chain)).unwrap();
+    let levels = report["light"].as_array().unwrap();
+    let alphas: Vec<f64> = levels.iter().map(|level| level["alpha"].as_f64().unwrap()).collect();
+    assert_eq!(alphas, [0.0, (1.0f64 / 3.0).powi(2), (2.0f64 / 3.0).powi(2), 1.0]);
+    for (at, level) in levels.iter().enumerate() {
+        assert_eq!(level["level"], at);
+        for channel in 0..3 {
+            let energy = |key: &str| level[key][channel].as_f64().unwrap();
+            assert!((energy("energy_out") / energy("energy_in") - 1.0).abs() < 2e-3, "{level}");
+        }
+    }
+    // KTX 2: the number of levels, and for each the place and the length of its texels.
+    let bytes = bench.bytes("chain.ktx2");
+    let word = |at: usize| u32::from_le_bytes(bytes[at..at + 4].try_into().unwrap()) as usize;
+    assert_eq!((word(20), word(36), word(40)), (32, 6, 4));
+    let faces = ["light", "specular", "sky.exr", "{level}/{face}.exr", "--levels", "4", "--size", "32"];
+    bench.succeed(&faces);
+    for level in 0..4 {
+        let (offset, length) = (word(80 + 24 * level), word(80 + 24 * level + 8));
+        let edge = 32 >> level;
+        assert_eq!(length, 6 * edge * edge * 8);
+        let red = bytes[offset..offset + length].chunks_exact(8);
+        let red = red.map(|texel| half::f16::from_le_bytes([texel[0], texel[1]]).to_f64());
+        let found = red.sum::<f64>() / (6 * edge * edge) as f64;
+        let of_face = |face: &str| {
+            let light = light(&bench, &format!("{level}/{face}.exr"));
+            assert_eq!(light.len(), edge * edge);
+            light.iter().map(|light| f64::from(light[0])).sum::<f64>() / (edge * edge) as f64
+        };
+        let faces = ["front", "back", "left", "right", "top", "bottom"];
+        let expected = faces.iter().map(|face| of_face(face)).sum::<f64>() / 6.0;
+        assert!((found / expected - 1.0).abs() < 5e-4, "level {level}: {found}, {expected}");
+    }
+}
+
+#[test]
+fn levels_of_a_chain_are_maps_of_their_roughness() {
+    let bench = Bench::new();
+    save_smooth_sky(&bench);
+    let chain = ["light", "specular", "sky.exr", "rough_{level}.exr", "--alpha", "0,0.1,0.5", "--size", "64"];
+    bench.succeed(&chain);
+    bench.succeed(&["convert", "sky.exr", "mirror.exr", "--to", "equirect", "--size", "64"]);
+    bench.succeed(&["light", "specular", "sky.exr", "second.exr", "--alpha", "0.1", "--size", "32"]);
+    bench.succeed(&["light", "specular", "sky.exr", "third.exr", "--alpha", "0.5", "--size", "16"]);
+    for (level, other) in ["mirror.exr", "second.exr", "third.exr"].into_iter().enumerate() {
+        let (found, expected) = (light(&bench, &format!("rough_{level}.exr")), light(&bench, other));
+        assert_eq!(found.len(), 2048 >> (2 * level));
+        assert_eq!(found.len(), expected.len());
+        for (found, expected) in found.iter().flatten().zip(expected.iter().flatten()) {
+            assert!((found / expected - 1.0).abs() < 1e-4, "level {level}: {found}, {expected}");
+        }
+    }
+    // The author's own: means of two by two.
+    let plain =
+        ["light", "specular", "sky.exr", "{level}/{face}.exr", "--method", "mipmap", "--levels", "3", "--size", "8"];
+    bench.succeed(&plain);
+    for level in [1, 2] {
+        let [finer, made] = [level - 1, level].map(|level| light(&bench, &format!("{level}/left.exr")));
+        let (edge, half) = (8 >> (level - 1), 8 >> level);
+        assert_eq!(made.len(), half * half);
+        for (k, pixel) in made.iter().enumerate() {
+            let (i, j) = (2 * (k % half), 2 * (k / half));
+            let of = |i: usize, j: usize| finer[j * edge + i][1];
+            let mean = 0.25 * (of(i, j) + of(i + 1, j) + of(i, j + 1) + of(i + 1, j + 1));
+            assert!((pixel[1] / mean - 1.0).abs() < 1e-6, "level {level}");
+        }
+    }
+}
+
+#[test]
+fn mistakes_about_chains_are_answered() {
+    let bench = Bench::new();
+    save_sky(&bench, "sky.exr", 32, |_, _| [1.0; 3]);
+    let fail = |args: &[&str], says: &[&str]| {
+        assert_says(&bench.fail(2, &[&["light", "specular", "sky.exr"], args].concat()), says);
+    };
+    fail(&["chain.exr", "--levels", "5"], &["chain.exr is OpenEXR", "5 levels", ".ktx2 or .dds", "chain_{level}.exr"]);
+    fail(&["chain.ktx2", "--levels", "5", "--size", "8"], &["--levels", "8x8 pixels have 4 at most", "--size"]);
+    fail(&["chain.ktx2", "--levels", "0"], &["expected a number from 1 to 16"]);
+    fail(&["chain.ktx2", "--levels", "3", "--alpha", "0,0.5"], &["--levels is 3, but --alpha has 2 values"]);
+    fail(&["chain.ktx2", "--alpha", "0,1.5"], &["a roughness α of 1.5 is outside 0.001 to 1"]);
+    fail(&["chain.ktx2", "--alpha", "-0.5"], &["a roughness α of -0.5 is outside 0.001 to 1"]);
+    fail(&["chain.ktx2", "--roughness-map", "linear"], &["give the number of levels, as in --levels 5"]);
+    fail(&["a_{level}.exr", "--levels", "4", "--roughness-map", "three"], &["the size of a cube's faces"]);
+    fail(&["chain.ktx2", "--levels", "4", "--lobe", "phong:9"], &["--levels is for ggx and charlie"]);
+    fail(&["chain.ktx2", "--method", "mipmap"], &["--levels 5"]);
+    fail(&["chain.ktx2", "--method", "mipmap", "--levels", "3", "--alpha", "0.1"], &["knows no lobes"]);
+    fail(&["chain.ktx2", "--levels", "3", "--roughness-map", "unity"], &["linear", "filament"]);
+    let convert = ["convert", "sky.exr", "a_{level}.exr", "--to", "equirect"];
+    assert_says(&bench.fail(2, &convert), &["{level} stands for nothing"]);
+    assert!(!Path::new(&bench.path("chain.ktx2")).exists());
+}
+
+/// No half float is infinite, however bright the sun.
+#[test]
+fn a_chain_under_a_sun_is_finite() {
+    let bench = Bench::new();
+    save_sky(&bench, "sky.exr", 64, |i, j| if (i, j) == (20, 10) { [250_000.0; 3] } else { [0.18; 3] });
+    let output = bench.run(&["light", "specular", "sky.exr", "chain.ktx2", "--levels", "3", "--size", "64"]);
+    assert!(output.status.success());
+    assert_says(&text(&output.stderr), &["samples are brighter than --depth half holds"]);
+    let bytes = bench.bytes("chain.ktx2");
+    let first = u32::from_le_bytes(bytes[80 + 48..80 + 52].try_into().unwrap()) as usize;
+    let halves = bytes[first..].chunks_exact(2).map(|bytes| half::f16::from_le_bytes([bytes[0], bytes[1]]));
+    assert!(halves.into_iter().all(half::f16::is_finite));
+}
+
 /// Coefficients in a JSON file.
 fn coefficients(bench: &Bench, name: &str) -> (Value, Vec<[f64; 3]>) {
     let json: Value = serde_json::from_slice(&bench.bytes(name)).unwrap();

@@ -80,20 +80,24 @@ impl Checked {
         let mut told = run.tally.warnings(job);
         // Maps of light are measured by frame.
         if job.lighting.is_none() {
-            told.extend(too_bright(job, None, engine.writer().overflowed()));
+            told.extend(too_bright(job, (None, 0), engine.writer().overflowed()));
         }
         run.tell(told);
         // Frames that were being written at a stop are done by now.
         made.map_err(|error| if let ConvertError::Stopped { .. } = error { run.stopped() } else { error })?;
         let lit = engine.light_reports();
-        run.tell(lit.iter().filter_map(|report| too_bright(job, report.frame, report.overflowed)).collect());
+        let told = lit.iter().filter_map(|report| too_bright(job, (report.frame, report.level), report.overflowed));
+        run.tell(told.collect());
         Ok(lit)
     }
 }
 
 /// Returns the warning about light that the output's sample type cannot hold.
-fn too_bright(job: &ConvertJob, frame: Option<u64>, samples: usize) -> Option<Diagnostic> {
-    let of_frame = frame.map_or_else(String::new, |frame| format!("frame {frame}: "));
+fn too_bright(job: &ConvertJob, (frame, level): (Option<u64>, usize), samples: usize) -> Option<Diagnostic> {
+    let mut of_frame = frame.map_or_else(String::new, |frame| format!("frame {frame}: "));
+    if level > 0 {
+        of_frame += &format!("level {level}: ");
+    }
     (samples > 0).then(|| {
         let message = format!(
             "{of_frame}{samples} {} brighter than {DEPTH} {} holds, and {} cut to its largest; write OpenEXR or Radiance files with \

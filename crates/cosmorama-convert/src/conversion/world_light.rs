@@ -48,7 +48,7 @@ impl Conversion {
     /// Only headers are read, and pixels only where nothing else tells the projection.
     pub fn check_light(self) -> Outcome<WorldLight> {
         let mut diagnostics = Vec::new();
-        let light = LightSettings { lobe: Lobe::LAMBERT, normalisation: LightNormalisation::Radiance, exact: true };
+        let light = LightSettings::map(Lobe::LAMBERT, LightNormalisation::Radiance);
         let output = ANY_PICTURE.to_owned();
         let settings = Self { output, depth: Some(Depth::Float), light: Some(light), ..self };
         Outcome { result: WorldLight::of(settings, &mut diagnostics), diagnostics }

@@ -46,6 +46,7 @@ pub(crate) const FRAMES: Mark = Mark(Setting::Frames);
 pub(crate) const OVERWRITE: Mark = Mark(Setting::Overwrite);
 pub(crate) const RESUME: Mark = Mark(Setting::Resume);
 pub(crate) const MIPS: Mark = Mark(Setting::Mips);
+pub(crate) const LEVELS: Mark = Mark(Setting::Levels);
 pub(crate) const QUALITY: Mark = Mark(Setting::Quality);
 pub(crate) const COMPRESSION: Mark = Mark(Setting::Compression);
 pub(crate) const MEMORY: Mark = Mark(Setting::Memory);

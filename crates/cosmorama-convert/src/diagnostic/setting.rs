@@ -45,6 +45,8 @@ pub enum Setting {
     Resume,
     /// Whether mip levels are written.
     Mips,
+    /// Number of levels in a chain of light.
+    Levels,
     /// JPEG quality.
     Quality,
     /// Effort of lossless compression.
@@ -65,7 +67,7 @@ pub enum Setting {
 
 impl Setting {
     /// All settings.
-    pub const ALL: [Self; 30] = [
+    pub const ALL: [Self; 31] = [
         Self::From,
         Self::To,
         Self::Size,
@@ -88,6 +90,7 @@ impl Setting {
         Self::Overwrite,
         Self::Resume,
         Self::Mips,
+        Self::Levels,
         Self::Quality,
         Self::Compression,
         Self::Memory,
@@ -123,6 +126,7 @@ impl Setting {
             Self::Overwrite => "overwrite",
             Self::Resume => "resume",
             Self::Mips => "mips",
+            Self::Levels => "levels",
             Self::Quality => "quality",
             Self::Compression => "compression",
             Self::Memory => "memory",

@@ -2,6 +2,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use cosmorama::filter::FilterSettings;
+use cosmorama::lighting::PreparedLight;
 use cosmorama::raster::Rgba;
 use cosmorama::render::Resampler;
 use cosmorama::world::World;
@@ -20,7 +21,7 @@ use crate::job::Outputs;
 use crate::job::coverage::{Coverage, whole_worlds};
 use crate::settings::{Conversion, LightSettings};
 use crate::source::{Access, ChosenFiles, DecodedPicture, Files, MemoryBudget};
-use crate::target::{Target, TargetView, of_light, shape_warning};
+use crate::target::{Target, TargetView, name_of_level, of_light, shape_warning};
 
 /// A conversion, ready to run.
 pub(crate) struct ConvertJob {
@@ -88,18 +89,24 @@ impl ConvertJob {
         let files = chosen(settings, content);
         let access = Access { files: &*files, memory, decoded: &decoded };
         let mut geometry = settled(&settings.geometry, file, access, warnings)?;
+        let mut output = settings.output.clone();
+        let levels = settings.light.as_ref().map_or(1, |light| light.levels.len());
         if settings.light.is_some() {
-            geometry = of_light(geometry, &settings.output);
+            output = name_of_level(&output, 0);
+            geometry = of_light(geometry, &output, levels);
         }
         let geometry = &geometry;
         // Mistakes in the settings themselves come first: they do not depend on any file.
-        let format = Target::check_names(&settings.output, geometry)?;
+        let format = Target::check_names(&output, geometry)?;
         check_file_options(settings, format)?;
         let mut input = content.input(settings, geometry, access, warnings)?;
         let parity = content.has_files().then(|| input.pixels_per_radian());
-        let mut target = Target::resolve(&settings.output, geometry, parity)?;
+        let mut target = Target::resolve(&output, geometry, parity)?;
         if settings.mips {
             target = target.with_mips(&settings.output, geometry)?;
+        }
+        if levels > 1 {
+            target = target.with_chain(&settings.output, geometry, levels)?;
         }
         warnings.extend(input.diagnostics());
         check_choice(settings, &input, warnings)?;
@@ -152,11 +159,12 @@ impl ConvertJob {
     fn cover(&mut self, warnings: &mut Vec<Diagnostic>) -> Result<()> {
         let Self { input, target, filter, memory, .. } = self;
         let whole = whole_worlds(input, *memory)?;
-        if self.lighting.is_some() {
+        if let Some(lighting) = &self.lighting {
             let (coverage, worlds) = Coverage::of_sphere(input, whole, self.missing)?;
             memory.check_frame(input, target)?;
-            let gathered = worlds.iter().flat_map(World::sources).map(|source| gathered_bytes(&source.view)).sum();
-            self.memory = memory.beside_levels(gathered, input, target)?;
+            let blocks: u64 = worlds.iter().flat_map(World::sources).map(|source| gathered_bytes(&source.view)).sum();
+            let bands = PreparedLight::bytes_for(&lighting.lobes()) as u64 * worlds.len() as u64;
+            self.memory = memory.beside_levels(blocks.saturating_add(bands), input, target)?;
             (self.coverage, self.worlds) = (coverage, worlds);
             return Ok(());
         }

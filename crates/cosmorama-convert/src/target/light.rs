@@ -11,14 +11,24 @@ use crate::settings::GeometrySettings;
 const WIDTH: usize = 64;
 const EDGE: usize = 32;
 
+/// Those of the first level of a chain.
+const CHAIN_WIDTH: usize = 512;
+const CHAIN_EDGE: usize = 256;
+
 /// Completes the geometry of a map of light: a panorama, or a cube where the output has a name for each face, unless another
 /// projection is given.
-pub(crate) fn of_light(geometry: GeometrySettings, output: &str) -> GeometrySettings {
+pub(crate) fn of_light(geometry: GeometrySettings, output: &str, levels: usize) -> GeometrySettings {
     let is_cube_file = Format::from_extension(Path::new(output)).is_ok_and(Format::is_cube_map);
     let has_faces = is_cube_file || FacePattern::parse(output).is_some();
     let usual = || if has_faces { "cube" } else { "equirect:samples=centres" }.parse::<Spec>().ok();
     let to = geometry.to.or_else(usual);
     let is_cube = to.as_ref().is_some_and(|spec| matches!(spec.shape, Shape::Cube(_)));
-    let size = geometry.size.or(Some(Size { width: if is_cube { EDGE } else { WIDTH }, height: None }));
+    let width = match (is_cube, levels > 1) {
+        (true, false) => EDGE,
+        (false, false) => WIDTH,
+        (true, true) => CHAIN_EDGE,
+        (false, true) => CHAIN_WIDTH,
+    };
+    let size = geometry.size.or(Some(Size { width, height: None }));
     GeometrySettings { to, size, ..geometry }
 }

@@ -1,11 +1,13 @@
 //! Targets: pictures of a projection, laid out in files.
 
 pub(crate) mod aspect;
+mod chain;
 pub(crate) mod gpano;
 pub(crate) mod light;
 pub(crate) mod picture;
 pub(crate) mod sheets;
 
+pub(crate) use chain::name_of_level;
 pub(crate) use light::of_light;
 pub use picture::Picture;
 pub(crate) use sheets::{Sheet, Target, TargetFile, TargetView};

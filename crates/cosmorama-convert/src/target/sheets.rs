@@ -20,6 +20,8 @@ pub(crate) struct TargetView {
     pub(crate) view: View,
     /// Eye, if there are two.
     pub(crate) eye: Option<Eye>,
+    /// Level of a chain of maps, from 0.
+    pub(crate) level: usize,
 }
 
 impl TargetView {
@@ -121,7 +123,7 @@ impl Target {
             let size = (picture.view.width(), picture.view.height());
             let Place { corner, of } = picture.place.unwrap_or(Place::whole(size));
             let name = picture.label().unwrap_or_else(|| output.to_owned());
-            views.push(TargetView { name, view: picture.view.clone(), eye: picture.eye });
+            views.push(TargetView { name, view: picture.view.clone(), eye: picture.eye, level: 0 });
             match paths.iter().position(|other| *other == path) {
                 Some(shared) => files[shared].sheet.pieces.push((index, corner)),
                 None => {

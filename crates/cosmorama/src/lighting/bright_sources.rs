@@ -25,7 +25,7 @@ impl World {
 }
 
 /// Returns the mean of the channels; 0 for missing texels.
-fn brightness(light: Rgba) -> f64 {
+pub(super) fn brightness(light: Rgba) -> f64 {
     let [red, green, blue, _] = light.0.map(f64::from);
     ((red + green + blue) / 3.0).max(0.0)
 }

@@ -1,5 +1,9 @@
+use rayon::prelude::*;
+
+use super::bright_sources::brightness;
+use super::texel_angles::texel_angles;
 use crate::raster::Rgba;
-use crate::world::World;
+use crate::world::{Source, World};
 
 /// Figures of the light of a world.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -21,16 +25,69 @@ impl LightFigures {
     /// When there are not as many texels as the world has.
     pub fn of(world: &World, texels: &[Rgba]) -> Self {
         assert_eq!(texels.len(), world.texel_count(), "one texel of light for each texel of the world");
+        let rows: Vec<Row> =
+            world.sources().iter().flat_map(|source| Row::all(source, &texels[source.texels()])).collect();
         let whole = 4.0 * std::f64::consts::PI;
-        let (mut mean, mut shown, mut peak) = ([0.0; 3], 0.0, 0.0f32);
-        for (texel, angle) in texels.iter().zip(world.solid_angles()) {
-            let [red, green, blue, alpha] = texel.0;
-            let part = f64::from(angle) / whole;
-            mean.iter_mut().zip([red, green, blue]).for_each(|(mean, light)| *mean += f64::from(light) * part);
-            shown += f64::from(alpha) * part;
-            peak = peak.max(red).max(green).max(blue);
+        let sum = |channel: usize| rows.iter().map(|row| row.sum[channel]).sum::<f64>();
+        let light = [0, 1, 2].map(sum);
+        let peak = rows.iter().fold(0.0f32, |peak, row| peak.max(row.peak));
+        let suns = suns(world, texels, &rows);
+        Self { mean: light.map(|light| light / whole), peak, suns, shown: sum(3) / whole }
+    }
+}
+
+/// Returns the part of all light that comes from suns and lamps. Only rows that may have some are looked at again.
+fn suns(world: &World, texels: &[Rgba], rows: &[Row]) -> f64 {
+    let (bright, angle): (f64, f64) =
+        rows.iter().fold((0.0, 0.0), |(bright, angle), row| (bright + row.bright, angle + row.angle));
+    if bright <= 0.0 {
+        return 0.0;
+    }
+    let least = World::SUN * bright / angle;
+    let all = world.sources().iter().flat_map(|source| (0..source.view.height()).map(move |j| (source, j)));
+    let lit = all.zip(rows).filter(|(_, row)| f64::from(row.peak) > least);
+    let of_row = |((source, j), _): ((&Source, usize), &Row)| {
+        let (width, angles) = (source.view.width(), &source.solid_angles);
+        let row = &texels[source.offset + j * width..source.offset + (j + 1) * width];
+        let lights = row.iter().zip(&angles[j * width..]).map(|(texel, angle)| (brightness(*texel), f64::from(*angle)));
+        lights.filter(|(light, _)| *light > least).map(|(light, angle)| light * angle).sum::<f64>()
+    };
+    lit.map(of_row).sum::<f64>() / bright
+}
+
+/// Sums over a row of texels.
+struct Row {
+    /// Light and opacity times solid angle.
+    sum: [f64; 4],
+    /// Largest channel.
+    peak: f32,
+    /// Brightness times solid angle.
+    bright: f64,
+    /// Solid angle of all texels.
+    angle: f64,
+}
+
+impl Row {
+    fn all(source: &Source, texels: &[Rgba]) -> Vec<Self> {
+        let angles = texel_angles(source);
+        let width = source.view.width();
+        texels
+            .par_chunks(width)
+            .zip(angles.par_chunks(width))
+            .map(|(texels, angles)| Self::of(texels, angles))
+            .collect()
+    }
+
+    fn of(texels: &[Rgba], angles: &[f32]) -> Self {
+        let mut row = Self { sum: [0.0; 4], peak: 0.0, bright: 0.0, angle: 0.0 };
+        for (texel, angle) in texels.iter().zip(angles) {
+            let angle = f64::from(*angle);
+            row.sum.iter_mut().zip(texel.0).for_each(|(sum, light)| *sum += f64::from(light) * angle);
+            row.peak = texel.0[..3].iter().fold(row.peak, |peak, light| peak.max(*light));
+            row.bright += brightness(*texel) * angle;
+            row.angle += angle;
         }
-        Self { mean, peak, suns: world.light_of_suns(|texel| texels[texel]), shown }
+        row
     }
 }
 

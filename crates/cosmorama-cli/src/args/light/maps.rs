@@ -7,6 +7,7 @@ use cosmorama_io::FrameList;
 use cosmorama_spec::{DepthName, Missing, Size, Spec, TransferName};
 
 use super::lobe::LobeName;
+use super::roughness::RoughnessMap;
 use crate::args::convert::{LimitArgs, frame_list};
 use crate::args::parse::listed;
 use crate::args::parse::number::degrees;
@@ -22,10 +23,12 @@ pub(super) const DIFFUSE_EXAMPLES: [&str; 4] = [
 ];
 
 /// Example commands in the help of `light specular`.
-pub(super) const SPECULAR_EXAMPLES: [&str; 3] = [
+pub(super) const SPECULAR_EXAMPLES: [&str; 5] = [
     "cosmorama light specular sky.exr rough.exr --alpha 0.25 --size 256",
     "cosmorama light specular sky.exr 'rough/{face}.exr' --alpha 0.5",
     "cosmorama light specular sky.exr glossy.exr --lobe phong:64 --to mercator",
+    "cosmorama light specular sky.exr chain.ktx2 --levels 5 --size 256 --roughness-map filament",
+    "cosmorama light specular sky.exr 'rough_{level}.exr' --alpha 0,0.05,0.2,0.6 --size 512",
 ];
 
 /// Make a map of the light that falls on a matt surface, by the direction that it faces.
@@ -56,11 +59,43 @@ pub(crate) struct SpecularArgs {
     /// cosᴺ(θ/2)·cos θ.
     #[arg(long, value_name = "LOBE", default_value = "ggx", value_parser = listed::lobe(), hide_possible_values = true, hide_default_value = true, help_heading = "Light")]
     pub(crate) lobe: LobeName,
-    /// Roughness α of ggx and charlie, 0.001 to 1
+    /// Roughness α of ggx and charlie, 0.001 to 1, or 0 for a mirror; several, as in 0,0.1,0.4,1, make a chain
     ///
     /// α is the square of the roughness that most programs show.
-    #[arg(long, value_name = "A", allow_negative_numbers = true, help_heading = "Light")]
-    pub(crate) alpha: Option<f64>,
+    #[arg(long, value_name = "A", value_delimiter = ',', allow_negative_numbers = true, help_heading = "Light")]
+    pub(crate) alpha: Vec<f64>,
+    /// Make a chain of N maps, each of half the size: a mirror first, then rougher and rougher
+    ///
+    /// One KTX 2 or DDS file holds all as mip levels of a cube; in other formats, OUTPUT has {level} where the number of a level
+    /// stands, from 0.
+    #[arg(long, value_name = "N", value_parser = levels, allow_negative_numbers = true, help_heading = "Light")]
+    pub(crate) levels: Option<usize>,
+    /// How α grows along a chain: linear, squared (default), filament, gltf, unreal, three
+    ///
+    /// linear: α = level/(N−1). squared and gltf: α = roughness², roughness = level/(N−1). filament: α = roughness², roughness =
+    /// 1 − √(1 − level/(N−1)). unreal, three: α = roughness², roughness by the size of faces, as these programs read it.
+    #[arg(long, value_enum, value_name = "MAP", hide_possible_values = true, help_heading = "Light")]
+    pub(crate) roughness_map: Option<RoughnessMap>,
+    /// lobes: averages under the lobe; mipmap: plain mip maps of the faces, as in 1986
+    #[arg(long, value_enum, value_name = "METHOD", default_value_t = Method::Lobes, hide_possible_values = true, help_heading = "Light")]
+    pub(crate) method: Method,
+}
+
+/// Way to make the levels of a chain.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Method {
+    /// Averages under the lobe of each level
+    #[value(alias = "exact")]
+    Lobes,
+    /// Means of two by two pixels of the level before (Greene 1986, section 7)
+    Mipmap,
+}
+
+fn levels(text: &str) -> Result<usize, String> {
+    match text.parse() {
+        Ok(levels @ 1..=16) => Ok(levels),
+        _ => Err("expected a number from 1 to 16".to_owned()),
+    }
 }
 
 /// Unit of a diffuse map.

@@ -3,20 +3,22 @@
 mod harmonics;
 pub(crate) mod lobe;
 mod maps;
+pub(crate) mod roughness;
 
 use clap::{Args, Subcommand};
 
 use super::with_examples;
 
 pub(crate) use harmonics::{HarmonicsArgs, Kind};
-pub(crate) use maps::{DiffuseArgs, MapArgs, SpecularArgs, Unit};
+pub(crate) use maps::{DiffuseArgs, MapArgs, Method, SpecularArgs, Unit};
 
 /// Example commands in its help.
-pub(super) const EXAMPLES: [&str; 5] = [
+pub(super) const EXAMPLES: [&str; 6] = [
     "cosmorama light diffuse sky.hdr light.exr",
     "cosmorama light diffuse 'faces/{face}.exr' light.exr --to mercator",
     "cosmorama light specular sky.exr rough.exr --alpha 0.25 --size 256",
     "cosmorama light specular sky.exr glossy.png --lobe phong:64",
+    "cosmorama light specular sky.exr chain.ktx2 --levels 5",
     "cosmorama light harmonics sky.exr light.json --order 4",
 ];
 

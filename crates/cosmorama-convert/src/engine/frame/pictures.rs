@@ -186,16 +186,16 @@ impl<'a> Engine<'a> {
         progress: &dyn Progress,
     ) -> Result<Vec<Levels>> {
         let views = &self.job.target.views;
-        let mut made = Vec::new();
-        for target in views {
-            made.push(maps.view(target));
+        let mut made: Vec<Image<Rgba>> = Vec::new();
+        while made.len() < views.len() {
+            made.push(maps.next(&made));
             if progress.advance(made.len() as f64 / views.len() as f64).is_break() {
                 return Err(self.stopped());
             }
         }
         let measured: Vec<_> = views.iter().zip(&made).collect();
-        let report = LightReport::of(self.job, frame.frame, light.texels(), &measured);
-        self.lit.lock().unwrap_or_else(PoisonError::into_inner).extend(report);
+        let reports = LightReport::of(self.job, frame.frame, light.texels(), &measured);
+        self.lit.lock().unwrap_or_else(PoisonError::into_inner).extend(reports);
         frame.files.iter().map(|(file, _)| self.map_file(*file, &made)).collect()
     }
 

@@ -1,16 +1,18 @@
-use cosmorama::lighting::{AllTexels, LightFigures, LightTree, LobeAverages};
+use cosmorama::lighting::{AllTexels, LightFigures, Lobe, LobeAverages, PreparedLight};
 use cosmorama::raster::{Depth, Image, Rgba};
 use cosmorama::world::World;
 
 use crate::diagnostic::{MISSING, Result, bail};
 use crate::engine::Texels;
 use crate::job::ConvertJob;
-use crate::settings::LightSettings;
+use crate::settings::{LightLevel, LightSettings};
 use crate::target::TargetView;
 
 /// Light of a frame, prepared to be averaged under lobes.
 pub(crate) struct LightMaps<'a> {
+    job: &'a ConvertJob,
     settings: &'a LightSettings,
+    texels: &'a [Vec<Rgba>],
     worlds: Vec<Box<dyn LobeAverages + 'a>>,
     /// Light of directions in which the worlds show nothing.
     unseen: Rgba,
@@ -21,26 +23,53 @@ impl<'a> LightMaps<'a> {
     pub(crate) fn of(job: &'a ConvertJob, texels: &'a Texels) -> Result<Option<Self>> {
         let Some(settings) = &job.lighting else { return Ok(None) };
         let Texels::Float(lights) = texels else { bail!("light of 8 bits where floats were expected") };
+        let lobes = settings.lobes();
         let averages = |(world, texels): (&'a _, &'a Vec<Rgba>)| -> Box<dyn LobeAverages + 'a> {
             if settings.exact {
                 Box::new(AllTexels::of_texels(world, texels))
             } else {
-                Box::new(LightTree::of_texels(world, texels))
+                Box::new(PreparedLight::of_texels(world, texels, &lobes))
             }
         };
         let worlds: Vec<_> = job.worlds.iter().zip(lights).map(averages).collect();
         let unseen = light_of_unseen(job, worlds.iter().all(|world| world.is_complete()))?;
-        Ok(Some(Self { settings, worlds, unseen }))
+        Ok(Some(Self { job, settings, texels: lights, worlds, unseen }))
     }
 
-    /// Makes the map of a target view.
-    pub(crate) fn view(&self, target: &TargetView) -> Image<Rgba> {
+    /// Makes the map of the target view that follows those that are `made`.
+    pub(crate) fn next(&self, made: &[Image<Rgba>]) -> Image<Rgba> {
+        let views = &self.job.target.views;
+        let target = &views[made.len()];
+        match self.settings.levels[target.level] {
+            LightLevel::Lobe(lobe) => self.under(target, &lobe),
+            LightLevel::Mirror => self.mirrored(target),
+            // Levels have as many views each.
+            LightLevel::Halved => halved(&made[made.len() - views.len() / self.settings.levels.len()]),
+        }
+    }
+
+    fn under(&self, target: &TargetView, lobe: &Lobe) -> Image<Rgba> {
         let world = &self.worlds[target.world(self.worlds.len())];
-        let mut image = world.picture(&target.view, &self.settings.lobe, self.unseen);
+        let mut image = world.picture(&target.view, lobe, self.unseen);
         let scale = self.settings.scale() as f32;
         image.pixels_mut().iter_mut().for_each(|pixel| *pixel = scaled(*pixel, scale));
         image
     }
+
+    fn mirrored(&self, target: &TargetView) -> Image<Rgba> {
+        let texels = &self.texels[target.world(self.texels.len())];
+        self.job.resampler(target).render_over(texels, self.unseen)
+    }
+}
+
+/// Returns an image of half the size: the means of two by two pixels.
+fn halved(image: &Image<Rgba>) -> Image<Rgba> {
+    let half = |pixels: usize| (pixels / 2).max(1);
+    let (width, height) = (image.width(), image.height());
+    Image::from_fn(half(width), half(height), |i, j| {
+        let pixel = |x: usize, y: usize| *image.get((2 * i + x).min(width - 1), (2 * j + y).min(height - 1));
+        (pixel(0, 0) + pixel(1, 0) + pixel(0, 1) + pixel(1, 1)) * 0.25
+    })
 }
 
 /// Returns the light of directions in which a frame's worlds show nothing. Where there should be none, it is an error.
@@ -60,6 +89,10 @@ pub(crate) fn light_of_unseen(job: &ConvertJob, is_complete: bool) -> Result<Rgb
 pub struct LightReport {
     /// Frame; `None` for a still.
     pub frame: Option<u64>,
+    /// Level of a chain, from 0.
+    pub level: usize,
+    /// Roughness α of the level, if its lobe has one; 0 for a mirror.
+    pub alpha: Option<f64>,
     /// Light of the input; of a stereo pair, the left eye's.
     pub input: LightFigures,
     /// Light of the map, as radiance: what it was multiplied by is taken out.
@@ -69,34 +102,44 @@ pub struct LightReport {
 }
 
 impl LightReport {
-    /// Measures the light of a frame and of its maps: the largest level of the left eye.
+    /// Measures the light of a frame and of its maps: each level, of the left eye.
     pub(crate) fn of(
         job: &ConvertJob,
         frame: Option<u64>,
         texels: &Texels,
         maps: &[(&TargetView, &Image<Rgba>)],
-    ) -> Option<Self> {
-        let (settings, Texels::Float(lights)) = (job.lighting.as_ref()?, texels) else { return None };
-        let size = maps.iter().map(|(target, _)| target.view.width()).max()?;
-        let first = maps.iter().filter(|(target, _)| target.world(2) == 0 && target.view.width() == size);
-        let views = first.clone().map(|(target, _)| (target.name.clone(), target.view.clone()));
-        let world = World::new(views).ok()?;
-        let scale = settings.scale().recip() as f32;
-        let radiance: Vec<Rgba> =
-            first.flat_map(|(_, image)| image.pixels()).map(|pixel| scaled(*pixel, scale)).collect();
-        let most = match job.light.depth {
-            Depth::Float => f32::MAX,
-            Depth::Half => HALF,
-            _ => 1.0,
+    ) -> Vec<Self> {
+        let (Some(settings), Texels::Float(lights)) = (&job.lighting, texels) else { return Vec::new() };
+        let input = LightFigures::of(&job.worlds[0], &lights[0]);
+        let level = |(level, kind): (usize, &LightLevel)| {
+            let of_level: Vec<_> = maps.iter().filter(|(target, _)| target.level == level).collect();
+            let first = || of_level.iter().filter(|(target, _)| target.world(2) == 0);
+            let world = World::new(first().map(|(target, _)| (target.name.clone(), target.view.clone()))).ok()?;
+            let scale = settings.scale().recip() as f32;
+            let radiance: Vec<Rgba> =
+                first().flat_map(|(_, image)| image.pixels()).map(|pixel| scaled(*pixel, scale)).collect();
+            let alpha = match kind {
+                LightLevel::Mirror => Some(0.0),
+                LightLevel::Lobe(lobe) => lobe.alpha(),
+                LightLevel::Halved => None,
+            };
+            let output = LightFigures::of(&world, &radiance);
+            let overflowed = overflowed(job, of_level.iter().map(|(_, image)| *image));
+            Some(Self { frame, level, alpha, input, output, overflowed })
         };
-        let samples = maps.iter().flat_map(|(_, image)| image.pixels()).flat_map(|pixel| &pixel.0[..3]);
-        Some(Self {
-            frame,
-            input: LightFigures::of(&job.worlds[0], &lights[0]),
-            output: LightFigures::of(&world, &radiance),
-            overflowed: samples.filter(|sample| **sample > most).count(),
-        })
+        settings.levels.iter().enumerate().filter_map(level).collect()
     }
+}
+
+/// Counts the samples that the output's sample type cannot hold.
+fn overflowed<'a>(job: &ConvertJob, images: impl Iterator<Item = &'a Image<Rgba>>) -> usize {
+    let most = match job.light.depth {
+        Depth::Float => f32::MAX,
+        Depth::Half => HALF,
+        _ => 1.0,
+    };
+    let samples = images.flat_map(|image| image.pixels()).flat_map(|pixel| &pixel.0[..3]);
+    samples.filter(|sample| **sample > most).count()
 }
 
 /// Largest half float.

@@ -1,11 +1,9 @@
-use std::borrow::Cow;
-
 use fearless_simd::{Level, dispatch};
 use rayon::prelude::*;
 
 use super::averages::Normalisation;
 use super::lobe::{VisitWeight, Weight};
-use super::{Lobe, LobeAverages, texel_angles};
+use super::{LitTexels, Lobe, LobeAverages};
 use crate::raster::Rgba;
 use crate::sphere::Direction;
 use crate::world::{Light, LightError, World};
@@ -14,10 +12,7 @@ use crate::world::{Light, LightError, World};
 ///
 /// The cost is that of every texel for every average. [`LightTree`](super::LightTree) is faster, and close.
 pub struct AllTexels<'w> {
-    world: &'w World,
-    texels: &'w [Rgba],
-    /// Solid angles, by view.
-    angles: Vec<Cow<'w, [f32]>>,
+    lit: LitTexels<'w>,
     shown: f64,
 }
 
@@ -33,8 +28,7 @@ impl<'w> AllTexels<'w> {
     /// # Errors
     /// When the light is not that of the world.
     pub fn new(world: &'w World, light: &'w Light) -> Result<Self, LightError> {
-        light.check(world)?;
-        Ok(Self::of_texels(world, light.texels()))
+        Ok(Self::of(LitTexels::new(world, light)?))
     }
 
     /// Prepares the sums over texels.
@@ -42,28 +36,30 @@ impl<'w> AllTexels<'w> {
     /// # Panics
     /// When there are not as many texels as the world has.
     pub fn of_texels(world: &'w World, texels: &'w [Rgba]) -> Self {
-        assert_eq!(texels.len(), world.texel_count(), "one texel of light for each texel of the world");
-        let angles: Vec<_> = world.sources().iter().map(texel_angles).collect();
-        let shown = world.sources().iter().zip(&angles).map(|(source, angles)| {
-            let texels = texels[source.texels()].iter().zip(&**angles);
+        Self::of(LitTexels::of_texels(world, texels))
+    }
+
+    fn of(lit: LitTexels<'w>) -> Self {
+        let shown = lit.views().map(|view| {
+            let texels = view.texels.iter().zip(view.angles);
             texels.map(|(texel, angle)| f64::from(texel.alpha()) * f64::from(*angle)).sum::<f64>()
         });
         let shown = shown.sum();
-        Self { world, texels, angles, shown }
+        Self { lit, shown }
     }
 
     /// Visits the rows of all views: the directions of texels that show something, with their light times solid angle.
     fn rows(&self, mut visit: impl FnMut(&[Texel])) {
         let mut row = Vec::new();
-        for (source, angles) in self.world.sources().iter().zip(&self.angles) {
-            let width = source.view.width();
-            for j in 0..source.view.height() {
+        for view in self.lit.views() {
+            let (width, height) = view.size();
+            for j in 0..height {
                 row.clear();
-                source.view.row_directions(j, 0..width, |i, direction| {
-                    let texel = j * width + i;
-                    let angle = f64::from(angles[texel]);
+                let (texels, angles) = view.row(j);
+                view.source.view.row_directions(j, 0..width, |i, direction| {
+                    let angle = f64::from(angles[i]);
                     if angle > 0.0 {
-                        let light = self.texels[source.offset + texel].0.map(|light| f64::from(light) * angle);
+                        let light = texels[i].0.map(|light| f64::from(light) * angle);
                         row.push(Texel { direction: direction.vector().to_array(), light });
                     }
                 });

@@ -101,7 +101,20 @@ impl Lobe {
 
     /// Returns the weight at an angle from the axis, given by its cosine: zero behind the horizon. It is not normalised.
     pub fn weight(&self, cosine: f64) -> f64 {
-        self.visit(At(1.0 - cosine))
+        self.weight_off_axis(1.0 - cosine)
+    }
+
+    /// Returns the weight where 1 − cos θ is so much. Near the axis that is exact where the cosine is not.
+    pub(super) fn weight_off_axis(&self, s: f64) -> f64 {
+        self.visit(At(s))
+    }
+
+    /// Returns the roughness α; `None` for lobes that have an exponent.
+    pub fn alpha(&self) -> Option<f64> {
+        match self.shape {
+            Shape::Ggx { alpha } | Shape::Charlie { alpha } => Some(alpha),
+            Shape::Lambert | Shape::Phong { .. } | Shape::Blinn { .. } => None,
+        }
     }
 
     /// Returns the integral of the weight over all directions, in steradians.

@@ -1,8 +1,7 @@
 use rayon::prelude::*;
 
 use super::block::{Block, Sums};
-use crate::raster::Rgba;
-use crate::world::Source;
+use crate::lighting::lobes::LitView;
 
 /// The blocks of a view: finest first, down to a single one.
 pub(super) struct Pyramid {
@@ -27,8 +26,8 @@ pub(super) struct Place {
 pub(super) const SIDE: usize = 4;
 
 impl Pyramid {
-    pub(super) fn new(source: &Source, angles: &[f32], texels: &[Rgba]) -> Self {
-        let mut levels = vec![Level::finest(source, angles, texels)];
+    pub(super) fn new(view: LitView) -> Self {
+        let mut levels = vec![Level::finest(view)];
         while let Some(last) = levels.last().filter(|level| level.blocks.len() > 1) {
             levels.push(last.coarser());
         }
@@ -60,17 +59,18 @@ impl Level {
     }
 
     /// Gathers texels.
-    fn finest(source: &Source, angles: &[f32], texels: &[Rgba]) -> Self {
-        let (width, height) = (source.view.width(), source.view.height());
+    fn finest(view: LitView) -> Self {
+        let (width, height) = view.size();
         let columns = width.div_ceil(SIDE);
         let mut blocks = vec![Block::default(); columns * height.div_ceil(SIDE)];
         blocks.par_chunks_mut(columns).enumerate().for_each(|(row, blocks)| {
             let mut sums: Vec<Option<Sums>> = vec![None; columns];
             for j in row * SIDE..(row * SIDE + SIDE).min(height) {
-                source.view.row_directions(j, 0..width, |i, direction| {
-                    let angle = f64::from(angles[j * width + i]);
+                let (texels, angles) = view.row(j);
+                view.source.view.row_directions(j, 0..width, |i, direction| {
+                    let angle = f64::from(angles[i]);
                     if angle > 0.0 {
-                        let light = texels[j * width + i].0.map(|channel| f64::from(channel) * angle);
+                        let light = texels[i].0.map(|channel| f64::from(channel) * angle);
                         let direction = direction.vector();
                         sums[i / SIDE].get_or_insert_with(|| Sums::about(direction)).add_texel(direction, light);
                     }

@@ -1,8 +1,7 @@
 mod block;
-mod packet;
+pub(super) mod packet;
 mod pyramid;
 
-use std::borrow::Cow;
 use std::f64::consts::PI;
 
 use fearless_simd::{Level, dispatch};
@@ -12,10 +11,10 @@ use self::packet::{LANES, Packet, Tolerance};
 use self::pyramid::{Place, Pyramid, SIDE};
 use super::averages::Normalisation;
 use super::lobe::{VisitWeight, Weight};
-use super::{Lobe, LobeAverages, texel_angles};
+use super::{LitTexels, LitView, Lobe, LobeAverages};
 use crate::raster::Rgba;
 use crate::sphere::Direction;
-use crate::world::{Light, LightError, Source, World};
+use crate::world::{Light, LightError, World};
 
 /// The light of a world, gathered in blocks of texels and blocks of blocks, to be averaged under lobes.
 ///
@@ -35,10 +34,7 @@ use crate::world::{Light, LightError, Source, World};
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub struct LightTree<'w> {
-    world: &'w World,
-    texels: &'w [Rgba],
-    /// Solid angles, by view.
-    angles: Vec<Cow<'w, [f32]>>,
+    lit: LitTexels<'w>,
     pyramids: Vec<Pyramid>,
     shown: f64,
     /// Mean radiance, all colours added.
@@ -61,8 +57,7 @@ impl<'w> LightTree<'w> {
     /// # Errors
     /// When the light is not that of the world.
     pub fn new(world: &'w World, light: &'w Light) -> Result<Self, LightError> {
-        light.check(world)?;
-        Ok(Self::of_texels(world, light.texels()))
+        Ok(Self::of(LitTexels::new(world, light)?))
     }
 
     /// Gathers the light of a world's texels.
@@ -70,15 +65,16 @@ impl<'w> LightTree<'w> {
     /// # Panics
     /// When there are not as many texels as the world has.
     pub fn of_texels(world: &'w World, texels: &'w [Rgba]) -> Self {
-        assert_eq!(texels.len(), world.texel_count(), "one texel of light for each texel of the world");
-        let angles: Vec<_> = world.sources().iter().map(texel_angles).collect();
-        let pyramid = |(source, angles): (&Source, &Cow<[f32]>)| Pyramid::new(source, angles, &texels[source.texels()]);
-        let pyramids: Vec<Pyramid> = world.sources().iter().zip(&angles).map(pyramid).collect();
+        Self::of(LitTexels::of_texels(world, texels))
+    }
+
+    pub(super) fn of(lit: LitTexels<'w>) -> Self {
+        let pyramids: Vec<Pyramid> = lit.views().map(Pyramid::new).collect();
         let tops = || pyramids.iter().map(|pyramid| pyramid.block(pyramid.top()));
         let shown: f64 = tops().map(|top| f64::from(top.shown)).sum();
         let light: f64 = tops().map(|top| f64::from(top.brightness() * top.shown)).sum();
         let mean = if shown > 0.0 { (light / shown) as f32 } else { 0.0 };
-        Self { world, texels, angles, pyramids, shown, mean, tolerance: TOLERANCE }
+        Self { lit, pyramids, shown, mean, tolerance: TOLERANCE }
     }
 
     /// Sets the part of a block's weight that its second-order term may be (0.025). The less, the nearer, and the slower.
@@ -149,23 +145,22 @@ impl Gather<'_> {
                 if place.level > 0 {
                     open.extend(pyramid.parts(place));
                 } else {
-                    self.gather_texels(packet, (view, place), weight);
+                    self.gather_texels(packet, (self.tree.lit.view(view), place), weight);
                 }
             }
         }
     }
 
     #[inline(always)]
-    fn gather_texels<W: Weight>(&self, packet: &mut Packet, (view, place): (usize, Place), weight: W) {
-        let (source, angles) = (&self.tree.world.sources()[view], &self.tree.angles[view]);
-        let texels = &self.tree.texels[source.texels()];
-        let (width, height) = (source.view.width(), source.view.height());
+    fn gather_texels<W: Weight>(&self, packet: &mut Packet, (view, place): (LitView, Place), weight: W) {
+        let (width, height) = view.size();
         let (left, top) = (place.column * SIDE, place.row * SIDE);
         for j in top..(top + SIDE).min(height) {
-            source.view.row_directions(j, left..(left + SIDE).min(width), |i, direction| {
-                let angle = angles[j * width + i];
+            let (texels, angles) = view.row(j);
+            view.source.view.row_directions(j, left..(left + SIDE).min(width), |i, direction| {
+                let angle = angles[i];
                 if angle > 0.0 {
-                    let light = texels[j * width + i].0.map(|channel| channel * angle);
+                    let light = texels[i].0.map(|channel| channel * angle);
                     packet.add_texel(direction.vector().to_array().map(|part| part as f32), light, weight);
                 }
             });

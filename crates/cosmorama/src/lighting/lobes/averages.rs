@@ -58,7 +58,7 @@ fn by_tiles(width: usize, height: usize) -> Vec<[usize; 2]> {
 
 /// Rule by which sums become averages.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Normalisation {
+pub(in crate::lighting) enum Normalisation {
     /// The world shows all the sphere: sums are divided by the weights that were summed.
     Complete,
     /// It does not: sums are divided by the lobe's integral, and alpha is what is shown of that.
@@ -70,13 +70,13 @@ const LACKING: f64 = 1e-3;
 
 impl Normalisation {
     /// Returns the rule for a world that shows so much, in steradians.
-    pub(super) fn of(shown: f64) -> Self {
+    pub(in crate::lighting) fn of(shown: f64) -> Self {
         let whole = 4.0 * std::f64::consts::PI;
         if shown > whole * (1.0 - LACKING) { Self::Complete } else { Self::Partial }
     }
 
     /// Returns the average of sums of red, green, blue and opacity.
-    pub(super) fn average(self, [red, green, blue, shown]: [f64; 4], lobe: &Lobe) -> Rgba {
+    pub(in crate::lighting) fn average(self, [red, green, blue, shown]: [f64; 4], lobe: &Lobe) -> Rgba {
         let whole = match self {
             Self::Complete => shown,
             Self::Partial => shown.max(lobe.integral()),

@@ -1,0 +1,133 @@
+mod bands;
+mod gather;
+mod grid;
+mod legendre;
+mod points;
+mod transform;
+
+use std::sync::OnceLock;
+
+use fearless_simd::{Level, dispatch};
+use rayon::prelude::*;
+
+use self::bands::Bands;
+use self::gather::gather;
+use self::grid::{Channels, Grid, GridSize};
+use self::legendre::Parts;
+use self::points::{BrightPoints, Point, Totals};
+use self::transform::Spectrum;
+use super::LitTexels;
+use super::Lobe;
+use super::averages::Normalisation;
+use super::light_tree::packet::{LANES, Packet};
+use super::lobe::{VisitWeight, Weight};
+use crate::raster::Rgba;
+use crate::sphere::Direction;
+
+/// The light of a world as spherical harmonics of high order, with the brightest texels apart.
+///
+/// A round lobe multiplies each band of harmonics by a number: zonal convolution. Harmonics are summed over all texels. Texels that
+/// give suns and lamps are taken out first, and weighed one by one, so that what is left of higher bands is next to nothing.
+pub(super) struct ZonalLight {
+    spectrum: Spectrum,
+    lobes: Vec<WideLobe>,
+    bright: Vec<Point>,
+    shown: f64,
+    /// Whether averages may be negative, because some light is.
+    has_negative: bool,
+}
+
+/// Grids that are held while light is gathered, at most.
+const GATHERED: usize = 5;
+
+/// A lobe with its bands, and the light under it as soon as it is asked for.
+struct WideLobe {
+    lobe: Lobe,
+    bands: Bands,
+    light: OnceLock<Grid>,
+}
+
+impl WideLobe {
+    /// Returns a lobe with its bands; `None` if it is too sharp.
+    fn of(lobe: &Lobe) -> Option<Self> {
+        Bands::of(lobe).map(|bands| Self { lobe: *lobe, bands, light: OnceLock::new() })
+    }
+}
+
+impl ZonalLight {
+    /// Gathers a world's light for those of some lobes that are wide enough; `None` if there are none.
+    pub(super) fn of(lit: &LitTexels, lobes: &[Lobe]) -> Option<Self> {
+        let lobes: Vec<WideLobe> = lobes.par_iter().filter_map(WideLobe::of).collect();
+        let highest = lobes.iter().map(|lobe| lobe.bands.highest()).max()?;
+        let totals = Totals::of(lit);
+        let bright = BrightPoints::of(lit, &totals);
+        let Totals { shown, has_negative, mean, .. } = totals;
+        let size = GridSize::of(highest);
+        let spectrum = Spectrum::of(size, &gather(lit, (&bright, mean), size), highest);
+        Some(Self { spectrum, lobes, bright: bright.points, shown, has_negative })
+    }
+
+    /// Returns about how many bytes grids and waves take for some lobes.
+    pub(super) fn bytes_for(lobes: &[Lobe]) -> usize {
+        let bands: Vec<usize> = lobes.par_iter().filter_map(Bands::of).map(|bands| bands.highest() + 1).collect();
+        let Some(most) = bands.iter().max() else { return 0 };
+        let rows = GridSize::of(*most).rows;
+        // Pieces that are merged, the whole, and the light under each lobe; waves of two transforms.
+        let grids = (GATHERED + bands.len()) * 2 * rows * rows * size_of::<Channels>();
+        grids + 2 * rows * most * size_of::<Parts>()
+    }
+
+    /// Returns the solid angle in which something is shown.
+    pub(super) fn shown(&self) -> f64 {
+        self.shown
+    }
+
+    /// Returns the average under a lobe about each axis; `None` if the lobe is none of those that the light was gathered for.
+    pub(super) fn averages(&self, axes: &[Direction], lobe: &Lobe) -> Option<Vec<Rgba>> {
+        let WideLobe { bands, light, .. } = self.lobes.iter().find(|wide| wide.lobe == *lobe)?;
+        let grid = light.get_or_init(|| self.spectrum.under(bands));
+        let normalisation = Normalisation::of(self.shown);
+        let mut averages = vec![Rgba::TRANSPARENT; axes.len()];
+        averages.par_chunks_mut(LANES).zip(axes.par_chunks(LANES)).for_each(|(averages, axes)| {
+            let packet = lobe.visit(Brighten { points: &self.bright, axes });
+            for (lane, (average, axis)) in averages.iter_mut().zip(axes).enumerate() {
+                let sums = self.sums(grid, *axis, packet.sums(lane));
+                *average = normalisation.average(sums, lobe);
+            }
+        });
+        Some(averages)
+    }
+
+    /// Adds what the bands hold to the sums over bright points.
+    fn sums(&self, grid: &Grid, axis: Direction, mut sums: [f64; 4]) -> [f64; 4] {
+        sums.iter_mut().zip(grid.value(axis)).for_each(|(sum, value)| *sum += f64::from(value));
+        let [red, green, blue, shown] = sums;
+        // Where nothing shines, bands that are left out leave traces of both signs.
+        let light = [red, green, blue].map(|sum| if self.has_negative { sum } else { sum.max(0.0) });
+        [light[0], light[1], light[2], shown.max(0.0)]
+    }
+}
+
+/// Sums bright points about some axes.
+struct Brighten<'a> {
+    points: &'a [Point],
+    axes: &'a [Direction],
+}
+
+impl VisitWeight for Brighten<'_> {
+    type Output = Packet;
+
+    fn visit<W: Weight>(self, weight: W) -> Packet {
+        let mut packet = Packet::of(self.axes);
+        let level = Level::new();
+        dispatch!(level, _simd => add_points(&mut packet, self.points, weight));
+        packet
+    }
+}
+
+#[inline(always)]
+fn add_points<W: Weight>(packet: &mut Packet, points: &[Point], weight: W) {
+    for Point { direction, light } in points {
+        packet.add_texel(direction.vector().to_array().map(|part| part as f32), *light, weight);
+    }
+}
