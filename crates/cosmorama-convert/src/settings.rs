@@ -105,7 +105,7 @@ pub struct GeometrySettings {
 /// A map of a world's light, or a chain of them, one for each roughness.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LightSettings {
-    /// What each level of the chain is, the largest first. A single one is an ordinary map.
+    /// Levels of the chain, the largest first. A single one is an ordinary map.
     pub levels: Vec<LightLevel>,
     /// Unit of the map.
     pub normalisation: LightNormalisation,

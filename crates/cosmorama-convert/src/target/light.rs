@@ -11,7 +11,7 @@ use crate::settings::GeometrySettings;
 const WIDTH: usize = 64;
 const EDGE: usize = 32;
 
-/// Those of the first level of a chain.
+/// Width and edge of the first level of a chain.
 const CHAIN_WIDTH: usize = 512;
 const CHAIN_EDGE: usize = 256;
 

@@ -122,7 +122,7 @@ impl Factors {
 mod tests {
     use super::*;
 
-    /// Lambert's factors are those of Ramamoorthi & Hanrahan 2001, equations 7 to 9.
+    /// Compares Lambert's factors with those of Ramamoorthi & Hanrahan 2001, equations 7 to 9.
     #[test]
     fn matt_bands_are_those_of_the_paper() {
         let bands = Bands::of(&Lobe::LAMBERT).expect("few bands");

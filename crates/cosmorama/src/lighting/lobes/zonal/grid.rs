@@ -252,7 +252,7 @@ fn add(sum: &mut Channels, light: Channels, weight: f32) {
 mod tests {
     use super::*;
 
-    /// A function of eight bands, by direction.
+    /// Computes a function of eight bands.
     fn smooth(direction: Direction) -> Channels {
         let [x, y, z] = direction.vector().to_array();
         [1.0, x * y - z, (x + 0.5 * z).powi(8), y.powi(7)].map(|value| value as f32)
@@ -278,7 +278,7 @@ mod tests {
         }
     }
 
-    /// What texels give to samples is what samples give to texels.
+    /// Checks that texels give to samples what samples give to texels.
     #[test]
     fn sums_over_texels_are_sums_over_samples() {
         let size = GridSize { rows: 48 };

@@ -120,7 +120,7 @@ mod tests {
     use crate::lighting::lobes::Lobe;
     use crate::sphere::Direction;
 
-    /// A point of light under a lobe is the lobe, but for the bands left out.
+    /// Checks that a point of light under a lobe is the lobe, but for the bands left out.
     #[test]
     fn a_point_becomes_the_lobe() {
         use super::super::grid::Spread;
