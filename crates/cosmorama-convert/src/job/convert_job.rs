@@ -1,7 +1,7 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use cosmorama::filter::FilterSettings;
+use cosmorama::filter::{FilterSettings, Kernel};
 use cosmorama::lighting::PreparedLight;
 use cosmorama::raster::Rgba;
 use cosmorama::render::Resampler;
@@ -113,6 +113,10 @@ impl ConvertJob {
         warnings.extend(shape_warning(geometry, &target));
         content.fit_eyes(&mut input, &target, warnings);
         let mut filter = if content.has_files() { filter(geometry, warnings) } else { FilterSettings::DEFAULT };
+        if settings.light.is_some() {
+            // The mirror of a chain keeps the light of suns.
+            filter = FilterSettings { kernel: Kernel::LIGHT, anti_ringing: false, ..filter };
+        }
         let mut light = Light::resolve(settings, &input, &target, warnings)?;
         let layers = if content == Content::World && settings.light.is_none() {
             LayerPlan::resolve(settings, (&input, &target, &light), &mut filter, warnings)?
