@@ -18,9 +18,9 @@ use crate::sphere::Direction;
 const RING_PIECES: usize = 16;
 const PIECES: usize = 4;
 
-/// Blocks of texels, taken as points, in a step of the grid along a side. The shortest waves turn a twelfth over a block; what a lobe
+/// Blocks of texels, taken as points, in a step of the grid along a side. The shortest waves turn a tenth over a block; what a lobe
 /// leaves of them is next to nothing.
-const BLOCKS: f64 = 3.0;
+const BLOCKS: f64 = 2.5;
 
 /// Gives a grid the light of all texels but bright points.
 pub(super) fn gather(lit: &LitTexels, (bright, mean): (&BrightPoints, f64), size: GridSize) -> Vec<Vec<Channels>> {
