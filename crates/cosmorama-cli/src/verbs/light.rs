@@ -1,13 +1,12 @@
 use std::process::ExitCode;
 
 use anyhow::Result;
-use cosmorama::lighting::{Lobe, SMOOTHEST};
+use cosmorama::lighting::{ChainLevel, Lobe, RoughnessMap, SMOOTHEST};
 use cosmorama_convert::{Conversion, LightLevel, LightNormalisation, LightSettings};
 use cosmorama_spec::Shape;
 
 use super::{convert, harmonics};
 use crate::args::light::lobe::LobeName;
-use crate::args::light::roughness::{ChainLevel, RoughnessMap};
 use crate::args::{DiffuseArgs, LightArgs, LightVerb, MapArgs, Method, SpecularArgs, Unit};
 use crate::console::Console;
 use crate::failure::usage;
@@ -83,7 +82,7 @@ fn chain(args: &SpecularArgs, levels: usize) -> Result<Vec<LightLevel>> {
             "--levels is for ggx and charlie, which have a roughness; phong and blinn have one exponent",
         ));
     }
-    let map = args.roughness_map.unwrap_or(RoughnessMap::Squared);
+    let map = args.roughness_map.map_or(RoughnessMap::Squared, RoughnessMap::from);
     let to_cube = args.map.to.as_ref().map(|spec| matches!(spec.shape, Shape::Cube(_)));
     let named = || ["{face}", "%c", ".ktx2", ".dds"].iter().any(|mark| args.map.output.contains(mark));
     if map.goes_by_faces() && !to_cube.unwrap_or_else(named) {

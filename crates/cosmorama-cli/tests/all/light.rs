@@ -203,7 +203,7 @@ fn levels_of_a_chain_are_maps_of_their_roughness() {
     save_smooth_sky(&bench);
     let chain = ["light", "specular", "sky.exr", "rough_{level}.exr", "--alpha", "0,0.1,0.5", "--size", "64"];
     bench.succeed(&chain);
-    bench.succeed(&["convert", "sky.exr", "mirror.exr", "--to", "equirect", "--size", "64", "--kernel", "light"]);
+    bench.succeed(&["convert", "sky.exr", "mirror.exr", "--to", "equirect", "--size", "64"]);
     bench.succeed(&["light", "specular", "sky.exr", "second.exr", "--alpha", "0.1", "--size", "32"]);
     bench.succeed(&["light", "specular", "sky.exr", "third.exr", "--alpha", "0.5", "--size", "16"]);
     for (level, other) in ["mirror.exr", "second.exr", "third.exr"].into_iter().enumerate() {
@@ -211,8 +211,8 @@ fn levels_of_a_chain_are_maps_of_their_roughness() {
         assert_eq!(found.len(), 2048 >> (2 * level));
         assert_eq!(found.len(), expected.len());
         for (found, expected) in found.iter().flatten().zip(expected.iter().flatten()) {
-            // The mirror of `convert` is balanced besides.
-            let most = if level == 0 { 2e-3 } else { 1e-4 };
+            // The mirror has a kernel of its own.
+            let most = if level == 0 { 5e-3 } else { 1e-4 };
             assert!((found / expected - 1.0).abs() < most, "level {level}: {found}, {expected}");
         }
     }

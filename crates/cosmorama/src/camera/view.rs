@@ -74,6 +74,17 @@ impl View {
         at(inside)
     }
 
+    /// Returns the longitude of the plane's origin in an upright cylinder, whose rows are rings of one latitude and whose columns lie
+    /// at longitudes evenly apart; `None` for other views.
+    pub(crate) fn upright_cylinder(&self) -> Option<f64> {
+        use ProjectionKind::{CentralCylinder, EqualAreaCylinder, Equirectangular, Mercator};
+        let is_cylinder =
+            matches!(self.projection, Equirectangular(_) | Mercator(_) | CentralCylinder(_) | EqualAreaCylinder(_));
+        let is_upright = self.orientation.to_world(Direction::UP) == Direction::UP;
+        let front = self.orientation.to_world(Direction::FRONT).vector();
+        (is_cylinder && is_upright).then(|| front.x.atan2(-front.z))
+    }
+
     /// Returns whether every direction of the world is in the picture: all longitudes, from pole to pole.
     pub fn covers_sphere(&self) -> bool {
         let sees_pole = |pole| {

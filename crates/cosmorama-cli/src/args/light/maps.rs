@@ -7,7 +7,7 @@ use cosmorama_io::FrameList;
 use cosmorama_spec::{DepthName, Missing, Size, Spec, TransferName};
 
 use super::lobe::LobeName;
-use super::roughness::RoughnessMap;
+use super::roughness::RoughnessMapName;
 use crate::args::convert::{LimitArgs, frame_list};
 use crate::args::parse::listed;
 use crate::args::parse::number::degrees;
@@ -75,7 +75,7 @@ pub(crate) struct SpecularArgs {
     /// linear: α = level/(N−1). squared and gltf: α = roughness², roughness = level/(N−1). filament: α = roughness², roughness =
     /// 1 − √(1 − level/(N−1)). unreal, three: α = roughness², roughness by the size of faces, as these programs read it.
     #[arg(long, value_enum, value_name = "MAP", hide_possible_values = true, help_heading = "Light")]
-    pub(crate) roughness_map: Option<RoughnessMap>,
+    pub(crate) roughness_map: Option<RoughnessMapName>,
     /// lobes: averages under the lobe; mipmap: plain mip maps of the faces, as in 1986
     #[arg(long, value_enum, value_name = "METHOD", default_value_t = Method::Lobes, hide_possible_values = true, help_heading = "Light")]
     pub(crate) method: Method,

@@ -3,7 +3,7 @@
 mod harmonics;
 pub(crate) mod lobe;
 mod maps;
-pub(crate) mod roughness;
+mod roughness;
 
 use clap::{Args, Subcommand};
 

@@ -10,7 +10,6 @@ use super::grid::{Channels, GridSize, Spread, Taps};
 use super::points::{BrightPoints, brightness};
 use crate::camera::PixelPoint;
 use crate::lighting::lobes::{LitTexels, LitView};
-use crate::projection::ProjectionKind;
 use crate::raster::Rgba;
 use crate::sphere::Direction;
 
@@ -73,15 +72,8 @@ impl Piece<'_> {
     /// Returns the windows across of each block of columns in an upright panorama, whose rows are rings of one colatitude; `None` for
     /// any other view.
     fn columns(&self, size: GridSize) -> Option<Vec<Taps>> {
-        use ProjectionKind::{CentralCylinder, EqualAreaCylinder, Equirectangular, Mercator};
         let view = &self.view.source.view;
-        let is_cylinder =
-            matches!(view.projection, Equirectangular(_) | Mercator(_) | CentralCylinder(_) | EqualAreaCylinder(_));
-        if !is_cylinder || view.orientation.to_world(Direction::UP) != Direction::UP {
-            return None;
-        }
-        let front = view.orientation.to_world(Direction::FRONT).vector();
-        let turn = front.x.atan2(-front.z);
+        let turn = view.upright_cylinder()?;
         let longitude = |first: usize| {
             let middle = 0.5 * (first + (first + self.side).min(view.width())) as f64;
             view.grid.to_plane(PixelPoint::new(middle, 0.5)).x + turn
