@@ -289,14 +289,15 @@ mod tests {
             spread.add(size.windows(direction), [light; 4]);
             expected.iter_mut().zip(smooth(direction)).for_each(|(sum, value)| *sum += f64::from(value * light));
         }
-        let mut ring = spread.ring();
+        let (mut ring, colatitude) = (spread.ring(), 0.02f64);
         for k in 0..40 {
             let longitude = 0.2 * f64::from(k);
             ring.add(&size.across(longitude), [2.0; 4]);
-            let at = Direction::from_unit([0.02 * longitude.sin(), 0.9998f64, -0.02 * longitude.cos()].into());
+            let (sine, cosine) = colatitude.sin_cos();
+            let at = Direction::from_unit([sine * longitude.sin(), cosine, -sine * longitude.cos()].into());
             expected.iter_mut().zip(smooth(at)).for_each(|(sum, value)| *sum += f64::from(2.0 * value));
         }
-        spread.add_ring(size.down(0.02f64.atan2(0.9998)), &mut ring);
+        spread.add_ring(size.down(colatitude), &mut ring);
         let mut found = [0.0f64; 4];
         for (row, values) in spread.into_rows().into_iter().zip(samples(size)) {
             for (cell, value) in row.iter().zip(&values) {
