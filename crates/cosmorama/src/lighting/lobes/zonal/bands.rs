@@ -52,6 +52,16 @@ impl Bands {
         self.0.len() - 1
     }
 
+    /// Returns the angle over which light may be taken together, in radians. A band is weakened by (l·angle)²/24, the variance of a
+    /// square; of all bands that is no more than what is left out.
+    pub(super) fn grain(&self) -> f64 {
+        let bent = self.0.iter().enumerate().map(|(l, factor)| {
+            let bent = (l * l) as f64 * factor / self.0[0];
+            (2 * l + 1) as f64 * bent * bent
+        });
+        (24.0 * LEFT_OUT / bent.sum::<f64>().sqrt()).sqrt()
+    }
+
     /// Returns the factor of a band.
     pub(super) fn factor(&self, l: usize) -> f64 {
         self.0[l]

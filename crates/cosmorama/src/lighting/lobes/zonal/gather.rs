@@ -17,15 +17,26 @@ use crate::sphere::Direction;
 const RING_PIECES: usize = 16;
 const PIECES: usize = 4;
 
-/// Blocks of texels, taken as points, in a step of the grid along a side. The shortest waves turn a tenth over a block; what a lobe
-/// leaves of them is next to nothing.
+/// Blocks of texels, taken as points, in a step of the grid along a side, at least.
 const BLOCKS: f64 = 2.5;
 
+/// Grid that takes light, and how coarsely.
+#[derive(Clone, Copy)]
+pub(super) struct Taker {
+    pub(super) size: GridSize,
+    /// Angle over which light may be taken together.
+    pub(super) grain: f64,
+    /// Mean radiance of the world.
+    pub(super) mean: f64,
+}
+
 /// Gives a grid the light of all texels but bright points.
-pub(super) fn gather(lit: &LitTexels, (bright, mean): (&BrightPoints, f64), size: GridSize) -> Vec<Vec<Channels>> {
+pub(super) fn gather(lit: &LitTexels, bright: &BrightPoints, taker: Taker) -> Vec<Vec<Channels>> {
+    let Taker { size, grain, mean } = taker;
+    let most = grain.min(PI / size.rows as f64 / BLOCKS);
     let mut all = Spread::new(size);
     for (view, taken) in lit.views().zip(&bright.taken) {
-        let side = (PI / size.rows as f64 / BLOCKS / view.source.texel_pitch) as usize;
+        let side = (most / view.source.texel_pitch) as usize;
         let piece = Piece { view, taken, side: side.max(1), mean: mean as f32 };
         let columns = piece.columns(size);
         let (height, pieces) = (view.size().1, if columns.is_some() { RING_PIECES } else { PIECES });

@@ -11,7 +11,7 @@ use fearless_simd::{Level, dispatch};
 use rayon::prelude::*;
 
 use self::bands::Bands;
-use self::gather::gather;
+use self::gather::{Taker, gather};
 use self::grid::{Channels, Grid, GridSize};
 use self::legendre::Parts;
 use self::points::{BrightPoints, Point, Totals};
@@ -62,8 +62,9 @@ impl ZonalLight {
         let totals = Totals::of(lit);
         let bright = BrightPoints::of(lit, &totals);
         let Totals { shown, has_negative, mean, .. } = totals;
+        let grain = lobes.iter().map(|lobe| lobe.bands.grain()).fold(f64::INFINITY, f64::min);
         let size = GridSize::of(highest);
-        let spectrum = Spectrum::of(size, &gather(lit, (&bright, mean), size), highest);
+        let spectrum = Spectrum::of(size, &gather(lit, &bright, Taker { size, grain, mean }), highest);
         Some(Self { spectrum, lobes, bright: bright.points, shown, has_negative })
     }
 
