@@ -56,7 +56,7 @@ impl RoughnessMap {
 const THREE: [(f64, f64); 5] = [(-2.0, 1.0), (-1.0, 0.8), (2.0, 0.4), (3.0, 0.305), (4.0, 0.21)];
 
 fn three(mip: f64) -> f64 {
-    let part = THREE.windows(2).find(|ends| mip < ends[1].0);
+    let part = THREE.windows(2).find(|ends| mip <= ends[1].0);
     match part {
         Some([(first, rough), (last, smooth)]) => rough + (mip - first).max(0.0) / (last - first) * (smooth - rough),
         _ => (-mip / 2.0).exp2() / 1.16,
