@@ -7,7 +7,7 @@ use crate::filter::{CrossSection, Kernel, Prepared};
 use crate::raster::{Image, Rgba};
 use crate::sphere::Direction;
 
-/// What a frame sees while its shutter is open: the target's view at each of some moments.
+/// Exposure of a frame: the target's view at each of some moments while the shutter is open.
 ///
 /// There are as many moments as the fastest pixel needs to go by no more than half a pixel from one to the next, or by
 /// half a texel where those are larger: then the pixels' kernels make an even streak. Where nothing moves there is one.
@@ -163,7 +163,7 @@ mod tests {
     use crate::sphere::Angle;
     use crate::world::World;
 
-    /// A world of fine waves, with a sun of 1000 beside the middle if it `has_sun`.
+    /// Returns a world of fine waves, with a sun of 1000 beside the middle if it `has_sun`.
     fn world(has_sun: bool) -> (World, crate::world::Light) {
         let wave = |i: usize, j: usize| 0.5 + 0.5 * (i as f32 * 0.9).sin() * (j as f32 * 0.7).cos();
         let texel = |i: usize, j: usize| {
@@ -179,7 +179,7 @@ mod tests {
             .expect("a view")
     }
 
-    /// A pan with a roll, which takes the outermost pixels some eight pixels in a frame.
+    /// Returns a pan with a roll, which takes the outermost pixels some eight pixels in a frame.
     fn turn() -> Turn {
         let angles = [Ramp { from: -6.0, to: 6.0 }, Ramp { from: -2.0, to: 2.0 }, Ramp { from: -10.0, to: 10.0 }];
         Turn { angles, fov: None, times: [0.0, 1.0], easing: Default::default() }

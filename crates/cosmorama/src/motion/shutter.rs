@@ -1,4 +1,4 @@
-/// How long, and when, each frame is exposed.
+/// Time of each frame's exposure: its length, its place, and its light.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Shutter {
     /// Time that it is open, as a fraction of the interval from frame to frame: 0.5 is a shutter of 180°.

@@ -3,7 +3,7 @@ use thiserror::Error;
 
 use crate::sphere::{Angle, Orientation};
 
-/// Where a camera looks at one moment.
+/// Orientation and field of view of a camera at one moment.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pose {
     /// Orientation in the world.
@@ -28,7 +28,7 @@ pub struct Key {
     pub pose: Pose,
 }
 
-/// How a camera moves from key to key.
+/// Movement of a camera from key to key.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Smoothness {
     /// At a constant rate along the shortest arc (Shoemake 1985, *slerp*). The rate jumps at keys.
@@ -237,7 +237,7 @@ mod tests {
         Track::new(keys, smoothness).expect("a track")
     }
 
-    /// Angle between two orientations, in degrees.
+    /// Returns the angle between two orientations, in degrees.
     fn apart(a: Orientation, b: Orientation) -> f64 {
         short_axis(a.rotation().inverse() * b.rotation()).length().to_degrees()
     }
