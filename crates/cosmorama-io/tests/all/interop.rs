@@ -6,7 +6,10 @@ use std::process::Command;
 
 use crate::common::{picture, program};
 use cosmorama::raster::{Channels, Depth, EncodedImage, Samples, Transfer};
-use cosmorama_io::{EnvMap, Limits, Metadata, Window, WriteOptions, probe, read, write};
+use cosmorama_io::{
+    Choice, EnvMap, LayeredImage, Limits, Metadata, Plane, PlaneSamples, Window, WriteOptions, open, probe, read,
+    read_layers, write, write_layers,
+};
 
 fn run(program: &str, arguments: &[&str]) {
     let output = Command::new(program).args(arguments).output().unwrap();
@@ -196,6 +199,32 @@ fn exr_layers_and_other_channels() {
     run(oiiotool, &[&at("a.exr"), "--dup", "--siappend", "-o", &at("parts.exr")]);
     let file = read(Path::new(&at("parts.exr")), &Limits::default()).unwrap();
     assert!(file.image == image && file.metadata.layers.parts.len() == 2);
+}
+
+#[test]
+fn named_channels_of_every_type_as_others_read_them() {
+    let (Some(oiiotool), Some(exrheader)) = (program("oiiotool"), program("exrheader")) else { return };
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name).display().to_string();
+    let image = picture(40, 30, Channels::Rgb, Depth::Half);
+    let depths: Vec<f32> = (0..1200).map(|k| 1e6 + k as f32).collect();
+    let plane = |name: &str, samples| Plane { name: name.to_owned(), samples };
+    let ids = plane("objectId", PlaneSamples::Uint((0..1200).collect()));
+    let planes = vec![ids.clone(), plane("depth.Z", PlaneSamples::Float(depths.clone()))];
+    let layered = LayeredImage { size: (40, 30), picture: Some(&image), names: Vec::new(), planes };
+    write_layers(at("layers.exr"), layered, &WriteOptions::default()).unwrap();
+
+    let header = Command::new(exrheader).arg(at("layers.exr")).output().unwrap();
+    let header = String::from_utf8_lossy(&header.stdout).into_owned();
+    for channel in ["R, 16-bit floating-point", "depth.Z, 32-bit floating-point", "objectId, 32-bit unsigned integer"] {
+        assert!(header.contains(channel), "{channel} is not in {header}");
+    }
+    // What it writes again has the same values.
+    run(oiiotool, &[&at("layers.exr"), "--ch", "R,G,B,depth.Z", "-d", "float", "-o", &at("theirs.exr")]);
+    let (path, limits) = (at("theirs.exr"), Limits::default());
+    let read =
+        read_layers(open(Path::new(&path)).unwrap(), &path, &limits, (&Choice::default(), &["depth.Z"])).unwrap();
+    assert_eq!(read[0].samples, PlaneSamples::Float(depths));
 }
 
 #[test]

@@ -194,3 +194,33 @@ fn names(headers: &[&Header], channels: Channels) -> PictureNames {
         PictureNames::Given(names)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn groups_are_read_together_as_far_as_there_is_room() {
+        let channel = |name: &str| NamedChannel { name: name.to_owned(), kind: SampleKind::Float, is_full: true };
+        let channels: Vec<_> = ["a.Z", "b.Z", "c.Z", "d.Z"].map(channel).into();
+        let plan = |room| LayerPlan { groups: grouped(&channels), room, ..LayerPlan::default() };
+        let sizes = |room| plan(room).batches(10).iter().map(|batch| batch.len()).collect::<Vec<_>>();
+        assert_eq!(sizes(1000), [4]);
+        assert_eq!(sizes(80), [2, 2]);
+        assert_eq!(sizes(120), [3, 1]);
+        assert_eq!(sizes(0), [1, 1, 1, 1], "one at least");
+        // Two groups read, four made, and the numbers of one.
+        assert_eq!(plan(80).bytes(10, 5), 2 * 40 + 4 * 20 + 160);
+        assert_eq!(LayerPlan::default().bytes(10, 5), 0);
+    }
+
+    #[test]
+    fn files_share_the_channels_that_all_have() {
+        let channel = |name: &str, kind| NamedChannel { name: name.to_owned(), kind, is_full: true };
+        let merge = |one, other| merged(&channel("Z", one), &[vec![channel("Z", other)]]).map(|channel| channel.kind);
+        assert_eq!(merge(SampleKind::Half, SampleKind::Half), Some(SampleKind::Half));
+        assert_eq!(merge(SampleKind::Half, SampleKind::Float), Some(SampleKind::Float));
+        assert_eq!(merge(SampleKind::Uint, SampleKind::Float), None);
+        assert_eq!(merged(&channel("Z", SampleKind::Half), &[vec![channel("A", SampleKind::Half)]]), None);
+    }
+}

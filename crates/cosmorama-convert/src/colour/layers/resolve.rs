@@ -2,7 +2,7 @@
 
 use cosmorama::camera::View;
 use cosmorama::filter::{FilterKind, FilterSettings};
-use cosmorama_io::{Format, Header};
+use cosmorama_io::{Format, Header, Layers};
 
 use super::{LayerContent, LayerPlan, LayerRules};
 use crate::colour::Light;
@@ -154,34 +154,39 @@ fn without_effect(settings: &Conversion, plan: &LayerPlan) -> Vec<Diagnostic> {
     idle.map(|(_, _, told)| Diagnostic::warning(Code::NoEffect, format!("{told} go into the output"))).collect()
 }
 
-/// Checks that a choice of parts and channels is for files that have such, and says where a file has parts that are not read.
+/// Checks that a choice of parts and channels is for files that have such, and says where files have parts that are not read.
 pub(crate) fn check_choice(settings: &Conversion, input: &Input, told: &mut Vec<Diagnostic>) -> Result<()> {
+    let first = input.frames.first().copied().flatten();
     for (view, header, _) in input.present() {
-        let path = view.files.path(input.frames.first().copied().flatten()).display().to_string();
         for (is_given, option) in [(settings.part.is_some(), PART), (!settings.channels.is_empty(), CHANNELS)] {
             if is_given && header.format != Format::Exr {
+                let path = view.files.path(first).display().to_string();
                 return Err(usage(format!(
                     "{option} is for OpenEXR files, but {path} is {}; leave it out",
                     header.format
                 )));
             }
         }
-        let layers = &header.metadata.layers;
-        if settings.part.is_none() && !layers.parts.is_empty() {
-            let labels: Vec<_> = layers.parts.iter().enumerate().map(|(index, part)| part.label(index)).collect();
-            let message = format!(
-                "{path} has {} parts, of which {} is read; choose with {PART}: {}",
-                labels.len(),
-                labels[layers.part],
-                listed(labels.iter().map(String::as_str))
-            );
-            let warning = Diagnostic::warning(Code::Parts, message).about(&path);
-            if !told.contains(&warning) {
-                told.push(warning);
-            }
-        }
+    }
+    let mut in_parts = input.present().filter(|(_, header, _)| !header.metadata.layers.parts.is_empty());
+    // Of the faces of a cube, one says it for all.
+    if let (None, Some((view, header, _))) = (&settings.part, in_parts.next()) {
+        let path = view.files.path(first).display().to_string();
+        told.push(unread_parts(&path, &header.metadata.layers));
     }
     Ok(())
+}
+
+/// Returns the warning about a file of several parts.
+fn unread_parts(path: &str, layers: &Layers) -> Diagnostic {
+    let labels: Vec<_> = layers.parts.iter().enumerate().map(|(index, part)| part.label(index)).collect();
+    let message = format!(
+        "{path} has {} parts, of which {} is read; choose with {PART}: {}",
+        labels.len(),
+        labels[layers.part],
+        listed(labels.iter().map(String::as_str))
+    );
+    Diagnostic::warning(Code::Parts, message).about(path)
 }
 
 /// Lists names, and how many more there are.

@@ -97,7 +97,7 @@ fn sort(layer: &str, channels: Vec<&NamedChannel>, groups: &mut Vec<LayerGroup>,
         let name = base(&channel.name);
         let is_alpha = name.eq_ignore_ascii_case("A");
         // A mist is a share of 0 to 1, whatever its channel is called.
-        let is_distance = is_depth(name) && last != "mist" || is_depth(last) && !is_alpha;
+        let is_distance = is_depth(name) && !last.eq_ignore_ascii_case("mist") || is_depth(last) && !is_alpha;
         if is_distance {
             groups.push(group([channel].into_iter(), LayerContent::Depth));
         } else {

@@ -64,7 +64,8 @@ impl<'a> Offer<'a> {
         Ok(())
     }
 
-    fn names(&self) -> impl Iterator<Item = String> + use<'_> {
+    /// Visits the names of the channels.
+    pub(super) fn names(&self) -> impl Iterator<Item = String> + use<'_> {
         self.channels.iter().map(|index| self.part.channels.list[*index].name.to_string())
     }
 }

@@ -35,7 +35,7 @@ impl Selection {
         let (offer, indices) = find(&plain)
             .or_else(|| find(&layered))
             .or_else(|| find(&single))
-            .ok_or_else(|| format!("the channels {}", names(parts).join(", ")))?;
+            .ok_or_else(|| format!("the channels {}", offered(parts, offers).join(", ")))?;
         Self::checked(parts, offer, indices)
     }
 
@@ -113,6 +113,11 @@ impl Selection {
 fn layers_of(parts: &[Part], offer: &Offer<'_>) -> Layers {
     let parts = if parts.len() > 1 { described(parts) } else { Vec::new() };
     Layers { parts, part: offer.index, ..Layers::default() }
+}
+
+/// Returns the names of channels that are offered; where none are, of all that there are.
+fn offered(parts: &[Part], offers: &[Offer<'_>]) -> Vec<String> {
+    if offers.is_empty() { names(parts) } else { offers.iter().flat_map(Offer::names).collect() }
 }
 
 fn names(parts: &[Part]) -> Vec<String> {
