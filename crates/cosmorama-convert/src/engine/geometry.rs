@@ -1,6 +1,7 @@
 use cosmorama::raster::{Channels, Depth, FixedCodec, FixedDecoder, FixedLight, FramePool, Image, Rgba};
 use cosmorama::render::{Arithmetic, Plan, Progress, Stopped, Watched};
 
+use crate::colour::LayerContent;
 use crate::diagnostic::{Code, Diagnostic, KERNEL, MEMORY};
 use crate::engine::{Balance, BalancedLight, Shares, balance};
 use crate::job::ConvertJob;
@@ -116,9 +117,11 @@ fn whole<P>(image: Image<P>, Watched { progress, .. }: Watched) -> Result<Image<
     if progress.advance(1.0).is_break() { Err(Stopped) } else { Ok(image) }
 }
 
-/// Returns whether geometry would be used more than once.
+/// Returns whether geometry would be used more than once: by several frames, or for further channels.
 fn pays(job: &ConvertJob) -> bool {
-    job.outputs.frames.len() > 1
+    let layers = &job.layers;
+    let filtered = layers.groups.iter().filter(|group| group.content != LayerContent::Labels).count();
+    job.outputs.frames.len() > 1 || filtered + usize::from(!layers.leaves_picture_out()) > 1
 }
 
 /// Makes the plans of all target views, as far as they fit into memory beside what is `taken`.
@@ -142,7 +145,7 @@ fn plans(
         Ok(plan)
     };
     let plans = job.target.views.iter().map(plan_of).collect::<Result<_, Stopped>>()?;
-    if lacks_room && pays(job) {
+    if lacks_room && job.outputs.frames.len() > 1 {
         warnings.push(anew());
     }
     Ok(plans)

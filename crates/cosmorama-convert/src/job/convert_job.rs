@@ -65,9 +65,6 @@ pub(crate) enum Purpose {
 /// Part of the memory, at most, that a picture decoded beforehand takes.
 const DECODED_PART: u64 = 8;
 
-/// Part of the memory, at most, into which further channels are read at once.
-const READ_PART: u64 = 4;
-
 /// Returns the source of a conversion's files, with the choice of what is read of them.
 fn chosen(settings: &Conversion, content: Content) -> Arc<dyn Files> {
     let (part, channels) = (settings.part.clone(), settings.channels.clone());
@@ -179,9 +176,7 @@ impl ConvertJob {
             Resampler { world, target: &view.view, filter: *filter }.level_bytes() as u64
         });
         let memory = memory.beside_levels(levels.max().unwrap_or(0), input, target)?;
-        self.layers.room = memory.bytes / READ_PART;
-        let made = target.files.iter().map(|file| file.sheet.size.0.saturating_mul(file.sheet.size.1)).sum::<usize>();
-        self.memory = memory.beside_channels(self.layers.bytes(input.texels() as u64, made as u64), input, target)?;
+        self.memory = self.layers.settle(memory, input, target)?;
         (self.coverage, self.worlds) = (coverage, worlds);
         Ok(())
     }

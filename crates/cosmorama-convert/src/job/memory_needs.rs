@@ -64,12 +64,13 @@ impl MemoryBudget {
         Ok(self.beside(levels))
     }
 
-    /// Returns the budget that is left beside the further channels of a frame. It is an error if they do not fit beside a frame.
-    pub(crate) fn beside_channels(self, bytes: u64, input: &Input, target: &Target) -> Result<Self> {
-        let needed = frame_bytes(input, target).saturating_add(bytes);
-        let why = format!("; its further channels are {} of it, and {CHANNELS} takes fewer", human(bytes));
+    /// Returns what is left beside a frame and its further channels, which take at least this many bytes. It is an error if they do
+    /// not fit.
+    pub(crate) fn spare_beside_channels(self, least: u64, input: &Input, target: &Target) -> Result<u64> {
+        let needed = frame_bytes(input, target).saturating_add(least);
+        let why = format!("; its further channels are {} of it, and {CHANNELS} takes fewer", human(least));
         self.allow(needed, "a frame", &why)?;
-        Ok(self.beside(bytes))
+        Ok(self.bytes - needed)
     }
 
     /// Returns the memory left for geometry that all frames share.
