@@ -176,7 +176,7 @@ impl ConvertJob {
             Resampler { world, target: &view.view, filter: *filter }.level_bytes() as u64
         });
         let memory = memory.beside_levels(levels.max().unwrap_or(0), input, target)?;
-        self.memory = self.layers.settle(memory, input, target)?;
+        self.memory = memory.beside_channels(&mut self.layers, input, target)?;
         (self.coverage, self.worlds) = (coverage, worlds);
         Ok(())
     }

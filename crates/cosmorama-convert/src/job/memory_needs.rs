@@ -5,6 +5,7 @@ use cosmorama::projection::ProjectionKind;
 use cosmorama::raster::Rgba;
 use cosmorama_io::Format;
 
+use crate::colour::LayerPlan;
 use crate::diagnostic::{CHANNELS, FILTER, Result};
 use crate::input::{Input, InputView};
 use crate::job::{FrameMemory, QueueDepth};
@@ -64,13 +65,21 @@ impl MemoryBudget {
         Ok(self.beside(levels))
     }
 
-    /// Returns what is left beside a frame and its further channels, which take at least this many bytes. It is an error if they do
-    /// not fit.
-    pub(crate) fn spare_beside_channels(self, least: u64, input: &Input, target: &Target) -> Result<u64> {
+    /// Chooses how many further channels are read at once, and returns the budget that is left beside all of them. It is an error
+    /// if not even the largest group of them fits beside a frame.
+    pub(crate) fn beside_channels(self, layers: &mut LayerPlan, input: &Input, target: &Target) -> Result<Self> {
+        if layers.groups.is_empty() {
+            return Ok(self);
+        }
+        let made = target.files.iter().map(|file| area(file.sheet.size)).fold(0, u64::saturating_add);
+        let read = input.texels() as u64;
+        let least = layers.bytes(read, made);
         let needed = frame_bytes(input, target).saturating_add(least);
         let why = format!("; its further channels are {} of it, and {CHANNELS} takes fewer", human(least));
         self.allow(needed, "a frame", &why)?;
-        Ok(self.bytes - needed)
+        let spare = self.bytes - needed;
+        layers.room = layers.largest_bytes(read).saturating_add(spare.min(self.bytes / READ_PART));
+        Ok(self.beside(layers.bytes(read, made)))
     }
 
     /// Returns the memory left for geometry that all frames share.
@@ -126,6 +135,9 @@ fn describe(target: &Target, link: &str) -> String {
 fn output_bytes(target: &Target) -> u64 {
     pixel_bytes(target.files.iter().flat_map(|file| file.levels()).map(|sheet| sheet.size))
 }
+
+/// Part of the memory, at most, into which further channels are read at once, beside the largest group of them.
+const READ_PART: u64 = 4;
 
 /// Returns the bytes of OpenEXR's planes, into which samples are sorted while their pictures are still held.
 fn plane_bytes(target: &Target) -> u64 {

@@ -5,11 +5,7 @@ use cosmorama::raster::{Channels, Rgba};
 use cosmorama_io::{Header, Layers, NamedChannel, SampleKind};
 
 use super::rules::{LayerContent, LayerGroup, grouped};
-use crate::diagnostic::Result;
-use crate::input::Input;
 use crate::settings::{DepthKind, NormalSpace};
-use crate::source::MemoryBudget;
-use crate::target::{Target, TargetFile};
 
 /// Channels that go along with a picture.
 #[derive(Clone, Debug, Default)]
@@ -95,18 +91,9 @@ impl LayerPlan {
         pixel.saturating_mul(width as u64).saturating_mul(height as u64)
     }
 
-    /// Chooses how many channels are read at once, and returns the memory that is left beside them.
-    pub(crate) fn settle(&mut self, mut memory: MemoryBudget, input: &Input, target: &Target) -> Result<MemoryBudget> {
-        if self.groups.is_empty() {
-            return Ok(memory);
-        }
-        let area = |file: &TargetFile| (file.sheet.size.0 as u64).saturating_mul(file.sheet.size.1 as u64);
-        let (read, made) = (input.texels() as u64, target.files.iter().map(area).fold(0, u64::saturating_add));
-        let spare = memory.spare_beside_channels(self.bytes(read, made), input, target)?;
-        let largest = self.groups.iter().map(bytes_of).max().unwrap_or(0).saturating_mul(read);
-        self.room = largest.saturating_add(spare.min(memory.bytes / READ_PART));
-        memory.bytes -= self.bytes(read, made);
-        Ok(memory)
+    /// Returns the bytes of the largest group in so many pixels: the least that is read at once.
+    pub(crate) fn largest_bytes(&self, pixels: u64) -> u64 {
+        self.groups.iter().map(bytes_of).max().unwrap_or(0).saturating_mul(pixels)
     }
 
     /// Returns the bytes that further channels take at once in a frame whose input and outputs have so many pixels: the channels read
@@ -151,9 +138,6 @@ impl LayerPlan {
         (Self { groups: grouped(&carried), picture, rules, room: 0 }, left_out)
     }
 }
-
-/// Part of the memory, at most, into which channels are read at once, beside the largest group of them.
-const READ_PART: u64 = 4;
 
 /// Returns the bytes of a group's samples in a pixel.
 fn bytes_of(group: &LayerGroup) -> u64 {
