@@ -75,6 +75,8 @@ pub struct Conversion {
     pub quality: Option<u8>,
     /// Lossless compression; sequences of PNG files are compressed for speed, unless given.
     pub compression: Option<Compression>,
+    /// Whether outputs get no metadata of inputs; tags of colours stay.
+    pub strip: bool,
     /// Limits of threads and memory.
     pub limits: LimitSettings,
     /// Source of the bytes of inputs; disk by default.
@@ -245,6 +247,7 @@ impl Default for Conversion {
             mips: false,
             quality: None,
             compression: None,
+            strip: false,
             limits: LimitSettings::default(),
             files: Arc::new(Disk),
             unfinished: Unfinished::default(),

@@ -52,6 +52,9 @@ pub use file::{
 };
 pub use header::{Choice, Format, Header, ImageFile, LayeredImage, Plane, PlaneSamples};
 pub use limits::Limits;
-pub use metadata::{EnvMap, FilePart, Layers, Metadata, NamedChannel, ProfileFault, SampleKind, Window};
+pub use metadata::{
+    Attribute, Carried, EnvMap, Exif, FilePart, Kept, Layers, Metadata, NamedChannel, Pose, ProfileFault, SampleKind,
+    TextChunk, Window,
+};
 pub use pto::{PtoError, PtoImage, PtoPanorama, PtoProject};
 pub use sequence::{FoundFrames, FrameList, FramePattern, Frames};

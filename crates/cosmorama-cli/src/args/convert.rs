@@ -142,6 +142,12 @@ pub(crate) struct ConvertArgs {
     /// PNG, TIFF and OpenEXR: how hard to press, without loss [default: balanced; fast for PNG sequences]
     #[arg(long, value_parser = CompressionParser, value_name = "HOW", hide_short_help = true, help_heading = "Frames and files")]
     pub(crate) compression: Option<CompressionLevel>,
+    /// Write no metadata of the input: no attributes, texts, Exif or XMP
+    ///
+    /// Unless given, they go along where the output's format can hold them and they are still true (docs/metadata.md). Tags of
+    /// colours stay, since they say what the pixels mean, and so does a panorama's place (GPano).
+    #[arg(long, hide_short_help = true, help_heading = "Frames and files")]
+    pub(crate) strip: bool,
     #[command(flatten)]
     pub(crate) limits: LimitArgs,
     /// How to tell what is going on, on standard error

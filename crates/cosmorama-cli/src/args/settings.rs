@@ -37,6 +37,7 @@ impl From<ConvertArgs> for Conversion {
             mips: args.mips,
             quality: args.quality,
             compression: args.compression.map(compression),
+            strip: args.strip,
             limits: args.limits.into(),
             ..Self::default()
         }

@@ -49,6 +49,7 @@ mod output {
     mod bad_output;
     mod colour;
     mod colour_table;
+    mod metadata;
     mod output_shape;
 }
 

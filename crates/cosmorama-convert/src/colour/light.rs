@@ -1,9 +1,11 @@
 use std::path::Path;
+use std::sync::Arc;
 
 use cosmorama::raster::{Channels, ColourMatrix, Depth, Primaries, Rgba, Transfer};
 use cosmorama_io::{Format, Header, Layers, Metadata};
 use cosmorama_spec::{Missing, TransferName};
 
+use super::carried::carried;
 use super::profile;
 use super::working::{Working, clips, white_of};
 use crate::diagnostic::{BACKGROUND, Code, DEPTH, Diagnostic, MISSING, Result, usage_as};
@@ -32,6 +34,8 @@ pub(crate) struct Light {
     pub(crate) working: Working,
     /// Whether negative light is lost in the outputs.
     pub(crate) clips: bool,
+    /// Format of outputs that get metadata of inputs; `None` where none go along.
+    pub(super) carries: Option<Format>,
     /// Whether ICC profiles of inputs are ignored.
     ignores_profiles: bool,
 }
@@ -104,6 +108,7 @@ impl Light {
             background: args.background.map_or(default, |colour| working.colour(colour)),
             working,
             clips: clips(depth, target.format),
+            carries: (!args.strip).then_some(target.format),
             ignores_profiles: args.ignore_profile,
         };
         for (view, header, _) in input.present() {
@@ -258,5 +263,10 @@ fn metadata(
         white_luminance: working.white.filter(|_| target.format == Format::Exr).map(|white| white as f32),
         orientation: None,
         software: Some(concat!("cosmorama ", env!("CARGO_PKG_VERSION")).to_owned()),
+        pose: None,
+        carried: match first.filter(|_| !args.strip) {
+            Some(first) => carried(first, target.format, warnings),
+            None => Arc::default(),
+        },
     }
 }

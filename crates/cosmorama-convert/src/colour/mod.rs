@@ -1,5 +1,7 @@
-//! Transfer functions and primaries of both sides, ICC profiles, further channels, what labels need, and messages about alpha.
+//! Transfer functions and primaries of both sides, ICC profiles, further channels, what labels need, messages about alpha, and
+//! metadata that go along.
 
+mod carried;
 mod labels;
 mod layers;
 mod light;

@@ -135,10 +135,12 @@ impl Run<'_> {
         let light = pool.install(|| light_of(job, engine, stages, frame))?;
         self.look(frame, &light);
         let pictures = stages.alone(Stage::Filter, || self.render(frame, &light))?;
+        let carried = light.carried();
         drop(light);
         let write = || {
             let outputs = frame.files.par_iter().zip(pictures);
-            outputs.try_for_each(|((_, path), levels)| engine.writer().save(levels, path, Threads::All))
+            let save = |path, levels| engine.writer().save_frame(carried.as_ref(), levels, path, Threads::All);
+            outputs.try_for_each(|((_, path), levels)| save(path, levels))
         };
         pool.install(|| stages.alone(Stage::Encode, write))?;
         self.done(frame)

@@ -3,7 +3,8 @@ use std::path::Path;
 use cosmorama::camera::{CameraModel, EquirectCamera, FulldomeCamera, OmnimaxCamera, SamplePositions};
 use cosmorama::circle::Found;
 use cosmorama::layout::{FaceOrder, LayoutKind};
-use cosmorama_io::{EnvMap, Header};
+use cosmorama::sphere::{Angle, Orientation};
+use cosmorama_io::{EnvMap, Header, Pose};
 use cosmorama_spec::{Cube, Packing, Shape, Single, Spec, StereoSpec};
 
 use crate::detect::decision::{
@@ -147,9 +148,11 @@ fn ambiguous(path: &Path, header: &Header, layouts: &[LayoutKind], seen: &Seen) 
 pub(crate) fn declared(shape: &Shape, pattern: &str, header: &Header, warnings: &mut Vec<Diagnostic>) -> Result<Shape> {
     match shape {
         Shape::Single(single) if header.metadata.envmap == Some(EnvMap::LatLong) => {
-            Ok(Shape::Single(single.clone().with_samples(SamplePositions::Edges)))
+            let single = posed(single.clone(), pattern, header, warnings);
+            Ok(Shape::Single(single.with_samples(SamplePositions::Edges)))
         }
         Shape::Single(single) => {
+            let single = posed(single.clone(), pattern, header, warnings);
             if let Some(EnvMap::Cube | EnvMap::GlCube) = header.metadata.envmap {
                 let message = format!(
                     "{pattern} holds the six faces of a cube, as its format or its envmap attribute says, but {FROM} says \
@@ -157,7 +160,7 @@ pub(crate) fn declared(shape: &Shape, pattern: &str, header: &Header, warnings: 
                 );
                 warnings.push(Diagnostic::warning(Code::Declared, message).about(pattern));
             }
-            Ok(Shape::Single(windowed(single.clone(), header)))
+            Ok(Shape::Single(windowed(single, header)))
         }
         Shape::StMap(_) | Shape::Calibrated(_) => Ok(shape.clone()),
         Shape::Cube(Cube { layout: Some(Packing::Files), .. }) => Err(usage(format!(
@@ -167,6 +170,22 @@ pub(crate) fn declared(shape: &Shape, pattern: &str, header: &Header, warnings: 
         Shape::Dual(_) => Ok(shape.clone()),
         Shape::Cube(cube) => Ok(Shape::Cube(declared_cube(cube, pattern, header, warnings)?)),
     }
+}
+
+/// Turns a panorama by its camera's pose, if the SPEC says so.
+fn posed(mut single: Single, pattern: &str, header: &Header, warnings: &mut Vec<Diagnostic>) -> Single {
+    if !single.pose {
+        return single;
+    }
+    let Some(Pose { heading, pitch, roll }) = header.metadata.pose else {
+        let message =
+            format!("{pattern} has no GPano pose, or one that is level and heads north: pose=yes turns nothing");
+        warnings.push(Diagnostic::warning(Code::NoEffect, message).about(pattern));
+        return single;
+    };
+    let [yaw, pitch, roll] = [heading, pitch, roll].map(Angle::from_degrees);
+    single.placement.orientation = Orientation::from_yaw_pitch_roll(yaw, pitch, roll);
+    single
 }
 
 /// Crops a whole panorama to the part that its file declares.

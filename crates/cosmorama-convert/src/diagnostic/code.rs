@@ -50,7 +50,7 @@ pub enum Code {
     OneForBothEyes,
     /// Of two pictures, only the left eye's is used.
     LeftEye,
-    /// A file asks to be rotated, which is ignored.
+    /// A file asks to be turned, and is.
     Orientation,
     /// A file's metadata is ignored.
     Metadata,
@@ -68,6 +68,8 @@ pub enum Code {
     AlphaRange,
     /// A colour profile is not carried over.
     ProfileLost,
+    /// Metadata are not carried over.
+    MetadataLost,
     /// The output cannot name the input's primaries or transfer function.
     Primaries,
     /// Colours lie outside of the output's primaries, and are clipped.

@@ -49,6 +49,7 @@ pub(crate) const MIPS: Mark = Mark(Setting::Mips);
 pub(crate) const LEVELS: Mark = Mark(Setting::Levels);
 pub(crate) const QUALITY: Mark = Mark(Setting::Quality);
 pub(crate) const COMPRESSION: Mark = Mark(Setting::Compression);
+pub(crate) const STRIP: Mark = Mark(Setting::Strip);
 pub(crate) const MEMORY: Mark = Mark(Setting::Memory);
 pub(crate) const PART: Mark = Mark(Setting::Part);
 pub(crate) const CHANNELS: Mark = Mark(Setting::Channels);

@@ -51,6 +51,8 @@ pub enum Setting {
     Quality,
     /// Effort of lossless compression.
     Compression,
+    /// Whether outputs get no metadata of inputs.
+    Strip,
     /// Limit of memory.
     Memory,
     /// Whether an st map is written instead of a picture.
@@ -67,7 +69,7 @@ pub enum Setting {
 
 impl Setting {
     /// All settings.
-    pub const ALL: [Self; 31] = [
+    pub const ALL: [Self; 32] = [
         Self::From,
         Self::To,
         Self::Size,
@@ -93,6 +95,7 @@ impl Setting {
         Self::Levels,
         Self::Quality,
         Self::Compression,
+        Self::Strip,
         Self::Memory,
         Self::StMap,
         Self::Part,
@@ -129,6 +132,7 @@ impl Setting {
             Self::Levels => "levels",
             Self::Quality => "quality",
             Self::Compression => "compression",
+            Self::Strip => "strip",
             Self::Memory => "memory",
             Self::StMap => "st-map",
             Self::Part => "part",

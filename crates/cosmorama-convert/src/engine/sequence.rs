@@ -6,10 +6,12 @@
 
 use std::collections::VecDeque;
 use std::path::Path;
+use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 
 use cosmorama::raster::Threads;
+use cosmorama_io::Carried;
 use rayon::{Scope, ThreadPool};
 
 use crate::diagnostic::{InPlace, Result, bail};
@@ -107,7 +109,8 @@ impl<'a> Sequence<'a> {
             }
             let made = watcher.render(frame, &light);
             let pictures = made.at(|| named(frame)).map_err(failed)?;
-            queues.written.push_back((frame, self.have_written((scope, failure, place), frame, pictures)));
+            let written = self.have_written((scope, failure, place), frame, (pictures, light.carried()));
+            queues.written.push_back((frame, written));
         }
     }
 
@@ -123,14 +126,21 @@ impl<'a> Sequence<'a> {
     }
 
     /// Has the pictures of a frame written.
-    fn have_written<'s>(&self, turn: Turn<'_, 's>, frame: &'a FrameOutputs, pictures: Vec<Levels>) -> Results<()>
+    fn have_written<'s>(
+        &self,
+        turn: Turn<'_, 's>,
+        frame: &'a FrameOutputs,
+        (pictures, carried): (Vec<Levels>, Option<Arc<Carried>>),
+    ) -> Results<()>
     where
         'a: 's,
     {
         let Self { engine, stages, .. } = *self;
         let write = |((_, path), levels): (&'a (usize, std::path::PathBuf), Levels)| {
             let path: &'a Path = path;
-            task(turn, move || stages.beside(Stage::Encode, || engine.writer().save(levels, path, Threads::One)))
+            let carried = carried.clone();
+            let save = move || engine.writer().save_frame(carried.as_ref(), levels, path, Threads::One);
+            task(turn, move || stages.beside(Stage::Encode, save))
         };
         frame.files.iter().zip(pictures).map(write).collect()
     }

@@ -1,8 +1,9 @@
 use std::path::Path;
+use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use cosmorama::raster::{Depth, EncodedImage, Encoder, Image, Rgba, Threads};
-use cosmorama_io::{LayeredImage, Plane, WriteOptions, write_layers, write_levels};
+use cosmorama_io::{Carried, LayeredImage, Plane, WriteOptions, write_layers, write_levels};
 
 use crate::colour::{Light, PictureNames};
 use crate::diagnostic::Result;
@@ -59,6 +60,26 @@ impl Writer {
 
     /// Writes an output: a picture and its mip levels. Their memory goes back to the pool.
     pub(crate) fn save(&self, levels: Levels, path: &Path, threads: Threads) -> Result<()> {
+        self.save_with(&self.options, levels, path, threads)
+    }
+
+    /// Writes an output with the metadata of its own frame.
+    pub(crate) fn save_frame(
+        &self,
+        carried: Option<&Arc<Carried>>,
+        levels: Levels,
+        path: &Path,
+        threads: Threads,
+    ) -> Result<()> {
+        let Some(carried) = carried.filter(|carried| **carried != self.options.metadata.carried) else {
+            return self.save(levels, path, threads);
+        };
+        let mut options = self.options.clone();
+        options.metadata.carried = Arc::clone(carried);
+        self.save_with(&options, levels, path, threads)
+    }
+
+    fn save_with(&self, options: &WriteOptions, levels: Levels, path: &Path, threads: Threads) -> Result<()> {
         let pool = &*self.options.pool;
         let encode = |image: Image<Rgba>| {
             if self.is_half {
@@ -76,12 +97,12 @@ impl Writer {
             Levels::Layered { size, picture, planes } => {
                 let picture = picture.map(encode);
                 let layered = LayeredImage { size, picture: picture.as_ref(), names: self.names.clone(), planes };
-                let written = write_layers(path, layered, &self.options);
+                let written = write_layers(path, layered, options);
                 picture.into_iter().for_each(|image| pool.give(image.into_samples()));
                 return Ok(written?);
             }
         };
-        let written = write_levels(path, &encoded, &self.options);
+        let written = write_levels(path, &encoded, options);
         encoded.into_iter().for_each(|image| pool.give(image.into_samples()));
         Ok(written?)
     }

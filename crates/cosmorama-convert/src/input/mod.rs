@@ -24,10 +24,10 @@ pub(crate) use faces::face_shape::FacePicture;
 use std::path::PathBuf;
 
 use cosmorama::camera::View;
-use cosmorama_io::Header;
+use cosmorama_io::{Header, Pose};
 
 use crate::detect::GivenFaces;
-use crate::diagnostic::{Code, Diagnostic, TO};
+use crate::diagnostic::{Code, Diagnostic, FROM, TO};
 
 /// The input of a conversion: views, frames and files.
 pub struct Input {
@@ -39,6 +39,14 @@ pub struct Input {
     pub faces: Option<GivenFaces>,
     /// Files beside those of views: lists of views, masks, calibrations and maps.
     pub beside: Vec<PathBuf>,
+}
+
+/// Complains of a camera's pose.
+fn not_followed(pose: Pose) -> String {
+    format!(
+        "its GPano metadata say {pose}, which is not followed: the middle of the panorama is taken for the front; follow it \
+         with {FROM} equirect:pose=yes, or turn it with yaw=, pitch= and roll= there"
+    )
 }
 
 /// Message for an output with two eyes and an input with one.
@@ -74,18 +82,18 @@ impl Input {
         told
     }
 
-    /// Warns about files that ask to be rotated, which is ignored.
+    /// Tells of files that are turned upright, as they ask.
     fn turned(&self) -> Vec<Diagnostic> {
         let turned = self.present().filter_map(|(view, header, _)| Some((view, header.metadata.orientation?)));
         let mut told: Vec<Diagnostic> = turned
             .map(|(view, orientation)| {
                 let path = view.files.path(self.frames[0]);
                 let message = format!(
-                    "{} asks for being turned or mirrored (orientation {orientation}), but its pixels are taken as they are \
-                     stored; turn it first, as with magick -auto-orient",
+                    "{} is turned or mirrored as it asks (orientation {orientation}); centers, windows and SPECs are of the \
+                     upright picture",
                     path.display()
                 );
-                Diagnostic::warning(Code::Orientation, message).about(path.display())
+                Diagnostic::note(Code::Orientation, message).about(path.display())
             })
             .collect();
         // Faces may share a file.
@@ -101,7 +109,9 @@ impl Input {
             let complaint = |words| Diagnostic::warning(Code::Metadata, format!("{path}: {words}")).about(&path);
             let note = |words| Diagnostic::note(Code::Metadata, format!("{path}: {words}")).about(&path);
             let metadata = &header.metadata;
-            metadata.complaints.iter().map(complaint).chain(metadata.notes.iter().map(note)).collect()
+            let pose = metadata.pose.map(not_followed);
+            let complaints = metadata.complaints.iter().chain(&pose).map(complaint);
+            complaints.chain(metadata.notes.iter().map(note)).collect()
         };
         let mut told: Vec<Diagnostic> = self.present().flat_map(told).collect();
         // Faces may share a file.

@@ -102,9 +102,16 @@ impl Input {
         let frames = frames::find(&files, wanted).map_err(with_faces)?;
         let path = files.path(frames[0]);
         is_one_file(access.files, pattern, &path)?;
-        let header = header(access, &path, eye)?;
+        let mut header = header(access, &path, eye)?;
         let shape = match shape {
-            Some(shape) => declared(shape, pattern, &header, warnings)?,
+            Some(shape) => {
+                let declared = declared(shape, pattern, &header, warnings)?;
+                if matches!(shape, Shape::Single(single) if single.pose) {
+                    // It has been followed.
+                    header.metadata.pose = None;
+                }
+                declared
+            }
             None => match detect(access, &path, &header, warnings)? {
                 (shape, None) => shape,
                 (shape, stereo) => {

@@ -79,6 +79,9 @@ impl Picture {
 
     fn mono(geometry: &GeometrySettings, format: Option<Format>, pixels_per_radian: Option<f64>) -> Result<Vec<Self>> {
         match geometry.to.as_ref().map(|spec| &spec.shape) {
+            Some(Shape::Single(single)) if single.pose => Err(usage(format!(
+                "{TO}: pose=yes is for inputs, whose files say how the camera was held; leave it out"
+            ))),
             Some(Shape::Single(single)) => Self::single(single, geometry, format, pixels_per_radian),
             Some(Shape::Cube(cube)) => {
                 let cube = completed(cube, format);

@@ -20,7 +20,7 @@ use std::path::Path;
 
 pub(crate) use exr::{write_layers, write_planes};
 pub use interface::ReadSeek;
-pub(crate) use interface::{Codec, Source};
+pub(crate) use interface::{Codec, Source, is_beside_others};
 pub use write_options::{Compression, WriteOptions};
 
 use crate::IoError;

@@ -3,11 +3,12 @@ use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
 use cosmorama::layout::{FacePlacement, Naming};
+use cosmorama::raster::FramePool;
 use cosmorama::sphere::CubeFace;
 
-use super::images::{FaceImages, upright};
+use super::images::FaceImages;
 use super::pattern::{FacePattern, LetterCase};
-use crate::file::read;
+use crate::file::{read, upright};
 use crate::header::ImageFile;
 use crate::sequence::FramePattern;
 use crate::{IoError, Limits};
@@ -127,7 +128,7 @@ impl FaceSet {
         }
         let read_upright = |file: &FaceFile| -> Result<ImageFile, IoError> {
             let ImageFile { format, image, metadata, window } = read(&file.path, limits)?;
-            Ok(ImageFile { format, image: upright(image, file.placement), metadata, window })
+            Ok(ImageFile { format, image: upright(image, file.placement, &FramePool::default()), metadata, window })
         };
         let pair = |a: &FaceFile, b: &FaceFile| rayon::join(|| read_upright(a), || read_upright(b));
         let [front, right, back, left, up, down] = &self.faces;

@@ -2,7 +2,10 @@
 
 mod read;
 mod st_pairs;
+mod upright;
 mod write;
+
+pub(crate) use upright::upright;
 
 pub use read::{open, probe, probe_chosen, probe_from, read, read_chosen, read_from, read_in, read_layers};
 pub use st_pairs::{StPairs, probe_pairs, probe_pairs_from, read_pairs, read_pairs_from};

@@ -43,7 +43,7 @@ pub fn probe(path: impl AsRef<Path>) -> Result<Header, IoError> {
 pub fn probe_from(mut source: impl BufRead + Seek, name: impl AsRef<Path>) -> Result<Header, IoError> {
     let name = name.as_ref();
     let format = recognise(name, &mut source)?;
-    codec(format).probe(name, &mut source)
+    Ok(codec(format).probe(name, &mut source)?.upright())
 }
 
 /// Reads a file. [`ImageFile::to_light`] decodes it to linear light.
@@ -104,7 +104,7 @@ pub fn read_in(
 ) -> Result<ImageFile, IoError> {
     let name = name.as_ref();
     let format = recognise(name, &mut source)?;
-    codec(format).decode(name, &mut source, limits, pool)
+    Ok(codec(format).decode(name, &mut source, limits, pool)?.upright(pool))
 }
 
 /// Reads the header of a file like [`probe_from`], for the picture that a choice leaves.
@@ -118,7 +118,7 @@ pub fn probe_chosen(
 ) -> Result<Header, IoError> {
     let name = name.as_ref();
     let format = recognise(name, &mut source)?;
-    codec(format).probe_chosen(name, &mut source, choice)
+    Ok(codec(format).probe_chosen(name, &mut source, choice)?.upright())
 }
 
 /// Reads the picture that a choice leaves of a file, like [`read_in`].
@@ -133,7 +133,7 @@ pub fn read_chosen(
 ) -> Result<ImageFile, IoError> {
     let name = name.as_ref();
     let format = recognise(name, &mut source)?;
-    codec(format).decode_chosen(name, &mut source, memory, choice)
+    Ok(codec(format).decode_chosen(name, &mut source, memory, choice)?.upright(memory.1))
 }
 
 /// Reads channels by their full names, each in its own sample type, from the part whose picture a choice leaves. They have that

@@ -1,7 +1,7 @@
 use std::io::{BufRead, Seek};
 use std::path::Path;
 
-use cosmorama::raster::{Channels, Depth, Samples};
+use cosmorama::raster::{Channels, Depth, FramePool, Samples};
 
 use super::read::open;
 use crate::codec::{codec, recognise};
@@ -42,7 +42,7 @@ pub fn probe_pairs(path: impl AsRef<Path>) -> Result<Header, IoError> {
 pub fn probe_pairs_from(mut source: impl BufRead + Seek, name: impl AsRef<Path>) -> Result<Header, IoError> {
     let name = name.as_ref();
     let format = recognise(name, &mut source)?;
-    codec(format).probe_pairs(name, &mut source)
+    Ok(codec(format).probe_pairs(name, &mut source)?.upright())
 }
 
 /// Reads the two channels of an st map without decoding them. In OpenEXR files these are R and G, u and v, s and t, or
@@ -66,7 +66,7 @@ pub fn read_pairs_from(
 ) -> Result<StPairs, IoError> {
     let path = name.as_ref();
     let format = recognise(path, &mut source)?;
-    let file = codec(format).decode_pairs(path, &mut source, limits)?;
+    let file = codec(format).decode_pairs(path, &mut source, limits)?.upright(&FramePool::default());
     let count = file.image.channels().count();
     // Grey, with or without alpha; the two channels of an OpenEXR file are counted alike.
     if !file.image.channels().is_colour() && format != Format::Exr {

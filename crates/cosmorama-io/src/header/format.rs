@@ -52,6 +52,7 @@ struct Properties {
     holds_levels: bool,
     has_compression: bool,
     holds_icc: bool,
+    holds_exif: bool,
 }
 
 impl Properties {
@@ -67,6 +68,7 @@ impl Properties {
         holds_levels: false,
         has_compression: false,
         holds_icc: false,
+        holds_exif: false,
     };
 
     /// Properties that cube map textures share: the depths and channels that every graphics card supports.
@@ -85,6 +87,7 @@ impl Properties {
         primaries: HeldPrimaries::Any,
         has_compression: true,
         holds_icc: true,
+        holds_exif: true,
         ..Self::PLAIN
     };
 
@@ -95,6 +98,7 @@ impl Properties {
         primaries: HeldPrimaries::Any,
         longest_side: Some(u16::MAX as usize),
         holds_icc: true,
+        holds_exif: true,
         ..Self::PLAIN
     };
 
@@ -105,6 +109,7 @@ impl Properties {
         primaries: HeldPrimaries::Any,
         has_compression: true,
         holds_icc: true,
+        holds_exif: true,
         ..Self::PLAIN
     };
 
@@ -249,6 +254,21 @@ impl Format {
     /// Returns whether the format offers several levels of lossless compression.
     pub const fn has_compression(self) -> bool {
         self.properties().has_compression
+    }
+
+    /// Returns whether the format can hold Exif metadata and an XMP packet.
+    pub const fn holds_exif(self) -> bool {
+        self.properties().holds_exif
+    }
+
+    /// Returns whether the format has attributes of any name and type.
+    pub const fn holds_attributes(self) -> bool {
+        matches!(self, Self::Exr)
+    }
+
+    /// Returns whether the format has texts of any keyword.
+    pub const fn holds_text(self) -> bool {
+        matches!(self, Self::Png)
     }
 
     /// Returns whether the format can hold an ICC profile.

@@ -1,15 +1,20 @@
+use std::fmt;
+
 use roxmltree::{Document, Node};
 
 use crate::Window;
 
 /// Namespace of Google's XMP properties, which declare that a photograph is a panorama, and which part of one.
-const NAMESPACE: &str = "http://ns.google.com/photos/1.0/panorama/";
+pub(crate) const NAMESPACE: &str = "http://ns.google.com/photos/1.0/panorama/";
+const RDF: &str = "http://www.w3.org/1999/02/22-rdf-syntax-ns#";
 
 /// Content of a packet.
 #[derive(Debug, Default, PartialEq)]
 pub(crate) struct Said {
     /// Part of an equirectangular panorama of 360°×180° that the picture is.
     pub(crate) window: Option<Window>,
+    /// Pose of the camera.
+    pub(crate) pose: Option<Pose>,
     /// Statements that cannot be right, or that are ignored.
     pub(crate) complaints: Vec<String>,
 }
@@ -22,11 +27,36 @@ pub(crate) fn parse(packet: &[u8], size: (usize, usize)) -> Said {
     };
     let words = Words(&document);
     match window(&words, size) {
-        Ok(window) => Said { window, complaints: window.and_then(|_| pose(&words)).into_iter().collect() },
+        Ok(window) => Said { window, pose: window.and_then(|_| pose(&words)), complaints: Vec::new() },
         Err(reason) => {
             let complaint = format!("its GPano metadata are left out: {reason}; mend or remove them");
-            Said { window: None, complaints: vec![complaint] }
+            Said { window: None, pose: None, complaints: vec![complaint] }
         }
+    }
+}
+
+/// Pose of a panorama's camera, in degrees.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Pose {
+    /// Compass heading of the panorama's middle, clockwise from north.
+    pub heading: f64,
+    /// Angle of the panorama's middle above the horizon.
+    pub pitch: f64,
+    /// Clockwise turn of the camera: a level horizon runs down to the left for positive ones.
+    pub roll: f64,
+}
+
+/// Writes the angles that are not zero, as the file names them.
+impl fmt::Display for Pose {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { heading, pitch, roll } = *self;
+        let named = [("PoseHeadingDegrees", heading), ("PosePitchDegrees", pitch), ("PoseRollDegrees", roll)];
+        let turned: Vec<String> = named
+            .into_iter()
+            .filter(|(_, angle)| *angle != 0.0)
+            .map(|(name, angle)| format!("{name} {angle}"))
+            .collect();
+        f.write_str(&turned.join(", "))
     }
 }
 
@@ -111,20 +141,15 @@ impl Axis {
     }
 }
 
-/// Describes the camera's pose, which is ignored.
-fn pose(words: &Words<'_>) -> Option<String> {
-    let turned = ["PoseHeadingDegrees", "PosePitchDegrees", "PoseRollDegrees"].into_iter().filter_map(|name| {
-        let text = words.word(name)?;
-        (text.parse::<f64>() != Ok(0.0)).then(|| format!("{name} {text}"))
-    });
-    let turned: Vec<String> = turned.collect();
-    (!turned.is_empty()).then(|| {
-        format!(
-            "its GPano metadata say {}, which is not followed: the middle of the panorama is taken for the front; turn it \
-             with yaw=, pitch= and roll= in --from",
-            turned.join(", ")
-        )
-    })
+/// Reads the camera's pose; `None` where it is level and heads north, or does not say.
+fn pose(words: &Words<'_>) -> Option<Pose> {
+    let angle = |name: &str| {
+        let angle = words.word(name).and_then(|text| text.parse().ok());
+        angle.filter(|angle: &f64| angle.is_finite()).unwrap_or(0.0)
+    };
+    let pose =
+        Pose { heading: angle("PoseHeadingDegrees"), pitch: angle("PosePitchDegrees"), roll: angle("PoseRollDegrees") };
+    (pose != Pose::default()).then_some(pose)
 }
 
 /// Reads a property, which may be an attribute or an element.
@@ -136,19 +161,24 @@ fn property<'a>(node: Node<'a, '_>, name: &str) -> Option<&'a str> {
     node.attribute((NAMESPACE, name))
 }
 
-/// Returns the packet for a picture of this size.
-pub(crate) fn packet(window: Window, (width, height): (usize, usize)) -> String {
-    let Window { canvas_width, canvas_height, x, y } = window;
+/// Returns the packet of a description.
+pub(crate) fn around(description: &str) -> String {
     format!(
         "<?xpacket begin=\"\u{feff}\" id=\"W5M0MpCehiHzreSzNTczkc9d\"?>\n\
          <x:xmpmeta xmlns:x=\"adobe:ns:meta/\">\n\
-         <rdf:RDF xmlns:rdf=\"http://www.w3.org/1999/02/22-rdf-syntax-ns#\">\n\
-         <rdf:Description rdf:about=\"\" xmlns:GPano=\"{NAMESPACE}\"\n \
+         <rdf:RDF xmlns:rdf=\"{RDF}\">\n{description}\n</rdf:RDF>\n</x:xmpmeta>\n<?xpacket end=\"w\"?>"
+    )
+}
+
+/// Returns the description of a picture of this size.
+pub(crate) fn description(window: Window, (width, height): (usize, usize)) -> String {
+    let Window { canvas_width, canvas_height, x, y } = window;
+    format!(
+        "<rdf:Description rdf:about=\"\" xmlns:rdf=\"{RDF}\" xmlns:GPano=\"{NAMESPACE}\"\n \
          GPano:ProjectionType=\"equirectangular\" GPano:UsePanoramaViewer=\"True\"\n \
          GPano:FullPanoWidthPixels=\"{canvas_width}\" GPano:FullPanoHeightPixels=\"{canvas_height}\"\n \
          GPano:CroppedAreaImageWidthPixels=\"{width}\" GPano:CroppedAreaImageHeightPixels=\"{height}\"\n \
-         GPano:CroppedAreaLeftPixels=\"{x}\" GPano:CroppedAreaTopPixels=\"{y}\"/>\n\
-         </rdf:RDF>\n</x:xmpmeta>\n<?xpacket end=\"w\"?>"
+         GPano:CroppedAreaLeftPixels=\"{x}\" GPano:CroppedAreaTopPixels=\"{y}\"/>"
     )
 }
 
@@ -156,10 +186,14 @@ pub(crate) fn packet(window: Window, (width, height): (usize, usize)) -> String 
 mod tests {
     use super::*;
 
+    fn packet(window: Window, size: (usize, usize)) -> String {
+        around(&description(window, size))
+    }
+
     const WINDOW: Window = Window { canvas_width: 4000, canvas_height: 2000, x: 500, y: 600 };
 
     fn said(window: Window) -> Said {
-        Said { window: Some(window), complaints: Vec::new() }
+        Said { window: Some(window), ..Said::default() }
     }
 
     #[test]
@@ -212,14 +246,15 @@ mod tests {
             ("WidthPixels=\"200\"", "WidthPixels=\"250\"", ["CroppedAreaImageWidthPixels", "250x100"]),
         ] {
             assert!(packet.contains(from), "{from}");
-            let Said { window, complaints } = parse(packet.replacen(from, to, 1).as_bytes(), (200, 100));
+            let Said { window, complaints, .. } = parse(packet.replacen(from, to, 1).as_bytes(), (200, 100));
             assert_eq!(window, None, "{to}");
             assert!(parts.iter().all(|part| complaints[0].contains(part)), "{complaints:?}");
         }
         let pose = "GPano:PoseRollDegrees=\"0\" GPano:PoseHeadingDegrees=\"90\" GPano:Full";
         let turned = packet.replacen("GPano:Full", pose, 1);
         let said = parse(turned.as_bytes(), (200, 100));
-        assert!(said.window.is_some() && said.complaints[0].contains("PoseHeadingDegrees 90"), "{said:?}");
-        assert!(!said.complaints[0].contains("PoseRollDegrees"), "{said:?}");
+        let pose = Pose { heading: 90.0, ..Pose::default() };
+        assert!(said.window.is_some() && said.pose == Some(pose) && said.complaints.is_empty(), "{said:?}");
+        assert_eq!(pose.to_string(), "PoseHeadingDegrees 90");
     }
 }

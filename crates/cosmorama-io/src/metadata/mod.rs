@@ -1,15 +1,24 @@
+mod carried;
 mod colour_name;
 pub(crate) mod gpano;
 pub(crate) mod icc;
 pub(crate) mod khronos;
 mod layers;
+pub(crate) mod orientation;
 
+pub use carried::{Attribute, Carried, Exif, Kept, TextChunk};
+pub(crate) use carried::{LARGEST_ATTRIBUTE, LARGEST_EXIF, XMP, is_read, of_stored, stored};
 pub(crate) use colour_name::colour_name;
+pub use gpano::Pose;
 pub use layers::{FilePart, Layers, NamedChannel, SampleKind};
 
 use std::borrow::Cow;
+use std::sync::Arc;
 
 use cosmorama::raster::{EncodedImage, Primaries, Transfer};
+
+/// Name of the program in files that it writes.
+pub(crate) const SOFTWARE: &str = "cosmorama";
 
 /// Metadata of a file about its pixels, of which the parts that apply are carried from input to output.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -39,11 +48,15 @@ pub struct Metadata {
     pub white_luminance: Option<f32>,
     /// Why the ICC profile cannot be followed; `None` where it can, or there is none.
     pub profile_fault: Option<ProfileFault>,
-    /// Orientation tag of TIFF (274), 2 to 8, by which the file asks viewers to turn or mirror its picture; `None` for
-    /// no change. Pixels are read as stored.
+    /// Orientation by TIFF's and Exif's tag 274, 2 to 8, by which the stored pixels were turned or mirrored when the file
+    /// was read; `None` for no change. Written files need none.
     pub orientation: Option<u16>,
     /// Name of the program that wrote the file.
     pub software: Option<String>,
+    /// Pose of the camera, from the GPano metadata of a panorama.
+    pub pose: Option<Pose>,
+    /// Whatever else the file says, which may go along to outputs.
+    pub carried: Arc<Carried>,
 }
 
 /// Reason why an ICC profile cannot be followed.
@@ -60,6 +73,17 @@ impl Metadata {
     /// name both primaries and transfer function.
     pub fn colour_space(&self) -> Option<String> {
         colour_name(self.primaries.as_ref(), self.transfer.as_ref())
+    }
+
+    /// Returns whether the pixels are those of sRGB.
+    pub(crate) fn is_srgb(&self) -> bool {
+        let is_usual = self.primaries.is_none_or(|primaries| primaries.is_same(&Primaries::REC709));
+        self.icc.is_none() && is_usual && *self.transfer.as_ref().unwrap_or(&Transfer::Srgb) == Transfer::Srgb
+    }
+
+    /// Returns the XMP packet to write for a picture of this size: what is carried, with the place in a panorama.
+    pub(crate) fn packet_to_write(&self, size: (usize, usize)) -> Option<String> {
+        self.carried.packet_to_write(self.panorama.map(|window| gpano::description(window, size)))
     }
 
     /// Returns the ICC profile for a file that can describe its colours in no other way. Without one, sRGB is assumed of

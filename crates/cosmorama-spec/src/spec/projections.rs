@@ -124,6 +124,11 @@ pub(crate) static KINDS: &[Kind] = &[
                 "centres|edges",
                 "where the outermost samples lie (centres; files with OpenEXR's envmap attribute: edges, which writes it)",
             ),
+            key(
+                "pose",
+                "yes|no",
+                "inputs: turn it by the camera's pose in its GPano metadata, level and north ahead (no)",
+            ),
         ],
         refused: &[FITS],
         build: world_map::equirect,

@@ -35,7 +35,7 @@ impl Shape {
             _ => SphereSamples::NotAPanorama,
         };
         let any_shape = fields.get("hfov").is_some() && fields.get("vfov").is_some();
-        Ok(Self::Single(Single { placement, samples, any_shape }))
+        Ok(Self::Single(Single { placement, samples, any_shape, pose: false }))
     }
 }
 
@@ -68,6 +68,8 @@ pub struct Single {
     pub samples: SphereSamples,
     /// Whether the field of view is given both ways, so that pixels may have any shape.
     pub any_shape: bool,
+    /// Whether a panorama is turned by its camera's pose, as its file has it.
+    pub pose: bool,
 }
 
 /// Rule that decides the position of a panorama's outermost samples.
@@ -88,7 +90,7 @@ impl From<CameraModel> for Single {
             CameraModel::Equirect(_) => SphereSamples::ByFile,
             _ => SphereSamples::NotAPanorama,
         };
-        Self { placement: Placement::new(frame), samples, any_shape: false }
+        Self { placement: Placement::new(frame), samples, any_shape: false, pose: false }
     }
 }
 

@@ -1,3 +1,6 @@
+//! What `info` tells of a file, a face set or a world.
+
+mod carried;
 mod faces;
 mod layers;
 mod world;
@@ -198,11 +201,16 @@ fn header_report(header: &Header) -> Value {
     }
     add_layers(&mut report, header);
     if let Some(orientation) = metadata.orientation {
-        report["orientation"] = json!(format!("{orientation} (not followed: pixels are taken as they are stored)"));
+        report["orientation"] =
+            json!(format!("{orientation} (followed: width and height are those of the upright picture)"));
+    }
+    if let Some(pose) = metadata.pose {
+        report["pose"] = json!(format!("{pose} (followed with --from equirect:pose=yes)"));
     }
     if let Some(software) = &metadata.software {
         report["software"] = json!(software);
     }
+    carried::add(&mut report, &metadata.carried);
     report
 }
 

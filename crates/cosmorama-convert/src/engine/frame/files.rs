@@ -1,7 +1,8 @@
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use cosmorama::raster::{Channels, Depth, EncodedImage, FramePool, Samples};
-use cosmorama_io::{ImageFile, Limits, Window};
+use cosmorama_io::{Carried, ImageFile, Limits, Window};
 use rayon::prelude::*;
 
 use crate::colour::FileColours;
@@ -20,6 +21,8 @@ pub(crate) struct ViewImage {
     pub(crate) image: EncodedImage,
     /// Conversion of its code values to light.
     pub(crate) colours: FileColours,
+    /// Metadata for the outputs, which get those of the first view.
+    pub(crate) carried: Option<Arc<Carried>>,
 }
 
 /// Selection of a frame's views.
@@ -117,7 +120,11 @@ impl FrameFile {
         let image = if job.layers.leaves_picture_out() { blank(path, found)? } else { file.image };
         let file = ImageFile { image, ..file };
         let colours = job.light.colours(file.image.channels(), file.image.depth(), &file.metadata);
-        let view_image = |view: usize, image| ViewImage { view, path: path.clone(), image, colours: colours.clone() };
+        let carried = job.light.carried(&file.metadata).filter(|_| views.contains(&0));
+        let view_image = |view: usize, image| {
+            let (colours, carried) = (colours.clone(), carried.clone().filter(|_| view == 0));
+            ViewImage { view, path: path.clone(), image, colours, carried }
+        };
         if let (&[view], None) = (&views[..], first.part) {
             return Ok(vec![view_image(view, file.image)]);
         }

@@ -1,10 +1,11 @@
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Arc, Mutex, PoisonError};
 
 use cosmorama::filter::FilterKind;
 use cosmorama::raster::{Decoder, FixedDecoder, FixedLight, FramePool, IrregularPixels, Rgba, Transfer};
 use cosmorama::world::{RimTexels, Source, World};
+use cosmorama_io::Carried;
 use rayon::prelude::*;
 
 use crate::colour::FileColours;
@@ -27,6 +28,8 @@ pub(crate) struct FrameLight {
     has_still: bool,
     decoder: Decoder,
     fixed_decoders: Vec<(Transfer, Option<FixedDecoder>)>,
+    /// Metadata of the first view's file.
+    carried: Option<Arc<Carried>>,
 }
 
 /// Light of the texels of each world.
@@ -51,8 +54,8 @@ impl FrameLight {
         let counts = vec![Counts::default(); rims.len()];
         let decoder = Decoder::default();
         let flattened = BTreeSet::new();
-        let fixed_decoders = Vec::new();
-        Self { texels, counts, rims, flattened, is_fixed, has_still: false, decoder, fixed_decoders }
+        let (fixed_decoders, carried) = (Vec::new(), None);
+        Self { texels, counts, rims, flattened, is_fixed, has_still: false, decoder, fixed_decoders, carried }
     }
 
     /// Returns all texels.
@@ -68,6 +71,11 @@ impl FrameLight {
     /// Returns files with transparent pixels that have not been reported, where the outputs have no alpha.
     pub(crate) fn flattened(&self) -> impl Iterator<Item = &Path> {
         self.flattened.iter().map(PathBuf::as_path)
+    }
+
+    /// Returns the metadata that go along to the frame's outputs.
+    pub(crate) fn carried(&self) -> Option<Arc<Carried>> {
+        self.carried.clone()
     }
 
     /// Decodes a frame: all its views, or those that change from frame to frame.
@@ -98,6 +106,9 @@ impl FrameLight {
             }
         }
         self.has_still = true;
+        if let Some(carried) = images.iter().find_map(|image| image.carried.as_ref()) {
+            self.carried = Some(Arc::clone(carried));
+        }
         let is_announced = job.light.input_alpha || job.light.channels.has_alpha();
         let flattened = images.iter().filter(|image| !is_announced && !image.image.is_opaque());
         self.flattened = flattened.map(|image| image.path.clone()).collect();

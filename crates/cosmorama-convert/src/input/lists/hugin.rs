@@ -79,7 +79,7 @@ pub(crate) fn complete(input: &str, geometry: &GeometrySettings, access: Access)
         Some(whole) => whole,
     });
     let placement = Placement { canvas, ..Placement::new(frame) };
-    let shape = Shape::Single(Single { placement, samples: SphereSamples::NotAPanorama, any_shape: true });
+    let shape = Shape::Single(Single { placement, samples: SphereSamples::NotAPanorama, any_shape: true, pose: false });
     geometry.to = Some(Spec { name: "the p-line", shape, stereo: None, files: Vec::new() });
     Ok(geometry)
 }

@@ -36,7 +36,7 @@ fn single(camera: &CalibrationSpec, access: Access) -> Result<Single> {
         mirror: camera.mirror,
         canvas: camera.canvas,
     };
-    Ok(Single { placement, samples: SphereSamples::NotAPanorama, any_shape: false })
+    Ok(Single { placement, samples: SphereSamples::NotAPanorama, any_shape: false, pose: false })
 }
 
 fn frame(camera: &CalibrationSpec, access: Access) -> Result<CalibratedCamera> {

@@ -162,7 +162,7 @@ fn without_base(side: Side) -> ConvertError {
 fn plain() -> Spec {
     let camera = PerspectiveCamera::new(FieldOfView::Horizontal(Angle::from_degrees(1.0)));
     let placement = Placement::new(CameraModel::Perspective(camera));
-    let single = Single { placement, samples: SphereSamples::NotAPanorama, any_shape: false };
+    let single = Single { placement, samples: SphereSamples::NotAPanorama, any_shape: false, pose: false };
     Spec { name: "perspective", shape: Shape::Single(single), stereo: None, files: Vec::new() }
 }
 
@@ -221,6 +221,6 @@ fn spec(map: &StMapSpec, pairs: &StPairs, base: Base, side: Side, access: Access
         mirror: map.mirror,
         canvas: map.canvas,
     };
-    let single = Single { placement, samples: SphereSamples::NotAPanorama, any_shape: false };
+    let single = Single { placement, samples: SphereSamples::NotAPanorama, any_shape: false, pose: false };
     Ok(Spec { name: "st-map", shape: Shape::Single(single), stereo: None, files: vec![map.file.clone()] })
 }

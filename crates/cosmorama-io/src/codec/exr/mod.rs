@@ -1,5 +1,6 @@
 //! OpenEXR.
 
+mod attributes;
 mod colour;
 mod dwa;
 mod offer;

@@ -1,5 +1,6 @@
 use std::io::{self, SeekFrom};
 use std::path::Path;
+use std::sync::Arc;
 
 use cosmorama::raster::{AlphaMode, Depth, FramePool, Sample, Samples, Transfer};
 use exr::block::chunk::{Chunk, TileCoordinates};
@@ -13,6 +14,7 @@ use exr::meta::{BlockDescription, MetaData};
 use half::f16;
 use rayon::prelude::*;
 
+use super::attributes;
 use super::colour;
 use super::dwa;
 use super::offer::Offer;
@@ -20,7 +22,7 @@ use super::selection::Selection;
 use super::window::Crop;
 use crate::codec::behind::{count_marks, next_bytes, skip_padding};
 use crate::codec::interface::{Source, is_beside_others, whole_image};
-use crate::{Choice, EnvMap, Format, Header, ImageFile, IoError, Limits, Metadata};
+use crate::{Attribute, Carried, Choice, EnvMap, Format, Header, ImageFile, IoError, Limits, Metadata};
 
 const FORMAT: Format = Format::Exr;
 
@@ -37,12 +39,23 @@ const BATCH_BYTES: u128 = 1 << 26;
 
 /// Reads a file's header for its picture, and for what a choice leaves beside it.
 pub(crate) fn probe(path: &Path, source: Source<'_>, choice: &Choice) -> Result<Header, IoError> {
+    let attributes = attributes::read(path, &mut *source)?;
     let reader = open(path, source)?;
-    Ok(announce(path, reader.headers(), Wanted::Picture(choice))?.0)
+    let (header, selection, _) = announce(path, reader.headers(), Wanted::Picture(choice))?;
+    Ok(with_attributes(header, attributes, selection.part))
+}
+
+/// Adds the attributes of the part that is read.
+fn with_attributes(mut header: Header, mut parts: Vec<Vec<Attribute>>, part: usize) -> Header {
+    if part < parts.len() {
+        header.metadata.carried = Arc::new(Carried { attributes: parts.swap_remove(part), ..Carried::default() });
+    }
+    header
 }
 
 /// Reads a file's header for the two channels of its st map.
 pub(crate) fn probe_pairs(path: &Path, source: Source<'_>) -> Result<Header, IoError> {
+    attributes::read(path, &mut *source)?;
     let reader = open(path, source)?;
     Ok(announce(path, reader.headers(), Wanted::Pair)?.0)
 }
@@ -101,8 +114,10 @@ fn read_selected(
     (limits, pool): (&Limits, &FramePool),
     wanted: Wanted<'_>,
 ) -> Result<ImageFile, IoError> {
+    let attributes = attributes::read(path, &mut *source)?;
     let reader = open(path, &mut *source)?;
     let (header, selection, crop) = announce(path, reader.headers(), wanted)?;
+    let header = with_attributes(header, attributes, selection.part);
     check_limits(path, &reader.headers()[selection.part], &header, limits)?;
     let fail = |error| damaged(path, error);
     // No block may hold pixels outside the data window.

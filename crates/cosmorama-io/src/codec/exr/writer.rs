@@ -10,8 +10,9 @@ use exr::meta::header::LayerAttributes;
 use exr::prelude::SmallVec;
 use half::f16;
 
-use super::colour;
+use super::{attributes, colour};
 use crate::codec::interface::is_beside_others;
+use crate::metadata::SOFTWARE;
 use crate::{Compression, EnvMap, IoError, LayeredImage, Plane, PlaneSamples, WriteOptions};
 
 /// Writes scan lines of premultiplied light, as the format requires.
@@ -95,19 +96,22 @@ fn save(
         Compression::Balanced | Compression::High => Packing::ZIP16,
     };
     let encoding = Encoding { compression: packing, ..Encoding::SMALL_LOSSLESS };
-    let attributes = LayerAttributes {
+    let mut own = LayerAttributes {
         environment_map: options.metadata.envmap.and_then(|kind| match kind {
             EnvMap::LatLong => Some(EnvironmentMap::LatitudeLongitude),
             EnvMap::Cube => Some(EnvironmentMap::Cube),
             EnvMap::GlCube => None,
         }),
-        software_name: Some(Text::from("cosmorama")),
+        software_name: Some(Text::from(SOFTWARE)),
         white_luminance: options.metadata.white_luminance,
         other: colour::interop_id(&options.metadata).into_iter().collect(),
         ..LayerAttributes::default()
     };
-    let layer = Layer::new(size, attributes, encoding, AnyChannels::sort(list));
+    let mut time_code = None;
+    attributes::add(&options.metadata.carried, &mut own, &mut time_code);
+    let layer = Layer::new(size, own, encoding, AnyChannels::sort(list));
     let mut picture = Image::from_layer(layer);
+    picture.attributes.time_code = time_code;
     picture.attributes.chromaticities = options.metadata.primaries.as_ref().map(colour::chromaticities);
     let writer = picture.write();
     // The encoder has threads of its own, for one that works alone and has some to spare.

@@ -2,6 +2,7 @@ mod marks;
 
 use std::io::Cursor;
 use std::path::Path;
+use std::sync::Arc;
 
 use cosmorama::raster::{Channels, Depth, EncodedImage, FramePool, Samples};
 use image::codecs::jpeg::JpegEncoder;
@@ -12,8 +13,8 @@ use zune_jpeg::zune_core::colorspace::ColorSpace;
 use zune_jpeg::zune_core::options::DecoderOptions;
 
 use crate::codec::interface::{Codec, Sink, Source, whole_image};
-use crate::metadata::gpano;
-use crate::{Format, Header, ImageFile, IoError, Limits, Metadata, WriteOptions};
+use crate::metadata::{gpano, orientation};
+use crate::{Carried, Exif, Format, Header, ImageFile, IoError, Limits, Metadata, WriteOptions};
 
 const FORMAT: Format = Format::Jpeg;
 
@@ -80,19 +81,45 @@ impl Codec for Jpeg {
         }
         encoder.write_image(samples, width.into(), height.into(), colour).map_err(|error| fail(&error))?;
         let size = (image.width(), image.height());
+        let metadata = &options.metadata;
+        let exif = metadata.carried.exif.as_ref().and_then(|exif| exif.block_to_write(size, metadata.is_srgb()));
+        let exif = exif.map_or_else(Vec::new, |block| segment(b"Exif\0\0", &block));
+        let packet = metadata.packet_to_write(size);
         let packet =
-            options.metadata.panorama.map_or_else(Vec::new, |window| xmp_segment(&gpano::packet(window, size)));
+            packet.map_or_else(Vec::new, |packet| segment(b"http://ns.adobe.com/xap/1.0/\0", packet.as_bytes()));
         let (start, rest) = bytes.split_at(end_of_jfif(&bytes));
-        [start, &packet, rest].iter().try_for_each(|part| output.write_all(part)).map_err(|error| fail(&error))
+        [start, &exif, &packet, rest].iter().try_for_each(|part| output.write_all(part)).map_err(|error| fail(&error))
     }
 }
 
-/// Returns a segment with an XMP packet, which the encoder cannot write itself.
-fn xmp_segment(packet: &str) -> Vec<u8> {
-    const NAME: &[u8] = b"http://ns.adobe.com/xap/1.0/\0";
-    // A packet has a few hundred bytes; a segment can have 65533.
-    let length = (2 + NAME.len() + packet.len()) as u16;
-    [&[0xff, 0xe1], &length.to_be_bytes()[..], NAME, packet.as_bytes()].concat()
+/// Returns what the file says beside its colours.
+fn metadata<T: ZByteReaderTrait>(decoder: &JpegDecoder<T>, size: (usize, usize)) -> Metadata {
+    let mut carried = Carried::default();
+    let exif = decoder.exif().and_then(|block| carried.add_exif(block).err()).map(|reason| ("Exif", reason));
+    let xmp = decoder.xmp().and_then(|packet| carried.add_xmp(packet).err()).map(|reason| ("XMP", reason));
+    let left_out = |(kind, reason)| format!("its {kind} metadata are left out: {reason}");
+    if decoder.iptc().is_some() {
+        carried.unread.push("IPTC");
+    }
+    let orientation = carried.exif.as_ref().and_then(Exif::orientation);
+    let size = orientation::turned(size, orientation);
+    let said = decoder.xmp().map(|packet| gpano::parse(packet, size)).unwrap_or_default();
+    Metadata {
+        panorama: said.window,
+        pose: said.pose,
+        complaints: exif.into_iter().chain(xmp).map(left_out).chain(said.complaints).collect(),
+        software: carried.exif.as_ref().and_then(Exif::software),
+        orientation,
+        carried: Arc::new(carried),
+        ..Metadata::default()
+    }
+}
+
+/// Returns a segment of an application, which the encoder cannot write itself. One that is too long, which
+/// [`crate::Carried::kept`] leaves out, is empty.
+fn segment(name: &[u8], content: &[u8]) -> Vec<u8> {
+    let Ok(length) = u16::try_from(2 + name.len() + content.len()) else { return Vec::new() };
+    [&[0xff, 0xe1], &length.to_be_bytes()[..], name, content].concat()
 }
 
 /// Returns the end of the start mark and of the JFIF segment, which must come first.
@@ -146,8 +173,6 @@ fn header<T: ZByteReaderTrait>(path: &Path, decoder: &mut JpegDecoder<T>) -> Res
         other => return Err(IoError::unsupported(path, FORMAT, format_args!("{other:?} colours"), "grey or RGB")),
     };
     let profile = decoder.icc_profile();
-    let said = decoder.xmp().map(|packet| gpano::parse(packet, (width, height))).unwrap_or_default();
-    let metadata = Metadata { panorama: said.window, complaints: said.complaints, ..Metadata::default() };
-    let metadata = metadata.with_profile(profile);
+    let metadata = metadata(decoder, (width, height)).with_profile(profile);
     Ok(Header { format: FORMAT, width, height, channels, depth: Depth::Eight, metadata, window: None })
 }

@@ -1,22 +1,31 @@
 //! Colour metadata in the chunks of a PNG.
 
+use std::sync::Arc;
+
 use cosmorama::raster::{Primaries, Transfer};
 use png::chunk::ChunkType;
 use png::{CodingIndependentCodePoints, Info, ScaledFloat, SourceChromaticities, SrgbRenderingIntent};
 
-use crate::Metadata;
-use crate::metadata::{colour_name, gpano, icc};
+use super::carried::Found;
+use crate::metadata::{colour_name, gpano, icc, orientation};
+use crate::{Exif, Metadata, TextChunk};
 
 pub(super) const CICP: ChunkType = ChunkType(*b"cICP");
 
 /// Reads the chunks; by the specification the order of precedence is cICP, iCCP, sRGB, gAMA with cHRM.
-pub(super) fn metadata(info: &Info<'_>) -> Metadata {
-    let software = info.uncompressed_latin1_text.iter().find(|text| text.keyword == "Software");
-    let said = panorama(info).unwrap_or_default();
+pub(super) fn metadata(info: &Info<'_>, found: Found) -> Metadata {
+    let Found { carried, packet, complaints } = found;
+    let software = carried.texts.iter().find(|text| text.keyword() == "Software").and_then(TextChunk::text);
+    let orientation = carried.exif.as_ref().and_then(Exif::orientation);
+    let size = orientation::turned((info.width as usize, info.height as usize), orientation);
+    let said = packet.map(|packet| gpano::parse(packet.as_bytes(), size)).unwrap_or_default();
     let other = Metadata {
         panorama: said.window,
-        complaints: said.complaints,
-        software: software.map(|text| text.text.clone()),
+        pose: said.pose,
+        complaints: [said.complaints, complaints].concat(),
+        software,
+        orientation,
+        carried: Arc::new(carried),
         ..Metadata::default()
     };
     colour(info, other)
@@ -104,17 +113,6 @@ impl Metadata {
         }
         self
     }
-}
-
-/// Keyword of an XMP packet.
-pub(super) const XMP: &str = "XML:com.adobe.xmp";
-/// Greatest length of an XMP packet in bytes.
-const LONGEST_PACKET: usize = 1 << 20;
-
-fn panorama(info: &Info<'_>) -> Option<gpano::Said> {
-    let mut packet = info.utf8_text.iter().find(|text| text.keyword == XMP)?.clone();
-    packet.decompress_text_with_limit(LONGEST_PACKET).ok()?;
-    Some(gpano::parse(packet.get_text().ok()?.as_bytes(), (info.width as usize, info.height as usize)))
 }
 
 /// Returns the transfer function of a code point of ITU-T H.273.

@@ -1,5 +1,6 @@
 //! Portable Network Graphics.
 
+mod carried;
 mod colour;
 mod reader;
 mod writer;

@@ -5,6 +5,7 @@ use bytemuck::cast_slice_mut;
 use cosmorama::raster::{Channels, Depth, FramePool, Samples};
 use png::{BitDepth, ColorType, Decoder, DecodingError, Info, Reader, Transformations};
 
+use super::carried::{self, Found};
 use super::colour;
 use crate::codec::behind::{next_bytes, skip_padding};
 use crate::codec::interface::{Source, whole_image};
@@ -16,15 +17,17 @@ const FORMAT: Format = Format::Png;
 const LONGEST_SIDE: u32 = 1_000_000;
 
 /// First bytes of every file.
-const MARK: [u8; 8] = *b"\x89PNG\r\n\x1a\n";
+pub(super) const MARK: [u8; 8] = *b"\x89PNG\r\n\x1a\n";
 
 pub(crate) fn probe(path: &Path, source: Source<'_>) -> Result<Header, IoError> {
-    Ok(header(&decoder(path, source)?))
+    let found = carried::read(&mut *source).map_err(|error| IoError::open(path, error))?;
+    Ok(header(&decoder(path, source)?, found))
 }
 
 pub(crate) fn read(path: &Path, source: Source<'_>, limits: &Limits, pool: &FramePool) -> Result<ImageFile, IoError> {
+    let found = carried::read(&mut *source).map_err(|error| IoError::open(path, error))?;
     let mut reader = decoder(path, &mut *source)?;
-    let header = header(&reader);
+    let header = header(&reader, found);
     let frames = reader.info().animation_control().map_or(1, |animation| animation.num_frames as usize);
     if frames > 1 {
         return Err(IoError::several(path, FORMAT, frames, "frames of an animation"));
@@ -107,6 +110,8 @@ fn decoder<'a>(path: &Path, source: Source<'a>) -> Result<Reader<Source<'a>>, Io
     let mut decoder = Decoder::new(source);
     // Palettes, transparent colours and samples of less than eight bits become plain samples.
     decoder.set_transformations(Transformations::EXPAND);
+    // Texts are read by `carried`, each up to its own limit.
+    decoder.set_ignore_text_chunk(true);
     // A row beyond that limit would be called damaged.
     let (width, height) = decoder.read_header_info().map(Info::size).map_err(|error| damaged(path, &error))?;
     if width.max(height) > LONGEST_SIDE {
@@ -130,7 +135,7 @@ fn damaged(path: &Path, error: &DecodingError) -> IoError {
     }
 }
 
-fn header<R: std::io::BufRead + std::io::Seek>(reader: &Reader<R>) -> Header {
+fn header<R: std::io::BufRead + std::io::Seek>(reader: &Reader<R>, found: Found) -> Header {
     let info = reader.info();
     let (colour, bits) = reader.output_color_type();
     let channels = match colour {
@@ -146,7 +151,7 @@ fn header<R: std::io::BufRead + std::io::Seek>(reader: &Reader<R>) -> Header {
         height: info.height as usize,
         channels,
         depth: if bits == BitDepth::Sixteen { significant(info) } else { Depth::Eight },
-        metadata: colour::metadata(info),
+        metadata: colour::metadata(info, found),
         window: None,
     }
 }

@@ -6,8 +6,9 @@ use cosmorama::raster::{Channels, Depth, EncodedImage, FramePool, Samples};
 use png::chunk::sBIT;
 use png::{BitDepth, ColorType, DeflateCompression, Encoder, EncodingError, Filter, Info, Writer};
 
-use super::colour::{CICP, Tag, XMP, tag};
-use crate::metadata::gpano;
+use super::carried;
+use super::colour::{CICP, Tag, tag};
+use crate::metadata::XMP;
 use crate::{Compression, IoError, Metadata, WriteOptions};
 
 pub(crate) fn write(
@@ -27,8 +28,9 @@ fn encode(output: impl Write, image: &EncodedImage, options: &WriteOptions) -> R
         None => metadata.transfer.as_ref().and_then(|transfer| tag(transfer, metadata.primaries.as_ref())),
     };
     let mut encoder = Encoder::with_info(output, info(image, metadata, tag.as_ref())?)?;
-    if let Some(window) = metadata.panorama {
-        encoder.add_itxt_chunk(XMP.to_owned(), gpano::packet(window, (image.width(), image.height())))?;
+    let size = (image.width(), image.height());
+    if let Some(packet) = metadata.packet_to_write(size) {
+        encoder.add_itxt_chunk(XMP.to_owned(), packet)?;
     }
     // zlib's level 6 takes ten to twenty times as long as fdeflate, for a tenth fewer bytes of a smooth picture. Rows
     // filtered by Up are read in a third of the time that others take.
@@ -42,6 +44,7 @@ fn encode(output: impl Write, image: &EncodedImage, options: &WriteOptions) -> R
     encoder.set_filter(filter);
     let mut writer = encoder.write_header()?;
     write_chunks(&mut writer, image, tag)?;
+    carried::write(&mut writer, metadata, size)?;
     write_samples(&mut writer, image, &options.pool)?;
     writer.finish()
 }

@@ -1,5 +1,6 @@
 //! TIFF.
 
+mod carried;
 mod extent;
 mod reader;
 mod writer;

@@ -1,11 +1,12 @@
 use std::path::Path;
+use std::sync::Arc;
 
 use cosmorama::raster::{AlphaMode, Channels, Depth, FramePool, Samples};
 use tiff::decoder::{Decoder, DecodingResult, DecodingSampleType};
 use tiff::tags::{SampleFormat, Tag};
 use tiff::{ColorType, TiffError};
 
-use super::extent;
+use super::{carried, extent};
 use crate::codec::interface::{Source, whole_image};
 use crate::{Format, Header, ImageFile, IoError, Limits, Metadata};
 
@@ -133,9 +134,12 @@ fn metadata(decoder: &mut Decoder<Source<'_>>) -> Metadata {
     let profile = decoder.get_tag_u8_vec(ICC_PROFILE).ok();
     let software = decoder.get_tag_ascii_string(Tag::Software).ok();
     let orientation = decoder.find_tag_unsigned::<u16>(Tag::Orientation).ok().flatten();
+    let carried::Found { carried, complaints, .. } = carried::read(decoder);
     let metadata = Metadata {
         orientation: orientation.filter(|orientation| (2..=8).contains(orientation)),
         software,
+        complaints,
+        carried: Arc::new(carried),
         ..Metadata::default()
     };
     metadata.with_profile(profile)

@@ -10,7 +10,7 @@ use crate::SpecError;
 use crate::angle::Degrees;
 use crate::spec::fields::{Fields, samples_name};
 use crate::spec::keys::Keys;
-use crate::spec::{Shape, SphereSamples};
+use crate::spec::{Shape, Single, SphereSamples};
 
 pub(crate) fn equirect(fields: &Fields) -> Result<Shape, SpecError> {
     let frame = EquirectCamera {
@@ -18,7 +18,14 @@ pub(crate) fn equirect(fields: &Fields) -> Result<Shape, SpecError> {
         vertical: fields.angle_or("vfov", 180.0)?,
         samples: fields.samples()?.unwrap_or_default(),
     };
-    Shape::single(fields, CameraModel::Equirect(frame))
+    let pose = fields.choice("pose", &[("yes", true), ("no", false)])?.unwrap_or_default();
+    if let (true, Some(second)) = (pose, ["yaw", "pitch", "roll"].into_iter().find(|key| fields.get(key).is_some())) {
+        return Err(SpecError::Both { first: "pose", second });
+    }
+    Ok(match Shape::single(fields, CameraModel::Equirect(frame))? {
+        Shape::Single(single) => Shape::Single(Single { pose, ..single }),
+        shape => shape,
+    })
 }
 
 /// Reads `mercator`, `cylinder` or `equal-area`. Mercator's edges are given as a latitude, the others' as a field of
@@ -89,7 +96,7 @@ pub(crate) fn write_equirect(shape: &Shape) -> Option<Keys> {
             Some(frame.samples).filter(|samples| *samples != default.samples)
         }
     };
-    Some(keys.maybe("samples", samples.map(samples_name)))
+    Some(keys.maybe("samples", samples.map(samples_name)).switch("pose", single.pose))
 }
 
 pub(crate) fn write_cylinder(shape: &Shape, kind: CylinderKind) -> Option<Keys> {

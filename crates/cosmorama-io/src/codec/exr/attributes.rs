@@ -1,0 +1,145 @@
+//! Attributes of a header, as they are stored.
+
+use std::io::{self, Read};
+use std::path::Path;
+
+use exr::math::Vec2;
+use exr::meta::attribute::{AttributeValue, KeyCode, Text, TimeCode};
+use exr::meta::header::{LayerAttributes, standard_names};
+
+use super::reader::MARK;
+use crate::codec::interface::Source;
+use crate::metadata::{Attribute, LARGEST_ATTRIBUTE};
+use crate::{Carried, Format, IoError};
+
+/// Greatest number of bytes of a name, by the format.
+const LONGEST_NAME: u64 = 255;
+/// Greatest number of bytes of all attributes of a file.
+const LARGEST_HEADER: usize = 4 * LARGEST_ATTRIBUTE;
+
+/// Reads the attributes of each part. A header that is damaged is the decoder's to refuse; one that is too large is refused
+/// here, before it is read.
+pub(super) fn read(path: &Path, source: Source<'_>) -> Result<Vec<Vec<Attribute>>, IoError> {
+    let mut scan = Scan { path, source, total: 0 };
+    let mut parts = Vec::new();
+    let start = scan.bytes(8).map_err(|error| IoError::open(path, error))?;
+    let is_several = start.get(5).is_some_and(|flags| flags & 0x10 != 0);
+    if start.starts_with(&MARK) {
+        while let Some(attributes) = scan.part()? {
+            let is_end = attributes.is_empty();
+            parts.push(attributes);
+            if is_end || !is_several {
+                break;
+            }
+        }
+    }
+    source.rewind().map_err(|error| IoError::open(path, error))?;
+    Ok(parts)
+}
+
+struct Scan<'a> {
+    path: &'a Path,
+    source: Source<'a>,
+    total: usize,
+}
+
+impl Scan<'_> {
+    /// Reads the attributes of a part; `None` where the file ends too early.
+    fn part(&mut self) -> Result<Option<Vec<Attribute>>, IoError> {
+        let mut attributes = Vec::new();
+        loop {
+            match self.attribute()? {
+                Next::Attribute(attribute) => attributes.push(attribute),
+                Next::End => return Ok(Some(attributes)),
+                Next::Damage => return Ok(None),
+            }
+        }
+    }
+
+    fn attribute(&mut self) -> Result<Next, IoError> {
+        let fail = |error| IoError::open(self.path, error);
+        let Some(name) = name(self.source).map_err(fail)? else { return Ok(Next::Damage) };
+        if name.is_empty() {
+            return Ok(Next::End);
+        }
+        let Some(kind) = self::name(self.source).map_err(fail)? else { return Ok(Next::Damage) };
+        let size = self.bytes(4).map_err(fail)?;
+        let size = size.first_chunk().map(|size| u32::from_le_bytes(*size)).and_then(|size| i32::try_from(size).ok());
+        let Some(size) = size.and_then(|size| usize::try_from(size).ok()) else { return Ok(Next::Damage) };
+        self.total = self.total.saturating_add(size);
+        if size > LARGEST_ATTRIBUTE || self.total > LARGEST_HEADER {
+            let found = format!("an attribute {name} of {size} bytes, {} with those before it", self.total);
+            return Err(IoError::unsupported(
+                self.path,
+                Format::Exr,
+                found,
+                "at most 16 MiB in each, and 64 MiB in all",
+            ));
+        }
+        let bytes = self.bytes(size).map_err(fail)?;
+        Ok(if bytes.len() == size { Next::Attribute(Attribute { name, kind, bytes }) } else { Next::Damage })
+    }
+
+    /// Reads so many bytes, or as many as there are.
+    fn bytes(&mut self, count: usize) -> io::Result<Vec<u8>> {
+        let mut bytes = Vec::new();
+        (&mut *self.source).take(count as u64).read_to_end(&mut bytes)?;
+        Ok(bytes)
+    }
+}
+
+/// Next thing in a header.
+enum Next {
+    Attribute(Attribute),
+    End,
+    Damage,
+}
+
+/// Reads a name, of Latin letters of 8 bits; `None` where it does not end.
+fn name(source: Source<'_>) -> io::Result<Option<String>> {
+    let mut name = Vec::new();
+    io::BufRead::read_until(&mut source.take(LONGEST_NAME + 1), 0, &mut name)?;
+    Ok((name.pop() == Some(0)).then(|| name.into_iter().map(char::from).collect()))
+}
+
+/// Adds the attributes to write. The encoder has fields for those of the standard, and refuses these under other types.
+pub(super) fn add(carried: &Carried, own: &mut LayerAttributes, time_code: &mut Option<TimeCode>) {
+    for Attribute { name, kind, bytes } in &carried.attributes {
+        let text = || Some(Text::from_slice_unchecked(bytes)).filter(|_| kind == "string");
+        let numbers = || bytes.chunks_exact(4).filter_map(|four| Some(u32::from_le_bytes(*four.first_chunk()?)));
+        let float = || numbers().next().map(f32::from_bits).filter(|_| kind == "float");
+        let pair = || Some((numbers().next()?, numbers().nth(1)?));
+        let matrix = || numbers().map(f32::from_bits).collect::<Vec<_>>().first_chunk().copied();
+        match &**name {
+            "owner" => own.owner = text(),
+            "comments" => own.comments = text(),
+            "capDate" => own.capture_date = text(),
+            "renderingTransform" => own.rendering_transform_name = text(),
+            "lookModTransform" => own.look_modification_transform_name = text(),
+            "xDensity" => own.horizontal_density = float(),
+            "utcOffset" => own.utc_offset = float(),
+            "longitude" => own.longitude = float(),
+            "latitude" => own.latitude = float(),
+            "altitude" => own.altitude = float(),
+            "focus" => own.focus = float(),
+            "expTime" => own.exposure = float(),
+            "aperture" => own.aperture = float(),
+            "isoSpeed" => own.iso_speed = float(),
+            "adoptedNeutral" => {
+                own.adopted_neutral = pair().map(|(x, y)| Vec2(f32::from_bits(x), f32::from_bits(y)));
+            }
+            "framesPerSecond" => own.frames_per_second = pair().map(|(over, under)| (over.cast_signed(), under)),
+            "worldToCamera" => own.world_to_camera = matrix(),
+            "worldToNDC" => own.world_to_normalized_device = matrix(),
+            "keyCode" => own.film_key_code = KeyCode::read(&mut &bytes[..]).ok(),
+            "timeCode" => *time_code = TimeCode::read(&mut &bytes[..]).ok(),
+            // Of the file itself: the encoder writes its own.
+            _ if standard_names::ALL.contains(&name.as_bytes()) => {}
+            _ => {
+                let value =
+                    Text::new_or_none(kind).map(|kind| AttributeValue::Custom { kind, bytes: bytes.as_slice().into() });
+                own.other.extend(Text::new_or_none(name).zip(value));
+            }
+        }
+    }
+}

@@ -1,0 +1,90 @@
+//! Chunks of a PNG that speak neither of its pixels nor of their colours: texts, Exif and XMP. They lie before the pixels or
+//! behind them.
+
+use std::io::{self, SeekFrom};
+
+use png::chunk::{ChunkType, eXIf};
+use png::{EncodingError, Writer};
+
+use super::reader::MARK;
+use crate::codec::behind::next_bytes;
+use crate::codec::interface::Source;
+use crate::metadata::{LARGEST_EXIF, XMP};
+use crate::{Carried, Metadata, TextChunk};
+
+/// Content of the chunks, and complaints about what of it is left out.
+#[derive(Default)]
+pub(super) struct Found {
+    pub(super) carried: Carried,
+    /// XMP packet as it is stored.
+    pub(super) packet: Option<String>,
+    pub(super) complaints: Vec<String>,
+}
+
+/// Reads the chunks, and goes back to the beginning. Where the file is damaged, the decoder tells.
+pub(super) fn read(source: Source<'_>) -> io::Result<Found> {
+    let mut found = Found::default();
+    source.seek(SeekFrom::Start(MARK.len() as u64))?;
+    while let Ok([a, b, c, d, kind @ ..]) = <[u8; 8]>::try_from(next_bytes(source, 8)?) {
+        let length = u32::from_be_bytes([a, b, c, d]);
+        let is_read = matches!(&kind, b"tEXt" | b"zTXt" | b"iTXt" | b"eXIf");
+        let is_large = length as usize > LARGEST_EXIF;
+        if is_read && is_large {
+            let name = String::from_utf8_lossy(&kind);
+            found
+                .complaints
+                .push(format!("its {name} chunk of {length} bytes is left out: more than {LARGEST_EXIF}; remove it"));
+        }
+        if is_read && !is_large {
+            let data = next_bytes(source, length as usize)?;
+            if data.len() != length as usize {
+                break;
+            }
+            found.add(kind, data);
+            source.seek_relative(4)?;
+        } else {
+            source.seek_relative(i64::from(length) + 4)?;
+        }
+        if &kind == b"IEND" {
+            break;
+        }
+    }
+    source.rewind()?;
+    Ok(found)
+}
+
+impl Found {
+    fn add(&mut self, kind: [u8; 4], data: Vec<u8>) {
+        if &kind == b"eXIf" {
+            let added = self.carried.add_exif(&data);
+            self.complain("Exif", added);
+            return;
+        }
+        let chunk = TextChunk { kind, data };
+        if chunk.keyword() != XMP {
+            self.carried.texts.push(chunk);
+            return;
+        }
+        let packet = chunk.text().unwrap_or_default();
+        let added = self.carried.add_xmp(packet.as_bytes());
+        self.complain("XMP", added);
+        self.packet = Some(packet);
+    }
+
+    fn complain(&mut self, kind: &str, added: Result<(), String>) {
+        self.complaints.extend(added.err().map(|reason| format!("its {kind} metadata are left out: {reason}")));
+    }
+}
+
+/// Writes the chunks for a picture of this size.
+pub(super) fn write(
+    writer: &mut Writer<impl io::Write>,
+    metadata: &Metadata,
+    size: (usize, usize),
+) -> Result<(), EncodingError> {
+    for TextChunk { kind, data } in &metadata.carried.texts {
+        writer.write_chunk(ChunkType(*kind), data)?;
+    }
+    let exif = metadata.carried.exif.as_ref().and_then(|exif| exif.block_to_write(size, metadata.is_srgb()));
+    exif.map_or(Ok(()), |block| writer.write_chunk(eXIf, &block))
+}

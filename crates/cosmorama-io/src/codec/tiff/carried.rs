@@ -1,0 +1,134 @@
+//! Exif metadata and XMP among the tags of a TIFF.
+
+use std::io::{Read, Seek, Write};
+
+use exif::{Context, Field, In, Tag as ExifTag};
+use tiff::decoder::{Decoder, IfdDecoder};
+use tiff::encoder::{DirectoryEncoder, TiffEncoder, TiffKind, TiffKindStandard};
+use tiff::tags::{ByteOrder, Tag, Type, ValueBuffer};
+use tiff::{Directory, TiffError};
+
+use crate::metadata::{LARGEST_EXIF, is_read, of_stored, stored};
+use crate::{Carried, Exif, Metadata};
+
+const XMP: Tag = Tag::Unknown(700);
+/// Tags of kinds that are not carried.
+const UNREAD: [(Tag, &str); 2] = [(Tag::Unknown(33723), "IPTC"), (Tag::Unknown(34377), "Photoshop's image resources")];
+
+/// Byte order of this machine.
+const NATIVE: ByteOrder = if cfg!(target_endian = "little") { ByteOrder::LittleEndian } else { ByteOrder::BigEndian };
+
+/// Content of the tags, and complaints about what of it is left out.
+#[derive(Default)]
+pub(super) struct Found {
+    pub(super) carried: Carried,
+    pub(super) complaints: Vec<String>,
+    /// Number of values that have been read.
+    count: u64,
+}
+
+/// Reads the tags.
+pub(super) fn read<R: Read + Seek>(decoder: &mut Decoder<R>) -> Found {
+    let mut found = Found::default();
+    let mut fields = Vec::new();
+    let mut own = decoder.image_ifd();
+    found.fields(&mut own, Context::Tiff, &mut fields);
+    if let Some((_, packet)) = found.bytes(&mut own, XMP) {
+        let added = found.carried.add_xmp(&packet);
+        found.complaints.extend(added.err().map(|reason| format!("its XMP metadata are left out: {reason}")));
+    }
+    let names = UNREAD.iter().filter(|(tag, _)| own.directory().contains(*tag)).map(|(_, name)| *name);
+    found.carried.unread.extend(names);
+    for (pointer, context) in [(Tag::ExifDirectory, Context::Exif), (Tag::GpsDirectory, Context::Gps)] {
+        let place = decoder.get_tag(pointer).ok().and_then(|value| value.into_ifd_pointer().ok());
+        if let Some(directory) = place.and_then(|place| decoder.read_directory(place).ok()) {
+            found.fields(&mut decoder.read_directory_tags(&directory), context, &mut fields);
+        }
+    }
+    found.carried.exif = Exif::of_fields(&fields);
+    found
+}
+
+impl Found {
+    /// Reads the fields of a directory.
+    fn fields(&mut self, from: &mut IfdDecoder<'_>, context: Context, into: &mut Vec<Field>) {
+        let tags: Vec<Tag> = from.directory().iter().map(|(tag, _)| tag).collect();
+        for tag in tags {
+            let known = ExifTag(context, tag.to_u16());
+            if !is_read(known) {
+                continue;
+            }
+            let value = self.bytes(from, tag).and_then(|(kind, bytes)| of_stored(kind, &bytes));
+            into.extend(value.map(|value| Field { tag: known, ifd_num: In::PRIMARY, value }));
+        }
+    }
+
+    /// Reads the number of a tag's type and its bytes, in this machine's order.
+    fn bytes(&mut self, from: &mut IfdDecoder<'_>, tag: Tag) -> Option<(u16, Vec<u8>)> {
+        let entry = from.find_entry(tag)?;
+        let number = tag.to_u16();
+        let count = entry.count();
+        // Of all together: the values of several tags may lie one upon the other.
+        self.count = self.count.saturating_add(count);
+        if self.count > LARGEST_EXIF as u64 {
+            self.count = self.count.saturating_sub(count);
+            self.complaints.push(format!(
+                "its tag {number} of {count} values is left out: with others these are more than {LARGEST_EXIF}; remove it"
+            ));
+            return None;
+        }
+        let mut value = ValueBuffer::empty(Type::BYTE);
+        from.find_tag_buf(tag, &mut value).ok()??;
+        value.set_byte_order(NATIVE);
+        Some((value.data_type().to_u16(), value.as_bytes().to_vec()))
+    }
+}
+
+/// Places of the directories that a TIFF's own refers to.
+#[derive(Default)]
+pub(super) struct Places(Vec<(Tag, u32)>);
+
+/// Writes the directories of Exif and GPS.
+pub(super) fn write_directories<W: Write + Seek>(
+    encoder: &mut TiffEncoder<W>,
+    fields: &[Field],
+) -> Result<Places, TiffError> {
+    let mut places = Places::default();
+    for (pointer, context) in [(Tag::ExifDirectory, Context::Exif), (Tag::GpsDirectory, Context::Gps)] {
+        let of_context = |field: &&Field| field.tag.0 == context;
+        if !fields.iter().any(|field| of_context(&field)) {
+            continue;
+        }
+        let mut directory = encoder.extra_directory()?;
+        fields.iter().filter(of_context).try_for_each(|field| write_field(&mut directory, field))?;
+        places.0.push((pointer, directory.finish_with_offsets()?.offset));
+    }
+    Ok(places)
+}
+
+/// Writes the tags of a TIFF's own directory.
+pub(super) fn write_tags<W: Write + Seek>(
+    tags: &mut DirectoryEncoder<'_, W, TiffKindStandard>,
+    metadata: &Metadata,
+    (fields, places): (&[Field], &Places),
+    size: (usize, usize),
+) -> Result<(), TiffError> {
+    let own = fields.iter().filter(|field| field.tag.0 == Context::Tiff);
+    own.into_iter().try_for_each(|field| write_field(tags, field))?;
+    places.0.iter().try_for_each(|(pointer, place)| tags.write_tag(*pointer, *place))?;
+    let packet = metadata.packet_to_write(size);
+    packet.map_or(Ok(()), |packet| tags.write_tag(XMP, packet.as_bytes()))
+}
+
+fn write_field<W: Write + Seek, K: TiffKind>(
+    directory: &mut DirectoryEncoder<'_, W, K>,
+    field: &Field,
+) -> Result<(), TiffError> {
+    let Some((kind, bytes)) = stored(&field.value) else { return Ok(()) };
+    let Some(kind) = Type::from_u16(kind) else { return Ok(()) };
+    let entry = directory.write_entry_bytes(kind, &bytes)?;
+    let mut one = Directory::empty();
+    one.extend([(Tag::from_u16_exhaustive(field.tag.1), entry)]);
+    directory.extend_from(&one);
+    Ok(())
+}

@@ -1,0 +1,168 @@
+//! What a file says beside its pixels and their colours, and what of it goes along to other files.
+
+mod attribute;
+mod exif;
+mod text;
+mod xmp;
+
+pub use attribute::Attribute;
+pub use exif::Exif;
+pub use text::TextChunk;
+
+pub(crate) use attribute::LARGEST as LARGEST_ATTRIBUTE;
+pub(crate) use exif::{LARGEST as LARGEST_EXIF, is_read, of_stored, stored};
+pub(crate) use text::XMP;
+
+use crate::Format;
+use attribute::Fate;
+
+/// Statements of a file beside its pixels and their colours.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Carried {
+    /// Attributes of an OpenEXR file.
+    pub attributes: Vec<Attribute>,
+    /// Texts of a PNG.
+    pub texts: Vec<TextChunk>,
+    /// Exif metadata of a PNG, JPEG or TIFF.
+    pub exif: Option<Exif>,
+    /// XMP packet of a PNG, JPEG or TIFF.
+    pub(crate) xmp: Option<String>,
+    /// Kinds of metadata that are never carried, such as IPTC.
+    pub unread: Vec<&'static str>,
+}
+
+/// Makes the metadata of an OpenEXR file.
+impl From<Vec<Attribute>> for Carried {
+    fn from(attributes: Vec<Attribute>) -> Self {
+        Self { attributes, ..Self::default() }
+    }
+}
+
+/// Metadata that go along to a file, and names of those that do not.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Kept {
+    /// Metadata that go along.
+    pub carried: Carried,
+    /// Names of what would be untrue of the output.
+    pub untrue: Vec<String>,
+    /// Kinds of what the format cannot hold, with the names of some of it.
+    pub lost: Vec<String>,
+    /// Whether something of what is lost says who made the picture or whose it is.
+    pub loses_owner: bool,
+}
+
+/// Names that say who made a picture or whose it is: OpenEXR's, PNG's and XMP's.
+const OWNERS: [&str; 7] =
+    ["owner", "Author", "Copyright", "dc:creator", "dc:rights", "photoshop:Credit", "xmpRights:Owner"];
+
+/// Greatest number of bytes in a segment of a JPEG, without its length and its longest name.
+const LARGEST_SEGMENT: usize = 65_533 - 29;
+
+impl Carried {
+    /// Returns the properties of the XMP packet, each with its text.
+    pub fn xmp(&self) -> Vec<(String, String)> {
+        self.xmp.as_deref().map(xmp::properties).unwrap_or_default()
+    }
+
+    /// Takes an XMP packet over; the error says why it is left out.
+    pub(crate) fn add_xmp(&mut self, packet: &[u8]) -> Result<(), String> {
+        self.xmp = Some(xmp::check(packet)?);
+        Ok(())
+    }
+
+    /// Takes an Exif block over; the error says why it is left out.
+    pub(crate) fn add_exif(&mut self, block: &[u8]) -> Result<(), String> {
+        self.exif = Some(Exif::of_block(block)?);
+        Ok(())
+    }
+
+    /// Returns what goes along to a file of this format, of which the picture is another one than the input's.
+    pub fn kept(&self, format: Format) -> Kept {
+        let mut kept = Kept::default();
+        self.keep_attributes(format, &mut kept);
+        self.keep_texts(format, &mut kept);
+        self.keep_exif(format, &mut kept);
+        self.keep_xmp(format, &mut kept);
+        kept.lost.extend(self.unread.iter().map(ToString::to_string));
+        kept
+    }
+
+    fn keep_attributes(&self, format: Format, kept: &mut Kept) {
+        let mut names = Vec::new();
+        for attribute in &self.attributes {
+            match attribute.fate() {
+                Fate::Kept if format.holds_attributes() => kept.carried.attributes.push(attribute.clone()),
+                Fate::Kept => names.push(attribute.name.clone()),
+                Fate::Untrue => kept.untrue.push(attribute.name.clone()),
+                Fate::Rewritten if attribute.is_lost(&self.attributes) => kept.untrue.push(attribute.name.clone()),
+                Fate::Rewritten => {}
+            }
+        }
+        kept.lose("OpenEXR attributes", &names);
+    }
+
+    fn keep_texts(&self, format: Format, kept: &mut Kept) {
+        let mut names = Vec::new();
+        for text in self.texts.iter().filter(|text| !text.is_rewritten()) {
+            match () {
+                () if text.is_untrue() => kept.untrue.push(text.keyword()),
+                () if format.holds_text() => kept.carried.texts.push(text.clone()),
+                () => names.push(text.keyword()),
+            }
+        }
+        kept.lose("PNG text", &names);
+    }
+
+    fn keep_exif(&self, format: Format, kept: &mut Kept) {
+        let Some(exif) = &self.exif else { return };
+        let (rest, untrue) = exif.kept();
+        kept.untrue.extend(untrue);
+        let Some(rest) = rest else { return };
+        let is_too_long = format == Format::Jpeg && rest.len() > LARGEST_SEGMENT;
+        if format.holds_exif() && !is_too_long {
+            kept.carried.exif = Some(rest);
+            return;
+        }
+        kept.loses_owner |= rest.says_whose();
+        let names: Vec<String> = rest.told().into_iter().map(|(name, _)| name).collect();
+        kept.lose("Exif", &names);
+    }
+
+    fn keep_xmp(&self, format: Format, kept: &mut Kept) {
+        let Some(packet) = &self.xmp else { return };
+        let rest = xmp::kept(packet);
+        kept.untrue.extend(rest.untrue);
+        let Some(rest) = rest.packet else { return };
+        let is_too_long = format == Format::Jpeg && rest.len() > LARGEST_SEGMENT - 1024;
+        if format.holds_exif() && !is_too_long {
+            kept.carried.xmp = Some(rest);
+            return;
+        }
+        let names: Vec<String> = xmp::properties(&rest).into_iter().map(|(name, _)| name).collect();
+        kept.lose("XMP", &names);
+    }
+
+    /// Returns the XMP packet to write, with this description added; `None` if there is nothing to say.
+    pub(crate) fn packet_to_write(&self, description: Option<String>) -> Option<String> {
+        let packet = self.xmp.clone();
+        match (packet, description) {
+            (Some(packet), Some(description)) => {
+                Some(xmp::with_description(&packet, &description).unwrap_or_else(|| super::gpano::around(&description)))
+            }
+            (Some(packet), None) => Some(packet),
+            (None, description) => description.map(|description| super::gpano::around(&description)),
+        }
+    }
+}
+
+impl Kept {
+    /// Notes what a format cannot hold.
+    fn lose(&mut self, kind: &str, names: &[String]) {
+        self.loses_owner |= names.iter().any(|name| OWNERS.contains(&&**name));
+        match names {
+            [] => {}
+            [.., _] if names.len() <= 4 => self.lost.push(format!("{kind} ({})", names.join(", "))),
+            _ => self.lost.push(format!("{kind} ({} and {} more)", names[..3].join(", "), names.len() - 3)),
+        }
+    }
+}

@@ -1,0 +1,71 @@
+//! Texts in the chunks of PNG files.
+
+use std::io::Read;
+
+use flate2::read::ZlibDecoder;
+
+/// A chunk of text in a PNG: `tEXt`, `zTXt` or `iTXt`, as the file has it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TextChunk {
+    /// Type of the chunk.
+    pub(crate) kind: [u8; 4],
+    /// Content of the chunk.
+    pub(crate) data: Vec<u8>,
+}
+
+/// Keyword of an XMP packet.
+pub(crate) const XMP: &str = "XML:com.adobe.xmp";
+
+/// Greatest length of a text in bytes, once unpacked.
+const LONGEST: u64 = 1 << 20;
+
+impl TextChunk {
+    /// Returns its keyword, such as `Author`.
+    pub fn keyword(&self) -> String {
+        latin(self.data.split(|byte| *byte == 0).next().unwrap_or_default())
+    }
+
+    /// Returns its text; `None` if it is damaged or longer than a megabyte.
+    pub fn text(&self) -> Option<String> {
+        let (_, rest) = split(&self.data)?;
+        match (&self.kind, rest) {
+            (b"tEXt", text) => Some(latin(text)),
+            (b"zTXt", [0, packed @ ..]) => unpacked(packed).map(|text| latin(&text)),
+            (b"iTXt", [is_packed, 0, rest @ ..]) => {
+                let (_language, rest) = split(rest)?;
+                let (_keyword, text) = split(rest)?;
+                let text = if *is_packed == 0 { text.to_vec() } else { unpacked(text)? };
+                String::from_utf8(text).ok()
+            }
+            _ => None,
+        }
+    }
+
+    /// Returns whether another program's file says so of itself alone: which program wrote it.
+    pub(super) fn is_rewritten(&self) -> bool {
+        self.keyword() == "Software"
+    }
+
+    /// Returns whether it speaks of the input's pixels: previews, and metadata of other kinds in ImageMagick's old form.
+    pub(super) fn is_untrue(&self) -> bool {
+        let keyword = self.keyword();
+        ["Raw profile type ", "Thumb::", "png:"].iter().any(|start| keyword.starts_with(start))
+    }
+}
+
+/// Splits bytes at the first zero, which belongs to neither part.
+fn split(bytes: &[u8]) -> Option<(&[u8], &[u8])> {
+    let at = bytes.iter().position(|byte| *byte == 0)?;
+    Some((&bytes[..at], &bytes[at + 1..]))
+}
+
+/// Reads Latin-1.
+fn latin(bytes: &[u8]) -> String {
+    bytes.iter().map(|byte| char::from(*byte)).collect()
+}
+
+fn unpacked(packed: &[u8]) -> Option<Vec<u8>> {
+    let mut text = Vec::new();
+    ZlibDecoder::new(packed).take(LONGEST + 1).read_to_end(&mut text).ok()?;
+    (text.len() as u64 <= LONGEST).then_some(text)
+}
