@@ -53,8 +53,8 @@ pub use file::{
 pub use header::{Choice, Format, Header, ImageFile, LayeredImage, Plane, PlaneSamples};
 pub use limits::Limits;
 pub use metadata::{
-    Attribute, Carried, EnvMap, Exif, FilePart, Kept, Layers, Metadata, NamedChannel, Pose, ProfileFault, SampleKind,
-    TextChunk, Window,
+    Attribute, Carried, EnvMap, Exif, FilePart, Kept, Layers, Metadata, MetadataRoom, NamedChannel, Pose, ProfileFault,
+    SampleKind, TextChunk, Window,
 };
 pub use pto::{PtoError, PtoImage, PtoPanorama, PtoProject};
 pub use sequence::{FoundFrames, FrameList, FramePattern, Frames};

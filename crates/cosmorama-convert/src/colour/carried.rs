@@ -9,7 +9,7 @@ use crate::diagnostic::{Code, Diagnostic, STRIP};
 
 /// Returns what goes along from the first file to outputs of this format, and tells what does not.
 pub(super) fn carried(first: &Metadata, format: Format, warnings: &mut Vec<Diagnostic>) -> Arc<Carried> {
-    let Kept { carried, untrue, lost, loses_owner } = first.carried.kept(format);
+    let Kept { carried, untrue, lost, loses_owner } = first.carried.kept(format.room());
     if !lost.is_empty() {
         let message = format!("{format} cannot hold what the input says in {}: not carried over", lost.join(", "));
         // Nobody misses a camera's settings; whose picture it is must not get lost without a word.
@@ -29,6 +29,6 @@ pub(super) fn carried(first: &Metadata, format: Format, warnings: &mut Vec<Diagn
 impl Light {
     /// Returns what goes along from a frame's file to its outputs; `None` where nothing does.
     pub(crate) fn carried(&self, metadata: &Metadata) -> Option<Arc<Carried>> {
-        self.carries.map(|format| Arc::new(metadata.carried.kept(format).carried))
+        self.carries.map(|format| Arc::new(metadata.carried.kept(format.room()).carried))
     }
 }

@@ -2,7 +2,7 @@ use std::fmt;
 
 use cosmorama::raster::{Channels, Depth, Primaries, Transfer};
 
-use crate::metadata::khronos;
+use crate::metadata::{MetadataRoom, khronos};
 
 /// A file format.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -142,6 +142,9 @@ impl Properties {
     const DDS: Self = Self { name: "DDS", extensions: &["dds"], ..Self::TEXTURE };
 }
 
+/// Greatest number of bytes in a segment of a JPEG, without its length and its longest name.
+const LARGEST_SEGMENT: usize = 65_533 - 29;
+
 impl Format {
     /// All formats.
     pub const ALL: [Self; 9] =
@@ -256,19 +259,14 @@ impl Format {
         self.properties().has_compression
     }
 
-    /// Returns whether the format can hold Exif metadata and an XMP packet.
-    pub const fn holds_exif(self) -> bool {
-        self.properties().holds_exif
-    }
-
-    /// Returns whether the format has attributes of any name and type.
-    pub const fn holds_attributes(self) -> bool {
-        matches!(self, Self::Exr)
-    }
-
-    /// Returns whether the format has texts of any keyword.
-    pub const fn holds_text(self) -> bool {
-        matches!(self, Self::Png)
+    /// Returns the metadata that the format can hold.
+    pub const fn room(self) -> MetadataRoom {
+        let segment = if matches!(self, Self::Jpeg) { LARGEST_SEGMENT } else { usize::MAX };
+        MetadataRoom {
+            attributes: matches!(self, Self::Exr),
+            texts: matches!(self, Self::Png),
+            exif: if self.properties().holds_exif { Some(segment) } else { None },
+        }
     }
 
     /// Returns whether the format can hold an ICC profile.

@@ -6,7 +6,7 @@ pub(crate) mod khronos;
 mod layers;
 pub(crate) mod orientation;
 
-pub use carried::{Attribute, Carried, Exif, Kept, TextChunk};
+pub use carried::{Attribute, Carried, Exif, Kept, MetadataRoom, TextChunk};
 pub(crate) use carried::{LARGEST_ATTRIBUTE, LARGEST_EXIF, XMP, is_read, of_stored, stored};
 pub(crate) use colour_name::colour_name;
 pub use gpano::Pose;

@@ -13,7 +13,6 @@ pub(crate) use attribute::LARGEST as LARGEST_ATTRIBUTE;
 pub(crate) use exif::{LARGEST as LARGEST_EXIF, is_read, of_stored, stored};
 pub(crate) use text::XMP;
 
-use crate::Format;
 use attribute::Fate;
 
 /// Statements of a file beside its pixels and their colours.
@@ -55,8 +54,19 @@ pub struct Kept {
 const OWNERS: [&str; 7] =
     ["owner", "Author", "Copyright", "dc:creator", "dc:rights", "photoshop:Credit", "xmpRights:Owner"];
 
-/// Greatest number of bytes in a segment of a JPEG, without its length and its longest name.
-const LARGEST_SEGMENT: usize = 65_533 - 29;
+/// Bytes that a description of our own may add to an XMP packet.
+const DESCRIPTION: usize = 1024;
+
+/// Metadata that a file format can hold.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct MetadataRoom {
+    /// Whether it has attributes of any name and type.
+    pub attributes: bool,
+    /// Whether it has texts of any keyword.
+    pub texts: bool,
+    /// Greatest number of bytes of its Exif block, and of its XMP packet; `None` if it has neither.
+    pub exif: Option<usize>,
+}
 
 impl Carried {
     /// Returns the properties of the XMP packet, each with its text.
@@ -76,22 +86,22 @@ impl Carried {
         Ok(())
     }
 
-    /// Returns what goes along to a file of this format, of which the picture is another one than the input's.
-    pub fn kept(&self, format: Format) -> Kept {
+    /// Returns what goes along to a file with this room, of which the picture is another one than the input's.
+    pub fn kept(&self, room: MetadataRoom) -> Kept {
         let mut kept = Kept::default();
-        self.keep_attributes(format, &mut kept);
-        self.keep_texts(format, &mut kept);
-        self.keep_exif(format, &mut kept);
-        self.keep_xmp(format, &mut kept);
+        self.keep_attributes(room, &mut kept);
+        self.keep_texts(room, &mut kept);
+        self.keep_exif(room, &mut kept);
+        self.keep_xmp(room, &mut kept);
         kept.lost.extend(self.unread.iter().map(ToString::to_string));
         kept
     }
 
-    fn keep_attributes(&self, format: Format, kept: &mut Kept) {
+    fn keep_attributes(&self, room: MetadataRoom, kept: &mut Kept) {
         let mut names = Vec::new();
         for attribute in &self.attributes {
             match attribute.fate() {
-                Fate::Kept if format.holds_attributes() => kept.carried.attributes.push(attribute.clone()),
+                Fate::Kept if room.attributes => kept.carried.attributes.push(attribute.clone()),
                 Fate::Kept => names.push(attribute.name.clone()),
                 Fate::Untrue => kept.untrue.push(attribute.name.clone()),
                 Fate::Rewritten if attribute.is_lost(&self.attributes) => kept.untrue.push(attribute.name.clone()),
@@ -101,25 +111,24 @@ impl Carried {
         kept.lose("OpenEXR attributes", &names);
     }
 
-    fn keep_texts(&self, format: Format, kept: &mut Kept) {
+    fn keep_texts(&self, room: MetadataRoom, kept: &mut Kept) {
         let mut names = Vec::new();
         for text in self.texts.iter().filter(|text| !text.is_rewritten()) {
             match () {
                 () if text.is_untrue() => kept.untrue.push(text.keyword()),
-                () if format.holds_text() => kept.carried.texts.push(text.clone()),
+                () if room.texts => kept.carried.texts.push(text.clone()),
                 () => names.push(text.keyword()),
             }
         }
         kept.lose("PNG text", &names);
     }
 
-    fn keep_exif(&self, format: Format, kept: &mut Kept) {
+    fn keep_exif(&self, room: MetadataRoom, kept: &mut Kept) {
         let Some(exif) = &self.exif else { return };
         let (rest, untrue) = exif.kept();
         kept.untrue.extend(untrue);
         let Some(rest) = rest else { return };
-        let is_too_long = format == Format::Jpeg && rest.len() > LARGEST_SEGMENT;
-        if format.holds_exif() && !is_too_long {
+        if room.exif.is_some_and(|most| rest.len() <= most) {
             kept.carried.exif = Some(rest);
             return;
         }
@@ -128,13 +137,12 @@ impl Carried {
         kept.lose("Exif", &names);
     }
 
-    fn keep_xmp(&self, format: Format, kept: &mut Kept) {
+    fn keep_xmp(&self, room: MetadataRoom, kept: &mut Kept) {
         let Some(packet) = &self.xmp else { return };
         let rest = xmp::kept(packet);
         kept.untrue.extend(rest.untrue);
         let Some(rest) = rest.packet else { return };
-        let is_too_long = format == Format::Jpeg && rest.len() > LARGEST_SEGMENT - 1024;
-        if format.holds_exif() && !is_too_long {
+        if room.exif.is_some_and(|most| rest.len() <= most - DESCRIPTION) {
             kept.carried.xmp = Some(rest);
             return;
         }
