@@ -51,6 +51,7 @@ mod output {
     mod colour_table;
     mod metadata;
     mod output_shape;
+    mod page_table;
 }
 
 mod sequence {

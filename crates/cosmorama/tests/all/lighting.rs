@@ -123,18 +123,21 @@ fn one_texel_gives_the_lobe() {
     let at = [40, 22];
     let (world, light) = panorama(width, |i, j| if [i, j] == at { [SUN; 3] } else { [0.18; 3] });
     let lobes = [0.05, 0.1, 0.25, 0.5, 1.0].map(|alpha| Lobe::ggx(alpha).unwrap());
-    let light_under_lobes = PreparedLight::new(&world, &light, &lobes).unwrap();
+    let prepared = PreparedLight::new(&world, &light, &lobes).unwrap();
+    let tree = LightTree::new(&world, &light).unwrap();
     let sun = target(width).direction(PixelPoint::centre(at[0], at[1])).unwrap();
     let angle = f64::from(world.sources()[0].solid_angles[at[1] * width + at[0]]);
     let energy = |image: &[Rgba], world: &World| -> f64 {
         image.iter().zip(world.solid_angles()).map(|(pixel, angle)| f64::from(pixel.0[0]) * f64::from(angle)).sum()
     };
     let before = energy(light.texels(), &world);
-    for (lobe, alpha) in lobes.into_iter().zip([0.05, 0.1, 0.25, 0.5, 1.0]) {
-        let image = light_under_lobes.picture(&target(width), &lobe, Rgba::BLACK);
+    let each = lobes.into_iter().zip([0.05, 0.1, 0.25, 0.5, 1.0]);
+    let by_tree = each.clone().skip(1).map(|case| (&tree as &dyn LobeAverages, case));
+    for (averages, (lobe, alpha)) in each.map(|case| (&prepared as &dyn LobeAverages, case)).chain(by_tree) {
+        let image = averages.picture(&target(width), &lobe, Rgba::BLACK);
         let after = energy(image.pixels(), &world) / before;
         assert!((after - 1.0).abs() < 1e-3, "{alpha}: energy {after}");
-        let peak = f64::from(light_under_lobes.average(sun, &lobe).0[0]);
+        let peak = f64::from(averages.average(sun, &lobe).0[0]);
         let expected = f64::from(SUN - 0.18) * angle * lobe.weight(1.0) / lobe.integral() + 0.18;
         assert!((peak / expected - 1.0).abs() < 0.01, "{alpha}: peak {peak}, not {expected}");
         assert_eq!(maxima(&image), 1, "{alpha}");

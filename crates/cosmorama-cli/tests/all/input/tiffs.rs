@@ -55,24 +55,20 @@ fn luma_and_differences_of_colour_are_not_taken_for_red_green_and_blue() {
 #[test]
 fn a_picture_that_is_to_be_turned_is_told_of() {
     let bench = Bench::new();
-    for (orientation, expected) in [(1, 0), (3, 1)] {
+    for (orientation, expected) in [(1, 0), (6, 1)] {
         std::fs::write(bench.path("a.tif"), tiff(2, Some((274, 3, 1, orientation)))).unwrap();
-        let output = convert(&bench);
-        assert!(output.status.success());
-        let told = text(&output.stderr);
-        assert_eq!(told.matches("warning").count(), 0, "{told}");
-        let noted = text(
-            &bench
-                .run(&[
-                    "-v", "convert", "a.tif", "out.png", "-y", "--from", "equirect", "--to", "fisheye", "--size", "4",
-                ])
-                .stderr,
-        );
-        assert_eq!(
-            noted.matches("a.tif is turned or mirrored as it asks (orientation 3)").count(),
-            expected,
-            "{noted}"
-        );
-        assert_eq!(bench.succeed(&["info", "a.tif"]).matches("orientation: 3").count(), expected);
+        // A view of any shape: turned, it is higher than wide.
+        let convert =
+            ["convert", "a.tif", "out.png", "-y", "--from", "perspective:fov=60", "--to", "perspective:fov=20"];
+        let told = |more: &[&str]| {
+            let output = bench.run(&[more, &convert[..], &["--size", "4"]].concat());
+            assert!(output.status.success(), "{}", text(&output.stderr));
+            text(&output.stderr)
+        };
+        assert_eq!(told(&[]).matches("warning").count(), 0);
+        let noted = told(&["-v"]);
+        let of_it = "a.tif is turned or mirrored as it asks (orientation 6)";
+        assert_eq!(noted.matches(of_it).count(), expected, "{noted}");
+        assert_eq!(bench.succeed(&["info", "a.tif"]).matches("orientation: 6").count(), expected);
     }
 }

@@ -4,24 +4,10 @@ use std::fmt::Write as _;
 use std::path::Path;
 
 use super::colour::tables;
+use super::page_table::{self, FORMATS};
 use crate::bench::{Bench, text};
 use cosmorama::raster::{Channels, Depth, EncodedImage, Image, Primaries, Rgba, Transfer};
 use cosmorama_io::{EnvMap, Metadata, WriteOptions, probe, write};
-
-const PAGE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/colour.md");
-const BEGIN: &str = "<!-- written by cosmorama-cli/tests/all/output/colour_table.rs -->\n";
-const END: &str = "<!-- end -->\n";
-
-const FORMATS: [(&str, &str); 8] = [
-    ("PNG", "png"),
-    ("JPEG", "jpg"),
-    ("TIFF", "tif"),
-    ("OpenEXR", "exr"),
-    ("Radiance HDR", "hdr"),
-    ("KTX 2", "ktx2"),
-    ("DDS", "dds"),
-    ("TGA", "tga"),
-];
 
 fn said(transfer: Transfer, primaries: Primaries) -> Metadata {
     Metadata { transfer: Some(transfer), primaries: Some(primaries), ..Metadata::default() }
@@ -124,24 +110,12 @@ fn tag(path: &Path, extension: &str, metadata: &Metadata) -> Option<String> {
 #[test]
 fn the_table_of_the_page_is_what_happens() {
     let bench = Bench::new();
-    let mut table = "| input |".to_owned();
-    FORMATS.iter().for_each(|(name, _)| table += &format!(" {name} |"));
-    table += &format!("\n|{}\n", "---|".repeat(FORMATS.len() + 1));
+    let mut rows = Vec::new();
     for (about, input, depth, metadata) in inputs() {
         save(&bench, input, depth, &metadata);
-        table += &format!("| {about} |");
-        FORMATS.iter().for_each(|(_, extension)| table += &format!(" {} |", cell(&bench, input, extension)));
-        table += "\n";
+        let cells: String =
+            FORMATS.iter().map(|(_, extension)| format!(" {} |", cell(&bench, input, extension))).collect();
+        rows.push(format!("| {about} |{cells}"));
     }
-    let page = std::fs::read_to_string(PAGE).unwrap();
-    let (start, rest) = page.split_once(BEGIN).unwrap();
-    let (stored, end) = rest.split_once(END).unwrap();
-    if std::env::var_os("UPDATE_GOLDENS").is_some() {
-        std::fs::write(PAGE, [start, BEGIN, &table, END, end].concat()).unwrap();
-        return;
-    }
-    for (stored, found) in stored.lines().zip(table.lines()) {
-        assert_eq!(stored, found, "docs/colour.md; after a change that is meant: UPDATE_GOLDENS=1");
-    }
-    assert_eq!(stored, table);
+    page_table::check("colour.md", "colour_table.rs", &rows);
 }

@@ -4,24 +4,10 @@ use std::io::Cursor;
 use std::process::Command;
 use std::sync::Arc;
 
+use super::page_table::{self, FORMATS};
 use crate::bench::{Bench, eight_bits, flat, text};
 use cosmorama::raster::{Channels, Depth, EncodedImage, Samples};
 use cosmorama_io::{Attribute, Carried, Format, Metadata, WriteOptions, probe, probe_from, write};
-
-const PAGE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/metadata.md");
-const BEGIN: &str = "<!-- written by cosmorama-cli/tests/all/output/metadata.rs -->\n";
-const END: &str = "<!-- end -->\n";
-
-const FORMATS: [(&str, &str); 8] = [
-    ("PNG", "png"),
-    ("JPEG", "jpg"),
-    ("TIFF", "tif"),
-    ("OpenEXR", "exr"),
-    ("Radiance HDR", "hdr"),
-    ("KTX 2", "ktx2"),
-    ("DDS", "dds"),
-    ("TGA", "tga"),
-];
 
 /// An Exif block by the specification: the file's own directory, and the camera's.
 fn exif(orientation: u16) -> Vec<u8> {
@@ -141,9 +127,7 @@ fn the_table_of_the_page_is_what_happens() {
     let bench = Bench::new();
     inputs(&bench);
     let mut rows: Vec<String> = ROWS.iter().map(|(about, ..)| format!("| {about} |")).collect();
-    let mut head = "| input |".to_owned();
-    for (name, extension) in FORMATS {
-        head += &format!(" {name} |");
+    for (_, extension) in FORMATS {
         for input in ["a.exr", "a.png", "a.jpg"] {
             let (before, output) = (said(&bench, input), format!("out.{extension}"));
             let run = bench.run(&[&["-v", "convert", input, &output, "-y"], shape(extension)].concat());
@@ -172,18 +156,7 @@ fn the_table_of_the_page_is_what_happens() {
             assert!(left.iter().all(|(name, _)| ROWS.iter().all(|(.., key)| key != name)), "{stripped} {left:?}");
         }
     }
-    let table = format!("{head}\n|{}\n{}\n", "---|".repeat(FORMATS.len() + 1), rows.join("\n"));
-    let page = std::fs::read_to_string(PAGE).unwrap();
-    let (start, rest) = page.split_once(BEGIN).unwrap();
-    let (stored, end) = rest.split_once(END).unwrap();
-    if std::env::var_os("UPDATE_GOLDENS").is_some() {
-        std::fs::write(PAGE, [start, BEGIN, &table, END, end].concat()).unwrap();
-        return;
-    }
-    for (stored, found) in stored.lines().zip(table.lines()) {
-        assert_eq!(stored, found, "docs/metadata.md; after a change that is meant: UPDATE_GOLDENS=1");
-    }
-    assert_eq!(stored, table);
+    page_table::check("metadata.md", "metadata.rs", &rows);
 }
 
 /// The picture 1 2 3 / 4 5 6 in its eight orientations by the table of Exif 2.32, figure 6.
