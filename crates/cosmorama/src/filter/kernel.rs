@@ -119,17 +119,17 @@ fn bessel_j1(t: f64) -> f64 {
         / POINTS as f64
 }
 
-/// A radial kernel with its unit: the reach in output pixels, but at least in texels.
+/// A radial kernel and its unit of length: `scale` output pixels, but at least `floor` texels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Kernel {
-    /// Cross-section where a pixel holds few texels (s ≤ [`Kernel::FINE`]).
+    /// Cross-section where a pixel holds few texels: s ≤ [`Kernel::FINE`], where s is the pixel's width in texels.
     pub fine: CrossSection,
     /// Cross-section where a pixel holds many texels (s ≥ [`Kernel::COARSEST`]). Between the two limits, both are
     /// blended linearly.
     pub coarse: CrossSection,
     /// Unit of the kernel in output pixels.
     pub scale: f64,
-    /// Least unit of the kernel, in texels.
+    /// Least size of the unit, in texels.
     pub floor: f64,
     /// Whether the weights are corrected so that their centroid is exactly the pixel's centre.
     pub centred: bool,
@@ -143,8 +143,8 @@ impl Kernel {
     pub const COARSE: f64 = 1.5;
     /// Texels per pixel from which only the coarse cross-section counts.
     pub const COARSEST: f64 = 4.0;
-    /// Share of the coarse cross-section at [`Kernel::COARSE`]; it gives [`Kernel::ADAPTIVE`] there B = ⅓ and C =
-    /// 0.345, nearly Mitchell's.
+    /// Share of the coarse cross-section at [`Kernel::COARSE`]. With it, [`Kernel::ADAPTIVE`] has B = ⅓ and C = 0.345
+    /// there, nearly Mitchell's.
     pub const KNEE: f64 = 0.881_330;
 
     /// Growth of the coarse share with s, before the knee and after it.
@@ -165,9 +165,9 @@ impl Kernel {
         centred: true,
     };
 
-    /// A wide Gaussian, σ = 0.7 pixel or texel, that keeps the total light. Its weights are positive, and they add to
-    /// one over pixels, too: a sun of one texel gives the pixels around it as much light as it has. This needs
-    /// anti-ringing to be off.
+    /// A wide Gaussian that keeps the total light; σ = 0.7 pixel or 0.7 texel, whichever is larger. Its weights are
+    /// positive, and for each texel they add to one over the pixels: a sun of one texel gives the pixels around it as
+    /// much light as it has. This needs anti-ringing to be off.
     pub const LIGHT: Self =
         Self { scale: 1.4, floor: 1.4, ..Self::uniform(CrossSection::Gaussian { alpha: 2.0, cutoff: 2.0 }) };
 
@@ -176,7 +176,7 @@ impl Kernel {
         Self { fine: cross_section, coarse: cross_section, scale: 1.0, floor: 1.0, centred: false }
     }
 
-    /// Returns the share of the coarse cross-section where a pixel is as wide as `s` texels.
+    /// Returns the share of the coarse cross-section where a pixel is `s` texels wide.
     pub fn coarseness(&self, s: f64) -> f64 {
         let [before, after] = Self::SLOPES;
         (before * (s - Self::FINE)).min(Self::KNEE + after * (s - Self::COARSE)).clamp(0.0, 1.0)
@@ -188,8 +188,9 @@ impl Kernel {
     }
 }
 
-/// r² below which texels bound a pixel in anti-ringing. With the default floor the disc reaches 1.37 texels. So there
-/// are texels on both sides of the pixel whatever way a gradient runs, at the corners of a cube, too.
+/// Squared distance below which a texel counts as under a pixel; anti-ringing clamps the average to these texels. With
+/// the default floor the disc reaches 1.37 texels. So there are texels on both sides of the pixel along any gradient,
+/// at the corners of a cube, too.
 pub(crate) const UNDER: f64 = 1.5;
 
 /// The paper's WTAB, twice: both cross-sections of a kernel tabulated over r², so that Q = r² is the index.
@@ -202,8 +203,8 @@ pub(crate) struct KernelTable {
 }
 
 /// Number of entries of a table, which is small enough for the first-level cache. For the cubics, interpolation between
-/// two entries errs by less than 1e-4 of the peak. It errs by 2 % for the tent, whose tip is sharp in r², and at the
-/// edge of the box.
+/// two entries errs by less than 1e-4 of the peak. For the tent, whose tip is sharp in r², and at the edge of the box,
+/// it errs by 2 %.
 const ENTRIES: usize = 2048;
 
 impl KernelTable {
@@ -212,7 +213,7 @@ impl KernelTable {
         let entries_per_unit = ENTRIES as f64 / radius_squared;
         let weights = (0..=ENTRIES)
             .map(|entry| {
-                // The last entry is what the weights come to at the edge, not what is beyond it.
+                // The last entry holds the weights just inside the radius. At the radius itself they may drop to zero.
                 let r = (entry as f64 / entries_per_unit).sqrt().min(kernel.radius() * (1.0 - 1e-9));
                 [kernel.fine.weight(r) as f32, kernel.coarse.weight(r) as f32]
             })
@@ -224,12 +225,12 @@ impl KernelTable {
         &self.kernel
     }
 
-    /// Returns the r² from which every weight is zero.
+    /// Returns the squared distance from which on every weight is zero.
     pub(crate) fn radius_squared(&self) -> f64 {
         self.radius_squared
     }
 
-    /// Returns the weight at distance² `q` < [`KernelTable::radius_squared`].
+    /// Returns the weight at squared distance `q` < [`KernelTable::radius_squared`].
     pub(crate) fn weight(&self, q: f64, coarseness: f32) -> f32 {
         let place = q * self.entries_per_unit;
         let entry = (place as usize).min(ENTRIES - 1);

@@ -6,7 +6,7 @@ use super::{FilterKind, FilterSettings, LabelRule, lookup, reference};
 use crate::camera::{ScreenPixel, View};
 use crate::world::World;
 
-/// Finder of the texels that single pixels of a target are made of.
+/// Finder of the texels that make up single pixels of a target.
 pub(crate) struct PixelTaps<'a> {
     world: &'a World,
     target: &'a View,
@@ -16,8 +16,8 @@ pub(crate) struct PixelTaps<'a> {
 }
 
 impl<'a> PixelTaps<'a> {
-    /// Makes the finder for pixels of `target` that `filter` makes from `world`; `table` belongs to the filter's
-    /// kernel.
+    /// Makes the finder for the pixels of `target`, as `filter` computes them from `world`; `table` belongs to the
+    /// filter's kernel.
     pub(crate) fn new(world: &'a World, target: &'a View, filter: &'a FilterSettings, table: &'a KernelTable) -> Self {
         Self { world, target, filter, gather: Gather::new(world, FieldEdge::of(target), table), taps: Taps::default() }
     }

@@ -47,7 +47,7 @@ pub trait Filter {
 pub struct SetupCost {
     /// Number of texels of light that are read once.
     pub texels: usize,
-    /// Number of bytes that are kept, about.
+    /// Approximate number of bytes that are kept.
     pub bytes: usize,
 }
 
@@ -58,9 +58,8 @@ pub trait Prepared: Send + Sync {
 
     /// Averages the light under a footprint; the result is premultiplied.
     ///
-    /// Parts that no view shows are left out: the average is that of the rest. [`Prepared::covered`] returns how much
-    /// the rest is. The average is transparent where no view is near, and for a footprint that holds a NaN or an
-    /// infinity.
+    /// Parts that no view shows are left out, and the rest is averaged. [`Prepared::covered`] returns how much the rest
+    /// is. The average is transparent where no view is near, and for a footprint that holds a NaN or an infinity.
     ///
     /// A footprint without width is a point: filters interpolate there between the texels around it. A footprint wider
     /// than [`WIDEST`] is taken as that wide. All filters see only the half of the world around the footprint's

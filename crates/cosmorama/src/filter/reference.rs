@@ -8,8 +8,8 @@ use crate::raster::Rgba;
 use crate::sphere::Direction;
 use crate::world::{Light, LightError, World};
 
-/// Brute force: N × N sub-samples a pixel, weighted by the kernel in screen space, in f64. It is slow, and the judge of
-/// the other filters.
+/// Brute force: N × N sub-samples a pixel, weighted by the kernel in screen space, in f64. It is slow, and the other
+/// filters are judged by it.
 ///
 /// For a picture, [`Resampler::render`](crate::render::Resampler::render) maps each sub-sample exactly. For a footprint
 /// only the derivatives are known. They place a sub-sample in the tangent plane, and its distance there becomes one
@@ -56,7 +56,7 @@ impl Prepared for PreparedReference<'_> {
     }
 }
 
-/// Fills a row of the target by brute force. It is slow and simple, and the judge of the other filters.
+/// Fills a row of the target by brute force, which is slow and simple. The other filters are judged by it.
 pub(crate) fn fill_row(
     world: &World,
     target: &View,
@@ -89,7 +89,7 @@ pub(crate) fn for_each_texel(
     });
 }
 
-/// Returns the square of sub-samples of a target's pixel, by the exact mapping and cut by the field stop.
+/// Returns the square of sub-samples of a target's pixel, mapped exactly and cut by the field stop.
 fn square_of_pixel<'a>(
     world: &'a World,
     target: &'a View,

@@ -15,8 +15,9 @@ pub enum FilterKind {
     Bilinear,
     /// One texel's value, chosen by a rule and never mixed with others: for labels.
     Labels(LabelRule),
-    /// N×N sub-samples a pixel through the exact mapping: slow, and the judge of the other methods. Each sub-sample
-    /// interpolates between texels, so the kernel's floor and its centring are not needed and have no effect.
+    /// N×N sub-samples a pixel through the exact mapping. It is slow, and the other methods are judged by it. Each
+    /// sub-sample interpolates between texels, so the kernel's floor and its centring are not needed and have no
+    /// effect.
     Reference {
         /// Number of sub-samples along a pixel's side.
         samples: usize,
@@ -51,7 +52,7 @@ impl FilterKind {
         }
     }
 
-    /// Returns whether one of two texels that are equally near is taken, so that mirrored pictures differ.
+    /// Returns whether the filter picks one of two texels that are equally near, so that mirrored pictures may differ.
     pub(crate) fn chooses_texels(self) -> bool {
         match self {
             Self::Point | Self::Labels(_) => true,
@@ -83,7 +84,8 @@ impl FilterSettings {
     pub(crate) fn reaching_kernel(&self) -> Kernel {
         let kernel = self.kernel;
         match self.kind {
-            // A texel of the coarser of two levels is as wide as a pixel at most: its floor in such texels, and half of one.
+            // A texel of the coarser level is at most as wide as a pixel. The kernel grows by its floor in such texels,
+            // and by one texel for interpolation.
             FilterKind::EwaPyramid => Kernel { scale: kernel.scale + kernel.floor + 1.0, ..kernel },
             FilterKind::Ewa
             | FilterKind::Point

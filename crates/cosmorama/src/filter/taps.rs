@@ -3,8 +3,8 @@ use fearless_simd::{Level, Simd, dispatch, f32x4, prelude::*};
 use super::rim::rim_extrapolation::{Bounds, Rim, TexelLight};
 use crate::raster::Rgba;
 
-/// Number of texels that are added in single precision before the sum goes on in double. A pixel of thousands of texels
-/// loses no digits, and a common one pays nothing.
+/// Number of texels that are summed in single precision before the sum continues in double. A pixel of thousands of
+/// texels loses no digits, and a common pixel costs nothing more.
 pub(crate) const BLOCK: usize = 32;
 
 /// Part of one texel in an output pixel.
@@ -16,7 +16,7 @@ pub(crate) struct Tap {
     pub(crate) weight: f32,
 }
 
-/// All the texels of an output pixel with their weights: what a filter makes of a footprint.
+/// Texels of an output pixel with their weights, as a filter finds them for a footprint.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Taps {
     taps: Vec<Tap>,
@@ -26,15 +26,15 @@ pub(crate) struct Taps {
     places: Vec<[f32; 2]>,
 }
 
-/// All the texels of an output pixel with their weights, borrowed from where they are kept.
+/// Texels of an output pixel with their weights, borrowed from where they are kept.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct TapList<'a> {
     /// All taps, those under the pixel first.
     pub(crate) taps: &'a [Tap],
     /// Number of taps under the pixel; anti-ringing clamps the average to them.
     pub(crate) under: usize,
-    /// Place of each tap if all lie to one side of the pixel's centre, where a slope is continued beyond them; else
-    /// empty.
+    /// Place of each tap if all lie to one side of the pixel's centre, where a slope is continued beyond them.
+    /// Otherwise empty.
     pub(crate) places: &'a [[f32; 2]],
 }
 
@@ -51,7 +51,7 @@ impl Taps {
         &self.taps
     }
 
-    /// Returns the taps with all that is known of them.
+    /// Returns the taps with their places and the number under the pixel.
     pub(crate) fn list(&self) -> TapList<'_> {
         TapList { taps: &self.taps, under: self.under, places: &self.places }
     }
@@ -67,7 +67,8 @@ impl Taps {
         self.under = self.taps.len();
     }
 
-    /// Replaces the taps by `count` others, each with whether it is one of the `under` that lie under the pixel.
+    /// Replaces the taps by `count` others, of which `under` lie under the pixel. A flag with each tap tells whether it
+    /// does.
     pub(crate) fn fill(&mut self, taps: impl Iterator<Item = (bool, Tap)>, count: usize, under: usize) {
         self.clear();
         self.taps.resize(count, Tap { texel: 0, weight: 0.0 });

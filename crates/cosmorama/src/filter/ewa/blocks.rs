@@ -1,4 +1,4 @@
-//! Texels under a kernel, eight of a row at once: weighted, centred and averaged without a list of taps.
+//! Average of the texels under a kernel, eight texels of a row at a time and without a list of taps.
 
 use arrayvec::ArrayVec;
 use fearless_simd::{Simd, f32x4, f32x8, prelude::*};
@@ -11,7 +11,7 @@ use crate::filter::kernel::UNDER;
 use crate::filter::rim::clamp_set::Wedge;
 use crate::raster::Rgba;
 
-/// A kernel of two cubics, and how its weights are used.
+/// Kernel whose two cross-sections are cubics, so that SIMD lanes can evaluate it.
 pub(crate) struct LaneKernel {
     pub(crate) kernel: Kernel,
     pub(crate) cubics: Cubics,
@@ -22,7 +22,7 @@ pub(crate) struct LaneKernel {
 /// Number of texels in a block.
 pub(crate) const LANES: usize = 8;
 
-/// Greatest number of blocks that fit.
+/// Greatest number of blocks for one footprint. The texels of a larger one are listed as taps instead.
 const MOST: usize = 512;
 
 /// Up to eight neighbouring texels of a row.
@@ -30,11 +30,11 @@ struct Block {
     /// Index of the first texel in the light, and the number of texels.
     first: usize,
     count: usize,
-    /// Bits of the texels that are under the footprint; these are contiguous.
+    /// Bit mask of the texels under the footprint, which are contiguous.
     under: u64,
-    /// Kernel's weight times the solid angle; zero in lanes without a texel.
+    /// Kernel's weight times the texel's solid angle; zero in lanes without a texel.
     weight: [f32; LANES],
-    /// Share of a correction that each texel may take: positive, and falling to zero at the kernel's edge.
+    /// Factor on the correction that centres the weights (see [`Correction`]): positive, and zero at the kernel's edge.
     window: [f32; LANES],
     /// Offsets from the footprint's middle, in any linear unit.
     x: [f32; LANES],
@@ -45,13 +45,13 @@ struct Block {
 #[derive(Default)]
 pub(crate) struct Blocks(ArrayVec<Block, MOST>);
 
-/// Weights and places of the texels of a block, in lanes.
+/// Weights and offsets of the texels of a block, one texel in each lane.
 pub(crate) struct Weighed<S: Simd> {
     /// Square of the distance from the footprint's middle, in the kernel's unit.
     pub(crate) q: f32x8<S>,
     /// Weight, before the solid angle.
     pub(crate) weight: f32x8<S>,
-    /// Solid angle, in any unit.
+    /// Solid angle, up to a common factor.
     pub(crate) solid_angle: f32x8<S>,
     /// Offset from the middle.
     pub(crate) offset: [f32x8<S>; 2],
@@ -129,7 +129,7 @@ impl Blocks {
         for block in &self.0 {
             let [w, v, x, y] = block.lanes(simd);
             let (vx, vy) = (v * x, v * y);
-            // One by one: a loop would keep them in memory.
+            // Added one by one: a loop would keep the sums in memory instead of registers.
             sums[0] += w;
             sums[1] += w * x;
             sums[2] += w * y;
@@ -169,7 +169,8 @@ impl Block {
     }
 }
 
-/// Correction of the weights: w·scale + v·(g·p + constant).
+/// Coefficients of a texel's corrected weight, w·scale + v·(gradient·p + constant), where w is its weight, v its window
+/// and p its offset.
 struct Correction {
     scale: f32,
     gradient: [f32; 2],

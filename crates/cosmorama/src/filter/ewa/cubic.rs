@@ -3,19 +3,19 @@ use fearless_simd::{Simd, prelude::*};
 use super::lanes::Lanes;
 use crate::filter::{CrossSection, Kernel};
 
-/// Both cross-sections of a kernel as polynomials, which lanes can evaluate without a table. Both must be cubics of
-/// Mitchell & Netravali (1988).
+/// Polynomials for a kernel's two cross-sections, which SIMD lanes evaluate without a table. Both cross-sections must
+/// be cubics of Mitchell & Netravali (1988).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Cubics {
     fine: Coefficients,
     coarse: Coefficients,
 }
 
-/// Coefficients of r³, r² and 1 up to r = 1; beyond, of x³ and x², where x = 2 − r.
+/// Coefficients of r³, r² and 1 for r up to 1; then of x³ and x², where x = 2 − r, for r from 1 to 2.
 type Coefficients = [f32; 5];
 
 impl Cubics {
-    /// Returns the cubics of a kernel; `None` if one of its cross-sections is no cubic.
+    /// Returns the cubics of a kernel; `None` if one of its cross-sections is not a cubic.
     pub(crate) fn of(kernel: &Kernel) -> Option<Self> {
         Some(Self { fine: coefficients(kernel.fine)?, coarse: coefficients(kernel.coarse)? })
     }
@@ -31,11 +31,11 @@ impl Cubics {
     }
 }
 
-/// Returns the coefficients of Mitchell & Netravali 1988, equation 8. Its outer part, whose value and slope end at
-/// zero, is factored at r = 2.
+/// Returns the coefficients of Mitchell & Netravali 1988, equation 8. The outer part has value and slope zero at r = 2,
+/// so that powers of 2 − r suffice.
 fn coefficients(section: CrossSection) -> Option<Coefficients> {
     let CrossSection::Cubic { b, c } = section else { return None };
-    // Beyond, negative lobes could outweigh the rest, which lanes do not look after.
+    // With other parameters, negative lobes could outweigh the rest, which the lanes do not check.
     if !(0.0..=1.0).contains(&b) || !(0.0..=1.0).contains(&c) {
         return None;
     }
@@ -47,7 +47,7 @@ fn coefficients(section: CrossSection) -> Option<Coefficients> {
 pub(crate) struct Curve<V>([V; 5]);
 
 impl<V> Curve<V> {
-    /// Returns the weights at distances² `q`; they are zero from 4 on.
+    /// Returns the weights at squared distances `q`; they are zero from q = 4 on.
     #[inline(always)]
     pub(crate) fn weight<S: Simd>(&self, q: V) -> V
     where

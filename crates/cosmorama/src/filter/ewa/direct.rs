@@ -21,15 +21,15 @@ pub(crate) struct Direct {
 }
 
 impl Direct {
-    /// Makes the average for a kernel. `None` if it is not of cubics, or if its floor is below one, so that no texel
-    /// might be under a footprint.
+    /// Prepares the average for a kernel. Returns `None` if a cross-section is not a cubic. Returns `None` also if the
+    /// kernel's floor is below 1, since there might be no texel under a footprint.
     pub(crate) fn new(kernel: &Kernel, anti_ringing: bool) -> Option<Self> {
         let cubics = Cubics::of(kernel).filter(|_| kernel.floor >= 1.0)?;
         Some(Self { kernel: LaneKernel { kernel: *kernel, cubics, anti_ringing }, level: Level::new() })
     }
 
-    /// Averages a footprint; `view` is the view that shows it, if that is known. `None` if its texels must be listed
-    /// one by one.
+    /// Averages a footprint. `view` is the index of the view that shows its centre, if the caller knows it. Returns
+    /// `None` if the footprint's texels must be listed one by one.
     pub(crate) fn average(
         &self,
         (world, pinholes): (&World, Option<&Pinholes>),
@@ -92,7 +92,7 @@ fn in_view<S: Simd>(
     Some(blocks.average(simd, light, kernel.centred, *anti_ringing))
 }
 
-/// Returns whether a footprint's middle lies among the texels of a source that count whole.
+/// Returns whether the middle of a footprint lies in the part of a source that no other view shares.
 fn holds(source: &Source, footprint: &Footprint) -> bool {
     let rect = source.whole;
     source.view.pixel(footprint.direction).is_some_and(|pixel| {

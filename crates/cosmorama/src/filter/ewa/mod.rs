@@ -98,7 +98,7 @@ impl Averager {
         direct.unwrap_or_else(|| self.by_taps(views.0, light, footprint))
     }
 
-    /// Averages a footprint by a list of taps, wherever the texels lie.
+    /// Averages a footprint by a list of taps, which works anywhere: at seams, poles and rims, too.
     pub(crate) fn by_taps(&self, world: &World, light: &[Rgba], footprint: &Footprint) -> Rgba {
         let average = |taps: &taps::Taps| taps::average(taps.list(), |texel| light[texel as usize], self.anti_ringing);
         self.taps.lend(world, footprint, average)

@@ -1,5 +1,5 @@
-//! Average of a footprint among pinhole views, across their edges: in the plane of each, a kernel on the sphere is a
-//! conic.
+//! Average of a footprint in pinhole views, across their edges. A round kernel on the sphere has a conic as its outline
+//! in each view's image plane.
 
 use fearless_simd::{Simd, f32x8, prelude::*};
 use glam::{DMat2, DMat3, DVec2, DVec3};
@@ -15,19 +15,20 @@ use crate::raster::Rgba;
 use crate::sphere::Direction;
 use crate::world::{Source, World};
 
-/// Views of one pinhole camera that is turned to different sides.
+/// Pinhole views with texels of one size, such as the faces of a cube.
 pub(crate) struct Pinholes {
     views: Vec<Pinhole>,
     /// Size of the largest texel of all views: the longer of its two sides, in radians.
     texel_pitch: f64,
 }
 
-/// A pinhole view as three vectors: the point (U, V) of its image, in pixels, looks along across·U + down·V + corner.
+/// A pinhole view as three vectors: the point (U, V) of its image, in pixels, shows the direction across·U + down·V +
+/// corner.
 struct Pinhole {
     across: DVec3,
     down: DVec3,
     corner: DVec3,
-    /// Matrix from a direction to U, V and 1, each times the depth: the direction's part along the axis.
+    /// Matrix from a direction to (U, V, 1) times the depth, which is the direction's component along the view's axis.
     to_image: DMat3,
     size: [usize; 2],
     /// Index of the view's first texel in the light.
@@ -37,7 +38,7 @@ struct Pinhole {
     cone: [f64; 2],
 }
 
-/// Kernel of a footprint.
+/// Kernel of a footprint, on the sphere.
 struct Shape {
     direction: DVec3,
     /// Axes whose dot products with a direction give its offset from the footprint's middle, in the kernel's unit.
@@ -46,36 +47,38 @@ struct Shape {
     radius: f64,
 }
 
-/// A kernel in the plane of a view, by offsets (u, v) in texels from a point. That is the point in the footprint's
-/// direction. Where the footprint looks along the plane or away from it, it is the image's middle.
+/// A kernel in the image plane of a view. Offsets (u, v), in texels, are measured from a reference point: the image of
+/// the footprint's direction. If the footprint looks along the plane or away from it, the middle of the image takes its
+/// place.
 struct Plane {
-    /// Whether the footprint's direction has a point in the plane.
+    /// Whether the reference point is the image of the footprint's direction.
     is_before: bool,
     lattice: Lattice,
-    /// Terms of the offset in the kernel's unit: (middle + u·across + v·down) / √s.
+    /// Terms of a texel's offset from the footprint's middle, in the kernel's unit: (middle + u·across + v·down) / √s.
     middle: DVec2,
     across: DVec2,
     down: DVec2,
-    /// Terms of s = 1 + u·s₀ + v·s₁ + u²·s₂ + v²·s₃: the squared distance from the pinhole, over that of the point.
+    /// Coefficients of s = 1 + u·s₀ + v·s₁ + u²·s₂ + v²·s₃: the squared distance of a texel from the pinhole, relative
+    /// to that of the reference point.
     s: [f64; 4],
-    /// Terms of front₀ + u·front₁ + v·front₂, which is positive in the half of the world around the footprint's
+    /// Coefficients of front₀ + u·front₁ + v·front₂, which is positive less than a right angle from the footprint's
     /// direction.
     front: [f64; 3],
-    /// Whether the kernel is so small that distances are taken as linear; s then counts in solid angles and offsets
-    /// alone.
+    /// Whether the kernel is so small that distances are taken as linear in u and v. Then s enters only solid angles
+    /// and offsets.
     is_linear: bool,
-    /// Solid angle of a texel at the point.
+    /// Solid angle of a texel at the reference point, in steradians.
     solid_angle: f64,
     /// Share of the coarse cubic.
     coarseness: f64,
 }
 
-/// Depth in front of a plane from which a direction has a point there.
+/// Least depth of a footprint's direction before the plane for its image to be the reference point.
 const NEAR: f64 = 0.05;
 
 impl Pinholes {
-    /// Returns the views of a world. `None` unless all are pinholes with texels alike, each of which counts exactly
-    /// once.
+    /// Returns the views of a world. `None` unless all are pinhole views with texels of one size, without field stops,
+    /// masks or overlaps.
     pub(crate) fn of(world: &World) -> Option<Self> {
         let texel_pitch = world.sources()[0].texel_pitch;
         let views =
@@ -122,7 +125,8 @@ impl Pinhole {
     /// Returns whether a kernel may reach into the picture.
     #[inline(always)]
     fn is_reached(&self, shape: &Shape) -> bool {
-        // Distances are seen along the footprint's direction: nothing is further than a right angle.
+        // Offsets are seen along the footprint's direction, so the radius is the sine of an angle, and of a right angle
+        // at most.
         let sine = shape.radius.min(1.0);
         let cosine = (1.0 - sine * sine).sqrt();
         self.axis.dot(shape.direction) > self.cone[0] * cosine - self.cone[1] * sine
@@ -181,7 +185,7 @@ impl Plane {
     fn raise(&mut self, floor: f64) -> bool {
         let (a, b) = (self.across.length_squared(), self.down.length_squared());
         let (half, both) = (0.5 * (a - b), self.across.dot(self.down));
-        // The greater singular value is the shorter axis's.
+        // The greater singular value belongs to the shorter axis.
         if (0.5 * (a + b) + (half * half + both * both).sqrt()) * floor * floor <= 1.0 {
             return false;
         }
@@ -210,9 +214,9 @@ impl Plane {
 }
 
 impl Pinholes {
-    /// Averages the texels under a footprint. `view` is the index of the view that shows the footprint's centre, if the caller
-    /// knows it. Returns `None` where these fast loops over rectangles of texels do not apply; the caller then lists texels one
-    /// by one.
+    /// Averages the texels under a footprint. `view` is the index of the view that shows the footprint's centre, if the
+    /// caller knows it. Returns `None` where these fast loops over rows of texels do not apply. Then the caller lists
+    /// the texels one by one.
     #[inline(always)]
     pub(crate) fn average<S: Simd>(
         &self,
@@ -234,7 +238,8 @@ impl Pinholes {
                     continue;
                 }
                 let mut plane = other.plane(&shape, profile);
-                // Raised axes are others in each view. From aside nothing is raised: only wide kernels reach there.
+                // Axes raised to the floor would differ between views. Where the other view's plane does not show the
+                // footprint's direction, nothing is raised: only a wide kernel reaches that view.
                 if is_raised || plane.is_before && plane.raise(profile.floor) {
                     return None;
                 }

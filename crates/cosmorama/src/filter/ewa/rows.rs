@@ -38,7 +38,7 @@ pub(crate) struct Row {
     pub(crate) v: f32,
 }
 
-/// Greatest number of rows that fit.
+/// Greatest number of rows; a conic with more is not cut.
 const MOST: usize = 256;
 
 /// Rows of texels inside a conic, from top to bottom.
@@ -50,9 +50,9 @@ pub(crate) struct Rows {
 }
 
 impl Conic {
-    /// Returns the least and greatest v of the conic, infinite if it has no end.
+    /// Returns the least and greatest v inside the conic; infinite if the conic is unbounded.
     fn range(&self) -> [f64; 2] {
-        // Rows that it meets have a discriminant that is not negative: that is quadratic in v as well.
+        // A row meets the conic if the discriminant of P in u is not negative. That discriminant is quadratic in v.
         let Self { uu, uv, vv, u, v, one } = *self;
         let [square, linear, constant] =
             [uv * uv - 4.0 * uu * vv, 2.0 * (uv * u - 2.0 * uu * v), u * u - 4.0 * uu * one];
@@ -66,7 +66,7 @@ impl Conic {
 }
 
 impl Rows {
-    /// Cuts a conic into rows; `None` if it has too many.
+    /// Cuts a conic into rows; `None` if there are more than [`MOST`].
     #[inline(always)]
     pub(crate) fn cut<S: Simd>(&mut self, simd: S, conic: &Conic, lattice: &Lattice) -> Option<()> {
         let Lattice { texel: [column, row], centre, size: [width, height] } = *lattice;
@@ -118,7 +118,7 @@ impl Rows {
 }
 
 impl Lattice {
-    /// Returns the texels of a view of this size, around a point.
+    /// Returns the columns and rows of a view of this size, around a point of its image.
     #[inline(always)]
     pub(crate) fn around([x, y]: [f64; 2], [width, height]: [usize; 2]) -> Self {
         let [column, row] = [x.floor(), y.floor()];

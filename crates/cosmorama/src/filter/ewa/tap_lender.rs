@@ -6,19 +6,19 @@ use crate::filter::kernel::KernelTable;
 use crate::filter::taps::Taps;
 use crate::world::World;
 
-/// Lists of the texels under footprints, with their weights by one kernel. Threads reuse the memory.
+/// Lists of the texels under footprints, with their weights by one kernel. Threads reuse the memory of earlier lists.
 pub(crate) struct TapLender {
     table: KernelTable,
     scratch: Pool<(Scratch, Taps)>,
 }
 
 impl TapLender {
-    /// Prepares lists by a kernel.
+    /// Prepares tap lists for a kernel.
     pub(crate) fn new(kernel: &Kernel) -> Self {
         Self { table: KernelTable::new(kernel), scratch: Pool::default() }
     }
 
-    /// Lends the list of a footprint to `look`, and returns what that makes of it.
+    /// Calls `look` with the tap list of a footprint, and returns its result.
     pub(crate) fn lend<R>(&self, world: &World, footprint: &Footprint, look: impl FnOnce(&Taps) -> R) -> R {
         self.scratch.lend(|(scratch, taps)| {
             let mut gather = Gather::new(world, None, &self.table).with_scratch(std::mem::take(scratch));

@@ -9,10 +9,11 @@ use crate::filter::rim::field_edge::FieldEdge;
 use crate::raster::Rgba;
 use crate::world::{Source, World, held};
 
-/// Texels that make up each texel of the halved world. All of its area that counts contributes evenly.
+/// Finer texels that make up each texel of a halved world. All of their area that counts contributes evenly.
 ///
-/// A texel's parts lie inside it, so that no picture's edge is crossed: the filter does that, among the texels of a
-/// level. They count evenly, and not by solid angle, since the light is to be that of the texel's centre.
+/// A halved texel takes only texels of its own view that lie inside it. The filter blends across the edges of views,
+/// among the texels of one level. Texels contribute by area in the image, not by solid angle, since the light must be
+/// that of the halved texel's centre.
 #[derive(Clone, Debug)]
 pub(crate) struct Halving {
     views: Vec<HalvedView>,
@@ -20,34 +21,36 @@ pub(crate) struct Halving {
 
 #[derive(Clone, Debug)]
 struct HalvedView {
-    /// Index of the view's first texel, and the distance from one row to the next.
+    /// Index of the view's first texel, and the distance from one row to the next, in texels.
     offset: usize,
     stride: usize,
     columns: Vec<Parts>,
     rows: Vec<Parts>,
-    /// Whether each texel is four whole ones.
+    /// Whether each halved texel is exactly 2 × 2 texels.
     is_even: bool,
-    /// Parts of texels that count, by row, if not all do: a bit for each of three in each of three rows.
+    /// Parts that count, for each halved row in which some do not. Each halved texel has nine bits: three rows of three
+    /// parts.
     counting: Vec<Option<Box<[u16]>>>,
 }
 
-/// Bits of a texel whose parts all count.
+/// Bits of a halved texel in which all parts count.
 const ALL: u16 = 0b111_111_111;
 
-/// Texels of a row that lie in one texel of the halved row: three at most, each with its share of it.
+/// Texels along one axis that overlap a halved texel: three at most, each with its share of the halved texel.
 #[derive(Clone, Copy, Debug)]
 struct Parts {
     first: usize,
     parts: [f32; MOST],
 }
 
-/// Greatest number of parts of a texel each way: if three texels become two, each holds one and a half.
+/// Greatest number of texels along one axis that overlap a halved texel. If five texels become three, the middle one
+/// overlaps three.
 const MOST: usize = 3;
 
 impl Parts {
     fn of(size: usize, half: usize, index: usize) -> Self {
         let held = held(size, half, index);
-        // In units of a part of a texel, whole numbers.
+        // In units of a texel divided by `half`, all edges are whole numbers.
         let (from, to) = (index * size, (index + 1) * size);
         let part =
             |texel: usize| to.min((texel + 1) * half).saturating_sub(from.max(texel * half)) as f32 / size as f32;
@@ -60,14 +63,15 @@ impl Parts {
         (0..half).map(|index| Self::of(size, half, index)).collect()
     }
 
-    /// Visits the texels with their parts, each with its place among them.
+    /// Visits the parts: the number of each, its texel and its share.
     fn each(self) -> impl Iterator<Item = (usize, usize, f32)> {
         (0..MOST).filter(move |&k| self.parts[k] > 0.0).map(move |k| (k, self.first + k, self.parts[k]))
     }
 }
 
 impl Halving {
-    /// Prepares the halving of a world. Beside texels inside a target's field of view, those outside do not count.
+    /// Prepares the halving of a world. In a halved texel that the target's field of view cuts, only parts inside the
+    /// field count.
     pub(crate) fn new(world: &World, halved: &World, edge: Option<FieldEdge>) -> Self {
         let views = world.sources().iter().zip(halved.sources());
         Self { views: views.map(|(source, coarse)| HalvedView::new(source, coarse, edge)).collect() }
@@ -76,7 +80,7 @@ impl Halving {
     /// Computes the light of the halved world.
     pub(crate) fn light(&self, texels: &[Rgba]) -> Vec<Rgba> {
         let size = |view: &HalvedView| view.columns.len() * view.rows.len();
-        // Not written to: each thread touches first what it makes.
+        // Zeroed without touching the memory: each page is first touched by the thread that fills it.
         let mut halved: Vec<Rgba> = bytemuck::zeroed_vec(self.views.iter().map(size).sum());
         let mut rest = halved.as_mut_slice();
         for view in &self.views {
@@ -88,14 +92,14 @@ impl Halving {
         halved
     }
 
-    /// Returns the number of bytes that the halving takes.
+    /// Returns the number of bytes that the halving occupies.
     pub(crate) fn bytes(&self) -> usize {
         let bits = |view: &HalvedView| view.counting.iter().flatten().map(|bits| size_of_val(&**bits)).sum::<usize>();
         self.views.iter().map(bits).sum()
     }
 }
 
-/// Number of texels of a row that are judged together.
+/// Number of neighbouring halved texels that are tested together for the edge of the field of view.
 const BLOCK: usize = 32;
 
 impl HalvedView {
@@ -109,7 +113,7 @@ impl HalvedView {
         view
     }
 
-    /// Returns which parts count in a row, if not all do.
+    /// Returns the bits of the parts that count in each texel of a halved row; `None` if all parts count.
     fn counting_of_row(
         &self,
         row: usize,
@@ -133,7 +137,7 @@ impl HalvedView {
             }
             for column in columns {
                 let seen = self.bits(source, [column, row], |texel| edge.touches(source, texel));
-                // Of a texel that is all outside, nothing counts more than the rest.
+                // A halved texel wholly outside the field keeps its parts as they are.
                 if seen > 0 {
                     bits.get_or_insert_with(|| vec![ALL; width].into())[column] = seen;
                 }
@@ -142,8 +146,8 @@ impl HalvedView {
         bits
     }
 
-    /// Returns the bits of the texels that count in the halved texel in this column and row. `is_seen` takes their own
-    /// columns and rows.
+    /// Returns the bits of the parts that count in the halved texel at this column and row. `is_seen` takes the column
+    /// and row of a finer texel.
     fn bits(&self, source: &Source, [column, row]: [usize; 2], is_seen: impl Fn([usize; 2]) -> bool) -> u16 {
         let mut bits = 0;
         for (y, j, _) in self.rows[row].each() {
@@ -187,17 +191,17 @@ impl HalvedView {
     }
 }
 
-/// Factor by which texels of a row may be farther from its middle than its ends are.
+/// Factor by which texels of a block may lie farther from its middle than its ends do, because mappings bend.
 const BEND: f64 = 1.25;
 
-/// Returns whether the edge of a field of view may lie within some texels of a row.
+/// Returns whether the edge of a field of view may cut any halved texel in these columns of a row.
 fn is_near_edge(edge: &FieldEdge, coarse: &Source, row: usize, columns: &Range<usize>) -> bool {
     let direction = |column: usize| coarse.view.direction(PixelPoint::centre(column, row));
     let (first, last) = (columns.start, columns.end - 1);
     let [Some(from), Some(middle), Some(to)] = [first, (first + last) / 2, last].map(direction) else { return true };
     let reach = BEND * middle.angle_to(from).radians().max(middle.angle_to(to).radians());
     let reach = reach + coarse.texel_pitch_within(middle, reach);
-    // What is all outside is never seen.
+    // Where all texels lie outside the field, the edge cuts none.
     edge.is_near(middle, reach) && !edge.is_far_beyond(middle, reach)
 }
 

@@ -9,20 +9,20 @@ use crate::filter::gather::{is_regular, reach, texels_of};
 use crate::projection::Projection;
 use crate::world::{Source, World};
 
-/// Least number of texels of the finer of two levels in the kernel's unit, across its minor axis; the most is twice as
-/// many. By default these are 1.75 to 3.5 texels a pixel. A greater number is nearer to exact EWA and needs more
-/// texels.
+/// Least number of texels on the finer of two levels within the kernel's unit, along its minor axis. The greatest
+/// number is twice as many. For the default kernel this makes 1.75 to 3.5 texels a pixel. A greater value is nearer to
+/// exact EWA, but reads more texels.
 const UNIT: f64 = 1.4;
 
 /// Ratio of length to width above which a kernel is widened, so that the number of its texels stays bounded.
 const LONGEST: f64 = 16.0;
 
-/// Last part of the way from one level to the next, on which the two are blended. Before it, only the finer level
-/// counts, which is nearer to exact EWA.
+/// Part of the interval between two levels, at its end, in which the two are blended. Before it only the finer level is
+/// read, which is nearer to exact EWA.
 const BLENDED: f32 = 0.25;
 
 /// Number of levels by which the level is finer beside a steep rim of a view, where the size of texels changes quickly.
-/// So it is beside the edge of a target's field of view.
+/// It applies beside the edge of a target's field of view as well.
 const FINER: f64 = 2.0;
 
 /// Distance from a steep rim, in pixels, within which levels are finer.
@@ -32,25 +32,26 @@ const BESIDE_RIM: f64 = 4.0;
 /// together, in any projection. Tests hold it at poles, rims and seams.
 pub const MOST_TEXELS: usize = 1 << 14;
 
-/// Greatest number of texels of one view that a kernel has on one level, as measured from side to side. Where it would
-/// have more, as around a pole at which texels come together, a coarser level is taken. A coarser level that is blended
-/// in has at most half as many.
+/// Greatest number of texels of one view under a kernel on one level, as measured across the kernel. Where there would
+/// be more, as around a pole at which texels converge, a coarser level is taken. A coarser level that is blended in has
+/// at most half as many.
 const MOST_ON_LEVEL: f64 = 10_000.0;
 
-/// Radius of the circle that stands for the pixels around, as a part of their distance each way. Less than one
-/// suffices, since levels are interpolated between pixels.
+/// Radius around a footprint within which its level must suit other footprints, as a part of
+/// [`LevelNeed::pixels_around`]. Less than one suffices, since levels are interpolated between pixels.
 const AROUND: f64 = 0.75;
 
-/// Rule for the level of a pyramid from which a footprint is made, as a number. Its whole part is the finer of two
+/// Rule that chooses the level of a pyramid for a footprint, as a real number. Its whole part is the finer of two
 /// levels.
 ///
-/// The number is the logarithm of the footprint's minor axis among the texels of the view that shows it. Where
-/// derivatives do not tell how many texels that makes, it is great enough to leave no more than [`MOST_ON_LEVEL`].
+/// The number is the logarithm, to base 2, of the footprint's minor axis in texels of the view that shows it. Where
+/// derivatives do not tell how many texels a footprint holds, the number is great enough to leave no more than
+/// [`MOST_ON_LEVEL`].
 pub(crate) struct LevelRule {
     kernel: Kernel,
     /// Geometry of the views: for each view, its levels from the finest on.
     views: Vec<Vec<Source>>,
-    /// Greatest number of texels in a steradian of each view; infinite where texels come together.
+    /// Greatest number of texels in a steradian of each view; infinite where texels converge.
     densities: Vec<f64>,
 }
 
@@ -59,7 +60,7 @@ pub(crate) struct LevelRule {
 pub(crate) struct LevelNeed {
     /// Whether the edge of a target's field of view may cut the footprint.
     pub(crate) is_cut: bool,
-    /// Distance in pixels within which the level must serve all footprints.
+    /// Distance around the footprint, in pixels, within which the level must suit all footprints.
     pub(crate) pixels_around: f64,
 }
 
@@ -71,7 +72,8 @@ impl LevelRule {
         Self { kernel: *kernel, views: views.clone().map(levels).collect(), densities: views.map(density).collect() }
     }
 
-    /// Returns the level for a footprint that looks into a view, or beside all of them. `None` where no view is near.
+    /// Returns the level for a footprint that `view` shows, or that lies beside all views. `None` where no view is
+    /// near.
     pub(crate) fn level(&self, view: Option<usize>, footprint: &Footprint, need: LevelNeed) -> Option<f64> {
         view.and_then(|view| self.level_in(view, footprint, need)).or_else(|| self.level_beside(footprint, need))
     }
@@ -82,7 +84,7 @@ impl LevelRule {
         let source = &self.views[view][0];
         let pixels = BESIDE_RIM + need.pixels_around;
         let (_, jacobian) = source.view.texel_footprint(footprint)?;
-        // Around a pole whole rows are in a footprint however coarse they are.
+        // Around a pole, a footprint holds whole rows on every level, so that widening it would not help.
         let longest = if source.period.is_some() { f64::INFINITY } else { LONGEST };
         let level = level_of(jacobian, &self.kernel, longest);
         if !level.is_finite() {
@@ -97,7 +99,7 @@ impl LevelRule {
     }
 
     /// Returns the level for a footprint beside all views, or on a pole of one. It follows from the size of the texels
-    /// that the kernel may reach. `None` where there are none.
+    /// that the kernel may reach. `None` where it reaches none.
     fn level_beside(&self, footprint: &Footprint, need: LevelNeed) -> Option<f64> {
         let pixel = footprint.jacobian.solid_angle().sqrt();
         let level = |(view, levels): (usize, &Vec<Source>)| {
@@ -112,7 +114,8 @@ impl LevelRule {
         self.views.iter().enumerate().filter_map(level).reduce(f64::max)
     }
 
-    /// Returns the least level, from one on, at which a view has few enough texels for a footprint.
+    /// Returns the least level, `from` or coarser, on which a footprint holds at most [`MOST_ON_LEVEL`] texels of a
+    /// view.
     fn least(&self, view: usize, footprint: &Footprint, from: f64, need: LevelNeed) -> f64 {
         let beside = AROUND * need.pixels_around * width(footprint);
         let levels = &self.views[view];
@@ -128,7 +131,8 @@ impl LevelRule {
         for (level, source) in levels.iter().enumerate().skip(first) {
             let texels = texels_of(&self.kernel, source, footprint, beside);
             if texels <= MOST_ON_LEVEL {
-                // So much before this level there are as many as may be: what is mixed from there on comes in slowly.
+                // As the count on this level rises to the limit, the number rises to the next level, so that the latter
+                // is blended in gradually.
                 let before = match finer {
                     Some(finer) => (MOST_ON_LEVEL / texels).ln() / (finer / texels).ln(),
                     None => (MOST_ON_LEVEL / texels).log2(),
@@ -141,7 +145,7 @@ impl LevelRule {
     }
 }
 
-/// Returns the greatest number of texels in a steradian of a source; infinite where texels come together.
+/// Returns the greatest number of texels in a steradian of a source; infinite where texels converge.
 fn density(source: &Source) -> f64 {
     const STEPS: usize = 32;
     if source.period.is_some() || !source.has_bounded_texels() {
@@ -158,7 +162,8 @@ pub(crate) fn width(footprint: &Footprint) -> f64 {
     footprint.jacobian.dx.length().max(footprint.jacobian.dy.length())
 }
 
-/// Returns how near a steep rim of a view is to a footprint: 1 within this many pixels, falling to 0 a pixel further.
+/// Returns how near a footprint is to a steep rim of a view: 1 within `pixels` of it, falling to 0 one pixel further
+/// away.
 fn nearness_of_rim(source: &Source, footprint: &Footprint, pixels: f64) -> f64 {
     if !source.view.projection.has_steep_rim() {
         return 0.0;
@@ -166,25 +171,25 @@ fn nearness_of_rim(source: &Source, footprint: &Footprint, pixels: f64) -> f64 {
     (pixels + 1.0 - source.view.margin(footprint.direction) / width(footprint)).clamp(0.0, 1.0)
 }
 
-/// Returns the level for a footprint in texels; 0 or less means the finest.
+/// Returns the level for a footprint with this Jacobian, in texels; 0 or less means the finest level.
 fn level_of(jacobian: DMat2, kernel: &Kernel, longest: f64) -> f64 {
     let [major, minor] = semi_axes(jacobian);
     let width = minor.max(major / longest);
-    // Where a pixel holds no more than one texel, nothing needs be smaller.
+    // A pixel that holds no more than one texel needs no coarser level.
     (width / (UNIT / kernel.scale).max(1.0)).log2().max(-1.0)
 }
 
-/// Returns whether a level is coarser than those that a number stands for.
+/// Returns whether a level is coarser than both levels that a level number blends.
 pub(crate) fn is_beyond(number: f32, level: usize) -> bool {
     level > 0 && number <= level as f32 - BLENDED
 }
 
-/// Returns whether a level is finer than those that a number stands for.
+/// Returns whether a level is finer than both levels that a level number blends.
 pub(crate) fn is_before(number: f32, level: usize) -> bool {
     number >= level as f32 + 1.0
 }
 
-/// Returns the part of a pixel with this number that is made from a level.
+/// Returns the weight of a level in a pixel with this level number.
 pub(crate) fn part(number: f32, level: usize) -> f32 {
     let beyond = number.max(0.0) - level as f32;
     let coarser = |way: f32| ((way - 1.0) / BLENDED + 1.0).clamp(0.0, 1.0);

@@ -49,7 +49,8 @@ impl Filter for EwaPyramid {
     }
 
     fn setup(&self, world: &World) -> SetupCost {
-        // All levels have a third of the texels; besides light a solid angle.
+        // All coarser levels together have a third of the texels. For each texel they keep its light and its solid
+        // angle.
         let texels = world.texel_count();
         SetupCost { texels, bytes: texels / 3 * (size_of::<Rgba>() + size_of::<f32>()) }
     }
@@ -58,9 +59,9 @@ impl Filter for EwaPyramid {
 struct PreparedPyramid<'w> {
     world: &'w World,
     light: &'w [Rgba],
-    /// Halved worlds and their light, from the first on.
+    /// Halved worlds and their light, from level 1 on.
     coarser: Vec<(World, Vec<Rgba>)>,
-    /// Pinhole views of each level, if all its views are pinholes.
+    /// Pinhole views of each level, if all views of the level are pinholes.
     pinholes: Vec<Option<Pinholes>>,
     rule: LevelRule,
     average: Averager,
@@ -72,7 +73,8 @@ impl PreparedPyramid<'_> {
         level.checked_sub(1).map_or((self.world, self.light), |at| (&self.coarser[at].0, &self.coarser[at].1))
     }
 
-    /// Returns the level's number for a footprint, and the view that shows it.
+    /// Returns the level number for a footprint, as [`LevelRule`] defines it, and the view that shows the footprint's
+    /// centre.
     fn number(&self, footprint: &Footprint) -> (f32, Option<usize>) {
         let holder = self.pinholes[0].as_ref().and_then(|pinholes| pinholes.holder(footprint.direction));
         let view = holder.or_else(|| self.world.owner(footprint.direction).map(|(view, _)| view));

@@ -7,18 +7,18 @@ use crate::filter::kernel::{KernelTable, UNDER};
 pub(crate) struct Candidate {
     /// Index of the texel in the world's buffer.
     pub(crate) texel: u32,
-    /// Square of its distance from the pixel's centre, in the unit of the coarsest kernel here.
+    /// Square of its distance from the pixel's centre, in the unit of the coarsest kernel that the pixel uses.
     pub(crate) q: f32,
     /// Kernel's weight times the texel's solid angle.
     pub(crate) weight: f32,
-    /// Share of a correction that the texel may take: positive, and falling to zero at the kernel's edge.
+    /// Factor on the correction that centres the weights: positive, and zero at the kernel's edge.
     pub(crate) window: f32,
     /// Offset from the pixel's centre, in screen pixels.
     pub(crate) offset: [f32; 2],
 }
 
 impl Candidate {
-    /// Weighs a texel at distance² `q` < [`KernelTable::radius_squared`] and at this offset in screen pixels.
+    /// Weighs a texel at squared distance `q` < [`KernelTable::radius_squared`] and at this offset in screen pixels.
     pub(crate) fn weighed(
         table: &KernelTable,
         texel: usize,

@@ -8,10 +8,10 @@ use crate::world::Source;
 /// Factor by which points of a block may lie farther from its centre than its corners do, because mappings bend.
 const BEND: f64 = 1.25;
 
-/// Span in radians above which a block is not judged as a whole.
+/// Radius in radians from which on a block of pixels has no cap.
 const WIDEST: f64 = 0.5;
 
-/// Cap of the sphere: all that a block sees lies within `radius` of `centre`.
+/// Cap of the sphere that holds all directions seen by a block of pixels: those within `radius` radians of `centre`.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Cap {
     centre: Direction,
@@ -21,7 +21,8 @@ pub(crate) struct Cap {
 }
 
 impl Cap {
-    /// Returns the cap around a centre that holds all between these corners; `None` where it would be wide.
+    /// Returns the cap around `centre` that holds the block with these corners; `None` if it would be wider than
+    /// [`WIDEST`].
     pub(crate) fn around(centre: Direction, corners: &[Footprint]) -> Option<Self> {
         let (mut radius, mut pixel) = (0f64, 0f64);
         for corner in corners {
@@ -32,7 +33,7 @@ impl Cap {
         (radius < WIDEST).then_some(Self { centre, radius, pixel })
     }
 
-    /// Returns the cap, wider by this number of radians on all sides.
+    /// Returns the cap, widened by this number of radians on all sides.
     pub(crate) fn widened(self, by: f64) -> Self {
         Self { radius: self.radius + by, ..self }
     }
@@ -58,7 +59,8 @@ impl Cap {
         view.stop == FieldStop::NONE || self.passes_stop_of(view, &bounds())
     }
 
-    /// Returns whether all of the cap is inside the view's field and away from its rim, as far as formulas tell.
+    /// Returns whether all of the cap is inside the view's field and away from its rim. False where no formula
+    /// describes the rim.
     pub(crate) fn is_inside(&self, view: &View) -> bool {
         !view.projection.ends_between_samples() && view.margin(self.centre) > self.radius && self.is_clear_of_stop(view)
     }
@@ -70,7 +72,7 @@ impl Cap {
         let columns = source.period.is_some_and(|period| period <= view.width())
             || (bounds.min.x >= 0.0 && bounds.max.x <= view.width() as f64);
         let rows = bounds.min.y >= 0.0 && bounds.max.y <= view.height() as f64;
-        // What ends without a field stop does at a rim; what a mask hides may lie anywhere.
+        // Without a field stop, a view ends at its rim, which the margin measures. A mask may hide any texel.
         let is_inside = source.period.is_some() || view.margin(self.centre) > self.radius;
         let is_bare = source.mask.is_none();
         is_bare && is_inside && columns && rows && self.passes_stop_of(view, &bounds)
@@ -97,22 +99,22 @@ impl Cap {
         half_space && view.stop.circle.is_none_or(in_circle)
     }
 
-    /// Returns the texels of a source that the block's pixels themselves can fall on.
+    /// Returns the texels of a source that the block's pixels can see, without a kernel around them.
     pub(crate) fn seen_texels(&self, source: &Source) -> Option<PixelRect> {
         texels_within(source, self.centre, self.radius)
     }
 
-    /// Returns the pitch of the largest texels around in any of these sources, in radians.
+    /// Returns the pitch of the largest texels within the cap in any of these sources, in radians.
     pub(crate) fn coarsest_pitch(&self, sources: &[Source]) -> f64 {
         sources.iter().map(|source| source.texel_pitch_within(self.centre, self.radius)).fold(0.0, f64::max)
     }
 
     /// Returns the texels of a source that a kernel around the block's pixels can touch.
     ///
-    /// A kernel may be as wide as texels of the coarsest pitch around make it.
+    /// `coarsest` is the pitch of the largest texels nearby, of any source, in radians: a kernel may widen to that.
     pub(crate) fn read_texels(&self, source: &Source, coarsest: f64, kernel: &Kernel) -> Option<PixelRect> {
-        // The gather's own bound of a kernel, half as much again for what it takes as linear, and the few texels of the
-        // look-ups that have no kernel.
+        // The gather's own bound of a kernel, half as much again for the error of mappings that it takes as linear, and
+        // the few texels of look-ups without a kernel.
         let texel_pitch = source.texel_pitch_within(self.centre, self.radius).max(coarsest);
         let unit = (kernel.scale * self.pixel).max(kernel.floor * texel_pitch);
         let reach = 1.5 * kernel.radius().max(1.0) * unit + 3.0 * texel_pitch;

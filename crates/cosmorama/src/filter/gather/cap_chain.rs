@@ -16,17 +16,17 @@ pub(crate) struct CapChain {
     links: Vec<(Direction, f64)>,
     /// Semi-axes in the tangent plane, each divided by its squared length.
     axes: [DVec3; 2],
-    /// Part of the caps' area, all together, that the ellipse fills.
+    /// Share of the caps' total area that the ellipse fills.
     filled: f64,
 }
 
 /// Ratio of length to width up to which an ellipse has one cap.
 const ROUND: f64 = 2.0;
 
-/// Length in radians above which an ellipse has one cap as well, because the sphere bends too much along it.
+/// Semi-major axis, in radians, above which an ellipse has one cap as well, because the sphere bends too much along it.
 const LONG: f64 = 0.5;
 
-/// Greatest number of rows and of columns of texels that are tested.
+/// Greatest number of rows, and of columns, that are tested to estimate a count of texels.
 const LINES: usize = 32;
 
 /// Greatest number of caps in a chain.
@@ -34,7 +34,7 @@ const MOST: f64 = 16.0;
 
 impl CapChain {
     /// Returns the chain around an ellipse with these semi-axes in the plane tangent to the sphere at `centre`. It
-    /// holds all directions whose offset, seen along `centre`, lies in the ellipse.
+    /// holds all directions that lie in the ellipse when projected onto that plane along `centre`.
     pub(crate) fn around(centre: Direction, major: DVec3, minor: f64) -> Self {
         let length = major.length();
         let across = centre.vector().cross(major).normalize_or_zero() / minor;
@@ -44,7 +44,8 @@ impl CapChain {
             return one;
         }
         let count = (length / minor).ceil().min(MOST);
-        // Nothing of the ellipse is further than this from a disc's centre in the plane, and on the sphere than the chord.
+        // No point of the ellipse is farther than `radius` from the next disc's centre in the plane, or than `chord` on
+        // the sphere.
         let radius = minor.hypot(length / count);
         let chord = radius / (1.0 - length * length).sqrt();
         let link = |k: usize| {
@@ -56,7 +57,7 @@ impl CapChain {
         Self { links: (0..count as usize).map(link).collect(), filled, ..one }
     }
 
-    /// Returns one cap around a disc of that plane.
+    /// Returns a chain of one cap, around a disc in the plane tangent to the sphere at `centre`.
     pub(crate) fn of(centre: Direction, radius: f64) -> Self {
         let whole = (centre, radius.min(1.0).asin());
         let (right, up) = centre.vector().any_orthonormal_pair();
@@ -64,7 +65,7 @@ impl CapChain {
     }
 
     /// Calls `visit` with the runs of texels of a source that can lie in the chain, row by row and each texel once.
-    /// Around a rim they are far fewer than the rectangle that holds them.
+    /// Around a rim these are far fewer texels than the rectangle around the chain has.
     pub(crate) fn each_run(&self, source: &Source, mut visit: impl FnMut(usize, Range<usize>)) {
         let (centre, radius) = self.whole;
         let Some(rect) = texels_within(source, centre, radius) else { return };
@@ -98,8 +99,8 @@ impl CapChain {
         }
     }
 
-    /// Returns about how many texels of a source lie in the ellipse: in proportion to those in its caps. Where texels
-    /// come together around poles there is no such proportion, and some of them are tested.
+    /// Estimates the number of texels of a source in the ellipse from the area of the caps in the image. In a panorama,
+    /// whose texels converge at the poles, it tests some of the texels instead.
     pub(crate) fn texels(&self, source: &Source) -> f64 {
         let (centre, radius) = self.whole;
         let Some(rect) = texels_within(source, centre, radius) else { return 0.0 };
@@ -121,7 +122,7 @@ impl CapChain {
         all.min(self.links.iter().map(area).sum::<f64>() * self.filled / texel.abs())
     }
 
-    /// Returns the part of a rectangle of texels that lies in the ellipse, from tests of some rows and columns.
+    /// Estimates the part of a rectangle of texels that lies in the ellipse, from tests of some rows and columns.
     fn part_of(&self, source: &Source, rect: PixelRect) -> f64 {
         let [across, down] = [rect.width(), rect.height()].map(|size| size.div_ceil(LINES));
         let step = source.view.grid.step().x * across as f64;

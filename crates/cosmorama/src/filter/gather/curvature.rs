@@ -4,11 +4,11 @@ use crate::camera::{PixelPoint, View};
 use crate::projection::Projection;
 use crate::sphere::Direction;
 
-/// Second-order correction to where texels lie on the sphere around a point. Rows and columns of texels are curves
-/// there, and their distances change; to first order a texel at offset Δ appears at Δ.
+/// Second-order correction to the places of texels on the sphere around a point. Rows and columns of texels are curves
+/// there, and their spacing changes.
 ///
-/// In the plane tangent to the sphere, measured in the texels of that point, it is at Δ + ½(uu ΔU² + 2 uv ΔU ΔV + vv
-/// ΔV²). These are the sphere's Christoffel symbols in the view's coordinates.
+/// In the plane tangent to the sphere, measured in the texels at that point, the texel at offset Δ = (ΔU, ΔV) lies at Δ
+/// + ½(uu ΔU² + 2 uv ΔU ΔV + vv ΔV²). The coefficients are the sphere's Christoffel symbols in the view's coordinates.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Bend {
     pub(crate) uu: DVec2,
@@ -19,7 +19,7 @@ pub(crate) struct Bend {
 impl Bend {
     /// Measures how a view's texels bend around a point of its image; `None` where the point has no direction.
     pub(crate) fn around(view: &View, at: PixelPoint) -> Option<Self> {
-        // In the view's own frame: it is the same in any.
+        // Measured in the view's own coordinates, since the orientation does not change the result.
         let plane = |u: f64, v: f64| view.grid.to_plane(PixelPoint::new(at.x + u, at.y + v));
         let look = |u: f64, v: f64| view.projection.unproject(plane(u, v)).map(Direction::vector);
         let here = look(0.0, 0.0)?;
@@ -28,7 +28,7 @@ impl Bend {
         let (du, dv) = ((right - left) / 2.0, (below - above) / 2.0);
         let (uu, vv) = (left + right - 2.0 * here, above + below - 2.0 * here);
         let uv = (diagonal - 2.0 * here - uu - vv) / 2.0;
-        // What of a vector lies in the plane of du and dv, as multiples of these.
+        // Component of a vector in the plane of du and dv, as multiples of du and dv.
         let gram = DMat2::from_cols_array(&[du.dot(du), du.dot(dv), du.dot(dv), dv.dot(dv)]);
         let inverse = gram.inverse();
         let in_texels = |vector: DVec3| inverse * DVec2::new(du.dot(vector), dv.dot(vector));
@@ -36,16 +36,16 @@ impl Bend {
         (bend.uu + bend.uv + bend.vv).is_finite().then_some(bend)
     }
 
-    /// Returns how a view's texels bend where its projection has a closed form, many times as fast.
+    /// Computes the correction by the projection's closed form, many times as fast; `None` if the projection has none.
     pub(crate) fn in_closed_form(view: &View, at: PixelPoint) -> Option<Self> {
         let [xx, xy, yy] = view.projection.curvature(view.grid.to_plane(at))?;
-        // From the plane's unit to texels, of which y runs down.
+        // From the plane's unit to texels, whose y axis points down.
         let step = view.grid.step() * DVec2::new(1.0, -1.0);
         let scaled = |curvature: DVec2, by: f64| curvature * by / step;
         Some(Self { uu: scaled(xx, step.x * step.x), uv: scaled(xy, step.x * step.y), vv: scaled(yy, step.y * step.y) })
     }
 
-    /// Returns where a texel at an offset appears.
+    /// Returns the place at which the texel at an offset appears.
     pub(crate) fn of(&self, offset: DVec2) -> DVec2 {
         let DVec2 { x: u, y: v } = offset;
         offset + (self.uu * (u * u) + self.uv * (2.0 * u * v) + self.vv * (v * v)) / 2.0
@@ -61,7 +61,7 @@ mod tests {
 
     #[test]
     fn parallels_bend_as_the_formula_says() {
-        // On the sphere a parallel curves to its pole by sin φ cos φ, and meridians come together by tan φ.
+        // On the sphere a parallel curves to its pole by sin φ cos φ, and meridians converge by tan φ.
         let (width, height) = (4000, 1000);
         let view = panorama(width, height);
         let (across, down) = (std::f64::consts::TAU / width as f64, std::f64::consts::PI / height as f64);

@@ -56,24 +56,25 @@ impl Ellipse {
         DVec2::new((q * self.c / self.determinant).sqrt(), (q * self.a / self.determinant).sqrt())
     }
 
-    /// Returns the semi-axes of r = 1 in a plane that maps linearly to the plane of texels: the major one, and the
-    /// minor one's length.
+    /// Returns the semi-axes of r = 1 in a plane that maps linearly to the plane of texels: the major one as a vector,
+    /// and the minor one's length.
     pub fn semi_axes_in(&self, to_texels: DMat2) -> (DVec2, f64) {
-        // The eigenvalues of the conic in that plane, the smaller one not as a difference, which loses a thin ellipse's.
+        // Eigenvalues of the conic in that plane. The smaller one is not computed as a difference, which would lose a
+        // thin ellipse's to rounding.
         let conic = DMat2::from_cols(DVec2::new(self.a, self.b / 2.0), DVec2::new(self.b / 2.0, self.c));
         let there = to_texels.transpose() * conic * to_texels;
         let (half, q) = ((there.x_axis.x - there.y_axis.y) / 2.0, there.x_axis.y);
         let spread = half.hypot(q);
         let greater = (there.x_axis.x + there.y_axis.y) / 2.0 + spread;
         let determinant = self.determinant * to_texels.determinant().powi(2);
-        // The greater one is the minor axis's.
+        // The greater eigenvalue belongs to the minor axis.
         let (cos, sin) = half_angle(half, q, spread);
         (DVec2::new(-sin, cos) * (greater / determinant).sqrt(), greater.recip().sqrt())
     }
 
-    /// Returns the rows of r² < `q`, ready to be cut one after the other.
+    /// Prepares the ellipse r² < `q` for being cut along rows of texels.
     pub(crate) fn rows(&self, q: f64) -> EllipseRows {
-        // A U² + (B V) U + (C V² − q) = 0.
+        // At V, its ends are the roots U of A U² + (B V) U + (C V² − q) = 0.
         let inverse = self.a.recip();
         let slope = -0.5 * self.b * inverse;
         EllipseRows { slope, widest: q * inverse, narrowing: self.determinant * inverse * inverse }
@@ -110,7 +111,7 @@ impl EllipseRows {
 /// Returns the semi-axes of the image of the unit circle, the major one first: the singular values.
 pub(crate) fn semi_axes(jacobian: DMat2) -> [f64; 2] {
     let [a, b, c, d] = jacobian.to_cols_array();
-    // Not hypot, which is a call: footprints are far from overflowing.
+    // Not `hypot`, which is a function call: footprints are far from overflowing.
     let length = |x: f64, y: f64| (x * x + y * y).sqrt();
     let (sum, difference) = (length(a + d, b - c), length(a - d, b + c));
     let major = (sum + difference) / 2.0;

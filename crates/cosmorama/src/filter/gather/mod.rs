@@ -1,7 +1,8 @@
 //! EWA across views: a footprint that crosses from one view into another gathers from both.
 //!
 //! Each view tests only texels that it owns, in its own plane, with its own ellipse. Each weight is multiplied by the
-//! texel's solid angle. There are no padded borders and no double counting: what one view leaves, the next one has.
+//! texel's solid angle. There are no padded borders and no double counting: texels that one view lacks, its neighbour
+//! has.
 
 pub(crate) mod candidate;
 pub(crate) mod cap;
@@ -35,12 +36,14 @@ use crate::world::{Source, World};
 use clearance::{Clearance, Grid};
 use tap_weights::settle;
 
-/// Part of the way to its nearest singularity below which a kernel's mapping is taken as linear. At a fifth, the tests
-/// find no point of a direction-coloured world displaced by more than 0.005 pixel.
+/// Radius of a kernel, as a part of the distance to its nearest singularity, below which its mapping is taken as
+/// linear. At a fifth, no point of a world whose colours show directions is displaced by more than 0.005 pixel in the
+/// tests.
 pub(crate) const LINEAR_PART: f64 = 0.2;
 
-/// Greatest displacement, in pixels, by a mapping that is taken as linear beside a steep rim. Texels grow there as the
-/// mapping bends. The displacement is estimated by the kernel's squared radius over the way to the rim.
+/// Greatest displacement, in pixels, that taking a mapping as linear may cause beside a steep rim, where the size of
+/// texels changes quickly. The displacement is estimated by the kernel's squared radius divided by the distance to the
+/// rim.
 const STEEP_PART: f64 = 0.1;
 
 /// Region in which a pixel lies, which decides what its kernel is clamped to.
@@ -56,7 +59,7 @@ enum RimRegion {
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Scratch {
     candidates: Vec<Candidate>,
-    /// View that held all of the last footprint, which is the likeliest for the next.
+    /// Index of the view that held all of the last footprint. It is tried first for the next one.
     last: usize,
 }
 
@@ -66,7 +69,7 @@ pub(crate) struct Gather<'a> {
     table: &'a KernelTable,
     /// Edge of the target's field of view, if it has one.
     field: Option<FieldEdge<'a>>,
-    /// Texels that the field falls on, where those outside do not count.
+    /// Texels on which the field falls. Others do not count; `None` if all do.
     seen: Option<SeenTexels<'a>>,
     /// Pitch of the largest texel of any view, in radians.
     texel_pitch: f64,
@@ -77,7 +80,7 @@ impl<'a> Gather<'a> {
     /// Makes the gather from a world by a kernel; `field` is the edge of the field of view that footprints belong to,
     /// if any.
     pub(crate) fn new(world: &'a World, field: Option<FieldEdge<'a>>, table: &'a KernelTable) -> Self {
-        // Asked for at an edge alone.
+        // Needed only at an edge.
         let pitches = || world.sources().iter().map(|source| source.texel_pitch);
         let texel_pitch = if field.is_some() { pitches().fold(0.0, f64::max) } else { 0.0 };
         let edge = field.filter(|edge| edge.is_wider_than(texel_pitch));
@@ -96,7 +99,7 @@ impl<'a> Gather<'a> {
         self.scratch
     }
 
-    /// Finds the taps of a footprint, whose weights add to one; none where no view is near.
+    /// Finds the taps of a footprint. Their weights add to one. There is none where no view is near.
     pub(crate) fn taps(&mut self, footprint: &Footprint, taps: &mut Taps) {
         taps.clear();
         let footprint = &with_width(*footprint);
@@ -112,8 +115,8 @@ impl<'a> Gather<'a> {
         }
     }
 
-    /// Returns whether all texels that count lie to one side. Beyond them there is no view, or none that anybody needed
-    /// to give.
+    /// Returns whether all texels that count lie to one side of the pixel. On its other side there is no view, or one
+    /// that the caller had no need to supply.
     fn ends_beside(&self) -> bool {
         !self.scratch.candidates.is_empty() && clamp_set::reach(&self.scratch.candidates).is_none()
     }
@@ -130,8 +133,8 @@ impl<'a> Gather<'a> {
                 let start = self.scratch.candidates.len();
                 let floor = floor * meeting.map_or(1.0, |meeting| meeting.widening(source));
                 if self.gather_from(source, footprint, region, floor) {
-                    // A kernel wholly inside one view ignores the others; they could only enter through a bent ellipse, and the
-                    // result would depend on the order of views or on the last footprint.
+                    // A kernel wholly inside one view ignores the others. They could enter only through a bent ellipse,
+                    // and the result would depend on the order of views or on the last footprint.
                     self.scratch.candidates.drain(..start);
                     self.scratch.last = index;
                     break;
@@ -142,9 +145,11 @@ impl<'a> Gather<'a> {
         self.drop_unseen(footprint, region)
     }
 
-    /// Rescales candidates' distances to the coarsest kernel's unit, and returns its reach. So texels of the finer view
-    /// still count as under the pixel; else every slope beside a coarser view would be clamped. Candidates from `start`
-    /// on belong to a kernel of this `reach`, those before to the `coarsest` so far.
+    /// Rescales candidates' distances to the coarsest kernel's unit, and returns that kernel's reach. Otherwise texels
+    /// of the finer view would not count as under the pixel, and every slope beside a coarser view would be clamped.
+    ///
+    /// Candidates from `start` on belong to a kernel of this `reach`, earlier ones to the one of reach `coarsest`. Both
+    /// are in radians.
     fn measure_alike(&mut self, start: usize, coarsest: f64, reach: f64) -> f64 {
         if start == self.scratch.candidates.len() {
             return coarsest;
@@ -168,8 +173,8 @@ impl<'a> Gather<'a> {
         self.field.is_some_and(|edge| edge.is_near(direction, reach))
     }
 
-    /// Returns how far a patch of the target is from the edge of its field of view. `None` unless its kernels are
-    /// ellipses of texels that the edge of no view cuts. `screen` holds points of the patch, row by row.
+    /// Returns how far a patch of the target is from the edge of its field of view. `None` unless each kernel in the
+    /// patch is an ellipse of texels that no view's edge cuts. `screen` holds points of the patch, row by row.
     pub(crate) fn clearance(&self, source: &Source, screen: &Grid<Footprint>) -> Option<Clearance> {
         let (middle, corners) = (screen[1][1].direction, [screen[0][0], screen[0][2], screen[2][0], screen[2][2]]);
         let cap = Cap::around(middle, &corners)?;
@@ -185,13 +190,13 @@ impl<'a> Gather<'a> {
         if !self.is_near_edge(middle, seen.radius()) {
             return Some(Clearance::Whole);
         }
-        // What single pixels go by, and no less than the pixels themselves.
+        // Distance at which single pixels are tested for the edge, but at least the size of a pixel.
         let kernel = largest(&|corner| self.reach(corner, self.texel_pitch, floor));
         Some(Clearance::Within(largest(&pixel_size).max(kernel)))
     }
 
-    /// Drops texels outside the field of view, so that they do not leak in. Returns whether any of them lies under the
-    /// pixel.
+    /// Drops texels outside the field of view, so that their light does not leak in. Returns whether any of them lies
+    /// under the pixel.
     fn drop_unseen(&mut self, footprint: &Footprint, region: RimRegion) -> bool {
         let reach = self.reach(footprint, self.texel_pitch, self.floor(region));
         let Some(seen) = self.seen.as_mut().filter(|seen| seen.ends_near(footprint.direction, reach)) else {
@@ -206,13 +211,13 @@ impl<'a> Gather<'a> {
         ends_under
     }
 
-    /// Returns the least unit of the kernel, in texels.
+    /// Returns the least size of the kernel's unit, in texels.
     fn floor(&self, region: RimRegion) -> f64 {
         self.table.kernel().floor * if region == RimRegion::Rim { RIM_FLOOR } else { 1.0 }
     }
 
-    /// Returns an upper bound of the kernel's radius on the sphere, in radians. The texels have this pitch, and the
-    /// kernel's unit is at least `floor` of them.
+    /// Returns an upper bound of the kernel's radius on the sphere, in radians. `texel_pitch` is in radians too, and
+    /// the kernel's unit is at least `floor` texels.
     fn reach(&self, footprint: &Footprint, texel_pitch: f64, floor: f64) -> f64 {
         reach(self.table.kernel(), footprint, texel_pitch, floor)
     }
@@ -224,7 +229,7 @@ impl<'a> Gather<'a> {
         if margin + radius <= 0.0 || !source.reaches(footprint.direction, radius) {
             return false;
         }
-        // At a rim, what the mapping bends does not cancel between two sides.
+        // At a rim, the errors of a bent mapping do not cancel between two sides.
         if is_linear(source, footprint, radius, margin) && region == RimRegion::Inside {
             self.gather_ellipse(source, footprint, floor)
         } else {
@@ -340,8 +345,8 @@ pub(crate) struct EllipseOfTexels {
     pub(crate) ellipse: Ellipse,
 }
 
-/// Returns the ellipse of a footprint's kernel among the texels of a source. `None` where it is none, or not all of it
-/// is inside.
+/// Returns the ellipse of a footprint's kernel among the texels of a source. `None` if the kernel is not an ellipse
+/// there, or not wholly inside the part that no other view shares.
 pub(crate) fn ellipse_of_texels(kernel: &Kernel, source: &Source, footprint: &Footprint) -> Option<EllipseOfTexels> {
     let footprint = &with_width(*footprint);
     let radius = reach(kernel, footprint, source.texel_pitch_at(footprint.direction), kernel.floor);
@@ -362,8 +367,8 @@ pub(crate) fn ellipse_of_texels(kernel: &Kernel, source: &Source, footprint: &Fo
     is_inside.then_some(EllipseOfTexels { centre, jacobian, ellipse })
 }
 
-/// Returns about how many texels of a source a kernel reads for a footprint, measured from side to side. `around`
-/// widens it on all sides, in radians.
+/// Estimates how many texels of a source a kernel reads for a footprint, as measured across the kernel. `around` widens
+/// the kernel on all sides, in radians.
 pub(crate) fn texels_of(kernel: &Kernel, source: &Source, footprint: &Footprint, around: f64) -> f64 {
     let footprint = &with_width(*footprint);
     let radius = reach(kernel, footprint, source.texel_pitch_at(footprint.direction), kernel.floor);
@@ -380,16 +385,16 @@ pub(crate) fn texels_of(kernel: &Kernel, source: &Source, footprint: &Footprint,
         .map_or(0.0, |(_, jacobian)| Ellipse::new(jacobian * kernel.scale, kernel.floor).area(kernel.radius().powi(2)))
 }
 
-/// Returns whether derivatives tell how many texels a footprint holds: nothing under its kernel bends, ends or comes
-/// together.
+/// Returns whether derivatives tell how many texels a footprint holds. They do if the mapping under its kernel is
+/// nearly linear and texels do not converge.
 pub(crate) fn is_regular(kernel: &Kernel, source: &Source, footprint: &Footprint) -> bool {
     let radius = reach(kernel, footprint, source.texel_pitch_at(footprint.direction), kernel.floor);
     let margin = source.view.margin(footprint.direction);
     source.period.is_none() && is_linear(source, footprint, radius, margin)
 }
 
-/// Returns an upper bound of a kernel's radius on the sphere, in radians. The texels have this pitch, and the kernel's
-/// unit is at least `floor` of them.
+/// Returns an upper bound of a kernel's radius on the sphere, in radians. `texel_pitch` is in radians too, and the
+/// kernel's unit is at least `floor` texels.
 pub(crate) fn reach(kernel: &Kernel, footprint: &Footprint, texel_pitch: f64, floor: f64) -> f64 {
     kernel.radius() * (kernel.scale * pixel_size(footprint)).max(floor * texel_pitch)
 }
@@ -402,8 +407,8 @@ fn pixel_size(footprint: &Footprint) -> f64 {
 /// Ratio of width to length below which a pixel has no width, as on the very pole of a panorama.
 const NO_WIDTH: f64 = 1e-6;
 
-/// Ratio of width to length that a pixel without width is given. It is far less than any texel's floor, but enough to
-/// tell offsets across the pixel.
+/// Ratio of width to length that a pixel without width is given. It is far less than the kernel's floor, but enough to
+/// tell offsets across the pixel apart.
 const SOME_WIDTH: f64 = 0.01;
 
 /// Returns a footprint unchanged if it has any width; else a narrow one.

@@ -1,4 +1,4 @@
-//! Wider kernels where views of different texels meet, so that there are texels on both sides of the edge.
+//! Wider kernels where views with texels of different sizes meet, so that there are texels on both sides of the edge.
 
 use crate::filter::Kernel;
 use crate::sphere::Direction;
@@ -6,23 +6,24 @@ use crate::world::{Source, World};
 
 /// Views of different texel sizes that meet at one direction.
 ///
-/// Beside an edge, the kernel of a coarse view reaches further beyond it than that of a fine view reaches back. Half a
-/// large texel from the edge only large texels would count, all to one side. So among the texels of a view, the kernel
-/// widens with the direction's distance beyond that view's edge, up to the coarsest kernel there. On the edge itself it
-/// is unchanged, and so it is where views are alike.
+/// Across the edge between a coarse and a fine view, the coarse view's kernel reaches farther than the fine view's
+/// kernel reaches back. Half a large texel from the edge, only large texels would count, all of them on one side.
+/// Therefore the kernel for each view widens with the direction's distance beyond that view's edge, up to the size of
+/// the coarsest kernel there. It keeps its size on the edge itself, and where views have equal texels.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Meeting {
     direction: Direction,
-    /// Least unit of the kernel, in texels.
+    /// Least size of the kernel's unit, in texels.
     floor: f64,
     /// Least reach of the kernel, in texels.
     reach: f64,
-    /// Texel pitch of the coarsest view, in radians, reduced with distance from where its kernel starts to reach.
+    /// Texel pitch of the coarsest view, in radians. It falls to zero as the direction leaves the reach of that view's
+    /// kernel.
     coarsest: f64,
 }
 
 impl Meeting {
-    /// Returns the views that meet at a direction; `None` in a world whose views are alike.
+    /// Returns the views that meet at a direction; `None` in a world whose views have equal texels.
     pub(crate) fn at(world: &World, kernel: &Kernel, direction: Direction) -> Option<Self> {
         let sources = world.sources();
         let pitches = || sources.iter().map(|source| source.texel_pitch);
@@ -39,7 +40,7 @@ impl Meeting {
         Some(Self { direction, floor, reach, coarsest })
     }
 
-    /// Returns the factor by which a kernel is wider among the texels of a view.
+    /// Returns the factor by which the kernel is wider for the texels of a view.
     pub(crate) fn widening(&self, source: &Source) -> f64 {
         let most = self.coarsest / source.texel_pitch_at(self.direction);
         if most <= 1.0 || !source.reaches(self.direction, self.reach * self.coarsest) {

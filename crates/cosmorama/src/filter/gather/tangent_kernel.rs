@@ -7,8 +7,8 @@ use crate::filter::Kernel;
 use crate::sphere::Direction;
 use crate::world::Source;
 
-/// Factor on the floor where the field of view ends under a pixel. Up to half a texel beyond the last one, the kernel
-/// must reach four rows of texels. Three do not tell a slope from an edge that a renderer smoothed.
+/// Factor on the kernel's floor where the field of view ends under a pixel. Up to half a texel beyond the last texel,
+/// the kernel must reach four rows of texels: three do not tell a slope from an edge that a renderer smoothed.
 pub(crate) const RIM_FLOOR: f64 = 1.7;
 
 /// A kernel among the texels of one view, in the plane tangent to the sphere at a footprint. Near a pole, a horizon or
@@ -28,20 +28,20 @@ pub(crate) struct TangentKernel {
     pub(crate) reach: CapChain,
 }
 
-/// Part of a kernel beyond a seam, where texels lie otherwise. The near side's ellipse, if thin, might miss all of
-/// them.
+/// Part of a kernel beyond a seam of the projection, where texels are oriented differently. The near side's ellipse, if
+/// thin, might miss all of them.
 struct BeyondSeam {
     /// Step from the footprint to the corresponding place on the other side.
     across: DVec3,
     ellipse: Ellipse,
     to_texels: DMat2,
-    /// One on the seam, falling to zero where the kernel ends.
+    /// Nearness to the seam: one on it, falling to zero where the kernel ends.
     nearness: f64,
 }
 
 impl TangentKernel {
-    /// Makes the kernel of a footprint, at most `radius` radians wide, whose unit is at least `floor` texels. `around`
-    /// widens the caps that hold it, in radians.
+    /// Makes the kernel of a footprint, with a radius of at most `radius` radians and a unit of at least `floor`
+    /// texels. `around` widens the caps that hold the kernel, in radians.
     pub(crate) fn new(
         kernel: &Kernel,
         source: &Source,
@@ -54,17 +54,18 @@ impl TangentKernel {
         let in_plane = |vector: DVec3| DVec2::new(axes[0].dot(vector), axes[1].dot(vector));
         let tangent = DMat2::from_cols(in_plane(footprint.jacobian.dx), in_plane(footprint.jacobian.dy));
         let to_screen = tangent.inverse();
-        // The ellipse that the texels have here, as far as they have one: at the very pole, texels as large as any.
+        // Footprint in texels; where these are not defined, as on the very pole, in texels of the largest size.
         let jacobian = footprint_among_texels(source, footprint).unwrap_or(tangent);
         let to_texels = jacobian * to_screen;
         let coarseness = kernel.coarseness(jacobian.determinant().abs().sqrt()) as f32;
         let beyond = source.view.beyond_seam(footprint.direction).and_then(|direction| {
             let (_, jacobian) = source.view.texel_footprint(&Footprint { direction, ..*footprint })?;
-            // So far away, none of them counts, and what is seen here may lie edge on there.
+            // If the seam is farther away, no texel beyond it counts, and its ellipse may be degenerate.
             let across = direction.vector() - here;
             (across.length() < 2.0 * radius).then_some((across, jacobian))
         });
-        // On a seam the lattices of both sides mirror each other, and a quarter of the disc may be empty on both.
+        // On a seam the lattices of both sides mirror each other, and a quarter of the kernel's disc may be empty in
+        // both.
         let nearness = beyond.map_or(0.0, |(across, _)| 1.0 - 0.5 * across.length() / radius);
         let widening = 1.0 + (RIM_FLOOR - 1.0) * nearness;
         let ellipse = |jacobian: DMat2| Ellipse::new(jacobian * kernel.scale, floor * widening);
@@ -92,7 +93,7 @@ impl TangentKernel {
     }
 
     /// Returns the square of a texel's distance from the centre, in the kernel's unit, and its offset in screen pixels.
-    /// `None` behind the plane.
+    /// `None` for a texel more than a right angle away.
     pub(crate) fn place(&self, texel: Direction) -> Option<(f64, DVec2)> {
         let from = texel.vector() - self.direction.vector();
         let offset = DVec2::new(self.axes[0].dot(from), self.axes[1].dot(from));
@@ -100,15 +101,16 @@ impl TangentKernel {
         let q = self.beyond.as_ref().map_or(here, |BeyondSeam { across, ellipse, to_texels, nearness }| {
             let there = ellipse.distance_squared(*to_texels * offset);
             let (own, other) = if across.dot(texel.vector()) > 0.0 { (there, here) } else { (here, there) };
-            // On the seam itself each ellipse by itself may reach along it one way only: the same way.
+            // On the seam itself, the ellipse of each side alone may reach along the seam one way only, and both the
+            // same way.
             own.min(other / (nearness * nearness))
         });
         (texel.dot(self.direction) > 0.0).then(|| (q, self.to_screen * offset))
     }
 }
 
-/// Returns the footprint in texels. Beyond the centres of a panorama's outermost row these are that row's texels:
-/// nearer to a pole texels would be narrower, but there are none.
+/// Returns the footprint in texels. Between the outermost row of a panorama and the pole, that row's texels are the
+/// unit: the narrower ones that the formula gives do not exist.
 fn footprint_among_texels(source: &Source, footprint: &Footprint) -> Option<DMat2> {
     let Some((centre, jacobian)) = source.view.texel_footprint(footprint) else {
         return footprint_on_border(source, footprint);
@@ -118,11 +120,12 @@ fn footprint_among_texels(source: &Source, footprint: &Footprint) -> Option<DMat
     }
     let height = source.view.height() as f64;
     let row = |inset: f64| {
-        // The only row is both outermost ones.
+        // An image of one row has its outermost row in the middle.
         let inset = inset.min(height / 2.0);
         PixelPoint::new(centre.x, centre.y.clamp(inset, height - inset))
     };
-    // With samples on the edges the outermost row is the pole itself: half a texel beside it, as without.
+    // With samples on the image's edges, the outermost row is the pole itself. Half a texel from the pole is then at 1,
+    // not 0.5.
     let is_pole = |at| source.view.direction(at).is_some_and(|d| source.view.margin(d) < 0.25 * source.texel_pitch);
     let nearest = if is_pole(row(0.5)) { row(1.0) } else { row(0.5) };
     if nearest == centre {
@@ -132,11 +135,11 @@ fn footprint_among_texels(source: &Source, footprint: &Footprint) -> Option<DMat
     source.view.texel_footprint(&there).map(|(_, jacobian)| jacobian)
 }
 
-/// Greatest size of the texels of a wide camera's border, as a part of its largest texel.
+/// Greatest size of the texels on a wide camera's border for them to be used, as a part of its largest texel.
 const FINE_BORDER: f64 = 0.25;
 
-/// Returns the footprint in the texels of the border, for directions beyond a camera's horizon. `None` unless those are
-/// far smaller than in the middle: in the largest texels a kernel would hold most of the picture.
+/// Returns the footprint in the texels of the border, for directions beyond a camera's horizon. `None` unless these are
+/// far smaller than the largest texels, in which the kernel would hold most of the picture.
 fn footprint_on_border(source: &Source, footprint: &Footprint) -> Option<DMat2> {
     let direction = source.view.border_towards(footprint.direction)?;
     let texel = source.view.footprint(source.view.pixel(direction)?)?.jacobian;

@@ -6,9 +6,9 @@ use crate::filter::rim::clamp_set;
 use crate::filter::taps::{Tap, Taps};
 use crate::sphere::DirectionJacobian;
 
-/// Makes taps whose weights add to one, or none if their sum would be noise. With `centred`, their centroid is the
-/// pixel's centre. `rim` holds the footprint's derivatives where something ends under the pixel or beside it; they tell
-/// how a slope continues there.
+/// Turns candidates into taps whose weights add to one, or into none if their sum would be noise. With `centred`, the
+/// taps' centroid is the pixel's centre. `rim` is given where views or the field end under the pixel or beside it. It
+/// holds the footprint's derivatives, which tell how a slope continues there.
 pub(crate) fn settle(candidates: &mut [Candidate], centred: bool, rim: Option<&DirectionJacobian>, taps: &mut Taps) {
     soften(candidates);
     let correction = if centred { Correction::centring(candidates) } else { Correction::default() };
@@ -35,14 +35,14 @@ pub(crate) fn settle(candidates: &mut [Candidate], centred: bool, rim: Option<&D
     }
 }
 
-/// Places of screen offsets in the plane tangent to the sphere, in radians.
+/// Map from screen offsets, in pixels, to places in the plane tangent to the sphere, in radians.
 struct Places {
     dx: [f32; 2],
     dy: [f32; 2],
 }
 
 impl Places {
-    /// Returns the places around a footprint's centre.
+    /// Returns the map around a footprint's centre.
     fn of(jacobian: &DirectionJacobian) -> Self {
         let (length, along) = (jacobian.dx.length(), jacobian.dx.dot(jacobian.dy) / jacobian.dx.length());
         let across = jacobian.dx.cross(jacobian.dy).length() / length;
@@ -54,10 +54,10 @@ impl Places {
     }
 }
 
-/// Least sum of the weights, as a part of the sum of their sizes: on one lattice it is much more.
+/// Least sum of the weights, as a part of the sum of their absolute values. On a single lattice it is much more.
 const LEAST_SUM: f32 = 0.3;
 
-/// Blends the weights with positive ones as far as they cancel. Where a fine view meets a coarse one, a few large
+/// Blends the weights towards positive ones where they nearly cancel. Where a fine view meets a coarse one, a few large
 /// texels in the negative lobe can nearly cancel the small ones under the pixel.
 fn soften(candidates: &mut [Candidate]) {
     let (mut sum, mut size) = (0f32, 0f32);
@@ -75,15 +75,16 @@ fn soften(candidates: &mut [Candidate]) {
     }
 }
 
-/// Part of their product below which the determinant of the second moments means that texels lie in a line. Rounding to
-/// single precision leaves about 1e-7 of it.
+/// Least determinant of the texels' second moments, as a part of the product of their variances. Below it, the texels
+/// are taken to lie in a line. Rounding to single precision leaves about 1e-7.
 pub(crate) const THINNEST: f32 = 1e-6;
 
-/// Correction that makes the weights' centroid the pixel's centre and keeps their sum: v·g·(p − p̄).
+/// Correction that makes the weights' centroid the pixel's centre and keeps their sum. It adds v·g·(p − p̄) to the
+/// weight of a texel with window v at offset p, where p̄ is the mean offset weighted by v.
 ///
 /// A radial kernel on a lattice of texels weighs one side a little more than the other. That shifts the picture by up
-/// to 0.17 of a pixel. A correction linear in the offset p is that of moving least squares (Lancaster & Salkauskas
-/// 1981). A world whose colour is linear in the screen's coordinates comes back exactly.
+/// to 0.17 of a pixel. A correction linear in the offset p is the one of moving least squares (Lancaster & Salkauskas
+/// 1981). It reproduces exactly a world whose colour is linear in the screen's coordinates.
 #[derive(Clone, Copy, Debug, Default)]
 struct Correction {
     gradient: [f32; 2],
@@ -110,7 +111,7 @@ impl Correction {
         let yy = f64::from(yy) - f64::from(window_p[1]) * mean.y;
         let determinant = xx * yy - xy * xy;
         if determinant.is_nan() || determinant <= f64::from(THINNEST) * xx * yy {
-            // All in one line: nothing to move the centroid with.
+            // All texels lie in one line, so that the centroid cannot be moved.
             return Self::default();
         }
         let p = DVec2::new(weight_p[0].into(), weight_p[1].into());

@@ -25,7 +25,7 @@ impl TexelBox {
     }
 }
 
-/// A run of texels in one row: its first column in the image, the same column counted on past the image's edge, and its
+/// A run of texels in one row: its first column in the image, that column without wrapping at the image's edge, and its
 /// length.
 pub(crate) struct Run {
     pub(crate) column: usize,
@@ -34,7 +34,8 @@ pub(crate) struct Run {
 }
 
 impl Run {
-    /// Returns the columns `left..end` of the image's turn that starts at `turn`; the run is empty if there are none.
+    /// Returns the run of the columns `left..end`, counted without wrapping, in the turn of a panorama that starts at
+    /// column `turn`. It is empty if there are none.
     pub(crate) fn within(left: i64, end: i64, turn: i64) -> Self {
         Self { column: (left - turn) as usize, unrolled: left, length: (end - left).max(0) as usize }
     }
@@ -42,25 +43,25 @@ impl Run {
 
 /// Returns the runs of the columns `left..end` of a panorama: one, or where they cross its edge, one for each turn.
 pub(crate) fn runs_around(source: &Source, period: i64, left: i64, end: i64) -> impl Iterator<Item = Run> + use<> {
-    // Never the same texel twice.
+    // No texel is visited twice.
     let (end, width) = (end.min(left + period), (source.view.width() as i64).min(period));
     let turns = if left < end { left.div_euclid(period)..(end - 1).div_euclid(period) + 1 } else { 0..0 };
     turns.map(move |k| Run::within(left.max(k * period), end.min(k * period + width), k * period))
 }
 
-/// Bound on places in texels, farther than any texel lies: absurd geometry puts kernels anywhere. Two such places can
-/// still be added and subtracted.
+/// Bound on places in texels, farther than any texel lies, since degenerate geometry can put a kernel anywhere. Two
+/// such places can be added and subtracted without overflow.
 const FARTHEST: f64 = (1_u64 << 52) as f64;
 
-/// Returns the largest integer that is not greater. Without SSE4.1 `f64::floor` is a call, and every row of texels
-/// needs it.
+/// Returns the largest integer not greater than a number. Without SSE4.1 `f64::floor` is a function call, and every row
+/// of texels needs it.
 pub(crate) fn floor(value: f64) -> i64 {
     let value = value.clamp(-FARTHEST, FARTHEST);
     let truncated = value as i64;
     truncated - i64::from(value < truncated as f64)
 }
 
-/// Returns the smallest integer that is not less.
+/// Returns the smallest integer not less than a number.
 pub(crate) fn ceil(value: f64) -> i64 {
     let value = value.clamp(-FARTHEST, FARTHEST);
     let truncated = value as i64;

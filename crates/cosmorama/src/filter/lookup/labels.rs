@@ -7,7 +7,8 @@ use crate::filter::{CrossSection, Kernel};
 use crate::raster::Rgba;
 use crate::world::{Light, LightError, World};
 
-/// Rule by which a pixel of labels takes one texel's value. Labels are names, such as numbers of objects: a mixture of two is neither.
+/// Rule by which a pixel takes one texel's value, for labels. Labels are names, such as object numbers, so that a
+/// mixture of two means nothing.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum LabelRule {
     /// The texel that the pixel's centre sees.
@@ -49,17 +50,18 @@ impl Filter for Labels {
 pub(crate) struct PreparedLabels<'w> {
     world: &'w World,
     light: &'w [Rgba],
-    /// For votes.
+    /// Lists of taps, for votes.
     taps: Option<TapLender>,
 }
 
 impl<'w> PreparedLabels<'w> {
-    /// Prepares the choice.
+    /// Prepares the choice among a world's labels.
     pub(crate) fn new(labels: &Labels, world: &'w World, light: &'w [Rgba]) -> Self {
         Self { world, light, taps: (labels.rule == LabelRule::Vote).then(|| TapLender::new(&labels.kernel)) }
     }
 
-    /// Fills a row of a target. A pixel that the rim of the lens cuts shows its label whole if half of it is inside.
+    /// Fills a row of a target. A pixel that the rim of the lens cuts shows its label unchanged if at least half of it
+    /// is inside.
     pub(crate) fn fill_row(&self, target: &View, (j, row): (usize, &mut [Rgba])) {
         for (i, pixel) in row.iter_mut().enumerate() {
             if let Some(screen) = target.screen_pixel(i, j).filter(|screen| screen.coverage >= 0.5) {
@@ -87,8 +89,8 @@ impl Prepared for PreparedLabels<'_> {
     }
 }
 
-/// Returns the value with the most weight. Of two with equal weights, the one whose bits are less, so that the order of taps
-/// does not count.
+/// Returns the value with the most weight. Of two values with equal weights it returns the one with the smaller bits,
+/// so that the order of taps does not matter.
 fn winner(taps: &[Tap], light: &[Rgba]) -> Rgba {
     let mut votes: Vec<([u32; 4], f64)> = Vec::new();
     for tap in taps {
@@ -113,7 +115,7 @@ mod tests {
         let light = [0.0, 0.25, 0.5, 0.25].map(|value| Rgba::opaque(value, value, value));
         let taps =
             |weights: [f32; 4]| (0..4).zip(weights).map(|(texel, weight)| Tap { texel, weight }).collect::<Vec<_>>();
-        // Two texels of one value are more than a heavier one.
+        // Two texels of one value outvote a heavier one.
         assert_eq!(winner(&taps([0.1, 0.25, 0.4, 0.25]), &light), light[1]);
         assert_eq!(winner(&taps([0.1, 0.15, 0.6, 0.15]), &light), light[2]);
         let even = taps([0.25, 0.25, 0.5, 0.25]);

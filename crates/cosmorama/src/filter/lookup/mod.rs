@@ -27,8 +27,8 @@ pub(crate) fn nearest(world: &World, direction: Direction, mut tap: impl FnMut(u
 
 /// Calls `tap` with the four texels around a direction and their bilinear weights.
 ///
-/// At the edge of a view some of the four lie outside of its image. Each of these is looked up in the view that shows it,
-/// again bilinearly. If no view shows it, `tap` is not called for it, and the weights add up to less than 1.
+/// At the edge of a view some of the four lie outside of its image. Each of these is looked up in the view that shows
+/// it, again bilinearly. If no view shows it, `tap` is not called for it, and the weights add up to less than 1.
 pub(crate) fn bilinear(world: &World, direction: Direction, mut tap: impl FnMut(u32, f64)) {
     world.for_each_holder(direction, |index, pixel, part| {
         let source = &world.sources()[index];

@@ -1,8 +1,8 @@
 use crate::filter::gather::candidate::Candidate;
 use crate::filter::kernel::UNDER;
 
-/// Returns the r² within which texels bound a pixel: those under it, or enough of the nearest to surround its centre.
-/// `None` if all texels that the kernel reaches lie to one side.
+/// Returns the squared distance within which texels bound a pixel: those under it, or enough of the nearest to surround
+/// its centre. `None` if all texels that the kernel reaches lie to one side.
 ///
 /// At a point that texels surround, a linear function has no value outside theirs. In one lattice, the texels under a
 /// pixel always surround it. At a pole, or where two views have texels of different sizes or shapes, they may all lie
@@ -19,10 +19,10 @@ pub(crate) fn reach(candidates: &[Candidate]) -> Option<f32> {
     last.map(|candidate| candidate.q.next_up())
 }
 
-/// Directions between the two outermost of some points, as long as they span less than half a turn.
+/// Smallest wedge from the origin that holds some points, as long as they span less than half a turn.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Wedge {
-    /// The outermost points, counterclockwise.
+    /// The outermost points: the right one, then the left one, counterclockwise.
     sides: Option<[[f32; 2]; 2]>,
 }
 
@@ -33,7 +33,7 @@ impl Wedge {
             self.sides = Some([point; 2]);
             return point == [0.0; 2];
         };
-        // Left of the right side, right of the left one.
+        // Left of the right side, and right of the left side, the point is inside the wedge.
         let (from_right, from_left) = (cross(*right, point), cross(*left, point));
         match (from_right >= 0.0, from_left <= 0.0) {
             (true, true) => return from_right == 0.0 && from_left == 0.0 && dot(*right, point) <= 0.0,
@@ -41,7 +41,7 @@ impl Wedge {
             (false, true) => *right = point,
             (false, false) => return true,
         }
-        // Opposite to the other side.
+        // The point closes the wedge if it is opposite to the side that it did not replace.
         from_right == 0.0 || from_left == 0.0
     }
 }

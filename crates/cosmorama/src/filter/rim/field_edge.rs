@@ -9,15 +9,15 @@ use crate::world::Source;
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct FieldEdge<'a> {
     target: &'a View,
-    /// Cosine of the limiting circle's angle from the axis: stops are for lenses, whose circles are cones. `None` where
-    /// the circle holds all that the lens shows.
+    /// Cosine of the angle between the axis and the limiting circle: field stops are for lenses, whose circles are
+    /// cones of directions. `None` where the circle holds all that the lens shows.
     circle: Option<f64>,
     /// 1 if the middle of the picture looks to the front, −1 if it looks back, as in a mirror ball.
     axis: f64,
 }
 
-/// Points of a texel that are tested for overlap with the field, besides its centre. They are the corners, a hair
-/// inside, since the corners of a texel beyond the edge lie on the edge.
+/// Points of a texel that are tested for overlap with the field, besides its centre. They are the corners, moved
+/// slightly inwards, since a texel beyond the edge may have corners on the edge.
 const CORNERS: [(f64, f64); 4] = [(0.001, 0.001), (0.999, 0.001), (0.001, 0.999), (0.999, 0.999)];
 
 impl<'a> FieldEdge<'a> {
@@ -31,8 +31,8 @@ impl<'a> FieldEdge<'a> {
         (target.stop != FieldStop::NONE).then_some(Self { target, circle, axis })
     }
 
-    /// Returns whether the field holds a few texels of this pitch. A field that does not is made of the texels around
-    /// it.
+    /// Returns whether the field is wider than a few texels of this pitch, in radians. For a narrower field, all texels
+    /// around it count.
     pub(crate) fn is_wider_than(&self, texel_pitch: f64) -> bool {
         self.circle.is_none_or(|circle| circle.acos() > 2.0 * texel_pitch)
     }
@@ -40,7 +40,7 @@ impl<'a> FieldEdge<'a> {
     /// Returns whether something within `reach` radians of a direction may lie outside the field.
     pub(crate) fn is_near(&self, direction: Direction, reach: f64) -> bool {
         let direction = self.target.orientation.to_view(direction);
-        // cos(α − ρ) = cos α cos ρ + sin α sin ρ, and no more than this.
+        // cos(α − ρ) = cos α cos ρ + sin α sin ρ, of which this is an upper bound.
         let within = |circle: f64| circle + sine(circle) * reach + (-circle).max(0.0) * (reach * reach / 2.0);
         self.circle.is_some_and(|circle| self.axis_cosine(direction) < within(circle))
             || self.target.stop.half_space.is_some_and(|side| side.dot(direction) < reach)
@@ -59,7 +59,7 @@ impl<'a> FieldEdge<'a> {
         !self.is_refused(source, centre) && self.holds_some(&source.view, centre, texel)
     }
 
-    /// Returns whether the centre alone shows that no part of the field falls on a texel.
+    /// Returns whether a texel's centre alone shows that no part of the field falls on the texel.
     fn is_refused(&self, source: &Source, centre: Option<Direction>) -> bool {
         // No corner of a texel is farther from its centre than its side is long.
         source.has_bounded_texels() && centre.is_some_and(|centre| self.is_far_beyond(centre, source.texel_pitch))
@@ -114,7 +114,7 @@ mod tests {
                 let direction = target.projection.unproject(PlanePoint::new(0.0, angle)).expect("a direction");
                 let is_near = edge.is_near(direction, reach);
                 assert!(is_near || angle + reach <= half + 1e-9, "{angle} + {reach}, {half}");
-                // Nor is all taken for near: what is farther away than so much more is not.
+                // Nor is everything near: a direction much farther away is not.
                 assert!(!is_near || angle + 1.3 * reach + 0.01 > half || reach > 0.01, "{angle} + {reach}, {half}");
             }
         }
@@ -126,7 +126,8 @@ mod tests {
         View { projection, orientation, grid: PixelGrid::spanning(size.0, size.1, rect), stop }
     }
 
-    /// Returns a panorama in which a few columns show far more than others; none of these is measured.
+    /// Returns a panorama in which a few columns show far more than others. No measurement of texel pitch falls on
+    /// those columns.
     fn stretched() -> ProjectionKind {
         let table = StMapTable::of_pixels(97, 65, |i, j| {
             let x = (i as f64 + 0.5) / 97.0 - 0.5;
@@ -157,7 +158,7 @@ mod tests {
         // The middle of a ball shows what is behind.
         let targets = [ProjectionKind::EQUIDISTANT, ProjectionKind::MIRROR_BALL].map(target);
         assert_eq!(FieldEdge::of(&targets[1][0]).expect("a circle").axis, -1.0);
-        // Seen, and yet their centres are farther away than the largest texel that was measured.
+        // Number of seen texels whose centres are farther from the field than the largest texel that was measured.
         let mut farther = 0;
         for world in worlds() {
             let source = &world.sources()[0];

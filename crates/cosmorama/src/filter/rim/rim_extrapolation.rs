@@ -1,5 +1,5 @@
-//! Anti-ringing at rims, where the last texels that count may lie half a texel before the pixel and a slope continues
-//! beyond them.
+//! Anti-ringing at rims, where a pixel may lie half a texel beyond the last texels that count, on a slope that
+//! continues beyond them.
 //!
 //! If a pixel were clamped to those texels, every slope would end flat at the rim of a lens. The picture would be
 //! displaced there by up to half a texel. A plane fitted through all texels tells a slope from a stripe, a step or a
@@ -16,8 +16,8 @@ use crate::raster::Rgba;
 /// Index of alpha, the channel that may not exceed one.
 const ALPHA: usize = 3;
 
-/// Part of their range by which texels may depart from their plane and still count as straight. A colour that is linear
-/// in the direction departs by about as much, since the sphere is curved.
+/// Departure of texels from their fitted plane, as a part of their range, up to which they still count as straight. A
+/// colour that is linear in the direction departs by about as much, since the sphere is curved.
 const STRAIGHT: f64 = 1.0 / 64.0;
 
 /// Factor by which departures beyond [`STRAIGHT`] reduce the extrapolation.
@@ -30,12 +30,12 @@ pub(crate) struct Bounds {
     pub(crate) greatest: [f32; 4],
 }
 
-/// Places of a pixel's texels from its centre, if all of them lie to one side of it; else empty. They are equal in all
-/// mirrored parts in which the pixel is seen.
+/// Places of a pixel's texels, relative to its centre, if all of them lie to one side of it; else empty. They are equal
+/// in all mirrored copies of the pixel.
 #[derive(Clone, Debug)]
 pub(crate) struct Rim<'a> {
     places: &'a [[f32; 2]],
-    /// Lattice of the places, found when it is first needed.
+    /// Fit through the places, prepared when it is first needed.
     lattice: OnceCell<Option<Lattice>>,
 }
 
@@ -44,7 +44,7 @@ impl<'a> Rim<'a> {
         Self { places, lattice: OnceCell::new() }
     }
 
-    /// Clamps an average to the texels under the pixel, and lets it beyond them as far as all texels confirm the slope.
+    /// Clamps an average to the texels under the pixel, but lets it exceed them as far as all texels confirm the slope.
     #[inline(always)]
     pub(crate) fn hold<S: Simd>(&self, simd: S, average: Rgba, under: &Bounds, texels: &impl TexelLight) -> Rgba {
         let Bounds { least, greatest } = under;
@@ -61,7 +61,7 @@ impl<'a> Rim<'a> {
             let excess = average.0[c] - held.0[c];
             if excess != 0.0 {
                 let value = held.0[c] + excess.signum() * (excess.abs() - doubts[c] as f32).max(0.0);
-                // Light does not become negative: where a slope would, it is none.
+                // Light does not become negative: a slope that would is cut off at zero.
                 held.0[c] = if least[c] >= 0.0 { value.max(0.0) } else { value };
             }
         }
@@ -92,12 +92,12 @@ struct Lattice {
 }
 
 impl Lattice {
-    /// Returns the lattice of some places; `None` if they lie in a line, or are too few to tell.
+    /// Returns the lattice of some places; `None` if they lie in a line, or are too few for a fit.
     fn of(places: &[[f32; 2]]) -> Option<Self> {
         let mut terms: Vec<DVec3> = places.iter().map(|place| self::terms(*place)).collect();
         let count = terms.len() as f64;
         let centroid = terms.iter().sum::<DVec3>() / count;
-        // Symmetric: six sums of nine.
+        // The matrix is symmetric, so that six of its nine sums suffice.
         let (mut squares, mut products) = (DVec3::ZERO, DVec3::ZERO);
         for term in &mut terms {
             *term -= centroid;
@@ -113,9 +113,9 @@ impl Lattice {
         is_plane.then(|| Self { terms, inverse: moments.inverse() })
     }
 
-    /// Returns the doubt, by channel, that a slope through these texels continues. `None` where one of them is not
-    /// opaque: colour must stay within alpha there.
-    // No closures: the compiler gives them no leave to use the level's instructions.
+    /// Returns the doubt, by channel, that a slope through these texels continues: the light by which the extrapolation
+    /// is reduced. `None` where one of them is not opaque, since colour must stay within alpha there.
+    // No closures: the compiler would not use the SIMD level's instructions in them.
     #[inline(always)]
     fn doubts<S: Simd>(&self, simd: S, texels: &impl TexelLight) -> Option<[f64; 4]> {
         let (mut sum, mut along) = (f64x4::splat(simd, 0.0), [f64x4::splat(simd, 0.0); 3]);
@@ -157,11 +157,12 @@ fn widened<S: Simd>(light: f32x4<S>) -> f64x4<S> {
 /// Least number of texels for which a fit confirms anything.
 const FEWEST: f64 = 8.0;
 
-/// Part of their product below which the determinant of the second moments means that the places lie in a line.
+/// Least determinant of the second moments, as a part of the product of the variances. Below it, the places lie in a
+/// line.
 const THINNEST: f64 = 1e-6;
 
-/// Returns the terms of a colour that is linear in the direction, at a place: its two coordinates, and the fall of the
-/// sphere from the tangent plane.
+/// Returns the terms of a colour that is linear in the direction, at a place: its two coordinates, and the drop of the
+/// sphere below the tangent plane, up to a factor.
 fn terms([x, y]: [f32; 2]) -> DVec3 {
     let (x, y) = (f64::from(x), f64::from(y));
     DVec3::new(x, y, x * x + y * y)
@@ -208,7 +209,7 @@ mod tests {
         for value in [0.95, 1.0, 1.1] {
             assert_eq!(hold_grey(value, |_, y| 1.0 + 0.1 * y), value);
         }
-        // What is linear in the direction falls away from the tangent plane.
+        // A colour that is linear in the direction curves away from the tangent plane.
         assert_eq!(hold_grey(0.96, |x, y| 1.0 + 0.1 * y - 0.005 * (x * x + y * y)), 0.96);
     }
 
@@ -216,7 +217,7 @@ mod tests {
     fn what_is_no_slope_goes_nowhere() {
         assert_eq!(hold_grey(2e6, |x, y| if x.hypot(y - 1.5) < 1.0 { 1e6 } else { 1.0 }), 1e6);
         assert_eq!(hold_grey(-5e4, |x, y| if x.hypot(y - 1.5) < 1.0 { 1e6 } else { 1.0 }), 1.0);
-        // Steps of which a renderer made a slope: three rows of texels are straight, the fourth is not.
+        // Steps that a renderer smoothed to a slope: three rows of texels are straight, the fourth is not.
         let step = |_: f32, y: f32| [0.2, 0.5, 0.8, 0.8][y as usize];
         assert_eq!(hold_grey(0.05, step), 0.2);
         let step = |_: f32, y: f32| [0.8, 0.5, 0.2, 0.2][y as usize];

@@ -1,6 +1,6 @@
 use fearless_simd::Level;
 
-/// Returns the levels of instructions that this machine has.
+/// Returns the levels of SIMD instructions that this machine has.
 pub(crate) fn levels() -> Vec<Level> {
     #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
     use fearless_simd::Simd;

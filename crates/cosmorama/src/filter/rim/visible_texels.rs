@@ -8,7 +8,7 @@ use crate::world::{TexelPlace, World};
 pub(crate) struct SeenTexels<'a> {
     world: &'a World,
     edge: FieldEdge<'a>,
-    /// Texels that were asked for lately, each with the result.
+    /// Texels that were asked for recently, each with the result.
     found: Vec<Option<(u32, bool)>>,
 }
 
@@ -66,7 +66,7 @@ mod tests {
         let edge = FieldEdge::of(&target).expect("a circle");
         let mut seen = SeenTexels::new(&world, edge);
         let mut count = 0;
-        // Far more than are remembered, each of them twice.
+        // Far more texels than are remembered, each of them asked for twice.
         for index in (0..world.texel_count() as u32).flat_map(|index| [index, index]) {
             let TexelPlace { view, texel } = world.texel(index);
             let is_seen = edge.touches(&world.sources()[view], texel);
