@@ -7,8 +7,9 @@ use crate::raster::{Image, Rgba};
 /// Makes a picture by any filter, pixel by pixel: the average of each footprint, times the part that the field of view
 /// covers.
 ///
-/// [`Resampler`](super::Resampler) makes the same pictures faster by the filters that it knows. The two differ beside
-/// the edge of the target's field of view: there a `Resampler` leaves out texels that no part of the field falls on.
+/// [`Resampler`](super::Resampler) makes the same pictures faster, by the filters of
+/// [`FilterKind`](crate::filter::FilterKind). The two differ beside the edge of the target's field of view: there a
+/// `Resampler` leaves out texels that no part of the field falls on.
 pub fn picture(prepared: &dyn Prepared, target: &View) -> Image<Rgba> {
     let mut image = Image::filled(target.width(), target.height(), Rgba::TRANSPARENT);
     image.pixels_mut().par_chunks_mut(target.width().max(1)).enumerate().for_each(|(j, row)| {

@@ -78,13 +78,13 @@ impl<'a> Watch<'a> {
         Parts { watch: self, of, done: Mutex::new(0) }
     }
 
-    /// Returns whether the work is to end.
+    /// Returns whether the work is to stop.
     pub(crate) fn is_stopped(self) -> bool {
         self.watcher.is_some_and(|(_, stopped)| stopped.load(Ordering::Relaxed))
     }
 }
 
-/// Parts of a work that are counted as they are done.
+/// Parts of a piece of work, counted as they are done.
 pub(crate) struct Parts<'a> {
     watch: Watch<'a>,
     of: usize,
@@ -102,7 +102,7 @@ impl Parts<'_> {
             let mut done = self.done.lock().unwrap_or_else(PoisonError::into_inner);
             *done += 1;
             let fraction = between(self.watch.from, self.watch.to, *done as f64 / self.of as f64);
-            // Of the end of all is told when nothing runs any more.
+            // The end of all work is reported by `Watch::over`, once nothing runs any more.
             if fraction < 1.0 && !self.watch.is_stopped() && progress.advance(fraction).is_break() {
                 stopped.store(true, Ordering::Relaxed);
             }

@@ -19,7 +19,6 @@ impl Resampler<'_> {
     ///
     /// Pixels are premultiplied by their coverage: transparent outside the lens. A pixel just beyond the world's last
     /// texel takes what its kernel still reaches. [`super::ScreenMask`] tells which pixels see nothing.
-    /// takes what its kernel still reaches; [`super::ScreenMask`] tells which pixels see nothing.
     ///
     /// # Panics
     /// If `texels` is not as long as [`World::texel_count`](crate::world::World::texel_count) says.
@@ -35,7 +34,7 @@ impl Resampler<'_> {
         self.light(texels, background, Watch::NONE)
     }
 
-    /// Makes a picture of light over a background; its pixels are made until the work is stopped.
+    /// Renders light over a background, until the work is done or stopped.
     pub(super) fn light(&self, texels: &[Rgba], background: Rgba, watch: Watch) -> Image<Rgba> {
         assert_eq!(texels.len(), self.world.texel_count(), "one texel of light for each texel of the world");
         let mut image = match self.filter.kind {
@@ -66,7 +65,7 @@ impl Resampler<'_> {
         self.codes(light, codec, Watch::NONE)
     }
 
-    /// Makes the code values of a picture, until the work is stopped.
+    /// Renders the code values of a picture, until the work is done or stopped.
     pub(super) fn codes(&self, light: &FixedLight, codec: &FixedCodec, watch: Watch) -> Image<[u8; 3]> {
         assert!(light.sizes().eq(self.world.view_sizes()), "light of the world's views");
         if !Arithmetic::Fixed.has_plan_of(self.filter.kind) {

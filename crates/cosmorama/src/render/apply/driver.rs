@@ -1,4 +1,5 @@
-//! Computation of a band's pixels, in either type of number: group by group, in some mirrors at once, window by window.
+//! Computation of a band's pixels, in floats or integers: group by group, in several mirror images at once, window by
+//! window.
 
 use bytemuck::Zeroable;
 use fearless_simd::{Level, Simd, dispatch};
@@ -17,13 +18,13 @@ use crate::render::plan::window_format::{Format, Header, Place};
 use crate::render::plan::window_order::window_count;
 use crate::render::scan::tile::SIDE;
 
-/// Arithmetic of windows in one type of number, and of the pixels made of their light.
+/// Arithmetic in one type of number, which sums windows of texels and makes pixels of the sums.
 pub(crate) trait WindowArithmetic: Palette<Pixel: Zeroable + Send + Sync> + Sync {
     /// Format of windows' weights.
     type Format: Format;
     /// Light of a window.
     type Light: Copy + Default;
-    /// Memory for what windows of a group share.
+    /// Working memory that the windows of a group share.
     type Shared: Default;
 
     /// Returns the pixel that is shown where the target sees nothing.
@@ -32,15 +33,16 @@ pub(crate) trait WindowArithmetic: Palette<Pixel: Zeroable + Send + Sync> + Sync
     /// Clears what the windows of the last group shared.
     fn begin(shared: &mut Self::Shared);
 
-    /// Sums a window by its weights in N mirrors, in the last R of them from right to left. If they are `TURNED`, its
-    /// rows are columns there. Returns how many numbers the window takes.
+    /// Sums a window by its weights in N mirror images. In the last R of them, texels run from right to left. If
+    /// `TURNED`, the window's rows are columns in all of them. Returns how many numbers, header and weights, the window
+    /// takes.
     fn weigh<S: Mirrored<N>, const N: usize, const R: usize, const TURNED: bool>(
         window: Window<S, Self::Sample, N, R>,
         shared: &mut Self::Shared,
         light: &mut [Self::Light],
     ) -> usize;
 
-    /// Writes the pixels of a pass's light.
+    /// Converts the light of a pass to pixels, and writes them.
     fn put<S: Simd>(
         &self,
         simd: S,
@@ -51,17 +53,17 @@ pub(crate) trait WindowArithmetic: Palette<Pixel: Zeroable + Send + Sync> + Sync
     );
 }
 
-/// Window of a pixel, in N mirrors that show the texels of its view, in the last R of them from right to left.
+/// Window of a pixel in N mirror images. In the last R of them, texels run from right to left.
 #[derive(Clone, Copy)]
 pub(crate) struct Window<'a, S, T, const N: usize, const R: usize> {
     pub(crate) simd: S,
     pub(crate) texels: &'a Texels<'a, T, N, R>,
-    /// Runs whose windows are made with it, its own among them.
+    /// Runs of the window's group, among them its own.
     pub(crate) group: &'a [Run],
     pub(crate) run: &'a Run,
     /// Column and row of its first texel.
     pub(crate) first: [u32; 2],
-    /// Numbers from its header and its weights on.
+    /// Numbers of the group, from this window's header on.
     pub(crate) numbers: &'a [u32],
     /// Whether its light is clamped to the texels under the pixel.
     pub(crate) is_bounded: bool,
@@ -74,7 +76,7 @@ impl<S, T, const N: usize, const R: usize> Window<'_, S, T, N, R> {
     }
 }
 
-/// Filter of a band: what makes its pixels.
+/// Everything that makes the pixels of a band, once light is given.
 pub(crate) struct BandFilter<'a, A> {
     pub(crate) level: Level,
     pub(crate) mirrors: &'a Mirrors,
@@ -91,7 +93,8 @@ impl<A: WindowArithmetic> BandFilter<'_, A> {
         });
     }
 
-    // No closures below but those that `vectorize` takes: the compiler gives others no leave to use the level's instructions.
+    // No closures below except those passed to `vectorize`: in others the compiler would not use the SIMD level's
+    // instructions.
     #[inline(always)]
     fn runs<S: Simd>(&self, simd: S, band: &Band<A::Format>, canvas: &mut Canvas<A::Pixel>) {
         if band.runs.is_empty() {
@@ -117,8 +120,8 @@ impl<A: WindowArithmetic> BandFilter<'_, A> {
         }
     }
 
-    /// Sums the light of a pass's windows. From here on code is compiled separately: in one function with the rest of a
-    /// band, its loop would lack registers.
+    /// Sums the light of a pass's windows. It is compiled separately: in one function with the rest of a band, its loop
+    /// would lack registers.
     #[inline(never)]
     fn weigh<S: Simd>(
         &self,
@@ -129,7 +132,7 @@ impl<A: WindowArithmetic> BandFilter<'_, A> {
         light: &mut GroupLight<A::Light>,
     ) {
         let group = Group { group, numbers, is_bounded: self.anti_ringing };
-        // A function for each number of mirrors: all in one would take the compiler minutes.
+        // A function for each number of mirror images: all in one would take the compiler minutes.
         match texels {
             ViewTexels::Turned([_, turned]) if ways.start > 0 => simd.vectorize(
                 #[inline(always)]
@@ -166,14 +169,14 @@ impl<A: WindowArithmetic> BandFilter<'_, A> {
 #[derive(Clone, Copy)]
 struct Group<'a> {
     group: &'a [Run],
-    /// Numbers from its weights on.
+    /// Numbers of the band, from the group's first header on.
     numbers: &'a [u32],
     is_bounded: bool,
 }
 
 impl Group<'_> {
-    /// Sums the light in N mirrors from one of them on. In the last R, windows are traversed from right to left. If all
-    /// are `TURNED`, columns are rows.
+    /// Sums the light in N mirror images, from this one on. In the last R, texels run from right to left. If `TURNED`,
+    /// rows are columns in all of them.
     #[inline(always)]
     fn weigh<S: Mirrored<N>, A: WindowArithmetic, const N: usize, const R: usize, const TURNED: bool>(
         self,

@@ -8,15 +8,15 @@ use crate::render::scan::tile::SIDE;
 pub(crate) struct LaneShapes {
     /// Index of the shape; a larger number if none holds the window.
     shapes: [i32; SIDE],
-    /// Column and row in which the shape begins, as the only bit that is set.
+    /// Column and row at which the shape begins, each as the only bit that is set.
     begin: [[i32; SIDE]; 2],
-    /// Columns of the texels under the pixel, by row, and of all rows.
+    /// Bits of the columns with texels under the pixel, for each row, and for all rows together.
     under: [[u8; SIDE]; SIDE],
     columns_under: [u8; SIDE],
 }
 
 impl LaneShapes {
-    /// Clears all shapes, for windows that are larger.
+    /// Clears all shapes, for windows that are not small.
     #[inline(always)]
     pub(crate) fn clear(&mut self) {
         self.shapes = [i32::MAX; SIDE];
@@ -30,8 +30,8 @@ impl LaneShapes {
 
     /// Finds the shapes for windows with this number of columns and rows, followed by `beyond` empty columns.
     ///
-    /// Bits are lanes. `counts` has the lanes in which a column or a row counts. `under` has the lanes in which a texel
-    /// of a row lies under the pixel.
+    /// Each bit is a lane. `counts` has the lanes with weights in each column and row. `under` has the lanes in which
+    /// each texel of a row lies under the pixel.
     #[inline(always)]
     pub(crate) fn find<S: Simd>(
         &mut self,
@@ -54,7 +54,7 @@ impl LaneShapes {
         self.search(simd, (small, beyond), size, [columns, rows, columns_under, turned_bits(rows_under)]);
     }
 
-    /// Searches the shapes, given the columns and rows that count, and those with texels under the pixel. A bit marks
+    /// Searches the shapes, given the columns and rows with weights, and those with texels under the pixel. A bit marks
     /// where a window begins, so that no lane needs a branch.
     #[inline(always)]
     fn search<S: Simd>(
@@ -67,7 +67,7 @@ impl LaneShapes {
         let [columns, rows, columns_under, under] = counts.map(|bits| i32x8::load_array(simd, bits.map(i32::from)));
         let (first_column, first_row) = ((columns & -columns).max(1), (rows & -rows).max(1));
         let none = i32x8::splat(simd, small.len() as i32);
-        // The first one that holds it is the last one that is looked at. Whatever the width, the same heights follow.
+        // Searched backwards, so that the first width that fits wins. The same heights follow each width.
         let (mut narrowest, mut column) = (none, first_column);
         for (at, Shape { width, .. }) in small.iter().enumerate().step_by(Shape::HEIGHTS).rev() {
             if *width <= all_columns + beyond {

@@ -1,4 +1,4 @@
-//! Plans applied to light: weighted sums, clamped, written where each symmetry shows them.
+//! Application of plans to light: weighted sums of texels, clamped and written to each mirror image.
 
 pub(crate) mod driver;
 pub(crate) mod fixed;

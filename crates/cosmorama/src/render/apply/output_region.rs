@@ -1,4 +1,5 @@
-//! One of two files in which indices are not checked each time: bands write to one picture, each to pixels of its own.
+//! Unchecked writes to a picture: bands write in parallel, each to pixels of its own. This file and `texels.rs` are the
+//! only ones that do not check each index.
 #![allow(unsafe_code)]
 
 use std::marker::PhantomData;
@@ -8,8 +9,8 @@ use bytemuck::NoUninit;
 
 use crate::render::plan::symmetry::{MOST_IMAGES, MirrorImage, Mirrors};
 
-/// Pixels of a picture that one band makes, in all mirrors: its own rows and those that mirror it from below. With
-/// mirrors along the diagonals they are a square frame, inside which lie those of the next bands.
+/// Pixels of a picture that one band makes, in all mirror images: its own rows, and the rows that mirror them from
+/// below. With mirror images about the diagonals they are a square frame around those of the next bands.
 pub(crate) struct PicturePart<'a, P> {
     pixels: *mut P,
     /// Columns of the band, and the number of its rows.
@@ -25,11 +26,11 @@ pub(crate) struct PicturePart<'a, P> {
 // SAFETY: it is an exclusive borrow of some pixels, which no other part has.
 unsafe impl<P: Send> Send for PicturePart<'_, P> {}
 
-/// Number of bytes from which a picture leaves the caches before anyone reads it, so that what it overwrites need not
-/// be read into them either. Tests use small ones.
+/// Size of a picture, in bytes, from which it is written past the caches. It would leave them before it is read, and
+/// what it overwrites need not be read into them. Tests use a small size.
 const STREAMED: usize = if cfg!(test) { 1 << 14 } else { 1 << 25 };
 
-/// Place in which a mirror shows pixels of a band.
+/// Place in which a mirror image shows pixels of a band.
 #[derive(Clone, Copy, Debug, Default)]
 struct Shown {
     is_turned: bool,
@@ -43,7 +44,7 @@ impl<'a, P: Copy> PicturePart<'a, P> {
     /// Divides a picture, `width` pixels wide, into the parts that bands of `rows` rows make, from the top one on.
     ///
     /// # Panics
-    /// If its size is not the one that the mirrors make.
+    /// If its size is not the one that `mirrors` make.
     pub(crate) fn all(pixels: &'a mut [P], width: usize, rows: usize, mirrors: &Mirrors) -> Vec<Self> {
         if pixels.is_empty() {
             return Vec::new();
@@ -83,32 +84,32 @@ impl<'a, P: Copy> PicturePart<'a, P> {
         self.columns.clone()
     }
 
-    /// Returns `count` neighbouring pixels of a row of the picture, as a mirror shows them. The first of them (or the
-    /// last, from right to left) shows this column and row of the band. The others show the columns after it, or where
-    /// columns are rows, the rows.
+    /// Returns `count` neighbouring pixels of a row of the picture in a mirror image. The first of them (or the last,
+    /// from right to left) shows this column and row of the band. The others show the columns after it or, in a
+    /// transposed image, the rows.
     ///
     /// # Panics
-    /// If they are not all in the band, or there is no such mirror.
+    /// If they are not all in the band, or there is no such mirror image.
     #[inline(always)]
     pub(crate) fn beside(&mut self, image: usize, pixel: [usize; 2], count: usize) -> &mut [P] {
         self.fence();
         let size = if self.images[image].is_turned { [1, count] } else { [count, 1] };
         let first = self.place(image, pixel, size).first;
-        // SAFETY: `place` made sure that these are pixels of the band, beside each other. Nobody else has the picture meanwhile, and what is
-        // borrowed from this part is given back before more is.
+        // SAFETY: `place` made sure that these are neighbouring pixels of the band, which no other part has. The
+        // picture is borrowed exclusively by its parts, and this part by the result.
         unsafe { std::slice::from_raw_parts_mut(first, count) }
     }
 
-    /// Returns where a mirror shows this number of columns and rows of the band, from this pixel on.
+    /// Returns where a mirror image shows this number of columns and rows of the band, from this pixel on.
     ///
     /// # Panics
-    /// If they are not all in the band, or there is no such mirror.
+    /// If they are not all in the band, or there is no such mirror image.
     #[inline(always)]
     fn place(&self, image: usize, [column, row]: [usize; 2], [columns, rows]: [usize; 2]) -> Place<P> {
         let Shown { is_turned, first, steps: [across, down] } = self.images[image];
         let (along, next) = if is_turned { (down, across) } else { (across, down) };
         let (length, lines) = if is_turned { (rows, columns) } else { (columns, rows) };
-        // No sum that may begin anew at zero.
+        // Differences, since a sum might wrap to zero.
         let is_within = self.columns.contains(&column)
             && columns <= self.columns.end - column
             && row < self.rows
@@ -116,16 +117,17 @@ impl<'a, P: Copy> PicturePart<'a, P> {
         assert!(is_within && along != 0 && length > 0, "pixels of the band");
         let first = first + across * column as isize + down * row as isize;
         let first = if along < 0 { first - (length as isize - 1) } else { first };
-        // A pixel of the band is one of `Mirrors`, which any of its mirrors shows somewhere in the picture: `all` found that to be as large
-        // as they make it. No other part has it. Without diagonals, bands are rows of the picture or of its upper half, and mirrors show
-        // those as themselves or as far from the bottom. With them, its columns and rows are halves of a square, in which each mirror shows a
-        // pixel as far from the nearest edge as min(column, row); the columns of a band begin with the number of its first row, so that this
-        // is one of the band's rows.
+        // Each mirror image shows each computed pixel somewhere in the picture, whose size `all` has checked. No other
+        // part has that pixel. Without diagonals, bands are rows of the picture or of its upper half, and a mirror
+        // image shows a row as itself or at the same distance from the bottom. With diagonals, the computed columns and
+        // rows are halves of a square, and each mirror image shows a pixel at the distance min(column, row) from the
+        // nearest edge. The columns of a band begin with the number of its first row, so that this distance is the
+        // number of one of its rows.
         Place { first: self.pixels.wrapping_offset(first), next, length, lines }
     }
 }
 
-/// Place in which a mirror shows pixels of a band: some lines of the picture, all of them pixels of the band.
+/// Place in which a mirror image shows pixels of a band: some lines of the picture, all of them pixels of the band.
 struct Place<P> {
     /// Leftmost pixel of the first line.
     first: *mut P,
@@ -144,11 +146,11 @@ pub(crate) struct Lines<'a, P> {
 }
 
 impl<P: NoUninit> PicturePart<'_, P> {
-    /// Returns the lines in which a mirror shows these columns and rows, from this pixel on, for writing. Lines are
-    /// rows, or columns where columns are rows.
+    /// Returns the lines in which a mirror image shows these columns and rows, from this pixel on, for writing. A line
+    /// shows a row of the band or, in a transposed image, a column.
     ///
     /// # Panics
-    /// If they are not all in the band, or there is no such mirror.
+    /// If they are not all in the band, or there is no such mirror image.
     #[inline(always)]
     pub(crate) fn lines(&mut self, image: usize, pixel: [usize; 2], size: [usize; 2]) -> Lines<'_, P> {
         let (place, is_streamed) = (self.place(image, pixel, size), self.is_streamed);
@@ -167,7 +169,7 @@ impl<P: NoUninit> Lines<'_, P> {
         let Place { first, next, length, lines } = self.place;
         assert!(line < lines && LENGTH == length, "a line of the picture");
         let first = first.wrapping_offset(next * line as isize);
-        // SAFETY: `place` made sure that these are pixels of the band, beside each other. Nobody else has the picture meanwhile.
+        // SAFETY: `place` made sure that these are neighbouring pixels of the band, which no other part has.
         let into = unsafe { std::slice::from_raw_parts_mut(first, LENGTH) };
         if self.is_streamed { stream(into, pixels) } else { into.copy_from_slice(pixels) }
     }
@@ -209,15 +211,16 @@ fn stream<P: NoUninit>(into: &mut [P], pixels: &[P]) {
     #[cfg(target_arch = "x86_64")]
     for (into, pixel) in into.iter_mut().zip(pixels) {
         use std::arch::x86_64::{_mm_loadu_si128, _mm_stream_si128};
-        // SAFETY: a pixel has sixteen bytes, all of them known, and each begins at a multiple of sixteen, as the first one does.
+        // SAFETY: a pixel has sixteen initialised bytes and begins at a multiple of sixteen, since the first one does.
         unsafe { _mm_stream_si128(std::ptr::from_mut(into).cast(), _mm_loadu_si128(std::ptr::from_ref(pixel).cast())) }
     }
 }
 
 impl Shown {
-    /// Computes where a mirror shows a band that begins in this row.
+    /// Computes where a mirror image shows a band that begins in this row.
     fn new(image: &MirrorImage, top: usize, [width, height]: [usize; 2]) -> Self {
-        // In the picture, from left to right and from top to bottom: the pixel that the first one is seen as, and which way others follow.
+        // Column and row of the picture that show the first computed pixel, and the direction in which the next ones
+        // follow.
         let [column, row] = [0, 1].map(|axis| if image.flips[axis] { [width, height][axis] as isize - 1 } else { 0 });
         let [right, below] = [0, 1].map(|axis| if image.flips[axis] { -1 } else { 1 });
         let (width, top) = (width as isize, top as isize);
@@ -234,7 +237,7 @@ mod tests {
     /// Number of rows of a band.
     const ROWS: usize = 4;
 
-    /// Returns this number of mirrors, of pictures of this size.
+    /// Returns the first `count` mirror images of a picture of this size.
     fn mirrors(size: [usize; 2], count: usize) -> Mirrors {
         let layout = RowLayout::of([[4, 4]], |width| width);
         let flips = [[false, false], [true, false], [false, true], [true, true]];
@@ -260,7 +263,7 @@ mod tests {
             ([0, 5], 1),
         ] {
             let mirrors = mirrors(size, count);
-            // For each pixel by how many bands it is made, and in which one.
+            // How often each pixel is made, and by which band.
             let mut picture = vec![(0, 0); size[0] * size[1]];
             let parts = PicturePart::all(&mut picture, size[0], ROWS, &mirrors);
             assert_eq!(parts.len(), if size.contains(&0) { 0 } else { mirrors.rows.div_ceil(ROWS) });
@@ -269,7 +272,7 @@ mod tests {
                     for pixel in part.columns().map(|column| [column, row]) {
                         for image in 0..count {
                             let [(made, by)] = part.beside(image, pixel, 1) else { unreachable!("one pixel") };
-                            // Along a diagonal the same ones are made twice, by the same band.
+                            // Pixels along a diagonal are made twice, by the same band.
                             assert!(*made == 0 || *by == band, "{size:?} {count}: {pixel:?} of {band} and {by}");
                             (*made, *by) = (*made + 1, band);
                         }
@@ -288,7 +291,7 @@ mod tests {
         let mut parts = PicturePart::all(&mut picture, 24, ROWS, &mirrors);
         let seen = |part: &mut PicturePart<usize>, image: usize| part.beside(image, [5, 1], 3).to_vec();
         let row = |column: usize, row: usize| vec![24 * row + column, 24 * row + column + 1, 24 * row + column + 2];
-        // Of the second band, whose first row is the fifth: columns 5 to 7, and rows 5 to 7 of column 5.
+        // In the second band, whose first row is the fifth: columns 5 to 7, and rows 5 to 7 of column 5.
         let expected = [[5, 5], [16, 5], [5, 18], [16, 18], [5, 5], [16, 5], [5, 18], [16, 18]];
         for (image, [column, at]) in expected.into_iter().enumerate() {
             assert_eq!(seen(&mut parts[1], image), row(column, at), "{image}");
@@ -337,7 +340,7 @@ mod tests {
                 .is_ok()
         };
         assert!(are_parts(24, 24, &mirrors) && !are_parts(24, 23, &mirrors) && !are_parts(23, 24, &mirrors));
-        // Columns are rows in squares alone, and with all that the diagonals make of them.
+        // Transposed images need a square picture, and all eight images.
         assert!(!are_parts(24, 20, &super::tests::mirrors([24, 20], 8)));
         assert!(!are_parts(24, 24, &super::tests::mirrors([24, 24], 5)));
     }

@@ -23,7 +23,7 @@ pub(crate) fn prefetch_pass<T>(texels: &[T], mirrors: &Mirrors, pass: &Pass) {
     while let Some((run, others)) = rest.split_first() {
         rest = others;
         let mut region = Region::of(run);
-        // Runs below each other share most of their texels: what they have in common is asked for once.
+        // Runs below each other share most of their texels, which are requested once.
         while let Some((joint, others)) = region.joined(rest) {
             (region, rest) = (joint, others);
         }
@@ -31,7 +31,7 @@ pub(crate) fn prefetch_pass<T>(texels: &[T], mirrors: &Mirrors, pass: &Pass) {
     }
 }
 
-/// Prefetches the runs of about a patch, from this one on, because [`prefetch_pass`] reads them.
+/// Prefetches about a patch's runs, from this one on, before [`prefetch_pass`] reads them.
 #[inline(always)]
 pub(crate) fn prefetch_runs(runs: &[Run], first: usize) {
     prefetch_lines(runs, first as u32, SIDE as u32);
@@ -52,8 +52,8 @@ pub(crate) fn prefetch_lines<T>(items: &[T], first: u32, last: u32) {
     texels::prefetch(items, first.wrapping_add(last));
 }
 
-/// Prefetches a rectangle of texels: `rows` rows, each of at most `LINES + 1` cache lines. The next row begins `down` texels after
-/// the one before it.
+/// Prefetches a rectangle of texels: `rows` rows, each of at most `LINES + 1` cache lines. The next row begins `down`
+/// texels after the one before it.
 ///
 /// The loop over lines has a constant length, so that the compiler unrolls it: a counted loop would cost more than the
 /// prefetches.
@@ -87,8 +87,8 @@ impl Region {
         Self { view: usize::from(run.view), first: run.corner(), end: run.end() }
     }
 
-    /// Extends the region by the first of some runs. Returns the larger region and the remaining runs; `None` if there is no
-    /// run, or if it lies in another view or too far away for one region.
+    /// Extends the region by the first of some runs. Returns the larger region and the remaining runs. `None` if there
+    /// is no run, or if it lies in another view or too far away for one region.
     #[inline(always)]
     fn joined<'a>(&self, runs: &'a [Run]) -> Option<(Self, &'a [Run])> {
         let (run, others) = runs.split_first()?;
@@ -99,7 +99,7 @@ impl Region {
         (self.view == next.view && is_near).then_some((Self { first, end, ..*self }, others))
     }
 
-    /// Prefetches the region in the mirrors of these ways.
+    /// Prefetches the region in the mirror images of these traversals.
     #[inline(always)]
     fn prefetch<T>(&self, texels: &[T], mirrors: &Mirrors, ways: Range<usize>) {
         for &(image, _) in &mirrors.ways(self.view).order[ways] {

@@ -1,4 +1,4 @@
-//! Single pixels of a band, made from the lists of their texels.
+//! Single pixels of a band, computed from the lists of their texels.
 
 use bytemuck::NoUninit;
 use fearless_simd::{Simd, f32x4, prelude::*};
@@ -27,7 +27,7 @@ pub(crate) trait Palette {
 }
 
 impl Singles {
-    /// Makes the pixels in all mirrors.
+    /// Makes the pixels in all mirror images.
     #[inline(always)]
     pub(crate) fn fill<S: Simd, P: Palette>(
         &self,
@@ -71,7 +71,7 @@ impl Singles {
     }
 }
 
-/// Light of a pixel's texels in one of N mirrors.
+/// Light of a pixel's texels in one of N mirror images.
 struct ImageLight<'a, P, const N: usize> {
     palette: &'a P,
     texels: &'a [[u32; N]],
@@ -85,11 +85,11 @@ impl<P: Palette, const N: usize> TexelLight for ImageLight<'_, P, N> {
     }
 }
 
-/// Number of pixels that are made between the prefetch of one's texels and their use.
+/// Number of pixels that are made between the prefetch of a pixel's texels and their use.
 const AHEAD: usize = 1;
 
-/// Averages a pixel's texels by their weights in each of N mirrors. With `anti_ringing` the average is clamped to the
-/// texels under the pixel.
+/// Averages a pixel's texels by their weights in each of N mirror images. With `anti_ringing` the average is clamped to
+/// the texels under the pixel.
 #[inline(always)]
 fn averages<S: Simd, P: Palette, const N: usize>(
     simd: S,

@@ -1,4 +1,5 @@
-//! One of two files in which indices are not checked each time: a window of texels is checked once.
+//! Unchecked reads of texels: a window is checked once. This file and `output_region.rs` are the only ones that do not
+//! check each index.
 #![allow(unsafe_code)]
 
 use std::marker::PhantomData;
@@ -8,19 +9,19 @@ use crate::render::plan::symmetry::Walk;
 /// Number of samples of a texel.
 const SAMPLES: usize = 4;
 
-/// Texels of a view as N mirrors show them, in the last R of them from right to left.
+/// Texels of a view in N mirror images. In the last R of them, texels run from right to left.
 #[derive(Clone, Copy)]
 pub(crate) struct Texels<'a, T, const N: usize, const R: usize> {
     /// First sample of the texel in the first column and row.
     first: [*const T; N],
-    /// Samples from one row to the next, alike in every second mirror.
+    /// Number of samples from one row to the next, in even and in odd mirror images.
     down: [isize; 2],
     size: [u32; 2],
     samples: PhantomData<&'a [T]>,
 }
 
 impl<'a, T: Copy, const N: usize, const R: usize> Texels<'a, T, N, R> {
-    /// Checks the texels of a view of this size against their buffer, along each mirror's walk.
+    /// Checks the texels of a view of this size against their buffer, along the walk of each mirror image.
     ///
     /// # Panics
     /// If they are not all among the samples, or a walk differs from the expected one.
@@ -33,19 +34,19 @@ impl<'a, T: Copy, const N: usize, const R: usize> Texels<'a, T, N, R> {
         for image in 0..N {
             let walk = walks[image];
             assert!(walk.is_reversed == (image >= N - R) && walk.down == down[image % 2], "a way through the texels");
-            // No product or sum of numbers of 32 bits overflows 64.
+            // Products and sums of 32-bit numbers do not overflow 64 bits.
             let (across, along) = (i64::from(columns - 1), i64::from(rows - 1) * i64::from(walk.down));
             let left = i64::from(walk.first) - if walk.is_reversed { across } else { 0 };
             let end = left + across + along.max(0);
             assert!(left + along.min(0) >= 0 && end < (samples.len() / SAMPLES) as i64, "a view lies among its texels");
             first[image] = samples.as_ptr().wrapping_add(SAMPLES * walk.first as usize);
         }
-        // Of a view of one row, which no window leaves, this may be any number.
+        // In a view of one row this may be any number, since no window has a second row.
         let down = down.map(|down| (SAMPLES as isize).wrapping_mul(down as isize));
         Self { first, down, size: [columns as u32, rows as u32], samples: PhantomData }
     }
 
-    /// Returns the window that begins in this column and row, in each mirror.
+    /// Returns the window that begins in this column and row, in each mirror image.
     ///
     /// # Panics
     /// If it is not all within the view.
@@ -68,7 +69,8 @@ impl<'a, T: Copy, const N: usize, const R: usize> Texels<'a, T, N, R> {
         windows
     }
 
-    /// Returns the samples of this number of texels of a row, from this column on, in a mirror, as they lie in memory.
+    /// Returns the samples of this number of texels of a row, from this column on, in one mirror image, as they lie in
+    /// memory.
     ///
     /// # Panics
     /// If they are not all within the view.
@@ -80,14 +82,14 @@ impl<'a, T: Copy, const N: usize, const R: usize> Texels<'a, T, N, R> {
         unsafe { std::slice::from_raw_parts(first, SAMPLES * texels) }
     }
 
-    /// Returns the columns and rows of the view, as these mirrors traverse it.
+    /// Returns the columns and rows of the view, as these mirror images traverse it.
     #[inline(always)]
     pub(crate) fn size(&self) -> [usize; 2] {
         self.size.map(|length| length as usize)
     }
 
     /// Visits `COLUMNS` texels (`LENGTH` samples) of this number of rows, from this texel on, row by row, in each
-    /// mirror.
+    /// mirror image.
     ///
     /// # Panics
     /// If they are not all within the view.
@@ -108,7 +110,7 @@ impl<'a, T: Copy, const N: usize, const R: usize> Texels<'a, T, N, R> {
 
     #[inline(always)]
     fn check(&self, corner: [u32; 2], size: [usize; 2]) {
-        // A sum must not begin anew at zero.
+        // A sum must not wrap to zero.
         let end = |axis: usize| u64::from(corner[axis]).saturating_add(size[axis] as u64);
         let fits = |axis: usize| end(axis) <= u64::from(self.size[axis]);
         assert!(fits(0) && fits(1), "a window lies within its view");
@@ -128,7 +130,7 @@ impl<'a, T: Copy, const N: usize, const R: usize> Texels<'a, T, N, R> {
 pub(crate) struct Window<'a, T, const COLUMNS: usize, const HEIGHT: usize> {
     /// First sample of the first row.
     first: *const T,
-    /// Samples from one row to the next.
+    /// Number of samples from one row to the next.
     down: isize,
     samples: PhantomData<&'a [T]>,
 }
@@ -143,18 +145,18 @@ impl<'a, T, const COLUMNS: usize, const HEIGHT: usize> Window<'a, T, COLUMNS, HE
         let is_within = row < HEIGHT && column < COLUMNS && LENGTH <= SAMPLES * (COLUMNS - column);
         assert!(is_within, "samples of the window");
         let offset = row as isize * self.down + (SAMPLES * column) as isize;
-        // SAFETY: `windows` made sure that `COLUMNS` columns of `HEIGHT` rows are texels of a view, all of which `Texels::new` has
-        // found among the samples, and the assertion that these are some of them; they are borrowed as long as the result; arrays
-        // need no more alignment than one of their elements.
+        // SAFETY: `windows` made sure that `COLUMNS` columns of `HEIGHT` rows are texels of a view, all of which
+        // `Texels::new` has found among the samples, and the assertion that these are some of them. They are borrowed
+        // as long as the result. Arrays need no more alignment than one of their elements.
         unsafe { &*self.first.offset(offset).cast() }
     }
 }
 
-/// Some columns of a view's rows in each of N mirrors, all of them among the samples given.
+/// Some columns of a view's rows in each of N mirror images, all of them among the samples given.
 pub(crate) struct Strips<'a, T, const N: usize, const LENGTH: usize> {
     /// First sample in memory of the next row.
     first: [*const T; N],
-    /// Samples from one row to the next, alike in every second mirror.
+    /// Number of samples from one row to the next, in even and in odd mirror images.
     down: [isize; 2],
     /// Number of rows that are left.
     rows: usize,
@@ -167,13 +169,14 @@ impl<'a, T, const N: usize, const LENGTH: usize> Iterator for Strips<'a, T, N, L
     #[inline(always)]
     fn next(&mut self) -> Option<Self::Item> {
         self.rows = self.rows.checked_sub(1)?;
-        // SAFETY: `Texels::strips` made sure that as many rows of this length are texels of a view, all of which `Texels::new` has
-        // found among the samples; they are borrowed as long as the result; arrays need no more alignment than their elements.
+        // SAFETY: `Texels::strips` made sure that as many rows of this length are texels of a view, all of which
+        // `Texels::new` has found among the samples. They are borrowed as long as the result. Arrays need no more
+        // alignment than their elements.
         let texels = |first: *const T| unsafe { &*first.cast() };
         let mut row = [texels(self.first[0]); N];
         for (image, row) in row.iter_mut().enumerate() {
             *row = texels(self.first[image]);
-            // After the last one this may lie anywhere: it is not read.
+            // After the last row this may point anywhere: it is not read.
             self.first[image] = self.first[image].wrapping_offset(self.down[image % 2]);
         }
         Some(row)
@@ -200,7 +203,7 @@ pub(crate) fn prefetch<T>(items: &[T], item: u32) {
 mod tests {
     use super::*;
 
-    /// Size of a view whose samples each hold their place: ten columns and seven rows.
+    /// Size of a view in which each sample's value tells its place: ten columns and seven rows.
     const SIZE: [usize; 2] = [10, 7];
 
     fn samples<T>(of: impl Fn(i16) -> T) -> Vec<T> {
@@ -211,7 +214,7 @@ mod tests {
         Walk { first, is_turned: false, is_reversed, down }
     }
 
-    /// Returns the walks of texels as they lie, upside down, and both from right to left.
+    /// Returns the walks of texels as they lie, upside down, and both of these from right to left.
     fn ways() -> [Walk; 4] {
         [walk(0, false, 10), walk(60, false, -10), walk(9, true, 10), walk(69, true, -10)]
     }
@@ -226,7 +229,7 @@ mod tests {
             for pair_at in 0..2 {
                 let (below, across) = (10 * row as i16, 2 * pair_at as i16);
                 let found = [0, 1, 2, 3].map(|image: usize| *windows[image].samples(row, 2 * pair_at));
-                // From right to left columns 3 to 6 are the columns 3 to 6 from the left.
+                // Columns 3 to 6 of ten are the same columns from right to left.
                 let expected = [13 + below, 53 - below, 13 + below, 53 - below].map(|first| pair(first + across));
                 assert_eq!(found, expected);
             }

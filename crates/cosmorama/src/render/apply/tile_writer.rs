@@ -8,8 +8,8 @@ use crate::render::plan::symmetry::{MirrorImage, Mirrors, TOGETHER, UPRIGHT, Way
 use crate::render::plan::traversal::Pass;
 use crate::render::scan::tile::SIDE;
 
-/// Light of a pass's windows, by run, lane and mirror. Mirrors are in the order of the view's traversals, from the
-/// pass's first one on. Elsewhere values are arbitrary.
+/// Light of a pass's windows, by run, lane and mirror image. Mirror images are in the order of the view's traversals,
+/// from the pass's first one on. Where there is no window, values are arbitrary.
 pub(crate) type GroupLight<L> = [[[L; TOGETHER]; SIDE]; SIDE];
 
 /// Conversion of windows' light to pixels.
@@ -20,7 +20,7 @@ pub(crate) trait Develop {
     /// Returns the pixel of a window's light.
     fn one(&self, light: Self::Light) -> Self::Pixel;
 
-    /// Returns the pixels of eight windows, as which most pixels are made.
+    /// Returns the pixels of eight windows at once, which is how most pixels are made.
     fn eight(&self, light: [&Self::Light; SIDE]) -> [Self::Pixel; SIDE];
 }
 
@@ -29,11 +29,11 @@ pub(crate) struct Canvas<'a, P: NoUninit> {
     background: [P; MANY],
     mirrors: &'a Mirrors,
     part: PicturePart<'a, P>,
-    /// Bits of the band's own pixels that are made, row by row, a bit for each column; they hold for all mirrors.
+    /// Bits of the band's own pixels that are made, row by row, one for each column. They hold for all mirror images.
     made: Vec<u8>,
 }
 
-/// Number of background pixels that are written at once: three bytes one by one are slow.
+/// Number of background pixels that are written at once. Three bytes at a time would be slow.
 const MANY: usize = 8 * SIDE;
 
 impl<P: NoUninit> Drop for Canvas<'_, P> {
@@ -67,7 +67,7 @@ impl<'a, P: NoUninit> Canvas<'a, P> {
         PicturePart::all(pixels, width, rows, mirrors).into_iter().map(canvas).collect()
     }
 
-    /// Marks pixels of a row as made: those of eight from this column on whose bits are set.
+    /// Marks pixels of a row as made: of the eight from this column on, those whose bits are set.
     #[inline(always)]
     fn note(&mut self, [column, row]: [usize; 2], lanes: u8) {
         let at = row * bytes_of(self.mirrors.columns) + column / 8;
@@ -81,7 +81,7 @@ impl<'a, P: NoUninit> Canvas<'a, P> {
         self.part.columns().start + self.mirrors.first_column(row / SIDE * SIDE)
     }
 
-    /// Returns the next columns of a row, from this one on, of which no pixel is made.
+    /// Returns the next range of columns of a row, from this one on, in which no pixel is made.
     fn gap(&self, row: usize, from: usize) -> Option<Range<usize>> {
         let (columns, bytes) = (self.mirrors.columns, bytes_of(self.mirrors.columns));
         let made = &self.made[row * bytes..][..bytes];
@@ -89,7 +89,7 @@ impl<'a, P: NoUninit> Canvas<'a, P> {
             let whole = if is_made { 0 } else { u8::MAX };
             let mut column = from;
             while column < columns && (made[column / 8] >> (column % 8) & 1 == 1) != is_made {
-                // Whole bytes of the others are passed over at once.
+                // Bytes that have none of the pixels searched for are skipped whole.
                 column = if column.is_multiple_of(8) && made[column / 8] == whole { column + 8 } else { column + 1 };
             }
             column.min(columns)
@@ -98,7 +98,7 @@ impl<'a, P: NoUninit> Canvas<'a, P> {
         (start < columns).then(|| start..next(start, true))
     }
 
-    /// Fills patches of which no pixel is made, from this row on, together where a mirror shows their columns as rows.
+    /// Fills patches in which no pixel is made, from this row on. Neighbouring patches are filled together.
     fn fill_patches(&mut self, top: usize) {
         let bytes = bytes_of(self.mirrors.columns);
         let rows = top..self.part.rows().min(top + SIDE);
@@ -118,18 +118,19 @@ impl<'a, P: NoUninit> Canvas<'a, P> {
         }
     }
 
-    /// Returns the mirrors that show a pixel of the band.
+    /// Returns the mirror images that show a pixel of the band.
     #[inline(always)]
     pub(crate) fn images_of(&self, [column, row]: [usize; 2]) -> &'a [MirrorImage] {
-        // With diagonals the first row has the number of the first column; without, any does.
+        // With diagonals, the band's first row has the number of its first column. Without them, the row does not
+        // matter.
         self.mirrors.images_of([column, self.part.columns().start + row])
     }
 
-    /// Fills columns of some rows of a patch with the background, in all mirrors.
+    /// Fills columns of some rows of a patch with the background, in all mirror images.
     fn fill(&mut self, rows: Range<usize>, columns: Range<usize>) {
         for (index, image) in self.mirrors.images.iter().enumerate() {
             if image.is_turned {
-                // Not those of the patch on the diagonal.
+                // The patch on the diagonal has no transposed images.
                 let others = columns.start.max(self.first_column(rows.start) + SIDE)..columns.end;
                 for column in others {
                     lay(&self.background, self.part.beside(index, [column, rows.start], rows.len()));
@@ -142,8 +143,8 @@ impl<'a, P: NoUninit> Canvas<'a, P> {
         }
     }
 
-    /// Makes pixels of a pass's light, and writes them where each mirror shows them. `ways` are the traversals of the
-    /// view.
+    /// Makes pixels of a pass's light, and writes them where each mirror image shows them. `ways` are the traversals of
+    /// the view.
     #[inline(always)]
     pub(crate) fn put<D: Develop<Pixel = P>>(
         &mut self,
@@ -158,7 +159,7 @@ impl<'a, P: NoUninit> Canvas<'a, P> {
         }
         let is_whole = |(row, run): (usize, &Run)| run.is_whole() && run.row_in_patch() == row;
         let is_square = group.len() == SIDE && group.iter().enumerate().all(is_whole);
-        // The same of all the patch.
+        // All pixels of the patch have the same mirror images.
         let images = self.images_of(first.pixel(0)).len();
         for (at, &(image, is_reversed)) in ways.order[some.clone()].iter().enumerate() {
             match (image < UPRIGHT, is_reversed) {
@@ -176,7 +177,7 @@ impl<'a, P: NoUninit> Canvas<'a, P> {
         }
     }
 
-    /// Writes rows of a patch in a mirror that shows them as rows; `at` is the mirror's index in the light.
+    /// Writes rows of a patch in a mirror image that is not transposed; `at` is the image's index in the light.
     #[inline(always)]
     fn put_rows<D: Develop<Pixel = P>, const REVERSED: bool>(
         &mut self,
@@ -203,7 +204,7 @@ impl<'a, P: NoUninit> Canvas<'a, P> {
         }
     }
 
-    /// Writes columns of a patch that has all its pixels, in a mirror that shows them as rows.
+    /// Writes columns of a patch that has all its pixels, in a transposed mirror image.
     #[inline(always)]
     fn put_columns<D: Develop<Pixel = P>, const REVERSED: bool>(
         &mut self,
@@ -222,7 +223,7 @@ impl<'a, P: NoUninit> Canvas<'a, P> {
         }
     }
 
-    /// Writes those pixels of a row that are made.
+    /// Writes those pixels of a row that the run makes.
     fn put_lanes<D: Develop<Pixel = P>>(
         &mut self,
         run: &Run,
@@ -235,7 +236,7 @@ impl<'a, P: NoUninit> Canvas<'a, P> {
         }
     }
 
-    /// Returns the pixel that a mirror shows in place of the one in this column and row of the band.
+    /// Returns the pixel that a mirror image shows in place of the one in this column and row of the band.
     #[inline(always)]
     pub(crate) fn pixel(&mut self, image: usize, pixel: [usize; 2]) -> &mut P {
         if image == 0 {
@@ -245,13 +246,13 @@ impl<'a, P: NoUninit> Canvas<'a, P> {
     }
 }
 
-/// Returns an index of eight, from the other end if they are `REVERSED`.
+/// Returns an index below [`SIDE`], or if `REVERSED` the one that is as far from the other end.
 #[inline(always)]
 const fn turned<const REVERSED: bool>(index: usize) -> usize {
     if REVERSED { SIDE - 1 - index } else { index }
 }
 
-/// Fills pixels with the background, from memory: as a known number it would be written byte by byte.
+/// Fills pixels with the background, copied from memory: as a constant it would be written byte by byte.
 fn lay<P: Copy>(background: &[P; MANY], pixels: &mut [P]) {
     let (many, few) = pixels.as_chunks_mut();
     many.fill(*background);
@@ -290,7 +291,7 @@ mod tests {
         }
     }
 
-    /// Returns all possible mirrors of a picture of 32 × 32 pixels.
+    /// Returns all possible mirror images of a picture of 32 × 32 pixels.
     fn mirrors() -> Mirrors {
         let layout = RowLayout::of([[4, 4]], |width| width);
         let flips = [[false, false], [true, false], [false, true], [true, true]];
@@ -302,13 +303,13 @@ mod tests {
         Mirrors::new([16, 16], (0..MOST_IMAGES).map(image).collect())
     }
 
-    /// Returns the light of a run, a lane and a mirror.
+    /// Returns the light of a run, a lane and a mirror image.
     fn number(run: usize, lane: usize, at: usize) -> u32 {
         (1 + (SIDE * run + lane) * MOST_IMAGES + at) as u32
     }
 
     /// Writes a group of runs with these lanes, one below the other from this pixel on. Checks that each pixel is where
-    /// its mirror shows it, and that no other is touched.
+    /// its mirror image shows it, and that no other is touched.
     fn assert_put(first: [usize; 2], lanes: &[u8]) {
         let mirrors = mirrors();
         let group: Vec<Run> = lanes
@@ -335,7 +336,7 @@ mod tests {
                     let [across, down] = if shown.is_turned { [row, column] } else { [column, row] };
                     let [x, y] = [(across, shown.flips[0]), (down, shown.flips[1])]
                         .map(|(at, is_flipped)| if is_flipped { 31 - at } else { at });
-                    // On the diagonal patch columns are not shown as rows.
+                    // The diagonal patch is not shown transposed.
                     if !shown.is_turned || first[0] / SIDE != first[1] / SIDE {
                         expected[32 * y + x] = number(number_of_run, lane, at);
                     }

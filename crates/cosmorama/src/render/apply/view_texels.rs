@@ -1,24 +1,24 @@
 use super::texels::Texels;
 use crate::render::plan::symmetry::{Mirrors, TOGETHER, Ways, exchanged};
 
-/// Texels of a view in all mirrors, grouped as filters process them together. They are checked here once for a band,
-/// not in each run. (Not once for all bands: they are pointers, which threads do not share.)
+/// Texels of a view in all mirror images, grouped as filters process them together. They are checked here once for a
+/// band, not in each run. (Not once for all bands: they are pointers, which threads do not share.)
 pub(crate) enum ViewTexels<'a, T> {
-    /// Eight mirrors, as two groups of four.
+    /// Eight mirror images, as two groups of four.
     Eight([FourTexels<'a, T>; 2]),
-    /// Eight mirrors, as two groups of four; in the second, rows of windows are columns.
+    /// Eight mirror images, as two groups of four; in the second, rows of windows are columns.
     Turned([FourTexels<'a, T>; 2]),
     Four(FourTexels<'a, T>),
-    /// Two mirrors, one for each direction.
+    /// Two mirror images, one for each direction.
     Two(Texels<'a, T, 2, 1>),
-    /// Any other number of mirrors, at most [`TOGETHER`], one by one.
+    /// Any other number of mirror images, at most [`TOGETHER`], one by one.
     OneByOne {
         forward: Vec<Texels<'a, T, 1, 0>>,
         reversed: Vec<Texels<'a, T, 1, 1>>,
     },
 }
 
-/// Two mirrors from left to right and two from right to left; both pairs have the same two steps from row to row.
+/// Two mirror images from left to right and two from right to left. Both pairs have the same two steps from row to row.
 pub(crate) type FourTexels<'a, T> = Texels<'a, T, TOGETHER, 2>;
 
 impl<'a, T: Copy> ViewTexels<'a, T> {

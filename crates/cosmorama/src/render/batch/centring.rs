@@ -6,7 +6,8 @@ use crate::filter::ewa::lanes::Lanes;
 use crate::filter::gather::curvature::Bend;
 use crate::filter::gather::tap_weights::THINNEST;
 
-/// Sums over a window: of the weights w and slacks v, and of their products with the offsets.
+/// Sums over a window of the weights w and the slacks v, and of their products with offsets. A texel's slack is the
+/// factor on the correction of its weight.
 pub(crate) struct Moments<V> {
     w: V,
     wx: V,
@@ -22,7 +23,7 @@ pub(crate) struct Moments<V> {
     vyy: V,
 }
 
-/// Moments of weights over one row of a window, whose offset down is a constant.
+/// Moments of weights over one row of a window, at a fixed vertical offset.
 pub(crate) struct RowSums<V> {
     w: V,
     wx: V,
@@ -42,7 +43,7 @@ impl<V> RowSums<V> {
         Self { w: zero, wx: zero, wxx: zero, v: zero, vx: zero, vxx: zero }
     }
 
-    /// Adds a texel at an offset across.
+    /// Adds a texel at this horizontal offset.
     #[inline(always)]
     pub(crate) fn add<S: Simd>(&mut self, w: V, v: V, x: V)
     where
@@ -81,7 +82,7 @@ impl<V> Moments<V> {
         }
     }
 
-    /// Adds a row at an offset down.
+    /// Adds a row at this vertical offset.
     #[inline(always)]
     pub(crate) fn add<S: Simd>(&mut self, row: &RowSums<V>, y: V)
     where
@@ -101,8 +102,8 @@ impl<V> Moments<V> {
         self.vyy += row.v * y * y;
     }
 
-    /// Computes the correction that makes the weights' sum one. With `centring`, it also moves the centroid of the
-    /// texels, which bend like this, onto the pixel's centre, as [`crate::filter::gather::tap_weights`] does.
+    /// Computes the correction that makes the weights' sum one. With `centring`, it also moves the weights' centroid
+    /// onto the pixel's centre, as [`crate::filter::gather::tap_weights`] does; `centring` tells how the texels bend.
     ///
     /// Offsets in texels serve as well as offsets on the screen: the correction is linear in them.
     #[inline(always)]
@@ -128,7 +129,7 @@ impl<V> Moments<V> {
         Correction { scale, gx, gy, constant: zero - gx * mean_x - gy * mean_y }
     }
 
-    /// Returns the first moments of the weights, with the texels where they appear.
+    /// Returns the first moments of the weights, with texels at the places where they appear on the sphere.
     #[inline(always)]
     fn first_moments<S: Simd>(&self, bend: &Bend) -> [V; 2]
     where
@@ -143,7 +144,8 @@ impl<V> Moments<V> {
     }
 }
 
-/// Correction of a window's weights: w·scale + v·(g·p + constant).
+/// Coefficients of a texel's corrected weight, w·scale + v·(g·p + constant), where w is its weight, v its slack and p
+/// its offset.
 pub(crate) struct Correction<V> {
     scale: V,
     gx: V,
@@ -151,7 +153,7 @@ pub(crate) struct Correction<V> {
     constant: V,
 }
 
-/// Coefficients of the correction along one row, at a fixed offset down.
+/// Coefficients of the correction along one row, at a fixed vertical offset.
 pub(crate) struct RowCorrection<V> {
     scale: V,
     gx: V,
@@ -159,7 +161,7 @@ pub(crate) struct RowCorrection<V> {
 }
 
 impl<V> Correction<V> {
-    /// Returns the correction in the row at an offset down.
+    /// Returns the correction in the row at this vertical offset.
     #[inline(always)]
     pub(crate) fn row<S: Simd>(&self, y: V) -> RowCorrection<V>
     where
@@ -170,7 +172,7 @@ impl<V> Correction<V> {
 }
 
 impl<V> RowCorrection<V> {
-    /// Returns the corrected weight of a texel at an offset across.
+    /// Returns the corrected weight of a texel at this horizontal offset.
     #[inline(always)]
     pub(crate) fn apply<S: Simd>(&self, w: V, v: V, x: V) -> V
     where

@@ -8,7 +8,7 @@ use crate::render::scan::patch::{Density, Geometry, Patch};
 use crate::render::scan::patch_interpolation::{Columns, Coons};
 use crate::render::scan::tile::SIDE;
 
-/// Places of windows of texels, and the ellipses in them: a lane for each.
+/// Places of windows of texels, and the ellipses in them, with a lane for each pixel.
 #[derive(Clone, Copy)]
 pub(crate) struct Ellipses<V> {
     /// Offset of the first texel's centre from the pixel's, along U and V.
@@ -34,7 +34,7 @@ pub(crate) struct EllipsesRow<V> {
 }
 
 impl<V> EllipsesRow<V> {
-    /// Computes Q = AU² + BUV + CV² (Greene & Heckbert 1986), over F, at U = `x`.
+    /// Computes Q/F at U = `x`, where Q = AU² + BUV + CV² (Greene & Heckbert 1986).
     #[inline(always)]
     pub(crate) fn distance_squared<S: Simd>(&self, x: V) -> V
     where
@@ -77,7 +77,8 @@ impl<V> Ellipses<V> {
         let half = (p - r) * 0.5;
         let major = (p + r) * 0.5 + (half * half + q * q).sqrt();
         let tiny = V::splat(simd, 1e-30);
-        // Rounding may put a circle's minor axis above its major one; their difference would change its sign.
+        // Rounding may make a circle's minor axis longer than its major one. Then the sign of their difference would
+        // change.
         let minor = ((determinant * area) * (determinant * area) / major.max(tiny)).min(major);
         let floor = V::splat(simd, (kernel.floor * kernel.floor) as f32);
         let (wide, narrow) = (major.max(floor), minor.max(floor));
@@ -187,7 +188,7 @@ fn row_of<S: Simd>(simd: S, columns: &Columns, row: usize) -> f32x8<S> {
     top + rise * down + f32x8::load_array(simd, columns.bow) * (down * (1.0 - down))
 }
 
-/// Returns the sides' part of places in rows, from this one on, along one axis.
+/// Returns the part of places that bulging sides of the patch add, in rows from this one on, along one axis.
 #[inline(always)]
 fn bulges<S: Simd, V: Lanes<S>>(simd: S, coons: &Coons, row: usize, axis: usize) -> V {
     V::of_rows([bulge(simd, coons, row, axis), bulge(simd, coons, row + 1, axis)])
@@ -205,7 +206,7 @@ fn ramp<S: Simd>(simd: S) -> f32x8<S> {
     f32x8::load_array(simd, std::array::from_fn(|lane| lane as f32 / SIDE as f32))
 }
 
-/// Returns the number of texels from the first to the last, in the lane that has most.
+/// Returns the number of texels from the first to the last, in the lane that has the most.
 fn greatest(extents: [f32; SIDE]) -> usize {
     extents.into_iter().fold(0f32, f32::max) as usize + 1
 }

@@ -1,4 +1,4 @@
-//! Weights of many pixels at once: a lane for each, a window of texels around each.
+//! Weights of many pixels at once, with a lane for each pixel's window of texels.
 
 use std::ops::Range;
 
@@ -29,8 +29,8 @@ pub(crate) struct Weigher {
 }
 
 impl Weigher {
-    /// Makes the weigher of a kernel. `None` if it is not cubic, which lanes cannot weigh. `None` also if its floor is
-    /// below one: no texel might be under a pixel to clamp to.
+    /// Makes the weigher of a kernel. `None` if a cross-section is not a cubic, which lanes cannot weigh. `None` also
+    /// if the floor is below one: there might be no texel under a pixel to clamp to.
     pub(crate) fn new(kernel: &Kernel, level: Level) -> Option<Self> {
         let cubics = Cubics::of(kernel).filter(|_| kernel.floor >= 1.0)?;
         let windows = std::array::from_fn(|_| Windows::new(level));

@@ -1,13 +1,13 @@
 use std::ops::Range;
 
-/// Level of instructions that lanes use: found once, for all of them.
+/// Level of SIMD instructions that lanes use, found once for all of them.
 pub(crate) use fearless_simd::Level;
 
 use crate::filter::taps::{Tap, Taps};
 use crate::render::scan::patch::Patch;
 use crate::render::scan::tile::{LARGEST, SIDE};
 
-/// Number of texels that fit at first. Memory for larger windows is made when they come.
+/// Number of texels that fit at first. Memory grows when larger windows come.
 pub(crate) const ROOM: usize = 256;
 
 /// Magnitude of weights.
@@ -28,14 +28,14 @@ pub(crate) struct Windows {
     height: usize,
     /// Index of the view that holds the texels.
     view: usize,
-    /// Columns of the view that count.
+    /// Columns of the view in which windows may lie.
     within: Range<u32>,
     /// Index of the view's first texel in the world's buffer, and the distance from one row to the next.
     offset: usize,
     stride: usize,
     /// Column and row of each window's first texel.
     corners: [[u32; 2]; SIDE],
-    /// Bits of the windows that lie wholly inside the view: only their corners and weights are right.
+    /// Bits of the windows that lie wholly inside the view. Corners and weights of the others are not valid.
     held: u8,
     pub(crate) weights: Vec<[f32; SIDE]>,
     /// Magnitude of the weights.
@@ -63,12 +63,12 @@ impl Windows {
         }
     }
 
-    /// Returns the level of instructions that fills them.
+    /// Returns the level of SIMD instructions that fills the windows.
     pub(crate) fn level(&self) -> Level {
         self.level
     }
 
-    /// Returns whether this lane's window lies inside the view, so that its weights are right.
+    /// Returns whether this lane's window lies inside the view, so that its weights are valid.
     pub(crate) fn holds(&self, lane: usize) -> bool {
         self.held >> lane & 1 == 1
     }
@@ -172,7 +172,7 @@ impl Windows {
     }
 }
 
-/// Returns where something of this length may begin within a range.
+/// Returns the positions at which something of this length may begin within a range.
 fn places(range: Range<usize>, length: usize) -> Range<i64> {
     range.start as i64..range.end as i64 - length as i64 + 1
 }

@@ -20,15 +20,15 @@ impl<F: Format> Band<F> {
         self.singles.clear();
     }
 
-    /// Sorts what is kept into the order in which it is made fastest, and frees memory that is not needed.
+    /// Sorts the windows into the order in which they are processed fastest, and frees unused memory.
     pub(crate) fn settle(&mut self) {
         self.runs.shrink_to_fit();
         self.weights.settle(groups(&self.runs));
         self.singles.shrink();
     }
 
-    /// Returns the groups: runs of one patch that lie in one view, at most [`SIDE`] each. In each mirror, the runs of a
-    /// group share most of their texels.
+    /// Returns the groups: runs of one patch that lie in one view, at most [`SIDE`] each. In each mirror image, the
+    /// runs of a group share most of their texels.
     pub(crate) fn groups(&self) -> impl Iterator<Item = &[Run]> + Clone {
         groups(&self.runs)
     }
@@ -45,7 +45,7 @@ impl<F: Format> Band<F> {
         self.runs.capacity() * size_of::<Run>() + self.weights.bytes() + self.singles.bytes()
     }
 
-    /// Returns the number of bytes of what the band holds, without room for more.
+    /// Returns the number of bytes in use, without spare capacity.
     pub(crate) fn used_bytes(&self) -> usize {
         size_of_val(&*self.runs) + self.weights.used_bytes() + self.singles.used_bytes()
     }

@@ -127,7 +127,7 @@ impl Plan {
         image
     }
 
-    /// Makes one frame in an existing image: fresh memory may cost as much as the frame's pixels.
+    /// Makes one frame in an existing image: fresh memory may cost as much time as the frame's pixels.
     ///
     /// # Panics
     /// As [`Plan::apply`], or if the image is not of the target's size.
@@ -139,7 +139,7 @@ impl Plan {
         }
     }
 
-    /// Makes the code values of one frame by a plan of integers. `light` is that of all the world's texels.
+    /// Makes the code values of one frame by a plan of integers. `light` holds all the world's texels.
     ///
     /// # Panics
     /// If the light is of other views than the world's, or the plan is not one of integers.
@@ -150,7 +150,7 @@ impl Plan {
         image
     }
 
-    /// Makes one frame by a plan of integers in an existing image: fresh memory may cost a third of a frame.
+    /// Makes one frame by a plan of integers in an existing image: fresh memory may cost a third of a frame's time.
     ///
     /// # Panics
     /// As [`Plan::apply_fixed`], or if the image is not of the target's size.
@@ -223,7 +223,7 @@ fn part_bytes_estimate<F: Format>(resampler: &Resampler, wanted: Option<&Wanted>
     let is_small = mirrors.rows * mirrors.columns <= SMALL;
     let bytes = |index: usize| {
         let band = mirrors.band(index);
-        // Not the same in all bands: what lies at the edge of a picture would count too often.
+        // Not the same patches in all bands, since the edge of the picture would count too often.
         let top = band.start + index % (BAND / SIDE) * SIDE;
         let rows = if top < band.end && !is_small { top..band.end.min(top + SIDE) } else { band };
         let (mut kept, mut bytes, count) = (Band::<F>::default(), 0, rows.len());
@@ -251,7 +251,7 @@ impl<F: Format> Compiled<F> {
         };
         let count = mirrors.rows.div_ceil(BAND);
         let parts = watch.parts(count);
-        // One by one, as below. A plan that is stopped lacks bands; nobody sees it.
+        // Bands go to threads one by one, as below. A plan that is stopped lacks bands, but nobody sees it.
         let bands = (0..count).into_par_iter().with_max_len(1);
         let bands = bands.map(|index| parts.part(|| compile(index)).unwrap_or_default()).collect();
         let (width, height) = (target.width(), target.height());
@@ -264,7 +264,8 @@ impl<F: Format> Compiled<F> {
         let Self { anti_ringing, ref mirrors, .. } = *self;
         let canvases = Canvas::bands(image.pixels_mut(), self.width, BAND, mirrors, arithmetic.background());
         let filter = BandFilter { level, mirrors, anti_ringing, arithmetic };
-        // One by one: with mirrors along the diagonals the first bands have far more pixels than the last.
+        // Bands go to threads one by one: with mirror images about the diagonals, the first bands have far more pixels
+        // than the last.
         let bands = canvases.into_par_iter().zip(&self.bands).with_max_len(1);
         bands.for_each(|(mut canvas, band)| filter.fill(band, &mut canvas));
     }
@@ -313,10 +314,10 @@ fn record<F: Format>(
     Scan::new(resampler, table, level).only(wanted).pixels(&area, &mut recorder);
 }
 
-/// Returns the patches that must be computed: those that show something wanted in any mirror. `is_wanted` tests a
+/// Returns the patches that must be computed: those that show something wanted in any mirror image. `is_wanted` tests a
 /// rectangle of the target.
 pub(crate) fn wanted(resampler: &Resampler, is_wanted: impl Fn(PixelRect) -> bool + Sync) -> Wanted {
-    // What is seen in which mirror is the same for all light.
+    // Mirror images do not depend on the format of light.
     let mirrors = Mirrors::of::<FloatFormat>(resampler);
     let size = [resampler.target.width(), resampler.target.height()];
     Wanted::new([mirrors.columns, mirrors.rows], |patch| {

@@ -20,8 +20,8 @@ pub(crate) struct Recorder<'a, F, P> {
     pub(crate) spill: P,
 }
 
-/// Number of texels of single pixels, in all mirrors, above which a band is spilled. A small picture of a large world
-/// may have millions for each pixel.
+/// Number of texels of single pixels, in all mirror images, above which a band is spilled. A small picture of a large
+/// world may have millions for each pixel.
 const MANY: usize = 1 << 17;
 
 /// Number of four-byte numbers of windows' weights above which a band is spilled; a pixel has up to a thousand.
@@ -34,7 +34,7 @@ impl<F: Format, P: FnMut(&mut Band<F>)> Sink for Recorder<'_, F, P> {
 
     fn windows(&mut self, pixel: [usize; 2], lanes: u8, windows: &Windows) {
         let lanes = lanes & windows.held();
-        // Nothing was weighed.
+        // No window lies wholly inside the view.
         if lanes == 0 {
             return;
         }
@@ -62,7 +62,7 @@ impl<F: Format, P: FnMut(&mut Band<F>)> Sink for Recorder<'_, F, P> {
 }
 
 impl<F, P: FnMut(&mut Band<F>)> Recorder<'_, F, P> {
-    /// Adds a single pixel, in all mirrors.
+    /// Adds a single pixel, in all mirror images.
     fn single(&mut self, pixel: [usize; 2], coverage: f32, taps: &Taps) {
         self.band.singles.push((self.world, self.mirrors), pixel, coverage, taps, &mut self.places);
         if self.band.singles.texel_count() > MANY {

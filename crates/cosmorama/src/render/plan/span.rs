@@ -8,7 +8,7 @@ use crate::render::scan::tile::{SIDE, lanes_of};
 pub(crate) struct Run {
     /// First column of the leftmost window, and first row of the highest one.
     corner: [u32; 2],
-    /// Offset of each window's first texel from there.
+    /// Offset of each window's first texel from `corner`.
     offsets: [[u8; 2]; SIDE],
     /// Index of the group's first weight among those of the band.
     pub(crate) weights: u32,
@@ -58,10 +58,10 @@ impl Run {
         self.corner.map(|at| at as usize)
     }
 
-    /// Returns the column and the row after the last ones that its windows hold, or nearly so.
+    /// Returns the column and the row after the last ones of its windows, to within a texel.
     #[inline(always)]
     pub(crate) fn end(&self) -> [usize; 2] {
-        // Windows follow each other in one direction, and those of lanes that have none stay where the next ones are.
+        // Windows follow each other in one direction, and a lane without a window has the offset of a neighbour.
         let [first, last] = [self.offsets[0], self.offsets[SIDE - 1]];
         let end = |axis: usize, size: u8| {
             self.corner[axis] as usize + usize::from(first[axis].max(last[axis])) + usize::from(size)
@@ -135,7 +135,8 @@ impl Run {
     /// Makes the run of windows that begin at these texels; `None` if its numbers do not fit.
     pub(crate) fn new(windows: &Windows, corners: &Corners, [column, row]: [usize; 2], weights: usize) -> Option<Self> {
         let lanes = lanes_of(|lane| corners[lane].is_some());
-        // Lanes without a window count as the last one before them that has one, or as the first: loops go without branches then.
+        // A lane without a window takes the place of the last one before it that has one, or of the first, so that
+        // loops need no branches.
         let first = corners[lanes.trailing_zeros() as usize % SIDE]?;
         let corner = corners.map(|corner| corner.unwrap_or(first)).into_iter();
         let corner = corner.fold(first, |least, texel| [least[0].min(texel[0]), least[1].min(texel[1])]);

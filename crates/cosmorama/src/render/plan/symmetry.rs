@@ -21,14 +21,14 @@ const SAME_TEXEL: f64 = 1e-6;
 /// Number of points along a side at which a symmetry is tested; the formulas between are smooth.
 const STEPS: usize = 16;
 
-/// Greatest number of mirror images: itself, left and right exchanged, top and bottom, both; and each of these
-/// transposed.
+/// Greatest number of mirror images: the part itself, left and right exchanged, top and bottom exchanged, both; and
+/// each of these transposed.
 pub(crate) const MOST_IMAGES: usize = 8;
 
-/// Greatest number of images that show rows as rows; the transposed ones come after these.
+/// Greatest number of mirror images that are not transposed. The transposed ones come after these.
 pub(crate) const UPRIGHT: usize = 4;
 
-/// Greatest number of images in which windows are traversed together.
+/// Greatest number of mirror images in which windows are traversed together.
 pub(crate) const TOGETHER: usize = 4;
 
 /// Part of a target that is computed, and the mirror images that make up the rest.
@@ -50,8 +50,8 @@ pub(crate) struct Mirrors {
 /// kind, traversals from left to right come first, and among these, those that go down.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Ways {
-    /// Index of each mirror image, and whether it exchanges left and right on the target: lanes, or rows where columns
-    /// are rows.
+    /// Index of the mirror image of each traversal, and whether that image reverses lanes on the target. In a
+    /// transposed image it is rows that it reverses.
     pub(crate) order: [(usize, bool); MOST_IMAGES],
     /// Number of traversals, and the number of those from left to right that are not transposed.
     pub(crate) count: usize,
@@ -68,7 +68,8 @@ impl Ways {
         let mut walks: Vec<(usize, Walk)> = walks.enumerate().collect();
         walks.sort_by_key(|(_, walk)| (walk.is_turned, walk.is_reversed, walk.down < 0));
         if walks.len() == MOST_IMAGES && walks.iter().all(|(_, walk)| !walk.is_turned) {
-            // Of four each way every other one, so that both halves have two each way that go alike.
+            // Every other one of the four in each direction, so that both halves have two in each direction with the
+            // same steps.
             walks = [0, 2, 4, 6, 1, 3, 5, 7].map(|at| walks[at]).to_vec();
         }
         let mut ways = Self { count: walks.len(), ..Self::default() };
@@ -99,7 +100,7 @@ impl Ways {
 /// A mirror image of the computed part.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct MirrorImage {
-    /// Whether columns are rows on the target, and rows columns; the flips come after this.
+    /// Whether columns and rows are exchanged on the target, before the flips.
     pub(crate) is_turned: bool,
     /// Whether left and right are exchanged on the target, and whether top and bottom are.
     pub(crate) flips: [bool; 2],
@@ -107,7 +108,7 @@ pub(crate) struct MirrorImage {
     views: Vec<Reflection>,
 }
 
-/// A view as a mirror shows it: another one, or itself, with its texels in another order.
+/// A view as a mirror image shows it: as another view or itself, with its texels in another order.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Reflection {
     /// Place of the view in the buffer of light.
@@ -122,11 +123,12 @@ pub(crate) struct Reflection {
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Walk {
     pub(crate) first: u32,
-    /// Whether a row of the window is a column there; the other fields describe the window as it lies there.
+    /// Whether a row of the window is a column in the buffer. The other fields describe the window as it lies in the
+    /// buffer.
     pub(crate) is_turned: bool,
-    /// Whether columns run the other way.
+    /// Whether columns run from right to left.
     pub(crate) is_reversed: bool,
-    /// Step from one row to the next.
+    /// Step from one row to the next, in texels.
     pub(crate) down: i32,
 }
 
@@ -162,12 +164,12 @@ impl Reflection {
 }
 
 impl MirrorImage {
-    /// Returns the view that is seen in place of one.
+    /// Returns the view that the mirror image shows in place of this one.
     pub(crate) fn view(&self, index: usize) -> &Reflection {
         &self.views[index]
     }
 
-    /// Returns the texel that the mirror shows in place of one, by its index in the buffer of light.
+    /// Returns the texel that the mirror image shows in place of this one, by its index in the buffer of light.
     pub(crate) fn texel(&self, TexelPlace { view, texel }: TexelPlace) -> u32 {
         self.views[view].walk(texel).first
     }
@@ -180,7 +182,7 @@ impl Mirrors {
         let layout = RowLayout::of(world.view_sizes(), F::pitch);
         let reflect = |flips: [bool; 2]| {
             let is_even = (!flips[0] || width % 2 == 0) && (!flips[1] || height % 2 == 0);
-            // Of two texels that are as near, a point takes the one to the right, in a mirror too.
+            // Of two texels that are equally near, the point filter takes the right one, in a mirror image as well.
             (is_even && !filter.kind.chooses_texels())
                 .then(|| MirrorImage::of((world, &layout), target, Flip { is_turned: false, axes: flips }))
                 .flatten()
@@ -188,7 +190,8 @@ impl Mirrors {
         let (across, mut down) = (reflect([true, false]), reflect([false, true]));
         let both = if across.is_some() && down.is_some() { reflect([true, true]) } else { None };
         if across.is_some() && both.is_none() {
-            // Near enough each, not together: a quarter would be in no mirror.
+            // Each flip is near enough alone, but not both together: a quarter of the picture would have no mirror
+            // image.
             down = None;
         }
         let columns = if across.is_some() { width / 2 } else { width };
@@ -198,8 +201,8 @@ impl Mirrors {
         Self::new([columns, rows], Self::with_diagonals(images, (world, &layout), target))
     }
 
-    /// Adds the mirrors along the target's diagonals to those that are upright. They are added only if all upright ones
-    /// exist, and all diagonal ones too.
+    /// Adds the mirror images about the target's diagonals to those that are upright. They are added only if all
+    /// upright ones exist, and all diagonal ones too.
     fn with_diagonals(
         upright: Vec<MirrorImage>,
         (world, layout): (&World, &[RowLayout]),
@@ -210,7 +213,7 @@ impl Mirrors {
         }
         let turned = FLIPS.map(|axes| MirrorImage::of((world, layout), target, Flip { is_turned: true, axes }));
         let all: Vec<_> = upright.iter().cloned().chain(turned.into_iter().flatten()).collect();
-        // Windows are walked through by fours, or the work that is spared is lost again.
+        // Unless windows can be traversed by fours, the time that the diagonals save is lost again.
         let are_fours = |view: usize| {
             let ways = Ways::of(&all, view);
             ways.are_four(0) && ways.are_four(TOGETHER)
@@ -225,13 +228,13 @@ impl Mirrors {
         Self { columns, rows, images, is_packed, ways }
     }
 
-    /// Returns whether there are mirrors along the diagonals. If so, pixels to the left of the diagonal through the
-    /// first column and row are not computed either.
+    /// Returns whether there are mirror images about the diagonals. If so, pixels to the left of the diagonal through
+    /// the first column and row are not computed either.
     pub(crate) fn has_diagonals(&self) -> bool {
         self.images.len() == MOST_IMAGES
     }
 
-    /// Returns the mirror images of a pixel. In patches on the diagonal, computed whole, none of them is transposed.
+    /// Returns the mirror images of a pixel. Patches on the diagonal are computed whole, and have no transposed images.
     #[inline(always)]
     pub(crate) fn images_of(&self, [column, row]: [usize; 2]) -> &[MirrorImage] {
         let is_on_diagonal = self.has_diagonals() && column / SIDE == row / SIDE;
@@ -262,7 +265,7 @@ impl MirrorImage {
         Self { is_turned, flips, views }
     }
 
-    /// Returns the flipped target; `None` unless the world has a mirror plane, or a quarter turn, that fits.
+    /// Returns the mirror image of a flip; `None` unless the world has a mirror plane, or a quarter turn, that fits.
     fn of((world, layout): (&World, &[RowLayout]), target: &View, flip: Flip) -> Option<Self> {
         let mirror = mirror_of(target, flip)?;
         let seen = |source: &Source| {

@@ -1,5 +1,5 @@
 //! Single pixels, each with a list of its texels: on the edges between views, at rims, and wherever windows do not fit.
-//! What is equal in all mirrors is stored and computed once.
+//! What all mirror images share is stored and computed once.
 
 use super::symmetry::Mirrors;
 use crate::filter::taps::Taps;
@@ -11,7 +11,7 @@ pub(crate) struct Singles {
     pixels: Vec<Single>,
     /// Weight of each texel of each pixel.
     weights: Vec<f32>,
-    /// Texels of each weight in all mirrors, side by side.
+    /// Texels of each weight in all mirror images, side by side.
     texels: Vec<u32>,
     /// Offsets of texels from the pixel.
     places: Vec<[f32; 2]>,
@@ -24,7 +24,7 @@ pub(crate) struct Single {
     first: usize,
     taps: u32,
     under: u32,
-    /// Index of the first of their places, and the number that is kept.
+    /// Index of its first texel's place, and the number of places that are kept.
     first_place: usize,
     places: u32,
     /// Part of the pixel inside the field of view.
@@ -37,7 +37,7 @@ pub(crate) struct Single {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct SingleTaps<'a> {
     pub(crate) weights: &'a [f32],
-    /// Texels in all mirrors, for each weight.
+    /// Texels in all mirror images, for each weight.
     pub(crate) texels: &'a [u32],
     pub(crate) under: usize,
     /// Places of the texels, if all lie to one side of the pixel's centre.
@@ -67,7 +67,7 @@ impl Singles {
             + self.places.capacity() * size_of::<[f32; 2]>()
     }
 
-    /// Returns the number of bytes of what the pixels hold, without room for more.
+    /// Returns the number of bytes in use, without spare capacity.
     pub(crate) fn used_bytes(&self) -> usize {
         size_of_val(&*self.pixels)
             + size_of_val(&*self.weights)
@@ -75,7 +75,7 @@ impl Singles {
             + size_of_val(&*self.places)
     }
 
-    /// Returns the number of texels in all mirrors.
+    /// Returns the number of texels in all mirror images.
     pub(crate) fn texel_count(&self) -> usize {
         self.texels.len()
     }
@@ -84,7 +84,7 @@ impl Singles {
         &self.pixels
     }
 
-    /// Returns the taps of a pixel, in this number of mirrors.
+    /// Returns the taps of a pixel, in this number of mirror images.
     #[inline(always)]
     pub(crate) fn taps(&self, single: &Single, images: usize) -> SingleTaps<'_> {
         let taps = single.taps as usize;
@@ -96,7 +96,7 @@ impl Singles {
         }
     }
 
-    /// Adds a pixel, in all mirrors. `seen` is working memory for the places of its texels.
+    /// Adds a pixel, in all mirror images. `seen` is working memory for the places of its texels.
     pub(crate) fn push(
         &mut self,
         (world, mirrors): (&World, &Mirrors),
@@ -117,7 +117,7 @@ impl Singles {
             row: row as u8,
         });
         self.weights.extend(list.taps.iter().map(|tap| tap.weight));
-        // Mirrored, texels lie otherwise, but not in relation to each other.
+        // Places relative to the pixel's own axes are equal in all mirror images.
         self.places.extend_from_slice(list.places);
         if mirrors.is_packed && mirrors.images.len() == 1 {
             self.texels.extend(list.taps.iter().map(|tap| tap.texel));
@@ -125,7 +125,7 @@ impl Singles {
         }
         seen.clear();
         seen.extend(list.taps.iter().map(|tap| world.texel(tap.texel)));
-        // Room for all of them first: asked for one by one it would take longer than they do.
+        // Resized once, since growing for each texel would take longer than the rest.
         let (first, images) = (self.texels.len(), mirrors.images.len());
         self.texels.resize(first + images * seen.len(), 0);
         for (image, at) in mirrors.images.iter().zip(first..) {

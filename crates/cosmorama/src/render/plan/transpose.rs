@@ -13,13 +13,14 @@ const MOST_PARTS: usize = 8;
 
 impl Plan {
     /// Distributes a number of each pixel to the texels that it is made of, times their weights: the transpose of the
-    /// plan. The results are added to a number of each texel.
+    /// plan. The results are added to `texels`, which has a number for each texel.
     ///
     /// # Panics
     /// If the plan is one of integers, or of a pyramid.
     pub(crate) fn spread(&self, pixels: &[f32], texels: &mut [f64]) {
         let Geometry::Float(plan) = &self.0 else { panic!("weights of floats, of the world's own texels") };
-        // Each thread goes through all of the plan and adds up its own texels only: in the plan's order, however many there are.
+        // Each thread reads all of the plan, and adds to its own texels only. Each texel's sum has the plan's order,
+        // whatever the number of threads.
         let parts = rayon::current_num_threads().min(MOST_PARTS);
         let some = texels.len().div_ceil(parts).max(1);
         texels.par_chunks_mut(some).enumerate().for_each(|(part, texels)| {
@@ -47,9 +48,9 @@ impl Part<'_> {
         }
     }
 
-    /// Returns whether no texel of a window can belong to this part.
+    /// Returns whether a window has surely no texel in this part.
     fn is_beside(&self, walk: Walk, [columns, rows]: [usize; 2]) -> bool {
-        // It reaches from one corner to another.
+        // All texels of a window lie between those of its corners.
         let corners = [[0, 0], [columns - 1, 0], [0, rows - 1], [columns - 1, rows - 1]];
         let corners = corners.map(|corner| walk.texel(corner) as usize);
         corners.iter().all(|&texel| texel < self.first)
@@ -65,7 +66,7 @@ struct Spread<'a> {
 }
 
 impl Spread<'_> {
-    /// Reads the value of the pixel where a mirror shows this one; zero if that mirror does not show it.
+    /// Reads the value of the pixel where a mirror image shows this one; zero if that image does not show it.
     fn pixel(&self, pixels: &[f32], image: usize, [column, row]: [usize; 2]) -> f64 {
         let plan = self.plan;
         let MirrorImage { flips, is_turned, .. } = plan.mirrors.images[image];

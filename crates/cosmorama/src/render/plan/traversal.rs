@@ -3,7 +3,7 @@ use std::ops::Range;
 use super::span::Run;
 use super::symmetry::TOGETHER;
 
-/// Windows that are processed together: a patch's runs that lie in one view, in some of its mirrors.
+/// Windows that are processed together: a patch's runs that lie in one view, in some of its mirror images.
 #[derive(Clone, Debug)]
 pub(crate) struct Pass<'a> {
     pub(crate) group: &'a [Run],
@@ -11,9 +11,9 @@ pub(crate) struct Pass<'a> {
     pub(crate) ways: Range<usize>,
 }
 
-/// Returns the passes through each group, in [`TOGETHER`] of `count` mirrors at once. Each comes with the next pass,
-/// whose texels can be prefetched meanwhile. What a patch reads and writes in eight mirrors fills the first-level cache
-/// of most processors.
+/// Returns the passes through each group, in [`TOGETHER`] of `count` mirror images at once. Each comes with the next
+/// pass, whose texels can be prefetched meanwhile. What a patch reads and writes in eight mirror images fills the
+/// first-level cache of most processors.
 pub(crate) fn passes<'a>(
     groups: impl Iterator<Item = &'a [Run]> + Clone,
     count: usize,

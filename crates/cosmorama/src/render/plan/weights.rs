@@ -7,8 +7,9 @@ use crate::render::batch::window::Windows;
 
 /// Weights of a band's windows, one group of runs after the other, pixel by pixel.
 ///
-/// The weights of a pixel follow its [`Header`]. If its window is not small, bits between them mark the texels under
-/// the pixel: [`Shape::mark_words`](super::window_format::Shape::mark_words) numbers for each row that has some.
+/// The weights of a pixel follow its [`Header`]. If its window is not small, marks of the texels under the pixel lie
+/// between header and weights: [`Shape::mark_words`](super::window_format::Shape::mark_words) numbers for each row that
+/// has some.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Weights<F> {
     pub(crate) numbers: Vec<u32>,
@@ -16,13 +17,13 @@ pub(crate) struct Weights<F> {
 }
 
 impl<F: Format> Weights<F> {
-    /// Returns the number of numbers, which is where the next run's begin.
+    /// Returns the count of numbers, which is the index at which the next run's numbers begin.
     pub(crate) fn len(&self) -> usize {
         self.numbers.len()
     }
 
-    /// Keeps the weights of the windows that have a corner, as those of this run of their group. Moves the corners to
-    /// where the kept windows begin. Returns false, keeping nothing, if they do not fit.
+    /// Keeps the weights of the windows that have a corner; `run` is the place of their run in its group. Moves the
+    /// corners to where the kept windows begin. Returns false, keeping nothing, if the weights do not fit the format.
     pub(crate) fn keep(&mut self, windows: &Windows, corners: &mut Corners, run: usize) -> bool {
         let level = windows.level();
         dispatch!(level, simd => self.keep_lanes(simd, windows, corners, run))
@@ -44,7 +45,7 @@ impl<F: Format> Weights<F> {
         true
     }
 
-    /// Drops all but the first numbers, keeping the memory.
+    /// Drops all numbers but the first `length`, keeping the memory.
     pub(crate) fn truncate(&mut self, length: usize) {
         self.numbers.truncate(length);
     }
@@ -74,7 +75,7 @@ impl<F: Format> Weights<F> {
         self.numbers.capacity() * size_of::<u32>()
     }
 
-    /// Returns the number of bytes of the weights that are held.
+    /// Returns the number of bytes in use, without spare capacity.
     pub(crate) fn used_bytes(&self) -> usize {
         size_of_val(&*self.numbers)
     }

@@ -40,14 +40,14 @@ pub(crate) struct Shape {
 pub(crate) const ROWS_UNDER: usize = 3;
 pub(crate) const COLUMNS_UNDER: usize = 4;
 
-/// Sizes of windows where a kernel is as small as possible.
+/// Sizes of the windows of the smallest kernels.
 pub(crate) type SmallShapes = [Shape; 2 * Shape::HEIGHTS];
 
 impl Shape {
     /// Number of small shapes of each width.
     pub(crate) const HEIGHTS: usize = 3;
 
-    /// Lists the small shapes: as many of each width, in the same order.
+    /// Lists the small shapes: the same heights, in the same order, for each of two widths.
     pub(crate) const fn small([narrow, wide]: [usize; 2]) -> SmallShapes {
         const fn new(width: usize, height: usize, under: usize) -> Shape {
             Shape { width, height, under }
@@ -88,7 +88,7 @@ impl Header {
     const LANE: u32 = 12;
     const RUN: u32 = 29;
 
-    /// Index of the shape of a window that is not small, and as large as the run's windows are.
+    /// Index of the shape of a window that is not small: it is as large as the run's windows.
     const LARGE: usize = 7;
 
     /// Packs a header; `rest` may use only bits 0 to 8 and 16 to 28.
@@ -148,7 +148,7 @@ impl<'a> Kept<'a> {
         self.under.contains(&row).then(|| &self.marks[(row - self.under.start) * words..][..words])
     }
 
-    /// Returns the number of numbers, including the header.
+    /// Returns the count of numbers, including the header.
     #[inline(always)]
     pub(crate) fn length(&self) -> usize {
         1 + self.marks.len() + self.weights.len()

@@ -1,7 +1,7 @@
 //! Order of the windows of a patch's runs in one view.
 //!
-//! Each window shape has its own code path. Unsorted, 60 % of these branches are mispredicted; sorted by shape within a patch,
-//! 9 %. Sorting saves a tenth of an 8-bit frame's time.
+//! Each window shape has its own code path. Unsorted, 60 % of these branches are mispredicted; sorted by shape within a
+//! patch, 9 %. Sorting saves a tenth of an 8-bit frame's time.
 
 use super::span::Run;
 use crate::render::scan::tile::SIDE;
@@ -17,15 +17,15 @@ const SHAPES: usize = 8;
 
 /// Sorts the windows of each group by shape. All groups keep their place.
 ///
-/// `told` returns the index of a window's shape, and the number of its numbers, from the numbers of a run from this
-/// window on.
+/// `told` takes a run, and its numbers from one window on. It returns the index of the window's shape, and how many
+/// numbers the window takes.
 pub(crate) fn sort<'a>(
     numbers: &mut Vec<u32>,
     groups: impl Iterator<Item = &'a [Run]>,
     told: impl Fn(&Run, &[u32]) -> (u32, usize),
 ) {
     let mut sorted = Vec::with_capacity(numbers.len());
-    // Where each window's numbers begin and end, by shape, and how many windows these are.
+    // For each shape, where each window's numbers begin and end, and how many windows there are.
     let (mut windows, mut counts) = ([[[0; 2]; SIDE * SIDE]; SHAPES], [0; SHAPES]);
     for group in groups {
         counts.fill(0);

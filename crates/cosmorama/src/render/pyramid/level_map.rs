@@ -113,12 +113,13 @@ impl LevelMap {
 
     /// Returns the point before a pixel's centre, and the part of the way to the next point.
     fn place(&self, pixel: usize) -> (usize, f32) {
-        // A shift: to divide would take longer than all else.
+        // A shift, since a division would take longer than all else.
         let within = pixel & (self.step - 1);
         (pixel >> self.step.ilog2(), (within as f32 + 0.5 - first(self.step) as f32) / self.step as f32)
     }
 
-    /// Returns the least and the greatest level of the pixels in a rectangle, or somewhat less and more.
+    /// Returns bounds of the levels of the pixels in a rectangle: the least and the greatest, or somewhat less and
+    /// more.
     fn range(&self, rect: PixelRect) -> [f32; 2] {
         let (left, right) = (rect.left / self.step, (rect.right - 1) / self.step + 2);
         let rows = rect.top / self.step..(rect.bottom - 1) / self.step + 2;
@@ -135,8 +136,8 @@ impl LevelMap {
 
 /// Returns the position of the first of the points at which levels are measured, in pixels from the picture's edge.
 ///
-/// It is the edge itself, so that points lie symmetrically. Where each pixel has a point of its own, as in small pictures, it
-/// is the pixel's centre: there a pixel may be so wide that its corners look elsewhere.
+/// It is the edge itself, so that points lie symmetrically. Where each pixel has a point of its own, as in small
+/// pictures, it is the pixel's centre: there a pixel may be so wide that its corners look elsewhere.
 fn first(step: usize) -> f64 {
     if step == 1 { 0.5 } else { 0.0 }
 }

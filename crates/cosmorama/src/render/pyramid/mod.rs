@@ -98,7 +98,7 @@ impl<'a> TexelCount<'a> {
 }
 
 /// Returns the edge of the target's field of view, as the filter uses it. `None` if the field is smaller than a few
-/// texels; it is then made of what is around it.
+/// texels, since its pixels are then made from all texels around it.
 fn edge<'a>(resampler: &Resampler<'a>) -> Option<FieldEdge<'a>> {
     let pitch = resampler.world.sources().iter().map(|source| source.texel_pitch).fold(0.0, f64::max);
     FieldEdge::of(resampler.target).filter(|edge| edge.is_wider_than(pitch))
@@ -110,7 +110,8 @@ pub(crate) fn bytes(resampler: &Resampler) -> usize {
     if LevelMap::new(world, target, &filter.kernel, edge(resampler)).coarsest() == 0 {
         return 0;
     }
-    // All levels have a third of the texels, or little more where sizes are odd; besides light a solid angle and a few bits.
+    // All coarser levels together have a third of the texels, or little more where sizes are odd. For each texel they
+    // keep its light, its solid angle and a few bits.
     let texels = world.texel_count() / 5 * 2;
     texels * (size_of::<Rgba>() + size_of::<f32>() + size_of::<u16>())
         + target.width() * target.height() * size_of::<Rgba>()

@@ -8,7 +8,7 @@ const LARGEST: usize = 128;
 /// Number of pixels along the side of the smallest blocks.
 const SMALLEST: usize = 8;
 
-/// A square of a target's pixels that is judged as a whole where possible, else in parts.
+/// A square of a target's pixels that is examined as a whole where possible, else in parts.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Block {
     /// Part of the square that lies in the target.
@@ -49,18 +49,18 @@ impl Block {
         (self.rect.left.midpoint(self.rect.right), self.rect.top.midpoint(self.rect.bottom))
     }
 
-    /// Returns whether the frame ends here, or so near that the block's cap may be partly outside.
+    /// Returns whether the picture ends at the block, or so near that the block's cap may be partly outside.
     pub(crate) fn is_near_border_of(&self, target: &View) -> bool {
         self.has_border_within(self.side / 2, target)
     }
 
-    /// Returns whether the frame ends less than this many pixels away.
+    /// Returns whether the picture ends less than this many pixels away.
     fn has_border_within(&self, pixels: usize, target: &View) -> bool {
         let PixelRect { left, top, right, bottom } = self.rect;
         left < pixels || top < pixels || right + pixels > target.width() || bottom + pixels > target.height()
     }
 
-    /// Returns whether the frame or the field of view ends here.
+    /// Returns whether the picture or the field of view ends at the block.
     pub(crate) fn is_at_edge_of(&self, target: &View) -> bool {
         let PixelRect { left, top, right, bottom } = self.rect;
         let hides = |(x, y): (usize, usize)| !target.stop_passes(PixelPoint::new(x as f64, y as f64));
@@ -74,7 +74,8 @@ impl Block {
         target.outline_hides(self.rect) || target.stop.half_space.is_some_and(is_below)
     }
 
-    /// Returns the cap that holds all directions of the block. `None` where part of it has none, or where it is wide.
+    /// Returns the cap that holds all directions of the block. `None` where part of it has none, or where the cap would
+    /// be wide.
     pub(crate) fn cap(&self, target: &View) -> Option<Cap> {
         let (left, right) = (self.rect.left as f64, self.rect.right as f64);
         let (top, bottom) = (self.rect.top as f64, self.rect.bottom as f64);

@@ -1,5 +1,5 @@
-//! Bounds of what kernels can reach in a world without holes. They are found from blocks of pixels, hardly any of which
-//! is tested itself.
+//! Bounds of what kernels can reach in a world without holes. They are found from blocks of pixels; hardly any pixel is
+//! tested singly.
 
 use rayon::prelude::*;
 
@@ -15,8 +15,8 @@ use crate::world::World;
 
 impl Needs {
     /// Finds bounds of what is read in a world whose views leave no hole, as a cube's faces do; `None` for any other
-    /// world. It is several times as fast as a survey. Nothing is uncovered there. `seen` is only a part, but is `Some`
-    /// wherever anything is seen.
+    /// world. It is several times as fast as a survey. There are no uncovered pixels. `seen` may be too small, but is
+    /// `Some` wherever anything is seen.
     pub(crate) fn within_reach(world: &World, targets: &[View], filter: &FilterSettings) -> Option<Self> {
         if !world.is_closed() {
             return None;
@@ -33,7 +33,7 @@ impl Needs {
                 found
             });
             needs = reached.collect::<Vec<_>>().iter().fold(needs, Self::merged);
-            // What may be read, but is seen from no block's middle, may still be seen.
+            // A view that may be read, but that no block's middle sees, may still be seen by other pixels.
             let unseen: Vec<bool> = needs.views.iter().map(|need| need.seen.is_none() && need.read.is_some()).collect();
             if unseen.contains(&true) {
                 let looks = blocks.par_iter().map(|block| {
@@ -50,7 +50,7 @@ impl Needs {
 
 impl Survey<'_> {
     /// Adds what kernels around a block's pixels can touch, and what its middle sees. A block at the edge of the
-    /// picture is divided into its smallest parts. Of a block without a cap, each pixel is tested.
+    /// picture is divided into its smallest parts. In a block without a cap, each pixel is tested.
     fn reach(&self, block: Block, pixels: &mut PixelTaps, needs: &mut Needs) {
         if block.is_hidden(self.target) {
             return;

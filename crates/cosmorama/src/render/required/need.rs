@@ -64,7 +64,7 @@ impl Needs {
         Self::surveyed(world, targets, filter, Reads::AtMost)
     }
 
-    /// Decides of views that show no pixel's direction whether they are still read around them.
+    /// Decides whether views that no pixel's direction falls on are still read by the kernels around.
     fn settled(mut self, world: &World, targets: &[View], filter: &FilterSettings) -> Self {
         let asked: Vec<bool> = self.views.iter().map(|need| need.seen.is_none() && need.read.is_some()).collect();
         if filter.kind == FilterKind::EwaPyramid || !asked.contains(&true) {
@@ -85,8 +85,8 @@ impl Needs {
         let mut needs = known;
         for (index, target) in targets.iter().enumerate() {
             let survey = Survey { world, target, index, filter, reads };
-            // The extremes lie where the frame, the lens or a view ends, in this order of likelihood: with those known,
-            // the rest is quick.
+            // The extremes lie where the picture, the lens or a view ends, in this order of likelihood. With those
+            // known, the rest is quick.
             let mut ranks: [Vec<Judged>; 3] = Default::default();
             for judged in survey.judged_blocks() {
                 ranks[judged.rank].push(judged);
@@ -102,7 +102,7 @@ impl Needs {
         Self { views: world.sources().iter().map(need).collect(), uncovered: None }
     }
 
-    /// Merges the needs of both.
+    /// Merges two sets of needs.
     pub(crate) fn merged(mut self, other: &Self) -> Self {
         for (mine, theirs) in self.views.iter_mut().zip(&other.views) {
             mine.seen = union(mine.seen, theirs.seen);
@@ -144,7 +144,7 @@ pub(crate) enum Reads<'a> {
     Exactly,
     /// By what kernels around a block of pixels can reach.
     AtMost,
-    /// By the taps of each pixel, for these views alone; the rest is known.
+    /// By the taps of each pixel, for these views alone; what the others need is known.
     Of(&'a [bool]),
 }
 
@@ -254,7 +254,7 @@ impl Survey<'_> {
         }
     }
 
-    /// Returns whether kernels around a block's pixels touch only texels that are needed anyway.
+    /// Returns whether kernels around a block's pixels touch only texels that are known to be needed.
     fn reads_within(&self, cap: &Cap, needs: &Needs, is_asked: impl Fn(usize) -> bool) -> bool {
         let (sources, kernel) = (self.world.sources(), &self.filter.kernel);
         let coarsest = cap.coarsest_pitch(sources);

@@ -46,7 +46,7 @@ impl ScreenMask {
     /// pixel with next to nothing left takes its neighbours' mean, or `fill` if those have none. Returns the number
     /// filled.
     pub fn close_holes(&self, image: &mut Image<Rgba>, fill: Rgba) -> usize {
-        // Less than this is what negative lobes leave beside a hole: noise.
+        // Least part of a pixel that counts. Less is noise, which negative lobes leave beside a hole.
         const ENOUGH: f32 = 0.05;
         let mut holes = Vec::new();
         for (index, (pixel, mask)) in image.pixels_mut().iter_mut().zip(&self.pixels).enumerate() {

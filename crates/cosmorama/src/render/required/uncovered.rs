@@ -25,7 +25,7 @@ impl Uncovered {
         Self { pixels: 1, target, column, row, direction, extent: Extent::of(direction) }
     }
 
-    /// Returns the uncovered pixels of both.
+    /// Merges two sets of uncovered pixels.
     pub(crate) fn union(self, other: Self) -> Self {
         let place = |uncovered: &Self| (uncovered.target, uncovered.row, uncovered.column);
         let first = if place(&other) < place(&self) { other } else { self };

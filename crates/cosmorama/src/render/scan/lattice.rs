@@ -5,8 +5,8 @@ use crate::camera::{Footprint, PixelPoint, View};
 use crate::filter::gather::cap::Cap;
 use crate::world::Source;
 
-/// Lattice of the points at which patches are measured. Of the nine of each patch, neighbours share five, and each
-/// point is computed once.
+/// Lattice of the points at which patches are measured. A patch has nine points, and shares some of them with its
+/// neighbours. Each point is computed once.
 #[derive(Clone, Debug)]
 pub(crate) struct Lattice<'a> {
     target: &'a View,
@@ -45,7 +45,7 @@ impl<'a> Lattice<'a> {
         self.target
     }
 
-    /// Returns the footprint of a pixel whose column and row are whole halves of a patch.
+    /// Returns the footprint of a pixel whose column and row are multiples of half a patch.
     pub(crate) fn footprint(&mut self, pixel: [usize; 2]) -> Option<Footprint> {
         self.slot(pixel).screen
     }
@@ -99,7 +99,7 @@ mod tests {
         let (target, sky) = (panorama(800, 400), panorama(640, 320));
         let world = World::new(["a", "b"].map(|name| (name.to_owned(), sky.clone()))).expect("two views");
         let mut lattice = Lattice::new(&target);
-        // Some that have one slot, each of them twice, and in two views.
+        // Pixels that share one slot, each of them twice, and in two views.
         for (k, pixel) in [[4, 8], [4 + 128, 8], [4, 8], [4, 24], [4, 24], [8, 24], [4, 8]].into_iter().enumerate() {
             let exact = target.footprint(PixelPoint::centre(pixel[0], pixel[1]));
             let source = &world.sources()[k % 2];

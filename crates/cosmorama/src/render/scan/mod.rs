@@ -49,8 +49,8 @@ pub(crate) trait Sink {
     /// Takes a single pixel, and the part of it inside the field of view.
     fn pixel(&mut self, pixel: [usize; 2], coverage: f32, taps: &Taps);
 
-    /// Takes neighbouring pixels, whole ones, in the lanes that have a bit. Pixels whose windows do not fit come
-    /// singly.
+    /// Takes neighbouring pixels, all wholly inside the field of view, in the lanes whose bit is set. Pixels whose
+    /// windows do not fit come singly.
     fn windows(&mut self, pixel: [usize; 2], lanes: u8, windows: &Windows);
 }
 
@@ -71,7 +71,7 @@ impl<'a> Scan<'a> {
     /// Scans all pixels of a part that show something.
     pub(crate) fn pixels(&mut self, Area { columns, rows, skips_left_of_diagonal }: &Area, sink: &mut impl Sink) {
         for tile in (0..*columns).step_by(TILE) {
-            // Patches lie alike whatever the first row: so do the pixels that they make.
+            // Patches lie on a fixed grid whatever the first row, so that pixels do not depend on it.
             for top in (rows.start / SIDE * SIDE..rows.end).step_by(SIDE) {
                 let from = if *skips_left_of_diagonal { tile.max(top) } else { tile };
                 for left in (from..(tile + TILE).min(*columns)).step_by(SIDE) {

@@ -1,4 +1,4 @@
-//! Geometry of many pixels, mostly at the price of a few.
+//! Geometry of many pixels, mostly interpolated from a few.
 
 use super::tile::{HALF, SIDE, lanes_of};
 use crate::filter::gather::clearance::{Clearance, Grid};
@@ -14,8 +14,7 @@ use crate::filter::semi_axes;
 use crate::render::scan::tile::LARGEST;
 use crate::world::Source;
 
-/// Part of itself by which a texel's solid angle, at a kernel's edge, may differ from one that changes linearly within
-/// the kernel.
+/// Greatest relative error, at a kernel's edge, of taking the texels' solid angle as linear within the kernel.
 const CURVATURE: f64 = 1.0 / 256.0;
 
 /// [`SIDE`] × [`SIDE`] pixels of a target as one view sees them: the place of each among its texels, and its footprint.
@@ -29,7 +28,7 @@ pub(crate) struct Patch<'a> {
     pub(crate) origin: [i64; 2],
     pub(crate) geometry: Geometry,
     pub(crate) density: Density,
-    /// Second-order terms of how its texels lie around its middle.
+    /// Second-order terms of the places of texels around the patch's middle.
     pub(crate) bend: Bend,
     clearance: Clearance,
 }
@@ -64,7 +63,8 @@ pub(crate) struct Density {
     pub(crate) at: [f32; 2],
     /// Change for one texel along U and V.
     pub(crate) gradient: [f32; 2],
-    /// Change of the gradient for one texel: of its U along U, of either along the other, of its V along V.
+    /// Change of the gradient for one texel: of its U part along U, of either part along the other axis, of its V part
+    /// along V.
     pub(crate) bend: [f32; 3],
 }
 
@@ -80,7 +80,7 @@ impl<'a> Patch<'a> {
         for (y, (screen, points)) in screen.iter_mut().zip(&mut points).enumerate() {
             for (x, (screen, point)) in screen.iter_mut().zip(points).enumerate() {
                 let (footprint, seen) = lattice.point([i + x * HALF, j + y * HALF], (view, source))?;
-                // Beside a steep rim derivatives are not what pixels are measured by.
+                // Beside a steep rim, pixels are not measured by derivatives.
                 if lattice.target().is_steep_at(&footprint) {
                     return None;
                 }
@@ -180,7 +180,7 @@ impl Density {
         (bend * radius * radius / 2.0 < CURVATURE).then(|| Self {
             at: [at.x as f32, at.y as f32],
             gradient: [x as f32, y as f32],
-            // The gradient is relative to what is there.
+            // The gradient is relative to the solid angle, which changes too.
             bend: [xx - x * x, xy - x * y, yy - y * y].map(|bend| bend as f32),
         })
     }

@@ -7,17 +7,16 @@ use super::tile::{HALF, SIDE};
 use crate::filter::gather::clearance::Grid;
 use crate::filter::semi_axes;
 
-/// Greatest error of interpolated places half way between a patch's corners, in texels. Where the shorter axis of the
-/// middle pixel is longer than a texel, that is the unit, since the kernel's unit is the larger of both. The cubic
-/// curves between exact corners err by much less in almost all patches; where a mapping bends more, each pixel is
-/// measured.
+/// Greatest error of interpolated places half way between a patch's corners, in texels. Where the middle pixel's
+/// shorter axis is longer than a texel, it is the unit instead, since it is the kernel's unit as well. The cubic curves
+/// between exact corners err by much less in almost all patches. Where a mapping bends more, each pixel is measured.
 const PLACE: f64 = 1.0 / 2048.0;
 
 /// Greatest error of places in texels, however large pixels are.
 const FARTHEST: f64 = 1.0 / 128.0;
 
-/// Part of the largest derivative by which derivatives may bend from bilinear ones. They are interpolated by parabolas,
-/// whose error is of the next order.
+/// Greatest departure of derivatives from bilinear ones, as a part of the largest derivative. They are interpolated by
+/// parabolas, which have an error of the next order.
 const SLOPE: f64 = 1.0 / 128.0;
 
 /// A quantity over a patch as a parabola down each column. It has the value in the top row, the rise from there to the
@@ -58,7 +57,7 @@ impl Columns {
     }
 }
 
-/// Returns four times the excess of a middle value over the mean of the ends: t (1 − t) times this is the parabola's
+/// Returns four times the excess of a middle value over the mean of the ends. Times t (1 − t), this is the parabola's
 /// part.
 fn bow(start: f64, middle: f64, end: f64) -> f64 {
     4.0 * middle - 2.0 * (start + end)
@@ -114,7 +113,7 @@ impl Coons {
                 .map(|k| Columns::parabolic(points.map(|row| row.map(|point| point.jacobian.to_cols_array()[k])))),
         };
         let error = coons.error(points, origin);
-        // How large a pixel is takes longer, and is seldom asked.
+        // The size of a pixel takes longer to compute, and is seldom needed.
         let is_near = error < PLACE || error < FARTHEST.min(PLACE * semi_axes(points[1][1].jacobian)[1]);
         (is_near && is_almost_bilinear(points)).then_some(coons)
     }
@@ -167,7 +166,7 @@ mod tests {
         std::array::from_fn(|y| std::array::from_fn(|x| point(&place, (x as f64 / 2.0, y as f64 / 2.0))))
     }
 
-    /// Computes a cubic across whose coefficients change linearly down, and the other way round.
+    /// Computes the sum of a cubic across, whose coefficients change linearly down, and of a cubic down, likewise.
     fn bent(s: f64, t: f64) -> DVec2 {
         DVec2::new(
             20.3 + 7.0 * s + 0.5 * t + 0.1 * s * s * t - 0.06 * s * s * s + 0.05 * t * t * t,
@@ -198,7 +197,7 @@ mod tests {
     fn kinks_are_refused() {
         let through = |place: &dyn Fn(f64, f64) -> DVec2| Coons::through(&grid(place), DVec2::ZERO);
         assert!(through(&bent).is_some());
-        // Across, down, and around a point that none of the nine is near.
+        // Creases across and down, and a tip at a point that none of the nine is near.
         assert!(through(&|s, t| bent(s, t) + DVec2::new(0.2 * (s - 0.3).abs(), 0.0)).is_none());
         assert!(through(&|s, t| bent(s, t) + DVec2::new(0.0, 0.2 * (t - 0.7).abs())).is_none());
         assert!(through(&|s, t| bent(s, t) * (1.0 + 0.02 * (s - 0.3).hypot(t - 0.6))).is_none());

@@ -9,6 +9,6 @@ pub(crate) fn lanes_of(holds: impl Fn(usize) -> bool) -> u8 {
     (0..SIDE).fold(0, |lanes, lane| lanes | u8::from(holds(lane)) << lane)
 }
 
-/// Number of texels in the largest window. Weights in integers would have too few bits for more. Of pixels of 1764
-/// texels of noise, fewer than 97 % had the codes that floats make.
+/// Number of texels in the largest window. Weights in integers would have too few bits for more: with 1764 texels of
+/// noise in a pixel, fewer than 97 % of pixels had the codes that floats make.
 pub(crate) const LARGEST: usize = 1024;

@@ -10,7 +10,8 @@ pub(crate) struct Wanted {
 }
 
 impl Wanted {
-    /// Tests all patches of this many columns and rows by `is_wanted`, which takes the first pixel of each.
+    /// Tests all patches of this many columns and rows of pixels by `is_wanted`, which takes the first pixel of each
+    /// patch.
     pub(crate) fn new([columns, rows]: [usize; 2], is_wanted: impl Fn([usize; 2]) -> bool + Sync) -> Self {
         let (columns, rows) = (columns.div_ceil(SIDE), rows.div_ceil(SIDE));
         let patch = |at: usize| is_wanted([at % columns * SIDE, at / columns * SIDE]);

@@ -1,4 +1,5 @@
-//! Blocks of 128 bits, one for each mirror: what mirrored pixels have in common is computed once for all of them.
+//! Blocks of 128 bits, one for each mirror image. Weights, which mirrored pixels share, are spread once for all of
+//! them.
 
 #[cfg(target_arch = "x86_64")]
 use fearless_simd::i32x16;
@@ -7,7 +8,7 @@ use fearless_simd::{Simd, i16x8, i16x16, i16x32, prelude::*, u16x8, u16x16, u16x
 #[cfg(target_arch = "x86_64")]
 use crate::render::apply::x86::blocks as blocks_x86;
 
-/// Two texels of each of N mirrors: red, green, blue and zero of each.
+/// Two texels in each of N mirror images, each as red, green, blue and zero.
 pub(crate) trait Blocks<S: Simd, const N: usize>:
     SimdInt<S, Element = i16>
     + SimdIntWiden<S, Widened: SimdInt<S, Element = i32, ByteVector = <Self as SimdBase<S>>::ByteVector>>
@@ -17,21 +18,21 @@ pub(crate) trait Blocks<S: Simd, const N: usize>:
 
     fn join(blocks: [i16x8<S>; N]) -> Self;
 
-    /// Returns the three pairs of neighbours among four texels in each mirror, the leftmost first: two samples of each
-    /// channel. Texels lie from left to right in all mirrors but the last R.
+    /// Returns the three pairs of neighbours among four texels in each mirror image, the leftmost pair first. A pair
+    /// holds two samples of each channel. Texels run from left to right in all mirror images but the last R.
     #[inline(always)]
     fn three_pairs<const R: usize>(simd: S, rows: [&[i16; 16]; N]) -> [Self; 3] {
         portable::three_pairs::<S, Self, N, R>(simd, rows)
     }
 
-    /// Returns four pairs of texels above each other from two rows of four texels in each mirror, the leftmost pair
-    /// first. Texels lie from left to right in all mirrors but the last R.
+    /// Returns four pairs of texels above each other, from two rows of four texels in each mirror image, the leftmost
+    /// pair first. Texels run from left to right in all mirror images but the last R.
     #[inline(always)]
     fn four_upright<const R: usize>(simd: S, rows: [[&[i16; 16]; N]; 2]) -> [Self; 4] {
         portable::four_upright::<S, Self, N, R>(simd, rows)
     }
 
-    /// Adds the weighted sums of pairs.
+    /// Adds the weighted sum of each pair to `sums`.
     #[inline(always)]
     fn add_products(sums: Self::Widened, texels: Self, weights: Self) -> Self::Widened {
         portable::add_products(sums, texels, weights)
@@ -51,7 +52,7 @@ pub(crate) trait Blocks<S: Simd, const N: usize>:
     }
 }
 
-/// Set of instructions, with its blocks for N mirrors.
+/// SIMD instruction set, with its type of blocks for N mirror images.
 pub(crate) trait Mirrored<const N: usize>: Simd {
     type Blocks: Blocks<Self, N>;
 }
@@ -125,7 +126,7 @@ impl<S: Simd> Blocks<S, 4> for i16x32<S> {
                 let [reversed, below_reversed] = [two(c, d), two(g, h)].map(Into::into);
                 let (even, odd) =
                     (blocks_x86::zip_first(level, forward, below), blocks_x86::zip_second(level, forward, below));
-                // From right to left the first texel is the second one of a block, and lies in the second block.
+                // From right to left, the first texel is the second one of a block, and lies in the second block.
                 let (even_reversed, odd_reversed) = (
                     blocks_x86::zip_second(level, reversed, below_reversed),
                     blocks_x86::zip_first(level, reversed, below_reversed),
@@ -217,14 +218,14 @@ mod portable {
     }
 }
 
-/// Returns the order that makes pairs of one channel from two texels in each block. They follow the texels in the first
-/// of N blocks, and are reversed in the last R.
+/// Returns the byte order that makes pairs of one channel from two texels in each of N blocks. The texels of a pair are
+/// reversed in the last R blocks.
 #[inline(always)]
 pub(crate) fn order<const N: usize, const R: usize>() -> &'static [u8] {
     &ORDER[16 * (2 + R - N)..][..16 * N]
 }
 
-/// Orders for two blocks that follow the texels, and for two that are reversed.
+/// Byte orders for two blocks that keep the order of texels, then for two that reverse it.
 static ORDER: [u8; 64] = {
     let pairs = [0, 1, 8, 9, 2, 3, 10, 11, 4, 5, 12, 13, 6, 7, 14, 15];
     let mut order = [0; 64];

@@ -1,4 +1,5 @@
-//! Encoding of windows' light as codes of 8 bits. Light has 15 bits of red, green and blue, and any fourth number.
+//! Encoding of windows' light as codes of 8 bits. Light has 15 bits of red, green and blue, and an unused fourth
+//! number.
 
 #[cfg(target_arch = "x86_64")]
 use fearless_simd::{Avx512, i32x4, prelude::*};
@@ -25,7 +26,7 @@ impl Develop for LookUp<'_> {
 
     #[inline(always)]
     fn eight(&self, light: [&[i32; 4]; SIDE]) -> [[u8; 3]; SIDE] {
-        // Put together in registers: eight bytes at once are written faster than one by one.
+        // Assembled in registers: eight bytes at once are written faster than one by one.
         let two = |at: usize| u64::from(self.0.of(*light[at])) | u64::from(self.0.of(*light[at + 1])) << 24;
         let (a, b, c, d) = (two(0), two(2), two(4), two(6));
         bytemuck::cast([(a | b << 48).to_le(), (b >> 16 | c << 32).to_le(), (c >> 32 | d << 16).to_le()])
@@ -38,7 +39,7 @@ impl Develop for LookUp<'_> {
 #[derive(Clone, Copy)]
 pub(crate) struct Compute<'a> {
     pub(crate) level: Avx512,
-    /// Table of codes, for pixels that are not computed.
+    /// Table of codes, for pixels that come singly.
     pub(crate) codes: LookUp<'a>,
 }
 
@@ -71,7 +72,7 @@ mod tests {
     use super::*;
     use crate::raster::{FixedCodec, Rgba, Transfer};
 
-    /// Returns pixels whose red, green and blue are this light or what it lacks of white.
+    /// Returns pixels whose channels are this light or its difference from white.
     fn pixels(light: i32) -> [[i32; 4]; SIDE] {
         std::array::from_fn(|at| {
             let (light, other) = if at % 2 == 0 { (light, 0x7fff - light) } else { (0x7fff - light, light) };

@@ -2,8 +2,8 @@
 //!
 //! Light has 15 bits and weights have 16. Their products are added in 32 bits, so that the result is the same on every
 //! machine. Two neighbouring texels are processed together: red, green, blue and zero of each, in a block of 128 bits
-//! for each mirror. The product of pairs is then a weighted sum of two texels, and weights are spread once for all
-//! mirrors.
+//! for each mirror image. The product of pairs is then a weighted sum of two texels, and weights are spread once for
+//! all mirror images.
 
 pub(crate) mod blocks;
 pub(crate) mod encode_u8;
@@ -28,7 +28,7 @@ use crate::raster::{FixedCodec, FixedLight, Rgba};
 use crate::render::plan::symmetry::Ways;
 use crate::render::plan::traversal::Pass;
 
-/// Arithmetic in integers of 15 bits, which makes codes of 8.
+/// Arithmetic in integers: light of 15 bits makes codes of 8 bits.
 #[derive(Clone, Copy)]
 pub(crate) struct FixedArithmetic<'a> {
     pub(crate) light: &'a FixedLight,
@@ -72,7 +72,7 @@ impl WindowArithmetic for FixedArithmetic<'_> {
         length
     }
 
-    /// Writes the pixels, compiled apart from the sums, so that their loop does not lack registers.
+    /// Writes the pixels. It is compiled apart from the sums, whose loop would otherwise lack registers.
     #[inline(never)]
     fn put<S: Simd>(
         &self,

@@ -1,7 +1,7 @@
 //! Texels of a patch's small windows, copied once into the order in which windows read them.
 //!
-//! Each texel of a patch is in a dozen windows. In the source each mirror of a patch lies on its own page, forward or
-//! reversed. Here all mirrors of a texel are adjacent, in the order in which products consume them.
+//! Each texel of a patch is in a dozen windows. In the light, each mirror image of a patch lies on memory pages of its
+//! own, forward or reversed. Here a texel's mirror images are adjacent, in the order in which products consume them.
 
 use fearless_simd::{Simd, prelude::*};
 
@@ -11,7 +11,7 @@ use crate::render::apply::texels::Texels;
 use crate::render::plan::span::Run;
 use crate::render::plan::symmetry::{TOGETHER, exchanged};
 
-/// Number of columns and of rows that fit: small windows of a patch are hardly ever farther apart.
+/// Number of columns, and of rows, that fit. The small windows of a patch hardly ever span more.
 const ROOM: usize = 21;
 
 /// Number of samples of a pair of texels.
@@ -20,8 +20,8 @@ const PAIR: usize = 8;
 /// Number of texels that are read at once.
 const READ: usize = 4;
 
-/// Pairs that begin in each texel of a rectangle, row by row: two samples of each channel. The pairs of all mirrors
-/// follow each other, and run from left to right in all of them.
+/// Pairs of neighbouring texels: one begins in each texel of a rectangle, row by row. A pair holds two samples of each
+/// channel. The pairs of all mirror images follow each other, and run from left to right in all of them.
 pub(crate) struct PatchTexels {
     pairs: Box<Pairs>,
     /// Column and row of the first texel.
@@ -34,7 +34,7 @@ pub(crate) struct PatchTexels {
 enum Held {
     None,
     All,
-    /// The last one that was asked for, since not all fit.
+    /// Only the window that was asked for last, since not all fit.
     Last,
 }
 
@@ -56,13 +56,13 @@ impl Default for PatchTexels {
 }
 
 impl PatchTexels {
-    /// Drops what is held.
+    /// Drops the texels that are held.
     #[inline(always)]
     pub(crate) fn clear(&mut self) {
         self.held = Held::None;
     }
 
-    /// Copies a small window that begins here, and with it all others of its group, if they fit.
+    /// Copies the texels of a small window that begins at `window`, and of all others of its group if these fit.
     #[inline(always)]
     pub(crate) fn hold<S: Mirrored<N>, const N: usize, const R: usize, const TURNED: bool>(
         &mut self,
@@ -91,7 +91,7 @@ impl PatchTexels {
         }
     }
 
-    /// Returns the pairs of a window that is held: of each row, those that begin in every column.
+    /// Returns the pairs of a window that is held, for each row and for each column in which a pair begins.
     #[inline(always)]
     pub(crate) fn window<const N: usize, const WIDTH: usize, const HEIGHT: usize>(
         &self,
@@ -115,7 +115,7 @@ impl PatchTexels {
             let column = column.min(columns - READ);
             let mut into = &mut self.pairs.0[column * pair..];
             for texels in texels.strips::<READ, 16>([first[0] + column as u32, first[1]], rows) {
-                // Written out: vectors that an iterator hands on would lie in memory.
+                // Unrolled by hand: vectors from an iterator would lie in memory.
                 let [first, second, third] = S::Blocks::three_pairs::<R>(simd, texels);
                 first.store_slice(&mut into[..pair]);
                 second.store_slice(&mut into[pair..][..pair]);
@@ -152,7 +152,7 @@ impl PatchTexels {
 }
 
 impl Rectangle {
-    /// Returns the rectangle that holds all windows of a group, in a view of this size, as if all were small.
+    /// Returns the rectangle that holds all windows of a group in a view of this size, as if all windows were small.
     #[inline(always)]
     fn of(group: &[Run], view: [usize; 2]) -> Self {
         let (mut first, mut last) = ([u32::MAX; 2], [0; 2]);
@@ -175,14 +175,14 @@ impl Rectangle {
     }
 }
 
-/// Pairs of a window of WIDTH columns and HEIGHT rows, in N mirrors.
+/// Pairs of a window of WIDTH columns and HEIGHT rows, in N mirror images.
 #[derive(Clone, Copy)]
 pub(crate) struct Window<'a, const N: usize, const WIDTH: usize, const HEIGHT: usize> {
     pairs: &'a [i16],
 }
 
 impl<const N: usize, const WIDTH: usize, const HEIGHT: usize> Window<'_, N, WIDTH, HEIGHT> {
-    /// Returns the pair that begins in a column of a row, in all mirrors.
+    /// Returns the pair that begins in a column of a row, in all mirror images.
     #[inline(always)]
     pub(crate) fn pair<S: Simd, V: Blocks<S, N>>(&self, simd: S, row: usize, column: usize) -> V {
         V::from_slice(simd, &self.pairs[(row * ROOM + column) * N * PAIR..][..N * PAIR])
@@ -197,14 +197,14 @@ mod tests {
     use crate::filter::rim::simd_levels::levels;
     use crate::render::plan::symmetry::Walk;
 
-    /// Size of a view whose texels each hold their place.
+    /// Size of a view in which each sample's value is its index.
     const SIZE: [usize; 2] = [40, 30];
 
     fn samples() -> Vec<i16> {
         (0..SIZE[0] * SIZE[1] * 4).map(|sample| sample as i16).collect()
     }
 
-    /// Returns the walks of four mirrors: as the view lies, upside down, and both from right to left.
+    /// Returns the walks of four mirror images: as the view lies, upside down, and both of these from right to left.
     fn ways() -> [Walk; 4] {
         let [columns, rows] = SIZE.map(|length| length as u32);
         let walk = |first, is_reversed, down: i32| Walk { first, is_turned: false, is_reversed, down };
@@ -217,14 +217,15 @@ mod tests {
         ]
     }
 
-    /// Returns the sample of a channel in a column and row that a mirror shows. If it is `TURNED`, columns are rows.
+    /// Returns the sample that a mirror image shows in a column and row, in a channel. If `TURNED`, rows and columns
+    /// are exchanged.
     fn sample<const TURNED: bool>(walk: Walk, place: [usize; 2], channel: usize) -> i16 {
         let walk = Walk { is_turned: TURNED, ..walk };
         (4 * walk.texel(place) as usize + channel) as i16
     }
 
-    /// Returns groups of runs whose windows begin in these columns and rows; the last of them is that of a run's last
-    /// lane.
+    /// Returns runs of one group whose windows begin at these columns and rows. The last place is that of the last
+    /// run's last lane.
     fn group(corners: &[[u32; 2]]) -> Vec<Run> {
         let run = |corner: &[u32; 2]| Run::of_lanes(1, 0).from(*corner);
         let mut runs: Vec<Run> = corners.iter().map(run).collect();
@@ -290,7 +291,7 @@ mod tests {
     #[test]
     fn pairs_of_windows_near_each_other_are_held_together() {
         assert_held::<false>(&[[3, 5], [7, 5], [8, 14]], Held::All);
-        // Columns and rows are exchanged there.
+        // With columns and rows exchanged.
         assert_held::<true>(&[[3, 5], [7, 5], [8, 14]], Held::All);
     }
 

@@ -1,4 +1,4 @@
-//! Weights as integers, those of eight windows at once.
+//! Rounding of weights to integers, for eight windows at once.
 
 use std::ops::Range;
 
@@ -11,16 +11,17 @@ use crate::render::plan::window_format::COLUMNS_UNDER;
 use crate::render::scan::tile::LARGEST;
 use crate::render::scan::tile::SIDE;
 
-/// Windows of a run before they are sorted by pixel. Bits of bytes are lanes, until they are transposed.
+/// Rounded weights of the windows of a run, one window in each lane. In bytes of marks, each bit is a lane.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Rounded {
     pub(crate) width: usize,
     pub(crate) height: usize,
     /// Number of bits by which weights are scaled.
     pub(crate) bits: u32,
-    /// Weights row by row, by lane. There are zeros on both sides of each row.
+    /// Weights of all lanes, texel by texel and row by row. There are zeros on both sides of each row.
     weights: Vec<[i16; SIDE]>,
-    /// Bits of the lanes in which a texel lies under the pixel; with the same zeros beside.
+    /// Bits of the lanes in which a texel lies under the pixel, for each texel, with zeros on both sides of each row as
+    /// well.
     under: Vec<u8>,
     shapes: LaneShapes,
     /// Weights of each lane by row, for windows with at most [`SIDE`] columns and rows. There are [`MARGIN`] zeros on
@@ -31,10 +32,11 @@ pub(crate) struct Rounded {
 /// Number of zeros on either side of a row of a small window.
 const MARGIN: usize = SIDE / 2;
 
-/// A number so large that a sum with it is rounded to an integer, which its last bits then hold.
+/// Number so large that adding it rounds to an integer, which the last bits of the sum then hold: 1.5 × 2²³.
 const ROUNDER: f32 = 12_582_912.0;
 
-/// First texel of a lane's window among those of a run; it may be one column to the left of them.
+/// First texel of a lane's window, relative to the first texel of the run's windows. It may lie one column to the left
+/// of that.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Origin {
     pub(crate) column: isize,
@@ -93,12 +95,13 @@ impl Rounded {
         }
     }
 
-    /// Returns the distance from one row to the next.
+    /// Returns the distance from one row to the next, in texels.
     fn pitch(&self) -> usize {
         self.width.max(SIDE) + 2
     }
 
-    /// Sorts small windows by lane, given the lanes that count in each column and row.
+    /// Transposes small windows, so that each lane's weights are adjacent. `counts` has the lanes with weights in each
+    /// column and row.
     #[inline(always)]
     fn turn<S: Simd>(&mut self, simd: S, counts: [[u8; SIDE]; 2]) {
         let (pitch, size) = (self.pitch(), [self.width, self.height]);
@@ -128,13 +131,14 @@ impl Rounded {
         texels_from(origin, self.shapes.columns_under(lane)) < 1 << COLUMNS_UNDER
     }
 
-    /// Returns the texels of those columns in a row of a lane's small window that lie under the pixel, a bit for each.
+    /// Returns a bit for each texel of those columns, in a row of a lane's small window, that lies under the pixel.
     #[inline(always)]
     pub(crate) fn small_marks(&self, lane: usize, origin: Origin, row: usize) -> u8 {
         texels_from(origin, self.shapes.under(lane, origin.row + row)) as u8
     }
 
-    /// Returns the weights of a lane's small window, row by row, pair by pair, and those that follow.
+    /// Returns the weights of a lane's small window in pairs, row by row. Each row goes on with what follows the
+    /// window.
     #[inline(always)]
     pub(crate) fn small_pairs(&self, lane: usize, origin: Origin) -> [[u32; SIDE / 2]; HIGHEST] {
         let first = (MARGIN as isize + origin.column) as usize % (SIDE + 1);
@@ -160,7 +164,7 @@ impl Rounded {
     }
 }
 
-/// Converts bits of columns to bits of the texels of a window that begins there.
+/// Converts bits of columns to bits of the texels of a window that begins at `origin`.
 #[inline(always)]
 fn texels_from(origin: Origin, columns: u8) -> u32 {
     u32::from(columns) << 1 >> (origin.column + 1)
@@ -178,8 +182,8 @@ fn refill<T: Copy>(vector: &mut Vec<T>, length: usize, value: T) {
     vector.resize(length, value);
 }
 
-/// Transposes eight times eight numbers: the first row gets the first of each. Each row is zipped with the fourth after
-/// it, three times.
+/// Transposes 8 × 8 numbers: the first row gets the first number of each row. Each of three steps interleaves every row
+/// with the fourth row after it.
 #[inline(always)]
 fn turned<S: Simd>(mut rows: [i16x8<S>; SIDE]) -> [i16x8<S>; SIDE] {
     for _ in 0..3 {
@@ -191,7 +195,7 @@ fn turned<S: Simd>(mut rows: [i16x8<S>; SIDE]) -> [i16x8<S>; SIDE] {
 
 /// Returns the number of bits by which weights of this size are scaled, so that sums of products fit into 32.
 fn scale(Size { largest, sum }: Size) -> Option<u32> {
-    // To what they come to rounding may add one for each texel.
+    // Rounding may add one to a sum for each texel.
     const { assert!(3.9 * (1 << 14) as f64 + (LARGEST as f64) < (1 << 16) as f64) };
     if largest < 1.0 && sum < 1.9 {
         Some(15)

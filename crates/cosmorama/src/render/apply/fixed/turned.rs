@@ -1,5 +1,4 @@
-//! Large windows of integers in mirrors that show columns as rows, where neighbouring pairs of texels lie above each
-//! other.
+//! Large windows of integers in transposed mirror images, where the two texels of a pair lie above each other.
 
 use fearless_simd::{Simd, i16x8, prelude::*};
 

@@ -6,8 +6,8 @@ use crate::render::batch::window::Windows;
 use crate::render::plan::window_format::{COLUMNS_UNDER, Format, Header, Place, ROWS_UNDER, Shape, SmallShapes};
 use crate::render::scan::tile::SIDE;
 
-/// Format of weights as integers, row by row, two neighbours in each number. In a large window, marks belong to pairs
-/// ([`mark`]).
+/// Format of weights as integers, row by row, with the weights of two neighbouring texels in each number. In a large
+/// window, texels under the pixel are marked pair by pair ([`mark`]).
 #[derive(Clone, Debug, Default)]
 pub(crate) struct FixedFormat(Rounded);
 
@@ -21,7 +21,7 @@ pub(crate) const WIDEST: usize = 3;
 /// Number of pairs of a row of a small window, from the first, that may lie under the pixel.
 pub(crate) const PAIRS_UNDER: usize = COLUMNS_UNDER / 2;
 
-/// Number of numbers that hold any small window with its header, and those that follow its last row.
+/// Count of numbers that hold any small window with its header, and the excess written after its last row.
 const MOST: usize = 1 + WIDEST * (HIGHEST - 1) + SIDE / 2;
 
 /// All marks of a small window: of [`PAIRS_UNDER`] pairs of [`ROWS_UNDER`] rows, row by row.
@@ -36,9 +36,9 @@ pub(crate) fn bits(header: Header) -> u32 {
     header.0 >> 25 & 15
 }
 
-/// Marks a texel of one of 16 pairs. The first texels of pairs are in the lower half of a number, in the order of the
-/// pairs, and the second ones in the upper half. Where both halves are channels' samples, one bit of each belongs to a
-/// pair.
+/// Returns the mark of a texel among 16 pairs. Marks of first texels are in the lower half of a number, in the order of
+/// the pairs, and marks of second texels in the upper half. So where the halves stand for a pair's two samples, each
+/// has one bit of it.
 #[inline(always)]
 pub(crate) const fn mark(texel: usize) -> u32 {
     1 << (texel / 2 + texel % 2 * 16)
@@ -79,7 +79,7 @@ impl Format for FixedFormat {
     fn write(&self, windows: &Windows, place: Place, corner: &mut [u32; 2], numbers: &mut Vec<u32>) -> bool {
         let Rounded { width, height, .. } = self.0;
         let (whole, left) = (windows.columns_within(), corner[0] as isize);
-        // A window of whole pairs may reach beyond the view; then it begins earlier, if it can.
+        // A window of whole pairs may reach beyond the view. Then it begins earlier, if it can.
         let within = |shape: Shape, Origin { column, row }| {
             let beyond = left + column + shape.width as isize - whole.end as isize;
             Origin { column: column - beyond.max(0), row }
@@ -110,9 +110,10 @@ impl FixedFormat {
         let pairs = width / 2;
         let marks = |row| marks_of(rounded.small_marks(place.lane, origin, under + row)) << (PAIRS_UNDER * row);
         let under = (0..ROWS_UNDER).fold(0, |all, row| all | marks(row));
-        // Marks of the other texels are kept: a mark becomes the sign that takes one out of the bounds.
+        // The marks stored are those of texels not under the pixel: a mark becomes the sign that keeps a texel out of
+        // the bounds.
         let header = Header::new(Some(index), place, rounded.bits << 25 | !under & MARKS);
-        // Whatever the shape, as much is written: each row overwrites what followed the one before.
+        // A fixed length is written, whatever the shape: each row overwrites what followed the one before.
         let length = numbers.len();
         numbers.extend_from_slice(&[0; MOST]);
         let room: &mut [u32; MOST] = numbers[length..].first_chunk_mut().expect("there is as much room");

@@ -1,4 +1,4 @@
-//! Windows of integers, in mirrors of either direction, pair by pair.
+//! Windows of integers, in mirror images of either direction, pair by pair.
 
 use fearless_simd::{Simd, i16x8, prelude::*};
 
@@ -11,7 +11,8 @@ use crate::render::plan::window_format::{Kept, ROWS_UNDER, Shape};
 
 impl<S: Mirrored<N>, const N: usize, const R: usize> Window<'_, S, i16, N, R> {
     /// Sums the light of a window of one of the sizes of [`SMALL`], given the texels of all small windows of its group.
-    /// Returns it with the number of its numbers. It is unrolled by hand: the compiler would keep loops.
+    /// Returns the light, and how many numbers the window takes. The code is unrolled by hand: the compiler would keep
+    /// loops.
     #[inline(always)]
     pub(crate) fn small<const WIDTH: usize, const HEIGHT: usize, const UNDER: usize>(
         self,
@@ -30,8 +31,8 @@ impl<S: Mirrored<N>, const N: usize, const R: usize> Window<'_, S, i16, N, R> {
         (sums.average(bits(self.header())), length)
     }
 
-    /// Sums the light of a window of any size. Returns it with the number of its numbers. If `TURNED`, all mirrors read
-    /// it transposed.
+    /// Sums the light of a window of any size. Returns the light, and how many numbers the window takes. If `TURNED`,
+    /// all mirror images read the window transposed.
     #[inline(always)]
     pub(crate) fn large<const TURNED: bool>(self) -> (Light<S, N>, usize) {
         let Self { simd, texels, first, is_bounded, .. } = self;
@@ -46,7 +47,7 @@ impl<S: Mirrored<N>, const N: usize, const R: usize> Window<'_, S, i16, N, R> {
     }
 }
 
-/// Light of a window in N mirrors.
+/// Light of a window in N mirror images.
 pub(crate) type Light<S, const N: usize> = <<S as Mirrored<N>>::Blocks as SimdWiden<S>>::Widened;
 
 /// Sums over large windows.
@@ -108,7 +109,7 @@ impl<S: Simd, V: Blocks<S, N>, const N: usize, const WIDTH: usize, const HEIGHT:
 {
     #[inline(always)]
     fn add<const UNDER: usize>(&self, sums: &mut Sums<S, V, N>) {
-        // From the last pair to the first: the one whose mark is next to the sign.
+        // The last pair comes first, since its mark is next to the sign bit.
         let mut marks = self.marks << (16 - ROWS_UNDER * PAIRS_UNDER) as u32;
         if HEIGHT == 5 {
             self.add_row::<UNDER>(sums, &mut marks, 4);
@@ -135,14 +136,14 @@ impl<S: Simd, V: Blocks<S, N>, const N: usize, const WIDTH: usize, const HEIGHT:
         sums.add(texels, V::pair(self.simd, self.weights[at]), at);
         if (UNDER..UNDER + ROWS_UNDER).contains(&row) && pair < PAIRS_UNDER {
             sums.bound(self.simd, texels, *marks);
-            // The next one's mark becomes the sign: a sum takes half the time of a shift.
+            // Moves the next pair's mark to the sign bit: adding takes half the time of a shift.
             *marks = *marks + *marks;
         }
     }
 }
 
-/// Number of parallel sums where product and sum are one instruction, so that each waits for others than the last.
-/// Elsewhere sums alone are fast, and registers few.
+/// Number of independent sums where a multiplication and an addition are one instruction, so that none waits for the
+/// one before. Elsewhere additions alone are fast and registers few, so that one sum serves.
 const CHAINS: usize = 2;
 
 /// Sums over a window.
@@ -155,12 +156,12 @@ pub(crate) struct Sums<S: Simd, V: Blocks<S, N>, const N: usize> {
 }
 
 impl<S: Simd, V: Blocks<S, N>, const N: usize> Sums<S, V, N> {
-    /// Starts sums of no texels; `bits` is the scale of weights. `is_bounded` says whether the sum is clamped to the
-    /// texels under the pixel.
+    /// Starts sums of no texels. Weights are scaled by 2 to the power of `bits`. `is_bounded` tells whether the sum is
+    /// clamped to the texels under the pixel.
     #[inline(always)]
     pub(crate) fn new(simd: S, bits: u32, is_bounded: bool) -> Self {
         let half = V::Widened::splat(simd, 1 << (bits - 1));
-        // Without bounds no texel changes these any more.
+        // Without bounds, these are so wide that no texel changes them.
         let [least, greatest] = if is_bounded { [i16::MAX, 0] } else { [0, i16::MAX] };
         Self {
             sums: [half, V::Widened::splat(simd, 0)],
@@ -179,7 +180,7 @@ impl<S: Simd, V: Blocks<S, N>, const N: usize> Sums<S, V, N> {
     /// Updates the bounds by texels of a pair that lie under the pixel, whose mark (a sign) is not set.
     #[inline(always)]
     pub(crate) fn bound(&mut self, simd: S, texels: V, marks: V) {
-        // With the sign of those that do not, they are less than all others, and more if it is taken for a bit.
+        // The sign bit makes the other texels less than all those under the pixel, or greater in unsigned numbers.
         let samples = texels | marks & V::splat(simd, i16::MIN);
         self.greatest = self.greatest.max(samples);
         self.least = self.least.min(samples.bitcast::<V::Unsigned>());
@@ -196,7 +197,7 @@ impl<S: Simd, V: Blocks<S, N>, const N: usize> Sums<S, V, N> {
     }
 }
 
-/// Splits each pair into its samples, none of which is negative.
+/// Splits each pair into its two samples, neither of which is negative.
 #[inline(always)]
 fn halves<S: Simd, V: SimdInt<S>, W: SimdInt<S, Element = i32, ByteVector = V::ByteVector>>(samples: V) -> [W; 2] {
     let pairs: W = samples.bitcast();

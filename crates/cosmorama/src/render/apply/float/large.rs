@@ -1,4 +1,4 @@
-//! Windows of floats of any size, in mirrors of either direction.
+//! Windows of floats of any size, in mirror images of either direction.
 
 use fearless_simd::{Simd, f32x4, f32x16, mask32x16, prelude::*};
 
@@ -7,7 +7,7 @@ use super::window::{BLOCK_SAMPLES, Marks, SAMPLES, Sum, spread, way};
 use crate::render::apply::texels::Texels;
 use crate::render::plan::window_format::{Kept, Shape};
 
-/// A row of a window in N mirrors, in the last R of them from right to left.
+/// A row of a window in N mirror images. In the last R of them, texels run from right to left.
 #[derive(Clone, Copy)]
 struct Row<'a, const N: usize, const R: usize> {
     /// Texels as they lie in memory, first those that are in blocks.
@@ -18,7 +18,7 @@ struct Row<'a, const N: usize, const R: usize> {
 }
 
 impl<'a, const N: usize, const R: usize> Row<'a, N, R> {
-    /// Takes `width` texels of a row of each mirror.
+    /// Takes `width` texels of a row in each mirror image.
     #[inline(always)]
     fn new(
         texels: &Texels<'a, f32, N, R>,
@@ -94,7 +94,7 @@ impl<'a, const N: usize, const R: usize> Row<'a, N, R> {
                 let texel = self.other(simd, image, index);
                 sum.last += texel * f32::from_bits(*weight);
                 if is_under {
-                    // Blocks of the same texel.
+                    // A block that repeats the texel.
                     sum.bound(f32x16::block_splat(texel), mask32x16::splat(simd, false));
                 }
             }
@@ -103,7 +103,7 @@ impl<'a, const N: usize, const R: usize> Row<'a, N, R> {
 }
 
 impl Kept<'_> {
-    /// Sums over the window, in mirrors that show its rows as rows.
+    /// Sums over the window, in mirror images that are not transposed.
     #[inline(always)]
     pub(crate) fn upright<S: Simd, const N: usize, const R: usize>(
         &self,
@@ -128,7 +128,7 @@ impl Kept<'_> {
         sums
     }
 
-    /// Sums over the window, in mirrors that show its columns as rows.
+    /// Sums over the window, in transposed mirror images.
     #[inline(always)]
     pub(crate) fn turned<S: Simd, const N: usize, const R: usize>(
         &self,
@@ -164,7 +164,7 @@ impl Kept<'_> {
                     let at = if way::<N, R>(image) == 0 { row } else { height - 1 - row };
                     let texel = f32x4::from_slice(simd, &samples[SAMPLES * at..][..SAMPLES]);
                     sum.last += texel * weight;
-                    // Blocks of the same texel.
+                    // A block that repeats the texel.
                     sum.bound(f32x16::block_splat(texel), is_beside);
                 }
             }
@@ -188,10 +188,10 @@ mod tests {
     use super::*;
     use crate::render::plan::symmetry::Walk;
 
-    /// Number of columns and of rows of a square view, so that columns may be its rows.
+    /// Side of a square view, in which columns and rows can be exchanged.
     const SIDE: usize = 40;
 
-    /// Walks of texels as they lie, upside down, and both from right to left.
+    /// Walks of texels as they lie, upside down, and both of these from right to left.
     const WALKS: [Walk; 4] = [
         Walk { first: 0, is_turned: false, is_reversed: false, down: SIDE as i32 },
         Walk { first: (SIDE * (SIDE - 1)) as u32, is_turned: false, is_reversed: false, down: -(SIDE as i32) },
@@ -199,7 +199,7 @@ mod tests {
         Walk { first: (SIDE * SIDE) as u32 - 1, is_turned: false, is_reversed: true, down: -(SIDE as i32) },
     ];
 
-    /// Returns some number between 0 and 1.
+    /// Returns a number between 0 and 1 that looks random.
     fn noise(at: usize) -> f32 {
         (at.wrapping_mul(2_654_435_761) >> 7 & 1023) as f32 / 1023.0
     }
@@ -219,12 +219,12 @@ mod tests {
         }
 
         fn is_under(&self, row: usize, column: usize) -> bool {
-            // One at least, and the last one of a row.
+            // Some texels at random, and the last one of each row.
             let is_last = column + 1 == self.shape.width;
             self.under.contains(&row) && (noise(77 * row + 3 * column) < 0.3 || is_last)
         }
 
-        /// Returns the light of a texel of the window in a mirror.
+        /// Returns the light of a texel of the window in a mirror image.
         fn texel(&self, samples: &[f32], walk: &Walk, is_turned: bool, [row, column]: [usize; 2]) -> [f32; SAMPLES] {
             let (across, down) = if is_turned { (row, column) } else { (column, row) };
             let [first_across, first_down] = if is_turned { [self.first[1], self.first[0]] } else { self.first };
@@ -233,7 +233,7 @@ mod tests {
             samples.as_chunks().0[at as usize]
         }
 
-        /// Computes the sum in a mirror by a plain loop, as it is and within its bounds.
+        /// Computes the sum in a mirror image by a plain loop, without and with its bounds.
         fn expected(&self, samples: &[f32], walk: &Walk, is_turned: bool) -> [[f32; SAMPLES]; 2] {
             let mut sum = [0f64; SAMPLES];
             let (mut least, mut greatest) = ([f32::INFINITY; SAMPLES], [f32::NEG_INFINITY; SAMPLES]);
@@ -253,7 +253,7 @@ mod tests {
             [sum, std::array::from_fn(|sample| sum[sample].max(least[sample]).min(greatest[sample]))]
         }
 
-        /// Checks the sums by all four mirrors at once.
+        /// Checks the sums in all four mirror images at once.
         fn assert(&self, is_turned: bool) {
             let samples: Vec<f32> = (0..SAMPLES * SIDE * SIDE).map(noise).collect();
             let texels = Texels::<f32, 4, 2>::new(&samples, WALKS, [SIDE, SIDE]);
@@ -282,7 +282,7 @@ mod tests {
         }
     }
 
-    /// Returns the sums in each mirror, as they are and within their bounds.
+    /// Returns the sums in each mirror image, without and with their bounds.
     fn averages(
         large: &Kept,
         texels: &Texels<f32, 4, 2>,
@@ -300,8 +300,8 @@ mod tests {
         })
     }
 
-    /// Tests blocks and texels beside them, words of marks and marks beside those; rows under the pixel at both ends,
-    /// and none there.
+    /// Tests widths with and without texels beyond whole blocks, and beyond whole words of marks. Rows under the pixel
+    /// lie at either end, between, or everywhere.
     #[test]
     fn sums_are_those_of_a_plain_loop() {
         for [width, height] in [[1, 1], [3, 9], [4, 4], [8, 3], [9, 5], [10, 8], [31, 6], [32, 7], [33, 5], [39, 33]] {
@@ -312,7 +312,7 @@ mod tests {
                     let first = [(SIDE - width) as u32, (SIDE - height) as u32 / 2];
                     let case = Case { shape, first, under: under.clone(), bias };
                     case.assert(false);
-                    // Exchanged, the same numbers are a column and a row of the view.
+                    // Transposed, `first` is a row and a column of the view.
                     case.assert(true);
                 }
             }

@@ -17,7 +17,7 @@ use crate::render::plan::symmetry::Ways;
 use crate::render::plan::traversal::Pass;
 use crate::render::scan::tile::SIDE;
 
-/// Arithmetic in floats: light as it is, in front of a background.
+/// Arithmetic in floats: light of any range, over a background.
 #[derive(Clone, Copy)]
 pub(crate) struct FloatArithmetic<'a> {
     pub(crate) texels: &'a [Rgba],

@@ -1,4 +1,4 @@
-//! Windows of floats in mirrors that show columns as rows, where four neighbouring texels belong to four rows.
+//! Windows of floats in transposed mirror images, where four texels that are neighbours in memory belong to four rows.
 
 use fearless_simd::{Simd, f32x4, f32x16, prelude::*, u8x64, u32x4, u32x16};
 
@@ -7,8 +7,8 @@ use super::window::{BLOCK_SAMPLES, Lines, Marks, SAMPLES, Sum, spread, way};
 use crate::render::apply::texels::Window;
 use crate::render::plan::window_format::ROWS_UNDER;
 
-/// A small window whose mirrors have exchanged rows and columns. `WIDTH` and `HEIGHT` are its size in the picture that is
-/// mirrored; in memory it has `WIDTH` rows and `HEIGHT` columns.
+/// A small window in transposed mirror images. `WIDTH` and `HEIGHT` are its size in the picture that is mirrored; in
+/// memory it has `WIDTH` rows and `HEIGHT` columns.
 #[derive(Clone, Copy)]
 pub(crate) struct TurnedWindow<'a, S: Simd, const N: usize, const R: usize, const WIDTH: usize, const HEIGHT: usize> {
     pub(crate) simd: S,
@@ -20,7 +20,8 @@ pub(crate) struct TurnedWindow<'a, S: Simd, const N: usize, const R: usize, cons
 impl<S: Simd, const N: usize, const R: usize, const WIDTH: usize, const HEIGHT: usize>
     TurnedWindow<'_, S, N, R, WIDTH, HEIGHT>
 {
-    /// First texel in a column of the first four rows, and of the row after them: as texels run, and reversed.
+    /// Index in a column of the texels of the first four rows, and of the row after them: in forward and in reversed
+    /// order.
     const BLOCK_AT: [usize; 2] = [0, HEIGHT - BLOCK];
     const LAST_AT: [usize; 2] = [HEIGHT - 1, 0];
 
@@ -30,7 +31,7 @@ impl<S: Simd, const N: usize, const R: usize, const WIDTH: usize, const HEIGHT: 
         let rows = self.weights.as_chunks::<BLOCK>().0;
         let (a, b) = (u32x4::load_array_ref(self.simd, &rows[0]), u32x4::load_array_ref(self.simd, &rows[1]));
         let (c, d) = (u32x4::load_array_ref(self.simd, &rows[2]), u32x4::load_array_ref(self.simd, &rows[3]));
-        // From right to left the last row comes first.
+        // In reversed order the last row comes first.
         let weights = [a.combine(b).combine(c.combine(d)), d.combine(c).combine(b.combine(a))];
         self.add_column::<UNDER>(&mut sums, weights, 0);
         self.add_column::<UNDER>(&mut sums, weights, 1);
@@ -56,7 +57,8 @@ impl<S: Simd, const N: usize, const R: usize, const WIDTH: usize, const HEIGHT: 
         sums
     }
 
-    /// Adds the first four texels of a column, given the weights of four rows of four, for each way.
+    /// Adds the first four texels of a column, given the weights of four rows of four, in forward and in reversed
+    /// order.
     #[inline(always)]
     fn add_column<const UNDER: usize>(&self, sums: &mut [Sum<S>; N], weights: [u32x16<S>; 2], column: usize) {
         let one = u8x64::load_array_ref(self.simd, &ONE.0[column]);
@@ -88,7 +90,7 @@ impl<S: Simd, const N: usize, const R: usize, const WIDTH: usize, const HEIGHT: 
     }
 }
 
-/// Order that repeats, in each block, one of its four numbers for all samples of a texel.
+/// Byte order that repeats, in each block, one of its four numbers for all samples of a texel.
 static ONE: Lines<[[u8; 64]; BLOCK]> = {
     let mut one = [[0; 64]; BLOCK];
     let mut at = 0;
@@ -99,8 +101,8 @@ static ONE: Lines<[[u8; 64]; BLOCK]> = {
     Lines(one)
 };
 
-/// Bits of the texels of each sample of a column's first four texels, for each way. They count from the first or the
-/// second row on; a texel in no such row has none.
+/// Mark bits of each sample of a column's first four texels, in forward and in reversed order. Bits count from the
+/// first or from the second row on. A texel in none of the marked rows has no bit.
 static MARK: Lines<[[[[u32; BLOCK_SAMPLES]; BLOCK]; 2]; 2]> = {
     let mut mark = [[[[0; BLOCK_SAMPLES]; BLOCK]; 2]; 2];
     let mut at = 0;

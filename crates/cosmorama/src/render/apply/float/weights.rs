@@ -96,7 +96,7 @@ fn write_small<const WIDTH: usize>(
     (header, height): (Header, usize),
     numbers: &mut Vec<u32>,
 ) {
-    // One number, and rows of which five are the most. What is written is always as much: no copy of unknown length.
+    // One header, and at most five rows. A fixed length is written, since a copy of unknown length would be slow.
     let mut all = [0; 1 + 5 * 5];
     all[0] = header.0;
     let pitch = windows.width();

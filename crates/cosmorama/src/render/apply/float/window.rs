@@ -1,11 +1,11 @@
-//! Windows of floats, in mirrors of either direction.
+//! Windows of floats, in mirror images of either direction.
 //!
 //! Four texels of a row are weighted together, as they lie in memory. The sums of the four columns are added at the
 //! end. The order of summation does not depend on the instructions.
 //!
 //! The bounds of the texels under a pixel are found even without anti-ringing. To leave them out, all this code would
-//! be needed once more, for each size, way and number of mirrors. Rendering takes as long without anti-ringing as with
-//! it.
+//! be needed twice, for each size, direction and number of mirror images. Rendering takes as long without anti-ringing
+//! as with it.
 
 use fearless_simd::{Simd, f32x4, f32x16, mask32x16, prelude::*, u8x64, u32x4, u32x16};
 
@@ -20,11 +20,11 @@ pub(crate) const SAMPLES: usize = 4;
 pub(crate) const BLOCK_SAMPLES: usize = BLOCK * SAMPLES;
 
 impl<S: Simd, const N: usize, const R: usize> Window<'_, S, f32, N, R> {
-    /// Computes the weighted sums of a small window, whose size is one of [`SMALL`], in each mirror. Returns them with the number
-    /// of entries that the window takes in the list of numbers: one header, and a weight for each texel.
+    /// Computes the weighted sums of a small window, whose size is one of [`SMALL`], in each mirror image. Returns the
+    /// sums, and how many numbers the window takes: a header, and a weight for each texel.
     ///
-    /// With `TURNED`, all mirrors have exchanged rows and columns. The code is unrolled by hand, because the compiler would keep
-    /// the loops.
+    /// With `TURNED`, all mirror images have exchanged rows and columns. The code is unrolled by hand, because the
+    /// compiler would keep the loops.
     #[inline(always)]
     pub(crate) fn small<const WIDTH: usize, const HEIGHT: usize, const UNDER: usize, const TURNED: bool>(
         self,
@@ -63,8 +63,8 @@ impl<S: Simd, const N: usize, const R: usize> Window<'_, S, f32, N, R> {
         (sums, length)
     }
 
-    /// Sums over a window of any size. Returns the sums with the number of its numbers. If `TURNED`, its rows are
-    /// columns in all mirrors.
+    /// Sums over a window of any size. Returns the sums, and how many numbers the window takes. If `TURNED`, its rows
+    /// are columns in all mirror images.
     #[inline(always)]
     pub(crate) fn large<const TURNED: bool>(self) -> ([Sum<S>; N], usize) {
         let Self { simd, texels, first, .. } = self;
@@ -84,11 +84,12 @@ struct SmallRow<'a, S, const N: usize, const R: usize, const WIDTH: usize, const
 impl<S: Simd, const N: usize, const R: usize, const WIDTH: usize, const HEIGHT: usize>
     SmallRow<'_, S, N, R, WIDTH, HEIGHT>
 {
-    /// First texel in memory of its first four columns, and of the column after them: as texels run, and reversed.
+    /// Index in a row of the texels of the first four columns, and of the column after them: in forward and in reversed
+    /// order.
     const BLOCK_AT: [usize; 2] = [0, WIDTH - BLOCK];
     const LAST_AT: [usize; 2] = [WIDTH - 1, 0];
 
-    /// Sums over the first row, and over the first row whose texels may lie under the pixel, if that is another.
+    /// Sums over the first row, and over the first row in which texels may lie under the pixel, if that is another.
     #[inline(always)]
     fn first<const UNDER: usize>(&self, weights: &[u32], marks: Marks<S>) -> [Sum<S>; N] {
         let mut sums = [Sum::zero(self.simd); N];
@@ -109,7 +110,7 @@ impl<S: Simd, const N: usize, const R: usize, const WIDTH: usize, const HEIGHT: 
         sums
     }
 
-    /// Adds a block of a row none of whose texels lies under the pixel.
+    /// Adds a block of a row in which no texel lies under the pixel.
     #[inline(always)]
     fn add(&self, sums: &mut [Sum<S>; N], weights: &[u32], row: usize) {
         let weights = self.weights(weights, row);
@@ -118,7 +119,7 @@ impl<S: Simd, const N: usize, const R: usize, const WIDTH: usize, const HEIGHT: 
         }
     }
 
-    /// Adds a block of a row some of whose texels may lie under the pixel.
+    /// Adds a block of a row in which some texels may lie under the pixel.
     #[inline(always)]
     fn add_bounding(&self, sums: &mut [Sum<S>; N], weights: &[u32], row: usize, is_beside: [mask32x16<S>; 2]) {
         let weights = self.weights(weights, row);
@@ -165,13 +166,13 @@ impl<S: Simd, const N: usize, const R: usize, const WIDTH: usize, const HEIGHT: 
     }
 }
 
-/// Returns the direction in which a mirror traverses windows: 1 means from right to left, as the last R of N do.
+/// Returns the direction in which a mirror image traverses windows: 1 means from right to left, as the last R of N do.
 #[inline(always)]
 pub(crate) const fn way<const N: usize, const R: usize>(image: usize) -> usize {
     if image < N - R { 0 } else { 1 }
 }
 
-/// Spreads four weights over all samples of a texel each, for each way.
+/// Repeats each of four weights for all samples of its texel, in forward and in reversed order.
 #[inline(always)]
 pub(crate) fn spread<S: Simd>(simd: S, weights: &[u32; BLOCK]) -> [f32x16<S>; 2] {
     let weights: f32x4<S> = u32x4::load_array_ref(simd, weights).bitcast();
@@ -182,7 +183,7 @@ pub(crate) fn spread<S: Simd>(simd: S, weights: &[u32; BLOCK]) -> [f32x16<S>; 2]
     ]
 }
 
-/// Orders that repeat one of the four numbers of each block: the first in the first block, or the last.
+/// Byte orders that repeat one of four numbers in each block, in forward and in reversed order.
 static ORDER: [[u8; 64]; 2] = {
     let mut order = [[0; 64]; 2];
     let mut at = 0;
@@ -195,7 +196,7 @@ static ORDER: [[u8; 64]; 2] = {
     order
 };
 
-/// Bits of the texels of some rows of a block that lie under a pixel; any other bits may follow.
+/// Bits of the texels of a block that lie under a pixel, for some rows; other bits may follow.
 #[derive(Clone, Copy)]
 pub(crate) struct Marks<S: Simd>(u32x16<S>);
 
@@ -205,7 +206,7 @@ impl<S: Simd> Marks<S> {
         Self(u32x16::splat(simd, marks))
     }
 
-    /// Returns the samples of a row's texels that do not lie under the pixel, for each way.
+    /// Returns the samples of a row's texels that do not lie under the pixel, in forward and in reversed order.
     #[inline(always)]
     pub(crate) fn beside(self, row: usize) -> [mask32x16<S>; 2] {
         [self.without(&MARK.0[0][row]), self.without(&MARK.0[1][row])]
@@ -218,11 +219,11 @@ impl<S: Simd> Marks<S> {
     }
 }
 
-/// A value in whole cache lines.
+/// A value aligned to cache lines.
 #[repr(align(64))]
 pub(crate) struct Lines<T>(pub(crate) T);
 
-/// Bits of the texels of each sample of a block, among those of some rows.
+/// Mark bit of the texel of each sample of a block, by order (forward or reversed) and row.
 static MARK: Lines<[[[u32; BLOCK_SAMPLES]; ROWS_UNDER]; 2]> = {
     let mut mark = [[[0; BLOCK_SAMPLES]; ROWS_UNDER]; 2];
     let mut at = 0;
@@ -236,7 +237,7 @@ static MARK: Lines<[[[u32; BLOCK_SAMPLES]; ROWS_UNDER]; 2]> = {
     Lines(mark)
 };
 
-/// Sums over a window in a mirror, and the bounds of the texels under the pixel, by column of the blocks.
+/// Sums over a window in a mirror image, and the bounds of the texels under the pixel, by column of the blocks.
 #[derive(Clone, Copy)]
 pub(crate) struct Sum<S: Simd> {
     pub(crate) blocks: f32x16<S>,
@@ -257,15 +258,15 @@ impl<S: Simd> Sum<S> {
         }
     }
 
-    /// Updates the bounds by texels, except those beside the pixel.
+    /// Updates the bounds by texels, except those that do not lie under the pixel.
     #[inline(always)]
     pub(crate) fn bound(&mut self, texels: f32x16<S>, is_beside: mask32x16<S>) {
         self.least = is_beside.select(self.least, self.least.min(texels));
         self.greatest = is_beside.select(self.greatest, self.greatest.max(texels));
     }
 
-    /// Adds the partial sums of all columns: the filtered pixel. With `is_bounded` it is limited to the least and greatest texel
-    /// under the pixel, which prevents ringing.
+    /// Adds the partial sums of all columns, which makes the filtered pixel. With `is_bounded` it is clamped to the
+    /// least and greatest texel under the pixel, which prevents ringing.
     #[inline(always)]
     pub(crate) fn average(&self, is_bounded: bool) -> f32x4<S> {
         let (a, b) = self.blocks.split();

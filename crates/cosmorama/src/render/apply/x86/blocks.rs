@@ -1,4 +1,4 @@
-//! Operations on blocks of four mirrors that are one instruction of AVX-512 and have no portable equivalent.
+//! Operations on blocks of four mirror images that are one instruction of AVX-512 and have no portable equivalent.
 
 use std::arch::x86_64::{
     __m512i, _mm512_dpwssds_epi32, _mm512_permutex2var_epi16, _mm512_shuffle_i64x2, _mm512_unpackhi_epi16,
@@ -8,9 +8,9 @@ use std::arch::x86_64::{
 use fearless_simd::kernel;
 
 kernel!(
-    /// Adds the weighted sums of pairs to sums that began with half of their divisor. None leaves the 32 bits, because
-    /// of how `quantize.rs` scales weights. Of its two forms this one saturates: compilers split the other into a
-    /// product and a sum.
+    /// Adds the weighted sums of pairs to sums that began with half of their divisor. No sum overflows 32 bits, because
+    /// of how `quantize.rs` scales weights. This is the saturating one of the instruction's two forms: compilers split
+    /// the other into a product and a sum.
     #[inline(always)]
     pub(crate) fn add_products(token: Avx512, sums: __m512i, texels: __m512i, weights: __m512i) -> __m512i {
         _mm512_dpwssds_epi32(sums, texels, weights)
@@ -18,15 +18,15 @@ kernel!(
 );
 
 kernel!(
-    /// Picks samples out of two vectors by their places; those of the second vector count from 32 on.
+    /// Picks samples out of two vectors by their places. Places in the second vector count from 32 on.
     #[inline(always)]
     pub(crate) fn chosen(token: Avx512, a: __m512i, places: __m512i, b: __m512i) -> __m512i {
         _mm512_permutex2var_epi16(a, places, b)
     }
 );
 
-/// Places of the samples of pairs among four texels of each of four mirrors, the last two of which are reversed. Pairs
-/// begin in the first texel, the second and the third.
+/// Places of the samples of pairs among four texels of each of four mirror images, the last two of which are reversed.
+/// Pairs begin in the first texel, the second and the third.
 pub(crate) static PAIRS: [[i16; 32]; 3] = {
     let mut places = [[0; 32]; 3];
     let mut at = 0;
@@ -41,7 +41,7 @@ pub(crate) static PAIRS: [[i16; 32]; 3] = {
 };
 
 kernel!(
-    /// Picks the first of two pairs of each of four mirrors. In two mirrors they lie first, and in two last.
+    /// Picks the first of two pairs in each of four mirror images. In two of the images it lies first, and in two last.
     #[inline(always)]
     pub(crate) fn first_pairs(token: Avx512, forward: __m512i, reversed: __m512i) -> __m512i {
         _mm512_shuffle_i64x2::<0b11_01_10_00>(forward, reversed)
@@ -49,7 +49,8 @@ kernel!(
 );
 
 kernel!(
-    /// Picks the second of two pairs of each of four mirrors. In two mirrors they lie last, and in two first.
+    /// Picks the second of two pairs in each of four mirror images. In two of the images it lies last, and in two
+    /// first.
     #[inline(always)]
     pub(crate) fn second_pairs(token: Avx512, forward: __m512i, reversed: __m512i) -> __m512i {
         _mm512_shuffle_i64x2::<0b10_00_11_01>(forward, reversed)
@@ -57,7 +58,7 @@ kernel!(
 );
 
 kernel!(
-    /// Pairs the first texels of each block, one from either vector.
+    /// Pairs the first texels of each block, one from each vector.
     #[inline(always)]
     pub(crate) fn zip_first(token: Avx512, a: __m512i, b: __m512i) -> __m512i {
         _mm512_unpacklo_epi16(a, b)
@@ -65,7 +66,7 @@ kernel!(
 );
 
 kernel!(
-    /// Pairs the second texels of each block, one from either vector.
+    /// Pairs the second texels of each block, one from each vector.
     #[inline(always)]
     pub(crate) fn zip_second(token: Avx512, a: __m512i, b: __m512i) -> __m512i {
         _mm512_unpackhi_epi16(a, b)

@@ -11,21 +11,23 @@ use fearless_simd::{f32x16, kernel, prelude::*, u8x32, u8x64};
 
 use crate::render::scan::tile::SIDE;
 
-/// Light from which the curve is a power, and codes for one step of light below (IEC 61966-2-1: 12.92 up to 0.0031308).
+/// Light from which on the curve is a power, and codes for one step of light below it (IEC 61966-2-1: 12.92 up to
+/// 0.0031308).
 const BEND: i32 = 103;
 const LINEAR: f32 = (12.92 * 255.0 / 32767.0) as f32;
 
 /// Codes where the power is zero: 255 × -0.055.
 const OFFSET: f32 = -14.025;
 
-/// Coefficients of m^(1/2.4) from 1 to 2, the highest power first: within a millionth.
+/// Coefficients of a polynomial for m^(1/2.4), m from 1 to 2, the highest power first. Its error is less than a
+/// millionth.
 const POWER: [f32; 6] = [0.004_578_923_3, -0.044_878_658, 0.188_872_17, -0.462_495_4, 0.931_453_2, 0.382_471_86];
 
 /// Factors 255 × 1.055 × (2^e / 32767)^(1/2.4) for each exponent e of light that is a power, indexed by the last bits
 /// of a float's exponent.
 ///
-/// Some are moved by a few of their last digits, until the codes of all light are rounded correctly. The light nearest
-/// to half way between two codes is 0.00001 codes away from there.
+/// Some are changed in their last digits, until the codes of all light are rounded correctly. The light nearest to half
+/// way between two codes is 0.00001 codes away from there.
 static SCALES: [f32; 16] = {
     let known = [19.995_657, 26.691, 35.628_212, 47.557_957, 63.482_254, 84.738_64, 113.112_5, 150.987_09, 201.543_52];
     let (mut scales, mut at) = ([0.0; 16], 0);
@@ -37,7 +39,7 @@ static SCALES: [f32; 16] = {
     scales
 };
 
-/// Places of the bytes that count, of two times four pixels with a number for each sample and one for nothing.
+/// Places of the bytes that are kept, of twice four pixels: a 32-bit number for each sample, and an unused one.
 static BYTES: [u8; 64] = {
     let (mut bytes, mut at) = ([0; 64], 0);
     while at < 3 * SIDE {
@@ -66,7 +68,7 @@ kernel!(
 );
 
 kernel!(
-    /// Computes the codes of the light of eight pixels, four and four.
+    /// Computes the codes of the light of eight pixels, given as two vectors of four.
     #[inline(always)]
     pub(crate) fn eight_codes(token: Avx512, first: __m512i, last: __m512i) -> [[u8; 3]; SIDE] {
         let bytes = u8x64::load_array_ref(token, &BYTES).into();

@@ -37,7 +37,7 @@ fn mirrors_are_found_where_there_are_some() {
         assert_eq!(found.images.len(), images, "{:?} of {:?}", target.projection, target.orientation);
         assert_eq!(found.columns * found.rows * images.min(4), target.width() * target.height());
     }
-    // A middle of the world that is nobody's mirror image: the front and the left face alone are left out.
+    // No symmetry that a missing face breaks: without the left face, then without the back face as well.
     let up = turned(0.0, 90.0, 0.0);
     let count = |world: &World, target: &View| Mirrors::of::<FloatFormat>(&resampler(world, target)).images.len();
     let mut faces: Vec<_> = CubeFace::ALL.into_iter().filter(|face| *face != CubeFace::Left).collect();
@@ -67,7 +67,7 @@ fn nothing_is_mirrored_that_is_not_alike() {
         Mirrors::of::<FloatFormat>(&resampler(&world, &dome(64, up))).images.len()
     };
     assert_eq!(alter(&|_, _| ()), 8);
-    // One face of another size, one cut, one turned by a hair, one that looks through a stop, one that reaches into others.
+    // One face of another size, one cut, one turned slightly, one with a field stop, one that overlaps others.
     let size = |face: CubeFace, part: &mut WorldView| {
         if face == CubeFace::Right {
             part.view = view(ProjectionKind::PERSPECTIVE, (66, 66), (1.0, 1.0), face.orientation());
@@ -133,7 +133,8 @@ fn what_mirrors_show_is_what_would_be_computed() {
         );
         let made = resampler.render(&texels);
         for (a, b) in made.pixels().iter().zip(expected.pixels()) {
-            // Patches lie otherwise there: what one of them holds may be a pixel by itself, whose weights differ a little.
+            // Patches lie differently in the two pictures. A pixel of a patch may be a single pixel in the other, with
+            // slightly different weights.
             assert!((0..4).all(|c| (a.0[c] - b.0[c]).abs() < 5e-3), "{a:?} is not {b:?}, {:?}", target.projection);
         }
     }
@@ -160,7 +161,7 @@ fn a_plan_makes_the_pixels_that_are_made_without() {
         let plan = resampler.plan(Arithmetic::Fixed).expect("a plan");
         let codes_alone = resampler.render_fixed(&light, &codec);
         assert!(plan.apply_fixed(&light, &codec) == codes_alone);
-        // Whatever was in the image before.
+        // The image's old contents must not matter.
         let mut codes = Image::filled(target.width(), target.height(), [77; 3]);
         plan.apply_fixed_into(&light, &codec, &mut codes);
         assert!(codes == codes_alone);
@@ -188,8 +189,8 @@ impl Format for NoWindows {
     }
 }
 
-/// Compares windows of all sizes, four texels at once, and single pixels in all mirrors at once, with lists of texels
-/// one after the other.
+/// Compares windows of all sizes, four texels at once, and single pixels in all mirror images at once, with lists of
+/// texels one after the other.
 #[test]
 fn windows_of_floats_make_what_their_texels_make_one_by_one() {
     for (world, target, _) in conversions() {
@@ -257,7 +258,7 @@ fn all_levels_of_instructions_make_the_same_plans() {
         let made = |level| {
             let fixed = Compiled::<FixedFormat>::new((&resampler, None), level, Watch::NONE);
             let floats = Compiled::<FloatFormat>::new((&resampler, None), level, Watch::NONE);
-            // As text, in which each number comes back.
+            // Compared as text, which tells all numbers apart.
             (format!("{:?}", fixed.bands), format!("{:?}", floats.bands))
         };
         let mut all = crate::filter::rim::simd_levels::levels().into_iter().map(made);
@@ -266,7 +267,7 @@ fn all_levels_of_instructions_make_the_same_plans() {
     }
 }
 
-/// Returns black and white in no order, next to which sums in integers are as wrong as they can be.
+/// Returns black and white in no order, for which sums in integers have the greatest errors.
 fn black_and_white(world: &World) -> FixedLight {
     let mut light = light(world);
     let mut state = 1u64;
@@ -300,7 +301,7 @@ fn integers_are_within_one_code_of_floats() {
                 for c in 0..3 {
                     let code = transfer.encode(f64::from(b.0[c].clamp(0.0, 1.0)), ColourChannel::ALL[c]) * 255.0;
                     let error = (f64::from(a[c]) - code).abs();
-                    // As one that rounds it may say half a code less or more.
+                    // Half a code of this may be due to rounding alone.
                     assert!(error < 1.5, "{a:?} is not {b:?}: {error} in {:?}", target.projection);
                     equal += usize::from(f64::from(a[c]) == code.round());
                     count += 1;
@@ -311,14 +312,14 @@ fn integers_are_within_one_code_of_floats() {
     }
 }
 
-/// Checks that spreading from pixels to texels is the transpose of the plan, in all its mirrors.
+/// Checks that spreading from pixels to texels is the transpose of the plan, in all its mirror images.
 #[test]
 fn spreading_is_the_plan_the_other_way_round() {
     for (world, target, _) in conversions() {
         let filter = FilterSettings { anti_ringing: false, ..FilterSettings::DEFAULT };
         let plan = Resampler { world: &world, target: &target, filter }.plan(Arithmetic::Float).expect("a plan");
         let light = floats(&light(&world));
-        // Their part inside the field of view is not the plan's weights.
+        // Divided by coverage, which is not part of the plan's weights.
         let average = |pixel: &Rgba| if pixel.alpha() > 0.0 { f64::from(pixel.0[0] / pixel.alpha()) } else { 0.0 };
         let made = plan.apply(&light);
         let values: Vec<f32> = (0..made.pixels().len()).map(|k| (k % 97) as f32 / 97.0).collect();
@@ -326,7 +327,7 @@ fn spreading_is_the_plan_the_other_way_round() {
             made.pixels().iter().zip(&values).map(|(pixel, value)| average(pixel) * f64::from(*value)).sum();
         let mut shares = vec![0.0; world.texel_count()];
         plan.spread(&values, &mut shares);
-        // The same to the last bit, however the threads part the texels.
+        // Equal to the last bit, however many threads divide the texels.
         for threads in [1, 3, 8, 11] {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
             let mut again = vec![0.0; shares.len()];

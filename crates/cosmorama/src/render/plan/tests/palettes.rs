@@ -18,7 +18,7 @@ fn texels_have_one_light_whoever_asks() {
     const WHITE: i16 = i16::MAX;
     let size = [1 << 8, 1 << 7];
     let mut light = FixedLight::black([size]);
-    // All samples that there are, in each channel.
+    // All possible samples, in each channel.
     for (sample, texel) in (0..=WHITE).zip(light.texels_mut()) {
         *texel = [sample, WHITE - sample, sample ^ 0x55, 0];
     }

@@ -30,7 +30,7 @@ fn runs_end_where_their_windows_do() {
     assert!(floats > 100 && integers > 100, "{floats} and {integers} runs lack windows at an end");
 }
 
-/// Checks that bands of pixels with many texels are spilled: else they would take more memory the wider the picture is.
+/// Checks that bands of pixels with many texels are spilled. Otherwise wider pictures would need more memory.
 #[test]
 fn bands_of_large_windows_are_made_before_they_are_all_there() {
     let (mut spilled, mut most) = (0, 0);
@@ -45,11 +45,11 @@ fn bands_of_large_windows_are_made_before_they_are_all_there() {
         });
         most = most.max(band.weights.len());
     }
-    // A patch more, whose windows have a thousand texels each and some marks.
+    // The limit and one more patch, whose windows have a thousand texels each and some marks.
     assert!(spilled > 0 && most < (1 << 20) + (1 << 17), "{spilled} times, {most} numbers");
 }
 
-/// Checks that each pixel of a picture, in any mirror, lies where its patch is said to be shown.
+/// Checks that each pixel of a picture, in any mirror image, lies where its patch is said to be shown.
 #[test]
 fn patches_are_shown_where_their_pixels_are() {
     for (world, target, _) in conversions() {

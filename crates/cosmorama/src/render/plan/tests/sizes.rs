@@ -5,7 +5,8 @@ use crate::render::apply::fixed::weights::bits;
 use crate::render::apply::view_texels::ViewTexels;
 use crate::render::plan::window_format::Kept;
 
-/// Counts of windows by size, all that are not small last: from left to right, reversed, and transposed.
+/// Counts of windows by size, with all that are not small in the last place: from left to right, reversed, and
+/// transposed.
 type Counts = [[usize; 7]; 3];
 
 const OTHER: usize = 6;

@@ -1,4 +1,4 @@
-//! Worlds and targets for tests of conversions, with and without mirrors.
+//! Worlds and targets for tests of conversions, with and without mirror images.
 
 use super::*;
 use crate::camera::PixelGrid;
@@ -62,9 +62,9 @@ pub(crate) fn conversions() -> Vec<(World, View, usize)> {
         // Windows of more texels than the small ones have, in patches.
         (cube(&all, 500), dome(200, up), 8),
         (cube(&all, 300), dome(62, up), 8),
-        // Windows larger than lanes weigh.
+        // Windows too large to be weighed in lanes.
         (cube(&all, 300), dome(30, up), 8),
-        // Nearly as large, so many that a band is made before it is all there; and in mirrors.
+        // Windows nearly as large, so many that bands are spilled; without and with mirror images.
         (
             cube(&[CubeFace::Front], 1200),
             view(ProjectionKind::PERSPECTIVE, (48, 48), (0.36, 0.36), turned(3.0, 2.0, 10.0)),
@@ -76,20 +76,21 @@ pub(crate) fn conversions() -> Vec<(World, View, usize)> {
             8,
         ),
         (cube(&[CubeFace::Front, CubeFace::Left, CubeFace::Right, CubeFace::Up], 120), omnimax(), 2),
-        // Rows of light that are filled up, and no mirror that shows them.
+        // Rows of light with padding, and no mirror image.
         (cube(&all, 140), dome(120, turned(20.0, 60.0, 5.0)), 1),
         (cube(&all, 100), dome(120, turned(0.0, 60.0, 0.0)), 2),
         (cube(&all, 100), dome(121, up), 1),
         (cube(&all, 64), panoramic((240, 120)), 4),
         (panorama(300), panoramic((400, 200)), 4),
         (panorama(300), view(ProjectionKind::PERSPECTIVE, (160, 90), (1.0, 0.6), Orientation::IDENTITY), 4),
-        // Mirrors that are gone through one by one: two from left to right, and one of four.
+        // Mirror images that are traversed one by one: two from left to right, and one of four.
         (
             cube(&all, 100),
             View { stop: FieldStop::NONE, ..view(ProjectionKind::EQUIDISTANT, (121, 120), (1.0, 0.9), up) },
             2,
         ),
-        // Mirrors along the diagonals of a view of a face and those around it, and of what is no whole number of patches.
+        // Mirror images about the diagonals: of a view of a face and its neighbours, and of a size that is not a whole
+        // number of patches.
         (cube(&all, 90), view(ProjectionKind::PERSPECTIVE, (150, 150), (1.3, 1.3), Orientation::IDENTITY), 8),
         (cube(&all, 90), dome(74, turned(90.0, 90.0, 0.0)), 8),
         // The upright edges of the faces lie along the diagonals, far into the picture, with many texels in each pixel.
@@ -99,7 +100,7 @@ pub(crate) fn conversions() -> Vec<(World, View, usize)> {
     ]
 }
 
-/// Returns a dome of all that is above.
+/// Returns a dome of the upper half of the world.
 fn half_world(size: usize) -> View {
     let quarter = std::f64::consts::FRAC_PI_2;
     let dome = view(ProjectionKind::EQUIDISTANT, (size, size), (quarter, quarter), turned(0.0, 90.0, 0.0));
