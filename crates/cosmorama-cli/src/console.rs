@@ -21,12 +21,12 @@ pub(crate) struct Console {
 }
 
 impl Console {
-    /// Gives a file a readable name, from now on.
+    /// Sets the readable name under which messages show a file from now on.
     pub(crate) fn call(&mut self, file: &Path, name: &str) {
         self.names.push((file.to_string_lossy().into_owned(), name.to_owned()));
     }
 
-    /// Returns a text with readable names of files.
+    /// Returns a text in which files have their readable names.
     pub(crate) fn told(&self, text: &str) -> String {
         self.names.iter().fold(text.to_owned(), |text, (file, name)| text.replace(file, name))
     }
@@ -54,7 +54,7 @@ impl Console {
     pub(crate) fn print(&self, text: &str) -> Result<()> {
         let mut out = stdout().lock();
         match out.write_all(self.told(text).as_bytes()).and_then(|()| out.flush()) {
-            // Whoever read our output has seen enough.
+            // The reader of our output has closed it, and has seen enough.
             Err(error) if error.kind() == ErrorKind::BrokenPipe => Ok(()),
             result => result.context("cannot write to standard output"),
         }

@@ -14,11 +14,11 @@ const LARGE: usize = 4 << 20;
 
 pub(crate) struct LargePages;
 
-// SAFETY: all that is given and taken is the system's, for the same layout; what is asked of the system beside that changes no
-// contents.
+// SAFETY: all memory comes from the system's allocator and returns to it with the same layout. Requests for large pages
+// change no contents.
 unsafe impl GlobalAlloc for LargePages {
     unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
-        // SAFETY: the caller's promise is the one that the system's allocator wants, here and below.
+        // SAFETY: the caller promises what the system's allocator requires, here and below.
         prefer_large_pages(unsafe { System.alloc(layout) }, layout.size())
     }
 
@@ -38,7 +38,7 @@ unsafe impl GlobalAlloc for LargePages {
     }
 }
 
-/// Requests large pages for fresh memory of this size; without them, small pages do.
+/// Requests large pages for fresh memory of this size. Where the system refuses, small pages serve.
 #[cfg(target_os = "linux")]
 fn prefer_large_pages(memory: *mut u8, size: usize) -> *mut u8 {
     use rustix::mm::{Advice, madvise};
@@ -54,22 +54,22 @@ fn prefer_large_pages(memory: *mut u8, size: usize) -> *mut u8 {
     memory
 }
 
-/// Returns the memory unchanged: other systems are not asked.
+/// Returns the memory unchanged: only Linux takes such requests.
 #[cfg(not(target_os = "linux"))]
 fn prefer_large_pages(memory: *mut u8, _: usize) -> *mut u8 {
     memory
 }
 
-/// Makes the system's allocator return the memory of pictures at once, whatever was freed before. glibc takes blocks no
-/// larger than one that was freed from heaps, one or more for each thread. What is free in the middle of a heap is
-/// never returned to the system.
+/// Makes the allocator return the memory of pictures to the system at once. Otherwise, once a large block has been
+/// freed, glibc takes blocks up to its size from heaps, of which each thread has one or more. Free memory in the middle
+/// of a heap is never returned to the system.
 #[cfg(all(target_os = "linux", target_env = "gnu"))]
 pub(crate) fn give_back_pictures() {
-    // SAFETY: it takes any number, and concerns what comes after.
+    // SAFETY: `mallopt` takes any number, and affects only later allocations.
     unsafe { libc::mallopt(libc::M_MMAP_THRESHOLD, LARGE as libc::c_int) };
 }
 
-/// Does nothing: other systems' allocators are not asked.
+/// Does nothing: only glibc needs this.
 #[cfg(not(all(target_os = "linux", target_env = "gnu")))]
 pub(crate) fn give_back_pictures() {}
 
@@ -77,8 +77,8 @@ pub(crate) fn give_back_pictures() {}
 mod tests {
     use super::*;
 
-    /// Lists numbers around the size at which large pages are asked for, in the program's own allocator: tests use it,
-    /// too.
+    /// Lengths around the size at which large pages are requested. The tests themselves run with the program's
+    /// allocator.
     const LENGTHS: [usize; 4] = [LARGE / 8 - 1, LARGE / 8, LARGE / 8 + 1, LARGE / 4 + 1234];
 
     fn numbers(count: usize) -> impl Iterator<Item = u64> {

@@ -24,7 +24,7 @@ const STDIN: &str = "standard input";
 #[derive(Default)]
 pub(crate) struct KeptStreams {
     files: InMemory,
-    /// Whether standard input is one of them.
+    /// Whether standard input is held.
     has_stdin: bool,
 }
 
@@ -50,7 +50,7 @@ impl KeptStreams {
         Ok(name.to_owned())
     }
 
-    /// Returns the source of the bytes of inputs from now on.
+    /// Returns a source of inputs that has the bytes of the streams, and all other files from disk.
     pub(crate) fn files(self) -> Arc<dyn Files> {
         Arc::new(self.files)
     }
@@ -86,7 +86,7 @@ pub(crate) struct Piped {
 }
 
 impl Piped {
-    /// Reads what is piped in, and makes a place for what goes to standard output.
+    /// Reads the inputs that are streams, and makes a folder for an output that goes to standard output.
     pub(crate) fn open(mut args: ConvertArgs, console: &mut Console) -> Result<Self> {
         check(&args, args.output == STREAM)?;
         let mut kept = KeptStreams::default();
@@ -101,13 +101,13 @@ impl Piped {
         Ok(Self { args, files: kept.files(), scratch })
     }
 
-    /// Passes the output on.
+    /// Copies the output to standard output.
     pub(crate) fn finish(self) -> Result<()> {
         if self.scratch.is_some() {
             let mut file = File::open(&self.args.output).context("nothing was made for standard output")?;
             let mut out = stdout().lock();
             match copy(&mut file, &mut out).and_then(|_| out.flush()) {
-                // Whoever read our output has seen enough.
+                // The reader of our output has closed it, and has seen enough.
                 Err(error) if error.kind() == ErrorKind::BrokenPipe => {}
                 result => result.context("cannot write to standard output")?,
             }

@@ -23,7 +23,7 @@ pub(crate) struct Progress {
     done: usize,
     total: usize,
     start: Instant,
-    /// Time of the last line; the start before the first.
+    /// Time of the last line, or of the start if there is none yet.
     said: Instant,
     /// Current work, and the time when it began.
     current: Option<(Work, Instant)>,
@@ -39,7 +39,7 @@ enum Form {
     Silent,
 }
 
-/// Progress of one work.
+/// Progress of one piece of work.
 #[derive(Clone, Copy)]
 struct Advance {
     work: Work,
@@ -112,7 +112,7 @@ impl Progress {
                 });
                 Some(line.to_string())
             }
-            // Frames before this one may not be written yet: what was told stays.
+            // Earlier frames may not be written yet, so that the figure must not fall when they are.
             (Form::Openjd, Work::Render(_)) => Some(self.openjd(self.done as f64 + fraction)),
             (Form::Openjd, _) => Some(format!("openjd_status: {advance}")),
             (Form::Bar(_) | Form::Silent, _) => None,
@@ -148,7 +148,7 @@ impl Progress {
         }
     }
 
-    /// Clears what should not stay.
+    /// Clears the bar from the terminal.
     pub(crate) fn finish(&self) {
         if let Form::Bar(bar) = &self.form {
             bar.finish_and_clear();
@@ -183,7 +183,7 @@ fn bar(total: usize) -> ProgressBar {
     ProgressBar::new(length).with_style(style)
 }
 
-/// Returns a rate in three digits, whether there are many a second or few.
+/// Returns a rate with three digits, for many frames a second or few.
 fn steady(rate: f64) -> String {
     let decimals = if rate < 10.0 { 2 } else { usize::from(rate < 100.0) };
     format!("{rate:.decimals$}")

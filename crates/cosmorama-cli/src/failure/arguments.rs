@@ -24,7 +24,7 @@ impl Typed {
         self.0.first().map(String::as_str).filter(|word| args::verbs().any(|verb| verb == *word))
     }
 
-    /// Returns the verb of its own that a verb has, as `diffuse` of `light`, if the second word is one.
+    /// Returns the second word if it is a verb of the first, as `diffuse` is of `light`.
     pub(super) fn part(&self) -> Option<&str> {
         let parts = args::parts(self.verb()?);
         self.0.get(1).map(String::as_str).filter(|word| parts.iter().any(|part| part == word))
@@ -38,7 +38,7 @@ impl Typed {
         names.find(|name| options.contains(name))
     }
 
-    /// Finds a word that is no text: its bytes are not UTF-8.
+    /// Finds a word that is not text: its bytes are not UTF-8.
     fn no_text(&self) -> Option<&str> {
         self.0.iter().map(String::as_str).find(|word| word.contains(char::REPLACEMENT_CHARACTER))
     }
@@ -63,7 +63,7 @@ pub(crate) fn report_arguments(error: &Error) -> ExitCode {
         let words = std::env::args_os().skip(1).map(|word| word.to_string_lossy().into_owned());
         say(format_args!("error: {}", message(error, &Typed::new(words)).trim_end()));
     } else {
-        // Where nobody listens any more, there is nobody to tell so.
+        // If this fails, nobody reads messages either.
         let _ = error.print();
     }
     u8::try_from(error.exit_code()).map_or(ExitCode::FAILURE, ExitCode::from)
@@ -138,7 +138,8 @@ fn value(error: &Error) -> Option<String> {
     Some(format!("{what}: {cause}"))
 }
 
-/// Other words for values of options that take one of a few: the option, the words, and the value.
+/// Words that people try as values of an option with a fixed set of values: the option, the words, and the value that
+/// is meant.
 const OTHER_VALUES: [(&str, &[&str], &str); 7] = [
     ("--region", &["circle", "disk", "dome", "fulldome", "fisheye", "round", "lens"], "disc"),
     ("--region", &["full", "whole", "everything", "none", "square"], "all"),
@@ -149,11 +150,11 @@ const OTHER_VALUES: [(&str, &[&str], &str); 7] = [
     ("<SHELL>", &["sh", "dash", "ksh"], "bash"),
 ];
 
-/// Returns the message for a value that is none of a few.
+/// Returns the message for a value that is not in an option's fixed set.
 fn choice(error: &Error) -> Option<String> {
     let (option, typed) = (text(error, ContextKind::InvalidArg)?, text(error, ContextKind::InvalidValue)?);
     let Some(ContextValue::Strings(known)) = error.get(ContextKind::ValidValue) else { return None };
-    // Clap says so of an option without a value, too.
+    // Clap reports an option without a value by this error, too.
     if typed.is_empty() {
         return None;
     }

@@ -16,7 +16,7 @@ pub(crate) use arguments::report_arguments;
 
 use crate::console::{Console, in_options, say};
 
-/// An error of the person who typed the command: exit code 2.
+/// An error in the command as it was typed: exit code 2.
 #[derive(Debug, Error)]
 #[error("{0}")]
 pub(crate) struct Usage(String);
@@ -40,7 +40,7 @@ fn message(error: &anyhow::Error) -> String {
     }
     let mut message = String::new();
     for cause in error.chain().map(ToString::to_string) {
-        // Many errors tell their cause themselves.
+        // Many errors have their cause in their own message.
         if !message.contains(&cause) {
             message += if message.is_empty() { "" } else { ": " };
             message += &cause;

@@ -1,4 +1,4 @@
-//! Values of `--from` and `--to` that are something else than a projection.
+//! Values of `--from` and `--to` that are not projections.
 
 use std::path::Path;
 
@@ -8,7 +8,7 @@ use cosmorama_spec::{FilterName, KernelName, Size};
 /// Extensions of files that hold calibrations.
 const CALIBRATIONS: [&str; 5] = [".yml", ".yaml", ".json", ".xml", ".txt"];
 
-/// Returns what to type for a value whose name is no projection, where it is another thing that the program knows.
+/// Returns what to type for a value that is not a projection, but something else that the program knows.
 pub(super) fn advice(option: &str, name: &str, typed: &str) -> Option<String> {
     let is_input = option.starts_with("--from");
     let is_path = Format::from_extension(Path::new(name)).is_ok() || name.contains(['/', '{', '#']);

@@ -142,7 +142,7 @@ const OF_OTHERS: [(&[&str], &str); 29] = [
     (&["face", "only", "select"], "--to cube:faces=front,up: only these faces are made"),
 ];
 
-/// Returns what to write for a word, where the verb has that.
+/// Returns what to write in place of a word, if the verb has such an option.
 pub(super) fn advice(word: &str, verb: Option<&str>) -> Option<String> {
     let own = OF_VERB.iter().find(|(of, words, _)| Some(*of) == verb && words.contains(&word));
     if let Some((_, _, write)) = own {

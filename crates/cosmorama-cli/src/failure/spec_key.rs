@@ -33,9 +33,9 @@ pub(super) fn advice(word: &str, option: &str, typed: &Typed) -> Option<String> 
     let alike = || asked.iter().find_map(|kind| Some((*kind, kind.key(word)?)));
     let (kind, key) = own.or_else(alike).or_else(|| first(&takers))?;
     let value = typed.value(option.split('=').next().unwrap_or_default());
-    // What the key refuses is no advice: then its kind of value stands there.
+    // A value that the key refuses is no advice. Then the kind of value is named instead.
     let value = value.filter(|value| takes(kind, key, value)).unwrap_or(key.value);
-    // Where the output is another projection, the input must have been meant.
+    // If the output is another projection, the input must have been meant.
     let side = if typed.value("--to").is_some() && typed.value("--from").is_none() { "--from" } else { "--to" };
     let write =
         with_key(kind, key, value, typed).unwrap_or_else(|| format!("{side} {}:{}={value}", kind.name(), key.name));

@@ -35,7 +35,7 @@ pub(super) fn message(argument: &str, typed: &Typed) -> String {
     format!("{who} has no option {argument}{advice}\n\n{}", see_options(verb))
 }
 
-/// Returns what a word without an option may have been meant for.
+/// Returns advice on a word that belongs to no option.
 fn lone_word(word: &str, typed: &Typed) -> String {
     let key = word.split_once('=').map(|(key, value)| (key.trim_start_matches(':'), value));
     if let Some((key, value)) = key.filter(|(key, _)| SpecKind::all().any(|kind| kind.key(key).is_some())) {
@@ -71,12 +71,12 @@ fn lone_word(word: &str, typed: &Typed) -> String {
         Some("help") => return "one topic is named; 'help spec' and 'help light' take a second word".to_owned(),
         _ => {}
     }
-    // The shell makes a list of files of a wildcard.
+    // The shell replaces a wildcard by a list of files.
     "many files are named by one pattern, in quotes: '####' where frame numbers stand, '{face}' where faces' names do"
         .to_owned()
 }
 
-/// Returns the other verb of a verb's own that has the option: `light specular`, for one of `light diffuse`.
+/// Returns the verb with the same first word that has the option: `light specular`, for `light diffuse`.
 fn option_of_part(word: &str, typed: &Typed) -> Option<String> {
     let (verb, part) = (typed.verb()?, typed.part()?);
     let has = |other: &String| other != part && args::options_of_part(verb, other).iter().any(|name| name == word);

@@ -1,4 +1,4 @@
-//! First words that are no verb.
+//! First words that are not verbs.
 
 use cosmorama_spec::{SpecKind, nearest};
 
@@ -36,7 +36,7 @@ const OTHER_NAMES: [(&[&str], &str); 7] = [
 /// Words that ask for a list.
 const LISTS: [&str; 7] = ["spec", "specs", "projections", "projection", "keys", "aliases", "list"];
 
-/// Words for what is no verb here, and what to do.
+/// Words for tasks that have no verb here, and what to do instead.
 const NO_VERBS: [(&[&str], &str); 7] = [
     (&["version"], "it is an option: cosmorama --version"),
     (&["init", "setup", "new", "install", "config"], "nothing has to be set up; 'cosmorama demo' shows what it does"),
@@ -63,7 +63,7 @@ const MAPS: [(&[&str], &str); 3] = [
     (&["sh", "spherical-harmonics", "coefficients", "probe"], "harmonics"),
 ];
 
-/// Returns what to type in place of a second word that is no verb of the first.
+/// Returns what to type in place of a second word that is not a verb of the first.
 pub(super) fn message_of_part(word: &str, verb: &str) -> String {
     let parts = args::parts(verb);
     let names: Vec<&str> = parts.iter().map(String::as_str).collect();
@@ -83,7 +83,7 @@ pub(super) fn message_of_part(word: &str, verb: &str) -> String {
     format!("unknown '{word}' after {verb}; {advice}\n\n{}", see_options(Some(verb)))
 }
 
-/// Returns what to type in place of a first word that is no verb.
+/// Returns what to type in place of a first word that is not a verb.
 pub(super) fn message(word: &str) -> String {
     let verbs: Vec<&str> = args::verbs().collect();
     let lower = word.to_lowercase();

@@ -23,7 +23,7 @@ const NOT_MEASURABLE: &str =
 pub(super) fn run(args: &CompareArgs, console: &mut Console) -> Result<ExitCode> {
     let (mut kept, mut args) = (KeptStreams::default(), args.clone());
     for picture in [&mut args.first, &mut args.second] {
-        // A name that is no text is none of those that stand for a stream or for many files.
+        // A name that is not UTF-8 cannot stand for a stream or for many files.
         if let Some(name) = picture.to_str() {
             check_one(name)?;
             *picture = kept.input(name)?.into();
@@ -60,7 +60,7 @@ pub(super) fn run(args: &CompareArgs, console: &mut Console) -> Result<ExitCode>
     Ok(if failures.is_empty() { ExitCode::SUCCESS } else { ExitCode::FAILURE })
 }
 
-/// Refuses a pattern by name; otherwise the error would only be that there is no such file.
+/// Refuses a pattern with an error that says so. Otherwise the error would be that there is no such file.
 fn check_one(name: &str) -> Result<()> {
     let is_pattern = FacePattern::parse(name).is_some() || FramePattern::parse(name).is_some();
     if is_pattern && !Path::new(name).exists() {

@@ -20,7 +20,7 @@ use crate::args::{DemoArgs, ProgressStyle};
 use crate::console::Console;
 use crate::failure::usage;
 
-/// Edge of a whole face; the frame is the paper's.
+/// Edge of a whole face, in pixels. The frame has the paper's size.
 const FACE: usize = 1024;
 const FRAME: (usize, usize) = (1966, 1436);
 

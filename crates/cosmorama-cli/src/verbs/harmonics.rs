@@ -29,7 +29,7 @@ pub(super) fn run(mut args: HarmonicsArgs, console: &mut Console) -> Result<Exit
     check_output(&path, &light, args.overwrite)?;
     let folder = path.parent().filter(|folder| !args.no_mkdir && !folder.as_os_str().is_empty());
     let _folders = folder.map(|folder| make_folder(folder, console)).transpose()?;
-    // A folder that cannot be written to is found out before the work.
+    // Fails before the work, not after it, if the folder cannot be written to.
     let mut file = Pending::create(&path, &console.unfinished)?;
     let harmonics = harmonics(&args, &light, console)?;
     let text = to_json(&args, &harmonics)?;
@@ -38,7 +38,7 @@ pub(super) fn run(mut args: HarmonicsArgs, console: &mut Console) -> Result<Exit
     Ok(ExitCode::SUCCESS)
 }
 
-/// Refuses to replace an input, or anything else unasked.
+/// Refuses to replace an input, or any existing file unless `overwrite` is set.
 fn check_output(path: &Path, light: &WorldLight, overwrite: bool) -> Result<()> {
     check_apart(path, light.files())?;
     if !overwrite {

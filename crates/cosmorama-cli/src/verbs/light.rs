@@ -92,7 +92,7 @@ fn chain(args: &SpecularArgs, levels: usize) -> Result<Vec<LightLevel>> {
     }
     let edge = args.map.size.map_or(DEFAULT_EDGE, |size| size.width);
     let alpha = |level: usize| map.alpha(ChainLevel { level, levels, edge });
-    // What is smoother than any lobe is a mirror.
+    // A roughness below that of any lobe makes a mirror.
     (0..levels).map(|at| level(args.lobe, if alpha(at) < SMOOTHEST { 0.0 } else { alpha(at) })).collect()
 }
 

@@ -115,7 +115,7 @@ fn spec_page() -> Page {
 fn verbatim(heading: &str, text: &str) -> String {
     let line = |line: &str| {
         let escaped = line.replace('\\', "\\e").replace('-', "\\-");
-        // A point or an apostrophe at its beginning would make it a command.
+        // A full stop or an apostrophe at the beginning of a line would make it a command.
         if escaped.starts_with(['.', '\'']) { format!("\\&{escaped}\n") } else { escaped + "\n" }
     };
     format!(".SH \"{heading}\"\n.nf\n{}.fi\n", text.trim_end().lines().map(line).collect::<String>())

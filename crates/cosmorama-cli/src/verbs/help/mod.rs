@@ -36,7 +36,7 @@ pub(super) fn help(args: &HelpArgs, console: &Console) -> Result<ExitCode> {
     Ok(ExitCode::SUCCESS)
 }
 
-/// Returns the help of a verb, or of a verb of its own: `help light diffuse`.
+/// Returns the help of a verb, or of a second verb under it: `help light diffuse`.
 fn of_verb(verb: &mut Command, second: Option<&str>) -> Result<String> {
     let Some(second) = second else { return Ok(verb.render_long_help().to_string()) };
     match verb.find_subcommand_mut(second) {
@@ -45,7 +45,7 @@ fn of_verb(verb: &mut Command, second: Option<&str>) -> Result<String> {
     }
 }
 
-/// Returns the whole command line, with all that its parts inherit.
+/// Returns the definition of the command line, in which verbs have inherited their options.
 fn built() -> Command {
     let mut command = Args::command();
     command.build();

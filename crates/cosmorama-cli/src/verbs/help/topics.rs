@@ -1,11 +1,11 @@
-//! Topics of help that are no verbs: lists of names, projections, and keys of SPECs.
+//! Topics of help other than verbs: lists of names, projections, and keys of SPECs.
 
 use cosmorama_io::Format;
 use cosmorama_spec::{DepthName, FilterName, KernelName, PrimariesName, SpecKind, TransferName, nearest};
 
 use crate::args::{LISTS, SPEC_TOPIC, builtins, options, verbs};
 
-/// Words on which a page of the documentation has more.
+/// Words of a topic, and the page of the documentation that explains it.
 const PAGES: [(&[&str], &str); 7] = [
     (&["blender"], "docs/blender-cube.md renders the faces of a cube with Blender, and makes a dome of them"),
     (
@@ -19,7 +19,7 @@ const PAGES: [(&[&str], &str); 7] = [
     (&["tasks", "examples", "tutorial", "getting-started"], "README.md begins with tasks, and docs/tasks.md has more"),
 ];
 
-/// Returns a list of names; `None` where the topic asks for none. The singular asks for it, too.
+/// Returns the list of names that a topic stands for, in the singular or the plural; `None` if it stands for none.
 fn list(topic: &str) -> Option<String> {
     Some(match topic.trim_end_matches('s') {
         "kernel" => names("--kernel NAME[:scale=S,floor=F] weighs what a pixel averages", &KernelName::NAMES),
@@ -37,7 +37,7 @@ fn list(topic: &str) -> Option<String> {
     })
 }
 
-/// Returns the help on a topic that is no verb.
+/// Returns the help on a topic other than a verb.
 pub(super) fn text(topic: &str) -> Option<String> {
     list(topic).or_else(|| SpecKind::of(topic).map(of_projection)).or_else(|| cosmorama_spec::help_on_key(topic))
 }
@@ -47,7 +47,7 @@ pub(super) fn of_projection(kind: SpecKind) -> String {
     format!("{} is {}.\n\n{}", kind.name(), kind.about(), kind.help())
 }
 
-/// Returns the message for a topic on which there is no help, with what it may be.
+/// Returns the message for a topic on which there is no help, with the topics that exist.
 pub(super) fn unknown(topic: &str) -> String {
     if let Some((_, page)) = PAGES.iter().find(|(words, _)| words.contains(&topic)) {
         return format!("no help on '{topic}' here; {page}");

@@ -1,9 +1,9 @@
-//! What `info` tells of attributes, texts, Exif and XMP.
+//! Report of `info` on attributes, texts, Exif and XMP.
 
 use cosmorama_io::Carried;
 use serde_json::{Map, Value, json};
 
-/// Adds what a file says beside its pixels and their colours, a section for each kind.
+/// Adds the metadata of a file, except those of its pixels and colours, in a section for each kind.
 pub(super) fn add(report: &mut Value, carried: &Carried) {
     let attributes = carried.attributes.iter().filter(|attribute| !attribute.is_storage());
     let texts = carried.texts.iter();

@@ -9,7 +9,8 @@ use serde_json::{Value, json};
 
 use crate::console::in_options;
 
-/// Judges the first frame of a face set; `None` where its files have too few whole faces to tell.
+/// Reports whether the faces in the first frame of a face set fit. `None` if its files have too few whole faces to
+/// tell.
 pub(super) fn of_files(inputs: &dyn Files, set: &FaceSet) -> Result<Option<Value>> {
     let lie: Vec<_> = set.faces().iter().map(|file| (file.face, file.placement)).collect();
     let Some(given) = GivenFaces::of_files(&Cube::default(), set.naming(), &lie) else { return Ok(None) };
@@ -21,7 +22,7 @@ pub(super) fn of_files(inputs: &dyn Files, set: &FaceSet) -> Result<Option<Value
         };
         pictures.push((index, picture));
     }
-    // Crops have other borders than their faces.
+    // Crops have other borders than whole faces.
     let size = |picture: &Image<Rgba>| (picture.width(), picture.height());
     if pictures.windows(2).any(|pair| size(&pair[0].1) != size(&pair[1].1)) {
         return Ok(None);
@@ -35,7 +36,7 @@ fn pixel_of(picture: &Image<Rgba>) -> impl Fn(usize, usize) -> Rgba + '_ {
     |i, j| *picture.get(i, j)
 }
 
-/// Reports as JSON what borders tell.
+/// Returns the findings from the borders of faces as JSON.
 pub(super) fn report(continuity: &Continuity) -> Value {
     let mut report = json!({ "told": in_options(&continuity.told), "fits": continuity.fits });
     if let Some(confidence) = continuity.confidence {

@@ -5,8 +5,8 @@ use serde_json::{Map, Value, json};
 /// Name for channels outside of any layer.
 const NO_LAYER: &str = "(no layer)";
 
-/// Adds the layers of the part that is read, with the types of their channels and what they hold; and all parts, if there are
-/// several.
+/// Adds the layers of the part that is read, with the types and the content of their channels. If a file has several
+/// parts, all of them are added as well.
 pub(super) fn add_layers(report: &mut Value, header: &Header) {
     let layers = &header.metadata.layers;
     let is_usual = layers.picture.iter().all(|name| ["R", "G", "B", "Y", "A"].contains(&name.as_str()));

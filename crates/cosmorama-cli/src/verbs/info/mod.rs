@@ -1,4 +1,4 @@
-//! What `info` tells of a file, a face set or a world.
+//! Report of `info` on a file, a face set or a world.
 
 mod carried;
 mod faces;
@@ -23,7 +23,7 @@ use crate::args::InfoArgs;
 use crate::console::Console;
 use crate::pipe::KeptStreams;
 
-/// Tells what a file or a face set is.
+/// Reports what a file or a face set is.
 pub(super) fn run(args: &InfoArgs, console: &mut Console) -> Result<ExitCode> {
     let mut kept = KeptStreams::default();
     let input = &kept.input(&args.input)?;
@@ -42,7 +42,7 @@ pub(super) fn run(args: &InfoArgs, console: &mut Console) -> Result<ExitCode> {
     } else {
         console.print(&lines(&report, 0))?;
     }
-    // What is damaged, a profile too, is told, and no success.
+    // Damage, of a profile as well, is reported and makes the program fail.
     Ok(if is_damaged(&report) { ExitCode::FAILURE } else { ExitCode::SUCCESS })
 }
 
@@ -97,7 +97,7 @@ fn faces_report(inputs: &dyn Files, pattern: &str, check: bool) -> Result<Value>
     let is_sequence = set.present().any(|file| matches!(ViewFiles::new(&file.path), ViewFiles::Sequence(_)));
     let reads_all = check || !is_sequence;
     let arrangement = if reads_all { of_files(inputs, &set)? } else { None };
-    // Pictures that were compared are whole, but for later frames.
+    // Pictures that were compared are known to be whole, except in later frames.
     let seeks_damage = reads_all && (is_sequence || arrangement.is_none());
     let mut faces = serde_json::Map::new();
     for file in set.faces() {
@@ -127,7 +127,7 @@ fn faces_report(inputs: &dyn Files, pattern: &str, check: bool) -> Result<Value>
     Ok(report)
 }
 
-/// Decodes a file, or each of its frames, and tells what is the matter with those that are damaged.
+/// Decodes a file, or each of its frames, and describes what is wrong with those that are damaged.
 fn damages(inputs: &dyn Files, files: &ViewFiles, frames: &[u64]) -> Vec<String> {
     let paths: Vec<PathBuf> = match frames {
         [] => vec![files.path(None)],
@@ -144,7 +144,7 @@ fn add_damage(report: &mut Value, damaged: Vec<String>) {
     }
 }
 
-/// Reads a file's header, of channels that form no picture, too.
+/// Reads a file's header, even if its channels form no picture.
 fn probe_any(inputs: &dyn Files, path: &Path) -> Result<Header> {
     let choice = Choice { without_picture: true, ..Choice::default() };
     Ok(probe_chosen(inputs.open(path)?, path, &choice)?)
