@@ -156,7 +156,7 @@ impl LightSettings {
     }
 }
 
-/// Treatment of channels that hold no light. The rule for labels is a filter's.
+/// Treatment of channels that hold no light. The rule for labels is set by the filter.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct LayerSettings {
     /// Kind of the input's depth; by its projection, unless given.
@@ -174,7 +174,7 @@ pub enum DepthKind {
     Radial,
 }
 
-/// Frame of normals, in the input and in the output.
+/// Coordinate frame of normals, in the input and in the output.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum NormalSpace {
     /// The world's: no view turns them.

@@ -16,7 +16,7 @@ use crate::frames::in_shape;
 pub struct Form {
     /// Name in tables.
     pub name: &'static str,
-    /// Its views.
+    /// Views that show the world.
     pub views: Vec<View>,
     /// Blending of the views where they overlap.
     pub blend: Blend,

@@ -7,12 +7,12 @@ use cosmorama_io::{Carried, Format, Kept, Metadata};
 use super::Light;
 use crate::diagnostic::{Code, Diagnostic, STRIP};
 
-/// Returns what goes along from the first file to outputs of this format, and tells what does not.
+/// Returns the metadata that outputs of this format take over from the first file, and warns about those that are lost.
 pub(super) fn carried(first: &Metadata, format: Format, warnings: &mut Vec<Diagnostic>) -> Arc<Carried> {
     let Kept { carried, untrue, lost, loses_owner } = first.carried.kept(format.room());
     if !lost.is_empty() {
         let message = format!("{format} cannot hold what the input says in {}: not carried over", lost.join(", "));
-        // Nobody misses a camera's settings; whose picture it is must not get lost without a word.
+        // Camera settings may be lost in silence, but not the name of a picture's owner.
         warnings.push(if loses_owner {
             Diagnostic::warning(Code::MetadataLost, format!("{message}; {STRIP} says that none is wanted"))
         } else {
@@ -27,7 +27,7 @@ pub(super) fn carried(first: &Metadata, format: Format, warnings: &mut Vec<Diagn
 }
 
 impl Light {
-    /// Returns what goes along from a frame's file to its outputs; `None` where nothing does.
+    /// Returns the metadata that a frame's outputs take over from its file; `None` if there are none.
     pub(crate) fn carried(&self, metadata: &Metadata) -> Option<Arc<Carried>> {
         self.carries.map(|format| Arc::new(metadata.carried.kept(format.room()).carried))
     }

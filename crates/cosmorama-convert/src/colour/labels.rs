@@ -5,8 +5,8 @@ use super::{FileColours, Light};
 use crate::diagnostic::{Code, DEPTH, FILTER, Result, usage, usage_as};
 use crate::input::Input;
 
-/// Checks that every value of an input of labels can go to the output unchanged: all are integers of one depth and one
-/// encoding, and the output's, too.
+/// Checks that every value of an input of labels can go to the output unchanged: all inputs and the output are integers
+/// of one depth and one encoding.
 ///
 /// # Errors
 /// When an input holds floats, or something between it and the output would change values.

@@ -34,7 +34,7 @@ pub(crate) struct Light {
     pub(crate) working: Working,
     /// Whether negative light is lost in the outputs.
     pub(crate) clips: bool,
-    /// Format of outputs that get metadata of inputs; `None` where none go along.
+    /// Format of the outputs if they take over metadata of inputs, else `None`.
     pub(super) carries: Option<Format>,
     /// Whether ICC profiles of inputs are ignored.
     ignores_profiles: bool,
@@ -117,7 +117,7 @@ impl Light {
         Ok(light)
     }
 
-    /// Refuses a file whose ICC profile cannot be followed and does not go along unchanged.
+    /// Refuses a file whose ICC profile can neither be applied nor be passed on unchanged.
     pub(crate) fn check_profile(&self, path: &Path, metadata: &Metadata) -> Result<()> {
         let goes_along = metadata.icc.is_some() && metadata.icc == self.metadata.icc;
         if self.ignores_profiles || goes_along { Ok(()) } else { profile::check(path, metadata) }
@@ -150,7 +150,7 @@ fn channels(
         Missing::Error => None,
         Missing::Fill(colour) => Some(colour),
     };
-    // Light that comes from no file is coloured.
+    // Light by a formula is coloured.
     let colour = headers.is_empty()
         || headers.iter().any(|header| header.channels.is_colour())
         || [background, fill].into_iter().flatten().any(coloured);
@@ -214,7 +214,7 @@ fn output_transfer(
         Some(header) if !header.depth.is_float() => side.of(header.depth, &header.metadata),
         _ => return Transfer::Srgb,
     };
-    // What the file cannot say of itself would be taken for sRGB.
+    // A transfer function that the file cannot name would be taken for sRGB.
     if input == Transfer::Srgb || keeps(&input) {
         return input;
     }
@@ -246,7 +246,7 @@ fn metadata(
         let message = "the input's ICC profile is not carried over: the output is encoded differently";
         warnings.push(Diagnostic::warning(Code::ProfileLost, message));
     }
-    // What is usual is named where the input names it in its own way.
+    // Rec. 709 is usual, and is named only where the input names its primaries in the same format.
     let is_named = !working.primaries.is_same(&Primaries::REC709)
         || headers.first().is_some_and(|header| header.format == target.format && header.metadata.primaries.is_some());
     Metadata {

@@ -1,5 +1,5 @@
-//! Transfer functions and primaries of both sides, ICC profiles, further channels, what labels need, messages about alpha, and
-//! metadata that go along.
+//! Colour of a conversion: transfer functions and primaries of both sides, ICC profiles, further channels, labels,
+//! messages about alpha, and metadata that outputs take over.
 
 mod carried;
 mod labels;

@@ -1,4 +1,4 @@
-//! ICC profiles of inputs: those that are ignored, refused, or go along unchanged.
+//! ICC profiles of inputs: which are ignored, refused, or passed on unchanged.
 
 use std::borrow::Cow;
 use std::path::Path;
@@ -11,7 +11,7 @@ use crate::diagnostic::{Code, Diagnostic, IGNORE_PROFILE, Result, failed_as};
 use crate::input::Input;
 use crate::settings::Conversion;
 
-/// Returns the headers of all files, without the profiles that are ignored, and tells of these.
+/// Returns the headers of all files, without the profiles that are ignored, and warns about those.
 pub(super) fn headers(args: &Conversion, input: &Input, warnings: &mut Vec<Diagnostic>) -> Vec<Header> {
     let headers: Vec<Header> = input.present().map(|(_, header, _)| header.clone()).collect();
     let count = headers.iter().filter(|header| header.metadata.icc.is_some()).count();
@@ -35,8 +35,8 @@ pub(super) fn seen(metadata: &Metadata, ignores_profiles: bool) -> Cow<'_, Metad
     Cow::Owned(bare)
 }
 
-/// Returns whether the first file's profile describes the outputs, too. One of tables does where nothing is asked of
-/// colours and all files have it.
+/// Returns whether the first file's profile describes the outputs, too. A profile of tables does so if no setting
+/// changes colours and all files have it.
 pub(super) fn is_kept(
     args: &Conversion,
     headers: &[&Header],
@@ -59,7 +59,7 @@ pub(super) fn is_kept(
     }
 }
 
-/// Refuses a file whose profile cannot be followed.
+/// Refuses a file whose profile cannot be applied.
 pub(super) fn check(path: &Path, metadata: &Metadata) -> Result<()> {
     let path = path.display();
     match &metadata.profile_fault {

@@ -22,7 +22,7 @@ impl ThinAlpha {
         })
     }
 
-    /// Returns the range that spans both.
+    /// Returns the range that spans this one and another.
     pub(crate) fn with(self, other: Self) -> Self {
         Self { least: self.least.min(other.least), greatest: self.greatest.max(other.greatest) }
     }

@@ -58,7 +58,7 @@ impl Working {
         Self { primaries, white, untagged }
     }
 
-    /// Returns what brings a file's light here; `None` where nothing has to be done.
+    /// Returns the matrix from a file's light to working light; `None` where nothing has to be done.
     pub(crate) fn matrix(&self, channels: Channels, metadata: &Metadata, transfer: &Transfer) -> Option<ColourMatrix> {
         let own = metadata.primaries.unwrap_or(self.untagged);
         // Grey is the same in all primaries.

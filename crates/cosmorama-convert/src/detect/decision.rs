@@ -1,4 +1,4 @@
-//! Decision on what an image is a picture of, where nothing is declared.
+//! Decision on the kind of picture that an image is, where nothing is declared.
 
 use std::path::Path;
 
@@ -29,7 +29,7 @@ pub(crate) enum Guess {
     Seams(Spec),
     /// Cross of faces, circles or an oval, by blank areas around them.
     Blank(Evidence),
-    /// Unknown: by its shape one of these layouts or anything else, and the pixels did not decide.
+    /// Unknown. By its shape it may be one of these layouts or anything else, and the pixels did not decide.
     Unknown(Vec<LayoutKind>, Seen),
 }
 
@@ -46,9 +46,9 @@ pub(crate) const OVAL_ONES: &str = "hammer, mollweide or sinusoidal";
 pub(crate) struct Examined {
     /// Kind of picture.
     pub(crate) guess: Guess,
-    /// Damage, if the pixels were needed and cannot be read.
+    /// Damage, if the pixels were needed but cannot be read.
     pub(crate) damage: Option<String>,
-    /// Judgement of its faces, if it may be a cube by its shape.
+    /// Findings about its faces, if its shape allows a cube.
     pub(crate) borders: Option<Continuity>,
 }
 
@@ -101,7 +101,7 @@ impl Guess {
         !matches!(self, Self::Said(_) | Self::Panorama(_) | Self::Strip(_))
     }
 
-    /// Returns the cubes whose faces the image may hold, if not only its shape tells of them.
+    /// Returns the cubes whose faces the image may hold, if more than its shape suggests them.
     pub(crate) fn cubes(&self) -> Vec<Cube> {
         match self {
             Self::Said(EnvMap::Cube) => vec![openexr_strip()],

@@ -28,7 +28,7 @@ pub(crate) fn detect(
         bail!(Damaged: "{damage}");
     }
     let mono = |shape: Shape| Ok((shape, None));
-    // What is as plain as a shape is no warning.
+    // A guess that is plain from the shape needs no warning.
     let is_plain = matches!(guess, Guess::TwoToOne(None));
     let mut announced = |what: &str, spec: Spec, why: &str| {
         let remedy = Remedy::Set(Setting::From, spec.to_string());
@@ -240,18 +240,18 @@ fn declared_cube(cube: &Cube, pattern: &str, header: &Header, warnings: &mut Vec
 
 /// Guesses about an image that the verb `info` reports.
 pub struct Likely {
-    /// Its projection.
+    /// Projection of the image.
     pub projection: String,
     /// Circle of a lens on black.
     pub circle: Option<Found>,
-    /// Judgement of the faces that it holds, or may hold.
+    /// Findings about the faces that the image holds, or may hold.
     pub arrangement: Option<Continuity>,
     /// Damage, if its pixels cannot be read.
     pub damage: Option<String>,
 }
 
-/// Examines an image. With `reads_all`, its pixels are read even where its header tells what it is: whether they are
-/// whole, and how faces lie.
+/// Examines an image. With `reads_all`, its pixels are read even where its header tells what it is: to find damage, and
+/// how faces lie.
 pub fn likely(files: &dyn Files, path: &Path, header: &Header, reads_all: bool) -> Likely {
     let Examined { guess, damage, borders } = Examined::of(files, path, header, &DecodedPicture::default());
     let is_unread = reads_all && !guess.has_looked() && is_small(header);

@@ -1,4 +1,4 @@
-//! Circles on black as SPECs, and a warning where one is elsewhere than a SPEC has it.
+//! Circles on black as SPECs, and a warning if a circle is not where a SPEC assumes it.
 
 use cosmorama::camera::{
     CameraModel, FisheyeCamera, FisheyeFit, LensCircle, LensScale, Mirror, MirrorBallCamera, PixelPoint,
@@ -11,7 +11,8 @@ use crate::diagnostic::{Code, Diagnostic, FROM, Remedy, Setting};
 
 /// Columns of the coarse copy in which a circle is looked for, at least.
 const COARSE: usize = 2048;
-/// Distances from the assumed circle, as parts of its radius, that are told: of a measured circle, and of a rough one.
+/// Distances from the assumed circle, as parts of its radius, that cause a warning: for a measured circle, and for a
+/// rough one.
 const APART: [f64; 2] = [0.02, 0.05];
 
 /// Returns a found circle as a SPEC tells it: to a tenth of a pixel, or to a pixel where it is rough.
@@ -22,7 +23,7 @@ pub(crate) fn lens_circle(found: &Found) -> LensCircle {
     LensCircle { centre: Some(PixelPoint::new(x, y)), radius: Some(radius) }
 }
 
-/// Returns what may leave a circle: a fisheye, whose field of view is written as given, and a mirror ball.
+/// Returns the SPECs that may fit a circle: a fisheye, whose field of view is written as given, and a mirror ball.
 pub(crate) fn specs(found: &Found, fov: &str) -> [String; 2] {
     let circle = lens_circle(found);
     let fisheye = Spec::from(CameraModel::Fisheye(FisheyeCamera { circle, ..FisheyeCamera::default() }));
@@ -30,8 +31,8 @@ pub(crate) fn specs(found: &Found, fov: &str) -> [String; 2] {
     [fisheye.to_string().replacen(':', &format!(":fov={fov},"), 1), ball.to_string()]
 }
 
-/// Warns where the circle on black is elsewhere than a SPEC without `radius=` has it: touching the sides. A file of `size`
-/// pixels has this light by column and row.
+/// Warns if the circle on black is not where a SPEC without `radius=` assumes it: touching the sides. The light of a
+/// file of `size` pixels is given by column and row.
 pub(crate) fn elsewhere(
     spec: &Spec,
     (name, size): (&str, (usize, usize)),
@@ -39,7 +40,7 @@ pub(crate) fn elsewhere(
 ) -> Option<Diagnostic> {
     let (width, height) = size;
     let radius = width.min(height) as f64 / 2.0;
-    // A SPEC that places its circle changes without it.
+    // Only a SPEC that leaves its circle's place open is equal to the one with a fitted circle.
     with_circle(spec, LensCircle::FITTED).filter(|fitted| fitted == spec)?;
     let found = coarsely(size, light)?;
     let Circle { centre: (x, y), radius: true_radius } = found.circle();
@@ -74,7 +75,7 @@ fn with_circle(spec: &Spec, circle: LensCircle) -> Option<Spec> {
     (is_whole && single.placement.mirror == Mirror::default()).then_some(spec)
 }
 
-/// Finds a circle in every so many columns and rows.
+/// Finds a circle in a coarse copy, which has every so many columns and rows.
 fn coarsely((width, height): (usize, usize), light: impl Fn(usize, usize) -> Rgba) -> Option<Found> {
     let step = (width / COARSE).max(1);
     // Only the brightest channel matters.

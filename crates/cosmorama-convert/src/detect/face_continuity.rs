@@ -23,7 +23,7 @@ pub struct GivenFaces {
     samples: SamplePositions,
 }
 
-/// Arrangement of a tool whose files or places have this arrangement.
+/// Tool whose files, or places in one image, have this arrangement.
 struct Preset {
     cube: Cube,
     /// Layout, if it differs from the declared one.
@@ -46,9 +46,9 @@ pub struct Continuity {
     pub fits: Option<bool>,
     /// Confidence from 0 to 1.
     pub confidence: Option<f64>,
-    /// Changes that would make them fit.
+    /// Changes that would make the faces fit.
     pub changes: Vec<String>,
-    /// SPEC under which they fit, if there is one.
+    /// SPEC under which the faces fit, if there is one.
     pub spec: Option<Spec>,
 }
 
@@ -144,15 +144,15 @@ impl GivenFaces {
         is_found.then(|| told_elsewhere(kind, mirror, found))
     }
 
-    /// Returns a warning if faces clearly do not fit as declared. In `whole`, the image that holds all of them, they
-    /// may lie in other places.
+    /// Returns a warning if faces clearly do not fit as declared. They may also be found in other places of `whole`,
+    /// the image that holds all of them.
     pub(crate) fn warning(
         &self,
         pictures: &[(usize, FacePixels<'_>)],
         whole: impl FnOnce() -> Option<Image<Rgba>>,
     ) -> Option<Message> {
         let (mismatch, given) = self.compare(pictures)?;
-        // What meets everywhere needs no search.
+        // Faces whose borders all match need no search.
         if is_continuous(&mismatch, &given) {
             return None;
         }

@@ -14,7 +14,7 @@ const END: f64 = 0.1;
 /// the oval's ends. A panorama whose sky and ground have one colour does not qualify.
 pub(crate) fn is_oval(codes: &Image<Rgba>) -> bool {
     let (width, height) = (codes.width(), codes.height());
-    // Where a pixel lies in an oval so many pixels larger on each side.
+    // Place of a pixel in an oval that is so many pixels larger on each side.
     let at = |i: usize, j: usize, larger: usize| {
         let part = |k: usize, size: usize| (2 * k + 1) as f64 - size as f64;
         (part(i, width) / (width + 2 * larger) as f64, part(j, height) / (height + 2 * larger) as f64)

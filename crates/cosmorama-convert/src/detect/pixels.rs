@@ -60,7 +60,8 @@ pub fn damage_of(files: &dyn Files, path: &Path) -> Option<String> {
     }
 }
 
-/// Replaces an error about what files seem to lack by that about damage, if the pixels of one cannot be read.
+/// Replaces an error about what files seem to lack by the error about damage, if the pixels of one of them cannot be
+/// read.
 pub(crate) fn unless_damaged(files: &dyn Files, paths: Vec<PathBuf>, error: ConvertError) -> ConvertError {
     let is_of_content = matches!(error.code(), Code::Uncovered | Code::WrongSize | Code::Geometry | Code::Ambiguous);
     let damage = |path: PathBuf| if is_of_content { damage_of(files, &path) } else { None };
@@ -102,8 +103,8 @@ pub(crate) enum Seen {
 }
 
 impl Seen {
-    /// Examines the pixels, beginning with what the image's shape suggests. Where its blank areas do not tell, the
-    /// borders of faces are compared that it would have in one of these layouts.
+    /// Examines the pixels, beginning with what the image's shape suggests. If blank areas decide nothing, the borders
+    /// of faces are compared, as they would lie in each of these layouts.
     pub(crate) fn of(
         files: &dyn Files,
         path: &Path,
@@ -129,7 +130,8 @@ impl Seen {
 }
 
 impl Evidence {
-    /// Looks at a picture; at a coarse copy first where its shape is a panorama's, which most have nothing to tell.
+    /// Examines a picture. One with a panorama's shape is examined in a coarse copy first, since most have no such
+    /// features.
     fn of_image(image: &EncodedImage) -> Option<Self> {
         let step = image.width() / COARSE;
         if image.width() == 2 * image.height() && step > 1 {
@@ -257,7 +259,7 @@ fn is_inscribed(circle: &Circle, codes: &Image<Rgba>, reach: f64) -> bool {
 fn is_omnimax(codes: &Image<Rgba>) -> bool {
     let (width, height) = (codes.width(), codes.height());
     let (right, bottom) = (width.saturating_sub(1), height.saturating_sub(1));
-    // Most pictures have lit corners: nothing else is worth a look.
+    // Most pictures have lit corners, and need no further test.
     let corners = [(0, 0), (right, 0), (0, bottom), (right, bottom)];
     if width <= height || !corners.iter().all(|(i, j)| is_black(codes.get(*i, *j))) {
         return false;
@@ -265,7 +267,7 @@ fn is_omnimax(codes: &Image<Rgba>) -> bool {
     let Ok(view) = CameraModel::Omnimax(OmnimaxCamera::default()).view(width, height) else { return false };
     let shown = Image::from_fn(width, height, |i, j| view.screen_pixel(i, j).is_some());
     let hidden = shown.pixels().iter().filter(|shown| !**shown).count();
-    // Of a frame that shows nearly everything nothing can be told.
+    // In a frame that shows nearly everything, too little is hidden to tell.
     if 10 * hidden < width * height {
         return false;
     }

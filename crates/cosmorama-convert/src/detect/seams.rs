@@ -7,7 +7,7 @@ use cosmorama_spec::{Cube, Spec};
 
 use crate::detect::{Continuity, GivenFaces};
 
-/// Least confidence for taking an image for a cube that nothing but its shape and its borders tells of.
+/// Least confidence for taking an image for a cube on the evidence of its shape and its borders alone.
 const SURE: f64 = 0.99;
 
 /// Judges the faces of an image that holds one of these cubes. Of several, the one that fits is returned.
@@ -25,7 +25,7 @@ pub(crate) fn among(layouts: &[LayoutKind], picture: &Image<Rgba>) -> Option<Con
     best(layouts.iter().filter_map(judge).collect())
 }
 
-/// Returns the cube that an image surely holds, by a judgement from [`among`].
+/// Returns the cube that an image surely holds, by findings of [`among`].
 pub(crate) fn sure(found: &Continuity) -> Option<Spec> {
     let is_sure = found.fits == Some(true) && found.confidence.is_some_and(|confidence| confidence >= SURE);
     found.spec.clone().filter(|_| is_sure)

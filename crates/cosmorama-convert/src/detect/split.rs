@@ -75,7 +75,8 @@ impl Twins {
         let both = [Arrangement::SideBySide, Arrangement::TopBottom];
         both.into_iter().find(|arrangement| {
             let same = |(_, [a, b]): ([PixelRect; 2], [Image<Rgba>; 2])| likeness(&a, &b, |_, _| true);
-            // Bands of a flag are alike, too, but nothing that has any shape.
+            // Halves of horizontal bands, as in a flag, are alike, too, but have no content along rows that could be
+            // compared.
             halves(codes, *arrangement).and_then(same).is_some_and(|likeness| likeness > ALIKE)
         })
     }

@@ -83,7 +83,7 @@ pub(crate) trait InPlace<T> {
 impl<T, E: Into<ConvertError>> InPlace<T> for Result<T, E> {
     fn at(self, place: impl FnOnce() -> String) -> Result<T> {
         self.map_err(|error| match error.into() {
-            // Which frame it was is of no interest.
+            // For a stopped conversion, the frame does not matter.
             stopped @ ConvertError::Stopped { .. } => stopped,
             error => ConvertError::At { place: place(), error: Box::new(error) },
         })
@@ -159,7 +159,7 @@ impl ConvertError {
     pub fn message(&self) -> Message {
         let mut message = String::new();
         for cause in self.causes() {
-            // Many errors tell their cause themselves.
+            // Many errors have their cause in their own message.
             if !message.contains(&cause) {
                 message += if message.is_empty() { "" } else { ": " };
                 message += &cause;

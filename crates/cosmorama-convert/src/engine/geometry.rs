@@ -44,7 +44,7 @@ impl Geometry {
         let codec = codec(job);
         let arithmetic = if codec.is_some() { Arithmetic::Fixed } else { Arithmetic::Float };
         let groups = balance::groups(job);
-        // What is balanced needs its plan, even for one picture.
+        // Balanced pictures need their plan, even if there is only one.
         let is_kept = pays(job) || !groups.is_empty();
         let plans = if is_kept {
             plans((job, progress), arithmetic, balance::bytes_of(job, &groups), &mut warnings)?
@@ -112,7 +112,7 @@ impl Geometry {
     }
 }
 
-/// Reports that a picture is made at one go, by a plan.
+/// Reports the progress of a picture that a plan makes in one step.
 fn whole<P>(image: Image<P>, Watched { progress, .. }: Watched) -> Result<Image<P>, Stopped> {
     if progress.advance(1.0).is_break() { Err(Stopped) } else { Ok(image) }
 }
@@ -155,7 +155,7 @@ fn plans(
 fn codec(job: &ConvertJob) -> Option<FixedCodec> {
     let light = &job.light;
     let is_possible = Arithmetic::Fixed.has_plan_of(job.filter.kind)
-        // A factor may take a texel beyond white.
+        // A factor of the balance may raise a texel above white.
         && !balance::is_asked_for(job)
         && light.channels == Channels::Rgb
         && light.depth == Depth::Eight

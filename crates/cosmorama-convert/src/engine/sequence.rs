@@ -42,8 +42,8 @@ pub(crate) trait Watcher {
 /// Results of tasks in the pool.
 type Results<T> = Vec<Receiver<Result<T>>>;
 
-/// Frames that are being read, with their index in the sequence, and frames that are being written; each by its outputs
-/// and its files.
+/// Frames in flight. Those that are read have their index in the sequence, their outputs and their files' images; those
+/// that are written have their outputs and a result for each file.
 #[derive(Default)]
 struct Queues<'a> {
     read: VecDeque<(usize, &'a FrameOutputs, Results<Vec<ViewImage>>)>,
@@ -58,8 +58,8 @@ impl<'a> Sequence<'a> {
         let mut queues = Queues::default();
         self.pool.in_place_scope(|scope| {
             let made = self.make(scope, failure, &mut queues, watcher);
-            // What is being written belongs to frames before the one that failed: their errors come first. Where one of them has failed,
-            // what `made` says of a later one, whose files were not read for that, is of no interest.
+            // Frames that are still being written come before the one that failed, so that their errors come first. If
+            // one of them has failed, the error in `made` says only that files of a later frame were not read.
             let earlier = queues.finish_written(0, watcher);
             failure.end();
             earlier.and(made)
@@ -88,10 +88,11 @@ impl<'a> Sequence<'a> {
             }
             let Some((place, frame, results)) = queues.read.pop_front() else { return Ok(()) };
             if failure.is_before(place) {
-                // Whoever waits for that frame learns why.
+                // The error is reported where that frame is awaited.
                 return Ok(());
             }
-            // So that no files of later frames are read while earlier frames are written; of its own files' errors the tasks tell.
+            // Notes the failure, so that no files of later frames are read while earlier frames are written. Errors in
+            // the frame's own files are noted by their tasks.
             let failed = |error| {
                 failure.note(place);
                 error
@@ -199,7 +200,7 @@ fn task<'s, T: Send + 's>(
         if done.is_err() {
             failure.note(place);
         }
-        // Nobody waits for it any more where another has failed.
+        // Nobody may be waiting any more, if another task has failed.
         let _ = result.send(done);
     });
     receiver
@@ -209,7 +210,8 @@ fn task<'s, T: Send + 's>(
 fn all_of<T>(results: Results<T>) -> Result<Vec<T>> {
     let wait = |result: Receiver<Result<T>>| match result.recv() {
         Ok(result) => result,
-        // It was not begun, since a frame before has failed, which is told first; or it has panicked, which the scope tells.
+        // The task was not begun, since an earlier frame has failed, whose error is reported. Or it has panicked, which
+        // the scope reports.
         Err(_) => bail!("a thread has given up"),
     };
     results.into_iter().map(wait).collect()

@@ -52,7 +52,7 @@ impl Stages {
         result
     }
 
-    /// Runs a part of a stage on one thread, whatever other threads do.
+    /// Runs a part of a stage on one thread, and charges only that thread's processor time to the stage.
     pub(crate) fn beside<T>(&self, stage: Stage, work: impl FnOnce() -> T) -> T {
         let cpu = ThreadTime::now();
         let result = work();
@@ -118,7 +118,7 @@ mod tests {
             })
         });
         let CpuSeconds { filter, encode, decode, plan } = stages.cpu_seconds();
-        // Other tests work meanwhile, too: the process's time is all that holds.
+        // Other tests run meanwhile, so that only the process's total time can be compared.
         let all = all.elapsed().as_secs_f64();
         assert!(encode > 0.0 && filter > 0.0 && encode + filter <= all, "{encode} {filter} {all}");
         assert_eq!((decode, plan), (0.0, 0.0));

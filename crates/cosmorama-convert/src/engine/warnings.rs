@@ -1,5 +1,5 @@
-//! Warnings about light: bright sources that filters do not keep, alpha that is nowhere full, samples that are no light, and a
-//! lens's circle that is elsewhere than assumed.
+//! Warnings about light: bright sources that filters do not keep, alpha that is nowhere full, samples that are no
+//! light, and a lens's circle that is not where it is assumed.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
@@ -20,7 +20,7 @@ const MUCH: f64 = 0.1;
 /// Number of directions that are tested to see whether outputs show the whole world.
 const DIRECTIONS: usize = 500;
 
-/// Pixels of all frames that are told of once, when the last frame is made: a sequence may have them in every frame.
+/// Counts of pixels that are reported once, after the last frame, since a sequence may have them in every frame.
 #[derive(Debug, Default)]
 pub(crate) struct Tally {
     /// Files that have been counted. Some serve all frames.
@@ -165,7 +165,7 @@ pub(crate) fn thin_alpha(job: &ConvertJob, frame: Option<u64>, light: &FrameLigh
     files.into_iter().filter_map(told).collect()
 }
 
-/// Warns where a lens has left its circle elsewhere than `--from` assumes, which does not place it.
+/// Warns if a lens has left its circle elsewhere than a `--from` that does not place it assumes.
 pub(crate) fn circle(job: &ConvertJob, from: &Spec, light: &FrameLight) -> Option<Diagnostic> {
     let (view, _, held) = job.input.present().next().filter(|(_, header, _)| header.window.is_none())?;
     let (width, height) = (held.width(), held.height());

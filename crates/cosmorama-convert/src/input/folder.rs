@@ -44,7 +44,7 @@ pub fn is_one_file(files: &dyn Files, pattern: &str, path: &Path) -> Result<()> 
     if Builtin::all().any(|(name, _)| name == pattern) {
         bail!(NotFound: "{pattern}: there is no such file; the world by formula of this name is builtin:{pattern}");
     }
-    // Where there is nothing to add, to open it says what is wrong.
+    // If there is nothing to add, opening the file reports what is wrong.
     if found.is_empty() { Ok(()) } else { bail!(NotFound: "{pattern}: there is no such file{there}") }
 }
 
@@ -65,7 +65,7 @@ pub fn face_set(pattern: &str, naming: Option<&'static Naming>) -> Result<FaceSe
     })
 }
 
-/// Adds to an error of missing frames how to name the faces of a cube, where the folder holds those.
+/// Adds to an error about missing frames how to name the faces of a cube, if the folder holds some.
 pub(crate) fn with_faces(error: ConvertError) -> ConvertError {
     let faces = match &error {
         ConvertError::Io(IoError::NoFrames { folder, .. }) => faces_of(folder),
@@ -77,7 +77,7 @@ pub(crate) fn with_faces(error: ConvertError) -> ConvertError {
     }
 }
 
-/// Returns whether a name begins as those of frames do, so that they may be meant.
+/// Returns whether a name begins like the names of frames, which may then be meant.
 fn is_alike(path: &Path, frames: &FoundFrames) -> bool {
     let beginning = |path: &Path| -> Vec<char> {
         let name = path.file_name().unwrap_or_default().to_string_lossy().to_lowercase();
@@ -126,7 +126,8 @@ fn files(folder: &Path) -> Vec<String> {
     names
 }
 
-/// Returns the pattern of a set of faces in a folder, if there is one. Faces of frames come before those of one of them.
+/// Returns the pattern of a cube's faces in a folder, if there is one. Faces with frame numbers come before faces of
+/// one frame.
 fn faces_of(folder: &Path) -> Option<PathBuf> {
     let sequences = FoundFrames::in_folder(folder);
     let patterns = sequences.iter().filter_map(|found| found.pattern.as_str().rsplit('/').next());
@@ -134,8 +135,8 @@ fn faces_of(folder: &Path) -> Option<PathBuf> {
     faces_in(folder, &tried)
 }
 
-/// Returns the pattern of a set of faces in a folder, if there is one: the first by name, among files named by faces
-/// alone or with `front` in their names.
+/// Returns the first pattern of a cube's faces among names in a folder, if there is one. Names may be those of faces
+/// alone, or have `front` in them.
 fn faces_in(folder: &Path, names: &[String]) -> Option<PathBuf> {
     let by_extension = |name: &String| Some(format!("{{face}}.{}", name.rsplit_once('.')?.1));
     let by_front = |name: &String| name.contains("front").then(|| name.replacen("front", "{face}", 1));

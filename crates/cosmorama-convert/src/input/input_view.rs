@@ -12,31 +12,31 @@ use crate::source::ViewFiles;
 pub struct InputView {
     /// Name in messages.
     pub name: String,
-    /// Its files.
+    /// Files of the view.
     pub files: ViewFiles,
     /// Place in a file that several views share.
     pub part: Option<Place>,
-    /// Header of its first file; `None` without a file.
+    /// Header of the first file; `None` without a file.
     pub header: Option<Header>,
-    /// Geometry of its whole picture.
+    /// Geometry of the whole picture.
     pub nominal: View,
-    /// Part of it that the file holds; `None` without a file.
+    /// Part of the whole picture that the file holds; `None` without a file.
     pub window: Option<(View, Canvas)>,
     /// Blending with other views that show the same directions.
     pub blend: Blend,
     /// Mask, if not all pixels count.
     pub mask: Option<Arc<ViewMask>>,
-    /// Whether anything of it is needed; other views are not read.
+    /// Whether anything of the view is needed; other views are not read.
     pub wanted: bool,
 }
 
 impl InputView {
-    /// Converts it to a view of a world, with the geometry of its whole picture or of its file.
+    /// Converts the input's view to a view of a world, with the geometry of its whole picture or of its file.
     pub(crate) fn world_view(&self, view: View) -> WorldView {
         WorldView { name: self.name.clone(), view, blend: self.blend, mask: self.mask.clone() }
     }
 
-    /// Returns its header and the geometry of its file, if there is a file and the view is wanted.
+    /// Returns the view with its header and the geometry of its file, if there is a file and the view is wanted.
     pub(crate) fn present(&self) -> Option<(&Self, &Header, &View)> {
         Some((self, self.header.as_ref()?, &self.window.as_ref()?.0)).filter(|_| self.wanted)
     }

@@ -41,7 +41,7 @@ pub struct Input {
     pub beside: Vec<PathBuf>,
 }
 
-/// Complains of a camera's pose.
+/// Returns the message about a camera's pose that is ignored.
 fn not_followed(pose: Pose) -> String {
     format!(
         "its GPano metadata say {pose}, which is not followed: the middle of the panorama is taken for the front; follow it \
@@ -82,7 +82,7 @@ impl Input {
         told
     }
 
-    /// Tells of files that are turned upright, as they ask.
+    /// Returns notes about files that are turned upright, as their metadata ask.
     fn turned(&self) -> Vec<Diagnostic> {
         let turned = self.present().filter_map(|(view, header, _)| Some((view, header.metadata.orientation?)));
         let mut told: Vec<Diagnostic> = turned

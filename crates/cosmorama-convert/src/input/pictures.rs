@@ -46,7 +46,7 @@ impl Input {
         };
         let mut found: Option<Self> = None;
         for eye in stereo.eyes() {
-            // Whatever there is to say of the other eye has been said of the first.
+            // The second eye would only repeat the messages of the first.
             let mut said = Vec::new();
             let warnings = if found.is_some() { &mut said } else { &mut *warnings };
             let mut one = Self::find_one(
@@ -107,7 +107,7 @@ impl Input {
             Some(shape) => {
                 let declared = declared(shape, pattern, &header, warnings)?;
                 if matches!(shape, Shape::Single(single) if single.pose) {
-                    // It has been followed.
+                    // The pose has been applied.
                     header.metadata.pose = None;
                 }
                 declared
@@ -172,14 +172,14 @@ impl Input {
     }
 }
 
-/// Returns the note about a picture of one pixel, which is no shape to tell a projection by.
+/// Returns the note about a picture of one pixel, whose shape says nothing about its projection.
 fn of_one_pixel(path: &Path, header: &Header) -> Option<Diagnostic> {
     let message = format!("{} is a single pixel: the same light is assumed in all directions", path.display());
     let is_one = (header.width, header.height) == (1, 1) && header.window.is_none();
     is_one.then(|| Diagnostic::note(Code::OnePixel, message).about(path.display()))
 }
 
-/// Refuses `--from` for a file that says itself what the projections of its views or pictures are.
+/// Refuses `--from` for a file that itself names the projections of its views or pictures.
 pub(crate) fn refuse_spec(pattern: &str, from: Option<&Spec>, what: &str) -> Result<()> {
     match from {
         Some(spec) => Err(usage(format!("{pattern} says itself what its {what} are; leave out {FROM} {}", spec.name))),

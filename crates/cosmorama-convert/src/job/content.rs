@@ -102,7 +102,7 @@ impl Content {
             Self::Formula(_) => {}
             Self::Directions(_) => {
                 check_map(settings, target.format)?;
-                // Halves turn a direction by as much as a pixel of a large picture.
+                // Half floats would turn a direction by as much as a pixel of a large picture.
                 light.depth = settings.depth.unwrap_or(Depth::Float);
                 light.metadata.primaries = None;
             }

@@ -65,7 +65,7 @@ pub(crate) enum Purpose {
 /// Part of the memory, at most, that a picture decoded beforehand takes.
 const DECODED_PART: u64 = 8;
 
-/// Returns the source of a conversion's files, with the choice of what is read of them.
+/// Returns the source of a conversion's files, which knows the parts and channels to read.
 fn chosen(settings: &Conversion, content: Content) -> Arc<dyn Files> {
     let (part, channels) = (settings.part.clone(), settings.channels.clone());
     let is_exr = Format::from_extension(Path::new(&settings.output)).is_ok_and(|format| format == Format::Exr);
@@ -111,7 +111,7 @@ impl ConvertJob {
         content.fit_eyes(&mut input, &target, warnings);
         let mut filter = if content.has_files() { filter(geometry, warnings) } else { FilterSettings::DEFAULT };
         if settings.light.is_some() {
-            // The mirror of a chain keeps the light of suns.
+            // The mirror level of a chain must keep the light of suns.
             filter = FilterSettings { kernel: Kernel::LIGHT, anti_ringing: false, ..filter };
         }
         let mut light = Light::resolve(settings, &input, &target, warnings)?;

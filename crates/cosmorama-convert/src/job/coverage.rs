@@ -136,7 +136,7 @@ fn find_gaps(
         && view.mask.is_none()
         && view.window.as_ref().is_some_and(|(held, _)| *held == view.nominal)
     {
-        // A whole panorama lacks nothing, whatever is asked of it.
+        // A whole panorama lacks nothing, whatever the target needs.
         view.wanted = true;
         return Ok(Vec::new());
     }
@@ -162,7 +162,7 @@ fn find_gaps(
     Ok(gaps)
 }
 
-/// Returns whether everything that may be needed of a view is there.
+/// Returns whether all that may be needed of a view is there.
 fn holds((view, need): (&InputView, &Need)) -> bool {
     let held = view.window.as_ref().map(|(held, canvas)| rect(canvas, held));
     need.read.is_none_or(|read| held.is_some_and(|held| held.contains(&read)))

@@ -65,8 +65,8 @@ impl MemoryBudget {
         Ok(self.beside(levels))
     }
 
-    /// Chooses how many further channels are read at once, and returns the budget that is left beside all of them. It is an error
-    /// if not even the largest group of them fits beside a frame.
+    /// Chooses how many further channels are read at once, and returns the budget that is left beside all of them. It
+    /// is an error if not even the largest group of them fits beside a frame.
     pub(crate) fn beside_channels(self, layers: &mut LayerPlan, input: &Input, target: &Target) -> Result<Self> {
         if layers.groups.is_empty() {
             return Ok(self);

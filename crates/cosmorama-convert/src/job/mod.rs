@@ -1,4 +1,4 @@
-//! A conversion resolved against its files: content, coverage, outputs, and what of them is to be made.
+//! A conversion resolved against its files: content, coverage, outputs, and those of them that are still to be made.
 
 mod content;
 mod convert_job;

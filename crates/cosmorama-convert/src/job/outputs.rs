@@ -70,14 +70,14 @@ impl Outputs {
             let files: Vec<(usize, PathBuf)> = target.files.iter().map(path).enumerate().collect();
             for (_, path) in &files {
                 check_apart(path, &inputs)?;
-                // Not the folder that a link leads to: if that is missing, a disk may be.
+                // Not the folder behind a link: if that is missing, its disk may not be mounted.
                 if let (true, Some(folder)) = (args.make_folders, path.parent()) {
                     make_folder(&mut made, folder)?;
                 }
-                // What cannot be written is told of its frame.
+                // If the path cannot be resolved, the error comes with its frame, below.
                 let place = real_path(&place(path).unwrap_or_else(|_| path.clone()));
                 if folders.insert(place.parent().map(Path::to_owned)) {
-                    // A folder that is missing or read-only is found out before hours of work, not after.
+                    // Finds a folder that is missing or read-only before hours of work, not after.
                     Pending::create(path, &args.unfinished)?;
                 }
                 if let Some(other) = places.insert(place, path.clone()) {

@@ -36,7 +36,7 @@ impl Remade {
         (light, layers): (&Light, &LayerPlan),
         memory: MemoryBudget,
     ) -> Vec<Self> {
-        // As many at once as fit into memory, decoded.
+        // As many outputs at once as fit into memory when decoded.
         let bytes = |size| light.file_bytes(size).saturating_add(layers.file_bytes(size));
         let largest = targets.iter().map(|file| bytes(file.sheet.size)).max().unwrap_or(0);
         let at_once = (memory.bytes / largest.max(1)).clamp(1, frames.len().max(1) as u64) as usize;
@@ -62,7 +62,7 @@ impl Remade {
         remade
     }
 
-    /// Returns the warning about them; `None` if there are none.
+    /// Returns the warning about outputs that are made again; `None` if there are none.
     pub(crate) fn warning(all: &[Self]) -> Option<Diagnostic> {
         const SHOWN: usize = 5;
         let mut shown: Vec<String> =
@@ -84,7 +84,7 @@ impl Found {
     /// complete.
     fn at(path: &Path, target: &TargetFile, (light, layers): (&Light, &LayerPlan)) -> Self {
         let Ok(found) = path.metadata() else { return Self::Nothing };
-        // What is no file might wait for ever to be read.
+        // Reading something other than a file, such as a pipe, might wait for ever.
         if !found.is_file() {
             return Self::Other("not a regular file".to_owned());
         }
@@ -105,7 +105,7 @@ impl Found {
         .into_iter()
         .flatten()
         .collect();
-        // What is of another size need not be decoded, and takes no memory.
+        // A picture of another size need not be decoded, and takes no memory.
         if !told.is_empty() {
             return Self::Other(told.join(", "));
         }
@@ -119,7 +119,7 @@ impl Found {
     }
 
     fn unreadable(error: IoError) -> Self {
-        // The file is named already, and to make it again is what is done.
+        // The message names the file already, and the file is made again without advice.
         Self::Other(match error {
             IoError::Damaged { format, reason, .. } => format!("damaged or truncated {format}: {reason}"),
             IoError::UnknownContent { .. } => "not an image of a known format".to_owned(),

@@ -23,7 +23,7 @@ impl EyePart {
         let part = self.stereo.part(self.eye, header.width, header.height).map_err(
             |error| failure!(WrongSize: "{}: {error} for two eyes; give {FROM} stereo= as it is", path.display()),
         )?;
-        // What the file says of itself, it says of the two pictures together.
+        // Metadata of the file are about the two pictures together.
         let metadata = Metadata { envmap: None, panorama: None, ..header.metadata.clone() };
         Ok(Header { width: part.width() * across, height: part.height() * down, metadata, ..header.clone() })
     }

@@ -50,13 +50,13 @@ impl Piece {
         Ok(dual.picture.lenses(width, height, dual.mirror)?.map(piece).into())
     }
 
-    /// Returns the geometry of its pixels, with all of it turned by `outer`.
+    /// Returns the geometry of the picture's pixels, with all of it turned by `outer`.
     pub(crate) fn view(&self, outer: Orientation) -> Result<View, CameraError> {
         let placement = Placement { orientation: self.placement.orientation.within(outer), ..self.placement.clone() };
         placement.view(self.rect.width(), self.rect.height())
     }
 
-    /// Returns the geometry of its whole picture.
+    /// Returns the geometry of the whole picture.
     pub(crate) fn nominal(&self) -> Result<View, CameraError> {
         Placement { canvas: None, ..self.placement.clone() }.view(self.canvas.width, self.canvas.height)
     }

@@ -13,8 +13,8 @@ use cosmorama_io::{
 use super::decoded_picture::DecodedPicture;
 use crate::source::MemoryBudget;
 
-/// Source of the bytes of inputs: disk, memory, an archive. Inputs are pictures, masks, st maps, calibrations, world files and
-/// Hugin projects. Patterns of frames and faces are always searched on disk.
+/// Source of the bytes of inputs: disk, memory, an archive. Inputs are pictures, masks, st maps, calibrations, world
+/// files and Hugin projects. Patterns of frames and faces are always searched on disk.
 pub trait Files: Debug + Send + Sync {
     /// Opens a file.
     ///
@@ -25,7 +25,7 @@ pub trait Files: Debug + Send + Sync {
     /// Returns whether a file is held here, whatever is on disk.
     fn holds(&self, path: &Path) -> bool;
 
-    /// Returns what is read of pictures with several parts or with channels beside their own.
+    /// Returns the part and the channels to read of pictures that have several.
     fn choice(&self) -> Choice {
         Choice::default()
     }

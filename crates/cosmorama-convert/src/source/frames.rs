@@ -10,8 +10,8 @@ pub(crate) fn find(files: &ViewFiles, wanted: Option<&FrameList>) -> Result<Vec<
     find_in(files.sequence().as_slice(), wanted, |_| String::new())
 }
 
-/// Finds the frames of a cube's faces: the requested ones, or all that any face has. One error names all that are missing: faces by their
-/// names and the pattern of all.
+/// Finds the frames of a cube's faces: the requested ones, or all that any face has. One error names all that are
+/// missing: faces by their names and the pattern of all.
 pub(crate) fn find_of_faces(
     pattern: &str,
     faces: &[(&str, &ViewFiles)],
@@ -25,7 +25,7 @@ pub(crate) fn find_of_faces(
     })
 }
 
-/// Finds the frames of several sequences; `called` tells what those of some indices are together.
+/// Finds the frames of several sequences; `called` returns a common name for the sequences with some indices.
 fn find_in(
     sequences: &[&FramePattern],
     wanted: Option<&FrameList>,
@@ -89,7 +89,7 @@ pub fn existing(files: &ViewFiles) -> Result<Vec<u64>> {
     let Some(pattern) = files.sequence() else { return Ok(Vec::new()) };
     let frames = pattern.existing()?;
     if frames.is_empty() {
-        // The search for them says best that there is none.
+        // Searching for frames returns the best error when there is none.
         Frames::find(pattern.clone(), None)?;
     }
     Ok(frames.into_iter().collect())
@@ -103,7 +103,7 @@ fn all_frames(sequences: &[&FramePattern]) -> Result<FrameList> {
     }
     match (existing.first(), existing.last()) {
         (Some(&first), Some(&last)) if last - first < 10_000_000 => Ok(FrameList::new(first..=last)),
-        // The search for one of them says best that there is none.
+        // Searching for frames of one sequence returns the best error when there is none.
         _ => Ok(Frames::find(sequences[0].clone(), None)?.list().clone()),
     }
 }

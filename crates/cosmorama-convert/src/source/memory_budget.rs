@@ -38,7 +38,7 @@ impl MemoryBudget {
 
     /// Checks that a mask of this size fits while it is made from a picture of so many bytes per pixel.
     pub(crate) fn check_mask(self, (width, height): (usize, usize), picture: u64) -> Result<()> {
-        // Its squared distances in double precision, and those that are kept.
+        // Squared distances in double precision, and the ones that are kept.
         let bytes = (size_of::<f64>() + size_of::<f32>()) as u64 + picture;
         let needed = (width as u64).saturating_mul(height as u64).saturating_mul(bytes);
         self.allow(needed, "a mask", &format!("; it has {width}x{height} pixels"))
@@ -54,7 +54,7 @@ impl MemoryBudget {
 
     /// Checks that two pictures fit, with the copies that a comparison needs, before memory is allocated.
     pub fn check_comparison(self, pictures: [(&Path, &Header); 2]) -> Result<()> {
-        // Beside its light each picture is blurred, in double precision.
+        // Beside its light, each picture has a blurred copy in double precision.
         let bytes = |header: &Header| light_bytes(header).saturating_add(header_pixels(header).saturating_mul(16));
         let needed = pictures.iter().map(|(_, header)| bytes(header)).fold(0, u64::saturating_add);
         let size = |(path, header): (&Path, &Header)| {
@@ -63,7 +63,7 @@ impl MemoryBudget {
         self.allow(needed, "comparing", &format!("; {}, {}", size(pictures[0]), size(pictures[1])))
     }
 
-    /// Returns the limit beside so many bytes that are taken.
+    /// Returns the budget that is left when so many bytes are taken.
     pub(crate) fn beside(self, taken: u64) -> Self {
         Self { bytes: self.bytes.saturating_sub(taken), ..self }
     }

@@ -15,7 +15,7 @@ impl ViewFiles {
     /// Parses a file name, which may contain a frame marker.
     pub fn new(path: &Path) -> Self {
         match path.to_str().and_then(FramePattern::parse) {
-            // A file that really has such a name is no sequence.
+            // An existing file whose name looks like a pattern is not a sequence.
             Some(pattern) if !path.is_file() => Self::Sequence(pattern),
             _ => Self::One(path.to_owned()),
         }
@@ -30,7 +30,7 @@ impl ViewFiles {
         }
     }
 
-    /// Returns the pattern, if it is one.
+    /// Returns the pattern of a sequence.
     pub(crate) fn sequence(&self) -> Option<&FramePattern> {
         match self {
             Self::One(_) => None,

@@ -13,7 +13,7 @@ use crate::target::Target;
 pub(crate) fn window(single: &Single, (width, height): (usize, usize)) -> Option<Window> {
     let frame = described(single)?;
     let part = single.placement.canvas.unwrap_or(Canvas { width, height, left: 0, top: 0 });
-    // The sphere around a field of view that is less: in pixels of the part, which lies in its middle.
+    // The whole sphere in pixels of the part, which lies in its middle.
     let (whole_width, left) = around(part.width, frame.horizontal, 360.0)?;
     let (whole_height, top) = around(part.height, frame.vertical, 180.0)?;
     let (x, y) = (usize::try_from(left + part.left).ok()?, usize::try_from(top + part.top).ok()?);

@@ -59,7 +59,7 @@ impl Picture {
             return Err(usage(format!("{TO}: eye={} is for inputs; an output with stereo= has both eyes", eye.name())));
         }
         let size = geometry.size.map(|size| eye_size(stereo.packing, size)).transpose()?;
-        // What a format has of its own, it has for one picture.
+        // A format's own layout is for a single picture.
         let one = Self::mono(&GeometrySettings { size, ..geometry.clone() }, None, pixels_per_radian)?;
         let both = Eye::ALL.into_iter().flat_map(|eye| one.iter().map(move |picture| (eye, picture)));
         both.map(|(eye, picture)| eye_picture(EyePart { stereo: stereo.packing, eye }, picture)).collect()

@@ -8,7 +8,7 @@ use crate::codec::is_beside_others;
 use crate::header::{Header, ImageFile};
 use crate::metadata::orientation;
 
-/// Rows that are turned together: the columns of the stored picture that they come from share cache lines.
+/// Number of rows that are turned together: the columns of the stored picture from which they come share cache lines.
 const BAND: usize = 16;
 
 impl Header {

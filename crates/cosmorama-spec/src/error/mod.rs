@@ -155,7 +155,7 @@ pub enum WordError {
     Parameter(String),
 }
 
-/// Kind of a name.
+/// Kind of thing that a name stands for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum WordKind {
     /// A filter: the averaging of a pixel.

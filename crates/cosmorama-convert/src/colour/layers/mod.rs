@@ -1,4 +1,4 @@
-//! Channels beside the picture's: what they hold, and which go along.
+//! Channels beside the picture's own: their content, and which of them the output gets.
 
 mod plan;
 mod resolve;

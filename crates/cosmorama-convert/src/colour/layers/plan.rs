@@ -1,4 +1,4 @@
-//! The further channels of a conversion: which go along, and how.
+//! Plan of further channels, which are those beside the picture's own: which the output gets, and by which rules.
 
 use cosmorama::filter::LabelRule;
 use cosmorama::raster::{Channels, Rgba};
@@ -7,14 +7,14 @@ use cosmorama_io::{Header, Layers, NamedChannel, SampleKind};
 use super::rules::{LayerContent, LayerGroup, grouped};
 use crate::settings::{DepthKind, NormalSpace};
 
-/// Channels that go along with a picture.
+/// Channels that the output gets beside the picture's own.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct LayerPlan {
     /// Groups of further channels.
     pub(crate) groups: Vec<LayerGroup>,
     /// Names of the picture's own channels.
     pub(crate) picture: PictureNames,
-    /// Rules by which they are made.
+    /// Rules by which further channels are filtered.
     pub(crate) rules: LayerRules,
     /// Bytes that may be read at once.
     pub(crate) room: u64,
@@ -26,20 +26,20 @@ pub(crate) enum PictureNames {
     /// R, G, B, Y and A.
     #[default]
     Usual,
-    /// These.
+    /// These names.
     Given(Vec<String>),
-    /// None: it is no light, but one of the further channels, or stands for them.
+    /// None. The picture is no light: it is one of the further channels, or stands in for them.
     LeftOut,
 }
 
-/// Rules for channels that are no light.
+/// Rules for channels that hold no light.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct LayerRules {
     /// Rule by which a pixel of labels takes one texel's value.
     pub labels: LabelRule,
-    /// Depth of the input; by its projection, unless given.
+    /// Kind of the input's depth; by its projection, unless given.
     pub depth: Option<DepthKind>,
-    /// Frame of normals.
+    /// Coordinate frame of normals.
     pub normals: NormalSpace,
 }
 
@@ -70,7 +70,7 @@ impl LayerPlan {
         groups.flat_map(|group| &group.channels).map(|channel| channel.name.as_str()).collect()
     }
 
-    /// Splits the groups into those that are read at once, from files of so many pixels together.
+    /// Splits the groups into batches that are read at once, from files of so many pixels together.
     pub(crate) fn batches(&self, pixels: u64) -> Vec<&[LayerGroup]> {
         let (mut batches, mut first, mut bytes) = (Vec::new(), 0, 0);
         for (index, group) in self.groups.iter().enumerate() {
@@ -96,8 +96,8 @@ impl LayerPlan {
         self.groups.iter().map(bytes_of).max().unwrap_or(0).saturating_mul(pixels)
     }
 
-    /// Returns the bytes that further channels take at once in a frame whose input and outputs have so many pixels: the channels read
-    /// together, their numbers while they are filtered, and all channels made.
+    /// Returns the bytes that further channels take at once in a frame whose input and outputs have so many pixels: the
+    /// channels read together, their numbers while they are filtered, and all channels made.
     pub(crate) fn bytes(&self, input: u64, output: u64) -> u64 {
         if self.groups.is_empty() {
             return 0;
@@ -108,8 +108,8 @@ impl LayerPlan {
         read.saturating_add(made).saturating_add(input.saturating_mul(size_of::<Rgba>() as u64))
     }
 
-    /// Chooses the channels that all files have. Also returns names of those that not all have, or not with one sample for each
-    /// pixel.
+    /// Chooses the channels that all files have. Also returns names of those that some files lack, or have with fewer
+    /// samples than pixels.
     pub(crate) fn of_files(headers: &[&Header], channels: Channels, rules: LayerRules) -> (Self, Vec<String>) {
         let Some((first, others)) = headers.split_first() else { return (Self::default(), Vec::new()) };
         let all = |header: &&Header| all_channels(header);
@@ -119,7 +119,7 @@ impl LayerPlan {
         let own = &first.metadata.layers;
         let is_data = is_data(own);
         for channel in all_channels(first) {
-            // What is the picture is carried by itself.
+            // The picture's own channels are written with the picture.
             if own.picture.contains(&channel.name) && !is_data {
                 continue;
             }
@@ -144,7 +144,7 @@ fn bytes_of(group: &LayerGroup) -> u64 {
     group.channels.iter().map(|channel| channel.kind.bytes() as u64).sum()
 }
 
-/// Returns all channels of a part, those of the picture, too.
+/// Returns all channels of a part, including the picture's.
 fn all_channels(header: &Header) -> Vec<NamedChannel> {
     let layers = &header.metadata.layers;
     let kind = SampleKind::from(header.depth);
@@ -152,7 +152,7 @@ fn all_channels(header: &Header) -> Vec<NamedChannel> {
     own.chain(layers.further.iter().cloned()).collect()
 }
 
-/// Returns whether a file's picture is none: a single channel that holds no light, or channels that form no picture.
+/// Returns whether a file has no picture of light: a single channel of other content, or channels that form no picture.
 fn is_data(layers: &Layers) -> bool {
     let single = |name: &String| NamedChannel { name: name.clone(), kind: SampleKind::Float, is_full: true };
     let only: Vec<NamedChannel> = layers.picture.iter().map(single).collect();
@@ -160,7 +160,8 @@ fn is_data(layers: &Layers) -> bool {
         || only.len() == 1 && !matches!(grouped(&only)[0].content, LayerContent::Numbers | LayerContent::Light)
 }
 
-/// Returns a channel in the finest of all files' sample types. `None` if not all files have it, or integers stand beside floats.
+/// Returns a channel in the finest of all files' sample types. `None` if some file lacks it, or if integers stand
+/// beside floats.
 fn merged(channel: &NamedChannel, others: &[Vec<NamedChannel>]) -> Option<NamedChannel> {
     let mut merged = channel.clone();
     for other in others {
@@ -175,7 +176,8 @@ fn merged(channel: &NamedChannel, others: &[Vec<NamedChannel>]) -> Option<NamedC
     merged.is_full.then_some(merged)
 }
 
-/// Returns the names for a picture of these channels: those that all files give it, with its layer's alpha where they have none.
+/// Returns the names for a picture of these channels: those that all files give it, with its layer's alpha where they
+/// have none.
 fn names(headers: &[&Header], channels: Channels) -> PictureNames {
     let given = |header: &&Header| header.metadata.layers.picture.clone();
     let Some(mut names) = headers.first().map(given).filter(|names| !names.is_empty()) else {

@@ -1,4 +1,4 @@
-//! What a conversion makes of its input's further channels, and what it says of them.
+//! Choice of the further channels that a conversion keeps, and messages about them.
 
 use cosmorama::camera::View;
 use cosmorama::filter::{FilterKind, FilterSettings};
@@ -16,8 +16,8 @@ use crate::target::Target;
 const SHOWN: usize = 12;
 
 impl LayerPlan {
-    /// Chooses the channels that go along with a picture of files. A filter for labels is for channels of labels alone, if there are
-    /// any.
+    /// Chooses the further channels that the output gets. A filter for labels applies to channels of labels alone, if
+    /// there are any.
     pub(crate) fn resolve(
         settings: &Conversion,
         (input, target, light): (&Input, &Target, &Light),
@@ -45,7 +45,7 @@ impl LayerPlan {
         }
         let has_labels = plan.groups.iter().any(|group| group.content == LayerContent::Labels);
         if has_labels && matches!(filter.kind, FilterKind::Labels(_)) {
-            // The picture beside them is light.
+            // The picture beside the labels is light.
             *filter = FilterSettings::DEFAULT;
         }
         if plan.leaves_picture_out() && plan.groups.is_empty() {
@@ -60,7 +60,7 @@ impl LayerPlan {
         Ok(plan)
     }
 
-    /// Checks that planar depths are of flat pictures.
+    /// Checks that planar depths belong to flat pictures.
     fn check_depths(&self, input: &Input) -> Result<()> {
         if self.rules.depth != Some(DepthKind::Planar) || self.of(LayerContent::Depth).is_empty() {
             return Ok(());
@@ -75,7 +75,7 @@ impl LayerPlan {
         }
     }
 
-    /// Says as what depths are read and written: a warning where that is a guess.
+    /// Returns a diagnostic on the kind of depth that is read and written: a warning if the kind is a guess.
     fn depths(&self, input: &Input, target: &Target) -> Option<Diagnostic> {
         let names = self.of(LayerContent::Depth);
         let (view, output) = (input.present().next()?.2, &target.views.first()?.view);
@@ -95,7 +95,7 @@ impl LayerPlan {
         Some(Diagnostic::note(Code::Guessed, message))
     }
 
-    /// Says in which frame normals are taken to be.
+    /// Returns a diagnostic on the coordinate frame in which normals are taken to be.
     fn normals(&self) -> Option<Diagnostic> {
         let names = self.of(LayerContent::Normal);
         let told = match self.rules.normals {
@@ -108,7 +108,7 @@ impl LayerPlan {
 }
 
 impl LayerRules {
-    /// Returns the kind of a view's depth: what was said of it, else what is usual.
+    /// Returns the kind of a view's depth: as set, else the usual one.
     pub(crate) fn depth_of(&self, view: &View) -> DepthKind {
         self.depth.unwrap_or(if view.is_flat() { DepthKind::Planar } else { DepthKind::Radial })
     }
@@ -154,7 +154,7 @@ fn without_effect(settings: &Conversion, plan: &LayerPlan) -> Vec<Diagnostic> {
     idle.map(|(_, _, told)| Diagnostic::warning(Code::NoEffect, format!("{told} go into the output"))).collect()
 }
 
-/// Checks that a choice of parts and channels is for files that have such, and says where files have parts that are not read.
+/// Checks that files have the parts and channels that are chosen, and tells of files with parts that are not read.
 pub(crate) fn check_choice(settings: &Conversion, input: &Input, told: &mut Vec<Diagnostic>) -> Result<()> {
     let first = input.frames.first().copied().flatten();
     for (view, header, _) in input.present() {
@@ -169,7 +169,7 @@ pub(crate) fn check_choice(settings: &Conversion, input: &Input, told: &mut Vec<
         }
     }
     let mut in_parts = input.present().filter(|(_, header, _)| !header.metadata.layers.parts.is_empty());
-    // Of the faces of a cube, one says it for all.
+    // One message does for all faces of a cube.
     if let (None, Some((view, header, _))) = (&settings.part, in_parts.next()) {
         let path = view.files.path(first).display().to_string();
         told.push(unread_parts(&path, &header.metadata.layers));

@@ -7,7 +7,7 @@ use cosmorama_io::{NamedChannel, SampleKind};
 pub(crate) struct LayerGroup {
     /// Channels, in the order that the rule asks for.
     pub(crate) channels: Vec<NamedChannel>,
-    /// Their content.
+    /// Content of the channels.
     pub(crate) content: LayerContent,
 }
 
@@ -27,7 +27,7 @@ pub(crate) enum LayerContent {
 }
 
 impl LayerContent {
-    /// Returns it in a word.
+    /// Returns the content in a word.
     fn word(self) -> &'static str {
         match self {
             Self::Light => "light",
@@ -39,8 +39,8 @@ impl LayerContent {
     }
 }
 
-/// Returns what each of some channels holds, in a word, by their names and types: light, numbers, depth, normals or labels. All that
-/// belong together are to be given at once.
+/// Returns the content of each of some channels in a word, by their names and types: light, numbers, depth, normals or
+/// labels. All channels that belong together must be given at once.
 pub fn contents(channels: &[NamedChannel]) -> Vec<(NamedChannel, &'static str)> {
     let groups = grouped(channels).into_iter();
     groups.flat_map(|group| group.channels.into_iter().map(move |channel| (channel, group.content.word()))).collect()
@@ -66,7 +66,7 @@ pub(crate) fn grouped(channels: &[NamedChannel]) -> Vec<LayerGroup> {
     groups
 }
 
-/// Sorts the channels of one layer into groups, and those without a rule of their own to `numbers`.
+/// Sorts the channels of one layer into groups. Channels without a rule of their own go to `numbers`.
 fn sort(layer: &str, channels: Vec<&NamedChannel>, groups: &mut Vec<LayerGroup>, numbers: &mut Vec<NamedChannel>) {
     let last = last_word(layer);
     let names_labels = is_cryptomatte(last) || is_identifier(last);
@@ -76,7 +76,7 @@ fn sort(layer: &str, channels: Vec<&NamedChannel>, groups: &mut Vec<LayerGroup>,
     if names_labels {
         groups.extend((!labels.is_empty()).then(|| group(labels.into_iter(), LayerContent::Labels)));
     } else {
-        // Each is a name of its own.
+        // Each channel is a label of its own.
         groups.extend(labels.into_iter().map(|label| group([label].into_iter(), LayerContent::Labels)));
     }
     for names in [["X", "Y", "Z"], ["R", "G", "B"]] {
@@ -96,7 +96,7 @@ fn sort(layer: &str, channels: Vec<&NamedChannel>, groups: &mut Vec<LayerGroup>,
     for channel in rest {
         let name = base(&channel.name);
         let is_alpha = name.eq_ignore_ascii_case("A");
-        // A mist is a share of 0 to 1, whatever its channel is called.
+        // Mist is a share from 0 to 1, whatever its channel is called.
         let is_distance = is_depth(name) && !last.eq_ignore_ascii_case("mist") || is_depth(last) && !is_alpha;
         if is_distance {
             groups.push(group([channel].into_iter(), LayerContent::Depth));

@@ -15,9 +15,9 @@ use crate::source::{ViewFiles, probe, read_in};
 pub(crate) struct ViewImage {
     /// Index among the views that are present.
     pub(crate) view: usize,
-    /// Its file.
+    /// File of the image.
     pub(crate) path: PathBuf,
-    /// Its pixels.
+    /// Pixels of the image.
     pub(crate) image: EncodedImage,
     /// Conversion of its code values to light.
     pub(crate) colours: FileColours,
@@ -38,7 +38,7 @@ pub(crate) enum Which {
 
 /// A file of a frame, and the views whose pixels it holds.
 pub(crate) struct FrameFile {
-    /// Its path.
+    /// Path of the file.
     pub(crate) path: PathBuf,
     /// Indices of the views among those that are present.
     pub(crate) views: Vec<usize>,
@@ -104,7 +104,7 @@ impl FrameFile {
         )
     }
 
-    /// Reads the file into memory of a pool. One thread does all of it if it is one of several.
+    /// Reads the file into memory of a pool. If it is one of several, one thread does all the work.
     pub(crate) fn read(&self, job: &ConvertJob, pool: &FramePool) -> Result<Vec<ViewImage>> {
         let Self { path, views } = self;
         let present: Vec<_> = job.input.present().collect();
@@ -139,7 +139,7 @@ impl FrameFile {
     }
 }
 
-/// Returns the black picture that stands for numbers, which are no light.
+/// Returns the black picture that stands in for numbers, which are no light.
 fn blank(path: &Path, (width, height): (usize, usize)) -> Result<EncodedImage> {
     let samples = Samples::U8(vec![0; width.saturating_mul(height)]);
     let blank = EncodedImage::new(width, height, Channels::Grey, Depth::Eight, samples);

@@ -16,7 +16,7 @@ use crate::job::ConvertJob;
 /// Light of a frame. Its memory, and views that do not change, are reused for the next frame.
 pub(crate) struct FrameLight {
     texels: Texels,
-    /// Numbers of texels that are told of, by view.
+    /// Counts of texels that are reported, by view.
     counts: Vec<Counts>,
     /// Texels of each view that its own rim cuts.
     rims: Vec<RimTexels>,
@@ -47,7 +47,7 @@ impl FrameLight {
     /// Allocates the light of a job's frames.
     pub(crate) fn new(job: &ConvertJob, is_fixed: bool) -> Self {
         let texels = if is_fixed { Texels::fixed(job) } else { Texels::floats(job) };
-        // Labels at a rim are whole: what restores mixed colours would make new ones.
+        // Labels at a rim are not mixed with their surroundings, and restoring them would make new labels.
         let has_rims = !matches!(job.filter.kind, FilterKind::Labels(_));
         let rim = |source: &Source| if has_rims { RimTexels::of(&source.view) } else { RimTexels::default() };
         let rims: Vec<RimTexels> = job.worlds.iter().flat_map(World::sources).map(rim).collect();
@@ -63,7 +63,7 @@ impl FrameLight {
         &self.texels
     }
 
-    /// Returns the numbers of texels that are told of, by view.
+    /// Returns the counts of texels that are reported, by view.
     pub(crate) fn counts(&self) -> &[Counts] {
         &self.counts
     }
@@ -90,7 +90,7 @@ impl FrameLight {
         // depend on the one before.
         let is_fixed = self.is_fixed && images.iter().all(|image| self.takes(image));
         if is_fixed != matches!(self.texels, Texels::Fixed(_)) {
-            // Never both at once.
+            // Freed first, since both are never held at once.
             self.texels = Texels::Float(Vec::new());
             self.texels = if is_fixed { Texels::fixed(job) } else { Texels::floats(job) };
             self.has_still = false;
@@ -168,7 +168,7 @@ impl FrameLight {
 
 impl Texels {
     fn floats(job: &ConvertJob) -> Self {
-        // Not written to: each thread touches first what it decodes.
+        // Zeroed without touching the memory: each page is first touched by the thread that fills it.
         Self::Float(job.worlds.iter().map(|world| bytemuck::zeroed_vec(world.texel_count())).collect())
     }
 
@@ -204,7 +204,7 @@ impl Texels {
     }
 }
 
-/// Numbers of pixels that are to be told of.
+/// Counts of pixels that are reported.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Counts {
     /// Pixels whose samples are no light.

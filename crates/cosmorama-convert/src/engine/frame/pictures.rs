@@ -28,7 +28,7 @@ pub(crate) struct Engine<'a> {
     writer: Writer,
     /// Frames that may be in flight around the one that is filtered.
     queue_depth: QueueDepth,
-    /// Memory that they hand on.
+    /// Pool of memory that frames hand on.
     pool: Arc<FramePool>,
     /// Figures of maps of light, by frame.
     lit: Mutex<Vec<LightReport>>,
@@ -71,7 +71,7 @@ impl<'a> Engine<'a> {
         &self.pool
     }
 
-    /// Returns what maps of light amounted to, in the order of frames.
+    /// Returns the figures of maps of light, in the order of frames.
     pub(crate) fn light_reports(&self) -> Vec<LightReport> {
         self.lit.lock().unwrap_or_else(PoisonError::into_inner).clone()
     }
@@ -115,7 +115,7 @@ impl<'a> Engine<'a> {
             let message = format!("{}: {is_nan}", path.display());
             Diagnostic::warning(Code::NotANumber, message).about(path.display())
         };
-        // Of a sequence, the first frame tells whether there are suns, and alpha that is none.
+        // In a sequence, only the first frame is tested for suns, and for alpha that is nowhere full.
         let is_first = self.job.outputs.frames.first().is_some_and(|first| first.frame == frame);
         let suns = if is_first { warnings::suns(self.job, light) } else { None };
         let thin = if is_first { warnings::thin_alpha(self.job, frame, light) } else { Vec::new() };
@@ -269,7 +269,7 @@ impl<'a> Engine<'a> {
         Ok(image)
     }
 
-    /// Creates the error of a frame that is stopped, as if it were the first: the run knows how many are done.
+    /// Creates the error of a stopped frame, as if no frame were done: the caller knows how many are.
     fn stopped(&self) -> ConvertError {
         ConvertError::Stopped { done: 0, frames: self.job.outputs.frames.len() }
     }
@@ -349,8 +349,8 @@ pub(crate) fn assemble<P: Copy>(
     assemble_by(sheet, || Image::filled(width, height, background), image, drop)
 }
 
-/// Returns how many bytes a pool may hold: what frames in flight may take beside their light, which has a buffer of its own. A
-/// single picture leaves nothing to others.
+/// Returns how many bytes a pool may hold: as much as the frames in flight take, except their light, which has a buffer
+/// of its own. It is 0 for a single picture, after which no other would use the memory.
 fn pool_bytes(job: &ConvertJob, queue_depth: QueueDepth) -> u64 {
     let light = job.input.texels().saturating_mul(size_of::<Rgba>()) as u64;
     if job.outputs.frames.len() > 1 { queue_depth.bytes.saturating_sub(light) } else { 0 }

@@ -22,8 +22,8 @@ struct Reading<'a> {
     matrix: Option<ColourMatrix>,
 }
 
-/// Fills the texels of all worlds with a group's numbers: as light, with the part that counts in the place of alpha; distances from
-/// the camera; normals in the world's frame.
+/// Fills the texels of all worlds with a group's numbers. Light has the part that counts in the place of alpha, depths
+/// become distances from the camera, and normals are turned to the world's frame.
 pub(super) fn fill(job: &ConvertJob, content: LayerContent, views: &[ViewPlanes<'_>], worlds: &mut [Vec<Rgba>]) {
     let mut present = job.input.present().zip(views);
     for (world, texels) in job.worlds.iter().zip(worlds) {
@@ -78,7 +78,7 @@ impl Reading<'_> {
                     *texel = normal.map_or(Rgba::TRANSPARENT, |[x, y, z]| Rgba::opaque(x, y, z));
                 }
             }
-            // They are no numbers.
+            // Labels are no numbers.
             LayerContent::Labels => {}
         }
     }
@@ -95,7 +95,8 @@ fn tame(number: f32) -> f32 {
     }
 }
 
-/// Returns a distance, whether it counts, and whether nothing is there up to infinity. All texels are seen.
+/// Returns a texel's distance, whether it counts, whether there is nothing up to infinity, and 1, since every texel is
+/// seen.
 fn distance(number: f32) -> Rgba {
     if number.is_finite() {
         Rgba([number, 1.0, 0.0, 1.0])

@@ -31,8 +31,8 @@ pub(super) fn finish((content, rules): (LayerContent, LayerRules), view: &View, 
     }
 }
 
-/// Returns the mean of the distances that count, if they are half of what a pixel sees; otherwise infinity, if that is there. Outside
-/// of the lens it is 0.
+/// Returns the mean of the distances that count, if they are at least half of what a pixel sees; otherwise infinity, if
+/// some of what it sees is infinite. Outside of the lens it is 0.
 fn distance(Rgba([sum, counted, far, seen]): Rgba) -> f32 {
     if counted > 0.0 && (far <= 0.0 || counted >= 0.5 * seen) {
         sum / counted

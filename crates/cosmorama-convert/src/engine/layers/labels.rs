@@ -8,8 +8,8 @@ use cosmorama_io::PlaneSamples;
 use super::ViewPlanes;
 use crate::job::ConvertJob;
 
-/// Labels of a frame. A texel stands for them by its number, so that they are copied bit by bit, whatever their type and however many
-/// channels belong together.
+/// Labels of a frame. Each texel stands for its labels by its number. So labels are copied bit by bit, whatever their
+/// type and however many channels belong together.
 pub(super) struct LabelTexels<'a> {
     views: &'a [ViewPlanes<'a>],
     /// Views of each world.
@@ -27,11 +27,11 @@ struct LabelView {
     width: usize,
 }
 
-/// First texels with some labels.
+/// Map from labels to the first texel that has them.
 #[derive(Default)]
 struct Firsts {
     all: HashMap<Vec<u32>, usize>,
-    /// Labels seen last, which come in runs.
+    /// Labels seen last, with their first texel: equal labels come in runs.
     last: Option<(Vec<u32>, usize)>,
 }
 

@@ -25,7 +25,7 @@ pub(crate) struct LayerPass<'a> {
     pub(crate) pool: &'a FramePool,
 }
 
-/// The numbers of a group's channels in a frame: those of each world's texels.
+/// Numbers of a group's channels in a frame, at the texels of each world.
 struct GroupTexels<'a> {
     group: &'a LayerGroup,
     worlds: &'a [Vec<Rgba>],
@@ -70,11 +70,11 @@ impl LayerPass<'_> {
             Ok(FilePlanes { path, views, planes })
         };
         let files = FrameFile::all(job, frame, Which::All).into_par_iter();
-        // In the order of files, so that of several errors it is always the same that is told.
+        // In the order of files, so that the same one of several errors is reported every time.
         files.map(read).collect::<Vec<_>>().into_iter().collect()
     }
 
-    /// Finds the channels `range` of what was read for each view.
+    /// Returns the channels `range` of what was read, for each view.
     fn views<'f>(&self, files: &'f [FilePlanes], range: std::ops::Range<usize>) -> Result<Vec<ViewPlanes<'f>>> {
         let view = |(index, (input, header, _)): (usize, _)| {
             let (input, header): (&crate::input::InputView, &cosmorama_io::Header) = (input, header);
@@ -137,7 +137,7 @@ impl LayerPass<'_> {
             let filter = FilterSettings { kind, kernel: Labels::KERNEL, anti_ringing: false };
             Resampler { filter, ..resampler }.watched(&share).render_over(light, Rgba::TRANSPARENT)
         } else {
-            // What is no light has no total to be kept: as with holes, nothing is balanced.
+            // Numbers that are no light have no total to keep, so that nothing is balanced, as with holes.
             let (watched, mut balanced) = (resampler.watched(&share), BalancedLight::default());
             self.geometry.light(index, watched, (light, true), Rgba::TRANSPARENT, self.pool, &mut balanced)
         };

@@ -74,7 +74,7 @@ impl Balance {
         Self(groups.into_iter().filter_map(balanced).collect())
     }
 
-    /// Returns the bytes that it takes, with the light that it makes.
+    /// Returns the bytes of the balance and of the light that it makes.
     pub(crate) fn bytes(&self) -> u64 {
         self.0.iter().map(|group| group.bytes).sum()
     }
@@ -84,7 +84,7 @@ impl Balance {
     pub(crate) fn light<'a>(&self, view: usize, texels: &[Rgba], last: &'a mut BalancedLight) -> Option<&'a [Rgba]> {
         let index = self.0.iter().position(|group| group.views.contains(&view))?;
         if last.0.as_ref().is_none_or(|(group, _)| *group != index) {
-            // Never both at once.
+            // Freed first, since two are never held at once.
             last.0 = None;
             last.0 = Some((index, self.0[index].balance.balanced(texels)));
         }

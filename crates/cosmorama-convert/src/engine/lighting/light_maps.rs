@@ -43,7 +43,7 @@ impl<'a> LightMaps<'a> {
         match self.settings.levels[target.level] {
             LightLevel::Lobe(lobe) => self.under(target, &lobe),
             LightLevel::Mirror => self.mirrored(target),
-            // Levels have as many views each.
+            // All levels have the same number of views.
             LightLevel::Halved => halved(&made[made.len() - views.len() / self.settings.levels.len()]),
         }
     }
@@ -95,7 +95,7 @@ pub struct LightReport {
     pub alpha: Option<f64>,
     /// Light of the input; of a stereo pair, the left eye's.
     pub input: LightFigures,
-    /// Light of the map, as radiance: what it was multiplied by is taken out.
+    /// Light of the map as radiance, without the factor of the map's unit.
     pub output: LightFigures,
     /// Samples of the map that its sample type cannot hold, and that are written as the largest it can.
     pub overflowed: usize,

@@ -1,4 +1,4 @@
-//! What keeps light, and what it is averaged to.
+//! Energy balance of pictures, and maps of light.
 
 pub(crate) mod balance;
 pub(crate) mod light_maps;

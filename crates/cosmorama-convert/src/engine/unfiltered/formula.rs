@@ -34,7 +34,7 @@ fn levels(job: &ConvertJob, world: BuiltinWorld, file: usize) -> Result<Levels> 
     let background = job.light.background;
     let picture = |index: usize| {
         let mut image = world.picture(&job.target.views[index].view);
-        // Formulas are of Rec. 709.
+        // Formulas have the primaries of Rec. 709.
         let matrix = ColourMatrix::between(&Primaries::REC709, &job.light.working.primaries);
         if !matrix.is_identity() {
             matrix.convert(image.pixels_mut());

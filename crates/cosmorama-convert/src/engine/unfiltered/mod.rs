@@ -18,6 +18,6 @@ pub(crate) struct OutputFile<'a> {
     pub(crate) unfinished: &'a Unfinished,
     /// Index among the target's files.
     pub(crate) index: usize,
-    /// Its path.
+    /// Path of the file.
     pub(crate) path: &'a Path,
 }

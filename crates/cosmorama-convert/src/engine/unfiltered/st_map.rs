@@ -49,7 +49,7 @@ fn check_one_file(input: &Input) -> Result<()> {
     }
 }
 
-/// Returns the part of its file that a view is, and of the canvas of which the file may be a window.
+/// Returns the place of a view in its file, or in the canvas of which the file is a window.
 fn canvas_in_file(view: &InputView, header: &Header) -> Canvas {
     let Place { corner: (left, top), of: (width, height) } =
         view.part.unwrap_or(Place::whole((header.width, header.height)));

@@ -50,13 +50,13 @@ impl Face {
         (self.face, self.placement)
     }
 
-    /// Returns whether its file, if there is one, holds the whole face.
+    /// Returns whether the face's file, if there is one, holds the whole face.
     pub(crate) fn is_whole(&self) -> bool {
         let same = |header: &Header| self.canvas == Some(whole(header));
         self.header.as_ref().is_none_or(same)
     }
 
-    /// Returns its picture, if there is a file.
+    /// Returns the face's picture, if there is a file.
     pub(crate) fn picture(&self, cube: &Cube, frame: Option<u64>) -> Option<FacePicture> {
         let is_declared = cube.canvas_of(self.face).is_some();
         let header = self.header.as_ref()?;
@@ -70,7 +70,7 @@ impl Face {
         })
     }
 
-    /// Converts it to a view; `size` is that of faces without a file.
+    /// Converts the face to a view; `size` is that of faces without a file.
     pub(crate) fn into_view(self, cube: &Cube, (width, height): (usize, usize)) -> Result<InputView> {
         let outer = Orientation::IDENTITY;
         let canvas = self.canvas.unwrap_or(Canvas { width, height, left: 0, top: 0 });

@@ -63,8 +63,8 @@ pub(crate) fn size_of_missing(
     Ok(size)
 }
 
-/// Returns whether files are those of a half of a cube (`None`: of a whole one). Then whole faces are nearly square and
-/// alike; and half faces have one size, unlike crops a little beyond the middle.
+/// Returns whether files fit a half of a cube, or a whole one if `half` is `None`. Whole faces are nearly square and
+/// alike. Half faces have one size, unlike crops a little beyond the middle.
 fn are_of(pictures: &[FacePicture], half: Option<CubeFace>) -> bool {
     let canvas = |picture: &FacePicture| {
         let part = FacePart::of(picture.face, picture.lies, half)?;
@@ -112,7 +112,7 @@ fn about(half: CubeFace) -> &'static str {
 fn usual(pictures: &[FacePicture]) -> Option<&Canvas> {
     let alike = |canvas: &Canvas| pictures.iter().filter(|other| difference(canvas, &other.canvas) < SAME).count();
     let rank = |canvas: &&Canvas| (is_face(canvas), alike(canvas));
-    // Of equals the last counts, so the first of all is put there.
+    // Of equals `max_by_key` returns the last, hence the reversed order.
     pictures.iter().rev().map(|picture| &picture.canvas).max_by_key(rank)
 }
 
@@ -229,7 +229,7 @@ mod tests {
         // Crops of a little more than a half, as the demo renders them.
         let error = judge(&[(64, 64), (35, 64), (64, 64), (35, 64), (64, 35)], &[]).unwrap_err();
         assert!(error.contains("declare its place") && !error.contains("half="), "{error}");
-        // Sides alone may be above or below.
+        // With half faces at the sides alone, the half may be the upper or the lower one.
         let error = judge(&[(64, 32); 4], &[]).unwrap_err();
         assert!(error.contains("cube:half=up (the sky") && error.contains(" or half=down (the ground"), "{error}");
         let pictures = |size: (usize, usize), canvas: (usize, usize)| {

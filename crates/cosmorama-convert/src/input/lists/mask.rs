@@ -18,8 +18,7 @@ const GREY: f32 = 0.5;
 /// Returns the mask in a picture: pixels that are black, darker than middle grey, or transparent are hidden.
 pub(crate) fn of_file(path: &Path, view: &InputView, access: Access) -> Result<Arc<ViewMask>> {
     let expected = size(view);
-    // Before its pixels take any memory.
-    // Whatever is chosen of pictures is not of masks.
+    // Checked before pixels take memory. The choice of parts and channels is for pictures, not for masks.
     let header = probe_from(access.files.open(path)?, path)?;
     let found = (header.width, header.height);
     if found != expected {

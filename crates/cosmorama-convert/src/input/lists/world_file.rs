@@ -153,7 +153,7 @@ impl Entry {
         let mut input =
             found.map_err(|error| error.reworded(FROM, SPEC_KEY)).at(|| source.place(Some(self.image.span())))?;
         for view in input.worlds.iter_mut().flatten() {
-            // What a SPEC says of pictures that overlap holds where nothing else is said.
+            // A SPEC's own blending holds unless the entry gives another.
             view.blend = Blend { priority: self.priority, feather: feather.unwrap_or(view.blend.feather) };
         }
         input.beside.extend(named);
@@ -203,7 +203,7 @@ impl Entry {
 }
 
 impl Text<'_> {
-    /// Returns the folder of the files that it names.
+    /// Returns the folder to which names of files are relative.
     fn folder(&self) -> &Path {
         Path::new(self.name).parent().unwrap_or(Path::new(""))
     }

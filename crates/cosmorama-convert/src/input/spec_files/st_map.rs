@@ -119,7 +119,7 @@ fn settle_to(
     Ok(())
 }
 
-/// Reads the map of a world file's view.
+/// Reads the st map of a view in a world file.
 pub(crate) fn read_map(spec: Spec, access: Access) -> Result<Spec> {
     let Shape::StMap(map) = &spec.shape else { return Ok(spec) };
     with_given_base(map, Side::Input, access)

@@ -6,7 +6,7 @@ use crate::projection::ProjectionKind;
 use crate::projection::azimuthal::{FisheyeLens, Hugin, HuginIdeal, Lens};
 use crate::sphere::{Angle, Orientation};
 
-/// Projection of an image or a panorama in a Hugin project.
+/// Projection of an image or a panorama in a Hugin project, with its number after `f` in the project file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum HuginProjection {
     /// Rectilinear: f0.

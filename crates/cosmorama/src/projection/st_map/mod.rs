@@ -272,7 +272,7 @@ impl Projection for StMap {
         if bounds.min.x <= bounds.max.x { bounds } else { PlaneRect { min: nowhere, max: nowhere } }
     }
 
-    /// Returns a rectangle for each piece, because a cap across a tear lies in two places.
+    /// Returns a rectangle for each piece of the map that a cap lies in: where the map is torn, these are several.
     fn cap_outline(&self, centre: Direction, radius: Angle) -> Outline {
         let rects: Vec<PlaneRect> = self.0.rects_within(centre, radius).take(MOST_RECTS + 1).collect();
         Outline::Rects(if rects.len() > MOST_RECTS { vec![self.cap_bounds(centre, radius)] } else { rects })

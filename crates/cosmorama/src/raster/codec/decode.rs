@@ -19,7 +19,7 @@ pub struct IrregularPixels {
 }
 
 impl IrregularPixels {
-    /// Examines the samples of a pixel.
+    /// Counts what is irregular in a pixel's samples, 0 or 1 of each kind.
     fn of(raw: &Rgba) -> Self {
         if raw.0.iter().any(|sample| sample.is_nan()) {
             return Self { missing: 1, ..Self::default() };

@@ -100,8 +100,8 @@ impl Primaries {
         (22, Self::EBU3213),
     ];
 
-    /// Returns the primaries of the pairs in a file: those with a name, if all four pairs agree with theirs. `None`
-    /// where the pairs are no primaries, since they are no numbers or span no triangle.
+    /// Returns the primaries with these chromaticities, as a file gives them; named primaries if all four pairs agree
+    /// with theirs. `None` if the pairs are not numbers, or span no triangle.
     pub fn of_pairs(red: [f64; 2], green: [f64; 2], blue: [f64; 2], white: [f64; 2]) -> Option<Self> {
         let given = Self { red, green, blue, white };
         let is_finite = given.pairs().iter().flatten().all(|number| number.is_finite() && number.abs() < 10.0);
