@@ -108,7 +108,7 @@ mod tests {
 
     #[test]
     fn every_setting_has_a_mark_of_its_own() {
-        for setting in Setting::ALL {
+        for &setting in Setting::ALL {
             let message = Message::from(Mark(setting).to_string());
             assert_eq!(message.parts().collect::<Vec<_>>(), [Part::Setting(setting)]);
         }

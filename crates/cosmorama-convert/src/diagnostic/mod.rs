@@ -12,7 +12,8 @@ pub use message::{Message, Part};
 pub use setting::Setting;
 
 pub(crate) use error::{InPlace, bail, failed, failed_as, failure, of_opening, usage, usage_as};
-pub(crate) use mark::*;
+pub(crate) use mark::Mark;
+pub(crate) use setting::*;
 
 /// A diagnostic of a conversion.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,144 +1,93 @@
-/// A setting of a conversion, for reference in messages.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Setting {
-    /// The input's projection.
-    From,
-    /// The output's projection.
-    To,
-    /// Size of the output in pixels.
-    Size,
-    /// Rotation of the output to the right.
-    Yaw,
-    /// Rotation of the output upwards.
-    Pitch,
-    /// Clockwise rotation of the output's camera.
-    Roll,
-    /// Filter.
-    Filter,
-    /// Kernel of the filter.
-    Kernel,
-    /// Whether pixels are clamped to their texels.
-    AntiRinging,
-    /// Transfer function of both sides.
-    Transfer,
-    /// Transfer function of the input.
-    InTransfer,
-    /// Transfer function of the output.
-    OutTransfer,
-    /// Primaries of the output.
-    Primaries,
-    /// Primaries of inputs that name none.
-    InPrimaries,
-    /// Whether ICC profiles of inputs are ignored.
-    IgnoreProfile,
-    /// Sample type of the output.
-    Depth,
-    /// Colour outside the lens.
-    Background,
-    /// Treatment of directions that no view covers.
-    Missing,
-    /// Frames of a sequence.
-    Frames,
-    /// Whether existing outputs are replaced.
-    Overwrite,
-    /// Whether complete outputs are kept.
-    Resume,
-    /// Whether mip levels are written.
-    Mips,
-    /// Number of levels in a chain of light.
-    Levels,
-    /// JPEG quality.
-    Quality,
-    /// Effort of lossless compression.
-    Compression,
-    /// Whether outputs get no metadata of inputs.
-    Strip,
-    /// Limit of memory.
-    Memory,
-    /// Whether an st map is written instead of a picture.
-    StMap,
-    /// Part of OpenEXR files.
-    Part,
-    /// Channels of OpenEXR files.
-    Channels,
-    /// Kind of the input's depth.
-    DepthKind,
-    /// Frame of normals.
-    Normals,
+use super::Mark;
+
+/// Declares each setting once: its meaning, its variant, its plain name, and the constant that formats as its mark.
+macro_rules! settings {
+    ($(#[doc = $meaning:literal] $setting:ident $name:literal $mark:ident,)+) => {
+        /// A setting of a conversion, for reference in messages.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+        pub enum Setting {
+            $(#[doc = $meaning] $setting,)+
+        }
+
+        impl Setting {
+            /// All settings.
+            pub const ALL: &[Self] = &[$(Self::$setting),+];
+
+            /// Returns the plain name, with words joined by `-`.
+            pub fn name(self) -> &'static str {
+                match self {
+                    $(Self::$setting => $name,)+
+                }
+            }
+        }
+
+        $(pub(crate) const $mark: Mark = Mark(Setting::$setting);)+
+    };
 }
 
-impl Setting {
-    /// All settings.
-    pub const ALL: [Self; 32] = [
-        Self::From,
-        Self::To,
-        Self::Size,
-        Self::Yaw,
-        Self::Pitch,
-        Self::Roll,
-        Self::Filter,
-        Self::Kernel,
-        Self::AntiRinging,
-        Self::Transfer,
-        Self::InTransfer,
-        Self::OutTransfer,
-        Self::Primaries,
-        Self::InPrimaries,
-        Self::IgnoreProfile,
-        Self::Depth,
-        Self::Background,
-        Self::Missing,
-        Self::Frames,
-        Self::Overwrite,
-        Self::Resume,
-        Self::Mips,
-        Self::Levels,
-        Self::Quality,
-        Self::Compression,
-        Self::Strip,
-        Self::Memory,
-        Self::StMap,
-        Self::Part,
-        Self::Channels,
-        Self::DepthKind,
-        Self::Normals,
-    ];
-
-    /// Returns the plain name, with words joined by `-`.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::From => "from",
-            Self::To => "to",
-            Self::Size => "size",
-            Self::Yaw => "yaw",
-            Self::Pitch => "pitch",
-            Self::Roll => "roll",
-            Self::Filter => "filter",
-            Self::Kernel => "kernel",
-            Self::AntiRinging => "anti-ringing",
-            Self::Transfer => "transfer",
-            Self::InTransfer => "in-transfer",
-            Self::OutTransfer => "out-transfer",
-            Self::Primaries => "primaries",
-            Self::InPrimaries => "in-primaries",
-            Self::IgnoreProfile => "ignore-profile",
-            Self::Depth => "depth",
-            Self::Background => "background",
-            Self::Missing => "missing",
-            Self::Frames => "frames",
-            Self::Overwrite => "overwrite",
-            Self::Resume => "resume",
-            Self::Mips => "mips",
-            Self::Levels => "levels",
-            Self::Quality => "quality",
-            Self::Compression => "compression",
-            Self::Strip => "strip",
-            Self::Memory => "memory",
-            Self::StMap => "st-map",
-            Self::Part => "part",
-            Self::Channels => "channels",
-            Self::DepthKind => "depth-kind",
-            Self::Normals => "normals",
-        }
-    }
+settings! {
+    /// The input's projection.
+    From "from" FROM,
+    /// The output's projection.
+    To "to" TO,
+    /// Size of the output in pixels.
+    Size "size" SIZE,
+    /// Rotation of the output to the right.
+    Yaw "yaw" YAW,
+    /// Rotation of the output upwards.
+    Pitch "pitch" PITCH,
+    /// Clockwise rotation of the output's camera.
+    Roll "roll" ROLL,
+    /// Filter.
+    Filter "filter" FILTER,
+    /// Kernel of the filter.
+    Kernel "kernel" KERNEL,
+    /// Whether pixels are clamped to their texels.
+    AntiRinging "anti-ringing" ANTI_RINGING,
+    /// Transfer function of both sides.
+    Transfer "transfer" TRANSFER,
+    /// Transfer function of the input.
+    InTransfer "in-transfer" IN_TRANSFER,
+    /// Transfer function of the output.
+    OutTransfer "out-transfer" OUT_TRANSFER,
+    /// Primaries of the output.
+    Primaries "primaries" PRIMARIES,
+    /// Primaries of inputs that name none.
+    InPrimaries "in-primaries" IN_PRIMARIES,
+    /// Whether ICC profiles of inputs are ignored.
+    IgnoreProfile "ignore-profile" IGNORE_PROFILE,
+    /// Sample type of the output.
+    Depth "depth" DEPTH,
+    /// Colour outside the lens.
+    Background "background" BACKGROUND,
+    /// Treatment of directions that no view covers.
+    Missing "missing" MISSING,
+    /// Frames of a sequence.
+    Frames "frames" FRAMES,
+    /// Whether existing outputs are replaced.
+    Overwrite "overwrite" OVERWRITE,
+    /// Whether complete outputs are kept.
+    Resume "resume" RESUME,
+    /// Whether mip levels are written.
+    Mips "mips" MIPS,
+    /// Number of levels in a chain of light.
+    Levels "levels" LEVELS,
+    /// JPEG quality.
+    Quality "quality" QUALITY,
+    /// Effort of lossless compression.
+    Compression "compression" COMPRESSION,
+    /// Whether outputs get no metadata of inputs.
+    Strip "strip" STRIP,
+    /// Limit of memory.
+    Memory "memory" MEMORY,
+    /// Whether an st map is written instead of a picture.
+    StMap "st-map" ST_MAP,
+    /// Part of OpenEXR files.
+    Part "part" PART,
+    /// Channels of OpenEXR files.
+    Channels "channels" CHANNELS,
+    /// Kind of the input's depth.
+    DepthKind "depth-kind" DEPTH_KIND,
+    /// Frame of normals.
+    Normals "normals" NORMALS,
 }
