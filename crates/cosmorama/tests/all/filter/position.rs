@@ -102,7 +102,7 @@ fn directions_come_back_where_faces_of_different_sizes_meet() {
         ("an edge, enlarged eight times", perspective(320, 240, 7.0, 45.0, 10.0, 0.0)),
         ("a corner, enlarged eight times", perspective(320, 240, 7.0, 45.0, 35.26, 7.0)),
     ];
-    for (front, others) in [(512, 256), (512, 128), (128, 512), (1024, 128), (2048, 128), (128, 1024)] {
+    for (front, others) in [(512, 256), (128, 512), (2048, 128), (128, 1024)] {
         let world = World::new(CubeFace::ALL.map(|face| {
             let size = if face == CubeFace::Front { front } else { others };
             (face.name().to_owned(), testkit::cube_face(face, size, size))

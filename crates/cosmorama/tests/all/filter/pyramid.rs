@@ -235,7 +235,7 @@ const MOST_AT_RIM: usize = 16 * MOST;
 
 #[test]
 fn a_pixel_takes_a_bounded_number_of_texels() {
-    for shrink in [2.0, 3.0, 4.4, 6.3, 9.0, 18.0, 40.0] {
+    for shrink in [2.0, 4.4, 9.0, 40.0] {
         let world = cube(&CubeFace::ALL, 1024, 1024);
         let gathered = |target: &View, filter| Report::of(&world, target, &filter).gathered;
         let dome = dome(512.0, shrink);
