@@ -5,7 +5,7 @@ use super::{Border, Pose, Side};
 ///
 /// A sample's mismatch is `ln(1 + d² / s²)`, where d is the difference of tones and s the uncertainty of both. It is 0
 /// where they agree, and grows slowly for large differences, so that a seam inside a face's own border does not
-/// dominate. It is stored for parts of a side, to separate chance from more than chance.
+/// dominate. It is stored for parts of a side, whose spread tells how much mismatch is due to chance.
 #[derive(Clone, Debug)]
 pub struct Mismatch {
     pictures: usize,
@@ -15,15 +15,15 @@ pub struct Mismatch {
 /// Two sides next to each other.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Seam {
-    /// Sum of the mismatch over its parts.
+    /// Sum of the mismatch over the seam's parts.
     pub(super) cost: f64,
     /// Variance of that sum, estimated from its parts.
     pub(super) variance: f64,
 }
 
-/// Difference of tones that may be no difference: two 8-bit codes.
+/// Difference of tones that may be due to rounding: two 8-bit codes.
 const TONE: f32 = 2.0 / 255.0;
-/// Least spread of parts that differ by chance, however smooth they are.
+/// Least standard deviation of the mismatch of parts, however smooth they are.
 const LEAST_SPREAD: f64 = 0.25;
 
 impl Mismatch {

@@ -1,9 +1,9 @@
 //! Arrangement of six pictures as the faces of one cube, found from their borders.
 //!
-//! Where two faces meet they show the same. [`Border`]s are compared side by side ([`Mismatch`]). The most continuous
-//! arrangement of the pictures around a cube is searched, over any order, any quarter turns and any mirroring, and the
-//! declared one is judged by it ([`judge`]). Continuity does not determine the front or the handedness: an arrangement
-//! is the same when it is turned or mirrored as a whole.
+//! Where two faces meet they show the same. [`Border`]s are compared side by side ([`Mismatch`]). A search finds the
+//! most continuous arrangement of the pictures around a cube, over any order, any quarter turns and any mirroring. The
+//! declared arrangement is compared with it ([`judge`]). Continuity does not determine the front or the handedness: an
+//! arrangement is the same when it is turned or mirrored as a whole.
 
 mod border;
 mod change;

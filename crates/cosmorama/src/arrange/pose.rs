@@ -7,9 +7,9 @@ use crate::sphere::CubeFace;
 pub struct Pose {
     /// Face of the picture.
     pub face: CubeFace,
-    /// Face to which its right side points.
+    /// Face to which the picture's right side points.
     right: CubeFace,
-    /// Face to which its upper side points.
+    /// Face to which the picture's upper side points.
     up: CubeFace,
 }
 

@@ -48,8 +48,8 @@ struct Laid {
 }
 
 impl<'a> Search<'a> {
-    /// Prepares a search over all arrangements of the pictures on as many faces. Of `free` pictures one rotation is
-    /// tried.
+    /// Prepares a search over all arrangements of the pictures on as many faces. For a `free` picture only one rotation
+    /// is tried.
     pub(super) fn new(mismatch: &'a Mismatch, faces: &[CubeFace], free: &'a [bool]) -> Self {
         let faces: Vec<CubeFace> = ORDER.into_iter().filter(|face| faces.contains(face)).collect();
         let place = |depth: usize| {

@@ -11,7 +11,7 @@ pub(super) struct Symmetry {
 }
 
 impl Symmetry {
-    /// Returns all 48 of them.
+    /// Returns all 48 rotations and reflections.
     pub(super) fn all() -> impl Iterator<Item = Self> {
         CubeFace::ALL.into_iter().flat_map(Pose::all_of).map(|pose| {
             let [front, right, up] = pose.axes();

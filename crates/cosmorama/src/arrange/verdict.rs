@@ -14,7 +14,7 @@ pub enum Verdict {
     Wrong {
         /// The arrangement that fits, turned and mirrored as a whole to resemble the declared one.
         fits: Vec<Pose>,
-        /// Confidence in it.
+        /// Confidence in the arrangement that fits.
         fit: Fit,
     },
 }
@@ -59,7 +59,7 @@ pub fn judge(mismatch: &Mismatch, given: &[Pose]) -> Verdict {
     let against_given = confidence(mismatch, &nearest, given);
     let fits_given = against_given < SURE;
     let chosen = if fits_given { given } else { &nearest };
-    // Of free pictures every turn is as good: the others are compared with them as they happen to lie.
+    // A free picture fits equally in every rotation, so the search tries only one.
     let Some((first, second)) = Search::new(mismatch, &faces, &is_free).run() else {
         return Verdict::CannotTell;
     };
@@ -148,7 +148,7 @@ fn confidence(mismatch: &Mismatch, better: &[Pose], worse: &[Pose]) -> f64 {
     if excess <= 0.0 || variance <= 0.0 {
         return 0.0;
     }
-    // The tail of the normal distribution, for each of the arrangements that there are.
+    // The tail of the normal distribution, times the number of arrangements.
     let chance = arrangements(pictures) * 0.5 * (-0.5 * excess * excess / variance).exp();
     (1.0 - chance).clamp(0.0, 1.0)
 }

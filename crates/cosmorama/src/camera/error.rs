@@ -43,7 +43,7 @@ pub enum CameraError {
         rounded(.greatest / 2.0), rounded(*.radius), rounded(*.greatest)
     )]
     CalibrationTurnsBack {
-        /// Radius at which it turns back, in pixels.
+        /// Radius at which the formula turns back, in pixels.
         radius: f64,
         /// Greatest field of view that the calibration can show, in degrees.
         greatest: f64,
@@ -107,7 +107,7 @@ pub enum CameraError {
     CircleOffImage {
         /// Centre of the circle in pixels, of the image or of the lens's half of it.
         centre: (f64, f64),
-        /// Its radius in pixels.
+        /// Radius of the circle in pixels.
         radius: f64,
         /// Columns of the image.
         width: usize,
@@ -135,7 +135,7 @@ pub(crate) fn check_field_of_view(
     below: bool,
 ) -> Result<(), CameraError> {
     let found = angle.degrees();
-    // Degrees that were turned to radians and back have rounding errors.
+    // Converting degrees to radians and back has rounding errors.
     let inside = found > 0.0 && if below { found < greatest } else { found <= greatest + 1e-9 };
     if inside { Ok(()) } else { Err(CameraError::FieldOfView { what, found, greatest, below }) }
 }
@@ -146,8 +146,8 @@ pub(crate) fn check_positive(what: &'static str, found: f64) -> Result<(), Camer
     if is_positive { Ok(()) } else { Err(CameraError::OutOfRange { what, found, unit: "", range: "more than 0" }) }
 }
 
-/// Rounds a number of everyday size to six decimals: degrees that were turned to radians and back have more. Others stay as
-/// they are.
+/// Rounds a number of everyday size to six decimals, since conversion from degrees to radians and back adds digits.
+/// Other numbers stay as they are.
 fn in_short(value: f64) -> f64 {
     if (1e-3..1e9).contains(&value.abs()) { rounded(value) } else { value }
 }

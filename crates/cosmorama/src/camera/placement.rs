@@ -17,7 +17,7 @@ impl Mirror {
         Self { x: self.x != other.x, y: self.y != other.y }
     }
 
-    /// Returns whether text reads backwards.
+    /// Returns whether text in the mirrored picture reads backwards.
     pub const fn is_backwards(self) -> bool {
         self.x != self.y
     }

@@ -33,7 +33,7 @@ enum Side {
     Unknown,
 }
 
-/// Sines of the elevations above a great circle at the corners of a pixel; within it the circle is nearly straight.
+/// Sines of the elevations of a pixel's corners above a great circle. Within a pixel the circle is nearly straight.
 struct GreatCircle {
     centre: PixelPoint,
     sines: [[f64; 2]; 2],
@@ -171,7 +171,7 @@ impl View {
     /// nothing.
     fn ends_within(&self, centre: PixelPoint, footprint: &Footprint) -> bool {
         let reach = footprint.jacobian.dx.length() + footprint.jacobian.dy.length();
-        // A cylinder ends where its image does; a row of samples on the very pole is a whole one.
+        // A cylinder ends where its image does, and a row of samples on the very pole has whole pixels.
         self.projection.period().is_none()
             && self.margin(footprint.direction) < reach
             && CORNERS.iter().any(|(x, y)| self.direction(PixelPoint::new(centre.x + x, centre.y + y)).is_none())
@@ -222,7 +222,7 @@ mod tests {
     fn outside_the_outline_of_a_map_no_pixel_shows_anything() {
         for frame in [WorldMapCamera::Hammer, WorldMapCamera::Mollweide, WorldMapCamera::Sinusoidal] {
             let view = CameraModel::WorldMap(frame).view(80, 40).expect("a map");
-            // A part of it alone, too, past its middle.
+            // Tested also in a crop, which begins past the middle.
             for view in [view.clone(), View { grid: view.grid.window(50, 30, 40.3, 20.7), ..view }] {
                 let (mut hidden, mut empty) = (0, 0);
                 for (j, i) in (0..view.height()).flat_map(|j| (0..view.width()).map(move |i| (j, i))) {

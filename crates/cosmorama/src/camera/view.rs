@@ -41,7 +41,8 @@ impl View {
         self.grid.height()
     }
 
-    /// Returns the view of this camera when what holds it is turned: the camera's own orientation is within that one.
+    /// Returns the view when the camera's mount is turned by `outer`: the camera's own orientation is relative to the
+    /// mount.
     #[must_use]
     pub fn turned(&self, outer: Orientation) -> Self {
         Self { orientation: self.orientation.within(outer), ..self.clone() }
@@ -171,7 +172,8 @@ impl View {
         };
         let (dx, dy) = (across(1.0, 0.0), across(0.0, 1.0));
         let Some(period) = self.projection.period() else { return Some(DirectionJacobian { dx: dx?, dy: dy? }) };
-        // Of one or two columns all round, the chord says nothing; of a row that reaches beyond both poles, there is none.
+        // In a panorama of one or two columns, the chord across a texel says nothing. In a row that reaches beyond both
+        // poles, there is no chord.
         let dx = dx.filter(|_| self.grid.step().x.abs() < 0.4 * period);
         let by_derivative = |side: DVec3| side * (std::f64::consts::PI / side.length()).min(1.0);
         Some(DirectionJacobian {
@@ -183,7 +185,7 @@ impl View {
     /// Returns the solid angle of a texel in steradians (to first order), zero where it shows nothing.
     pub fn texel_solid_angle(&self, i: usize, j: usize) -> f64 {
         let pixel = PixelPoint::centre(i, j);
-        // Where nothing is seen, there is no solid angle either.
+        // Texels that show nothing have no solid angle.
         let shows = self.grid.contains(pixel) && (self.stop == FieldStop::NONE || self.stop_passes(pixel));
         if shows { self.solid_angle(pixel).unwrap_or(0.0) } else { 0.0 }
     }
@@ -209,7 +211,7 @@ impl View {
         if !self.projection.has_steep_rim() {
             return Some(solid_angle);
         }
-        // On the very rim the derivatives may be infinite, and the texel is not.
+        // On the very rim the derivatives may be infinite, but the texel's solid angle is not.
         Some(solid_angle.min(2.0 * self.texel(pixel)?.solid_angle()))
     }
 

@@ -44,9 +44,9 @@ impl Found {
 /// Finds the circle that a lens leaves on black, in an image of code values. `None` if there is none, for example
 /// because the picture fills its frame.
 ///
-/// The ends of black along rows and columns are mostly points on the rim. Of circles through three such points, the one
-/// with most others on it is the first guess (RANSAC). Along rays from its centre the rim is then measured to a
-/// fraction of a pixel, and the circle is fitted to it with less weight for distant points.
+/// Black along rows and columns mostly ends at points on the rim. The first guess is the circle through three of these
+/// points that has most others on it (RANSAC). The rim is then measured to a fraction of a pixel, along rays from the
+/// guessed centre. The circle is fitted to these measurements, with less weight for distant points.
 pub fn find(codes: &Image<Rgba>) -> Option<Found> {
     let picture = Brightness::new(codes)?;
     let coarse = picture.coarse_rim();
@@ -67,7 +67,8 @@ fn measure(picture: &Brightness<'_>, coarse: &[DVec2]) -> Option<Circle> {
     (is_likely && seen(picture, &circle, &points) >= SEEN && is_on_black(picture, &circle, DARK)).then_some(circle)
 }
 
-/// Returns the circle around a bright disc with a ragged edge: centred on it, and as large as nearly all of its light.
+/// Returns the circle around a bright disc with a ragged edge. It is centred on the disc, and holds nearly all of its
+/// light.
 fn outline(picture: &Brightness<'_>, coarse: &[DVec2]) -> Option<Circle> {
     let (width, height) = picture.size();
     let least = width.min(height) as f64;
@@ -190,7 +191,7 @@ mod tests {
         let leaves = |i: usize, j: usize| (i * 7919 + j * 104_729 + i * j * 31) % 23;
         let canopy = Image::from_fn(320, 240, |i, j| {
             let beyond = circle.beyond(DVec2::new(i as f64, j as f64)) / circle.radius;
-            // The nearer to the rim, the fewer gaps.
+            // Gaps are fewer towards the rim.
             let lit = beyond < 0.0 && (leaves(i / 2, j / 2) as f64) < -20.0 * beyond;
             if lit { Rgba::opaque(0.4, 0.5, 0.6) } else { Rgba::BLACK }
         });
@@ -204,7 +205,7 @@ mod tests {
         let full = Image::from_fn(320, 240, |i, j| grey(0.5 + 0.4 * (0.1 * i as f64).sin() * (0.08 * j as f64).cos()));
         assert_eq!(find(&full), None);
         assert_eq!(find(&Image::filled(320, 240, Rgba::BLACK)), None);
-        // A dark room with a lit window; vignetting that does not reach black.
+        // A dark room with a lit window, and vignetting that does not reach black.
         let window = Image::from_fn(320, 240, |i, j| {
             grey(if (80..200).contains(&i) && (60..150).contains(&j) { 0.8 } else { 0.01 })
         });

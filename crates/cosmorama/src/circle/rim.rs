@@ -62,7 +62,7 @@ impl<'a> Brightness<'a> {
     pub(super) fn coarse_rim(&self) -> Vec<DVec2> {
         let (width, height) = self.size();
         let mut points = Vec::new();
-        // Two in a row, so that a hot pixel is none.
+        // Two pixels in a row, so that a hot pixel does not count.
         let first = |is_black: &dyn Fn(usize) -> bool, length: usize| {
             (0..length - 1).find(|&k| !is_black(k) && !is_black(k + 1)).filter(|&k| k > 1)
         };

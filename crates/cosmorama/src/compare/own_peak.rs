@@ -1,20 +1,20 @@
 use super::Difference;
 use super::pair::Pair;
 
-/// Differences of linear light by the reference's own light, for pictures that are brighter than 1: the usual PSNR takes 1 for
-/// the peak.
+/// Differences of linear light relative to the reference's own light, for pictures that are brighter than 1: the usual
+/// PSNR takes 1 as the peak.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OwnPeak {
     /// Greatest sample of the second picture, the reference.
     pub peak: f64,
-    /// PSNR of that peak, in decibels.
+    /// Peak signal-to-noise ratio for that peak, in decibels.
     pub psnr: f64,
-    /// Root mean square of the differences, over that of the reference's samples.
+    /// Root mean square of the differences, divided by the root mean square of the reference's samples.
     pub relative: f64,
 }
 
 impl OwnPeak {
-    /// Measures the reference's light, where it is anywhere brighter than 1.
+    /// Measures the differences; `None` if the reference is nowhere brighter than 1.
     pub(super) fn of(pair: &Pair<'_>, linear: &Difference) -> Option<Self> {
         let (mut peak, mut squares) = (0.0_f64, 0.0);
         let (_, height) = pair.size();

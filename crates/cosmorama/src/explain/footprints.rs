@@ -62,7 +62,7 @@ fn spacing(world: &World, target: &View, net: &Net) -> usize {
         let pixel = (DMat2::from_diagonal(texel_size(source, frame)) * jacobian).determinant().abs().sqrt();
         Some(SPACING * frame.width.sqrt() / pixel)
     });
-    // Without a view at the centre: as many as look well in a frame of any size.
+    // Without a view at the centre, a number that looks well in a picture of any size.
     let every = on_sheet.unwrap_or(longer as f64 / 40.0);
     (every.round() as usize).clamp(1, (longer / 16).max(1))
 }
@@ -86,10 +86,11 @@ fn draw_footprint(drawing: &mut Drawing, world: &World, net: &Net, screen: &Scre
     let Some((centre, jacobian)) = source.view.texel_footprint(&screen.footprint) else { return };
     let (frame, centre) = (net.images[index], source.view.wrapped(centre));
     let scale = texel_size(source, frame);
-    // On the sheet a texel of a 1024×960 face is not square: the ellipse is that of the stretched matrix.
+    // On the sheet a texel of a 1024×960 face is not square, so the ellipse is that of a stretched matrix.
     let ellipse = Ellipse::new(DMat2::from_diagonal(scale) * jacobian * (enlarged / 2.0), 0.0);
     let (major, minor, angle) = ellipse.axes();
-    // Around a pole of the source the ellipse says nothing any more, around one of the target there are too many.
+    // Around a pole of the source an ellipse means nothing any more, and around a pole of the target there are too
+    // many.
     if major.is_nan() || major >= frame.width / 2.0 || minor < NARROWEST {
         return;
     }

@@ -33,9 +33,9 @@ pub struct Report {
 /// Direction and view of the pixel at a target's centre, which is on the lens's axis if that is visible.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Centre {
-    /// Direction in which it looks.
+    /// Direction in which the pixel looks.
     pub direction: Direction,
-    /// Index of the view that gives it, and the pixel's length there.
+    /// Index of the view that gives the pixel, and the pixel's length there.
     pub view: Option<(usize, Magnification)>,
 }
 
@@ -48,9 +48,9 @@ pub struct ViewReport {
     pub size: (usize, usize),
     /// Fraction of its texels that the target shows, 0 to 1.
     pub used: f64,
-    /// Fraction of the target's picture that it gives, 0 to 1.
+    /// Fraction of the target's picture that the view gives, 0 to 1.
     pub share: f64,
-    /// Range of its texels per target pixel.
+    /// Range of the view's texels per target pixel.
     pub magnification: Option<Magnification>,
     /// Image sizes that would suit the target.
     pub advised: Option<FaceSize>,

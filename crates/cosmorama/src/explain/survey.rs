@@ -6,8 +6,8 @@ use crate::filter::{FilterSettings, KernelTable};
 use crate::render::{Pyramid, Resampler, TexelCount};
 use crate::world::{Source, World};
 
-/// Greatest number of pixels, or of texels of a view, that a survey visits; of more it visits every second, third and
-/// so on.
+/// Greatest number of pixels, or of texels of a view, that a survey visits. If there are more, it visits every second,
+/// third and so on.
 const SAMPLES: usize = 1 << 17;
 
 /// Statistics over a target's pixels.

@@ -65,7 +65,7 @@ impl Display for ViewReport {
         let (width, height) = self.size;
         write!(f, "{width}x{height}  ")?;
         match (self.need.seen, self.need.read) {
-            // All that is read is asked for: then whatever the rest of the image holds changes nothing.
+            // The text asks for all texels that are read: then the rest of the image may hold anything.
             (Some(seen), read) => write!(f, "needs {}, uses {}", read.unwrap_or(seen), Percent(self.used))?,
             (None, Some(read)) => write!(f, "not needed (the filter touches {read})")?,
             (None, None) => write!(f, "not needed")?,

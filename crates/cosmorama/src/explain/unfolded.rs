@@ -38,7 +38,7 @@ pub(crate) fn draw(world: &World, target: &View, needs: &Needs, underlays: &[Und
         let picture = underlays.iter().find(|underlay| underlay.view == index);
         draw_image(&mut drawing, source, index, net.images[index], target, picture);
     }
-    // Curves and letters lie over all images: an edge between two faces must not cut them.
+    // Curves and letters lie over all images, so that no image cuts an edge at its border.
     for (source, &frame) in world.sources().iter().zip(&net.images) {
         draw_curve(&mut drawing, source, net.outset(frame), target);
     }
@@ -91,7 +91,7 @@ fn draw_names(drawing: &mut Drawing, source: &Source, need: &Need, frame: Rect, 
     let lines = [(source.name.as_str(), LABEL), (&needed_text(&needed, source, &size), SMALL)];
     match (regions.middle(true), regions.middle(false)) {
         (Some((place, room)), _) if room >= ROOM => drawing.plaque(&lines, place, frame, PAPER, INK),
-        // On a small region its name would hide it: what is not needed has room.
+        // On a small region its name would hide it, so the name goes to the part that is not needed.
         (_, Some((place, _))) => drawing.plaque(&lines, place, frame, DARK, PAPER),
         _ => drawing.plaque(&lines, middle, frame, PAPER, INK),
     }

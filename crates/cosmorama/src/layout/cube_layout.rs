@@ -24,15 +24,15 @@ struct Cell {
 pub struct PlacedFace {
     /// Face of the cube.
     pub face: CubeFace,
-    /// Placement of its picture.
+    /// Placement of the face's picture.
     pub lies: FacePlacement,
-    /// Rectangle of its pixels.
+    /// Rectangle of the face's pixels.
     pub rect: PixelRect,
     /// The whole face; in half a cube only a part of it may be there.
     pub canvas: Canvas,
 }
 
-/// Columns and rows in halves of a face: `left..right`, `top..bottom`.
+/// Rectangle in units of half a face: columns `left..right`, rows `top..bottom`.
 type Halves = PixelRect;
 
 impl CubeLayout {
@@ -231,7 +231,7 @@ mod tests {
         assert_eq!(front.canvas, Canvas { width: 8, height: 8, left: 0, top: 0 });
         // The hemicube of radiosity: the front, and half of each neighbour around it.
         assert_eq!(cross.with_half(CubeFace::Front).size(8), Ok((16, 16)));
-        // The back of the vertical cross stands on its head.
+        // In a vertical cross the back is upside down.
         let down = CubeLayout::new(LayoutKind::CrossV).with_half(CubeFace::Down);
         let back = down.faces(8).into_iter().find(|placed| placed.face == CubeFace::Back).unwrap();
         assert_eq!((back.rect.height(), back.canvas.top), (4, 0));

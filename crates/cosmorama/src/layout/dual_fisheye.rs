@@ -52,7 +52,7 @@ impl LensSide {
 /// One of two cameras, with its lens and its deviation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DualLens {
-    /// Fisheye model. If its circle is placed explicitly, then in pixels of the whole image.
+    /// Fisheye model. If its circle is placed explicitly, it is in pixels of the whole image.
     pub frame: FisheyeCamera,
     /// Rotation of the camera relative to its nominal orientation, in the camera's own frame.
     pub turned: Orientation,
@@ -63,7 +63,7 @@ pub struct DualLens {
 pub struct PlacedLens {
     /// Camera of the picture.
     pub side: LensSide,
-    /// Rectangle of its pixels.
+    /// Rectangle of the picture's pixels.
     pub rect: PixelRect,
     /// Camera model and orientation of the picture.
     pub placement: Placement,
@@ -141,7 +141,7 @@ mod tests {
         let [front, back] = camera().lenses(200, 100, Mirror::default()).unwrap();
         assert!(seen(&front, 50.0, 50.0).angle_to(Direction::FRONT).degrees() < 1e-9);
         assert!(seen(&back, 50.0, 50.0).angle_to(Direction::BACK).degrees() < 1e-9);
-        // Right in the picture of the camera that looks back is left in the world.
+        // The right side of the picture of the camera that looks back shows the left of the world.
         assert!(seen(&back, 90.0, 50.0).dot(Direction::LEFT) > 0.9);
         assert_eq!((front.rect.left, back.rect.left), (0, 100));
         assert!(camera().lenses(201, 100, Mirror::default()).is_err());
@@ -154,7 +154,7 @@ mod tests {
         camera.back.frame.circle = circle;
         let [back, front] = camera.lenses(200, 100, Mirror { x: true, y: false }).unwrap();
         assert_eq!((back.side, back.rect.left, front.side), (LensSide::Back, 0, LensSide::Front));
-        // Column 148 of 200 is 52 from the other side.
+        // Column 52 is as far from one side as column 148 of 200 is from the other.
         assert!(seen(&back, 52.0, 50.0).angle_to(Direction::BACK).degrees() < 1e-9);
         assert!(seen(&front, 90.0, 50.0).dot(Direction::LEFT) > 0.9);
     }

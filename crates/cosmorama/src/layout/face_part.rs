@@ -60,7 +60,7 @@ mod tests {
         assert_eq!(part(CubeFace::Down), None);
         let ground = FacePart::of(CubeFace::Left, FacePlacement::UPRIGHT, Some(CubeFace::Down)).unwrap();
         assert_eq!(ground.canvas(8, 4), Canvas { width: 8, height: 8, left: 0, top: 4 });
-        // A picture that lies on its side shows it on its side.
+        // A picture that lies on its side shows the part on its side.
         let turned = FacePart::of(CubeFace::Left, FacePlacement::turned(1), Some(CubeFace::Up)).unwrap();
         assert_eq!(turned.canvas(4, 8), Canvas { width: 8, height: 8, left: 4, top: 0 });
     }

@@ -93,7 +93,7 @@ impl LayoutKind {
         match self {
             Self::StripH | Self::StripV | Self::ThreeByTwo | Self::TwoByThree | Self::CrossH => [0; 6],
             Self::CrossV => [0, 0, 0, 0, 0, 2],
-            // Its lower row goes on without a break, too.
+            // The faces of the lower row are continuous, too.
             Self::Eac => [0, 0, 0, 3, 1, 3],
         }
     }

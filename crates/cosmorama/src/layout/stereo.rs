@@ -53,7 +53,8 @@ impl Stereo {
         Ok(if (eye == Eye::Left) == self.is_swapped { second } else { first })
     }
 
-    /// Returns the size of the image that holds two pictures which have this size before they are squeezed.
+    /// Returns the size of the image that holds two pictures; the given size is that of a picture before it is
+    /// squeezed.
     ///
     /// # Errors
     /// When the number of columns or rows to be halved is odd.

@@ -35,8 +35,8 @@ impl ProjectionKind {
     /// The sinusoidal map of the world.
     pub const SINUSOIDAL: Self = Self::Sinusoidal(Pseudocylindrical(Sinusoidal));
 
-    /// Returns whether the domain is convex and symmetrical about both axes. Then a rectangle that overlaps the domain
-    /// has the point nearest to both axes inside it.
+    /// Returns whether the domain is convex and symmetrical about both axes. Then a rectangle overlaps the domain only
+    /// if its point nearest to both axes lies inside it.
     pub(crate) fn is_oval(&self) -> bool {
         matches!(self, Self::Hammer(_) | Self::Mollweide(_) | Self::Sinusoidal(_))
     }

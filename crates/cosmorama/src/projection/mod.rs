@@ -136,8 +136,8 @@ pub trait Projection {
     /// ellipse; a larger one is weighed on the sphere.
     fn margin(&self, direction: Direction) -> f64;
 
-    /// Returns whether derivatives grow without bound towards a rim or a pole. There a texel is measured from side to
-    /// side.
+    /// Returns whether derivatives grow without bound towards a rim or a pole. There a texel is measured from one side
+    /// to the other.
     fn has_steep_rim(&self) -> bool {
         false
     }
@@ -148,8 +148,8 @@ pub trait Projection {
         false
     }
 
-    /// Returns the mirror image of a direction beyond the nearest seam at which the map's sides meet at an angle: the
-    /// map's texels lie there. `None` for maps without such a seam.
+    /// Returns the mirror image of a direction beyond the nearest seam at which the map's sides meet at an angle. That
+    /// is where the texels beyond the seam lie. `None` for maps without such a seam.
     fn beyond_seam(&self, _direction: Direction) -> Option<Direction> {
         None
     }

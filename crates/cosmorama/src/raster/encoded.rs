@@ -33,7 +33,7 @@ impl Samples {
         self.len() == 0
     }
 
-    /// Returns the bytes of memory that they take.
+    /// Returns the bytes of memory that the samples take.
     pub fn bytes(&self) -> u64 {
         let size = match self {
             Self::U8(_) => 1,
@@ -43,7 +43,7 @@ impl Samples {
         size * self.len() as u64
     }
 
-    /// Returns where they lie in memory.
+    /// Returns the address of the samples in memory.
     pub(super) fn address(&self) -> usize {
         match self {
             Self::U8(samples) => samples.as_ptr().addr(),

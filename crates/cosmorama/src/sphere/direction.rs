@@ -75,7 +75,7 @@ impl Direction {
 
     /// Returns the angle to another direction, exact for small and large angles alike.
     pub fn angle_to(self, other: Self) -> Angle {
-        // Of near directions by the series of 2 asin(chord/2), whose next term is less than rounding.
+        // Between near directions: the series of 2 asin(chord/2), of which the next term is less than rounding.
         let squared = self.0.distance_squared(other.0);
         if squared < 1e-3 {
             let series = 1.0 + squared * (1.0 / 24.0 + squared * (3.0 / 640.0 + squared * (5.0 / 7168.0)));

@@ -33,7 +33,7 @@ impl Presence {
         let (view, blend) = (&source.view, source.blend);
         let feather = blend.feather.radians();
         if feather > 0.0 {
-            // Where any view fades, which one is the finest does not matter.
+            // If any view fades, the finest view is not needed.
             let weight = smooth(border_distance(source, pixel) / feather);
             return Self { index, pixel, weight, solid_angle: f64::INFINITY, blend };
         }
@@ -50,8 +50,8 @@ impl Presence {
 
 /// Returns the share of each view that shows a direction; the shares add to one.
 ///
-/// Shares are continuous wherever borders are feathered: a view comes in with weight zero, and hands its weight over to
-/// others where it ends.
+/// Shares are continuous wherever borders are feathered: a view's weight is zero where it begins, and goes over to
+/// other views where it ends.
 pub(crate) fn parts(present: &[Presence]) -> Vec<f64> {
     let mut parts = vec![0.0; present.len()];
     let mut left = 1.0;
@@ -73,13 +73,13 @@ pub(crate) fn parts(present: &[Presence]) -> Vec<f64> {
     if sum > 0.0 {
         parts.iter_mut().for_each(|part| *part /= sum);
     } else {
-        // On the very border of all that are there.
+        // The direction is on the very border of all views that show it.
         parts.fill((present.len() as f64).recip());
     }
     parts
 }
 
-/// Returns one for the view with the smallest texels, and for those that are as fine; else zero.
+/// Returns one for the view with the smallest texels, and for views with equally small ones; else zero.
 fn finest<'a>(one: &Presence, all: impl Iterator<Item = &'a Presence>) -> f64 {
     const AS_FINE: f64 = 1.000_001;
     let least = all.map(|other| other.solid_angle).fold(f64::INFINITY, f64::min);

@@ -4,8 +4,8 @@ use crate::sphere::{Angle, Direction};
 
 /// A cone that holds every direction in a picture.
 ///
-/// Around the point behind a lens, or beside a horizon, small caps spread over the whole plane of the image. Caps
-/// outside the cone need not be searched for there.
+/// Around the point behind a lens, or beside a horizon, even a small cap spreads over the whole plane of the image.
+/// Caps outside the cone need not be searched for in the image.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct SeenCone {
     middle: Direction,
@@ -32,7 +32,7 @@ impl SeenCone {
 
     /// Returns the cone around a lattice of points of the image, widened by the distance between neighbouring points.
     fn of_image(view: &View) -> Option<Self> {
-        // A panorama goes round; what a table relates may be torn between any two points.
+        // A panorama goes all the way round, and a table may be torn between any two points.
         if view.period().is_some() || view.projection.ends_between_samples() {
             return None;
         }
@@ -52,7 +52,7 @@ impl SeenCone {
         (half < Angle::HALF_TURN).then_some(Self { middle, half })
     }
 
-    /// Returns whether it comes within `radius` radians of a direction.
+    /// Returns whether the cone comes within `radius` radians of a direction.
     pub(crate) fn reaches(&self, direction: Direction, radius: f64) -> bool {
         self.middle.angle_to(direction).radians() <= self.half.radians() + radius
     }
@@ -104,7 +104,7 @@ mod tests {
         ] {
             assert!(!cone_holds_the_picture(frame.clone(), (96, 48)), "{frame:?}");
         }
-        // A ball shows the world but for the point behind it.
+        // A ball shows all of the world except the point behind it.
         cone_holds_the_picture(CameraModel::MirrorBall(MirrorBallCamera::default()), (64, 64));
     }
 }

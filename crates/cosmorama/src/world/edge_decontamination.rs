@@ -5,10 +5,10 @@ use crate::raster::Rgba;
 
 /// Texels that are cut by the edge of a view's field of view, such as the rim of a circle, ball or oval map.
 ///
-/// A picture's rim may have been antialiased: then its texels are mixed with the surroundings, and a conversion would
-/// show the rim, in an oval map as a line from pole to pole. Or its texels hold the light of whole texels. The
-/// alternative that better matches the whole texels beside them is assumed. Mixed texels must be restored before a
-/// world is filled with the light of pictures.
+/// A picture's rim may have been antialiased. Then its texels are mixed with the surroundings, and a conversion would
+/// show the rim; in an oval map it would be a line from pole to pole. Or the texels hold unmixed light. Whichever
+/// better matches the whole texels beside them is assumed. Mixed texels must be restored before a world is filled with
+/// the light of pictures.
 #[derive(Clone, Debug, Default)]
 pub struct RimTexels {
     /// Columns and rows of the view.
@@ -23,7 +23,8 @@ struct RimTexel {
     at: u32,
     /// Fraction of the texel inside the field of view.
     coverage: f32,
-    /// Index of its first neighbour, number of whole neighbours, and number of neighbours after them that show nothing.
+    /// Index of the texel's first neighbour, number of whole neighbours, and number of neighbours after them that show
+    /// nothing.
     first: usize,
     whole: u8,
     outside: u8,
@@ -39,7 +40,7 @@ impl RimTexels {
     /// Finds the texels of a view that the edge of its field of view cuts.
     pub fn of(view: &View) -> Self {
         let mut found = Self { size: [view.width(), view.height()], ..Self::default() };
-        // Fields of view are convex, all but a little: one that holds the corners of the image holds all of it.
+        // Fields of view are nearly convex: one that holds the corners of the image holds all of it.
         let is_full = corners_shown(view, [0, 0], view.width().max(view.height())) == 4;
         if is_full || view.projection.ends_between_samples() {
             return found;
@@ -85,19 +86,19 @@ impl RimTexels {
             let sum = of.iter().map(|at| light(texels[index(*at)])).fold(Rgba::TRANSPARENT, |a, b| a + b);
             (!of.is_empty()).then(|| sum * (of.len() as f32).recip())
         };
-        // Where the rim touches the image's border, what lies around is what does elsewhere.
+        // Where the rim touches the image's border, the surroundings are taken to be as they are elsewhere.
         let outside: Vec<u32> = self.texels.iter().flat_map(|rim| self.beside(rim)[1]).copied().collect();
         let around = mean(texels, &outside).unwrap_or(Rgba::TRANSPARENT);
         let (mut unmixed, mut is_mixed) = (Vec::new(), Mixture::default());
         for rim in &self.texels {
             let [whole, outside] = self.beside(rim).map(|beside| mean(texels, beside));
-            // Without a whole one beside it, there is nothing to tell by.
+            // Without a whole texel beside it, a texel cannot be tested.
             let Some(expected) = whole else { continue };
             let (found, around) = (light(texels[index(rim.at)]), outside.unwrap_or(around));
             is_mixed.add(found, expected, (around, rim.coverage));
             unmixed.extend(inside(found, around, rim.coverage).map(|inside| (rim.at, inside)));
         }
-        // All of them or none: a texel by itself may look like either, and would flicker.
+        // All texels are restored or none: a single texel may look like either, and would flicker.
         if is_mixed.is_likely() {
             unmixed.into_iter().for_each(|(at, inside)| texels[index(at)] = texel(inside));
         }
@@ -110,8 +111,8 @@ impl RimTexels {
     }
 }
 
-/// Returns the light inside, of a texel that is mixed with its surroundings. `None` if that would be darker than black,
-/// because then the texel is no mixture.
+/// Returns the light of the inner part of a texel that is mixed with its surroundings. `None` if it would be darker
+/// than black, because then the texel is no mixture.
 fn inside(Rgba(mixed): Rgba, Rgba(around): Rgba, coverage: f32) -> Option<Rgba> {
     let part = |channel: usize| (mixed[channel] - (1.0 - coverage) * around[channel]) / coverage;
     let parts: [f32; 4] = std::array::from_fn(part);
@@ -130,7 +131,7 @@ struct Mixture {
 
 impl Mixture {
     fn add(&mut self, Rgba(found): Rgba, Rgba(expected): Rgba, (Rgba(around), coverage): (Rgba, f32)) {
-        // Where what lies around is transparent and the texels inside are not, alpha alone tells.
+        // Where the surroundings are transparent and the texels inside are not, alpha alone decides.
         let channels = if expected[3] - around[3] > 0.5 { 3..4 } else { 0..3 };
         for channel in channels {
             let step = f64::from((1.0 - coverage) * (around[channel] - expected[channel]));
@@ -236,7 +237,7 @@ mod tests {
         }
     }
 
-    /// Tests grass and leaves, of which no single texel decides the question, but all together do.
+    /// Tests grass and leaves, where no single texel decides, but all together do.
     #[test]
     fn rough_pictures_are_told_by_the_whole_rim() {
         let noise = |k: usize| 0.02 + (k as u32).wrapping_mul(2_654_435_761) as f32 / u32::MAX as f32;

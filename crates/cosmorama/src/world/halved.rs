@@ -20,8 +20,8 @@ impl World {
     }
 }
 
-/// Least length of the longer side of a picture that is worth halving. A cube of faces of 2 × 2 would have the light of twelve
-/// directions in half of the world, which is too little for its mean.
+/// Least length of the longer side of a picture that is worth halving. A cube with faces of 2 × 2 would represent half
+/// of the world by twelve directions, which is too few for its mean.
 const SMALLEST: usize = 8;
 
 impl Source {

@@ -46,7 +46,7 @@ impl Camera for LayoutFaceCamera {
         };
         let reach = |pixels: usize| match self.samples {
             SamplePositions::Centres => edge,
-            // Half a pixel further, so that the outermost centres are on the edge.
+            // Half a pixel farther on each side, so that the outermost centres are on the edge.
             SamplePositions::Edges => edge * (1.0 + 1.0 / (pixels as f64 - 1.0)),
         };
         check_positive("the columns of a face less one", 1.0 / reach(width))?;
@@ -75,7 +75,7 @@ mod tests {
     #[test]
     fn samples_on_the_edges_see_45_degrees() {
         let frame = LayoutFaceCamera { samples: SamplePositions::Edges, ..LayoutFaceCamera::default() };
-        // The middle row of eight lies between two.
+        // The middle of eight rows lies between two of them.
         assert!((angle(frame, PixelPoint::new(0.5, 4.0)) - 45.0).abs() < 1e-9);
         assert!((angle(frame, PixelPoint::new(4.0, 7.5)) - 45.0).abs() < 1e-9);
         assert!(frame.view(1, 8).is_err());

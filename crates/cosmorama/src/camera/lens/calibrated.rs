@@ -31,7 +31,8 @@ pub struct CalibratedCamera {
 /// Distance from the axis, in focal lengths, beyond which a lens's image counts as infinite.
 const INFINITELY_FAR: f64 = 1e6;
 
-/// Factor by which the projection's angle extends beyond an image's corners, because kernels reach a little further.
+/// Factor by which the projection extends beyond the angle of the image's corners, because kernels reach a little
+/// farther.
 const BEYOND_CORNERS: f64 = 1.05;
 
 impl Camera for CalibratedCamera {
@@ -70,7 +71,7 @@ impl CalibratedCamera {
         let found = DVec2::new(width as f64, height as f64);
         let measured = DVec2::new(w as f64, h as f64);
         let scale = found / measured;
-        // Sides are whole numbers of pixels: half a one may be missing.
+        // The sides of an image are whole numbers of pixels, so a factor may be off by half a pixel.
         let mean = f64::midpoint(scale.x, scale.y);
         if (found - measured * mean).abs().max_element() > 0.51 {
             return Err(CameraError::CalibrationSize { found: (width, height), measured: (w, h) });
@@ -112,8 +113,8 @@ impl CalibratedCamera {
         Ok(ProjectionKind::Pinhole(Calibrated::new(lens, matrix.skew, limit)))
     }
 
-    /// Returns the greatest angle from the axis that is used, of a lens that ends at `reach` radians and turns back at
-    /// a radius.
+    /// Returns the greatest angle from the axis that is used, in a lens that ends at `reach` radians. `turn` is the
+    /// radius at which its formula turns back, if it does.
     fn limit(
         &self,
         reach: f64,

@@ -28,7 +28,7 @@ impl CameraMatrix {
         if !(determinant > 0.0 && rows.as_flattened().iter().all(|number| number.is_finite())) {
             return Err(CameraError::CameraMatrix { determinant });
         }
-        // An upper triangular matrix times a rotation, which is the sensor's.
+        // The matrix is an upper triangular one times a rotation, which is that of the sensor.
         let across = c.hypot(d);
         let (sin, cos) = (c / across, d / across);
         let focal = DVec2::new(a * cos - b * sin, across);
@@ -44,7 +44,7 @@ impl CameraMatrix {
     /// Returns the camera matrix of the image resized by these factors along x and y.
     pub(crate) fn scaled(self, scale: DVec2) -> Self {
         let (focal, principal) = (self.focal * scale, self.principal * scale);
-        // Units of x for each unit of y stay what they are: pixels are scaled, not the plane.
+        // Pixels are scaled, not the plane, so the skew stays what it is.
         Self { focal, principal, ..self }
     }
 }

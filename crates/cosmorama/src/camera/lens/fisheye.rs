@@ -154,13 +154,13 @@ impl FisheyeCamera {
     }
 }
 
-/// Angle from the axis, in radians, at which every lens of use has a radius that an image can have.
+/// Angle from the axis, in radians, at which every useful lens has a radius that an image can have.
 const NEAR_AXIS: f64 = 0.5;
 
 /// Radius, in the lens's unit, beyond which an image point counts as infinitely far.
 const INFINITELY_FAR: f64 = 1e9;
 
-/// Radius, in the lens's unit, that is greater than that of any image's corner.
+/// Radius, in the lens's unit, that no image's corner reaches.
 const BEYOND_IMAGES: f64 = 1e6;
 
 #[cfg(test)]

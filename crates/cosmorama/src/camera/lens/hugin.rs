@@ -202,7 +202,7 @@ mod tests {
             (HuginProjection::Orthographic, 45.0),
         ] {
             for correction in [[0.0; 3], [0.01, -0.02, 0.005]] {
-                // The shorter side is the width here: there the correction does nothing.
+                // The width is the shorter side here, and the correction does nothing at half the shorter side.
                 let view = HuginCamera { projection, correction, ..LENS }.view(300, 400).unwrap();
                 let axis = view.direction(PixelPoint::new(153.0, 198.0)).unwrap();
                 assert!(axis.angle_to(Direction::FRONT).degrees() < 1e-9);

@@ -4,9 +4,9 @@ use crate::camera::{CameraError, PixelGrid, PixelPoint};
 /// Explicit place of a lens's circle in an image; it overrides the camera model's own.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LensCircle {
-    /// Its centre.
+    /// Centre of the circle.
     pub centre: Option<PixelPoint>,
-    /// Its radius, in pixel widths.
+    /// Radius of the circle, in pixel widths.
     pub radius: Option<f64>,
 }
 
@@ -33,7 +33,7 @@ impl LensCircle {
     fn check_seen(self, grid: &PixelGrid, centre: PixelPoint, plane_radius: f64) -> Result<(), CameraError> {
         let (width, height) = (grid.width(), grid.height());
         let (across, down) = (plane_radius / grid.step().x.abs(), plane_radius / grid.step().y.abs());
-        // The nearest place on the image, in radii.
+        // Point of the image nearest to the circle's centre, relative to the centre, in radii.
         let x = (centre.x.clamp(0.0, width as f64) - centre.x) / across;
         let y = (centre.y.clamp(0.0, height as f64) - centre.y) / down;
         if x * x + y * y < 1.0 {

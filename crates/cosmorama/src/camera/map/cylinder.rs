@@ -25,8 +25,8 @@ impl CylinderKind {
         }
     }
 
-    /// Returns half the plane's height of an image whose height is not given. Mercator's map is the web's square, the
-    /// central cylinder shows 45° up and down, and the equal-area cylinder shows everything.
+    /// Returns half the plane's height for an image whose height is not given. Mercator's map is the square of web
+    /// maps, the central cylinder shows 45° up and down, and the equal-area cylinder shows everything.
     fn usual_height(self) -> f64 {
         match self {
             Self::Mercator => std::f64::consts::PI,

@@ -117,7 +117,7 @@ impl Flow {
         let rows: Vec<[f64; 4]> = (0..self.first.height()).into_par_iter().map(of_row).collect();
         let [count, rest, squares, slopes] = rows.into_iter().fold([0.0; 4], sum);
         let variance = (squares - rest * rest / count).max(0.0);
-        // Slopes in one of two directions. Where nothing is left to explain nothing is in doubt, be there slopes or none.
+        // Slopes of one of two directions. If no difference is left, nothing is in doubt, whatever the slopes.
         if variance > 0.0 { (2.0 * variance / slopes).sqrt() } else { 0.0 }
     }
 
@@ -224,7 +224,7 @@ mod tests {
 
     #[test]
     fn pictures_that_slopes_do_not_bring_together_have_no_registration() {
-        // Squares in no order, a few pixels wide: nothing that is seen in one place tells of the next.
+        // Squares at random, a few pixels wide, so that no place tells anything of the next.
         let squares = |right: usize| {
             Image::from_fn(96, 80, |i, j| {
                 let number = ((i + right) / 4 * 31 + j / 4 * 17) as u64;

@@ -2,7 +2,7 @@
 
 use super::drawing::{Point, Rect};
 
-/// Bisections of the interval in which a label changes, to 1/256 of a step.
+/// Number of bisections of the interval in which a label changes. Eight find the change to 1/256 of a step.
 const HALVINGS: usize = 8;
 
 /// Nodes along each side of the grid that is searched for a name's place.
@@ -29,7 +29,7 @@ impl<L: Copy + PartialEq, F: Fn(f64, f64) -> L> Regions<F> {
                     x: self.frame.x + start * self.frame.width,
                     y: self.frame.y + row as f64 * row_height,
                     width: (end - start) * self.frame.width,
-                    // Strips overlap by a hair: between two that just touch, the ground would shine through.
+                    // Strips overlap slightly: between two that just touch, the background would shine through.
                     height: if row + 1 < self.rows { row_height + 0.3 } else { row_height },
                 });
             }
@@ -120,7 +120,7 @@ impl<L: Copy + PartialEq, F: Fn(f64, f64) -> L> Regions<F> {
         let places = nodes().zip(&inside).filter(|(_, inside)| **inside).map(|(node, _)| place(node));
         let roomy: Vec<(Point, f64)> = places.map(|place| (place, room(place))).collect();
         let most = roomy.iter().fold(0.0, |most: f64, (_, room)| most.max(*room));
-        // Of many places that are as good, the one nearest to the region's mean looks best.
+        // Of many places with as much room, the one nearest to the region's mean looks best.
         let (count, sum) =
             (roomy.len() as f64, roomy.iter().fold((0.0, 0.0), |sum, (p, _)| (sum.0 + p.0, sum.1 + p.1)));
         let from_mean = |(x, y): Point| (x - sum.0 / count).hypot(y - sum.1 / count);

@@ -85,7 +85,7 @@ fn faces(world: &World) -> Option<Vec<CubeFace>> {
         let is_first = |(index, face): (usize, &CubeFace)| !found[..index].contains(face);
         found.iter().enumerate().all(is_first).then_some(found)
     };
-    // A cube that is turned in the world has faces all the same: their names tell.
+    // The faces of a cube that is turned in the world are recognised by their names.
     let named = |source: &Source| CubeFace::ALL.into_iter().find(|face| face.name() == source.name);
     let by_orientation = sources.iter().map(facing).collect::<Option<Vec<_>>>();
     by_orientation.or_else(|| sources.iter().map(named).collect()).and_then(distinct)

@@ -76,7 +76,7 @@ impl Lens for BallLens {
     }
 
     fn reach(&self) -> f64 {
-        // What the ball hides: a cone of half the angle under which it is seen.
+        // All but the cone of directions that the ball hides from the camera.
         PI - self.nearness.asin()
     }
 

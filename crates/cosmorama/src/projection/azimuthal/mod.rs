@@ -81,7 +81,7 @@ impl<L: Lens> Projection for Azimuthal<L> {
         let sine = length(vector.x, vector.y);
         let radius = self.0.radius(sine.atan2(-vector.z))?;
         if sine == 0.0 {
-            // Straight behind is the whole rim: any point of it will do.
+            // All of the rim shows the direction straight behind, so any point of it will do.
             return Some(PlanePoint::new(radius, 0.0));
         }
         Some(PlanePoint::new(vector.x / sine * radius, vector.y / sine * radius))
@@ -90,7 +90,7 @@ impl<L: Lens> Projection for Azimuthal<L> {
     fn unproject(&self, point: PlanePoint) -> Option<Direction> {
         let radius = length(point.x, point.y);
         let (sin, cos) = self.0.sin_cos(radius);
-        // Of a NaN neither is a number.
+        // If one is NaN, so is the other.
         if cos.is_nan() {
             return None;
         }
@@ -105,7 +105,7 @@ impl<L: Lens> Projection for Azimuthal<L> {
     fn unproject_with_jacobian(&self, point: PlanePoint) -> Option<(Direction, DirectionJacobian)> {
         let radius = length(point.x, point.y);
         let (angle, slope) = self.0.angle(radius);
-        // A NaN is no angle either.
+        // NaN means that there is no image.
         if angle.is_nan() || angle > PI {
             return None;
         }
@@ -138,11 +138,12 @@ impl<L: Lens> Projection for Azimuthal<L> {
 
     fn cap_outline(&self, centre: Direction, radius: Angle) -> Outline {
         let (from_axis, radius) = (Direction::FRONT.angle_to(centre).radians(), radius.radians());
-        // No further than there is an image: what sees more of a cap than the rim's circle holds does not see all of it.
+        // Limited to the image, which is the rim's circle where a cap extends beyond it.
         let at = |angle: f64| self.0.radius(angle.clamp(0.0, self.0.reach()));
         let Some(outer) = at(from_axis + radius) else { return Outline::Rects(vec![PlaneRect::EVERYTHING]) };
         let inner = at(from_axis - radius).unwrap_or(0.0);
-        // Around the axis, or what is straight behind, it goes all the way round; else it is as wide as it is in azimuth.
+        // A cap that holds the axis, or the direction straight behind, has a full ring. Others have a sector as wide as
+        // their azimuths.
         let sector = (from_axis > radius && from_axis + radius < PI).then(|| {
             let azimuth = centre.vector().y.atan2(centre.vector().x);
             Sector::new(azimuth, (radius.sin() / from_axis.sin()).min(1.0).asin())

@@ -42,9 +42,9 @@ impl Graticule {
         }
     }
 
-    /// Returns the rectangle of the plane that holds the box's image. The mapping must be symmetrical about its middle:
-    /// x rises with the longitude, y with the latitude, and either depends on the other's distance from 0 alone, rising
-    /// or falling with it.
+    /// Returns the rectangle of the plane that holds the box's image. x must rise with the longitude, and y with the
+    /// latitude. At a fixed longitude x must be a monotone function of the latitude's distance from 0, and likewise y
+    /// of the longitude's.
     pub(crate) fn bounds(self, place: impl Fn(f64, f64) -> PlanePoint) -> PlaneRect {
         let with_least = |low: f64, high: f64| [low, high, 0f64.clamp(low, high)];
         let mut rect = PlaneRect::NOTHING;

@@ -65,7 +65,7 @@ impl<P: Profile> Projection for Cylindrical<P> {
 
     fn unproject_row(&self, first: PlanePoint, step: f64, count: usize, mut visit: impl FnMut(usize, Direction)) {
         let Some((latitude, _)) = self.0.latitude(first.y).filter(|_| first.x.is_finite()) else { return };
-        // Along a row of latitude each direction is the one before, turned: no sine or cosine for each.
+        // Along a row each direction is the one before, turned, so that no sine or cosine is computed for each.
         let turn = DVec2::from_angle(step);
         let mut longitude = DVec2::from_angle(first.x);
         for k in 0..count {

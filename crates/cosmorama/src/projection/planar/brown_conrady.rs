@@ -110,7 +110,8 @@ impl BrownConrady {
         for numbers in [&radial[..], &tangential, &prism] {
             crate::projection::azimuthal::finite("a distortion coefficient", numbers)?;
         }
-        // The integral of a gain is the place that is reached: rising while the gain is positive.
+        // The integral of the gain along a bearing is the distance in the image, which rises while the gain is
+        // positive.
         let bearings = if coefficients.radial_only() { 1 } else { BEARINGS };
         let gain = |angle: f64| {
             let around = |k: usize| DVec2::from_angle(k as f64 / bearings as f64 * std::f64::consts::TAU);
@@ -179,7 +180,7 @@ impl BrownConrady {
             if !step.is_finite() {
                 return None;
             }
-            // Rounding ends it, not a bound: the answer is as good as f64 has it.
+            // Iteration ends at the precision of f64, not at a tolerance.
             let negligible = step.length() <= 1e-9 * (1.0 + at.length());
             let mut next = at - step;
             let mut found = self.coefficients.bend(next);
@@ -217,7 +218,7 @@ impl BrownConrady {
             bounds = Some(bounds.map_or(PlaneRect { min: point, max: point }, |bounds| bounds.with(point)));
         }
         let Some(PlaneRect { min, max }) = bounds else { return PlaneRect::EVERYTHING };
-        // Between two of those points the circle's image goes beyond both by a thousandth of its size.
+        // Between two of these points, the circle's image may go beyond both by a thousandth of its size.
         let spare = 0.02 * (max.x - min.x).max(max.y - min.y);
         PlaneRect {
             min: PlanePoint::new(min.x - spare, min.y - spare),

@@ -51,7 +51,7 @@ impl Projection for EquiAngular {
     }
 
     fn margin(&self, direction: Direction) -> f64 {
-        // Sines differ by no more than their angles.
+        // The difference of two sines is no greater than that of their angles.
         -direction.vector().z - HORIZON
     }
 

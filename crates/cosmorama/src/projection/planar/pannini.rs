@@ -53,7 +53,8 @@ impl Pannini {
         if lowest > 0.0 {
             if latitude > 0.0 { min.y = lowest.tan() } else { max.y = -lowest.tan() }
         }
-        // Around a pole there are all longitudes; else |x| rises with |λ| to the limit, unless that on the other side is reached.
+        // A cap around a pole has all longitudes. In others |x| rises with |λ| to the limit, unless the cap reaches the
+        // other limit.
         let half_width = (radius.sin() / latitude.cos()).asin();
         let (least, limit) = (longitude.abs() - half_width, self.limit().radians());
         if latitude.abs() + radius < FRAC_PI_2 && least > 0.0 && longitude.abs() + half_width < TAU - limit {

@@ -57,7 +57,7 @@ impl Projection for Perspective {
     }
 
     fn curvature(&self, point: PlanePoint) -> Option<[DVec2; 3]> {
-        // With d = v/|v|, what of ∂²d/∂i∂j lies in the tangent plane is −(i ∂d/∂j + j ∂d/∂i)/|v|².
+        // With d = v/|v|, the part of ∂²d/∂i∂j in the tangent plane is −(i ∂d/∂j + j ∂d/∂i)/|v|².
         let bent = DVec2::new(point.x, point.y) * -(1.0 + point.x * point.x + point.y * point.y).recip();
         Some([DVec2::new(2.0 * bent.x, 0.0), DVec2::new(bent.y, bent.x), DVec2::new(0.0, 2.0 * bent.y)])
     }

@@ -75,7 +75,7 @@ impl<M: Parallels> Projection for Pseudocylindrical<M> {
         let Some(parallel) = self.0.at(first.y) else { return };
         let longitude = |k: usize| (first.x + k as f64 * step) / parallel.width;
         let Some(start) = (0..count).find(|&k| is_on_the_map(longitude(k))) else { return };
-        // Along a parallel each direction is the one before, turned: no sine or cosine for each.
+        // Along a parallel each direction is the one before, turned, so that no sine or cosine is computed for each.
         let turn = DVec2::from_angle(step / parallel.width);
         let mut here = DVec2::from_angle(longitude(start));
         for k in (start..count).take_while(|&k| is_on_the_map(longitude(k))) {

@@ -58,7 +58,7 @@ impl Samples {
 }
 
 impl Links {
-    /// Returns the links between samples that all of `tables` have, along which none of them is torn.
+    /// Returns the links between samples that are in all of `tables`, where none of the tables is torn.
     pub(crate) fn of(tables: &[&Samples]) -> Self {
         let (width, height) = (tables[0].width, tables[0].height);
         let joined = |at, step| tables.iter().all(|table| table.is_continuous(at, step));

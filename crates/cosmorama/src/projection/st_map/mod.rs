@@ -19,8 +19,8 @@ use self::tree::{MOST_BEYOND, Tree};
 use super::{Outline, PlanePoint, PlaneRect, Projection};
 use crate::sphere::{Angle, Direction, DirectionJacobian};
 
-/// Pairs of a place in a picture and the direction seen there, on a lattice of samples. An st map, together with the
-/// projection of the picture at its other end, gives such a table.
+/// Table that pairs places in a picture with the directions seen there, on a lattice of samples. An st map makes such a
+/// table, together with the projection of the picture at its other end.
 ///
 /// Directions are defined where there are samples, and half a sample beyond. Places are defined a little further.
 ///

@@ -13,7 +13,7 @@ pub(crate) struct Leaf {
 }
 
 impl Leaf {
-    /// Returns the corners of its squares, least and greatest.
+    /// Returns the corners of the leaf's squares, least and greatest.
     pub(crate) fn rectangle(self, samples: &Samples) -> [(f64, f64); 2] {
         let (left, top) = (self.column * LEAF, self.row * LEAF);
         let (right, bottom) = ((left + LEAF).min(samples.width), (top + LEAF).min(samples.height));
@@ -28,13 +28,13 @@ impl Leaf {
         [(low(left), low(top)), (high(right, samples.width), high(bottom, samples.height))]
     }
 
-    /// Returns whether the table ends beside it.
+    /// Returns whether the table ends beside the leaf.
     pub(crate) fn is_outer(self, samples: &Samples) -> bool {
         self.rectangle_with(samples, 1.0) != self.rectangle(samples)
     }
 
-    /// Visits the cells between its samples and those beside it, as far as its cubics reach, by their upper left
-    /// corners.
+    /// Visits the upper left corners of the cells between the leaf's samples and those beside them, as far as its
+    /// cubics reach.
     fn cells(self, width: usize, height: usize) -> impl Iterator<Item = (usize, usize)> {
         let ends = |start: usize, size: usize| start.saturating_sub(1)..(start + LEAF).min(size - 1);
         let (columns, rows) = (ends(self.column * LEAF, width), ends(self.row * LEAF, height));
@@ -49,7 +49,7 @@ pub(crate) struct Piece {
     pub(crate) leaf: Leaf,
     /// Upper left corners of the cells between four of its samples.
     pub(crate) cells: Vec<(usize, usize)>,
-    /// Whether it is the leaf's only piece, because nothing is torn.
+    /// Whether the piece is the leaf's only one, because nothing is torn.
     pub(crate) is_whole: bool,
 }
 

@@ -13,7 +13,7 @@ fn bent(x: f64, y: f64) -> PlanePoint {
     PlanePoint::new(u * scale * 1.05, v * 1.5 * scale * 1.05)
 }
 
-/// Returns what the straight picture sees there.
+/// Returns the direction that the straight picture sees at (x, y).
 fn straight(x: f64, y: f64) -> Direction {
     ProjectionKind::PERSPECTIVE.unproject(PlanePoint::new(2.0 * (x - 0.5), 2.0 * (0.5 - y) / 1.5)).unwrap()
 }
@@ -73,7 +73,7 @@ fn between_samples_the_table_is_the_formula() {
             worst((found.x - expected.x).hypot(found.y - expected.y) * SIZE.0 as f64, worst_of);
         }
     }
-    // Beyond the samples places go on, and directions do not.
+    // Beyond the samples, places are defined but directions are not.
     let outside = bent(0.5, -1.5 / SIZE.1 as f64);
     let seen = MAPS[0].unproject(outside).unwrap();
     assert!(seen.angle_to(straight(0.5, -1.5 / SIZE.1 as f64)).degrees() < 0.02, "{seen:?}");
@@ -123,7 +123,7 @@ fn every_direction_of_a_fine_table_is_found() {
     }
 }
 
-/// Returns a map of two halves that look apart, and a hole.
+/// Returns a map of two halves that look in different directions, and a hole.
 fn torn() -> StMap {
     map_of(StMapTable::of_pixels(32, 32, |i, j| {
         let hole = (20..24).contains(&i) && (20..24).contains(&j);

@@ -109,7 +109,7 @@ fn bounds(samples: &Samples, links: &Links, piece: &Piece, beyond: f64) -> Bound
             longest = longest.max(jet.dx.as_vec3().length()).max(jet.dy.as_vec3().length());
         }
     }
-    // Outside its samples a table goes on as a parabola, of which half a square may be as long as two others.
+    // Beyond its samples a table continues as a parabola, on which half a square may be as long as two others.
     let room = if piece.is_whole && !is_outer { 0.5 } else { 2.0 };
     bounds.widened(room * longest + 1e-6)
 }
@@ -120,7 +120,7 @@ fn find_in_leaf(samples: &Samples, links: &Links, leaf: Leaf, value: DVec3, beyo
     let (width, height) = (samples.width as f64, samples.height as f64);
     let is_within =
         |(x, y): (f64, f64), room: f64| x >= left - room && x <= right + room && y >= top - room && y <= bottom + room;
-    // Not far out of the leaf: there other samples tell.
+    // Not far beyond the leaf, where other leaves are better.
     let moved = |at: f64, step: f64, [least, greatest]: [f64; 2], size: f64| {
         (at + step.clamp(-4.0, 4.0)).clamp(least - 1.0, greatest + 1.0).clamp(-beyond, size + beyond)
     };

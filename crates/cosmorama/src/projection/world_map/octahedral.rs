@@ -43,7 +43,7 @@ impl OctahedralKind {
                 // r = √(1 − ahead), without its loss of digits; the azimuth in quarters of a turn.
                 let across2 = right * right + up * up;
                 let radius = (across2 / (1.0 + ahead)).sqrt();
-                // Either from the axis that is nearer.
+                // Computed from the nearer axis.
                 let (x, y) = if up <= right {
                     let y = up.atan2(right) / FRAC_PI_2;
                     (1.0 - y, y)
@@ -112,7 +112,7 @@ impl Projection for Octahedral {
             let is_behind = x + y > 1.0;
             let (inner_x, inner_y) = if is_behind { folded(x, y) } else { (x, y) };
             let [unit, dx, dy] = self.0.seen(inner_x, inner_y);
-            // Beyond the diagonal the inner x goes back as y goes on, and the other way round.
+            // Behind the diagonal, the inner x falls as y rises, and the other way round.
             let (dx, dy) = if is_behind { (-dy, -dx) } else { (dx, dy) };
             let signs = DVec3::new(sign(point.x), sign(point.y), if is_behind { 1.0 } else { -1.0 });
             let jacobian = DirectionJacobian { dx: dx * signs * signs.x, dy: dy * signs * signs.y };
@@ -138,7 +138,7 @@ impl Projection for Octahedral {
             let corner = |by: f64| PlanePoint::new((x + by).clamp(-1.0, 1.0), (y + by).clamp(-1.0, 1.0));
             rects.push(PlaneRect { min: corner(-reach), max: corner(reach) });
         };
-        // Ahead the picture is in one piece; behind, each quarter that the cap touches has its own.
+        // The front of the picture is in one piece. Behind, each quarter that the cap touches has its own piece.
         if vector.z - sine <= 0.0 {
             add(x * sign(vector.x), y * sign(vector.y));
         }

@@ -7,7 +7,7 @@ use rayon::prelude::*;
 
 use crate::raster::{AlphaMode, Channels, ColourChannel, EncodedImage, Image, Rgba, Samples, Transfer};
 
-/// Numbers of pixels whose samples are no light. Only files of floats can hold such.
+/// Numbers of pixels whose samples are no light. Only files of floats can hold such samples.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct IrregularPixels {
     /// Pixels with a sample that is NaN. They count as missing.
@@ -283,7 +283,7 @@ mod tests {
         assert_eq!(before.len(), Decoder::MOST);
         first.iter().for_each(decode);
         assert!(is_same(&before, &kept()));
-        // More than are kept in mind: the oldest go.
+        // More tables than are kept, so that the oldest are dropped.
         others.iter().for_each(decode);
         let after = kept();
         assert_eq!(after.len(), Decoder::MOST);
@@ -309,7 +309,7 @@ mod tests {
         let veiled = Samples::Float(vec![1.0, 0.5, nan, 1.0, 0.0, nan]);
         let image = EncodedImage::new(3, 1, Channels::GreyAlpha, Depth::Float, veiled).unwrap();
         assert_eq!(image.decode(&Transfer::Linear, &mut light).missing, 2);
-        // What is transparent is not missing.
+        // A transparent pixel is not missing.
         let clear = Samples::Half(vec![f16::ONE, f16::ZERO, f16::NAN, f16::ONE, f16::ZERO, f16::ZERO]);
         let image = EncodedImage::new(3, 1, Channels::GreyAlpha, Depth::Half, clear).unwrap();
         assert_eq!(image.decode(&Transfer::Linear, &mut light).missing, 1);

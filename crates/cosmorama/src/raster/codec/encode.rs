@@ -188,7 +188,7 @@ fn code_of(light: f32, alpha: f32, channels: Channels, transfer: &Transfer, chan
     if *transfer == Transfer::Linear {
         return light;
     }
-    // The transfer function is for the colour itself; a glow (alpha zero) has none, only light.
+    // The transfer function applies to the unmultiplied colour. A glow (alpha zero) has no colour, only light.
     let alpha = if channels.has_alpha() && alpha > 0.0 { alpha } else { 1.0 };
     transfer.encode(f64::from(light / alpha), channel) as f32 * alpha
 }

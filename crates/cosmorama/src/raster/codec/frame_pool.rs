@@ -35,7 +35,7 @@ struct Kept {
     spare: VecDeque<Samples>,
     /// Bytes of unused memory.
     spare_bytes: u64,
-    /// Address and bytes of what was taken and not given back.
+    /// Address and size in bytes of memory that was taken and not given back.
     used: HashMap<usize, u64>,
 }
 
@@ -161,7 +161,7 @@ impl FramePool {
         S::unwrap(samples).ok()
     }
 
-    /// Notes that samples are used, and frees unused memory that is too much beside them.
+    /// Records samples as used, and frees unused memory beyond what is allowed beside them.
     fn used<S: Sample>(&self, samples: Vec<S>) -> Vec<S> {
         if self.allowed > 0 && !samples.is_empty() {
             let mut kept = self.kept();
@@ -172,13 +172,13 @@ impl FramePool {
     }
 
     fn kept(&self) -> MutexGuard<'_, Kept> {
-        // Nothing in there panics half way.
+        // Nothing panics while the lock is held.
         self.kept.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 
 impl Kept {
-    /// Frees the oldest unused memory while there is more than is allowed.
+    /// Frees the oldest unused memory until no more than `allowed` is left.
     fn shrink(&mut self, allowed: u64) {
         let used: u64 = self.used.values().sum();
         while used + self.spare_bytes > allowed {

@@ -113,7 +113,7 @@ mod tests {
 
     #[test]
     fn texels_below_each_other_lie_all_over_a_cache() {
-        // Lines of a set of a cache have one place among these.
+        // Number of sets of a cache: lines whose numbers are equal modulo this share a set.
         const PLACES: usize = 64;
         for width in SHORT..3000 {
             let pitch = FixedLight::pitch(width);
@@ -139,7 +139,7 @@ mod tests {
         assert_eq!(rows, [136, 5, 264]);
         let [_, narrow, wide] = light.views_mut().collect::<Vec<_>>().try_into().expect("three views");
         assert_eq!([narrow[0], narrow[19], wide[255], wide[264]].map(|texel| texel[0]), [391, 410, 666, 667]);
-        // Nobody has written between rows.
+        // The padding between rows is unchanged.
         assert!(wide[256..264].iter().all(|texel| *texel == [0; 4]));
     }
 

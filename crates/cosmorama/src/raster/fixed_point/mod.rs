@@ -39,7 +39,7 @@ impl FixedDecoder {
                 texel
             })
         };
-        // Grey goes by green, where the channels' curves differ.
+        // Where the channels' curves differ, green's is used for grey.
         let grey = |code| level(code, ColourChannel::Green);
         ColourChannel::ALL.into_iter().all(comes_back).then(|| Self {
             channels: ColourChannel::ALL.map(alone),
@@ -47,7 +47,7 @@ impl FixedDecoder {
         })
     }
 
-    /// Returns whether it can decode an image: an opaque one of 8 bits.
+    /// Returns whether the decoder can decode an image: an opaque one of 8 bits.
     pub fn takes(&self, image: &EncodedImage) -> bool {
         matches!(image.samples(), Samples::U8(_)) && !image.channels().has_alpha()
     }
@@ -74,7 +74,7 @@ impl FixedDecoder {
         let pitch = FixedLight::pitch(image.width()).max(1);
         assert!(into.len().is_multiple_of(pitch), "whole rows of light");
         let samples = &samples[image.samples_of_rows(first, into.len() / pitch * image.width())];
-        // What fills up a row is left alone.
+        // The padding of a row is left unchanged.
         let into = into.chunks_exact_mut(pitch).map(|row| &mut row[..image.width()]);
         let [red, green, blue] = &self.channels;
         let of = |table: &ByCode, code: u8| table[usize::from(code)];
@@ -214,7 +214,7 @@ mod tests {
             assert!(FixedDecoder::new(&transfer).is_some(), "{transfer:?}");
             assert!(FixedCodec::new(&transfer, Rgba::BLACK).is_some(), "{transfer:?}");
         }
-        // All codes come back, but a sum that is wrong by two steps of light next to black is wrong by two codes.
+        // All codes survive a round trip, but an error of two steps of light near black is an error of two codes.
         assert!(FixedDecoder::new(&Transfer::Gamma(1.8)).is_some());
         assert!(FixedCodec::new(&Transfer::Gamma(1.8), Rgba::BLACK).is_none());
         for transfer in [Transfer::Gamma(2.2), Transfer::Bt1886, Transfer::Pq] {

@@ -22,9 +22,9 @@ const BRADFORD: DMat3 = DMat3::from_cols_array(&[
     -0.1614, 0.0367, 1.0296, // Z
 ]);
 
-/// Light below zero from which a pixel lies outside of the primaries' triangle, as part of its brightest sample.
+/// Light below which a pixel lies outside of the primaries' triangle, as a part of its brightest sample.
 const OUTSIDE: f32 = -1e-4;
-/// Least brightest sample that counts: what is darker is black to the eye.
+/// Least value of the brightest sample for a pixel to count; darker pixels are black to the eye.
 const LEAST: f32 = 1e-3;
 
 impl ColourMatrix {
@@ -39,7 +39,7 @@ impl ColourMatrix {
     /// Returns the conversion to CIE XYZ, in which white has Y = 1 (SMPTE RP 177, section 3.3).
     pub fn to_xyz(primaries: &Primaries) -> Self {
         let Primaries { red, green, blue, white } = primaries;
-        // Directions of the primaries: x + y + z = 1, which holds for y = 0, too.
+        // Vectors to the primaries on the plane x + y + z = 1, which exist for y = 0, too.
         let columns = DMat3::from_cols(direction(*red), direction(*green), direction(*blue));
         let parts = columns.inverse() * xyz(*white);
         Self(columns * DMat3::from_diagonal(parts))

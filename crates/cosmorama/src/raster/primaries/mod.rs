@@ -85,7 +85,7 @@ impl Primaries {
         ("EBU 3213", Self::EBU3213),
     ];
 
-    /// Numbers of ITU-T H.273 (table 2). Of several numbers for one set, the first is written.
+    /// Numbers of ITU-T H.273 (table 2). If a set has several numbers, the first is written.
     const NUMBERS: [(u8, Self); 11] = [
         (1, Self::REC709),
         (4, Self::NTSC1953),
@@ -127,7 +127,7 @@ impl Primaries {
         Self::NAMED.into_iter().find(|(_, named)| named.is_same(self)).map(|(name, _)| name)
     }
 
-    /// Returns whether these are the same primaries, as exactly as files hold them.
+    /// Returns whether two sets of primaries are equal, within the precision of files.
     pub fn is_same(&self, other: &Self) -> bool {
         let pairs = self.pairs().into_iter().flatten().zip(other.pairs().into_iter().flatten());
         pairs.into_iter().all(|(a, b)| (a - b).abs() <= SAME)
@@ -144,7 +144,7 @@ impl Primaries {
         (green[0] - red[0]) * (blue[1] - red[1]) - (blue[0] - red[0]) * (green[1] - red[1])
     }
 
-    /// Returns whether white is made of some of each primary.
+    /// Returns whether white is a mixture of positive amounts of all three primaries.
     fn makes_white(&self) -> bool {
         let [red, green, blue, white] = self.pairs();
         let part = |a: [f64; 2], b: [f64; 2]| Self { red: white, green: a, blue: b, white }.area() / self.area() > 0.0;

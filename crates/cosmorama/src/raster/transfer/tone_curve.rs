@@ -35,7 +35,7 @@ impl ToneCurve {
             return 0.0;
         }
         if above > last {
-            // The end of the curve may be flat: the least code of its light is wanted here, too.
+            // The end of the curve may be flat. There, too, the least code with the greatest light is wanted.
             let top = table.partition_point(|&entry| entry < table[last]);
             return top as f64 / last as f64;
         }
@@ -52,7 +52,7 @@ impl ToneCurve {
 fn monotone(mut table: Vec<f32>) -> Vec<f32> {
     let mut greatest = 0.0_f32;
     for entry in &mut table {
-        // `max` passes NaN over.
+        // `max` ignores NaN.
         greatest = greatest.max(if entry.is_finite() { *entry } else { greatest });
         *entry = greatest;
     }

@@ -47,7 +47,7 @@ impl<F: AngleFormula> Lens for ByRadius<F> {
     }
 
     fn reach(&self) -> f64 {
-        // What is missing to 180° is rounding.
+        // A difference to 180° this small is rounding.
         if self.rim.1 > PI - 1e-9 { PI } else { self.rim.1 }
     }
 }

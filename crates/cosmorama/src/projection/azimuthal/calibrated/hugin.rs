@@ -78,7 +78,7 @@ mod tests {
         let r = unit * 0.4f64.tan();
         let expected = r * (k[0] * r.powi(3) + k[1] * r * r + k[2] * r + 1.0 - k.iter().sum::<f64>()) / unit;
         assert!((lens.radius(0.4).expect("seen") - expected).abs() < 1e-15);
-        // Half the shorter side stays where it is.
+        // The correction leaves a point at half the shorter side where it is.
         let edge = (1.0 / unit).atan();
         assert!((lens.radius(edge).expect("seen") * unit - 1.0).abs() < 1e-14);
     }

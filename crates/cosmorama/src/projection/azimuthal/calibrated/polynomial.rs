@@ -19,9 +19,9 @@ pub type Polynomial = ByRadius<PolynomialFormula>;
 impl Polynomial {
     /// Returns the lens with Blender's coefficients k0 to k4.
     ///
-    /// A k0 other than 0 makes a hole of that angle around the axis, or folds the picture over. Where that shows, at
-    /// radii up to 2 |k0/k1| (about a hundredth of a pixel), the constant fades to zero, so that each direction keeps
-    /// one image.
+    /// A k0 other than 0 leaves a hole of that angle around the axis, or folds the picture over. Both show only at
+    /// radii up to 2 |k0/k1|, about a hundredth of a pixel. There the constant fades to zero, so that each direction
+    /// keeps one image.
     ///
     /// # Errors
     /// When the angle does not rise at the axis; Blender's k1 is negative.
@@ -81,7 +81,7 @@ mod tests {
             assert!((back - radius).abs() < 1e-12, "{radius}: {back}");
         }
         assert_eq!(lens.angle(0.0).0, 0.0);
-        // It shows everything, what is straight behind included.
+        // The lens shows everything, including the direction straight behind.
         assert_eq!(lens.reach(), std::f64::consts::PI);
         let rim = lens.radius(lens.reach()).expect("seen");
         assert!((lens.angle(rim).0 - lens.reach()).abs() < 1e-9, "{rim}");
