@@ -15,7 +15,7 @@ use super::{SEE_MORE, projections, with_examples};
 
 /// Example commands in its help.
 pub(super) const EXAMPLES: [&str; 10] = [
-    "cosmorama convert 'faces/{face}.png' dome.png --to omnimax --size 1966x1436",
+    "cosmorama convert 'faces/{face}.png' omnimax.png --to omnimax --size 1966x1436",
     "cosmorama convert '%c/%c_%04d.tga' 'dome_####.png' --to fulldome:tilt=20",
     "cosmorama convert panorama.jpg view.png --to perspective:fov=60 --yaw 30",
     "cosmorama convert sky.exr 'cube/{face}.exr' --to cube --channels 'R,G,B,Z'",

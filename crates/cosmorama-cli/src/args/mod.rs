@@ -28,7 +28,7 @@ pub(crate) use progress::ProgressStyle;
 /// Example commands in the program's own help.
 const EXAMPLES: [&str; 3] = [
     "cosmorama demo",
-    "cosmorama convert 'faces/{face}.png' dome.png --to omnimax --size 1966x1436",
+    "cosmorama convert 'faces/{face}.png' omnimax.png --to omnimax --size 1966x1436",
     "cosmorama info 'faces/{face}.png'",
 ];
 
