@@ -42,7 +42,7 @@ pub enum IoError {
     Damaged {
         /// The file read.
         path: PathBuf,
-        /// Its format.
+        /// Format of the file.
         format: Format,
         /// Finding of the decoder.
         reason: String,
@@ -52,7 +52,7 @@ pub enum IoError {
     Unsupported {
         /// The file read.
         path: PathBuf,
-        /// Its format.
+        /// Format of the file.
         format: Format,
         /// Content of the file.
         found: String,
@@ -64,7 +64,7 @@ pub enum IoError {
     Several {
         /// The file read.
         path: PathBuf,
-        /// Its format.
+        /// Format of the file.
         format: Format,
         /// Number of pictures.
         count: usize,
@@ -76,9 +76,9 @@ pub enum IoError {
     NoSuchPart {
         /// The file read.
         path: PathBuf,
-        /// Part asked for.
+        /// Part that was requested.
         asked: String,
-        /// Parts that there are.
+        /// Existing parts.
         existing: String,
     },
     /// A file has no channel of this name.
@@ -86,9 +86,9 @@ pub enum IoError {
     NoSuchChannel {
         /// The file read.
         path: PathBuf,
-        /// Name asked for, possibly of several.
+        /// Name that was requested; it may be one of several.
         asked: String,
-        /// Channels that there are.
+        /// Existing channels.
         existing: String,
     },
     /// A channel is named twice.
@@ -111,7 +111,7 @@ pub enum IoError {
     TooLong {
         /// The file read.
         path: PathBuf,
-        /// Its format.
+        /// Format of the file.
         format: Format,
         /// Declared columns.
         width: u64,
@@ -147,7 +147,7 @@ pub enum IoError {
     CannotHold {
         /// The file to write.
         path: PathBuf,
-        /// Its format.
+        /// Format of the file.
         format: Format,
         /// Property of the picture that the format cannot hold.
         found: String,
@@ -249,7 +249,7 @@ fn expected_frames(example: &str, found: Option<&str>) -> String {
     found.map_or_else(|| expected.clone(), |found| format!("{expected}, but there are {found}; write that pattern"))
 }
 
-/// Returns how to write the pictures of one file as one file each.
+/// Returns how to split a file of several pictures into one file for each.
 fn apart(format: Format, found: &str) -> &'static str {
     match format {
         Format::Tiff if found.starts_with("pages") => {
@@ -296,7 +296,7 @@ fn is_video(path: &Path) -> bool {
     VIDEOS.contains(&extension.as_str())
 }
 
-/// Returns what was expected of a file whose content is of no known format.
+/// Returns the expected content of a file whose format is unknown.
 fn known(path: &Path) -> String {
     if is_video(path) {
         return "a video, where pictures were expected: take it apart, as with ffmpeg -i FILE -fps_mode passthrough \
@@ -329,7 +329,7 @@ impl IoError {
 
     pub(crate) fn damaged(path: &Path, format: Format, reason: impl ToString) -> Self {
         let reason = reason.to_string();
-        // What decoders say when bytes run out, each in its own words.
+        // Decoders report missing bytes in different words.
         let is_short = SHORT.iter().any(|words| reason.contains(words));
         let reason = if is_short { "it ends too early".to_owned() } else { reason };
         Self::Damaged { path: path.to_owned(), format, reason }

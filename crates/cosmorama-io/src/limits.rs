@@ -42,7 +42,7 @@ impl Limits {
         depth: Depth,
         needed: u128,
     ) -> Result<(), IoError> {
-        // What no address can reach is too much whatever the limit says.
+        // No more bytes than an address can reach, whatever the limit.
         let limit = self.memory.min(isize::MAX as u64);
         if needed <= u128::from(limit) {
             return Ok(());

@@ -16,7 +16,7 @@ pub struct Kernel {
 }
 
 impl Kernel {
-    /// Does the work once.
+    /// Runs the measured work once.
     pub fn run(&self) {
         (self.work)();
     }

@@ -24,7 +24,7 @@ pub(super) struct Strokes {
 #[derive(Clone, Copy, Debug)]
 struct Pen {
     width: f64,
-    /// Greatest reach of a pixel that shows the strokes.
+    /// Greatest distance from a stroke at which a pixel still shows it.
     reach: f64,
 }
 

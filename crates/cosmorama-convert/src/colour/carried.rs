@@ -1,4 +1,4 @@
-//! Metadata of inputs that go along to outputs.
+//! Metadata of inputs that outputs take over.
 
 use std::sync::Arc;
 

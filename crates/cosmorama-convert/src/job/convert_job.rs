@@ -37,7 +37,7 @@ pub(crate) struct ConvertJob {
     pub(crate) filter: FilterSettings,
     /// Transfer functions of both sides, and the outputs' channels and depth.
     pub(crate) light: Light,
-    /// Further channels that go along.
+    /// Further channels that the outputs get.
     pub(crate) layers: LayerPlan,
     /// Outputs to make, by frame.
     pub(crate) outputs: Outputs,

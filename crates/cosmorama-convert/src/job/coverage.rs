@@ -16,7 +16,7 @@ use crate::target::{Target, TargetView};
 pub(crate) enum Coverage {
     /// There are no such pixels.
     Complete,
-    /// They are filled with a colour.
+    /// Such pixels are filled with a colour.
     Fill(Rgba),
 }
 

@@ -13,7 +13,7 @@ use crate::target::{Target, TargetFile};
 
 /// A frame with its outputs that are still to be made.
 pub(crate) struct FrameOutputs {
-    /// Its number; `None` where there is no sequence.
+    /// Number of the frame; `None` where there is no sequence.
     pub(crate) frame: Option<u64>,
     /// Index of a target file and its path.
     pub(crate) files: Vec<(usize, PathBuf)>,

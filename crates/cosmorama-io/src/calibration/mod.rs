@@ -17,7 +17,7 @@ use std::path::Path;
 /// A calibrated camera.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Calibration {
-    /// Distortion of its lens.
+    /// Distortion of the lens.
     pub distortion: Distortion,
     /// First two rows of the camera matrix. They map a point (right, down, 1) of the lens's plane to columns and rows
     /// of the image, counted from 0 at the centre of its first pixel.
@@ -54,7 +54,7 @@ impl Calibration {
         Self::read_from(file, path)
     }
 
-    /// Reads a file in memory, or from any other reader. `name` is the name in messages.
+    /// Reads a calibration in memory, or from any other reader. `name` is the name in messages.
     ///
     /// # Errors
     /// When the file cannot be read, is of no kind that [`read`](Self::read) reads, or lacks what a calibration needs.

@@ -20,7 +20,7 @@ pub(super) fn parse(text: &str) -> Result<Calibration, String> {
     if polynomial.len() > MOST {
         return Err(format!("a polynomial of {} coefficients; expected at most {MOST}", polynomial.len()));
     }
-    // Theirs is an approximation; we invert ours.
+    // OCamCalib's inverse is an approximation; the library inverts the polynomial itself.
     line("the inverse polynomial")?;
     let [row, column] = exactly("the centre", &line("the centre")?)?;
     let [c, d, e] = exactly("c, d, e", &line("c, d, e")?)?;

@@ -1,4 +1,4 @@
-//! What lies behind a picture in its file: padding, or further pictures that would be lost.
+//! Bytes behind a picture in its file: padding, or further pictures that would be lost.
 
 use std::io::{self, Read};
 

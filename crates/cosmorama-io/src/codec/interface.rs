@@ -59,12 +59,12 @@ pub(crate) trait Codec: Sync {
         }
     }
 
-    /// Reads the header of a file for the picture that a choice leaves.
+    /// Reads the header of a file for the picture that a choice selects.
     fn probe_chosen(&self, path: &Path, source: Source<'_>, _choice: &Choice) -> Result<Header, IoError> {
         self.probe(path, source)
     }
 
-    /// Reads the pixels that a choice leaves.
+    /// Reads the pixels of the picture that a choice selects.
     fn decode_chosen(
         &self,
         path: &Path,
@@ -75,7 +75,7 @@ pub(crate) trait Codec: Sync {
         self.decode(path, source, limits, pool)
     }
 
-    /// Reads named channels beside the picture that a choice leaves; formats without names have none.
+    /// Reads named channels beside the picture that a choice selects; formats without names have none.
     fn decode_planes(
         &self,
         path: &Path,

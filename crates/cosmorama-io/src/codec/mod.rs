@@ -57,7 +57,7 @@ pub(crate) fn recognise(path: &Path, source: Source<'_>) -> Result<Format, IoErr
         return Err(IoError::Empty { path: path.to_owned() });
     }
     let by_mark = Format::ALL.into_iter().find(|format| codec(*format).recognises(&start));
-    // TGA files have no mark: for them the name must do.
+    // TGA files begin with no mark, so that only the name tells.
     let by_name = || Format::from_extension(path).ok().filter(|format| *format == Format::Tga);
     by_mark.or_else(by_name).ok_or_else(|| IoError::UnknownContent { path: path.to_owned() })
 }

@@ -15,7 +15,7 @@ pub(crate) struct Tga;
 
 impl Codec for Tga {
     fn recognises(&self, _: &[u8]) -> bool {
-        // The format has no mark of its own.
+        // TGA files do not begin with a mark.
         false
     }
 
@@ -30,7 +30,8 @@ impl Codec for Tga {
         limits.check(path, (header.width as u64, header.height as u64), header.channels, header.depth)?;
         let mut samples = pool.take(header.width * header.height * header.channels.count());
         decoder.read_image(&mut samples).map_err(|error| IoError::damaged(path, FORMAT, error))?;
-        // 32 bits a pixel, of which none are said to be alpha, are alpha to some writers and padding to others.
+        // In pixels of 32 bits of which the header declares none as alpha, some writers store alpha, and others
+        // padding.
         if !alpha_declared && header.channels == Channels::Rgba && samples.iter().skip(3).step_by(4).all(|a| *a == 0) {
             samples = samples.chunks_exact(4).flat_map(|pixel| [pixel[0], pixel[1], pixel[2]]).collect();
             header.channels = Channels::Rgb;

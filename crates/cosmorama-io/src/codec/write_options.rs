@@ -42,13 +42,14 @@ impl Default for WriteOptions {
 /// Trade-off between time and size in lossless compression.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Compression {
-    /// None: as large as the samples.
+    /// No compression.
     None,
-    /// For speed, of writing and of reading again. PNG: fdeflate after the Up filter; TIFF: Deflate, level 1; OpenEXR: RLE.
+    /// Fast writing, and fast reading. PNG: fdeflate after the Up filter; TIFF: Deflate, level 1; OpenEXR: RLE.
     Fast,
     /// PNG: fdeflate after the filter that suits each row; TIFF: Deflate, level 1; OpenEXR: ZIP of 16 rows.
     #[default]
     Balanced,
-    /// For size. PNG: Deflate, level 6, after the filter that suits each row; TIFF: Deflate, level 6; OpenEXR: ZIP of 16 rows.
+    /// Small files. PNG: Deflate, level 6, after the filter that suits each row; TIFF: Deflate, level 6; OpenEXR: ZIP
+    /// of 16 rows.
     High,
 }

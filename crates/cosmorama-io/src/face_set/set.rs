@@ -199,7 +199,7 @@ impl Folders {
         let mut varying = path.ancestors().take_while(|part| *part != fixed && !part.as_os_str().is_empty());
         varying.all(|part| match (part.parent(), part.file_name()) {
             (Some(folder), Some(name)) => self.entries(folder).is_none_or(|entries| entries.contains(name)),
-            // `..` and the root are called so everywhere.
+            // `..` and the root have no other spelling.
             _ => true,
         })
     }
@@ -229,7 +229,7 @@ fn folder(pattern: &FacePattern, namings: &[&'static Naming]) -> Option<IoError>
 }
 
 fn no_faces(pattern: &FacePattern, namings: &[&'static Naming]) -> IoError {
-    // Of folders whose names have a frame's number the one that all lie in.
+    // If folders are named by frame number, the folder that holds all of them.
     let numbered = pattern.folder().to_str().and_then(FramePattern::parse);
     let folder = numbered.map_or_else(|| pattern.folder().to_owned(), |frames| frames.folder());
     if let Err(error) = std::fs::read_dir(&folder) {

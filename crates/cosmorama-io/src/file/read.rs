@@ -107,7 +107,7 @@ pub fn read_in(
     Ok(codec(format).decode(name, &mut source, limits, pool)?.upright(pool))
 }
 
-/// Reads the header of a file like [`probe_from`], for the picture that a choice leaves.
+/// Reads the header of a file like [`probe_from`], for the picture that a choice selects.
 ///
 /// # Errors
 /// When [`probe_from`] fails, or the file has no such part or channels.
@@ -121,7 +121,7 @@ pub fn probe_chosen(
     Ok(codec(format).probe_chosen(name, &mut source, choice)?.upright())
 }
 
-/// Reads the picture that a choice leaves of a file, like [`read_in`].
+/// Reads the picture of a file that a choice selects, like [`read_in`].
 ///
 /// # Errors
 /// When [`read_in`] fails, or the file has no such part or channels.
@@ -136,8 +136,8 @@ pub fn read_chosen(
     Ok(codec(format).decode_chosen(name, &mut source, memory, choice)?.upright(memory.1))
 }
 
-/// Reads channels by their full names, each in its own sample type, from the part whose picture a choice leaves. They have that
-/// picture's size.
+/// Reads channels by their full names, each in its own sample type, from the part whose picture a choice selects. Their
+/// size is that of the picture.
 ///
 /// # Errors
 /// When the file cannot be read, has no such part or channels, or needs more memory than `limits` allow.

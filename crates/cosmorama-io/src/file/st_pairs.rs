@@ -68,7 +68,7 @@ pub fn read_pairs_from(
     let format = recognise(path, &mut source)?;
     let file = codec(format).decode_pairs(path, &mut source, limits)?.upright(&FramePool::default());
     let count = file.image.channels().count();
-    // Grey, with or without alpha; the two channels of an OpenEXR file are counted alike.
+    // Grey counts as one channel, with or without alpha, except in OpenEXR, where two channels make a pair.
     if !file.image.channels().is_colour() && format != Format::Exr {
         let found = file.image.channels().to_string();
         return Err(IoError::unsupported(path, format, found, "two channels or more: s in the first, t in the second"));

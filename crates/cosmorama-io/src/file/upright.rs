@@ -1,4 +1,4 @@
-//! Pictures that are turned upright when they are read: files that ask for it, and faces that lie otherwise.
+//! Turning of pictures when they are read: upright if their file says so, and faces as their naming requires.
 
 use cosmorama::layout::FacePlacement;
 use cosmorama::raster::{EncodedImage, FramePool, Sample, Samples};
@@ -12,7 +12,7 @@ use crate::metadata::orientation;
 const BAND: usize = 16;
 
 impl Header {
-    /// Returns the header of the picture as it is read: turned as the file asks.
+    /// Returns the header of the picture as it is read: turned as the file's orientation says.
     pub(crate) fn upright(mut self) -> Self {
         (self.width, self.height) = orientation::turned((self.width, self.height), self.metadata.orientation);
         self
@@ -20,7 +20,7 @@ impl Header {
 }
 
 impl ImageFile {
-    /// Turns the pixels as the file asks.
+    /// Turns the pixels as the file's orientation says.
     pub(crate) fn upright(mut self, pool: &FramePool) -> Self {
         if let Some(orientation) = self.metadata.orientation {
             self.image = upright(self.image, orientation::placement(orientation), pool);
@@ -29,7 +29,7 @@ impl ImageFile {
     }
 }
 
-/// Turns a picture upright. Memory comes from a pool, and that of the picture goes there.
+/// Turns a picture upright. Memory comes from a pool, and the memory of the old picture goes back to it.
 pub(crate) fn upright(image: EncodedImage, placement: FacePlacement, pool: &FramePool) -> EncodedImage {
     if placement == FacePlacement::UPRIGHT {
         return image;
@@ -48,7 +48,7 @@ pub(crate) fn upright(image: EncodedImage, placement: FacePlacement, pool: &Fram
             pool.give(image.into_samples());
             turned
         }
-        // As many samples of the same type always fit.
+        // Cannot fail: the number and the type of samples are unchanged.
         Err(_) => image,
     }
 }
@@ -69,7 +69,7 @@ impl Turn {
         if is_sideways { (self.height, self.width) } else { (self.width, self.height) }
     }
 
-    /// Returns the column and row of the picture that a pixel of the turned picture shows.
+    /// Returns the column and row of the stored picture that a pixel of the turned picture shows.
     fn origin(&self, i: usize, j: usize) -> (usize, usize) {
         let (right, bottom) = (self.width - 1, self.height - 1);
         let (i, j) = match self.placement.quarter_turns % 4 {
@@ -85,7 +85,7 @@ impl Turn {
         let mut turned = pool.take::<S>(samples.len());
         let pitch = self.size().0 * self.count;
         let band = |(band, rows): (usize, &mut [S])| self.fill(samples, band * BAND, rows);
-        // Other threads have files of their own.
+        // Other threads work on other files.
         if is_beside_others() {
             turned.chunks_mut(BAND * pitch).enumerate().for_each(band);
         } else {

@@ -1,4 +1,4 @@
-/// Selection from a file that holds more than one picture: a part, and channels. Only OpenEXR files have such.
+/// Selection from a file that holds more than one picture: a part, and channels. Only OpenEXR files hold several.
 ///
 /// ```
 /// use cosmorama_io::Choice;
@@ -13,7 +13,7 @@ pub struct Choice {
     pub part: Option<String>,
     /// Names of channels, in which `*` stands for any letters and `?` for one. Empty for all.
     pub channels: Vec<String>,
-    /// Whether channels that form no picture will do.
+    /// Whether channels that form no picture are accepted.
     pub without_picture: bool,
 }
 
@@ -27,7 +27,8 @@ impl Choice {
 /// Returns whether a name is one of those that a pattern stands for.
 pub(crate) fn matches(pattern: &str, name: &str) -> bool {
     let (pattern, name): (Vec<char>, Vec<char>) = (pattern.chars().collect(), name.chars().collect());
-    // The last star, and where the name went on behind it: what follows it may have to begin later.
+    // Position of the last star, and where the name continues after it. If the rest does not match, the star takes one
+    // letter more.
     let (mut p, mut n, mut star) = (0, 0, None);
     while n < name.len() {
         if p < pattern.len() && pattern[p] == '*' {

@@ -30,7 +30,7 @@ pub enum Format {
 /// Primaries that a format's files can name.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum HeldPrimaries {
-    /// None; those of Rec. 709 are understood.
+    /// None; Rec. 709 is assumed.
     None,
     /// Primaries with a number in the Khronos Data Format Specification.
     Numbered,
@@ -136,7 +136,7 @@ impl Properties {
     const KTX2: Self =
         Self { name: "KTX 2", extensions: &["ktx2"], primaries: HeldPrimaries::Numbered, ..Self::TEXTURE };
 
-    // Files are known by their content; it is never written.
+    // Recognised by content only, since such files are never written.
     const KTX: Self = Self { name: "KTX", depths: &[], holds_levels: false, ..Self::TEXTURE };
 
     const DDS: Self = Self { name: "DDS", extensions: &["dds"], ..Self::TEXTURE };
@@ -235,7 +235,7 @@ impl Format {
         }
     }
 
-    /// Returns whether files can name these primaries, or they are understood.
+    /// Returns whether files can name these primaries, or programs assume them without a name.
     pub fn holds_primaries(self, primaries: &Primaries) -> bool {
         match self.properties().primaries {
             HeldPrimaries::Any => true,

@@ -55,7 +55,7 @@ impl PlaneSamples {
         }
     }
 
-    /// Returns whether there are none.
+    /// Returns whether there are no samples.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
@@ -78,7 +78,7 @@ impl PlaneSamples {
         }
     }
 
-    /// Returns the bits of a sample, by which values are told apart.
+    /// Returns the bits of a sample, which distinguish any two values.
     pub fn bits(&self, index: usize) -> u32 {
         match self {
             Self::Half(samples) => samples[index].to_bits().into(),

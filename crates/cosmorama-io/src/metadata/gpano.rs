@@ -93,13 +93,13 @@ fn window(words: &Words<'_>, (width, height): (usize, usize)) -> Result<Option<W
     let part = (words.side("CroppedAreaImageWidthPixels")?, words.side("CroppedAreaImageHeightPixels")?);
     let (left, top) = (words.pixels("CroppedAreaLeftPixels")?, words.pixels("CroppedAreaTopPixels")?);
     let (Some(full_width), Some(full_height)) = full else {
-        // Nothing but the projection: all of it, if the shape says so, too.
+        // Only the projection is given: the picture is a whole panorama if its shape says so, too.
         let whole = Window { canvas_width: width, canvas_height: height, x: 0, y: 0 };
         return Ok((width == 2 * height).then_some(whole));
     };
     let across = Axis { name: "Width", start: "Left", full: full_width, part: part.0.unwrap_or(full_width), left };
     let down = Axis { name: "Height", start: "Top", full: full_height, part: part.1.unwrap_or(full_height), left: top };
-    // Who makes a picture smaller may leave the packet as it was, but makes it smaller both ways.
+    // Programs that shrink a picture may leave the packet as it was, but they shrink both sides alike.
     let (wide, high) = (width as u128 * down.part as u128, height as u128 * across.part as u128);
     if wide.abs_diff(high) > across.part.max(down.part) as u128 {
         return Err(format!(
@@ -215,7 +215,7 @@ mod tests {
         let elements: String = words.map(|(name, text)| format!("<p:{name}>{text}</p:{name}>")).concat();
         let xml = format!("<a xmlns:p=\"{NAMESPACE}\">{elements}</a>");
         assert_eq!(parse(xml.as_bytes(), (3000, 800)), said(WINDOW));
-        // Made smaller by half.
+        // A picture shrunk to half.
         let half = Window { canvas_width: 2000, canvas_height: 1000, x: 250, y: 300 };
         assert_eq!(parse(xml.as_bytes(), (1500, 400)), said(half));
     }

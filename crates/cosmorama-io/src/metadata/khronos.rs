@@ -15,10 +15,10 @@ const PRIMARIES: [(u8, Primaries); 10] = [
     (10, Primaries::P3_D65),
     (11, Primaries::ADOBE_RGB),
 ];
-/// Number of primaries that are not named.
+/// Number for unspecified primaries.
 pub(crate) const UNSPECIFIED: u8 = 0;
 
-/// Returns the primaries with a number; the error is one that is not known.
+/// Returns the primaries with a number; the error is an unknown number.
 pub(crate) fn primaries(number: u8) -> Result<Option<Primaries>, u8> {
     if number == UNSPECIFIED {
         return Ok(None);
@@ -27,7 +27,7 @@ pub(crate) fn primaries(number: u8) -> Result<Option<Primaries>, u8> {
     known.map(|(_, primaries)| Some(*primaries)).ok_or(number)
 }
 
-/// Complains of a number that is not known.
+/// Returns the complaint about an unknown number.
 pub(crate) fn complaint(number: u8) -> String {
     format!(
         "the number of its primaries, {number}, is unknown here: they are taken for Rec. 709; expected 0 to 8, 10 or 11 of the \

@@ -1,6 +1,6 @@
 use std::fmt;
 
-/// Channels of a file beyond those of its picture, and its parts. Only OpenEXR files have such.
+/// Channels of a file beyond those of its picture, and its parts. Only OpenEXR files have them.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Layers {
     /// Names of the picture's own channels, in the order of a pixel's samples; empty in formats without names.
@@ -23,18 +23,18 @@ pub struct NamedChannel {
     pub name: String,
     /// Sample type.
     pub kind: SampleKind,
-    /// Whether it has one sample for each pixel; others are not read.
+    /// Whether the channel has one sample for each pixel; others are not read.
     pub is_full: bool,
 }
 
-/// A part of a file of several.
+/// One of several parts of a file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct FilePart {
     /// Name, if it has one.
     pub name: Option<String>,
-    /// Its channels.
+    /// Channels of the part.
     pub channels: Vec<NamedChannel>,
-    /// Whether its pixels have several samples in depth, which are not read.
+    /// Whether the part's pixels have several samples in depth, which are not read.
     pub is_deep: bool,
 }
 

@@ -46,7 +46,7 @@ pub struct Metadata {
     pub primaries: Option<Primaries>,
     /// Luminance of white in cd/m², from OpenEXR's `whiteLuminance`.
     pub white_luminance: Option<f32>,
-    /// Why the ICC profile cannot be followed; `None` where it can, or there is none.
+    /// Reason why the ICC profile cannot be applied; `None` where it can, or there is none.
     pub profile_fault: Option<ProfileFault>,
     /// Orientation by TIFF's and Exif's tag 274, 2 to 8, by which the stored pixels were turned or mirrored when the file
     /// was read; `None` for no change. Written files need none.
@@ -55,16 +55,16 @@ pub struct Metadata {
     pub software: Option<String>,
     /// Pose of the camera, from the GPano metadata of a panorama.
     pub pose: Option<Pose>,
-    /// Whatever else the file says, which may go along to outputs.
+    /// Other metadata of the file, which outputs may take over.
     pub carried: Arc<Carried>,
 }
 
-/// Reason why an ICC profile cannot be followed.
+/// Reason why an ICC profile cannot be applied.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum ProfileFault {
-    /// It consists of tables of colours instead of curves and primaries.
+    /// The profile consists of tables of colours instead of curves and primaries.
     Tables,
-    /// It is damaged, or for other pictures than this one; in words.
+    /// The profile is damaged, or is for other pictures than this one; in words.
     Damaged(String),
 }
 
@@ -81,7 +81,7 @@ impl Metadata {
         self.icc.is_none() && is_usual && *self.transfer.as_ref().unwrap_or(&Transfer::Srgb) == Transfer::Srgb
     }
 
-    /// Returns the XMP packet to write for a picture of this size: what is carried, with the place in a panorama.
+    /// Returns the XMP packet to write for a picture of this size: the input's, with the picture's place in a panorama.
     pub(crate) fn packet_to_write(&self, size: (usize, usize)) -> Option<String> {
         self.carried.packet_to_write(self.panorama.map(|window| gpano::description(window, size)))
     }

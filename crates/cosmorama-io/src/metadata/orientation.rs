@@ -1,4 +1,4 @@
-//! Pictures that ask to be turned: TIFF's and Exif's tag 274.
+//! Orientation of stored pictures: tag 274 of TIFF and Exif.
 
 use cosmorama::layout::FacePlacement;
 
@@ -8,7 +8,8 @@ pub(crate) fn turned((width, height): (usize, usize), orientation: Option<u16>) 
     if is_sideways { (height, width) } else { (width, height) }
 }
 
-/// Returns how a picture of this orientation, 1 to 8, is turned upright: mirrored first, and then turned clockwise.
+/// Returns the placement that turns a picture of this orientation, 1 to 8, upright: mirrored first, and then turned
+/// clockwise.
 pub(crate) fn placement(orientation: u16) -> FacePlacement {
     let (quarter_turns, mirrored) = match orientation {
         2 => (0, true),

@@ -42,10 +42,10 @@ impl Unfinished {
     pub fn remove_all(&self) {
         let listing = self.listing();
         for path in &listing.paths {
-            // One that is gone already is as wanted.
+            // Whether a file is already gone does not matter.
             let _ = if path.is_dir() { std::fs::remove_dir_all(path) } else { std::fs::remove_file(path) };
         }
-        // Inner folders come after those that they are in.
+        // In reverse order, inner folders come before the folders that hold them.
         for folder in listing.folders.iter().rev() {
             let _ = std::fs::remove_dir(folder);
         }
@@ -68,7 +68,7 @@ impl Unfinished {
 
 /// A temporary folder for private files. It is deleted when dropped, and by [`Unfinished::remove_all`].
 pub struct Scratch {
-    // Deleted before it is struck off the list.
+    // Fields are dropped in order: the folder is deleted before it is removed from the list.
     folder: TempDir,
     _listed: Listed,
 }
@@ -86,7 +86,7 @@ impl Scratch {
         Ok(Self { folder, _listed })
     }
 
-    /// Returns its path.
+    /// Returns the path of the folder.
     pub fn path(&self) -> &Path {
         self.folder.path()
     }
@@ -95,7 +95,7 @@ impl Scratch {
 /// A file in progress. Dropped without [`Pending::finish`], it leaves nothing behind.
 pub struct Pending {
     target: PathBuf,
-    // Closed before it is deleted, and deleted before it is struck off the list.
+    // Fields are dropped in order: the file is closed, then deleted, then removed from the list.
     file: BufWriter<File>,
     path: TempPath,
     listed: Listed,
@@ -128,7 +128,8 @@ impl Pending {
         let mut builder = Builder::new();
         builder.prefix(PREFIX).suffix(SUFFIX);
         let make = || {
-            // Not by `tempfile`'s own hand, whose files only their owner can read: an output is for everyone that the umask lets.
+            // Not with the permissions of `tempfile`, whose files only their owner can read: the umask decides who can
+            // read an output.
             let file = builder.make_in(folder, |path| File::create_new(path))?;
             Ok((file.path().to_owned(), file))
         };
@@ -155,7 +156,7 @@ impl Pending {
     /// # Errors
     /// When the rest cannot be written, as on a full disk.
     pub fn close(self) -> Result<Hidden, IoError> {
-        // What is named first goes last.
+        // Dropped in reverse order.
         let Self { target, listed, path, mut file } = self;
         let flushed = file.flush();
         // Closed before it is renamed.
@@ -168,7 +169,7 @@ impl Pending {
 /// A complete file without its name. Dropped without [`Hidden::appear`], it leaves nothing behind.
 pub struct Hidden {
     target: PathBuf,
-    // Deleted or renamed before it is struck off the list.
+    // Fields are dropped in order: the file is deleted or renamed before it is removed from the list.
     path: TempPath,
     _listed: Listed,
 }
@@ -200,7 +201,7 @@ pub fn place(target: &Path) -> Result<PathBuf, IoError> {
             Err(error) if error.kind() == io::ErrorKind::InvalidFilename => {
                 return Err(IoError::write(&path, format_args!("{error}; choose another name")));
             }
-            // Nothing is there, or its folder will say what is the matter.
+            // There is nothing at this path, or opening its folder will report the error.
             Err(_) => return Ok(path),
         };
         if found.is_file() {

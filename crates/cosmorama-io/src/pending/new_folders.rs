@@ -35,7 +35,7 @@ impl NewFolders {
                     listing.folders.insert(folder.to_owned());
                     self.made.push(folder.to_owned());
                 }
-                // Somebody else was faster.
+                // Another program has made the folder meanwhile.
                 Err(_) if folder.is_dir() => {}
                 Err(error) => return Err(error),
             }
@@ -48,7 +48,7 @@ impl Drop for NewFolders {
     fn drop(&mut self) {
         let mut listing = self.list.listing();
         for folder in self.made.iter().rev() {
-            // Where something is in it, it stays.
+            // A folder with content cannot be removed, and stays.
             let _ = fs::remove_dir(folder);
             listing.folders.remove(folder);
         }
@@ -84,7 +84,7 @@ mod tests {
         fs::write(place.path().join("c/picture"), "").unwrap();
         unfinished.remove_all();
         assert!(!place.path().join("a").exists() && place.path().join("c/picture").exists());
-        // Whoever removed all ends the program next, and the list waits for that.
+        // After `remove_all` the list stays locked until the program ends, so that dropping this would block.
         std::mem::forget(folders);
     }
 

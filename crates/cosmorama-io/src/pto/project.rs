@@ -19,7 +19,7 @@ pub struct PtoProject {
 /// A picture, from an i-line. Angles are in degrees.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PtoImage {
-    /// Number of its line, from 1.
+    /// Number of the picture's line, from 1.
     pub line: usize,
     /// File, relative to the project.
     pub file: PathBuf,
@@ -44,7 +44,7 @@ pub struct PtoImage {
 /// The panorama, from the p-line.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PtoPanorama {
-    /// Number of its line, from 1.
+    /// Number of the panorama's line, from 1.
     pub line: usize,
     /// Projection: f.
     pub projection: u32,
@@ -74,7 +74,7 @@ const BENDS: [(&str, &str); 8] = [
 /// Parameters of vignetting, each with the value that has no effect.
 const VIGNETTING: [(&str, f64); 6] = [("Va", 1.0), ("Vb", 0.0), ("Vc", 0.0), ("Vd", 0.0), ("Vx", 0.0), ("Vy", 0.0)];
 
-/// Parameters of exposure and response. They have no effect if they are alike in all pictures.
+/// Parameters of exposure and response. They have no effect if they are equal in all pictures.
 const EXPOSURE: [&str; 8] = ["Eev", "Er", "Eb", "Ra", "Rb", "Rc", "Rd", "Re"];
 
 impl PtoProject {
@@ -90,8 +90,8 @@ impl PtoProject {
 
     /// Reads a project in memory, or from any other reader. `name` is the name in messages.
     ///
-    /// # Errors
-    /// When the project cannot be read, a line cannot be understood, or it asks for what is not supported, by name.
+    /// # Errors When the project cannot be read, a line cannot be understood, or it asks for something unsupported; the
+    /// message names it.
     pub fn read_from(source: impl Read, name: &Path) -> Result<Self, PtoError> {
         let open = |source| PtoError::Open { path: name.to_owned(), source };
         let project = |reason: &str| PtoError::Project { path: name.to_owned(), reason: reason.to_owned() };
@@ -123,7 +123,7 @@ impl PtoProject {
                     panorama = Some(Line::parse(rest).and_then(|words| self::panorama(line, &words)).map_err(told)?)
                 }
                 Some(("k", rest)) => holes.push((line, hole(rest).map_err(told)?)),
-                // o-lines of PTStitcher say what i-lines do.
+                // In projects of PTStitcher, o-lines hold what i-lines hold in others.
                 Some(("o", rest)) if rest.starts_with(' ') => {
                     return Err((
                         line,

@@ -9,7 +9,7 @@ use crate::{Format, FrameList, FramePattern};
 
 /// Files of a folder whose names form one sequence.
 ///
-/// It prints as the pattern with the numbers: `shot/dome_####.png (1-240)`.
+/// A sequence prints as the pattern with the numbers: `shot/dome_####.png (1-240)`.
 ///
 /// ```
 /// use cosmorama_io::FoundFrames;
@@ -40,7 +40,7 @@ impl FoundFrames {
     /// Finds the sequences of images in a folder, the longest first; none if it cannot be read. A file belongs to at
     /// most one sequence, and a sequence has at least two files.
     pub fn in_folder(folder: &Path) -> Vec<Self> {
-        // What is in the current one is told by its name alone.
+        // Files in the current folder are shown by name alone.
         let here = Path::new(".");
         let (read, folder) =
             if folder == here || folder.as_os_str().is_empty() { (here, Path::new("")) } else { (folder, folder) };
@@ -58,7 +58,7 @@ impl FoundFrames {
             .iter()
             .filter_map(|(around, numbers)| Some((around.0.len(), Self::of(folder, around, numbers)?)))
             .collect();
-        // Of several numbers in a name the last is likeliest the frame's.
+        // If a name has several numbers, the last is most likely the frame's.
         found.sort_by_key(|(before, found)| Reverse((found.frames.frames().len(), *before)));
         let mut told = HashSet::new();
         let is_new = |(_, found): (usize, Self)| {
@@ -75,12 +75,12 @@ impl FoundFrames {
     /// Finds the frames with the same text around their numbers; `None` for fewer than two.
     fn of(folder: &Path, (before, after): &Around, numbers: &[String]) -> Option<Self> {
         let places = numbers.iter().map(String::len).min()?;
-        // Longer ones with zeros before them are not what so many signs find.
+        // A longer number with leading zeros does not match a pattern of this width.
         let is_found = |digits: &&String| digits.len() == places || !digits.starts_with('0');
         let frames = numbers.iter().filter(is_found).filter_map(|digits| digits.parse().ok());
         let mut frames: Vec<u64> = frames.filter(|frame| *frame <= LAST_FRAME).collect();
         frames.sort_unstable();
-        // A marker in what stands around them would be taken for another number.
+        // A placeholder in the text around the numbers would be taken for another number.
         let is_marked = [folder.to_str()?, before, after].into_iter().any(|text| FramePattern::parse(text).is_some());
         let (first, last) = (frames.first()?, frames.last()?);
         let is_sparse = last - first > FARTHEST * (frames.len() as u64 - 1);

@@ -7,8 +7,8 @@ use crate::IoError;
 
 /// A file name with a placeholder for the frame number: `####` or `@@@@` (one sign per digit), `%04d` or `%d`.
 ///
-/// It may occur in several places, folders included; all hold the same number. Numbers with more digits than places are
-/// written and found without truncation.
+/// The placeholder may occur in several places, folders included; all hold the same number. Numbers with more digits
+/// than the placeholder are written and found without truncation.
 ///
 /// ```
 /// use cosmorama_io::FramePattern;
@@ -70,7 +70,7 @@ impl FramePattern {
         for entry in std::fs::read_dir(&folder).map_err(fail)? {
             let name = entry.map_err(fail)?.file_name();
             if let Some(frame) = name.to_str().and_then(|name| number_in(name, &varying)) {
-                // The rest of the path may hold the number again.
+                // The rest of the path may contain the number again.
                 if self.path(frame).is_file() {
                     frames.insert(frame);
                 }
@@ -130,7 +130,7 @@ fn marker(text: &str) -> Option<(usize, usize)> {
         [b'%', after @ ..] => {
             let digits = after.iter().take_while(|byte| byte.is_ascii_digit()).count();
             let width = &text[1..1 + digits];
-            // More than two digits of width is no file name.
+            // No file name has a width of more than two digits.
             (after.get(digits) == Some(&b'd') && digits <= 2).then(|| (width.parse().unwrap_or(1), digits + 2))
         }
         _ => None,
@@ -147,7 +147,8 @@ fn number_in(name: &str, pieces: &[Piece]) -> Option<u64> {
             Piece::Number(least) => {
                 let digits = rest.bytes().take_while(u8::is_ascii_digit).count();
                 let (number, after) = rest.split_at(digits);
-                // More digits than places only where the number needs them: else two names were one frame.
+                // More digits than the placeholder has are valid only without leading zeros. Otherwise a frame could
+                // have two names.
                 if digits < *least || (digits > *least && digits > 1 && number.starts_with('0')) {
                     return None;
                 }

@@ -4,7 +4,7 @@ use cosmorama::layout::LensSide;
 
 use super::question;
 
-/// Keys by words that people and other programs have for the same, the likeliest key first.
+/// Words of people and other programs for keys, each with the keys that it may stand for, the likeliest first.
 const OTHER_KEYS: [(&[&str], &[&str]); 17] = [
     (&["tilt", "axis", "lean", "inclination"], &["tilt", "axis", "pitch"]),
     (&["mirror", "mirrored", "hflip", "vflip"], &["flip"]),
@@ -42,7 +42,7 @@ pub(super) fn meant(typed: &str, known: &[&str]) -> String {
 
 /// Finds the key for a field of view or a centre that has another name elsewhere: ffmpeg's `h_fov`, a panorama's `hfov`.
 ///
-/// A camera's `fov` is the horizontal one; by letters `dfov` is as near.
+/// A camera's `fov` is the horizontal one, although `dfov` is as similar in spelling.
 pub(crate) fn key_for<'k>(typed: &str, known: &[&'k str]) -> Option<&'k str> {
     let plain = plain(typed);
     let names: &[&str] = match plain.as_str() {
@@ -51,7 +51,7 @@ pub(crate) fn key_for<'k>(typed: &str, known: &[&'k str]) -> Option<&'k str> {
         "dfov" | "idfov" => &["dfov", "fov"],
         "centre" => &["center"],
         "name" | "names" => &["naming"],
-        // A dome leans, and an Omnimax lens's axis rises: the same angle of a theatre.
+        // A dome leans, and an Omnimax lens's axis rises: both are the same angle in a theatre.
         "tilt" => &["tilt", "axis"],
         "axis" => &["axis", "tilt"],
         other => &[other],
@@ -59,7 +59,7 @@ pub(crate) fn key_for<'k>(typed: &str, known: &[&'k str]) -> Option<&'k str> {
     first_of(names, known)
 }
 
-/// Finds the key for a word that people or other programs have for it.
+/// Finds the key that a word of people or other programs stands for.
 fn in_words_of_others<'k>(typed: &str, known: &[&'k str]) -> Option<&'k str> {
     let plain = plain(typed);
     let (_, keys) = OTHER_KEYS.iter().find(|(words, _)| words.contains(&plain.as_str()))?;

@@ -1,4 +1,4 @@
-//! Reasons why a text is not what it should be, each with what to write instead.
+//! Reasons why a text cannot be parsed, each with what to write instead.
 
 mod meaning;
 
@@ -100,7 +100,7 @@ pub enum SpecError {
     Coefficients {
         /// Value as typed.
         value: String,
-        /// Reason why they do not.
+        /// Reason why the coefficients make no lens.
         error: LensError,
     },
     /// Two keys contradict or exclude each other.
@@ -147,7 +147,7 @@ pub enum WordError {
         word: String,
         /// Setting to which the word belongs.
         of: WordKind,
-        /// Name that it has there.
+        /// Name of the word in that setting.
         name: String,
     },
     /// A parameter is unknown or wrong.
@@ -160,7 +160,7 @@ pub enum WordError {
 pub enum WordKind {
     /// A filter: the averaging of a pixel.
     Filter,
-    /// A kernel: the weights of that average.
+    /// A kernel: the weights by which a pixel averages.
     Kernel,
     /// A transfer function.
     Transfer,

@@ -8,7 +8,7 @@ use crate::WordError;
 
 /// A kernel by name, with its parameters: `gaussian:alpha=3,scale=0.6`.
 ///
-/// It is only made by parsing, so that every kernel has a name to print.
+/// A value is only made by parsing, so that every kernel has a name to print.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct KernelName {
@@ -101,7 +101,7 @@ fn set(kernel: &mut Kernel, name: &str, key: &str, value: f64) -> Result<(), Str
     match (key, &mut kernel.fine) {
         ("scale", _) => kernel.scale = value,
         ("floor", _) => kernel.floor = value,
-        // A Gaussian of another shape would not keep light.
+        // A Gaussian of another shape would not keep the total light.
         _ if name == LIGHT => return Err(format!("unknown key '{key}' for {name}; it takes scale, floor")),
         ("alpha", CrossSection::Gaussian { alpha, .. }) => *alpha = value,
         ("cutoff", CrossSection::Gaussian { cutoff, .. }) => *cutoff = value,

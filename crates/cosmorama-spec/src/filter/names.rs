@@ -123,7 +123,7 @@ impl Meant<'_> {
 
 /// Finds the name that is most like a word, among those that were expected and those of the other setting.
 fn nearer<'w>(word: &str, own: &[&'w str], other: &[&'w str]) -> Option<Meant<'w>> {
-    // Of two that are equally like it, the last wins.
+    // Of two equally similar names, the last wins.
     let name = nearest(word, &[other, own].concat())?;
     Some(if own.contains(&name) { Meant::Own(name) } else { Meant::Other(name) })
 }

@@ -40,7 +40,7 @@ impl fmt::Display for Colour {
     }
 }
 
-/// Returns the light that multiplied by alpha is exactly this, if such a number exists.
+/// Returns the light that gives exactly this when multiplied by alpha, if such a number exists.
 fn unweighted(light: f32, alpha: f32) -> f32 {
     let near = light / alpha;
     [near, near.next_up(), near.next_down()].into_iter().find(|other| other * alpha == light).unwrap_or(near)

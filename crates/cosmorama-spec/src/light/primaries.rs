@@ -47,7 +47,7 @@ const OTHER_NAMES: [(&str, &str); 22] = [
     ("adobe", "adobe-rgb"),
 ];
 
-/// Prints the name, or the four pairs of primaries without one.
+/// Prints the name, or the four pairs of chromaticities if the primaries have no name.
 impl fmt::Display for PrimariesName {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match KNOWN.iter().find(|(_, known)| known.is_same(&self.0)) {

@@ -27,7 +27,7 @@ pub(super) const ALIASES: [(&str, &str); 33] = [
     ("c6x1", "cube:layout=strip-h"),
     ("c1x6", "cube:layout=strip-v"),
     ("eac", "cube:layout=eac"),
-    // Its left half looks back.
+    // The left half looks back.
     ("dfisheye", "dual-fisheye:order=bf,fov=180"),
     ("cylindrical", "cylinder"),
     ("cylindricalea", "equal-area"),

@@ -176,7 +176,7 @@ impl Cube {
         Ok(cube)
     }
 
-    /// Writes its keys, if the shape is one.
+    /// Writes the keys, if the shape is a cube.
     pub(super) fn write(shape: &Shape) -> Option<Keys> {
         let Shape::Cube(cube) = shape else { return None };
         let order = cube.order.map(|order| match order.name {

@@ -41,19 +41,19 @@ impl SpecKind {
         self.0.keys
     }
 
-    /// Returns the keys that it shares with other projections.
+    /// Returns the keys that the projection shares with others.
     pub fn common_keys(self) -> impl Iterator<Item = &'static Key> {
         COMMON.iter().filter(move |key| self.0.refusal(key.name).is_none())
     }
 
-    /// Finds one of its keys by our name, by another spelling or by ffmpeg's name.
+    /// Finds a key of the projection by our name, by another spelling or by ffmpeg's name.
     pub fn key(self, typed: &str) -> Option<&'static Key> {
         let names: Vec<&str> = self.0.all_keys().map(|key| key.name).collect();
         let name = key_for(typed, &names)?;
         self.0.all_keys().find(|key| key.name == name)
     }
 
-    /// Returns the help on its keys, a paragraph for each.
+    /// Returns the help on the projection's keys, a paragraph for each.
     pub fn help(self) -> String {
         let mut text = format!("{} takes\n", self.name());
         for key in self.own_keys() {
@@ -166,7 +166,7 @@ mod tests {
     #[test]
     fn every_spec_takes_the_keys_that_help_says_it_takes() {
         for (kind, key) in SpecKind::all().flat_map(|kind| COMMON.iter().map(move |key| (kind, key))) {
-            // Values of their own kind; what they need beside them comes along.
+            // Keys with a value of a special kind, with other keys that they need.
             let beside = if matches!(key.name, "swap" | "eye") { "stereo=sbs," } else { "" };
             let file = if kind.name() == "st-map" { "file=a.exr," } else { "" };
             let value = match key.name {

@@ -107,7 +107,7 @@ fn typed(orientation: Orientation) -> [Angle; 3] {
     let found = orientation.yaw_pitch_roll();
     let degrees = found.map(Angle::degrees);
     let [yaw, pitch, roll] = degrees;
-    // The same orientation, leaning over backwards; and, straight up or down, by roll instead of yaw.
+    // Other angles for the same orientation: leaning over backwards, or straight up or down with roll instead of yaw.
     let turns = [[yaw, pitch, roll], [yaw + 180.0, 180.0 - pitch, roll + 180.0], [0.0, pitch, yaw], [0.0, pitch, -yaw]];
     let rounds = [0.0, 360.0, -360.0];
     for places in 0..=PLACES {

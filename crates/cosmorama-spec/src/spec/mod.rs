@@ -1,7 +1,7 @@
 //! Text forms of projections: `NAME[:key=value[,key=value]…]`.
 //!
-//! One table ([`projections`]) lists every name and key; all messages about wrong ones come from it. Only the st map's
-//! `base=`, a SPEC within a SPEC, calls the parser from a builder.
+//! One table ([`projections`]) lists every name and key, and all messages about wrong ones are made from it. Only the
+//! st map's `base=`, a SPEC within a SPEC, calls the parser from a builder.
 
 mod alias;
 mod camera;

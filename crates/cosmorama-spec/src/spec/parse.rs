@@ -35,11 +35,11 @@ use crate::error::nearest;
 pub struct Spec {
     /// Name of the projection.
     pub name: &'static str,
-    /// Pictures that it describes.
+    /// Pictures that the SPEC describes.
     pub shape: Shape,
     /// Division into the pictures of two eyes; `None` for one eye.
     pub stereo: Option<StereoSpec>,
-    /// Files that it names.
+    /// Files that the SPEC names.
     pub files: Vec<PathBuf>,
 }
 
@@ -111,7 +111,7 @@ impl From<CameraModel> for Spec {
 /// For a picture whose calibration or map has been read, it prints the file's path.
 impl fmt::Display for Spec {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        // A fisheye that shows everything has two names.
+        // A fisheye that shows everything has two names: the one that was typed is kept.
         let own = Kind::named(self.name).and_then(|kind| Some((kind, (kind.write)(&self.shape)?)));
         let (name, keys) = match own.or_else(|| named(&self.shape)) {
             Some((kind, keys)) => (kind.name, keys),
@@ -139,8 +139,8 @@ fn named(shape: &Shape) -> Option<(&'static Kind, Keys)> {
     KINDS.iter().find_map(|kind| Some((kind, (kind.write)(shape)?)))
 }
 
-/// Returns the error for an unknown name, with suggestions: what a word of others stands for, a name with something other
-/// than a colon behind it, or a name with similar spelling.
+/// Returns the error for an unknown name, with suggestions: the SPEC of another program's word, a name followed by
+/// something other than a colon, or a name with similar spelling.
 fn unknown_name(name: &str, rest: &str) -> SpecError {
     let known: Vec<&str> = KINDS.iter().map(|kind| kind.name).collect();
     let names: Vec<&str> = known.iter().copied().chain(ALIASES.iter().map(|(alias, _)| *alias)).collect();
@@ -210,8 +210,8 @@ const SUGGESTED: usize = 2;
 
 /// Returns SPECs in which a lone value, the first part of a text, has its key: `cube:layout=3x2` for `cube:3x2`.
 ///
-/// They are those that parse, the projection's own keys first. The lean of a dome comes before all others: it is what people
-/// write behind one.
+/// Only SPECs that parse are suggested, the projection's own keys first. The lean of a dome comes before all others,
+/// since it is what people usually write after a dome.
 fn with_key(kind: &'static Kind, part: &str, text: &str) -> Vec<String> {
     let is_file = |key: &Key| ["FILE", "MAP"].contains(&key.value);
     let mut keys: Vec<&Key> = kind.all_keys().filter(|key| is_file(key) == part.contains('.')).collect();
@@ -223,7 +223,7 @@ fn with_key(kind: &'static Kind, part: &str, text: &str) -> Vec<String> {
         let meant: Vec<&str> = [part].into_iter().chain(begun).chain(nearest(part, &words)).collect();
         let spec = |word: &str| format!("{}:{}={word}{}", kind.name, key.name, &text[part.len()..]);
         let mut found: Vec<String> = meant.into_iter().map(spec).filter(|spec| spec.parse::<Spec>().is_ok()).collect();
-        // What is written as it should be needs no longer word.
+        // If the value is right as it is, longer suggestions are not needed.
         let most = if found.first() == Some(&spec(part)) { 1 } else { found.len() };
         found.truncate(most);
         found.dedup();
@@ -245,8 +245,8 @@ fn spelled(key: &str) -> String {
 }
 
 fn check_key(kind: &'static Kind, typed: &str) -> Result<(), SpecError> {
-    // canvas.FACE stands for a key of each face; which faces there are, the value's reader knows. LENS.fov stands for one
-    // of each lens.
+    // canvas.FACE stands for a key for each face; the value's reader knows the faces. LENS.fov stands for a key for
+    // each lens.
     let of_lens = LensSide::ALL.iter().find_map(|side| typed.strip_prefix(side.name())?.strip_prefix('.'));
     let generic = match of_lens {
         Some(key) => format!("LENS.{key}"),
@@ -340,7 +340,7 @@ mod tests {
         assert!(message.contains("'tetrahedron' of other programs is not on offer") && message.contains("v360=input="));
         let message = refused("biatan6:layout=3x2");
         assert!(message.contains("envutil") && message.contains("cube:layout=eac") && !message.contains("ffmpeg"));
-        // What is typed comes in the place of what the name stands for.
+        // Typed keys follow those of the SPEC that the name stands for.
         assert_eq!(spec("little-planet:pitch=-60"), spec("stereographic:pitch=-60"));
         assert_eq!(spec("dfisheye:fov=195"), spec("dual-fisheye:order=bf,fov=195"));
         assert_eq!(spec("he:stereo=sbs"), spec("equirect:hfov=180,stereo=sbs"));
@@ -368,7 +368,7 @@ mod tests {
         ("fisheye", Some("fisheye")),
         ("pannini", Some("pannini")),
         ("cylindrical", Some("cylinder")),
-        // Its globe from outside has a name that is a camera's here: the one name that means something else.
+        // ffmpeg's view of a globe from outside: the only one of its names that means something else here.
         ("perspective", Some("perspective")),
         ("tetrahedron", None),
         ("barrelsplit", None),
@@ -379,7 +379,7 @@ mod tests {
         ("og", Some("fisheye:lens=orthographic")),
         ("octahedron", Some("octahedral:kind=plain")),
         ("cylindricalea", Some("equal-area")),
-        // Written so in its documentation.
+        // ffmpeg's documentation spells it so.
         ("stereographic", Some("stereographic")),
         ("orthographic", Some("fisheye:lens=orthographic")),
         ("equidistant", Some("fisheye")),

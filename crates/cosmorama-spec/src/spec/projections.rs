@@ -17,7 +17,7 @@ pub(crate) struct Kind {
     pub(crate) about: &'static str,
     /// Keys of this projection alone.
     pub(crate) keys: &'static [Key],
-    /// Common keys that it refuses.
+    /// Common keys that the projection refuses.
     pub(crate) refused: &'static [Refused],
     /// Builds the shape from the keys.
     pub(crate) build: fn(&Fields) -> Result<Shape, SpecError>,
@@ -48,7 +48,7 @@ const SQUARE: Refused = Refused { key: "aspect", why: "Hugin's pixels are square
 pub struct Key {
     /// Name that users type.
     pub name: &'static str,
-    /// Form of its values.
+    /// Form of the key's values.
     pub value: &'static str,
     /// Effect, with the default.
     pub about: &'static str,
@@ -353,7 +353,7 @@ pub(crate) static KINDS: &[Kind] = &[
     },
 ];
 
-/// Keys of every SPEC, except those that refuse them.
+/// Keys of every SPEC, except those of projections that refuse them.
 pub(crate) const COMMON: [Key; 9] = [
     key("yaw", "DEGREES", "turns the view to the right"),
     key("pitch", "DEGREES", "turns it up"),
@@ -376,12 +376,12 @@ impl Kind {
         KINDS.iter().find(|kind| kind.name == name)
     }
 
-    /// Returns every key that it takes.
+    /// Returns every key that the projection takes.
     pub(crate) fn all_keys(&'static self) -> impl Iterator<Item = &'static Key> {
         self.keys.iter().chain(COMMON.iter().filter(|key| self.refusal(key.name).is_none()))
     }
 
-    /// Returns the reason why it refuses a common key; `None` if it does not.
+    /// Returns the reason why the projection refuses a common key; `None` if it does not.
     pub(crate) fn refusal(&self, key: &str) -> Option<&'static str> {
         self.refused.iter().find(|refused| refused.key == key).map(|refused| refused.why)
     }

@@ -48,7 +48,7 @@ impl Shape {
         }
     }
 
-    /// Adds the orientation, mirroring and crop of one image; other shapes write theirs themselves.
+    /// Adds the orientation, mirroring and crop of one image; other shapes write theirs elsewhere.
     pub(in crate::spec) fn write_place(&self, keys: Keys) -> Keys {
         match self {
             Self::Single(Single { placement, .. }) => {
@@ -68,7 +68,7 @@ pub struct Single {
     pub samples: SphereSamples,
     /// Whether the field of view is given both ways, so that pixels may have any shape.
     pub any_shape: bool,
-    /// Whether a panorama is turned by its camera's pose, as its file has it.
+    /// Whether a panorama is turned by the pose of the camera that its file gives.
     pub pose: bool,
 }
 

@@ -38,7 +38,7 @@ impl StereoSpec {
         Ok(Some(Self { packing: Stereo { is_swapped, ..packing }, eye }))
     }
 
-    /// Adds its keys.
+    /// Adds the keys of the division.
     pub(super) fn write(self, keys: Keys) -> Keys {
         let packing = Stereo { is_swapped: false, ..self.packing };
         let name = PACKINGS.iter().find(|(_, other)| *other == packing).map(|(name, _)| *name);

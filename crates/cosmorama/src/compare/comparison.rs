@@ -30,7 +30,7 @@ pub struct Comparison {
 pub struct EdgeFree {
     /// Number of compared pixels away from edges of the second picture.
     pub pixels: usize,
-    /// Differences of those pixels.
+    /// Differences of linear light in those pixels.
     pub linear: Difference,
 }
 

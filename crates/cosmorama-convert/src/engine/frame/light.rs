@@ -73,7 +73,7 @@ impl FrameLight {
         self.flattened.iter().map(PathBuf::as_path)
     }
 
-    /// Returns the metadata that go along to the frame's outputs.
+    /// Returns the metadata that the frame's outputs take over.
     pub(crate) fn carried(&self) -> Option<Arc<Carried>> {
         self.carried.clone()
     }

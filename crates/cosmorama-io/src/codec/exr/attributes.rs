@@ -17,8 +17,8 @@ const LONGEST_NAME: u64 = 255;
 /// Greatest number of bytes of all attributes of a file.
 const LARGEST_HEADER: usize = 4 * LARGEST_ATTRIBUTE;
 
-/// Reads the attributes of each part. A header that is damaged is the decoder's to refuse; one that is too large is refused
-/// here, before it is read.
+/// Reads the attributes of each part. A damaged header is left for the decoder to refuse. A header that is too large is
+/// refused here, before it is read.
 pub(super) fn read(path: &Path, source: Source<'_>) -> Result<Vec<Vec<Attribute>>, IoError> {
     let mut scan = Scan { path, source, total: 0 };
     let mut parts = Vec::new();
@@ -102,7 +102,8 @@ fn name(source: Source<'_>) -> io::Result<Option<String>> {
     Ok((name.pop() == Some(0)).then(|| name.into_iter().map(char::from).collect()))
 }
 
-/// Adds the attributes to write. The encoder has fields for those of the standard, and refuses these under other types.
+/// Adds the attributes to write. The encoder has fields of its own for standard attributes, and refuses these under
+/// other types.
 pub(super) fn add(carried: &Carried, own: &mut LayerAttributes, time_code: &mut Option<TimeCode>) {
     for Attribute { name, kind, bytes } in &carried.attributes {
         let text = || Some(Text::from_slice_unchecked(bytes)).filter(|_| kind == "string");
@@ -133,7 +134,7 @@ pub(super) fn add(carried: &Carried, own: &mut LayerAttributes, time_code: &mut 
             "worldToNDC" => own.world_to_normalized_device = matrix(),
             "keyCode" => own.film_key_code = KeyCode::read(&mut &bytes[..]).ok(),
             "timeCode" => *time_code = TimeCode::read(&mut &bytes[..]).ok(),
-            // Of the file itself: the encoder writes its own.
+            // Standard attributes without a field of their own describe the file, and the encoder writes its own.
             _ if standard_names::ALL.contains(&name.as_bytes()) => {}
             _ => {
                 let value =

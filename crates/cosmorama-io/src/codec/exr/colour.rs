@@ -20,7 +20,8 @@ const INTEROP_IDS: [(&str, Primaries); 6] = [
     ("lin_ap0_scene", Primaries::AP0),
 ];
 
-/// Adds what a part says of its colours. `chromaticities` takes precedence over `colorInteropID`, since they are numbers.
+/// Adds what a part says of its colours. `chromaticities` takes precedence over `colorInteropID`, since it holds
+/// numbers.
 pub(super) fn read(part: &Part, mut metadata: Metadata) -> Metadata {
     let own = &part.own_attributes;
     metadata.white_luminance = own.white_luminance.filter(|white| white.is_finite() && *white > 0.0);

@@ -19,7 +19,7 @@ pub(super) fn is_plausible(chunk: &Chunk, compression: Compression, block_bytes:
     let most = block_bytes.saturating_mul(16).saturating_add(1 << 16);
     let counter =
         |i: usize| bytes.get(8 * i..8 * i + 8).and_then(|bytes| bytes.try_into().ok()).map(u64::from_le_bytes);
-    // What did not become smaller is stored as it is, without counters.
+    // A block that compression did not make smaller is stored as it is, without counters.
     bytes.len() as u128 == block_bytes || SIZES.iter().filter_map(|&i| counter(i)).all(|size| u128::from(size) <= most)
 }
 

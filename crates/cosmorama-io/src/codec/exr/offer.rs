@@ -1,4 +1,4 @@
-//! The parts and channels of a file that a choice leaves.
+//! Parts and channels of a file among which a [`Choice`] lets the reader select.
 
 use std::path::Path;
 
@@ -25,7 +25,7 @@ impl<'a> Offer<'a> {
         flat.map(|(index, part)| Self { index, part, channels: (0..part.channels.list.len()).collect() }).collect()
     }
 
-    /// Lists what a choice leaves of a file: one part where it names a part or channels.
+    /// Lists the parts and channels that a choice permits: a single part if the choice names a part or channels.
     pub(super) fn chosen(path: &Path, parts: &'a [Part], choice: &Choice) -> Result<Vec<Self>, IoError> {
         let mut offers = Self::all(parts);
         if let Some(wanted) = &choice.part {
@@ -50,7 +50,7 @@ impl<'a> Offer<'a> {
         })
     }
 
-    /// Leaves only the channels that a choice names, each of them once.
+    /// Removes the channels that a choice does not name. Each remaining channel may be named only once.
     fn restrict(&mut self, path: &Path, choice: &Choice) -> Result<(), IoError> {
         for name in self.names() {
             let mut naming = choice.channels.iter().filter(|pattern| matches(pattern, &name));

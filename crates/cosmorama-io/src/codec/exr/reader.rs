@@ -37,7 +37,7 @@ const BATCH: usize = 64;
 /// Bytes of these chunks together; a single chunk may have more.
 const BATCH_BYTES: u128 = 1 << 26;
 
-/// Reads a file's header for its picture, and for what a choice leaves beside it.
+/// Reads a file's header for the picture that a choice permits, and for the channels beside it.
 pub(crate) fn probe(path: &Path, source: Source<'_>, choice: &Choice) -> Result<Header, IoError> {
     let attributes = attributes::read(path, &mut *source)?;
     let reader = open(path, source)?;
@@ -78,7 +78,7 @@ pub(crate) fn read_pairs(path: &Path, source: Source<'_>, limits: &Limits) -> Re
 /// Channels to select.
 #[derive(Clone, Copy)]
 pub(super) enum Wanted<'a> {
-    /// A picture, of what a choice leaves.
+    /// A picture, among the parts and channels that a choice permits.
     Picture(&'a Choice),
     /// The two channels of an st map.
     Pair,
@@ -141,8 +141,8 @@ fn read_selected(
     Ok(file)
 }
 
-/// Counts the files that follow one whose last chunk has been read. Bytes that begin none are padding, and harmless, and so are
-/// chunks of other parts and resolutions.
+/// Counts the files that follow one whose last chunk has been read. Bytes that begin no file are harmless padding.
+/// Chunks of other parts and resolutions are harmless, too.
 fn count_behind(source: Source<'_>) -> io::Result<usize> {
     let first = skip_padding(source)?;
     let start = next_bytes(source, START)?;
@@ -150,7 +150,7 @@ fn count_behind(source: Source<'_>) -> io::Result<usize> {
     if !start.starts_with(&MARK) || MetaData::read_from_buffered(&mut *source, false).is_err() {
         return Ok(0);
     }
-    // Those that one program has written begin alike, with their version and its flags.
+    // Files written by one program begin alike, with the same version and flags.
     Ok(1 + count_marks(source, &start)?)
 }
 
@@ -178,10 +178,11 @@ pub(super) fn open<'a>(path: &Path, source: Source<'a>) -> Result<Reader<Source<
     exr::block::read(source, strictly).map_err(|error| damaged(path, error))
 }
 
-/// Returns whether a file of one part is refused only for its `chunkCount`, which then is ignored, as in OpenEXR's own
-/// library. That library computes the number of chunks from size and compression, and programs like exrenvmap copy the
-/// attribute from their input. The stricter way of reading does not compare the number, because exr 1.74 inverts the
-/// flag (`MetaData::read_validated_from_buffered_peekable`); once that is fixed, such files are not refused here.
+/// Returns whether a file of one part is refused only for its `chunkCount`. That number is then ignored, as in
+/// OpenEXR's own library, which computes the number of chunks from size and compression. Programs like exrenvmap copy
+/// the attribute from their input. The decoder's stricter way of reading does not compare the number, because exr 1.74
+/// inverts the flag (`MetaData::read_validated_from_buffered_peekable`); once that is fixed, such files are not refused
+/// here.
 fn has_wrong_count(source: Source<'_>) -> io::Result<bool> {
     let is_refused = matches!(exr::block::read(&mut *source, false), Err(Error::Invalid(_)));
     source.rewind()?;

@@ -14,7 +14,7 @@ pub(super) struct Selection {
     pub(super) depth: Depth,
     /// Names of all other channels.
     pub(super) others: Vec<String>,
-    /// Channels beside the picture's, and parts.
+    /// Channels beside the picture's, and parts of the file.
     pub(super) layers: Layers,
     /// Indices of the channels, in the order of a pixel's samples.
     indices: Vec<usize>,
@@ -39,8 +39,8 @@ impl Selection {
         Self::checked(parts, offer, indices)
     }
 
-    /// Selects one channel, of whatever type, that stands for a picture in the first part that has a full one. `found`
-    /// says what there is instead of a picture.
+    /// Selects one channel, of any type, that stands in for a picture, in the first part that has a full channel.
+    /// `found` describes what there is instead of a picture.
     pub(super) fn stand_in(parts: &[Part], offers: &[Offer<'_>], found: String) -> Result<Self, String> {
         let full = |offer: &Offer<'_>, index: usize| named(&offer.part.channels.list[index]).is_full;
         let of = |offer: &Offer<'_>| offer.channels.iter().copied().find(|index| full(offer, *index));
@@ -94,7 +94,7 @@ impl Selection {
         let channels = Channels::ALL[indices.len() - 1];
         let used = |name: &String| indices.iter().any(|&index| name_of(index) == *name);
         let mut others = names(parts);
-        // Parts of the same picture may name their channels alike: only this part's are used.
+        // Parts of one picture may have channels of the same name, of which only this part's are used.
         others.retain(|name| !used(name));
         let further = offer.channels.iter().filter(|index| !indices.contains(index));
         let further = further.map(|index| named(&list[*index])).collect();
@@ -115,7 +115,7 @@ fn layers_of(parts: &[Part], offer: &Offer<'_>) -> Layers {
     Layers { parts, part: offer.index, ..Layers::default() }
 }
 
-/// Returns the names of channels that are offered; where none are, of all that there are.
+/// Returns the names of the channels that are offered, or of all channels if none is offered.
 fn offered(parts: &[Part], offers: &[Offer<'_>]) -> Vec<String> {
     if offers.is_empty() { names(parts) } else { offers.iter().flat_map(Offer::names).collect() }
 }

@@ -114,7 +114,7 @@ fn save(
     picture.attributes.time_code = time_code;
     picture.attributes.chromaticities = options.metadata.primaries.as_ref().map(colour::chromaticities);
     let writer = picture.write();
-    // The encoder has threads of its own, for one that works alone and has some to spare.
+    // The encoder has threads of its own. They are used if this thread works alone and there are several cores.
     let written = if rayon::current_num_threads() > 1 && !is_beside_others() {
         writer.to_buffered(output)
     } else {

@@ -1,4 +1,4 @@
-//! The marks that a JPEG file is made of: where a picture ends, and which others lie behind it.
+//! Marks in a JPEG file: where a picture ends, and which further pictures lie behind it.
 
 use std::io::{self, BufRead, Seek};
 
@@ -19,7 +19,7 @@ pub(super) fn end(bytes: &[u8]) -> Option<usize> {
     marks.find(|(mark, _)| *mark == END).map(|_| marks.at)
 }
 
-/// Counts the pictures that lie one behind the other and are as large as the first. Smaller ones are previews.
+/// Counts the pictures that lie one behind the other and have the size of the first. Smaller ones are previews.
 pub(super) fn count_alike(bytes: &[u8]) -> usize {
     let first = size(bytes);
     let (mut rest, mut count) = (bytes, 0);
@@ -32,14 +32,15 @@ pub(super) fn count_alike(bytes: &[u8]) -> usize {
     count
 }
 
-/// Returns height and width as the frame's segment has them.
+/// Returns height and width as the segment of the picture's frame has them.
 fn size(bytes: &[u8]) -> Option<&[u8]> {
     let is_frame = |mark: u8| (0xc0..=0xcf).contains(&mark) && ![0xc4, 0xc8, 0xcc].contains(&mark);
     let (_, segment) = Marks { bytes, at: 0 }.find(|(mark, _)| is_frame(*mark))?;
     segment.get(1..5)
 }
 
-/// The marks of a picture, each with the content of its segment if it has one. Compressed data between them are passed over.
+/// The marks of a picture, each with the content of its segment if it has one. Compressed data between marks are
+/// skipped.
 struct Marks<'a> {
     bytes: &'a [u8],
     at: usize,
@@ -55,7 +56,7 @@ impl<'a> Iterator for Marks<'a> {
             let mark = self.bytes[self.at];
             self.at += 1;
             match mark {
-                // A stuffed byte of compressed data, and marks that stand alone within those.
+                // A stuffed byte of compressed data, or a mark within them that stands alone.
                 0x00 | 0x01 | 0xd0..=0xd8 => {}
                 END => return Some((mark, &[])),
                 _ => {
@@ -93,7 +94,7 @@ pub(super) fn listed(source: &mut (impl BufRead + Seek + ?Sized)) -> io::Result<
     }
 }
 
-/// Returns the number of pictures in the list, which is written as a TIFF file is.
+/// Returns the number of pictures in the list, which has the structure of a TIFF file.
 fn number_of_images(list: &[u8]) -> Option<u32> {
     let is_little = list.starts_with(b"II");
     let bytes = |at: usize, count: usize| -> Option<u32> {

@@ -27,7 +27,7 @@ impl Codec for Jpeg {
     }
 
     fn probe(&self, path: &Path, source: Source<'_>) -> Result<Header, IoError> {
-        // A file that is too short for its marks is the decoder's to refuse.
+        // If the file is too short for its marks, the decoder will refuse it.
         let listed = marks::listed(source).unwrap_or(0);
         source.rewind().map_err(|error| IoError::open(path, error))?;
         let mut decoder = decoder(path, source)?;
@@ -43,7 +43,7 @@ impl Codec for Jpeg {
         if marks::end(&bytes).is_none() {
             return Err(IoError::damaged(path, FORMAT, "it ends too early"));
         }
-        // What a file lists are other pictures than its own.
+        // Pictures that a file lists are previews and the like. Only unlisted ones are further pictures.
         let listed = marks::listed(&mut Cursor::new(&bytes)).unwrap_or(0);
         let count = if listed == 0 { marks::count_alike(&bytes) } else { 1 };
         if count > 1 {
@@ -92,7 +92,7 @@ impl Codec for Jpeg {
     }
 }
 
-/// Returns what the file says beside its colours.
+/// Returns the metadata of the file, except its colours.
 fn metadata<T: ZByteReaderTrait>(decoder: &JpegDecoder<T>, size: (usize, usize)) -> Metadata {
     let mut carried = Carried::default();
     let exif = decoder.exif().and_then(|block| carried.add_exif(block).err()).map(|reason| ("Exif", reason));
@@ -147,7 +147,7 @@ fn unread(listed: u32) -> Option<String> {
 }
 
 fn options() -> DecoderOptions {
-    // Strict: else the rest of a truncated file would be grey. Sizes are checked against our own limits.
+    // Strict, since otherwise the rest of a truncated file would be grey. Sizes are checked against our own limits.
     DecoderOptions::default().set_strict_mode(true).set_max_width(usize::MAX).set_max_height(usize::MAX)
 }
 

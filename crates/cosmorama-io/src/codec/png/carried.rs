@@ -1,5 +1,5 @@
-//! Chunks of a PNG that speak neither of its pixels nor of their colours: texts, Exif and XMP. They lie before the pixels or
-//! behind them.
+//! Chunks of a PNG that describe neither its pixels nor their colours: texts, Exif and XMP. They lie before the pixels
+//! or behind them.
 
 use std::io::{self, SeekFrom};
 
@@ -12,7 +12,7 @@ use crate::codec::interface::Source;
 use crate::metadata::{LARGEST_EXIF, XMP};
 use crate::{Carried, Metadata, TextChunk};
 
-/// Content of the chunks, and complaints about what of it is left out.
+/// Content of the chunks, and complaints about content that is left out.
 #[derive(Default)]
 pub(super) struct Found {
     pub(super) carried: Carried,
@@ -21,7 +21,7 @@ pub(super) struct Found {
     pub(super) complaints: Vec<String>,
 }
 
-/// Reads the chunks, and goes back to the beginning. Where the file is damaged, the decoder tells.
+/// Reads the chunks, and goes back to the beginning. Damage is left for the decoder to report.
 pub(super) fn read(source: Source<'_>) -> io::Result<Found> {
     let mut found = Found::default();
     source.seek(SeekFrom::Start(MARK.len() as u64))?;

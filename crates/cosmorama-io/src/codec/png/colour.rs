@@ -31,7 +31,7 @@ pub(super) fn metadata(info: &Info<'_>, found: Found) -> Metadata {
     colour(info, other)
 }
 
-/// Adds what the chunk of highest precedence says, and tells where others contradict it.
+/// Adds the colours that the chunk of highest precedence gives, and complains of chunks that contradict it.
 fn colour(info: &Info<'_>, mut metadata: Metadata) -> Metadata {
     let profile = info.icc_profile.as_ref().map(|profile| profile.to_vec());
     match cicp(info) {
@@ -52,7 +52,7 @@ fn colour(info: &Info<'_>, mut metadata: Metadata) -> Metadata {
     if info.srgb.is_some() {
         let other = primaries.filter(|primaries| !primaries.is_same(&Primaries::REC709));
         let chroma = other.map(|other| ("its cHRM chunk", other.to_string()));
-        // Its gAMA is an approximation at best.
+        // The gAMA chunk can only approximate such a function.
         let steep =
             transfer.filter(|transfer| !matches!(transfer, Transfer::Gamma(gamma) if (2.1..2.3).contains(gamma)));
         let gamma = colour_name(steep.as_ref().map(|_| &Primaries::REC709), steep.as_ref());
@@ -65,7 +65,7 @@ fn colour(info: &Info<'_>, mut metadata: Metadata) -> Metadata {
     Metadata { primaries, transfer, ..metadata }
 }
 
-/// Complains of what contradicts the chunk that takes precedence.
+/// Adds complaints about statements that contradict the chunk that takes precedence.
 fn told(chunk: &str, mut metadata: Metadata, sayings: [Option<(&str, String)>; 2]) -> Metadata {
     let name = metadata.colour_space().unwrap_or_default();
     for (place, other) in sayings.into_iter().flatten().filter(|(_, other)| *other != name) {
@@ -102,7 +102,7 @@ fn cicp(info: &Info<'_>) -> Option<Result<Coded, String>> {
     Some(Ok((primaries, transfer)))
 }
 
-/// Number of ITU-T H.273 for what is not known.
+/// Number of ITU-T H.273 for an unspecified value.
 const UNSPECIFIED: u8 = 2;
 
 impl Metadata {
@@ -187,7 +187,7 @@ pub(super) fn tag(transfer: &Transfer, primaries: Option<&Primaries>) -> Option<
     }
 }
 
-/// Returns the chunk of primaries; `None` where a number is negative, which it cannot hold.
+/// Returns the chunk of primaries; `None` where a coordinate is negative, which the chunk cannot hold.
 fn chromaticities(primaries: &Primaries) -> Option<SourceChromaticities> {
     let scaled = |number: f64| (number >= 0.0).then(|| ScaledFloat::from_scaled((number * 100_000.0).round() as u32));
     let pair = |[x, y]: [f64; 2]| Some((scaled(x)?, scaled(y)?));

@@ -13,7 +13,7 @@ use crate::{Format, Header, ImageFile, IoError, Limits};
 
 const FORMAT: Format = Format::Png;
 
-/// Most columns or rows that are read: as many as may be asked for of an output.
+/// Most columns or rows that are read: as many as an output may have.
 const LONGEST_SIDE: u32 = 1_000_000;
 
 /// First bytes of every file.
@@ -81,7 +81,7 @@ fn stretch<S: Copy>(codes: &mut [S], channels: Channels, full: impl Fn(S) -> S) 
     }
 }
 
-/// Counts the pictures that follow one that has been read. Bytes that begin no picture are padding, and harmless.
+/// Counts the pictures that follow one that has been read. Bytes that begin no picture are harmless padding.
 fn count_behind(source: Source<'_>) -> std::io::Result<usize> {
     let mut count = 0;
     while next_picture(source)? {
@@ -106,13 +106,13 @@ fn skip_chunk(source: Source<'_>) -> std::io::Result<bool> {
 }
 
 fn decoder<'a>(path: &Path, source: Source<'a>) -> Result<Reader<Source<'a>>, IoError> {
-    // Its own limit is for rows, profiles and texts; the image itself is checked against ours.
+    // The decoder's own limit is for rows, profiles and texts; the image itself is checked against ours.
     let mut decoder = Decoder::new(source);
     // Palettes, transparent colours and samples of less than eight bits become plain samples.
     decoder.set_transformations(Transformations::EXPAND);
     // Texts are read by `carried`, each up to its own limit.
     decoder.set_ignore_text_chunk(true);
-    // A row beyond that limit would be called damaged.
+    // A row beyond the decoder's limit would be reported as damaged.
     let (width, height) = decoder.read_header_info().map(Info::size).map_err(|error| damaged(path, &error))?;
     if width.max(height) > LONGEST_SIDE {
         return Err(IoError::too_long(path, FORMAT, (width.into(), height.into()), LONGEST_SIDE.into()));

@@ -22,7 +22,7 @@ pub(crate) fn write(
 
 fn encode(output: impl Write, image: &EncodedImage, options: &WriteOptions) -> Result<(), EncodingError> {
     let metadata = &options.metadata;
-    // A profile says all there is to say about colour.
+    // A profile describes the colours completely.
     let tag = match &metadata.icc {
         Some(_) => None,
         None => metadata.transfer.as_ref().and_then(|transfer| tag(transfer, metadata.primaries.as_ref())),
@@ -94,7 +94,7 @@ fn write_samples(writer: &mut Writer<impl Write>, image: &EncodedImage, pool: &F
             pool.give(Samples::U16(big_endian));
             written
         }
-        // `Format::supports` has been asked before.
+        // Callers have checked with `Format::supports`.
         Samples::Half(_) | Samples::Float(_) => Err(limit("PNG has no float samples")),
     }
 }

@@ -35,7 +35,7 @@ impl Codec for Hdr {
 
     fn decode(&self, path: &Path, source: Source<'_>, limits: &Limits, pool: &FramePool) -> Result<ImageFile, IoError> {
         let Preamble { header, exposure, upside_down } = Preamble::read(path, &mut *source)?;
-        // Pixels are read byte by byte: from a buffer whose type is known.
+        // Pixels are read byte by byte, which is faster from a buffer of known type.
         let mut source = BufReader::with_capacity(BUFFER, source);
         limits.check(path, (header.width as u64, header.height as u64), header.channels, header.depth)?;
         let mut samples = pool.take::<f32>(header.width * header.height * 3);
@@ -83,7 +83,7 @@ impl Codec for Hdr {
     }
 }
 
-/// Counts the pictures that follow one that has been read. Bytes that begin no picture are padding, and harmless.
+/// Counts the pictures that follow one that has been read. Bytes that begin no picture are harmless padding.
 fn count_behind<R: Read + Seek>(path: &Path, source: &mut BufReader<R>, line: &mut Vec<[u8; 4]>) -> io::Result<usize> {
     let mut count = 0;
     loop {
@@ -93,7 +93,7 @@ fn count_behind<R: Read + Seek>(path: &Path, source: &mut BufReader<R>, line: &m
         let preamble = if is_marked { Preamble::read(path, source).ok() } else { None };
         let Some(Preamble { header, .. }) = preamble else { return Ok(count) };
         count += 1;
-        // A width that the file only claims to have is not given room.
+        // No memory is allocated for a width that the file merely claims to have.
         line.resize(header.width.min(line.len().max(1)), [0; 4]);
         let is_whole = header.width == line.len() && (0..header.height).all(|_| rgbe::read_line(source, line).is_ok());
         if !is_whole {
@@ -133,7 +133,7 @@ impl Preamble {
                 Some(("SOFTWARE", name)) => metadata.software = Some(name.trim().to_owned()),
                 Some(("PRIMARIES", numbers)) => match primaries(numbers) {
                     Some(primaries) => metadata.primaries = Some(primaries),
-                    // As in the skies of Poly Haven.
+                    // Lines as the skies of Poly Haven have them.
                     None if numbers.split_whitespace().eq(["0"; 8]) => {
                         metadata.notes.push("its PRIMARIES are all 0, which is taken for none".to_owned());
                     }

@@ -13,7 +13,7 @@ pub(super) fn decode([red, green, blue, exponent]: Rgbe) -> [f32; 3] {
     if exponent == 0 {
         return [0.0; 3];
     }
-    // In f64, as 2⁻¹³⁵ is no normal f32.
+    // In f64, since 2⁻¹³⁵ is not a normal f32.
     let scale = 2.0_f64.powi(i32::from(exponent) - 136);
     [red, green, blue].map(|mantissa| (f64::from(mantissa) * scale) as f32)
 }
@@ -25,10 +25,10 @@ pub(super) fn encode(light: [f32; 3]) -> Rgbe {
     if brightest < 2.0_f64.powi(-135) {
         return [0; 4];
     }
-    // The power of two above the brightest, exactly: bits, not logarithms.
+    // The power of two above the brightest sample, from bits, since logarithms are not exact.
     let power = ((brightest.to_bits() >> 52) as i32 - 1023) + 1;
     let mantissa = |c: f64, power: i32| (c * 2.0_f64.powi(8 - power)).round();
-    // Rounding may reach 256, which is the next exponent's 128.
+    // Rounding may reach 256, which is 128 with the next exponent.
     let power = if mantissa(brightest, power) > 255.0 { power + 1 } else { power };
     let power = power.clamp(-127, 127);
     let [red, green, blue] = light.map(|c| mantissa(c, power).min(255.0) as u8);

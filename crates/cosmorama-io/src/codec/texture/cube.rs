@@ -21,11 +21,11 @@ pub(super) struct CubeTexture {
     pub(super) texels: Texels,
     /// Transfer function, if the file names one.
     pub(super) transfer: Option<Transfer>,
-    /// Primaries; the error is a number that is not known.
+    /// Primaries; the error is an unknown number.
     pub(super) primaries: Result<Option<Primaries>, u8>,
     /// Relation of colour to alpha.
     pub(super) alpha: AlphaMode,
-    /// Columns and rows of a face.
+    /// Columns, and rows, of a face.
     pub(super) edge: u32,
     /// Alignment of rows in bytes.
     pub(super) row_alignment: u64,

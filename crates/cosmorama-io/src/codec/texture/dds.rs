@@ -120,7 +120,7 @@ fn texture(path: &Path, source: Source<'_>) -> Result<CubeTexture, IoError> {
 
 /// Returns the bytes of a face with its mip levels, which follow it.
 fn face_stride(cube: &CubeTexture, levels: u32) -> u64 {
-    // A face of 2³¹ pixels has 32.
+    // A face of 2³¹ × 2³¹ pixels has 32 levels.
     let level = |level: u32| CubeTexture { edge: (cube.edge >> level).max(1), transfer: None, ..*cube }.face_bytes();
     (0..levels.clamp(1, 32)).map(level).fold(0, u64::saturating_add)
 }

@@ -94,7 +94,8 @@ impl Codec for Ktx2 {
                 sgd_byte_length: 0,
             },
         };
-        // The smallest level comes first, the index begins with the largest. Six faces of RGBA keep all of them aligned.
+        // The smallest level comes first in the file, but the largest first in the index. Six faces of RGBA keep all
+        // levels aligned.
         let after = |level: usize| faces[level + 1..].iter().map(|level| level.len() as u64).sum::<u64>();
         let index = faces.iter().enumerate().map(|(level, faces)| {
             let bytes = faces.len() as u64;

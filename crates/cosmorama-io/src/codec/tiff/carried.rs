@@ -18,7 +18,7 @@ const UNREAD: [(Tag, &str); 2] = [(Tag::Unknown(33723), "IPTC"), (Tag::Unknown(3
 /// Byte order of this machine.
 const NATIVE: ByteOrder = if cfg!(target_endian = "little") { ByteOrder::LittleEndian } else { ByteOrder::BigEndian };
 
-/// Content of the tags, and complaints about what of it is left out.
+/// Content of the tags, and complaints about content that is left out.
 #[derive(Default)]
 pub(super) struct Found {
     pub(super) carried: Carried,
@@ -68,7 +68,7 @@ impl Found {
         let entry = from.find_entry(tag)?;
         let number = tag.to_u16();
         let count = entry.count();
-        // Of all together: the values of several tags may lie one upon the other.
+        // The limit is for all values together, since values of several tags may share the same bytes.
         self.count = self.count.saturating_add(count);
         if self.count > LARGEST_EXIF as u64 {
             self.count = self.count.saturating_sub(count);

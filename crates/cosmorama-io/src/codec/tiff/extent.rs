@@ -11,7 +11,7 @@ const PLACES: [(u16, u16); 2] = [(273, 279), (324, 325)];
 /// Greatest number of pages that are followed; their links may form a circle.
 const MOST_PAGES: usize = 1 << 16;
 
-/// Counts the files that lie behind the first one. Bytes that begin none are padding, and harmless.
+/// Counts the files that lie behind the first one. Bytes that begin no file are harmless padding.
 pub(super) fn count_behind(source: Source<'_>) -> io::Result<usize> {
     let (mut count, mut first) = (0, 0);
     while let Some(end) = end(source, first)? {
@@ -22,8 +22,8 @@ pub(super) fn count_behind(source: Source<'_>) -> io::Result<usize> {
     Ok(usize::saturating_sub(count, 1))
 }
 
-/// Finds the end of a file of 32-bit offsets that begins at `first`: what lies behind all that its pages refer to. `None` if
-/// no such file begins there.
+/// Finds the end of a file of 32-bit offsets that begins at `first`: the end of everything that its pages refer to.
+/// `None` if no such file begins there.
 fn end(source: Source<'_>, first: u64) -> io::Result<Option<u64>> {
     let mut file = Extent { source, first, is_little: true, end: 8 };
     let Some(mut page) = file.start()? else { return Ok(None) };
@@ -37,7 +37,7 @@ fn end(source: Source<'_>, first: u64) -> io::Result<Option<u64>> {
     Ok(Some(first + file.end))
 }
 
-/// A file of which the pages are gone through. Places are relative to its first byte.
+/// A file whose pages are followed. Places are relative to its first byte.
 struct Extent<'a> {
     source: Source<'a>,
     first: u64,
@@ -54,7 +54,7 @@ struct Entry {
 }
 
 impl Extent<'_> {
-    /// Reads the beginning, and returns the place of the first page; `None` if this is no such file.
+    /// Reads the beginning, and returns the place of the first page; `None` if this is not a TIFF file.
     fn start(&mut self) -> io::Result<Option<u64>> {
         let start = self.bytes(0, 8)?;
         self.is_little = start.starts_with(b"II");
@@ -62,7 +62,7 @@ impl Extent<'_> {
         Ok(is_tiff.then(|| self.number(&start[4..])))
     }
 
-    /// Goes through a page, and returns the place of the next; `None` if there is none here.
+    /// Reads a page, and returns the place of the next; `None` if there is no page here.
     fn page(&mut self, at: u64) -> io::Result<Option<u64>> {
         let count = self.bytes(at, 2)?;
         let length = 12 * self.number(&count);
@@ -94,7 +94,7 @@ impl Extent<'_> {
             _ => 1,
         };
         let count = number(4, 8);
-        // Few bytes lie in the entry itself.
+        // Values of up to four bytes lie in the entry itself.
         let at = if width * count <= 4 { at + 8 } else { number(8, 12) };
         Entry { tag: number(0, 2) as u16, width, count, at }
     }
@@ -115,7 +115,7 @@ impl Extent<'_> {
 
     fn bytes(&mut self, at: u64, count: u64) -> io::Result<Vec<u8>> {
         self.source.seek(SeekFrom::Start(self.first + at))?;
-        // As many as there are: sizes in a damaged file may be any.
+        // Only as many bytes as exist are read: a damaged file may declare any size.
         let mut bytes = Vec::new();
         (&mut *self.source).take(count).read_to_end(&mut bytes)?;
         Ok(bytes)

@@ -22,13 +22,13 @@ pub(crate) fn probe(path: &Path, source: Source<'_>) -> Result<Header, IoError> 
     Ok(header)
 }
 
-/// Refuses a file of several pages as large as the first, and tells of others. Copies at a lower resolution and masks are no
-/// pages.
+/// Refuses a file with further pages as large as the first, and reports other pages. Copies at a lower resolution, and
+/// masks, do not count as pages.
 fn beside(path: &Path, decoder: &mut Decoder<Source<'_>>) -> Result<Option<String>, IoError> {
     const NO_PAGE: u32 = 0b101;
     let first = decoder.dimensions().ok();
     let (mut pages, mut others) = (1, 0);
-    // What comes behind the first page is not read: where it is damaged, there is no page.
+    // Further pages are not read. A damaged one counts as none.
     while decoder.more_images() && decoder.next_image().is_ok() {
         let kind = decoder.find_tag_unsigned::<u32>(Tag::NewSubfileType).ok().flatten().unwrap_or(0);
         match kind & NO_PAGE {
@@ -49,7 +49,7 @@ pub(crate) fn read(path: &Path, source: Source<'_>, limits: &Limits, pool: &Fram
     let header = header(path, &mut decoder)?;
     limits.check(path, (header.width as u64, header.height as u64), header.channels, header.depth)?;
     let mode = alpha_mode(&mut decoder);
-    // Our own limit has been asked; the decoder's buffers are no larger than the image, or a strip of it.
+    // Our own limit has been checked. The decoder's buffers are no larger than the image, or than a strip of it.
     let mut decoder_limits = tiff::decoder::Limits::default();
     decoder_limits.decoding_buffer_size = usize::try_from(limits.memory).unwrap_or(usize::MAX);
     decoder_limits.intermediate_buffer_size = decoder_limits.decoding_buffer_size;
@@ -105,7 +105,7 @@ fn header(path: &Path, decoder: &mut Decoder<Source<'_>>) -> Result<Header, IoEr
         ColorType::GrayA(_) | ColorType::Multiband { num_samples: 2, .. } => Channels::GreyAlpha,
         ColorType::RGB(_) => Channels::Rgb,
         ColorType::RGBA(_) => Channels::Rgba,
-        // The decoder gives these as they are stored, as luma and two differences of colour.
+        // The decoder returns these colours as they are stored, as luma and two differences of colour.
         ColorType::YCbCr(_) => return Err(unsupported(&"YCbCr colours")),
         other => return Err(unsupported(&format_args!("{other:?}"))),
     };

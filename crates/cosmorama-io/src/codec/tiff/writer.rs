@@ -68,7 +68,7 @@ where
         Compression::Fast | Compression::Balanced => Packing::Deflate(DeflateLevel::Fast),
         Compression::High => Packing::Deflate(DeflateLevel::Balanced),
     };
-    // Differences are of use to what comes after alone.
+    // Differences of neighbours only help a compression that follows.
     let is_plain = S::FORMAT_IS_FLOAT || packing == Packing::Uncompressed;
     let predictor = if is_plain { Predictor::None } else { Predictor::Horizontal };
     let mut encoder = TiffEncoder::new(output)?.with_compression(packing).with_predictor(predictor);

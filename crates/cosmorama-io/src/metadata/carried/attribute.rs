@@ -3,7 +3,7 @@
 /// Greatest size of one attribute in bytes. Manifests of Cryptomatte, the largest in use, have a few megabytes.
 pub(crate) const LARGEST: usize = 16 << 20;
 
-/// Attributes that the writer makes anew: how pixels are stored, and what their colours are.
+/// Attributes that the writer sets itself: how pixels are stored, and what their colours are.
 const REWRITTEN: [&str; 24] = [
     "channels",
     "chromaticities",
@@ -31,7 +31,7 @@ const REWRITTEN: [&str; 24] = [
     "oiio:subimages",
 ];
 
-/// Attributes that speak of another picture than the output: its projection, its field of view, or its pixels.
+/// Attributes that are not true of the output, which is another picture: projection, field of view, pixels.
 const UNTRUE: [&str; 22] = [
     "envmap",
     "far",
@@ -57,29 +57,29 @@ const UNTRUE: [&str; 22] = [
     "wrapmodes",
 ];
 
-/// Usual values of windows and pixels; any other is told where it is lost.
+/// Usual values of windows and pixels. The loss of any other value is reported.
 const USUAL: [(&str, &[f32]); 3] =
     [("pixelAspectRatio", &[1.0]), ("screenWindowCenter", &[0.0, 0.0]), ("screenWindowWidth", &[1.0])];
 
 /// An attribute of an OpenEXR file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Attribute {
-    /// Its name.
+    /// Name of the attribute.
     pub name: String,
-    /// Name of its type, such as `string` or `v2f`.
+    /// Name of the value's type, such as `string` or `v2f`.
     pub kind: String,
-    /// Its value as the file has it, in little-endian order.
+    /// Value as the file has it, in little-endian order.
     pub bytes: Vec<u8>,
 }
 
 /// Treatment of an attribute for another file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Fate {
-    /// It goes along.
+    /// The output takes it over.
     Kept,
-    /// The writer has its own.
+    /// The writer sets it itself.
     Rewritten,
-    /// It would be untrue of the output.
+    /// It is not true of the output.
     Untrue,
 }
 
@@ -103,12 +103,13 @@ impl Attribute {
         }
     }
 
-    /// Returns whether it says how pixels are stored or what their colours are, and is told of in other words.
+    /// Returns whether the attribute describes how pixels are stored or what their colours are, which `info` reports
+    /// elsewhere.
     pub fn is_storage(&self) -> bool {
         self.fate() == Fate::Rewritten
     }
 
-    /// Returns what becomes of it in another file.
+    /// Returns the treatment of the attribute for another file.
     pub(super) fn fate(&self) -> Fate {
         let is_named = |names: &[&str]| names.contains(&&*self.name);
         match () {
@@ -118,7 +119,8 @@ impl Attribute {
         }
     }
 
-    /// Returns whether it says what only this file had, although the writer has its own: windows and stretched pixels.
+    /// Returns whether a value is lost although the writer sets the attribute: a special window, or pixels that are not
+    /// square.
     pub(super) fn is_lost(&self, all: &[Self]) -> bool {
         if self.name == "dataWindow" {
             let display = all.iter().find(|other| other.name == "displayWindow");

@@ -1,4 +1,4 @@
-//! What a file says beside its pixels and their colours, and what of it goes along to other files.
+//! Metadata of a file other than those of its pixels and colours, and which of them other files take over.
 
 mod attribute;
 mod exif;
@@ -15,7 +15,7 @@ pub(crate) use text::XMP;
 
 use attribute::Fate;
 
-/// Statements of a file beside its pixels and their colours.
+/// Metadata of a file other than those of its pixels and colours.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Carried {
     /// Attributes of an OpenEXR file.
@@ -37,20 +37,20 @@ impl From<Vec<Attribute>> for Carried {
     }
 }
 
-/// Metadata that go along to a file, and names of those that do not.
+/// Metadata that a file takes over, and names of those that it does not.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Kept {
-    /// Metadata that go along.
+    /// Metadata that the file takes over.
     pub carried: Carried,
-    /// Names of what would be untrue of the output.
+    /// Names of metadata that are not true of the output.
     pub untrue: Vec<String>,
-    /// Kinds of what the format cannot hold, with the names of some of it.
+    /// Kinds of metadata that the format cannot hold, with some of their names.
     pub lost: Vec<String>,
-    /// Whether something of what is lost says who made the picture or whose it is.
+    /// Whether some of the lost metadata name the picture's author or owner.
     pub loses_owner: bool,
 }
 
-/// Names that say who made a picture or whose it is: OpenEXR's, PNG's and XMP's.
+/// Names of metadata that name a picture's author or owner: OpenEXR's, PNG's and XMP's.
 const OWNERS: [&str; 7] =
     ["owner", "Author", "Copyright", "dc:creator", "dc:rights", "photoshop:Credit", "xmpRights:Owner"];
 
@@ -60,11 +60,11 @@ const DESCRIPTION: usize = 1024;
 /// Metadata that a file format can hold.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct MetadataRoom {
-    /// Whether it has attributes of any name and type.
+    /// Whether the format has attributes of any name and type.
     pub attributes: bool,
-    /// Whether it has texts of any keyword.
+    /// Whether the format has texts of any keyword.
     pub texts: bool,
-    /// Greatest number of bytes of its Exif block, and of its XMP packet; `None` if it has neither.
+    /// Greatest number of bytes of an Exif block, and of an XMP packet; `None` if the format has neither.
     pub exif: Option<usize>,
 }
 
@@ -86,7 +86,7 @@ impl Carried {
         Ok(())
     }
 
-    /// Returns what goes along to a file with this room, of which the picture is another one than the input's.
+    /// Returns the metadata that a file with this room takes over. Its picture is another one than the input's.
     pub fn kept(&self, room: MetadataRoom) -> Kept {
         let mut kept = Kept::default();
         self.keep_attributes(room, &mut kept);
@@ -150,7 +150,7 @@ impl Carried {
         kept.lose("XMP", &names);
     }
 
-    /// Returns the XMP packet to write, with this description added; `None` if there is nothing to say.
+    /// Returns the XMP packet to write, with this description added; `None` if there is neither.
     pub(crate) fn packet_to_write(&self, description: Option<String>) -> Option<String> {
         let packet = self.xmp.clone();
         match (packet, description) {
@@ -164,7 +164,7 @@ impl Carried {
 }
 
 impl Kept {
-    /// Notes what a format cannot hold.
+    /// Records metadata that a format cannot hold.
     fn lose(&mut self, kind: &str, names: &[String]) {
         self.loses_owner |= names.iter().any(|name| OWNERS.contains(&&**name));
         match names {

@@ -20,12 +20,12 @@ pub(crate) const XMP: &str = "XML:com.adobe.xmp";
 const LONGEST: u64 = 1 << 20;
 
 impl TextChunk {
-    /// Returns its keyword, such as `Author`.
+    /// Returns the text's keyword, such as `Author`.
     pub fn keyword(&self) -> String {
         latin(self.data.split(|byte| *byte == 0).next().unwrap_or_default())
     }
 
-    /// Returns its text; `None` if it is damaged or longer than a megabyte.
+    /// Returns the text; `None` if it is damaged or longer than a megabyte.
     pub fn text(&self) -> Option<String> {
         let (_, rest) = split(&self.data)?;
         match (&self.kind, rest) {
@@ -41,12 +41,13 @@ impl TextChunk {
         }
     }
 
-    /// Returns whether another program's file says so of itself alone: which program wrote it.
+    /// Returns whether the text is about the input's file alone: which program wrote it.
     pub(super) fn is_rewritten(&self) -> bool {
         self.keyword() == "Software"
     }
 
-    /// Returns whether it speaks of the input's pixels: previews, and metadata of other kinds in ImageMagick's old form.
+    /// Returns whether the text is about the input's pixels: previews, and metadata of other kinds in ImageMagick's old
+    /// form.
     pub(super) fn is_untrue(&self) -> bool {
         let keyword = self.keyword();
         ["Raw profile type ", "Thumb::", "png:"].iter().any(|start| keyword.starts_with(start))

@@ -1,4 +1,4 @@
-//! XMP packets: properties that would be untrue of the output are cut out of the text, the rest stays as it is.
+//! XMP packets: properties that are not true of the output are cut out of the text, and the rest stays as it is.
 
 use std::ops::Range;
 
@@ -18,7 +18,7 @@ const EXIF_EX: &str = "http://cipa.jp/exif/1.0/";
 const XMP: &str = "http://ns.adobe.com/xap/1.0/";
 const PHOTOSHOP: &str = "http://ns.adobe.com/photoshop/1.0/";
 
-/// Properties that the writer makes anew, or has no need to repeat: how pixels are stored, and what their colours are.
+/// Properties that the writer sets itself or need not repeat: how pixels are stored, and what their colours are.
 const REWRITTEN: [(&str, &[&str]); 5] = [
     (gpano::NAMESPACE, &[]),
     (
@@ -60,7 +60,7 @@ const REWRITTEN: [(&str, &[&str]); 5] = [
     (PHOTOSHOP, &["ICCProfile", "ColorMode"]),
 ];
 
-/// Properties that speak of another picture than the output. An empty list of names means all of the namespace.
+/// Properties that are not true of another picture than the input. An empty list of names means the whole namespace.
 const UNTRUE: [(&str, &[&str]); 18] = [
     (
         EXIF,
@@ -80,15 +80,15 @@ const UNTRUE: [(&str, &[&str]); 18] = [
         ],
     ),
     (XMP, &["Thumbnails", "ThumbnailURL"]),
-    // The rest of a packet that is too large for a JPEG's segment, which is not read.
+    // Refers to the rest of a packet that is too large for a JPEG's segment, which is not read.
     ("http://ns.adobe.com/xmp/note/", &["HasExtendedXMP"]),
-    // A raw developer's crop and lens corrections, which have been done.
+    // Crop and lens corrections by a raw developer, which the pixels already have.
     ("http://ns.adobe.com/camera-raw-settings/1.0/", &[]),
-    // Faces in the picture, by their place.
+    // Faces of people in the picture, by their place.
     ("http://www.metadataworkinggroup.com/schemas/regions/", &[]),
     ("http://ns.microsoft.com/photo/1.2/", &[]),
     ("http://ns.microsoft.com/photo/1.2/t/RegionInfo#", &[]),
-    // Pictures, depth, sound and films behind or in the file.
+    // Pictures, depth, sound and films that lie in the file or behind the picture.
     ("http://ns.google.com/photos/1.0/camera/", &[]),
     ("http://ns.google.com/photos/1.0/container/", &[]),
     ("http://ns.google.com/photos/1.0/container/item/", &[]),
@@ -108,7 +108,7 @@ fn text(packet: &[u8]) -> Option<&str> {
     Some(text.trim_start_matches('\u{feff}').trim_matches(|c: char| c == '\0' || c.is_whitespace()))
 }
 
-/// Checks that a packet is one; the error says why it is left out.
+/// Checks that bytes are an XMP packet; the error says why it is left out.
 pub(super) fn check(packet: &[u8]) -> Result<String, String> {
     if packet.len() > LARGEST {
         return Err(format!("they have {} bytes, more than {LARGEST}", packet.len()));
@@ -122,7 +122,7 @@ fn rdf<'a>(document: &'a Document<'a>) -> Option<Node<'a, 'a>> {
     document.descendants().find(|node| node.has_tag_name((RDF, "RDF")))
 }
 
-/// A packet without what would be untrue of the output.
+/// A packet without properties that are not true of the output.
 pub(super) struct Kept {
     /// The packet; `None` if nothing is left.
     pub(super) packet: Option<String>,
@@ -130,13 +130,13 @@ pub(super) struct Kept {
     pub(super) untrue: Vec<String>,
 }
 
-/// Cuts out what would be untrue of the output.
+/// Cuts out properties that are not true of the output.
 pub(super) fn kept(packet: &str) -> Kept {
     let Ok(document) = Document::parse(packet) else { return Kept { packet: None, untrue: Vec::new() } };
     let mut cutter = Cutter::default();
     for node in document.descendants().filter(Node::is_element) {
         let (tag, range) = (node.tag_name(), node.range());
-        // In the order of the text: what lies in an element that is cut out goes with it.
+        // In the order of the text: an element that is cut out takes its content with it.
         if cutter.has_cut(&range) || cutter.judge(node, tag.namespace(), tag.name(), range) {
             continue;
         }
@@ -157,18 +157,18 @@ pub(super) fn kept(packet: &str) -> Kept {
     Kept { packet: has_more.then_some(rest), untrue }
 }
 
-/// Finds what is to be cut out of a packet, from its beginning to its end.
+/// Finds the parts of a packet to cut out, from its beginning to its end.
 #[derive(Default)]
 struct Cutter {
     cuts: Vec<Range<usize>>,
-    /// Names of what would be untrue.
+    /// Names of properties that are not true of the output.
     untrue: Vec<String>,
     /// Whether a property is left.
     has_more: bool,
 }
 
 impl Cutter {
-    /// Returns whether this part of the text has been cut out with what it lies in.
+    /// Returns whether this part of the text has been cut out together with an element around it.
     fn has_cut(&self, range: &Range<usize>) -> bool {
         self.cuts.last().is_some_and(|cut| cut.end >= range.end)
     }
@@ -197,7 +197,7 @@ impl Cutter {
 pub(super) fn with_description(packet: &str, description: &str) -> Option<String> {
     let document = Document::parse(packet).ok()?;
     let end = rdf(&document)?.range().end;
-    // Without content it has no closing tag.
+    // An element without content has no closing tag.
     let at = packet[..end].rfind("</")?;
     Some([&packet[..at], description, &packet[at..]].concat())
 }

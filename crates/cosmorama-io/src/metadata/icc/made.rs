@@ -10,7 +10,7 @@ use crate::metadata::colour_name;
 /// Number of entries of curves that no formula of ICC.1 can express.
 const ENTRIES: u16 = 4096;
 
-/// Returns a profile that says what light an RGB file's code values are.
+/// Returns a profile that defines the light of an RGB file's code values.
 pub(crate) fn made(transfer: &Transfer, primaries: &Primaries) -> Option<Vec<u8>> {
     let curve = |channel| Some(curve(transfer, channel));
     let [red, green, blue] = [0, 1, 2].map(|column| {
@@ -29,8 +29,8 @@ pub(crate) fn made(transfer: &Transfer, primaries: &Primaries) -> Option<Vec<u8>
     profile.encode().ok()
 }
 
-/// Returns a profile for a grey file. `None` for transfer functions whose curve is not all there is to say, since grey
-/// has no code points.
+/// Returns a profile for a grey file. `None` for transfer functions that a curve does not describe completely, since
+/// grey has no code points.
 pub(crate) fn made_grey(transfer: &Transfer) -> Option<Vec<u8>> {
     if code_points(transfer, &Primaries::REC709).is_some() {
         return None;
@@ -41,7 +41,7 @@ pub(crate) fn made_grey(transfer: &Transfer) -> Option<Vec<u8>> {
     profile.encode().ok()
 }
 
-/// Returns what all profiles share.
+/// Returns the parts that all profiles share.
 fn described(name: &str) -> ColorProfile {
     let d50 = Xyzd { x: 0.9642, y: 1.0, z: 0.8249 };
     let mut profile = ColorProfile::default();
@@ -49,11 +49,11 @@ fn described(name: &str) -> ColorProfile {
     profile.profile_class = ProfileClass::DisplayDevice;
     profile.rendering_intent = RenderingIntent::RelativeColorimetric;
     profile.white_point = d50;
-    // The version that is written asks for D50 here, too; a display's own white follows from `chad`.
+    // The version of ICC that is written requires D50 here, too; a display's own white follows from `chad`.
     profile.media_white_point = Some(d50);
     profile.description = Some(text(name));
     profile.copyright = Some(text("No copyright, use freely"));
-    // The same picture gives the same file at any time.
+    // A fixed date, so that the same picture always gives the same file.
     let day = ColorDateTime { year: 2000, month: 1, day_of_the_month: 1, hours: 0, minutes: 0, seconds: 0 };
     profile.creation_date_time = day;
     profile
@@ -80,7 +80,7 @@ fn curve(transfer: &Transfer, channel: ColourChannel) -> ToneReprCurve {
     }
 }
 
-/// Returns the code points of transfer functions whose curve is not all there is to say.
+/// Returns the code points of transfer functions that a curve does not describe completely.
 fn code_points(transfer: &Transfer, primaries: &Primaries) -> Option<CicpProfile> {
     let transfer_characteristics = match transfer {
         Transfer::Pq => TransferCharacteristics::Smpte2084,

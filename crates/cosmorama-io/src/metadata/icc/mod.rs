@@ -1,4 +1,4 @@
-//! ICC profiles: what they say, and profiles made for what a format cannot say otherwise.
+//! ICC profiles: reading them, and making them for colours that a format cannot name otherwise.
 
 mod made;
 mod read;

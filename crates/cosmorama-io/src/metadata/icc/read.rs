@@ -21,11 +21,11 @@ pub(crate) struct Profile {
     pub(crate) transfer: Option<Transfer>,
     /// Primaries; grey has none.
     pub(crate) primaries: Option<Primaries>,
-    /// Why the profile cannot be followed.
+    /// Reason why the profile cannot be applied.
     pub(crate) fault: Option<ProfileFault>,
 }
 
-/// Reads a profile of curves, and of primaries if it is for colours.
+/// Reads a profile that consists of curves, and of primaries unless it is for grey.
 pub(crate) fn read(bytes: &[u8]) -> Profile {
     let damaged = |reason: &str| faulty(ProfileFault::Damaged(reason.to_owned()));
     let Ok(profile) = ColorProfile::new_from_slice(bytes) else { return damaged("it breaks the rules of ICC.1") };
@@ -71,8 +71,8 @@ fn coded(profile: &ColorProfile) -> Option<Transfer> {
     }
 }
 
-/// Largest difference of colorants from those of primaries with a name. Profiles are rounded, and made with whites of
-/// different precision.
+/// Largest difference of a profile's colorants from those of named primaries. Profiles are rounded, and made with
+/// whites of different precision.
 const SAME_COLORANTS: f64 = 0.002;
 
 /// Returns the primaries of the colorants, which a profile holds as adapted to D50.
@@ -101,7 +101,8 @@ fn primaries(profile: &ColorProfile) -> Option<Primaries> {
     Primaries::of_pairs(red?, green?, blue?, white?)
 }
 
-/// Returns whether a matrix adapts some white to D50. Profiles of moxcms 0.8 hold that of cone responses in its place.
+/// Returns whether a matrix adapts some white to D50. Profiles of moxcms 0.8 hold a matrix of cone responses in its
+/// place.
 fn adapts_to_d50(matrix: &ColourMatrix) -> bool {
     let d50 = [D50[0] / D50[1], 1.0, (1.0 - D50[0] - D50[1]) / D50[1]];
     let Some(white) = chromaticity(matrix.inverse().apply(d50)) else { return false };
@@ -127,7 +128,8 @@ fn table(curve: &ToneReprCurve) -> Option<Vec<f32>> {
     Some((0..ENTRIES).map(entry).collect())
 }
 
-/// Returns the exponent that was meant: hundredths, or the 256ths in which tables of one entry are stored.
+/// Returns the exponent that was meant. Exponents are usually hundredths; in tables of one entry they are stored in
+/// 256ths.
 fn rounded(gamma: f64) -> f64 {
     let hundredths = (gamma * 100.0).round() / 100.0;
     if (gamma - hundredths).abs() < 1e-4 { hundredths } else { (gamma * 256.0).round() / 256.0 }
@@ -135,15 +137,15 @@ fn rounded(gamma: f64) -> f64 {
 
 /// Returns the standard function that a curve matches, if any; exact formulas are better than tables.
 fn standard(curve: &ToneCurve) -> Option<Transfer> {
-    // Where a pure power would have to be at half code.
+    // The exponent of a pure power that has the curve's value at half code.
     let gamma = curve.decode(0.5, ColourChannel::Green).log(0.5);
     let candidates = [Transfer::Srgb, Transfer::Linear, Transfer::Gamma(rounded(gamma))];
     candidates.into_iter().find(|candidate| {
         (0..=255).map(|i| f64::from(i) / 255.0).all(|code| {
             ColourChannel::ALL.into_iter().all(|channel| {
                 let light = curve.decode(code, channel);
-                // Compared as code values, where equal steps are equally visible; near black, where a power is
-                // steep, as light.
+                // Compared as code values, in which equal steps are equally visible. Near black, where a power is
+                // steep, compared as light.
                 let error = (candidate.encode(light, channel) - code).abs();
                 error < TOLERANCE || (candidate.decode(code, channel) - light).abs() < TOLERANCE / 64.0
             })

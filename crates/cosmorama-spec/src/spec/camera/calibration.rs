@@ -57,7 +57,7 @@ impl CalibrationSpec {
         }))
     }
 
-    /// Writes its keys, if it is of this kind.
+    /// Writes the keys, if the camera has this kind of lens.
     pub(in crate::spec) fn write(&self, family: LensFamily) -> Option<Keys> {
         let keys = Keys::default().with("calibration", self.file.display());
         let keys = keys.maybe("fov", self.field_of_view.map(Degrees));

@@ -44,7 +44,7 @@ impl Dual {
         Ok(Self { picture, orientation: fields.orientation()?, mirror: fields.mirror()? })
     }
 
-    /// Writes its keys, if the shape is one.
+    /// Writes the keys, if the shape is two fisheyes.
     pub(in crate::spec) fn write(shape: &Shape) -> Option<Keys> {
         let Shape::Dual(dual) = shape else { return None };
         let DualFisheye { arrangement, first, front, back, feather } = dual.picture;

@@ -47,7 +47,7 @@ pub(crate) fn fisheye(fields: &Fields) -> Result<Shape, SpecError> {
     let field_of_view = match (fields.angle("fov")?, scale) {
         (Some(angle), _) => angle,
         (None, LensScale::Circle(_)) => FisheyeCamera::default().field_of_view,
-        // The scale says how large the picture is; the lens shows what it can.
+        // The scale gives the picture's size, so the field of view is all that the lens shows.
         (None, _) => FisheyeCamera::whole_field(lens),
     };
     let frame = FisheyeCamera { lens, field_of_view, scale, circle: fields.circle()?, pixel_aspect: fields.aspect()? };

@@ -55,7 +55,7 @@ impl StMapSpec {
 }
 
 impl StMapSpec {
-    /// Writes its keys, if the shape is one.
+    /// Writes the keys, if the shape is an st map.
     pub(in crate::spec) fn write(shape: &Shape) -> Option<Keys> {
         let Shape::StMap(map) = shape else { return None };
         let base = map.base.clone().map(|base| base.spec().to_string().replace(',', ":"));
@@ -73,7 +73,7 @@ impl StMapSpec {
 }
 
 impl StMapBase {
-    /// Returns the SPEC of this picture by itself.
+    /// Returns the SPEC of the picture at the map's other end.
     fn spec(self) -> Spec {
         match self {
             Self::Single(single) => Shape::Single(single).into(),
@@ -89,7 +89,7 @@ fn base(text: &str, folder: &Path) -> Result<StMapBase, SpecError> {
     let mut pairs: Vec<String> = Vec::new();
     for part in keys.split(':').filter(|_| !keys.is_empty()) {
         match pairs.last_mut() {
-            // A part without `=` goes on with the value before it: `center=983:921`.
+            // A part without `=` continues the value before it: `center=983:921`.
             Some(last) if !part.contains('=') => *last = format!("{last}:{part}"),
             _ => pairs.push(part.to_owned()),
         }

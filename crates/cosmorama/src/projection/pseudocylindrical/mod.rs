@@ -32,7 +32,7 @@ pub trait Parallels {
 /// A parallel of a map, with its derivatives along the height y.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Parallel {
-    /// Its latitude φ.
+    /// Latitude φ of the parallel.
     pub latitude: Latitude,
     /// x divided by the longitude, never 0.
     pub width: f64,

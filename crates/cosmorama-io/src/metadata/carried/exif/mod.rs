@@ -18,7 +18,7 @@ pub(crate) const LARGEST: usize = 1 << 20;
 /// Exif metadata of a file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Exif {
-    /// The block. It has been read once without an error.
+    /// The block. It has been read without an error.
     block: Vec<u8>,
 }
 
@@ -60,7 +60,7 @@ impl Exif {
     pub fn told(&self) -> Vec<(String, String)> {
         let own = self.fields().into_iter().filter(|field| field.ifd_num == In::PRIMARY);
         let value = |field: &Field| {
-            // What is long is no text for people: a maker's notes.
+            // A long value, such as a maker's notes, is not for people to read.
             if value::bytes(&field.value) > 1024 && !matches!(field.value, Value::Ascii(_)) {
                 return format!("{} bytes", value::bytes(&field.value));
             }
@@ -85,13 +85,13 @@ impl Exif {
         texts.first().map(|text| String::from_utf8_lossy(text).into_owned())
     }
 
-    /// Returns whether a field says who made the picture or whose it is.
+    /// Returns whether a field names the picture's author or owner.
     pub(super) fn says_whose(&self) -> bool {
         self.fields().iter().any(|field| [Tag::Artist, Tag::Copyright].contains(&field.tag))
     }
 
-    /// Returns the block without what the writer makes anew and what would be untrue of the output, and the names of the
-    /// latter.
+    /// Returns the block without the fields that the writer sets itself or that are not true of the output, and the
+    /// names of the latter.
     pub(super) fn kept(&self) -> (Option<Self>, Vec<String>) {
         let (mut kept, mut untrue) = (Vec::new(), Vec::new());
         for field in self.fields() {
@@ -119,7 +119,7 @@ impl Exif {
                 add(tag, Value::Long(vec![pixels]));
             }
         }
-        // Any other space is "uncalibrated": what it is, colour tags say.
+        // Any other space is "uncalibrated"; tags of colours describe it.
         add(Tag::ColorSpace, Value::Short(vec![if is_srgb { 1 } else { 0xffff }]));
         add(Tag::Software, Value::Ascii(vec![crate::metadata::SOFTWARE.into()]));
         fields
@@ -136,7 +136,7 @@ impl Exif {
     }
 }
 
-/// Returns whether a field is of interest: all but what the writer makes anew.
+/// Returns whether a field is read: all are, except those that the writer sets itself.
 pub(crate) fn is_read(tag: Tag) -> bool {
     rules::fate(tag) != Fate::Rewritten
 }
@@ -163,7 +163,7 @@ fn read(block: &[u8]) -> Result<Vec<Field>, String> {
     let exif = read.or_else(|error: Error| error.distill_partial_result(|_| {})).map_err(|error| error.to_string())?;
     let mut fields = Vec::new();
     let mut total = 0;
-    // Each value is read when it is asked for: they may lie one upon the other.
+    // Values are read one by one, since several may share the same bytes.
     for field in exif.fields() {
         total += value::bytes(&field.value);
         if total > 2 * block.len() {

@@ -1,44 +1,45 @@
-//! Which Exif fields go along. A file's own directory has much that says how its pixels are stored: of it a list of what a
-//! camera and a photographer say goes along. Of the camera's directory all goes along but what a list names.
+//! Rules for the Exif fields that an output takes over. A file's own directory mostly describes how its pixels are
+//! stored, so that only listed fields are kept: those about the camera and by the photographer. Of the camera's
+//! directory, all fields are kept except listed ones.
 
 use ::exif::{Context, Tag};
 
 /// Treatment of a field for another file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Fate {
-    /// It goes along.
+    /// The output takes it over.
     Kept,
-    /// The writer has its own, or has no need of it.
+    /// The writer sets it itself, or does not need it.
     Rewritten,
-    /// It would be untrue of the output.
+    /// It is not true of the output.
     Untrue,
 }
 
-/// Fields of the file's own directory that go along: ImageDescription, Make, Model, resolution, PageName, DateTime, Artist,
-/// HostComputer, Rating, Copyright, and what Windows writes (XPTitle to XPSubject).
+/// Fields of the file's own directory that an output takes over: ImageDescription, Make, Model, resolution, PageName,
+/// DateTime, Artist, HostComputer, Rating, Copyright, and the fields that Windows writes (XPTitle to XPSubject).
 const KEPT: [u16; 20] = [
     269, 270, 271, 272, 282, 283, 285, 296, 306, 315, 316, 18246, 18249, 32781, 33432, 40091, 40092, 40093, 40094,
     40095,
 ];
 
-/// Fields of the file's own directory that bind other pixels: their place on Earth (GeoTIFF), and a camera's raw ones
-/// (DNG), of which there are many more, all from 50706 on.
+/// Fields of the file's own directory that are about the input's pixels: their place on Earth (GeoTIFF), and a camera's
+/// raw pixels (DNG), which have many more fields, all from 50706 on.
 const GEOTIFF: [u16; 8] = [33550, 33922, 34264, 34735, 34736, 34737, 42112, 42113];
 const FIRST_OF_DNG: u16 = 50706;
 
-/// Fields of the camera's directory that the writer makes anew, or that say how pixels were stored: ComponentsConfiguration,
-/// CompressedBitsPerPixel, ColorSpace, PixelXDimension, PixelYDimension, Gamma.
+/// Fields of the camera's directory that the writer sets itself, or that describe how pixels were stored:
+/// ComponentsConfiguration, CompressedBitsPerPixel, ColorSpace, PixelXDimension, PixelYDimension, Gamma.
 const REWRITTEN: [u16; 6] = [37121, 37122, 40961, 40962, 40963, 42240];
 
-/// Fields of the camera's directory that speak of another picture: SubjectArea, MakerNote (whose places are in the old file),
-/// RelatedSoundFile, SpatialFrequencyResponse, FocalPlaneXResolution, FocalPlaneYResolution, FocalPlaneResolutionUnit,
-/// SubjectLocation, CFAPattern, DigitalZoomRatio, FocalLengthIn35mmFilm.
+/// Fields of the camera's directory that are not true of another picture: SubjectArea, MakerNote (which holds places in
+/// the old file), RelatedSoundFile, SpatialFrequencyResponse, FocalPlaneXResolution, FocalPlaneYResolution,
+/// FocalPlaneResolutionUnit, SubjectLocation, CFAPattern, DigitalZoomRatio, FocalLengthIn35mmFilm.
 const UNTRUE: [u16; 11] = [37396, 37500, 40964, 41484, 41486, 41487, 41488, 41492, 41730, 41988, 41989];
 
 /// GPSImgDirectionRef and GPSImgDirection, the direction of the picture's middle.
 const DIRECTION: [u16; 2] = [16, 17];
 
-/// Returns what becomes of a field.
+/// Returns the treatment of a field for another file.
 pub(super) fn fate(tag: Tag) -> Fate {
     let Tag(context, number) = tag;
     let of = |is_untrue: bool, is_rewritten: bool| match (is_untrue, is_rewritten) {
