@@ -20,7 +20,7 @@ pub struct Form {
     pub views: Vec<View>,
     /// Blending of the views where they overlap.
     pub blend: Blend,
-    /// Whether it shows the whole world.
+    /// Whether the form shows the whole world.
     pub is_whole: bool,
 }
 

@@ -37,7 +37,7 @@ pub(in crate::verbs) fn man(args: &ManArgs, console: &Console) -> Result<ExitCod
     Ok(ExitCode::SUCCESS)
 }
 
-/// Refuses a folder that has the name of a verb: whoever types `man convert` wants to read.
+/// Refuses a folder that has the name of a verb: `man convert` is more likely meant to show a page.
 fn refuse_topic(folder: &Path) -> Result<()> {
     let topic = folder.to_str().filter(|name| verbs().any(|verb| verb == *name) || SpecKind::of(name).is_some());
     let Some(topic) = topic else { return Ok(()) };
