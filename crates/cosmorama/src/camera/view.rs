@@ -75,8 +75,8 @@ impl View {
         at(inside)
     }
 
-    /// Returns the longitude of the plane's origin in an upright cylinder, whose rows are rings of one latitude and whose columns lie
-    /// at longitudes evenly apart; `None` for other views.
+    /// Returns the longitude of the plane's origin in an upright cylinder, whose rows are rings of one latitude and
+    /// whose columns lie at evenly spaced longitudes; `None` for other views.
     pub(crate) fn upright_cylinder(&self) -> Option<f64> {
         use ProjectionKind::{CentralCylinder, EqualAreaCylinder, Equirectangular, Mercator};
         let is_cylinder =
