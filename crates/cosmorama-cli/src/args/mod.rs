@@ -9,8 +9,8 @@ mod help;
 mod info;
 pub(crate) mod light;
 mod parse;
-mod progress;
 mod settings;
+mod shade;
 
 use clap::{Arg, Command, CommandFactory, Parser, Subcommand};
 
@@ -23,7 +23,8 @@ pub(crate) use explain::ExplainArgs;
 pub(crate) use help::{CompletionsArgs, HelpArgs, LISTS, ManArgs, SPEC_TOPIC};
 pub(crate) use info::InfoArgs;
 pub(crate) use light::{DiffuseArgs, HarmonicsArgs, Kind, LightArgs, LightVerb, MapArgs, Method, SpecularArgs, Unit};
-pub(crate) use progress::ProgressStyle;
+pub(crate) use parse::progress::ProgressStyle;
+pub(crate) use shade::{BackgroundName, CameraName, MaterialName, ObjectName, RefractName, ShadeArgs};
 
 /// Example commands in the program's own help.
 const EXAMPLES: [&str; 3] = [
@@ -33,10 +34,11 @@ const EXAMPLES: [&str; 3] = [
 ];
 
 /// All verbs with their examples.
-const VERBS: [(&str, &[&str]); 9] = [
+const VERBS: [(&str, &[&str]); 10] = [
     ("demo", &demo::EXAMPLES),
     ("convert", &convert::EXAMPLES),
     ("light", &light::EXAMPLES),
+    ("shade", &shade::EXAMPLES),
     ("info", &info::EXAMPLES),
     ("explain", &explain::EXAMPLES),
     ("compare", &compare::EXAMPLES),
@@ -72,6 +74,8 @@ pub(crate) enum Verb {
     Convert(Box<ConvertArgs>),
     /// Filter a world widely, to the light that it sheds on things
     Light(LightArgs),
+    /// Put mirrors and matt things under a world
+    Shade(Box<ShadeArgs>),
     /// Tell what a file or a face set is
     Info(InfoArgs),
     /// Tell what a conversion will do before it does it, in text and diagrams

@@ -9,6 +9,7 @@ mod harmonics;
 mod help;
 mod info;
 mod light;
+mod shade;
 
 use std::path::Path;
 use std::process::ExitCode;
@@ -28,6 +29,7 @@ pub(crate) fn run(verb: Verb, console: &mut Console) -> Result<ExitCode> {
         Verb::Demo(args) => demo::run(&args, console),
         Verb::Convert(args) => convert::run(*args, console),
         Verb::Light(args) => light::run(args, console),
+        Verb::Shade(args) => shade::run(*args, console),
         Verb::Info(args) => info::run(&args, console),
         Verb::Explain(args) => explain::run(*args, console),
         Verb::Compare(args) => compare::run(&args, console),

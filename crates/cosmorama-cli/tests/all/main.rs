@@ -8,7 +8,6 @@
 
 mod bench;
 mod convert;
-mod light;
 mod oracles;
 
 mod faces {
@@ -36,6 +35,11 @@ mod input {
     mod st_maps;
     mod stereo;
     mod tiffs;
+}
+
+mod light {
+    mod maps;
+    mod shade;
 }
 
 mod lenses {

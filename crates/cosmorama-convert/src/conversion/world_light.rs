@@ -3,8 +3,8 @@ use std::ops::ControlFlow;
 use std::path::PathBuf;
 
 use cosmorama::lighting::{AllTexels, HarmonicBasis, Harmonics, Lobe, LobeAverages};
-use cosmorama::raster::{Depth, Rgba};
-use cosmorama::world::World;
+use cosmorama::raster::{Depth, Primaries, Rgba};
+use cosmorama::world::{Light, World};
 use rayon::ThreadPool;
 
 use super::check::threads;
@@ -18,7 +18,7 @@ use crate::settings::{Conversion, LightNormalisation, LightSettings};
 /// Picture whose format keeps all light: none is written.
 const ANY_PICTURE: &str = "light.exr";
 
-/// Light of one world, for what is no picture: its spherical harmonics.
+/// Light of one world, for what is no picture of it: its spherical harmonics, or things that it lights.
 ///
 /// ```
 /// use cosmorama_convert::Conversion;
@@ -42,6 +42,21 @@ pub struct WorldLight {
     files: HashSet<PathBuf>,
 }
 
+/// A world that has been read, of a stereo pair the left eye's.
+#[derive(Debug)]
+pub struct Radiance {
+    /// Its views.
+    pub world: World,
+    /// Their light.
+    pub light: Light,
+    /// Light of directions that no view shows, if there are any.
+    pub unseen: Option<Rgba>,
+    /// Primaries of the light.
+    pub primaries: Primaries,
+    /// Diagnostics of the light.
+    pub diagnostics: Vec<Diagnostic>,
+}
+
 impl Conversion {
     /// Checks the settings of an input whose light is wanted, not a picture of it: the output is not looked at.
     ///
@@ -62,7 +77,7 @@ impl WorldLight {
         let job = pool.install(|| ConvertJob::resolve(&settings, (content, Purpose::Light), diagnostics))?;
         if job.outputs.frames.len() > 1 {
             return Err(usage(format!(
-                "{} has {} frames, but coefficients are of one world; choose a frame, as in {FRAMES} {}",
+                "{} has {} frames, but one world is wanted; choose a frame, as in {FRAMES} {}",
                 settings.input,
                 job.outputs.frames.len(),
                 job.outputs.frames[0].frame.unwrap_or_default()
@@ -91,6 +106,23 @@ impl WorldLight {
                 Ok(harmonics) => Ok((harmonics, diagnostics)),
                 Err(error) => Err(usage(format!("{error}"))),
             }
+        })
+    }
+
+    /// Reads the light. What no view covers is filled as the settings say.
+    ///
+    /// # Errors
+    /// When a file cannot be read, or its content contradicts its header.
+    pub fn radiance(&self) -> Result<Radiance> {
+        self.pool.install(|| {
+            let (light, diagnostics) = self.read()?;
+            let (world, texels) = self.first(&light)?;
+            let is_complete = AllTexels::of_texels(world, texels).is_complete();
+            let unseen = light_of_unseen(&self.job, is_complete)?;
+            let unseen = (!is_complete).then_some(unseen);
+            let Ok(light) = Light::new(world, texels.to_vec()) else { bail!("the light is not that of the views") };
+            let primaries = self.job.light.working.primaries;
+            Ok(Radiance { world: world.clone(), light, unseen, primaries, diagnostics })
         })
     }
 

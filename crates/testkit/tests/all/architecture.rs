@@ -76,7 +76,7 @@ struct CratePlan {
     reason: &'static str,
 }
 
-const CRATES: [CratePlan; 7] = [
+const CRATES: [CratePlan; 8] = [
     CratePlan {
         name: "cosmorama",
         crates: &[],
@@ -141,8 +141,23 @@ const CRATES: [CratePlan; 7] = [
         reason: "a conversion is a value: no terminal, no state of the process, no mathematics",
     },
     CratePlan {
+        name: "cosmorama-scene",
+        crates: &["cosmorama"],
+        rooms: &["sphere", "camera", "raster", "world", "filter", "render", "lighting"],
+        banned_std: &["process", "net", "env"],
+        banned: &["clap", "println", "eprintln"],
+        reason: "things under a world know no terminal",
+    },
+    CratePlan {
         name: "cosmorama-cli",
-        crates: &["cosmorama", "cosmorama-builtin", "cosmorama-convert", "cosmorama-io", "cosmorama-spec"],
+        crates: &[
+            "cosmorama",
+            "cosmorama-builtin",
+            "cosmorama-convert",
+            "cosmorama-io",
+            "cosmorama-scene",
+            "cosmorama-spec",
+        ],
         rooms: ALL,
         banned_std: &["f32", "f64"],
         banned: &[

@@ -4,6 +4,7 @@ use std::marker::PhantomData;
 use std::str::FromStr;
 
 use crate::args::light::lobe::LobeName;
+use crate::args::{CameraName, MaterialName, ObjectName};
 use clap::builder::{PossibleValue, TypedValueParser};
 use clap::{Arg, Command, Error};
 use cosmorama_spec::{DepthName, FilterName, KernelName, PrimariesName, Spec, SpecKind, TransferName};
@@ -73,6 +74,22 @@ pub(crate) fn primaries() -> Listed<PrimariesName> {
 /// Reads the name of a lobe.
 pub(crate) fn lobe() -> Listed<LobeName> {
     Listed::new(LobeName::NAMES)
+}
+
+/// Reads the name of things under a world.
+pub(crate) fn object() -> Listed<ObjectName> {
+    Listed::new(ObjectName::NAMES)
+}
+
+/// Reads the name of a material.
+pub(crate) fn material() -> Listed<MaterialName> {
+    Listed::new(MaterialName::NAMES)
+}
+
+/// Reads a camera.
+pub(crate) fn camera() -> Listed<CameraName> {
+    let parallel = ("orthographic", "parallel rays; orthographic:height=H");
+    Listed::new(SpecKind::all().map(|kind| (kind.name(), kind.about())).chain([parallel]))
 }
 
 /// Reads the name of a transfer function.

@@ -3,3 +3,4 @@
 pub(crate) mod compression;
 pub(crate) mod listed;
 pub(crate) mod number;
+pub(crate) mod progress;

@@ -1,0 +1,127 @@
+//! Arguments of `shade`: things under a world.
+
+mod names;
+
+use clap::builder::NonEmptyStringValueParser;
+use clap::{Args, ValueHint};
+use cosmorama_io::FrameList;
+use cosmorama_spec::{DepthName, FilterName, KernelName, Missing, Size, Spec, TransferName};
+
+use super::convert::{LimitArgs, frame_list};
+use super::parse::listed;
+use super::parse::number::{distance, factor};
+use super::with_examples;
+
+pub(crate) use names::{BackgroundName, ByColour, CameraName, MaterialName, ObjectName, Point, RefractName};
+
+/// Example commands in its help.
+pub(super) const EXAMPLES: [&str; 5] = [
+    "cosmorama shade sky.hdr ball.png --object sphere",
+    "cosmorama shade 'faces/{face}.png' plate4.png --object plate4 --size 1024x512",
+    "cosmorama shade sky.hdr row.exr --object spheres:7 --size 1400x300",
+    "cosmorama shade sky.hdr matt.png --material matte --background transparent",
+    "cosmorama shade sky.hdr dome.png --camera fulldome --eye 0,0,0 --target 0,0,-1",
+];
+
+/// Put mirrors and matt things under a world.
+///
+/// Things see the world, and not one another. A pixel is dc·D + sc·S: D is the light that falls on a matt surface, S the world
+/// averaged over all that the pixel reflects.
+#[derive(Clone, Debug, Args)]
+#[command(help_template = with_examples(&EXAMPLES))]
+#[command(after_help = "docs/objects.md has the conventions")]
+pub(crate) struct ShadeArgs {
+    /// The world: an image, a pattern or builtin:NAME; - is standard input
+    #[arg(value_hint = ValueHint::FilePath, value_parser = NonEmptyStringValueParser::new())]
+    pub(crate) world: String,
+    /// An image, by its extension
+    #[arg(value_hint = ValueHint::FilePath, value_parser = NonEmptyStringValueParser::new())]
+    pub(crate) output: String,
+    /// sphere (default), spheres:N, plate4
+    ///
+    /// Spheres have a radius of 1. spheres:N is a row from rough to smooth; plate4 is the paper's: matt, mixed, mirror.
+    #[arg(long, value_name = "NAME", default_value = "sphere", value_parser = listed::object(), hide_possible_values = true, hide_default_value = true, help_heading = "Things")]
+    pub(crate) object: ObjectName,
+    /// mirror (default), matte, mixed or glass
+    #[arg(long, value_name = "NAME", default_value = "mirror", value_parser = listed::material(), hide_possible_values = true, hide_default_value = true, help_heading = "Things")]
+    pub(crate) material: MaterialName,
+    /// Part of the light that is scattered: dc [default: the material's]
+    #[arg(long, value_name = "F", value_parser = distance, allow_negative_numbers = true, help_heading = "Things")]
+    pub(crate) dc: Option<f64>,
+    /// Part of the light that is reflected: sc [default: the material's]
+    #[arg(long, value_name = "F", value_parser = distance, allow_negative_numbers = true, help_heading = "Things")]
+    pub(crate) sc: Option<f64>,
+    /// GGX roughness α of the reflection, 0 to 1 [default: 0]
+    ///
+    /// α is the square of the roughness that most programs show.
+    #[arg(long, value_name = "A", value_parser = distance, allow_negative_numbers = true, help_heading = "Things")]
+    pub(crate) alpha: Option<f64>,
+    /// Index of refraction of glass [default: 1.5]
+    ///
+    /// Three of them, as in 1.51:1.52:1.53, are for red, green and blue: glass then spreads colours.
+    #[arg(long, value_name = "N", allow_negative_numbers = true, hide_short_help = true, help_heading = "Things")]
+    pub(crate) ior: Option<ByColour>,
+    /// How much light glass swallows for each unit of length [default: 0]
+    ///
+    /// As in 0.5, or 2:0.5:0.1 for red, green and blue: light falls to exp(−0.5) of itself over a length of 1.
+    #[arg(long, value_name = "A", allow_negative_numbers = true, hide_short_help = true, help_heading = "Things")]
+    pub(crate) absorption: Option<ByColour>,
+    /// traced (default): through the glass; bent: once, where light enters
+    #[arg(long, value_enum, value_name = "HOW", hide_possible_values = true, hide_short_help = true, help_heading = "Things")]
+    pub(crate) refract: Option<RefractName>,
+    /// Surfaces that light in glass is followed through, 2 to 64 [default: 4]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, hide_short_help = true, help_heading = "Things")]
+    pub(crate) surfaces: Option<usize>,
+    /// The world's projection [default: found]
+    #[arg(long, value_name = "SPEC", value_parser = listed::spec(), hide_possible_values = true, help_heading = "World")]
+    pub(crate) from: Option<Spec>,
+    /// ewa-pyramid (default), ewa, bilinear, point, reference
+    ///
+    /// How what mirrors reflect is averaged.
+    #[arg(long, value_name = "FILTER", default_value = "ewa-pyramid", value_parser = listed::filter(), hide_possible_values = true, hide_default_value = true, help_heading = "World")]
+    pub(crate) reflect: FilterName,
+    /// adaptive (default), mitchell, lanczos3, …
+    #[arg(long, value_name = "NAME", default_value = "adaptive", value_parser = listed::kernel(), hide_possible_values = true, hide_default_value = true, hide_short_help = true, help_heading = "World")]
+    pub(crate) kernel: KernelName,
+    /// What no view covers: error (default), transparent or a colour
+    #[arg(long, value_name = "COLOR", default_value = "error", hide_default_value = true, hide_short_help = true, help_heading = "World")]
+    pub(crate) missing: Missing,
+    /// How integer code values relate to light: auto (default), srgb, linear, …
+    #[arg(long, value_name = "T", default_value = "auto", value_parser = listed::transfer(), hide_possible_values = true, hide_default_value = true, hide_short_help = true, help_heading = "World")]
+    pub(crate) transfer: TransferName,
+    /// Which frame of several
+    #[arg(long, value_name = "N", value_parser = frame_list, allow_hyphen_values = true, hide_short_help = true, help_heading = "World")]
+    pub(crate) frames: Option<FrameList>,
+    /// perspective:fov=40 (default), orthographic:height=H or any SPEC
+    #[arg(long, value_name = "CAMERA", default_value = "perspective:fov=40", value_parser = listed::camera(), hide_possible_values = true, hide_default_value = true, help_heading = "Picture")]
+    pub(crate) camera: CameraName,
+    /// Place of the eye [default: before the things, on +Z]
+    #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, help_heading = "Picture")]
+    pub(crate) eye: Option<Point>,
+    /// Point that the camera looks at [default: 0,0,0]
+    #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, help_heading = "Picture")]
+    pub(crate) target: Option<Point>,
+    /// The picture's pixels: WxH, or the width [default: 640]
+    #[arg(long, value_name = "WxH|N", allow_hyphen_values = true, help_heading = "Picture")]
+    pub(crate) size: Option<Size>,
+    /// world (default), transparent or a colour
+    #[arg(long, value_name = "COLOR", default_value = "world", hide_default_value = true, help_heading = "Picture")]
+    pub(crate) background: BackgroundName,
+    /// Multiply the picture's light
+    #[arg(long, value_name = "FACTOR", value_parser = factor, default_value_t = 1.0, allow_negative_numbers = true, hide_short_help = true, help_heading = "Picture")]
+    pub(crate) gain: f32,
+    /// Output sample type [default: 8 bits, or half floats]
+    #[arg(long, value_parser = listed::depth(), value_name = "DEPTH", hide_short_help = true, help_heading = "Picture")]
+    pub(crate) depth: Option<DepthName>,
+    /// Replace an existing output
+    #[arg(short = 'y', long, help_heading = "Files")]
+    pub(crate) overwrite: bool,
+    /// Fail where the folder of the output does not exist
+    #[arg(long, hide_short_help = true, help_heading = "Files")]
+    pub(crate) no_mkdir: bool,
+    #[command(flatten)]
+    pub(crate) limits: LimitArgs,
+    /// Print a machine-readable report on standard output
+    #[arg(long, help_heading = "Run")]
+    pub(crate) json: bool,
+}

@@ -1,0 +1,154 @@
+use std::str::FromStr;
+
+use clap::ValueEnum;
+use cosmorama::raster::Rgba;
+use cosmorama_scene::Material;
+use cosmorama_spec::{Colour, Spec};
+
+/// Name of what stands under the world.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum ObjectName {
+    Sphere,
+    Spheres(usize),
+    Plate4,
+}
+
+impl ObjectName {
+    /// Names for help and completions.
+    pub(crate) const NAMES: [(&'static str, &'static str); 3] = [
+        ("sphere", "a sphere of radius 1"),
+        ("spheres:5", "a row of spheres from rough to smooth"),
+        ("plate4", "the paper's three spheres: matt, mixed, mirror"),
+    ];
+}
+
+impl FromStr for ObjectName {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        match text.split_once(':') {
+            None if text == "sphere" => Ok(Self::Sphere),
+            None if text == "plate4" => Ok(Self::Plate4),
+            Some(("spheres", count)) => {
+                let count = count.parse().ok().filter(|count| *count > 0);
+                count.map(Self::Spheres).ok_or_else(|| "spheres needs a number, as in spheres:5".to_owned())
+            }
+            _ => Err("expected sphere, spheres:N or plate4".to_owned()),
+        }
+    }
+}
+
+/// Name of a material.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct MaterialName(pub(crate) Material);
+
+impl MaterialName {
+    /// Names for help and completions.
+    pub(crate) const NAMES: [(&'static str, &'static str); 4] = [
+        ("mirror", "reflects all light: dc 0, sc 1"),
+        ("matte", "scatters all light: dc 1, sc 0"),
+        ("mixed", "half of both: dc 0.5, sc 0.5"),
+        ("glass", "reflects and refracts; --ior is its index"),
+    ];
+}
+
+impl FromStr for MaterialName {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        match text {
+            "mirror" => Ok(Self(Material::MIRROR)),
+            "matte" | "matt" | "diffuse" => Ok(Self(Material::MATTE)),
+            "mixed" => Ok(Self(Material::MIXED)),
+            "glass" => Ok(Self(Material::GLASS)),
+            _ => Err("expected mirror, matte, mixed or glass; --dc, --sc and --alpha change each".to_owned()),
+        }
+    }
+}
+
+/// Name of a camera: parallel rays, or a projection of the library.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum CameraName {
+    /// Parallel rays; the picture's height in units of the scene, if given.
+    Orthographic(Option<f64>),
+    Lens(Box<Spec>),
+}
+
+impl FromStr for CameraName {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let height = |number: &str| number.parse().ok().filter(|height: &f64| height.is_finite() && *height > 0.0);
+        match text.split_once(':') {
+            None if text == "orthographic" => Ok(Self::Orthographic(None)),
+            Some(("orthographic", keys)) => {
+                let height = keys.strip_prefix("height=").and_then(height);
+                height
+                    .map(|height| Self::Orthographic(Some(height)))
+                    .ok_or_else(|| "orthographic takes height=H, more than 0, as in orthographic:height=2.5".to_owned())
+            }
+            _ => text.parse().map(|spec| Self::Lens(Box::new(spec))).map_err(|error| format!("{error}")),
+        }
+    }
+}
+
+/// Three numbers, for red, green and blue, or one for all: `1.5`, `1.51:1.52:1.53`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct ByColour(pub(crate) [f64; 3]);
+
+impl FromStr for ByColour {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let numbers: Option<Vec<f64>> = text.split(':').map(|number| number.parse().ok()).collect();
+        match numbers.as_deref() {
+            Some([all]) => Ok(Self([*all; 3])),
+            Some([red, green, blue]) => Ok(Self([*red, *green, *blue])),
+            _ => Err("expected a number, or one for red, green and blue each, as in 1.51:1.52:1.53".to_owned()),
+        }
+    }
+}
+
+/// What is seen beside the things.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum BackgroundName {
+    World,
+    Colour(Rgba),
+}
+
+impl FromStr for BackgroundName {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        match text {
+            "world" => Ok(Self::World),
+            _ => {
+                text.parse().map(|colour: Colour| Self::Colour(colour.0)).map_err(|error| format!("{error}, or world"))
+            }
+        }
+    }
+}
+
+/// A point of the scene: `X,Y,Z`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Point(pub(crate) [f64; 3]);
+
+impl FromStr for Point {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let numbers: Option<Vec<f64>> = text.split(',').map(|number| number.trim().parse().ok()).collect();
+        let point = numbers.and_then(|numbers| <[f64; 3]>::try_from(numbers).ok());
+        let is_point = |point: &[f64; 3]| point.iter().all(|number| number.is_finite());
+        point.filter(is_point).map(Self).ok_or_else(|| "expected three numbers, as in 0,1.5,4".to_owned())
+    }
+}
+
+/// Way of light in glass.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum RefractName {
+    /// From surface to surface
+    Traced,
+    /// Bent once, where it enters
+    Bent,
+}

@@ -1,0 +1,151 @@
+//! Things under a world.
+
+mod camera;
+mod output;
+mod world;
+
+use std::path::Path;
+use std::process::ExitCode;
+use std::time::Instant;
+
+use anyhow::Result;
+use cosmorama::filter::FilterSettings;
+use cosmorama::raster::{Image, Rgba};
+use cosmorama_convert::{check_apart, refuse_existing, threads};
+use cosmorama_scene::{
+    Background, Glass, LightMaps, Material, Refraction, Scene, SceneError, Sky, Surroundings, picture,
+};
+use cpu_time::ProcessTime;
+use serde_json::json;
+
+use self::camera::{Shot, shots};
+use self::output::Output;
+use self::world::WorldInput;
+use super::make_folder;
+use crate::args::{BackgroundName, ObjectName, RefractName, ShadeArgs};
+use crate::console::Console;
+use crate::failure::usage;
+
+/// Makes a picture of things under a world.
+pub(super) fn run(args: ShadeArgs, console: &mut Console) -> Result<ExitCode> {
+    let (start, mut clock) = (Instant::now(), Clock::start());
+    let path = Path::new(&args.output);
+    let output = Output::check(&args)?;
+    let scene = scene(&args)?;
+    let shots = shots(&args, &scene)?;
+    let world = WorldInput::check(&args, console)?;
+    check_apart(path, world.files())?;
+    if !args.overwrite {
+        refuse_existing([path].into_iter())?;
+    }
+    let folder = path.parent().filter(|folder| !args.no_mkdir && !folder.as_os_str().is_empty());
+    let _folders = folder.map(|folder| make_folder(folder, console)).transpose()?;
+    let pool = threads(args.limits.threads)?;
+    let world = pool.install(|| world.read(console))?;
+    let read = clock.lap();
+    let sky = Sky { world: &world.world, light: &world.light, unseen: world.unseen };
+    let maps = pool.install(|| LightMaps::of(&scene, sky)).map_err(wrong)?;
+    let lit = clock.lap();
+    let filter =
+        FilterSettings { kind: args.reflect.0, kernel: args.kernel.kernel, anti_ringing: args.kernel.anti_ringing };
+    let surroundings = pool.install(|| Surroundings::new(sky, &maps, filter)).map_err(wrong)?;
+    let background = match args.background {
+        BackgroundName::World => Background::World,
+        BackgroundName::Colour(colour) => Background::Colour(colour),
+    };
+    let image = pool.install(|| assembled(&shots, |shot| picture(&scene, &shot.camera, &surroundings, background)));
+    let shaded = clock.lap();
+    pool.install(|| output.write(path, image, world.primaries, console))?;
+    if args.json {
+        let cpu = json!({ "decode": read, "light": lit, "filter": shaded, "encode": clock.lap() });
+        let report = json!({
+            "inputs": [args.world],
+            "outputs": [args.output],
+            "wall_seconds": start.elapsed().as_secs_f64(),
+            "cpu_seconds": cpu,
+            "peak_memory_bytes": cosmorama_convert::peak_bytes(),
+        });
+        console.print(&(serde_json::to_string_pretty(&report)? + "\n"))?;
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+/// Processor time of all threads, stage by stage.
+struct Clock(ProcessTime);
+
+impl Clock {
+    fn start() -> Self {
+        Self(ProcessTime::now())
+    }
+
+    /// Returns the seconds since the last stage.
+    fn lap(&mut self) -> f64 {
+        let now = ProcessTime::now();
+        let spent = now.duration_since(self.0).as_secs_f64();
+        self.0 = now;
+        spent
+    }
+}
+
+/// Returns the things that were asked for.
+fn scene(args: &ShadeArgs) -> Result<Scene> {
+    let asked = args.material.0;
+    let material = Material {
+        diffuse: args.dc.unwrap_or(asked.diffuse),
+        specular: args.sc.unwrap_or(asked.specular),
+        alpha: args.alpha.unwrap_or(asked.alpha),
+        glass: glass(args, asked.glass)?,
+    };
+    let options = if material.glass.is_some() { "--ior, --absorption or --surfaces" } else { "--dc, --sc or --alpha" };
+    material.check().map_err(|error| usage(format!("{error}; change {options}")))?;
+    match args.object {
+        ObjectName::Sphere => Ok(Scene::sphere(material)),
+        ObjectName::Spheres(_) if args.alpha.is_some() => {
+            Err(usage("--alpha is for one sphere; those of spheres:N go from 1 to 0 by themselves"))
+        }
+        ObjectName::Spheres(count) => {
+            Scene::spheres(count, material).map_err(|error| usage(format!("--object: {error}")))
+        }
+        ObjectName::Plate4 => Ok(Scene::plate4()),
+    }
+}
+
+/// Returns the glass that was asked for; options of glass are for nothing else.
+fn glass(args: &ShadeArgs, asked: Option<Glass>) -> Result<Option<Glass>> {
+    let given = args.ior.is_some() || args.absorption.is_some() || args.refract.is_some() || args.surfaces.is_some();
+    let Some(usual) = asked else {
+        let message = "--ior, --absorption, --refract and --surfaces are for glass; add --material glass";
+        return if given { Err(usage(message)) } else { Ok(None) };
+    };
+    Ok(Some(Glass {
+        index: args.ior.map_or(usual.index, |index| index.0),
+        absorption: args.absorption.map_or(usual.absorption, |absorption| absorption.0),
+        refraction: match args.refract {
+            Some(RefractName::Bent) => Refraction::Bent,
+            Some(RefractName::Traced) | None => Refraction::Traced,
+        },
+        surfaces: args.surfaces.unwrap_or(usual.surfaces),
+        ..usual
+    }))
+}
+
+/// Makes a picture of one shot, or of several side by side.
+fn assembled(shots: &[Shot], make: impl Fn(&Shot) -> Image<Rgba>) -> Image<Rgba> {
+    if let [Shot { place: None, .. }] = shots {
+        return make(&shots[0]);
+    }
+    let size = shots.iter().find_map(|shot| shot.place.as_ref()).map_or((0, 0), |place| place.of);
+    let mut sheet = Image::filled(size.0, size.1, Rgba::TRANSPARENT);
+    for shot in shots {
+        let (image, corner) = (make(shot), shot.place.as_ref().map_or((0, 0), |place| place.corner));
+        for j in 0..image.height() {
+            let start = (corner.1 + j) * size.0 + corner.0;
+            sheet.pixels_mut()[start..start + image.width()].copy_from_slice(image.row(j));
+        }
+    }
+    sheet
+}
+
+fn wrong(error: SceneError) -> anyhow::Error {
+    usage(error.to_string())
+}

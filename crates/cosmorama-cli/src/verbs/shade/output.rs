@@ -1,0 +1,109 @@
+use std::path::Path;
+
+use anyhow::Result;
+use cosmorama::raster::{Channels, Depth, EncodedImage, Image, Primaries, Rgba, Transfer};
+use cosmorama_io::{Format, Metadata, WriteOptions, write};
+
+use crate::args::{BackgroundName, ShadeArgs};
+use crate::console::{Console, say};
+use crate::failure::usage;
+
+/// Form of the picture that is written.
+pub(super) struct Output {
+    format: Format,
+    depth: Depth,
+    gain: f32,
+}
+
+/// Alpha from which a pixel counts as opaque: sums of coverages are rounded.
+const OPAQUE: f32 = 0.9999;
+
+impl Output {
+    /// Checks that the format can hold what is asked for.
+    pub(super) fn check(args: &ShadeArgs) -> Result<Self> {
+        let path = Path::new(&args.output);
+        if args.output == "-" {
+            return Err(usage("pictures of things are files; name one, as in ball.png"));
+        }
+        let format = Format::from_extension(path).map_err(|error| usage(error.to_string()))?;
+        if format.is_cube_map() {
+            return Err(usage(format!("{} is {format}, which holds cubes; name the output .png or .exr", args.output)));
+        }
+        let depth = match args.depth {
+            Some(name) => {
+                let depth = Depth::from(name);
+                if !format.depths().contains(&depth) {
+                    let nearest = format.nearest_depth(depth);
+                    return Err(usage(format!(
+                        "{} is {format}, which has no samples of {depth}; the nearest are of {nearest}",
+                        args.output
+                    )));
+                }
+                depth
+            }
+            None => {
+                format.nearest_depth(if format.depths().contains(&Depth::Half) { Depth::Half } else { Depth::Eight })
+            }
+        };
+        let is_clear = matches!(args.background, BackgroundName::Colour(colour) if colour.alpha() < 1.0);
+        if is_clear && !format.nearest_channels(Channels::Rgba).has_alpha() {
+            let message =
+                format!("--background: {} is {format}, which has no alpha; name the output .png or .exr", args.output);
+            return Err(usage(message));
+        }
+        Ok(Self { format, depth, gain: args.gain })
+    }
+
+    /// Writes a picture. What the format cannot hold is told.
+    pub(super) fn write(
+        &self,
+        path: &Path,
+        mut image: Image<Rgba>,
+        primaries: Primaries,
+        console: &Console,
+    ) -> Result<()> {
+        for Rgba([red, green, blue, _]) in image.pixels_mut() {
+            [red, green, blue].into_iter().for_each(|channel| *channel *= self.gain);
+        }
+        let is_opaque = image.pixels().iter().all(|pixel| pixel.alpha() >= OPAQUE);
+        let wanted = if is_opaque { Channels::Rgb } else { Channels::Rgba };
+        let channels = self.format.nearest_channels(wanted);
+        if !channels.has_alpha() {
+            image.lay_over(Rgba::BLACK);
+        }
+        self.tell_clipped(path, &image);
+        let transfer = if self.depth.is_float() { Transfer::Linear } else { Transfer::Srgb };
+        let encoded = EncodedImage::encode(&image, channels, self.depth, &transfer);
+        let held = self.format.holds_primaries(&primaries).then_some(primaries);
+        if held.is_none() && !primaries.is_same(&Primaries::REC709) {
+            say(format_args!(
+                "warning: {}: {} cannot name the light's primaries; write OpenEXR",
+                path.display(),
+                self.format
+            ));
+        }
+        let metadata = Metadata { transfer: Some(transfer), primaries: held, ..Metadata::default() };
+        let options = WriteOptions { unfinished: console.unfinished.clone(), ..WriteOptions::with_metadata(metadata) };
+        Ok(write(path, &encoded, &options)?)
+    }
+
+    /// Warns of samples that integers cut to white.
+    fn tell_clipped(&self, path: &Path, image: &Image<Rgba>) {
+        /// Part of white that rounding forgives.
+        const WHITE: f32 = 1.002;
+        if self.depth.is_float() {
+            return;
+        }
+        let samples = image
+            .pixels()
+            .iter()
+            .flat_map(|pixel| pixel.0[..3].iter().map(|channel| *channel / pixel.alpha().max(OPAQUE)));
+        let count = samples.filter(|sample| *sample > WHITE).count();
+        if count > 0 {
+            say(format_args!(
+                "warning: {}: {count} samples are brighter than white, and are cut to it; write OpenEXR, or darken with --gain",
+                path.display()
+            ));
+        }
+    }
+}

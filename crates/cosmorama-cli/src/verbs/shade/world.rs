@@ -1,0 +1,93 @@
+use std::collections::HashSet;
+use std::path::PathBuf;
+
+use anyhow::Result;
+use cosmorama::camera::{CameraModel, LayoutFaceCamera, Placement};
+use cosmorama::raster::Primaries;
+use cosmorama::sphere::CubeFace;
+use cosmorama::world::World;
+use cosmorama_builtin::BuiltinWorld;
+use cosmorama_convert::{Builtin, Conversion, GeometrySettings, Radiance, WorldLight};
+
+use crate::args::ShadeArgs;
+use crate::console::Console;
+use crate::failure::usage;
+use crate::pipe::KeptStreams;
+
+/// The world that things stand under, checked but not read.
+pub(super) enum WorldInput {
+    Files { light: Box<WorldLight>, files: HashSet<PathBuf> },
+    Formula(BuiltinWorld),
+}
+
+/// Edge of the faces by which a built-in world is held.
+const EDGE: usize = 1024;
+
+impl WorldInput {
+    /// Finds the world's files and reads their headers.
+    pub(super) fn check(args: &ShadeArgs, console: &mut Console) -> Result<Self> {
+        match Builtin::named(&args.world)? {
+            Some(Builtin::World(world)) if args.from.is_none() && args.frames.is_none() => Ok(Self::Formula(world)),
+            Some(Builtin::World(_)) => {
+                Err(usage(format!("--from and --frames cannot be given for {}: a formula; leave them out", args.world)))
+            }
+            Some(Builtin::DirectionMap(_)) => {
+                Err(usage(format!("{} holds directions, but things need light; name a world", args.world)))
+            }
+            None => Self::files_of(args, console),
+        }
+    }
+
+    fn files_of(args: &ShadeArgs, console: &mut Console) -> Result<Self> {
+        let mut kept = KeptStreams::default();
+        let conversion = Conversion {
+            input: kept.input(&args.world)?,
+            geometry: GeometrySettings { from: args.from.clone(), ..GeometrySettings::default() },
+            transfer: args.transfer.clone(),
+            missing: args.missing,
+            frames: args.frames.clone(),
+            limits: args.limits.clone().into(),
+            ..Conversion::default()
+        };
+        let checked = conversion.files(kept.files()).check_light();
+        console.tell_all(&checked);
+        let light = checked.result?;
+        let files = light.files().clone();
+        Ok(Self::Files { light: Box::new(light), files })
+    }
+
+    /// Returns the files that are read, by their real paths.
+    pub(super) fn files(&self) -> &HashSet<PathBuf> {
+        static NONE: std::sync::LazyLock<HashSet<PathBuf>> = std::sync::LazyLock::new(HashSet::new);
+        match self {
+            Self::Files { files, .. } => files,
+            Self::Formula(_) => &NONE,
+        }
+    }
+
+    /// Reads the world, or renders it.
+    pub(super) fn read(&self, console: &Console) -> Result<Radiance> {
+        match self {
+            Self::Files { light, .. } => {
+                let radiance = light.radiance()?;
+                radiance.diagnostics.iter().for_each(|diagnostic| console.warn(diagnostic));
+                Ok(radiance)
+            }
+            Self::Formula(world) => rendered(*world),
+        }
+    }
+}
+
+/// Renders a built-in world onto the faces of a cube.
+fn rendered(world: BuiltinWorld) -> Result<Radiance> {
+    let camera = CameraModel::from(LayoutFaceCamera::default());
+    let face = |face: CubeFace| {
+        let placement = Placement { orientation: face.orientation(), ..Placement::new(camera.clone()) };
+        let view = placement.view(EDGE, EDGE)?;
+        let picture = world.picture(&view);
+        Ok((face.name().to_owned(), view, picture))
+    };
+    let faces: Vec<_> = CubeFace::ALL.into_iter().map(face).collect::<Result<_>>()?;
+    let (world, light) = World::from_pictures(faces)?;
+    Ok(Radiance { world, light, unseen: None, primaries: Primaries::REC709, diagnostics: Vec::new() })
+}

@@ -1,0 +1,104 @@
+//! Things under a world: `shade`.
+
+use cosmorama::compare::{Mask, compare};
+use cosmorama::raster::{Channels, Depth, Image, Rgba, Transfer};
+use serde_json::Value;
+
+use crate::bench::{Bench, assert_says};
+
+/// The camera of ../shared/oracles/reflection/spheres.py.
+const CAMERA: [&str; 8] =
+    ["--camera", "perspective:fov=45.56481146096338", "--eye", "0,0,10", "--size", "512x256", "--depth", "float"];
+const TANGENT: f64 = 0.42;
+const DISTANCE: f64 = 10.0;
+
+/// Whether a pixel shows nothing but the sphere at this place of the x axis.
+fn is_inside(i: usize, j: usize, x: f64) -> bool {
+    let corner = |i: usize, j: usize| {
+        let direction =
+            [(2.0 * i as f64 / 512.0 - 1.0) * TANGENT, (1.0 - 2.0 * j as f64 / 256.0) * TANGENT / 2.0, -1.0];
+        let length = direction.iter().map(|part| part * part).sum::<f64>().sqrt();
+        let offset = [-x, 0.0, DISTANCE];
+        let along: f64 = direction.iter().zip(offset).map(|(a, b)| a * b / length).sum();
+        offset.iter().map(|part| part * part).sum::<f64>() - along * along < 1.0
+    };
+    corner(i, j) && corner(i + 1, j) && corner(i, j + 1) && corner(i + 1, j + 1)
+}
+
+/// PSNR of linear light and shift, of the sphere at a place, against Mitsuba's.
+fn against_mitsuba(bench: &Bench, args: &[&str], x: f64) -> (f64, f64) {
+    let (faces, oracles) = (testkit::shared("oracles/povray").unwrap(), testkit::shared("oracles/reflection").unwrap());
+    let faces = faces.join("face_{face}.png").display().to_string();
+    bench.succeed(&[&["shade", &faces, "out.exr", "--transfer", "linear", "-y"], &CAMERA[..], args].concat());
+    let light = |image: cosmorama::raster::EncodedImage| image.to_light(&Transfer::Linear);
+    let truth = cosmorama_io::read(oracles.join("spheres.exr"), &cosmorama_io::Limits::NONE).unwrap().image;
+    let mask = Mask::from_fn(512, 256, |i, j| is_inside(i, j, x));
+    let comparison = compare(&light(bench.load("out.exr")), &light(truth), &mask).unwrap();
+    (comparison.linear.psnr, comparison.registration.map_or(0.0, |found| found.shift()))
+}
+
+#[test]
+fn spheres_are_those_of_a_path_tracer() {
+    if testkit::shared("oracles/reflection").is_none() {
+        return;
+    }
+    let bench = Bench::new();
+    let args = ["--object", "plate4"];
+    let (matt, _) = against_mitsuba(&bench, &args, -2.4);
+    let (mirror, shift) = against_mitsuba(&bench, &args, 2.4);
+    println!("matt {matt:.2} dB, mirror {mirror:.2} dB, shift {shift:.4} px");
+    assert!(matt >= 55.0 && mirror >= 46.0 && shift <= 0.01, "{matt} dB, {mirror} dB, {shift} px");
+}
+
+/// Light of a picture's pixels.
+fn light(bench: &Bench, name: &str) -> Image<Rgba> {
+    bench.load(name).to_light(&Transfer::Linear)
+}
+
+#[test]
+fn cameras_and_backgrounds_are_those_asked_for() {
+    let bench = Bench::new();
+    bench.save("sky.exr", &crate::bench::floats(64, 32, |_, _| [0.25, 0.5, 1.0]));
+    let shade = |args: &[&str]| bench.succeed(&[&["shade", "sky.exr", "ball.exr", "-y"], args].concat());
+    // In a world of one colour neither mirrors nor matt things are seen, by any camera.
+    for camera in ["perspective:fov=50", "orthographic", "orthographic:height=2.5", "equirect", "cube:layout=3x2"] {
+        shade(&["--camera", camera, "--object", "spheres:3", "--dc", "0.5", "--sc", "0.5", "--size", "64"]);
+        let made = light(&bench, "ball.exr");
+        assert!(made.pixels().iter().all(|pixel| (pixel.0[2] - 1.0).abs() < 2e-3), "{camera}");
+    }
+    let report =
+        shade(&["--background", "transparent", "--material", "matte", "--dc", "0.5", "--json", "--size", "64x48"]);
+    let report: Value = serde_json::from_str(&report).unwrap();
+    assert_eq!(report["outputs"][0], "ball.exr");
+    let made = bench.load("ball.exr");
+    assert_eq!((made.channels(), made.depth()), (Channels::Rgba, Depth::Half));
+    let made = made.to_light(&Transfer::Linear);
+    let (middle, corner) = (made.get(32, 24).0, made.get(0, 0).0);
+    assert!((middle[1] - 0.25).abs() < 1e-3 && middle[3] == 1.0, "{middle:?}");
+    assert_eq!(corner, [0.0; 4]);
+    // The silhouette's area: a circle of asin(1/d) as the camera sees it.
+    let area: f32 = made.pixels().iter().map(|pixel| pixel.0[3]).sum();
+    assert!(area > 1000.0, "{area}");
+}
+
+#[test]
+fn what_cannot_be_is_refused() {
+    let bench = Bench::new();
+    bench.save("sky.exr", &crate::bench::floats(64, 32, |_, _| [0.25, 0.5, 1.0]));
+    let cases: [(&[&str], &[&str]); 8] = [
+        (&["ball.jpg", "--background", "transparent"], &["JPEG", "no alpha", ".png"]),
+        (&["ball.png", "--eye", "0,0,0"], &["--eye", "no direction"]),
+        (&["ball.png", "--eye", "0,0"], &["--eye", "three numbers"]),
+        (&["ball.png", "--alpha", "2"], &["α of 2", "0 to 1"]),
+        (&["ball.png", "--object", "teapot"], &["sphere, spheres:N or plate4"]),
+        (&["ball.png", "--object", "spheres:0"], &["spheres:5"]),
+        (&["ball.png", "--camera", "orthographic:height=0"], &["height=H"]),
+        (&["ball.png", "--camera", "cube"], &["--camera", "layout=3x2"]),
+    ];
+    for (args, says) in cases {
+        assert_says(&bench.fail(2, &[&["shade", "sky.exr"], args].concat()), says);
+    }
+    assert_says(&bench.fail(2, &["shade", "sky.exr", "sky.exr", "-y"]), &["sky.exr"]);
+    assert_says(&bench.fail(1, &["shade", "none.exr", "ball.png"]), &["none.exr"]);
+    assert_says(&bench.fail(1, &["shade", "sky.exr", "ball.png", "--size", "1000000x1000000"]), &["memory"]);
+}

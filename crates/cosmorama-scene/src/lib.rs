@@ -1,0 +1,42 @@
+//! Objects under a world: reflected, refracted and lit by a projection of it (N. Greene, *Applications of world
+//! projections*, Graphics Interface '86).
+//!
+//! A pixel's beam is a [`Ray`] with its derivatives along the screen. Surfaces turn it with their curvature; what
+//! leaves them is a [`Footprint`](cosmorama::camera::Footprint), over which the library averages the world. No filter
+//! is of this crate's own.
+//!
+//! ```
+//! use cosmorama::prelude::*;
+//! use cosmorama_scene::{Background, Camera, LightMaps, Material, Place, Scene, Sky, Surroundings, picture};
+//!
+//! let (world, light) = World::from_panorama(Image::filled(64, 32, Rgba::opaque(0.5, 0.25, 1.0)))?;
+//! let scene = Scene::sphere(Material::MIRROR);
+//! let place = Place { eye: [0.0, 0.0, 5.0].into(), target: [0.0; 3].into() };
+//! let lens = CameraModel::from(PerspectiveCamera::new(FieldOfView::Horizontal(Angle::from_degrees(40.0))));
+//! let camera = Camera::lens(place, Placement::new(lens).view(32, 32)?)?;
+//!
+//! let sky = Sky::new(&world, &light);
+//! let maps = LightMaps::of(&scene, sky)?;
+//! let surroundings = Surroundings::new(sky, &maps, FilterSettings::DEFAULT)?;
+//! let image = picture(&scene, &camera, &surroundings, Background::World);
+//! // A mirror in a world of one colour cannot be seen.
+//! assert!(image.pixels().iter().all(|pixel| (pixel.0[1] - 0.25).abs() < 1e-5));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+#![forbid(unsafe_code)]
+
+mod camera;
+mod error;
+mod material;
+mod picture;
+mod scene;
+mod shade;
+mod shape;
+
+pub use camera::{Camera, Normal, Orthographic, Place, Ray, RayChange};
+pub use error::SceneError;
+pub use material::{Glass, Material, MaterialError, Refraction};
+pub use picture::{Background, picture};
+pub use scene::{Object, Scene};
+pub use shade::{LightMaps, Sky, Surroundings};
+pub use shape::Sphere;

@@ -1,0 +1,78 @@
+//! Whole pictures of scenes.
+
+mod cell;
+mod tiles;
+
+use cosmorama::camera::Footprint;
+use cosmorama::raster::{Image, Rgba};
+use cosmorama::render::Resampler;
+use rayon::prelude::*;
+
+use crate::camera::Camera;
+use crate::scene::Scene;
+use crate::shade::{Detail, Surroundings};
+
+use cell::Pixel;
+use tiles::Tile;
+
+/// Light beside the things.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Background {
+    /// The world.
+    World,
+    /// One colour, perhaps transparent, in linear light premultiplied by alpha.
+    Colour(Rgba),
+}
+
+/// Makes the picture of a scene, in linear light premultiplied by alpha.
+///
+/// Each pixel sees one cell, or several where an outline crosses it or where curvature shows it much of the world at
+/// once. Each cell is one average. The result does not depend on the number of threads.
+pub fn picture(scene: &Scene, camera: &Camera, surroundings: &Surroundings, background: Background) -> Image<Rgba> {
+    let mut image = backdrop(camera, surroundings, background);
+    let width = camera.width();
+    let seen: Vec<Tile> = Tile::all(camera).filter(|tile| tile.shows(scene, camera)).collect();
+    let made: Vec<(usize, Rgba)> = seen
+        .par_iter()
+        .flat_map_iter(|tile| tile.pixels())
+        .filter_map(|(i, j)| Some((j * width + i, Pixel::new(scene, camera, surroundings).light(i, j)?)))
+        .collect();
+    for (k, thing) in made {
+        let behind = &mut image.pixels_mut()[k];
+        *behind = thing.over(*behind);
+    }
+    image
+}
+
+/// Makes the picture without things.
+fn backdrop(camera: &Camera, surroundings: &Surroundings, background: Background) -> Image<Rgba> {
+    match (background, camera) {
+        (Background::World, Camera::Lens { view, .. }) => {
+            let sky = surroundings.sky;
+            let resampler = Resampler { world: sky.world, target: view, filter: surroundings.filter };
+            let mut image = resampler.render(sky.light.texels());
+            if let Some(unseen) = sky.unseen {
+                lay_within(camera, &mut image, unseen);
+            }
+            image
+        }
+        (Background::World, Camera::Orthographic(parallel)) => {
+            let light = surroundings.world(&Footprint::point(parallel.direction()), Detail::Pixel);
+            Image::filled(camera.width(), camera.height(), light)
+        }
+        (Background::Colour(colour), _) => {
+            Image::from_fn(camera.width(), camera.height(), |i, j| colour * camera.coverage(i, j) as f32)
+        }
+    }
+}
+
+/// Lays a colour under a picture, inside the lens.
+fn lay_within(camera: &Camera, image: &mut Image<Rgba>, colour: Rgba) {
+    let width = camera.width().max(1);
+    for (k, pixel) in image.pixels_mut().iter_mut().enumerate() {
+        let shown = camera.coverage(k % width, k / width) as f32;
+        if pixel.alpha() < shown {
+            *pixel = pixel.over(colour * shown);
+        }
+    }
+}

@@ -1,0 +1,77 @@
+use cosmorama::camera::{CameraModel, EquirectCamera};
+use cosmorama::lighting::{LightTree, Lobe, LobeAverages, SMOOTHEST};
+use cosmorama::raster::{Image, Rgba};
+use cosmorama::world::{Light, World};
+
+use super::Sky;
+use crate::material::Material;
+use crate::error::SceneError;
+use crate::scene::Scene;
+
+/// Small panoramas of a world's light, filtered beforehand: what falls on matt surfaces, and what rough ones reflect
+/// (Greene 1986, section 7).
+#[derive(Debug)]
+pub struct LightMaps {
+    pub(super) diffuse: Option<LightMap>,
+    pub(super) rough: Vec<(f64, LightMap)>,
+}
+
+/// A panorama of a world's light.
+#[derive(Debug)]
+pub(super) struct LightMap {
+    pub(super) world: World,
+    pub(super) light: Light,
+}
+
+/// Width of the map of matt surfaces. Linear interpolation between its texels errs by less than 4·10⁻⁴.
+const MATT: usize = 128;
+
+/// Texels of a map of rough reflection across an angle of α, and the least and greatest width.
+const ACROSS_ALPHA: f64 = 2.5;
+const WIDTHS: (usize, usize) = (96, 1024);
+
+impl LightMaps {
+    /// Gathers the maps that a scene's materials need.
+    ///
+    /// # Errors
+    /// When the light is not that of the world, or a material is out of range.
+    pub fn of(scene: &Scene, sky: Sky) -> Result<Self, SceneError> {
+        let Sky { world, light, unseen } = sky;
+        let unseen = unseen.unwrap_or(Rgba::TRANSPARENT);
+        scene.check()?;
+        let mut alphas: Vec<f64> = scene.objects.iter().filter_map(|object| rough_alpha(&object.material)).collect();
+        alphas.sort_by(f64::total_cmp);
+        alphas.dedup();
+        let is_matt = scene.objects.iter().any(|object| object.material.diffuse > 0.0);
+        if !is_matt && alphas.is_empty() {
+            light.check(world)?;
+            return Ok(Self { diffuse: None, rough: Vec::new() });
+        }
+        let tree = LightTree::new(world, light)?;
+        let rough = |alpha: f64| {
+            let lobe = Lobe::ggx(alpha).unwrap_or(Lobe::LAMBERT);
+            let width = (ACROSS_ALPHA * std::f64::consts::TAU / alpha) as usize;
+            (alpha, LightMap::of(&tree, (&lobe, unseen), width.clamp(WIDTHS.0, WIDTHS.1)))
+        };
+        Ok(Self {
+            diffuse: is_matt.then(|| LightMap::of(&tree, (&Lobe::LAMBERT, unseen), MATT)),
+            rough: alphas.into_iter().map(rough).collect(),
+        })
+    }
+}
+
+/// Returns the roughness of a material whose reflection a map holds; `None` for mirrors and for what reflects nothing.
+pub(super) fn rough_alpha(material: &Material) -> Option<f64> {
+    (material.specular > 0.0 && material.alpha >= SMOOTHEST).then_some(material.alpha)
+}
+
+impl LightMap {
+    fn of(tree: &LightTree, (lobe, unseen): (&Lobe, Rgba), width: usize) -> Self {
+        let view = CameraModel::Equirect(EquirectCamera::default()).view(width, width / 2);
+        let view = view.expect("a panorama of more than no pixels");
+        let picture: Image<Rgba> = tree.picture(&view, lobe, unseen);
+        let world = World::new([("light".to_owned(), view)]).expect("one view");
+        let light = Light::new(&world, picture.into_pixels()).expect("light of this view");
+        Self { world, light }
+    }
+}

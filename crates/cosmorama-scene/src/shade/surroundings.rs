@@ -1,0 +1,99 @@
+use cosmorama::camera::Footprint;
+use cosmorama::filter::{Bilinear, EwaPyramid, Filter, FilterKind, FilterSettings, Kernel, Prepared};
+use cosmorama::raster::Rgba;
+
+use super::maps::rough_alpha;
+use super::{Beam, LightMaps, Sky};
+use crate::camera::Normal;
+use crate::material::Material;
+use crate::error::SceneError;
+
+/// A world and its maps of light, ready to be asked by footprints from any number of threads.
+pub struct Surroundings<'a> {
+    mirror: Box<dyn Prepared + 'a>,
+    /// Filter of parts of pixels, if it is another: what lies side by side adds to the whole.
+    parts: Option<Box<dyn Prepared + 'a>>,
+    diffuse: Option<Box<dyn Prepared + 'a>>,
+    rough: Vec<(f64, Box<dyn Prepared + 'a>)>,
+    pub(crate) sky: Sky<'a>,
+    pub(crate) filter: FilterSettings,
+    /// Mean of the world's light, of all channels.
+    pub(crate) mean: f64,
+}
+
+/// Extent of what is averaged at once.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Detail {
+    /// A pixel, or the quarter of one.
+    Pixel,
+    /// A small part of a pixel.
+    Cell,
+}
+
+impl<'a> Surroundings<'a> {
+    /// Prepares a world, by a filter for what mirrors reflect, with its maps.
+    ///
+    /// # Errors
+    /// When the light is not that of the world.
+    pub fn new(sky: Sky<'a>, maps: &'a LightMaps, filter: FilterSettings) -> Result<Self, SceneError> {
+        let smooth = EwaPyramid { kernel: Kernel::ADAPTIVE, anti_ringing: true };
+        let rough = maps.rough.iter().map(|(alpha, map)| Ok((*alpha, smooth.prepare(&map.world, &map.light)?)));
+        let diffuse = maps.diffuse.as_ref().map(|map| Bilinear.prepare(&map.world, &map.light)).transpose()?;
+        let parts = match filter.kind {
+            FilterKind::Ewa | FilterKind::EwaPyramid => {
+                let settings = FilterSettings { kernel: Kernel::LIGHT, anti_ringing: false, ..filter };
+                Some(settings.prepare(sky.world, sky.light)?)
+            }
+            FilterKind::Point | FilterKind::Bilinear | FilterKind::Labels(_) | FilterKind::Reference { .. } => None,
+        };
+        Ok(Self {
+            parts,
+            mean: sky.mean(),
+            mirror: filter.prepare(sky.world, sky.light)?,
+            diffuse,
+            rough: rough.collect::<Result<_, SceneError>>()?,
+            sky,
+            filter,
+        })
+    }
+
+    /// Averages the world itself.
+    pub(crate) fn world(&self, footprint: &Footprint, detail: Detail) -> Rgba {
+        let seen = match (&self.parts, detail) {
+            (Some(parts), Detail::Cell) => parts.average(footprint),
+            _ => self.mirror.average(footprint),
+        };
+        match self.sky.unseen {
+            None => seen,
+            Some(unseen) => {
+                let covered = self.mirror.covered(footprint);
+                let behind = unseen * (1.0 - covered);
+                Rgba(std::array::from_fn(|k| seen.0[k] * covered + behind.0[k]))
+            }
+        }
+    }
+
+    /// Returns the light that a surface sends back: dc·D + sc·S.
+    pub(crate) fn shade(&self, normal: &Normal, beams: &[Beam], material: &Material, detail: Detail) -> Rgba {
+        let mut sum = [0.0; 3];
+        let mut add = |light: Rgba, part: [f64; 3]| {
+            (0..3).for_each(|k| sum[k] += light.0[k] * part[k] as f32);
+        };
+        if let (true, Some(diffuse)) = (material.diffuse > 0.0, &self.diffuse) {
+            add(diffuse.average(&normal.footprint()), [material.diffuse; 3]);
+        }
+        for beam in beams {
+            let light = self.reflection(material, &beam.footprint(), detail);
+            add(light, beam.weight.map(|weight| weight * material.specular));
+        }
+        let [red, green, blue] = sum;
+        Rgba::opaque(red, green, blue)
+    }
+
+    /// Returns what a material reflects of a footprint.
+    fn reflection(&self, material: &Material, footprint: &Footprint, detail: Detail) -> Rgba {
+        let wanted = rough_alpha(material);
+        let rough = self.rough.iter().find(|(alpha, _)| Some(*alpha) == wanted);
+        rough.map_or_else(|| self.world(footprint, detail), |(_, map)| map.average(footprint))
+    }
+}

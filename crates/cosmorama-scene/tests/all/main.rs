@@ -1,0 +1,4 @@
+//! Pictures of things against sums of many samples.
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on should stop where it stands")]
+
+mod spheres;
