@@ -5,6 +5,7 @@ mod place;
 pub(crate) mod ray;
 
 use cosmorama::camera::{PixelPoint, View};
+use cosmorama::sphere::Direction;
 use glam::DVec3;
 
 use crate::error::SceneError;
@@ -67,6 +68,22 @@ impl Camera {
                 })
             }
             Self::Orthographic(camera) => Some(camera.ray(pixel)),
+        }
+    }
+
+    /// Returns the place of a point in the picture; `None` where the lens does not show it.
+    pub(crate) fn pixel(&self, point: DVec3) -> Option<PixelPoint> {
+        match self {
+            Self::Lens { eye, view } => Direction::new(point - *eye).and_then(|direction| view.pixel(direction)),
+            Self::Orthographic(camera) => camera.pixel(point),
+        }
+    }
+
+    /// Returns the direction in which a point is seen; `None` from the point itself.
+    pub(crate) fn towards(&self, point: DVec3) -> Option<DVec3> {
+        match self {
+            Self::Lens { eye, .. } => (point - *eye).try_normalize(),
+            Self::Orthographic(camera) => Some(camera.direction().vector()),
         }
     }
 

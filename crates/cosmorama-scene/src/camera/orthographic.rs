@@ -51,6 +51,16 @@ impl Orthographic {
         Direction::from_unit(self.forward)
     }
 
+    /// Returns the place of a point in the picture; `None` behind the eye.
+    pub(super) fn pixel(&self, point: DVec3) -> Option<PixelPoint> {
+        let offset = point - self.eye;
+        let place = || {
+            let (x, y) = (offset.dot(self.right) / self.step, offset.dot(self.up) / self.step);
+            PixelPoint::new(x + self.width as f64 / 2.0, self.height as f64 / 2.0 - y)
+        };
+        (offset.dot(self.forward) > 0.0).then(place)
+    }
+
     /// Returns the ray through a point of the picture.
     pub(super) fn ray(&self, pixel: PixelPoint) -> Ray {
         let (x, y) = (pixel.x - self.width as f64 / 2.0, self.height as f64 / 2.0 - pixel.y);

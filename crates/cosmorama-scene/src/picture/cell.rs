@@ -1,6 +1,7 @@
 use cosmorama::camera::PixelPoint;
 use cosmorama::raster::Rgba;
 
+use super::small::Reflection;
 use crate::camera::{Camera, Ray};
 use crate::scene::{Object, Scene};
 use crate::shade::{Beam, Detail, Surroundings};
@@ -9,9 +10,11 @@ use crate::shape::Meeting;
 /// Maker of single pixels.
 #[derive(Clone, Copy)]
 pub(super) struct Pixel<'a> {
-    scene: &'a Scene,
-    camera: &'a Camera,
-    surroundings: &'a Surroundings<'a>,
+    pub(super) scene: &'a Scene,
+    pub(super) camera: &'a Camera,
+    pub(super) surroundings: &'a Surroundings<'a>,
+    /// What each thing reflects, of those of few pixels.
+    pub(super) reflections: &'a [Option<Reflection>],
 }
 
 /// A square part of a pixel.
@@ -22,11 +25,14 @@ struct Cell {
     side: f64,
     /// Number of halvings.
     depth: usize,
+    /// Column and row of the pixel.
+    pixel: [usize; 2],
 }
 
 /// Part of a cell that a thing covers.
 struct Part<'a> {
     object: &'a Object,
+    reflection: Option<&'a Reflection>,
     /// Distance of its centre, by which nearer things hide others.
     distance: f64,
     coverage: f64,
@@ -46,25 +52,8 @@ const AT_ONCE: usize = 1;
 const AT_OUTLINES: usize = 3;
 const MOST: usize = 6;
 
-/// Part of the world's mean light by which a cell and its quarters may differ, weighed by the cell's area: so much light
-/// may a pixel have too much or too little for each of its cells. Where a sun is seen this parts cells further, at most
-/// so many times.
-const UNEVEN: f64 = 5e-5;
-const FINEST: usize = 12;
-
-/// Part of the world, in steradians, above which a cell is compared with its quarters.
-const LARGE: f64 = 1e-3;
-
 /// Coverage below which a part has no light of its own.
 const LEAST: f64 = 1e-6;
-
-/// Light of a cell, as a part of the cell.
-#[derive(Clone, Copy)]
-struct Lit {
-    light: Rgba,
-    /// Part of the world that is seen, in steradians.
-    seen: f64,
-}
 
 /// Treatment of a cell.
 enum Sight<'a> {
@@ -73,13 +62,9 @@ enum Sight<'a> {
 }
 
 impl<'a> Pixel<'a> {
-    pub(super) fn new(scene: &'a Scene, camera: &'a Camera, surroundings: &'a Surroundings<'a>) -> Self {
-        Self { scene, camera, surroundings }
-    }
-
     /// Returns the light of all things in a pixel, premultiplied by the part that they cover; `None` if there are none.
     pub(super) fn light(&self, i: usize, j: usize) -> Option<Rgba> {
-        let cell = Cell { centre: PixelPoint::centre(i, j), side: 1.0, depth: 0 };
+        let cell = Cell { centre: PixelPoint::centre(i, j), side: 1.0, depth: 0, pixel: [i, j] };
         let light = self.cell(cell);
         if light.alpha() <= 0.0 {
             return None;
@@ -90,52 +75,29 @@ impl<'a> Pixel<'a> {
 
     /// Returns the light of a cell, as a part of the cell.
     fn cell(&self, cell: Cell) -> Rgba {
-        match self.whole(cell) {
-            Some(lit) if lit.seen > LARGE => self.refined(cell, lit.light),
-            Some(lit) => lit.light,
-            None => mean(cell.quarters().map(|quarter| self.cell(quarter))),
-        }
-    }
-
-    /// Returns the light of a cell whose first estimate may be too rough: its quarters', if they tell of more.
-    fn refined(&self, cell: Cell, estimate: Rgba) -> Rgba {
-        if cell.depth >= FINEST {
-            return estimate;
-        }
-        let quarters = cell.quarters();
-        let lights = quarters.map(|quarter| self.estimate(quarter));
-        let better = mean(lights);
-        let change = (0..3).map(|k| f64::from((better.0[k] - estimate.0[k]).abs())).fold(0.0, f64::max);
-        if change * cell.side * cell.side <= UNEVEN * self.surroundings.mean {
-            return better;
-        }
-        mean(std::array::from_fn(|k| self.refined(quarters[k], lights[k])))
-    }
-
-    /// Returns the light of a cell by its shape alone.
-    fn estimate(&self, cell: Cell) -> Rgba {
-        match self.whole(cell) {
-            Some(lit) => lit.light,
-            None => mean(cell.quarters().map(|quarter| self.estimate(quarter))),
-        }
-    }
-
-    /// Returns the light of a cell that is seen at once; `None` if the cell must be split.
-    fn whole(&self, cell: Cell) -> Option<Lit> {
-        const NOTHING: Lit = Lit { light: Rgba::TRANSPARENT, seen: 0.0 };
         let Some(ray) = self.camera.ray(cell.centre) else {
-            return (cell.depth >= AT_OUTLINES).then_some(NOTHING);
+            return if cell.depth < AT_OUTLINES { self.quarters(cell) } else { Rgba::TRANSPARENT };
         };
         match self.sight(&ray.scaled(cell.side), cell) {
-            Sight::Split => None,
-            Sight::Parts(parts) => self.parts(cell, parts),
+            Sight::Split => self.quarters(cell),
+            Sight::Parts(parts) => self.parts(cell, parts).unwrap_or_else(|| self.quarters(cell)),
         }
+    }
+
+    fn quarters(&self, cell: Cell) -> Rgba {
+        let mut sum = Rgba::TRANSPARENT;
+        for (x, y) in [(-0.25, -0.25), (0.25, -0.25), (-0.25, 0.25), (0.25, 0.25)] {
+            let centre = PixelPoint::new(cell.centre.x + x * cell.side, cell.centre.y + y * cell.side);
+            let part = self.cell(Cell { centre, side: 0.5 * cell.side, depth: cell.depth + 1, ..cell }) * 0.25;
+            sum += part;
+        }
+        sum
     }
 
     /// Tells what a beam meets.
     fn sight(&self, beam: &Ray, cell: Cell) -> Sight<'a> {
         let mut parts = Vec::new();
-        for object in &self.scene.objects {
+        for (index, object) in self.scene.objects.iter().enumerate() {
             let (coverage, middle) = match object.sphere.meeting(beam) {
                 Meeting::Missed => continue,
                 Meeting::Met => (1.0, [0.0; 2]),
@@ -147,7 +109,7 @@ impl<'a> Pixel<'a> {
             };
             if coverage > LEAST {
                 let distance = (object.sphere.centre - beam.origin).dot(beam.direction);
-                parts.push(Part { object, distance, coverage, middle });
+                parts.push(Part { object, reflection: self.reflections[index].as_ref(), distance, coverage, middle });
             }
         }
         parts.sort_by(|a, b| a.distance.total_cmp(&b.distance));
@@ -155,13 +117,12 @@ impl<'a> Pixel<'a> {
     }
 
     /// Adds the light of a cell's parts, nearer ones before others; `None` if the cell must be split.
-    fn parts(&self, cell: Cell, parts: Vec<Part>) -> Option<Lit> {
-        let mut sum = Lit { light: Rgba::TRANSPARENT, seen: 0.0 };
+    fn parts(&self, cell: Cell, parts: Vec<Part>) -> Option<Rgba> {
+        let mut sum = Rgba::TRANSPARENT;
         for part in parts {
-            let lit = self.part(cell, &part)?;
-            sum.light = sum.light.over(lit.light * part.coverage as f32);
-            sum.seen = sum.seen.max(lit.seen);
-            if sum.light.alpha() >= 1.0 {
+            let light = self.part(cell, &part)? * part.coverage as f32;
+            sum = sum.over(light);
+            if sum.alpha() >= 1.0 {
                 break;
             }
         }
@@ -169,38 +130,26 @@ impl<'a> Pixel<'a> {
     }
 
     /// Returns the light of a part as if it were all of the cell; `None` if the cell must be split.
-    fn part(&self, cell: Cell, part: &Part) -> Option<Lit> {
-        const NOTHING: Lit = Lit { light: Rgba::TRANSPARENT, seen: 0.0 };
+    fn part(&self, cell: Cell, part: &Part) -> Option<Rgba> {
         let [x, y] = part.middle.map(|offset| offset * cell.side);
         let ray = self.camera.ray(PixelPoint::new(cell.centre.x + x, cell.centre.y + y));
-        let Some(beam) = ray.map(|ray| ray.scaled(cell.side)) else { return Some(NOTHING) };
+        let Some(beam) = ray.map(|ray| ray.scaled(cell.side)) else { return Some(Rgba::TRANSPARENT) };
         let sphere = &part.object.sphere;
-        let Some(distance) = sphere.meet(&beam, 0.0) else { return Some(NOTHING) };
+        let Some(distance) = sphere.meet(&beam, 0.0) else { return Some(Rgba::TRANSPARENT) };
         let met = beam.met(distance, sphere.normal_at(beam.at(distance)));
         let normal = sphere.normal(&met);
-        let beams = Beam::of(&met, &normal, &part.object.material, sphere);
+        let material = &part.object.material;
+        let whole = part.reflection.and_then(|reflection| reflection.light(cell.pixel));
+        if let Some(reflected) = whole {
+            return Some(self.surroundings.shade(&normal, reflected, material));
+        }
+        let beams = Beam::of(&met, &normal, material, sphere);
         let widest = Beam::widest(&beams);
-        let is_outline = part.coverage < 1.0;
-        if widest > STRAIGHT && cell.depth < MOST || widest > ROUGH && cell.depth < AT_ONCE && !is_outline {
+        let split = widest > STRAIGHT && cell.depth < MOST || widest > ROUGH && cell.depth < AT_ONCE;
+        if split && part.coverage == 1.0 {
             return None;
         }
-        let detail = if cell.depth > AT_ONCE { Detail::Cell } else { Detail::Pixel };
-        let light = self.surroundings.shade(&normal, &beams, &part.object.material, detail);
-        Some(Lit { light, seen: Beam::largest(&beams) })
+        let detail = if cell.depth > AT_ONCE { Detail::Part } else { Detail::Pixel };
+        Some(self.surroundings.shade(&normal, self.surroundings.reflected(&beams, material, detail), material))
     }
-}
-
-impl Cell {
-    fn quarters(self) -> [Self; 4] {
-        [(-0.25, -0.25), (0.25, -0.25), (-0.25, 0.25), (0.25, 0.25)].map(|(x, y)| Self {
-            centre: PixelPoint::new(self.centre.x + x * self.side, self.centre.y + y * self.side),
-            side: 0.5 * self.side,
-            depth: self.depth + 1,
-        })
-    }
-}
-
-/// Returns the light of a cell with these quarters.
-fn mean(quarters: [Rgba; 4]) -> Rgba {
-    quarters.into_iter().fold(Rgba::TRANSPARENT, |sum, light| sum + light * 0.25)
 }

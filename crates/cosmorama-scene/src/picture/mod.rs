@@ -1,6 +1,7 @@
 //! Whole pictures of scenes.
 
 mod cell;
+mod small;
 mod tiles;
 
 use cosmorama::camera::Footprint;
@@ -13,6 +14,7 @@ use crate::scene::Scene;
 use crate::shade::{Detail, Surroundings};
 
 use cell::Pixel;
+use small::Reflection;
 use tiles::Tile;
 
 /// Light beside the things.
@@ -27,15 +29,18 @@ pub enum Background {
 /// Makes the picture of a scene, in linear light premultiplied by alpha.
 ///
 /// Each pixel sees one cell, or several where an outline crosses it or where curvature shows it much of the world at
-/// once. Each cell is one average. The result does not depend on the number of threads.
+/// once. Each cell is one average. What balls of few pixels reflect is the sum over parts of the world. The result does not depend on the number of threads.
 pub fn picture(scene: &Scene, camera: &Camera, surroundings: &Surroundings, background: Background) -> Image<Rgba> {
     let mut image = backdrop(camera, surroundings, background);
     let width = camera.width();
     let seen: Vec<Tile> = Tile::all(camera).filter(|tile| tile.shows(scene, camera)).collect();
+    let reflection = |object| Reflection::of(object, camera, surroundings);
+    let reflections: Vec<Option<Reflection>> = scene.objects.iter().map(reflection).collect();
+    let pixel = Pixel { scene, camera, surroundings, reflections: &reflections };
     let made: Vec<(usize, Rgba)> = seen
         .par_iter()
         .flat_map_iter(|tile| tile.pixels())
-        .filter_map(|(i, j)| Some((j * width + i, Pixel::new(scene, camera, surroundings).light(i, j)?)))
+        .filter_map(|(i, j)| Some((j * width + i, pixel.light(i, j)?)))
         .collect();
     for (k, thing) in made {
         let behind = &mut image.pixels_mut()[k];

@@ -50,12 +50,6 @@ impl Beam {
         footprint.widened_by(Covariance::round(footprint.direction, breadth * breadth))
     }
 
-    /// Returns the largest part of the world that a beam sees, in steradians, weighed by its part of the light.
-    pub(crate) fn largest(beams: &[Self]) -> f64 {
-        let seen = |beam: &Self| beam.heaviest() * beam.ray.dx.direction.cross(beam.ray.dy.direction).length();
-        beams.iter().map(seen).fold(0.0, f64::max)
-    }
-
     /// Returns the longest change of direction over a pixel; that of faint beams counts by their part of the light.
     pub(crate) fn widest(beams: &[Self]) -> f64 {
         beams.iter().map(|beam| beam.ray.widest() * (beam.heaviest() / HEAVY).min(1.0)).fold(0.0, f64::max)

@@ -4,8 +4,8 @@ use cosmorama::raster::{Image, Rgba};
 use cosmorama::world::{Light, World};
 
 use super::Sky;
-use crate::material::Material;
 use crate::error::SceneError;
+use crate::material::Material;
 use crate::scene::Scene;
 
 /// Small panoramas of a world's light, filtered beforehand: what falls on matt surfaces, and what rough ones reflect

@@ -5,8 +5,8 @@ use cosmorama::raster::Rgba;
 use super::maps::rough_alpha;
 use super::{Beam, LightMaps, Sky};
 use crate::camera::Normal;
-use crate::material::Material;
 use crate::error::SceneError;
+use crate::material::Material;
 
 /// A world and its maps of light, ready to be asked by footprints from any number of threads.
 pub struct Surroundings<'a> {
@@ -21,13 +21,17 @@ pub struct Surroundings<'a> {
     pub(crate) mean: f64,
 }
 
+/// Kernel of parts of pixels: [`Kernel::LIGHT`], whose weights add to one over parts side by side. Where parts are less
+/// than a texel it interpolates, about as sharply as a tent.
+const SIDE_BY_SIDE: Kernel = Kernel { floor: 0.9, ..Kernel::LIGHT };
+
 /// Extent of what is averaged at once.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Detail {
     /// A pixel, or the quarter of one.
     Pixel,
-    /// A small part of a pixel.
-    Cell,
+    /// A small part of one, beside others.
+    Part,
 }
 
 impl<'a> Surroundings<'a> {
@@ -41,7 +45,7 @@ impl<'a> Surroundings<'a> {
         let diffuse = maps.diffuse.as_ref().map(|map| Bilinear.prepare(&map.world, &map.light)).transpose()?;
         let parts = match filter.kind {
             FilterKind::Ewa | FilterKind::EwaPyramid => {
-                let settings = FilterSettings { kernel: Kernel::LIGHT, anti_ringing: false, ..filter };
+                let settings = FilterSettings { kernel: SIDE_BY_SIDE, anti_ringing: false, ..filter };
                 Some(settings.prepare(sky.world, sky.light)?)
             }
             FilterKind::Point | FilterKind::Bilinear | FilterKind::Labels(_) | FilterKind::Reference { .. } => None,
@@ -60,7 +64,7 @@ impl<'a> Surroundings<'a> {
     /// Averages the world itself.
     pub(crate) fn world(&self, footprint: &Footprint, detail: Detail) -> Rgba {
         let seen = match (&self.parts, detail) {
-            (Some(parts), Detail::Cell) => parts.average(footprint),
+            (Some(parts), Detail::Part) => parts.average(footprint),
             _ => self.mirror.average(footprint),
         };
         match self.sky.unseen {
@@ -73,25 +77,27 @@ impl<'a> Surroundings<'a> {
         }
     }
 
-    /// Returns the light that a surface sends back: dc·D + sc·S.
-    pub(crate) fn shade(&self, normal: &Normal, beams: &[Beam], material: &Material, detail: Detail) -> Rgba {
-        let mut sum = [0.0; 3];
-        let mut add = |light: Rgba, part: [f64; 3]| {
-            (0..3).for_each(|k| sum[k] += light.0[k] * part[k] as f32);
-        };
+    /// Returns the light that a surface sends back: dc·D + sc·S, of which S is given.
+    pub(crate) fn shade(&self, normal: &Normal, reflected: Rgba, material: &Material) -> Rgba {
+        let mut sum = reflected * material.specular as f32;
         if let (true, Some(diffuse)) = (material.diffuse > 0.0, &self.diffuse) {
-            add(diffuse.average(&normal.footprint()), [material.diffuse; 3]);
+            sum += diffuse.average(&normal.footprint()) * material.diffuse as f32;
         }
+        Rgba::opaque(sum.0[0], sum.0[1], sum.0[2])
+    }
+
+    /// Returns what a material reflects of beams, weighed by colour: S.
+    pub(crate) fn reflected(&self, beams: &[Beam], material: &Material, detail: Detail) -> Rgba {
+        let mut sum = [0.0; 3];
         for beam in beams {
             let light = self.reflection(material, &beam.footprint(), detail);
-            add(light, beam.weight.map(|weight| weight * material.specular));
+            (0..3).for_each(|k| sum[k] += light.0[k] * beam.weight[k] as f32);
         }
-        let [red, green, blue] = sum;
-        Rgba::opaque(red, green, blue)
+        Rgba::opaque(sum[0], sum[1], sum[2])
     }
 
     /// Returns what a material reflects of a footprint.
-    fn reflection(&self, material: &Material, footprint: &Footprint, detail: Detail) -> Rgba {
+    pub(crate) fn reflection(&self, material: &Material, footprint: &Footprint, detail: Detail) -> Rgba {
         let wanted = rough_alpha(material);
         let rough = self.rough.iter().find(|(alpha, _)| Some(*alpha) == wanted);
         rough.map_or_else(|| self.world(footprint, detail), |(_, map)| map.average(footprint))

@@ -5,6 +5,6 @@ mod solid;
 mod sphere;
 
 pub(crate) use edge::Edge;
-pub(crate) use sphere::Meeting;
 pub(crate) use solid::{Solid, Wall};
+pub(crate) use sphere::Meeting;
 pub use sphere::Sphere;

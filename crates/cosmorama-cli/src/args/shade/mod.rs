@@ -67,7 +67,14 @@ pub(crate) struct ShadeArgs {
     #[arg(long, value_name = "A", allow_negative_numbers = true, hide_short_help = true, help_heading = "Things")]
     pub(crate) absorption: Option<ByColour>,
     /// traced (default): through the glass; bent: once, where light enters
-    #[arg(long, value_enum, value_name = "HOW", hide_possible_values = true, hide_short_help = true, help_heading = "Things")]
+    #[arg(
+        long,
+        value_enum,
+        value_name = "HOW",
+        hide_possible_values = true,
+        hide_short_help = true,
+        help_heading = "Things"
+    )]
     pub(crate) refract: Option<RefractName>,
     /// Surfaces that light in glass is followed through, 2 to 64 [default: 4]
     #[arg(long, value_name = "N", allow_negative_numbers = true, hide_short_help = true, help_heading = "Things")]
@@ -84,7 +91,14 @@ pub(crate) struct ShadeArgs {
     #[arg(long, value_name = "NAME", default_value = "adaptive", value_parser = listed::kernel(), hide_possible_values = true, hide_default_value = true, hide_short_help = true, help_heading = "World")]
     pub(crate) kernel: KernelName,
     /// What no view covers: error (default), transparent or a colour
-    #[arg(long, value_name = "COLOR", default_value = "error", hide_default_value = true, hide_short_help = true, help_heading = "World")]
+    #[arg(
+        long,
+        value_name = "COLOR",
+        default_value = "error",
+        hide_default_value = true,
+        hide_short_help = true,
+        help_heading = "World"
+    )]
     pub(crate) missing: Missing,
     /// How integer code values relate to light: auto (default), srgb, linear, …
     #[arg(long, value_name = "T", default_value = "auto", value_parser = listed::transfer(), hide_possible_values = true, hide_default_value = true, hide_short_help = true, help_heading = "World")]
