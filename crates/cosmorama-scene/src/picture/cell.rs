@@ -13,7 +13,7 @@ pub(super) struct Pixel<'a> {
     pub(super) scene: &'a Scene,
     pub(super) camera: &'a Camera,
     pub(super) surroundings: &'a Surroundings<'a>,
-    /// What each thing reflects, of those of few pixels.
+    /// Reflections of the things of few pixels, by their place in the scene.
     pub(super) reflections: &'a [Option<Reflection>],
 }
 

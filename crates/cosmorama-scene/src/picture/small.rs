@@ -27,7 +27,7 @@ const UNEVEN: f64 = 1e-5;
 /// Halvings of a part of the world at most.
 const MOST: usize = 8;
 
-/// What a small ball reflects in each of its pixels.
+/// Light that a small ball reflects, by pixel.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Reflection {
     /// Light times area, and area, by column and row.
