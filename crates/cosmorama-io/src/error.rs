@@ -281,7 +281,7 @@ fn unnamed(path: &Path) -> String {
     if path.extension().is_none() {
         return format!(
             "without an extension, which names the format; write {}.png, or one of {extensions}",
-            path.file_name().unwrap_or_default().to_string_lossy()
+            path.display()
         );
     }
     format!("the extension names no format; use one of {extensions}")

@@ -29,7 +29,12 @@ impl FromStr for Size {
 
     fn from_str(text: &str) -> Result<Self, String> {
         let most = Self::MOST;
-        let expected = || format!("expected WxH or a width, in pixels from 1 to {most}, as in 1966x1436, 4096 or 4k");
+        let other = text.trim_end_matches("px").replace(['*', ':', ',', '/', ' '], "x");
+        let meant = || if other == text { None } else { other.parse::<Self>().ok() };
+        let expected = || match meant() {
+            Some(size) => format!("write {size}"),
+            None => format!("expected WxH or a width, in pixels from 1 to {most}, as in 1966x1436, 4096 or 4k"),
+        };
         let side = |text: &str| pixels(text).filter(|side| (1..=most).contains(side)).ok_or_else(expected);
         match text.split_once(['x', 'X', '×']) {
             Some((width, height)) => Ok(Self { width: side(width)?, height: Some(side(height)?) }),
@@ -60,6 +65,11 @@ mod tests {
         assert_eq!("8kx4k".parse(), Ok(Size { width: 8192, height: Some(4096) }));
         for wrong in ["0", "0x4", "4x", "-3", "wide", "99999999", "k", "0k", "4kk", "18446744073709551615k"] {
             assert!(wrong.parse::<Size>().is_err(), "{wrong}");
+        }
+        for (typed, size) in
+            [("512px", "512"), ("640:480", "640x480"), ("640*480", "640x480"), ("640,480px", "640x480")]
+        {
+            assert_eq!(typed.parse::<Size>(), Err(format!("write {size}")));
         }
     }
 }

@@ -123,6 +123,12 @@ fn value(error: &Error) -> Option<String> {
             let option = option.split(' ').next().unwrap_or_default();
             return Some(format!("{what}: '{size}' is a size: {option} {name} --size {size}"));
         }
+        if let SpecError::NoValue { part, .. } = error
+            && SpecKind::of(part).is_some()
+        {
+            let name = typed.split(':').next().unwrap_or_default();
+            return Some(format!("{what}: '{part}' is a projection of its own: --from {name} --to {part}"));
+        }
         return Some(format!("{what}: {}\n\n{}", error.summary(), keys(typed)));
     }
     if let Some(WordError::OfOther { of, name, .. }) = cause.downcast_ref() {
@@ -163,8 +169,8 @@ fn choice(error: &Error) -> Option<String> {
     let other = OTHER_VALUES.iter().find(|(of, words, _)| is_of(of) && words.contains(&lower.as_str()));
     let names: Vec<&str> = known.iter().map(String::as_str).collect();
     let meant = other.map(|(_, _, value)| *value).or_else(|| nearest(&lower, &names));
-    let meant = meant.map_or_else(String::new, |meant| format!("; did you mean '{meant}'?"));
-    Some(format!("invalid value '{typed}' for '{option}'{meant}; there are {}", names.join(", ")))
+    let question = meant.map_or_else(|| "; there".to_owned(), |meant| format!("; did you mean '{meant}'? There"));
+    Some(format!("invalid value '{typed}' for '{option}'{question} are {}", names.join(", ")))
 }
 
 /// Returns the keys of the projection that was typed.
@@ -180,7 +186,15 @@ fn in_claps_words(error: &Error, typed: &Typed) -> String {
     let text = text.split("\n\nFor more information").next().unwrap_or(text).trim_end();
     let needs_example = matches!(error.kind(), ErrorKind::MissingRequiredArgument);
     let verb = typed.verb();
-    let example = examples(verb).first().filter(|_| needs_example);
+    let names: Vec<&str> = verb.into_iter().chain(typed.part()).collect();
+    let (of_part, verb_and_part) = (format!(" {} ", names.join(" ")), names.join(" "));
+    let mut of_verb = examples(verb).iter().filter(|example| verb.is_none() || example.contains(&of_part));
+    let example = of_verb.next().filter(|_| needs_example);
+    let verb = verb.map(|_| &*verb_and_part);
+    let text = match error.kind() {
+        ErrorKind::ArgumentConflict => format!("{text}; leave one of them out"),
+        _ => text.to_owned(),
+    };
     let example = example.map_or_else(String::new, |example| format!("Example: {example}\n"));
     if needs_example && typed.0.iter().any(String::is_empty) {
         let empty = "an argument is empty, as where a shell's variable is not set";

@@ -1,9 +1,9 @@
 use std::path::Path;
 use std::process::ExitCode;
 
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, anyhow};
 use cosmorama::camera::{CameraModel, FisheyeCamera, OmnimaxCamera};
-use cosmorama::compare::{Comparison, Mask, OwnPeak, Registration, compare, difference_image};
+use cosmorama::compare::{CompareError, Comparison, Mask, OwnPeak, Registration, compare, difference_image};
 use cosmorama::raster::{Channels, ColourMatrix, Depth, EncodedImage, Image, Primaries, Rgba, Transfer};
 use cosmorama_convert::{Files, InputTransfer, MemoryBudget, probe, read, real_path, refuse_existing};
 use cosmorama_io::{FacePattern, Format, FramePattern, Header, Limits, Metadata, WriteOptions, write};
@@ -40,8 +40,17 @@ pub(super) fn run(args: &CompareArgs, console: &mut Console) -> Result<ExitCode>
         matrix.convert(second.pixels_mut());
     }
     let mask = region(args.region, &first)?;
-    let comparison = compare(&first, &second, &mask)
-        .with_context(|| format!("cannot compare {} with {}", args.first.display(), args.second.display()))?;
+    let comparison = compare(&first, &second, &mask).map_err(|error| {
+        let files = format!("cannot compare {} with {}", args.first.display(), args.second.display());
+        match &error {
+            CompareError::SizesDiffer { first, .. } => anyhow!(
+                "{files}: {error}; make the second anew with --size {}x{}, as 'cosmorama convert' does",
+                first.0,
+                first.1
+            ),
+            _ => anyhow::Error::new(error).context(files),
+        }
+    })?;
     if let (Some(path), Some(format)) = (&args.diff, format) {
         let difference = difference_image(&first, &second, &mask, args.gain)?;
         let (depth, channels) = (format.nearest_depth(Depth::Eight), format.nearest_channels(Channels::Rgb));

@@ -190,7 +190,18 @@ fn depth(args: &Conversion, headers: &[&Header], target: &Target) -> Result<Dept
         return Ok(asked);
     }
     let known: Vec<_> = target.format.depths().iter().map(ToString::to_string).collect();
-    Err(usage_as(Code::OutputFormat, format!("{DEPTH} {asked}: {} files hold {}", target.format, known.join(", "))))
+    let holds = |format: &&Format| format.depths().contains(&asked);
+    let other = Format::ALL.iter().filter(holds).flat_map(|format| format.own_extensions().first());
+    let other: Vec<String> = other.map(|extension| format!(".{extension}")).collect();
+    Err(usage_as(
+        Code::OutputFormat,
+        format!(
+            "{DEPTH} {asked}: {} files hold {}; leave {DEPTH} out, or name the output {}",
+            target.format,
+            known.join(", "),
+            other.join(" or ")
+        ),
+    ))
 }
 
 /// Returns the output's transfer function: that of an integer input for an integer output, linear for floats.

@@ -153,11 +153,9 @@ pub(crate) fn declared(shape: &Shape, pattern: &str, header: &Header, warnings: 
         }
         Shape::Single(single) => {
             let single = posed(single.clone(), pattern, header, warnings);
-            if let Some(EnvMap::Cube | EnvMap::GlCube) = header.metadata.envmap {
-                let message = format!(
-                    "{pattern} holds the six faces of a cube, as its format or its envmap attribute says, but {FROM} says \
-                     otherwise; it is read as {FROM} has it"
-                );
+            if let Some(other) = content_by_metadata(header, &single) {
+                let message =
+                    format!("{pattern} holds {other}, but {FROM} says otherwise; it is read as {FROM} has it");
                 warnings.push(Diagnostic::warning(Code::Declared, message).about(pattern));
             }
             Ok(Shape::Single(windowed(single, header)))
@@ -169,6 +167,18 @@ pub(crate) fn declared(shape: &Shape, pattern: &str, header: &Header, warnings: 
         ))),
         Shape::Dual(_) => Ok(shape.clone()),
         Shape::Cube(cube) => Ok(Shape::Cube(declared_cube(cube, pattern, header, warnings)?)),
+    }
+}
+
+/// Returns the content that a file's metadata tell of, where a declared projection does not fit it.
+fn content_by_metadata(header: &Header, declared: &Single) -> Option<&'static str> {
+    let is_panorama = matches!(declared.placement.frame, CameraModel::Equirect(_));
+    match (header.metadata.envmap, header.metadata.panorama) {
+        (Some(EnvMap::Cube | EnvMap::GlCube), _) => {
+            Some("the six faces of a cube, as its format or its envmap attribute says")
+        }
+        (_, Some(_)) if !is_panorama => Some("an equirect panorama, as its GPano metadata say"),
+        _ => None,
     }
 }
 

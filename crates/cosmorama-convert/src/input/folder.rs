@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use cosmorama::layout::Naming;
 use cosmorama_io::{FaceSet, Format, FoundFrames, IoError};
+use cosmorama_spec::nearest;
 
 use crate::detect::GivenFaces;
 use crate::diagnostic::{Code, ConvertError, Result, bail, failure, usage_as};
@@ -44,6 +45,9 @@ pub fn is_one_file(files: &dyn Files, pattern: &str, path: &Path) -> Result<()> 
     if Builtin::all().any(|(name, _)| name == pattern) {
         bail!(NotFound: "{pattern}: there is no such file; the world by formula of this name is builtin:{pattern}");
     }
+    if let Some(meant) = meant(pattern, path) {
+        bail!(NotFound: "{pattern}: there is no such file; {meant}");
+    }
     // If there is nothing to add, opening the file reports what is wrong.
     if found.is_empty() { Ok(()) } else { bail!(NotFound: "{pattern}: there is no such file{there}") }
 }
@@ -55,14 +59,55 @@ pub fn is_one_file(files: &dyn Files, pattern: &str, path: &Path) -> Result<()> 
 pub fn face_set(pattern: &str, naming: Option<&'static Naming>) -> Result<FaceSet> {
     FaceSet::find(pattern, naming).map_err(|error| match &error {
         IoError::NoFaces { folder, .. } if folder.is_dir() => {
-            let advice = match naming.and_then(|_| FaceSet::find(pattern, None).ok()) {
-                Some(set) => format!("there are faces by naming={}", set.naming().name),
-                None => advice(folder),
-            };
-            failure!(NotFound: "{error}; {advice}")
+            let other_naming = naming.and_then(|_| FaceSet::find(pattern, None).ok());
+            match (other_naming, faces_of(folder), with_slashes(pattern)) {
+                (Some(set), ..) => failure!(NotFound: "{error}; there are faces by naming={}", set.naming().name),
+                (_, _, Some(slashes)) => failure!(NotFound: "{pattern}: no such files; {slashes}"),
+                (_, Some(faces), _) => failure!(
+                    NotFound: "{pattern}: no such faces; for the faces of a cube that are in {}, write {}",
+                    folder.display(),
+                    faces.display()
+                ),
+                (None, None, None) => failure!(NotFound: "{error}; {}", advice(folder)),
+            }
         }
         _ => error.into(),
     })
+}
+
+/// Returns the advice to separate folders by `/`, for names that separate them by `\`.
+fn with_slashes(name: &str) -> Option<String> {
+    let is_windows_path = !cfg!(windows) && name.contains('\\');
+    is_windows_path.then(|| format!("folders are separated by /: {}", name.replace('\\', "/")))
+}
+
+/// Returns advice on a name that no file has: a shell's sign that it did not replace, several names in one, or a file whose
+/// name is much alike.
+fn meant(name: &str, path: &Path) -> Option<String> {
+    if let Some(slashes) = with_slashes(name) {
+        return Some(slashes);
+    }
+    if name.starts_with("~/") {
+        return Some(
+            "a shell does not replace ~ in quotes: leave the quotes out, or write the folder in full".to_owned(),
+        );
+    }
+    if name.contains(',') && name.split(',').all(|name| Path::new(name.trim()).is_file()) {
+        return Some(
+            "several files are no input; for the faces of a cube, write {face} where a face's name stands, for other \
+             views list them in a world file (docs/tasks.md)"
+                .to_owned(),
+        );
+    }
+    let typed = path.file_name()?.to_str()?;
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
+    let beside = files(folder.unwrap_or(Path::new(".")));
+    let names: Vec<&str> = beside.iter().map(String::as_str).collect();
+    let alike = nearest(typed, &names).filter(|name| Format::from_extension(Path::new(name)).is_ok())?;
+    // Half of the letters alike are enough for a word, not for a name.
+    let differ = typed.chars().zip(alike.chars()).filter(|(one, other)| one != other).count();
+    let is_alike = differ + typed.len().abs_diff(alike.len()) <= 2;
+    is_alike.then(|| format!("did you mean {}?", path.with_file_name(alike).display()))
 }
 
 /// Adds to an error about missing frames how to name the faces of a cube, if the folder holds some.

@@ -31,7 +31,9 @@ pub(crate) fn size(
         }),
         (None, None) => Err(usage_as(
             Code::MissingSetting,
-            format!("{SIZE} is missing: without an input, nothing tells how large the output is to be"),
+            format!(
+                "{SIZE} is missing: without a picture as input, nothing tells how large the output is to be; as in {SIZE} 1024"
+            ),
         )),
     }
 }

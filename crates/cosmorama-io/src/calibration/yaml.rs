@@ -20,7 +20,9 @@ pub(super) fn words(text: &str) -> Result<Words, String> {
     let body = without_directive(text);
     let mut parser = Parser::new_from_str(&body);
     loop {
-        let (event, mark) = parser.next_token().map_err(|error| format!("no YAML or JSON: {error}"))?;
+        let (event, mark) = parser
+            .next_token()
+            .map_err(|error| format!("no calibration by OpenCV (YAML, JSON or XML) or OCamCalib; as YAML: {error}"))?;
         match event {
             Event::StreamEnd => return Ok(reader.words),
             event => reader.read(event).map_err(|reason| format!("line {}: {reason}", mark.line()))?,

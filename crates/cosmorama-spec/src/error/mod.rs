@@ -16,7 +16,7 @@ use meaning::meant;
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum SpecError {
     /// The projection's name is unknown.
-    #[error("unknown projection '{name}'{}; there are {}", question(.meant), .known.join(", "))]
+    #[error("unknown projection '{name}'{}", all_after(&question(.meant), "there are", &.known.join(", ")))]
     UnknownName {
         /// Name as typed.
         name: String,
@@ -36,7 +36,7 @@ pub enum SpecError {
         way: String,
     },
     /// The projection does not have this key.
-    #[error("unknown key '{key}' for {name}{}; it takes {}", meant(.key, .known), .known.join(", "))]
+    #[error("unknown key '{key}' for {name}{}", all_after(&meant(.key, .known), "it takes", &.known.join(", ")))]
     UnknownKey {
         /// Name of the projection.
         name: &'static str,
@@ -127,7 +127,7 @@ impl SpecError {
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub enum WordError {
     /// The word is unknown.
-    #[error("unknown {what} '{word}'{}; there are {known}", question(.meant.as_slice()))]
+    #[error("unknown {what} '{word}'{}", all_after(&question(.meant.as_slice()), "there are", .known))]
     Unknown {
         /// Kind of name that was expected.
         what: WordKind,
@@ -186,6 +186,14 @@ impl fmt::Display for WordKind {
 fn question(names: &[impl AsRef<str>]) -> String {
     let quoted: Vec<String> = names.iter().map(|name| format!("'{}'", name.as_ref())).collect();
     if quoted.is_empty() { String::new() } else { format!("; did you mean {}?", quoted.join(" or ")) }
+}
+
+/// Returns a question, if there is one, and all that is known after it: `; did you mean 'fov'? It takes fov, lens`.
+fn all_after(question: &str, verb: &str, known: &str) -> String {
+    match (question, verb.split_at(1)) {
+        ("", _) => format!("; {verb} {known}"),
+        (question, (first, rest)) => format!("{question} {}{rest} {known}", first.to_uppercase()),
+    }
 }
 
 /// Returns the advice to write one of some SPECs, or the form of all if there are none.

@@ -91,7 +91,7 @@ mod tests {
             assert!(name.parse::<DepthName>().is_ok(), "{name}");
             for word in words {
                 let message = word.parse::<DepthName>().unwrap_err().to_string();
-                let expected = format!("unknown depth '{word}'; did you mean '{name}'?; there are 8, 10, 12");
+                let expected = format!("unknown depth '{word}'; did you mean '{name}'? There are 8, 10, 12");
                 assert!(message.starts_with(&expected), "{message}");
             }
         }

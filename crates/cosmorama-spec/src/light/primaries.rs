@@ -103,7 +103,7 @@ mod tests {
         for (other, ours) in OTHER_NAMES {
             assert!(ours.parse::<PrimariesName>().is_ok(), "{ours}");
             let message = other.parse::<PrimariesName>().unwrap_err().to_string();
-            let expected = format!("unknown primaries '{other}'; did you mean '{ours}'?; there are rec709");
+            let expected = format!("unknown primaries '{other}'; did you mean '{ours}'? There are rec709");
             assert!(message.starts_with(&expected), "{message}");
         }
     }

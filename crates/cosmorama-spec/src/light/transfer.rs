@@ -130,7 +130,7 @@ mod tests {
             ("linaer", "linear"),
         ] {
             let message = refused(typed);
-            let expected = format!("unknown transfer function '{typed}'; did you mean '{meant}'?; there are auto");
+            let expected = format!("unknown transfer function '{typed}'; did you mean '{meant}'? There are auto");
             assert!(message.starts_with(&expected), "{message}");
         }
         assert!(refused("gamma:0").starts_with("unknown transfer function 'gamma:0'; did you mean 'gamma:2.2'?"));

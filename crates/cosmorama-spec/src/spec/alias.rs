@@ -44,7 +44,7 @@ pub(super) const ALIASES: [(&str, &str); 33] = [
 
 /// Words that people try for a projection, each with the SPEC that they may mean. They are suggested, not understood: some
 /// have a second meaning.
-const TRIED: [(&[&str], &str); 13] = [
+const TRIED: [(&[&str], &str); 15] = [
     (&["planet", "small-planet", "smallplanet", "stereo-planet"], "little-planet"),
     (&["dome", "planetarium", "master"], "fulldome"),
     (&["hemisphere", "hemispherical", "all-sky", "allsky"], "fisheye"),
@@ -53,7 +53,9 @@ const TRIED: [(&[&str], &str); 13] = [
     (&["180", "vr180"], "he"),
     (&["skybox", "cube-map", "cubic", "sixpack"], "cube"),
     (&["cross"], "cube:layout=cross-h"),
-    (&["strip"], "cube:layout=strip-h"),
+    (&["cube3x2", "cubemap3x2", "3x2"], "cube:layout=3x2"),
+    (&["strip", "cube6x1", "cubemap6x1", "6x1"], "cube:layout=strip-h"),
+    (&["cube1x6", "cubemap1x6", "1x6"], "cube:layout=strip-v"),
     (&["pinhole", "normal", "camera", "undistorted", "view", "flat-view", "persp"], "perspective"),
     (&["chrome-ball", "chromeball", "mirrorball", "silver-ball"], "mirror-ball"),
     (&["probe", "light-probe", "lightprobe", "angular"], "angular-map"),
@@ -91,7 +93,7 @@ pub(super) fn refusal(name: &str) -> Option<String> {
             "as by envutil's --projection spherical; cubes of equal angles are cube:layout=eac here, laid out otherwise"
                 .to_owned(),
         ),
-        _ => REFUSED.contains(&name).then(|| format!("as by ffmpeg's v360=input={name}:output=e")),
+        _ => REFUSED.contains(&name).then(|| format!("as by ffmpeg's v360=input={name}:output=e for an input, v360=input=e:output={name} for an output")),
     }
 }
 

@@ -276,7 +276,7 @@ mod tests {
     fn wrong_keys_and_names_are_answered_from_the_table() {
         let message = refused("fisheye:fvo=180");
         assert!(
-            message.starts_with("unknown key 'fvo' for fisheye; did you mean 'fov'?; it takes fov, lens"),
+            message.starts_with("unknown key 'fvo' for fisheye; did you mean 'fov'? It takes fov, lens"),
             "{message}"
         );
         assert!(refused("perspective:hfov=90").contains("did you mean 'fov'?"));

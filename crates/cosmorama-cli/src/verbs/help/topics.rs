@@ -3,7 +3,7 @@
 use cosmorama_io::Format;
 use cosmorama_spec::{DepthName, FilterName, KernelName, PrimariesName, SpecKind, TransferName, nearest};
 
-use crate::args::{LISTS, SPEC_TOPIC, builtins, options, verbs};
+use crate::args::{LISTS, SPEC_TOPIC, builtins, options, parts, verbs};
 
 /// Words of a topic, and the page of the documentation that explains it.
 const PAGES: [(&[&str], &str); 7] = [
@@ -66,7 +66,13 @@ pub(super) fn unknown(topic: &str) -> String {
              'cosmorama help naming' lists all"
         );
     }
-    let settings = [("filter", topic.parse::<FilterName>().is_ok()), ("kernel", topic.parse::<KernelName>().is_ok())];
+    if let Some(verb) = verbs().find(|verb| parts(verb).iter().any(|part| part == topic)) {
+        return format!("no help on '{topic}' by itself; it is a verb of {verb}: 'cosmorama help {verb} {topic}'");
+    }
+    // As lanczos is for lanczos3.
+    let begins = topic.len() > 2 && KernelName::NAMES.iter().any(|(name, _)| name.starts_with(topic));
+    let is_kernel = begins || topic.parse::<KernelName>().is_ok();
+    let settings = [("filter", topic.parse::<FilterName>().is_ok()), ("kernel", is_kernel)];
     if let Some((setting, _)) = settings.iter().find(|(_, is_one)| *is_one) {
         return format!("no help on '{topic}' by itself; it is a {setting}: 'cosmorama help {setting}s' lists all");
     }
@@ -74,8 +80,9 @@ pub(super) fn unknown(topic: &str) -> String {
     let topics: Vec<&str> =
         verbs().chain([SPEC_TOPIC]).chain(SpecKind::all().map(SpecKind::name)).chain(LISTS).collect();
     let known: Vec<&str> = keys.chain(topics.iter().copied()).collect();
-    let meant = nearest(topic, &known).map_or_else(String::new, |meant| format!("; did you mean '{meant}'?"));
-    format!("no help on '{topic}'{meant}; topics are {}, and every key of a SPEC", topics.join(", "))
+    let meant = nearest(topic, &known);
+    let question = meant.map_or_else(|| "; topics".to_owned(), |meant| format!("; did you mean '{meant}'? Topics"));
+    format!("no help on '{topic}'{question} are {}, and every key of a SPEC", topics.join(", "))
 }
 
 /// Returns a list of names, a line each.

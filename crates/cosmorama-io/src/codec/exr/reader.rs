@@ -194,6 +194,10 @@ fn has_wrong_count(source: Source<'_>) -> io::Result<bool> {
 pub(super) fn damaged(path: &Path, error: Error) -> IoError {
     match error {
         Error::NotSupported(found) => IoError::unsupported(path, FORMAT, found, "flat images"),
+        // So says the system of a place before a file's first byte.
+        Error::Io(error) if error.kind() == io::ErrorKind::InvalidInput => {
+            IoError::damaged(path, FORMAT, "it says that data begin outside the file")
+        }
         Error::Io(error) => IoError::open(path, error),
         error => IoError::damaged(path, FORMAT, error),
     }

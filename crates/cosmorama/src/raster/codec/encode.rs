@@ -158,14 +158,27 @@ impl Work<'_> {
     fn by_pixels<S: Sample + Send, const COUNT: usize>(&self, samples: impl Fn(Rgba) -> [S; COUNT] + Sync) -> Vec<S> {
         let light = self.light.pixels();
         let mut list = self.pool.take(COUNT * light.len());
-        let (pixels, _) = list.as_chunks_mut::<COUNT>();
-        let encode = |(into, pixel): (&mut [S; COUNT], &Rgba)| *into = samples(*pixel);
+        let encode = |list: &mut [S], light: &[Rgba]| {
+            let (pixels, _) = list.as_chunks_mut::<COUNT>();
+            pixels.iter_mut().zip(light).for_each(|(into, pixel)| *into = samples(*pixel));
+        };
         match self.threads {
-            Threads::One => pixels.iter_mut().zip(light).for_each(encode),
-            Threads::All => pixels.par_iter_mut().zip(light).with_min_len(CHUNK).for_each(encode),
+            Threads::One => encode(&mut list, light),
+            Threads::All => in_chunks(&mut list, COUNT, light, &encode),
         }
         list
     }
+}
+
+/// Encodes chunks of pixels at once. The closure is dynamic so that this is compiled once for each type of samples.
+fn in_chunks<S: Sample + Send>(
+    list: &mut [S],
+    count: usize,
+    light: &[Rgba],
+    encode: &(dyn Fn(&mut [S], &[Rgba]) + Sync),
+) {
+    let chunks = list.par_chunks_mut(count * CHUNK).zip(light.par_chunks(CHUNK));
+    chunks.for_each(|(list, light)| encode(list, light));
 }
 
 /// Rec. 709 luminance weights.
