@@ -1,7 +1,7 @@
 use std::path::Path;
 use std::process::ExitCode;
 
-use anyhow::{Context, Result, anyhow};
+use anyhow::{Result, anyhow};
 use cosmorama::camera::{CameraModel, FisheyeCamera, OmnimaxCamera};
 use cosmorama::compare::{CompareError, Comparison, Mask, OwnPeak, Registration, compare, difference_image};
 use cosmorama::raster::{Channels, ColourMatrix, Depth, EncodedImage, Image, Primaries, Rgba, Transfer};

@@ -122,6 +122,21 @@ pub(crate) fn with_faces(error: ConvertError) -> ConvertError {
     }
 }
 
+/// Adds to an error about a picture whose projection is not known the pattern of the cube of which it is a face, if its folder
+/// holds others of it.
+pub(crate) fn with_sisters(error: ConvertError, path: &Path) -> ConvertError {
+    let ConvertError::Failed(diagnostic) = &error else { return error };
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let faces = faces_of(folder).filter(|_| diagnostic.code == Code::Ambiguous);
+    let set = faces.as_ref().and_then(|faces| FaceSet::find(faces.to_str()?, None).ok());
+    match (faces, set) {
+        (Some(faces), Some(set)) if set.present().any(|face| face.path.file_name() == path.file_name()) => {
+            failure!(Ambiguous: "{error}; it is a face of a cube, all of whose faces are {}", faces.display())
+        }
+        _ => error,
+    }
+}
+
 /// Returns whether a name begins like the names of frames, which may then be meant.
 fn is_alike(path: &Path, frames: &FoundFrames) -> bool {
     let beginning = |path: &Path| -> Vec<char> {

@@ -10,7 +10,7 @@ use crate::detect::detection::{declared, detect};
 use crate::detect::{GivenFaces, unless_damaged};
 use crate::diagnostic::{Code, Diagnostic, FROM, Result, usage};
 use crate::input::eye_view::{header, placed};
-use crate::input::folder::{is_one_file, with_faces};
+use crate::input::folder::{is_one_file, with_faces, with_sisters};
 use crate::input::lists::hugin;
 use crate::input::{Input, InputView, packed};
 use crate::packing::EyePart;
@@ -112,7 +112,7 @@ impl Input {
                 }
                 declared
             }
-            None => match detect(access, &path, &header, warnings)? {
+            None => match detect(access, &path, &header, warnings).map_err(|error| with_sisters(error, &path))? {
                 (shape, None) => shape,
                 (shape, stereo) => {
                     let found = Spec { name: "what was found", shape, stereo, files: Vec::new() };
