@@ -192,7 +192,7 @@ fn in_claps_words(error: &Error, typed: &Typed) -> String {
     let example = of_verb.next().filter(|_| needs_example);
     let verb = verb.map(|_| &*verb_and_part);
     let text = match error.kind() {
-        ErrorKind::ArgumentConflict => format!("{text}; leave one of them out"),
+        ErrorKind::ArgumentConflict => text.replacen("\n\n", "; leave one of them out\n\n", 1),
         _ => text.to_owned(),
     };
     let example = example.map_or_else(String::new, |example| format!("Example: {example}\n"));

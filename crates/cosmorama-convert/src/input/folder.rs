@@ -45,11 +45,12 @@ pub fn is_one_file(files: &dyn Files, pattern: &str, path: &Path) -> Result<()> 
     if Builtin::all().any(|(name, _)| name == pattern) {
         bail!(NotFound: "{pattern}: there is no such file; the world by formula of this name is builtin:{pattern}");
     }
-    if let Some(meant) = meant(pattern, path) {
-        bail!(NotFound: "{pattern}: there is no such file; {meant}");
+    match meant(pattern, path) {
+        _ if !found.is_empty() => bail!(NotFound: "{pattern}: there is no such file{there}"),
+        Some(meant) => bail!(NotFound: "{pattern}: there is no such file; {meant}"),
+        // There is nothing to add: opening the file reports what is wrong.
+        None => Ok(()),
     }
-    // If there is nothing to add, opening the file reports what is wrong.
-    if found.is_empty() { Ok(()) } else { bail!(NotFound: "{pattern}: there is no such file{there}") }
 }
 
 /// Finds the files of a cube's faces. Where a pattern fits none, the error says how to name what its folder holds.
@@ -104,9 +105,14 @@ fn meant(name: &str, path: &Path) -> Option<String> {
     let beside = files(folder.unwrap_or(Path::new(".")));
     let names: Vec<&str> = beside.iter().map(String::as_str).collect();
     let alike = nearest(typed, &names).filter(|name| Format::from_extension(Path::new(name)).is_ok())?;
-    // Half of the letters alike are enough for a word, not for a name.
+    // Half of the letters alike are enough for a word, not for a name: one letter is another, or they are in another order.
+    let sorted = |name: &str| {
+        let mut letters: Vec<char> = name.chars().collect();
+        letters.sort_unstable();
+        letters
+    };
     let differ = typed.chars().zip(alike.chars()).filter(|(one, other)| one != other).count();
-    let is_alike = differ + typed.len().abs_diff(alike.len()) <= 2;
+    let is_alike = typed.len() == alike.len() && differ == 1 || sorted(typed) == sorted(alike);
     is_alike.then(|| format!("did you mean {}?", path.with_file_name(alike).display()))
 }
 
@@ -131,7 +137,8 @@ pub(crate) fn with_sisters(error: ConvertError, path: &Path) -> ConvertError {
     let set = faces.as_ref().and_then(|faces| FaceSet::find(faces.to_str()?, None).ok());
     match (faces, set) {
         (Some(faces), Some(set)) if set.present().any(|face| face.path.file_name() == path.file_name()) => {
-            failure!(Ambiguous: "{error}; it is a face of a cube, all of whose faces are {}", faces.display())
+            let text = diagnostic.message.marked();
+            failure!(Ambiguous: "{text}; it is a face of a cube, all of whose faces are {}", faces.display())
         }
         _ => error,
     }

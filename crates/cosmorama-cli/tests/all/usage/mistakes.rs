@@ -89,7 +89,7 @@ const MISTAKES: [(&str, &str); 68] = [
     ("remap sky.png out.png --to fulldome", "did you mean 'convert'?"),
     ("sky.png out.png --to fulldome", "cosmorama convert sky.png OUTPUT --to SPEC"),
     ("fulldome sky.png out.png", "cosmorama convert INPUT OUTPUT --to fulldome"),
-    ("convert sky.png", "Example: cosmorama convert 'faces/{face}.png' dome.png"),
+    ("convert sky.png", "Example: cosmorama convert 'faces/{face}.png' omnimax.png"),
 ];
 
 #[test]

@@ -31,7 +31,7 @@ fn wrong_usage() {
     assert_says(&convert(&["out_####.png", "--to", "omnimax"]), &["frame marker"]);
     assert_says(&convert(&["out.jpg", "--to", "omnimax", "--depth", "16"]), &["JPEG", "8"]);
     assert_says(&convert(&["out.jpg", "--to", "omnimax", "--background", "transparent"]), &["JPEG", "transparent"]);
-    assert_says(&convert(&["out.png", "--to", "omnimax", "--kernel", "gauss"]), &["there are adaptive, gaussian"]);
+    assert_says(&convert(&["out.png", "--to", "omnimax", "--kernel", "gauss"]), &["There are adaptive, gaussian"]);
     assert_says(
         &convert(&["out.png", "--to", "omnimax", "--filter", "ewa-pyramids"]),
         &["ewa-pyramid, point, bilinear"],
