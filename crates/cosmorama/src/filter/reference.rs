@@ -1,7 +1,7 @@
 //! Brute force: N×N sub-samples a pixel through the exact mapping, weighted by the kernel in screen space, in f64.
 
 use super::kernel::UNDER;
-use super::prepared::{Filter, Prepared, SetupCost, bounded};
+use super::traits::{Filter, Prepared, SetupCost, bounded};
 use super::{Kernel, lookup};
 use crate::camera::{Footprint, PixelPoint, View};
 use crate::raster::Rgba;

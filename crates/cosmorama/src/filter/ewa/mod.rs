@@ -17,8 +17,8 @@ pub(crate) use pinhole::Pinholes;
 pub(crate) use tap_lender::TapLender;
 
 use super::Kernel;
-use super::prepared::{Filter, Prepared, SetupCost, bounded};
 use super::taps;
+use super::traits::{Filter, Prepared, SetupCost, bounded};
 use crate::camera::Footprint;
 use crate::raster::Rgba;
 use crate::world::{Light, LightError, World};

@@ -8,7 +8,7 @@ use level::{LevelNeed, LevelRule, part};
 
 use super::Kernel;
 use super::ewa::{Averager, Ewa, Pinholes};
-use super::prepared::{Filter, Prepared, SetupCost, bounded};
+use super::traits::{Filter, Prepared, SetupCost, bounded};
 use crate::camera::Footprint;
 use crate::raster::Rgba;
 use crate::world::{Light, LightError, World};

@@ -1,8 +1,8 @@
 use super::nearest;
 use crate::camera::{Footprint, View};
 use crate::filter::ewa::TapLender;
-use crate::filter::prepared::{Filter, Prepared, SetupCost, bounded};
 use crate::filter::taps::Tap;
+use crate::filter::traits::{Filter, Prepared, SetupCost, bounded};
 use crate::filter::{CrossSection, Kernel};
 use crate::raster::Rgba;
 use crate::world::{Light, LightError, World};

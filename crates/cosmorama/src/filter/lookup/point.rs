@@ -1,6 +1,6 @@
 use super::nearest;
 use crate::camera::Footprint;
-use crate::filter::prepared::{Filter, Prepared, SetupCost, bounded};
+use crate::filter::traits::{Filter, Prepared, SetupCost, bounded};
 use crate::raster::Rgba;
 use crate::world::{Light, LightError, World};
 
